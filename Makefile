@@ -1,0 +1,134 @@
+# Every target does its own set-up in .venv, and only when the lock has changed since. Start with: make
+#
+# The set-up has three layers, each holding the one before it: base (run benchmarks), report (build the book),
+# dev (tests, lint, types). A stamp in .venv says which are installed.
+
+.DEFAULT_GOAL := help
+.NOTPARALLEL:
+.PHONY: help setup bench bench-quick time report test check lint gate reference lock clean
+
+SHELL := /bin/sh
+VENV := .venv
+PY := $(VENV)/bin/python
+BASE := $(VENV)/.base
+REPORT := $(VENV)/.report
+DEV := $(VENV)/.dev
+
+# More words for the command behind a target: make bench ARGS="--workers 4", make test ARGS="-k so3"
+ARGS ?=
+# Test processes; tests of one file share one, so each law is compiled once.
+JOBS ?= auto
+
+# The first Python on the path that the lock covers; PYTHON=... overrides.
+SUPPORTED := import sys; sys.exit(not (3, 11) <= sys.version_info[:2] <= (3, 13))
+PYTHON ?= $(shell for python in python3 python3.13 python3.12 python3.11; do \
+	$$python -c '$(SUPPORTED)' 2>/dev/null && { echo $$python; break; }; done)
+
+##@ Start here
+bench:  ## run the default suite and print the summary (about 5 minutes, set-up included)
+bench: $(BASE)
+	@$(PY) -m bench run --suite default $(ARGS)
+	@$(PY) -m bench show
+
+report: ## build the report: report/_build/html/index.html (from your run if there is one)
+report: $(REPORT)
+	@$(PY) report/build.py $(ARGS)
+
+##@ Benchmark
+bench-quick: ## run the quick suite into results/quick (under 2 minutes)
+bench-quick: $(BASE)
+	@$(PY) -m bench run --suite quick --out results/quick $(ARGS)
+
+time:   ## time every law per control tick on this machine: results/timings
+time: $(BASE)
+	@$(PY) -m bench time $(ARGS)
+
+setup:  ## install what the benchmark needs, and nothing else
+setup: $(BASE)
+	@echo "Ready. Run the benchmark: make bench. Look around: $(PY) -m bench --help"
+
+##@ Develop
+test:   ## run the tests (ARGS="-k so3" for some, -m 'not slow' for the fast ones)
+test: $(DEV)
+	@$(PY) -m pytest -q -n $(JOBS) --maxprocesses 8 --dist loadfile $(ARGS)
+
+check:  ## all that must hold before a merge: lint, gate, report, test
+check: lint gate report test
+	@echo "check: all green"
+
+lint:   ## style (ruff), types (mypy) and layers (import-linter)
+lint: $(DEV)
+	@$(VENV)/bin/ruff check
+	@$(PY) -m mypy
+	@$(VENV)/bin/lint-imports
+
+gate:   ## rerun the quick suite and compare it with results/reference
+gate: $(BASE)
+	@rm -rf results/quick  # a finished run would be resumed, not rerun
+	@$(PY) -m bench run --suite quick --out results/quick
+	@$(PY) -m bench compare results/quick results/reference
+
+reference: ## make results/latest the new reference (commit it by itself)
+reference: $(BASE)
+	@test -f results/latest/provenance.json || \
+		{ echo "results/latest holds no finished run to promote; make one: make bench" >&2; exit 1; }
+	@rm -rf results/reference && mkdir -p results/reference
+	@cp results/latest/*.parquet results/latest/provenance.json results/reference/
+	@kilobytes=$$(du -sk results/reference | cut -f1); test $$kilobytes -lt 5000 || \
+		{ echo "results/reference is $$kilobytes kB; at most 5000 are committed" >&2; exit 1; }
+	@echo "Promoted. Now: git add results/reference && git commit"
+
+lock:   ## write requirements/*.txt anew from pyproject.toml (after changing a dependency)
+lock: $(DEV)
+	@$(call compile,dev,--extra report --extra dev)
+	@$(call compile,report,--extra report --constraint requirements/dev.txt)
+	@$(call compile,base,--constraint requirements/dev.txt)
+	@echo "Locked. Look at the change: git diff --stat --text requirements"
+
+clean:  ## remove .venv, the built report, caches and results/quick; other results stay
+	@rm -rf $(VENV) build report/_build report/.jupyter_cache results/quick
+	@rm -rf .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .benchmarks *.egg-info
+	@find bench tasks report tests -name __pycache__ -prune -exec rm -rf {} + 2>/dev/null || true
+
+help:
+	@awk 'BEGIN { FS = ":[^#]*## " } \
+		/^##@/ { printf "\n%s\n", substr($$0, 5) } \
+		/^[a-z-]+:.*## / { printf "  make %-12s %s\n", $$1, $$2 }' Makefile
+	@printf '\nNew here? Type: make bench\n'
+
+# ------------------------------------------------------------------------------------------- set-up
+# Installed as locked and checked by hash. The lock is complete, so pip need not resolve (--no-deps: it would ask
+# for labmaze, see pyproject.toml); wheels only, so that nothing is ever compiled here.
+PIP := $(PY) -m pip --disable-pip-version-check --quiet --no-input
+install = $(PIP) install --require-hashes --no-deps --only-binary :all: -r requirements/$(1).txt \
+	&& $(PIP) install --no-deps --no-build-isolation -e .
+
+$(BASE): $(PY) requirements/base.txt pyproject.toml
+	@echo "Installing the benchmark into $(VENV) ..."
+	@$(call install,base) && touch $@
+
+$(REPORT): $(PY) requirements/report.txt pyproject.toml
+	@echo "Installing the benchmark and the report tools into $(VENV) ..."
+	@$(call install,report) && touch $(BASE) $@
+
+$(DEV): $(PY) requirements/dev.txt pyproject.toml
+	@echo "Installing the benchmark, the report tools and the developer tools into $(VENV) ..."
+	@$(call install,dev) && touch $(BASE) $(REPORT) $@
+
+# An environment whose Python has gone, or that the lock does not cover, is made anew.
+ifneq ($(shell $(PY) -c '$(SUPPORTED)' 2>/dev/null && echo ok),ok)
+$(shell rm -f $(PY))
+endif
+$(PY):
+	@test -n "$(PYTHON)" || { echo "No Python 3.11, 3.12 or 3.13 on the path. Install one, or name one:" \
+		"make setup PYTHON=/path/to/python3.12" >&2; exit 1; }
+	@$(PYTHON) -c '$(SUPPORTED)' || { echo "PYTHON=$(PYTHON) is not Python 3.11, 3.12 or 3.13." \
+		"Name one that is: make setup PYTHON=/path/to/python3.12" >&2; exit 1; }
+	@$(PYTHON) -c 'import ensurepip' 2>/dev/null || { echo "$(PYTHON) cannot make virtual environments." \
+		"On Debian or Ubuntu: apt install python3-venv" >&2; exit 1; }
+	@$(PYTHON) -m venv --clear $(VENV)
+
+# Names, versions and hashes only. Pins already in the files are kept; to move one, pin it in pyproject.toml.
+compile = env -u UV_FIND_LINKS UV_PYTHON_DOWNLOADS=never $(VENV)/bin/uv pip compile --quiet \
+	--universal --python-version 3.11 --generate-hashes --no-header --no-annotate --no-emit-index-url \
+	--no-emit-find-links $(2) pyproject.toml --output-file requirements/$(1).txt
