@@ -1,0 +1,80 @@
+"""What the judge's files share: the types Start, StartSet and Task, the sensors of every model, the errors.
+
+`angle` and `haversine`, the measure of the error, live in truth.py and are named here too.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+from tasks.truth import angle as angle
+from tasks.truth import haversine as haversine
+
+Quat = tuple[float, float, float, float]
+Vector = tuple[float, float, float]
+State = tuple[tuple[float, ...], tuple[float, ...]]
+
+IDENTITY: Quat = (1.0, 0.0, 0.0, 0.0)
+AT_REST: Vector = (0.0, 0.0, 0.0)
+
+
+class Start(NamedTuple):
+    """Where an episode begins and where it shall end."""
+
+    id: str  # unique within its set, stable and readable: "half-turn-x-k06"
+    quat_wxyz: Quat  # unit quaternion, body to base
+    omega: Vector = AT_REST  # angular velocity, base frame [rad/s]
+    goal_wxyz: Quat = IDENTITY  # desired orientation: unit quaternion, desired body to base
+
+
+class StartSet(NamedTuple):
+    """A named family of starts: the constant STARTS of every tasks/starts/<name>.py."""
+
+    name: str
+    title: str
+    size: int  # number of starts by default; a fixed set has no more
+    build: Callable[[int, int], list[Start]]  # build(count, seed); a fixed set may return more than count
+
+
+class Task(NamedTuple):
+    """A plant whose orientation is to be regulated: the constant TASK of every tasks/domains/<name>.py.
+
+    Its model carries the sensors SENSORS in this order, so that sensordata[0:12] is what a contestant may see
+    and sensordata[12:16] is the judge's ground truth.
+    """
+
+    name: str  # of the file, with dashes: "free-body"
+    title: str
+    source: str
+    xml: Callable[[float], str]  # xml(dt): the MJCF text with integration step dt [s]
+    state: Callable[[Start], State]  # (qpos, qvel) in MuJoCo's own conventions
+    start_sets: tuple[str, ...]  # the sets that make sense for it
+
+
+# (sensor name, MJCF element, size): n, o, a are the columns of R; omega is in the base frame [rad/s]
+SENSORS = (
+    ("n", "framexaxis", 3),
+    ("o", "frameyaxis", 3),
+    ("a", "framezaxis", 3),
+    ("omega", "frameangvel", 3),
+    ("quat", "framequat", 4),
+)
+
+
+def sensor_xml(site: str) -> str:
+    """The <sensor> element that every task's model must contain, for the site that is regulated."""
+    lines = [f'    <{kind} name="{name}" objtype="site" objname="{site}"/>' for name, kind, _ in SENSORS]
+    return "\n".join(["  <sensor>", *lines, "  </sensor>"])
+
+
+class TaskError(ValueError):
+    """A caller's mistake, said in one line: what was given, what is allowed, the cure."""
+
+
+class UnknownName(TaskError):  # noqa: N818  reads as the sentence it prints
+    """A name that is not in the folder it is looked up in."""
+
+
+class BadValue(TaskError):  # noqa: N818
+    """A number or quaternion that no episode can begin with."""

@@ -1,0 +1,38 @@
+"""Finds the one named constant of every module in a folder: no registry to edit, no import with side effects.
+
+`constants(tasks.domains, "TASK")` imports every module of the folder that is there at the time of the call
+and keeps those that have the constant. The name of the file, with dashes, is the key.
+"""
+
+from __future__ import annotations
+
+import importlib
+import pkgutil
+from collections.abc import Mapping
+from types import ModuleType
+from typing import Any, TypeVar
+
+from tasks.base import UnknownName
+
+Found = TypeVar("Found")
+
+
+def constants(folder: ModuleType, constant: str) -> dict[str, Any]:
+    """{file name with dashes: its constant} for every module of a package's folder, sorted by name."""
+    importlib.invalidate_caches()  # a file added since the last call is found too
+    found = {}
+    for module_info in sorted(pkgutil.iter_modules(folder.__path__), key=lambda info: info.name):
+        module = importlib.import_module(f"{folder.__name__}.{module_info.name}")
+        if hasattr(module, constant):
+            found[module_info.name.replace("_", "-")] = getattr(module, constant)
+    return found
+
+
+def pick(kind: str, name: str, known: Mapping[str, Found], where: str) -> Found:
+    """known[name], or an UnknownName that says what there is."""
+    if name not in known:
+        listed = ", ".join(sorted(known))
+        raise UnknownName(
+            f"{kind} '{name}' is not in {where}; known: {listed} (use one, or add a file there)"
+        )
+    return known[name]

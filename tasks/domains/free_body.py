@@ -1,0 +1,82 @@
+"""Murphy's rotational system: a body whose angular acceleration is commanded (Murphy 1988, 2.6 and 2.7).
+
+    omegadot = u,   Rdot = [omega]x R,   all in the base frame
+
+A ball joint about the centre of mass, inertia I = 1 kg m^2 times the identity, no gravity and no contact.
+With such an inertia omega x I omega vanishes, and three motors along the base axes (`jointinparent`) make the
+command the angular acceleration. Under MuJoCo's Euler integrator one tick is
+
+    omega' = omega + dt u,   R' = exp(dt [omega']x) R
+
+The state: qpos is the quaternion, body to base; qvel is the angular velocity in the *body* frame.
+"""
+
+from __future__ import annotations
+
+from tasks.base import Start, Task, sensor_xml
+from tasks.rotations import to_body
+
+
+def xml(dt: float) -> str:
+    """The MJCF model with integration step dt [s].
+
+    The look: a hand with two fingers along a and coloured base axes (red x, green y, blue z), of no mass and
+    touching nothing.
+    """
+    return f"""<mujoco model="free-body">
+  <option timestep="{dt!r}">
+    <flag gravity="disable" contact="disable" autoreset="disable"/>
+  </option>
+  <compiler inertiafromgeom="false" angle="radian"/>
+  <visual>
+    <global offwidth="1600" offheight="1200"/>
+    <headlight ambient=".35 .35 .35" diffuse=".45 .45 .45" specular=".1 .1 .1"/>
+  </visual>
+  <default>
+    <geom contype="0" conaffinity="0" mass="0"/>
+    <default class="steel"><geom rgba=".32 .35 .40 1"/></default>
+    <default class="base axis"><geom type="capsule" size=".004"/></default>
+    <default class="body axis"><geom type="capsule" size=".010"/></default>
+  </default>
+  <worldbody>
+    <light name="key" directional="true" pos="1 -1 2" dir="-.4 .4 -.8" diffuse=".7 .7 .7" castshadow="false"/>
+    <camera name="view" pos="1.05 -.85 .70" xyaxes=".63 .777 0 -.36 .29 .887" fovy="40"/>
+    <geom class="base axis" name="base x" fromto="0 0 0 .5 0 0" rgba=".8 .25 .2 .35"/>
+    <geom class="base axis" name="base y" fromto="0 0 0 0 .5 0" rgba=".2 .6 .25 .35"/>
+    <geom class="base axis" name="base z" fromto="0 0 0 0 0 .5" rgba=".2 .35 .85 .35"/>
+    <body name="body">
+      <joint name="ball" type="ball"/>
+      <inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/>
+      <site name="tool" size=".002"/>
+      <geom class="steel" name="palm" type="box" pos="0 0 -.04" size=".09 .05 .03"/>
+      <geom class="steel" name="wrist" type="cylinder" pos="0 0 -.11" size=".04 .04"/>
+      <geom class="steel" name="finger +" type="box" pos=".065 0 .06" size=".012 .03 .07"/>
+      <geom class="steel" name="finger -" type="box" pos="-.065 0 .06" size=".012 .03 .07"/>
+      <geom class="body axis" name="n" fromto="0 0 0 .3 0 0" rgba=".8 .25 .2 1"/>
+      <geom class="body axis" name="o" fromto="0 0 0 0 .3 0" rgba=".2 .6 .25 1"/>
+      <geom class="body axis" name="a" fromto="0 0 0 0 0 .3" rgba=".2 .35 .85 1"/>
+    </body>
+  </worldbody>
+  <actuator>
+    <motor name="u_x" jointinparent="ball" gear="1 0 0 0 0 0"/>
+    <motor name="u_y" jointinparent="ball" gear="0 1 0 0 0 0"/>
+    <motor name="u_z" jointinparent="ball" gear="0 0 1 0 0 0"/>
+  </actuator>
+{sensor_xml("tool")}
+</mujoco>
+"""
+
+
+def state(start: Start) -> tuple[tuple[float, ...], tuple[float, ...]]:
+    """State of the ball joint: qpos = quat_wxyz, and qvel = R^T omega, in the body frame."""
+    return start.quat_wxyz, to_body(start.quat_wxyz, start.omega)
+
+
+TASK = Task(
+    name="free-body",
+    title="Rotational system of the paper",
+    source="Murphy 1988, equations 2.6 and 2.7",
+    xml=xml,
+    state=state,
+    start_sets=("paper", "uniform", "half-turn", "poles", "wraps", "box", "tumbling", "goals"),
+)

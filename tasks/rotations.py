@@ -1,0 +1,126 @@
+"""Quaternions of the starts and goals, exact where doubles can be exact.
+
+Unit quaternions (w, x, y, z), body to base. The functions of half an angle are arranged so that 0, +-pi/2 and
++-pi come out exact: cos(theta/2) is computed as sin((pi - |theta|)/2), which is 1 at 0, equal to sin(theta/2)
+bit for bit at pi/2, and 0 at `math.pi`. Elsewhere the rounding is that of the double given as the angle.
+"""
+
+from __future__ import annotations
+
+import math
+
+from tasks.base import Quat, Vector
+
+
+def multiply(p: Quat, q: Quat) -> Quat:
+    """Hamilton product p * q: first q, then p (base frame)."""
+    return (
+        p[0] * q[0] - p[1] * q[1] - p[2] * q[2] - p[3] * q[3],
+        p[0] * q[1] + p[1] * q[0] + p[2] * q[3] - p[3] * q[2],
+        p[0] * q[2] - p[1] * q[3] + p[2] * q[0] + p[3] * q[1],
+        p[0] * q[3] + p[1] * q[2] - p[2] * q[1] + p[3] * q[0],
+    )
+
+
+def columns(q: Quat) -> tuple[Vector, Vector, Vector]:
+    """The columns n, o, a of R(q), by the formula and in the order of operations of MuJoCo's mju_quat2Mat.
+
+    Bit-identical to the site matrix of a free body that has this orientation, so that "exactly on the pole"
+    can be decided here.
+    """
+    w, x, y, z = q
+    ww, xx, yy, zz = w * w, x * x, y * y, z * z
+    return (
+        (ww + xx - yy - zz, 2.0 * (x * y + w * z), 2.0 * (x * z - w * y)),
+        (2.0 * (x * y - w * z), ww - xx + yy - zz, 2.0 * (y * z + w * x)),
+        (2.0 * (x * z + w * y), 2.0 * (y * z - w * x), ww - xx - yy + zz),
+    )
+
+
+def to_body(q: Quat, v: Vector) -> Vector:
+    """R(q)^T v: base coordinates to body coordinates."""
+    n, o, a = columns(q)
+    return (_dot(n, v), _dot(o, v), _dot(a, v))
+
+
+def unit(v: Vector) -> Vector:
+    """The vector v / |v|."""
+    length = math.hypot(*v)
+    return (v[0] / length, v[1] / length, v[2] / length)
+
+
+def about(axis: Vector, theta: float) -> Quat:
+    """Rotation by theta [rad] in [-pi, pi] about an axis, which need not be of unit length."""
+    c, s = _half(theta)
+    x, y, z = unit(axis)
+    return (c, s * x, s * y, s * z)
+
+
+def short_of_half_turn(axis: Vector, delta: float) -> Quat:
+    """Rotation by pi - delta [rad] about an axis.
+
+    w = sin(delta/2) has full relative precision for any delta, which pi - delta rounded to a double has not;
+    delta = 0 gives w = 0, an exact half turn: a symmetric R, whose rotation-matrix error (2.12) is exactly
+    zero.
+    """
+    x, y, z = unit(axis)
+    s = math.cos(delta / 2.0)
+    return (math.sin(delta / 2.0), s * x, s * y, s * z)
+
+
+def zyx(alpha: float, beta: float, gamma: float) -> Quat:
+    """Z-Y-X Euler angles, R = Rz(alpha) Ry(beta) Rx(gamma), each in [-pi, pi] (Murphy 1988, section 2.2)."""
+    (ca, sa), (cb, sb), (cg, sg) = _half(alpha), _half(beta), _half(gamma)
+    return multiply((ca, 0.0, 0.0, sa), multiply((cb, 0.0, sb, 0.0), (cg, sg, 0.0, 0.0)))
+
+
+# A neighbour within this many last places is searched for a pole that rounds to nothing. Rounding offsets n_x
+# by 0 or +-1 units of 1.1e-16 and one last place of a number near 0.7 moves its square by about as much, so a
+# few places reach all combinations.
+NEIGHBOURS = range(-4, 5)
+
+
+def on_pole(sign: int, twist: float) -> Quat:
+    """Orientation with beta = sign pi/2 and n = (0, 0, -sign), where B is singular (Murphy 1988, 2.8).
+
+    The pattern (c, -sign s, sign c, s) / sqrt(2), c and s of twist/2, makes n_y vanish exactly; n_x vanishes
+    for those doubles next to it for which (w^2 + x^2) - y^2 - z^2 rounds to 0. Of these the one with |n_z|
+    nearest 1 is taken, then the nearest. |n_z| = 1 is reached unless c or s is zero: no double squares to
+    exactly 1/2, and sqrt(1/2) gives n_z = -(1 + 2.2e-16).
+
+    Args:
+        sign: +1 or -1.
+        twist: alpha - gamma at +pi/2, alpha + gamma at -pi/2 [rad]: all that is determined there.
+    """
+    c, s = _half(twist)
+    a, b = c * math.sqrt(0.5), s * math.sqrt(0.5)
+    best: tuple[float, int, Quat] | None = None
+    for i in NEIGHBOURS:
+        for j in NEIGHBOURS:
+            p, q = _shift(a, i), _shift(b, j)
+            quat = (p, -sign * q + 0.0, sign * p + 0.0, q)  # + 0.0: no negative zeros
+            n = columns(quat)[0]
+            if n[0] == 0.0 and n[1] == 0.0:
+                rank = (abs(abs(n[2]) - 1.0), abs(i) + abs(j), quat)
+                if best is None or rank[:2] < best[:2]:
+                    best = rank
+    if best is None:
+        raise ArithmeticError(
+            f"no quaternion within 4 last places of twist {twist} has n exactly on the pole"
+        )
+    return best[2]
+
+
+def _half(theta: float) -> tuple[float, float]:
+    """cos(theta/2), sin(theta/2) for theta in [-pi, pi], exact at 0 and +-math.pi, equal at pi/2."""
+    size = abs(theta)
+    return math.sin((math.pi - size) / 2.0), math.copysign(math.sin(size / 2.0), theta)
+
+
+def _shift(x: float, places: int) -> float:
+    """The double x moved by so many last places; zero stays zero."""
+    return x + places * math.ulp(x) if x else x
+
+
+def _dot(p: Vector, q: Vector) -> float:
+    return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]

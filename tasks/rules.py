@@ -1,0 +1,56 @@
+"""The numbers of the rules, each with its derivation; verdict.py applies them.
+
+Settling time: the first time after which the angle stays inside the band to the horizon. The band is
+`tolerance` times the initial angle, or `floor_rad` where the start is at the goal.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+
+class Rules(NamedTuple):
+    """When an episode is settled, stuck, or has failed."""
+
+    # The 2 % criterion of control engineering; the paper says "settling time" and states no band.
+    tolerance: float = 0.02
+    # Band of a start at the goal: 2 % of one radian.
+    floor_rad: float = 0.02
+    # A start nearer than this is at the goal. 2 % of it, 2e-8 rad, is just above 2^-26.5 = 1.1e-8 rad,
+    # the rotation below which 1 - theta^2/2 rounds to 1 and the diagonal of R no longer changes.
+    at_goal_rad: float = 1e-6
+    # An engine may stop early once the angle has stayed under a hundredth of the band for hold_s. The gains
+    # (100, 20) put a double pole at -10/s: 0.25 s is 2.5 of its time constants, too long for a response that
+    # only crosses the goal on its way, and short beside its settling time of 0.58 s.
+    hold_s: float = 0.25
+    # |u| beyond any actuator: held for a 1 ms tick it adds 1,000 rad/s, a whole radian of motion in the next
+    # tick. Spring and damping of the paper's gains stay under 100 sqrt(3) pi + 20 * 20 = 944 rad/s^2.
+    command_limit: float = 1e6
+    # |omega| that turns 10 rad in a 1 ms tick, more than once around between two samples: the orientation can
+    # no longer be followed.
+    speed_limit: float = 1e4
+    # At rest: in a horizon of 20 s a body of this speed moves no further than floor_rad ...
+    rest_speed: float = 1e-3
+    # ... and this command changes its speed by no more than rest_speed in one time constant, 1/sqrt(Kp).
+    rest_command: float = 1e-2
+
+    def band_rad(self, angle0: float) -> float:
+        """Half width of the settling band [rad] of an episode that begins at this angle to its goal [rad]."""
+        return self.floor_rad if angle0 < self.at_goal_rad else self.tolerance * angle0
+
+    def band_haversine(self, angle0: float) -> float:
+        """The same band as sin^2(band/2), to compare with `truth.haversine`."""
+        return math.sin(self.band_rad(angle0) / 2.0) ** 2
+
+    def hold_ticks(self, dt: float) -> int:
+        """The hold window in control periods."""
+        return ticks(self.hold_s, dt)
+
+
+RULES = Rules()
+
+
+def ticks(seconds: float, dt: float) -> int:
+    """Control periods in a stretch of time: seconds/dt to the nearest whole number, at least 1."""
+    return max(1, math.floor(seconds / dt + 0.5))

@@ -1,0 +1,80 @@
+"""The range that the paper gives for regulator 2, and what surrounds it (Murphy 1988, section 2.4).
+
+    |alpha| < pi/2,  |beta| < pi/2,  |gamma| < pi
+
+- grid: a regular grid of cell centres inside;
+- inside: the midpoint of every face, edge and corner of the box moved in by 0.001 and 0.1 rad;
+- on: the same points on the boundary;
+- outside: |alpha| beyond pi/2 by 0.001 to 1.4 rad.
+
+Every orientation has a triple with |beta| <= pi/2 and |gamma| <= pi, so outside the box means |alpha| > pi/2
+and nothing else. On the faces beta = +-pi/2 and gamma = +-pi several ids are one orientation.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+
+from tasks.base import Start, StartSet
+from tasks.rotations import zyx
+
+HALF_WIDTHS = (math.pi / 2.0, math.pi / 2.0, math.pi)
+GRID = (4, 4, 5)
+DEPTHS = (0.1, 0.001)
+EXCESSES = (0.001, 0.1, 0.5, 1.0, 1.4)
+# (beta, gamma) [rad] of the outside ones
+OUTSIDE = ((0.0, 0.0), (0.7, -1.5), (-0.7, 2.5), (1.2, 0.5))
+
+
+def build(count: int, seed: int) -> list[Start]:
+    """Grid, just inside, on, outside."""
+    return (
+        _grid()
+        + [start for depth in DEPTHS for start in _shell("inside", depth)]
+        + _shell("on", 0.0)
+        + _outside()
+    )
+
+
+def _grid() -> list[Start]:
+    centres = [
+        [width * ((2 * i + 1) / cells - 1.0) for i in range(cells)]
+        for width, cells in zip(HALF_WIDTHS, GRID, strict=True)
+    ]
+    cells = itertools.product(*(range(n) for n in GRID))
+    return [
+        Start(f"box-grid-{i}{j}{k}", zyx(centres[0][i], centres[1][j], centres[2][k])) for i, j, k in cells
+    ]
+
+
+def _shell(word: str, depth: float) -> list[Start]:
+    """The 26 directions of a cube, on the box drawn in by depth [rad]."""
+    starts = []
+    for signs in itertools.product((-1, 0, 1), repeat=3):
+        if any(signs):
+            angles = [sign * (width - depth) for sign, width in zip(signs, HALF_WIDTHS, strict=True)]
+            letters = "".join({-1: "m", 0: "o", 1: "p"}[sign] for sign in signs)
+            suffix = f"-{depth}" if depth else ""
+            starts.append(Start(f"box-{word}-{letters}{suffix}", zyx(*angles)))
+    return starts
+
+
+def _outside() -> list[Start]:
+    return [
+        Start(
+            f"box-outside-{letter}{excess}-b{beta}-g{gamma}",
+            zyx(sign * (math.pi / 2.0 + excess), beta, gamma),
+        )
+        for excess in EXCESSES
+        for letter, sign in (("p", 1), ("m", -1))
+        for beta, gamma in OUTSIDE
+    ]
+
+
+STARTS = StartSet(
+    "box",
+    "Inside, on and outside the range given for regulator 2",
+    math.prod(GRID) + 26 * (len(DEPTHS) + 1) + 2 * len(EXCESSES) * len(OUTSIDE),
+    build,
+)

@@ -1,0 +1,70 @@
+"""Goals far from the identity: can a regulator drive to anything but zero (Murphy 1988, section 2.4)?
+
+Directed pairs first: goals on a pole of beta, goals across a jump of atan2, goals half a turn from the
+identity, small steps at distant goals, a start at its goal, and starts half a turn from a distant goal. Then
+pairs drawn uniformly from SO(3) x SO(3), those kept whose goal is more than a quarter turn from the identity
+(82 % of them).
+"""
+
+from __future__ import annotations
+
+import math
+
+from tasks.base import IDENTITY, Quat, Start, StartSet, haversine
+from tasks.haar import halton, orientation
+from tasks.rotations import about, multiply, on_pole, short_of_half_turn, zyx
+
+FAR = 0.5  # haversine of a quarter turn
+KEPT = (math.pi / 2.0 + 1.0) / math.pi  # share of Haar-random rotations beyond a quarter turn, 0.82
+AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
+SMALL_STEP = about((1.0, -2.0, 2.0), 0.1)
+OFFSET = about((2.0, 1.0, -2.0), 1.0)
+GENERIC_GOAL = zyx(2.0, -0.6, 1.4)
+
+
+def build(count: int, seed: int) -> list[Start]:
+    """The directed pairs, then uniform ones up to `count`."""
+    directed = _directed()
+    return directed + _uniform(max(0, count - len(directed)), seed)
+
+
+def _directed() -> list[Start]:
+    starts = []
+    for word, sign in (("plus", 1), ("minus", -1)):
+        for twist in (0.0, math.pi / 2.0, 1.0):
+            goal = on_pole(sign, twist)
+            name = f"goal-pole-{word}-twist-{twist:.1f}"
+            starts.append(_pair(f"{name}-from-identity", IDENTITY, goal))
+            starts.append(_pair(f"{name}-offset", OFFSET, goal, moved=True))
+    # 0.4 rad apart the short way, which crosses +-pi; 2 pi - 0.4 the long way
+    for word, sign in (("up", 1), ("down", -1)):
+        near, beyond = sign * (math.pi - 0.2), -sign * (math.pi - 0.2)
+        starts.append(_pair(f"goal-beyond-wrap-alpha-{word}", zyx(near, 0.3, 0.2), zyx(beyond, 0.3, 0.2)))
+        starts.append(_pair(f"goal-beyond-wrap-gamma-{word}", zyx(0.2, 0.3, near), zyx(0.2, 0.3, beyond)))
+    for name, axis in AXES.items():
+        goal = short_of_half_turn(axis, 0.0)
+        starts.append(_pair(f"goal-half-turn-{name}-from-identity", IDENTITY, goal))
+        starts.append(_pair(f"goal-half-turn-{name}-small-step", SMALL_STEP, goal, moved=True))
+        starts.append(_pair(f"goal-half-turn-{name}-offset", OFFSET, goal, moved=True))
+        starts.append(_pair(f"start-half-turn-{name}-from-goal", goal, GENERIC_GOAL, moved=True))
+    starts.append(_pair("goal-generic-small-step", SMALL_STEP, GENERIC_GOAL, moved=True))
+    starts.append(_pair("goal-generic-at-goal", GENERIC_GOAL, GENERIC_GOAL))
+    return starts
+
+
+def _pair(name: str, quat: Quat, goal: Quat, moved: bool = False) -> Start:
+    """A start at `quat`, or at the goal turned by `quat` about base axes."""
+    return Start(name, multiply(quat, goal) if moved else quat, goal_wxyz=goal)
+
+
+def _uniform(count: int, seed: int) -> list[Start]:
+    drawn = math.ceil(count / KEPT) + 32  # low-discrepancy points miss their share by far less than 32
+    while True:
+        pairs = [(orientation(*point[:3]), orientation(*point[3:])) for point in halton(drawn, 6, seed)]
+        far = [(quat, goal) for quat, goal in pairs if haversine(goal, IDENTITY) > FAR]
+        if len(far) >= count:
+            return [_pair(f"goal-uniform-{i:04d}", *pair) for i, pair in enumerate(far[:count])]
+        drawn *= 2
+
+
+STARTS = StartSet("goals", "Goals far from the identity, directed and uniform pairs", 200, build)

@@ -1,0 +1,14 @@
+"""Orientations spread evenly over SO(3) by the Haar measure, at rest: what fractions are counted on."""
+
+from __future__ import annotations
+
+from tasks.base import Start, StartSet
+from tasks.haar import halton, orientation
+
+
+def build(count: int, seed: int) -> list[Start]:
+    """The first `count` points of the sequence of this seed."""
+    return [Start(f"uniform-{i:05d}", orientation(*point)) for i, point in enumerate(halton(count, 3, seed))]
+
+
+STARTS = StartSet("uniform", "Low-discrepancy orientations, Haar measure", 5000, build)
