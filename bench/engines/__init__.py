@@ -1,0 +1,7 @@
+"""Four ways to run the same episode, one file each.
+
+reference   dm_control's Environment with the plain Python law: slow, and the truth
+native      MuJoCo stepped from compiled code, the reference's numbers bit for bit
+ideal-rk4   (2.6)-(2.7) without MuJoCo, continuous: Runge-Kutta on the columns of R
+ideal-held  the same plant sampled, the command held over each tick
+"""

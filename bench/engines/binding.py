@@ -1,0 +1,110 @@
+"""A contender's law and metrics in the one form that every engine calls.
+
+command(R, omega, goal, gains, memory) -> (u, memory)      margin(R, R_d) -> number      observe(row, sample)
+"""
+
+import math
+
+from bench.contender import NO_MEMORY, Contender
+from bench.engines.episode import FIRST_METRIC
+from bench.scalar import kernel
+from bench.so3 import relative
+
+NOT_A_NUMBER = (math.nan, math.nan, math.nan)
+
+
+def command_of(contender: Contender):
+    """The law with a memory slot; a user's law that raises commands NaN, which the judge sees as singular."""
+    law = contender.law
+    if contender.regulator.memory is not None:
+        return _guarded_memory(law) if contender.regulator.origin else law
+    return _guarded(law) if contender.regulator.origin else _memoryless(law)
+
+
+def _memoryless(law):
+    @kernel
+    def command(R, omega, goal, gains, memory):
+        return law(R, omega, goal, gains), memory
+
+    return command
+
+
+def _guarded(law):
+    @kernel
+    def command(R, omega, goal, gains, memory):
+        try:
+            u = law(R, omega, goal, gains)
+        except Exception:
+            u = NOT_A_NUMBER
+        return u, memory
+
+    return command
+
+
+def _guarded_memory(law):
+    @kernel
+    def command(R, omega, goal, gains, memory):
+        try:
+            u, after = law(R, omega, goal, gains, memory)
+        except Exception:
+            u, after = NOT_A_NUMBER, memory
+        return u, after
+
+    return command
+
+
+def memory_of(contender: Contender) -> tuple:
+    """Four numbers: the law's initial memory, filled up with zeros."""
+    memory = contender.regulator.memory or ()
+    return (*(float(x) for x in memory), *NO_MEMORY[len(memory) :])
+
+
+def margin_of(contender: Contender):
+    """The margin of the coordinates the law acts on; NaN for a law on R."""
+    if contender.representation is None:
+        return _no_margin
+    at = contender.representation.margin
+    return _margin_from_goal(at) if contender.regulator.relative else _margin_from_base(at)
+
+
+@kernel
+def _no_margin(R, R_d):
+    return math.nan
+
+
+def _margin_from_base(at):
+    @kernel
+    def margin(R, R_d):
+        return at(R)
+
+    return margin
+
+
+def _margin_from_goal(at):
+    @kernel
+    def margin(R, R_d):
+        return at(relative(R_d, R))
+
+    return margin
+
+
+@kernel
+def _nothing(row, sample):
+    return None
+
+
+def observer(metrics):
+    """All metrics' updates as one function on the row."""
+    observe = _nothing
+    for column, metric in enumerate(metrics, start=FIRST_METRIC):
+        observe = _then(observe, metric.update, column)
+    return observe
+
+
+def _then(before, update, column):
+    @kernel
+    def observe(row, sample):
+        before(row, sample)
+        row[column] = update(row[column], sample)
+
+    return observe

@@ -1,0 +1,100 @@
+"""numba, set up once: where its cache lives, how laws compile, what a law's functions mean in compiled code.
+
+Import this before numba. numba's cache looks only at the file of the function it caches, so an edited law or another
+mujoco would run stale code; here the cache folder is a digest of all our sources and the versions that matter.
+"""
+
+import hashlib
+import importlib.metadata
+import os
+import sys
+from pathlib import Path
+
+_ROOT = Path(__file__).resolve().parents[2]
+_KEPT_CACHES = 4
+
+
+def source_digest() -> str:
+    """Sixteen hex digits over every source of bench/ and tasks/ and the versions compiled code depends on."""
+    digest = hashlib.sha256()
+    for room in ("bench", "tasks"):
+        for path in sorted((_ROOT / room).rglob("*.py")):
+            digest.update(str(path.relative_to(_ROOT)).encode() + b"\0" + path.read_bytes())
+    for package in ("numba", "llvmlite", "mujoco", "numpy"):
+        digest.update(f"{package}=={importlib.metadata.version(package)}".encode())
+    digest.update(sys.version.encode())
+    return digest.hexdigest()[:16]
+
+
+def cache_home() -> Path:
+    """The folder that holds one cache for each state of the sources."""
+    base = os.environ.get("XDG_CACHE_HOME") or str(Path.home() / ".cache")
+    return Path(base) / "orientation-bench" / "numba"
+
+
+def _use_cache() -> Path:
+    folder = Path(os.environ.get("NUMBA_CACHE_DIR") or cache_home() / source_digest())
+    os.environ["NUMBA_CACHE_DIR"] = str(folder)
+    return folder
+
+
+CACHE = _use_cache()
+
+import math  # noqa: E402
+
+import llvmlite.binding as llvm  # noqa: E402
+import numba  # noqa: E402
+from numba import float64, int32, int64, types  # noqa: E402
+from numba.extending import overload, register_jitable  # noqa: E402
+
+from bench import scalar  # noqa: E402
+from bench.contender import Gains, Goal  # noqa: E402
+from bench.engines.episode import Numbers  # noqa: E402
+from bench.so3 import Rotation  # noqa: E402
+from tasks import truth, verdict  # noqa: E402
+
+JIT = {"nogil": True, "error_model": "numpy"}
+"""Never fastmath: results must be the plain Python call's, bit for bit."""
+
+VECTOR = types.UniTuple(float64, 3)
+ROTATION = types.NamedUniTuple(VECTOR, 3, Rotation)
+GOAL = types.NamedTuple((ROTATION, VECTOR, VECTOR), Goal)
+GAINS = types.NamedUniTuple(float64, 2, Gains)
+MATRIX = float64[:, ::1]
+NUMBERS = types.NamedTuple((float64, float64, float64, int64, int64, float64, float64, float64, float64), Numbers)
+EPISODES = types.void(MATRIX, NUMBERS, MATRIX)
+"""episodes(starts, numbers, rows): the signature of every compiled loop over the ideal plant."""
+
+_registered: set = set()
+
+
+def _register_primitive(function):
+    libm = getattr(math, function.__name__)
+    if function.__code__.co_argcount == 2:
+        overload(function, jit_options=JIT, strict=False)(lambda y, x: lambda y, x: libm(y, x))
+    else:
+        overload(function, jit_options=JIT, strict=False)(lambda x: lambda x: libm(x))
+    _registered.add(function)
+
+
+def register_kernels() -> None:
+    """Make every marked function known to numba; functions marked since the last call are added."""
+    for function in scalar.PRIMITIVES:
+        if function not in _registered:
+            _register_primitive(function)
+    for function in (*scalar.KERNELS, *verdict.COMPILABLE, truth.angle, truth.haversine):
+        register(function)
+
+
+def register(function):
+    """Make one plain function callable from compiled code."""
+    if function not in _registered:
+        register_jitable(error_model="numpy")(function)
+        _registered.add(function)
+    return function
+
+
+def compile_function(function, signature, cache: bool = True):
+    """The function compiled for one signature with our options; cached on disk unless the law is a user's."""
+    register_kernels()
+    return numba.njit(signature, cache=cache, **JIT)(function)

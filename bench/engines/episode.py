@@ -1,0 +1,101 @@
+"""What every engine is given and gives back: settings, one row of numbers in and one row out per episode."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from bench.contender import Gains
+from bench.scalar import kernel
+from bench.so3 import Rotation
+from tasks.verdict import GOING, SETTLED, verdict
+
+
+class Settings(NamedTuple):
+    """How episodes are run; every field is a column of the results or follows from one.
+
+    dt_s: control period and integration step; ticks: horizon in ticks; hold_ticks: how long the angle must have
+    stayed under a hundredth of the band before an engine may stop early.
+    """
+
+    gains: Gains
+    dt_s: float
+    ticks: int
+    hold_ticks: int
+    command_limit: float
+    speed_limit: float
+    rest_speed: float
+    rest_command: float
+
+
+class Numbers(NamedTuple):
+    """Settings as a compiled loop takes them: floats and integers only."""
+
+    kp: float
+    kv: float
+    dt: float
+    ticks: int
+    hold_ticks: int
+    command_limit_squared: float
+    speed_limit_squared: float
+    rest_speed_squared: float
+    rest_command_squared: float
+
+
+class Sample(NamedTuple):
+    """What a metric sees at one tick, before the plant moves.
+
+    time [s], dt [s], R, haversine = sin^2(angle/2), entered (whether the angle has been inside the band), omega [rad/s]
+    and u [rad/s^2] in the base frame, margin of the representation (NaN for a law on R).
+    """
+
+    time: float
+    dt: float
+    R: Rotation
+    haversine: float
+    entered: bool
+    omega: tuple
+    u: tuple
+    margin: float
+
+
+START_WIDTH = 12
+"""Columns of a start: quaternion 0-3, omega 4-6, goal quaternion 7-10, haversine of the settling band 11."""
+
+NEVER = -1
+OUTCOME, SETTLING_TICK, FAILURE_TICK, TICKS, FINAL_ANGLE = range(5)
+FIRST_METRIC = 5
+
+
+def numbers(settings: Settings) -> Numbers:
+    """The settings for a compiled loop; limits squared, so that no loop takes a root to compare."""
+    return Numbers(
+        float(settings.gains.kp),
+        float(settings.gains.kv),
+        float(settings.dt_s),
+        int(settings.ticks),
+        int(settings.hold_ticks),
+        settings.command_limit**2,
+        settings.speed_limit**2,
+        settings.rest_speed**2,
+        settings.rest_command**2,
+    )
+
+
+@kernel
+def finish(row, failure, watch, tick, angle, inside, speed_squared, command_squared, numbers):
+    """Write the judge's columns of one episode."""
+    outcome = verdict(
+        failure, inside, speed_squared, command_squared, numbers.rest_speed_squared, numbers.rest_command_squared
+    )
+    row[OUTCOME] = outcome
+    row[SETTLING_TICK] = watch.settled_since if outcome == SETTLED else NEVER
+    row[FAILURE_TICK] = NEVER if failure == GOING else tick
+    row[TICKS] = tick
+    row[FINAL_ANGLE] = angle
+
+
+def blank(count: int, metrics) -> np.ndarray:
+    """Rows to be filled: every metric at its start value."""
+    rows = np.zeros((count, FIRST_METRIC + len(metrics)))
+    rows[:, FIRST_METRIC:] = [metric.start for metric in metrics]
+    return rows

@@ -1,0 +1,178 @@
+"""The paper's plant without MuJoCo (Murphy 1988, 2.6-2.7): continuous, or sampled with a held command.
+
+rk4: Runge-Kutta of order 4 on omega and on the columns of R, the law evaluated at every stage, as a continuous-time
+simulation (the paper's Simnon) would. held: the command stays over the tick, omega is then linear in time and R moves
+by exp([Omega]x), Omega by Magnus to fourth order in the tick.
+"""
+
+from bench.contender import AT_REST, Gains, Goal
+from bench.engines.compiled import EPISODES, compile_function
+from bench.engines.episode import Sample, finish
+from bench.scalar import atan2, cos, kernel, sin, sqrt
+from bench.so3 import Rotation, cross, dot, from_quaternion
+from tasks.verdict import GOING, check_command, check_state, first_watch, watched
+
+SMALL_TURN_SQUARED = 1e-2
+"""Below 0.1 rad a tick the series of sin(x)/x and (1 - cos x)/x^2 to x^8 err by under 3e-18."""
+
+
+@kernel
+def turned(R, turn):
+    """exp([turn]x) R: R after a rotation by the base-frame vector `turn`."""
+    squared = dot(turn, turn)
+    if squared < SMALL_TURN_SQUARED:
+        x = squared
+        first = 1.0 - x / 6.0 * (1.0 - x / 20.0 * (1.0 - x / 42.0 * (1.0 - x / 72.0)))
+        second = 0.5 - x / 24.0 * (1.0 - x / 30.0 * (1.0 - x / 56.0 * (1.0 - x / 90.0)))
+    else:
+        angle = sqrt(squared)
+        first = sin(angle) / angle
+        second = (1.0 - cos(angle)) / squared
+    return Rotation(
+        _turned_column(R.n, turn, first, second),
+        _turned_column(R.o, turn, first, second),
+        _turned_column(R.a, turn, first, second),
+    )
+
+
+@kernel
+def _turned_column(column, turn, first, second):
+    once = cross(turn, column)
+    twice = cross(turn, once)
+    return (
+        column[0] + first * once[0] + second * twice[0],
+        column[1] + first * once[1] + second * twice[1],
+        column[2] + first * once[2] + second * twice[2],
+    )
+
+
+@kernel
+def plus(v, h, w):
+    """v + h w."""
+    return (v[0] + h * w[0], v[1] + h * w[1], v[2] + h * w[2])
+
+
+@kernel
+def moved(R, h, dR):
+    """R + h dR, column by column."""
+    return Rotation(plus(R.n, h, dR.n), plus(R.o, h, dR.o), plus(R.a, h, dR.a))
+
+
+@kernel
+def rotation_rate(R, omega):
+    """Rdot = [omega]x R (Murphy 1988, 2.7)."""
+    return Rotation(cross(omega, R.n), cross(omega, R.o), cross(omega, R.a))
+
+
+@kernel
+def weighted(a, b, c, d):
+    """(a + 2 b + 2 c + d): the weights of Runge-Kutta 4, times six."""
+    return (
+        a[0] + 2.0 * (b[0] + c[0]) + d[0],
+        a[1] + 2.0 * (b[1] + c[1]) + d[1],
+        a[2] + 2.0 * (b[2] + c[2]) + d[2],
+    )
+
+
+@kernel
+def held_step(R, omega, u, dt):
+    """The plant one tick on with u held: R moved by the Magnus vector, omega by u dt."""
+    drift = cross(u, omega)
+    half, twelfth = 0.5 * dt * dt, dt * dt * dt / 12.0
+    turn = (
+        omega[0] * dt + u[0] * half + drift[0] * twelfth,
+        omega[1] * dt + u[1] * half + drift[1] * twelfth,
+        omega[2] * dt + u[2] * half + drift[2] * twelfth,
+    )
+    return turned(R, turn), plus(omega, dt, u)
+
+
+@kernel
+def haversine(R, R_d):
+    """sin^2(theta/2) = |R - R_d|^2 / 8, without cancellation near zero."""
+    n, o, a = plus(R.n, -1.0, R_d.n), plus(R.o, -1.0, R_d.o), plus(R.a, -1.0, R_d.a)
+    return 0.125 * (dot(n, n) + dot(o, o) + dot(a, a))
+
+
+@kernel
+def angle_between(R, R_d):
+    """theta in [0, pi] from its sine, |sum r_di x r_i| / 2, and its cosine, (tr(R_d^T R) - 1) / 2."""
+    n, o, a = cross(R_d.n, R.n), cross(R_d.o, R.o), cross(R_d.a, R.a)
+    s = (n[0] + o[0] + a[0], n[1] + o[1] + a[1], n[2] + o[2] + a[2])
+    return atan2(sqrt(dot(s, s)), dot(R_d.n, R.n) + dot(R_d.o, R.o) + dot(R_d.a, R.a) - 1.0)
+
+
+def rk4_step_of(command):
+    """One Runge-Kutta step of the closed loop; the first stage's command is the tick's and is given."""
+
+    @kernel
+    def step(R, omega, u, goal, gains, memory, dt):
+        half = 0.5 * dt
+        R1 = rotation_rate(R, omega)
+        omega2, at2 = plus(omega, half, u), moved(R, half, R1)
+        u2, _ = command(at2, omega2, goal, gains, memory)
+        R2 = rotation_rate(at2, omega2)
+        omega3, at3 = plus(omega, half, u2), moved(R, half, R2)
+        u3, _ = command(at3, omega3, goal, gains, memory)
+        R3 = rotation_rate(at3, omega3)
+        omega4, at4 = plus(omega, dt, u3), moved(R, dt, R3)
+        u4, _ = command(at4, omega4, goal, gains, memory)
+        R4 = rotation_rate(at4, omega4)
+        n = weighted(R1.n, R2.n, R3.n, R4.n)
+        o = weighted(R1.o, R2.o, R3.o, R4.o)
+        a = weighted(R1.a, R2.a, R3.a, R4.a)
+        sixth = dt / 6.0
+        return moved(R, sixth, Rotation(n, o, a)), plus(omega, sixth, weighted(u, u2, u3, u4))
+
+    return step
+
+
+def held_step_of(command):
+    """One tick of the sampled plant: the tick's command holds."""
+
+    @kernel
+    def step(R, omega, u, goal, gains, memory, dt):
+        return held_step(R, omega, u, dt)
+
+    return step
+
+
+STEPS = {"ideal-rk4": rk4_step_of, "ideal-held": held_step_of}
+
+
+def episodes_of(engine, command, margin, observe, memory0, cache=True):
+    """The loop over episodes for one contender: `episodes(starts, numbers, rows)` fills rows."""
+    step = STEPS[engine](command)
+
+    def episodes(starts, numbers, rows):
+        gains = Gains(numbers.kp, numbers.kv)
+        dt = numbers.dt
+        for k in range(starts.shape[0]):
+            start, row = starts[k], rows[k]
+            R = from_quaternion((start[0], start[1], start[2], start[3]))
+            omega = (start[4], start[5], start[6])
+            R_d = from_quaternion((start[7], start[8], start[9], start[10]))
+            goal = Goal(R_d, AT_REST, AT_REST)
+            band = start[11]
+            memory = memory0
+            u = AT_REST
+            hav = haversine(R, R_d)
+            watch = first_watch(hav, band)
+            tick = 0
+            failure = GOING
+            while tick < numbers.ticks and watch.quiet < numbers.hold_ticks:
+                u, memory = command(R, omega, goal, gains, memory)
+                observe(row, Sample(tick * dt, dt, R, hav, watch.entered, omega, u, margin(R, R_d)))
+                failure = check_command(dot(u, u), numbers.command_limit_squared)
+                if failure != GOING:
+                    break
+                R, omega = step(R, omega, u, goal, gains, memory, dt)
+                tick += 1
+                failure = check_state(dot(omega, omega), numbers.speed_limit_squared)
+                if failure != GOING:
+                    break
+                hav = haversine(R, R_d)
+                watch = watched(watch, tick, hav, band)
+            finish(row, failure, watch, tick, angle_between(R, R_d), hav <= band, dot(omega, omega), dot(u, u), numbers)
+
+    return compile_function(episodes, EPISODES, cache)

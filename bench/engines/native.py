@@ -1,0 +1,114 @@
+"""MuJoCo stepped from compiled code: the dm_control loop, tick for tick and bit for bit, without Python in it.
+
+The order is dm_control's with legacy_step=True: mj_step1 | law | mj_step2, mj_step1 | law | ... (with Runge-Kutta
+mj_step in place of mj_step2, which would silently be Euler). mjData's arrays never move, so plain views of them go
+into the loop; no struct offset is needed.
+"""
+
+from pathlib import Path
+from typing import NamedTuple
+
+import mujoco
+import numpy as np
+
+from bench.contender import AT_REST, Gains, Goal
+from bench.engines.compiled import MATRIX, NUMBERS, compile_function, float64, int32, int64, llvm, types
+from bench.engines.episode import Sample, finish
+from bench.so3 import Rotation, dot, from_quaternion
+from tasks.truth import angle, haversine
+from tasks.verdict import GOING, check_command, check_state, first_watch, watched
+
+llvm.load_library_permanently(str(next(Path(mujoco.__file__).parent.glob("libmujoco.so*"))))
+
+
+def _c_function(name: str, pointers: int):
+    """A function of libmujoco by its symbol, which the disk cache keeps (a ctypes pointer it would not)."""
+    return types.ExternalFunction(name, types.void(*[types.intp] * pointers))
+
+
+mj_resetData = _c_function("mj_resetData", 2)
+mj_step = _c_function("mj_step", 2)
+mj_step1 = _c_function("mj_step1", 2)
+mj_step2 = _c_function("mj_step2", 2)
+
+
+class View(NamedTuple):
+    """One mjData as compiled code sees it: two addresses and views of arrays that never move."""
+
+    model: int
+    data: int
+    is_runge_kutta: int
+    qpos: np.ndarray
+    qvel: np.ndarray
+    ctrl: np.ndarray
+    sensordata: np.ndarray
+    warnings: np.ndarray
+
+
+VIEW = types.NamedTuple((int64, int64, int64, *[float64[::1]] * 4, int32[:]), View)
+EPISODES = types.void(VIEW, MATRIX, MATRIX, NUMBERS, MATRIX)
+
+
+def view(model, data) -> View:
+    """The view of one simulation; `data` must outlive it."""
+    return View(
+        model._address,
+        data._address,
+        int(model.opt.integrator == mujoco.mjtIntegrator.mjINT_RK4),
+        data.qpos,
+        data.qvel,
+        data.ctrl,
+        data.sensordata,
+        data.warning.number,
+    )
+
+
+def episodes_of(command, margin, observe, memory0, cache=True):
+    """The loop over episodes for one contender: `episodes(view, states, starts, numbers, rows)` fills rows."""
+
+    def episodes(sim, states, starts, numbers, rows):
+        gains = Gains(numbers.kp, numbers.kv)
+        dt = numbers.dt
+        nq = sim.qpos.shape[0]
+        s = sim.sensordata
+        for k in range(starts.shape[0]):
+            start, row = starts[k], rows[k]
+            quat_d = (start[7], start[8], start[9], start[10])
+            R_d = from_quaternion(quat_d)
+            goal = Goal(R_d, AT_REST, AT_REST)
+            band = start[11]
+            memory = memory0
+            u = AT_REST
+            mj_resetData(sim.model, sim.data)
+            sim.qpos[:] = states[k, :nq]
+            sim.qvel[:] = states[k, nq:]
+            mj_step1(sim.model, sim.data)
+            hav = haversine((s[12], s[13], s[14], s[15]), quat_d)
+            watch = first_watch(hav, band)
+            tick = 0
+            failure = GOING
+            while tick < numbers.ticks and watch.quiet < numbers.hold_ticks:
+                R = Rotation((s[0], s[1], s[2]), (s[3], s[4], s[5]), (s[6], s[7], s[8]))
+                omega = (s[9], s[10], s[11])
+                u, memory = command(R, omega, goal, gains, memory)
+                observe(row, Sample(tick * dt, dt, R, hav, watch.entered, omega, u, margin(R, R_d)))
+                failure = check_command(dot(u, u), numbers.command_limit_squared)
+                if failure != GOING:
+                    break
+                sim.ctrl[0], sim.ctrl[1], sim.ctrl[2] = u
+                if sim.is_runge_kutta:
+                    mj_step(sim.model, sim.data)
+                else:
+                    mj_step2(sim.model, sim.data)
+                mj_step1(sim.model, sim.data)
+                tick += 1
+                failure = check_state(s[9] * s[9] + s[10] * s[10] + s[11] * s[11], numbers.speed_limit_squared)
+                if failure != GOING:
+                    break
+                hav = haversine((s[12], s[13], s[14], s[15]), quat_d)
+                watch = watched(watch, tick, hav, band)
+            final = angle((s[12], s[13], s[14], s[15]), quat_d)
+            speed = s[9] * s[9] + s[10] * s[10] + s[11] * s[11]
+            finish(row, failure, watch, tick, final, hav <= band, speed, dot(u, u), numbers)
+
+    return compile_function(episodes, EPISODES, cache)

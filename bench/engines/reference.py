@@ -1,0 +1,60 @@
+"""dm_control's own loop with the plain Python law: slow, and the truth the compiled engines must reproduce.
+
+The law is called with numpy.float64, whose arithmetic is IEEE 754 throughout (1/0 is infinite, 0/0 NaN), as compiled
+code's is.
+"""
+
+import numpy as np
+
+import tasks
+from bench.contender import Goal
+from bench.engines.binding import command_of, margin_of, memory_of, observer
+from bench.engines.episode import Sample, Settings, blank, finish, numbers
+from bench.so3 import Rotation, dot, from_quaternion
+from tasks.truth import angle, haversine
+from tasks.verdict import GOING, check_command, check_state, first_watch, watched
+
+
+def run(contender, task: str, starts, bands, settings: Settings, metrics, integrator="euler") -> np.ndarray:
+    """One row per start; see `episode` for the columns."""
+    command, margin, observe = command_of(contender), margin_of(contender), observer(metrics)
+    rows = blank(len(starts), metrics)
+    with np.errstate(all="ignore"):
+        for start, band, row in zip(starts, bands, rows, strict=True):
+            _episode(command, margin, observe, memory_of(contender), task, start, band, settings, row, integrator)
+    return rows
+
+
+def _episode(command, margin, observe, memory, task, start, band, settings, row, integrator):
+    limits = numbers(settings)
+    dt = limits.dt
+    environment = tasks.load(task, start=start, dt=dt, horizon=(limits.ticks + 1) * dt, integrator=integrator)
+    environment.reset()
+    sensors = environment.physics.data.sensordata
+    R_d = from_quaternion(start.goal_wxyz)
+    goal = Goal(R_d)
+    hav = haversine(sensors[12:16], start.goal_wxyz)
+    watch = first_watch(hav, band)
+    u, omega, tick, failure = (0.0, 0.0, 0.0), _vector(sensors[9:12]), 0, GOING
+    while tick < limits.ticks and watch.quiet < limits.hold_ticks:
+        R = Rotation(_vector(sensors[0:3]), _vector(sensors[3:6]), _vector(sensors[6:9]))
+        u, memory = command(R, omega, goal, settings.gains, memory)
+        observe(row, Sample(tick * dt, dt, R, hav, watch.entered, omega, u, margin(R, R_d)))
+        failure = check_command(dot(u, u), limits.command_limit_squared)
+        if failure != GOING:
+            break
+        environment.step(np.array(u))
+        omega = _vector(sensors[9:12])
+        tick += 1
+        failure = check_state(dot(omega, omega), limits.speed_limit_squared)
+        if failure != GOING:
+            break
+        hav = haversine(sensors[12:16], start.goal_wxyz)
+        watch = watched(watch, tick, hav, band)
+    final = angle(sensors[12:16], start.goal_wxyz)
+    finish(row, failure, watch, tick, final, hav <= band, dot(omega, omega), dot(u, u), limits)
+
+
+def _vector(three) -> tuple:
+    """Three numpy.float64."""
+    return (three[0], three[1], three[2])

@@ -1,0 +1,36 @@
+"""What a caller can do wrong. Each message says what was given, what is allowed, and the cure.
+
+A contestant's failure is never one of these: it is an outcome in a row.
+"""
+
+
+class BenchError(Exception):
+    """A mistake of the caller; the command line prints it on one line and exits with 2."""
+
+
+class UnknownWord(BenchError):
+    """A name that is in no list."""
+
+    def __init__(self, kind: str, given: str, known: list[str]):
+        listed = ", ".join(known) if known else "none"
+        super().__init__(f"{kind} '{given}' is unknown; known: {listed} (try: python -m bench list {kind}s)")
+
+
+class BadNumber(BenchError):
+    """A number outside its range."""
+
+
+class BadLaw(BenchError):
+    """A law file that cannot be used."""
+
+
+class BadResults(BenchError):
+    """A results folder that cannot be read, written, or continued."""
+
+
+class Incompatible(BenchError):
+    """A combination that has no meaning, with the reason."""
+
+
+class MissingTool(BenchError):
+    """Something this machine or environment lacks, with the cure."""

@@ -1,0 +1,169 @@
+"""How figures look: one colour, marker and line per regulator everywhere, and the style they are drawn in.
+
+Colours are Okabe and Ito's eight, told apart with any colour vision, each with a lighter twin for dark pages.
+Colour never stands alone: the marker and the line differ too, so that a print in grey still reads.
+"""
+
+from __future__ import annotations
+
+import functools
+import zlib
+from pathlib import Path
+from typing import NamedTuple
+
+from matplotlib import font_manager, rc_context
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+FONTS = Path(__file__).parent / "fonts"
+TEXT_WIDTH_IN = 7.2     # the column of a page at 1280 pixels, 720 px, at 100 px to the inch
+PHONE_WIDTH_IN = 3.6    # the column of a page at 390 pixels, so that words keep their size there
+
+INK = "#1c2430"     # words, axes, reference curves
+MUTED = "#667085"   # ticks, annotations, bounds
+GRID = "#dfe3e8"
+PAPER = "#fefefe"   # the page itself: halos, and the rim of a marker
+
+# light page -> dark page; `inline` writes both into the SVG
+TWINS = {
+    INK: "#e6eaf0",
+    MUTED: "#9aa5b4",
+    GRID: "#343c48",
+    PAPER: "#14181e",
+    "#0072b2": "#5cb8f0",  # blue
+    "#d55e00": "#ff9350",  # vermillion
+    "#009e73": "#3fd0a4",  # bluish green
+    "#cc79a7": "#eda3cb",  # reddish purple
+    "#e69f00": "#f5bd45",  # orange
+    "#56b4e9": "#9fd4f5",  # sky blue
+    "#a39400": "#e9dd4f",  # yellow, darkened: Okabe and Ito's own vanishes on white
+    "#b9c3cf": "#475263",  # settled: what needs no attention
+    "#000001": "#ffffff",  # stuck: the strongest contrast there is
+}
+
+
+class Look(NamedTuple):
+    """How one regulator is drawn, in every figure."""
+
+    colour: str
+    marker: str
+    line: str | tuple
+
+    @property
+    def dark(self) -> str:
+        """The same colour on a dark page."""
+        return TWINS[self.colour]
+
+
+SOLID, DASHED, DOTTED, DASH_DOT = "-", (0, (5, 2)), (0, (1.5, 1.5)), (0, (6, 2, 1.5, 2))
+
+LOOKS = {
+    "rotation-matrix": Look("#0072b2", "o", SOLID),
+    "linearized-euler": Look("#d55e00", "s", DASHED),
+    "linearized-euler-literal": Look("#e69f00", "x", DOTTED),
+    "linearized-euler-relative": Look("#cc79a7", "D", DASH_DOT),
+    "feedback-linearized": Look("#009e73", "^", DASH_DOT),
+    "feedback-linearized-literal": Look("#56b4e9", "v", DOTTED),
+}
+# For a law that has no look of its own yet: 3 colours x 5 markers x 3 lines, chosen by its name.
+SPARE_COLOURS = ("#a39400", "#56b4e9", "#cc79a7")
+SPARE_MARKERS = ("P", "X", "h", "*", "<")
+SPARE_LINES = (SOLID, DASHED, DASH_DOT)
+
+# outcome -> colour and marker, in the order in which failure maps and legends name them
+OUTCOMES = {
+    "settled": ("#b9c3cf", "."),
+    "stuck": ("#000001", "X"),
+    "timed-out": ("#e69f00", "o"),
+    "diverged": ("#d55e00", "^"),
+    "singular": ("#cc79a7", "s"),
+    "saturated": ("#56b4e9", "v"),
+}
+
+PAPER_STYLE = {
+    "font.family": ["Orientation Sans", "DejaVu Sans"],
+    "font.size": 9.5,
+    "mathtext.fontset": "cm",
+    "axes.titlesize": 9.5,
+    "axes.titleweight": "bold",
+    "axes.titlelocation": "left",
+    "axes.labelsize": 9.5,
+    "axes.labelcolor": INK,
+    "axes.edgecolor": MUTED,
+    "axes.linewidth": 0.7,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.grid": True,
+    "axes.axisbelow": True,
+    "axes.titlecolor": INK,
+    "grid.color": GRID,
+    "grid.linewidth": 0.6,
+    "text.color": INK,
+    "xtick.color": MUTED,
+    "ytick.color": MUTED,
+    "xtick.labelcolor": INK,
+    "ytick.labelcolor": INK,
+    "xtick.labelsize": 8.5,
+    "ytick.labelsize": 8.5,
+    "xtick.major.width": 0.7,
+    "ytick.major.width": 0.7,
+    "xtick.minor.visible": False,
+    "lines.linewidth": 1.7,
+    "lines.markersize": 4.5,
+    "lines.solid_capstyle": "round",
+    "legend.frameon": False,
+    "legend.fontsize": 8.5,
+    "legend.handlelength": 2.6,
+    "figure.constrained_layout.use": True,
+    "figure.facecolor": "none",
+    "axes.facecolor": "none",
+    "savefig.facecolor": "none",
+    "svg.fonttype": "path",                  # the SVG needs no font where it is read
+    "svg.hashsalt": "orientation-bench",     # equal results give equal bytes
+    "image.cmap": "cividis",                 # even in lightness, for any colour vision
+    "date.timezone": "UTC",
+}
+
+
+def look(name: str) -> Look:
+    """How to draw a regulator or a contender (`regulator/representation`), one nobody has heard of included."""
+    regulator = name.partition("/")[0]
+    if regulator in LOOKS:
+        return LOOKS[regulator]
+    rest, colour = divmod(mark(regulator), len(SPARE_COLOURS))
+    rest, marker = divmod(rest, len(SPARE_MARKERS))
+    return Look(SPARE_COLOURS[colour], SPARE_MARKERS[marker], SPARE_LINES[rest % len(SPARE_LINES)])
+
+
+def mark(text: str) -> int:
+    """A text's own number of 32 bits, equal in every process."""
+    return zlib.crc32(text.encode())
+
+
+@functools.cache
+def register_fonts() -> None:
+    """Make the bundled faces known to matplotlib, once a process."""
+    for face in sorted(FONTS.glob("*.ttf")):
+        font_manager.fontManager.addfont(str(face))
+
+
+def paper_style():
+    """The style all figures are drawn in, as a context."""
+    register_fonts()
+    return rc_context(PAPER_STYLE)
+
+
+def panels(rows: int = 1, cols: int = 1, *, height: float = 3.2, narrow: bool = False, **subplots):
+    """A figure of the page's width, [in] high, and its axes; `narrow` is the same for a phone.
+
+    Plain `Figure`, no pyplot: nothing is shown twice, nothing stays open, and no backend is chosen for anybody.
+    """
+    figure = Figure(figsize=(PHONE_WIDTH_IN if narrow else TEXT_WIDTH_IN, height))
+    axes = figure.subplots(rows, cols, **subplots)
+    return figure, axes
+
+
+def label_line(axes: Axes, x: float, y: float, text: str, colour: str = INK, **place) -> None:
+    """Name a curve beside it, which reads faster than a legend."""
+    place = {"ha": "left", "va": "center", "fontsize": 8.5, **place}
+    axes.text(x, y, text, color=colour, **place)

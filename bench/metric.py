@@ -1,0 +1,29 @@
+"""What a metric is: a number folded over the ticks of an episode, compiled with the loop and never stored per tick."""
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+
+class Ending(NamedTuple):
+    """What is known of an episode when its metrics are finished. Angles in radians."""
+
+    angle0: float
+    final_angle: float
+    band: float
+    outcome: str
+
+
+class Metric(NamedTuple):
+    """One column of the results.
+
+    start: the number before the first tick. update(value, sample) -> value, in the law dialect; `sample` is an
+    `engines.episode.Sample`. finish(value, ending) -> the column, plain Python.
+    """
+
+    name: str
+    column: str
+    unit: str
+    title: str
+    start: float
+    update: Callable
+    finish: Callable

@@ -1,0 +1,69 @@
+"""Rotations as three columns, vectors as three numbers.
+
+R = [n o a] (Murphy 1988, 2.4-2.5): n, o, a are the body's axes in the base frame. All vectors are in the base frame
+unless a name ends in `_body`.
+"""
+
+from typing import NamedTuple
+
+from bench.scalar import kernel
+
+
+class Rotation(NamedTuple):
+    """A rotation matrix by its columns (Murphy 1988, 2.4); each column is a tuple of three numbers."""
+
+    n: tuple
+    o: tuple
+    a: tuple
+
+
+IDENTITY = Rotation((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+
+
+@kernel
+def cross(p, q):
+    """p x q."""
+    return (p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0])
+
+
+@kernel
+def dot(p, q):
+    """p . q."""
+    return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]
+
+
+@kernel
+def rotate(R, v):
+    """R v: the base-frame vector whose body-frame components are v."""
+    return (
+        R.n[0] * v[0] + R.o[0] * v[1] + R.a[0] * v[2],
+        R.n[1] * v[0] + R.o[1] * v[1] + R.a[1] * v[2],
+        R.n[2] * v[0] + R.o[2] * v[1] + R.a[2] * v[2],
+    )
+
+
+@kernel
+def rotate_back(R, v):
+    """R^T v: the body-frame components of the base-frame vector v."""
+    return (dot(R.n, v), dot(R.o, v), dot(R.a, v))
+
+
+@kernel
+def relative(R_d, R):
+    """R_d^T R: the orientation R seen from the goal R_d."""
+    return Rotation(rotate_back(R_d, R.n), rotate_back(R_d, R.o), rotate_back(R_d, R.a))
+
+
+@kernel
+def from_quaternion(quat_wxyz):
+    """Rotation of a unit quaternion (w, x, y, z).
+
+    The diagonal is written w^2 + x^2 - y^2 - z^2 as MuJoCo does: at the pole (w = y, x = z = 0) it is exactly zero,
+    which 1 - 2 (y^2 + z^2) is not.
+    """
+    w, x, y, z = quat_wxyz
+    return Rotation(
+        (w * w + x * x - y * y - z * z, 2.0 * (x * y + w * z), 2.0 * (x * z - w * y)),
+        (2.0 * (x * y - w * z), w * w - x * x + y * y - z * z, 2.0 * (y * z + w * x)),
+        (2.0 * (x * z + w * y), 2.0 * (y * z - w * x), w * w - x * x - y * y + z * z),
+    )
