@@ -20,7 +20,8 @@ from bench.figures import style
 USED_ID = re.compile(r"""(?:url\(#|href="#)([^)"]+)""")
 ID = re.compile(r'\s+id="([^"]*)"')
 COLOUR = re.compile("|".join(style.TWINS), re.IGNORECASE)
-LONG_NUMBER = re.compile(r"(-?\d+\.\d{2})\d+")
+PATH = re.compile(r'\bd="[^"]*"')
+LONG_NUMBER = re.compile(r"(\d\.\d{2})\d+")  # of a path, in points: a hundredth is invisible
 
 
 class Picture(NamedTuple):
@@ -71,7 +72,7 @@ def svg(figure: Figure, alt: str, name: str) -> str:
     text = raw.getvalue()
     text = text[text.index("<svg") :]
     text = re.sub(r"<metadata>.*?</metadata>\s*|<!--.*?-->\s*", "", text, flags=re.DOTALL)
-    text = LONG_NUMBER.sub(r"\1", text)
+    text = PATH.sub(lambda path: LONG_NUMBER.sub(r"\1", path[0]), text)
     text = own_ids(text, name.replace("_", "-"))
     text = named_colours(text)
     colours = "; ".join(

@@ -1,0 +1,198 @@
+"""The parts of a page that are not drawings: badges, tables, tiles, the card of a law, a ball to turn.
+
+Their looks are in report/_static/report.css. Tables are Markdown, so that links and citations in their cells are checked
+when the report is built; the rest is HTML.
+"""
+
+from __future__ import annotations
+
+import html
+import json
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import Any
+
+import pandas as pd
+
+from bench.figures import style
+from bench.figures.inline import Picture
+
+VERDICTS = {
+    "holds": "holds",
+    "holds with a correction": "corrected",
+    "does not hold": "fails",
+    "not testable": "untestable",
+    "not yet measured": "unmeasured",
+}
+MISSING = "–"
+
+
+class Html(str):
+    """A piece of HTML; as the last value of a cell it becomes part of the page."""
+
+    def _repr_html_(self) -> str:
+        return str(self)
+
+
+class Markdown(str):
+    """A piece of Markdown, to be glued and pasted as `{glue:md}`."""
+
+    def _repr_markdown_(self) -> str:
+        return str(self)
+
+
+def badge(verdict: str) -> Html:
+    """A verdict as a word in its colour."""
+    if verdict not in VERDICTS:
+        raise ValueError(f"verdict {verdict!r} is none of ours; known: {', '.join(VERDICTS)}")
+    return Html(f'<span class="verdict {VERDICTS[verdict]}">{verdict}</span>')
+
+
+def outcome(name: str) -> Html:
+    """An outcome with the colour it has in every failure map."""
+    light = style.OUTCOMES[name][0]
+    return Html(f'<span class="key" style="--key: {both(light)}"></span>{name}')
+
+
+def law(name: str, text: str | None = None) -> Html:
+    """The name of a regulator with the colour it has in every figure."""
+    light = style.look(name).colour
+    return Html(f'<span class="key" style="--key: {both(light)}"></span><span class="law">{text or name}</span>')
+
+
+def both(light: str) -> str:
+    """A colour for light and dark pages, as CSS."""
+    return f"light-dark({light}, {style.TWINS[light]})"
+
+
+def table(
+    frame: pd.DataFrame,
+    formats: Mapping[str, str | Callable[[Any], str]] | None = None,
+    words: Iterable[str] = (),
+) -> Markdown:
+    """A frame as a Markdown table: numbers to the right, words to the left, gaps as a dash.
+
+    Args:
+        frame: one row per line of the table; the column labels are its head, the index is left out.
+        formats: per column a format specification ("{:.2f}", ".2f" or a function). Without one a whole number stands in full with
+            thin spaces between thousands, any other with three figures.
+        words: columns to set as words although they hold numbers.
+    """
+    formats = dict(formats or {})
+    unknown = sorted(set(formats) - set(map(str, frame.columns)))
+    if unknown:
+        raise ValueError(f"formats names {unknown}, not columns of the table; known: {list(map(str, frame.columns))}")
+    as_words = {str(column) for column in frame if not pd.api.types.is_numeric_dtype(frame[column])} | set(words)
+    head = [str(column) for column in frame.columns]
+    rule = [":--" if column in as_words else "--:" for column in head]
+    rows = [
+        [cell(value, formats.get(column)) for column, value in zip(head, row, strict=True)]
+        for row in frame.itertuples(index=False, name=None)
+    ]
+    lines = [head, rule, *rows]
+    return Markdown("\n".join("| " + " | ".join(line) + " |" for line in lines))
+
+
+def cell(value: Any, form: str | Callable[[Any], str] | None = None) -> str:
+    """One value as it stands in a table."""
+    if value is None or (isinstance(value, float) and value != value):
+        return MISSING
+    if callable(form):
+        text = form(value)
+    elif form:
+        text = form.format(value) if "{" in form else format(value, form)
+    elif isinstance(value, bool | str):
+        text = str(value)
+    elif hasattr(value, "__index__"):
+        text = f"{value:,}".replace(",", "\u202f")
+    elif isinstance(value, float):
+        text = f"{value:.3g}"
+    else:
+        text = str(value)
+    return text.replace("|", "\\|").replace("\n", " ").replace("-", "\u2212", 1) if is_number(text) else text.replace("|", "\\|")
+
+
+def is_number(text: str) -> bool:
+    """Whether a cell's text is a plain number, whose minus is set as a minus sign."""
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
+
+
+def tiles(entries: Sequence[tuple[Any, str] | tuple[Any, str, str]]) -> Html:
+    """The front page's numbers: (value, what it is) or (value, what it is, verdict whose colour it takes)."""
+    parts = []
+    for value, label, *verdict in entries:
+        tone = VERDICTS[verdict[0]] if verdict else "plain"
+        parts.append(f'<div class="tile {tone}"><b>{cell(value)}</b><span>{html.escape(label)}</span></div>')
+    return Html(f'<div class="tiles">{"".join(parts)}</div>')
+
+
+def formula(tex: str) -> str:
+    """TeX in a piece of HTML, set by the page's MathJax."""
+    return f'<span class="math notranslate nohighlight">\\[{html.escape(tex)}\\]</span>'
+
+
+def card(
+    name: str,
+    title: str,
+    tex: str,
+    source: str,
+    summary: str,
+    costs: pd.DataFrame | None = None,
+    picture: Picture | None = None,
+    fails: str = "",
+) -> Html:
+    """The card of a law, drawn wholly from what its module and its results say.
+
+    Args:
+        name: the contender, which decides the colour.
+        title: how it is called in prose.
+        tex: its formula, in TeX without dollars.
+        source: where it was published, with equation numbers.
+        summary: a sentence on what it does.
+        costs: operations by stage, one row a stage; whole numbers.
+        picture: its failure map.
+        fails: a sentence on where it fails, in numbers.
+    """
+    left = [f'<div class="card-formula">{formula(tex)}</div>', f"<p>{html.escape(summary)}</p>"]
+    if fails:
+        left.append(f'<p class="card-fails"><b>Fails.</b> {html.escape(fails)}</p>')
+    if costs is not None:
+        left.append(f'<div class="card-costs" tabindex="0">{plain_table(costs)}</div>')
+    right = f'<div class="card-map">{picture._repr_html_()}</div>' if picture else ""
+    return Html(
+        f'<section class="law-card{"" if picture else " alone"}" style="--law: {both(style.look(name).colour)}" '
+        f'aria-label="{html.escape(title, quote=True)}">'
+        f'<header><strong>{html.escape(title)}</strong><span class="card-source">{html.escape(source)}</span></header>'
+        f'<div class="card-body"><div class="card-text">{"".join(left)}</div>{right}</div></section>'
+    )
+
+
+def plain_table(frame: pd.DataFrame) -> str:
+    """A small HTML table for inside a card; the first column is words."""
+    head = "".join(f'<th scope="col">{html.escape(str(column))}</th>' for column in frame.columns)
+    rows = "".join(
+        "<tr>" + "".join(f"<td>{html.escape(cell(value))}</td>" for value in row) + "</tr>"
+        for row in frame.itertuples(index=False, name=None)
+    )
+    return f'<table class="plain"><thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table>'
+
+
+def ball(name: str, alt: str, points: Mapping[str, Any], radius_label: str = "π") -> Html:
+    """A ball of rotation vectors that the reader turns; the page loads `_extra/ball.js` to draw it.
+
+    Args:
+        name: the canvas's id, unique on its page.
+        alt: what it shows, in words.
+        points: label -> {"colour": light, "dark": dark, "xyz": [[x, y, z], ...]} with xyz in the unit ball.
+        radius_label: what the surface of the ball stands for.
+    """
+    data = json.dumps({"groups": points, "radius": radius_label}, separators=(",", ":")).replace("</", "<\\/")
+    words = html.escape(alt, quote=True)
+    return Html(
+        f'<canvas class="ball" id="{name}" tabindex="0" role="img" aria-label="{words}"></canvas>'
+        f'<script type="application/json" data-for="{name}">{data}</script>'
+        '<p class="hint">Drag, or use the arrow keys, to turn. Double click to start over.</p>'
+    )

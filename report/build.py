@@ -1,0 +1,166 @@
+"""Build the report: results in, HTML out, offline, warnings as errors.
+
+    make report                             from results/latest, or results/reference where there is none
+    ORIENTATION_BENCH_RESULTS=DIR make report       from another results folder
+
+Neither Sphinx nor the execution cache notices changed data or modules, so this file keys both. `site` digests all that
+can change a page; equal to the finished build's, there is nothing to do. `cells` leaves out the text of the pages: while
+it stays, cells keep their stored outputs (jupyter-cache compares the cells' own text); when it moves, every cell runs again.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import shutil
+import subprocess
+import sys
+import time
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+
+import check_site
+
+REPORT = Path(__file__).resolve().parent
+ROOT = REPORT.parent
+BUILD = REPORT / "_build"
+SITE = BUILD / "html"
+CELL_CACHE = BUILD / ".jupyter_cache"
+STAMP = BUILD / "finished.json"
+RESULTS_VARIABLE = "ORIENTATION_BENCH_RESULTS"
+WRITTEN_LAST = "provenance.json"  # a run without it is unfinished
+NO_GIT_EPOCH = 1_764_547_200      # 2025-12-01, the date printed by a copy without git history
+KEPT_BUILD_LINES = 60             # of a failed build's output, the end, where the errors are listed
+
+
+class CannotBuild(Exception):
+    """The report cannot be built; the message says why and what to do."""
+
+
+def results_folder(root: Path = ROOT) -> Path:
+    """The folder of results that the pages read: the one named by the environment, else latest, else reference."""
+    named = os.environ.get(RESULTS_VARIABLE)
+    if named:
+        folder = Path(named).expanduser().resolve()
+        if not (folder / WRITTEN_LAST).is_file():
+            raise CannotBuild(
+                f"{RESULTS_VARIABLE} names {folder}, which holds no {WRITTEN_LAST}, so no finished run "
+                "(cure: name the folder of a finished run, or unset the variable)"
+            )
+        return folder
+    for name in ("latest", "reference"):
+        if (root / "results" / name / WRITTEN_LAST).is_file():
+            return root / "results" / name
+    raise CannotBuild(
+        "neither results/latest nor results/reference holds a finished run (cure: make bench, then make report)"
+    )
+
+
+def files_below(folder: Path, pattern: str = "*") -> Iterator[Path]:
+    """Every file of a folder that is source, in a fixed order: caches and builds left out."""
+    for path in sorted(folder.rglob(pattern)):
+        inside = path.relative_to(folder).parts
+        if path.is_file() and not any(part.startswith((".", "_build", "__pycache__")) for part in inside):
+            yield path
+
+
+def digest(paths: Iterable[Path]) -> str:
+    """One digest of the names and the bytes of these files."""
+    total = hashlib.sha256(sys.version.encode())
+    for path in paths:
+        total.update(f"\0{os.path.relpath(path, ROOT)}\0".encode())
+        total.update(hashlib.sha256(path.read_bytes()).digest())
+    return total.hexdigest()
+
+
+def keys(results: Path) -> dict[str, str]:
+    """Digests of what the cells read and run, and of all that a page is made of."""
+    behind_cells = [
+        *files_below(results),
+        *files_below(ROOT / "results" / "timings"),
+        *files_below(ROOT / "bench"),
+        *files_below(ROOT / "tasks"),
+        *files_below(ROOT / "requirements"),
+        *(path for path in (ROOT / "pyproject.toml", ROOT / "CITATION.cff") if path.is_file()),
+    ]
+    return {"cells": digest(behind_cells), "site": digest([*behind_cells, *files_below(REPORT)])}
+
+
+def finished_keys() -> dict[str, str]:
+    """The keys of the build that lies in _build, empty where none finished."""
+    if not STAMP.is_file() or not (SITE / "index.html").is_file():
+        return {}
+    return json.loads(STAMP.read_text(encoding="utf-8"))
+
+
+def date_of_commit() -> str:
+    """Seconds since 1970 of the last commit: the date on the pages, so that equal input gives equal bytes."""
+    command = ["git", "log", "-1", "--format=%ct"]
+    try:
+        asked = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+    except FileNotFoundError:
+        return str(NO_GIT_EPOCH)
+    return asked.stdout.strip() or str(NO_GIT_EPOCH)
+
+
+def environment(results: Path) -> dict[str, str]:
+    """What the build and the kernels below it see: this interpreter first, the results, no clock, no network."""
+    ours = {
+        **os.environ,
+        RESULTS_VARIABLE: str(results),
+        "PATH": os.pathsep.join([str(Path(sys.executable).parent), os.environ.get("PATH", "")]),
+        "PYTHONPATH": os.pathsep.join(filter(None, [str(ROOT), os.environ.get("PYTHONPATH", "")])),
+        "PYTHONHASHSEED": "0",
+        "PYDEVD_DISABLE_FILE_VALIDATION": "1",  # else the kernel's debugger writes a line to stderr
+        "JUPYTER_PLATFORM_DIRS": "1",
+    }
+    ours.setdefault("SOURCE_DATE_EPOCH", date_of_commit())
+    return ours
+
+
+def build(results: Path, cells_are_fresh: bool) -> None:
+    """Run jupyter-book on a clean output folder; raise CannotBuild with the end of its output if it fails.
+
+    The pages are always read anew (Sphinx repeats no warning for a page it skips); only cell outputs are kept.
+    """
+    STAMP.unlink(missing_ok=True)
+    for stale in (SITE, BUILD / ".doctrees", *([] if cells_are_fresh else [CELL_CACHE])):
+        shutil.rmtree(stale, ignore_errors=True)
+    BUILD.mkdir(exist_ok=True)
+    strict = ["-W", "-n", "--keep-going", "-q"]
+    command = [sys.executable, "-m", "jupyter_book.cli.main", "build", ".", *strict]
+    log = BUILD / "build.log"
+    with log.open("w", encoding="utf-8") as output:
+        done = subprocess.run(
+            command, cwd=REPORT, env=environment(results), stdout=output, stderr=subprocess.STDOUT, check=False
+        )
+    if done.returncode:
+        tail = "\n".join(log.read_text(encoding="utf-8").splitlines()[-KEPT_BUILD_LINES:])
+        raise CannotBuild(f"{tail}\njupyter-book stopped with code {done.returncode}; all of it is in {log}")
+
+
+def main() -> int:
+    """Build if anything changed, check the pages, say where they are."""
+    began = time.monotonic()
+    try:
+        results = results_folder()
+        print(f"report: from {os.path.relpath(results, ROOT)}", flush=True)
+        wanted, finished = keys(results), finished_keys()
+        if wanted != finished:
+            build(results, cells_are_fresh=CELL_CACHE.is_dir() and wanted["cells"] == finished.get("cells"))
+        problems = check_site.problems(SITE)
+        if problems:
+            raise CannotBuild("\n".join([*problems, f"the page check found {len(problems)} problems"]))
+    except CannotBuild as reason:
+        print(f"report: {reason}", file=sys.stderr)
+        return 2
+    STAMP.write_text(json.dumps(wanted), encoding="utf-8")
+    state = "nothing changed" if wanted == finished else "built"
+    print(f"report: {state}, {check_site.summary(SITE)}, in {time.monotonic() - began:.1f} s")
+    print(f"report: open {SITE / 'index.html'}")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,164 @@
+"""The page check: what is wrong with a built report, without a browser.
+
+    python report/check_site.py [FOLDER]
+
+A page must load nothing from the network, have no dead local link or anchor, describe every picture in words, hold one
+main heading and no repeated id; the site must stay within its size budget.
+"""
+
+from __future__ import annotations
+
+import re
+import sys
+from html.parser import HTMLParser
+from pathlib import Path
+from urllib.parse import unquote, urlsplit
+
+SITE = Path(__file__).resolve().parent / "_build" / "html"
+# MathJax is 2.1 MB, the theme's icons and styles 6 MB; the rest is for pages, figures and the data offered for download.
+BUDGET_BYTES = 25_000_000
+GENERATED = {"genindex.html", "search.html"}  # the theme's own pages: checked for loads, not for headings
+LOADING_LINKS = {"stylesheet", "icon", "preload", "prefetch", "modulepreload", "preconnect", "dns-prefetch"}
+FILE_NAME = re.compile(r"\S+\.(svg|png|jpe?g|webp|gif)$", re.IGNORECASE)
+CSS_URL = re.compile(r"""url\(\s*['"]?((?:https?:)?//[^)'"\s]+)|@import\s+['"]((?:https?:)?//[^'"]+)""")
+
+
+class Page(HTMLParser):
+    """What a page loads, links to, names, and leaves undescribed."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.loads: list[str] = []
+        self.links: list[str] = []
+        self.ids: list[str] = []
+        self.headings = 0
+        self.undescribed: list[str] = []
+        self.described_in_figure = True
+        self.styles: list[str] = []
+        self.in_style = False
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        given = {name: value or "" for name, value in attrs}
+        if given.get("id"):
+            self.ids.append(given["id"])
+        if tag == "a" and given.get("href"):
+            self.links.append(given["href"])
+        if tag == "link" and LOADING_LINKS & set(given.get("rel", "").split()):
+            self.loads.append(given.get("href", ""))
+        if tag != "a":
+            self.loads += [given[name] for name in ("src", "poster", "data") if given.get(name)]
+        if "style" in given:
+            self.styles.append(given["style"])
+        self.headings += tag == "h1"
+        self.in_style = tag == "style"
+        self.note_picture(tag, given)
+
+    def note_picture(self, tag: str, given: dict[str, str]) -> None:
+        """A picture says in words what it shows; a figure holds at least one that does."""
+        if tag == "figure":
+            self.described_in_figure = False
+        if tag == "img":
+            words = given.get("alt", "").strip()
+            if not words or FILE_NAME.match(words) or words.startswith("_images"):
+                self.undescribed.append(f"image {given.get('src', '')[:60]} has no alternative text")
+            self.described_in_figure = True
+        if tag == "canvas" or (tag == "svg" and given.get("role") == "img" and not given.get("aria-hidden")):
+            if not given.get("aria-label", "").strip():
+                self.undescribed.append(f"{tag} {given.get('id', '')} has no aria-label")
+            self.described_in_figure = True
+        if tag == "video":
+            if not given.get("aria-label", "").strip():
+                self.undescribed.append("video has no aria-label")
+            self.described_in_figure = True
+
+    def handle_endtag(self, tag: str) -> None:
+        if tag == "figure":
+            if not self.described_in_figure:
+                self.undescribed.append("figure without a described picture")
+            self.described_in_figure = True
+        if tag == "style":
+            self.in_style = False
+
+    def handle_data(self, data: str) -> None:
+        if self.in_style:
+            self.styles.append(data)
+
+
+def parsed(path: Path) -> Page:
+    """One page, read."""
+    page = Page()
+    page.feed(path.read_text(encoding="utf-8"))
+    return page
+
+
+def problems(site: Path = SITE) -> list[str]:
+    """Every problem of the site as one line each, empty when it is fit to publish."""
+    if not (site / "index.html").is_file():
+        return [f"{site} holds no index.html (cure: make report)"]
+    pages = {path: parsed(path) for path in html_files(site)}
+    found = [line for path, page in pages.items() for line in problems_of_page(path, page, pages, site)]
+    for sheet in sorted(site.rglob("*.css")):
+        text = sheet.read_text(encoding="utf-8", errors="replace")
+        found += [f"{sheet.relative_to(site)}: loads {url}" for url in network_urls(text)]
+    size = site_bytes(site)
+    if size > BUDGET_BYTES:
+        found.append(f"the site is {size / 1e6:.1f} MB, above its budget of {BUDGET_BYTES / 1e6:.0f} MB")
+    return sorted(set(found))
+
+
+def problems_of_page(path: Path, page: Page, pages: dict[Path, Page], site: Path) -> list[str]:
+    """The problems of one page."""
+    found = list(page.undescribed)
+    found += [f"loads {url}" for style in page.styles for url in network_urls(style)]
+    for url in dict.fromkeys(page.loads + page.links):
+        parts = urlsplit(url)
+        if parts.scheme in {"data", "mailto", "javascript"}:
+            continue
+        if parts.scheme or parts.netloc:
+            if url in page.loads:
+                found.append(f"loads {url} from the network")
+            continue
+        target = (path.parent / unquote(parts.path)).resolve() if parts.path else path
+        target = target / "index.html" if target.is_dir() else target
+        if not target.exists():
+            found.append(f"dead link {url}")
+        elif parts.fragment and target in pages and url in page.links:
+            anchor = unquote(parts.fragment)
+            if anchor not in pages[target].ids and anchor not in {"", "top"}:
+                found.append(f"no anchor {url}")
+    found += [f"id {name} appears twice" for name in {name for name in page.ids if page.ids.count(name) > 1}]
+    if page.headings != 1 and path.name not in GENERATED:
+        found.append(f"{page.headings} main headings instead of one")
+    return [f"{path.relative_to(site)}: {line}" for line in found]
+
+
+def network_urls(text: str) -> list[str]:
+    """Addresses on the network that a style sheet would fetch."""
+    return [first or second for first, second in CSS_URL.findall(text)]
+
+
+def html_files(site: Path) -> list[Path]:
+    """The pages of the site, the theme's templates left out."""
+    return [path for path in sorted(site.rglob("*.html")) if "_static" not in path.relative_to(site).parts]
+
+
+def site_bytes(site: Path) -> int:
+    """What the site weighs."""
+    return sum(path.stat().st_size for path in site.rglob("*") if path.is_file())
+
+
+def summary(site: Path) -> str:
+    """Pages and weight, in words."""
+    return f"{len(html_files(site))} pages, {site_bytes(site) / 1e6:.1f} MB"
+
+
+def main() -> int:
+    """Print the problems; the exit code says whether there are any."""
+    site = Path(sys.argv[1]).resolve() if len(sys.argv) > 1 else SITE
+    found = problems(site)
+    print("\n".join([*found, f"{summary(site)}, {len(found)} problems"]))
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
