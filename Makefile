@@ -60,7 +60,7 @@ lint:   ## style (ruff), types (mypy) and layers (import-linter)
 lint: $(DEV)
 	@$(VENV)/bin/ruff check
 	@$(PY) -m mypy
-	@$(VENV)/bin/lint-imports
+	@$(VENV)/bin/lint-imports --no-logo
 
 gate:   ## rerun the quick suite and compare it with results/reference
 gate: $(BASE)
@@ -83,7 +83,7 @@ lock: $(DEV)
 	@$(call compile,dev,--extra report --extra dev)
 	@$(call compile,report,--extra report --constraint requirements/dev.txt)
 	@$(call compile,base,--constraint requirements/dev.txt)
-	@echo "Locked. Look at the change: git diff --stat --text requirements"
+	@echo "Locked. Look at the change: git diff --stat requirements"
 
 clean:  ## remove .venv, the built report, caches and results/quick; other results stay
 	@rm -rf $(VENV) build report/_build report/.jupyter_cache results/quick
