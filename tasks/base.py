@@ -72,9 +72,9 @@ class TaskError(ValueError):
     """A caller's mistake, said in one line: what was given, what is allowed, the cure."""
 
 
-class UnknownName(TaskError):  # noqa: N818  reads as the sentence it prints
+class UnknownName(TaskError):
     """A name that is not in the folder it is looked up in."""
 
 
-class BadValue(TaskError):  # noqa: N818
+class BadValue(TaskError):
     """A number or quaternion that no episode can begin with."""

@@ -7,6 +7,7 @@ bit for bit at pi/2, and 0 at `math.pi`. Elsewhere the rounding is that of the d
 
 from __future__ import annotations
 
+import itertools
 import math
 
 from tasks.base import Quat, Vector
@@ -74,41 +75,47 @@ def zyx(alpha: float, beta: float, gamma: float) -> Quat:
     return multiply((ca, 0.0, 0.0, sa), multiply((cb, 0.0, sb, 0.0), (cg, sg, 0.0, 0.0)))
 
 
-# A neighbour within this many last places is searched for a pole that rounds to nothing. Rounding offsets n_x
-# by 0 or +-1 units of 1.1e-16 and one last place of a number near 0.7 moves its square by about as much, so a
-# few places reach all combinations.
-NEIGHBOURS = range(-4, 5)
+# How far on_pole searches, in last places. The squares must add up to 1/2 on its grid of 2^-54: one last
+# place of the larger number moves its square by about as much, so a few are enough; the square of a number
+# half as large has two more bits to be rid of, and so on down to sin(0.05) or so, where the search gives up.
+LARGER_PLACES = 4
+SMALLER_PLACES = 256
 
 
 def on_pole(sign: int, twist: float) -> Quat:
     """Orientation with beta = sign pi/2 and n = (0, 0, -sign), where B is singular (Murphy 1988, 2.8).
 
     The pattern (c, -sign s, sign c, s) / sqrt(2), c and s of twist/2, makes n_y vanish exactly; n_x vanishes
-    for those doubles next to it for which (w^2 + x^2) - y^2 - z^2 rounds to 0. Of these the one with |n_z|
-    nearest 1 is taken, then the nearest. |n_z| = 1 is reached unless c or s is zero: no double squares to
-    exactly 1/2, and sqrt(1/2) gives n_z = -(1 + 2.2e-16).
+    for those doubles next to it for which (w^2 + x^2) - y^2 - z^2 rounds to 0. Of these the nearest with
+    |n_z| = 1 is taken, or else |n_z| nearest 1. If c or s is zero there is none, since no double
+    squares to exactly 1/2: sqrt(1/2) gives n_z = -sign (1 + 2.2e-16).
 
     Args:
         sign: +1 or -1.
         twist: alpha - gamma at +pi/2, alpha + gamma at -pi/2 [rad]: all that is determined there.
+
+    Fails: ArithmeticError for some twists within 0.2 rad of 0 or +-pi but not on them.
     """
     c, s = _half(twist)
     a, b = c * math.sqrt(0.5), s * math.sqrt(0.5)
-    best: tuple[float, int, Quat] | None = None
-    for i in NEIGHBOURS:
-        for j in NEIGHBOURS:
-            p, q = _shift(a, i), _shift(b, j)
-            quat = (p, -sign * q + 0.0, sign * p + 0.0, q)  # + 0.0: no negative zeros
-            n = columns(quat)[0]
-            if n[0] == 0.0 and n[1] == 0.0:
-                rank = (abs(abs(n[2]) - 1.0), abs(i) + abs(j), quat)
-                if best is None or rank[:2] < best[:2]:
-                    best = rank
+    spread_a, spread_b = (
+        (SMALLER_PLACES, LARGER_PLACES) if abs(a) < abs(b) else (LARGER_PLACES, SMALLER_PLACES)
+    )
+    best: tuple[float, Quat] | None = None
+    for p, q in itertools.product(_neighbours(a, spread_a), _neighbours(b, spread_b)):
+        quat = (p, -sign * q + 0.0, sign * p + 0.0, q)  # + 0.0: no negative zeros
+        n = columns(quat)[0]
+        if n[0] == 0.0 and n[1] == 0.0:
+            miss = abs(abs(n[2]) - 1.0)
+            if miss == 0.0:
+                return quat
+            if best is None or miss < best[0]:
+                best = (miss, quat)
     if best is None:
         raise ArithmeticError(
-            f"no quaternion within 4 last places of twist {twist} has n exactly on the pole"
+            f"no double near twist = {twist} has n exactly on the pole (try one further from 0)"
         )
-    return best[2]
+    return best[1]
 
 
 def _half(theta: float) -> tuple[float, float]:
@@ -117,9 +124,10 @@ def _half(theta: float) -> tuple[float, float]:
     return math.sin((math.pi - size) / 2.0), math.copysign(math.sin(size / 2.0), theta)
 
 
-def _shift(x: float, places: int) -> float:
-    """The double x moved by so many last places; zero stays zero."""
-    return x + places * math.ulp(x) if x else x
+def _neighbours(x: float, places: int) -> list[float]:
+    """The doubles within so many last places of x, nearest first; zero has none but itself."""
+    offsets = sorted(range(-places, places + 1), key=abs) if x else [0]
+    return [x + i * math.ulp(x) for i in offsets]
 
 
 def _dot(p: Vector, q: Vector) -> float:

@@ -8,6 +8,9 @@ command the angular acceleration. Under MuJoCo's Euler integrator one tick is
 
     omega' = omega + dt u,   R' = exp(dt [omega']x) R
 
+Its RK4 averages rates of the body frame over a tick and is of second order here, not fourth (one tick errs by
+about dt^3 |omega|^2 |u| / 12), unless the axis stays fixed.
+
 The state: qpos is the quaternion, body to base; qvel is the angular velocity in the *body* frame.
 """
 
