@@ -1,0 +1,283 @@
+"""Start sets: that each has what it says, exactly where a double can be exact."""
+
+import math
+import re
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+import tasks
+from tasks.base import AT_REST, IDENTITY, angle
+from tasks.rotations import columns
+
+NAMES = tasks.start_set_names()
+SAMPLED = ("uniform", "tumbling", "goals")
+DIRECTED = ("paper", "half-turn", "poles", "wraps", "box")
+
+
+def rotations(starts):
+    return Rotation.from_quat([start.quat_wxyz for start in starts], scalar_first=True)
+
+
+def euler_angles(starts):
+    """alpha, beta, gamma from the matrix, by definition: R = Rz(alpha) Ry(beta) Rx(gamma)."""
+    R = rotations(starts).as_matrix()
+    beta = np.arctan2(-R[:, 2, 0], np.hypot(R[:, 0, 0], R[:, 1, 0]))
+    return np.arctan2(R[:, 1, 0], R[:, 0, 0]), beta, np.arctan2(R[:, 2, 1], R[:, 2, 2])
+
+
+def chosen(name, pattern):
+    found = [start for start in tasks.start_set(name) if re.search(pattern, start.id)]
+    assert found
+    return found
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_ids_are_unique_plain_words(name):
+    ids = [start.id for start in tasks.start_set(name)]
+    assert len(set(ids)) == len(ids)
+    assert all(re.fullmatch(r"[a-z0-9][a-z0-9.-]*", word) for word in ids)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_quaternions_are_unit(name):
+    for start in tasks.start_set(name):
+        assert math.hypot(*start.quat_wxyz) == pytest.approx(1.0, abs=4e-16)
+        assert math.hypot(*start.goal_wxyz) == pytest.approx(1.0, abs=4e-16)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_elements_are_plain_floats(name):
+    for start in tasks.start_set(name, 40):
+        numbers = (*start.quat_wxyz, *start.omega, *start.goal_wxyz)
+        assert len(numbers) == 11
+        assert {type(x) for x in numbers} == {float}
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_same_seed_gives_the_same_starts(name):
+    assert tasks.start_set(name) == tasks.start_set(name)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_shorter_set_begins_the_longer_one(name):
+    for count in (1, 2, 17, 150):
+        assert tasks.start_set(name, count) == tasks.start_set(name)[:count]
+
+
+@pytest.mark.parametrize("name", SAMPLED)
+def test_sampled_set_has_as_many_as_asked_for(name):
+    assert len(tasks.start_set(name, 321)) == 321
+
+
+@pytest.mark.parametrize("name", SAMPLED)
+def test_other_seed_gives_other_starts(name):
+    assert tasks.start_set(name, 100, seed=1) != tasks.start_set(name, 100, seed=0)
+
+
+@pytest.mark.parametrize("name", DIRECTED)
+def test_directed_set_ends_at_its_own_number(name):
+    assert tasks.start_set(name, 10**6) == tasks.start_set(name)
+    assert len(tasks.start_set(name)) <= 250
+
+
+@pytest.mark.parametrize("count", [0, -3])
+def test_count_below_one_is_refused(count):
+    with pytest.raises(ValueError, match=r"count .* at least 1 \(try: count=10\)"):
+        tasks.start_set("uniform", count)
+
+
+@pytest.mark.parametrize("name", [name for name in NAMES if name not in ("goals", "tumbling")])
+def test_start_is_at_rest_with_identity_as_goal(name):
+    assert all(start.omega == AT_REST and start.goal_wxyz == IDENTITY for start in tasks.start_set(name))
+
+
+def test_default_numbers():
+    counts = {name: len(tasks.start_set(name)) for name in SAMPLED}
+    assert counts == {"uniform": 5000, "tumbling": 200, "goals": 200}
+    assert 100 <= len(tasks.start_set("box")) <= 200
+
+
+# uniform: moments and quantiles of the Haar measure. With 5,000 independent points the standard errors are
+# 0.014 (trace, variance 1), 0.7 degrees (median) and 0.0044 (share); low-discrepancy points do better.
+
+
+def test_uniform_has_mean_trace_zero():
+    traces = np.trace(rotations(tasks.start_set("uniform")).as_matrix(), axis1=1, axis2=2)
+    assert abs(traces.mean()) < 0.014
+    assert (traces**2).mean() == pytest.approx(1.0, abs=0.03)
+
+
+def test_uniform_has_the_mean_matrix_zero():
+    mean = rotations(tasks.start_set("uniform")).as_matrix().mean(axis=0)
+    assert np.abs(mean).max() < 0.01
+
+
+def test_uniform_angles_follow_the_haar_distribution():
+    """F(theta) = (theta - sin theta)/pi: the largest deviation of the empirical one stays under 0.01."""
+    angles = np.sort(rotations(tasks.start_set("uniform")).magnitude())
+    expected = (angles - np.sin(angles)) / math.pi
+    assert np.abs(expected - np.arange(len(angles)) / len(angles)).max() < 0.01
+    assert math.degrees(np.median(angles)) == pytest.approx(132.3, abs=0.7)
+    assert (angles > math.radians(170)).mean() == pytest.approx(0.11, abs=0.005)
+
+
+def test_uniform_is_near_the_pole_as_often_as_haar():
+    """sin(beta) is uniform: 1 - cos 10 degrees = 1.5 % lie within 10 degrees of a pole."""
+    beta = euler_angles(tasks.start_set("uniform"))[1]
+    assert (np.abs(beta) > math.radians(80)).mean() == pytest.approx(
+        1 - math.cos(math.radians(10)), abs=0.004
+    )
+
+
+def test_uniform_is_haar_for_other_seeds():
+    for seed in (1, 2, 3):
+        traces = np.trace(rotations(tasks.start_set("uniform", seed=seed)).as_matrix(), axis1=1, axis2=2)
+        assert abs(traces.mean()) < 0.014
+
+
+def test_half_turn_angles_are_pi_minus_powers_of_ten():
+    for k in range(13):
+        for start in chosen("half-turn", f"k{k:02d}$"):
+            assert angle(start.quat_wxyz, IDENTITY) == pytest.approx(math.pi - 10.0**-k, abs=1e-15)
+            # 2 |w| = 2 sin(delta/2), within delta^2/24 of delta
+            assert 2 * start.quat_wxyz[0] == pytest.approx(2 * math.sin(10.0**-k / 2), rel=1e-15)
+
+
+def test_half_turn_is_exactly_pi_when_said_so():
+    for start in chosen("half-turn", "exact$"):
+        assert start.quat_wxyz[0] == 0.0
+        assert angle(start.quat_wxyz, IDENTITY) == math.pi
+
+
+def test_half_turn_has_axes_of_every_kind_at_every_distance():
+    exact = {start.id.removesuffix("-exact") for start in chosen("half-turn", "exact$")}
+    assert {"half-turn-x", "half-turn-y", "half-turn-z", "half-turn-x-z", "half-turn-xyz"} < exact
+    assert sum("random" in word for word in exact) == 4
+    for k in range(13):
+        assert {start.id.removesuffix(f"-k{k:02d}") for start in chosen("half-turn", f"k{k:02d}$")} == exact
+
+
+def test_half_turn_random_axes_follow_the_seed():
+    assert tasks.start_set("half-turn", seed=1)[:13] == tasks.start_set("half-turn", seed=0)[:13]
+    assert tasks.start_set("half-turn", seed=1)[13] != tasks.start_set("half-turn", seed=0)[13]
+
+
+@pytest.mark.parametrize(("pole", "sign"), [("plus", 1), ("minus", -1)])
+def test_poles_are_exact_when_said_so(pole, sign):
+    for start in chosen("poles", f"pole-{pole}-exact"):
+        n = columns(start.quat_wxyz)[0]
+        assert n[:2] == (0.0, 0.0)
+        assert abs(n[2] + sign) <= 2**-52
+
+
+@pytest.mark.parametrize(("pole", "sign"), [("plus", 1), ("minus", -1)])
+def test_poles_are_a_power_of_ten_away_when_not_exact(pole, sign):
+    for k in range(1, 13):
+        starts = chosen("poles", f"pole-{pole}-k{k:02d}")
+        beta = euler_angles(starts)[1]
+        # n_x and n_y round to about 2e-16
+        np.testing.assert_allclose(math.pi / 2 - sign * beta, 10.0**-k, rtol=1e-9, atol=5e-16)
+
+
+def test_near_poles_have_their_alpha_and_gamma():
+    starts = chosen("poles", "-k01-a1.0-g-0.5$")
+    alpha, _, gamma = euler_angles(starts)
+    np.testing.assert_allclose(alpha, 1.0, atol=1e-13)
+    np.testing.assert_allclose(gamma, -0.5, atol=1e-13)
+
+
+def test_wraps_are_exact_when_said_so():
+    for start in chosen("wraps", "wrap-alpha-exact"):
+        n = columns(start.quat_wxyz)[0]
+        assert n[1] == 0.0
+        assert n[0] < 0.0
+    for start in chosen("wraps", "wrap-gamma-exact"):
+        _, o, a = columns(start.quat_wxyz)
+        assert o[2] == 0.0
+        assert a[2] < 0.0
+
+
+@pytest.mark.parametrize(("word", "sign"), [("plus", 1), ("minus", -1)])
+@pytest.mark.parametrize(("name", "index"), [("alpha", 0), ("gamma", 2)])
+def test_wraps_are_a_power_of_ten_away_when_not_exact(name, index, word, sign):
+    for k in range(1, 13):
+        value = euler_angles(chosen("wraps", f"wrap-{name}-{word}-k{k:02d}"))[index]
+        np.testing.assert_allclose(sign * value, math.pi - 10.0**-k, rtol=0, atol=1e-15)
+
+
+def test_box_grid_and_inside_are_inside():
+    alpha, beta, gamma = euler_angles(chosen("box", "grid|inside"))
+    assert np.abs(alpha).max() < math.pi / 2
+    assert np.abs(beta).max() < math.pi / 2
+    assert np.abs(gamma).max() < math.pi
+
+
+def test_box_inside_reaches_every_face_edge_and_corner():
+    for depth in ("0.1", "0.001"):
+        alpha, beta, gamma = euler_angles(chosen("box", f"inside-...-{depth}$"))
+        near = np.stack(
+            [
+                np.sign(value) * (np.abs(value) > width - float(depth) - 1e-9)
+                for value, width in ((alpha, math.pi / 2), (beta, math.pi / 2), (gamma, math.pi))
+            ],
+            axis=1,
+        )
+        assert len({tuple(row) for row in near.tolist()}) == 26
+
+
+def test_box_outside_is_outside():
+    alpha, _, _ = euler_angles(chosen("box", "outside"))
+    assert np.abs(alpha).min() > math.pi / 2
+    assert set(np.sign(alpha)) == {-1.0, 1.0}
+
+
+def test_box_on_is_on_the_boundary():
+    for start in chosen("box", "box-on-"):
+        n, _, a = columns(start.quat_wxyz)
+        # alpha = +-pi/2 or a pole: n_x = 0; gamma = +-pi: o_z = 0 and a_z < 0
+        assert abs(n[0]) < 4e-16 or a[2] < 0.0
+
+
+def test_tumbling_speeds_are_uniform_up_to_the_limit():
+    speeds = np.linalg.norm([start.omega for start in tasks.start_set("tumbling")], axis=1)
+    assert speeds.max() <= 20.0
+    assert speeds.mean() == pytest.approx(10.0, abs=0.5)
+    assert (speeds > 15.0).mean() == pytest.approx(0.25, abs=0.03)
+
+
+def test_tumbling_directions_are_uniform_on_the_sphere():
+    omega = np.array([start.omega for start in tasks.start_set("tumbling")])
+    unit = omega / np.linalg.norm(omega, axis=1, keepdims=True)
+    np.testing.assert_allclose(unit.mean(axis=0), 0.0, atol=0.05)
+    np.testing.assert_allclose(unit.T @ unit / len(unit), np.eye(3) / 3, atol=0.05)
+
+
+def test_goals_are_far_from_identity():
+    uniform = chosen("goals", "uniform")
+    assert min(angle(start.goal_wxyz, IDENTITY) for start in uniform) > math.pi / 2
+    assert all(start.goal_wxyz != IDENTITY for start in tasks.start_set("goals"))
+
+
+def test_goals_on_a_pole_are_exact():
+    for start in chosen("goals", "goal-pole"):
+        assert columns(start.goal_wxyz)[0][:2] == (0.0, 0.0)
+
+
+def test_goals_beyond_a_wrap_are_near_the_short_way():
+    for start in chosen("goals", "goal-beyond-wrap"):
+        assert angle(start.quat_wxyz, start.goal_wxyz) == pytest.approx(0.4, abs=1e-14)
+
+
+def test_goals_include_a_half_turn_away_and_at_the_goal():
+    for start in chosen("goals", "start-half-turn"):
+        assert angle(start.quat_wxyz, start.goal_wxyz) == pytest.approx(math.pi, abs=1e-15)
+    assert angle(*chosen("goals", "at-goal$")[0][1::2]) < 1e-15
+
+
+def test_paper_has_one_start_per_figure_away_from_every_failure():
+    starts = tasks.start_set("paper")
+    assert [start.id for start in starts] == ["figure-2.3", "figure-2.4", "figure-2.5"]
+    assert all(abs(beta) < math.radians(70) for beta in euler_angles(starts)[1])
+    assert rotations(starts).magnitude().max() < math.radians(175)

@@ -1,0 +1,171 @@
+"""The free body against (2.6) and (2.7) of the paper: closed forms, finite differences, conservation laws."""
+
+import math
+
+import mujoco
+import numpy as np
+import pytest
+from dm_control.rl.control import PhysicsError
+from scipy.spatial.transform import Rotation
+
+import tasks
+from tasks.base import IDENTITY, Start, angle
+from tasks.rotations import about
+
+DT = 1e-3
+TURNING = (3.0, -5.0, 8.0)
+
+
+def matrix(observation):
+    return observation["R"].reshape(3, 3).T
+
+
+def cross_matrix(v):
+    return np.array([[0.0, -v[2], v[1]], [v[2], 0.0, -v[0]], [-v[1], v[0], 0.0]])
+
+
+def tumbling(count=10):
+    return tasks.start_set("tumbling", count)
+
+
+@pytest.mark.parametrize("integrator", ["euler", "implicit", "implicitfast"])
+def test_angular_velocity_changes_by_dt_u(integrator):
+    for start in tumbling():
+        environment = tasks.load("free-body", start, integrator=integrator)
+        omega = environment.reset().observation["omega"]
+        for u in np.random.default_rng(1).normal(scale=50.0, size=(20, 3)):
+            after = environment.step(u).observation["omega"]
+            np.testing.assert_allclose(after - omega, DT * u, rtol=0, atol=1e-13)
+            omega = after
+
+
+def test_angular_velocity_changes_by_dt_u_to_third_order_under_rk4():
+    """MuJoCo averages body-frame rates over the tick: off by less than dt^3 |omega|^2 |u|, and by
+    8 times less at half the step."""
+    u = np.array([60.0, -40.0, 20.0])
+    for start in tumbling():
+        errors = []
+        for dt in (2e-3, 1e-3):
+            environment = tasks.load("free-body", start, dt=dt, integrator="rk4")
+            environment.reset()
+            change = environment.step(u).observation["omega"] - np.array(start.omega)
+            errors.append(np.linalg.norm(change - dt * u))
+            assert errors[-1] < dt**3 * (math.hypot(*start.omega) + 1.0) ** 2 * np.linalg.norm(u)
+        assert errors[0] / errors[1] == pytest.approx(8.0, rel=0.1)
+
+
+def test_matrix_derivative_is_omega_cross_matrix():
+    """Centred difference over 2 dt; it errs by dt^2/6 of the third derivative, |omega|^3 <= 8,000."""
+    for start in tumbling():
+        environment = tasks.load("free-body", start, dt=1e-5)
+        samples = [environment.reset().observation]
+        samples += [environment.step([0.0, 0.0, 0.0]).observation for _ in range(2)]
+        before, middle, after = samples
+        Rdot = (matrix(after) - matrix(before)) / 2e-5
+        np.testing.assert_allclose(Rdot, cross_matrix(middle["omega"]) @ matrix(middle), rtol=0, atol=1e-6)
+
+
+@pytest.mark.parametrize("integrator", ["euler", "rk4"])
+def test_free_rotation_is_the_matrix_exponential(integrator):
+    for start in tumbling():
+        environment = tasks.load("free-body", start, integrator=integrator)
+        environment.reset()
+        for _ in range(500):
+            observation = environment.step([0.0, 0.0, 0.0]).observation
+        turned = Rotation.from_rotvec(0.5 * np.array(start.omega))
+        expected = turned * Rotation.from_quat(start.quat_wxyz, scalar_first=True)
+        # 500 products of quaternions, each rounded to about 1e-16 and adding up at worst
+        np.testing.assert_allclose(matrix(observation), expected.as_matrix(), rtol=0, atol=5e-13)
+
+
+@pytest.mark.parametrize("axis", [(1.0, 0.0, 0.0), (0.0, 0.6, 0.8), (2.0, -1.0, 2.0)])
+def test_constant_command_about_a_fixed_axis_turns_by_half_u_t_squared(axis):
+    """RK4 is exact for a quadratic; the start is turned, so that base and body axes differ."""
+    unit = np.array(axis) / np.linalg.norm(axis)
+    start = Start("turned", about((1.0, 2.0, 3.0), 2.0))
+    environment = tasks.load("free-body", start, integrator="rk4")
+    environment.reset()
+    for _ in range(1000):
+        observation = environment.step(2.0 * unit).observation
+    turned = Rotation.from_rotvec(1.0 * unit) * Rotation.from_quat(start.quat_wxyz, scalar_first=True)
+    np.testing.assert_allclose(matrix(observation), turned.as_matrix(), rtol=0, atol=1e-12)
+    np.testing.assert_allclose(observation["omega"], 2.0 * unit, rtol=0, atol=1e-12)
+
+
+def test_euler_step_turns_with_the_new_velocity():
+    """R' = exp(dt [omega']x) R with omega' = omega + dt u, as the module says."""
+    for start in tumbling():
+        environment = tasks.load("free-body", start)
+        environment.reset()
+        u = np.array([400.0, -300.0, 200.0])
+        observation = environment.step(u).observation
+        turned = Rotation.from_rotvec(DT * (np.array(start.omega) + DT * u))
+        expected = turned * Rotation.from_quat(start.quat_wxyz, scalar_first=True)
+        np.testing.assert_allclose(matrix(observation), expected.as_matrix(), rtol=0, atol=2e-15)
+
+
+@pytest.mark.parametrize("integrator", ["euler", "rk4", "implicit", "implicitfast"])
+def test_momentum_and_energy_are_conserved_when_the_command_is_zero(integrator):
+    for start in tumbling():
+        environment = tasks.load("free-body", start, integrator=integrator)
+        environment.reset()
+        for _ in range(300):
+            omega = environment.step([0.0, 0.0, 0.0]).observation["omega"]
+        np.testing.assert_allclose(omega, start.omega, rtol=0, atol=1e-12)
+        assert 0.5 * omega @ omega == pytest.approx(0.5 * math.hypot(*start.omega) ** 2, rel=1e-13)
+
+
+def test_inertia_is_the_identity_and_no_force_acts():
+    environment = tasks.load("free-body", Start("turning", about((1.0, 1.0, 0.0), 1.0), TURNING))
+    environment.reset()
+    physics = environment.physics
+    mass = np.zeros((3, 3))
+    mujoco.mj_fullM(physics.model.ptr, physics.data.ptr, mass)
+    np.testing.assert_allclose(mass, np.eye(3), rtol=0, atol=1e-15)
+    np.testing.assert_allclose(physics.data.qfrc_bias, 0.0, atol=1e-13)
+    assert physics.data.ncon == 0
+
+
+def test_look_adds_no_mass():
+    model = tasks.load().physics.model
+    assert model.body_mass.tolist() == [0.0, 1.0]
+    assert model.body_inertia[1].tolist() == [1.0, 1.0, 1.0]
+
+
+def test_first_command_acts_in_the_first_tick():
+    """The moment of the motors is ready after reset, although dm_control's own forward pass has none."""
+    environment = tasks.load("free-body", Start("turned", about((1.0, -1.0, 0.5), 1.5)))
+    environment.reset()
+    np.testing.assert_allclose(
+        environment.step([7.0, 0.0, 0.0]).observation["omega"], [7e-3, 0.0, 0.0], atol=1e-17
+    )
+
+
+def test_diverged_body_is_not_put_back_by_the_simulator():
+    """1e11 rad/s is beyond MuJoCo's own limit of 1e10, at which autoreset would put the body back at rest."""
+    environment = tasks.load("free-body", Start("diverged", IDENTITY, omega=(1e11, 0.0, 0.0)))
+    assert environment.reset().observation["omega"].tolist() == [1e11, 0.0, 0.0]
+    with pytest.raises(PhysicsError, match="mjWARN_BADQVEL"):
+        environment.step([0.0, 0.0, 0.0])
+    assert environment.physics.omega()[0] == pytest.approx(1e11)
+
+
+@pytest.mark.parametrize("name", ["half-turn", "poles", "wraps"])
+def test_exact_starts_reach_mujoco_unrounded(name):
+    for start in tasks.start_set(name):
+        if "exact" in start.id:
+            environment = tasks.load("free-body", start)
+            environment.reset()
+            assert environment.physics.quat_wxyz() == start.quat_wxyz
+
+
+def test_exact_half_turn_is_a_dead_point_of_the_rotation_matrix_error():
+    """Sum of cross products (2.12) with the identity as goal: zero at the start and for a second."""
+    for start in tasks.start_set("half-turn", 17):
+        environment = tasks.load("free-body", start)
+        observation = environment.reset().observation
+        for _ in range(1000):
+            e = 0.5 * sum(np.cross(c, d) for c, d in zip(matrix(observation).T, np.eye(3), strict=True))
+            assert e.tolist() == [0.0, 0.0, 0.0]
+            observation = environment.step(100.0 * e - 20.0 * observation["omega"]).observation
+        assert angle(environment.physics.quat_wxyz(), IDENTITY) == math.pi

@@ -1,0 +1,121 @@
+"""The judge's angle and haversine against scipy's rotations and against known rotations."""
+
+import math
+import subprocess
+import sys
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from tasks.base import angle, haversine
+from tasks.rotations import about, multiply, on_pole, short_of_half_turn, zyx
+
+IDENTITY = (1.0, 0.0, 0.0, 0.0)
+SEED = 7
+# Products of unit quaternions round to a few 2^-53 in each part; the angle is twice an angle of them.
+ROUNDING = 1e-15
+
+
+def random_quats(count, seed=SEED):
+    quats = np.random.default_rng(seed).normal(size=(count, 4))
+    return [tuple(q) for q in (quats / np.linalg.norm(quats, axis=1, keepdims=True)).tolist()]
+
+
+def scipy_rotation(quat):
+    return Rotation.from_quat(quat, scalar_first=True)
+
+
+def test_angle_agrees_with_scipy_over_uniform_pairs():
+    for quat, goal in zip(random_quats(300), random_quats(300, SEED + 1), strict=True):
+        expected = (scipy_rotation(goal).inv() * scipy_rotation(quat)).magnitude()
+        assert angle(quat, goal) == pytest.approx(expected, abs=ROUNDING * 4)
+
+
+@pytest.mark.parametrize("theta", [1e-15, 1e-12, 1e-8, 1e-4, 1e-1])
+def test_angle_keeps_its_digits_when_near_identity(theta):
+    for axis in np.random.default_rng(SEED).normal(size=(20, 3)).tolist():
+        assert angle(about(tuple(axis), theta), IDENTITY) == pytest.approx(theta, rel=1e-14)
+
+
+@pytest.mark.parametrize("delta", [1e-15, 1e-12, 1e-8, 1e-4, 1e-1])
+def test_angle_keeps_its_digits_when_near_half_turn(delta):
+    for axis in np.random.default_rng(SEED).normal(size=(20, 3)).tolist():
+        quat = short_of_half_turn(tuple(axis), delta)
+        assert angle(quat, IDENTITY) == pytest.approx(math.pi - delta, abs=ROUNDING)
+        assert 1.0 - haversine(quat, IDENTITY) == pytest.approx((delta / 2) ** 2, rel=1e-2, abs=2**-52)
+
+
+def test_angle_is_pi_when_exactly_half_turn():
+    for quat in ((0.0, 1.0, 0.0, 0.0), (0.0, 0.0, 1.0, 0.0), (0.0, 0.6, 0.0, 0.8)):
+        assert angle(quat, IDENTITY) == math.pi
+        assert haversine(quat, IDENTITY) == 1.0
+
+
+def test_angle_is_zero_when_goal_is_reached():
+    for quat in random_quats(50):
+        assert angle(quat, quat) < ROUNDING
+        assert haversine(quat, quat) < ROUNDING**2
+
+
+def test_angle_ignores_the_sign_of_a_quaternion():
+    for quat, goal in zip(random_quats(50), random_quats(50, SEED + 1), strict=True):
+        assert angle(tuple(-x for x in quat), goal) == angle(quat, goal)
+        assert haversine(tuple(-x for x in quat), goal) == haversine(quat, goal)
+
+
+@pytest.mark.parametrize("sign", [1, -1])
+@pytest.mark.parametrize("twist", [0.0, 1.0, math.pi / 2, math.pi])
+def test_angle_agrees_with_scipy_when_start_or_goal_is_on_pole(sign, twist):
+    pole = on_pole(sign, twist)
+    for other in random_quats(20):
+        expected = (scipy_rotation(other).inv() * scipy_rotation(pole)).magnitude()
+        assert angle(pole, other) == pytest.approx(expected, abs=4 * ROUNDING)
+        assert angle(other, pole) == pytest.approx(expected, abs=4 * ROUNDING)
+
+
+def test_angle_is_that_of_a_step_from_any_goal():
+    step = about((1.0, 2.0, -0.5), 0.3)
+    for goal in random_quats(50):
+        assert angle(multiply(goal, step), goal) == pytest.approx(0.3, abs=ROUNDING * 2)
+        assert angle(multiply(step, goal), goal) == pytest.approx(0.3, abs=ROUNDING * 2)
+
+
+def test_haversine_is_sine_squared_of_half_the_angle():
+    for quat, goal in zip(random_quats(300), random_quats(300, SEED + 1), strict=True):
+        assert haversine(quat, goal) == pytest.approx(math.sin(angle(quat, goal) / 2) ** 2, abs=ROUNDING)
+
+
+def test_haversine_is_the_rational_value():
+    def exact(quat, goal):
+        (w, x, y, z), (a, b, c, d) = (tuple(map(Fraction, q)) for q in (quat, goal))
+        scalar = a * w + b * x + c * y + d * z
+        return 1 - scalar**2 / ((w * w + x * x + y * y + z * z) * (a * a + b * b + c * c + d * d))
+
+    for quat, goal in zip(random_quats(100), random_quats(100, SEED + 1), strict=True):
+        assert haversine(quat, goal) == pytest.approx(float(exact(quat, goal)), abs=ROUNDING)
+
+
+def test_haversine_is_monotonic_in_the_angle():
+    values = [haversine(zyx(theta, 0.0, 0.0), IDENTITY) for theta in np.linspace(0.0, math.pi, 200).tolist()]
+    assert values == sorted(values)
+
+
+def test_haversine_ignores_the_scale_of_a_quaternion():
+    for quat, goal in zip(random_quats(50), random_quats(50, SEED + 1), strict=True):
+        assert haversine(tuple(2.0 * x for x in quat), goal) == haversine(quat, goal)
+
+
+def test_truth_compiles_unchanged():
+    numba = pytest.importorskip("numba")
+    for function in (angle, haversine):
+        compiled = numba.njit(error_model="numpy")(function)
+        for quat, goal in zip(random_quats(100), random_quats(100, SEED + 1), strict=True):
+            assert compiled(quat, goal) == function(quat, goal)
+
+
+def test_listing_names_imports_no_simulator():
+    code = "import sys, tasks; tasks.names(); tasks.start_set('poles'); print('mujoco' in sys.modules)"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "False"
