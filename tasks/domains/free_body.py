@@ -33,8 +33,12 @@ def xml(dt: float) -> str:
   <compiler inertiafromgeom="false" angle="radian"/>
   <visual>
     <global offwidth="1600" offheight="1200"/>
+    <rgba haze="1 1 1 1"/>
     <headlight ambient=".35 .35 .35" diffuse=".45 .45 .45" specular=".1 .1 .1"/>
   </visual>
+  <asset>
+    <texture type="skybox" builtin="flat" rgb1="1 1 1" rgb2="1 1 1" width="8" height="8"/>
+  </asset>
   <default>
     <geom contype="0" conaffinity="0" mass="0"/>
     <default class="steel"><geom rgba=".32 .35 .40 1"/></default>
@@ -44,9 +48,9 @@ def xml(dt: float) -> str:
   <worldbody>
     <light name="key" directional="true" pos="1 -1 2" dir="-.4 .4 -.8" diffuse=".7 .7 .7" castshadow="false"/>
     <camera name="view" pos="1.05 -.85 .70" xyaxes=".63 .777 0 -.36 .29 .887" fovy="40"/>
-    <geom class="base axis" name="base x" fromto="0 0 0 .5 0 0" rgba=".8 .25 .2 .35"/>
-    <geom class="base axis" name="base y" fromto="0 0 0 0 .5 0" rgba=".2 .6 .25 .35"/>
-    <geom class="base axis" name="base z" fromto="0 0 0 0 0 .5" rgba=".2 .35 .85 .35"/>
+    <geom class="base axis" name="base x" fromto="0 0 0 .5 0 0" rgba=".8 .25 .2 .5"/>
+    <geom class="base axis" name="base y" fromto="0 0 0 0 .5 0" rgba=".2 .6 .25 .5"/>
+    <geom class="base axis" name="base z" fromto="0 0 0 0 0 .5" rgba=".2 .35 .85 .5"/>
     <body name="body">
       <joint name="ball" type="ball"/>
       <inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/>
