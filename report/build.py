@@ -13,6 +13,7 @@ from __future__ import annotations
 import hashlib
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -27,11 +28,16 @@ ROOT = REPORT.parent
 BUILD = REPORT / "_build"
 SITE = BUILD / "html"
 CELL_CACHE = BUILD / ".jupyter_cache"
+CELL_KEY = BUILD / "cells.key"
 STAMP = BUILD / "finished.json"
 RESULTS_VARIABLE = "ORIENTATION_BENCH_RESULTS"
 WRITTEN_LAST = "provenance.json"  # a run without it is unfinished
-NO_GIT_EPOCH = 1_764_547_200      # 2025-12-01, the date printed by a copy without git history
-KEPT_BUILD_LINES = 60             # of a failed build's output, the end, where the errors are listed
+NO_GIT_EPOCH = 1_793_491_200      # 2026-11-01, the date printed by a copy without git history
+JUPYTER_BOOK = "from jupyter_book.cli.main import main; main()"  # it has no __main__, and its script hides in bin
+MOST_COMPLAINTS = 80              # lines shown of a failed build
+TERMINAL_COLOUR = re.compile(r"\x1b\[[0-9;]*m")
+PROBLEM = re.compile(r"\b(WARNING|ERROR|CRITICAL|SEVERE)\b(?! \|)")  # the kernel's own lines say "WARNING | ..."
+CELL_RAISED = "An error occurred while executing the following cell"
 
 
 class CannotBuild(Exception):
@@ -113,31 +119,47 @@ def environment(results: Path) -> dict[str, str]:
         "PYTHONPATH": os.pathsep.join(filter(None, [str(ROOT), os.environ.get("PYTHONPATH", "")])),
         "PYTHONHASHSEED": "0",
         "PYDEVD_DISABLE_FILE_VALIDATION": "1",  # else the kernel's debugger writes a line to stderr
-        "JUPYTER_PLATFORM_DIRS": "1",
+        "JUPYTER_PREFER_ENV_PATH": "1",         # this environment's kernel, whatever the user has at home
+        "NO_COLOR": "1",
     }
     ours.setdefault("SOURCE_DATE_EPOCH", date_of_commit())
     return ours
 
 
-def build(results: Path, cells_are_fresh: bool) -> None:
+def build(results: Path, cell_key: str) -> None:
     """Run jupyter-book on a clean output folder; raise CannotBuild with the end of its output if it fails.
 
     The pages are always read anew (Sphinx repeats no warning for a page it skips); only cell outputs are kept.
     """
     STAMP.unlink(missing_ok=True)
+    BUILD.mkdir(exist_ok=True)
+    cells_are_fresh = CELL_KEY.is_file() and CELL_KEY.read_text(encoding="utf-8") == cell_key
     for stale in (SITE, BUILD / ".doctrees", *([] if cells_are_fresh else [CELL_CACHE])):
         shutil.rmtree(stale, ignore_errors=True)
-    BUILD.mkdir(exist_ok=True)
+    CELL_KEY.write_text(cell_key, encoding="utf-8")
     strict = ["-W", "-n", "--keep-going", "-q"]
-    command = [sys.executable, "-m", "jupyter_book.cli.main", "build", ".", *strict]
+    command = [sys.executable, "-c", JUPYTER_BOOK, "build", ".", *strict]
     log = BUILD / "build.log"
     with log.open("w", encoding="utf-8") as output:
         done = subprocess.run(
             command, cwd=REPORT, env=environment(results), stdout=output, stderr=subprocess.STDOUT, check=False
         )
     if done.returncode:
-        tail = "\n".join(log.read_text(encoding="utf-8").splitlines()[-KEPT_BUILD_LINES:])
-        raise CannotBuild(f"{tail}\njupyter-book stopped with code {done.returncode}; all of it is in {log}")
+        said = "\n".join(complaints(log.read_text(encoding="utf-8")))
+        raise CannotBuild(f"the pages do not build:\n{said}\nreport: all that was said is in {log}")
+
+
+def complaints(log: str) -> list[str]:
+    """The lines of a failed build that say what is wrong: warnings, errors, and the cell that raised."""
+    kept, in_cell = [], False
+    for line in TERMINAL_COLOUR.sub("", log).splitlines():
+        if CELL_RAISED in line:
+            in_cell = True
+        elif line.startswith(("Traceback", "The above exception")):
+            in_cell = False
+        if in_cell or PROBLEM.search(line):
+            kept.append(line)
+    return kept[:MOST_COMPLAINTS] or log.splitlines()[-MOST_COMPLAINTS:]
 
 
 def main() -> int:
@@ -148,7 +170,7 @@ def main() -> int:
         print(f"report: from {os.path.relpath(results, ROOT)}", flush=True)
         wanted, finished = keys(results), finished_keys()
         if wanted != finished:
-            build(results, cells_are_fresh=CELL_CACHE.is_dir() and wanted["cells"] == finished.get("cells"))
+            build(results, wanted["cells"])
         problems = check_site.problems(SITE)
         if problems:
             raise CannotBuild("\n".join([*problems, f"the page check found {len(problems)} problems"]))

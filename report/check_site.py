@@ -36,6 +36,7 @@ class Page(HTMLParser):
         self.described_in_figure = True
         self.styles: list[str] = []
         self.in_style = False
+        self.in_article = False
 
     def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
         given = {name: value or "" for name, value in attrs}
@@ -49,7 +50,8 @@ class Page(HTMLParser):
             self.loads += [given[name] for name in ("src", "poster", "data") if given.get(name)]
         if "style" in given:
             self.styles.append(given["style"])
-        self.headings += tag == "h1"
+        self.in_article |= tag == "article"
+        self.headings += tag == "h1" and self.in_article  # the theme repeats it outside, for print
         self.in_style = tag == "style"
         self.note_picture(tag, given)
 
@@ -78,6 +80,8 @@ class Page(HTMLParser):
             self.described_in_figure = True
         if tag == "style":
             self.in_style = False
+        if tag == "article":
+            self.in_article = False
 
     def handle_data(self, data: str) -> None:
         if self.in_style:

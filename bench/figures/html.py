@@ -8,6 +8,9 @@ from __future__ import annotations
 
 import html
 import json
+import math
+import numbers
+import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
@@ -24,6 +27,8 @@ VERDICTS = {
     "not yet measured": "unmeasured",
 }
 MISSING = "–"
+ROUNDED_FROM, SCIENTIFIC_FROM = 1e3, 1e9  # three figures of a number in between would read 1.23e+03
+LEADING_MINUS = re.compile(r"-[\d.\u221e]")
 
 
 class Html(str):
@@ -73,8 +78,7 @@ def table(
 
     Args:
         frame: one row per line of the table; the column labels are its head, the index is left out.
-        formats: per column a format specification ("{:.2f}", ".2f" or a function). Without one a whole number stands in full with
-            thin spaces between thousands, any other with three figures.
+        formats: per column ".2f", "{:.2f} s" or a function; without one, `number`.
         words: columns to set as words although they hold numbers.
     """
     formats = dict(formats or {})
@@ -94,7 +98,7 @@ def table(
 
 def cell(value: Any, form: str | Callable[[Any], str] | None = None) -> str:
     """One value as it stands in a table."""
-    if value is None or (isinstance(value, float) and value != value):
+    if value is None or (isinstance(value, float) and math.isnan(value)):
         return MISSING
     if callable(form):
         text = form(value)
@@ -102,22 +106,23 @@ def cell(value: Any, form: str | Callable[[Any], str] | None = None) -> str:
         text = form.format(value) if "{" in form else format(value, form)
     elif isinstance(value, bool | str):
         text = str(value)
-    elif hasattr(value, "__index__"):
-        text = f"{value:,}".replace(",", "\u202f")
-    elif isinstance(value, float):
-        text = f"{value:.3g}"
     else:
-        text = str(value)
-    return text.replace("|", "\\|").replace("\n", " ").replace("-", "\u2212", 1) if is_number(text) else text.replace("|", "\\|")
+        text = number(value)
+    if LEADING_MINUS.match(text):
+        text = "\u2212" + text[1:]
+    return text.replace("|", "\\|").replace("\n", " ")
 
 
-def is_number(text: str) -> bool:
-    """Whether a cell's text is a plain number, whose minus is set as a minus sign."""
-    try:
-        float(text)
-    except ValueError:
-        return False
-    return True
+def number(value: Any) -> str:
+    """A number to three figures, or in full where it is whole, with thin spaces between thousands."""
+    if not isinstance(value, numbers.Real):
+        return str(value)
+    if math.isinf(value):
+        return "\u221e" if value > 0 else "-\u221e"
+    is_whole = float(value).is_integer() or ROUNDED_FROM <= abs(value) < SCIENTIFIC_FROM
+    if is_whole and abs(value) < SCIENTIFIC_FROM:
+        return f"{round(value):,}".replace(",", "\u202f")
+    return f"{value:.3g}"
 
 
 def tiles(entries: Sequence[tuple[Any, str] | tuple[Any, str, str]]) -> Html:
@@ -184,7 +189,7 @@ def ball(name: str, alt: str, points: Mapping[str, Any], radius_label: str = "π
     """A ball of rotation vectors that the reader turns; the page loads `_extra/ball.js` to draw it.
 
     Args:
-        name: the canvas's id, unique on its page.
+        name: unique on its page; the canvas's id is `ball-` and this.
         alt: what it shows, in words.
         points: label -> {"colour": light, "dark": dark, "xyz": [[x, y, z], ...]} with xyz in the unit ball.
         radius_label: what the surface of the ball stands for.
@@ -192,7 +197,7 @@ def ball(name: str, alt: str, points: Mapping[str, Any], radius_label: str = "π
     data = json.dumps({"groups": points, "radius": radius_label}, separators=(",", ":")).replace("</", "<\\/")
     words = html.escape(alt, quote=True)
     return Html(
-        f'<canvas class="ball" id="{name}" tabindex="0" role="img" aria-label="{words}"></canvas>'
-        f'<script type="application/json" data-for="{name}">{data}</script>'
+        f'<canvas class="ball" id="ball-{name}" tabindex="0" role="img" aria-label="{words}"></canvas>'
+        f'<script type="application/json" data-for="ball-{name}">{data}</script>'
         '<p class="hint">Drag, or use the arrow keys, to turn. Double click to start over.</p>'
     )

@@ -22,6 +22,7 @@ ID = re.compile(r'\s+id="([^"]*)"')
 COLOUR = re.compile("|".join(style.TWINS), re.IGNORECASE)
 PATH = re.compile(r'\bd="[^"]*"')
 LONG_NUMBER = re.compile(r"(\d\.\d{2})\d+")  # of a path, in points: a hundredth is invisible
+STROKES = "stroke-linejoin: round; stroke-linecap: butt"  # what matplotlib says in a <style>, which a page would share
 
 
 class Picture(NamedTuple):
@@ -71,7 +72,7 @@ def svg(figure: Figure, alt: str, name: str) -> str:
     figure.savefig(raw, format="svg", transparent=True, metadata={"Date": None, "Creator": None})
     text = raw.getvalue()
     text = text[text.index("<svg") :]
-    text = re.sub(r"<metadata>.*?</metadata>\s*|<!--.*?-->\s*", "", text, flags=re.DOTALL)
+    text = re.sub(r"<metadata>.*?</metadata>|<style.*?</style>|<!--.*?-->", "", text, flags=re.DOTALL)
     text = PATH.sub(lambda path: LONG_NUMBER.sub(r"\1", path[0]), text)
     text = own_ids(text, name.replace("_", "-"))
     text = named_colours(text)
@@ -85,7 +86,7 @@ def svg(figure: Figure, alt: str, name: str) -> str:
     width = f"{float(size[1]) * 4 / 3:.0f}px" if size else "100%"
     text = re.sub(r'(<svg[^>]*?)\s+width="[^"]*"', r"\1", text, count=1)
     text = re.sub(r'(<svg[^>]*?)\s+height="[^"]*"', r"\1", text, count=1)
-    opening = f'<svg role="img" aria-label="{words}" style="max-width: {width}; {colours}"'
+    opening = f'<svg role="img" aria-label="{words}" style="max-width: {width}; {STROKES}; {colours}"'
     return " ".join(text.replace("<svg", opening, 1).split())
 
 

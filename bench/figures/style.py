@@ -16,8 +16,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 FONTS = Path(__file__).parent / "fonts"
-TEXT_WIDTH_IN = 7.2     # the column of a page at 1280 pixels, 720 px, at 100 px to the inch
-PHONE_WIDTH_IN = 3.6    # the column of a page at 390 pixels, so that words keep their size there
+TEXT_WIDTH_IN = 7.5     # the column of a page at 1280 pixels, 720 of CSS's 96 to the inch
+PHONE_WIDTH_IN = 3.7    # the column of a page at 390 pixels, so that words keep their size there
 
 INK = "#1c2430"     # words, axes, reference curves
 MUTED = "#667085"   # ticks, annotations, bounds
@@ -82,12 +82,12 @@ OUTCOMES = {
 
 PAPER_STYLE = {
     "font.family": ["Orientation Sans", "DejaVu Sans"],
-    "font.size": 9.5,
+    "font.size": 10.5,
     "mathtext.fontset": "cm",
-    "axes.titlesize": 9.5,
+    "axes.titlesize": 10.5,
     "axes.titleweight": "bold",
     "axes.titlelocation": "left",
-    "axes.labelsize": 9.5,
+    "axes.labelsize": 10.5,
     "axes.labelcolor": INK,
     "axes.edgecolor": MUTED,
     "axes.linewidth": 0.7,
@@ -103,8 +103,8 @@ PAPER_STYLE = {
     "ytick.color": MUTED,
     "xtick.labelcolor": INK,
     "ytick.labelcolor": INK,
-    "xtick.labelsize": 8.5,
-    "ytick.labelsize": 8.5,
+    "xtick.labelsize": 9.5,
+    "ytick.labelsize": 9.5,
     "xtick.major.width": 0.7,
     "ytick.major.width": 0.7,
     "xtick.minor.visible": False,
@@ -112,7 +112,7 @@ PAPER_STYLE = {
     "lines.markersize": 4.5,
     "lines.solid_capstyle": "round",
     "legend.frameon": False,
-    "legend.fontsize": 8.5,
+    "legend.fontsize": 9.5,
     "legend.handlelength": 2.6,
     "figure.constrained_layout.use": True,
     "figure.facecolor": "none",
@@ -121,7 +121,6 @@ PAPER_STYLE = {
     "svg.fonttype": "path",                  # the SVG needs no font where it is read
     "svg.hashsalt": "orientation-bench",     # equal results give equal bytes
     "image.cmap": "cividis",                 # even in lightness, for any colour vision
-    "date.timezone": "UTC",
 }
 
 
@@ -165,5 +164,5 @@ def panels(rows: int = 1, cols: int = 1, *, height: float = 3.2, narrow: bool = 
 
 def label_line(axes: Axes, x: float, y: float, text: str, colour: str = INK, **place) -> None:
     """Name a curve beside it, which reads faster than a legend."""
-    place = {"ha": "left", "va": "center", "fontsize": 8.5, **place}
+    place = {"ha": "left", "va": "center", "fontsize": 9.5, **place}
     axes.text(x, y, text, color=colour, **place)

@@ -1,0 +1,150 @@
+"""The built report in headless Chromium: what a reader's browser sees, and pictures of it.
+
+    python report/screenshots.py            every page, light and dark, wide and narrow, into report/_build/screenshots
+    python report/screenshots.py index      only pages whose name holds a word
+
+tests/test_report_in_browser.py drives the same browser. Needs selenium (the dev extra) and Debian's chromium and
+chromium-driver; nothing is downloaded.
+"""
+
+from __future__ import annotations
+
+import base64
+import contextlib
+import json
+import shutil
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import NamedTuple
+
+SITE = Path(__file__).resolve().parent / "_build" / "html"
+PICTURES = Path(__file__).resolve().parent / "_build" / "screenshots"
+THEMES = ("light", "dark")
+WIDTHS = (1280, 390)
+HEIGHT = 900
+LOAD_SECONDS = 30       # a page with MathJax needs one; the rest is for a loaded machine
+GENERATED = {"genindex.html", "search.html"}
+LOCAL_SCHEMES = ("file:", "data:", "blob:", "about:", "chrome:")
+CURE = "apt-get install chromium chromium-driver; pip install selenium"
+
+WAIT_FOR_QUIET = """
+const done = arguments[arguments.length - 1];
+const maths = window.MathJax && MathJax.startup ? MathJax.startup.promise : Promise.resolve();
+Promise.all([maths, document.fonts.ready]).then(() => requestAnimationFrame(() => requestAnimationFrame(() => done(true))));
+"""
+
+
+class View(NamedTuple):
+    """One way of looking at a page."""
+
+    theme: str
+    width: int
+
+
+VIEWS = [View(theme, width) for theme in THEMES for width in WIDTHS]
+
+
+def missing() -> str:
+    """Why no page can be opened here, in one line with the cure; empty where it can."""
+    try:
+        import selenium  # noqa: F401
+    except ImportError:
+        return f"selenium is not installed (cure: {CURE})"
+    for program in ("chromium", "chromedriver"):
+        if not shutil.which(program):
+            return f"{program} is not on this machine (cure: {CURE})"
+    if not (SITE / "index.html").is_file():
+        return "the report is not built (cure: make report)"
+    return ""
+
+
+def pages() -> list[Path]:
+    """The pages people read."""
+    found = sorted(path for path in SITE.rglob("*.html") if "_static" not in path.relative_to(SITE).parts)
+    return [path for path in found if path.name not in GENERATED]
+
+
+@contextlib.contextmanager
+def browser() -> Iterator:
+    """A headless Chromium that keeps its console and its network log."""
+    from selenium import webdriver
+    from selenium.webdriver.chrome.service import Service
+
+    options = webdriver.ChromeOptions()
+    options.binary_location = shutil.which("chromium")
+    for switch in ("--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--disable-gpu", "--hide-scrollbars"):
+        options.add_argument(switch)
+    options.set_capability("goog:loggingPrefs", {"performance": "ALL", "browser": "ALL"})
+    driver = webdriver.Chrome(options=options, service=Service(shutil.which("chromedriver")))
+    driver.set_script_timeout(LOAD_SECONDS)
+    driver.set_page_load_timeout(LOAD_SECONDS)
+    try:
+        yield driver
+    finally:
+        driver.quit()
+
+
+def look(driver, view: View) -> None:
+    """Set width and theme as a reader's device would, before or after a page is opened."""
+    size = {"width": view.width, "height": HEIGHT, "deviceScaleFactor": 1, "mobile": view.width < 600}
+    driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
+    scheme = {"features": [{"name": "prefers-color-scheme", "value": view.theme}]}
+    driver.execute_cdp_cmd("Emulation.setEmulatedMedia", scheme)
+
+
+def settle(driver) -> None:
+    """Wait until formulas are set, fonts are there and the page is drawn."""
+    driver.execute_async_script(WAIT_FOR_QUIET)
+
+
+def open_page(driver, page: Path, view: View) -> None:
+    """Open a page from its file and wait until it is drawn."""
+    look(driver, view)
+    driver.get(page.as_uri())
+    settle(driver)
+
+
+def network_requests(driver) -> list[str]:
+    """Every address outside this machine that was asked for since the last call."""
+    asked = []
+    for entry in driver.get_log("performance"):
+        message = json.loads(entry["message"])["message"]
+        if message["method"] in ("Network.requestWillBeSent", "Network.webSocketCreated"):
+            parameters = message["params"]
+            asked.append(parameters.get("url") or parameters["request"]["url"])
+    return [url for url in asked if not url.startswith(LOCAL_SCHEMES)]
+
+
+def console_errors(driver) -> list[str]:
+    """What the console complained of since the last call."""
+    return [entry["message"] for entry in driver.get_log("browser") if entry["level"] in ("SEVERE", "WARNING")]
+
+
+def picture(driver) -> bytes:
+    """The whole page as PNG, however long it is."""
+    size = driver.execute_cdp_cmd("Page.getLayoutMetrics", {})["cssContentSize"]
+    clip = {"x": 0, "y": 0, "width": size["width"], "height": size["height"], "scale": 1}
+    shot = {"format": "png", "captureBeyondViewport": True, "clip": clip}
+    return base64.b64decode(driver.execute_cdp_cmd("Page.captureScreenshot", shot)["data"])
+
+
+def main() -> int:
+    """Save a picture of every page in every view."""
+    if missing():
+        print(f"screenshots: {missing()}", file=sys.stderr)
+        return 2
+    PICTURES.mkdir(parents=True, exist_ok=True)
+    chosen = [page for page in pages() if all(word in str(page.relative_to(SITE)) for word in sys.argv[1:])]
+    with browser() as driver:
+        for page in chosen:
+            for view in VIEWS:
+                open_page(driver, page, view)
+                name = page.relative_to(SITE).with_suffix("").as_posix().replace("/", "-")
+                (PICTURES / f"{name}-{view.theme}-{view.width}.png").write_bytes(picture(driver))
+    print(f"screenshots: {len(chosen) * len(VIEWS)} pictures of {len(chosen)} pages in {PICTURES}")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

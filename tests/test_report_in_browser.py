@@ -1,0 +1,71 @@
+"""Every page of the built report as a reader's browser sees it: opened from its file, light and dark, wide and narrow."""
+
+import sys
+from pathlib import Path
+
+import pytest
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "report"))
+import screenshots
+
+pytestmark = [
+    pytest.mark.browser,
+    pytest.mark.skipif(bool(screenshots.missing()), reason=screenshots.missing() or "ready"),
+]
+
+PAGES = [] if screenshots.missing() else screenshots.pages()
+
+FACTS = """
+const root = document.documentElement, article = document.querySelector("article");
+const pictures = [...document.images].filter(image => image.src && image.getClientRects().length);
+return {
+  theme: root.dataset.theme,
+  heading: (article?.querySelector("h1")?.innerText ?? "").trim(),
+  overflow: Math.max(root.scrollWidth, document.body.scrollWidth) - root.clientWidth,
+  broken: pictures.filter(image => !image.complete || image.naturalWidth === 0).map(image => image.src),
+  empty: [...document.querySelectorAll("canvas.ball")].filter(c =>
+    !c.getContext("2d").getImageData(0, 0, c.width, c.height).data.some(v => v)).map(c => c.id),
+  unset: [...document.querySelectorAll("span.math, div.math")].filter(m => !m.querySelector("mjx-container")).length,
+};
+"""
+
+
+@pytest.fixture(scope="module")
+def driver():
+    with screenshots.browser() as opened:
+        yield opened
+
+
+@pytest.fixture(scope="module", params=PAGES, ids=lambda page: page.stem)
+def seen(request, driver):
+    """What one page shows in each view, with all that it asked of the network and told the console."""
+    facts = {}
+    for view in screenshots.VIEWS:
+        screenshots.open_page(driver, request.param, view)
+        facts[view] = driver.execute_script(FACTS)
+    return facts, screenshots.network_requests(driver), screenshots.console_errors(driver)
+
+
+def test_page_asks_nothing_of_the_network(seen):
+    assert seen[1] == []
+
+
+def test_page_makes_no_console_error(seen):
+    assert seen[2] == []
+
+
+def test_page_follows_the_readers_theme(seen):
+    assert {view: facts["theme"] for view, facts in seen[0].items()} == {view: view.theme for view in seen[0]}
+
+
+def test_page_never_scrolls_sideways(seen):
+    assert {view: facts["overflow"] for view, facts in seen[0].items() if facts["overflow"] > 0} == {}
+
+
+def test_page_has_a_main_heading(seen):
+    assert all(facts["heading"] for facts in seen[0].values())
+
+
+def test_page_shows_every_image_ball_and_formula(seen):
+    for facts in seen[0].values():
+        assert (facts["broken"], facts["empty"], facts["unset"]) == ([], [], 0)
