@@ -1,0 +1,165 @@
+"""cost(contender): operations per tick in its typical and its worst branch; rows(contenders): costs.parquet.
+
+Every counted call is checked against the plain call, so that a cost is never that of another law.
+"""
+
+import struct
+from collections import Counter
+from collections.abc import Iterable, Iterator
+from typing import NamedTuple
+
+import numpy as np
+
+from bench.contender import NO_MEMORY, Contender
+from bench.counting.counted import OPERATIONS, STAGES, TOTAL, Counted, Counts, OutsideDialect, Tally
+from bench.counting.staged import law_of
+from bench.counting.states import GAINS, State, states
+from bench.errors import BadLaw
+
+FLOPS = ("add", "mul", "div", "sqrt")
+COSTS = ("typical", "worst")
+
+
+class Cost(NamedTuple):
+    """Operations per tick of one contender; the rules are `bench.counting.RULES`.
+
+    typical_share: fraction of the sampled states that take the typical branch. worst_at: the worst state.
+    """
+
+    contender: Contender
+    typical: Counts
+    worst: Counts
+    typical_share: float
+    worst_at: str
+
+
+class Call(NamedTuple):
+    """One counted call. `is_typical` if it is one of those the typical branch is chosen from."""
+
+    state: State
+    counts: Counts
+    is_typical: bool
+
+
+def cost(contender: Contender) -> Cost:
+    """Count the contender's law over all states.
+
+    Errors:
+        OutsideDialect: the law uses what cannot be counted.
+        BadLaw: the counted law does not return what the plain law returns.
+    """
+    calls = list(counted_calls(contender))
+    sampled = Counter(call.counts for call in calls if call.is_typical)
+    typical, times = sampled.most_common(1)[0]
+    worst = max(calls, key=lambda call: _size(call.counts))
+    return Cost(contender, typical, worst.counts, times / sampled.total(), worst.state.id)
+
+
+def rows(contenders: Iterable[Contender]) -> list[dict]:
+    """Rows of costs.parquet: contender x branch x stage, the stage "total" last."""
+    return [row for contender in contenders for row in _rows(cost(contender))]
+
+
+def flops(numbers: dict) -> int:
+    """Floating-point operations without transcendental functions: add + mul + div + sqrt."""
+    return sum(numbers[name] for name in FLOPS)
+
+
+def _rows(one: Cost) -> Iterator[dict]:
+    representation = one.contender.representation
+    for branch, counts in zip(COSTS, (one.typical, one.worst), strict=True):
+        for stage in (*STAGES, TOTAL):
+            numbers = counts.of(stage)
+            yield {
+                "regulator": one.contender.regulator.name,
+                "representation": representation.name if representation else "",
+                "jacobian": "",
+                "inverse": "",
+                "branch": branch,
+                "stage": stage,
+                **numbers,
+                "flops": flops(numbers),
+            }
+
+
+def _size(counts: Counts) -> tuple[int, int]:
+    numbers = counts.of(TOTAL)
+    return sum(numbers[name] for name in OPERATIONS), flops(numbers)
+
+
+def counted_calls(contender: Contender, over: Iterable[State] | None = None) -> Iterator[Call]:
+    """Every state counted, each call checked against the plain one.
+
+    A law that raises of itself, called with floats too, costs what it computed until then.
+    """
+    tally = Tally()
+    plain, counting = contender.law, law_of(contender, tally)
+    first = contender.regulator.memory
+    left: tuple = ()
+    with np.errstate(all="ignore"):
+        for state in states() if over is None else over:
+            if first is None:
+                yield _call(contender, plain, counting, tally, state, ())[0]
+                continue
+            initial = tuple(np.float64(x) for x in (*first, *NO_MEMORY[len(first) :]))
+            for memory in (initial, *((left,) if left else ())):
+                call, after = _call(contender, plain, counting, tally, state, (memory,))
+                yield call._replace(is_typical=False)
+                left = after or initial
+            call, after = _call(contender, plain, counting, tally, state, (left,))
+            yield call
+            left = after or initial
+
+
+def _call(contender: Contender, plain, counting, tally: Tally, state: State, memory) -> tuple[Call, tuple]:
+    """The call, and the memory the law left (empty for a law without, or if it raised)."""
+    given = (state.R, state.omega, state.goal, GAINS, *memory)
+    want, answer, trouble = None, None, None
+    try:
+        want = plain(*given)
+    except Exception as error:
+        trouble = error
+    tally.stage = "regulate"
+    try:
+        answer = counting(*counted(given, tally))
+    except OutsideDialect as error:
+        raise OutsideDialect(f"law '{contender.name}': {error}") from error
+    except Exception as error:
+        if trouble is None:
+            raise BadLaw(
+                f"law '{contender.name}' cannot be counted: with counting scalars it raises "
+                f"{type(error).__name__}: {error}; use only the dialect of bench/scalar.py"
+            ) from error
+    if bits(answer) != bits(want):
+        raise BadLaw(
+            f"law '{contender.name}' returns {values(answer)} when counted and {values(want)} when "
+            f"called with floats, at {state.id}; a law must not depend on the type of its numbers"
+        )
+    after = want[1] if memory and want is not None else ()
+    return Call(state, tally.take(), state.is_sampled), after
+
+
+def counted(numbers, tally: Tally):
+    """The same nested tuples with every number a counting scalar."""
+    if not isinstance(numbers, tuple):
+        return Counted(numbers, tally)
+    inside = [counted(number, tally) for number in numbers]
+    return type(numbers)(*inside) if hasattr(numbers, "_fields") else tuple(inside)
+
+
+def values(answer):
+    """What a counted call returned, as nested tuples of floats."""
+    if isinstance(answer, tuple):
+        return tuple(values(number) for number in answer)
+    if isinstance(answer, Counted):
+        answer = answer.value
+    return float(answer) if isinstance(answer, int | float) else answer
+
+
+def bits(answer) -> bytes:
+    """The numbers of an answer, bit by bit: NaN equals NaN, and 0.0 is not -0.0."""
+    if isinstance(answer, tuple):
+        return b"".join(bits(number) for number in answer)
+    if isinstance(answer, Counted):
+        answer = answer.value
+    return struct.pack("<d", answer) if isinstance(answer, int | float) else repr(answer).encode()

@@ -1,0 +1,52 @@
+"""A representation whose functions tell the tally which stage of the tick they are.
+
+`regulator.law_in` is handed this in place of the representation: the law is the same source. A law on R takes
+no representation and is all `regulate`.
+"""
+
+from types import SimpleNamespace
+from typing import cast
+
+from bench.contender import Contender, Representation, bind
+from bench.counting.counted import Tally
+
+STAGE_OF = {
+    "goal_chart": "goal",
+    "chart": "represent",
+    "chart_of": "represent",
+    "to_matrix": "represent",
+    "rates": "represent",
+    "angular_velocity": "represent",
+    "generalized": "represent",
+    "margin": "represent",
+    "accelerate": "linearize",
+}
+"""Function of a Representation -> stage."""
+
+
+def law_of(contender: Contender, tally: Tally):
+    """The contender's law, its coordinates staged on this tally."""
+    if contender.representation is None:
+        return contender.law
+    return bind(contender.regulator, staged(contender.representation, tally))
+
+
+def staged(representation: Representation, tally: Tally) -> Representation:
+    """A stand-in with the same fields, each function in its stage."""
+    fields = representation._asdict()
+    for name, stage in STAGE_OF.items():
+        fields[name] = _in_stage(tally, stage, getattr(representation, name))
+    return cast(
+        Representation, SimpleNamespace(**fields)
+    )  # goal_chart is a property there, and cannot be replaced
+
+
+def _in_stage(tally: Tally, stage: str, function):
+    def call(*numbers):
+        before, tally.stage = tally.stage, stage
+        try:
+            return function(*numbers)
+        finally:
+            tally.stage = before
+
+    return call
