@@ -71,12 +71,13 @@ def rates(at, omega):
 def accelerate(at, Edot, Eddot):
     """B Eddot + Bdot Edot, the angular acceleration that gives Eddot (Murphy 1988, 2.10 solved for u)."""
     alphadot, betadot, gammadot = Edot
-    along_y = Eddot[1] + alphadot * (gammadot * at.cos_beta)
+    level = at.cos_beta * gammadot  # part of gammadot about the level axis (cos alpha, sin alpha, 0)
+    along_y = Eddot[1] + alphadot * level
     along_x = Eddot[2] * at.cos_beta - betadot * (alphadot + at.sin_beta * gammadot)
     return (
         at.cos_alpha * along_x - at.sin_alpha * along_y,
         at.cos_alpha * along_y + at.sin_alpha * along_x,
-        Eddot[0] - at.sin_beta * Eddot[2] - at.cos_beta * (betadot * gammadot),
+        Eddot[0] - at.sin_beta * Eddot[2] - betadot * level,
     )
 
 
