@@ -1,0 +1,155 @@
+"""Finding what exists: every module of a folder that holds the one named constant, and a user's files.
+
+Nothing registers itself; dropping a file is enough. The file name, underscores turned to dashes, must be the
+constant's name.
+"""
+
+import functools
+import hashlib
+import importlib
+import importlib.util
+import pkgutil
+import sys
+from pathlib import Path
+
+from bench import metrics, regulators, representations
+from bench.contender import Contender, Gains, Goal, Regulator, Representation, contender
+from bench.errors import BadLaw, UnknownWord
+from bench.metric import Metric
+from bench.so3 import Rotation
+
+
+def _collect(package, constant: str, kind: type) -> dict:
+    found = {}
+    for module_info in pkgutil.iter_modules(package.__path__):
+        module = importlib.import_module(f"{package.__name__}.{module_info.name}")
+        value = getattr(module, constant, None)
+        if not isinstance(value, kind):
+            raise BadLaw(f"{module.__file__} has no {constant} that is a {kind.__name__}; each file there needs one")
+        word = module_info.name.replace("_", "-")
+        if value.name != word:
+            raise BadLaw(f"{module.__file__}: {constant}.name is '{value.name}', but the file's name makes it '{word}'")
+        found[word] = value
+    return found
+
+
+@functools.cache
+def known_representations() -> dict:
+    """Word -> Representation, from bench/representations."""
+    return _collect(representations, "REPRESENTATION", Representation)
+
+
+@functools.cache
+def known_regulators() -> dict:
+    """Word -> Regulator, from bench/regulators."""
+    return _collect(regulators, "REGULATOR", Regulator)
+
+
+@functools.cache
+def known_metrics() -> dict:
+    """Word -> Metric, from bench/metrics, in alphabetical order: the order of their columns."""
+    return _collect(metrics, "METRIC", Metric)
+
+
+def contenders_of(regulator: Regulator) -> list[Contender]:
+    """A regulator in every representation it acts on."""
+    if regulator.coordinates == "rotation-matrix":
+        return [contender(regulator)]
+    every = known_representations()
+    words = every if regulator.coordinates == "any" else regulator.coordinates
+    return [contender(regulator, representation(word)) for word in words]
+
+
+def all_contenders(extra: tuple[Regulator, ...] = ()) -> list[Contender]:
+    """Every regulator in every representation it acts on, costings included; then the user's own."""
+    return [one for regulator in (*known_regulators().values(), *extra) for one in contenders_of(regulator)]
+
+
+def regulator(word: str, extra: tuple[Regulator, ...] = ()) -> Regulator:
+    """The regulator of that name, the user's own among them."""
+    every = known_regulators() | {own.name: own for own in extra}
+    if word not in every:
+        raise UnknownWord("regulator", word, sorted(every))
+    return every[word]
+
+
+def representation(word: str):
+    """The representation of that name."""
+    every = known_representations()
+    if word not in every:
+        raise UnknownWord("representation", word, sorted(every))
+    return every[word]
+
+
+def find_contender(word: str, extra: tuple[Regulator, ...] = ()) -> Contender:
+    """`regulator` or `regulator/representation`, as rows and the command line write it."""
+    name, _, coordinates = word.partition("/")
+    chosen = regulator(name, extra)
+    if coordinates:
+        return contender(chosen, representation(coordinates))
+    several = contenders_of(chosen)
+    return several[0] if len(several) == 1 else contender(chosen)
+
+
+def load_law(path: Path) -> Regulator:
+    """The REGULATOR of a file outside the package.
+
+    The module's name carries a digest of the file, so that nothing of an earlier version is ever reused.
+
+    Errors:
+        BadLaw: the file is missing, does not import, lacks REGULATOR, or its law does not return three numbers.
+    """
+    path = Path(path)
+    if not path.is_file():
+        raise BadLaw(f"--law {path}: there is no such file; give the path of a Python file with a constant REGULATOR")
+    text = path.read_bytes()
+    name = f"user_law_{path.stem}_{hashlib.sha256(text).hexdigest()[:12]}"
+    spec = importlib.util.spec_from_file_location(name, path)
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[name] = module
+    try:
+        spec.loader.exec_module(module)
+    except Exception as error:
+        del sys.modules[name]
+        raise BadLaw(f"--law {path}: it does not import: {type(error).__name__}: {error}") from error
+    own = getattr(module, "REGULATOR", None)
+    if not isinstance(own, Regulator):
+        raise BadLaw(f"--law {path}: it has no constant REGULATOR of type bench.contender.Regulator (see README)")
+    if own.name in known_regulators():
+        raise BadLaw(f"--law {path}: the name '{own.name}' is one of ours; give your REGULATOR another name")
+    own = own._replace(origin=str(path))
+    for one in contenders_of(own):
+        _check_shape(one, path)
+    return own
+
+
+TRIAL = Rotation((0.36, 0.48, -0.8), (-0.8, 0.6, 0.0), (0.48, 0.64, 0.6))
+"""A rotation with short decimals, away from every singular set we know: where a law is tried once."""
+
+
+def _check_shape(one: Contender, path: Path) -> None:
+    if not callable(one.regulator.law) and not callable(one.regulator.law_in):
+        raise BadLaw(f"--law {path}: REGULATOR has neither law nor law_in; give one function")
+    try:
+        if one.regulator.memory is None:
+            answer = one.law(TRIAL, (0.1, 0.2, 0.3), Goal(), Gains())
+        else:
+            answer, _ = one.law(TRIAL, (0.1, 0.2, 0.3), Goal(), Gains(), tuple(one.regulator.memory))
+    except (ArithmeticError, ValueError):
+        return  # a law that raises in an episode is a row, not a mistake of the caller
+    except Exception as error:
+        raise BadLaw(
+            f"--law {path}: the law of '{one.name}' cannot be called as law(R, omega, goal, gains): "
+            f"{type(error).__name__}: {error}"
+        ) from error
+    if not (isinstance(answer, tuple) and len(answer) == 3 and all(isinstance(x, float) for x in answer)):
+        raise BadLaw(
+            f"--law {path}: the law of '{one.name}' returned {_shown(answer)}; it must return a tuple of three floats, "
+            "the angular acceleration in the base frame"
+        )
+
+
+def _shown(answer) -> str:
+    text = repr(answer)
+    return text if len(text) <= 60 else text[:57] + "..."
+

@@ -1,0 +1,249 @@
+"""Suites: which engines run which start sets, how many starts, how long. A plan is the list of units of one run."""
+
+import dataclasses
+import hashlib
+import json
+import math
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import tasks
+from bench.contender import Contender, Gains
+from bench.errors import BadNumber, UnknownWord
+from bench.provenance import source_digest
+from tasks.rules import RULES
+
+ENGINES = ("ideal-rk4", "ideal-held", "native", "reference")
+INTEGRATORS = ("euler", "implicit", "implicitfast", "rk4")
+
+LONG, SHORT = 20.0, 10.0
+"""Horizons [s]. SHORT is 17 settling times of a small error. LONG is for starts near a half turn: rounding (1e-16)
+grows there by a decade every 0.56 s, so that what has not left after 10 s of it never will."""
+
+CHUNK = {"ideal-rk4": 1000, "ideal-held": 1000, "native": 250, "reference": 4}
+"""Episodes a unit at most: a few seconds each even if none of them settles, so that Ctrl-C answers soon."""
+
+
+class Slice(NamedTuple):
+    """One engine on one start set; count None is the set's own number."""
+
+    engine: str
+    start_set: str
+    count: int | None
+    horizon_s: float
+
+
+class Suite(NamedTuple):
+    """A named list of slices, run for every contender that is not only a costing."""
+
+    name: str
+    title: str
+    slices: tuple[Slice, ...]
+    traces: int
+    boundary_axes: int
+
+
+DIRECTED = ("box", "goals", "half-turn", "paper", "poles", "tumbling", "wraps")
+HORIZON = {"half-turn": LONG, "poles": LONG, "wraps": LONG}
+
+
+def _slices(engine: str, uniform: int, directed=DIRECTED, count=None) -> tuple[Slice, ...]:
+    sampled = (Slice(engine, "uniform", uniform, SHORT),) if uniform else ()
+    return sampled + tuple(Slice(engine, name, count, HORIZON.get(name, SHORT)) for name in directed)
+
+
+SUITES = {
+    suite.name: suite
+    for suite in (
+        Suite(
+            "quick",
+            "the slice that continuous integration reruns and compares",
+            _slices("ideal-rk4", 1000) + _slices("native", 200, ("half-turn", "paper", "poles")) + _slices("reference", 0, ("paper",)),
+            traces=24,
+            boundary_axes=64,
+        ),
+        Suite(
+            "default",
+            "what `make bench` runs and the report shows",
+            _slices("ideal-rk4", 5000) + _slices("ideal-held", 5000) + _slices("native", 5000) + _slices("reference", 0, ("paper",)),
+            traces=64,
+            boundary_axes=256,
+        ),
+        Suite(
+            "full",
+            "ten times the uniform starts, for narrower intervals",
+            _slices("ideal-rk4", 50_000) + _slices("ideal-held", 50_000) + _slices("native", 50_000) + _slices("reference", 0, ("paper",)),
+            traces=64,
+            boundary_axes=1024,
+        ),
+    )
+}
+
+
+@dataclass(frozen=True)
+class Unit:
+    """A piece of work that is done or not done: one contender, engine and stretch of a start set."""
+
+    engine: str
+    contender: str
+    task: str
+    start_set: str
+    first: int
+    count: int
+    total: int
+    horizon_s: float
+
+    @property
+    def key(self) -> str:
+        """A name for a file."""
+        law = self.contender.replace("/", "@")
+        return f"{self.engine}_{law}_{self.task}_{self.start_set}_{self.first:06d}"
+
+
+@dataclass(frozen=True)
+class Plan:
+    """Everything that decides the rows of a run."""
+
+    suite: str
+    units: tuple[Unit, ...]
+    contenders: tuple[Contender, ...]
+    gains: Gains = Gains()
+    dt_s: float = 1e-3
+    integrator: str = "euler"
+    seed: int = 0
+    traces: int = 0
+    boundary_axes: int = 0
+
+    @property
+    def episodes(self) -> int:
+        """Number of rows."""
+        return sum(unit.count for unit in self.units)
+
+    def identity(self) -> dict:
+        """What two runs must share for one to continue the other: the plan, the rules and the sources."""
+        return {
+            "suite": self.suite,
+            "units": [dataclasses.astuple(unit) for unit in self.units],
+            "laws": {one.name: _text_digest(one.regulator.origin) for one in self.contenders if one.regulator.origin},
+            "gains": list(self.gains),
+            "dt_s": self.dt_s,
+            "integrator": self.integrator,
+            "seed": self.seed,
+            "traces": self.traces,
+            "boundary_axes": self.boundary_axes,
+            "rules": list(RULES),
+            "sources": source_digest(),
+        }
+
+    def digest(self) -> str:
+        """Sixteen hex digits of the identity."""
+        return hashlib.sha256(json.dumps(self.identity(), sort_keys=True).encode()).hexdigest()[:16]
+
+
+def _text_digest(path: str) -> str:
+    with open(path, "rb") as file:
+        return hashlib.sha256(file.read()).hexdigest()[:16]
+
+
+def suite(word: str) -> Suite:
+    """The suite of that name."""
+    if word not in SUITES:
+        raise UnknownWord("suite", word, sorted(SUITES))
+    return SUITES[word]
+
+
+def make(
+    suite_word: str,
+    contenders: list[Contender],
+    *,
+    task_words: tuple[str, ...] = (),
+    start_sets: tuple[str, ...] = (),
+    engines: tuple[str, ...] = (),
+    count: int | None = None,
+    dt_s: float = 1e-3,
+    horizon_s: float | None = None,
+    gains: Gains = Gains(),
+    integrator: str = "euler",
+    seed: int = 0,
+) -> Plan:
+    """The plan of a suite, narrowed or widened by what the user named; empty means the suite's own.
+
+    Errors:
+        UnknownWord: a name in no list. BadNumber: a number that no episode can be run with.
+    """
+    _check_numbers(dt_s, horizon_s, gains, count, seed)
+    chosen = suite(suite_word)
+    every_task = task_words or tuple(tasks.names())
+    for word in every_task:
+        _known("task", word, tasks.names())
+    for word in start_sets:
+        _known("start", word, tasks.start_set_names())
+    for word in engines:
+        _known("engine", word, list(ENGINES))
+    _known("integrator", integrator, list(INTEGRATORS))
+    units = tuple(
+        unit
+        for task in every_task
+        for part in _narrowed(chosen.slices, start_sets, engines)
+        if part.start_set in tasks.task(task).start_sets and runs_on(part.engine, task)
+        for one in contenders
+        for unit in _units(part, one.name, task, count, seed, horizon_s)
+    )
+    return Plan(
+        chosen.name,
+        units,
+        tuple(contenders),
+        gains,
+        dt_s,
+        integrator,
+        seed,
+        0 if start_sets or engines else chosen.traces,
+        0 if start_sets or engines else chosen.boundary_axes,
+    )
+
+
+def runs_on(engine: str, task: str) -> bool:
+    """Whether an engine can run a task: the ideal plant is the free body's alone."""
+    return task == "free-body" or not engine.startswith("ideal")
+
+
+def _narrowed(slices, start_sets, engines):
+    if not start_sets and not engines:
+        return slices
+    sizes = {(part.engine, part.start_set): part for part in slices}
+    wanted_engines = engines or tuple(dict.fromkeys(part.engine for part in slices))
+    wanted_sets = start_sets or tuple(dict.fromkeys(part.start_set for part in slices))
+    return tuple(
+        sizes.get((engine, name)) or Slice(engine, name, None, HORIZON.get(name, SHORT))
+        for engine in wanted_engines
+        for name in wanted_sets
+        if not (engine == "reference" and not engines and (engine, name) not in sizes)
+    )
+
+
+def _units(part: Slice, contender: str, task: str, count, seed, horizon_s):
+    total = len(tasks.start_set(part.start_set, count or part.count, seed))
+    step = CHUNK[part.engine]
+    for first in range(0, total, step):
+        yield Unit(
+            part.engine, contender, task, part.start_set, first, min(step, total - first), total, horizon_s or part.horizon_s
+        )
+
+
+def _known(kind: str, word: str, known: list[str]) -> None:
+    if word not in known:
+        raise UnknownWord(kind, word, sorted(known))
+
+
+def _check_numbers(dt_s, horizon_s, gains, count, seed) -> None:
+    if not (math.isfinite(dt_s) and 0.0 < dt_s <= 0.1):
+        raise BadNumber(f"--dt {dt_s}: the control period must lie in (0, 0.1] s, a tenth of a time constant or less (try: --dt 0.001)")
+    if horizon_s is not None and not (math.isfinite(horizon_s) and dt_s <= horizon_s <= 1000.0):
+        raise BadNumber(f"--horizon {horizon_s}: it must lie between one tick ({dt_s} s) and 1000 s (try: --horizon 10)")
+    for name, value in zip(("--kp", "--kv"), gains, strict=True):
+        if not (math.isfinite(value) and 0.0 < value <= 1e6):
+            raise BadNumber(f"{name} {value}: a gain must lie in (0, 1e6] (the paper's: --kp 100 --kv 20)")
+    if count is not None and not 1 <= count <= 1_000_000:
+        raise BadNumber(f"--count {count}: give between 1 and 1000000 starts of each set")
+    if not 0 <= seed < 2**32:
+        raise BadNumber(f"--seed {seed}: give a whole number from 0 to 4294967295")

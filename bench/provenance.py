@@ -1,0 +1,74 @@
+"""Where numbers come from: sources, versions, machine, command."""
+
+import hashlib
+import importlib.metadata
+import os
+import platform
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+READERS = ("figures", "claims", "cli", "compare", "show", "__main__")
+"""Parts of bench/ that only read results: no number of a run depends on them."""
+VERSIONED = ("mujoco", "dm-control", "numpy", "scipy", "numba", "llvmlite", "pandas", "pyarrow")
+
+
+def source_digest() -> str:
+    """Sixteen hex digits over every source that results depend on, and the versions of what they are computed with."""
+    digest = hashlib.sha256()
+    for room in ("bench", "tasks"):
+        for path in sorted((ROOT / room).rglob("*")):
+            relative = path.relative_to(ROOT)
+            if path.suffix not in (".py", ".xml") or (room == "bench" and relative.parts[1].split(".")[0] in READERS):
+                continue
+            digest.update(relative.as_posix().encode() + b"\0" + path.read_bytes() + b"\0")
+    digest.update(repr(sorted(versions().items())).encode())
+    return digest.hexdigest()[:16]
+
+
+def versions() -> dict[str, str]:
+    """Versions of Python and of the packages that results depend on."""
+    return {"python": platform.python_version(), **{name: importlib.metadata.version(name) for name in VERSIONED}}
+
+
+def cpu_name() -> str:
+    """The processor's name as the system gives it."""
+    info = Path("/proc/cpuinfo")
+    if info.is_file():
+        for line in info.read_text().splitlines():
+            if line.startswith("model name"):
+                return line.split(":", 1)[1].strip()
+    return platform.processor() or platform.machine()
+
+
+def machine_key() -> str:
+    """A short, stable name for this kind of machine: processor and number of cores, nothing that identifies it."""
+    words = "".join(c if c.isalnum() else "-" for c in f"{cpu_name()}-{os.cpu_count()}-cores".lower())
+    return "-".join(part for part in words.split("-") if part)
+
+
+def commit() -> dict:
+    """Commit of the checkout and whether it had changes; empty outside git."""
+    try:
+        head = _git("rev-parse", "HEAD")
+        return {"commit": head, "dirty": bool(_git("status", "--porcelain", "--", "bench", "tasks"))}
+    except (OSError, subprocess.CalledProcessError):
+        return {"commit": "", "dirty": False}
+
+
+def _git(*words: str) -> str:
+    return subprocess.run(["git", "-C", str(ROOT), *words], capture_output=True, text=True, check=True).stdout.strip()
+
+
+def describe() -> dict:
+    """Everything about this moment that a reader may want to know."""
+    return {
+        **commit(),
+        "sources": source_digest(),
+        "versions": versions(),
+        "platform": platform.platform(),
+        "cpu": cpu_name(),
+        "cores": os.cpu_count(),
+        "command": " ".join(["python -m bench", *sys.argv[1:]]),
+    }

@@ -1,0 +1,162 @@
+"""A plan carried out: units run by threads, each written when done, so that a run killed at any moment resumes.
+
+Layout of a run's folder: plan.json first, then parts/<unit>.parquet one by one; at the end the tables, provenance.json
+last of all, and the parts go.
+"""
+
+import functools
+import shutil
+import threading
+import time
+from collections.abc import Callable
+from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
+from pathlib import Path
+from typing import NamedTuple
+
+import pandas as pd
+
+import tasks
+from bench import boundary, counting, traces
+from bench.discovery import all_contenders, known_metrics
+from bench.engines.run import run as run_engine
+from bench.errors import BadNumber, BadResults
+from bench.plan import Plan, Unit
+from bench.provenance import describe
+from bench.rows import frame, settings_of
+from bench.store import merge, read_json, write_json, write_table
+
+
+class State(NamedTuple):
+    """What a results folder holds of a plan."""
+
+    finished: bool
+    done: frozenset[str]
+
+
+class Progress(NamedTuple):
+    """Told to the caller after every unit: the unit, and how many episodes of the whole it was."""
+
+    unit: Unit
+    episodes: int
+
+
+def inspect(plan: Plan, out: Path, replace: bool = False) -> State:
+    """What is done already in `out`; nothing is touched.
+
+    Errors:
+        BadResults: the folder holds another plan, or something that is no run of ours.
+    """
+    out = Path(out)
+    if not out.exists() or (out.is_dir() and not any(out.iterdir())):
+        return State(False, frozenset())
+    if not out.is_dir():
+        raise BadResults(f"{out}: this is a file; give a folder with --out")
+    if not (out / "plan.json").is_file():
+        raise BadResults(f"{out}: the folder holds something else than a run of ours; choose another with --out")
+    try:
+        found = read_json(out / "plan.json").get("digest")
+    except BadResults:
+        if not replace:
+            raise
+        found = None
+    if found != plan.digest():
+        if replace:
+            return State(False, frozenset())
+        raise BadResults(
+            f"{out}: it holds another plan (other suite, options, rules or sources); add --replace to start over, or "
+            "choose another folder with --out"
+        )
+    finished = (out / "provenance.json").is_file()
+    return State(finished, frozenset(path.stem for path in (out / "parts").glob("*.parquet")))
+
+
+def run(
+    plan: Plan, out: Path, *, workers: int = 2, replace: bool = False, told: Callable[[Progress], None] = lambda _: None
+) -> bool:
+    """Carry out what is not done yet; whether there was anything to do.
+
+    Errors:
+        BadNumber: workers. BadResults: the folder cannot be used. KeyboardInterrupt: after the units under way are
+        written.
+    """
+    if not 1 <= workers <= 256:
+        raise BadNumber(f"--workers {workers}: give between 1 and 256 threads (the number of cores is best)")
+    out = Path(out)
+    state = inspect(plan, out, replace)
+    if state.finished:
+        return False
+    began = time.time()
+    if not state.done:
+        _clear(out)
+        write_json(out / "plan.json", {"digest": plan.digest(), **plan.identity()})
+    todo = [unit for unit in plan.units if unit.key not in state.done]
+    for unit in plan.units:
+        if unit.key in state.done:
+            told(Progress(unit, unit.count))
+    _run_units(plan, todo, out, workers, told)
+    _finish(plan, out, workers, began, resumed=bool(state.done))
+    return True
+
+
+def _clear(out: Path) -> None:
+    """Remove an earlier run of ours, plan.json last, so that a kill in between leaves a folder we recognise."""
+    if not out.is_dir():
+        return
+    (out / "provenance.json").unlink(missing_ok=True)
+    shutil.rmtree(out / "parts", ignore_errors=True)
+    for path in (*out.glob("*.parquet"), *out.glob(".*.tmp"), out / "plan.json"):
+        path.unlink(missing_ok=True)
+
+
+def _run_units(plan: Plan, todo: list[Unit], out: Path, workers: int, told) -> None:
+    contenders = {one.name: one for one in plan.contenders}
+    metrics = tuple(known_metrics().values())
+    stop = threading.Event()
+
+    def work(unit: Unit) -> Unit | None:
+        if stop.is_set():
+            return None
+        starts = starts_of(unit.start_set, unit.total, plan.seed)[unit.first : unit.first + unit.count]
+        one, settings = contenders[unit.contender], settings_of(plan, unit.horizon_s)
+        numbers = run_engine(unit.engine, one, unit.task, starts, settings, metrics, plan.integrator)
+        write_table(out / "parts" / f"{unit.key}.parquet", frame(plan, unit, one, starts, numbers, metrics), "episodes")
+        return unit
+
+    with ThreadPoolExecutor(workers) as pool:
+        pending = {pool.submit(work, unit) for unit in todo}
+        try:
+            while pending:
+                done, pending = wait(pending, return_when=FIRST_COMPLETED)
+                for future in done:
+                    unit = future.result()
+                    told(Progress(unit, unit.count))
+        except BaseException:
+            stop.set()
+            raise
+
+
+starts_of = functools.lru_cache(maxsize=16)(tasks.start_set)
+"""A start set is built once for all its units."""
+
+
+def _finish(plan: Plan, out: Path, workers: int, began: float, resumed: bool) -> None:
+    costed = {one.name: one for one in (*all_contenders(), *plan.contenders)}
+    write_table(out / "costs.parquet", pd.DataFrame(counting.rows(costed.values())), "costs")
+    write_table(out / "traces.parquet", traces.run(plan), "traces")
+    write_table(out / "boundaries.parquet", boundary.run(plan), "boundaries")
+    rows = merge(out / "episodes.parquet", [out / "parts" / f"{unit.key}.parquet" for unit in plan.units], "episodes")
+    write_json(
+        out / "provenance.json",
+        {
+            **describe(),
+            "suite": plan.suite,
+            "plan": plan.digest(),
+            "episodes": rows,
+            "seed": plan.seed,
+            "workers": workers,
+            "finished": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime()),
+            "wall_s": round(time.time() - began, 1),
+            "resumed": resumed,
+        },
+    )
+    shutil.rmtree(out / "parts", ignore_errors=True)

@@ -1,0 +1,142 @@
+"""The tables of a run, column by column: type, unit, meaning. results/README.md is generated from here."""
+
+from typing import NamedTuple
+
+import pyarrow as pa
+
+from bench.discovery import known_metrics
+from bench.provenance import ROOT
+
+VERSION = "1"
+WORD, NUMBER, COUNT = pa.dictionary(pa.int32(), pa.string()), pa.float64(), pa.int64()
+
+
+class Column(NamedTuple):
+    """One column of a table."""
+
+    name: str
+    type: pa.DataType
+    unit: str
+    meaning: str
+
+
+def _words(**meanings: str) -> list[Column]:
+    return [Column(name, WORD, "", meaning) for name, meaning in meanings.items()]
+
+
+def _numbers(unit: str, meaning: str, *names: str) -> list[Column]:
+    return [Column(name, NUMBER, unit, meaning) for name in names]
+
+
+CONTENDER = _words(
+    regulator="the law",
+    representation="coordinates the law acts on; empty for a law on R",
+    jacobian="Jacobian of the arm; empty for the free body",
+    inverse="how the Jacobian is inverted; empty for the free body",
+)
+PLACE = _words(
+    suite="plan the row belongs to",
+    task="plant and goal",
+    arm="manipulator; empty for the free body",
+)
+STARTED = [
+    *_words(engine="what simulated the episode", start_set="family of starts", start_id="start within its family"),
+    *_numbers("1", "initial orientation, body to base, unit quaternion", "quat_w", "quat_x", "quat_y", "quat_z"),
+    *_numbers("rad", "Z-Y-X Euler angles of the initial orientation", "alpha0", "beta0", "gamma0"),
+    *_numbers("rad", "initial angle to the goal, by the judge", "angle0_rad"),
+    *_numbers("rad/s", "initial angular velocity, base frame", "omega0_x", "omega0_y", "omega0_z"),
+    *_numbers("1", "goal orientation, unit quaternion", "goal_quat_w", "goal_quat_x", "goal_quat_y", "goal_quat_z"),
+]
+SET = [
+    *_numbers("1/s^2", "position gain", "kp"),
+    *_numbers("1/s", "velocity gain", "kv"),
+    *_numbers("s", "control period and integration step", "dt_s"),
+    *_words(integrator="how the plant is integrated"),
+    *_numbers("s", "longest time simulated", "horizon_s"),
+    *_numbers("1", "settling band over initial angle", "tolerance"),
+    *_numbers("s", "time under a hundredth of the band after which an engine stops early", "hold_s"),
+]
+JUDGED = [
+    *_words(outcome="settled, stuck, timed-out, diverged, singular or saturated"),
+    *_numbers("s", "first time after which the angle stays in the band; null if it does not", "settling_time_s"),
+    *_numbers("s", "time at which the episode failed; null if it did not", "failure_time_s"),
+    *_numbers("rad", "angle to the goal at the end, by the judge", "final_angle_rad"),
+]
+TICKS = [Column("ticks", COUNT, "1", "control periods simulated")]
+
+
+def episode_columns() -> list[Column]:
+    """episodes.parquet: one row an episode; every metric found adds its column."""
+    measured = [Column(one.column, NUMBER, one.unit, one.title) for one in known_metrics().values()]
+    return [*PLACE, *CONTENDER, *STARTED, *SET, *JUDGED, *measured, *TICKS]
+
+
+KEY = ("suite", "task", "arm", "regulator", "representation", "jacobian", "inverse", "engine", "start_set", "start_id")
+"""What names a row of episodes.parquet; kp, kv, dt_s and integrator are the run's."""
+
+
+def trace_columns() -> list[Column]:
+    """traces.parquet: an episode every few ticks."""
+    return [
+        *CONTENDER,
+        *_words(engine="what simulated the episode", start_set="family of starts", start_id="start within its family"),
+        *_numbers("s", "time", "time_s"),
+        *_numbers("1", "columns of R = [n o a], base frame", *(f"{c}_{x}" for c in "noa" for x in "xyz")),
+        *_numbers("rad/s", "angular velocity, base frame", "omega_x", "omega_y", "omega_z"),
+        *_numbers("rad/s^2", "command, base frame", "u_x", "u_y", "u_z"),
+        *_numbers("rad", "angle to the goal", "angle_rad"),
+    ]
+
+
+def boundary_columns() -> list[Column]:
+    """boundaries.parquet: along the geodesic about one axis, where a law first fails."""
+    return [
+        *CONTENDER,
+        *_numbers("1", "axis of the initial rotation, base frame", "axis_x", "axis_y", "axis_z"),
+        *_numbers("rad", "largest angle of the scan below which every start settled", "settled_to_rad"),
+        *_numbers("rad", "first failing angle, bisected; null if none fails", "fails_from_rad"),
+        *_words(outcome="how it fails there; empty if it does not"),
+    ]
+
+
+def cost_columns() -> list[Column]:
+    """costs.parquet: operations a tick, by stage and branch."""
+    from bench.counting import OPERATIONS
+
+    return [
+        *CONTENDER,
+        *_words(branch="typical or worst", stage="part of the tick, or total"),
+        *(Column(name, COUNT, "1", f"{name} operations a tick") for name in OPERATIONS),
+        Column("flops", COUNT, "1", "add + mul + div + sqrt; transcendental functions apart"),
+    ]
+
+
+TABLES = {"episodes": episode_columns, "costs": cost_columns, "traces": trace_columns, "boundaries": boundary_columns}
+
+
+def arrow_schema(table: str) -> pa.Schema:
+    """The schema of a table with units and meanings as column metadata."""
+    fields = [
+        pa.field(one.name, one.type, metadata={"unit": one.unit, "meaning": one.meaning}) for one in TABLES[table]()
+    ]
+    return pa.schema(fields, metadata={"orientation-bench table": table, "orientation-bench schema": VERSION})
+
+
+def readme() -> str:
+    """results/README.md: every table, column, unit and meaning."""
+    lines = [
+        "# Results",
+        "",
+        "Generated by `make reference` from `bench/schema.py`; do not edit.",
+        "",
+        "`reference/` is committed and small: what `make check` compares with. `latest/` is what `make bench` wrote",
+        "last. `timings/` holds one file for each kind of machine. Every table is parquet, its units are in the",
+        "columns' metadata, and `provenance.json` says where a run comes from.",
+    ]
+    for table, columns in TABLES.items():
+        lines += ["", f"## {table}.parquet", "", columns.__doc__.strip(), "", "| column | unit | meaning |", "| --- | --- | --- |"]
+        lines += [f"| {one.name} | {one.unit} | {one.meaning} |" for one in columns()]
+    return "\n".join(lines) + "\n"
+
+
+RESULTS = ROOT / "results"

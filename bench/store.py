@@ -1,0 +1,132 @@
+"""Results on disk: tables with their schema, written whole or not at all, checked when read.
+
+A file appears by rename after fsync, so a process killed at any moment leaves whole files only.
+"""
+
+import json
+import os
+import tempfile
+from collections.abc import Iterable
+from pathlib import Path
+
+import pandas as pd
+import pyarrow as pa
+import pyarrow.parquet as pq
+
+from bench.errors import BadResults
+from bench.schema import TABLES, VERSION, arrow_schema
+
+COMPRESSION = "zstd"
+
+
+def write_atomically(path: Path, write) -> None:
+    """Call write(temporary path), then put the file in its place."""
+    path = Path(path)
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.", suffix=".tmp")
+        os.close(handle)
+    except OSError as error:
+        raise BadResults(
+            f"{path.parent}: cannot be written ({error.strerror}); choose another folder with --out, or mend its rights"
+        ) from error
+    try:
+        write(temporary)
+        with open(temporary, "rb") as file:
+            os.fsync(file.fileno())
+        os.chmod(temporary, 0o644)
+        os.replace(temporary, path)
+    except BaseException:
+        Path(temporary).unlink(missing_ok=True)
+        raise
+
+
+def write_json(path: Path, content: dict) -> None:
+    """A JSON file, whole or not at all."""
+    text = json.dumps(content, indent=1, sort_keys=True) + "\n"
+    write_atomically(path, lambda temporary: Path(temporary).write_text(text, encoding="utf-8"))
+
+
+def read_json(path: Path) -> dict:
+    """A JSON file of ours."""
+    try:
+        return json.loads(Path(path).read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        raise BadResults(f"{path}: there is no such file; the folder holds no run of ours") from None
+    except (OSError, ValueError) as error:
+        raise BadResults(f"{path}: cannot be read ({error}); delete the folder and run again") from error
+
+
+def as_table(frame: pd.DataFrame, table: str) -> pa.Table:
+    """A data frame in the table's schema, columns in its order."""
+    schema = arrow_schema(table)
+    if frame.empty:
+        return schema.empty_table()
+    return pa.Table.from_pandas(frame[schema.names], schema=schema, preserve_index=False).replace_schema_metadata(
+        schema.metadata
+    )
+
+
+def write_table(path: Path, frame: pd.DataFrame, table: str) -> None:
+    """One table, whole or not at all."""
+    arrow = as_table(frame, table)
+    write_atomically(path, lambda temporary: pq.write_table(arrow, temporary, compression=COMPRESSION))
+
+
+def merge(path: Path, parts: Iterable[Path], table: str) -> int:
+    """All parts in their order as one table, one part in memory at a time; the number of rows."""
+    schema = arrow_schema(table)
+    rows = 0
+
+    def write(temporary):
+        nonlocal rows
+        with pq.ParquetWriter(temporary, schema, compression=COMPRESSION) as writer:
+            for part in parts:
+                arrow = read_arrow(part, table)
+                rows += arrow.num_rows
+                writer.write_table(arrow)
+
+    write_atomically(path, write)
+    return rows
+
+
+def read_arrow(path: Path, table: str) -> pa.Table:
+    """A table of ours with its schema checked.
+
+    Errors:
+        BadResults: missing, truncated, or of another schema; the message says which and the cure.
+    """
+    path = Path(path)
+    try:
+        arrow = pq.read_table(path)
+    except FileNotFoundError:
+        raise BadResults(f"{path}: there is no such file; run `make bench` (or python -m bench run) first") from None
+    except (OSError, pa.ArrowException) as error:
+        reason = str(error).splitlines()[0]
+        raise BadResults(f"{path}: it is truncated or no parquet file ({reason}); delete it and run again") from error
+    metadata = arrow.schema.metadata or {}
+    version = metadata.get(b"orientation-bench schema", b"none").decode()
+    if metadata.get(b"orientation-bench table", b"").decode() != table or version != VERSION:
+        raise BadResults(
+            f"{path}: its schema is '{version}', this program reads '{VERSION}' of table '{table}'; run again into "
+            "another folder with --out"
+        )
+    return arrow
+
+
+def read(folder: Path, table: str) -> pd.DataFrame:
+    """One table of a finished run as a data frame.
+
+    Errors:
+        BadResults: see `read_arrow`; also a folder whose run has not finished.
+    """
+    if table not in TABLES:
+        raise KeyError(table)
+    folder = Path(folder)
+    if not folder.is_dir():
+        raise BadResults(f"{folder}: there is no such folder; run `make bench` (or python -m bench run) first")
+    if not (folder / "provenance.json").is_file():
+        raise BadResults(
+            f"{folder}: the run there has not finished; the same `python -m bench run` command resumes it"
+        )
+    return read_arrow(folder / f"{table}.parquet", table).to_pandas()
