@@ -1,11 +1,12 @@
 """Build the report: results in, HTML out, offline, warnings as errors.
 
-    make report                             from results/latest, or results/reference where there is none
-    ORIENTATION_BENCH_RESULTS=DIR make report       from another results folder
+    make report                                    from results/latest, else results/reference
+    ORIENTATION_BENCH_RESULTS=DIR make report      from another results folder
 
-Neither Sphinx nor the execution cache notices changed data or modules, so this file keys both. `site` digests all that
-can change a page; equal to the finished build's, there is nothing to do. `cells` leaves out the text of the pages: while
-it stays, cells keep their stored outputs (jupyter-cache compares the cells' own text); when it moves, every cell runs again.
+Neither Sphinx nor the execution cache notices changed data or modules, so this file keys both. `site`
+digests all that can change a page; equal to the finished build's, there is nothing to do. `cells` leaves
+out the text of the pages: while it stays, cells keep their stored outputs (jupyter-cache compares the
+cells' own text); when it moves, every cell runs again.
 """
 
 from __future__ import annotations
@@ -32,11 +33,13 @@ CELL_KEY = BUILD / "cells.key"
 STAMP = BUILD / "finished.json"
 RESULTS_VARIABLE = "ORIENTATION_BENCH_RESULTS"
 WRITTEN_LAST = "provenance.json"  # a run without it is unfinished
-NO_GIT_EPOCH = 1_793_491_200      # 2026-11-01, the date printed by a copy without git history
-JUPYTER_BOOK = "from jupyter_book.cli.main import main; main()"  # it has no __main__, and its script hides in bin
-MOST_COMPLAINTS = 80              # lines shown of a failed build
+NO_GIT_EPOCH = 1_793_491_200  # 2026-11-01, the date printed by a copy without git history
+# It has no __main__, and its script in bin names the folder it was installed in.
+JUPYTER_BOOK = "from jupyter_book.cli.main import main; main()"
+MOST_COMPLAINTS = 80  # lines shown of a failed build
 TERMINAL_COLOUR = re.compile(r"\x1b\[[0-9;]*m")
-PROBLEM = re.compile(r"\b(WARNING|ERROR|CRITICAL|SEVERE)\b(?! \|)")  # the kernel's own lines say "WARNING | ..."
+# Not the kernel's own lines, which say "WARNING | ...":
+PROBLEM = re.compile(r"\b(WARNING|ERROR|CRITICAL|SEVERE)\b(?! \|)")
 CELL_RAISED = "An error occurred while executing the following cell"
 
 
@@ -45,7 +48,7 @@ class CannotBuild(Exception):
 
 
 def results_folder(root: Path = ROOT) -> Path:
-    """The folder of results that the pages read: the one named by the environment, else latest, else reference."""
+    """The folder of results the pages read: the environment's, else latest, else reference."""
     named = os.environ.get(RESULTS_VARIABLE)
     if named:
         folder = Path(named).expanduser().resolve()
@@ -59,7 +62,8 @@ def results_folder(root: Path = ROOT) -> Path:
         if (root / "results" / name / WRITTEN_LAST).is_file():
             return root / "results" / name
     raise CannotBuild(
-        "neither results/latest nor results/reference holds a finished run (cure: make bench, then make report)"
+        "neither results/latest nor results/reference holds a finished run "
+        "(cure: make bench, then make report)"
     )
 
 
@@ -111,7 +115,7 @@ def date_of_commit() -> str:
 
 
 def environment(results: Path) -> dict[str, str]:
-    """What the build and the kernels below it see: this interpreter first, the results, no clock, no network."""
+    """What the build and its kernels see: this interpreter first, the results, a fixed clock."""
     ours = {
         **os.environ,
         RESULTS_VARIABLE: str(results),
@@ -119,7 +123,7 @@ def environment(results: Path) -> dict[str, str]:
         "PYTHONPATH": os.pathsep.join(filter(None, [str(ROOT), os.environ.get("PYTHONPATH", "")])),
         "PYTHONHASHSEED": "0",
         "PYDEVD_DISABLE_FILE_VALIDATION": "1",  # else the kernel's debugger writes a line to stderr
-        "JUPYTER_PREFER_ENV_PATH": "1",         # this environment's kernel, whatever the user has at home
+        "JUPYTER_PREFER_ENV_PATH": "1",  # this environment's kernel, whatever the user has at home
         "NO_COLOR": "1",
     }
     ours.setdefault("SOURCE_DATE_EPOCH", date_of_commit())
@@ -129,7 +133,8 @@ def environment(results: Path) -> dict[str, str]:
 def build(results: Path, cell_key: str) -> None:
     """Run jupyter-book on a clean output folder; raise CannotBuild with the end of its output if it fails.
 
-    The pages are always read anew (Sphinx repeats no warning for a page it skips); only cell outputs are kept.
+    The pages are always read anew (Sphinx repeats no warning for a page it skips); only cell outputs
+    are kept.
     """
     STAMP.unlink(missing_ok=True)
     BUILD.mkdir(exist_ok=True)
@@ -142,7 +147,12 @@ def build(results: Path, cell_key: str) -> None:
     log = BUILD / "build.log"
     with log.open("w", encoding="utf-8") as output:
         done = subprocess.run(
-            command, cwd=REPORT, env=environment(results), stdout=output, stderr=subprocess.STDOUT, check=False
+            command,
+            cwd=REPORT,
+            env=environment(results),
+            stdout=output,
+            stderr=subprocess.STDOUT,
+            check=False,
         )
     if done.returncode:
         said = "\n".join(complaints(log.read_text(encoding="utf-8")))

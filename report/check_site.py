@@ -2,8 +2,8 @@
 
     python report/check_site.py [FOLDER]
 
-A page must load nothing from the network, have no dead local link or anchor, describe every picture in words, hold one
-main heading and no repeated id; the site must stay within its size budget.
+A page must load nothing from the network, have no dead local link or anchor, describe every picture in
+words, hold one main heading and no repeated id; the site must stay within its size budget.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
 SITE = Path(__file__).resolve().parent / "_build" / "html"
-# MathJax is 2.1 MB, the theme's icons and styles 6 MB; the rest is for pages, figures and the data offered for download.
+# MathJax is 2 MB and the theme 3.5 MB; the rest is for pages, figures and the data offered for download.
 BUDGET_BYTES = 25_000_000
 GENERATED = {"genindex.html", "search.html"}  # the theme's own pages: checked for loads, not for headings
 LOADING_LINKS = {"stylesheet", "icon", "preload", "prefetch", "modulepreload", "preconnect", "dns-prefetch"}

@@ -1,10 +1,12 @@
 """The built report in headless Chromium: what a reader's browser sees, and pictures of it.
 
-    python report/screenshots.py            every page, light and dark, wide and narrow, into report/_build/screenshots
+    python report/screenshots.py            every page, light and dark, wide and narrow
     python report/screenshots.py index      only pages whose name holds a word
 
-tests/test_report_in_browser.py drives the same browser. Needs selenium (the dev extra) and Debian's chromium and
-chromium-driver; nothing is downloaded.
+Pictures go to report/_build/screenshots.
+
+tests/test_report_in_browser.py drives the same browser. Needs selenium (the dev extra) and Debian's
+chromium and chromium-driver; nothing is downloaded.
 """
 
 from __future__ import annotations
@@ -23,7 +25,7 @@ PICTURES = Path(__file__).resolve().parent / "_build" / "screenshots"
 THEMES = ("light", "dark")
 WIDTHS = (1280, 390)
 HEIGHT = 900
-LOAD_SECONDS = 30       # a page with MathJax needs one; the rest is for a loaded machine
+LOAD_SECONDS = 30  # a page with MathJax needs one; the rest is for a loaded machine
 GENERATED = {"genindex.html", "search.html"}
 LOCAL_SCHEMES = ("file:", "data:", "blob:", "about:", "chrome:")
 CURE = "apt-get install chromium chromium-driver; pip install selenium"
@@ -31,7 +33,8 @@ CURE = "apt-get install chromium chromium-driver; pip install selenium"
 WAIT_FOR_QUIET = """
 const done = arguments[arguments.length - 1];
 const maths = window.MathJax && MathJax.startup ? MathJax.startup.promise : Promise.resolve();
-Promise.all([maths, document.fonts.ready]).then(() => requestAnimationFrame(() => requestAnimationFrame(() => done(true))));
+const frame = () => new Promise(requestAnimationFrame);
+Promise.all([maths, document.fonts.ready]).then(frame).then(frame).then(() => done(true));
 """
 
 
@@ -73,7 +76,13 @@ def browser() -> Iterator:
 
     options = webdriver.ChromeOptions()
     options.binary_location = shutil.which("chromium")
-    for switch in ("--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--disable-gpu", "--hide-scrollbars"):
+    for switch in (
+        "--headless=new",
+        "--no-sandbox",
+        "--disable-dev-shm-usage",
+        "--disable-gpu",
+        "--hide-scrollbars",
+    ):
         options.add_argument(switch)
     options.set_capability("goog:loggingPrefs", {"performance": "ALL", "browser": "ALL"})
     driver = webdriver.Chrome(options=options, service=Service(shutil.which("chromedriver")))
@@ -118,7 +127,9 @@ def network_requests(driver) -> list[str]:
 
 def console_errors(driver) -> list[str]:
     """What the console complained of since the last call."""
-    return [entry["message"] for entry in driver.get_log("browser") if entry["level"] in ("SEVERE", "WARNING")]
+    return [
+        entry["message"] for entry in driver.get_log("browser") if entry["level"] in ("SEVERE", "WARNING")
+    ]
 
 
 def picture(driver) -> bytes:

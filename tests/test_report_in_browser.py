@@ -1,4 +1,4 @@
-"""Every page of the built report as a reader's browser sees it: opened from its file, light and dark, wide and narrow."""
+"""Every page of the built report as a reader's browser sees it: from its file, light, dark, wide, narrow."""
 
 import sys
 from pathlib import Path
@@ -16,16 +16,17 @@ pytestmark = [
 PAGES = [] if screenshots.missing() else screenshots.pages()
 
 FACTS = """
-const root = document.documentElement, article = document.querySelector("article");
-const pictures = [...document.images].filter(image => image.src && image.getClientRects().length);
+const root = document.documentElement, heading = document.querySelector("article h1");
+const shown = [...document.images].filter(image => image.src && image.getClientRects().length);
+const formulas = [...document.querySelectorAll("span.math, div.math")];
+const inked = c => c.getContext("2d").getImageData(0, 0, c.width, c.height).data.some(byte => byte);
 return {
   theme: root.dataset.theme,
-  heading: (article?.querySelector("h1")?.innerText ?? "").trim(),
+  heading: heading ? heading.innerText.trim() : "",
   overflow: Math.max(root.scrollWidth, document.body.scrollWidth) - root.clientWidth,
-  broken: pictures.filter(image => !image.complete || image.naturalWidth === 0).map(image => image.src),
-  empty: [...document.querySelectorAll("canvas.ball")].filter(c =>
-    !c.getContext("2d").getImageData(0, 0, c.width, c.height).data.some(v => v)).map(c => c.id),
-  unset: [...document.querySelectorAll("span.math, div.math")].filter(m => !m.querySelector("mjx-container")).length,
+  broken: shown.filter(image => !image.complete || image.naturalWidth === 0).map(image => image.src),
+  empty: [...document.querySelectorAll("canvas.ball")].filter(c => !inked(c)).map(c => c.id),
+  unset: formulas.filter(formula => !formula.querySelector("mjx-container")).length,
 };
 """
 

@@ -1,7 +1,7 @@
 """The parts of a page that are not drawings: badges, tables, tiles, the card of a law, a ball to turn.
 
-Their looks are in report/_static/report.css. Tables are Markdown, so that links and citations in their cells are checked
-when the report is built; the rest is HTML.
+Their looks are in report/_static/report.css. Tables are Markdown, so that links and citations in their
+cells are checked when the report is built; the rest is HTML.
 """
 
 from __future__ import annotations
@@ -61,7 +61,9 @@ def outcome(name: str) -> Html:
 def law(name: str, text: str | None = None) -> Html:
     """The name of a regulator with the colour it has in every figure."""
     light = style.look(name).colour
-    return Html(f'<span class="key" style="--key: {both(light)}"></span><span class="law">{text or name}</span>')
+    return Html(
+        f'<span class="key" style="--key: {both(light)}"></span><span class="law">{text or name}</span>'
+    )
 
 
 def both(light: str) -> str:
@@ -84,8 +86,10 @@ def table(
     formats = dict(formats or {})
     unknown = sorted(set(formats) - set(map(str, frame.columns)))
     if unknown:
-        raise ValueError(f"formats names {unknown}, not columns of the table; known: {list(map(str, frame.columns))}")
-    as_words = {str(column) for column in frame if not pd.api.types.is_numeric_dtype(frame[column])} | set(words)
+        raise ValueError(
+            f"formats names {unknown}, not columns of the table; known: {list(map(str, frame.columns))}"
+        )
+    as_words = {str(name) for name in frame if not pd.api.types.is_numeric_dtype(frame[name])} | set(words)
     head = [str(column) for column in frame.columns]
     rule = [":--" if column in as_words else "--:" for column in head]
     rows = [
@@ -117,6 +121,7 @@ def number(value: Any) -> str:
     """A number to three figures, or in full where it is whole, with thin spaces between thousands."""
     if not isinstance(value, numbers.Real):
         return str(value)
+    value = float(value)
     if math.isinf(value):
         return "\u221e" if value > 0 else "-\u221e"
     is_whole = float(value).is_integer() or ROUNDED_FROM <= abs(value) < SCIENTIFIC_FROM
@@ -168,9 +173,11 @@ def card(
         left.append(f'<div class="card-costs" tabindex="0">{plain_table(costs)}</div>')
     right = f'<div class="card-map">{picture._repr_html_()}</div>' if picture else ""
     return Html(
-        f'<section class="law-card{"" if picture else " alone"}" style="--law: {both(style.look(name).colour)}" '
+        f'<section class="law-card{"" if picture else " alone"}" '
+        f'style="--law: {both(style.look(name).colour)}" '
         f'aria-label="{html.escape(title, quote=True)}">'
-        f'<header><strong>{html.escape(title)}</strong><span class="card-source">{html.escape(source)}</span></header>'
+        f'<header><strong>{html.escape(title)}</strong>'
+        f'<span class="card-source">{html.escape(source)}</span></header>'
         f'<div class="card-body"><div class="card-text">{"".join(left)}</div>{right}</div></section>'
     )
 

@@ -1,7 +1,8 @@
 """A drawn figure as inline SVG: follows the page's light and dark, described in words, at home on a phone.
 
-Inline, because an `<img>` sees nothing of the page's theme. Each colour of `style.TWINS` becomes a variable of
-`light-dark(light, dark)`, which the theme's `color-scheme` decides. Ids are the figure's own, so figures share a page.
+Inline, because an `<img>` sees nothing of the page's theme. Each colour of `style.TWINS` becomes a variable
+of `light-dark(light, dark)`, which the theme's `color-scheme` decides. Ids are the figure's own, so figures
+share a page.
 """
 
 from __future__ import annotations
@@ -22,7 +23,8 @@ ID = re.compile(r'\s+id="([^"]*)"')
 COLOUR = re.compile("|".join(style.TWINS), re.IGNORECASE)
 PATH = re.compile(r'\bd="[^"]*"')
 LONG_NUMBER = re.compile(r"(\d\.\d{2})\d+")  # of a path, in points: a hundredth is invisible
-STROKES = "stroke-linejoin: round; stroke-linecap: butt"  # what matplotlib says in a <style>, which a page would share
+# What matplotlib says in a <style> element, which inline would hold for the whole page:
+STROKES = "stroke-linejoin: round; stroke-linecap: butt"
 
 
 class Picture(NamedTuple):
@@ -39,7 +41,7 @@ class Picture(NamedTuple):
 
 
 def picture(draw: Callable[..., tuple[Figure, str]]) -> Callable[..., Picture]:
-    """Decorate a function that draws and returns (figure, alternative text): it is drawn in the paper style."""
+    """Decorate a function that draws, in the paper style, and returns (figure, alternative text)."""
 
     @functools.wraps(draw)
     def drawn(*args, **kwargs) -> Picture:
@@ -67,7 +69,9 @@ def responsive_picture(draw: Callable[..., tuple[Figure, str]]) -> Callable[...,
 def svg(figure: Figure, alt: str, name: str) -> str:
     """The figure as an `<svg>` element that names its colours and describes itself."""
     if not alt.strip():
-        raise ValueError(f"figure {name} has no alternative text (cure: return (figure, 'what it shows, in a sentence'))")
+        raise ValueError(
+            f"figure {name} has no alternative text (cure: return (figure, 'what it shows, in a sentence'))"
+        )
     raw = io.StringIO()
     figure.savefig(raw, format="svg", transparent=True, metadata={"Date": None, "Creator": None})
     text = raw.getvalue()
@@ -100,7 +104,7 @@ def own_ids(text: str, name: str) -> str:
 
 
 def named_colours(text: str) -> str:
-    """Every colour that has a twin, as its variable; attributes become styles, where a variable is allowed."""
+    """Every colour that has a twin, as its variable; attributes become styles, which allow one."""
     text = re.sub(r'\b(fill|stroke)="(#[0-9a-fA-F]{6})"', r'style="\1: \2"', text)
     return COLOUR.sub(lambda found: f"var({variable(found[0])})", text)
 

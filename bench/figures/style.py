@@ -16,13 +16,13 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 FONTS = Path(__file__).parent / "fonts"
-TEXT_WIDTH_IN = 7.5     # the column of a page at 1280 pixels, 720 of CSS's 96 to the inch
-PHONE_WIDTH_IN = 3.7    # the column of a page at 390 pixels, so that words keep their size there
+TEXT_WIDTH_IN = 7.5  # the column of a page at 1280 pixels, 720 of CSS's 96 to the inch
+PHONE_WIDTH_IN = 3.7  # the column of a page at 390 pixels, so that words keep their size there
 
-INK = "#1c2430"     # words, axes, reference curves
-MUTED = "#667085"   # ticks, annotations, bounds
+INK = "#1c2430"  # words, axes, reference curves
+MUTED = "#667085"  # ticks, annotations, bounds
 GRID = "#dfe3e8"
-PAPER = "#fefefe"   # the page itself: halos, and the rim of a marker
+PAPER = "#fefefe"  # the page itself: halos, and the rim of a marker
 
 # light page -> dark page; `inline` writes both into the SVG
 TWINS = {
@@ -118,14 +118,14 @@ PAPER_STYLE = {
     "figure.facecolor": "none",
     "axes.facecolor": "none",
     "savefig.facecolor": "none",
-    "svg.fonttype": "path",                  # the SVG needs no font where it is read
-    "svg.hashsalt": "orientation-bench",     # equal results give equal bytes
-    "image.cmap": "cividis",                 # even in lightness, for any colour vision
+    "svg.fonttype": "path",  # the SVG needs no font where it is read
+    "svg.hashsalt": "orientation-bench",  # equal results give equal bytes
+    "image.cmap": "cividis",  # even in lightness, for any colour vision
 }
 
 
 def look(name: str) -> Look:
-    """How to draw a regulator or a contender (`regulator/representation`), one nobody has heard of included."""
+    """How to draw a regulator or a contender (`regulator/representation`), unknown ones included."""
     regulator = name.partition("/")[0]
     if regulator in LOOKS:
         return LOOKS[regulator]
@@ -155,7 +155,8 @@ def paper_style():
 def panels(rows: int = 1, cols: int = 1, *, height: float = 3.2, narrow: bool = False, **subplots):
     """A figure of the page's width, [in] high, and its axes; `narrow` is the same for a phone.
 
-    Plain `Figure`, no pyplot: nothing is shown twice, nothing stays open, and no backend is chosen for anybody.
+    Plain `Figure`, no pyplot: nothing is shown twice, nothing stays open, and no backend is
+    chosen for anybody.
     """
     figure = Figure(figsize=(PHONE_WIDTH_IN if narrow else TEXT_WIDTH_IN, height))
     axes = figure.subplots(rows, cols, **subplots)

@@ -1,9 +1,9 @@
 """Sphinx extension: pages that need nothing from the network.
 
-MathJax comes out of sphinx-mathjax-offline, one file of it: the stock extension copies 24 MB into the site, while
-`tex-svg.js` alone (2 MB) draws every formula as outlines. It loads no font and no add-on, so pages also work from file:// in
-browsers that refuse fonts there. Thebe, which jupyter-book switches on and which would run cells on a server, is
-taken out, and so are source maps, which only a debugger asks for.
+MathJax comes out of sphinx-mathjax-offline, one file of it: the stock extension copies 24 MB into the site,
+while `tex-svg.js` alone (2 MB) draws every formula as outlines. It loads no font and no add-on, so pages
+also work from file:// in browsers that refuse fonts there. Thebe, which jupyter-book switches on and which
+would run cells on a server, is taken out, and so are source maps, which only a debugger asks for.
 """
 
 from __future__ import annotations
@@ -52,7 +52,9 @@ def finish(app, exception) -> None:
             target.parent.mkdir(parents=True, exist_ok=True)
             shutil.copyfile(str(file.locate()), target)
             return
-    raise FileNotFoundError(f"{DISTRIBUTION} ships no {SCRIPT} (cure: make setup, which installs the pinned version)")
+    raise FileNotFoundError(
+        f"{DISTRIBUTION} ships no {SCRIPT} (cure: make setup, which installs the pinned version)"
+    )
 
 
 def setup(app) -> dict:

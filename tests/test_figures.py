@@ -1,0 +1,133 @@
+"""How figures and page parts are made: colours, ids, words, numbers."""
+
+import re
+
+import pandas as pd
+import pytest
+
+pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
+
+from bench.figures import html, style
+from bench.figures.inline import Picture, picture, responsive_picture
+
+
+@picture
+def two_laws():
+    figure, axes = style.panels(height=2.0)
+    for name in ("rotation-matrix", "linearized-euler"):
+        axes.plot([0, 1], [0, 1], color=style.look(name).colour, marker=style.look(name).marker)
+    return figure, 'Two laws, "equal" & straight'
+
+
+@picture
+def undescribed():
+    figure, _ = style.panels(height=2.0)
+    return figure, " "
+
+
+@responsive_picture
+def for_a_phone_too(narrow):
+    figure, _ = style.panels(height=2.0, narrow=narrow)
+    return figure, "Nothing, in two widths"
+
+
+def test_every_look_has_a_dark_twin_and_is_one_of_a_kind():
+    assert {look.colour for look in style.LOOKS.values()} <= set(style.TWINS)
+    assert len(set(style.LOOKS.values())) == len(style.LOOKS)
+    assert len({(look.colour, look.marker) for look in style.LOOKS.values()}) == len(style.LOOKS)
+
+
+def test_outcome_colours_have_dark_twins():
+    assert {colour for colour, _ in style.OUTCOMES.values()} <= set(style.TWINS)
+
+
+def test_contender_looks_like_its_regulator():
+    assert style.look("linearized-euler/zyx-euler") == style.LOOKS["linearized-euler"]
+
+
+def test_unknown_law_has_a_look_of_its_own_that_stays():
+    assert style.look("my-law") == style.look("my-law/quaternion")
+    assert style.look("my-law").colour in style.TWINS
+    assert style.look("my-law") not in style.LOOKS.values()
+
+
+def test_picture_names_its_colours_and_says_what_it_shows():
+    svg = two_laws().wide
+    assert 'role="img" aria-label="Two laws, &quot;equal&quot; &amp; straight"' in svg
+    assert "--c0072b2: light-dark(#0072b2, #5cb8f0)" in svg
+    assert "stroke: var(--c0072b2)" in svg
+    assert "stroke: #0072b2" not in svg
+    assert "<style" not in svg
+
+
+def test_picture_is_the_same_bytes_every_time():
+    assert two_laws() == two_laws()
+
+
+def test_picture_keeps_only_ids_that_are_used_and_owns_them():
+    svg = two_laws().wide
+    ids = re.findall(r'\bid="([^"]+)"', svg)
+    used = set(re.findall(r"url\(#([^)]+)\)", svg)) | set(re.findall(r'href="#([^"]+)"', svg))
+    assert ids
+    assert len(ids) == len(set(ids))
+    assert set(ids) == used
+    assert all(name.startswith("two-laws-") for name in ids)
+
+
+def test_picture_without_words_is_refused():
+    with pytest.raises(ValueError, match="undescribed has no alternative text"):
+        undescribed()
+
+
+def test_responsive_picture_is_drawn_for_a_phone_too():
+    drawn = for_a_phone_too()
+    assert isinstance(drawn, Picture)
+    assert drawn.wide != drawn.narrow
+    assert 'class="picture narrow"' in drawn._repr_html_()
+
+
+def test_drawing_leaves_the_style_of_others_alone():
+    import matplotlib
+
+    before = dict(matplotlib.rcParams)
+    two_laws()
+    assert dict(matplotlib.rcParams) == before
+
+
+def test_table_sets_numbers_right_and_words_left():
+    frame = pd.DataFrame({"law": ["a|b"], "n": [5000], "time [s]": [0.58346], "rest": [float("nan")]})
+    assert html.table(frame, {"time [s]": ".3f"}).splitlines() == [
+        "| law | n | time [s] | rest |",
+        "| :-- | --: | --: | --: |",
+        "| a\\|b | 5\u202f000 | 0.583 | – |",
+    ]
+
+
+def test_table_refuses_a_format_for_no_column():
+    with pytest.raises(ValueError, match=r"\['m'\], not columns of the table; known: \['n'\]"):
+        html.table(pd.DataFrame({"n": [1]}), {"m": ".2f"})
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [
+        (7.0, "7"),
+        (1234.5, "1\u202f234"),
+        (-0.14286, "\u22120.143"),
+        (2.5e12, "2.5e+12"),
+        (None, "–"),
+        ("e-5", "e-5"),
+        (True, "True"),
+    ],
+)
+def test_cell_reads_like_print(value, text):
+    assert html.cell(value) == text
+
+
+def test_badge_refuses_a_word_that_is_no_verdict():
+    with pytest.raises(ValueError, match="'true' is none of ours; known: holds"):
+        html.badge("true")
+
+
+def test_ball_cannot_break_out_of_its_script():
+    assert "</script>" not in html.ball("b", "words", {"</script>": {"xyz": []}}).split("json", 1)[1][:60]
