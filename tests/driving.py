@@ -1,0 +1,33 @@
+"""How the tests run episodes: the settings, and one start of each kind."""
+
+import tasks
+from bench.contender import Gains
+from bench.engines.episode import Settings
+from tasks.rules import RULES, ticks
+
+NO_EARLY_STOP = 10**9
+
+
+def settings(
+    dt_s=1e-3, horizon_s=3.0, hold_ticks=NO_EARLY_STOP, gains=None, command_limit=None, speed_limit=None
+):
+    """Settings under the judge's rules; no early stop unless asked for."""
+    return Settings(
+        gains=gains or Gains(),
+        dt_s=dt_s,
+        ticks=ticks(horizon_s, dt_s),
+        hold_ticks=hold_ticks,
+        command_limit=command_limit or RULES.command_limit,
+        speed_limit=speed_limit or RULES.speed_limit,
+        rest_speed=RULES.rest_speed,
+        rest_command=RULES.rest_command,
+    )
+
+
+def spread(each: int) -> list:
+    """`each` starts of every set, evenly spaced through it, so that its exact and its near ones are among them."""
+    chosen = []
+    for word in tasks.start_set_names():
+        every = tasks.start_set(word)
+        chosen += every[:: max(1, len(every) // each)][:each]
+    return chosen
