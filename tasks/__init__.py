@@ -32,7 +32,7 @@ from tasks.discovery import constants, pick
 if TYPE_CHECKING:
     from dm_control.rl.control import Environment
 
-__all__ = ["load", "names", "start_set", "start_set_names", "task"]
+__all__ = ["load", "names", "start_set", "start_set_names", "start_set_title", "task"]
 
 
 def names() -> list[str]:
@@ -70,6 +70,11 @@ def load(
 def start_set_names() -> list[str]:
     """Names of all start sets, sorted."""
     return sorted(_start_sets())
+
+
+def start_set_title(name: str) -> str:
+    """What a start set is, in a few words."""
+    return pick("start set", name, _start_sets(), "tasks/starts").title
 
 
 def start_set(name: str, count: int | None = None, seed: int = 0) -> list[Start]:

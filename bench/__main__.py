@@ -1,0 +1,14 @@
+"""`python -m bench`."""
+
+import sys
+
+
+def main() -> int:
+    """The command line; imported late, so that importing this module costs nothing."""
+    from bench.cli import main as command_line
+
+    return command_line()
+
+
+if __name__ == "__main__":
+    sys.exit(main())

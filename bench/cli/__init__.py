@@ -1,0 +1,58 @@
+"""The command line: `python -m bench COMMAND`. One file a command, collected from this folder.
+
+Every mistake of the caller ends in one line on stderr and exit code 2, and touches no result.
+"""
+
+import importlib
+import pkgutil
+import sys
+
+import rich_click as click
+
+from bench.errors import BenchError
+from tasks.base import TaskError
+
+click.rich_click.TEXT_MARKUP = "rich"
+click.rich_click.MAX_WIDTH = 110
+click.rich_click.STYLE_OPTIONS_TABLE_PAD_EDGE = False
+
+EPILOG = """
+First steps:  [b]python -m bench list[/b]  what there is.  [b]python -m bench run --suite quick --out /tmp/quick[/b]
+a run of a minute.  [b]python -m bench show[/b]  its summary.  [b]python -m bench claims[/b]  the paper's claims.
+Your own law:  [b]python -m bench run --law my_law.py --suite quick --out /tmp/mine[/b]  (README has an example).
+"""
+
+
+@click.group(epilog=EPILOG, context_settings={"help_option_names": ["-h", "--help"]})
+@click.version_option(package_name="orientation-bench")
+def bench() -> None:
+    """Which orientation error should a Cartesian controller use, where does it fail, what does it cost per tick?
+
+    Runs every orientation regulator on the same plant from the same starts, judges the outcome, counts the
+    operations, and compares the results with the claims of Murphy (1988).
+    """
+
+
+def commands() -> list[click.Command]:
+    """The constant COMMAND of every module in this folder."""
+    modules = [importlib.import_module(f"{__name__}.{found.name}") for found in pkgutil.iter_modules(__path__)]
+    return [module.COMMAND for module in modules if hasattr(module, "COMMAND")]
+
+
+def main(words: list[str] | None = None) -> int:
+    """Run one command; its exit code."""
+    for command in commands():
+        bench.add_command(command)
+    try:
+        return bench.main(words, prog_name="python -m bench", standalone_mode=False) or 0
+    except click.exceptions.Exit as stop:
+        return stop.exit_code
+    except click.ClickException as error:
+        error.show()
+        return 2
+    except (BenchError, TaskError) as error:
+        print(f"error: {error}", file=sys.stderr)
+        return 2
+    except (KeyboardInterrupt, click.Abort):
+        print("stopped; what was finished is kept, and the same command goes on from there", file=sys.stderr)
+        return 130

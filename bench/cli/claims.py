@@ -1,0 +1,25 @@
+"""`claims`: the paper's sentences, judged on a run."""
+
+from pathlib import Path
+
+import rich_click as click
+
+from bench.cli import options
+from bench.cli.screen import console
+
+
+@click.command("claims")
+@click.argument("folder", required=False, type=click.Path(path_type=Path))
+@click.option("--all", "everything", is_flag=True, help="Also the claims that no suite measures yet.")
+@click.option("--criteria", is_flag=True, help="Print each claim's criterion below it.")
+def COMMAND(folder, everything, criteria):
+    """The claims of Murphy (1988), one line each: id, verdict, evidence, rows (default: results/latest)."""
+    from bench import claims
+
+    folder = folder or options.newest()
+    for verdict in claims.judge_all(folder):
+        if verdict.word == claims.NOT_YET_MEASURED and not everything:
+            continue
+        console().print(f"{verdict.id}  {verdict.word}: {verdict.evidence} ({verdict.rows:,} rows)", soft_wrap=True)
+        if criteria:
+            console().print(f"     criterion: {verdict.claim.criterion}", soft_wrap=True)

@@ -1,0 +1,122 @@
+"""`doctor`: is this machine ready, and if not, what is the cure."""
+
+import importlib.metadata
+import os
+import subprocess
+import sys
+import tempfile
+import tomllib
+from pathlib import Path
+
+import rich_click as click
+
+from bench.cli.screen import console
+from bench.provenance import ROOT
+from bench.schema import RESULTS
+
+CURE_INSTALL = "make setup (or: pip install --require-hashes -r requirements/base.txt)"
+
+
+@click.command("doctor")
+def COMMAND():
+    """Check versions, the compiler and its cache, MuJoCo, rendering and the results folder; say the cure."""
+    failed = 0
+    for name, check in CHECKS.items():
+        is_needed = name != "rendering"
+        try:
+            state, text = "ok", check()
+        except Exception as error:  # whatever a check meets is its finding
+            state, text = ("bad" if is_needed else "note"), f"{error}"
+            failed += is_needed
+        style = {"ok": "green", "bad": "red", "note": "yellow"}[state]
+        console().print(f"[{style}]{state:4}[/{style}] {name:10} {text}", soft_wrap=True)
+    if failed:
+        raise click.exceptions.Exit(1)
+
+
+def _python() -> str:
+    version = ".".join(map(str, sys.version_info[:3]))
+    if not (3, 11) <= sys.version_info[:2] <= (3, 13):
+        raise RuntimeError(f"{version}; needed: 3.11 to 3.13. Cure: make setup PYTHON=python3.12")
+    return version
+
+
+def _versions() -> str:
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    pins = dict(line.split("==") for line in project["dependencies"] if "==" in line)
+    wrong = []
+    for name, wanted in pins.items():
+        wanted = wanted.split(";")[0].strip()
+        try:
+            found = importlib.metadata.version(name)
+        except importlib.metadata.PackageNotFoundError:
+            found = "missing"
+        if found != wanted:
+            wrong.append(f"{name} {found} (pinned: {wanted})")
+    if wrong:
+        raise RuntimeError(f"{', '.join(wrong)}. Cure: {CURE_INSTALL}")
+    return f"{len(pins)} packages as pinned, mujoco {pins['mujoco']}, dm-control {pins['dm-control']}"
+
+
+def _compiler() -> str:
+    from bench.engines.compiled import CACHE, compile_function, float64
+
+    CACHE.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryFile(dir=CACHE):
+        pass
+    if compile_function(lambda x: 2.0 * x, float64(float64), cache=False)(21.0) != 42.0:
+        raise RuntimeError(f"numba computes wrongly. Cure: {CURE_INSTALL}")
+    size = sum(path.stat().st_size for path in CACHE.parent.rglob("*") if path.is_file())
+    return f"numba compiles; cache {CACHE} ({size / 1e6:.0f} MB; may be deleted at any time)"
+
+
+def _engines() -> str:
+    import tasks
+    from bench.discovery import find_contender, known_metrics
+    from bench.engines.run import run
+    from bench.plan import Plan
+    from bench.rows import settings_of
+
+    law = find_contender("rotation-matrix")
+    plan = Plan("doctor", (), (law,))
+    metrics = tuple(known_metrics().values())
+    starts = tasks.start_set("paper")[:1]
+    settings = settings_of(plan, 0.05)
+    both = [run(engine, law, "free-body", starts, settings, metrics) for engine in ("reference", "native")]
+    if both[0].tobytes() != both[1].tobytes():
+        raise RuntimeError(f"the compiled engine and the dm_control loop differ. Cure: {CURE_INSTALL}")
+    return "50 ticks of the compiled engine equal the dm_control loop bit for bit"
+
+
+def _rendering() -> str:
+    code = "import mujoco; m = mujoco.MjModel.from_xml_string('<mujoco/>'); mujoco.Renderer(m, 8, 8).close()"
+    for backend in filter(None, (os.environ.get("MUJOCO_GL"), "egl", "osmesa")):
+        environment = {**os.environ, "MUJOCO_GL": backend, "PYOPENGL_PLATFORM": backend}
+        done = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, timeout=120)
+        if done.returncode == 0:
+            return f"MUJOCO_GL={backend} works"
+    raise RuntimeError(
+        "no offscreen rendering; only new stills need it. Cure: apt install libegl1 (or libosmesa6), then MUJOCO_GL=egl"
+    )
+
+
+def _results() -> str:
+    RESULTS.mkdir(exist_ok=True)
+    with tempfile.TemporaryFile(dir=RESULTS):
+        pass
+    found = [path.parent.name for path in sorted(RESULTS.glob("*/provenance.json"))]
+    return f"{_short(RESULTS)} is writable; finished runs: {', '.join(found) or 'none'}"
+
+
+def _short(path: Path) -> str:
+    return os.path.relpath(path)
+
+
+CHECKS = {
+    "python": _python,
+    "versions": _versions,
+    "compiler": _compiler,
+    "engines": _engines,
+    "rendering": _rendering,
+    "results": _results,
+}

@@ -1,0 +1,82 @@
+"""`run`: carry out a suite, or a part of it."""
+
+import os
+from pathlib import Path
+
+import rich_click as click
+
+from bench import plan as planning
+from bench.cli import options
+from bench.cli.screen import console, episode_progress
+from bench.contender import Gains
+
+EPILOG = """
+Examples:  [b]python -m bench run[/b]  the default suite into results/latest.
+[b]python -m bench run --regulator rotation-matrix --starts half-turn --engine native --out /tmp/half[/b]
+[b]python -m bench run --law my_law.py --suite quick --out /tmp/mine[/b]
+"""
+
+
+@click.command("run", epilog=EPILOG)
+@click.option("--suite", default="default", show_default=True, metavar="NAME", help="quick, default or full.")
+@options.law
+@options.regulator
+@options.representation
+@click.option("--task", "tasks", multiple=True, metavar="NAME", help="Only this task; repeatable.")
+@click.option("--starts", multiple=True, metavar="NAME", help="Only this start set; repeatable.")
+@click.option("--engine", "engines", multiple=True, metavar="NAME", help="Only this engine; repeatable.")
+@click.option("--count", type=int, help="At most so many starts of each set (sampled sets take any number).")
+@click.option("--dt", "dt_s", type=float, default=1e-3, show_default=True, help="Control period [s].")
+@click.option("--horizon", "horizon_s", type=float, help="Longest simulated time [s]; the suite's own by default.")
+@click.option("--kp", type=float, default=100.0, show_default=True, help="Position gain [1/s^2].")
+@click.option("--kv", type=float, default=20.0, show_default=True, help="Velocity gain [1/s].")
+@click.option("--integrator", default="euler", show_default=True, metavar="NAME", help="MuJoCo's, for native and reference.")
+@click.option("--seed", type=int, default=0, show_default=True, help="Of the sampled start sets.")
+@click.option("--workers", type=int, default=os.cpu_count() or 1, show_default="cores", help="Threads.")
+@click.option("--out", type=click.Path(path_type=Path), default=options.LATEST, show_default="results/latest", help="Folder.")
+@click.option("--replace", is_flag=True, help="Start over if the folder holds another plan.")
+@click.option("--dry-run", is_flag=True, help="Print the plan and its size; run nothing.")
+def COMMAND(
+    suite, laws, regulators, representations, tasks, starts, engines, count, dt_s, horizon_s, kp, kv, integrator, seed,
+    workers, out, replace, dry_run,
+):  # fmt: skip
+    """Run a suite and store its episodes; a run that was stopped goes on where it was."""
+    plan = planning.make(
+        suite,
+        options.chosen(laws, regulators, representations),
+        task_words=tasks,
+        start_sets=starts,
+        engines=engines,
+        count=count,
+        dt_s=dt_s,
+        horizon_s=horizon_s,
+        gains=Gains(kp, kv),
+        integrator=integrator,
+        seed=seed,
+    )
+    _print_plan(plan, out)
+    if dry_run:
+        return
+    from bench import run as running  # numba and mujoco take seconds to import; --dry-run and mistakes should not
+
+    with episode_progress() as progress:
+        bar = progress.add_task("compiling", total=plan.episodes)
+
+        def told(done):
+            unit = done.unit
+            progress.update(bar, advance=done.episodes, description=f"{unit.engine} {unit.contender.split('/')[0]}"[:34])
+
+        did = running.run(plan, out, workers=workers, replace=replace, told=told)
+        progress.update(bar, completed=plan.episodes, description="finished")
+    console().print(f"{'wrote' if did else 'up to date:'} {out}   (python -m bench show {out})")
+
+
+def _print_plan(plan, out) -> None:
+    laws = ", ".join(one.name for one in plan.contenders)
+    console().print(f"suite {plan.suite}: {plan.episodes:,} episodes in {len(plan.units)} units, dt {plan.dt_s} s, into {out}")
+    console().print(f"laws: {laws}")
+    sizes: dict = {}
+    for unit in plan.units:
+        sizes.setdefault(unit.engine, {}).setdefault(unit.start_set, unit.total)
+    for engine, sets in sizes.items():
+        console().print(f"{engine}: " + ", ".join(f"{name} {total}" for name, total in sets.items()) + " (each law)")
