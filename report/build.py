@@ -163,6 +163,8 @@ def complaints(log: str) -> list[str]:
     """The lines of a failed build that say what is wrong: warnings, errors, and the cell that raised."""
     kept, in_cell = [], False
     for line in TERMINAL_COLOUR.sub("", log).splitlines():
+        if line.startswith("Exception occurred"):  # here the log says it all a second time
+            break
         if CELL_RAISED in line:
             in_cell = True
         elif line.startswith(("Traceback", "The above exception")):
