@@ -54,12 +54,17 @@ def missing() -> str:
         import selenium  # noqa: F401
     except ImportError:
         return f"selenium is not installed (cure: {CURE})"
-    for program in ("chromium", "chromedriver"):
-        if not shutil.which(program):
+    for program, found in (("chromium", chromium()), ("chromedriver", shutil.which("chromedriver"))):
+        if not found:
             return f"{program} is not on this machine (cure: {CURE})"
     if not (SITE / "index.html").is_file():
         return "the report is not built (cure: make report)"
     return ""
+
+
+def chromium() -> str | None:
+    """The browser's program, under the first of its names that is here."""
+    return next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
 
 
 def pages() -> list[Path]:
@@ -75,7 +80,7 @@ def browser() -> Iterator:
     from selenium.webdriver.chrome.service import Service
 
     options = webdriver.ChromeOptions()
-    options.binary_location = shutil.which("chromium")
+    options.binary_location = chromium()
     for switch in (
         "--headless=new",
         "--no-sandbox",
