@@ -67,8 +67,8 @@ def _imported(tree: ast.Module) -> set[str]:
 def _defined(tree: ast.Module) -> set[str]:
     """Names a kernel may call that the file itself makes.
 
-    Its kernels, its tuple types, and what a plain function around a kernel binds, chart = representation.chart
-    say, which another file defines and is checked for.
+    Its kernels, its tuple types, and what a plain function around a kernel binds: law_in's functions of the
+    representation, whose own file is checked.
     """
     names = {node.name for node in ast.walk(tree) if isinstance(node, ast.ClassDef) or node in _kernels(tree)}
     for maker in ast.walk(tree):
