@@ -10,11 +10,11 @@ takes the same branches and returns the same bits, and they tally every operatio
     dialect.py   what a law file may contain, checked in its text
 """
 
-from bench.counting.costs import COSTS, Cost, cost, flops, rows
+from bench.counting.costs import BRANCHES, Cost, cost, flops, rows
 from bench.counting.counted import OPERATIONS, STAGES, TOTAL, Counted, Counts, OutsideDialect, Tally
 
 __all__ = [
-    "COSTS",
+    "BRANCHES",
     "OPERATIONS",
     "RULES",
     "STAGES",

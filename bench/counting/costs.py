@@ -17,7 +17,7 @@ from bench.counting.states import GAINS, State, states
 from bench.errors import BadLaw
 
 FLOPS = ("add", "mul", "div", "sqrt")
-COSTS = ("typical", "worst")
+BRANCHES = ("typical", "worst")
 
 
 class Cost(NamedTuple):
@@ -67,7 +67,7 @@ def flops(numbers: dict) -> int:
 
 def _rows(one: Cost) -> Iterator[dict]:
     representation = one.contender.representation
-    for branch, counts in zip(COSTS, (one.typical, one.worst), strict=True):
+    for branch, counts in zip(BRANCHES, (one.typical, one.worst), strict=True):
         for stage in (*STAGES, TOTAL):
             numbers = counts.of(stage)
             yield {
