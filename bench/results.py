@@ -1,0 +1,78 @@
+"""What the report and the claims read: the folder of a finished run, and its tables, each read once a process.
+
+    results.episodes(engine="ideal-rk4", start_set="uniform")     the rows that have these words
+    results.costs(), results.boundaries(), results.traces(), results.provenance()
+
+Every frame has a column `contender`, "regulator" or "regulator/representation".
+"""
+
+import functools
+import os
+from pathlib import Path
+
+import pandas as pd
+
+from bench.errors import BadResults
+from bench.schema import RESULTS
+from bench.store import read, read_json
+
+VARIABLE = "ORIENTATION_BENCH_RESULTS"
+
+
+def folder() -> Path:
+    """The folder that the environment names, else results/latest if its run has finished, else results/reference."""
+    named = os.environ.get(VARIABLE)
+    if named:
+        return Path(named).expanduser().resolve()
+    finished = (RESULTS / "latest" / "provenance.json").is_file()
+    return RESULTS / ("latest" if finished else "reference")
+
+
+def episodes(**words: str) -> pd.DataFrame:
+    """Rows of episodes.parquet that have these words, as in episodes(engine="native", start_set="poles")."""
+    return chosen(table(folder(), "episodes"), words)
+
+
+def traces(**words: str) -> pd.DataFrame:
+    """Rows of traces.parquet that have these words."""
+    return chosen(table(folder(), "traces"), words)
+
+
+def costs(**words: str) -> pd.DataFrame:
+    """Rows of costs.parquet that have these words, as in costs(branch="typical", stage="total")."""
+    return chosen(table(folder(), "costs"), words)
+
+
+def boundaries(**words: str) -> pd.DataFrame:
+    """Rows of boundaries.parquet that have these words."""
+    return chosen(table(folder(), "boundaries"), words)
+
+
+def provenance() -> dict:
+    """Where the run comes from: provenance.json."""
+    return read_json(folder() / "provenance.json")
+
+
+@functools.cache
+def table(path: Path, name: str) -> pd.DataFrame:
+    """A whole table with `contender` added; shared, so copy it before you change it."""
+    frame = read(path, name)
+    regulator, representation = frame["regulator"].astype(str), frame["representation"].astype(str)
+    names = regulator.where(representation == "", regulator + "/" + representation)
+    return frame.assign(contender=names.astype("category"))
+
+
+def chosen(frame: pd.DataFrame, words: dict[str, str]) -> pd.DataFrame:
+    """The rows whose columns have these words, counted anew from 0, with only the words that occur.
+
+    Errors:
+        BadResults: the table has no such column.
+    """
+    for column, word in words.items():
+        if column not in frame:
+            raise BadResults(f"no column '{column}' in this table; it has: {', '.join(map(str, frame.columns))}")
+        frame = frame[frame[column] == word]
+    frame = frame.reset_index(drop=True)
+    for column in frame.select_dtypes("category"):
+        frame[column] = frame[column].cat.remove_unused_categories()
+    return frame
