@@ -1,0 +1,144 @@
+"""The regression gate: a run against the reference, row by row.
+
+Schema, row keys, outcomes and operation counts must be the same exactly; a settling time to less than half a tick;
+other numbers of settled episodes to RELATIVE. Numbers of an episode that failed are not compared: on its way it may
+pass a singular point, where the last bit of a library's sine decides them.
+"""
+
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from bench.errors import BadResults
+from bench.schema import KEY
+from bench.store import read, read_arrow
+from tasks.verdict import OUTCOMES, SETTLED
+
+RELATIVE = 1e-6
+"""Rounding grows by less than a millionth in a settled episode: two libraries' sines (1e-16 apart) and some 1e4 ticks
+leave 1e-12; step-size effects that a change of code could bring start at 1e-4."""
+
+ABSOLUTE = 1e-9
+"""Below this an angle [rad] or a margin is rounding itself."""
+
+COST_KEY = ("regulator", "representation", "jacobian", "inverse", "branch", "stage")
+BOUNDARY_KEY = ("regulator", "representation", "jacobian", "inverse", "axis_x", "axis_y", "axis_z")
+BOUNDARY_ANGLE = 1e-5
+"""Bisection ends at 7e-7 rad; near a fractal boundary the last steps may go either way."""
+
+SHOWN = 10
+
+
+def compare(candidate: Path, reference: Path) -> list[str]:
+    """What differs, one line each; empty if nothing does.
+
+    Errors:
+        BadResults: a folder holds no finished run.
+    """
+    lines = []
+    for table, rows in (("episodes", _episodes), ("costs", _costs), ("boundaries", _boundaries)):
+        try:
+            old, new = read(reference, table), read(candidate, table)
+        except BadResults as error:
+            raise BadResults(f"nothing to compare: {error}") from error
+        schema = _schema(table, candidate, reference)
+        lines += schema or rows(new, old)
+    return lines
+
+
+def _schema(table: str, candidate: Path, reference: Path) -> list[str]:
+    """Columns, types and units that differ."""
+    found, wanted = (_fields(folder / f"{table}.parquet", table) for folder in (Path(candidate), Path(reference)))
+    lines = [f"{table}: column {name} is missing" for name in wanted if name not in found]
+    lines += [f"{table}: column {name} is new" for name in found if name not in wanted]
+    for name in wanted:
+        if name in found and found[name] != wanted[name]:
+            lines.append(f"{table}: column {name} is {_typed(found[name])}, was {_typed(wanted[name])}")
+    if not lines and list(found) != list(wanted):
+        lines.append(f"{table}: the columns come in another order")
+    return lines
+
+
+def _fields(path: Path, table: str) -> dict:
+    return {
+        field.name: (str(field.type), (field.metadata or {}).get(b"unit", b"").decode())
+        for field in read_arrow(path, table).schema
+    }
+
+
+def _typed(field: tuple[str, str]) -> str:
+    return f"{field[0]} [{field[1]}]"
+
+
+def _aligned(table: str, new: pd.DataFrame, old: pd.DataFrame, key) -> tuple[pd.DataFrame, pd.DataFrame, list[str]]:
+    """The rows that both have, in one order, and a line for each that only one has."""
+    new, old = (_keyed(frame, key) for frame in (new, old))
+    lines = []
+    for name, frame in (("candidate", new), ("reference", old)):
+        twice = frame.index[frame.index.duplicated()].unique()
+        lines += _some(f"{table}: row twice in the {name}", list(twice))
+    if lines:
+        return new.iloc[:0], old.iloc[:0], lines
+    lines += _some(f"{table}: row is missing", list(old.index.difference(new.index, sort=False)))
+    lines += _some(f"{table}: row is new", list(new.index.difference(old.index, sort=False)))
+    both = old.index.intersection(new.index, sort=False)
+    return new.loc[both], old.loc[both], lines
+
+
+def _keyed(frame: pd.DataFrame, key) -> pd.DataFrame:
+    rows = frame[list(key)].astype(str).itertuples(index=False)
+    return frame.set_axis(pd.Index([" ".join(filter(None, row)) for row in rows], dtype=str), axis=0)
+
+
+def _some(what: str, names: list[str]) -> list[str]:
+    lines = [f"{what}: {name}" for name in names[:SHOWN]]
+    return lines + ([f"{what}: ... and {len(names) - SHOWN} more"] if len(names) > SHOWN else [])
+
+
+def _episodes(new: pd.DataFrame, old: pd.DataFrame) -> list[str]:
+    new, old, lines = _aligned("episodes", new, old, KEY)
+    settled = old["outcome"].astype(str) == OUTCOMES[SETTLED]
+    same = new["outcome"].astype(str) == old["outcome"].astype(str)
+    lines += _changed("outcome", new, old, ~same)
+    both = settled & same
+    for name in old.columns.difference([*KEY, "outcome"], sort=False):
+        if old[name].dtype.kind not in "iuf":
+            lines += _changed(name, new, old, new[name].astype(str) != old[name].astype(str))
+            continue
+        a, b = new[name].to_numpy(float), old[name].to_numpy(float)
+        if name in ("settling_time_s", "failure_time_s"):
+            close = np.abs(a - b) < 0.5 * old["dt_s"].to_numpy()
+        elif name == "ticks":
+            close = a == b
+        else:
+            close = np.isclose(a, b, rtol=RELATIVE, atol=ABSOLUTE)
+        lines += _changed(name, new, old, both & ~(close | (np.isnan(a) & np.isnan(b))))
+    return lines
+
+
+def _changed(name: str, new: pd.DataFrame, old: pd.DataFrame, rows) -> list[str]:
+    picked = new.index[np.asarray(rows)]
+    lines = [f"{name}: {old.at[key, name]} -> {new.at[key, name]}: {key}" for key in picked[:SHOWN]]
+    return lines + ([f"{name}: ... and {len(picked) - SHOWN} more rows"] if len(picked) > SHOWN else [])
+
+
+def _costs(new: pd.DataFrame, old: pd.DataFrame) -> list[str]:
+    new, old, lines = _aligned("costs", new, old, COST_KEY)
+    for name in old.columns.difference(COST_KEY, sort=False):
+        lines += _changed(name, new, old, new[name].to_numpy() != old[name].to_numpy())
+    return lines
+
+
+def _boundaries(new: pd.DataFrame, old: pd.DataFrame) -> list[str]:
+    new, old, lines = _aligned("boundaries", new.round(_digits(new)), old.round(_digits(old)), BOUNDARY_KEY)
+    for name in ("settled_to_rad", "fails_from_rad"):
+        a, b = new[name].to_numpy(float), old[name].to_numpy(float)
+        close = np.isclose(a, b, rtol=0.0, atol=BOUNDARY_ANGLE, equal_nan=True)
+        lines += _changed(name, new, old, ~close)
+    return lines
+
+
+def _digits(frame: pd.DataFrame) -> dict[str, int]:
+    """Axes are compared by their first nine digits: they name a row."""
+    return {name: 9 for name in frame.columns if name.startswith("axis_")}

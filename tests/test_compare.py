@@ -1,0 +1,152 @@
+"""The regression gate finds each kind of change, and nothing where nothing changed."""
+
+import shutil
+
+import pyarrow as pa
+import pyarrow.parquet as pq
+import pytest
+
+from bench import boundary
+from bench import plan as planning
+from bench import run as running
+from bench.cli import main
+from bench.compare import compare
+from bench.discovery import find_contender
+from bench.store import read, write_table
+
+
+@pytest.fixture(scope="module")
+def reference(tmp_path_factory):
+    laws = [find_contender("rotation-matrix"), find_contender("feedback-linearized")]
+    plan = planning.make("quick", laws, start_sets=("paper", "poles"), engines=("ideal-held",), horizon_s=2.0)
+    folder = tmp_path_factory.mktemp("gate") / "reference"
+    running.run(plan, folder, workers=1)
+    return folder
+
+
+@pytest.fixture
+def candidate(reference, tmp_path):
+    folder = tmp_path / "candidate"
+    shutil.copytree(reference, folder)
+    return folder
+
+
+def change(folder, table, edit):
+    frame = read(folder, table)
+    write_table(folder / f"{table}.parquet", edit(frame), table)
+
+
+def test_gate_passes_when_nothing_changed(reference, candidate):
+    assert compare(candidate, reference) == []
+    assert main(["compare", str(candidate), str(reference)]) == 0
+
+
+def test_gate_catches_one_flipped_outcome(reference, candidate, capsys):
+    def flip(frame):
+        row = frame.index[frame["outcome"] == "settled"][3]
+        frame["outcome"] = frame["outcome"].astype(str)
+        frame.loc[row, "outcome"] = "stuck"
+        return frame
+
+    change(candidate, "episodes", flip)
+    lines = compare(candidate, reference)
+    assert len(lines) == 1
+    assert "outcome: settled -> stuck" in lines[0]
+    assert main(["compare", str(candidate), str(reference)]) == 1
+    assert "settled -> stuck" in capsys.readouterr().out
+
+
+def test_gate_catches_one_more_multiplication(reference, candidate):
+    def add_one(frame):
+        rows = (frame["regulator"] == "rotation-matrix") & (frame["branch"] == "worst") & (frame["stage"] == "total")
+        assert rows.sum() == 1
+        frame.loc[rows, "mul"] += 1
+        return frame
+
+    change(candidate, "costs", add_one)
+    lines = compare(candidate, reference)
+    assert len(lines) == 1
+    assert lines[0].startswith("mul: 25 -> 26: rotation-matrix worst total")
+
+
+def test_gate_catches_a_settling_time_off_by_one_tick(reference, candidate):
+    def delay(frame):
+        row = frame.index[frame["outcome"] == "settled"][0]
+        frame.loc[row, "settling_time_s"] += frame.loc[row, "dt_s"]
+        return frame
+
+    change(candidate, "episodes", delay)
+    lines = compare(candidate, reference)
+    assert len(lines) == 1
+    assert lines[0].startswith("settling_time_s: ")
+
+
+def test_gate_catches_a_missing_row(reference, candidate):
+    change(candidate, "episodes", lambda frame: frame.drop(index=5))
+    lines = compare(candidate, reference)
+    assert len(lines) == 1
+    assert lines[0].startswith("episodes: row is missing: quick free-body")
+
+
+def test_gate_catches_a_new_row(reference, candidate):
+    def rename(frame):
+        frame["start_id"] = frame["start_id"].astype(str).replace({"figure-2.3": "figure-9.9"})
+        return frame
+
+    change(candidate, "episodes", rename)
+    lines = compare(candidate, reference)
+    assert any(line.startswith("episodes: row is new") for line in lines)
+    assert any(line.startswith("episodes: row is missing") for line in lines)
+
+
+@pytest.mark.parametrize("edit", ["unit", "name", "type"])
+def test_gate_catches_a_changed_column(reference, candidate, edit):
+    path = candidate / "episodes.parquet"
+    table = pq.read_table(path)
+    place = table.schema.get_field_index("effort")
+    field = table.schema.field(place)
+    changed = {
+        "unit": field.with_metadata({"unit": "N m"}),
+        "name": field.with_name("work"),
+        "type": field.with_type(pa.float32()),
+    }[edit]
+    schema = table.schema.set(place, changed)
+    column = table.column(place).cast(changed.type, safe=False)
+    pq.write_table(table.set_column(place, changed, column).replace_schema_metadata(schema.metadata), path)
+    lines = compare(candidate, reference)
+    assert any("column effort" in line for line in lines)
+
+
+def test_gate_catches_a_moved_failure_boundary(reference, candidate, tmp_path):
+    laws = [find_contender("linearized-euler")]
+    plan = planning.Plan("quick", (), tuple(laws), boundary_axes=16)
+    write_table(candidate / "boundaries.parquet", boundary.run(plan), "boundaries")
+    before = tmp_path / "before"
+    shutil.copytree(candidate, before)
+
+    def move(frame):
+        row = frame.index[frame["fails_from_rad"].notna()][0]
+        frame.loc[row, "fails_from_rad"] += 1e-3
+        return frame
+
+    assert compare(candidate, before) == []
+    change(candidate, "boundaries", move)
+    lines = compare(candidate, before)
+    assert len(lines) == 1
+    assert lines[0].startswith("fails_from_rad: ")
+
+
+def test_gate_ignores_what_a_failed_episode_measured(reference, candidate):
+    def shake(frame):
+        failed = frame["outcome"] != "settled"
+        assert failed.any()
+        frame.loc[failed, "effort"] *= 3.0
+        return frame
+
+    change(candidate, "episodes", shake)
+    assert compare(candidate, reference) == []
+
+
+def test_gate_refuses_a_folder_without_a_run(reference, tmp_path, capsys):
+    assert main(["compare", str(tmp_path), str(reference)]) == 2
+    assert "has not finished" in capsys.readouterr().err
