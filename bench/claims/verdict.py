@@ -1,0 +1,89 @@
+"""What a claim is, what can be said of it, and on what evidence.
+
+A claim's text and its numbers were committed before any result was looked at; `git log` of its file shows it.
+"""
+
+from collections.abc import Callable
+from enum import StrEnum
+from typing import NamedTuple
+
+from bench.errors import BenchError
+
+
+class Word(StrEnum):
+    """The five things that can be said of a claim."""
+
+    HOLDS = "holds"
+    CORRECTED = "holds with a correction"
+    FAILS = "does not hold"
+    UNTESTABLE = "not testable"
+    UNMEASURED = "not yet measured"
+
+
+class NoEvidence(BenchError):
+    """A claim asked of tables that hold nothing about it: an error, never a pass."""
+
+
+class Evidence(NamedTuple):
+    """Why the word is what it is.
+
+    sentence: plain prose, every number in it formatted from `numbers`. rows: table rows, states and episodes
+    looked at. tables: where they come from; "experiment" for what the claim computes itself.
+    """
+
+    sentence: str
+    numbers: dict
+    rows: int
+    tables: tuple[str, ...]
+
+
+class Claim(NamedTuple):
+    """One sentence of the paper and how it is decided.
+
+    sentence: our paraphrase. criterion: what makes it hold, hold with a correction, or not hold, in numbers.
+    open: what the paper leaves open and how the verdict hangs on it. readings: where there are several.
+    judge: results -> (word, evidence); None if nothing has been measured for it yet.
+    """
+
+    id: str
+    section: str
+    sentence: str
+    question: str
+    criterion: str
+    open: str = ""
+    readings: tuple[str, ...] = ()
+    judge: Callable | None = None
+
+
+def claim(*, judge: Callable | None = None, readings: tuple[str, ...] = (), **texts: str) -> Claim:
+    """A Claim whose texts may be broken into lines as the file likes."""
+    joined = {field: " ".join(text.split()) for field, text in texts.items()}
+    return Claim(**joined, readings=tuple(" ".join(text.split()) for text in readings), judge=judge)
+
+
+class Verdict(NamedTuple):
+    """A claim decided."""
+
+    claim: Claim
+    word: Word
+    evidence: Evidence
+
+
+NOTHING_YET = Evidence("Not yet measured: it belongs to the work on arms and forces.", {}, 0, ())
+
+
+def decide(claim: Claim, results) -> Verdict:
+    """Judge one claim on a run's results.
+
+    Errors:
+        NoEvidence: the tables hold no row about it.
+    """
+    if claim.judge is None:
+        return Verdict(claim, Word.UNMEASURED, NOTHING_YET)
+    word, evidence = claim.judge(results)
+    if evidence.rows < 1:
+        raise NoEvidence(
+            f"{claim.id}: no row of {', '.join(evidence.tables) or 'any table'} speaks of it; run the suite "
+            "'quick', 'default' or 'full' without narrowing it"
+        )
+    return Verdict(claim, word, evidence)
