@@ -27,7 +27,7 @@ PYTHON ?= $(shell for python in python3 python3.13 python3.12 python3.11; do \
 ##@ Start here
 bench:  ## run the default suite and print the summary (about 5 minutes, set-up included)
 bench: $(BASE)
-	@$(PY) -m bench run --suite default $(ARGS)
+	@$(PY) -m bench run --suite default --replace $(ARGS)
 	@$(PY) -m bench show
 
 report: ## build the report: report/_build/html/index.html (from your run if there is one)
@@ -37,7 +37,7 @@ report: $(REPORT)
 ##@ Benchmark
 bench-quick: ## run the quick suite into results/quick (under 2 minutes)
 bench-quick: $(BASE)
-	@$(PY) -m bench run --suite quick --out results/quick $(ARGS)
+	@$(PY) -m bench run --suite quick --replace --out results/quick $(ARGS)
 
 time:   ## time every law per control tick on this machine: results/timings
 time: $(BASE)
@@ -68,15 +68,16 @@ gate: $(BASE)
 	@$(PY) -m bench run --suite quick --out results/quick
 	@$(PY) -m bench compare results/quick results/reference
 
-reference: ## make results/latest the new reference (commit it by itself)
+reference: ## run the quick suite and make it the new reference (commit it by itself)
 reference: $(BASE)
-	@test -f results/latest/provenance.json || \
-		{ echo "results/latest holds no finished run to promote; make one: make bench" >&2; exit 1; }
+	@rm -rf results/quick
+	@$(PY) -m bench run --suite quick --out results/quick
 	@rm -rf results/reference && mkdir -p results/reference
-	@cp results/latest/*.parquet results/latest/provenance.json results/reference/
+	@cp results/quick/*.parquet results/quick/plan.json results/quick/provenance.json results/reference/
+	@$(PY) -c 'from bench.schema import readme; print(readme(), end="")' > results/README.md
 	@kilobytes=$$(du -sk results/reference | cut -f1); test $$kilobytes -lt 5000 || \
 		{ echo "results/reference is $$kilobytes kB; at most 5000 are committed" >&2; exit 1; }
-	@echo "Promoted. Now: git add results/reference && git commit"
+	@echo "Promoted. Now: git add results && git commit"
 
 lock:   ## write requirements/*.txt anew from pyproject.toml (after changing a dependency)
 lock: $(DEV)

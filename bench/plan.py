@@ -119,6 +119,10 @@ class Plan:
         """Number of rows."""
         return sum(unit.count for unit in self.units)
 
+    def contender(self, name: str) -> Contender:
+        """The contender of that name."""
+        return next(one for one in self.contenders if one.name == name)
+
     def identity(self) -> dict:
         """What two runs must share for one to continue the other: the plan, the rules and the sources."""
         return {

@@ -18,6 +18,7 @@ import pandas as pd
 import tasks
 from bench import boundary, counting, traces
 from bench.discovery import all_contenders, known_metrics
+from bench.engines.run import compiled_loop
 from bench.engines.run import run as run_engine
 from bench.errors import BadNumber, BadResults
 from bench.plan import Plan, Unit
@@ -86,6 +87,8 @@ def run(
     if state.finished:
         return False
     began = time.time()
+    _compile_own_laws(plan)
+    costs = pd.DataFrame(_costs(plan))
     if not state.done:
         _clear(out)
         write_json(out / "plan.json", {"digest": plan.digest(), **plan.identity()})
@@ -94,8 +97,31 @@ def run(
         if unit.key in state.done:
             told(Progress(unit, unit.count))
     _run_units(plan, todo, out, workers, told)
-    _finish(plan, out, workers, began, resumed=bool(state.done))
+    _finish(plan, out, costs, workers, began, resumed=bool(state.done))
     return True
+
+
+def _compile_own_laws(plan: Plan) -> None:
+    """Compile a user's laws before anything is written: what cannot be compiled is a mistake, not a row."""
+    metrics = tuple(known_metrics().values())
+    for unit in {(unit.engine, unit.contender): unit for unit in plan.units}.values():
+        one = plan.contender(unit.contender)
+        if one.regulator.origin and unit.engine != "reference":
+            compiled_loop(unit.engine, one, metrics)
+
+
+def _costs(plan: Plan) -> list[dict]:
+    """Operations of every law, those not run included; a law outside the dialect that only `reference` runs has none."""
+    costed = {one.name: one for one in (*all_contenders(), *plan.contenders)}
+    only_reference = all(unit.engine == "reference" for unit in plan.units)
+    rows = []
+    for one in costed.values():
+        try:
+            rows += counting.rows([one])
+        except counting.OutsideDialect:
+            if not (one.regulator.origin and only_reference):
+                raise
+    return rows
 
 
 def _clear(out: Path) -> None:
@@ -109,7 +135,6 @@ def _clear(out: Path) -> None:
 
 
 def _run_units(plan: Plan, todo: list[Unit], out: Path, workers: int, told) -> None:
-    contenders = {one.name: one for one in plan.contenders}
     metrics = tuple(known_metrics().values())
     stop = threading.Event()
 
@@ -117,7 +142,7 @@ def _run_units(plan: Plan, todo: list[Unit], out: Path, workers: int, told) -> N
         if stop.is_set():
             return None
         starts = starts_of(unit.start_set, unit.total, plan.seed)[unit.first : unit.first + unit.count]
-        one, settings = contenders[unit.contender], settings_of(plan, unit.horizon_s)
+        one, settings = plan.contender(unit.contender), settings_of(plan, unit.horizon_s)
         numbers = run_engine(unit.engine, one, unit.task, starts, settings, metrics, plan.integrator)
         write_table(out / "parts" / f"{unit.key}.parquet", frame(plan, unit, one, starts, numbers, metrics), "episodes")
         return unit
@@ -139,9 +164,8 @@ starts_of = functools.lru_cache(maxsize=16)(tasks.start_set)
 """A start set is built once for all its units."""
 
 
-def _finish(plan: Plan, out: Path, workers: int, began: float, resumed: bool) -> None:
-    costed = {one.name: one for one in (*all_contenders(), *plan.contenders)}
-    write_table(out / "costs.parquet", pd.DataFrame(counting.rows(costed.values())), "costs")
+def _finish(plan: Plan, out: Path, costs: pd.DataFrame, workers: int, began: float, resumed: bool) -> None:
+    write_table(out / "costs.parquet", costs, "costs")
     write_table(out / "traces.parquet", traces.run(plan), "traces")
     write_table(out / "boundaries.parquet", boundary.run(plan), "boundaries")
     rows = merge(out / "episodes.parquet", [out / "parts" / f"{unit.key}.parquet" for unit in plan.units], "episodes")
