@@ -65,6 +65,8 @@ def COMMAND(
         def told(done):
             unit = done.unit
             progress.update(bar, advance=done.episodes, description=f"{unit.engine} {unit.contender.split('/')[0]}"[:34])
+            if progress.tasks[0].finished:
+                progress.update(bar, description="locating failure boundaries")
 
         did = running.run(plan, out, workers=workers, replace=replace, told=told)
         progress.update(bar, completed=plan.episodes, description="finished")
