@@ -8,9 +8,7 @@ from tasks.rules import RULES, ticks
 NO_EARLY_STOP = 10**9
 
 
-def settings(
-    dt_s=1e-3, horizon_s=3.0, hold_ticks=NO_EARLY_STOP, gains=None, command_limit=None, speed_limit=None
-):
+def settings(dt_s=1e-3, horizon_s=3.0, hold_ticks=NO_EARLY_STOP, gains=None, command_limit=None, speed_limit=None):
     """Settings under the judge's rules; no early stop unless asked for."""
     return Settings(
         gains=gains or Gains(),

@@ -40,7 +40,7 @@ def call(contender, R, omega, R_d=IDENTITY, gains=GAINS) -> np.ndarray:
 
 def is_regular(contender, R, R_d) -> bool:
     """Off the singular set of the law's coordinates, where there is one."""
-    return not margin_of(contender)(R, R_d) == 0.0
+    return margin_of(contender)(R, R_d) != 0.0  # NaN, for a law on R, is regular
 
 
 def has_linear_goal(contender) -> bool:
@@ -66,9 +66,7 @@ def over_rows(command, memory):
     def over(given, out):
         for row, into in zip(given, out):  # noqa: B905  numba's zip takes no strict
             R = Rotation((row[0], row[1], row[2]), (row[3], row[4], row[5]), (row[6], row[7], row[8]))
-            R_d = Rotation(
-                (row[12], row[13], row[14]), (row[15], row[16], row[17]), (row[18], row[19], row[20])
-            )
+            R_d = Rotation((row[12], row[13], row[14]), (row[15], row[16], row[17]), (row[18], row[19], row[20]))
             goal = Goal(R_d, AT_REST, AT_REST)
             u, after = command(R, (row[9], row[10], row[11]), goal, Gains(row[21], row[22]), memory)
             into[0], into[1], into[2] = u
@@ -178,8 +176,7 @@ def test_native_rows_are_the_reference_rows_bit_for_bit(contender, integrator, w
     chosen, each = RUNS[way]
     starts = spread(each)
     fast, slow = (
-        run(engine, contender, "free-body", starts, chosen, METRICS, integrator)
-        for engine in ("native", "reference")
+        run(engine, contender, "free-body", starts, chosen, METRICS, integrator) for engine in ("native", "reference")
     )
     assert [starts[i].id for i in different_rows(fast, slow)] == []
 
@@ -219,7 +216,7 @@ def test_episode_gives_the_same_row_whatever_ran_before_it(contender):
 
 
 def test_early_stop_changes_no_settling_tick(contender):
-    starts = [start for start in spread(2)]
+    starts = spread(2)
     to_the_end, stopped = (
         run(
             "ideal-rk4",
@@ -236,9 +233,7 @@ def test_early_stop_changes_no_settling_tick(contender):
 
 
 def test_law_answers_three_floats_to_floats(contender):
-    answer = (
-        contender.law(TRIAL, (0.1, 0.2, 0.3), Goal(), Gains()) if contender.regulator.memory is None else None
-    )
+    answer = contender.law(TRIAL, (0.1, 0.2, 0.3), Goal(), Gains()) if contender.regulator.memory is None else None
     if answer is not None:
         assert len(answer) == 3
         assert all(type(x) is float for x in answer)

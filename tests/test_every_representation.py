@@ -114,9 +114,7 @@ def test_generalized_is_the_transpose_of_B(representation, draw):
         for at in charts(representation, R):
             B = exact_B_at(representation, at.E)
             expected = list(B.T * EXACT.matrix([EXACT.mpf(m) for m in moment]))
-            assert errors(representation.generalized(at, moment), expected) <= PRODUCT_TOLERANCE * size(
-                moment
-            )
+            assert errors(representation.generalized(at, moment), expected) <= PRODUCT_TOLERANCE * size(moment)
 
 
 def test_generalized_force_has_the_power_of_the_moment(representation, draw):

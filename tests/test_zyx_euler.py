@@ -40,9 +40,7 @@ def symbolic():
 def numbers_of():
     """(E, Edot, Eddot) -> R, B, omega, omegadot, with the digits of mpmath."""
     R, omega = symbolic()
-    return sympy.lambdify(
-        [E, list(Edot), list(Eddot)], [R, omega.jacobian(Edot), omega, derivative(omega)], "mpmath"
-    )
+    return sympy.lambdify([E, list(Edot), list(Eddot)], [R, omega.jacobian(Edot), omega, derivative(omega)], "mpmath")
 
 
 PRINTED_B = sympy.Matrix(  # Murphy 1988, 2.8
@@ -85,9 +83,7 @@ def test_kernels_are_their_symbolic_formulas_at_around_and_away_from_the_poles(b
     for _ in range(20):
         angles = (*draw.uniform(-math.pi, math.pi, 1), np.float64(beta), *draw.uniform(-math.pi, math.pi, 1))
         rate, acceleration = draw.normal(scale=5.0, size=3), draw.normal(scale=50.0, size=3)
-        rotation, b, omega, alpha = (
-            np.array(x, dtype=float) for x in numbers_of()(angles, rate, acceleration)
-        )
+        rotation, b, omega, alpha = (np.array(x, dtype=float) for x in numbers_of()(angles, rate, acceleration))
         at = ZYX.chart_of(angles)
         given = vector(rate), vector(acceleration)
         close(matrix(ZYX.to_matrix(angles)), rotation.reshape(3, 3), 1.0)
@@ -160,9 +156,7 @@ def test_singular_orientation_is_90_not_180_degrees_about_y():
 
 def test_margin_is_the_cosine_of_beta():
     for beta in np.linspace(-math.pi / 2, math.pi / 2, 41):
-        assert ZYX.margin(ZYX.to_matrix(vector((0.7, beta, -2.0)))) == pytest.approx(
-            math.cos(beta), abs=2 * EPS
-        )
+        assert ZYX.margin(ZYX.to_matrix(vector((0.7, beta, -2.0)))) == pytest.approx(math.cos(beta), abs=2 * EPS)
 
 
 def test_angles_jump_by_a_full_turn_at_the_wraps():
