@@ -111,7 +111,33 @@ def cost_columns() -> list[Column]:
     ]
 
 
-TABLES = {"episodes": episode_columns, "costs": cost_columns, "traces": trace_columns, "boundaries": boundary_columns}
+def timing_columns() -> list[Column]:
+    """timings/<machine>.parquet: one row for everything timed, in one run whose passes visit all of it."""
+    return [
+        *_words(
+            what="law (alone), engine (a whole loop), or loop (the empty loop that every law's time holds)",
+            regulator="the law; empty for the empty loop and for rollout",
+            representation="coordinates the law acts on; empty for a law on R",
+            engine="ideal-held, ideal-rk4, native or rollout (mujoco.rollout, open loop); empty for a law alone",
+        ),
+        *_numbers("ns", "CPU time a tick, median over passes", "ns_per_tick"),
+        *_numbers("ns", "CPU time of one step of the reference kernel, median over passes", "ns_reference_kernel"),
+        *_numbers("1", "time a tick over the kernel's step of the same pass, median over passes", "ratio"),
+        *_numbers("1", "interval of that median, 95 % by order statistics", "ratio_low", "ratio_high"),
+        *_numbers("1", "native: time a tick over rollout's of the same pass, median over passes", "ratio_rollout"),
+        *_numbers("1", "interval of that median, 95 % by order statistics", "ratio_rollout_low", "ratio_rollout_high"),
+        Column("passes", COUNT, "1", "passes"),
+        Column("ticks", COUNT, "1", "ticks of one round; 0 if the law fails and could not be timed"),
+    ]
+
+
+TABLES = {
+    "episodes": episode_columns,
+    "costs": cost_columns,
+    "traces": trace_columns,
+    "boundaries": boundary_columns,
+    "timings": timing_columns,
+}
 
 
 def arrow_schema(table: str) -> pa.Schema:

@@ -67,9 +67,11 @@ def as_table(frame: pd.DataFrame, table: str) -> pa.Table:
     )
 
 
-def write_table(path: Path, frame: pd.DataFrame, table: str) -> None:
-    """One table, whole or not at all."""
+def write_table(path: Path, frame: pd.DataFrame, table: str, about: dict | None = None) -> None:
+    """One table, whole or not at all; `about` goes into its metadata as JSON, for a table that has no run's folder."""
     arrow = as_table(frame, table)
+    if about is not None:
+        arrow = arrow.replace_schema_metadata({**arrow.schema.metadata, b"about": json.dumps(about, sort_keys=True)})
     write_atomically(path, lambda temporary: pq.write_table(arrow, temporary, compression=COMPRESSION))
 
 
