@@ -1,0 +1,18 @@
+"""Time per tick of every law and engine on this machine (`python -m bench time`), as ratios to a reference kernel.
+
+The same code timed twice on a shared machine differs by half and more; a ratio to something timed a moment before or
+after does not. So everything is timed in one run, in passes: each pass visits the reference kernel and every measured
+thing in a random order of its own, and a ratio is taken within a pass.
+
+reference_kernel   what a ratio is to
+law                a law alone, one command waiting for the other
+things             all that is timed, engines included
+passes, session    the visits, as pytest-benchmark runs them
+ratios             medians over passes, with intervals
+rows, summary      from seconds to results/timings/<machine>.parquet, and to a table for the eye
+"""
+
+from bench.timing.rows import about, read, run
+from bench.timing.summary import table
+
+__all__ = ["about", "read", "run", "table"]

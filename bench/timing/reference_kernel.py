@@ -1,0 +1,36 @@
+"""The reference kernel: a fixed piece of arithmetic whose time stands for the speed of the machine at that moment.
+
+    x <- sqrt(2 + sin(((x/10 + 1/5) x + 3/10) x + k/1000)),   k = 0, 1, 2 ...
+
+Each operation waits for the one before it, as in a law, so nothing is vectorized or overlapped. It must never be
+changed: every stored ratio is a ratio to one step of exactly this. `RESULT` is its value, by which a test knows it.
+
+|dx'/dx| <= 0.366 (3 x^2/10 + 2 x/5 + 3/10) < 0.7 for x <= sqrt(3): the map forgets, so an ulp in some libm's sine
+stays a few ulps, and RESULT holds on every machine.
+"""
+
+import functools
+
+from bench.engines.compiled import compile_function, float64, int64
+from bench.scalar import sin, sqrt
+
+STEPS = 20_000
+"""About half a millisecond: a thousand times what calling it costs."""
+
+START = 0.5
+RESULT = 1.599255347080933
+TOLERANCE = 1e-14
+"""One ulp of x is 2.2e-16; errors of an ulp in sine and root sum to under four of them."""
+
+
+def chain(x, steps):
+    """The value after so many steps; plain Python gives the same."""
+    for k in range(steps):
+        x = sqrt(2.0 + sin(((0.1 * x + 0.2) * x + 0.3) * x + 0.001 * k))
+    return x
+
+
+@functools.cache
+def compiled():
+    """The kernel compiled: compiled()(START, STEPS)."""
+    return compile_function(chain, float64(float64, int64))

@@ -1,0 +1,126 @@
+"""The interleaved run: passes over all things, each in an order of its own, timed by pytest-benchmark.
+
+CPU time of the measuring thread is taken (time.thread_time), not the clock on the wall: on a shared machine that
+leaves out the time in which others ran, and a progress bar's thread. No thing uses a second thread. A visit is a few
+rounds on end and counts with the fastest, for a disturbance only ever adds; the first also warms the caches.
+"""
+
+import contextlib
+import io
+import os
+import random
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+import pytest
+
+from bench.errors import MissingTool
+from bench.timing.things import Thing
+
+ROUNDS = 3
+TIMER = "time.thread_time"
+PASSES_FILE = Path(__file__).with_name("passes.py")
+
+
+class Progress(NamedTuple):
+    """Told after every visit: the thing's name, and how many visits of how many are done."""
+
+    name: str
+    done: int
+    total: int
+
+
+class Visit(NamedTuple):
+    """One thing in one pass, and where its seconds go."""
+
+    thing: Thing
+    pass_number: int
+    taken: Callable
+
+
+def order(count: int, passes: int, seed: int) -> list[list[int]]:
+    """For every pass all of 0..count-1, shuffled anew."""
+    shuffled = random.Random(seed)
+    return [shuffled.sample(range(count), count) for _ in range(passes)]
+
+
+def measure(things: list[Thing], passes: int, seed: int = 0, told: Callable = lambda _: None) -> np.ndarray:
+    """Seconds of the fastest round: one row a pass, one column a thing.
+
+    Errors:
+        MissingTool: pytest-benchmark is not there. KeyboardInterrupt: after Ctrl-C; there is nothing to keep.
+    """
+    seconds = np.full((passes, len(things)), np.nan)
+    total = passes * len(things)
+
+    def visit(number: int, place: int) -> Visit:
+        def taken(rounds):
+            seconds[number, place] = min(rounds)
+            told(Progress(things[place].name, int(np.isfinite(seconds).sum()), total))
+
+        return Visit(things[place], number, taken)
+
+    visits = [visit(number, at) for number, row in enumerate(order(len(things), passes, seed)) for at in row]
+    _benchmark(visits)
+    return seconds
+
+
+class _Visits:
+    """The plugin that gives the visits to passes.py and pytest's own report to a buffer.
+
+    Reporters keep the streams they find while pytest configures itself: a buffer, then. Whatever is written later, a
+    progress bar say, has the real ones.
+    """
+
+    def __init__(self, visits: list[Visit]):
+        self.visits = visits
+        self.report = io.StringIO()
+        self.redirected = contextlib.ExitStack()
+
+    @pytest.hookimpl(tryfirst=True)
+    def pytest_configure(self):
+        self.redirected.enter_context(contextlib.redirect_stdout(self.report))
+        self.redirected.enter_context(contextlib.redirect_stderr(self.report))
+
+    @pytest.hookimpl(tryfirst=True)
+    def pytest_sessionstart(self):
+        self.redirected.close()
+
+    def pytest_generate_tests(self, metafunc):
+        names = [f"pass {one.pass_number} {one.thing.name}" for one in self.visits]
+        metafunc.parametrize("visit", self.visits, ids=names)
+
+
+def _benchmark(visits: list[Visit]) -> None:
+    plugin = _Visits(visits)
+    words = [
+        str(PASSES_FILE),
+        *("-c", os.devnull, "--rootdir", str(PASSES_FILE.parent), "--noconftest"),
+        *("-p", "no:cacheprovider", "-p", "no:xdist", "-p", "no:faulthandler"),
+        *("-q", "--exitfirst", "--capture=no", "--assert=plain", "-W", "ignore"),
+        *(f"--benchmark-timer={TIMER}", "--benchmark-disable-gc", "--benchmark-quiet"),
+    ]
+    with _no_outer_pytest(), plugin.redirected:
+        code = pytest.main(words, plugins=[plugin])
+    if code == pytest.ExitCode.INTERRUPTED:
+        raise KeyboardInterrupt
+    if code != pytest.ExitCode.OK:
+        report = plugin.report.getvalue().strip()
+        if "fixture 'benchmark' not found" in report or "unrecognized arguments: --benchmark" in report:
+            raise MissingTool("pytest-benchmark is not installed in this environment; run `make setup`")
+        raise RuntimeError(f"pytest ended with {code!r} on {PASSES_FILE.name}:\n{report}")
+
+
+@contextlib.contextmanager
+def _no_outer_pytest():
+    """Hide an outer pytest's variables: under pytest-xdist's, pytest-benchmark would switch itself off."""
+    hidden = {name: os.environ.pop(name) for name in list(os.environ) if name.startswith("PYTEST_")}
+    path = list(sys.path)
+    try:
+        yield
+    finally:
+        os.environ.update(hidden)
+        sys.path[:] = path

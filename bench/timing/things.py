@@ -1,0 +1,139 @@
+"""All that is timed: the reference kernel, every law, every law in every compiled engine, and rollout.
+
+An engine runs its real loop, all metrics on, from fixed starts, with no early stop. `rollout` is MuJoCo's own
+open-loop loop (mujoco.rollout) over the same model, starts and number of ticks, with commands that were drawn
+beforehand and outputs allocated beforehand: what a closed loop can hope to approach.
+"""
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import mujoco
+import numpy as np
+from mujoco.rollout import Rollout
+
+import tasks
+from bench.contender import Contender, Gains
+from bench.discovery import known_metrics
+from bench.engines import native
+from bench.engines.binding import command_of, memory_of
+from bench.engines.episode import TICKS, blank, numbers, start_rows
+from bench.engines.run import compiled_loop
+from bench.plan import Plan
+from bench.rows import settings_of
+from bench.timing import law, reference_kernel
+
+KERNEL, LAW, LOOP, ENGINE = "reference-kernel", "law", "loop", "engine"
+ROLLOUT = "rollout"
+ENGINES = ("ideal-held", "ideal-rk4", "native")
+
+TASK = "free-body"
+HORIZON_S = 0.4
+"""400 ticks of 1 ms: from rest through the fastest part of a response; a tick costs the same at any time."""
+
+STARTS = {"ideal-held": 16, "ideal-rk4": 16, "native": 4}
+"""Uniform starts; a visit takes from half a millisecond to ten."""
+
+NEVER = 10**9
+"""Ticks of quiet before an early stop: more than there are."""
+
+PUSH = 10.0
+"""Standard deviation of rollout's commands [rad/s^2]; they need only keep the body turning."""
+
+
+class Thing(NamedTuple):
+    """Something timed: `call()` does `ticks` ticks of it; 0 ticks if it cannot be timed (a law that fails)."""
+
+    what: str
+    contender: Contender | None
+    engine: str
+    ticks: int
+    call: Callable
+
+    @property
+    def name(self) -> str:
+        """A word for progress and for the passes."""
+        parts = (self.what, self.engine, self.contender.name if self.contender else "")
+        return " ".join(part for part in parts if part)
+
+
+def things(contenders: list[Contender]) -> list[Thing]:
+    """The reference kernel first, then everything else; all is compiled and has run once.
+
+    Errors:
+        BadLaw: a user's law that the compiler cannot take.
+    """
+    run = [one for one in contenders if not one.regulator.costing_only]
+    loops = [_engine(engine, one) for engine in ENGINES for one in run]  # first: refuses what does not compile
+    laws = [_law(LAW, one) for one in contenders]
+    empty = _law(LOOP, Contender(law.EMPTY))._replace(contender=None)
+    kernel = Thing(KERNEL, None, "", reference_kernel.STEPS, _kernel())
+    return [kernel, *laws, *loops, empty, _rollout()]
+
+
+def _kernel() -> Callable:
+    chain = reference_kernel.compiled()
+    return lambda: chain(reference_kernel.START, reference_kernel.STEPS)
+
+
+def _law(what: str, one: Contender) -> Thing:
+    loop = law.loop_of(command_of(one), memory_of(one), cache=not one.regulator.origin)
+    states, gains = law.states(), Gains()
+
+    def call():
+        return loop(states, gains.kp, gains.kv, law.SWEEPS)
+
+    return Thing(what, one, "", law.SWEEPS * law.STATES if call() == 0.0 else 0, call)
+
+
+def _settings():
+    return settings_of(Plan("timing", (), ()), HORIZON_S)._replace(hold_ticks=NEVER)
+
+
+def _engine(engine: str, one: Contender) -> Thing:
+    metrics = tuple(known_metrics().values())
+    loop = compiled_loop(engine, one, metrics)
+    starts = tasks.start_set("uniform", STARTS[engine])
+    rows, fixed, limits = blank(len(starts), metrics), start_rows(starts), numbers(_settings())
+    fresh = rows.copy()
+    if engine == "native":
+        model, data, states = _simulation(starts)
+        sim = native.view(model, data)
+
+        def call():
+            rows[:] = fresh
+            loop(sim, states, fixed, limits, rows)
+            return data  # the view holds addresses only: this keeps what they point to
+
+    else:
+
+        def call():
+            rows[:] = fresh
+            loop(fixed, limits, rows)
+
+    call()
+    return Thing(ENGINE, one, engine, int(rows[:, TICKS].sum()), call)
+
+
+def _simulation(starts):
+    task = tasks.task(TASK)
+    model = mujoco.MjModel.from_xml_string(task.xml(_settings().dt_s))
+    return model, mujoco.MjData(model), np.array([[*qpos, *qvel] for qpos, qvel in map(task.state, starts)])
+
+
+def _rollout() -> Thing:
+    starts = tasks.start_set("uniform", STARTS["native"])
+    model, data, states = _simulation(starts)
+    count, ticks = len(starts), _settings().ticks
+    width = mujoco.mj_stateSize(model, mujoco.mjtState.mjSTATE_FULLPHYSICS)
+    initial = np.zeros((count, width))
+    initial[:, 1 : 1 + states.shape[1]] = states  # time comes first
+    control = np.random.default_rng(0).normal(scale=PUSH, size=(count, ticks, model.nu))
+    state, sensors = np.zeros((count, ticks, width)), np.zeros((count, ticks, model.nsensordata))
+    rollout = Rollout(nthread=0)  # no pool: everything happens on the calling thread, whose time is taken
+
+    def call():
+        rollout.rollout(model, data, initial, control, state=state, sensordata=sensors)
+
+    call()
+    return Thing(ENGINE, None, ROLLOUT, count * ticks, call)
