@@ -22,10 +22,10 @@ def settings(dt_s=1e-3, horizon_s=3.0, hold_ticks=NO_EARLY_STOP, gains=None, com
     )
 
 
-def spread(each: int) -> list:
-    """`each` starts of every set, evenly spaced through it, so that its exact and its near ones are among them."""
+def spread(each: int, task: str = "free-body") -> list:
+    """`each` starts of every set of a task, evenly spaced through it, so that exact and near ones are among them."""
     chosen = []
-    for word in tasks.start_set_names():
+    for word in tasks.task(task).start_sets:
         every = tasks.start_set(word)
         chosen += every[:: max(1, len(every) // each)][:each]
     return chosen

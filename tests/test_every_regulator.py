@@ -11,6 +11,7 @@ from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation as ScipyRotation
 from states import as_rotation, rotations, vector
 
+import tasks
 from bench.contender import AT_REST, Gains, Goal
 from bench.discovery import TRIAL, all_contenders, known_metrics
 from bench.engines.binding import command_of, margin_of, memory_of
@@ -172,11 +173,12 @@ RUNS = {
 
 @pytest.mark.parametrize("integrator", ["euler", "rk4"])
 @pytest.mark.parametrize("way", RUNS)
-def test_native_rows_are_the_reference_rows_bit_for_bit(contender, integrator, way):
+@pytest.mark.parametrize("task", tasks.names())
+def test_native_rows_are_the_reference_rows_bit_for_bit(contender, task, integrator, way):
     chosen, each = RUNS[way]
-    starts = spread(each)
+    starts = spread(each, task)
     fast, slow = (
-        run(engine, contender, "free-body", starts, chosen, METRICS, integrator) for engine in ("native", "reference")
+        run(engine, contender, task, starts, chosen, METRICS, integrator) for engine in ("native", "reference")
     )
     assert [starts[i].id for i in different_rows(fast, slow)] == []
 
@@ -205,14 +207,14 @@ def test_settling_near_the_goal_takes_the_critically_damped_time(contender):
     np.testing.assert_allclose(rows[:, SETTLING_TICK] * chosen.dt_s, expected, rtol=0.0, atol=chosen.dt_s)
 
 
-def test_episode_gives_the_same_row_whatever_ran_before_it(contender):
+@pytest.mark.parametrize("task", tasks.names())
+@pytest.mark.parametrize("engine", ["native", "ideal-rk4"])
+def test_episode_gives_the_same_row_whatever_ran_before_it(contender, task, engine):
     """No state of MuJoCo, of the law's memory or of a metric leaks from one episode into the next."""
-    starts = spread(1)
-    chosen = settings(dt_s=1e-2, horizon_s=0.3)
-    for engine in ("native", "ideal-rk4"):
-        forward = run(engine, contender, "free-body", starts, chosen, METRICS)
-        backward = run(engine, contender, "free-body", starts[::-1], chosen, METRICS)[::-1]
-        assert different_rows(forward, backward) == []
+    starts, chosen = spread(1, task), settings(dt_s=1e-2, horizon_s=0.3)
+    forward = run(engine, contender, task, starts, chosen, METRICS)
+    backward = run(engine, contender, task, starts[::-1], chosen, METRICS)[::-1]
+    assert different_rows(forward, backward) == []
 
 
 def test_early_stop_changes_no_settling_tick(contender):
