@@ -28,11 +28,11 @@ def run(
     """Time everything and write the machine's file.
 
     Args:
-        told: called with a `session.Progress` after every visit.
+        told: called with a `things.Progress` for every law compiled and after every visit.
     Errors:
         BadLaw: a user's law that cannot be compiled. BadResults: the folder cannot be written.
     """
-    measured = things(contenders)
+    measured = things(contenders, told)
     seconds = measure(measured, QUICK_PASSES if quick else PASSES, told=told)
     path = Path(folder) / f"{machine_key()}.parquet"
     about = {**describe(), "date": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime()), "quick": quick}

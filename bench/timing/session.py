@@ -18,19 +18,11 @@ import numpy as np
 import pytest
 
 from bench.errors import MissingTool
-from bench.timing.things import Thing
+from bench.timing.things import Progress, Thing
 
 ROUNDS = 3
 TIMER = "time.thread_time"
 PASSES_FILE = Path(__file__).with_name("passes.py")
-
-
-class Progress(NamedTuple):
-    """Told after every visit: the thing's name, and how many visits of how many are done."""
-
-    name: str
-    done: int
-    total: int
 
 
 class Visit(NamedTuple):

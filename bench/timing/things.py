@@ -41,6 +41,16 @@ PUSH = 10.0
 """Standard deviation of rollout's commands [rad/s^2]; they need only keep the body turning."""
 
 
+class Progress(NamedTuple):
+    """Told after every visit: the thing's name, and how many visits of how many are done; before, with a total of 0,
+    the law that is being compiled.
+    """
+
+    name: str
+    done: int
+    total: int
+
+
 class Thing(NamedTuple):
     """Something timed: `call()` does `ticks` ticks of it; 0 ticks if it cannot be timed (a law that fails)."""
 
@@ -57,15 +67,18 @@ class Thing(NamedTuple):
         return " ".join(part for part in parts if part)
 
 
-def things(contenders: list[Contender]) -> list[Thing]:
+def things(contenders: list[Contender], told: Callable = lambda _: None) -> list[Thing]:
     """The reference kernel first, then everything else; all is compiled and has run once.
 
     Errors:
         BadLaw: a user's law that the compiler cannot take.
     """
-    run = [one for one in contenders if not one.regulator.costing_only]
-    loops = [_engine(engine, one) for engine in ENGINES for one in run]  # first: refuses what does not compile
-    laws = [_law(LAW, one) for one in contenders]
+    loops, laws = [], []
+    for one in contenders:
+        told(Progress(one.name, 0, 0))
+        if not one.regulator.costing_only:  # before the law alone: this refuses, in a line, what does not compile
+            loops += [_engine(engine, one) for engine in ENGINES]
+        laws.append(_law(LAW, one))
     empty = _law(LOOP, Contender(law.EMPTY))._replace(contender=None)
     kernel = Thing(KERNEL, None, "", reference_kernel.STEPS, _kernel())
     return [kernel, *laws, *loops, empty, _rollout()]
