@@ -42,8 +42,9 @@ PUSH = 10.0
 
 
 class Progress(NamedTuple):
-    """Told after every visit: the thing's name, and how many visits of how many are done; before, with a total of 0,
-    the law that is being compiled.
+    """Told after every visit: what was timed, and how many visits of how many are done.
+
+    Before the first visit it is told of every law that is being compiled, with a total of 0.
     """
 
     name: str
