@@ -4,8 +4,8 @@ The same code timed twice on a shared machine differs by half and more; a ratio 
 after does not. So everything is timed in one run, in passes: each pass visits the reference kernel and every measured
 thing in a random order of its own, and a ratio is taken within a pass.
 
-An interval says how sure the median of this run is, on a machine in this state. Two full runs, minutes apart on two
-shared cores, agreed within 0.4 % for laws alone and within 2 % for native over rollout; beside three processes that
+An interval says how sure the median of this run is, on a machine in this state. Three full runs, minutes apart on two
+shared cores, agreed within 1 % for laws alone and within 3 % for native over rollout; beside three processes that
 kept both cores busy, some ideal loops were up to 12 % slower, far outside their intervals.
 
 reference_kernel   what a ratio is to
