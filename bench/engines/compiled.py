@@ -4,26 +4,14 @@ Import this before numba. numba's cache looks only at the file of the function i
 mujoco would run stale code; here the cache folder is a digest of all our sources and the versions that matter.
 """
 
-import hashlib
-import importlib.metadata
 import os
-import sys
+import shutil
 from pathlib import Path
 
-_ROOT = Path(__file__).resolve().parents[2]
-_KEPT_CACHES = 4
+from bench.provenance import source_digest
 
-
-def source_digest() -> str:
-    """Sixteen hex digits over every source of bench/ and tasks/ and the versions compiled code depends on."""
-    digest = hashlib.sha256()
-    for room in ("bench", "tasks"):
-        for path in sorted((_ROOT / room).rglob("*.py")):
-            digest.update(str(path.relative_to(_ROOT)).encode() + b"\0" + path.read_bytes())
-    for package in ("numba", "llvmlite", "mujoco", "numpy"):
-        digest.update(f"{package}=={importlib.metadata.version(package)}".encode())
-    digest.update(sys.version.encode())
-    return digest.hexdigest()[:16]
+KEPT_CACHES = 8
+"""States of the sources whose compiled code is kept, the newest first: some 15 MB each."""
 
 
 def cache_home() -> Path:
@@ -33,8 +21,16 @@ def cache_home() -> Path:
 
 
 def _use_cache() -> Path:
-    folder = Path(os.environ.get("NUMBA_CACHE_DIR") or cache_home() / source_digest())
+    """The cache of these sources, which NUMBA_CACHE_DIR overrides; the oldest of the others go."""
+    chosen = os.environ.get("NUMBA_CACHE_DIR")
+    if chosen:
+        return Path(chosen)
+    folder = cache_home() / source_digest()
     os.environ["NUMBA_CACHE_DIR"] = str(folder)
+    if not folder.exists() and cache_home().is_dir():
+        by_age = sorted(cache_home().iterdir(), key=lambda path: path.stat().st_mtime, reverse=True)
+        for path in by_age[KEPT_CACHES - 1 :]:
+            shutil.rmtree(path, ignore_errors=True)
     return folder
 
 

@@ -7,6 +7,8 @@ import numpy as np
 from bench.contender import Gains
 from bench.scalar import kernel
 from bench.so3 import Rotation
+from tasks.rules import RULES
+from tasks.truth import angle
 from tasks.verdict import GOING, SETTLED, verdict
 
 
@@ -92,6 +94,15 @@ def finish(row, failure, watch, tick, angle, inside, speed_squared, command_squa
     row[FAILURE_TICK] = NEVER if failure == GOING else tick
     row[TICKS] = tick
     row[FINAL_ANGLE] = angle
+
+
+def start_rows(starts) -> np.ndarray:
+    """The judge's starts as rows: quaternion, omega, goal, haversine of the settling band."""
+    rows = np.empty((len(starts), START_WIDTH))
+    for row, start in zip(rows, starts, strict=True):
+        band = RULES.band_haversine(angle(start.quat_wxyz, start.goal_wxyz))
+        row[:] = (*start.quat_wxyz, *start.omega, *start.goal_wxyz, band)
+    return rows
 
 
 def blank(count: int, metrics) -> np.ndarray:
