@@ -32,6 +32,17 @@ def episode_progress() -> Progress:
     )
 
 
+def count_progress() -> Progress:
+    """A bar of measurements with time left."""
+    return Progress(
+        TextColumn("{task.description:34}"),
+        BarColumn(bar_width=30),
+        MofNCompleteColumn(),
+        TimeRemainingColumn(),
+        console=console(stderr=True),
+    )
+
+
 def frame_table(frame, title: str = "") -> Table:
     """A data frame as a table, numbers to the right."""
     table = Table(title=title or None, title_justify="left", title_style="bold", box=None, pad_edge=False)

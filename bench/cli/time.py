@@ -3,7 +3,7 @@
 import rich_click as click
 
 from bench.cli import options
-from bench.cli.screen import console, frame_table
+from bench.cli.screen import console, count_progress, frame_table
 
 
 @click.command("time")
@@ -15,6 +15,13 @@ def COMMAND(laws, regulators, representations, quick):
     """Time every law and engine per tick, interleaved with a fixed reference kernel; into results/timings."""
     from bench import timing
 
-    path = timing.run(options.chosen(laws, regulators, representations, costings=True), quick=quick)
+    with count_progress() as progress:
+        bar = progress.add_task("compiling", total=None)
+
+        def told(done):
+            doing = "timing" if done.total else "compiling"
+            progress.update(bar, total=done.total or None, completed=done.done, description=f"{doing} {done.name}"[:34])
+
+        path = timing.run(options.chosen(laws, regulators, representations, costings=True), quick=quick, told=told)
     console().print(frame_table(timing.table(path), "Time per tick"))
     console().print(f"wrote {path}")
