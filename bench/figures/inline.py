@@ -22,6 +22,7 @@ USED_ID = re.compile(r"""(?:url\(#|href="#)([^)"]+)""")
 ID = re.compile(r'\s+id="([^"]*)"')
 COLOUR = re.compile("|".join(style.TWINS), re.IGNORECASE)
 PATH = re.compile(r'\bd="[^"]*"')
+DOT = re.compile(r"M (\S+ \S+)\s+L \1(?=\s)")  # of `dots`: a segment of no length says its place once
 LONG_NUMBER = re.compile(r"(\d\.\d{2})\d+")  # of a path, in points: a hundredth is invisible
 # What matplotlib says in a <style> element, which inline would hold for the whole page:
 STROKES = "stroke-linejoin: round; stroke-linecap: butt"
@@ -77,7 +78,7 @@ def svg(figure: Figure, alt: str, name: str) -> str:
     text = raw.getvalue()
     text = text[text.index("<svg") :]
     text = re.sub(r"<metadata>.*?</metadata>|<style.*?</style>|<!--.*?-->", "", text, flags=re.DOTALL)
-    text = PATH.sub(lambda path: LONG_NUMBER.sub(r"\1", path[0]), text)
+    text = PATH.sub(lambda path: DOT.sub(r"M \1h0", LONG_NUMBER.sub(r"\1", path[0])), text)
     text = own_ids(text, name.replace("_", "-"))
     text = named_colours(text)
     colours = "; ".join(
