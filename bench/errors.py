@@ -3,6 +3,11 @@
 A contestant's failure is never one of these: it is an outcome in a row.
 """
 
+import difflib
+
+LISTED = ("regulator", "representation", "task", "start", "engine", "suite")
+"""Kinds of words that `python -m bench list` has a table of."""
+
 
 class BenchError(Exception):
     """A mistake of the caller; the command line prints it on one line and exits with 2."""
@@ -13,7 +18,10 @@ class UnknownWord(BenchError):
 
     def __init__(self, kind: str, given: str, known: list[str]):
         listed = ", ".join(known) if known else "none"
-        super().__init__(f"{kind} '{given}' is unknown; known: {listed} (try: python -m bench list {kind}s)")
+        near = difflib.get_close_matches(given, known, n=1)
+        guess = f" (did you mean '{near[0]}'?)" if near else ""
+        cure = f"try: python -m bench list {kind}s" if kind in LISTED else "give one of these"
+        super().__init__(f"{kind} '{given}' is unknown{guess}; known: {listed} ({cure})")
 
 
 class BadNumber(BenchError):

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import tasks
 from bench.contender import Contender, Gains
-from bench.errors import BadNumber, UnknownWord
+from bench.errors import BadNumber, Incompatible, UnknownWord
 from bench.provenance import source_digest
 from tasks.rules import RULES
 
@@ -58,21 +58,29 @@ SUITES = {
         Suite(
             "quick",
             "the slice that continuous integration reruns and compares",
-            _slices("ideal-rk4", 1000) + _slices("native", 200, ("half-turn", "paper", "poles")) + _slices("reference", 0, ("paper",)),
+            _slices("ideal-rk4", 1000)
+            + _slices("native", 200, ("half-turn", "paper", "poles"))
+            + _slices("reference", 0, ("paper",)),
             traces=24,
             boundary_axes=64,
         ),
         Suite(
             "default",
             "what `make bench` runs and the report shows",
-            _slices("ideal-rk4", 5000) + _slices("ideal-held", 5000) + _slices("native", 5000) + _slices("reference", 0, ("paper",)),
+            _slices("ideal-rk4", 5000)
+            + _slices("ideal-held", 5000)
+            + _slices("native", 5000)
+            + _slices("reference", 0, ("paper",)),
             traces=64,
             boundary_axes=256,
         ),
         Suite(
             "full",
             "ten times the uniform starts, for narrower intervals",
-            _slices("ideal-rk4", 50_000) + _slices("ideal-held", 50_000) + _slices("native", 50_000) + _slices("reference", 0, ("paper",)),
+            _slices("ideal-rk4", 50_000)
+            + _slices("ideal-held", 50_000)
+            + _slices("native", 50_000)
+            + _slices("reference", 0, ("paper",)),
             traces=64,
             boundary_axes=1024,
         ),
@@ -174,9 +182,11 @@ def make(
 
     Errors:
         UnknownWord: a name in no list. BadNumber: a number that no episode can be run with.
+        Incompatible: no named task, engine and start set go together.
     """
     _check_numbers(dt_s, horizon_s, gains, count, seed)
     chosen = suite(suite_word)
+    task_words, start_sets, engines = (tuple(dict.fromkeys(words)) for words in (task_words, start_sets, engines))
     every_task = task_words or tuple(tasks.names())
     for word in every_task:
         _known("task", word, tasks.names())
@@ -193,6 +203,8 @@ def make(
         for one in contenders
         for unit in _units(part, one.name, task, count, seed, horizon_s)
     )
+    if not units:
+        raise Incompatible(_nothing_to_run(every_task, _narrowed(chosen.slices, start_sets, engines)))
     return Plan(
         chosen.name,
         units,
@@ -209,6 +221,22 @@ def make(
 def runs_on(engine: str, task: str) -> bool:
     """Whether an engine can run a task: the ideal plant is the free body's alone."""
     return task == "free-body" or not engine.startswith("ideal")
+
+
+def _nothing_to_run(task_words, slices) -> str:
+    """Why no task, engine and start set go together."""
+    reasons = []
+    for task in task_words:
+        allowed = tasks.task(task).start_sets
+        refused = [part.engine for part in slices if not runs_on(part.engine, task)]
+        if refused:
+            reasons.append(f"{', '.join(dict.fromkeys(refused))} simulates free-body alone, not '{task}'")
+        foreign = [part.start_set for part in slices if part.start_set not in allowed]
+        if foreign:
+            reasons.append(
+                f"task '{task}' takes the starts {', '.join(allowed)}, not {', '.join(dict.fromkeys(foreign))}"
+            )
+    return f"nothing to run: {'; '.join(reasons)} (choose another --task, --engine or --starts)"
 
 
 def _narrowed(slices, start_sets, engines):
@@ -230,7 +258,14 @@ def _units(part: Slice, contender: str, task: str, count, seed, horizon_s):
     step = CHUNK[part.engine]
     for first in range(0, total, step):
         yield Unit(
-            part.engine, contender, task, part.start_set, first, min(step, total - first), total, horizon_s or part.horizon_s
+            part.engine,
+            contender,
+            task,
+            part.start_set,
+            first,
+            min(step, total - first),
+            total,
+            horizon_s or part.horizon_s,
         )
 
 
@@ -239,11 +274,25 @@ def _known(kind: str, word: str, known: list[str]) -> None:
         raise UnknownWord(kind, word, sorted(known))
 
 
+def check_workers(workers: int) -> None:
+    """Refuse a number of threads that cannot work."""
+    if not 1 <= workers <= 256:
+        raise BadNumber(f"--workers {workers}: give between 1 and 256 threads (the number of cores is best)")
+
+
+SHORTEST_DT_S, LONGEST_DT_S = 1e-6, 0.1
+"""The default gains' time constant is 0.1 s; a microsecond makes ten million ticks of the shorter horizon."""
+
+
 def _check_numbers(dt_s, horizon_s, gains, count, seed) -> None:
-    if not (math.isfinite(dt_s) and 0.0 < dt_s <= 0.1):
-        raise BadNumber(f"--dt {dt_s}: the control period must lie in (0, 0.1] s, a tenth of a time constant or less (try: --dt 0.001)")
+    if not SHORTEST_DT_S <= dt_s <= LONGEST_DT_S:
+        raise BadNumber(
+            f"--dt {dt_s}: the control period must lie between {SHORTEST_DT_S} and {LONGEST_DT_S} s (try: --dt 0.001)"
+        )
     if horizon_s is not None and not (math.isfinite(horizon_s) and dt_s <= horizon_s <= 1000.0):
-        raise BadNumber(f"--horizon {horizon_s}: it must lie between one tick ({dt_s} s) and 1000 s (try: --horizon 10)")
+        raise BadNumber(
+            f"--horizon {horizon_s}: it must lie between one tick ({dt_s} s) and 1000 s (try: --horizon 10)"
+        )
     for name, value in zip(("--kp", "--kv"), gains, strict=True):
         if not (math.isfinite(value) and 0.0 < value <= 1e6):
             raise BadNumber(f"{name} {value}: a gain must lie in (0, 1e6] (the paper's: --kp 100 --kv 20)")

@@ -4,7 +4,9 @@ Layout of a run's folder: plan.json first, then parts/<unit>.parquet one by one;
 last of all, and the parts go.
 """
 
+import contextlib
 import functools
+import importlib
 import shutil
 import threading
 import time
@@ -20,11 +22,14 @@ from bench import boundary, counting, traces
 from bench.discovery import all_contenders, known_metrics
 from bench.engines.run import compiled_loop
 from bench.engines.run import run as run_engine
-from bench.errors import BadNumber, BadResults
-from bench.plan import Plan, Unit
+from bench.errors import BadLaw, BadResults
+from bench.plan import Plan, Unit, check_workers
 from bench.provenance import describe
 from bench.rows import frame, settings_of
-from bench.store import merge, read_json, write_json, write_table
+from bench.store import check, is_leftover, merge, read_json, write_json, write_table
+
+TABLES = ("costs", "traces", "boundaries", "episodes")
+"""The tables of a finished run, in the order of their writing."""
 
 
 class State(NamedTuple):
@@ -48,18 +53,13 @@ def inspect(plan: Plan, out: Path, replace: bool = False) -> State:
         BadResults: the folder holds another plan, or something that is no run of ours.
     """
     out = Path(out)
-    if not out.exists() or (out.is_dir() and not any(out.iterdir())):
+    if not _content(out):
         return State(False, frozenset())
-    if not out.is_dir():
-        raise BadResults(f"{out}: this is a file; give a folder with --out")
     if not (out / "plan.json").is_file():
         raise BadResults(f"{out}: the folder holds something else than a run of ours; choose another with --out")
-    try:
-        found = read_json(out / "plan.json").get("digest")
-    except BadResults:
-        if not replace:
-            raise
-        found = None
+    found = read_json(out / "plan.json").get("digest")
+    if found is None:
+        raise BadResults(f"{out}: its plan.json is none of ours; choose another folder with --out")
     if found != plan.digest():
         if replace:
             return State(False, frozenset())
@@ -67,8 +67,23 @@ def inspect(plan: Plan, out: Path, replace: bool = False) -> State:
             f"{out}: it holds another plan (other suite, options, rules or sources); add --replace to start over, or "
             "choose another folder with --out"
         )
-    finished = (out / "provenance.json").is_file()
-    return State(finished, frozenset(path.stem for path in (out / "parts").glob("*.parquet")))
+    finished = (out / "provenance.json").is_file() and all((out / f"{table}.parquet").is_file() for table in TABLES)
+    parts = sorted((out / "parts").glob("*.parquet"))
+    for path in (out / f"{table}.parquet" for table in TABLES) if finished else ():
+        check(path, path.stem)
+    for path in () if finished else parts:
+        check(path, "episodes")
+    return State(finished, frozenset(path.stem for path in parts))
+
+
+def _content(out: Path) -> list[Path]:
+    """What lies in a folder, leftovers of killed writes apart; nothing if there is no folder yet."""
+    try:
+        return [path for path in out.iterdir() if not is_leftover(path)]
+    except FileNotFoundError:
+        return []
+    except OSError as error:
+        raise BadResults(f"{out}: cannot be used as a folder ({error.strerror}); choose another with --out") from error
 
 
 def run(
@@ -80,11 +95,11 @@ def run(
         BadNumber: workers. BadResults: the folder cannot be used. KeyboardInterrupt: after the units under way are
         written.
     """
-    if not 1 <= workers <= 256:
-        raise BadNumber(f"--workers {workers}: give between 1 and 256 threads (the number of cores is best)")
+    check_workers(workers)
     out = Path(out)
     state = inspect(plan, out, replace)
     if state.finished:
+        _tidy(out)
         return False
     began = time.time()
     _compile_own_laws(plan)
@@ -111,14 +126,14 @@ def _compile_own_laws(plan: Plan) -> None:
 
 
 def _costs(plan: Plan) -> list[dict]:
-    """Operations of every law, those not run included; a law outside the dialect that only `reference` runs has none."""
+    """Operations of every law, run or not; none of a law beyond the dialect that only `reference` runs."""
     costed = {one.name: one for one in (*all_contenders(), *plan.contenders)}
     only_reference = all(unit.engine == "reference" for unit in plan.units)
     rows = []
     for one in costed.values():
         try:
             rows += counting.rows([one])
-        except counting.OutsideDialect:
+        except BadLaw:
             if not (one.regulator.origin and only_reference):
                 raise
     return rows
@@ -128,10 +143,31 @@ def _clear(out: Path) -> None:
     """Remove an earlier run of ours, plan.json last, so that a kill in between leaves a folder we recognise."""
     if not out.is_dir():
         return
-    (out / "provenance.json").unlink(missing_ok=True)
-    shutil.rmtree(out / "parts", ignore_errors=True)
-    for path in (*out.glob("*.parquet"), *out.glob(".*.tmp"), out / "plan.json"):
-        path.unlink(missing_ok=True)
+    with _removing(out):
+        (out / "provenance.json").unlink(missing_ok=True)
+        for name in TABLES:
+            (out / f"{name}.parquet").unlink(missing_ok=True)
+        _tidy(out)
+        (out / "plan.json").unlink(missing_ok=True)
+
+
+def _tidy(out: Path) -> None:
+    """Remove what only an unfinished run needs: its parts, and the temporary files of killed writes."""
+    with _removing(out):
+        if (out / "parts").is_dir():
+            shutil.rmtree(out / "parts")
+        for path in [path for path in out.iterdir() if is_leftover(path)]:
+            path.unlink(missing_ok=True)
+
+
+@contextlib.contextmanager
+def _removing(out: Path):
+    try:
+        yield
+    except OSError as error:
+        raise BadResults(
+            f"{out}: cannot be emptied ({error.strerror}); mend its rights, or choose another folder with --out"
+        ) from error
 
 
 def _run_units(plan: Plan, todo: list[Unit], out: Path, workers: int, told) -> None:
@@ -147,6 +183,8 @@ def _run_units(plan: Plan, todo: list[Unit], out: Path, workers: int, told) -> N
         write_table(out / "parts" / f"{unit.key}.parquet", frame(plan, unit, one, starts, numbers, metrics), "episodes")
         return unit
 
+    if any(unit.engine == "reference" for unit in todo):
+        importlib.import_module("tasks.episode")  # it silences GLFW's import, which works in the main thread only
     with ThreadPoolExecutor(workers) as pool:
         pending = {pool.submit(work, unit) for unit in todo}
         try:
@@ -183,4 +221,4 @@ def _finish(plan: Plan, out: Path, costs: pd.DataFrame, workers: int, began: flo
             "resumed": resumed,
         },
     )
-    shutil.rmtree(out / "parts", ignore_errors=True)
+    _tidy(out)

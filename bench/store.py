@@ -36,9 +36,19 @@ def write_atomically(path: Path, write) -> None:
             os.fsync(file.fileno())
         os.chmod(temporary, 0o644)
         os.replace(temporary, path)
+    except OSError as error:
+        Path(temporary).unlink(missing_ok=True)
+        raise BadResults(
+            f"{path}: cannot be written ({error.strerror or error}); make room, or choose another folder with --out"
+        ) from error
     except BaseException:
         Path(temporary).unlink(missing_ok=True)
         raise
+
+
+def is_leftover(path: Path) -> bool:
+    """Whether this is the temporary file of a write that was killed."""
+    return path.name.startswith(".") and path.name.endswith(".tmp")
 
 
 def write_json(path: Path, content: dict) -> None:
@@ -50,11 +60,14 @@ def write_json(path: Path, content: dict) -> None:
 def read_json(path: Path) -> dict:
     """A JSON file of ours."""
     try:
-        return json.loads(Path(path).read_text(encoding="utf-8"))
+        content = json.loads(Path(path).read_text(encoding="utf-8"))
     except FileNotFoundError:
         raise BadResults(f"{path}: there is no such file; the folder holds no run of ours") from None
     except (OSError, ValueError) as error:
         raise BadResults(f"{path}: cannot be read ({error}); delete the folder and run again") from error
+    if not isinstance(content, dict):
+        raise BadResults(f"{path}: it holds no JSON object, so it is none of ours; choose another folder with --out")
+    return content
 
 
 def as_table(frame: pd.DataFrame, table: str) -> pa.Table:
@@ -98,9 +111,21 @@ def read_arrow(path: Path, table: str) -> pa.Table:
     Errors:
         BadResults: missing, truncated, or of another schema; the message says which and the cure.
     """
-    path = Path(path)
+    return _checked(path, table, lambda: pq.read_table(path, partitioning=None))
+
+
+def check(path: Path, table: str) -> None:
+    """The same checks from the file's end alone, where parquet keeps its schema: what a truncated file lacks.
+
+    Errors:
+        BadResults: see `read_arrow`.
+    """
+    _checked(path, table, lambda: pq.read_schema(path).empty_table())
+
+
+def _checked(path: Path, table: str, opened) -> pa.Table:
     try:
-        arrow = pq.read_table(path)
+        arrow = opened()
     except FileNotFoundError:
         raise BadResults(f"{path}: there is no such file; run `make bench` (or python -m bench run) first") from None
     except (OSError, pa.ArrowException) as error:
@@ -128,7 +153,5 @@ def read(folder: Path, table: str) -> pd.DataFrame:
     if not folder.is_dir():
         raise BadResults(f"{folder}: there is no such folder; run `make bench` (or python -m bench run) first")
     if not (folder / "provenance.json").is_file():
-        raise BadResults(
-            f"{folder}: the run there has not finished; the same `python -m bench run` command resumes it"
-        )
+        raise BadResults(f"{folder}: the run there has not finished; the same `python -m bench run` command resumes it")
     return read_arrow(folder / f"{table}.parquet", table).to_pandas()

@@ -43,16 +43,28 @@ def main(words: list[str] | None = None) -> int:
     """Run one command; its exit code."""
     for command in commands():
         bench.add_command(command)
+    words = sys.argv[1:] if words is None else words
     try:
-        return bench.main(words, prog_name="python -m bench", standalone_mode=False) or 0
+        return bench.main(words or ["--help"], prog_name="python -m bench", standalone_mode=False) or 0
     except click.exceptions.Exit as stop:
         return stop.exit_code
     except click.ClickException as error:
-        error.show()
-        return 2
+        reason = error.format_message()
+        return _refused(reason if "(try: " in reason else f"{reason} (try: {_path(error)} --help)")
     except (BenchError, TaskError) as error:
-        print(f"error: {error}", file=sys.stderr)
-        return 2
+        return _refused(str(error))
     except (KeyboardInterrupt, click.Abort):
         print("stopped; what was finished is kept, and the same command goes on from there", file=sys.stderr)
         return 130
+
+
+def _refused(reason: str) -> int:
+    """Say on one line what was wrong; the exit code of every mistake."""
+    print(f"error: {' '.join(reason.split())}", file=sys.stderr)
+    return 2
+
+
+def _path(error: click.ClickException) -> str:
+    """The command that the mistake was made with."""
+    context = getattr(error, "ctx", None)
+    return context.command_path if context else "python -m bench"

@@ -9,6 +9,7 @@ import tomllib
 from pathlib import Path
 
 import rich_click as click
+from rich.text import Text
 
 from bench.cli.screen import console
 from bench.provenance import ROOT
@@ -29,7 +30,7 @@ def COMMAND():
             state, text = ("bad" if is_needed else "note"), f"{error}"
             failed += is_needed
         style = {"ok": "green", "bad": "red", "note": "yellow"}[state]
-        console().print(f"[{style}]{state:4}[/{style}] {name:10} {text}", soft_wrap=True)
+        console().print(Text.assemble((f"{state:4}", style), f" {name:10} {text}"), soft_wrap=True)
     if failed:
         raise click.exceptions.Exit(1)
 

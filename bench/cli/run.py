@@ -30,10 +30,14 @@ Examples:  [b]python -m bench run[/b]  the default suite into results/latest.
 @click.option("--horizon", "horizon_s", type=float, help="Longest simulated time [s]; the suite's own by default.")
 @click.option("--kp", type=float, default=100.0, show_default=True, help="Position gain [1/s^2].")
 @click.option("--kv", type=float, default=20.0, show_default=True, help="Velocity gain [1/s].")
-@click.option("--integrator", default="euler", show_default=True, metavar="NAME", help="MuJoCo's, for native and reference.")
+@click.option(
+    "--integrator", default="euler", show_default=True, metavar="NAME", help="MuJoCo's, for native and reference."
+)
 @click.option("--seed", type=int, default=0, show_default=True, help="Of the sampled start sets.")
 @click.option("--workers", type=int, default=os.cpu_count() or 1, show_default="cores", help="Threads.")
-@click.option("--out", type=click.Path(path_type=Path), default=options.LATEST, show_default="results/latest", help="Folder.")
+@click.option(
+    "--out", type=click.Path(path_type=Path), default=options.LATEST, show_default="results/latest", help="Folder."
+)
 @click.option("--replace", is_flag=True, help="Start over if the folder holds another plan.")
 @click.option("--dry-run", is_flag=True, help="Print the plan and its size; run nothing.")
 def COMMAND(
@@ -54,17 +58,24 @@ def COMMAND(
         integrator=integrator,
         seed=seed,
     )
+    planning.check_workers(workers)
     _print_plan(plan, out)
     if dry_run:
         return
     from bench import run as running  # numba and mujoco take seconds to import; --dry-run and mistakes should not
+
+    state = running.inspect(plan, out, replace)
+    if state.done and not state.finished:
+        console().print(f"going on: {len(state.done)} of {len(plan.units)} units are done")
 
     with episode_progress() as progress:
         bar = progress.add_task("compiling", total=plan.episodes)
 
         def told(done):
             unit = done.unit
-            progress.update(bar, advance=done.episodes, description=f"{unit.engine} {unit.contender.split('/')[0]}"[:34])
+            progress.update(
+                bar, advance=done.episodes, description=f"{unit.engine} {unit.contender.split('/')[0]}"[:34]
+            )
             if progress.tasks[0].finished:
                 progress.update(bar, description="locating failure boundaries")
 
@@ -75,7 +86,9 @@ def COMMAND(
 
 def _print_plan(plan, out) -> None:
     laws = ", ".join(one.name for one in plan.contenders)
-    console().print(f"suite {plan.suite}: {plan.episodes:,} episodes in {len(plan.units)} units, dt {plan.dt_s} s, into {out}")
+    console().print(
+        f"suite {plan.suite}: {plan.episodes:,} episodes in {len(plan.units)} units, dt {plan.dt_s} s, into {out}"
+    )
     console().print(f"laws: {laws}")
     sizes: dict = {}
     for unit in plan.units:

@@ -7,9 +7,10 @@ from rich.text import Text
 
 
 def console(stderr: bool = False) -> Console:
-    """A console; wide enough for tables when piped into a file."""
-    made = Console(stderr=stderr, highlight=False)
-    return made if made.is_terminal else Console(stderr=stderr, highlight=False, width=160)
+    """A console; wide enough for tables when piped into a file. It prints brackets, as in [1/s^2], as they are."""
+    plain = {"stderr": stderr, "highlight": False, "markup": False, "emoji": False}
+    made = Console(**plain)
+    return made if made.is_terminal else Console(**plain, width=160)
 
 
 class Rate(ProgressColumn):
@@ -21,14 +22,16 @@ class Rate(ProgressColumn):
 
 
 def episode_progress() -> Progress:
-    """A bar of episodes with rate and time left."""
+    """A bar of episodes with rate and time left; nothing where there is no terminal to draw it on."""
+    screen = console(stderr=True)
     return Progress(
         TextColumn("{task.description:34}"),
         BarColumn(bar_width=30),
         MofNCompleteColumn(),
         Rate(),
         TimeRemainingColumn(),
-        console=console(stderr=True),
+        console=screen,
+        disable=not screen.is_terminal,
     )
 
 

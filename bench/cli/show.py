@@ -6,8 +6,12 @@ import rich_click as click
 
 from bench.cli import options
 from bench.cli.screen import console, frame_table
+from bench.errors import BadResults
 from bench.store import read, read_json
 from tasks.verdict import OUTCOMES
+
+ORIGIN = {"suite", "episodes", "commit", "dirty", "cpu", "wall_s"}
+"""What the first line of the summary names."""
 
 
 @click.command("show")
@@ -23,7 +27,9 @@ def COMMAND(folder, engine, starts, regulators):
         if word is not None:
             known = sorted(episodes[column].unique())
             if word not in known:
-                raise click.UsageError(f"{folder} has no {column.replace('_', ' ')} '{word}'; it has: {', '.join(known)}")
+                raise click.UsageError(
+                    f"{folder} has no {column.replace('_', ' ')} '{word}'; it has: {', '.join(known)}"
+                )
             episodes = episodes[episodes[column] == word]
     if regulators:
         known = sorted(episodes["regulator"].unique())
@@ -32,6 +38,9 @@ def COMMAND(folder, engine, starts, regulators):
                 raise click.UsageError(f"{folder} has no regulator '{word}'; it has: {', '.join(known)}")
         episodes = episodes[episodes["regulator"].isin(regulators)]
     origin = read_json(folder / "provenance.json")
+    lacking = ", ".join(sorted(ORIGIN - origin.keys()))
+    if lacking:
+        raise BadResults(f"{folder / 'provenance.json'}: it lacks {lacking}; delete the folder and run again")
     console().print(
         f"{folder}: suite {origin['suite']}, {origin['episodes']:,} episodes, commit {origin['commit'][:10] or 'none'}"
         f"{' with changes' if origin['dirty'] else ''}, {origin['cpu']}, {origin['wall_s']} s"

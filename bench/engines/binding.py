@@ -14,7 +14,10 @@ NOT_A_NUMBER = (math.nan, math.nan, math.nan)
 
 
 def command_of(contender: Contender):
-    """The law with a memory slot; a user's law that raises commands NaN, which the judge sees as singular."""
+    """The law with a memory slot; a user's law that raises commands NaN, which the judge sees as singular.
+
+    So does one that returns anything but three numbers in some state. Times 1.0 keeps every bit of a number.
+    """
     law = contender.law
     if contender.regulator.memory is not None:
         return _guarded_memory(law) if contender.regulator.origin else law
@@ -33,7 +36,8 @@ def _guarded(law):
     @kernel
     def command(R, omega, goal, gains, memory):
         try:
-            u = law(R, omega, goal, gains)
+            x, y, z = law(R, omega, goal, gains)
+            u = (1.0 * x, 1.0 * y, 1.0 * z)
         except Exception:
             u = NOT_A_NUMBER
         return u, memory
@@ -45,7 +49,8 @@ def _guarded_memory(law):
     @kernel
     def command(R, omega, goal, gains, memory):
         try:
-            u, after = law(R, omega, goal, gains, memory)
+            (x, y, z), after = law(R, omega, goal, gains, memory)
+            u = (1.0 * x, 1.0 * y, 1.0 * z)
         except Exception:
             u, after = NOT_A_NUMBER, memory
         return u, after

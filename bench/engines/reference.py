@@ -1,18 +1,20 @@
 """dm_control's own loop with the plain Python law: slow, and the truth the compiled engines must reproduce.
 
-The law is called with numpy.float64, whose arithmetic is IEEE 754 throughout (1/0 is infinite, 0/0 NaN), as compiled
-code's is.
+The law is called with numpy.float64 throughout, gains and goal too: its arithmetic is IEEE 754 (1/0 is infinite, 0/0
+NaN), as compiled code's is.
 """
 
 import numpy as np
 
 import tasks
-from bench.contender import Goal
+from bench.contender import AT_REST, Gains, Goal
 from bench.engines.binding import command_of, margin_of, memory_of, observer
 from bench.engines.episode import Sample, Settings, blank, finish, numbers
 from bench.so3 import Rotation, dot, from_quaternion
 from tasks.truth import angle, haversine
 from tasks.verdict import GOING, check_command, check_state, first_watch, watched
+
+STILL = tuple(map(np.float64, AT_REST))
 
 
 def run(contender, task: str, starts, bands, settings: Settings, metrics, integrator="euler") -> np.ndarray:
@@ -31,14 +33,15 @@ def _episode(command, margin, observe, memory, task, start, band, settings, row,
     environment = tasks.load(task, start=start, dt=dt, horizon=(limits.ticks + 1) * dt, integrator=integrator)
     environment.reset()
     sensors = environment.physics.data.sensordata
-    R_d = from_quaternion(start.goal_wxyz)
-    goal = Goal(R_d)
+    R_d = from_quaternion(tuple(map(np.float64, start.goal_wxyz)))
+    goal = Goal(R_d, STILL, STILL)
+    gains, memory = Gains(*map(np.float64, settings.gains)), tuple(map(np.float64, memory))
     hav = haversine(sensors[12:16], start.goal_wxyz)
     watch = first_watch(hav, band)
     u, omega, tick, failure = (0.0, 0.0, 0.0), _vector(sensors[9:12]), 0, GOING
     while tick < limits.ticks and watch.quiet < limits.hold_ticks:
         R = Rotation(_vector(sensors[0:3]), _vector(sensors[3:6]), _vector(sensors[6:9]))
-        u, memory = command(R, omega, goal, settings.gains, memory)
+        u, memory = command(R, omega, goal, gains, memory)
         observe(row, Sample(tick * dt, dt, R, hav, watch.entered, omega, u, margin(R, R_d)))
         failure = check_command(dot(u, u), limits.command_limit_squared)
         if failure != GOING:

@@ -20,7 +20,9 @@ MUJOCO_INTEGRATORS = {
 }
 
 
-def run(engine: str, contender: Contender, task: str, starts, settings: Settings, metrics, integrator="euler") -> np.ndarray:
+def run(
+    engine: str, contender: Contender, task: str, starts, settings: Settings, metrics, integrator="euler"
+) -> np.ndarray:
     """Rows of `engines.episode`, one per start.
 
     Args:
@@ -57,8 +59,15 @@ def compiled_loop(engine: str, contender: Contender, metrics: tuple):
     except Exception as error:
         if not contender.regulator.origin:
             raise
-        reason = str(error).strip().splitlines()
         raise BadLaw(
-            f"--law {contender.regulator.origin}: the law cannot be compiled ({reason[0] if reason else error}); "
-            "keep to the dialect of bench/scalar.py, or run it uncompiled with --engine reference"
+            f"--law {contender.regulator.origin}: the law cannot be compiled ({_deepest_reason(error)}); keep to the "
+            "dialect of bench/scalar.py, functions marked @kernel, or run it uncompiled with --engine reference"
         ) from error
+
+
+def _deepest_reason(error: Exception) -> str:
+    """The one line of numba's report that is about the law: it tells each caller's trouble before the callee's."""
+    lines = [line.strip() for line in str(error).splitlines() if line.strip()] or [type(error).__name__]
+    deepest = max((i for i, line in enumerate(lines[:-1]) if "Failed in nopython mode" in line), default=-1)
+    reason, *after = lines[deepest + 1 :]
+    return f"{reason} {after[0].removeprefix('>>> ')}" if reason.endswith("signature:") and after else reason
