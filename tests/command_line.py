@@ -1,0 +1,33 @@
+"""The command line as the tests call it: in this process, with its exit code and its two streams."""
+
+import hashlib
+from pathlib import Path
+from typing import NamedTuple
+
+from bench.cli import main
+
+TINY = ("--suite", "quick", "--starts", "paper", "--regulator", "rotation-matrix", "--horizon", "0.1")
+"""Three episodes of a hundred ticks on every engine that is named."""
+
+
+class Said(NamedTuple):
+    """What one command answered."""
+
+    code: int
+    out: str
+    err: str
+
+
+def bench(capsys, *words) -> Said:
+    """`python -m bench WORDS...`; what was printed before is dropped."""
+    capsys.readouterr()
+    code = main([str(word) for word in words])
+    return Said(code, *capsys.readouterr())
+
+
+def digest(folder: Path) -> dict[str, str]:
+    """Every file and folder below, with a digest of the bytes: equal if and only if nothing was touched."""
+    return {
+        str(path.relative_to(folder)): hashlib.sha256(path.read_bytes()).hexdigest() if path.is_file() else "folder"
+        for path in sorted(folder.rglob("*"))
+    }
