@@ -3,22 +3,48 @@
 One file for each part of the paper; a file with a constant CLAIMS is found by being here.
 
     verdict.py               what a claim, a verdict and its evidence are
-    rotation_matrix.py       C01 to C05
+    rotation_matrix.py       C01 to C03
+    half_turns.py            C04, C05
     linearized_euler.py      C06 to C08
-    feedback_linearized.py   C09 to C11
+    feedback_linearized.py   C09
+    boundary_points.py       C10, C11
     costs.py                 C12, C17
     representations.py       C13 to C16
     later.py                 C18 to C27
+    tables.py                what a judging function reads
+    probes.py                the small experiments of claims that no table answers
+    coordinates.py           the coordinates of C13
+    errata.py                what is printed wrongly in the paper, each with a check
 """
 
 import functools
 import importlib
 import pkgutil
+from pathlib import Path
 
-from bench.claims.verdict import Claim
+import pandas as pd
 
-MAIN_ENGINE = "ideal-rk4"
-CHECK_ENGINES = ("ideal-held", "native")
+from bench import results as published
+from bench.claims.tables import CHECK_ENGINES, MAIN_ENGINE, Results
+from bench.claims.verdict import Claim, Evidence, NoEvidence, Verdict, Word, decide
+
+__all__ = [
+    "NOT_YET_MEASURED",
+    "RULE",
+    "Claim",
+    "Evidence",
+    "NoEvidence",
+    "Results",
+    "Verdict",
+    "Word",
+    "all_claims",
+    "judge",
+    "judge_all",
+    "table",
+]
+
+NOT_YET_MEASURED = Word.UNMEASURED
+
 RULE = (
     f"Engine {MAIN_ENGINE}, the paper's continuous system (2.6)-(2.7), decides. A claim about episodes is asked of "
     f"{' and '.join(CHECK_ENGINES)} too where they have rows: if one gives another word, 'holds' becomes 'holds "
@@ -29,8 +55,37 @@ RULE = (
 
 
 @functools.cache
-def known() -> dict[str, Claim]:
-    """Id -> Claim, in the order of the ids."""
+def all_claims() -> tuple[Claim, ...]:
+    """Every claim of every file here, in the order of the ids."""
     modules = [importlib.import_module(f"{__name__}.{info.name}") for info in pkgutil.iter_modules(__path__)]
     found = [claim for module in modules for claim in getattr(module, "CLAIMS", ())]
-    return {claim.id: claim for claim in sorted(found, key=lambda claim: claim.id)}
+    return tuple(sorted(found, key=lambda claim: claim.id))
+
+
+def judge(id: str, results: Results) -> Verdict:
+    """One claim on a run's tables."""
+    return decide(next(claim for claim in all_claims() if claim.id == id), results)
+
+
+def judge_all(folder: Path | None = None) -> list[Verdict]:
+    """Every claim on the run in a folder; without one, on the run that the report shows.
+
+    Errors:
+        NoEvidence: a claim that can be measured, and no row about it. BadResults: the folder.
+    """
+    results = Results(Path(folder) if folder else published.folder())
+    return [decide(claim, results) for claim in all_claims()]
+
+
+def table(verdicts: list[Verdict]) -> pd.DataFrame:
+    """One line a verdict."""
+    return pd.DataFrame(
+        {
+            "claim": [one.id for one in verdicts],
+            "section": [one.claim.section for one in verdicts],
+            "sentence": [one.claim.sentence for one in verdicts],
+            "verdict": [str(one.word) for one in verdicts],
+            "evidence": [str(one.evidence) for one in verdicts],
+            "rows": [one.rows for one in verdicts],
+        }
+    )

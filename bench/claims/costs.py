@@ -1,6 +1,16 @@
 """C12 and C17: cost of calculation, and cost against performance (Murphy 1988, 2.5 and 4)."""
 
-from bench.claims.verdict import claim
+import itertools
+
+import numpy as np
+
+from bench.claims import probes
+from bench.claims.tables import evidence, on_every_engine, settled, share, some
+from bench.claims.verdict import Word, claim
+
+LAWS = ("rotation-matrix", "linearized-euler", "feedback-linearized")
+CALLS = ("sin", "cos", "atan2", "acos")
+DIRECTED = ("half-turn", "poles", "wraps", "box", "tumbling", "goals")
 
 CALL_PRICE, CALL_PRICES = 10.0, (1.0, 20.0)
 """Flops that one sin, cos, atan2 or acos stands for where two columns must become one; the range tried."""
@@ -57,4 +67,128 @@ C17 = claim(
     """,
 )
 
-CLAIMS = (C12, C17)
+
+AGREES, MIXED, CONTRADICTS = "agrees", "mixed", "contradicts"
+
+
+def costs(results, law: str, with_goal: bool) -> tuple[int, int]:
+    """Flops and transcendental calls a tick, typical branch."""
+    rows = some(results.table("costs", regulator=law, branch="typical"), f"cost of {law}")
+    total, goal = (rows[rows["stage"] == stage].iloc[0] for stage in ("total", "goal"))
+    flops, calls = int(total["flops"]), int(sum(total[name] for name in CALLS))
+    if with_goal:
+        return flops, calls
+    return flops - int(goal["flops"]), calls - int(sum(goal[name] for name in CALLS))
+
+
+def compared(cheap: tuple, dear: tuple) -> tuple[str, float]:
+    """How two neighbours stand, and from which price of a call on they are in the stated order (0: at any)."""
+    flops, calls = dear[0] - cheap[0], dear[1] - cheap[1]
+    if flops >= 0 and calls >= 0 and flops + calls > 0:
+        return AGREES, 0.0
+    if calls > 0:
+        return MIXED, -flops / calls
+    if flops > 0:
+        return MIXED, np.inf  # fewer calls and more flops: in order below a price only
+    return CONTRADICTS, np.inf
+
+
+def c12(results):
+    """Flops and calls of neighbours in both accountings; then time."""
+    paper = [costs(results, law, with_goal=False) for law in LAWS]
+    total = [costs(results, law, with_goal=True) for law in LAWS]
+    pairs = [compared(*pair) for every in (paper, total) for pair in itertools.pairwise(every)]
+    in_order = [how == AGREES or (how == MIXED and price <= CALL_PRICE) for how, price in pairs]
+    timings = results.timings()
+    said, timed_in_order = _timed(timings)
+    if all(how == AGREES for how, _ in pairs):
+        word = Word.HOLDS if timed_in_order else Word.CORRECTED
+    else:
+        word = Word.CORRECTED if all(in_order) else Word.FAILS
+    return word, evidence(
+        """Flops and transcendental calls a tick: {paper}; with the goal's angles taken from its matrix: {total}. In
+        order: {agreeing} of {pairs} pairs in both columns, the others {priced}. {said}""",
+        2 * len(LAWS) + len(timings),
+        ("costs", "timings") if len(timings) else ("costs",),
+        paper=_listed(paper),
+        total=_listed(total),
+        agreeing=sum(how == AGREES for how, _ in pairs),
+        pairs=len(pairs),
+        priced=", ".join(f"once a call costs {price:.1f} flops" for how, price in pairs if how != AGREES) or "none",
+        said=said,
+    )
+
+
+def _listed(every) -> str:
+    return ", ".join(f"{law} {flops} and {calls}" for law, (flops, calls) in zip(LAWS, every, strict=True))
+
+
+def _timed(timings) -> tuple[str, bool]:
+    """What the timings say, and whether none of them contradicts the order."""
+    found = timings[timings["regulator"].isin(LAWS)].groupby(["machine", "regulator"], observed=True)["ns_per_tick"]
+    table = found.median().unstack("regulator") if len(timings) else None
+    if table is None or not set(LAWS) <= set(table.columns):
+        return "No timings of all three laws to confirm it.", True
+    in_order = (table[list(LAWS)].diff(axis=1).iloc[:, 1:] > 0).all(axis=1)
+    times = ", ".join(f"{law} {table[law].median():.0f} ns" for law in LAWS)
+    return f"Time a tick is in that order on {int(in_order.sum())} of {len(table)} machines ({times}).", in_order.all()
+
+
+@on_every_engine
+def c17(results, engine):
+    """The three laws against the three tests of performance and the test of cost."""
+    linear = probes.linear_settling(results.gains())
+    plane, rows = {}, 0
+    for law in LAWS:
+        uniform, directed = results.episodes(law, engine, "uniform"), results.episodes(law, engine, *DIRECTED)
+        distance = probes.boundary_distance(directed)
+        at_goal = distance["half_turn"].where(directed["angle0_rad"] > 1, np.pi)
+        exact = (distance["pole"] <= EXACT_RAD) | (distance["wrap"] <= EXACT_RAD) | (at_goal <= EXACT_RAD)
+        exact |= probes.goal_to_pole(directed) <= EXACT_RAD
+        lost = ~settled(directed)
+        slowest = uniform["settling_time_s"].max()
+        works = share(settled(uniform)).value >= SETTLED_SHARE and not (lost & ~exact).any()
+        plane[law] = {
+            "settled": share(settled(uniform)).value,
+            "lost": int((lost & ~exact).sum()),
+            "lost_exact": int((lost & exact).sum()),
+            "slowest": float(slowest),
+            "performs": bool(works and slowest <= SLOW * linear),
+            "affordable": {price: _affordable(results, law, price) for price in (CALL_PRICE, *CALL_PRICES)},
+        }
+        rows += len(uniform) + len(directed)
+    both = [law for law, one in plane.items() if one["performs"] and one["affordable"][CALL_PRICE]]
+    clean = [law for law in both if not plane[law]["lost_exact"] and all(plane[law]["affordable"].values())]
+    word = Word.FAILS if clean else Word.CORRECTED if both else Word.HOLDS
+    beside = probes.beside_pole(0.1, "feedback-linearized/zyx-euler", results.gains())
+    return word, evidence(
+        """{laws}. Adequate in both: {both}. Settling time of a small error: {linear:.3f} s. {said} Not counted:
+        feedback-linearized fails from {beside} of {beside_n} starts spinning at {speed:g} rad/s beside a pole.""",
+        rows + len(LAWS),
+        ("episodes", "costs"),
+        laws="; ".join(_placed(law, one, results) for law, one in plane.items()),
+        both=", ".join(both) or "none",
+        linear=linear,
+        said=_timed(results.timings())[0],
+        beside=int((~settled(beside)).sum()),
+        beside_n=len(beside),
+        speed=probes.SPEED,
+    )
+
+
+def _affordable(results, law: str, price: float) -> bool:
+    weighed = {one: flops + price * calls for one in LAWS for flops, calls in [costs(results, one, with_goal=False)]}
+    return weighed[law] <= DEAR * min(weighed.values())
+
+
+def _placed(law: str, one: dict, results) -> str:
+    flops, calls = costs(results, law, with_goal=False)
+    prices = [f"{price:g}" for price, within in sorted(one["affordable"].items()) if within]
+    cost = f"affordable with a call at {', '.join(prices)} flops" if prices else "affordable at no price of a call"
+    return (
+        f"{law}: {one['settled']:.2%} of SO(3) settles, {one['lost']} other starts do not ({one['lost_exact']} more of "
+        f"the exact ones), slowest {one['slowest']:.2f} s, {flops} flops and {calls} calls, {cost}"
+    )
+
+
+CLAIMS = (C12.judged_by(c12), C17.judged_by(c17))

@@ -1,6 +1,24 @@
 """C13 to C16: where coordinates of a rotation break down (Murphy 1988, 2.2, 2.3 and 3.3)."""
 
-from bench.claims.verdict import claim
+import math
+
+import numpy as np
+
+from bench.boundary import axes
+from bench.claims import probes
+from bench.claims.coordinates import angle_and_axis, condition, coordinates_of, rotation_vector, zyz
+from bench.claims.tables import MAIN_ENGINE, evidence, settled, some
+from bench.claims.verdict import Word, claim
+from bench.discovery import representation
+from bench.so3 import from_quaternion
+
+EXACT_RAD = 1e-13
+"""Between the nearest near start (1e-12 rad from a pole) and what rounding leaves of an exact one."""
+
+DIRECTIONS = 12
+SHIFT = 0.7
+"""rad: any amount that no symmetry of the angles shares."""
+
 
 DECADES = (1, 6)
 DEGENERATE, SMOOTH = 0.9, 0.01
@@ -77,4 +95,129 @@ C16 = claim(
     open="Nothing.",
 )
 
-CLAIMS = (C13, C14, C15, C16)
+
+def c13(results):
+    """Condition numbers near zero rotation."""
+    decades = range(DECADES[0], DECADES[1] + 1)
+    tables = [coordinates_of(axis, 10.0**-k) for k in decades for axis in axes(DIRECTIONS)]
+    found = {}
+    for to_matrix in (zyz, angle_and_axis, rotation_vector):
+        conditions = np.array([condition(to_matrix, one[to_matrix]) for one in tables]).reshape(len(decades), -1)
+        rise = np.diff(np.log10(np.median(conditions, axis=1))).min()
+        found[to_matrix] = (rise >= DEGENERATE, float(rise), float(conditions.max()))
+    is_zyz, is_axis, is_vector = (found[one][0] for one in (zyz, angle_and_axis, rotation_vector))
+    if is_zyz and is_axis and is_vector:
+        word = Word.HOLDS
+    else:
+        word = Word.CORRECTED if is_zyz and is_axis != is_vector else Word.FAILS
+    return word, evidence(
+        """Per decade towards zero rotation the condition number of the rate map rises by {zyz:.3f} decades for Z-Y-Z
+        and {axis:.3f} for angle and axis (to {zyz_max:.1e} and {axis_max:.1e}); for the rotation vector it is at most
+        {vector_max:.5f}.""",
+        3 * len(tables),
+        ("experiment",),
+        zyz=found[zyz][1],
+        axis=found[angle_and_axis][1],
+        zyz_max=found[zyz][2],
+        axis_max=found[angle_and_axis][2],
+        vector_max=found[rotation_vector][2],
+    )
+
+
+def _least(R) -> float:
+    return float(np.linalg.svd(probes.euler_B(R), compute_uv=False)[-1])
+
+
+def c14(results):
+    """B at half and quarter turns about Y, and what a simulation from there does."""
+    quats = {180: (0.0, 0.0, 1.0, 0.0), 90: (1.0, 0.0, 1.0, 0.0), -90: (1.0, 0.0, -1.0, 0.0)}
+    half = math.sqrt(0.5)
+    least = {
+        degrees: _least(from_quaternion(tuple(x if degrees == 180 else half * x for x in quat)))
+        for degrees, quat in quats.items()
+    }
+    turns = results.table("episodes", regulator="feedback-linearized", engine=MAIN_ENGINE)
+    about_y = some(turns[turns["start_id"] == "half-turn-y-exact"], "exact half turn about y")
+    poles = turns[turns["start_set"] == "poles"]
+    poles = some(poles[probes.boundary_distance(poles)["pole"] <= EXACT_RAD], "exact pole")
+    at_quarter = least[90] < ON_POLE and least[-90] < ON_POLE
+    if least[180] < ON_POLE:
+        word = Word.HOLDS
+    else:
+        word = Word.FAILS if at_quarter and least[180] > OFF_POLE else Word.CORRECTED
+    return word, evidence(
+        """Smallest singular value of B: {half:.3f} at 180 degrees about Y, {plus:.0e} and {minus:.0e} at +-90. The
+        feedback-linearized law settles from {y_k} of {y_n} exact half turns about y and from {p_k} of {p_n} exact
+        poles. {so}.""",
+        len(least) + len(about_y) + len(poles),
+        ("experiment", "episodes"),
+        half=least[180],
+        plus=least[90],
+        minus=least[-90],
+        y_k=int(settled(about_y).sum()),
+        y_n=len(about_y),
+        p_k=int(settled(poles).sum()),
+        p_n=len(poles),
+        so="2.3 and the equations are right, 2.2 is not" if word == Word.FAILS else "2.2 is not refuted",
+    )
+
+
+def _change(to_matrix, E, other) -> float:
+    return float(np.abs(np.subtract(to_matrix(E), to_matrix(other))).max())
+
+
+def c15(results):
+    """R at both poles as alpha and gamma move against and with each other."""
+    to_matrix = representation("zyx-euler").to_matrix
+    grid = np.linspace(-3.0, 3.0, 8).tolist()
+    moved = {}
+    for sign in (1, -1):
+        for word, direction in (("sum", -1), ("difference", 1)):
+            moved[sign, word] = max(
+                _change(to_matrix, (a, sign * math.pi / 2, g), (a + SHIFT, sign * math.pi / 2, g + direction * SHIFT))
+                for a in grid
+                for g in grid
+            )
+    by_sum = [moved[sign, "sum"] <= SAME < moved[sign, "difference"] for sign in (1, -1)]
+    sums = [pole for pole, is_sum in zip(("+90", "-90"), by_sum, strict=True) if is_sum]
+    word = {2: Word.HOLDS, 1: Word.CORRECTED, 0: Word.FAILS}[sum(by_sum)]
+    return word, evidence(
+        """With the sum kept R changes by {plus_sum:.1g} at +90 and {minus_sum:.0e} at -90 degrees, with the difference
+        kept by {plus_difference:.0e} and {minus_difference:.1g}. {so}.""",
+        4 * len(grid) ** 2,
+        ("experiment",),
+        plus_sum=moved[1, "sum"],
+        minus_sum=moved[-1, "sum"],
+        plus_difference=moved[1, "difference"],
+        minus_difference=moved[-1, "difference"],
+        so=f"Only the sum is determined at {' and '.join(sums) or 'neither pole'}",
+    )
+
+
+def c16(results):
+    """B at the run's orientations and at both poles."""
+    frame = results.episodes("feedback-linearized", MAIN_ENGINE).drop_duplicates(["start_set", "start_id"])
+    is_pole = (probes.boundary_distance(frame)["pole"] <= EXACT_RAD).to_numpy()
+    matrices = np.array([probes.euler_B(R) for R in probes.rotations(frame)])
+    at_poles = some(frame[is_pole], "exact pole")
+    values = np.linalg.svd(matrices[is_pole], compute_uv=False)
+    largest = float(np.abs(matrices).max())
+    if not np.isfinite(matrices[is_pole]).all():
+        word = Word.HOLDS
+    else:
+        word = Word.CORRECTED if largest <= 1 + SAME and values[:, 2].max() < ON_POLE else Word.FAILS
+    return word, evidence(
+        """B is finite at all {n:,} orientations (elements at most {largest:.3f}); at {poles} exact poles its smallest
+        singular value is at most {least:.0e} and the next {middle:.2f}. {so}.""",
+        len(frame),
+        ("episodes", "experiment"),
+        n=len(frame),
+        largest=largest,
+        poles=len(at_poles),
+        least=float(values[:, 2].max()),
+        middle=float(values[:, 1].min()),
+        so="B exists everywhere, as 3.3 says; B^-1 does not" if word == Word.CORRECTED else "3.3 is not confirmed",
+    )
+
+
+CLAIMS = (C13.judged_by(c13), C14.judged_by(c14), C15.judged_by(c15), C16.judged_by(c16))

@@ -36,6 +36,9 @@ class Evidence(NamedTuple):
     rows: int
     tables: tuple[str, ...]
 
+    def __str__(self) -> str:
+        return self.sentence
+
 
 class Claim(NamedTuple):
     """One sentence of the paper and how it is decided.
@@ -54,11 +57,20 @@ class Claim(NamedTuple):
     readings: tuple[str, ...] = ()
     judge: Callable | None = None
 
+    def judged_by(self, judge: Callable) -> "Claim":
+        """The claim with what decides it."""
+        return self._replace(judge=judge)
 
-def claim(*, judge: Callable | None = None, readings: tuple[str, ...] = (), **texts: str) -> Claim:
+    @property
+    def text(self) -> str:
+        """The sentence, as lists of things call it."""
+        return self.sentence
+
+
+def claim(*, readings: tuple[str, ...] = (), **texts: str) -> Claim:
     """A Claim whose texts may be broken into lines as the file likes."""
     joined = {field: " ".join(text.split()) for field, text in texts.items()}
-    return Claim(**joined, readings=tuple(" ".join(text.split()) for text in readings), judge=judge)
+    return Claim(**joined, readings=tuple(" ".join(text.split()) for text in readings))
 
 
 class Verdict(NamedTuple):
@@ -67,6 +79,16 @@ class Verdict(NamedTuple):
     claim: Claim
     word: Word
     evidence: Evidence
+
+    @property
+    def id(self) -> str:
+        """The claim's."""
+        return self.claim.id
+
+    @property
+    def rows(self) -> int:
+        """The evidence's."""
+        return self.evidence.rows
 
 
 NOTHING_YET = Evidence("Not yet measured: it belongs to the work on arms and forces.", {}, 0, ())
