@@ -42,7 +42,8 @@ class Board:
         self.origin = narrow_origin if narrow else origin
         width = style.PHONE_WIDTH_IN if narrow else style.TEXT_WIDTH_IN
         tall = narrow_height if narrow else height
-        self.figure = Figure(figsize=(width, tall), layout="none")
+        self.figure = Figure(figsize=(width, tall))
+        self.figure.set_layout_engine("none")
         self.axes = self.figure.add_axes((0, 0, 1, 1))
         self.axes.set(xlim=(0, width), ylim=(-tall, 0))
         self.axes.axis("off")
@@ -62,7 +63,9 @@ class Board:
         corner = (x - half_width, y - half_height)
         shape = f"round,pad=0,rounding_size={ROUNDING_IN}"
         self.axes.add_patch(
-            FancyBboxPatch(corner, *size, boxstyle=shape, facecolor=style.PAPER, edgecolor=colour, linewidth=weight)
+            FancyBboxPatch(
+                corner, size[0], size[1], boxstyle=shape, facecolor=style.PAPER, edgecolor=colour, linewidth=weight
+            )
         )
         if heading:
             top = y + half_height - 0.09
@@ -93,7 +96,7 @@ class Board:
         if arrow:
             tail = path[-2]
             head = {"arrowstyle": "-|>,head_length=0.42,head_width=0.17", "color": colour, "linewidth": 0.6}
-            near = tuple(f + 0.02 * (t - f) for f, t in zip(finish, tail, strict=True))
+            near = (finish[0] + 0.02 * (tail[0] - finish[0]), finish[1] + 0.02 * (tail[1] - finish[1]))
             self.axes.annotate("", finish, near, arrowprops={**head, "shrinkA": 0, "shrinkB": 0, "mutation_scale": 12})
 
     def label(self, at, text, colour=style.INK, shift=(0.0, 0.0), **place):

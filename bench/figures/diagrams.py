@@ -1,4 +1,7 @@
-"""Block diagrams of the plant, the judge and the regulators; the paper's figures 2.1 and 2.2 are missing in its scan."""
+"""Block diagrams of the plant, the judge and the regulators.
+
+The scan of the paper lacks its figures 2.1 and 2.2: here they are drawn from its text.
+"""
 
 from __future__ import annotations
 

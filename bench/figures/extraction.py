@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 import warnings
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
@@ -34,7 +35,7 @@ class Way(NamedTuple):
     """One extraction and how it is drawn."""
 
     title: str
-    angles: object
+    angles: Callable[[Rotation], tuple]
     colour: str
     marker: str
     line: object

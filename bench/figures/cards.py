@@ -1,0 +1,118 @@
+"""A card for every law that the registry knows: nothing of it is typed here."""
+
+from __future__ import annotations
+
+import html as markup
+import inspect
+import re
+import sys
+from types import ModuleType
+
+import pandas as pd
+from pygments import highlight
+from pygments.formatters import HtmlFormatter
+from pygments.lexers import PythonLexer
+
+from bench import results
+from bench.contender import Contender, Regulator
+from bench.discovery import contenders_of, known_regulators
+from bench.figures import html
+from bench.figures.card_map import card_map
+from bench.figures.share import share
+
+PAPERS_OWN = ("rotation-matrix", "linearized-euler", "feedback-linearized")
+"""Shown first, in the paper's order; every other law follows by name."""
+
+PROPERTIES = {
+    "local": "Proved near the goal only, by linearization.",
+    "almost global": "Proved from all starts but a set of measure zero.",
+    "global with memory": "Proved from every start, with memory.",
+    "none": "Nothing is proved of it.",
+}
+COUNTED = ("flops", "sin", "cos", "atan2", "acos", "compare")
+FAILS = re.compile(r"\bFails:\s*(.*)", re.DOTALL)
+
+
+def in_order() -> list[Regulator]:
+    """Every registered regulator, the paper's three first."""
+    known = known_regulators()
+    first = [known[name] for name in PAPERS_OWN if name in known]
+    return first + [one for name, one in known.items() if name not in PAPERS_OWN]
+
+
+def module(regulator: Regulator) -> ModuleType:
+    """The file of a regulator."""
+    return sys.modules[(regulator.law or regulator.law_in).__module__]
+
+
+def said(regulator: Regulator) -> tuple[str, str]:
+    """What its docstring says: what the law is, and where it fails."""
+    text = " ".join((module(regulator).__doc__ or "").split())
+    found = FAILS.search(text)
+    fails = found[1] if found else ""
+    return text[: found.start()].strip() if found else text, fails[:1].upper() + fails[1:]
+
+
+def costs_of(one: Contender) -> pd.DataFrame:
+    """Operations of the typical branch: a row a stage, the stages that do nothing left out."""
+    rows = results.costs(contender=one.name, branch="typical").set_index("stage")
+    numbers = rows[[name for name in COUNTED if name == "flops" or rows[name].any()]]
+    return numbers[(numbers > 0).any(axis=1)].rename(columns={"compare": "<"}).reset_index()
+
+
+def measured(episodes: pd.DataFrame) -> str:
+    """How many of the uniform starts settled, and how fast."""
+    uniform = episodes[episodes["start_set"] == "uniform"]
+    if uniform.empty:
+        return "Listed for its price; it gives the same command to rounding and is not run again."
+    settled = uniform[uniform["outcome"] == "settled"]
+    found = share(len(settled), len(uniform))
+    times = settled["settling_time_s"]
+    pace = f", in {times.median():.2f} s (median) to {times.max():.2f} s (worst)" if len(settled) else ""
+    return f"Measured: {found} of {len(uniform):,} uniform starts settle{pace}.".replace(",", "\N{THIN SPACE}", 1)
+
+
+def card(one: Contender) -> str:
+    """Heading, card and folded source of one law."""
+    regulator = one.regulator
+    what, fails = said(regulator)
+    acts = one.representation.title if one.representation else "the rotation matrix"
+    episodes = results.episodes(contender=one.name, engine="ideal-rk4")
+    proved = PROPERTIES.get(regulator.property, f"Proved: {regulator.property}.")
+    summary = f"{what} Acts on: {acts}. {proved} {measured(episodes)}"
+    picture = card_map(episodes, regulator.title) if len(episodes) else None
+    body = html.card(
+        one.name, regulator.title, regulator.formula, regulator.source, summary, costs_of(one), picture, fails
+    )
+    name = one.name.replace("/", "-")
+    return f'<h2 id="{name}">{html.law(one.name, regulator.title)}</h2>{body}{source(regulator)}'
+
+
+def source(regulator: Regulator) -> str:
+    """The law's own file, folded."""
+    text = inspect.getsource(module(regulator))
+    code = highlight(text, PythonLexer(), HtmlFormatter(nowrap=True))
+    where = markup.escape(f"bench/regulators/{regulator.name.replace('-', '_')}.py")
+    return (
+        f'<details class="law-source"><summary>Its file, <code>{where}</code></summary>'
+        f'<div class="highlight"><pre tabindex="0">{code}</pre></div></details>'
+    )
+
+
+def contents() -> html.Markdown:
+    """Every law as a table: title, source, what it acts on, what is proved."""
+    rows = [
+        {
+            "Law": html.law(one.name, one.title),
+            "Word": f"`{one.name}`",
+            "Formula": f"${one.formula}$",
+            "Source": one.source,
+        }
+        for one in in_order()
+    ]
+    return html.table(pd.DataFrame(rows))
+
+
+def cards() -> html.Html:
+    """All of them, in order."""
+    return html.Html("".join(card(one) for regulator in in_order() for one in contenders_of(regulator)))

@@ -1,0 +1,113 @@
+"""Where the numbers come from: provenance, the tables with their digests, their columns, and links to take them."""
+
+from __future__ import annotations
+
+import hashlib
+from pathlib import Path
+
+import pandas as pd
+import pyarrow.parquet as pq
+
+from bench import results
+from bench.figures import html, times
+from bench.provenance import ROOT
+
+OFFERED_BYTES = 16_000_000
+"""A larger file is named, not offered: the site stays small enough to be mailed or put on a stick."""
+SITE_DATA = "../data"
+"""Seen from a page in pages/; report/build.py copies there what pages link to."""
+
+
+def digest(path: Path) -> str:
+    """SHA-256 of a file, in hex."""
+    return hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+def files() -> list[Path]:
+    """The files of the run, tables first, then every machine's timings."""
+    folder = results.folder()
+    plain = [folder / name for name in ("provenance.json", "plan.json") if (folder / name).is_file()]
+    return [*sorted(folder.glob("*.parquet")), *plain, *times.files()]
+
+
+def run() -> html.Markdown:
+    """provenance.json in words, one fact a line."""
+    said = results.provenance()
+    changed = "yes: the sources had changes that no commit holds" if said["dirty"] else "no"
+    facts = {
+        "Suite": f"`{said['suite']}`, {html.number(said['episodes'])} episodes",
+        "Command": f"`{command(said['command'])}`",
+        "Seed": f"{said['seed']}",
+        "Finished": said["finished"].replace("T", " ").replace("Z", " UTC"),
+        "Wall time": f"{said['wall_s']:.0f} s with {said['workers']} workers",
+        "Resumed after a stop": "yes" if said["resumed"] else "no",
+        "Commit": f"`{said['commit']}`" if said["commit"] else "none: not a checkout",
+        "Uncommitted changes": changed,
+        "Digest of the sources": f"`{said['sources']}`",
+        "Digest of the plan": f"`{said['plan']}`",
+        "Processor": f"{said['cpu']}, {said['cores']} cores",
+        "System": said["platform"],
+        **dict(sorted(said["versions"].items())),
+        **{f"Lock `requirements/{path.name}`, SHA-256": f"`{digest(path)}`" for path in locks()},
+    }
+    return html.table(pd.DataFrame({"Fact": list(facts), "Value": list(facts.values())}))
+
+
+def command(line: str) -> str:
+    """The command as it was given, a folder of somebody's machine by its last name only."""
+    return " ".join(Path(word).name if word.startswith("/") else word for word in line.split())
+
+
+def locks() -> list[Path]:
+    """The lock files that lie beside these sources."""
+    return sorted((ROOT / "requirements").glob("*.txt"))
+
+
+def tables() -> html.Markdown:
+    """Every file: rows, size, digest, and a link to it."""
+    rows = []
+    for path in files():
+        is_table = path.suffix == ".parquet"
+        rows.append(
+            {
+                "File": link(path),
+                "Rows": pq.read_metadata(path).num_rows if is_table else None,
+                "Size": size(path.stat().st_size),
+                "SHA-256": f"`{digest(path)}`",
+            }
+        )
+    return html.table(pd.DataFrame(rows))
+
+
+def link(path: Path) -> str:
+    """The file as a link, or its bare name where it is too large to offer."""
+    name = f"timings/{path.name}" if path.parent.name == "timings" else path.name
+    if path.stat().st_size > OFFERED_BYTES:
+        return f"`{name}` (too large for this site)"
+    return f'<a href="{SITE_DATA}/{name}" download>{name}</a>'
+
+
+def size(count: int) -> str:
+    """Bytes as a reader takes them in."""
+    return f"{count / 1e6:.1f} MB" if count >= 1e6 else f"{max(1, round(count / 1e3))} kB"
+
+
+def columns() -> html.Html:
+    """Name, type, unit and meaning of every column, one folded table a file."""
+    parts = []
+    for path in files():
+        if path.suffix != ".parquet":
+            continue
+        schema = pq.read_schema(path)
+        rows = []
+        for field in schema:
+            metadata = field.metadata or {}
+            kind = "word" if str(field.type).startswith("dictionary") else str(field.type)
+            unit, meaning = (metadata.get(key, b"").decode() for key in (b"unit", b"meaning"))
+            rows.append({"Column": field.name, "Type": kind, "Unit": unit, "Meaning": meaning})
+        table = html.plain_table(pd.DataFrame(rows))
+        parts.append(
+            f'<details class="columns"><summary><code>{path.name}</code>, {len(rows)} columns</summary>'
+            f'<div class="card-costs" tabindex="0">{table}</div></details>'
+        )
+    return html.Html("".join(parts))

@@ -1,0 +1,60 @@
+"""Time a tick of every law alone, against its flops: how far counting carries."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pandas as pd
+
+from bench.figures import style
+from bench.figures.inline import responsive_picture
+from bench.schema import RESULTS
+from bench.store import read_arrow
+
+FOLDER = RESULTS / "timings"
+NONE_YET = "No law has been timed on this machine yet.\nmake time   times all of them, interleaved."
+
+
+def files() -> list[Path]:
+    """One file a kind of machine."""
+    return sorted(FOLDER.glob("*.parquet"))
+
+
+def read(path: Path) -> pd.DataFrame:
+    """A machine's rows with `contender` added."""
+    frame = read_arrow(path, "timings").to_pandas()
+    regulator, representation = frame["regulator"].astype(str), frame["representation"].astype(str)
+    return frame.assign(contender=regulator.where(representation == "", regulator + "/" + representation))
+
+
+def alone(frame: pd.DataFrame) -> pd.DataFrame:
+    """Laws timed alone, the fastest first; a law that could not be timed is left out."""
+    rows = frame[(frame["what"] == "law") & (frame["ticks"] > 0)]
+    return rows.sort_values("ratio", kind="stable").reset_index(drop=True)
+
+
+@responsive_picture
+def times(rows: pd.DataFrame, costs: pd.DataFrame, titles: dict[str, str], *, narrow=False):
+    """Time in steps of the reference kernel against flops; no rows: a line that says so."""
+    if rows.empty:
+        figure, axes = style.panels(height=1.0, narrow=narrow)
+        axes.axis("off")
+        axes.text(0.5, 0.5, NONE_YET, ha="center", va="center", color=style.MUTED, linespacing=1.6)
+        return figure, " ".join(NONE_YET.split())
+    figure, axes = style.panels(height=4.2 if narrow else 3.5, narrow=narrow)
+    total = costs[(costs["branch"] == "typical") & (costs["stage"] == "total")].set_index("contender")
+    for row in rows.itertuples():
+        look = style.look(row.contender)
+        x = total.at[row.contender, "flops"]
+        axes.plot([x, x], [row.ratio_low, row.ratio_high], color=look.colour, linewidth=1.3)
+        marks = {"color": look.colour, "marker": look.marker, "linestyle": "none", "markersize": 7}
+        axes.plot(x, row.ratio, label=titles.get(row.contender, row.contender), **marks)
+    axes.set(xlabel="Flops a tick, typical branch (no transcendental calls)", ylabel="Time a tick [kernel steps]")
+    axes.set_xlim(left=0)
+    axes.set_ylim(bottom=0)
+    figure.legend(loc="outside upper left", ncols=1 if narrow else 3, columnspacing=1.4)
+    words = "; ".join(
+        f"{titles.get(row.contender, row.contender)} {total.at[row.contender, 'flops']} flops, {row.ratio:.2f} steps"
+        for row in rows.itertuples()
+    )
+    return figure, f"Time a tick in steps of the reference kernel against flops a tick: {words}."
