@@ -62,7 +62,10 @@ C11 = claim(
         |beta_0|, pi - |alpha_0| and pi - |gamma_0| all above the margin, at rest (uniform, half-turn,
         poles, wraps, box) and spinning (tumbling). It holds if for some margin none is erratic, at rest
         or spinning; with a correction if that is so at rest only: a start's place then does not assure
-        it, its velocity counts; if erratic ones remain at rest for every margin, it does not hold.
+        it, its velocity counts; if erratic ones remain at rest for every margin, it does not hold. Added
+        after the first results, because tumbling holds no body that spins beside a margin: {probes.BESIDE}
+        starts {probes.SPEED:g} rad/s fast, in all directions, 0.001 rad outside each margin of the poles,
+        count among the spinning ones. They can only make it harder to hold.
     """,
     open="""
         'Small' is not given a number; 0.2 rad (11 degrees) is the widest that we call small. What the
@@ -154,21 +157,27 @@ def c11(results, engine):
         for margin in MARGINS_RAD
     }
     at_rest = [margin for margin, (rest, _) in counts.items() if not rest]
-    both = [margin for margin in at_rest if not counts[margin][1]]
+    beside = {margin: probes.beside_pole(margin, CONTENDER, gains) for margin in MARGINS_RAD}
+    passed = {margin: int((~settled(one) | (one["peak_u"] > limit)).sum()) for margin, one in beside.items()}
+    both = [margin for margin in at_rest if not counts[margin][1] + passed[margin]]
     word = Word.HOLDS if both else Word.CORRECTED if at_rest else Word.FAILS
     widest = MARGINS_RAD[-1]
     clear = frame[spins & (frame["min_margin"] > math.sin(widest))]
     return word, evidence(
-        """Erratic starts outside margins of {margins} rad: {rest} at rest (of {n_rest:,} in all), {spinning} spinning
-        (of {n_spin}); peak commands at rest up to {peak_rest:,.0f}, spinning up to {peak_spin:,.0f} rad/s^2. Of
-        {clear} spinning ones that never come within {widest} rad of a pole, {clear_erratic} are erratic.""",
-        len(frame),
-        ("episodes",),
+        """Erratic starts outside margins of {margins} rad: {rest} at rest (of {n_rest:,} in all), {spinning} tumbling
+        (of {n_spin}), and {beside} of {n_beside} that spin at {speed:g} rad/s beside each margin; peak commands at
+        rest up to {peak_rest:,.0f}, tumbling up to {peak_spin:,.0f} rad/s^2. Of {clear} tumbling ones that never come
+        within {widest} rad of a pole, {clear_erratic} are erratic.""",
+        len(frame) + sum(len(one) for one in beside.values()),
+        ("episodes", "experiment"),
         margins=MARGINS,
         rest=", ".join(str(rest) for rest, _ in counts.values()),
         n_rest=int((~spins).sum()),
         spinning=", ".join(str(spinning) for _, spinning in counts.values()),
         n_spin=int(spins.sum()),
+        beside=", ".join(str(count) for count in passed.values()),
+        n_beside=probes.BESIDE,
+        speed=probes.SPEED,
         peak_rest=float(frame.loc[~spins & (room > MARGINS_RAD[0]), "peak_u"].max()),
         peak_spin=float(frame.loc[spins & (room > MARGINS_RAD[0]), "peak_u"].max()),
         clear=len(clear),

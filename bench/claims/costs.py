@@ -138,7 +138,8 @@ def _timed(timings) -> tuple[str, bool]:
 def c17(results, engine):
     """The three laws against the three tests of performance and the test of cost."""
     linear = probes.linear_settling(results.gains())
-    plane, rows = {}, 0
+    plane: dict[str, dict] = {}
+    rows = 0
     for law in LAWS:
         uniform, directed = results.episodes(law, engine, "uniform"), results.episodes(law, engine, *DIRECTED)
         distance = probes.boundary_distance(directed)

@@ -1,5 +1,6 @@
 """Small experiments that claims make themselves: a law at one state, a few episodes, closed forms of linear systems."""
 
+import functools
 import math
 
 import numpy as np
@@ -93,6 +94,7 @@ SPEED, BESIDE = 20.0, 64
 """rad/s, as fast as the fastest tumbling start; starts at each margin."""
 
 
+@functools.cache
 def beside_pole(margin: float, contender: str, gains: Gains) -> pd.DataFrame:
     """Bodies that spin at 20 rad/s, in directions all over the sphere, a thousandth of a radian outside a margin."""
     zyx = representation("zyx-euler")

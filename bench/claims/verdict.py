@@ -67,10 +67,16 @@ class Claim(NamedTuple):
         return self.sentence
 
 
-def claim(*, readings: tuple[str, ...] = (), **texts: str) -> Claim:
+def claim(
+    *, id: str, section: str, sentence: str, question: str, criterion: str, open: str = "", readings: tuple = ()
+) -> Claim:
     """A Claim whose texts may be broken into lines as the file likes."""
-    joined = {field: " ".join(text.split()) for field, text in texts.items()}
-    return Claim(**joined, readings=tuple(" ".join(text.split()) for text in readings))
+
+    def joined(text: str) -> str:
+        return " ".join(text.split())
+
+    one = Claim(id, section, joined(sentence), joined(question), joined(criterion), joined(open))
+    return one._replace(readings=tuple(joined(text) for text in readings))
 
 
 class Verdict(NamedTuple):
