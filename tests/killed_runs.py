@@ -1,0 +1,188 @@
+"""Runs killed by SIGKILL, and what their resumption ends with; prints one JSON object. `test_resume` starts it.
+
+Everything is imported and compiled once; each run is then a fork of this process, so that a run costs its episodes and
+its files only. Costs are remembered between forks: they are most of a small run's time and touch no file.
+"""
+
+import dataclasses
+import functools
+import hashlib
+import json
+import os
+import random
+import shutil
+import signal
+import sys
+import time
+from pathlib import Path
+from typing import NamedTuple
+
+from bench import boundary, counting, plan, run, traces
+from bench.contender import Gains
+from bench.discovery import find_contender
+
+SEED = 20260119
+KILLS = 20
+MOST_TRIES = 60  # a moment after the end of its run kills nothing and is drawn again
+EVENTS = {"open", "os.mkdir", "os.remove", "os.rename", "os.rmdir", "os.chmod"}
+
+
+def plan_of(words: tuple, start_sets: tuple, engines: tuple, count: int, kp: float = 100.0) -> plan.Plan:
+    """A small plan with traces and boundaries."""
+    laws = [find_contender(word) for word in words]
+    settings = {"count": count, "horizon_s": 0.25, "gains": Gains(kp, 20.0)}
+    made = plan.make("quick", laws, start_sets=start_sets, engines=engines, **settings)
+    return dataclasses.replace(made, traces=4, boundary_axes=2)
+
+
+LONG = plan_of(
+    ("rotation-matrix", "feedback-linearized"),
+    ("half-turn", "paper", "tumbling"),
+    ("ideal-rk4", "native", "reference"),
+    12,
+)
+"""26 units on three engines: about a second."""
+
+SHORT, OTHER = (plan_of(("rotation-matrix",), ("paper", "tumbling"), ("ideal-rk4",), 3, kp) for kp in (100.0, 50.0))
+"""Two units, so few files: killed at every one of its file operations. OTHER is what SHORT replaces."""
+
+
+class Undisturbed(NamedTuple):
+    """A plan, and the files that a run of it ends with."""
+
+    plan: plan.Plan
+    files: dict
+
+
+def start(one: plan.Plan, out: Path, workers: int, before=lambda: None) -> int:
+    """A run in a process of its own; its id."""
+    child = os.fork()
+    if child:
+        return child
+    try:
+        before()
+        run.run(one, out, workers=workers, replace=True)
+        os._exit(0)
+    finally:
+        os._exit(1)
+
+
+def ended(child: int) -> int:
+    """Exit code of a process, -9 if it was killed."""
+    return os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
+
+
+def files_of(out: Path) -> dict[str, str]:
+    """Every file of a run with its bytes' digest; of provenance.json, which tells the time, only that it is there."""
+    return {
+        str(path.relative_to(out)): ""
+        if path.name == "provenance.json" or path.is_dir()
+        else hashlib.sha256(path.read_bytes()).hexdigest()
+        for path in sorted(out.rglob("*"))
+    }
+
+
+def undisturbed(one: plan.Plan, out: Path) -> Undisturbed:
+    """In this process: what it compiles, every fork has."""
+    run.run(one, out, workers=2)
+    return Undisturbed(one, files_of(out))
+
+
+def resumed(wanted: Undisturbed, out: Path, workers: int) -> dict:
+    """How far the killed run had come, and what the run that goes on ends with."""
+    names = sorted(path.name for path in out.glob("*"))
+    parts = [path.name for path in (out / "parts").glob("*.parquet")]
+    code = ended(start(wanted.plan, out, workers))
+    return {"names": names, "parts": len(parts), "code": code, "same": files_of(out) == wanted.files}
+
+
+def at_random_moments(wanted: Undisturbed, folder: Path) -> list[dict]:
+    """Runs killed after a random time each, on one thread or two, and resumed on one or two."""
+    chance, found = random.Random(SEED), []
+    began = time.monotonic()
+    ended(start(wanted.plan, folder / "timed", 2))
+    longest = time.monotonic() - began
+    for k in range(MOST_TRIES):
+        out = folder / f"random-{k}"
+        child = start(wanted.plan, out, chance.choice((1, 2)))
+        time.sleep(chance.uniform(0.0, longest))
+        os.kill(child, signal.SIGKILL)
+        if ended(child) == -signal.SIGKILL:
+            found.append(resumed(wanted, out, chance.choice((1, 2))))
+        if len(found) == KILLS:
+            break
+    return found
+
+
+def killing_at(number: int, out: Path):
+    """Something to call in a child: it dies just before its file operation of that number in `out`."""
+    seen = 0
+
+    def hook(event, arguments):
+        nonlocal seen
+        if event in EVENTS and (event != "open" or str(arguments[0]).startswith(str(out))):
+            seen += 1
+            if seen > number:
+                os.kill(os.getpid(), signal.SIGKILL)
+
+    return lambda: sys.addaudithook(hook)
+
+
+def at_every_file_operation(wanted: Undisturbed, template: Path, is_over=lambda out: False) -> list[dict]:
+    """Runs that go on in copies of a folder, each killed one file operation later, until one ends or `is_over(out)`."""
+    found = []
+    while True:
+        out = template.with_name(f"{template.name}-{len(found)}")
+        shutil.copytree(template, out)
+        if ended(start(wanted.plan, out, 1, before=killing_at(len(found), out))) == 0 or is_over(out):
+            return found
+        found.append(resumed(wanted, out, 1))
+
+
+def while_finishing(wanted: Undisturbed, folder: Path) -> list[dict]:
+    """All parts are there; killed at each file operation from there to the end."""
+
+    def die_first():
+        run._finish = lambda *_, **__: os.kill(os.getpid(), signal.SIGKILL)
+
+    ended(start(wanted.plan, folder / "finishing", 1, before=die_first))
+    return at_every_file_operation(wanted, folder / "finishing")
+
+
+def while_clearing(wanted: Undisturbed, folder: Path) -> list[dict]:
+    """A finished run of another plan, its parts not yet gone, is replaced; killed until the new plan is there."""
+    template = folder / "clearing"
+    ended(start(OTHER, template, 1))
+    shutil.copytree(folder / "finishing" / "parts", template / "parts")
+    (template / "parts" / ".a.parquet.b.tmp").write_text("half")
+
+    def is_new(out):
+        path = out / "plan.json"
+        return path.is_file() and json.loads(path.read_text())["digest"] == wanted.plan.digest()
+
+    return at_every_file_operation(wanted, template, is_new)
+
+
+def remember_costs() -> None:
+    """Count each law once for all forks."""
+    once = functools.cache(lambda one, rows=counting.rows: tuple(rows([one])))
+    counting.rows = lambda laws: [row for one in laws for row in once(one)]
+
+
+def main(folder: Path) -> dict:
+    """All that the tests ask."""
+    remember_costs()
+    long = undisturbed(LONG, folder / "long")
+    ended(start(LONG, folder / "one-thread", 1))
+    answer = {"one thread": files_of(folder / "one-thread") == long.files, "files": sorted(long.files)}
+    answer["at random moments"] = at_random_moments(long, folder)
+    short = undisturbed(SHORT, folder / "short")
+    traces.run, boundary.run = functools.cache(traces.run), functools.cache(boundary.run)
+    traces.run(SHORT), boundary.run(SHORT)
+    answer["while finishing"] = while_finishing(short, folder)
+    answer["while clearing"] = while_clearing(short, folder)
+    return answer
+
+
+if __name__ == "__main__":
+    print(json.dumps(main(Path(sys.argv[1]))))
