@@ -98,8 +98,8 @@ def c10(results):
     else:
         word = Word.FAILS
     return word, evidence(
-        """{finite} of {n} commands at exact poles are finite, and {settled} of {exact} episodes there settle; B itself
-        stays finite (elements at most {largest:.3f}), B^-1 is what divides. Spinning, |u| grows as cos(beta) to the
+        """{finite} of {n} commands at exact poles are finite, and {settled} of {exact} episodes there settle; the
+        largest element of B there is {largest:.3f}{so}. Spinning, |u| grows as cos(beta) to the
         power {slope:.3f}, to {grown:.1e} rad/s^2. Across +-pi the command jumps by {jump_low:.4f} to {jump_high:.4f}
         times 2 pi Kp.""",
         len(commands) + len(exact) + len(jumps),
@@ -109,6 +109,7 @@ def c10(results):
         settled=int(settled(exact).sum()),
         exact=len(exact),
         largest=largest,
+        so=", so that B^-1 is what divides" if math.isfinite(largest) else "",
         slope=slope,
         grown=grown,
         jump_low=float(jumps.min()),
