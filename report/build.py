@@ -40,6 +40,7 @@ MOST_COMPLAINTS = 80  # lines shown of a failed build
 TERMINAL_COLOUR = re.compile(r"\x1b\[[0-9;]*m")
 # Not the kernel's own lines, which say "WARNING | ...":
 PROBLEM = re.compile(r"\b(WARNING|ERROR|CRITICAL|SEVERE)\b(?! \|)")
+DATA_LINK = re.compile(r'href="(?:\.\./)?data/([\w./-]+)"')
 CELL_RAISED = "An error occurred while executing the following cell"
 
 
@@ -159,6 +160,17 @@ def build(results: Path, cell_key: str) -> None:
         raise CannotBuild(f"the pages do not build:\n{said}\nreport: all that was said is in {log}")
 
 
+def offer_data(results: Path, site: Path = SITE) -> None:
+    """Put beside the pages what they link to as data/...: files of the run, and data/timings/ of this checkout."""
+    pages = [page.read_text(encoding="utf-8") for page in site.rglob("*.html")]
+    for name in sorted({name for page in pages for name in DATA_LINK.findall(page)}):
+        source = ROOT / "results" / name if name.startswith("timings/") else results / name
+        if source.is_file():  # a link to nothing is the page check's to report
+            target = site / "data" / name
+            target.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copyfile(source, target)
+
+
 def complaints(log: str) -> list[str]:
     """The lines of a failed build that say what is wrong: warnings, errors, and the cell that raised."""
     kept, in_cell = [], False
@@ -183,6 +195,7 @@ def main() -> int:
         wanted, finished = keys(results), finished_keys()
         if wanted != finished:
             build(results, wanted["cells"])
+            offer_data(results)
         problems = check_site.problems(SITE)
         if problems:
             raise CannotBuild("\n".join([*problems, f"the page check found {len(problems)} problems"]))

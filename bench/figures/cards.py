@@ -19,6 +19,7 @@ from bench.discovery import contenders_of, known_regulators
 from bench.figures import html
 from bench.figures.card_map import card_map
 from bench.figures.share import share
+from bench.figures.spelling import typeset
 
 PAPERS_OWN = ("rotation-matrix", "linearized-euler", "feedback-linearized")
 """Shown first, in the paper's order; every other law follows by name."""
@@ -47,7 +48,7 @@ def module(regulator: Regulator) -> ModuleType:
 
 def said(regulator: Regulator) -> tuple[str, str]:
     """What its docstring says: what the law is, and where it fails."""
-    text = " ".join((module(regulator).__doc__ or "").split())
+    text = typeset(" ".join((module(regulator).__doc__ or "").split()))
     found = FAILS.search(text)
     fails = found[1] if found else ""
     return text[: found.start()].strip() if found else text, fails[:1].upper() + fails[1:]

@@ -118,3 +118,10 @@ def extraction(found: pd.DataFrame, *, narrow=False):
     axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=1 if narrow else 3)
     words = "; ".join(f"{way.title}: at most {worst[worst.way == way.title].error.max():.1e} rad" for way in WAYS)
     return figure, f"Error of the rotation rebuilt from its Z-Y-X angles against the distance to the pole. {words}."
+
+
+def jump(found: pd.DataFrame) -> float:
+    """The largest distance at which scipy's error is a thousand times ours: where it gives one angle up [rad]."""
+    worst = found[found["distance"] > 0.0].pivot_table(index="distance", columns="way", values="error", aggfunc="max")
+    ours, theirs = worst[WAYS[2].title], worst[WAYS[1].title]
+    return float(worst.index[theirs > 1e3 * ours].max())

@@ -12,13 +12,13 @@ import bench.engines
 import tasks
 from bench.discovery import contenders_of, known_metrics, known_regulators, known_representations
 from bench.figures import html
+from bench.figures.spelling import prose
 from tasks.rules import RULES, Rules
 
 LISTED = re.compile(r"^(\S+)  +(\S.*)$", re.MULTILINE)
 FIELD = re.compile(r"^\s+(\w+): float = ")
 COMMENT = re.compile(r"^\s+# ?(.*)$")
 UNITS = {
-    "tolerance": "1",
     "floor_rad": "rad",
     "at_goal_rad": "rad",
     "hold_s": "s",
@@ -35,7 +35,7 @@ def representations() -> html.Markdown:
         {
             "Coordinates": one.title,
             "Definition": f"${one.formula}$",
-            "Where it breaks": where_it_breaks(one),
+            "Where it breaks": prose(where_it_breaks(one)),
             "Source": one.source,
         }
         for one in known_representations().values()
@@ -57,14 +57,14 @@ def start_sets(episodes: pd.DataFrame) -> html.Markdown:
         starts = mine["start_id"].nunique()
         horizon = mine["horizon_s"].max() if len(mine) else None
         title = tasks.start_set_title(name)
-        rows.append({"Set": f"`{name}`", "What it holds": title, "Starts": starts, "Horizon [s]": horizon})
+        rows.append({"Set": f"`{name}`", "What it holds": prose(title), "Starts": starts, "Horizon [s]": horizon})
     return html.table(pd.DataFrame(rows))
 
 
 def rules() -> html.Markdown:
     """The judge's numbers with the reason that stands above each in tasks/rules.py."""
     rows = [
-        {"Rule": f"`{name}`", "Value": f"{getattr(RULES, name):g} {UNITS.get(name, '')}".replace(" 1", ""), "Why": why}
+        {"Rule": f"`{name}`", "Value": f"{getattr(RULES, name):g} {UNITS.get(name, '')}".strip(), "Why": prose(why)}
         for name, why in reasons().items()
     ]
     return html.table(pd.DataFrame(rows))
@@ -88,7 +88,7 @@ def engines(episodes: pd.DataFrame) -> html.Markdown:
     listed = dict(LISTED.findall(bench.engines.__doc__ or ""))
     counts = episodes["engine"].value_counts()
     rows = [
-        {"Engine": f"`{name}`", "What it is": text, "Episodes": int(counts.get(name, 0)) or None}
+        {"Engine": f"`{name}`", "What it is": prose(text), "Episodes": int(counts.get(name, 0)) or None}
         for name, text in listed.items()
     ]
     return html.table(pd.DataFrame(rows))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import re
 from pathlib import Path
 
 import pandas as pd
@@ -14,6 +15,7 @@ from bench.provenance import ROOT
 
 OFFERED_BYTES = 16_000_000
 """A larger file is named, not offered: the site stays small enough to be mailed or put on a stick."""
+CITATION = ROOT / "CITATION.cff"
 SITE_DATA = "../data"
 """Seen from a page in pages/; report/build.py copies there what pages link to."""
 
@@ -111,3 +113,11 @@ def columns() -> html.Html:
             f'<div class="card-costs" tabindex="0">{table}</div></details>'
         )
     return html.Html("".join(parts))
+
+
+def version() -> str:
+    """The version that CITATION.cff gives, and its date."""
+    said = dict(
+        re.findall(r"^(version|date-released): *[\"']?([^\"'\n]+)", CITATION.read_text(encoding="utf-8"), re.MULTILINE)
+    )
+    return f"{said['version']} ({said['date-released']})" if "date-released" in said else said["version"]

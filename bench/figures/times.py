@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import pandas as pd
@@ -58,3 +59,13 @@ def times(rows: pd.DataFrame, costs: pd.DataFrame, titles: dict[str, str], *, na
         for row in rows.itertuples()
     )
     return figure, f"Time a tick in steps of the reference kernel against flops a tick: {words}."
+
+
+def said() -> str:
+    """On which machine, and when; or that there is no timing yet."""
+    paths = files()
+    if not paths:
+        return "No law has been timed yet (`make time` does)."
+    about = json.loads(read_arrow(paths[0], "timings").schema.metadata[b"about"])
+    passes = int(read(paths[0])["passes"].max())
+    return f"Measured on {about['cpu']}, {about['cores']} cores, {about['date'][:10]}, {passes} passes."
