@@ -6,15 +6,20 @@ Every mistake of the caller ends in one line on stderr and exit code 2, and touc
 import importlib
 import pkgutil
 import sys
+import tomllib
 
 import rich_click as click
 
 from bench.errors import BenchError
+from bench.provenance import ROOT
 from tasks.base import TaskError
 
 click.rich_click.TEXT_MARKUP = "rich"
 click.rich_click.MAX_WIDTH = 110
 click.rich_click.STYLE_OPTIONS_TABLE_PAD_EDGE = False
+
+VERSION = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["version"]
+"""Of the checkout that runs, installed or not."""
 
 EPILOG = """
 First steps:  [b]python -m bench list[/b]  what there is.  [b]python -m bench run --suite quick --out /tmp/quick[/b]
@@ -24,7 +29,7 @@ Your own law:  [b]python -m bench run --law my_law.py --suite quick --out /tmp/m
 
 
 @click.group(epilog=EPILOG, context_settings={"help_option_names": ["-h", "--help"]})
-@click.version_option(package_name="orientation-bench")
+@click.version_option(VERSION)
 def bench() -> None:
     """Which orientation error should a Cartesian controller use, where does it fail, what does it cost per tick?
 
