@@ -82,3 +82,14 @@ def bends_deg(traces: pd.DataFrame, start_id: str, kp: float, kv: float) -> pd.D
         away = np.abs(angles - angles[0] * closed_form.linear(trace["time_s"], kp, kv)[:, None]).max(axis=0)
         rows.append({"contender": name, "law": title, **dict(zip(("alpha", "beta", "gamma"), away, strict=True))})
     return pd.DataFrame(rows)
+
+
+def first_deg(traces: pd.DataFrame, start_id: str) -> float:
+    """Initial angle to the goal [deg]."""
+    return float(np.degrees(traces.loc[traces["start_id"] == start_id, "angle_rad"].iloc[0]))
+
+
+def highest_deg(traces: pd.DataFrame, start_id: str, contender: str) -> float:
+    """Largest angle to the goal on the way [deg]."""
+    rows = traces[(traces["start_id"] == start_id) & (traces["contender"] == contender)]
+    return float(np.degrees(rows["angle_rad"].max()))

@@ -3,7 +3,7 @@
 import numpy as np
 import pandas as pd
 
-from bench.figures import closed_form, laws, style
+from bench.figures import closed_form, html, laws, style
 from bench.figures.dots import dots
 from bench.figures.inline import responsive_picture
 
@@ -93,3 +93,25 @@ def _residual(axes, rows: pd.DataFrame, kp: float, kv: float, tolerance: float, 
     axes.set_ylim(low - 0.2 * (high - low), high + 0.2 * (high - low))
     span = f"{late.min():.2f} to {late.max():.2f} ms"
     return f" The rotation-matrix law is {span} later than its closed form ({len(rows)} starts)."
+
+
+def times(episodes: pd.DataFrame, width_deg: float = 30) -> pd.DataFrame:
+    """Angle and law: starts, share that settles, quantiles of settling time; the rows of a table on a page."""
+    parts = []
+    for place, (name, _, rows) in enumerate(laws.each(episodes)):
+        table = by_angle(rows, width_deg)
+        parts.append(
+            pd.DataFrame(
+                {
+                    "Angle [deg]": [f"{a - width_deg / 2:.0f} to {a + width_deg / 2:.0f}" for a in table["angle"]],
+                    "Law": html.law(name),
+                    "Starts": table["starts"],
+                    "Settled [%]": 100.0 * table["settled"],
+                    "5 %": table["low"],
+                    "Median [s]": table["median"],
+                    "95 %": table["high"],
+                    "order": table["angle"] * len(laws.TITLES) + place,
+                }
+            )
+        )
+    return pd.concat(parts).sort_values("order").drop(columns="order").reset_index(drop=True)

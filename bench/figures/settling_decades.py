@@ -84,3 +84,25 @@ def _exact(axes, at: float, stuck: pd.DataFrame, left: pd.DataFrame, look) -> No
     axes.text(
         at - 0.9, NEVER, f"{len(stuck)} exact half turns stay", ha="right", va="center", fontsize=9.5, color=style.INK
     )
+
+
+def slopes(episodes: pd.DataFrame) -> pd.DataFrame:
+    """Engine: measured slope beside the closed form, and what became of exact half turns."""
+    rows = []
+    for engine, part in episodes.groupby("engine", observed=True, sort=False):
+        k = decade(part["start_id"])
+        theory = closed_form.decade_slope(float(part["kp"].iloc[0]), float(part["kv"].iloc[0]))
+        found, exact = slope(part), part[k.isna()]
+        rows.append(
+            {
+                "Engine": engine,
+                "Starts fitted": int(k.between(*FITTED).sum()),
+                "Slope [s/decade]": found,
+                "Closed form": theory,
+                "Difference [%]": 100.0 * (found / theory - 1.0),
+                "Exact half turns": len(exact),
+                "of which settle": int((exact["outcome"] == "settled").sum()),
+                "Horizon [s]": float(part["horizon_s"].max()),
+            }
+        )
+    return pd.DataFrame(rows)

@@ -1,0 +1,130 @@
+"""The verdicts on a page: tiles, the table of the front page, and a claim's section. All words are the claim's own."""
+
+from __future__ import annotations
+
+import html as escape
+import re
+from collections import Counter
+from typing import TYPE_CHECKING
+
+import pandas as pd
+
+from bench.figures import html
+
+if TYPE_CHECKING:
+    from bench.claims import Verdict
+
+# Claims are written for a terminal; a page can set what they spell out.
+SPELLED = (
+    (r"\+-", "±"),
+    (r"<=", "≤"),
+    (r">=", "≥"),
+    (r"\^-1\b", "⁻¹"),
+    (r"\^2\b", "²"),
+    (r"\^T\b", "ᵀ"),
+    (r"\^-k\b", "⁻ᵏ"),
+    (r"\bpi\b", "π"),
+    (r"\balpha(?=\b|_)", "α"),
+    (r"\bbeta(?=\b|_)", "β"),
+    (r"\bgamma(?=\b|_)", "γ"),
+    (r"\bomega(?=\b|_)", "ω"),
+    (r"\btheta(?=\b|_)", "θ"),
+    (r"(?<=\d)%", " %"),
+    (r"(?<=[\s(])-(?=\d)", "−"),
+    (r"(?<=\d),(?=\d{3}\b)", " "),
+)
+
+
+SMALL = ("Criterion", "Left open")
+
+
+def set_in_type(text: str) -> str:
+    """Greek letters, signs and powers in place of their spelling."""
+    for spelling, sign in SPELLED:
+        text = re.sub(spelling, sign, text)
+    return text
+
+
+def measured(verdicts: list[Verdict]) -> list[Verdict]:
+    """Those that have been decided."""
+    return [one for one in verdicts if html.VERDICTS[str(one.word)] != "unmeasured"]
+
+
+def tiles(verdicts: list[Verdict]) -> html.Html:
+    """How many statements were decided, and how many got each word."""
+    decided = measured(verdicts)
+    counts = Counter(str(one.word) for one in decided)
+    labels = {
+        "holds": "hold",
+        "holds with a correction": "hold with a correction",
+        "does not hold": "do not hold",
+        "not testable": "cannot be tested",
+    }
+    entries: list = [(len(decided), "statements of the paper decided")]
+    return html.tiles(entries + [(counts[word], label, word) for word, label in labels.items() if counts[word]])
+
+
+def table(verdicts: list[Verdict], page: str) -> html.Markdown:
+    """Id, sentence and verdict of each decided claim, linked to its section of the page."""
+    decided = measured(verdicts)
+    frame = pd.DataFrame(
+        {
+            "": [link(one, page) for one in decided],
+            "Section": [one.claim.section for one in decided],
+            "What the paper says, in our words": [set_in_type(one.claim.sentence) for one in decided],
+            "Verdict": [html.badge(str(one.word)) for one in decided],
+        }
+    )
+    return html.table(frame, words=frame.columns)
+
+
+def link(one: Verdict, page: str) -> str:
+    """The claim's id, leading to its section."""
+    return f'<a href="{page}#{anchor(one)}">{one.claim.id}</a>'
+
+
+def anchor(one: Verdict) -> str:
+    """What a claim's section is called in links."""
+    return one.claim.id.lower()
+
+
+def waiting(verdicts: list[Verdict]) -> html.Html:
+    """A compact list of what has not been measured yet."""
+    items = [
+        f"<li><b>{one.claim.id}</b> ({escape.escape(one.claim.section)}) {paragraph(one.claim.sentence)}</li>"
+        for one in verdicts
+        if one not in measured(verdicts)
+    ]
+    return html.Html(f'<ul class="waiting">{"".join(items)}</ul>')
+
+
+def section(one: Verdict) -> html.Html:
+    """All that is said of one claim: verdict and evidence first, then how it was decided and what is left open."""
+    claim = one.claim
+    rows = {
+        "In our words": claim.sentence,
+        "Question": claim.question,
+        "Evidence": str(one.evidence),
+        "Criterion": claim.criterion,
+        "Left open": claim.open,
+    }
+    small = ' class="small"'
+    parts = [
+        f"<dt{small if name in SMALL else ''}>{name}</dt><dd>{paragraph(text)}</dd>"
+        for name, text in rows.items()
+        if text
+    ]
+    if claim.readings:
+        items = "".join(f"<li>{paragraph(text)}</li>" for text in claim.readings)
+        parts.append(f'<dt class="small">Readings</dt><dd><ul>{items}</ul></dd>')
+    tables = ", ".join(one.evidence.tables)
+    head = (
+        f'<p class="claim-head">{html.badge(str(one.word))}<span>section {escape.escape(claim.section)}</span>'
+        f"<span>n = {html.number(one.evidence.rows)} from {escape.escape(tables)}</span></p>"
+    )
+    return html.Html(f'{head}<dl class="claim">{"".join(parts)}</dl>')
+
+
+def paragraph(text: str) -> str:
+    """A claim's text as HTML."""
+    return escape.escape(set_in_type(text))
