@@ -1,0 +1,192 @@
+"""The promise of growing: one file adds a regulator, representation, metric, task, start set or page; no other changes."""
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from command_line import digest
+
+from bench import store
+
+ROOT = Path(__file__).parents[1]
+
+INDEX = "# A book of one page\n\nIt cites {cite}`murphy1988`.\n"
+
+DROPPED = {
+    "bench/representations/dropped_coordinates.py": '''
+"""Z-Y-X angles by another name."""
+
+from bench.representations import zyx_euler
+
+REPRESENTATION = zyx_euler.REPRESENTATION._replace(name="dropped-coordinates", title="Dropped coordinates")
+''',
+    "bench/regulators/dropped_regulator.py": '''
+"""Damping, and a spring on the first coordinate."""
+
+from bench.contender import Regulator
+from bench.scalar import kernel
+
+
+def law_in(representation):
+    """The law in the coordinates of one representation."""
+    chart = representation.chart
+
+    @kernel
+    def law(R, omega, goal, gains):
+        """u = -Kv omega - Kp alpha e_z."""
+        E = chart(R).E
+        return (-gains.kv * omega[0], -gains.kv * omega[1], -gains.kp * E[0] - gains.kv * omega[2])
+
+    return law
+
+
+REGULATOR = Regulator(
+    name="dropped-regulator",
+    title="Dropped regulator",
+    source="none",
+    formula="u",
+    law_in=law_in,
+    coordinates=("dropped-coordinates",),
+    property="none",
+)
+''',
+    "bench/metrics/dropped_metric.py": '''
+"""Ticks with a command: all of them."""
+
+from bench.metric import Metric
+from bench.scalar import kernel
+
+
+@kernel
+def update(value, sample):
+    """One more."""
+    return value + 1.0
+
+
+def finish(value, ending):
+    """As it is."""
+    return value
+
+
+METRIC = Metric("dropped-metric", "dropped_column", "1", "ticks with a command", 0.0, update, finish)
+''',
+    "tasks/domains/dropped_task.py": '''
+"""The free body by another name."""
+
+from tasks.domains import free_body
+
+TASK = free_body.TASK._replace(name="dropped-task", title="Dropped task", start_sets=("dropped-starts",))
+''',
+    "tasks/starts/dropped_starts.py": '''
+"""Two starts about z."""
+
+from tasks.base import Start, StartSet
+
+
+def build(count, seed):
+    """0.2 rad and a right angle, to rounding."""
+    return [Start("small", (0.9950041652780258, 0.0, 0.0, 0.09983341664682815)), Start("right", (0.5**0.5, 0.0, 0.0, 0.5**0.5))]
+
+
+STARTS = StartSet("dropped-starts", "Two starts about z", 2, build)
+''',
+    "report/pages/90-dropped-page.md": """---
+jupytext: {text_representation: {extension: .md, format_name: myst}}
+kernelspec: {name: python3, display_name: Python 3}
+---
+# The dropped page
+
+```{code-cell} python
+from bench import results
+print("rows with the dropped column:", results.episodes(task="dropped-task")["dropped_column"].count())
+```
+""",
+}
+
+LISTED = {
+    "regulators": "dropped-regulator",
+    "representations": "dropped-coordinates",
+    "metrics": "dropped-metric",
+    "tasks": "dropped-task",
+    "starts": "dropped-starts",
+}
+
+
+@pytest.fixture(scope="module")
+def tree(tmp_path_factory):
+    """A copy of the rooms with nothing but the files above added; the book cut down to its references."""
+    tree = tmp_path_factory.mktemp("growing")
+    ignored = shutil.ignore_patterns("__pycache__", "_build", "pages", "index.md")
+    for room in ("bench", "tasks", "report"):
+        shutil.copytree(ROOT / room, tree / room, ignore=ignored)
+    (tree / "report" / "pages").mkdir()
+    for name in ("pyproject.toml", "CITATION.cff", "report/pages/99-references.md"):
+        shutil.copy(ROOT / name, tree / name)
+    (tree / "report" / "index.md").write_text(INDEX)
+    return tree
+
+
+def said(tree: Path, *words) -> str:
+    """What a command prints in that tree; it must succeed."""
+    ours = {
+        **os.environ,
+        "PYTHONPATH": str(tree),
+        "XDG_CACHE_HOME": str(tree / "cache"),
+        "PYTHONDONTWRITEBYTECODE": "1",
+    }
+    ours.pop("NUMBA_CACHE_DIR", None)
+    ours.pop("ORIENTATION_BENCH_RESULTS", None)
+    done = subprocess.run([sys.executable, *words], cwd=tree, env=ours, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done.stdout
+
+
+def sources(tree: Path) -> dict[str, str]:
+    """Every file that somebody wrote."""
+    made = ("results", "cache", "report/_build")
+    return {name: what for name, what in digest(tree).items() if not name.startswith(made)}
+
+
+@pytest.mark.slow
+@pytest.mark.book
+def test_dropped_files_are_listed_run_counted_and_shown_without_another_touched(tree):
+    before = sources(tree)
+    for name, text in DROPPED.items():
+        (tree / name).write_text(text.lstrip("\n"))
+
+    listed = said(tree, "-m", "bench", "list")
+    for name in LISTED.values():
+        assert f"\n{name} " in listed
+
+    engines = ("--engine", "native", "--engine", "reference")
+    words = ("--task", "dropped-task", "--starts", "dropped-starts", "--horizon", "1", *engines)
+    told = said(tree, "-m", "bench", "run", *words, "--regulator", "dropped-regulator")
+    assert "laws: dropped-regulator/dropped-coordinates" in told
+    found = store.read(tree / "results" / "latest", "episodes")
+    assert {name: set(found[name]) for name in ("regulator", "representation", "task", "start_set", "engine")} == {
+        "regulator": {"dropped-regulator"},
+        "representation": {"dropped-coordinates"},
+        "task": {"dropped-task"},
+        "start_set": {"dropped-starts"},
+        "engine": {"native", "reference"},
+    }
+    assert (found["dropped_column"] == found["ticks"]).all()
+    assert set(found["outcome"]) == {"settled"}
+
+    ours = said(tree, "-m", "bench", "run", *words, "--regulator", "feedback-linearized", "--dry-run")
+    assert "feedback-linearized/dropped-coordinates" in ours  # a law for any coordinates has met the new ones
+
+    counted = said(tree, "-m", "bench", "count", "--regulator", "dropped-regulator")
+    assert "dropped-regulator  dropped-coordinates" in counted
+
+    said(tree, "report/build.py")
+    page = (tree / "report" / "_build" / "html" / "pages" / "90-dropped-page.html").read_text()
+    assert "rows with the dropped column: 4" in page
+    assert "90-dropped-page.html" in (tree / "report" / "_build" / "html" / "index.html").read_text()
+
+    after = sources(tree)
+    assert {name: after[name] for name in before} == before
+    assert after.keys() - before.keys() == DROPPED.keys()
