@@ -19,6 +19,7 @@ from bench.figures.inline import picture
 AT_REST_TO_IDENTITY = ("uniform", "box", "half-turn", "poles", "wraps")
 """Start sets in which only the orientation varies: at rest, goal identity."""
 NEAR_RIM_RAD = 1e-9
+WIDTH_IN = 3.15
 MOST_SETTLED = 800
 """Settled starts drawn, the first of an evenly spread sequence: they are the ground, and a page is not made of dots."""
 
@@ -43,6 +44,7 @@ def flat(rows: pd.DataFrame) -> np.ndarray:
 def card_map(episodes: pd.DataFrame, title: str):
     """Outcomes of one law over orientations at rest."""
     figure, axes = style.panels(height=3.1, narrow=True)
+    figure.set_size_inches(WIDTH_IN, 3.1)
     rows = at_rest(episodes)
     rim = np.linspace(-math.pi / 2, math.pi / 2, 181)
     axes.plot(math.pi * np.cos(rim), math.pi * np.sin(rim), color=style.MUTED, linewidth=0.8)

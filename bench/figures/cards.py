@@ -25,10 +25,10 @@ PAPERS_OWN = ("rotation-matrix", "linearized-euler", "feedback-linearized")
 """Shown first, in the paper's order; every other law follows by name."""
 
 PROPERTIES = {
-    "local": "Proved near the goal only, by linearization.",
-    "almost global": "Proved from all starts but a set of measure zero.",
-    "global with memory": "Proved from every start, with memory.",
-    "none": "Nothing is proved of it.",
+    "local": "Stable near the goal, by linearization; no more than that.",
+    "almost global": "Stable from all starts but a set of measure zero.",
+    "global with memory": "Stable from every start, with memory.",
+    "none": "Nothing.",
 }
 COUNTED = ("flops", "sin", "cos", "atan2", "acos", "compare")
 FAILS = re.compile(r"\bFails:\s*(.*)", re.DOTALL)
@@ -65,12 +65,12 @@ def measured(episodes: pd.DataFrame) -> str:
     """How many of the uniform starts settled, and how fast."""
     uniform = episodes[episodes["start_set"] == "uniform"]
     if uniform.empty:
-        return "Listed for its price; it gives the same command to rounding and is not run again."
+        return "Its price only: it gives the command of another law to rounding, and is not run again."
     settled = uniform[uniform["outcome"] == "settled"]
     found = share(len(settled), len(uniform))
     times = settled["settling_time_s"]
     pace = f", in {times.median():.2f} s (median) to {times.max():.2f} s (worst)" if len(settled) else ""
-    return f"Measured: {found} of {len(uniform):,} uniform starts settle{pace}.".replace(",", "\N{THIN SPACE}", 1)
+    return f"{found} of {len(uniform):,} uniform starts settle{pace}.".replace(",", "\N{THIN SPACE}", 1)
 
 
 def card(one: Contender) -> str:
@@ -79,14 +79,27 @@ def card(one: Contender) -> str:
     what, fails = said(regulator)
     acts = one.representation.title if one.representation else "the rotation matrix"
     episodes = results.episodes(contender=one.name, engine="ideal-rk4")
-    proved = PROPERTIES.get(regulator.property, f"Proved: {regulator.property}.")
-    summary = f"{what} Acts on: {acts}. {proved} {measured(episodes)}"
+    proved = PROPERTIES.get(regulator.property, f"{regulator.property}.")
+    facts = {"Acts on": f"{acts[:1].upper()}{acts[1:]}.", "Proved": proved, "Measured": measured(episodes)}
     picture = card_map(episodes, regulator.title) if len(episodes) else None
     body = html.card(
-        one.name, regulator.title, regulator.formula, regulator.source, summary, costs_of(one), picture, fails
+        one.name,
+        regulator.title,
+        regulator.formula,
+        regulator.source,
+        what,
+        costs_of(one),
+        picture,
+        fails,
+        facts,
+        anchor(one),
     )
-    name = one.name.replace("/", "-")
-    return f'<h2 id="{name}">{html.law(one.name, regulator.title)}</h2>{body}{source(regulator)}'
+    return f"{body}{source(regulator)}"
+
+
+def anchor(one: Contender) -> str:
+    """The id of a card on its page."""
+    return one.name.replace("/", "-")
 
 
 def source(regulator: Regulator) -> str:
@@ -101,17 +114,20 @@ def source(regulator: Regulator) -> str:
 
 
 def contents() -> html.Markdown:
-    """Every law as a table: title, source, what it acts on, what is proved."""
-    rows = [
-        {
-            "Law": html.law(one.name, one.title),
-            "Word": f"`{one.name}`",
-            "Formula": f"${one.formula}$",
-            "Source": one.source,
-        }
-        for one in in_order()
-    ]
-    return html.table(pd.DataFrame(rows))
+    """Every law as a line: a link to its card, its word on the command line, what is proved, what was measured."""
+    rows = []
+    for one in (one for regulator in in_order() for one in contenders_of(regulator)):
+        uniform = results.episodes(contender=one.name, engine="ideal-rk4", start_set="uniform")
+        settled = (uniform["outcome"] == "settled").mean() if len(uniform) else None
+        rows.append(
+            {
+                "Law": f'<a href="#{anchor(one)}">{html.law(one.name, one.regulator.title)}</a>',
+                "On the command line": f"`{one.name}`",
+                "Proved": one.regulator.property,
+                "Settles": settled,
+            }
+        )
+    return html.table(pd.DataFrame(rows), {"Settles": lambda share: f"{100 * share:.1f} %"})
 
 
 def cards() -> html.Html:

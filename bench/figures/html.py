@@ -61,9 +61,7 @@ def outcome(name: str) -> Html:
 def law(name: str, text: str | None = None) -> Html:
     """The name of a regulator with the colour it has in every figure."""
     light = style.look(name).colour
-    return Html(
-        f'<span class="key" style="--key: {both(light)}"></span><span class="law">{text or name}</span>'
-    )
+    return Html(f'<span class="key" style="--key: {both(light)}"></span><span class="law">{text or name}</span>')
 
 
 def both(light: str) -> str:
@@ -86,9 +84,7 @@ def table(
     formats = dict(formats or {})
     unknown = sorted(set(formats) - set(map(str, frame.columns)))
     if unknown:
-        raise ValueError(
-            f"formats names {unknown}, not columns of the table; known: {list(map(str, frame.columns))}"
-        )
+        raise ValueError(f"formats names {unknown}, not columns of the table; known: {list(map(str, frame.columns))}")
     as_words = {str(name) for name in frame if not pd.api.types.is_numeric_dtype(frame[name])} | set(words)
     head = [str(column) for column in frame.columns]
     rule = [":--" if column in as_words else "--:" for column in head]
@@ -153,6 +149,8 @@ def card(
     costs: pd.DataFrame | None = None,
     picture: Picture | None = None,
     fails: str = "",
+    facts: Mapping[str, str] | None = None,
+    anchor: str = "",
 ) -> Html:
     """The card of a law, drawn wholly from what its module and its results say.
 
@@ -165,19 +163,24 @@ def card(
         costs: operations by stage, one row a stage; whole numbers.
         picture: its failure map.
         fails: a sentence on where it fails, in numbers.
+        facts: more such sentences by their first word, "Measured" say.
+        anchor: makes the title a heading of the page that links can name.
     """
-    left = [f'<div class="card-formula">{formula(tex)}</div>', f"<p>{html.escape(summary)}</p>"]
-    if fails:
-        left.append(f'<p class="card-fails"><b>Fails.</b> {html.escape(fails)}</p>')
+    left = [f"<p>{html.escape(summary)}</p>"]
+    said = {**({"Fails": fails} if fails else {}), **(facts or {})}
+    left += [f'<p class="card-fact"><b>{label}.</b> {html.escape(text)}</p>' for label, text in said.items()]
     if costs is not None:
         left.append(f'<div class="card-costs" tabindex="0">{plain_table(costs)}</div>')
     right = f'<div class="card-map">{picture._repr_html_()}</div>' if picture else ""
+    name_of = html.escape(title)
+    heading = f'<h2 id="{anchor}">{name_of}</h2>' if anchor else f"<strong>{name_of}</strong>"
     return Html(
         f'<section class="law-card{"" if picture else " alone"}" '
         f'style="--law: {both(style.look(name).colour)}" '
         f'aria-label="{html.escape(title, quote=True)}">'
-        f'<header><strong>{html.escape(title)}</strong>'
+        f"<header>{heading}"
         f'<span class="card-source">{html.escape(source)}</span></header>'
+        f'<div class="card-formula">{formula(tex)}</div>'
         f'<div class="card-body"><div class="card-text">{"".join(left)}</div>{right}</div></section>'
     )
 

@@ -12,7 +12,7 @@ import bench.engines
 import tasks
 from bench.discovery import contenders_of, known_metrics, known_regulators, known_representations
 from bench.figures import html
-from bench.figures.spelling import prose
+from bench.figures.spelling import power, prose
 from tasks.rules import RULES, Rules
 
 LISTED = re.compile(r"^(\S+)  +(\S.*)$", re.MULTILINE)
@@ -64,10 +64,19 @@ def start_sets(episodes: pd.DataFrame) -> html.Markdown:
 def rules() -> html.Markdown:
     """The judge's numbers with the reason that stands above each in tasks/rules.py."""
     rows = [
-        {"Rule": f"`{name}`", "Value": f"{getattr(RULES, name):g} {UNITS.get(name, '')}".strip(), "Why": prose(why)}
+        {
+            "Rule": f"`{name}`",
+            "Value": f"{said(getattr(RULES, name))}\N{NO-BREAK SPACE}{UNITS.get(name, '')}".strip(),
+            "Why": prose(why),
+        }
         for name, why in reasons().items()
     ]
     return html.table(pd.DataFrame(rows))
+
+
+def said(value: float) -> str:
+    """A value of the rules: in full, or as a power of ten."""
+    return power(value) if "e" in f"{value:g}" else f"{value:g}"
 
 
 def reasons() -> dict[str, str]:
@@ -96,7 +105,9 @@ def engines(episodes: pd.DataFrame) -> html.Markdown:
 
 def metrics() -> html.Markdown:
     """Every metric: its column, what it is, its unit."""
-    rows = [{"Column": f"`{one.column}`", "Metric": one.title, "Unit": one.unit} for one in known_metrics().values()]
+    rows = [
+        {"Column": f"`{one.column}`", "Metric": one.title, "Unit": prose(one.unit)} for one in known_metrics().values()
+    ]
     return html.table(pd.DataFrame(rows))
 
 

@@ -25,6 +25,13 @@ def digest(path: Path) -> str:
     return hashlib.sha256(path.read_bytes()).hexdigest()
 
 
+def spelled(hex_digits: str) -> str:
+    """A digest that may break into lines at every quarter, and is copied whole."""
+    quarter = len(hex_digits) // 4
+    parts = [hex_digits[at : at + quarter] for at in range(0, len(hex_digits), quarter)]
+    return f'<code class="digest">{"<wbr>".join(parts)}</code>'
+
+
 def files() -> list[Path]:
     """The files of the run, tables first, then every machine's timings."""
     folder = results.folder()
@@ -50,7 +57,7 @@ def run() -> html.Markdown:
         "Processor": f"{said['cpu']}, {said['cores']} cores",
         "System": said["platform"],
         **dict(sorted(said["versions"].items())),
-        **{f"Lock `requirements/{path.name}`, SHA-256": f"`{digest(path)}`" for path in locks()},
+        **{f"Lock {path.stem}, SHA-256": spelled(digest(path)) for path in locks()},
     }
     return html.table(pd.DataFrame({"Fact": list(facts), "Value": list(facts.values())}))
 
@@ -75,7 +82,7 @@ def tables() -> html.Markdown:
                 "File": link(path),
                 "Rows": pq.read_metadata(path).num_rows if is_table else None,
                 "Size": size(path.stat().st_size),
-                "SHA-256": f"`{digest(path)}`",
+                "SHA-256": spelled(digest(path)),
             }
         )
     return html.table(pd.DataFrame(rows))
@@ -91,7 +98,11 @@ def link(path: Path) -> str:
 
 def size(count: int) -> str:
     """Bytes as a reader takes them in."""
-    return f"{count / 1e6:.1f} MB" if count >= 1e6 else f"{max(1, round(count / 1e3))} kB"
+    return (
+        f"{count / 1e6:.1f}\N{NO-BREAK SPACE}MB"
+        if count >= 1e6
+        else f"{max(1, round(count / 1e3))}\N{NO-BREAK SPACE}kB"
+    )
 
 
 def columns() -> html.Html:

@@ -8,6 +8,7 @@ import numpy as np
 import pandas as pd
 
 from bench.figures import html
+from bench.figures.spelling import power
 from bench.representations.zyx_euler import to_matrix
 
 PAIRS, SEED = 64, 0
@@ -43,4 +44,9 @@ def table(found: pd.DataFrame) -> html.Markdown:
     ]
     names = {"pole": "β", "together": "α and γ both + 1", "against": "α + 1, γ − 1"}
     frame = found.drop(columns="pairs").rename(columns=names).assign(**{"What R determines": left})
-    return html.table(frame, {names["together"]: ".1e", names["against"]: ".1e"})
+    return html.table(frame, {names["together"]: power, names["against"]: power}, words=["β"])
+
+
+def gain(short_deg: float) -> float:
+    """Largest |Edot| that a unit of |omega| can mean this far from a pole: 1 / sqrt(1 - |sin beta|)."""
+    return 1.0 / math.sqrt(1.0 - math.cos(math.radians(short_deg)))
