@@ -14,6 +14,7 @@ from matplotlib.lines import Line2D
 
 from bench.figures import style
 from bench.figures.dots import dots
+from bench.figures.html import number
 from bench.figures.inline import picture
 
 AT_REST_TO_IDENTITY = ("uniform", "box", "half-turn", "poles", "wraps")
@@ -65,7 +66,7 @@ def card_map(episodes: pd.DataFrame, title: str):
             axes.plot(x, y, marker, color=colour, markersize=4.2, markeredgewidth=0.5, markeredgecolor=style.PAPER)
         look: dict = {"markeredgecolor": style.PAPER, "markeredgewidth": 0.4, "markersize": 6}
         handles.append(Line2D([], [], linestyle="none", marker=marker, color=colour, **look))
-        words.append(f"{outcome} {len(chosen):,}".replace(",", "\N{THIN SPACE}"))
+        words.append(f"{outcome} {number(len(chosen))}")
     axes.set(xlim=(-0.08, 3.3), ylim=(-3.3, 3.3), aspect="equal")
     axes.set_xticks([0, math.pi / 2, math.pi], ["0", "90°", "180°"])
     axes.set_yticks([-math.pi, 0, math.pi], ["180°", "0", "180°"])
@@ -74,4 +75,5 @@ def card_map(episodes: pd.DataFrame, title: str):
     axes.grid(visible=False)
     axes.spines[["left", "bottom"]].set_visible(False)
     axes.legend(handles, words, loc="center left", bbox_to_anchor=(1.0, 0.5), handlelength=1.0, labelspacing=0.7)
-    return figure, f"{title}: outcomes of {len(rows):,} starts at rest over the ball of rotations: {', '.join(words)}."
+    counts = ", ".join(words)
+    return figure, f"{title}: outcomes of {number(len(rows))} starts at rest over the ball of rotations: {counts}."

@@ -70,7 +70,7 @@ def measured(episodes: pd.DataFrame) -> str:
     found = share(len(settled), len(uniform))
     times = settled["settling_time_s"]
     pace = f", in {times.median():.2f} s (median) to {times.max():.2f} s (worst)" if len(settled) else ""
-    return f"{found} of {len(uniform):,} uniform starts settle{pace}.".replace(",", "\N{THIN SPACE}", 1)
+    return f"{found} of {html.number(len(uniform))} uniform starts settle{pace}."
 
 
 def card(one: Contender) -> str:

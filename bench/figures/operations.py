@@ -18,7 +18,7 @@ KINDS = {
     "compare, copy sign": (("compare", "copysign"), "#b9c3cf"),
 }
 CALLS = KINDS["transcendental"][0]
-NARROW_LETTERS = 19
+NARROW_LETTERS = 20
 LEAST_LABELLED = 2
 """A narrower piece of a bar has no room for its number."""
 
@@ -34,7 +34,7 @@ def by_kind(costs: pd.DataFrame, branch: str = "typical") -> pd.DataFrame:
 def operations(costs: pd.DataFrame, titles: dict[str, str], *, narrow=False):
     """Bars of operations by kind, one a law."""
     kinds = by_kind(costs)
-    figure, axes = style.panels(height=0.75 + (0.48 if narrow else 0.36) * len(kinds), narrow=narrow)
+    figure, axes = style.panels(height=0.75 + (0.6 if narrow else 0.36) * len(kinds), narrow=narrow)
     places = range(len(kinds))
     left = pd.Series(0, index=kinds.index)
     for kind, (_, colour) in KINDS.items():
