@@ -24,6 +24,9 @@ class Gains(NamedTuple):
     kv: float = 20.0
 
 
+PAPERS_GAINS = Gains()
+
+
 class Goal(NamedTuple):
     """Desired rotation, and for tracking its angular velocity and acceleration (zero in regulation)."""
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import tasks
-from bench.contender import Contender, Gains
+from bench.contender import PAPERS_GAINS, Contender, Gains
 from bench.errors import BadNumber, Incompatible, UnknownWord
 from bench.provenance import source_digest
 from tasks.rules import RULES
@@ -25,11 +25,11 @@ CHUNK = {"ideal-rk4": 1000, "ideal-held": 1000, "native": 250, "reference": 4}
 
 
 class Slice(NamedTuple):
-    """One engine on one start set; count None is the set's own number."""
+    """One engine on one start set; size None is the set's own number."""
 
     engine: str
     start_set: str
-    count: int | None
+    size: int | None
     horizon_s: float
 
 
@@ -47,9 +47,9 @@ DIRECTED = ("box", "goals", "half-turn", "paper", "poles", "tumbling", "wraps")
 HORIZON = {"half-turn": LONG, "poles": LONG, "wraps": LONG}
 
 
-def _slices(engine: str, uniform: int, directed=DIRECTED, count=None) -> tuple[Slice, ...]:
+def _slices(engine: str, uniform: int, directed=DIRECTED) -> tuple[Slice, ...]:
     sampled = (Slice(engine, "uniform", uniform, SHORT),) if uniform else ()
-    return sampled + tuple(Slice(engine, name, count, HORIZON.get(name, SHORT)) for name in directed)
+    return sampled + tuple(Slice(engine, name, None, HORIZON.get(name, SHORT)) for name in directed)
 
 
 SUITES = {
@@ -115,7 +115,7 @@ class Plan:
     suite: str
     units: tuple[Unit, ...]
     contenders: tuple[Contender, ...]
-    gains: Gains = Gains()
+    gains: Gains = PAPERS_GAINS
     dt_s: float = 1e-3
     integrator: str = "euler"
     seed: int = 0
@@ -174,7 +174,7 @@ def make(
     count: int | None = None,
     dt_s: float = 1e-3,
     horizon_s: float | None = None,
-    gains: Gains = Gains(),
+    gains: Gains = PAPERS_GAINS,
     integrator: str = "euler",
     seed: int = 0,
 ) -> Plan:
@@ -254,7 +254,7 @@ def _narrowed(slices, start_sets, engines):
 
 
 def _units(part: Slice, contender: str, task: str, count, seed, horizon_s):
-    total = len(tasks.start_set(part.start_set, count or part.count, seed))
+    total = len(tasks.start_set(part.start_set, count or part.size, seed))
     step = CHUNK[part.engine]
     for first in range(0, total, step):
         yield Unit(

@@ -6,7 +6,16 @@ import numpy as np
 import pandas as pd
 
 from bench.contender import Contender
-from bench.engines.episode import FAILURE_TICK, FINAL_ANGLE, FIRST_METRIC, NEVER, OUTCOME, SETTLING_TICK, TICKS, Settings
+from bench.engines.episode import (
+    FAILURE_TICK,
+    FINAL_ANGLE,
+    FIRST_METRIC,
+    NEVER,
+    OUTCOME,
+    SETTLING_TICK,
+    TICKS,
+    Settings,
+)
 from bench.metric import Ending
 from bench.plan import Plan, Unit
 from bench.representations.zyx_euler import chart

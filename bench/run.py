@@ -192,7 +192,8 @@ def _run_units(plan: Plan, todo: list[Unit], out: Path, workers: int, told) -> N
                 done, pending = wait(pending, return_when=FIRST_COMPLETED)
                 for future in done:
                     unit = future.result()
-                    told(Progress(unit, unit.count))
+                    if unit is not None:
+                        told(Progress(unit, unit.count))
         except BaseException:
             stop.set()
             raise

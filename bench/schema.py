@@ -160,7 +160,8 @@ def readme() -> str:
         "columns' metadata, and `provenance.json` says where a run comes from.",
     ]
     for table, columns in TABLES.items():
-        lines += ["", f"## {table}.parquet", "", columns.__doc__.strip(), "", "| column | unit | meaning |", "| --- | --- | --- |"]
+        lines += ["", f"## {table}.parquet", "", (columns.__doc__ or "").strip(), ""]
+        lines += ["| column | unit | meaning |", "| --- | --- | --- |"]
         lines += [f"| {one.name} | {one.unit} | {one.meaning} |" for one in columns()]
     return "\n".join(lines) + "\n"
 

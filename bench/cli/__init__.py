@@ -9,6 +9,7 @@ import sys
 import tomllib
 
 import rich_click as click
+from click.exceptions import Exit
 
 from bench.errors import BenchError
 from bench.provenance import ROOT
@@ -51,7 +52,7 @@ def main(words: list[str] | None = None) -> int:
     words = sys.argv[1:] if words is None else words
     try:
         return bench.main(words or ["--help"], prog_name="python -m bench", standalone_mode=False) or 0
-    except click.exceptions.Exit as stop:
+    except Exit as stop:
         return stop.exit_code
     except click.ClickException as error:
         reason = error.format_message()

@@ -3,6 +3,7 @@
 from pathlib import Path
 
 import rich_click as click
+from click.exceptions import Exit
 
 from bench.cli import options
 from bench.cli.screen import console
@@ -23,5 +24,5 @@ def COMMAND(candidate, reference):
         console().print(line, markup=False)
     if differences:
         console().print(f"{len(differences)} differences between {candidate} and {reference}")
-        raise click.exceptions.Exit(1)
+        raise Exit(1)
     console().print(f"{candidate} agrees with {reference}")

@@ -9,6 +9,7 @@ import tomllib
 from pathlib import Path
 
 import rich_click as click
+from click.exceptions import Exit
 from rich.text import Text
 
 from bench.cli.screen import console
@@ -32,7 +33,7 @@ def COMMAND():
         style = {"ok": "green", "bad": "red", "note": "yellow"}[state]
         console().print(Text.assemble((f"{state:4}", style), f" {name:10} {text}"), soft_wrap=True)
     if failed:
-        raise click.exceptions.Exit(1)
+        raise Exit(1)
 
 
 def _python() -> str:

@@ -56,7 +56,8 @@ def _metrics(own):
 
 
 def _tasks(own):
-    return _table("Tasks", ("name", "title", "source"), ((n, tasks.task(n).title, tasks.task(n).source) for n in tasks.names()))
+    every = map(tasks.task, tasks.names())
+    return _table("Tasks", ("name", "title", "source"), ((one.name, one.title, one.source) for one in every))
 
 
 def _starts(own):

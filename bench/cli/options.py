@@ -20,10 +20,18 @@ law = click.option(
     help="A file of your own with a constant REGULATOR; repeatable.",
 )
 regulator = click.option(
-    "--regulator", "regulators", multiple=True, metavar="NAME", help="Only this law: NAME or NAME/REPRESENTATION; repeatable."
+    "--regulator",
+    "regulators",
+    multiple=True,
+    metavar="NAME",
+    help="Only this law: NAME or NAME/REPRESENTATION; repeatable.",
 )
 representation = click.option(
-    "--representation", "representations", multiple=True, metavar="NAME", help="Only laws on these coordinates; repeatable."
+    "--representation",
+    "representations",
+    multiple=True,
+    metavar="NAME",
+    help="Only laws on these coordinates; repeatable.",
 )
 
 
@@ -42,7 +50,8 @@ def chosen(files, regulators, representations, costings: bool = False) -> list[C
     own = own_laws(files)
     if regulators:
         picked = [one for word in regulators for one in _named(word, own)]
-        picked += [one for law in own if law.name not in {one.regulator.name for one in picked} for one in discovery.contenders_of(law)]
+        named = {one.regulator.name for one in picked}
+        picked += [one for law in own if law.name not in named for one in discovery.contenders_of(law)]
     else:
         picked = [one for one in discovery.all_contenders(own) if costings or not one.regulator.costing_only]
     for word in representations:
@@ -50,7 +59,9 @@ def chosen(files, regulators, representations, costings: bool = False) -> list[C
     if representations:
         picked = [one for one in picked if one.representation and one.representation.name in representations]
         if not picked:
-            raise click.UsageError(f"no chosen law acts on {', '.join(representations)} (try: python -m bench list regulators)")
+            raise click.UsageError(
+                f"no chosen law acts on {', '.join(representations)} (try: python -m bench list regulators)"
+            )
     return list(dict.fromkeys(picked))
 
 

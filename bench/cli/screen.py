@@ -8,9 +8,10 @@ from rich.text import Text
 
 def console(stderr: bool = False) -> Console:
     """A console; wide enough for tables when piped into a file. It prints brackets, as in [1/s^2], as they are."""
-    plain = {"stderr": stderr, "highlight": False, "markup": False, "emoji": False}
-    made = Console(**plain)
-    return made if made.is_terminal else Console(**plain, width=160)
+    made = Console(stderr=stderr, highlight=False, markup=False, emoji=False)
+    if not made.is_terminal:
+        made.width = 160
+    return made
 
 
 class Rate(ProgressColumn):

@@ -48,7 +48,8 @@ def _only(episodes, folder, column, words):
 def summary(episodes):
     """One line for each law: share of SO(3) settled, settling times [s], failures of each directed start set."""
     lines = []
-    for (regulator, representation), law in episodes.groupby(["regulator", "representation"], observed=True, sort=False):
+    laws = episodes.groupby(["regulator", "representation"], observed=True, sort=False)
+    for (regulator, representation), law in laws:
         line = {"law": f"{regulator}/{representation}" if representation else regulator}
         for name, part in law.groupby("start_set", observed=True, sort=True):
             settled = int((part["outcome"] == "settled").sum())

@@ -49,6 +49,8 @@ from bench.engines.episode import Numbers  # noqa: E402
 from bench.so3 import Rotation  # noqa: E402
 from tasks import truth, verdict  # noqa: E402
 
+__all__ = ["CACHE", "EPISODES", "MATRIX", "NUMBERS", "compile_function", "float64", "int32", "int64", "llvm", "types"]
+
 JIT = {"nogil": True, "error_model": "numpy"}
 """Never fastmath: results must be the plain Python call's, bit for bit."""
 

@@ -9,9 +9,8 @@ from bench.scalar import kernel
 @kernel
 def update(value, sample):
     """Largest haversine since the band was first entered."""
-    if sample.entered:
-        if sample.haversine > value:
-            return sample.haversine
+    if sample.entered and sample.haversine > value:
+        return sample.haversine
     return value
 
 
