@@ -118,9 +118,12 @@ class Contender(NamedTuple):
 
 def bind(regulator: Regulator, representation: Representation | None) -> Callable:
     """The law of a regulator, in a representation if it acts on one."""
-    if representation is None:
-        return regulator.law
-    return regulator.law_in(representation)
+    law = regulator.law
+    if representation is not None and regulator.law_in is not None:
+        law = regulator.law_in(representation)
+    if law is None:
+        raise Incompatible(f"regulator '{regulator.name}' has neither law nor law_in for the coordinates it names")
+    return law
 
 
 def acts_on(regulator: Regulator, representation_name: str) -> bool:

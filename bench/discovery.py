@@ -7,11 +7,13 @@ constant's name.
 import functools
 import hashlib
 import importlib
+import importlib.machinery
 import importlib.util
 import pkgutil
 import re
 import sys
 from pathlib import Path
+from typing import Any
 
 from bench import metrics, regulators, representations
 from bench.contender import NO_MEMORY, Contender, Gains, Goal, Regulator, Representation, contender
@@ -23,11 +25,11 @@ WORD = re.compile(r"[a-z0-9]+(-[a-z0-9]+)*")
 """A name as rows, file names and the command line write it."""
 
 
-def _collect(package, constant: str, kind: type) -> dict:
-    found = {}
+def _collect(package, constant: str, kind: type) -> dict[str, Any]:
+    found: dict[str, Any] = {}
     for module_info in pkgutil.iter_modules(package.__path__):
         module = importlib.import_module(f"{package.__name__}.{module_info.name}")
-        value = getattr(module, constant, None)
+        value: Any = getattr(module, constant, None)
         if not isinstance(value, kind):
             raise BadLaw(f"{module.__file__} has no {constant} that is a {kind.__name__}; each file there needs one")
         word = module_info.name.replace("_", "-")
@@ -111,11 +113,12 @@ def load_law(path: Path) -> Regulator:
     except OSError as error:
         raise BadLaw(f"--law {path}: it cannot be read ({error.strerror}); mend its rights") from error
     name = f"user_law_{path.stem}_{hashlib.sha256(text).hexdigest()[:12]}"
-    spec = importlib.util.spec_from_file_location(name, path)
-    module = importlib.util.module_from_spec(spec)
+    loader = importlib.machinery.SourceFileLoader(name, str(path))
+    module = importlib.util.module_from_spec(importlib.machinery.ModuleSpec(name, loader, origin=str(path)))
+    module.__file__ = str(path)
     sys.modules[name] = module
     try:
-        spec.loader.exec_module(module)
+        loader.exec_module(module)
     except (Exception, SystemExit) as error:
         del sys.modules[name]
         raise BadLaw(
@@ -184,8 +187,9 @@ MISTAKES = (TypeError, NameError, AttributeError, ImportError)
 
 
 def _check_shape(one: Contender, path: Path) -> None:
-    has_memory = one.regulator.memory is not None
-    memory = ((*one.regulator.memory, *NO_MEMORY[len(one.regulator.memory) :]),) if has_memory else ()
+    first = one.regulator.memory
+    has_memory = first is not None
+    memory = () if first is None else ((*first, *NO_MEMORY[len(first) :]),)
     try:
         answer = one.law(TRIAL, (0.1, 0.2, 0.3), Goal(), Gains(), *memory)
     except MISTAKES as error:

@@ -14,11 +14,11 @@ from bench.cli.screen import console
 @click.option("--criteria", is_flag=True, help="Print each claim's criterion below it.")
 def COMMAND(folder, everything, criteria):
     """The claims of Murphy (1988), one line each: id, verdict, evidence, rows (default: results/latest)."""
-    from bench import claims
+    from bench.claims import NOT_YET_MEASURED, judge_all
 
     folder = folder or options.newest()
-    for verdict in claims.judge_all(folder):
-        if verdict.word == claims.NOT_YET_MEASURED and not everything:
+    for verdict in judge_all(folder):
+        if verdict.word == NOT_YET_MEASURED and not everything:
             continue
         console().print(f"{verdict.id}  {verdict.word}: {verdict.evidence} ({verdict.rows:,} rows)", soft_wrap=True)
         if criteria:
