@@ -79,7 +79,7 @@ def svg(figure: Figure, alt: str, name: str) -> str:
     text = text[text.index("<svg") :]
     text = re.sub(r"<metadata>.*?</metadata>|<style.*?</style>|<!--.*?-->", "", text, flags=re.DOTALL)
     text = PATH.sub(lambda path: DOT.sub(r"M \1h0", LONG_NUMBER.sub(r"\1", path[0])), text)
-    text = own_ids(text, name.replace("_", "-"))
+    text = own_ids(text, name.replace("_", "-"), alt)
     text = named_colours(text)
     colours = "; ".join(
         f"{variable(light)}: light-dark({light}, {dark})"
@@ -95,10 +95,11 @@ def svg(figure: Figure, alt: str, name: str) -> str:
     return " ".join(text.replace("<svg", opening, 1).split())
 
 
-def own_ids(text: str, name: str) -> str:
+def own_ids(text: str, name: str, alt: str = "") -> str:
     """Keep the ids that are referred to, each under this figure's name."""
-    # The content decides, not only the name: one function may draw several figures of a page.
-    prefix = f"{name}-{style.mark(text):08x}-"
+    # The content decides, not only the name: one function may draw several figures of a page. So do its words:
+    # two laws may fail alike.
+    prefix = f"{name}-{style.mark(text + alt):08x}-"
     used = set(USED_ID.findall(text))
     text = ID.sub(lambda found: f' id="{prefix}{found[1]}"' if found[1] in used else "", text)
     return USED_ID.sub(lambda found: found[0].replace(f"#{found[1]}", f"#{prefix}{found[1]}"), text)
