@@ -7,11 +7,10 @@ constant's name.
 import functools
 import hashlib
 import importlib
-import importlib.machinery
-import importlib.util
 import pkgutil
 import re
 import sys
+import types
 from pathlib import Path
 from typing import Any
 
@@ -30,7 +29,7 @@ def _collect(package, constant: str, kind: type) -> dict[str, Any]:
     for module_info in pkgutil.iter_modules(package.__path__):
         module = importlib.import_module(f"{package.__name__}.{module_info.name}")
         value: Any = getattr(module, constant, None)
-        if not isinstance(value, kind):
+        if type(value) is not kind:
             raise BadLaw(f"{module.__file__} has no {constant} that is a {kind.__name__}; each file there needs one")
         word = module_info.name.replace("_", "-")
         if value.name != word:
@@ -113,12 +112,11 @@ def load_law(path: Path) -> Regulator:
     except OSError as error:
         raise BadLaw(f"--law {path}: it cannot be read ({error.strerror}); mend its rights") from error
     name = f"user_law_{path.stem}_{hashlib.sha256(text).hexdigest()[:12]}"
-    loader = importlib.machinery.SourceFileLoader(name, str(path))
-    module = importlib.util.module_from_spec(importlib.machinery.ModuleSpec(name, loader, origin=str(path)))
+    module = types.ModuleType(name)
     module.__file__ = str(path)
     sys.modules[name] = module
     try:
-        loader.exec_module(module)
+        exec(compile(text, path, "exec"), module.__dict__)
     except (Exception, SystemExit) as error:
         del sys.modules[name]
         raise BadLaw(
