@@ -1,7 +1,7 @@
 """Runs killed by SIGKILL, and what their resumption ends with; prints one JSON object. `test_resume` starts it.
 
 Everything is imported and compiled once; each run is then a fork of this process, so that a run costs its episodes and
-its files only. Costs are remembered between forks: they are most of a small run's time and touch no file.
+its files only. Costs, traces and boundaries are remembered between forks: they take time and touch no file.
 """
 
 import dataclasses
@@ -37,11 +37,11 @@ def plan_of(words: tuple, start_sets: tuple, engines: tuple, count: int, kp: flo
 
 LONG = plan_of(
     ("rotation-matrix", "feedback-linearized"),
-    ("half-turn", "paper", "tumbling"),
+    ("half-turn", "paper"),
     ("ideal-rk4", "native", "reference"),
     12,
 )
-"""26 units on three engines: about a second."""
+"""16 units on three engines: about half a second."""
 
 SHORT, OTHER = (plan_of(("rotation-matrix",), ("paper", "tumbling"), ("ideal-rk4",), 3, kp) for kp in (100.0, 50.0))
 """Two units, so few files: killed at every one of its file operations. OTHER is what SHORT replaces."""
@@ -163,22 +163,21 @@ def while_clearing(wanted: Undisturbed, folder: Path) -> list[dict]:
     return at_every_file_operation(wanted, template, is_new)
 
 
-def remember_costs() -> None:
-    """Count each law once for all forks."""
+def remember() -> None:
+    """Count each law, and follow each plan's traces and boundaries, once for all forks."""
     once = functools.cache(lambda one, rows=counting.rows: tuple(rows([one])))
     counting.rows = lambda laws: [row for one in laws for row in once(one)]
+    traces.run, boundary.run = functools.cache(traces.run), functools.cache(boundary.run)
 
 
 def main(folder: Path) -> dict:
     """All that the tests ask."""
-    remember_costs()
+    remember()
     long = undisturbed(LONG, folder / "long")
     ended(start(LONG, folder / "one-thread", 1))
     answer = {"one thread": files_of(folder / "one-thread") == long.files, "files": sorted(long.files)}
     answer["at random moments"] = at_random_moments(long, folder)
     short = undisturbed(SHORT, folder / "short")
-    traces.run, boundary.run = functools.cache(traces.run), functools.cache(boundary.run)
-    traces.run(SHORT), boundary.run(SHORT)
     answer["while finishing"] = while_finishing(short, folder)
     answer["while clearing"] = while_clearing(short, folder)
     return answer

@@ -1,4 +1,4 @@
-"""The promise of growing: one file adds a regulator, representation, metric, task, start set or page; no other changes."""
+"""The promise of growing: one file adds a regulator, representation, metric, task, start set or page."""
 
 import os
 import shutil
@@ -88,7 +88,8 @@ from tasks.base import Start, StartSet
 
 def build(count, seed):
     """0.2 rad and a right angle, to rounding."""
-    return [Start("small", (0.9950041652780258, 0.0, 0.0, 0.09983341664682815)), Start("right", (0.5**0.5, 0.0, 0.0, 0.5**0.5))]
+    small, right = (0.9950041652780258, 0.0, 0.0, 0.09983341664682815), (0.5**0.5, 0.0, 0.0, 0.5**0.5)
+    return [Start("small", small), Start("right", right)]
 
 
 STARTS = StartSet("dropped-starts", "Two starts about z", 2, build)

@@ -13,7 +13,7 @@ from command_line import bench, digest
 
 ROOT = Path(__file__).parents[1]
 TABLES = ["boundaries.parquet", "costs.parquet", "episodes.parquet", "plan.json", "provenance.json", "traces.parquet"]
-UNITS = 26
+UNITS = 16
 
 
 def python(*words, **options):
