@@ -29,11 +29,11 @@ def _collect(package, constant: str, kind: type) -> dict[str, Any]:
     for module_info in pkgutil.iter_modules(package.__path__):
         module = importlib.import_module(f"{package.__name__}.{module_info.name}")
         value: Any = getattr(module, constant, None)
-        if type(value) is not kind:
+        if not isinstance(value, kind):
             raise BadLaw(f"{module.__file__} has no {constant} that is a {kind.__name__}; each file there needs one")
-        word = module_info.name.replace("_", "-")
-        if value.name != word:
-            raise BadLaw(f"{module.__file__}: {constant}.name is '{value.name}', but the file's name makes it '{word}'")
+        word, name = module_info.name.replace("_", "-"), getattr(value, "name", None)
+        if name != word:
+            raise BadLaw(f"{module.__file__}: {constant}.name is '{name}', but the file's name makes it '{word}'")
         found[word] = value
     return found
 
