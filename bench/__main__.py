@@ -5,7 +5,10 @@ import sys
 
 def main() -> int:
     """The command line; imported late, so that importing this module costs nothing."""
-    from bench.cli import main as command_line
+    try:
+        from bench.cli import main as command_line
+    except KeyboardInterrupt:
+        return 130
 
     return command_line()
 

@@ -8,6 +8,7 @@ from scipy.stats import binomtest
 
 from bench.cli import options
 from bench.cli.screen import console, frame_table
+from bench.errors import BadResults
 from bench.store import read, read_json
 from tasks.verdict import OUTCOMES
 
@@ -24,7 +25,7 @@ def COMMAND(folder, engine, starts, outcomes, regulators):
     episodes = read(folder, "episodes")
     for column, words in (("engine", engine), ("start_set", starts), ("regulator", regulators)):
         episodes = _only(episodes, folder, column, (words,) if isinstance(words, str) else words or ())
-    origin = read_json(folder / "provenance.json")
+    origin = _origin(folder / "provenance.json")
     console().print(
         f"{folder}: suite {origin['suite']}, {origin['episodes']:,} episodes, commit {origin['commit'][:10] or 'none'}"
         f"{' with changes' if origin['dirty'] else ''}, {origin['cpu']}, {origin['wall_s']} s"
@@ -78,3 +79,12 @@ def outcome_table(episodes):
     for key in keys:
         table[key] = table[key].astype(str)
     return table.sort_values(["start_set", "regulator"])
+
+
+def _origin(path: Path) -> dict:
+    """What the first line of the summary names."""
+    origin = read_json(path)
+    lacking = [name for name in ("suite", "episodes", "commit", "dirty", "cpu", "wall_s") if name not in origin]
+    if lacking:
+        raise BadResults(f"{path}: it lacks {', '.join(lacking)}; delete the folder and run again")
+    return origin
