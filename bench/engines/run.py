@@ -1,6 +1,7 @@
 """One call for every engine: a contender on starts of a task, rows of numbers back."""
 
 import functools
+import threading
 
 import mujoco
 import numpy as np
@@ -43,13 +44,23 @@ def run(
     return rows
 
 
-@functools.cache
+_locks: dict = {}
+
+
 def compiled_loop(engine: str, contender: Contender, metrics: tuple):
     """The loop of a contender, compiled or taken from the disk cache; a user's law is compiled anew each time.
+
+    Threads that need the same loop wait for the first of them, rather than compile it again.
 
     Errors:
         BadLaw: a user's law that the compiler cannot take.
     """
+    with _locks.setdefault((engine, contender), threading.Lock()):
+        return _compiled_loop(engine, contender, metrics)
+
+
+@functools.cache
+def _compiled_loop(engine: str, contender: Contender, metrics: tuple):
     parts = command_of(contender), margin_of(contender), observer(metrics), memory_of(contender)
     cache = not contender.regulator.origin
     try:
