@@ -29,7 +29,7 @@ def corners(episodes: pd.DataFrame, contender: str, narrow: bool):
         part = rows[(sine > low) & (sine <= high)]
         failed = _panel(axes, part)
         first, last = np.degrees(np.arcsin([low, high]))
-        axes.set_title(rf"${_signed(first)} < \beta \leq {_signed(last)}$", fontweight="normal")
+        axes.set_title(rf"$\beta$ from {_signed(first)} to {_signed(last)}", fontweight="normal")
         said.append(f"beta from {first:.0f} to {last:.0f} degrees: {failed} of {len(part)}")
     for axes in grid.flat if not narrow else grid.flat[-1:]:
         axes.set_xlabel(r"initial $\alpha$ [deg]")
@@ -44,7 +44,7 @@ def corners(episodes: pd.DataFrame, contender: str, narrow: bool):
 
 
 def _signed(degrees: float) -> str:
-    return f"{degrees:.0f}°".replace("°", r"^{\circ}")
+    return f"{degrees:.0f}°".replace("-", "\N{MINUS SIGN}")
 
 
 def _panel(axes, part: pd.DataFrame) -> int:

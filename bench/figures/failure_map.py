@@ -45,6 +45,8 @@ def world(episodes: pd.DataFrame, narrow: bool):
         _globe(axes)
         axes.set_title(title, color=style.look(name).colour)
         said.append(_starts(axes, title, rows, met))
+        for line in axes.lines:
+            line.set_in_layout(False)  # marks on the rim are not clipped, and must not shrink the map
     handles = [met[name] for name in style.OUTCOMES if name in met]
     figure.legend(handles=handles, loc="outside lower center", ncols=3 if narrow else 6, fontsize=9)
     return figure, (
@@ -76,7 +78,16 @@ def _globe(axes) -> None:
         axes.plot(*hammer(2.0 * FINE, latitude * np.ones_like(FINE)), color=style.GRID, linewidth=0.7, zorder=0)
     for degrees in (-90, 0, 90):
         x, y = hammer(np.radians(degrees), 0.0)
-        axes.text(x, y - 0.02, f"{degrees}°", ha="center", va="top", fontsize=8.5, zorder=6, path_effects=HALO)
+        axes.text(
+            x,
+            y - 0.02,
+            f"{degrees}°".replace("-", "\N{MINUS SIGN}"),
+            ha="center",
+            va="top",
+            fontsize=8.5,
+            zorder=6,
+            path_effects=HALO,
+        )
 
 
 def _starts(axes, title: str, rows: pd.DataFrame, met: dict) -> str:
@@ -95,6 +106,7 @@ def _starts(axes, title: str, rows: pd.DataFrame, met: dict) -> str:
             "marker": marker,
             "color": colour,
             "linestyle": "none",
+            "clip_on": False,
             "markeredgewidth": 0.4,
             "markeredgecolor": style.PAPER,
         }

@@ -12,7 +12,15 @@ from bench.figures.share import share
 EXACT_RAD = 1e-13
 """Between the nearest of the near starts (1e-12 rad) and what rounding leaves of an exact one (4e-16 rad)."""
 
+NEAR_RAD = 0.1 + EXACT_RAD
+"""Of a pole: the first decade of the set poles, 0.1 rad with its rounding."""
+
 ENGINES = ("ideal-rk4", "ideal-held", "native", "reference")
+
+
+def kept_together(text: str) -> str:
+    """Words that no table may break into lines."""
+    return f'<span class="together">{text}</span>'
 
 
 def outcomes(rows: pd.DataFrame) -> str:
@@ -25,18 +33,18 @@ def shares(episodes: pd.DataFrame) -> pd.DataFrame:
     """Law and engine: uniform starts, share that settles with its interval, how the others end."""
     rows = []
     uniform = episodes[episodes["start_set"] == "uniform"]
-    for name, _, own in laws.each(uniform):
+    for name, title, own in laws.each(uniform):
         for engine in ENGINES:
             part = own[own["engine"] == engine]
             if len(part):
                 settled = share(int((part["outcome"] == "settled").sum()), len(part))
                 rows.append(
                     {
-                        "Law": html.law(name),
-                        "Engine": engine,
+                        "Law": html.law(name, title),
+                        "Engine": kept_together(engine),
                         "Starts": settled.n,
                         "Settled [%]": 100.0 * settled.value,
-                        "95 % interval": f"{100.0 * settled.low:.2f} to {100.0 * settled.high:.2f}",
+                        "95 % interval": kept_together(f"{100.0 * settled.low:.2f} to {100.0 * settled.high:.2f}"),
                         "The others": outcomes(part),
                     }
                 )
@@ -44,14 +52,15 @@ def shares(episodes: pd.DataFrame) -> pd.DataFrame:
 
 
 def places(rows: pd.DataFrame) -> pd.Series:
-    """On which special points of SO(3) each start lies exactly, in words."""
+    """On which special point of SO(3) each start lies exactly, or that it is near a pole, in words."""
     half = math.pi - rows["angle0_rad"] < EXACT_RAD
     pole = math.pi / 2.0 - rows["beta0"].abs() < EXACT_RAD
     wrap = (math.pi - rows["alpha0"].abs() < EXACT_RAD) | (math.pi - rows["gamma0"].abs() < EXACT_RAD)
+    beside = math.pi / 2.0 - rows["beta0"].abs() <= NEAR_RAD
     words = np.select(
-        [half & pole, half, pole, wrap],
-        ["half turn on a pole", "half turn", "pole of Z-Y-X", "jump of atan2"],
-        "none of these",
+        [half & pole, half, pole, wrap, beside],
+        ["half turn and pole", "half turn", "pole", "jump of atan2", "near a pole"],
+        "elsewhere",
     )
     return pd.Series(words, rows.index)
 
@@ -61,7 +70,7 @@ def exact_points(episodes: pd.DataFrame) -> pd.DataFrame:
     directed = episodes[episodes["start_set"].isin(SETS)]
     directed = directed.assign(place=places(directed))
     rows = []
-    for name, _, own in laws.each(directed):
+    for name, title, own in laws.each(directed):
         for place, part in own.groupby("place", sort=True):
             failed = part[part["outcome"] != "settled"]
             if failed.empty:
@@ -70,12 +79,12 @@ def exact_points(episodes: pd.DataFrame) -> pd.DataFrame:
             quat = ", ".join(html.cell(float(first[f"quat_{axis}"])) for axis in "wxyz")
             rows.append(
                 {
-                    "Law": html.law(name),
-                    "Where the start lies": place,
+                    "Law": html.law(name, title),
+                    "Start on": place,
                     "Tried": len(part),
-                    "Fail": len(failed),
+                    "Failing": len(failed),
                     "How": outcomes(part),
-                    "One of them (w, x, y, z)": f"({quat})",
+                    "One of them (w, x, y, z)": kept_together(f"({quat})"),
                 }
             )
     return pd.DataFrame(rows)
@@ -85,22 +94,22 @@ def nearest(boundaries: pd.DataFrame, episodes: pd.DataFrame) -> pd.DataFrame:
     """Law: axes with a failing angle, its smallest and median, the axis of the smallest; smallest failing start."""
     at_rest = episodes[episodes["start_set"].isin(("uniform", *SETS))]
     rows = []
-    for name, _, own in laws.each(boundaries):
+    for name, title, own in laws.each(boundaries):
         fails = own["fails_from_rad"].dropna()
         starts = at_rest[(at_rest["contender"] == name) & (at_rest["outcome"] != "settled")]
-        axis = None
+        axis = None  # a dash in the table
         if len(fails):
             first = own.loc[fails.idxmin()]
-            axis = "(" + ", ".join(html.cell(float(first[f"axis_{one}"]), ".2f") for one in "xyz") + ")"
+            axis = kept_together("(" + ", ".join(html.cell(float(first[f"axis_{one}"]), ".2f") for one in "xyz") + ")")
         rows.append(
             {
-                "Law": html.law(name),
+                "Law": html.law(name, title),
                 "Axes": len(own),
-                "with a failing angle": len(fails),
-                "smallest [deg]": float(np.degrees(fails.min())) if len(fails) else None,
-                "about": axis,
-                "median [deg]": float(np.degrees(fails.median())) if len(fails) else None,
-                "nearest failing start [deg]": float(np.degrees(starts["angle0_rad"].min())) if len(starts) else None,
+                "Failing": len(fails),
+                "Smallest": float(np.degrees(fails.min())) if len(fails) else None,
+                "About": axis,
+                "Median": float(np.degrees(fails.median())) if len(fails) else None,
+                "Nearest start": float(np.degrees(starts["angle0_rad"].min())) if len(starts) else None,
             }
         )
     return pd.DataFrame(rows)

@@ -64,7 +64,7 @@ def responding(traces: pd.DataFrame, episodes: pd.DataFrame, figures: tuple[str,
     """Of the responses; both tables hold one engine's starts of the set paper."""
     kp, kv = float(episodes["kp"].iloc[0]), float(episodes["kv"].iloc[0])
     drawn = episodes[episodes["contender"].isin(SHORT.values())]
-    values = {"kp": kp, "kv": kv, "drawn": len(drawn), "good": len(drawn) - len(lost(drawn))}
+    values: dict = {"kp": kp, "kv": kv, "drawn": len(drawn), "good": len(drawn) - len(lost(drawn))}
     for figure in figures:
         start, end = f"figure-{figure}", figure[-1]
         bends = responses.bends_deg(traces, start, kp, kv).set_index("contender")

@@ -76,7 +76,7 @@ def _panel(axes, name: str, title: str, rows: pd.DataFrame) -> str:
 def _closed_form(axes, shown: pd.DataFrame) -> None:
     kp, kv, tolerance = (float(shown[column].iloc[0]) for column in ("kp", "kv", "tolerance"))
     short = np.radians(np.concatenate((np.arange(179.0, 1.0, -2.0), 10.0 ** np.arange(0.0, -11.0, -0.5))))
-    times = [closed_form.settling(np.pi - one, kp, kv, tolerance, short=one) for one in short]
+    times = closed_form.settling_curve(kp, kv, tolerance)(short)
     angles = 180.0 - np.degrees(short)
     axes.plot(angles, times, color=style.INK, linewidth=0.8, zorder=4)
     axes.annotate(

@@ -61,7 +61,7 @@ def outcome(name: str) -> Html:
 def law(name: str, text: str | None = None) -> Html:
     """The name of a regulator with the colour it has in every figure."""
     light = style.look(name).colour
-    return Html(f'<span class="key" style="--key: {both(light)}"></span><span class="law">{text or name}</span>')
+    return Html(f'<span class="law"><span class="key" style="--key: {both(light)}"></span>{text or name}</span>')
 
 
 def both(light: str) -> str:

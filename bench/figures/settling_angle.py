@@ -40,7 +40,7 @@ def bands(episodes: pd.DataFrame, narrow: bool):
         )
     kp, kv, tolerance, tick = (float(episodes[name].iloc[0]) for name in ("kp", "kv", "tolerance", "dt_s"))
     angles = np.arange(1.0, 180.0, 1.0)
-    curve = [closed_form.settling(np.radians(angle), kp, kv, tolerance) for angle in angles]
+    curve = closed_form.settling_curve(kp, kv, tolerance)(np.radians(180.0 - angles))
     upper.plot(angles, curve, color=style.INK, linewidth=0.9, label="closed form")
     upper.axhline(
         closed_form.linear_settling(kp, kv, tolerance),
@@ -76,7 +76,7 @@ def by_angle(rows: pd.DataFrame, width_deg: float = BIN_DEG) -> pd.DataFrame:
 
 def late_ms(rows: pd.DataFrame, kp: float, kv: float, tolerance: float) -> pd.Series:
     """Measured settling time minus its closed form [ms], for rows of the rotation-matrix law at rest."""
-    theory = [closed_form.settling(angle, kp, kv, tolerance) for angle in rows["angle0_rad"]]
+    theory = closed_form.settling_curve(kp, kv, tolerance)(np.pi - rows["angle0_rad"].to_numpy())
     return 1000.0 * (rows["settling_time_s"] - theory)
 
 
@@ -98,13 +98,13 @@ def _residual(axes, rows: pd.DataFrame, kp: float, kv: float, tolerance: float, 
 def times(episodes: pd.DataFrame, width_deg: float = 30) -> pd.DataFrame:
     """Angle and law: starts, share that settles, quantiles of settling time; the rows of a table on a page."""
     parts = []
-    for place, (name, _, rows) in enumerate(laws.each(episodes)):
+    for place, (name, title, rows) in enumerate(laws.each(episodes)):
         table = by_angle(rows, width_deg)
         parts.append(
             pd.DataFrame(
                 {
                     "Angle [deg]": [f"{a - width_deg / 2:.0f} to {a + width_deg / 2:.0f}" for a in table["angle"]],
-                    "Law": html.law(name),
+                    "Law": html.law(name, title),
                     "Starts": table["starts"],
                     "Settled [%]": 100.0 * table["settled"],
                     "5 %": table["low"],

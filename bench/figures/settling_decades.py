@@ -40,7 +40,7 @@ def decades(episodes: pd.DataFrame, narrow: bool):
     k = decade(episodes["start_id"])
     near, exact = episodes[k.notna()], episodes[k.isna()]
     theory = np.arange(0.0, k.max() + 0.01, 0.25)
-    times = [closed_form.settling(np.pi, kp, kv, tolerance, short=10.0**-one) for one in theory]
+    times = closed_form.settling_curve(kp, kv, tolerance)(10.0**-theory)
     axes.plot(theory, times, color=style.INK, linewidth=0.9, zorder=1)
     axes.plot(
         k[k.notna()],

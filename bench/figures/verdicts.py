@@ -21,6 +21,7 @@ SPELLED = (
     (r">=", "≥"),
     (r"\^-1\b", "⁻¹"),
     (r"\^2\b", "²"),
+    (r"\^3\b", "³"),
     (r"\^T\b", "ᵀ"),
     (r"\^-k\b", "⁻ᵏ"),
     (r"\bpi\b", "π"),
@@ -70,7 +71,6 @@ def table(verdicts: list[Verdict], page: str) -> html.Markdown:
     frame = pd.DataFrame(
         {
             "": [link(one, page) for one in decided],
-            "Section": [one.claim.section for one in decided],
             "What the paper says, in our words": [set_in_type(one.claim.sentence) for one in decided],
             "Verdict": [html.badge(str(one.word)) for one in decided],
         }

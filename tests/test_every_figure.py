@@ -1,0 +1,157 @@
+"""Every figure and table of results, drawn from a small run: words with numbers, colours of the palette, no failures.
+
+The run is simulated once: two engines, all start sets at rest, a few traces and boundaries. It has fewer starts, and
+fewer engines, than any run that a report is built from.
+"""
+
+import dataclasses
+import functools
+import re
+
+import numpy as np
+import pandas as pd
+import pytest
+
+pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
+
+from bench import plan, results, run
+from bench.discovery import find_contender
+from bench.figures import (
+    boundary_map,
+    corners,
+    failure_ball,
+    failure_map,
+    failure_tables,
+    findings,
+    hero,
+    responses,
+    settling_angle,
+    settling_decades,
+    style,
+)
+from bench.figures.share import share
+
+STARTS = ("uniform", "half-turn", "poles", "wraps", "box", "paper")
+FIGURES = {
+    "hero": lambda: hero.hero(ideal()),
+    "response": lambda: responses.response(results.traces(), findings.LINEARIZED, "figure-2.4", 100.0, 20.0),
+    "settling-angle": lambda: settling_angle.bands(ideal("uniform")),
+    "settling-decades": lambda: settling_decades.decades(findings.of(ideal(), findings.MATRIX, "half-turn")),
+    "failure-map": lambda: failure_map.world(ideal()),
+    "corners": lambda: corners.corners(ideal("uniform"), findings.LINEARIZED),
+    "boundary": lambda: boundary_map.hemispheres(results.boundaries(), findings.LINEARIZED),
+    "boundary-of-a-law-that-never-fails": lambda: boundary_map.hemispheres(results.boundaries(), findings.MATRIX),
+}
+
+
+@pytest.fixture(scope="module", autouse=True)
+def small_run(tmp_path_factory):
+    """A folder of results, which bench.results reads while this module runs."""
+    laws = [find_contender(word) for word in ("rotation-matrix", "linearized-euler", "feedback-linearized")]
+    made = plan.make("quick", laws, start_sets=STARTS, engines=("ideal-rk4", "native"), count=300)
+    folder = tmp_path_factory.mktemp("figures") / "run"
+    run.run(dataclasses.replace(made, traces=2, boundary_axes=24), folder)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv(results.VARIABLE, str(folder))
+        yield folder
+
+
+@functools.cache
+def drawn(name):
+    return FIGURES[name]()
+
+
+def ideal(*start_sets):
+    rows = results.episodes(engine="ideal-rk4")
+    return rows[rows["start_set"].isin(start_sets)] if start_sets else rows
+
+
+@pytest.mark.parametrize("name", FIGURES)
+def test_figure_says_its_numbers_in_words(name):
+    assert len(re.findall(r"\d", drawn(name).alt)) > 1
+
+
+@pytest.mark.parametrize("name", FIGURES)
+def test_figure_uses_colours_of_the_palette_only(name):
+    picture = drawn(name)
+    for svg in (picture.wide, picture.narrow):
+        twins = {colour.lower() for pair in style.TWINS.items() for colour in pair}
+        assert {colour.lower() for colour in re.findall(r"#[0-9a-fA-F]{6}\b", svg)} <= twins
+        assert not re.search(r"(fill|stroke): #", svg)
+
+
+@pytest.mark.parametrize("name", FIGURES)
+def test_figure_is_drawn_for_a_phone_too(name):
+    picture = drawn(name)
+    assert picture.narrow
+    assert picture.narrow != picture.wide
+
+
+def test_ball_shows_half_turns_at_both_ends_of_their_axis():
+    points = failure_ball.unit_ball(pd.DataFrame([(0.0, 1.0, 0.0, 0.0)], columns=[f"quat_{one}" for one in "wxyz"]))
+    assert points == [[-1.0, 0.0, 0.0], [1.0, 0.0, 0.0]]
+
+
+def test_map_keeps_areas():
+    # Archimedes: directions even in longitude and in the sine of the latitude have equal shares of the sphere
+    longitude, sine = np.meshgrid(np.linspace(-3.1, 3.1, 60), np.linspace(-0.95, 0.95, 60))
+    step = 1e-5
+    along = np.array(failure_map.hammer(longitude + step, np.arcsin(sine))) - failure_map.hammer(
+        longitude, np.arcsin(sine)
+    )
+    up = np.array(failure_map.hammer(longitude, np.arcsin(sine + step))) - failure_map.hammer(
+        longitude, np.arcsin(sine)
+    )
+    area = along[0] * up[1] - along[1] * up[0]
+    np.testing.assert_allclose(area / area.mean(), 1.0, rtol=1e-3)
+
+
+def test_findings_of_every_page_are_numbers():
+    episodes, costs = ideal(), results.costs(branch="typical", stage="total")
+    paper = results.traces(start_set="paper")
+    pages = (
+        findings.front(episodes, costs),
+        findings.responding(paper, episodes[episodes["start_set"] == "paper"], ("2.3", "2.4", "2.5")),
+        findings.settling(episodes),
+        findings.failing(episodes, results.boundaries()),
+    )
+    for values in pages:
+        assert all("nan" not in str(value) for value in values.values()), values
+
+
+def test_exact_points_are_where_the_laws_are_known_to_fail():
+    table = failure_tables.exact_points(ideal())
+    of_matrix = table[table["Law"].str.contains("Rotation matrix")]
+    assert set(of_matrix["Start on"]) == {"half turn", "half turn and pole"}
+    of_feedback = table[table["Law"].str.contains("Feedback")]
+    assert set(of_feedback["Start on"]) == {"pole", "half turn and pole"}
+    assert (of_feedback["Tried"] == of_feedback["Failing"]).all()
+
+
+def test_tables_have_a_row_for_each_law():
+    assert len(failure_tables.shares(results.episodes())) == 6
+    assert len(failure_tables.nearest(results.boundaries(), ideal())) == 3
+    assert len(settling_decades.slopes(results.episodes(start_set="half-turn", regulator="rotation-matrix"))) == 2
+    assert set(settling_angle.times(ideal("uniform"))["Law"].str.contains("Euler")) == {True, False}
+
+
+def test_response_bends_are_nothing_under_feedback_linearization():
+    bends = responses.bends_deg(results.traces(start_set="paper"), "figure-2.5", 100.0, 20.0).set_index("contender")
+    assert bends.loc[findings.FEEDBACK, ["alpha", "beta", "gamma"]].max() < 1e-6
+
+
+def test_share_is_within_wilsons_interval():
+    # Wilson's interval of 1 in 10, two-sided 95 %: 0.0179 to 0.4042 (Newcombe 1998, table I's method 3)
+    found = share(1, 10)
+    assert (found.low, found.value, found.high) == pytest.approx((0.0179, 0.1, 0.4042), abs=5e-5)
+
+
+def test_share_of_none_or_all_ends_where_shares_end():
+    assert share(0, 50).low == 0.0
+    assert share(50, 50).high == 1.0
+
+
+@pytest.mark.parametrize(("count", "of"), [(1, 0), (-1, 5), (6, 5)])
+def test_share_refuses_what_is_none(count, of):
+    with pytest.raises(ValueError, match=f"{count} of {of} is no share"):
+        share(count, of)
