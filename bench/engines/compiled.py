@@ -4,9 +4,19 @@ Import this before numba. numba's cache looks only at the file of the function i
 mujoco would run stale code; here the cache folder is a digest of all our sources and the versions that matter.
 """
 
+import contextlib
+import itertools
 import os
+import secrets
 import shutil
 from pathlib import Path
+from typing import Any
+
+fcntl: Any
+try:
+    import fcntl
+except ImportError:  # no such locks on this system: compile in one process at a time there
+    fcntl = None
 
 from bench.provenance import source_digest
 
@@ -41,6 +51,7 @@ import math  # noqa: E402
 import llvmlite.binding as llvm  # noqa: E402
 import numba  # noqa: E402
 from numba import float64, int32, int64, types  # noqa: E402
+from numba.core.bytecode import FunctionIdentity  # noqa: E402
 from numba.extending import overload, register_jitable  # noqa: E402
 
 from bench import scalar  # noqa: E402
@@ -50,6 +61,12 @@ from bench.so3 import Rotation  # noqa: E402
 from tasks import truth, verdict  # noqa: E402
 
 __all__ = ["CACHE", "EPISODES", "MATRIX", "NUMBERS", "compile_function", "float64", "int32", "int64", "llvm", "types"]
+
+FunctionIdentity._unique_ids = itertools.count(secrets.randbits(56))
+"""numba tells functions of one name apart by a number that counts from 1 in every process, and the linker keeps the
+first of two that have the same. All laws' closures are called `command`; two that two processes had compiled and a
+third took from the cache became one, so that a law was silently run with parts of another. Counting from a random
+place, no two processes meet."""
 
 JIT = {"nogil": True, "error_model": "numpy"}
 """Never fastmath: results must be the plain Python call's, bit for bit."""
@@ -95,4 +112,17 @@ def register(function):
 def compile_function(function, signature, cache: bool = True):
     """The function compiled for one signature with our options; cached on disk unless the law is a user's."""
     register_kernels()
-    return numba.njit(signature, cache=cache, **JIT)(function)
+    with cache_to_itself() if cache else contextlib.nullcontext():
+        return numba.njit(signature, cache=cache, **JIT)(function)
+
+
+@contextlib.contextmanager
+def cache_to_itself():
+    """Others wait, threads and processes: of two that write the index at once, one would later find the other's code."""
+    if fcntl is None:
+        yield
+        return
+    CACHE.mkdir(parents=True, exist_ok=True)
+    with open(CACHE / "lock", "w", encoding="utf-8") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        yield
