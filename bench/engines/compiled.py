@@ -12,13 +12,13 @@ import shutil
 from pathlib import Path
 from typing import Any
 
+from bench.provenance import source_digest
+
 fcntl: Any
 try:
     import fcntl
 except ImportError:  # no such locks on this system: compile in one process at a time there
     fcntl = None
-
-from bench.provenance import source_digest
 
 KEPT_CACHES = 8
 """States of the sources whose compiled code is kept, the newest first: some 15 MB each."""
@@ -118,7 +118,7 @@ def compile_function(function, signature, cache: bool = True):
 
 @contextlib.contextmanager
 def cache_to_itself():
-    """Others wait, threads and processes: of two that write the index at once, one would later find the other's code."""
+    """Others wait, threads and processes: of two that write its index at once, one would find the other's code."""
     if fcntl is None:
         yield
         return
