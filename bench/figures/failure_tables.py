@@ -18,11 +18,6 @@ NEAR_RAD = 0.1 + EXACT_RAD
 ENGINES = ("ideal-rk4", "ideal-held", "native", "reference")
 
 
-def kept_together(text: str) -> str:
-    """Words that no table may break into lines."""
-    return f'<span class="together">{text}</span>'
-
-
 def outcomes(rows: pd.DataFrame) -> str:
     """How those that did not settle ended, in words."""
     failed = rows.loc[rows["outcome"] != "settled", "outcome"].astype(str).value_counts()
@@ -41,10 +36,10 @@ def shares(episodes: pd.DataFrame) -> pd.DataFrame:
                 rows.append(
                     {
                         "Law": html.law(name, title),
-                        "Engine": kept_together(engine),
+                        "Engine": html.together(engine),
                         "Starts": settled.n,
                         "Settled [%]": 100.0 * settled.value,
-                        "95 % interval": kept_together(f"{100.0 * settled.low:.2f} to {100.0 * settled.high:.2f}"),
+                        "95 % interval": html.together(f"{100.0 * settled.low:.2f} to {100.0 * settled.high:.2f}"),
                         "The others": outcomes(part),
                     }
                 )
@@ -77,6 +72,7 @@ def exact_points(episodes: pd.DataFrame) -> pd.DataFrame:
                 continue
             first = failed.iloc[0]
             quat = ", ".join(html.cell(float(first[f"quat_{axis}"])) for axis in "wxyz")
+            is_exact = place not in ("near a pole", "elsewhere")
             rows.append(
                 {
                     "Law": html.law(name, title),
@@ -84,7 +80,7 @@ def exact_points(episodes: pd.DataFrame) -> pd.DataFrame:
                     "Tried": len(part),
                     "Failing": len(failed),
                     "How": outcomes(part),
-                    "One of them (w, x, y, z)": kept_together(f"({quat})"),
+                    "One of them (w, x, y, z)": html.together(f"({quat})") if is_exact else None,
                 }
             )
     return pd.DataFrame(rows)
@@ -100,7 +96,7 @@ def nearest(boundaries: pd.DataFrame, episodes: pd.DataFrame) -> pd.DataFrame:
         axis = None  # a dash in the table
         if len(fails):
             first = own.loc[fails.idxmin()]
-            axis = kept_together("(" + ", ".join(html.cell(float(first[f"axis_{one}"]), ".2f") for one in "xyz") + ")")
+            axis = html.together("(" + ", ".join(html.cell(float(first[f"axis_{one}"]), ".2f") for one in "xyz") + ")")
         rows.append(
             {
                 "Law": html.law(name, title),

@@ -64,6 +64,11 @@ def law(name: str, text: str | None = None) -> Html:
     return Html(f'<span class="law"><span class="key" style="--key: {both(light)}"></span>{text or name}</span>')
 
 
+def together(text: str) -> Html:
+    """Words that no table may break into lines."""
+    return Html(f'<span class="together">{text}</span>')
+
+
 def both(light: str) -> str:
     """A colour for light and dark pages, as CSS."""
     return f"light-dark({light}, {style.TWINS[light]})"

@@ -5,7 +5,7 @@ import re
 import numpy as np
 import pandas as pd
 
-from bench.figures import closed_form, style
+from bench.figures import closed_form, html, style
 from bench.figures.inline import responsive_picture
 
 DECADE = re.compile(r"-k(\d+)$")
@@ -59,7 +59,7 @@ def decades(episodes: pd.DataFrame, narrow: bool):
         ylim=(0, CEILING),
         xlim=(-0.5, at + 0.9),
         ylabel="settling time [s]",
-        xlabel="distance from the half turn, $\\pi$ - angle [rad]",
+        xlabel="distance from the half turn, $\\pi - \\theta$ [rad]",
     )
     ticks = range(0, int(k.max()) + 1, 3)
     axes.set_xticks([*ticks, at], [*(f"$10^{{-{one}}}$" if one else "1" for one in ticks), "0"])
@@ -95,7 +95,7 @@ def slopes(episodes: pd.DataFrame) -> pd.DataFrame:
         found, exact = slope(part), part[k.isna()]
         rows.append(
             {
-                "Engine": engine,
+                "Engine": html.together(engine),
                 "Starts fitted": int(k.between(*FITTED).sum()),
                 "Slope [s/decade]": found,
                 "Closed form": theory,

@@ -64,14 +64,24 @@
       pen.globalAlpha = 1;
       pen.textAlign = "left";
       pen.font = "14px 'Orientation Sans', sans-serif";
-      let x = 4;
-      for (const [name, group] of groups) {
-        pen.fillStyle = dark ? group.dark : group.colour;
-        pen.beginPath(); pen.arc(x + 5, size - 10, 5, 0, 7); pen.fill();
-        pen.fillStyle = ink;
-        pen.fillText(name, x + 15, size - 5);
-        x += 32 + pen.measureText(name).width;
+      const keys = groups.map(([name, group]) => ({ name, group, width: 32 + pen.measureText(name).width }));
+      const rows = [[]]; // as many keys in a row as fit
+      for (const key of keys) {
+        const used = rows[rows.length - 1].reduce((sum, other) => sum + other.width, 4);
+        if (used > 4 && used + key.width - 17 > size) rows.push([]);
+        rows[rows.length - 1].push(key);
       }
+      rows.forEach((row, i) => {
+        let x = 4;
+        const y = size - 10 - 20 * (rows.length - 1 - i);
+        for (const { name, group, width } of row) {
+          pen.fillStyle = dark ? group.dark : group.colour;
+          pen.beginPath(); pen.arc(x + 5, y, 5, 0, 7); pen.fill();
+          pen.fillStyle = ink;
+          pen.fillText(name, x + 15, y + 5);
+          x += width;
+        }
+      });
     }
     function turn(dx, dy) {
       yaw += dx;
