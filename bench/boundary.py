@@ -12,9 +12,10 @@ import pandas as pd
 from bench.discovery import known_metrics
 from bench.engines.episode import OUTCOME
 from bench.engines.run import run as run_engine
-from bench.plan import SHORT, Plan
+from bench.plan import Plan
 from bench.rows import contender_columns, settings_of
 from bench.schema import boundary_columns
+from bench.suites import SHORT
 from tasks.base import Start
 from tasks.verdict import OUTCOMES, SETTLED
 

@@ -7,10 +7,11 @@ import tasks
 from bench.engines import ideal
 from bench.engines.binding import command_of, margin_of, memory_of
 from bench.engines.episode import FIRST_METRIC, numbers, start_rows
-from bench.plan import SHORT, Plan
+from bench.plan import Plan
 from bench.rows import contender_columns, settings_of
 from bench.scalar import kernel
 from bench.schema import trace_columns
+from bench.suites import SHORT
 
 EVERY_S = 0.02
 """Five samples in each time constant of 0.1 s."""

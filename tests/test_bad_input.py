@@ -12,6 +12,7 @@ from bench import plan as planning
 from bench import store
 from bench.discovery import known_regulators, known_representations
 from bench.errors import BadResults
+from bench.suites import SUITES
 
 
 @pytest.fixture(scope="module")
@@ -56,7 +57,7 @@ def refused_run(capsys, folder, *words) -> str:
 @pytest.mark.parametrize(
     ("option", "word", "known"),
     [
-        ("--suite", "defualt", sorted(planning.SUITES)),
+        ("--suite", "defualt", sorted(SUITES)),
         ("--regulator", "rotation-matrx", sorted(known_regulators())),
         ("--regulator", "linearized-euler/zyx-eular", sorted(known_representations())),
         ("--representation", "zyx", sorted(known_representations())),

@@ -10,6 +10,7 @@ import tasks
 from bench import plan, store
 from bench.cli import commands
 from bench.discovery import all_contenders, known_metrics, known_regulators, known_representations
+from bench.suites import SUITES
 
 COMMANDS = {command.name: command for command in commands()}
 
@@ -64,7 +65,7 @@ KNOWN = {
     "tasks": tasks.names(),
     "starts": tasks.start_set_names(),
     "engines": plan.ENGINES,
-    "suites": plan.SUITES,
+    "suites": SUITES,
 }
 
 
@@ -109,7 +110,7 @@ def test_dry_run_counts_what_a_run_then_writes(capsys, tiny_run):
     assert f"suite quick: {len(store.read(tiny_run, 'episodes'))} episodes" in said.out
 
 
-@pytest.mark.parametrize("suite", plan.SUITES)
+@pytest.mark.parametrize("suite", SUITES)
 def test_suite_runs_every_law_that_is_not_a_costing(capsys, suite):
     said = bench(capsys, "run", "--suite", suite, "--dry-run")
     laws = re.search(r"laws: (.*?)\n\S+: ", said.out, re.DOTALL)[1].replace("\n", " ").split(", ")

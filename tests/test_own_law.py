@@ -13,7 +13,7 @@ from bench import store
 from bench.discovery import contenders_of, known_metrics, load_law
 from bench.engines.episode import FAILURE_TICK, OUTCOME
 from bench.engines.run import run
-from bench.plan import ENGINES
+from bench.suites import ENGINES
 from tasks.base import Start
 from tasks.verdict import SINGULAR
 

@@ -8,7 +8,7 @@ from bench.boundary import axes
 from bench.claims import probes
 from bench.claims.tables import evidence, on_every_engine, settled, share, some
 from bench.claims.verdict import Word, claim
-from bench.plan import SHORT
+from bench.suites import SHORT
 from tasks.base import IDENTITY, Start
 
 LAW, CURE = "linearized-euler", "linearized-euler-relative"

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import rich_click as click
 
-from bench.cli import options
+from bench import results
 from bench.cli.screen import console
 
 
@@ -16,7 +16,7 @@ def COMMAND(folder, everything, criteria):
     """The claims of Murphy (1988), one line each: id, verdict, evidence, rows (default: results/latest)."""
     from bench.claims import NOT_YET_MEASURED, judge_all
 
-    folder = folder or options.newest()
+    folder = folder or results.folder()
     for verdict in judge_all(folder):
         if verdict.word == NOT_YET_MEASURED and not everything:
             continue

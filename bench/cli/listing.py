@@ -73,7 +73,7 @@ def _engines(own):
 
 
 def _suites(own):
-    from bench.plan import SUITES
+    from bench.suites import SUITES
 
     rows = ((one.name, len({part.engine for part in one.slices}), one.title) for one in SUITES.values())
     return _table("Suites", ("name", "engines", "title"), rows)

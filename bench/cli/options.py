@@ -69,8 +69,3 @@ def _named(word: str, own) -> list[Contender]:
     if "/" in word:
         return [discovery.find_contender(word, own)]
     return discovery.contenders_of(discovery.regulator(word, own))
-
-
-def newest() -> Path:
-    """results/latest if a finished run is there, else results/reference."""
-    return LATEST if (LATEST / "provenance.json").is_file() else REFERENCE

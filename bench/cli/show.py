@@ -6,6 +6,7 @@ import pandas as pd
 import rich_click as click
 from scipy.stats import binomtest
 
+from bench import results
 from bench.cli import options
 from bench.cli.screen import console, frame_table
 from bench.errors import BadResults
@@ -21,7 +22,7 @@ from tasks.verdict import OUTCOMES
 @options.regulator
 def COMMAND(folder, engine, starts, outcomes, regulators):
     """Summary of a run: where each law settles, how fast, and where it does not (default: results/latest)."""
-    folder = folder or options.newest()
+    folder = folder or results.folder()
     episodes = read(folder, "episodes")
     for column, words in (("engine", engine), ("start_set", starts), ("regulator", regulators)):
         episodes = _only(episodes, folder, column, (words,) if isinstance(words, str) else words or ())
