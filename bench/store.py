@@ -88,21 +88,34 @@ def write_table(path: Path, frame: pd.DataFrame, table: str, about: dict | None 
     write_atomically(path, lambda temporary: pq.write_table(arrow, temporary, compression=COMPRESSION))
 
 
+GROUP = 65_536
+"""Rows that a merge holds in memory, 20 MB of them; row groups of a part each made the file three times as large."""
+
+
 def merge(path: Path, parts: Iterable[Path], table: str) -> int:
-    """All parts in their order as one table, one part in memory at a time; the number of rows."""
-    schema = arrow_schema(table)
+    """All parts in their order as one table, at most GROUP rows and one part in memory; the number of rows."""
     rows = 0
 
     def write(temporary):
         nonlocal rows
-        with pq.ParquetWriter(temporary, schema, compression=COMPRESSION) as writer:
+        with pq.ParquetWriter(temporary, arrow_schema(table), compression=COMPRESSION) as writer:
+            held: list[pa.Table] = []
             for part in parts:
-                arrow = read_arrow(part, table)
-                rows += arrow.num_rows
-                writer.write_table(arrow)
+                held.append(read_arrow(part, table))
+                rows += held[-1].num_rows
+                if sum(one.num_rows for one in held) >= GROUP:
+                    writer.write_table(_joined(held))
+                    held.clear()
+            if held:
+                writer.write_table(_joined(held))
 
     write_atomically(path, write)
     return rows
+
+
+def _joined(tables: list[pa.Table]) -> pa.Table:
+    """The tables as one whole, words in one dictionary."""
+    return pa.concat_tables(tables).unify_dictionaries().combine_chunks()
 
 
 def read_arrow(path: Path, table: str) -> pa.Table:
