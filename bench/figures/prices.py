@@ -74,17 +74,19 @@ def times(rows: pd.DataFrame, titles: dict[str, str]) -> html.Markdown:
 
 
 def against_time(alone: pd.DataFrame, costs: pd.DataFrame, titles: dict[str, str]) -> str:
-    """A sentence on the pair of laws whose order by time contradicts their flops the most; or on the counts alone."""
+    """A sentence on the two laws whose times differ most for what their flops differ; without times, on the counts."""
     totals = costs[(costs["branch"] == "typical") & (costs["stage"] == "total")].set_index("contender")
-    rows = [(row.contender, int(totals.at[row.contender, "flops"]), row.ratio) for row in alone.itertuples()]
-    pairs = [(one, two) for one in rows for two in rows if one[1] <= two[1] and one[2] > two[2]]
+    rows = [
+        (row.contender, int(totals.at[row.contender, "flops"]), row.ratio)
+        for row in alone.itertuples()
+        if row.contender in totals.index
+    ]
+    pairs = [(one, two) for one in rows for two in rows if one != two]
     if pairs:
-        one, two = max(pairs, key=lambda pair: pair[0][2] / pair[1][2])
+        one, two = max(pairs, key=lambda pair: pair[0][2] / pair[1][2] * pair[1][1] / pair[0][1])
         return (
-            f"{titles[one[0]]} takes {one[1]} flops and {titles[two[0]]} {two[1]}, yet the first takes "
-            f"{one[2] / two[2]:.1f} times as long."
+            f"{titles.get(one[0], one[0])} takes {one[1]} flops and {titles.get(two[0], two[0])} {two[1]}, yet the first "
+            f"takes {one[2] / two[2]:.1f} times as long."
         )
-    if rows:
-        return "Here flops and time put the laws in one order, but not at one scale: what a call costs is no flop."
     calls = totals[list(CALLS)].sum(axis=1)
     return f"Up to {calls.max()} calls a tick stand outside the flops, and no count says what one of them takes."

@@ -44,13 +44,15 @@ def times(rows: pd.DataFrame, costs: pd.DataFrame, titles: dict[str, str], *, na
         return figure, " ".join(NONE_YET.split())
     figure, axes = style.panels(height=4.2 if narrow else 3.5, narrow=narrow)
     total = costs[(costs["branch"] == "typical") & (costs["stage"] == "total")].set_index("contender")
+    rows = rows[rows["contender"].isin(total.index)]
     for row in rows.itertuples():
         look = style.look(row.contender)
         x = total.at[row.contender, "flops"]
         axes.plot([x, x], [row.ratio_low, row.ratio_high], color=look.colour, linewidth=1.3)
         marks = {"color": look.colour, "marker": look.marker, "linestyle": "none", "markersize": 7}
         axes.plot(x, row.ratio, label=titles.get(row.contender, row.contender), **marks)
-    axes.set(xlabel="Flops a tick, typical branch (no transcendental calls)", ylabel="Time a tick [kernel steps]")
+    named = "Flops a tick, without calls" if narrow else "Flops a tick, typical branch, without transcendental calls"
+    axes.set(xlabel=named, ylabel="Time a tick [kernel steps]")
     axes.set_xlim(left=0)
     axes.set_ylim(bottom=0)
     figure.legend(loc="outside upper left", ncols=1 if narrow else 3, columnspacing=1.4)
