@@ -106,20 +106,20 @@ def c01(results, engine):
     unstable = broken | (gained > ENERGY_SLACK)
     uniform = share(settled(frame[frame["start_set"] == "uniform"]))
     left = frame[~settled(frame)]
-    nearest = probes.boundary_distance(left)["half_turn"].abs().max() if len(left) else 0.0
+    away = probes.boundary_distance(left)["half_turn"].abs() if len(left) else np.zeros(0)
     if unstable.any() or 1 - uniform.value > STRAY_SHARE:
         word = Word.FAILS
     else:
         word = Word.CORRECTED if len(left) else Word.HOLDS
     return word, evidence(
-        """{unstable} of {n:,} starts diverge or gain energy. {left} do not settle, all within {nearest:.1g} rad of a
-        half turn; of uniform starts {uniform} settle.""",
+        """{unstable} of {n:,} starts diverge or gain energy. {left} do not settle, {exact} of them exactly a half turn
+        from the goal; of uniform starts {uniform} settle.""",
         len(frame),
         ("episodes",),
         unstable=int(unstable.sum()),
         n=len(frame),
         left=len(left),
-        nearest=float(nearest),
+        exact=int((away <= ZERO_ERROR).sum()),
         uniform=uniform,
     )
 
