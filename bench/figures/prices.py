@@ -85,8 +85,8 @@ def against_time(alone: pd.DataFrame, costs: pd.DataFrame, titles: dict[str, str
     if pairs:
         one, two = max(pairs, key=lambda pair: pair[0][2] / pair[1][2] * pair[1][1] / pair[0][1])
         return (
-            f"{titles.get(one[0], one[0])} takes {one[1]} flops and {titles.get(two[0], two[0])} {two[1]}, yet the first "
-            f"takes {one[2] / two[2]:.1f} times as long."
+            f"{titles.get(one[0], one[0])} takes {one[1]} flops and {titles.get(two[0], two[0])} {two[1]}, "
+            f"yet the first takes {one[2] / two[2]:.1f} times as long."
         )
     calls = totals[list(CALLS)].sum(axis=1)
     return f"Up to {calls.max()} calls a tick stand outside the flops, and no count says what one of them takes."
