@@ -119,7 +119,7 @@ def c01(results, engine):
         unstable=int(unstable.sum()),
         n=len(frame),
         left=len(left),
-        exact=int((away <= ZERO_ERROR).sum()),
+        exact=int((away < EXACT_RAD).sum()),
         uniform=uniform,
     )
 
