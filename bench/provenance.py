@@ -61,14 +61,23 @@ def _git(*words: str) -> str:
     return subprocess.run(["git", "-C", str(ROOT), *words], capture_output=True, text=True, check=True).stdout.strip()
 
 
+def _without_folders(word: str) -> str:
+    """A word of the command line; of an absolute path only what lies in this checkout, or the last name."""
+    path = Path(word)
+    if not path.is_absolute():
+        return word
+    return path.relative_to(ROOT).as_posix() if path.is_relative_to(ROOT) else path.name
+
+
 def describe() -> dict:
     """Everything about this moment that a reader may want to know."""
     return {
         **commit(),
         "sources": source_digest(),
         "versions": versions(),
-        "platform": platform.platform(),
+        "lock": hashlib.sha256((ROOT / "requirements" / "base.txt").read_bytes()).hexdigest(),
+        "platform": " ".join((platform.system(), platform.machine(), *platform.libc_ver())).strip(),
         "cpu": cpu_name(),
         "cores": os.cpu_count(),
-        "command": " ".join(["python -m bench", *sys.argv[1:]]),
+        "command": " ".join(["python -m bench", *map(_without_folders, sys.argv[1:])]),
     }

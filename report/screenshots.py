@@ -2,6 +2,7 @@
 
     python report/screenshots.py            every page, light and dark, wide and narrow
     python report/screenshots.py index      only pages whose name holds a word
+    python report/screenshots.py --readme   the front page's figure alone, into report/_static/overview.png
 
 Pictures go to report/_build/screenshots.
 
@@ -21,6 +22,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 SITE = Path(__file__).resolve().parent / "_build" / "html"
+README_PICTURE = Path(__file__).resolve().parent / "_static" / "overview.png"
 PICTURES = Path(__file__).resolve().parent / "_build" / "screenshots"
 THEMES = ("light", "dark")
 WIDTHS = (1280, 390)
@@ -140,7 +142,17 @@ def console_errors(driver) -> list[str]:
 def picture(driver) -> bytes:
     """The whole page as PNG, however long it is."""
     size = driver.execute_cdp_cmd("Page.getLayoutMetrics", {})["cssContentSize"]
-    clip = {"x": 0, "y": 0, "width": size["width"], "height": size["height"], "scale": 1}
+    return clipped(driver, {"x": 0, "y": 0, "width": size["width"], "height": size["height"], "scale": 1})
+
+
+def first_figure(driver) -> bytes:
+    """The page's first figure without its caption, as PNG at twice the size."""
+    box = driver.find_element("css selector", "figure svg").rect
+    return clipped(driver, {**box, "scale": 2})
+
+
+def clipped(driver, clip: dict) -> bytes:
+    """A part of the page as PNG, in the window or beyond it."""
     shot = {"format": "png", "captureBeyondViewport": True, "clip": clip}
     return base64.b64decode(driver.execute_cdp_cmd("Page.captureScreenshot", shot)["data"])
 
@@ -150,6 +162,12 @@ def main() -> int:
     if missing():
         print(f"screenshots: {missing()}", file=sys.stderr)
         return 2
+    if "--readme" in sys.argv[1:]:
+        with browser() as driver:
+            open_page(driver, SITE / "index.html", VIEWS[0])
+            README_PICTURE.write_bytes(first_figure(driver))
+        print(f"screenshots: the README's picture is {README_PICTURE}")
+        return 0
     PICTURES.mkdir(parents=True, exist_ok=True)
     chosen = [page for page in pages() if all(word in str(page.relative_to(SITE)) for word in sys.argv[1:])]
     with browser() as driver:

@@ -45,7 +45,7 @@ def run() -> html.Markdown:
     changed = "yes: the sources had changes that no commit holds" if said["dirty"] else "no"
     facts = {
         "Suite": f"`{said['suite']}`, {html.number(said['episodes'])} episodes",
-        "Command": f"`{command(said['command'])}`",
+        "Command": f"`{said['command']}`",
         "Seed": f"{said['seed']}",
         "Finished": said["finished"].replace("T", " ").replace("Z", " UTC"),
         "Wall time": f"{said['wall_s']:.0f} s with {said['workers']} workers",
@@ -57,19 +57,9 @@ def run() -> html.Markdown:
         "Processor": f"{said['cpu']}, {said['cores']} cores",
         "System": said["platform"],
         **dict(sorted(said["versions"].items())),
-        **{f"Lock {path.stem}, SHA-256": spelled(digest(path)) for path in locks()},
+        "Lock requirements/base.txt, SHA-256": spelled(said["lock"]),
     }
     return html.table(pd.DataFrame({"Fact": list(facts), "Value": list(facts.values())}))
-
-
-def command(line: str) -> str:
-    """The command as it was given, a folder of somebody's machine by its last name only."""
-    return " ".join(Path(word).name if word.startswith("/") else word for word in line.split())
-
-
-def locks() -> list[Path]:
-    """The lock files that lie beside these sources."""
-    return sorted((ROOT / "requirements").glob("*.txt"))
 
 
 def tables() -> html.Markdown:
