@@ -5,6 +5,7 @@ sets hit those exactly.
 """
 
 import math
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pandas as pd
@@ -33,12 +34,16 @@ def axes(count: int) -> np.ndarray:
     return np.column_stack((radius * np.cos(turn), radius * np.sin(turn), z))
 
 
-def run(plan: Plan) -> pd.DataFrame:
-    """boundaries.parquet of a plan: one row for each contender and axis."""
+def run(plan: Plan, workers: int = 1) -> pd.DataFrame:
+    """boundaries.parquet of a plan: one row for each contender and axis; a thread a contender."""
     frames = []
     if plan.boundary_axes:
         directions = axes(plan.boundary_axes)
-        frames = [_boundary(plan, one, directions) for one in plan.contenders]
+        pool = ThreadPoolExecutor(workers)
+        try:
+            frames = list(pool.map(lambda one: _boundary(plan, one, directions), plan.contenders))
+        finally:
+            pool.shutdown(cancel_futures=True)
     names = [column.name for column in boundary_columns()]
     return pd.concat(frames, ignore_index=True) if frames else pd.DataFrame(columns=names)
 

@@ -27,6 +27,10 @@ BOUNDARY_KEY = ("regulator", "representation", "jacobian", "inverse", "axis_x", 
 BOUNDARY_ANGLE = 1e-5
 """Bisection ends at 7e-7 rad; near a fractal boundary the last steps may go either way."""
 
+TRACE_KEY = ("regulator", "representation", "jacobian", "inverse", "engine", "start_set", "start_id", "time_s")
+ARRIVED = 0.02
+"""A curve whose angle ends below the settling band's share of where it began came to the goal."""
+
 SHOWN = 10
 
 
@@ -37,7 +41,7 @@ def compare(candidate: Path, reference: Path) -> list[str]:
         BadResults: a folder holds no finished run.
     """
     lines = []
-    for table, rows in (("episodes", _episodes), ("costs", _costs), ("boundaries", _boundaries)):
+    for table, rows in TABLES.items():
         try:
             old, new = read(reference, table), read(candidate, table)
         except BadResults as error:
@@ -139,6 +143,26 @@ def _boundaries(new: pd.DataFrame, old: pd.DataFrame) -> list[str]:
     return lines
 
 
+def _traces(new: pd.DataFrame, old: pd.DataFrame) -> list[str]:
+    """Samples of the curves that end at the goal; which curves there are, of all."""
+    curves = [frame.groupby(list(TRACE_KEY[:-1]), observed=True)["angle_rad"] for frame in (new, old)]
+    names = [{" ".join(filter(None, map(str, key))) for key in one.groups} for one in curves]
+    lines = _some("traces: curve is missing", sorted(names[1] - names[0]))
+    lines += _some("traces: curve is new", sorted(names[0] - names[1]))
+    if lines:
+        return lines
+    arrived = [one.transform("last") <= ARRIVED * one.transform("first") for one in curves]
+    new, old, lines = _aligned("traces", new[arrived[0]], old[arrived[1]], TRACE_KEY)
+    for name in old.columns.difference(TRACE_KEY, sort=False):
+        a, b = new[name].to_numpy(float), old[name].to_numpy(float)
+        lines += _changed(name, new, old, ~np.isclose(a, b, rtol=RELATIVE, atol=RELATIVE, equal_nan=True))
+    return lines
+
+
 def _digits(frame: pd.DataFrame) -> dict[str, int]:
     """Axes are compared by their first nine digits: they name a row."""
     return {name: 9 for name in frame.columns if name.startswith("axis_")}
+
+
+TABLES = {"episodes": _episodes, "costs": _costs, "boundaries": _boundaries, "traces": _traces}
+"""What is compared, and how."""

@@ -206,7 +206,7 @@ starts_of = functools.lru_cache(maxsize=16)(tasks.start_set)
 def _finish(plan: Plan, out: Path, costs: pd.DataFrame, workers: int, began: float, resumed: bool) -> None:
     write_table(out / "costs.parquet", costs, "costs")
     write_table(out / "traces.parquet", traces.run(plan), "traces")
-    write_table(out / "boundaries.parquet", boundary.run(plan), "boundaries")
+    write_table(out / "boundaries.parquet", boundary.run(plan, workers), "boundaries")
     rows = merge(out / "episodes.parquet", [out / "parts" / f"{unit.key}.parquet" for unit in plan.units], "episodes")
     write_json(
         out / "provenance.json",

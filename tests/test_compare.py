@@ -6,7 +6,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 
-from bench import boundary
+from bench import boundary, traces
 from bench import plan as planning
 from bench import run as running
 from bench.cli import main
@@ -134,6 +134,24 @@ def test_gate_catches_a_moved_failure_boundary(reference, candidate, tmp_path):
     lines = compare(candidate, before)
     assert len(lines) == 1
     assert lines[0].startswith("fails_from_rad: ")
+
+
+def test_gate_catches_a_curve_that_bends_and_one_that_is_gone(candidate, tmp_path):
+    plan = planning.Plan("quick", (), (find_contender("rotation-matrix"),), traces=3)
+    write_table(candidate / "traces.parquet", traces.run(plan), "traces")
+    before = tmp_path / "before"
+    shutil.copytree(candidate, before)
+    assert compare(candidate, before) == []
+
+    def bend(frame):
+        frame.loc[7, "omega_x"] += 1e-3
+        return frame
+
+    change(candidate, "traces", bend)
+    [line] = compare(candidate, before)
+    assert line.startswith("omega_x: ")
+    change(candidate, "traces", lambda frame: frame[frame["start_id"] != "uniform-00001"])
+    assert "traces: curve is missing: rotation-matrix ideal-rk4 uniform uniform-00001" in compare(candidate, before)
 
 
 def test_gate_ignores_what_a_failed_episode_measured(reference, candidate):
