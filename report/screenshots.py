@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import base64
 import contextlib
+import io
 import json
 import shutil
 import sys
@@ -139,21 +140,26 @@ def console_errors(driver) -> list[str]:
     ]
 
 
-def picture(driver) -> bytes:
-    """The whole page as PNG, however long it is."""
-    size = driver.execute_cdp_cmd("Page.getLayoutMetrics", {})["cssContentSize"]
-    return clipped(driver, {"x": 0, "y": 0, "width": size["width"], "height": size["height"], "scale": 1})
+def picture(driver, view: View) -> bytes:
+    """The whole page as PNG, window by window: in one taller capture Chromium shifts the page sideways."""
+    from PIL import Image
+
+    length = int(driver.execute_script("return document.documentElement.scrollHeight"))
+    whole = Image.new("RGB", (view.width, max(length, HEIGHT)))
+    for top in range(0, length, HEIGHT):
+        driver.execute_script("window.scrollTo({top: arguments[0], behavior: 'instant'})", top)
+        settle(driver)
+        reached = int(driver.execute_script("return window.scrollY"))
+        whole.paste(Image.open(io.BytesIO(driver.get_screenshot_as_png())), (0, reached))
+    written = io.BytesIO()
+    whole.save(written, "PNG")
+    return written.getvalue()
 
 
 def first_figure(driver) -> bytes:
     """The page's first figure without its caption, as PNG at twice the size."""
     box = driver.find_element("css selector", "figure svg").rect
-    return clipped(driver, {**box, "scale": 2})
-
-
-def clipped(driver, clip: dict) -> bytes:
-    """A part of the page as PNG, in the window or beyond it."""
-    shot = {"format": "png", "captureBeyondViewport": True, "clip": clip}
+    shot = {"format": "png", "captureBeyondViewport": True, "clip": {**box, "scale": 2}}
     return base64.b64decode(driver.execute_cdp_cmd("Page.captureScreenshot", shot)["data"])
 
 
@@ -175,7 +181,7 @@ def main() -> int:
             for view in VIEWS:
                 open_page(driver, page, view)
                 name = page.relative_to(SITE).with_suffix("").as_posix().replace("/", "-")
-                (PICTURES / f"{name}-{view.theme}-{view.width}.png").write_bytes(picture(driver))
+                (PICTURES / f"{name}-{view.theme}-{view.width}.png").write_bytes(picture(driver, view))
     print(f"screenshots: {len(chosen) * len(VIEWS)} pictures of {len(chosen)} pages in {PICTURES}")
     return 0
 
