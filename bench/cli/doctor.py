@@ -61,15 +61,16 @@ def _versions() -> str:
 
 
 def _compiler() -> str:
-    from bench.engines.compiled import CACHE, compile_function, float64
+    from bench.engines.cache import FOLDER
+    from bench.engines.compiled import compile_function, float64
 
-    CACHE.mkdir(parents=True, exist_ok=True)
-    with tempfile.TemporaryFile(dir=CACHE):
+    FOLDER.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryFile(dir=FOLDER):
         pass
     if compile_function(lambda x: 2.0 * x, float64(float64), cache=False)(21.0) != 42.0:
         raise RuntimeError(f"numba computes wrongly. Cure: {CURE_INSTALL}")
-    size = sum(path.stat().st_size for path in CACHE.parent.rglob("*") if path.is_file())
-    return f"numba compiles; cache {CACHE} ({size / 1e6:.0f} MB; may be deleted at any time)"
+    size = sum(path.stat().st_size for path in FOLDER.parent.rglob("*") if path.is_file())
+    return f"numba compiles; cache {FOLDER} ({size / 1e6:.0f} MB; may be deleted at any time)"
 
 
 def _engines() -> str:

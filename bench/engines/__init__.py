@@ -5,3 +5,7 @@ native      MuJoCo stepped from compiled code, the reference's numbers bit for b
 ideal-rk4   (2.6)-(2.7) without MuJoCo, continuous: Runge-Kutta on the columns of R
 ideal-held  the same plant sampled, the command held over each tick
 """
+
+from bench.engines import cache  # first of all: it says where numba shall keep compiled code
+
+__all__ = ["cache"]

@@ -8,11 +8,13 @@ into the loop; no struct offset is needed.
 from pathlib import Path
 from typing import NamedTuple
 
+import llvmlite.binding as llvm
 import mujoco
 import numpy as np
+from numba import float64, int32, int64, types
 
 from bench.contender import AT_REST, Gains, Goal
-from bench.engines.compiled import MATRIX, NUMBERS, compile_function, float64, int32, int64, llvm, types
+from bench.engines.compiled import MATRIX, NUMBERS, compile_function
 from bench.engines.episode import Sample, finish
 from bench.so3 import Rotation, dot, from_quaternion
 from tasks.truth import angle, haversine

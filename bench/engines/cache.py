@@ -1,0 +1,57 @@
+"""Where compiled code is kept between processes. Imported with the package, so before numba, which asks only once.
+
+numba's cache looks only at the file of the function it caches, so an edited law or another mujoco would run stale
+code; here the folder is a digest of all our sources and the versions that matter.
+"""
+
+import contextlib
+import os
+import shutil
+from pathlib import Path
+from typing import Any
+
+from bench.provenance import source_digest
+
+fcntl: Any
+try:
+    import fcntl
+except ImportError:  # no such locks on this system: compile in one process at a time there
+    fcntl = None
+
+KEPT = 8
+"""States of the sources whose compiled code is kept, the newest first: some 15 MB each."""
+
+
+def home() -> Path:
+    """The folder that holds one cache for each state of the sources."""
+    base = os.environ.get("XDG_CACHE_HOME") or str(Path.home() / ".cache")
+    return Path(base) / "orientation-bench" / "numba"
+
+
+def _chosen() -> Path:
+    """The cache of these sources, which NUMBA_CACHE_DIR overrides; the oldest of the others go."""
+    named = os.environ.get("NUMBA_CACHE_DIR")
+    if named:
+        return Path(named)
+    folder = home() / source_digest()
+    os.environ["NUMBA_CACHE_DIR"] = str(folder)
+    if not folder.exists() and home().is_dir():
+        by_age = sorted(home().iterdir(), key=lambda path: path.stat().st_mtime, reverse=True)
+        for path in by_age[KEPT - 1 :]:
+            shutil.rmtree(path, ignore_errors=True)
+    return folder
+
+
+FOLDER = _chosen()
+
+
+@contextlib.contextmanager
+def to_itself(is_cached: bool = True):
+    """Others wait, threads and processes: of two that write its index at once, one would find the other's code."""
+    if fcntl is None or not is_cached:
+        yield
+        return
+    FOLDER.mkdir(parents=True, exist_ok=True)
+    with open(FOLDER / "lock", "w", encoding="utf-8") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        yield
