@@ -48,6 +48,12 @@ def machine_key() -> str:
     return "-".join(part for part in words.split("-") if part)
 
 
+def lock_digest() -> str:
+    """SHA-256 of requirements/base.txt; empty where the package lies without it."""
+    path = ROOT / "requirements" / "base.txt"
+    return hashlib.sha256(path.read_bytes()).hexdigest() if path.is_file() else ""
+
+
 def commit() -> dict:
     """Commit of the checkout and whether it had changes; empty outside git."""
     try:
@@ -75,7 +81,7 @@ def describe() -> dict:
         **commit(),
         "sources": source_digest(),
         "versions": versions(),
-        "lock": hashlib.sha256((ROOT / "requirements" / "base.txt").read_bytes()).hexdigest(),
+        "lock": lock_digest(),
         "platform": " ".join((platform.system(), platform.machine(), *platform.libc_ver())).strip(),
         "cpu": cpu_name(),
         "cores": os.cpu_count(),

@@ -57,7 +57,7 @@ def run() -> html.Markdown:
         "Processor": f"{said['cpu']}, {said['cores']} cores",
         "System": said["platform"],
         **dict(sorted(said["versions"].items())),
-        "Lock requirements/base.txt, SHA-256": spelled(said["lock"]),
+        "Lock requirements/base.txt, SHA-256": spelled(said["lock"]) if said["lock"] else "none",
     }
     return html.table(pd.DataFrame({"Fact": list(facts), "Value": list(facts.values())}))
 
