@@ -1,7 +1,7 @@
 """What the report and the claims read: the folder of a finished run, and its tables, each read once a process.
 
     results.episodes(engine="ideal-rk4", start_set="uniform")     the rows that have these words
-    results.costs(), results.boundaries(), results.traces(), results.provenance()
+    results.costs(), results.boundaries(), results.traces(), results.provenance(), results.own_laws()
 
 Every frame has a column `contender`, "regulator" or "regulator/representation".
 """
@@ -12,6 +12,8 @@ from pathlib import Path
 
 import pandas as pd
 
+from bench.contender import Regulator
+from bench.discovery import known_regulators, load_law
 from bench.errors import BadResults
 from bench.schema import RESULTS
 from bench.store import read, read_json
@@ -51,6 +53,13 @@ def boundaries(**words: str) -> pd.DataFrame:
 def provenance() -> dict:
     """Where the run comes from: provenance.json."""
     return read_json(folder() / "provenance.json")
+
+
+def own_laws() -> tuple[Regulator, ...]:
+    """The user's laws that took part in the run, from the copies it keeps; one that is now ours is left out."""
+    paths = sorted((folder() / "laws").glob("*.py"))
+    ours = known_regulators()
+    return tuple(load_law(path) for path in paths if path.stem.replace("_", "-") not in ours)
 
 
 @functools.cache

@@ -1,7 +1,7 @@
 """A plan carried out: units run by threads, each written when done, so that a run killed at any moment resumes.
 
-Layout of a run's folder: plan.json first, then parts/<unit>.parquet one by one; at the end the tables, provenance.json
-last of all, and the parts go.
+Layout of a run's folder: plan.json first, and laws/ with the user's own; then parts/<unit>.parquet one by one; at the
+end the tables, provenance.json last of all, and the parts go.
 """
 
 import contextlib
@@ -26,7 +26,7 @@ from bench.errors import BadLaw, BadResults
 from bench.plan import Plan, Unit, check_workers
 from bench.provenance import describe
 from bench.rows import frame, settings_of
-from bench.store import check, is_leftover, merge, read_json, write_json, write_table
+from bench.store import check, is_leftover, merge, read_json, write_atomically, write_json, write_table
 
 TABLES = ("costs", "traces", "boundaries", "episodes")
 """The tables of a finished run, in the order of their writing."""
@@ -107,6 +107,7 @@ def run(
     if not state.done:
         _clear(out)
         write_json(out / "plan.json", {"digest": plan.digest(), **plan.identity()})
+        _keep_own_laws(plan, out)
     todo = [unit for unit in plan.units if unit.key not in state.done]
     for unit in plan.units:
         if unit.key in state.done:
@@ -123,6 +124,14 @@ def _compile_own_laws(plan: Plan) -> None:
         one = plan.contender(unit.contender)
         if one.regulator.origin and unit.engine != "reference":
             compiled_loop(unit.engine, one, metrics)
+
+
+def _keep_own_laws(plan: Plan, out: Path) -> None:
+    """Copy a user's laws into the run, so that its rows can be read, and its report written, with what made them."""
+    for origin, name in {one.regulator.origin: one.regulator.name for one in plan.contenders}.items():
+        if origin:
+            copy = out / "laws" / f"{name.replace('-', '_')}.py"
+            write_atomically(copy, functools.partial(shutil.copyfile, origin))
 
 
 def _costs(plan: Plan) -> list[dict]:
@@ -147,6 +156,8 @@ def _clear(out: Path) -> None:
         (out / "provenance.json").unlink(missing_ok=True)
         for name in TABLES:
             (out / f"{name}.parquet").unlink(missing_ok=True)
+        if (out / "laws").is_dir():
+            shutil.rmtree(out / "laws")
         _tidy(out)
         (out / "plan.json").unlink(missing_ok=True)
 

@@ -9,10 +9,11 @@ from bits import different_rows
 from command_line import bench
 from driving import settings, spread
 
-from bench import store
+from bench import results, store
 from bench.discovery import contenders_of, known_metrics, load_law
 from bench.engines.episode import FAILURE_TICK, OUTCOME
 from bench.engines.run import run
+from bench.figures import cards
 from bench.suites import ENGINES
 from tasks.base import Start
 from tasks.verdict import SINGULAR
@@ -146,3 +147,20 @@ def test_law_that_fails_is_counted_up_to_there(fails_far_away, capsys):
     said = bench(capsys, "count", "--law", fails_far_away.regulator.origin, "--regulator", "mine")
     assert (said.code, said.err) == (0, "")
     assert "mine" in said.out
+
+
+def test_run_keeps_a_law_of_ones_own_and_the_report_shows_it(tmp_path, monkeypatch, capsys):
+    path = tmp_path / "my_law.py"
+    path.write_text(EXAMPLE)
+    out = tmp_path / "run"
+    words = ("--regulator", "my-law", "--starts", "paper", "--engine", "ideal-held", "--out", out)
+    assert bench(capsys, "run", "--law", path, *words).code == 0
+    assert (out / "laws" / "my_law.py").read_text() == EXAMPLE
+    path.unlink()
+    monkeypatch.setenv(results.VARIABLE, str(out))
+    [own] = results.own_laws()
+    assert own.name == "my-law"
+    assert cards.in_order()[-1].name == "my-law"
+    text = cards.source(own)
+    assert "laws/my_law.py" in text
+    assert "REGULATOR" in text

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import html as markup
-import inspect
 import re
 import sys
+from pathlib import Path
 from types import ModuleType
 
 import pandas as pd
@@ -35,10 +35,10 @@ FAILS = re.compile(r"\bFails:\s*(.*)", re.DOTALL)
 
 
 def in_order() -> list[Regulator]:
-    """Every registered regulator, the paper's three first."""
+    """Every registered regulator, the paper's three first, and at the end the user's own that took part in the run."""
     known = known_regulators()
     first = [known[name] for name in PAPERS_OWN if name in known]
-    return first + [one for name, one in known.items() if name not in PAPERS_OWN]
+    return [*first, *(one for name, one in known.items() if name not in PAPERS_OWN), *results.own_laws()]
 
 
 def module(regulator: Regulator) -> ModuleType:
@@ -104,9 +104,10 @@ def anchor(one: Contender) -> str:
 
 def source(regulator: Regulator) -> str:
     """The law's own file, folded."""
-    text = inspect.getsource(module(regulator))
+    text = Path(module(regulator).__file__ or "").read_text(encoding="utf-8")
     code = highlight(text, PythonLexer(), HtmlFormatter(nowrap=True))
-    where = markup.escape(f"bench/regulators/{regulator.name.replace('-', '_')}.py")
+    folder = "laws" if regulator.origin else "bench/regulators"
+    where = markup.escape(f"{folder}/{regulator.name.replace('-', '_')}.py")
     return (
         f'<details class="law-source"><summary>Its file, <code>{where}</code></summary>'
         f'<div class="highlight"><pre tabindex="0">{code}</pre></div></details>'

@@ -10,6 +10,7 @@ import pandas as pd
 
 import bench.engines
 import tasks
+from bench import results
 from bench.discovery import contenders_of, known_metrics, known_regulators, known_representations
 from bench.figures import html
 from bench.figures.spelling import power, prose
@@ -114,7 +115,7 @@ def metrics() -> html.Markdown:
 def titles() -> dict[str, str]:
     """contender -> the title of its law, with its coordinates where it has several."""
     named = {}
-    for regulator in known_regulators().values():
+    for regulator in (*known_regulators().values(), *results.own_laws()):
         several = contenders_of(regulator)
         for one in several:
             coordinates = f", {one.representation.name}" if one.representation and len(several) > 1 else ""
