@@ -31,3 +31,20 @@ def digest(folder: Path) -> dict[str, str]:
         str(path.relative_to(folder)): hashlib.sha256(path.read_bytes()).hexdigest() if path.is_file() else "folder"
         for path in sorted(folder.rglob("*"))
     }
+
+
+def refused(capsys, *words) -> str:
+    """The one line of a refused command."""
+    said = bench(capsys, *words)
+    lines = said.err.splitlines()
+    assert (said.code, len(lines)) == (2, 1), said
+    assert lines[0].startswith("error: ")
+    return lines[0]
+
+
+def refused_run(capsys, folder, *words) -> str:
+    """The one line of a refused run into a folder, which must stay as it is."""
+    before = digest(folder)
+    line = refused(capsys, "run", "--replace", "--out", folder, *words)
+    assert digest(folder) == before
+    return line

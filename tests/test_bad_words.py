@@ -1,0 +1,117 @@
+"""Words, numbers and combinations that cannot be run: one line, exit code 2, nothing touched."""
+
+
+import pytest
+from command_line import bench, refused, refused_run
+
+import tasks
+from bench import plan as planning
+from bench.discovery import known_regulators, known_representations
+from bench.suites import SUITES
+
+
+@pytest.mark.parametrize(
+    ("option", "word", "known"),
+    [
+        ("--suite", "defualt", sorted(SUITES)),
+        ("--regulator", "rotation-matrx", sorted(known_regulators())),
+        ("--regulator", "linearized-euler/zyx-eular", sorted(known_representations())),
+        ("--representation", "zyx", sorted(known_representations())),
+        ("--task", "free-bodi", tasks.names()),
+        ("--starts", "uniforn", tasks.start_set_names()),
+        ("--engine", "nativ", sorted(planning.ENGINES)),
+        ("--integrator", "eulr", sorted(planning.INTEGRATORS)),
+    ],
+)
+def test_unknown_word_lists_the_known_ones_and_guesses(capsys, finished, option, word, known):
+    line = refused_run(capsys, finished, option, word)
+    assert f"'{word.rpartition('/')[2]}' is unknown" in line
+    assert f"known: {', '.join(known)}" in line
+    assert word == "zyx" or "did you mean" in line
+
+
+@pytest.mark.parametrize(
+    ("words", "named"),
+    [
+        (("list", "regulaters"), "regulators, representations, metrics"),
+        (("rum",), "'run'"),
+        (("run", "--sweet", "quick"), "--sweet"),
+        (("run", "--count", "many"), "--count"),
+        (("run", "--dt", "fast"), "--dt"),
+        (("run", "--suite"), "--suite"),
+        (("compare",), "CANDIDATE"),
+        (("show", "a", "b"), "b"),
+    ],
+)
+def test_usage_error_is_one_line_that_names_the_word(capsys, words, named):
+    line = refused(capsys, *words)
+    assert named in line
+    assert "try: " in line or "give one of these" in line
+
+
+def test_no_command_shows_the_help(capsys):
+    said = bench(capsys)
+    assert (said.code, said.err) == (0, "")
+    assert "compare" in said.out
+
+
+@pytest.mark.parametrize("option", ["--engine", "--starts"])
+def test_show_lists_what_the_run_has_when_asked_for_another(capsys, finished, option):
+    line = refused(capsys, "show", finished, option, "nowhere")
+    assert {"--engine": "reference", "--starts": "paper"}[option] in line
+
+
+@pytest.mark.parametrize(
+    ("option", "number"),
+    [
+        (option, number)
+        for option in ("--dt", "--horizon", "--kp", "--kv")
+        for number in ("0", "-1", "nan", "inf", "-inf")
+    ]
+    + [("--dt", "0.2"), ("--dt", "1e-9"), ("--horizon", "1e-4"), ("--horizon", "1e9"), ("--kp", "1e300")]
+    + [("--count", "0"), ("--count", "-3"), ("--count", "1000001")]
+    + [("--workers", "0"), ("--workers", "-1"), ("--workers", "1000"), ("--seed", "-1"), ("--seed", "4294967296")],
+)
+def test_impossible_number_names_the_option_and_the_range(capsys, finished, option, number):
+    line = refused_run(capsys, finished, option, number)
+    assert line.startswith(f"error: {option} ")
+    assert any(word in line for word in ("between", "must lie", "from 0 to"))
+
+
+def test_impossible_number_is_refused_in_a_dry_run_too(capsys, finished):
+    refused_run(capsys, finished, "--dry-run", "--workers", "0")
+
+
+def test_law_on_the_matrix_takes_no_representation(capsys, finished):
+    line = refused_run(capsys, finished, "--regulator", "rotation-matrix/zyx-euler")
+    assert "acts on the rotation matrix and takes no representation" in line
+
+
+def test_representation_without_a_law_is_refused(capsys, finished):
+    line = refused_run(capsys, finished, "--regulator", "rotation-matrix", "--representation", "zyx-euler")
+    assert "no chosen law acts on zyx-euler" in line
+
+
+def test_same_word_twice_is_the_word_once():
+    laws = [next(iter(planning.make("quick", [_rotation_matrix()]).contenders))]
+    once = planning.make("quick", laws, start_sets=("paper",), engines=("native",))
+    twice = planning.make(
+        "quick", laws, start_sets=("paper", "paper"), engines=("native", "native"), task_words=("free-body",) * 2
+    )
+    assert once == twice
+
+
+def _rotation_matrix():
+    from bench.discovery import find_contender
+
+    return find_contender("rotation-matrix")
+
+
+def test_nothing_to_run_says_which_starts_and_engines_a_task_takes(monkeypatch):
+    own = tasks.task("free-body")._replace(name="other", start_sets=("paper",))
+    monkeypatch.setattr(tasks, "names", lambda: ["free-body", "other"])
+    monkeypatch.setattr(tasks, "task", lambda name: own)
+    with pytest.raises(planning.Incompatible, match=r"ideal-rk4 simulates free-body alone, not 'other'"):
+        planning.make("quick", [_rotation_matrix()], task_words=("other",), engines=("ideal-rk4",))
+    with pytest.raises(planning.Incompatible, match=r"task 'other' takes the starts paper, not poles"):
+        planning.make("quick", [_rotation_matrix()], task_words=("other",), engines=("native",), start_sets=("poles",))
