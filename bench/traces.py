@@ -11,7 +11,6 @@ from bench.plan import Plan
 from bench.rows import contender_columns, settings_of
 from bench.scalar import kernel
 from bench.schema import trace_columns
-from bench.suites import SHORT
 
 EVERY_S = 0.02
 """Five samples in each time constant of 0.1 s."""
@@ -65,7 +64,7 @@ def run(plan: Plan) -> pd.DataFrame:
 def _traces(plan, one, loop, start_set, starts):
     samples = round(LONGEST_S / EVERY_S)
     rows = np.full((len(starts), FIRST_METRIC + samples * WIDTH), np.nan)
-    loop(start_rows(starts), numbers(settings_of(plan, min(LONGEST_S, SHORT))), rows)
+    loop(start_rows(starts), numbers(settings_of(plan, LONGEST_S)), rows)
     for start, row in zip(starts, rows, strict=True):
         kept = row[FIRST_METRIC:].reshape(samples, WIDTH)
         kept = kept[~np.isnan(kept[:, 0])]
