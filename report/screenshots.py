@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import base64
 import contextlib
+import importlib.util
 import io
 import json
 import shutil
@@ -41,6 +42,12 @@ Promise.all([maths, document.fonts.ready]).then(frame).then(frame).then(() => do
 """
 
 
+UNSTICK = """
+for (const bar of document.querySelectorAll(".sticky-top")) bar.style.position = "static";
+"""
+"""A bar that follows the reader would hide a strip of each window."""
+
+
 class View(NamedTuple):
     """One way of looking at a page."""
 
@@ -53,9 +60,7 @@ VIEWS = [View(theme, width) for theme in THEMES for width in WIDTHS]
 
 def missing() -> str:
     """Why no page can be opened here, in one line with the cure; empty where it can."""
-    try:
-        import selenium  # noqa: F401
-    except ImportError:
+    if importlib.util.find_spec("selenium") is None:
         return f"selenium is not installed (cure: {CURE})"
     for program, found in (("chromium", chromium()), ("chromedriver", shutil.which("chromedriver"))):
         if not found:
@@ -145,6 +150,7 @@ def picture(driver, view: View) -> bytes:
     from PIL import Image
 
     length = int(driver.execute_script("return document.documentElement.scrollHeight"))
+    driver.execute_script(UNSTICK)
     whole = Image.new("RGB", (view.width, max(length, HEIGHT)))
     for top in range(0, length, HEIGHT):
         driver.execute_script("window.scrollTo({top: arguments[0], behavior: 'instant'})", top)

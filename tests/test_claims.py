@@ -58,6 +58,11 @@ def of(law, *start_sets, engine="ideal-rk4"):
     return rows
 
 
+def law_of(regulator):
+    """The rows of one law, whatever the table."""
+    return lambda frame: frame["regulator"] == regulator
+
+
 def both(one, other):
     return lambda frame: one(frame) & other(frame)
 
@@ -130,7 +135,9 @@ def test_verdict_on_no_rows_is_an_error():
 
 @pytest.mark.slow
 def test_c01_fails_when_one_start_diverges(doctored):
-    first = lambda frame: frame.index == frame.index[of("rotation-matrix", "uniform")(frame)][0]  # noqa: E731
+    def first(frame):
+        return frame.index == frame.index[of("rotation-matrix", "uniform")(frame)][0]
+
     assert doctored("C01", rows=first, outcome="diverged") == Word.FAILS
 
 
@@ -181,8 +188,7 @@ def test_c06_holds_when_the_outside_fails(frames, tmp_path):
 
 @pytest.mark.slow
 def test_c07_fails_when_the_pole_changes_nothing(doctored):
-    law = lambda frame: frame["regulator"] == "linearized-euler"  # noqa: E731
-    assert doctored("C07", rows=law, outcome="settled", peak_u=100.0) == Word.FAILS
+    assert doctored("C07", rows=law_of("linearized-euler"), outcome="settled", peak_u=100.0) == Word.FAILS
 
 
 @pytest.mark.slow
@@ -192,14 +198,12 @@ def test_c09_fails_when_a_trace_bends(doctored):
 
 @pytest.mark.slow
 def test_c12_holds_when_the_first_law_has_few_flops(doctored):
-    rows = lambda frame: frame["regulator"] == "rotation-matrix"  # noqa: E731
-    assert doctored("C12", "costs", rows, flops=1) == Word.HOLDS
+    assert doctored("C12", "costs", law_of("rotation-matrix"), flops=1) == Word.HOLDS
 
 
 @pytest.mark.slow
 def test_c12_fails_when_the_last_law_is_free(doctored):
-    last = lambda frame: frame["regulator"] == "feedback-linearized"  # noqa: E731
-    assert doctored("C12", "costs", last, flops=0, atan2=0) == Word.FAILS
+    assert doctored("C12", "costs", law_of("feedback-linearized"), flops=0, atan2=0) == Word.FAILS
 
 
 @pytest.mark.slow

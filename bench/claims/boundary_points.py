@@ -160,15 +160,18 @@ def c11(results, engine):
     at_rest = [margin for margin, (rest, _) in counts.items() if not rest]
     beside = {margin: probes.beside_pole(margin, CONTENDER, gains) for margin in MARGINS_RAD}
     passed = {margin: int((~settled(one) | (one["peak_u"] > limit)).sum()) for margin, one in beside.items()}
-    both = [margin for margin in at_rest if not counts[margin][1] + passed[margin]]
-    word = Word.HOLDS if both else Word.CORRECTED if at_rest else Word.FAILS
+    tumbling_too = [margin for margin in at_rest if not counts[margin][1]]
+    all_three = [margin for margin in tumbling_too if not passed[margin]]
+    as_first_fixed = _word(at_rest, tumbling_too)
+    word = _word(at_rest, all_three)
     widest = MARGINS_RAD[-1]
     clear = frame[spins & (frame["min_margin"] > math.sin(widest))]
     return word, evidence(
         """Erratic starts outside margins of {margins} rad: {rest} at rest (of {n_rest:,} in all), {spinning} tumbling
         (of {n_spin}), and {beside} of {n_beside} that spin at {speed:g} rad/s beside each margin; peak commands at
         rest up to {peak_rest:,.0f}, tumbling up to {peak_spin:,.0f} rad/s^2. Of {clear} tumbling ones that never come
-        within {widest} rad of a pole, {clear_erratic} are erratic.""",
+        within {widest} rad of a pole, {clear_erratic} are erratic. By the criterion as first fixed, without the
+        spinning ones beside a margin: {as_first_fixed}.""",
         len(frame) + sum(len(one) for one in beside.values()),
         ("episodes", "experiment"),
         margins=MARGINS,
@@ -184,7 +187,13 @@ def c11(results, engine):
         clear=len(clear),
         widest=widest,
         clear_erratic=int(erratic[clear.index].sum()),
+        as_first_fixed=as_first_fixed.value,
     )
+
+
+def _word(at_rest: list[float], spinning_too: list[float]) -> Word:
+    """The verdict from the margins that assure bodies at rest, and those that assure spinning ones as well."""
+    return Word.HOLDS if spinning_too else Word.CORRECTED if at_rest else Word.FAILS
 
 
 CLAIMS = (C10.judged_by(c10), C11.judged_by(c11))
