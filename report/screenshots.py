@@ -43,9 +43,10 @@ Promise.all([maths, document.fonts.ready]).then(frame).then(frame).then(() => do
 
 
 UNSTICK = """
-for (const bar of document.querySelectorAll(".sticky-top")) bar.style.position = "static";
+for (const part of document.querySelectorAll("body *"))
+  if (getComputedStyle(part).position === "sticky") part.style.setProperty("position", "static", "important");
 """
-"""A bar that follows the reader would hide a strip of each window."""
+"""What follows the reader down the page would hide a strip of each window."""
 
 
 class View(NamedTuple):
