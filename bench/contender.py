@@ -1,10 +1,11 @@
-"""What takes part: gains, goals, representations, regulators, and a contender made of them.
+"""What takes part: gains, goals, representations, regulators, Jacobians, inverses, and a contender made of them.
 
-Shapes: a vector is a tuple of 3 numbers, R a `Rotation`, E a tuple of 3 coordinates. Base frame, radians, seconds.
+Shapes: a vector is a tuple of 3 numbers, R a `Rotation`, E a tuple of 3 coordinates (4 of a quaternion). Base frame,
+radians, seconds. A buffer is an array A[i, j] or b[i] of numbers: float64, or counting scalars.
 """
 
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from bench.errors import Incompatible
 from bench.so3 import IDENTITY, Rotation
@@ -35,8 +36,23 @@ class Goal(NamedTuple):
     alpha: tuple = AT_REST
 
 
+class Chain(NamedTuple):
+    """An arm of n hinges at one tick, as its controller sees it; base frame, SI units.
+
+    axes[i, :] is z_i, the direction of joint i, and anchors[i, :] is p_i, a point on it, from the forward kinematics;
+    qdot[i] [rad/s]; p and R are the tool's position [m] and orientation. Joints in order from the base.
+    """
+
+    n: int
+    axes: Any
+    anchors: Any
+    qdot: Any
+    p: tuple
+    R: Rotation
+
+
 class Representation(NamedTuple):
-    """Three coordinates E of a rotation, with omega = B(E) Edot (Murphy 1988, 2.8).
+    """Coordinates E of a rotation, with omega = B(E) Edot (Murphy 1988, 2.8): three, or four of a quaternion.
 
     A `chart` is E together with what its extraction has computed already (sines and cosines, say), so that nothing is
     computed twice in a tick; `chart.E` is E.
@@ -49,6 +65,10 @@ class Representation(NamedTuple):
     angular_velocity(chart, Edot) -> B Edot                      (2.8)
     generalized(chart, m) -> B^T m                               (3.12, rotational part)
     margin(R) -> number in [0, 1], 0 exactly on the singular set
+
+    Of an extraction that can be differentiated element by element, as (3.5) does (else None):
+    differentiate(R, Rdot) -> Edot                               dE/dR along Rdot, Rdot by columns
+    differentiate_twice(R, Rdot, Rddot) -> Eddot
     """
 
     name: str
@@ -64,6 +84,8 @@ class Representation(NamedTuple):
     angular_velocity: Callable
     generalized: Callable
     margin: Callable
+    differentiate: Callable | None = None
+    differentiate_twice: Callable | None = None
 
     @property
     def goal_chart(self) -> Callable:
@@ -76,6 +98,8 @@ class Regulator(NamedTuple):
 
     coordinates: "rotation-matrix" if the law acts on R; otherwise the names of the representations it acts on, or
     "any". Such a regulator gives `law_in(representation)`, which returns the law in those coordinates.
+    coordinate_law_in: of a law that commands Eddot itself: coordinate_law_in(representation) returns
+    law(chart, E_d, Edot, gains) -> u_E, what the controller on an analytic Jacobian needs (Murphy 1988, 3.7).
     relative: the coordinates are those of R_d^T R, so their margin is too.
     memory: initial memory of a law with state, law(R, omega, goal, gains, memory) -> (u, memory); else None.
     property: what is proved of it: "local", "almost global", "global with memory", or "none".
@@ -89,6 +113,7 @@ class Regulator(NamedTuple):
     formula: str
     law: Callable | None = None
     law_in: Callable | None = None
+    coordinate_law_in: Callable | None = None
     coordinates: str | tuple = "rotation-matrix"
     relative: bool = False
     memory: tuple | None = None
@@ -97,18 +122,87 @@ class Regulator(NamedTuple):
     costing_only: bool = False
 
 
+class Jacobian(NamedTuple):
+    """Which motion of the tool the joint rates are mapped to: xdot = J qdot, of 6 or 7 rows, the linear ones first.
+
+    takes: "angular-acceleration" if the controller commands omegadot (Murphy 1988, 2.2), "coordinates" if it commands
+    Eddot (3.7).
+
+    An "angular-acceleration" Jacobian gives kernels_in(None) -> (fill, express):
+        fill(J, chain)          writes rows 0 to 5
+        express(chain, a)       the six numbers of a base-frame acceleration, in the frame of J
+    A "coordinates" Jacobian gives kernels_in(representation) -> (fill, drift):
+        fill(J, chain, at)                   writes its rows; `at` is the representation's chart of chain.R
+        drift(chain, at, Edot, omega, bias)  Jdot qdot as a tuple of its rows; `bias` is that of the geometric one
+    needs_derivatives: whether the representation must give `differentiate` and `differentiate_twice`.
+    """
+
+    name: str
+    title: str
+    source: str
+    formula: str
+    takes: str
+    kernels_in: Callable
+    needs_derivatives: bool = False
+
+
+class Scratch(NamedTuple):
+    """Buffers an inverse may overwrite: matrices A, B, V of 7 x 7, vectors s, t of 7."""
+
+    A: Any
+    B: Any
+    V: Any
+    s: Any
+    t: Any
+
+
+class Inverse(NamedTuple):
+    """How a commanded acceleration a of the tool becomes one of the joints, or joint torques.
+
+    resolve(J, a, D, x, rows, n, scratch): from J (rows x n), a (rows) and the inertia matrix D (n x n) writes x (n).
+    J, a and D are left as they are.
+    gives: "acceleration" if J x = a, up to the inverse's own error; "torque" if x is the torque for it.
+    refuses(rows, n) -> why it cannot be used with a Jacobian of that shape; empty if it can.
+    """
+
+    name: str
+    title: str
+    source: str
+    formula: str
+    resolve: Callable
+    gives: str
+    refuses: Callable
+
+
 class Contender(NamedTuple):
-    """A regulator in the coordinates it acts on: what one row of the results is about."""
+    """A regulator in the coordinates it acts on, and on an arm its Jacobian and inverse: what one row is about."""
 
     regulator: Regulator
     representation: Representation | None = None
+    jacobian: Jacobian | None = None
+    inverse: Inverse | None = None
 
     @property
     def name(self) -> str:
-        """`regulator` or `regulator/representation`: the word on the command line."""
-        if self.representation is None:
-            return self.regulator.name
-        return f"{self.regulator.name}/{self.representation.name}"
+        """`regulator[/representation][@jacobian+inverse]`: the word on the command line."""
+        law = self.on_free_body
+        return f"{law}@{self.jacobian.name}+{self.inverse.name}" if self.jacobian and self.inverse else law
+
+    @property
+    def on_free_body(self) -> str:
+        """`regulator[/representation]`: the law alone."""
+        return f"{self.regulator.name}/{self.representation.name}" if self.representation else self.regulator.name
+
+    @property
+    def is_on_arm(self) -> bool:
+        """Whether it controls an arm (and not the free body)."""
+        return self.jacobian is not None
+
+    @property
+    def rows(self) -> int:
+        """Rows of the Jacobian: three of position, and one a coordinate of orientation."""
+        by_coordinates = self.jacobian is not None and self.jacobian.takes == "coordinates"
+        return 3 + len(self.representation.symbols) if by_coordinates and self.representation else 6
 
     @property
     def law(self) -> Callable:
