@@ -10,7 +10,9 @@ One file for each part of the paper; a file with a constant CLAIMS is found by b
     boundary_points.py       C10, C11
     costs.py                 C12, C17
     representations.py       C13 to C16
-    later.py                 C18 to C27
+    euler_jacobian.py        C18, C19
+    euler_controller.py      C20, C26
+    later.py                 C21 to C25, C27
     tables.py                what a judging function reads
     probes.py                the small experiments of claims that no table answers
     coordinates.py           the coordinates of C13

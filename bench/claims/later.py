@@ -1,4 +1,4 @@
-"""C18 to C27: Jacobians, forces and the open question (Murphy 1988, 3 and 4), still to be measured."""
+"""C21 to C25, C27: forces and the open question (Murphy 1988, 3.3 and 4), still to be measured."""
 
 from bench.claims.verdict import Claim
 
@@ -10,24 +10,6 @@ def _later(id: str, section: str, sentence: str, question: str) -> Claim:
 
 
 CLAIMS = (
-    _later(
-        "C18",
-        "3.1",
-        "The Euler Jacobian adds singularities of its own, with unbounded elements, to those of the manipulator.",
-        "How do condition numbers split into kinematic and representation singularities?",
-    ),
-    _later(
-        "C19",
-        "3.1",
-        "Its two derivations agree: diag(I, B^-1) J, and the derivative of the forward kinematics.",
-        "Does the product equal the differentiated forward kinematics?",
-    ),
-    _later(
-        "C20",
-        "3.2",
-        "With it the plant is decoupled double integrators; this fails at places and hides a cost.",
-        "Is the arm's answer linear, how does it end near the pole, and what do (2.2), (3.7) cost?",
-    ),
     _later(
         "C21",
         "3.3",
@@ -57,12 +39,6 @@ CLAIMS = (
         "3.3",
         "How well complex compliant motions go depends on the Jacobian used.",
         "Do contact tasks end differently with the two Jacobians?",
-    ),
-    _later(
-        "C26",
-        "4",
-        "The Euler Jacobian costs more to calculate.",
-        "What do the tallies of both say?",
     ),
     _later(
         "C27",
