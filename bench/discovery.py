@@ -14,8 +14,18 @@ import types
 from pathlib import Path
 from typing import Any
 
-from bench import metrics, regulators, representations
-from bench.contender import NO_MEMORY, Contender, Gains, Goal, Regulator, Representation, contender
+from bench import inverses, jacobians, metrics, regulators, representations
+from bench.contender import (
+    NO_MEMORY,
+    Contender,
+    Gains,
+    Goal,
+    Inverse,
+    Jacobian,
+    Regulator,
+    Representation,
+    contender,
+)
 from bench.errors import BadLaw, UnknownWord
 from bench.metric import Metric
 from bench.so3 import Rotation
@@ -51,9 +61,26 @@ def known_regulators() -> dict:
 
 
 @functools.cache
+def known_jacobians() -> dict:
+    """Word -> Jacobian, from bench/jacobians."""
+    return _collect(jacobians, "JACOBIAN", Jacobian)
+
+
+@functools.cache
+def known_inverses() -> dict:
+    """Word -> Inverse, from bench/inverses."""
+    return _collect(inverses, "INVERSE", Inverse)
+
+
+@functools.cache
 def known_metrics() -> dict:
     """Word -> Metric, from bench/metrics, in alphabetical order: the order of their columns."""
     return _collect(metrics, "METRIC", Metric)
+
+
+def metrics_of(on_arm: bool) -> tuple[Metric, ...]:
+    """The metrics that can be measured on an arm (all), or on the free body."""
+    return tuple(one for one in known_metrics().values() if on_arm or not one.arm_only)
 
 
 def contenders_of(regulator: Regulator) -> list[Contender]:
@@ -83,6 +110,22 @@ def representation(word: str):
     every = known_representations()
     if word not in every:
         raise UnknownWord("representation", word, sorted(every))
+    return every[word]
+
+
+def jacobian(word: str) -> Jacobian:
+    """The Jacobian of that name."""
+    every = known_jacobians()
+    if word not in every:
+        raise UnknownWord("Jacobian", word, sorted(every))
+    return every[word]
+
+
+def inverse(word: str) -> Inverse:
+    """The inverse of that name."""
+    every = known_inverses()
+    if word not in every:
+        raise UnknownWord("inverse", word, sorted(every))
     return every[word]
 
 
