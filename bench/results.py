@@ -3,7 +3,8 @@
     results.episodes(engine="ideal-rk4", start_set="uniform")     the rows that have these words
     results.costs(), results.boundaries(), results.traces(), results.provenance(), results.own_laws()
 
-Every frame has a column `contender`, "regulator" or "regulator/representation".
+Every frame about contenders has a column `contender`: "regulator" or "regulator/representation", and on an arm
+"...@jacobian+inverse". Rows about the free body are those that have the words FREE_BODY.
 """
 
 import functools
@@ -19,6 +20,9 @@ from bench.schema import RESULTS
 from bench.store import read, read_json
 
 VARIABLE = "ORIENTATION_BENCH_RESULTS"
+
+FREE_BODY = {"jacobian": ""}
+"""The words of every row about the body that turns freely, whatever the table: only an arm has a Jacobian."""
 
 
 def folder() -> Path:
@@ -64,10 +68,18 @@ def own_laws() -> tuple[Regulator, ...]:
 
 @functools.cache
 def table(path: Path, name: str) -> pd.DataFrame:
-    """A whole table with `contender` added; shared, so copy it before you change it."""
+    """A whole table with `contender` added where it has laws; shared, so copy it before you change it."""
     frame = read(path, name)
+    return with_contender(frame) if "regulator" in frame else frame
+
+
+def with_contender(frame: pd.DataFrame) -> pd.DataFrame:
+    """The frame with `contender` added, as the command line writes it."""
     regulator, representation = frame["regulator"].astype(str), frame["representation"].astype(str)
     names = regulator.where(representation == "", regulator + "/" + representation)
+    if "jacobian" in frame:  # not in a table of times
+        jacobian, inverse = frame["jacobian"].astype(str), frame["inverse"].astype(str)
+        names = names.where(jacobian == "", names + "@" + jacobian + "+" + inverse)
     return frame.assign(contender=names.astype("category"))
 
 

@@ -133,6 +133,28 @@ def test_verdict_on_no_rows_is_an_error():
         decide(Claim("C00", "", "", "", "", judge=lambda results: (Word.HOLDS, nothing)), None)
 
 
+def beside(frame):
+    """A table with rows that no claim of chapter 2 is about: the same laws on an arm, and in other coordinates."""
+    spoilt = frame.assign(regulator=frame["regulator"].astype(str), representation=frame["representation"].astype(str))
+    for name, value in (("outcome", "diverged"), ("flops", 0), ("atan2", 0), ("time_s", 1e3), ("fails_from_rad", 0.1)):
+        if name in frame:
+            spoilt[name] = value
+    on_arm = spoilt.assign(
+        jacobian="geometric", inverse="solve", **({"task": "arm-regulation"} if "task" in frame else {})
+    )
+    return pd.concat([on_arm, frame, spoilt.assign(representation="mrp")], ignore_index=True)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("id", ["C03", "C06", "C09", "C12", "C14", "C17"])
+def test_claim_of_the_free_body_looks_at_no_arm_and_no_other_coordinates(frames, tmp_path, id):
+    alone, among = (
+        claims.judge(id, Results(None, tables, tmp_path))
+        for tables in (frames, {name: beside(frame) for name, frame in frames.items()})
+    )
+    assert (among.word, among.rows, str(among.evidence)) == (alone.word, alone.rows, str(alone.evidence))
+
+
 @pytest.mark.slow
 def test_c01_fails_when_one_start_diverges(doctored):
     def first(frame):

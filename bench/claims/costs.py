@@ -73,7 +73,7 @@ AGREES, MIXED, CONTRADICTS = "agrees", "mixed", "contradicts"
 
 def costs(results, law: str, with_goal: bool) -> tuple[int, int]:
     """Flops and transcendental calls a tick, typical branch."""
-    rows = some(results.table("costs", regulator=law, branch="typical"), f"cost of {law}")
+    rows = some(results.free_body("costs", regulator=law, branch="typical"), f"cost of {law}")
     total, goal = (rows[rows["stage"] == stage].iloc[0] for stage in ("total", "goal"))
     flops, calls = int(total["flops"]), int(sum(total[name] for name in CALLS))
     if with_goal:

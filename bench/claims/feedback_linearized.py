@@ -78,7 +78,7 @@ def c09(results):
         round.""",
         traced + len(uniform) + len(near) + len(tumbling) + len(goals),
         ("traces", "episodes"),
-        traces=results.table("traces", regulator=LAW).groupby(["start_set", "start_id"], observed=True).ngroups,
+        traces=results.free_body("traces", regulator=LAW).groupby(["start_set", "start_id"], observed=True).ngroups,
         worst=worst,
         uniform=share(settled(uniform)),
         off_k=int(settled(off).sum()),
@@ -96,7 +96,7 @@ def c09(results):
 
 def _bend(results) -> tuple[float, int]:
     """Largest departure of any angle from E_0 response(t) over all traces, and their rows."""
-    rows = some(results.table("traces", regulator=LAW), "trace of the law")
+    rows = some(results.free_body("traces", regulator=LAW), "trace of the law")
     columns = [[f"{c}_{x}" for x in "xyz"] for c in "noa"]
     worst = 0.0
     for _, trace in rows.groupby(["start_set", "start_id"], observed=True):

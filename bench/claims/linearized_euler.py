@@ -113,7 +113,7 @@ def c06(results, engine):
     box = results.episodes(LAW, engine, "box")
     box = some(box[box["start_id"].str.contains("box-grid|box-inside")], "start inside the box")
     directed = share(settled(box))
-    fails = results.table("boundaries", regulator=LAW)["fails_from_rad"].dropna()
+    fails = results.free_body("boundaries", regulator=LAW)["fails_from_rad"].dropna()
     if min(inside.value, directed.value) >= INSIDE_TIGHT and outside.value <= 1 - OUTSIDE_SHARE:
         word = Word.HOLDS
     else:

@@ -136,7 +136,7 @@ def c14(results):
         degrees: _least(from_quaternion(tuple(x if degrees == 180 else half * x for x in quat)))
         for degrees, quat in quats.items()
     }
-    turns = results.table("episodes", regulator="feedback-linearized", engine=MAIN_ENGINE)
+    turns = results.free_body("episodes", task="free-body", regulator="feedback-linearized", engine=MAIN_ENGINE)
     about_y = some(turns[turns["start_id"] == "half-turn-y-exact"], "exact half turn about y")
     poles = turns[turns["start_set"] == "poles"]
     poles = some(poles[probes.boundary_distance(poles)["pole"] <= EXACT_RAD], "exact pole")

@@ -18,6 +18,9 @@ MAIN_ENGINE = "ideal-rk4"
 CHECK_ENGINES = ("ideal-held", "native")
 SETTLED = "settled"
 
+PAPERS_COORDINATES = ("", "zyx-euler")
+"""None, or Z-Y-X angles: what chapter 2 runs its laws in. In others they are later laws."""
+
 
 class Results:
     """The tables of one run, read when first asked for; `frames` puts others in their place."""
@@ -36,31 +39,39 @@ class Results:
             frame = self.frames[name] = results.table(self.folder, name)
         return results.chosen(frame, words)
 
+    def free_body(self, name: str, **words: str) -> pd.DataFrame:
+        """Rows of one table that have these words and are about the free body, in the paper's coordinates."""
+        frame = self.table(name, **results.FREE_BODY, **words)
+        return frame[frame["representation"].isin(PAPERS_COORDINATES)]
+
     def episodes(self, regulator: str, engine: str, *start_sets: str) -> pd.DataFrame:
         """Episodes of a law on the free body from some start sets.
 
         Errors:
             NoEvidence: there are none.
         """
-        words = {"task": "free-body", "regulator": regulator, "engine": engine}
-        frame = self.table("episodes", **words)
+        frame = self.free_body("episodes", task="free-body", regulator=regulator, engine=engine)
         if start_sets:
             frame = frame[frame["start_set"].isin(start_sets)]
         return some(frame, f"episode of {regulator} by {engine} from {', '.join(start_sets) or 'any start set'}")
 
     def gains(self) -> Gains:
         """The run's gains."""
-        row = some(self.table("episodes", engine=MAIN_ENGINE), f"episode by {MAIN_ENGINE}").iloc[0]
+        row = some(self.free_body("episodes", engine=MAIN_ENGINE), f"episode by {MAIN_ENGINE}").iloc[0]
         return Gains(float(row["kp"]), float(row["kv"]))
 
     def timings(self) -> pd.DataFrame:
-        """Time per tick of laws alone, on every machine that was timed, a column `machine` added; maybe empty."""
+        """Time per tick of laws alone, on every machine that was timed, a column `machine` added; maybe empty.
+
+        The paper's coordinates only, as everywhere in chapter 2.
+        """
         paths = sorted(self.timings_folder.glob("*.parquet"))
         frames = [read_arrow(path, "timings").to_pandas().assign(machine=path.stem) for path in paths]
         if not frames:
             return pd.DataFrame({"regulator": [], "ns_per_tick": [], "machine": []})
         every = pd.concat(frames, ignore_index=True)
-        return every[(every["what"] == "law") & (every["ticks"] > 0)]
+        timed = (every["what"] == "law") & (every["ticks"] > 0)
+        return every[timed & every["representation"].isin(PAPERS_COORDINATES)]
 
 
 def some(frame: pd.DataFrame, what: str) -> pd.DataFrame:

@@ -32,8 +32,8 @@ def COMMAND(folder, engine, starts, outcomes, regulators):
         f"{' with changes' if origin['dirty'] else ''}, {origin['cpu']}, {origin['wall_s']} s"
     )
     table = outcome_table if outcomes or starts else summary
-    for name, part in episodes.groupby("engine", observed=True, sort=False):
-        console().print(frame_table(table(part), f"\n{name}"))
+    for (engine_name, arm), part in episodes.groupby(["engine", "arm"], observed=True, sort=False):
+        console().print(frame_table(table(part), f"\n{engine_name}{f', {arm}' if arm else ''}"))
     if not (outcomes or starts):
         console().print("\nNot settled, by start set; the counts of each outcome: --outcomes", markup=False)
 
@@ -50,9 +50,8 @@ def _only(episodes, folder, column, words):
 def summary(episodes):
     """One line for each law: share of SO(3) settled, settling times [s], failures of each directed start set."""
     lines = []
-    laws = episodes.groupby(["regulator", "representation"], observed=True, sort=False)
-    for (regulator, representation), law in laws:
-        line = {"law": f"{regulator}/{representation}" if representation else regulator}
+    for law_name, law in results.with_contender(episodes).groupby("contender", observed=True, sort=False):
+        line = {"law": str(law_name)}
         for name, part in law.groupby("start_set", observed=True, sort=True):
             settled = int((part["outcome"] == "settled").sum())
             if name == "uniform":
@@ -70,8 +69,9 @@ def summary(episodes):
 
 def outcome_table(episodes):
     """One line for each start set and law: counts of outcomes, then median and worst settling time [s]."""
-    keys = ["start_set", "regulator", "representation"]
-    grouped = episodes.groupby(keys, observed=True, sort=False)
+    keys = ["start_set", "law"]
+    named = results.with_contender(episodes).rename(columns={"contender": "law"})
+    grouped = named.groupby(keys, observed=True, sort=False)
     counts = grouped["outcome"].value_counts().unstack(fill_value=0).reindex(columns=list(OUTCOMES), fill_value=0)
     counts.insert(0, "n", grouped.size())
     counts["median s"] = grouped["settling_time_s"].median().round(3)
@@ -79,7 +79,7 @@ def outcome_table(episodes):
     table = counts.reset_index()
     for key in keys:
         table[key] = table[key].astype(str)
-    return table.sort_values(["start_set", "regulator"])
+    return table.sort_values(keys)
 
 
 def _origin(path: Path) -> dict:

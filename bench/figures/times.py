@@ -9,6 +9,7 @@ import pandas as pd
 
 from bench.figures import style
 from bench.figures.inline import responsive_picture
+from bench.results import with_contender
 from bench.schema import RESULTS
 from bench.store import read_arrow
 
@@ -23,9 +24,7 @@ def files() -> list[Path]:
 
 def read(path: Path) -> pd.DataFrame:
     """A machine's rows with `contender` added."""
-    frame = read_arrow(path, "timings").to_pandas()
-    regulator, representation = frame["regulator"].astype(str), frame["representation"].astype(str)
-    return frame.assign(contender=regulator.where(representation == "", regulator + "/" + representation))
+    return with_contender(read_arrow(path, "timings").to_pandas())
 
 
 def alone(frame: pd.DataFrame) -> pd.DataFrame:
