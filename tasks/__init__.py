@@ -5,12 +5,18 @@
     tasks.start_set(name, count, seed)  the starts: one file each in tasks/starts
     tasks.start_set_names()
 
-    base.py       Start, Task, StartSet; the sensors of every model; the errors
+    tasks.load("arm-regulation", start, arm="ur5e"), tasks.task("arm-regulation", "ur5e")
+    tasks.start_set(name, count, seed, arm="ur5e")    one file each in tasks/arm_starts
+    tasks.pairs()                       every (task, arm) there is; the arm is "" on the free body
+
+    base.py       Start, Task, StartSet, and those of arms; the sensors of every model; the errors
     truth.py      angle and haversine: the judge's own measure of the error
     rules.py      the numbers of the rules: band, limits, hold window
     verdict.py    the rules at work, tick by tick: the six outcomes
     rotations.py  quaternions that are exact where a double can be exact (half turns, poles)
     haar.py       low-discrepancy points on SO(3)
+    kinematics.py an arm's forward kinematics, Jacobian, and joint paths that turn the tool in place
+    paths.py      the two paths of an orientation that start sets keep clear of trouble
     episode.py    one episode of any Task as a dm_control Environment
     discovery.py  finds the one named constant of every module in a folder
 
@@ -18,21 +24,39 @@ Frames and units: everything is in the base frame unless its name ends in `_body
 quaternions are (w, x, y, z) and take body coordinates to base coordinates.
 
 To add a task, put one file with a constant TASK in tasks/domains; to add a start set, one file with a
-constant STARTS in tasks/starts. `free_body.py` is `free-body` on the command line and in the results.
+constant STARTS in tasks/starts, or tasks/arm_starts if it is for arms. `free_body.py` is `free-body` on
+the command line and in the results.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from tasks import domains, starts
-from tasks.base import BadValue, Start, StartSet, Task
+from tasks import arm_starts, domains, starts
+from tasks.arm import arm as arm
+from tasks.arm import arm_names as arm_names
+from tasks.base import ArmStartSet, ArmTask, BadValue, Start, StartSet, Task
 from tasks.discovery import constants, pick
 
 if TYPE_CHECKING:
+    import mujoco
     from dm_control.rl.control import Environment
 
-__all__ = ["load", "names", "start_set", "start_set_names", "start_set_title", "task"]
+__all__ = [
+    "arm",
+    "arm_names",
+    "is_for_arms",
+    "load",
+    "names",
+    "pairs",
+    "start_set",
+    "start_set_names",
+    "start_set_title",
+    "task",
+]
+
+_find_arm = arm  # several functions below have an argument of that name
 
 
 def names() -> list[str]:
@@ -40,9 +64,23 @@ def names() -> list[str]:
     return sorted(_tasks())
 
 
-def task(name: str) -> Task:
-    """The task of this name; UnknownName lists the known ones."""
-    return pick("task", name, _tasks(), "tasks/domains")
+def is_for_arms(task: str) -> bool:
+    """Whether a task of this name is done by an arm, which must then be named."""
+    return isinstance(_known_task(task), ArmTask)
+
+
+def pairs() -> list[tuple[str, str]]:
+    """Every (task, arm) that can be loaded; the arm is empty for a task without one."""
+    return [(name, arm) for name in names() for arm in (arm_names() if is_for_arms(name) else [""])]
+
+
+def task(name: str, arm: str = "") -> Task:
+    """The task of this name, on this arm; UnknownName lists the known ones.
+
+    Errors:
+        BadValue: a task for arms and no arm, or a task without one and an arm.
+    """
+    return _task_on(name, arm)
 
 
 def load(
@@ -51,51 +89,90 @@ def load(
     dt: float = 1e-3,
     horizon: float = 20.0,
     integrator: str = "euler",
+    arm: str = "",
+    vary: Callable[[mujoco.MjModel], None] | None = None,
 ) -> Environment:
     """A dm_control Environment that begins every episode at `start` and lasts `horizon` seconds.
 
     Args:
         task: name of a task, or a Task of the caller's own.
-        start: orientation, angular velocity and goal; the first start of `paper` if none is given.
+        start: orientation, angular velocity and goal (and on an arm the joints' state); if none is given, the first
+            start of `paper`, or on an arm of the first start set of its task.
         dt: control period and integration step [s].
         horizon: length of an episode [s], a whole number of ticks after rounding.
         integrator: "euler", "rk4", "implicit" or "implicitfast".
+        arm: name of the arm, if the task is for arms.
+        vary: changes the compiled model before the first episode, so that the plant is not what a contestant believes.
     """
     from tasks.episode import environment  # dm_control takes a second to import; listing names must not
 
-    chosen = task if isinstance(task, Task) else pick("task", task, _tasks(), "tasks/domains")
-    return environment(chosen, start or start_set("paper")[0], dt, horizon, integrator)
+    chosen = task if isinstance(task, Task) else _task_on(task, arm)
+    if start is None:
+        start = start_set(chosen.start_sets[0], 1, arm=chosen.arm)[0] if chosen.arm else start_set("paper")[0]
+    return environment(chosen, start, dt, horizon, integrator, vary)
 
 
-def start_set_names() -> list[str]:
-    """Names of all start sets, sorted."""
-    return sorted(_start_sets())
+def start_set_names(arm: bool = False) -> list[str]:
+    """Names of all start sets of the free body, or of arms, sorted."""
+    return sorted(_arm_start_sets() if arm else _start_sets())
 
 
-def start_set_title(name: str) -> str:
+def start_set_title(name: str, arm: bool = False) -> str:
     """What a start set is, in a few words."""
+    if arm:
+        return pick("start set", name, _arm_start_sets(), "tasks/arm_starts").title
     return pick("start set", name, _start_sets(), "tasks/starts").title
 
 
-def start_set(name: str, count: int | None = None, seed: int = 0) -> list[Start]:
+def start_set(name: str, count: int | None = None, seed: int = 0, arm: str = "") -> list[Start]:
     """The starts of a set, always the same ones in the same order.
 
     Args:
-        name: one of `start_set_names()`.
+        name: one of `start_set_names(arm=bool(arm))`.
         count: how many; the set's own number if None. A sampled set is prefix-stable (a longer one begins
             with the shorter one). A fixed set has no more than its own number and then gives them all.
         seed: of the sampled points and the random axes.
+        arm: name of the arm that starts there, if the set is for arms.
     """
-    chosen = pick("start set", name, _start_sets(), "tasks/starts")
     if count is not None and count < 1:
         raise BadValue(f"count {count} starts of '{name}': a start set needs at least 1 (try: count=10)")
+    if arm:
+        for_arms = pick("start set", name, _arm_start_sets(), "tasks/arm_starts")
+        wanted = for_arms.size if count is None else count
+        return for_arms.build(_find_arm(arm), wanted, seed)[:wanted]
+    chosen = pick("start set", name, _start_sets(), "tasks/starts")
     wanted = chosen.size if count is None else count
     return chosen.build(wanted, seed)[:wanted]
 
 
-def _tasks() -> dict[str, Task]:
+def _task_on(name: str, arm: str) -> Task:
+    found = _known_task(name)
+    if isinstance(found, ArmTask):
+        if not arm:
+            listed = arm_names()
+            raise BadValue(
+                f"task '{name}' needs an arm; known: {', '.join(listed)} (try: arm='{(listed or ['ur5e'])[0]}')"
+            )
+        return found.on(_find_arm(arm))
+    if arm:
+        with_arms = ", ".join(word for word, one in _tasks().items() if isinstance(one, ArmTask))
+        raise BadValue(
+            f"task '{name}' has no arm, but '{arm}' was named (leave it out, or choose a task for arms: {with_arms})"
+        )
+    return found
+
+
+def _known_task(name: str) -> Task | ArmTask:
+    return pick("task", name, _tasks(), "tasks/domains")
+
+
+def _tasks() -> dict[str, Task | ArmTask]:
     return constants(domains, "TASK")
 
 
 def _start_sets() -> dict[str, StartSet]:
     return constants(starts, "STARTS")
+
+
+def _arm_start_sets() -> dict[str, ArmStartSet]:
+    return constants(arm_starts, "STARTS")

@@ -1,4 +1,4 @@
-"""What the judge's files share: the types Start, StartSet and Task, the sensors of every model, the errors.
+"""What the judge's files share: starts, start sets and tasks of both kinds, the sensors of every model, the errors.
 
 `angle` and `haversine`, the measure of the error, live in truth.py and are named here too.
 """
@@ -6,10 +6,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from tasks.truth import angle as angle
 from tasks.truth import haversine as haversine
+
+if TYPE_CHECKING:
+    from tasks.arm import Arm
 
 Quat = tuple[float, float, float, float]
 Vector = tuple[float, float, float]
@@ -20,12 +23,17 @@ AT_REST: Vector = (0.0, 0.0, 0.0)
 
 
 class Start(NamedTuple):
-    """Where an episode begins and where it shall end."""
+    """Where an episode begins and where it shall end.
+
+    On an arm q and qdot are the state, and quat_wxyz and omega are the tool's, by MuJoCo's forward kinematics.
+    """
 
     id: str  # unique within its set, stable and readable: "half-turn-x-k06"
     quat_wxyz: Quat  # unit quaternion, body to base
     omega: Vector = AT_REST  # angular velocity, base frame [rad/s]
     goal_wxyz: Quat = IDENTITY  # desired orientation: unit quaternion, desired body to base
+    q: tuple[float, ...] = ()  # joint angles [rad]
+    qdot: tuple[float, ...] = ()  # joint rates [rad/s]
 
 
 class StartSet(NamedTuple):
@@ -37,8 +45,17 @@ class StartSet(NamedTuple):
     build: Callable[[int, int], list[Start]]  # build(count, seed); a fixed set may return more than count
 
 
+class ArmStartSet(NamedTuple):
+    """A named family of starts that any arm has: the constant STARTS of every tasks/arm_starts/<name>.py."""
+
+    name: str
+    title: str
+    size: int  # number of starts by default; an arm that cannot do so many has fewer
+    build: Callable[[Arm, int, int], list[Start]]  # build(arm, count, seed); may return more than count
+
+
 class Task(NamedTuple):
-    """A plant whose orientation is to be regulated: the constant TASK of every tasks/domains/<name>.py.
+    """A plant whose orientation is to be regulated: the constant TASK of a tasks/domains/<name>.py.
 
     Its model carries the sensors SENSORS in this order, so that sensordata[0:12] is what a contestant may see
     and sensordata[12:16] is the judge's ground truth.
@@ -50,6 +67,17 @@ class Task(NamedTuple):
     xml: Callable[[float], str]  # xml(dt): the MJCF text with integration step dt [s]
     state: Callable[[Start], State]  # (qpos, qvel) in MuJoCo's own conventions
     start_sets: tuple[str, ...]  # the sets that make sense for it
+    arm: str = ""  # name of the arm; empty on the free body
+
+
+class ArmTask(NamedTuple):
+    """A task that every arm can be set: the constant TASK of a tasks/domains/<name>.py instead."""
+
+    name: str
+    title: str
+    source: str
+    on: Callable[[Arm], Task]  # the task on one arm, always the same Task for the same Arm
+    start_sets: tuple[str, ...]  # of tasks/arm_starts
 
 
 # (sensor name, MJCF element, size): n, o, a are the columns of R; omega is in the base frame [rad/s]
@@ -78,3 +106,7 @@ class UnknownName(TaskError):
 
 class BadValue(TaskError):
     """A number or quaternion that no episode can begin with."""
+
+
+class BadArm(TaskError):
+    """A file of tasks/arms that is no arm."""

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import math
 import warnings
+from collections.abc import Callable
 from typing import Any
 
 import mujoco
@@ -61,6 +62,10 @@ class Physics(engine.Physics):
         w, x, y, z = self.data.sensordata[12:16].tolist()
         return (w, x, y, z)
 
+    def p(self) -> np.ndarray:
+        """Position of an arm's tool, base frame [m]."""
+        return np.array(self.data.sensordata[16:19])
+
 
 class Regulation(control.Task):
     """Bring the body from a Start to its goal and keep it there; episodes end at the horizon only."""
@@ -80,24 +85,38 @@ class Regulation(control.Task):
         physics.set_control(action)
 
     def action_spec(self, physics: Physics) -> Any:
-        """One unlimited number a motor; limits are the rules' business."""
+        """One unlimited number a motor ([N m] on an arm); limits are the rules' business."""
         return engine.action_spec(physics)
 
     def get_observation(self, physics: Physics) -> dict[str, np.ndarray]:
-        """R (n, o, a), omega [rad/s] and goal_quat (w, x, y, z): all that a contestant sees."""
-        return {"R": physics.R(), "omega": physics.omega(), "goal_quat": np.array(self.start.goal_wxyz)}
+        """All that a contestant sees: R (n, o, a), omega [rad/s], goal_quat (w, x, y, z); on an arm also q, qdot, p."""
+        seen = {"R": physics.R(), "omega": physics.omega(), "goal_quat": np.array(self.start.goal_wxyz)}
+        if self.task.arm:
+            seen |= {"q": np.array(physics.data.qpos), "qdot": np.array(physics.data.qvel), "p": physics.p()}
+        return seen
 
     def get_reward(self, physics: Physics) -> float:
         """Minus the judge's angle to the goal [rad]."""
         return -angle(physics.quat_wxyz(), self.start.goal_wxyz)
 
 
-def environment(task: Task, start: Start, dt: float, horizon: float, integrator: str) -> control.Environment:
+def environment(
+    task: Task,
+    start: Start,
+    dt: float,
+    horizon: float,
+    integrator: str,
+    vary: Callable[[mujoco.MjModel], None] | None = None,
+) -> control.Environment:
     """See `tasks.load`, which takes names."""
     _check(start, dt, horizon)
     physics = Physics.from_xml_string(task.xml(dt))
     physics.model.opt.integrator = pick("integrator", integrator, INTEGRATORS, "tasks/episode.py")
     _check_sensors(task, physics)
+    if task.arm:
+        _check_joints(task, start, physics)
+    if vary:
+        vary(physics.model.ptr)
     # Half a tick less than the horizon: dm_control counts steps >= limit / dt, and 3 * 0.1 / 0.1 is above 3.
     limit = (ticks(horizon, dt) - 0.5) * dt
     return control.Environment(
@@ -130,3 +149,13 @@ def _check_sensors(task: Task, physics: Physics) -> None:
         raise BadValue(
             f"task '{task.name}': first sensors are {found}, not {wanted} (use tasks.base.sensor_xml)"
         )
+
+
+def _check_joints(task: Task, start: Start, physics: Physics) -> None:
+    n = physics.model.nq
+    for what, numbers in (("q", start.q), ("qdot", start.qdot)):
+        if len(numbers) != n or not all(map(math.isfinite, numbers)):
+            raise BadValue(
+                f"start '{start.id}': {what} = {tuple(numbers)} must be {n} finite numbers on arm '{task.arm}' "
+                f"(try: tasks.start_set('{task.start_sets[0]}', arm='{task.arm}'))"
+            )

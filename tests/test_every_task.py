@@ -1,4 +1,4 @@
-"""Contracts that every task in tasks/domains keeps; a new file is under them without being named here."""
+"""Contracts that every task in tasks/domains keeps, on every arm of tasks/arms; new files are under them unnamed."""
 
 import math
 
@@ -13,23 +13,23 @@ from tasks.rules import ticks
 COUNT = 12  # starts of each set that every task is tried on
 
 
-@pytest.fixture(params=tasks.names())
+@pytest.fixture(params=tasks.pairs(), ids="-".join)
 def task(request) -> Task:
-    return tasks.task(request.param)
+    return tasks.task(*request.param)
 
 
 def some_starts(task):
-    return [start for name in task.start_sets for start in tasks.start_set(name, COUNT)]
+    return [start for name in task.start_sets for start in tasks.start_set(name, COUNT, arm=task.arm)]
 
 
 def test_task_is_named_as_its_file(task):
-    assert task.name in tasks.names()
-    assert tasks.task(task.name) is task
+    assert (task.name, task.arm) in tasks.pairs()
+    assert tasks.task(task.name, task.arm) is task
 
 
 def test_task_names_known_start_sets(task):
     assert task.start_sets
-    assert set(task.start_sets) <= set(tasks.start_set_names())
+    assert set(task.start_sets) <= set(tasks.start_set_names(arm=bool(task.arm)))
 
 
 def test_task_says_title_and_source(task):
@@ -38,7 +38,7 @@ def test_task_says_title_and_source(task):
 
 
 def test_task_carries_the_sensors_in_order(task):
-    model = tasks.load(task.name).physics.model
+    model = tasks.load(task).physics.model
     names = [model.id2name(i, "sensor") for i in range(len(SENSORS))]
     assert names == ["n", "o", "a", "omega", "quat"]
     assert model.sensor_adr[: len(SENSORS)].tolist() == [0, 3, 6, 9, 12]
@@ -49,7 +49,7 @@ def test_task_carries_the_sensors_in_order(task):
 
 @pytest.mark.parametrize("dt", [1e-3, 2e-3, 0.1 / 3.0])
 def test_task_steps_by_dt(task, dt):
-    environment = tasks.load(task.name, dt=dt, horizon=1.0)
+    environment = tasks.load(task, dt=dt, horizon=1.0)
     assert environment.physics.timestep() == dt
     assert environment.control_timestep() == dt
 
@@ -57,30 +57,30 @@ def test_task_steps_by_dt(task, dt):
 def test_task_never_resets_by_itself(task):
     from mujoco import mjtDisableBit
 
-    assert tasks.load(task.name).physics.model.opt.disableflags & mjtDisableBit.mjDSBL_AUTORESET
+    assert tasks.load(task).physics.model.opt.disableflags & mjtDisableBit.mjDSBL_AUTORESET
 
 
 def test_first_observation_is_the_start(task):
     for start in some_starts(task):
-        first = tasks.load(task.name, start).reset()
+        first = tasks.load(task, start).reset()
         R = Rotation.from_quat(start.quat_wxyz, scalar_first=True).as_matrix()
         np.testing.assert_allclose(first.observation["R"].reshape(3, 3).T, R, rtol=0, atol=1e-14)
         np.testing.assert_allclose(first.observation["omega"], start.omega, rtol=0, atol=1e-13)
         assert tuple(first.observation["goal_quat"]) == start.goal_wxyz
 
 
-def test_observation_has_three_arrays_and_no_more(task):
-    observation = tasks.load(task.name).reset().observation
-    assert {name: value.shape for name, value in observation.items()} == {
-        "R": (9,),
-        "omega": (3,),
-        "goal_quat": (4,),
-    }
+def test_observation_has_three_arrays_and_those_of_the_joints_and_no_more(task):
+    shapes = {"R": (9,), "omega": (3,), "goal_quat": (4,)}
+    if task.arm:
+        n = tasks.arm(task.arm).joints
+        shapes |= {"q": (n,), "qdot": (n,), "p": (3,)}
+    observation = tasks.load(task).reset().observation
+    assert {name: value.shape for name, value in observation.items()} == shapes
 
 
 def test_ground_truth_is_the_orientation_of_the_observation(task):
     for start in some_starts(task):
-        environment = tasks.load(task.name, start)
+        environment = tasks.load(task, start)
         observation = environment.reset().observation
         R = Rotation.from_quat(environment.physics.quat_wxyz(), scalar_first=True).as_matrix()
         np.testing.assert_allclose(observation["R"].reshape(3, 3).T, R, rtol=0, atol=1e-14)
@@ -88,7 +88,7 @@ def test_ground_truth_is_the_orientation_of_the_observation(task):
 
 def test_reward_is_minus_the_angle_to_the_goal(task):
     for start in some_starts(task)[::5]:
-        environment = tasks.load(task.name, start)
+        environment = tasks.load(task, start)
         environment.reset()
         reward = environment.step(np.zeros(environment.action_spec().shape)).reward
         quat, goal = (
@@ -100,7 +100,7 @@ def test_reward_is_minus_the_angle_to_the_goal(task):
 
 @pytest.mark.parametrize(("dt", "horizon"), [(1e-3, 0.05), (0.1, 0.3), (0.1, 1.1), (0.1 / 3, 0.2)])
 def test_episode_ends_at_the_horizon_and_no_earlier(task, dt, horizon):
-    environment = tasks.load(task.name, dt=dt, horizon=horizon)
+    environment = tasks.load(task, dt=dt, horizon=horizon)
     step, count = environment.reset(), 0
     while not step.last():
         step = environment.step(np.zeros(environment.action_spec().shape))
@@ -111,7 +111,7 @@ def test_episode_ends_at_the_horizon_and_no_earlier(task, dt, horizon):
 @pytest.mark.parametrize("integrator", ["euler", "rk4", "implicit", "implicitfast"])
 def test_same_start_gives_the_same_bits(task, integrator):
     def run():
-        environment = tasks.load(task.name, start, integrator=integrator)
+        environment = tasks.load(task, start, integrator=integrator)
         rows = []
         for _ in range(2):  # a second episode of one environment, too
             rows.append([environment.reset().observation["R"]])
@@ -119,8 +119,8 @@ def test_same_start_gives_the_same_bits(task, integrator):
                 rows[-1].append(environment.step(command).observation["R"])
         return np.array(rows)
 
-    start = tasks.start_set("tumbling", 3)[2]
-    size = tasks.load(task.name).action_spec().shape
+    start = tasks.start_set("tumbling", 3, arm=task.arm)[2]
+    size = tasks.load(task).action_spec().shape
     commands = np.random.default_rng(3).normal(scale=20.0, size=(30, *size))
     first, second = run(), run()
     assert np.array_equal(first, second)
@@ -130,13 +130,13 @@ def test_same_start_gives_the_same_bits(task, integrator):
 @pytest.mark.parametrize("dt", [0.0, -1e-3, math.nan, math.inf])
 def test_impossible_dt_is_refused(task, dt):
     with pytest.raises(ValueError, match=r"dt = .* \(try: dt=1e-3\)"):
-        tasks.load(task.name, dt=dt)
+        tasks.load(task, dt=dt)
 
 
 @pytest.mark.parametrize("horizon", [0.0, -1.0, math.nan, math.inf])
 def test_impossible_horizon_is_refused(task, horizon):
     with pytest.raises(ValueError, match=r"horizon = .* \(try: horizon=20.0\)"):
-        tasks.load(task.name, horizon=horizon)
+        tasks.load(task, horizon=horizon)
 
 
 @pytest.mark.parametrize(
@@ -145,9 +145,9 @@ def test_impossible_horizon_is_refused(task, horizon):
 def test_quaternion_that_is_not_unit_is_refused(task, quat):
     for start in (Start("odd", quat), Start("odd", (1.0, 0.0, 0.0, 0.0), goal_wxyz=quat)):
         with pytest.raises(ValueError, match=r"start 'odd': .*unit quaternion"):
-            tasks.load(task.name, start)
+            tasks.load(task, start)
 
 
 def test_angular_velocity_that_is_not_finite_is_refused(task):
     with pytest.raises(ValueError, match=r"start 'odd': omega = .*finite"):
-        tasks.load(task.name, Start("odd", (1.0, 0.0, 0.0, 0.0), omega=(0.0, math.nan, 0.0)))
+        tasks.load(task, Start("odd", (1.0, 0.0, 0.0, 0.0), omega=(0.0, math.nan, 0.0)))

@@ -1,0 +1,67 @@
+"""Joint angles spread evenly over the joint ranges, goals spread evenly over SO(3), at rest.
+
+Neither start nor goal nor the way between them keeps clear of anything: fractions that are counted here are of what
+an arm can be asked, not of what it does well. A joint's range is the file's, or one turn about its middle if it is
+wider or there is none. A goal is kept if the search finds joint angles, in range, at which the tool has the goal's
+orientation at the start's position; it starts from the start's own joints, from home, and from SEEDS more. A goal
+that no search found may still be reachable.
+"""
+
+from __future__ import annotations
+
+import functools
+import math
+
+import numpy as np
+
+from tasks.arm import Arm
+from tasks.base import ArmStartSet, Quat, Start
+from tasks.haar import halton, orientation
+from tasks.kinematics import Kinematics, kinematics
+
+SIZE = 200
+SEEDS = 6
+SEED_OF_SEEDS = 1988
+# Candidates a start at most; an arm that reaches one goal in so many is no arm to turn a tool with.
+MOST_TRIES = 50
+
+
+def build(arm: Arm, count: int, seed: int) -> list[Start]:
+    """The first `count` candidates whose goal is reachable."""
+    return list(_uniform(arm, max(count, SIZE), seed))
+
+
+@functools.lru_cache(maxsize=32)
+def _uniform(arm: Arm, count: int, seed: int) -> tuple[Start, ...]:
+    model, n = kinematics(arm), arm.joints
+    seeds = [spread(arm, point) for point in halton(SEEDS, n, SEED_OF_SEEDS)]
+    starts: list[Start] = []
+    drawn = 0
+    while len(starts) < count and drawn < MOST_TRIES * count:
+        points = halton(2 * (drawn + count), n + 3, seed)
+        for point in points[drawn:]:
+            q, goal = spread(arm, point[:n]), orientation(*point[n:])
+            if _is_reachable(model, q, goal, [q, np.array(arm.home), *seeds]):
+                starts.append(model.start(f"uniform-{len(starts):04d}", q, goal))
+                if len(starts) == count:
+                    break
+        drawn = len(points)
+    return tuple(starts)
+
+
+def spread(arm: Arm, point: list[float]) -> np.ndarray:
+    """The joint angles of a point of the unit cube."""
+    q = []
+    for u, low, high in zip(point, arm.lower, arm.upper, strict=True):
+        middle = 0.5 * (low + high) if high - low < math.inf else 0.0
+        q.append(middle + (u - 0.5) * min(high - low, math.tau))
+    return np.array(q)
+
+
+def _is_reachable(model: Kinematics, q: np.ndarray, goal: Quat, seeds: list[np.ndarray]) -> bool:
+    p, _ = model.pose(q)
+    found = (model.find(guess, p, goal) for guess in seeds)
+    return any(there is not None and model.within_range(model.into_range(there)) for there in found)
+
+
+STARTS = ArmStartSet("uniform", "Joint angles and goals spread evenly, if the goal can be reached", SIZE, build)

@@ -1,0 +1,49 @@
+"""An arm that shall hold its tool's position and turn it to the goal (Murphy 1988, 2.1 to 2.3 and 3.7).
+
+    D(q) qddot + fg(q, qdot) = tau,   xdot = J(q) qdot
+
+The command is the motors' torques tau [N m], in joint order. The plant has gravity; it has no contact, no joint
+limits and no torque limits, so that an arm that is driven out of its range shows it in the results and nowhere
+else. The tool is the site `tool` of the arm's file; the position to hold is the one at the start.
+
+The state: qpos are the joint angles [rad], qvel the joint rates [rad/s].
+"""
+
+from __future__ import annotations
+
+import functools
+
+from tasks.arm import Arm, model_xml
+from tasks.base import ArmTask, Start, Task
+
+NAME = "arm-regulation"
+TITLE = "Hold the tool's position, turn it to the goal"
+START_SETS = ("uniform",)
+
+
+def state(start: Start) -> tuple[tuple[float, ...], tuple[float, ...]]:
+    """State of the joints: (q, qdot)."""
+    return start.q, start.qdot
+
+
+@functools.cache
+def on(arm: Arm) -> Task:
+    """The task on one arm."""
+    return Task(
+        name=NAME,
+        title=TITLE,
+        source=arm.source,
+        xml=lambda dt: model_xml(arm, dt),
+        state=state,
+        start_sets=START_SETS,
+        arm=arm.name,
+    )
+
+
+TASK = ArmTask(
+    name=NAME,
+    title=TITLE,
+    source="Murphy 1988, equations 2.1 to 2.3 and 3.7",
+    on=on,
+    start_sets=START_SETS,
+)

@@ -1,0 +1,192 @@
+"""An arm's forward kinematics and Jacobian by MuJoCo, and joint paths that turn its tool in place.
+
+    x(q) = (p(q), R(q)),   xdot = (pdot, omega) = J(q) qdot,   dq = J^+ (p_d - p, log(R_d R^T))
+
+The judge's own, to choose starts with: contestants get neither. Poses and Jacobians are MuJoCo's, bit for bit those of
+an episode. A path is followed by Newton's method from point to point; with more than six joints every step is the
+shortest one (minimum norm), so that the path is the one of dq = J^+ dx and depends on where it began.
+
+Units: metres and radians, so that a condition number weighs a metre like a radian. The arms are about a metre long.
+
+Fails: a path that comes within about 1e-10 of a singular configuration is given up, and so is one whose points are so
+far apart that a joint jumps by more than LARGEST_STEP.
+"""
+
+from __future__ import annotations
+
+import functools
+import math
+from collections.abc import Iterable, Iterator, Sequence
+
+import mujoco
+import numpy as np
+
+from tasks.arm import Arm, model_xml
+from tasks.base import Quat, Start, Vector
+from tasks.paths import geodesic
+
+# |(p_d - p, log(R_d R^T))| at which a pose is reached [m, rad]. Rounding of a chain of seven transformations is about
+# 1e-15; Newton's last step squares what is left, so the joints are better than this by as much.
+REACHED = 1e-12
+# Quadratic convergence from a residual of 0.1 takes 1e-2, 1e-4, 1e-8, 1e-16: five steps, and as many in reserve.
+NEWTON_STEPS = 10
+# A step of this size [rad] between neighbours of a path is a jump to another branch of solutions.
+LARGEST_STEP = 0.5
+# The search from afar: it has found the pose when it is so near [m, rad] that Newton's method finishes it ...
+NEAR = 1e-2
+# ... within so many steps, which three in four successful ones of random pairs take less than a quarter of.
+SEARCH_STEPS = 40
+# lambda at the goal, small beside the squared singular values of a well-conditioned arm (0.05 on a UR5e at home).
+DAMPING = 1e-4
+
+
+class Kinematics:
+    """MuJoCo's kinematics of one arm. q: n joint angles [rad]; everything in the base frame, SI units."""
+
+    def __init__(self, arm: Arm):
+        self.arm = arm
+        self.model = mujoco.MjModel.from_xml_string(model_xml(arm, 1e-3))
+        self._data = mujoco.MjData(self.model)
+        self._site = self.model.site("tool").id
+        self._body = int(self.model.site_bodyid[self._site])
+        self._J = np.zeros((6, self.model.nv))
+        self._quat = np.zeros(4)
+
+    def pose(self, q: Sequence[float] | np.ndarray) -> tuple[np.ndarray, Quat]:
+        """The tool's position [m] and orientation, as the sensors of an episode give them."""
+        data = self._data
+        data.qpos[:] = q
+        mujoco.mj_kinematics(self.model, data)
+        mujoco.mju_mulQuat(self._quat, data.xquat[self._body], self.model.site_quat[self._site])
+        w, x, y, z = self._quat.tolist()
+        return data.site_xpos[self._site].copy(), (w, x, y, z)
+
+    def jacobian(self, q: Sequence[float] | np.ndarray) -> np.ndarray:
+        """J, 6 x n: (pdot, omega) = J qdot."""
+        self.pose(q)
+        return self._jacobian_here().copy()
+
+    def condition(self, q: Sequence[float] | np.ndarray) -> float:
+        """Condition number of J in the 2-norm: largest over smallest singular value, inf if that is zero."""
+        s = np.linalg.svd(self.jacobian(q), compute_uv=False)
+        return float(s[0] / s[-1]) if s[-1] > 0.0 else math.inf
+
+    def into_range(self, q: Sequence[float] | np.ndarray) -> np.ndarray:
+        """The same pose with every joint, by whole turns, as near as can be to the middle of its range, or to 0."""
+        ranges = zip(self.arm.lower, self.arm.upper, strict=True)
+        middle = np.array([0.5 * (low + high) if high - low < math.inf else 0.0 for low, high in ranges])
+        return np.asarray(q) - math.tau * np.round((np.asarray(q) - middle) / math.tau)
+
+    def within_range(self, q: Sequence[float] | np.ndarray, margin: float = 0.0) -> bool:
+        """Whether every joint is inside its range by at least `margin` [rad]."""
+        return all(
+            low + margin <= x <= high - margin for x, low, high in zip(q, self.arm.lower, self.arm.upper, strict=True)
+        )
+
+    def reach(self, q: Sequence[float] | np.ndarray, p: np.ndarray, quat: Quat) -> np.ndarray | None:
+        """The joint angles of a pose, by Newton's method from nearby ones; None if it does not converge."""
+        q = np.array(q, dtype=float)
+        error = np.empty(6)
+        for _ in range(NEWTON_STEPS):
+            here, orientation = self.pose(q)
+            error[:3] = p - here
+            error[3:] = rotation_vector(quat, orientation)
+            if error @ error <= REACHED * REACHED:
+                return q
+            step = self._least_squares(self._jacobian_here(), error)
+            if step is None or not abs(step).max() <= LARGEST_STEP:
+                return None
+            q += step
+        return None
+
+    def find(self, q: Sequence[float] | np.ndarray, p: np.ndarray, quat: Quat) -> np.ndarray | None:
+        """Joint angles of a pose from any others, by damped least squares; None if the search ends elsewhere.
+
+        dq = (J^T J + lambda I)^-1 J^T e, lambda = |e|^2/2 + DAMPING (Sugihara 2011, T-RO 27, 984-991): far from the
+        pose a descent that no singularity disturbs, near it Newton's method, which finishes.
+        """
+        q = np.array(q, dtype=float)
+        error = np.empty(6)
+        eye = np.eye(len(q))
+        for _ in range(SEARCH_STEPS):
+            here, orientation = self.pose(q)
+            error[:3] = p - here
+            error[3:] = rotation_vector(quat, orientation)
+            square = float(error @ error)
+            if square <= NEAR * NEAR:
+                return self.reach(q, p, quat)
+            J = self._jacobian_here()
+            q += np.linalg.solve(J.T @ J + (0.5 * square + DAMPING) * eye, J.T @ error)
+        return None
+
+    def walk(self, q: Sequence[float] | np.ndarray, quats: Iterable[Quat]) -> Iterator[np.ndarray]:
+        """The joint angles at each orientation in turn, the tool's position held; ends where it cannot go on."""
+        p, _ = self.pose(q)
+        now: np.ndarray | None = np.array(q, dtype=float)
+        for quat in quats:
+            now = self.reach(now, p, quat)  # type: ignore[arg-type]
+            if now is None:
+                return
+            yield now
+
+    def follow(self, q: Sequence[float] | np.ndarray, quats: Sequence[Quat]) -> np.ndarray | None:
+        """All of `walk`, len(quats) x n; None if it ended early."""
+        path = list(self.walk(q, quats))
+        return np.array(path) if len(path) == len(quats) else None
+
+    def turn(self, q: Sequence[float] | np.ndarray, axis: Vector, angle: float, steps: int) -> np.ndarray | None:
+        """The joint path, (steps + 1) x n, that turns the tool by `angle` [rad] about a base-frame axis in place."""
+        return self.follow(q, geodesic(self.pose(q)[1], axis, angle, steps))
+
+    def rates(self, q: Sequence[float] | np.ndarray, omega: Vector) -> np.ndarray:
+        """The least joint rates [rad/s] at which the tool turns with omega [rad/s] in place."""
+        return np.linalg.lstsq(self.jacobian(q), np.array((0.0, 0.0, 0.0, *omega)), rcond=None)[0]
+
+    def start(
+        self, name: str, q: Sequence[float] | np.ndarray, goal: Quat, qdot: Sequence[float] | None = None
+    ) -> Start:
+        """A start at these joint angles, its orientation and angular velocity being MuJoCo's."""
+        angles = tuple(map(float, q))
+        rates = tuple(map(float, qdot)) if qdot is not None else (0.0,) * len(angles)
+        _, quat = self.pose(angles)
+        omega = (0.0, 0.0, 0.0)
+        if any(rates):
+            self._data.qvel[:] = rates
+            mujoco.mj_forward(self.model, self._data)
+            x, y, z = self._data.sensordata[9:12].tolist()
+            omega = (x, y, z)
+        return Start(name, quat, omega, goal, angles, rates)
+
+    def _jacobian_here(self) -> np.ndarray:
+        """J where `pose` was last called."""
+        mujoco.mj_comPos(self.model, self._data)
+        mujoco.mj_jacSite(self.model, self._data, self._J[:3], self._J[3:], self._site)
+        return self._J
+
+    def _least_squares(self, J: np.ndarray, error: np.ndarray) -> np.ndarray | None:
+        try:
+            if J.shape[1] == 6:
+                return np.linalg.solve(J, error)
+            return np.linalg.lstsq(J, error, rcond=None)[0]
+        except np.linalg.LinAlgError:
+            return None
+
+
+@functools.cache
+def kinematics(arm: Arm) -> Kinematics:
+    """The Kinematics of an arm, made once; not for two threads at a time."""
+    return Kinematics(arm)
+
+
+def rotation_vector(to: Quat, of: Quat) -> Vector:
+    """log(R(to) R(of)^T): the rotation vector [rad], at most pi long, that turns `of` to `to` in the base frame."""
+    s = to[0] * of[0] + to[1] * of[1] + to[2] * of[2] + to[3] * of[3]
+    x = -to[0] * of[1] + to[1] * of[0] - to[2] * of[3] + to[3] * of[2]
+    y = -to[0] * of[2] + to[2] * of[0] - to[3] * of[1] + to[1] * of[3]
+    z = -to[0] * of[3] + to[3] * of[0] - to[1] * of[2] + to[2] * of[1]
+    length = math.sqrt(x * x + y * y + z * z)
+    # 2 atan2(|v|, s)/|v| tends to 2/s, s = +-1, which is the double nearest to it below |v| = 1e-8
+    scale = 2.0 * math.atan2(length, abs(s)) / length if length > 1e-8 else 2.0
+    if s < 0.0:
+        scale = -scale
+    return (scale * x, scale * y, scale * z)
