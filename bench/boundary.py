@@ -10,7 +10,7 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 import pandas as pd
 
-from bench.discovery import known_metrics
+from bench.discovery import metrics_of
 from bench.engines.episode import OUTCOME
 from bench.engines.run import run as run_engine
 from bench.plan import Plan
@@ -41,7 +41,7 @@ def run(plan: Plan, workers: int = 1) -> pd.DataFrame:
         directions = axes(plan.boundary_axes)
         pool = ThreadPoolExecutor(workers)
         try:
-            frames = list(pool.map(lambda one: _boundary(plan, one, directions), plan.contenders))
+            frames = list(pool.map(lambda one: _boundary(plan, one, directions), plan.laws))
         finally:
             pool.shutdown(cancel_futures=True)
     names = [column.name for column in boundary_columns()]
@@ -84,5 +84,5 @@ def _outcomes(plan: Plan, one, directions: np.ndarray, angles: np.ndarray) -> np
         Start("", (math.cos(angle / 2), *(math.sin(angle / 2) * axis).tolist()))
         for axis, angle in zip(directions, angles, strict=True)
     ]
-    rows = run_engine("ideal-rk4", one, "free-body", starts, settings_of(plan, SHORT), tuple(known_metrics().values()))
+    rows = run_engine("ideal-rk4", one, "free-body", starts, settings_of(plan, SHORT), metrics_of(on_arm=False))
     return rows[:, OUTCOME].astype(int)

@@ -194,6 +194,11 @@ class Contender(NamedTuple):
         return f"{self.regulator.name}/{self.representation.name}" if self.representation else self.regulator.name
 
     @property
+    def way(self) -> tuple[str, str]:
+        """Names of the Jacobian and the inverse; empty on the free body."""
+        return (self.jacobian.name if self.jacobian else "", self.inverse.name if self.inverse else "")
+
+    @property
     def is_on_arm(self) -> bool:
         """Whether it controls an arm (and not the free body)."""
         return self.jacobian is not None
@@ -208,6 +213,14 @@ class Contender(NamedTuple):
     def law(self) -> Callable:
         """The law with its coordinates filled in."""
         return bind(self.regulator, self.representation)
+
+    @property
+    def coordinate_law(self) -> Callable:
+        """The law that commands the coordinates' acceleration; see `Regulator.coordinate_law_in`."""
+        law_in = self.regulator.coordinate_law_in
+        if law_in is None or self.representation is None:
+            raise Incompatible(f"'{self.on_free_body}' commands no acceleration of coordinates")
+        return law_in(self.representation)
 
 
 def bind(regulator: Regulator, representation: Representation | None) -> Callable:
@@ -224,6 +237,39 @@ def acts_on(regulator: Regulator, representation_name: str) -> bool:
     """Whether the regulator has a law in that representation."""
     allowed = regulator.coordinates
     return allowed == "any" or (allowed != "rotation-matrix" and representation_name in allowed)
+
+
+def on_arm(one: Contender, jacobian: Jacobian, inverse: Inverse, joints: int = 6) -> Contender:
+    """A contender on an arm of so many joints, or refuse with the reason.
+
+    Errors:
+        Incompatible: the law, the Jacobian, the inverse and the number of joints do not go together.
+    """
+    wanted = one._replace(jacobian=jacobian, inverse=inverse)
+    reason = refusal(wanted, joints)
+    if reason:
+        raise Incompatible(f"'{wanted.name}' on {joints} joints: {reason}")
+    return wanted
+
+
+def refusal(one: Contender, joints: int) -> str:
+    """Why a contender cannot control an arm of so many joints; empty if it can."""
+    jacobian, inverse, representation = one.jacobian, one.inverse, one.representation
+    if jacobian is None or inverse is None:
+        return "an arm needs a Jacobian and an inverse (try: @geometric+pseudo-inverse)"
+    if jacobian.takes == "coordinates":
+        if one.regulator.coordinate_law_in is None or representation is None:
+            return (
+                f"the Jacobian '{jacobian.name}' takes an acceleration of coordinates, and regulator "
+                f"'{one.regulator.name}' commands an angular acceleration (try: the Jacobian geometric, or the "
+                "regulator feedback-linearized)"
+            )
+        if jacobian.needs_derivatives and representation.differentiate is None:
+            return (
+                f"the Jacobian '{jacobian.name}' differentiates the coordinates' extraction, which "
+                f"'{representation.name}' does not give (try: the Jacobian analytic, which is equal)"
+            )
+    return inverse.refuses(one.rows, joints)
 
 
 def contender(regulator: Regulator, representation: Representation | None = None) -> Contender:

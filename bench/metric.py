@@ -18,6 +18,7 @@ class Metric(NamedTuple):
 
     start: the number before the first tick. update(value, sample) -> value, in the law dialect; `sample` is an
     `engines.episode.Sample`. finish(value, ending) -> the column, plain Python.
+    arm_only: whether it needs an `engines.arm_episode.ArmSample`; empty on the free body.
     """
 
     name: str
@@ -27,3 +28,4 @@ class Metric(NamedTuple):
     start: float
     update: Callable
     finish: Callable
+    arm_only: bool = False

@@ -7,15 +7,18 @@ import math
 from dataclasses import dataclass
 
 import tasks
-from bench.contender import PAPERS_GAINS, Contender, Gains
+from bench import combinations
+from bench.contender import PAPERS_GAINS, Contender, Gains, refusal
+from bench.discovery import known_inverses, known_jacobians
 from bench.errors import BadNumber, Incompatible, UnknownWord
 from bench.provenance import source_digest
-from bench.suites import ENGINES, HORIZON, SHORT, Slice, suite
+from bench.suites import ENGINES, HORIZON, NOMINAL, ON_ARM, SHORT, OnArms, Slice, Suite, suite
 from tasks.rules import RULES
 
 INTEGRATORS = ("euler", "implicit", "implicitfast", "rk4")
 
 CHUNK = {"ideal-rk4": 1000, "ideal-held": 1000, "native": 250, "reference": 4}
+ARM_CHUNK = {"native": 100, "reference": 2}
 """Episodes a unit at most: a few seconds each even if none of them settles, so that Ctrl-C answers soon."""
 
 
@@ -31,12 +34,14 @@ class Unit:
     count: int
     total: int
     horizon_s: float
+    arm: str = ""
+    variation: str = NOMINAL
 
     @property
     def key(self) -> str:
         """A name for a file."""
-        law = self.contender.replace("/", "@")
-        return f"{self.engine}_{law}_{self.task}_{self.start_set}_{self.first:06d}"
+        law, place = self.contender.replace("/", "~"), f"{self.arm or self.task}_{self.variation}"
+        return f"{self.engine}_{law}_{place}_{self.start_set}_{self.first:06d}"
 
 
 @dataclass(frozen=True)
@@ -52,6 +57,17 @@ class Plan:
     seed: int = 0
     traces: int = 0
     boundary_axes: int = 0
+    arm_traces: int = 0
+
+    @property
+    def laws(self) -> tuple[Contender, ...]:
+        """The contenders on the free body."""
+        return tuple(one for one in self.contenders if not one.is_on_arm)
+
+    @property
+    def arms(self) -> tuple[str, ...]:
+        """The arms, in their order."""
+        return tuple(dict.fromkeys(unit.arm for unit in self.units if unit.arm))
 
     @property
     def episodes(self) -> int:
@@ -74,6 +90,8 @@ class Plan:
             "seed": self.seed,
             "traces": self.traces,
             "boundary_axes": self.boundary_axes,
+            "arm_traces": self.arm_traces,
+            "arms": {name: hashlib.sha256(tasks.arm(name).xml.encode()).hexdigest()[:16] for name in self.arms},
             "rules": list(RULES),
             "sources": source_digest(),
         }
@@ -88,13 +106,57 @@ def _text_digest(path: str) -> str:
         return hashlib.sha256(file.read()).hexdigest()[:16]
 
 
+@dataclass(frozen=True)
+class Choice:
+    """What the user named, beside the laws; empty means the suite's own."""
+
+    tasks: tuple[str, ...] = ()
+    start_sets: tuple[str, ...] = ()
+    engines: tuple[str, ...] = ()
+    arms: tuple[str, ...] = ()
+    jacobians: tuple[str, ...] = ()
+    inverses: tuple[str, ...] = ()
+    variations: tuple[str, ...] = ()
+
+    def checked(self) -> "Choice":
+        """Each word once; UnknownWord for one in no list, Incompatible for words that exclude each other."""
+        once = Choice(**{name: tuple(dict.fromkeys(words)) for name, words in vars(self).items()})
+        every_set = dict.fromkeys((*tasks.start_set_names(), *tasks.start_set_names(arm=True)))
+        known: dict[str, tuple] = {
+            "task": (once.tasks, tasks.names()),
+            "start": (once.start_sets, every_set),
+            "engine": (once.engines, ENGINES),
+            "arm": (once.arms, tasks.arm_names()),
+            "jacobian": (once.jacobians, known_jacobians()),
+            "inverse": (once.inverses, known_inverses()),
+            "variation": (once.variations, once.variations and tasks.variation_names()),
+        }
+        for kind, (words, allowed) in known.items():
+            for word in words:
+                _known(kind, word, list(allowed))
+        bodies = [word for word in once.tasks if not tasks.is_for_arms(word)]
+        if bodies and once.is_about_arms and len(bodies) == len(once.tasks):
+            raise Incompatible(
+                f"task '{bodies[0]}' has no arm, so no Jacobian, inverse or variation (try: --task arm-regulation)"
+            )
+        return once
+
+    @property
+    def is_about_arms(self) -> bool:
+        """Whether it names something that only arms have."""
+        return bool(self.arms or self.jacobians or self.inverses or self.variations)
+
+    @property
+    def narrows(self) -> bool:
+        """Whether less or other than the suite's start sets and engines is asked for."""
+        return bool(self.start_sets or self.engines)
+
+
 def make(
     suite_word: str,
-    contenders: list[Contender],
+    laws: list[Contender],
+    choice: Choice = Choice(),
     *,
-    task_words: tuple[str, ...] = (),
-    start_sets: tuple[str, ...] = (),
-    engines: tuple[str, ...] = (),
     count: int | None = None,
     dt_s: float = 1e-3,
     horizon_s: float | None = None,
@@ -102,44 +164,48 @@ def make(
     integrator: str = "euler",
     seed: int = 0,
 ) -> Plan:
-    """The plan of a suite, narrowed or widened by what the user named; empty means the suite's own.
+    """The plan of a suite, narrowed or widened by what the user named.
 
+    Args:
+        laws: the contenders of the free body; on arms the same laws, by the suite's Jacobians and inverses.
     Errors:
         UnknownWord: a name in no list. BadNumber: a number that no episode can be run with.
-        Incompatible: no named task, engine and start set go together.
+        Incompatible: no named task, engine and start set go together, or no law, Jacobian and inverse.
     """
     _check_numbers(dt_s, horizon_s, gains, count, seed)
-    chosen = suite(suite_word)
-    task_words, start_sets, engines = (tuple(dict.fromkeys(words)) for words in (task_words, start_sets, engines))
-    every_task = task_words or tuple(tasks.names())
-    for word in every_task:
-        _known("task", word, tasks.names())
-    for word in start_sets:
-        _known("start", word, tasks.start_set_names())
-    for word in engines:
-        _known("engine", word, list(ENGINES))
     _known("integrator", integrator, list(INTEGRATORS))
-    units = tuple(
-        unit
-        for task in every_task
-        for part in _narrowed(chosen.slices, start_sets, engines)
-        if part.start_set in tasks.task(task).start_sets and runs_on(part.engine, task)
-        for one in contenders
-        for unit in _units(part, one.name, task, count, seed, horizon_s)
+    chosen, choice = suite(suite_word), choice.checked()
+    every_task = choice.tasks or tuple(
+        word for word in tasks.names() if tasks.is_for_arms(word) or not choice.is_about_arms
     )
+    placed = _on_free_body(chosen, laws, every_task, choice) + _on_arms(chosen, laws, every_task, choice)
+    units = tuple(unit for place in placed for unit in _units(place, count, seed, horizon_s))
     if not units:
-        raise Incompatible(_nothing_to_run(every_task, _narrowed(chosen.slices, start_sets, engines)))
+        raise Incompatible(_nothing_to_run(every_task, chosen, choice))
+    named = {place.contender.name: place.contender for place in placed}
     return Plan(
         chosen.name,
         units,
-        tuple(contenders),
+        tuple(named.values()),
         gains,
         dt_s,
         integrator,
         seed,
-        0 if start_sets or engines else chosen.traces,
-        0 if start_sets or engines else chosen.boundary_axes,
+        0 if choice.narrows else chosen.traces,
+        0 if choice.narrows else chosen.boundary_axes,
+        0 if choice.narrows else chosen.on_arms.traced,
     )
+
+
+@dataclass(frozen=True)
+class Place:
+    """A contender on a slice of a task: what is cut into units."""
+
+    part: Slice
+    contender: Contender
+    task: str
+    arm: str = ""
+    variation: str = NOMINAL
 
 
 def runs_on(engine: str, task: str) -> bool:
@@ -147,11 +213,86 @@ def runs_on(engine: str, task: str) -> bool:
     return task == "free-body" or not engine.startswith("ideal")
 
 
-def _nothing_to_run(task_words, slices) -> str:
+def _on_free_body(chosen: Suite, laws, every_task, choice: Choice) -> list[Place]:
+    return [
+        Place(part, one, task)
+        for task in every_task
+        if not tasks.is_for_arms(task)
+        for part in _narrowed(chosen.slices, choice)
+        if part.start_set in tasks.task(task).start_sets and runs_on(part.engine, task)
+        for one in laws
+    ]
+
+
+def _on_arms(chosen: Suite, laws, every_task, choice: Choice) -> list[Place]:
+    places = []
+    for task in filter(tasks.is_for_arms, every_task):
+        for arm in choice.arms or tasks.arm_names():
+            fitting = tasks.task(task, arm).start_sets
+            for part, one, variation in _on_arm(chosen.on_arms, laws, tasks.arm(arm).joints, choice):
+                if part.start_set in fitting and runs_on(part.engine, task):
+                    places.append(Place(part, one, task, arm, variation))
+    if not places and choice.is_about_arms:
+        raise Incompatible(_no_combination(laws, choice))
+    return places
+
+
+def _on_arm(on_arms: OnArms, laws, joints: int, choice: Choice):
+    """(slice, contender, variation) of everything on one arm."""
+    by_name = {one.name: one for one in laws}
+    slices = _narrowed(on_arms.slices, choice)
+    variations = choice.variations or (NOMINAL,)
+    for one in _combinations(on_arms.words, by_name, joints, choice):
+        for part in slices:
+            for variation in variations:
+                yield part, one, variation
+    if on_arms.varied and not (choice.narrows or choice.variations or choice.jacobians or choice.inverses):
+        for one in combinations.on(on_arms.varied, by_name, joints):
+            for part in on_arms.varied_slices:
+                for variation in tasks.variation_names():
+                    if variation != NOMINAL:
+                        yield part, one, variation
+
+
+def _combinations(words, laws: dict[str, Contender], joints: int, choice: Choice) -> list[Contender]:
+    """The contenders of a suite on so many joints; of named Jacobians and inverses every one that fits.
+
+    A law that the suite has no word for is run if it is a user's, or if no other is asked for: by the geometric
+    Jacobian and the standard inverse.
+    """
+    if choice.jacobians or choice.inverses or not words:
+        return [
+            one
+            for one in combinations.every(laws, joints)
+            if (not choice.jacobians or one.way[0] in choice.jacobians)
+            and (not choice.inverses or one.way[1] in choice.inverses)
+        ]
+    wordless = [name for name in laws if not any(word.startswith(f"{name}@") for word in words)]
+    if len(wordless) < len(laws):
+        wordless = [name for name in wordless if laws[name].regulator.origin]
+    return combinations.on((*words, *(f"{name}@geometric+standard" for name in wordless)), laws, joints)
+
+
+def _no_combination(laws, choice: Choice) -> str:
+    """Why no law, Jacobian and inverse that were named go together on any arm that was named."""
+    reasons = []
+    for arm in choice.arms or tasks.arm_names():
+        for law in laws:
+            for by in choice.jacobians or known_jacobians():
+                for through in choice.inverses or known_inverses():
+                    one = law._replace(jacobian=known_jacobians()[by], inverse=known_inverses()[through])
+                    reasons.append(f"'{one.name}' on {arm}: {refusal(one, tasks.arm(arm).joints)}")
+    shown = "; ".join(reasons[:3])
+    return f"nothing to run: {shown}" + (f"; and {len(reasons) - 3} more" if len(reasons) > 3 else "")
+
+
+def _nothing_to_run(every_task, chosen: Suite, choice: Choice) -> str:
     """Why no task, engine and start set go together."""
     reasons = []
-    for task in task_words:
-        allowed = tasks.task(task).start_sets
+    for task in every_task:
+        is_for_arms = tasks.is_for_arms(task)
+        allowed = tasks.start_set_names(arm=True) if is_for_arms else tasks.task(task).start_sets
+        slices = _narrowed(chosen.on_arms.slices if is_for_arms else chosen.slices, choice)
         refused = [part.engine for part in slices if not runs_on(part.engine, task)]
         if refused:
             reasons.append(f"{', '.join(dict.fromkeys(refused))} simulates free-body alone, not '{task}'")
@@ -163,33 +304,37 @@ def _nothing_to_run(task_words, slices) -> str:
     return f"nothing to run: {'; '.join(reasons)} (choose another --task, --engine or --starts)"
 
 
-def _narrowed(slices, start_sets, engines):
-    if not start_sets and not engines:
+def _narrowed(slices, choice: Choice):
+    if not choice.narrows:
         return slices
     sizes = {(part.engine, part.start_set): part for part in slices}
-    wanted_engines = engines or tuple(dict.fromkeys(part.engine for part in slices))
-    wanted_sets = start_sets or tuple(dict.fromkeys(part.start_set for part in slices))
+    wanted_engines = choice.engines or tuple(dict.fromkeys(part.engine for part in slices))
+    wanted_sets = choice.start_sets or tuple(dict.fromkeys(part.start_set for part in slices))
+    horizons = dict.fromkeys((part.start_set for part in slices if part.horizon_s == ON_ARM), ON_ARM)
     return tuple(
-        sizes.get((engine, name)) or Slice(engine, name, None, HORIZON.get(name, SHORT))
+        sizes.get((engine, name)) or Slice(engine, name, None, horizons.get(name) or HORIZON.get(name, SHORT))
         for engine in wanted_engines
         for name in wanted_sets
-        if not (engine == "reference" and not engines and (engine, name) not in sizes)
+        if not (engine == "reference" and not choice.engines and (engine, name) not in sizes)
     )
 
 
-def _units(part: Slice, contender: str, task: str, count, seed, horizon_s):
-    total = len(tasks.start_set(part.start_set, count or part.size, seed))
-    step = CHUNK[part.engine]
+def _units(place: Place, count, seed, horizon_s):
+    part = place.part
+    total = len(tasks.start_set(part.start_set, count or part.size, seed, arm=place.arm))
+    step = (ARM_CHUNK if place.arm else CHUNK)[part.engine]
     for first in range(0, total, step):
         yield Unit(
             part.engine,
-            contender,
-            task,
+            place.contender.name,
+            place.task,
             part.start_set,
             first,
             min(step, total - first),
             total,
             horizon_s or part.horizon_s,
+            place.arm,
+            place.variation,
         )
 
 

@@ -5,7 +5,10 @@ import math
 import numpy as np
 import pandas as pd
 
+import tasks
 from bench.contender import Contender
+from bench.discovery import known_metrics
+from bench.engines.arm_episode import POSE
 from bench.engines.episode import (
     FAILURE_TICK,
     FINAL_ANGLE,
@@ -20,6 +23,8 @@ from bench.metric import Ending
 from bench.plan import Plan, Unit
 from bench.representations.zyx_euler import chart
 from bench.so3 import from_quaternion
+from tasks.cause import cause
+from tasks.kinematics import Kinematics
 from tasks.rules import RULES
 from tasks.truth import angle
 from tasks.verdict import OUTCOMES
@@ -44,7 +49,13 @@ def settings_of(plan: Plan, horizon_s: float) -> Settings:
 def contender_columns(one: Contender) -> dict:
     """The columns that say which law a row is about."""
     coordinates = one.representation.name if one.representation else ""
-    return {"regulator": one.regulator.name, "representation": coordinates, "jacobian": "", "inverse": ""}
+    jacobian, inverse = one.way
+    return {
+        "regulator": one.regulator.name,
+        "representation": coordinates,
+        "jacobian": jacobian,
+        "inverse": inverse,
+    }
 
 
 def frame(plan: Plan, unit: Unit, contender: Contender, starts, numbers: np.ndarray, metrics) -> pd.DataFrame:
@@ -58,7 +69,8 @@ def frame(plan: Plan, unit: Unit, contender: Contender, starts, numbers: np.ndar
     columns = {
         "suite": plan.suite,
         "task": unit.task,
-        "arm": "",
+        "arm": unit.arm,
+        "variation": unit.variation,
         **contender_columns(contender),
         "engine": unit.engine,
         "start_set": unit.start_set,
@@ -89,7 +101,23 @@ def frame(plan: Plan, unit: Unit, contender: Contender, starts, numbers: np.ndar
         columns[metric.column] = [
             metric.finish(value, ending) for value, ending in zip(numbers[:, column].tolist(), endings, strict=True)
         ]
-    return pd.DataFrame(columns)
+    seen = _seen_on_arm(unit.arm, numbers) if unit.arm else np.full(len(starts), np.nan)
+    margins = columns["min_margin"]
+    return pd.DataFrame(
+        {
+            **dict.fromkeys((one.column for one in known_metrics().values()), np.nan),
+            **columns,
+            "cond_jacobian_max": seen,
+            "cause": [cause(*near) if unit.arm else "" for near in zip(outcomes, margins, seen, strict=True)],
+        }
+    )
+
+
+def _seen_on_arm(arm: str, numbers: np.ndarray) -> list[float]:
+    """The judge's condition number where each episode was worst conditioned; infinite if the angles are no numbers."""
+    judge = Kinematics(tasks.arm(arm))
+    poses = numbers[:, POSE + 1 :][:, : tasks.arm(arm).joints]
+    return [judge.condition(q) if np.isfinite(q).all() else math.inf for q in poses]
 
 
 def _time(ticks: np.ndarray, dt_s: float) -> np.ndarray:

@@ -19,9 +19,11 @@ import pandas as pd
 
 import tasks
 from bench import boundary, counting, traces
-from bench.discovery import all_contenders, known_metrics
+from bench.discovery import all_contenders, metrics_of
 from bench.engines.run import compiled_loop
 from bench.engines.run import run as run_engine
+from bench.engines.run_arm import pointers
+from bench.engines.run_arm import run as run_on_arm
 from bench.errors import BadLaw, BadResults
 from bench.plan import Plan, Unit, check_workers
 from bench.provenance import describe
@@ -119,11 +121,13 @@ def run(
 
 def _compile_own_laws(plan: Plan) -> None:
     """Compile a user's laws before anything is written: what cannot be compiled is a mistake, not a row."""
-    metrics = tuple(known_metrics().values())
     for unit in {(unit.engine, unit.contender): unit for unit in plan.units}.values():
         one = plan.contender(unit.contender)
         if one.regulator.origin and unit.engine != "reference":
-            compiled_loop(unit.engine, one, metrics)
+            if one.is_on_arm:
+                pointers(one)
+            else:
+                compiled_loop(unit.engine, one, metrics_of(on_arm=False))
 
 
 def _keep_own_laws(plan: Plan, out: Path) -> None:
@@ -135,13 +139,22 @@ def _keep_own_laws(plan: Plan, out: Path) -> None:
 
 
 def _costs(plan: Plan) -> list[dict]:
-    """Operations of every law, run or not; none of a law beyond the dialect that only `reference` runs."""
-    costed = {one.name: one for one in (*all_contenders(), *plan.contenders)}
+    """Operations of every law, run or not, and of every controller run on an arm.
+
+    None of a law beyond the dialect that only `reference` runs.
+    """
+    costed = {one.name: one for one in (*all_contenders(), *plan.laws)}
     only_reference = all(unit.engine == "reference" for unit in plan.units)
+    on_arms = {(unit.contender, tasks.arm(unit.arm).joints): None for unit in plan.units if unit.arm}
+    jobs = [(functools.partial(counting.rows, [one]), one) for one in costed.values()]
+    jobs += [
+        (functools.partial(counting.rows_on_arm, plan.contender(name), joints), plan.contender(name))
+        for name, joints in on_arms
+    ]
     rows = []
-    for one in costed.values():
+    for count, one in jobs:
         try:
-            rows += counting.rows([one])
+            rows += count()
         except BadLaw:
             if not (one.regulator.origin and only_reference):
                 raise
@@ -182,15 +195,19 @@ def _removing(out: Path):
 
 
 def _run_units(plan: Plan, todo: list[Unit], out: Path, workers: int, told) -> None:
-    metrics = tuple(known_metrics().values())
     stop = threading.Event()
 
     def work(unit: Unit) -> Unit | None:
         if stop.is_set():
             return None
-        starts = starts_of(unit.start_set, unit.total, plan.seed)[unit.first : unit.first + unit.count]
+        starts = starts_of(unit.start_set, unit.total, plan.seed, unit.arm)[unit.first : unit.first + unit.count]
         one, settings = plan.contender(unit.contender), settings_of(plan, unit.horizon_s)
-        numbers = run_engine(unit.engine, one, unit.task, starts, settings, metrics, plan.integrator)
+        metrics = metrics_of(on_arm=one.is_on_arm)
+        if one.is_on_arm:
+            given = (unit.task, unit.arm, starts, settings, metrics, plan.integrator, unit.variation)
+            numbers = run_on_arm(unit.engine, one, *given)
+        else:
+            numbers = run_engine(unit.engine, one, unit.task, starts, settings, metrics, plan.integrator)
         write_table(out / "parts" / f"{unit.key}.parquet", frame(plan, unit, one, starts, numbers, metrics), "episodes")
         return unit
 

@@ -7,7 +7,7 @@ import pyarrow as pa
 from bench.discovery import known_metrics
 from bench.provenance import ROOT
 
-VERSION = "1"
+VERSION = "2"
 WORD, NUMBER, COUNT = pa.dictionary(pa.int32(), pa.string()), pa.float64(), pa.int64()
 
 
@@ -38,6 +38,7 @@ PLACE = _words(
     suite="plan the row belongs to",
     task="plant and goal",
     arm="manipulator; empty for the free body",
+    variation="how the plant differs from the controller's model of it; nominal if it does not",
 )
 STARTED = [
     *_words(engine="what simulated the episode", start_set="family of starts", start_id="start within its family"),
@@ -62,22 +63,35 @@ JUDGED = [
     *_numbers("s", "time at which the episode failed; null if it did not", "failure_time_s"),
     *_numbers("rad", "angle to the goal at the end, by the judge", "final_angle_rad"),
 ]
+SEEN_ON_ARM = [
+    *_numbers(
+        "1",
+        "largest condition number of the tool's Jacobian (SI units), looked at every 8 ticks, by the judge",
+        "cond_jacobian_max",
+    ),
+    *_words(cause="what a failed episode on an arm was near: representation, kinematic, both, torque or law"),
+]
 TICKS = [Column("ticks", COUNT, "1", "control periods simulated")]
 
 
 def episode_columns() -> list[Column]:
     """episodes.parquet: one row an episode; every metric found adds its column."""
     measured = [Column(one.column, NUMBER, one.unit, one.title) for one in known_metrics().values()]
-    return [*PLACE, *CONTENDER, *STARTED, *SET, *JUDGED, *measured, *TICKS]
+    return [*PLACE, *CONTENDER, *STARTED, *SET, *JUDGED, *measured, *SEEN_ON_ARM, *TICKS]
 
 
-KEY = ("suite", "task", "arm", "regulator", "representation", "jacobian", "inverse", "engine", "start_set", "start_id")
+KEY = (
+    *("suite", "task", "arm", "variation"),
+    *("regulator", "representation", "jacobian", "inverse"),
+    *("engine", "start_set", "start_id"),
+)
 """What names a row of episodes.parquet; kp, kv, dt_s and integrator are the run's."""
 
 
 def trace_columns() -> list[Column]:
     """traces.parquet: an episode every few ticks."""
     return [
+        *_words(task="plant and goal", arm="manipulator; empty for the free body"),
         *CONTENDER,
         *_words(engine="what simulated the episode", start_set="family of starts", start_id="start within its family"),
         *_numbers("s", "time", "time_s"),
@@ -85,6 +99,8 @@ def trace_columns() -> list[Column]:
         *_numbers("rad/s", "angular velocity, base frame", "omega_x", "omega_y", "omega_z"),
         *_numbers("rad/s^2", "command, base frame", "u_x", "u_y", "u_z"),
         *_numbers("rad", "angle to the goal", "angle_rad"),
+        *_numbers("m", "distance of the tool from its place; null on the free body", "position_error_m"),
+        *_numbers("rad", "joint angles; null where there is no such joint", *(f"q_{i}" for i in range(1, 8))),
     ]
 
 
@@ -105,6 +121,7 @@ def cost_columns() -> list[Column]:
 
     return [
         *CONTENDER,
+        Column("joints", COUNT, "1", "joints of the arm; 0 on the free body, where a law is all there is"),
         *_words(branch="typical or worst", stage="part of the tick, or total"),
         *(Column(name, COUNT, "1", f"{name} operations a tick") for name in OPERATIONS),
         Column("flops", COUNT, "1", "add + mul + div + sqrt; transcendental functions apart"),

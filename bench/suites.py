@@ -1,7 +1,8 @@
-"""Suites: which engines run which start sets, how many starts, how long."""
+"""Suites: which engines run which start sets, how many starts, how long; on arms also which contenders."""
 
 from typing import NamedTuple
 
+from bench.combinations import ANALYTIC, INVERSES, LAWS, TWINS, VARIED
 from bench.errors import UnknownWord
 
 ENGINES = ("ideal-rk4", "ideal-held", "native", "reference")
@@ -9,6 +10,12 @@ ENGINES = ("ideal-rk4", "ideal-held", "native", "reference")
 LONG, SHORT = 20.0, 10.0
 """Horizons [s]. SHORT is 17 settling times of a small error. LONG is for starts near a half turn: rounding (1e-16)
 grows there by a decade every 0.56 s, so that what has not left after 10 s of it never will."""
+
+ON_ARM = 5.0
+"""Horizon on arms [s]: eight settling times of a small error. What has not settled by then is called timed-out."""
+
+NOMINAL = "nominal"
+"""The variation in which the plant is the controller's model."""
 
 
 class Slice(NamedTuple):
@@ -20,6 +27,21 @@ class Slice(NamedTuple):
     horizon_s: float
 
 
+class OnArms(NamedTuple):
+    """The part of a suite that runs on every arm.
+
+    words: contenders as `combinations` writes them; none at all: every compatible combination. varied: the contenders
+    of the study of model errors, which runs over all variations of the plant. traced: starts of `clear` and `pole`
+    whose episodes are kept as curves.
+    """
+
+    words: tuple[str, ...]
+    slices: tuple[Slice, ...]
+    varied: tuple[str, ...] = ()
+    varied_slices: tuple[Slice, ...] = ()
+    traced: int = 0
+
+
 class Suite(NamedTuple):
     """A named list of slices, run for every contender that is not only a costing."""
 
@@ -28,15 +50,23 @@ class Suite(NamedTuple):
     slices: tuple[Slice, ...]
     traces: int
     boundary_axes: int
+    on_arms: OnArms
 
 
 DIRECTED = ("box", "goals", "half-turn", "paper", "poles", "tumbling", "wraps")
 HORIZON = {"half-turn": LONG, "poles": LONG, "wraps": LONG}
+ARM_SETS = ("clear", "wrist", "pole", "half-turn", "uniform", "tumbling")
 
 
 def _slices(engine: str, uniform: int, directed=DIRECTED) -> tuple[Slice, ...]:
     sampled = (Slice(engine, "uniform", uniform, SHORT),) if uniform else ()
     return sampled + tuple(Slice(engine, name, None, HORIZON.get(name, SHORT)) for name in directed)
+
+
+def _on_arms(uniform: int, each: int | None, reference: int = 0) -> tuple[Slice, ...]:
+    sizes = {name: uniform if name == "uniform" else each for name in ARM_SETS}
+    slices = tuple(Slice("native", name, size, ON_ARM) for name, size in sizes.items())
+    return slices + ((Slice("reference", "clear", reference, 0.25),) if reference else ())
 
 
 SUITES = {
@@ -50,26 +80,35 @@ SUITES = {
             + _slices("reference", 0, ("paper",)),
             traces=24,
             boundary_axes=64,
+            on_arms=OnArms((*LAWS, *ANALYTIC), _on_arms(4, 4)),
         ),
         Suite(
             "default",
             "what `make bench` runs and the report shows",
             _slices("ideal-rk4", 5000)
             + _slices("ideal-held", 5000)
-            + _slices("native", 5000)
+            + _slices("native", 1000)
             + _slices("reference", 0, ("paper",)),
             traces=64,
             boundary_axes=256,
+            on_arms=OnArms(
+                (*LAWS, *ANALYTIC, *TWINS, *INVERSES),
+                _on_arms(60, 24),
+                VARIED,
+                (Slice("native", "clear", 8, ON_ARM),),
+                traced=4,
+            ),
         ),
         Suite(
             "full",
-            "ten times the uniform starts, for narrower intervals",
+            "ten times the uniform starts, and every combination on arms",
             _slices("ideal-rk4", 50_000)
             + _slices("ideal-held", 50_000)
             + _slices("native", 50_000)
             + _slices("reference", 0, ("paper",)),
             traces=64,
             boundary_axes=1024,
+            on_arms=OnArms((), _on_arms(200, None), VARIED, (Slice("native", "clear", None, ON_ARM),), traced=4),
         ),
     )
 }

@@ -1,23 +1,33 @@
 """Episodes as curves: the state every few ticks, for figures and for claims about a whole response."""
 
+import functools
+
 import numpy as np
 import pandas as pd
 
 import tasks
 from bench.engines import ideal
+from bench.engines.arm_episode import JOINTS, POSE
 from bench.engines.binding import command_of, margin_of, memory_of
 from bench.engines.episode import FIRST_METRIC, numbers, start_rows
+from bench.engines.run_arm import run_observed
 from bench.plan import Plan
 from bench.rows import contender_columns, settings_of
-from bench.scalar import kernel
+from bench.scalar import kernel, sqrt
 from bench.schema import trace_columns
 
 EVERY_S = 0.02
 """Five samples in each time constant of 0.1 s."""
 
 LONGEST_S = 4.0
+SAMPLES = round(LONGEST_S / EVERY_S)
 NUMBERS = ("time_s", *(f"{c}_{x}" for c in "noa" for x in "xyz"), *(f"{v}_{x}" for v in ("omega", "u") for x in "xyz"))
 WIDTH = len(NUMBERS) + 1
+ON_ARM = ("position_error_m", *(f"q_{i}" for i in range(1, JOINTS + 1)))
+ARM_WIDTH = WIDTH + len(ON_ARM)
+
+ARM_SETS = ("clear", "pole")
+"""Start sets of arms whose first episodes are kept."""
 
 
 @kernel
@@ -34,6 +44,15 @@ def store(row, at, sample):
     row[at + 16] = sample.haversine
 
 
+@kernel
+def store_joints(row, at, sample):
+    """The tool's distance from its place, and the joint angles."""
+    x, y, z = sample.p[0] - sample.p_d[0], sample.p[1] - sample.p_d[1], sample.p[2] - sample.p_d[2]
+    row[at] = sqrt(x * x + y * y + z * z)
+    for i in range(sample.q.shape[0]):
+        row[at + 1 + i] = sample.q[i]
+
+
 def recorder(every: int):
     """An observer that keeps every so many ticks of the episode while its row has room."""
 
@@ -47,28 +66,64 @@ def recorder(every: int):
     return observe
 
 
+@functools.cache
+def arm_recorder(every: int):
+    """The same of an arm; its rows end in the arm's own columns."""
+
+    @kernel
+    def observe(row, sample):
+        tick = int(sample.time / sample.dt + 0.5)
+        at = FIRST_METRIC + tick // every * ARM_WIDTH
+        if tick % every < 1 and at + ARM_WIDTH <= row.shape[0] + POSE:
+            store(row, at, sample)
+            store_joints(row, at + WIDTH, sample)
+
+    return observe
+
+
 def run(plan: Plan) -> pd.DataFrame:
-    """traces.parquet of a plan: the `paper` starts and the first `plan.traces` uniform ones, on the ideal plant."""
-    frames = []
-    if plan.traces:
-        every = max(1, round(EVERY_S / plan.dt_s))
-        for one in plan.contenders:
-            parts = command_of(one), margin_of(one), recorder(every), memory_of(one)
-            loop = ideal.episodes_of("ideal-rk4", *parts, not one.regulator.origin)
-            for start_set, count in (("paper", None), ("uniform", plan.traces)):
-                frames += _traces(plan, one, loop, start_set, tasks.start_set(start_set, count, plan.seed))
+    """traces.parquet of a plan.
+
+    On the ideal plant the `paper` starts and the first `plan.traces` uniform ones; on arms the first `plan.arm_traces`
+    of each of ARM_SETS.
+    """
+    every = max(1, round(EVERY_S / plan.dt_s))
+    frames = [*_on_free_body(plan, every), *_on_arms(plan, every)]
     names = [column.name for column in trace_columns()]
-    return pd.concat(frames, ignore_index=True) if frames else pd.DataFrame(columns=names)
+    return pd.concat(frames, ignore_index=True).reindex(columns=names) if frames else pd.DataFrame(columns=names)
 
 
-def _traces(plan, one, loop, start_set, starts):
-    samples = round(LONGEST_S / EVERY_S)
-    rows = np.full((len(starts), FIRST_METRIC + samples * WIDTH), np.nan)
-    loop(start_rows(starts), numbers(settings_of(plan, LONGEST_S)), rows)
+def _on_free_body(plan: Plan, every: int):
+    for one in plan.laws if plan.traces else ():
+        parts = command_of(one), margin_of(one), recorder(every), memory_of(one)
+        loop = ideal.episodes_of("ideal-rk4", *parts, not one.regulator.origin)
+        for start_set, count in (("paper", None), ("uniform", plan.traces)):
+            starts = tasks.start_set(start_set, count, plan.seed)
+            rows = np.full((len(starts), FIRST_METRIC + SAMPLES * WIDTH), np.nan)
+            loop(start_rows(starts), numbers(settings_of(plan, LONGEST_S)), rows)
+            place = {"task": "free-body", "arm": "", **contender_columns(one), "engine": "ideal-rk4"}
+            yield from _curves({**place, "start_set": start_set}, starts, rows[:, FIRST_METRIC:], NUMBERS)
+
+
+def _on_arms(plan: Plan, every: int):
+    if not plan.arm_traces:
+        return
+    for task, arm, name in dict.fromkeys((unit.task, unit.arm, unit.contender) for unit in plan.units if unit.arm):
+        one = plan.contender(name)
+        for start_set in ARM_SETS:
+            starts = tasks.start_set(start_set, plan.arm_traces, plan.seed, arm=arm)
+            rows = np.full((len(starts), FIRST_METRIC + SAMPLES * ARM_WIDTH - POSE), np.nan)
+            settings = settings_of(plan, LONGEST_S)
+            run_observed(arm_recorder(every), one, task, arm, starts, settings, rows, plan.integrator)
+            place = {"task": task, "arm": arm, **contender_columns(one), "engine": "native", "start_set": start_set}
+            yield from _curves(place, starts, rows[:, FIRST_METRIC:POSE], (*NUMBERS, "angle", *ON_ARM))
+
+
+def _curves(place: dict, starts, rows: np.ndarray, names):
+    """One frame a start."""
     for start, row in zip(starts, rows, strict=True):
-        kept = row[FIRST_METRIC:].reshape(samples, WIDTH)
+        kept = row.reshape(SAMPLES, -1)
         kept = kept[~np.isnan(kept[:, 0])]
-        columns = dict(zip(NUMBERS, kept.T, strict=False))
-        columns["angle_rad"] = 2.0 * np.arcsin(np.minimum(1.0, np.sqrt(kept[:, -1])))
-        fixed = {**contender_columns(one), "engine": "ideal-rk4", "start_set": start_set, "start_id": start.id}
-        yield pd.DataFrame({**fixed, **columns})
+        columns = {name: kept[:, i] for i, name in enumerate(names) if name != "angle"}
+        columns["angle_rad"] = 2.0 * np.arcsin(np.minimum(1.0, np.sqrt(kept[:, len(NUMBERS)])))
+        yield pd.DataFrame({**place, "start_id": start.id, **columns})

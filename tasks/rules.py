@@ -27,6 +27,10 @@ class Rules(NamedTuple):
     # |u| beyond any actuator: held for a 1 ms tick it adds 1,000 rad/s, a whole radian of motion in the next
     # tick. Spring and damping of the paper's gains stay under 100 sqrt(3) pi + 20 * 20 = 944 rad/s^2.
     command_limit: float = 1e6
+    # |(tau_i / rated_i)| of an arm's torques, each over its motor's rated torque: beyond any motor. The gains
+    # (100, 20) ask for up to 100 pi rad/s^2 of the tool, which takes a light arm's wrist some ten times its rated
+    # torque; how much an episode took is a column, peak_torque_ratio.
+    torque_limit: float = 100.0
     # |omega| that turns 10 rad in a 1 ms tick, more than once around between two samples: the orientation can
     # no longer be followed.
     speed_limit: float = 1e4

@@ -8,7 +8,7 @@ import pytest
 from bits import different_rows, same_bits
 from driving import NO_EARLY_STOP, settings, spread
 
-from bench.discovery import find_contender, known_metrics
+from bench.discovery import find_contender, metrics_of
 from bench.engines.compiled import MATRIX, compile_function
 from bench.engines.episode import FINAL_ANGLE, FIRST_METRIC, OUTCOME, Sample
 from bench.engines.run import run
@@ -16,7 +16,7 @@ from bench.metric import Ending
 from bench.so3 import Rotation
 from tasks.verdict import OUTCOMES, SETTLED
 
-METRICS = tuple(known_metrics().values())
+METRICS = metrics_of(on_arm=False)
 GOOD_ENDINGS = [Ending(angle0=1.0, final_angle=1e-4, band=0.02, outcome=word) for word in OUTCOMES]
 AT_GOAL = Ending(angle0=0.0, final_angle=0.0, band=0.02, outcome="settled")
 

@@ -13,7 +13,7 @@ from states import as_rotation, rotations, vector
 
 import tasks
 from bench.contender import AT_REST, Gains, Goal
-from bench.discovery import TRIAL, all_contenders, known_metrics
+from bench.discovery import TRIAL, all_contenders, metrics_of
 from bench.engines.binding import command_of, margin_of, memory_of
 from bench.engines.compiled import MATRIX, compile_function
 from bench.engines.episode import OUTCOME, SETTLING_TICK, TICKS
@@ -23,7 +23,7 @@ from tasks.base import Start
 from tasks.rotations import about
 from tasks.verdict import DIVERGED, OUTCOMES, SATURATED, SETTLED, SINGULAR
 
-METRICS = tuple(known_metrics().values())
+METRICS = metrics_of(on_arm=False)
 GAINS = Gains(kp=37.0, kv=9.0)  # not the defaults: a law that has those built in is found out
 
 

@@ -13,7 +13,7 @@ from scipy.spatial.transform import Rotation as ScipyRotation
 from states import as_rotation, matrix, vector
 
 import tasks
-from bench.discovery import find_contender, known_metrics
+from bench.discovery import find_contender, metrics_of
 from bench.engines import ideal
 from bench.engines.binding import command_of, margin_of, memory_of
 from bench.engines.episode import FIRST_METRIC, OUTCOME, SETTLING_TICK, numbers, start_rows
@@ -23,7 +23,7 @@ from tasks.base import Start
 from tasks.rotations import short_of_half_turn, zyx
 from tasks.verdict import SETTLED
 
-METRICS = tuple(known_metrics().values())
+METRICS = metrics_of(on_arm=False)
 PAPERS_LAWS = tuple(own_loop.COMMANDS)
 COUNT = 40
 HORIZON = 3.0

@@ -9,7 +9,7 @@ from bits import EPS
 from driving import settings
 
 import tasks
-from bench.discovery import find_contender, known_metrics
+from bench.discovery import find_contender, metrics_of
 from bench.engines.episode import FINAL_ANGLE, FIRST_METRIC, OUTCOME
 from bench.engines.run import run
 from bench.metric import Ending, Metric
@@ -18,7 +18,7 @@ from tasks.rotations import zyx
 from tasks.rules import RULES
 from tasks.verdict import OUTCOMES
 
-METRICS = tuple(known_metrics().values())
+METRICS = metrics_of(on_arm=False)
 DT = 2e-3
 CHOSEN = settings(dt_s=DT, horizon_s=1.0)
 TICKS = CHOSEN.ticks
@@ -149,7 +149,7 @@ def test_path_ratio_is_no_number_for_a_start_at_its_goal():
 @pytest.mark.parametrize("name", ["peak-u", "min-margin"])
 def test_extreme_passes_over_a_tick_that_is_not_a_number(name):
     """The tick at which a law fails has no command, and one at which no margin exists has no margin."""
-    update = known_metrics()[name].update
+    update = next(one for one in METRICS if one.name == name).update
     sample = episode("linearized-euler/zyx-euler", STARTS[0])[0][0]
     missing = sample._replace(u=(math.nan, 0.0, 0.0), margin=math.nan)
     assert update(update(0.5, sample), missing) == update(0.5, sample)

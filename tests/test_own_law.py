@@ -10,7 +10,7 @@ from command_line import bench
 from driving import settings, spread
 
 from bench import results, store
-from bench.discovery import contenders_of, known_metrics, load_law
+from bench.discovery import contenders_of, metrics_of, load_law
 from bench.engines.episode import FAILURE_TICK, OUTCOME
 from bench.engines.run import run
 from bench.figures import cards
@@ -20,7 +20,7 @@ from tasks.verdict import SINGULAR
 
 README = (Path(__file__).parents[1] / "README.md").read_text()
 EXAMPLE = next(code for code in re.findall(r"```python\n(.*?)```", README, re.DOTALL) if "REGULATOR" in code)
-METRICS = tuple(known_metrics().values())
+METRICS = metrics_of(on_arm=False)
 
 LAW = """
 import math

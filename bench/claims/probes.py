@@ -10,7 +10,7 @@ from scipy.spatial.transform import Rotation as Turn
 
 from bench.boundary import axes
 from bench.contender import AT_REST, Gains, Goal
-from bench.discovery import find_contender, known_metrics, representation
+from bench.discovery import find_contender, metrics_of, representation
 from bench.so3 import IDENTITY, Rotation, from_quaternion
 from tasks.base import Start
 from tasks.rules import RULES
@@ -66,7 +66,7 @@ def episodes(contender: str, starts: list[Start], gains: Gains, dt_s: float, hor
     from bench.rows import settings_of
 
     settings = settings_of(Plan("experiment", (), (), gains, dt_s), horizon_s)
-    metrics = tuple(known_metrics().values())
+    metrics = metrics_of(on_arm=False)
     rows = run_engine("ideal-rk4", find_contender(contender), "free-body", starts, settings, metrics)
     ticks = rows[:, SETTLING_TICK]
     return pd.DataFrame(

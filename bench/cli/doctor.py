@@ -75,14 +75,14 @@ def _compiler() -> str:
 
 def _engines() -> str:
     import tasks
-    from bench.discovery import find_contender, known_metrics
+    from bench.discovery import find_contender, metrics_of
     from bench.engines.run import run
     from bench.plan import Plan
     from bench.rows import settings_of
 
     law = find_contender("rotation-matrix")
     plan = Plan("doctor", (), (law,))
-    metrics = tuple(known_metrics().values())
+    metrics = metrics_of(on_arm=False)
     starts = tasks.start_set("paper")[:1]
     settings = settings_of(plan, 0.05)
     both = [run(engine, law, "free-body", starts, settings, metrics) for engine in ("reference", "native")]

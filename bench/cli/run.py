@@ -9,11 +9,14 @@ from bench import plan as planning
 from bench.cli import options
 from bench.cli.screen import console, episode_progress
 from bench.contender import Gains
+from bench.suites import NOMINAL
 
 EPILOG = """
 Examples:  [b]python -m bench run[/b]  the default suite into results/latest.
 [b]python -m bench run --regulator rotation-matrix --starts half-turn --engine native --out /tmp/half[/b]
 [b]python -m bench run --law my_law.py --suite quick --out /tmp/mine[/b]
+[b]python -m bench run --task arm-regulation --arm ur5e --regulator feedback-linearized/zyx-euler --jacobian analytic
+--inverse solve --out /tmp/arm[/b]
 """
 
 
@@ -23,6 +26,12 @@ Examples:  [b]python -m bench run[/b]  the default suite into results/latest.
 @options.regulator
 @options.representation
 @click.option("--task", "tasks", multiple=True, metavar="NAME", help="Only this task; repeatable.")
+@click.option("--arm", "arms", multiple=True, metavar="NAME", help="Only this arm; repeatable.")
+@click.option("--jacobian", "jacobians", multiple=True, metavar="NAME", help="On arms, only this one; repeatable.")
+@click.option("--inverse", "inverses", multiple=True, metavar="NAME", help="On arms, only this one; repeatable.")
+@click.option(
+    "--variation", "variations", multiple=True, metavar="NAME", help="On arms, a plant that differs so; repeatable."
+)
 @click.option("--starts", multiple=True, metavar="NAME", help="Only this start set; repeatable.")
 @click.option("--engine", "engines", multiple=True, metavar="NAME", help="Only this engine; repeatable.")
 @click.option("--count", type=int, help="At most so many starts of each set (sampled sets take any number).")
@@ -41,16 +50,14 @@ Examples:  [b]python -m bench run[/b]  the default suite into results/latest.
 @click.option("--replace", is_flag=True, help="Start over if the folder holds another plan.")
 @click.option("--dry-run", is_flag=True, help="Print the plan and its size; run nothing.")
 def COMMAND(
-    suite, laws, regulators, representations, tasks, starts, engines, count, dt_s, horizon_s, kp, kv, integrator, seed,
-    workers, out, replace, dry_run,
+    suite, laws, regulators, representations, tasks, arms, jacobians, inverses, variations, starts, engines, count, dt_s,
+    horizon_s, kp, kv, integrator, seed, workers, out, replace, dry_run,
 ):  # fmt: skip
     """Run a suite and store its episodes; a run that was stopped goes on where it was."""
     plan = planning.make(
         suite,
         options.chosen(laws, regulators, representations),
-        task_words=tasks,
-        start_sets=starts,
-        engines=engines,
+        planning.Choice(tasks, starts, engines, arms, jacobians, inverses, variations),
         count=count,
         dt_s=dt_s,
         horizon_s=horizon_s,
@@ -74,7 +81,7 @@ def COMMAND(
         def told(done):
             unit = done.unit
             progress.update(
-                bar, advance=done.episodes, description=f"{unit.engine} {unit.contender.split('/')[0]}"[:34]
+                bar, advance=done.episodes, description=f"{unit.arm or unit.engine} {unit.contender.split('/')[0]}"[:34]
             )
             if progress.tasks[0].finished:
                 progress.update(bar, description="locating failure boundaries")
@@ -85,13 +92,17 @@ def COMMAND(
 
 
 def _print_plan(plan, out) -> None:
-    laws = ", ".join(one.name for one in plan.contenders)
+    laws = ", ".join(dict.fromkeys(one.on_free_body for one in plan.contenders))
     console().print(
         f"suite {plan.suite}: {plan.episodes:,} episodes in {len(plan.units)} units, dt {plan.dt_s} s, into {out}"
     )
     console().print(f"laws: {laws}")
     sizes: dict = {}
     for unit in plan.units:
-        sizes.setdefault(unit.engine, {}).setdefault(unit.start_set, unit.total)
-    for engine, sets in sizes.items():
-        console().print(f"{engine}: " + ", ".join(f"{name} {total}" for name, total in sets.items()) + " (each law)")
+        place = f"{unit.engine}, {unit.arm}" if unit.arm else unit.engine
+        varied = "" if unit.variation == NOMINAL else " under each variation"
+        sizes.setdefault(place, {}).setdefault(unit.start_set + varied, unit.total)
+    for place, sets in sizes.items():
+        on = {unit.contender for unit in plan.units if unit.arm and place.endswith(f", {unit.arm}")}
+        each = f"each of {len(on)} combinations" if on else "each law"
+        console().print(f"{place}: " + ", ".join(f"{name} {total}" for name, total in sets.items()) + f" ({each})")

@@ -7,11 +7,13 @@ takes the same branches and returns the same bits, and they tally every operatio
     staged.py    representations that say which stage of the tick they are
     states.py    the states a law is counted at
     costs.py     cost(contender), rows(contenders)
+    on_arms.py   the same of a whole controller on an arm
     dialect.py   what a law file may contain, checked in its text
 """
 
 from bench.counting.costs import BRANCHES, Cost, cost, flops, rows
 from bench.counting.counted import OPERATIONS, STAGES, TOTAL, Counted, Counts, OutsideDialect, Tally
+from bench.counting.on_arms import rows_on_arm
 
 __all__ = [
     "BRANCHES",
@@ -27,6 +29,7 @@ __all__ = [
     "cost",
     "flops",
     "rows",
+    "rows_on_arm",
 ]
 
 RULES = (
@@ -37,7 +40,8 @@ RULES = (
     "sqrt is a flop; sin, cos, acos and atan2 are columns of their own and never weighted into one.",
     "Each of < <= > >= is one compare; the branch that is taken is what is counted.",
     "A function called by a law counts in the stage of its caller, unless it is the representation's own.",
-    "Typical is the tally most frequent over uniformly distributed orientations, at rest and spinning.",
+    "Typical is the tally most frequent over uniformly distributed orientations, at rest and spinning; on an arm the "
+    "median over its starts, for an iterated inverse takes as many steps as its matrix needs.",
     "Worst is the largest number of operations of any kind over all states, directed ones included; between "
     "equals the one with more flops, then the one met first.",
     "A law with memory is counted with its initial memory, with what the state before left, and with what it "

@@ -6,7 +6,7 @@ Every counted call is checked against the plain call, so that a cost is never th
 import struct
 from collections import Counter
 from collections.abc import Iterable, Iterator
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -36,7 +36,7 @@ class Cost(NamedTuple):
 class Call(NamedTuple):
     """One counted call. `is_typical` if it is one of those the typical branch is chosen from."""
 
-    state: State
+    state: Any
     counts: Counts
     is_typical: bool
 
@@ -51,13 +51,13 @@ def cost(contender: Contender) -> Cost:
     calls = list(counted_calls(contender))
     sampled = Counter(call.counts for call in calls if call.is_typical)
     typical, times = sampled.most_common(1)[0]
-    worst = max(calls, key=lambda call: _size(call.counts))
+    worst = max(calls, key=lambda call: size(call.counts))
     return Cost(contender, typical, worst.counts, times / sampled.total(), worst.state.id)
 
 
 def rows(contenders: Iterable[Contender]) -> list[dict]:
     """Rows of costs.parquet: contender x branch x stage, the stage "total" last."""
-    return [row for contender in contenders for row in _rows(cost(contender))]
+    return [row for contender in contenders for row in rows_of(cost(contender))]
 
 
 def flops(numbers: dict) -> int:
@@ -65,16 +65,18 @@ def flops(numbers: dict) -> int:
     return sum(numbers[name] for name in FLOPS)
 
 
-def _rows(one: Cost) -> Iterator[dict]:
-    representation = one.contender.representation
+def rows_of(one: Cost, joints: int = 0) -> Iterator[dict]:
+    """The rows of one cost; of no joints for a law alone."""
+    representation, (jacobian, inverse) = one.contender.representation, one.contender.way
     for branch, counts in zip(BRANCHES, (one.typical, one.worst), strict=True):
         for stage in (*STAGES, TOTAL):
             numbers = counts.of(stage)
             yield {
                 "regulator": one.contender.regulator.name,
                 "representation": representation.name if representation else "",
-                "jacobian": "",
-                "inverse": "",
+                "jacobian": jacobian,
+                "inverse": inverse,
+                "joints": joints,
                 "branch": branch,
                 "stage": stage,
                 **numbers,
@@ -82,7 +84,8 @@ def _rows(one: Cost) -> Iterator[dict]:
             }
 
 
-def _size(counts: Counts) -> tuple[int, int]:
+def size(counts: Counts) -> tuple[int, int]:
+    """What calls are ranked by: all operations, then flops."""
     numbers = counts.of(TOTAL)
     return sum(numbers[name] for name in OPERATIONS), flops(numbers)
 

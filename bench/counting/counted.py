@@ -14,8 +14,8 @@ from bench.errors import BadLaw
 OPERATIONS = ("add", "mul", "div", "sqrt", "sin", "cos", "atan2", "acos", "compare", "copysign")
 """One column each. A subtraction is an add."""
 
-STAGES = ("measure", "goal", "represent", "regulate", "jacobian", "linearize")
-"""Parts of a tick: R and omega from sensors; E_d; E and Edot; the law; J and its inverse; u from u_E."""
+STAGES = ("measure", "goal", "represent", "regulate", "jacobian", "invert", "linearize")
+"""Parts of a tick: R and omega from sensors; E_d; E and Edot; the law; J in its coordinates; J^-1; u from u_E, tau."""
 
 TOTAL = "total"
 

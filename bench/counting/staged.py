@@ -35,13 +35,15 @@ def staged(representation: Representation, tally: Tally) -> Representation:
     """A stand-in with the same fields, each function in its stage."""
     fields = representation._asdict()
     for name, stage in STAGE_OF.items():
-        fields[name] = _in_stage(tally, stage, getattr(representation, name))
+        fields[name] = in_stage(tally, stage, getattr(representation, name))
     return cast(
         Representation, SimpleNamespace(**fields)
     )  # goal_chart is a property there, and cannot be replaced
 
 
-def _in_stage(tally: Tally, stage: str, function):
+def in_stage(tally: Tally, stage: str, function):
+    """The function, its operations counted in that stage."""
+
     def call(*numbers):
         before, tally.stage = tally.stage, stage
         try:

@@ -1,6 +1,8 @@
 """A contender's law and metrics in the one form that every engine calls.
 
 command(R, omega, goal, gains, memory) -> (u, memory)      margin(R, R_d) -> number      observe(row, sample)
+
+On an analytic Jacobian the command is that of the coordinates: command(chart, E_d, Edot, gains) -> u_E.
 """
 
 import math
@@ -18,10 +20,29 @@ def command_of(contender: Contender):
 
     So does one that returns anything but three numbers in some state. Times 1.0 keeps every bit of a number.
     """
+    if contender.jacobian is not None and contender.jacobian.takes == "coordinates":
+        return _coordinate_command_of(contender)
     law = contender.law
     if contender.regulator.memory is not None:
         return _guarded_memory(law) if contender.regulator.origin else law
     return _guarded(law) if contender.regulator.origin else _memoryless(law)
+
+
+def _coordinate_command_of(contender: Contender):
+    law = contender.coordinate_law
+    return _guarded_coordinates(law) if contender.regulator.origin else law
+
+
+def _guarded_coordinates(law):
+    @kernel
+    def command(at, E_d, Edot, gains):
+        try:
+            u_E = law(at, E_d, Edot, gains)
+        except Exception:
+            u_E = NOT_A_NUMBER
+        return u_E
+
+    return command
 
 
 def _memoryless(law):

@@ -1,5 +1,6 @@
 """Compiling with numba: our options, the types of our signatures, and what the law dialect means in compiled code."""
 
+import contextlib
 import itertools
 import math
 import secrets
@@ -12,6 +13,7 @@ from numba.extending import overload, register_jitable
 from bench import scalar
 from bench.engines.cache import to_itself
 from bench.engines.episode import Numbers
+from bench.errors import BadLaw
 from tasks import truth, verdict
 
 FunctionIdentity._unique_ids = itertools.count(secrets.randbits(56))
@@ -62,3 +64,31 @@ def compile_function(function, signature, cache: bool = True):
     register_kernels()
     with to_itself(cache):
         return numba.njit(signature, cache=cache, **JIT)(function)
+
+
+@contextlib.contextmanager
+def own_law(origin: str):
+    """Compile what holds a law: yields whether it may be cached on disk, which a user's law is not.
+
+    Args:
+        origin: the file of a user's law; empty for ours.
+    Errors:
+        BadLaw: a user's law that the compiler cannot take.
+    """
+    try:
+        yield not origin
+    except Exception as error:
+        if not origin:
+            raise
+        raise BadLaw(
+            f"--law {origin}: the law cannot be compiled ({_deepest_reason(error)}); keep to the dialect of "
+            "bench/scalar.py, functions marked @kernel, or run it uncompiled with --engine reference"
+        ) from error
+
+
+def _deepest_reason(error: Exception) -> str:
+    """The one line of numba's report that is about the law: it tells each caller's trouble before the callee's."""
+    lines = [line.strip() for line in str(error).splitlines() if line.strip()] or [type(error).__name__]
+    deepest = max((i for i, line in enumerate(lines[:-1]) if "Failed in nopython mode" in line), default=-1)
+    reason, *after = lines[deepest + 1 :]
+    return f"{reason} {after[0].removeprefix('>>> ')}" if reason.endswith("signature:") and after else reason

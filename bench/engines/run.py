@@ -8,10 +8,12 @@ import numpy as np
 
 import tasks
 from bench.contender import Contender
-from bench.engines import ideal, native, reference
+from bench.engines import ideal
 from bench.engines.binding import command_of, margin_of, memory_of, observer
+from bench.engines.compiled import own_law
 from bench.engines.episode import Settings, blank, numbers, start_rows
-from bench.errors import BadLaw
+from bench.engines.native import free_body as native
+from bench.engines.reference import free_body as reference
 
 MUJOCO_INTEGRATORS = {
     "euler": mujoco.mjtIntegrator.mjINT_EULER,
@@ -24,7 +26,7 @@ MUJOCO_INTEGRATORS = {
 def run(
     engine: str, contender: Contender, task: str, starts, settings: Settings, metrics, integrator="euler"
 ) -> np.ndarray:
-    """Rows of `engines.episode`, one per start.
+    """Rows of `engines.episode`, one per start, on the free body; on an arm: `run_arm.run`.
 
     Args:
         starts: tasks.Start, in order; metrics: Metric, in the order of their columns.
@@ -62,23 +64,7 @@ def compiled_loop(engine: str, contender: Contender, metrics: tuple):
 @functools.cache
 def _compiled_loop(engine: str, contender: Contender, metrics: tuple):
     parts = command_of(contender), margin_of(contender), observer(metrics), memory_of(contender)
-    cache = not contender.regulator.origin
-    try:
+    with own_law(contender.regulator.origin) as cache:
         if engine == "native":
             return native.episodes_of(*parts, cache)
         return ideal.episodes_of(engine, *parts, cache)
-    except Exception as error:
-        if not contender.regulator.origin:
-            raise
-        raise BadLaw(
-            f"--law {contender.regulator.origin}: the law cannot be compiled ({_deepest_reason(error)}); keep to the "
-            "dialect of bench/scalar.py, functions marked @kernel, or run it uncompiled with --engine reference"
-        ) from error
-
-
-def _deepest_reason(error: Exception) -> str:
-    """The one line of numba's report that is about the law: it tells each caller's trouble before the callee's."""
-    lines = [line.strip() for line in str(error).splitlines() if line.strip()] or [type(error).__name__]
-    deepest = max((i for i, line in enumerate(lines[:-1]) if "Failed in nopython mode" in line), default=-1)
-    reason, *after = lines[deepest + 1 :]
-    return f"{reason} {after[0].removeprefix('>>> ')}" if reason.endswith("signature:") and after else reason

@@ -14,10 +14,10 @@ from mujoco.rollout import Rollout
 
 import tasks
 from bench.contender import Contender, Gains
-from bench.discovery import known_metrics
-from bench.engines import native
+from bench.discovery import metrics_of
 from bench.engines.binding import command_of, memory_of
 from bench.engines.episode import TICKS, blank, numbers, start_rows
+from bench.engines.native import free_body as native
 from bench.engines.run import compiled_loop
 from bench.plan import Plan
 from bench.rows import settings_of
@@ -105,7 +105,7 @@ def _settings():
 
 
 def _engine(engine: str, one: Contender) -> Thing:
-    metrics = tuple(known_metrics().values())
+    metrics = metrics_of(on_arm=False)
     loop = compiled_loop(engine, one, metrics)
     starts = tasks.start_set("uniform", STARTS[engine])
     rows, fixed, limits = blank(len(starts), metrics), start_rows(starts), numbers(_settings())

@@ -1,14 +1,12 @@
-"""MuJoCo stepped from compiled code: the dm_control loop, tick for tick and bit for bit, without Python in it.
+"""The free body in MuJoCo, stepped from compiled code: the dm_control loop bit for bit, without Python in it.
 
 The order is dm_control's with legacy_step=True: mj_step1 | law | mj_step2, mj_step1 | law | ... (with Runge-Kutta
 mj_step in place of mj_step2, which would silently be Euler). mjData's arrays never move, so plain views of them go
 into the loop; no struct offset is needed.
 """
 
-from pathlib import Path
 from typing import NamedTuple
 
-import llvmlite.binding as llvm
 import mujoco
 import numpy as np
 from numba import float64, int32, int64, types
@@ -16,22 +14,10 @@ from numba import float64, int32, int64, types
 from bench.contender import AT_REST, Gains, Goal
 from bench.engines.compiled import MATRIX, NUMBERS, compile_function
 from bench.engines.episode import Sample, finish
+from bench.engines.native.libmujoco import mj_resetData, mj_step, mj_step1, mj_step2
 from bench.so3 import Rotation, dot, from_quaternion
 from tasks.truth import angle, haversine
 from tasks.verdict import GOING, check_command, check_state, first_watch, watched
-
-llvm.load_library_permanently(str(next(Path(mujoco.__file__).parent.glob("libmujoco.so*"))))
-
-
-def _c_function(name: str, pointers: int):
-    """A function of libmujoco by its symbol, which the disk cache keeps (a ctypes pointer it would not)."""
-    return types.ExternalFunction(name, types.void(*[types.intp] * pointers))
-
-
-mj_resetData = _c_function("mj_resetData", 2)
-mj_step = _c_function("mj_step", 2)
-mj_step1 = _c_function("mj_step1", 2)
-mj_step2 = _c_function("mj_step2", 2)
 
 
 class View(NamedTuple):

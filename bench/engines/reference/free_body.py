@@ -38,16 +38,16 @@ def _episode(command, margin, observe, memory, task, start, band, settings, row,
     gains, memory = Gains(*map(np.float64, settings.gains)), tuple(map(np.float64, memory))
     hav = haversine(sensors[12:16], start.goal_wxyz)
     watch = first_watch(hav, band)
-    u, omega, tick, failure = (0.0, 0.0, 0.0), _vector(sensors[9:12]), 0, GOING
+    u, omega, tick, failure = (0.0, 0.0, 0.0), vector(sensors[9:12]), 0, GOING
     while tick < limits.ticks and watch.quiet < limits.hold_ticks:
-        R = Rotation(_vector(sensors[0:3]), _vector(sensors[3:6]), _vector(sensors[6:9]))
+        R = Rotation(vector(sensors[0:3]), vector(sensors[3:6]), vector(sensors[6:9]))
         u, memory = command(R, omega, goal, gains, memory)
         observe(row, Sample(tick * dt, dt, R, hav, watch.entered, omega, u, margin(R, R_d)))
         failure = check_command(dot(u, u), limits.command_limit_squared)
         if failure != GOING:
             break
         environment.step(np.array(u))
-        omega = _vector(sensors[9:12])
+        omega = vector(sensors[9:12])
         tick += 1
         failure = check_state(dot(omega, omega), limits.speed_limit_squared)
         if failure != GOING:
@@ -58,6 +58,6 @@ def _episode(command, margin, observe, memory, task, start, band, settings, row,
     finish(row, failure, watch, tick, final, hav <= band, dot(omega, omega), dot(u, u), limits)
 
 
-def _vector(three) -> tuple:
+def vector(three) -> tuple:
     """Three numpy.float64."""
     return (three[0], three[1], three[2])

@@ -1,0 +1,79 @@
+"""Which laws are run on arms by which Jacobian and inverse, and what goes together on so many joints.
+
+A combination is written `law@jacobian+inverse`; the inverse "standard" is the first of STANDARD that fits.
+"""
+
+from bench.contender import Contender, refusal
+from bench.discovery import inverse, jacobian, known_inverses, known_jacobians
+
+STANDARD = ("solve", "pseudo-inverse", "truncated-svd")
+"""What inverts a Jacobian if nothing is said: exact where it is square, of least norm where it is not, and by singular
+values where its rank is less than its rows and columns (a quaternion on seven joints)."""
+
+ON_ANGULAR = (
+    "rotation-matrix",
+    "linearized-euler/zyx-euler",
+    "linearized-euler-relative/zyx-euler",
+    "feedback-linearized/zyx-euler",
+)
+IN_COORDINATES = ("zyx-euler", "zyz-euler", "xyz-euler", "rotation-vector", "mrp", "quaternion")
+LAWS = tuple(f"{law}@geometric+standard" for law in ON_ANGULAR)
+ANALYTIC = tuple(f"feedback-linearized/{word}@analytic+standard" for word in IN_COORDINATES)
+PAPERS_TWO = ("rotation-matrix@geometric", "feedback-linearized/zyx-euler@analytic")
+INVERSES = tuple(
+    f"{law}+{word}"
+    for law in PAPERS_TWO
+    for word in (
+        "pseudo-inverse",
+        "damped-least-squares",
+        "damped-least-squares-variable",
+        "truncated-svd",
+        "dynamically-consistent",
+        "transpose",
+    )
+)
+TWINS = (
+    "rotation-matrix@geometric-body+standard",
+    *(f"feedback-linearized/{word}@geometric+standard" for word in IN_COORDINATES[1:]),
+    "feedback-linearized/zyx-euler@analytic-differentiated+standard",
+)
+"""What ought to equal another contender: the same command by another Jacobian."""
+
+VARIED = (*LAWS, *ANALYTIC, *(f"{law}+dynamically-consistent" for law in PAPERS_TWO))
+
+
+def on(words: tuple[str, ...], laws: dict[str, Contender], joints: int) -> list[Contender]:
+    """The contenders of the words that fit on so many joints, each once.
+
+    Args:
+        laws: by name, the laws there are; a word of another one is left out.
+    """
+    found = (_of_word(word, laws, joints) for word in words)
+    return list(dict.fromkeys(one for one in found if one is not None))
+
+
+def _of_word(word: str, laws: dict[str, Contender], joints: int) -> Contender | None:
+    """The contender of a word `law@jacobian+inverse` on so many joints; None if nothing fits.
+
+    Args:
+        laws: by name, the laws there are.
+    """
+    law, _, way = word.partition("@")
+    jacobian_word, _, inverse_word = way.partition("+")
+    if law not in laws:
+        return None
+    by = laws[law]._replace(jacobian=jacobian(jacobian_word))
+    inverses = STANDARD if inverse_word == "standard" else (inverse_word,)
+    fitting = (by._replace(inverse=inverse(word)) for word in inverses)
+    return next((one for one in fitting if not refusal(one, joints)), None)
+
+
+def every(laws: dict[str, Contender], joints: int) -> list[Contender]:
+    """All that go together on so many joints."""
+    wanted = [
+        law._replace(jacobian=by, inverse=through)
+        for law in laws.values()
+        for by in known_jacobians().values()
+        for through in known_inverses().values()
+    ]
+    return [one for one in wanted if not refusal(one, joints)]

@@ -1,0 +1,182 @@
+"""What a whole controller of an arm costs per tick, by stage; what MuJoCo computes (J's joints, D, fg) is not ours.
+
+Counted like a law: the same functions that run, called with counting scalars in object arrays, each call checked
+against the plain one bit for bit. The states are those of one arm for each number of joints, for nothing here
+depends on anything else of an arm.
+"""
+
+import functools
+from collections import Counter
+from typing import Any, NamedTuple
+
+import mujoco
+import numpy as np
+
+import tasks
+from bench.cartesian import Buffers, Parts, assembly, control, parts_of
+from bench.contender import AT_REST, NO_MEMORY, Chain, Contender, Goal, Scratch
+from bench.counting.costs import Call, Cost, bits, counted, rows_of, size
+from bench.counting.counted import Counted, OutsideDialect, Tally
+from bench.counting.staged import in_stage, law_of, staged
+from bench.counting.states import GAINS
+from bench.errors import BadLaw
+from bench.so3 import Rotation, from_quaternion
+from tasks.base import Start
+
+ARM_OF = {6: "ur5e", 7: "panda"}
+"""Whose states are used, by the number of joints."""
+
+TASK = "arm-regulation"
+SAMPLED, DIRECTED = {"uniform": 12, "tumbling": 12}, {"pole": 6, "wrist": 6, "half-turn": 4}
+UNSEEN = "report"
+"""A stage that no table has: what is computed for the record alone."""
+
+
+class ArmState(NamedTuple):
+    """What a controller is called with; `is_sampled` if it counts towards the typical branch."""
+
+    id: str
+    chain: Chain
+    D: np.ndarray
+    fg: np.ndarray
+    goal: Goal
+    p_d: tuple
+    is_sampled: bool
+
+
+@functools.cache
+def arm_states(joints: int) -> tuple[ArmState, ...]:
+    """All of them, always the same, the sampled ones first."""
+    arm = ARM_OF[joints]
+    model = mujoco.MjModel.from_xml_string(tasks.task(TASK, arm).xml(1e-3))
+    data = mujoco.MjData(model)
+    return tuple(
+        _state(model, data, start, sizes is SAMPLED)
+        for sizes in (SAMPLED, DIRECTED)
+        for name, size in sizes.items()
+        for start in tasks.start_set(name, size, arm=arm)
+    )
+
+
+def _state(model, data, start: Start, is_sampled: bool) -> ArmState:
+    data.qpos[:], data.qvel[:] = start.q, start.qdot
+    mujoco.mj_forward(model, data)
+    D = np.zeros((model.nv, model.nv))
+    mujoco.mj_fullM(model, data, D)
+    s = data.sensordata
+    R = Rotation(_vector(s[0:3]), _vector(s[3:6]), _vector(s[6:9]))
+    chain = Chain(model.nv, data.xaxis.copy(), data.xanchor.copy(), data.qvel.copy(), _vector(s[16:19]), R)
+    at_rest = _vector(np.array(AT_REST))
+    R_d = Rotation(*(_vector(np.array(column)) for column in from_quaternion(start.goal_wxyz)))
+    return ArmState(
+        start.id, chain, D, data.qfrc_bias - data.qfrc_passive, Goal(R_d, at_rest, at_rest), chain.p, is_sampled
+    )
+
+
+def _vector(three) -> tuple:
+    return (three[0], three[1], three[2])
+
+
+def cost_on_arm(contender: Contender, joints: int) -> Cost:
+    """Count a contender's controller over all states; typical is the median, for an iteration varies by the state.
+
+    Errors:
+        OutsideDialect, BadLaw: see `costs.cost`.
+    """
+    tally = Tally()
+    plain = _controller(contender, parts_of(contender, _command(contender, None)), None)
+    counting = _controller(contender, _staged_parts(contender, tally), tally)
+    with np.errstate(all="ignore"):
+        calls = [_call(contender, plain, counting, tally, state) for state in arm_states(joints)]
+    ranked = sorted((call.counts for call in calls if call.is_typical), key=size)
+    typical = ranked[len(ranked) // 2]
+    worst = max(calls, key=lambda call: size(call.counts))
+    share = Counter(ranked)[typical] / len(ranked)
+    return Cost(contender, typical, worst.counts, share, worst.state.id)
+
+
+def rows_on_arm(contender: Contender, joints: int) -> list[dict]:
+    """Rows of costs.parquet of a contender on so many joints."""
+    return list(rows_of(cost_on_arm(contender, joints), joints))
+
+
+def _command(contender: Contender, tally: Tally | None):
+    """The law as `cartesian.Parts` takes it; staged if there is a tally."""
+    if contender.jacobian is not None and contender.jacobian.takes == "coordinates":
+        return contender.coordinate_law
+    law = contender.law if tally is None else law_of(contender, tally)
+    if contender.regulator.memory is not None:
+        return law
+    return lambda R, omega, goal, gains, memory: (law(R, omega, goal, gains), memory)
+
+
+def _staged_parts(contender: Contender, tally: Tally) -> Parts:
+    parts = parts_of(contender, _command(contender, tally))
+    stages = {
+        "command": "regulate",
+        "fill": "jacobian",
+        "convert": "jacobian" if parts.coordinates is None else "linearize",
+        "twist": "measure",
+        "bias_acceleration": "linearize",
+        "hold": "regulate",
+        "report": UNSEEN,
+    }
+    fields = {
+        name: in_stage(tally, stage, function) for name, stage in stages.items() if (function := getattr(parts, name))
+    }
+    if parts.coordinates is not None:
+        fields["coordinates"] = staged(parts.coordinates, tally)
+    return parts._replace(**fields)
+
+
+def _controller(contender: Contender, parts: Parts, tally: Tally | None):
+    inverse = contender.inverse
+    assert inverse is not None  # parts_of has refused a contender without
+    resolve = inverse.resolve if tally is None else in_stage(tally, "invert", inverse.resolve)
+    assemble, gives_torque = assembly(parts), int(inverse.gives == "torque")
+
+    def controller(chain, D, fg, goal, p_d, memory, gains, dtype):
+        into = _buffers(chain.n, dtype)
+        u, memory = control(
+            assemble, resolve, gives_torque, contender.rows, chain, D, fg, goal, p_d, gains, memory, into
+        )
+        return u, memory, tuple(into.tau)
+
+    return controller
+
+
+def _buffers(n: int, dtype) -> Buffers:
+    A, B, V, J = (np.zeros((7, 7), dtype) for _ in range(4))
+    s, t, a, x = (np.zeros(7, dtype) for _ in range(4))
+    return Buffers(J, a, x, np.zeros(n, dtype), Scratch(A, B, V, s, t))
+
+
+def _call(contender: Contender, plain, counting, tally: Tally, state: ArmState) -> Call:
+    memory = tuple(np.float64(x) for x in (*(contender.regulator.memory or ()), *NO_MEMORY)[: len(NO_MEMORY)])
+    given = (state.chain, state.D, state.fg, state.goal, state.p_d, memory, GAINS)
+    want = plain(*given, float)
+    tally.stage = "linearize"
+    try:
+        answer = counting(*(_counted(one, tally) for one in given), object)
+    except OutsideDialect as error:
+        raise OutsideDialect(f"'{contender.name}': {error}") from error
+    if bits(answer) != bits(want):
+        raise BadLaw(
+            f"'{contender.name}' commands other torques when counted than when called with floats, at {state.id}; a "
+            "law must not depend on the type of its numbers"
+        )
+    return Call(state, tally.take(), state.is_sampled)
+
+
+def _counted(numbers: Any, tally: Tally):
+    """Tuples and arrays with every float a counting scalar; counts of things stay ints."""
+    if isinstance(numbers, int):
+        return numbers
+    if isinstance(numbers, np.ndarray):
+        filled = np.empty(numbers.shape, object)
+        for place in np.ndindex(numbers.shape):
+            filled[place] = Counted(numbers[place], tally)
+        return filled
+    if isinstance(numbers, Chain):
+        return Chain(*(_counted(one, tally) for one in numbers))
+    return counted(numbers, tally)

@@ -1,0 +1,132 @@
+"""What the engines of arms share: the observation's layout, a metric's sample, buffers, the columns of a row.
+
+A row of numbers is that of `episode` with eight columns more at its end: where the arm was worst conditioned.
+"""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from bench.cartesian import Buffers
+from bench.contender import Contender, Scratch
+from bench.engines.episode import blank
+from bench.jacobians.geometric import fill
+from bench.linalg import determinant, gram
+from bench.scalar import kernel
+from bench.so3 import Rotation
+from tasks.arm import Arm
+from tasks.rules import RULES
+
+JOINTS = 7
+"""The most joints an arm may have: the size of buffers and of a row's pose."""
+
+PROBE_TICKS = 8
+"""The arm's conditioning is looked at in every eighth tick: 8 ms, in which a joint at 10 rad/s turns 5 degrees."""
+
+POSE = -1 - JOINTS
+"""First of a row's last columns: the smallest det(J J^T), then the joint angles there."""
+
+
+class ArmSample(NamedTuple):
+    """What a metric sees of an arm at one tick, before it moves: what `Sample` has, and the joints.
+
+    p, p_d: the tool's position and where it shall be [m]; q [rad], qdot [rad/s], tau [N m], and of each joint its
+    range [rad] and its motor's rated torque [N m], buffers of n numbers.
+    """
+
+    time: float
+    dt: float
+    R: Rotation
+    haversine: float
+    entered: bool
+    omega: tuple
+    u: tuple
+    margin: float
+    p: tuple
+    p_d: tuple
+    q: Any
+    qdot: Any
+    tau: Any
+    lower: Any
+    upper: Any
+    rated: Any
+
+
+class Controls(NamedTuple):
+    """A contender and the judge's rule, as numbers for a loop.
+
+    rows of the Jacobian; gives_torque (0 or 1) by the inverse; has_own_model (0 or 1): the controller's model is not
+    the plant.
+    """
+
+    rows: int
+    gives_torque: int
+    has_own_model: int
+    torque_limit_squared: float
+
+
+class Joints(NamedTuple):
+    """Of each joint its range [rad] and its motor's rated torque [N m]."""
+
+    lower: np.ndarray
+    upper: np.ndarray
+    rated: np.ndarray
+
+
+def controls(contender: Contender, has_own_model: bool) -> Controls:
+    """The numbers of a contender on an arm."""
+    gives_torque = contender.inverse is not None and contender.inverse.gives == "torque"
+    return Controls(contender.rows, int(gives_torque), int(has_own_model), RULES.torque_limit**2)
+
+
+def joints(arm: Arm) -> Joints:
+    """The numbers of an arm's joints."""
+    return Joints(*(np.array(numbers, dtype=float) for numbers in (arm.lower, arm.upper, arm.rated)))
+
+
+def buffers(n: int, dtype=float) -> Buffers:
+    """Fresh buffers for an arm of n joints."""
+    A, B, V, J = (np.zeros((JOINTS, JOINTS), dtype) for _ in range(4))
+    s, t, a, x = (np.zeros(JOINTS, dtype) for _ in range(4))
+    return Buffers(J, a, x, np.zeros(n, dtype), Scratch(A, B, V, s, t))
+
+
+def blank_arm(count: int, metrics) -> np.ndarray:
+    """Rows to be filled: metrics at their start values, and no pose yet."""
+    poses = np.full((count, -POSE), np.nan)
+    poses[:, 0] = np.inf
+    return np.hstack((blank(count, metrics), poses))
+
+
+@kernel
+def probe(row, chain, q, G, scratch):
+    """Keep the joint angles at which det(J J^T) of the geometric Jacobian was smallest."""
+    fill(G, chain)
+    gram(G, scratch.A, 6, chain.n)
+    for i in range(6):
+        for j in range(i):
+            scratch.A[j, i] = scratch.A[i, j]
+    w = determinant(scratch.A, 6)
+    if w < row[row.shape[0] + POSE]:
+        row[row.shape[0] + POSE] = w
+        for i in range(chain.n):
+            row[row.shape[0] + POSE + 1 + i] = q[i]
+
+
+@kernel
+def load(tau, rated, n):
+    """Sum of (tau_i / rated_i)^2: what the rule on torques is about; not finite if a torque is not."""
+    total = 0.0
+    for i in range(n):
+        ratio = tau[i] / rated[i]
+        total = total + ratio * ratio
+    return total
+
+
+@kernel
+def squared(v, n):
+    """v . v of a buffer."""
+    total = 0.0
+    for i in range(n):
+        total = total + v[i] * v[i]
+    return total

@@ -1,0 +1,159 @@
+"""An arm in MuJoCo, the whole closed loop compiled: kinematics and dynamics by MuJoCo, the controller by us.
+
+The loop is compiled once, for all arms and contenders: a contender comes as three functions that are called by
+pointer. The order of a tick is dm_control's, as on the free body. The controller's model is the plant itself, or
+another model of the same arm that is put into the plant's state at every tick (a study of model errors).
+"""
+
+from typing import NamedTuple
+
+import mujoco
+import numpy as np
+from numba import float64, int64, types
+
+from bench.cartesian import Buffers, control
+from bench.contender import AT_REST, Chain, Gains, Goal, Scratch
+from bench.engines.arm_episode import PROBE_TICKS, ArmSample, Controls, Joints, load, probe, squared
+from bench.engines.compiled import MATRIX, NUMBERS, compile_function
+from bench.engines.episode import finish
+from bench.engines.native.libmujoco import mj_fullM, mj_resetData, mj_step, mj_step1, mj_step2
+from bench.so3 import Rotation, from_quaternion
+from tasks.truth import angle, haversine
+from tasks.verdict import GOING, check_command, check_state, first_watch, watched
+
+
+class ArmView(NamedTuple):
+    """One mjData of an arm as compiled code sees it: two addresses and views of arrays that never move.
+
+    D and G are buffers of ours: the inertia matrix, and a Jacobian for the judge's look at the conditioning.
+    """
+
+    model: int
+    data: int
+    is_runge_kutta: int
+    qpos: np.ndarray
+    qvel: np.ndarray
+    ctrl: np.ndarray
+    sensordata: np.ndarray
+    bias: np.ndarray
+    passive: np.ndarray
+    fg: np.ndarray
+    axes: np.ndarray
+    anchors: np.ndarray
+    D: np.ndarray
+    G: np.ndarray
+
+
+VECTOR, THREE, FOUR = float64[::1], types.UniTuple(float64, 3), types.UniTuple(float64, 4)
+ROTATION = types.NamedUniTuple(THREE, 3, Rotation)
+CHAIN = types.NamedTuple((int64, MATRIX, MATRIX, VECTOR, THREE, ROTATION), Chain)
+GOAL = types.NamedTuple((ROTATION, THREE, THREE), Goal)
+GAINS = types.NamedUniTuple(float64, 2, Gains)
+SCRATCH = types.NamedTuple((MATRIX, MATRIX, MATRIX, VECTOR, VECTOR), Scratch)
+BUFFERS = types.NamedTuple((MATRIX, VECTOR, VECTOR, VECTOR, SCRATCH), Buffers)
+ARM_VIEW = types.NamedTuple((int64, int64, int64, *[VECTOR] * 7, *[MATRIX] * 4), ArmView)
+CONTROLS = types.NamedTuple((int64, int64, int64, float64), Controls)
+JOINTS = types.NamedUniTuple(VECTOR, 3, Joints)
+
+ASSEMBLE = types.Tuple((THREE, FOUR))(CHAIN, GOAL, THREE, GAINS, FOUR, MATRIX, VECTOR)
+RESOLVE = types.void(MATRIX, VECTOR, MATRIX, VECTOR, int64, int64, SCRATCH)
+MARGIN = float64(ROTATION, ROTATION)
+EPISODES = types.void(
+    *(types.FunctionType(signature) for signature in (ASSEMBLE, RESOLVE, MARGIN)),
+    *(ARM_VIEW, ARM_VIEW, CONTROLS, JOINTS, FOUR, BUFFERS, MATRIX, MATRIX, NUMBERS, MATRIX),
+)
+
+
+def view(model, data) -> ArmView:
+    """The view of one simulation; `data` must outlive it."""
+    return ArmView(
+        model._address,
+        data._address,
+        int(model.opt.integrator == mujoco.mjtIntegrator.mjINT_RK4),
+        data.qpos,
+        data.qvel,
+        data.ctrl,
+        data.sensordata,
+        data.qfrc_bias,
+        data.qfrc_passive,
+        np.zeros(model.nv),
+        data.xaxis,
+        data.xanchor,
+        np.zeros((model.nv, model.nv)),
+        np.zeros((7, 7)),
+    )
+
+
+def episodes_of(observe, cache=True):
+    """The loop over episodes: `episodes(assemble, resolve, margin, plant, model, ..., rows)` fills rows."""
+
+    def episodes(
+        assemble, resolve, margin, plant, model, controls, joints, memory0, buffers, states, starts, numbers, rows
+    ):
+        gains = Gains(numbers.kp, numbers.kv)
+        dt = numbers.dt
+        n = plant.qpos.shape[0]
+        s = plant.sensordata
+        tau = buffers.tau
+        for k in range(starts.shape[0]):
+            start, row = starts[k], rows[k]
+            quat_d = (start[7], start[8], start[9], start[10])
+            R_d = from_quaternion(quat_d)
+            goal = Goal(R_d, AT_REST, AT_REST)
+            band = start[11]
+            memory = memory0
+            u = AT_REST
+            mj_resetData(plant.model, plant.data)
+            plant.qpos[:] = states[k, :n]
+            plant.qvel[:] = states[k, n:]
+            mj_step1(plant.model, plant.data)
+            p_d = (s[16], s[17], s[18])
+            hav = haversine((s[12], s[13], s[14], s[15]), quat_d)
+            watch = first_watch(hav, band)
+            tick = 0
+            failure = GOING
+            while tick < numbers.ticks and watch.quiet < numbers.hold_ticks:
+                R = Rotation((s[0], s[1], s[2]), (s[3], s[4], s[5]), (s[6], s[7], s[8]))
+                p = (s[16], s[17], s[18])
+                chain = Chain(n, plant.axes, plant.anchors, plant.qvel, p, R)
+                if controls.has_own_model > 0:
+                    model.qpos[:] = plant.qpos
+                    model.qvel[:] = plant.qvel
+                    mj_step1(model.model, model.data)
+                mj_fullM(model.model, model.data, model.D.ctypes.data)
+                for i in range(n):
+                    model.fg[i] = model.bias[i] - model.passive[i]
+                u, memory = control(
+                    assemble, resolve, controls.gives_torque, controls.rows,
+                    chain, model.D, model.fg, goal, p_d, gains, memory, buffers,
+                )  # fmt: skip
+                omega = (s[9], s[10], s[11])
+                observe(
+                    row,
+                    ArmSample(
+                        tick * dt, dt, R, hav, watch.entered, omega, u, margin(R, R_d), p, p_d, plant.qpos,
+                        plant.qvel, tau, joints.lower, joints.upper, joints.rated,
+                    ),
+                )  # fmt: skip
+                failure = check_command(load(tau, joints.rated, n), controls.torque_limit_squared)
+                if tick % PROBE_TICKS == 0 or failure != GOING:
+                    probe(row, chain, plant.qpos, plant.G, buffers.scratch)
+                if failure != GOING:
+                    break
+                plant.ctrl[:] = tau
+                if plant.is_runge_kutta:
+                    mj_step(plant.model, plant.data)
+                else:
+                    mj_step2(plant.model, plant.data)
+                mj_step1(plant.model, plant.data)
+                tick += 1
+                failure = check_state(squared(plant.qvel, n), numbers.speed_limit_squared)
+                if failure != GOING:
+                    break
+                hav = haversine((s[12], s[13], s[14], s[15]), quat_d)
+                watch = watched(watch, tick, hav, band)
+            final = angle((s[12], s[13], s[14], s[15]), quat_d)
+            speed, command = squared(plant.qvel, n), u[0] * u[0] + u[1] * u[1] + u[2] * u[2]
+            finish(row, failure, watch, tick, final, hav <= band, speed, command, numbers)
+
+    return compile_function(episodes, EPISODES, cache)

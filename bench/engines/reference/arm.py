@@ -1,0 +1,95 @@
+"""An arm in dm_control's own loop, the controller plain Python on numpy.float64 buffers.
+
+See `free_body` for what this is the truth of; one tick takes a hundred times as long as compiled.
+"""
+
+import mujoco
+import numpy as np
+
+import tasks
+from bench.cartesian import assembly, control, parts_of
+from bench.contender import Chain, Gains, Goal
+from bench.engines.arm_episode import (
+    PROBE_TICKS,
+    ArmSample,
+    blank_arm,
+    buffers,
+    controls,
+    joints,
+    load,
+    probe,
+    squared,
+)
+from bench.engines.binding import command_of, margin_of, memory_of, observer
+from bench.engines.episode import Settings, finish, numbers
+from bench.engines.reference.free_body import STILL, vector
+from bench.so3 import Rotation, dot, from_quaternion
+from tasks.truth import angle, haversine
+from tasks.verdict import GOING, check_command, check_state, first_watch, watched
+
+
+def run(
+    contender, task: str, arm: str, starts, bands, settings: Settings, metrics, integrator="euler", variation="nominal"
+) -> np.ndarray:
+    """One row per start; see `arm_episode` for the columns."""
+    rows = blank_arm(len(starts), metrics)
+    with np.errstate(all="ignore"):
+        for start, band, row in zip(starts, bands, rows, strict=True):
+            _episode(contender, task, arm, start, band, settings, metrics, row, integrator, variation)
+    return rows
+
+
+def _episode(contender, task, arm_name, start, band, settings, metrics, row, integrator, variation):
+    limits, arm = numbers(settings), tasks.arm(arm_name)
+    dt, n = limits.dt, arm.joints
+    margin, observe = margin_of(contender), observer(metrics)
+    assemble, resolve = assembly(parts_of(contender, command_of(contender))), contender.inverse.resolve
+    environment = tasks.load(
+        task, start=start, dt=dt, horizon=(limits.ticks + 1) * dt, integrator=integrator, arm=arm_name,
+        vary=lambda model: tasks.variation(variation).apply(model, arm.rated),
+    )  # fmt: skip
+    environment.reset()
+    plant = environment.physics.data
+    own = variation != "nominal"
+    model = mujoco.MjModel.from_xml_string(tasks.task(task, arm_name).xml(dt)) if own else environment.physics.model.ptr
+    believed = mujoco.MjData(model) if own else plant.ptr
+    shape, of_joints, into = controls(contender, own), joints(arm), buffers(n)
+    D, G = np.zeros((n, n)), np.zeros((7, 7))
+    s = plant.sensordata
+    R_d = from_quaternion(tuple(map(np.float64, start.goal_wxyz)))
+    goal, p_d = Goal(R_d, STILL, STILL), vector(s[16:19])
+    gains, memory = Gains(*map(np.float64, settings.gains)), tuple(map(np.float64, memory_of(contender)))
+    hav = haversine(s[12:16], start.goal_wxyz)
+    watch = first_watch(hav, band)
+    u, tick, failure = (0.0, 0.0, 0.0), 0, GOING
+    while tick < limits.ticks and watch.quiet < limits.hold_ticks:
+        R = Rotation(vector(s[0:3]), vector(s[3:6]), vector(s[6:9]))
+        p = vector(s[16:19])
+        chain = Chain(n, plant.xaxis, plant.xanchor, plant.qvel, p, R)
+        if own:
+            believed.qpos[:], believed.qvel[:] = plant.qpos, plant.qvel
+            mujoco.mj_step1(model, believed)
+        mujoco.mj_fullM(model, believed, D)
+        fg = believed.qfrc_bias - believed.qfrc_passive
+        u, memory = control(
+            assemble, resolve, shape.gives_torque, shape.rows, chain, D, fg, goal, p_d, gains, memory, into
+        )
+        sample = ArmSample(
+            tick * dt, dt, R, hav, watch.entered, vector(s[9:12]), u, margin(R, R_d), p, p_d, plant.qpos, plant.qvel,
+            into.tau, *of_joints,
+        )  # fmt: skip
+        observe(row, sample)
+        failure = check_command(load(into.tau, of_joints.rated, n), shape.torque_limit_squared)
+        if tick % PROBE_TICKS == 0 or failure != GOING:
+            probe(row, chain, plant.qpos, G, into.scratch)
+        if failure != GOING:
+            break
+        environment.step(into.tau.copy())
+        tick += 1
+        failure = check_state(squared(plant.qvel, n), limits.speed_limit_squared)
+        if failure != GOING:
+            break
+        hav = haversine(s[12:16], start.goal_wxyz)
+        watch = watched(watch, tick, hav, band)
+    final = angle(s[12:16], start.goal_wxyz)
+    finish(row, failure, watch, tick, final, hav <= band, squared(plant.qvel, n), dot(u, u), limits)

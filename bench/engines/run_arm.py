@@ -1,0 +1,142 @@
+"""One call for both engines of arms: a contender on starts of a task and an arm, rows of numbers back."""
+
+import functools
+import threading
+from typing import NamedTuple
+
+import mujoco
+import numpy as np
+
+import tasks
+from bench.cartesian import assembly, parts_of
+from bench.contender import Contender
+from bench.engines.arm_episode import blank_arm, buffers, controls, joints
+from bench.engines.binding import command_of, margin_of, memory_of, observer
+from bench.engines.compiled import compile_function, own_law
+from bench.engines.episode import Settings, numbers, start_rows
+from bench.engines.native import arm as native
+from bench.engines.reference import arm as reference
+from bench.engines.run import MUJOCO_INTEGRATORS
+
+NOMINAL = "nominal"
+"""The variation in which the controller's model is the plant."""
+
+
+class Pointers(NamedTuple):
+    """A contender as the compiled loop takes it: three functions of fixed signatures."""
+
+    assemble: object
+    resolve: object
+    margin: object
+
+
+class Simulation(NamedTuple):
+    """A plant and the controller's model of it, ready for the loop; `kept` holds what the views point into."""
+
+    plant: native.ArmView
+    model: native.ArmView
+    has_own_model: bool
+    kept: tuple
+
+
+def run(
+    engine: str,
+    contender: Contender,
+    task: str,
+    arm: str,
+    starts,
+    settings: Settings,
+    metrics,
+    integrator: str = "euler",
+    variation: str = NOMINAL,
+) -> np.ndarray:
+    """Rows of `engines.arm_episode`, one per start.
+
+    Args:
+        starts: tasks.Start with joint angles, in order; metrics: Metric, in the order of their columns.
+        variation: how the plant differs from the controller's model.
+    """
+    if engine == "reference":
+        bands = start_rows(starts)[:, 11]
+        return reference.run(contender, task, arm, starts, bands, settings, metrics, integrator, variation)
+    rows = blank_arm(len(starts), metrics)
+    observe = observer_of(tuple(metrics))
+    return run_observed(observe, contender, task, arm, starts, settings, rows, integrator, variation)
+
+
+def run_observed(
+    observe,
+    contender: Contender,
+    task: str,
+    arm: str,
+    starts,
+    settings: Settings,
+    rows: np.ndarray,
+    integrator: str = "euler",
+    variation: str = NOMINAL,
+) -> np.ndarray:
+    """The native engine with an observer of the caller's own, into the caller's rows."""
+    ready = simulation(task, arm, settings.dt_s, integrator, variation)
+    compiled_loop(observe)(
+        *pointers(contender),
+        ready.plant,
+        ready.model,
+        controls(contender, ready.has_own_model),
+        joints(tasks.arm(arm)),
+        memory_of(contender),
+        buffers(tasks.arm(arm).joints),
+        np.array([[*start.q, *start.qdot] for start in starts], dtype=float),
+        start_rows(starts),
+        numbers(settings),
+        rows,
+    )
+    return rows
+
+
+def simulation(task: str, arm: str, dt_s: float, integrator: str, variation: str = NOMINAL) -> Simulation:
+    """The models of one arm."""
+    xml = tasks.task(task, arm).xml(dt_s)
+    models = [mujoco.MjModel.from_xml_string(xml) for _ in range(1 if variation == NOMINAL else 2)]
+    models[0].opt.integrator = MUJOCO_INTEGRATORS[integrator]
+    tasks.variation(variation).apply(models[0], tasks.arm(arm).rated)
+    datas = [mujoco.MjData(model) for model in models]
+    views = [native.view(model, data) for model, data in zip(models, datas, strict=True)]
+    return Simulation(views[0], views[-1], len(views) > 1, (models, datas))
+
+
+_lock = threading.Lock()
+
+observer_of = functools.cache(observer)
+"""One observer for one list of metrics, so that the loop is compiled once."""
+
+
+def compiled_loop(observe):
+    """The loop with this observer, compiled or taken from the disk cache."""
+    with _lock:
+        return _compiled_loop(observe)
+
+
+def pointers(contender: Contender) -> Pointers:
+    """The three functions of a contender, compiled or taken from the disk cache; a user's law is compiled anew."""
+    law = contender._replace(jacobian=None, inverse=None)
+    with _lock:
+        return Pointers(_assemble(contender._replace(inverse=None)), _resolve(contender.inverse), _margin(law))
+
+
+_compiled_loop = functools.cache(native.episodes_of)
+
+
+@functools.cache
+def _assemble(contender: Contender):
+    with own_law(contender.regulator.origin) as cache:
+        return compile_function(assembly(parts_of(contender, command_of(contender))), native.ASSEMBLE, cache)
+
+
+@functools.cache
+def _resolve(inverse):
+    return compile_function(inverse.resolve, native.RESOLVE)
+
+
+@functools.cache
+def _margin(contender: Contender):
+    return compile_function(margin_of(contender), native.MARGIN)
