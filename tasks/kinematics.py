@@ -143,7 +143,11 @@ class Kinematics:
         return np.linalg.lstsq(self.jacobian(q), np.array((0.0, 0.0, 0.0, *omega)), rcond=None)[0]
 
     def start(
-        self, name: str, q: Sequence[float] | np.ndarray, goal: Quat, qdot: Sequence[float] | None = None
+        self,
+        name: str,
+        q: Sequence[float] | np.ndarray,
+        goal: Quat,
+        qdot: Sequence[float] | np.ndarray | None = None,
     ) -> Start:
         """A start at these joint angles, its orientation and angular velocity being MuJoCo's."""
         angles = tuple(map(float, q))

@@ -30,6 +30,20 @@ def straight_zyx(quat: Quat, goal: Quat, steps: int) -> list[Quat]:
     return [zyx(*(a + (b - a) * i / steps for a, b in zip(first, last, strict=True))) for i in range(steps + 1)]
 
 
+def to_vertical(quat: Quat, sign: int, steps: int) -> list[Quat]:
+    """steps + 1 orientations, the shortest way until the body's x axis n is (0, 0, sign)."""
+    n = columns(quat)[0]
+    away = math.hypot(n[0], n[1])
+    axis = (sign * n[1] / away, -sign * n[0] / away, 0.0) if away > 0.0 else (1.0, 0.0, 0.0)
+    return geodesic(quat, axis, math.atan2(away, sign * n[2]), steps)
+
+
+def beyond(quat: Quat, middle: Quat) -> Quat:
+    """As far beyond `middle` as `quat` lies before it: middle quat^-1 middle, so that the middle is the geodesic's."""
+    w, x, y, z = quat
+    return normal(multiply(multiply(middle, (w, -x, -y, -z)), middle))
+
+
 def zyx_angles(quat: Quat) -> Vector:
     """alpha, beta, gamma [rad] of R = Rz(alpha) Ry(beta) Rx(gamma), |beta| <= pi/2."""
     n, o, a = columns(quat)

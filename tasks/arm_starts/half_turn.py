@@ -1,0 +1,71 @@
+"""Goals exactly half a turn away, and short of it by 10^-k rad, in good condition.
+
+Half a turn away the rotation-matrix error vanishes (Murphy 1988, 2.12 and section 2.4). The axes are the base's x, y
+and z and AXES_DRAWN drawn ones; for each the first pose around home is taken from which the arm can make the whole
+half turn on a clear joint path (clearance.py), about the axis or against it. Joint angles are drawn from further
+around home than elsewhere, since half a turn about a given axis is much to ask: most are done with the last joint.
+
+How exact: the goal is (0, axis) times the quaternion of the start, so that the judge's haversine is at least 1 - 1e-15
+and its angle math.pi. R is not that of an exact half turn bit for bit, as it is on the free body: on an arm the error
+(2.12) of about 1e-16 is what rounding makes of zero, and any law drifts away from there in time.
+"""
+
+from __future__ import annotations
+
+import functools
+import math
+
+import numpy as np
+
+from tasks.arm import Arm
+from tasks.arm_starts.clear import around_home
+from tasks.base import ArmStartSet, Quat, Start, Vector
+from tasks.clearance import clear_path, steps_for
+from tasks.haar import direction, halton
+from tasks.kinematics import Kinematics, kinematics
+from tasks.paths import geodesic, normal
+from tasks.rotations import multiply, short_of_half_turn
+
+AXES: dict[str, Vector] = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
+AXES_DRAWN = 3
+DECADES = (1, 4, 8)
+SIZE = (len(AXES) + AXES_DRAWN) * (1 + len(DECADES))
+# [rad]: a quarter turn either way of each joint.
+AROUND_HOME = math.pi / 2.0
+TRIES = 2000
+
+
+def build(arm: Arm, count: int, seed: int) -> list[Start]:
+    """Exact half turns about every axis first, then those at 0.1 rad, and so on."""
+    return list(_half_turn(arm, seed))
+
+
+@functools.lru_cache(maxsize=32)
+def _half_turn(arm: Arm, seed: int) -> tuple[Start, ...]:
+    model = kinematics(arm)
+    axes = AXES | {f"drawn{i}": direction(*point) for i, point in enumerate(halton(AXES_DRAWN, 2, seed))}
+    found = {name: _pose(model, axis, seed) for name, axis in axes.items()}
+    return tuple(
+        model.start(f"half-turn-{name}-{word}", q, _goal(model.pose(q)[1], axis, delta))
+        for word, delta in (("exact", 0.0), *((f"k{k}", 10.0**-k) for k in DECADES))
+        for name, (q, axis) in ((name, one) for name, one in found.items() if one)
+    )
+
+
+def _pose(model: Kinematics, axis: Vector, seed: int) -> tuple[np.ndarray, Vector] | None:
+    """Joint angles from which half a turn about the axis, or against it, is clear: (q, axis)."""
+    candidates = around_home(model.arm, seed, AROUND_HOME)
+    for _ in range(TRIES):
+        q, _ = next(candidates)
+        quat = model.pose(q)[1]
+        for sign in (1.0, -1.0):
+            if clear_path(model, q, geodesic(quat, axis, sign * math.pi, steps_for(math.pi))) is not None:
+                return q, (sign * axis[0], sign * axis[1], sign * axis[2])
+    return None
+
+
+def _goal(quat: Quat, axis: Vector, delta: float) -> Quat:
+    return normal(multiply(short_of_half_turn(axis, delta), quat))
+
+
+STARTS = ArmStartSet("half-turn", "Turns by exactly pi and by pi - 10^-k with the arm in good condition", SIZE, build)
