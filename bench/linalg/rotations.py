@@ -4,8 +4,9 @@ U^T A has orthogonal rows sigma_i v_i^T, so that with U^T b beside them the deco
 V need be formed: A^+ b is the sum of (U^T b)_i / sigma_i^2 times row i.
 
 Two rows p, q count as orthogonal where |p . q| <= n EPS |p| |q|: the rounding of a scalar product of n terms is half of
-that, so that no rotation could make it surely smaller. It is compared by squares, which are neither zero nor infinite
-for rows of length 1e-77 to 1e77.
+that, so that no rotation could make it surely smaller. A row shorter than n EPS |A| (Frobenius) is zero to rounding and
+left alone: of dependent rows one would else shrink by a factor of EPS in every sweep and be orthogonal to none. Both
+are compared by squares, which are neither zero nor infinite for matrices of the size 1e-77 to 1e77.
 
 Each sweep rotates every pair once; the angles left go down quadratically once they are small. 6 x 6 and 6 x 7 matrices,
 Jacobians and random ones of any rank, need 4 to 8 sweeps; SWEEPS is a bound for the loop, no setting.
@@ -26,6 +27,13 @@ def orthogonalize(A, b, rows, n):
     The rows are in no order; one that stands for a singular value of zero is zero to rounding of the largest.
     """
     nearly = EPS_SQUARED * (n * n)
+    square = A[0, 0] * A[0, 0]
+    for k in range(1, n):
+        square = square + A[0, k] * A[0, k]
+    for i in range(1, rows):
+        for k in range(n):
+            square = square + A[i, k] * A[i, k]
+    zero = nearly * square
     sweeps = 0
     for sweep in range(SWEEPS):
         sweeps = sweep + 1
@@ -39,7 +47,7 @@ def orthogonalize(A, b, rows, n):
                     pp = pp + A[p, k] * A[p, k]
                     qq = qq + A[q, k] * A[q, k]
                     pq = pq + A[p, k] * A[q, k]
-                if pq * pq > nearly * (pp * qq):
+                if pp > zero and qq > zero and pq * pq > nearly * (pp * qq):
                     turned = 1
                     zeta = (qq - pp) / (2.0 * pq)
                     tangent = copysign(1.0, zeta) / (copysign(zeta, 1.0) + sqrt(1.0 + zeta * zeta))
