@@ -50,8 +50,8 @@ Examples:  [b]python -m bench run[/b]  the default suite into results/latest.
 @click.option("--replace", is_flag=True, help="Start over if the folder holds another plan.")
 @click.option("--dry-run", is_flag=True, help="Print the plan and its size; run nothing.")
 def COMMAND(
-    suite, laws, regulators, representations, tasks, arms, jacobians, inverses, variations, starts, engines, count, dt_s,
-    horizon_s, kp, kv, integrator, seed, workers, out, replace, dry_run,
+    suite, laws, regulators, representations, tasks, arms, jacobians, inverses, variations, starts, engines, count,
+    dt_s, horizon_s, kp, kv, integrator, seed, workers, out, replace, dry_run,
 ):  # fmt: skip
     """Run a suite and store its episodes; a run that was stopped goes on where it was."""
     plan = planning.make(

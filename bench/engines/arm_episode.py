@@ -3,7 +3,8 @@
 A row of numbers is that of `episode` with eight columns more at its end: where the arm was worst conditioned.
 """
 
-from typing import Any, NamedTuple
+import math
+from typing import NamedTuple
 
 import numpy as np
 
@@ -31,7 +32,8 @@ class ArmSample(NamedTuple):
     """What a metric sees of an arm at one tick, before it moves: what `Sample` has, and the joints.
 
     p, p_d: the tool's position and where it shall be [m]; q [rad], qdot [rad/s], tau [N m], and of each joint its
-    range [rad] and its motor's rated torque [N m], buffers of n numbers.
+    range [rad] and its motor's rated torque [N m]: seven numbers each, filled up with zeros (ranges with infinities,
+    rated torques with ones) on fewer joints. Tuples, because compiled code counts references to arrays.
     """
 
     time: float
@@ -44,12 +46,12 @@ class ArmSample(NamedTuple):
     margin: float
     p: tuple
     p_d: tuple
-    q: Any
-    qdot: Any
-    tau: Any
-    lower: Any
-    upper: Any
-    rated: Any
+    q: tuple
+    qdot: tuple
+    tau: tuple
+    lower: tuple
+    upper: tuple
+    rated: tuple
 
 
 class Controls(NamedTuple):
@@ -66,11 +68,11 @@ class Controls(NamedTuple):
 
 
 class Joints(NamedTuple):
-    """Of each joint its range [rad] and its motor's rated torque [N m]."""
+    """Of each joint its range [rad] and its motor's rated torque [N m], as `ArmSample` has them."""
 
-    lower: np.ndarray
-    upper: np.ndarray
-    rated: np.ndarray
+    lower: tuple
+    upper: tuple
+    rated: tuple
 
 
 def controls(contender: Contender, has_own_model: bool) -> Controls:
@@ -81,7 +83,12 @@ def controls(contender: Contender, has_own_model: bool) -> Controls:
 
 def joints(arm: Arm) -> Joints:
     """The numbers of an arm's joints."""
-    return Joints(*(np.array(numbers, dtype=float) for numbers in (arm.lower, arm.upper, arm.rated)))
+    missing = JOINTS - arm.joints
+    return Joints(
+        (*map(float, arm.lower), *[-math.inf] * missing),
+        (*map(float, arm.upper), *[math.inf] * missing),
+        (*map(float, arm.rated), *[1.0] * missing),
+    )
 
 
 def buffers(n: int, dtype=float) -> Buffers:
@@ -114,10 +121,16 @@ def probe(row, chain, q, G, scratch):
 
 
 @kernel
-def load(tau, rated, n):
+def seven(b, n):
+    """The first n numbers of a buffer, then zero, as a tuple."""
+    return (b[0], b[1], b[2], b[3], b[4], b[5], b[6] if n > 6 else 0.0)
+
+
+@kernel
+def load(tau, rated):
     """Sum of (tau_i / rated_i)^2: what the rule on torques is about; not finite if a torque is not."""
     total = 0.0
-    for i in range(n):
+    for i in range(JOINTS):
         ratio = tau[i] / rated[i]
         total = total + ratio * ratio
     return total

@@ -98,7 +98,8 @@ def simulation(task: str, arm: str, dt_s: float, integrator: str, variation: str
     xml = tasks.task(task, arm).xml(dt_s)
     models = [mujoco.MjModel.from_xml_string(xml) for _ in range(1 if variation == NOMINAL else 2)]
     models[0].opt.integrator = MUJOCO_INTEGRATORS[integrator]
-    tasks.variation(variation).apply(models[0], tasks.arm(arm).rated)
+    if variation != NOMINAL:
+        tasks.variation(variation).apply(models[0], tasks.arm(arm).rated)
     datas = [mujoco.MjData(model) for model in models]
     views = [native.view(model, data) for model, data in zip(models, datas, strict=True)]
     return Simulation(views[0], views[-1], len(views) > 1, (models, datas))

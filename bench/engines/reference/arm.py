@@ -18,6 +18,7 @@ from bench.engines.arm_episode import (
     joints,
     load,
     probe,
+    seven,
     squared,
 )
 from bench.engines.binding import command_of, margin_of, memory_of, observer
@@ -44,13 +45,13 @@ def _episode(contender, task, arm_name, start, band, settings, metrics, row, int
     dt, n = limits.dt, arm.joints
     margin, observe = margin_of(contender), observer(metrics)
     assemble, resolve = assembly(parts_of(contender, command_of(contender))), contender.inverse.resolve
+    own = variation != "nominal"
     environment = tasks.load(
         task, start=start, dt=dt, horizon=(limits.ticks + 1) * dt, integrator=integrator, arm=arm_name,
-        vary=lambda model: tasks.variation(variation).apply(model, arm.rated),
+        vary=(lambda model: tasks.variation(variation).apply(model, arm.rated)) if own else None,
     )  # fmt: skip
     environment.reset()
     plant = environment.physics.data
-    own = variation != "nominal"
     model = mujoco.MjModel.from_xml_string(tasks.task(task, arm_name).xml(dt)) if own else environment.physics.model.ptr
     believed = mujoco.MjData(model) if own else plant.ptr
     shape, of_joints, into = controls(contender, own), joints(arm), buffers(n)
@@ -74,12 +75,13 @@ def _episode(contender, task, arm_name, start, band, settings, metrics, row, int
         u, memory = control(
             assemble, resolve, shape.gives_torque, shape.rows, chain, D, fg, goal, p_d, gains, memory, into
         )
+        torques = seven(into.tau, n)
         sample = ArmSample(
-            tick * dt, dt, R, hav, watch.entered, vector(s[9:12]), u, margin(R, R_d), p, p_d, plant.qpos, plant.qvel,
-            into.tau, *of_joints,
+            tick * dt, dt, R, hav, watch.entered, vector(s[9:12]), u, margin(R, R_d), p, p_d, seven(plant.qpos, n),
+            seven(plant.qvel, n), torques, *of_joints,
         )  # fmt: skip
         observe(row, sample)
-        failure = check_command(load(into.tau, of_joints.rated, n), shape.torque_limit_squared)
+        failure = check_command(load(torques, of_joints.rated), shape.torque_limit_squared)
         if tick % PROBE_TICKS == 0 or failure != GOING:
             probe(row, chain, plant.qpos, G, into.scratch)
         if failure != GOING:
