@@ -5,8 +5,8 @@
     cholesky.py     factor, solve_factored, and the parts of them
     rotations.py    orthogonalize: one-sided Jacobi, the singular value decomposition
 
-A buffer may be larger than what is used of it; sizes are passed. Nothing is allocated. A singular matrix and numbers
-that are not finite end in numbers that are not finite, never in an exception or an endless loop.
+A buffer may be larger than what is used of it; sizes are passed. Nothing is allocated. A singular matrix ends in
+numbers that are not finite, and those that are not finite in any number, but never in an exception or an endless loop.
 """
 
 from bench.linalg.cholesky import factor, solve_factored, solve_lower, solve_upper
