@@ -18,7 +18,7 @@ from tasks.base import ArmTask, Start, Task
 
 NAME = "arm-regulation"
 TITLE = "Hold the tool's position, turn it to the goal"
-START_SETS = ("clear", "pole", "half-turn", "uniform", "tumbling")
+START_SETS = ("clear", "wrist", "pole", "half-turn", "uniform", "tumbling")
 
 
 def state(start: Start) -> tuple[tuple[float, ...], tuple[float, ...]]:
