@@ -113,7 +113,7 @@ def probe(row, chain, q, G, scratch):
     for i in range(6):
         for j in range(i):
             scratch.A[j, i] = scratch.A[i, j]
-    w = determinant(scratch.A, 6)
+    w = determinant(scratch.A, scratch.s, 6)
     if w < row[row.shape[0] + POSE]:
         row[row.shape[0] + POSE] = w
         for i in range(chain.n):
