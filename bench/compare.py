@@ -31,6 +31,13 @@ TRACE_KEY = ("regulator", "representation", "jacobian", "inverse", "engine", "st
 ARRIVED = 0.02
 """A curve whose angle ends below the settling band's share of where it began came to the goal."""
 
+POSE_KEY = ("arm", "pose_set", "pose_id", "representation")
+POSE_RELATIVE = 1e-5
+"""Single precision is 6e-8; condition numbers up to STEADY lose half the digits of the doubles they are made of."""
+
+STEADY = 1e8
+"""Condition number beyond which the last bit of a joint angle decides its value."""
+
 SHOWN = 10
 
 
@@ -159,10 +166,22 @@ def _traces(new: pd.DataFrame, old: pd.DataFrame) -> list[str]:
     return lines
 
 
+def _poses(new: pd.DataFrame, old: pd.DataFrame) -> list[str]:
+    """Poses and what their Jacobians are; the gaps are rounding itself, and claims look at their size."""
+    new, old, lines = _aligned("poses", new, old, POSE_KEY)
+    steady = (old["condition_analytic"].to_numpy() < STEADY) & (old["condition"].to_numpy() < STEADY)
+    for name in old.columns.difference(POSE_KEY, sort=False):
+        if not name.endswith("_gap"):
+            a, b = new[name].to_numpy(float), old[name].to_numpy(float)
+            close = np.isclose(a, b, rtol=POSE_RELATIVE, atol=ABSOLUTE, equal_nan=True)
+            lines += _changed(name, new, old, steady & ~close)
+    return lines
+
+
 def _digits(frame: pd.DataFrame) -> dict[str, int]:
     """Axes are compared by their first nine digits: they name a row."""
     return {name: 9 for name in frame.columns if name.startswith("axis_")}
 
 
-TABLES = {"episodes": _episodes, "costs": _costs, "boundaries": _boundaries, "traces": _traces}
+TABLES = {"episodes": _episodes, "costs": _costs, "boundaries": _boundaries, "poses": _poses, "traces": _traces}
 """What is compared, and how."""

@@ -58,6 +58,7 @@ class Plan:
     traces: int = 0
     boundary_axes: int = 0
     arm_traces: int = 0
+    poses: int = 0
 
     @property
     def laws(self) -> tuple[Contender, ...]:
@@ -91,6 +92,7 @@ class Plan:
             "traces": self.traces,
             "boundary_axes": self.boundary_axes,
             "arm_traces": self.arm_traces,
+            "poses": self.poses,
             "arms": {name: hashlib.sha256(tasks.arm(name).xml.encode()).hexdigest()[:16] for name in self.arms},
             "rules": list(RULES),
             "sources": source_digest(),
@@ -194,6 +196,7 @@ def make(
         0 if choice.narrows else chosen.traces,
         0 if choice.narrows else chosen.boundary_axes,
         0 if choice.narrows else chosen.on_arms.traced,
+        0 if choice.narrows else chosen.on_arms.poses,
     )
 
 

@@ -1,7 +1,7 @@
 """What the report and the claims read: the folder of a finished run, and its tables, each read once a process.
 
     results.episodes(engine="ideal-rk4", start_set="uniform")     the rows that have these words
-    results.costs(), results.boundaries(), results.traces(), results.provenance(), results.own_laws()
+    results.costs(), results.boundaries(), results.poses(), results.traces(), results.provenance(), results.own_laws()
 
 Every frame about contenders has a column `contender`: "regulator" or "regulator/representation", and on an arm
 "...@jacobian+inverse". Rows about the free body are those that have the words FREE_BODY.
@@ -52,6 +52,11 @@ def costs(**words: str) -> pd.DataFrame:
 def boundaries(**words: str) -> pd.DataFrame:
     """Rows of boundaries.parquet that have these words."""
     return chosen(table(folder(), "boundaries"), words)
+
+
+def poses(**words: str) -> pd.DataFrame:
+    """Rows of poses.parquet that have these words, as in poses(arm="puma560", representation="zyx-euler")."""
+    return chosen(table(folder(), "poses"), words)
 
 
 def provenance() -> dict:

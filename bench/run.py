@@ -18,7 +18,7 @@ from typing import NamedTuple
 import pandas as pd
 
 import tasks
-from bench import boundary, counting, traces
+from bench import boundary, counting, poses, traces
 from bench.discovery import all_contenders, metrics_of
 from bench.engines.run import compiled_loop
 from bench.engines.run import run as run_engine
@@ -30,7 +30,7 @@ from bench.provenance import describe
 from bench.rows import frame, settings_of
 from bench.store import check, is_leftover, merge, read_json, write_atomically, write_json, write_table
 
-TABLES = ("costs", "traces", "boundaries", "episodes")
+TABLES = ("costs", "traces", "boundaries", "poses", "episodes")
 """The tables of a finished run, in the order of their writing."""
 
 
@@ -235,6 +235,7 @@ def _finish(plan: Plan, out: Path, costs: pd.DataFrame, workers: int, began: flo
     write_table(out / "costs.parquet", costs, "costs")
     write_table(out / "traces.parquet", traces.run(plan), "traces")
     write_table(out / "boundaries.parquet", boundary.run(plan, workers), "boundaries")
+    write_table(out / "poses.parquet", poses.run(plan), "poses")
     rows = merge(out / "episodes.parquet", [out / "parts" / f"{unit.key}.parquet" for unit in plan.units], "episodes")
     write_json(
         out / "provenance.json",

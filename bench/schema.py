@@ -9,6 +9,8 @@ from bench.provenance import ROOT
 
 VERSION = "2"
 WORD, NUMBER, COUNT = pa.dictionary(pa.int32(), pa.string()), pa.float64(), pa.int64()
+SINGLE = pa.float32()
+"""Where seven digits are enough: sizes of what is nearly zero, and condition numbers."""
 
 
 class Column(NamedTuple):
@@ -115,6 +117,33 @@ def boundary_columns() -> list[Column]:
     ]
 
 
+def pose_columns() -> list[Column]:
+    """poses.parquet: Jacobians of an arm, a row a pose and representation; metres and radians."""
+    singles = {
+        "condition": "condition number of J, by the judge",
+        "kernel_gap": "largest difference between our J and the judge's, over the largest element",
+        "det": "determinant of J; null unless it is six by six",
+        "margin": "of the representation: 0 on its singular set",
+        "condition_analytic": "condition number of J_E = diag(I, B^-1) J, over six singular values",
+        "largest": "largest element of J_E's rows of orientation, in size",
+        "det_analytic": "determinant of J_E; null unless it is six by six",
+        "det_gap": "Z-Y-X: |det J_E + det J / cos(beta)| over the product of J_E's row norms",
+        "derivation_gap": "largest difference between J_E converted and differentiated, over the largest element",
+        "difference_gap": "Z-Y-X, but on a slice: likewise, J_E and central differences of the judge's kinematics",
+    }
+    return [
+        *_words(
+            arm="manipulator",
+            pose_set="named, random, slice or pole",
+            pose_id="pose within its set",
+            representation="coordinates of J_E",
+        ),
+        *_numbers("rad", "joint angles; null where there is no such joint", *(f"q_{i}" for i in range(1, 8))),
+        *_numbers("rad", "Z-Y-X angle beta of the tool", "beta"),
+        *(Column(name, SINGLE, "1", meaning) for name, meaning in singles.items()),
+    ]
+
+
 def cost_columns() -> list[Column]:
     """costs.parquet: operations a tick, by stage and branch."""
     from bench.counting import OPERATIONS
@@ -153,6 +182,7 @@ TABLES = {
     "costs": cost_columns,
     "traces": trace_columns,
     "boundaries": boundary_columns,
+    "poses": pose_columns,
     "timings": timing_columns,
 }
 

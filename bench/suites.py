@@ -32,7 +32,7 @@ class OnArms(NamedTuple):
 
     words: contenders as `combinations` writes them; none at all: every compatible combination. varied: the contenders
     of the study of model errors, which runs over all variations of the plant. traced: starts of `clear` and `pole`
-    whose episodes are kept as curves.
+    whose episodes are kept as curves. poses: how many an arm's Jacobians are looked at, beside the directed ones.
     """
 
     words: tuple[str, ...]
@@ -40,6 +40,7 @@ class OnArms(NamedTuple):
     varied: tuple[str, ...] = ()
     varied_slices: tuple[Slice, ...] = ()
     traced: int = 0
+    poses: int = 0
 
 
 class Suite(NamedTuple):
@@ -80,7 +81,7 @@ SUITES = {
             + _slices("reference", 0, ("paper",)),
             traces=24,
             boundary_axes=64,
-            on_arms=OnArms((*LAWS, *ANALYTIC), _on_arms(4, 4)),
+            on_arms=OnArms((*LAWS, *ANALYTIC), _on_arms(4, 4), poses=200),
         ),
         Suite(
             "default",
@@ -97,6 +98,7 @@ SUITES = {
                 VARIED,
                 (Slice("native", "clear", 8, ON_ARM),),
                 traced=4,
+                poses=2000,
             ),
         ),
         Suite(
@@ -108,7 +110,9 @@ SUITES = {
             + _slices("reference", 0, ("paper",)),
             traces=64,
             boundary_axes=1024,
-            on_arms=OnArms((), _on_arms(200, None), VARIED, (Slice("native", "clear", None, ON_ARM),), traced=4),
+            on_arms=OnArms(
+                (), _on_arms(200, None), VARIED, (Slice("native", "clear", None, ON_ARM),), traced=4, poses=2000
+            ),
         ),
     )
 }

@@ -12,7 +12,10 @@ import pytest
 from command_line import bench, digest
 
 ROOT = Path(__file__).parents[1]
-TABLES = ["boundaries.parquet", "costs.parquet", "episodes.parquet", "plan.json", "provenance.json", "traces.parquet"]
+TABLES = [
+    *("boundaries.parquet", "costs.parquet", "episodes.parquet", "plan.json", "poses.parquet"),
+    *("provenance.json", "traces.parquet"),
+]
 UNITS = 16
 
 

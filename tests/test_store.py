@@ -17,6 +17,7 @@ README = Path(__file__).parents[1] / "results" / "README.md"
 def frame(table: str, rows: int, first: int = 0) -> pd.DataFrame:
     """Rows with every column of a table filled."""
     fill = {schema.WORD: lambda i: f"word-{i % 3}", schema.NUMBER: lambda i: i / 7.0, schema.COUNT: lambda i: i}
+    fill[schema.SINGLE] = fill[schema.NUMBER]
     return pd.DataFrame(
         {one.name: [fill[one.type](i) for i in range(first, first + rows)] for one in schema.TABLES[table]()}
     )
@@ -134,7 +135,7 @@ def test_merge_of_a_truncated_part_names_it_and_leaves_no_file(tmp_path):
 def test_table_of_another_kind_is_refused(tmp_path):
     store.write_table(tmp_path / "x.parquet", frame("costs", 1), "costs")
     for opened in (store.read_arrow, store.check):
-        with pytest.raises(BadResults, match="this program reads '1' of table 'episodes'"):
+        with pytest.raises(BadResults, match=f"this program reads '{schema.VERSION}' of table 'episodes'"):
             opened(tmp_path / "x.parquet", "episodes")
 
 
