@@ -67,3 +67,31 @@ def from_quaternion(quat_wxyz):
         (2.0 * (x * y - w * z), w * w - x * x + y * y - z * z, 2.0 * (y * z + w * x)),
         (2.0 * (x * z + w * y), 2.0 * (y * z - w * x), w * w - x * x - y * y + z * z),
     )
+
+
+@kernel
+def quaternion_direction(R):
+    """((w, x, y, z), t): the quaternion of R with w >= 0, of length 2 sqrt(t), t >= 1; no root is taken.
+
+    One of its four elements is t itself, 4 times the square of that element of the unit quaternion, and the branches
+    choose one that is at least 1/2 there: nothing cancels, at half turns neither. Where w is 0 that element is
+    positive; where w is 0 but for rounding, its sign is the rounding's.
+    Source: Shepperd 1978, with the two comparisons of Day (Converting a rotation matrix to a quaternion).
+    """
+    n, o, a = R
+    if a[2] < 0.0:
+        if n[0] > o[1]:
+            t = 1.0 + n[0] - o[1] - a[2]
+            w, x, y, z = o[2] - a[1], t, n[1] + o[0], a[0] + n[2]
+        else:
+            t = 1.0 - n[0] + o[1] - a[2]
+            w, x, y, z = a[0] - n[2], n[1] + o[0], t, o[2] + a[1]
+    elif n[0] < -o[1]:
+        t = 1.0 - n[0] - o[1] + a[2]
+        w, x, y, z = n[1] - o[0], a[0] + n[2], o[2] + a[1], t
+    else:
+        t = 1.0 + n[0] + o[1] + a[2]
+        w, x, y, z = t, o[2] - a[1], a[0] - n[2], n[1] - o[0]
+    if w < 0.0:
+        w, x, y, z = -w, -x, -y, -z
+    return (w, x, y, z), t

@@ -87,14 +87,14 @@ def exact_matrix(to_matrix, E):
     return EXACT.matrix([[columns[j][i].value for j in range(3)] for i in range(3)])
 
 
-def motion(to_matrix, E, Edot, Eddot=(0.0, 0.0, 0.0)):
+def motion(to_matrix, E, Edot, Eddot=(0.0, 0.0, 0.0, 0.0)):
     """(omega, omegadot), base frame, of the path E + Edot t + Eddot t^2/2 at t = 0.
 
     [omega]x = Rdot R^T (Murphy 1988, 2.7), and [omegadot]x is the skew part of Rddot R^T.
     """
 
     def at(t):
-        return exact_matrix(to_matrix, [_taylor(t, *terms) for terms in zip(E, Edot, Eddot, strict=True)])
+        return exact_matrix(to_matrix, [_taylor(t, *terms) for terms in zip(E, Edot, Eddot, strict=False)])
 
     behind, here, ahead = at(-STEP), at(0), at(STEP)
     first = (ahead - behind) / (2 * STEP)
@@ -113,9 +113,10 @@ def _axial(A) -> list:
 
 def exact_B(to_matrix, E):
     """B(E) of omega = B Edot (Murphy 1988, 2.8), by differentiating to_matrix."""
-    units = ((1, 0, 0), (0, 1, 0), (0, 0, 1))
+    count = len(E)
+    units = [[int(i == j) for i in range(count)] for j in range(count)]
     images = [motion(to_matrix, E, unit)[0] for unit in units]
-    return EXACT.matrix([[images[j][i] for j in range(3)] for i in range(3)])
+    return EXACT.matrix([[images[j][i] for j in range(count)] for i in range(3)])
 
 
 def solved(A, right) -> list:
@@ -126,4 +127,4 @@ def solved(A, right) -> list:
 
 def rows_of(A) -> list[list]:
     """A matrix as lists of its rows."""
-    return [[A[i, j] for j in range(3)] for i in range(3)]
+    return [[A[i, j] for j in range(A.cols)] for i in range(A.rows)]

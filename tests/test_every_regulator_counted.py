@@ -46,9 +46,7 @@ FAMILIES = {
     "near identity": lambda: [about(axis, 10.0**-k) for axis in AXES for k in (1, 3, 6, 9, 12, 300)],
     "identity": lambda: [np.eye(3)],
     "near half turn": lambda: [about(axis, math.pi - 10.0**-k) for axis in AXES for k in (1, 4, 8, 12, 16)],
-    "half turn": lambda: [
-        np.diag(signs) for signs in ((1.0, -1.0, -1.0), (-1.0, 1.0, -1.0), (-1.0, -1.0, 1.0))
-    ],
+    "half turn": lambda: [np.diag(signs) for signs in ((1.0, -1.0, -1.0), (-1.0, 1.0, -1.0), (-1.0, -1.0, 1.0))],
     "near pole": lambda: [
         zyx(alpha, sign * (math.pi / 2 - 10.0**-k), gamma)
         for alpha, gamma in ((0.0, 0.0), (1.2, -2.7))
@@ -111,10 +109,10 @@ def test_counted_representation_is_the_float_one_bit_for_bit(word, family):
     tally = Tally()
     plain = known_representations()[word]
     counting = staged(plain, tally)
-    v, w = (
-        (np.float64(0.3), np.float64(-1.7), np.float64(0.0)),
-        (np.float64(2.0), np.float64(0.1), np.float64(5.0)),
-    )
+    v = (np.float64(0.3), np.float64(-1.7), np.float64(0.0))
+    count = len(plain.symbols)
+    rate = (np.float64(2.0), np.float64(0.1), np.float64(5.0), np.float64(-0.6))[:count]
+    acceleration = (np.float64(-4.0), np.float64(0.0), np.float64(0.7), np.float64(30.0))[:count]
     with np.errstate(all="ignore"):
         for matrix in FAMILIES[family]():
             R = rotation(matrix)
@@ -127,10 +125,25 @@ def test_counted_representation_is_the_float_one_bit_for_bit(word, family):
                 (counting.chart_of(counted_E), plain.chart_of(E)),
                 (counting.to_matrix(counted_E), plain.to_matrix(E)),
                 (counting.rates(counted_at, counted(v, tally)), plain.rates(at, v)),
-                (counting.angular_velocity(counted_at, counted(v, tally)), plain.angular_velocity(at, v)),
+                (counting.angular_velocity(counted_at, counted(rate, tally)), plain.angular_velocity(at, rate)),
                 (counting.generalized(counted_at, counted(v, tally)), plain.generalized(at, v)),
-                (counting.accelerate(counted_at, *counted((v, w), tally)), plain.accelerate(at, v, w)),
+                (
+                    counting.accelerate(counted_at, *counted((rate, acceleration), tally)),
+                    plain.accelerate(at, rate, acceleration),
+                ),
             ]
+            if plain.differentiate is not None:
+                along = Rotation(v, acceleration, rate), Rotation(rate, v, acceleration)
+                pairs += [
+                    (
+                        counting.differentiate(counted(R, tally), counted(along[0], tally)),
+                        plain.differentiate(R, along[0]),
+                    ),
+                    (
+                        counting.differentiate_twice(*counted((R, *along), tally)),
+                        plain.differentiate_twice(R, *along),
+                    ),
+                ]
             for ours, floats in pairs:
                 assert bytes_of(ours) == bytes_of(floats)
 

@@ -20,6 +20,8 @@ STAGE_OF = {
     "generalized": "represent",
     "margin": "represent",
     "accelerate": "linearize",
+    "differentiate": "jacobian",
+    "differentiate_twice": "jacobian",
 }
 """Function of a Representation -> stage."""
 
@@ -35,10 +37,9 @@ def staged(representation: Representation, tally: Tally) -> Representation:
     """A stand-in with the same fields, each function in its stage."""
     fields = representation._asdict()
     for name, stage in STAGE_OF.items():
-        fields[name] = in_stage(tally, stage, getattr(representation, name))
-    return cast(
-        Representation, SimpleNamespace(**fields)
-    )  # goal_chart is a property there, and cannot be replaced
+        function = getattr(representation, name)
+        fields[name] = None if function is None else in_stage(tally, stage, function)
+    return cast(Representation, SimpleNamespace(**fields))  # goal_chart is a property there, and cannot be replaced
 
 
 def in_stage(tally: Tally, stage: str, function):
