@@ -12,6 +12,7 @@ from scipy.special import lambertw
 from bench import claims, plan, run
 from bench.claims import coordinates, probes
 from bench.claims.errata import ERRATA
+from bench.claims.later import COMING
 from bench.claims.tables import Results, share
 from bench.claims.verdict import Claim, Evidence, NoEvidence, Word, claim, decide
 from bench.contender import Gains
@@ -19,15 +20,16 @@ from bench.discovery import find_contender
 
 TESTED = tuple(f"C{i:02d}" for i in range(1, 18))
 WITHOUT_TABLES = ("C13", "C15")
-LAWS = ("rotation-matrix", "linearized-euler", "linearized-euler-relative", "feedback-linearized")
+LAWS = ("rotation-matrix", "linearized-euler", "linearized-euler-relative", "feedback-linearized/zyx-euler")
 TABLES = ("episodes", "costs", "traces", "boundaries")
 
 
 @pytest.fixture(scope="session")
 def frames(tmp_path_factory):
-    """The quick suite of the laws that claims are about."""
+    """The quick suite of the laws that claims are about, on the free body."""
     folder = tmp_path_factory.mktemp("claims") / "run"
-    run.run(plan.make("quick", [find_contender(word) for word in LAWS]), folder)
+    laws = [find_contender(word) for word in LAWS]
+    run.run(plan.make("quick", laws, plan.Choice(tasks=("free-body",))), folder)
     results = Results(folder)
     return {name: results.table(name) for name in TABLES}
 
@@ -76,11 +78,16 @@ def test_claim_has_its_texts(one):
     assert all((one.section, one.sentence, one.question, one.criterion))
 
 
-@pytest.mark.parametrize("id", TESTED)
-def test_criterion_says_what_holds_and_what_does_not(id):
-    one = next(one for one in claims.all_claims() if one.id == id)
+@pytest.mark.parametrize("one", [one for one in claims.all_claims() if one.criterion != COMING], ids=lambda one: one.id)
+def test_criterion_says_what_holds_and_what_does_not(one):
     assert "does not hold" in one.criterion
     assert "with a correction" in one.criterion
+
+
+@pytest.mark.parametrize("id", TESTED)
+def test_claim_of_the_free_body_has_its_criterion_and_its_judge(id):
+    one = next(one for one in claims.all_claims() if one.id == id)
+    assert one.criterion != COMING
     assert one.judge is not None
 
 
@@ -98,7 +105,8 @@ def test_claim_is_found_when_a_file_is_dropped(tmp_path, monkeypatch):
 
 
 def test_later_claims_are_not_yet_measured():
-    later = [decide(one, None) for one in claims.all_claims()[17:]]
+    later = [decide(one, None) for one in claims.all_claims() if one.judge is None]
+    assert later
     assert {one.word for one in later} == {claims.NOT_YET_MEASURED}
 
 
@@ -113,9 +121,10 @@ def test_claim_is_decided_by_a_quick_run(frames, tmp_path, id):
 
 @pytest.mark.slow
 def test_table_has_a_line_a_verdict(frames, tmp_path):
-    verdicts = [decide(one, Results(None, frames, tmp_path)) for one in claims.all_claims()[16:]]
+    last = [one for one in claims.all_claims() if one.id == "C17" or one.judge is None]
+    verdicts = [decide(one, Results(None, frames, tmp_path)) for one in last]
     table = claims.table(verdicts)
-    assert list(table["claim"]) == [one.id for one in claims.all_claims()[16:]]
+    assert list(table["claim"]) == [one.id for one in last]
     assert table["rows"].iloc[0] > 0
 
 

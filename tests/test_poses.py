@@ -10,7 +10,7 @@ from bits import EPS
 from scipy.spatial.transform import Rotation as Turn
 
 import tasks
-from bench import plan, poses, schema
+from bench import compare, plan, poses, schema
 from bench.discovery import find_contender, known_representations
 from bench.pose_sets import DECADES, FAMILIES, WELL_CONDITIONED, grid, pair, polished, towards_pole
 from tasks.arm import model_xml
@@ -212,3 +212,35 @@ def test_tool_is_turned_to_the_angles_that_were_asked_for():
     # what the families rest on: quaternions of angles beside the pole, to rounding
     for k in range(1, DECADES + 1):
         assert cos_beta(zyx(0.3, math.pi / 2 - 10.0**-k, -1.1)) == pytest.approx(math.sin(10.0**-k), abs=4 * EPS)
+
+
+@pytest.mark.parametrize(
+    ("pose_set", "column", "lines"),
+    [
+        ("random", "condition", 1),
+        ("random", "det_analytic", 1),
+        ("random", "q_3", 1),
+        ("random", "derivation_gap", 0),
+        ("named", "condition_analytic", 1),
+    ],
+)
+def test_gate_catches_a_pose_that_changed_but_for_rounding(frames, pose_set, column, lines):
+    old = frames["ur5e"]
+    row = old.index[(old["pose_set"] == pose_set) & (old["representation"] == "zyx-euler")][0]
+    new = old.copy()
+    new.loc[row, column] = 1.001 * new.loc[row, column] + 1e-3
+    assert compare.TABLES["poses"](old, old) == []
+    assert len(compare.TABLES["poses"](new, old)) == lines
+
+
+def test_gate_takes_no_notice_of_a_condition_number_on_the_pole(frames):
+    old = frames["puma560"]
+    on = (old["pose_id"] == "qn") & (old["representation"] == "zyx-euler")
+    new = old.assign(condition_analytic=old["condition_analytic"].where(~on, 1e18))
+    assert compare.TABLES["poses"](new, old) == []
+
+
+def test_gate_catches_a_pose_that_is_gone(frames):
+    old = frames["ur5e"]
+    [line] = compare.TABLES["poses"](old.iloc[1:], old)
+    assert line.startswith("poses: row is missing")
