@@ -8,6 +8,8 @@
     tasks.load("arm-regulation", start, arm="ur5e"), tasks.task("arm-regulation", "ur5e")
     tasks.start_set(name, count, seed, arm="ur5e")    one file each in tasks/arm_starts
     tasks.pairs()                       every (task, arm) there is; the arm is "" on the free body
+    tasks.arm(name), tasks.arm_names()  the manipulators: one file each in tasks/arms
+    tasks.variation(name)               a plant that differs from the controller's model of it
 
     base.py       Start, Task, StartSet, and those of arms; the sensors of every model; the errors
     truth.py      angle and haversine: the judge's own measure of the error
@@ -15,6 +17,8 @@
     verdict.py    the rules at work, tick by tick: the six outcomes
     rotations.py  quaternions that are exact where a double can be exact (half turns, poles)
     haar.py       low-discrepancy points on SO(3)
+    arm.py        Arm; finds the files of arms and makes models of them; arm_check.py refuses the broken ones
+    variations.py how an arm's plant differs from its model
     kinematics.py an arm's forward kinematics, Jacobian, and joint paths that turn the tool in place
     paths.py      the two paths of an orientation that start sets keep clear of trouble
     episode.py    one episode of any Task as a dm_control Environment
@@ -24,7 +28,8 @@ Frames and units: everything is in the base frame unless its name ends in `_body
 quaternions are (w, x, y, z) and take body coordinates to base coordinates.
 
 To add a task, put one file with a constant TASK in tasks/domains; to add a start set, one file with a
-constant STARTS in tasks/starts, or tasks/arm_starts if it is for arms. `free_body.py` is `free-body` on
+constant STARTS in tasks/starts, or tasks/arm_starts if it is for arms; to add an arm, one MJCF file in
+tasks/arms. `free_body.py` is `free-body` on
 the command line and in the results.
 """
 
@@ -38,6 +43,7 @@ from tasks.arm import arm as arm
 from tasks.arm import arm_names as arm_names
 from tasks.base import ArmStartSet, ArmTask, BadValue, Start, StartSet, Task
 from tasks.discovery import constants, pick
+from tasks.variations import VARIATIONS, Variation
 
 if TYPE_CHECKING:
     import mujoco
@@ -54,6 +60,8 @@ __all__ = [
     "start_set_names",
     "start_set_title",
     "task",
+    "variation",
+    "variation_names",
 ]
 
 _find_arm = arm  # several functions below have an argument of that name
@@ -143,6 +151,16 @@ def start_set(name: str, count: int | None = None, seed: int = 0, arm: str = "")
     chosen = pick("start set", name, _start_sets(), "tasks/starts")
     wanted = chosen.size if count is None else count
     return chosen.build(wanted, seed)[:wanted]
+
+
+def variation_names() -> list[str]:
+    """Names of all variations of an arm's plant, `nominal` first."""
+    return list(VARIATIONS)
+
+
+def variation(name: str) -> Variation:
+    """The variation of this name; UnknownName lists the known ones."""
+    return pick("variation", name, VARIATIONS, "tasks/variations.py")
 
 
 def _task_on(name: str, arm: str) -> Task:

@@ -1,0 +1,95 @@
+"""Variations: how the plant differs from the arm that its controller computes with.
+
+    mass-s        D -> s D, and gravity and Coriolis torques with it, s in 0.70, 0.85, 1.15, 1.30
+    links-k       D of links whose inertial parameters are s_i times the model's, s_i in [0.7, 1.3], drawn with seed k
+    friction-p    dry friction in every joint, p per cent of its rated torque
+
+A factor multiplies the mass and inertia of a link and the reflected motor inertia of its joint; centres of mass and
+viscous damping stay. The controller is given the model as it was.
+
+Dry friction is MuJoCo's frictionloss: up to that torque a joint resists motion. Its solver softens the constraint: a
+joint of inertia m that should stay where it is creeps under a torque F at
+
+    v = (1 - d) / d * F / (m b),   b = 2 / (d T)   [rad/s]      (1/m is dof_invweight0)
+
+With MuJoCo's own d = .9 and T = .02 s the UR5e's wrist creeps some .01 rad/s; with d = .9999, the most MuJoCo takes,
+and T of two ticks, the least, some 1e-6 rad/s, and a joint that slows down is stopped within a tick.
+
+Fails: T is that of the time step the model has when it is varied; change the step afterwards and it is off.
+"""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Callable, Sequence
+from functools import partial
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    import mujoco
+
+SPREAD = (0.7, 1.3)  # of the factors of single links: the +-30 % of the uniform ones
+IMPEDANCE = 0.9999  # mjMAXIMP
+
+
+class Variation(NamedTuple):
+    """One way in which the plant differs from the controller's model."""
+
+    name: str
+    title: str
+    apply: Callable[[mujoco.MjModel, Sequence[float]], None]
+    """apply(model, rated): changes a compiled model of an arm in place; rated torques [N m]. For a fresh model, once,
+    before its data are made."""
+
+
+def _nothing(model: mujoco.MjModel, rated: Sequence[float]) -> None:
+    pass
+
+
+def _scale_all(factor: float, model: mujoco.MjModel, rated: Sequence[float]) -> None:
+    _scale(model, [factor] * model.nv)
+
+
+def _scale_links(seed: int, model: mujoco.MjModel, rated: Sequence[float]) -> None:
+    draw = random.Random(seed)  # documented to give the same numbers in every version of Python
+    _scale(model, [draw.uniform(*SPREAD) for _ in range(model.nv)])
+
+
+def _scale(model: mujoco.MjModel, factors: list[float]) -> None:
+    """One factor a joint, for its reflected motor inertia and all that moves with it and not with the next one."""
+    import mujoco
+
+    for i, factor in enumerate(factors):
+        model.dof_armature[i] *= factor
+    for body in range(1, model.nbody):
+        moving = model.body_weldid[body]  # itself, or the body it is fixed to; 0 is the ground
+        if moving:
+            factor = factors[model.body_dofadr[moving] + model.body_dofnum[moving] - 1]
+            model.body_mass[body] *= factor
+            model.body_inertia[body] *= factor
+    mujoco.mj_setConst(model, mujoco.MjData(model))  # what MuJoCo derives from them: subtree masses, dof_M0, weights
+
+
+def _rub(percent: float, model: mujoco.MjModel, rated: Sequence[float]) -> None:
+    for i, torque in enumerate(rated):
+        model.dof_frictionloss[i] = percent / 100.0 * torque
+        model.dof_solref[i] = (2.0 * model.opt.timestep, 1.0)
+        model.dof_solimp[i, :2] = IMPEDANCE
+
+
+VARIATIONS = {
+    variation.name: variation
+    for variation in (
+        Variation("nominal", "The controller's model is exact", _nothing),
+        Variation("mass-0.70", "Links and rotors 30 % lighter than the model", partial(_scale_all, 0.70)),
+        Variation("mass-0.85", "Links and rotors 15 % lighter than the model", partial(_scale_all, 0.85)),
+        Variation("mass-1.15", "Links and rotors 15 % heavier than the model", partial(_scale_all, 1.15)),
+        Variation("mass-1.30", "Links and rotors 30 % heavier than the model", partial(_scale_all, 1.30)),
+        Variation("links-1", "Each link up to 30 % lighter or heavier, first draw", partial(_scale_links, 1)),
+        Variation("links-2", "Each link up to 30 % lighter or heavier, second draw", partial(_scale_links, 2)),
+        Variation("links-3", "Each link up to 30 % lighter or heavier, third draw", partial(_scale_links, 3)),
+        Variation("friction-2", "Dry friction, 2 % of each rated torque", partial(_rub, 2.0)),
+        Variation("friction-5", "Dry friction, 5 % of each rated torque", partial(_rub, 5.0)),
+        Variation("friction-10", "Dry friction, 10 % of each rated torque", partial(_rub, 10.0)),
+    )
+}

@@ -1,0 +1,164 @@
+"""Variations of an arm's plant: factors against a model that MuJoCo compiles anew, friction against its level."""
+
+import mujoco
+import numpy as np
+import pytest
+
+import tasks
+from tasks.arm import model_xml
+from tasks.base import UnknownName
+from tasks.variations import IMPEDANCE, SPREAD
+
+DT = 1e-3
+FACTORS = {"mass-0.70": 0.70, "mass-0.85": 0.85, "mass-1.15": 1.15, "mass-1.30": 1.30}
+FRICTIONS = {"friction-2": 0.02, "friction-5": 0.05, "friction-10": 0.10}
+LINKS = ("links-1", "links-2", "links-3")
+
+
+def compiled(arm: str, variation: str = "nominal") -> mujoco.MjModel:
+    found = tasks.arm(arm)
+    model = mujoco.MjModel.from_xml_string(model_xml(found, DT))
+    tasks.variation(variation).apply(model, found.rated)
+    return model
+
+
+def compiled_anew(arm: str, factors) -> mujoco.MjModel:
+    """MuJoCo's own compiler on inertial parameters that were scaled before it saw them."""
+    spec = mujoco.MjSpec.from_string(model_xml(tasks.arm(arm), DT))
+    for joint, factor in zip(spec.joints, factors, strict=True):
+        joint.armature *= factor
+        body = joint.parent
+        body.mass, body.inertia = factor * body.mass, factor * body.inertia
+        body.fullinertia = factor * body.fullinertia
+    return spec.compile()
+
+
+def inertia(model: mujoco.MjModel, data: mujoco.MjData) -> np.ndarray:
+    D = np.zeros((model.nv, model.nv))
+    mujoco.mj_fullM(model, data, D)
+    return D
+
+
+def states(arm: str, count: int, qdot: float = 0.0):
+    rng = np.random.default_rng(7)
+    joints = tasks.arm(arm).joints
+    for _ in range(count):
+        yield rng.uniform(-np.pi, np.pi, joints), qdot * rng.standard_normal(joints)
+
+
+def at(model: mujoco.MjModel, q, qdot) -> mujoco.MjData:
+    data = mujoco.MjData(model)
+    data.qpos[:], data.qvel[:] = q, qdot
+    mujoco.mj_forward(model, data)
+    return data
+
+
+def test_nominal_is_first_and_changes_nothing():
+    assert tasks.variation_names()[0] == "nominal"
+    plain, varied = (mujoco.MjModel.from_xml_string(model_xml(tasks.arm("ur5e"), DT)) for _ in range(2))
+    tasks.variation("nominal").apply(varied, tasks.arm("ur5e").rated)
+    for name in ("body_mass", "body_inertia", "dof_armature", "dof_frictionloss", "dof_solref", "dof_solimp"):
+        assert np.array_equal(getattr(plain, name), getattr(varied, name))
+
+
+def test_names_are_those_of_the_registry():
+    assert [tasks.variation(name).name for name in tasks.variation_names()] == tasks.variation_names()
+    assert set(tasks.variation_names()) == {"nominal", *FACTORS, *LINKS, *FRICTIONS}
+
+
+def test_unknown_variation_lists_the_known_ones():
+    with pytest.raises(UnknownName, match=r"variation 'heavier' .*mass-1.30"):
+        tasks.variation("heavier")
+
+
+@pytest.mark.parametrize("arm", tasks.arm_names())
+@pytest.mark.parametrize(("name", "factor"), FACTORS.items())
+def test_mass_scales_inertia_gravity_and_coriolis(arm, name, factor):
+    plain, varied = compiled(arm), compiled(arm, name)
+    for q, qdot in states(arm, 5, qdot=2.0):
+        nominal, other = at(plain, q, qdot), at(varied, q, qdot)
+        # Sums of some 50 terms, each rounded: 50 * 1e-16 of the largest, and a factor of twenty.
+        D = inertia(plain, nominal)
+        assert np.abs(inertia(varied, other) - factor * D).max() <= 1e-13 * D.max()
+        scale = np.abs(nominal.qfrc_bias).max()
+        assert np.abs(other.qfrc_bias - factor * nominal.qfrc_bias).max() <= 1e-13 * scale
+
+
+DERIVED = ("body_subtreemass", "body_invweight0", "dof_invweight0", "dof_M0", "body_mass", "body_inertia")
+
+
+@pytest.mark.parametrize("arm", tasks.arm_names())
+@pytest.mark.parametrize("name", ["mass-0.70", "mass-1.30", *LINKS])
+def test_derived_constants_are_those_of_a_model_compiled_anew(arm, name):
+    varied, plain = compiled(arm, name), compiled(arm)
+    factors = [varied.body_mass[plain.jnt_bodyid[i]] / plain.body_mass[plain.jnt_bodyid[i]] for i in range(plain.nv)]
+    anew = compiled_anew(arm, factors)
+    for constant in DERIVED:
+        found, expected = getattr(varied, constant), getattr(anew, constant)
+        # MuJoCo's weights come from its solve with D, whose condition number is below 1e3 on these arms: 1e-13.
+        assert np.abs(found - expected).max() <= 1e-12 * np.abs(expected).max(), constant
+    for q, qdot in states(arm, 3, qdot=1.0):
+        a, b = at(varied, q, qdot), at(anew, q, qdot)
+        assert np.abs(inertia(varied, a) - inertia(anew, b)).max() <= 1e-13 * inertia(anew, b).max()
+        assert np.abs(a.qfrc_bias - b.qfrc_bias).max() <= 1e-13 * np.abs(b.qfrc_bias).max()
+
+
+@pytest.mark.parametrize("arm", tasks.arm_names())
+def test_links_draws_differ_from_link_to_link_and_draw_to_draw(arm):
+    plain = compiled(arm)
+    moving = plain.jnt_bodyid
+    drawn = np.array([compiled(arm, name).body_mass[moving] / plain.body_mass[moving] for name in LINKS])
+    assert SPREAD[0] <= drawn.min() < drawn.max() <= SPREAD[1]
+    assert len(np.unique(drawn.round(9))) == drawn.size
+    again = compiled(arm, "links-1").body_mass[moving] / plain.body_mass[moving]
+    assert np.array_equal(again, drawn[0])
+
+
+def pushed(arm: str, name: str, joint: int, torque: float) -> tuple[float, float]:
+    """Speed of a joint [rad/s] half a second after a torque was put on it, gravity held; and MuJoCo's 1/m."""
+    found, model = tasks.arm(arm), compiled(arm, name)
+    data = at(model, found.home, np.zeros(model.nv))
+    held = data.qfrc_bias.copy()
+    for _ in range(500):
+        data.ctrl[:] = held
+        data.ctrl[joint] += torque
+        mujoco.mj_step(model, data)
+    return abs(float(data.qvel[joint])), float(model.dof_invweight0[joint])
+
+
+@pytest.mark.parametrize("arm", tasks.arm_names())
+@pytest.mark.parametrize(("name", "fraction"), FRICTIONS.items())
+def test_arm_pushed_below_the_friction_level_stays_put(arm, name, fraction):
+    for joint, rated in enumerate(tasks.arm(arm).rated):
+        torque = 0.9 * fraction * rated
+        speed, per_m = pushed(arm, name, joint, torque)
+        # The creep of variations.py with b = 2 / (d 2 dt), which is (1 - d) dt F / m; a hundredth more for the arm's
+        # slow fall away from home, where gravity is held.
+        assert speed <= 1.01 * (1.0 - IMPEDANCE) * DT * torque * per_m
+
+
+@pytest.mark.parametrize("arm", tasks.arm_names())
+def test_arm_pushed_above_the_friction_level_moves(arm):
+    for joint, rated in enumerate(tasks.arm(arm).rated):
+        level = 0.05 * rated
+        stays, _ = pushed(arm, "friction-5", joint, 0.9 * level)
+        moves, _ = pushed(arm, "friction-5", joint, 1.5 * level)
+        assert moves > 100.0 * stays
+
+
+def test_friction_is_that_per_cent_of_the_rated_torque():
+    """A spinning last joint alone is slowed by exactly the level: m qddot = -level."""
+    arm, model = tasks.arm("ur5e"), compiled("ur5e", "friction-10")
+    data = at(model, arm.home, [0.0] * 5 + [1.0])
+    data.ctrl[:] = data.qfrc_bias
+    mujoco.mj_forward(model, data)
+    level = 0.10 * arm.rated[5]
+    assert data.qfrc_constraint[5] == pytest.approx(-level, rel=1e-9)
+
+
+def test_environment_of_dm_control_can_be_varied():
+    start = tasks.start_set("clear", 1, arm="ur5e")[0]
+    physics = tasks.load("arm-regulation", start, arm="ur5e").physics
+    before = physics.model.body_mass.copy()
+    tasks.variation("mass-1.30").apply(physics.model.ptr, tasks.arm("ur5e").rated)
+    assert np.array_equal(physics.model.body_mass, 1.3 * before)
