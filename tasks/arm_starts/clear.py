@@ -26,7 +26,7 @@ from tasks.kinematics import Kinematics, kinematics
 from tasks.paths import geodesic, straight_zyx
 
 SIZE = 32
-SMALLEST, LARGEST = math.radians(10.0), math.radians(150.0)
+SMALLEST, LARGEST = 10.0, 150.0  # [degrees], so that the names of the strata are exact
 # Half width of the joint angles around home [rad]. Within 1 rad nearly all poses are well conditioned; within 0.5 rad
 # an arm whose tool points down at home, on the jump of gamma, has few that are clear of it.
 AROUND_HOME = 1.0
@@ -44,22 +44,23 @@ def build(arm: Arm, count: int, seed: int) -> list[Start]:
 @functools.lru_cache(maxsize=32)
 def _clear(arm: Arm, count: int, seed: int) -> tuple[Start, ...]:
     model, starts = kinematics(arm), []
-    for i, (q, goal, angle) in enumerate(clear_turns(model, count, seed)):
-        starts.append(model.start(f"clear-{i:03d}-{math.degrees(angle):03.0f}-degrees", q, goal))
+    for i, (q, goal, degrees) in enumerate(clear_turns(model, count, seed)):
+        starts.append(model.start(f"clear-{i:03d}-{degrees:03.0f}-degrees", q, goal))
     return tuple(starts)
 
 
 def clear_turns(model: Kinematics, count: int, seed: int) -> Iterator[tuple[np.ndarray, Quat, float]]:
-    """(q, goal, angle) of clear turns, `count` of them at most, their angles stratified."""
+    """(q, goal, angle in degrees) of clear turns, `count` of them at most, their angles stratified."""
     candidates = around_home(model.arm, seed)
     for i in range(count):
-        angle = SMALLEST + (LARGEST - SMALLEST) * van_der_corput(i + 1)
+        degrees = SMALLEST + (LARGEST - SMALLEST) * van_der_corput(i + 1)
         for _ in range(SHORTENINGS):
-            found = next(filter(None, (_turn(model, *next(candidates), angle) for _ in range(TRIES))), None)
+            tries = (_turn(model, *next(candidates), math.radians(degrees)) for _ in range(TRIES))
+            found = next(filter(None, tries), None)
             if found:
-                yield *found, angle
+                yield *found, degrees
                 break
-            angle *= SHORTER
+            degrees *= SHORTER
         else:
             return
 
