@@ -1,8 +1,8 @@
 """The Euler Jacobian by conversion, J_E = diag(I, B^-1) J, and Jdot_E qdot from Jdot qdot (Murphy 1988, 3.3-3.7).
 
-In any representation. Of a quaternion there are four rows, (1/2) Xi(q) z_i, a Jacobian of 7 x n and rank 6. What a
-command asks for along q itself, out of the unit sphere, no motion can give; and none of the inverses here tries to:
-J_E^T (0, q) = 0, so J_E^T a, and with it every x = J_E^T (...) or (...) J_E^T a, does not see that part.
+In any representation. Of a quaternion there are four rows, (1/2) Xi(q) z_i, a Jacobian of 7 x n and rank 6. Along q
+itself, out of the unit sphere, no motion can be commanded, and the drift leaves its own part -|omega|^2 / 4 q out. No
+inverse sees either: J_E^T (0, q) = 0, and each of them is J_E^T (J_E J_E^T + ...)^-1 a or (...) J_E^T a.
 
 Fails: where the coordinates are singular, B^-1 and with it J_E are not finite, and where the arm itself is singular.
 """
