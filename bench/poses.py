@@ -31,8 +31,9 @@ LONGEST = 7
 STEP = float(np.finfo(float).eps) ** (1 / 3)
 """rad, times the margin: where truncation and rounding of a central difference are alike, both about eps^(2/3)."""
 
-DIFFERENCED = "zyx-euler"
-"""The paper's coordinates: those whose forward kinematics are differenced, and whose determinant is checked."""
+PAPERS = "zyx-euler"
+"""The paper's coordinates: those whose forward kinematics are differenced, whose determinant is checked, and whose
+second derivation is looked at on a slice too."""
 
 JUMP = 1.0
 """rad: a change of coordinates over one step that is none of the motion's but a wrap."""
@@ -69,12 +70,12 @@ class Eye:
 
 
 class Seen(NamedTuple):
-    """All poses of an arm: chains, Js (N x 6 x n) and their condition numbers."""
+    """All poses of an arm: chains, and J (N x 6 x n) by the judge and by our kernel."""
 
     poses: list[Pose]
     chains: list[Chain]
     J: np.ndarray
-    condition: np.ndarray
+    ours: np.ndarray
 
 
 def run(plan: Plan) -> pd.DataFrame:
@@ -90,8 +91,8 @@ def frame(arm: Arm, count: int, seed: int) -> pd.DataFrame:
     chosen = poses(arm, count, seed)
     with np.errstate(all="ignore"):
         chains, Js = zip(*(eye.look(pose.q) for pose in chosen), strict=True)
-        J = np.array(Js)
-        seen = Seen(chosen, list(chains), J, conditions(J))
+        ours = filled("geometric", None, chains, chains)
+        seen = Seen(chosen, list(chains), np.array(Js), ours)
         shared = _shared(arm, seen)
         parts = [pd.DataFrame({**shared, **_of(eye, seen, one)}) for one in known_representations().values()]
     return pd.concat(parts, ignore_index=True)
@@ -101,15 +102,14 @@ def _shared(arm: Arm, seen: Seen) -> dict:
     """The columns that are the same in every representation."""
     q = np.full((len(seen.poses), LONGEST), np.nan)
     q[:, : arm.joints] = [pose.q for pose in seen.poses]
-    ours = filled("geometric", None, seen.chains, [None] * len(seen.chains))
     return {
         "arm": arm.name,
         "pose_set": [pose.set for pose in seen.poses],
         "pose_id": [pose.id for pose in seen.poses],
         **{f"q_{i + 1}": q[:, i] for i in range(LONGEST)},
         "beta": [math.atan2(-chain.R.n[2], math.hypot(chain.R.n[0], chain.R.n[1])) for chain in seen.chains],
-        "condition": seen.condition,
-        "kernel_gap": gap(ours, seen.J),
+        "condition": conditions(seen.J),
+        "kernel_gap": gap(seen.ours, seen.J),
         "det": determinants(seen.J),
     }
 
@@ -119,21 +119,22 @@ def _of(eye: Eye, seen: Seen, one: Representation) -> dict:
     charts = [one.chart(chain.R) for chain in seen.chains]
     J_E = filled("analytic", one, seen.chains, charts)
     margin = np.array([one.margin(chain.R) for chain in seen.chains], dtype=float)
-    derivation = np.full(len(margin), np.nan)
+    derivation, difference = np.full((2, len(margin)), np.nan)
+    drawn = np.array([pose.set == "slice" for pose in seen.poses])
     if one.differentiate is not None:
-        derivation = gap(filled("analytic-differentiated", one, seen.chains, charts), J_E)
-    difference = np.full(len(margin), np.nan)
-    if one.name == DIFFERENCED:
-        some = np.array([pose.set != "slice" for pose in seen.poses])  # a slice is for drawing
-        qs = np.array([pose.q for pose in seen.poses])[some]
-        difference[some] = gap(_differences(eye, one, qs, margin[some]), J_E[some])
+        some = np.flatnonzero(~drawn | (one.name == PAPERS))
+        again = filled("analytic-differentiated", one, [seen.chains[i] for i in some], [charts[i] for i in some])
+        derivation[some] = gap(again, J_E[some])
+    if one.name == PAPERS:
+        qs = np.array([pose.q for pose in seen.poses])[~drawn]
+        difference[~drawn] = gap(_differences(eye, one, qs, margin[~drawn]), J_E[~drawn])
     return {
         "representation": one.name,
         "margin": margin,
         "condition_analytic": conditions(J_E),
         "largest": abs(J_E[:, 3:]).max(axis=(1, 2)),
         "det_analytic": determinants(J_E),
-        "det_gap": _det_gap(seen.J, J_E, margin) if one.name == DIFFERENCED else np.nan,
+        "det_gap": _det_gap(seen.ours, J_E, margin) if one.name == PAPERS else np.nan,
         "derivation_gap": derivation,
         "difference_gap": difference,
     }
@@ -168,7 +169,10 @@ def gap(one: np.ndarray, other: np.ndarray) -> np.ndarray:
 
 
 def _det_gap(J: np.ndarray, J_E: np.ndarray, cos_beta: np.ndarray) -> np.ndarray:
-    """|det J_E + det J / cos(beta)| over the product of J_E's row norms, which rounding of a determinant goes by."""
+    """|det J_E + det J / cos(beta)| over the product of J_E's row norms, which rounding of a determinant goes by.
+
+    J is ours: an element near zero is known to eps of a metre only, so that MuJoCo's and ours differ by all of it.
+    """
     scale = np.linalg.norm(J_E, axis=2).prod(axis=1)
     return abs(determinants(J_E) + determinants(J) / cos_beta) / scale
 

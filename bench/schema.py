@@ -127,8 +127,9 @@ def pose_columns() -> list[Column]:
         "condition_analytic": "condition number of J_E = diag(I, B^-1) J, over six singular values",
         "largest": "largest element of J_E's rows of orientation, in size",
         "det_analytic": "determinant of J_E; null unless it is six by six",
-        "det_gap": "Z-Y-X: |det J_E + det J / cos(beta)| over the product of J_E's row norms",
-        "derivation_gap": "largest difference between J_E converted and differentiated, over the largest element",
+        "det_gap": "Z-Y-X: |det J_E + det J / cos(beta)|, our J, over the product of J_E's row norms",
+        "derivation_gap": "largest difference between J_E converted and differentiated, over the largest element; on a "
+        "slice of Z-Y-X alone",
         "difference_gap": "Z-Y-X, but on a slice: likewise, J_E and central differences of the judge's kinematics",
     }
     return [

@@ -98,7 +98,7 @@ SUITES = {
                 VARIED,
                 (Slice("native", "clear", 8, ON_ARM),),
                 traced=4,
-                poses=2000,
+                poses=1500,
             ),
         ),
         Suite(
@@ -111,7 +111,7 @@ SUITES = {
             traces=64,
             boundary_axes=1024,
             on_arms=OnArms(
-                (), _on_arms(200, None), VARIED, (Slice("native", "clear", None, ON_ARM),), traced=4, poses=2000
+                (), _on_arms(200, None), VARIED, (Slice("native", "clear", None, ON_ARM),), traced=4, poses=1500
             ),
         ),
     )
