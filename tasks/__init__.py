@@ -21,6 +21,8 @@
     variations.py how an arm's plant differs from its model
     kinematics.py an arm's forward kinematics, Jacobian, and joint paths that turn the tool in place
     paths.py      the two paths of an orientation that start sets keep clear of trouble
+    clearance.py  what they keep clear of, and by how much
+    singular.py   kinematic singularities: found, passed through, passed at a distance
     episode.py    one episode of any Task as a dm_control Environment
     discovery.py  finds the one named constant of every module in a folder
 
@@ -29,8 +31,7 @@ quaternions are (w, x, y, z) and take body coordinates to base coordinates.
 
 To add a task, put one file with a constant TASK in tasks/domains; to add a start set, one file with a
 constant STARTS in tasks/starts, or tasks/arm_starts if it is for arms; to add an arm, one MJCF file in
-tasks/arms. `free_body.py` is `free-body` on
-the command line and in the results.
+tasks/arms. `free_body.py` is `free-body` on the command line and in the results.
 """
 
 from __future__ import annotations
