@@ -34,7 +34,7 @@ NEWTON_STEPS = 10
 LARGEST_STEP = 0.5
 # The search from afar: it has found the pose when it is so near [m, rad] that Newton's method finishes it ...
 NEAR = 1e-2
-# ... within so many steps, which three in four successful ones of random pairs take less than a quarter of.
+# ... within so many steps: between random joint angles of our arms, 160 steps find two in a hundred poses more.
 SEARCH_STEPS = 40
 # lambda at the goal, small beside the squared singular values of a well-conditioned arm (0.05 on a UR5e at home).
 DAMPING = 1e-4

@@ -3,7 +3,7 @@
 Half a turn away the rotation-matrix error vanishes (Murphy 1988, 2.12 and section 2.4). The axes are the base's x, y
 and z and AXES_DRAWN drawn ones; for each the first pose around home is taken from which the arm can make the whole
 half turn on a clear joint path (clearance.py), about the axis or against it. Joint angles are drawn from further
-around home than elsewhere, since half a turn about a given axis is much to ask: most are done with the last joint.
+around home than elsewhere, since half a turn about a given axis is much to ask.
 
 How exact: the goal is (0, axis) times the quaternion of the start, so that the judge's haversine is at least 1 - 1e-15
 and its angle math.pi. R is not that of an exact half turn bit for bit, as it is on the free body: on an arm the error
@@ -32,7 +32,8 @@ DECADES = (1, 4, 8)
 SIZE = (len(AXES) + AXES_DRAWN) * (1 + len(DECADES))
 # [rad]: a quarter turn either way of each joint.
 AROUND_HOME = math.pi / 2.0
-TRIES = 2000
+# Candidates of an axis, both ways round; our arms refuse up to twelve walks for each that does.
+TRIES = 300
 
 
 def build(arm: Arm, count: int, seed: int) -> list[Start]:

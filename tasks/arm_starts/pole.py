@@ -32,8 +32,8 @@ DECADES = range(1, 8)
 # Poses for each pole.
 POSES = 2
 SIZE = len(POLES) * POSES * (1 + len(DECADES))
-# Candidates of a pose: three in four of a UR5e's first ones do.
-TRIES = 500
+# Candidates of a pose; our arms refuse up to six for each that does.
+TRIES = 200
 
 
 def build(arm: Arm, count: int, seed: int) -> list[Start]:
