@@ -9,7 +9,7 @@ left alone: of dependent rows one would else shrink by a factor of EPS in every 
 are compared by squares, which are neither zero nor infinite for matrices of the size 1e-77 to 1e77.
 
 Each sweep rotates every pair once; the angles left go down quadratically once they are small. 6 x 6 and 6 x 7 matrices,
-Jacobians and random ones of any rank, need 4 to 8 sweeps; SWEEPS is a bound for the loop, no setting.
+Jacobians and random ones of any rank, need 8 sweeps at most; SWEEPS is a bound for the loop, no setting.
 
 Fails: rows that are not finite are never rotated; they and what they stand for stay as they are.
 """
