@@ -1,0 +1,178 @@
+"""What every arm of tasks/arms keeps to; a new file is tested with no change here."""
+
+import math
+import xml.etree.ElementTree as ElementTree
+
+import mujoco
+import numpy as np
+import pytest
+
+import tasks
+from tasks.arm import WORD, model_xml
+from tasks.base import SENSORS
+from tasks.kinematics import Kinematics
+
+# Power balance: what moves turns no faster than W, the sum of the joint rates, and a step of RK4 errs by (W dt)^5 / 120
+# of it, a second of 1 / dt steps by W (W dt)^4 / 120: 2.1e-9 for W = SPEED and 1 ms. (Measured: 1e-14.)
+SPEED = 12.0
+BALANCE = 2.1e-9
+DT = 1e-3
+SWING = 10.0  # rad/s^2, once to and fro a second: 1.6 rad/s
+
+
+@pytest.fixture(params=tasks.arm_names())
+def arm(request):
+    return tasks.arm(request.param)
+
+
+@pytest.fixture
+def model(arm):
+    return mujoco.MjModel.from_xml_string(model_xml(arm, DT))
+
+
+def written(arm) -> ElementTree.Element:
+    return ElementTree.fromstring(arm.xml)
+
+
+def poses(arm, count=100):
+    return np.random.default_rng(3).uniform(-math.pi, math.pi, (count, arm.joints))
+
+
+def test_name_is_the_word_of_its_file(arm):
+    assert WORD.fullmatch(arm.name)
+
+
+def test_title_is_short_and_source_says_where_from(arm):
+    assert len(arm.title) <= 60
+    assert len(arm.source) > 20
+
+
+def test_file_is_free_of_meshes(arm):
+    assert not list(written(arm).iter("mesh"))
+
+
+def test_home_is_the_keyframe_of_the_file(arm):
+    key = written(arm).find("./keyframe/key[@name='home']")
+    assert arm.home == tuple(map(float, key.get("qpos").split()))
+    assert arm.pose("home") == arm.home
+
+
+def test_rated_torques_are_the_motors_ranges(arm):
+    motors = written(arm).findall("./actuator/motor")
+    assert arm.rated == tuple(float(motor.get("ctrlrange").split()[1]) for motor in motors)
+    assert min(arm.rated) > 0.0
+
+
+def test_joint_ranges_are_those_of_the_model_and_home_is_inside(arm, model):
+    for i in range(arm.joints):
+        limits = tuple(model.jnt_range[i]) if model.jnt_limited[i] else (-math.inf, math.inf)
+        assert (arm.lower[i], arm.upper[i]) == limits
+        assert arm.lower[i] < arm.home[i] < arm.upper[i]
+
+
+def test_arm_is_well_conditioned_at_home(arm):
+    """In metres and radians; from 20 on a stretched or folded arm is near."""
+    assert Kinematics(arm).condition(arm.home) < 20.0
+
+
+def test_home_is_far_from_the_pole_of_zyx_angles(arm):
+    """|cos beta| above a half: sixty degrees of beta to either side."""
+    _, (w, x, y, z) = Kinematics(arm).pose(arm.home)
+    assert abs(2.0 * (w * y - z * x)) < math.sqrt(3.0) / 2.0
+
+
+def test_motors_hold_the_arm_at_home_with_half_their_torque(arm, model):
+    data = mujoco.MjData(model)
+    data.qpos[:] = arm.home
+    mujoco.mj_forward(model, data)
+    assert np.all(np.abs(data.qfrc_bias) <= 0.5 * np.array(arm.rated))
+
+
+def test_sensors_are_those_of_the_judge_in_order(arm, model):
+    names = [model.sensor(i).name for i in range(model.nsensor)]
+    assert names == [*(name for name, _, _ in SENSORS), "p"]
+    data = mujoco.MjData(model)
+    data.qpos[:] = arm.home
+    data.qvel[:] = 0.3
+    mujoco.mj_forward(model, data)
+    site = model.site("tool").id
+    R = data.site_xmat[site].reshape(3, 3)
+    J = np.zeros((3, model.nv))
+    mujoco.mj_jacSite(model, data, None, J, site)
+    assert np.array_equal(data.sensordata[0:9], R.T.ravel())
+    assert data.sensordata[9:12] == pytest.approx(J @ data.qvel, abs=1e-14)
+    turned = np.zeros(9)
+    mujoco.mju_quat2Mat(turned, data.sensordata[12:16])
+    assert turned.reshape(3, 3) == pytest.approx(R, abs=1e-14)
+    assert np.array_equal(data.sensordata[16:19], data.site_xpos[site])
+
+
+def test_inertia_matrix_is_positive_definite_everywhere(arm, model):
+    data = mujoco.MjData(model)
+    D = np.zeros((model.nv, model.nv))
+    for q in poses(arm):
+        data.qpos[:] = q
+        mujoco.mj_forward(model, data)
+        mujoco.mj_fullM(model, data, D)
+        assert np.array_equal(D, D.T)
+        spectrum = np.linalg.eigvalsh(D)
+        assert spectrum[0] > 1e-8 * spectrum[-1]
+
+
+def test_every_links_inertia_is_one_a_body_can_have(arm, model):
+    """Positive, and no principal moment above the sum of the other two (but for the rounding of the sum)."""
+    for body in {int(model.jnt_bodyid[i]) for i in range(model.njnt)}:
+        small, middle, large = sorted(model.body_inertia[body])
+        assert model.body_mass[body] > 0.0
+        assert small > 0.0
+        assert large <= (small + middle) * (1.0 + 1e-15)
+
+
+def test_nothing_else_acts_on_the_arm(arm, model):
+    """The accelerations of MuJoCo are those of D qddot = tau - fg, fast and far from home."""
+    data = mujoco.MjData(model)
+    D = np.zeros((model.nv, model.nv))
+    rng = np.random.default_rng(4)
+    for q in poses(arm, 20):
+        data.qpos[:], data.qvel[:] = q, rng.uniform(-3, 3, arm.joints)
+        data.ctrl[:] = rng.uniform(-2, 2, arm.joints) * arm.rated  # beyond the rated torque: nothing clips
+        mujoco.mj_forward(model, data)
+        mujoco.mj_fullM(model, data, D)
+        residual = D @ data.qacc - (data.ctrl - data.qfrc_bias + data.qfrc_passive)
+        assert np.abs(residual).max() <= 1e-12 * (np.abs(D) @ np.abs(data.qacc)).max()
+
+
+def simpson(samples) -> float:
+    """Integral over ticks DT of an odd number of samples."""
+    weights = np.ones(len(samples))
+    weights[1:-1:2], weights[2:-1:2] = 4.0, 2.0
+    return float(weights @ samples) * DT / 3.0
+
+
+def test_energy_changes_by_the_work_of_motors_less_damping(arm, model):
+    """E1 - E0 = sum tau dq - integral of damping, over a second of swinging in all joints.
+
+    The torque is constant over a tick, so its work is exact.
+    """
+    model.opt.integrator = mujoco.mjtIntegrator.mjINT_RK4
+    model.opt.enableflags |= mujoco.mjtEnableBit.mjENBL_ENERGY
+    data = mujoco.MjData(model)
+    data.qpos[:] = arm.home
+    D = np.zeros((model.nv, model.nv))
+    work, moved, energy, lost, rates = 0.0, 0.0, [], [], []
+    for k in range(1001):
+        mujoco.mj_forward(model, data)
+        mujoco.mj_fullM(model, data, D)
+        energy.append(data.energy.sum())
+        lost.append(-float(data.qfrc_passive @ data.qvel))
+        rates.append(np.abs(data.qvel).sum())
+        swing = SWING * math.cos(math.tau * k * DT) * np.resize([1.0, -1.0], arm.joints)
+        data.ctrl[:] = data.qfrc_bias - data.qfrc_passive + D @ swing
+        before = data.qpos.copy()
+        mujoco.mj_step(model, data)
+        if k < 1000:
+            work += float(data.ctrl @ (data.qpos - before))
+            moved += float(np.abs(data.ctrl * (data.qpos - before)).sum())
+    assert max(rates) < SPEED
+    assert max(energy) - min(energy) > 1e-2 * moved
+    assert abs(energy[-1] - energy[0] - work + simpson(lost)) <= BALANCE * moved
