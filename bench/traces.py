@@ -7,7 +7,7 @@ import pandas as pd
 
 import tasks
 from bench.engines import ideal
-from bench.engines.arm_episode import JOINTS, POSE
+from bench.engines.arm_episode import MOST, POSE
 from bench.engines.binding import command_of, margin_of, memory_of
 from bench.engines.episode import FIRST_METRIC, numbers, start_rows
 from bench.engines.run_arm import run_observed
@@ -23,7 +23,7 @@ LONGEST_S = 4.0
 SAMPLES = round(LONGEST_S / EVERY_S)
 NUMBERS = ("time_s", *(f"{c}_{x}" for c in "noa" for x in "xyz"), *(f"{v}_{x}" for v in ("omega", "u") for x in "xyz"))
 WIDTH = len(NUMBERS) + 1
-ON_ARM = ("position_error_m", *(f"q_{i}" for i in range(1, JOINTS + 1)))
+ON_ARM = ("position_error_m", *(f"q_{i}" for i in range(1, MOST + 1)))
 ARM_WIDTH = WIDTH + len(ON_ARM)
 
 ARM_SETS = ("clear", "pole")
@@ -49,7 +49,7 @@ def store_joints(row, at, sample):
     """The tool's distance from its place, and the joint angles."""
     x, y, z = sample.p[0] - sample.p_d[0], sample.p[1] - sample.p_d[1], sample.p[2] - sample.p_d[2]
     row[at] = sqrt(x * x + y * y + z * z)
-    for i in range(sample.q.shape[0]):
+    for i in range(MOST):
         row[at + 1 + i] = sample.q[i]
 
 

@@ -18,13 +18,13 @@ from bench.so3 import Rotation
 from tasks.arm import Arm
 from tasks.rules import RULES
 
-JOINTS = 7
+MOST = 7
 """The most joints an arm may have: the size of buffers and of a row's pose."""
 
 PROBE_TICKS = 8
 """The arm's conditioning is looked at in every eighth tick: 8 ms, in which a joint at 10 rad/s turns 5 degrees."""
 
-POSE = -1 - JOINTS
+POSE = -1 - MOST
 """First of a row's last columns: the smallest det(J J^T), then the joint angles there."""
 
 
@@ -83,7 +83,7 @@ def controls(contender: Contender, has_own_model: bool) -> Controls:
 
 def joints(arm: Arm) -> Joints:
     """The numbers of an arm's joints."""
-    missing = JOINTS - arm.joints
+    missing = MOST - arm.joints
     return Joints(
         (*map(float, arm.lower), *[-math.inf] * missing),
         (*map(float, arm.upper), *[math.inf] * missing),
@@ -93,8 +93,8 @@ def joints(arm: Arm) -> Joints:
 
 def buffers(n: int, dtype=float) -> Buffers:
     """Fresh buffers for an arm of n joints."""
-    A, B, V, J = (np.zeros((JOINTS, JOINTS), dtype) for _ in range(4))
-    s, t, a, x = (np.zeros(JOINTS, dtype) for _ in range(4))
+    A, B, V, J = (np.zeros((MOST, MOST), dtype) for _ in range(4))
+    s, t, a, x = (np.zeros(MOST, dtype) for _ in range(4))
     return Buffers(J, a, x, np.zeros(n, dtype), Scratch(A, B, V, s, t))
 
 
@@ -130,7 +130,7 @@ def seven(b, n):
 def load(tau, rated):
     """Sum of (tau_i / rated_i)^2: what the rule on torques is about; not finite if a torque is not."""
     total = 0.0
-    for i in range(JOINTS):
+    for i in range(MOST):
         ratio = tau[i] / rated[i]
         total = total + ratio * ratio
     return total

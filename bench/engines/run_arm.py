@@ -10,7 +10,7 @@ import numpy as np
 import tasks
 from bench.cartesian import assembly, parts_of
 from bench.contender import Contender
-from bench.engines.arm_episode import blank_arm, buffers, controls, joints
+from bench.engines.arm_episode import blank_arm, controls, joints
 from bench.engines.binding import command_of, margin_of, memory_of, observer
 from bench.engines.compiled import compile_function, own_law
 from bench.engines.episode import Settings, numbers, start_rows
@@ -31,10 +31,11 @@ class Pointers(NamedTuple):
 
 
 class Simulation(NamedTuple):
-    """A plant and the controller's model of it, ready for the loop; `kept` holds what the views point into."""
+    """A plant and the controller's model of it, ready for the loop; `kept` holds what the addresses point into."""
 
     plant: native.ArmView
     model: native.ArmView
+    work: native.Workspace
     has_own_model: bool
     kept: tuple
 
@@ -81,10 +82,10 @@ def run_observed(
         *pointers(contender),
         ready.plant,
         ready.model,
+        ready.work,
         controls(contender, ready.has_own_model),
         joints(tasks.arm(arm)),
         memory_of(contender),
-        buffers(tasks.arm(arm).joints),
         np.array([[*start.q, *start.qdot] for start in starts], dtype=float),
         start_rows(starts),
         numbers(settings),
@@ -102,7 +103,8 @@ def simulation(task: str, arm: str, dt_s: float, integrator: str, variation: str
         tasks.variation(variation).apply(models[0], tasks.arm(arm).rated)
     datas = [mujoco.MjData(model) for model in models]
     views = [native.view(model, data) for model, data in zip(models, datas, strict=True)]
-    return Simulation(views[0], views[-1], len(views) > 1, (models, datas))
+    work, arrays = native.workspace(tasks.arm(arm).joints)
+    return Simulation(views[0], views[-1], work, len(views) > 1, (models, datas, arrays))
 
 
 _lock = threading.Lock()

@@ -13,35 +13,60 @@ from numba import float64, int64, types
 
 from bench.cartesian import Buffers, control
 from bench.contender import AT_REST, Chain, Gains, Goal, Scratch
-from bench.engines.arm_episode import PROBE_TICKS, ArmSample, Controls, Joints, load, probe, seven, squared
+from bench.engines.arm_episode import (
+    MOST,
+    PROBE_TICKS,
+    ArmSample,
+    Controls,
+    Joints,
+    buffers,
+    load,
+    probe,
+    seven,
+    squared,
+)
 from bench.engines.compiled import MATRIX, NUMBERS, compile_function
 from bench.engines.episode import finish
 from bench.engines.native.libmujoco import mj_fullM, mj_resetData, mj_step, mj_step1, mj_step2
+from bench.engines.native.pointers import address_of, matrix, vector
 from bench.so3 import Rotation, from_quaternion
 from tasks.truth import angle, haversine
 from tasks.verdict import GOING, check_command, check_state, first_watch, watched
 
 
 class ArmView(NamedTuple):
-    """One mjData of an arm as compiled code sees it: two addresses and views of arrays that never move.
-
-    D and G are buffers of ours: the inertia matrix, and a Jacobian for the judge's look at the conditioning.
-    """
+    """One mjData of an arm as compiled code takes it: addresses, and the numbers of joints and of sensor values."""
 
     model: int
     data: int
     is_runge_kutta: int
-    qpos: np.ndarray
-    qvel: np.ndarray
-    ctrl: np.ndarray
-    sensordata: np.ndarray
-    bias: np.ndarray
-    passive: np.ndarray
-    fg: np.ndarray
-    axes: np.ndarray
-    anchors: np.ndarray
-    D: np.ndarray
-    G: np.ndarray
+    n: int
+    sensors: int
+    qpos: int
+    qvel: int
+    ctrl: int
+    sensordata: int
+    bias: int
+    passive: int
+    axes: int
+    anchors: int
+
+
+class Workspace(NamedTuple):
+    """Addresses of `Buffers`, of the scratch in them, and of D, fg and a Jacobian for the judge's look."""
+
+    J: int
+    a: int
+    x: int
+    tau: int
+    A: int
+    B: int
+    V: int
+    s: int
+    t: int
+    D: int
+    fg: int
+    G: int
 
 
 VECTOR, THREE, FOUR = float64[::1], types.UniTuple(float64, 3), types.UniTuple(float64, 4)
@@ -50,51 +75,69 @@ CHAIN = types.NamedTuple((int64, MATRIX, MATRIX, VECTOR, THREE, ROTATION), Chain
 GOAL = types.NamedTuple((ROTATION, THREE, THREE), Goal)
 GAINS = types.NamedUniTuple(float64, 2, Gains)
 SCRATCH = types.NamedTuple((MATRIX, MATRIX, MATRIX, VECTOR, VECTOR), Scratch)
-BUFFERS = types.NamedTuple((MATRIX, VECTOR, VECTOR, VECTOR, SCRATCH), Buffers)
-ARM_VIEW = types.NamedTuple((int64, int64, int64, *[VECTOR] * 7, *[MATRIX] * 4), ArmView)
+ARM_VIEW = types.NamedUniTuple(int64, len(ArmView._fields), ArmView)
+WORKSPACE = types.NamedUniTuple(int64, len(Workspace._fields), Workspace)
 CONTROLS = types.NamedTuple((int64, int64, int64, float64), Controls)
-JOINTS = types.NamedUniTuple(types.UniTuple(float64, 7), 3, Joints)
+JOINTS = types.NamedUniTuple(types.UniTuple(float64, MOST), 3, Joints)
 
 ASSEMBLE = types.Tuple((THREE, FOUR))(CHAIN, GOAL, THREE, GAINS, FOUR, MATRIX, VECTOR)
 RESOLVE = types.void(MATRIX, VECTOR, MATRIX, VECTOR, int64, int64, SCRATCH)
 MARGIN = float64(ROTATION, ROTATION)
 EPISODES = types.void(
     *(types.FunctionType(signature) for signature in (ASSEMBLE, RESOLVE, MARGIN)),
-    *(ARM_VIEW, ARM_VIEW, CONTROLS, JOINTS, FOUR, BUFFERS, MATRIX, MATRIX, NUMBERS, MATRIX),
+    *(ARM_VIEW, ARM_VIEW, WORKSPACE, CONTROLS, JOINTS, FOUR, MATRIX, MATRIX, NUMBERS, MATRIX),
 )
 
 
 def view(model, data) -> ArmView:
     """The view of one simulation; `data` must outlive it."""
+    arrays = (
+        *(data.qpos, data.qvel, data.ctrl, data.sensordata, data.qfrc_bias, data.qfrc_passive),
+        *(data.xaxis, data.xanchor),
+    )
     return ArmView(
         model._address,
         data._address,
         int(model.opt.integrator == mujoco.mjtIntegrator.mjINT_RK4),
-        data.qpos,
-        data.qvel,
-        data.ctrl,
-        data.sensordata,
-        data.qfrc_bias,
-        data.qfrc_passive,
-        np.zeros(model.nv),
-        data.xaxis,
-        data.xanchor,
-        np.zeros((model.nv, model.nv)),
-        np.zeros((7, 7)),
+        model.nv,
+        model.nsensordata,
+        *map(address_of, arrays),
     )
+
+
+def workspace(n: int) -> tuple[Workspace, tuple]:
+    """Fresh buffers for n joints: their addresses, and the arrays, to be kept."""
+    into = buffers(n)
+    arrays = (*into[:4], *into.scratch, np.zeros((n, n)), np.zeros(n), np.zeros((MOST, MOST)))
+    return Workspace(*map(address_of, arrays)), arrays
 
 
 def episodes_of(observe, cache=True):
     """The loop over episodes: `episodes(assemble, resolve, margin, plant, model, ..., rows)` fills rows."""
 
     def episodes(
-        assemble, resolve, margin, plant, model, controls, joints, memory0, buffers, states, starts, numbers, rows
+        assemble, resolve, margin, plant, model, work, controls, joints, memory0, states, starts, numbers, rows
     ):
         gains = Gains(numbers.kp, numbers.kv)
-        dt = numbers.dt
-        n = plant.qpos.shape[0]
-        s = plant.sensordata
-        tau = buffers.tau
+        dt, n = numbers.dt, plant.n
+        qpos, qvel, ctrl, s = (
+            vector(plant.qpos, n),
+            vector(plant.qvel, n),
+            vector(plant.ctrl, n),
+            vector(plant.sensordata, plant.sensors),
+        )
+        axes, anchors = matrix(plant.axes, n, 3), matrix(plant.anchors, n, 3)
+        model_qpos, model_qvel = vector(model.qpos, n), vector(model.qvel, n)
+        bias, passive = vector(model.bias, n), vector(model.passive, n)
+        D, fg, tau, G = matrix(work.D, n, n), vector(work.fg, n), vector(work.tau, n), matrix(work.G, MOST, MOST)
+        scratch = Scratch(
+            matrix(work.A, MOST, MOST),
+            matrix(work.B, MOST, MOST),
+            matrix(work.V, MOST, MOST),
+            vector(work.s, MOST),
+            vector(work.t, MOST),
+        )
+        buffers = Buffers(matrix(work.J, MOST, MOST), vector(work.a, MOST), vector(work.x, MOST), tau, scratch)
         for k in range(starts.shape[0]):
             start, row = starts[k], rows[k]
             quat_d = (start[7], start[8], start[9], start[10])
@@ -104,8 +147,8 @@ def episodes_of(observe, cache=True):
             memory = memory0
             u = AT_REST
             mj_resetData(plant.model, plant.data)
-            plant.qpos[:] = states[k, :n]
-            plant.qvel[:] = states[k, n:]
+            for i in range(n):
+                qpos[i], qvel[i] = states[k, i], states[k, n + i]
             mj_step1(plant.model, plant.data)
             p_d = (s[16], s[17], s[18])
             hav = haversine((s[12], s[13], s[14], s[15]), quat_d)
@@ -115,46 +158,46 @@ def episodes_of(observe, cache=True):
             while tick < numbers.ticks and watch.quiet < numbers.hold_ticks:
                 R = Rotation((s[0], s[1], s[2]), (s[3], s[4], s[5]), (s[6], s[7], s[8]))
                 p = (s[16], s[17], s[18])
-                chain = Chain(n, plant.axes, plant.anchors, plant.qvel, p, R)
+                chain = Chain(n, axes, anchors, qvel, p, R)
                 if controls.has_own_model > 0:
-                    model.qpos[:] = plant.qpos
-                    model.qvel[:] = plant.qvel
+                    for i in range(n):
+                        model_qpos[i], model_qvel[i] = qpos[i], qvel[i]
                     mj_step1(model.model, model.data)
-                mj_fullM(model.model, model.data, model.D.ctypes.data)
+                mj_fullM(model.model, model.data, work.D)
                 for i in range(n):
-                    model.fg[i] = model.bias[i] - model.passive[i]
+                    fg[i] = bias[i] - passive[i]
                 u, memory = control(
                     assemble, resolve, controls.gives_torque, controls.rows,
-                    chain, model.D, model.fg, goal, p_d, gains, memory, buffers,
+                    chain, D, fg, goal, p_d, gains, memory, buffers,
                 )  # fmt: skip
                 omega, torques = (s[9], s[10], s[11]), seven(tau, n)
                 observe(
                     row,
                     ArmSample(
-                        tick * dt, dt, R, hav, watch.entered, omega, u, margin(R, R_d), p, p_d, seven(plant.qpos, n),
-                        seven(plant.qvel, n), torques, joints.lower, joints.upper, joints.rated,
+                        tick * dt, dt, R, hav, watch.entered, omega, u, margin(R, R_d), p, p_d, seven(qpos, n),
+                        seven(qvel, n), torques, joints.lower, joints.upper, joints.rated,
                     ),
                 )  # fmt: skip
                 failure = check_command(load(torques, joints.rated), controls.torque_limit_squared)
                 if tick % PROBE_TICKS == 0 or failure != GOING:
-                    probe(row, chain, plant.qpos, plant.G, buffers.scratch)
+                    probe(row, chain, qpos, G, scratch)
                 if failure != GOING:
                     break
                 for i in range(n):
-                    plant.ctrl[i] = tau[i]
+                    ctrl[i] = tau[i]
                 if plant.is_runge_kutta:
                     mj_step(plant.model, plant.data)
                 else:
                     mj_step2(plant.model, plant.data)
                 mj_step1(plant.model, plant.data)
                 tick += 1
-                failure = check_state(squared(plant.qvel, n), numbers.speed_limit_squared)
+                failure = check_state(squared(qvel, n), numbers.speed_limit_squared)
                 if failure != GOING:
                     break
                 hav = haversine((s[12], s[13], s[14], s[15]), quat_d)
                 watch = watched(watch, tick, hav, band)
             final = angle((s[12], s[13], s[14], s[15]), quat_d)
-            speed, command = squared(plant.qvel, n), u[0] * u[0] + u[1] * u[1] + u[2] * u[2]
+            speed, command = squared(qvel, n), u[0] * u[0] + u[1] * u[1] + u[2] * u[2]
             finish(row, failure, watch, tick, final, hav <= band, speed, command, numbers)
 
     return compile_function(episodes, EPISODES, cache)
