@@ -1,0 +1,93 @@
+"""An arm in one state: what its controller sees there, by MuJoCo, and the controller called on it as plain Python."""
+
+import functools
+from typing import NamedTuple
+
+import mujoco
+import numpy as np
+
+import tasks
+from bench import combinations
+from bench.cartesian import assembly, control, parts_of
+from bench.contender import Chain, Gains, Goal
+from bench.discovery import all_contenders
+from bench.engines.arm_episode import buffers
+from bench.engines.binding import command_of, memory_of
+from bench.so3 import Rotation, from_quaternion
+from tasks.arm import model_xml
+
+ARMS = tasks.arm_names()
+LAWS = {one.name: one for one in all_contenders()}
+GAINS = Gains(kp=37.0, kv=9.0)  # not the defaults: what has those built in is found out
+
+
+def named(arm: str, word: str):
+    """A contender by its word, with the standard inverse of the arm if that is what it says."""
+    [one] = combinations.on((word,), LAWS, tasks.arm(arm).joints)
+    return one
+
+
+def numbers(three) -> tuple:
+    """Three numpy.float64."""
+    return tuple(np.float64(x) for x in three)
+
+
+class Here(NamedTuple):
+    """A state of an arm. x is (p, omega); J, Jdot, D and fg are MuJoCo's own."""
+
+    model: mujoco.MjModel
+    data: mujoco.MjData
+    chain: Chain
+    J: np.ndarray
+    drift: np.ndarray
+    D: np.ndarray
+    fg: np.ndarray
+    xdot: np.ndarray
+
+    @property
+    def n(self) -> int:
+        """Joints."""
+        return self.model.nv
+
+    def acceleration(self, tau) -> np.ndarray:
+        """(pddot, omegadot) under these torques, by MuJoCo's forward dynamics."""
+        self.data.ctrl[:] = tau
+        mujoco.mj_forward(self.model, self.data)
+        return self.J @ self.data.qacc + self.drift
+
+
+@functools.cache
+def simulated(arm: str):
+    """One model and its data for all states of an arm."""
+    model = mujoco.MjModel.from_xml_string(model_xml(tasks.arm(arm), 1e-3))
+    return model, mujoco.MjData(model)
+
+
+def here(arm: str, q, qdot) -> Here:
+    """An arm in that state; valid until the next one is asked for."""
+    model, data = simulated(arm)
+    mujoco.mj_resetData(model, data)
+    data.qpos[:], data.qvel[:] = q, qdot
+    mujoco.mj_forward(model, data)
+    J, Jdot, D = np.zeros((6, model.nv)), np.zeros((6, model.nv)), np.zeros((model.nv, model.nv))
+    tool = model.site("tool")
+    mujoco.mj_jacSite(model, data, J[:3], J[3:], tool.id)
+    mujoco.mj_jacDot(model, data, Jdot[:3], Jdot[3:], data.site("tool").xpos, int(model.site_bodyid[tool.id]))
+    mujoco.mj_fullM(model, data, D)
+    s = data.sensordata
+    R = Rotation(numbers(s[0:3]), numbers(s[3:6]), numbers(s[6:9]))
+    chain = Chain(model.nv, data.xaxis.copy(), data.xanchor.copy(), data.qvel.copy(), numbers(s[16:19]), R)
+    return Here(model, data, chain, J, Jdot @ qdot, D, data.qfrc_bias - data.qfrc_passive, J @ qdot)
+
+
+def torques(one, at: Here, goal_wxyz, p_d, gains=GAINS):
+    """tau and the commanded angular acceleration u of one tick, from the law's initial memory."""
+    into = buffers(at.n)
+    R_d = Rotation(*map(numbers, from_quaternion(goal_wxyz)))
+    goal = Goal(R_d, numbers((0.0, 0.0, 0.0)), numbers((0.0, 0.0, 0.0)))
+    with np.errstate(all="ignore"):
+        u, _ = control(
+            assembly(parts_of(one, command_of(one))), one.inverse.resolve, int(one.inverse.gives == "torque"), one.rows,
+            at.chain, at.D, at.fg, goal, numbers(p_d), Gains(*map(np.float64, gains)), memory_of(one), into,
+        )  # fmt: skip
+    return into.tau.copy(), np.array(u)
