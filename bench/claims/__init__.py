@@ -15,6 +15,7 @@ One file for each part of the paper; a file with a constant CLAIMS is found by b
     later.py                 C21 to C25, C27
     tables.py                what a judging function reads
     probes.py                the small experiments of claims that no table answers
+    arm_probes.py            the same on arms
     coordinates.py           the coordinates of C13
     errata.py                what is printed wrongly in the paper, each with a check
 """

@@ -3,6 +3,7 @@
 import itertools
 
 import numpy as np
+import pandas as pd
 
 from bench.claims import probes
 from bench.claims.tables import evidence, on_every_engine, settled, share, some
@@ -73,7 +74,11 @@ AGREES, MIXED, CONTRADICTS = "agrees", "mixed", "contradicts"
 
 def costs(results, law: str, with_goal: bool) -> tuple[int, int]:
     """Flops and transcendental calls a tick, typical branch."""
-    rows = some(results.free_body("costs", regulator=law, branch="typical"), f"cost of {law}")
+    return tallied(some(results.free_body("costs", regulator=law, branch="typical"), f"cost of {law}"), with_goal)
+
+
+def tallied(rows: pd.DataFrame, with_goal: bool) -> tuple[int, int]:
+    """Flops and transcendental calls of one contender's rows, a row a stage."""
     total, goal = (rows[rows["stage"] == stage].iloc[0] for stage in ("total", "goal"))
     flops, calls = int(total["flops"]), int(sum(total[name] for name in CALLS))
     if with_goal:

@@ -22,6 +22,9 @@ PAPERS_COORDINATES = ("", "zyx-euler")
 """None, or Z-Y-X angles: what chapter 2 runs its laws in. In others they are later laws."""
 
 
+TIMED = ("what", "regulator", "representation", "jacobian", "inverse", "arm", "ns_per_tick", "ticks", "machine")
+
+
 class Results:
     """The tables of one run, read when first asked for; `frames` puts others in their place."""
 
@@ -65,13 +68,22 @@ class Results:
 
         The paper's coordinates only, as everywhere in chapter 2.
         """
-        paths = sorted(self.timings_folder.glob("*.parquet"))
-        frames = [read_arrow(path, "timings").to_pandas().assign(machine=path.stem) for path in paths]
-        if not frames:
-            return pd.DataFrame({"regulator": [], "ns_per_tick": [], "machine": []})
-        every = pd.concat(frames, ignore_index=True)
+        every = self._all_timings()
         timed = (every["what"] == "law") & (every["ticks"] > 0)
         return every[timed & every["representation"].isin(PAPERS_COORDINATES)]
+
+    def controller_timings(self) -> pd.DataFrame:
+        """Time per tick of whole controllers of arms, on every machine that was timed; maybe empty."""
+        every = self._all_timings()
+        if not set(TIMED) <= set(every):
+            return pd.DataFrame(columns=[*TIMED, "contender"])
+        return every[(every["jacobian"] != "") & (every["ticks"] > 0)]
+
+    def _all_timings(self) -> pd.DataFrame:
+        paths = sorted(self.timings_folder.glob("*.parquet"))
+        frames = [read_arrow(path, "timings").to_pandas().assign(machine=path.stem) for path in paths]
+        every = pd.concat(frames, ignore_index=True) if frames else pd.DataFrame(columns=TIMED)
+        return results.with_contender(every)
 
 
 def some(frame: pd.DataFrame, what: str) -> pd.DataFrame:

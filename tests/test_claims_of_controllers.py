@@ -1,0 +1,268 @@
+"""C20 and C26 on tables written for them, and the experiments that C20 makes on an arm."""
+
+import math
+
+import numpy as np
+import pandas as pd
+import pytest
+
+import tasks
+from bench import claims, poses
+from bench.claims import arm_probes, euler_controller, probes
+from bench.claims.euler_controller import BY_COMMON, BY_EULER, INVERSES, ON_MATRIX, words
+from bench.claims.tables import Results
+from bench.claims.verdict import NoEvidence, Word
+from bench.contender import Gains
+from bench.counting.counted import OPERATIONS
+from bench.suites import ON_ARM
+
+ARMS = {"ur5e": 6, "panda": 7}
+COSTS = {BY_EULER: (900, 24, 3), BY_COMMON: (830, 24, 3), ON_MATRIX: (810, 55, 0)}
+"""flops in total, of the law alone, and calls."""
+
+
+def cost_rows():
+    for controller, (flops, law, calls) in COSTS.items():
+        for joints in INVERSES:
+            for stage, own, called in (("total", flops, 2 * calls), ("goal", 0, calls), ("regulate", law, 0)):
+                numbers = dict.fromkeys(OPERATIONS, 0) | {"atan2": called, "flops": own}
+                fixed = {"joints": joints, "branch": "typical", "stage": stage}
+                yield {**words(controller, joints), **fixed, **numbers}
+
+
+def episode_rows():
+    for arm, joints in ARMS.items():
+        for controller in COSTS:
+            for start_set in ("clear", "pole"):
+                for i in range(4):
+                    fails = start_set == "pole" and i == 0 and controller != ON_MATRIX
+                    yield {
+                        **words(controller, joints),
+                        **{"task": "arm-regulation", "arm": arm, "variation": "nominal", "engine": "native"},
+                        **{
+                            "start_set": start_set,
+                            "start_id": f"{start_set}-{i}",
+                            "kp": 100.0,
+                            "kv": 20.0,
+                            "dt_s": 1e-3,
+                        },
+                        **{"outcome": "saturated" if fails else "settled", "peak_tau_nm": 30.0},
+                    }
+
+
+@pytest.fixture
+def frames():
+    """What the theory has: a start at the pole fails on every arm, and the controller on J_E is dearer."""
+    places = pd.DataFrame(
+        {"arm": [*ARMS], "pose_set": "pole", "representation": "zyx-euler", "pose_id": "0-plus-exact"}
+    )
+    return {"costs": pd.DataFrame(cost_rows()), "episodes": pd.DataFrame(episode_rows()), "poses": places}
+
+
+@pytest.fixture
+def judged(frames, monkeypatch, tmp_path):
+    """judged(id, bend=, second=, drift=, beside=, table=frame): the experiments answer what they are told.
+
+    bend: of an angle at 1 ms, first order in the step; second: what is left of it at step zero.
+    """
+
+    def judge(id, bend=5e-3, second=1e-5, drift=1e-5, beside="settled", **tables):
+        def curves(word, arm, gains, dt_s, count):
+            share = dt_s / 1e-3
+            number = {"bend_0": bend * share + second, "bend_1": 0.0, "bend_2": 0.0, "position_error_m": drift}
+            return pd.DataFrame([{"start_id": "clear-0", "time_s": t, **number} for t in (0.0, 0.02)])
+
+        def beside_poles(word, arm, found, gains):
+            outcome = "settled" if word.startswith("rotation-matrix") else beside
+            return pd.DataFrame({"start_id": ["0-plus-exact"], "outcome": [outcome], "peak_tau_nm": [30.0]})
+
+        monkeypatch.setattr(arm_probes, "curves", curves)
+        monkeypatch.setattr(arm_probes, "beside_poles", beside_poles)
+        euler_controller._bend.cache_clear()
+        try:
+            return claims.judge(id, Results(None, {**frames, **tables}, tmp_path))
+        finally:
+            euler_controller._bend.cache_clear()
+
+    return judge
+
+
+def changed(frame, rows, **cells):
+    """The frame with some cells of some rows changed."""
+    return frame.assign(**{name: frame[name].where(~rows, value) for name, value in cells.items()})
+
+
+def of(frame, controller, joints=6):
+    named = words(controller, joints)
+    return np.logical_and.reduce([frame[column] == word for column, word in named.items()])
+
+
+@pytest.mark.parametrize("id", ["C20", "C26"])
+def test_claim_holds_on_the_theory(judged, id):
+    verdict = judged(id)
+    assert verdict.word == Word.HOLDS
+    assert verdict.rows > 0
+    assert any(character.isdigit() for character in str(verdict.evidence))
+
+
+@pytest.mark.parametrize(("id", "table"), [("C20", "episodes"), ("C20", "poses"), ("C20", "costs"), ("C26", "costs")])
+def test_claim_is_refused_without_rows(judged, frames, id, table):
+    with pytest.raises(NoEvidence):
+        judged(id, **{table: frames[table].iloc[:0]})
+
+
+@pytest.mark.parametrize("joints", [6, 7])
+@pytest.mark.parametrize("id", ["C20", "C26"])
+def test_claim_is_refused_without_costs_of_an_arm_of_so_many_joints(judged, frames, id, joints):
+    costs = frames["costs"]
+    with pytest.raises(NoEvidence, match=f"on {joints} joints"):
+        judged(id, costs=costs[costs["joints"] != joints])
+
+
+def test_c20_is_refused_without_the_law_on_r(judged, frames):
+    episodes = frames["episodes"]
+    with pytest.raises(NoEvidence, match="rotation-matrix@geometric on ur5e"):
+        judged("C20", episodes=episodes[~of(episodes, ON_MATRIX)])
+
+
+@pytest.mark.parametrize(
+    ("found", "word"),
+    [
+        ({"second": 5e-3}, Word.CORRECTED),
+        ({"second": 5e-2}, Word.FAILS),
+        ({"second": math.nan}, Word.FAILS),
+        ({"bend": 1e-6, "second": 1e-4}, Word.CORRECTED),
+        ({"drift": 5e-3}, Word.CORRECTED),
+    ],
+)
+def test_c20_looks_at_what_is_left_at_step_zero(judged, found, word):
+    # a bend that does not halve with the step is not the integrator's, however small
+    assert judged("C20", **found).word == word
+
+
+def test_c20_is_corrected_when_no_start_at_the_pole_fails(judged, frames):
+    assert judged("C20", episodes=frames["episodes"].assign(outcome="settled")).word == Word.CORRECTED
+
+
+def test_c20_takes_a_start_on_the_pole_itself(judged, frames):
+    assert judged("C20", beside="singular", episodes=frames["episodes"].assign(outcome="settled")).word == Word.HOLDS
+
+
+def test_c20_takes_a_hammered_torque_for_a_failure(judged, frames):
+    episodes = frames["episodes"].assign(outcome="settled")
+    at_pole = (episodes["start_id"] == "pole-1") & (episodes["regulator"] == "feedback-linearized")
+    assert judged("C20", episodes=changed(episodes, at_pole, peak_tau_nm=299.0)).word == Word.CORRECTED
+    assert judged("C20", episodes=changed(episodes, at_pole, peak_tau_nm=301.0)).word == Word.HOLDS
+
+
+def test_c20_is_corrected_when_one_arm_alone_does_not_fail(judged, frames):
+    episodes = frames["episodes"]
+    assert (
+        judged("C20", episodes=changed(episodes, episodes["arm"] == "panda", outcome="settled")).word == Word.CORRECTED
+    )
+
+
+def test_c20_is_corrected_when_a_clear_start_fails(judged, frames):
+    episodes = frames["episodes"]
+    clear = (episodes["start_id"] == "clear-2") & of(episodes, BY_EULER)
+    assert judged("C20", episodes=changed(episodes, clear, outcome="diverged")).word == Word.CORRECTED
+
+
+def test_c20_blames_the_orientation_for_no_start_that_both_fail(judged, frames):
+    episodes = changed(frames["episodes"], frames["episodes"]["start_set"] == "pole", outcome="saturated")
+    assert judged("C20", episodes=episodes).word == Word.CORRECTED
+
+
+def test_c20_leaves_out_plants_that_differ_from_the_model(judged, frames):
+    other = frames["episodes"].assign(variation="mass-130", outcome="diverged")
+    both = pd.concat([frames["episodes"], other], ignore_index=True)
+    assert str(judged("C20", episodes=both).evidence) == str(judged("C20").evidence)
+
+
+@pytest.mark.parametrize(("stage", "cells"), [("regulate", {"flops": 60}), ("total", {"flops": 700})])
+def test_c20_is_corrected_when_nothing_is_hidden(judged, frames, stage, cells):
+    costs = frames["costs"]
+    rows = of(costs, BY_EULER) & (costs["stage"] == stage)
+    assert judged("C20", costs=changed(costs, rows, **cells)).word == Word.CORRECTED
+
+
+def test_c20_fails_when_it_neither_fails_nor_hides(judged, frames):
+    costs = changed(frames["costs"], of(frames["costs"], BY_EULER), flops=100)
+    episodes = frames["episodes"].assign(outcome="settled")
+    assert judged("C20", costs=costs, episodes=episodes).word == Word.FAILS
+
+
+@pytest.mark.parametrize(
+    ("flops", "word"),
+    [(829, Word.FAILS), (831, Word.HOLDS)],
+)
+def test_c26_compares_with_the_same_law(judged, frames, flops, word):
+    # calls are the same in both: one flop less contradicts
+    costs = frames["costs"]
+    rows = of(costs, BY_EULER) & (costs["stage"] == "total")
+    assert judged("C26", costs=changed(costs, rows, flops=flops)).word == word
+
+
+@pytest.mark.parametrize(("flops", "word"), [(910, Word.CORRECTED), (1000, Word.FAILS)])
+def test_c26_weighs_a_call_against_the_law_on_r(judged, frames, flops, word):
+    # 3 calls more and 10 flops less: in order once a call costs 3.3 flops; 100 less: not before 33
+    costs = frames["costs"]
+    rows = of(costs, ON_MATRIX) & (costs["stage"] == "total")
+    assert judged("C26", costs=changed(costs, rows, flops=flops)).word == word
+
+
+def test_c26_counts_pairs_in_both_accountings_on_both_numbers_of_joints(judged):
+    numbers = judged("C26").evidence.numbers
+    assert (numbers["agreeing"], numbers["pairs"]) == (8, 8)
+
+
+@pytest.mark.parametrize(("euler", "word"), [(3000.0, Word.HOLDS), (1900.0, Word.CORRECTED)])
+def test_c26_is_corrected_when_times_contradict(judged, monkeypatch, euler, word):
+    times = {BY_COMMON: 2000.0, ON_MATRIX: 1800.0, BY_EULER: euler}
+    rows = [
+        {"contender": f"{one}+solve", "machine": "m", "arm": "ur5e", "ns_per_tick": time} for one, time in times.items()
+    ]
+    monkeypatch.setattr(Results, "controller_timings", lambda self: pd.DataFrame(rows))
+    assert judged("C26").word == word
+
+
+def test_c26_says_that_nothing_was_timed(judged):
+    assert "No timings" in str(judged("C26").evidence)
+
+
+@pytest.mark.slow
+def test_curves_of_an_arm_bend_by_the_integration_error_alone():
+    word = f"{BY_EULER}+solve"
+    full, half = (arm_probes.curves(word, "ur5e", Gains(), dt, 2) for dt in (1e-3, 5e-4))
+    assert arm_probes.largest(half) / arm_probes.largest(full) == pytest.approx(0.5, abs=0.01)
+    assert full["start_id"].nunique() == 2
+    assert full.groupby("start_id")["time_s"].min().max() == 0.0
+
+
+@pytest.mark.slow
+def test_curves_of_a_law_that_is_not_linear_in_the_angles_bend_at_any_step():
+    full, half = (arm_probes.curves(f"{ON_MATRIX}+solve", "ur5e", Gains(), dt, 2) for dt in (1e-3, 5e-4))
+    assert arm_probes.largest(half) > 0.9 * arm_probes.largest(full) > 0.01
+
+
+@pytest.mark.slow
+def test_episodes_beside_poles_start_where_the_table_says_and_end_at_a_tenth_of_a_radian():
+    table = poses.frame(tasks.arm("ur5e"), 5, 0)
+    table = table[table["representation"] == "zyx-euler"]
+    found = arm_probes.beside_poles(f"{ON_MATRIX}+solve", "ur5e", table, Gains())
+    assert len(found) == 8 * 12
+    assert (found["outcome"] == "settled").all()
+    exact = found[found["start_id"].astype(str).str.endswith("exact")]
+    assert np.abs(np.abs(exact["beta0"]) - math.pi / 2).max() < 1e-7  # beta is an arc tangent of rounding there
+    assert np.allclose(exact["angle0_rad"], 0.1, atol=1e-12)
+    assert found["horizon_s"].eq(ON_ARM).all()
+
+
+def test_largest_bend_is_infinite_where_one_is_no_number():
+    frame = pd.DataFrame({"bend_0": [1e-3, -2e-3], "bend_1": 0.0, "bend_2": 0.0})
+    assert arm_probes.largest(frame) == 2e-3
+    assert arm_probes.largest(frame.assign(bend_1=[math.nan, 0.0])) == math.inf
+
+
+def test_closed_form_of_curves_is_that_of_c09():
+    assert probes.response(0.1, Gains()) == pytest.approx(2 * math.exp(-1))
