@@ -19,27 +19,32 @@ ON_ANGULAR = (
 IN_COORDINATES = ("zyx-euler", "zyz-euler", "xyz-euler", "rotation-vector", "mrp", "quaternion")
 LAWS = tuple(f"{law}@geometric+standard" for law in ON_ANGULAR)
 ANALYTIC = tuple(f"feedback-linearized/{word}@analytic+standard" for word in IN_COORDINATES)
-PAPERS_TWO = ("rotation-matrix@geometric", "feedback-linearized/zyx-euler@analytic")
-INVERSES = tuple(
-    f"{law}+{word}"
-    for law in PAPERS_TWO
-    for word in (
-        "pseudo-inverse",
-        "damped-least-squares",
-        "damped-least-squares-variable",
-        "truncated-svd",
-        "dynamically-consistent",
-        "transpose",
-    )
+RESOLVED = "rotation-matrix@geometric"
+INVERSES = (
+    *(
+        f"{RESOLVED}+{word}"
+        for word in (
+            "pseudo-inverse",
+            "damped-least-squares",
+            "damped-least-squares-variable",
+            "truncated-svd",
+            "dynamically-consistent",
+            "transpose",
+        )
+    ),
+    *(
+        f"feedback-linearized/zyx-euler@analytic+{word}"
+        for word in ("damped-least-squares", "damped-least-squares-variable", "truncated-svd", "dynamically-consistent")
+    ),
 )
 TWINS = (
     "rotation-matrix@geometric-body+standard",
-    *(f"feedback-linearized/{word}@geometric+standard" for word in IN_COORDINATES[1:]),
     "feedback-linearized/zyx-euler@analytic-differentiated+standard",
 )
-"""What ought to equal another contender: the same command by another Jacobian."""
+"""What ought to equal another contender: the same command by another Jacobian. So would each feedback-linearized law
+by the geometric Jacobian, whose equality is tested and which `full` runs."""
 
-VARIED = (*LAWS, *ANALYTIC, *(f"{law}+dynamically-consistent" for law in PAPERS_TWO))
+VARIED = (*LAWS, *ANALYTIC, f"{RESOLVED}+dynamically-consistent", f"{RESOLVED}+damped-least-squares")
 
 
 def on(words: tuple[str, ...], laws: dict[str, Contender], joints: int) -> list[Contender]:

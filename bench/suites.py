@@ -14,6 +14,10 @@ grows there by a decade every 0.56 s, so that what has not left after 10 s of it
 ON_ARM = 5.0
 """Horizon on arms [s]: eight settling times of a small error. What has not settled by then is called timed-out."""
 
+VARIED_S = 2.5
+"""Horizon of the study of model errors [s]: four settling times; most of it never settles, and how far off it stays
+shows by then."""
+
 NOMINAL = "nominal"
 """The variation in which the plant is the controller's model."""
 
@@ -56,7 +60,6 @@ class Suite(NamedTuple):
 
 DIRECTED = ("box", "goals", "half-turn", "paper", "poles", "tumbling", "wraps")
 HORIZON = {"half-turn": LONG, "poles": LONG, "wraps": LONG}
-ARM_SETS = ("clear", "wrist", "pole", "half-turn", "uniform", "tumbling")
 
 
 def _slices(engine: str, uniform: int, directed=DIRECTED) -> tuple[Slice, ...]:
@@ -64,10 +67,8 @@ def _slices(engine: str, uniform: int, directed=DIRECTED) -> tuple[Slice, ...]:
     return sampled + tuple(Slice(engine, name, None, HORIZON.get(name, SHORT)) for name in directed)
 
 
-def _on_arms(uniform: int, each: int | None, reference: int = 0) -> tuple[Slice, ...]:
-    sizes = {name: uniform if name == "uniform" else each for name in ARM_SETS}
-    slices = tuple(Slice("native", name, size, ON_ARM) for name, size in sizes.items())
-    return slices + ((Slice("reference", "clear", reference, 0.25),) if reference else ())
+def _on_arms(**sizes: int | None) -> tuple[Slice, ...]:
+    return tuple(Slice("native", name.replace("_", "-"), size, ON_ARM) for name, size in sizes.items())
 
 
 SUITES = {
@@ -81,7 +82,9 @@ SUITES = {
             + _slices("reference", 0, ("paper",)),
             traces=24,
             boundary_axes=64,
-            on_arms=OnArms((*LAWS, *ANALYTIC), _on_arms(4, 4), poses=200),
+            on_arms=OnArms(
+                (*LAWS, *ANALYTIC), _on_arms(clear=4, wrist=4, pole=4, half_turn=4, uniform=4, tumbling=4), poses=200
+            ),
         ),
         Suite(
             "default",
@@ -94,9 +97,9 @@ SUITES = {
             boundary_axes=256,
             on_arms=OnArms(
                 (*LAWS, *ANALYTIC, *TWINS, *INVERSES),
-                _on_arms(60, 24),
+                _on_arms(clear=24, wrist=24, pole=32, half_turn=12, uniform=40, tumbling=12),
                 VARIED,
-                (Slice("native", "clear", 8, ON_ARM),),
+                (Slice("native", "clear", 4, VARIED_S),),
                 traced=4,
                 poses=1500,
             ),
@@ -111,7 +114,12 @@ SUITES = {
             traces=64,
             boundary_axes=1024,
             on_arms=OnArms(
-                (), _on_arms(200, None), VARIED, (Slice("native", "clear", None, ON_ARM),), traced=4, poses=1500
+                (),
+                _on_arms(clear=None, wrist=None, pole=None, half_turn=None, uniform=None, tumbling=None),
+                VARIED,
+                (Slice("native", "clear", None, ON_ARM),),
+                traced=4,
+                poses=1500,
             ),
         ),
     )

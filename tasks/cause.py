@@ -1,16 +1,17 @@
 """Why an arm's episode failed, as far as the judge can see: near what was it?
 
 Near the representation's singular set, if the margin fell under NEAR_MARGIN; near a kinematic singularity, if the
-condition number of the tool's Jacobian (SI units) rose above NEAR_CONDITION. A cause is where an episode came to, not
+condition number of the tool's Jacobian (SI units) rose above NEAR_CONDITION. Both are twice as far in as the start set
+`clear` ever comes by itself. A cause is where an episode came to, not
 a proof: an arm may pass such a place and fail of something else.
 """
 
 from __future__ import annotations
 
-# Edot = B^-1 omega is up to 1/margin times as fast as the tool turns: twenty times here, 3 degrees from a pole.
-NEAR_MARGIN = 0.05
-# The start set `clear` keeps its paths below a tenth of this; joints turn up to so many times faster than the tool.
-NEAR_CONDITION = 500.0
+# Edot = B^-1 omega is up to 1/margin times as fast as the tool turns: ten times here, 6 degrees from a pole.
+NEAR_MARGIN = 0.1
+# Joints turn up to so many times faster, a radian for a metre, than the tool does.
+NEAR_CONDITION = 100.0
 
 CAUSES = ("", "representation", "kinematic", "both", "torque", "law")
 
