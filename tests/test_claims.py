@@ -16,7 +16,7 @@ from bench.claims.later import COMING
 from bench.claims.tables import Results, share
 from bench.claims.verdict import Claim, Evidence, NoEvidence, Word, claim, decide
 from bench.contender import Gains
-from bench.discovery import find_contender
+from bench.discovery import find_contender, representation
 
 TESTED = tuple(f"C{i:02d}" for i in range(1, 18))
 WITHOUT_TABLES = ("C13", "C15")
@@ -282,17 +282,26 @@ def test_slope_per_decade_is_the_saddles_unstable_root():
 
 def test_condition_of_the_rotation_vector_is_that_of_the_left_jacobian():
     # singular values 1 and 2 sin(angle / 2) / angle (twice)
-    E = np.array((0.8, -0.5, 1.1))
-    angle = float(np.linalg.norm(E))
-    assert coordinates.condition(coordinates.rotation_vector, E) == pytest.approx(
-        angle / (2 * math.sin(angle / 2)), rel=1e-12
-    )
+    E = (0.8, -0.5, 1.1)
+    angle = math.hypot(*E)
+    R = representation("rotation-vector").to_matrix(E)
+    expected = angle / (2 * math.sin(angle / 2))
+    assert coordinates.condition_in("rotation-vector", R) == pytest.approx(expected, rel=1e-12)
 
 
 def test_condition_of_zyz_is_that_of_its_middle_angle():
     # B^T B has eigenvalues 1, 1 + cos(beta), 1 - cos(beta)
     expected = math.sqrt((1 + math.cos(0.3)) / (1 - math.cos(0.3)))
-    assert coordinates.condition(coordinates.zyz, (0.4, 0.3, -0.9)) == pytest.approx(expected, rel=1e-12)
+    R = representation("zyz-euler").to_matrix((0.4, 0.3, -0.9))
+    assert coordinates.condition_in("zyz-euler", R) == pytest.approx(expected, rel=1e-12)
+
+
+def test_condition_of_angle_and_axis_is_that_of_its_half_angle():
+    # columns of length 1, 2 sin(angle / 2) and that times sin(polar angle), orthogonal
+    angle, polar = 0.3, 0.7
+    expected = 1.0 / (2 * math.sin(angle / 2) * math.sin(polar))
+    found = coordinates.condition_of_angle_and_axis(np.array((angle, polar, -0.9)))
+    assert found == pytest.approx(expected, rel=1e-12)
 
 
 @pytest.mark.parametrize("one", [one for one in ERRATA if one.check], ids=lambda one: one.id)

@@ -1,11 +1,17 @@
-"""Coordinates that the paper sets aside (2.2), as maps to R, and the condition number of their rate maps."""
+"""Condition numbers of B, from coordinate rates to angular velocity, in coordinates the paper sets aside (2.2)."""
 
 import math
 
 import numpy as np
 
+from bench.discovery import representation
+from bench.so3 import Rotation
+
 STEP = 1e-30
 """Of the complex-step derivative, which has no cancellation: any tiny number does."""
+
+ANGLE_AND_AXIS = "angle and axis"
+"""The angle, and the polar and azimuth angle of the axis: coordinates that no controller here uses."""
 
 
 def turn(axis, angle):
@@ -15,36 +21,33 @@ def turn(axis, angle):
     return np.eye(3) + np.sin(angle) * K + (1 - np.cos(angle)) * (K @ K)
 
 
-def zyz(E):
-    """R = Rz(alpha) Ry(beta) Rz(gamma)."""
-    return turn((0, 0, 1), E[0]) @ turn((0, 1, 0), E[1]) @ turn((0, 0, 1), E[2])
+def condition_in(word: str, R: Rotation) -> float:
+    """Condition number of B (2.8) of a representation at R."""
+    coordinates = representation(word)
+    at = coordinates.chart(R)
+    columns = [coordinates.angular_velocity(at, tuple(unit)) for unit in np.eye(len(coordinates.symbols)).tolist()]
+    return float(np.linalg.cond(np.array(columns).T))
 
 
-def angle_and_axis(E):
-    """R from its angle, and the polar and azimuth angle of its axis."""
-    return turn((np.sin(E[1]) * np.cos(E[2]), np.sin(E[1]) * np.sin(E[2]), np.cos(E[1])), E[0])
+def condition_of_angle_and_axis(E) -> float:
+    """The same of angle and axis: column i is vee(dR/dE_i R^T)."""
 
+    def to_matrix(E):
+        axis = (np.sin(E[1]) * np.cos(E[2]), np.sin(E[1]) * np.sin(E[2]), np.cos(E[1]))
+        return turn(axis, E[0])
 
-def rotation_vector(E):
-    """R from axis times angle."""
-    angle = np.sqrt(E[0] * E[0] + E[1] * E[1] + E[2] * E[2])
-    return turn(E / angle, angle)
-
-
-def condition(to_matrix, E) -> float:
-    """Condition number of the map from Edot to omega: column i is vee(dR/dE_i R^T)."""
-    E = np.asarray(E, dtype=float)
     R = to_matrix(E)
     slopes = [to_matrix(E + 1j * STEP * unit).imag / STEP @ R.T for unit in np.eye(3)]
     return float(np.linalg.cond(np.array([(S[2, 1], S[0, 2], S[1, 0]) for S in slopes]).T))
 
 
-def coordinates_of(axis, angle) -> dict:
-    """The three sets of coordinates of one rotation; Z-Y-Z from its third column."""
+def conditions(axis, angle) -> dict[str, float]:
+    """The condition number in three sets of coordinates of one rotation, by their names."""
     x, y, z = axis
-    a = turn(axis, angle)[:, 2]
+    R = Rotation(*(tuple(column) for column in turn(axis, angle).T.tolist()))
+    of_axis = condition_of_angle_and_axis(np.array((angle, math.acos(z), math.atan2(y, x))))
     return {
-        zyz: (math.atan2(a[1], a[0]), math.atan2(math.hypot(a[0], a[1]), a[2]), 0.0),
-        angle_and_axis: (angle, math.acos(z), math.atan2(y, x)),
-        rotation_vector: angle * np.asarray(axis),
+        "zyz-euler": condition_in("zyz-euler", R),
+        ANGLE_AND_AXIS: of_axis,
+        "rotation-vector": condition_in("rotation-vector", R),
     }

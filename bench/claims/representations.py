@@ -6,7 +6,7 @@ import numpy as np
 
 from bench.boundary import axes
 from bench.claims import probes
-from bench.claims.coordinates import angle_and_axis, condition, coordinates_of, rotation_vector, zyz
+from bench.claims.coordinates import ANGLE_AND_AXIS, conditions
 from bench.claims.tables import MAIN_ENGINE, evidence, settled, some
 from bench.claims.verdict import Word, claim
 from bench.discovery import representation
@@ -99,13 +99,14 @@ C16 = claim(
 def c13(results):
     """Condition numbers near zero rotation."""
     decades = range(DECADES[0], DECADES[1] + 1)
-    tables = [coordinates_of(axis, 10.0**-k) for k in decades for axis in axes(DIRECTIONS)]
+    tables = [conditions(axis, 10.0**-k) for k in decades for axis in axes(DIRECTIONS)]
     found = {}
-    for to_matrix in (zyz, angle_and_axis, rotation_vector):
-        conditions = np.array([condition(to_matrix, one[to_matrix]) for one in tables]).reshape(len(decades), -1)
-        rise = np.diff(np.log10(np.median(conditions, axis=1))).min()
-        found[to_matrix] = (rise >= DEGENERATE, float(rise), float(conditions.max()))
-    is_zyz, is_axis, is_vector = (found[one][0] for one in (zyz, angle_and_axis, rotation_vector))
+    for word in tables[0]:
+        numbers = np.array([one[word] for one in tables]).reshape(len(decades), -1)
+        rise = np.diff(np.log10(np.median(numbers, axis=1))).min()
+        found[word] = (rise >= DEGENERATE, float(rise), float(numbers.max()))
+    zyz, axis, vector = found["zyz-euler"], found[ANGLE_AND_AXIS], found["rotation-vector"]
+    is_zyz, is_axis, is_vector = zyz[0], axis[0], vector[0]
     if is_zyz and is_axis and is_vector:
         word = Word.HOLDS
     else:
@@ -116,11 +117,11 @@ def c13(results):
         {vector_max:.5f}.""",
         3 * len(tables),
         ("experiment",),
-        zyz=found[zyz][1],
-        axis=found[angle_and_axis][1],
-        zyz_max=found[zyz][2],
-        axis_max=found[angle_and_axis][2],
-        vector_max=found[rotation_vector][2],
+        zyz=zyz[1],
+        axis=axis[1],
+        zyz_max=zyz[2],
+        axis_max=axis[2],
+        vector_max=vector[2],
     )
 
 
