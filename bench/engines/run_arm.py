@@ -17,6 +17,7 @@ from bench.engines.episode import Settings, numbers, start_rows
 from bench.engines.native import arm as native
 from bench.engines.reference import arm as reference
 from bench.engines.run import MUJOCO_INTEGRATORS
+from tasks.arm import Arm
 
 NOMINAL = "nominal"
 """The variation in which the controller's model is the plant."""
@@ -96,15 +97,22 @@ def run_observed(
 
 def simulation(task: str, arm: str, dt_s: float, integrator: str, variation: str = NOMINAL) -> Simulation:
     """The models of one arm."""
-    xml = tasks.task(task, arm).xml(dt_s)
-    models = [mujoco.MjModel.from_xml_string(xml) for _ in range(1 if variation == NOMINAL else 2)]
-    models[0].opt.integrator = MUJOCO_INTEGRATORS[integrator]
-    if variation != NOMINAL:
-        tasks.variation(variation).apply(models[0], tasks.arm(arm).rated)
+    names = dict.fromkeys((variation, NOMINAL))
+    models = [_model(task, tasks.arm(arm), dt_s, integrator, name) for name in names]
     datas = [mujoco.MjData(model) for model in models]
     views = [native.view(model, data) for model, data in zip(models, datas, strict=True)]
     work, arrays = native.workspace(tasks.arm(arm).joints)
     return Simulation(views[0], views[-1], work, len(views) > 1, (models, datas, arrays))
+
+
+@functools.lru_cache(maxsize=64)
+def _model(task: str, arm: Arm, dt_s: float, integrator: str, variation: str) -> mujoco.MjModel:
+    """A model that many simulations may share: stepping does not change it."""
+    model = mujoco.MjModel.from_xml_string(tasks.task(task, arm.name).xml(dt_s))
+    model.opt.integrator = MUJOCO_INTEGRATORS[integrator]
+    if variation != NOMINAL:
+        tasks.variation(variation).apply(model, arm.rated)
+    return model
 
 
 _lock = threading.Lock()
