@@ -3,19 +3,17 @@
 import dataclasses
 import hashlib
 import json
-import math
 from dataclasses import dataclass
 
 import tasks
 from bench import combinations
+from bench.choice import EVERYTHING, INTEGRATORS, Choice, check_numbers, check_word
 from bench.contender import PAPERS_GAINS, Contender, Gains, refusal
 from bench.discovery import known_inverses, known_jacobians
-from bench.errors import BadNumber, Incompatible, UnknownWord
+from bench.errors import Incompatible
 from bench.provenance import source_digest
-from bench.suites import ENGINES, HORIZON, NOMINAL, ON_ARM, SHORT, OnArms, Slice, Suite, suite
+from bench.suites import HORIZON, NOMINAL, ON_ARM, SHORT, OnArms, Slice, Suite, suite
 from tasks.rules import RULES
-
-INTEGRATORS = ("euler", "implicit", "implicitfast", "rk4")
 
 CHUNK = {"ideal-rk4": 1000, "ideal-held": 1000, "native": 250, "reference": 4}
 ARM_CHUNK = {"native": 100, "reference": 2}
@@ -108,56 +106,10 @@ def _text_digest(path: str) -> str:
         return hashlib.sha256(file.read()).hexdigest()[:16]
 
 
-@dataclass(frozen=True)
-class Choice:
-    """What the user named, beside the laws; empty means the suite's own."""
-
-    tasks: tuple[str, ...] = ()
-    start_sets: tuple[str, ...] = ()
-    engines: tuple[str, ...] = ()
-    arms: tuple[str, ...] = ()
-    jacobians: tuple[str, ...] = ()
-    inverses: tuple[str, ...] = ()
-    variations: tuple[str, ...] = ()
-
-    def checked(self) -> "Choice":
-        """Each word once; UnknownWord for one in no list, Incompatible for words that exclude each other."""
-        once = Choice(**{name: tuple(dict.fromkeys(words)) for name, words in vars(self).items()})
-        every_set = dict.fromkeys((*tasks.start_set_names(), *tasks.start_set_names(arm=True)))
-        known: dict[str, tuple] = {
-            "task": (once.tasks, tasks.names()),
-            "start": (once.start_sets, every_set),
-            "engine": (once.engines, ENGINES),
-            "arm": (once.arms, tasks.arm_names()),
-            "jacobian": (once.jacobians, known_jacobians()),
-            "inverse": (once.inverses, known_inverses()),
-            "variation": (once.variations, once.variations and tasks.variation_names()),
-        }
-        for kind, (words, allowed) in known.items():
-            for word in words:
-                _known(kind, word, list(allowed))
-        bodies = [word for word in once.tasks if not tasks.is_for_arms(word)]
-        if bodies and once.is_about_arms and len(bodies) == len(once.tasks):
-            raise Incompatible(
-                f"task '{bodies[0]}' has no arm, so no Jacobian, inverse or variation (try: --task arm-regulation)"
-            )
-        return once
-
-    @property
-    def is_about_arms(self) -> bool:
-        """Whether it names something that only arms have."""
-        return bool(self.arms or self.jacobians or self.inverses or self.variations)
-
-    @property
-    def narrows(self) -> bool:
-        """Whether less or other than the suite's start sets and engines is asked for."""
-        return bool(self.start_sets or self.engines)
-
-
 def make(
     suite_word: str,
     laws: list[Contender],
-    choice: Choice = Choice(),
+    choice: Choice = EVERYTHING,
     *,
     count: int | None = None,
     dt_s: float = 1e-3,
@@ -174,8 +126,8 @@ def make(
         UnknownWord: a name in no list. BadNumber: a number that no episode can be run with.
         Incompatible: no named task, engine and start set go together, or no law, Jacobian and inverse.
     """
-    _check_numbers(dt_s, horizon_s, gains, count, seed)
-    _known("integrator", integrator, list(INTEGRATORS))
+    check_numbers(dt_s, horizon_s, gains, count, seed)
+    check_word("integrator", integrator, list(INTEGRATORS))
     chosen, choice = suite(suite_word), choice.checked()
     every_task = choice.tasks or tuple(
         word for word in tasks.names() if tasks.is_for_arms(word) or not choice.is_about_arms
@@ -339,36 +291,3 @@ def _units(place: Place, count, seed, horizon_s):
             place.arm,
             place.variation,
         )
-
-
-def _known(kind: str, word: str, known: list[str]) -> None:
-    if word not in known:
-        raise UnknownWord(kind, word, sorted(known))
-
-
-def check_workers(workers: int) -> None:
-    """Refuse a number of threads that cannot work."""
-    if not 1 <= workers <= 256:
-        raise BadNumber(f"--workers {workers}: give between 1 and 256 threads (the number of cores is best)")
-
-
-SHORTEST_DT_S, LONGEST_DT_S = 1e-6, 0.1
-"""The default gains' time constant is 0.1 s; a microsecond makes ten million ticks of the shorter horizon."""
-
-
-def _check_numbers(dt_s, horizon_s, gains, count, seed) -> None:
-    if not SHORTEST_DT_S <= dt_s <= LONGEST_DT_S:
-        raise BadNumber(
-            f"--dt {dt_s}: the control period must lie between {SHORTEST_DT_S} and {LONGEST_DT_S} s (try: --dt 0.001)"
-        )
-    if horizon_s is not None and not (math.isfinite(horizon_s) and dt_s <= horizon_s <= 1000.0):
-        raise BadNumber(
-            f"--horizon {horizon_s}: it must lie between one tick ({dt_s} s) and 1000 s (try: --horizon 10)"
-        )
-    for name, value in zip(("--kp", "--kv"), gains, strict=True):
-        if not (math.isfinite(value) and 0.0 < value <= 1e6):
-            raise BadNumber(f"{name} {value}: a gain must lie in (0, 1e6] (the paper's: --kp 100 --kv 20)")
-    if count is not None and not 1 <= count <= 1_000_000:
-        raise BadNumber(f"--count {count}: give between 1 and 1000000 starts of each set")
-    if not 0 <= seed < 2**32:
-        raise BadNumber(f"--seed {seed}: give a whole number from 0 to 4294967295")

@@ -19,13 +19,14 @@ import pandas as pd
 
 import tasks
 from bench import boundary, counting, poses, traces
+from bench.choice import check_workers
 from bench.discovery import all_contenders, metrics_of
 from bench.engines.run import compiled_loop
 from bench.engines.run import run as run_engine
 from bench.engines.run_arm import pointers
 from bench.engines.run_arm import run as run_on_arm
 from bench.errors import BadLaw, BadResults
-from bench.plan import Plan, Unit, check_workers
+from bench.plan import Plan, Unit
 from bench.provenance import describe
 from bench.rows import frame, settings_of
 from bench.store import check, is_leftover, merge, read_json, write_atomically, write_json, write_table

@@ -17,7 +17,7 @@ from bench.discovery import all_contenders, known_inverses, known_jacobians, kno
 from bench.engines.arm_episode import POSE
 from bench.engines.episode import OUTCOME, SETTLING_TICK, TICKS
 from bench.engines.run_arm import compiled_loop, observer_of, pointers, run
-from bench.plan import INTEGRATORS
+from bench.choice import INTEGRATORS
 from tasks.kinematics import kinematics
 from tasks.variations import VARIATIONS
 from tasks.verdict import DIVERGED, OUTCOMES, SATURATED, SETTLED, SINGULAR, STUCK, TIMED_OUT

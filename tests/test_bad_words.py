@@ -1,13 +1,14 @@
 """Words, numbers and combinations that cannot be run: one line, exit code 2, nothing touched."""
 
-
 import pytest
 from command_line import bench, refused, refused_run
 
 import tasks
 from bench import plan as planning
+from bench.choice import INTEGRATORS
 from bench.discovery import known_regulators, known_representations
-from bench.suites import SUITES
+from bench.errors import Incompatible
+from bench.suites import ENGINES, SUITES
 
 
 @pytest.mark.parametrize(
@@ -19,8 +20,8 @@ from bench.suites import SUITES
         ("--representation", "zyx", sorted(known_representations())),
         ("--task", "free-bodi", tasks.names()),
         ("--starts", "uniforn", tasks.start_set_names()),
-        ("--engine", "nativ", sorted(planning.ENGINES)),
-        ("--integrator", "eulr", sorted(planning.INTEGRATORS)),
+        ("--engine", "nativ", sorted(ENGINES)),
+        ("--integrator", "eulr", sorted(INTEGRATORS)),
     ],
 )
 def test_unknown_word_lists_the_known_ones_and_guesses(capsys, finished, option, word, known):
@@ -111,7 +112,7 @@ def test_nothing_to_run_says_which_starts_and_engines_a_task_takes(monkeypatch):
     own = tasks.task("free-body")._replace(name="other", start_sets=("paper",))
     monkeypatch.setattr(tasks, "names", lambda: ["free-body", "other"])
     monkeypatch.setattr(tasks, "task", lambda name: own)
-    with pytest.raises(planning.Incompatible, match=r"ideal-rk4 simulates free-body alone, not 'other'"):
+    with pytest.raises(Incompatible, match=r"ideal-rk4 simulates free-body alone, not 'other'"):
         planning.make("quick", [_rotation_matrix()], task_words=("other",), engines=("ideal-rk4",))
-    with pytest.raises(planning.Incompatible, match=r"task 'other' takes the starts paper, not poles"):
+    with pytest.raises(Incompatible, match=r"task 'other' takes the starts paper, not poles"):
         planning.make("quick", [_rotation_matrix()], task_words=("other",), engines=("native",), start_sets=("poles",))

@@ -6,6 +6,7 @@ from pathlib import Path
 import rich_click as click
 
 from bench import plan as planning
+from bench.choice import Choice, check_workers
 from bench.cli import options
 from bench.cli.screen import console, episode_progress
 from bench.contender import Gains
@@ -57,7 +58,7 @@ def COMMAND(
     plan = planning.make(
         suite,
         options.chosen(laws, regulators, representations),
-        planning.Choice(tasks, starts, engines, arms, jacobians, inverses, variations),
+        Choice(tasks, starts, engines, arms, jacobians, inverses, variations),
         count=count,
         dt_s=dt_s,
         horizon_s=horizon_s,
@@ -65,7 +66,7 @@ def COMMAND(
         integrator=integrator,
         seed=seed,
     )
-    planning.check_workers(workers)
+    check_workers(workers)
     _print_plan(plan, out)
     if dry_run:
         return

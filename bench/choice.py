@@ -1,0 +1,97 @@
+"""What a user names of a plan, and whether it can be: words that exist, numbers that an episode can be run with."""
+
+import math
+from dataclasses import dataclass
+
+import tasks
+from bench.contender import Gains
+from bench.discovery import known_inverses, known_jacobians
+from bench.errors import BadNumber, Incompatible, UnknownWord
+from bench.suites import ENGINES
+
+INTEGRATORS = ("euler", "implicit", "implicitfast", "rk4")
+
+
+@dataclass(frozen=True)
+class Choice:
+    """What the user named, beside the laws; empty means the suite's own."""
+
+    tasks: tuple[str, ...] = ()
+    start_sets: tuple[str, ...] = ()
+    engines: tuple[str, ...] = ()
+    arms: tuple[str, ...] = ()
+    jacobians: tuple[str, ...] = ()
+    inverses: tuple[str, ...] = ()
+    variations: tuple[str, ...] = ()
+
+    def checked(self) -> "Choice":
+        """Each word once; UnknownWord for one in no list, Incompatible for words that exclude each other."""
+        once = Choice(**{name: tuple(dict.fromkeys(words)) for name, words in vars(self).items()})
+        every_set = dict.fromkeys((*tasks.start_set_names(), *tasks.start_set_names(arm=True)))
+        known: dict[str, tuple] = {
+            "task": (once.tasks, tasks.names()),
+            "start": (once.start_sets, every_set),
+            "engine": (once.engines, ENGINES),
+            "arm": (once.arms, tasks.arm_names()),
+            "jacobian": (once.jacobians, known_jacobians()),
+            "inverse": (once.inverses, known_inverses()),
+            "variation": (once.variations, once.variations and tasks.variation_names()),
+        }
+        for kind, (words, allowed) in known.items():
+            for word in words:
+                check_word(kind, word, list(allowed))
+        bodies = [word for word in once.tasks if not tasks.is_for_arms(word)]
+        if bodies and once.is_about_arms and len(bodies) == len(once.tasks):
+            raise Incompatible(
+                f"task '{bodies[0]}' has no arm, so no Jacobian, inverse or variation (try: --task arm-regulation)"
+            )
+        return once
+
+    @property
+    def is_about_arms(self) -> bool:
+        """Whether it names something that only arms have."""
+        return bool(self.arms or self.jacobians or self.inverses or self.variations)
+
+    @property
+    def narrows(self) -> bool:
+        """Whether less or other than the suite's start sets and engines is asked for."""
+        return bool(self.start_sets or self.engines)
+
+
+EVERYTHING = Choice()
+"""Nothing named: the suite as it is."""
+
+
+def check_word(kind: str, word: str, known: list[str]) -> None:
+    """Refuse a word that is in no list."""
+    if word not in known:
+        raise UnknownWord(kind, word, sorted(known))
+
+
+def check_workers(workers: int) -> None:
+    """Refuse a number of threads that cannot work."""
+    if not 1 <= workers <= 256:
+        raise BadNumber(f"--workers {workers}: give between 1 and 256 threads (the number of cores is best)")
+
+
+SHORTEST_DT_S, LONGEST_DT_S = 1e-6, 0.1
+"""The default gains' time constant is 0.1 s; a microsecond makes ten million ticks of the shorter horizon."""
+
+
+def check_numbers(dt_s: float, horizon_s: float | None, gains: Gains, count: int | None, seed: int) -> None:
+    """Refuse numbers that no episode can be run with."""
+    if not SHORTEST_DT_S <= dt_s <= LONGEST_DT_S:
+        raise BadNumber(
+            f"--dt {dt_s}: the control period must lie between {SHORTEST_DT_S} and {LONGEST_DT_S} s (try: --dt 0.001)"
+        )
+    if horizon_s is not None and not (math.isfinite(horizon_s) and dt_s <= horizon_s <= 1000.0):
+        raise BadNumber(
+            f"--horizon {horizon_s}: it must lie between one tick ({dt_s} s) and 1000 s (try: --horizon 10)"
+        )
+    for name, value in zip(("--kp", "--kv"), gains, strict=True):
+        if not (math.isfinite(value) and 0.0 < value <= 1e6):
+            raise BadNumber(f"{name} {value}: a gain must lie in (0, 1e6] (the paper's: --kp 100 --kv 20)")
+    if count is not None and not 1 <= count <= 1_000_000:
+        raise BadNumber(f"--count {count}: give between 1 and 1000000 starts of each set")
+    if not 0 <= seed < 2**32:
+        raise BadNumber(f"--seed {seed}: give a whole number from 0 to 4294967295")
