@@ -106,7 +106,7 @@ def run(
         return False
     began = time.time()
     _compile_own_laws(plan)
-    costs = pd.DataFrame(_costs(plan))
+    costs = _law_costs(plan)
     if not state.done:
         _clear(out)
         write_json(out / "plan.json", {"digest": plan.digest(), **plan.identity()})
@@ -139,21 +139,24 @@ def _keep_own_laws(plan: Plan, out: Path) -> None:
             write_atomically(copy, functools.partial(shutil.copyfile, origin))
 
 
-def _costs(plan: Plan) -> list[dict]:
-    """Operations of every law, run or not, and of every controller run on an arm.
-
-    None of a law beyond the dialect that only `reference` runs.
-    """
+def _law_costs(plan: Plan) -> list[dict]:
+    """Operations of every law, run or not."""
     costed = {one.name: one for one in (*all_contenders(), *plan.laws)}
+    return _counted(plan, ((one, functools.partial(counting.rows, [one])) for one in costed.values()))
+
+
+def _arm_costs(plan: Plan) -> list[dict]:
+    """Operations of every controller that runs on an arm."""
+    on_arms = dict.fromkeys((unit.contender, tasks.arm(unit.arm).joints) for unit in plan.units if unit.arm)
+    pairs = ((plan.contender(name), joints) for name, joints in on_arms)
+    return _counted(plan, ((one, functools.partial(counting.rows_on_arm, one, joints)) for one, joints in pairs))
+
+
+def _counted(plan: Plan, jobs) -> list[dict]:
+    """The rows of all jobs; none of a user's law beyond the dialect, if only `reference` runs it."""
     only_reference = all(unit.engine == "reference" for unit in plan.units)
-    on_arms = {(unit.contender, tasks.arm(unit.arm).joints): None for unit in plan.units if unit.arm}
-    jobs = [(functools.partial(counting.rows, [one]), one) for one in costed.values()]
-    jobs += [
-        (functools.partial(counting.rows_on_arm, plan.contender(name), joints), plan.contender(name))
-        for name, joints in on_arms
-    ]
     rows = []
-    for count, one in jobs:
+    for one, count in jobs:
         try:
             rows += count()
         except BadLaw:
@@ -232,11 +235,13 @@ starts_of = functools.lru_cache(maxsize=16)(tasks.start_set)
 """A start set is built once for all its units."""
 
 
-def _finish(plan: Plan, out: Path, costs: pd.DataFrame, workers: int, began: float, resumed: bool) -> None:
-    write_table(out / "costs.parquet", costs, "costs")
-    write_table(out / "traces.parquet", traces.run(plan), "traces")
-    write_table(out / "boundaries.parquet", boundary.run(plan, workers), "boundaries")
-    write_table(out / "poses.parquet", poses.run(plan), "poses")
+def _finish(plan: Plan, out: Path, law_costs: list[dict], workers: int, began: float, resumed: bool) -> None:
+    with ThreadPoolExecutor(workers) as pool:
+        arm_costs, curves, looks = (pool.submit(make, plan) for make in (_arm_costs, traces.run, poses.run))
+        write_table(out / "boundaries.parquet", boundary.run(plan, workers), "boundaries")
+        write_table(out / "costs.parquet", pd.DataFrame(law_costs + arm_costs.result()), "costs")
+        write_table(out / "traces.parquet", curves.result(), "traces")
+        write_table(out / "poses.parquet", looks.result(), "poses")
     rows = merge(out / "episodes.parquet", [out / "parts" / f"{unit.key}.parquet" for unit in plan.units], "episodes")
     write_json(
         out / "provenance.json",

@@ -14,8 +14,8 @@ far apart that a joint jumps by more than LARGEST_STEP.
 
 from __future__ import annotations
 
-import functools
 import math
+import threading
 from collections.abc import Iterable, Iterator, Sequence
 
 import mujoco
@@ -176,10 +176,15 @@ class Kinematics:
             return None
 
 
-@functools.cache
+_of_thread = threading.local()
+
+
 def kinematics(arm: Arm) -> Kinematics:
-    """The Kinematics of an arm, made once; not for two threads at a time."""
-    return Kinematics(arm)
+    """The Kinematics of an arm, made once in each thread: its state is no two threads' business."""
+    made: dict[Arm, Kinematics] = vars(_of_thread).setdefault("made", {})
+    if arm not in made:
+        made[arm] = Kinematics(arm)
+    return made[arm]
 
 
 def rotation_vector(to: Quat, of: Quat) -> Vector:

@@ -85,7 +85,7 @@ def COMMAND(
                 bar, advance=done.episodes, description=f"{unit.arm or unit.engine} {unit.contender.split('/')[0]}"[:34]
             )
             if progress.tasks[0].finished:
-                progress.update(bar, description="locating failure boundaries")
+                progress.update(bar, description="curves, costs, boundaries")
 
         did = running.run(plan, out, workers=workers, replace=replace, told=told)
         progress.update(bar, completed=plan.episodes, description="finished")
