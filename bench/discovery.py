@@ -26,7 +26,7 @@ from bench.contender import (
     Representation,
     contender,
 )
-from bench.errors import BadLaw, UnknownWord
+from bench.errors import BadLaw, Incompatible, UnknownWord
 from bench.metric import Metric
 from bench.so3 import Rotation
 
@@ -130,13 +130,20 @@ def inverse(word: str) -> Inverse:
 
 
 def find_contender(word: str, extra: tuple[Regulator, ...] = ()) -> Contender:
-    """`regulator` or `regulator/representation`, as rows and the command line write it."""
+    """`regulator` or `regulator/representation`, as rows and the command line write it.
+
+    Errors:
+        Incompatible: no representation is named, and the regulator acts on several.
+    """
     name, _, coordinates = word.partition("/")
     chosen = regulator(name, extra)
     if coordinates:
         return contender(chosen, representation(coordinates))
     several = contenders_of(chosen)
-    return several[0] if len(several) == 1 else contender(chosen)
+    if len(several) > 1:
+        choices = ", ".join(one.name for one in several)
+        raise Incompatible(f"regulator '{name}' acts on several coordinates; name one: {choices}")
+    return several[0]
 
 
 def load_law(path: Path) -> Regulator:

@@ -5,7 +5,10 @@ A contestant's failure is never one of these: it is an outcome in a row.
 
 import difflib
 
-LISTED = ("regulator", "representation", "task", "start", "engine", "suite")
+LISTED = (
+    *("regulator", "representation", "jacobian", "inverse"),
+    *("task", "arm", "variation", "start", "engine", "suite"),
+)
 """Kinds of words that `python -m bench list` has a table of."""
 
 
@@ -20,7 +23,8 @@ class UnknownWord(BenchError):
         listed = ", ".join(known) if known else "none"
         near = difflib.get_close_matches(given, known, n=1)
         guess = f" (did you mean '{near[0]}'?)" if near else ""
-        cure = f"try: python -m bench list {kind}s" if kind in LISTED else "give one of these"
+        word = kind.lower()  # "Jacobian" in a sentence, "jacobians" on the command line
+        cure = f"try: python -m bench list {word}s" if word in LISTED else "give one of these"
         super().__init__(f"{kind} '{given}' is unknown{guess}; known: {listed} ({cure})")
 
 

@@ -2,6 +2,7 @@
 
     tasks.load("free-body", start)      a dm_control Environment, reset to that start and goal
     tasks.task(name), tasks.names()     the plants: one file each in tasks/domains
+    tasks.described(name)               what a task's file says, with no arm named
     tasks.start_set(name, count, seed)  the starts: one file each in tasks/starts
     tasks.start_set_names()
 
@@ -9,7 +10,7 @@
     tasks.start_set(name, count, seed, arm="ur5e")    one file each in tasks/arm_starts
     tasks.pairs()                       every (task, arm) there is; the arm is "" on the free body
     tasks.arm(name), tasks.arm_names()  the manipulators: one file each in tasks/arms
-    tasks.variation(name)               a plant that differs from the controller's model of it
+    tasks.variation(name), tasks.variation_names()    a plant that differs from the controller's model of it
 
     base.py       Start, Task, StartSet, and those of arms; the sensors of every model; the errors
     truth.py      angle and haversine: the judge's own measure of the error
@@ -53,12 +54,14 @@ if TYPE_CHECKING:
 __all__ = [
     "arm",
     "arm_names",
+    "described",
     "is_for_arms",
     "load",
     "names",
     "pairs",
     "start_set",
     "start_set_names",
+    "start_set_size",
     "start_set_title",
     "task",
     "variation",
@@ -75,12 +78,17 @@ def names() -> list[str]:
 
 def is_for_arms(task: str) -> bool:
     """Whether a task of this name is done by an arm, which must then be named."""
-    return isinstance(_known_task(task), ArmTask)
+    return isinstance(described(task), ArmTask)
 
 
 def pairs() -> list[tuple[str, str]]:
     """Every (task, arm) that can be loaded; the arm is empty for a task without one."""
     return [(name, arm) for name in names() for arm in (arm_names() if is_for_arms(name) else [""])]
+
+
+def described(name: str) -> Task | ArmTask:
+    """What the file of a task says of it, whether or not it needs an arm; UnknownName lists the known ones."""
+    return pick("task", name, _tasks(), "tasks/domains")
 
 
 def task(name: str, arm: str = "") -> Task:
@@ -133,6 +141,13 @@ def start_set_title(name: str, arm: bool = False) -> str:
     return pick("start set", name, _start_sets(), "tasks/starts").title
 
 
+def start_set_size(name: str, arm: bool = False) -> int:
+    """How many starts a set has if no number is asked for; an arm that cannot do so many has fewer."""
+    if arm:
+        return pick("start set", name, _arm_start_sets(), "tasks/arm_starts").size
+    return pick("start set", name, _start_sets(), "tasks/starts").size
+
+
 def start_set(name: str, count: int | None = None, seed: int = 0, arm: str = "") -> list[Start]:
     """The starts of a set, always the same ones in the same order.
 
@@ -165,7 +180,7 @@ def variation(name: str) -> Variation:
 
 
 def _task_on(name: str, arm: str) -> Task:
-    found = _known_task(name)
+    found = described(name)
     if isinstance(found, ArmTask):
         if not arm:
             listed = arm_names()
@@ -179,10 +194,6 @@ def _task_on(name: str, arm: str) -> Task:
             f"task '{name}' has no arm, but '{arm}' was named (leave it out, or choose a task for arms: {with_arms})"
         )
     return found
-
-
-def _known_task(name: str) -> Task | ArmTask:
-    return pick("task", name, _tasks(), "tasks/domains")
 
 
 def _tasks() -> dict[str, Task | ArmTask]:

@@ -1,5 +1,7 @@
 """`list`: what there is to run, by kind."""
 
+import itertools
+
 import rich_click as click
 from rich.table import Table
 
@@ -8,21 +10,22 @@ from bench import discovery
 from bench.cli import options
 from bench.cli.screen import console
 from bench.errors import UnknownWord
-
-KINDS = ("regulators", "representations", "metrics", "tasks", "starts", "engines", "suites", "claims")
+from tasks.arm import arms
+from tasks.base import BadArm
 
 
 @click.command("list")
 @click.argument("kind", required=False, metavar="[KIND]")
 @options.law
 def COMMAND(kind, laws):
-    """What there is: regulators, representations, metrics, tasks, starts, engines, suites, claims."""
+    """What there is: regulators, representations, jacobians, inverses, metrics, tasks, arms, variations, starts,
+    engines, suites, claims."""
     own = options.own_laws(laws)
-    if kind is not None and kind not in KINDS:
-        if kind + "s" not in KINDS:
-            raise UnknownWord("kind", kind, list(KINDS))
+    if kind is not None and kind not in _TABLES:
+        if kind + "s" not in _TABLES:
+            raise UnknownWord("kind", kind, list(_TABLES))
         kind += "s"
-    for one in KINDS if kind is None else (kind,):
+    for one in _TABLES if kind is None else (kind,):
         console().print(_TABLES[one](own))
 
 
@@ -50,19 +53,63 @@ def _representations(own):
     return _table("Representations", ("name", "coordinates", "source"), rows)
 
 
+def _jacobians(own):
+    every = discovery.known_jacobians().values()
+    rows = ((one.name, one.takes.replace("-", " "), one.title, one.source) for one in every)
+    return _table("Jacobians", ("name", "takes", "title", "source"), rows)
+
+
+SHAPES = ((6, 6), (6, 7), (7, 6), (7, 7))
+"""Rows and columns of a Jacobian: three of position, with three coordinates of orientation or four; six joints or
+seven."""
+
+
+def _inverses(own):
+    def row(one):
+        shapes = ", ".join(f"{rows} x {n}" for rows, n in SHAPES if not one.refuses(rows, n))
+        return one.name, one.gives, shapes, one.title, one.source
+
+    columns = ("name", "gives", "Jacobians it takes", "title", "source")
+    return _table("Inverses", columns, map(row, discovery.known_inverses().values()))
+
+
 def _metrics(own):
-    rows = ((one.name, one.column, one.unit, one.title) for one in discovery.known_metrics().values())
-    return _table("Metrics", ("name", "column", "unit", "meaning"), rows)
+    def row(one):
+        return one.name, one.column, one.unit, "arms" if one.arm_only else "all", one.title
+
+    columns = ("name", "column", "unit", "of", "meaning")
+    return _table("Metrics", columns, map(row, discovery.known_metrics().values()))
 
 
 def _tasks(own):
-    every = map(tasks.task, tasks.names())
-    return _table("Tasks", ("name", "title", "source"), ((one.name, one.title, one.source) for one in every))
+    def row(one):
+        plant = "each arm" if tasks.is_for_arms(one.name) else "no arm"
+        return one.name, plant, one.title, one.source
+
+    return _table("Tasks", ("name", "of", "title", "source"), map(row, map(tasks.described, tasks.names())))
+
+
+def _arms(own):
+    def row(name, one):
+        if isinstance(one, BadArm):
+            return name, "", f"cannot be used: {one}", ""
+        return name, one.joints, one.title, one.source
+
+    return _table("Arms", ("name", "joints", "title", "source"), itertools.starmap(row, arms().items()))
+
+
+def _variations(own):
+    rows = ((name, tasks.variation(name).title) for name in tasks.variation_names())
+    return _table("Variations of an arm's plant", ("name", "title"), rows)
 
 
 def _starts(own):
-    rows = ((n, len(tasks.start_set(n)), tasks.start_set_title(n)) for n in tasks.start_set_names())
-    return _table("Start sets", ("name", "starts", "title"), rows)
+    rows = [
+        (name, plant, tasks.start_set_size(name, of_arms), tasks.start_set_title(name, of_arms))
+        for plant, of_arms in (("free body", False), ("each arm, at most", True))
+        for name in tasks.start_set_names(of_arms)
+    ]
+    return _table("Start sets", ("name", "of", "starts", "title"), rows)
 
 
 def _engines(own):
@@ -75,8 +122,13 @@ def _engines(own):
 def _suites(own):
     from bench.suites import SUITES
 
-    rows = ((one.name, len({part.engine for part in one.slices}), one.title) for one in SUITES.values())
-    return _table("Suites", ("name", "engines", "title"), rows)
+    def row(one):
+        words = len(one.on_arms.words)
+        varied = ", and a study of model errors" if one.on_arms.varied else ""
+        on_arms = f"{words} combinations{varied}" if words else f"every combination{varied}"
+        return one.name, len({part.engine for part in one.slices}), on_arms, one.title
+
+    return _table("Suites", ("name", "engines", "on each arm", "title"), map(row, SUITES.values()))
 
 
 def _claims(own):
@@ -88,8 +140,12 @@ def _claims(own):
 _TABLES = {
     "regulators": _regulators,
     "representations": _representations,
+    "jacobians": _jacobians,
+    "inverses": _inverses,
     "metrics": _metrics,
     "tasks": _tasks,
+    "arms": _arms,
+    "variations": _variations,
     "starts": _starts,
     "engines": _engines,
     "suites": _suites,
