@@ -35,13 +35,18 @@ def axes(count: int) -> np.ndarray:
 
 
 def run(plan: Plan, workers: int = 1) -> pd.DataFrame:
-    """boundaries.parquet of a plan: one row for each contender and axis; a thread a contender."""
+    """boundaries.parquet of a plan: one row for each of the paper's laws, or the user's, and axis; a thread a law."""
     frames = []
     if plan.boundary_axes:
         directions = axes(plan.boundary_axes)
         pool = ThreadPoolExecutor(workers)
         try:
-            frames = list(pool.map(lambda one: _boundary(plan, one, directions), plan.laws))
+            frames = list(
+                pool.map(
+                    lambda one: _boundary(plan, one, directions),
+                    (one for one in plan.laws if not one.is_beyond_the_paper),
+                )
+            )
         finally:
             pool.shutdown(cancel_futures=True)
     names = [column.name for column in boundary_columns()]

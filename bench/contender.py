@@ -199,6 +199,12 @@ class Contender(NamedTuple):
         return (self.jacobian.name if self.jacobian else "", self.inverse.name if self.inverse else "")
 
     @property
+    def is_beyond_the_paper(self) -> bool:
+        """Whether it is a law of ours on coordinates that the paper sets aside (Murphy 1988, 2.2)."""
+        other = self.representation is not None and self.representation.name != "zyx-euler"
+        return other and not self.regulator.origin
+
+    @property
     def is_on_arm(self) -> bool:
         """Whether it controls an arm (and not the free body)."""
         return self.jacobian is not None

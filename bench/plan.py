@@ -173,9 +173,9 @@ def _on_free_body(chosen: Suite, laws, every_task, choice: Choice) -> list[Place
         Place(part, one, task)
         for task in every_task
         if not tasks.is_for_arms(task)
-        for part in _narrowed(chosen.slices, choice)
-        if part.start_set in tasks.task(task).start_sets and runs_on(part.engine, task)
         for one in laws
+        for part in _narrowed(chosen.beyond if one.is_beyond_the_paper else chosen.slices, choice)
+        if part.start_set in tasks.task(task).start_sets and runs_on(part.engine, task)
     ]
 
 

@@ -48,11 +48,16 @@ class OnArms(NamedTuple):
 
 
 class Suite(NamedTuple):
-    """A named list of slices, run for every contender that is not only a costing."""
+    """A named list of slices, run for every contender that is not only a costing.
+
+    slices: on the free body, of the paper's laws and the user's own; beyond: of the laws on coordinates that the paper
+    sets aside.
+    """
 
     name: str
     title: str
     slices: tuple[Slice, ...]
+    beyond: tuple[Slice, ...]
     traces: int
     boundary_axes: int
     on_arms: OnArms
@@ -80,6 +85,7 @@ SUITES = {
             _slices("ideal-rk4", 1000)
             + _slices("native", 200, ("half-turn", "paper", "poles"))
             + _slices("reference", 0, ("paper",)),
+            _slices("ideal-rk4", 200, ("half-turn", "paper", "poles")),
             traces=24,
             boundary_axes=64,
             on_arms=OnArms(
@@ -93,6 +99,7 @@ SUITES = {
             + _slices("ideal-held", 5000)
             + _slices("native", 1000)
             + _slices("reference", 0, ("paper",)),
+            _slices("ideal-rk4", 5000) + _slices("native", 0, ("half-turn", "paper", "poles")),
             traces=64,
             boundary_axes=256,
             on_arms=OnArms(
@@ -111,6 +118,7 @@ SUITES = {
             + _slices("ideal-held", 50_000)
             + _slices("native", 50_000)
             + _slices("reference", 0, ("paper",)),
+            _slices("ideal-rk4", 50_000) + _slices("ideal-held", 50_000) + _slices("native", 50_000),
             traces=64,
             boundary_axes=1024,
             on_arms=OnArms(
