@@ -3,6 +3,8 @@
 A combination is written `law@jacobian+inverse`; the inverse "standard" is the first of STANDARD that fits.
 """
 
+from collections.abc import Iterable
+
 from bench.contender import Contender, refusal
 from bench.discovery import inverse, jacobian, known_inverses, known_jacobians
 
@@ -46,6 +48,9 @@ by the geometric Jacobian, whose equality is tested and which `full` runs."""
 
 VARIED = (*LAWS, *ANALYTIC, f"{RESOLVED}+dynamically-consistent", f"{RESOLVED}+damped-least-squares")
 
+SHOWN = 3
+"""Reasons of a refusal that are printed."""
+
 
 def on(words: tuple[str, ...], laws: dict[str, Contender], joints: int) -> list[Contender]:
     """The contenders of the words that fit on so many joints, each once.
@@ -75,10 +80,48 @@ def _of_word(word: str, laws: dict[str, Contender], joints: int) -> Contender | 
 
 def every(laws: dict[str, Contender], joints: int) -> list[Contender]:
     """All that go together on so many joints."""
-    wanted = [
-        law._replace(jacobian=by, inverse=through)
-        for law in laws.values()
-        for by in known_jacobians().values()
-        for through in known_inverses().values()
+    return chosen((), laws, joints)
+
+
+def chosen(
+    words: tuple[str, ...],
+    laws: dict[str, Contender],
+    joints: int,
+    jacobians: tuple[str, ...] = (),
+    inverses: tuple[str, ...] = (),
+) -> list[Contender]:
+    """The contenders of the words on so many joints; of named Jacobians and inverses every one that fits.
+
+    A law that no word names is taken if it is a user's, or if no other is there: by the geometric Jacobian and the
+    standard inverse. No words at all: everything that fits.
+    """
+    if jacobians or inverses or not words:
+        wanted = _crossed(laws.values(), jacobians, inverses)
+        return [one for one in wanted if not refusal(one, joints)]
+    wordless = [name for name in laws if not any(word.startswith(f"{name}@") for word in words)]
+    if len(wordless) < len(laws):
+        wordless = [name for name in wordless if laws[name].regulator.origin]
+    return on((*words, *(f"{name}@geometric+standard" for name in wordless)), laws, joints)
+
+
+def refusals(
+    laws: Iterable[Contender], joints: int, jacobians: tuple[str, ...] = (), inverses: tuple[str, ...] = ()
+) -> list[str]:
+    """Why each of them cannot control an arm of so many joints; nothing of one that can."""
+    reasons = ((one, refusal(one, joints)) for one in _crossed(laws, jacobians, inverses))
+    return [f"'{one.name}' on {joints} joints: {reason}" for one, reason in reasons if reason]
+
+
+def shown(reasons: list[str]) -> str:
+    """The first of many reasons, on one line."""
+    return "; ".join(reasons[:SHOWN]) + (f"; and {len(reasons) - SHOWN} more" if len(reasons) > SHOWN else "")
+
+
+def _crossed(laws: Iterable[Contender], jacobians: tuple[str, ...], inverses: tuple[str, ...]) -> list[Contender]:
+    """Each law by each Jacobian and inverse that is named, or by every one."""
+    return [
+        law._replace(jacobian=jacobian(by), inverse=inverse(through))
+        for law in laws
+        for by in dict.fromkeys(jacobians or known_jacobians())
+        for through in dict.fromkeys(inverses or known_inverses())
     ]
-    return [one for one in wanted if not refusal(one, joints)]

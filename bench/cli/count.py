@@ -3,21 +3,68 @@
 import pandas as pd
 import rich_click as click
 
+import tasks
+from bench import combinations
 from bench.cli import options
 from bench.cli.screen import console, frame_table
+from bench.contender import Contender
+from bench.errors import Incompatible
+from bench.suites import SUITES
+
+EPILOG = """
+Examples:  [b]python -m bench count --stages[/b]  the laws alone.
+[b]python -m bench count --regulator rotation-matrix --jacobian geometric --inverse solve --stages[/b]  a controller.
+[b]python -m bench count --joints 7[/b]  the quick suite's controllers on seven joints.
+"""
 
 
-@click.command("count")
+@click.command("count", epilog=EPILOG)
 @options.law
 @options.regulator
 @options.representation
+@options.jacobian
+@options.inverse
+@click.option("--joints", type=click.Choice(["6", "7"]), help="Of the arm; 6 unless --arm says otherwise.")
+@click.option("--arm", metavar="NAME", help="An arm, for its number of joints.")
 @click.option("--stages", is_flag=True, help="A line for each stage of the tick, not only the total.")
-def COMMAND(laws, regulators, representations, stages):
-    """Count the operations of each law per tick: typical and worst branch, transcendental functions apart."""
+def COMMAND(laws, regulators, representations, jacobians, inverses, joints, arm, stages):
+    """Count the operations of each law per tick: typical and worst branch, transcendental functions apart.
+
+    With a Jacobian, an inverse, a number of joints or an arm: of the whole controller of an arm, without what MuJoCo
+    computes. A Jacobian or inverse that is not named is every one that fits.
+    """
     from bench import counting
 
-    table = pd.DataFrame(counting.rows(options.chosen(laws, regulators, representations, costings=True)))
+    named = options.named(regulators, jacobians, inverses)
+    chosen = options.chosen(laws, named.regulators, representations, costings=True)
+    if joints or arm or named.jacobians or named.inverses:
+        n = _joints(joints, arm)
+        controllers = _controllers(chosen, named, n)
+        table = pd.DataFrame([row for one in controllers for row in counting.rows_on_arm(one, n)])
+        title = f"Operations per tick of a controller of {n} joints"
+    else:
+        table = pd.DataFrame(counting.rows(chosen)).drop(columns=["jacobian", "inverse"])
+        title = "Operations per tick"
     if not stages:
         table = table[table["stage"] == "total"].drop(columns="stage")
-    table = table.drop(columns=["jacobian", "inverse"])
-    console().print(frame_table(table.loc[:, (table != 0).any()], "Operations per tick"))
+    table = table.drop(columns="joints")
+    console().print(frame_table(table.loc[:, (table != 0).any()], title))
+
+
+def _joints(joints: str | None, arm: str | None) -> int:
+    """The number of joints that is meant."""
+    n = tasks.arm(arm).joints if arm else int(joints or 6)
+    if joints and int(joints) != n:
+        raise click.UsageError(f"arm '{arm}' has {n} joints, not {joints} (leave --joints away)")
+    return n
+
+
+def _controllers(laws: list[Contender], named: options.Named, joints: int) -> list[Contender]:
+    """The controllers of the laws by the Jacobians and inverses that are named; the quick suite's if none is."""
+    by_name = {one.name: one for one in laws}
+    words = SUITES["quick"].on_arms.words
+    found = combinations.chosen(words, by_name, joints, named.jacobians, named.inverses)
+    if not found:
+        reasons = combinations.refusals(laws, joints, named.jacobians, named.inverses)
+        raise Incompatible(f"nothing to count: {combinations.shown(reasons)}")
+    return found

@@ -18,8 +18,11 @@ from tasks.base import BadArm
 @click.argument("kind", required=False, metavar="[KIND]")
 @options.law
 def COMMAND(kind, laws):
-    """What there is: regulators, representations, jacobians, inverses, metrics, tasks, arms, variations, starts,
-    engines, suites, claims."""
+    """What there is to run, of one kind or of all.
+
+    Kinds: regulators, representations, jacobians, inverses, metrics, tasks, arms, variations, starts, engines, suites,
+    claims. A file of an arm that cannot be used is listed with the reason.
+    """
     own = options.own_laws(laws)
     if kind is not None and kind not in _TABLES:
         if kind + "s" not in _TABLES:

@@ -1,6 +1,7 @@
 """Options that several commands share."""
 
 from pathlib import Path
+from typing import NamedTuple
 
 import rich_click as click
 
@@ -24,7 +25,7 @@ regulator = click.option(
     "regulators",
     multiple=True,
     metavar="NAME",
-    help="Only this law: NAME or NAME/REPRESENTATION; repeatable.",
+    help="Only this law: NAME or NAME/REPRESENTATION; on an arm also NAME@JACOBIAN+INVERSE; repeatable.",
 )
 representation = click.option(
     "--representation",
@@ -33,6 +34,39 @@ representation = click.option(
     metavar="NAME",
     help="Only laws on these coordinates; repeatable.",
 )
+jacobian = click.option(
+    "--jacobian", "jacobians", multiple=True, metavar="NAME", help="On arms, only this Jacobian; repeatable."
+)
+inverse = click.option(
+    "--inverse", "inverses", multiple=True, metavar="NAME", help="On arms, only this inverse; repeatable."
+)
+
+
+class Named(NamedTuple):
+    """What --regulator, --jacobian and --inverse name together."""
+
+    regulators: tuple[str, ...]
+    jacobians: tuple[str, ...]
+    inverses: tuple[str, ...]
+
+
+def named(regulators, jacobians, inverses) -> Named:
+    """Contenders of arms by their whole name, `law@jacobian+inverse`, taken apart; everything else as it is.
+
+    Errors:
+        UsageError: the options would mean more than these names, for each law meets each Jacobian and each inverse.
+    """
+    whole = [word for word in regulators if "@" in word]
+    if not whole:
+        return Named(regulators, jacobians, inverses)
+    ways = {word.partition("@")[2] for word in whole}
+    [by, through] = [*sorted(ways)[0].split("+"), ""][:2]
+    if len(ways) > 1 or len(whole) < len(regulators) or jacobians or inverses or not by or not through:
+        raise click.UsageError(
+            f"--regulator {whole[0]}: after @ comes jacobian+inverse, the same for every law and named once; name them "
+            f"apart instead (try: --regulator {whole[0].partition('@')[0]} --jacobian geometric --inverse solve)"
+        )
+    return Named(tuple(word.partition("@")[0] for word in whole), (by,), (through,))
 
 
 def own_laws(files: tuple[Path, ...]) -> tuple[Regulator, ...]:

@@ -16,8 +16,12 @@ EPILOG = """
 Examples:  [b]python -m bench run[/b]  the default suite into results/latest.
 [b]python -m bench run --regulator rotation-matrix --starts half-turn --engine native --out /tmp/half[/b]
 [b]python -m bench run --law my_law.py --suite quick --out /tmp/mine[/b]
-[b]python -m bench run --task arm-regulation --arm ur5e --regulator feedback-linearized/zyx-euler --jacobian analytic
---inverse solve --out /tmp/arm[/b]
+On arms:  [b]python -m bench run --task arm-regulation --arm ur5e --regulator feedback-linearized/zyx-euler
+--jacobian analytic --inverse solve --out /tmp/arm[/b]
+The same, as rows name it:  [b]python -m bench run --arm ur5e --regulator feedback-linearized/zyx-euler@analytic+solve
+--out /tmp/arm[/b]
+With a plant that is not the controller's model:  [b]python -m bench run --arm panda --starts clear
+--variation mass-1.30 --out /tmp/heavy[/b]
 """
 
 
@@ -28,8 +32,8 @@ Examples:  [b]python -m bench run[/b]  the default suite into results/latest.
 @options.representation
 @click.option("--task", "tasks", multiple=True, metavar="NAME", help="Only this task; repeatable.")
 @click.option("--arm", "arms", multiple=True, metavar="NAME", help="Only this arm; repeatable.")
-@click.option("--jacobian", "jacobians", multiple=True, metavar="NAME", help="On arms, only this one; repeatable.")
-@click.option("--inverse", "inverses", multiple=True, metavar="NAME", help="On arms, only this one; repeatable.")
+@options.jacobian
+@options.inverse
 @click.option(
     "--variation", "variations", multiple=True, metavar="NAME", help="On arms, a plant that differs so; repeatable."
 )
@@ -54,11 +58,17 @@ def COMMAND(
     suite, laws, regulators, representations, tasks, arms, jacobians, inverses, variations, starts, engines, count,
     dt_s, horizon_s, kp, kv, integrator, seed, workers, out, replace, dry_run,
 ):  # fmt: skip
-    """Run a suite and store its episodes; a run that was stopped goes on where it was."""
+    """Run a suite and store its episodes; a run that was stopped goes on where it was.
+
+    The free body has laws alone; an arm also needs a Jacobian and an inverse. The suite has its own for each law. Name
+    a Jacobian or an inverse, and all that go together are run on arms; a combination that cannot be is refused with
+    the reason.
+    """
+    named = options.named(regulators, jacobians, inverses)
     plan = planning.make(
         suite,
-        options.chosen(laws, regulators, representations),
-        Choice(tasks, starts, engines, arms, jacobians, inverses, variations),
+        options.chosen(laws, named.regulators, representations),
+        Choice(tasks, starts, engines, arms, named.jacobians, named.inverses, variations),
         count=count,
         dt_s=dt_s,
         horizon_s=horizon_s,
