@@ -107,9 +107,11 @@ def chosen(
 def refusals(
     laws: Iterable[Contender], joints: int, jacobians: tuple[str, ...] = (), inverses: tuple[str, ...] = ()
 ) -> list[str]:
-    """Why each of them cannot control an arm of so many joints; nothing of one that can."""
-    reasons = ((one, refusal(one, joints)) for one in _crossed(laws, jacobians, inverses))
-    return [f"'{one.name}' on {joints} joints: {reason}" for one, reason in reasons if reason]
+    """Each reason why some of them cannot control an arm of so many joints, with the first that has it."""
+    first: dict[str, str] = {}
+    for one in _crossed(laws, jacobians, inverses):
+        first.setdefault(refusal(one, joints), one.name)
+    return [f"'{name}' on {joints} joints: {reason}" for reason, name in first.items() if reason]
 
 
 def shown(reasons: list[str]) -> str:

@@ -8,8 +8,7 @@ from dataclasses import dataclass
 import tasks
 from bench import combinations
 from bench.choice import EVERYTHING, INTEGRATORS, Choice, check_numbers, check_word
-from bench.contender import PAPERS_GAINS, Contender, Gains, refusal
-from bench.discovery import known_inverses, known_jacobians
+from bench.contender import PAPERS_GAINS, Contender, Gains
 from bench.errors import Incompatible
 from bench.provenance import source_digest
 from bench.suites import HORIZON, NOMINAL, ON_ARM, SHORT, OnArms, Slice, Suite, suite
@@ -188,7 +187,7 @@ def _on_arms(chosen: Suite, laws, every_task, choice: Choice) -> list[Place]:
                 if part.start_set in fitting and runs_on(part.engine, task):
                     places.append(Place(part, one, task, arm, variation))
     if not places and choice.is_about_arms:
-        raise Incompatible(_no_combination(laws, choice))
+        _check_combinations(chosen.on_arms, laws, choice)
     return places
 
 
@@ -197,7 +196,7 @@ def _on_arm(on_arms: OnArms, laws, joints: int, choice: Choice):
     by_name = {one.name: one for one in laws}
     slices = _narrowed(on_arms.slices, choice)
     variations = choice.variations or (NOMINAL,)
-    for one in _combinations(on_arms.words, by_name, joints, choice):
+    for one in combinations.chosen(on_arms.words, by_name, joints, choice.jacobians, choice.inverses):
         for part in slices:
             for variation in variations:
                 yield part, one, variation
@@ -209,36 +208,13 @@ def _on_arm(on_arms: OnArms, laws, joints: int, choice: Choice):
                         yield part, one, variation
 
 
-def _combinations(words, laws: dict[str, Contender], joints: int, choice: Choice) -> list[Contender]:
-    """The contenders of a suite on so many joints; of named Jacobians and inverses every one that fits.
-
-    A law that the suite has no word for is run if it is a user's, or if no other is asked for: by the geometric
-    Jacobian and the standard inverse.
-    """
-    if choice.jacobians or choice.inverses or not words:
-        return [
-            one
-            for one in combinations.every(laws, joints)
-            if (not choice.jacobians or one.way[0] in choice.jacobians)
-            and (not choice.inverses or one.way[1] in choice.inverses)
-        ]
-    wordless = [name for name in laws if not any(word.startswith(f"{name}@") for word in words)]
-    if len(wordless) < len(laws):
-        wordless = [name for name in wordless if laws[name].regulator.origin]
-    return combinations.on((*words, *(f"{name}@geometric+standard" for name in wordless)), laws, joints)
-
-
-def _no_combination(laws, choice: Choice) -> str:
-    """Why no law, Jacobian and inverse that were named go together on any arm that was named."""
-    reasons = []
-    for arm in choice.arms or tasks.arm_names():
-        for law in laws:
-            for by in choice.jacobians or known_jacobians():
-                for through in choice.inverses or known_inverses():
-                    one = law._replace(jacobian=known_jacobians()[by], inverse=known_inverses()[through])
-                    reasons.append(f"'{one.name}' on {arm}: {refusal(one, tasks.arm(arm).joints)}")
-    shown = "; ".join(reasons[:3])
-    return f"nothing to run: {shown}" + (f"; and {len(reasons) - 3} more" if len(reasons) > 3 else "")
+def _check_combinations(on_arms: OnArms, laws, choice: Choice) -> None:
+    """Refuse if no law, Jacobian and inverse that were named go together on any arm that was named, with the reasons."""
+    by_name, named = {one.name: one for one in laws}, (choice.jacobians, choice.inverses)
+    counts = dict.fromkeys(tasks.arm(arm).joints for arm in choice.arms or tasks.arm_names())
+    if not any(combinations.chosen(on_arms.words, by_name, joints, *named) for joints in counts):
+        reasons = [reason for joints in counts for reason in combinations.refusals(laws, joints, *named)]
+        raise Incompatible(f"nothing to run: {combinations.shown(reasons)}")
 
 
 def _nothing_to_run(every_task, chosen: Suite, choice: Choice) -> str:

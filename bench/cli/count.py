@@ -12,8 +12,10 @@ from bench.errors import Incompatible
 from bench.suites import SUITES
 
 EPILOG = """
-Examples:  [b]python -m bench count --stages[/b]  the laws alone.
+[b]python -m bench count --stages[/b]  the laws alone.
+
 [b]python -m bench count --regulator rotation-matrix --jacobian geometric --inverse solve --stages[/b]  a controller.
+
 [b]python -m bench count --joints 7[/b]  the quick suite's controllers on seven joints.
 """
 

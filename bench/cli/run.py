@@ -13,15 +13,20 @@ from bench.contender import Gains
 from bench.suites import NOMINAL
 
 EPILOG = """
-Examples:  [b]python -m bench run[/b]  the default suite into results/latest.
+[b]python -m bench run[/b]  the default suite into results/latest.
+
 [b]python -m bench run --regulator rotation-matrix --starts half-turn --engine native --out /tmp/half[/b]
-[b]python -m bench run --law my_law.py --suite quick --out /tmp/mine[/b]
-On arms:  [b]python -m bench run --task arm-regulation --arm ur5e --regulator feedback-linearized/zyx-euler
---jacobian analytic --inverse solve --out /tmp/arm[/b]
-The same, as rows name it:  [b]python -m bench run --arm ur5e --regulator feedback-linearized/zyx-euler@analytic+solve
---out /tmp/arm[/b]
-With a plant that is not the controller's model:  [b]python -m bench run --arm panda --starts clear
---variation mass-1.30 --out /tmp/heavy[/b]
+
+[b]python -m bench run --law my_law.py --suite quick --out /tmp/mine[/b]  a law of your own, on the free body and arms.
+
+[b]python -m bench run --task arm-regulation --arm ur5e --regulator feedback-linearized/zyx-euler --jacobian analytic
+--inverse solve --out /tmp/arm[/b]  one controller on one arm.
+
+[b]python -m bench run --arm ur5e --regulator feedback-linearized/zyx-euler@analytic+solve --out /tmp/arm[/b]  the
+same, as rows name it.
+
+[b]python -m bench run --arm panda --starts clear --variation mass-1.30 --out /tmp/heavy[/b]  a plant that is not the
+controller's model.
 """
 
 
@@ -40,8 +45,10 @@ With a plant that is not the controller's model:  [b]python -m bench run --arm p
 @click.option("--starts", multiple=True, metavar="NAME", help="Only this start set; repeatable.")
 @click.option("--engine", "engines", multiple=True, metavar="NAME", help="Only this engine; repeatable.")
 @click.option("--count", type=int, help="At most so many starts of each set (sampled sets take any number).")
-@click.option("--dt", "dt_s", type=float, default=1e-3, show_default=True, help="Control period [s].")
-@click.option("--horizon", "horizon_s", type=float, help="Longest simulated time [s]; the suite's own by default.")
+@click.option("--dt", "dt_s", type=float, default=1e-3, show_default=True, help="Control period in seconds.")
+@click.option(
+    "--horizon", "horizon_s", type=float, help="Longest simulated time in seconds; the suite's own by default."
+)
 @click.option("--kp", type=float, default=100.0, show_default=True, help="Position gain [1/s^2].")
 @click.option("--kv", type=float, default=20.0, show_default=True, help="Velocity gain [1/s].")
 @click.option(
