@@ -89,7 +89,12 @@ SUITES = {
             traces=24,
             boundary_axes=64,
             on_arms=OnArms(
-                (*LAWS, *ANALYTIC), _on_arms(clear=4, wrist=4, pole=4, half_turn=4, uniform=4, tumbling=4), poses=200
+                (*LAWS, *ANALYTIC),
+                _on_arms(clear=4, wrist=4, pole=4, half_turn=4, uniform=4, tumbling=4),
+                (LAWS[0], ANALYTIC[0]),
+                (Slice("native", "clear", 2, VARIED_S),),
+                traced=1,
+                poses=200,
             ),
         ),
         Suite(

@@ -84,8 +84,8 @@ def arm_recorder(every: int):
 def run(plan: Plan) -> pd.DataFrame:
     """traces.parquet of a plan.
 
-    On the ideal plant the `paper` starts and the first `plan.traces` uniform ones; on arms the first `plan.arm_traces`
-    of each of ARM_SETS.
+    On the ideal plant the `paper` starts and, of the paper's laws and the user's, the first `plan.traces` uniform ones;
+    on arms the first `plan.arm_traces` of each of ARM_SETS.
     """
     every = max(1, round(EVERY_S / plan.dt_s))
     frames = [*_on_free_body(plan, every), *_on_arms(plan, every)]
@@ -97,7 +97,8 @@ def _on_free_body(plan: Plan, every: int):
     for one in plan.laws if plan.traces else ():
         parts = command_of(one), margin_of(one), recorder(every), memory_of(one)
         loop = ideal.episodes_of("ideal-rk4", *parts, not one.regulator.origin)
-        for start_set, count in (("paper", None), ("uniform", plan.traces)):
+        sampled = () if one.is_beyond_the_paper else (("uniform", plan.traces),)
+        for start_set, count in (("paper", None), *sampled):
             starts = tasks.start_set(start_set, count, plan.seed)
             rows = np.full((len(starts), FIRST_METRIC + SAMPLES * WIDTH), np.nan)
             loop(start_rows(starts), numbers(settings_of(plan, LONGEST_S)), rows)
