@@ -209,7 +209,7 @@ def _on_arm(on_arms: OnArms, laws, joints: int, choice: Choice):
 
 
 def _check_combinations(on_arms: OnArms, laws, choice: Choice) -> None:
-    """Refuse if no law, Jacobian and inverse that were named go together on any arm that was named, with the reasons."""
+    """Refuse if no law, Jacobian and inverse that were named go together on any arm that was named; say why."""
     by_name, named = {one.name: one for one in laws}, (choice.jacobians, choice.inverses)
     counts = dict.fromkeys(tasks.arm(arm).joints for arm in choice.arms or tasks.arm_names())
     if not any(combinations.chosen(on_arms.words, by_name, joints, *named) for joints in counts):

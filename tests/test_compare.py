@@ -9,6 +9,7 @@ import pytest
 from bench import boundary, traces
 from bench import plan as planning
 from bench import run as running
+from bench.choice import Choice
 from bench.cli import main
 from bench.compare import compare
 from bench.discovery import find_contender
@@ -17,8 +18,8 @@ from bench.store import read, write_table
 
 @pytest.fixture(scope="module")
 def reference(tmp_path_factory):
-    laws = [find_contender("rotation-matrix"), find_contender("feedback-linearized")]
-    plan = planning.make("quick", laws, start_sets=("paper", "poles"), engines=("ideal-held",), horizon_s=2.0)
+    laws = [find_contender("rotation-matrix"), find_contender("feedback-linearized/zyx-euler")]
+    plan = planning.make("quick", laws, Choice(start_sets=("paper", "poles"), engines=("ideal-held",)), horizon_s=2.0)
     folder = tmp_path_factory.mktemp("gate") / "reference"
     running.run(plan, folder, workers=1)
     return folder
@@ -151,7 +152,9 @@ def test_gate_catches_a_curve_that_bends_and_one_that_is_gone(candidate, tmp_pat
     [line] = compare(candidate, before)
     assert line.startswith("omega_x: ")
     change(candidate, "traces", lambda frame: frame[frame["start_id"] != "uniform-00001"])
-    assert "traces: curve is missing: rotation-matrix ideal-rk4 uniform uniform-00001" in compare(candidate, before)
+    assert "traces: curve is missing: free-body rotation-matrix ideal-rk4 uniform uniform-00001" in compare(
+        candidate, before
+    )
 
 
 def test_gate_ignores_what_a_failed_episode_measured(reference, candidate):
@@ -163,6 +166,132 @@ def test_gate_ignores_what_a_failed_episode_measured(reference, candidate):
 
     change(candidate, "episodes", shake)
     assert compare(candidate, reference) == []
+
+
+# ----------------------------------------------------------------------------------------------- arms
+
+
+@pytest.fixture(scope="module")
+def arm_reference(tmp_path_factory):
+    """Two arms and two inverses: what only columns of an arm tell apart."""
+    choice = Choice(
+        ("arm-regulation",),
+        ("clear",),
+        ("native",),
+        ("puma560", "ur5e"),
+        ("geometric",),
+        ("solve", "truncated-svd"),
+        ("nominal", "mass-1.15"),
+    )
+    plan = planning.make("quick", [find_contender("rotation-matrix")], choice, count=1, horizon_s=1.5)
+    folder = tmp_path_factory.mktemp("gate") / "arms"
+    running.run(plan, folder, workers=1)
+    return folder
+
+
+@pytest.fixture
+def arm_candidate(arm_reference, tmp_path):
+    return shutil.copytree(arm_reference, tmp_path / "candidate")
+
+
+def conditioned(folder, number):
+    """Episodes that came to this condition number, as the run would have written them."""
+
+    def edit(frame):
+        frame["cond_jacobian_max"] = number
+        return frame
+
+    change(folder, "episodes", edit)
+
+
+def nominal(frame):
+    settled = (frame["variation"] == "nominal") & (frame["outcome"] == "settled")
+    assert settled.any()
+    return settled
+
+
+def test_gate_tells_arms_variations_and_joints_apart(arm_reference, arm_candidate):
+    assert len(read(arm_reference, "episodes")) == 8
+    assert compare(arm_candidate, arm_reference) == []
+    change(arm_candidate, "episodes", lambda frame: frame[(frame["arm"] == "ur5e") | (frame["variation"] == "nominal")])
+    lines = compare(arm_candidate, arm_reference)
+    assert len(lines) == 2
+    assert all(
+        line.startswith("episodes: row is missing: quick arm-regulation puma560 mass-1.15 rotation-matrix geometric ")
+        for line in lines
+    )
+
+
+def test_gate_names_the_joints_that_a_cost_is_for(arm_reference, arm_candidate):
+    def add_one(frame):
+        rows = (frame["joints"] == 6) & (frame["inverse"] == "solve") & (frame["stage"] == "invert")
+        frame.loc[rows & (frame["branch"] == "worst"), "div"] += 1
+        return frame
+
+    change(arm_candidate, "costs", add_one)
+    assert any(
+        line.endswith(": rotation-matrix geometric solve 6 joints worst invert")
+        for line in compare(arm_candidate, arm_reference)
+    )
+
+
+@pytest.mark.parametrize(
+    ("condition", "change_by", "is_told"),
+    [
+        (50.0, 2e-6, True),
+        (50.0, 5e-7, False),
+        (1e3, 2e-6, True),
+        (1e4, 5e-5, False),  # a hundred times as much as at 1e3
+        (1e4, 2e-4, True),
+        (1e7, 1.0, False),
+        (float("inf"), 1.0, False),
+    ],
+)
+def test_gate_allows_a_torque_what_rounding_makes_of_it(
+    arm_reference, arm_candidate, tmp_path, condition, change_by, is_told
+):
+    before = shutil.copytree(arm_candidate, tmp_path / "before")
+
+    def shake(frame):
+        frame.loc[nominal(frame), "peak_tau_nm"] *= 1.0 + change_by
+        return frame
+
+    for folder in (before, arm_candidate):
+        conditioned(folder, condition)
+    change(arm_candidate, "episodes", shake)
+    lines = compare(arm_candidate, before)
+    assert bool(lines) == is_told
+    assert all(line.startswith("peak_tau_nm: ") for line in lines)
+
+
+@pytest.mark.parametrize(("now", "lines"), [(50.0, True), (1e9, False)])
+def test_gate_leaves_an_outcome_open_only_if_both_runs_met_a_singularity(arm_candidate, tmp_path, now, lines):
+    before = shutil.copytree(arm_candidate, tmp_path / "before")
+    conditioned(before, 1e9)
+    conditioned(arm_candidate, now)
+
+    def flip(frame):
+        frame["outcome"] = frame["outcome"].astype(str).where(~nominal(frame), "diverged")
+        return frame
+
+    change(arm_candidate, "episodes", flip)
+    assert any(line.startswith("outcome: settled -> diverged") for line in compare(arm_candidate, before)) == lines
+
+
+def test_gate_compares_no_cause(arm_candidate, tmp_path):
+    """It follows from two numbers of a failed episode, which are not compared either."""
+
+    def fail(cause):
+        def edit(frame):
+            frame["outcome"], frame["cause"] = "diverged", cause
+            return frame
+
+        return edit
+
+    before = shutil.copytree(arm_candidate, tmp_path / "before")
+    change(before, "episodes", fail("representation"))
+    change(arm_candidate, "episodes", fail("both"))
+    assert compare(arm_candidate, before) == []
 
 
 def test_gate_refuses_a_folder_without_a_run(reference, tmp_path, capsys):
