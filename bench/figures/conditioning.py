@@ -1,7 +1,7 @@
 """How badly each set of coordinates maps omega to Edot, as the body turns about one axis: where B^-1 is lost.
 
-Representations of the registry are differentiated through their own `angular_velocity`; Z-Y-Z angles and the rotation
-vector, which the paper names and does not simulate, through the closed forms here, unless a file of theirs exists.
+Representations of the registry are mapped by their own `angular_velocity`; of four numbers only the three that move
+the body count. The rotation vector goes by its closed form, which follows it beyond a half turn, where a logarithm jumps.
 """
 
 from __future__ import annotations
@@ -18,7 +18,6 @@ from bench.figures.inline import responsive_picture
 from bench.so3 import from_quaternion
 
 CEILING = 1e4
-UNIT = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 STEP_DEG = 0.25
 COLOURS = ("#009e73", "#d55e00", "#0072b2", "#cc79a7", "#e69f00", "#56b4e9", "#a39400")
 LINES = (style.SOLID, style.DASHED, style.DASH_DOT, style.DOTTED)
@@ -33,16 +32,13 @@ def condition(columns) -> float:
 def of_representation(one: Representation) -> Callable[[float], float]:
     """Condition number of B of a registered representation, after a turn by theta about y."""
 
+    units = np.eye(len(one.symbols)).tolist()
+
     def at(theta):
         chart = one.chart(from_quaternion((math.cos(theta / 2), 0.0, math.sin(theta / 2), 0.0)))
-        return condition([one.angular_velocity(chart, rate) for rate in UNIT])
+        return condition([one.angular_velocity(chart, rate) for rate in units])
 
     return at
-
-
-def zyz(theta: float) -> float:
-    """R = Rz(phi) Ry(theta) Rz(psi): the columns of B at phi = 0 are z, y and R z."""
-    return condition([(0.0, 0.0, 1.0), (0.0, 1.0, 0.0), (math.sin(theta), 0.0, math.cos(theta))])
 
 
 def rotation_vector(theta: float) -> float:
@@ -53,14 +49,9 @@ def rotation_vector(theta: float) -> float:
 
 
 def curves() -> dict[str, Callable[[float], float]]:
-    """Title -> condition number against the angle, registered ones first."""
-    known = known_representations()
-    found = {one.title: of_representation(one) for one in known.values()}
-    if "zyz-euler" not in known:
-        found["Z-Y-Z Euler angles"] = zyz
-    if "rotation-vector" not in known:
-        found["Rotation vector"] = rotation_vector
-    return found
+    """Title -> condition number against the angle."""
+    own = {"rotation-vector": rotation_vector}
+    return {one.title: own.get(name) or of_representation(one) for name, one in known_representations().items()}
 
 
 @responsive_picture
