@@ -1,0 +1,124 @@
+"""The numbers and the computed answers of the pages about arms, each function what one page pastes, key by key."""
+
+from __future__ import annotations
+
+import pandas as pd
+
+from bench.figures import absent, arm_causes, arm_pole, arm_rows, arm_settling, arm_wrist, html
+from bench.figures.share import share
+from tasks.cause import NEAR_CONDITION, NEAR_MARGIN
+
+FEWEST = 2
+"""Ways to choose between: with fewer there is no choice to advise on."""
+
+
+def told(rows: pd.DataFrame) -> str:
+    """Share that settles with its interval and n, in words."""
+    found = share(int(arm_rows.settled(rows).sum()), len(rows))
+    return f"{100 * found.value:.1f} % ({100 * found.low:.1f} to {100 * found.high:.1f} %, n = {found.n})"
+
+
+def on_arms(rows: pd.DataFrame) -> dict:
+    """Of the page on arms.
+
+    Args:
+        rows: of `arm_rows.episodes`, every inverse.
+    """
+    standard = arm_rows.with_standard(rows)
+    both = arm_pole.side_by_side(standard)
+    later = arm_settling.differences(standard)
+    counts = arm_causes.tallied(standard)
+    close = arm_settling.close(later)
+    clear = rows[rows["start_set"] == "clear"]
+    return {
+        **advice(rows),
+        **damping(rows),
+        "arms": len(arm_rows.arms(rows)),
+        "tick_ms": f"{1e3 * float(rows['dt_s'].iloc[0]):g}",
+        "episodes": len(rows),
+        "controllers": standard["controller"].nunique(),
+        "pole_n": len(both),
+        "pole_fails": int(both["fails"].sum()),
+        "pole_fails_m": int(both["fails_matrix"].sum()),
+        "hammer": f"{arm_pole.HAMMERED:g}",
+        "hammered": int((both["fails"] | (both["harder"] > arm_pole.HAMMERED)).sum()),
+        "harder": html.number(both["harder"].median()),
+        "pole_worst": both.groupby("arm")["fails"].mean().idxmax(),
+        "pole_worst_k": int(both.groupby("arm")["fails"].sum().max()),
+        "pole_worst_n": int(both.groupby("arm").size().max()),
+        "near_margin": int((both["min_margin"] < NEAR_MARGIN).sum()),
+        "cond": html.number(both["cond_jacobian_max"].median()),
+        "cond_m": html.number(both["cond_jacobian_max_matrix"].median()),
+        "margin": f"{NEAR_MARGIN:g}",
+        "condition": f"{NEAR_CONDITION:g}",
+        "both_ways": same_both_ways(rows),
+        "clear_n": len(later),
+        "close": int(close.sum()),
+        "close_ms": f"{1e3 * arm_settling.CLOSE_TICKS * float(later['dt_s'].iloc[0]):g}",
+        "median_ms": f"{1e3 * later['later_s'].abs().median():.1f}",
+        "clear_m": int((~arm_rows.settled(arm_rows.of(clear, arm_rows.ON_MATRIX))).sum()),
+        "possible": f"{100 * float((standard['peak_torque_ratio'] <= 1.0).mean()):.0f}",
+        "possible_clear": possible(clear, arm_rows.ON_MATRIX),
+        "possible_clear_f": possible(clear, arm_rows.ON_ANGLES),
+        "kinematic": int(counts["kinematic"].sum()),
+        "failures": int(counts[list(arm_causes.COLOURS)].to_numpy().sum()),
+    }
+
+
+def possible(clear: pd.DataFrame, controller: str) -> str:
+    """Share of clear episodes by a controller within the rated torques, in per cent."""
+    return f"{100 * float((arm_rows.of(clear, controller)['peak_torque_ratio'] <= 1.0).mean()):.0f}"
+
+
+def same_both_ways(rows: pd.DataFrame) -> str:
+    """How many episodes of the Euler law end alike by (2.2) with (2.15) and by (3.7)."""
+    pair = [arm_rows.of(rows, controller) for controller in (arm_rows.SAME_BOTH_WAYS, arm_rows.ON_ANGLES)]
+    both = pair[0].merge(pair[1], on=["arm", "start_set", "start_id"])
+    if both.empty:
+        return absent.WORDS
+    alike = int((both["outcome_x"] == both["outcome_y"]).sum())
+    return f"{alike} of {len(both)}"
+
+
+def advice(rows: pd.DataFrame) -> dict:
+    """What the evenly spread starts say: which law by the standard inverse, and which inverse for that law."""
+    uniform = rows[rows["start_set"] == "uniform"]
+    standard = arm_rows.with_standard(uniform)
+    shares = standard.assign(good=arm_rows.settled(standard)).groupby("controller")["good"].mean()
+    law = str(shares.idxmax())
+    worst = str(shares.idxmin())
+    values = {
+        "best": arm_rows.title(law),
+        "best_share": told(arm_rows.of(uniform, law)),
+        "euler_share": told(arm_rows.of(uniform, arm_rows.ON_ANGLES)),
+        "worst": arm_rows.title(worst),
+        "worst_share": f"{100 * shares[worst]:.0f}",
+    }
+    own = uniform[uniform["controller"] == law]
+    ways = own.assign(good=arm_rows.settled(own), strays=own["position_error_m"]).groupby("way")
+    table = pd.DataFrame({"good": ways["good"].mean(), "strays": ways["strays"].median(), "n": ways.size()})
+    if len(table) < FEWEST:
+        return values | {"inverse_advice": f"Which inverse is best is {absent.WORDS}."}
+    best = table.sort_values(["good", "strays"], ascending=[False, True]).index[0]
+    inverse = best.partition("+")[2]
+    return values | {
+        "inverse_advice": f"With the inverse “{arm_rows.title_of_inverse(inverse).lower()}” it settles "
+        f"{told(own[own['way'] == best])} and strays {html.number(1e3 * table.loc[best, 'strays'])} mm in the median."
+    }
+
+
+def damping(rows: pd.DataFrame) -> dict:
+    """What damping and truncation do to turns through and past singularities, in a sentence each."""
+    starts = arm_wrist.of_wrist(rows)
+    said = {}
+    for key, controller in (("damped_m", arm_rows.ON_MATRIX), ("damped_f", arm_rows.ON_ANGLES)):
+        parts = []
+        for name in (arm_rows.STANDARD, "damped-least-squares", "damped-least-squares-variable", "truncated-svd"):
+            own = arm_rows.of(starts, controller, name)
+            if len(own):
+                parts.append(
+                    f"{arm_rows.title_of_inverse(name).lower()} {100 * float(arm_rows.settled(own).mean()):.0f} % "
+                    f"({html.number(1e3 * float(own['position_error_m'].median()))} mm)"
+                )
+        said[key] = "; ".join(parts) if len(parts) >= FEWEST else absent.WORDS
+    return said
