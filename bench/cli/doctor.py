@@ -21,7 +21,7 @@ CURE_INSTALL = "make setup (or: pip install --require-hashes -r requirements/bas
 
 @click.command("doctor")
 def COMMAND():
-    """Check versions, the compiler and its cache, MuJoCo, rendering and the results folder; say the cure."""
+    """Check versions, the compiler and its cache, engines, arms, rendering and the results folder; say the cure."""
     failed = 0
     for name, check in CHECKS.items():
         is_needed = name != "rendering"
@@ -91,6 +91,33 @@ def _engines() -> str:
     return "50 ticks of the compiled engine equal the dm_control loop bit for bit"
 
 
+def _arms() -> str:
+    import tasks
+    from bench import combinations
+    from bench.discovery import all_contenders, metrics_of
+    from bench.engines.run_arm import run
+    from bench.plan import Plan
+    from bench.rows import settings_of
+    from tasks.arm import arms
+    from tasks.base import BadArm
+
+    broken = [str(one) for one in arms().values() if isinstance(one, BadArm)]
+    found = [one for one in arms().values() if not isinstance(one, BadArm)]
+    if broken or not found:
+        raise RuntimeError(f"{'; '.join(broken) or 'there is none'}. Cure: mend the file, or take it out of tasks/arms")
+    arm = next((one for one in found if one.name == "ur5e"), found[0])
+    laws = {one.name: one for one in all_contenders()}
+    [law] = combinations.on((f"{combinations.RESOLVED}+standard",), laws, arm.joints)
+    metrics, settings = metrics_of(on_arm=True), settings_of(Plan("doctor", (), (law,)), 0.05)
+    starts = tasks.start_set("clear", 1, arm=arm.name)
+    both = [
+        run(engine, law, "arm-regulation", arm.name, starts, settings, metrics) for engine in ("reference", "native")
+    ]
+    if both[0].tobytes() != both[1].tobytes():
+        raise RuntimeError(f"on {arm.name} the compiled engine and the dm_control loop differ. Cure: {CURE_INSTALL}")
+    return f"{', '.join(one.name for one in found)}: 50 ticks on {arm.name} equal the dm_control loop bit for bit"
+
+
 def _rendering() -> str:
     code = "import mujoco; m = mujoco.MjModel.from_xml_string('<mujoco/>'); mujoco.Renderer(m, 8, 8).close()"
     for backend in filter(None, (os.environ.get("MUJOCO_GL"), "egl", "osmesa")):
@@ -120,6 +147,7 @@ CHECKS = {
     "versions": _versions,
     "compiler": _compiler,
     "engines": _engines,
+    "arms": _arms,
     "rendering": _rendering,
     "results": _results,
 }

@@ -10,7 +10,7 @@ def console(stderr: bool = False) -> Console:
     """A console; wide enough for tables when piped into a file. It prints brackets, as in [1/s^2], as they are."""
     made = Console(stderr=stderr, highlight=False, markup=False, emoji=False)
     if not made.is_terminal:
-        made.width = 160
+        made.width = 200
     return made
 
 

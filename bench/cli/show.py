@@ -11,6 +11,8 @@ from bench.cli import options
 from bench.cli.screen import console, frame_table
 from bench.errors import BadResults
 from bench.store import read, read_json
+from bench.suites import NOMINAL
+from tasks.cause import CAUSES
 from tasks.verdict import OUTCOMES
 
 
@@ -21,21 +23,39 @@ from tasks.verdict import OUTCOMES
 @click.option("--outcomes", is_flag=True, help="The count of each outcome for every start set.")
 @options.regulator
 def COMMAND(folder, engine, starts, outcomes, regulators):
-    """Summary of a run: where each law settles, how fast, and where it does not (default: results/latest)."""
+    """Summary of a run: where each law settles, how fast, and where it does not (default: results/latest).
+
+    Of an arm, each controller apart, with what its failures were near; plants that are not the model's come last.
+    """
     folder = folder or results.folder()
     episodes = read(folder, "episodes")
-    for column, words in (("engine", engine), ("start_set", starts), ("regulator", regulators)):
-        episodes = _only(episodes, folder, column, (words,) if isinstance(words, str) else words or ())
+    for column, word in (("engine", engine), ("start_set", starts)):
+        episodes = _only(episodes, folder, column, (word,) if word else ())
+    episodes = _of_laws(episodes, folder, regulators)
     origin = _origin(folder / "provenance.json")
     console().print(
         f"{folder}: suite {origin['suite']}, {origin['episodes']:,} episodes, commit {origin['commit'][:10] or 'none'}"
         f"{' with changes' if origin['dirty'] else ''}, {origin['cpu']}, {origin['wall_s']} s"
     )
-    table = outcome_table if outcomes or starts else summary
-    for (engine_name, arm), part in episodes.groupby(["engine", "arm"], observed=True, sort=False):
-        console().print(frame_table(table(part), f"\n{engine_name}{f', {arm}' if arm else ''}"))
-    if not (outcomes or starts):
-        console().print("\nNot settled, by start set; the counts of each outcome: --outcomes", markup=False)
+    if outcomes or starts:
+        for place, part in _places(episodes):
+            console().print(frame_table(outcome_table(part), f"\n{place}"))
+        return
+    for place, part in _places(episodes[episodes["arm"] == ""]):
+        console().print(frame_table(summary(part), f"\n{place}: settled of SO(3), and not settled by start set"))
+    on_arms = episodes[episodes["arm"] != ""]
+    for place, part in _places(on_arms[on_arms["variation"] == NOMINAL]):
+        console().print(frame_table(arm_summary(part), f"\n{place}: settled by start set, and what failures were near"))
+    for place, part in _places(on_arms[on_arms["variation"] != NOMINAL]):
+        title = f"\n{place}, plant other than the model: settled of {_most(part)}, and median angle left [mrad]"
+        console().print(frame_table(variation_summary(part), title))
+    console().print("\nThe counts of each outcome: --outcomes")
+
+
+def _places(episodes):
+    """(engine, and arm if there is one), its rows."""
+    for (engine, arm), part in episodes.groupby(["engine", "arm"], observed=True, sort=False):
+        yield (f"{engine}, {arm}" if arm else engine), part
 
 
 def _only(episodes, folder, column, words):
@@ -45,6 +65,20 @@ def _only(episodes, folder, column, words):
             kind = column.replace("_", " ")
             raise click.UsageError(f"{folder} has no {kind} '{word}'; it has: {', '.join(known)}")
     return episodes[episodes[column].isin(words)] if words else episodes
+
+
+def _of_laws(episodes, folder, words):
+    """The rows of the laws: by regulator, with its representation, or with its Jacobian and inverse too."""
+    if not words:
+        return episodes
+    named = results.with_contender(episodes)
+    law = named["contender"].astype(str)
+    names = pd.DataFrame({"regulator": named["regulator"].astype(str), "law": law.str.partition("@")[0], "whole": law})
+    for word in words:
+        if not (names == word).to_numpy().any():
+            known = ", ".join(sorted(names["law"].unique()))
+            raise click.UsageError(f"{folder} has no regulator '{word}'; it has: {known}")
+    return episodes[names.isin(words).any(axis=1).to_numpy()]
 
 
 def summary(episodes):
@@ -67,9 +101,45 @@ def summary(episodes):
     return table[first + [name for name in table if name not in first]]
 
 
+def arm_summary(episodes):
+    """One line for each controller: settled of each start set, settling times [s], and the causes of its failures."""
+    lines = []
+    for name, rows in results.with_contender(episodes).groupby("contender", observed=True, sort=False):
+        line = {"controller": str(name)}
+        for start_set, part in rows.groupby("start_set", observed=True, sort=True):
+            line[str(start_set)] = f"{(part['outcome'] == 'settled').sum()}/{len(part)}"
+        settled = rows["settling_time_s"].dropna()
+        line["median s"] = f"{settled.median():.3f}" if len(settled) else "never"
+        line["worst s"] = f"{settled.max():.3f}" if len(settled) else "never"
+        causes = rows["cause"].astype(str).value_counts()
+        line["failures near"] = ", ".join(f"{causes[one]} {one}" for one in CAUSES if one and one in causes)
+        lines.append(line)
+    return pd.DataFrame(lines)
+
+
+def variation_summary(episodes):
+    """One line for each controller, one column for each variation of the plant: settled, and the median angle left."""
+    lines = []
+    for name, rows in results.with_contender(episodes).groupby("contender", observed=True, sort=False):
+        line = {"controller": str(name)}
+        for variation, part in rows.groupby("variation", observed=True, sort=False):
+            left = 1e3 * part["final_angle_rad"].median()
+            line[str(variation)] = f"{(part['outcome'] == 'settled').sum()}  {left:.3g}"
+        lines.append(line)
+    return pd.DataFrame(lines)
+
+
+def _most(episodes) -> int:
+    """Episodes of one controller in one variation."""
+    names = ["regulator", "representation", "jacobian", "inverse", "variation"]
+    return int(episodes.groupby(names, observed=True).size().max())
+
+
 def outcome_table(episodes):
     """One line for each start set and law: counts of outcomes, then median and worst settling time [s]."""
     keys = ["start_set", "law"]
+    if (episodes["variation"] != NOMINAL).any():
+        keys.insert(1, "variation")
     named = results.with_contender(episodes).rename(columns={"contender": "law"})
     grouped = named.groupby(keys, observed=True, sort=False)
     counts = grouped["outcome"].value_counts().unstack(fill_value=0).reindex(columns=list(OUTCOMES), fill_value=0)
