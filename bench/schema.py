@@ -162,18 +162,29 @@ def timing_columns() -> list[Column]:
     """timings/<machine>.parquet: one row for everything timed, in one run whose passes visit all of it."""
     return [
         *_words(
-            what="law (alone), engine (a whole loop), or loop (the empty loop that every law's time holds)",
+            what="law (alone), engine (a whole loop), loop (the empty loop that every law's time holds), or threads (two "
+            "against one, on the wall)",
+            arm="manipulator; empty for a law alone and for the free body",
             regulator="the law; empty for the empty loop and for rollout",
             representation="coordinates the law acts on; empty for a law on R",
-            engine="ideal-held, ideal-rk4, native or rollout (mujoco.rollout, open loop); empty for a law alone",
+            jacobian="Jacobian of the arm; empty for the free body",
+            inverse="how the Jacobian is inverted; empty for the free body",
+            engine="ideal-held, ideal-rk4, native, rollout (mujoco.rollout, open loop) or dm-control (its "
+            "Environment.step and the law in numpy); empty for a law alone",
         ),
-        *_numbers("ns", "CPU time a tick, median over passes", "ns_per_tick"),
+        *_numbers("ns", "CPU time a tick, median over passes; of threads: time on the wall of two", "ns_per_tick"),
         *_numbers("ns", "CPU time of one step of the reference kernel, median over passes", "ns_reference_kernel"),
         *_numbers("1", "time a tick over the kernel's step of the same pass, median over passes", "ratio"),
         *_numbers("1", "interval of that median, 95 % by order statistics", "ratio_low", "ratio_high"),
-        *_numbers("1", "native: time a tick over rollout's of the same pass, median over passes", "ratio_rollout"),
+        *_numbers(
+            "1", "native, dm-control: time a tick over rollout's of the same pass, median over passes", "ratio_rollout"
+        ),
         *_numbers("1", "interval of that median, 95 % by order statistics", "ratio_rollout_low", "ratio_rollout_high"),
-        Column("passes", COUNT, "1", "passes"),
+        *_numbers(
+            "1", "dm-control: its time a tick over native's of the same pass; threads: one's time over two's", "speedup"
+        ),
+        *_numbers("1", "interval of that median, 95 % by order statistics", "speedup_low", "speedup_high"),
+        Column("passes", COUNT, "1", "passes; of threads: repetitions"),
         Column("ticks", COUNT, "1", "ticks of one round; 0 if the law fails and could not be timed"),
     ]
 

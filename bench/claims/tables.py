@@ -22,7 +22,10 @@ PAPERS_COORDINATES = ("", "zyx-euler")
 """None, or Z-Y-X angles: what chapter 2 runs its laws in. In others they are later laws."""
 
 
-TIMED = ("what", "regulator", "representation", "jacobian", "inverse", "arm", "ns_per_tick", "ticks", "machine")
+TIMED = (
+    *("what", "engine", "arm", "regulator", "representation", "jacobian", "inverse"),
+    *("ns_per_tick", "ticks", "machine"),
+)
 
 
 class Results:
@@ -77,7 +80,8 @@ class Results:
         every = self._all_timings()
         if not set(TIMED) <= set(every):
             return pd.DataFrame(columns=[*TIMED, "contender"])
-        return every[(every["jacobian"] != "") & (every["ticks"] > 0)]
+        compiled = (every["what"] == "engine") & (every["engine"] == "native") & (every["jacobian"] != "")
+        return every[compiled & (every["ticks"] > 0)]
 
     def _all_timings(self) -> pd.DataFrame:
         paths = sorted(self.timings_folder.glob("*.parquet"))

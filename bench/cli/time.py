@@ -10,11 +10,16 @@ from bench.cli.screen import console, count_progress, frame_table
 @options.law
 @options.regulator
 @options.representation
+@click.option("--arm", "arms", multiple=True, metavar="NAME", help="Only this arm; repeatable.")
 @click.option("--quick", is_flag=True, help="Fewer passes: rougher numbers in a fraction of the time.")
-def COMMAND(laws, regulators, representations, quick):
-    """Time every law and engine per tick, interleaved with a fixed reference kernel; into results/timings."""
+def COMMAND(laws, regulators, representations, arms, quick):
+    """Time every law, engine and arm per tick, interleaved with a fixed reference kernel; into results/timings."""
+    import tasks
     from bench import timing
 
+    named = tuple(dict.fromkeys(arms)) or tuple(tasks.arm_names())
+    for arm in named:
+        tasks.arm(arm)  # a word that names none is refused before anything is compiled
     with count_progress() as progress:
         bar = progress.add_task("compiling", total=None)
 
@@ -22,6 +27,8 @@ def COMMAND(laws, regulators, representations, quick):
             doing = "timing" if done.total else "compiling"
             progress.update(bar, total=done.total or None, completed=done.done, description=f"{doing} {done.name}"[:34])
 
-        path = timing.run(options.chosen(laws, regulators, representations, costings=True), quick=quick, told=told)
+        chosen = options.chosen(laws, regulators, representations, costings=True)
+        path = timing.run(chosen, quick=quick, told=told, arms=named)
     console().print(frame_table(timing.table(path), "Time per tick"))
+    console().print(frame_table(timing.arm_table(path), "Time per tick on arms"))
     console().print(f"wrote {path}")

@@ -54,9 +54,10 @@ def branches_differ(costs: pd.DataFrame) -> list[str]:
 
 
 def times(rows: pd.DataFrame, titles: dict[str, str]) -> html.Markdown:
-    """A row a law: time a tick alone and in each engine; empty where it was not measured."""
+    """A row a law: time a tick alone and on the free body in each engine; empty where it was not measured."""
     lines = []
-    for name, own in rows[rows["contender"] != ""].groupby("contender", sort=False):
+    on_body = rows[(rows["contender"] != "") & (rows["jacobian"] == "")]
+    for name, own in on_body.groupby("contender", sort=False):
         alone = own[own["what"] == "law"].iloc[0]
         loops = own[own["what"] == "engine"].set_index("engine")["ns_per_tick"]
         line = {

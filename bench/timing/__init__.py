@@ -10,13 +10,16 @@ kept both cores busy, some ideal loops were up to 12 % slower, far outside their
 
 reference_kernel   what a ratio is to
 law                a law alone, one command waiting for the other
-things             all that is timed, engines included
+thing, things      all that is timed, engines included
+on_arms            the same of every arm: each controller of the default suite, rollout,
+dm_control_loop      and a loop in dm_control and numpy, for the speed-up
+threads            two threads against one, on the wall, after the passes
 passes, session    the visits, as pytest-benchmark runs them
 ratios             medians over passes, with intervals
 rows, summary      from seconds to results/timings/<machine>.parquet, and to a table for the eye
 """
 
 from bench.timing.rows import about, read, run
-from bench.timing.summary import table
+from bench.timing.summary import arm_table, table
 
-__all__ = ["about", "read", "run", "table"]
+__all__ = ["about", "arm_table", "read", "run", "table"]

@@ -7,6 +7,6 @@ from bench.timing.session import ROUNDS
 
 
 def test_visit(benchmark, visit):
-    """One thing, once a pass, a few rounds on end."""
+    """One thing, once a pass, two rounds on end."""
     benchmark.pedantic(visit.thing.call, rounds=ROUNDS, iterations=1)
     visit.taken(benchmark.stats.stats.data)

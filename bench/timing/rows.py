@@ -13,30 +13,41 @@ from bench.provenance import describe, machine_key
 from bench.rows import contender_columns
 from bench.schema import RESULTS
 from bench.store import read_arrow, write_table
+from bench.timing import threads
 from bench.timing.ratios import Ratio, ratio
 from bench.timing.session import measure
-from bench.timing.things import KERNEL, ROLLOUT, Thing, things
+from bench.timing.thing import DM_CONTROL, KERNEL, ROLLOUT, THREADS, Thing
+from bench.timing.things import things
 
 FOLDER = RESULTS / "timings"
-PASSES, QUICK_PASSES = 61, 7
-"""Odd, so that the median is a value. The interval covers the 23rd to 39th of 61, and all 7."""
+PASSES, QUICK_PASSES = 31, 7
+"""Odd, so that the median is a value. The interval covers the 10th to 22nd of 31, and all 7."""
 
 
 def run(
-    contenders: list[Contender], folder: Path = FOLDER, quick: bool = False, told: Callable = lambda _: None
+    contenders: list[Contender],
+    folder: Path = FOLDER,
+    quick: bool = False,
+    told: Callable = lambda _: None,
+    arms: tuple[str, ...] = (),
 ) -> Path:
     """Time everything and write the machine's file.
 
     Args:
+        arms: names of those that are timed too; and if there are any, two threads against one.
         told: called with a `things.Progress` for every law compiled and after every visit.
     Errors:
         BadLaw: a user's law that cannot be compiled. BadResults: the folder cannot be written.
     """
-    measured = things(contenders, told)
+    measured = things(contenders, told, arms)
     seconds = measure(measured, QUICK_PASSES if quick else PASSES, told=told)
+    rows = frame(measured, seconds)
+    if arms:
+        scaling = threads.measure(threads.QUICK_REPETITIONS if quick else threads.REPETITIONS)
+        rows = pd.concat([rows, pd.DataFrame([_threads_row(scaling)])], ignore_index=True)
     path = Path(folder) / f"{machine_key()}.parquet"
     about = {**describe(), "date": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime()), "quick": quick}
-    write_table(path, frame(measured, seconds), "timings", about)
+    write_table(path, rows, "timings", about)
     return path
 
 
@@ -48,35 +59,57 @@ def frame(measured: list[Thing], seconds: np.ndarray) -> pd.DataFrame:
     """
     ticks = np.array([float(one.ticks) if one.ticks else np.nan for one in measured])
     ns = seconds / ticks * 1e9
-    kernel = ns[:, [one.what for one in measured].index(KERNEL)]
-    rollout = ns[:, [one.engine for one in measured].index(ROLLOUT)]
+    columns = list(zip(measured, ns.T, strict=True))
+    kernel = next(times for one, times in columns if one.what == KERNEL)
+    rollouts = {one.arm: times for one, times in columns if one.engine == ROLLOUT}
+    compiled = {(one.arm, one.contender): times for one, times in columns if one.engine == "native"}
     rows = []
-    for one, times in zip(measured, ns.T, strict=True):
+    for one, times in columns:
         if one.what != KERNEL:
-            open_loop = ratio(times, rollout) if one.engine == "native" else Ratio(np.nan, np.nan, np.nan)
-            rows.append(_row(one, times, kernel, open_loop, len(ns)))
+            open_loop = ratio(times, rollouts[one.arm]) if one.engine in ("native", DM_CONTROL) else NO_RATIO
+            faster = ratio(times, compiled[one.arm, one.contender]) if one.engine == DM_CONTROL else NO_RATIO
+            rows.append(_row(one, times, kernel, open_loop, faster, len(ns)))
     return pd.DataFrame(rows)
 
 
-def _row(one: Thing, times: np.ndarray, kernel: np.ndarray, open_loop: Ratio, passes: int) -> dict:
-    to_kernel = ratio(times, kernel)
-    law = contender_columns(one.contender) if one.contender else {"regulator": "", "representation": ""}
+NO_RATIO = Ratio(np.nan, np.nan, np.nan)
+NO_LAW = {"regulator": "", "representation": "", "jacobian": "", "inverse": ""}
+
+
+def _row(one: Thing, times: np.ndarray, kernel: np.ndarray, open_loop: Ratio, faster: Ratio, passes: int) -> dict:
     return {
         "what": one.what,
-        "regulator": law["regulator"],
-        "representation": law["representation"],
+        "arm": one.arm,
+        **(contender_columns(one.contender) if one.contender else NO_LAW),
         "engine": one.engine,
         "ns_per_tick": float(np.median(times)),
         "ns_reference_kernel": float(np.median(kernel)),
-        "ratio": to_kernel.median,
-        "ratio_low": to_kernel.low,
-        "ratio_high": to_kernel.high,
-        "ratio_rollout": open_loop.median,
-        "ratio_rollout_low": open_loop.low,
-        "ratio_rollout_high": open_loop.high,
+        **_numbers("ratio", ratio(times, kernel)),
+        **_numbers("ratio_rollout", open_loop),
+        **_numbers("speedup", faster),
         "passes": passes,
         "ticks": one.ticks,
     }
+
+
+def _threads_row(scaling: threads.Scaling) -> dict:
+    return {
+        "what": THREADS,
+        "arm": scaling.arm,
+        **contender_columns(scaling.contender),
+        "engine": "native",
+        "ns_per_tick": scaling.ns_per_tick,
+        "ns_reference_kernel": np.nan,
+        **_numbers("ratio", NO_RATIO),
+        **_numbers("ratio_rollout", NO_RATIO),
+        **_numbers("speedup", scaling.speedup),
+        "passes": scaling.repetitions,
+        "ticks": scaling.ticks,
+    }
+
+
+def _numbers(name: str, of: Ratio) -> dict:
+    return {name: of.median, f"{name}_low": of.low, f"{name}_high": of.high}
 
 
 def read(path: Path) -> pd.DataFrame:

@@ -1,7 +1,7 @@
 """The interleaved run: passes over all things, each in an order of its own, timed by pytest-benchmark.
 
 CPU time of the measuring thread is taken (time.thread_time), not the clock on the wall: on a shared machine that
-leaves out the time in which others ran, and a progress bar's thread. No thing uses a second thread. A visit is a few
+leaves out the time in which others ran, and a progress bar's thread. No thing uses a second thread. A visit is two
 rounds on end and counts with the fastest, for a disturbance only ever adds; the first also warms the caches.
 """
 
@@ -18,9 +18,10 @@ import numpy as np
 import pytest
 
 from bench.errors import MissingTool
-from bench.timing.things import Progress, Thing
+from bench.timing.thing import Thing
+from bench.timing.things import Progress
 
-ROUNDS = 3
+ROUNDS = 2
 TIMER = "time.thread_time"
 PASSES_FILE = Path(__file__).with_name("passes.py")
 

@@ -1,4 +1,4 @@
-"""All that is timed: the reference kernel, every law, every law in every compiled engine, and rollout.
+"""All that is timed: the reference kernel, every law, every law in every compiled engine, rollout, and the arms.
 
 An engine runs its real loop, all metrics on, from fixed starts, with no early stop. `rollout` is MuJoCo's own
 open-loop loop (mujoco.rollout) over the same model, starts and number of ticks, with commands that were drawn
@@ -21,10 +21,9 @@ from bench.engines.native import free_body as native
 from bench.engines.run import compiled_loop
 from bench.plan import Plan
 from bench.rows import settings_of
-from bench.timing import law, reference_kernel
+from bench.timing import law, on_arms, reference_kernel
+from bench.timing.thing import ENGINE, KERNEL, LAW, LOOP, NEVER, ROLLOUT, Thing
 
-KERNEL, LAW, LOOP, ENGINE = "reference-kernel", "law", "loop", "engine"
-ROLLOUT = "rollout"
 ENGINES = ("ideal-held", "ideal-rk4", "native")
 
 TASK = "free-body"
@@ -33,9 +32,6 @@ HORIZON_S = 0.4
 
 STARTS = {"ideal-held": 16, "ideal-rk4": 16, "native": 4}
 """Uniform starts; a visit takes from half a millisecond to ten."""
-
-NEVER = 10**9
-"""Ticks of quiet before an early stop: more than there are."""
 
 PUSH = 10.0
 """Standard deviation of rollout's commands [rad/s^2]; they need only keep the body turning."""
@@ -52,25 +48,11 @@ class Progress(NamedTuple):
     total: int
 
 
-class Thing(NamedTuple):
-    """Something timed: `call()` does `ticks` ticks of it; 0 ticks if it cannot be timed (a law that fails)."""
-
-    what: str
-    contender: Contender | None
-    engine: str
-    ticks: int
-    call: Callable
-
-    @property
-    def name(self) -> str:
-        """A word for progress and for the passes."""
-        parts = (self.what, self.engine, self.contender.name if self.contender else "")
-        return " ".join(part for part in parts if part)
-
-
-def things(contenders: list[Contender], told: Callable = lambda _: None) -> list[Thing]:
+def things(contenders: list[Contender], told: Callable = lambda _: None, arms: tuple[str, ...] = ()) -> list[Thing]:
     """The reference kernel first, then everything else; all is compiled and has run once.
 
+    Args:
+        arms: names of those that are timed too, with the controllers that have these laws.
     Errors:
         BadLaw: a user's law that the compiler cannot take.
     """
@@ -82,7 +64,11 @@ def things(contenders: list[Contender], told: Callable = lambda _: None) -> list
         laws.append(_law(LAW, one))
     empty = _law(LOOP, Contender(law.EMPTY))._replace(contender=None)
     kernel = Thing(KERNEL, None, "", reference_kernel.STEPS, _kernel())
-    return [kernel, *laws, *loops, empty, _rollout()]
+    found = [kernel, *laws, *loops, empty, _rollout()]
+    for arm in arms:
+        told(Progress(arm, 0, 0))
+        found += on_arms.of_arm(arm, [one for one in contenders if not one.regulator.costing_only])
+    return found
 
 
 def _kernel() -> Callable:

@@ -1,0 +1,127 @@
+"""What is timed on arms: rollout, every controller in the compiled loop, dm_control's loop with a law in numpy.
+
+The compiled loop is the real one, all metrics on, with no early stop; its model, data and buffers are made once,
+outside what is timed. `rollout` is the same model, start and number of ticks in open loop.
+"""
+
+import mujoco
+import numpy as np
+from mujoco.rollout import Rollout
+
+import tasks
+from bench import combinations
+from bench.contender import PAPERS_GAINS, Contender
+from bench.discovery import metrics_of
+from bench.engines import run_arm
+from bench.engines.arm_episode import blank_arm, controls, joints
+from bench.engines.binding import memory_of
+from bench.engines.episode import TICKS, numbers, start_rows
+from bench.plan import Plan
+from bench.rows import settings_of
+from bench.suites import suite
+from bench.timing import dm_control_loop
+from bench.timing.thing import DM_CONTROL, ENGINE, NEVER, ROLLOUT, Thing
+from tasks.base import Start
+
+TASK = "arm-regulation"
+HORIZON_S = 2.0
+"""2000 ticks of 1 ms, some 7 ms: handing the loop its arguments takes 0.19 ms of a call, 3 % of it, and not a tenth. A
+tick costs the same at any time."""
+
+FEWEST_TICKS = 1500
+"""A controller that fails sooner is not timed: what a call costs beside its ticks would show."""
+
+SLOW_TICKS = 50
+"""Of dm_control's loop, which takes as long for them as the compiled one for twenty times as many."""
+
+PUSH = 0.02
+"""Standard deviation of rollout's torques over the rated ones; the arm also falls, so that all joints turn."""
+
+IN_NUMPY = "rotation-matrix@geometric+standard"
+"""What dm_control's loop runs, written in numpy."""
+
+
+def controllers(laws: list[Contender], arm: str) -> list[Contender]:
+    """Those of the default suite that have one of these laws; a user's law by the geometric Jacobian."""
+    by_name = {one.name: one for one in laws}
+    own = tuple(f"{one.name}@geometric+standard" for one in laws if one.regulator.origin)
+    return combinations.on((*suite("default").on_arms.words, *own), by_name, tasks.arm(arm).joints)
+
+
+def of_arm(arm: str, laws: list[Contender]) -> list[Thing]:
+    """Everything of one arm, rollout first; all is compiled and has run once."""
+    found = [rollout(arm), *(native(arm, one) for one in controllers(laws, arm))]
+    by_name = {one.name: one for one in laws}
+    in_numpy = combinations.on((IN_NUMPY,), by_name, tasks.arm(arm).joints)
+    return [*found, *(dm_control(arm, one) for one in in_numpy)]
+
+
+def _start(arm: str) -> Start:
+    """A turn of some 20 degrees."""
+    return tasks.start_set("clear", 8, arm=arm)[-1]
+
+
+def _settings(horizon_s: float):
+    return settings_of(Plan("timing", (), ()), horizon_s)._replace(hold_ticks=NEVER)
+
+
+def native(arm: str, one: Contender, horizon_s: float = HORIZON_S) -> Thing:
+    """A controller in the compiled loop; one that fails from the start is held at it, to last longer."""
+    start = _start(arm)
+    thing = _native(arm, one, start, horizon_s)
+    return thing if thing.ticks else _native(arm, one, start._replace(goal_wxyz=start.quat_wxyz), horizon_s)
+
+
+def _native(arm: str, one: Contender, start: Start, horizon_s: float) -> Thing:
+    metrics = metrics_of(on_arm=True)
+    settings = _settings(horizon_s)
+    ready = run_arm.simulation(TASK, arm, settings.dt_s, "euler")
+    fresh = blank_arm(1, metrics)
+    rows = fresh.copy()
+    loop = run_arm.compiled_loop(run_arm.observer_of(tuple(metrics)))
+    given = (
+        *run_arm.pointers(one),
+        *(ready.plant, ready.model, ready.work),
+        controls(one, ready.has_own_model),
+        joints(tasks.arm(arm)),
+        memory_of(one),
+        np.array([[*start.q, *start.qdot]]),
+        start_rows([start]),
+        numbers(settings),
+    )
+
+    def call():
+        rows[:] = fresh
+        loop(*given, rows)
+        return ready  # the views hold addresses only: this keeps what they point to
+
+    call()
+    ticks = int(rows[0, TICKS])
+    return Thing(ENGINE, one, "native", ticks if ticks >= FEWEST_TICKS else 0, call, arm)
+
+
+def rollout(arm: str) -> Thing:
+    """mujoco.rollout on the arm's model, its torques drawn beforehand."""
+    settings, start, rated = _settings(HORIZON_S), _start(arm), np.array(tasks.arm(arm).rated)
+    model = mujoco.MjModel.from_xml_string(tasks.task(TASK, arm).xml(settings.dt_s))
+    data = mujoco.MjData(model)
+    width = mujoco.mj_stateSize(model, mujoco.mjtState.mjSTATE_FULLPHYSICS)
+    initial = np.zeros((1, width))
+    initial[0, 1 : 1 + 2 * model.nv] = (*start.q, *start.qdot)  # time comes first
+    control = np.random.default_rng(0).normal(size=(1, settings.ticks, model.nu)) * (PUSH * rated)
+    state, sensors = np.zeros((1, settings.ticks, width)), np.zeros((1, settings.ticks, model.nsensordata))
+    loop = Rollout(nthread=0)
+
+    def call():
+        loop.rollout(model, data, initial, control, state=state, sensordata=sensors)
+
+    call()
+    return Thing(ENGINE, None, ROLLOUT, settings.ticks, call, arm)
+
+
+def dm_control(arm: str, one: Contender) -> Thing:
+    """dm_control's loop; `one` is the controller that it has written in numpy."""
+    dt_s = _settings(HORIZON_S).dt_s
+    call = dm_control_loop.loop(TASK, arm, _start(arm), dt_s, SLOW_TICKS, PAPERS_GAINS)
+    call()
+    return Thing(ENGINE, one, DM_CONTROL, SLOW_TICKS, call, arm)
