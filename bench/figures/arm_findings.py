@@ -2,9 +2,22 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pandas as pd
 
-from bench.figures import absent, arm_causes, arm_pole, arm_rows, arm_settling, arm_wrist, html
+import tasks
+from bench.figures import (
+    absent,
+    arm_causes,
+    arm_pole,
+    arm_responses,
+    arm_rows,
+    arm_settling,
+    arm_wrist,
+    html,
+    model_error,
+    model_rest,
+)
 from bench.figures.share import share
 from tasks.cause import NEAR_CONDITION, NEAR_MARGIN
 
@@ -122,3 +135,55 @@ def damping(rows: pd.DataFrame) -> dict:
                 )
         said[key] = "; ".join(parts) if len(parts) >= FEWEST else absent.WORDS
     return said
+
+
+def responding(traces: pd.DataFrame, rows: pd.DataFrame, kp: float, kv: float) -> dict:
+    """Of the responses on arms.
+
+    Args:
+        traces, rows: of `arm_rows.named` and `arm_rows.episodes`; the curves may be none.
+    """
+    bends = arm_responses.bends(traces, rows, kp, kv)
+    if bends.empty:
+        return dict.fromkeys(("bend", "bend_n", "bend_arm"), absent.WORDS)
+    worst = bends.loc[bends["bend_deg"].idxmax()]
+    return {"bend": f"{worst['bend_deg']:.2g}", "bend_n": int(bends["n"].sum()), "bend_arm": worst["arm"]}
+
+
+def varied(rows: pd.DataFrame, nominal: pd.DataFrame) -> dict:
+    """Of the page on model errors.
+
+    Args:
+        rows, nominal: of `arm_rows.varied` and `arm_rows.episodes`; the first may be none.
+    """
+    own = model_error.compared(arm_rows.with_standard(rows))
+    keys = ("n", "arms", "controllers", "horizon", "settled", "apart", "six", "six_low", "six_high", "seven", "worst")
+    if own.empty:
+        return dict.fromkeys((*keys, "worst_deg", "least", "least_deg", "band", "linearity"), absent.WORDS)
+    found = model_rest.predicted(own)
+    joints = found["arm"].map(lambda name: tasks.arm(name).joints)
+    six, seven = model_rest.ratios(found[joints == 6]), model_rest.ratios(found[joints > 6])
+    medians = np.degrees(own.groupby("variation")["final_angle_rad"].median())
+    angles = own.pivot_table(
+        index=["arm", "start_id", "variation"], columns="controller", values="final_angle_rad", observed=True
+    ).dropna()
+    apart = np.degrees((angles.max(axis=1) - angles.min(axis=1)).median())
+    clear = arm_rows.with_standard(nominal[nominal["start_set"] == "clear"])
+    return {
+        "n": len(own),
+        "arms": len(arm_rows.arms(own)),
+        "controllers": own["controller"].nunique(),
+        "horizon": f"{float(own['horizon_s'].max()):g}",
+        "settled": f"{100 * float(arm_rows.settled(own).mean()):.0f}",
+        "apart": f"{apart:.2g}",
+        "six": f"{six.median():.3f}" if len(six) else absent.WORDS,
+        "six_low": f"{six.quantile(0.05):.2f}" if len(six) else absent.WORDS,
+        "six_high": f"{six.quantile(0.95):.2f}" if len(six) else absent.WORDS,
+        "seven": f"{seven.median():.2f}" if len(seven) else absent.WORDS,
+        "worst": medians.idxmax(),
+        "worst_deg": f"{medians.max():.1f}",
+        "least": medians.idxmin(),
+        "least_deg": f"{medians.min():.2f}",
+        "band": f"{100 * float(own['tolerance'].iloc[0]):g}",
+        "linearity": int((~arm_rows.settled(clear[clear["controller"].isin(model_error.SHOWN)])).sum()),
+    }
