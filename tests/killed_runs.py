@@ -17,7 +17,8 @@ import time
 from pathlib import Path
 from typing import NamedTuple
 
-from bench import boundary, counting, plan, run, traces
+from bench import boundary, counting, plan, poses, run, traces
+from bench.choice import Choice
 from bench.contender import Gains
 from bench.discovery import find_contender
 
@@ -28,20 +29,24 @@ EVENTS = {"open", "os.mkdir", "os.remove", "os.rename", "os.rmdir", "os.chmod"}
 
 
 def plan_of(words: tuple, start_sets: tuple, engines: tuple, count: int, kp: float = 100.0) -> plan.Plan:
-    """A small plan with traces and boundaries."""
+    """A small plan with traces and boundaries; the native engine, if it is named, on an arm too."""
     laws = [find_contender(word) for word in words]
     settings = {"count": count, "horizon_s": 0.25, "gains": Gains(kp, 20.0)}
-    made = plan.make("quick", laws, start_sets=start_sets, engines=engines, **settings)
-    return dataclasses.replace(made, traces=4, boundary_axes=2)
+    choice = Choice(("free-body", "arm-regulation"), start_sets, engines, ("ur5e",))
+    made = plan.make("quick", laws, choice, **settings)
+    units = tuple(unit for unit in made.units if unit.engine == "native" or not unit.arm)
+    used = {unit.contender for unit in units}
+    contenders = tuple(one for one in made.contenders if one.name in used)
+    return dataclasses.replace(made, units=units, contenders=contenders, traces=4, boundary_axes=2)
 
 
 LONG = plan_of(
-    ("rotation-matrix", "feedback-linearized"),
+    ("rotation-matrix", "feedback-linearized/zyx-euler"),
     ("half-turn", "paper"),
     ("ideal-rk4", "native", "reference"),
     12,
 )
-"""16 units on three engines: about half a second."""
+"""16 units on three engines and 3 on an arm: about a second."""
 
 SHORT, OTHER = (plan_of(("rotation-matrix",), ("paper", "tumbling"), ("ideal-rk4",), 3, kp) for kp in (100.0, 50.0))
 """Two units, so few files: killed at every one of its file operations. OTHER is what SHORT replaces."""
@@ -167,7 +172,8 @@ def remember() -> None:
     """Count each law, and follow each plan's traces and boundaries, once for all forks."""
     once = functools.cache(lambda one, rows=counting.rows: tuple(rows([one])))
     counting.rows = lambda laws: [row for one in laws for row in once(one)]
-    traces.run, boundary.run = functools.cache(traces.run), functools.cache(boundary.run)
+    counting.rows_on_arm = functools.cache(counting.rows_on_arm)
+    traces.run, boundary.run, poses.run = map(functools.cache, (traces.run, boundary.run, poses.run))
 
 
 def main(folder: Path) -> dict:

@@ -5,8 +5,14 @@ from command_line import bench, refused, refused_run
 
 import tasks
 from bench import plan as planning
-from bench.choice import INTEGRATORS
-from bench.discovery import known_regulators, known_representations
+from bench.choice import INTEGRATORS, Choice
+from bench.discovery import (
+    find_contender,
+    known_inverses,
+    known_jacobians,
+    known_regulators,
+    known_representations,
+)
 from bench.errors import Incompatible
 from bench.suites import ENGINES, SUITES
 
@@ -19,14 +25,20 @@ from bench.suites import ENGINES, SUITES
         ("--regulator", "linearized-euler/zyx-eular", sorted(known_representations())),
         ("--representation", "zyx", sorted(known_representations())),
         ("--task", "free-bodi", tasks.names()),
-        ("--starts", "uniforn", tasks.start_set_names()),
+        ("--arm", "ur5", tasks.arm_names()),
+        ("--jacobian", "geometrik", sorted(known_jacobians())),
+        ("--inverse", "sovle", sorted(known_inverses())),
+        ("--regulator", "rotation-matrix@geometrik+solve", sorted(known_jacobians())),
+        ("--variation", "mass-1.3", sorted(tasks.variation_names())),
+        ("--starts", "uniforn", sorted({*tasks.start_set_names(), *tasks.start_set_names(arm=True)})),
         ("--engine", "nativ", sorted(ENGINES)),
         ("--integrator", "eulr", sorted(INTEGRATORS)),
     ],
 )
 def test_unknown_word_lists_the_known_ones_and_guesses(capsys, finished, option, word, known):
     line = refused_run(capsys, finished, option, word)
-    assert f"'{word.rpartition('/')[2]}' is unknown" in line
+    given = word.rpartition("/")[2].rpartition("@")[2].partition("+")[0]
+    assert f"'{given}' is unknown" in line
     assert f"known: {', '.join(known)}" in line
     assert word == "zyx" or "did you mean" in line
 
@@ -34,7 +46,11 @@ def test_unknown_word_lists_the_known_ones_and_guesses(capsys, finished, option,
 @pytest.mark.parametrize(
     ("words", "named"),
     [
-        (("list", "regulaters"), "regulators, representations, metrics"),
+        (("list", "regulaters"), "regulators, representations, jacobians, inverses"),
+        (("count", "--joints", "5"), "--joints"),
+        (("count", "--joints", "6", "--arm", "panda"), "panda"),
+        (("count", "--inverse", "sovle"), "solve"),
+        (("count", "--arm", "pumma"), "puma560"),
         (("rum",), "'run'"),
         (("run", "--sweet", "quick"), "--sweet"),
         (("run", "--count", "many"), "--count"),
@@ -47,7 +63,7 @@ def test_unknown_word_lists_the_known_ones_and_guesses(capsys, finished, option,
 def test_usage_error_is_one_line_that_names_the_word(capsys, words, named):
     line = refused(capsys, *words)
     assert named in line
-    assert "try: " in line or "give one of these" in line
+    assert any(cure in line for cure in ("try: ", "give one of these", "use one", "leave --joints away"))
 
 
 def test_no_command_shows_the_help(capsys):
@@ -88,6 +104,49 @@ def test_law_on_the_matrix_takes_no_representation(capsys, finished):
     assert "acts on the rotation matrix and takes no representation" in line
 
 
+@pytest.mark.parametrize(
+    ("words", "reason"),
+    [
+        (("--task", "free-body", "--arm", "ur5e"), "task 'free-body' has no arm"),
+        (("--task", "free-body", "--regulator", "rotation-matrix@geometric+solve"), "task 'free-body' has no arm"),
+        (("--arm", "panda", "--inverse", "solve", "--jacobian", "geometric"), "a 6 x 7 Jacobian is not square; use"),
+        (
+            ("--arm", "ur5e", "--regulator", "rotation-matrix@analytic+solve"),
+            "takes an acceleration of coordinates, and regulator 'rotation-matrix' commands an angular acceleration",
+        ),
+        (
+            ("--regulator", "feedback-linearized/mrp@analytic-differentiated+solve"),
+            "which 'mrp' does not give (try: the Jacobian analytic",
+        ),
+        (("--arm", "ur5e", "--starts", "paper"), "takes the starts clear, half-turn, pole"),
+        (("--arm", "ur5e", "--engine", "ideal-rk4"), "ideal-rk4 simulates free-body alone, not 'arm-regulation'"),
+    ],
+)
+def test_what_does_not_go_together_on_an_arm_is_refused_with_the_reason(capsys, finished, words, reason):
+    assert reason in refused_run(capsys, finished, *words)
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("--regulator", "rotation-matrix@geometric"),
+        ("--regulator", "rotation-matrix@"),
+        ("--regulator", "rotation-matrix@geometric+solve", "--inverse", "transpose"),
+        ("--regulator", "rotation-matrix@geometric+solve", "--regulator", "linearized-euler"),
+        ("--regulator", "rotation-matrix@geometric+solve", "--regulator", "rotation-matrix@geometric+transpose"),
+    ],
+)
+def test_contender_pasted_so_that_it_would_mean_more_is_refused_with_the_cure(capsys, finished, words):
+    assert "(try: --regulator rotation-matrix --jacobian geometric --inverse solve)" in refused_run(
+        capsys, finished, *words
+    )
+
+
+def test_law_in_several_coordinates_is_refused_where_one_is_needed():
+    with pytest.raises(Incompatible, match=r"name one: .*feedback-linearized/zyx-euler, feedback-linearized/zyz-euler"):
+        find_contender("feedback-linearized")
+
+
 def test_representation_without_a_law_is_refused(capsys, finished):
     line = refused_run(capsys, finished, "--regulator", "rotation-matrix", "--representation", "zyx-euler")
     assert "no chosen law acts on zyx-euler" in line
@@ -95,16 +154,12 @@ def test_representation_without_a_law_is_refused(capsys, finished):
 
 def test_same_word_twice_is_the_word_once():
     laws = [next(iter(planning.make("quick", [_rotation_matrix()]).contenders))]
-    once = planning.make("quick", laws, start_sets=("paper",), engines=("native",))
-    twice = planning.make(
-        "quick", laws, start_sets=("paper", "paper"), engines=("native", "native"), task_words=("free-body",) * 2
-    )
+    once = planning.make("quick", laws, Choice(("free-body",), ("paper",), ("native",)))
+    twice = planning.make("quick", laws, Choice(("free-body",) * 2, ("paper",) * 2, ("native",) * 2))
     assert once == twice
 
 
 def _rotation_matrix():
-    from bench.discovery import find_contender
-
     return find_contender("rotation-matrix")
 
 
@@ -112,7 +167,8 @@ def test_nothing_to_run_says_which_starts_and_engines_a_task_takes(monkeypatch):
     own = tasks.task("free-body")._replace(name="other", start_sets=("paper",))
     monkeypatch.setattr(tasks, "names", lambda: ["free-body", "other"])
     monkeypatch.setattr(tasks, "task", lambda name: own)
+    monkeypatch.setattr(tasks, "is_for_arms", lambda name: False)
     with pytest.raises(Incompatible, match=r"ideal-rk4 simulates free-body alone, not 'other'"):
-        planning.make("quick", [_rotation_matrix()], task_words=("other",), engines=("ideal-rk4",))
+        planning.make("quick", [_rotation_matrix()], Choice(("other",), engines=("ideal-rk4",)))
     with pytest.raises(Incompatible, match=r"task 'other' takes the starts paper, not poles"):
-        planning.make("quick", [_rotation_matrix()], task_words=("other",), engines=("native",), start_sets=("poles",))
+        planning.make("quick", [_rotation_matrix()], Choice(("other",), ("poles",), ("native",)))

@@ -7,10 +7,18 @@ import rich_click as click
 from command_line import TINY, bench
 
 import tasks
-from bench import plan, store
+from bench import store
 from bench.cli import commands
-from bench.discovery import all_contenders, known_metrics, known_regulators, known_representations
-from bench.suites import SUITES
+from bench.discovery import (
+    all_contenders,
+    known_inverses,
+    known_jacobians,
+    known_metrics,
+    known_regulators,
+    known_representations,
+)
+from bench.suites import ENGINES, SUITES
+from tasks.base import BadArm
 
 COMMANDS = {command.name: command for command in commands()}
 
@@ -61,10 +69,14 @@ def test_version_is_the_one_installed(capsys):
 KNOWN = {
     "regulators": known_regulators(),
     "representations": known_representations(),
+    "jacobians": known_jacobians(),
+    "inverses": known_inverses(),
     "metrics": known_metrics(),
     "tasks": tasks.names(),
-    "starts": tasks.start_set_names(),
-    "engines": plan.ENGINES,
+    "arms": tasks.arm_names(),
+    "variations": tasks.variation_names(),
+    "starts": [*tasks.start_set_names(), *tasks.start_set_names(arm=True)],
+    "engines": ENGINES,
     "suites": SUITES,
 }
 
@@ -80,6 +92,28 @@ def test_list_names_everything_of_a_kind_and_nothing_else(capsys, kind):
 @pytest.mark.parametrize("kind", KNOWN)
 def test_list_takes_the_singular_too(capsys, kind):
     assert bench(capsys, "list", kind[:-1]).out == bench(capsys, "list", kind).out
+
+
+def test_list_says_which_start_sets_are_of_arms(capsys):
+    said = bench(capsys, "list", "starts")
+    assert len(re.findall(r"^half-turn +(free body|each arm)", said.out, re.MULTILINE)) == 2
+    assert re.search(r"^poles +free body +136 ", said.out, re.MULTILINE)
+    assert re.search(r"^wrist +each arm, at most +24 ", said.out, re.MULTILINE)
+
+
+def test_list_names_a_broken_arm_with_the_reason(capsys, monkeypatch):
+    broken = BadArm("arm 'bent': it has no site 'tool' (add one)")
+    monkeypatch.setattr("bench.cli.listing.arms", lambda: {"bent": broken, "ur5e": tasks.arm("ur5e")})
+    said = bench(capsys, "list", "arms")
+    assert said.code == 0
+    assert re.search(r"^bent +cannot be used: arm 'bent': it has no site 'tool' \(add one\)", said.out, re.MULTILINE)
+    assert re.search(r"^ur5e +6 ", said.out, re.MULTILINE)
+
+
+def test_list_says_which_jacobians_an_inverse_takes(capsys):
+    said = bench(capsys, "list", "inverses")
+    assert re.search(r"^solve +acceleration +6 x 6  ", said.out, re.MULTILINE)
+    assert re.search(r"^pseudo-inverse +acceleration +6 x 6, 6 x 7, 7 x 6  ", said.out, re.MULTILINE)
 
 
 def test_list_shows_units_in_brackets_and_formulas_as_they_are(capsys):
@@ -113,7 +147,7 @@ def test_dry_run_counts_what_a_run_then_writes(capsys, tiny_run):
 @pytest.mark.parametrize("suite", SUITES)
 def test_suite_runs_every_law_that_is_not_a_costing(capsys, suite):
     said = bench(capsys, "run", "--suite", suite, "--dry-run")
-    laws = re.search(r"laws: (.*?)\n\S+: ", said.out, re.DOTALL)[1].replace("\n", " ").split(", ")
+    laws = re.search(r"laws: (.*?)\n\S+: ", said.out, re.DOTALL)[1].replace(",", " ").split()
     assert laws == [one.name for one in all_contenders() if not one.regulator.costing_only]
 
 
@@ -129,6 +163,51 @@ def test_show_has_every_outcome_of_one_engine_and_set_when_asked(capsys, tiny_ru
     whole = bench(capsys, "show", tiny_run, "--outcomes")
     assert re.search(r"paper +rotation-matrix +3 ", whole.out)
     assert bench(capsys, "show", tiny_run, "--outcomes", "--engine", "reference", "--starts", "paper") == whole
+
+
+ON_ARM = ("run", "--arm", "ur5e", "--starts", "clear", "--count", "1", "--horizon", "0.1")
+WHOLE = "rotation-matrix@geometric+solve"
+
+
+@pytest.fixture(scope="module")
+def arm_run(tmp_path_factory):
+    """One start, two inverses, two plants, on the reference engine: four episodes of twenty ticks."""
+    from bench.cli import main
+
+    out = tmp_path_factory.mktemp("run") / "arm"
+    words = ("--regulator", "rotation-matrix", "--jacobian", "geometric", "--inverse", "solve")
+    plants = ("--variation", "nominal", "--variation", "friction-5", "--engine", "reference", "--dt", "0.005")
+    assert main([*ON_ARM, *words, "--inverse", "transpose", *plants, "--out", str(out)]) == 0
+    return out
+
+
+@pytest.mark.parametrize("suite", SUITES)
+def test_whole_name_runs_what_its_parts_run(capsys, suite):
+    apart = ("--regulator", "rotation-matrix", "--jacobian", "geometric", "--inverse", "solve")
+    said = [bench(capsys, *ON_ARM, "--suite", suite, *words, "--dry-run") for words in (("--regulator", WHOLE), apart)]
+    assert said[0] == said[1]
+    assert "native, ur5e: clear 1 (each of 1 combinations)" in said[0].out
+
+
+def test_show_keeps_controllers_causes_and_variations_of_an_arm_apart(capsys, arm_run):
+    said = bench(capsys, "show", arm_run)
+    first, second = said.out.split("plant other than the model")
+    assert re.search(rf"\n{re.escape(WHOLE)} +0/1 +never +never +1 law", first)
+    assert re.search(r"\nrotation-matrix@geometric\+transpose +0/1 ", first)
+    assert re.search(rf"friction-5 *\n{re.escape(WHOLE)} +0  \d", second)
+    assert "SO(3)" not in said.out
+
+
+def test_show_of_one_controller_shows_it_alone(capsys, arm_run):
+    said = bench(capsys, "show", arm_run, "--regulator", WHOLE)
+    assert WHOLE in said.out
+    assert "transpose" not in said.out
+    assert bench(capsys, "show", arm_run, "--regulator", "rotation-matrix") == bench(capsys, "show", arm_run)
+
+
+def test_show_counts_outcomes_of_each_variation(capsys, arm_run):
+    said = bench(capsys, "show", arm_run, "--outcomes")
+    assert len(re.findall(r"^clear +(?:nominal|friction-5) +rotation-matrix@", said.out, re.MULTILINE)) == 4
 
 
 def test_run_compared_with_itself_agrees(capsys, tiny_run):
@@ -153,6 +232,34 @@ def test_count_of_one_law_by_stage_adds_up(capsys):
     assert "linearized-euler" not in said.out
 
 
+def stages(said) -> dict:
+    """Flops of each stage of the typical branch; the last column."""
+    rows = (line.split() for line in said.out.splitlines() if " typical " in line)
+    return {row[row.index("typical") + 1]: int(row[-1]) for row in rows}
+
+
+def test_count_of_a_controller_has_its_stages_and_more_joints_cost_more(capsys):
+    six, seven = (
+        stages(
+            bench(capsys, "count", "--regulator", "rotation-matrix@geometric+pseudo-inverse", "--joints", n, "--stages")
+        )
+        for n in (6, 7)
+    )
+    for flops in (six, seven):
+        assert flops["total"] == sum(number for stage, number in flops.items() if stage != "total")
+        assert min(flops[stage] for stage in ("measure", "regulate", "jacobian", "invert", "linearize")) > 0
+    # u = Kp s/2 - Kv omega and the position loop know nothing of joints
+    assert six["regulate"] == seven["regulate"]
+    assert all(six[stage] < seven[stage] for stage in ("jacobian", "linearize", "total"))
+
+
+def test_count_of_joints_alone_counts_the_quick_suites_controllers(capsys):
+    said = bench(capsys, "count", "--joints", "6")
+    rows = [line for line in said.out.splitlines() if " typical " in line]
+    assert len(rows) == len(SUITES["quick"].on_arms.words)
+    assert bench(capsys, "count", "--arm", "ur5e", "--joints", "6") == said
+
+
 def test_doctor_says_what_it_checked(capsys):
     said = bench(capsys, "doctor")
     assert [line.split()[1] for line in said.out.splitlines()] == [
@@ -160,6 +267,7 @@ def test_doctor_says_what_it_checked(capsys):
         "versions",
         "compiler",
         "engines",
+        "arms",
         "rendering",
         "results",
     ]
