@@ -1,4 +1,5 @@
-"""The promise of growing: one file adds a regulator, representation, metric, task, start set or page."""
+"""The promise of growing: one file adds a regulator, representation, Jacobian, inverse, metric, task, arm, start set
+of the free body or of arms, or page."""
 
 import os
 import shutil
@@ -73,6 +74,64 @@ def finish(value, ending):
 
 METRIC = Metric("dropped-metric", "dropped_column", "1", "ticks with a command", 0.0, update, finish)
 ''',
+    "bench/jacobians/dropped_jacobian.py": '''
+"""The geometric Jacobian by another name."""
+
+from bench.jacobians import geometric
+
+JACOBIAN = geometric.JACOBIAN._replace(name="dropped-jacobian", title="Dropped Jacobian")
+''',
+    "bench/inverses/dropped_inverse.py": '''
+"""The inverse by another name."""
+
+from bench.inverses import solve
+
+INVERSE = solve.INVERSE._replace(name="dropped-inverse", title="Dropped inverse")
+''',
+    "tasks/arms/dropped_arm.py": '''
+"""The UR5e by another title."""
+
+from tasks.arm import arm
+
+
+def xml() -> str:
+    """Its MJCF text, otherwise as it is."""
+    return arm("ur5e").xml.replace("Universal Robots UR5e", "Dropped arm")
+''',
+    "tasks/arm_starts/dropped_turns.py": '''
+"""A small turn of the tool about the base z axis, from the arm's home."""
+
+import math
+
+from tasks.base import ArmStartSet, Start
+from tasks.kinematics import Kinematics
+from tasks.rotations import multiply
+
+
+def build(arm, count, seed):
+    """0.2 rad."""
+    _, quat = Kinematics(arm).pose(arm.home)
+    goal = multiply((math.cos(0.1), 0.0, 0.0, math.sin(0.1)), quat)
+    return [Start("turn", quat, goal_wxyz=goal, q=arm.home, qdot=(0.0,) * arm.joints)]
+
+
+STARTS = ArmStartSet("dropped-turns", "A small turn", 1, build)
+''',
+    "tasks/domains/dropped_arm_task.py": '''
+"""Holding and turning by another name, from one start set."""
+
+from tasks.domains import arm_regulation
+
+
+def on(arm):
+    """The task on one arm."""
+    return arm_regulation.on(arm)._replace(name="dropped-arm-task", start_sets=("dropped-turns",))
+
+
+TASK = arm_regulation.TASK._replace(
+    name="dropped-arm-task", title="Dropped arm task", on=on, start_sets=("dropped-turns",)
+)
+''',
     "tasks/domains/dropped_task.py": '''
 """The free body by another name."""
 
@@ -112,7 +171,12 @@ LISTED = {
     "representations": "dropped-coordinates",
     "metrics": "dropped-metric",
     "tasks": "dropped-task",
+    "tasks of arms": "dropped-arm-task",
     "starts": "dropped-starts",
+    "starts of arms": "dropped-turns",
+    "jacobians": "dropped-jacobian",
+    "inverses": "dropped-inverse",
+    "arms": "dropped-arm",
 }
 
 
@@ -182,6 +246,16 @@ def test_dropped_files_are_listed_run_counted_and_shown_without_another_touched(
 
     counted = said(tree, "-m", "bench", "count", "--regulator", "dropped-regulator")
     assert "dropped-regulator  dropped-coordinates" in counted
+
+    on_arm = ("--task", "dropped-arm-task", "--arm", "dropped-arm", "--starts", "dropped-turns", "--horizon", "1")
+    way = ("--regulator", "dropped-regulator@dropped-jacobian+dropped-inverse", "--out", "results/arm")
+    said(tree, "-m", "bench", "run", *on_arm, *engines, *way)
+    turned = store.read(tree / "results" / "arm", "episodes")
+    assert list(turned["engine"]) == ["native", "reference"]
+    assert set(turned["arm"]) == {"dropped-arm"}
+    assert set(turned["start_id"]) == {"turn"}
+    assert (turned["dropped_column"] == turned["ticks"]).all()
+    assert turned["peak_tau_nm"].nunique() == 1
 
     said(tree, "report/build.py")
     page = (tree / "report" / "_build" / "html" / "pages" / "90-dropped-page.html").read_text()
