@@ -5,7 +5,7 @@
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help setup bench bench-quick time report test check lint gate reference lock clean
+.PHONY: help setup bench bench-quick time report test check lint gate reference media lock clean
 
 SHELL := /bin/sh
 VENV := .venv
@@ -78,6 +78,10 @@ reference: $(BASE)
 	@kilobytes=$$(du -sk results/reference | cut -f1); test $$kilobytes -lt 5000 || \
 		{ echo "results/reference is $$kilobytes kB; at most 5000 are committed" >&2; exit 1; }
 	@echo "Promoted. Now: git add results && git commit"
+
+media:  ## render the arms anew for the report (needs GL; without it the committed files stay)
+media: $(DEV)
+	@$(PY) report/media.py
 
 lock:   ## write requirements/*.txt anew from pyproject.toml (after changing a dependency)
 lock: $(DEV)

@@ -1,0 +1,268 @@
+"""Rendered pictures of the arms for the report: stills at home, a strip of film, a short loop. Optional.
+
+    python report/media.py     renders anew into report/_static/media (make media)
+
+Joint angles come from the compiled engine, tick by tick, as in every episode of the results; MuJoCo draws them
+offscreen by EGL or else OSMesa, each tried in a process of its own. Where neither works the committed files stay.
+The loop needs imageio-ffmpeg (the dev extra).
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import NamedTuple
+
+REPORT = Path(__file__).resolve().parent
+MEDIA = REPORT / "_static" / "media"
+FACTS = MEDIA / "media.json"
+FACE = REPORT.parent / "bench" / "figures" / "fonts" / "OrientationSans-Bold.ttf"
+BACKENDS = ("egl", "osmesa")
+DRAW = "--draw"
+NO_GL = 3  # exit status of a process that cannot draw
+
+ARM, START_SET, START, SEED = "ur5e", "pole", "pole-minus-1-k3", 0
+TASK = "arm-regulation"
+CONTENDERS = {
+    "feedback-linearized/zyx-euler@analytic+solve": "Euler Jacobian",
+    "rotation-matrix@geometric+solve": "geometric Jacobian",
+}
+STILLS_S = (0.0, 0.06, 0.12, 0.18, 0.65)
+LOOP_S, SLOWER, FRAMES_PER_S = 0.7, 4, 25  # played in 2.8 s; the band is reached in 0.65 s or so
+
+STRIP = (380, 460)  # pixels of an arm at home, of a still, and of the loop's each half
+STILL = (300, 300)
+HALF = (360, 340)
+# What is kept of a view of the model's own camera: left, top, right, bottom, as shares of its sides.
+WHOLE, CLOSE = (0.0, 0.0, 1.0, 1.0), (0.22, 0.11, 0.95, 0.88)
+INK, PAPER = (28, 36, 48), (255, 255, 255)
+COLOURS = 128  # of a PNG's palette: shading of plain shapes needs no more
+ENCODERS = {
+    "webm": ("libvpx-vp9", ["-crf", "38", "-b:v", "0"]),
+    "mp4": ("libx264", ["-crf", "27", "-movflags", "+faststart"]),
+}
+PLAIN = ["-an", "-threads", "1", "-fflags", "+bitexact", "-flags:v", "+bitexact", "-map_metadata", "-1"]
+
+
+class Motion(NamedTuple):
+    """An episode: its words, joint angles [rad] tick by tick, and the judge's row."""
+
+    contender: str
+    title: str
+    dt_s: float
+    q: list
+    row: dict
+
+    def at(self, time_s: float) -> list:
+        """Joint angles at a time; the last ones once it has ended."""
+        return self.q[min(round(time_s / self.dt_s), len(self.q) - 1)]
+
+
+def motions() -> list[Motion]:
+    """Both contenders from the same start: judged as any episode, and recorded tick by tick."""
+    import numpy as np
+
+    import tasks
+    from bench.claims.arm_probes import controller
+    from bench.discovery import metrics_of
+    from bench.engines.arm_episode import POSE
+    from bench.engines.episode import FIRST_METRIC
+    from bench.engines.run_arm import run, run_observed
+    from bench.plan import Plan, Unit
+    from bench.rows import frame, settings_of
+    from bench.suites import ON_ARM
+    from bench.traces import ARM_WIDTH, WIDTH, arm_recorder
+
+    start = next(one for one in tasks.start_set(START_SET, None, SEED, arm=ARM) if one.id == START)
+    metrics, joints = metrics_of(on_arm=True), tasks.arm(ARM).joints
+    found = []
+    for word, title in CONTENDERS.items():
+        one = controller(word)
+        plan, unit = Plan("media", (), (one,)), Unit("native", one.name, TASK, START_SET, 0, 1, 1, ON_ARM, ARM)
+        judged = run("native", one, TASK, ARM, [start], settings_of(plan, ON_ARM), metrics)
+        samples = round(LOOP_S / plan.dt_s)
+        kept = np.full((1, FIRST_METRIC + samples * ARM_WIDTH - POSE), np.nan)
+        run_observed(arm_recorder(1), one, TASK, ARM, [start], settings_of(plan, LOOP_S), kept)
+        ticks = kept[0, FIRST_METRIC:POSE].reshape(samples, ARM_WIDTH)
+        q = ticks[~np.isnan(ticks[:, 0]), WIDTH + 1 : WIDTH + 1 + joints].tolist()
+        row = frame(plan, unit, one, [start], judged, metrics).iloc[0].to_dict()
+        found.append(Motion(one.name, title, plan.dt_s, q, row))
+    return found
+
+
+def facts(found: list[Motion], commit: str) -> dict:
+    """What the files show and where they come from."""
+    numbers = ("settling_time_s", "failure_time_s", "path_ratio", "peak_torque_ratio", "position_error_m")
+    episodes = [
+        {
+            "contender": one.contender,
+            "outcome": str(one.row["outcome"]),
+            **{name: None if math.isnan(one.row[name]) else float(f"{one.row[name]:.6g}") for name in numbers},
+        }
+        for one in found
+    ]
+    place = {"commit": commit, "arm": ARM, "start_set": START_SET, "start": START, "seed": SEED}
+    return {**place, "episodes": episodes, "stills_s": STILLS_S, "loop_s": LOOP_S, "slower": SLOWER}
+
+
+class View:
+    """The camera "view" of an arm's model, which draws a pose as a picture of the size asked for."""
+
+    def __init__(self, arm, size: tuple[int, int], part=WHOLE):
+        import mujoco
+
+        from tasks.arm import model_xml
+
+        width, height = (round(side / share) for side, share in zip(size, self.shares(part), strict=True))
+        self.model = mujoco.MjModel.from_xml_string(model_xml(arm, 1e-3))
+        self.data = mujoco.MjData(self.model)
+        self.renderer = mujoco.Renderer(self.model, height, width)
+        self.box = (round(part[0] * width), round(part[1] * height))
+        self.size = size
+
+    @staticmethod
+    def shares(part) -> tuple[float, float]:
+        """Of the camera's width and height."""
+        return part[2] - part[0], part[3] - part[1]
+
+    def picture(self, q):
+        """A PIL image of the pose."""
+        import mujoco
+        from PIL import Image
+
+        self.data.qpos[:] = q
+        mujoco.mj_forward(self.model, self.data)
+        self.renderer.update_scene(self.data, camera="view")
+        left, top = self.box
+        return Image.fromarray(self.renderer.render()).crop((left, top, left + self.size[0], top + self.size[1]))
+
+
+def written(image, place: tuple[int, int], text: str, size: int, **anchor):
+    """The image with a line of text on it."""
+    from PIL import ImageDraw, ImageFont
+
+    ImageDraw.Draw(image).text(place, text, fill=INK, font=ImageFont.truetype(str(FACE), size), **anchor)
+    return image
+
+
+def sheet(width: int, height: int):
+    """White paper."""
+    from PIL import Image
+
+    return Image.new("RGB", (width, height), PAPER)
+
+
+def save(image, name: str) -> None:
+    """As a PNG with a palette."""
+    image.quantize(COLOURS, dither=0).save(MEDIA / name, optimize=True)
+
+
+def at_home() -> None:
+    """The strip of all arms."""
+    import tasks
+
+    names, (width, height) = tasks.arm_names(), STRIP
+    strip = sheet(width * len(names), height)
+    for place, name in enumerate(names):
+        arm = tasks.arm(name)
+        strip.paste(View(arm, STRIP).picture(arm.home), (place * width, 0))
+        written(strip, (place * width + width // 2, height - 12), arm.title, 28, anchor="ms")
+    save(strip, "arms.png")
+
+
+def film(found: list[Motion], view: View) -> None:
+    """Stills of both motions, one above the other."""
+    width, height = STILL
+    line = 44
+    strip = sheet(width * len(STILLS_S), len(found) * (height + line) + line)
+    for row, motion in enumerate(found):
+        top = line + row * (height + line)
+        written(strip, (8, top + line - 12), f"with the {motion.title}", 32, anchor="ls")
+        for column, time_s in enumerate(STILLS_S):
+            strip.paste(view.picture(motion.at(time_s)), (column * width, top + line))
+    for column, time_s in enumerate(STILLS_S):
+        written(strip, (column * width + width // 2, line - 12), f"{time_s:.2f} s", 32, anchor="ms")
+    save(strip, "pole-film.png")
+
+
+def frames(found: list[Motion], view: View) -> Iterator:
+    """Images of the loop, both motions side by side."""
+    width, height = HALF
+    line = 36
+    for number in range(round(LOOP_S * SLOWER * FRAMES_PER_S)):
+        time_s = number / FRAMES_PER_S / SLOWER
+        image = sheet(width * len(found), height + 2 * line)
+        for place, motion in enumerate(found):
+            image.paste(view.picture(motion.at(time_s)), (place * width, line))
+            written(image, (place * width + width // 2, line - 10), motion.title, 24, anchor="ms")
+        middle = (width * len(found) // 2, height + 2 * line - 10)
+        yield written(image, middle, f"{time_s:.2f} s, played {SLOWER} times slower", 22, anchor="ms")
+
+
+def loop(images: list) -> None:
+    """The loop in both codecs, and its poster."""
+    import imageio_ffmpeg
+    import numpy as np
+
+    for kind, (codec, options) in ENCODERS.items():
+        writer = imageio_ffmpeg.write_frames(
+            str(MEDIA / f"pole-loop.{kind}"),
+            images[0].size,
+            fps=FRAMES_PER_S,
+            codec=codec,
+            macro_block_size=2,
+            ffmpeg_log_level="error",
+            output_params=[*options, *PLAIN],
+        )
+        writer.send(None)
+        for image in images:
+            writer.send(np.ascontiguousarray(image))
+        writer.close()
+    save(images[round(STILLS_S[3] * SLOWER * FRAMES_PER_S)], "pole-loop.png")
+
+
+def draw() -> int:
+    """All files, in this process; NO_GL if MuJoCo cannot draw here."""
+    sys.path.insert(0, str(REPORT.parent))
+    import tasks
+    from bench.provenance import describe
+
+    try:
+        large, small = (View(tasks.arm(ARM), size, CLOSE) for size in (HALF, STILL))
+    except Exception as reason:  # what a missing GL raises depends on the backend
+        print(f"media: {os.environ['MUJOCO_GL']} does not draw here ({reason})", file=sys.stderr)
+        return NO_GL
+    MEDIA.mkdir(parents=True, exist_ok=True)
+    found = motions()
+    at_home()
+    film(found, small)
+    loop(list(frames(found, large)))
+    text = json.dumps(facts(found, describe()["commit"]), indent=1) + "\n"
+    FACTS.write_text(text, encoding="utf-8")
+    return 0
+
+
+def main() -> int:
+    """Try every way to draw; without one leave the files as they are."""
+    if DRAW in sys.argv[1:]:
+        return draw()
+    for backend in BACKENDS:
+        command = [sys.executable, str(Path(__file__).resolve()), DRAW]
+        status = subprocess.run(command, env={**os.environ, "MUJOCO_GL": backend}, check=False).returncode
+        if status == 0:
+            kilobytes = sum(path.stat().st_size for path in MEDIA.iterdir()) / 1e3
+            print(f"media: {kilobytes:.0f} kB in {MEDIA.relative_to(REPORT.parent)}, drawn by {backend}")
+            return 0
+        if status != NO_GL:
+            return status
+    print("media: no GL on this machine; the committed files stay (cure: apt-get install libegl1 libgl1)")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
