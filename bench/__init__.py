@@ -1,5 +1,4 @@
-"""Orientation regulators on a free body and on arms: laws, engines, costs, results. `python -m bench --help` is the
-way in.
+"""Orientation regulators on a free body and on arms: laws, engines, costs, results. Way in: `python -m bench --help`.
 
 What a law is      scalar (the dialect), so3, linalg/, contender (Gains, Goal, Representation, Regulator, Jacobian, ...)
 The contestants    regulators/, representations/, jacobians/, inverses/ (one file each), discovery (finds them, and a

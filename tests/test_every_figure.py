@@ -15,6 +15,7 @@ import pytest
 pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
 
 from bench import plan, results, run
+from bench.choice import Choice
 from bench.discovery import find_contender
 from bench.figures import (
     boundary_map,
@@ -47,8 +48,9 @@ FIGURES = {
 @pytest.fixture(scope="module", autouse=True)
 def small_run(tmp_path_factory):
     """A folder of results, which bench.results reads while this module runs."""
-    laws = [find_contender(word) for word in ("rotation-matrix", "linearized-euler", "feedback-linearized")]
-    made = plan.make("quick", laws, start_sets=STARTS, engines=("ideal-rk4", "native"), count=300)
+    words = ("rotation-matrix", "linearized-euler/zyx-euler", "feedback-linearized/zyx-euler")
+    laws = [find_contender(word) for word in words]
+    made = plan.make("quick", laws, Choice(("free-body",), STARTS, ("ideal-rk4", "native")), count=300)
     folder = tmp_path_factory.mktemp("figures") / "run"
     run.run(dataclasses.replace(made, traces=2, boundary_axes=24), folder)
     with pytest.MonkeyPatch.context() as patch:
