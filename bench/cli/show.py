@@ -137,9 +137,8 @@ def _most(episodes) -> int:
 
 def outcome_table(episodes):
     """One line for each start set and law: counts of outcomes, then median and worst settling time [s]."""
-    keys = ["start_set", "law"]
-    if (episodes["variation"] != NOMINAL).any():
-        keys.insert(1, "variation")
+    varies = "variation" in episodes and (episodes["variation"] != NOMINAL).any()
+    keys = ["start_set", "variation", "law"] if varies else ["start_set", "law"]
     named = results.with_contender(episodes).rename(columns={"contender": "law"})
     grouped = named.groupby(keys, observed=True, sort=False)
     counts = grouped["outcome"].value_counts().unstack(fill_value=0).reindex(columns=list(OUTCOMES), fill_value=0)
