@@ -78,6 +78,12 @@ def on_arms(rows: pd.DataFrame) -> dict:
     }
 
 
+def in_words(inverse: str) -> str:
+    """An inverse's title inside a sentence."""
+    title = arm_rows.title_of_inverse(inverse)
+    return title[:1].lower() + title[1:]
+
+
 def possible(clear: pd.DataFrame, controller: str) -> str:
     """Share of clear episodes by a controller within the rated torques, in per cent."""
     return f"{100 * float((arm_rows.of(clear, controller)['peak_torque_ratio'] <= 1.0).mean()):.0f}"
@@ -115,7 +121,7 @@ def advice(rows: pd.DataFrame) -> dict:
     best = table.sort_values(["good", "strays"], ascending=[False, True]).index[0]
     inverse = best.partition("+")[2]
     return values | {
-        "inverse_advice": f"With the inverse “{arm_rows.title_of_inverse(inverse).lower()}” it settles "
+        "inverse_advice": f"With the inverse “{in_words(inverse)}” it settles "
         f"{told(own[own['way'] == best])} and strays {html.number(1e3 * table.loc[best, 'strays'])} mm in the median."
     }
 
@@ -130,7 +136,7 @@ def damping(rows: pd.DataFrame) -> dict:
             own = arm_rows.of(starts, controller, name)
             if len(own):
                 parts.append(
-                    f"{arm_rows.title_of_inverse(name).lower()} {100 * float(arm_rows.settled(own).mean()):.0f} % "
+                    f"{in_words(name)} {100 * float(arm_rows.settled(own).mean()):.0f} % "
                     f"({html.number(1e3 * float(own['position_error_m'].median()))} mm)"
                 )
         said[key] = "; ".join(parts) if len(parts) >= FEWEST else absent.WORDS
@@ -151,39 +157,41 @@ def responding(traces: pd.DataFrame, rows: pd.DataFrame, kp: float, kv: float) -
 
 
 def varied(rows: pd.DataFrame, nominal: pd.DataFrame) -> dict:
-    """Of the page on model errors.
+    """Of the page on model errors, whole sentences, since a smaller run has none of them.
 
     Args:
         rows, nominal: of `arm_rows.varied` and `arm_rows.episodes`; the first may be none.
     """
     own = model_error.compared(arm_rows.with_standard(rows))
-    keys = ("n", "arms", "controllers", "horizon", "settled", "apart", "six", "six_low", "six_high", "seven", "worst")
     if own.empty:
-        return dict.fromkeys((*keys, "worst_deg", "least", "least_deg", "band", "linearity"), absent.WORDS)
-    found = model_rest.predicted(own)
-    joints = found["arm"].map(lambda name: tasks.arm(name).joints)
-    six, seven = model_rest.ratios(found[joints == 6]), model_rest.ratios(found[joints > 6])
+        return dict.fromkeys(("lead", "setting", "gravity"), f"Variations of the plant are {absent.WORDS}.")
     medians = np.degrees(own.groupby("variation")["final_angle_rad"].median())
     angles = own.pivot_table(
         index=["arm", "start_id", "variation"], columns="controller", values="final_angle_rad", observed=True
     ).dropna()
     apart = np.degrees((angles.max(axis=1) - angles.min(axis=1)).median())
-    clear = arm_rows.with_standard(nominal[nominal["start_set"] == "clear"])
+    clear = nominal[(nominal["start_set"] == "clear") & nominal["controller"].isin(model_error.SHOWN)]
+    lost = int((~arm_rows.settled(arm_rows.with_standard(clear))).sum())
+    settled = 100.0 * float(arm_rows.settled(own).mean())
     return {
-        "n": len(own),
-        "arms": len(arm_rows.arms(own)),
-        "controllers": own["controller"].nunique(),
-        "horizon": f"{float(own['horizon_s'].max()):g}",
-        "settled": f"{100 * float(arm_rows.settled(own).mean()):.0f}",
-        "apart": f"{apart:.2g}",
-        "six": f"{six.median():.3f}" if len(six) else absent.WORDS,
-        "six_low": f"{six.quantile(0.05):.2f}" if len(six) else absent.WORDS,
-        "six_high": f"{six.quantile(0.95):.2f}" if len(six) else absent.WORDS,
-        "seven": f"{seven.median():.2f}" if len(seven) else absent.WORDS,
-        "worst": medians.idxmax(),
-        "worst_deg": f"{medians.max():.1f}",
-        "least": medians.idxmin(),
-        "least_deg": f"{medians.min():.2f}",
-        "band": f"{100 * float(own['tolerance'].iloc[0]):g}",
-        "linearity": int((~arm_rows.settled(clear[clear["controller"].isin(model_error.SHOWN)])).sum()),
+        "lead": f"From the same start the controllers end {apart:.1g}° apart in the median; the worst variation, "
+        f"{medians.idxmax()}, leaves {medians.max():.1f}°, the mildest, {medians.idxmin()}, {medians.min():.2f}°.",
+        "setting": f"From clear starts, {len(own)} episodes of {float(own['horizon_s'].max()):g} s by "
+        f"{own['controller'].nunique()} controllers on {len(arm_rows.arms(own))} arms. With a perfect model {lost} of "
+        f"their clear episodes fail; with these {settled:.0f} % settle, and the others stay outside "
+        f"{100 * float(own['tolerance'].iloc[0]):g} % of the initial angle.",
+        "gravity": by_gravity(own),
     }
+
+
+def by_gravity(own: pd.DataFrame) -> str:
+    """Measured angle over that of the formula, for arms of six joints and of seven."""
+    found = model_rest.predicted(own)
+    joints = found["arm"].map(lambda name: tasks.arm(name).joints)
+    said = []
+    for words, rows in (("six joints", found[joints == 6]), ("seven", found[joints > 6])):
+        ratio = model_rest.ratios(rows)
+        if len(ratio):
+            low, middle, high = ratio.quantile(0.05), ratio.median(), ratio.quantile(0.95)
+            said.append(f"on {words} {middle:.3f} in the median ({low:.2f} to {high:.2f} from 5 to 95 %)")
+    return f"Measured over predicted is {', '.join(said)}." if said else f"The comparison is {absent.WORDS}."

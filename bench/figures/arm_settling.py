@@ -99,7 +99,7 @@ def later(found: pd.DataFrame, narrow: bool):
     axes.set_ylim(len(controllers) - 0.4, -0.7)
     axes.grid(visible=False, axis="y")
     axes.tick_params(axis="y", length=0)
-    figure.legend(loc="outside lower center", ncols=4)
+    figure.legend(loc="outside lower center", ncols=2 if narrow else 4)
     return figure, f"Settling time on an arm minus that of the free body, from clear starts. {'. '.join(said)}."
 
 

@@ -24,6 +24,8 @@ from bench.figures.spelling import typeset
 PAPERS_OWN = ("rotation-matrix", "linearized-euler", "feedback-linearized")
 """Shown first, in the paper's order; every other law follows by name."""
 
+PAPERS_COORDINATES = "zyx-euler"
+
 PROPERTIES = {
     "local": "Stable near the goal, by linearization; no more than that.",
     "almost global": "Stable from all starts but a set of measure zero.",
@@ -39,6 +41,21 @@ def in_order() -> list[Regulator]:
     known = known_regulators()
     first = [known[name] for name in PAPERS_OWN if name in known]
     return [*first, *(one for name, one in known.items() if name not in PAPERS_OWN), *results.own_laws()]
+
+
+def papers_first(regulator: Regulator) -> list[Contender]:
+    """A law in every representation it acts on, the paper's own coordinates first."""
+    return sorted(contenders_of(regulator), key=lambda one: not one.name.endswith(f"/{PAPERS_COORDINATES}"))
+
+
+def title_of(one: Contender) -> str:
+    """The law's title, and its coordinates where it acts on others than the paper's."""
+    where = one.representation
+    return (
+        one.regulator.title
+        if where is None or where.name == PAPERS_COORDINATES
+        else f"{one.regulator.title}: {where.title}"
+    )
 
 
 def module(regulator: Regulator) -> ModuleType:
@@ -74,17 +91,17 @@ def measured(episodes: pd.DataFrame) -> str:
 
 
 def card(one: Contender) -> str:
-    """Heading, card and folded source of one law."""
+    """Heading and card of one law."""
     regulator = one.regulator
     what, fails = said(regulator)
     acts = one.representation.title if one.representation else "the rotation matrix"
     episodes = results.episodes(contender=one.name, engine="ideal-rk4")
     proved = PROPERTIES.get(regulator.property, f"{regulator.property}.")
     facts = {"Acts on": f"{acts[:1].upper()}{acts[1:]}.", "Proved": proved, "Measured": measured(episodes)}
-    picture = card_map(episodes, regulator.title) if len(episodes) else None
+    picture = card_map(episodes, title_of(one)) if len(episodes) else None
     body = html.card(
         one.name,
-        regulator.title,
+        title_of(one),
         regulator.formula,
         regulator.source,
         what,
@@ -94,7 +111,7 @@ def card(one: Contender) -> str:
         facts,
         anchor(one),
     )
-    return f"{body}{source(regulator)}"
+    return body
 
 
 def anchor(one: Contender) -> str:
@@ -117,12 +134,12 @@ def source(regulator: Regulator) -> str:
 def contents() -> html.Markdown:
     """Every law as a line: a link to its card, its word on the command line, what is proved, what was measured."""
     rows = []
-    for one in (one for regulator in in_order() for one in contenders_of(regulator)):
+    for one in (one for regulator in in_order() for one in papers_first(regulator)):
         uniform = results.episodes(contender=one.name, engine="ideal-rk4", start_set="uniform")
         settled = (uniform["outcome"] == "settled").mean() if len(uniform) else None
         rows.append(
             {
-                "Law": f'<a href="#{anchor(one)}">{html.law(one.name, one.regulator.title)}</a>',
+                "Law": f'<a href="#{anchor(one)}">{html.law(one.name, title_of(one))}</a>',
                 "On the command line": f"`{one.name}`",
                 "Proved": one.regulator.property,
                 "Settles": settled,
@@ -132,5 +149,16 @@ def contents() -> html.Markdown:
 
 
 def cards() -> html.Html:
-    """All of them, in order."""
-    return html.Html("".join(card(one) for regulator in in_order() for one in contenders_of(regulator)))
+    """All of them, in order: a law's card and its file, then, folded, the same law in other coordinates."""
+    return html.Html("".join(part for regulator in in_order() for part in parts(regulator)))
+
+
+def parts(regulator: Regulator) -> list[str]:
+    """The pieces of one law."""
+    first, *others = papers_first(regulator)
+    found = [card(first), source(regulator)]
+    if others:
+        words = f"{html.law(first.name, regulator.title)} in {len(others)} other coordinates"
+        inside = "".join(card(one) for one in others)
+        found.append(f'<details class="columns"><summary>{words}</summary>{inside}</details>')
+    return found

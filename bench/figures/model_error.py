@@ -14,7 +14,7 @@ SHOWN = (arm_rows.ON_MATRIX, arm_rows.SAME_BOTH_WAYS, arm_rows.ON_ANGLES)
 QUANTILES = (0.05, 0.5, 0.95)
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9")
 MARKERS = ("o", "s", "^", "D", "v", "P")
-FLOOR_DEG = 1e-3
+FLOOR_DEG, FLOOR_MM = 1e-3, 1e-2
 
 
 def compared(rows: pd.DataFrame) -> pd.DataFrame:
@@ -52,7 +52,7 @@ def spread(rows: pd.DataFrame, narrow: bool):
         for k, arm in enumerate(names):
             own = rows[(rows["variation"] == word) & (rows["arm"] == arm)]
             angle = np.degrees(own["final_angle_rad"]).clip(lower=FLOOR_DEG).quantile(QUANTILES)
-            strays = 1e3 * own["position_error_m"].quantile(QUANTILES)
+            strays = (1e3 * own["position_error_m"]).clip(lower=FLOOR_MM).quantile(QUANTILES)
             place = i + 0.17 * (k - 0.5 * (len(names) - 1))
             for axes, (low, middle, high) in ((left, angle), (right, strays)):
                 colour = COLOURS[k % len(COLOURS)]
@@ -69,7 +69,7 @@ def spread(rows: pd.DataFrame, narrow: bool):
         axes.grid(visible=False, axis="y")
         axes.tick_params(axis="y", length=0)
         axes.minorticks_off()
-    figure.legend(loc="outside lower center", ncols=4)
+    figure.legend(loc="outside lower center", ncols=2 if narrow else 4)
     return figure, f"Median angle to the goal at the end in degrees. {'; '.join(said)}."
 
 
@@ -88,7 +88,7 @@ def table(rows: pd.DataFrame) -> html.Markdown:
                 "The plant": tasks.variation(word).title,
                 "Episodes": len(own),
                 "Settled [%]": 100.0 * float(arm_rows.settled(own).mean()),
-                "The others": outcomes(own),
+                "The others": html.together(outcomes(own)),
                 "Angle [deg]": float(np.degrees(own["final_angle_rad"].median())),
                 "Strays [mm]": 1e3 * float(own["position_error_m"].median()),
             }

@@ -23,6 +23,7 @@ INK = "#1c2430"  # words, axes, reference curves
 MUTED = "#667085"  # ticks, annotations, bounds
 GRID = "#dfe3e8"
 PAPER = "#fefefe"  # the page itself: halos, and the rim of a marker
+ON_COLOUR = "#10151c"  # words on a bar of a light colour, dark on both pages
 
 # light page -> dark page; `inline` writes both into the SVG
 TWINS = {
@@ -30,6 +31,7 @@ TWINS = {
     MUTED: "#9aa5b4",
     GRID: "#343c48",
     PAPER: "#14181e",
+    ON_COLOUR: "#14181f",
     "#0072b2": "#5cb8f0",  # blue
     "#d55e00": "#ff9350",  # vermillion
     "#009e73": "#3fd0a4",  # bluish green
@@ -125,8 +127,8 @@ PAPER_STYLE = {
 
 
 def look(name: str) -> Look:
-    """How to draw a regulator or a contender (`regulator/representation`), unknown ones included."""
-    regulator = name.partition("/")[0]
+    """How to draw a regulator or a contender (`regulator/representation@...`), unknown ones included."""
+    regulator = name.partition("@")[0].partition("/")[0]
     if regulator in LOOKS:
         return LOOKS[regulator]
     rest, colour = divmod(mark(regulator), len(SPARE_COLOURS))
