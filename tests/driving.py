@@ -1,8 +1,9 @@
-"""How the tests run episodes: the settings, and one start of each kind."""
+"""How the tests run episodes: the settings, one start of each kind, a metric that keeps what it sees."""
 
 import tasks
 from bench.contender import Gains
 from bench.engines.episode import Settings
+from bench.metric import Metric
 from tasks.rules import RULES, ticks
 
 NO_EARLY_STOP = 10**9
@@ -29,3 +30,13 @@ def spread(each: int, task: str = "free-body") -> list:
         every = tasks.start_set(word)
         chosen += every[:: max(1, len(every) // each)][:each]
     return chosen
+
+
+def recorder(kept):
+    """A metric that keeps every sample it is shown."""
+
+    def update(value, sample):
+        kept.append(sample)
+        return value
+
+    return Metric("kept", "kept", "1", "kept", 0.0, update, lambda value, ending: value)

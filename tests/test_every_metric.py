@@ -7,8 +7,12 @@ import numpy as np
 import pytest
 from bits import different_rows, same_bits
 from driving import NO_EARLY_STOP, settings, spread
+from on_arms import named
 
+import tasks
 from bench.discovery import find_contender, metrics_of
+from bench.engines import run_arm
+from bench.engines.arm_episode import ArmSample
 from bench.engines.compiled import MATRIX, compile_function
 from bench.engines.episode import FINAL_ANGLE, FIRST_METRIC, OUTCOME, Sample
 from bench.engines.run import run
@@ -16,13 +20,18 @@ from bench.metric import Ending
 from bench.so3 import Rotation
 from tasks.verdict import OUTCOMES, SETTLED
 
-METRICS = metrics_of(on_arm=False)
+METRICS, ON_ARM = metrics_of(on_arm=False), metrics_of(on_arm=True)
 GOOD_ENDINGS = [Ending(angle0=1.0, final_angle=1e-4, band=0.02, outcome=word) for word in OUTCOMES]
 AT_GOAL = Ending(angle0=0.0, final_angle=0.0, band=0.02, outcome="settled")
 
 
 @pytest.fixture(params=METRICS, ids=lambda metric: metric.name)
 def metric(request):
+    return request.param
+
+
+@pytest.fixture(params=ON_ARM, ids=lambda metric: metric.name)
+def any_metric(request):
     return request.param
 
 
@@ -56,15 +65,85 @@ def folding(update):
     return fold
 
 
-def test_metric_is_named_as_its_column(metric):
-    assert metric.column.startswith(metric.name.replace("-", "_"))
-    assert metric.unit
-    assert metric.title
+def arm_samples() -> np.ndarray:
+    """The same, and p, p_d, q, qdot, tau, lower, upper and rated; then missing, huge and unlimited ones."""
+    draw = np.random.default_rng(19)
+    more = draw.normal(scale=2.0, size=(200, 6 + 7 * 6))
+    more[:, 27:34] = -np.abs(more[:, 27:34])  # lower
+    more[:, 34:41] = np.abs(more[:, 34:41])  # upper
+    more[:, 41:48] = 1.0 + np.abs(more[:, 41:48])  # rated
+    more[150:160, 8], more[160:170, 15], more[170:180, 22] = math.nan, math.inf, math.nan
+    more[180:185, 0], more[185:190, 20:27] = 1e200, -1e200
+    more[:, 27], more[:, 34] = -math.inf, math.inf  # a joint that turns all round
+    return np.hstack((samples(), more))
+
+
+def arm_folding(update):
+    """As `folding`, of samples of an arm."""
+
+    def fold(given, out):
+        value = out[0, 0]
+        for k in range(given.shape[0]):
+            s = given[k]
+            R = Rotation((s[2], s[3], s[4]), (s[5], s[6], s[7]), (s[8], s[9], s[10]))
+            omega, u = (s[13], s[14], s[17]), (s[15], s[16], s[0])
+            sample = ArmSample(
+                s[0], s[1], R, s[11], s[12] > 0.5, omega, u, s[18],
+                (s[19], s[20], s[21]), (s[22], s[23], s[24]),
+                (s[25], s[26], s[27], s[28], s[29], s[30], s[31]), (s[32], s[33], s[34], s[35], s[36], s[37], s[38]),
+                (s[39], s[40], s[41], s[42], s[43], s[44], s[45]), (s[46], s[47], s[48], s[49], s[50], s[51], s[52]),
+                (s[53], s[54], s[55], s[56], s[57], s[58], s[59]), (s[60], s[61], s[62], s[63], s[64], s[65], s[66]),
+            )  # fmt: skip
+            value = update(value, sample)
+            out[k, 0] = value
+
+    return fold
+
+
+def test_metric_is_named_as_its_column(any_metric):
+    assert any_metric.column.startswith(any_metric.name.replace("-", "_"))
+    assert any_metric.unit
+    assert any_metric.title
 
 
 def test_metric_columns_are_distinct():
-    columns = [metric.column for metric in METRICS]
+    columns = [metric.column for metric in ON_ARM]
     assert len(set(columns)) == len(columns)
+
+
+def test_metrics_of_the_free_body_need_no_arm():
+    assert set(METRICS) == {metric for metric in ON_ARM if not metric.arm_only}
+
+
+def test_compiled_update_is_the_plain_update_bit_for_bit_on_an_arm(any_metric):
+    given = arm_samples()
+    plain, compiled = np.full((2, len(given), 1), any_metric.start)
+    fold = arm_folding(any_metric.update)
+    with np.errstate(all="ignore"):
+        fold(given, plain)
+    compile_function(fold, (MATRIX, MATRIX), cache=False)(given, compiled)
+    assert same_bits(compiled, plain)
+    assert len(np.unique(plain[:150])) > 1  # it has taken something in
+
+
+@functools.cache
+def rows_on_arm():
+    """Episodes of the plain laws on an arm, some of which fail, by the metrics of arms."""
+    starts = [tasks.start_set(word, arm="ur5e")[0] for word in tasks.task("arm-regulation", "ur5e").start_sets]
+    words = ("rotation-matrix@geometric+solve", "feedback-linearized/zyx-euler@geometric+transpose")
+    given = ("arm-regulation", "ur5e", starts, settings(dt_s=1e-2, horizon_s=1.0), ON_ARM)
+    return np.vstack([run_arm.run("native", named("ur5e", word), *given) for word in words])
+
+
+def test_finish_answers_a_number_or_nan_after_any_episode_on_an_arm(any_metric):
+    column = FIRST_METRIC + ON_ARM.index(any_metric)
+    rows = rows_on_arm()
+    assert len(set(rows[:, OUTCOME])) > 1
+    for row in rows:
+        outcome = int(row[OUTCOME])
+        answer = any_metric.finish(float(row[column]), Ending(1.0, float(row[FINAL_ANGLE]), 0.02, OUTCOMES[outcome]))
+        assert isinstance(answer, float)
+        assert outcome != SETTLED or not math.isinf(answer)
 
 
 def test_compiled_update_is_the_plain_update_bit_for_bit(metric):
@@ -85,8 +164,8 @@ def test_update_answers_a_float_to_numpy_numbers(metric):
 
 
 @pytest.mark.parametrize("ending", [*GOOD_ENDINGS, AT_GOAL], ids=lambda ending: f"{ending.outcome}-{ending.angle0}")
-def test_finish_answers_a_number_or_nan_even_if_no_tick_was_seen(metric, ending):
-    answer = metric.finish(metric.start, ending)
+def test_finish_answers_a_number_or_nan_even_if_no_tick_was_seen(any_metric, ending):
+    answer = any_metric.finish(any_metric.start, ending)
     assert isinstance(answer, float)
     assert not math.isinf(answer)
 

@@ -6,13 +6,13 @@ import math
 import numpy as np
 import pytest
 from bits import EPS
-from driving import settings
+from driving import recorder, settings
 
 import tasks
 from bench.discovery import find_contender, metrics_of
 from bench.engines.episode import FINAL_ANGLE, FIRST_METRIC, OUTCOME
 from bench.engines.run import run
-from bench.metric import Ending, Metric
+from bench.metric import Ending
 from tasks.base import Start, angle
 from tasks.rotations import zyx
 from tasks.rules import RULES
@@ -34,16 +34,6 @@ STARTS = [
     tasks.start_set("uniform", 3, seed=19)[2],
 ]
 LAWS = ("rotation-matrix", "linearized-euler/zyx-euler", "linearized-euler-relative/zyx-euler")
-
-
-def recorder(kept):
-    """A metric that keeps every sample it is shown."""
-
-    def update(value, sample):
-        kept.append(sample)
-        return value
-
-    return Metric("kept", "kept", "1", "kept", 0.0, update, lambda value, ending: value)
 
 
 @functools.cache
