@@ -25,7 +25,7 @@ PYTHON ?= $(shell for python in python3 python3.13 python3.12 python3.11; do \
 	$$python -c '$(SUPPORTED)' 2>/dev/null && { echo $$python; break; }; done)
 
 ##@ Start here
-bench:  ## run the default suite and print the summary (minutes, set-up included)
+bench:  ## run the default suite, free body and arms, and print the summary (minutes, set-up included)
 bench: $(BASE)
 	@$(PY) -m bench run --suite default --replace $(ARGS)
 	@$(PY) -m bench show
