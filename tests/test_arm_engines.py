@@ -13,11 +13,11 @@ from driving import settings
 
 import tasks
 from bench import combinations
+from bench.choice import INTEGRATORS
 from bench.discovery import all_contenders, known_inverses, known_jacobians, known_representations, metrics_of
 from bench.engines.arm_episode import POSE
 from bench.engines.episode import OUTCOME, SETTLING_TICK, TICKS
 from bench.engines.run_arm import compiled_loop, observer_of, pointers, run
-from bench.choice import INTEGRATORS
 from tasks.kinematics import kinematics
 from tasks.variations import VARIATIONS
 from tasks.verdict import DIVERGED, OUTCOMES, SATURATED, SETTLED, SINGULAR, STUCK, TIMED_OUT

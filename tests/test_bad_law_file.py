@@ -47,7 +47,10 @@ def law_text(*body: str) -> str:
         (law_text("return omega").replace('"u", law', '"u", 3.0'), "its law is 3.0"),
         (law_text("return omega").replace("law)", "law, coordinates='any')"), "its law_in is None"),
         (law_text("return omega").replace("law)", "law, coordinates='zyx-euler')"), "its coordinates are 'zyx-euler'"),
-        (law_text("return omega").replace("law)", "None, lambda r: law, coordinates=('zyx',))"), "representation 'zyx' is unknown"),
+        (
+            law_text("return omega").replace("law)", "None, lambda r: law, coordinates=('zyx',))"),
+            "representation 'zyx' is unknown",
+        ),
         (law_text("return omega").replace("law)", "law, memory=(0, 1))"), "its memory is (0, 1)"),
         (law_text("return omega").replace("law)", "law, memory=(0.0,))"), "law(R, omega, goal, gains, memory)"),
         (law_text("return (1.0, 2.0)"), "returned (1.0, 2.0); it must return a tuple of three floats"),

@@ -10,7 +10,7 @@ from command_line import bench
 from driving import settings, spread
 
 from bench import results, store
-from bench.discovery import contenders_of, metrics_of, load_law
+from bench.discovery import contenders_of, load_law, metrics_of
 from bench.engines.episode import FAILURE_TICK, OUTCOME
 from bench.engines.run import run
 from bench.figures import cards
