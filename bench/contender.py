@@ -98,13 +98,13 @@ class Regulator(NamedTuple):
 
     coordinates: "rotation-matrix" if the law acts on R; otherwise the names of the representations it acts on, or
     "any". Such a regulator gives `law_in(representation)`, which returns the law in those coordinates.
-    coordinate_law_in: of a law that commands Eddot itself: coordinate_law_in(representation) returns
-    law(chart, E_d, Edot, gains) -> u_E, what the controller on an analytic Jacobian needs (Murphy 1988, 3.7).
     relative: the coordinates are those of R_d^T R, so their margin is too.
     memory: initial memory of a law with state, law(R, omega, goal, gains, memory) -> (u, memory); else None.
     property: what is proved of it: "local", "almost global", "global with memory", or "none".
     origin: the file of a user's law; empty for ours.
     costing_only: another way to write a law that is listed already: costed and tested, not run.
+    coordinate_law_in: of a law that commands Eddot itself: coordinate_law_in(representation) returns
+    law(chart, E_d, Edot, gains) -> u_E, what the controller on an analytic Jacobian needs (Murphy 1988, 3.7).
     """
 
     name: str
@@ -113,13 +113,13 @@ class Regulator(NamedTuple):
     formula: str
     law: Callable | None = None
     law_in: Callable | None = None
-    coordinate_law_in: Callable | None = None
     coordinates: str | tuple = "rotation-matrix"
     relative: bool = False
     memory: tuple | None = None
     property: str = "local"
     origin: str = ""
     costing_only: bool = False
+    coordinate_law_in: Callable | None = None
 
 
 class Jacobian(NamedTuple):
