@@ -22,8 +22,8 @@ MEANINGS = {
     "torque": "near neither, as far as was seen; the torque or the speed left all bounds",
     "law": "none of these: a dead point, or a jump of the coordinates",
 }
-LEAST_NAMED = 0.02
-"""A piece of a bar under this share of the axis has no room for its number."""
+LEAST_SHOWN = 0.1
+"""The axis reaches at least this share, also where nothing fails."""
 
 
 @responsive_picture
@@ -36,7 +36,7 @@ def causes(rows: pd.DataFrame, narrow: bool):
     controllers = arm_rows.in_order(rows)
     figure, axes = style.panels(height=(0.44 if narrow else 0.33) * len(controllers) + 1.2, narrow=narrow)
     counts = tallied(rows)
-    widest = max(1e-9, float(counts[list(COLOURS)].sum(axis=1).div(counts["n"]).max()))
+    widest = max(LEAST_SHOWN, float(counts[list(COLOURS)].sum(axis=1).div(counts["n"]).max()))
     said = []
     for i, controller in enumerate(controllers):
         line, left = counts.loc[controller], 0.0
