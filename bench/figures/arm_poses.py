@@ -10,6 +10,7 @@ import pandas as pd
 
 import tasks
 from bench import results
+from bench.discovery import known_representations
 from bench.errors import BadResults
 from bench.figures import style
 from bench.schema import pose_columns
@@ -69,6 +70,11 @@ def look(arm: str) -> style.Look:
 def look_of_coordinates(name: str) -> style.Look:
     """How the Jacobian of these coordinates is drawn."""
     return COORDINATES.get(name) or style.look(name)
+
+
+def short_title(name: str) -> str:
+    """How coordinates are called at the head of a column."""
+    return known_representations()[name].title.removesuffix(" angles")
 
 
 def share(found: pd.Series) -> float:
