@@ -65,4 +65,6 @@ def operations(costs: pd.DataFrame, titles: dict[str, str], *, narrow=False):
 
 def ink(colour: str) -> str:
     """A colour for numbers on a bar that reads on both pages."""
-    return style.PAPER if colour in ("#0072b2", "#d55e00") else style.INK
+    if colour == "#b9c3cf":  # the one whose twin is darker than itself
+        return style.INK
+    return style.PAPER if colour in ("#0072b2", "#d55e00") else style.ON_COLOUR

@@ -1,0 +1,171 @@
+"""Figures and tables about Jacobians and whole controllers' costs, from a few poses of two arms and a few counts."""
+
+import math
+import re
+
+import numpy as np
+import pandas as pd
+import pytest
+
+pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
+
+import tasks
+from bench import poses
+from bench.claims.arm_probes import controller
+from bench.counting import rows_on_arm
+from bench.figures import (
+    arm_times,
+    condition_growth,
+    condition_maps,
+    condition_shares,
+    controller_costs,
+    derivations,
+    inverse_costs,
+    named_poses,
+    style,
+)
+from bench.results import with_contender
+
+ARMS = ("puma560", "panda")
+WORDS = {
+    6: (
+        "rotation-matrix@geometric+solve",
+        "rotation-matrix@geometric+damped-least-squares",
+        "feedback-linearized/zyx-euler@geometric+solve",
+        "feedback-linearized/zyx-euler@analytic+solve",
+        "feedback-linearized/quaternion@analytic+pseudo-inverse",
+    ),
+    7: ("rotation-matrix@geometric+pseudo-inverse",),
+}
+
+
+@pytest.fixture(scope="module")
+def seen():
+    """poses.parquet of two arms, as it would be read."""
+    frames = [poses.frame(tasks.arm(name), 24, 0) for name in ARMS]
+    frame = pd.concat(frames, ignore_index=True)
+    return frame.astype({"arm": "category", "pose_set": "category", "representation": "category"})
+
+
+@pytest.fixture(scope="module")
+def counted():
+    """costs.parquet of a few controllers, as `controller_costs.counted` gives it."""
+    frames = [pd.DataFrame(rows_on_arm(controller(word), n)) for n, words in WORDS.items() for word in words]
+    with pytest.MonkeyPatch.context() as patch:
+        table = with_contender(pd.concat(frames, ignore_index=True))
+        patch.setattr("bench.results.costs", lambda **_: table[table["branch"] == "typical"])
+        return controller_costs.counted()
+
+
+def of(seen, pose_set="", representation=""):
+    chosen = seen if not pose_set else seen[seen["pose_set"] == pose_set]
+    return chosen if not representation else chosen[chosen["representation"] == representation]
+
+
+DRAWN = {
+    "maps": lambda seen, _: condition_maps.maps(of(seen, "slice", "zyx-euler")),
+    "growth": lambda seen, _: condition_growth.growth(of(seen, "pole")),
+    "derivations": lambda seen, _: derivations.derivations(of(seen, representation="zyx-euler")),
+    "shares": lambda seen, _: condition_shares.shares(of(seen, "random")),
+    "stages": lambda _, counted: controller_costs.bars(counted),
+    "inverses": lambda _, counted: inverse_costs.inverses(counted),
+}
+
+
+@pytest.mark.parametrize("name", DRAWN)
+def test_figure_speaks_in_numbers_and_uses_the_palette_on_page_and_phone(name, seen, counted):
+    picture = DRAWN[name](seen, counted)
+    assert len(re.findall(r"\d", picture.alt)) > 1
+    assert "nan" not in picture.alt
+    assert picture.narrow
+    assert picture.narrow != picture.wide
+    twins = {colour.lower() for pair in style.TWINS.items() for colour in pair}
+    bare = re.sub(r'"data:[^"]*"', "", picture.wide + picture.narrow)
+    drawn = {colour.lower() for colour in re.findall(r"#[0-9a-fA-F]{6}\b", bare)}
+    assert drawn <= twins
+
+
+@pytest.mark.parametrize(
+    "draw", [condition_maps.maps, condition_growth.growth, derivations.derivations, condition_shares.shares]
+)
+def test_figure_says_so_where_a_run_has_no_poses(draw, seen):
+    assert "Not in this run" in draw(seen.head(0)).alt
+
+
+def test_tables_say_so_where_a_run_has_no_poses(seen):
+    none = seen.head(0)
+    for table in (named_poses.conditions(none), condition_growth.slopes(none), condition_shares.spoilt(none)):
+        assert "Not in this run" in table
+
+
+def test_stock_pose_is_well_conditioned_and_on_the_pole(seen):
+    said = named_poses.stock(of(seen, "named"))
+    assert (said["qn_beta"], said["qn_J"]) == ("90°", "7.9")
+    assert "·10" in said["qn_zyx"]
+
+
+def test_slice_is_put_back_on_its_grid(seen):
+    rows = of(seen, "slice", "zyx-euler")
+    rows = rows[rows["arm"] == "puma560"].sample(frac=1.0, random_state=0)
+    grid = condition_maps.Grid(rows)
+    at = rows.iloc[0]
+    row, column = (int(word) for word in at["pose_id"].split("-")[2:])
+    assert grid.condition[row, column] == pytest.approx(min(at["condition"], condition_maps.HIGHEST))
+    assert grid.x[column] == pytest.approx(math.degrees(at[f"q_{grid.first}"]))
+    assert grid.y[row] == pytest.approx(math.degrees(at[f"q_{grid.second}"]))
+    assert np.isfinite(grid.condition).all()
+
+
+def test_only_the_papers_coordinates_grow_towards_their_pole(seen):
+    slopes = {
+        line.split("`")[1]: float(line.split("|")[4]) for line in lines(condition_growth.slopes(of(seen, "pole")))
+    }
+    assert slopes.pop("zyx-euler") == pytest.approx(1.0, abs=0.05)
+    assert max(slopes.values()) < 0.1
+
+
+def test_share_above_a_value_is_that_of_the_values():
+    beyond = condition_shares.beyond(pd.Series([5.0, 50.0, math.inf, 500.0]))
+    assert beyond[condition_shares.POINTS < 5.0].tolist() == [1.0] * int((condition_shares.POINTS < 5.0).sum())
+    assert beyond[-1] == 0.25
+
+
+def test_gap_is_nothing_but_rounding(seen):
+    found = derivations.facts(of(seen, representation="zyx-euler"))
+    assert max(found.values()) < derivations.ROUNDINGS
+
+
+def test_stages_add_up_to_the_total(counted):
+    totals = counted[counted["stage"] == "total"].set_index("contender")["flops"]
+    for joints in WORDS:
+        own = controller_costs.standard(counted, joints)
+        for name, row in controller_costs.stages(own).iterrows():
+            assert row.sum() in totals[[one for one in totals.index if one.startswith(f"{name}+")]].tolist()
+
+
+def test_quaternion_is_shown_with_the_inverse_that_fits_it(counted):
+    shown = set(controller_costs.standard(counted, 6)["contender"])
+    assert "feedback-linearized/quaternion@analytic+pseudo-inverse" in shown
+    assert "rotation-matrix@geometric+damped-least-squares" not in shown
+
+
+def test_price_of_damping_says_so_where_a_run_has_none(counted):
+    none = pd.DataFrame(columns=["controller", "start_set", "arm", "inverse", "outcome"])
+    assert "Not in this run" in inverse_costs.said(counted, none)
+
+
+def test_damping_costs_more_than_the_inverse(counted):
+    flops = inverse_costs.invert(counted)[6]
+    assert flops["damped-least-squares"] > flops["solve"]
+
+
+def test_times_say_so_where_none_were_measured(monkeypatch, tmp_path):
+    monkeypatch.setattr("bench.figures.times.FOLDER", tmp_path)
+    none = arm_times.rows()
+    assert "make time" in arm_times.ratios(none).alt
+    assert "make time" in arm_times.table(none)
+    assert "make time" in arm_times.said(none)
+
+
+def lines(table):
+    return table.splitlines()[2:]
