@@ -112,7 +112,7 @@ SUITES = {
                 _on_arms(clear=24, wrist=24, pole=32, half_turn=12, uniform=40, tumbling=12),
                 VARIED,
                 (Slice("native", "clear", 4, VARIED_S),),
-                traced=4,
+                traced=2,
                 poses=1500,
             ),
         ),

@@ -13,7 +13,7 @@ from bench import results
 from bench.figures import html, times
 from bench.provenance import ROOT
 
-OFFERED_BYTES = 16_000_000
+OFFERED_BYTES = 8_000_000
 """A larger file is named, not offered: the site stays small enough to be mailed or put on a stick."""
 CITATION = ROOT / "CITATION.cff"
 SITE_DATA = "../data"
