@@ -81,7 +81,7 @@ def test_plane_gives_every_law_its_place():
 
 
 def test_page_says_so_when_nothing_was_timed():
-    none = pd.DataFrame(columns=["contender", "what", "ticks", "ratio"])
+    none = pd.DataFrame(columns=["contender", "what", "ticks", "ratio", "jacobian"])
     assert "make time" in times.times(times.alone(none), results.costs(), {}).alt
     assert "make time" in prices.times(none, {})
 

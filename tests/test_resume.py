@@ -74,8 +74,8 @@ def test_one_thread_and_two_give_the_same_files(killed):
 
 
 RUN = ("run", "--suite", "quick", "--task", "free-body", "--starts", "half-turn", "--engine", "reference")
-MANY = (*RUN, "--regulator", "rotation-matrix", "--count", "40", "--horizon", "1", "--workers", "1")
-"""Ten units of four episodes, each about a tenth of a second."""
+MANY = (*RUN, "--regulator", "rotation-matrix", "--count", "120", "--horizon", "1", "--workers", "1")
+"""Thirty units of four episodes, each about a tenth of a second: time to be stopped in, on a busy machine too."""
 
 
 @pytest.fixture(scope="module")
@@ -108,7 +108,7 @@ def test_stopped_run_says_that_it_goes_on_and_ends_with_the_same_files(interrupt
     parts = len(list((out / "parts").iterdir()))
     said = bench(capsys, *MANY, "--out", out)
     assert said.code == 0
-    assert f"going on: {parts} of 10 units are done" in said.out
+    assert f"going on: {parts} of 30 units are done" in said.out
     assert bench(capsys, *MANY, "--out", tmp_path / "undisturbed").code == 0
     resumed, undisturbed = digest(out), digest(tmp_path / "undisturbed")
     assert resumed.pop("provenance.json") != undisturbed.pop("provenance.json")
