@@ -106,7 +106,7 @@ def run(
         return False
     began = time.time()
     _compile_own_laws(plan)
-    costs = _law_costs(plan)
+    costs = _own_costs(plan)
     if not state.done:
         _clear(out)
         write_json(out / "plan.json", {"digest": plan.digest(), **plan.identity()})
@@ -140,9 +140,14 @@ def _keep_own_laws(plan: Plan, out: Path) -> None:
 
 
 def _law_costs(plan: Plan) -> list[dict]:
-    """Operations of every law, run or not."""
-    costed = {one.name: one for one in (*all_contenders(), *plan.laws)}
-    return _counted(plan, ((one, functools.partial(counting.rows, [one])) for one in costed.values()))
+    """Operations of every law of ours, run or not."""
+    return _counted(plan, ((one, functools.partial(counting.rows, [one])) for one in all_contenders()))
+
+
+def _own_costs(plan: Plan) -> list[dict]:
+    """Operations of a user's laws, counted first: what cannot be counted is a mistake, and nothing is written."""
+    own = (one for one in plan.laws if one.regulator.origin)
+    return _counted(plan, ((one, functools.partial(counting.rows, [one])) for one in own))
 
 
 def _arm_costs(plan: Plan) -> list[dict]:
@@ -235,11 +240,13 @@ starts_of = functools.lru_cache(maxsize=16)(tasks.start_set)
 """A start set is built once for all its units."""
 
 
-def _finish(plan: Plan, out: Path, law_costs: list[dict], workers: int, began: float, resumed: bool) -> None:
+def _finish(plan: Plan, out: Path, own_costs: list[dict], workers: int, began: float, resumed: bool) -> None:
+    write_table(out / "boundaries.parquet", boundary.run(plan, workers), "boundaries")
     with ThreadPoolExecutor(workers) as pool:
-        arm_costs, curves, looks = (pool.submit(make, plan) for make in (_arm_costs, traces.run, poses.run))
-        write_table(out / "boundaries.parquet", boundary.run(plan, workers), "boundaries")
-        write_table(out / "costs.parquet", pd.DataFrame(law_costs + arm_costs.result()), "costs")
+        makers = (traces.run, poses.run, _law_costs, _arm_costs)
+        curves, looks, *costs = (pool.submit(make, plan) for make in makers)
+        counted = pd.DataFrame(costs[0].result() + own_costs + costs[1].result())
+        write_table(out / "costs.parquet", counted, "costs")
         write_table(out / "traces.parquet", curves.result(), "traces")
         write_table(out / "poses.parquet", looks.result(), "poses")
     rows = merge(out / "episodes.parquet", [out / "parts" / f"{unit.key}.parquet" for unit in plan.units], "episodes")

@@ -80,16 +80,16 @@ def as_table(frame: pd.DataFrame, table: str) -> pa.Table:
     )
 
 
-def write_table(path: Path, frame: pd.DataFrame, table: str, about: dict | None = None) -> None:
+def write_table(path: Path, frame: pd.DataFrame | pa.Table, table: str, about: dict | None = None) -> None:
     """One table, whole or not at all; `about` goes into its metadata as JSON, for a table that has no run's folder."""
-    arrow = as_table(frame, table)
+    arrow = frame if isinstance(frame, pa.Table) else as_table(frame, table)
     if about is not None:
         arrow = arrow.replace_schema_metadata({**arrow.schema.metadata, b"about": json.dumps(about, sort_keys=True)})
     write_atomically(path, lambda temporary: pq.write_table(arrow, temporary, compression=COMPRESSION))
 
 
-GROUP = 65_536
-"""Rows that a merge holds in memory, 20 MB of them; row groups of a part each made the file three times as large."""
+GROUP = 16_384
+"""Rows that a merge holds in memory, some 10 MB; row groups of a part each made the file three times as large."""
 
 
 def merge(path: Path, parts: Iterable[Path], table: str) -> int:
@@ -104,16 +104,16 @@ def merge(path: Path, parts: Iterable[Path], table: str) -> int:
                 held.append(read_arrow(part, table))
                 rows += held[-1].num_rows
                 if sum(one.num_rows for one in held) >= GROUP:
-                    writer.write_table(_joined(held))
+                    writer.write_table(joined(held))
                     held.clear()
             if held:
-                writer.write_table(_joined(held))
+                writer.write_table(joined(held))
 
     write_atomically(path, write)
     return rows
 
 
-def _joined(tables: list[pa.Table]) -> pa.Table:
+def joined(tables: list[pa.Table]) -> pa.Table:
     """The tables as one whole, words in one dictionary."""
     return pa.concat_tables(tables).unify_dictionaries().combine_chunks()
 

@@ -104,16 +104,16 @@ SUITES = {
             + _slices("ideal-held", 5000)
             + _slices("native", 1000)
             + _slices("reference", 0, ("paper",)),
-            _slices("ideal-rk4", 5000) + _slices("native", 0, ("half-turn", "paper", "poles")),
+            _slices("ideal-rk4", 1000),
             traces=64,
-            boundary_axes=256,
+            boundary_axes=192,
             on_arms=OnArms(
                 (*LAWS, *ANALYTIC, *TWINS, *INVERSES),
-                _on_arms(clear=24, wrist=24, pole=32, half_turn=12, uniform=40, tumbling=12),
+                _on_arms(clear=20, wrist=20, pole=32, half_turn=12, uniform=32, tumbling=12),
                 VARIED,
                 (Slice("native", "clear", 4, VARIED_S),),
                 traced=2,
-                poses=1500,
+                poses=1000,
             ),
         ),
         Suite(
@@ -132,7 +132,7 @@ SUITES = {
                 VARIED,
                 (Slice("native", "clear", None, ON_ARM),),
                 traced=4,
-                poses=1500,
+                poses=1000,
             ),
         ),
     )

@@ -36,7 +36,8 @@ def curves(word: str, arm: str, gains: Gains, dt_s: float, count: int) -> pd.Dat
 
     one = controller(word)
     unit = Unit("native", one.name, TASK, "clear", 0, count, count, traces.LONGEST_S, arm)
-    frame = traces.run(dataclasses.replace(Plan("experiment", (unit,), (one,), gains, dt_s), arm_traces=count))
+    plan = dataclasses.replace(Plan("experiment", (unit,), (one,), gains, dt_s), arm_traces=count)
+    frame = traces.run(plan).to_pandas()
     frame = frame[frame["start_set"] == "clear"]
     goals = {start.id: start.goal_wxyz for start in tasks.start_set("clear", count, 0, arm=arm)}
     parts = []
