@@ -132,7 +132,8 @@ def test_plan_knows_an_arms_model(monkeypatch):
     before = planning.make("quick", [law], Choice(arms=("ur5e",)), count=1)
     digest, known = before.digest(), tasks.arm("ur5e")
     assert "</worldbody>" in known.xml
-    monkeypatch.setattr(tasks, "arm", lambda name: known._replace(xml=known.xml.replace("</worldbody>", "</worldbody >")))
+    edited = known._replace(xml=known.xml.replace("</worldbody>", "</worldbody >"))
+    monkeypatch.setattr(tasks, "arm", lambda name: edited)
     assert before.digest() != digest
 
 
