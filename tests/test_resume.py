@@ -78,11 +78,16 @@ MANY = (*RUN, "--regulator", "rotation-matrix", "--count", "120", "--horizon", "
 """Thirty units of four episodes, each about a tenth of a second: time to be stopped in, on a busy machine too."""
 
 
+def heed_interrupts():
+    """For a child: a shell that starts the tests in the background has them, and theirs, ignore SIGINT."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
 @pytest.fixture(scope="module")
 def interrupted(tmp_path_factory):
     """A run stopped by SIGINT after its first part: the finished process, what it printed, its folder."""
     out = tmp_path_factory.mktemp("interrupted") / "run"
-    process = python("-m", "bench", *MANY, "--out", out, start_new_session=True)
+    process = python("-m", "bench", *MANY, "--out", out, start_new_session=True, preexec_fn=heed_interrupts)
     while not list((out / "parts").glob("*.parquet")) and process.poll() is None:
         time.sleep(0.01)
     process.send_signal(signal.SIGINT)
