@@ -122,11 +122,12 @@ class Kinematics:
     def walk(self, q: Sequence[float] | np.ndarray, quats: Iterable[Quat]) -> Iterator[np.ndarray]:
         """The joint angles at each orientation in turn, the tool's position held; ends where it cannot go on."""
         p, _ = self.pose(q)
-        now: np.ndarray | None = np.array(q, dtype=float)
+        now = np.array(q, dtype=float)
         for quat in quats:
-            now = self.reach(now, p, quat)  # type: ignore[arg-type]
-            if now is None:
+            reached = self.reach(now, p, quat)
+            if reached is None:
                 return
+            now = reached
             yield now
 
     def follow(self, q: Sequence[float] | np.ndarray, quats: Sequence[Quat]) -> np.ndarray | None:

@@ -83,7 +83,10 @@ def on_arm(arm: str, one, dt: float, at: float) -> np.ndarray:
 @pytest.fixture
 def strong(monkeypatch):
     """Motors without a limit: the Jaco's are too weak for some of its turns."""
-    unlimited = lambda one, own: controls(one, own)._replace(torque_limit_squared=np.inf)  # noqa: E731
+
+    def unlimited(one, own):
+        return controls(one, own)._replace(torque_limit_squared=np.inf)
+
     monkeypatch.setattr(run_arm, "controls", unlimited)
 
 

@@ -53,6 +53,7 @@ def kernels_in(representation):
             bending(omegadot, omega, R.o, Rdot.o),
             bending(omegadot, omega, R.a, Rdot.a),
         )
+        # added, not spread with a star: compiled code has no (*a, *b) of tuples
         return (bias[0], bias[1], bias[2]) + differentiate_twice(R, Rdot, Rddot)  # noqa: RUF005
 
     return fill, drift
