@@ -18,9 +18,10 @@ from collections.abc import Callable
 from typing import Any, NamedTuple
 
 from bench.chain import bias_acceleration, twist
-from bench.contender import Contender, Representation, Scratch
+from bench.contender import Contender, Representation
 from bench.errors import Incompatible
 from bench.linalg import multiply
+from bench.resolved_motion import Scratch
 from bench.scalar import kernel
 
 

@@ -15,19 +15,10 @@ from pathlib import Path
 from typing import Any
 
 from bench import inverses, jacobians, metrics, regulators, representations
-from bench.contender import (
-    NO_MEMORY,
-    Contender,
-    Gains,
-    Goal,
-    Inverse,
-    Jacobian,
-    Regulator,
-    Representation,
-    contender,
-)
+from bench.contender import NO_MEMORY, Contender, Gains, Goal, Regulator, Representation, contender
 from bench.errors import BadLaw, Incompatible, UnknownWord
 from bench.metric import Metric
+from bench.resolved_motion import Inverse, Jacobian
 from bench.so3 import Rotation
 
 WORD = re.compile(r"[a-z0-9]+(-[a-z0-9]+)*")

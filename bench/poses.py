@@ -17,10 +17,11 @@ import numpy as np
 import pandas as pd
 
 import tasks
-from bench.contender import Chain, Representation
+from bench.contender import Representation
 from bench.discovery import known_jacobians, known_representations
 from bench.plan import Plan
 from bench.pose_sets import Pose, poses
+from bench.resolved_motion import Chain
 from bench.schema import pose_columns
 from bench.so3 import Rotation
 from tasks.arm import Arm, model_xml

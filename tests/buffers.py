@@ -6,8 +6,8 @@ from typing import NamedTuple
 import mujoco
 import numpy as np
 
-from bench.contender import Chain, Scratch
 from bench.counting import Counted, Tally
+from bench.resolved_motion import Chain, Scratch
 from bench.so3 import Rotation
 
 SIZE = 7

@@ -9,10 +9,11 @@ import numpy as np
 import tasks
 from bench import combinations
 from bench.cartesian import assembly, control, parts_of
-from bench.contender import Chain, Gains, Goal
+from bench.contender import Gains, Goal
 from bench.discovery import all_contenders
 from bench.engines.arm_episode import buffers
 from bench.engines.binding import command_of, memory_of
+from bench.resolved_motion import Chain
 from bench.so3 import Rotation, from_quaternion
 from tasks.arm import model_xml
 

@@ -8,12 +8,12 @@ from on_arms import ARMS, LAWS, named
 
 import tasks
 from bench import combinations
-from bench.contender import Inverse
 from bench.counting import on_arms
 from bench.counting.costs import cost
 from bench.counting.counted import OPERATIONS, STAGES, TOTAL
 from bench.discovery import known_inverses
 from bench.errors import BadLaw
+from bench.resolved_motion import Inverse
 from bench.scalar import kernel
 
 ITERATES = ("truncated-svd", "damped-least-squares-variable")

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 
 from bench.scalar import KERNELS, PRIMITIVES
 
-SOURCES = ("bench.scalar", "bench.so3", "bench.linalg", "bench.weighting", "bench.contender")
+SOURCES = ("bench.scalar", "bench.so3", "bench.linalg", "bench.weighting", "bench.resolved_motion", "bench.contender")
 """Modules of ours a law may import from; and NamedTuple from typing, to name its tuples."""
 
 OPERATORS = (ast.Add, ast.Sub, ast.Mult, ast.Div, ast.USub, ast.UAdd, ast.Not)

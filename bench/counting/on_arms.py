@@ -14,12 +14,13 @@ import numpy as np
 
 import tasks
 from bench.cartesian import Buffers, Parts, assembly, control, parts_of
-from bench.contender import AT_REST, NO_MEMORY, Chain, Contender, Goal, Scratch
+from bench.contender import AT_REST, NO_MEMORY, Contender, Goal
 from bench.counting.costs import Call, Cost, bits, counted, rows_of, size
 from bench.counting.counted import Counted, OutsideDialect, Tally
 from bench.counting.staged import in_stage, law_of, staged
 from bench.counting.states import GAINS
 from bench.errors import BadLaw
+from bench.resolved_motion import Chain, Scratch
 from bench.so3 import Rotation, from_quaternion
 from tasks.base import Start
 

@@ -9,10 +9,11 @@ from typing import NamedTuple
 import numpy as np
 
 from bench.cartesian import Buffers
-from bench.contender import Contender, Scratch
+from bench.contender import Contender
 from bench.engines.episode import blank
 from bench.jacobians.geometric import fill
 from bench.linalg import determinant, gram
+from bench.resolved_motion import Scratch
 from bench.scalar import kernel
 from bench.so3 import Rotation
 from tasks.arm import Arm

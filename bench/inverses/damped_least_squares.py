@@ -7,7 +7,7 @@ at sigma = 0.2, half at sigma = lambda, and never nothing.
 Fails: never by itself, but it gives less than was asked for everywhere; it cannot help where J itself is not finite.
 """
 
-from bench.contender import Inverse
+from bench.resolved_motion import Inverse
 from bench.scalar import kernel
 from bench.weighting import GREATEST_GAIN, smaller_gram, solve_gram, weigh
 

@@ -11,8 +11,8 @@ Fails: as damped-least-squares does, but only within epsilon of a singularity; a
 epsilon the estimate may lie between them.
 """
 
-from bench.contender import Inverse
 from bench.linalg import factor, solve_factored, solve_upper
+from bench.resolved_motion import Inverse
 from bench.scalar import copysign, kernel
 from bench.weighting import GREATEST_GAIN, smaller_gram, solve_gram, weigh
 

@@ -6,8 +6,8 @@ see. From D = L L^T and Y = L^-1 J^T, Lambda^-1 = Y^T Y, so that D is never inve
 Fails: where J loses rank Lambda is not finite; like pseudo-inverse it squares the condition number of J.
 """
 
-from bench.contender import Inverse
 from bench.linalg import factor, gram, multiply_transposed, solve_factored, solve_lower
+from bench.resolved_motion import Inverse
 from bench.scalar import kernel
 
 

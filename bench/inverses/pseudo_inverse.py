@@ -7,7 +7,7 @@ Fails: as `solve` does where J loses rank, and sooner: the equations square the 
 nothing is left of the digits.
 """
 
-from bench.contender import Inverse
+from bench.resolved_motion import Inverse
 from bench.scalar import kernel
 from bench.weighting import smaller_gram, solve_gram
 

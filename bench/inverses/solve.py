@@ -3,8 +3,8 @@
 Fails: where J is singular x is not finite, and towards it x grows like 1 / sigma_min(J) without bound.
 """
 
-from bench.contender import Inverse
 from bench.linalg import solve
+from bench.resolved_motion import Inverse
 from bench.scalar import kernel
 
 

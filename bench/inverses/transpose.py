@@ -6,8 +6,8 @@ the arm is no unit mass: it does not linearize, its stiffness depends on the pos
 Fails: never by itself; the motion is that of another plant, slower or faster by the arm's own inertia.
 """
 
-from bench.contender import Inverse
 from bench.linalg import multiply_transposed
+from bench.resolved_motion import Inverse
 from bench.scalar import kernel
 
 

@@ -7,8 +7,8 @@ Fails: never by itself, but the answer jumps where a singular value crosses the 
 those left out is not done at all.
 """
 
-from bench.contender import Inverse
 from bench.linalg import multiply_transposed, orthogonalize
+from bench.resolved_motion import Inverse
 from bench.scalar import kernel
 from bench.weighting import GREATEST_GAIN, weigh
 

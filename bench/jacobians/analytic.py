@@ -7,7 +7,8 @@ inverse sees either: J_E^T (0, q) = 0, and each of them is J_E^T (J_E J_E^T + ..
 Fails: where the coordinates are singular, B^-1 and with it J_E are not finite, and where the arm itself is singular.
 """
 
-from bench.contender import AT_REST, Jacobian
+from bench.contender import AT_REST
+from bench.resolved_motion import Jacobian
 from bench.scalar import kernel
 from bench.so3 import cross
 

@@ -7,7 +7,7 @@ as `analytic` to rounding: what the literature before the paper did, and the pri
 Fails: as `analytic` does.
 """
 
-from bench.contender import Jacobian
+from bench.resolved_motion import Jacobian
 from bench.scalar import kernel
 from bench.so3 import Rotation, cross
 

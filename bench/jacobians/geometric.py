@@ -3,7 +3,7 @@
 Fails: nowhere; it loses rank where the arm itself is singular.
 """
 
-from bench.contender import Jacobian
+from bench.resolved_motion import Jacobian
 from bench.scalar import kernel
 from bench.so3 import cross
 

@@ -5,7 +5,7 @@ not either, as the weight on translations is the same in every direction.
 Fails: where the geometric one does.
 """
 
-from bench.contender import Jacobian
+from bench.resolved_motion import Jacobian
 from bench.scalar import kernel
 from bench.so3 import cross, rotate_back
 

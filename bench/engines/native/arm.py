@@ -12,7 +12,7 @@ import numpy as np
 from numba import float64, int64, types
 
 from bench.cartesian import Buffers, control
-from bench.contender import AT_REST, Chain, Gains, Goal, Scratch
+from bench.contender import AT_REST, Gains, Goal
 from bench.engines.arm_episode import (
     MOST,
     PROBE_TICKS,
@@ -29,6 +29,7 @@ from bench.engines.compiled import MATRIX, NUMBERS, compile_function
 from bench.engines.episode import finish
 from bench.engines.native.libmujoco import mj_fullM, mj_resetData, mj_step, mj_step1, mj_step2
 from bench.engines.native.pointers import address_of, matrix, vector
+from bench.resolved_motion import Chain, Scratch
 from bench.so3 import Rotation, from_quaternion
 from tasks.truth import angle, haversine
 from tasks.verdict import GOING, check_command, check_state, first_watch, watched

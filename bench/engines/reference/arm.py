@@ -8,7 +8,7 @@ import numpy as np
 
 import tasks
 from bench.cartesian import assembly, control, parts_of
-from bench.contender import Chain, Gains, Goal
+from bench.contender import Gains, Goal
 from bench.engines.arm_episode import (
     PROBE_TICKS,
     ArmSample,
@@ -24,6 +24,7 @@ from bench.engines.arm_episode import (
 from bench.engines.binding import command_of, margin_of, memory_of, observer
 from bench.engines.episode import Settings, finish, numbers
 from bench.engines.reference.free_body import STILL, vector
+from bench.resolved_motion import Chain
 from bench.so3 import Rotation, dot, from_quaternion
 from tasks.truth import angle, haversine
 from tasks.verdict import GOING, check_command, check_state, first_watch, watched
