@@ -55,6 +55,8 @@ class Representation(NamedTuple):
     Of an extraction that can be differentiated element by element, as (3.5) does (else None):
     differentiate(R, Rdot) -> Edot                               dE/dR along Rdot, Rdot by columns
     differentiate_twice(R, Rdot, Rddot) -> Eddot
+
+    about: which coordinate a user takes for the turn about x, about y and about z; None if there is no such choice.
     """
 
     name: str
@@ -72,6 +74,7 @@ class Representation(NamedTuple):
     margin: Callable
     differentiate: Callable | None = None
     differentiate_twice: Callable | None = None
+    about: tuple[int, int, int] | None = (0, 1, 2)
 
     @property
     def goal_chart(self) -> Callable:

@@ -51,9 +51,13 @@ if TYPE_CHECKING:
     import mujoco
     from dm_control.rl.control import Environment
 
+    from tasks.contact import ContactTask
+
 __all__ = [
     "arm",
     "arm_names",
+    "contact_names",
+    "contact_task",
     "described",
     "is_for_arms",
     "load",
@@ -196,8 +200,25 @@ def _task_on(name: str, arm: str) -> Task:
     return found
 
 
+def contact_names() -> list[str]:
+    """Names of all tasks in contact, sorted."""
+    return sorted(_contact_tasks())
+
+
+def contact_task(name: str) -> ContactTask:
+    """The task in contact of this name; UnknownName lists the known ones."""
+    return pick("task in contact", name, _contact_tasks(), "tasks/domains")
+
+
 def _tasks() -> dict[str, Task | ArmTask]:
-    return constants(domains, "TASK")
+    found = constants(domains, "TASK")
+    return {name: one for name, one in found.items() if isinstance(one, (Task, ArmTask))}
+
+
+def _contact_tasks() -> dict[str, ContactTask]:
+    from tasks.contact import ContactTask  # MuJoCo takes a moment to import; listing other names must not
+
+    return {name: one for name, one in constants(domains, "TASK").items() if isinstance(one, ContactTask)}
 
 
 def _start_sets() -> dict[str, StartSet]:

@@ -41,13 +41,13 @@ DAMPING = 1e-4
 
 
 class Kinematics:
-    """MuJoCo's kinematics of one arm. q: n joint angles [rad]; everything in the base frame, SI units."""
+    """MuJoCo's kinematics of one arm, to a site of it. q: n joint angles [rad]; base frame, SI units."""
 
-    def __init__(self, arm: Arm):
+    def __init__(self, arm: Arm, site: str = "tool"):
         self.arm = arm
         self.model = mujoco.MjModel.from_xml_string(model_xml(arm, 1e-3))
         self._data = mujoco.MjData(self.model)
-        self._site = self.model.site("tool").id
+        self._site = self.model.site(site).id
         self._body = int(self.model.site_bodyid[self._site])
         self._J = np.zeros((6, self.model.nv))
         self._quat = np.zeros(4)

@@ -30,7 +30,10 @@ NUMBERS = types.NamedTuple((float64, float64, float64, int64, int64, float64, fl
 EPISODES = types.void(MATRIX, NUMBERS, MATRIX)
 """episodes(starts, numbers, rows): the signature of every compiled loop over the ideal plant."""
 
-INLINED = ("bench.chain", "bench.linalg", "bench.jacobians", "bench.cartesian", "bench.engines.arm_episode")
+INLINED = (
+    *("bench.chain", "bench.linalg", "bench.jacobians", "bench.cartesian", "bench.engines.arm_episode"),
+    *("bench.force", "bench.engines.contact_episode"),
+)
 """Modules whose kernels take buffers and are always inlined: a call passes each array as seven words, and counts a
 reference to it; the chain's velocity took 60 ns, and takes 9."""
 

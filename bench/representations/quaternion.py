@@ -106,4 +106,5 @@ REPRESENTATION = Representation(
     angular_velocity=angular_velocity,
     generalized=generalized,
     margin=margin,
+    about=None,
 )

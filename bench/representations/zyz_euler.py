@@ -157,6 +157,7 @@ REPRESENTATION = Representation(
     angular_velocity=angular_velocity,
     generalized=generalized,
     margin=margin,
+    about=(2, 1, 0),
     differentiate=differentiate,
     differentiate_twice=differentiate_twice,
 )

@@ -5,7 +5,7 @@ them takes 120 ns; of an array made here nobody keeps count, and the call takes 
 what it points to alive.
 """
 
-from numba import carray, float64, types
+from numba import carray, float64, int64, types
 from numba.extending import intrinsic, register_jitable
 
 
@@ -13,6 +13,17 @@ from numba.extending import intrinsic, register_jitable
 def _pointer(typing_context, address):
     """The address as a pointer to float64."""
     pointer = types.CPointer(float64)
+
+    def generate(context, builder, signature, arguments):
+        return builder.inttoptr(arguments[0], context.get_value_type(pointer))
+
+    return pointer(address), generate
+
+
+@intrinsic
+def _integer_pointer(typing_context, address):
+    """The address as a pointer to int64."""
+    pointer = types.CPointer(int64)
 
     def generate(context, builder, signature, arguments):
         return builder.inttoptr(arguments[0], context.get_value_type(pointer))
@@ -32,6 +43,12 @@ def matrix(address, rows, n):
     return carray(_pointer(address), (rows, n))
 
 
+@register_jitable
+def integers(address, n):
+    """The n integers at an address."""
+    return carray(_integer_pointer(address), (n,))
+
+
 def address_of(array) -> int:
-    """Where the numbers of a numpy array begin; it must be of float64 and contiguous."""
+    """Where the numbers of a numpy array begin; it must be contiguous."""
     return array.ctypes.data

@@ -1,0 +1,102 @@
+"""Compliant controllers: what takes part in the tasks of contact, and the orders they are given.
+
+hybrid-base+inverse               along the axes of the base frame
+hybrid-hand+projected             along axes that the hand carries along
+hybrid/zyx-euler+inverse          along x, y, z and the Euler angles, on the Euler Jacobian (Murphy 1988, 3.3)
+hybrid-unconverted/zyx-euler+...  the same with moments taken for generalized forces: a negative control
+impedance-geometric               six-axis impedance on one error of orientation (bench/impedances)
+impedance-coordinates/zyx-euler   in coordinates
+"""
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+from bench import force
+from bench.contender import Representation
+from bench.errors import BadNumber, Incompatible
+from bench.impedance import Impedance, assembly, law_of
+
+FORMS = ("inverse", "projected")
+HYBRIDS = ("hybrid-base", "hybrid-hand", "hybrid", "hybrid-unconverted")
+
+
+class Compliant(NamedTuple):
+    """A controller in contact.
+
+    law: one of HYBRIDS, or "impedance-" and the name of an impedance. form: how a hybrid's rows become motion of the
+    joints, one of FORMS; empty for an impedance.
+    """
+
+    law: str
+    representation: Representation | None = None
+    form: str = ""
+    impedance: Impedance | None = None
+
+    @property
+    def name(self) -> str:
+        """`law[/representation][+form]`: the word on the command line."""
+        coordinates = f"/{self.representation.name}" if self.representation else ""
+        return f"{self.law}{coordinates}{f'+{self.form}' if self.form else ''}"
+
+    @property
+    def assemble(self) -> Callable:
+        """Its rows: assemble(chain, wish, f, m, gains, touch, J, rows)."""
+        if self.impedance is not None:
+            return assembly(law_of(self.impedance, self.representation))
+        if self.representation is not None:
+            return force.in_coordinates(self.representation, converts=self.law != "hybrid-unconverted")
+        return force.in_hand if self.law == "hybrid-hand" else force.in_base
+
+    def held(self, order) -> tuple[float, ...]:
+        """Of each of its rows 1.0 if it is held, 0.0 if it complies; an impedance holds all, by its springs."""
+        if self.impedance is not None:
+            return (1.0,) * 6
+        turns = order.held[3:]
+        if self.representation is not None:
+            of_coordinate = dict(zip(force.axes_of(self.representation), turns, strict=True))
+            turns = tuple(of_coordinate[k] for k in range(3))
+        return tuple(map(float, (*order.held[:3], *turns)))
+
+
+def hybrid(law: str, form: str, representation: Representation | None = None) -> Compliant:
+    """A hybrid controller, or refuse with the reason.
+
+    Errors:
+        Incompatible: unknown words, a representation too many or too few, or one with no three coordinates.
+    """
+    if law not in HYBRIDS:
+        raise Incompatible(f"'{law}' is no hybrid controller; known: {', '.join(HYBRIDS)}")
+    if form not in FORMS:
+        raise Incompatible(f"'{form}' is no way to the joints; known: {', '.join(FORMS)}")
+    takes = law in ("hybrid", "hybrid-unconverted")
+    if takes and representation is None:
+        raise Incompatible(f"'{law}' selects along coordinates and needs some (try: {law}/zyx-euler+{form})")
+    if not takes and representation is not None:
+        raise Incompatible(f"'{law}' selects along axes and takes no representation (try: {law}+{form})")
+    if representation is not None:
+        force.axes_of(representation)
+    return Compliant(law, representation, form)
+
+
+def springy(one: Impedance, representation: Representation | None = None) -> Compliant:
+    """An impedance controller, or refuse with the reason.
+
+    Errors:
+        Incompatible: a representation too many or too few, or one with no three coordinates.
+    """
+    word = f"impedance-{one.name}"
+    if one.law_in is not None and representation is None:
+        raise Incompatible(f"'{word}' acts on coordinates and needs some (try: {word}/zyx-euler)")
+    if one.law_in is None and representation is not None:
+        raise Incompatible(f"'{word}' takes no representation (leave '{representation.name}' away)")
+    if representation is not None:
+        force.axes_of(representation)
+    return Compliant(word, representation, impedance=one)
+
+
+def check_touch(touch: force.Touch) -> None:
+    """BadNumber if an apparent inertia or a damping is none."""
+    for name, value, unit in zip(touch._fields, touch, ("kg", "kg m^2", "1/s"), strict=True):
+        if not 0.0 < value < float("inf"):
+            default = getattr(force.TOUCH, name)
+            raise BadNumber(f"{name} = {value} {unit}: give a finite number above 0 (try: {default})")

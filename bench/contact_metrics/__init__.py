@@ -1,0 +1,1 @@
+"""Metrics of contact, one file each with a constant METRIC. The file name is the word."""

@@ -1,0 +1,167 @@
+"""What the engines of contact share: the settings of an episode, what is recorded at each tick, and how it ends."""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from bench.compliance import FORMS, Compliant
+from bench.contender import PAPERS_GAINS, Gains
+from bench.force import TOUCH, Room, Rows, Touch
+from bench.resolved_motion import Scratch
+from bench.scalar import kernel
+from tasks.contact import Trial
+from tasks.rules import RULES
+from tasks.verdict import DIVERGED, GOING, SATURATED, SINGULAR
+
+BROKEN = 6
+"""MuJoCo gave up in the middle of a step (tasks.verdict has the codes before it)."""
+
+DONE = "done"
+OUTCOMES = {GOING: DONE, DIVERGED: "diverged", SINGULAR: "singular", SATURATED: "saturated", BROKEN: "broken"}
+"""How an episode ended: at its horizon, or by the judge's rules before it."""
+
+TIME, R, OMEGA, P, FORCE, MOMENT, GAP, TURNED, LOAD = 0, 1, 10, 13, 16, 19, 22, 23, 24
+WIDTH = 25
+"""Columns of a record: time [s], columns of R, omega [rad/s], p [m], force [N] and moment [N m] on the hand, gap to the
+scene [m], angle of the scene's joint [rad], largest torque over its rated one. Base frame."""
+
+
+class Numbers(NamedTuple):
+    """What a loop needs of an episode besides the models; see `Order`, `Touch`."""
+
+    dt: float
+    ticks: int
+    form: int
+    speed_limit_squared: float
+    torque_limit_squared: float
+    held: tuple
+    quat_d: tuple
+    v_d: tuple
+    f_d: tuple
+    m_d: tuple
+    rated: tuple
+
+
+class Ended(NamedTuple):
+    """An episode: its outcome (one of OUTCOMES' words), its record (ticks x WIDTH), and MuJoCo's words if it broke."""
+
+    outcome: str
+    record: np.ndarray
+    message: str = ""
+
+
+class Conditions(NamedTuple):
+    """What is common to the episodes of a run."""
+
+    gains: Gains = PAPERS_GAINS
+    touch: Touch = TOUCH
+    dt_s: float = 1e-3
+    integrator: str = "implicitfast"
+
+
+USUAL = Conditions()
+"""Implicit in the joints' own damping, as MuJoCo recommends for contacts."""
+
+
+def numbers(compliant: Compliant, trial: Trial, rated, horizon_s: float, conditions: Conditions) -> Numbers:
+    """The numbers of one trial for one controller."""
+    order = trial.order
+    f_d, m_d = tuple(map(float, order.exerts[:3])), tuple(map(float, order.exerts[3:]))
+    return Numbers(
+        conditions.dt_s,
+        round(horizon_s / conditions.dt_s),
+        FORMS.index(compliant.form) if compliant.form else 0,
+        RULES.speed_limit**2,
+        RULES.torque_limit**2,
+        compliant.held(order),
+        tuple(map(float, trial.goal_wxyz)),
+        tuple(map(float, order.velocity)),
+        f_d,
+        m_d,
+        tuple(map(float, rated)),
+    )
+
+
+def rows(dtype=float) -> Rows:
+    """Fresh buffers for a controller's rows."""
+    return Rows(*(np.zeros(6, dtype) for _ in Rows._fields))
+
+
+def room(dtype=float) -> Room:
+    """Fresh buffers for `force.comply`."""
+    A, B, V = (np.zeros((6, 6), dtype) for _ in range(3))
+    y, b, s, t = (np.zeros(6, dtype) for _ in range(4))
+    return Room(y, b, np.zeros((6, 6), dtype), Scratch(A, B, V, s, t))
+
+
+@kernel
+def wrench(R, s):
+    """The force and moment on the hand, base frame.
+
+    MuJoCo's sensors say what the hand does to the wrist's side of them, in the hand's frame.
+    """
+    f = (-s[19], -s[20], -s[21])
+    m = (-s[22], -s[23], -s[24])
+    return _turned(R, f), _turned(R, m)
+
+
+@kernel
+def _turned(R, v):
+    return (
+        R.n[0] * v[0] + R.o[0] * v[1] + R.a[0] * v[2],
+        R.n[1] * v[0] + R.o[1] * v[1] + R.a[1] * v[2],
+        R.n[2] * v[0] + R.o[2] * v[1] + R.a[2] * v[2],
+    )
+
+
+@kernel
+def moved(p, v, time):
+    """p + v t."""
+    return (p[0] + time * v[0], p[1] + time * v[1], p[2] + time * v[2])
+
+
+@kernel
+def overload(tau, rated, n):
+    """(Sum of (tau_i / rated_i)^2, the largest of them): what the rule on torques is about; NaN if a torque is."""
+    total, largest = 0.0, 0.0
+    for i in range(n):
+        ratio = tau[i] / rated[i]
+        square = ratio * ratio
+        total = total + square
+        if square > largest:
+            largest = square
+    return total, largest
+
+
+@kernel
+def write_record(record, time, R, omega, p, f, m, gap, turned, load):
+    """One tick's line."""
+    record[0] = time
+    for i in range(3):
+        record[1 + i] = R.n[i]
+        record[4 + i] = R.o[i]
+        record[7 + i] = R.a[i]
+        record[10 + i] = omega[i]
+        record[13 + i] = p[i]
+        record[16 + i] = f[i]
+        record[19 + i] = m[i]
+    record[22] = gap
+    record[23] = turned
+    record[24] = load
+
+
+def made(record: np.ndarray, failure: int, ticks: int, message: str = "") -> Ended:
+    """The episode of a filled record."""
+    return Ended(OUTCOMES[failure], record[:ticks], message)
+
+
+def blank(shape: Numbers) -> np.ndarray:
+    """A record to be filled."""
+    return np.full((shape.ticks, WIDTH), np.nan)
+
+
+def sensors_of(model: Any) -> tuple[int, int]:
+    """Where the gap and the scene's joint are among the sensor values; -1 if the task has none."""
+    names = [model.sensor(i).name for i in range(model.nsensor)]
+    at = {name: int(model.sensor_adr[i]) for i, name in enumerate(names)}
+    return at.get("gap", -1), at.get("turned", -1)

@@ -1,0 +1,92 @@
+"""Steps of MuJoCo whose errors come back as a number instead of ending the process.
+
+Outside of its Python bindings an error of MuJoCo's (no room left for its contacts' solver, say) ends the process.
+`mjb_apply` runs a function for each simulation of a batch and traps errors in it. The batch here is of one simulation
+that is never stepped: what our function steps is whatever its argument says.
+"""
+
+import ctypes
+import threading
+import weakref
+from pathlib import Path
+
+import mujoco
+import numba
+from numba import carray, int32, int64, types
+
+from bench.engines.cache import to_itself
+from bench.engines.native.libmujoco import mj_forward, mj_step, mj_step1, mj_step2
+
+BEGIN, STEP, RUNGE_KUTTA = 0, 1, 2
+
+_mjb_apply = types.ExternalFunction(
+    "mjb_apply", types.int32(types.intp, types.intp, types.int32, types.intp, types.intp, types.int32)
+)
+"""Number of failed simulations of mjb_apply(batch, ids, nid, function, argument, save)."""
+
+
+def _advance(model, data, simulation, argument):
+    """What is asked for of a model and data: [model, data, BEGIN, STEP or RUNGE_KUTTA]."""
+    asked = carray(argument, (3,))
+    m, d = asked[0], asked[1]
+    if asked[2] == BEGIN:
+        mj_forward(m, d)
+    elif asked[2] == STEP:
+        mj_step2(m, d)
+    else:
+        mj_step(m, d)
+    mj_step1(m, d)
+
+
+with to_itself():
+    _callback = numba.cfunc(
+        types.void(types.intp, types.intp, int32, types.CPointer(int64)), nopython=True, cache=True
+    )(_advance)
+
+CALLBACK = _callback.address
+
+
+@numba.extending.register_jitable
+def step(batch, callback, argument):
+    """Number of errors, 0 or 1, of one step; `argument` is the address of three integers for `_advance`."""
+    return _mjb_apply(batch, 0, 1, callback, argument, 0)
+
+
+class _Config(ctypes.Structure):
+    _fields_ = (("nthread", ctypes.c_int), ("persistent", ctypes.c_bool))
+
+
+_library = ctypes.CDLL(str(next(Path(mujoco.__file__).parent.glob("libmujoco.so*"))))
+_library.mjb_makeBatch.restype = ctypes.c_void_p
+_library.mjb_makeBatch.argtypes = (ctypes.c_void_p, ctypes.c_int, ctypes.c_void_p, ctypes.c_char_p, ctypes.c_int)
+_library.mjb_deleteBatch.argtypes = (ctypes.c_void_p,)
+_library.mjb_error.restype = ctypes.c_char_p
+_library.mjb_error.argtypes = (ctypes.c_void_p, ctypes.c_int)
+
+
+class Batch:
+    """A batch of one simulation for one thread; `address` is what `step` takes."""
+
+    def __init__(self) -> None:
+        self._model = mujoco.MjModel.from_xml_string("<mujoco/>")
+        self._made = _library.mjb_makeBatch(self._model._address, 1, ctypes.byref(_Config(1, False)), None, 0)
+        weakref.finalize(self, _library.mjb_deleteBatch, self._made)
+
+    @property
+    def address(self) -> int:
+        """Where the batch is."""
+        return self._made
+
+    def error(self) -> str:
+        """What MuJoCo said in the last step that failed."""
+        return _library.mjb_error(self._made, 0).decode()
+
+
+_of_thread = threading.local()
+
+
+def batch() -> Batch:
+    """The batch of this thread."""
+    if not hasattr(_of_thread, "batch"):
+        _of_thread.batch = Batch()
+    return _of_thread.batch

@@ -1,0 +1,88 @@
+"""A task in contact in dm_control's own loop, the controller plain Python on numpy.float64 buffers.
+
+See `free_body` for what this is the truth of.
+"""
+
+import mujoco
+import numpy as np
+
+from bench.compliance import Compliant
+from bench.contender import Gains
+from bench.engines.contact_episode import (
+    BROKEN,
+    Conditions,
+    Ended,
+    blank,
+    made,
+    moved,
+    numbers,
+    overload,
+    room,
+    rows,
+    sensors_of,
+    wrench,
+    write_record,
+)
+from bench.engines.reference.free_body import vector
+from bench.force import Touch, Wish, comply
+from bench.resolved_motion import Chain
+from bench.scalar import sqrt
+from bench.so3 import Rotation, from_quaternion
+from tasks.arm import Arm
+from tasks.contact import ContactModel, ContactTask, Trial
+from tasks.contact_episode import environment
+from tasks.verdict import GOING, check_command, check_state
+
+
+def run(
+    compliant: Compliant, task: ContactTask, arm: Arm, trial: Trial, conditions: Conditions, contact: ContactModel
+) -> Ended:
+    """One trial; see `contact_episode` for what is recorded."""
+    shape = numbers(compliant, trial, arm.rated, task.horizon_s, conditions)
+    record = blank(shape)
+    with np.errstate(all="ignore"):
+        failure, ticks, message = _episode(compliant, task, arm, trial, conditions, contact, shape, record)
+    return made(record, failure, ticks, message)
+
+
+def _episode(compliant, task, arm, trial, conditions, contact, shape, record):
+    loop = environment(task, arm, trial, conditions.dt_s, conditions.integrator, contact)
+    try:
+        loop.reset()
+    except mujoco.FatalError as error:
+        return BROKEN, 0, str(error)
+    plant, model, n = loop.physics.data, loop.physics.model.ptr, arm.joints
+    assemble, s = compliant.assemble, plant.sensordata
+    gains, touch = Gains(*map(np.float64, conditions.gains)), Touch(*map(np.float64, conditions.touch))
+    into, about, J = rows(), room(), np.zeros((6, 6))
+    D, tau = np.zeros((model.nv, model.nv)), np.zeros(n)
+    at_gap, at_turned = sensors_of(model)
+    R_d, p_0 = from_quaternion(tuple(map(np.float64, shape.quat_d))), vector(s[16:19])
+    for tick in range(shape.ticks):
+        time = tick * shape.dt
+        R = Rotation(vector(s[0:3]), vector(s[3:6]), vector(s[6:9]))
+        p, omega = vector(s[16:19]), vector(s[9:12])
+        f, m = wrench(R, s)
+        wish = Wish(R_d, moved(p_0, shape.v_d, time), shape.v_d, shape.f_d, shape.m_d)
+        mujoco.mj_fullM(model, plant.ptr, D)
+        fg = (plant.qfrc_bias - plant.qfrc_passive)[:n]
+        assemble(Chain(n, plant.xaxis, plant.xanchor, plant.qvel, p, R), wish, f, m, gains, touch, J, into)
+        comply(shape.form, shape.held, n, D, fg, J, into, touch, about, tau)
+        total, largest = overload(tau, shape.rated, n)
+        gap = s[at_gap] if at_gap >= 0 else 0.0
+        turned = s[at_turned] if at_turned >= 0 else 0.0
+        write_record(record[tick], time, R, omega, p, f, m, gap, turned, sqrt(np.float64(largest)))
+        failure = check_command(total, shape.torque_limit_squared)
+        if failure != GOING:
+            return failure, tick + 1, ""
+        try:
+            loop.step(tau.copy())
+        except mujoco.FatalError as error:
+            return BROKEN, tick + 1, str(error)
+        speed = 0.0
+        for i in range(model.nv):
+            speed = speed + plant.qvel[i] * plant.qvel[i]
+        failure = check_state(speed, shape.speed_limit_squared)
+        if failure != GOING:
+            return failure, tick + 1, ""
+    return GOING, shape.ticks, ""

@@ -1,0 +1,98 @@
+"""One call for both engines of contact: a controller on trials of a task and an arm, one record an episode back."""
+
+import functools
+import threading
+from collections.abc import Iterable, Iterator
+from typing import NamedTuple
+
+import mujoco
+import numpy as np
+
+from bench.compliance import Compliant
+from bench.engines import contact_episode
+from bench.engines.compiled import compile_function
+from bench.engines.contact_episode import USUAL, Conditions, Ended, blank, made, numbers
+from bench.engines.native import contact as native
+from bench.engines.native import trapped
+from bench.engines.reference import contact as reference
+from bench.engines.run import MUJOCO_INTEGRATORS
+from tasks.arm import Arm
+from tasks.contact import STANDARD, ContactModel, ContactTask, Trial, model_xml, prepare
+
+
+class Simulation(NamedTuple):
+    """A model and its data, ready for the loop; `kept` holds what the addresses point into."""
+
+    model: mujoco.MjModel
+    data: mujoco.MjData
+    view: native.ContactView
+    work: native.Workspace
+    kept: tuple
+
+
+def run(
+    engine: str,
+    compliant: Compliant,
+    task: ContactTask,
+    arm: Arm,
+    trials: Iterable[Trial],
+    conditions: Conditions = USUAL,
+    contact: ContactModel = STANDARD,
+) -> Iterator[Ended]:
+    """One `Ended` a trial, in order, each as soon as it is there.
+
+    Args:
+        engine: "native", or "reference" for dm_control's own loop.
+    """
+    if engine == "reference":
+        for trial in trials:
+            yield reference.run(compliant, task, arm, trial, conditions, contact)
+        return
+    ready = simulation(task, arm, conditions, contact)
+    for trial in trials:
+        yield _episode(ready, compliant, task, arm, trial, conditions)
+
+
+def simulation(task: ContactTask, arm: Arm, conditions: Conditions, contact: ContactModel = STANDARD) -> Simulation:
+    """A fresh model of a task on an arm."""
+    model = mujoco.MjModel.from_xml_string(model_xml(task, arm, conditions.dt_s, contact))
+    model.opt.integrator = MUJOCO_INTEGRATORS[conditions.integrator]
+    data = mujoco.MjData(model)
+    batch, asked = trapped.batch(), np.zeros(3, np.int64)
+    work, arrays = native.workspace(contact_episode.rows(), contact_episode.room(), model.nv, arm.joints)
+    seen = native.view(model, data, batch, trapped.CALLBACK, asked, arm.joints)
+    return Simulation(model, data, seen, work, (batch, asked, arrays))
+
+
+def _episode(ready: Simulation, compliant: Compliant, task, arm: Arm, trial: Trial, conditions: Conditions) -> Ended:
+    mujoco.mj_resetData(ready.model, ready.data)
+    prepare(ready.model, ready.data, trial)
+    shape = numbers(compliant, trial, arm.rated, task.horizon_s, conditions)
+    record = blank(shape)
+    failure, ticks = _loop()(
+        pointer(compliant), ready.view, ready.work, shape, conditions.gains, conditions.touch, record
+    )
+    message = trapped.batch().error() if failure == contact_episode.BROKEN else ""
+    return made(record, failure, ticks, message)
+
+
+_lock = threading.Lock()
+
+
+def pointer(compliant: Compliant):
+    """The rows of a controller, compiled or taken from the disk cache."""
+    with _lock:
+        return _pointer(compliant._replace(form=""))
+
+
+@functools.cache
+def _pointer(compliant: Compliant):
+    return compile_function(compliant.assemble, native.ASSEMBLE)
+
+
+def _loop():
+    with _lock:
+        return _compiled_loop()
+
+
+_compiled_loop = functools.cache(native.episode_loop)

@@ -1,0 +1,216 @@
+"""Tasks in contact: a hand with a force sensor at an arm's wrist, something for it to touch, and what it is told to do.
+
+    D(q) qddot + fg(q, qdot) = tau + J^T F,   F = (f, m): what the surroundings do to the hand
+
+A task's file says what the hand and its surroundings are, and lists its trials. The hand has no mass, so that the
+sensor in its wrist reads F and nothing else, and the controller's model of the arm stays perfect. Its frame, the site
+"hand", is what is controlled, and where F is taken.
+
+How the hand's frame is drawn on the hand changes nothing physical; it changes every Euler angle. A trial's
+`mount_wxyz` draws it.
+
+An arm takes part if it has six joints and a site "wrist" that moves with the last one.
+"""
+
+from __future__ import annotations
+
+import xml.etree.ElementTree as ElementTree
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import mujoco
+import numpy as np
+
+from tasks.arm import LOOK, Arm
+from tasks.base import AT_REST, IDENTITY, BadValue, Quat, Vector, sensor_xml
+
+AXES = ("x", "y", "z", "about x", "about y", "about z")
+
+# Beyond this distance [m] the sensor `gap` between hand and surroundings reads this much.
+FARTHEST_GAP = 0.05
+
+
+class Order(NamedTuple):
+    """What a controller is told; along and about the axes of the base frame.
+
+    held: of x, y, z and the turns about x, y, z, 1 if it is held at its place and 0 if it complies.
+    exerts: the force [N] and moment [N m] that the hand shall exert where it complies; 0 where it is held.
+    velocity: of the held place of the hand [m/s].
+    """
+
+    name: str  # what complies, in words for a table: "z, about x and y"
+    held: tuple[int, int, int, int, int, int]
+    exerts: tuple[float, ...] = (0.0,) * 6
+    velocity: Vector = AT_REST
+
+
+class Trial(NamedTuple):
+    """One episode: where it begins, what surrounds the hand, and the order.
+
+    id: unique within its task and arm. pose: what a row of the results is about; trials that share it are measured
+    together. goal_wxyz: the orientation to hold, hand to base. mount_wxyz: the hand's frame as the wrist's sees it.
+    scene_pos, scene_wxyz: where the body "scene" of the surroundings stands, base frame.
+    push: force [N] at the wrist and moment [N m] from outside, base frame, from the first tick on.
+    tilt: angle [rad] by which the surroundings differ from what the order supposes.
+    """
+
+    id: str
+    pose: str
+    order: Order
+    q: tuple[float, ...]
+    goal_wxyz: Quat
+    mount_wxyz: Quat = IDENTITY
+    scene_pos: Vector = AT_REST
+    scene_wxyz: Quat = IDENTITY
+    push: tuple[float, ...] = (0.0,) * 6
+    tilt: float = 0.0
+
+
+class Surroundings(NamedTuple):
+    """MJCF of one task on one arm; the geoms of hand and scene touch each other and nothing else.
+
+    hand: geoms in the wrist's frame, z out of the wrist. tip: where the hand's frame is, in the same frame [m].
+    scene: what stands in the body "scene". others: elements of <mujoco> besides (more bodies, equalities, ...).
+    joint: a joint of the scene whose angle is recorded; empty for none.
+    """
+
+    hand: str
+    tip: Vector
+    scene: str = ""
+    others: str = ""
+    joint: str = ""
+
+
+class ContactTask(NamedTuple):
+    """A task in contact: the constant TASK of a tasks/domains/<name>.py.
+
+    trials(arm): all of them, the same for the same arm. dense(arm): those of the suite `full`; the same if None.
+    """
+
+    name: str
+    title: str
+    source: str
+    horizon_s: float
+    surroundings: Callable[[Arm], Surroundings]
+    trials: Callable[[Arm], tuple[Trial, ...]]
+    dense: Callable[[Arm], tuple[Trial, ...]] | None = None
+
+
+class ContactModel(NamedTuple):
+    """MuJoCo's model of a contact: solref (time constant [s], damping ratio), solimp, and the friction coefficient."""
+
+    timeconst: float = 0.01
+    dampratio: float = 1.0
+    dmin: float = 0.9
+    dmax: float = 0.99
+    width: float = 0.001
+    friction: float = 0.2
+
+
+STANDARD = ContactModel()
+
+
+def model_xml(task: ContactTask, arm: Arm, dt: float, contact: ContactModel = STANDARD) -> str:
+    """The judge's MJCF model of a task on an arm, with integration step dt [s].
+
+    Sensors of the site "hand": those of tasks.base.SENSORS, its position p [m], then force [N] and moment [N m] in the
+    hand's frame as MuJoCo gives them, the gap to the scene [m], and the joint of the scene [rad] if there is one.
+
+    Errors:
+        BadValue: the arm has no six joints, or no site "wrist".
+    """
+    refuse(task, arm)
+    around = task.surroundings(arm)
+    root = ElementTree.fromstring(arm.xml)
+    option = ElementTree.SubElement(root, "option", timestep=repr(dt), gravity="0 0 -9.81", cone="elliptic")
+    ElementTree.SubElement(option, "flag", contact="enable", limit="disable", autoreset="disable", gravity="enable")
+    link, wrist = _wrist(root)
+    place = {key: wrist.attrib[key] for key in ("pos", "quat", "euler") if key in wrist.attrib}
+    hand = ElementTree.SubElement(link, "body", name="hand", **place)
+    ElementTree.SubElement(hand, "site", name="hand", pos=_numbers(around.tip), size=".002")
+    hand.extend(_touching(around.hand, contact))
+    world = root.find("worldbody")
+    assert world is not None
+    scene = ElementTree.SubElement(world, "body", name="scene", mocap="true")
+    scene.extend(_touching(around.scene, contact))
+    root.extend([*_touching(around.others, contact), *ElementTree.fromstring(LOOK), _sensors(around)])
+    return ElementTree.tostring(root, encoding="unicode")
+
+
+def refuse(task: ContactTask, arm: Arm) -> None:
+    """BadValue if the arm cannot be set the task."""
+    if arm.joints != 6:
+        raise BadValue(
+            f"task '{task.name}' needs an arm of six joints, and '{arm.name}' has {arm.joints} "
+            "(choose another: what a seventh does by itself would be measured too)"
+        )
+    if _wrist(ElementTree.fromstring(arm.xml)) is None:
+        raise BadValue(
+            f"arm '{arm.name}' has no site 'wrist', where task '{task.name}' mounts the hand and its force sensor "
+            '(add <site name="wrist"/> to the last body of its file)'
+        )
+
+
+def check(order: Order) -> None:
+    """BadValue if an order is none: what was given, what is allowed, the cure."""
+    if len(order.held) != 6 or any(one not in (0, 1) for one in order.held):
+        raise BadValue(f"order '{order.name}': held = {order.held} must be six of 0 and 1, for {', '.join(AXES)}")
+    if len(order.exerts) != 6 or not np.isfinite(order.exerts).all():
+        raise BadValue(f"order '{order.name}': exerts = {order.exerts} must be six finite numbers [N, N m]")
+    for axis, held, exerted in zip(AXES, order.held, order.exerts, strict=True):
+        if held and exerted:
+            raise BadValue(
+                f"order '{order.name}': {axis} is held and shall exert {exerted:g} at once (release it or exert 0)"
+            )
+    for axis, held, speed in zip(AXES, order.held, order.velocity, strict=False):
+        if speed and not held:
+            raise BadValue(f"order '{order.name}': {axis} complies and shall move at {speed:g} m/s (hold it)")
+
+
+def prepare(model: mujoco.MjModel, data: Any, trial: Trial) -> None:
+    """Put a model and its data, freshly reset, into the state in which a trial begins; a forward pass must follow."""
+    n = len(trial.q)
+    data.qpos[:n] = trial.q
+    hand = model.site("hand").id
+    model.site_quat[hand] = trial.mount_wxyz
+    model.site_sameframe[hand] = mujoco.mjtSameFrame.mjSAMEFRAME_NONE  # else MuJoCo takes the frame it compiled
+    data.mocap_pos[0] = trial.scene_pos
+    data.mocap_quat[0] = trial.scene_wxyz
+    data.xfrc_applied[model.body("hand").id] = trial.push
+
+
+def _wrist(root: ElementTree.Element) -> Any:
+    """(the body, the site "wrist" in it), or None."""
+    return next(((body, site) for body in root.iter("body") for site in body.findall("site[@name='wrist']")), None)
+
+
+def _touching(xml: str, contact: ContactModel) -> list[ElementTree.Element]:
+    found = ElementTree.fromstring(f"<some>{xml}</some>")
+    for geom in found.iter("geom"):
+        for key, value in {
+            "contype": "1",
+            "conaffinity": "1",
+            "condim": "4",
+            "friction": f"{contact.friction!r} .002 .0001",
+            "solref": f"{contact.timeconst!r} {contact.dampratio!r}",
+            "solimp": f"{contact.dmin!r} {contact.dmax!r} {contact.width!r}",
+        }.items():
+            geom.attrib.setdefault(key, value)
+    return list(found)
+
+
+def _sensors(around: Surroundings) -> ElementTree.Element:
+    sensors = ElementTree.fromstring(sensor_xml("hand"))
+    ElementTree.SubElement(sensors, "framepos", name="p", objtype="site", objname="hand")
+    ElementTree.SubElement(sensors, "force", name="force", site="hand")
+    ElementTree.SubElement(sensors, "torque", name="moment", site="hand")
+    if around.scene or around.others:
+        far = repr(FARTHEST_GAP)
+        ElementTree.SubElement(sensors, "distance", name="gap", body1="hand", body2="scene", cutoff=far)
+    if around.joint:
+        ElementTree.SubElement(sensors, "jointpos", name="turned", joint=around.joint)
+    return sensors
+
+
+def _numbers(values: Vector) -> str:
+    return " ".join(map(repr, values))

@@ -1,0 +1,79 @@
+"""One trial of a task in contact as a dm_control Environment; the order of a tick is that of episode.py.
+
+F, what the surroundings do to the hand, is known at a tick as MuJoCo computed it in the step before.
+
+Fails: dm_control raises PhysicsError where MuJoCo warns of a state that is not finite, and MuJoCo's own FatalError
+where it cannot go on. An engine that wants a row and no exception judges before the step, and catches the second.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from tasks.arm import Arm
+from tasks.base import BadValue
+from tasks.contact import STANDARD, ContactModel, ContactTask, Trial, check, model_xml, prepare
+from tasks.discovery import pick
+from tasks.episode import INTEGRATORS, Physics, control, engine
+from tasks.rules import ticks
+
+
+class InContact(control.Task):
+    """Carry out an order; episodes end at the horizon only."""
+
+    def __init__(self, trial: Trial):
+        self.trial = trial
+
+    def initialize_episode(self, physics: Physics) -> None:
+        """Set the state in which the trial begins; the forward pass follows."""
+        prepare(physics.model.ptr, physics.data.ptr, self.trial)
+
+    def before_step(self, action: Any, physics: Physics) -> None:
+        """The action is the motors' torques [N m]."""
+        physics.set_control(action)
+
+    def action_spec(self, physics: Physics) -> Any:
+        """One unlimited number a motor [N m]."""
+        return engine.action_spec(physics)
+
+    def get_observation(self, physics: Physics) -> dict[str, np.ndarray]:
+        """R (n, o, a), omega [rad/s] and p [m] of the hand, q and qdot of the arm, F = (f, m) [N, N m], base frame."""
+        n = len(self.trial.q)
+        R = physics.R().reshape(3, 3).T
+        gauge = np.array(physics.data.sensordata[19:25])
+        return {
+            "R": physics.R(),
+            "omega": physics.omega(),
+            "p": physics.p(),
+            "q": np.array(physics.data.qpos[:n]),
+            "qdot": np.array(physics.data.qvel[:n]),
+            "F": -np.concatenate((R @ gauge[:3], R @ gauge[3:])),
+        }
+
+    def get_reward(self, physics: Physics) -> float:
+        """None: what is good is the metrics' business."""
+        return 0.0
+
+
+def environment(
+    task: ContactTask,
+    arm: Arm,
+    trial: Trial,
+    dt: float = 1e-3,
+    integrator: str = "implicitfast",
+    contact: ContactModel = STANDARD,
+) -> control.Environment:
+    """A dm_control Environment of one trial.
+
+    Errors:
+        BadValue: the arm cannot be set the task, or the order is none.
+    """
+    check(trial.order)
+    if len(trial.q) != arm.joints:
+        raise BadValue(f"trial '{trial.id}': q has {len(trial.q)} numbers, and '{arm.name}' {arm.joints} joints")
+    physics = Physics.from_xml_string(model_xml(task, arm, dt, contact))
+    physics.model.opt.integrator = pick("integrator", integrator, INTEGRATORS, "tasks/episode.py")
+    limit = (ticks(task.horizon_s, dt) - 0.5) * dt
+    return control.Environment(physics, InContact(trial), time_limit=limit, control_timestep=dt, legacy_step=True)
