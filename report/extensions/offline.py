@@ -3,7 +3,8 @@
 MathJax comes out of sphinx-mathjax-offline, one file of it: the stock extension copies 24 MB into the site,
 while `tex-svg.js` alone (2 MB) draws every formula as outlines. It loads no font and no add-on, so pages
 also work from file:// in browsers that refuse fonts there. Thebe, which jupyter-book switches on and which
-would run cells on a server, is taken out, and so are source maps, which only a debugger asks for.
+would run cells on a server, is taken out, and so is what no reader loads: source maps, translations, and the icons
+once more in a format for browsers before 2016.
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ from pathlib import Path
 DISTRIBUTION = "sphinx-mathjax-offline"
 SCRIPT = "tex-svg.js"
 AFTER_ALL_OTHERS = 999
+UNREAD = ("**/*.map", "sphinx-thebe.*", "fonts/*.md", "vendor/**/*.ttf", "locales/**/*.[mp]o")
 
 
 def point_at_local_copy(app, config) -> None:
@@ -44,8 +46,9 @@ def finish(app, exception) -> None:
     if exception or app.builder.format != "html":
         return
     static = Path(app.outdir) / "_static"
-    for unread in [*static.rglob("*.map"), *static.glob("sphinx-thebe.*"), *static.glob("fonts/*.md")]:
-        unread.unlink()
+    for pattern in UNREAD:
+        for unread in static.glob(pattern):
+            unread.unlink()
     for file in importlib.metadata.files(DISTRIBUTION) or []:
         if file.match(f"static/mathjax/{SCRIPT}"):
             target = static / "mathjax" / SCRIPT
