@@ -5,6 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from bench.compliance import Compliant
 from bench.engines.contact_episode import FORCE, GAP, LOAD, MOMENT, OMEGA, TIME, TURNED, Ended, P, R
 from tasks.arm import Arm
 from tasks.contact import ContactTask, Trial
@@ -36,6 +37,7 @@ class Pose(NamedTuple):
 
     task: ContactTask
     arm: Arm
+    controller: Compliant
     responses: tuple[Response, ...]
 
     @property
@@ -59,7 +61,7 @@ class ContactMetric(NamedTuple):
 
 
 def response(trial: Trial, ended: Ended) -> Response:
-    """The arrays of an episode's record; ticks at which it holds nothing finite are as they are."""
+    """The arrays of an episode's record; ticks at which it holds nothing finite stay as they are."""
     record = ended.record
     return Response(
         trial,

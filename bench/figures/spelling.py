@@ -1,4 +1,4 @@
-"""From the spelling of sources, which is plain, to that of a page: Greek letters, signs, small powers."""
+"""From the spelling of sources, which is plain, to that of a page: Greek letters, signs, powers, quotation marks."""
 
 from __future__ import annotations
 
@@ -6,19 +6,35 @@ import html
 import re
 
 LETTERS = {"alpha": "α", "beta": "β", "gamma": "γ", "theta": "θ", "omega": "ω", "pi": "π"}
-WORDS = re.compile(rf"\b({'|'.join(LETTERS)})\b")
-SIGNS = {"+-": "±", "-+": "∓"}
-POWERS = {r"\^-1\b": "⁻¹", r"\^2\b": "²", r"\^3\b": "³", r"\^-k\b": "⁻ᵏ", r"\^T\b": "ᵀ", r" deg\b": "°"}
-RAISED = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
+RAISED = str.maketrans("0123456789-kT", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻ᵏᵀ")
+SCIENTIFIC = re.compile(r"(?<![\w.])(\d(?:\.\d+)?)e([+-]?\d+)(?!\w)")
+# In this order.
+SIGNS = (
+    (rf"\b({'|'.join(LETTERS)})(?=\b|_)", lambda found: LETTERS[found[1]]),
+    (r"\^(-?\d+|-k|T)(?!\w|\.\d)", lambda found: found[1].translate(RAISED)),
+    (r"\+-", "±"),
+    (r"-\+", "∓"),
+    (r"<=", "≤"),
+    (r">=", "≥"),
+    (r"(?<=[\s(])-(?=\w)|(?<=[\w)|°²] )-(?= \S)", "−"),
+    (r"(?<=\d )\*(?= \d)", "×"),
+    (r"\.\.\.", "…"),
+    (r"(?<=\d),(?=\d{3}\b)", "\N{NARROW NO-BREAK SPACE}"),
+    (r" deg\b", "°"),
+    (r"(?<=\d) ?%", "\N{NO-BREAK SPACE}%"),
+    (r"(?<=\d) (?=(?:rad|s|ms|µs|ns|mm)\b)", "\N{NO-BREAK SPACE}"),
+    (r"(?<![\w'])'(\w[^']*)'(?!\w)", r"‘\1’"),
+    (r"\"([^\"]+)\"", r"“\1”"),
+    (r"(?<=\w)'(?=\w)", "’"),
+)
+INDEX = re.compile(r"\b(\w)_(\w)\b")
 
 
 def typeset(text: str) -> str:
-    """Plain text with the letters it names."""
-    text = WORDS.sub(lambda found: LETTERS[found[1]], text)
-    for pattern, sign in POWERS.items():
+    """Plain text with the letters, numbers and signs it names."""
+    text = SCIENTIFIC.sub(lambda found: raised(found[1], int(found[2])), text)
+    for pattern, sign in SIGNS:
         text = re.sub(pattern, sign, text)
-    for pair, sign in SIGNS.items():
-        text = text.replace(pair, sign)
     return text
 
 
@@ -26,12 +42,22 @@ def power(value: float) -> str:
     """A number to one figure as a page spells it: 0.03, 2, 2·10⁻⁷."""
     text = f"{value:.0e}" if value and not 1e-3 <= abs(value) < 1e4 else f"{value:.1g}"
     mantissa, found, exponent = text.partition("e")
-    if not found:
-        return text
-    raised = f"10{str(int(exponent)).translate(RAISED)}"
-    return raised if mantissa == "1" else f"{mantissa}·{raised}"
+    return raised(mantissa, int(exponent)) if found else text
+
+
+def raised(mantissa: str, exponent: int) -> str:
+    """Mantissa times a power of ten: 2.5·10⁻⁷, 10⁶, 0."""
+    if float(mantissa) == 0.0 or exponent == 0:
+        return mantissa if float(mantissa) else "0"
+    ten = f"10{str(exponent).translate(RAISED)}"
+    return ten if mantissa == "1" else f"{mantissa}·{ten}"
+
+
+def marked_up(text: str) -> str:
+    """The same as HTML, with an index of one letter as one: J_E, E_0."""
+    return INDEX.sub(r"\1<sub>\2</sub>", html.escape(typeset(text), quote=False))
 
 
 def prose(text: str) -> str:
     """The same for Markdown: what it would take for its own is escaped."""
-    return html.escape(typeset(text), quote=False).replace("_", "\\_").replace("*", "\\*")
+    return marked_up(text).replace("_", "\\_").replace("*", "\\*")

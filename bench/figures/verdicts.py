@@ -3,47 +3,18 @@
 from __future__ import annotations
 
 import html as escape
-import re
 from collections import Counter
 from typing import TYPE_CHECKING
 
 import pandas as pd
 
 from bench.figures import html
+from bench.figures.spelling import marked_up, prose
 
 if TYPE_CHECKING:
     from bench.claims import Verdict
 
-# Claims are written for a terminal; a page can set what they spell out.
-SPELLED = (
-    (r"\+-", "±"),
-    (r"<=", "≤"),
-    (r">=", "≥"),
-    (r"\^-1\b", "⁻¹"),
-    (r"\^2\b", "²"),
-    (r"\^3\b", "³"),
-    (r"\^T\b", "ᵀ"),
-    (r"\^-k\b", "⁻ᵏ"),
-    (r"\bpi\b", "π"),
-    (r"\balpha(?=\b|_)", "α"),
-    (r"\bbeta(?=\b|_)", "β"),
-    (r"\bgamma(?=\b|_)", "γ"),
-    (r"\bomega(?=\b|_)", "ω"),
-    (r"\btheta(?=\b|_)", "θ"),
-    (r"(?<=\d)%", " %"),
-    (r"(?<=[\s(])-(?=\d)", "−"),
-    (r"(?<=\d),(?=\d{3}\b)", " "),
-)
-
-
 SMALL = ("Criterion", "Left open")
-
-
-def set_in_type(text: str) -> str:
-    """Greek letters, signs and powers in place of their spelling."""
-    for spelling, sign in SPELLED:
-        text = re.sub(spelling, sign, text)
-    return text
 
 
 def measured(verdicts: list[Verdict]) -> list[Verdict]:
@@ -71,7 +42,7 @@ def table(verdicts: list[Verdict], page: str) -> html.Markdown:
     frame = pd.DataFrame(
         {
             "": [link(one, page) for one in decided],
-            "What the paper says, in our words": [set_in_type(one.claim.sentence) for one in decided],
+            "What the paper says, in our words": [prose(one.claim.sentence) for one in decided],
             "Verdict": [html.badge(str(one.word)) for one in decided],
         }
     )
@@ -91,7 +62,7 @@ def anchor(one: Verdict) -> str:
 def waiting(verdicts: list[Verdict]) -> html.Html:
     """A compact list of what has not been measured yet."""
     items = [
-        f"<li><b>{one.claim.id}</b> ({escape.escape(one.claim.section)}) {paragraph(one.claim.sentence)}</li>"
+        f"<li><b>{one.claim.id}</b> ({escape.escape(one.claim.section)}) {marked_up(one.claim.sentence)}</li>"
         for one in verdicts
         if one not in measured(verdicts)
     ]
@@ -110,12 +81,12 @@ def section(one: Verdict) -> html.Html:
     }
     small = ' class="small"'
     parts = [
-        f"<dt{small if name in SMALL else ''}>{name}</dt><dd>{paragraph(text)}</dd>"
+        f"<dt{small if name in SMALL else ''}>{name}</dt><dd>{marked_up(text)}</dd>"
         for name, text in rows.items()
         if text
     ]
     if claim.readings:
-        items = "".join(f"<li>{paragraph(text)}</li>" for text in claim.readings)
+        items = "".join(f"<li>{marked_up(text)}</li>" for text in claim.readings)
         parts.append(f'<dt class="small">Readings</dt><dd><ul>{items}</ul></dd>')
     tables = ", ".join(one.evidence.tables)
     head = (
@@ -123,8 +94,3 @@ def section(one: Verdict) -> html.Html:
         f"<span>n = {html.number(one.evidence.rows)} from {escape.escape(tables)}</span></p>"
     )
     return html.Html(f'{head}<dl class="claim">{"".join(parts)}</dl>')
-
-
-def paragraph(text: str) -> str:
-    """A claim's text as HTML."""
-    return escape.escape(set_in_type(text))
