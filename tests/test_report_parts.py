@@ -111,10 +111,26 @@ def test_build_copies_what_pages_link_to(tmp_path):
 
 @pytest.mark.parametrize(
     ("plain", "page"),
-    [("+-pi/2", "±π/2"), ("B^-1 theta^2", "B⁻¹ θ²"), ("10^-k rad", "10⁻ᵏ rad"), ("alphabet", "alphabet")],
+    [
+        ("+-pi/2", "±π/2"),
+        ("B^-1 theta^2/2", "B⁻¹ θ²/2"),
+        ("10^-k rad", "10⁻ᵏ rad"),
+        ("2^-26.5 to 1e-06", "2^-26.5 to 10⁻⁶"),
+        ("5.0e+06 and 0e+00", "5.0·10⁶ and 0"),
+        ("1 - cos(alpha_0) <= -Kp", "1 − cos(α_0) ≤ −Kp"),
+        ("12,296 poses", "12\u202f296 poses"),
+        ("0.5% in 3 ms", "0.5\u00a0% in 3\u00a0ms"),
+        ("the arm's 'zero' of x'' = x'", "the arm’s ‘zero’ of x'' = x'"),
+        ("alphabet", "alphabet"),
+        ("half-turn", "half-turn"),
+    ],
 )
 def test_spelling_takes_words_and_signs_only(plain, page):
     assert spelling.typeset(plain) == page
+
+
+def test_spelling_in_html_lowers_an_index_and_escapes_the_rest():
+    assert spelling.marked_up("J_E < E_0, peak_u") == "J<sub>E</sub> &lt; E<sub>0</sub>, peak_u"
 
 
 @pytest.mark.parametrize(("value", "text"), [(2.3e-7, "2·10⁻⁷"), (1e6, "10⁶"), (0.034, "0.03"), (0.0, "0")])

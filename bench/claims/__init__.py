@@ -50,9 +50,9 @@ NOT_YET_MEASURED = Word.UNMEASURED
 
 RULE = (
     f"Engine {MAIN_ENGINE}, the paper's continuous system (2.6)-(2.7), decides. A claim about episodes is asked of "
-    f"{' and '.join(CHECK_ENGINES)} too where they have rows: if one gives another word, 'holds' becomes 'holds "
-    "with a correction' and the evidence says so; other words stay. A claim about which the tables hold no row is "
-    "an error."
+    f"{' and '.join(CHECK_ENGINES)} too where they have rows: if one of them decides otherwise, 'holds' becomes "
+    "'holds with a correction' and the evidence says so; other verdicts stay. No verdict is given on an empty table: "
+    "that is an error."
 )
 """What is common to all criteria."""
 

@@ -266,7 +266,7 @@ def _timed(results) -> tuple[str, bool, int]:
         return "No timings of all three to confirm it.", True, 0
     dearer = table["euler"] > np.maximum(table["common"], table["matrix"])
     medians = ", ".join(f"{1e-3 * table[name].median():.2f}" for name in table)
-    said = f"Time a tick is in that order on {int(dearer.sum())} of {len(table)} arms and machines ({medians} us)."
+    said = f"Time a tick is in that order on {int(dearer.sum())} of {len(table)} arms and machines ({medians} µs)."
     return said, bool(dearer.all()), 3 * len(table)
 
 
