@@ -5,7 +5,8 @@ from __future__ import annotations
 import html
 import re
 
-LETTERS = dict(zip("alpha beta gamma theta pi sigma tau phi omega".split(), "αβγθπστφω", strict=True))
+LETTERS = {"alpha": "α", "beta": "β", "gamma": "γ", "theta": "θ", "phi": "φ", "sigma": "σ", "tau": "τ"}
+LETTERS |= {"omega": "ω", "pi": "π"}
 RAISED = str.maketrans("0123456789-kT", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻ᵏᵀ")
 SCIENTIFIC = re.compile(r"(?<![\w.])(\d(?:\.\d+)?)e([+-]?\d+)(?!\w)")
 # In this order.
