@@ -121,6 +121,14 @@ def in_base(chain, wish, f, m, gains, touch, J, rows):
 
 
 @kernel
+def in_base_by_rate(chain, wish, f, m, gains, touch, J, rows):
+    """The same; a turn that is held is held by its rate alone, omegadot = -Kv omega, whatever the orientation."""
+    in_base(chain, wish, f, m, gains, touch, J, rows)
+    for i in range(3, 6):
+        rows.a[i] = -gains.kv * rows.v[i]
+
+
+@kernel
 def carried_back(R, R_d, v):
     """Q^T v with Q = R R_d^T."""
     return rotate(R_d, rotate_back(R, v))

@@ -26,6 +26,9 @@ from tasks.base import AT_REST, IDENTITY, BadValue, Quat, Vector, sensor_xml
 
 AXES = ("x", "y", "z", "about x", "about y", "about z")
 
+# Pushes that may follow each other in a trial: the size of a buffer.
+MOST_LEGS = 8
+
 # Beyond this distance [m] the sensor `gap` between hand and surroundings reads this much.
 FARTHEST_GAP = 0.05
 
@@ -52,6 +55,7 @@ class Trial(NamedTuple):
     scene_pos, scene_wxyz: where the body "scene" of the surroundings stands, base frame.
     push: force [N] at the wrist and moment [N m] from outside, base frame, from the first tick on.
     tilt: angle [rad] by which the surroundings differ from what the order supposes.
+    legs: instead of one push, several that follow each other, each for an equal part of the episode.
     """
 
     id: str
@@ -64,6 +68,12 @@ class Trial(NamedTuple):
     scene_wxyz: Quat = IDENTITY
     push: tuple[float, ...] = (0.0,) * 6
     tilt: float = 0.0
+    legs: tuple[tuple[float, ...], ...] = ()
+
+    @property
+    def pushes(self) -> tuple[tuple[float, ...], ...]:
+        """What acts from outside, one after the other for equal times; at most MOST_LEGS."""
+        return self.legs or (self.push,)
 
 
 class Surroundings(NamedTuple):
@@ -167,6 +177,11 @@ def check(order: Order) -> None:
             raise BadValue(f"order '{order.name}': {axis} complies and shall move at {speed:g} m/s (hold it)")
 
 
+def leg(count: int, tick: int, ticks: int) -> int:
+    """Which of so many pushes acts at a tick of an episode of so many ticks."""
+    return tick * count // ticks
+
+
 def prepare(model: mujoco.MjModel, data: Any, trial: Trial) -> None:
     """Put a model and its data, freshly reset, into the state in which a trial begins; a forward pass must follow."""
     n = len(trial.q)
@@ -176,7 +191,7 @@ def prepare(model: mujoco.MjModel, data: Any, trial: Trial) -> None:
     model.site_sameframe[hand] = mujoco.mjtSameFrame.mjSAMEFRAME_NONE  # else MuJoCo takes the frame it compiled
     data.mocap_pos[0] = trial.scene_pos
     data.mocap_quat[0] = trial.scene_wxyz
-    data.xfrc_applied[model.body("hand").id] = trial.push
+    data.xfrc_applied[model.body("hand").id] = trial.pushes[0]
 
 
 def _wrist(root: ElementTree.Element) -> Any:

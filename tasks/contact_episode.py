@@ -14,7 +14,7 @@ import numpy as np
 
 from tasks.arm import Arm
 from tasks.base import BadValue
-from tasks.contact import STANDARD, ContactModel, ContactTask, Trial, check, model_xml, prepare
+from tasks.contact import STANDARD, ContactModel, ContactTask, Trial, check, leg, model_xml, prepare
 from tasks.discovery import pick
 from tasks.episode import INTEGRATORS, Physics, control, engine
 from tasks.rules import ticks
@@ -23,16 +23,22 @@ from tasks.rules import ticks
 class InContact(control.Task):
     """Carry out an order; episodes end at the horizon only."""
 
-    def __init__(self, trial: Trial):
+    def __init__(self, trial: Trial, horizon_ticks: int):
         self.trial = trial
+        self.horizon_ticks = horizon_ticks
+        self.tick = 0
 
     def initialize_episode(self, physics: Physics) -> None:
         """Set the state in which the trial begins; the forward pass follows."""
         prepare(physics.model.ptr, physics.data.ptr, self.trial)
+        self.tick = 0
 
     def before_step(self, action: Any, physics: Physics) -> None:
         """The action is the motors' torques [N m]."""
         physics.set_control(action)
+        pushes = self.trial.pushes
+        physics.named.data.xfrc_applied["hand"] = pushes[leg(len(pushes), self.tick, self.horizon_ticks)]
+        self.tick += 1
 
     def action_spec(self, physics: Physics) -> Any:
         """One unlimited number a motor [N m]."""
@@ -75,5 +81,6 @@ def environment(
         raise BadValue(f"trial '{trial.id}': q has {len(trial.q)} numbers, and '{arm.name}' {arm.joints} joints")
     physics = Physics.from_xml_string(model_xml(task, arm, dt, contact))
     physics.model.opt.integrator = pick("integrator", integrator, INTEGRATORS, "tasks/episode.py")
-    limit = (ticks(task.horizon_s, dt) - 0.5) * dt
-    return control.Environment(physics, InContact(trial), time_limit=limit, control_timestep=dt, legacy_step=True)
+    horizon = ticks(task.horizon_s, dt)
+    doing, limit = InContact(trial, horizon), (horizon - 0.5) * dt
+    return control.Environment(physics, doing, time_limit=limit, control_timestep=dt, legacy_step=True)

@@ -10,7 +10,7 @@ from bench.force import TOUCH, Room, Rows, Touch
 from bench.resolved_motion import Scratch
 from bench.scalar import kernel
 from tasks.contact import Trial
-from tasks.rules import RULES
+from tasks.rules import RULES, ticks
 from tasks.verdict import DIVERGED, GOING, SATURATED, SINGULAR
 
 BROKEN = 6
@@ -27,7 +27,7 @@ scene [m], angle of the scene's joint [rad], largest torque over its rated one. 
 
 
 class Numbers(NamedTuple):
-    """What a loop needs of an episode besides the models; see `Order`, `Touch`."""
+    """What a loop needs of an episode besides the models; see `Order`, `Touch`. legs: pushes that follow each other."""
 
     dt: float
     ticks: int
@@ -40,6 +40,7 @@ class Numbers(NamedTuple):
     f_d: tuple
     m_d: tuple
     rated: tuple
+    legs: int
 
 
 class Ended(NamedTuple):
@@ -69,7 +70,7 @@ def numbers(compliant: Compliant, trial: Trial, rated, horizon_s: float, conditi
     f_d, m_d = tuple(map(float, order.exerts[:3])), tuple(map(float, order.exerts[3:]))
     return Numbers(
         conditions.dt_s,
-        round(horizon_s / conditions.dt_s),
+        ticks(horizon_s, conditions.dt_s),
         FORMS.index(compliant.form) if compliant.form else 0,
         RULES.speed_limit**2,
         RULES.torque_limit**2,
@@ -79,6 +80,7 @@ def numbers(compliant: Compliant, trial: Trial, rated, horizon_s: float, conditi
         f_d,
         m_d,
         tuple(map(float, rated)),
+        len(trial.pushes),
     )
 
 

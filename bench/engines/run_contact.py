@@ -21,12 +21,13 @@ from tasks.contact import STANDARD, ContactModel, ContactTask, Trial, model_xml,
 
 
 class Simulation(NamedTuple):
-    """A model and its data, ready for the loop; `kept` holds what the addresses point into."""
+    """A model and its data, ready for the loop; legs takes a trial's pushes; kept is what the addresses point into."""
 
     model: mujoco.MjModel
     data: mujoco.MjData
     view: native.ContactView
     work: native.Workspace
+    legs: np.ndarray
     kept: tuple
 
 
@@ -61,12 +62,13 @@ def simulation(task: ContactTask, arm: Arm, conditions: Conditions, contact: Con
     batch, asked = trapped.batch(), np.zeros(3, np.int64)
     work, arrays = native.workspace(contact_episode.rows(), contact_episode.room(), model.nv, arm.joints)
     seen = native.view(model, data, batch, trapped.CALLBACK, asked, arm.joints)
-    return Simulation(model, data, seen, work, (batch, asked, arrays))
+    return Simulation(model, data, seen, work, arrays[-1], (batch, asked, arrays))
 
 
 def _episode(ready: Simulation, compliant: Compliant, task, arm: Arm, trial: Trial, conditions: Conditions) -> Ended:
     mujoco.mj_resetData(ready.model, ready.data)
     prepare(ready.model, ready.data, trial)
+    ready.legs[: len(trial.pushes)] = trial.pushes
     shape = numbers(compliant, trial, arm.rated, task.horizon_s, conditions)
     record = blank(shape)
     failure, ticks = _loop()(

@@ -10,7 +10,7 @@ import mujoco
 import numpy as np
 from numba import float64, int64, types
 
-from bench.engines.compiled import MATRIX, compile_function
+from bench.engines.compiled import MATRIX, compile_function, register
 from bench.engines.contact_episode import (
     BROKEN,
     Numbers,
@@ -28,6 +28,7 @@ from bench.force import Room, Rows, Touch, Wish, comply
 from bench.resolved_motion import Chain, Scratch
 from bench.scalar import sqrt
 from bench.so3 import Rotation, from_quaternion
+from tasks.contact import MOST_LEGS, leg
 from tasks.verdict import GOING, check_command, check_state
 
 
@@ -49,6 +50,7 @@ class ContactView(NamedTuple):
     batch: int
     callback: int
     asked: int
+    push: int
     qvel: int
     ctrl: int
     sensordata: int
@@ -59,7 +61,7 @@ class ContactView(NamedTuple):
 
 
 class Workspace(NamedTuple):
-    """Addresses of the buffers of `Rows` and `Room`, of J, D (nv x nv), fg and tau."""
+    """Addresses of the buffers of `Rows` and `Room`, of J, D (nv x nv), fg, tau, and the trial's pushes."""
 
     a: int
     drift: int
@@ -78,6 +80,7 @@ class Workspace(NamedTuple):
     D: int
     fg: int
     tau: int
+    legs: int
 
 
 SIX = types.UniTuple(float64, 6)
@@ -85,7 +88,9 @@ WISH = types.NamedTuple((ROTATION, THREE, THREE, THREE, THREE), Wish)
 TOUCH = types.NamedUniTuple(float64, len(Touch._fields), Touch)
 ROWS = types.NamedUniTuple(VECTOR, len(Rows._fields), Rows)
 FOUR = types.UniTuple(float64, 4)
-NUMBERS = types.NamedTuple((float64, int64, int64, float64, float64, SIX, FOUR, THREE, THREE, THREE, SIX), Numbers)
+NUMBERS = types.NamedTuple(
+    (float64, int64, int64, float64, float64, SIX, FOUR, THREE, THREE, THREE, SIX, int64), Numbers
+)
 VIEW = types.NamedUniTuple(int64, len(ContactView._fields), ContactView)
 WORKSPACE = types.NamedUniTuple(int64, len(Workspace._fields), Workspace)
 ASSEMBLE = types.void(CHAIN, WISH, THREE, THREE, GAINS, TOUCH, MATRIX, ROWS)
@@ -110,6 +115,7 @@ def view(model, data, batch, callback: int, asked: np.ndarray, n: int) -> Contac
         batch.address,
         callback,
         address_of(asked),
+        address_of(data.xfrc_applied[model.body("hand").id]),
         *map(address_of, arrays),
     )
 
@@ -118,7 +124,7 @@ def workspace(rows: Rows, room: Room, nv: int, n: int) -> tuple[Workspace, tuple
     """The addresses of a controller's buffers, and the arrays, to be kept."""
     arrays = (
         *rows, room.y, room.b, room.held, *room.scratch,
-        np.zeros((6, 6)), np.zeros((nv, nv)), np.zeros(n), np.zeros(n),
+        np.zeros((6, 6)), np.zeros((nv, nv)), np.zeros(n), np.zeros(n), np.zeros((MOST_LEGS, 6)),
     )  # fmt: skip
     return Workspace(*map(address_of, arrays)), arrays
 
@@ -132,6 +138,7 @@ def episode_loop(cache: bool = True):
         axes, anchors = matrix(sim.axes, nv, 3), matrix(sim.anchors, nv, 3)
         bias, passive = vector(sim.bias, nv), vector(sim.passive, nv)
         J, D, fg, tau = matrix(work.J, 6, 6), matrix(work.D, nv, nv), vector(work.fg, n), vector(work.tau, n)
+        push, legs = vector(sim.push, 6), matrix(work.legs, MOST_LEGS, 6)
         rows = Rows(vector(work.a, 6), vector(work.drift, 6), vector(work.F, 6), vector(work.h, 6), vector(work.v, 6))
         scratch = Scratch(
             matrix(work.A, 6, 6), matrix(work.B, 6, 6), matrix(work.V, 6, 6), vector(work.s, 6), vector(work.t, 6)
@@ -163,6 +170,9 @@ def episode_loop(cache: bool = True):
                 return failure, tick + 1
             for i in range(n):
                 ctrl[i] = tau[i]
+            now = leg(numbers.legs, tick, numbers.ticks)
+            for i in range(6):
+                push[i] = legs[now, i]
             if step(sim.batch, sim.callback, sim.asked) > 0:
                 return BROKEN, tick + 1
             speed = 0.0
@@ -173,4 +183,5 @@ def episode_loop(cache: bool = True):
                 return failure, tick + 1
         return GOING, numbers.ticks
 
+    register(leg)
     return compile_function(episode, EPISODE, cache)
