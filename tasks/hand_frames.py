@@ -1,13 +1,14 @@
-"""How a hand's frame is drawn on the hand, and where trials of contact tasks begin."""
+"""How a hand's frame is drawn on the hand, where trials of contact tasks begin, and what stands askew before them."""
 
 from __future__ import annotations
 
 import functools
+import math
 
 from tasks.arm import Arm
-from tasks.base import Quat
+from tasks.base import Quat, Vector
 from tasks.kinematics import Kinematics
-from tasks.rotations import multiply
+from tasks.rotations import about, columns, multiply
 
 
 def posture(arm: Arm) -> tuple[float, ...]:
@@ -15,7 +16,7 @@ def posture(arm: Arm) -> tuple[float, ...]:
     return arm.home
 
 
-def wrist(arm: Arm, q: tuple[float, ...]) -> tuple[tuple[float, float, float], Quat]:
+def wrist(arm: Arm, q: tuple[float, ...]) -> tuple[Vector, Quat]:
     """Position [m] and orientation of the wrist, base frame."""
     p, quat = _kinematics(arm).pose(q)
     x, y, z = p.tolist()
@@ -26,6 +27,20 @@ def mounts(arm: Arm, q: tuple[float, ...], goal: Quat) -> Quat:
     """The hand's frame as the wrist sees it, if it shall have the orientation `goal` at the joint angles q."""
     w, x, y, z = wrist(arm, q)[1]
     return multiply((w, -x, -y, -z), goal)
+
+
+def at(arm: Arm, q: tuple[float, ...], point: Vector) -> Vector:
+    """Where a point of the wrist's frame is [m], base frame."""
+    p, quat = wrist(arm, q)
+    n, o, a = columns(quat)
+    x, y, z = (p[i] + point[0] * n[i] + point[1] * o[i] + point[2] * a[i] for i in range(3))
+    return (x, y, z)
+
+
+def leaning(tilt_deg: float, azimuth_deg: float) -> Quat:
+    """Turned by the tilt about the horizontal axis at this azimuth, counted from x towards y."""
+    azimuth = math.radians(azimuth_deg)
+    return about((math.cos(azimuth), math.sin(azimuth), 0.0), math.radians(tilt_deg))
 
 
 @functools.cache

@@ -1,0 +1,88 @@
+"""A flat tool pressed onto a tilted plate: a hand that complies about x and y lets itself be turned until it lies flat.
+
+The tool's face is a square with four sharp corners, and the plate a half space, so that MuJoCo's contacts are exactly
+the corners that touch: the smooth way in which the face tips from corner to edge to face is the mechanics', not a
+collision routine's. The plate stands as near as it can without touching; the hand goes down until a corner meets it.
+
+What complies turns the tool about x and y alone. That the yaw about z is held is what Euler angles get wrong: with
+Z-Y-X angles the third axis that complies is the hand's own x, which leans towards z as beta grows.
+
+All trials of one plate are the same mechanics; only the hand's frame differs, R = Ry(beta) at the goal.
+
+Source: Raibert and Craig 1981; Murphy 1988, 3.3.
+"""
+
+from __future__ import annotations
+
+import functools
+import itertools
+import math
+
+from tasks.arm import Arm
+from tasks.contact import ContactTask, Order, Surroundings, Trial
+from tasks.hand_frames import at, leaning, mounts, posture, wrist
+from tasks.rotations import columns, zyx
+
+SIDE = 0.1  # of the face [m]
+TIP = (0.0, 0.0, 0.12)  # middle of the face, in the wrist's frame [m]
+CLEARANCE = 0.002  # of the lowest corner at the start [m]
+ORDER = Order("z, about x and y", (1, 1, 0, 0, 0, 1), exerts=(0.0, 0.0, -20.0, 0.0, 0.0, 0.0))
+# degrees: by how much the plate is tilted, and the azimuth of the axis it is tilted about
+PLATES = ((5, 90), (10, 30), (20, 0), (20, 120))
+DENSE_PLATES = tuple(itertools.product((5, 10, 15, 20), range(0, 360, 45)))
+BETAS = (0, 45, 75)  # degrees
+DENSE_BETAS = (-60, 0, 30, 45, 60, 75)
+
+
+def surroundings(arm: Arm) -> Surroundings:
+    """A square tool on a stem, and a plate."""
+    half, thick, length = SIDE / 2, 0.008, TIP[2]
+    hand = (
+        f'<geom type="cylinder" size=".02 {length / 2}" pos="0 0 {length / 2}" contype="0" conaffinity="0" mass="0" '
+        'rgba=".3 .5 .8 1"/>'
+        f'<geom type="box" size="{half} {half} {thick}" pos="0 0 {length - thick}" mass="0" rgba=".3 .5 .8 1"/>'
+    )
+    plate = '<geom type="plane" size=".12 .12 .01" rgba=".75 .7 .6 1"/>'
+    return Surroundings(hand, TIP, plate)
+
+
+@functools.cache
+def trials(arm: Arm) -> tuple[Trial, ...]:
+    """Every plate with every frame of the hand."""
+    return _trials(arm, PLATES, BETAS)
+
+
+@functools.cache
+def dense(arm: Arm) -> tuple[Trial, ...]:
+    """The same on a dense grid."""
+    return _trials(arm, DENSE_PLATES, DENSE_BETAS)
+
+
+def _trials(arm: Arm, plates, betas) -> tuple[Trial, ...]:
+    q = posture(arm)
+    found = []
+    for (tilt, azimuth), beta in itertools.product(plates, betas):
+        plate, goal = leaning(tilt, azimuth), zyx(0.0, math.radians(beta), 0.0)
+        pose = f"tilt {tilt} about {azimuth}, beta{beta:+d}"
+        place = _below(arm, q, columns(plate)[2])
+        found.append(Trial(pose, pose, ORDER, q, goal, mounts(arm, q, goal), place, plate, tilt=math.radians(tilt)))
+    return tuple(found)
+
+
+def _below(arm: Arm, q, normal):
+    """Straight below the face's middle, so low that the lowest corner is CLEARANCE from a plate of this normal."""
+    x, y, z = at(arm, q, TIP)
+    n, o, _ = columns(wrist(arm, q)[1])
+    reach = sum(abs(sum(side[i] * normal[i] for i in range(3))) for side in (n, o)) * SIDE / 2
+    return (x, y, z - (CLEARANCE + reach) / normal[2])
+
+
+TASK = ContactTask(
+    name="surface-alignment",
+    title="A flat tool pressed onto a tilted plate",
+    source="Raibert and Craig 1981; Murphy 1988, 3.3",
+    horizon_s=3.0,
+    surroundings=surroundings,
+    trials=trials,
+    dense=dense,
+)
