@@ -1,7 +1,7 @@
 """Known moments at a hand in free space: which way it turns when it is told to comply.
 
 Nothing touches the hand, and nothing moves fast, so that a controller's choice of coordinates is all there is to see.
-A moment of PUSH acts from the first tick on. About axes that comply the hand turns with it; about the others, and
+One of MOMENTS acts from the first tick on. About axes that comply the hand turns with it; about the others, and
 with an impedance about all, it comes to rest where the controller's stiffness balances it.
 
 The arm keeps its posture in all trials: only the hand's frame is drawn anew, R = Rz(alpha) Ry(beta) Rx(gamma).
@@ -12,16 +12,29 @@ Source: Murphy 1988, 3.3 and equations 3.9 to 3.12.
 from __future__ import annotations
 
 import functools
+import itertools
 import math
+from collections.abc import Iterator
+from typing import NamedTuple
 
 from tasks.arm import Arm
+from tasks.base import AT_REST
 from tasks.contact import ContactTask, Order, Surroundings, Trial
 from tasks.hand_frames import mounts, posture
 from tasks.rotations import zyx
 
-# N m. Small: the hand turns by some milliradians, and the coordinates' B hardly changes on the way.
+# N m. Small: the hand turns by some milliradians, and the coordinates' B hardly changes on the way. Each moment comes
+# with its opposite, so that what changes in proportion to the angle cancels.
 PUSH = 0.02
-# The pairs and single axes that comply, everything else being held.
+MOMENTS = {
+    "+x": (PUSH, 0.0, 0.0),
+    "-x": (-PUSH, 0.0, 0.0),
+    "+y": (0.0, PUSH, 0.0),
+    "-y": (0.0, -PUSH, 0.0),
+    "+z": (0.0, 0.0, PUSH),
+    "-z": (0.0, 0.0, -PUSH),
+}
+# The single axes and pairs that comply, everything else being held.
 ORDERS = tuple(
     Order(name, (1, 1, 1, *held))
     for name, held in (
@@ -33,12 +46,26 @@ ORDERS = tuple(
         ("about z and x", (0, 1, 0)),
     )
 )
-# degrees: evenly, and then towards the poles of Z-Y-X and of Z-Y-Z
-BETAS = (0, 1, 5, 15, 30, 45, 60, 75, 85, 89, 90)
-DENSE_BETAS = tuple(range(-90, 91, 2))
-# (alpha, gamma) in degrees
-TURNS = ((0, 0), (35, -20))
-DENSE_TURNS = (*TURNS, (90, 0), (0, 90), (-120, 60))
+FEWER_ORDERS = (ORDERS[0], ORDERS[3])
+
+
+class Grid(NamedTuple):
+    """Frames of the hand, each with every order: turns (alpha, gamma) and betas in degrees."""
+
+    turns: tuple[tuple[int, int], ...]
+    betas: tuple[int, ...]
+    orders: tuple[Order, ...]
+
+
+# evenly, and then towards the poles of Z-Y-X and of Z-Y-Z; elsewhere to see that alpha and gamma matter
+GRIDS = (
+    Grid(((0, 0),), (0, 1, 5, 15, 30, 45, 60, 75, 85, 89, 90), ORDERS),
+    Grid(((35, -20),), (15, 45, 75), FEWER_ORDERS),
+)
+DENSE_GRIDS = (
+    Grid(((0, 0), (35, -20)), tuple(sorted({*range(-90, 91, 3), -89, -1, 1, 89})), ORDERS),
+    Grid(((90, 0), (0, 90), (-120, 60)), tuple(range(-90, 91, 5)), FEWER_ORDERS),
+)
 
 
 def surroundings(arm: Arm) -> Surroundings:
@@ -49,36 +76,43 @@ def surroundings(arm: Arm) -> Surroundings:
 
 @functools.cache
 def trials(arm: Arm) -> tuple[Trial, ...]:
-    """Three moments, about x, y and z, for every order and frame of the hand."""
-    return _trials(arm, BETAS, TURNS)
+    """Six moments, about x, y and z both ways, for every order and frame of the hand."""
+    return _trials(arm, GRIDS)
 
 
 @functools.cache
 def dense(arm: Arm) -> tuple[Trial, ...]:
-    """The same on a dense grid of frames."""
-    return _trials(arm, DENSE_BETAS, DENSE_TURNS)
+    """The same on denser grids of frames."""
+    return _trials(arm, DENSE_GRIDS)
 
 
-def _trials(arm: Arm, betas, turns) -> tuple[Trial, ...]:
+def _trials(arm: Arm, grids: tuple[Grid, ...]) -> tuple[Trial, ...]:
     q = posture(arm)
-    found = []
-    for alpha, gamma in turns:
-        for beta in betas:
-            goal = zyx(math.radians(alpha), math.radians(beta), math.radians(gamma))
-            mount = mounts(arm, q, goal)
-            for order in ORDERS:
-                pose = f"alpha{alpha:+d} beta{beta:+d} gamma{gamma:+d}, {order.name}"
-                for i, axis in enumerate("xyz"):
-                    push = tuple(PUSH if k == 3 + i else 0.0 for k in range(6))
-                    found.append(Trial(f"{pose}, moment {axis}", pose, order, q, goal, mount, push=push))
-    return tuple(found)
+    return tuple(
+        trial
+        for grid in grids
+        for (alpha, gamma), beta in itertools.product(grid.turns, grid.betas)
+        for trial in _at(arm, q, (alpha, beta, gamma), grid.orders)
+    )
+
+
+def _at(arm: Arm, q: tuple[float, ...], angles: tuple[int, int, int], orders: tuple[Order, ...]) -> Iterator[Trial]:
+    """The trials at one frame of the hand, by its Z-Y-X angles [deg]."""
+    alpha, beta, gamma = angles
+    goal = zyx(math.radians(alpha), math.radians(beta), math.radians(gamma))
+    mount = mounts(arm, q, goal)
+    for order in orders:
+        pose = f"alpha{alpha:+d} beta{beta:+d} gamma{gamma:+d}, {order.name}"
+        for name, moment in MOMENTS.items():
+            push = (*AT_REST, *moment)
+            yield Trial(f"{pose}, moment {name}", pose, order, q, goal, mount, push=push)
 
 
 TASK = ContactTask(
     name="wrench-probe",
     title="Known moments at a hand in free space",
     source="Murphy 1988, 3.3 and equations 3.9 to 3.12",
-    horizon_s=0.8,
+    horizon_s=0.5,
     surroundings=surroundings,
     trials=trials,
     dense=dense,
