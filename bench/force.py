@@ -33,9 +33,11 @@ from typing import Any, NamedTuple
 from bench.chain import bias_acceleration, twist
 from bench.contender import AT_REST, Goal, Representation
 from bench.errors import Incompatible
-from bench.jacobians import analytic, geometric
+from bench.jacobians import analytic
+from bench.jacobians.geometric import fill
 from bench.linalg import multiply, multiply_transposed, solve
-from bench.regulators import feedback_linearized, rotation_matrix
+from bench.regulators import feedback_linearized
+from bench.regulators.rotation_matrix import law as regulate
 from bench.resolved_motion import Scratch
 from bench.scalar import kernel
 from bench.so3 import rotate, rotate_back
@@ -111,8 +113,8 @@ def in_base(chain, wish, f, m, gains, touch, J, rows):
     """J and the rows of hybrid control along the axes of the base frame."""
     pdot, omega = twist(chain)
     bias = bias_acceleration(chain)
-    geometric.fill(J, chain)
-    u = rotation_matrix.law(chain.R, omega, Goal(wish.R_d, AT_REST, AT_REST), gains)
+    fill(J, chain)
+    u = regulate(chain.R, omega, Goal(wish.R_d, AT_REST, AT_REST), gains)
     write(rows.a, hold_moving(chain.p, pdot, wish, gains), u)
     write(rows.drift, (bias[0], bias[1], bias[2]), (bias[3], bias[4], bias[5]))
     write(rows.F, f, m)
@@ -170,7 +172,7 @@ def in_coordinates(representation: Representation, converts: bool = True) -> Cal
     """
     axes = axes_of(representation)
     chart, rates = representation.chart, representation.rates
-    fill, drift_of = analytic.kernels_in(representation)
+    fill_in, drift_of = analytic.kernels_in(representation)
     law = feedback_linearized.coordinate_law_in(representation)
     convert = representation.generalized if converts else _unconverted(axes)
 
@@ -181,7 +183,7 @@ def in_coordinates(representation: Representation, converts: bool = True) -> Cal
         at = chart(chain.R)
         Edot = rates(at, omega)
         drift = drift_of(chain, at, Edot, omega, bias_acceleration(chain))
-        fill(J, chain, at)
+        fill_in(J, chain, at)
         write(rows.a, hold_moving(chain.p, pdot, wish, gains), law(at, chart(wish.R_d).E, Edot, gains))
         write(rows.drift, (drift[0], drift[1], drift[2]), (drift[3], drift[4], drift[5]))
         write(rows.F, f, convert(at, m))

@@ -15,7 +15,7 @@ from typing import NamedTuple
 from bench.chain import bias_acceleration, twist
 from bench.contender import Representation
 from bench.force import hold_moving, write
-from bench.jacobians import geometric
+from bench.jacobians.geometric import fill
 from bench.scalar import kernel
 
 
@@ -43,7 +43,7 @@ def assembly(law: Callable) -> Callable:
         """J, and a = (u_p, u) with the wrench put back, along the axes of the base frame."""
         pdot, omega = twist(chain)
         bias = bias_acceleration(chain)
-        geometric.fill(J, chain)
+        fill(J, chain)
         spring, f_d, m_d = hold_moving(chain.p, pdot, wish, gains), wish.f_d, wish.m_d
         pressed = (
             spring[0] + (f[0] + f_d[0]) / touch.m_p,

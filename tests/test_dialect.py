@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 import bench
-from bench.counting.dialect import violations
+from bench.counting.dialect import CONTROLLER_SOURCES, violations
 from bench.discovery import all_contenders, known_representations
 from bench.scalar import KERNELS
 
@@ -19,6 +19,8 @@ FILES = sorted(
     for path in ROOM.glob(pattern)
     if path.name != "__init__.py"
 )
+CONTROLLERS = [ROOM / "force.py", ROOM / "impedance.py"]
+CONTROLLERS += sorted(path for path in ROOM.glob("impedances/*.py") if path.name != "__init__.py")
 FUNCTIONS = (*("chart", "chart_of", "to_matrix", "rates", "accelerate", "angular_velocity", "generalized", "margin"),)
 
 LAW = '''"""A law."""
@@ -53,6 +55,18 @@ def found_in(statement):
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
 def test_file_keeps_to_the_dialect(path):
     assert violations(path.read_text()) == []
+
+
+@pytest.mark.parametrize("path", CONTROLLERS, ids=lambda path: path.stem)
+def test_controller_in_contact_keeps_to_the_dialect(path):
+    assert violations(path.read_text(), CONTROLLER_SOURCES) == []
+
+
+def test_package_of_an_allowed_module_is_not_allowed_for_a_law():
+    """bench.linalg may be imported from, all of bench may not; nor may a law import another."""
+    for module in ("bench", "bench.regulators.rotation_matrix"):
+        [told] = violations(f"from {module} import law\n{LAW.replace('{statement}', 'pass')}")
+        assert told.startswith("line 1: ")
 
 
 def test_files_include_laws_coordinates_rotations_and_what_arms_need():

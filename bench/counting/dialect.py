@@ -12,6 +12,13 @@ from bench.scalar import KERNELS, PRIMITIVES
 SOURCES = ("bench.scalar", "bench.so3", "bench.linalg", "bench.weighting", "bench.resolved_motion", "bench.contender")
 """Modules of ours a law may import from; and NamedTuple from typing, to name its tuples."""
 
+CONTROLLER_SOURCES = (
+    *SOURCES,
+    *("bench.chain", "bench.force", "bench.impedance", "bench.errors", "collections.abc"),
+    *("bench.representations", "bench.regulators", "bench.jacobians", "bench.impedances"),
+)
+"""What a controller in contact may import from: it is put together of laws, coordinates and Jacobians."""
+
 OPERATORS = (ast.Add, ast.Sub, ast.Mult, ast.Div, ast.USub, ast.UAdd, ast.Not)
 COMPARISONS = (ast.Lt, ast.LtE, ast.Gt, ast.GtE)
 FORMS = (
@@ -32,30 +39,38 @@ FORMS = (
 """Everything a kernel may be written with; operators and calls are looked at more closely."""
 
 
-def violations(source: str) -> list[str]:
-    """What a law or representation file contains that the dialect does not, in the order of its lines."""
+def violations(source: str, modules: tuple[str, ...] = SOURCES) -> list[str]:
+    """What a file contains that the dialect does not, in the order of its lines.
+
+    Args:
+        source: the text of a law or representation file. modules: those it may import from, or the packages of them.
+    """
     tree = ast.parse(source)
-    found = list(_imports(tree))
-    callables = {"range"} | _imported(tree) | _defined(tree)
+    found = list(_imports(tree, modules))
+    callables = {"range"} | _imported(tree, modules) | _defined(tree)
     for function in _kernels(tree):
         for node in _body(function):
             found += _outside(node, function, callables)
     return [f"line {line}: {what}" for line, what in sorted(set(found))]
 
 
-def _imports(tree: ast.Module) -> Iterator[tuple[int, str]]:
+def _imports(tree: ast.Module, modules: tuple[str, ...]) -> Iterator[tuple[int, str]]:
     for node in ast.walk(tree):
         if isinstance(node, ast.Import) or (
-            isinstance(node, ast.ImportFrom) and node.module not in (*SOURCES, "typing")
+            isinstance(node, ast.ImportFrom) and not _is_among(node.module, (*modules, "typing"))
         ):
-            yield node.lineno, f"`{ast.unparse(node)}`: a law file imports from {', '.join(SOURCES)} only"
+            yield node.lineno, f"`{ast.unparse(node)}`: a law file imports from {', '.join(modules)} only"
 
 
-def _imported(tree: ast.Module) -> set[str]:
+def _is_among(module: str | None, modules: tuple[str, ...]) -> bool:
+    return module is not None and (module in modules or module.rpartition(".")[0] in modules)
+
+
+def _imported(tree: ast.Module, modules: tuple[str, ...]) -> set[str]:
     """Names imported from our modules that a kernel may call: kernels, primitives and tuple types."""
     names = set()
     for node in ast.walk(tree):
-        if isinstance(node, ast.ImportFrom) and node.module in SOURCES:
+        if isinstance(node, ast.ImportFrom) and node.module is not None and _is_among(node.module, modules):
             module = importlib.import_module(node.module)
             for alias in node.names:
                 value = getattr(module, alias.name, None)
@@ -67,12 +82,13 @@ def _imported(tree: ast.Module) -> set[str]:
 def _defined(tree: ast.Module) -> set[str]:
     """Names a kernel may call that the file itself makes.
 
-    Its kernels, its tuple types, and what a plain function around a kernel binds: law_in's functions of the
-    representation, whose own file is checked.
+    Its kernels, its tuple types, and what a plain function around a kernel is given or binds: law_in's functions of
+    the representation, whose own file is checked.
     """
     names = {node.name for node in ast.walk(tree) if isinstance(node, ast.ClassDef) or node in _kernels(tree)}
     for maker in ast.walk(tree):
         if isinstance(maker, ast.FunctionDef) and not _is_kernel(maker):
+            names |= {argument.arg for argument in maker.args.args}
             for statement in maker.body:
                 if isinstance(statement, ast.Assign):
                     targets = [part for target in statement.targets for part in ast.walk(target)]

@@ -5,14 +5,14 @@ Fails: at half turns from the goal the spring gives way to nothing.
 
 from bench.contender import AT_REST, Goal
 from bench.impedance import Impedance
-from bench.regulators import rotation_matrix
+from bench.regulators.rotation_matrix import law as regulate
 from bench.scalar import kernel
 
 
 @kernel
 def law(R, omega, m, R_d, gains, inertia):
     """u = m/m_o + Kp (n x n_d + o x o_d + a x a_d)/2 - Kv omega."""
-    u = rotation_matrix.law(R, omega, Goal(R_d, AT_REST, AT_REST), gains)
+    u = regulate(R, omega, Goal(R_d, AT_REST, AT_REST), gains)
     return (u[0] + m[0] / inertia, u[1] + m[1] / inertia, u[2] + m[2] / inertia)
 
 

@@ -4,7 +4,7 @@ Fails: at half turns e jumps to -e.
 """
 
 from bench.impedance import Impedance
-from bench.representations import rotation_vector
+from bench.representations.rotation_vector import chart
 from bench.scalar import kernel
 from bench.so3 import relative, rotate
 
@@ -12,7 +12,7 @@ from bench.so3 import relative, rotate
 @kernel
 def law(R, omega, m, R_d, gains, inertia):
     """u = m/m_o + Kp theta k - Kv omega; theta k is that of R^T R_d, turned to the base frame."""
-    e = rotate(R, rotation_vector.chart(relative(R, R_d)).E)
+    e = rotate(R, chart(relative(R, R_d)).E)
     return (
         m[0] / inertia + gains.kp * e[0] - gains.kv * omega[0],
         m[1] / inertia + gains.kp * e[1] - gains.kv * omega[1],
