@@ -60,7 +60,8 @@ class Grid(NamedTuple):
 # evenly, and then towards the poles of Z-Y-X and of Z-Y-Z; elsewhere to see that alpha and gamma matter
 GRIDS = (
     Grid(((0, 0),), (0, 1, 5, 15, 30, 45, 60, 75, 85, 89, 90), ORDERS),
-    Grid(((35, -20),), (15, 45, 75), FEWER_ORDERS),
+    Grid(((35, -20),), (45,), ORDERS),
+    Grid(((35, -20),), (15, 75), FEWER_ORDERS),
 )
 DENSE_GRIDS = (
     Grid(((0, 0), (35, -20)), tuple(sorted({*range(-90, 91, 3), -89, -1, 1, 89})), ORDERS),
