@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import tasks
 from bench.contender import Gains
-from bench.discovery import known_inverses, known_jacobians
+from bench.discovery import find_compliant, known_inverses, known_jacobians
 from bench.errors import BadNumber, Incompatible, UnknownWord
 from bench.suites import ENGINES
 
@@ -23,13 +23,16 @@ class Choice:
     jacobians: tuple[str, ...] = ()
     inverses: tuple[str, ...] = ()
     variations: tuple[str, ...] = ()
+    controllers: tuple[str, ...] = ()
+    regulators: tuple[str, ...] = ()
+    representations: tuple[str, ...] = ()
 
     def checked(self) -> "Choice":
         """Each word once; UnknownWord for one in no list, Incompatible for words that exclude each other."""
         once = Choice(**{name: tuple(dict.fromkeys(words)) for name, words in vars(self).items()})
         every_set = dict.fromkeys((*tasks.start_set_names(), *tasks.start_set_names(arm=True)))
         known: dict[str, tuple] = {
-            "task": (once.tasks, tasks.names()),
+            "task": (once.tasks, sorted((*tasks.names(), *tasks.contact_names()))),
             "start": (once.start_sets, every_set),
             "engine": (once.engines, ENGINES),
             "arm": (once.arms, tasks.arm_names()),
@@ -40,12 +43,58 @@ class Choice:
         for kind, (words, allowed) in known.items():
             for word in words:
                 check_word(kind, word, list(allowed))
-        bodies = [word for word in once.tasks if not tasks.is_for_arms(word)]
+        for word in once.controllers:
+            find_compliant(word)
+        once._check_contact()
+        bodies = [word for word in once.tasks if word in tasks.names() and not tasks.is_for_arms(word)]
         if bodies and once.is_about_arms and len(bodies) == len(once.tasks):
             raise Incompatible(
                 f"task '{bodies[0]}' has no arm, so no Jacobian, inverse or variation (try: --task arm-regulation)"
             )
         return once
+
+    def _check_contact(self) -> None:
+        """Refuse words that the tasks in contact do not take, if they are all that is named; and controllers else."""
+        contact = tasks.contact_names()
+        others = [word for word in self.tasks if word not in contact]
+        if self.controllers and others:
+            raise Incompatible(
+                f"task '{others[0]}' takes regulators and no controller '{self.controllers[0]}' (try: --task "
+                f"{contact[0]})"
+            )
+        for kind, words in self.of_episodes.items() if self.is_contact_alone else ():
+            if words:
+                raise Incompatible(
+                    f"tasks in contact take an arm and a --controller, no {kind} such as '{words[0]}' (try: python -m "
+                    "bench list controllers)"
+                )
+
+    @property
+    def of_episodes(self) -> dict[str, tuple[str, ...]]:
+        """By kind, the words that only tasks without contact take."""
+        return {
+            "start": self.start_sets,
+            "engine": self.engines,
+            "regulator": self.regulators,
+            "jacobian": self.jacobians,
+            "inverse": self.inverses,
+            "variation": self.variations,
+        }
+
+    @property
+    def is_about_contact(self) -> bool:
+        """Whether it names a task in contact or a controller for one."""
+        return bool(self.controllers or set(self.tasks) & set(tasks.contact_names()))
+
+    @property
+    def is_contact_alone(self) -> bool:
+        """Whether all that it names is in contact."""
+        return self.is_about_contact and set(self.tasks) <= set(tasks.contact_names())
+
+    @property
+    def takes_contact(self) -> bool:
+        """Whether tasks in contact are run: if some are named, or nothing that they do not take."""
+        return self.is_about_contact or not (self.tasks or any(self.of_episodes.values()))
 
     @property
     def is_about_arms(self) -> bool:

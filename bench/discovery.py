@@ -14,9 +14,11 @@ import types
 from pathlib import Path
 from typing import Any
 
-from bench import inverses, jacobians, metrics, regulators, representations
+from bench import contact_metrics, impedances, inverses, jacobians, metrics, regulators, representations
+from bench.compliance import ALONG_AXES, FORMS, HYBRIDS, Compliant, hybrid, springy
 from bench.contender import NO_MEMORY, Contender, Gains, Goal, Regulator, Representation, contender
 from bench.errors import BadLaw, Incompatible, UnknownWord
+from bench.impedance import Impedance
 from bench.metric import Metric
 from bench.resolved_motion import Inverse, Jacobian
 from bench.so3 import Rotation
@@ -67,6 +69,20 @@ def known_inverses() -> dict:
 def known_metrics() -> dict:
     """Word -> Metric, from bench/metrics, in alphabetical order: the order of their columns."""
     return _collect(metrics, "METRIC", Metric)
+
+
+@functools.cache
+def known_impedances() -> dict:
+    """Word -> Impedance, from bench/impedances."""
+    return _collect(impedances, "IMPEDANCE", Impedance)
+
+
+@functools.cache
+def known_contact_metrics() -> dict:
+    """Word -> ContactMetric, from bench/contact_metrics, in alphabetical order: the order of their columns."""
+    from bench.contact_metric import ContactMetric  # MuJoCo takes a moment to import; naming other things must not
+
+    return _collect(contact_metrics, "METRIC", ContactMetric)
 
 
 def metrics_of(on_arm: bool) -> tuple[Metric, ...]:
@@ -137,6 +153,40 @@ def find_contender(word: str, extra: tuple[Regulator, ...] = ()) -> Contender:
     return several[0]
 
 
+def all_compliants() -> list[Compliant]:
+    """Every hybrid controller in both forms, then every impedance; each in every representation that it takes."""
+    along = [one for one in known_representations().values() if one.about is not None]
+    found = []
+    for law in HYBRIDS:
+        for one in (None,) if law in ALONG_AXES else along:
+            found += [hybrid(law, form, one) for form in FORMS]
+    for impedance in known_impedances().values():
+        found += [springy(impedance, one) for one in (along if impedance.law_in else (None,))]
+    return found
+
+
+def find_compliant(word: str) -> Compliant:
+    """`law[/representation][+form]`, as the command line writes a controller in contact.
+
+    Errors:
+        UnknownWord: of the law or the representation. Incompatible: a part too many, too few, or unfitting.
+    """
+    rest, plus, form = word.partition("+")
+    law, _, coordinates = rest.partition("/")
+    springs = {f"impedance-{name}": one for name, one in known_impedances().items()}
+    if law not in (*HYBRIDS, *springs):
+        raise UnknownWord("controller", law, sorted((*HYBRIDS, *springs)))
+    along = representation(coordinates) if coordinates else None
+    if law in HYBRIDS:
+        one = hybrid(law, form or FORMS[0], along)
+        if not form:
+            raise Incompatible(f"'{word}' lacks its way to the joints (try: {rest}+inverse, or {rest}+projected)")
+        return one
+    if plus:
+        raise Incompatible(f"'{word}': an impedance has one way to the joints (leave '+{form}' away)")
+    return springy(springs[law], along)
+
+
 def load_law(path: Path) -> Regulator:
     """The REGULATOR of a file outside the package.
 
@@ -160,9 +210,7 @@ def load_law(path: Path) -> Regulator:
         exec(compile(text, path, "exec"), module.__dict__)
     except (Exception, SystemExit) as error:
         del sys.modules[name]
-        raise BadLaw(
-            f"--law {path}: it does not import ({type(error).__name__}: {error}); mend the file"
-        ) from error
+        raise BadLaw(f"--law {path}: it does not import ({type(error).__name__}: {error}); mend the file") from error
     own = getattr(module, "REGULATOR", None)
     if not isinstance(own, Regulator):
         given = "no REGULATOR" if own is None else f"a REGULATOR of type {type(own).__name__}"

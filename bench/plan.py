@@ -6,8 +6,9 @@ import json
 from dataclasses import dataclass
 
 import tasks
-from bench import combinations
+from bench import combinations, contact_plan
 from bench.choice import EVERYTHING, INTEGRATORS, Choice, check_numbers, check_word
+from bench.contact_plan import ContactUnit
 from bench.contender import PAPERS_GAINS, Contender, Gains
 from bench.errors import Incompatible
 from bench.provenance import source_digest
@@ -17,6 +18,9 @@ from tasks.rules import RULES
 CHUNK = {"ideal-rk4": 1000, "ideal-held": 1000, "native": 250, "reference": 4}
 ARM_CHUNK = {"native": 100, "reference": 2}
 """Episodes a unit at most: a few seconds each even if none of them settles, so that Ctrl-C answers soon."""
+
+WITHOUT, IN_CONTACT = "euler", "implicitfast"
+"""Integrators if none is named: the default of MuJoCo, and what it recommends for contacts."""
 
 
 @dataclass(frozen=True)
@@ -34,6 +38,13 @@ class Unit:
     arm: str = ""
     variation: str = NOMINAL
 
+    table = "episodes"
+
+    @property
+    def label(self) -> str:
+        """Where it is and what it runs, in a few words."""
+        return f"{self.arm or self.engine} {self.contender.split('/')[0]}"
+
     @property
     def key(self) -> str:
         """A name for a file."""
@@ -50,12 +61,19 @@ class Plan:
     contenders: tuple[Contender, ...]
     gains: Gains = PAPERS_GAINS
     dt_s: float = 1e-3
-    integrator: str = "euler"
+    integrator: str = WITHOUT
     seed: int = 0
     traces: int = 0
     boundary_axes: int = 0
     arm_traces: int = 0
     poses: int = 0
+    contacts: tuple[ContactUnit, ...] = ()
+    contact_integrator: str = IN_CONTACT
+
+    @property
+    def work(self) -> tuple[Unit | ContactUnit, ...]:
+        """All that is to be done."""
+        return (*self.units, *self.contacts)
 
     @property
     def laws(self) -> tuple[Contender, ...]:
@@ -69,8 +87,13 @@ class Plan:
 
     @property
     def episodes(self) -> int:
-        """Number of rows."""
+        """Number of rows of episodes.parquet."""
         return sum(unit.count for unit in self.units)
+
+    @property
+    def trials(self) -> int:
+        """Number of episodes in contact."""
+        return sum(unit.count for unit in self.contacts)
 
     def contender(self, name: str) -> Contender:
         """The contender of that name."""
@@ -78,6 +101,7 @@ class Plan:
 
     def identity(self) -> dict:
         """What two runs must share for one to continue the other: the plan, the rules and the sources."""
+        touched = dict.fromkeys((*self.arms, *(unit.arm for unit in self.contacts)))
         return {
             "suite": self.suite,
             "units": [dataclasses.astuple(unit) for unit in self.units],
@@ -90,7 +114,9 @@ class Plan:
             "boundary_axes": self.boundary_axes,
             "arm_traces": self.arm_traces,
             "poses": self.poses,
-            "arms": {name: hashlib.sha256(tasks.arm(name).xml.encode()).hexdigest()[:16] for name in self.arms},
+            "contacts": [dataclasses.astuple(unit) for unit in self.contacts],
+            "contact_integrator": self.contact_integrator,
+            "arms": {name: hashlib.sha256(tasks.arm(name).xml.encode()).hexdigest()[:16] for name in touched},
             "rules": list(RULES),
             "sources": source_digest(),
         }
@@ -114,26 +140,28 @@ def make(
     dt_s: float = 1e-3,
     horizon_s: float | None = None,
     gains: Gains = PAPERS_GAINS,
-    integrator: str = "euler",
+    integrator: str | None = None,
     seed: int = 0,
 ) -> Plan:
     """The plan of a suite, narrowed or widened by what the user named.
 
     Args:
         laws: the contenders of the free body; on arms the same laws, by the suite's Jacobians and inverses.
+        count: of the starts of each set, and the poses of each task in contact; the suite's numbers if None.
+        integrator: everywhere; IN_CONTACT in contact and WITHOUT elsewhere if None.
     Errors:
         UnknownWord: a name in no list. BadNumber: a number that no episode can be run with.
         Incompatible: no named task, engine and start set go together, or no law, Jacobian and inverse.
     """
     check_numbers(dt_s, horizon_s, gains, count, seed)
-    check_word("integrator", integrator, list(INTEGRATORS))
+    if integrator is not None:
+        check_word("integrator", integrator, list(INTEGRATORS))
     chosen, choice = suite(suite_word), choice.checked()
-    every_task = choice.tasks or tuple(
-        word for word in tasks.names() if tasks.is_for_arms(word) or not choice.is_about_arms
-    )
+    every_task = _tasks(choice, laws)
     placed = _on_free_body(chosen, laws, every_task, choice) + _on_arms(chosen, laws, every_task, choice)
     units = tuple(unit for place in placed for unit in _units(place, count, seed, horizon_s))
-    if not units:
+    contacts = contact_plan.units(chosen.in_contact, choice, count, horizon_s)
+    if every_task and not units:
         raise Incompatible(_nothing_to_run(every_task, chosen, choice))
     named = {place.contender.name: place.contender for place in placed}
     return Plan(
@@ -142,13 +170,27 @@ def make(
         tuple(named.values()),
         gains,
         dt_s,
-        integrator,
+        integrator or WITHOUT,
         seed,
         0 if choice.narrows else chosen.traces,
         0 if choice.narrows else chosen.boundary_axes,
         0 if choice.narrows else chosen.on_arms.traced,
         0 if choice.narrows else chosen.on_arms.poses,
+        contacts,
+        integrator or IN_CONTACT,
     )
+
+
+def _tasks(choice: Choice, laws: list[Contender]) -> tuple[str, ...]:
+    """The tasks without contact that are meant."""
+    if choice.is_contact_alone:
+        own = [one.regulator.name for one in laws if one.regulator.origin]
+        if own:
+            raise Incompatible(f"tasks in contact take controllers, not the regulator '{own[0]}' (leave --law away)")
+        return ()
+    named = tuple(word for word in choice.tasks if word in tasks.names())
+    every = tuple(word for word in tasks.names() if tasks.is_for_arms(word) or not choice.is_about_arms)
+    return named or every
 
 
 @dataclass(frozen=True)
@@ -186,7 +228,7 @@ def _on_arms(chosen: Suite, laws, every_task, choice: Choice) -> list[Place]:
             for part, one, variation in _on_arm(chosen.on_arms, laws, tasks.arm(arm).joints, choice):
                 if part.start_set in fitting and runs_on(part.engine, task):
                     places.append(Place(part, one, task, arm, variation))
-    if not places and choice.is_about_arms:
+    if every_task and not places and choice.is_about_arms:
         _check_combinations(chosen.on_arms, laws, choice)
     return places
 

@@ -1,10 +1,12 @@
 """What the report and the claims read: the folder of a finished run, and its tables, each read once a process.
 
     results.episodes(engine="ideal-rk4", start_set="uniform")     the rows that have these words
-    results.costs(), results.boundaries(), results.poses(), results.traces(), results.provenance(), results.own_laws()
+    results.costs(), results.boundaries(), results.poses(), results.traces(), results.compliance()
+    results.provenance(), results.own_laws()
 
-Every frame about contenders has a column `contender`: "regulator" or "regulator/representation", and on an arm
-"...@jacobian+inverse". Rows about the free body are those that have the words FREE_BODY.
+Every frame about contenders has a column `contender`: "regulator" or "regulator/representation", on an arm
+"...@jacobian+inverse", and in contact "controller/representation+form". Rows about the free body are those that have
+the words FREE_BODY.
 """
 
 import functools
@@ -59,6 +61,11 @@ def poses(**words: str) -> pd.DataFrame:
     return chosen(table(folder(), "poses"), words)
 
 
+def compliance(**words: str) -> pd.DataFrame:
+    """Rows of compliance.parquet that have these words, as in compliance(task="wrench-probe", arm="ur5e")."""
+    return chosen(table(folder(), "compliance"), words)
+
+
 def provenance() -> dict:
     """Where the run comes from: provenance.json."""
     return read_json(folder() / "provenance.json")
@@ -73,8 +80,10 @@ def own_laws() -> tuple[Regulator, ...]:
 
 @functools.cache
 def table(path: Path, name: str) -> pd.DataFrame:
-    """A whole table with `contender` added where it has laws; shared, so copy it before you change it."""
+    """A whole table with `contender` added where it has some; shared, so copy it before you change it."""
     frame = read(path, name)
+    if "controller" in frame:
+        return with_compliant(frame)
     return with_contender(frame) if "regulator" in frame else frame
 
 
@@ -85,6 +94,15 @@ def with_contender(frame: pd.DataFrame) -> pd.DataFrame:
     if "jacobian" in frame:  # not in a table of times
         jacobian, inverse = frame["jacobian"].astype(str), frame["inverse"].astype(str)
         names = names.where(jacobian == "", names + "@" + jacobian + "+" + inverse)
+    return frame.assign(contender=names.astype("category"))
+
+
+def with_compliant(frame: pd.DataFrame) -> pd.DataFrame:
+    """Rows of compliance.parquet with `contender` added, as the command line writes it."""
+    names = frame["controller"].astype(str)
+    for mark, column in (("/", "representation"), ("+", "form")):
+        word = frame[column].astype(str)
+        names = names.where(word == "", names + mark + word)
     return frame.assign(contender=names.astype("category"))
 
 

@@ -18,9 +18,11 @@ from typing import NamedTuple
 import pandas as pd
 
 import tasks
-from bench import boundary, counting, poses, traces
+from bench import boundary, contact_rows, counting, poses, traces
 from bench.choice import check_workers
-from bench.discovery import all_contenders, metrics_of
+from bench.contact_plan import ContactUnit, poses_of
+from bench.discovery import all_contenders, find_compliant, metrics_of
+from bench.engines.contact_episode import Conditions
 from bench.engines.run import compiled_loop
 from bench.engines.run import run as run_engine
 from bench.engines.run_arm import pointers
@@ -31,7 +33,7 @@ from bench.provenance import describe
 from bench.rows import frame, settings_of
 from bench.store import check, is_leftover, merge, read_json, write_atomically, write_json, write_table
 
-TABLES = ("costs", "traces", "boundaries", "poses", "episodes")
+TABLES = ("costs", "traces", "boundaries", "poses", "compliance", "episodes")
 """The tables of a finished run, in the order of their writing."""
 
 
@@ -45,7 +47,7 @@ class State(NamedTuple):
 class Progress(NamedTuple):
     """Told to the caller after every unit: the unit, and how many episodes of the whole it was."""
 
-    unit: Unit
+    unit: Unit | ContactUnit
     episodes: int
 
 
@@ -71,12 +73,16 @@ def inspect(plan: Plan, out: Path, replace: bool = False) -> State:
             "choose another folder with --out"
         )
     finished = (out / "provenance.json").is_file() and all((out / f"{table}.parquet").is_file() for table in TABLES)
-    parts = sorted((out / "parts").glob("*.parquet"))
     for path in (out / f"{table}.parquet" for table in TABLES) if finished else ():
         check(path, path.stem)
-    for path in () if finished else parts:
-        check(path, "episodes")
-    return State(finished, frozenset(path.stem for path in parts))
+    done = [unit for unit in plan.work if _part(out, unit).is_file()]
+    for unit in () if finished else done:
+        check(_part(out, unit), unit.table)
+    return State(finished, frozenset(unit.key for unit in done))
+
+
+def _part(out: Path, unit: Unit | ContactUnit) -> Path:
+    return out / "parts" / f"{unit.key}.parquet"
 
 
 def _content(out: Path) -> list[Path]:
@@ -111,8 +117,8 @@ def run(
         _clear(out)
         write_json(out / "plan.json", {"digest": plan.digest(), **plan.identity()})
         _keep_own_laws(plan, out)
-    todo = [unit for unit in plan.units if unit.key not in state.done]
-    for unit in plan.units:
+    todo = [unit for unit in plan.work if unit.key not in state.done]
+    for unit in plan.work:
         if unit.key in state.done:
             told(Progress(unit, unit.count))
     _run_units(plan, todo, out, workers, told)
@@ -203,24 +209,17 @@ def _removing(out: Path):
         ) from error
 
 
-def _run_units(plan: Plan, todo: list[Unit], out: Path, workers: int, told) -> None:
+def _run_units(plan: Plan, todo: list[Unit | ContactUnit], out: Path, workers: int, told) -> None:
     stop = threading.Event()
 
-    def work(unit: Unit) -> Unit | None:
+    def work(unit: Unit | ContactUnit) -> Unit | ContactUnit | None:
         if stop.is_set():
             return None
-        starts = starts_of(unit.start_set, unit.total, plan.seed, unit.arm)[unit.first : unit.first + unit.count]
-        one, settings = plan.contender(unit.contender), settings_of(plan, unit.horizon_s)
-        metrics = metrics_of(on_arm=one.is_on_arm)
-        if one.is_on_arm:
-            given = (unit.task, unit.arm, starts, settings, metrics, plan.integrator, unit.variation)
-            numbers = run_on_arm(unit.engine, one, *given)
-        else:
-            numbers = run_engine(unit.engine, one, unit.task, starts, settings, metrics, plan.integrator)
-        write_table(out / "parts" / f"{unit.key}.parquet", frame(plan, unit, one, starts, numbers, metrics), "episodes")
+        rows = _in_contact(plan, unit) if isinstance(unit, ContactUnit) else _episodes(plan, unit)
+        write_table(_part(out, unit), rows, unit.table)
         return unit
 
-    if any(unit.engine == "reference" for unit in todo):
+    if any(isinstance(unit, Unit) and unit.engine == "reference" for unit in todo):
         importlib.import_module("tasks.episode")  # it silences GLFW's import, which works in the main thread only
     with ThreadPoolExecutor(workers) as pool:
         pending = {pool.submit(work, unit) for unit in todo}
@@ -236,6 +235,28 @@ def _run_units(plan: Plan, todo: list[Unit], out: Path, workers: int, told) -> N
             raise
 
 
+def _episodes(plan: Plan, unit: Unit) -> pd.DataFrame:
+    """The rows of a unit without contact."""
+    starts = starts_of(unit.start_set, unit.total, plan.seed, unit.arm)[unit.first : unit.first + unit.count]
+    one, settings = plan.contender(unit.contender), settings_of(plan, unit.horizon_s)
+    metrics = metrics_of(on_arm=one.is_on_arm)
+    if one.is_on_arm:
+        given = (unit.task, unit.arm, starts, settings, metrics, plan.integrator, unit.variation)
+        numbers = run_on_arm(unit.engine, one, *given)
+    else:
+        numbers = run_engine(unit.engine, one, unit.task, starts, settings, metrics, plan.integrator)
+    return frame(plan, unit, one, starts, numbers, metrics)
+
+
+def _in_contact(plan: Plan, unit: ContactUnit) -> pd.DataFrame:
+    """The rows of a unit in contact."""
+    one, arm = find_compliant(unit.contender), tasks.arm(unit.arm)
+    task = tasks.contact_task(unit.task)
+    some = poses_of(one, task, arm, unit.dense)[unit.first : unit.first + unit.poses]
+    conditions = Conditions(plan.gains, dt_s=plan.dt_s, integrator=plan.contact_integrator)
+    return contact_rows.frame(plan.suite, one, task._replace(horizon_s=unit.horizon_s), arm, some, conditions)
+
+
 starts_of = functools.lru_cache(maxsize=16)(tasks.start_set)
 """A start set is built once for all its units."""
 
@@ -249,7 +270,8 @@ def _finish(plan: Plan, out: Path, own_costs: list[dict], workers: int, began: f
         write_table(out / "costs.parquet", counted, "costs")
         write_table(out / "traces.parquet", curves.result(), "traces")
         write_table(out / "poses.parquet", looks.result(), "poses")
-    rows = merge(out / "episodes.parquet", [out / "parts" / f"{unit.key}.parquet" for unit in plan.units], "episodes")
+    merge(out / "compliance.parquet", [_part(out, unit) for unit in plan.contacts], "compliance")
+    rows = merge(out / "episodes.parquet", [_part(out, unit) for unit in plan.units], "episodes")
     write_json(
         out / "provenance.json",
         {
@@ -257,6 +279,7 @@ def _finish(plan: Plan, out: Path, own_costs: list[dict], workers: int, began: f
             "suite": plan.suite,
             "plan": plan.digest(),
             "episodes": rows,
+            "trials": plan.trials,
             "seed": plan.seed,
             "workers": workers,
             "finished": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime()),

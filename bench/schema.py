@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import pyarrow as pa
 
-from bench.discovery import known_metrics
+from bench.discovery import known_contact_metrics, known_metrics
 from bench.provenance import ROOT
 
 VERSION = "2"
@@ -145,6 +145,46 @@ def pose_columns() -> list[Column]:
     ]
 
 
+COMPLIANCE_KEY = ("suite", "task", "arm", "controller", "representation", "form", "pose")
+"""What names a row of compliance.parquet."""
+
+
+def compliance_columns() -> list[Column]:
+    """compliance.parquet: a hand in contact, a row a pose and controller; every contact metric found adds its column.
+
+    Null where a number has no meaning: a metric of another task, or of an episode that broke off too early.
+    """
+    measured = [Column(one.column, NUMBER, one.unit, one.title) for one in known_contact_metrics().values()]
+    about = "measured rotation about {} per moment about {}, base frame; least squares over the pose's small moments"
+    return [
+        *_words(
+            suite="plan the row belongs to",
+            task="what the hand does",
+            arm="manipulator",
+            controller="hybrid control along axes of the base or the hand, or coordinates; or an impedance",
+            representation="coordinates the controller acts on; empty for none",
+            form="inverse or projected: how a hybrid controller's rows become motion of the joints; empty for others",
+            pose="where the hand is, and what it is told",
+            complies="what the order lets comply; an impedance complies along and about all axes whatever it says",
+        ),
+        *_numbers("rad", "Z-Y-X Euler angles of the hand's goal", "alpha", "beta", "gamma"),
+        *_numbers("rad", "angle by which the surroundings differ from what the order supposes", "tilt"),
+        *_numbers("1/s^2", "position gain", "kp"),
+        *_numbers("1/s", "velocity gain", "kv"),
+        *_numbers("kg", "apparent mass", "m_p"),
+        *_numbers("kg m^2", "apparent inertia", "m_o"),
+        *_numbers("1/s", "damping of what complies", "kc"),
+        *_numbers("s", "control period and integration step", "dt_s"),
+        *_words(integrator="how the plant is integrated"),
+        *_numbers("s", "time simulated", "horizon_s"),
+        Column("trials", COUNT, "1", "episodes of the pose"),
+        *_words(outcome="the worst of its episodes: done, singular, saturated, diverged or broken (MuJoCo gave up)"),
+        *_numbers("s", "time at which the first of the worst episodes failed; null if all are done", "failure_time_s"),
+        *measured,
+        *(Column(f"c_{i}{j}", NUMBER, "rad/(N m)", about.format(i, j)) for i in "xyz" for j in "xyz"),
+    ]
+
+
 def cost_columns() -> list[Column]:
     """costs.parquet: operations a tick, by stage and branch."""
     from bench.counting import OPERATIONS
@@ -195,6 +235,7 @@ TABLES = {
     "traces": trace_columns,
     "boundaries": boundary_columns,
     "poses": pose_columns,
+    "compliance": compliance_columns,
     "timings": timing_columns,
 }
 

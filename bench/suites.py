@@ -1,4 +1,4 @@
-"""Suites: which engines run which start sets, how many starts, how long; on arms also which contenders."""
+"""Suites: which engines run which start sets, how many starts, how long; on arms and in contact also by what."""
 
 from typing import NamedTuple
 
@@ -47,6 +47,18 @@ class OnArms(NamedTuple):
     poses: int = 0
 
 
+class InContact(NamedTuple):
+    """The part of a suite that runs tasks in contact, on every arm that can do them.
+
+    controllers: their names; none at all: every one. poses: the first so many of each task; None: all. dense: the
+    task's dense set of trials instead.
+    """
+
+    controllers: tuple[str, ...]
+    poses: int | None = None
+    dense: bool = False
+
+
 class Suite(NamedTuple):
     """A named list of slices, run for every contender that is not only a costing.
 
@@ -61,10 +73,40 @@ class Suite(NamedTuple):
     traces: int
     boundary_axes: int
     on_arms: OnArms
+    in_contact: InContact
 
 
 DIRECTED = ("box", "goals", "half-turn", "paper", "poles", "tumbling", "wraps")
 HORIZON = {"half-turn": LONG, "poles": LONG, "wraps": LONG}
+
+
+COMPLIANT = (
+    "hybrid-base+inverse",
+    "hybrid-rate+inverse",
+    "hybrid-hand+inverse",
+    "hybrid/zyx-euler+inverse",
+    "hybrid/zyx-euler+projected",
+    "hybrid-unconverted/zyx-euler+inverse",
+    "impedance-geometric",
+    "impedance-coordinates/zyx-euler",
+    "impedance-coordinates-relative/zyx-euler",
+)
+"""Controllers in contact that tell the coordinates apart, and the control and the form that must not be blamed."""
+
+MORE_COMPLIANT = (
+    "hybrid-base+projected",
+    "hybrid-rate+projected",
+    "hybrid-hand+projected",
+    "hybrid/zyz-euler+inverse",
+    "hybrid/xyz-euler+inverse",
+    "hybrid/rotation-vector+inverse",
+    "hybrid/mrp+inverse",
+    "impedance-rotation-vector",
+    "impedance-quaternion",
+)
+
+FIRST_FRAMES = 66
+"""Poses of `quick`: of wrench-probe its first series over beta, in every order; of the other tasks all."""
 
 
 def _slices(engine: str, uniform: int, directed=DIRECTED) -> tuple[Slice, ...]:
@@ -96,6 +138,7 @@ SUITES = {
                 traced=1,
                 poses=200,
             ),
+            in_contact=InContact(COMPLIANT, FIRST_FRAMES),
         ),
         Suite(
             "default",
@@ -115,6 +158,7 @@ SUITES = {
                 traced=2,
                 poses=1000,
             ),
+            in_contact=InContact((*COMPLIANT, *MORE_COMPLIANT)),
         ),
         Suite(
             "full",
@@ -134,6 +178,7 @@ SUITES = {
                 traced=4,
                 poses=1000,
             ),
+            in_contact=InContact((), dense=True),
         ),
     )
 }

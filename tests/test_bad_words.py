@@ -24,7 +24,7 @@ from bench.suites import ENGINES, SUITES
         ("--regulator", "rotation-matrx", sorted(known_regulators())),
         ("--regulator", "linearized-euler/zyx-eular", sorted(known_representations())),
         ("--representation", "zyx", sorted(known_representations())),
-        ("--task", "free-bodi", tasks.names()),
+        ("--task", "free-bodi", sorted((*tasks.names(), *tasks.contact_names()))),
         ("--arm", "ur5", tasks.arm_names()),
         ("--jacobian", "geometrik", sorted(known_jacobians())),
         ("--inverse", "sovle", sorted(known_inverses())),

@@ -40,6 +40,13 @@ jacobian = click.option(
 inverse = click.option(
     "--inverse", "inverses", multiple=True, metavar="NAME", help="On arms, only this inverse; repeatable."
 )
+controller = click.option(
+    "--controller",
+    "controllers",
+    multiple=True,
+    metavar="NAME",
+    help="In contact, only this controller, as hybrid/zyx-euler+inverse or impedance-geometric; repeatable.",
+)
 
 
 class Named(NamedTuple):

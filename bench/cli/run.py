@@ -10,6 +10,7 @@ from bench.choice import Choice, check_workers
 from bench.cli import options
 from bench.cli.screen import console, episode_progress
 from bench.contender import Gains
+from bench.plan import IN_CONTACT, WITHOUT
 from bench.suites import NOMINAL
 
 EPILOG = """
@@ -35,6 +36,7 @@ controller's model.
 @options.law
 @options.regulator
 @options.representation
+@options.controller
 @click.option("--task", "tasks", multiple=True, metavar="NAME", help="Only this task; repeatable.")
 @click.option("--arm", "arms", multiple=True, metavar="NAME", help="Only this arm; repeatable.")
 @options.jacobian
@@ -44,16 +46,16 @@ controller's model.
 )
 @click.option("--starts", multiple=True, metavar="NAME", help="Only this start set; repeatable.")
 @click.option("--engine", "engines", multiple=True, metavar="NAME", help="Only this engine; repeatable.")
-@click.option("--count", type=int, help="At most so many starts of each set (sampled sets take any number).")
+@click.option(
+    "--count", type=int, help="At most so many starts of each set (sampled sets take any number), or poses in contact."
+)
 @click.option("--dt", "dt_s", type=float, default=1e-3, show_default=True, help="Control period in seconds.")
 @click.option(
     "--horizon", "horizon_s", type=float, help="Longest simulated time in seconds; the suite's own by default."
 )
 @click.option("--kp", type=float, default=100.0, show_default=True, help="Position gain [1/s^2].")
 @click.option("--kv", type=float, default=20.0, show_default=True, help="Velocity gain [1/s].")
-@click.option(
-    "--integrator", default="euler", show_default=True, metavar="NAME", help="MuJoCo's, for native and reference."
-)
+@click.option("--integrator", show_default=f"{WITHOUT}; in contact {IN_CONTACT}", metavar="NAME", help="MuJoCo's.")
 @click.option("--seed", type=int, default=0, show_default=True, help="Of the sampled start sets.")
 @click.option("--workers", type=int, default=os.cpu_count() or 1, show_default="cores", help="Threads.")
 @click.option(
@@ -62,8 +64,8 @@ controller's model.
 @click.option("--replace", is_flag=True, help="Start over if the folder holds another plan.")
 @click.option("--dry-run", is_flag=True, help="Print the plan and its size; run nothing.")
 def COMMAND(
-    suite, laws, regulators, representations, tasks, arms, jacobians, inverses, variations, starts, engines, count,
-    dt_s, horizon_s, kp, kv, integrator, seed, workers, out, replace, dry_run,
+    suite, laws, regulators, representations, controllers, tasks, arms, jacobians, inverses, variations, starts,
+    engines, count, dt_s, horizon_s, kp, kv, integrator, seed, workers, out, replace, dry_run,
 ):  # fmt: skip
     """Run a suite and store its episodes; a run that was stopped goes on where it was.
 
@@ -75,7 +77,18 @@ def COMMAND(
     plan = planning.make(
         suite,
         options.chosen(laws, named.regulators, representations),
-        Choice(tasks, starts, engines, arms, named.jacobians, named.inverses, variations),
+        Choice(
+            tasks,
+            starts,
+            engines,
+            arms,
+            named.jacobians,
+            named.inverses,
+            variations,
+            controllers,
+            named.regulators,
+            representations,
+        ),
         count=count,
         dt_s=dt_s,
         horizon_s=horizon_s,
@@ -91,30 +104,29 @@ def COMMAND(
 
     state = running.inspect(plan, out, replace)
     if state.done and not state.finished:
-        console().print(f"going on: {len(state.done)} of {len(plan.units)} units are done")
+        console().print(f"going on: {len(state.done)} of {len(plan.work)} units are done")
 
     with episode_progress() as progress:
-        bar = progress.add_task("compiling", total=plan.episodes)
+        total = plan.episodes + plan.trials
+        bar = progress.add_task("compiling", total=total)
 
         def told(done):
-            unit = done.unit
-            progress.update(
-                bar, advance=done.episodes, description=f"{unit.arm or unit.engine} {unit.contender.split('/')[0]}"[:34]
-            )
+            progress.update(bar, advance=done.episodes, description=done.unit.label[:34])
             if progress.tasks[0].finished:
                 progress.update(bar, description="curves, costs, boundaries")
 
         did = running.run(plan, out, workers=workers, replace=replace, told=told)
-        progress.update(bar, completed=plan.episodes, description="finished")
+        progress.update(bar, completed=total, description="finished")
     console().print(f"{'wrote' if did else 'up to date:'} {out}   (python -m bench show {out})")
 
 
 def _print_plan(plan, out) -> None:
     laws = ", ".join(dict.fromkeys(one.on_free_body for one in plan.contenders))
-    console().print(
-        f"suite {plan.suite}: {plan.episodes:,} episodes in {len(plan.units)} units, dt {plan.dt_s} s, into {out}"
-    )
-    console().print(f"laws: {laws}")
+    trials = f" and {plan.trials:,} in contact" if plan.contacts else ""
+    size = f"{plan.episodes:,} episodes{trials} in {len(plan.work)} units"
+    console().print(f"suite {plan.suite}: {size}, dt {plan.dt_s} s, into {out}")
+    if laws:
+        console().print(f"laws: {laws}")
     sizes: dict = {}
     for unit in plan.units:
         place = f"{unit.engine}, {unit.arm}" if unit.arm else unit.engine
@@ -124,3 +136,16 @@ def _print_plan(plan, out) -> None:
         on = {unit.contender for unit in plan.units if unit.arm and place.endswith(f", {unit.arm}")}
         each = f"each of {len(on)} combinations" if on else "each law"
         console().print(f"{place}: " + ", ".join(f"{name} {total}" for name, total in sets.items()) + f" ({each})")
+    if plan.contacts:
+        _print_contacts(plan.contacts)
+
+
+def _print_contacts(units) -> None:
+    console().print(f"controllers in contact: {', '.join(dict.fromkeys(unit.contender for unit in units))}")
+    trials: dict = {}
+    for unit in units:
+        of_task = trials.setdefault(unit.arm, {}).setdefault(unit.task, {})
+        of_task[unit.contender] = of_task.get(unit.contender, 0) + unit.count
+    for arm, by_task in trials.items():
+        listed = ", ".join(f"{task} {max(counts.values())}" for task, counts in by_task.items())
+        console().print(f"in contact, {arm}: {listed} (each controller, an impedance fewer)")

@@ -1,0 +1,147 @@
+"""The part of a plan that is in contact: which controllers do which tasks on which arms, in units of some seconds.
+
+A suite leaves an arm out that cannot be set a task; the user who names both is told why.
+"""
+
+import functools
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import tasks
+from bench.choice import Choice
+from bench.compliance import Compliant
+from bench.discovery import all_compliants, find_compliant
+from bench.errors import Incompatible
+from bench.suites import InContact
+from tasks.arm import Arm
+from tasks.base import BadValue
+from tasks.contact import ContactTask, Trial, refuse
+
+Pose = tuple[Trial, ...]
+
+LONGEST_S = 300.0
+"""Simulated time of a unit [s], if it has more than one pose: two seconds in free space, some five in contact."""
+
+
+@dataclass(frozen=True)
+class ContactUnit:
+    """A piece of work that is done or not done: one controller on a stretch of a task's poses.
+
+    count: its episodes. dense: of the task's dense set.
+    """
+
+    contender: str
+    task: str
+    arm: str
+    first: int
+    poses: int
+    count: int
+    dense: bool
+    horizon_s: float
+
+    table = "compliance"
+
+    @property
+    def key(self) -> str:
+        """A name for a file."""
+        return f"contact_{self.contender.replace('/', '~')}_{self.task}_{self.arm}_{self.first:06d}"
+
+    @property
+    def label(self) -> str:
+        """Where it is and what it runs, in a few words."""
+        return f"{self.arm} {self.contender}"
+
+
+def units(part: InContact, choice: Choice, poses: int | None = None, horizon_s: float | None = None) -> tuple:
+    """The units of a suite's part in contact, narrowed or widened by what the user named.
+
+    Args:
+        poses: the first so many of each task; the suite's number if None.
+    Errors:
+        BadValue: an arm that was named cannot be set a task that was. Incompatible: no controller is left.
+    """
+    if not choice.takes_contact:
+        return ()
+    chosen = _controllers(part, choice)
+    if not chosen and choice.is_about_contact:
+        raise Incompatible(
+            f"nothing to run: no controller of the suite's, or that was named, acts on "
+            f"{', '.join(choice.representations)} (try: python -m bench list controllers, and --controller)"
+        )
+    found = []
+    for task in _tasks(choice):
+        for arm in _arms(task, choice):
+            for one in chosen:
+                found += _cut(one, task, arm, poses or part.poses, part.dense, horizon_s or task.horizon_s)
+    if not found and choice.is_about_contact:
+        raise Incompatible("nothing to run: no arm has six joints and a site 'wrist' (add one to a file of tasks/arms)")
+    return tuple(found)
+
+
+def _tasks(choice: Choice) -> list[ContactTask]:
+    named = [word for word in choice.tasks if word in tasks.contact_names()]
+    return [tasks.contact_task(word) for word in named or tasks.contact_names()]
+
+
+def _controllers(part: InContact, choice: Choice) -> list[Compliant]:
+    words = choice.controllers or part.controllers
+    found = [find_compliant(word) for word in words] or all_compliants()
+    if choice.representations:
+        found = [one for one in found if one.representation and one.representation.name in choice.representations]
+    return found
+
+
+def _arms(task: ContactTask, choice: Choice) -> list[Arm]:
+    found = [tasks.arm(word) for word in choice.arms or tasks.arm_names()]
+    return [one for one in found if _fits(task, one, choice.arms and choice.is_about_contact)]
+
+
+def _fits(task: ContactTask, arm: Arm, is_named) -> bool:
+    try:
+        refuse(task, arm)
+    except BadValue:
+        if is_named:
+            raise
+        return False
+    return True
+
+
+def _cut(one: Compliant, task: ContactTask, arm: Arm, size: int | None, dense: bool, horizon_s: float):
+    every = poses_of(one, task, arm, dense)[:size]
+    first = 0
+    while first < len(every):
+        taken, trials = 0, 0
+        while first + taken < len(every):
+            more = len(every[first + taken])
+            if taken and (trials + more) * horizon_s > LONGEST_S:
+                break
+            taken, trials = taken + 1, trials + more
+        yield ContactUnit(one.name, task.name, arm.name, first, taken, trials, dense, horizon_s)
+        first += taken
+
+
+def poses_of(one: Compliant, task: ContactTask, arm: Arm, dense: bool) -> tuple[Pose, ...]:
+    """The trials that a controller is set, by pose, in the task's order.
+
+    To an impedance, which heeds no selection, trials that differ in nothing else are the same, and it is set the first.
+    """
+    return _poses(task, arm, dense, one.impedance is not None)
+
+
+@functools.lru_cache(maxsize=64)
+def _poses(task: ContactTask, arm: Arm, dense: bool, is_impedance: bool) -> tuple[Pose, ...]:
+    trials = task.dense(arm) if dense and task.dense else task.trials(arm)
+    kept = _without_selection(trials) if is_impedance else trials
+    found: dict[str, list[Trial]] = {}
+    for trial in kept:
+        found.setdefault(trial.pose, []).append(trial)
+    return tuple(map(tuple, found.values()))
+
+
+def _without_selection(trials: tuple[Trial, ...]) -> Iterator[Trial]:
+    seen = set()
+    for trial in trials:
+        what = trial._replace(id="", pose="", order=trial.order._replace(name="", held=(1, 1, 1, 1, 1, 1)))
+        if what not in seen:
+            seen.add(what)
+            yield trial
