@@ -82,10 +82,12 @@ HORIZON = {"half-turn": LONG, "poles": LONG, "wraps": LONG}
 
 COMPLIANT = (
     "hybrid-base+inverse",
+    "hybrid-base+projected",
     "hybrid-rate+inverse",
     "hybrid-hand+inverse",
     "hybrid/zyx-euler+inverse",
     "hybrid/zyx-euler+projected",
+    "hybrid/zyz-euler+inverse",
     "hybrid-unconverted/zyx-euler+inverse",
     "impedance-geometric",
     "impedance-coordinates/zyx-euler",
@@ -94,10 +96,8 @@ COMPLIANT = (
 """Controllers in contact that tell the coordinates apart, and the control and the form that must not be blamed."""
 
 MORE_COMPLIANT = (
-    "hybrid-base+projected",
     "hybrid-rate+projected",
     "hybrid-hand+projected",
-    "hybrid/zyz-euler+inverse",
     "hybrid/xyz-euler+inverse",
     "hybrid/rotation-vector+inverse",
     "hybrid/mrp+inverse",
@@ -105,8 +105,9 @@ MORE_COMPLIANT = (
     "impedance-quaternion",
 )
 
-FIRST_FRAMES = 66
-"""Poses of `quick`: of wrench-probe its first series over beta, in every order; of the other tasks all."""
+FIRST_FRAMES = 72
+"""Poses of `quick`: of wrench-probe its first series over beta and one frame that leans every way, in every order; of
+the other tasks all."""
 
 
 def _slices(engine: str, uniform: int, directed=DIRECTED) -> tuple[Slice, ...]:
