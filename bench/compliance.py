@@ -1,12 +1,12 @@
 """Compliant controllers: what takes part in the tasks of contact, and the orders they are given.
 
-    hybrid-base+inverse               along the axes of the base frame
-    hybrid-rate+inverse               the same; turns that are held are held by their rate alone
-    hybrid-hand+projected             along axes that the hand carries along
-    hybrid/zyx-euler+inverse          along x, y, z and the Euler angles, on the Euler Jacobian (Murphy 1988, 3.3)
-    hybrid-unconverted/zyx-euler+...  the same with moments taken for generalized forces: a negative control
-    impedance-geometric               six-axis impedance on one error of orientation (bench/impedances)
-    impedance-coordinates/zyx-euler   in coordinates
+hybrid-base+inverse               along the axes of the base frame
+hybrid-rate+inverse               the same; turns that are held are held by their rate alone
+hybrid-hand+projected             along axes that the hand carries along
+hybrid/zyx-euler+inverse          along x, y, z and the Euler angles, on the Euler Jacobian (Murphy 1988, 3.3)
+hybrid-unconverted/zyx-euler+...  the same with moments taken for generalized forces: a negative control
+impedance-geometric               six-axis impedance on one error of orientation (bench/impedances)
+impedance-coordinates/zyx-euler   in coordinates
 """
 
 from collections.abc import Callable
@@ -50,8 +50,13 @@ class Compliant(NamedTuple):
         if self.impedance is not None:
             return assembly(law_of(self.impedance, self.representation))
         if self.representation is not None:
-            return force.in_coordinates(self.representation, converts=self.law != "hybrid-unconverted")
+            return force.in_coordinates(self.representation, self.converts)
         return ALONG_AXES[self.law]
+
+    @property
+    def converts(self) -> bool:
+        """Whether moments become generalized forces by (3.12); the negative control takes them as they are."""
+        return self.law != "hybrid-unconverted"
 
     def held(self, order) -> tuple[float, ...]:
         """Of each of its rows 1.0 if it is held, 0.0 if it complies; an impedance holds all, by its springs."""

@@ -170,11 +170,11 @@ def in_coordinates(representation: Representation, converts: bool = True) -> Cal
     Errors:
         Incompatible: coordinates of which no three are those about x, y and z.
     """
-    axes = axes_of(representation)
+    axes_of(representation)
     chart, rates = representation.chart, representation.rates
     fill_in, drift_of = analytic.kernels_in(representation)
     law = feedback_linearized.coordinate_law_in(representation)
-    convert = representation.generalized if converts else _unconverted(axes)
+    convert = conversion(representation, converts)
 
     @kernel
     def assemble(chain, wish, f, m, gains, touch, J, rows):
@@ -193,8 +193,11 @@ def in_coordinates(representation: Representation, converts: bool = True) -> Cal
     return assemble
 
 
-def _unconverted(axes) -> Callable:
-    about_first, about_second, about_third = (axes.index(k) for k in range(3))
+def conversion(representation: Representation, converts: bool = True) -> Callable:
+    """convert(chart, m): B^T m, or m's components about the axes that the coordinates stand for."""
+    if converts:
+        return representation.generalized
+    about_first, about_second, about_third = (axes_of(representation).index(k) for k in range(3))
 
     @kernel
     def convert(at, m):
