@@ -1,12 +1,12 @@
 """Compliant controllers: what takes part in the tasks of contact, and the orders they are given.
 
-hybrid-base+inverse               along the axes of the base frame
-hybrid-rate+inverse               the same; turns that are held are held by their rate alone
-hybrid-hand+projected             along axes that the hand carries along
-hybrid/zyx-euler+inverse          along x, y, z and the Euler angles, on the Euler Jacobian (Murphy 1988, 3.3)
-hybrid-unconverted/zyx-euler+...  the same with moments taken for generalized forces: a negative control
-impedance-geometric               six-axis impedance on one error of orientation (bench/impedances)
-impedance-coordinates/zyx-euler   in coordinates
+    hybrid-base+inverse               along the axes of the base frame
+    hybrid-rate+inverse               the same; turns that are held are held by their rate alone
+    hybrid-hand+projected             along axes that the hand carries along
+    hybrid/zyx-euler+inverse          along x, y, z and the Euler angles, on the Euler Jacobian (Murphy 1988, 3.3)
+    hybrid-unconverted/zyx-euler+...  the same with moments taken for generalized forces: a negative control
+    impedance-geometric               six-axis impedance on one error of orientation (bench/impedances)
+    impedance-coordinates/zyx-euler   in coordinates
 """
 
 from collections.abc import Callable
