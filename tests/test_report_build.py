@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "report"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "report" / "extensions"))
 import build
 import check_site
 
@@ -143,3 +144,13 @@ def test_page_check_keeps_the_size_budget(tmp_path, monkeypatch):
 
 def test_page_check_says_the_cure_when_nothing_is_built(tmp_path):
     assert "cure: make report" in check_site.problems(tmp_path)[0]
+
+
+def test_number_and_unit_stay_on_one_line_wherever_the_text_is_cut():
+    nodes = pytest.importorskip("docutils.nodes", reason="the report extra is not installed (cure: make setup)")
+    import units
+
+    pasted = nodes.inline("", "", nodes.Text("12"))
+    block = nodes.paragraph("", "", pasted, nodes.Text(" % of 3 starts in 5 ms, "), nodes.literal("", "2 s"))
+    units.close_up(block)
+    assert block.astext() == "12\u00a0% of 3 starts in 5\u00a0ms, 2 s"

@@ -21,6 +21,7 @@ from bench.figures import (
 from bench.figures.share import share
 from tasks.cause import NEAR_CONDITION, NEAR_MARGIN
 
+DAMPED = "damped-least-squares"
 FEWEST = 2
 """Ways to choose between: with fewer there is no choice to advise on."""
 
@@ -127,19 +128,19 @@ def advice(rows: pd.DataFrame) -> dict:
 
 
 def damping(rows: pd.DataFrame) -> dict:
-    """What damping and truncation do to turns through and past singularities, in a sentence each."""
+    """What damping does to turns through and past singularities, of each controller a clause."""
     starts = arm_wrist.of_wrist(rows)
     said = {}
     for key, controller in (("damped_m", arm_rows.ON_MATRIX), ("damped_f", arm_rows.ON_ANGLES)):
-        parts = []
-        for name in (arm_rows.STANDARD, "damped-least-squares", "damped-least-squares-variable", "truncated-svd"):
-            own = arm_rows.of(starts, controller, name)
-            if len(own):
-                parts.append(
-                    f"{in_words(name)} {100 * float(arm_rows.settled(own).mean()):.0f} % "
-                    f"({html.number(1e3 * float(own['position_error_m'].median()))} mm)"
-                )
-        said[key] = "; ".join(parts) if len(parts) >= FEWEST else absent.WORDS
+        ways = [arm_rows.of(starts, controller, name) for name in (arm_rows.STANDARD, DAMPED)]
+        if any(own.empty for own in ways):
+            said[key] = absent.WORDS
+            continue
+        plain, damped = (100.0 * float(arm_rows.settled(own).mean()) for own in ways)
+        before, after = (html.number(1e3 * float(own["position_error_m"].median())) for own in ways)
+        said[key] = (
+            f"{plain:.0f} % and with damping {damped:.0f} %, the tool straying by {before} and {after} mm in the median"
+        )
     return said
 
 

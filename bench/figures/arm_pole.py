@@ -62,13 +62,13 @@ def pole(rows: pd.DataFrame, narrow: bool):
     for axes in grid[-1]:
         axes.set_xticks(steps, labels)
         axes.set_xlabel("passes the pole at [rad]")
-    figure.supylabel("peak torque over rated", fontsize=10.5)
     for controller in SHOWN:
         look = style.look(controller)
         axes.plot([], [], look.marker, color=look.colour, label=arm_rows.title(controller), markersize=5)
     axes.plot([], [], "x", color=style.INK, label="fails", markersize=6, linestyle="none")
     handles, words = axes.get_legend_handles_labels()
     figure.legend(handles, words, loc="outside lower center", ncols=1 if narrow else 3)
+    style.label_rows(figure, "peak torque over rated")
     return figure, f"Turns that pass the pole. {'; '.join(said)}."
 
 

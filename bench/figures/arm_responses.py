@@ -22,6 +22,8 @@ CURVES = {
 """The paper's three laws, and (3.7) in coordinates that have no pole."""
 OTHER = "#cc79a7"
 TOP_DEG = 200.0
+LABEL_HEIGHT = 0.1
+"""Of a Greek letter beside its curve, over what the curves of a panel span."""
 
 
 def colour(controller: str) -> str:
@@ -76,11 +78,11 @@ def angles(traces: pd.DataFrame, episodes: pd.DataFrame, narrow: bool):
             said.append(f"{arm} from {start_id}: {'; '.join(filter(None, ends))}")
     for axes in grid[-1]:
         axes.set_xlabel("time [s]")
-    figure.supylabel("angle to the goal [deg]", fontsize=10.5)
     for controller, line in CURVES.items():
         grid[0, 0].plot([], [], color=colour(controller), linestyle=line, label=arm_rows.title(controller))
     grid[0, 0].plot([], [], "x", color=style.INK, label="fails", markersize=6)
     figure.legend(*grid[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=1 if narrow else 3)
+    style.label_rows(figure, "angle to the goal [deg]")
     return figure, f"Angle to the goal against time. {'. '.join(said)}."
 
 
@@ -119,10 +121,11 @@ def linear(traces: pd.DataFrame, episodes: pd.DataFrame, kp: float, kv: float, n
     for axes, arm in zip(grid.flat, names, strict=False):
         own, goal = shown(traces, episodes, arm)
         times, measured = own["time_s"].to_numpy(), off_goal_deg(own, goal)
+        beside = style.apart(measured[0], LABEL_HEIGHT * np.ptp([*measured[0], 0.0]))
         for i, (_, symbol, line) in enumerate(ANGLES):
             axes.plot(times, measured[:, i], color=shade, linestyle=line)
             axes.plot(fine, measured[0, i] * shape, color=style.INK, linewidth=0.8, linestyle=style.DASHED)
-            style.label_line(axes, -0.02, measured[0, i], symbol, shade, ha="right", fontsize=11)
+            style.label_line(axes, -0.02, beside[i], symbol, shade, ha="right", fontsize=11)
         axes.axhline(0.0, color=style.MUTED, linewidth=0.7)
         axes.set(title=arm, xlim=(-0.1, SHOWN_S))
         said.append(f"{arm} is at most {bend_deg(own, goal, kp, kv):.2g} degrees from its closed form")
@@ -130,7 +133,7 @@ def linear(traces: pd.DataFrame, episodes: pd.DataFrame, kp: float, kv: float, n
         axes.axis("off")
     for axes in grid[-1]:
         axes.set_xlabel("time [s]")
-    figure.supylabel("Z-Y-X angle to go [deg]", fontsize=10.5)
+    style.label_rows(figure, "Z-Y-X angle to go [deg]")
     return figure, f"Euler angles under (3.7) from one clear start of each arm: {', '.join(said)}."
 
 

@@ -14,6 +14,7 @@ import tasks
 from bench.discovery import known_inverses, known_jacobians
 from bench.figures import arm_rows, html
 from bench.figures.spelling import prose
+from bench.resolved_motion import Inverse, Jacobian
 from tasks.arm import Arm, model_xml
 from tasks.kinematics import kinematics
 from tasks.paths import zyx_angles
@@ -23,7 +24,7 @@ TRIED, POLISHED, SEED = 400, 4, 0
 
 
 def arms() -> html.Markdown:
-    """An arm a row: joints, reach, its Jacobian's condition number and the tool's beta at home, torques, source."""
+    """An arm a row: joints, reach, its Jacobian's condition number and the tool's beta at home, torques."""
     rows = []
     for name in tasks.arm_names():
         one = tasks.arm(name)
@@ -33,15 +34,21 @@ def arms() -> html.Markdown:
         rows.append(
             {
                 "Arm": html.together(f"`{name}`"),
+                "Maker's name": prose(one.title),
                 "Joints": one.joints,
                 "Reach [m]": reach(name),
                 "Condition": model.condition(one.home),
                 "β [deg]": round(float(np.degrees(zyx_angles(quat)[1]))) + 0,
                 "Rated torques [N m]": rated,
-                "Numbers from": f"{prose(one.title)}: {prose(one.source)}",
             }
         )
     return html.table(pd.DataFrame(rows), {"Reach [m]": ".2f", "Condition": ".1f"})
+
+
+def sources() -> html.Markdown:
+    """An arm a line: where its numbers are from."""
+    named = {name: tasks.arm(name).source for name in tasks.arm_names()}
+    return html.Markdown("\n".join(f"- `{name}`: {prose(source)}" for name, source in named.items()))
 
 
 @functools.cache
@@ -94,11 +101,10 @@ def first_paragraph(module: str) -> str:
 
 
 def jacobians() -> html.Markdown:
-    """Every Jacobian: title, formula, what it is commanded in, source."""
+    """Every Jacobian: title and word, formula, the controller that uses it, source."""
     rows = [
         {
-            "Jacobian": one.title,
-            "Word": html.together(f"`{one.name}`"),
+            "Jacobian": named(one),
             "Formula": f"${one.formula}$",
             "Controller": "(2.2)" if one.takes == "angular-acceleration" else "(3.7)",
             "Source": prose(one.source),
@@ -109,14 +115,18 @@ def jacobians() -> html.Markdown:
 
 
 def inverses() -> html.Markdown:
-    """Every inverse: title, word, formula, source."""
+    """Every inverse: title and word, formula, source."""
     rows = [
         {
-            "Inverse": one.title,
-            "Word": html.together(f"`{one.name}`"),
+            "Inverse": named(one),
             "Formula": f"${one.formula}$",
             "Source": prose(one.source),
         }
         for one in known_inverses().values()
     ]
     return html.table(pd.DataFrame(rows))
+
+
+def named(one: Jacobian | Inverse) -> str:
+    """Its title, and below it its word on the command line."""
+    return f"{one.title}<br>{html.together(f'`{one.name}`')}"

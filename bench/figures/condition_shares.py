@@ -72,16 +72,16 @@ def spoilt(rows: pd.DataFrame) -> html.Markdown:
         own = rows[rows["arm"] == arm]
         fine = own[own["condition"] <= WELL_CONDITIONED]
         once = own["pose_id"].nunique()
-        line = {"Arm": arm_poses.title(arm), "Poses": once, "J fine": f"{fine['pose_id'].nunique() / once:.0%}"}
+        line = {"Arm": arm_poses.title(arm), "Poses": once, "J fine [%]": 100 * fine["pose_id"].nunique() / once}
         for name in known_representations():
             of = fine[fine["representation"] == name]
-            line[arm_poses.short_title(name)] = (
-                f"{arm_poses.share(of['condition_analytic'] > arm_poses.BAD):.1%}" if len(of) else ""
-            )
-        lines.append({key: spaced(str(value)) for key, value in line.items()})
+            line[arm_poses.short_title(name)] = 100 * (of["condition_analytic"] > arm_poses.BAD).mean()
+        lines.append(line)
     if not lines:
         return html.Markdown(f"| Poses |\n| :-- |\n| {arm_poses.NOT_HERE} |")
-    return html.table(pd.DataFrame(lines))
+    frame = pd.DataFrame(lines)
+    shares = dict.fromkeys(frame.columns.drop(["Arm", "Poses"]), ".1f")
+    return html.table(frame, shares | {"J fine [%]": ".0f"})
 
 
 def spaced(text: str) -> str:

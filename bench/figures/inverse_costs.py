@@ -93,8 +93,8 @@ def split() -> tuple[str, str]:
 
 
 SAID = {
-    "damped-least-squares": "Damping costs {times} times the plain inverse",
-    "damped-least-squares-variable": "damping only where it is needed, and being exact elsewhere, {times} times",
+    "damped-least-squares": "Damping costs {times} times as much",
+    "damped-least-squares-variable": "damping only where it is needed, to be exact elsewhere, {times} times",
     "truncated-svd": "leaving out small singular values, which takes their decomposition, {times} times",
 }
 
@@ -112,5 +112,5 @@ def said(rows: pd.DataFrame, episodes: pd.DataFrame) -> str:
         own = wrist[wrist["inverse"] == name]
         lost = f"loses {int((own['outcome'] != 'settled').sum())} of {len(own)} starts" if len(own) else "was not run"
         price = SAID[name].format(times=f"{flops[name] / flops['solve']:.1f}") if name in SAID else ""
-        parts.append(f"{price}: {lost}" if price else f"The plain inverse {lost}.")
+        parts.append(f"{price} and {lost}" if price else f"The plain inverse {lost}.")
     return f"{parts[0]} {'; '.join(parts[1:])}."

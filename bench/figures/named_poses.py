@@ -24,16 +24,18 @@ def conditions(rows: pd.DataFrame) -> html.Markdown:
             line = {
                 "Arm": arm_poses.title(arm),
                 "Pose": f"`{pose}`",
-                "β [deg]": f"{round(math.degrees(at['beta'].iloc[0]), 1) + 0.0:.1f}",
-                "J": said(float(at["condition"].iloc[0])),
+                "β [deg]": round(math.degrees(at["beta"].iloc[0]), 1) + 0.0,
+                "J": float(at["condition"].iloc[0]),
             }
             for name in known_representations():
                 if name in by.index:
-                    line[arm_poses.short_title(name)] = said(float(by.at[name, "condition_analytic"]))
+                    line[arm_poses.short_title(name)] = float(by.at[name, "condition_analytic"])
             lines.append(line)
     if not lines:
         return html.Markdown(f"| Poses |\n| :-- |\n| {arm_poses.NOT_HERE} |")
-    return html.table(pd.DataFrame(lines))
+    frame = pd.DataFrame(lines)
+    numbers = dict.fromkeys(frame.columns.drop(["Arm", "Pose"]), said)
+    return html.table(frame, numbers | {"β [deg]": ".1f"})
 
 
 def said(value: float) -> str:

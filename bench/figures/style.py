@@ -7,7 +7,9 @@ Colour never stands alone: the marker and the line differ too, so that a print i
 from __future__ import annotations
 
 import functools
+import itertools
 import zlib
+from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
 
@@ -169,3 +171,22 @@ def label_line(axes: Axes, x: float, y: float, text: str, colour: str = INK, **p
     """Name a curve beside it, which reads faster than a legend."""
     place = {"ha": "left", "va": "center", "fontsize": 9.5, **place}
     axes.text(x, y, text, color=colour, **place)
+
+
+def apart(places: Sequence[float], gap: float) -> list[float]:
+    """The same places, but neighbours nearer than `gap` moved so far from each other: for labels beside curves."""
+    order = sorted(range(len(places)), key=lambda i: places[i])
+    moved = [float(place) for place in places]
+    for _ in places:
+        for low, high in itertools.pairwise(order):
+            short = max(0.0, gap - (moved[high] - moved[low])) / 2.0
+            moved[low], moved[high] = moved[low] - short, moved[high] + short
+    return moved
+
+
+def label_rows(figure: Figure, text: str) -> None:
+    """Name the vertical axis of all rows, at the middle of the axes; after the legend, which moves them."""
+    label = figure.supylabel(text, fontsize=10.5)
+    figure.draw_without_rendering()
+    boxes = [axes.get_position() for axes in figure.axes]
+    label.set_y((min(box.y0 for box in boxes) + max(box.y1 for box in boxes)) / 2.0)
