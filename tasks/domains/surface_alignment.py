@@ -25,7 +25,7 @@ from tasks.rotations import columns, zyx
 
 SIDE = 0.1  # of the face [m]
 TIP = (0.0, 0.0, 0.12)  # middle of the face, in the wrist's frame [m]
-CLEARANCE = 0.002  # of the lowest corner at the start [m]
+CLEARANCE = 0.001  # of the lowest corner at the start [m]
 ORDER = Order("z, about x and y", (1, 1, 0, 0, 0, 1), exerts=(0.0, 0.0, -20.0, 0.0, 0.0, 0.0))
 # degrees: by how much the plate is tilted, and the azimuth of the axis it is tilted about
 PLATES = ((5, 90), (10, 30), (20, 0), (20, 120))
@@ -38,12 +38,11 @@ def surroundings(arm: Arm) -> Surroundings:
     """A square tool on a stem, and a plate."""
     half, thick, length = SIDE / 2, 0.008, TIP[2]
     hand = (
-        f'<geom type="cylinder" size=".02 {length / 2}" pos="0 0 {length / 2}" contype="0" conaffinity="0" mass="0" '
+        f'<geom type="cylinder" size=".02 {length / 2}" pos="0 0 {length / 2}" mass="0" rgba=".3 .5 .8 1"/>'
+        f'<geom name="tool" type="box" size="{half} {half} {thick}" pos="0 0 {length - thick}" mass="0" '
         'rgba=".3 .5 .8 1"/>'
-        f'<geom type="box" size="{half} {half} {thick}" pos="0 0 {length - thick}" mass="0" rgba=".3 .5 .8 1"/>'
     )
-    plate = '<geom type="plane" size=".12 .12 .01" rgba=".75 .7 .6 1"/>'
-    return Surroundings(hand, TIP, plate)
+    return Surroundings(hand, TIP, '<geom name="plate" type="plane" size=".12 .12 .01" rgba=".75 .7 .6 1"/>')
 
 
 @functools.cache

@@ -1,0 +1,77 @@
+"""A round tip slides along a plane at constant speed and presses on it with constant force.
+
+Only one translation complies, and the hand keeps its orientation. So the choice of coordinates should not matter here:
+what a controller loses on this task it does not lose to compliance about the wrong axes. On a plane that rises or
+falls the tip has to move along z, and the damping of what complies costs m_p kc times that speed of the force.
+
+All trials of one plane are the same mechanics; only the hand's frame differs, R = Ry(beta) at the goal.
+
+Source: Raibert and Craig 1981.
+"""
+
+from __future__ import annotations
+
+import functools
+import itertools
+import math
+
+from tasks.arm import Arm
+from tasks.contact import ContactTask, Order, Surroundings, Trial
+from tasks.hand_frames import at, leaning, mounts, posture
+from tasks.rotations import columns, zyx
+
+RADIUS = 0.01  # of the tip [m]
+TIP = (0.0, 0.0, 0.14)  # its middle, in the wrist's frame [m]
+CLEARANCE = 0.001  # m
+# 0.05 m/s, not along a base axis
+ORDER = Order("z", (1, 1, 0, 1, 1, 1), exerts=(0.0, 0.0, -15.0, 0.0, 0.0, 0.0), velocity=(0.04, 0.03, 0.0))
+# degrees: by how much the plane is tilted, and the azimuth of the axis it is tilted about: to climb, fall and lean
+PLANES = ((0, 0), (5, -45), (5, 135), (10, 35))
+DENSE_PLANES = ((0, 0), *itertools.product((2, 5, 10, 15), range(0, 360, 45)))
+BETAS = (0, 45, 75)  # degrees
+DENSE_BETAS = (-60, 0, 30, 45, 60, 75)
+
+
+def surroundings(arm: Arm) -> Surroundings:
+    """A ball on a stem, and a plane."""
+    length = TIP[2]
+    hand = (
+        f'<geom type="cylinder" size=".006 {length / 2}" pos="0 0 {length / 2}" mass="0" rgba=".3 .5 .8 1"/>'
+        f'<geom name="ball" size="{RADIUS}" pos="0 0 {length}" mass="0" rgba=".3 .5 .8 1"/>'
+    )
+    return Surroundings(hand, TIP, '<geom name="plate" type="plane" size=".2 .2 .01" rgba=".75 .7 .6 1"/>')
+
+
+@functools.cache
+def trials(arm: Arm) -> tuple[Trial, ...]:
+    """Every plane with every frame of the hand."""
+    return _trials(arm, PLANES, BETAS)
+
+
+@functools.cache
+def dense(arm: Arm) -> tuple[Trial, ...]:
+    """The same on a dense grid."""
+    return _trials(arm, DENSE_PLANES, DENSE_BETAS)
+
+
+def _trials(arm: Arm, planes, betas) -> tuple[Trial, ...]:
+    q = posture(arm)
+    x, y, z = at(arm, q, TIP)
+    found = []
+    for (tilt, azimuth), beta in itertools.product(planes, betas):
+        plane, goal = leaning(tilt, azimuth), zyx(0.0, math.radians(beta), 0.0)
+        place = (x, y, z - (RADIUS + CLEARANCE) / columns(plane)[2][2])
+        pose = f"tilt {tilt} about {azimuth}, beta{beta:+d}"
+        found.append(Trial(pose, pose, ORDER, q, goal, mounts(arm, q, goal), place, plane, tilt=math.radians(tilt)))
+    return tuple(found)
+
+
+TASK = ContactTask(
+    name="force-on-plane",
+    title="A round tip slides along a plane under constant force",
+    source="Raibert and Craig 1981",
+    horizon_s=2.5,
+    surroundings=surroundings,
+    trials=trials,
+    dense=dense,
+)
