@@ -1,12 +1,12 @@
 """Compliant controllers: what takes part in the tasks of contact, and the orders they are given.
 
-    hybrid-base+inverse               along the axes of the base frame
-    hybrid-rate+inverse               the same; turns that are held are held by their rate alone
-    hybrid-hand+projected             along axes that the hand carries along
-    hybrid/zyx-euler+inverse          along x, y, z and the Euler angles, on the Euler Jacobian (Murphy 1988, 3.3)
-    hybrid-unconverted/zyx-euler+...  the same with moments taken for generalized forces: a negative control
-    impedance-geometric               six-axis impedance on one error of orientation (bench/impedances)
-    impedance-coordinates/zyx-euler   in coordinates
+hybrid-base+inverse               along the axes of the base frame
+hybrid-rate+inverse               the same; turns that are held are held by their rate alone
+hybrid-hand+projected             along axes that the hand carries along
+hybrid/zyx-euler+inverse          along x, y, z and the Euler angles, on the Euler Jacobian (Murphy 1988, 3.3)
+hybrid-unconverted/zyx-euler+...  the same with moments taken for generalized forces: a negative control
+impedance-geometric               six-axis impedance on one error of orientation (bench/impedances)
+impedance-coordinates/zyx-euler   in coordinates
 """
 
 from collections.abc import Callable
@@ -23,7 +23,14 @@ ALONG_AXES = {
     "hybrid-rate": force.in_base_by_rate,
     "hybrid-hand": force.in_hand,
 }
-HYBRIDS = (*ALONG_AXES, "hybrid", "hybrid-unconverted")
+HYBRIDS = {
+    "hybrid-base": "along axes of the base frame",
+    "hybrid-rate": "along axes of the base frame; turns that are held are held by their rate alone",
+    "hybrid-hand": "along axes that the hand carries along",
+    "hybrid": "along x, y, z and coordinates, on their Jacobian",
+    "hybrid-unconverted": "along coordinates, with moments taken for generalized forces: a negative control",
+}
+"""Laws of hybrid control, and what each holds and complies along."""
 
 
 class Compliant(NamedTuple):

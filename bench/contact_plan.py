@@ -3,9 +3,12 @@
 A suite leaves an arm out that cannot be set a task; the user who names both is told why.
 """
 
+from __future__ import annotations
+
 import functools
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import tasks
 from bench.choice import Choice
@@ -13,11 +16,11 @@ from bench.compliance import Compliant
 from bench.discovery import all_compliants, find_compliant
 from bench.errors import Incompatible
 from bench.suites import InContact
-from tasks.arm import Arm
 from tasks.base import BadValue
-from tasks.contact import ContactTask, Trial, refuse
 
-Pose = tuple[Trial, ...]
+if TYPE_CHECKING:
+    from tasks.arm import Arm
+    from tasks.contact import ContactTask, Trial
 
 LONGEST_S = 300.0
 """Simulated time of a unit [s], if it has more than one pose: two seconds in free space, some five in contact."""
@@ -93,15 +96,21 @@ def _controllers(part: InContact, choice: Choice) -> list[Compliant]:
 
 def _arms(task: ContactTask, choice: Choice) -> list[Arm]:
     found = [tasks.arm(word) for word in choice.arms or tasks.arm_names()]
-    return [one for one in found if _fits(task, one, choice.arms and choice.is_about_contact)]
+    from tasks.contact import refuse  # MuJoCo takes a moment to import; what comes before must not
+
+    if choice.arms and choice.is_about_contact:
+        for one in found:
+            refuse(task, one)
+    return [one for one in found if can_do(task, one)]
 
 
-def _fits(task: ContactTask, arm: Arm, is_named) -> bool:
+def can_do(task: ContactTask, arm: Arm) -> bool:
+    """Whether an arm can be set a task."""
+    from tasks.contact import refuse
+
     try:
         refuse(task, arm)
     except BadValue:
-        if is_named:
-            raise
         return False
     return True
 
@@ -120,7 +129,7 @@ def _cut(one: Compliant, task: ContactTask, arm: Arm, size: int | None, dense: b
         first += taken
 
 
-def poses_of(one: Compliant, task: ContactTask, arm: Arm, dense: bool) -> tuple[Pose, ...]:
+def poses_of(one: Compliant, task: ContactTask, arm: Arm, dense: bool) -> tuple[tuple[Trial, ...], ...]:
     """The trials that a controller is set, by pose, in the task's order.
 
     To an impedance, which heeds no selection, trials that differ in nothing else are the same, and it is set the first.
@@ -129,7 +138,7 @@ def poses_of(one: Compliant, task: ContactTask, arm: Arm, dense: bool) -> tuple[
 
 
 @functools.lru_cache(maxsize=64)
-def _poses(task: ContactTask, arm: Arm, dense: bool, is_impedance: bool) -> tuple[Pose, ...]:
+def _poses(task: ContactTask, arm: Arm, dense: bool, is_impedance: bool) -> tuple[tuple[Trial, ...], ...]:
     trials = task.dense(arm) if dense and task.dense else task.trials(arm)
     kept = _without_selection(trials) if is_impedance else trials
     found: dict[str, list[Trial]] = {}

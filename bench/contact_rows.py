@@ -1,30 +1,24 @@
 """From records to rows: poses of a task in contact, as rows of compliance.parquet.
 
 A record is folded into numbers as soon as the trials of its pose are there, and then dropped: it is 25 doubles a tick.
-
-    C = argmin sum |theta_k - C m_k|^2      measured rotation per moment [rad/(N m)]
-
-over the trials of a pose that a moment alone pushes; theta is the rotation vector from the first tick to the last,
-base frame.
 """
 
 import numpy as np
 import pandas as pd
 
 from bench.compliance import Compliant
-from bench.contact_metric import Pose, Response, response
+from bench.contact_metric import Pose, response
 from bench.discovery import known_contact_metrics
-from bench.engines.contact_episode import DONE, OUTCOMES, Conditions, Ended
+from bench.engines.contact_episode import DONE, Conditions, Ended
 from bench.engines.run_contact import run
 from bench.representations.zyx_euler import chart
 from bench.so3 import from_quaternion
+from bench.yielding import compliance
 from tasks.arm import Arm
 from tasks.contact import ContactTask, Trial
 
 WORST_LAST = (DONE, "singular", "saturated", "diverged", "broken")
 """Outcomes; a pose has the worst of its trials'."""
-
-assert set(WORST_LAST) == set(OUTCOMES.values())
 
 MEASURED = tuple(f"c_{i}{j}" for i in "xyz" for j in "xyz")
 
@@ -69,22 +63,5 @@ def _row(task: ContactTask, arm: Arm, compliant: Compliant, ended: list[tuple[Tr
         "outcome": outcome,
         "failure_time_s": np.nan if outcome == DONE else ticks * conditions.dt_s,
         **measured,
-        **dict(zip(MEASURED, rotation_per_moment(pose.responses).ravel(), strict=True)),
+        **dict(zip(MEASURED, compliance(pose).ravel(), strict=True)),
     }
-
-
-def rotation_per_moment(responses: tuple[Response, ...]) -> np.ndarray:
-    """C, 3 x 3; NaN unless moments alone push, in three independent directions, and every trial is done."""
-    pushes = np.array([one.trial.push for one in responses])
-    if any(one.outcome != DONE or one.trial.legs for one in responses) or pushes[:, :3].any():
-        return np.full((3, 3), np.nan)
-    turned = np.array([_rotation_vector(one.R[-1] @ one.R[0].T) for one in responses])
-    C, _, rank, _ = np.linalg.lstsq(pushes[:, 3:], turned, rcond=None)
-    return C.T if rank == 3 else np.full((3, 3), np.nan)
-
-
-def _rotation_vector(R: np.ndarray) -> np.ndarray:
-    """theta, below a half turn: R - R^T is 2 sin|theta| times its direction."""
-    s = 0.5 * np.array([R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]])
-    sine = np.linalg.norm(s)
-    return s * (np.arctan2(sine, 0.5 * (np.trace(R) - 1.0)) / sine) if sine > 0.0 else s

@@ -7,7 +7,7 @@ import difflib
 
 LISTED = (
     *("regulator", "representation", "jacobian", "inverse"),
-    *("task", "arm", "variation", "start", "engine", "suite"),
+    *("task", "arm", "variation", "start", "engine", "suite", "controller", "impedance"),
 )
 """Kinds of words that `python -m bench list` has a table of."""
 

@@ -9,6 +9,8 @@ import tasks
 from bench import discovery
 from bench.cli import options
 from bench.cli.screen import console
+from bench.compliance import HYBRIDS
+from bench.contact_plan import can_do
 from bench.errors import UnknownWord
 from tasks.arm import arms
 from tasks.base import BadArm
@@ -20,8 +22,8 @@ from tasks.base import BadArm
 def COMMAND(kind, laws):
     """What there is to run, of one kind or of all.
 
-    Kinds: regulators, representations, jacobians, inverses, metrics, tasks, arms, variations, starts, engines, suites,
-    claims. A file of an arm that cannot be used is listed with the reason.
+    Kinds: regulators, representations, jacobians, inverses, controllers, impedances, metrics, tasks, arms, variations,
+    starts, engines, suites, claims. A file of an arm that cannot be used is listed with the reason.
     """
     own = options.own_laws(laws)
     if kind is not None and kind not in _TABLES:
@@ -76,12 +78,33 @@ def _inverses(own):
     return _table("Inverses", columns, map(row, discovery.known_inverses().values()))
 
 
-def _metrics(own):
-    def row(one):
-        return one.name, one.column, one.unit, "arms" if one.arm_only else "all", one.title
+def _controllers(own):
+    every = discovery.all_compliants()
+    titles = {one.law: f"impedance: {one.impedance.title}" for one in every if one.impedance}
 
-    columns = ("name", "column", "unit", "of", "meaning")
-    return _table("Metrics", columns, map(row, discovery.known_metrics().values()))
+    def row(law):
+        some = [one for one in every if one.law == law]
+        along = dict.fromkeys(one.representation.name for one in some if one.representation)
+        forms = dict.fromkeys(one.form for one in some if one.form)
+        return law, ", ".join(along), ", ".join(forms), {**HYBRIDS, **titles}[law]
+
+    columns = ("name", "/coordinates", "+form", "what it is")
+    return _table("Controllers in contact", columns, map(row, dict.fromkeys(one.law for one in every)))
+
+
+def _impedances(own):
+    def row(one):
+        return one.name, "coordinates" if one.law_in else "R", one.title, one.source
+
+    columns = ("name", "acts on", "title", "source")
+    return _table("Impedances", columns, map(row, discovery.known_impedances().values()))
+
+
+def _metrics(own):
+    alone = ((one, "arms" if one.arm_only else "all") for one in discovery.known_metrics().values())
+    contact = ((one, "contact") for one in discovery.known_contact_metrics().values())
+    rows = ((one.name, one.column, one.unit, of, one.title) for one, of in (*alone, *contact))
+    return _table("Metrics", ("name", "column", "unit", "of", "meaning"), rows)
 
 
 def _tasks(own):
@@ -89,7 +112,14 @@ def _tasks(own):
         plant = "each arm" if tasks.is_for_arms(one.name) else "no arm"
         return one.name, plant, one.title, one.source
 
-    return _table("Tasks", ("name", "of", "title", "source"), map(row, map(tasks.described, tasks.names())))
+    alone = map(row, map(tasks.described, tasks.names()))
+    touching = map(tasks.contact_task, tasks.contact_names())
+    contact = ((one.name, f"contact: {', '.join(_fitting(one))}", one.title, one.source) for one in touching)
+    return _table("Tasks", ("name", "of", "title", "source"), (*alone, *contact))
+
+
+def _fitting(task) -> list[str]:
+    return [name for name, one in arms().items() if not isinstance(one, BadArm) and can_do(task, one)]
 
 
 def _arms(own):
@@ -129,9 +159,10 @@ def _suites(own):
         words = len(one.on_arms.words)
         varied = ", and a study of model errors" if one.on_arms.varied else ""
         on_arms = f"{words} combinations{varied}" if words else f"every combination{varied}"
-        return one.name, len({part.engine for part in one.slices}), on_arms, one.title
+        in_contact = f"{len(one.in_contact.controllers) or 'all'} controllers"
+        return one.name, len({part.engine for part in one.slices}), on_arms, in_contact, one.title
 
-    return _table("Suites", ("name", "engines", "on each arm", "title"), map(row, SUITES.values()))
+    return _table("Suites", ("name", "engines", "on each arm", "in contact", "title"), map(row, SUITES.values()))
 
 
 def _claims(own):
@@ -145,6 +176,8 @@ _TABLES = {
     "representations": _representations,
     "jacobians": _jacobians,
     "inverses": _inverses,
+    "controllers": _controllers,
+    "impedances": _impedances,
     "metrics": _metrics,
     "tasks": _tasks,
     "arms": _arms,
