@@ -12,12 +12,14 @@ One file for each part of the paper; a file with a constant CLAIMS is found by b
     representations.py       C13 to C16
     euler_jacobian.py        C18, C19
     euler_controller.py      C20, C26
-    compliance.py            C21 to C24
+    force_conversion.py      C21
+    compliance.py            C22 to C24
     contact.py               C25
     later.py                 C27
     tables.py                what a judging function reads
     probes.py                the small experiments of claims that no table answers
     arm_probes.py            the same on arms
+    side_by_side.py          rows of two controllers in contact, side by side
     coordinates.py           the coordinates of C13
     errata.py                what is printed wrongly in the paper, each with a check
 """
