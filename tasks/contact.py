@@ -29,16 +29,13 @@ AXES = ("x", "y", "z", "about x", "about y", "about z")
 # Pushes that may follow each other in a trial: the size of a buffer.
 MOST_LEGS = 8
 
-# Beyond this distance [m] the sensor `gap` between hand and surroundings reads this much.
-FARTHEST_GAP = 0.05
-
 
 class Order(NamedTuple):
     """What a controller is told; along and about the axes of the base frame.
 
     held: of x, y, z and the turns about x, y, z, 1 if it is held at its place and 0 if it complies.
     exerts: the force [N] and moment [N m] that the hand shall exert where it complies; 0 where it is held.
-    velocity: of the held place of the hand [m/s].
+    velocity: of the place at which the hand is held [m/s]; where it complies only an impedance's springs heed it.
     """
 
     name: str  # what complies, in words for a table: "z, about x and y"
@@ -140,7 +137,8 @@ def model_xml(task: ContactTask, arm: Arm, dt: float, contact: ContactModel = ST
     """The judge's MJCF model of a task on an arm, with integration step dt [s].
 
     Sensors of the site "hand": those of tasks.base.SENSORS, its position p [m], then force [N] and moment [N m] in the
-    hand's frame as MuJoCo gives them, the gap to the scene [m], and the joint of the scene [rad] if there is one.
+    hand's frame as MuJoCo gives them, if anything can touch the gap at the deepest contact [m] (at most 0, and 0 where
+    there is no contact), and the joint of the scene [rad] if there is one.
 
     Errors:
         BadValue: the arm has no six joints, or no site "wrist".
@@ -192,9 +190,6 @@ def check(order: Order) -> None:
             raise BadValue(
                 f"order '{order.name}': {axis} is held and shall exert {exerted:g} at once (release it or exert 0)"
             )
-    for axis, held, speed in zip(AXES, order.held, order.velocity, strict=False):
-        if speed and not held:
-            raise BadValue(f"order '{order.name}': {axis} complies and shall move at {speed:g} m/s (hold it)")
 
 
 def leg(count: int, tick: int, ticks: int) -> int:
@@ -247,8 +242,10 @@ def _sensors(around: Surroundings, touches: bool) -> ElementTree.Element:
     ElementTree.SubElement(sensors, "force", name="force", site="hand")
     ElementTree.SubElement(sensors, "torque", name="moment", site="hand")
     if touches:
-        far = repr(FARTHEST_GAP)
-        ElementTree.SubElement(sensors, "distance", name="gap", body1="hand", body2="scene", cutoff=far)
+        # of what collision found anyway; the distance sensor looks at every pair of geoms, which costs more than a step
+        ElementTree.SubElement(
+            sensors, "contact", name="gap", body1="hand", body2="scene", data="dist", reduce="mindist", num="1"
+        )
     if around.joint:
         ElementTree.SubElement(sensors, "jointpos", name="turned", joint=around.joint)
     return sensors

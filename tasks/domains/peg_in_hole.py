@@ -1,0 +1,121 @@
+"""A square peg pushed into a chamfered square hole that leans: the hand yields sideways and turns until it fits.
+
+The frame of the hand is in the middle of the peg's lower face, where compliance helps most (Whitney 1982). Everything
+complies but the yaw, in which peg and hole fit from the start. The hand is pushed down by a force and not at a speed,
+so that a peg that jams stands still and does not break; only an impedance's springs are pulled down.
+
+In the frame of the body "scene" the hole's mouth is at z = 0, its axis is z, and the middle of the peg's lower face
+comes to z = -DEPTH if it is all the way in.
+
+All trials of one hole are the same mechanics; only the hand's frame differs, R = Ry(beta) at the goal.
+
+Source: Mason 1981; Whitney 1982, "Quasi-static assembly of compliantly supported rigid parts".
+"""
+
+from __future__ import annotations
+
+import functools
+import itertools
+import math
+
+from tasks.arm import Arm
+from tasks.base import Vector
+from tasks.contact import ContactTask, Order, Surroundings, Trial
+from tasks.hand_frames import at, leaning, mounts, posture, wrist
+from tasks.rotations import about, columns, multiply, zyx
+
+PEG = 0.0125  # half its side [m]
+HOLE = 0.01275  # half its side [m]: a clearance of 1 part in 50
+DEPTH = 0.03  # m
+CHAMFER = 0.004  # wide and deep [m]
+WALL = 0.01  # thick [m]
+TIP = (0.0, 0.0, 0.14)  # middle of the peg's lower face, in the wrist's frame [m]
+CLEARANCE = 0.001  # over the mouth, of the peg's lowest corner at the start [m]
+OFFSET = (0.0015, -0.001)  # of the peg from the hole's axis at the start, along the hole's x and y [m]
+ORDER = Order(
+    "x, y, z, about x and y",
+    (0, 0, 0, 0, 0, 1),
+    exerts=(0.0, 0.0, -20.0, 0.0, 0.0, 0.0),
+    velocity=(0.0, 0.0, -0.016),  # for springs: through the bottom by the end
+)
+# degrees: by how much the hole leans, and the azimuth of the axis it is turned about
+HOLES = ((2, 90), (4, 30), (8, 0), (8, 120))
+DENSE_HOLES = tuple(itertools.product((2, 4, 6, 8), range(0, 360, 45)))
+BETAS = (0, 45, 75)  # degrees
+DENSE_BETAS = (-60, 0, 30, 45, 60, 75)
+UP = (0.0, 1.0, 0.0, 0.0)  # turns the wrist's frame, which points down, so that z points up
+
+
+def surroundings(arm: Arm) -> Surroundings:
+    """A peg on a stem, and four walls with their chamfers and a bottom."""
+    length = TIP[2]
+    hand = (
+        f'<geom type="cylinder" size=".008 {length / 2 - DEPTH}" pos="0 0 {length / 2 - DEPTH}" mass="0" '
+        'rgba=".3 .5 .8 1"/>'
+        f'<geom name="peg" type="box" size="{PEG} {PEG} {DEPTH}" pos="0 0 {length - DEPTH}" mass="0" '
+        'rgba=".3 .5 .8 1"/>'
+    )
+    half = WALL / 2
+    bottom = _box("bottom", (HOLE, HOLE, half), (0.0, 0.0, -DEPTH - half), 0)
+    return Surroundings(hand, TIP, bottom + "".join(map(_side, range(4))))
+
+
+def _side(k: int) -> str:
+    """The wall and the chamfer in the direction of +x, turned by k quarters about z."""
+    half, slope = WALL / 2, CHAMFER / math.sqrt(2)
+    deep = (DEPTH - CHAMFER) / 2
+    wall = _box(f"wall {k}", (half, HOLE + WALL, deep), (HOLE + half, 0.0, -CHAMFER - deep), k)
+    sunk = half / math.sqrt(2)
+    middle = (HOLE + CHAMFER / 2 + sunk, 0.0, -CHAMFER / 2 - sunk)
+    return wall + _box(f"chamfer {k}", (half, HOLE + CHAMFER, slope), middle, k, math.pi / 4)
+
+
+def _box(name: str, size: Vector, pos: Vector, quarters: int, lean: float = 0.0) -> str:
+    turn = about((0.0, 0.0, 1.0), math.remainder(quarters * math.pi / 2, math.tau))
+    n, o, a = columns(turn)
+    place = (pos[0] * n[i] + pos[1] * o[i] + pos[2] * a[i] for i in range(3))
+    quat = multiply(turn, about((0.0, 1.0, 0.0), lean))
+    where = f'size="{_text(size)}" pos="{_text(place)}" quat="{_text(quat)}"'
+    return f'<geom name="{name}" type="box" {where} rgba=".75 .7 .6 .5"/>'
+
+
+def _text(numbers) -> str:
+    return " ".join(map(repr, numbers))
+
+
+@functools.cache
+def trials(arm: Arm) -> tuple[Trial, ...]:
+    """Every hole with every frame of the hand."""
+    return _trials(arm, HOLES, BETAS)
+
+
+@functools.cache
+def dense(arm: Arm) -> tuple[Trial, ...]:
+    """The same on a dense grid."""
+    return _trials(arm, DENSE_HOLES, DENSE_BETAS)
+
+
+def _trials(arm: Arm, holes, betas) -> tuple[Trial, ...]:
+    q = posture(arm)
+    upright = multiply(wrist(arm, q)[1], UP)
+    tip = at(arm, q, TIP)
+    found = []
+    for (tilt, azimuth), beta in itertools.product(holes, betas):
+        hole, goal = multiply(leaning(tilt, azimuth), upright), zyx(0.0, math.radians(beta), 0.0)
+        x, y, z = columns(hole)
+        over = CLEARANCE + 2 * PEG * math.sin(math.radians(tilt))  # no corner is lower than that
+        place = tuple(tip[i] - OFFSET[0] * x[i] - OFFSET[1] * y[i] - over * z[i] for i in range(3))
+        pose = f"tilt {tilt} about {azimuth}, beta{beta:+d}"
+        found.append(Trial(pose, pose, ORDER, q, goal, mounts(arm, q, goal), place, hole, tilt=math.radians(tilt)))
+    return tuple(found)
+
+
+TASK = ContactTask(
+    name="peg-in-hole",
+    title="A peg pushed into a leaning, chamfered hole",
+    source="Mason 1981; Whitney 1982",
+    horizon_s=3.0,
+    surroundings=surroundings,
+    trials=trials,
+    dense=dense,
+)
