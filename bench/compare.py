@@ -7,6 +7,8 @@ them: on its way it may pass a singular point, where the last bit of a library's
 An arm has more such points. Joint accelerations J^-1 (u - Jdot qdot) have the condition number of J twice, in J^-1 and
 in qdot, so on an arm tolerances grow with its square once it leaves WELL_CONDITIONED; and where in both runs it went
 beyond UNDECIDED, rounding has decided the outcome, which is then not compared.
+
+In contact rounding decides for coordinates whose singular set the goal lies on, and for a hand that was THROWN about.
 """
 
 from pathlib import Path
@@ -14,8 +16,10 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
+from bench.discovery import known_representations
 from bench.errors import BadResults
-from bench.schema import KEY
+from bench.representations.zyx_euler import to_matrix
+from bench.schema import COMPLIANCE_KEY, KEY
 from bench.store import read, read_arrow
 from tasks.verdict import OUTCOMES, SETTLED
 
@@ -50,6 +54,16 @@ POSE_RELATIVE = 1e-5
 
 STEADY = 1e8
 """Condition number beyond which the last bit of a joint angle decides its value."""
+
+ON_SET = 1e-6
+"""Margin of coordinates: a goal that is nearer to their singular set is meant to be on it."""
+
+THROWN = 2.0
+"""Torque over its rated one: none of a hand that presses, slides or turns reaches it; one that tumbles, again and
+again hitting what surrounds it, has a hundred times as much."""
+
+CONTACT_ABSOLUTE = 1e-7
+"""Below this a rotation [rad], also one per moment, is rounding: an angle by its cosine is known to 2e-8."""
 
 SHOWN = 10
 
@@ -200,10 +214,41 @@ def _poses(new: pd.DataFrame, old: pd.DataFrame) -> list[str]:
     return lines
 
 
+def _compliance(new: pd.DataFrame, old: pd.DataFrame) -> list[str]:
+    new, old, lines = _aligned("compliance", new, old, COMPLIANCE_KEY)
+    same = new["outcome"].astype(str) == old["outcome"].astype(str)
+    torque = np.fmin(new["peak_torque_ratio"].to_numpy(), old["peak_torque_ratio"].to_numpy())
+    decided = ~_on_singular_set(old) & ~(torque > THROWN)
+    lines += _changed("outcome", new, old, ~same & decided)
+    both = same & decided & (old["outcome"].astype(str) == "done")
+    for name in old.columns.difference([*COMPLIANCE_KEY, "outcome"], sort=False):
+        if old[name].dtype.kind in "iuf":
+            a, b = new[name].to_numpy(float), old[name].to_numpy(float)
+            close = np.isclose(a, b, rtol=RELATIVE, atol=CONTACT_ABSOLUTE, equal_nan=True)
+            lines += _changed(name, new, old, both & ~close)
+        else:
+            lines += _changed(name, new, old, new[name].astype(str) != old[name].astype(str))
+    return lines
+
+
+def _on_singular_set(rows: pd.DataFrame) -> np.ndarray:
+    """Whether a row's goal is where its controller's coordinates are singular."""
+    margins = {name: one.margin for name, one in known_representations().items()}
+    goals = zip(rows["representation"].astype(str), rows["alpha"], rows["beta"], rows["gamma"], strict=True)
+    return np.array([bool(name) and margins[name](to_matrix(E)) < ON_SET for name, *E in goals], bool)
+
+
 def _digits(frame: pd.DataFrame) -> dict[str, int]:
     """Axes are compared by their first nine digits: they name a row."""
     return {name: 9 for name in frame.columns if name.startswith("axis_")}
 
 
-TABLES = {"episodes": _episodes, "costs": _costs, "boundaries": _boundaries, "poses": _poses, "traces": _traces}
+TABLES = {
+    "episodes": _episodes,
+    "costs": _costs,
+    "boundaries": _boundaries,
+    "poses": _poses,
+    "compliance": _compliance,
+    "traces": _traces,
+}
 """What is compared, and how."""

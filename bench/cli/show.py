@@ -1,5 +1,6 @@
 """`show`: a run's outcomes on one screen, or every count of them."""
 
+import math
 from pathlib import Path
 
 import pandas as pd
@@ -25,7 +26,8 @@ from tasks.verdict import OUTCOMES
 def COMMAND(folder, engine, starts, outcomes, regulators):
     """Summary of a run: where each law settles, how fast, and where it does not (default: results/latest).
 
-    Of an arm, each controller apart, with what its failures were near; plants that are not the model's come last.
+    Of an arm, each controller apart, with what its failures were near; then plants that are not the model's, and last
+    what came of tasks in contact. A law, start set or engine that is named leaves out what it does not take part in.
     """
     folder = folder or results.folder()
     episodes = read(folder, "episodes")
@@ -49,6 +51,10 @@ def COMMAND(folder, engine, starts, outcomes, regulators):
     for place, part in _places(on_arms[on_arms["variation"] != NOMINAL]):
         title = f"\n{place}, plant other than the model: settled of {_most(part)}, and median angle left [mrad]"
         console().print(frame_table(variation_summary(part), title))
+    if not (engine or regulators):
+        for arm, part in read(folder, "compliance").groupby("arm", observed=True, sort=False):
+            title = f"\nin contact, {arm}: poses done, and median and worst of them"
+            console().print(frame_table(contact_summary(part), title))
     console().print("\nThe counts of each outcome: --outcomes")
 
 
@@ -125,6 +131,27 @@ def variation_summary(episodes):
         for variation, part in rows.groupby("variation", observed=True, sort=False):
             left = 1e3 * part["final_angle_rad"].median()
             line[str(variation)] = f"{(part['outcome'] == 'settled').sum()}  {left:.3g}"
+        lines.append(line)
+    return pd.DataFrame(lines)
+
+
+IN_CONTACT = {
+    "leakage_ratio": ("leakage", 1.0),
+    "misalignment_rad": ("misaligned deg", 180.0 / math.pi),
+    "alignment_error_rad": ("off the plate deg", 180.0 / math.pi),
+}
+"""Columns of compliance.parquet that are summarized: as what, in which unit."""
+
+
+def contact_summary(rows):
+    """One line for each controller: poses whose trials are all done, then median and worst of IN_CONTACT over them."""
+    lines = []
+    for name, part in results.with_compliant(rows).groupby("contender", observed=True, sort=False):
+        done = part[part["outcome"] == "done"]
+        line = {"controller": str(name), "done": f"{len(done)}/{len(part)}"}
+        for column, (title, scale) in IN_CONTACT.items():
+            some = scale * done[column].dropna()
+            line[title] = f"{some.median():.3f}  {some.max():.3f}" if len(some) else ""
         lines.append(line)
     return pd.DataFrame(lines)
 
