@@ -1,0 +1,342 @@
+"""C21 to C24 on tables written for them and C21's experiment: hold, hold with a correction, fail, refuse nothing."""
+
+import itertools
+import math
+
+import numpy as np
+import pandas as pd
+import pytest
+from scipy.spatial.transform import Rotation as Turn
+
+from bench import claims
+from bench.claims import force_conversion, side_by_side
+from bench.claims.euler_jacobian import DIFFERENCED, EPS
+from bench.claims.tables import Results
+from bench.claims.verdict import NoEvidence, Word
+from bench.discovery import representation
+
+ORDERS = {"about x": "x", "about y": "y", "about z": "z"}
+ORDERS |= {f"about {a} and {b}": a + b for a, b in ("xy", "yz", "zx")}
+POSES = [*((0, beta, 0) for beta in (0, 1, 5, 15, 45, 75, 89, 90)), (35, 45, -20), (-50, 10, 1)]
+YIELDS = 0.14
+"""rad/(N m), of every axis that complies."""
+
+ZYX, EXPERIMENT = representation("zyx-euler"), force_conversion.experiment
+
+
+def zyx_axes(alpha, beta, gamma):
+    """The axes about which E turns, by the order's letters: base's z, level y, the hand's x."""
+    level = Turn.from_euler("z", alpha).apply([0.0, 1.0, 0.0])
+    return {
+        "z": np.array([0.0, 0.0, 1.0]),
+        "y": level,
+        "x": Turn.from_euler("ZYX", (alpha, beta, gamma)).apply([1, 0, 0]),
+    }
+
+
+def zyz_axes(alpha, beta, gamma):
+    R = Turn.from_euler("ZYX", (alpha, beta, gamma)).as_matrix()
+    first = math.atan2(R[1, 2], R[0, 2])
+    level = np.array([-math.sin(first), math.cos(first), 0.0])
+    return {"z": np.array([0.0, 0.0, 1.0]), "y": level, "x": R[:, 2]}
+
+
+def base_axes(*_):
+    return dict(zip("xyz", np.eye(3), strict=True))
+
+
+CONTROLLERS = {
+    ("hybrid-base", "", "inverse"): base_axes,
+    ("hybrid-base", "", "projected"): base_axes,
+    ("hybrid", "zyx-euler", "inverse"): zyx_axes,
+    ("hybrid", "zyx-euler", "projected"): zyx_axes,
+    ("hybrid", "zyz-euler", "inverse"): zyz_axes,
+}
+SINGULAR = {"zyx-euler": lambda beta: beta == 90, "zyz-euler": lambda beta: beta == 0}
+
+
+def rows():
+    for arm, (way, axes), (alpha, beta, gamma), (order, letters) in itertools.product(
+        ("puma560", "ur5e"), CONTROLLERS.items(), POSES, ORDERS.items()
+    ):
+        controller, coordinates, form = way
+        angles = [math.radians(angle) for angle in (alpha, beta, gamma)]
+        chosen = axes(*angles)
+        C = YIELDS * sum(np.outer(chosen[letter], chosen[letter]) for letter in letters)
+        fails = coordinates in SINGULAR and SINGULAR[coordinates](beta)
+        yield {
+            **{"task": "wrench-probe", "arm": arm, "controller": controller, "representation": coordinates},
+            **{"form": form, "pose": f"{alpha} {beta} {gamma}, {order}", "complies": order},
+            **dict(zip(("alpha", "beta", "gamma"), angles, strict=True)),
+            **{
+                "outcome": "singular" if fails else "done",
+                "work_residual": math.nan if controller != "hybrid" else EPS,
+            },
+            **dict(zip(side_by_side.MEASURED, np.full(9, math.nan) if fails else C.ravel(), strict=True)),
+        }
+
+
+@pytest.fixture(scope="module")
+def theory():
+    """What theory has, of three controllers on two arms."""
+    return pd.DataFrame(rows())
+
+
+@pytest.fixture(autouse=True)
+def experiment(monkeypatch):
+    """C21's experiment, as it comes out; a test may change its cells."""
+    places = [force_conversion.AT_RANDOM, force_conversion.NEAR_POLE, force_conversion.AT_POLE]
+    rounding = {"exists": True, "gap": EPS, "difference_gap": DIFFERENCED, "raw_gap": 0.4, "least": 0.1, "lost": 0.1}
+    found = pd.DataFrame([{"place": place, **rounding} for place in places])
+    found.loc[2, ["least", "lost"]] = 0.0
+    monkeypatch.setattr(force_conversion, "experiment", lambda: (found, [EPS]))
+    return found
+
+
+def somewhere(count):
+    return [(force_conversion.AT_RANDOM, R) for R in force_conversion.random_orientations(count, 1)]
+
+
+def judged(id, frame):
+    return claims.judge(id, Results(None, {"compliance": frame}))
+
+
+def euler(frame, order, coordinates="zyx-euler"):
+    return (frame["representation"] == coordinates) & (frame["complies"] == order)
+
+
+def at(frame, *angles):
+    return (np.degrees(frame[["alpha", "beta", "gamma"]]).round(6) == np.array(angles)).all(axis=1)
+
+
+def changed(frame, chosen, **cells):
+    """The frame with some cells of some rows set, or turned by a function."""
+    frame = frame.copy()
+    for name, value in cells.items():
+        frame.loc[chosen, name] = value(frame.loc[chosen, name]) if callable(value) else value
+    return frame
+
+
+def as_base(frame, chosen):
+    """The chosen rows of Euler coordinates with the compliance of hybrid-base at the same poses."""
+    frame = frame.copy()
+    key = ["arm", "form", "pose"]
+    base = frame[frame["controller"] == "hybrid-base"].set_index(key)
+    for i in frame.index[chosen]:
+        same = base.loc[tuple(frame.loc[i, key])]
+        frame.loc[i, [*side_by_side.MEASURED, "outcome"]] = same[[*side_by_side.MEASURED, "outcome"]]
+    return frame
+
+
+@pytest.mark.parametrize(
+    ("id", "word"),
+    [("C21", Word.HOLDS), ("C22", Word.CORRECTED), ("C23", Word.HOLDS), ("C24", Word.HOLDS)],
+)
+def test_claim_is_decided_by_the_theory(theory, id, word):
+    verdict = judged(id, theory)
+    assert verdict.word == word
+    assert verdict.rows > 0
+    assert any(character.isdigit() for character in str(verdict.evidence))
+
+
+@pytest.mark.parametrize("id", ["C21", "C22", "C23", "C24"])
+def test_claim_is_refused_without_rows(theory, id):
+    with pytest.raises(NoEvidence):
+        judged(id, theory.iloc[:0])
+
+
+@pytest.mark.parametrize("id", ["C22", "C23", "C24"])
+def test_claim_is_refused_without_the_controller_it_is_compared_with(theory, id):
+    with pytest.raises(NoEvidence, match="hybrid-base"):
+        judged(id, theory[theory["controller"] != "hybrid-base"])
+
+
+def test_c21_fails_when_the_loop_loses_work(theory):
+    lossy = changed(theory, at(theory, 0, 45, 0) & (theory["representation"] == "zyx-euler"), work_residual=1e-10)
+    assert judged("C21", lossy).word == Word.FAILS
+
+
+def test_c21_takes_less_precision_towards_the_pole(theory):
+    # 60 eps / cos(89 deg) = 3400 eps
+    lossy = changed(theory, at(theory, 0, 89, 0), work_residual=3400 * EPS)
+    assert judged("C21", lossy).word == Word.HOLDS
+    assert judged("C21", changed(lossy, at(lossy, 0, 45, 0), work_residual=3400 * EPS)).word == Word.FAILS
+
+
+@pytest.mark.parametrize(
+    ("cell", "value"), [("exists", False), ("gap", 1e-12), ("gap", math.nan), ("difference_gap", 1e-7)]
+)
+def test_c21_tells_the_exact_poles_from_other_orientations(theory, experiment, cell, value):
+    experiment.loc[2, cell] = value
+    assert judged("C21", theory).word == Word.CORRECTED
+    experiment.loc[1, cell] = value
+    assert judged("C21", theory).word == Word.FAILS
+
+
+def test_c22_holds_when_euler_complies_like_the_base(theory):
+    assert judged("C22", as_base(theory, theory["representation"] == "zyx-euler")).word == Word.HOLDS
+
+
+@pytest.mark.parametrize(("factor", "word"), [(1.009, Word.CORRECTED), (1.011, Word.FAILS)])
+def test_c22_fails_when_one_pose_is_no_turned_axis(theory, factor, word):
+    off = at(theory, 35, 45, -20) & euler(theory, "about y") & (theory["arm"] == "ur5e")
+    scaled = changed(theory, off, **dict.fromkeys(side_by_side.MEASURED, lambda c: factor * c))
+    assert judged("C22", scaled).word == word
+
+
+def test_c22_fails_when_one_pose_is_not_done(theory):
+    broken = changed(theory, at(theory, 0, 45, 0) & euler(theory, "about z"), outcome="saturated")
+    assert judged("C22", broken).word == Word.FAILS
+
+
+def test_c22_leaves_the_neighbourhood_of_the_pole_to_other_claims(theory):
+    close = at(theory, 0, 89, 0) & (theory["representation"] == "zyx-euler")
+    found = judged("C22", changed(theory, close, outcome="saturated"))
+    assert found.word == Word.CORRECTED
+    assert "12 saturated" in str(found.evidence)
+
+
+def test_c22_counts_the_poses_that_are_the_same(theory):
+    # about z always; about y where alpha = 0, 6 of 8 poses; about x at zero alone: on two arms in two forms
+    found = str(judged("C22", theory).evidence)
+    assert "about x at 4 of 32, about y at 24 of 32, about z at 32 of 32" in found
+    assert "about x at 32 of 32, about y at 24 of 32, about z at 4 of 32" in found
+
+
+@pytest.mark.parametrize("order", ["about x", "about y", "about z"])
+def test_c22_is_refused_without_an_axis(theory, order):
+    with pytest.raises(NoEvidence, match=order):
+        judged("C22", theory[theory["complies"] != order])
+
+
+def test_c22_is_refused_where_angle_and_axis_cannot_differ(theory):
+    with pytest.raises(NoEvidence, match="about y"):
+        judged("C22", theory[theory["alpha"] == 0.0])
+
+
+def test_c23_is_corrected_when_the_leak_is_not_that_of_theory(theory):
+    off = at(theory, 0, 75, 0) & euler(theory, "about x and y")
+    assert judged("C23", changed(theory, off, c_zx=lambda c: 1.005 * c)).word == Word.HOLDS
+    assert judged("C23", changed(theory, off, c_zx=lambda c: 1.02 * c)).word == Word.CORRECTED
+
+
+def test_c23_is_corrected_when_the_base_leaks_as_well(theory):
+    base = at(theory, 0, 30, 0) | at(theory, 0, 15, 0)
+    base &= (theory["controller"] == "hybrid-base") & (theory["complies"] == "about x and y")
+    assert judged("C23", changed(theory, base, c_zx=0.01 * YIELDS)).word == Word.CORRECTED
+
+
+def test_c23_is_corrected_when_one_general_pose_corresponds(theory):
+    same = as_base(theory, at(theory, 35, 45, -20) & euler(theory, "about y and z"))
+    assert judged("C23", same).word == Word.CORRECTED
+
+
+def test_c23_fails_when_angles_and_axes_correspond(theory):
+    assert judged("C23", as_base(theory, theory["representation"] == "zyx-euler")).word == Word.FAILS
+
+
+def test_c23_does_not_take_what_was_not_measured_for_apart(theory):
+    general = at(theory, 35, 45, -20) & euler(theory, "about y and z")
+    assert judged("C23", changed(theory, general, outcome="diverged")).word == Word.CORRECTED
+
+
+@pytest.mark.parametrize("order", ["about x and y", "about y and z", "about z and x"])
+def test_c23_is_refused_without_a_general_pose(theory, order):
+    with pytest.raises(NoEvidence, match=order):
+        judged("C23", theory[(theory["complies"] != order) | (theory["gamma"] == 0.0)])
+
+
+def test_c23_says_where_they_correspond_after_all(theory):
+    # alpha = 0: about y and z at all six betas; the others at zero alone: on two arms in two forms
+    found = str(judged("C23", theory).evidence)
+    assert "about x and y at 4 of 24, about y and z at 24 of 24, about z and x at 4 of 24" in found
+
+
+def test_c24_is_corrected_when_a_pose_near_zero_is_no_problem(theory):
+    same = as_base(theory, at(theory, 0, 15, 0) & euler(theory, "about x", "zyz-euler"))
+    assert judged("C24", same).word == Word.CORRECTED
+
+
+def test_c24_fails_when_no_pose_is_a_problem(theory):
+    assert judged("C24", as_base(theory, euler(theory, "about x", "zyz-euler"))).word == Word.FAILS
+
+
+def test_c24_is_corrected_when_the_papers_angles_have_the_problem_too(theory):
+    stiff = changed(theory, at(theory, 0, 5, 0) & euler(theory, "about x"), c_xx=0.4 * YIELDS)
+    assert judged("C24", stiff).word == Word.CORRECTED
+
+
+def test_c24_looks_near_zero_only(theory):
+    assert judged("C24", theory).rows == 2 * 4 + 2 * 2 * 4  # 0, 1, 5, 15 degrees; two arms, and two forms of Z-Y-X
+    far = as_base(theory, at(theory, 0, 45, 0) & euler(theory, "about x", "zyz-euler"))
+    assert judged("C24", far).word == Word.HOLDS
+
+
+@pytest.mark.parametrize("beta", [0, 1])
+def test_c24_is_refused_without_zero_or_without_its_neighbourhood(theory, beta):
+    kept = theory[~at(theory, 0, 0, 0)] if beta == 0 else theory[at(theory, 0, 0, 0)]
+    with pytest.raises(NoEvidence, match="zero rotation"):
+        judged("C24", kept)
+
+
+@pytest.mark.slow
+def test_work_balances_at_random_and_polar_orientations():
+    found, elsewhere = EXPERIMENT()
+    assert found["place"].value_counts().to_dict() == {"random": 2000, "near": 2 * 20 * 12, "exact": 2 * 20}
+    assert found["exists"].all()
+    assert found["gap"].max() < 10 * EPS
+    assert found["difference_gap"].max() < 10 * DIFFERENCED
+    assert len(elsewhere) == 5
+
+
+def test_balance_sees_a_moment_that_is_not_converted():
+    unconverted = ZYX._replace(generalized=lambda at, moment: (moment[2], moment[1], moment[0]))
+    found = force_conversion.balances(unconverted, somewhere(50), 0)
+    assert found["gap"].min() > 1e-4
+    assert np.allclose(found["gap"], found["raw_gap"], atol=1e-14)
+
+
+def test_balance_sees_a_b_that_is_wrong_on_both_sides():
+    # B with its first column doubled, in (2.8) and in (3.12): they agree with each other, and not with R(E)
+    def angular_velocity(at, Edot):
+        return ZYX.angular_velocity(at, (2 * Edot[0], Edot[1], Edot[2]))
+
+    def generalized(at, moment):
+        first, second, third = ZYX.generalized(at, moment)
+        return (2 * first, second, third)
+
+    doubled = ZYX._replace(angular_velocity=angular_velocity, generalized=generalized)
+    found = force_conversion.balances(doubled, somewhere(50), 0)
+    assert found["gap"].max() < 10 * EPS
+    assert found["difference_gap"].min() > 1e-4
+
+
+def test_moment_about_the_level_axis_is_lost_at_the_poles_alone():
+    found = force_conversion.balances(ZYX, force_conversion.polar_orientations(ZYX, 0), 0)
+    exact = found["place"] == force_conversion.AT_POLE
+    assert found.loc[exact, "lost"].max() < force_conversion.LOST
+    assert found.loc[~exact, "lost"].min() > 0.5e-12
+    for _, R in [one for one in force_conversion.polar_orientations(ZYX, 0) if one[0] == force_conversion.AT_POLE]:
+        at_pole = ZYX.chart(R)
+        assert np.abs(ZYX.generalized(at_pole, (at_pole.cos_alpha, at_pole.sin_alpha, 0.0))).max() < 1e-15
+
+
+def test_random_orientations_are_uniform():
+    # the trace of a Haar-random rotation has mean 0 and variance 1
+    traces = [R.n[0] + R.o[1] + R.a[2] for R in force_conversion.random_orientations(4000, 1)]
+    assert abs(np.mean(traces)) < 4 / math.sqrt(4000)
+    assert np.var(traces) == pytest.approx(1.0, abs=0.1)
+
+
+def test_planes_of_compliance_are_as_far_apart_as_their_normals():
+    flat = np.diag([1.0, 1.0, 0.0])[None]
+    tilted = side_by_side.turned(flat, Turn.from_euler("y", 0.3).as_matrix()[None])
+    assert side_by_side.planes_apart(tilted, flat) == pytest.approx([0.3], abs=1e-12)
+    assert np.isnan(side_by_side.planes_apart(np.full((1, 3, 3), np.nan), flat)).all()
+
+
+def test_compliance_counts_as_not_measured_unless_done(theory):
+    done = side_by_side.compliances(theory[theory["outcome"] == "done"])
+    other = side_by_side.compliances(theory.assign(outcome="saturated"))
+    assert np.isfinite(done).all()
+    assert np.isnan(other).all()
