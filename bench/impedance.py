@@ -22,9 +22,10 @@ from bench.scalar import kernel
 class Impedance(NamedTuple):
     """A law u = law(R, omega, m, R_d, gains, inertia): the hand's angular acceleration in the base frame [rad/s^2].
 
-    m: the moment on the hand [N m], base frame. inertia: apparent, [kg m^2]; its stiffness near the goal is
-    kp inertia [N m/rad].
+    m: the moment on the hand and what it shall exert besides [N m], base frame. inertia: apparent, [kg m^2]. Near the
+    goal the stiffness is kp inertia [N m/rad]; of an impedance in coordinates it is that times B^-T B^-1.
     law_in(representation) -> law, of an impedance in coordinates; `law` is then None.
+    relative: the coordinates are those of R_d^T R.
     """
 
     name: str
@@ -33,6 +34,7 @@ class Impedance(NamedTuple):
     formula: str
     law: Callable | None = None
     law_in: Callable | None = None
+    relative: bool = False
 
 
 def assembly(law: Callable) -> Callable:

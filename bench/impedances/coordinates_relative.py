@@ -28,4 +28,5 @@ IMPEDANCE = Impedance(
     source="Caccavale et al. 1999 (Euler angles of the relative orientation)",
     formula=r"u = R_d\,u_r(R_d^\top R,\ R_d^\top \omega,\ R_d^\top m)",
     law_in=law_in,
+    relative=True,
 )
