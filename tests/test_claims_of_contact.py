@@ -1,0 +1,163 @@
+"""C25 on tables written for it: holds, holds with a correction, fails, and refuses what says nothing."""
+
+import itertools
+import math
+
+import pandas as pd
+import pytest
+
+from bench import claims
+from bench.claims.contact import FLOORS, PERFORMANCE
+from bench.claims.tables import Results
+from bench.claims.verdict import NoEvidence, Word
+
+TASKS = {"surface-alignment": "z, about x and y", "peg-in-hole": "z, about x and y", "force-on-plane": "z"}
+CONTROLLERS = (("hybrid-base", ""), ("hybrid", "zyx-euler"))
+LARGE = {column: 100 * FLOORS[unit] for column, unit in PERFORMANCE.items()}
+"""Numbers far above their floors."""
+
+
+def rows():
+    for task, arm, (controller, representation), form, beta in itertools.product(
+        TASKS, ("puma560", "ur5e"), CONTROLLERS, ("inverse", "projected"), (0, 45, 75)
+    ):
+        is_off = representation and beta == 75 and "about" in TASKS[task]
+        yield {
+            **{"task": task, "arm": arm, "controller": controller, "representation": representation, "form": form},
+            **{"pose": f"tilt 10, beta{beta:+d}", "complies": TASKS[task], "beta": math.radians(beta)},
+            **{"outcome": "done", **LARGE, "alignment_error_rad": (3.0 if is_off else 1.0) * 0.1},
+        }
+
+
+@pytest.fixture
+def table():
+    """Where two turns comply Euler is three times off at 75 degrees, on both arms in both forms."""
+    free = {"task": "wrench-probe", "complies": "about x and y", "arm": "ur5e", "form": "inverse", "pose": "beta+75"}
+    free |= {"beta": math.radians(75), **dict.fromkeys(PERFORMANCE, math.nan)}
+    probes = [
+        {**free, "controller": one, "representation": coordinates, "outcome": "singular" if coordinates else "done"}
+        for one, coordinates in CONTROLLERS
+    ]
+    return pd.DataFrame([*rows(), *probes])
+
+
+def judged(frame):
+    return claims.judge("C25", Results(None, {"compliance": frame}))
+
+
+def euler(frame, beta, **words):
+    chosen = (frame["representation"] == "zyx-euler") & (frame["beta"].round(6) == round(math.radians(beta), 6))
+    for column, word in words.items():
+        chosen &= frame[column] == word
+    return chosen
+
+
+def changed(frame, chosen, **cells):
+    frame = frame.copy()
+    for name, value in cells.items():
+        frame.loc[chosen, name] = value
+    return frame
+
+
+def test_c25_holds_when_every_task_depends_on_the_jacobian(table):
+    verdict = judged(table)
+    assert verdict.word == Word.HOLDS
+    assert verdict.rows == 36
+    assert "2 of 2 tasks" in str(verdict.evidence)
+    assert "Euler is the worse in 8 of 8" in str(verdict.evidence)
+
+
+def test_c25_is_refused_without_rows(table):
+    with pytest.raises(NoEvidence):
+        judged(table.iloc[:0])
+
+
+def test_c25_is_refused_where_nothing_is_touched(table):
+    with pytest.raises(NoEvidence, match="with contact"):
+        judged(table[table["task"] == "wrench-probe"])
+
+
+def test_c25_is_refused_where_no_two_turns_comply(table):
+    with pytest.raises(NoEvidence, match="two turns"):
+        judged(table[table["task"].isin(["force-on-plane", "wrench-probe"])])
+
+
+@pytest.mark.parametrize("missing", ["straight", "turned"])
+def test_c25_is_refused_without_both_kinds_of_frames(table, missing):
+    kept = table["beta"] > 0.0 if missing == "straight" else table["beta"] == 0.0
+    with pytest.raises(NoEvidence, match="peg-in-hole on puma560"):
+        judged(table[kept])
+
+
+def test_c25_is_refused_without_both_forms(table):
+    with pytest.raises(NoEvidence, match="projected"):
+        judged(table[table["form"] == "inverse"])
+
+
+def test_c25_fails_when_no_pair_parts(table):
+    alike = changed(table, euler(table, 75), alignment_error_rad=0.1)
+    assert judged(alike).word == Word.FAILS
+
+
+@pytest.mark.parametrize("words", [{"task": "peg-in-hole"}, {"arm": "ur5e"}, {"form": "projected"}])
+def test_c25_is_corrected_when_it_depends_on_task_arm_or_form(table, words):
+    alike = changed(table, euler(table, 75, **words), alignment_error_rad=0.1)
+    assert judged(alike).word == Word.CORRECTED
+
+
+def test_c25_is_corrected_when_they_part_with_straight_frames_too(table):
+    parting = changed(table, euler(table, 0, task="peg-in-hole", arm="ur5e", form="inverse"), outcome="saturated")
+    assert judged(parting).word == Word.CORRECTED
+
+
+@pytest.mark.parametrize(("factor", "word"), [(1.99, Word.FAILS), (2.01, Word.HOLDS), (1 / 2.01, Word.HOLDS)])
+@pytest.mark.parametrize("column", PERFORMANCE)
+def test_c25_parts_by_a_factor_of_two_in_any_number(table, column, factor, word):
+    alike = changed(table, euler(table, 75), alignment_error_rad=0.1)
+    off = euler(alike, 45) & alike["complies"].str.contains("about")
+    number = factor * alike.loc[off, column]
+    assert judged(changed(alike, off, **{column: number})).word == word
+
+
+@pytest.mark.parametrize("column", PERFORMANCE)
+def test_c25_compares_nothing_with_almost_nothing(table, column):
+    alike = changed(table, euler(table, 75), alignment_error_rad=0.1)
+    touching = alike["task"] != "wrench-probe"
+    tiny = changed(alike, touching, **{column: 1e-9})
+    tiny = changed(tiny, touching & euler(tiny, 75), **{column: 1.9 * FLOORS[PERFORMANCE[column]]})
+    assert judged(tiny).word == Word.FAILS
+
+
+def test_c25_takes_a_shallower_peg_for_the_worse(table):
+    alike = changed(table, euler(table, 75), alignment_error_rad=0.1)
+    shallow = euler(alike, 75) & alike["complies"].str.contains("about")
+    deep = changed(alike, shallow, insertion_depth_m=3 * LARGE["insertion_depth_m"])
+    shallow = changed(alike, shallow, insertion_depth_m=LARGE["insertion_depth_m"] / 3)
+    assert "worse in 8 of 8" in str(judged(shallow).evidence)
+    assert "worse in 0 of 8" in str(judged(deep).evidence)
+
+
+@pytest.mark.parametrize("column", PERFORMANCE)
+def test_c25_parts_where_only_one_has_a_number(table, column):
+    alike = changed(table, euler(table, 75), alignment_error_rad=0.1)
+    missing = euler(alike, 75) & alike["complies"].str.contains("about")
+    assert judged(changed(alike, missing, **{column: math.nan})).word == Word.HOLDS
+    nowhere = changed(alike, alike["task"] != "force-on-plane", **{column: math.nan})
+    assert judged(nowhere).word == Word.FAILS
+
+
+def test_c25_parts_by_outcome_and_says_who_failed(table):
+    alike = changed(table, euler(table, 75), alignment_error_rad=0.1)
+    turned = (alike["beta"] > 1.0) & alike["complies"].str.contains("about") & (alike["task"] != "wrench-probe")
+    base = turned & (alike["controller"] == "hybrid-base")
+    found = judged(changed(alike, base, outcome="diverged"))
+    assert found.word == Word.HOLDS
+    assert "worse in 0 of 8" in str(found.evidence)
+    assert judged(changed(alike, turned, outcome="diverged")).word == Word.FAILS  # both fail alike: nothing to compare
+
+
+def test_c25_leaves_tasks_with_fewer_turns_out(table):
+    simple = changed(table, euler(table, 75, task="force-on-plane"), outcome="saturated")
+    found = judged(simple)
+    assert found.word == Word.HOLDS
+    assert "Where fewer turns comply 4 of 12 pairs part" in str(found.evidence)
