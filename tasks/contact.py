@@ -106,7 +106,7 @@ class ContactTask(NamedTuple):
 
 
 class ContactModel(NamedTuple):
-    """MuJoCo's model of a contact, with elliptic friction cones.
+    """MuJoCo's model of a contact, with elliptic friction cones; what is welded to the hand is as soft.
 
     The constants are stable at a control period of 1 ms.
 
@@ -162,6 +162,8 @@ def model_xml(task: ContactTask, arm: Arm, dt: float, contact: ContactModel = ST
     root.extend([*_elements(around.others), pairs, *ElementTree.fromstring(LOOK), _sensors(around, len(pairs) > 0)])
     for geom in root.iter("geom"):
         geom.attrib.update(contype="0", conaffinity="0")  # pairs are what touches
+    for weld in root.iter("weld"):
+        weld.attrib.update(_softness(contact))
     return ElementTree.tostring(root, encoding="unicode")
 
 
@@ -229,11 +231,17 @@ def _pairs(hand: ElementTree.Element, scene: ElementTree.Element, contact: Conta
                 geom2=other.attrib["name"],
                 condim="3",
                 friction=f"{contact.friction!r} {contact.friction!r} 0 0 0",
-                solref=f"{contact.timeconst!r} {contact.dampratio!r}",
                 solreffriction=f"{contact.slip!r} {contact.dampratio!r}",
-                solimp=f"{contact.dmin!r} {contact.dmax!r} {contact.width!r}",
+                **_softness(contact),
             )
     return pairs
+
+
+def _softness(contact: ContactModel) -> dict[str, str]:
+    return {
+        "solref": f"{contact.timeconst!r} {contact.dampratio!r}",
+        "solimp": f"{contact.dmin!r} {contact.dmax!r} {contact.width!r}",
+    }
 
 
 def _sensors(around: Surroundings, touches: bool) -> ElementTree.Element:
