@@ -55,7 +55,9 @@ class ContactUnit:
         return f"{self.arm} {self.contender}"
 
 
-def units(part: InContact, choice: Choice, poses: int | None = None, horizon_s: float | None = None) -> tuple:
+def units(
+    part: InContact, choice: Choice, poses: int | None = None, horizon_s: float | None = None
+) -> tuple[ContactUnit, ...]:
     """The units of a suite's part in contact, narrowed or widened by what the user named.
 
     Args:
@@ -95,38 +97,35 @@ def _controllers(part: InContact, choice: Choice) -> list[Compliant]:
 
 
 def _arms(task: ContactTask, choice: Choice) -> list[Arm]:
-    found = [tasks.arm(word) for word in choice.arms or tasks.arm_names()]
+    is_named = bool(choice.arms) and choice.is_about_contact
+    every = map(tasks.arm, choice.arms or tasks.arm_names())
+    return [one for one in every if can_do(task, one, or_refuse=is_named)]
+
+
+def can_do(task: ContactTask, arm: Arm, or_refuse: bool = False) -> bool:
+    """Whether an arm can be set a task.
+
+    Errors:
+        BadValue: it cannot, and `or_refuse` asks for the reason.
+    """
     from tasks.contact import refuse  # MuJoCo takes a moment to import; what comes before must not
-
-    if choice.arms and choice.is_about_contact:
-        for one in found:
-            refuse(task, one)
-    return [one for one in found if can_do(task, one)]
-
-
-def can_do(task: ContactTask, arm: Arm) -> bool:
-    """Whether an arm can be set a task."""
-    from tasks.contact import refuse
 
     try:
         refuse(task, arm)
     except BadValue:
+        if or_refuse:
+            raise
         return False
     return True
 
 
 def _cut(one: Compliant, task: ContactTask, arm: Arm, size: int | None, dense: bool, horizon_s: float):
     every = poses_of(one, task, arm, dense)[:size]
-    first = 0
-    while first < len(every):
-        taken, trials = 0, 0
-        while first + taken < len(every):
-            more = len(every[first + taken])
-            if taken and (trials + more) * horizon_s > LONGEST_S:
-                break
-            taken, trials = taken + 1, trials + more
-        yield ContactUnit(one.name, task.name, arm.name, first, taken, trials, dense, horizon_s)
-        first += taken
+    longest = max(map(len, every)) * horizon_s
+    step = max(1, int(LONGEST_S / longest))
+    for first in range(0, len(every), step):
+        some = every[first : first + step]
+        yield ContactUnit(one.name, task.name, arm.name, first, len(some), sum(map(len, some)), dense, horizon_s)
 
 
 def poses_of(one: Compliant, task: ContactTask, arm: Arm, dense: bool) -> tuple[tuple[Trial, ...], ...]:
