@@ -17,7 +17,7 @@ from bench.discovery import representation
 
 ORDERS = {"about x": "x", "about y": "y", "about z": "z"}
 ORDERS |= {f"about {a} and {b}": a + b for a, b in ("xy", "yz", "zx")}
-POSES = [*((0, beta, 0) for beta in (0, 1, 5, 15, 45, 75, 89, 90)), (35, 45, -20), (-50, 10, 1)]
+POSES = [*((0, beta, 0) for beta in (0, 1, 5, 15, 45, 75, 89, 90)), (35, 45, -20), (-50, -10, 1)]
 YIELDS = 0.14
 """rad/(N m), of every axis that complies."""
 

@@ -225,6 +225,7 @@ def c24(results):
     else:
         word = Word.CORRECTED if zyz["problem"].any() else Word.FAILS
     done = near[near["outcome"] == "done"]
+    astray = (done["c_zx"] / done["c_xx"]).abs()
     return word, evidence(
         """Z-Y-Z is a problem at {zero_k} of {zero_n} poses at zero ({ends}) and at {near_k} of {near_n} within
         {near_deg:g} degrees: about x it yields {least:.1e} to {most:.1e} of what is wanted, and about z {astray:.1f} to
@@ -239,8 +240,8 @@ def c24(results):
         near_deg=NEAR_DEG,
         least=done["yields"].min(),
         most=done["yields"].max(),
-        astray=done["astray"].min(),
-        farthest=done["astray"].max(),
+        astray=astray.min(),
+        farthest=astray.max(),
         zyx_k=int(zyx["problem"].sum()),
         zyx_n=len(zyx),
         zyx_least=zyx["yields"].min(),
@@ -248,12 +249,12 @@ def c24(results):
 
 
 def _about_x(results, coordinates: str) -> pd.DataFrame:
-    """Poses near zero, order 'about x': c_xx over that of hybrid-base, |c_zx / c_xx|, and whether it is a problem."""
+    """Poses near zero, order 'about x': c_xx over that of hybrid-base, and whether it is a problem."""
     rows = side_by_side.beside_base(results, coordinates, ONE_AXIS[:1])
     rows = rows[np.degrees(rows["from_zero"]) <= NEAR_DEG + SLACK_DEG].reset_index(drop=True)
     C, base = side_by_side.compliances(rows), side_by_side.compliances(rows, "_base")
     yields = C[:, 0, 0] / base[:, 0, 0]
-    return rows.assign(yields=yields, astray=np.abs(C[:, 2, 0] / C[:, 0, 0]), problem=~(yields >= LITTLE))
+    return rows.assign(yields=yields, problem=~(yields >= LITTLE))
 
 
 CLAIMS = (C22.judged_by(c22), C23.judged_by(c23), C24.judged_by(c24))

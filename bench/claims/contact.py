@@ -75,11 +75,12 @@ def c25(results):
     else:
         word = Word.CORRECTED if turned["parts"].any() else Word.FAILS
     parted = complex_ones[complex_ones["parts"]]
+    agree = complex_ones.groupby(["task", "arm", "pose"])["parts"].nunique() == 1
     simple = rows[rows["turns"] < 2]
     return word, evidence(
         """{depending} of {tasks} tasks in which two turns comply depend on the Jacobian, by {n} pairs on {arms} arms:
-        {listed}. Of the pairs that part Euler is the worse in {worse} of {parted}. Where fewer turns comply
-        {simple_k} of {simple_n} pairs part.""",
+        {listed}. Of the pairs that part Euler is the worse in {worse} of {parted}; both ways to the joints agree at
+        {agreeing} of {frames} frames and scenes. Where fewer turns comply {simple_k} of {simple_n} pairs part.""",
         len(rows),
         ("compliance",),
         depending=sum(depends.values()),
@@ -89,6 +90,8 @@ def c25(results):
         listed="; ".join(_told(task, own) for task, own in complex_ones.groupby("task")),
         worse=int(parted["euler_is_worse"].sum()),
         parted=len(parted),
+        agreeing=int(agree.sum()),
+        frames=len(agree),
         simple_k=int(simple["parts"].sum()),
         simple_n=len(simple),
     )
@@ -113,12 +116,11 @@ def _depends(task: str, rows: pd.DataFrame) -> bool:
 
 def _compared(rows: pd.DataFrame) -> pd.DataFrame:
     """The pairs with: turns, how many comply; is_turned; factor, NaN if both fail alike; parts; euler_is_worse."""
-    worse_by = np.stack([_worse_by(rows, column) for column in PERFORMANCE if column in rows], axis=1)
+    worse_by = np.stack([_worse_by(rows, column) for column in PERFORMANCE], axis=1)
     most = worse_by[np.arange(len(rows)), np.abs(worse_by).argmax(axis=1)]
     ends, base_ends = rows["outcome"].astype(str), rows["outcome_base"].astype(str)
-    most = np.where(
-        ends == base_ends, np.where(ends == "done", most, np.nan), np.where(ends == "done", -np.inf, np.inf)
-    )
+    alike = ends == base_ends
+    most = np.select([~alike & (ends == "done"), ~alike, ends != "done"], [-np.inf, np.inf, np.nan], most)
     factor = np.exp(np.abs(most))
     return rows.assign(
         turns=[len(set(word.partition("about ")[2]) & set("xyz")) for word in rows["complies"]],
@@ -134,8 +136,7 @@ def _worse_by(rows: pd.DataFrame, column: str) -> np.ndarray:
     floor = FLOORS[PERFORMANCE[column]]
     own, base = (np.log(rows[name].clip(lower=floor)) for name in (column, f"{column}_base"))
     by = base - own if column in MORE_IS_BETTER else own - base
-    only_one = base.isna().astype(float).replace({1.0: -np.inf}) + own.isna().astype(float).replace({1.0: np.inf})
-    return by.fillna(only_one.fillna(0.0)).to_numpy()
+    return np.select([own.isna() & base.isna(), own.isna(), base.isna()], [0.0, np.inf, -np.inf], by)
 
 
 def _told(task: str, rows: pd.DataFrame) -> str:

@@ -61,7 +61,7 @@ def planes_apart(C: np.ndarray, reference: np.ndarray) -> np.ndarray:
     found = np.full(len(C), np.nan)
     measured = np.isfinite(C).all(axis=(1, 2)) & np.isfinite(reference).all(axis=(1, 2))
     if measured.any():
-        normals = [np.linalg.svd(one[measured])[0][:, :, 2] for one in (C, reference)]
-        sine = np.linalg.norm(np.cross(*normals), axis=1)
-        found[measured] = np.arctan2(sine, np.abs(np.sum(normals[0] * normals[1], axis=1)))
+        one, other = (np.linalg.svd(each[measured])[0][:, :, 2] for each in (C, reference))  # normals of the planes
+        sine = np.linalg.norm(np.cross(one, other), axis=1)
+        found[measured] = np.arctan2(sine, np.abs(np.sum(one * other, axis=1)))
     return found
