@@ -13,7 +13,7 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from bench import force
-from bench.contender import Representation
+from bench.contender import PAPERS_GAINS, Gains, Representation
 from bench.errors import BadNumber, Incompatible
 from bench.impedance import Impedance, assembly, law_of
 
@@ -112,9 +112,10 @@ def springy(one: Impedance, representation: Representation | None = None) -> Com
     return Compliant(word, representation, impedance=one)
 
 
-def check_touch(touch: force.Touch) -> None:
-    """BadNumber if an apparent inertia or a damping is none."""
-    for name, value, unit in zip(touch._fields, touch, ("kg", "kg m^2", "1/s"), strict=True):
+def check_constants(gains: Gains, touch: force.Touch) -> None:
+    """BadNumber if a gain, an apparent inertia or a damping is none."""
+    usual = PAPERS_GAINS._asdict() | force.TOUCH._asdict()
+    units = {"kp": "1/s^2", "kv": "1/s", "m_p": "kg", "m_o": "kg m^2", "kc": "1/s"}
+    for name, value in (gains._asdict() | touch._asdict()).items():
         if not 0.0 < value < float("inf"):
-            default = getattr(force.TOUCH, name)
-            raise BadNumber(f"{name} = {value} {unit}: give a finite number above 0 (try: {default})")
+            raise BadNumber(f"{name} = {value} {units[name]}: give a finite number above 0 (try: {usual[name]})")

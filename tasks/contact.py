@@ -19,7 +19,6 @@ from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import mujoco
-import numpy as np
 
 from tasks.arm import LOOK, Arm
 from tasks.base import AT_REST, IDENTITY, BadValue, Quat, Vector, sensor_xml
@@ -179,19 +178,6 @@ def refuse(task: ContactTask, arm: Arm) -> None:
             f"arm '{arm.name}' has no site 'wrist', where task '{task.name}' mounts the hand and its force sensor "
             '(add <site name="wrist"/> to the last body of its file)'
         )
-
-
-def check(order: Order) -> None:
-    """BadValue if an order is none: what was given, what is allowed, the cure."""
-    if len(order.held) != 6 or any(one not in (0, 1) for one in order.held):
-        raise BadValue(f"order '{order.name}': held = {order.held} must be six of 0 and 1, for {', '.join(AXES)}")
-    if len(order.exerts) != 6 or not np.isfinite(order.exerts).all():
-        raise BadValue(f"order '{order.name}': exerts = {order.exerts} must be six finite numbers [N, N m]")
-    for axis, held, exerted in zip(AXES, order.held, order.exerts, strict=True):
-        if held and exerted:
-            raise BadValue(
-                f"order '{order.name}': {axis} is held and shall exert {exerted:g} at once (release it or exert 0)"
-            )
 
 
 def leg(count: int, tick: int, ticks: int) -> int:

@@ -13,8 +13,8 @@ from typing import Any
 import numpy as np
 
 from tasks.arm import Arm
-from tasks.base import BadValue
-from tasks.contact import STANDARD, ContactModel, ContactTask, Trial, check, leg, model_xml, prepare
+from tasks.contact import STANDARD, ContactModel, ContactTask, Trial, leg, model_xml, prepare
+from tasks.contact_checks import check_contact, check_trial
 from tasks.discovery import pick
 from tasks.episode import INTEGRATORS, Physics, control, engine
 from tasks.rules import ticks
@@ -74,11 +74,10 @@ def environment(
     """A dm_control Environment of one trial.
 
     Errors:
-        BadValue: the arm cannot be set the task, or the order is none.
+        BadValue: the arm cannot be set the task, or the trial or the contact model is none.
     """
-    check(trial.order)
-    if len(trial.q) != arm.joints:
-        raise BadValue(f"trial '{trial.id}': q has {len(trial.q)} numbers, and '{arm.name}' {arm.joints} joints")
+    check_trial(trial, arm)
+    check_contact(contact)
     physics = Physics.from_xml_string(model_xml(task, arm, dt, contact))
     physics.model.opt.integrator = pick("integrator", integrator, INTEGRATORS, "tasks/episode.py")
     horizon = ticks(task.horizon_s, dt)

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import mujoco
 import numpy as np
 
-from bench.compliance import Compliant
+from bench.compliance import Compliant, check_constants
 from bench.engines import contact_episode
 from bench.engines.compiled import compile_function
 from bench.engines.contact_episode import USUAL, Conditions, Ended, blank, made, numbers
@@ -16,8 +16,12 @@ from bench.engines.native import contact as native
 from bench.engines.native import trapped
 from bench.engines.reference import contact as reference
 from bench.engines.run import MUJOCO_INTEGRATORS
+from bench.errors import BadNumber, UnknownWord
 from tasks.arm import Arm
-from tasks.contact import STANDARD, ContactModel, ContactTask, Trial, model_xml, prepare
+from tasks.contact import STANDARD, ContactModel, ContactTask, Trial, model_xml, prepare, refuse
+from tasks.contact_checks import check_contact, check_trial
+
+ENGINES = ("native", "reference")
 
 
 class Simulation(NamedTuple):
@@ -44,14 +48,32 @@ def run(
 
     Args:
         engine: "native", or "reference" for dm_control's own loop.
+    Errors, before the first episode begins:
+        UnknownWord: the engine or the integrator. BadNumber: a constant of the controller, or the control period.
+        BadValue: the arm cannot be set the task, or a trial or the contact model is none.
     """
+    trials = tuple(trials)
+    _check(engine, task, arm, trials, conditions, contact)
     if engine == "reference":
-        for trial in trials:
-            yield reference.run(compliant, task, arm, trial, conditions, contact)
-        return
+        return (reference.run(compliant, task, arm, trial, conditions, contact) for trial in trials)
     ready = simulation(task, arm, conditions, contact)
+    return (_episode(ready, compliant, task, arm, trial, conditions) for trial in trials)
+
+
+def _check(
+    engine: str, task: ContactTask, arm: Arm, trials: tuple[Trial, ...], conditions: Conditions, contact: ContactModel
+) -> None:
+    refuse(task, arm)
+    known = {"engine": (engine, ENGINES), "integrator": (conditions.integrator, MUJOCO_INTEGRATORS)}
+    for kind, (word, words) in known.items():
+        if word not in words:
+            raise UnknownWord(kind, word, sorted(words))
+    if not 0.0 < conditions.dt_s < np.inf:
+        raise BadNumber(f"dt_s = {conditions.dt_s} s: give a finite number above 0 (try: {USUAL.dt_s})")
+    check_constants(conditions.gains, conditions.touch)
+    check_contact(contact)
     for trial in trials:
-        yield _episode(ready, compliant, task, arm, trial, conditions)
+        check_trial(trial, arm)
 
 
 def simulation(task: ContactTask, arm: Arm, conditions: Conditions, contact: ContactModel = STANDARD) -> Simulation:

@@ -1,0 +1,73 @@
+"""What is refused before an episode in contact begins: what was given, what is allowed, the cure.
+
+An order may hold nothing (the hand is led by hand) or everything (nothing complies): unusual, and it has a meaning.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from tasks.arm import Arm
+from tasks.base import BadValue
+from tasks.contact import AXES, MOST_LEGS, ContactModel, Order, Trial
+from tasks.episode import UNIT_NORM_TOLERANCE
+
+
+def check_order(order: Order) -> None:
+    """BadValue if an order is none."""
+    what = f"order '{order.name}'"
+    if np.shape(order.held) != (6,) or any(one not in (0, 1) for one in order.held):
+        raise BadValue(
+            f"{what}: held = {_on_one_line(order.held)} must be six of 0 and 1, for {', '.join(AXES)} "
+            "(the diagonal of the selection matrix: 1 is held, 0 complies)"
+        )
+    _check_numbers(f"{what}: exerts", order.exerts, 6, "N, N m")
+    _check_numbers(f"{what}: velocity", order.velocity, 3, "m/s")
+    for axis, held, exerted in zip(AXES, order.held, order.exerts, strict=True):
+        if held and exerted:
+            raise BadValue(f"{what}: {axis} is held and shall exert {exerted:g} at once (release it or exert 0)")
+
+
+def check_trial(trial: Trial, arm: Arm) -> None:
+    """BadValue if no episode of this arm can be made of a trial."""
+    check_order(trial.order)
+    what = f"trial '{trial.id}'"
+    _check_numbers(f"{what}: q", trial.q, arm.joints, "rad", f", one for each joint of arm '{arm.name}'")
+    for i, (angle, lower, upper) in enumerate(zip(trial.q, arm.lower, arm.upper, strict=True)):
+        if not lower <= angle <= upper:
+            raise BadValue(
+                f"{what}: q has joint {i + 1} of arm '{arm.name}' at {angle:g} rad, outside {lower:g} to {upper:g} "
+                "(is it a trial of another arm?)"
+            )
+    for field in ("goal_wxyz", "mount_wxyz", "scene_wxyz"):
+        quat = getattr(trial, field)
+        if np.shape(quat) != (4,) or not abs(math.hypot(*quat) - 1.0) <= UNIT_NORM_TOLERANCE:
+            raise BadValue(f"{what}: {field} = {quat} is no unit quaternion wxyz (divide it by its norm)")
+    _check_numbers(f"{what}: scene_pos", trial.scene_pos, 3, "m")
+    if any(trial.push) and trial.legs:
+        raise BadValue(f"{what}: it has a push and legs, which take its place (leave one of them away)")
+    if len(trial.pushes) > MOST_LEGS:
+        raise BadValue(f"{what}: {len(trial.pushes)} legs, and {MOST_LEGS} are the most (leave some away)")
+    for push in trial.pushes:
+        _check_numbers(f"{what}: a push", push, 6, "N, N m")
+
+
+def check_contact(contact: ContactModel) -> None:
+    """BadValue for numbers that MuJoCo would replace by its defaults without a word."""
+    for name, value in contact._asdict().items():
+        least, most = (0.0, 1.0) if name in ("dmin", "dmax") else (0.0, math.inf)
+        if not (least < value < most or (name == "friction" and value == 0.0)):
+            bounds = "between 0 and 1" if most == 1.0 else "finite and above 0"
+            raise BadValue(f"contact model: {name} = {value} must be {bounds} (try: {getattr(ContactModel(), name)})")
+
+
+def _check_numbers(what: str, given: Any, count: int, unit: str, of: str = "") -> None:
+    if np.shape(given) != (count,) or not np.isfinite(given).all():
+        raise BadValue(f"{what} = {_on_one_line(given)} must be {count} finite numbers [{unit}]{of}")
+
+
+def _on_one_line(given: Any) -> str:
+    return " ".join(str(given).split())
