@@ -10,6 +10,7 @@ import numpy as np
 from bench.contact_metric import Pose, Response
 from bench.yielding import in_free_space
 from tasks.contact import Trial
+from tasks.domains import peg_in_hole
 from tasks.rotations import columns
 
 NOTHING = np.empty((0, 3))
@@ -65,3 +66,12 @@ def scene_normal(trial: Trial) -> np.ndarray:
 def wrist_axis(one: Response) -> np.ndarray:
     """The z axis of the wrist, out of it, N x 3 in the base frame, however the hand's frame is drawn on the hand."""
     return one.R @ np.array(columns(one.trial.mount_wxyz))[:, 2]
+
+
+def insertion(pose: Pose) -> np.ndarray | None:
+    """How far the tip is below the mouth of the hole, along its axis [m], N, and 0 beside it; None without a hole."""
+    one = last(pose)
+    if one is None or pose.task.name != peg_in_hole.TASK.name:
+        return None
+    across, along, depth = columns(one.trial.scene_wxyz) @ (np.array(one.trial.scene_pos) - one.p).T
+    return np.where(np.maximum(np.abs(across), np.abs(along)) < peg_in_hole.HOLE, depth, 0.0)

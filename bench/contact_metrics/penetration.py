@@ -6,11 +6,9 @@ from bench.contact_metric import ContactMetric, Pose
 
 
 def measure(pose: Pose) -> float:
-    """max(0, -gap) [m] over all ticks; NaN if there is no scene."""
-    if not pose.task.surroundings(pose.arm).scene:
-        return np.nan
-    depths = np.concatenate([-one.gap for one in pose.responses])
-    return float(np.fmax(np.fmax.reduce(depths, initial=np.nan), 0.0)) if len(depths) else np.nan
+    """max -gap [m] over all ticks; NaN if they never touched."""
+    nearest = float(np.fmin.reduce(np.concatenate([one.gap for one in pose.responses]), initial=np.nan))
+    return -nearest if nearest < 0.0 else np.nan
 
 
 METRIC = ContactMetric("penetration", "penetration_m", "m", "deepest penetration of hand and scene", measure)

@@ -1,0 +1,377 @@
+"""Metrics of contact on records whose answers are known."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation as Turn
+
+import tasks
+from bench.compliance import hybrid, springy
+from bench.contact_metric import Pose, Response
+from bench.contact_metrics import (
+    alignment_error,
+    contact_settling_time,
+    crank_angle,
+    force_error_peak,
+    force_error_rms,
+    held_turn,
+    insertion_depth,
+    jam,
+    leakage,
+    least_yield,
+    loop_drift,
+    loop_rest,
+    mean_misalignment,
+    misalignment,
+    moment_error_peak,
+    moment_error_rms,
+    normal_force_error,
+    peak_force,
+    peak_moment,
+    peak_torque_ratio,
+    penetration,
+    stiffness_asymmetry,
+    stiffness_axes,
+    stiffness_condition,
+    work_residual,
+)
+from bench.impedances import coordinates_relative, geometric
+from bench.representations import zyx_euler
+from bench.yielding import compliance, rotation_vector
+from tasks.contact import Order, Trial
+from tasks.domains import crank, force_on_plane, peg_in_hole, surface_alignment, wrench_probe
+from tasks.rotations import about, zyx
+
+ARM = tasks.arm("ur5e")
+CARTESIAN = hybrid("hybrid-base", "inverse")
+SPRINGS = springy(geometric.IMPEDANCE)
+TICKS = 101
+TIME = np.linspace(0.0, 1.0, TICKS)
+MOMENTS = 0.02 * np.vstack((np.eye(3), -np.eye(3)))
+
+
+def order(*held, exerts=(0.0,) * 6) -> Order:
+    return Order("as given", held, exerts)
+
+
+def trial(of: Order, **more) -> Trial:
+    return Trial("one", "pose", of, ARM.home, (1.0, 0.0, 0.0, 0.0), **more)
+
+
+def answered(of: Trial, outcome="done", **arrays) -> Response:
+    """A response that rests at the identity but for the arrays given."""
+    still = np.zeros((TICKS, 3))
+    blank = {
+        "time": TIME,
+        "R": np.tile(np.eye(3), (TICKS, 1, 1)),
+        **dict.fromkeys(("omega", "p", "force", "moment"), still),
+        **dict.fromkeys(("gap", "turned", "load"), np.zeros(TICKS)),
+    }
+    return Response(of, outcome, **(blank | arrays))
+
+
+def pose(*responses, task=wrench_probe.TASK, controller=CARTESIAN) -> Pose:
+    return Pose(task, ARM, controller, responses)
+
+
+def spun(vector) -> np.ndarray:
+    """Orientations that turn evenly by a rotation vector [rad]."""
+    return Turn.from_rotvec(np.outer(TIME, vector)).as_matrix()
+
+
+def yielding(C, *held, controller=CARTESIAN, outcome="done") -> Pose:
+    """Six small moments on a hand whose rotation per moment is C."""
+    return pose(
+        *(
+            answered(trial(order(1, 1, 1, *held), push=(0.0, 0.0, 0.0, *m)), outcome, R=spun(C @ m))
+            for m in MOMENTS.tolist()
+        ),
+        controller=controller,
+    )
+
+
+GENERAL = np.array([[0.3, 0.1, -0.2], [0.05, 0.5, 0.1], [0.2, -0.1, 0.4]])
+
+
+def test_rotation_vector_is_scipys():
+    turns = Turn.from_rotvec(np.random.default_rng(0).uniform(-1.5, 1.5, (50, 3)))
+    np.testing.assert_allclose(rotation_vector(turns.as_matrix()), turns.as_rotvec(), atol=1e-14)
+
+
+def test_rotation_vector_of_the_identity_is_zero():
+    np.testing.assert_array_equal(rotation_vector(np.eye(3)), np.zeros(3))
+
+
+def test_six_moments_give_back_the_rotation_per_moment():
+    np.testing.assert_allclose(compliance(yielding(GENERAL, 0, 0, 1)), GENERAL, rtol=1e-10)
+
+
+def test_what_grows_with_the_square_of_the_moment_cancels_between_opposites():
+    ran = yielding(GENERAL, 0, 0, 1).responses
+    bent = [one._replace(R=spun(rotation_vector(one.R[-1]) + np.array((1e-3, 0.0, 0.0)))) for one in ran]
+    np.testing.assert_allclose(compliance(pose(*bent)), GENERAL, rtol=1e-10)
+
+
+def test_nothing_is_yielded_unless_the_moments_span_space():
+    assert np.isnan(compliance(pose(*yielding(GENERAL, 0, 0, 1).responses[:2]))).all()
+
+
+def test_nothing_is_yielded_if_an_episode_broke_off():
+    assert np.isnan(compliance(yielding(GENERAL, 0, 0, 1, outcome="singular"))).all()
+
+
+def test_nothing_is_yielded_where_something_else_touches_the_hand():
+    touching = yielding(GENERAL, 0, 0, 1)._replace(task=surface_alignment.TASK)
+    assert np.isnan(compliance(touching)).all()
+
+
+def leaning(angle: float) -> np.ndarray:
+    """A hand that complies about y, and about an axis that leans from x by an angle towards -z."""
+    axes = np.array(((math.cos(angle), 0.0, -math.sin(angle)), (0.0, 1.0, 0.0)))
+    return 0.08 * axes.T @ axes
+
+
+def test_misalignment_is_the_angle_of_the_leaning_axis():
+    measured = yielding(leaning(0.6), 0, 0, 1)
+    assert misalignment.measure(measured) == pytest.approx(0.6)
+    assert mean_misalignment.measure(measured) == pytest.approx(0.3)
+
+
+def test_leakage_is_the_tangent_of_the_leaning_axis():
+    assert leakage.measure(yielding(leaning(0.6), 0, 0, 1)) == pytest.approx(math.tan(0.6))
+
+
+def test_a_hand_that_turns_backwards_is_half_a_turn_astray():
+    assert misalignment.measure(yielding(-0.1 * np.eye(3), 0, 0, 1)) == pytest.approx(math.pi)
+
+
+def test_a_moment_that_turns_nothing_has_no_angle_and_no_leakage():
+    deaf = yielding(np.diag((0.0, 0.1, 0.0)), 0, 0, 1)
+    assert math.isnan(misalignment.measure(deaf))
+    assert math.isnan(leakage.measure(deaf))
+    assert least_yield.measure(deaf) == pytest.approx(0.0, abs=1e-15)
+
+
+def test_least_yield_is_the_least_over_all_moments_about_axes_that_comply():
+    """[[2, 1], [1, 2]] yields 1 to the moment about (1, -1)."""
+    C = np.array([[0.2, 0.1, 0.0], [0.1, 0.2, 0.0], [0.0, 0.0, 0.0]])
+    assert least_yield.measure(yielding(C, 0, 0, 1)) == pytest.approx(0.1)
+
+
+@pytest.mark.parametrize("metric", [leakage, misalignment, least_yield, stiffness_condition, stiffness_axes])
+def test_nothing_complies_and_nothing_is_measured(metric):
+    assert math.isnan(metric.measure(yielding(GENERAL, 1, 1, 1)))
+
+
+def test_an_impedance_complies_about_all_axes_whatever_the_order():
+    springs = yielding(np.diag((0.1, 0.2, 0.4)), 0, 1, 1, controller=SPRINGS)
+    assert stiffness_condition.measure(springs) == pytest.approx(4.0)
+    assert math.isnan(leakage.measure(springs))
+
+
+def test_stiffness_of_one_axis_has_no_condition():
+    assert math.isnan(stiffness_condition.measure(yielding(GENERAL, 0, 1, 1)))
+
+
+def test_a_symmetric_stiffness_has_no_asymmetry():
+    assert stiffness_asymmetry.measure(yielding(GENERAL + GENERAL.T, 0, 0, 0)) == pytest.approx(0.0, abs=1e-12)
+
+
+def test_asymmetry_is_the_skew_part_over_the_symmetric_one():
+    skew = np.array([[0.0, -0.1, 0.0], [0.1, 0.0, 0.0], [0.0, 0.0, 0.0]])
+    C = skew + 0.1 * np.eye(3)
+    assert stiffness_asymmetry.measure(yielding(C, 0, 0, 0)) == pytest.approx(math.sqrt(2.0 / 3.0))
+
+
+@pytest.mark.parametrize("angle", [0.0, 0.2, 0.7])
+def test_principal_axes_are_those_that_the_stiffness_was_turned_to(angle):
+    Q = Turn.from_rotvec((0.0, angle, 0.0)).as_matrix()
+    springs = yielding(Q @ np.diag((0.1, 0.2, 0.3)) @ Q.T, 0, 0, 0, controller=SPRINGS)
+    assert stiffness_axes.measure(springs) == pytest.approx(angle, abs=1e-7)
+
+
+def test_principal_axes_within_a_plane_of_equal_stiffness_are_any():
+    Q = Turn.from_rotvec((0.0, 0.0, 0.5)).as_matrix()
+    springs = yielding(Q @ np.diag((0.1, 0.1, 0.3)) @ Q.T, 0, 0, 0, controller=SPRINGS)
+    assert stiffness_axes.measure(springs) == pytest.approx(0.0, abs=1e-7)
+
+
+def moving(seed: int) -> dict:
+    draw = np.random.default_rng(seed)
+    return {
+        "R": Turn.random(TICKS, rng=draw).as_matrix(),
+        **{k: draw.normal(size=(TICKS, 3)) for k in ("omega", "moment")},
+    }
+
+
+@pytest.mark.parametrize("law", ["hybrid", "relative"])
+def test_work_is_conserved_to_rounding_in_coordinates_that_convert(law):
+    euler = zyx_euler.REPRESENTATION
+    controller = (
+        hybrid("hybrid", "inverse", euler) if law == "hybrid" else springy(coordinates_relative.IMPEDANCE, euler)
+    )
+    assert (
+        work_residual.measure(pose(answered(trial(order(1, 1, 1, 0, 0, 1)), **moving(1)), controller=controller))
+        < 1e-13
+    )
+
+
+def test_work_is_not_conserved_by_moments_that_are_not_converted():
+    controller = hybrid("hybrid-unconverted", "inverse", zyx_euler.REPRESENTATION)
+    ran = answered(trial(order(1, 1, 1, 0, 0, 1)), **moving(1))
+    assert work_residual.measure(pose(ran, controller=controller)) > 0.1
+
+
+def test_work_has_no_residual_without_coordinates_or_without_motion():
+    still = answered(trial(order(1, 1, 1, 0, 0, 1)))
+    assert math.isnan(work_residual.measure(pose(still)))
+    assert math.isnan(
+        work_residual.measure(pose(still, controller=hybrid("hybrid", "inverse", zyx_euler.REPRESENTATION)))
+    )
+
+
+PRESSING = order(1, 1, 0, 0, 0, 1, exerts=(0.0, 0.0, -20.0, 0.0, 0.0, 0.0))
+FROM = 40
+"""Tick of the first touch in what follows."""
+
+
+def pressed(force, moment=(0.0, 0.0, 0.0), task=surface_alignment.TASK, **more) -> Pose:
+    """Nothing before the first touch, then a constant force and moment, or those of every tick."""
+    felt = np.zeros((2, TICKS, 3))
+    felt[0, FROM:], felt[1, FROM:] = force, moment
+    return pose(answered(trial(PRESSING, **more), force=felt[0], moment=felt[1]), task=task)
+
+
+def test_force_error_is_what_is_missing_along_the_axis_that_complies():
+    measured = pressed((3.0, -4.0, 17.0))
+    assert force_error_rms.measure(measured) == pytest.approx(3.0)
+    assert force_error_peak.measure(measured) == pytest.approx(3.0)
+
+
+def test_moment_error_is_the_moment_about_axes_that_comply():
+    measured = pressed((0.0, 0.0, 20.0), (0.3, 0.4, 9.0))
+    assert moment_error_rms.measure(measured) == pytest.approx(0.5)
+    assert moment_error_peak.measure(measured) == pytest.approx(0.5)
+
+
+def test_errors_are_counted_from_the_first_touch_on():
+    ramp = np.zeros((TICKS - FROM, 3))
+    ramp[:, 2] = np.linspace(10.0, 20.0, TICKS - FROM)
+    assert force_error_peak.measure(pressed(ramp)) == pytest.approx(10.0)
+
+
+@pytest.mark.parametrize("metric", [force_error_rms, moment_error_peak, contact_settling_time, normal_force_error])
+def test_without_a_touch_there_is_no_error(metric):
+    assert math.isnan(metric.measure(pressed((0.0, 0.0, 0.0))))
+
+
+def test_settling_is_counted_from_the_touch_to_the_last_tick_outside_the_band():
+    force = np.tile((0.0, 0.0, 20.3), (TICKS - FROM, 1))
+    force[10] = (0.0, 0.0, 20.5)  # 2.5 %, once
+    assert contact_settling_time.measure(pressed(force)) == pytest.approx(0.11)
+
+
+def test_a_force_within_the_band_from_the_touch_on_settles_at_once():
+    assert contact_settling_time.measure(pressed((0.0, 0.0, 19.9))) == 0.0
+
+
+def test_a_force_that_stays_outside_the_band_does_not_settle():
+    assert math.isnan(contact_settling_time.measure(pressed((0.0, 0.0, 19.0))))
+
+
+def test_a_tool_flat_on_a_plate_has_no_alignment_error():
+    """The wrist's axis points down; how the hand's frame is drawn on it does not matter."""
+    mount = zyx(0.3, -0.8, 1.1)
+    wrist = Turn.from_rotvec((math.pi - 0.2, 0.0, 0.0))
+    drawn = (wrist * Turn.from_quat(mount, scalar_first=True)).as_matrix()
+    flat = answered(
+        trial(PRESSING, mount_wxyz=mount, scene_wxyz=about((1.0, 0.0, 0.0), -0.2)), R=np.tile(drawn, (TICKS, 1, 1))
+    )
+    assert alignment_error.measure(pose(flat, task=surface_alignment.TASK)) == pytest.approx(0.0, abs=1e-12)
+    askew = flat._replace(trial=flat.trial._replace(scene_wxyz=about((1.0, 0.0, 0.0), 0.1)))
+    assert alignment_error.measure(pose(askew, task=surface_alignment.TASK)) == pytest.approx(0.3)
+
+
+def test_normal_force_error_is_along_the_normal_of_the_plane():
+    """A plane that leans by 30 degrees: a force along it is no error."""
+    plane = about((0.0, 1.0, 0.0), math.radians(30.0))
+    normal, along = np.array((0.5, 0.0, math.sqrt(0.75))), np.array((math.sqrt(0.75), 0.0, -0.5))
+    measured = pressed(
+        (20.0 * math.sqrt(0.75) + 2.0) * normal + 7.0 * along, task=force_on_plane.TASK, scene_wxyz=plane
+    )
+    assert normal_force_error.measure(measured) == pytest.approx(2.0)
+
+
+def test_peaks_are_the_largest_of_all_ticks_and_trials():
+    quiet, loud = (np.tile(vector, (TICKS, 1)) for vector in ((1.0, 2.0, 2.0), (0.0, 3.0, 4.0)))
+    load, gap = np.linspace(0.1, 0.7, TICKS), np.linspace(0.0, -2e-3, TICKS)
+    both = pose(
+        answered(trial(PRESSING), force=loud, moment=quiet, load=load),
+        answered(trial(PRESSING), force=quiet, moment=loud, gap=gap),
+    )
+    assert peak_force.measure(both) == peak_moment.measure(both) == 5.0
+    assert peak_torque_ratio.measure(both) == 0.7
+    assert penetration.measure(both) == 2e-3
+
+
+def test_nothing_penetrates_that_does_not_touch():
+    assert math.isnan(penetration.measure(pose(answered(trial(PRESSING)))))
+
+
+HOLE = {"scene_pos": (0.4, 0.1, 0.2), "scene_wxyz": about((1.0, 0.0, 0.0), 0.1)}
+INTO = -np.array((0.0, -math.sin(0.1), math.cos(0.1)))
+
+
+def inserted(depths, beside=0.0) -> Pose:
+    """A tip that goes down the axis of a leaning hole, or of its rim, to depths [m]."""
+    p = np.array(HOLE["scene_pos"]) + np.outer(depths, INTO) + np.array((beside, 0.0, 0.0))
+    return pose(answered(trial(PRESSING, **HOLE), p=p), task=peg_in_hole.TASK)
+
+
+def test_a_peg_at_the_bottom_is_in():
+    measured = inserted(np.linspace(-0.002, peg_in_hole.DEPTH, TICKS))
+    assert insertion_depth.measure(measured) == pytest.approx(peg_in_hole.DEPTH)
+    assert jam.measure(measured) == 0.0
+
+
+def test_a_peg_that_stands_halfway_is_stuck():
+    measured = inserted(np.minimum(np.linspace(0.0, 0.03, TICKS), 0.015))
+    assert insertion_depth.measure(measured) == pytest.approx(0.015)
+    assert jam.measure(measured) == 1.0
+
+
+def test_a_peg_on_its_way_is_not_stuck():
+    assert jam.measure(inserted(np.linspace(0.0, 0.02, TICKS))) == 0.0
+
+
+def test_a_peg_beside_the_hole_is_not_in_it():
+    measured = inserted(np.full(TICKS, 0.03), beside=2.0 * peg_in_hole.HOLE)
+    assert insertion_depth.measure(measured) == 0.0
+    assert jam.measure(measured) == 1.0
+
+
+def test_crank_angle_is_how_far_its_joint_turned():
+    turned = answered(trial(order(1, 0, 0, 0, 0, 1)), turned=np.linspace(0.2, 0.9, TICKS))
+    assert crank_angle.measure(pose(turned, task=crank.TASK)) == pytest.approx(0.7)
+    assert math.isnan(crank_angle.measure(pose(turned)))
+
+
+LEGS = ((0.0,) * 6,) * 4
+
+
+def test_loop_leaves_its_rotation_and_its_part_about_held_axes():
+    left = answered(trial(order(1, 1, 1, 0, 0, 1), legs=LEGS), R=spun((0.03, 0.0, -0.04)))
+    assert loop_rest.measure(pose(left)) == pytest.approx(0.05)
+    assert loop_drift.measure(pose(left)) == pytest.approx(0.04)
+
+
+def test_a_push_that_is_no_loop_leaves_nothing_to_measure():
+    pushed = answered(trial(order(1, 1, 1, 0, 0, 1)), R=spun((0.0, 0.0, 0.1)))
+    assert math.isnan(loop_rest.measure(pose(pushed)))
+    assert math.isnan(loop_drift.measure(pose(pushed)))
+
+
+def test_held_turn_is_about_held_axes_alone():
+    turned = answered(trial(PRESSING), R=spun((0.3, 0.1, 0.02)))
+    assert held_turn.measure(pose(turned, task=surface_alignment.TASK)) == pytest.approx(0.02)
