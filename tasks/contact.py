@@ -217,9 +217,8 @@ def _pairs(hand: ElementTree.Element, scene: ElementTree.Element, contact: Conta
                 geom2=other.attrib["name"],
                 condim="3",
                 friction=f"{contact.friction!r} {contact.friction!r} 0 0 0",
-                solreffriction=f"{contact.slip!r} {contact.dampratio!r}",
-                **_softness(contact),
-            )
+                solreffriction=f"{contact.slip!r} 1",
+            ).attrib.update(_softness(contact))
     return pairs
 
 

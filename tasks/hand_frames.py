@@ -8,7 +8,7 @@ import math
 from tasks.arm import Arm
 from tasks.base import Quat, Vector
 from tasks.kinematics import Kinematics
-from tasks.rotations import about, columns, multiply
+from tasks.rotations import about, multiply, to_base
 
 
 def posture(arm: Arm) -> tuple[float, ...]:
@@ -32,9 +32,12 @@ def mounts(arm: Arm, q: tuple[float, ...], goal: Quat) -> Quat:
 def at(arm: Arm, q: tuple[float, ...], point: Vector) -> Vector:
     """Where a point of the wrist's frame is [m], base frame."""
     p, quat = wrist(arm, q)
-    n, o, a = columns(quat)
-    x, y, z = (p[i] + point[0] * n[i] + point[1] * o[i] + point[2] * a[i] for i in range(3))
-    return (x, y, z)
+    return plus(p, to_base(quat, point))
+
+
+def plus(p: Vector, v: Vector) -> Vector:
+    """p + v."""
+    return (p[0] + v[0], p[1] + v[1], p[2] + v[2])
 
 
 def leaning(tilt_deg: float, azimuth_deg: float) -> Quat:

@@ -44,6 +44,13 @@ def to_body(q: Quat, v: Vector) -> Vector:
     return (_dot(n, v), _dot(o, v), _dot(a, v))
 
 
+def to_base(q: Quat, v: Vector) -> Vector:
+    """R(q) v: body coordinates to base coordinates."""
+    n, o, a = columns(q)
+    x, y, z = (v[0] * n[i] + v[1] * o[i] + v[2] * a[i] for i in range(3))
+    return (x, y, z)
+
+
 def unit(v: Vector) -> Vector:
     """The vector v / |v|."""
     length = math.hypot(*v)

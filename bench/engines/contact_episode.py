@@ -2,6 +2,7 @@
 
 from typing import Any, NamedTuple
 
+import mujoco
 import numpy as np
 
 from bench.compliance import FORMS, Compliant
@@ -152,8 +153,12 @@ def write_record(record, time, R, omega, p, f, m, gap, turned, load):
     record[24] = load
 
 
-def made(record: np.ndarray, failure: int, ticks: int, message: str = "") -> Ended:
-    """The episode of a filled record."""
+def made(record: np.ndarray, failure: int, ticks: int, message: str, data: Any) -> Ended:
+    """The episode of a filled record; broken if MuJoCo left out contacts or constraints for want of memory."""
+    kinds = (mujoco.mjtWarning.mjWARN_CONTACTFULL, mujoco.mjtWarning.mjWARN_CNSTRFULL)
+    left_out = [kind.name for kind in kinds if data.warning[kind].number]
+    if failure != BROKEN and left_out:
+        failure, message = BROKEN, ", ".join(left_out)
     return Ended(OUTCOMES[failure], record[:ticks], message)
 
 

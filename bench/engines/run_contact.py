@@ -97,7 +97,7 @@ def _episode(ready: Simulation, compliant: Compliant, task, arm: Arm, trial: Tri
         pointer(compliant), ready.view, ready.work, shape, conditions.gains, conditions.touch, record
     )
     message = trapped.batch().error() if failure == contact_episode.BROKEN else ""
-    return made(record, failure, ticks, message)
+    return made(record, failure, ticks, message, ready.data)
 
 
 _lock = threading.Lock()

@@ -21,8 +21,8 @@ import math
 from tasks.arm import Arm
 from tasks.base import Vector
 from tasks.contact import ContactTask, Order, Surroundings, Trial
-from tasks.hand_frames import at, leaning, mounts, posture, wrist
-from tasks.rotations import about, columns, multiply, zyx
+from tasks.hand_frames import at, leaning, mounts, plus, posture, wrist
+from tasks.rotations import about, multiply, to_base, zyx
 
 PEG = 0.0125  # half its side [m]
 HOLE = 0.01275  # half its side [m]: a clearance of 1 part in 50
@@ -72,9 +72,7 @@ def _side(k: int) -> str:
 
 def _box(name: str, size: Vector, pos: Vector, quarters: int, lean: float = 0.0) -> str:
     turn = about((0.0, 0.0, 1.0), math.remainder(quarters * math.pi / 2, math.tau))
-    n, o, a = columns(turn)
-    place = (pos[0] * n[i] + pos[1] * o[i] + pos[2] * a[i] for i in range(3))
-    quat = multiply(turn, about((0.0, 1.0, 0.0), lean))
+    place, quat = to_base(turn, pos), multiply(turn, about((0.0, 1.0, 0.0), lean))
     where = f'size="{_text(size)}" pos="{_text(place)}" quat="{_text(quat)}"'
     return f'<geom name="{name}" type="box" {where} rgba=".75 .7 .6 .5"/>'
 
@@ -102,9 +100,8 @@ def _trials(arm: Arm, holes, betas) -> tuple[Trial, ...]:
     found = []
     for (tilt, azimuth), beta in itertools.product(holes, betas):
         hole, goal = multiply(leaning(tilt, azimuth), upright), zyx(0.0, math.radians(beta), 0.0)
-        x, y, z = columns(hole)
         over = CLEARANCE + 2 * PEG * math.sin(math.radians(tilt))  # no corner is lower than that
-        place = tuple(tip[i] - OFFSET[0] * x[i] - OFFSET[1] * y[i] - over * z[i] for i in range(3))
+        place = plus(tip, to_base(hole, (-OFFSET[0], -OFFSET[1], -over)))
         pose = f"tilt {tilt} about {azimuth}, beta{beta:+d}"
         found.append(Trial(pose, pose, ORDER, q, goal, mounts(arm, q, goal), place, hole, tilt=math.radians(tilt)))
     return tuple(found)
