@@ -158,7 +158,7 @@ def _call(contender: Contender, plain, counting, tally: Tally, state: ArmState) 
     want = plain(*given, float)
     tally.stage = "linearize"
     try:
-        answer = counting(*(_counted(one, tally) for one in given), object)
+        answer = counting(*(as_counted(one, tally) for one in given), object)
     except OutsideDialect as error:
         raise OutsideDialect(f"'{contender.name}': {error}") from error
     if bits(answer) != bits(want):
@@ -169,7 +169,7 @@ def _call(contender: Contender, plain, counting, tally: Tally, state: ArmState) 
     return Call(state, tally.take(), state.is_sampled)
 
 
-def _counted(numbers: Any, tally: Tally):
+def as_counted(numbers: Any, tally: Tally):
     """Tuples and arrays with every float a counting scalar; counts of things stay ints."""
     if isinstance(numbers, int):
         return numbers
@@ -179,5 +179,5 @@ def _counted(numbers: Any, tally: Tally):
             filled[place] = Counted(numbers[place], tally)
         return filled
     if isinstance(numbers, Chain):
-        return Chain(*(_counted(one, tally) for one in numbers))
+        return Chain(*(as_counted(one, tally) for one in numbers))
     return counted(numbers, tally)
