@@ -1,4 +1,4 @@
-"""Rendered pictures of the arms for the report: stills at home, a strip of film, a short loop. Optional.
+"""Rendered pictures of the arms for the report: stills at home, strips of film, short loops. Optional.
 
     python report/media.py     renders anew into report/_static/media (make media)
 
@@ -18,10 +18,10 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
 
+from drawing import FRAMES_PER_S, HALF, MEDIA, encode, save, sheet, side_by_side, written
+
 REPORT = Path(__file__).resolve().parent
-MEDIA = REPORT / "_static" / "media"
 FACTS = MEDIA / "media.json"
-FACE = REPORT.parent / "bench" / "figures" / "fonts" / "OrientationSans-Bold.ttf"
 BACKENDS = ("egl", "osmesa")
 DRAW = "--draw"
 NO_GL = 3  # exit status of a process that cannot draw
@@ -33,20 +33,12 @@ CONTENDERS = {
     "rotation-matrix@geometric+solve": "geometric Jacobian",
 }
 STILLS_S = (0.0, 0.06, 0.12, 0.18, 0.65)
-LOOP_S, SLOWER, FRAMES_PER_S = 0.7, 4, 25  # played in 2.8 s; the band is reached in 0.65 s or so
+LOOP_S, SLOWER = 0.7, 4  # played in 2.8 s; the band is reached in 0.65 s or so
 
-STRIP = (380, 460)  # pixels of an arm at home, of a still, and of the loop's each half
+STRIP = (380, 460)  # pixels of an arm at home, and of a still
 STILL = (300, 300)
-HALF = (360, 340)
 # What is kept of a view of the model's own camera: left, top, right, bottom, as shares of its sides.
 WHOLE, CLOSE = (0.0, 0.0, 1.0, 1.0), (0.22, 0.11, 0.95, 0.88)
-INK, PAPER = (28, 36, 48), (255, 255, 255)
-COLOURS = 128  # of a PNG's palette: shading of plain shapes needs no more
-ENCODERS = {
-    "webm": ("libvpx-vp9", ["-crf", "38", "-b:v", "0"]),
-    "mp4": ("libx264", ["-crf", "27", "-movflags", "+faststart"]),
-}
-PLAIN = ["-an", "-threads", "1", "-fflags", "+bitexact", "-flags:v", "+bitexact", "-map_metadata", "-1"]
 
 
 class Motion(NamedTuple):
@@ -142,26 +134,6 @@ class View:
         return Image.fromarray(self.renderer.render()).crop((left, top, left + self.size[0], top + self.size[1]))
 
 
-def written(image, place: tuple[int, int], text: str, size: int, **anchor):
-    """The image with a line of text on it."""
-    from PIL import ImageDraw, ImageFont
-
-    ImageDraw.Draw(image).text(place, text, fill=INK, font=ImageFont.truetype(str(FACE), size), **anchor)
-    return image
-
-
-def sheet(width: int, height: int):
-    """White paper."""
-    from PIL import Image
-
-    return Image.new("RGB", (width, height), PAPER)
-
-
-def save(image, name: str) -> None:
-    """As a PNG with a palette."""
-    image.quantize(COLOURS, dither=0).save(MEDIA / name, optimize=True)
-
-
 def at_home() -> None:
     """The strip of all arms."""
     import tasks
@@ -192,43 +164,18 @@ def film(found: list[Motion], view: View) -> None:
 
 def frames(found: list[Motion], view: View) -> Iterator:
     """Images of the loop, both motions side by side."""
-    width, height = HALF
-    line = 36
+    titles = [motion.title for motion in found]
     for number in range(round(LOOP_S * SLOWER * FRAMES_PER_S)):
         time_s = number / FRAMES_PER_S / SLOWER
-        image = sheet(width * len(found), height + 2 * line)
-        for place, motion in enumerate(found):
-            image.paste(view.picture(motion.at(time_s)), (place * width, line))
-            written(image, (place * width + width // 2, line - 10), motion.title, 24, anchor="ms")
-        middle = (width * len(found) // 2, height + 2 * line - 10)
-        yield written(image, middle, f"{time_s:.2f} s, played {SLOWER} times slower", 22, anchor="ms")
-
-
-def loop(images: list) -> None:
-    """The loop in both codecs, and its poster."""
-    import imageio_ffmpeg
-    import numpy as np
-
-    for kind, (codec, options) in ENCODERS.items():
-        writer = imageio_ffmpeg.write_frames(
-            str(MEDIA / f"pole-loop.{kind}"),
-            images[0].size,
-            fps=FRAMES_PER_S,
-            codec=codec,
-            macro_block_size=2,
-            ffmpeg_log_level="error",
-            output_params=[*options, *PLAIN],
-        )
-        writer.send(None)
-        for image in images:
-            writer.send(np.ascontiguousarray(image))
-        writer.close()
-    save(images[round(STILLS_S[3] * SLOWER * FRAMES_PER_S)], "pole-loop.png")
+        pictures = [view.picture(motion.at(time_s)) for motion in found]
+        yield side_by_side(pictures, titles, f"{time_s:.2f} s, played {SLOWER} times slower")
 
 
 def draw() -> int:
     """All files, in this process; NO_GL if MuJoCo cannot draw here."""
     sys.path.insert(0, str(REPORT.parent))
+    import contact_media
+
     import tasks
     from bench.provenance import describe
 
@@ -241,8 +188,11 @@ def draw() -> int:
     found = motions()
     at_home()
     film(found, small)
-    loop(list(frames(found, large)))
-    text = json.dumps(facts(found, describe()["commit"]), indent=1) + "\n"
+    encode(list(frames(found, large)), "pole-loop", round(STILLS_S[3] * SLOWER * FRAMES_PER_S))
+    contact_media.tasks_in_contact()
+    contact_media.on_the_plate()
+    commit = describe()["commit"]
+    text = json.dumps({**facts(found, commit), "contact": contact_media.facts()}, indent=1) + "\n"
     FACTS.write_text(text, encoding="utf-8")
     return 0
 

@@ -1,4 +1,4 @@
-"""The rendered files of report/_static/media: what they show, in numbers, and the loop as a part of a page.
+"""The rendered files of report/_static/media: what they show, in numbers, and the loops as parts of pages.
 
 report/media.py made them and wrote media.json beside them; the joint motion is an episode of our own engine.
 """
@@ -55,11 +55,11 @@ def family(about: dict) -> dict[str, str]:
     return {"film_alike": str(len(alike)), "film_lost": str(failed)}
 
 
-def loop(alt: str) -> html.Html:
-    """The loop with its poster; a reader starts it. Where no video plays, the poster stands for it."""
+def loop(alt: str, name: str = "pole-loop") -> html.Html:
+    """A loop with its poster; a reader starts it. Where no video plays, the poster stands for it."""
     words = escape.escape(alt, quote=True)
-    sources = "".join(f'<source src="{SOURCE}/pole-loop.{kind}" type="{mime}">' for kind, mime in TYPES.items())
-    poster = f"{SOURCE}/pole-loop.png"
+    sources = "".join(f'<source src="{SOURCE}/{name}.{kind}" type="{mime}">' for kind, mime in TYPES.items())
+    poster = f"{SOURCE}/{name}.png"
     return html.Html(
         f'<video controls loop muted playsinline preload="none" poster="{poster}" width="720" height="412" '
         f'aria-label="{words}">{sources}<img src="{poster}" alt="{words}"></video>'

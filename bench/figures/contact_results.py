@@ -1,0 +1,156 @@
+"""Tasks in contact by controller and frame of the hand: what each is measured by, in panels and in tables."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+import pandas as pd
+
+from bench.figures import compliance_rows, html, style
+from bench.figures.inline import responsive_picture
+
+DEGREES, MILLI = 180.0 / np.pi, 1e3
+
+
+class Measure(NamedTuple):
+    """A column of compliance.parquet as it is drawn: its words, its unit there and the factor to it, a format.
+
+    middle: what stands for several episodes, "median", or "mean" of what is counted.
+    """
+
+    column: str
+    title: str
+    unit: str
+    factor: float = 1.0
+    form: str = ".2f"
+    middle: str = "median"
+
+    def over_beta(self, rows: pd.DataFrame) -> pd.Series:
+        """One value for each beta [deg] of the rows."""
+        return (rows[self.column] * self.factor).groupby(rows["beta_deg"]).agg(self.middle)
+
+
+MEASURES = {
+    "surface-alignment": (
+        Measure("alignment_error_rad", "Tool to plate at the end", "deg", DEGREES),
+        Measure("held_turn_rad", "Turned about the held axis", "deg", DEGREES),
+    ),
+    "peg-in-hole": (
+        Measure("insertion_depth_m", "Depth of insertion", "mm", MILLI, ".1f"),
+        Measure("jam", "Stuck", "%", 100.0, ".0f", "mean"),
+    ),
+    "crank": (
+        Measure("crank_angle_rad", "Turned by", "deg", DEGREES, ".1f"),
+        Measure("moment_error_rms_nm", "Moment where it complies, rms", "N m"),
+    ),
+    "force-on-plane": (
+        Measure("normal_force_error_n", "Normal force, rms error", "N"),
+        Measure("held_turn_rad", "Turned about held axes", "deg", DEGREES),
+    ),
+}
+"""Of each task the two numbers that say how it went, the tasks whose orders free turns first."""
+
+DRAWN = ("hybrid-base+inverse", "hybrid/zyx-euler+inverse", "impedance-geometric", "impedance-coordinates/zyx-euler")
+LOOKS = {
+    **compliance_rows.LOOKS,
+    "impedance-geometric": style.Look("#009e73", "^", style.DASH_DOT),
+    "impedance-coordinates/zyx-euler": style.Look("#cc79a7", "D", style.DOTTED),
+}
+"""Springs stand beside hybrid control here, and so have colours of their own."""
+
+SHIFT = 0.022  # of the axis, between controllers that would hide each other
+
+
+def tasks_of(rows: pd.DataFrame) -> list[str]:
+    """The tasks that are here, in the order of MEASURES."""
+    return [name for name in MEASURES if name in set(rows["task"])]
+
+
+def all_rows() -> pd.DataFrame:
+    """Rows of every task in contact; maybe none."""
+    return pd.concat([compliance_rows.rows(name) for name in MEASURES], ignore_index=True)
+
+
+@responsive_picture
+def by_frame(rows: pd.DataFrame, narrow: bool):
+    """A row of panels a task, over the beta of the hand's frame; a line a controller, through the medians.
+
+    Args:
+        rows: of the tasks of MEASURES.
+    """
+    names = tasks_of(rows)
+    figure, grid = style.panels(len(names), 2, height=2.15 * len(names) + 0.9, narrow=narrow, squeeze=False)
+    said = []
+    for name, pair in zip(names, grid, strict=True):
+        own = rows[rows["task"] == name]
+        for axes, measure in zip(pair, MEASURES[name], strict=True):
+            said += _panel(axes, own, measure, narrow)
+        pair[0].annotate(
+            name.replace("-", " "), (0.0, 1.0), xytext=(0, 22), xycoords="axes fraction", textcoords="offset points",
+            fontweight="bold", va="bottom",
+        )  # fmt: skip
+    for axes in grid[-1]:
+        axes.set_xlabel("β of the hand's frame [deg]" if not narrow else "β [deg]")
+    handles, labels = grid[0][0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside lower center", ncols=1 if narrow else 2)
+    return figure, f"How tasks in contact end, by controller and beta of the hand's frame; medians. {'; '.join(said)}."
+
+
+def _panel(axes, own: pd.DataFrame, measure: Measure, narrow: bool) -> list[str]:
+    betas, said = sorted(set(own["beta_deg"])), []
+    width = (betas[-1] - betas[0]) or 1.0
+    for k, contender in enumerate(DRAWN):
+        mine = own[own["contender"] == contender]
+        if mine.empty:
+            continue
+        way = contender.partition("+")[0]
+        look = LOOKS[way]
+        middle = measure.over_beta(mine)
+        shift = width * SHIFT * (k - (len(DRAWN) - 1) / 2.0)
+        axes.plot(
+            middle.index + shift, middle, color=look.colour, linestyle=look.line, label=compliance_rows.title(way)
+        )
+        if measure.middle == "median":
+            values = mine[measure.column] * measure.factor
+            axes.plot(mine["beta_deg"] + shift, values, look.marker, color=look.colour, markersize=3.0, alpha=0.55)
+        told = ", ".join(f"{value:{measure.form}} at {beta:.0f}" for beta, value in middle.items())
+        said.append(
+            f"{own['task'].iloc[0]}, {compliance_rows.title(way)}, {measure.title.lower()} in {measure.unit}: {told}"
+        )
+    axes.set_title(f"{measure.title} [{measure.unit}]", fontweight="normal", fontsize=8 if narrow else 10)
+    axes.set_xticks(betas if len(betas) < 7 else betas[:: len(betas) // 4])
+    axes.set_ylim(bottom=min(0.0, axes.get_ylim()[0]))
+    return said
+
+
+def table(own: pd.DataFrame) -> html.Markdown:
+    """A controller a line: how many of its episodes reach the end, and the task's two medians at every beta.
+
+    Args:
+        own: rows of one task of MEASURES.
+    """
+    measures, lines = MEASURES[str(own["task"].iloc[0])], []
+    betas = sorted(set(own["beta_deg"]))
+    shown = betas if len(betas) <= 3 else [betas[0], betas[len(betas) // 2], betas[-1]]
+    for contender in in_order(own):
+        mine = own[own["contender"] == contender]
+        line: dict = {
+            "Controller": compliance_rows.title(contender.partition("+")[0])
+            + ", (S J)⁺" * contender.endswith("projected"),
+            "Reach the end": html.together(f"{(mine['outcome'] == 'done').sum()} of {len(mine)}"),
+        }
+        for measure in measures:
+            middle = measure.over_beta(mine)
+            line |= {f"{measure.title} [{measure.unit}], β = {b:.0f}°": middle.get(b, np.nan) for b in shown}
+        lines.append(line)
+    forms = {f"{measure.title} [{measure.unit}], β = {b:.0f}°": measure.form for measure in measures for b in shown}
+    return html.table(pd.DataFrame(lines), forms)
+
+
+def in_order(rows: pd.DataFrame) -> list[str]:
+    """The controllers of the rows: hybrid ones first, each with its two forms side by side."""
+    ranks = {way: place for place, way in enumerate(compliance_rows.ways(rows))}
+    return sorted(
+        set(rows["contender"]), key=lambda name: (name.startswith("impedance"), ranks[name.partition("+")[0]], name)
+    )
