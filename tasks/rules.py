@@ -17,7 +17,7 @@ class Rules(NamedTuple):
     tolerance: float = 0.02
     # Band of a start at the goal: 2 % of one radian.
     floor_rad: float = 0.02
-    # A start nearer than this is at the goal. 2 % of it, 2e-8 rad, is just above 2^-26.5 = 1.1e-8 rad,
+    # A start nearer than this is at the goal. 2 % of it, 2e-8 rad, is just above sqrt(2^-53) = 1.1e-8 rad,
     # the rotation below which 1 - theta^2/2 rounds to 1 and the diagonal of R no longer changes.
     at_goal_rad: float = 1e-6
     # An engine may stop early once the angle has stayed under a hundredth of the band for hold_s. The gains

@@ -151,6 +151,6 @@ def test_number_and_unit_stay_on_one_line_wherever_the_text_is_cut():
     import units
 
     pasted = nodes.inline("", "", nodes.Text("12"))
-    block = nodes.paragraph("", "", pasted, nodes.Text(" % of 3 starts in 5 ms, "), nodes.literal("", "2 s"))
+    block = nodes.paragraph("", "", pasted, nodes.Text(" % (n = 3) of starts in 5 ms, "), nodes.literal("", "2 s"))
     units.close_up(block)
-    assert block.astext() == "12\u00a0% of 3 starts in 5\u00a0ms, 2 s"
+    assert block.astext() == "12\u00a0% (n\u00a0=\u00a03) of starts in 5\u00a0ms, 2 s"

@@ -114,12 +114,12 @@ def test_build_copies_what_pages_link_to(tmp_path):
     [
         ("+-pi/2", "±π/2"),
         ("B^-1 theta^2/2", "B⁻¹ θ²/2"),
-        ("10^-k rad", "10⁻ᵏ rad"),
+        ("10^-k rad", "10⁻ᵏ\u00a0rad"),
         ("2^-26.5 to 1e-06", "2^-26.5 to 10⁻⁶"),
         ("5.0e+06 and 0e+00", "5.0·10⁶ and 0"),
         ("1 - cos(alpha_0) <= -Kp", "1 − cos(α_0) ≤ −Kp"),
         ("12,296 poses", "12\u202f296 poses"),
-        ("0.5% in 3 ms", "0.5\u00a0% in 3\u00a0ms"),
+        ("0.5% in 3 ms, n = 12", "0.5\u00a0% in 3\u00a0ms, n\u00a0=\u00a012"),
         ("the arm's 'zero' of x'' = x'", "the arm’s ‘zero’ of x'' = x'"),
         ("alphabet", "alphabet"),
         ("half-turn", "half-turn"),
@@ -129,8 +129,9 @@ def test_spelling_takes_words_and_signs_only(plain, page):
     assert spelling.typeset(plain) == page
 
 
-def test_spelling_in_html_lowers_an_index_and_escapes_the_rest():
-    assert spelling.marked_up("J_E < E_0, peak_u") == "J<sub>E</sub> &lt; E<sub>0</sub>, peak_u"
+def test_spelling_in_html_sets_indices_and_fractions_and_escapes_the_rest():
+    assert spelling.marked_up("J_E < R_d^T, peak_u") == "J<sub>E</sub> &lt; R<sub>d</sub>ᵀ, peak_u"
+    assert spelling.marked_up("eps^(2/3)") == "eps<sup>2/3</sup>"
 
 
 @pytest.mark.parametrize(("value", "text"), [(2.3e-7, "2·10⁻⁷"), (1e6, "10⁶"), (0.034, "0.03"), (0.0, "0")])

@@ -139,7 +139,8 @@ def damping(rows: pd.DataFrame) -> dict:
         plain, damped = (100.0 * float(arm_rows.settled(own).mean()) for own in ways)
         before, after = (html.number(1e3 * float(own["position_error_m"].median())) for own in ways)
         said[key] = (
-            f"{plain:.0f} % and with damping {damped:.0f} %, the tool straying by {before} and {after} mm in the median"
+            f"{plain:.0f} % settle with the plain inverse and {damped:.0f} % with damped least squares, the tool "
+            f"straying by {before} and {after} mm in the median"
         )
     return said
 

@@ -105,8 +105,8 @@ def jacobians() -> html.Markdown:
     rows = [
         {
             "Jacobian": named(one),
-            "Formula": f"${one.formula}$",
-            "Controller": "(2.2)" if one.takes == "angular-acceleration" else "(3.7)",
+            "Formula": in_lines(one.formula),
+            "For": "(2.2)" if one.takes == "angular-acceleration" else "(3.7)",
             "Source": prose(one.source),
         }
         for one in known_jacobians().values()
@@ -119,7 +119,7 @@ def inverses() -> html.Markdown:
     rows = [
         {
             "Inverse": named(one),
-            "Formula": f"${one.formula}$",
+            "Formula": in_lines(one.formula),
             "Source": prose(one.source),
         }
         for one in known_inverses().values()
@@ -130,3 +130,8 @@ def inverses() -> html.Markdown:
 def named(one: Jacobian | Inverse) -> str:
     """Its title, and below it its word on the command line."""
     return f"{one.title}<br>{html.together(f'`{one.name}`')}"
+
+
+def in_lines(formula: str) -> str:
+    """A formula, each of its equations on a line."""
+    return "<br>".join(f"${equation}$" for equation in formula.split(r", \quad "))

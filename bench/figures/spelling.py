@@ -23,12 +23,13 @@ SIGNS = (
     (r"(?<=\d),(?=\d{3}\b)", "\N{NARROW NO-BREAK SPACE}"),
     (r" deg\b", "°"),
     (r"(?<=\d) ?%", "\N{NO-BREAK SPACE}%"),
-    (r"(?<=\d) (?=(?:rad|s|ms|µs|ns|mm)\b)", "\N{NO-BREAK SPACE}"),
+    (r"(?<=[\d⁰¹²³⁴⁵⁶⁷⁸⁹ᵏ]) (?=(?:rad|s|ms|µs|ns|mm)\b)|(?<=\bn) (?==)|(?<=\bn =) (?=\d)", "\N{NO-BREAK SPACE}"),
     (r"(?<![\w'])'(\w[^']*)'(?!\w)", r"‘\1’"),
     (r"\"([^\"]+)\"", r"“\1”"),
     (r"(?<=\w)'(?=\w)", "’"),
 )
-INDEX = re.compile(r"\b(\w)_(\w)\b")
+INDEX = re.compile(r"\b(\w)_([A-Za-z0-9])(?![A-Za-z0-9_])")
+FRACTION = re.compile(r"\^\((\d+/\d+)\)")
 
 
 def typeset(text: str) -> str:
@@ -55,8 +56,9 @@ def raised(mantissa: str, exponent: int) -> str:
 
 
 def marked_up(text: str) -> str:
-    """The same as HTML, with an index of one letter as one: J_E, E_0."""
-    return INDEX.sub(r"\1<sub>\2</sub>", html.escape(typeset(text), quote=False))
+    """The same as HTML, with indices of one letter, J_E, and fractions in powers, eps^(2/3)."""
+    text = INDEX.sub(r"\1<sub>\2</sub>", html.escape(typeset(text), quote=False))
+    return FRACTION.sub(r"<sup>\1</sup>", text)
 
 
 def prose(text: str) -> str:

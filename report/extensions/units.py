@@ -12,7 +12,10 @@ from docutils import nodes
 from sphinx.transforms.post_transforms import SphinxPostTransform
 
 AFTER_PASTING = 900
-SPACE = re.compile(r"(?<=\d) (?=(?:%|s|ms|µs|ns|m|cm|mm|kB|MB|rad|degrees|flops)(?!\w))")
+SPACE = re.compile(
+    r"(?<=[\d⁰¹²³⁴⁵⁶⁷⁸⁹ᵏ]) (?=(?:%|s|ms|µs|ns|m|cm|mm|kB|MB|rad|degrees|flops)(?!\w))"  # 5 ms
+    r"|(?<=\bn) (?==)|(?<=\bn =) (?=\d)"  # n = 128
+)
 NO_BREAK_SPACE = "\N{NO-BREAK SPACE}"
 VERBATIM = (nodes.literal, nodes.math, nodes.raw)
 
