@@ -18,7 +18,8 @@ the least (Fisher and Mujtaba 1991). In the second what complies is dragged alon
 Three frames, and with each the wrench converted to it:
 
     base           J,             F
-    hand           diag(Q^T, Q^T) J,  diag(Q^T, Q^T) F,  Q = R R_d^T: the base's axes as the hand carries them along
+    hand           diag(Q^T, Q^T) J,  diag(Q^T, Q^T) F,  Q = R R_d^T: the base's axes as the hand carries them along,
+                   and Q^T Jdot qdot: what is commanded is the acceleration along these axes, not of components in them
     coordinates    J_E,           F_E = diag(I, B)^T F   (Murphy 1988, 3.12)
 
 `unconverted` is a negative control: the moment's components taken for generalized forces as they are.
@@ -48,7 +49,8 @@ class Touch(NamedTuple):
     """Constants of a controller in contact; the judge asks none of them, and all controllers share them.
 
     m_p [kg] and m_o [kg m^2]: apparent inertia. kc [1/s]: damping of what complies. The stiffness of an impedance is
-    kp m_p and kp m_o.
+    kp m_p and kp m_o. Along coordinates they are those of a coordinate: at E = 0 of mrp, where B = 4 I, a moment turns
+    the hand 16 times as far as about axes.
     """
 
     m_p: float = 20.0
@@ -57,15 +59,15 @@ class Touch(NamedTuple):
 
 
 TOUCH = Touch()
-"""Apparent inertias above those of the arms' wrists at home (at most 17 kg and 0.7 kg m^2): a cancelled force comes a
-tick late, and below half of them that tick would destabilize a contact."""
+"""Apparent inertias like those of the arms' hands at home (at most 18 kg and 0.64 kg m^2): a cancelled force comes a
+tick late, and below half of those that tick would destabilize a contact."""
 
 
 class Wish(NamedTuple):
     """What is wanted at one tick, base frame.
 
     R_d: orientation. p_d, v_d: place [m] and its velocity [m/s]. f_d, m_d: force [N] and moment [N m] to exert where
-    the hand complies.
+    the hand complies; along the axes that it carries along, if those are the controller's.
     """
 
     R_d: Any

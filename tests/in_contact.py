@@ -15,26 +15,16 @@ from scipy.spatial.transform import Rotation as ScipyRotation
 from states import as_rotation
 
 import tasks
+from bench.contact_plan import can_do
 from bench.contender import Gains
 from bench.discovery import all_compliants
 from bench.engines.contact_episode import room, rows, wrench
 from bench.force import Rows, Touch, Wish, comply
 from bench.resolved_motion import Chain
-from tasks.base import BadValue
-from tasks.contact import Order, Trial, model_xml, prepare, refuse
+from tasks.contact import Order, Trial, model_xml, prepare
 from tasks.domains.wrench_probe import TASK
 
-
-def takes_part(arm: str) -> bool:
-    """Whether the arm can be set tasks in contact."""
-    try:
-        refuse(TASK, tasks.arm(arm))
-    except BadValue:
-        return False
-    return True
-
-
-ARMS = [arm for arm in tasks.arm_names() if takes_part(arm)]
+ARMS = [arm for arm in tasks.arm_names() if can_do(TASK, tasks.arm(arm))]
 HYBRIDS = [one for one in all_compliants() if one.impedance is None]
 IMPEDANCES = [one for one in all_compliants() if one.impedance is not None]
 

@@ -26,8 +26,10 @@ from on_arms import numbers
 from scipy.spatial.transform import Rotation as ScipyRotation
 from states import as_rotation, rotations
 
+import tasks
 from bench.compliance import FORMS, hybrid
 from bench.discovery import known_representations
+from bench.force import TOUCH as TOUCHING
 from bench.force import axes_of
 from bench.impedance import law_of
 from bench.so3 import IDENTITY
@@ -342,7 +344,16 @@ def test_coordinates_are_the_base_frames_at_their_origin(representation, arm, fo
         np.testing.assert_allclose(*taus, rtol=0.0, atol=backward(at.J) * size, err_msg=held)
 
 
-# ---------------------------------------------------------------------------- selections
+# ---------------------------------------------------------------------------- selections, constants
+
+
+@over_arms
+def test_apparent_inertias_are_above_half_of_the_hands_own_at_home(arm):
+    """Below that a cancelled force that comes a tick late would destabilize a contact (bench.force.TOUCH)."""
+    at = hand(arm, tasks.arm(arm).home, np.zeros(6), ScipyRotation.identity(), np.zeros(6))
+    mobility = at.J @ np.linalg.solve(at.D, at.J.T)
+    assert 0.5 / np.linalg.eigvalsh(mobility[:3, :3]).min() < TOUCHING.m_p
+    assert 0.5 / np.linalg.eigvalsh(mobility[3:, 3:]).min() < TOUCHING.m_o
 
 
 @pytest.mark.parametrize("one", HYBRIDS, ids=named)
