@@ -60,6 +60,7 @@ def test_columns_of_B_are_what_scipys_rotation_turns_about_along_each_coordinate
         np.testing.assert_allclose(found, np.transpose(differenced), atol=1e-8)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("angles", POSES, ids=str)
 @pytest.mark.parametrize("controller", HYBRIDS, ids=lambda one: one.name)
 def test_a_hybrid_controllers_compliance_is_as_predicted(controller, angles):
@@ -69,6 +70,7 @@ def test_a_hybrid_controllers_compliance_is_as_predicted(controller, angles):
         compare(controller, pose, AT_89 if beta == 89 else FREE)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("angles", POSES, ids=str)
 @pytest.mark.parametrize("controller", [one for one in SPRINGS if one != AT_ITS_POLE], ids=lambda one: one.name)
 def test_an_impedances_compliance_is_as_predicted(controller, angles):
