@@ -51,10 +51,10 @@ C22 = claim(
         wrench-probe in compliance.parquet, orders 'about x', 'about y' and 'about z', every arm, pose and form with
         cos(beta) >= {CLOSE_TO_POLE:g}: the measured compliance c of hybrid/zyx-euler against that of hybrid-base. Same:
         |c - c'| <= {SAME:g} |c'| (Frobenius); a row that is not done is not. It holds if all are the same; with a
-        correction if all are the same once the Cartesian compliance is turned by the rotations that come before it, c'
-        -> Q c' Q^T with Q = 1 about z, Rz(alpha) about y and Rz(alpha) Ry(beta) about x: one compliant angle is then
-        one compliant axis, but of the base only where the earlier angles are zero; otherwise it does not hold. Every
-        axis must be there, x and y also with earlier angles of {APART_DEG:g} degree or more: else it is no evidence.
+        correction if all are the same once the Cartesian compliance is turned by the rotations that come before it, as
+        Q c' Q^T with Q = 1 about z, Rz(alpha) about y and Rz(alpha) Ry(beta) about x: one compliant angle is then one
+        compliant axis, but of the base only where the earlier angles are zero; otherwise it does not hold. Every axis
+        must be there, x and y also with earlier angles of {APART_DEG:g} degree or more: else it is no evidence.
         Reported: how many are the same by axis; how many are the same as compliance about the hand's own x, y, z; how
         rows closer to the pole end.
     """,

@@ -76,7 +76,7 @@ def c21(results):
         """{n:,} orientations, {poles} of them exact poles: F_E is finite at {finite:,}; F_E . Edot is m . omega to
         {gap:.1f} eps, and to {differenced:.1f} eps^(2/3) with omega differenced from R(E); in the loop, at {looped:,}
         poses and forms of the wrench probe, to {residual:.1f} eps / cos(beta). At the poles B has rank {rank}: of one
-        moment {lost:.0e} is left. In {others} other representations the balance closes to {elsewhere:.1f} eps. A moment
+        moment {lost:.0g} is left. In {others} other representations the balance closes to {elsewhere:.1f} eps. A moment
         that is not converted misses it by {raw:.2f} in the median.""",
         len(found) + len(looped),
         ("experiment", "compliance"),
