@@ -254,6 +254,9 @@ def test_wrench_is_converted_on_the_pole_too_and_does_the_work_of_what_motion_is
     B = B_of(representation, representation.chart(R).E)
     np.testing.assert_allclose(made.rows.F[3:], B.T @ m, rtol=0.0, atol=ROUNDING * np.linalg.norm(m))
     np.testing.assert_array_equal(made.rows.F[:3], f)
+    Edot = np.array((0.7, -1.1, 0.4))
+    omega = np.array(representation.angular_velocity(representation.chart(R), numbers(Edot)))
+    assert abs(made.rows.F[3:] @ Edot - m @ omega) <= ROUNDING * np.linalg.norm(m)
     assert np.linalg.matrix_rank(B, tol=1e-12) == 2
     assert not np.isfinite(made.J).all()
 
