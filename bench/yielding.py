@@ -55,9 +55,9 @@ def compliance(pose: Pose) -> np.ndarray:
     if not all(one.outcome == "done" and is_moment(one.trial) for one in ran) or not in_free_space(pose):
         return NOTHING
     moments = np.array([one.trial.push[3:] for one in ran])
-    if np.linalg.matrix_rank(moments) < 3:
-        return NOTHING
-    return np.linalg.lstsq(moments, np.array([turned(one.R) for one in ran]), rcond=None)[0].T
+    angles = rotation_vector(np.array([one.R[-1] @ one.R[0].T for one in ran]))
+    transposed, _, rank, _ = np.linalg.lstsq(moments, angles, rcond=None)
+    return transposed.T if rank == 3 else NOTHING
 
 
 def held(pose: Pose) -> np.ndarray:
