@@ -52,35 +52,20 @@ def seen(task: str, trial: str, controller: str) -> Seen:
     return Seen(one, USUAL.dt_s, ended.outcome, ended.record)
 
 
-class Stage:
-    """A task on the arm, and a camera that looks at the hand; a picture for each tick of an episode."""
+class Puppet:
+    """A task on the arm, moved to where a record has the hand."""
 
-    def __init__(self, task: str, azimuth: float, elevation: float, distance: float):
+    def __init__(self, task: str):
         import mujoco
 
         import tasks
         from bench.engines.contact_episode import USUAL
         from tasks.contact import model_xml
 
-        self.arm = tasks.arm(ARM)
-        xml = model_xml(tasks.contact_task(task), self.arm, USUAL.dt_s)
+        self.joints = tasks.arm(ARM).joints
+        xml = model_xml(tasks.contact_task(task), tasks.arm(ARM), USUAL.dt_s)
         self.model = mujoco.MjModel.from_xml_string(xml)
         self.data = mujoco.MjData(self.model)
-        drawn_axes = (self.model.geom_type == mujoco.mjtGeom.mjGEOM_CAPSULE) & ~self._of_scene()
-        self.model.geom_rgba[drawn_axes, 3] = 0.0
-        self.renderer = mujoco.Renderer(self.model, HALF[1], HALF[0])
-        self.camera = mujoco.MjvCamera()
-        self.camera.azimuth, self.camera.elevation, self.camera.distance = azimuth, elevation, distance
-
-    def _of_scene(self):
-        """Which geoms are the scene's; capsules of the arm are axes of its frames."""
-        return self.model.body_rootid[self.model.geom_bodyid] == self.model.body("scene").id
-
-    def __enter__(self) -> Stage:
-        return self
-
-    def __exit__(self, *_) -> None:
-        self.renderer.close()
 
     def begin(self, trial) -> None:
         """Put the scene, the hand's frame and the joints where the trial has them."""
@@ -91,7 +76,6 @@ class Stage:
         mujoco.mj_resetData(self.model, self.data)
         prepare(self.model, self.data, trial)
         mujoco.mj_forward(self.model, self.data)
-        self.camera.lookat[:] = self.data.site("hand").xpos
 
     def follow(self, line) -> None:
         """Move the joints so that the hand is where a line of the record has it."""
@@ -100,7 +84,7 @@ class Stage:
 
         from bench.engines.contact_episode import TURNED, P, R
 
-        model, data, n = self.model, self.data, self.arm.joints
+        model, data, n = self.model, self.data, self.joints
         site = model.site("hand").id
         goal, J = line[R : R + 9].reshape(3, 3).T, np.zeros((6, model.nv))
         if model.nv > n:
@@ -114,13 +98,42 @@ class Stage:
             data.qpos[:n] += np.linalg.solve(J[:, :n], missing)
         mujoco.mj_forward(model, data)
 
+
+class Stage:
+    """A puppet before a camera that looks at where its hand begins."""
+
+    def __init__(self, puppet: Puppet, azimuth: float, elevation: float, distance: float):
+        import mujoco
+
+        self.puppet, model = puppet, puppet.model
+        of_scene = model.body_rootid[model.geom_bodyid] == model.body("scene").id
+        # capsules of the arm are axes of its frames
+        model.geom_rgba[(model.geom_type == mujoco.mjtGeom.mjGEOM_CAPSULE) & ~of_scene, 3] = 0.0
+        self.renderer = mujoco.Renderer(model, HALF[1], HALF[0])
+        self.camera = mujoco.MjvCamera()
+        self.camera.azimuth, self.camera.elevation, self.camera.distance = azimuth, elevation, distance
+        self.camera.lookat[:] = puppet.data.site("hand").xpos
+
+    def __enter__(self) -> Stage:
+        return self
+
+    def __exit__(self, *_) -> None:
+        self.renderer.close()
+
     def picture(self, line):
         """A PIL image of a line of the record."""
         from PIL import Image
 
-        self.follow(line)
-        self.renderer.update_scene(self.data, camera=self.camera)
+        self.puppet.follow(line)
+        self.renderer.update_scene(self.puppet.data, camera=self.camera)
         return Image.fromarray(self.renderer.render())
+
+
+def put(task: str, one: Seen) -> Puppet:
+    """A puppet at the beginning of an episode."""
+    puppet = Puppet(task)
+    puppet.begin(one.trial)
+    return puppet
 
 
 def along(one: Seen, until_s: float, frames_per_s: float):
@@ -135,10 +148,9 @@ def tasks_in_contact() -> None:
     strip = sheet(width * len(SHOWN), height + LINE)
     for place, (task, (trial, distance)) in enumerate(SHOWN.items()):
         one = seen(task, trial, BY)
-        with Stage(task, 160.0, -14.0, distance) as stage:
-            stage.begin(one.trial)
+        with Stage(put(task, one), 160.0, -14.0, distance) as stage:
             for line in along(one, STILL_AT_S, FRAMES_PER_S):
-                stage.follow(line)
+                stage.puppet.follow(line)
             strip.paste(stage.picture(line), (place * width, 0))
         written(strip, (place * width + width // 2, height + LINE - 12), task.replace("-", " "), 24, anchor="ms")
     save(strip, "contact-tasks.png")
@@ -149,8 +161,7 @@ def on_the_plate() -> None:
     halves = []
     for controller in CONTROLLERS:
         one = seen(PLATE, TILTED, controller)
-        with Stage(PLATE, 172.0, -5.0, 0.5) as stage:
-            stage.begin(one.trial)
+        with Stage(put(PLATE, one), 172.0, -5.0, 0.5) as stage:
             halves.append([stage.picture(line) for line in along(one, LOOP_S, FRAMES_PER_S * SLOWER)])
     images = [
         side_by_side(list(both), list(CONTROLLERS.values()), f"{number / FRAMES_PER_S / SLOWER:.2f} s")

@@ -3,19 +3,26 @@
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "report"))
+import contact_media
 import media as rendering
 
 import tasks
 from bench.claims.arm_probes import controller
+from bench.engines.contact_episode import P, R
 from bench.figures import media
 
 ABOUT = media.facts()
-FILES = ("arms.png", "pole-film.png", "pole-loop.png", "pole-loop.webm", "pole-loop.mp4")
+LOOPS = ("pole-loop", "plate-loop")
+FILES = (
+    *("arms.png", "pole-film.png", "contact-tasks.png"),
+    *(f"{loop}.{kind}" for loop in LOOPS for kind in ("png", "webm", "mp4")),
+)
 LARGEST, LARGEST_IN_ALL = 300_000, 1_500_000
 STARTS_OF = {"png": b"\x89PNG\r\n", "webm": b"\x1a\x45\xdf\xa3", "mp4": b"ftyp"}
 
@@ -32,8 +39,9 @@ def test_folder_holds_nothing_else_and_is_within_its_budget():
     assert sum(path.stat().st_size for path in media.FOLDER.iterdir()) <= LARGEST_IN_ALL
 
 
-def test_loop_is_no_longer_than_three_seconds():
-    assert ABOUT["loop_s"] * ABOUT["slower"] <= 3.0
+@pytest.mark.parametrize("about", [ABOUT, ABOUT["contact"]["plate"]], ids=LOOPS)
+def test_loop_is_no_longer_than_three_seconds(about):
+    assert about["loop_s"] * about["slower"] <= 3.0
 
 
 def test_start_exists():
@@ -56,6 +64,21 @@ def test_files_are_of_what_the_program_would_draw_now():
         "slower": rendering.SLOWER,
     }
     assert [one["contender"] for one in ABOUT["episodes"]] == list(rendering.CONTENDERS)
+    assert ABOUT["contact"] == contact_media.facts()
+
+
+def test_a_still_shows_every_task_in_contact():
+    assert set(contact_media.SHOWN) == set(tasks.contact_names()) - {"wrench-probe", "compliance-loop"}
+
+
+def test_joints_follow_the_hand_of_the_record():
+    one = contact_media.seen(contact_media.PLATE, contact_media.TILTED, contact_media.BY)
+    puppet = contact_media.put(contact_media.PLATE, one)
+    for line in contact_media.along(one, 2.0, 25):
+        puppet.follow(line)
+    hand = puppet.data.site("hand")
+    np.testing.assert_allclose(hand.xpos, line[P : P + 3], atol=1e-9)
+    np.testing.assert_allclose(hand.xmat.reshape(3, 3).T.ravel(), line[R : R + 9], atol=1e-9)
 
 
 @pytest.mark.slow

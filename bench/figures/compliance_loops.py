@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 
 from bench import compliance_theory as theory
-from bench.figures import absent, compliance_rows, html, style
+from bench.figures import absent, compliance_rows, style
 from bench.figures.inline import responsive_picture
 
 SHOWN = ("hybrid-base", "hybrid-hand", "hybrid-rate", "hybrid/zyx-euler")
@@ -78,9 +78,9 @@ def facts(rows: pd.DataFrame) -> dict[str, str]:
         "loop_side": f"{math.degrees(side):.1f}",
         "loop_theory": f"{math.degrees(float(np.linalg.norm(theory.square_loop(side)))):.2f}",
         "loop_rate": f"{median['hybrid-rate']:.2f}",
-        "loop_base": html.number(median["hybrid-base"]),
-        "loop_hand": html.number(median["hybrid-hand"]),
-        "loop_e0": html.number(euler.iloc[0]),
+        "loop_base": f"{median['hybrid-base']:.2g}",
+        "loop_hand": f"{median['hybrid-hand']:.1g}",
+        "loop_e0": f"{euler.iloc[0]:.1g}",
         "loop_e": f"{euler.iloc[-1]:.0f}° at β = {euler.index[-1]:.0f}°",
     }
 

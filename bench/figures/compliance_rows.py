@@ -39,7 +39,7 @@ TITLES = {
     "hybrid": "Euler Jacobian",
     "hybrid-unconverted": "Moments unconverted",
 }
-SPRINGS = "Impedance: "
+SPRINGS, OTHER = "Impedance: ", "Analytic Jacobian"
 COORDINATES = {
     "zyx-euler": "Z-Y-X",
     "zyz-euler": "Z-Y-Z",
@@ -112,5 +112,5 @@ def title(way: str) -> str:
     if law.startswith("impedance-"):
         name = f"{SPRINGS}{known_impedances()[law.removeprefix('impedance-')].title}"
     else:
-        name = TITLES.get(law, law)
+        name = OTHER if law == "hybrid" and not coordinates.endswith("euler") else TITLES.get(law, law)
     return f"{name}, {COORDINATES.get(coordinates, coordinates)}" if coordinates else name

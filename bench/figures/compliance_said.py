@@ -42,8 +42,8 @@ def cartesian(rows: pd.DataFrame) -> str:
     return (
         f"Cartesian compliance, along the base's axes or the hand's, has none of it: {done} rows of {len(own)} reach "
         f"the end, and it leaks at most {power(own['leakage_ratio'].max())} and turns at most "
-        f"{power(np.degrees(own['misalignment_rad'].max()))}° away from the moment. Poles of angles that it never "
-        "computes do nothing to it."
+        f"{power(np.degrees(own['misalignment_rad'].max()))} degrees away from the moment. Poles of angles that it "
+        "never computes do nothing to it."
     )
 
 
@@ -82,7 +82,7 @@ def forms(rows: pd.DataFrame) -> str:
     names = [f"c_{i}{j}" for i in "xyz" for j in "xyz"]
     one, other = (pair[[f"{name}_{side}" for name in names]].to_numpy() for side in "xy")
     apart = np.linalg.norm(one - other, axis=1) / np.linalg.norm(one, axis=1)
-    return f"Over {len(pair)} pairs of rows that differ in nothing else, $C$ is the same to {power(apart.max())}."
+    return f"Over {len(pair)} pairs of rows that differ in nothing else, C is the same to {power(apart.max())}."
 
 
 def verdicts(*ids: str) -> html.Markdown:

@@ -14,13 +14,14 @@ DEGREES, MILLI = 180.0 / np.pi, 1e3
 
 
 class Measure(NamedTuple):
-    """A column of compliance.parquet as it is drawn: its words, its unit there and the factor to it, a format.
+    """A column of compliance.parquet as it is drawn: its words, short ones, unit there and factor to it, a format.
 
     middle: what stands for several episodes, "median", or "mean" of what is counted.
     """
 
     column: str
     title: str
+    short: str
     unit: str
     factor: float = 1.0
     form: str = ".2f"
@@ -33,20 +34,20 @@ class Measure(NamedTuple):
 
 MEASURES = {
     "surface-alignment": (
-        Measure("alignment_error_rad", "Tool to plate at the end", "deg", DEGREES),
-        Measure("held_turn_rad", "Turned about the held axis", "deg", DEGREES),
+        Measure("alignment_error_rad", "Tool to plate at the end", "Off the plate", "deg", DEGREES),
+        Measure("held_turn_rad", "Turned about the held axis", "Yaw", "deg", DEGREES),
     ),
     "peg-in-hole": (
-        Measure("insertion_depth_m", "Depth of insertion", "mm", MILLI, ".1f"),
-        Measure("jam", "Stuck", "%", 100.0, ".0f", "mean"),
+        Measure("insertion_depth_m", "Depth of insertion", "Depth", "mm", MILLI, ".1f"),
+        Measure("jam", "Stuck", "Stuck", "%", 100.0, ".0f", "mean"),
     ),
     "crank": (
-        Measure("crank_angle_rad", "Turned by", "deg", DEGREES, ".1f"),
-        Measure("moment_error_rms_nm", "Moment where it complies, rms", "N m"),
+        Measure("crank_angle_rad", "Turned by", "Turned", "deg", DEGREES, ".1f"),
+        Measure("moment_error_rms_nm", "Moment where it complies, rms", "Moment", "N m"),
     ),
     "force-on-plane": (
-        Measure("normal_force_error_n", "Normal force, rms error", "N"),
-        Measure("held_turn_rad", "Turned about held axes", "deg", DEGREES),
+        Measure("normal_force_error_n", "Normal force, rms error", "Force error", "N"),
+        Measure("held_turn_rad", "Turned about held axes", "Turned", "deg", DEGREES),
     ),
 }
 """Of each task the two numbers that say how it went, the tasks whose orders free turns first."""
@@ -136,16 +137,28 @@ def table(own: pd.DataFrame) -> html.Markdown:
     for contender in in_order(own):
         mine = own[own["contender"] == contender]
         line: dict = {
-            "Controller": compliance_rows.title(contender.partition("+")[0])
-            + ", (S J)⁺" * contender.endswith("projected"),
+            "Controller": named(contender),
             "Reach the end": html.together(f"{(mine['outcome'] == 'done').sum()} of {len(mine)}"),
         }
         for measure in measures:
             middle = measure.over_beta(mine)
-            line |= {f"{measure.title} [{measure.unit}], β = {b:.0f}°": middle.get(b, np.nan) for b in shown}
+            line |= {head(measure, b): middle.get(b, np.nan) for b in shown}
         lines.append(line)
-    forms = {f"{measure.title} [{measure.unit}], β = {b:.0f}°": measure.form for measure in measures for b in shown}
+    forms = {head(measure, b): measure.form for measure in measures for b in shown}
     return html.table(pd.DataFrame(lines), forms)
+
+
+def head(measure: Measure, beta: float) -> str:
+    """The head of a column."""
+    return f"{measure.short} [{measure.unit}], {beta:.0f}°"
+
+
+def named(contender: str) -> str:
+    """A controller in a cell, its coordinates and its form kept whole."""
+    way, _, form = contender.partition("+")
+    name, comma, coordinates = compliance_rows.title(way).rpartition(", ")
+    whole = f"{name}, {html.together(coordinates)}" if "/" in way else f"{name}{comma}{coordinates}"
+    return f"{whole}, {html.together('(S J)⁺')}" if form == "projected" else whole
 
 
 def in_order(rows: pd.DataFrame) -> list[str]:

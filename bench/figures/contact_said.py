@@ -32,6 +32,7 @@ def said(rows: pd.DataFrame) -> dict[str, str]:
         "penetration": penetration(rows),
         "models_trial": f"{tasks.arm(contact_models.ARM).title}, {named(contact_models.TRIAL)}",
         "worst": worst(rows),
+        "stuck": stuck(rows),
     }
 
 
@@ -39,6 +40,11 @@ def plate(rows: pd.DataFrame) -> dict[str, str]:
     """What the loop shows: the angles [deg] at the end of its two episodes, in this run."""
     about = media.facts()["contact"]
     shown, values = about["plate"], {"plate_arm": tasks.arm(about["arm"]).title}
+    trials = tasks.contact_task(shown["task"]).trials(tasks.arm(about["arm"]))
+    trial = next(one for one in trials if one.id == shown["trial"])
+    values["plate_tilt"] = f"{np.degrees(trial.tilt):.0f}"
+    values["plate_force"] = f"{np.linalg.norm(trial.order.exerts[:3]):.0f}"
+    values["plate_beta"] = trial.id.rpartition("beta+")[2]
     own = rows[(rows["task"] == shown["task"]) & (rows["arm"] == about["arm"]) & (rows["pose"] == shown["trial"])]
     for word, contender in zip(("plate_cartesian", "plate_euler"), shown["controllers"], strict=True):
         one = own[own["contender"] == contender]
@@ -86,8 +92,8 @@ def contact(rows: pd.DataFrame) -> html.Markdown:
                 "Episodes": len(own),
                 "Reach the end [%]": 100.0 * float((own["outcome"] == "done").mean()),
                 "The others": ", ".join(f"{count} {word}" for word, count in failed.items()) or "none",
-                "Penetration, median [mm]": 1e3 * float(own["penetration_m"].median()),
-                f"in {QUANTILE:.0%} [mm]": 1e3 * float(own["penetration_m"].quantile(QUANTILE)),
+                "Penetration, median [mm]": 1e3 * float(own["penetration_m"].median()) + 0.0,
+                f"in {QUANTILE:.0%} [mm]": 1e3 * float(own["penetration_m"].quantile(QUANTILE)) + 0.0,
                 "Largest force, median [N]": float(own["peak_force_n"].median()),
             }
         )
@@ -112,6 +118,22 @@ def worst(rows: pd.DataFrame) -> str:
         f"it ends {np.degrees(tilted['alignment_error_rad_y']):.0f}° off ({told(tilted)}), and has turned by "
         f"{np.degrees(turned['held_turn_rad_y']):.0f}° about the axis that it was told to hold ({told(turned)})."
     )
+
+
+def stuck(rows: pd.DataFrame) -> str:
+    """How many pegs end stuck, by both Jacobians, where the hand's frame leans and where it does not."""
+    own = rows[rows["task"] == "peg-in-hole"]
+    if own.empty:
+        return f"How pegs end is {absent.WORDS}."
+    counts = []
+    for contender, who in ((compliance_rows.CARTESIAN, "Cartesian"), (compliance_rows.EULER, "on the Euler Jacobian")):
+        mine = compliance_rows.of(own, contender)
+        level, leaning = mine[mine["beta_deg"] == 0.0]["jam"], mine[mine["beta_deg"] != 0.0]["jam"]
+        counts.append(
+            f"{who} {level.sum():.0f} of {level.count()} where the frame is level and {leaning.sum():.0f} of "
+            f"{leaning.count()} where it leans"
+        )
+    return f"Pegs that end stuck: {'; '.join(counts)}."
 
 
 def told(row: pd.Series) -> str:
