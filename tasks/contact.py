@@ -155,7 +155,7 @@ def model_xml(task: ContactTask, arm: Arm, dt: float, contact: ContactModel = ST
     hand.extend(_elements(around.hand))
     world = root.find("worldbody")
     assert world is not None
-    scene = ElementTree.SubElement(world, "body", name="scene", mocap="true")
+    scene = ElementTree.SubElement(world, "body", name="scene", mocap="true", pos="0 0 -10")  # until a trial places it
     scene.extend(_elements(around.scene))
     pairs = _pairs(hand, scene, contact)
     root.extend([*_elements(around.others), pairs, *ElementTree.fromstring(LOOK), _sensors(around, len(pairs) > 0)])
