@@ -119,7 +119,8 @@ def _panel(axes, own: pd.DataFrame, measure: Measure, narrow: bool) -> list[str]
         said.append(
             f"{own['task'].iloc[0]}, {compliance_rows.title(way)}, {measure.title.lower()} in {measure.unit}: {told}"
         )
-    axes.set_title(f"{measure.title} [{measure.unit}]", fontweight="normal", fontsize=8 if narrow else 10)
+    name = measure.short if narrow else measure.title
+    axes.set_title(f"{name} [{measure.unit}]", fontweight="normal")
     axes.set_xticks(betas if len(betas) < 7 else betas[:: len(betas) // 4])
     axes.set_ylim(bottom=min(0.0, axes.get_ylim()[0]))
     return said
