@@ -127,12 +127,12 @@ def turns(rows: pd.DataFrame) -> list[dict]:
     found, arm = [], compliance_rows.arms(rows)[0]
     own = compliance_rows.level(rows[rows["arm"] == arm])
     full = compliance_rows.wanted(rows, arm)
-    shown = [(compliance_rows.CARTESIAN, BETAS[2]), *((compliance_rows.EULER, beta) for beta in BETAS)]
+    euler = compliance_rows.of(own, compliance_rows.EULER, ORDER)
+    betas = compliance_rows.nearest(euler, BETAS)
+    shown = [(compliance_rows.CARTESIAN, betas[-2]), *((compliance_rows.EULER, beta) for beta in betas)]
     for contender, beta in shown:
         at = compliance_rows.of(own, contender, ORDER)
         at = at[at["beta_deg"] == beta]
-        if at.empty:
-            continue
         C = compliance_rows.compliance(at.iloc[0])
         for pushed, _ in PUSHED:
             k = "xyz".index(pushed)
@@ -176,9 +176,9 @@ def axes_of_turning(rows: pd.DataFrame, narrow: bool):
             words = _panel(axes, one)
             who = "Cartesian" if contender == compliance_rows.CARTESIAN else "Euler"
             if i == 0:
-                heading = "Cartesian, any β" if who == "Cartesian" else f"Euler, β = {beta}°"
+                heading = "Cartesian, any β" if who == "Cartesian" else f"Euler, β = {beta:.0f}°"
                 axes.set_title(heading, color=compliance_rows.look(contender.partition("+")[0]).colour)
-            said.append(f"{who}, beta {beta} degrees, moment about {pushed}: {words}")
+            said.append(f"{who}, beta {beta:.0f} degrees, moment about {pushed}: {words}")
     _head(figure, grid, narrow)
     return figure, (
         "Drawings of a robot's hand that shall give way to moments about x and y and hold against moments about z. "

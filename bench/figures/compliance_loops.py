@@ -73,6 +73,7 @@ def facts(rows: pd.DataFrame) -> dict[str, str]:
         )
     median = {way: np.degrees(own[own["way"] == way]["loop_drift_rad"].median()) for way in SHOWN}
     euler = np.degrees(own[own["way"] == "hybrid/zyx-euler"].groupby("beta_deg")["loop_drift_rad"].median())
+    level, leaning = min(euler.index, key=abs), max(euler.dropna().index, key=abs)
     side = turned_by_a_leg(own)
     return {
         "loop_side": f"{math.degrees(side):.1f}",
@@ -80,8 +81,8 @@ def facts(rows: pd.DataFrame) -> dict[str, str]:
         "loop_rate": f"{median['hybrid-rate']:.2f}",
         "loop_base": f"{median['hybrid-base']:.2g}",
         "loop_hand": f"{median['hybrid-hand']:.1g}",
-        "loop_e0": f"{euler.iloc[0]:.1g}",
-        "loop_e": f"{euler.iloc[-1]:.0f}° at β = {euler.index[-1]:.0f}°",
+        "loop_e0": f"{euler[level]:.1g}",
+        "loop_e": f"{euler[leaning]:.0f}° at β = {leaning:.0f}°",
     }
 
 

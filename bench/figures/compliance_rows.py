@@ -80,6 +80,12 @@ def level(rows: pd.DataFrame) -> pd.DataFrame:
     return rows[(rows["alpha_deg"] == 0.0) & (rows["gamma_deg"] == 0.0)].sort_values("beta_deg", kind="stable")
 
 
+def nearest(rows: pd.DataFrame, betas: tuple[float, ...]) -> list[float]:
+    """Of the betas [deg] that rows have, those nearest to the ones asked for: grids of suites differ."""
+    there = sorted(set(rows["beta_deg"]))
+    return list(dict.fromkeys(min(there, key=lambda one: abs(one - beta)) for beta in betas))
+
+
 def compliance(row) -> np.ndarray:
     """C of one row; NaN where the hand did not get to the end."""
     return np.array([[float(row[f"c_{i}{j}"]) for j in "xyz"] for i in "xyz"])

@@ -11,6 +11,7 @@ import pandas as pd
 from bench import compliance_theory as theory
 from bench.discovery import known_representations
 from bench.figures import compliance_rows, html
+from bench.figures.spelling import power
 from bench.so3 import from_quaternion
 from tasks.rotations import zyx
 
@@ -27,21 +28,21 @@ def springs(rows: pd.DataFrame) -> html.Markdown:
         rows: of wrench-probe.
     """
     own = compliance_rows.level(rows[rows["way"].str.startswith("impedance-")])
-    lines = []
+    lines, betas = [], compliance_rows.nearest(own, BETAS)
     for way in compliance_rows.ways(own):
         mine = own[own["way"] == way].groupby("beta_deg")
         condition, axes = mine["stiffness_condition"].max(), mine["stiffness_axes_rad"].max()
         lines.append(
             {
                 "Error of orientation": compliance_rows.title(way).removeprefix(compliance_rows.SPRINGS),
-                **{f"κ at β = {beta:.0f}°": condition.get(beta, math.nan) for beta in BETAS},
+                **{f"κ at β = {beta:.0f}°": condition.get(beta, math.nan) for beta in betas},
                 f"Axes off at {OFF_AT:.0f}° [deg]": math.degrees(axes.get(OFF_AT, math.nan)),
                 "Asymmetry": float(mine["stiffness_asymmetry"].max().max()),
             }
         )
     frame = pd.DataFrame(lines)
     forms = {name: ".2f" if "κ at" in name else ".1f" for name in frame if "κ" in name or "off" in name}
-    return html.table(frame, {**forms, "Asymmetry": ".0e", f"κ at β = {BETAS[-1]:.0f}°": html.number})
+    return html.table(frame, {**forms, "Asymmetry": power, f"κ at β = {betas[-1]:.0f}°": html.number})
 
 
 def conversion(rows: pd.DataFrame) -> html.Markdown:

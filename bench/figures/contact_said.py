@@ -114,8 +114,8 @@ def worst(rows: pd.DataFrame) -> str:
     tilted = pair.loc[pair["alignment_error_rad_y"].idxmax()]
     flat = np.degrees(pair["alignment_error_rad_x"].max())
     return (
-        f"On the plate the Cartesian tool lies flat to {power(flat)} degrees in all {len(pair)} episodes. By the Euler one "
-        f"it ends {np.degrees(tilted['alignment_error_rad_y']):.0f}° off ({told(tilted)}), and has turned by "
+        f"On the plate the Cartesian tool lies flat to {power(flat)} degrees in all {len(pair)} episodes. By the Euler "
+        f"one it ends {np.degrees(tilted['alignment_error_rad_y']):.0f}° off ({told(tilted)}), and has turned by "
         f"{np.degrees(turned['held_turn_rad_y']):.0f}° about the axis that it was told to hold ({told(turned)})."
     )
 
