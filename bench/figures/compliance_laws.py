@@ -1,12 +1,15 @@
 """Measured against theory over beta: leakage, the moment that is lost, and how unlike the stiffness is.
 
-leakage             tan |beta|                             two Euler axes comply, about x and y
-least yield         1 - |sin beta|                         of the one at beta = 0: B B^T, its least singular value
-condition number    (1 + |sin beta|)/(1 - |sin beta|)      springs along Euler angles, B^-T B^-1
+    leakage             tan |beta|                             two Euler axes comply, about x and y
+    least yield         1 - |sin beta|                         of that at beta = 0: B B^T, its least singular value
+    condition number    (1 + |sin beta|)/(1 - |sin beta|)      springs along Euler angles, B^-T B^-1
+
+The formulas are those of `compliance_theory`.
 """
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable
 from typing import NamedTuple
 
@@ -90,7 +93,7 @@ def measured_and_predicted(rows: pd.DataFrame, narrow: bool):
         rows: of wrench-probe.
     """
     names = compliance_rows.arms(rows)
-    looks = dict(zip(names, MARKS, strict=False))
+    looks = dict(zip(names, itertools.cycle(MARKS), strict=False))
     figure, panels = style.panels(*((3, 1) if narrow else (1, 3)), height=7.4 if narrow else 2.9, narrow=narrow)
     smooth = np.linspace(0.4, DRAWN_TO, 400)
     counted = 0
