@@ -29,15 +29,17 @@ EVENTS = {"open", "os.mkdir", "os.remove", "os.rename", "os.rmdir", "os.chmod"}
 
 
 def plan_of(words: tuple, start_sets: tuple, engines: tuple, count: int, kp: float = 100.0) -> plan.Plan:
-    """A small plan with traces and boundaries; the native engine, if it is named, on an arm too."""
+    """A small plan with traces and boundaries; the native engine, if it is named, on an arm and in contact too."""
     laws = [find_contender(word) for word in words]
     settings = {"count": count, "horizon_s": 0.25, "gains": Gains(kp, 20.0)}
     choice = Choice(("free-body", "arm-regulation"), start_sets, engines, ("ur5e",))
     made = plan.make("quick", laws, choice, **settings)
     units = tuple(unit for unit in made.units if unit.engine == "native" or not unit.arm)
+    touching = Choice(("wrench-probe",), arms=("ur5e",), controllers=("hybrid-base+inverse", "impedance-geometric"))
+    contacts = plan.make("quick", laws, touching, count=2, horizon_s=0.1).contacts if "native" in engines else ()
     used = {unit.contender for unit in units}
     contenders = tuple(one for one in made.contenders if one.name in used)
-    return dataclasses.replace(made, units=units, contenders=contenders, traces=4, boundary_axes=2)
+    return dataclasses.replace(made, units=units, contenders=contenders, traces=4, boundary_axes=2, contacts=contacts)
 
 
 LONG = plan_of(
@@ -46,7 +48,7 @@ LONG = plan_of(
     ("ideal-rk4", "native", "reference"),
     12,
 )
-"""16 units on three engines and 3 on an arm: about a second."""
+"""16 units on three engines, 3 on an arm and 2 in contact: about a second."""
 
 SHORT, OTHER = (plan_of(("rotation-matrix",), ("paper", "tumbling"), ("ideal-rk4",), 3, kp) for kp in (100.0, 50.0))
 """Two units, so few files: killed at every one of its file operations. OTHER is what SHORT replaces."""

@@ -6,8 +6,10 @@ from command_line import bench, refused, refused_run
 import tasks
 from bench import plan as planning
 from bench.choice import INTEGRATORS, Choice
+from bench.compliance import HYBRIDS
 from bench.discovery import (
     find_contender,
+    known_impedances,
     known_inverses,
     known_jacobians,
     known_regulators,
@@ -15,6 +17,8 @@ from bench.discovery import (
 )
 from bench.errors import Incompatible
 from bench.suites import ENGINES, SUITES
+
+LAWS_IN_CONTACT = sorted((*HYBRIDS, *(f"impedance-{name}" for name in known_impedances())))
 
 
 @pytest.mark.parametrize(
@@ -30,6 +34,8 @@ from bench.suites import ENGINES, SUITES
         ("--inverse", "sovle", sorted(known_inverses())),
         ("--regulator", "rotation-matrix@geometrik+solve", sorted(known_jacobians())),
         ("--variation", "mass-1.3", sorted(tasks.variation_names())),
+        ("--controller", "hybird-base+inverse", LAWS_IN_CONTACT),
+        ("--controller", "hybrid/zyx-eular+inverse", sorted(known_representations())),
         ("--starts", "uniforn", sorted({*tasks.start_set_names(), *tasks.start_set_names(arm=True)})),
         ("--engine", "nativ", sorted(ENGINES)),
         ("--integrator", "eulr", sorted(INTEGRATORS)),
@@ -46,7 +52,7 @@ def test_unknown_word_lists_the_known_ones_and_guesses(capsys, finished, option,
 @pytest.mark.parametrize(
     ("words", "named"),
     [
-        (("list", "regulaters"), "regulators, representations, jacobians, inverses"),
+        (("list", "regulaters"), "regulators, representations, jacobians, inverses, controllers, impedances"),
         (("count", "--joints", "5"), "--joints"),
         (("count", "--joints", "6", "--arm", "panda"), "panda"),
         (("count", "--inverse", "sovle"), "solve"),
@@ -123,6 +129,31 @@ def test_law_on_the_matrix_takes_no_representation(capsys, finished):
     ],
 )
 def test_what_does_not_go_together_on_an_arm_is_refused_with_the_reason(capsys, finished, words, reason):
+    assert reason in refused_run(capsys, finished, *words)
+
+
+@pytest.mark.parametrize(
+    ("words", "reason"),
+    [
+        (
+            ("--task", "wrench-probe", "--arm", "panda"),
+            "task 'wrench-probe' needs an arm of six joints, and 'panda' has",
+        ),
+        (("--controller", "hybrid-base+inverse", "--arm", "jaco"), "arm 'jaco' has no site 'wrist'"),
+        (("--controller", "hybrid-base"), "lacks its way to the joints (try: hybrid-base+inverse"),
+        (
+            ("--controller", "hybrid/quaternion+inverse"),
+            "'quaternion' has no coordinate for each of the axes x, y and z",
+        ),
+        (("--controller", "impedance-geometric", "--task", "free-body"), "task 'free-body' takes regulators and no"),
+        (("--controller", "impedance-geometric", "--regulator", "rotation-matrix"), "no regulator such as"),
+        (("--task", "wrench-probe", "--starts", "paper"), "tasks in contact take an arm and a --controller, no start"),
+        (("--task", "wrench-probe", "--engine", "reference"), "no engine such as 'reference'"),
+        (("--task", "wrench-probe", "--inverse", "solve"), "no inverse such as 'solve'"),
+        (("--controller", "impedance-geometric", "--representation", "mrp"), "acts on mrp"),
+    ],
+)
+def test_what_does_not_go_together_in_contact_is_refused_with_the_reason(capsys, finished, words, reason):
     assert reason in refused_run(capsys, finished, *words)
 
 

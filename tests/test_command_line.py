@@ -10,7 +10,10 @@ import tasks
 from bench import store
 from bench.cli import commands
 from bench.discovery import (
+    all_compliants,
     all_contenders,
+    known_contact_metrics,
+    known_impedances,
     known_inverses,
     known_jacobians,
     known_metrics,
@@ -71,8 +74,10 @@ KNOWN = {
     "representations": known_representations(),
     "jacobians": known_jacobians(),
     "inverses": known_inverses(),
-    "metrics": known_metrics(),
-    "tasks": tasks.names(),
+    "controllers": dict.fromkeys(one.law for one in all_compliants()),
+    "impedances": known_impedances(),
+    "metrics": [*known_metrics(), *known_contact_metrics()],
+    "tasks": [*tasks.names(), *tasks.contact_names()],
     "arms": tasks.arm_names(),
     "variations": tasks.variation_names(),
     "starts": [*tasks.start_set_names(), *tasks.start_set_names(arm=True)],
@@ -118,7 +123,15 @@ def test_list_says_which_jacobians_an_inverse_takes(capsys):
 
 def test_list_shows_units_in_brackets_and_formulas_as_they_are(capsys):
     said = bench(capsys, "list", "metrics")
-    assert all(one.unit in said.out for one in known_metrics().values())
+    assert all(one.unit in said.out for one in (*known_metrics().values(), *known_contact_metrics().values()))
+
+
+def test_list_says_which_arms_a_task_in_contact_takes_and_of_what_a_controllers_name_is_made(capsys):
+    assert re.search(r"^wrench-probe +contact: puma560, ur5e  ", bench(capsys, "list", "tasks").out, re.MULTILINE)
+    said = bench(capsys, "list", "controllers")
+    assert re.search(r"^name +/coordinates +\+form ", said.out, re.MULTILINE)
+    assert re.search(r"^hybrid +mrp, rotation-vector, .*inverse, projected ", said.out, re.MULTILINE)
+    assert re.search(r"^impedance-geometric +impedance: ", said.out, re.MULTILINE)
 
 
 def test_list_without_a_kind_lists_every_kind(capsys):
@@ -208,6 +221,36 @@ def test_show_of_one_controller_shows_it_alone(capsys, arm_run):
 def test_show_counts_outcomes_of_each_variation(capsys, arm_run):
     said = bench(capsys, "show", arm_run, "--outcomes")
     assert len(re.findall(r"^clear +(?:nominal|friction-5) +rotation-matrix@", said.out, re.MULTILINE)) == 4
+
+
+@pytest.fixture(scope="module")
+def contact_run(tmp_path_factory):
+    """Two controllers, three poses of one task in contact on one arm, 20 ticks a trial."""
+    from bench.cli import main
+
+    out = tmp_path_factory.mktemp("run") / "contact"
+    words = ("--controller", "hybrid-base+inverse", "--controller", "impedance-geometric", "--horizon", "0.02")
+    place = ("--task", "wrench-probe", "--arm", "ur5e", "--count", "3")
+    assert main(["run", *place, *words, "--out", str(out)]) == 0
+    return out
+
+
+def test_run_in_contact_has_its_rows_and_no_episodes(contact_run):
+    rows = store.read(contact_run, "compliance")
+    assert list(zip(rows.controller, rows.form, strict=True)) == [("hybrid-base", "inverse")] * 3 + [
+        ("impedance-geometric", "")
+    ] * len(rows[3:])
+    assert set(rows.outcome) == {"done"}
+    assert len(store.read(contact_run, "episodes")) == 0
+    assert store.read_json(contact_run / "provenance.json")["trials"] == rows.trials.sum()
+
+
+def test_show_of_a_run_in_contact_has_a_line_for_each_controller(capsys, contact_run):
+    said = bench(capsys, "show", contact_run)
+    assert said.code == 0
+    assert re.search(r"in contact, ur5e: .*\ncontroller +done +leakage ", said.out)
+    assert re.search(r"\nhybrid-base\+inverse +3/3 +0.000  0.000 ", said.out)
+    assert re.search(r"\nimpedance-geometric +\d/\d ", said.out)
 
 
 def test_run_compared_with_itself_agrees(capsys, tiny_run):

@@ -3,7 +3,8 @@
 import pandas as pd
 
 from bench import results
-from bench.cli.show import outcome_table, summary
+from bench.cli.show import contact_summary, outcome_table, summary
+from bench.discovery import find_compliant
 
 LAWS = pd.DataFrame(
     {
@@ -39,3 +40,32 @@ def test_summary_keeps_a_law_on_an_arm_apart():
 def test_outcomes_keep_a_law_on_an_arm_apart():
     table = outcome_table(LAWS).set_index("law")
     assert (table.at[NAMES[2], "diverged"], table.at[NAMES[1], "diverged"]) == (1, 0)
+
+
+IN_CONTACT = pd.DataFrame(
+    {
+        "controller": ["hybrid-base", "hybrid", "hybrid", "hybrid", "impedance-geometric"],
+        "representation": ["", "zyx-euler", "zyx-euler", "zyx-euler", ""],
+        "form": ["inverse", "projected", "projected", "projected", ""],
+        "outcome": ["done", "done", "done", "singular", "done"],
+        "leakage_ratio": [0.0, 1.0, 3.0, 50.0, float("nan")],
+        "misalignment_rad": [0.0, 0.5, 1.0, float("nan"), 0.0],
+        "alignment_error_rad": float("nan"),
+    }
+)
+CONTROLLERS = ["hybrid-base+inverse", "hybrid/zyx-euler+projected", "impedance-geometric"]
+
+
+def test_contender_in_contact_is_the_word_of_the_command_line():
+    names = results.with_compliant(IN_CONTACT)["contender"]
+    assert list(names.drop_duplicates()) == CONTROLLERS
+    assert [find_compliant(name).name for name in CONTROLLERS] == CONTROLLERS
+
+
+def test_summary_in_contact_is_of_the_poses_that_are_done():
+    table = contact_summary(IN_CONTACT).set_index("controller")
+    assert list(table.index) == CONTROLLERS
+    assert list(table["done"]) == ["1/1", "2/3", "1/1"]
+    assert list(table["leakage"]) == ["0.000  0.000", "2.000  3.000", ""]
+    assert table.at[CONTROLLERS[1], "misaligned deg"] == "42.972  57.296"
+    assert set(table["off the plate deg"]) == {""}

@@ -11,12 +11,16 @@ from pathlib import Path
 import pytest
 from command_line import bench, digest
 
+from bench import plan as planning
+from bench import run as running
+from bench.choice import Choice
+
 ROOT = Path(__file__).parents[1]
 TABLES = [
-    *("boundaries.parquet", "costs.parquet", "episodes.parquet", "plan.json", "poses.parquet"),
-    *("provenance.json", "traces.parquet"),
+    *("boundaries.parquet", "compliance.parquet", "costs.parquet", "episodes.parquet", "plan.json"),
+    *("poses.parquet", "provenance.json", "traces.parquet"),
 ]
-UNITS = 19
+UNITS = 21
 
 
 def python(*words, **options):
@@ -78,6 +82,13 @@ MANY = (*RUN, "--regulator", "rotation-matrix", "--count", "120", "--horizon", "
 """Thirty units of four episodes, each about a tenth of a second: time to be stopped in, on a busy machine too."""
 
 
+IN_CONTACT = (
+    *("run", "--suite", "quick", "--task", "wrench-probe", "--arm", "ur5e", "--count", "6", "--horizon", "0.1"),
+    *("--workers", "1"),
+)
+"""Eleven units of at most 36 trials."""
+
+
 def heed_interrupts():
     """For a child: a shell that starts the tests in the background has them, and theirs, ignore SIGINT."""
     signal.signal(signal.SIGINT, signal.SIG_DFL)
@@ -106,6 +117,26 @@ def test_ctrl_c_keeps_whole_parts_and_no_other_file(interrupted):
     out = interrupted[-1]
     assert sorted(path.name for path in out.iterdir()) == ["parts", "plan.json"]
     assert all(path.suffix == ".parquet" for path in (out / "parts").iterdir())
+
+
+def test_stopped_run_in_contact_goes_on_and_ends_with_the_same_files(tmp_path, capsys):
+    def stop_after_three(done):
+        keys.append(done.unit.key)
+        if len(keys) == 3:
+            raise KeyboardInterrupt
+
+    keys: list[str] = []
+    plan = planning.make("quick", [], Choice(tasks=("wrench-probe",), arms=("ur5e",)), count=6, horizon_s=0.1)
+    with pytest.raises(KeyboardInterrupt):
+        running.run(plan, tmp_path / "stopped", workers=1, told=stop_after_three)
+    kept = {path.stem for path in (tmp_path / "stopped" / "parts").iterdir()}
+    assert set(keys) <= kept < {unit.key for unit in plan.contacts}
+    said = bench(capsys, *IN_CONTACT, "--out", tmp_path / "stopped")
+    assert f"going on: {len(kept)} of 11 units are done" in said.out
+    assert bench(capsys, *IN_CONTACT, "--out", tmp_path / "undisturbed").code == 0
+    resumed, undisturbed = digest(tmp_path / "stopped"), digest(tmp_path / "undisturbed")
+    assert resumed.pop("provenance.json") != undisturbed.pop("provenance.json")
+    assert resumed == undisturbed
 
 
 def test_stopped_run_says_that_it_goes_on_and_ends_with_the_same_files(interrupted, tmp_path, capsys):
