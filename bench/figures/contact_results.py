@@ -109,10 +109,11 @@ def _panel(axes, own: pd.DataFrame, measure: Measure, narrow: bool) -> list[str]
         look = LOOKS[way]
         middle = measure.over_beta(mine)
         shift = width * SHIFT * (k - (len(DRAWN) - 1) / 2.0)
-        axes.plot(
-            middle.index + shift, middle, color=look.colour, linestyle=look.line, label=compliance_rows.title(way)
-        )
-        if measure.middle == "median":
+        drawn = axes.plot(middle.index + shift, middle, color=look.colour, linestyle=look.line)[0]
+        drawn.set_label(compliance_rows.title(way))
+        if measure.middle == "mean":
+            drawn.set(marker=look.marker, markersize=4.5)
+        else:
             values = mine[measure.column] * measure.factor
             axes.plot(mine["beta_deg"] + shift, values, look.marker, color=look.colour, markersize=3.0, alpha=0.55)
         told = ", ".join(f"{value:{measure.form}} at {beta:.0f}" for beta, value in middle.items())
