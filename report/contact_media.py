@@ -6,7 +6,7 @@ method from one frame to the next, and the scene's joint is in the record.
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from drawing import FRAMES_PER_S, HALF, LINE, encode, save, sheet, side_by_side, written
 
@@ -29,10 +29,10 @@ NEWTON_STEPS = 6  # from one frame to the next the hand moves by centimetres at 
 class Seen(NamedTuple):
     """An episode as a picture needs it: its trial, time step [s], outcome and record."""
 
-    trial: object
+    trial: Any
     dt_s: float
     outcome: str
-    record: object
+    record: Any
 
     def tick(self, time_s: float) -> int:
         """The record's line at a time; the last one once it has ended."""
