@@ -73,7 +73,7 @@ def facts(rows: pd.DataFrame) -> dict[str, str]:
         )
     median = {way: np.degrees(own[own["way"] == way]["loop_drift_rad"].median()) for way in SHOWN}
     euler = np.degrees(own[own["way"] == "hybrid/zyx-euler"].groupby("beta_deg")["loop_drift_rad"].median())
-    level, leaning = min(euler.index, key=abs), max(euler.dropna().index, key=abs)
+    level, leaning = min(euler.index, key=abs), euler.idxmax()
     side = turned_by_a_leg(own)
     return {
         "loop_side": f"{math.degrees(side):.1f}",

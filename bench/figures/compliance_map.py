@@ -29,9 +29,10 @@ def cells(rows: pd.DataFrame) -> tuple[pd.DataFrame, pd.DataFrame]:
 
 
 def frames(rows: pd.DataFrame) -> dict[tuple[float, float], pd.DataFrame]:
-    """Rows by the goal's (alpha, gamma) [deg], the level ones first."""
+    """Rows by the goal's (alpha, gamma) [deg]: the level ones, and of the others those that have most rows."""
     groups = dict(list(rows.groupby(["alpha_deg", "gamma_deg"])))
-    return dict(sorted(groups.items(), key=lambda one: (one[0] != (0.0, 0.0), one[0])))
+    ranked = sorted(groups.items(), key=lambda one: (one[0] != (0.0, 0.0), -len(one[1]), one[0]))
+    return dict(ranked[:2])
 
 
 @responsive_picture

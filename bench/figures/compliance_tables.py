@@ -16,6 +16,7 @@ from bench.so3 import from_quaternion
 from tasks.rotations import zyx
 
 BETAS = (0.0, 30.0, 60.0, 85.0)
+LISTED = (0.0, 1.0, 5.0, 15.0, 30.0, 45.0, 60.0, 75.0, 85.0, 89.0, 90.0)
 OFF_AT = 30.0
 ORDER = "about x"
 EPS = sys.float_info.epsilon
@@ -54,7 +55,7 @@ def conversion(rows: pd.DataFrame) -> html.Markdown:
     own = compliance_rows.level(rows[rows["complies"] == ORDER])
     both = {name: compliance_rows.of(own, name) for name in (compliance_rows.EULER, compliance_rows.UNCONVERTED)}
     lines = []
-    for beta in sorted(set(own["beta_deg"])):
+    for beta in compliance_rows.nearest(own, LISTED):
         at = {name: mine[mine["beta_deg"] == beta] for name, mine in both.items()}
         line: dict = {"β [deg]": f"{beta:.0f}"}
         for name, word in zip(both, ("converted", "unconverted"), strict=True):
