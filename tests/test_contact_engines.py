@@ -138,7 +138,7 @@ def alike(word: str, arm: str) -> tuple:
 @pytest.mark.parametrize("arm", ARMS)
 @pytest.mark.parametrize("word", TASKS)
 def test_controller_along_the_bases_axes_does_not_see_how_the_hands_frame_is_drawn(word, arm, controller):
-    """To rounding, which contact amplifies: measured 1e-15 m where nothing or one point touches, 2e-9 m at worst where
+    """To rounding, which contact amplifies: measured 1e-15 m where nothing or one point touches, 1e-10 m at worst where
     a peg slides from one corner to another. A micrometre is a tenth of what contacts give way at rest."""
     task, on = tasks.contact_task(word), tasks.arm(arm)
     for group in alike(word, arm)[:4]:

@@ -35,7 +35,7 @@ OFFSET = (0.0015, -0.001)  # of the peg from the hole's axis at the start, along
 ORDER = Order(
     "x, y, z, about x and y",
     (0, 0, 0, 0, 0, 1),
-    exerts=(0.0, 0.0, -20.0, 0.0, 0.0, 0.0),
+    exerts=(0.0, 0.0, -30.0, 0.0, 0.0, 0.0),
     velocity=(0.0, 0.0, -0.016),  # for springs: through the bottom by the end
 )
 # degrees: by how much the hole leans, and the azimuth of the axis it is turned about
@@ -111,7 +111,7 @@ TASK = ContactTask(
     name="peg-in-hole",
     title="A peg pushed into a leaning, chamfered hole",
     source="Mason 1981; Whitney 1982",
-    horizon_s=3.0,
+    horizon_s=2.5,
     surroundings=surroundings,
     trials=trials,
     dense=dense,
