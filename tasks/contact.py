@@ -110,8 +110,8 @@ class ContactModel(NamedTuple):
     The constants are stable at a control period of 1 ms.
 
     timeconst [s], dampratio: of solref. Ten periods, critically damped: what strikes at 5 cm/s goes 0.2 mm deep.
-    dmin, dmax, width [m]: of solimp. Constant, so that at rest force and depth are in proportion. The cancelled force
-    of the tick before comes back at a contact by up to this share, and nearer to 1 a controller's delay would show.
+    dmin, dmax, width [m]: of solimp. Constant, so that at rest force and depth are in proportion. What
+    controllers cancel is the force of the tick before, and this share of the mistake returns in the next tick's force.
     friction: its coefficient; machined steel.
     slip [s]: time constant in which friction ends a slip it can hold. MuJoCo's convex friction pushes what slips at a
     speed v off a surface with the acceleration 2 friction v/(dmax slip); with a time constant as short as that of the
@@ -150,6 +150,8 @@ def model_xml(task: ContactTask, arm: Arm, dt: float, contact: ContactModel = ST
     option.set("impratio", repr(contact.impratio))
     ElementTree.SubElement(option, "flag", contact="enable", limit="disable", autoreset="disable", gravity="enable")
     link, wrist = _wrist(root)
+    for axis in link.findall("geom[@class='axis']"):
+        link.remove(axis)  # the arms draw their tool's frame, which would stick out of the hand
     place = {key: wrist.attrib[key] for key in ("pos", "quat", "euler") if key in wrist.attrib}
     hand = ElementTree.SubElement(link, "body", name="hand", **place)
     ElementTree.SubElement(hand, "site", name="hand", pos=_numbers(around.tip), size=".002")
