@@ -23,7 +23,7 @@ from bench.choice import check_workers
 from bench.contact_plan import ContactUnit, poses_of
 from bench.discovery import all_contenders, find_compliant, metrics_of
 from bench.engines.contact_episode import Conditions
-from bench.engines.run import compiled_loop
+from bench.engines.run import evaluation
 from bench.engines.run import run as run_engine
 from bench.engines.run_arm import pointers
 from bench.engines.run_arm import run as run_on_arm
@@ -128,13 +128,13 @@ def run(
 
 def _compile_own_laws(plan: Plan) -> None:
     """Compile a user's laws before anything is written: what cannot be compiled is a mistake, not a row."""
-    for unit in {(unit.engine, unit.contender): unit for unit in plan.units}.values():
-        one = plan.contender(unit.contender)
-        if one.regulator.origin and unit.engine != "reference":
+    for name in dict.fromkeys(unit.contender for unit in plan.units if unit.engine != "reference"):
+        one = plan.contender(name)
+        if one.regulator.origin:
             if one.is_on_arm:
                 pointers(one)
             else:
-                compiled_loop(unit.engine, one, metrics_of(on_arm=False))
+                evaluation(one)
 
 
 def _keep_own_laws(plan: Plan, out: Path) -> None:

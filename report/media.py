@@ -62,13 +62,11 @@ def motions() -> list[Motion]:
     import tasks
     from bench.claims.arm_probes import controller
     from bench.discovery import metrics_of
-    from bench.engines.arm_episode import POSE
-    from bench.engines.episode import FIRST_METRIC
-    from bench.engines.run_arm import run, run_observed
+    from bench.engines.curve import ARM_NUMBERS, blank_curves
+    from bench.engines.run_arm import run, run_native
     from bench.plan import Plan, Unit
     from bench.rows import frame, settings_of
     from bench.suites import ON_ARM
-    from bench.traces import ARM_WIDTH, WIDTH, arm_recorder
 
     start = next(one for one in tasks.start_set(START_SET, None, SEED, arm=ARM) if one.id == START)
     metrics, joints = metrics_of(on_arm=True), tasks.arm(ARM).joints
@@ -77,11 +75,11 @@ def motions() -> list[Motion]:
         one = controller(word)
         plan, unit = Plan("media", (), (one,)), Unit("native", one.name, TASK, START_SET, 0, 1, 1, ON_ARM, ARM)
         judged = run("native", one, TASK, ARM, [start], settings_of(plan, ON_ARM), metrics)
-        samples = round(LOOP_S / plan.dt_s)
-        kept = np.full((1, FIRST_METRIC + samples * ARM_WIDTH - POSE), np.nan)
-        run_observed(arm_recorder(1), one, TASK, ARM, [start], settings_of(plan, LOOP_S), kept)
-        ticks = kept[0, FIRST_METRIC:POSE].reshape(samples, ARM_WIDTH)
-        q = ticks[~np.isnan(ticks[:, 0]), WIDTH + 1 : WIDTH + 1 + joints].tolist()
+        curves = blank_curves(1, round(LOOP_S / plan.dt_s), numbers=ARM_NUMBERS)
+        run_native(one, TASK, ARM, [start], settings_of(plan, LOOP_S), metrics, curves)
+        [ticks] = curves.samples
+        first = ARM_NUMBERS.index("q_1")
+        q = ticks[~np.isnan(ticks[:, 0]), first : first + joints].tolist()
         row = frame(plan, unit, one, [start], judged, metrics).iloc[0].to_dict()
         found.append(Motion(one.name, title, plan.dt_s, q, row))
     return found

@@ -17,7 +17,7 @@ from bench.choice import INTEGRATORS
 from bench.discovery import all_contenders, known_inverses, known_jacobians, known_representations, metrics_of
 from bench.engines.arm_episode import POSE
 from bench.engines.episode import OUTCOME, SETTLING_TICK, TICKS
-from bench.engines.run_arm import compiled_loop, observer_of, pointers, run
+from bench.engines.run_arm import compiled_loop, pointers, run
 from tasks.kinematics import kinematics
 from tasks.variations import VARIATIONS
 from tasks.verdict import DIVERGED, OUTCOMES, SATURATED, SETTLED, SINGULAR, STUCK, TIMED_OUT
@@ -202,7 +202,7 @@ def test_two_threads_give_the_rows_of_one():
 def test_threads_that_need_the_same_controller_compile_it_once():
     one = named(ARMS[0], PLAIN)
     with ThreadPoolExecutor(4) as pool:
-        found = list(pool.map(lambda _: (*pointers(one), compiled_loop(observer_of(METRICS))), range(8)))
+        found = list(pool.map(lambda _: (*pointers(one), compiled_loop(METRICS)), range(8)))
     assert all(part is first for parts in found for part, first in zip(parts, found[0], strict=True))
 
 

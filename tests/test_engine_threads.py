@@ -1,11 +1,19 @@
-"""Threads that share a law: it is compiled once, whoever asks first."""
+"""Compiled code that threads and laws share: a loop for all laws, made once, and each law once, whoever asks first."""
 
 import time
 from concurrent.futures import ThreadPoolExecutor
 
-from bench.discovery import find_contender
+import pytest
+from bits import different_rows
+from driving import settings, spread
+
+from bench.discovery import find_contender, metrics_of
 from bench.engines import ideal
-from bench.engines.run import compiled_loop
+from bench.engines import run as engines
+from bench.engines.native import free_body as native
+
+METRICS = metrics_of(on_arm=False)
+ENGINES = ("ideal-rk4", "ideal-held", "native")
 
 
 def test_threads_that_need_the_same_loop_compile_it_once(monkeypatch):
@@ -17,8 +25,26 @@ def test_threads_that_need_the_same_loop_compile_it_once(monkeypatch):
         return words
 
     monkeypatch.setattr(ideal, "episodes_of", slowly)
-    law = find_contender("rotation-matrix")
     with ThreadPoolExecutor(4) as pool:
-        loops = list(pool.map(lambda _: compiled_loop("ideal-of-a-test", law, ()), range(4)))
+        loops = list(pool.map(lambda _: engines.compiled_loop("ideal-of-a-test", ()), range(4)))
     assert len(compiled) == 1
     assert all(loop is loops[0] for loop in loops)
+
+
+def test_threads_that_need_the_same_law_compile_it_once():
+    one = find_contender("rotation-matrix")
+    with ThreadPoolExecutor(4) as pool:
+        found = list(pool.map(lambda _: engines.evaluation(one), range(4)))
+    assert all(law is found[0] for law in found)
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_loop_of_one_law_runs_every_other(engine, monkeypatch):
+    """So that a law costs its own compilation, not that of a loop."""
+    engines.compiled_loop(engine, METRICS)
+    for module in (ideal, native):
+        monkeypatch.setattr(module, "episodes_of", None)
+    starts = spread(1)
+    laws = [find_contender(word) for word in ("rotation-matrix", "linearized-euler/zyx-euler")]
+    one, other = (engines.run(engine, law, "free-body", starts, settings(horizon_s=0.5), METRICS) for law in laws)
+    assert different_rows(one, other) != []

@@ -15,10 +15,9 @@ from states import as_rotation, matrix, vector
 import tasks
 from bench.discovery import find_contender, metrics_of
 from bench.engines import ideal
-from bench.engines.binding import command_of, margin_of, memory_of
-from bench.engines.episode import FIRST_METRIC, OUTCOME, SETTLING_TICK, numbers, start_rows
-from bench.engines.run import run
-from bench.scalar import kernel
+from bench.engines.curve import NUMBERS, blank_curves
+from bench.engines.episode import FIRST_METRIC, OUTCOME, SETTLING_TICK
+from bench.engines.run import run, run_compiled
 from tasks.base import Start
 from tasks.rotations import short_of_half_turn, zyx
 from tasks.verdict import SETTLED
@@ -27,32 +26,14 @@ METRICS = metrics_of(on_arm=False)
 PAPERS_LAWS = tuple(own_loop.COMMANDS)
 COUNT = 40
 HORIZON = 3.0
-WIDTH = 12  # omega, n, o, a
-
-
-@kernel
-def record(row, sample):
-    """An observer that keeps the whole path: 12 numbers a tick."""
-    at = FIRST_METRIC + 12 * int(sample.time / sample.dt + 0.5)
-    row[at], row[at + 1], row[at + 2] = sample.omega
-    row[at + 3], row[at + 4], row[at + 5] = sample.R.n
-    row[at + 6], row[at + 7], row[at + 8] = sample.R.o
-    row[at + 9], row[at + 10], row[at + 11] = sample.R.a
-
-
-@functools.cache
-def recording_loop(engine, word):
-    contender = find_contender(word)
-    return ideal.episodes_of(
-        engine, command_of(contender), margin_of(contender), record, memory_of(contender), cache=False
-    )
+PATH = [NUMBERS.index(name) for name in (*(f"{v}_{x}" for v in ("omega", "n", "o", "a") for x in "xyz"),)]
 
 
 def recorded(engine, word, starts, chosen):
-    """Paths (starts, ticks, 12) and the judge's columns."""
-    rows = np.zeros((len(starts), FIRST_METRIC + WIDTH * chosen.ticks))
-    recording_loop(engine, word)(start_rows(starts), numbers(chosen), rows)
-    return rows[:, FIRST_METRIC:].reshape(len(starts), chosen.ticks, WIDTH), rows[:, :FIRST_METRIC]
+    """Paths (starts, ticks, 12), omega, n, o, a, and the judge's columns."""
+    curves = blank_curves(len(starts), chosen.ticks)
+    rows = run_compiled(engine, find_contender(word), "free-body", starts, chosen, METRICS, curves)
+    return curves.samples[:, :, PATH], rows[:, :FIRST_METRIC]
 
 
 def drawn_in_angles(reach, goal_reach, speed, seed):

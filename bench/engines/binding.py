@@ -1,6 +1,7 @@
 """A contender's law and metrics in the one form that every engine calls.
 
 command(R, omega, goal, gains, memory) -> (u, memory)      margin(R, R_d) -> number      observe(row, sample)
+evaluate(R, omega, goal, gains, memory) -> (u, memory, margin)
 
 On an analytic Jacobian the command is that of the coordinates: command(chart, E_d, Edot, gains) -> u_E.
 """
@@ -112,6 +113,18 @@ def _margin_from_goal(at):
         return at(relative(R_d, R))
 
     return margin
+
+
+def evaluation_of(contender: Contender):
+    """The law and its margin as one function, so that what both compute is computed once, and called once."""
+    command, margin = command_of(contender), margin_of(contender)
+
+    @kernel
+    def evaluate(R, omega, goal, gains, memory):
+        u, memory = command(R, omega, goal, gains, memory)
+        return u, memory, margin(R, goal.R)
+
+    return evaluate
 
 
 @kernel

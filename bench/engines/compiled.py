@@ -11,9 +11,12 @@ from numba.core.bytecode import FunctionIdentity
 from numba.extending import overload, register_jitable
 
 from bench import scalar
+from bench.contender import Gains, Goal
 from bench.engines.cache import to_itself
+from bench.engines.curve import Curves
 from bench.engines.episode import Numbers
 from bench.errors import BadLaw
+from bench.so3 import Rotation
 from tasks import truth, verdict
 
 FunctionIdentity._unique_ids = itertools.count(secrets.randbits(56))
@@ -27,8 +30,14 @@ JIT = {"nogil": True, "error_model": "numpy"}
 
 MATRIX = float64[:, ::1]
 NUMBERS = types.NamedTuple((float64, float64, float64, int64, int64, float64, float64, float64, float64), Numbers)
-EPISODES = types.void(MATRIX, NUMBERS, MATRIX)
-"""episodes(starts, numbers, rows): the signature of every compiled loop over the ideal plant."""
+CURVES = types.NamedTuple((int64, float64[:, :, ::1]), Curves)
+THREE, FOUR = types.UniTuple(float64, 3), types.UniTuple(float64, 4)
+ROTATION = types.NamedUniTuple(THREE, 3, Rotation)
+GOAL = types.NamedTuple((ROTATION, THREE, THREE), Goal)
+GAINS = types.NamedUniTuple(float64, 2, Gains)
+
+EVALUATE = types.Tuple((THREE, FOUR, float64))(ROTATION, THREE, GOAL, GAINS, FOUR)
+"""evaluate(R, omega, goal, gains, memory) -> (u, memory, margin): a law as the free body's loops call it, by pointer."""
 
 INLINED = (
     *("bench.chain", "bench.linalg", "bench.jacobians", "bench.cartesian", "bench.engines.arm_episode"),

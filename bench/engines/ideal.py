@@ -5,8 +5,11 @@ simulation (the paper's Simnon) would. held: the command stays over the tick, om
 by exp([Omega]x), Omega by Magnus to fourth order in the tick.
 """
 
+from numba import types
+
 from bench.contender import AT_REST, Gains, Goal
-from bench.engines.compiled import EPISODES, compile_function
+from bench.engines.compiled import CURVES, EVALUATE, FOUR, MATRIX, NUMBERS, compile_function
+from bench.engines.curve import keep
 from bench.engines.episode import Sample, finish
 from bench.scalar import atan2, cos, kernel, sin, sqrt
 from bench.so3 import Rotation, cross, dot, from_quaternion
@@ -102,49 +105,43 @@ def angle_between(R, R_d):
     return atan2(sqrt(dot(s, s)), dot(R_d.n, R.n) + dot(R_d.o, R.o) + dot(R_d.a, R.a) - 1.0)
 
 
-def rk4_step_of(command):
-    """One Runge-Kutta step of the closed loop; the first stage's command is the tick's and is given."""
-
-    @kernel
-    def step(R, omega, u, goal, gains, memory, dt):
-        half = 0.5 * dt
-        R1 = rotation_rate(R, omega)
-        omega2, at2 = plus(omega, half, u), moved(R, half, R1)
-        u2, _ = command(at2, omega2, goal, gains, memory)
-        R2 = rotation_rate(at2, omega2)
-        omega3, at3 = plus(omega, half, u2), moved(R, half, R2)
-        u3, _ = command(at3, omega3, goal, gains, memory)
-        R3 = rotation_rate(at3, omega3)
-        omega4, at4 = plus(omega, dt, u3), moved(R, dt, R3)
-        u4, _ = command(at4, omega4, goal, gains, memory)
-        R4 = rotation_rate(at4, omega4)
-        n = weighted(R1.n, R2.n, R3.n, R4.n)
-        o = weighted(R1.o, R2.o, R3.o, R4.o)
-        a = weighted(R1.a, R2.a, R3.a, R4.a)
-        sixth = dt / 6.0
-        return moved(R, sixth, Rotation(n, o, a)), plus(omega, sixth, weighted(u, u2, u3, u4))
-
-    return step
+@kernel
+def rk4_step(evaluate, R, omega, u, goal, gains, memory, dt):
+    """The closed loop one Runge-Kutta step on; the first stage's command u is the tick's and is given."""
+    half = 0.5 * dt
+    R1 = rotation_rate(R, omega)
+    omega2, at2 = plus(omega, half, u), moved(R, half, R1)
+    u2, _, _ = evaluate(at2, omega2, goal, gains, memory)
+    R2 = rotation_rate(at2, omega2)
+    omega3, at3 = plus(omega, half, u2), moved(R, half, R2)
+    u3, _, _ = evaluate(at3, omega3, goal, gains, memory)
+    R3 = rotation_rate(at3, omega3)
+    omega4, at4 = plus(omega, dt, u3), moved(R, dt, R3)
+    u4, _, _ = evaluate(at4, omega4, goal, gains, memory)
+    R4 = rotation_rate(at4, omega4)
+    n = weighted(R1.n, R2.n, R3.n, R4.n)
+    o = weighted(R1.o, R2.o, R3.o, R4.o)
+    a = weighted(R1.a, R2.a, R3.a, R4.a)
+    sixth = dt / 6.0
+    return moved(R, sixth, Rotation(n, o, a)), plus(omega, sixth, weighted(u, u2, u3, u4))
 
 
-def held_step_of(command):
-    """One tick of the sampled plant: the tick's command holds."""
-
-    @kernel
-    def step(R, omega, u, goal, gains, memory, dt):
-        return held_step(R, omega, u, dt)
-
-    return step
+@kernel
+def _sampled_step(evaluate, R, omega, u, goal, gains, memory, dt):
+    """The sampled plant one tick on: the tick's command holds, and no law is asked."""
+    return held_step(R, omega, u, dt)
 
 
-STEPS = {"ideal-rk4": rk4_step_of, "ideal-held": held_step_of}
+STEPS = {"ideal-rk4": rk4_step, "ideal-held": _sampled_step}
+
+EPISODES = types.void(types.FunctionType(EVALUATE), FOUR, MATRIX, NUMBERS, MATRIX, CURVES)
 
 
-def episodes_of(engine, command, margin, observe, memory0, cache=True):
-    """The loop over episodes for one contender: `episodes(starts, numbers, rows)` fills rows."""
-    step = STEPS[engine](command)
+def episodes_of(engine, observe, cache=True):
+    """The loop over episodes, for all laws: `episodes(evaluate, memory0, starts, numbers, rows, curves)` fills both."""
+    step = STEPS[engine]
 
-    def episodes(starts, numbers, rows):
+    def episodes(evaluate, memory0, starts, numbers, rows, curves):
         gains = Gains(numbers.kp, numbers.kv)
         dt = numbers.dt
         for k in range(starts.shape[0]):
@@ -161,12 +158,14 @@ def episodes_of(engine, command, margin, observe, memory0, cache=True):
             tick = 0
             failure = GOING
             while tick < numbers.ticks and watch.quiet < numbers.hold_ticks:
-                u, memory = command(R, omega, goal, gains, memory)
-                observe(row, Sample(tick * dt, dt, R, hav, watch.entered, omega, u, margin(R, R_d)))
+                u, memory, margin = evaluate(R, omega, goal, gains, memory)
+                sample = Sample(tick * dt, dt, R, hav, watch.entered, omega, u, margin)
+                observe(row, sample)
+                keep(curves, k, tick, sample)
                 failure = check_command(dot(u, u), numbers.command_limit_squared)
                 if failure != GOING:
                     break
-                R, omega = step(R, omega, u, goal, gains, memory, dt)
+                R, omega = step(evaluate, R, omega, u, goal, gains, memory, dt)
                 tick += 1
                 failure = check_state(dot(omega, omega), numbers.speed_limit_squared)
                 if failure != GOING:

@@ -9,8 +9,9 @@ import numpy as np
 import tasks
 from bench.contender import Contender
 from bench.engines import ideal
-from bench.engines.binding import command_of, margin_of, memory_of, observer
-from bench.engines.compiled import own_law
+from bench.engines.binding import evaluation_of, memory_of, observer
+from bench.engines.compiled import EVALUATE, compile_function, own_law
+from bench.engines.curve import Curves, blank_curves
 from bench.engines.episode import Settings, blank, numbers, start_rows
 from bench.engines.native import free_body as native
 from bench.engines.reference import free_body as reference
@@ -33,38 +34,64 @@ def run(
     """
     if engine == "reference":
         return reference.run(contender, task, starts, start_rows(starts)[:, 11], settings, metrics, integrator)
+    return run_compiled(engine, contender, task, starts, settings, metrics, blank_curves(len(starts)), integrator)
+
+
+def run_compiled(
+    engine: str,
+    contender: Contender,
+    task: str,
+    starts,
+    settings: Settings,
+    metrics,
+    curves: Curves,
+    integrator: str = "euler",
+) -> np.ndarray:
+    """The same on any engine but `reference`, into curves also."""
     rows = blank(len(starts), metrics)
-    loop = compiled_loop(engine, contender, tuple(metrics))
+    loop = compiled_loop(engine, tuple(metrics))
+    law = evaluation(contender), memory_of(contender)
+    given = start_rows(starts), numbers(settings), rows, curves
     if engine == "native":
         model = mujoco.MjModel.from_xml_string(tasks.task(task).xml(settings.dt_s))
         model.opt.integrator = MUJOCO_INTEGRATORS[integrator]
         data = mujoco.MjData(model)
         states = np.array([[*qpos, *qvel] for qpos, qvel in map(tasks.task(task).state, starts)], dtype=float)
-        loop(native.view(model, data), states, start_rows(starts), numbers(settings), rows)
+        loop(*law, native.view(model, data), states, *given)
     else:
-        loop(start_rows(starts), numbers(settings), rows)
+        loop(*law, *given)
     return rows
 
 
 _locks: dict = {}
 
 
-def compiled_loop(engine: str, contender: Contender, metrics: tuple):
-    """The loop of a contender, compiled or taken from the disk cache; a user's law is compiled anew each time.
+def compiled_loop(engine: str, metrics: tuple):
+    """The loop of an engine, for all laws, compiled or taken from the disk cache.
 
     Threads that need the same loop wait for the first of them, rather than compile it again.
+    """
+    with _locks.setdefault((engine, metrics), threading.Lock()):
+        return _compiled_loop(engine, metrics)
+
+
+@functools.cache
+def _compiled_loop(engine: str, metrics: tuple):
+    observe = observer(metrics)
+    return native.episodes_of(observe) if engine == "native" else ideal.episodes_of(engine, observe)
+
+
+def evaluation(contender: Contender):
+    """A contender as the loops call it, compiled or taken from the disk cache; a user's law is compiled anew.
 
     Errors:
         BadLaw: a user's law that the compiler cannot take.
     """
-    with _locks.setdefault((engine, contender), threading.Lock()):
-        return _compiled_loop(engine, contender, metrics)
+    with _locks.setdefault(contender, threading.Lock()):
+        return _evaluation(contender)
 
 
 @functools.cache
-def _compiled_loop(engine: str, contender: Contender, metrics: tuple):
-    parts = command_of(contender), margin_of(contender), observer(metrics), memory_of(contender)
+def _evaluation(contender: Contender):
     with own_law(contender.regulator.origin) as cache:
-        if engine == "native":
-            return native.episodes_of(*parts, cache)
-        return ideal.episodes_of(engine, *parts, cache)
+        return compile_function(evaluation_of(contender), EVALUATE, cache)

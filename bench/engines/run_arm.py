@@ -13,6 +13,7 @@ from bench.contender import Contender
 from bench.engines.arm_episode import blank_arm, controls, joints
 from bench.engines.binding import command_of, margin_of, memory_of, observer
 from bench.engines.compiled import compile_function, own_law
+from bench.engines.curve import Curves, blank_curves
 from bench.engines.episode import Settings, numbers, start_rows
 from bench.engines.native import arm as native
 from bench.engines.reference import arm as reference
@@ -61,25 +62,25 @@ def run(
     if engine == "reference":
         bands = start_rows(starts)[:, 11]
         return reference.run(contender, task, arm, starts, bands, settings, metrics, integrator, variation)
-    rows = blank_arm(len(starts), metrics)
-    observe = observer_of(tuple(metrics))
-    return run_observed(observe, contender, task, arm, starts, settings, rows, integrator, variation)
+    curves = blank_curves(len(starts))
+    return run_native(contender, task, arm, starts, settings, metrics, curves, integrator, variation)
 
 
-def run_observed(
-    observe,
+def run_native(
     contender: Contender,
     task: str,
     arm: str,
     starts,
     settings: Settings,
-    rows: np.ndarray,
+    metrics,
+    curves: Curves,
     integrator: str = "euler",
     variation: str = NOMINAL,
 ) -> np.ndarray:
-    """The native engine with an observer of the caller's own, into the caller's rows."""
+    """The same on the native engine, into curves also."""
+    rows = blank_arm(len(starts), metrics)
     ready = simulation(task, arm, settings.dt_s, integrator, variation)
-    compiled_loop(observe)(
+    compiled_loop(tuple(metrics))(
         *pointers(contender),
         ready.plant,
         ready.model,
@@ -91,6 +92,7 @@ def run_observed(
         start_rows(starts),
         numbers(settings),
         rows,
+        curves,
     )
     return rows
 
@@ -117,14 +119,11 @@ def _model(task: str, arm: Arm, dt_s: float, integrator: str, variation: str) ->
 
 _lock = threading.Lock()
 
-observer_of = functools.cache(observer)
-"""One observer for one list of metrics, so that the loop is compiled once."""
 
-
-def compiled_loop(observe):
-    """The loop with this observer, compiled or taken from the disk cache."""
+def compiled_loop(metrics: tuple):
+    """The loop with these metrics, for all contenders, compiled or taken from the disk cache."""
     with _lock:
-        return _compiled_loop(observe)
+        return _compiled_loop(metrics)
 
 
 def pointers(contender: Contender) -> Pointers:
@@ -134,7 +133,9 @@ def pointers(contender: Contender) -> Pointers:
         return Pointers(_assemble(contender._replace(inverse=None)), _resolve(contender.inverse), _margin(law))
 
 
-_compiled_loop = functools.cache(native.episodes_of)
+@functools.cache
+def _compiled_loop(metrics: tuple):
+    return native.episodes_of(observer(metrics))
 
 
 @functools.cache

@@ -15,6 +15,7 @@ from bench.discovery import metrics_of
 from bench.engines import run_arm
 from bench.engines.arm_episode import blank_arm, controls, joints
 from bench.engines.binding import memory_of
+from bench.engines.curve import blank_curves
 from bench.engines.episode import TICKS, numbers, start_rows
 from bench.plan import Plan
 from bench.rows import settings_of
@@ -78,7 +79,7 @@ def _native(arm: str, one: Contender, start: Start, horizon_s: float) -> Thing:
     ready = run_arm.simulation(TASK, arm, settings.dt_s, "euler")
     fresh = blank_arm(1, metrics)
     rows = fresh.copy()
-    loop = run_arm.compiled_loop(run_arm.observer_of(tuple(metrics)))
+    loop = run_arm.compiled_loop(metrics)
     given = (
         *run_arm.pointers(one),
         *(ready.plant, ready.model, ready.work),
@@ -88,11 +89,13 @@ def _native(arm: str, one: Contender, start: Start, horizon_s: float) -> Thing:
         np.array([[*start.q, *start.qdot]]),
         start_rows([start]),
         numbers(settings),
+        rows,
+        blank_curves(1),
     )
 
     def call():
         rows[:] = fresh
-        loop(*given, rows)
+        loop(*given)
         return ready  # the views hold addresses only: this keeps what they point to
 
     call()

@@ -16,9 +16,10 @@ import tasks
 from bench.contender import Contender, Gains
 from bench.discovery import metrics_of
 from bench.engines.binding import command_of, memory_of
+from bench.engines.curve import blank_curves
 from bench.engines.episode import TICKS, blank, numbers, start_rows
 from bench.engines.native import free_body as native
-from bench.engines.run import compiled_loop
+from bench.engines.run import compiled_loop, evaluation
 from bench.plan import Plan
 from bench.rows import settings_of
 from bench.timing import law, on_arms, reference_kernel
@@ -92,24 +93,24 @@ def _settings():
 
 def _engine(engine: str, one: Contender) -> Thing:
     metrics = metrics_of(on_arm=False)
-    loop = compiled_loop(engine, one, metrics)
+    loop, asked = compiled_loop(engine, metrics), (evaluation(one), memory_of(one))
     starts = tasks.start_set("uniform", STARTS[engine])
     rows, fixed, limits = blank(len(starts), metrics), start_rows(starts), numbers(_settings())
-    fresh = rows.copy()
+    fresh, given = rows.copy(), (fixed, limits, rows, blank_curves(len(starts)))
     if engine == "native":
         model, data, states = _simulation(starts)
         sim = native.view(model, data)
 
         def call():
             rows[:] = fresh
-            loop(sim, states, fixed, limits, rows)
+            loop(*asked, sim, states, *given)
             return data  # the view holds addresses only: this keeps what they point to
 
     else:
 
         def call():
             rows[:] = fresh
-            loop(fixed, limits, rows)
+            loop(*asked, *given)
 
     call()
     return Thing(ENGINE, one, engine, int(rows[:, TICKS].sum()), call)

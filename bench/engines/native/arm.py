@@ -25,7 +25,18 @@ from bench.engines.arm_episode import (
     seven,
     squared,
 )
-from bench.engines.compiled import MATRIX, NUMBERS, compile_function
+from bench.engines.compiled import (
+    CURVES,
+    FOUR,
+    GAINS,
+    GOAL,
+    MATRIX,
+    NUMBERS,
+    ROTATION,
+    THREE,
+    compile_function,
+)
+from bench.engines.curve import keep_on_arm
 from bench.engines.episode import finish
 from bench.engines.native.libmujoco import mj_fullM, mj_resetData, mj_step, mj_step1, mj_step2
 from bench.engines.native.pointers import address_of, matrix, vector
@@ -70,11 +81,8 @@ class Workspace(NamedTuple):
     G: int
 
 
-VECTOR, THREE, FOUR = float64[::1], types.UniTuple(float64, 3), types.UniTuple(float64, 4)
-ROTATION = types.NamedUniTuple(THREE, 3, Rotation)
+VECTOR = float64[::1]
 CHAIN = types.NamedTuple((int64, MATRIX, MATRIX, VECTOR, THREE, ROTATION), Chain)
-GOAL = types.NamedTuple((ROTATION, THREE, THREE), Goal)
-GAINS = types.NamedUniTuple(float64, 2, Gains)
 SCRATCH = types.NamedTuple((MATRIX, MATRIX, MATRIX, VECTOR, VECTOR), Scratch)
 ARM_VIEW = types.NamedUniTuple(int64, len(ArmView._fields), ArmView)
 WORKSPACE = types.NamedUniTuple(int64, len(Workspace._fields), Workspace)
@@ -86,7 +94,7 @@ RESOLVE = types.void(MATRIX, VECTOR, MATRIX, VECTOR, int64, int64, SCRATCH)
 MARGIN = float64(ROTATION, ROTATION)
 EPISODES = types.void(
     *(types.FunctionType(signature) for signature in (ASSEMBLE, RESOLVE, MARGIN)),
-    *(ARM_VIEW, ARM_VIEW, WORKSPACE, CONTROLS, JOINTS, FOUR, MATRIX, MATRIX, NUMBERS, MATRIX),
+    *(ARM_VIEW, ARM_VIEW, WORKSPACE, CONTROLS, JOINTS, FOUR, MATRIX, MATRIX, NUMBERS, MATRIX, CURVES),
 )
 
 
@@ -114,10 +122,10 @@ def workspace(n: int) -> tuple[Workspace, tuple]:
 
 
 def episodes_of(observe, cache=True):
-    """The loop over episodes: `episodes(assemble, resolve, margin, plant, model, ..., rows)` fills rows."""
+    """The loop over episodes: `episodes(assemble, resolve, margin, plant, ..., rows, curves)` fills rows and curves."""
 
     def episodes(
-        assemble, resolve, margin, plant, model, work, controls, joints, memory0, states, starts, numbers, rows
+        assemble, resolve, margin, plant, model, work, controls, joints, memory0, states, starts, numbers, rows, curves
     ):
         gains = Gains(numbers.kp, numbers.kv)
         dt, n = numbers.dt, plant.n
@@ -172,13 +180,12 @@ def episodes_of(observe, cache=True):
                     chain, D, fg, goal, p_d, gains, memory, buffers,
                 )  # fmt: skip
                 omega, torques = (s[9], s[10], s[11]), seven(tau, n)
-                observe(
-                    row,
-                    ArmSample(
-                        tick * dt, dt, R, hav, watch.entered, omega, u, margin(R, R_d), p, p_d, seven(qpos, n),
-                        seven(qvel, n), torques, joints.lower, joints.upper, joints.rated,
-                    ),
+                sample = ArmSample(
+                    tick * dt, dt, R, hav, watch.entered, omega, u, margin(R, R_d), p, p_d, seven(qpos, n),
+                    seven(qvel, n), torques, joints.lower, joints.upper, joints.rated,
                 )  # fmt: skip
+                observe(row, sample)
+                keep_on_arm(curves, k, tick, sample)
                 failure = check_command(load(torques, joints.rated), controls.torque_limit_squared)
                 if tick % PROBE_TICKS == 0 or failure != GOING:
                     probe(row, chain, qpos, G, scratch)

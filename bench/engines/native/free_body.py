@@ -12,7 +12,8 @@ import numpy as np
 from numba import float64, int32, int64, types
 
 from bench.contender import AT_REST, Gains, Goal
-from bench.engines.compiled import MATRIX, NUMBERS, compile_function
+from bench.engines.compiled import CURVES, EVALUATE, FOUR, MATRIX, NUMBERS, compile_function
+from bench.engines.curve import keep
 from bench.engines.episode import Sample, finish
 from bench.engines.native.libmujoco import mj_resetData, mj_step, mj_step1, mj_step2
 from bench.so3 import Rotation, dot, from_quaternion
@@ -34,7 +35,7 @@ class View(NamedTuple):
 
 
 VIEW = types.NamedTuple((int64, int64, int64, *[float64[::1]] * 4, int32[:]), View)
-EPISODES = types.void(VIEW, MATRIX, MATRIX, NUMBERS, MATRIX)
+EPISODES = types.void(types.FunctionType(EVALUATE), FOUR, VIEW, MATRIX, MATRIX, NUMBERS, MATRIX, CURVES)
 
 
 def view(model, data) -> View:
@@ -51,10 +52,10 @@ def view(model, data) -> View:
     )
 
 
-def episodes_of(command, margin, observe, memory0, cache=True):
-    """The loop over episodes for one contender: `episodes(view, states, starts, numbers, rows)` fills rows."""
+def episodes_of(observe, cache=True):
+    """The loop over episodes, for all laws: `episodes(evaluate, memory0, view, states, ..., curves)` fills rows, curves."""
 
-    def episodes(sim, states, starts, numbers, rows):
+    def episodes(evaluate, memory0, sim, states, starts, numbers, rows, curves):
         gains = Gains(numbers.kp, numbers.kv)
         dt = numbers.dt
         nq = sim.qpos.shape[0]
@@ -68,8 +69,10 @@ def episodes_of(command, margin, observe, memory0, cache=True):
             memory = memory0
             u = AT_REST
             mj_resetData(sim.model, sim.data)
-            sim.qpos[:] = states[k, :nq]
-            sim.qvel[:] = states[k, nq:]
+            for i in range(nq):
+                sim.qpos[i] = states[k, i]
+            for i in range(sim.qvel.shape[0]):
+                sim.qvel[i] = states[k, nq + i]
             mj_step1(sim.model, sim.data)
             hav = haversine((s[12], s[13], s[14], s[15]), quat_d)
             watch = first_watch(hav, band)
@@ -78,8 +81,10 @@ def episodes_of(command, margin, observe, memory0, cache=True):
             while tick < numbers.ticks and watch.quiet < numbers.hold_ticks:
                 R = Rotation((s[0], s[1], s[2]), (s[3], s[4], s[5]), (s[6], s[7], s[8]))
                 omega = (s[9], s[10], s[11])
-                u, memory = command(R, omega, goal, gains, memory)
-                observe(row, Sample(tick * dt, dt, R, hav, watch.entered, omega, u, margin(R, R_d)))
+                u, memory, margin = evaluate(R, omega, goal, gains, memory)
+                sample = Sample(tick * dt, dt, R, hav, watch.entered, omega, u, margin)
+                observe(row, sample)
+                keep(curves, k, tick, sample)
                 failure = check_command(dot(u, u), numbers.command_limit_squared)
                 if failure != GOING:
                     break
