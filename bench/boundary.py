@@ -5,7 +5,7 @@ sets hit those exactly.
 """
 
 import math
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import Executor
 
 import numpy as np
 import pandas as pd
@@ -34,21 +34,15 @@ def axes(count: int) -> np.ndarray:
     return np.column_stack((radius * np.cos(turn), radius * np.sin(turn), z))
 
 
-def run(plan: Plan, workers: int = 1) -> pd.DataFrame:
-    """boundaries.parquet of a plan: one row for each of the paper's laws, or the user's, and axis; a thread a law."""
-    frames = []
-    if plan.boundary_axes:
-        directions = axes(plan.boundary_axes)
-        pool = ThreadPoolExecutor(workers)
-        try:
-            frames = list(
-                pool.map(
-                    lambda one: _boundary(plan, one, directions),
-                    (one for one in plan.laws if not one.is_beyond_the_paper),
-                )
-            )
-        finally:
-            pool.shutdown(cancel_futures=True)
+def run(plan: Plan, pool: Executor | None = None) -> pd.DataFrame:
+    """boundaries.parquet of a plan: one row for each of the paper's laws, or the user's, and axis.
+
+    Args:
+        pool: does a law in each of its threads; without one they take turns.
+    """
+    directions = axes(plan.boundary_axes)
+    laws = [one for one in plan.laws if plan.boundary_axes and not one.is_beyond_the_paper]
+    frames = list((pool.map if pool else map)(lambda one: _boundary(plan, one, directions), laws))
     names = [column.name for column in boundary_columns()]
     return pd.concat(frames, ignore_index=True) if frames else pd.DataFrame(columns=names)
 

@@ -1,4 +1,4 @@
-"""Curves that the compiled loops keep: the samples that metrics see, at the right ticks, and no row the worse for it."""
+"""Curves that the compiled loops keep: the samples that metrics see, at the right ticks; rows stay as they are."""
 
 import numpy as np
 import pytest

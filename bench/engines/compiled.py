@@ -21,7 +21,7 @@ from tasks import truth, verdict
 
 FunctionIdentity._unique_ids = itertools.count(secrets.randbits(56))
 """numba tells functions of one name apart by a number that counts from 1 in every process, and the linker keeps the
-first of two that have the same. All laws' closures are called `command`; two that two processes had compiled and a
+first of two that have the same. All laws' closures are called `evaluate`; two that two processes had compiled and a
 third took from the cache became one, so that a law was silently run with parts of another. Counting from a random
 place, no two processes meet."""
 
@@ -37,7 +37,7 @@ GOAL = types.NamedTuple((ROTATION, THREE, THREE), Goal)
 GAINS = types.NamedUniTuple(float64, 2, Gains)
 
 EVALUATE = types.Tuple((THREE, FOUR, float64))(ROTATION, THREE, GOAL, GAINS, FOUR)
-"""evaluate(R, omega, goal, gains, memory) -> (u, memory, margin): a law as the free body's loops call it, by pointer."""
+"""evaluate(R, omega, goal, gains, memory) -> (u, memory, margin): a law as loops on the free body call it."""
 
 INLINED = (
     *("bench.chain", "bench.linalg", "bench.jacobians", "bench.cartesian", "bench.engines.arm_episode"),

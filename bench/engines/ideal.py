@@ -133,12 +133,14 @@ def _sampled_step(evaluate, R, omega, u, goal, gains, memory, dt):
 
 
 STEPS = {"ideal-rk4": rk4_step, "ideal-held": _sampled_step}
+"""A law is called by pointer, 10 ns each time, once a tick or four times. With the law compiled into a loop of its own
+the Runge-Kutta tick was a third shorter, and each law took 2 s and 16 MB an engine to compile."""
 
 EPISODES = types.void(types.FunctionType(EVALUATE), FOUR, MATRIX, NUMBERS, MATRIX, CURVES)
 
 
-def episodes_of(engine, observe, cache=True):
-    """The loop over episodes, for all laws: `episodes(evaluate, memory0, starts, numbers, rows, curves)` fills both."""
+def episodes_of(engine, observe):
+    """The loop over episodes, for all laws: `episodes(evaluate, memory0, ..., rows, curves)` fills the last two."""
     step = STEPS[engine]
 
     def episodes(evaluate, memory0, starts, numbers, rows, curves):
@@ -174,4 +176,4 @@ def episodes_of(engine, observe, cache=True):
                 watch = watched(watch, tick, hav, band)
             finish(row, failure, watch, tick, angle_between(R, R_d), hav <= band, dot(omega, omega), dot(u, u), numbers)
 
-    return compile_function(episodes, EPISODES, cache)
+    return compile_function(episodes, EPISODES)

@@ -25,17 +25,7 @@ from bench.engines.arm_episode import (
     seven,
     squared,
 )
-from bench.engines.compiled import (
-    CURVES,
-    FOUR,
-    GAINS,
-    GOAL,
-    MATRIX,
-    NUMBERS,
-    ROTATION,
-    THREE,
-    compile_function,
-)
+from bench.engines.compiled import CURVES, FOUR, GAINS, GOAL, MATRIX, NUMBERS, ROTATION, THREE, compile_function
 from bench.engines.curve import keep_on_arm
 from bench.engines.episode import finish
 from bench.engines.native.libmujoco import mj_fullM, mj_resetData, mj_step, mj_step1, mj_step2
@@ -121,8 +111,8 @@ def workspace(n: int) -> tuple[Workspace, tuple]:
     return Workspace(*map(address_of, arrays)), arrays
 
 
-def episodes_of(observe, cache=True):
-    """The loop over episodes: `episodes(assemble, resolve, margin, plant, ..., rows, curves)` fills rows and curves."""
+def episodes_of(observe):
+    """The loop over episodes: `episodes(assemble, resolve, margin, plant, ..., rows, curves)` fills the last two."""
 
     def episodes(
         assemble, resolve, margin, plant, model, work, controls, joints, memory0, states, starts, numbers, rows, curves
@@ -208,4 +198,4 @@ def episodes_of(observe, cache=True):
             speed, command = squared(qvel, n), u[0] * u[0] + u[1] * u[1] + u[2] * u[2]
             finish(row, failure, watch, tick, final, hav <= band, speed, command, numbers)
 
-    return compile_function(episodes, EPISODES, cache)
+    return compile_function(episodes, EPISODES)

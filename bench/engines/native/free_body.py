@@ -52,8 +52,8 @@ def view(model, data) -> View:
     )
 
 
-def episodes_of(observe, cache=True):
-    """The loop over episodes, for all laws: `episodes(evaluate, memory0, view, states, ..., curves)` fills rows, curves."""
+def episodes_of(observe):
+    """The loop over episodes, for all laws: `episodes(evaluate, memory0, ..., rows, curves)` fills the last two."""
 
     def episodes(evaluate, memory0, sim, states, starts, numbers, rows, curves):
         gains = Gains(numbers.kp, numbers.kv)
@@ -104,4 +104,4 @@ def episodes_of(observe, cache=True):
             speed = s[9] * s[9] + s[10] * s[10] + s[11] * s[11]
             finish(row, failure, watch, tick, final, hav <= band, speed, dot(u, u), numbers)
 
-    return compile_function(episodes, EPISODES, cache)
+    return compile_function(episodes, EPISODES)
