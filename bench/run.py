@@ -20,7 +20,7 @@ import pandas as pd
 import tasks
 from bench import boundary, contact_rows, counting, poses, traces
 from bench.choice import check_workers
-from bench.contact_plan import ContactUnit, poses_of
+from bench.contact_plan import ContactUnit, in_running_order, poses_of
 from bench.discovery import all_contenders, find_compliant, metrics_of
 from bench.engines.contact_episode import Conditions
 from bench.engines.run import evaluation
@@ -117,7 +117,7 @@ def run(
         _clear(out)
         write_json(out / "plan.json", {"digest": plan.digest(), **plan.identity()})
         _keep_own_laws(plan, out)
-    todo = [unit for unit in plan.work if unit.key not in state.done]
+    todo = [unit for unit in (*plan.units, *in_running_order(plan.contacts)) if unit.key not in state.done]
     for unit in plan.work:
         if unit.key in state.done:
             told(Progress(unit, unit.count))

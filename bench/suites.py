@@ -96,7 +96,6 @@ COMPLIANT = (
 """Controllers in contact that tell the coordinates apart, and the control and the form that must not be blamed."""
 
 MORE_COMPLIANT = (
-    "hybrid-rate+projected",
     "hybrid-hand+projected",
     "hybrid/xyz-euler+inverse",
     "hybrid/rotation-vector+inverse",
