@@ -58,12 +58,13 @@ STEADY = 1e8
 ON_SET = 1e-6
 """Margin of coordinates: a goal that is nearer to their singular set is meant to be on it."""
 
-THROWN = 2.0
-"""Torque over its rated one: none of a hand that presses, slides or turns reaches it; one that tumbles, again and
-again hitting what surrounds it, has a hundred times as much."""
+THROWN = 1.0
+"""Torque over its rated one: a hand that asks more of its motors has been thrown about; what it hits next, and when,
+hangs on rounding."""
 
-CONTACT_ABSOLUTE = 1e-7
-"""Below this a rotation [rad], also one per moment, is rounding: an angle by its cosine is known to 2e-8."""
+CONTACT_RELATIVE, CONTACT_ABSOLUTE = 1e-4, 1e-7
+"""Impacts multiply rounding: 1e-16 in a joint angle becomes 4e-7 in the peak of the force on a peg that jams, and each
+tick rounds anew. A rotation [rad] by its cosine is known to 2e-8."""
 
 SHOWN = 10
 
@@ -224,7 +225,7 @@ def _compliance(new: pd.DataFrame, old: pd.DataFrame) -> list[str]:
     for name in old.columns.difference([*COMPLIANCE_KEY, "outcome"], sort=False):
         if old[name].dtype.kind in "iuf":
             a, b = new[name].to_numpy(float), old[name].to_numpy(float)
-            close = np.isclose(a, b, rtol=RELATIVE, atol=CONTACT_ABSOLUTE, equal_nan=True)
+            close = np.isclose(a, b, rtol=CONTACT_RELATIVE, atol=CONTACT_ABSOLUTE, equal_nan=True)
             lines += _changed(name, new, old, both & ~close)
         else:
             lines += _changed(name, new, old, new[name].astype(str) != old[name].astype(str))

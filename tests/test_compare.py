@@ -294,6 +294,101 @@ def test_gate_compares_no_cause(arm_candidate, tmp_path):
     assert compare(arm_candidate, before) == []
 
 
+# ----------------------------------------------------------------------------------------- in contact
+
+
+@pytest.fixture(scope="module")
+def contact_reference(tmp_path_factory):
+    """Two controllers on all poses of wrench-probe on one arm; the pole is among them."""
+    controllers = ("hybrid-base+inverse", "impedance-coordinates/zyx-euler")
+    choice = Choice(("wrench-probe",), arms=("ur5e",), controllers=controllers)
+    plan = planning.make("quick", [], choice, horizon_s=0.02)
+    folder = tmp_path_factory.mktemp("gate") / "contact"
+    running.run(plan, folder, workers=1)
+    return folder
+
+
+@pytest.fixture
+def contact_candidate(contact_reference, tmp_path):
+    return shutil.copytree(contact_reference, tmp_path / "candidate")
+
+
+def in_compliance(folder, column, value, rows=lambda frame: frame["pose"] == "alpha+0 beta+45 gamma+0, about x"):
+    """Give some rows of compliance.parquet another value there, or a function of the one they have."""
+
+    def edit(frame):
+        chosen = rows(frame) & (frame["controller"] == "impedance-coordinates")
+        assert chosen.sum() == 1
+        plain = frame[column].astype(str) if frame[column].dtype == "category" else frame[column]
+        new = plain.map(value) if callable(value) else value
+        frame[column] = plain.where(~chosen, new)
+        return frame
+
+    change(folder, "compliance", edit)
+
+
+def on_the_pole(frame):
+    return frame["pose"] == "alpha+0 beta+90 gamma+0, about x"
+
+
+def test_gate_passes_in_contact_when_nothing_changed(contact_reference, contact_candidate):
+    assert compare(contact_candidate, contact_reference) == []
+
+
+def test_gate_catches_an_outcome_in_contact_and_names_its_row(contact_reference, contact_candidate):
+    in_compliance(contact_candidate, "outcome", "broken")
+    assert compare(contact_candidate, contact_reference) == [
+        "outcome: done -> broken: quick wrench-probe ur5e impedance-coordinates zyx-euler "
+        "alpha+0 beta+45 gamma+0, about x"
+    ]
+
+
+@pytest.mark.parametrize(("column", "by"), [("c_xz", 1e-2), ("misalignment_rad", -2e-4), ("m_o", 1e-3), ("trials", 1)])
+def test_gate_catches_a_number_in_contact(contact_reference, contact_candidate, column, by):
+    in_compliance(contact_candidate, column, lambda x: x + by if column == "trials" else x * (1.0 + by))
+    [line] = compare(contact_candidate, contact_reference)
+    assert line.startswith(f"{column}: ")
+
+
+def test_gate_catches_a_number_in_contact_that_is_gone(contact_reference, contact_candidate):
+    in_compliance(contact_candidate, "c_zz", float("nan"))
+    [line] = compare(contact_candidate, contact_reference)
+    assert line.startswith("c_zz: ")
+
+
+def test_gate_catches_a_pose_that_is_gone(contact_reference, contact_candidate):
+    change(contact_candidate, "compliance", lambda frame: frame[frame["complies"] != "about z"])
+    lines = compare(contact_candidate, contact_reference)
+    assert lines[0].startswith("compliance: row is missing: quick wrench-probe ur5e hybrid-base inverse alpha+0")
+    assert all("about z" in line for line in lines[:-1])
+
+
+@pytest.mark.parametrize(
+    ("rows", "torques", "lines"),
+    [
+        (on_the_pole, (0.5, 0.5), 0),  # rounding decides whether a coordinate is lost there
+        (on_the_pole, (9.0, 9.0), 0),
+        (lambda frame: frame["pose"] == "alpha+0 beta+89 gamma+0, about x", (0.5, 0.5), 1),
+        (lambda frame: frame["pose"] == "alpha+0 beta+89 gamma+0, about x", (9.0, 0.5), 1),
+        (lambda frame: frame["pose"] == "alpha+0 beta+89 gamma+0, about x", (9.0, 8.0), 0),
+    ],
+)
+def test_gate_leaves_open_in_contact_what_rounding_decides(contact_candidate, tmp_path, rows, torques, lines):
+    before = shutil.copytree(contact_candidate, tmp_path / "before")
+    for folder, torque in zip((before, contact_candidate), torques, strict=True):
+        in_compliance(folder, "peak_torque_ratio", torque, rows)
+    in_compliance(before, "outcome", "done", rows)
+    in_compliance(contact_candidate, "outcome", "saturated", rows)
+    assert len(compare(contact_candidate, before)) == lines
+
+
+def test_gate_says_that_a_reference_is_older_than_contact(contact_reference, contact_candidate, capsys):
+    (contact_candidate / "compliance.parquet").unlink()
+    assert main(["compare", str(contact_reference), str(contact_candidate)]) == 2
+    assert "nothing to compare: " in (said := capsys.readouterr().err)
+    assert "compliance.parquet: there is no such file" in said
+
+
 def test_gate_refuses_a_folder_without_a_run(reference, tmp_path, capsys):
     assert main(["compare", str(tmp_path), str(reference)]) == 2
     assert "has not finished" in capsys.readouterr().err
