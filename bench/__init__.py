@@ -4,6 +4,8 @@ What a law is      scalar (the dialect), so3, linalg/, contender (Gains, Goal, R
 The contestants    regulators/, representations/, jacobians/, inverses/ (one file each), discovery (finds them, and a
                    user's file)
 On an arm          cartesian (tau = D J^-1 (u - Jdot qdot) + fg), chain, weighting, combinations (what goes together)
+In contact         force (hybrid control), impedance, impedances/, compliance (a controller), contact_metric,
+                   contact_metrics/ over touching and yielding, contact_plan, contact_rows
 Running            engines/ (reference, native, ideal-rk4, ideal-held), metric, metrics/
 A run              suites, choice, plan, run (threads, resume), rows, traces, boundary, poses, counting/, schema, store,
                    provenance

@@ -23,6 +23,7 @@ from bench.discovery import (
 from bench.suites import ENGINES, SUITES
 from tasks.base import BadArm
 
+EULER = "hybrid/zyx-euler+inverse"
 COMMANDS = {command.name: command for command in commands()}
 
 
@@ -303,6 +304,18 @@ def test_count_of_joints_alone_counts_the_quick_suites_controllers(capsys):
     assert bench(capsys, "count", "--arm", "ur5e", "--joints", "6") == said
 
 
+def test_count_of_controllers_in_contact_has_their_stages(capsys):
+    said = bench(capsys, "count", "--controller", "hybrid-base+inverse", "--controller", EULER, "--stages")
+    flops = {
+        name: {line.split()[2]: int(line.split()[-1]) for line in said.out.splitlines() if f"{name} " in line}
+        for name in ("hybrid-base+inverse", EULER)
+    }
+    for each in flops.values():
+        assert each["total"] == each["regulate"] + each["invert"]
+    assert flops[EULER]["regulate"] > flops["hybrid-base+inverse"]["regulate"]
+    assert flops[EULER]["invert"] == flops["hybrid-base+inverse"]["invert"]
+
+
 def test_doctor_says_what_it_checked(capsys):
     said = bench(capsys, "doctor")
     assert [line.split()[1] for line in said.out.splitlines()] == [
@@ -311,6 +324,7 @@ def test_doctor_says_what_it_checked(capsys):
         "compiler",
         "engines",
         "arms",
+        "contact",
         "rendering",
         "results",
     ]

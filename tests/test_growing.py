@@ -1,5 +1,5 @@
-"""The promise of growing: one file adds a regulator, representation, Jacobian, inverse, metric, task, arm, start set
-of the free body or of arms, or page."""
+"""The promise of growing: one file adds a regulator, representation, Jacobian, inverse, impedance, metric, task, arm,
+start set of the free body or of arms, or page; a metric or task of contact too."""
 
 import os
 import shutil
@@ -87,6 +87,41 @@ JACOBIAN = geometric.JACOBIAN._replace(name="dropped-jacobian", title="Dropped J
 from bench.inverses import solve
 
 INVERSE = solve.INVERSE._replace(name="dropped-inverse", title="Dropped inverse")
+''',
+    "bench/impedances/dropped_impedance.py": '''
+"""The spring on the columns of R by another name."""
+
+from bench.impedances import geometric
+
+IMPEDANCE = geometric.IMPEDANCE._replace(name="dropped-impedance", title="Dropped impedance")
+''',
+    "bench/contact_metrics/dropped_touch.py": '''
+"""Ticks recorded: all of them."""
+
+from bench.contact_metric import ContactMetric
+
+
+def measure(pose):
+    """Of all trials of the pose."""
+    return float(sum(len(one.time) for one in pose.responses))
+
+
+METRIC = ContactMetric("dropped-touch", "dropped_touch", "1", "ticks recorded", measure)
+''',
+    "tasks/domains/dropped_probe.py": '''
+"""Known moments by another name, at two frames of the hand."""
+
+from tasks.domains import wrench_probe
+
+
+def trials(arm):
+    """Of the first two poses."""
+    return wrench_probe.trials(arm)[:12]
+
+
+TASK = wrench_probe.TASK._replace(
+    name="dropped-probe", title="Dropped probe", horizon_s=0.05, trials=trials, dense=None
+)
 ''',
     "tasks/arms/dropped_arm.py": '''
 """The UR5e by another title."""
@@ -176,6 +211,9 @@ LISTED = {
     "starts of arms": "dropped-turns",
     "jacobians": "dropped-jacobian",
     "inverses": "dropped-inverse",
+    "impedances": "dropped-impedance",
+    "metrics of contact": "dropped-touch",
+    "tasks in contact": "dropped-probe",
     "arms": "dropped-arm",
 }
 
@@ -256,6 +294,17 @@ def test_dropped_files_are_listed_run_counted_and_shown_without_another_touched(
     assert set(turned["start_id"]) == {"turn"}
     assert (turned["dropped_column"] == turned["ticks"]).all()
     assert turned["peak_tau_nm"].nunique() == 1
+
+    touching = ("--task", "dropped-probe", "--arm", "dropped-arm", "--out", "results/contact")
+    controllers = ("--controller", "impedance-dropped-impedance", "--controller", "hybrid/dropped-coordinates+inverse")
+    said(tree, "-m", "bench", "run", *touching, *controllers)
+    rows = store.read_arrow(tree / "results" / "contact" / "compliance.parquet", "compliance").to_pandas()
+    assert list(rows["controller"]) == ["impedance-dropped-impedance", "hybrid", "hybrid"]
+    assert list(rows["representation"]) == ["", "dropped-coordinates", "dropped-coordinates"]
+    assert set(zip(rows["task"], rows["arm"], rows["outcome"], strict=True)) == {
+        ("dropped-probe", "dropped-arm", "done")
+    }
+    assert list(rows["dropped_touch"]) == [300.0] * 3
 
     said(tree, "report/build.py")
     page = (tree / "report" / "_build" / "html" / "pages" / "90-dropped-page.html").read_text()

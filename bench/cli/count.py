@@ -8,6 +8,7 @@ from bench import combinations
 from bench.cli import options
 from bench.cli.screen import console, frame_table
 from bench.contender import Contender
+from bench.discovery import find_compliant
 from bench.errors import Incompatible
 from bench.suites import SUITES
 
@@ -17,6 +18,9 @@ EPILOG = """
 [b]python -m bench count --regulator rotation-matrix --jacobian geometric --inverse solve --stages[/b]  a controller.
 
 [b]python -m bench count --joints 7[/b]  the quick suite's controllers on seven joints.
+
+[b]python -m bench count --controller hybrid-base+inverse --controller hybrid/zyx-euler+inverse --stages[/b]  two in
+contact.
 """
 
 
@@ -26,17 +30,24 @@ EPILOG = """
 @options.representation
 @options.jacobian
 @options.inverse
+@options.controller
 @click.option("--joints", type=click.Choice(["6", "7"]), help="Of the arm; 6 unless --arm says otherwise.")
 @click.option("--arm", metavar="NAME", help="An arm, for its number of joints.")
 @click.option("--stages", is_flag=True, help="A line for each stage of the tick, not only the total.")
-def COMMAND(laws, regulators, representations, jacobians, inverses, joints, arm, stages):
+def COMMAND(laws, regulators, representations, jacobians, inverses, controllers, joints, arm, stages):
     """Count the operations of each law per tick: typical and worst branch, transcendental functions apart.
 
     With a Jacobian, an inverse, a number of joints or an arm: of the whole controller of an arm, without what MuJoCo
-    computes. A Jacobian or inverse that is not named is every one that fits.
+    computes. A Jacobian or inverse that is not named is every one that fits. With a controller: of it in contact, on
+    six joints, told to comply about x and y.
     """
     from bench import counting
 
+    if controllers:
+        if laws or regulators or representations or jacobians or inverses or joints or arm:
+            raise click.UsageError("--controller is counted by itself (leave the other options but --stages away)")
+        _print(_in_contact(controllers), "Operations per tick of a controller in contact", stages)
+        return
     named = options.named(regulators, jacobians, inverses)
     chosen = options.chosen(laws, named.regulators, representations, costings=True)
     if joints or arm or named.jacobians or named.inverses:
@@ -47,10 +58,21 @@ def COMMAND(laws, regulators, representations, jacobians, inverses, joints, arm,
     else:
         table = pd.DataFrame(counting.rows(chosen)).drop(columns=["jacobian", "inverse"])
         title = "Operations per tick"
+    _print(table.drop(columns="joints"), title, stages)
+
+
+def _print(table: pd.DataFrame, title: str, stages: bool) -> None:
     if not stages:
         table = table[table["stage"] == "total"].drop(columns="stage")
-    table = table.drop(columns="joints")
     console().print(frame_table(table.loc[:, (table != 0).any()], title))
+
+
+def _in_contact(words: tuple[str, ...]) -> pd.DataFrame:
+    """The costs of the controllers of these names."""
+    from bench.counting.in_contact import rows_in_contact
+
+    controllers = [find_compliant(word) for word in dict.fromkeys(words)]
+    return pd.DataFrame([row for one in controllers for row in rows_in_contact(one)])
 
 
 def _joints(joints: str | None, arm: str | None) -> int:

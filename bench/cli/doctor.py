@@ -118,6 +118,28 @@ def _arms() -> str:
     return f"{', '.join(one.name for one in found)}: 50 ticks on {arm.name} equal the dm_control loop bit for bit"
 
 
+def _contact() -> str:
+    import tasks
+    from bench.contact_plan import can_do
+    from bench.discovery import find_compliant
+    from bench.engines.run_contact import run
+    from tasks.arm import arms
+    from tasks.base import BadArm
+
+    task, one = tasks.contact_task("surface-alignment"), find_compliant("hybrid-base+inverse")
+    able = [arm for arm in arms().values() if not isinstance(arm, BadArm) and can_do(task, arm)]
+    if not able:
+        raise RuntimeError("no arm has six joints and a site 'wrist'. Cure: add the site to an arm in tasks/arms")
+    arm, pressing = able[-1], task._replace(horizon_s=0.15)  # it touches after 0.05 s
+    given = (pressing, arm, task.trials(arm)[:1])
+    [fast], [slow] = ([one.record for one in run(engine, one, *given)] for engine in ("native", "reference"))
+    if fast.tobytes() != slow.tobytes():
+        raise RuntimeError(f"in contact the compiled engine and the dm_control loop differ. Cure: {CURE_INSTALL}")
+    return (
+        f"{', '.join(one.name for one in able)}: {len(fast)} ticks on {arm.name} equal the dm_control loop bit for bit"
+    )
+
+
 def _rendering() -> str:
     code = "import mujoco; m = mujoco.MjModel.from_xml_string('<mujoco/>'); mujoco.Renderer(m, 8, 8).close()"
     for backend in filter(None, (os.environ.get("MUJOCO_GL"), "egl", "osmesa")):
@@ -148,6 +170,7 @@ CHECKS = {
     "compiler": _compiler,
     "engines": _engines,
     "arms": _arms,
+    "contact": _contact,
     "rendering": _rendering,
     "results": _results,
 }

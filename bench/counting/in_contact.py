@@ -4,13 +4,14 @@ Counted as on an arm, on the same states, with a wrench on the hand; see `on_arm
 Jdot qdot, the law, and the wrench in its frame. "invert" is y and the torques.
 """
 
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
 
 from bench.compliance import Compliant
-from bench.counting.costs import Call, bits, size
-from bench.counting.counted import Counts, OutsideDialect, Tally
+from bench.counting.costs import BRANCHES, Call, bits, flops, size
+from bench.counting.counted import TOTAL, Counts, OutsideDialect, Tally
 from bench.counting.on_arms import ArmState, arm_states, as_counted
 from bench.counting.states import GAINS
 from bench.engines.contact_episode import room, rows
@@ -44,6 +45,17 @@ def cost_in_contact(controller: Compliant, order: Order = TILTING) -> ContactCos
         calls = [_call(controller, held, state, draw) for state in arm_states(6)]
     ranked = sorted((call.counts for call in calls if call.is_typical), key=size)
     return ContactCost(controller, ranked[len(ranked) // 2], max((call.counts for call in calls), key=size))
+
+
+def rows_in_contact(controller: Compliant) -> Iterator[dict]:
+    """A line for each branch and stage of a controller's cost."""
+    cost = cost_in_contact(controller)
+    for branch, counts in zip(BRANCHES, (cost.typical, cost.worst), strict=True):
+        for stage in ("regulate", "invert", TOTAL):
+            numbers = counts.of(stage)
+            yield {
+                "controller": controller.name, "branch": branch, "stage": stage, **numbers, "flops": flops(numbers)
+            }  # fmt: skip
 
 
 def _call(controller: Compliant, held, state: ArmState, draw) -> Call:
