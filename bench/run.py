@@ -117,7 +117,8 @@ def run(
         _clear(out)
         write_json(out / "plan.json", {"digest": plan.digest(), **plan.identity()})
         _keep_own_laws(plan, out)
-    todo = [unit for unit in (*plan.units, *in_running_order(plan.contacts)) if unit.key not in state.done]
+    every: list[Unit | ContactUnit] = [*plan.units, *in_running_order(plan.contacts)]
+    todo = [unit for unit in every if unit.key not in state.done]
     for unit in plan.work:
         if unit.key in state.done:
             told(Progress(unit, unit.count))
