@@ -28,6 +28,12 @@ same, as rows name it.
 
 [b]python -m bench run --arm panda --starts clear --variation mass-1.30 --out /tmp/heavy[/b]  a plant that is not the
 controller's model.
+
+[b]python -m bench run --task surface-alignment --arm ur5e --controller hybrid/zyx-euler+inverse --controller
+hybrid-base+inverse --out /tmp/plate[/b]  a hand pressed onto a tilted plate: compliance.parquet.
+
+[b]python -m bench run --suite full --controller impedance-geometric --out /tmp/spring[/b]  one controller in every task
+in contact, on dense grids of poses.
 """
 
 
@@ -72,6 +78,9 @@ def COMMAND(
     The free body has laws alone; an arm also needs a Jacobian and an inverse. The suite has its own for each law. Name
     a Jacobian or an inverse, and all that go together are run on arms; a combination that cannot be is refused with
     the reason.
+
+    A task in contact has controllers (python -m bench list controllers) and trials of its own. It is run with the suite
+    unless something is named that it does not take: another task, a regulator, a Jacobian, starts, an engine, ...
     """
     named = options.named(regulators, jacobians, inverses)
     plan = planning.make(
