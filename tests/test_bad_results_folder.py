@@ -98,7 +98,7 @@ def test_deleted_table_is_measured_again_by_the_same_command(capsys, finished):
 def test_truncated_part_is_refused_by_name_before_anything_runs(capsys, finished):
     (finished / "provenance.json").unlink()
     (finished / "parts").mkdir()
-    part = finished / "parts" / "reference_rotation-matrix_free-body_paper_000000.parquet"
+    part = finished / "parts" / "reference_rotation-matrix_free-body_nominal_paper_000000.parquet"
     shutil.copy(finished / "episodes.parquet", part)
     cut(part)
     before = digest(finished)
