@@ -103,6 +103,9 @@ def write_table(path: Path, frame: pd.DataFrame | pa.Table, table: str, about: d
 GROUP = 16_384
 """Rows that a merge holds in memory, some 10 MB; row groups of a part each made the file three times as large."""
 
+PARTS = 64
+"""Tables that a merge holds at most; each takes 50 kB beside its rows, as much as those of a hundred episodes."""
+
 
 def merge(path: Path, parts: Iterable[Path], table: str) -> int:
     """All parts in their order as one table, at most GROUP rows and one part in memory; the number of rows."""
@@ -116,6 +119,8 @@ def merge(path: Path, parts: Iterable[Path], table: str) -> int:
             for part in parts:
                 held.append(read_arrow(part, table))
                 rows += held[-1].num_rows
+                if len(held) == PARTS:
+                    held = [joined(held)]
                 if sum(one.num_rows for one in held) >= GROUP:
                     writer.write_table(joined(held))
                     held.clear()
@@ -137,7 +142,7 @@ def read_arrow(path: Path, table: str) -> pa.Table:
     Errors:
         BadResults: missing, truncated, or of another schema; the message says which and the cure.
     """
-    return _checked(path, table, lambda: pq.read_table(path, partitioning=None))
+    return _checked(path, table, lambda: pq.ParquetFile(path).read(use_threads=False))
 
 
 def check(path: Path, table: str) -> None:
