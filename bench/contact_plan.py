@@ -83,16 +83,6 @@ def units(
     return tuple(found)
 
 
-def in_running_order(units: tuple[ContactUnit, ...]) -> list[ContactUnit]:
-    """Controller by controller; the first unit of each before the rest of the one before it.
-
-    A controller is compiled when its first unit runs, by one thread at a time: so the others have something to run.
-    """
-    place = {name: i for i, name in enumerate(dict.fromkeys(unit.contender for unit in units))}
-    heads = set({unit.contender: unit for unit in reversed(units)}.values())
-    return sorted(units, key=lambda unit: (place[unit.contender] - (unit in heads), unit not in heads))
-
-
 def _tasks(choice: Choice) -> list[ContactTask]:
     named = [word for word in choice.tasks if word in tasks.contact_names()]
     return [tasks.contact_task(word) for word in named or tasks.contact_names()]

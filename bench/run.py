@@ -20,7 +20,7 @@ import pandas as pd
 import tasks
 from bench import boundary, contact_rows, counting, poses, traces
 from bench.choice import check_workers
-from bench.contact_plan import ContactUnit, in_running_order, poses_of
+from bench.contact_plan import ContactUnit, poses_of
 from bench.discovery import all_contenders, find_compliant, metrics_of
 from bench.engines.contact_episode import Conditions
 from bench.engines.run import evaluation
@@ -31,6 +31,7 @@ from bench.errors import BadLaw, BadResults
 from bench.plan import Plan, Unit
 from bench.provenance import describe
 from bench.rows import frame, settings_of
+from bench.running_order import in_running_order
 from bench.store import check, is_leftover, merge, read_json, write_atomically, write_json, write_table
 
 TABLES = ("costs", "traces", "boundaries", "poses", "compliance", "episodes")
@@ -117,8 +118,7 @@ def run(
         _clear(out)
         write_json(out / "plan.json", {"digest": plan.digest(), **plan.identity()})
         _keep_own_laws(plan, out)
-    every: list[Unit | ContactUnit] = [*plan.units, *in_running_order(plan.contacts)]
-    todo = [unit for unit in every if unit.key not in state.done]
+    todo = [unit for unit in in_running_order(plan.work) if unit.key not in state.done]
     for unit in plan.work:
         if unit.key in state.done:
             told(Progress(unit, unit.count))

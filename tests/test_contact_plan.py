@@ -9,7 +9,7 @@ import tasks
 from bench import contact_plan
 from bench import plan as planning
 from bench.choice import Choice
-from bench.contact_plan import can_do, in_running_order, poses_of
+from bench.contact_plan import can_do, poses_of
 from bench.discovery import all_compliants, find_compliant, find_contender
 from bench.errors import Incompatible, UnknownWord
 from bench.suites import SUITES
@@ -79,16 +79,6 @@ def test_unit_lasts_some_seconds_at_most(monkeypatch):
     units, _ = contacts(tasks=("wrench-probe",), arms=("ur5e",), controllers=(EULER,))
     assert len(units) > 5
     assert all(unit.count * unit.horizon_s <= 20.0 for unit in units)
-
-
-def test_controllers_run_one_after_the_other_and_each_is_compiled_while_the_last_one_runs():
-    units, _ = contacts(controllers=("impedance-quaternion", "hybrid-base+inverse", EULER))
-    ordered = in_running_order(units)
-    assert sorted(unit.key for unit in ordered) == sorted(unit.key for unit in units)
-    names = [unit.contender for unit in ordered]
-    each = len(units) // 3
-    first, second, third = named(units, "contender")
-    assert names == [first, second, *[first] * (each - 1), third, *[second] * (each - 1), *[third] * (each - 1)]
 
 
 def test_full_suite_takes_dense_trials_where_a_task_has_them():

@@ -1,0 +1,19 @@
+"""The order in which units run: contender by contender, each compiled while the last one runs."""
+
+from bench import plan as planning
+from bench.discovery import find_contender
+from bench.running_order import in_running_order
+
+
+def test_first_unit_of_each_contender_runs_before_the_rest_of_the_one_before_it():
+    laws = [find_contender(word) for word in ("rotation-matrix", "linearized-euler/zyx-euler")]
+    units = planning.make("quick", laws, count=4).work  # on the free body, on arms and in contact
+    each = {name: [unit for unit in units if unit.contender == name] for name in [unit.contender for unit in units]}
+    assert len(each) > 4
+    assert all(len(own) > 1 for own in each.values())
+    (first, *rest), *others = each.values()
+    expected = [first]
+    for head, *tail in others:
+        expected += [head, *rest]
+        rest = tail
+    assert in_running_order(units) == [*expected, *rest]
