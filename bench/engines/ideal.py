@@ -134,7 +134,7 @@ def _sampled_step(evaluate, R, omega, u, goal, gains, memory, dt):
 
 STEPS = {"ideal-rk4": rk4_step, "ideal-held": _sampled_step}
 """A law is called by pointer, 10 ns each time, once a tick or four times. With the law compiled into a loop of its own
-the Runge-Kutta tick was a third shorter, and each law took 2 s and 16 MB an engine to compile."""
+a Runge-Kutta tick was a sixth to a third shorter, and each law took 2 s and 16 MB an engine to compile."""
 
 EPISODES = types.void(types.FunctionType(EVALUATE), FOUR, MATRIX, NUMBERS, MATRIX, CURVES)
 
