@@ -44,14 +44,13 @@ from tasks import arm_starts, domains, starts
 from tasks.arm import arm as arm
 from tasks.arm import arm_names as arm_names
 from tasks.base import ArmStartSet, ArmTask, BadValue, Start, StartSet, Task
+from tasks.contact import ContactTask
 from tasks.discovery import constants, pick
 from tasks.variations import VARIATIONS, Variation
 
 if TYPE_CHECKING:
     import mujoco
     from dm_control.rl.control import Environment
-
-    from tasks.contact import ContactTask
 
 __all__ = [
     "arm",
@@ -216,8 +215,6 @@ def _tasks() -> dict[str, Task | ArmTask]:
 
 
 def _contact_tasks() -> dict[str, ContactTask]:
-    from tasks.contact import ContactTask  # MuJoCo takes a moment to import; listing other names must not
-
     return {name: one for name, one in constants(domains, "TASK").items() if isinstance(one, ContactTask)}
 
 

@@ -16,14 +16,18 @@ from __future__ import annotations
 
 import xml.etree.ElementTree as ElementTree
 from collections.abc import Callable
-from typing import Any, NamedTuple
-
-import mujoco
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from tasks.arm import LOOK, Arm
 from tasks.base import AT_REST, IDENTITY, BadValue, Quat, Vector, sensor_xml
 
+if TYPE_CHECKING:
+    import mujoco
+
 AXES = ("x", "y", "z", "about x", "about y", "about z")
+
+# mujoco.mjtSameFrame.mjSAMEFRAME_NONE; importing MuJoCo takes a moment, and listing names must not.
+OWN_FRAME = 0
 
 # Pushes that may follow each other in a trial: the size of a buffer.
 MOST_LEGS = 8
@@ -194,7 +198,7 @@ def prepare(model: mujoco.MjModel, data: Any, trial: Trial) -> None:
     data.qpos[:n] = trial.q
     hand = model.site("hand").id
     model.site_quat[hand] = trial.mount_wxyz
-    model.site_sameframe[hand] = mujoco.mjtSameFrame.mjSAMEFRAME_NONE  # else MuJoCo takes the frame it compiled
+    model.site_sameframe[hand] = OWN_FRAME  # else MuJoCo takes the frame it compiled
     data.mocap_pos[0] = trial.scene_pos
     data.mocap_quat[0] = trial.scene_wxyz
     data.xfrc_applied[model.body("hand").id] = trial.pushes[0]

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import functools
 import math
 
 from tasks.arm import Arm
 from tasks.base import Quat, Vector
-from tasks.kinematics import Kinematics
 from tasks.rotations import about, multiply, to_base
 
 
@@ -18,7 +16,9 @@ def posture(arm: Arm) -> tuple[float, ...]:
 
 def wrist(arm: Arm, q: tuple[float, ...]) -> tuple[Vector, Quat]:
     """Position [m] and orientation of the wrist, base frame."""
-    p, quat = _kinematics(arm).pose(q)
+    from tasks.kinematics import kinematics  # MuJoCo takes a moment to import; listing names must not
+
+    p, quat = kinematics(arm, "wrist").pose(q)
     x, y, z = p.tolist()
     return (x, y, z), quat
 
@@ -44,8 +44,3 @@ def leaning(tilt_deg: float, azimuth_deg: float) -> Quat:
     """Turned by the tilt about the horizontal axis at this azimuth, counted from x towards y."""
     azimuth = math.radians(azimuth_deg)
     return about((math.cos(azimuth), math.sin(azimuth), 0.0), math.radians(tilt_deg))
-
-
-@functools.cache
-def _kinematics(arm: Arm) -> Kinematics:
-    return Kinematics(arm, "wrist")

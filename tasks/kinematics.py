@@ -180,12 +180,12 @@ class Kinematics:
 _of_thread = threading.local()
 
 
-def kinematics(arm: Arm) -> Kinematics:
+def kinematics(arm: Arm, site: str = "tool") -> Kinematics:
     """The Kinematics of an arm, made once in each thread: its state is no two threads' business."""
-    made: dict[Arm, Kinematics] = vars(_of_thread).setdefault("made", {})
-    if arm not in made:
-        made[arm] = Kinematics(arm)
-    return made[arm]
+    made: dict[tuple[Arm, str], Kinematics] = vars(_of_thread).setdefault("made", {})
+    if (arm, site) not in made:
+        made[arm, site] = Kinematics(arm, site)
+    return made[arm, site]
 
 
 def rotation_vector(to: Quat, of: Quat) -> Vector:
