@@ -92,6 +92,8 @@ class Regulator(NamedTuple):
     property: what is proved of it: "local", "almost global", "global with memory", or "none".
     origin: the file of a user's law; empty for ours.
     costing_only: another way to write a law that is listed already: costed and tested, not run.
+    stiffness: near the goal, about n_d, o_d and a_d, over kp.
+    margin: of a law on R that is singular somewhere: margin(R, R_d) in [0, 1], 0 exactly there; else None.
     coordinate_law_in: of a law that commands Eddot itself: coordinate_law_in(representation) returns
     law(chart, E_d, Edot, gains) -> u_E, what the controller on an analytic Jacobian needs (Murphy 1988, 3.7).
     """
@@ -108,6 +110,8 @@ class Regulator(NamedTuple):
     property: str = "local"
     origin: str = ""
     costing_only: bool = False
+    stiffness: tuple[float, float, float] = (1.0, 1.0, 1.0)
+    margin: Callable | None = None
     coordinate_law_in: Callable | None = None
 
 

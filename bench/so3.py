@@ -55,6 +55,35 @@ def relative(R_d, R):
 
 
 @kernel
+def double_sine(R, R_d):
+    """n x n_d + o x o_d + a x a_d = 2 sin(theta) k, base frame: theta k is the turn from R to R_d."""
+    n, o, a = cross(R.n, R_d.n), cross(R.o, R_d.o), cross(R.a, R_d.a)
+    return (n[0] + o[0] + a[0], n[1] + o[1] + a[1], n[2] + o[2] + a[2])
+
+
+@kernel
+def trace(R, R_d):
+    """tr(R_d^T R) = 1 + 2 cos(theta)."""
+    return dot(R.n, R_d.n) + dot(R.o, R_d.o) + dot(R.a, R_d.a)
+
+
+@kernel
+def half_cosine_squared(R, R_d):
+    """cos^2(theta/2) = (1 + tr(R_d^T R))/4: 0 exactly on half turns."""
+    return 0.25 * (1.0 + trace(R, R_d))
+
+
+@kernel
+def turn_quaternion(R, R_d):
+    """(w, (x, y, z), t): the quaternion of the turn from R to R_d, base frame, of length 2 sqrt(t), t >= 1, w >= 0.
+
+    Its vector part is 2 sqrt(t) sin(theta/2) k. At half turns see `quaternion_direction`.
+    """
+    (w, x, y, z), t = quaternion_direction(relative(R, R_d))
+    return w, rotate(R, (x, y, z)), t
+
+
+@kernel
 def from_quaternion(quat_wxyz):
     """Rotation of a unit quaternion (w, x, y, z).
 

@@ -87,9 +87,9 @@ def memory_of(contender: Contender) -> tuple:
 
 
 def margin_of(contender: Contender):
-    """The margin of the coordinates the law acts on; NaN for a law on R."""
+    """The margin of the coordinates the law acts on; of a law on R its own, or NaN if it is singular nowhere."""
     if contender.representation is None:
-        return _no_margin
+        return contender.regulator.margin or _no_margin
     at = contender.representation.margin
     return _margin_from_goal(at) if contender.regulator.relative else _margin_from_base(at)
 
