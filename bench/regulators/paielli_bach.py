@@ -1,6 +1,6 @@
-"""Paielli and Bach's law: Rodrigues parameters of the turn to the goal obey a linear equation exactly.
+"""Paielli and Bach's law: the quaternion's vector part eps = sin(theta/2) k obeys a linear equation exactly.
 
-With g = s/(1 + t) = tan(theta/2) k and a fixed goal, gddot = -Kv gdot - Kp g.
+With a fixed goal epsddot = -Kv epsdot - Kp eps; for it eps must be divided by eta: eps/eta = s/(1 + t).
 
 Fails: at half turns the command is unbounded, and on them not finite.
 """
@@ -12,7 +12,7 @@ from bench.so3 import dot, double_sine, half_cosine_squared, trace
 
 @kernel
 def law(R, omega, goal, gains):
-    """u = (2 Kp - |omega|^2/2) g - Kv omega, g = s/(1 + t); re-derived, see tests."""
+    """u = (2 Kp - |omega|^2/2) s/(1 + t) - Kv omega; re-derived, see tests."""
     s = double_sine(R, goal.R)
     scale = (2.0 * gains.kp - 0.5 * dot(omega, omega)) / (1.0 + trace(R, goal.R))
     return (
@@ -24,7 +24,7 @@ def law(R, omega, goal, gains):
 
 REGULATOR = Regulator(
     name="paielli-bach",
-    title="Linear in the Gibbs vector",
+    title="Linear in the quaternion",
     source="Paielli & Bach 1993",
     formula=r"u = (2 K_p - \tfrac{1}{2}|\omega|^2)\, s/(1 + t) - K_v\,\omega",
     law=law,

@@ -13,10 +13,11 @@ def law(R, omega, goal, gains):
     """u = Kp log(R_d R^T) - Kv omega, the logarithm by theta = 2 atan2(sin(theta/2), cos(theta/2)) in [0, pi]."""
     w, v, _ = turn_quaternion(R, goal.R)
     square = dot(v, v)
-    scale = 2.0 * gains.kp / w
     if square > 0.0:
         size = sqrt(square)
         scale = 2.0 * gains.kp * atan2(size, w) / size
+    else:
+        scale = 2.0 * gains.kp / w
     return (
         scale * v[0] - gains.kv * omega[0],
         scale * v[1] - gains.kv * omega[1],
