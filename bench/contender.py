@@ -92,6 +92,7 @@ class Regulator(NamedTuple):
     property: what is proved of it: "local", "almost global", "global with memory", or "none".
     origin: the file of a user's law; empty for ours.
     costing_only: another way to write a law that is listed already: costed and tested, not run.
+    later: one that the paper does not have: it runs on the smaller set of starts.
     stiffness: near the goal, about n_d, o_d and a_d, over kp.
     margin: of a law on R that is singular somewhere: margin(R, R_d) in [0, 1], 0 exactly there; else None.
     coordinate_law_in: of a law that commands Eddot itself: coordinate_law_in(representation) returns
@@ -110,6 +111,7 @@ class Regulator(NamedTuple):
     property: str = "local"
     origin: str = ""
     costing_only: bool = False
+    later: bool = False
     stiffness: tuple[float, float, float] = (1.0, 1.0, 1.0)
     margin: Callable | None = None
     coordinate_law_in: Callable | None = None
@@ -141,9 +143,9 @@ class Contender(NamedTuple):
 
     @property
     def is_beyond_the_paper(self) -> bool:
-        """Whether it is a law of ours on coordinates that the paper sets aside (Murphy 1988, 2.2)."""
+        """Whether it is a later law of ours, or one on coordinates that the paper sets aside (Murphy 1988, 2.2)."""
         other = self.representation is not None and self.representation.name != "zyx-euler"
-        return other and not self.regulator.origin
+        return (other or self.regulator.later) and not self.regulator.origin
 
     @property
     def is_on_arm(self) -> bool:

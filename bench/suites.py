@@ -62,8 +62,8 @@ class InContact(NamedTuple):
 class Suite(NamedTuple):
     """A named list of slices, run for every contender that is not only a costing.
 
-    slices: on the free body, of the paper's laws and the user's own; beyond: of the laws on coordinates that the paper
-    sets aside.
+    slices: on the free body, of the paper's laws and the user's own; beyond: of later laws, and of laws on coordinates
+    that the paper sets aside.
     """
 
     name: str
@@ -147,7 +147,7 @@ SUITES = {
             + _slices("ideal-held", 5000)
             + _slices("native", 1000)
             + _slices("reference", 0, ("paper",)),
-            _slices("ideal-rk4", 1000),
+            _slices("ideal-rk4", 1000) + _slices("native", 250, ("half-turn", "tumbling")),
             traces=64,
             boundary_axes=192,
             on_arms=OnArms(

@@ -1,4 +1,4 @@
-"""The laws that came after the paper, each against its equation, scipy, and the closed form of its response from rest."""
+"""The later laws: springs, half turns, response from rest, linear decay; closed forms and scipy as oracles."""
 
 import math
 

@@ -34,4 +34,5 @@ REGULATOR = Regulator(
     law_in=law_in,
     coordinates=("zyx-euler",),
     property="local",
+    later=True,
 )

@@ -28,4 +28,5 @@ REGULATOR = Regulator(
     law=law,
     property="almost global",
     margin=half_cosine_squared,
+    later=True,
 )

@@ -41,4 +41,5 @@ REGULATOR = Regulator(
     law=law,
     memory=(1.0, 0.0, 0.0, 0.0),
     property="global with memory",
+    later=True,
 )

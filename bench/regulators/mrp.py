@@ -27,4 +27,5 @@ REGULATOR = Regulator(
     formula=r"u = 4 K_p\,\sigma - K_v\,\omega, \quad \sigma = \tan(\theta/4)\,k",
     law=law,
     property="almost global",
+    later=True,
 )

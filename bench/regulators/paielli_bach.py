@@ -30,4 +30,5 @@ REGULATOR = Regulator(
     law=law,
     property="almost global",
     margin=half_cosine_squared,
+    later=True,
 )

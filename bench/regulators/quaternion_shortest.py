@@ -28,4 +28,5 @@ REGULATOR = Regulator(
     formula=r"u = 2 K_p\,\operatorname{sgn}(\eta)\,\epsilon - K_v\,\omega",
     law=law,
     property="almost global",
+    later=True,
 )

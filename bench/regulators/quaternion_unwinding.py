@@ -37,4 +37,5 @@ REGULATOR = Regulator(
     law=law,
     memory=(-1.0, 0.0, 0.0, 0.0),
     property="none",
+    later=True,
 )

@@ -32,4 +32,5 @@ REGULATOR = Regulator(
     formula=r"u = K_p \log(R_d R^\top) - K_v\,\omega",
     law=law,
     property="almost global",
+    later=True,
 )

@@ -44,4 +44,5 @@ REGULATOR = Regulator(
     formula=r"u = -\tfrac{\lambda}{2}(\eta\,\omega + \epsilon \times \omega) - K(\omega - \lambda\,\epsilon)",
     law=law,
     property="almost global",
+    later=True,
 )

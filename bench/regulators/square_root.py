@@ -38,4 +38,5 @@ REGULATOR = Regulator(
     formula=r"u = K_p\, s / \sqrt{1 + t} - K_v\,\omega",
     law=law,
     property="almost global",
+    later=True,
 )

@@ -34,4 +34,5 @@ REGULATOR = Regulator(
     law=law,
     property="almost global",
     stiffness=(1.1, 1.0, 0.9),
+    later=True,
 )
