@@ -11,6 +11,7 @@
     tasks.pairs()                       every (task, arm) there is; the arm is "" on the free body
     tasks.arm(name), tasks.arm_names()  the manipulators: one file each in tasks/arms
     tasks.variation(name), tasks.variation_names()    a plant that differs from the controller's model of it
+    tasks.axis(name), tasks.axis_names()    kinds of trouble on the free body: one file each in tasks/conditions
 
     base.py       Start, Task, StartSet, and those of arms; the sensors of every model; the errors
     truth.py      angle and haversine: the judge's own measure of the error
@@ -20,6 +21,8 @@
     haar.py       low-discrepancy points on SO(3)
     arm.py        Arm; finds the files of arms and makes models of them; arm_check.py refuses the broken ones
     variations.py how an arm's plant differs from its model
+    condition.py  Condition and Axis: rate, delay, noise, bounds, model errors, goals that move
+    moving_goal.py a goal that sways, with its rate and acceleration
     kinematics.py an arm's forward kinematics, Jacobian, and joint paths that turn the tool in place
     paths.py      the two paths of an orientation that start sets keep clear of trouble
     clearance.py  what they keep clear of, and by how much
@@ -40,10 +43,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from tasks import arm_starts, domains, starts
+from tasks import arm_starts, conditions, domains, starts
 from tasks.arm import arm as arm
 from tasks.arm import arm_names as arm_names
 from tasks.base import ArmStartSet, ArmTask, BadValue, Start, StartSet, Task
+from tasks.condition import Axis
 from tasks.contact import ContactTask
 from tasks.discovery import constants, pick
 from tasks.variations import VARIATIONS, Variation
@@ -55,6 +59,8 @@ if TYPE_CHECKING:
 __all__ = [
     "arm",
     "arm_names",
+    "axis",
+    "axis_names",
     "contact_names",
     "contact_task",
     "described",
@@ -172,6 +178,16 @@ def start_set(name: str, count: int | None = None, seed: int = 0, arm: str = "")
     return chosen.build(wanted, seed)[:wanted]
 
 
+def axis_names() -> list[str]:
+    """Names of all axes of trouble, sorted."""
+    return sorted(_axes())
+
+
+def axis(name: str) -> Axis:
+    """The axis of this name; UnknownName lists the known ones."""
+    return pick("axis", name, _axes(), "tasks/conditions")
+
+
 def variation_names() -> list[str]:
     """Names of all variations of an arm's plant, `nominal` first."""
     return list(VARIATIONS)
@@ -216,6 +232,10 @@ def _tasks() -> dict[str, Task | ArmTask]:
 
 def _contact_tasks() -> dict[str, ContactTask]:
     return {name: one for name, one in constants(domains, "TASK").items() if isinstance(one, ContactTask)}
+
+
+def _axes() -> dict[str, Axis]:
+    return constants(conditions, "AXIS")
 
 
 def _start_sets() -> dict[str, StartSet]:

@@ -1,0 +1,1 @@
+"""Axes of trouble: one file each, with a constant AXIS."""

@@ -1,0 +1,35 @@
+"""The worst noise at the half turn: within `level` of it the body is reported beyond it.
+
+A law that looks at the reported orientation alone turns back whenever the body is about to leave, and is held at the
+half turn for good, however small the noise (Mayhew, Sanfelice, Teel 2011, of laws that jump there; a law that is
+continuous is at rest there anyway). Memory lets a law keep to the way it has begun.
+"""
+
+from __future__ import annotations
+
+from tasks.base import Start
+from tasks.condition import Axis, Condition
+from tasks.haar import direction, halton
+from tasks.rotations import short_of_half_turn
+
+
+def at(level: float) -> Condition:
+    """Reported beyond the half turn within `level` of it."""
+    return Condition(beyond=level)
+
+
+def starts(count: int, seed: int, level: float) -> list[Start]:
+    """Exact half turns about axes spread evenly over the sphere, at rest."""
+    axes = [direction(*point) for point in halton(count, 2, seed)]
+    return [Start(f"exact-{i:04d}", short_of_half_turn(axis, 0.0)) for i, axis in enumerate(axes)]
+
+
+AXIS = Axis(
+    "half-turn-noise",
+    "Worst noise at the half turn",
+    "rad",
+    (0.0, 0.001, 0.01, 0.03, 0.1, 0.3, 1.0),
+    0.0,
+    at,
+    starts,
+)
