@@ -1,0 +1,86 @@
+"""Estimates with intervals, and shares of starts instead of means: what laws are compared by.
+
+A start that a law never settles has no time. It counts as infinite here, not as missing: left out, a law that fails
+from the hard starts would look fast. Quantiles are therefore order statistics, never interpolated.
+"""
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+
+SEED = 1988
+RESAMPLES = 2000
+"""The ends of a 95 % interval are then known to 0.06 of a standard error."""
+
+TAIL = 0.025
+
+
+class Estimate(NamedTuple):
+    """A number and its 95 % interval."""
+
+    value: float
+    low: float
+    high: float
+
+
+def quantile(values: np.ndarray, level: float, axis: int = -1) -> np.ndarray:
+    """The smallest value that at least a share `level` of the values do not exceed; infinities are values."""
+    return np.quantile(values, level, axis=axis, method="inverted_cdf")
+
+
+def bootstrap(values: np.ndarray, statistic: Callable[..., np.ndarray], seed: int = SEED) -> Estimate:
+    """Percentile interval of a statistic over resamples with replacement (Efron 1979).
+
+    The same seed draws the same starts for every law. Of evenly spread starts, which vary less than random ones, the
+    interval is on the wide side.
+
+    Args:
+        values: one number a start, shape (n,).
+        statistic: statistic(values, axis=-1) -> one number along that axis.
+        seed: of the resamples.
+
+    Errors:
+        ValueError: there are no values.
+    """
+    if not len(values):
+        raise ValueError("no values to resample (allowed: at least one)")
+    drawn = np.random.default_rng(seed).integers(len(values), size=(RESAMPLES, len(values)), dtype=np.int32)
+    found = statistic(np.asarray(values)[drawn], axis=-1)
+    low, high = quantile(found, TAIL), quantile(found, 1.0 - TAIL)
+    return Estimate(float(statistic(values, axis=-1)), float(low), float(high))
+
+
+def quantile_estimate(values: np.ndarray, level: float, seed: int = SEED) -> Estimate:
+    """A quantile with its interval."""
+    return bootstrap(values, lambda drawn, axis: quantile(drawn, level, axis), seed)
+
+
+def over_best(costs: np.ndarray) -> np.ndarray:
+    """Each law's cost over the least that any law has at that start: the ratio of Dolan and Moré (2002).
+
+    Args:
+        costs: positive, infinite where a law fails, shape (starts, laws).
+
+    Returns: ratios, at least 1, of the same shape; infinite where a law fails.
+
+    Errors:
+        ValueError: a cost is no positive number.
+    """
+    if not (costs > 0.0).all():
+        raise ValueError("a ratio to the best needs costs that are positive (infinite where a law fails)")
+    best = costs.min(axis=1, keepdims=True)
+    return np.divide(costs, best, out=np.full(costs.shape, np.inf), where=np.isfinite(costs))
+
+
+def profile(ratios: np.ndarray, factors: np.ndarray) -> np.ndarray:
+    """rho(tau): the share of starts whose ratio is at most tau (Dolan & Moré 2002); failures are in no share.
+
+    Args:
+        ratios: of `over_best`, shape (starts, laws).
+        factors: tau, shape (m,).
+
+    Returns: shares, shape (m, laws).
+    """
+    within = ratios[None, :, :] <= np.asarray(factors)[:, None, None]
+    return (within & np.isfinite(ratios)).mean(axis=1)
