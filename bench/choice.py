@@ -26,6 +26,7 @@ class Choice:
     controllers: tuple[str, ...] = ()
     regulators: tuple[str, ...] = ()
     representations: tuple[str, ...] = ()
+    axes: tuple[str, ...] = ()
 
     def checked(self) -> "Choice":
         """Each word once; UnknownWord for one in no list, Incompatible for words that exclude each other."""
@@ -39,6 +40,7 @@ class Choice:
             "jacobian": (once.jacobians, known_jacobians()),
             "inverse": (once.inverses, known_inverses()),
             "variation": (once.variations, once.variations and tasks.variation_names()),
+            "axis": (once.axes, once.axes and tasks.axis_names()),
         }
         for kind, (words, allowed) in known.items():
             for word in words:
@@ -46,6 +48,7 @@ class Choice:
         for word in once.controllers:
             find_compliant(word)
         once._check_contact()
+        once._check_axes()
         bodies = [word for word in once.tasks if word in tasks.names() and not tasks.is_for_arms(word)]
         if bodies and once.is_about_arms and len(bodies) == len(once.tasks):
             raise Incompatible(
@@ -69,6 +72,16 @@ class Choice:
                     "bench list controllers)"
                 )
 
+    def _check_axes(self) -> None:
+        """Refuse words that laws along an axis do not take."""
+        given = {"task": self.tasks, "arm": self.arms, "controller": self.controllers, **self.of_episodes}
+        for kind in ("task", "start", "engine", "arm", "jacobian", "inverse", "variation", "controller"):
+            if self.axes and given[kind]:
+                raise Incompatible(
+                    f"along the axis '{self.axes[0]}' goes the free body on starts of the axis's own, with no {kind} "
+                    f"such as '{given[kind][0]}' (name regulators and --count alone, or leave --axis away)"
+                )
+
     @property
     def of_episodes(self) -> dict[str, tuple[str, ...]]:
         """By kind, the words that only tasks without contact take."""
@@ -87,6 +100,13 @@ class Choice:
         return bool(self.controllers or set(self.tasks) & set(tasks.contact_names()))
 
     @property
+    def takes_robustness(self) -> bool:
+        """Whether laws are put in trouble: if axes are named, or nothing that has to do with other episodes."""
+        beside = (self.arms, self.jacobians, self.inverses, self.variations, self.controllers)
+        is_elsewhere = bool(self.tasks) and "free-body" not in self.tasks
+        return bool(self.axes) or not (is_elsewhere or self.narrows or any(beside))
+
+    @property
     def is_contact_alone(self) -> bool:
         """Whether all that it names is in contact."""
         return self.is_about_contact and set(self.tasks) <= set(tasks.contact_names())
@@ -94,7 +114,7 @@ class Choice:
     @property
     def takes_contact(self) -> bool:
         """Whether tasks in contact are run: if some are named, or nothing that they do not take."""
-        return self.is_about_contact or not (self.tasks or any(self.of_episodes.values()))
+        return self.is_about_contact or not (self.tasks or self.axes or any(self.of_episodes.values()))
 
     @property
     def is_about_arms(self) -> bool:

@@ -19,7 +19,7 @@ import pandas as pd
 from bench.discovery import known_representations
 from bench.errors import BadResults
 from bench.representations.zyx_euler import to_matrix
-from bench.schema import COMPLIANCE_KEY, KEY
+from bench.schema import COMPLIANCE_KEY, KEY, ROBUSTNESS_KEY
 from bench.store import read, read_arrow
 from tasks.verdict import OUTCOMES, SETTLED
 
@@ -65,6 +65,10 @@ hangs on rounding."""
 CONTACT_RELATIVE, CONTACT_ABSOLUTE = 1e-4, 1e-7
 """Impacts multiply rounding: 1e-16 in a joint angle becomes 4e-7 in the peak of the force on a peg that jams, and each
 tick rounds anew. A rotation [rad] by its cosine is known to 2e-8."""
+
+TROUBLED_RELATIVE = 1e-4
+"""A law that jumps at half turns, asked there with noise, chooses its side by the last bit; what settles all the same
+has been driven on by its goal or its noise for five thousand steps."""
 
 SHOWN = 10
 
@@ -232,6 +236,18 @@ def _compliance(new: pd.DataFrame, old: pd.DataFrame) -> list[str]:
     return lines
 
 
+def _robustness(new: pd.DataFrame, old: pd.DataFrame) -> list[str]:
+    new, old, lines = _aligned("robustness", new, old, ROBUSTNESS_KEY)
+    same = new["outcome"].astype(str) == old["outcome"].astype(str)
+    lines += _changed("outcome", new, old, ~same)
+    settled = same & (old["outcome"].astype(str) == OUTCOMES[SETTLED])
+    for name in old.columns.difference([*ROBUSTNESS_KEY, "outcome"], sort=False):
+        a, b = new[name].to_numpy(float), old[name].to_numpy(float)
+        close = np.isclose(a, b, rtol=TROUBLED_RELATIVE, atol=ABSOLUTE, equal_nan=True)
+        lines += _changed(name, new, old, settled & ~close)
+    return lines
+
+
 def _on_singular_set(rows: pd.DataFrame) -> np.ndarray:
     """Whether a row's goal is where its controller's coordinates are singular."""
     margins = {name: one.margin for name, one in known_representations().items()}
@@ -250,6 +266,7 @@ TABLES = {
     "boundaries": _boundaries,
     "poses": _poses,
     "compliance": _compliance,
+    "robustness": _robustness,
     "traces": _traces,
 }
 """What is compared, and how."""

@@ -93,6 +93,8 @@ class Regulator(NamedTuple):
     origin: the file of a user's law; empty for ours.
     costing_only: another way to write a law that is listed already: costed and tested, not run.
     later: one that the paper does not have: it runs on the smaller set of starts.
+    in_engine: MuJoCo's own actuator makes the command, on the free body in MuJoCo alone; `law` is what it computes,
+    which is what is tested and counted.
     stiffness: near the goal, about n_d, o_d and a_d, over kp.
     margin: of a law on R that is singular somewhere: margin(R, R_d) in [0, 1], 0 exactly there; else None.
     coordinate_law_in: of a law that commands Eddot itself: coordinate_law_in(representation) returns
@@ -112,6 +114,7 @@ class Regulator(NamedTuple):
     origin: str = ""
     costing_only: bool = False
     later: bool = False
+    in_engine: bool = False
     stiffness: tuple[float, float, float] = (1.0, 1.0, 1.0)
     margin: Callable | None = None
     coordinate_law_in: Callable | None = None
@@ -204,6 +207,8 @@ def on_arm(one: Contender, jacobian: Jacobian, inverse: Inverse, joints: int = 6
 def refusal(one: Contender, joints: int) -> str:
     """Why a contender cannot control an arm of so many joints; empty if it can."""
     jacobian, inverse, representation = one.jacobian, one.inverse, one.representation
+    if one.regulator.in_engine:
+        return f"regulator '{one.regulator.name}' is an actuator of MuJoCo and turns the free body alone"
     if jacobian is None or inverse is None:
         return "an arm needs a Jacobian and an inverse (try: @geometric+pseudo-inverse)"
     if jacobian.takes == "coordinates":

@@ -6,12 +6,13 @@ import json
 from dataclasses import dataclass
 
 import tasks
-from bench import combinations, contact_plan
+from bench import combinations, contact_plan, robustness_plan
 from bench.choice import EVERYTHING, INTEGRATORS, Choice, check_numbers, check_word
 from bench.contact_plan import ContactUnit
 from bench.contender import PAPERS_GAINS, Contender, Gains
 from bench.errors import Incompatible
 from bench.provenance import source_digest
+from bench.robustness_plan import RobustnessUnit
 from bench.suites import HORIZON, NOMINAL, ON_ARM, SHORT, OnArms, Slice, Suite, suite
 from tasks.rules import RULES
 
@@ -69,11 +70,12 @@ class Plan:
     poses: int = 0
     contacts: tuple[ContactUnit, ...] = ()
     contact_integrator: str = IN_CONTACT
+    troubles: tuple[RobustnessUnit, ...] = ()
 
     @property
-    def work(self) -> tuple[Unit | ContactUnit, ...]:
+    def work(self) -> tuple[Unit | ContactUnit | RobustnessUnit, ...]:
         """All that is to be done."""
-        return (*self.units, *self.contacts)
+        return (*self.units, *self.contacts, *self.troubles)
 
     @property
     def laws(self) -> tuple[Contender, ...]:
@@ -94,6 +96,11 @@ class Plan:
     def trials(self) -> int:
         """Number of episodes in contact."""
         return sum(unit.count for unit in self.contacts)
+
+    @property
+    def troubled(self) -> int:
+        """Number of episodes in trouble: rows of robustness.parquet, but for levels that a law has no gains for."""
+        return sum(unit.count for unit in self.troubles)
 
     def contender(self, name: str) -> Contender:
         """The contender of that name."""
@@ -116,6 +123,7 @@ class Plan:
             "poses": self.poses,
             "contacts": [dataclasses.astuple(unit) for unit in self.contacts],
             "contact_integrator": self.contact_integrator,
+            "troubles": [dataclasses.astuple(unit) for unit in self.troubles],
             "arms": {name: hashlib.sha256(tasks.arm(name).xml.encode()).hexdigest()[:16] for name in touched},
             "rules": list(RULES),
             "sources": source_digest(),
@@ -161,9 +169,12 @@ def make(
     placed = _on_free_body(chosen, laws, every_task, choice) + _on_arms(chosen, laws, every_task, choice)
     units = tuple(unit for place in placed for unit in _units(place, count, seed, horizon_s))
     contacts = contact_plan.units(chosen.in_contact, choice, count, horizon_s)
+    troubles = robustness_plan.units(chosen.robustness, laws, choice, count, horizon_s)
     if every_task and not units:
-        raise Incompatible(_nothing_to_run(every_task, chosen, choice))
+        raise Incompatible(_nothing_to_run(every_task, laws, chosen, choice))
+    in_trouble = {unit.contender for unit in troubles}
     named = {place.contender.name: place.contender for place in placed}
+    named |= {one.name: one for one in laws if one.name in in_trouble}
     return Plan(
         chosen.name,
         units,
@@ -178,11 +189,14 @@ def make(
         0 if choice.narrows else chosen.on_arms.poses,
         contacts,
         integrator or IN_CONTACT,
+        troubles,
     )
 
 
 def _tasks(choice: Choice, laws: list[Contender]) -> tuple[str, ...]:
-    """The tasks without contact that are meant."""
+    """The tasks without contact that are meant; none along an axis, whose starts are its own."""
+    if choice.axes:
+        return ()
     if choice.is_contact_alone:
         own = [one.regulator.name for one in laws if one.regulator.origin]
         if own:
@@ -204,9 +218,16 @@ class Place:
     variation: str = NOMINAL
 
 
-def runs_on(engine: str, task: str) -> bool:
-    """Whether an engine can run a task: the ideal plant is the free body's alone."""
-    return task == "free-body" or not engine.startswith("ideal")
+def runs_on(engine: str, task: str, one: Contender) -> bool:
+    """Whether an engine can run a task: the ideal plant is the free body's alone, and has no actuators of MuJoCo."""
+    return not engine.startswith("ideal") or (task == "free-body" and not one.regulator.in_engine)
+
+
+def slices_of(chosen: Suite, one: Contender) -> tuple[Slice, ...]:
+    """The slices of a suite on the free body that a contender runs on."""
+    if one.regulator.in_engine:
+        return chosen.in_engine
+    return chosen.beyond if one.is_beyond_the_paper else chosen.slices
 
 
 def _on_free_body(chosen: Suite, laws, every_task, choice: Choice) -> list[Place]:
@@ -215,8 +236,8 @@ def _on_free_body(chosen: Suite, laws, every_task, choice: Choice) -> list[Place
         for task in every_task
         if not tasks.is_for_arms(task)
         for one in laws
-        for part in _narrowed(chosen.beyond if one.is_beyond_the_paper else chosen.slices, choice)
-        if part.start_set in tasks.task(task).start_sets and runs_on(part.engine, task)
+        for part in _narrowed(slices_of(chosen, one), choice)
+        if part.start_set in tasks.task(task).start_sets and runs_on(part.engine, task, one)
     ]
 
 
@@ -226,7 +247,7 @@ def _on_arms(chosen: Suite, laws, every_task, choice: Choice) -> list[Place]:
         for arm in choice.arms or tasks.arm_names():
             fitting = tasks.task(task, arm).start_sets
             for part, one, variation in _on_arm(chosen.on_arms, laws, tasks.arm(arm).joints, choice):
-                if part.start_set in fitting and runs_on(part.engine, task):
+                if part.start_set in fitting and runs_on(part.engine, task, one):
                     places.append(Place(part, one, task, arm, variation))
     if every_task and not places and choice.is_about_arms:
         _check_combinations(chosen.on_arms, laws, choice)
@@ -259,16 +280,17 @@ def _check_combinations(on_arms: OnArms, laws, choice: Choice) -> None:
         raise Incompatible(f"nothing to run: {combinations.shown(reasons)}")
 
 
-def _nothing_to_run(every_task, chosen: Suite, choice: Choice) -> str:
+def _nothing_to_run(every_task, laws: list[Contender], chosen: Suite, choice: Choice) -> str:
     """Why no task, engine and start set go together."""
     reasons = []
     for task in every_task:
         is_for_arms = tasks.is_for_arms(task)
         allowed = tasks.start_set_names(arm=True) if is_for_arms else tasks.task(task).start_sets
         slices = _narrowed(chosen.on_arms.slices if is_for_arms else chosen.slices, choice)
-        refused = [part.engine for part in slices if not runs_on(part.engine, task)]
+        refused = [part.engine for part in slices if not any(runs_on(part.engine, task, one) for one in laws)]
         if refused:
-            reasons.append(f"{', '.join(dict.fromkeys(refused))} simulates free-body alone, not '{task}'")
+            what = f"free-body alone, not '{task}'" if task != "free-body" else "no actuator of MuJoCo"
+            reasons.append(f"{', '.join(dict.fromkeys(refused))} simulates {what}")
         foreign = [part.start_set for part in slices if part.start_set not in allowed]
         if foreign:
             reasons.append(

@@ -66,6 +66,11 @@ def compliance(**words: str) -> pd.DataFrame:
     return chosen(table(folder(), "compliance"), words)
 
 
+def robustness(**words: str) -> pd.DataFrame:
+    """Rows of robustness.parquet that have these words, as in robustness(axis="delay")."""
+    return chosen(table(folder(), "robustness"), words)
+
+
 def provenance() -> dict:
     """Where the run comes from: provenance.json."""
     return read_json(folder() / "provenance.json")

@@ -18,7 +18,7 @@ from typing import NamedTuple
 import pandas as pd
 
 import tasks
-from bench import boundary, contact_rows, counting, poses, traces
+from bench import boundary, contact_rows, counting, poses, robustness_rows, traces
 from bench.choice import check_workers
 from bench.contact_plan import ContactUnit, poses_of
 from bench.discovery import all_contenders, find_compliant, metrics_of
@@ -30,12 +30,16 @@ from bench.engines.run_arm import run as run_on_arm
 from bench.errors import BadLaw, BadResults
 from bench.plan import Plan, Unit
 from bench.provenance import describe
+from bench.robustness_plan import RobustnessUnit
 from bench.rows import frame, settings_of
 from bench.running_order import in_running_order
 from bench.store import check, is_leftover, merge, read_json, write_atomically, write_json, write_table
 
-TABLES = ("costs", "traces", "boundaries", "poses", "compliance", "episodes")
+TABLES = ("costs", "traces", "boundaries", "poses", "compliance", "robustness", "episodes")
 """The tables of a finished run."""
+
+
+AnyUnit = Unit | ContactUnit | RobustnessUnit
 
 
 class State(NamedTuple):
@@ -48,7 +52,7 @@ class State(NamedTuple):
 class Progress(NamedTuple):
     """Told to the caller after every unit: the unit, and how many episodes of the whole it was."""
 
-    unit: Unit | ContactUnit
+    unit: AnyUnit
     episodes: int
 
 
@@ -82,7 +86,7 @@ def inspect(plan: Plan, out: Path, replace: bool = False) -> State:
     return State(finished, frozenset(unit.key for unit in done))
 
 
-def _part(out: Path, unit: Unit | ContactUnit) -> Path:
+def _part(out: Path, unit: AnyUnit) -> Path:
     return out / "parts" / f"{unit.key}.parquet"
 
 
@@ -129,7 +133,8 @@ def run(
 
 def _compile_own_laws(plan: Plan) -> None:
     """Compile a user's laws before anything is written: what cannot be compiled is a mistake, not a row."""
-    for name in dict.fromkeys(unit.contender for unit in plan.units if unit.engine != "reference"):
+    names = [unit.contender for unit in plan.units if unit.engine != "reference"]
+    for name in dict.fromkeys((*names, *(unit.contender for unit in plan.troubles))):
         one = plan.contender(name)
         if one.regulator.origin:
             if one.is_on_arm:
@@ -210,14 +215,13 @@ def _removing(out: Path):
         ) from error
 
 
-def _run_units(plan: Plan, todo: list[Unit | ContactUnit], out: Path, workers: int, told) -> None:
+def _run_units(plan: Plan, todo: list[AnyUnit], out: Path, workers: int, told) -> None:
     stop = threading.Event()
 
-    def work(unit: Unit | ContactUnit) -> Unit | ContactUnit | None:
+    def work(unit: AnyUnit) -> AnyUnit | None:
         if stop.is_set():
             return None
-        rows = _in_contact(plan, unit) if isinstance(unit, ContactUnit) else _episodes(plan, unit)
-        write_table(_part(out, unit), rows, unit.table)
+        write_table(_part(out, unit), _rows(plan, unit), unit.table)
         return unit
 
     if any(isinstance(unit, Unit) and unit.engine == "reference" for unit in todo):
@@ -234,6 +238,13 @@ def _run_units(plan: Plan, todo: list[Unit | ContactUnit], out: Path, workers: i
         except BaseException:
             stop.set()
             raise
+
+
+def _rows(plan: Plan, unit: AnyUnit) -> pd.DataFrame:
+    """The rows of a unit."""
+    if isinstance(unit, ContactUnit):
+        return _in_contact(plan, unit)
+    return _in_trouble(plan, unit) if isinstance(unit, RobustnessUnit) else _episodes(plan, unit)
 
 
 def _episodes(plan: Plan, unit: Unit) -> pd.DataFrame:
@@ -258,6 +269,12 @@ def _in_contact(plan: Plan, unit: ContactUnit) -> pd.DataFrame:
     return contact_rows.frame(plan.suite, one, task._replace(horizon_s=unit.horizon_s), arm, some, conditions)
 
 
+def _in_trouble(plan: Plan, unit: RobustnessUnit) -> pd.DataFrame:
+    """The rows of a unit along an axis."""
+    one, axis = plan.contender(unit.contender), tasks.axis(unit.axis)
+    return robustness_rows.frame(plan.suite, one, axis, unit.starts, unit.horizon_s, plan.gains, plan.seed)
+
+
 starts_of = functools.lru_cache(maxsize=16)(tasks.start_set)
 """A start set is built once for all its units."""
 
@@ -275,6 +292,7 @@ def _finish(plan: Plan, out: Path, own_costs: list[dict], workers: int, began: f
             "plan": plan.digest(),
             "episodes": rows,
             "trials": plan.trials,
+            "troubled": plan.troubled,
             "seed": plan.seed,
             "workers": workers,
             "finished": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime()),
@@ -295,4 +313,5 @@ def _write_all_but_boundaries(plan: Plan, out: Path, own_costs: list[dict]) -> i
     costs = _law_costs(plan) + own_costs + _arm_costs(plan)
     write_table(out / "costs.parquet", pd.DataFrame(costs), "costs")
     merge(out / "compliance.parquet", [_part(out, unit) for unit in plan.contacts], "compliance")
+    merge(out / "robustness.parquet", [_part(out, unit) for unit in plan.troubles], "robustness")
     return merge(out / "episodes.parquet", [_part(out, unit) for unit in plan.units], "episodes")

@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import pyarrow as pa
 
-from bench.discovery import known_contact_metrics, known_metrics
+from bench.discovery import known_contact_metrics, known_metrics, metrics_of
 from bench.provenance import ROOT
 
 VERSION = "2"
@@ -185,6 +185,39 @@ def compliance_columns() -> list[Column]:
     ]
 
 
+ROBUSTNESS_KEY = ("suite", "axis", "level", "regulator", "representation", "start_id")
+"""What names a row of robustness.parquet."""
+
+
+def robustness_columns() -> list[Column]:
+    """robustness.parquet: the free body in trouble, an episode a row; starts and noise are the same for every law.
+
+    The plant moves between commands, which are held; every metric of the free body adds its column, over the plant's
+    steps. Of an episode that ended early, what is left in its tail is the final angle.
+    """
+    measured = [Column(one.column, NUMBER, one.unit, one.title) for one in metrics_of(on_arm=False)]
+    return [
+        *_words(
+            suite="plan the row belongs to",
+            axis="kind of trouble: python -m bench list axes",
+            regulator="the law",
+            representation="coordinates the law acts on; empty for a law on R",
+        ),
+        *_numbers("", "how much of it, in the axis's unit", "level"),
+        *_words(start_id="start; the axes' starts are their own"),
+        *_numbers("rad", "initial angle to the goal, by the judge", "angle0_rad"),
+        *_numbers("1/s^2", "position gain", "kp"),
+        *_numbers("1/s", "velocity gain", "kv"),
+        *_numbers("s", "control period", "dt_s"),
+        *_numbers("s", "longest time simulated", "horizon_s"),
+        *JUDGED,
+        *measured,
+        *_numbers("rad", "root of the mean squared angle to the goal over the last second", "tail_rms_rad"),
+        *_numbers("rad", "largest angle to the goal in the last second", "tail_max_rad"),
+        *_numbers("rad/s^2", "variation of the command: sum of |u - u before| over control periods", "variation"),
+    ]
+
+
 def cost_columns() -> list[Column]:
     """costs.parquet: operations a tick, by stage and branch."""
     from bench.counting import OPERATIONS
@@ -236,6 +269,7 @@ TABLES = {
     "boundaries": boundary_columns,
     "poses": pose_columns,
     "compliance": compliance_columns,
+    "robustness": robustness_columns,
     "timings": timing_columns,
 }
 

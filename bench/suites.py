@@ -59,11 +59,22 @@ class InContact(NamedTuple):
     dense: bool = False
 
 
+class Robustness(NamedTuple):
+    """The part of a suite that puts laws of the free body in trouble, along every axis of tasks/conditions.
+
+    starts: at each level of each axis. others: laws on coordinates that the paper sets aside which take part; None:
+    all of them.
+    """
+
+    starts: int
+    others: tuple[str, ...] | None = ("feedback-linearized/mrp",)
+
+
 class Suite(NamedTuple):
     """A named list of slices, run for every contender that is not only a costing.
 
     slices: on the free body, of the paper's laws and the user's own; beyond: of later laws, and of laws on coordinates
-    that the paper sets aside.
+    that the paper sets aside; in_engine: of MuJoCo's own actuator.
     """
 
     name: str
@@ -74,6 +85,8 @@ class Suite(NamedTuple):
     boundary_axes: int
     on_arms: OnArms
     in_contact: InContact
+    robustness: Robustness
+    in_engine: tuple[Slice, ...]
 
 
 DIRECTED = ("box", "goals", "half-turn", "paper", "poles", "tumbling", "wraps")
@@ -139,6 +152,8 @@ SUITES = {
                 poses=200,
             ),
             in_contact=InContact(COMPLIANT, FIRST_FRAMES),
+            robustness=Robustness(4),
+            in_engine=_slices("native", 200, ("half-turn", "paper", "poles")),
         ),
         Suite(
             "default",
@@ -159,6 +174,8 @@ SUITES = {
                 poses=1000,
             ),
             in_contact=InContact((*COMPLIANT, *MORE_COMPLIANT)),
+            robustness=Robustness(32),
+            in_engine=_slices("native", 1000) + _slices("reference", 0, ("paper",)),
         ),
         Suite(
             "full",
@@ -179,6 +196,8 @@ SUITES = {
                 poses=1000,
             ),
             in_contact=InContact((), dense=True),
+            robustness=Robustness(1024, None),
+            in_engine=_slices("native", 50_000) + _slices("reference", 0, ("paper",)),
         ),
     )
 }

@@ -23,13 +23,14 @@ def COMMAND(kind, laws):
     """What there is to run, of one kind or of all.
 
     Kinds: regulators, representations, jacobians, inverses, controllers, impedances, metrics, tasks, arms, variations,
-    starts, engines, suites, claims. A file of an arm that cannot be used is listed with the reason.
+    axes, starts, engines, suites, claims. A file of an arm that cannot be used is listed with the reason.
     """
     own = options.own_laws(laws)
     if kind is not None and kind not in _TABLES:
-        if kind + "s" not in _TABLES:
+        plural = {"axis": "axes"}.get(kind, kind + "s")
+        if plural not in _TABLES:
             raise UnknownWord("kind", kind, list(_TABLES))
-        kind += "s"
+        kind = plural
     for one in _TABLES if kind is None else (kind,):
         console().print(_TABLES[one](own))
 
@@ -136,6 +137,15 @@ def _variations(own):
     return _table("Variations of an arm's plant", ("name", "title"), rows)
 
 
+def _axes(own):
+    def row(one):
+        levels = ", ".join(f"{level:g}" for level in one.levels)
+        return one.name, one.unit, levels, one.title
+
+    every = map(tasks.axis, tasks.axis_names())
+    return _table("Axes of trouble, on the free body", ("name", "unit", "levels", "title"), map(row, every))
+
+
 def _starts(own):
     rows = [
         (name, plant, tasks.start_set_size(name, of_arms), tasks.start_set_title(name, of_arms))
@@ -160,9 +170,11 @@ def _suites(own):
         varied = ", and a study of model errors" if one.on_arms.varied else ""
         on_arms = f"{words} combinations{varied}" if words else f"every combination{varied}"
         in_contact = f"{len(one.in_contact.controllers) or 'all'} controllers"
-        return one.name, len({part.engine for part in one.slices}), on_arms, in_contact, one.title
+        in_trouble = f"{one.robustness.starts} starts a level"
+        return one.name, len({part.engine for part in one.slices}), on_arms, in_contact, in_trouble, one.title
 
-    return _table("Suites", ("name", "engines", "on each arm", "in contact", "title"), map(row, SUITES.values()))
+    columns = ("name", "engines", "on each arm", "in contact", "in trouble", "title")
+    return _table("Suites", columns, map(row, SUITES.values()))
 
 
 def _claims(own):
@@ -182,6 +194,7 @@ _TABLES = {
     "tasks": _tasks,
     "arms": _arms,
     "variations": _variations,
+    "axes": _axes,
     "starts": _starts,
     "engines": _engines,
     "suites": _suites,

@@ -34,6 +34,9 @@ hybrid-base+inverse --out /tmp/plate[/b]  a hand pressed onto a tilted plate: co
 
 [b]python -m bench run --suite full --controller impedance-geometric --out /tmp/spring[/b]  one controller in every task
 in contact, on dense grids of poses.
+
+[b]python -m bench run --axis delay --axis half-turn-noise --regulator hybrid --count 200 --out /tmp/late[/b]  a law in
+trouble: robustness.parquet.
 """
 
 
@@ -50,10 +53,15 @@ in contact, on dense grids of poses.
 @click.option(
     "--variation", "variations", multiple=True, metavar="NAME", help="On arms, a plant that differs so; repeatable."
 )
+@click.option(
+    "--axis", "axes", multiple=True, metavar="NAME", help="Only along this axis of trouble, as delay; repeatable."
+)
 @click.option("--starts", multiple=True, metavar="NAME", help="Only this start set; repeatable.")
 @click.option("--engine", "engines", multiple=True, metavar="NAME", help="Only this engine; repeatable.")
 @click.option(
-    "--count", type=int, help="At most so many starts of each set (sampled sets take any number), or poses in contact."
+    "--count",
+    type=int,
+    help="At most so many starts of each set or level (sampled sets take any number), or poses in contact.",
 )
 @click.option("--dt", "dt_s", type=float, default=1e-3, show_default=True, help="Control period in seconds.")
 @click.option(
@@ -70,8 +78,8 @@ in contact, on dense grids of poses.
 @click.option("--replace", is_flag=True, help="Start over if the folder holds another plan.")
 @click.option("--dry-run", is_flag=True, help="Print the plan and its size; run nothing.")
 def COMMAND(
-    suite, laws, regulators, representations, controllers, tasks, arms, jacobians, inverses, variations, starts,
-    engines, count, dt_s, horizon_s, kp, kv, integrator, seed, workers, out, replace, dry_run,
+    suite, laws, regulators, representations, controllers, tasks, arms, jacobians, inverses, variations, axes,
+    starts, engines, count, dt_s, horizon_s, kp, kv, integrator, seed, workers, out, replace, dry_run,
 ):  # fmt: skip
     """Run a suite and store its episodes; a run that was stopped goes on where it was.
 
@@ -81,6 +89,9 @@ def COMMAND(
 
     A task in contact has controllers (python -m bench list controllers) and trials of its own. It is run with the suite
     unless something is named that it does not take: another task, a regulator, a Jacobian, starts, an engine, ...
+
+    Along an axis of trouble (python -m bench list axes) goes the free body, on starts of the axis's own: asked rarely,
+    told late or wrongly, held back, or sent after a goal that moves. Name an axis, and nothing else is run.
     """
     named = options.named(regulators, jacobians, inverses)
     plan = planning.make(
@@ -97,6 +108,7 @@ def COMMAND(
             controllers,
             named.regulators,
             representations,
+            axes,
         ),
         count=count,
         dt_s=dt_s,
@@ -116,7 +128,7 @@ def COMMAND(
         console().print(f"going on: {len(state.done)} of {len(plan.work)} units are done")
 
     with episode_progress() as progress:
-        total = plan.episodes + plan.trials
+        total = plan.episodes + plan.trials + plan.troubled
         bar = progress.add_task("compiling", total=total)
 
         def told(done):
@@ -132,7 +144,8 @@ def COMMAND(
 def _print_plan(plan, out) -> None:
     laws = ", ".join(dict.fromkeys(one.on_free_body for one in plan.contenders))
     trials = f" and {plan.trials:,} in contact" if plan.contacts else ""
-    size = f"{plan.episodes:,} episodes{trials} in {len(plan.work)} units"
+    troubled = f" and {plan.troubled:,} in trouble" if plan.troubles else ""
+    size = f"{plan.episodes:,} episodes{trials}{troubled} in {len(plan.work)} units"
     console().print(f"suite {plan.suite}: {size}, dt {plan.dt_s} s, into {out}")
     if laws:
         console().print(f"laws: {laws}")
@@ -145,8 +158,17 @@ def _print_plan(plan, out) -> None:
         on = {unit.contender for unit in plan.units if unit.arm and place.endswith(f", {unit.arm}")}
         each = f"each of {len(on)} combinations" if on else "each law"
         console().print(f"{place}: " + ", ".join(f"{name} {total}" for name, total in sets.items()) + f" ({each})")
+    if plan.troubles:
+        _print_troubles(plan.troubles)
     if plan.contacts:
         _print_contacts(plan.contacts)
+
+
+def _print_troubles(units) -> None:
+    each = {unit.axis: unit.count // unit.starts for unit in units}
+    listed = ", ".join(f"{name} {levels} x {units[0].starts}" for name, levels in each.items())
+    laws = len({unit.contender for unit in units})
+    console().print(f"in trouble, levels x starts: {listed} (each of {laws} laws)")
 
 
 def _print_contacts(units) -> None:

@@ -17,7 +17,7 @@ from bench.engines.curve import Curves
 from bench.engines.episode import Numbers
 from bench.errors import BadLaw
 from bench.so3 import Rotation
-from tasks import truth, verdict
+from tasks import moving_goal, truth, verdict
 
 FunctionIdentity._unique_ids = itertools.count(secrets.randbits(56))
 """numba tells functions of one name apart by a number that counts from 1 in every process, and the linker keeps the
@@ -63,7 +63,7 @@ def register_kernels() -> None:
     for function in scalar.PRIMITIVES:
         if function not in _registered:
             _register_primitive(function)
-    for function in (*scalar.KERNELS, *verdict.COMPILABLE, truth.angle, truth.haversine):
+    for function in (*scalar.KERNELS, *verdict.COMPILABLE, *truth.COMPILABLE, *moving_goal.COMPILABLE):
         register(function)
 
 

@@ -1,0 +1,254 @@
+"""The free body in trouble (tasks/condition.py): asked rarely, told late or wrongly, held back, or sent after a goal.
+
+The plant is the paper's (2.6)-(2.7) or, with an inertia that is not the model's, Euler's equations; a command holds
+from tick to tick of the control, and the body is moved by steps of at most STEP_S between.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numba import float64, int64, types
+
+from bench.contender import AT_REST, Gains, Goal
+from bench.engines.compiled import EVALUATE, FOUR, MATRIX, NUMBERS, THREE, compile_function
+from bench.engines.episode import FIRST_METRIC, Numbers, Sample, finish
+from bench.engines.ideal import angle_between, haversine, held_step, moved, plus, rotation_rate, turned, weighted
+from bench.scalar import kernel, sqrt
+from bench.so3 import Rotation, cross, dot, from_quaternion, rotate, rotate_back, turn_quaternion
+from bench.tracking import carried_along, seen_from_goal
+from tasks.condition import RATE, RATE_AND_ACCELERATION, Condition
+from tasks.moving_goal import sway_rates, swayed
+from tasks.verdict import GOING, check_command, check_state, first_watch, watched
+
+STEP_S = 1e-3
+"""Longest step of the plant [s]."""
+
+TAIL_S = 1.0
+"""The end of an episode, over which its error is averaged [s]."""
+
+TAIL_SQUARES, TAIL_COUNT, TAIL_WORST, VARIATION = range(4)
+EXTRA = 4
+"""Columns behind the metrics': sum of squared angles in the tail, how many, the largest, and the variation of u."""
+
+
+class Trouble(NamedTuple):
+    """A condition as the compiled loop takes it.
+
+    steps: of the plant in a period of control; late: steps by which a command is late; tail: steps in the tail.
+    """
+
+    steps: int
+    late: int
+    tail: int
+    told: int
+    attitude_noise: float
+    rate_noise: float
+    beyond: float
+    bound: float
+    sway: float
+    inertia: tuple
+
+
+def trouble(condition: Condition) -> Trouble:
+    """The condition in steps of the plant."""
+    steps = steps_of(condition)
+    step_s = condition.period_s / steps
+    return Trouble(
+        steps,
+        round(condition.delay_s / step_s),
+        round(TAIL_S / step_s),
+        condition.told,
+        condition.attitude_noise,
+        condition.rate_noise,
+        condition.beyond,
+        condition.bound,
+        condition.sway,
+        condition.inertia,
+    )
+
+
+def steps_of(condition: Condition) -> int:
+    """Steps of the plant in a period of control: as few as STEP_S allows."""
+    return max(1, math.ceil(condition.period_s / STEP_S - 1e-9))
+
+
+@kernel
+def reported(R, omega, R_d, noise, trouble):
+    """(R, omega) as they are measured: turned and shifted by drawn numbers, and by the worst that can be at half turns.
+
+    Args:
+        noise: six numbers, of unit standard deviation.
+    """
+    if trouble.attitude_noise > 0.0:
+        s = trouble.attitude_noise
+        R = turned(R, (s * noise[0], s * noise[1], s * noise[2]))
+    if trouble.rate_noise > 0.0:
+        omega = plus(omega, trouble.rate_noise, (noise[3], noise[4], noise[5]))
+    if trouble.beyond > 0.0 and angle_between(R, R_d) + trouble.beyond > math.pi:
+        _, v, _ = turn_quaternion(R, R_d)
+        away = -trouble.beyond / sqrt(dot(v, v))
+        R = turned(R, (away * v[0], away * v[1], away * v[2]))
+    return R, omega
+
+
+@kernel
+def bounded(u, bound):
+    """u, shortened to the bound if it is longer."""
+    squared = dot(u, u)
+    if squared > bound * bound:
+        scale = bound / sqrt(squared)
+        return (scale * u[0], scale * u[1], scale * u[2])
+    return u
+
+
+@kernel
+def uneven_acceleration(R, omega, u, inertia):
+    """omegadot = R J^-1 (R^T u - W x J W), W = R^T omega: Euler's equations under the torque u, base frame."""
+    W = rotate_back(R, omega)
+    x, y, z = rotate_back(R, u)
+    gx, gy, gz = cross(W, (inertia[0] * W[0], inertia[1] * W[1], inertia[2] * W[2]))
+    return rotate(R, ((x - gx) / inertia[0], (y - gy) / inertia[1], (z - gz) / inertia[2]))
+
+
+@kernel
+def uneven_step(R, omega, u, inertia, h):
+    """The body one Runge-Kutta step on under a torque held in the base frame."""
+    half = 0.5 * h
+    a1, R1 = uneven_acceleration(R, omega, u, inertia), rotation_rate(R, omega)
+    omega2, at2 = plus(omega, half, a1), moved(R, half, R1)
+    a2, R2 = uneven_acceleration(at2, omega2, u, inertia), rotation_rate(at2, omega2)
+    omega3, at3 = plus(omega, half, a2), moved(R, half, R2)
+    a3, R3 = uneven_acceleration(at3, omega3, u, inertia), rotation_rate(at3, omega3)
+    omega4, at4 = plus(omega, h, a3), moved(R, h, R3)
+    a4, R4 = uneven_acceleration(at4, omega4, u, inertia), rotation_rate(at4, omega4)
+    n = weighted(R1.n, R2.n, R3.n, R4.n)
+    o = weighted(R1.o, R2.o, R3.o, R4.o)
+    a = weighted(R1.a, R2.a, R3.a, R4.a)
+    return moved(R, h / 6.0, Rotation(n, o, a)), plus(omega, h / 6.0, weighted(a1, a2, a3, a4))
+
+
+@kernel
+def step(R, omega, u, inertia, h):
+    """The body one step on under the torque u."""
+    x, y, z = inertia
+    if x < y or y < x or y < z or z < y:
+        return uneven_step(R, omega, u, inertia, h)
+    return held_step(R, omega, (u[0] / x, u[1] / x, u[2] / x), h)
+
+
+@kernel
+def goal_at(R_0, time, sway):
+    """(R_d, omega_d, alpha_d) at a time."""
+    if sway > 0.0:
+        R_d = Rotation(swayed(time, sway, R_0.n), swayed(time, sway, R_0.o), swayed(time, sway, R_0.a))
+        omega_d, alpha_d = sway_rates(time, sway)
+        return R_d, omega_d, alpha_d
+    return R_0, AT_REST, AT_REST
+
+
+@kernel
+def told_of(omega_d, alpha_d, told):
+    """What the law is told of the goal's motion."""
+    if told < RATE:
+        return AT_REST, AT_REST
+    if told < RATE_AND_ACCELERATION:
+        return omega_d, AT_REST
+    return omega_d, alpha_d
+
+
+TROUBLE = types.NamedTuple((*[int64] * 4, *[float64] * 5, THREE), Trouble)
+EPISODES = types.void(types.FunctionType(EVALUATE), FOUR, MATRIX, float64[:, :, ::1], NUMBERS, TROUBLE, MATRIX)
+
+
+def episodes_of(observe):
+    """The loop over episodes, for all laws: `episodes(evaluate, memory0, starts, noise, numbers, trouble, rows)`.
+
+    numbers.dt is the plant's step, and ticks are such steps; noise: episodes x periods x six, read only if there is
+    noise. The rows are filled: the judge's columns, the metrics', and EXTRA more.
+    """
+
+    def episodes(evaluate, memory0, starts, noise, numbers, trouble, rows):
+        gains = Gains(numbers.kp, numbers.kv)
+        h = numbers.dt
+        is_noisy = trouble.attitude_noise > 0.0 or trouble.rate_noise > 0.0
+        is_prompt = trouble.late == 0 and trouble.steps == 1
+        slots = trouble.late // trouble.steps + 2
+        sent = np.zeros((slots, 3))
+        for k in range(starts.shape[0]):
+            start, row = starts[k], rows[k]
+            extra = row[row.shape[0] - EXTRA :]
+            R = from_quaternion((start[0], start[1], start[2], start[3]))
+            omega = (start[4], start[5], start[6])
+            R_0 = from_quaternion((start[7], start[8], start[9], start[10]))
+            R_d, omega_d, alpha_d = goal_at(R_0, 0.0, trouble.sway)
+            band = start[11]
+            memory, margin = memory0, math.nan
+            u = AT_REST
+            hav = haversine(R, R_d)
+            watch = first_watch(hav, band)
+            tick, period = 0, 0
+            failure = GOING
+            while tick < numbers.ticks and watch.quiet < numbers.hold_ticks:
+                if tick == period * trouble.steps:
+                    before = u
+                    seen, turning = reported(R, omega, R_d, noise[k, period] if is_noisy else noise[0, 0], trouble)
+                    rate, acceleration = told_of(omega_d, alpha_d, trouble.told)
+                    goal = Goal(R_d, AT_REST, AT_REST)
+                    u, memory, margin = evaluate(seen, seen_from_goal(turning, rate), goal, gains, memory)
+                    if trouble.sway > 0.0:
+                        u = carried_along(u, turning, rate, acceleration)
+                    u = bounded(u, trouble.bound)
+                    failure = check_command(dot(u, u), numbers.command_limit_squared)
+                    if period > 0 and failure == GOING:
+                        jump = plus(u, -1.0, before)
+                        extra[VARIATION] += sqrt(dot(jump, jump))
+                    sent[period % slots, 0], sent[period % slots, 1], sent[period % slots, 2] = u
+                    period += 1
+                applied = u
+                if not is_prompt:
+                    applied = AT_REST
+                    if tick >= trouble.late:
+                        slot = ((tick - trouble.late) // trouble.steps) % slots
+                        applied = (sent[slot, 0], sent[slot, 1], sent[slot, 2])
+                observe(row, Sample(tick * h, h, R, hav, watch.entered, omega, applied, margin))
+                if failure != GOING:
+                    break
+                R, omega = step(R, omega, applied, trouble.inertia, h)
+                tick += 1
+                failure = check_state(dot(omega, omega), numbers.speed_limit_squared)
+                if failure != GOING:
+                    break
+                R_d, omega_d, alpha_d = goal_at(R_0, tick * h, trouble.sway)
+                hav = haversine(R, R_d)
+                watch = watched(watch, tick, hav, band)
+                if tick > numbers.ticks - trouble.tail:
+                    error = angle_between(R, R_d)
+                    extra[TAIL_SQUARES] += error * error
+                    extra[TAIL_COUNT] += 1.0
+                    extra[TAIL_WORST] = max(extra[TAIL_WORST], error)
+            speed = seen_from_goal(omega, omega_d)
+            final = angle_between(R, R_d)
+            finish(row, failure, watch, tick, final, hav <= band, dot(speed, speed), dot(u, u), numbers)
+
+    return episodes
+
+
+def compiled(observe):
+    """The same, compiled."""
+    return compile_function(episodes_of(observe), EPISODES)
+
+
+def blank_rows(count: int, metrics) -> np.ndarray:
+    """Rows to be filled: every metric at its start value."""
+    rows = np.zeros((count, FIRST_METRIC + len(metrics) + EXTRA))
+    rows[:, FIRST_METRIC : FIRST_METRIC + len(metrics)] = [metric.start for metric in metrics]
+    return rows
+
+
+def in_steps(numbers: Numbers, condition: Condition, hold_s: float, horizon_s: float) -> Numbers:
+    """The numbers with the plant's step for a tick; no episode stops early in trouble that lasts."""
+    step_s = condition.period_s / steps_of(condition)
+    ticks = max(1, round(horizon_s / step_s))
+    hold = ticks + 1 if condition.lasts else max(1, round(hold_s / step_s))
+    return numbers._replace(dt=step_s, ticks=ticks, hold_ticks=hold)
