@@ -201,7 +201,7 @@ def _traces(new: pd.DataFrame, old: pd.DataFrame) -> list[str]:
         return lines
     arrived = [one.transform("last") <= ARRIVED * one.transform("first") for one in curves]
     new, old, lines = _aligned("traces", new[arrived[0]], old[arrived[1]], TRACE_KEY)
-    for name in old.columns.difference(TRACE_KEY, sort=False):
+    for name in old.columns.difference([*TRACE_KEY, "outcome"], sort=False):  # a curve that arrives has settled
         a, b = new[name].to_numpy(float), old[name].to_numpy(float)
         lines += _changed(name, new, old, ~np.isclose(a, b, rtol=RELATIVE, atol=RELATIVE, equal_nan=True))
     return lines

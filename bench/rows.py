@@ -65,7 +65,7 @@ def frame(plan: Plan, unit: Unit, contender: Contender, starts, numbers: np.ndar
     omegas = np.array([start.omega for start in starts])
     goals = np.array([start.goal_wxyz for start in starts])
     angle0 = [angle(start.quat_wxyz, start.goal_wxyz) for start in starts]
-    outcomes = [OUTCOMES[int(code)] for code in numbers[:, OUTCOME]]
+    judged = judged_columns(numbers, plan.dt_s)
     columns = {
         "suite": plan.suite,
         "task": unit.task,
@@ -87,15 +87,12 @@ def frame(plan: Plan, unit: Unit, contender: Contender, starts, numbers: np.ndar
         "horizon_s": unit.horizon_s,
         "tolerance": RULES.tolerance,
         "hold_s": RULES.hold_s,
-        "outcome": outcomes,
-        "settling_time_s": _time(numbers[:, SETTLING_TICK], plan.dt_s),
-        "failure_time_s": _time(numbers[:, FAILURE_TICK], plan.dt_s),
-        "final_angle_rad": numbers[:, FINAL_ANGLE],
+        **judged,
         "ticks": numbers[:, TICKS].astype(np.int64),
     }
     endings = [
         Ending(start, final, RULES.band_rad(start), outcome)
-        for start, final, outcome in zip(angle0, numbers[:, FINAL_ANGLE], outcomes, strict=True)
+        for start, final, outcome in zip(angle0, numbers[:, FINAL_ANGLE], judged["outcome"], strict=True)
     ]
     for column, metric in enumerate(metrics, start=FIRST_METRIC):
         columns[metric.column] = [
@@ -108,9 +105,19 @@ def frame(plan: Plan, unit: Unit, contender: Contender, starts, numbers: np.ndar
             **dict.fromkeys((one.column for one in known_metrics().values()), np.nan),
             **columns,
             "cond_jacobian_max": seen,
-            "cause": [cause(*near) if unit.arm else "" for near in zip(outcomes, margins, seen, strict=True)],
+            "cause": [cause(*near) if unit.arm else "" for near in zip(judged["outcome"], margins, seen, strict=True)],
         }
     )
+
+
+def judged_columns(numbers: np.ndarray, dt_s: float) -> dict:
+    """The columns that say how episodes ended, from rows of `engines.episode`."""
+    return {
+        "outcome": [OUTCOMES[int(code)] for code in numbers[:, OUTCOME]],
+        "settling_time_s": _time(numbers[:, SETTLING_TICK], dt_s),
+        "failure_time_s": _time(numbers[:, FAILURE_TICK], dt_s),
+        "final_angle_rad": numbers[:, FINAL_ANGLE],
+    }
 
 
 def _seen_on_arm(arm: str, numbers: np.ndarray) -> list[float]:
