@@ -103,7 +103,7 @@ def trace_columns() -> list[Column]:
         *_numbers("rad", "angle to the goal", "angle_rad"),
         *_numbers("m", "distance of the tool from its place; null on the free body", "position_error_m"),
         *_numbers("rad", "joint angles; null where there is no such joint", *(f"q_{i}" for i in range(1, 8))),
-        *(one._replace(meaning=f"of the episode: {one.meaning}; null on an arm") for one in JUDGED),
+        *(one._replace(meaning=f"of the episode: {one.meaning}; none on an arm") for one in JUDGED),
     ]
 
 

@@ -100,16 +100,16 @@ def _on_arms(plan: Plan, every: int):
             curves = blank_curves(len(starts), SAMPLES, every, ARM_NUMBERS)
             run_arm.run_native(one, task, arm, starts, settings, metrics, curves, plan.integrator)
             place = {"task": task, "arm": arm, **contender_columns(one), "engine": "native", "start_set": start_set}
-            yield _frame(place, starts, curves.samples, ARM_NUMBERS)
+            yield _frame(place, starts, curves.samples, ARM_NUMBERS, {"outcome": [""] * len(starts)})
 
 
-def _frame(place: dict, starts, samples: np.ndarray, names, endings: dict | None = None) -> pd.DataFrame:
+def _frame(place: dict, starts, samples: np.ndarray, names, endings: dict) -> pd.DataFrame:
     """The curves of all starts, one below the other; what the judge says of an episode stands at all its samples."""
     is_kept = ~np.isnan(samples[:, :, 0])
     lengths = is_kept.sum(axis=1)
     columns = dict(zip(names, samples[is_kept].T, strict=True))
     columns["angle_rad"] = 2.0 * np.arcsin(np.minimum(1.0, np.sqrt(columns.pop("haversine"))))
-    said = {name: np.repeat(values, lengths) for name, values in (endings or {}).items()}
+    said = {name: np.repeat(values, lengths) for name, values in endings.items()}
     return pd.DataFrame({**place, "start_id": np.repeat([start.id for start in starts], lengths), **columns, **said})
 
 

@@ -5,11 +5,11 @@ import pytest
 from driving import settings
 
 import tasks
-from bench import traces
+from bench import combinations, traces
 from bench.discovery import find_contender, metrics_of
 from bench.engines.curve import NUMBERS, blank_curves
 from bench.engines.run import run_compiled
-from bench.plan import Plan
+from bench.plan import Plan, Unit
 from bench.rows import judged_columns
 from tasks.rules import RULES
 
@@ -75,3 +75,11 @@ def test_two_neighbours_at_the_kept_bits_are_one_to_the_gate():
     from bench.compare import RELATIVE
 
     assert 2.0 ** (1 - traces.KEPT_BITS) < RELATIVE
+
+
+def test_curves_on_an_arm_share_the_table_and_name_no_outcome():
+    [one] = combinations.on((f"{PAPERS}@geometric+solve",), {PAPERS: find_contender(PAPERS)}, 6)
+    unit = Unit("native", one.name, "arm-regulation", "clear", 0, 1, 1, 4.0, "puma560")
+    kept = traces.run(Plan("quick", (unit,), (one,), arm_traces=1)).to_pandas()
+    assert set(kept["start_set"]) == set(traces.ARM_SETS)
+    assert set(kept["outcome"]) == {""}
