@@ -26,6 +26,7 @@ SPRINGS = {
     "mrp": lambda theta: 4.0 * math.tan(theta / 4.0),
     "gibbs": lambda theta: 2.0 * math.tan(theta / 2.0),
     "paielli-bach": lambda theta: 2.0 * math.tan(theta / 2.0),
+    "late-braking": lambda theta: (1.0 + math.cos(theta / 2.0) ** 2) * math.sin(theta / 2.0),
 }
 
 # What the rate adds to thetadd = -Kp f - Kv thetad, of laws whose damping is no mere Kv omega.
@@ -33,6 +34,7 @@ ADDED = {
     "paielli-bach": lambda theta, rate: 0.5 * rate**2 * math.tan(theta / 2.0),
     "mrp-linearized": lambda theta, rate: -0.5 * rate**2 * math.tan(theta / 4.0),
     "sliding": lambda theta, rate: 10.0 * (1.0 - math.cos(theta / 2.0)) * rate,
+    "late-braking": lambda theta, rate: 16.0 * math.sin(theta / 2.0) ** 2 * min(rate, 0.0),
 }
 
 UNBOUNDED = ("gibbs", "paielli-bach")
@@ -186,8 +188,12 @@ def test_unwinding_law_takes_the_long_way_that_hysteresis_does_not():
 
 
 def test_laws_with_memory_keep_their_side_beyond_a_half_turn_and_change_it_later():
-    """From just short of a half turn: hybrid until eta < -0.4, mrp-linearized until |sigma|^2 > 1.5."""
-    ends = {"hybrid": 2.0 * math.acos(-0.4), "mrp-linearized": 4.0 * math.atan(math.sqrt(1.5))}
+    """From just short of a half turn: hybrid to eta = -0.4, late-braking to -0.5, mrp-linearized to |sigma|^2 = 1.5."""
+    ends = {
+        "hybrid": 2.0 * math.acos(-0.4),
+        "mrp-linearized": 4.0 * math.atan(math.sqrt(1.5)),
+        "late-braking": 2.0 * math.acos(-0.5),
+    }
     for word, end in ends.items():
         _, memory = command(word, ScipyRotation.from_rotvec((3.1, 0.0, 0.0)))
         for theta, sign in ((math.pi + 0.01, -1.0), (end - 0.01, -1.0), (end + 0.01, 1.0)):

@@ -1,0 +1,81 @@
+"""A spring no stiffer than the 1980 law's, a damper that lets go on the way home, and a side kept in memory.
+
+With E = R_d R^T, the turn theta k from R to R_d in the base frame, t = tr E and eps = sin(theta/2) k,
+
+    u = (Kp (5 + t)/4 + (4/5) Kv max(0, eps . omega)) eps - Kv omega
+
+Spring: (5 + t)/4 = 1 + cos^2(theta/2), so f = (1 + cos^2(theta/2)) sin(theta/2), the 1980 law's sine at first. It is
+never above (4/3) sqrt(2/3) = 1.09, and at the half turn, where the sine is 0, it is 1. Damper: towards the goal it is
+Kv (1 - (4/5) sin^2(theta/2)), a fifth of Kv at the half turn; every other motion feels all of Kv. So a far body gains
+speed, and brakes late.
+
+Within 120 degrees (t >= 0) eps = s/(2 sqrt(1 + t)), s = 2 sin(theta) k off the diagonal of E. Beyond, eps comes of the
+largest diagonal element of E (`so3.quaternion_direction`), on the side of the last tick: that side is all the memory,
+and within 120 degrees there is none. So the side changes 60 degrees past a half turn and not before.
+
+Global: V = Kp U + |omega|^2/2 with U' = f has Vdot <= -(Kv/5) |omega|^2, and a change of side takes (13/6) Kp from it.
+Fails: nowhere known; up to 60 degrees beyond a half turn it goes the longer way on.
+"""
+
+from bench.contender import Regulator
+from bench.scalar import kernel, sqrt
+from bench.so3 import Rotation, dot, quaternion_direction, rotate
+
+EASED = 0.8
+"""Share of the damper that is gone at the half turn; under 1, so that it never pushes."""
+
+NO_SIDE = (0.0, 0.0, 0.0, 0.0)
+
+
+@kernel
+def turn_matrix(R, R_d):
+    """E = R_d R^T: the turn from R to R_d, base frame."""
+    return Rotation(
+        rotate(R_d, (R.n[0], R.o[0], R.a[0])),
+        rotate(R_d, (R.n[1], R.o[1], R.a[1])),
+        rotate(R_d, (R.n[2], R.o[2], R.a[2])),
+    )
+
+
+@kernel
+def law(R, omega, goal, gains, memory):
+    """u = (Kp (5 + t)/4 + (4/5) Kv max(0, eps . omega)) eps - Kv omega; memory: the last eps if t < 0, up to length.
+
+    Here eps = v/(2 length): three products fewer than if it were formed.
+    """
+    E = turn_matrix(R, goal.R)
+    t = E.n[0] + E.o[1] + E.a[2]
+    if t < 0.0:
+        (_, x, y, z), square = quaternion_direction(E)
+        if memory[0] * x + memory[1] * y + memory[2] * z < 0.0:
+            x, y, z = -x, -y, -z
+        v = (x, y, z)
+        memory = (x, y, z, 0.0)
+    else:
+        v = (E.o[2] - E.a[1], E.a[0] - E.n[2], E.n[1] - E.o[0])
+        square = 1.0 + t
+        memory = NO_SIDE
+    shorter = 1.0 / sqrt(square)
+    spring = gains.kp * (0.625 + 0.125 * t)
+    homeward = dot(v, omega)
+    if homeward > 0.0:
+        spring = spring + 0.25 * EASED * gains.kv * (shorter * homeward)
+    scale = shorter * spring
+    u = (
+        scale * v[0] - gains.kv * omega[0],
+        scale * v[1] - gains.kv * omega[1],
+        scale * v[2] - gains.kv * omega[2],
+    )
+    return u, memory
+
+
+REGULATOR = Regulator(
+    name="late-braking",
+    title="Late braking, with a side kept in memory",
+    source="this benchmark, 2026; after Luh, Walker, Paul 1980 and Mayhew, Sanfelice, Teel 2011",
+    formula=r"u = \bigl(\tfrac{5+t}{4} K_p + \tfrac45 K_v \max(0,\, \epsilon\cdot\omega)\bigr)\,\epsilon - K_v\,\omega",
+    law=law,
+    memory=NO_SIDE,
+    property="global with memory",
+    later=True,
+)
