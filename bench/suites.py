@@ -141,7 +141,7 @@ SUITES = {
             + _slices("native", 200, ("half-turn", "paper", "poles"))
             + _slices("reference", 0, ("paper",)),
             _slices("ideal-rk4", 200, ("half-turn", "paper", "poles")),
-            traces=24,
+            traces=16,
             boundary_axes=64,
             on_arms=OnArms(
                 (*LAWS, *ANALYTIC),
@@ -163,7 +163,7 @@ SUITES = {
             + _slices("native", 1000)
             + _slices("reference", 0, ("paper",)),
             _slices("ideal-rk4", 1000) + _slices("native", 250, ("half-turn", "tumbling")),
-            traces=64,
+            traces=48,
             boundary_axes=192,
             on_arms=OnArms(
                 (*LAWS, *ANALYTIC, *TWINS, *INVERSES),
