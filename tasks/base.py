@@ -68,6 +68,20 @@ class Task(NamedTuple):
     state: Callable[[Start], State]  # (qpos, qvel) in MuJoCo's own conventions
     start_sets: tuple[str, ...]  # the sets that make sense for it
     arm: str = ""  # name of the arm; empty on the free body
+    servo_xml: Callable[[float, float, float], str] | None = None  # servo_xml(dt, kp, kv): see `with_servo`
+
+    def with_servo(self, kp: float, kv: float) -> Task:
+        """The same plant, driven by MuJoCo's own <orientation> actuator: its ctrl is the goal, a quaternion wxyz.
+
+        Args:
+            kp, kv: gains of the actuator [N m/rad, N m s/rad].
+        Errors:
+            BadValue: the task has no such model.
+        """
+        servo_xml = self.servo_xml
+        if servo_xml is None:
+            raise BadValue(f"task '{self.name}' has no model with an <orientation> actuator (try: free-body)")
+        return self._replace(xml=lambda dt: servo_xml(dt, kp, kv))
 
 
 class ArmTask(NamedTuple):

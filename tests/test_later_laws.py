@@ -203,7 +203,7 @@ def test_laws_with_memory_keep_their_side_beyond_a_half_turn_and_change_it_later
 
 def test_every_law_on_the_matrix_is_tested_here_or_with_the_papers():
     """A law that is added must bring its equation."""
-    mine = {*SPRINGS, "weighted-columns", "quaternion-unwinding", "euler-gradient"}
+    mine = {*SPRINGS, "weighted-columns", "quaternion-unwinding", "euler-gradient", "in-engine"}
     papers = {"feedback-linearized", "feedback-linearized-literal", "rotation-matrix"}
     papers |= {word for word in known_regulators() if word.startswith("linearized-euler")}
     assert set(known_regulators()) == mine | papers

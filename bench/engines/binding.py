@@ -8,10 +8,12 @@ On an analytic Jacobian the command is that of the coordinates: command(chart, E
 
 import math
 
-from bench.contender import NO_MEMORY, Contender
+import tasks
+from bench.contender import NO_MEMORY, Contender, Gains
 from bench.engines.episode import FIRST_METRIC
 from bench.scalar import kernel
 from bench.so3 import relative
+from tasks.base import Task
 
 NOT_A_NUMBER = (math.nan, math.nan, math.nan)
 
@@ -78,6 +80,12 @@ def _guarded_memory(law):
         return u, after
 
     return command
+
+
+def plant_of(contender: Contender, task: str, gains: Gains) -> Task:
+    """The judge's task, with MuJoCo's actuator in place of the motors if that makes the command."""
+    chosen = tasks.task(task)
+    return chosen.with_servo(gains.kp, gains.kv) if contender.regulator.in_engine else chosen
 
 
 def memory_of(contender: Contender) -> tuple:

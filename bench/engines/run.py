@@ -6,10 +6,9 @@ import threading
 import mujoco
 import numpy as np
 
-import tasks
 from bench.contender import Contender
 from bench.engines import ideal
-from bench.engines.binding import evaluation_of, memory_of, observer
+from bench.engines.binding import evaluation_of, memory_of, observer, plant_of
 from bench.engines.compiled import EVALUATE, compile_function, own_law
 from bench.engines.curve import Curves, blank_curves
 from bench.engines.episode import Settings, blank, numbers, start_rows
@@ -53,10 +52,11 @@ def run_compiled(
     law = evaluation(contender), memory_of(contender)
     given = start_rows(starts), numbers(settings), rows, curves
     if engine == "native":
-        model = mujoco.MjModel.from_xml_string(tasks.task(task).xml(settings.dt_s))
+        plant = plant_of(contender, task, settings.gains)
+        model = mujoco.MjModel.from_xml_string(plant.xml(settings.dt_s))
         model.opt.integrator = MUJOCO_INTEGRATORS[integrator]
         data = mujoco.MjData(model)
-        states = np.array([[*qpos, *qvel] for qpos, qvel in map(tasks.task(task).state, starts)], dtype=float)
+        states = np.array([[*qpos, *qvel] for qpos, qvel in map(plant.state, starts)], dtype=float)
         loop(*law, native.view(model, data), states, *given)
     else:
         loop(*law, *given)

@@ -19,9 +19,26 @@ from __future__ import annotations
 from tasks.base import Start, Task, sensor_xml
 from tasks.rotations import to_body
 
+MOTORS = """<motor name="u_x" jointinparent="ball" gear="1 0 0 0 0 0"/>
+    <motor name="u_y" jointinparent="ball" gear="0 1 0 0 0 0"/>
+    <motor name="u_z" jointinparent="ball" gear="0 0 1 0 0 0"/>"""
+
 
 def xml(dt: float) -> str:
-    """The MJCF model with integration step dt [s].
+    """The MJCF model with integration step dt [s]; ctrl is u in the base frame [rad/s^2]."""
+    return _xml(dt, MOTORS)
+
+
+def servo_xml(dt: float, kp: float, kv: float) -> str:
+    """The same body, driven by MuJoCo's <orientation> actuator on the ball joint instead of motors.
+
+    ctrl is the goal, a quaternion wxyz of any length; the torque is kp log(R^T R_d) - kv R^T omega in the body frame.
+    """
+    return _xml(dt, f'<orientation name="goal" joint="ball" input="quat" kp="{kp!r}" kv="{kv!r}"/>')
+
+
+def _xml(dt: float, actuators: str) -> str:
+    """The model with these elements in <actuator>.
 
     The look: a hand with two fingers along a and coloured base axes (red x, green y, blue z), of no mass and
     touching nothing.
@@ -65,9 +82,7 @@ def xml(dt: float) -> str:
     </body>
   </worldbody>
   <actuator>
-    <motor name="u_x" jointinparent="ball" gear="1 0 0 0 0 0"/>
-    <motor name="u_y" jointinparent="ball" gear="0 1 0 0 0 0"/>
-    <motor name="u_z" jointinparent="ball" gear="0 0 1 0 0 0"/>
+    {actuators}
   </actuator>
 {sensor_xml("tool")}
 </mujoco>
@@ -86,4 +101,5 @@ TASK = Task(
     xml=xml,
     state=state,
     start_sets=("paper", "uniform", "half-turn", "poles", "wraps", "box", "tumbling", "goals"),
+    servo_xml=servo_xml,
 )

@@ -3,8 +3,12 @@
 The order is dm_control's with legacy_step=True: mj_step1 | law | mj_step2, mj_step1 | law | ... (with Runge-Kutta
 mj_step in place of mj_step2, which would silently be Euler). mjData's arrays never move, so plain views of them go
 into the loop; no struct offset is needed.
+
+Where MuJoCo's <orientation> actuator makes the command, ctrl is the goal; mj_fwdActuation shows the command before
+the step, which computes it again (and under Runge-Kutta three times more within the tick).
 """
 
+import math
 from typing import NamedTuple
 
 import mujoco
@@ -15,8 +19,8 @@ from bench.contender import AT_REST, Gains, Goal
 from bench.engines.compiled import CURVES, EVALUATE, FOUR, MATRIX, NUMBERS, compile_function
 from bench.engines.curve import keep
 from bench.engines.episode import Sample, finish
-from bench.engines.native.libmujoco import mj_resetData, mj_step, mj_step1, mj_step2
-from bench.so3 import Rotation, dot, from_quaternion
+from bench.engines.native.libmujoco import mj_fwdActuation, mj_resetData, mj_step, mj_step1, mj_step2
+from bench.so3 import Rotation, dot, from_quaternion, rotate
 from tasks.truth import angle, haversine
 from tasks.verdict import GOING, check_command, check_state, first_watch, watched
 
@@ -27,14 +31,16 @@ class View(NamedTuple):
     model: int
     data: int
     is_runge_kutta: int
+    has_servo: int
     qpos: np.ndarray
     qvel: np.ndarray
     ctrl: np.ndarray
+    qfrc_actuator: np.ndarray
     sensordata: np.ndarray
     warnings: np.ndarray
 
 
-VIEW = types.NamedTuple((int64, int64, int64, *[float64[::1]] * 4, int32[:]), View)
+VIEW = types.NamedTuple((int64, int64, int64, int64, *[float64[::1]] * 5, int32[:]), View)
 EPISODES = types.void(types.FunctionType(EVALUATE), FOUR, VIEW, MATRIX, MATRIX, NUMBERS, MATRIX, CURVES)
 
 
@@ -44,9 +50,11 @@ def view(model, data) -> View:
         model._address,
         data._address,
         int(model.opt.integrator == mujoco.mjtIntegrator.mjINT_RK4),
+        int(model.actuator_gaintype[0] == mujoco.mjtGain.mjGAIN_SO3),
         data.qpos,
         data.qvel,
         data.ctrl,
+        data.qfrc_actuator,
         data.sensordata,
         data.warning.number,
     )
@@ -81,14 +89,21 @@ def episodes_of(observe):
             while tick < numbers.ticks and watch.quiet < numbers.hold_ticks:
                 R = Rotation((s[0], s[1], s[2]), (s[3], s[4], s[5]), (s[6], s[7], s[8]))
                 omega = (s[9], s[10], s[11])
-                u, memory, margin = evaluate(R, omega, goal, gains, memory)
+                if sim.has_servo:
+                    sim.ctrl[0], sim.ctrl[1], sim.ctrl[2], sim.ctrl[3] = quat_d
+                    mj_fwdActuation(sim.model, sim.data)
+                    f = sim.qfrc_actuator
+                    u, margin = rotate(R, (f[0], f[1], f[2])), math.nan
+                else:
+                    u, memory, margin = evaluate(R, omega, goal, gains, memory)
                 sample = Sample(tick * dt, dt, R, hav, watch.entered, omega, u, margin)
                 observe(row, sample)
                 keep(curves, k, tick, sample)
                 failure = check_command(dot(u, u), numbers.command_limit_squared)
                 if failure != GOING:
                     break
-                sim.ctrl[0], sim.ctrl[1], sim.ctrl[2] = u
+                if not sim.has_servo:
+                    sim.ctrl[0], sim.ctrl[1], sim.ctrl[2] = u
                 if sim.is_runge_kutta:
                     mj_step(sim.model, sim.data)
                 else:
