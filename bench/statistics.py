@@ -4,6 +4,7 @@ A start that a law never settles has no time. It counts as infinite here, not as
 from the hard starts would look fast. Quantiles are therefore order statistics, never interpolated.
 """
 
+import math
 from collections.abc import Callable
 from typing import NamedTuple
 
@@ -26,7 +27,9 @@ class Estimate(NamedTuple):
 
 def quantile(values: np.ndarray, level: float, axis: int = -1) -> np.ndarray:
     """The smallest value that at least a share `level` of the values do not exceed; infinities are values."""
-    return np.quantile(values, level, axis=axis, method="inverted_cdf")
+    # 0.07 * 100 is 7.000000000000001, which is no reason to take the eighth
+    place = max(0, math.ceil(level * np.shape(values)[axis] - 1e-9) - 1)
+    return np.take(np.partition(values, place, axis=axis), place, axis=axis)
 
 
 def bootstrap(values: np.ndarray, statistic: Callable[..., np.ndarray], seed: int = SEED) -> Estimate:

@@ -55,6 +55,17 @@ def test_quantile_beyond_the_share_that_settles_is_never():
     assert (found.value, found.high) == (NEVER, NEVER)
 
 
+@pytest.mark.parametrize("level", [0.0, 0.3, 0.5, 0.98, 1.0])
+def test_quantile_is_numpys_order_statistic(level):
+    values = np.random.default_rng(5).normal(size=(100, 3))
+    expected = np.quantile(values, level, axis=0, method="inverted_cdf")
+    np.testing.assert_array_equal(statistics.quantile(values, level, axis=0), expected)
+
+
+def test_quantile_takes_the_seventh_of_a_hundred_for_seven_per_cent():
+    assert statistics.quantile(np.arange(1.0, 101.0), 0.07) == 7.0
+
+
 def test_bootstrap_refuses_nothing():
     with pytest.raises(ValueError, match="no values to resample"):
         statistics.bootstrap(np.array([]), np.mean)

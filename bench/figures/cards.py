@@ -18,6 +18,7 @@ from bench.contender import Contender, Regulator
 from bench.discovery import contenders_of, known_regulators
 from bench.figures import html
 from bench.figures.card_map import card_map
+from bench.figures.families import anchor
 from bench.figures.share import share
 from bench.figures.spelling import typeset
 
@@ -109,14 +110,9 @@ def card(one: Contender) -> str:
         picture,
         fails,
         facts,
-        anchor(one),
+        anchor(one.name),
     )
     return body
-
-
-def anchor(one: Contender) -> str:
-    """The id of a card on its page."""
-    return one.name.replace("/", "-")
 
 
 def source(regulator: Regulator) -> str:
@@ -139,7 +135,7 @@ def contents() -> html.Markdown:
         settled = (uniform["outcome"] == "settled").mean() if len(uniform) else None
         rows.append(
             {
-                "Law": f'<a href="#{anchor(one)}">{html.law(one.name, title_of(one))}</a>',
+                "Law": f'<a href="#{anchor(one.name)}">{html.law(one.name, title_of(one))}</a>',
                 "On the command line": f"`{one.name}`",
                 "Proved": one.regulator.property,
                 "Settles": settled,

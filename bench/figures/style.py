@@ -68,6 +68,20 @@ LOOKS = {
     "linearized-euler-relative": Look("#cc79a7", "D", DASH_DOT),
     "feedback-linearized": Look("#009e73", "^", DASH_DOT),
     "feedback-linearized-literal": Look("#56b4e9", "v", DOTTED),
+    "euler-gradient": Look("#56b4e9", "s", DASHED),
+    "weighted-columns": Look("#56b4e9", "p", DASHED),
+    "square-root": Look("#0072b2", "D", SOLID),
+    "quaternion-shortest": Look("#cc79a7", "o", SOLID),
+    "quaternion-unwinding": Look("#a39400", "x", DOTTED),
+    "hybrid": Look("#d55e00", "P", DASHED),
+    "sliding": Look("#e69f00", "v", DASH_DOT),
+    "paielli-bach": Look("#a39400", "d", SOLID),
+    "rotation-vector": Look("#56b4e9", "o", SOLID),
+    "mrp": Look("#d55e00", "^", SOLID),
+    "gibbs": Look("#009e73", "s", DASHED),
+    "in-engine": Look("#0072b2", "*", DOTTED),
+    "late-braking": Look("#d55e00", "D", DASH_DOT),
+    "mrp-linearized": Look("#cc79a7", "v", DASH_DOT),
 }
 # For a law that has no look of its own yet: 3 colours x 5 markers x 3 lines, chosen by its name.
 SPARE_COLOURS = ("#a39400", "#56b4e9", "#cc79a7")

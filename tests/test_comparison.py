@@ -1,0 +1,188 @@
+"""The comparison of laws: which rows it takes, what its tables say of made-up rows, and the springs against the run."""
+
+import math
+
+import numpy as np
+import pandas as pd
+import pytest
+
+pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
+
+from bench import results
+from bench.figures import (
+    closed_form,
+    comparison_angle,
+    comparison_dead,
+    comparison_profiles,
+    comparison_rows,
+    comparison_said,
+    comparison_tables,
+    families,
+    isotropic,
+    style,
+)
+from bench.schema import RESULTS
+
+GAINS = (100.0, 20.0, 0.02)
+
+
+@pytest.fixture(autouse=True)
+def reference(monkeypatch):
+    monkeypatch.setenv(results.VARIABLE, str(RESULTS / "reference"))
+
+
+def rows():
+    return comparison_rows.common(results.episodes(engine="ideal-rk4", **results.FREE_BODY))
+
+
+def directed():
+    return comparison_dead.directed(results.episodes(engine="ideal-rk4", **results.FREE_BODY))
+
+
+def episode(contender, start, outcome="settled", time=1.0, **more):
+    """A made-up row of a uniform start."""
+    usual = {"arm": "", "start_set": "uniform", "kp": 100.0, "kv": 20.0, "angle0_rad": 1.0, "path_ratio": 1.0}
+    turn = {"quat_w": 0.8, "quat_x": 0.6, "quat_y": 0.0, "quat_z": 0.0}
+    return {**usual, **turn, "contender": contender, "start_id": start, "outcome": outcome} | {
+        "settling_time_s": time if outcome == "settled" else math.nan,
+        **more,
+    }
+
+
+def test_common_keeps_the_starts_that_every_law_ran():
+    made = [episode("square-root", one) for one in "ab"] + [episode("rotation-matrix", one) for one in "abc"]
+    kept = comparison_rows.common(pd.DataFrame(made))
+    assert list(kept["contender"]) == ["rotation-matrix"] * 2 + ["square-root"] * 2
+    assert list(kept["start_id"]) == ["a", "b"] * 2
+
+
+def test_costs_of_starts_that_do_not_settle_are_infinite():
+    made = [episode("gibbs", "a", "stuck", effort=3.0), episode("gibbs", "b", effort=5.0)]
+    table = comparison_rows.costs(pd.DataFrame(made).astype({"contender": "category"}), "effort")
+    assert table["gibbs"].tolist() == [math.inf, 5.0]
+
+
+@pytest.mark.parametrize(
+    ("axis", "words"),
+    [
+        ((0.1, -0.9, 0.1), "near y"),
+        ((0.7, 0.1, -0.7), "between x and z"),
+        ((0.5, 0.6, 0.6), "between all three"),
+    ],
+)
+def test_axis_is_said_in_words(axis, words):
+    assert comparison_rows.axis_words(pd.Series(axis, ["quat_x", "quat_y", "quat_z"])) == words
+
+
+def test_worst_start_is_the_nearest_that_fails_and_else_the_slowest():
+    made = [episode("gibbs", "a", time=2.0), episode("gibbs", "b", angle0_rad=0.5), episode("gibbs", "c")]
+    assert comparison_tables.worst(pd.DataFrame(made)) == "2.00 s from 57°, near x"
+    failing = [episode("gibbs", "d", "stuck", angle0_rad=3.0), episode("gibbs", "e", "stuck", angle0_rad=2.0)]
+    assert comparison_tables.worst(pd.DataFrame(made + failing)) == "fails from 115°, near x"
+
+
+def test_interval_is_left_away_where_it_is_the_number():
+    assert comparison_tables.seconds((0.5, 0.5, 0.5001)) == "0.500"
+    assert "(0.400 to never)" in comparison_tables.seconds((0.5, 0.4, math.inf))
+
+
+def test_law_of_no_family_comes_last_under_its_own_name():
+    found = families.present(["my-law", "hybrid"])
+    assert [one.title for one in found] == ["On the quaternion", families.OTHERS]
+    assert found[-1].laws == {"my-law": "my-law"}
+
+
+def test_laws_of_one_panel_are_told_apart():
+    for family in families.FAMILIES:
+        lines = comparison_profiles.lines_of(family)
+        looks = {(style.look(name).colour, str(line)) for name, line in zip(family.laws, lines, strict=True)}
+        assert len(looks) == len(family.laws)
+
+
+def test_labels_are_stacked_from_the_top_without_touching():
+    assert comparison_profiles.stacked([0.3, 1.02, 1.01]) == pytest.approx(
+        [0.3, 1.0, 1.0 - comparison_profiles.LABELLED]
+    )
+
+
+def test_sine_settles_as_the_closed_form_of_the_rotation_matrix():
+    for angle in (0.5, 2.0, 3.1):
+        expected = closed_form.settling(angle, *GAINS)
+        assert isotropic.settling(isotropic.SINE, angle, *GAINS) == pytest.approx(expected, abs=1e-6)
+
+
+def test_straight_spring_settles_as_the_linear_system_from_every_angle():
+    for angle in (0.1, 3.0):
+        expected = closed_form.linear_settling(*GAINS)
+        assert isotropic.settling(isotropic.ANGLE, angle, *GAINS) == pytest.approx(expected, abs=1e-6)
+
+
+@pytest.mark.parametrize(("equation", "part"), [(isotropic.LINEAR_MRP, 4.0), (isotropic.LINEAR_SINE, 2.0)])
+def test_laws_made_linear_settle_when_their_linear_coordinate_does(equation, part):
+    """tan(theta/4) and sin(theta/2) are linear: the band's edge in theta is a share of the coordinate."""
+    coordinate = math.tan if part == 4.0 else math.sin
+    for angle in (0.5, 2.5):
+        edge = coordinate(GAINS[2] * angle / part) / coordinate(angle / part)
+        expected = closed_form.linear_settling(*GAINS[:2], edge)
+        assert isotropic.settling(equation, angle, *GAINS) == pytest.approx(expected, abs=1e-6)
+
+
+@pytest.mark.parametrize("name", isotropic.EQUATIONS)
+def test_springs_push_alike_near_the_goal(name):
+    assert isotropic.EQUATIONS[name].spring(1e-4) == pytest.approx(1e-4, rel=1e-8)
+
+
+def test_measured_times_are_within_a_tick_after_the_equations():
+    found = rows()
+    tick = 1000.0 * float(found["dt_s"].iloc[0])
+    for late in comparison_angle.lateness(found).values():
+        assert len(late)
+        assert late.min() > -1e-3
+        assert late.max() < tick + 1e-3
+
+
+def test_comparison_is_drawn_for_page_and_phone_and_said_in_numbers():
+    found = rows()
+    for picture in (
+        comparison_profiles.profiles(found, "settling_time_s", (1, 2), "settling time"),
+        comparison_angle.curves(found),
+    ):
+        assert picture.wide != picture.narrow
+        assert sum(letter.isdigit() for letter in picture.alt) > 10
+
+
+def test_tables_of_the_comparison_have_a_row_for_each_law():
+    found = rows()
+    laws = found["contender"].nunique()
+    lines = laws + len(families.present(found["contender"].unique())) + 2
+    assert len(comparison_tables.settling(found).splitlines()) == lines
+    assert len(comparison_tables.way(found, results.costs(**results.FREE_BODY)).splitlines()) == lines
+    assert len(comparison_dead.table(directed()).splitlines()) == lines
+
+
+def test_dead_points_are_where_the_laws_are_known_to_fail():
+    found = directed()
+    lost = found[found["outcome"] != "settled"].groupby("contender", observed=True)["place"].unique()
+    assert set(lost["rotation-matrix"]) == {"half turn", "half turn and pole"}
+    assert set(lost["feedback-linearized/zyx-euler"]) == {"pole", "half turn and pole"}
+
+
+def test_an_orientation_counts_once_whatever_the_sign_of_its_quaternion():
+    turns = pd.DataFrame([(0.6, 0.8, 0.0, 0.0), (-0.6, -0.8, 0.0, 0.0)], columns=[f"quat_{one}" for one in "wxyz"])
+    assert len(comparison_dead.orientation(turns).drop_duplicates()) == 1
+
+
+def test_negative_controls_fail_as_they_must():
+    found = rows()
+    literal, unwinding = (found[found["contender"] == name] for name in families.CONTROLS)
+    assert not (literal["outcome"] == "settled").any()
+    assert comparison_said.controls(found)["literal_settled"] == 0
+    if len(unwinding):  # not in a run from before it was written
+        is_near = unwinding["angle0_rad"] < 2.0 * math.pi / (1.0 + comparison_rows.DETOUR)
+        assert (unwinding.loc[is_near, "path_ratio"] > comparison_rows.DETOUR).all()
+
+
+def test_facts_of_the_comparison_are_numbers():
+    facts = comparison_said.facts(rows(), directed())
+    assert not any("nan" in str(value) or value is None for value in facts.values())
+    assert np.isfinite(float(facts["fastest_s"]))
