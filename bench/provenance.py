@@ -9,8 +9,8 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
-READERS = ("figures", "claims", "cli", "compare", "results", "show", "__main__")
-"""Parts of bench/ that only read results: no number of a run depends on them."""
+READERS = ("figures", "claims", "cli", "compare", "libraries", "results", "show", "__main__")
+"""Parts of bench/ that only read results, or concern other libraries: no number of a run depends on them."""
 VERSIONED = ("mujoco", "dm-control", "numpy", "scipy", "numba", "llvmlite", "pandas", "pyarrow")
 
 
