@@ -1,0 +1,51 @@
+"""Pages' cells are run before Sphinx reads them, and kept where it looks for them."""
+
+import asyncio
+import sys
+from pathlib import Path
+
+import pytest
+
+pytest.importorskip("jupyter_cache", reason="the report extra is not installed (cure: make setup)")
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "report"))
+import cells
+from jupyter_cache import get_cache
+
+PAGE = """---
+jupytext: {{text_representation: {{extension: .md, format_name: myst}}}}
+kernelspec: {{name: python3, display_name: Python 3}}
+---
+# A page
+
+```{{code-cell}} python
+{cell}
+```
+"""
+
+
+@pytest.fixture
+def book(tmp_path, monkeypatch):
+    """A book of three pages: one shows 42, one raises, one has no cells."""
+    monkeypatch.setattr(cells, "REPORT", tmp_path)
+    monkeypatch.setitem(cells.CONFIG["execute"], "cache", str(tmp_path / "cache"))
+    monkeypatch.setenv("PYDEVD_DISABLE_FILE_VALIDATION", "1")
+    (tmp_path / "pages").mkdir()
+    (tmp_path / "index.md").write_text(PAGE.format(cell="6 * 7"))
+    (tmp_path / "pages" / "raising.md").write_text(PAGE.format(cell="1 / 0"))
+    (tmp_path / "pages" / "plain.md").write_text("# Words only\n")
+    return tmp_path
+
+
+def test_outputs_are_kept_and_a_page_that_fails_is_left_to_sphinx(book):
+    asyncio.run(cells.main())
+    cache, pages = get_cache(book / "cache"), {path.stem: page for path, page in cells.notebooks().items()}
+    assert {name: cells.is_known(cache, page) for name, page in pages.items()} == {"index": True, "raising": False}
+    _, shown = cache.merge_match_into_notebook(pages["index"])
+    assert shown.cells[-1].outputs[0]["data"]["text/plain"] == "42"
+
+
+def test_pages_that_judge_all_claims_are_begun_first():
+    texts = [path.read_text() for path in cells.notebooks()]
+    judging = ["judge_all" in text for text in texts]
+    assert judging == sorted(judging, reverse=True)
+    assert any(judging)
