@@ -27,6 +27,9 @@ STEP_S = 1e-3
 TAIL_S = 1.0
 """The end of an episode, over which its error is averaged [s]."""
 
+LEAD = 2.0
+"""Periods that the worst of measurements looks ahead."""
+
 TAIL_SQUARES, TAIL_COUNT, TAIL_WORST, VARIATION = range(4)
 EXTRA = 4
 """Columns behind the metrics': sum of squared angles in the tail, how many, the largest, and the variation of u."""
@@ -74,8 +77,11 @@ def steps_of(condition: Condition) -> int:
 
 
 @kernel
-def reported(R, omega, R_d, noise, trouble):
+def reported(R, omega, R_d, noise, trouble, period_s):
     """(R, omega) as they are measured: turned and shifted by drawn numbers, and by the worst that can be at half turns.
+
+    The worst is reported with foresight: away from the goal as it will be in LEAD periods, so that what turns back the
+    body brakes it too. Without, the body swings through the half turn farther each time, and gets away.
 
     Args:
         noise: six numbers, of unit standard deviation.
@@ -86,7 +92,8 @@ def reported(R, omega, R_d, noise, trouble):
     if trouble.rate_noise > 0.0:
         omega = plus(omega, trouble.rate_noise, (noise[3], noise[4], noise[5]))
     if trouble.beyond > 0.0 and angle_between(R, R_d) + trouble.beyond > math.pi:
-        _, v, _ = turn_quaternion(R, R_d)
+        ahead = LEAD * period_s
+        _, v, _ = turn_quaternion(turned(R, (ahead * omega[0], ahead * omega[1], ahead * omega[2])), R_d)
         away = -trouble.beyond / sqrt(dot(v, v))
         R = turned(R, (away * v[0], away * v[1], away * v[2]))
     return R, omega
@@ -192,7 +199,8 @@ def episodes_of(observe):
             while tick < numbers.ticks and watch.quiet < numbers.hold_ticks:
                 if tick == period * trouble.steps:
                     before = u
-                    seen, turning = reported(R, omega, R_d, noise[k, period] if is_noisy else noise[0, 0], trouble)
+                    drawn = noise[k, period] if is_noisy else noise[0, 0]
+                    seen, turning = reported(R, omega, R_d, drawn, trouble, trouble.steps * h)
                     rate, acceleration = told_of(omega_d, alpha_d, trouble.told)
                     goal = Goal(R_d, AT_REST, AT_REST)
                     u, memory, margin = evaluate(seen, seen_from_goal(turning, rate), goal, gains, memory)

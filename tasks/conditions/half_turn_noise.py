@@ -2,7 +2,8 @@
 
 A law that looks at the reported orientation alone turns back whenever the body is about to leave, and is held at the
 half turn for good, however small the noise (Mayhew, Sanfelice, Teel 2011, of laws that jump there; a law that is
-continuous is at rest there anyway). Memory lets a law keep to the way it has begun.
+continuous is at rest there anyway). Asked now and then, it is held by what exceeds the body's turn in a period. Memory
+lets a law keep to the way it has begun.
 """
 
 from __future__ import annotations

@@ -1,0 +1,75 @@
+"""Contracts that every axis of trouble in tasks/conditions keeps; a new file is under them without being named here."""
+
+import math
+
+import numpy as np
+import pytest
+
+import tasks
+from bench.engines import disturbed
+from tasks.base import UnknownName
+from tasks.condition import Condition
+
+AXES = [tasks.axis(name) for name in tasks.axis_names()]
+
+
+@pytest.fixture(params=AXES, ids=lambda axis: axis.name)
+def axis(request):
+    return request.param
+
+
+def test_it_is_named_as_its_file_and_says_what_it_is(axis):
+    assert tasks.axis(axis.name) is axis
+    assert axis.title
+    assert axis.unit
+
+
+def test_levels_grow_and_the_nominal_one_is_among_them(axis):
+    assert len(axis.levels) > 1
+    assert np.all(np.diff(axis.levels) > 0)
+    assert axis.nominal is None or axis.nominal in axis.levels
+
+
+def test_at_its_nominal_level_nothing_is_wrong(axis):
+    if axis.nominal is None:
+        assert Condition() not in [axis.at(level) for level in axis.levels]
+    else:
+        assert axis.at(axis.nominal)._replace(told=Condition().told) == Condition()
+
+
+def test_each_level_differs_from_the_others_in_condition_or_starts(axis):
+    met = [(axis.at(level), tuple(axis.starts(3, 0, level))) for level in axis.levels]
+    assert len(set(met)) == len(met)
+
+
+def test_conditions_are_of_this_world(axis):
+    for level in axis.levels:
+        met = axis.at(level)
+        x, y, z = sorted(met.inertia)
+        assert x > 0.0
+        assert x + y >= z * (1.0 - 1e-12)
+        assert met.period_s > 0.0
+        assert met.bound > 0.0
+        assert min(met.delay_s, met.attitude_noise, met.rate_noise, met.beyond, met.sway, met.peak) >= 0.0
+
+
+def test_delays_are_whole_steps_of_the_plant(axis):
+    for level in axis.levels:
+        met = axis.at(level)
+        steps = met.delay_s / (met.period_s / disturbed.steps_of(met))
+        assert steps == pytest.approx(round(steps), abs=1e-9)
+
+
+@pytest.mark.parametrize("seed", [0, 7])
+def test_starts_are_as_many_as_asked_for_and_differ(axis, seed):
+    for level in axis.levels:
+        starts = axis.starts(12, seed, level)
+        assert len({one.id for one in starts}) == len({one.quat_wxyz for one in starts}) == 12
+        assert axis.starts(5, seed, level) == starts[:5]
+        for one in starts:
+            assert math.hypot(*one.quat_wxyz) == pytest.approx(1.0, abs=1e-15)
+
+
+def test_an_axis_that_is_not_there_is_refused_with_those_that_are():
+    with pytest.raises(UnknownName, match="control-rate"):
+        tasks.axis("bad-luck")

@@ -1,0 +1,95 @@
+"""The part of a plan that is in trouble, and its rows."""
+
+import numpy as np
+import pandas as pd
+import pytest
+
+import tasks
+from bench import plan
+from bench import run as running
+from bench.choice import Choice
+from bench.discovery import all_contenders, find_contender
+from bench.errors import Incompatible, UnknownWord
+from bench.results import with_contender
+from bench.schema import ROBUSTNESS_KEY
+from bench.store import read
+from bench.suites import SUITES
+
+LAWS = [one for one in all_contenders() if not one.regulator.costing_only]
+TWO = [find_contender("rotation-matrix"), find_contender("hybrid")]
+
+
+def made(choice, laws=TWO, **words):
+    return plan.make("quick", laws, choice, **words)
+
+
+@pytest.mark.parametrize("suite", SUITES)
+def test_every_suite_puts_every_law_on_r_in_trouble_along_every_axis(suite):
+    units = plan.make(suite, LAWS).troubles
+    met = {(unit.contender, unit.axis) for unit in units}
+    on_matrix = [one.name for one in LAWS if one.representation is None and not one.regulator.in_engine]
+    assert met >= {(name, axis) for name in on_matrix for axis in tasks.axis_names()}
+    assert len(met) == len(units)
+    for unit in units:
+        assert unit.count == unit.starts * len(tasks.axis(unit.axis).levels)
+
+
+def test_a_named_axis_is_all_that_runs():
+    found = made(Choice(axes=("delay",)), count=3)
+    assert {unit.axis for unit in found.work} == {"delay"}
+    assert found.troubled == 2 * 3 * len(tasks.axis("delay").levels)
+    assert not found.units
+    assert not found.contacts
+
+
+def test_what_has_to_do_with_other_episodes_leaves_trouble_out():
+    for choice in (Choice(tasks=("arm-regulation",)), Choice(arms=("ur5e",)), Choice(start_sets=("paper",))):
+        assert not made(choice).troubles
+    assert made(Choice(tasks=("free-body",))).troubles
+
+
+def test_words_that_an_axis_does_not_take_are_refused():
+    with pytest.raises(Incompatible, match="no arm such as 'ur5e'"):
+        made(Choice(axes=("delay",), arms=("ur5e",)))
+    with pytest.raises(UnknownWord, match="did you mean 'delay'"):
+        made(Choice(axes=("dely",)))
+    with pytest.raises(Incompatible, match="laws of the free body"):
+        made(Choice(axes=("delay",)), laws=[find_contender("in-engine")])
+
+
+@pytest.fixture(scope="module")
+def rows(tmp_path_factory) -> pd.DataFrame:
+    out = tmp_path_factory.mktemp("trouble")
+    laws = [find_contender(word) for word in ("rotation-matrix", "hybrid", "gibbs")]
+    running.run(made(Choice(axes=("delay", "equal-peak", "half-turn-noise")), laws, count=3), out)
+    return with_contender(read(out, "robustness"))
+
+
+def test_there_is_a_row_for_each_law_level_and_start(rows):
+    assert not rows.duplicated(list(ROBUSTNESS_KEY)).any()
+    counts = rows.groupby(["contender", "axis", "level"], observed=True).size()
+    assert (counts == 3).all()
+    for axis in ("delay", "half-turn-noise"):
+        assert sorted(rows.loc[rows["axis"] == axis, "level"].unique()) == list(tasks.axis(axis).levels)
+
+
+def test_starts_are_the_same_for_every_law(rows):
+    every = [
+        part["angle0_rad"].to_numpy() for _, part in rows[rows["axis"] == "delay"].groupby("contender", observed=True)
+    ]
+    assert len(every) == 3
+    assert all(np.array_equal(one, every[0]) for one in every)
+
+
+def test_a_law_without_a_greatest_command_has_no_rows_at_equal_peak(rows):
+    equal = rows[rows["axis"] == "equal-peak"]
+    assert set(equal["contender"]) == {"rotation-matrix", "hybrid"}
+    assert (equal["peak_u"] <= equal["level"] * (1.0 + 1e-12)).all()
+    np.testing.assert_allclose(equal["kv"], 2.0 * np.sqrt(equal["kp"]))
+
+
+def test_noise_at_the_half_turn_holds_the_law_that_rests_there_and_not_the_one_with_memory(rows):
+    small = rows[(rows["axis"] == "half-turn-noise") & (rows["level"] == 0.01)]
+    settled = (small["outcome"] == "settled").groupby(small["contender"], observed=True).mean()
+    assert settled["hybrid"] == 1.0
+    assert settled["rotation-matrix"] == 0.0
