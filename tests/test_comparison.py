@@ -13,6 +13,7 @@ from bench.figures import (
     closed_form,
     comparison_angle,
     comparison_dead,
+    comparison_peak,
     comparison_profiles,
     comparison_rows,
     comparison_said,
@@ -186,3 +187,17 @@ def test_facts_of_the_comparison_are_numbers():
     facts = comparison_said.facts(rows(), directed())
     assert not any("nan" in str(value) or value is None for value in facts.values())
     assert np.isfinite(float(facts["fastest_s"]))
+
+
+def test_equal_peak_is_compared_at_gains_that_its_rows_say():
+    found = comparison_peak.rows()
+    if len(found):  # not in a run from before there was the table
+        times = comparison_rows.costs(found, "settling_time_s")
+        assert times.shape == (found["start_id"].nunique(), found["contender"].nunique())
+        assert "100.0" in next(line for line in comparison_peak.table(found).splitlines() if "rotation matrix" in line)
+    assert set(comparison_peak.facts(found)) >= {"peak_fastest", "peak_surest_s"}
+
+
+def test_page_says_so_where_there_are_no_rows_at_equal_peak():
+    assert "not in this run" in comparison_peak.table(pd.DataFrame())
+    assert set(comparison_peak.facts(pd.DataFrame()).values()) == {"–"}

@@ -6,10 +6,17 @@ from collections.abc import Callable
 
 import pandas as pd
 
+from bench import results
 from bench.figures import html, style
 from bench.figures.inline import Picture, responsive_picture
 
 WORDS = "not in this run"
+
+
+def robustness(**words: str) -> pd.DataFrame:
+    """Rows of robustness.parquet; none where the run is from before there was such a table."""
+    is_there = (results.folder() / "robustness.parquet").is_file()
+    return results.robustness(**words) if is_there else pd.DataFrame()
 
 
 @responsive_picture

@@ -18,7 +18,9 @@ from bench.statistics import over_best, profile
 LABELLED = 0.105
 """Least distance of two labels beside curves, as a share of the panel's height."""
 
-FACTORS = 120
+FACTORS, COARSE = 97, 6
+"""Points of a curve, and of how many every one is kept where it is only background: a page is not made of paths."""
+
 REST = "#b9c3cf"
 """The laws of other panels."""
 
@@ -73,7 +75,7 @@ def sentence(groups: list[families.Family], shares: pd.DataFrame, what: str, far
 def _panel(axes: Axes, family: families.Family, shares: pd.DataFrame, factors: np.ndarray) -> None:
     for name in shares:
         if name not in family.laws:
-            axes.plot(factors, shares[name], color=REST, linewidth=0.6, zorder=1)
+            axes.plot(factors[::COARSE], shares[name].iloc[::COARSE], color=REST, linewidth=0.6, zorder=1)
     # curves that end together are named in the order in which they lie before
     ends = [float(shares[name].iloc[-1] + LABELLED * shares[name].mean()) for name in family.laws]
     places, lines = stacked(ends), lines_of(family)

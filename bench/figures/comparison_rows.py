@@ -19,10 +19,14 @@ def common(episodes: pd.DataFrame) -> pd.DataFrame:
     """
     uniform = episodes[(episodes["start_set"] == "uniform") & (episodes["arm"] == "")]
     ran = uniform.groupby("start_id", observed=True)["contender"].nunique()
-    kept = uniform[uniform["start_id"].isin(ran.index[ran == uniform["contender"].nunique()])]
-    names = families.in_order(kept["contender"].unique())
-    rows = kept.assign(contender=pd.Categorical(kept["contender"].astype(str), names, ordered=True))
-    return rows.sort_values(["contender", "start_id"]).reset_index(drop=True)
+    return in_families(uniform[uniform["start_id"].isin(ran.index[ran == uniform["contender"].nunique()])])
+
+
+def in_families(rows: pd.DataFrame) -> pd.DataFrame:
+    """The rows with their laws family by family."""
+    names = families.in_order(rows["contender"].unique())
+    ordered = rows.assign(contender=pd.Categorical(rows["contender"].astype(str), names, ordered=True))
+    return ordered.sort_values(["contender", "start_id"]).reset_index(drop=True)
 
 
 def costs(rows: pd.DataFrame, column: str) -> pd.DataFrame:

@@ -27,8 +27,7 @@ def settling(rows: pd.DataFrame) -> html.Markdown:
 
     def line(name: str, own: pd.DataFrame) -> dict:
         found = share(int((own["outcome"] == "settled").sum()), len(own))
-        whole, low, high = (percent(part) for part in (found.value, found.low, found.high))
-        cells = {"Settles [%]": with_interval(whole, low, high)}
+        cells = {"Settles [%]": with_interval(*map(percent, (found.value, found.low, found.high)))}
         for label, level in (("Median [s]", 0.5), ("99 % [s]", 0.99)):
             cells[label] = seconds(quantile_estimate(times[name].to_numpy(), level))
         return cells | {"Worst start": worst(own)}

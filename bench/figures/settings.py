@@ -36,6 +36,14 @@ def starts(episodes: pd.DataFrame) -> int:
     return len(episodes.loc[episodes["engine"] == "ideal-rk4", ["start_set", "start_id"]].drop_duplicates())
 
 
+def uniform_starts(episodes: pd.DataFrame) -> str:
+    """How many uniform starts a law met on the continuous plant; from fewest to most where laws differ."""
+    mine = episodes[(episodes["start_set"] == "uniform") & (episodes["engine"] == "ideal-rk4")]
+    counts = mine["contender"].astype(str).value_counts()
+    fewest, most = (html.number(counts.iloc[place]) for place in (-1, 0))
+    return most if fewest == most else f"{fewest} to {most}"
+
+
 def small_error_settling_s(episodes: pd.DataFrame) -> float:
     """Settling time of a small error, from the closed form and the run's gains and band [s]."""
     kp, kv, band = (float(episodes[column].iloc[0]) for column in ("kp", "kv", "tolerance"))

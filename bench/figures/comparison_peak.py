@@ -1,0 +1,63 @@
+"""The comparison at equal peak command: each law with the gains that its motor allows, not with the same stiffness."""
+
+from __future__ import annotations
+
+import numpy as np
+import pandas as pd
+
+from bench.figures import absent, families, html
+from bench.figures.comparison_rows import costs, in_families
+from bench.figures.comparison_tables import by_family, figures, percent, seconds, with_interval
+from bench.figures.share import share
+from bench.statistics import quantile, quantile_estimate
+
+LEVEL = 100.0
+"""Greatest command from rest [rad/s^2]: what the 1980 law asks for at the paper's gains. Time goes as 1/sqrt(LEVEL)."""
+
+
+def rows() -> pd.DataFrame:
+    """Rows of every law at LEVEL, family by family; a law whose command has no bound has none."""
+    every = absent.robustness(axis="equal-peak")
+    return in_families(every[every["level"] == LEVEL]) if len(every) else every
+
+
+def table(found: pd.DataFrame) -> html.Markdown:
+    """The gain that the peak allows; share that settles; median and slowest settling time; effort."""
+    return absent.table(found, _table)
+
+
+def _table(found: pd.DataFrame) -> html.Markdown:
+    times, efforts = costs(found, "settling_time_s"), costs(found, "effort")
+
+    def line(name: str, own: pd.DataFrame) -> dict:
+        settled = share(int((own["outcome"] == "settled").sum()), len(own))
+        slowest = times[name].max()
+        return {
+            "$K_p$": f"{own['kp'].iloc[0]:.1f}",
+            "Settles [%]": with_interval(*map(percent, (settled.value, settled.low, settled.high))),
+            "Median [s]": seconds(quantile_estimate(times[name].to_numpy(), 0.5)),
+            "Slowest [s]": f"{slowest:.2f}" if np.isfinite(slowest) else "never",
+            "Effort": figures(quantile_estimate(efforts[name].to_numpy(), 0.5)),
+        }
+
+    return by_family(found, line)
+
+
+def facts(found: pd.DataFrame) -> dict:
+    """Which law is the fastest in the median, and which from its slowest start; dashes where there are no rows."""
+    keys = ("peak", "peak_starts", "peak_fastest", "peak_fastest_s", "peak_slowest_s", "peak_surest", "peak_surest_s")
+    if found.empty:
+        return dict.fromkeys(keys, html.MISSING)
+    times = costs(found, "settling_time_s")
+    medians = pd.Series({name: float(quantile(times[name].to_numpy(), 0.5)) for name in times})
+    fastest, surest = medians.idxmin(), times.max().idxmin()
+    values = (
+        html.number(LEVEL),
+        len(times),
+        families.word(fastest),
+        f"{medians[fastest]:.2f}",
+        f"{times[fastest].max():.2f}",
+        families.word(surest),
+        f"{times[surest].max():.2f}",
+    )
+    return dict(zip(keys, values, strict=True))
