@@ -5,7 +5,7 @@
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help setup bench bench-quick time report test check lint gate reference media lock clean
+.PHONY: help setup bench bench-quick time libraries report test check lint gate reference media lock clean
 
 SHELL := /bin/sh
 VENV := .venv
@@ -13,6 +13,7 @@ PY := $(VENV)/bin/python
 BASE := $(VENV)/.base
 REPORT := $(VENV)/.report
 DEV := $(VENV)/.dev
+LIBRARIES := .venv-libraries
 
 # More words for the command behind a target: make bench ARGS="--workers 4", make test ARGS="-k so3"
 ARGS ?=
@@ -42,6 +43,10 @@ bench-quick: $(BASE)
 time:   ## time every law per control tick on this machine: results/timings
 time: $(BASE)
 	@$(PY) -m bench time $(ARGS)
+
+libraries: ## ask other robot libraries for orientation errors (2 GB of their own): results/libraries
+libraries: $(LIBRARIES)/.made
+	@$(LIBRARIES)/bin/python -m bench.libraries $(ARGS)
 
 setup:  ## install what the benchmark needs, and nothing else
 setup: $(BASE)
@@ -88,10 +93,11 @@ lock: $(DEV)
 	@$(call compile,dev,--extra report --extra dev)
 	@$(call compile,report,--extra report --constraint requirements/dev.txt)
 	@$(call compile,base,--constraint requirements/dev.txt)
+	@$(call compile,libraries,--extra libraries --constraint requirements/dev.txt)
 	@echo "Locked. Look at the change: git diff --stat requirements"
 
 clean:  ## remove .venv, the built report, caches and results/quick; other results stay
-	@rm -rf $(VENV) build report/_build report/.jupyter_cache results/quick
+	@rm -rf $(VENV) $(LIBRARIES) build report/_build report/.jupyter_cache results/quick
 	@rm -rf .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .benchmarks *.egg-info
 	@find bench tasks report tests -name __pycache__ -prune -exec rm -rf {} + 2>/dev/null || true
 
@@ -104,7 +110,7 @@ help:
 # ------------------------------------------------------------------------------------------- set-up
 # Installed as locked and checked by hash. The lock is complete, so pip need not resolve (--no-deps: it would ask
 # for labmaze, see pyproject.toml); wheels only, so that nothing is ever compiled here.
-PIP := $(PY) -m pip --disable-pip-version-check --quiet --no-input
+PIP = $(PY) -m pip --disable-pip-version-check --quiet --no-input
 install = $(PIP) install --require-hashes --no-deps --only-binary :all: -r requirements/$(1).txt \
 	&& $(PIP) install --no-deps --no-build-isolation -e .
 
@@ -119,6 +125,12 @@ $(REPORT): $(PY) requirements/report.txt pyproject.toml
 $(DEV): $(PY) requirements/dev.txt pyproject.toml
 	@echo "Installing the benchmark, the report tools and the developer tools into $(VENV) ..."
 	@$(call install,dev) && touch $(BASE) $(REPORT) $@
+
+$(LIBRARIES)/.made: PY = $(LIBRARIES)/bin/python
+$(LIBRARIES)/.made: requirements/libraries.txt pyproject.toml
+	@echo "Installing robot libraries into $(LIBRARIES) ..."
+	@$(PYTHON) -m venv --clear $(LIBRARIES)
+	@$(call install,libraries) && touch $@
 
 # An environment whose Python has gone, or that the lock does not cover, is made anew.
 ifneq ($(shell $(PY) -c '$(SUPPORTED)' 2>/dev/null && echo ok),ok)

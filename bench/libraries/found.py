@@ -37,6 +37,6 @@ def find() -> Found:
     return Found(tuple(libraries), missing)
 
 
-def version(library: Library) -> str:
+def version_of(library: Library) -> str:
     """Of its package, as installed."""
     return importlib.metadata.version(library.package)

@@ -1,7 +1,7 @@
 """Ask one function for every turn of one set, and compare what it says with the axis and angle that are known.
 
-Of an exact half turn either direction along its axis is right. A function that takes quaternions is asked for both of
-the two that stand for a turn, (w, x, y, z) and its negative, and the second answers are counted by themselves.
+Of an exact half turn either direction along its axis is right. A function that takes quaternions is asked of both that
+stand for a turn: (w, x, y, z) with w >= 0 is judged, and its negative compared with that.
 """
 
 import math
@@ -32,16 +32,17 @@ class Answer(NamedTuple):
 def judge(function: Function, turns: TurnSet) -> dict[str, Any]:
     """One row: the counts and the worst of a set.
 
-    Returns: turns: how many; `raised`, `not_finite`, `nought`, `backwards`, `astray`: how many of them went so, each
-    counted once; `other_sheet`: how many the negative quaternion led to another answer; the largest error, the largest
-    error of its own form, and the largest and smallest answers.
+    Returns: how many turns, how many of them failed in each of the ways of KINDS, of how many the negative quaternion
+    is answered otherwise (`other_sheet`), the largest error, the largest error of its own form, the largest and the
+    smallest answer.
     """
-    answers = [ask(function, one, is_half_turn=turns.distance_rad == 0.0) for one in turns.turns]
+    is_half_turn = turns.distance_rad == 0.0
+    answers = [ask(function, one, is_half_turn) for one in turns.turns]
     kinds = [answer.kind for answer in answers]
     return {
         "turns": len(answers),
         **{kind.replace("-", "_"): kinds.count(kind) for kind in KINDS},
-        "other_sheet": sum(is_other_sheet(function, one, turns.distance_rad == 0.0) for one in turns.turns),
+        "other_sheet": sum(is_other_sheet(function, one, is_half_turn) for one in turns.turns),
         "error_rad": largest(answer.error_rad for answer in answers),
         "form_error_rad": largest(answer.form_error_rad for answer in answers),
         "largest_rad": largest(answer.size_rad for answer in answers),
@@ -49,8 +50,8 @@ def judge(function: Function, turns: TurnSet) -> dict[str, Any]:
     }
 
 
-KINDS = ("raised", "not-finite", "nought", "backwards", "astray")
-"""How an answer can fail, the worst first; else it is `usable`."""
+KINDS = ("raised", "not-finite", "nought", "long-way", "astray")
+"""How an answer can fail to point the short way along the axis; else it is `usable`."""
 
 
 def ask(function: Function, turn: Turn, is_half_turn: bool) -> Answer:
@@ -67,7 +68,7 @@ def ask(function: Function, turn: Turn, is_half_turn: bool) -> Answer:
     if size <= NOUGHT * turn.angle:
         kind = "nought"
     elif apart > math.pi - ASTRAY_RAD:
-        kind = "backwards"
+        kind = "long-way"
     elif apart > ASTRAY_RAD:
         kind = "astray"
     else:

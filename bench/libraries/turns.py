@@ -76,11 +76,11 @@ def small(decade: int) -> TurnSet:
     return TurnSet(f"angle-1e-{decade:02d}", turns, angle_rad=10.0**-decade)
 
 
-def near_half_turn(decade: int) -> TurnSet:
-    """By 10^-decade rad less than half a turn."""
-    half = DIGITS.mpf(10) ** -decade / 2
-    turns = tuple(about(axis, DIGITS.sin(half), DIGITS.cos(half)) for axis in axes())
-    return TurnSet(f"half-turn-1e-{decade:02d}", turns, distance_rad=10.0**-decade)
+def near_half_turn(decade: int, times: int = 1) -> TurnSet:
+    """By times 10^-decade rad less than half a turn."""
+    distance = times * DIGITS.mpf(10) ** -decade
+    turns = tuple(about(axis, DIGITS.sin(distance / 2), DIGITS.cos(distance / 2)) for axis in axes())
+    return TurnSet(f"half-turn-{times}e-{decade:02d}", turns, distance_rad=float(distance))
 
 
 def half_turns() -> TurnSet:
@@ -107,6 +107,6 @@ def every_set() -> tuple[TurnSet, ...]:
         *(small(decade) for decade in range(SMALLEST_DECADE, 0, -1)),
         drawn(),
         poles(),
-        *(near_half_turn(decade) for decade in range(1, NEAREST_DECADE + 1)),
+        *(near_half_turn(decade, times) for decade in range(1, NEAREST_DECADE + 1) for times in (5, 2, 1)),
         half_turns(),
     )

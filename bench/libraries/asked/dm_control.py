@@ -1,8 +1,11 @@
 """dm_control: dm_control.utils.transformations."""
 
+from absl import logging
 from dm_control.utils import transformations
 
 from bench.libraries.library import MATRIX, QUATERNION, Function, Library
+
+logging.set_verbosity(logging.ERROR)  # rmat_to_euler warns of every pole it is asked for
 
 LIBRARY = Library(
     "dm_control",
