@@ -66,6 +66,11 @@ LINEAR_SINE = Equation(
     lambda theta, rate, kp, kv: 0.5 * rate * rate * math.tan(theta / 2.0),
 )
 SLIDING = Equation(r"2 \sin(\theta/2) - \lambda\,(1 - \cos(\theta/2))\,\dot\theta/(2 K_p)", _half_sine, _sliding)
+LATE = Equation(
+    r"\bigl(1 + \cos^2(\theta/2)\bigr) \sin(\theta/2) - 4 K_v \sin^2(\theta/2)\, \min(0, \dot\theta)/(5 K_p)",
+    lambda theta: (1.0 + math.cos(theta / 2.0) ** 2) * math.sin(theta / 2.0),
+    lambda theta, rate, kp, kv: 0.8 * kv * math.sin(theta / 2.0) ** 2 * min(0.0, rate),
+)
 UNWINDING = Equation(r"2 \sin(\theta/2)", _half_sine, the_long_way=True)
 
 EQUATIONS = {
@@ -82,6 +87,7 @@ EQUATIONS = {
     "feedback-linearized/mrp": LINEAR_MRP,
     "gibbs": TANGENT,
     "paielli-bach": LINEAR_SINE,
+    "late-braking": LATE,
     "quaternion-unwinding": UNWINDING,
 }
 """contender -> its equation; a law that prefers some axes to others has none."""
