@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-from bench.combinations import ANALYTIC, INVERSES, LAWS, TWINS, VARIED
+from bench.combinations import ANALYTIC, BEST, INVERSES, LAWS, TWINS, VARIED
 from bench.errors import UnknownWord
 
 ENGINES = ("ideal-rk4", "ideal-held", "native", "reference")
@@ -144,7 +144,7 @@ SUITES = {
             traces=16,
             boundary_axes=64,
             on_arms=OnArms(
-                (*LAWS, *ANALYTIC),
+                (*LAWS, *ANALYTIC, *BEST[:2]),
                 _on_arms(clear=4, wrist=4, pole=4, half_turn=4, uniform=4, tumbling=4),
                 (LAWS[0], ANALYTIC[0]),
                 (Slice("native", "clear", 2, VARIED_S),),
@@ -166,7 +166,7 @@ SUITES = {
             traces=48,
             boundary_axes=192,
             on_arms=OnArms(
-                (*LAWS, *ANALYTIC, *TWINS, *INVERSES),
+                (*LAWS, *ANALYTIC, *TWINS, *INVERSES, *BEST),
                 _on_arms(clear=20, wrist=20, pole=32, half_turn=12, uniform=32, tumbling=12),
                 VARIED,
                 (Slice("native", "clear", 4, VARIED_S),),
