@@ -1,5 +1,5 @@
 """The promise of growing: one file adds a regulator, representation, Jacobian, inverse, impedance, metric, task, arm,
-start set of the free body or of arms, or page; a metric or task of contact too."""
+start set of the free body or of arms, axis of trouble, or page; a metric or task of contact too."""
 
 import os
 import shutil
@@ -188,6 +188,19 @@ def build(count, seed):
 
 STARTS = StartSet("dropped-starts", "Two starts about z", 2, build)
 ''',
+    "tasks/conditions/dropped_axis.py": '''
+"""A bound on the command."""
+
+from tasks.condition import Axis, Condition, spread
+
+
+def at(level):
+    """|u| cut to it."""
+    return Condition(bound=level)
+
+
+AXIS = Axis("dropped-axis", "A dropped axis", "rad/s^2", (60.0, 70.0), None, at, spread)
+''',
     "report/pages/90-dropped-page.md": """---
 jupytext: {text_representation: {extension: .md, format_name: myst}}
 kernelspec: {name: python3, display_name: Python 3}
@@ -215,6 +228,7 @@ LISTED = {
     "metrics of contact": "dropped-touch",
     "tasks in contact": "dropped-probe",
     "arms": "dropped-arm",
+    "axes": "dropped-axis",
 }
 
 
@@ -305,6 +319,12 @@ def test_dropped_files_are_listed_run_counted_and_shown_without_another_touched(
         ("dropped-probe", "dropped-arm", "done")
     }
     assert list(rows["dropped_touch"]) == [300.0] * 3
+
+    in_trouble = ("--axis", "dropped-axis", "--count", "2", "--out", "results/trouble")
+    said(tree, "-m", "bench", "run", *in_trouble, "--regulator", "dropped-regulator")
+    troubled = store.read(tree / "results" / "trouble", "robustness")
+    assert list(troubled["level"]) == [60.0, 60.0, 70.0, 70.0]
+    assert (troubled["dropped_column"] > 0).all()
 
     said(tree, "report/build.py")
     page = (tree / "report" / "_build" / "html" / "pages" / "90-dropped-page.html").read_text()

@@ -5,9 +5,10 @@ import pandas as pd
 import pytest
 
 import tasks
-from bench import plan
+from bench import plan, robustness_plan
 from bench import run as running
-from bench.choice import Choice
+from bench.choice import EVERYTHING, Choice
+from bench.cli.show import MASTERED, robustness_summary
 from bench.discovery import all_contenders, find_contender
 from bench.errors import Incompatible, UnknownWord
 from bench.results import with_contender
@@ -19,18 +20,22 @@ LAWS = [one for one in all_contenders() if not one.regulator.costing_only]
 TWO = [find_contender("rotation-matrix"), find_contender("hybrid")]
 
 
+def units(choice, laws=TWO, suite="quick"):
+    return robustness_plan.units(SUITES[suite].robustness, laws, choice, None, None)
+
+
 def made(choice, laws=TWO, **words):
     return plan.make("quick", laws, choice, **words)
 
 
 @pytest.mark.parametrize("suite", SUITES)
 def test_every_suite_puts_every_law_on_r_in_trouble_along_every_axis(suite):
-    units = plan.make(suite, LAWS).troubles
-    met = {(unit.contender, unit.axis) for unit in units}
+    found = units(EVERYTHING, LAWS, suite)
+    met = {(unit.contender, unit.axis) for unit in found}
     on_matrix = [one.name for one in LAWS if one.representation is None and not one.regulator.in_engine]
     assert met >= {(name, axis) for name in on_matrix for axis in tasks.axis_names()}
-    assert len(met) == len(units)
-    for unit in units:
+    assert len(met) == len(found)
+    for unit in found:
         assert unit.count == unit.starts * len(tasks.axis(unit.axis).levels)
 
 
@@ -44,8 +49,8 @@ def test_a_named_axis_is_all_that_runs():
 
 def test_what_has_to_do_with_other_episodes_leaves_trouble_out():
     for choice in (Choice(tasks=("arm-regulation",)), Choice(arms=("ur5e",)), Choice(start_sets=("paper",))):
-        assert not made(choice).troubles
-    assert made(Choice(tasks=("free-body",))).troubles
+        assert not units(choice)
+    assert units(Choice(tasks=("free-body",)))
 
 
 def test_words_that_an_axis_does_not_take_are_refused():
@@ -93,3 +98,11 @@ def test_noise_at_the_half_turn_holds_the_law_that_rests_there_and_not_the_one_w
     settled = (small["outcome"] == "settled").groupby(small["contender"], observed=True).mean()
     assert settled["hybrid"] == 1.0
     assert settled["rotation-matrix"] == 0.0
+
+
+def test_the_summary_says_along_which_axes_a_law_fails(rows):
+    lines = robustness_summary(rows[rows["level"] != 1.0]).set_index("law")
+    assert "half-turn-noise 0" in lines.loc["rotation-matrix", "settled least"]
+    assert "delay" not in lines.loc["hybrid", "settled least"]
+    delayed = rows[(rows["axis"] == "delay") & (rows["contender"] == "hybrid")]
+    assert 100.0 * (delayed["outcome"] == "settled").groupby(delayed["level"]).mean().min() >= MASTERED

@@ -26,8 +26,9 @@ from tasks.verdict import OUTCOMES
 def COMMAND(folder, engine, starts, outcomes, regulators):
     """Summary of a run: where each law settles, how fast, and where it does not (default: results/latest).
 
-    Of an arm, each controller apart, with what its failures were near; then plants that are not the model's, and last
-    what came of tasks in contact. A law, start set or engine that is named leaves out what it does not take part in.
+    Of an arm, each controller apart, with what its failures were near; then plants that are not the model's, what came
+    of tasks in contact, and last of laws in trouble. A law, start set or engine that is named leaves out what it does
+    not take part in.
     """
     folder = folder or results.folder()
     episodes = read(folder, "episodes")
@@ -55,6 +56,10 @@ def COMMAND(folder, engine, starts, outcomes, regulators):
         for arm, part in read(folder, "compliance").groupby("arm", observed=True, sort=False):
             title = f"\nin contact, {arm}: poses done, and median and worst of them"
             console().print(frame_table(contact_summary(part), title))
+        troubled = read(folder, "robustness")
+        if len(troubled):
+            title = f"\nin trouble: axes where {MASTERED} % settle at every level; of others the smallest share [%]"
+            console().print(frame_table(robustness_summary(troubled), title))
     console().print("\nThe counts of each outcome: --outcomes")
 
 
@@ -153,6 +158,23 @@ def contact_summary(rows):
             some = scale * done[column].dropna()
             line[title] = f"{some.median():.3f}  {some.max():.3f}" if len(some) else ""
         lines.append(line)
+    return pd.DataFrame(lines)
+
+
+MASTERED = 95
+"""Share of its starts [%] that a law settles at every level of an axis that it masters."""
+
+
+def robustness_summary(rows):
+    """One line for each law: how many axes it masters, and its smallest share [%] on others that some law masters."""
+    named = results.with_contender(rows)
+    settled = 100.0 * (named["outcome"] == "settled")
+    shares = settled.groupby([named["contender"], named["axis"], named["level"]], observed=True, sort=False).mean()
+    least = shares.groupby(level=[0, 1], observed=True, sort=False).min().unstack()
+    lines = []
+    for name, one in least.loc[:, (least >= MASTERED).any()].iterrows():
+        short = ", ".join(f"{axis} {share:.0f}" for axis, share in one.items() if share < MASTERED)
+        lines.append({"law": str(name), "masters": f"{(one >= MASTERED).sum()}/{one.size}", "settled least": short})
     return pd.DataFrame(lines)
 
 
