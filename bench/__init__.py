@@ -6,6 +6,7 @@ The contestants    regulators/, representations/, jacobians/, inverses/ (one fil
 On an arm          cartesian (tau = D J^-1 (u - Jdot qdot) + fg), chain, weighting, combinations (what goes together)
 In contact         force (hybrid control), impedance, impedances/, compliance (a controller), contact_metric,
                    contact_metrics/ over touching and yielding, contact_plan, contact_rows
+In trouble         tracking (goals that move), equal_peak, robustness_plan, robustness_rows, engines/disturbed
 Running            engines/ (reference, native, ideal-rk4, ideal-held), metric, metrics/
 A run              suites, choice, plan, run (threads, resume), rows, traces, boundary, poses, counting/, schema, store,
                    provenance
