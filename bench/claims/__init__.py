@@ -16,6 +16,7 @@ One file for each part of the paper; a file with a constant CLAIMS is found by b
     compliance.py            C22 to C24
     contact.py               C25
     later.py                 C27
+    adequacy.py              every law by the tests of C17 and C27
     tables.py                what a judging function reads
     probes.py                the small experiments of claims that no table answers
     arm_probes.py            the same on arms

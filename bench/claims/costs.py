@@ -3,22 +3,13 @@
 import itertools
 
 import numpy as np
-import pandas as pd
 
-from bench.claims import probes
+from bench.claims import adequacy, probes
+from bench.claims.adequacy import CALL_PRICE, CALL_PRICES, DEAR, DIRECTED, SETTLED_SHARE, SLOW, tallied
 from bench.claims.tables import evidence, on_every_engine, settled, share, some
 from bench.claims.verdict import Word, claim
 
 LAWS = ("rotation-matrix", "linearized-euler", "feedback-linearized")
-CALLS = ("sin", "cos", "atan2", "acos")
-DIRECTED = ("half-turn", "poles", "wraps", "box", "tumbling", "goals")
-
-CALL_PRICE, CALL_PRICES = 10.0, (1.0, 20.0)
-"""Flops that one sin, cos, atan2 or acos stands for where two columns must become one; the range tried."""
-
-SETTLED_SHARE, SLOW, DEAR = 0.999, 2.0, 2.0
-EXACT_RAD = 1e-13
-"""As in feedback_linearized: between the nearest near start (1e-12 rad) and rounding."""
 
 C12 = claim(
     id="C12",
@@ -75,15 +66,6 @@ AGREES, MIXED, CONTRADICTS = "agrees", "mixed", "contradicts"
 def costs(results, law: str, with_goal: bool) -> tuple[int, int]:
     """Flops and transcendental calls a tick, typical branch."""
     return tallied(some(results.free_body("costs", regulator=law, branch="typical"), f"cost of {law}"), with_goal)
-
-
-def tallied(rows: pd.DataFrame, with_goal: bool) -> tuple[int, int]:
-    """Flops and transcendental calls of one contender's rows, a row a stage."""
-    total, goal = (rows[rows["stage"] == stage].iloc[0] for stage in ("total", "goal"))
-    flops, calls = int(total["flops"]), int(sum(total[name] for name in CALLS))
-    if with_goal:
-        return flops, calls
-    return flops - int(goal["flops"]), calls - int(sum(goal[name] for name in CALLS))
 
 
 def compared(cheap: tuple, dear: tuple) -> tuple[str, float]:
@@ -147,10 +129,7 @@ def c17(results, engine):
     rows = 0
     for law in LAWS:
         uniform, directed = results.episodes(law, engine, "uniform"), results.episodes(law, engine, *DIRECTED)
-        distance = probes.boundary_distance(directed)
-        at_goal = distance["half_turn"].where(directed["angle0_rad"] > 1, np.pi)
-        exact = (distance["pole"] <= EXACT_RAD) | (distance["wrap"] <= EXACT_RAD) | (at_goal <= EXACT_RAD)
-        exact |= probes.goal_to_pole(directed) <= EXACT_RAD
+        exact = adequacy.exact(directed)
         lost = ~settled(directed)
         slowest = uniform["settling_time_s"].max()
         works = share(settled(uniform)).value >= SETTLED_SHARE and not (lost & ~exact).any()
@@ -167,10 +146,12 @@ def c17(results, engine):
     clean = [law for law in both if not plane[law]["lost_exact"] and all(plane[law]["affordable"].values())]
     word = Word.FAILS if clean else Word.CORRECTED if both else Word.HOLDS
     beside = probes.beside_pole(0.1, "feedback-linearized/zyx-euler", results.gains())
+    later = [one for one in adequacy.every(results, engine) if one.name not in adequacy.PAPERS]
     return word, evidence(
         """{laws}. Adequate in both: {both}. Settling time of a small error: {linear:.3f} s. {said} Not counted:
-        feedback-linearized fails from {beside} of {beside_n} starts spinning at {speed:g} rad/s beside a pole.""",
-        rows + len(LAWS),
+        feedback-linearized fails from {beside} of {beside_n} starts spinning at {speed:g} rad/s beside a pole. Later
+        laws on the same plane: {later}.""",
+        rows + len(LAWS) + sum(one.rows for one in later),
         ("episodes", "costs"),
         laws="; ".join(_placed(law, one, results) for law, one in plane.items()),
         both=", ".join(both) or "none",
@@ -179,6 +160,15 @@ def c17(results, engine):
         beside=int((~settled(beside)).sum()),
         beside_n=len(beside),
         speed=probes.SPEED,
+        later="; ".join(map(_beside, later)) or "none in this run",
+    )
+
+
+def _beside(one: adequacy.Adequacy) -> str:
+    pace = f"slowest {one.slowest_s:.2f} s" if one.settled else "none in time"
+    return (
+        f"{one.name} {one.settled:.2%} and {one.lost} ({one.lost_exact}) lost, {pace}, {one.flops} flops and "
+        f"{one.calls} calls"
     )
 
 

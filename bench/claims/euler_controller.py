@@ -9,7 +9,8 @@ import pandas as pd
 
 import tasks
 from bench.claims import arm_probes
-from bench.claims.costs import AGREES, CALL_PRICE, CALL_PRICES, CALLS, MIXED, compared, tallied
+from bench.claims.adequacy import CALL_PRICE, CALL_PRICES, CALLS, tallied
+from bench.claims.costs import AGREES, MIXED, compared
 from bench.claims.tables import evidence, some
 from bench.claims.verdict import Word, claim
 from bench.contender import Gains

@@ -1,7 +1,11 @@
 """C27: the open question (Murphy 1988, 4), asked of every law that came after the paper's three."""
 
-from bench.claims.costs import CALL_PRICE, CALL_PRICES, DEAR, SETTLED_SHARE, SLOW
-from bench.claims.verdict import claim
+import numpy as np
+
+from bench.claims import adequacy, costs, probes
+from bench.claims.adequacy import CALL_PRICE, CALL_PRICES, DEAR, PAPERS, SETTLED_SHARE, SLOW, Adequacy
+from bench.claims.tables import evidence, on_every_engine
+from bench.claims.verdict import NoEvidence, Word, claim
 
 HELD_RAD = 0.1
 """Greatest worst-case noise near the half turn that must not hold a law there: six degrees, which no sensor of
@@ -40,4 +44,97 @@ C27 = claim(
     """,
 )
 
-CLAIMS = (C27,)
+
+TESTS = "abcdefgh"
+"""The criterion's, in its order."""
+
+BOTH = "abcd"
+"""What C17 asks."""
+
+
+def missed(one: Adequacy, cheapest: dict[float, float], small_s: float, held: dict[str, tuple[int, int]]) -> str:
+    """The tests of the criterion that a law does not pass; (f) is among them if it was not tried.
+
+    Args:
+        cheapest: price of a call -> cost of the cheapest of the paper's three. held: of `adequacy.held`.
+    """
+    within = {price: one.cost(price) <= DEAR * least for price, least in cheapest.items()}
+    passed = {
+        "a": one.settled >= SETTLED_SHARE,
+        "b": not one.lost,
+        "c": one.slowest_s <= SLOW * small_s,
+        "d": within[CALL_PRICE],
+        "e": not one.lost_exact,
+        "f": held.get(one.name, (1, 0))[0] == 0,
+        "g": one.detour < DETOUR,
+        "h": all(within.values()),
+    }
+    return "".join(test for test in TESTS if not passed[test])
+
+
+@on_every_engine
+def c27(results, engine):
+    """Each later law against the eight tests."""
+    every = adequacy.every(results, engine)
+    later = [one for one in every if one.name not in PAPERS]
+    if not later:
+        raise NoEvidence(f"no later law by {engine}: run the suite 'quick', 'default' or 'full' without narrowing it")
+    held = adequacy.held(results, HELD_RAD)
+    small = probes.linear_settling(results.gains())
+    cheapest = cheapest_of_the_papers(results)
+    lacks = {one.name: missed(one, cheapest, small, held) for one in later}
+    adequate = [one for one in later if not set(lacks[one.name]) & set(BOTH)]
+    answers = [one for one in adequate if not lacks[one.name]]
+    nearly = [one for one in adequate if lacks[one.name] == TESTS[-1]]
+    word = Word.FAILS if answers else Word.CORRECTED if adequate else Word.HOLDS
+    return word, evidence(
+        """Of {n} later laws adequate in both cost and performance: {adequate}. All eight tests: {answers}. All but the
+        last: {nearly}. What each lacks: {lacking}. Cost counts a call as {price:g} flops and may be {most:g}; a small
+        error settles in {small:.3f} s, and {slow:.3f} s is the slowest that is adequate.""",
+        sum(one.rows + held.get(one.name, (0, 0))[1] for one in later),
+        ("episodes", "costs", "robustness"),
+        n=len(later),
+        adequate=", ".join(one.name for one in adequate) or "none",
+        answers="; ".join(_told(one) for one in answers) or "none",
+        nearly="; ".join(f"{_told(one)}, {_from(one, results)}" for one in nearly) or "none",
+        lacking="; ".join(f"{one.name} {_letters(lacks[one.name])}" for one in later if lacks[one.name]) or "nothing",
+        price=CALL_PRICE,
+        most=DEAR * cheapest[CALL_PRICE],
+        small=small,
+        slow=SLOW * small,
+    )
+
+
+def cheapest_of_the_papers(results, prices=(CALL_PRICE, *CALL_PRICES)) -> dict[float, float]:
+    """Price of a call -> cost of the cheapest of the paper's three."""
+    spent = [costs.costs(results, law, with_goal=False) for law in costs.LAWS]
+    return {price: min(flops + price * calls for flops, calls in spent) for price in prices}
+
+
+def least_price(one: Adequacy, results) -> float:
+    """Price of a call, to a hundredth of a flop, from which on a law is no dearer than is adequate; inf: none."""
+    prices = np.linspace(*CALL_PRICES, 1901)
+    least = cheapest_of_the_papers(results, prices)
+    dear = [price for price in prices if one.cost(price) > DEAR * least[price]]
+    if not dear:
+        return CALL_PRICES[0]
+    return float(min((price for price in prices if price > max(dear)), default=np.inf))
+
+
+def _told(one: Adequacy) -> str:
+    return (
+        f"{one.name} ({one.flops} flops and {one.calls} calls, {one.settled:.2%} of {one.n} starts settle, slowest "
+        f"{one.slowest_s:.2f} s, way at most {one.detour:.2f} times the shortest)"
+    )
+
+
+def _from(one: Adequacy, results) -> str:
+    price = least_price(one, results)
+    return f"of adequate cost from {price:.2f} flops a call on" if np.isfinite(price) else "dear where calls are"
+
+
+def _letters(missed: str) -> str:
+    return f"({', '.join(missed)})"
+
+
+CLAIMS = (C27.judged_by(c27),)

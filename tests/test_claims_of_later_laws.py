@@ -1,0 +1,151 @@
+"""C27 on tables written for it: two later laws, one with memory, beside the paper's three."""
+
+import math
+
+import pandas as pd
+import pytest
+
+from bench import claims
+from bench.claims.tables import Results
+from bench.claims.verdict import NoEvidence, Word
+
+PAPERS = {
+    ("rotation-matrix", ""): (40, 0),
+    ("linearized-euler", "zyx-euler"): (33, 3),
+    ("feedback-linearized", "zyx-euler"): (51, 3),
+}
+SHORTEST, HYBRID = ("quaternion-shortest", ""), ("hybrid", "")
+LATER = {SHORTEST: (60, 0), HYBRID: (70, 0)}
+WORDS = {"jacobian": "", "inverse": "", "arm": "", "task": "free-body", "engine": "ideal-rk4", "kp": 100.0, "kv": 20.0}
+ANGLES = {"uniform": 2.0, "half-turn": math.pi, "box": 1.0}
+
+
+def named(law):
+    return {"regulator": law[0], "representation": law[1], "contender": "/".join(filter(None, law))}
+
+
+def start(name, i):
+    turned = {"alpha0": 0.5, "beta0": 0.2, "gamma0": 0.3, "angle0_rad": ANGLES[name]}
+    goal = dict(zip(("goal_quat_w", "goal_quat_x", "goal_quat_y", "goal_quat_z"), (1.0, 0.0, 0.0, 0.0), strict=True))
+    return {"start_set": name, "start_id": f"{name}-{i}", **turned, **goal}
+
+
+@pytest.fixture
+def frames():
+    laws = PAPERS | LATER
+    ending = {"outcome": "settled", "settling_time_s": 0.6, "path_ratio": 1.0}
+    episodes = [{**WORDS, **named(law), **start(name, i), **ending} for law in laws for name in ANGLES for i in (0, 1)]
+    costs = [
+        {**WORDS, **named(law), "branch": "typical", "stage": stage, "flops": flops, "sin": calls}
+        | dict.fromkeys(("cos", "atan2", "acos"), 0)
+        for law, (whole, called) in laws.items()
+        for stage, flops, calls in (("total", whole, called), ("goal", 0, 0))
+    ]
+    noise = [
+        {**named(law), "axis": "half-turn-noise", "level": level, "outcome": "settled"}
+        for law in LATER
+        for level in (0.0, 0.1, 1.0)
+    ]
+    return {
+        name: pd.DataFrame(rows) for name, rows in (("episodes", episodes), ("costs", costs), ("robustness", noise))
+    }
+
+
+@pytest.fixture
+def judged(frames, tmp_path):
+    """judged(table, rows, column=value): C27 with some cells changed."""
+
+    def judge(table="episodes", rows=None, **cells):
+        frame = frames[table].copy()
+        for column, value in cells.items():
+            frame.loc[rows(frame), column] = value
+        return claims.judge("C27", Results(None, {**frames, table: frame}, tmp_path))
+
+    return judge
+
+
+def of(law, **words):
+    def rows(frame):
+        chosen = frame["regulator"] == law[0]
+        for column, word in words.items():
+            chosen &= frame[column] == word
+        return chosen
+
+    return rows
+
+
+def later(**words):
+    return lambda frame: (of(SHORTEST, **words)(frame)) | (of(HYBRID, **words)(frame))
+
+
+def test_question_is_answered_when_a_law_passes_every_test(judged):
+    verdict = judged()
+    assert verdict.word == Word.FAILS
+    assert verdict.evidence.numbers["answers"].startswith("quaternion-shortest (60 flops")
+
+
+def test_one_law_is_enough(judged):
+    assert judged(rows=of(SHORTEST, start_set="box"), outcome="stuck").word == Word.FAILS
+
+
+@pytest.mark.parametrize(
+    ("table", "words", "cells"),
+    [
+        ("episodes", {"start_set": "half-turn"}, {"outcome": "stuck"}),
+        ("episodes", {"start_set": "uniform"}, {"path_ratio": 1.5}),
+        ("robustness", {"level": 0.1}, {"outcome": "timed-out"}),
+        ("robustness", {"level": 0.0}, {"outcome": "stuck"}),
+        ("costs", {"stage": "total"}, {"flops": 73}),
+    ],
+)
+def test_question_is_half_answered_when_every_law_misses_one_of_the_further_tests(judged, table, words, cells):
+    assert judged(table, later(**words), **cells).word == Word.CORRECTED
+
+
+@pytest.mark.parametrize(
+    ("table", "words", "cells"),
+    [
+        ("episodes", {"start_set": "uniform"}, {"outcome": "stuck"}),
+        ("episodes", {"start_set": "box"}, {"outcome": "diverged"}),
+        ("episodes", {"start_set": "uniform"}, {"settling_time_s": 1.2}),
+        ("costs", {"stage": "total"}, {"flops": 81}),
+    ],
+)
+def test_question_stays_open_when_every_law_misses_one_of_c17s_tests(judged, table, words, cells):
+    assert judged(table, later(**words), **cells).word == Word.HOLDS
+
+
+def test_noise_beyond_the_stated_angle_does_not_count(judged):
+    assert judged("robustness", later(level=1.0), outcome="stuck").word == Word.FAILS
+
+
+def test_law_that_no_noise_was_tried_on_is_no_answer(judged, frames, tmp_path):
+    noise = frames["robustness"]
+    untried = noise[noise["regulator"] != "quaternion-shortest"]
+    verdict = claims.judge("C27", Results(None, {**frames, "robustness": untried}, tmp_path))
+    assert verdict.evidence.numbers["answers"].startswith("hybrid")
+
+
+def test_price_from_which_a_law_is_affordable_is_reported(judged):
+    # at 1 flop a call the linearized law costs 36, so 72 is allowed; 73 is from (73/2 - 33)/3 = 1.17 on
+    verdict = judged("costs", of(SHORTEST, stage="total"), flops=73)
+    assert "(h)" in verdict.evidence.numbers["lacking"]
+    assert "from 1.17 flops a call on" in verdict.evidence.numbers["nearly"]
+
+
+@pytest.mark.parametrize("table", ["episodes", "robustness"])
+def test_no_verdict_without_rows(frames, tmp_path, table):
+    with pytest.raises(NoEvidence):
+        claims.judge("C27", Results(None, {**frames, table: frames[table].iloc[:0]}, tmp_path))
+
+
+def test_no_verdict_on_the_papers_laws_alone(frames, tmp_path):
+    episodes = frames["episodes"]
+    papers = episodes[~later()(episodes)]
+    with pytest.raises(NoEvidence, match="no later law"):
+        claims.judge("C27", Results(None, {**frames, "episodes": papers}, tmp_path))
+
+
+def test_user_law_is_asked_too(frames, tmp_path):
+    own = {name: frame.replace("quaternion-shortest", "mine") for name, frame in frames.items()}
+    assert claims.judge("C27", Results(None, own, tmp_path)).evidence.numbers["answers"].startswith("mine")
