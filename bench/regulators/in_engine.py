@@ -8,14 +8,21 @@ Fails: nowhere; at a half turn the command jumps to its opposite.
 """
 
 from bench.contender import Regulator
-from bench.regulators.rotation_vector import law as pull
-from bench.scalar import kernel
+from bench.scalar import atan2, kernel, sqrt
+from bench.so3 import dot, turn_quaternion
 
 
 @kernel
 def law(R, omega, goal, gains):
-    """u = Kp log(R_d R^T) - Kv omega: the formula of the actuator. Its cost is ours, MuJoCo's own is not counted."""
-    return pull(R, omega, goal, gains)
+    """u = Kp theta k - Kv omega, what the actuator computes; counted from R, where MuJoCo begins with a quaternion."""
+    w, v, _ = turn_quaternion(R, goal.R)
+    size = sqrt(dot(v, v))
+    pull = gains.kp * (2.0 * atan2(size, w) / size if size > 0.0 else 0.0)
+    return (
+        pull * v[0] - gains.kv * omega[0],
+        pull * v[1] - gains.kv * omega[1],
+        pull * v[2] - gains.kv * omega[2],
+    )
 
 
 REGULATOR = Regulator(
