@@ -208,7 +208,10 @@ def refusal(one: Contender, joints: int) -> str:
     """Why a contender cannot control an arm of so many joints; empty if it can."""
     jacobian, inverse, representation = one.jacobian, one.inverse, one.representation
     if one.regulator.in_engine:
-        return f"regulator '{one.regulator.name}' is an actuator of MuJoCo and turns the free body alone (try: rotation-vector, the same law)"
+        return (
+            f"regulator '{one.regulator.name}' is an actuator of MuJoCo and turns the free body alone "
+            "(try: rotation-vector, the same law)"
+        )
     if jacobian is None or inverse is None:
         return "an arm needs a Jacobian and an inverse (try: @geometric+pseudo-inverse)"
     if jacobian.takes == "coordinates":
