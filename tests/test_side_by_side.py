@@ -1,0 +1,206 @@
+"""The page on which two laws are seen side by side: its data are the curves of the run, its controls have names."""
+
+import json
+import math
+import re
+from html.parser import HTMLParser
+
+import numpy as np
+import pandas as pd
+import pytest
+
+pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
+
+import tasks
+from bench import counting, results, traces
+from bench.discovery import find_contender, known_regulators
+from bench.figures import side_by_side
+from bench.figures import side_by_side_data as sides
+from bench.plan import Plan
+from tasks.truth import angle
+
+LAWS = ("rotation-matrix", "feedback-linearized/zyx-euler", "gibbs", "quaternion-unwinding")
+MOST_BYTES = 1_500_000
+MOST_LAWS = 30
+
+
+def starts_of(start_set, ids):
+    return [one for one in tasks.start_set(start_set) if one.id in ids]
+
+
+@pytest.fixture(scope="module")
+def rows():
+    """Curves of four laws, as the page reads them."""
+    plan = Plan("quick", (), tuple(map(find_contender, LAWS)), traces=traces.FEW)
+    return sides.shown(results.with_contender(traces.run(plan).to_pandas()))
+
+
+@pytest.fixture(scope="module")
+def episodes(rows):
+    """The starts' own columns of episodes.parquet."""
+    pairs = rows[["start_set", "start_id"]].drop_duplicates().groupby("start_set", observed=True)["start_id"]
+    lines = [
+        {
+            "start_id": one.id,
+            "angle0_rad": angle(one.quat_wxyz, one.goal_wxyz),
+            **{f"omega0_{axis}": one.omega[i] for i, axis in enumerate("xyz")},
+            **{f"goal_quat_{axis}": one.goal_wxyz[i] for i, axis in enumerate("wxyz")},
+            **{"kp": 100.0, "kv": 20.0, "horizon_s": 20.0},
+        }
+        for start_set, ids in pairs
+        for one in starts_of(start_set, set(ids))
+    ]
+    return pd.DataFrame(lines)
+
+
+@pytest.fixture(scope="module")
+def costs():
+    return results.with_contender(pd.DataFrame(counting.rows([find_contender(name) for name in LAWS])))
+
+
+@pytest.fixture(scope="module")
+def page(rows, episodes, costs):
+    return side_by_side.page(rows, episodes, costs)
+
+
+@pytest.fixture(scope="module")
+def data(page):
+    return json.loads(re.search(r'<script type="application/json" id="side-data">(.*?)</script>', page, re.DOTALL)[1])
+
+
+def each(rows, data):
+    """(rows, numbers on the page) of every curve whose body stays a rotation."""
+    for (name, start_id), own in rows.groupby(["contender", "start_id"], observed=True):
+        numbers = data["curves"][name][start_id]
+        if len(numbers["angle"]) == len(own):
+            yield own, numbers
+
+
+def test_every_law_is_there_from_every_start(rows, data):
+    assert set(data["laws"]) == set(data["curves"]) == set(LAWS)
+    wanted = {one for ids in traces.TELLING.values() for one in ids} | {one.id for one in tasks.start_set("paper")}
+    assert wanted < set(data["starts"])
+    assert all(set(curves) == set(data["starts"]) for curves in data["curves"].values())
+    assert len(list(each(rows, data))) == len(LAWS) * len(data["starts"])
+
+
+def test_angles_are_the_runs_to_their_unit(rows, data):
+    for own, numbers in each(rows, data):
+        found = np.array(numbers["angle"]) * sides.ANGLE_UNIT
+        assert np.abs(found - own["angle_rad"].to_numpy()).max() <= 0.5001 * sides.ANGLE_UNIT
+
+
+def test_commands_are_the_runs_up_to_the_judges_limit(rows, data):
+    for own, numbers in each(rows, data):
+        exact = np.minimum(np.linalg.norm(own[["u_x", "u_y", "u_z"]], axis=1), 1e6)
+        found = np.array(numbers["command"], float) * sides.COMMAND_UNIT
+        assert np.array_equal(np.isnan(found), np.isnan(exact))
+        assert np.nanmax(np.abs(found - exact), initial=0.0) <= 0.5001 * sides.COMMAND_UNIT
+
+
+def test_rotation_vector_is_as_long_as_the_angle_to_the_goal(rows, data):
+    for own, numbers in each(rows, data):
+        turn = np.array(numbers["turn"]).reshape(-1, 3) * sides.TURN_UNIT
+        away = np.abs(np.linalg.norm(turn, axis=1) - own["angle_rad"].to_numpy())
+        assert away.max() <= math.sqrt(3.0) / 2.0 * sides.TURN_UNIT + 1e-5
+
+
+def test_rotation_vector_begins_where_the_start_is(data):
+    [start] = starts_of("paper", {"figure-2.3"})
+    w, *vector = start.quat_wxyz
+    direction = np.array(vector) / np.linalg.norm(vector) * math.copysign(1.0, w)
+    first = np.array(data["curves"]["gibbs"]["figure-2.3"]["turn"][:3]) * sides.TURN_UNIT
+    assert first / np.linalg.norm(first) == pytest.approx(direction, abs=1e-3)
+
+
+def test_no_more_than_the_pages_share_of_bytes(data):
+    largest = max(len(json.dumps(curves, separators=(",", ":"))) for curves in data["curves"].values())
+    assert largest * MOST_LAWS <= MOST_BYTES
+
+
+@pytest.mark.parametrize(
+    ("name", "start_id", "words"),
+    [
+        ("rotation-matrix", "half-turn-x-exact", "is stuck 180° from the goal"),
+        ("gibbs", "half-turn-x-exact", "is singular at 0.00 s and has no command"),
+        ("gibbs", "half-turn-random0-k04", "asks for more than 1\u202f000\u202f000 rad/s² at 0.00 s"),
+    ],
+)
+def test_ending_is_said_in_words(data, name, start_id, words):
+    assert data["curves"][name][start_id]["ending"].replace("\N{NO-BREAK SPACE}", " ") == words
+
+
+def test_law_that_unwinds_turns_through_more_than_is_left(data):
+    ways = {name: data["curves"][name]["goal-beyond-wrap-gamma-up"]["turned"] for name in LAWS}
+    assert ways["gibbs"] == "23°"
+    assert ways["quaternion-unwinding"] == "337°"
+
+
+@pytest.mark.parametrize(
+    ("from_half_turn", "words"),
+    [(0.0, "180°"), (1e-4, "179.994°"), (1e-2, "179.4°"), (2.0, "65°"), (math.pi, "0°")],
+)
+def test_degrees_tell_an_angle_from_half_a_turn(from_half_turn, words):
+    assert sides.degrees(math.pi - from_half_turn) == words
+
+
+class Controls(HTMLParser):
+    """What can be operated on a page, what is named, and what can be chosen."""
+
+    def __init__(self, page):
+        super().__init__()
+        self.operated, self.named, self.options, self.open = {}, set(), {}, None
+        self.feed(page)
+
+    def handle_starttag(self, tag, attrs):
+        given = dict(attrs)
+        if tag in ("select", "input", "canvas", "svg") or (tag == "button" and "id" in given):
+            self.operated[given["id"]] = tag
+            self.open = given["id"]
+        if tag == "label":
+            self.named.add(given.get("for"))
+            self.open = None
+        if "aria-label" in given:
+            self.named.add(given.get("id"))
+        if tag == "option":
+            self.options.setdefault(self.open, []).append(given["value"])
+
+    def handle_data(self, text):
+        if text.strip() and self.open:
+            self.named.add(self.open)
+
+
+def test_every_control_and_drawing_has_a_name(page):
+    controls = Controls(page)
+    assert len(controls.operated) == 11
+    assert set(controls.operated) <= controls.named
+
+
+def test_every_law_and_every_start_can_be_chosen(page, data):
+    options = Controls(page).options
+    assert set(options["side-a"]) == set(options["side-b"]) == set(LAWS)
+    assert options["side-start"] == list(data["starts"])
+
+
+def test_presets_name_laws_and_starts_that_every_run_has():
+    known = {one for ids in traces.TELLING.values() for one in ids}
+    for _, a, b, start in side_by_side.PRESETS:
+        assert {a.partition("/")[0], b.partition("/")[0]} <= set(known_regulators())
+        assert start in known
+
+
+def test_table_says_how_every_law_ends(rows, episodes):
+    head, _, *lines = side_by_side.table(rows, episodes).splitlines()
+    assert len(lines) == len(LAWS)
+    place = [cell.strip() for cell in head.split("|")].index("180°, x")
+    assert [line.split("|")[place].strip() for line in lines if "rotation-matrix" in line] == ["stuck"]
+
+
+def test_figure_without_a_script_says_the_page_s_first_pair_in_words(rows):
+    alt = side_by_side.pair(rows).alt
+    assert "rotation-matrix from 120°" in alt
+    assert len(re.findall(r"settled in 0\.\d\d s", alt)) == 2
+
+
+def test_run_without_telling_starts_shows_nothing(rows):
+    assert sides.shown(rows[rows["start_set"] == "paper"]).empty
