@@ -56,22 +56,12 @@ def orientation_actuator(quat_wxyz) -> np.ndarray:
     return -data.qfrc_actuator
 
 
-def weld_residual(quat_wxyz) -> np.ndarray:
-    """Twice the residual of a weld, in size the sine of half the angle."""
-    return -2.0 * _weld(quat_wxyz).efc_pos[3:6]
-
-
 def weld_pull(quat_wxyz) -> np.ndarray:
-    """The weld's residual r through its own Jacobian, 4 J^T r: where a soft weld pulls."""
-    data = _weld(quat_wxyz)
-    return 4.0 * data.efc_J.reshape(-1, WELDED.nv)[3:6].T @ data.efc_pos[3:6]
-
-
-def _weld(quat_wxyz) -> mujoco.MjData:
+    """A weld's residual r, in size sin(theta/2)/2, through its own Jacobian, 4 J^T r: where a soft weld pulls."""
     data = mujoco.MjData(WELDED)
     data.qpos[:] = quat_wxyz
     mujoco.mj_forward(WELDED, data)
-    return data
+    return 4.0 * data.efc_J.reshape(-1, WELDED.nv)[3:6].T @ data.efc_pos[3:6]
 
 
 LIBRARY = Library(
@@ -83,7 +73,6 @@ LIBRARY = Library(
         Function("mju_mat2Quat, mju_quat2Vel", MATRIX, "rotation-vector", mat_to_vel),
         Function("2 mju_mat2Quat, vector part", MATRIX, "sine-of-half", mat_to_quat),
         Function("<orientation> actuator", QUATERNION, "rotation-vector", orientation_actuator),
-        Function("weld, residual", QUATERNION, "sine-of-half", weld_residual),
         Function("weld, pull", QUATERNION, "sine", weld_pull),
     ),
 )
