@@ -121,16 +121,14 @@ def _group(title: str, options: Iterable[tuple[str, str]], chosen: str) -> str:
     return f'<optgroup label="{markup.escape(title)}">{inside}</optgroup>'
 
 
-def facts(rows: pd.DataFrame, episodes: pd.DataFrame) -> dict:
+def facts(episodes: pd.DataFrame) -> dict:
     """Numbers of the page's text."""
-    followed = episodes[episodes["start_id"].isin(rows["start_id"].unique())]
     return {
-        "laws": rows["contender"].nunique(),
         "kp": float(episodes["kp"].iloc[0]),
         "kv": float(episodes["kv"].iloc[0]),
         "every_ms": f"{1000 * EVERY_S:g}",
         "longest_s": f"{LONGEST_S:g}",
-        "horizon_s": f"{followed['horizon_s'].max():g}",
+        "horizon_s": f"{episodes['horizon_s'].max():g}",
     }
 
 

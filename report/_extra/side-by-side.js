@@ -41,12 +41,11 @@
 
   // ---- what is chosen, and the address
 
-  const isKnown = { a: v => v in data.laws, b: v => v in data.laws, start: v => v in data.starts };
-
   function readAddress() {
     const given = new URLSearchParams(location.hash.slice(1));
     for (const name of [...SIDES, "start"]) {
-      if (isKnown[name](given.get(name))) byId(name).value = given.get(name);
+      const isThere = [...byId(name).options].some(option => option.value === given.get(name));
+      if (isThere) byId(name).value = given.get(name);
       view[name] = byId(name).value;
     }
     byId("log").checked = view.log = given.get("log") === "1";
@@ -77,12 +76,10 @@
 
   function colourIn() {
     const [a, b] = both(side => data.laws[view[side]].colour);
-    const set = (side, [light, dark]) => byId("by-side").style.setProperty(`--${side}`, `light-dark(${light}, ${dark})`);
-    set("a", a);
-    if (a[0] === b[0]) byId("by-side").style.setProperty("--b", "var(--pst-color-text-base)");
-    else set("b", b);
+    const { style } = byId("by-side"), onEither = ([light, dark]) => `light-dark(${light}, ${dark})`;
+    style.setProperty("--a", onEither(a));
+    style.setProperty("--b", a[0] === b[0] ? "var(--pst-color-text-base)" : onEither(b));
   }
-  const inkOf = element => getComputedStyle(element).color;
 
   // ---- words
 
@@ -93,30 +90,25 @@
     ["Greatest command", side => curveOf(side).peak],
     ["A tick costs", side => data.laws[view[side]].cost],
   ];
-  function linkTo(law) { return Object.assign(document.createElement("a"), { href: law.card, textContent: law.title }); }
+  function make(tag, properties) { return Object.assign(document.createElement(tag), properties); }
+  function linkTo(law) { return make("a", { href: law.card, textContent: law.title }); }
 
   function fillFacts() {
     const table = document.querySelector(".side-facts");
     for (const side of SIDES) table.querySelector(`th.${side}`).textContent = data.laws[view[side]].name;
     table.tBodies[0].replaceChildren(...FACTS.map(([label, value]) => {
-      const row = document.createElement("tr"), head = document.createElement("th");
-      head.scope = "row";
-      head.textContent = label;
-      row.append(head, ...both(side => {
-        const cell = document.createElement("td");
-        cell.append(value(side));
-        return cell;
-      }));
+      const row = make("tr");
+      row.append(make("th", { scope: "row", textContent: label }), make("td"), make("td"));
+      SIDES.forEach((side, i) => row.cells[i + 1].append(value(side)));
       return row;
     }));
   }
-  function say() { // to be seen, and read out where the reader has a screen reader
-    const lines = [`${data.starts[view.start]}.`, ...both(side =>
-      `${side.toUpperCase()}: ${data.laws[view[side]].name} ${curveOf(side).ending}.`)];
-    byId("said").replaceChildren(...lines.flatMap((line, i) => {
-      const shown = Object.assign(document.createElement("span"), { className: ["", "a", "b"][i], textContent: line });
-      return [shown, " "];
-    }));
+  function say() { // to be seen, and to be read out when it changes
+    const ends = both(side => `${side.toUpperCase()}: ${data.laws[view[side]].name} ${curveOf(side).ending}.`);
+    const lines = [`${data.starts[view.start]}.`, ...ends], classes = ["", ...SIDES];
+    if (byId("said").textContent.trim() === lines.join(" ")) return;
+    const spans = lines.map((line, i) => make("span", { className: classes[i], textContent: line }));
+    byId("said").replaceChildren(...spans.flatMap(span => [span, " "]));
   }
 
   // ---- a plot over time
@@ -139,7 +131,7 @@
   function decades(from, to) {
     const first = Math.ceil(Math.log10(from) - 1e-9), last = Math.floor(Math.log10(to) + 1e-9);
     const every = Math.ceil((last - first + 1) / 5);
-    return Array.from({ length: last - first + 1 }, (_, i) => first + i).filter((_, i) => i % every === 0).map(k => 10 ** k);
+    return Array.from({ length: Math.floor((last - first) / every) + 1 }, (_, i) => 10 ** (first + i * every));
   }
   function numberText(value) { // 0.01, 150, 20 000, 2·10⁵
     if (value < 1e5 && (value === 0 || value >= 0.01))
@@ -176,8 +168,8 @@
       add(svg, "line", { class: "axis", x1: box.left, x2: width - box.right, y1: floorY, y2: floorY });
     }
     function drawBand() { // the angle below which a law has settled
-      const band = data.band * samples("a", "angle")[0];
-      add(svg, "line", { class: "band", x1: box.left, x2: place.width - box.right, y1: place.y(band), y2: place.y(band) });
+      const level = place.y(data.band * samples("a", "angle")[0]);
+      add(svg, "line", { class: "band", x1: box.left, x2: place.width - box.right, y1: level, y2: level });
     }
     function drawCurve(side) {
       const { x, y } = place, values = samples(side, quantity);
@@ -193,8 +185,8 @@
     function drawEnd(side, values) { // a ring where it settles, a cross where it breaks off
       const { settling_s } = curveOf(side), last = values.length - 1, { x, y } = place;
       if (settling_s !== null) {
-        const value = at(values, settling_s);
-        if (quantity === "angle") add(svg, "circle", { class: `ring ${side}`, cx: x(settling_s), cy: y(value), r: 4.5 });
+        const level = y(at(values, settling_s));
+        if (quantity === "angle") add(svg, "circle", { class: `ring ${side}`, cx: x(settling_s), cy: level, r: 4.5 });
       } else if (lastTime(side) < endTime() - data.step_s && values[last] !== null) {
         const cx = x(last * data.step_s), cy = y(values[last]);
         add(svg, "path", { class: `cross ${side}`, d: `M${cx - 5} ${cy - 5}l10 10m0 -10l-10 10` });
@@ -310,7 +302,7 @@
       drawFrame(ink, rule);
       drawGoal(ink);
       for (const side of SIDES) {
-        const colour = inkOf(document.querySelector(`.side-key.${side}`)), points = turns(side);
+        const { color: colour } = getComputedStyle(document.querySelector(`.side-key.${side}`)), points = turns(side);
         line(points, colour, 2.2, DASHES[side]);
         spot(side, project(pointAt(points, view.time)), side === "a" ? 6 : 5, colour, paper);
       }
@@ -325,7 +317,10 @@
       pitch = Math.max(-1.5, Math.min(1.5, pitch + dy));
       draw();
     }
-    canvas.addEventListener("pointerdown", e => { held = [e.clientX, e.clientY]; canvas.setPointerCapture(e.pointerId); });
+    canvas.addEventListener("pointerdown", e => {
+      held = [e.clientX, e.clientY];
+      canvas.setPointerCapture(e.pointerId);
+    });
     canvas.addEventListener("pointermove", e => {
       if (!held) return;
       turn((e.clientX - held[0]) / 150, (e.clientY - held[1]) / 150);
@@ -352,20 +347,20 @@
     views.forEach(one => one.mark());
   }
   function play() {
-    if (clockStarted !== null) return pause();
     if (view.time >= endTime() - data.step_s) view.time = 0;
     clockStarted = performance.now() - SLOWDOWN * 1000 * view.time;
     byId("play").textContent = "Pause";
     requestAnimationFrame(tick);
   }
   function pause() {
+    if (clockStarted === null) return;
     clockStarted = null;
     byId("play").textContent = "Play";
     writeAddress();
   }
   function tick(now) {
     if (clockStarted === null) return;
-    view.time = Math.min((now - clockStarted) / 1000 / SLOWDOWN, endTime());
+    view.time = Math.min(Math.max(0, (now - clockStarted) / 1000 / SLOWDOWN), endTime());
     showTime();
     if (view.time < endTime()) requestAnimationFrame(tick);
     else pause();
@@ -389,10 +384,10 @@
     for (const name of [...SIDES, "start", "log"]) byId(name).addEventListener("change", choose);
     byId("previous").addEventListener("click", () => step(-1));
     byId("next").addEventListener("click", () => step(1));
-    byId("play").addEventListener("click", play);
+    byId("play").addEventListener("click", () => (clockStarted === null ? play() : pause()));
     byId("time").addEventListener("input", () => {
+      pause();
       view.time = Number(byId("time").value);
-      if (clockStarted !== null) pause();
       showTime();
     });
     byId("time").addEventListener("change", writeAddress);
@@ -400,6 +395,7 @@
       button.addEventListener("click", () => { location.hash = button.dataset.view; });
     window.addEventListener("hashchange", () => {
       if (!location.hash.includes("start=")) return; // a heading of the page
+      pause();
       readAddress();
       showAll();
     });
@@ -416,6 +412,5 @@
     listen();
     document.fonts.ready.then(showAll);
   }
-  function beginIfAsked() { if (byId("by-side")) begin(); }
-  if (document.readyState === "loading") document.addEventListener("DOMContentLoaded", beginIfAsked); else beginIfAsked();
+  if (byId("by-side")) begin(); // the script is deferred: the page is there
 })();
