@@ -14,8 +14,8 @@ from bench.figures.comparison_peak import LEVEL
 from bench.figures.inline import responsive_picture
 from bench.figures.isotropic import ANGLE, CHORD, LATE, SINE, SLIDING, TIGHT, Equation
 
-DRAWN = {"rotation-matrix": SINE, "square-root": CHORD, "rotation-vector": ANGLE, "late-braking": LATE}
-EASING = {"square-root": CHORD, "sliding": SLIDING, "late-braking": LATE}
+DRAWN = {"rotation-matrix": SINE, "quaternion-shortest": CHORD, "rotation-vector": ANGLE, "late-braking": LATE}
+EASING = {"quaternion-shortest": CHORD, "sliding": SLIDING, "late-braking": LATE}
 """Of laws with one spring or damper the first stands for all."""
 
 FROM_DEG, SHOWN_S = 175.0, 1.2
@@ -106,11 +106,11 @@ def responses(narrow: bool):
         above[i].set(title=title, ylim=(0, 180), yticks=range(0, 181, 60))
         below[i].axhline(0.0, color=style.MUTED, linewidth=0.7)
         said.append(f"{title.lower()}: {', '.join(ends)}")
-    for each in (above[0], *(above if narrow else ())):
+    for each in above if narrow else above[:1]:
         each.set_ylabel("angle to the goal [deg]")
-    for each in (below[0], *(below if narrow else ())):
+    for each in below if narrow else below[:1]:
         each.set_ylabel("command [rad/s²]")
-    above[0].legend(loc="upper right")
-    for each in (axes if narrow else below)[-2:]:
+    for each in below[-1:] if narrow else below:
         each.set(xlabel="time [s]", xlim=(0, SHOWN_S))
+    figure.legend(*above[0].get_legend_handles_labels(), loc="outside upper left", ncols=2 if narrow else 4)
     return figure, f"Left after {SHOWN_S / 2.0:g} s of {FROM_DEG:g} degrees. At {'; at '.join(said)}."

@@ -124,7 +124,7 @@ def _measured(rows: pd.DataFrame, counted: pd.DataFrame) -> html.Markdown:
                 "Effort": html.number(float(f"{efforts[name].median():.3g}")),
                 "Peak": html.number(round(rows.loc[rows["contender"] == name, "peak_u"].max())),
                 "Slowest at equal peak [s]": _slowest_of(at_peak, name),
-                "A tick": f"{flops} + {calls}" if calls else f"{flops}",
+                "A tick": html.together(f"{flops} + {calls}" if calls else f"{flops}"),
                 "Held from [rad]": _held_from(noise, name),
             }
         )

@@ -1,0 +1,65 @@
+"""The page of the law that brakes late: its figures and tables say what its scalar equation says."""
+
+import math
+import re
+
+import pandas as pd
+import pytest
+
+pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
+
+from scipy.integrate import quad
+
+from bench.contender import Gains
+from bench.figures import absent, new_law, new_law_tables
+from bench.figures.comparison_peak import LEVEL
+from bench.figures.isotropic import ANGLE, LATE, SLIDING
+
+KP, KV = Gains()
+
+
+def test_greatest_pull_is_the_closed_forms():
+    assert new_law.greatest_pull(LATE) == pytest.approx(4.0 / 3.0 * math.sqrt(2.0 / 3.0), rel=1e-6)
+
+
+def test_gains_at_equal_peak_pull_alike_and_are_critically_damped():
+    for equation in new_law.DRAWN.values():
+        kp, kv = new_law.peak_gains(equation)
+        assert kp * new_law.greatest_pull(equation) == pytest.approx(LEVEL, rel=1e-12)
+        assert kv * kv == pytest.approx(4.0 * kp, rel=1e-12)
+
+
+def test_damper_is_eased_to_a_fifth_and_the_sliding_laws_to_a_half():
+    assert new_law.share_left(LATE, math.pi) == pytest.approx(0.2, rel=1e-12)
+    assert new_law.share_left(SLIDING, math.pi) == pytest.approx(0.5, rel=1e-12)
+
+
+def test_response_of_a_straight_spring_is_the_linear_one_with_its_effort():
+    """x = (1 + 10 t) exp(-10 t), u = -x'' = (1 - 10 t) 100 exp(-10 t)."""
+    times, angle, command, effort = new_law.response(ANGLE, 1.0, KP, KV)
+    for t, x, u in zip(times, angle, command, strict=True):
+        assert x == pytest.approx((1.0 + 10.0 * t) * math.exp(-10.0 * t), abs=1e-8)
+        assert u == pytest.approx(100.0 * (1.0 - 10.0 * t) * math.exp(-10.0 * t), abs=1e-6)
+    spent = quad(lambda t: (100.0 * (1.0 - 10.0 * t) * math.exp(-10.0 * t)) ** 2, 0.0, new_law.SHOWN_S)[0]
+    assert effort[-1] == pytest.approx(spent, rel=1e-7)
+
+
+@pytest.mark.parametrize("draw", [new_law.parts, new_law.responses])
+def test_figure_is_drawn_for_page_and_phone_and_said_in_numbers(draw):
+    picture = draw()
+    assert picture.wide != picture.narrow
+    assert len(re.findall(r"\d", picture.alt)) > 1
+
+
+def test_every_variant_that_was_tried_has_its_row():
+    text = new_law_tables.tried()
+    assert all(f"| {what} |" in text for what in new_law_tables.TRIED)
+
+
+def test_page_says_so_where_the_law_did_not_run():
+    rows = pd.DataFrame({"contender": ["hybrid"]})
+    assert absent.WORDS in new_law_tables.measured(rows, pd.DataFrame())
+    counted = pd.DataFrame({"contender": ["hybrid"], "branch": ["typical"], "stage": ["total"], "flops": [9]})
+    found = new_law_tables.counts(counted)
+    assert found["flops_hybrid"] == 9
+    assert not isinstance(found["flops"], int)
