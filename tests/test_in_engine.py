@@ -4,6 +4,7 @@ import math
 
 import mujoco
 import numpy as np
+import pandas as pd
 import pytest
 from bits import EPS
 from driving import recorder, settings
@@ -206,3 +207,27 @@ def test_it_is_refused_where_mujoco_has_no_such_actuator(choice, reason):
 def test_arm_has_no_such_actuator():
     with pytest.raises(BadValue, match="'arm-regulation' has no model with an <orientation> actuator"):
         tasks.task("arm-regulation", "ur5e").with_servo(*GAINS)
+
+
+# ---------------------------------------------------------------------------- on the page
+
+
+def test_page_says_how_far_it_is_from_the_linear_response_and_dashes_where_it_was_not_run():
+    pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
+    from bench.figures import comparison_in_engine, html
+
+    usual = {"contender": "in-engine", "kp": 100.0, "kv": 20.0, "tolerance": 0.02, "outcome": "settled"}
+    linear = brentq(lambda t: angle_left(t) - 0.02, 0.1, 2.0)
+    found = comparison_in_engine.facts(
+        pd.DataFrame(
+            [
+                usual | {"start_set": "uniform", "settling_time_s": linear + 0.002},
+                usual | {"start_set": "half-turn", "settling_time_s": linear - 0.003},
+                usual | {"start_set": "half-turn", "settling_time_s": math.nan, "outcome": "stuck"},
+            ]
+        )
+    )
+    assert list(found.values()) == [1, 1, 2, 1, f"{linear:.3f}", "3.0"]
+    other = pd.DataFrame([usual | {"contender": "rotation-vector"}])
+    assert set(comparison_in_engine.facts(other).values()) == {html.MISSING}
+    assert "not in this run" in str(comparison_in_engine.table(comparison_in_engine.rows(other)))
