@@ -144,8 +144,8 @@ CRITERIA = (
     ),
     Criterion(
         "lost",
-        "Directed starts lost",
-        "",
+        "Directed lost",
+        "starts",
         "directed starts that do not settle, exact half turns, poles and jumps of coordinates among them",
         lambda tables: {name: np.array([lost.sum()]) for name, lost in by_law(tables.directed, "lost").items()},
     ),

@@ -9,7 +9,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bench import results as published
 from bench.answer.criteria import BY_NAME, CRITERIA, Criterion
 from bench.answer.tables import Tables, tables_of
 from bench.claims.tables import Results
@@ -77,6 +76,6 @@ def measure(results: Results) -> Measured:
 
 
 @functools.cache
-def measured(folder: Path | None = None) -> Measured:
-    """Those of the run in a folder; without one, of the run that the report shows."""
-    return measure(Results(folder or published.folder()))
+def measured(folder: Path) -> Measured:
+    """Those of the run in a folder."""
+    return measure(Results(folder))

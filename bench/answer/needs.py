@@ -6,11 +6,13 @@ A need asks some facts of a law and then ranks by one criterion. Of the laws tha
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable
+from pathlib import Path
 from typing import NamedTuple
 
 from bench.answer import criteria
-from bench.answer.measured import Measured
+from bench.answer.measured import Measured, measured
 from bench.claims.adequacy import SETTLED_SHARE
 from bench.claims.later import DETOUR, HELD_RAD
 from bench.statistics import Estimate
@@ -79,9 +81,12 @@ ANYWHERE, COMMAND, TROUBLE, GIVEN = (
     "With less at hand",
 )
 
+ANSWER = Need(ANYWHERE, "the same, and no noise may hold it at a half turn", (*SURE, UNHELD), "cost")
+"""What C27 asks for: the cheapest law that nothing stops."""
+
 NEEDS = (
     Need(ANYWHERE, "every start settled, at the least cost", SURE, "cost"),
-    Need(ANYWHERE, "the same, and no noise may hold it at a half turn", (*SURE, UNHELD), "cost"),
+    ANSWER,
     Need(ANYWHERE, "the fastest, at equal stiffness near the goal", SURE, "time"),
     Need(ANYWHERE, "the same settling time from everywhere: a linear response", SURE, "spread"),
     Need(COMMAND, "least effort", SURE, "effort"),
@@ -124,6 +129,7 @@ def decide(need: Need, found: Measured) -> Decision:
     return Decision(need, first, tuple(rest), next_, len(asked), found.estimate(need.by, first), told)
 
 
-def decisions(found: Measured) -> list[Decision]:
-    """All needs decided."""
-    return [decide(need, found) for need in NEEDS]
+@functools.cache
+def decisions(folder: Path) -> tuple[Decision, ...]:
+    """All needs, decided by the run in a folder."""
+    return tuple(decide(need, measured(folder)) for need in NEEDS)
