@@ -141,7 +141,7 @@ SUITES = {
             + _slices("native", 200, ("half-turn", "paper", "poles"))
             + _slices("reference", 0, ("paper",)),
             _slices("ideal-rk4", 200, ("half-turn", "paper", "poles")),
-            traces=16,
+            traces=12,
             boundary_axes=64,
             on_arms=OnArms(
                 (*LAWS, *ANALYTIC, *BEST[:2]),
