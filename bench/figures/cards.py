@@ -18,19 +18,22 @@ from bench.contender import Contender, Regulator
 from bench.discovery import contenders_of, known_regulators
 from bench.figures import html
 from bench.figures.card_map import card_map
+from bench.figures.card_response import card_response
+from bench.figures.card_robustness import card_strip
 from bench.figures.families import anchor
 from bench.figures.share import share
 from bench.figures.spelling import typeset
 
 PAPERS_OWN = ("rotation-matrix", "linearized-euler", "feedback-linearized")
-"""Shown first, in the paper's order; every other law follows by name."""
+"""Shown first, in the paper's order; then the paper's variants by name, and the later laws by name."""
 
 PAPERS_COORDINATES = "zyx-euler"
 
 PROPERTIES = {
     "local": "Stable near the goal, by linearization; no more than that.",
-    "almost global": "Stable from all starts but a set of measure zero.",
-    "global with memory": "Stable from every start, with memory.",
+    "almost global": "Stable from all starts but a set of measure zero. No continuous law without memory can do more "
+    "(Bhat & Bernstein 2000).",
+    "global with memory": "Stable from every start, with memory. No continuous law is without (Bhat & Bernstein 2000).",
     "none": "Nothing.",
 }
 COUNTED = ("flops", "sin", "cos", "atan2", "acos", "compare")
@@ -38,10 +41,11 @@ FAILS = re.compile(r"\bFails:\s*(.*)", re.DOTALL)
 
 
 def in_order() -> list[Regulator]:
-    """Every registered regulator, the paper's three first, and at the end the user's own that took part in the run."""
+    """Every registered regulator, the paper's first, and at the end the user's own that took part in the run."""
     known = known_regulators()
     first = [known[name] for name in PAPERS_OWN if name in known]
-    return [*first, *(one for name, one in known.items() if name not in PAPERS_OWN), *results.own_laws()]
+    others = sorted((one for one in known.values() if one not in first), key=lambda one: (one.later, one.name))
+    return [*first, *others, *results.own_laws()]
 
 
 def papers_first(regulator: Regulator) -> list[Contender]:
@@ -79,11 +83,18 @@ def costs_of(one: Contender) -> pd.DataFrame:
     return numbers[(numbers > 0).any(axis=1)].rename(columns={"compare": "<"}).reset_index()
 
 
-def measured(episodes: pd.DataFrame) -> str:
+def engine_of(regulator: Regulator) -> str:
+    """Where a card's episodes ran: on the continuous plant, but for an actuator that only MuJoCo has."""
+    return "native" if regulator.in_engine else "ideal-rk4"
+
+
+def measured(episodes: pd.DataFrame, regulator: Regulator) -> str:
     """How many of the uniform starts settled, and how fast."""
     uniform = episodes[episodes["start_set"] == "uniform"]
-    if uniform.empty:
+    if regulator.costing_only:
         return "Its price only: it gives the command of another law to rounding, and is not run again."
+    if uniform.empty:
+        return "Not in this run."
     settled = uniform[uniform["outcome"] == "settled"]
     found = share(len(settled), len(uniform))
     times = settled["settling_time_s"]
@@ -96,10 +107,12 @@ def card(one: Contender) -> str:
     regulator = one.regulator
     what, fails = said(regulator)
     acts = one.representation.title if one.representation else "the rotation matrix"
-    episodes = results.episodes(contender=one.name, engine="ideal-rk4")
+    words = {"contender": one.name, "engine": engine_of(regulator)}
+    episodes, traces = results.episodes(**words), results.traces(**words)
     proved = PROPERTIES.get(regulator.property, f"{regulator.property}.")
-    facts = {"Acts on": f"{acts[:1].upper()}{acts[1:]}.", "Proved": proved, "Measured": measured(episodes)}
+    facts = {"Acts on": f"{acts[:1].upper()}{acts[1:]}.", "Proved": proved, "Measured": measured(episodes, regulator)}
     picture = card_map(episodes, title_of(one)) if len(episodes) else None
+    response = card_response(traces, title_of(one)) if len(traces) else None
     body = html.card(
         one.name,
         title_of(one),
@@ -111,6 +124,8 @@ def card(one: Contender) -> str:
         fails,
         facts,
         anchor(one.name),
+        response,
+        card_strip(one.name),
     )
     return body
 
@@ -131,14 +146,15 @@ def contents() -> html.Markdown:
     """Every law as a line: a link to its card, its word on the command line, what is proved, what was measured."""
     rows = []
     for one in (one for regulator in in_order() for one in papers_first(regulator)):
-        uniform = results.episodes(contender=one.name, engine="ideal-rk4", start_set="uniform")
+        words = {"contender": one.name, "engine": engine_of(one.regulator), "start_set": "uniform"}
+        uniform = results.episodes(**words)
         settled = (uniform["outcome"] == "settled").mean() if len(uniform) else None
         rows.append(
             {
                 "Law": f'<a href="#{anchor(one.name)}">{html.law(one.name, title_of(one))}</a>',
-                "On the command line": f"`{one.name}`",
-                "Proved": one.regulator.property,
+                "Proved": html.together(one.regulator.property),
                 "Settles": settled,
+                "On the command line": f"`{one.name}`",
             }
         )
     return html.table(pd.DataFrame(rows), {"Settles": lambda share: f"{100 * share:.1f} %"})

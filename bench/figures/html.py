@@ -156,6 +156,8 @@ def card(
     fails: str = "",
     facts: Mapping[str, str] | None = None,
     anchor: str = "",
+    response: Picture | None = None,
+    strip: str = "",
 ) -> Html:
     """The card of a law, drawn wholly from what its module and its results say.
 
@@ -170,23 +172,26 @@ def card(
         fails: a sentence on where it fails, in numbers.
         facts: more such sentences by their first word, "Measured" say.
         anchor: makes the title a heading of the page that links can name.
+        response: what stands under the map.
+        strip: a piece of HTML over the whole width, below.
     """
     left = [f"<p>{html.escape(summary)}</p>"]
     said = {**({"Fails": fails} if fails else {}), **(facts or {})}
     left += [f'<p class="card-fact"><b>{label}.</b> {html.escape(text)}</p>' for label, text in said.items()]
     if costs is not None:
         left.append(f'<div class="card-costs" tabindex="0">{plain_table(costs)}</div>')
-    right = f'<div class="card-map">{picture._repr_html_()}</div>' if picture else ""
+    drawn = "".join(one._repr_html_() for one in (picture, response) if one)
+    right = f'<div class="card-map">{drawn}</div>' if drawn else ""
     name_of = html.escape(title)
     heading = f'<h2 id="{anchor}">{name_of}</h2>' if anchor else f"<strong>{name_of}</strong>"
     return Html(
-        f'<section class="law-card{"" if picture else " alone"}" '
+        f'<section class="law-card{"" if drawn else " alone"}" '
         f'style="--law: {both(style.look(name).colour)}" '
         f'aria-label="{html.escape(title, quote=True)}">'
         f"<header>{heading}"
         f'<span class="card-source">{html.escape(source)}</span></header>'
         f'<div class="card-formula">{formula(tex)}</div>'
-        f'<div class="card-body"><div class="card-text">{"".join(left)}</div>{right}</div></section>'
+        f'<div class="card-body"><div class="card-text">{"".join(left)}</div>{right}</div>{strip}</section>'
     )
 
 
