@@ -46,9 +46,9 @@ FOLDER = _chosen()
 
 
 @contextlib.contextmanager
-def to_itself(is_cached: bool = True):
+def to_itself():
     """Others wait, threads and processes: of two that write its index at once, one would find the other's code."""
-    if fcntl is None or not is_cached:
+    if fcntl is None:
         yield
         return
     FOLDER.mkdir(parents=True, exist_ok=True)

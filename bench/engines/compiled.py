@@ -1,6 +1,7 @@
 """Compiling with numba: our options, the types of our signatures, and what the law dialect means in compiled code."""
 
 import contextlib
+import functools
 import itertools
 import math
 import secrets
@@ -8,6 +9,7 @@ import secrets
 import numba
 from numba import float64, int64, types
 from numba.core.bytecode import FunctionIdentity
+from numba.core.caching import IndexDataCacheFile
 from numba.extending import overload, register_jitable
 
 from bench import scalar
@@ -24,6 +26,20 @@ FunctionIdentity._unique_ids = itertools.count(secrets.randbits(56))
 first of two that have the same. All laws' closures are called `evaluate`; two that two processes had compiled and a
 third took from the cache became one, so that a law was silently run with parts of another. Counting from a random
 place, no two processes meet."""
+
+
+def _one_at_a_time(method):
+    @functools.wraps(method)
+    def alone(*words):
+        with to_itself():
+            return method(*words)
+
+    return alone
+
+
+for _access in ("load", "save"):
+    setattr(IndexDataCacheFile, _access, _one_at_a_time(getattr(IndexDataCacheFile, _access)))
+"""Only the files wait for one another: processes compile at the same time."""
 
 JIT = {"nogil": True, "error_model": "numpy"}
 """Never fastmath: results must be the plain Python call's, bit for bit."""
@@ -78,8 +94,12 @@ def register(function):
 def compile_function(function, signature, cache: bool = True):
     """The function compiled for one signature with our options; cached on disk unless the law is a user's."""
     register_kernels()
-    with to_itself(cache):
-        return numba.njit(signature, cache=cache, **JIT)(function)
+    return numba.njit(signature, cache=cache, **JIT)(function)
+
+
+def compile_callback(function, signature):
+    """The function as C code calls it, by its `address`; cached on disk."""
+    return numba.cfunc(signature, nopython=True, cache=True)(function)
 
 
 @contextlib.contextmanager

@@ -14,7 +14,7 @@ import mujoco
 import numba
 from numba import carray, int32, int64, types
 
-from bench.engines.cache import to_itself
+from bench.engines.compiled import compile_callback
 from bench.engines.native.libmujoco import mj_forward, mj_step, mj_step1, mj_step2
 
 BEGIN, STEP, RUNGE_KUTTA = 0, 1, 2
@@ -38,10 +38,7 @@ def _advance(model, data, simulation, argument):
     mj_step1(m, d)
 
 
-with to_itself():
-    _callback = numba.cfunc(
-        types.void(types.intp, types.intp, int32, types.CPointer(int64)), nopython=True, cache=True
-    )(_advance)
+_callback = compile_callback(_advance, types.void(types.intp, types.intp, int32, types.CPointer(int64)))
 
 CALLBACK = _callback.address
 
