@@ -3,6 +3,7 @@
 Every counted call is checked against the plain call, so that a cost is never that of another law.
 """
 
+import functools
 import struct
 from collections import Counter
 from collections.abc import Iterable, Iterator
@@ -41,8 +42,9 @@ class Call(NamedTuple):
     is_typical: bool
 
 
+@functools.cache
 def cost(contender: Contender) -> Cost:
-    """Count the contender's law over all states.
+    """Count the contender's law over all states; once in a process.
 
     Errors:
         OutsideDialect: the law uses what cannot be counted.
