@@ -1,6 +1,7 @@
 """Both engines of arms give the same rows, bit for bit; dm_control's loop with the plain controller is the truth.
 
-Every law meets every Jacobian that takes it on every arm; inverses, integrators and start sets take turns.
+Every law runs on every arm, and meets there, by turns, every Jacobian that takes it; inverses, integrators and start
+sets take turns too.
 """
 
 import functools
@@ -33,11 +34,15 @@ over_arms = pytest.mark.parametrize("arm", ARMS)
 
 @functools.cache
 def contenders_on(arm: str) -> tuple:
-    """Every law by every Jacobian, each once; which inverse shifts from one to the next, and from arm to arm."""
-    by: dict = {}
+    """Every law by one of its Jacobians and inverses; which, shifts from law to law and from arm to arm."""
+    a, by = ARMS.index(arm), {}
     for one in combinations.every(LAWS, tasks.arm(arm).joints):
-        by.setdefault((one.on_free_body, one.jacobian.name), []).append(one)
-    return tuple(every[(k + ARMS.index(arm)) % len(every)] for k, every in enumerate(by.values()))
+        by.setdefault(one.on_free_body, {}).setdefault(one.jacobian.name, []).append(one)
+    found = []
+    for k, ways in enumerate(by.values()):
+        inverted = list(ways.values())[(k + a) % len(ways)]
+        found.append(inverted[(k + a) % len(inverted)])
+    return tuple(found)
 
 
 def named(arm: str, word: str):
@@ -85,6 +90,8 @@ def test_native_rows_are_the_reference_rows_bit_for_bit(arm, one, integrator, k)
 def test_the_compared_runs_cover_every_part_and_integrator():
     for kind, known in (("jacobian", known_jacobians()), ("inverse", known_inverses())):
         assert {getattr(case.values[1], kind).name for case in CASES} == set(known)
+    met = {(case.values[1].on_free_body, case.values[1].jacobian.name) for case in CASES}
+    assert met == {(one.on_free_body, one.jacobian.name) for one in combinations.every(LAWS, 6)}
     used = {one.representation.name for one in (case.values[1] for case in CASES) if one.representation}
     assert used == set(known_representations())
     for arm in ARMS:
