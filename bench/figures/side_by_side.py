@@ -24,7 +24,7 @@ OPENING = {"a": "rotation-matrix", "b": "feedback-linearized/zyx-euler", "start"
 
 PRESETS = (
     ("Near half a turn", "rotation-matrix", "quaternion-shortest", "half-turn-random0-k02"),
-    ("Exactly half a turn", "rotation-matrix", "rotation-vector", "half-turn-x-exact"),
+    ("Exactly half a turn", "rotation-matrix", "late-braking", "half-turn-random0-exact"),
     ("A sign forgotten", "quaternion-shortest", "quaternion-unwinding", "goal-beyond-wrap-gamma-up"),
     ("Across a jump of the angles", "rotation-vector", "feedback-linearized/zyx-euler", "goal-beyond-wrap-gamma-up"),
     ("Beside a pole", "linearized-euler/zyx-euler", "euler-gradient/zyx-euler", "pole-plus-k02-a2.5-g2.8"),
