@@ -125,8 +125,8 @@ def _across(one: Contender, axis: np.ndarray) -> float:
 
 
 def _arms(tables: Tables) -> dict[str, np.ndarray]:
-    rows = tables.arms[tables.arms["contender"].isin(tables.contenders)]
-    return by_law(rows, "lost")
+    lost = by_law(tables.arms[tables.arms["contender"].isin(tables.contenders)], "lost")
+    return {name: 100.0 * values for name, values in lost.items()}
 
 
 SLOW_HZ, LATE_S, BOUND, PEAK, HEAVY, SPIN, SWAY, NOISY_RAD = 20.0, 0.02, 10.0, 100.0, 2.0, 20.0, 10.0, 0.01
@@ -144,8 +144,8 @@ CRITERIA = (
     ),
     Criterion(
         "lost",
-        "Directed lost",
-        "starts",
+        "Directed starts",
+        "lost",
         "directed starts that do not settle, exact half turns, poles and jumps of coordinates among them",
         lambda tables: {name: np.array([lost.sum()]) for name, lost in by_law(tables.directed, "lost").items()},
     ),
@@ -225,7 +225,7 @@ CRITERIA = (
     ),
     Criterion(
         "matched",
-        "At equal peak",
+        "Settled at equal peak",
         "s",
         f"median settling time with gains that give a peak of {PEAK:g} rad/s²",
         _troubled("equal-peak", PEAK, "settling_time_s"),
@@ -233,7 +233,7 @@ CRITERIA = (
     ),
     Criterion(
         "bounded",
-        "Weak motors",
+        "Settled with weak motors",
         "s",
         f"median settling time, command cut at {BOUND:g} rad/s²",
         _troubled("saturation", BOUND, "settling_time_s"),
@@ -241,7 +241,7 @@ CRITERIA = (
     ),
     Criterion(
         "slow",
-        f"At {SLOW_HZ:g} Hz",
+        f"Settled at {SLOW_HZ:g} Hz",
         "s",
         f"median settling time, asked {SLOW_HZ:g} times a second",
         _troubled("control-rate", SLOW_HZ, "settling_time_s"),
@@ -249,7 +249,7 @@ CRITERIA = (
     ),
     Criterion(
         "late",
-        "Delayed",
+        "Settled, late",
         "s",
         f"median settling time, {1e3 * LATE_S:g} ms late",
         _troubled("delay", LATE_S, "settling_time_s"),
@@ -257,7 +257,7 @@ CRITERIA = (
     ),
     Criterion(
         "heavy",
-        "Heavier",
+        "Settled, heavy",
         "s",
         f"median settling time, inertia {HEAVY:g} times the model's",
         _troubled("inertia", HEAVY, "settling_time_s"),
@@ -265,7 +265,7 @@ CRITERIA = (
     ),
     Criterion(
         "spinning",
-        "Spinning",
+        "Settled, spinning",
         "s",
         f"median settling time, {SPIN:g} rad/s at the start",
         _troubled("spin", SPIN, "settling_time_s"),
@@ -273,7 +273,7 @@ CRITERIA = (
     ),
     Criterion(
         "follows",
-        "Moving goal",
+        "Error behind the goal",
         "rad",
         f"greatest error in the last second, goal swaying at {SWAY:g} rad/s",
         _troubled("moving-goal", SWAY, "tail_max_rad"),
@@ -281,13 +281,13 @@ CRITERIA = (
     ),
     Criterion(
         "noisy",
-        "Under noise",
+        "Variation under noise",
         "rad/s²",
         f"total variation of the command, orientation noise {NOISY_RAD:g} rad",
         _troubled("attitude-noise", NOISY_RAD, "variation"),
     ),
     Criterion(
-        "arms", "Arm episodes lost", "share", "uniform starts on arms that do not settle", _arms, None, form="{:.3f}"
+        "arms", "Arm episodes lost", "%", "uniform starts on arms that do not settle", _arms, None, form="{:.1f}"
     ),
 )
 

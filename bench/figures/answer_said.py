@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from pathlib import Path
 
 from bench.answer.criteria import BY_NAME
@@ -35,7 +34,7 @@ def facts(folder: Path) -> dict:
         "noise": f"{HELD_RAD:g}",
         "needs": len(every),
         "forgetful": len(forgetful),
-        "forgetful_both": sum(EVERYWHERE.has(found, law) and UNHELD.has(found, law) for law in forgetful),
+        "forgetful_both": sum(EVERYWHERE.has(found, law) and UNHELD.has(found, law) for law in forgetful) or "none",
         "answer": named(answer),
         "cheapest": named(cheapest),
         "verdict": str(verdict.word),
@@ -62,25 +61,22 @@ def lead(found: Measured, every: tuple[Decision, ...]) -> html.Markdown:
     wins = sum(law == one.law or law in one.alike for one in every)
     beside = f" The next that does costs {answer.next_number.value:.0f}." if answer.next_number else ""
     return html.Markdown(
-        f"If nothing below says otherwise: *{families.word(law)}*. It settles from every start we tried, no noise up to "
+        f"Unless a row below says otherwise: *{families.word(law)}*. It settles from every start tried, no noise up to "
         f"{HELD_RAD:g} rad holds it at a half turn, and at {found.number('cost', law):.0f} operations a tick it is the "
         f"cheapest law of which both are true.{beside} In {wins} of {len(every)} needs below it is the best or among "
         "equals."
     )
 
 
-def front_page(folder: Path) -> html.Markdown:
+def front_page(folder: Path) -> str:
     """The answer in one sentence."""
     found, every = measured(folder), decisions(folder)
-    answer = next(one for one in every if one.need is ANSWER)
-    law = answer.law or every[0].law
+    law = next(one.law for one in every if one.need is ANSWER)
     if law is None:
-        return html.Markdown(f"Which law to use: {NONE}.")
-    held = found.number("held", law)
-    whom = "no noise that we tried" if math.isinf(held) else f"no noise below {held:g} rad"
+        return f"No law of this run settles from every start tried and is held by no noise up to {HELD_RAD:g} rad."
     times = answer_tables.told(BY_NAME["time"], found.estimate("time", law))
-    return html.Markdown(
-        f"Of {sum(one not in families.CONTROLS for one in found.laws)} laws, the 1980 law's heirs among them, "
-        f"*{families.word(law)}* is the cheapest that settles from every start and that {whom} holds at a half turn: "
-        f"{found.number('cost', law):.0f} operations a tick, 99 % of all starts settled in {times}."
+    return (
+        f"Of {sum(one not in families.CONTROLS for one in found.laws)} laws {families.word(law)} is the cheapest that "
+        f"settles from every start tried and that no noise up to {HELD_RAD:g} rad holds at a half turn: "
+        f"{found.number('cost', law):.0f} operations a tick, and 99 % of all starts settled in {times}."
     )

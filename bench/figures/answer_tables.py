@@ -47,7 +47,7 @@ def _answer(one: Decision) -> dict:
     cells["As good"] = ", ".join(map(families.word, one.alike[:NAMED])) + (f" and {more} more" if more > 0 else "")
     if one.next is not None and one.next_number is not None:
         cells["Next best"] = f"{families.word(one.next)}, {told(criterion, one.next_number)}"
-    cells["Judged by"] = criterion.title.lower()
+    cells["Judged by"] = criterion.title[:1].lower() + criterion.title[1:]
     return cells
 
 

@@ -114,7 +114,9 @@ def advice(rows: pd.DataFrame) -> dict:
         "worst": arm_rows.title(worst),
         "worst_share": f"{100 * shares[worst]:.0f}",
     }
-    own = uniform[uniform["controller"] == law]
+    whose, own = "it", uniform[uniform["controller"] == law]
+    if own["way"].nunique() < FEWEST:
+        whose, own = "the rotation matrix by (2.2)", uniform[uniform["controller"] == arm_rows.ON_MATRIX]
     ways = own.assign(good=arm_rows.settled(own), strays=own["position_error_m"]).groupby("way")
     table = pd.DataFrame({"good": ways["good"].mean(), "strays": ways["strays"].median(), "n": ways.size()})
     if len(table) < FEWEST:
@@ -122,7 +124,7 @@ def advice(rows: pd.DataFrame) -> dict:
     best = table.sort_values(["good", "strays"], ascending=[False, True]).index[0]
     inverse = best.partition("+")[2]
     return values | {
-        "inverse_advice": f"With the inverse “{in_words(inverse)}” it settles "
+        "inverse_advice": f"With the inverse “{in_words(inverse)}” {whose} settles "
         f"{told(own[own['way'] == best])} and strays {html.number(1e3 * table.loc[best, 'strays'])} mm in the median."
     }
 

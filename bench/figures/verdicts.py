@@ -59,16 +59,6 @@ def anchor(one: Verdict) -> str:
     return one.claim.id.lower()
 
 
-def waiting(verdicts: list[Verdict]) -> html.Html:
-    """A compact list of what has not been measured yet."""
-    items = [
-        f"<li><b>{one.claim.id}</b> ({escape.escape(one.claim.section)}) {marked_up(one.claim.sentence)}</li>"
-        for one in verdicts
-        if one not in measured(verdicts)
-    ]
-    return html.Html(f'<ul class="waiting">{"".join(items)}</ul>')
-
-
 def section(one: Verdict) -> html.Html:
     """All that is said of one claim: verdict and evidence first, then how it was decided and what is left open."""
     claim = one.claim
