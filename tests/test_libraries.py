@@ -6,17 +6,20 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from bits import EPS
+from scipy.spatial.transform import Rotation as ScipyRotation
 
+from bench.figures import libraries_digits, libraries_rows, libraries_said, libraries_tables
 from bench.libraries import turns
-from bench.libraries.__main__ import FOLDER
+from bench.libraries.__main__ import FOLDER, rows
 from bench.libraries.forms import FORMS
 from bench.libraries.found import find, version_of
 from bench.libraries.judge import KINDS, judge
-from bench.libraries.library import MATRIX, QUATERNION, Function
+from bench.libraries.library import MATRIX, QUATERNION, Function, Library
 from bench.store import read, read_json
 
-SOME = turns.TurnSet("some", turns.drawn().turns[:50])
+SOME = turns.drawn()._replace(turns=turns.drawn().turns[:50])
 HALF_TURNS = turns.half_turns()
+FEW = (turns.small(3), SOME, turns.poles(), turns.near_half_turn(3), HALF_TURNS)
 
 
 def vector(turn_set, size=lambda theta: theta):
@@ -157,3 +160,64 @@ def test_committed_answers_say_of_which_version_they_are():
     table, about = read(FOLDER, "libraries"), read_json(FOLDER / "provenance.json")["libraries"]
     versions = table.groupby("library", observed=True)["version"].unique()
     assert {name: [one["version"]] for name, one in about.items()} == {k: list(v) for k, v in versions.items()}
+
+
+# --------------------------------------------------------------------------- the page
+
+
+def line(call, takes=MATRIX, form="rotation-vector"):
+    """A function of numpy's, as the page has it."""
+    library = Library("numpy", "numpy", (Function("f", takes, form, call),))
+    (found,) = libraries_rows.functions(rows(library, FEW)).to_dict("records")
+    return found
+
+
+def logarithm(R):
+    return ScipyRotation.from_matrix(R).as_rotvec()
+
+
+def test_nothing_is_said_against_a_logarithm():
+    assert line(logarithm)["objections"] == {}
+
+
+@pytest.mark.parametrize(
+    ("call", "form", "said"),
+    [
+        (lambda R: logarithm(R) if R.trace() > -1.0 + 1e-15 else np.zeros(3), "rotation-vector", "nought at all half"),
+        (lambda R: -logarithm(R), "rotation-vector", "the long way round for"),
+        (lambda R: logarithm(R)[[1, 2, 0]], "rotation-vector", "another axis for"),
+        (lambda R: logarithm(R) * (1.0 + 1e-3 * (R.trace() < 0.0)), "rotation-vector", "off by 0.003 rad"),
+        (lambda R: logarithm(R) / (R.trace() > 0.0), "rotation-vector", "no number for"),
+        (lambda R: ScipyRotation.from_matrix(R).as_euler("ZYX"), "z-y-x", "off by"),
+    ],
+)
+def test_page_says_what_is_wrong_with_a_function(call, form, said):
+    assert said in "; ".join(line(call, form=form)["objections"].values())
+
+
+def test_page_says_that_the_negative_quaternion_is_answered_otherwise():
+    found = line(lambda quat_wxyz: 2.0 * quat_wxyz[1:], QUATERNION, "sine-of-half")
+    assert found["objections"] == {libraries_rows.SHEET: "the long way round for −q"}
+
+
+def test_page_names_the_functions_that_the_committed_answers_condemn():
+    lines = libraries_rows.functions(libraries_rows.table()).set_index(["library", "function"])["objections"]
+    assert set(lines["mink", "SO3.log (Python)"]) == {libraries_rows.NOUGHT}
+    assert lines["mink", "se3_log (compiled)"] == {}
+    for sine in (("robosuite", "orientation_error"), ("spatialmath", "base.tr2delta"), ("mujoco", "weld, pull")):
+        assert set(lines[sine]) == {libraries_rows.NOUGHT}
+    assert set(lines["dm_control", 'rmat_to_euler("ZYX")']) == {libraries_rows.DIGITS}
+    assert lines["scipy", "as_rotvec, of a matrix"] == lines["orientation-bench", "rotation-vector"] == {}
+
+
+def test_every_number_of_the_page_is_said_and_drawn():
+    table = libraries_rows.table()
+    lines = libraries_rows.functions(table)
+    said = libraries_said.said(table, lines)
+    assert said["right"] + len(libraries_tables.faulty(lines)) - 1 == said["functions"]  # one of ours is faulty
+    assert all("nan" not in str(value) for value in said.values())
+    for draw in (libraries_tables.to_use, libraries_tables.faults, libraries_tables.errors, libraries_tables.angles):
+        assert "nan" not in draw(lines)
+    picture = libraries_digits.digits(table)
+    assert "mink SO3.log" in picture.alt
+    assert picture.narrow != picture.wide

@@ -80,8 +80,8 @@ def digits(rows: pd.DataFrame, *, narrow=False):
     right.set_xticks([1e-1, 1e-5, 1e-9, 1e-13, EXACT], ["$10^{-1}$", "$10^{-5}$", "$10^{-9}$", "$10^{-13}$", "0"])
     left.set_title("Small turns", fontweight="normal")
     right.set_title("Towards the half turn", fontweight="normal")
-    style.label_line(left, 1.5e-12, COUNT_RAD * 4.0, "one count of 24 bits", fontsize=8.5)
-    style.label_line(right, 3e-1, 4e-1, "2π: the long way round", fontsize=8.5)
+    style.label_line(right, 3e-9, COUNT_RAD * 6.0, "one count of 24 bits", fontsize=8.5)
+    style.label_line(right, 1e-8, 0.3, "the long way round", fontsize=8.5)
     if narrow:
         right.set_ylabel("Largest error [rad]")
     figure.legend(loc="outside upper left", ncols=1 if narrow else 2, columnspacing=1.2, fontsize=8.5)

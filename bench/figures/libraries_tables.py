@@ -43,18 +43,17 @@ def _named(own: pd.DataFrame) -> str:
 def faults(lines: pd.DataFrame) -> html.Markdown:
     """A row a function against which something is said, and what."""
     cells = [
-        {
-            "Library": f"`{one.library}`",
-            "Function": f"`{one.function}`",
-            "It is": FORMS[one.form].title,
-            "But": "; ".join(one.objections.values()),
-        }
-        for one in faulty(lines).itertuples()
+        {"Function": _asked(one), "But": "; ".join(one.objections.values())} for one in faulty(lines).itertuples()
     ]
     return html.table(pd.DataFrame(cells))
 
 
-SETS = {"small": "Small", "drawn": "Drawn", "near": "Near a half turn", "at": "At one"}
+def _asked(one) -> str:
+    """A line's library and function."""
+    return f"{one.library} `{one.function}`"
+
+
+SETS = {"small": "Small", "drawn": "Drawn", "near": "Near half turns", "at": "At them"}
 
 
 def errors(lines: pd.DataFrame) -> html.Markdown:
@@ -62,9 +61,8 @@ def errors(lines: pd.DataFrame) -> html.Markdown:
     kept = lines[lines["form"] != ANGLES]
     cells = [
         {
-            "Library": f"`{one.library}`",
-            "Function": f"`{one.function}`",
-            "It is": FORMS[one.form].title,
+            "Function": _asked(one),
+            "It is": html.together(FORMS[one.form].title),
             **{title: power(getattr(one, name)) for name, title in SETS.items()},
         }
         for one in kept.itertuples()
@@ -73,20 +71,18 @@ def errors(lines: pd.DataFrame) -> html.Markdown:
 
 
 def angles(lines: pd.DataFrame) -> html.Markdown:
-    """A row a function that gives angles: how far the turn rebuilt is off, and how far the angles are no error."""
+    """A row a function that gives angles: how far the turn rebuilt is off, and they themselves as an error [rad]."""
     cells = [
         {
-            "Library": f"`{one.library}`",
-            "Function": f"`{one.function}`",
-            "Rebuilt, drawn [rad]": power(one.drawn),
-            "At the poles [rad]": power(one.pole),
-            "Near half turns [rad]": power(max(one.near, one.at)),
-            "As an error, off by [rad]": f"{one.off:.1f}",
-            "Off the axis [%]": f"{100 * one.astray:.0f}",
+            "Function": _asked(one),
+            "Drawn": power(one.drawn),
+            "Poles": power(one.pole),
+            "Half turns": power(max(one.near, one.at)),
+            "As an error": f"{one.off:.1f}",
         }
         for one in lines[lines["form"] == ANGLES].itertuples()
     ]
-    return html.table(pd.DataFrame(cells), words=())
+    return html.table(pd.DataFrame(cells))
 
 
 def versions(origins: dict[str, dict[str, str]]) -> html.Markdown:

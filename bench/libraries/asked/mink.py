@@ -7,10 +7,11 @@ from mink.lie import _lie_ops_c
 
 from bench.libraries.library import MATRIX, QUATERNION, Function, Library
 
-BODY = mujoco.MjModel.from_xml_string("""
+MODEL = mujoco.MjModel.from_xml_string("""
 <mujoco><worldbody><body name="body"><joint type="ball"/><inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/></body>
 </worldbody></mujoco>
 """)
+AT_IDENTITY = mink.Configuration(MODEL)
 
 
 def python_log(quat_wxyz) -> np.ndarray:
@@ -32,7 +33,7 @@ def frame_task(quat_wxyz) -> np.ndarray:
     """FrameTask.compute_error of a body at the identity whose target is turned; its angular part."""
     task = mink.FrameTask("body", "body", position_cost=1.0, orientation_cost=1.0)
     task.set_target(mink.SE3.from_rotation(mink.SO3(np.array(quat_wxyz))))
-    return task.compute_error(mink.Configuration(BODY))[3:]
+    return task.compute_error(AT_IDENTITY)[3:]
 
 
 LIBRARY = Library(

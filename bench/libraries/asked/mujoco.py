@@ -6,17 +6,17 @@ import numpy as np
 from bench.libraries.library import MATRIX, QUATERNION, Function, Library
 
 BODY = """
-<body><joint type="ball"/><inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/><site name="body"/></body>
+<body name="body"><joint type="ball"/><inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/><site name="body"/></body>
 """
 ACTUATED = mujoco.MjModel.from_xml_string(f"""
 <mujoco><worldbody><site name="goal"/>{BODY}</worldbody>
 <actuator><orientation site="body" refsite="goal" kp="1"/></actuator></mujoco>
 """)
-WELDED = mujoco.MjModel.from_xml_string("""
-<mujoco><worldbody><body name="goal" mocap="true"/>
-<body name="body"><joint type="ball"/><inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/></body></worldbody>
+WELDED = mujoco.MjModel.from_xml_string(f"""
+<mujoco><worldbody><body name="goal" mocap="true"/>{BODY}</worldbody>
 <equality><weld body1="goal" body2="body" relpose="0 0 0 1 0 0 0"/></equality></mujoco>
 """)
+DATA = {model: mujoco.MjData(model) for model in (ACTUATED, WELDED)}
 IDENTITY = np.array((1.0, 0.0, 0.0, 0.0))
 
 
@@ -48,19 +48,22 @@ def mat_to_vel(R) -> np.ndarray:
     return quat_to_vel(quat_wxyz)
 
 
+def forward(model, quat_wxyz) -> mujoco.MjData:
+    """The model's data with its body turned so."""
+    data = DATA[model]
+    data.qpos[:] = quat_wxyz
+    mujoco.mj_forward(model, data)
+    return data
+
+
 def orientation_actuator(quat_wxyz) -> np.ndarray:
     """Minus the force of the three <orientation> actuators with kp = 1 on a body that is turned so, in its frame."""
-    data = mujoco.MjData(ACTUATED)
-    data.qpos[:] = quat_wxyz
-    mujoco.mj_forward(ACTUATED, data)
-    return -data.qfrc_actuator
+    return -forward(ACTUATED, quat_wxyz).qfrc_actuator
 
 
 def weld_pull(quat_wxyz) -> np.ndarray:
     """A weld's residual r, in size sin(theta/2)/2, through its own Jacobian, 4 J^T r: where a soft weld pulls."""
-    data = mujoco.MjData(WELDED)
-    data.qpos[:] = quat_wxyz
-    mujoco.mj_forward(WELDED, data)
+    data = forward(WELDED, quat_wxyz)
     return 4.0 * data.efc_J.reshape(-1, WELDED.nv)[3:6].T @ data.efc_pos[3:6]
 
 

@@ -1,4 +1,7 @@
-"""robosuite: the error of its operational-space controller. It wants numpy 1.26, so an environment of its own."""
+"""robosuite: the error of its operational-space controller.
+
+Its requirements contradict those of the other libraries, so it is asked in an environment of its own.
+"""
 
 import numpy as np
 from robosuite.utils import transform_utils
