@@ -22,6 +22,7 @@ from bench.discovery import (
     known_regulators,
     known_representations,
 )
+from bench.figures import families
 from bench.suites import NOMINAL
 
 STANDARD = "standard"
@@ -103,6 +104,8 @@ def title(controller: str) -> str:
     which = known_representations()[coordinates].title.removesuffix(" angles") if coordinates else ""
     known = known_regulators()
     name = known[regulator].title.partition(" (")[0] if regulator in known else regulator
+    if regulator in known and known[regulator].later:
+        name = families.word(law)
     if equation(controller) == "(2.2)":
         acts_on_any = coordinates and regulator in known and known[regulator].coordinate_law_in is not None
         said = f"{name}, {which}" if acts_on_any else name
