@@ -74,13 +74,23 @@ def half_cosine_squared(R, R_d):
 
 
 @kernel
+def turn_matrix(R, R_d):
+    """E = R_d R^T = exp(theta [k]x): the turn from R to R_d, base frame."""
+    return Rotation(
+        rotate(R_d, (R.n[0], R.o[0], R.a[0])),
+        rotate(R_d, (R.n[1], R.o[1], R.a[1])),
+        rotate(R_d, (R.n[2], R.o[2], R.a[2])),
+    )
+
+
+@kernel
 def turn_quaternion(R, R_d):
     """(w, (x, y, z), t): the quaternion of the turn from R to R_d, base frame, of length 2 sqrt(t), t >= 1, w >= 0.
 
     Its vector part is 2 sqrt(t) sin(theta/2) k. At half turns see `quaternion_direction`.
     """
-    (w, x, y, z), t = quaternion_direction(relative(R, R_d))
-    return w, rotate(R, (x, y, z)), t
+    (w, x, y, z), t = quaternion_direction(turn_matrix(R, R_d))
+    return w, (x, y, z), t
 
 
 @kernel

@@ -20,20 +20,10 @@ Fails: nowhere known; up to 60 degrees beyond a half turn it goes the longer way
 
 from bench.contender import Regulator
 from bench.scalar import kernel, sqrt
-from bench.so3 import Rotation, dot, quaternion_direction, rotate
+from bench.so3 import dot, quaternion_direction, turn_matrix
 
 EASED = 0.8
 """Share of the damper that is gone at the half turn; under 1, so that it never pushes."""
-
-
-@kernel
-def turn_matrix(R, R_d):
-    """E = R_d R^T: the turn from R to R_d, base frame."""
-    return Rotation(
-        rotate(R_d, (R.n[0], R.o[0], R.a[0])),
-        rotate(R_d, (R.n[1], R.o[1], R.a[1])),
-        rotate(R_d, (R.n[2], R.o[2], R.a[2])),
-    )
 
 
 @kernel
