@@ -15,10 +15,10 @@ from bench.figures.isotropic import EQUATIONS, LEAST_RAD, NEAREST_RAD, Equation,
 CURVE = 60
 DRAWN = 150
 CHECKED = 12
-"""Starts of each law that are held against its equation, every so-manieth of an evenly spread sequence."""
+"""At least so many starts of each law are held against its equation, at even steps through their sequence."""
 
 FOOT_S, TOP_S = 0.42, 0.86
-"""Of the panel: most of the curves lie between, and three leave it."""
+"""Of the panel: most of the curves lie between, and the steepest leave it."""
 
 APART_S = 0.022
 """Least distance of two labels beside curves."""
@@ -69,7 +69,7 @@ def curves(rows: pd.DataFrame, narrow: bool):
 
 
 def left_at(angles: np.ndarray, times: np.ndarray) -> tuple[float, float] | None:
-    """(angle, edge) at which a curve that begins in the panel leaves it for good part; None if it does not."""
+    """Where to end the name of a curve that begins in the panel and leaves it: (angle, edge); None if it stays."""
     outside = np.flatnonzero((times > TOP_S) | (times < FOOT_S))
     if not len(outside) or outside[0] == 0:
         return None

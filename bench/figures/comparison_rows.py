@@ -8,7 +8,7 @@ import pandas as pd
 from bench.figures import families
 
 DETOUR = 1.5
-"""Path over shortest path from which a start counts as unwinding: no spring that pulls towards the goal goes so far."""
+"""Path over shortest path from which a start is a detour; about one fixed axis only the long way round is one."""
 
 
 def common(episodes: pd.DataFrame) -> pd.DataFrame:

@@ -39,7 +39,7 @@ FAMILIES = (
     Family(
         "On the quaternion",
         {
-            "quaternion-shortest": "short way",
+            "quaternion-shortest": "shortest quaternion",
             "hybrid": "hybrid",
             "sliding": "sliding",
             "paielli-bach": "Paielli, Bach",
@@ -69,7 +69,7 @@ FAMILIES = (
         "Euler variants, controls",
         {
             "linearized-euler-relative/zyx-euler": "linearized, from goal",
-            "euler-gradient/zyx-euler": "pushed forward",
+            "euler-gradient/zyx-euler": "Euler gradient",
             "linearized-euler-literal/zyx-euler": "control: literal",
             "quaternion-unwinding": "control: no sign",
         },
