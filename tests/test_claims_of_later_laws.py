@@ -149,3 +149,13 @@ def test_no_verdict_on_the_papers_laws_alone(frames, tmp_path):
 def test_user_law_is_asked_too(frames, tmp_path):
     own = {name: frame.replace("quaternion-shortest", "mine") for name, frame in frames.items()}
     assert claims.judge("C27", Results(None, own, tmp_path)).evidence.numbers["answers"].startswith("mine")
+
+
+def test_engine_that_ran_no_law_on_which_noise_was_tried_is_not_asked(frames, tmp_path):
+    episodes = frames["episodes"]
+    native = episodes[of(SHORTEST)(episodes)].assign(engine="native", regulator="mine", contender="mine")
+    costs = frames["costs"]
+    own = costs[of(SHORTEST)(costs)].assign(regulator="mine", contender="mine")
+    both = {"episodes": pd.concat([episodes, native]), "costs": pd.concat([costs, own])}
+    verdict = claims.judge("C27", Results(None, {**frames, **both}, tmp_path))
+    assert "No sampled engine has rows" in str(verdict.evidence)

@@ -114,7 +114,7 @@ def _label(axes, places: dict[str, tuple[float, float]], colours: dict[str, str]
     figure = axes.figure
     figure.draw_without_rendering()
     taken = [_box(axes, [place], 4.0) for place in places.values()]
-    taken += [_box(axes, pair, 1.5) for line in lines for pair in itertools.pairwise(line)]
+    taken += [_box(axes, list(pair), 1.5) for line in lines for pair in itertools.pairwise(line)]
     whole = axes.get_window_extent()
     for law, colour in colours.items():
         for shift in AROUND:
