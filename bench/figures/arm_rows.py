@@ -105,7 +105,8 @@ def title(controller: str) -> str:
     known = known_regulators()
     name = known[regulator].title.partition(" (")[0] if regulator in known else regulator
     if regulator in known and known[regulator].later:
-        name = families.word(law)
+        word = families.word(law)
+        name = word[:1].upper() + word[1:]
     if equation(controller) == "(2.2)":
         acts_on_any = coordinates and regulator in known and known[regulator].coordinate_law_in is not None
         said = f"{name}, {which}" if acts_on_any else name

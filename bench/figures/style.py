@@ -80,7 +80,7 @@ LOOKS = {
     "mrp": Look("#d55e00", "^", SOLID),
     "gibbs": Look("#009e73", "s", DASHED),
     "in-engine": Look("#0072b2", "*", DOTTED),
-    "late-braking": Look("#d55e00", "D", DASH_DOT),
+    "late-braking": Look("#a39400", "D", DASH_DOT),
     "mrp-linearized": Look("#cc79a7", "v", DASH_DOT),
 }
 # For a law that has no look of its own yet: 3 colours x 5 markers x 3 lines, chosen by its name.
