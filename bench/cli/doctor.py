@@ -156,7 +156,8 @@ def _results() -> str:
     RESULTS.mkdir(exist_ok=True)
     with tempfile.TemporaryFile(dir=RESULTS):
         pass
-    found = [path.parent.name for path in sorted(RESULTS.glob("*/provenance.json"))]
+    runs = [path.parent for path in sorted(RESULTS.glob("*/plan.json"))]
+    found = [run.name for run in runs if (run / "provenance.json").is_file()]
     return f"{_short(RESULTS)} is writable; finished runs: {', '.join(found) or 'none'}"
 
 
