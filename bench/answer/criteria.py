@@ -11,7 +11,7 @@ import numpy as np
 
 from bench.answer.tables import Tables, by_law
 from bench.boundary import axes
-from bench.claims.adequacy import NOISE
+from bench.claims.adequacy import CALL_PRICE, NOISE
 from bench.contender import AT_REST, Contender, Gains, Goal
 from bench.so3 import from_quaternion
 
@@ -181,7 +181,7 @@ CRITERIA = (
         "cost",
         "Cost",
         "flops",
-        "operations a tick, a call counted as ten",
+        f"operations a tick, a call counted as {CALL_PRICE:g}",
         _alone(Tables.costing),
         notable=0.0,
         form="{:.0f}",

@@ -10,7 +10,7 @@ import numpy as np
 from bench.answer.front import front
 from bench.answer.measured import Measured
 from bench.answer.needs import EVERYWHERE, UNHELD
-from bench.claims.adequacy import DEAR, PAPERS, SLOW
+from bench.claims.adequacy import CALL_PRICE, DEAR, PAPERS, SLOW
 from bench.figures import families, style
 from bench.figures.inline import responsive_picture
 
@@ -86,7 +86,7 @@ def plane(found: Measured, small_s: float, *, narrow: bool = False):
     axes.set(xlim=(0.85 * min(cost for cost, _ in places.values()), edge), ylim=(1.12 * fastest, -0.06 * fastest))
     ticks = [tick for tick in SECONDS if 1.0 / tick < 1.12 * fastest]
     axes.set_yticks([*(1.0 / tick for tick in ticks), 0.0], [*(f"{tick:g}" for tick in ticks), "never"])
-    axes.set(xlabel="flops a tick, a call counted as ten", ylabel="99 % of all starts settled in [s]")
+    axes.set(xlabel=f"flops a tick, a call counted as {CALL_PRICE:g}", ylabel="99 % of all starts settled in [s]")
     named = laws
     if narrow:
         first = {law for members in ahead for law in members}

@@ -6,8 +6,9 @@ from pathlib import Path
 
 from bench.answer.criteria import BY_NAME
 from bench.answer.measured import Measured, measured
-from bench.answer.needs import ANSWER, EVERYWHERE, TRIED, UNHELD, Decision, decisions
+from bench.answer.needs import ANSWER, EVERYWHERE, TRIED, UNHELD, Decision, decisions, has_all
 from bench.claims import Results, judge
+from bench.claims.adequacy import CALL_PRICE
 from bench.claims.later import HELD_RAD
 from bench.figures import answer_tables, families, html
 
@@ -17,8 +18,6 @@ NONE = "no law of this run"
 def facts(folder: Path) -> dict:
     """Of the page that answers."""
     found, every = measured(folder), decisions(folder)
-    answer = next(one for one in every if one.need is ANSWER)
-    cheapest = every[0]
     able = [law for law in found.laws if law not in families.CONTROLS]
     whole = [law for law in able if EVERYWHERE.has(found, law)]
     forgetful = [law for law in able if not found.number("memory", law) and law in found.values["held"]]
@@ -32,11 +31,11 @@ def facts(folder: Path) -> dict:
         "uniform": len(found.values["time"][found.laws[0]]),
         "directed": len(found.tables.directed) // len(found.laws),
         "noise": f"{HELD_RAD:g}",
-        "needs": len(every),
+        "price": CALL_PRICE,
+        "band": f"{100 * float(found.tables.uniform['tolerance'].iloc[0]):g}",
+        "rate": f"{1 / float(found.tables.uniform['dt_s'].iloc[0]):g}",
         "forgetful": len(forgetful),
-        "forgetful_both": sum(EVERYWHERE.has(found, law) and UNHELD.has(found, law) for law in forgetful) or "none",
-        "answer": named(answer),
-        "cheapest": named(cheapest),
+        "forgetful_both": sum(has_all(found, law, (EVERYWHERE, UNHELD)) for law in forgetful) or "none",
         "verdict": str(verdict.word),
         "nearly": verdict.evidence.numbers["nearly"],
         "adequate": verdict.evidence.numbers["adequate"],

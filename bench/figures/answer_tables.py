@@ -10,7 +10,7 @@ import pandas as pd
 from bench.answer.criteria import BY_NAME, Criterion
 from bench.answer.front import front
 from bench.answer.measured import Measured
-from bench.answer.needs import CONTINUOUS, EVERYWHERE, UNHELD, Decision
+from bench.answer.needs import CONTINUOUS, EVERYWHERE, SURE, UNHELD, Decision, has_all
 from bench.claims.adequacy import CALL_PRICE, CALL_PRICES, DEAR, PAPERS, exact
 from bench.figures import families, html
 from bench.statistics import Estimate
@@ -21,8 +21,8 @@ NAMED = 3
 FRONT = ("unsettled", "lost", "time", "cost")
 """Criteria whose front the table marks: coverage, speed, cost."""
 
-SHOWN = ("lost", "detour", "time", "worst", "cost", "dearest", "memory", "held", "effort", "peak", "variation")
-"""Criteria of the table of all laws, beside the share that settles."""
+SHOWN = ("lost", "time", "worst", "cost", "memory", "held", "effort", "peak", "variation")
+"""Criteria of the table of all laws, beside the share that settles; with the cost, that of the dearest branch."""
 
 
 def decided(every: tuple[Decision, ...]) -> html.Markdown:
@@ -78,6 +78,8 @@ def every_law(found: Measured) -> html.Markdown:
         for law, word in family.laws.items():
             settled = 100.0 - found.number("unsettled", law)
             cells = {head(BY_NAME[name]): written(BY_NAME[name], found.number(name, law)) for name in SHOWN}
+            cost, dearest = found.number("cost", law), found.number("dearest", law)
+            cells[head(BY_NAME["cost"])] += f" to {dearest:.0f}" if dearest != cost else ""
             mark = {"Front": "●" if ahead[law] else ""}
             lines.append({"Law": families.link(law, word), **mark, "Settles [%]": f"{settled:.4g}", **cells})
     frame = pd.DataFrame(lines).fillna("")
@@ -125,16 +127,20 @@ def allowed(found: Measured) -> html.Markdown:
                 "Exact half turns never left": f"{spanned(lost.sum())} of {int(lost.size().max())}",
                 "Held by noise from [rad]": spanned(pd.Series(held)),
                 "Settles from every start": sum(EVERYWHERE.has(found, law) for law in laws),
-                "and is not held": sum(EVERYWHERE.has(found, law) and UNHELD.has(found, law) for law in laws),
+                "and is not held": sum(has_all(found, law, (EVERYWHERE, UNHELD)) for law in laws),
             }
         )
     return html.table(pd.DataFrame(lines))
 
 
 def spanned(values: pd.Series) -> str:
-    """The least and the greatest of some numbers, or the one that all are."""
-    low, high = ("none tried" if math.isinf(value) else f"{value:g}" for value in (values.min(), values.max()))
-    return low if low == high else f"{low} to {high}"
+    """The least and the greatest of some numbers, or the one that all are; infinite: by none that was tried."""
+    low, high = values.min(), values.max()
+    if math.isinf(low):
+        return "none tried"
+    if math.isinf(high):
+        return f"{low:g}, or none tried"
+    return f"{low:g}" if low == high else f"{low:g} to {high:g}"
 
 
 def priced(found: Measured) -> html.Markdown:
@@ -144,10 +150,10 @@ def priced(found: Measured) -> html.Markdown:
         least = min(found.tables.costing(law, price=price) for law in found.laws if law in PAPERS)
         line = {"A call counts as [flops]": f"{price:g}", "Adequate up to": f"{DEAR * least:.0f}"}
         for title, facts in (
-            ("Cheapest that settles everywhere", (EVERYWHERE,)),
-            ("and is not held by noise", (EVERYWHERE, UNHELD)),
+            ("Cheapest that settles everywhere", SURE),
+            ("and is not held by noise", (*SURE, UNHELD)),
         ):
-            able = [law for law in found.laws if all(fact.has(found, law) for fact in facts)]
+            able = [law for law in found.laws if has_all(found, law, facts)]
             spent = {law: found.tables.costing(law, price=price) for law in able}
             best = min(spent, key=lambda law: spent[law], default=None)
             line[title] = f"{families.word(best)}, {spent[best]:.0f}" if best else html.MISSING
