@@ -204,7 +204,7 @@ def robustness_columns() -> list[Column]:
             regulator="the law",
             representation="coordinates the law acts on; empty for a law on R",
         ),
-        *_numbers("", "how much of it, in the axis's unit", "level"),
+        *_numbers("the axis's", "how much of it", "level"),
         *_words(start_id="start; the axes' starts are their own"),
         *_numbers("rad", "initial angle to the goal, by the judge", "angle0_rad"),
         *_numbers("1/s^2", "position gain", "kp"),

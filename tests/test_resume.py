@@ -18,7 +18,7 @@ from bench.choice import Choice
 ROOT = Path(__file__).parents[1]
 TABLES = [
     *("boundaries.parquet", "compliance.parquet", "costs.parquet", "episodes.parquet", "plan.json"),
-    *("poses.parquet", "provenance.json", "traces.parquet"),
+    *("poses.parquet", "provenance.json", "robustness.parquet", "traces.parquet"),
 ]
 UNITS = 21
 
