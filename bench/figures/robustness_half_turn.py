@@ -22,6 +22,7 @@ from bench.regulators import hybrid, mrp_linearized
 
 KEEPS = {
     "hybrid": 2.0 * math.asin(hybrid.DELTA),
+    "late-braking": math.pi / 3.0,
     "mrp-linearized": 4.0 * math.atan(math.sqrt(mrp_linearized.SWITCH)) - math.pi,
 }
 """Law with memory -> angle [rad] beyond the half turn up to which it keeps to the way it has begun."""
@@ -29,7 +30,7 @@ KEEPS = {
 UNBOUNDED = ("gibbs", "paielli-bach")
 """Laws without a greatest command: at the half turn they have none that a tick could hold."""
 
-FOOT, TOP = 5e-4, 1.6
+FOOT, TOP = 1e-4, 1.6
 STEPS = 16
 """Halvings of the interval that holds the least noise: to 1e-4 of it on a scale of factors."""
 
@@ -137,7 +138,7 @@ def table(rows: pd.DataFrame) -> html.Markdown:
 
 
 def _noise(value: float) -> str:
-    return "any" if value == 0.0 else f"{value:.2g}"
+    return "any" if value == 0.0 else power(value) if value < 1e-3 else f"{value:.2g}"
 
 
 def measured(shares: pd.Series) -> str:
@@ -163,32 +164,34 @@ def facts(rows: pd.DataFrame) -> dict:
         for law, begin in known.items()
         for level in noisy.index
     ]
-    blind = [law for law in laws if not find_contender(law).regulator.memory]
+    minding = [law for law in laws if find_contender(law).regulator.memory]
+    blind = [law for law in laws if law not in minding]
     jumping = {law: begin for law, begin in known.items() if law in blind and begin > 0.0}
     middle = float(noisy.index[noisy.index < min(KEEPS.values())].max())
-    constant = robustness_theory.escape_constant()
     chord, chord_least = jump("square-root", kp), least("square-root", kp, kv)
     return {
         "n": int(rows.groupby(["contender", "level"], observed=True).size().max()),
         "agree": sum(one == other for one, other in told),
         "told": len(told),
         "known": len(known),
+        "minding": len(minding),
         "blind": len(blind),
         "blind_free": sum(bool((noisy[law] == 1.0).all()) for law in blind),
         "middle": f"{middle:g}",
         "blind_middle": f"{100 * float(noisy.loc[middle, blind].max()):.0f}",
-        "memory_middle": f"{100 * float(noisy.loc[middle, [law for law in KEEPS if law in noisy]].min()):.0f}",
+        "memory_middle": f"{100 * float(noisy.loc[middle, minding].min()):.0f}",
         "stuck": int((shares.loc[0.0, laws] < 1.0).sum()),
         "least": f"{min(jumping.values()):.2g}",
         "most": f"{max(jumping.values()):.2g}",
-        "constant": f"{constant:.2f}",
         "chord": f"{chord:g}",
-        "chord_least": f"{constant * chord / kv * robustness_theory.STEP_S:.2g}",
-        "chord_exact": f"{chord_least:.2g}",
-        "faster": power(chord_least / 10.0),
+        "chord_least": f"{robustness_theory.two_ticks(chord, kv):.3g}",
+        "chord_exact": f"{chord_least:.3g}",
+        "faster": power(chord_least / 100.0),
         "hybrid": f"{KEEPS['hybrid']:.3f}",
         "hybrid_deg": f"{math.degrees(KEEPS['hybrid']):.0f}",
         "delta": f"{hybrid.DELTA:g}",
+        "late": f"{KEEPS['late-braking']:.3f}",
+        "late_deg": f"{math.degrees(KEEPS['late-braking']):.0f}",
         "mrp": f"{KEEPS['mrp-linearized']:.3f}",
         "mrp_deg": f"{math.degrees(KEEPS['mrp-linearized']):.0f}",
         "switch": f"{mrp_linearized.SWITCH:g}",

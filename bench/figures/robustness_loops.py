@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import math
 from collections.abc import Callable
 
 import pandas as pd
@@ -35,7 +36,9 @@ def theory(rows: pd.DataFrame, name: str) -> Callable[[float], float]:
 def farthest_ms(rows: pd.DataFrame, name: str) -> float:
     """Largest difference of any start of EXACT from the linear loop's settling time [ms]."""
     own, curve = robustness_rows.of(rows, EXACT), theory(rows, name)
-    return 1000.0 * max(abs(time - curve(level)) for time, level in zip(own["time_s"], own["level"], strict=True))
+    return 1000.0 * max(
+        (abs(time - curve(level)) for time, level in zip(own["time_s"], own["level"], strict=True)), default=math.nan
+    )
 
 
 LOOP = (

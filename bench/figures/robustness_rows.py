@@ -13,7 +13,6 @@ import pandas as pd
 
 import tasks
 from bench.figures import absent, families
-from bench.figures.spelling import power
 from tasks.condition import Axis
 
 HELD_RAD = math.radians(3.0)
@@ -82,9 +81,11 @@ def said(level: float, name: str) -> str:
         return f"{1000.0 * level:g} ms"
     if unit == "Hz" and level >= 1000.0:
         return f"{level / 1000.0:g} kHz"
-    return plain(level) if unit == "1" else f"{plain(level)} {unit.replace('^2', '²')}"
+    return f"{level:g}" if unit == "1" else f"{level:g} {unit.replace('^2', '²')}"
 
 
 def plain(level: float) -> str:
-    """A level alone."""
-    return power(level) if 0.0 < level < 1e-3 else f"{level:g}"
+    """A level alone, thousands as k."""
+    if level >= 1000.0:
+        return f"{level / 1000.0:g}k"
+    return f"{level:g}"

@@ -68,8 +68,8 @@ def noise(attitude: pd.DataFrame, rate: pd.DataFrame) -> dict:
 
 
 @needs(
-    "n agree told known blind blind_free middle blind_middle memory_middle stuck least most constant chord chord_least "
-    "chord_exact faster hybrid hybrid_deg delta mrp mrp_deg switch"
+    "n agree told known minding blind blind_free middle blind_middle memory_middle stuck least most chord "
+    "chord_least chord_exact faster hybrid hybrid_deg delta late late_deg mrp mrp_deg switch"
 )
 def half_turn(rows: pd.DataFrame) -> dict:
     """Of the page on the worst noise at the half turn."""

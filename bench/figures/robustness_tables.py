@@ -36,15 +36,20 @@ def _time(rows: pd.DataFrame) -> str:
     median, worst = (float(quantile(rows["time_s"].to_numpy(), level)) for level in (0.5, 1.0))
     lost = int((~rows["good"]).sum())
     if lost:
-        times = "" if np.isinf(median) else f"{median:.2f}; "
-        return f"{times}{lost} of {len(rows)} fail" if lost < len(rows) else "all fail"
+        return (
+            "all fail" if lost == len(rows) else f"{lost} fail" if np.isinf(median) else f"{median:.2f} ({lost} fail)"
+        )
     return f"{median:.2f}, {worst:.2f}"
 
 
 def _error(rows: pd.DataFrame) -> str:
     median, worst = (DEG * float(quantile(rows["tail_rms_rad"].to_numpy(), level)) for level in (0.5, 1.0))
     lost = int((~rows["good"]).sum())
-    return f"{median:.2g}; {lost} of {len(rows)} lost" if lost else f"{median:.2g}, {worst:.2g}"
+    return f"{_degrees(median)} ({lost} lost)" if lost else f"{_degrees(median)}, {_degrees(worst)}"
+
+
+def _degrees(angle: float) -> str:
+    return f"{angle:.2g}" if angle < 10.0 else f"{angle:.0f}"
 
 
 def costs(rows: pd.DataFrame, name: str) -> html.Markdown:

@@ -13,6 +13,7 @@ import numpy as np
 from scipy.linalg import solve_discrete_lyapunov
 from scipy.signal import lsim
 
+from bench.engines.disturbed import LEAD
 from bench.figures.isotropic import Equation
 from tasks.condition import RATE, UNTOLD
 from tasks.moving_goal import sway_rates
@@ -150,26 +151,24 @@ def is_held(equation: Equation, kp: float, kv: float, beyond: float, period_s: f
     """Whether the worst noise holds a law at the half turn: its scalar equation, asked every tick and told a lie.
 
     x is the angle by which the body has left the half turn, of either sign. Within `beyond` of it the law is told
-    x - beyond sgn x; it leaves once |x| is more.
+    x - beyond sgn(x + LEAD h x'), with the side where the body is about to be; it leaves once |x| is more.
     """
     h, x, v = period_s, 0.0, 0.0
     for _ in range(LEAVING_TICKS):
         if abs(x) > beyond:
             return False
-        told = x - math.copysign(beyond, x)
+        told = x - math.copysign(beyond, x + LEAD * h * v)
         side, angle = math.copysign(1.0, told), math.pi - abs(told)
-        # the angle is pi - |told|: what shrinks it drives the body out on the side where it is believed to be
+        # the angle is pi - |told|: what shrinks it drives the body out on the side where it seems to be
         outward = kp * equation.spring(angle) - equation.added(angle, -side * v, kp, kv)
         u = side * outward - kv * v
         x, v = x + h * v + 0.5 * h * h * u, v + h * u
     return True
 
 
-def escape_constant() -> float:
-    """c of the least noise c U/(Kv f) that holds a law of jump 2 U at a control rate f, where Kv/f is small."""
-    kv, h, x, v, farthest = 1.0, 1e-2, 0.0, 0.0, 0.0
-    for _ in range(3000):
-        u = -math.copysign(1.0, x) - kv * v
-        x, v = x + h * v + 0.5 * h * h * u, v + h * u
-        farthest = max(farthest, abs(x))
-    return farthest * kv / h
+def two_ticks(push: float, kv: float, period_s: float = STEP_S) -> float:
+    """Angle [rad] that a body is driven from the half turn before a jump of 2 `push` brakes it: U h^2 (1 - Kv h/2).
+
+    One tick of U, before the law can be told of any motion, makes the rate U h; the next, of -U - Kv U h, takes it.
+    """
+    return push * period_s * period_s * (1.0 - 0.5 * kv * period_s)

@@ -1,0 +1,258 @@
+"""Closed forms of the pages on trouble, against what they solve; the pages' figures and numbers, from a small run."""
+
+import cmath
+import functools
+import math
+import re
+
+import numpy as np
+import pytest
+
+pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
+
+from bench import plan, results, run
+from bench.choice import Choice
+from bench.discovery import find_contender
+from bench.figures import (
+    absent,
+    closed_form,
+    isotropic,
+    robustness_bundle,
+    robustness_half_turn,
+    robustness_levels,
+    robustness_loops,
+    robustness_margins,
+    robustness_reach,
+    robustness_rows,
+    robustness_said,
+    robustness_tables,
+    robustness_theory,
+    style,
+)
+from tasks.condition import RATE, RATE_AND_ACCELERATION, UNTOLD
+
+KP, KV, TOLERANCE = 100.0, 20.0, robustness_rows.TOLERANCE
+LAWS = ("rotation-vector", "paielli-bach", "hybrid", "quaternion-shortest", "quaternion-unwinding")
+STARTS = 2
+
+
+@pytest.mark.parametrize("stiffness", [0.2, 1.0, 30.0])
+def test_loop_of_the_delay_margin_is_on_the_edge_of_stability(stiffness):
+    s = 1j * robustness_theory.crossover(KP, KV, stiffness)
+    delay = robustness_theory.delay_margin(KP, KV, stiffness)
+    assert (KV * s + stiffness * KP) / s**2 * cmath.exp(-s * delay) == pytest.approx(-1.0, abs=1e-12)
+
+
+@pytest.mark.parametrize("stiffness", [1.0, 30.0])
+def test_sampled_loop_is_on_the_edge_of_stability_at_the_least_rate(stiffness):
+    rate = robustness_theory.least_rate(KP, KV, stiffness)
+    for factor, is_stable in ((0.999, False), (1.001, True)):
+        A, _ = robustness_theory.sampled(stiffness * KP, KV, 1.0 / (factor * rate))
+        assert (np.abs(np.linalg.eigvals(A)).max() < 1.0) == is_stable
+
+
+@pytest.mark.parametrize("inertia", [0.5, 1.0, 1.4])
+def test_loop_sampled_fast_settles_as_the_continuous_one(inertia):
+    stepped = robustness_theory.settling(KP, KV, TOLERANCE, period_s=1e-5, inertia=inertia)
+    assert stepped == pytest.approx(closed_form.linear_settling(KP / inertia, KV / inertia, TOLERANCE), abs=1e-4)
+
+
+def test_loop_with_a_delay_beyond_its_margin_never_settles():
+    margin = robustness_theory.delay_margin(KP, KV)
+    assert robustness_theory.settling(KP, KV, TOLERANCE, delay_s=0.8 * margin) < robustness_theory.LONGEST_S
+    assert robustness_theory.settling(KP, KV, TOLERANCE, delay_s=1.1 * margin) == math.inf
+
+
+@pytest.mark.parametrize(("attitude", "rate"), [(0.01, 0.0), (0.0, 0.3)])
+def test_noise_leaves_what_a_drawn_sequence_leaves(attitude, rate):
+    A, B = robustness_theory.sampled(KP, KV, 0.01)
+    noise = np.random.default_rng(5).standard_normal((400, 2, 300)) * np.array([[attitude], [rate]])
+    state, squares = np.zeros((2, 300)), []
+    for drawn in noise:
+        state = A @ state + B @ drawn
+        squares.append(3.0 * (state[0] ** 2).mean())
+    # the first 200 ticks are twenty time constants; of the rest some thousand values are independent: 2 % of the root
+    expected = robustness_theory.noisy_rms(KP, KV, 0.01, attitude, rate)
+    assert math.sqrt(np.mean(squares[200:])) == pytest.approx(expected, rel=0.05)
+
+
+def test_jitter_is_the_mean_length_of_drawn_differences():
+    noise = np.random.default_rng(7).standard_normal((100_000, 2, 3)) * np.array([[0.01], [0.1]])
+    u = KP * noise[:, 0] + KV * noise[:, 1]
+    assert np.linalg.norm(np.diff(u, axis=0), axis=1).mean() == pytest.approx(
+        robustness_theory.jitter(KP, KV, 0.01, 0.1), rel=0.01
+    )
+
+
+def test_lag_behind_a_slow_goal_told_nothing_is_the_frequency_response():
+    # both axes sway at peak rates of 1/sqrt(2), with 2 and 3.1 rad/s (tasks/moving_goal.py), five seconds from t = 0
+    times = np.linspace(4.0, 5.0, 2000)
+    squares = 0.0
+    for rate in (2.0, 3.1):
+        s = 1j * rate
+        gain = (s**2 + KV * s) / (s**2 + KV * s + KP) / rate * math.sqrt(0.5)
+        squares = squares + (gain * np.exp(s * times)).imag ** 2
+    found = robustness_theory.swaying_rms(KP, KV, UNTOLD, 1e-3, 5.0)
+    assert found == pytest.approx(math.sqrt(squares.mean()), rel=2e-3)
+
+
+def test_each_thing_told_of_a_goal_makes_the_error_smaller():
+    errors = [robustness_theory.swaying_rms(KP, KV, told, 1e-3, 5.0) for told in (UNTOLD, RATE, RATE_AND_ACCELERATION)]
+    assert errors[0] > 5.0 * errors[1] > 500.0 * errors[2]
+
+
+def test_least_settling_time_is_reached_by_full_thrust_and_full_brakes():
+    angle, bound = 2.0, 30.0
+    turned = math.sqrt((1.0 + TOLERANCE) * angle / bound)
+    left, speed = angle - 0.5 * bound * turned**2, bound * turned
+    braking = robustness_theory.least_settling(angle, bound, TOLERANCE) - turned
+    left, speed = left - speed * braking + 0.5 * bound * braking**2, speed - bound * braking
+    assert left == pytest.approx(TOLERANCE * angle)  # enters the band, and stops at its far edge:
+    assert left - 0.5 * speed**2 / bound == pytest.approx(-TOLERANCE * angle)
+
+
+def test_paielli_bach_turns_its_spring_round_at_the_angle_where_blindness_lets_it():
+    blind = 0.05
+    angle = robustness_theory.reversal_angle(KP, blind)
+    speed = 2.0 * KP * math.tan(angle / 2.0) * blind
+    assert 2.0 * KP - 0.5 * speed**2 == pytest.approx(0.0, abs=1e-9)
+
+
+@pytest.mark.parametrize(("factor", "is_held"), [(0.99, False), (1.01, True)])
+def test_noise_holds_a_law_of_constant_force_if_it_is_more_than_two_ticks_of_it(factor, is_held):
+    push = isotropic.Equation("1", lambda theta: 1.0)
+    assert robustness_theory.is_held(push, KP, KV, factor * robustness_theory.two_ticks(KP, KV)) == is_held
+
+
+def test_law_whose_command_vanishes_at_the_half_turn_is_held_by_any_noise():
+    assert robustness_half_turn.least("rotation-matrix", KP, KV) == 0.0
+
+
+def test_memory_ends_where_its_hysteresis_does():
+    # eta = cos(theta/2) at -delta; the trace at 0; |sigma| = tan(theta/4) at sqrt(switch)
+    assert math.cos((math.pi + robustness_half_turn.KEEPS["hybrid"]) / 2.0) == pytest.approx(-0.4)
+    assert 1.0 + 2.0 * math.cos(math.pi + robustness_half_turn.KEEPS["late-braking"]) == pytest.approx(0.0)
+    assert math.tan((math.pi + robustness_half_turn.KEEPS["mrp-linearized"]) / 4.0) ** 2 == pytest.approx(1.5)
+
+
+def test_stiffness_near_the_goal_is_one_for_every_law():
+    for law in isotropic.EQUATIONS:
+        assert robustness_margins.stiffness(law, 1e-3) == pytest.approx(1.0, abs=1e-5)
+
+
+# ---------------------------------------------------------------------------------------------- pages, from a small run
+
+
+@functools.cache
+def along(name):
+    return robustness_rows.along(name)
+
+
+def loops(name):
+    return robustness_levels.levels(
+        along(name), name, robustness_levels.TIME, robustness_loops.theory(along(name), name)
+    )
+
+
+def swaying():
+    strands = [
+        robustness_bundle.Strand(name, along(name), robustness_said.sway_theory(along(name), name))
+        for name in robustness_said.MOVING
+    ]
+    return robustness_bundle.bundle(strands)
+
+
+FIGURES = {
+    "overview": lambda: robustness_reach.overview(robustness_reach.reaches()),
+    "delay": lambda: loops("delay"),
+    "inertia": lambda: loops("inertia"),
+    "half-turn": lambda: robustness_half_turn.strips(along("half-turn-noise")),
+    "moving-goals": swaying,
+}
+FACTS = {
+    "overview": lambda: robustness_said.overview(along("delay"), robustness_reach.reaches()),
+    "control-rate": lambda: robustness_loops.loop(along("control-rate"), "control-rate"),
+    "delay": lambda: robustness_loops.loop(along("delay"), "delay"),
+    "noise": lambda: robustness_said.noise(along("attitude-noise"), along("rate-noise")),
+    "half-turn": lambda: robustness_said.half_turn(along("half-turn-noise")),
+    "saturation": lambda: robustness_said.saturation(robustness_said.over_least(along("saturation")), along("delay")),
+    "inertia": lambda: robustness_loops.inertia(along("inertia"), along("uneven-inertia")),
+    "spin": lambda: robustness_said.spin(robustness_said.turned(along("spin"))),
+    "moving": lambda: robustness_said.moving(*(along(name) for name in robustness_said.MOVING)),
+}
+
+
+@pytest.fixture(scope="module", autouse=True)
+def small_run(tmp_path_factory):
+    """A folder of results with two starts a level of five laws, which bench.results reads while this module runs."""
+    choice = Choice(axes=tuple(robustness_reach.PAGES))
+    made = plan.make("quick", [find_contender(law) for law in LAWS], choice, count=STARTS)
+    folder = tmp_path_factory.mktemp("robustness") / "run"
+    run.run(made, folder)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv(results.VARIABLE, str(folder))
+        yield folder
+
+
+@functools.cache
+def drawn(name):
+    return FIGURES[name]()
+
+
+@pytest.mark.parametrize("name", FIGURES)
+def test_figure_says_its_numbers_and_is_drawn_for_a_phone_too(name):
+    assert len(re.findall(r"\d", drawn(name).alt)) > 5
+    assert drawn(name).narrow not in ("", drawn(name).wide)
+
+
+@pytest.mark.parametrize("name", FIGURES)
+def test_figure_uses_colours_of_the_palette_only(name):
+    twins = {colour.lower() for pair in style.TWINS.items() for colour in pair}
+    for svg in (drawn(name).wide, drawn(name).narrow):
+        assert {colour.lower() for colour in re.findall(r"#[0-9a-fA-F]{6}\b", svg)} <= twins
+
+
+@pytest.mark.parametrize("name", FACTS)
+def test_every_page_finds_its_numbers(name):
+    values = FACTS[name]()
+    assert all("nan" not in str(value) and absent.WORDS not in str(value) for value in values.values()), values
+
+
+@pytest.mark.parametrize("name", FACTS)
+def test_page_says_so_for_every_number_when_a_run_was_in_no_trouble(name, monkeypatch):
+    found = FACTS[name]()
+    monkeypatch.setitem(globals(), "along", lambda _: robustness_rows.along("delay").iloc[:0])
+    assert FACTS[name]() == dict.fromkeys(found, absent.WORDS)
+
+
+def test_tables_have_a_column_for_each_level_and_a_line_for_each_law():
+    lines = robustness_tables.levels(along("delay"), "delay").splitlines()
+    assert lines[0].count("|") == 2 + len(robustness_rows.levels(along("delay")))
+    assert sum("03-regulators.html#" in line for line in lines) == len(LAWS)
+
+
+def test_rotation_vector_is_the_linear_loop_from_rest_at_every_level_and_angle():
+    for name in ("control-rate", "delay", "inertia"):
+        assert robustness_loops.farthest_ms(along(name), name) == pytest.approx(0.0, abs=1e-6)
+
+
+def test_no_law_settles_sooner_than_the_bound_on_its_command_allows():
+    assert robustness_said.over_least(along("saturation"))["over_least"].min() >= 1.0
+
+
+def test_theory_says_which_laws_the_worst_noise_holds_at_the_half_turn():
+    found = robustness_half_turn.facts(along("half-turn-noise"))
+    assert found["agree"] == found["told"] > 0
+
+
+def test_paielli_bach_loses_only_starts_that_its_blindness_explains():
+    for name in ("control-rate", "delay"):
+        assert robustness_margins.is_within(along(name), name)
+
+
+def test_law_gives_way_at_the_first_level_that_costs_it_starts():
+    walk = next(one for one in robustness_reach.WALKS if one.axis == "half-turn-noise")
+    held = robustness_reach.reach(along(walk.axis), "quaternion-shortest", walk)
+    assert held.level == 0.001
+    assert robustness_reach.reach(along(walk.axis), "hybrid", walk).level == 1.0
+    assert robustness_reach.reach(along(walk.axis), "paielli-bach", walk).fails
