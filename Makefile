@@ -17,7 +17,7 @@ LIBRARIES := .venv-libraries
 
 # More words for the command behind a target: make bench ARGS="--workers 4", make test ARGS="-k so3"
 ARGS ?=
-# Test processes; tests of one file share one, so each law is compiled once.
+# Test processes; tests of one file share one, so each law is compiled once. Which files begin: tests/conftest.py.
 JOBS ?= auto
 
 # The first Python on the path that the lock covers; PYTHON=... overrides.
@@ -55,7 +55,7 @@ setup: $(BASE)
 ##@ Develop
 test:   ## run the tests (ARGS="-k so3" for some, -m 'not slow' for the fast ones)
 test: $(DEV)
-	@$(PY) -m pytest -q -n $(JOBS) --maxprocesses 8 --dist loadfile $(ARGS)
+	@$(PY) -m pytest -q -n $(JOBS) --maxprocesses 8 --dist loadfile --no-loadscope-reorder $(ARGS)
 
 check:  ## all that must hold before a merge: lint, gate, report, test
 check: lint gate report test

@@ -1,10 +1,21 @@
-"""A finished run that tests copy and spoil."""
+"""A finished run that tests copy and spoil; and which files are begun first."""
 
 import shutil
 
 import pytest
 
 from bench import plan as planning
+
+LONG = (
+    *("test_growing", "test_arm_engines", "test_contact_engines", "test_every_regulator", "test_resume"),
+    *("test_every_arm_start_set", "test_claims_of_controllers", "test_report_in_browser"),
+)
+"""Files that take longest: begun last, one would be left to a single process while the others wait."""
+
+
+def pytest_collection_modifyitems(items):
+    """The long ones first, longest of all in front."""
+    items.sort(key=lambda item: LONG.index(item.path.stem) if item.path.stem in LONG else len(LONG))
 
 
 @pytest.fixture(scope="module")
