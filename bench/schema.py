@@ -10,7 +10,7 @@ from bench.provenance import ROOT
 VERSION = "2"
 WORD, NUMBER, COUNT = pa.dictionary(pa.int32(), pa.string()), pa.float64(), pa.int64()
 SINGLE = pa.float32()
-"""Where seven digits are enough: sizes of what is nearly zero, and condition numbers."""
+"""Where seven digits are enough: sizes of what is nearly zero, condition numbers, measures of laws in trouble."""
 
 
 class Column(NamedTuple):
@@ -196,7 +196,12 @@ def robustness_columns() -> list[Column]:
     The plant moves between commands, which are held; every metric of the free body adds its column, over the plant's
     steps. Of an episode that ended early, what is left in its tail is the final angle.
     """
-    measured = [Column(one.column, NUMBER, one.unit, one.title) for one in metrics_of(on_arm=False)]
+    measured = [Column(one.column, SINGLE, one.unit, one.title) for one in metrics_of(on_arm=False)]
+    left = {
+        "tail_rms_rad": ("rad", "root of the mean squared angle to the goal over the last second"),
+        "tail_max_rad": ("rad", "largest angle to the goal in the last second"),
+        "variation": ("rad/s^2", "variation of the command: sum of |u - u before| over control periods"),
+    }
     return [
         *_words(
             suite="plan the row belongs to",
@@ -213,9 +218,7 @@ def robustness_columns() -> list[Column]:
         *_numbers("s", "longest time simulated", "horizon_s"),
         *JUDGED,
         *measured,
-        *_numbers("rad", "root of the mean squared angle to the goal over the last second", "tail_rms_rad"),
-        *_numbers("rad", "largest angle to the goal in the last second", "tail_max_rad"),
-        *_numbers("rad/s^2", "variation of the command: sum of |u - u before| over control periods", "variation"),
+        *(Column(name, SINGLE, unit, meaning) for name, (unit, meaning) in left.items()),
     ]
 
 
