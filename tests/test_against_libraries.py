@@ -90,6 +90,16 @@ def shortest(of_turn):
     return called
 
 
+def braking_late(double):
+    """(1 + cos(theta/2)^2) sin(theta/2) k from a function that gives 2 sin(theta/2) k."""
+
+    def called(turn):
+        eps = 0.5 * double(turn)
+        return (2.0 - eps @ eps) * eps
+
+    return called
+
+
 def mujocos_quaternion(turn):
     quat_wxyz = np.empty(4)
     mujoco.mju_mat2Quat(quat_wxyz, turn.R.ravel())
@@ -114,6 +124,8 @@ ORACLES = {
     "rotation-vector": ROTATION_VECTORS,
     **dict.fromkeys(("quaternion-shortest", "square-root", "hybrid", "sliding", "mrp-linearized"), QUATERNIONS),
     "mrp": {"scipy": asked("scipy", "4 as_mrp")},
+    "in-engine": {"orientation-actuator": ROTATION_VECTORS["orientation-actuator"]},
+    "late-braking": {name: braking_late(oracle) for name, oracle in QUATERNIONS.items()},
 }
 PAIRS = [(law, oracle) for law, oracles in ORACLES.items() for oracle in oracles]
 

@@ -15,7 +15,7 @@ from bench.libraries.library import QUATERNION, Function
 from bench.libraries.turns import Turn, TurnSet
 
 NOUGHT = 1e-6
-"""An answer smaller than this times the angle drives nothing: seven decades below what is asked for."""
+"""An answer smaller than this times the angle is none: six decades below what is asked for."""
 ASTRAY_RAD = 0.1
 """Angle between an answer and the axis beyond which it is no error in that direction, 6 degrees: no form bends so."""
 
