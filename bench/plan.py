@@ -1,6 +1,7 @@
 """A plan: the units of one run, from a suite and what the user narrowed or widened it to."""
 
 import dataclasses
+import functools
 import hashlib
 import json
 from dataclasses import dataclass
@@ -167,7 +168,12 @@ def make(
     chosen, choice = suite(suite_word), choice.checked()
     every_task = _tasks(choice, laws)
     placed = _on_free_body(chosen, laws, every_task, choice) + _on_arms(chosen, laws, every_task, choice)
-    units = tuple(unit for place in placed for unit in _units(place, count, seed, horizon_s))
+    number = functools.cache(lambda word, size, arm: len(tasks.start_set(word, size, seed, arm=arm)))
+    units = tuple(
+        unit
+        for place in placed
+        for unit in _units(place, number(place.part.start_set, count or place.part.size, place.arm), horizon_s)
+    )
     contacts = contact_plan.units(chosen.in_contact, choice, count, horizon_s)
     troubles = robustness_plan.units(chosen.robustness, laws, choice, count, horizon_s)
     if every_task and not units:
@@ -314,9 +320,8 @@ def _narrowed(slices, choice: Choice):
     )
 
 
-def _units(place: Place, count, seed, horizon_s):
+def _units(place: Place, total: int, horizon_s):
     part = place.part
-    total = len(tasks.start_set(part.start_set, count or part.size, seed, arm=place.arm))
     step = (ARM_CHUNK if place.arm else CHUNK)[part.engine]
     for first in range(0, total, step):
         yield Unit(
