@@ -93,7 +93,8 @@ def strips(rows: pd.DataFrame, narrow: bool):
         )
     axes.set(xscale="log", xlim=(FOOT, TOP), ylim=(len(laws) - 0.4, -0.6), xlabel="worst noise at the half turn [rad]")
     axes.set_yticks(range(len(laws)), map(families.word, laws), fontsize=9)
-    axes.set_xticks(list(shares.index), [f"{level:g}" for level in shares.index])
+    # 0.3 and its like lie too close to their neighbours on a phone
+    axes.set_xticks(list(shares.index), ["" if narrow and f"{x:g}"[-1] == "3" else f"{x:g}" for x in shares.index])
     axes.minorticks_off()
     axes.tick_params(axis="y", length=0)
     axes.grid(visible=False, axis="y")
@@ -138,7 +139,7 @@ def table(rows: pd.DataFrame) -> html.Markdown:
 
 
 def _noise(value: float) -> str:
-    return "any" if value == 0.0 else power(value) if value < 1e-3 else f"{value:.2g}"
+    return "any" if value == 0.0 else power(value) if value < 1e-3 else f"{value:.3g}"
 
 
 def measured(shares: pd.Series) -> str:

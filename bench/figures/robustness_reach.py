@@ -8,6 +8,7 @@ starts go well without any trouble has nothing to lose: it fails.
 from __future__ import annotations
 
 import functools
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
@@ -15,6 +16,7 @@ import pandas as pd
 from matplotlib.patches import Rectangle
 
 import tasks
+from bench import results
 from bench.figures import families, html, robustness_rows, style
 from bench.figures.inline import responsive_picture
 from bench.statistics import quantile
@@ -109,9 +111,13 @@ def _at(rows: pd.DataFrame) -> tuple[float, float]:
     return float(rows["good"].mean()), float(quantile(rows["time_s"].to_numpy(), 0.5))
 
 
-@functools.cache
 def rows_of(name: str) -> pd.DataFrame:
     """An axis's rows, read once a page."""
+    return _rows_of(name, results.folder())
+
+
+@functools.cache
+def _rows_of(name: str, _: Path) -> pd.DataFrame:
     return robustness_rows.along(name)
 
 
