@@ -38,7 +38,7 @@ C27 = claim(
     """,
     open="""
         The paper asks for 'better' without a number; C17's numbers are kept, so nothing was chosen to let a
-        law in or out. (f) is the price of memory: without it no law can have (e) and (f) both (Bhat and
+        law in or out. Memory is the price of (f): without it no law can have (e) and (f) both (Bhat and
         Bernstein 2000; Mayhew, Sanfelice and Teel 2011). Operation counts were known when this was written;
         no episode had been judged by it. The property is tested on samples: it is no proof.
     """,
