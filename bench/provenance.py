@@ -1,5 +1,6 @@
 """Where numbers come from: sources, versions, machine, command."""
 
+import functools
 import hashlib
 import importlib.metadata
 import os
@@ -14,8 +15,12 @@ READERS = ("answer", "figures", "claims", "cli", "compare", "libraries", "result
 VERSIONED = ("mujoco", "dm-control", "numpy", "scipy", "numba", "llvmlite", "pandas", "pyarrow")
 
 
+@functools.cache
 def source_digest() -> str:
-    """Sixteen hex digits over every source that results depend on, and the versions of what they are computed with."""
+    """Sixteen hex digits over every source that results depend on, and the versions of what they are computed with.
+
+    Of the sources as they were when first asked for, which is when the engines are imported.
+    """
     digest = hashlib.sha256()
     for room in ("bench", "tasks"):
         for path in sorted((ROOT / room).rglob("*")):

@@ -171,9 +171,8 @@ def while_clearing(wanted: Undisturbed, folder: Path) -> list[dict]:
 
 
 def remember() -> None:
-    """Count each law, and follow each plan's traces and boundaries, once for all forks."""
-    once = functools.cache(lambda one, rows=counting.rows: tuple(rows([one])))
-    counting.rows = lambda laws: [row for one in laws for row in once(one)]
+    """Count the laws of the plans, and follow each plan's traces and boundaries, once for all forks."""
+    run.all_contenders = lambda: LONG.laws
     counting.rows_on_arm = functools.cache(counting.rows_on_arm)
     traces.run, alone, poses.run = map(functools.cache, (traces.run, boundary.run, poses.run))
     boundary.run = lambda plan, pool: alone(plan)

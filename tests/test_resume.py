@@ -34,7 +34,7 @@ def python(*words, **options):
 def killed(tmp_path_factory):
     """What `killed_runs` found."""
     done = python("-W", "ignore", ROOT / "tests" / "killed_runs.py", tmp_path_factory.mktemp("killed"))
-    out, err = done.communicate(timeout=300)
+    out, err = done.communicate(timeout=900)
     assert done.returncode == 0, err
     return json.loads(out)
 
