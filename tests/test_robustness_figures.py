@@ -30,8 +30,9 @@ from bench.figures import (
     style,
 )
 from tasks.condition import RATE, RATE_AND_ACCELERATION, UNTOLD
+from tasks.rules import RULES
 
-KP, KV, TOLERANCE = 100.0, 20.0, robustness_rows.TOLERANCE
+KP, KV, TOLERANCE = 100.0, 20.0, RULES.tolerance
 LAWS = ("rotation-vector", "paielli-bach", "hybrid", "quaternion-shortest", "quaternion-unwinding")
 STARTS = 2
 

@@ -11,26 +11,21 @@ import pandas as pd
 import tasks
 from bench.figures import families, robustness_margins, robustness_rows, robustness_theory
 from bench.figures.robustness_words import DEG, ends, losses, medians, needs, signed, slower
+from tasks.rules import RULES
 
 EXACT = "rotation-vector"
-
 """The law that is the linear loop from rest at every angle."""
 
 
-def theory_of(name: str, kp: float, kv: float) -> Callable[[float], float]:
-    """Level -> settling time of the linear loop [s] along an axis that it can be put on."""
-    settling = functools.partial(robustness_theory.settling, kp, kv, robustness_rows.TOLERANCE)
+def theory(rows: pd.DataFrame, name: str) -> Callable[[float], float]:
+    """Level -> settling time of the linear loop with the rows' gains [s], along an axis that it can be put on."""
+    settling = functools.partial(robustness_theory.settling, *robustness_rows.gains(rows), RULES.tolerance)
     return {
         "control-rate": lambda level: settling(period_s=1.0 / level),
         "delay": lambda level: settling(delay_s=level),
         "inertia": lambda level: settling(inertia=level),
         "uneven-inertia": lambda level: max(settling(inertia=1.0 - level), settling(inertia=1.0 + level)),
     }[name]
-
-
-def theory(rows: pd.DataFrame, name: str) -> Callable[[float], float]:
-    """`theory_of` the rows' gains."""
-    return theory_of(name, *robustness_rows.gains(rows))
 
 
 def farthest_ms(rows: pd.DataFrame, name: str) -> float:

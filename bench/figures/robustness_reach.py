@@ -19,6 +19,7 @@ import tasks
 from bench import results
 from bench.figures import families, html, robustness_rows, style
 from bench.figures.inline import responsive_picture
+from bench.figures.robustness_words import listed
 from bench.statistics import quantile
 
 LOST, SLOWED = 0.05, 1.5
@@ -121,10 +122,10 @@ def _rows_of(name: str, _: Path) -> pd.DataFrame:
     return robustness_rows.along(name)
 
 
-def reaches(walks: tuple[Walk, ...] = WALKS) -> dict[str, list[Reach]]:
+def reaches() -> dict[str, list[Reach]]:
     """law -> how far it goes along each way; laws family by family."""
     found: dict[str, list[Reach]] = {}
-    for walk in walks:
+    for walk in WALKS:
         rows = rows_of(walk.axis)
         for law in robustness_rows.laws(rows):
             found.setdefault(law, []).append(reach(rows, law, walk))
@@ -173,11 +174,12 @@ def _cells(axes, groups, found: dict[str, list[Reach]], part: slice) -> None:
 
 
 def _cell(axes, column: int, place: float, one: Reach) -> None:
-    is_fine = one.level is None and not one.fails
     depth = 1.0 if one.fails else 1.0 - one.step / max(1, one.steps)
-    colour, strength = (FINE, 0.35) if is_fine else (style.MUTED, 0.5) if one.fails else (FAULT, 0.25 + 0.6 * depth)
+    colour, strength = (
+        (FINE, 0.35) if _is_fine(one) else (style.MUTED, 0.5) if one.fails else (FAULT, 0.25 + 0.6 * depth)
+    )
     axes.add_patch(Rectangle((column + 0.03, place + 0.05), 0.94, 0.9, color=colour, alpha=strength, linewidth=0))
-    word = "" if is_fine else "fails" if one.fails else f"{one.level:g}".removeprefix("0")
+    word = "" if _is_fine(one) else "fails" if one.fails else f"{one.level:g}".removeprefix("0")
     axes.text(column + 0.5, place + 0.52, word, ha="center", va="center", fontsize=8)
 
 
@@ -186,7 +188,7 @@ def gives_way(own: list[Reach]) -> str:
     parts = [
         f"{walk.words} ({'fails' if one.fails else f'at {one.level:g}'})"
         for walk, one in zip(WALKS, own, strict=True)
-        if one.fails or one.level is not None
+        if not _is_fine(one)
     ]
     return ", ".join(parts)
 
@@ -220,12 +222,6 @@ def facts(found: dict[str, list[Reach]]) -> dict:
 
 def _is_fine(one: Reach) -> bool:
     return one.level is None and not one.fails
-
-
-def listed(words) -> str:
-    """The words with commas and an "and"."""
-    words = list(words)
-    return words[0] if len(words) == 1 else f"{', '.join(words[:-1])} and {words[-1]}"
 
 
 def axes_table() -> html.Markdown:

@@ -19,9 +19,6 @@ HELD_RAD = math.radians(3.0)
 LASTING = ("attitude-noise", "rate-noise", "moving-goal", "moving-goal-rate", "moving-goal-untold")
 """Axes whose trouble goes on."""
 
-TOLERANCE = 0.02
-"""Of the judge (tasks/rules.py)."""
-
 
 def along(name: str) -> pd.DataFrame:
     """Rows of one axis, laws family by family, with `good` and `time_s`, which is infinite where nothing settled.

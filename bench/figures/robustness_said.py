@@ -9,12 +9,11 @@ import pandas as pd
 
 from bench.figures import families, robustness_half_turn, robustness_reach, robustness_rows, robustness_theory
 from bench.figures.robustness_half_turn import UNBOUNDED
-from bench.figures.robustness_reach import listed
-from bench.figures.robustness_words import DEG, ends, losses, medians, needs, own_laws, slower
+from bench.figures.robustness_words import DEG, ends, listed, losses, medians, needs, own_laws, slower
 from tasks.condition import RATE, RATE_AND_ACCELERATION, UNTOLD
+from tasks.rules import RULES
 
 FARTHER = 1.05
-
 """Ratio of two ways from which one law turns farther than another from the same start."""
 
 
@@ -81,7 +80,7 @@ def over_least(rows: pd.DataFrame) -> pd.DataFrame:
     if rows.empty:
         return rows
     least = [
-        robustness_theory.least_settling(angle, bound, robustness_rows.TOLERANCE)
+        robustness_theory.least_settling(angle, bound, RULES.tolerance)
         for angle, bound in zip(rows["angle0_rad"], rows["level"], strict=True)
     ]
     return rows.assign(over_least=rows["time_s"] / least)

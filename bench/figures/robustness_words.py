@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import functools
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 
 import numpy as np
 import pandas as pd
 
 import tasks
 from bench.figures import absent, families, robustness_rows
+from bench.figures.share import share
 from bench.statistics import quantile
 
 DEG = 180.0 / math.pi
@@ -43,17 +44,27 @@ def medians(rows: pd.DataFrame, column: str = "time_s") -> pd.DataFrame:
     return middle.unstack()
 
 
-def losses(rows: pd.DataFrame, name: str, level: float | None = None) -> str:
-    """Who loses more starts at a level (the worst) than without trouble, in words."""
-    ends = (robustness_rows.nominal(tasks.axis(name)), robustness_rows.worst(rows, name) if level is None else level)
+def losses(rows: pd.DataFrame, name: str) -> str:
+    """From which laws fewer starts go well at the worst level than without trouble, in words, with Wilson intervals."""
+    before, after = (
+        rows[rows["level"] == level].groupby("contender", observed=True)["good"]
+        for level in (robustness_rows.nominal(tasks.axis(name)), robustness_rows.worst(rows, name))
+    )
     parts = []
     for law in own_laws(rows):
-        before, after = (int((~robustness_rows.of(rows, law, end)["good"]).sum()) for end in ends)
-        if after > before:
-            parts.append(f"{families.word(law)} {after - before} of {len(robustness_rows.of(rows, law, ends[1]))}")
+        if after.sum()[law] < before.sum()[law]:
+            kept = share(int(after.sum()[law]), int(after.size()[law]))
+            low, high = 100.0 * kept.low, 100.0 * kept.high
+            parts.append(f"{families.word(law)} ({kept.k} of {kept.n}; {low:.0f} to {high:.0f} %)")
     if not parts:
-        return "No law loses a start there that it settles without trouble."
-    return f"Starts lost there that are not lost without trouble: {'; '.join(parts)}."
+        return "No law loses a start there that goes well without trouble."
+    return f"There fewer starts go well than without trouble for {listed(parts)}."
+
+
+def listed(words: Iterable[str]) -> str:
+    """The words with commas and an "and"."""
+    *most, last = words
+    return f"{', '.join(most)} and {last}" if most else last
 
 
 def ends(rows: pd.DataFrame, name: str) -> dict:
