@@ -22,7 +22,7 @@ IN_COORDINATES = ("zyx-euler", "zyz-euler", "xyz-euler", "rotation-vector", "mrp
 LAWS = tuple(f"{law}@geometric+standard" for law in ON_ANGULAR)
 BEST = tuple(
     f"{law}@geometric+standard"
-    for law in ("late-braking", "hybrid", "mrp-linearized", "quaternion-shortest", "mrp", "rotation-vector")
+    for law in ("hybrid", "late-braking", "mrp-linearized", "quaternion-shortest", "mrp", "rotation-vector")
 )
 """The six best of the later laws, the best first, as `answer.best` finds them in the results on the free body."""
 ANALYTIC = tuple(f"feedback-linearized/{word}@analytic+standard" for word in IN_COORDINATES)

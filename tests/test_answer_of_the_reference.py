@@ -16,7 +16,7 @@ from bench.figures import answer_plane, answer_said, answer_tables, families
 from bench.schema import RESULTS
 
 FOLDER = RESULTS / "reference"
-LAW = "late-braking"
+LAW = "hybrid"
 
 
 @pytest.fixture(scope="module")
@@ -104,7 +104,7 @@ def test_page_names_every_law_and_every_need(found, decided):
 
 def test_figure_says_what_it_shows(found):
     drawn = answer_plane.plane(found, 0.58)
-    assert "late braking (" in drawn.alt
+    assert f"{families.word(LAW)} (" in drawn.alt
     assert drawn.narrow != drawn.wide
 
 
