@@ -17,20 +17,22 @@ DELTA = 0.4
 
 @kernel
 def law(R, omega, goal, gains, memory):
-    """u = 2 Kp h eps - Kv omega; memory: the quaternion h (eta, eps) of the last tick, whose side is kept."""
+    """u = 2 Kp h eps - Kv omega; memory: the quaternion (w, v) of the last tick, of any length, whose side h is kept.
+
+    Here (eta, eps) = (w, v)/(2 root): eta and eps themselves are needed nowhere.
+    """
     w, v, t = turn_quaternion(R, goal.R)
-    scale = 0.5 / sqrt(t)
+    root = sqrt(t)
     kept = memory[0] * w + memory[1] * v[0] + memory[2] * v[1] + memory[3] * v[2]
-    if kept < 0.0 and scale * w < DELTA:
-        scale = -scale
-    eta, eps = scale * w, (scale * v[0], scale * v[1], scale * v[2])
-    double = 2.0 * gains.kp
+    if kept < 0.0 and w < 2.0 * DELTA * root:
+        w, v = -w, (-v[0], -v[1], -v[2])
+    pull = gains.kp / root
     u = (
-        double * eps[0] - gains.kv * omega[0],
-        double * eps[1] - gains.kv * omega[1],
-        double * eps[2] - gains.kv * omega[2],
+        pull * v[0] - gains.kv * omega[0],
+        pull * v[1] - gains.kv * omega[1],
+        pull * v[2] - gains.kv * omega[2],
     )
-    return u, (eta, eps[0], eps[1], eps[2])
+    return u, (w, v[0], v[1], v[2])
 
 
 REGULATOR = Regulator(

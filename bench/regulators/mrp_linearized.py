@@ -20,25 +20,24 @@ def law(R, omega, goal, gains, memory):
     """u = -Kv omega + (4 Kp/(1 + sigma^2) - |omega|^2/2) sigma + omega (omega . sigma); memory: the last quaternion.
 
     Re-derived from sigmadot = -((1 - sigma^2) I + 2 [sigma]x + 2 sigma sigma^T) omega / 4, base frame; see tests.
+    Here sigma = v/(w + 2 root) and 1 + sigma^2 = 4 root/(w + 2 root).
     """
     w, v, t = turn_quaternion(R, goal.R)
-    scale = 0.5 / sqrt(t)
-    eta = scale * w
+    root = sqrt(t)
+    whole = root + root
     kept = memory[0] * w + memory[1] * v[0] + memory[2] * v[1] + memory[3] * v[2]
-    # on the sheet that was kept |sigma|^2 = (1 + eta)/(1 - eta), for this eta >= 0
-    if kept < 0.0 and 1.0 + eta < SWITCH * (1.0 - eta):
-        scale, eta = -scale, -eta
-    eps = (scale * v[0], scale * v[1], scale * v[2])
-    down = 1.0 / (1.0 + eta)
-    sigma = (down * eps[0], down * eps[1], down * eps[2])
-    spring = 4.0 * gains.kp / (1.0 + dot(sigma, sigma)) - 0.5 * dot(omega, omega)
-    along = dot(omega, sigma) - gains.kv
+    # on the sheet that was kept |sigma|^2 = (whole + w)/(whole - w), for this w >= 0
+    if kept < 0.0 and whole + w < SWITCH * (whole - w):
+        w, v = -w, (-v[0], -v[1], -v[2])
+    down = 1.0 / (w + whole)
+    spring = gains.kp / root - 0.5 * down * dot(omega, omega)
+    along = down * dot(omega, v) - gains.kv
     u = (
-        spring * sigma[0] + along * omega[0],
-        spring * sigma[1] + along * omega[1],
-        spring * sigma[2] + along * omega[2],
+        spring * v[0] + along * omega[0],
+        spring * v[1] + along * omega[1],
+        spring * v[2] + along * omega[2],
     )
-    return u, (eta, eps[0], eps[1], eps[2])
+    return u, (w, v[0], v[1], v[2])
 
 
 REGULATOR = Regulator(
