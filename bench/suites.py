@@ -162,19 +162,19 @@ SUITES = {
             + _slices("ideal-held", 5000)
             + _slices("native", 1000)
             + _slices("reference", 0, ("paper",)),
-            _slices("ideal-rk4", 1000) + _slices("native", 250, ("half-turn", "tumbling")),
-            traces=48,
+            _slices("ideal-rk4", 1000) + _slices("native", 100, ("half-turn",)),
+            traces=24,
             boundary_axes=192,
             on_arms=OnArms(
                 (*LAWS, *ANALYTIC, *TWINS, *INVERSES, *BEST),
                 _on_arms(clear=20, wrist=20, pole=32, half_turn=12, uniform=32, tumbling=12),
                 VARIED,
                 (Slice("native", "clear", 4, VARIED_S),),
-                traced=2,
+                traced=1,
                 poses=1000,
             ),
             in_contact=InContact((*COMPLIANT, *MORE_COMPLIANT)),
-            robustness=Robustness(32),
+            robustness=Robustness(24),
             in_engine=_slices("native", 1000) + _slices("reference", 0, ("paper",)),
         ),
         Suite(
