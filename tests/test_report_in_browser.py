@@ -39,9 +39,15 @@ def driver():
 
 @pytest.fixture(scope="module", params=PAGES, ids=lambda page: page.stem)
 def seen(request, driver):
-    """What one page shows in each view, with all that it asked of the network and told the console."""
+    """What one page shows in two views, with all that it asked of the network and told the console.
+
+    Each page is seen in both themes and at both widths; pages take turns in which goes with which.
+    """
     facts = {}
+    turn = PAGES.index(request.param) % 2
     for view in screenshots.VIEWS:
+        if (view.theme == screenshots.THEMES[turn]) != (view.width == screenshots.WIDTHS[0]):
+            continue
         screenshots.open_page(driver, request.param, view)
         facts[view] = driver.execute_script(FACTS)
     return facts, screenshots.network_requests(driver), screenshots.console_errors(driver)
