@@ -60,7 +60,8 @@ CASES = [
     for a, arm in enumerate(ARMS)
     for k, law in enumerate(LAWS.values())
     for by in (ways(law)[(a + k) % len(ways(law))],)
-    if law.regulator.property != "none"  # one that claims nothing has no response to compare
+    # one that claims nothing has no response to compare, and MuJoCo's actuator turns the free body alone
+    if law.regulator.property != "none" and not law.regulator.in_engine
 ]
 
 

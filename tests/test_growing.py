@@ -17,6 +17,8 @@ ROOT = Path(__file__).parents[1]
 
 INDEX = "# A book of one page\n\nIt cites {cite}`murphy1988`.\n"
 
+CONTENTS = "format: jb-book\nroot: index\nchapters:\n- glob: pages/*\n"
+
 DROPPED = {
     "bench/representations/dropped_coordinates.py": '''
 """Z-Y-X angles by another name."""
@@ -247,6 +249,7 @@ def tree(tmp_path_factory):
     for name in ("pyproject.toml", "CITATION.cff", "report/pages/99-references.md"):
         shutil.copy(ROOT / name, tree / name)
     (tree / "report" / "index.md").write_text(INDEX)
+    (tree / "report" / "_toc.yml").write_text(CONTENTS)  # a part without a page is refused
     return tree
 
 
