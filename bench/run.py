@@ -10,7 +10,7 @@ import importlib
 import shutil
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
 from pathlib import Path
 from typing import NamedTuple
@@ -19,6 +19,7 @@ import pandas as pd
 
 import tasks
 from bench import boundary, contact_rows, counting, poses, robustness_rows, traces
+from bench.ahead import compiling_ahead
 from bench.choice import check_workers
 from bench.contact_plan import ContactUnit, poses_of
 from bench.discovery import all_contenders, find_compliant, metrics_of
@@ -126,9 +127,16 @@ def run(
     for unit in plan.work:
         if unit.key in state.done:
             told(Progress(unit, unit.count))
-    _run_units(plan, todo, out, workers, told)
+    with compiling_ahead(_ours(plan, todo)):
+        _run_units(plan, todo, out, workers, told)
     _finish(plan, out, costs, workers, began, resumed=bool(state.done))
     return True
+
+
+def _ours(plan: Plan, todo: list[AnyUnit]) -> Iterator[str]:
+    """Contenders that a user's laws have no part in, in the order in which they run."""
+    own = {one.name for one in plan.contenders if one.regulator.origin}
+    return (unit.contender for unit in todo if unit.contender not in own)
 
 
 def _compile_own_laws(plan: Plan) -> None:

@@ -1,0 +1,64 @@
+"""Compile in a process of its own what a run needs last, while the run itself begins with what it needs first.
+
+The compiler holds Python's lock, so that threads compile one after the other. What another process compiles goes to the
+cache on disk, where the run finds it.
+"""
+
+import contextlib
+import os
+import subprocess
+import sys
+from collections.abc import Iterable, Iterator
+
+WORTH = 8
+"""Contenders from which on a process more is worth its start of some seconds."""
+
+
+@contextlib.contextmanager
+def compiling_ahead(contenders: Iterable[str]) -> Iterator[None]:
+    """While inside, another process compiles these contenders, the last one first; it is stopped at the end.
+
+    Args:
+        contenders: names of laws, of controllers of arms (with `@`) and of controllers in contact.
+    """
+    names = list(dict.fromkeys(contenders))
+    if len(names) < WORTH:
+        yield
+        return
+    quiet = subprocess.DEVNULL
+    words = [sys.executable, "-m", __name__, *reversed(names)]
+    with subprocess.Popen(words, stdin=quiet, stdout=quiet, stderr=quiet, start_new_session=True) as process:
+        try:
+            yield
+        finally:
+            process.terminate()
+
+
+def compile_one(name: str) -> None:
+    """Compile a contender of ours into the cache."""
+    from bench.discovery import all_compliants, find_contender, inverse, jacobian
+    from bench.engines import run_arm, run_contact
+    from bench.engines.run import evaluation
+
+    law, _, way = name.partition("@")
+    by, _, through = way.partition("+")
+    touching = {one.name: one for one in all_compliants()}
+    if name in touching:
+        run_contact.pointer(touching[name])
+    elif way:
+        run_arm.pointers(find_contender(law)._replace(jacobian=jacobian(by), inverse=inverse(through)))
+    else:
+        evaluation(find_contender(law))
+
+
+def main(names: list[str]) -> None:
+    """Compile one after the other, as long as the process that asked for it lives."""
+    asked_by = os.getppid()
+    for name in names:
+        if os.getppid() != asked_by:
+            return
+        compile_one(name)
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
