@@ -7,8 +7,11 @@ import pytest
 from bench import plan as planning
 
 LONG = (
-    *("test_growing", "test_arm_engines", "test_contact_engines", "test_every_regulator", "test_resume"),
-    *("test_every_arm_start_set", "test_claims_of_controllers", "test_report_in_browser"),
+    *("test_growing", "test_report_in_browser", "test_resume", "test_arm_response", "test_arm_engines"),
+    *("test_every_representation", "test_contact_engines", "test_every_regulator", "test_compliance_theory"),
+    *("test_every_jacobian", "test_impedances", "test_side_by_side_in_browser", "test_every_arm_start_set"),
+    *("test_claims_of_controllers", "test_timing", "test_every_figure", "test_command_line", "test_compiled_cache"),
+    *("test_every_task", "test_every_regulator_counted", "test_claims", "test_robustness_figures"),
 )
 """Files that take longest: begun last, one would be left to a single process while the others wait."""
 
