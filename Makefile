@@ -17,8 +17,9 @@ LIBRARIES := .venv-libraries
 
 # More words for the command behind a target: make bench ARGS="--workers 4", make test ARGS="-k so3"
 ARGS ?=
-# Test processes; tests of one file share one, so each law is compiled once. Which files begin: tests/conftest.py.
-JOBS ?= auto
+# Test processes, one more than cores, for some tests wait; tests of one file share one, so each law is compiled once.
+# Which files begin: tests/conftest.py.
+JOBS ?= $(shell $(PY) -c 'import os; print((os.cpu_count() or 1) + 1)')
 
 # The first Python on the path that the lock covers; PYTHON=... overrides.
 SUPPORTED := import sys; sys.exit(not (3, 11) <= sys.version_info[:2] <= (3, 13))

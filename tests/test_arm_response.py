@@ -54,14 +54,16 @@ def ways(law) -> tuple:
     return ("geometric",) if law.regulator.coordinate_law_in is None else ("geometric", "analytic")
 
 
-# Every law on every arm; its Jacobians take turns.
+# Every law on two arms, the paper's on all; Jacobians take turns. `test_arm_engines` has every law on every arm.
 CASES = [
     pytest.param(arm, law, by, id=f"{arm}-{law.name}-{by}")
     for a, arm in enumerate(ARMS)
     for k, law in enumerate(LAWS.values())
     for by in (ways(law)[(a + k) % len(ways(law))],)
     # one that claims nothing has no response to compare, and MuJoCo's actuator turns the free body alone
-    if law.regulator.property != "none" and not law.regulator.in_engine
+    if law.regulator.property != "none"
+    and not law.regulator.in_engine
+    and not (law.is_beyond_the_paper and (a + k // 2) % 2)
 ]
 
 
