@@ -36,19 +36,17 @@ def compiling_ahead(contenders: Iterable[str]) -> Iterator[None]:
 
 def compile_one(name: str) -> None:
     """Compile a contender of ours into the cache."""
-    from bench.discovery import all_compliants, find_contender, inverse, jacobian
+    from bench.discovery import all_compliants, find_contender
     from bench.engines import run_arm, run_contact
     from bench.engines.run import evaluation
 
-    law, _, way = name.partition("@")
-    by, _, through = way.partition("+")
     touching = {one.name: one for one in all_compliants()}
     if name in touching:
         run_contact.pointer(touching[name])
-    elif way:
-        run_arm.pointers(find_contender(law)._replace(jacobian=jacobian(by), inverse=inverse(through)))
+    elif "@" in name:
+        run_arm.pointers(find_contender(name))
     else:
-        evaluation(find_contender(law))
+        evaluation(find_contender(name))
 
 
 def main(names: list[str]) -> None:

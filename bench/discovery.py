@@ -137,20 +137,27 @@ def inverse(word: str) -> Inverse:
 
 
 def find_contender(word: str, extra: tuple[Regulator, ...] = ()) -> Contender:
-    """`regulator` or `regulator/representation`, as rows and the command line write it.
+    """`regulator[/representation][@jacobian+inverse]`, as rows and the command line write it.
 
     Errors:
-        Incompatible: no representation is named, and the regulator acts on several.
+        UnknownWord: a part that is in no list. Incompatible: no representation is named, and the regulator acts on
+        several.
     """
-    name, _, coordinates = word.partition("/")
+    law, _, way = word.partition("@")
+    name, _, coordinates = law.partition("/")
     chosen = regulator(name, extra)
-    if coordinates:
-        return contender(chosen, representation(coordinates))
     several = contenders_of(chosen)
-    if len(several) > 1:
-        choices = ", ".join(one.name for one in several)
+    if coordinates:
+        one = contender(chosen, representation(coordinates))
+    elif len(several) == 1:
+        one = several[0]
+    else:
+        choices = ", ".join(each.name for each in several)
         raise Incompatible(f"regulator '{name}' acts on several coordinates; name one: {choices}")
-    return several[0]
+    if not way:
+        return one
+    by, _, through = way.partition("+")
+    return one._replace(jacobian=jacobian(by), inverse=inverse(through))
 
 
 def all_compliants() -> list[Compliant]:

@@ -54,6 +54,9 @@ class Unit:
         return f"{self.engine}_{law}_{place}_{self.start_set}_{self.first:06d}"
 
 
+AnyUnit = Unit | ContactUnit | RobustnessUnit
+
+
 @dataclass(frozen=True)
 class Plan:
     """Everything that decides the rows of a run."""
@@ -74,7 +77,7 @@ class Plan:
     troubles: tuple[RobustnessUnit, ...] = ()
 
     @property
-    def work(self) -> tuple[Unit | ContactUnit | RobustnessUnit, ...]:
+    def work(self) -> tuple[AnyUnit, ...]:
         """All that is to be done."""
         return (*self.units, *self.contacts, *self.troubles)
 

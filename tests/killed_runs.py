@@ -17,7 +17,7 @@ import time
 from pathlib import Path
 from typing import NamedTuple
 
-from bench import boundary, counting, plan, poses, run, traces
+from bench import boundary, counting, finish, plan, poses, run, traces
 from bench.choice import Choice
 from bench.contender import Gains
 from bench.discovery import find_contender
@@ -150,7 +150,7 @@ def while_finishing(wanted: Undisturbed, folder: Path) -> list[dict]:
     """All parts are there; killed at each file operation from there to the end."""
 
     def die_first():
-        run._finish = lambda *_, **__: os.kill(os.getpid(), signal.SIGKILL)
+        run.finish = lambda *_, **__: os.kill(os.getpid(), signal.SIGKILL)
 
     ended(start(wanted.plan, folder / "finishing", 1, before=die_first))
     return at_every_file_operation(wanted, folder / "finishing")
@@ -172,7 +172,7 @@ def while_clearing(wanted: Undisturbed, folder: Path) -> list[dict]:
 
 def remember() -> None:
     """Count the laws of the plans, and follow each plan's traces and boundaries, once for all forks."""
-    run.all_contenders = lambda: LONG.laws
+    finish.all_contenders = lambda: LONG.laws
     counting.rows_on_arm = functools.cache(counting.rows_on_arm)
     traces.run, alone, poses.run = map(functools.cache, (traces.run, boundary.run, poses.run))
     boundary.run = lambda plan, pool: alone(plan)

@@ -1,0 +1,1 @@
+"""Who carries out the units of a plan."""
