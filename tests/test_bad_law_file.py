@@ -53,7 +53,7 @@ def law_text(*body: str) -> str:
         ),
         (law_text("return omega").replace("law)", "law, memory=(0, 1))"), "its memory is (0, 1)"),
         (law_text("return omega").replace("law)", "law, memory=(0.0,))"), "law(R, omega, goal, gains, memory)"),
-        (law_text("return omega").replace("law)", "law, in_engine=True)"), "MuJoCo's own actuator would run in its place"),
+        (law_text("return omega").replace("law)", "law, in_engine=True)"), "MuJoCo's own actuator would run"),
         (law_text("return (1.0, 2.0)"), "returned (1.0, 2.0); it must return a tuple of three floats"),
         (law_text("return [1.0, 2.0, 3.0]"), "returned [1.0, 2.0, 3.0]"),
         (law_text("return ('a', 'b', 'c')"), "returned ('a', 'b', 'c')"),
