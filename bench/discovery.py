@@ -194,10 +194,13 @@ def find_compliant(word: str) -> Compliant:
     return springy(springs[law], along)
 
 
-def load_law(path: Path) -> Regulator:
-    """The REGULATOR of a file outside the package.
+def load_law(path: Path, text: bytes | None = None) -> Regulator:
+    """The REGULATOR of a file outside the package. This runs the file.
 
     The module's name carries a digest of the file, so that nothing of an earlier version is ever reused.
+
+    Args:
+        text: what the file holds, if it has been read already.
 
     Errors:
         BadLaw: the file is missing, does not import, lacks REGULATOR, or its law does not return three numbers.
@@ -206,7 +209,7 @@ def load_law(path: Path) -> Regulator:
     if not path.is_file():
         raise BadLaw(f"--law {path}: there is no such file; give the path of a Python file with a constant REGULATOR")
     try:
-        text = path.read_bytes()
+        text = path.read_bytes() if text is None else text
     except OSError as error:
         raise BadLaw(f"--law {path}: it cannot be read ({error.strerror}); mend its rights") from error
     name = f"user_law_{path.stem}_{hashlib.sha256(text).hexdigest()[:12]}"

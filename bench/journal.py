@@ -10,9 +10,10 @@ import shutil
 from pathlib import Path
 from typing import NamedTuple
 
+from bench import trust
 from bench.errors import BadResults
 from bench.plan import AnyUnit, Plan
-from bench.store import check, is_leftover, read_json, write_atomically, write_json
+from bench.store import check, is_leftover, read_json, refuse_link, write_atomically, write_json
 
 TABLES = ("costs", "traces", "boundaries", "poses", "compliance", "robustness", "episodes")
 """The tables of a finished run."""
@@ -34,6 +35,8 @@ def inspect(plan: Plan, out: Path, replace: bool = False) -> State:
     out = Path(out)
     if not _content(out):
         return State(False, frozenset())
+    for path in _content(out):
+        refuse_link(path)
     if not (out / "plan.json").is_file():
         raise BadResults(f"{out}: the folder holds something else than a run of ours; choose another with --out")
     found = read_json(out / "plan.json").get("digest")
@@ -83,6 +86,8 @@ def _keep_own_laws(plan: Plan, out: Path) -> None:
         if origin:
             copy = out / "laws" / f"{name.replace('-', '_')}.py"
             write_atomically(copy, functools.partial(shutil.copyfile, origin))
+            with contextlib.suppress(OSError):  # without it the report shows the law's rows, and asks to trust it
+                trust.remember(copy.read_bytes())
 
 
 def _clear(out: Path) -> None:

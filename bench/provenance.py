@@ -10,7 +10,10 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
-READERS = ("answer", "figures", "claims", "cli", "compare", "libraries", "regress", "results", "statistics", "__main__")
+READERS = (
+    *("answer", "figures", "claims", "cli", "compare", "history", "kept_laws", "libraries", "regress", "results"),
+    *("statistics", "trust", "__main__"),
+)
 """Parts of bench/ that only read results, or concern other libraries: no number of a run depends on them."""
 VERSIONED = ("mujoco", "dm-control", "numpy", "scipy", "numba", "llvmlite", "pandas", "pyarrow")
 

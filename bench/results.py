@@ -16,8 +16,8 @@ from pathlib import Path
 import pandas as pd
 
 from bench.contender import Regulator
-from bench.discovery import known_regulators, load_law
 from bench.errors import BadResults
+from bench.kept_laws import kept_laws
 from bench.schema import RESULTS
 from bench.store import read, read_json
 
@@ -76,11 +76,10 @@ def provenance() -> dict:
     return read_json(folder() / "provenance.json")
 
 
-def own_laws() -> tuple[Regulator, ...]:
-    """The user's laws that took part in the run, from the copies it keeps; one that is now ours is left out."""
-    paths = sorted((folder() / "laws").glob("*.py"))
-    ours = known_regulators()
-    return tuple(load_law(path) for path in paths if path.stem.replace("_", "-") not in ours)
+def own_laws(run: Path | None = None) -> tuple[Regulator, ...]:
+    """The user's laws that took part in a run, see `kept_laws`; in the chosen folder's if none is named."""
+    run = run or folder()
+    return kept_laws(run, table(run, "costs"))
 
 
 @functools.cache

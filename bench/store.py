@@ -1,12 +1,16 @@
 """Results on disk: tables with their schema, written whole or not at all, checked when read.
 
 A file appears by rename after fsync, so a process killed at any moment leaves whole files only.
+
+A folder may come from anywhere. Nothing is read but parquet and JSON, which hold no code; a link is refused, so that
+nothing outside the folder is read or written; and a word holds no sign that a page or a terminal takes for its own.
 """
 
 import json
 import os
+import re
 import tempfile
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 import pandas as pd
@@ -69,17 +73,63 @@ def write_json(path: Path, content: dict) -> None:
     write_atomically(path, lambda temporary: Path(temporary).write_text(text, encoding="utf-8"))
 
 
+PLAIN = re.compile(r"[A-Za-z0-9 .,+_/~@=-]{0,200}")
+"""A word of a table: names of contenders, starts, outcomes, nothing that HTML, Markdown or TeX would read."""
+
+FREE_WORDS = ("libraries",)
+"""Tables whose words are not PLAIN: other libraries' functions, asked in this checkout, never a run's."""
+
+MOST_JSON_BYTES = 200_000_000
+"""A plan of 10^9 episodes takes half of it."""
+
+
+def refuse_link(path: Path) -> None:
+    """What lies in a results folder lies there itself.
+
+    Errors:
+        BadResults: the path is a symbolic link.
+    """
+    if path.is_symlink():
+        raise BadResults(
+            f"{path}: it is a link, and a results folder holds files of its own; put what it leads to in its place, "
+            "if you trust it"
+        )
+
+
 def read_json(path: Path) -> dict:
-    """A JSON file of ours."""
+    """A JSON file of ours.
+
+    Errors:
+        BadResults: missing, a link, too large, no object, or with texts that a terminal would obey.
+    """
+    path = Path(path)
+    refuse_link(path)
     try:
-        content = json.loads(Path(path).read_text(encoding="utf-8"))
+        if path.stat().st_size > MOST_JSON_BYTES:
+            raise BadResults(f"{path}: it has more than {MOST_JSON_BYTES:,} bytes, so it is none of ours; delete it")
+        content = json.loads(path.read_text(encoding="utf-8"))
     except FileNotFoundError:
         raise BadResults(f"{path}: there is no such file; the folder holds no run of ours") from None
-    except (OSError, ValueError) as error:
+    except (OSError, ValueError, RecursionError) as error:
         raise BadResults(f"{path}: cannot be read ({error}); delete the folder and run again") from error
     if not isinstance(content, dict):
         raise BadResults(f"{path}: it holds no JSON object, so it is none of ours; choose another folder with --out")
+    if not all(text.isprintable() for text in _texts(content)):
+        raise BadResults(f"{path}: a text in it holds signs that cannot be printed; delete the folder and run again")
     return content
+
+
+def _texts(content) -> Iterator[str]:
+    """Every text of a JSON value, names of fields too."""
+    if isinstance(content, str):
+        yield content
+    elif isinstance(content, dict):
+        for name, value in content.items():
+            yield name
+            yield from _texts(value)
+    elif isinstance(content, list):
+        for value in content:
+            yield from _texts(value)
 
 
 def as_table(frame: pd.DataFrame, table: str) -> pa.Table:
@@ -155,6 +205,7 @@ def check(path: Path, table: str) -> None:
 
 
 def _checked(path: Path, table: str, opened) -> pa.Table:
+    refuse_link(Path(path))
     try:
         arrow = opened()
     except FileNotFoundError:
@@ -169,7 +220,24 @@ def _checked(path: Path, table: str, opened) -> pa.Table:
             f"{path}: its schema is '{version}', this program reads '{VERSION}' of table '{table}'; run again into "
             "another folder with --out"
         )
+    if table not in FREE_WORDS:
+        _refuse_words(path, arrow)
     return arrow
+
+
+def _refuse_words(path: Path, arrow: pa.Table) -> None:
+    """Columns hold numbers or PLAIN words, and nothing else."""
+    for name, column in zip(arrow.schema.names, arrow.columns, strict=True):
+        kind = column.type
+        if pa.types.is_dictionary(kind) and pa.types.is_string(kind.value_type):
+            words = {word for chunk in column.chunks for word in chunk.dictionary.to_pylist()}
+        elif pa.types.is_integer(kind) or pa.types.is_floating(kind):
+            continue
+        else:
+            raise BadResults(f"{path}: column {name!r} holds {kind}, and ours hold words and numbers; delete the file")
+        for word in words:
+            if word is None or not PLAIN.fullmatch(word):
+                raise BadResults(f"{path}: {word!r} in column {name!r} is no word of ours; delete the file")
 
 
 def read(folder: Path, table: str) -> pd.DataFrame:
@@ -185,4 +253,4 @@ def read(folder: Path, table: str) -> pd.DataFrame:
         raise BadResults(f"{folder}: there is no such folder; run `make bench` (or python -m bench run) first")
     if not (folder / "provenance.json").is_file():
         raise BadResults(f"{folder}: the run there has not finished; the same `python -m bench run` command resumes it")
-    return read_arrow(folder / f"{table}.parquet", table).to_pandas()
+    return read_arrow(folder / f"{table}.parquet", table).to_pandas(ignore_metadata=True)

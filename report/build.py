@@ -58,14 +58,22 @@ def results_folder(root: Path = ROOT) -> Path:
                 f"{RESULTS_VARIABLE} names {folder}, which holds no {WRITTEN_LAST}, so no finished run "
                 "(cure: name the folder of a finished run, or unset the variable)"
             )
-        return folder
+        return without_links(folder)
     for name in ("latest", "reference"):
         if (root / "results" / name / WRITTEN_LAST).is_file():
-            return root / "results" / name
+            return without_links(root / "results" / name)
     raise CannotBuild(
         "neither results/latest nor results/reference holds a finished run "
         "(cure: make bench, then make report)"
     )
+
+
+def without_links(folder: Path) -> Path:
+    """The folder, if all in it lies there itself: a link would show, and offer, a file of this machine."""
+    for path in folder.rglob("*"):
+        if path.is_symlink():
+            raise CannotBuild(f"{path} is a link (cure: put what it leads to in its place, if you trust it)")
+    return folder
 
 
 def files_below(folder: Path, pattern: str = "*") -> Iterator[Path]:
@@ -169,7 +177,7 @@ def offer_data(results: Path, site: Path = SITE) -> None:
     pages = [page.read_text(encoding="utf-8") for page in site.rglob("*.html")]
     for name in sorted({name for page in pages for name in DATA_LINK.findall(page)}):
         source = ROOT / "results" / name if name.startswith("timings/") else results / name
-        if source.is_file():  # a link to nothing is the page check's to report
+        if source.is_file() and ".." not in Path(name).parts:  # a link to nothing is the page check's to report
             target = site / "data" / name
             target.parent.mkdir(parents=True, exist_ok=True)
             shutil.copyfile(source, target)

@@ -51,6 +51,25 @@ def test_report_says_the_cure_when_the_named_folder_is_no_run(tmp_path, monkeypa
         build.results_folder(tmp_path)
 
 
+def test_report_refuses_results_that_lead_outside(tmp_path):
+    reference = finished(tmp_path / "results" / "reference")
+    (tmp_path / "secret").write_text("secret")
+    (reference / "laws").mkdir()
+    (reference / "laws" / "secret.py").symlink_to(tmp_path / "secret")
+    with pytest.raises(build.CannotBuild, match=r"secret\.py is a link"):
+        build.results_folder(tmp_path)
+
+
+def test_data_of_a_page_come_from_the_results_and_stay_in_the_site(tmp_path):
+    results, site = finished(tmp_path / "a" / "results"), tmp_path / "b" / "site"
+    (tmp_path / "a" / "secret").write_text("secret")
+    (results / "table").write_text("ours")
+    site.mkdir(parents=True)
+    (site / "index.html").write_text('<a href="data/table"></a><a href="data/../secret"></a><a href="data//x"></a>')
+    build.offer_data(results, site)
+    assert sorted(path.name for path in (tmp_path / "b").rglob("*") if path.is_file()) == ["index.html", "table"]
+
+
 @pytest.fixture
 def tree(tmp_path, monkeypatch):
     monkeypatch.setattr(build, "ROOT", tmp_path)

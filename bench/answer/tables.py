@@ -11,7 +11,7 @@ from bench import results as published
 from bench.claims.adequacy import CALL_PRICE, DIRECTED, tallied
 from bench.claims.tables import MAIN_ENGINE, Results, settled, some
 from bench.contender import Contender
-from bench.discovery import all_contenders, contenders_of, load_law
+from bench.discovery import all_contenders, contenders_of
 
 SAMPLED = "native"
 """The engine of a law that cannot run on the continuous plant: MuJoCo's own actuator."""
@@ -95,5 +95,5 @@ def _on_arms(every: pd.DataFrame) -> pd.DataFrame:
 
 def _own(results: Results) -> list[Contender]:
     """The user's laws of the run."""
-    paths = sorted((results.folder / "laws").glob("*.py")) if results.folder else []
-    return [one for path in paths for one in contenders_of(load_law(path))]
+    laws = published.own_laws(results.folder) if results.folder else ()
+    return [one for law in laws for one in contenders_of(law)]

@@ -36,6 +36,10 @@ PROPERTIES = {
     "global with memory": "Stable from every start, with memory. No continuous law is without (Bhat & Bernstein 2000).",
     "none": "Nothing.",
 }
+UNTRUSTED = (
+    "A law of somebody else, by its rows alone: its file came with these results and was not run. If you have read it, "
+    "python -m bench trust FILE lets it run, and its card then says what it is."
+)
 COUNTED = ("flops", "sin", "cos", "atan2", "acos", "compare")
 FAILS = re.compile(r"\bFails:\s*(.*)", re.DOTALL)
 
@@ -68,8 +72,20 @@ def module(regulator: Regulator) -> ModuleType:
     return sys.modules[(regulator.law or regulator.law_in).__module__]
 
 
+def was_run(regulator: Regulator) -> bool:
+    """Whether its file was run; one that came with results from elsewhere was not (`trust`)."""
+    return bool(regulator.law or regulator.law_in)
+
+
+def file_of(regulator: Regulator) -> Path:
+    """Where its source is."""
+    return Path(module(regulator).__file__ or "") if was_run(regulator) else Path(regulator.origin)
+
+
 def said(regulator: Regulator) -> tuple[str, str]:
     """What its docstring says: what the law is, and where it fails."""
+    if not was_run(regulator):
+        return UNTRUSTED, ""
     text = typeset(" ".join((module(regulator).__doc__ or "").split()))
     found = FAILS.search(text)
     fails = found[1] if found else ""
@@ -132,7 +148,7 @@ def card(one: Contender) -> str:
 
 def source(regulator: Regulator) -> str:
     """The law's own file, folded."""
-    text = Path(module(regulator).__file__ or "").read_text(encoding="utf-8")
+    text = file_of(regulator).read_text(encoding="utf-8", errors="replace")
     code = highlight(text, PythonLexer(), HtmlFormatter(nowrap=True))
     folder = "laws" if regulator.origin else "bench/regulators"
     where = markup.escape(f"{folder}/{regulator.name.replace('-', '_')}.py")
@@ -152,7 +168,7 @@ def contents() -> html.Markdown:
         rows.append(
             {
                 "Law": f'<a href="#{anchor(one.name)}">{html.law(one.name, title_of(one))}</a>',
-                "Proved": html.together(one.regulator.property),
+                "Proved": html.together(html.foreign(one.regulator.property)),
                 "Settles": settled,
                 "On the command line": f"`{one.name}`",
             }

@@ -29,6 +29,8 @@ VERDICTS = {
 MISSING = "–"
 ROUNDED_FROM, SCIENTIFIC_FROM = 1e3, 1e9  # three figures of a number in between would read 1.23e+03
 LEADING_MINUS = re.compile(r"-[\d.\u221e]")
+TAKEN = re.compile(r"[&<>\"'\\$`*_{}\[\]|~#!^@]")
+"""What HTML, Markdown, MyST or TeX take for their own."""
 
 
 class Html(str):
@@ -61,7 +63,21 @@ def outcome(name: str) -> Html:
 def law(name: str, text: str | None = None) -> Html:
     """The name of a regulator with the colour it has in every figure."""
     light = style.look(name).colour
-    return Html(f'<span class="law"><span class="key" style="--key: {both(light)}"></span>{text or name}</span>')
+    key = f'<span class="key" style="--key: {both(light)}"></span>'
+    return Html(f'<span class="law">{key}{foreign(text or name)}</span>')
+
+
+def foreign(text: str) -> str:
+    """A text that we did not write, for HTML and for Markdown: it reads as it is, and nothing of it is markup.
+
+    An entity is a letter to Markdown; MathJax, which looks for \\( and $$ in the finished page, is stopped by a word
+    joiner, which has no width.
+    """
+
+    def spelled(sign: re.Match) -> str:
+        return f"&#{ord(sign[0])};" + ("&#8288;" if sign[0] in "\\$" else "")
+
+    return TAKEN.sub(spelled, " ".join(str(text).split()))
 
 
 def together(text: str) -> Html:
@@ -175,22 +191,23 @@ def card(
         response: what stands under the map.
         strip: a piece of HTML over the whole width, below.
     """
-    left = [f"<p>{html.escape(summary)}</p>"]
+    left = [f"<p>{foreign(summary)}</p>"]
     said = {**({"Fails": fails} if fails else {}), **(facts or {})}
-    left += [f'<p class="card-fact"><b>{label}.</b> {html.escape(text)}</p>' for label, text in said.items()]
+    left += [f'<p class="card-fact"><b>{label}.</b> {foreign(text)}</p>' for label, text in said.items()]
     if costs is not None:
         left.append(f'<div class="card-costs" tabindex="0">{plain_table(costs)}</div>')
     drawn = "".join(one._repr_html_() for one in (picture, response) if one)
     right = f'<div class="card-map">{drawn}</div>' if drawn else ""
-    name_of = html.escape(title)
+    name_of = foreign(title)
+    formula_line = f'<div class="card-formula">{formula(tex)}</div>' if tex else ""
     heading = f'<h2 id="{anchor}">{name_of}</h2>' if anchor else f"<strong>{name_of}</strong>"
     return Html(
         f'<section class="law-card{"" if drawn else " alone"}" '
         f'style="--law: {both(style.look(name).colour)}" '
         f'aria-label="{html.escape(title, quote=True)}">'
         f"<header>{heading}"
-        f'<span class="card-source">{html.escape(source)}</span></header>'
-        f'<div class="card-formula">{formula(tex)}</div>'
+        f'<span class="card-source">{foreign(source)}</span></header>'
+        f"{formula_line}"
         f'<div class="card-body"><div class="card-text">{"".join(left)}</div>{right}</div>{strip}</section>'
     )
 
@@ -214,7 +231,7 @@ def ball(name: str, alt: str, points: Mapping[str, Any], radius_label: str = "π
         points: label -> {"colour": light, "dark": dark, "xyz": [[x, y, z], ...]} with xyz in the unit ball.
         radius_label: what the surface of the ball stands for.
     """
-    data = json.dumps({"groups": points, "radius": radius_label}, separators=(",", ":")).replace("</", "<\\/")
+    data = json.dumps({"groups": points, "radius": radius_label}, separators=(",", ":")).replace("<", "\\u003c")
     words = html.escape(alt, quote=True)
     return Html(
         f'<canvas class="ball" id="ball-{name}" tabindex="0" role="img" aria-label="{words}"></canvas>'

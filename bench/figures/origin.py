@@ -12,6 +12,7 @@ import pyarrow.parquet as pq
 from bench import results
 from bench.figures import html, times
 from bench.provenance import ROOT
+from bench.schema import TABLES
 
 OFFERED_BYTES = 8_000_000
 """A larger file is named, not offered: the site stays small enough to be mailed or put on a stick."""
@@ -35,31 +36,44 @@ def spelled(hex_digits: str) -> str:
 def files() -> list[Path]:
     """The files of the run, tables first, then every machine's timings."""
     folder = results.folder()
-    plain = [folder / name for name in ("provenance.json", "plan.json") if (folder / name).is_file()]
-    return [*sorted(folder.glob("*.parquet")), *plain, *times.files()]
+    tables = [folder / f"{name}.parquet" for name in sorted(TABLES)]
+    plain = [folder / name for name in ("provenance.json", "plan.json")]
+    return [*(path for path in (*tables, *plain) if path.is_file()), *times.files()]
 
 
 def run() -> html.Markdown:
     """provenance.json in words, one fact a line."""
-    said = results.provenance()
+    said = {name: escaped(value) for name, value in results.provenance().items()}
     changed = "yes: the sources had changes that no commit holds" if said["dirty"] else "no"
     facts = {
-        "Suite": f"`{said['suite']}`, {html.number(said['episodes'])} episodes",
-        "Command": f"`{said['command']}`",
+        "Suite": f"{code(said['suite'])}, {html.number(said['episodes'])} episodes",
+        "Command": f"{code(said['command'])}",
         "Seed": f"{said['seed']}",
         "Finished": said["finished"].replace("T", " ").replace("Z", " UTC"),
         "Wall time": f"{said['wall_s']:.0f} s with {said['workers']} workers",
         "Resumed after a stop": "yes" if said["resumed"] else "no",
-        "Commit": f"`{said['commit']}`" if said["commit"] else "none: not a checkout",
+        "Commit": f"{code(said['commit'])}" if said["commit"] else "none: not a checkout",
         "Uncommitted changes": changed,
-        "Digest of the sources": f"`{said['sources']}`",
-        "Digest of the plan": f"`{said['plan']}`",
+        "Digest of the sources": f"{code(said['sources'])}",
+        "Digest of the plan": f"{code(said['plan'])}",
         "Processor": f"{said['cpu']}, {said['cores']} cores",
         "System": said["platform"],
-        **dict(sorted(said["versions"].items())),
+        **{html.foreign(name): version for name, version in sorted(said["versions"].items())},
         "Lock requirements/base.txt, SHA-256": spelled(said["lock"]) if said["lock"] else "none",
     }
     return html.table(pd.DataFrame({"Fact": list(facts), "Value": list(facts.values())}))
+
+
+def code(text: str) -> str:
+    """An escaped text as code; in Markdown's own code an entity would show as it is spelled."""
+    return f"<code>{text}</code>"
+
+
+def escaped(value):
+    """A value of provenance.json as a page may show it: the file may come from anywhere."""
+    if isinstance(value, dict):
+        return {name: escaped(one) for name, one in value.items()}
+    return html.foreign(value) if isinstance(value, str) else value
 
 
 def tables() -> html.Markdown:

@@ -42,7 +42,7 @@ def page(rows: pd.DataFrame, episodes: pd.DataFrame, costs: pd.DataFrame) -> htm
     Args:
         as of `side_by_side_data.data`.
     """
-    inside = json.dumps(data(rows, episodes, costs), separators=(",", ":")).replace("</", "<\\/")
+    inside = json.dumps(data(rows, episodes, costs), separators=(",", ":")).replace("<", "\\u003c")
     given = {"starts": _start_options(starts(rows, episodes)), "band": f"{RULES.tolerance:.0%}".replace("%", " %")}
     given["presets"] = "\n".join(
         f'<button type="button" data-view="a={a}&amp;b={b}&amp;start={start}">{title}</button>'

@@ -1,0 +1,31 @@
+"""Which law files may run: those that this user has run, or said that they may.
+
+A results folder keeps its user's laws as Python files. They are code, and a folder may come from anywhere: a law that
+is found in one runs only if this user gave the same text to `bench run --law`, or to `bench trust`, before.
+"""
+
+import hashlib
+import os
+from pathlib import Path
+
+
+def home() -> Path:
+    """The folder that holds an empty file for each text, named by its SHA-256."""
+    base = os.environ.get("XDG_STATE_HOME") or str(Path.home() / ".local" / "state")
+    return Path(base) / "orientation-bench" / "laws"
+
+
+def remember(text: bytes) -> None:
+    """From now on this text is this user's own.
+
+    Errors:
+        OSError: the user's state cannot be written.
+    """
+    place = home() / hashlib.sha256(text).hexdigest()
+    place.parent.mkdir(parents=True, exist_ok=True)
+    place.touch()
+
+
+def is_own(text: bytes) -> bool:
+    """Whether this user has run the text, or said that it may run."""
+    return (home() / hashlib.sha256(text).hexdigest()).is_file()

@@ -1,0 +1,121 @@
+"""Text that a law or a results file controls: on a page it reads as it is, and nothing of it is live."""
+
+import html as markup
+import json
+import re
+from html.parser import HTMLParser
+
+import pytest
+
+pytest.importorskip("myst_parser", reason="the report extra is not installed (cure: make report)")
+
+import pandas as pd
+from docutils.core import publish_string
+from myst_parser.parsers.docutils_ import Parser
+
+from bench import results
+from bench.contender import Regulator
+from bench.discovery import contenders_of
+from bench.figures import cards, html, origin
+from bench.schema import RESULTS
+
+ENABLED = ["amsmath", "attrs_block", "attrs_inline", "colon_fence", "deflist", "dollarmath"]
+PAYLOADS = (
+    "<script>alert(1)</script>",
+    "<img src=x onerror=alert(1)>",
+    "```{raw} html\n<b>x</b>\n```",
+    "{raw}`html`",
+    "{eval-rst}`x`",
+    ":::{note}\nx\n:::",
+    "$x^2$ and $$y$$ and \\(z\\) and \\[w\\]",
+    "a | b | c",
+    "**bold** _it_ `code` ~~no~~",
+    "[a](javascript:alert(1)) <javascript:alert(1)> ![x](y)",
+    "&lt;b&gt; &amp; &#60;",
+    "{{ substitution }} [x]{.class} (target)=",
+    "\\begin{equation}x\\end{equation}",
+    "# head\n\n- item",
+    "%comment",
+    "'\" onclick='x'",
+)
+
+
+class Tags(HTMLParser):
+    """Every element and attribute of a piece of HTML, and its text."""
+
+    def __init__(self, text: str):
+        super().__init__()
+        self.found: list[tuple[str, tuple]] = []
+        self.text = ""
+        self.feed(text)
+
+    def handle_starttag(self, tag, attributes):
+        self.found.append((tag, tuple(name for name, _ in attributes)))
+
+    def handle_data(self, data):
+        self.text += data
+
+
+def rendered(markdown: str) -> Tags:
+    """Markdown as the report's pages read it, as HTML."""
+    settings = {"myst_enable_extensions": ENABLED, "report_level": 1, "halt_level": 2, "raw_enabled": True}
+    page = publish_string(markdown, parser=Parser(), writer_name="html5", settings_overrides=settings).decode()
+    return Tags(page[page.index("<main") : page.index("</main>")])
+
+
+def as_read(text: str) -> str:
+    """What a reader sees: white space as one space, no word joiners."""
+    return " ".join(text.replace("\u2060", "").split())
+
+
+@pytest.mark.parametrize("text", PAYLOADS)
+def test_foreign_text_in_a_table_reads_as_it_is_and_nothing_is_live(text):
+    table = html.table(pd.DataFrame({"Law": [html.law("x", text)], "B": [html.foreign(text)]}))
+    plain = html.table(pd.DataFrame({"Law": [html.law("x", "word")], "B": ["word"]}))
+    page = rendered(table)
+    assert page.found == rendered(plain).found
+    assert as_read(page.text).count(as_read(text)) == 2
+    assert not re.search(r"\\[(\[]|\$\$|\\begin", page.text)
+
+
+def nasty(text: str) -> Regulator:
+    """One of our laws under another's words."""
+    [mrp] = [one for one in cards.in_order() if one.name == "mrp"]
+    return mrp._replace(title=text, source=text, property=text)
+
+
+@pytest.mark.parametrize("text", PAYLOADS)
+def test_card_of_a_law_shows_its_words_and_takes_none_for_its_own(text):
+    regulator = nasty(text)
+    shown, usual = (Tags(cards.card(contenders_of(one)[0])) for one in (regulator, nasty("word")))
+    assert shown.found == usual.found
+    assert as_read(text) in as_read(shown.text)
+    assert "$$" not in shown.text
+
+
+def test_formula_ends_only_where_it_ends():
+    found = Tags(html.formula("x \\] </span><script>alert(1)</script>"))
+    assert found.found == [("span", ("class",))]
+
+
+@pytest.mark.parametrize("text", PAYLOADS)
+def test_provenance_from_elsewhere_is_shown_as_it_is(monkeypatch, text):
+    usual = json.loads((RESULTS / "reference" / "provenance.json").read_text())
+    names = ("suite", "command", "cpu", "platform", "commit", "sources", "plan", "finished", "lock")
+    versions = dict.fromkeys(usual["versions"], text)
+    pages = []
+    for said in (usual | dict.fromkeys(names, "word"), usual | dict.fromkeys(names, text) | {"versions": versions}):
+        monkeypatch.setattr(results, "provenance", lambda said=said: said)
+        pages.append(rendered(origin.run()))
+    word, given = pages
+    assert [one for one in given.found if one[0] != "wbr"] == [one for one in word.found if one[0] != "wbr"]
+    assert as_read(markup.unescape(text)) in as_read(given.text) or as_read(text) in as_read(given.text)
+
+
+def test_label_of_a_ball_never_ends_its_script():
+    label = "</script><!--<script>alert(1)</script>"
+    found = Tags(html.ball("x", "a ball", {label: {"colour": "#000000", "dark": "#ffffff", "xyz": []}}))
+    assert [tag for tag, _ in found.found] == ["canvas", "script", "p"]
+    [data] = re.findall(r">(\{.*\})<", html.ball("x", "a ball", {label: {"xyz": []}}))
+    assert "<" not in data
+    assert label in json.loads(data)["groups"]
