@@ -40,8 +40,8 @@ def tiny_run(tmp_path_factory):
 # ----------------------------------------------------------------------------------------------- help
 
 
-def test_commands_are_the_eight_of_the_design():
-    assert set(COMMANDS) == {"list", "run", "show", "count", "time", "compare", "claims", "doctor"}
+def test_commands_are_those_of_the_design():
+    assert set(COMMANDS) == {"list", "run", "show", "count", "time", "compare", "claims", "doctor", "trust"}
 
 
 def test_help_names_every_command(capsys):
