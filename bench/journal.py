@@ -7,13 +7,23 @@ provenance.json last of all, and the parts go (`finish`).
 import contextlib
 import functools
 import shutil
+from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
 
-from bench import trust
+from bench import lock, trust
 from bench.errors import BadResults
 from bench.plan import AnyUnit, Plan
-from bench.store import check, is_leftover, read_json, refuse_link, write_atomically, write_json
+from bench.store import (
+    check,
+    is_leftover,
+    make_folder,
+    read_json,
+    refuse_link,
+    refused,
+    write_atomically,
+    write_json,
+)
 
 TABLES = ("costs", "traces", "boundaries", "poses", "compliance", "robustness", "episodes")
 """The tables of a finished run."""
@@ -24,6 +34,27 @@ class State(NamedTuple):
 
     finished: bool
     done: frozenset[str]
+
+
+@contextlib.contextmanager
+def held(out: Path) -> Iterator[None]:
+    """Keep other runs out of the folder, which is made if there is none, and not left behind empty.
+
+    Errors:
+        BadResults: another run is at work there, or it is no folder, or cannot be made.
+    """
+    is_new = not out.exists()
+    with contextlib.ExitStack() as stack:
+        try:
+            make_folder(out)
+            stack.enter_context(lock.held(out))
+        except OSError as error:
+            raise refused(out, error) from error
+        try:
+            yield
+        finally:
+            if is_new and not any(out.iterdir()):
+                out.rmdir()
 
 
 def inspect(plan: Plan, out: Path, replace: bool = False) -> State:
@@ -109,7 +140,14 @@ def tidy(out: Path) -> None:
     with _removing(out):
         if (out / "parts").is_dir():
             shutil.rmtree(out / "parts")
-        for path in [path for path in out.iterdir() if is_leftover(path)]:
+    sweep(out)
+
+
+def sweep(out: Path) -> None:
+    """Remove the temporary files of killed writes, which may be what fills the disk."""
+    with _removing(out):
+        folders = [folder for folder in (out, out / "parts", out / "laws") if folder.is_dir()]
+        for path in [path for folder in folders for path in folder.iterdir() if is_leftover(path)]:
             path.unlink(missing_ok=True)
 
 

@@ -10,7 +10,7 @@ from bench.choice import check_workers
 from bench.engines.run import evaluation
 from bench.engines.run_arm import pointers
 from bench.finish import finish, own_costs
-from bench.journal import begin, inspect, tidy
+from bench.journal import begin, held, inspect, sweep, tidy
 from bench.plan import AnyUnit, Plan
 from bench.running_order import in_running_order
 from bench.schedulers import threads
@@ -29,11 +29,16 @@ def run(
     """Carry out what is not done yet; whether there was anything to do.
 
     Errors:
-        BadNumber: workers. BadResults: the folder cannot be used. KeyboardInterrupt: after the units under way are
-        written.
+        BadNumber: workers. BadResults: the folder cannot be used or written, or another run is at work there.
+        KeyboardInterrupt: after the units under way are written.
     """
     check_workers(workers)
-    out = Path(out)
+    with held(Path(out)):
+        return _run(plan, Path(out), workers, replace, told)
+
+
+def _run(plan: Plan, out: Path, workers: int, replace: bool, told: Callable[[Progress], None]) -> bool:
+    """The same in a folder that is held."""
     state = inspect(plan, out, replace)
     if state.finished:
         tidy(out)
@@ -41,7 +46,9 @@ def run(
     began = time.time()
     _compile_own_laws(plan)
     costs = own_costs(plan)
-    if not state.done:
+    if state.done:
+        sweep(out)
+    else:
         begin(plan, out)
     todo = [unit for unit in in_running_order(plan.work) if unit.key not in state.done]
     for unit in plan.work:

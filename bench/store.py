@@ -1,11 +1,13 @@
 """Results on disk: tables with their schema, written whole or not at all, checked when read.
 
-A file appears by rename after fsync, so a process killed at any moment leaves whole files only.
+A file appears by rename after fsync, and its folder is synced after the rename: a process killed at any moment, or a
+machine without power, leaves whole files only, and each that was finished.
 
 A folder may come from anywhere. Nothing is read but parquet and JSON, which hold no code; a link is refused, so that
 nothing outside the folder is read or written; and a word holds no sign that a page or a terminal takes for its own.
 """
 
+import errno
 import json
 import os
 import re
@@ -36,30 +38,61 @@ def encoding(schema: pa.Schema) -> dict:
 
 
 def write_atomically(path: Path, write) -> None:
-    """Call write(temporary path), then put the file in its place."""
+    """Call write(temporary path), then put the file in its place; when this returns, it outlives a loss of power.
+
+    Errors:
+        BadResults: the folder cannot be made or written, or the disk is full; no temporary file stays.
+    """
     path = Path(path)
     try:
-        path.parent.mkdir(parents=True, exist_ok=True)
+        make_folder(path.parent)
         handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.", suffix=".tmp")
         os.close(handle)
     except OSError as error:
-        raise BadResults(
-            f"{path.parent}: cannot be written ({error.strerror}); choose another folder with --out, or mend its rights"
-        ) from error
+        raise refused(path.parent, error) from error
     try:
         write(temporary)
         with open(temporary, "rb") as file:
             os.fsync(file.fileno())
         os.chmod(temporary, 0o644)
         os.replace(temporary, path)
-    except OSError as error:
+        _sync_folder(path.parent)
+    except BaseException as error:
         Path(temporary).unlink(missing_ok=True)
-        raise BadResults(
-            f"{path}: cannot be written ({error.strerror or error}); make room, or choose another folder with --out"
-        ) from error
-    except BaseException:
-        Path(temporary).unlink(missing_ok=True)
+        if isinstance(error, OSError):
+            raise refused(path, error) from error
         raise
+
+
+FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
+"""The disk, a share of it, or what one file may take."""
+
+
+def refused(path: Path, error: OSError) -> BadResults:
+    """What the user is told of a file or folder that could not be written, with the cure."""
+    is_full = error.errno in FULL
+    reason = os.strerror(error.errno) if error.errno else error  # arrow's own text runs over lines
+    cure = "make room and give the same command again" if is_full else "mend its rights"
+    return BadResults(f"{path}: cannot be written ({reason}); {cure}, or choose another folder with --out")
+
+
+def make_folder(folder: Path) -> None:
+    """The folder and those above it, each known to the one that holds it before anything is put there."""
+    new = [one for one in (folder, *folder.parents) if not one.exists()]
+    folder.mkdir(parents=True, exist_ok=True)
+    for one in new:
+        _sync_folder(one.parent)
+
+
+def _sync_folder(folder: Path) -> None:
+    """Bring a folder's list of names to the disk, where the system can: a rename alone may be lost with the power."""
+    if not hasattr(os, "O_DIRECTORY"):
+        return
+    handle = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
+    try:
+        os.fsync(handle)
+    finally:
+        os.close(handle)
 
 
 def is_leftover(path: Path) -> bool:

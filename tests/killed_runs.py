@@ -121,13 +121,18 @@ def at_random_moments(wanted: Undisturbed, folder: Path) -> list[dict]:
     return found
 
 
+def is_file_below(out: Path, path, _, flags: int) -> bool:
+    """Whether what was opened is a file of the run; a folder is opened to be locked or synced, and nothing changes."""
+    return str(path).startswith(str(out)) and not flags & os.O_DIRECTORY
+
+
 def killing_at(number: int, out: Path):
     """Something to call in a child: it dies just before its file operation of that number in `out`."""
     seen = 0
 
     def hook(event, arguments):
         nonlocal seen
-        if event in EVENTS and (event != "open" or str(arguments[0]).startswith(str(out))):
+        if event in EVENTS and (event != "open" or is_file_below(out, *arguments)):
             seen += 1
             if seen > number:
                 os.kill(os.getpid(), signal.SIGKILL)
