@@ -5,7 +5,7 @@
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help setup bench bench-quick time libraries report test check lint gate reference media lock clean
+.PHONY: help setup bench bench-quick time libraries report test check lint gate reference media lock clean audit
 
 SHELL := /bin/sh
 VENV := .venv
@@ -14,6 +14,7 @@ BASE := $(VENV)/.base
 REPORT := $(VENV)/.report
 DEV := $(VENV)/.dev
 LIBRARIES := .venv-libraries
+AUDIT := .venv-audit
 
 # More words for the command behind a target: make bench ARGS="--workers 4", make test ARGS="-k so3"
 ARGS ?=
@@ -62,11 +63,17 @@ check:  ## all that must hold before a merge: lint, gate, report, test
 check: lint gate report test
 	@echo "check: all green"
 
-lint:   ## style (ruff), types (mypy) and layers (import-linter)
+lint:   ## style (ruff), types (mypy), layers (import-linter) and workflow files (check-jsonschema)
 lint: $(DEV)
 	@$(VENV)/bin/ruff check
 	@$(PY) -m mypy
 	@$(VENV)/bin/lint-imports --no-logo
+	@$(VENV)/bin/check-jsonschema --quiet --builtin-schema vendor.github-workflows .github/workflows/*.yml
+
+audit:  ## known vulnerabilities of what the locks name (pip-audit); without a network it says so
+audit:
+	@if $(MAKE) --no-print-directory $(AUDIT)/.made; then $(AUDIT)/bin/python .ci/audit.py requirements/*.txt; \
+		else echo "audit skipped: pip-audit cannot be installed here (no network?)"; fi
 
 gate:   ## rerun the quick suite and compare it with results/reference
 gate: $(BASE)
@@ -95,10 +102,11 @@ lock: $(DEV)
 	@$(call compile,report,--extra report --constraint requirements/dev.txt)
 	@$(call compile,base,--constraint requirements/dev.txt)
 	@$(call compile,libraries,--extra libraries --constraint requirements/dev.txt)
+	@$(locked) --group audit --output-file requirements/audit.txt
 	@echo "Locked. Look at the change: git diff --stat requirements"
 
 clean:  ## remove .venv, the built report, caches and results/quick; other results stay
-	@rm -rf $(VENV) $(LIBRARIES) build report/_build report/.jupyter_cache results/quick
+	@rm -rf $(VENV) $(LIBRARIES) $(AUDIT) build report/_build report/.jupyter_cache results/quick
 	@rm -rf .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .benchmarks *.egg-info
 	@find bench tasks report tests -name __pycache__ -prune -exec rm -rf {} + 2>/dev/null || true
 
@@ -133,6 +141,11 @@ $(LIBRARIES)/.made: requirements/libraries.txt pyproject.toml
 	@$(PYTHON) -m venv --clear $(LIBRARIES)
 	@$(call install,libraries) && touch $@
 
+$(AUDIT)/.made: PY = $(AUDIT)/bin/python
+$(AUDIT)/.made: requirements/audit.txt
+	@$(PYTHON) -m venv --clear $(AUDIT)
+	@$(PIP) install --require-hashes --no-deps --only-binary :all: -r requirements/audit.txt && touch $@
+
 # An environment whose Python has gone, or that the lock does not cover, is made anew.
 ifneq ($(shell $(PY) -c '$(SUPPORTED)' 2>/dev/null && echo ok),ok)
 $(shell rm -f $(PY))
@@ -147,6 +160,7 @@ $(PY):
 	@$(PYTHON) -m venv --clear $(VENV)
 
 # Names, versions and hashes only. Pins already in the files are kept; to move one, pin it in pyproject.toml.
-compile = env -u UV_FIND_LINKS UV_PYTHON_DOWNLOADS=never $(VENV)/bin/uv pip compile --quiet \
+locked = env -u UV_FIND_LINKS UV_PYTHON_DOWNLOADS=never $(VENV)/bin/uv pip compile --quiet \
 	--universal --python-version 3.11 --generate-hashes --no-header --no-annotate --no-emit-index-url \
-	--no-emit-find-links $(2) pyproject.toml --output-file requirements/$(1).txt
+	--no-emit-find-links
+compile = $(locked) $(2) pyproject.toml --output-file requirements/$(1).txt
