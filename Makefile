@@ -5,12 +5,13 @@
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help setup bench bench-quick time libraries report test check lint gate reference media lock clean audit
+.PHONY: help setup bench bench-quick time libraries report test check lint gate regress regress-study
+.PHONY: reference media lock clean audit
 
 SHELL := /bin/sh
 VENV := .venv
 PY := $(VENV)/bin/python
-BASE := $(VENV)/.base
+READY := $(VENV)/.base
 REPORT := $(VENV)/.report
 DEV := $(VENV)/.dev
 LIBRARIES := .venv-libraries
@@ -18,6 +19,8 @@ AUDIT := .venv-audit
 
 # More words for the command behind a target: make bench ARGS="--workers 4", make test ARGS="-k so3"
 ARGS ?=
+# The revision that `make regress` compares with: make regress BASE=v0.1.0
+BASE ?=
 # Test processes, one more than cores, for some tests wait; tests of one file share one, so each law is compiled once.
 # Which files begin: tests/conftest.py.
 JOBS ?= $(shell $(PY) -c 'import os; print((os.cpu_count() or 1) + 1)')
@@ -29,7 +32,7 @@ PYTHON ?= $(shell for python in python3 python3.13 python3.12 python3.11; do \
 
 ##@ Start here
 bench:  ## run the default suite, free body and arms, and print the summary (minutes, set-up included)
-bench: $(BASE)
+bench: $(READY)
 	@$(PY) -m bench run --suite default --replace $(ARGS)
 	@$(PY) -m bench show
 
@@ -39,11 +42,11 @@ report: $(REPORT)
 
 ##@ Benchmark
 bench-quick: ## run the quick suite into results/quick (under 2 minutes)
-bench-quick: $(BASE)
+bench-quick: $(READY)
 	@$(PY) -m bench run --suite quick --replace --out results/quick $(ARGS)
 
 time:   ## time every law per control tick on this machine: results/timings
-time: $(BASE)
+time: $(READY)
 	@$(PY) -m bench time $(ARGS)
 
 libraries: ## ask other robot libraries for orientation errors (2 GB of their own): results/libraries
@@ -51,7 +54,7 @@ libraries: $(LIBRARIES)/.made
 	@$(LIBRARIES)/bin/python -m bench.libraries $(ARGS)
 
 setup:  ## install what the benchmark needs, and nothing else
-setup: $(BASE)
+setup: $(READY)
 	@echo "Ready. Run the benchmark: make bench. Look around: $(PY) -m bench --help"
 
 ##@ Develop
@@ -76,13 +79,17 @@ audit:
 		else echo "audit skipped: pip-audit cannot be installed here (no network?)"; fi
 
 gate:   ## rerun the quick suite and compare it with results/reference
-gate: $(BASE)
+gate: $(READY)
 	@rm -rf results/quick  # a finished run would be resumed, not rerun
 	@$(PY) -m bench run --suite quick --out results/quick
-	@$(PY) -m bench compare results/quick results/reference
+	@$(PY) -m bench compare results/reference results/quick
+
+regress: ## your files against BASE (where you left main): outcomes, operations, instructions, time
+regress: $(READY)
+	@$(PY) -m bench compare $(BASE) $(ARGS)
 
 reference: ## run the quick suite and make it the new reference (commit it by itself)
-reference: $(BASE)
+reference: $(READY)
 	@rm -rf results/quick
 	@$(PY) -m bench run --suite quick --out results/quick
 	@rm -rf results/reference && mkdir -p results/reference
@@ -123,17 +130,17 @@ PIP = $(PY) -m pip --disable-pip-version-check --quiet --no-input
 install = $(PIP) install --require-hashes --no-deps --only-binary :all: -r requirements/$(1).txt \
 	&& $(PIP) install --no-deps --no-build-isolation -e .
 
-$(BASE): $(PY) requirements/base.txt pyproject.toml
+$(READY): $(PY) requirements/base.txt pyproject.toml
 	@echo "Installing the benchmark into $(VENV) ..."
 	@$(call install,base) && touch $@
 
 $(REPORT): $(PY) requirements/report.txt pyproject.toml
 	@echo "Installing the benchmark and the report tools into $(VENV) ..."
-	@$(call install,report) && touch $(BASE) $@
+	@$(call install,report) && touch $(READY) $@
 
 $(DEV): $(PY) requirements/dev.txt pyproject.toml
 	@echo "Installing the benchmark, the report tools and the developer tools into $(VENV) ..."
-	@$(call install,dev) && touch $(BASE) $(REPORT) $@
+	@$(call install,dev) && touch $(READY) $(REPORT) $@
 
 $(LIBRARIES)/.made: PY = $(LIBRARIES)/bin/python
 $(LIBRARIES)/.made: requirements/libraries.txt pyproject.toml

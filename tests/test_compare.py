@@ -38,8 +38,8 @@ def change(folder, table, edit):
 
 
 def test_gate_passes_when_nothing_changed(reference, candidate):
-    assert compare(candidate, reference) == []
-    assert main(["compare", str(candidate), str(reference)]) == 0
+    assert compare(reference, candidate) == []
+    assert main(["compare", str(reference), str(candidate)]) == 0
 
 
 def test_gate_catches_one_flipped_outcome(reference, candidate, capsys):
@@ -50,10 +50,10 @@ def test_gate_catches_one_flipped_outcome(reference, candidate, capsys):
         return frame
 
     change(candidate, "episodes", flip)
-    lines = compare(candidate, reference)
+    lines = compare(reference, candidate)
     assert len(lines) == 1
     assert "outcome: settled -> stuck" in lines[0]
-    assert main(["compare", str(candidate), str(reference)]) == 1
+    assert main(["compare", str(reference), str(candidate)]) == 1
     assert "settled -> stuck" in capsys.readouterr().out
 
 
@@ -65,7 +65,7 @@ def test_gate_catches_one_more_multiplication(reference, candidate):
         return frame
 
     change(candidate, "costs", add_one)
-    lines = compare(candidate, reference)
+    lines = compare(reference, candidate)
     assert len(lines) == 1
     assert lines[0].startswith("mul: 25 -> 26: rotation-matrix worst total")
 
@@ -77,14 +77,14 @@ def test_gate_catches_a_settling_time_off_by_one_tick(reference, candidate):
         return frame
 
     change(candidate, "episodes", delay)
-    lines = compare(candidate, reference)
+    lines = compare(reference, candidate)
     assert len(lines) == 1
     assert lines[0].startswith("settling_time_s: ")
 
 
 def test_gate_catches_a_missing_row(reference, candidate):
     change(candidate, "episodes", lambda frame: frame.drop(index=5))
-    lines = compare(candidate, reference)
+    lines = compare(reference, candidate)
     assert len(lines) == 1
     assert lines[0].startswith("episodes: row is missing: quick free-body")
 
@@ -95,7 +95,7 @@ def test_gate_catches_a_new_row(reference, candidate):
         return frame
 
     change(candidate, "episodes", rename)
-    lines = compare(candidate, reference)
+    lines = compare(reference, candidate)
     assert any(line.startswith("episodes: row is new") for line in lines)
     assert any(line.startswith("episodes: row is missing") for line in lines)
 
@@ -114,7 +114,7 @@ def test_gate_catches_a_changed_column(reference, candidate, edit):
     schema = table.schema.set(place, changed)
     column = table.column(place).cast(changed.type, safe=False)
     pq.write_table(table.set_column(place, changed, column).replace_schema_metadata(schema.metadata), path)
-    lines = compare(candidate, reference)
+    lines = compare(reference, candidate)
     assert any("column effort" in line for line in lines)
 
 
@@ -130,9 +130,9 @@ def test_gate_catches_a_moved_failure_boundary(reference, candidate, tmp_path):
         frame.loc[row, "fails_from_rad"] += 1e-3
         return frame
 
-    assert compare(candidate, before) == []
+    assert compare(before, candidate) == []
     change(candidate, "boundaries", move)
-    lines = compare(candidate, before)
+    lines = compare(before, candidate)
     assert len(lines) == 1
     assert lines[0].startswith("fails_from_rad: ")
 
@@ -142,18 +142,18 @@ def test_gate_catches_a_curve_that_bends_and_one_that_is_gone(candidate, tmp_pat
     write_table(candidate / "traces.parquet", traces.run(plan), "traces")
     before = tmp_path / "before"
     shutil.copytree(candidate, before)
-    assert compare(candidate, before) == []
+    assert compare(before, candidate) == []
 
     def bend(frame):
         frame.loc[7, "omega_x"] += 1e-3
         return frame
 
     change(candidate, "traces", bend)
-    [line] = compare(candidate, before)
+    [line] = compare(before, candidate)
     assert line.startswith("omega_x: ")
     change(candidate, "traces", lambda frame: frame[frame["start_id"] != "uniform-00001"])
     assert "traces: curve is missing: free-body rotation-matrix ideal-rk4 uniform uniform-00001" in compare(
-        candidate, before
+        before, candidate
     )
 
 
@@ -165,7 +165,7 @@ def test_gate_ignores_what_a_failed_episode_measured(reference, candidate):
         return frame
 
     change(candidate, "episodes", shake)
-    assert compare(candidate, reference) == []
+    assert compare(reference, candidate) == []
 
 
 # ----------------------------------------------------------------------------------------------- arms
@@ -212,9 +212,9 @@ def nominal(frame):
 
 def test_gate_tells_arms_variations_and_joints_apart(arm_reference, arm_candidate):
     assert len(read(arm_reference, "episodes")) == 8
-    assert compare(arm_candidate, arm_reference) == []
+    assert compare(arm_reference, arm_candidate) == []
     change(arm_candidate, "episodes", lambda frame: frame[(frame["arm"] == "ur5e") | (frame["variation"] == "nominal")])
-    lines = compare(arm_candidate, arm_reference)
+    lines = compare(arm_reference, arm_candidate)
     assert len(lines) == 2
     assert all(
         line.startswith("episodes: row is missing: quick arm-regulation puma560 mass-1.15 rotation-matrix geometric ")
@@ -231,7 +231,7 @@ def test_gate_names_the_joints_that_a_cost_is_for(arm_reference, arm_candidate):
     change(arm_candidate, "costs", add_one)
     assert any(
         line.endswith(": rotation-matrix geometric solve 6 joints worst invert")
-        for line in compare(arm_candidate, arm_reference)
+        for line in compare(arm_reference, arm_candidate)
     )
 
 
@@ -259,7 +259,7 @@ def test_gate_allows_a_torque_what_rounding_makes_of_it(
     for folder in (before, arm_candidate):
         conditioned(folder, condition)
     change(arm_candidate, "episodes", shake)
-    lines = compare(arm_candidate, before)
+    lines = compare(before, arm_candidate)
     assert bool(lines) == is_told
     assert all(line.startswith("peak_tau_nm: ") for line in lines)
 
@@ -275,7 +275,7 @@ def test_gate_leaves_an_outcome_open_only_if_both_runs_met_a_singularity(arm_can
         return frame
 
     change(arm_candidate, "episodes", flip)
-    assert any(line.startswith("outcome: settled -> diverged") for line in compare(arm_candidate, before)) == lines
+    assert any(line.startswith("outcome: settled -> diverged") for line in compare(before, arm_candidate)) == lines
 
 
 def test_gate_compares_no_cause(arm_candidate, tmp_path):
@@ -291,7 +291,7 @@ def test_gate_compares_no_cause(arm_candidate, tmp_path):
     before = shutil.copytree(arm_candidate, tmp_path / "before")
     change(before, "episodes", fail("representation"))
     change(arm_candidate, "episodes", fail("both"))
-    assert compare(arm_candidate, before) == []
+    assert compare(before, arm_candidate) == []
 
 
 # ----------------------------------------------------------------------------------------- in contact
@@ -332,12 +332,12 @@ def on_the_pole(frame):
 
 
 def test_gate_passes_in_contact_when_nothing_changed(contact_reference, contact_candidate):
-    assert compare(contact_candidate, contact_reference) == []
+    assert compare(contact_reference, contact_candidate) == []
 
 
 def test_gate_catches_an_outcome_in_contact_and_names_its_row(contact_reference, contact_candidate):
     in_compliance(contact_candidate, "outcome", "broken")
-    assert compare(contact_candidate, contact_reference) == [
+    assert compare(contact_reference, contact_candidate) == [
         "outcome: done -> broken: quick wrench-probe ur5e impedance-coordinates zyx-euler "
         "alpha+0 beta+45 gamma+0, about x"
     ]
@@ -346,19 +346,19 @@ def test_gate_catches_an_outcome_in_contact_and_names_its_row(contact_reference,
 @pytest.mark.parametrize(("column", "by"), [("c_xz", 1e-2), ("misalignment_rad", -2e-4), ("m_o", 1e-3), ("trials", 1)])
 def test_gate_catches_a_number_in_contact(contact_reference, contact_candidate, column, by):
     in_compliance(contact_candidate, column, lambda x: x + by if column == "trials" else x * (1.0 + by))
-    [line] = compare(contact_candidate, contact_reference)
+    [line] = compare(contact_reference, contact_candidate)
     assert line.startswith(f"{column}: ")
 
 
 def test_gate_catches_a_number_in_contact_that_is_gone(contact_reference, contact_candidate):
     in_compliance(contact_candidate, "c_zz", float("nan"))
-    [line] = compare(contact_candidate, contact_reference)
+    [line] = compare(contact_reference, contact_candidate)
     assert line.startswith("c_zz: ")
 
 
 def test_gate_catches_a_pose_that_is_gone(contact_reference, contact_candidate):
     change(contact_candidate, "compliance", lambda frame: frame[frame["complies"] != "about z"])
-    lines = compare(contact_candidate, contact_reference)
+    lines = compare(contact_reference, contact_candidate)
     assert lines[0].startswith("compliance: row is missing: quick wrench-probe ur5e hybrid-base inverse alpha+0")
     assert all("about z" in line for line in lines[:-1])
 
@@ -379,16 +379,16 @@ def test_gate_leaves_open_in_contact_what_rounding_decides(contact_candidate, tm
         in_compliance(folder, "peak_torque_ratio", torque, rows)
     in_compliance(before, "outcome", "done", rows)
     in_compliance(contact_candidate, "outcome", "saturated", rows)
-    assert len(compare(contact_candidate, before)) == lines
+    assert len(compare(before, contact_candidate)) == lines
 
 
 def test_gate_says_that_a_reference_is_older_than_contact(contact_reference, contact_candidate, capsys):
     (contact_candidate / "compliance.parquet").unlink()
-    assert main(["compare", str(contact_reference), str(contact_candidate)]) == 2
+    assert main(["compare", str(contact_candidate), str(contact_reference)]) == 2
     assert "nothing to compare: " in (said := capsys.readouterr().err)
     assert "compliance.parquet: there is no such file" in said
 
 
 def test_gate_refuses_a_folder_without_a_run(reference, tmp_path, capsys):
-    assert main(["compare", str(tmp_path), str(reference)]) == 2
+    assert main(["compare", str(reference), str(tmp_path)]) == 2
     assert "has not finished" in capsys.readouterr().err

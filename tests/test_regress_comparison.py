@@ -21,7 +21,7 @@ def of(*findings):
         Benchmark("gone", "law", BASE._replace(name="gone", kernel_steps=None), None),
     )
     gates = (Gate("exact", "skipped", "same sources"), Gate("time", "failed", "1 of 2"))
-    sides = Side("main", "abc", "123"), Side("working tree", new_laws=("own",))
+    sides = Side("main", "abc", "123"), Side("working tree")
     return Comparison(*sides, {"key": "cpu-2-cores"}, gates, findings, benchmarks)
 
 

@@ -72,7 +72,7 @@ def test_curve_says_how_its_episode_ended(kept, start_id):
 
 
 def test_two_neighbours_at_the_kept_bits_are_one_to_the_gate():
-    from bench.compare import RELATIVE
+    from bench.compare.tables import RELATIVE
 
     assert 2.0 ** (1 - traces.KEPT_BITS) < RELATIVE
 

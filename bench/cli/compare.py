@@ -1,28 +1,107 @@
-"""`compare`: the regression gate."""
+"""`compare`: two runs, or two revisions of the code, through the gates."""
 
+import os
 from pathlib import Path
 
+import pandas as pd
 import rich_click as click
 from click.exceptions import Exit
 
 from bench.cli import options
-from bench.cli.screen import console
+from bench.cli.screen import console, frame_table
+
+EPILOG = """
+[b]python -m bench compare results/reference results/quick[/b]  two runs, row by row: any difference is exit code 1.
+
+[b]python -m bench compare[/b]  your files against the commit where you left main: outcomes and operations of the quick
+suite, then instructions under valgrind, then time.
+
+[b]python -m bench compare HEAD~3 HEAD --no-timing[/b]  two commits, each checked out for as long as it takes.
+
+[b]python -m bench compare main --law my_law.py --summary law.md[/b]  your own law, in your own repository: what it does
+now against what it did on main.
+
+A law is called slower only if a Mann-Whitney test of interleaved rounds has p < 0.002, the median ratio is above 1.10,
+and a second run agrees. Exit code 1: a regression. 2: a mistake in what was asked.
+"""
 
 
-@click.command("compare")
-@click.argument("candidate", type=click.Path(path_type=Path))
-@click.argument("reference", required=False, type=click.Path(path_type=Path), default=options.REFERENCE)
-def COMMAND(candidate, reference):
-    """Compare a run with the reference: outcomes, row keys, schema and operations exactly, floats to a tolerance.
+@click.command("compare", epilog=EPILOG)
+@click.argument("base", required=False)
+@click.argument("head", required=False)
+@options.law
+@click.option("--no-timing", is_flag=True, help="Leave time out; instructions are counted all the same.")
+@click.option("--json", "json_file", type=click.Path(path_type=Path), metavar="FILE", help="All of it for machines.")
+@click.option("--summary", type=click.Path(path_type=Path), metavar="FILE", help="Markdown for a pull request.")
+def COMMAND(base, head, laws, no_timing, json_file, summary):
+    """Compare HEAD with BASE, each a results folder or a git revision: what got worse, by how much, how sure.
 
-    Exit code 1 and a readable list if they differ.
+    HEAD is the files as they lie unless named. BASE is where HEAD left main (on main the commit before; outside git
+    results/reference, with results/quick for HEAD). A regression is an outcome that got worse, a new dead point, a
+    smaller basin, a row or a law that is gone, more of any operation, more than 1 % more instructions, or a slower
+    tick. A law of your own is judged against its file at BASE; in $GITHUB_STEP_SUMMARY the summary is left by itself.
     """
+    from bench.regress import comparison, gates
+    from bench.regress import summary as words
+
+    base, head, folders = _meant(base, head, laws)
+    if folders:
+        said = gates.of_folders(Path(base), Path(head))
+        differences = _lines(Path(base), Path(head))
+    else:
+        wanted = gates.Wanted(timing=not no_timing)
+        with console(stderr=True).status("") as status:
+            said = gates.of_revisions(base, head, laws, wanted, lambda step: status.update(step))
+        differences = [f"{one.verdict}: {one.says}" for one in words.ordered(said)]
+    for line in differences:
+        console().print(line)
+    if said.benchmarks:
+        console().print(frame_table(pd.DataFrame(words.rows(said)), "\nBenchmarks"))
+    if not folders:
+        console().print(frame_table(pd.DataFrame(said.gates), "\nGates"))
+    if json_file:
+        comparison.write(json_file, said)
+    for path in filter(None, (summary, os.environ.get("GITHUB_STEP_SUMMARY"))):
+        with open(path, "a", encoding="utf-8") as file:
+            file.write(words.markdown(said))
+    if folders and differences:
+        console().print(f"{len(differences)} differences between {base} and {head}")
+    elif folders:
+        console().print(f"{head} agrees with {base}")
+    else:
+        console().print(f"\n{words.headline(said)}")
+    if differences if folders else said.regressions:
+        raise Exit(1)
+
+
+def _lines(base: Path, head: Path) -> list[str]:
     from bench.compare import compare
 
-    differences = compare(candidate, reference)
-    for line in differences:
-        console().print(line, markup=False)
-    if differences:
-        console().print(f"{len(differences)} differences between {candidate} and {reference}")
-        raise Exit(1)
-    console().print(f"{candidate} agrees with {reference}")
+    return compare(base, head)
+
+
+def _meant(base: str | None, head: str | None, laws) -> tuple[str, str | None, bool]:
+    """Base, head, and whether they are folders.
+
+    Errors:
+        UsageError: one is a folder and the other is not; or a user's law is to be judged in folders.
+    """
+    from bench.errors import Incompatible
+    from bench.regress import revisions
+
+    if base is None:
+        try:
+            return revisions.default_base(revisions.repository(laws), head), None, False
+        except Incompatible:
+            if laws or (revisions.ROOT / ".git").exists():
+                raise
+            return str(options.REFERENCE), str(options.REFERENCE.with_name("quick")), True
+    folders = [revisions.is_folder(word) for word in (base, head) if word is not None]
+    if not any(folders):
+        return base, head, False
+    if head is None or not all(folders):
+        other = f"HEAD '{head}' is none" if head else "HEAD is not named"
+        raise click.UsageError(f"'{base}' is a folder and {other}; compare two folders, or two revisions")
+    if laws:
+        raise click.UsageError("--law is judged in revisions; a folder's run has its laws already (leave --law away)")
+    return base, head, True

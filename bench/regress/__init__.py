@@ -11,5 +11,11 @@ process, target  that process as its parent sees it
 alternating      base and head in turn, round by round
 rule             from rounds to a verdict
 instructions     what callgrind counts, and the small process that it counts in
+revisions        what BASE and HEAD mean, and checkouts that go away again
+sides            base and head made ready: sources, law files, finished runs
+exact            two runs, row by row, in words
+measured         the gates of instructions and time
+gates            all of it, gate after gate
+summary          tables, and Markdown for a pull request
 own              a checkout's own measurements alone, as a history keeps them
 """

@@ -4,7 +4,7 @@ The JSON is one object; `schema` names its version, which changes whenever a fie
 
     schema      "orientation-bench comparison 1"
     verdict     "regression" or "clean"
-    base, head  {name, commit, sources, new_laws}: what was compared
+    base, head  {name, commit, sources}: what was compared
     machine     {key, cpu, cores, platform, lock, versions, target}: where, and by which packages
     gates       [{gate, state, says}]: state is "passed", "failed" or "skipped"
     findings    [{gate, verdict, name, what, was, now, says, rows}]: verdict is "regression", "change" or "improvement"
@@ -32,12 +32,11 @@ SAME, SLOWER, FASTER = "same", "slower", "faster"
 
 
 class Side(NamedTuple):
-    """What was compared: a word for it, its commit ("" for none), the digest of its sources, laws that it alone has."""
+    """What was compared: a word for it, its commit ("" for none), and the digest of its sources."""
 
     name: str
     commit: str = ""
     sources: str = ""
-    new_laws: tuple[str, ...] = ()
 
 
 class Gate(NamedTuple):
@@ -143,15 +142,12 @@ def from_json(given: dict[str, Any]) -> Comparison:
             "bench compare)"
         )
 
-    def side(name: str) -> Side:
-        return Side(**{**given[name], "new_laws": tuple(given[name]["new_laws"])})
-
     def measured(content: dict[str, Any] | None) -> Measurement | None:
         return measurement.from_json(content) if content else None
 
     return Comparison(
-        side("base"),
-        side("head"),
+        Side(**given["base"]),
+        Side(**given["head"]),
         given["machine"],
         tuple(Gate(**one) for one in given["gates"]),
         tuple(Finding(**one) for one in given["findings"]),

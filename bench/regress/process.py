@@ -16,6 +16,14 @@ from bench.regress.target import environment
 PROGRAM = Path(__file__).with_name("side.py")
 
 
+class SideFailed(Incompatible):
+    """A side's process ended of itself; `at` is its place among those that were started."""
+
+    def __init__(self, at: int, reason: str):
+        super().__init__(reason)
+        self.at = at
+
+
 class Compiled(NamedTuple):
     """A thing that a side can time: its machine code lies under `file`, if it is a law; 0 ticks if it cannot be timed.
 
@@ -45,8 +53,8 @@ class Laws(NamedTuple):
 class Process:
     """A running side; use `running`."""
 
-    def __init__(self, checkout: Path, laws: Laws, objects: Path, errors: Any):
-        self.checkout, self.objects, self.errors = checkout, objects, errors
+    def __init__(self, at: int, checkout: Path, laws: Laws, objects: Path, errors: Any):
+        self.at, self.checkout, self.laws, self.objects, self.errors = at, checkout, laws, objects, errors
         self.popen = subprocess.Popen(
             [sys.executable, "-P", str(PROGRAM)],
             stdin=subprocess.PIPE,
@@ -73,12 +81,12 @@ class Process:
         """The side's next line.
 
         Errors:
-            Incompatible: the side ended; the message has its last words.
+            SideFailed: it ended; the message has its last words.
         """
         assert self.popen.stdout is not None
         line = self.popen.stdout.readline()
         if not line:
-            raise Incompatible(f"{self.checkout.name}: its laws cannot be timed ({self._last_words()})")
+            raise SideFailed(self.at, f"laws of {self.checkout} cannot be compiled and timed ({self._last_words()})")
         return json.loads(line)
 
     def _last_words(self) -> str:
@@ -96,13 +104,17 @@ class Process:
 
 @contextlib.contextmanager
 def running(checkouts: list[tuple[Path, Laws]]) -> Iterator[list[Process]]:
-    """A process for each checkout, all of which compile at once; they end with the block."""
+    """A process for each checkout, all of which compile at once; they end with the block.
+
+    Errors:
+        SideFailed: one cannot import or compile its laws.
+    """
     with contextlib.ExitStack() as stack:
         processes = []
-        for checkout, laws in checkouts:
+        for at, (checkout, laws) in enumerate(checkouts):
             objects = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="orientation-bench-")))
             errors = stack.enter_context(tempfile.TemporaryFile())
-            process = Process(Path(checkout), laws, objects, errors)
+            process = Process(at, Path(checkout), laws, objects, errors)
             stack.callback(process.popen.wait)
             stack.callback(process.popen.kill)
             processes.append(process)
