@@ -6,7 +6,7 @@
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
 .PHONY: help setup bench bench-quick time libraries report test check lint gate regress regress-study
-.PHONY: reference media lock clean audit
+.PHONY: reference media lock clean audit judge history
 
 SHELL := /bin/sh
 VENV := .venv
@@ -52,6 +52,16 @@ time: $(READY)
 libraries: ## ask other robot libraries for orientation errors (2 GB of their own): results/libraries
 libraries: $(LIBRARIES)/.made
 	@$(LIBRARIES)/bin/python -m bench.libraries $(ARGS)
+
+judge:  ## judge your law against an older one of it: make judge LAW=my_law.py BASE=main (writes judge.md)
+judge: $(READY)
+	@test -n "$$LAW" || { echo "Name your law's file: make judge LAW=my_law.py BASE=main" >&2; exit 2; }
+	@rm -f judge.md
+	@$(PY) -m bench compare $(BASE) --law "$$LAW" --summary judge.md --json judge.json $(ARGS)
+
+history: ## measure this commit and append it to results/history/history.jsonl (minutes)
+history: $(READY)
+	@$(PY) -m bench history add $(ARGS)
 
 setup:  ## install what the benchmark needs, and nothing else
 setup: $(READY)

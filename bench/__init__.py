@@ -11,8 +11,8 @@ Running            engines/ (reference, native, ideal-rk4, ideal-held), metric, 
 A run              suites, choice, plan, run, journal (its folder until it is finished), schedulers/ (threads), work
                    (a unit's rows), chunk (units as JSON, for other processes), finish (its tables), ahead (a second
                    process compiles), rows, traces, boundary, poses, counting/, schema, store, provenance
-Reading results    claims/ (the paper's sentences), compare/ (two runs), regress/ (two revisions), figures/ (the
-                   report's), kept_laws and trust (laws of a results folder that may run)
+Reading results    claims/ (the paper's sentences), compare/ (two runs), regress/ (two revisions), history/ (every
+                   build), figures/ (the report's), kept_laws and trust (laws of a results folder that may run)
 Time               timing/ (pytest-benchmark)
 The command line   cli/ (one file a command)
 

@@ -98,6 +98,7 @@ def keys(results: Path) -> dict[str, str]:
     behind_cells = [
         *files_below(results),
         *files_below(ROOT / "results" / "timings"),
+        *files_below(ROOT / "results" / "history"),
         *files_below(ROOT / "results" / "libraries"),
         *files_below(ROOT / "bench"),
         *files_below(ROOT / "tasks"),

@@ -41,7 +41,7 @@ def tiny_run(tmp_path_factory):
 
 
 def test_commands_are_those_of_the_design():
-    assert set(COMMANDS) == {"list", "run", "show", "count", "time", "compare", "claims", "doctor", "trust"}
+    assert set(COMMANDS) == {"list", "run", "show", "count", "time", "compare", "claims", "doctor", "trust", "history"}
 
 
 def test_help_names_every_command(capsys):

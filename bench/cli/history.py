@@ -1,0 +1,135 @@
+"""`history`: what every build measured; add a build, look for steps."""
+
+import os
+import subprocess
+from pathlib import Path
+
+import pandas as pd
+import rich_click as click
+
+from bench.cli.screen import console, frame_table
+from bench.errors import BadResults
+from bench.provenance import ROOT
+
+SIDES = ("head", "base")
+book = click.option(
+    "--file",
+    "path",
+    type=click.Path(path_type=Path),
+    default=None,
+    show_default="results/history/history.jsonl",
+    metavar="FILE",
+    help="The history.",
+)
+
+
+@click.group("history", epilog="A comparison is what [b]python -m bench compare BASE HEAD --json FILE[/b] writes.")
+def COMMAND():
+    """What every build measured, a line a benchmark, and where it changed."""
+
+
+@COMMAND.command("add")
+@click.argument("comparisons", nargs=-1, type=click.Path(path_type=Path), metavar="[COMPARISON]...")
+@click.option("--side", "sides", multiple=True, type=click.Choice(SIDES), help="Of a comparison; head by default.")
+@book
+def add(comparisons, sides, path):
+    """Measure this checkout and append a line for each law and engine; or append what comparisons measured.
+
+    A build that this machine has measured before adds nothing.
+    """
+    from bench.history import book, line
+    from bench.regress import comparison, own
+
+    if comparisons:
+        given = [(one, side) for one in map(comparison.read, comparisons) for side in sides or SIDES[:1]]
+        lines = [new for one, side in given for new in line.of_comparison(one, side, commit_of)]
+    else:
+        measured = own.measure(lambda words: console(stderr=True).print(words))
+        lines = line.of_own(measured, commit_of)
+        if measured.uncounted:
+            console().print(measured.uncounted)
+    path = path or book.BOOK
+    console().print(f"{book.append(lines, path)} of {len(lines)} lines are new: {path}")
+
+
+@COMMAND.command("merge")
+@click.argument("histories", nargs=-1, required=True, type=click.Path(path_type=Path), metavar="HISTORY...")
+@book
+def merge(histories, path):
+    """Append the lines of other histories: of another machine, or of a branch that keeps them."""
+    from bench.history import book
+
+    path = path or book.BOOK
+    for one in histories:
+        if not one.is_file():
+            raise BadResults(f"{one}: there is no such file; give a history, as results/history/history.jsonl")
+    lines = [line for one in histories for line in book.read(one)]
+    console().print(f"{book.append(lines, path)} of {len(lines)} lines are new: {path}")
+
+
+@COMMAND.command("walk")
+@click.argument("commits", nargs=-1, required=True, metavar="COMMIT...")
+@book
+def walk(commits, path):
+    """Measure older commits today, each in a checkout of its own, and append their lines (minutes each)."""
+    from bench.history import book, line
+    from bench.history.walk import measure
+
+    path = path or book.BOOK
+    for commit in commits:
+        lines = line.of_own(measure(commit, lambda words: console(stderr=True).print(words)), commit_of)
+        console().print(f"{commit}: {book.append(lines, path)} of {len(lines)} lines are new: {path}")
+
+
+@COMMAND.command("show")
+@book
+def show(path):
+    """The builds, and every step: what changed, from which commit on, by how much."""
+    from bench.history import book
+    from bench.history.series import series
+    from bench.history.steps import steps
+
+    lines = book.read(path or book.BOOK)
+    if not lines:
+        raise BadResults("the history is empty; add a build to it (try: python -m bench history add --help)")
+    builds = pd.DataFrame(
+        [(line.date, line.commit[:10], line.machine, line.benchmark.name) for line in lines],
+        columns=["date", "commit", "machine", "benchmarks"],
+    )
+    counted = builds.groupby(["date", "commit", "machine"], sort=False)["benchmarks"].count().reset_index()
+    console().print(frame_table(counted, "Builds"))
+    every = series(lines)
+    places = {line.commit: line.place for line in lines}
+    found = sorted((step for one in every for step in steps(one)), key=lambda step: places[step.point.commit])
+    table = pd.DataFrame(
+        [
+            (step.point.date[:10], step.point.commit[:10], step.series.name, step.series.measure, step.says)
+            for step in found
+        ],
+        columns=["date", "commit", "benchmark", "measure", "what changed"],
+    )
+    console().print(frame_table(table, f"\nSteps: {len(found)} in {len(every)} series"))
+
+
+def commit_of(name: str):
+    """A commit of this checkout: when it was made, UTC, and how many lead to it.
+
+    Errors:
+        BadResults: there is no such commit, or a clone without the history before it.
+    """
+    from bench.history.line import Commit
+
+    if _git("rev-parse", "--is-shallow-repository") == "true":
+        raise BadResults("this clone lacks older commits, which order a history (cure: git fetch --unshallow)")
+    date = _git("show", "-s", "--date=format-local:%Y-%m-%dT%H:%M:%SZ", "--format=%cd", name, "--")
+    return Commit(name, date, int(_git("rev-list", "--count", name, "--")))
+
+
+def _git(*words: str) -> str:
+    try:
+        said = subprocess.run(
+            ["git", "-C", str(ROOT), *words], capture_output=True, text=True, check=True, env=os.environ | {"TZ": "UTC"}
+        )
+    except (OSError, subprocess.CalledProcessError) as error:
+        raise BadResults(f"git {words[0]}: no such commit in this checkout (cure: git fetch)") from error
+    return said.stdout.strip()
