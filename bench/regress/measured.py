@@ -70,9 +70,8 @@ def measured(
         gates.append(Gate(TIME, SKIPPED, "there is no base to compare with"))
     else:
         names = _to_time(base, head, wanted.same_code)
-        rounds = alternating.take(processes, names, wanted.rounds, wanted.seed, told) if names else rounds
-        times = {name: rule.judge(rounds[0][name].ticks, rounds[1][name].ticks) for name in names}
-        times |= _second_run(processes, times, wanted, told)
+        rounds, first = timed_once(processes, names, wanted, told)
+        times = first | second_run(processes, first, wanted, told)
         slower = [_slower(name, one) for name, one in times.items() if one.verdict != SAME]
         untimed = len(own.timed(head)) - len(names)
         gates.append(_gate(TIME, slower, f"{len(names)} timed, {untimed} not: the same machine code, or new"))
@@ -110,8 +109,18 @@ def _to_time(base: Process, head: Process, same_code: bool) -> list[str]:
     return [name for name in both if not (same_code and _same_code(base, head, name))]
 
 
-def _second_run(
-    processes: list[Process], times: dict[str, Timed], wanted: Wanted, told: Callable[[str], None]
+def timed_once(
+    processes: list[Process], names: list[str], wanted: Wanted, told: Callable[[str], None] = lambda _: None
+) -> tuple[list[dict[str, alternating.Rounds]], dict[str, Timed]]:
+    """The rounds of both sides, and the verdicts of this one run."""
+    if not names:
+        return [{} for _ in processes], {}
+    rounds = alternating.take(processes, names, wanted.rounds, wanted.seed, told)
+    return rounds, {name: rule.judge(rounds[0][name].ticks, rounds[1][name].ticks) for name in names}
+
+
+def second_run(
+    processes: list[Process], times: dict[str, Timed], wanted: Wanted, told: Callable[[str], None] = lambda _: None
 ) -> dict[str, Timed]:
     """What is left of verdicts other than "same", after a run of these alone in processes of their own."""
     suspects = [name for name, one in times.items() if one.verdict != SAME]
@@ -119,8 +128,8 @@ def _second_run(
         return {}
     told(f"timing {len(suspects)} once more")
     with running([(side.checkout, side.laws) for side in processes]) as anew:
-        old, new = alternating.take(anew, suspects, wanted.rounds, wanted.seed + 1, told)
-    return {name: rule.confirmed(times[name], rule.judge(old[name].ticks, new[name].ticks)) for name in suspects}
+        _, again = timed_once(anew, suspects, wanted._replace(seed=wanted.seed + 1), told)
+    return {name: rule.confirmed(times[name], again[name]) for name in suspects}
 
 
 def _more(name: str, was: float, now: float) -> Finding | None:

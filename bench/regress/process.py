@@ -43,11 +43,15 @@ class Compiled(NamedTuple):
 
 
 class Laws(NamedTuple):
-    """What a side is asked for: a user's files, whether nothing but those, and whether engines too."""
+    """What a side is asked for: a user's files, whether nothing but those, and whether engines too.
+
+    names: nothing but these laws; none: all.
+    """
 
     files: tuple[Path, ...] = ()
     only: bool = False
     engines: bool = True
+    names: tuple[str, ...] = ()
 
 
 class Process:
@@ -66,7 +70,7 @@ class Process:
             start_new_session=True,  # Ctrl-C is the parent's to handle
         )
         files = [str(path) for path in laws.files]
-        self.say(laws=files, only=laws.only, engines=laws.engines, objects=str(objects))
+        self.say(laws=files, only=laws.only, engines=laws.engines, names=laws.names, objects=str(objects))
         self.things: dict[str, Compiled] = {}
         self.sources = ""
 

@@ -3,8 +3,8 @@
 Run by its path with the checkout as PYTHONPATH (`process.py`), so it is always the head's file, and imports of the
 other side only what both have: bench.timing and what that stands on. It speaks JSON lines:
 
-    in   {"laws": [...], "only": bool, "engines": bool, "objects": folder}   user's law files; whether these alone;
-                                                        whether engines are timed; where machine code is written
+    in   {"laws": [...], "only": bool, "names": [...], "engines": bool, "objects": folder}   a user's law files; whether
+             nothing but these; nothing but these names, if any; whether engines too; where machine code is written
     out  {"things": [{name, what, ticks, code, symbol}], "sources": ...}
     in   {"order": [names], "rounds": n}   once a session; {} ends the process
     out  {"waiting": true}                 before every round, when the one before it is done
@@ -76,7 +76,7 @@ class Timed:
         self.code = self.symbol = ""
 
 
-def laws_alone(files: list[str], only: bool, folder: Path) -> list[Timed]:
+def laws_alone(files: list[str], only: bool, names: list[str], folder: Path) -> list[Timed]:
     """Every law in its latency chain, its machine code written to the folder."""
     from bench import discovery
     from bench.contender import Gains
@@ -89,7 +89,7 @@ def laws_alone(files: list[str], only: bool, folder: Path) -> list[Timed]:
     states.tofile(folder / "states")
     found = []
     for one in known:
-        if one.regulator.in_engine:
+        if one.regulator.in_engine or (names and one.name not in names):
             continue
         loop = law.loop_of(command_of(one), memory_of(one), cache=not one.regulator.origin)
 
@@ -199,7 +199,7 @@ def main() -> None:
     asked = channel.hear()
     from bench.provenance import source_digest
 
-    things = laws_alone(asked["laws"], asked["only"], Path(asked["objects"]))
+    things = laws_alone(asked["laws"], asked["only"], asked["names"], Path(asked["objects"]))
     if asked["engines"]:
         things += engines()
     kept = ("name", "what", "ticks", "code", "symbol")
