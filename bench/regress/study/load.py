@@ -7,9 +7,10 @@ import sys
 from collections.abc import Iterator
 
 COMPUTE = """
-import random, time
+import os, random, time
+asked_by = os.getppid()
 draw = random.Random({seed})
-while True:
+while os.getppid() == asked_by:
     end = time.monotonic() + draw.uniform(0.05, 1.0)
     while time.monotonic() < end:
         sum(i * i for i in range(1000))
@@ -17,11 +18,12 @@ while True:
 """
 
 MOVE = """
-import random, time
+import os, random, time
 import numpy as np
+asked_by = os.getppid()
 draw = random.Random({seed})
 one, other = np.ones((2, 4_000_000))
-while True:
+while os.getppid() == asked_by:
     end = time.monotonic() + draw.uniform(0.05, 1.0)
     while time.monotonic() < end:
         one[:] = other
