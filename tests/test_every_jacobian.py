@@ -1,5 +1,6 @@
 """Contracts that every Jacobian in bench/jacobians keeps, in every representation; a new file is under them unnamed."""
 
+import functools
 from pathlib import Path
 
 import numba
@@ -78,12 +79,18 @@ def test_its_expression_of_a_motion_is_its_own_product_with_the_rates(pair, n):
         assert np.linalg.norm(given) == pytest.approx(np.linalg.norm(velocity), abs=allowed)
 
 
+@functools.cache
+def compiled(pair) -> list:
+    """Its kernels, for any number of joints."""
+    register_kernels()
+    one, coordinates = pair
+    return [numba.njit(**JIT)(kernel) for kernel in one.kernels_in(coordinates)]
+
+
 @pytest.mark.parametrize("n", [6, 7])
 @pytest.mark.parametrize("pair", PAIRS, ids=named)
 def test_counted_and_compiled_kernels_give_the_bits_of_the_plain_ones(pair, n):
-    register_kernels()
-    one, coordinates = pair
-    fill, convert = (numba.njit(**JIT)(kernel) for kernel in one.kernels_in(coordinates))
+    fill, convert = compiled(pair)
     for chain in chains(n):
         plain = filled(pair, chain)
         assert same_bits(filled(pair, chain, object), plain), chain.R
@@ -91,6 +98,6 @@ def test_counted_and_compiled_kernels_give_the_bits_of_the_plain_ones(pair, n):
         with np.errstate(all="ignore"):
             bias = bias_acceleration(chain)
         plain = converted(pair, chain, bias)
-        assert plain.shape == (rows_of(coordinates),)
+        assert plain.shape == (rows_of(pair[1]),)
         assert same_bits(converted(pair, chain, bias, object), plain), chain.R
         assert same_bits(converted(pair, chain, bias, convert=convert), plain), chain.R
