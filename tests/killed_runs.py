@@ -23,8 +23,8 @@ from bench.contender import Gains
 from bench.discovery import find_contender
 
 SEED = 20260119
-KILLS = 20
-MOST_TRIES = 60  # a moment after the end of its run kills nothing and is drawn again
+KILLS = 10
+MOST_TRIES = 30  # a moment after the end of its run kills nothing and is drawn again
 EVENTS = {"open", "os.mkdir", "os.remove", "os.rename", "os.rmdir", "os.chmod"}
 
 
