@@ -85,7 +85,7 @@ def _defined(tree: ast.Module) -> set[str]:
     Its kernels, its tuple types, and what a plain function around a kernel is given or binds: law_in's functions of
     the representation, whose own file is checked.
     """
-    names = {node.name for node in ast.walk(tree) if isinstance(node, ast.ClassDef) or node in _kernels(tree)}
+    names = {node.name for node in ast.walk(tree) if isinstance(node, ast.ClassDef) or _is_kernel(node)}
     for maker in ast.walk(tree):
         if isinstance(maker, ast.FunctionDef) and not _is_kernel(maker):
             names |= {argument.arg for argument in maker.args.args}
