@@ -6,6 +6,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
+from builds import line
 from command_line import bench, refused
 
 from bench.errors import BadResults
@@ -15,16 +16,6 @@ from bench.history.series import FLOPS, INSTRUCTIONS, TIME, series
 from bench.history.steps import BUILDS, steps
 from bench.provenance import ROOT
 from bench.regress import comparison
-from bench.regress.measurement import Measurement, Spread
-
-
-def line(build, *, machine="a-2-cores", time=None, instructions=None, compiler="0" * 16, code="", **typical) -> Line:
-    """A line of the build of that number, of a law that is made up."""
-    spread = Spread(time, 0.9 * time, 1.1 * time) if time else None
-    operations = {"typical": typical, "worst": typical} if typical else {}
-    measured = Measurement("my-law", "law", spread, 40 if time else 0, instructions, operations, code)
-    return Line(f"{build:040x}", "2026-01-01T00:00:00Z", build + 1, machine, compiler, measured)
-
 
 GOOD = line(1, time=2.5, instructions=100.0, flops=45, mul=20)
 
@@ -225,3 +216,8 @@ def test_histories_of_two_machines_become_one(capsys, tmp_path):
 
 def test_empty_history_says_how_to_begin(capsys, tmp_path):
     assert "the history is empty" in refused(capsys, "history", "show", "--file", tmp_path / "none.jsonl")
+
+
+def test_history_of_this_checkout_can_be_read():
+    lines = book.read()
+    assert len({one.commit for one in lines}) >= 4

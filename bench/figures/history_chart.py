@@ -16,7 +16,8 @@ NARROW_TITLES = {FLOPS: "flops", INSTRUCTIONS: "instr.", TIME: "time"}
 BAND = 0.25
 """Relative change that takes a line from the middle of its row to the edge; what goes farther stays at the edge."""
 HALF = 0.36
-"""Of a row's height, from its middle to its edge."""
+"""Of a row's height, from its middle to its edge; on a phone the row's name stands above it."""
+NARROW_HALF = 0.22
 UP, DOWN = "#d55e00", "#009e73"
 LINES = ("-", (0, (4, 1.5)), (0, (1.5, 1.5)))
 """Of times: a line a machine."""
@@ -37,12 +38,12 @@ def chart(given: History, *, narrow=False):
     for axes, measure in zip(panels, MEASURES, strict=True):
         axes.set_title((NARROW_TITLES if narrow else TITLES)[measure], fontsize=9.5)
         for row, (what, name) in enumerate(names):
-            _draw(axes, given, row, (what, name, measure), places)
+            _draw(axes, given, row, (what, name, measure), places, NARROW_HALF if narrow else HALF)
         _frame(axes, given, len(names), narrow)
     for row, (what, name) in enumerate(names):
         text = _called(what, name)
         if narrow:
-            panels[0].text(-0.3, row - 0.42, text, fontsize=7.5, va="center", color=style.INK)
+            panels[0].text(-0.4, row - 0.45, text, fontsize=7.5, va="center", color=style.INK)
         else:
             panels[0].annotate(
                 text, (0.0, row), (-6, 0), xycoords=("axes fraction", "data"), textcoords="offset points",
@@ -58,15 +59,17 @@ def _called(what: str, name: str) -> str:
     return name.replace(" rotation-matrix", "").replace("@", " ")
 
 
-def _draw(axes, given: History, row: int, key: tuple[str, str, str], places: dict[str, int]) -> None:
+def _draw(
+    axes, given: History, row: int, key: tuple[str, str, str], places: dict[str, int], half: float
+) -> None:
     """One cell: its lines, the steps, and the latest value."""
     found = given.of(*key)
     for line, one in zip(LINES, found, strict=False):
         last = one.points[-1].value
-        heights = [row - _height(point.value, last) for point in one.points]
+        heights = [row - half * _height(point.value, last) for point in one.points]
         at = [places[point.commit] for point in one.points]
         if one.measure == TIME:
-            low, high = ([row - _height(getattr(p, end), last) for p in one.points] for end in ("low", "high"))
+            low, high = ([row - half * _height(getattr(p, end), last) for p in one.points] for end in ("low", "high"))
             axes.vlines(at, high, low, color=style.MUTED, linewidth=0.8)
         colour = style.look(one.name).colour if one.what == LAW else style.INK
         dot = {"marker": "o", "markersize": 2.2} if one.measure == TIME or len(at) == 1 else {}
@@ -84,10 +87,10 @@ def _draw(axes, given: History, row: int, key: tuple[str, str, str], places: dic
 
 
 def _height(value: float, last: float) -> float:
-    """How far above the middle of its row a value stands: by its logarithm, so that twice and half are alike."""
+    """How far from the middle of its row a value stands, -1 to 1: by logarithm, so that twice and half are alike."""
     if value <= 0.0 or last <= 0.0:
         return 0.0
-    return HALF * float(np.clip(np.log(value / last) / np.log1p(BAND), -1.0, 1.0))
+    return float(np.clip(np.log(value / last) / np.log1p(BAND), -1.0, 1.0))
 
 
 def _shown(point: Point, measure: str) -> str:
@@ -96,7 +99,7 @@ def _shown(point: Point, measure: str) -> str:
 
 def _frame(axes, given: History, rows: int, narrow: bool) -> None:
     builds = len(given.builds)
-    axes.set_ylim(rows - 0.2, -0.8 if narrow else -0.6)
+    axes.set_ylim(rows - 0.2, -0.85 if narrow else -0.6)
     axes.set_xlim(-0.5, builds - 0.5 + (0.75 if narrow else 0.42) * builds)
     axes.set_yticks([])
     axes.set_xticks([])

@@ -71,5 +71,5 @@ def repository() -> str:
 
 def commit(name: str) -> html.Html:
     """A commit, leading to what it changed where that can be seen."""
-    short = f"<code>{html.foreign(name[:SHORT])}</code>"
+    short = html.together(f"<code>{html.foreign(name[:SHORT])}</code>")
     return html.Html(f'<a href="{repository()}/commit/{html.foreign(name)}">{short}</a>' if repository() else short)

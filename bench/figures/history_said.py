@@ -7,9 +7,9 @@ import pandas as pd
 from bench.figures import html
 from bench.figures.history_rows import History, commit
 from bench.history.series import FLOPS, INSTRUCTIONS, TIME
-from bench.history.steps import BUILDS, RATIO, REPEATS, WINDOW, P, Step
+from bench.history.steps import BUILDS, OTHER_COMPILER, RATIO, REPEATS, WINDOW, P, Step
 
-MEASURED = {FLOPS: "operations", INSTRUCTIONS: "instructions", TIME: "time"}
+MEASURED = {FLOPS: "Flops", INSTRUCTIONS: "Instructions", TIME: "Time"}
 
 
 def builds(given: History) -> html.Markdown:
@@ -21,7 +21,7 @@ def builds(given: History) -> html.Markdown:
         rows.append(
             {
                 "Commit": commit(name),
-                "Date": date[:10],
+                "Date": html.together(date[:10]),
                 "Benchmarks": len({(one.what, one.name) for one in has}),
                 "Timed on": html.foreign(", ".join(machines)) or None,
                 "Steps": sum(step.point.commit == name for step in given.steps),
@@ -31,30 +31,40 @@ def builds(given: History) -> html.Markdown:
 
 
 def steps(given: History) -> html.Markdown:
-    """A row for all that one build changed alike, newest first."""
-    alike: dict[tuple[str, str, str], list[Step]] = {}
+    """A row a benchmark that a build changed, newest first: from what to what, by measure."""
+    found: dict[tuple[str, str], dict[str, Step]] = {}
     for step in reversed(given.steps):
-        alike.setdefault((step.point.commit, step.series.measure, step.says), []).append(step)
+        found.setdefault((step.point.commit, step.series.name), {})[step.series.measure] = step
     rows = [
         {
-            "Commit": commit(name),
-            "Date": found[0].point.date[:10],
-            "Benchmark": "<br>".join(f"<code>{html.foreign(one.series.name)}</code>" for one in found),
-            "Of its": MEASURED[measure],
-            "What changed": html.foreign(says),
+            "Commit": commit(at),
+            "Date": html.together(next(iter(of.values())).point.date[:10]),
+            "Benchmark": f"<code>{html.foreign(name)}</code>",
+            **{title: changed(of.get(measure)) for measure, title in MEASURED.items()},
         }
-        for (name, measure, says), found in alike.items()
+        for (at, name), of in found.items()
     ]
-    return html.table(pd.DataFrame(rows, columns=["Commit", "Date", "Benchmark", "Of its", "What changed"]))
+    return html.table(pd.DataFrame(rows, columns=["Commit", "Date", "Benchmark", *MEASURED.values()]))
 
 
-def rule() -> dict[str, float]:
+def changed(step: Step | None) -> str | None:
+    """From what to what; the operations by name where flops are the same."""
+    if step is None:
+        return None
+    if step.series.measure == TIME:
+        return html.foreign(step.says)
+    was, now = (html.number(round(value)) for value in (step.was, step.now))
+    is_plain = was != now and not step.says.endswith(OTHER_COMPILER)
+    return html.together(f"{was} → {now}") if is_plain else html.foreign(step.says)
+
+
+def rule() -> dict[str, object]:
     """The numbers of the rule, as the page says them."""
     return {
-        "repeats": 100.0 * REPEATS,
+        "repeats": f"{100.0 * REPEATS:g}\N{NO-BREAK SPACE}%",
         "fewest": BUILDS,
         "p": P,
-        "tenth": 100.0 * (RATIO - 1.0),
+        "tenth": f"{100.0 * (RATIO - 1.0):.0f}\N{NO-BREAK SPACE}%",
     }
 
 

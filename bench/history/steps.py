@@ -23,6 +23,8 @@ BUILDS, WINDOW = 5, 10
 """Builds on each side of a step in time: with fewer on one side, no order of them has a p below P, however many are on
 the other; with more, an older step of the other direction would hide one."""
 
+OTHER_COMPILER = ", with another compiler or processor"
+
 P, RATIO = 0.001, 1.10
 """The second keeps chance out too: of thousands of builds some have a p below P, and then medians that are alike."""
 
@@ -66,7 +68,7 @@ def _counted(one: Series, at: int) -> Step | None:
     is_same_code = here.code == before.code != ""
     if is_same_code or abs(here.value / before.value - 1.0) <= REPEATS:
         return None
-    reason = "" if here.compiler == before.compiler else ", with another compiler or processor"
+    reason = "" if here.compiler == before.compiler else OTHER_COMPILER
     return Step(one, at, before.value, here.value, f"{before.value:.1f} to {here.value:.1f} a tick{reason}")
 
 
