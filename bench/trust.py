@@ -15,17 +15,21 @@ def home() -> Path:
     return Path(base) / "orientation-bench" / "laws"
 
 
+def mark(text: bytes) -> Path:
+    """The file that is there if this user has run the text, or said that it may run."""
+    return home() / hashlib.sha256(text).hexdigest()
+
+
 def remember(text: bytes) -> None:
     """From now on this text is this user's own.
 
     Errors:
         OSError: the user's state cannot be written.
     """
-    place = home() / hashlib.sha256(text).hexdigest()
-    place.parent.mkdir(parents=True, exist_ok=True)
-    place.touch()
+    mark(text).parent.mkdir(parents=True, exist_ok=True)
+    mark(text).touch()
 
 
 def is_own(text: bytes) -> bool:
     """Whether this user has run the text, or said that it may run."""
-    return (home() / hashlib.sha256(text).hexdigest()).is_file()
+    return mark(text).is_file()

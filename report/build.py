@@ -24,6 +24,8 @@ from pathlib import Path
 
 import check_site
 
+from bench import trust
+
 REPORT = Path(__file__).resolve().parent
 ROOT = REPORT.parent
 BUILD = REPORT / "_build"
@@ -95,8 +97,10 @@ def digest(paths: Iterable[Path]) -> str:
 
 def keys(results: Path) -> dict[str, str]:
     """Digests of what the cells read and run, and of all that a page is made of."""
+    marks = (trust.mark(path.read_bytes()) for path in sorted(results.glob("laws/*.py")))
     behind_cells = [
         *files_below(results),
+        *(mark for mark in marks if mark.is_file()),
         *files_below(ROOT / "results" / "timings"),
         *files_below(ROOT / "results" / "history"),
         *files_below(ROOT / "results" / "libraries"),

@@ -6,6 +6,7 @@ import subprocess
 import sys
 
 import pyarrow as pa
+import pyarrow.compute as pc
 import pyarrow.parquet as pq
 import pytest
 from command_line import TINY, bench, digest, refused, refused_run
@@ -37,13 +38,28 @@ def marker(tmp_path):
     return tmp_path / "marker"
 
 
+@pytest.fixture(scope="module")
+def renamed(tmp_path_factory):
+    """The same, with the rows of one of our laws under a name that is none of ours."""
+    folder = shutil.copytree(RESULTS / "reference", tmp_path_factory.mktemp("renamed") / "theirs")
+    for path in folder.glob("*.parquet"):
+        table = pq.read_table(path)
+        if "regulator" in table.schema.names:
+            at = table.schema.names.index("regulator")
+            words = pc.replace_substring(table["regulator"].cast(pa.string()), "weighted-columns", "evil-law")
+            table = table.set_column(at, table.schema.field(at), words.dictionary_encode())
+            pq.write_table(table, path)
+    return folder
+
+
 @pytest.fixture
-def evil(theirs, marker, monkeypatch):
-    """The same with a law that leaves a marker when it is run."""
-    (theirs / "laws").mkdir()
-    (theirs / "laws" / "evil_law.py").write_text(EVIL.format(marker=str(marker)))
-    monkeypatch.setenv(results.VARIABLE, str(theirs))
-    return theirs
+def evil(renamed, tmp_path, marker, monkeypatch):
+    """The same, with a file of that name which leaves a marker when it is run."""
+    folder = shutil.copytree(renamed, tmp_path / "evil")
+    (folder / "laws").mkdir()
+    (folder / "laws" / "evil_law.py").write_text(EVIL.format(marker=str(marker)))
+    monkeypatch.setenv(results.VARIABLE, str(folder))
+    return folder
 
 
 def test_law_from_elsewhere_is_shown_as_text_and_not_run(evil, marker):
@@ -51,6 +67,7 @@ def test_law_from_elsewhere_is_shown_as_text_and_not_run(evil, marker):
     shown = "".join(cards.parts(own))
     assert (own.name, own.law, marker.exists()) == ("evil-law", None, False)
     assert "was not run" in shown
+    assert "uniform starts settle" in shown
     assert "<script>" not in shown
     assert "REGULATOR" in shown
 
@@ -61,7 +78,9 @@ def test_summary_of_their_results_runs_no_law_of_theirs(capsys, evil, marker):
 
 
 def test_answer_from_their_results_runs_no_law_of_theirs(evil, marker):
-    assert tables_of(Results(evil)).contenders
+    found = tables_of(Results(evil)).contenders
+    assert "rotation-matrix" in found
+    assert "evil-law" not in found
     assert not marker.exists()
 
 

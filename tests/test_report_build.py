@@ -101,6 +101,17 @@ def test_cells_run_again_when_what_they_read_changes(tree, name):
     assert keys(tree)["cells"] != before["cells"]
 
 
+def test_cells_run_again_when_a_law_of_the_results_is_trusted(tree):
+    law = finished(tree / "results" / "reference") / "laws" / "own.py"
+    law.parent.mkdir()
+    law.write_text("REGULATOR = 1")
+    before = keys(tree)
+    build.trust.remember(b"REGULATOR = 2")
+    assert keys(tree) == before
+    build.trust.remember(law.read_bytes())
+    assert keys(tree)["cells"] != before["cells"]
+
+
 def test_cells_run_again_when_results_change(tree):
     results = finished(tree / "results" / "reference")
     before = keys(tree)

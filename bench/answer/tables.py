@@ -51,7 +51,7 @@ def tables_of(results: Results) -> Tables:
     priced = {str(name): rows for name, rows in costs.groupby("contender", observed=True)}
     sets = runs.groupby("contender", observed=True)["start_set"].agg(set)
     known = {one.name: one for one in (*all_contenders(), *_own(results))}
-    names = [name for name in sets.index if {"uniform", "half-turn"} <= sets[name] and name in priced]
+    names = [name for name in sets.index if {"uniform", "half-turn"} <= sets[name] and name in priced and name in known]
     runs = some(runs[runs["contender"].isin(names)], "law with uniform starts, half turns and a cost")
     runs = runs.assign(contender=runs["contender"].astype(str), lost=~settled(runs))
     named = {name: known[name] for name in names}
@@ -94,6 +94,6 @@ def _on_arms(every: pd.DataFrame) -> pd.DataFrame:
 
 
 def _own(results: Results) -> list[Contender]:
-    """The user's laws of the run."""
+    """The user's laws of the run; one that may not run cannot be asked how far it jumps, and is left out."""
     laws = published.own_laws(results.folder) if results.folder else ()
-    return [one for law in laws for one in contenders_of(law)]
+    return [one for law in laws if law.law or law.law_in for one in contenders_of(law)]
