@@ -93,6 +93,14 @@ def test_append_to_a_broken_history_leaves_it_as_it_is(tmp_path):
     assert path.read_text() == to_json(GOOD)[:-9]
 
 
+def test_line_that_could_not_be_read_again_is_not_written(tmp_path):
+    path = tmp_path / "history.jsonl"
+    odd = GOOD._replace(benchmark=GOOD.benchmark._replace(name="<script>"))
+    with pytest.raises(BadResults, match="name is '<script>'"):
+        book.append([GOOD, odd], path)
+    assert not path.exists()
+
+
 def write_some(path, first):
     for build in range(first, first + 20):
         book.append([line(build)], path)

@@ -52,9 +52,10 @@ def append(lines: Iterable[Line], path: Path = BOOK) -> int:
     A build that is measured a second time on a machine adds nothing: the first measurement stands.
 
     Errors:
-        BadResults: see `read`; or the file cannot be written.
+        BadResults: see `read`; a line that could not be read again; or the file cannot be written.
     """
     path = Path(path)
+    lines = [from_json(to_json(line)) for line in lines]
     path.parent.mkdir(parents=True, exist_ok=True)
     with _alone(path.parent):
         known = {line.key for line in read(path)}
