@@ -44,6 +44,7 @@ def add(comparisons, sides, path):
         given = [(one, side) for one in map(comparison.read, comparisons) for side in sides or SIDES[:1]]
         lines = [new for one, side in given for new in line.of_comparison(one, side, commit_of)]
     else:
+        commit_of("HEAD")  # a clone that cannot say is refused before the minutes that measuring takes
         measured = own.measure(lambda words: console(stderr=True).print(words))
         lines = line.of_own(measured, commit_of)
         if measured.uncounted:

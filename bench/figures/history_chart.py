@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import itertools
+
 import numpy as np
 
 from bench.figures import families, style
@@ -21,7 +23,7 @@ NARROW_HALF = 0.22
 UP, DOWN = "#d55e00", "#009e73"
 LINES = ("-", (0, (4, 1.5)), (0, (1.5, 1.5)))
 """Of times: a line a machine."""
-NONE_YET = "No build has been measured yet.\npython -m bench history add COMPARISON   adds one."
+NONE_YET = "No build has been measured yet.\npython -m bench history add   measures this one."
 
 
 @responsive_picture
@@ -59,12 +61,10 @@ def _called(what: str, name: str) -> str:
     return name.replace(" rotation-matrix", "").replace("@", " ")
 
 
-def _draw(
-    axes, given: History, row: int, key: tuple[str, str, str], places: dict[str, int], half: float
-) -> None:
+def _draw(axes, given: History, row: int, key: tuple[str, str, str], places: dict[str, int], half: float) -> None:
     """One cell: its lines, the steps, and the latest value."""
     found = given.of(*key)
-    for line, one in zip(LINES, found, strict=False):
+    for line, one in zip(itertools.cycle(LINES), found, strict=False):
         last = one.points[-1].value
         heights = [row - half * _height(point.value, last) for point in one.points]
         at = [places[point.commit] for point in one.points]
