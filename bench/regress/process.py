@@ -99,6 +99,12 @@ class Process:
         lines = [line.strip() for line in self.errors.read().decode(errors="replace").splitlines() if line.strip()]
         return lines[-1] if lines else f"it ended with {self.popen.returncode}"
 
+    def end(self) -> None:
+        """End it, whatever it is doing."""
+        self.popen.kill()
+        with contextlib.suppress(BrokenPipeError):
+            self.popen.communicate()
+
     def ready(self) -> None:
         """Wait until all is compiled."""
         told = self.hear()
@@ -119,8 +125,7 @@ def running(checkouts: list[tuple[Path, Laws]]) -> Iterator[list[Process]]:
             objects = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="orientation-bench-")))
             errors = stack.enter_context(tempfile.TemporaryFile())
             process = Process(at, Path(checkout), laws, objects, errors)
-            stack.callback(process.popen.wait)
-            stack.callback(process.popen.kill)
+            stack.callback(process.end)
             processes.append(process)
         for process in processes:
             process.ready()

@@ -22,12 +22,24 @@ from bench.regress.study.planting import Edit, copy_with, removed, replaced, unc
 from bench.regress.target import environment
 from bench.so3 import from_quaternion
 
-SLICE = ("--suite", "quick", "--task", "free-body", "--engine", "ideal-rk4", "--starts", "uniform", "--count", "40")
+STARTS = 40
+SLICE = (
+    "--suite",
+    "quick",
+    "--task",
+    "free-body",
+    "--engine",
+    "ideal-rk4",
+    "--starts",
+    "uniform",
+    "--count",
+    str(STARTS),
+)
+LAWS = ("rotation-matrix", "mrp", "sliding")
 
 MATRIX = "bench/regulators/rotation_matrix.py"
 ENTRY = "    n = cross(R.n, goal.R.n)\n"
 HALF = "    half = 0.5 * gains.kp\n"
-STARTS = 40
 START = 17
 """The uniform start at which something is planted."""
 
@@ -50,13 +62,9 @@ class Fault(NamedTuple):
 def at_start(command: str) -> Edit:
     """The rotation-matrix law answers so at one start, and as ever everywhere else."""
     R = from_quaternion(tasks.start_set("uniform", STARTS, 0)[START].quat_wxyz)
-    conditions = [
-        f"{value - NEAR!r} < {name}" for name, value in (("R.n[0]", R.n[0]), ("R.o[1]", R.o[1]), ("R.a[0]", R.a[0]))
-    ]
-    conditions += [
-        f"{name} < {value + NEAR!r}" for name, value in (("R.n[0]", R.n[0]), ("R.o[1]", R.o[1]), ("R.a[0]", R.a[0]))
-    ]
-    return replaced(MATRIX, ENTRY, f"    if {' and '.join(conditions)}:\n        return {command}\n{ENTRY}")
+    sides = {"R.n[0]": R.n[0], "R.o[1]": R.o[1], "R.a[0]": R.a[0]}
+    inside = " and ".join(f"{value - NEAR!r} < {name} < {value + NEAR!r}" for name, value in sides.items())
+    return replaced(MATRIX, ENTRY, f"    if {inside}:\n        return {command}\n{ENTRY}")
 
 
 def behaviour() -> list[Fault]:
@@ -85,7 +93,7 @@ def run() -> Iterator[dict[str, Any]]:
             with copy_with(fault.edit) as changed:
                 yield _row(fault, of_folders(base, _run(changed)).findings)
     tenth = Fault("a tenth slower", power.LAW, "instructions", power.slower(TENTH))
-    asked = Laws(engines=False, names=(power.LAW, "rotation-matrix", "mrp"))
+    asked = Laws(engines=False, names=(power.LAW, *LAWS))
     with copy_with(tenth.edit) as copy, running([(ROOT, asked), (copy, asked)]) as sides:
         _, found, _ = measured(sides, ({}, {}), Wanted(same_code=False), lambda _: None)
         yield _row(tenth, found)
@@ -95,6 +103,9 @@ def _run(copy: Path) -> Path:
     """The folder of a copy's run."""
     folder = copy / "results" / "run"
     words = [sys.executable, "-m", "bench", "run", *SLICE, "--out", str(folder)]
+    for law in LAWS:
+        if (copy / "bench" / "regulators" / f"{law.replace('-', '_')}.py").is_file():
+            words += ["--regulator", law]
     ended = subprocess.run(words, cwd=copy, env=environment(copy), capture_output=True, text=True)
     if ended.returncode:
         raise BadResults(f"a copy of the sources does not run: {ended.stderr.strip().splitlines()[-1]}")

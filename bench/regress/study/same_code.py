@@ -1,6 +1,7 @@
 """Fifty comparisons of a checkout with itself beside busy neighbours, at the gate's own settings."""
 
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 from bench.provenance import ROOT
@@ -15,23 +16,32 @@ COUNTED = 10
 """Of how many comparisons one has its instructions counted too, on both sides."""
 
 
-def run(count: int = COMPARISONS) -> Iterator[dict[str, Any]]:
-    """One row a comparison; nothing is taken for granted because its machine code is the same.
+AT_ONCE = 4
+"""Comparisons that run at a time: each is a neighbour to the others."""
 
-    timed: every verdict of the first run. doubted: what the second run made of those that were not "same".
+
+def run(count: int = COMPARISONS) -> Iterator[dict[str, Any]]:
+    """One row a comparison, in their order; nothing is taken for granted because its machine code is the same.
+
+    load: busy processes beside it, by kind. timed: every verdict of the first run. doubted: what the second run made of
+    those that were not "same". instructions: how far apart counts were, if they were taken.
     """
-    for number in range(count):
-        with neighbours(seed=number) as load, running([(ROOT, Laws()), (ROOT, Laws())]) as sides:
-            wanted = Wanted(seed=number)
-            _, first = timed_once(sides, own.timed(sides[0]), wanted)
-            again = second_run(sides, first, wanted)
-            counted = number % COUNTED == 0 and not instructions.missing()
-            yield {
-                "load": load,
-                "timed": {name: _numbers(one) for name, one in first.items()},
-                "doubted": {name: _numbers(one) for name, one in again.items()},
-                "instructions": _apart(sides) if counted else None,
-            }
+    with ThreadPoolExecutor(AT_ONCE) as pool:
+        yield from pool.map(_comparison, range(count))
+
+
+def _comparison(number: int) -> dict[str, Any]:
+    with neighbours(seed=number) as load, running([(ROOT, Laws()), (ROOT, Laws())]) as sides:
+        wanted = Wanted(seed=number)
+        _, first = timed_once(sides, own.timed(sides[0]), wanted)
+        again = second_run(sides, first, wanted)
+        counted = number % COUNTED == 0 and not instructions.missing()
+        return {
+            "load": load,
+            "timed": {name: _numbers(one) for name, one in first.items()},
+            "doubted": {name: _numbers(one) for name, one in again.items()},
+            "instructions": _apart(sides) if counted else None,
+        }
 
 
 def _numbers(one: Timed) -> dict[str, Any]:

@@ -1,0 +1,82 @@
+"""Two small checkouts through the gates of instructions and time, and what is said when a side cannot be compiled."""
+
+import shutil
+
+import pytest
+
+from bench.errors import MissingTool
+from bench.provenance import ROOT
+from bench.regress import instructions, own
+from bench.regress.measured import Wanted, measured
+from bench.regress.process import Laws, SideFailed, running
+
+LAW = """
+from bench.contender import Regulator
+from bench.scalar import kernel
+
+
+@kernel
+def law(R, omega, goal, gains):
+    x = gains.kp * (goal.R.o[2] - R.o[2]){more}
+    return (x - gains.kv * omega[0], -gains.kv * omega[1], -gains.kv * omega[2])
+
+
+REGULATOR = Regulator("tilted", "Tilted", "", "u", law=law)
+"""
+
+
+def side(folder, name, more=""):
+    """A side that has nothing but one law of a user's."""
+    file = folder / f"{name}.py"
+    file.write_text(LAW.format(more=more))
+    return ROOT, Laws((file,), only=True, engines=False)
+
+
+@pytest.fixture(scope="module")
+def two(tmp_path_factory):
+    """The gates of a law against itself with three multiplications more, few rounds."""
+    folder = tmp_path_factory.mktemp("two")
+    with running([side(folder, "base"), side(folder, "head", " * R.n[0] * R.n[1] * R.n[2]")]) as processes:
+        assert {one.things["tilted"].ticks for one in processes} == {20_000}
+        return measured(processes, ({}, {}), Wanted(rounds=6), lambda _: None)
+
+
+def test_multiplications_more_are_other_code_and_so_timed(two):
+    gates, _, [one] = two
+    assert (one.name, one.what, one.same_code) == ("tilted", "law", False)
+    assert one.time.rounds == one.base.rounds == one.head.rounds == 6
+    assert one.base.kernel_steps.low <= one.base.kernel_steps.median <= one.base.kernel_steps.high
+    assert [gate.gate for gate in gates] == ["instructions", "time"]
+
+
+@pytest.mark.skipif(bool(instructions.missing()), reason=instructions.missing())
+def test_multiplications_more_are_found_and_named_by_instructions(two):
+    gates, found, [one] = two
+    [said] = [finding for finding in found if finding.gate == "instructions"]
+    assert (said.name, said.verdict) == ("tilted", "regression")
+    assert 3.0 <= one.head.instructions - one.base.instructions <= 9.0  # each with a load at most
+    assert gates[0].state == "failed"
+
+
+def test_same_law_is_the_same_machine_code_and_is_not_timed(tmp_path, monkeypatch):
+    monkeypatch.setattr(instructions, "missing", lambda: "valgrind not found")
+    with running([side(tmp_path, "base"), side(tmp_path, "head")]) as processes:
+        gates, found, [one] = measured(processes, ({}, {}), Wanted(rounds=6), lambda _: None)
+        with pytest.raises(MissingTool, match="valgrind not found"):
+            instructions.count(processes[0], own.timed_laws(processes[0]))
+    assert one.same_code
+    assert (one.time, found) == (None, [])
+    assert gates[0].state == "skipped"
+    assert "valgrind not found" in gates[0].says
+
+
+def test_side_that_cannot_import_says_so_and_which_it_is(tmp_path):
+    """As a base from before there was bench.timing."""
+    old = tmp_path / "old"
+    shutil.copytree(ROOT / "bench", old / "bench", ignore=shutil.ignore_patterns("__pycache__", "timing"))
+    with (
+        pytest.raises(SideFailed, match=r"old cannot be compiled and timed \(.*no bench\.timing yet") as caught,
+        running([(old, Laws(names=("rotation-matrix",), engines=False))]),
+    ):
+        pass
+    assert caught.value.at == 0
