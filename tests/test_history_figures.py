@@ -66,6 +66,12 @@ def test_commit_leads_to_the_repository_that_the_citation_names(monkeypatch, tmp
     history_rows.repository.cache_clear()
 
 
+def test_noise_is_of_builds_with_the_same_machine_code(given):
+    lines = [line(at, time=time, code=code) for at, (time, code) in enumerate([(2.0, "a"), (2.2, "a"), (9.0, "b")])]
+    assert history_said.noise(given(lines)) == {"same_code": 1, "noise": "10.0\xa0%", "most_noise": "10.0\xa0%"}
+    assert history_said.noise(given(lines[:1]))["same_code"] == 0
+
+
 def test_history_without_a_build_says_how_to_begin(given):
     shown = given([])
     assert "python -m bench history add" in history_chart.chart(shown).alt

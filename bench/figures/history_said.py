@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import itertools
+
+import numpy as np
 import pandas as pd
 
 from bench.figures import html
@@ -66,6 +69,16 @@ def rule() -> dict[str, object]:
         "p": P,
         "tenth": f"{100.0 * (RATIO - 1.0):.0f}\N{NO-BREAK SPACE}%",
     }
+
+
+def noise(given: History) -> dict[str, object]:
+    """By how much a law's time differs between neighbouring builds that have the same machine code of it."""
+    pairs = (pair for one in given.series if one.measure == TIME for pair in itertools.pairwise(one.points))
+    ratios = [max(a.value, b.value) / min(a.value, b.value) for a, b in pairs if a.code == b.code != ""]
+    if not ratios:
+        return {"same_code": 0, "noise": html.MISSING, "most_noise": html.MISSING}
+    middle, most = (f"{100.0 * (one - 1.0):.1f}\N{NO-BREAK SPACE}%" for one in (np.median(ratios), max(ratios)))
+    return {"same_code": len(ratios), "noise": middle, "most_noise": most}
 
 
 def counts(given: History) -> dict[str, object]:

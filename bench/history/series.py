@@ -18,7 +18,7 @@ class Point(NamedTuple):
 
     value: flops of the typical branch, instructions a tick, or time a tick over a step of the reference kernel.
     tally: all operations by branch and kind, of a series of operations. low, high: of a time. code: digest of the
-    machine code, of instructions.
+    machine code, of instructions and of a law's time.
     """
 
     commit: str
@@ -63,5 +63,5 @@ def _points(line: Line) -> dict[str, Point]:
         found[INSTRUCTIONS] = Point(*about, one.instructions, line.compiler, code=one.code)
     if one.kernel_steps is not None:
         median, low, high = one.kernel_steps
-        found[TIME] = Point(*about, median, line.compiler, low=low, high=high)
+        found[TIME] = Point(*about, median, line.compiler, low=low, high=high, code=one.code)
     return found
