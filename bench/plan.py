@@ -171,7 +171,7 @@ def make(
     chosen, choice = suite(suite_word), choice.checked()
     every_task = _tasks(choice, laws)
     placed = _on_free_body(chosen, laws, every_task, choice) + _on_arms(chosen, laws, every_task, choice)
-    number = functools.cache(lambda word, size, arm: len(tasks.start_set(word, size, seed, arm=arm)))
+    number = functools.cache(lambda word, size, arm: tasks.start_set_length(word, size, seed, arm))
     units = tuple(
         unit
         for place in placed

@@ -14,6 +14,7 @@ from bench.engines.run_arm import run as run_on_arm
 from bench.plan import AnyUnit, Plan, Unit
 from bench.robustness_plan import RobustnessUnit
 from bench.rows import frame, settings_of
+from tasks.base import Start
 
 
 def rows(plan: Plan, unit: AnyUnit) -> pd.DataFrame:
@@ -25,7 +26,7 @@ def rows(plan: Plan, unit: AnyUnit) -> pd.DataFrame:
 
 def _episodes(plan: Plan, unit: Unit) -> pd.DataFrame:
     """The rows of a unit without contact."""
-    starts = starts_of(unit.start_set, unit.total, plan.seed, unit.arm)[unit.first : unit.first + unit.count]
+    starts = _starts_of(plan, unit)
     one, settings = plan.contender(unit.contender), settings_of(plan, unit.horizon_s)
     metrics = metrics_of(on_arm=one.is_on_arm)
     if one.is_on_arm:
@@ -51,5 +52,13 @@ def _in_trouble(plan: Plan, unit: RobustnessUnit) -> pd.DataFrame:
     return robustness_rows.frame(plan.suite, one, axis, unit.starts, unit.horizon_s, plan.gains, plan.seed)
 
 
-starts_of = functools.lru_cache(maxsize=16)(tasks.start_set)
-"""A start set is built once for all its units."""
+def _starts_of(plan: Plan, unit: Unit) -> list[Start]:
+    """A unit's stretch of its start set."""
+    end = unit.first + unit.count
+    if unit.arm:
+        return _on_arm(unit.start_set, unit.total, plan.seed, unit.arm)[unit.first : end]
+    return tasks.starts_between(unit.start_set, unit.first, end, plan.seed)
+
+
+_on_arm = functools.lru_cache(maxsize=16)(tasks.start_set)
+"""A start set of an arm is searched for, so it is built once for all its units."""

@@ -4,6 +4,7 @@
     tasks.task(name), tasks.names()     the plants: one file each in tasks/domains
     tasks.described(name)               what a task's file says, with no arm named
     tasks.start_set(name, count, seed)  the starts: one file each in tasks/starts
+    tasks.starts_between(name, 5000, 6000, seed), tasks.start_set_length(name, count)    a stretch of many; how many
     tasks.start_set_names()
 
     tasks.load("arm-regulation", start, arm="ur5e"), tasks.task("arm-regulation", "ur5e")
@@ -69,9 +70,11 @@ __all__ = [
     "names",
     "pairs",
     "start_set",
+    "start_set_length",
     "start_set_names",
     "start_set_size",
     "start_set_title",
+    "starts_between",
     "task",
     "variation",
     "variation_names",
@@ -176,6 +179,22 @@ def start_set(name: str, count: int | None = None, seed: int = 0, arm: str = "")
     chosen = pick("start set", name, _start_sets(), "tasks/starts")
     wanted = chosen.size if count is None else count
     return chosen.build(wanted, seed)[:wanted]
+
+
+def start_set_length(name: str, count: int | None = None, seed: int = 0, arm: str = "") -> int:
+    """How many starts `start_set` has with the same arguments; none of a sampled set is made to know it."""
+    if not arm and pick("start set", name, _start_sets(), "tasks/starts").between:
+        return start_set_size(name) if count is None else count
+    return len(start_set(name, count, seed, arm))
+
+
+def starts_between(name: str, first: int, end: int, seed: int = 0) -> list[Start]:
+    """The starts of the free body from the number `first` to before `end`: start_set(name, end, seed)[first:].
+
+    Of a sampled set no other is made, so that a stretch of a million costs what it costs of a thousand.
+    """
+    chosen = pick("start set", name, _start_sets(), "tasks/starts")
+    return chosen.between(first, end, seed) if chosen.between else start_set(name, end, seed)[first:]
 
 
 def axis_names() -> list[str]:

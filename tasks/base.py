@@ -43,6 +43,8 @@ class StartSet(NamedTuple):
     title: str
     size: int  # number of starts by default; a fixed set has no more
     build: Callable[[int, int], list[Start]]  # build(count, seed); a fixed set may return more than count
+    # between(first, end, seed) of a sampled set, which has any number: those starts alone, without those before
+    between: Callable[[int, int, int], list[Start]] | None = None
 
 
 class ArmStartSet(NamedTuple):

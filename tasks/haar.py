@@ -13,11 +13,13 @@ import math
 from tasks.base import Quat, Vector
 
 
-def halton(count: int, dimensions: int, seed: int) -> list[list[float]]:
-    """The first `count` points of this seed's scrambled Halton sequence; more points begin with fewer."""
+def halton(count: int, dimensions: int, seed: int, first: int = 0) -> list[list[float]]:
+    """`count` points of this seed's scrambled Halton sequence, from the point `first` on."""
     from scipy.stats import qmc  # two seconds to import; the directed sets do not need it
 
-    return qmc.Halton(d=dimensions, scramble=True, rng=seed).random(count).tolist()
+    sequence = qmc.Halton(d=dimensions, scramble=True, rng=seed)
+    sequence.num_generated = first  # a point follows from its number alone; fast_forward would make all those before
+    return sequence.random(count).tolist()
 
 
 def orientation(u: float, v: float, w: float) -> Quat:

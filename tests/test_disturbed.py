@@ -11,7 +11,7 @@ from scipy.spatial.transform import Rotation as ScipyRotation
 
 import tasks
 from bench.discovery import find_contender, metrics_of
-from bench.engines import disturbed
+from bench.engines import disturbed, run_disturbed
 from bench.engines.binding import evaluation_of, memory_of, observer
 from bench.engines.episode import FINAL_ANGLE, FIRST_METRIC, OUTCOME, SETTLING_TICK, TICKS, numbers, start_rows
 from bench.engines.run import run as run_untroubled
@@ -133,6 +133,13 @@ def test_small_noise_adds_up_as_it_does_in_the_linear_loop():
     assert tail[disturbed.TAIL_COUNT] == 1000
     assert tail[disturbed.TAIL_SQUARES] == pytest.approx(sum(squares[1000:]), rel=1e-4)
     assert tail[disturbed.TAIL_WORST] ** 2 == pytest.approx(max(squares[1000:]), rel=1e-4)
+
+
+def test_starts_in_blocks_of_noise_give_the_same_rows(monkeypatch):
+    given = "hybrid", tasks.start_set("tumbling", 5), EVERYTHING, 0.1
+    whole = ended(*given)
+    monkeypatch.setattr(run_disturbed, "NOISE_BYTES", 2.0 * 8 * 6 * 51)  # of 51 periods, so two starts in a block
+    assert same_bits(ended(*given), whole)
 
 
 def test_noise_is_that_of_its_seed_and_start_alone():

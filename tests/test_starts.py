@@ -6,9 +6,11 @@ import re
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
+from scipy.stats import qmc
 
 import tasks
-from tasks.base import AT_REST, IDENTITY, angle
+from tasks.base import AT_REST, IDENTITY, Start, angle
+from tasks.haar import orientation
 from tasks.rotations import columns
 
 NAMES = tasks.start_set_names()
@@ -69,6 +71,34 @@ def test_shorter_set_begins_the_longer_one(name):
 @pytest.mark.parametrize("name", SAMPLED)
 def test_sampled_set_has_as_many_as_asked_for(name):
     assert len(tasks.start_set(name, 321)) == 321
+
+
+@pytest.mark.parametrize("seed", [0, 7])
+@pytest.mark.parametrize("name", NAMES)
+def test_stretch_is_that_of_the_whole_set(name, seed):
+    whole = tasks.start_set(name, 2000, seed)
+    for first, end in ((0, 1), (0, 30), (17, 18), (20, 1100), (1100, 1537), (1999, 2000)):
+        assert tasks.starts_between(name, first, end, seed) == whole[first:end]
+
+
+def test_uniform_points_are_those_of_one_long_draw():
+    points = qmc.Halton(d=3, scramble=True, rng=3).random(100_050)[100_000:].tolist()
+    made = tasks.starts_between("uniform", 100_000, 100_050, 3)
+    assert made == [Start(f"uniform-{i}", orientation(*point)) for i, point in enumerate(points, 100_000)]
+
+
+def test_goals_are_the_far_ones_of_one_long_draw():
+    points = qmc.Halton(d=6, scramble=True, rng=3).random(6000).tolist()
+    pairs = [(orientation(*point[:3]), orientation(*point[3:])) for point in points]
+    far = [pair for pair in pairs if angle(pair[1], IDENTITY) > math.pi / 2]
+    made = [start for start in tasks.start_set("goals", 4000, 3) if start.id.startswith("goal-uniform")]
+    assert [(start.quat_wxyz, start.goal_wxyz) for start in made] == far[: len(made)]
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_length_is_known_without_the_starts(name):
+    for count in (None, 1, 5, 300):
+        assert tasks.start_set_length(name, count) == len(tasks.start_set(name, count))
 
 
 @pytest.mark.parametrize("name", SAMPLED)

@@ -12,6 +12,10 @@ from bench.engines.run import evaluation
 from tasks.condition import Condition
 from tasks.rules import RULES
 
+NOISE_BYTES = 64e6
+"""Of noise held at once: 266 starts of 5 s, asked every millisecond. A thousand would be 246 MB; they run in blocks.
+The default suite's 24 are one block, so that all its laws share one draw."""
+
 
 def run(contender: Contender, starts, condition: Condition, settings: Settings, metrics, seed: int = 0) -> np.ndarray:
     """Rows of `engines.episode`, one a start, with `disturbed.EXTRA` columns more.
@@ -23,23 +27,34 @@ def run(contender: Contender, starts, condition: Condition, settings: Settings, 
     rows = disturbed.blank_rows(len(starts), metrics)
     horizon_s = settings.ticks * settings.dt_s
     given = disturbed.in_steps(numbers(settings), condition, RULES.hold_s, horizon_s)
-    noise = drawn(len(starts), given.ticks // disturbed.steps_of(condition) + 1, seed, condition.is_noisy)
-    loop = _loop(tuple(metrics))
-    trouble = disturbed.trouble(condition)
-    loop(evaluation(contender), memory_of(contender), start_rows(starts), noise, given, trouble, rows)
+    periods = given.ticks // disturbed.steps_of(condition) + 1
+    block = max(1, int(NOISE_BYTES // (8 * 6 * periods))) if condition.is_noisy else len(starts)
+    law = evaluation(contender), memory_of(contender)
+    loop, trouble, begun = _loop(tuple(metrics)), disturbed.trouble(condition), start_rows(starts)
+    for first in range(0, len(starts), block):
+        some = slice(first, first + block)
+        noise = drawn(len(begun[some]), periods, seed, condition.is_noisy, first)
+        loop(*law, begun[some], noise, given, trouble, rows[some])
     return rows
 
 
-def drawn(count: int, periods: int, seed: int, is_noisy: bool) -> np.ndarray:
-    """Six numbers of unit standard deviation for every start and period; of a condition without noise, zeros."""
+def drawn(count: int, periods: int, seed: int, is_noisy: bool, first: int = 0) -> np.ndarray:
+    """Six numbers of unit standard deviation for every start and period; of a condition without noise, zeros.
+
+    Args:
+        first: the number of the first start.
+    """
     if not is_noisy:
         return np.zeros((1, 1, 6))
-    return _normal(count, periods, seed)
+    return _normal(first, count, periods, seed)
 
 
 @functools.lru_cache(maxsize=1)
-def _normal(count: int, periods: int, seed: int) -> np.ndarray:
-    return np.stack([np.random.default_rng((seed, k)).standard_normal((periods, 6)) for k in range(count)])
+def _normal(first: int, count: int, periods: int, seed: int) -> np.ndarray:
+    noise = np.empty((count, periods, 6))
+    for k in range(count):
+        np.random.default_rng((seed, first + k)).standard_normal(out=noise[k])
+    return noise
 
 
 @functools.cache

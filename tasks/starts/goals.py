@@ -8,14 +8,17 @@ pairs drawn uniformly from SO(3) x SO(3), those kept whose goal is more than a q
 
 from __future__ import annotations
 
+import bisect
+import functools
 import math
+import threading
 
 from tasks.base import IDENTITY, Quat, Start, StartSet, haversine
 from tasks.haar import halton, orientation
 from tasks.rotations import about, multiply, on_pole, short_of_half_turn, zyx
 
 FAR = 0.5  # haversine of a quarter turn
-KEPT = (math.pi / 2.0 + 1.0) / math.pi  # share of Haar-random rotations beyond a quarter turn, 0.82
+BLOCK = 512  # candidates that are looked at together
 AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
 SMALL_STEP = about((1.0, -2.0, 2.0), 0.1)
 OFFSET = about((2.0, 1.0, -2.0), 1.0)
@@ -24,8 +27,14 @@ GENERIC_GOAL = zyx(2.0, -0.6, 1.4)
 
 def build(count: int, seed: int) -> list[Start]:
     """The directed pairs, then uniform ones up to `count`."""
+    return between(0, count, seed)
+
+
+def between(first: int, end: int, seed: int) -> list[Start]:
+    """Those from `first` to before `end`."""
     directed = _directed()
-    return directed + _uniform(max(0, count - len(directed)), seed)
+    ahead = len(directed)
+    return directed[first:end] + _uniform(max(0, first - ahead), max(0, end - ahead), seed)
 
 
 def _directed() -> list[Start]:
@@ -57,14 +66,41 @@ def _pair(name: str, quat: Quat, goal: Quat, moved: bool = False) -> Start:
     return Start(name, multiply(quat, goal) if moved else quat, goal_wxyz=goal)
 
 
-def _uniform(count: int, seed: int) -> list[Start]:
-    drawn = math.ceil(count / KEPT) + 32  # low-discrepancy points miss their share by far less than 32
-    while True:
-        pairs = [(orientation(*point[:3]), orientation(*point[3:])) for point in halton(drawn, 6, seed)]
-        far = [(quat, goal) for quat, goal in pairs if haversine(goal, IDENTITY) > FAR]
-        if len(far) >= count:
-            return [_pair(f"goal-uniform-{i:04d}", *pair) for i, pair in enumerate(far[:count])]
-        drawn *= 2
+def _uniform(first: int, end: int, seed: int) -> list[Start]:
+    if end <= first:
+        return []
+    block, ahead = _block_of(first, seed)
+    pairs: list[tuple[Quat, Quat]] = []
+    while ahead + len(pairs) < end:
+        pairs += _far(block, seed)
+        block += 1
+    return [_pair(f"goal-uniform-{i:04d}", *pairs[i - ahead]) for i in range(first, end)]
 
 
-STARTS = StartSet("goals", "Goals far from the identity, directed and uniform pairs", 200, build)
+def _far(block: int, seed: int) -> list[tuple[Quat, Quat]]:
+    """The pairs of a block of candidates whose goal is far."""
+    points = halton(BLOCK, 6, seed, block * BLOCK)
+    pairs = [(orientation(*point[:3]), orientation(*point[3:])) for point in points]
+    return [(quat, goal) for quat, goal in pairs if haversine(goal, IDENTITY) > FAR]
+
+
+_counting = threading.Lock()
+
+
+def _block_of(place: int, seed: int) -> tuple[int, int]:
+    """The block that holds the far pair of this number, and how many are in blocks before it."""
+    with _counting:
+        before = _far_before(seed)
+        while before[-1] <= place:
+            before.append(before[-1] + len(_far(len(before) - 1, seed)))
+        block = bisect.bisect_right(before, place) - 1
+        return block, before[block]
+
+
+@functools.lru_cache(maxsize=4)
+def _far_before(seed: int) -> list[int]:
+    """How many far pairs are before each block; it grows as farther ones are asked for."""
+    return [0]
+
+
+STARTS = StartSet("goals", "Goals far from the identity, directed and uniform pairs", 200, build, between)

@@ -15,12 +15,17 @@ SPEED_LIMIT = 20.0  # [rad/s]
 
 def build(count: int, seed: int) -> list[Start]:
     """The first `count` points of the sequence of this seed."""
+    return between(0, count, seed)
+
+
+def between(first: int, end: int, seed: int) -> list[Start]:
+    """The points from `first` to before `end`."""
     starts = []
-    for i, point in enumerate(halton(count, 6, seed)):
+    for i, point in enumerate(halton(end - first, 6, seed, first), first):
         x, y, z = direction(point[3], point[4])
         speed = SPEED_LIMIT * point[5]
         starts.append(Start(f"tumbling-{i:04d}", orientation(*point[:3]), (speed * x, speed * y, speed * z)))
     return starts
 
 
-STARTS = StartSet("tumbling", "Uniform orientations turning at up to 20 rad/s", 200, build)
+STARTS = StartSet("tumbling", "Uniform orientations turning at up to 20 rad/s", 200, build, between)

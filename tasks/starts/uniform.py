@@ -8,7 +8,13 @@ from tasks.haar import halton, orientation
 
 def build(count: int, seed: int) -> list[Start]:
     """The first `count` points of the sequence of this seed."""
-    return [Start(f"uniform-{i:05d}", orientation(*point)) for i, point in enumerate(halton(count, 3, seed))]
+    return between(0, count, seed)
 
 
-STARTS = StartSet("uniform", "Low-discrepancy orientations, Haar measure", 5000, build)
+def between(first: int, end: int, seed: int) -> list[Start]:
+    """The points from `first` to before `end`."""
+    points = enumerate(halton(end - first, 3, seed, first), first)
+    return [Start(f"uniform-{i:05d}", orientation(*point)) for i, point in points]
+
+
+STARTS = StartSet("uniform", "Low-discrepancy orientations, Haar measure", 5000, build, between)
