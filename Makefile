@@ -1,11 +1,11 @@
 # Every target does its own set-up in .venv, and only when the lock has changed since. Start with: make
 #
-# The set-up has three layers, each holding the one before it: base (run benchmarks), report (build the book),
-# dev (tests, lint, types). A stamp in .venv says which are installed.
+# The set-up has layers: base (run benchmarks); on it report (build the book) and cluster (Dask); dev, which holds them
+# all (tests, lint, types). A stamp in .venv says which are installed.
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help setup bench bench-quick time libraries report test check lint gate regress regress-study
+.PHONY: help setup setup-cluster bench bench-quick time libraries report test check lint gate regress regress-study
 .PHONY: reference media lock clean audit judge history
 
 SHELL := /bin/sh
@@ -13,6 +13,7 @@ VENV := .venv
 PY := $(VENV)/bin/python
 READY := $(VENV)/.base
 REPORT := $(VENV)/.report
+CLUSTER := $(VENV)/.cluster
 DEV := $(VENV)/.dev
 LIBRARIES := .venv-libraries
 AUDIT := .venv-audit
@@ -67,6 +68,10 @@ setup:  ## install what the benchmark needs, and nothing else
 setup: $(READY)
 	@echo "Ready. Run the benchmark: make bench. Look around: $(PY) -m bench --help"
 
+setup-cluster: ## install Dask too, for bench run --scheduler: on every machine of a cluster
+setup-cluster: $(CLUSTER)
+	@echo "Ready. Two processes of this machine: $(PY) -m bench run --scheduler local:2"
+
 ##@ Develop
 test:   ## run the tests (ARGS="-k so3" for some, -m 'not slow' for the fast ones)
 test: $(DEV)
@@ -115,9 +120,10 @@ media: $(DEV)
 
 lock:   ## write requirements/*.txt anew from pyproject.toml (after changing a dependency)
 lock: $(DEV)
-	@$(call compile,dev,--extra report --extra dev)
+	@$(call compile,dev,--extra report --extra dev --extra cluster)
 	@$(call compile,report,--extra report --constraint requirements/dev.txt)
 	@$(call compile,base,--constraint requirements/dev.txt)
+	@$(call compile,cluster,--extra cluster --constraint requirements/dev.txt)
 	@$(call compile,libraries,--extra libraries --constraint requirements/dev.txt)
 	@$(locked) --group audit --output-file requirements/audit.txt
 	@echo "Locked. Look at the change: git diff --stat requirements"
@@ -130,7 +136,7 @@ clean:  ## remove .venv, the built report, caches and results/quick; other resul
 help:
 	@awk 'BEGIN { FS = ":[^#]*## " } \
 		/^##@/ { printf "\n%s\n", substr($$0, 5) } \
-		/^[a-z-]+:.*## / { printf "  make %-12s %s\n", $$1, $$2 }' Makefile
+		/^[a-z-]+:.*## / { printf "  make %-13s %s\n", $$1, $$2 }' Makefile
 	@printf '\nNew here? Type: make bench\n'
 
 # ------------------------------------------------------------------------------------------- set-up
@@ -148,9 +154,13 @@ $(REPORT): $(PY) requirements/report.txt pyproject.toml
 	@echo "Installing the benchmark and the report tools into $(VENV) ..."
 	@$(call install,report) && touch $(READY) $@
 
+$(CLUSTER): $(PY) requirements/cluster.txt pyproject.toml
+	@echo "Installing the benchmark and Dask into $(VENV) ..."
+	@$(call install,cluster) && touch $(READY) $@
+
 $(DEV): $(PY) requirements/dev.txt pyproject.toml
 	@echo "Installing the benchmark, the report tools and the developer tools into $(VENV) ..."
-	@$(call install,dev) && touch $(READY) $(REPORT) $@
+	@$(call install,dev) && touch $(READY) $(REPORT) $(CLUSTER) $@
 
 $(LIBRARIES)/.made: PY = $(LIBRARIES)/bin/python
 $(LIBRARIES)/.made: requirements/libraries.txt pyproject.toml

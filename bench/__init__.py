@@ -8,9 +8,10 @@ In contact         force (hybrid control), impedance, impedances/, compliance (a
                    contact_metrics/ over touching and yielding, contact_plan, contact_rows
 In trouble         tracking (goals that move), equal_peak, robustness_plan, robustness_rows, engines/disturbed
 Running            engines/ (reference, native, ideal-rk4, ideal-held), metric, metrics/
-A run              suites, choice, plan, run, journal (its folder until it is finished), schedulers/ (threads), work
-                   (a unit's rows), chunk (units as JSON, for other processes), finish (its tables), ahead (a second
-                   process compiles), rows, traces, boundary, poses, counting/, schema, store, provenance
+A run              suites, choice, plan, run, journal (its folder until it is finished), schedulers/ (threads, and a
+                   Dask cluster), work (a unit's rows), chunk (units as JSON, for other processes), finish (its
+                   tables), ahead (a second process compiles), scale (what many episodes cost), rows, traces, boundary,
+                   poses, counting/, schema, store, provenance
 Reading results    claims/ (the paper's sentences), compare/ (two runs), regress/ (two revisions), history/ (every
                    build), figures/ (the report's), kept_laws and trust (laws of a results folder that may run)
 Time               timing/ (pytest-benchmark)

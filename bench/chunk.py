@@ -62,8 +62,12 @@ def plan_of(chunk: dict) -> Plan:
     )
 
 
+@functools.lru_cache(maxsize=32)
 def _law(text: str) -> Regulator:
-    """A user's law from its text, which lies in a file of its own as long as this process lives."""
+    """A user's law from its text, which lies in a file of its own as long as this process lives.
+
+    Once for all chunks, so that it is compiled once.
+    """
     digest = hashlib.sha256(text.encode()).hexdigest()[:16]
     path = Path(_folder().name) / f"law_{digest}.py"
     path.write_text(text, encoding="utf-8")

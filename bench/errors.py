@@ -40,6 +40,10 @@ class BadResults(BenchError):
     """A results folder that cannot be read, written, or continued."""
 
 
+class LostWorkers(BenchError):
+    """A cluster that went away, or whose workers did."""
+
+
 class Incompatible(BenchError):
     """A combination that has no meaning, with the reason."""
 

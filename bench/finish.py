@@ -17,9 +17,15 @@ from bench.provenance import describe
 from bench.store import merge, write_json, write_table
 
 
-def finish(plan: Plan, out: Path, own_costs: list[dict], workers: int, began: float, resumed: bool) -> None:
-    """Write the tables, and provenance.json when all are there."""
-    with ThreadPoolExecutor(workers) as pool:
+def finish(
+    plan: Plan, out: Path, own_costs: list[dict], threads: int, by: dict, began: float, resumed: bool
+) -> None:
+    """Write the tables, and provenance.json when all are there.
+
+    Args:
+        threads: of this process. by: who carried out the units, for provenance.json.
+    """
+    with ThreadPoolExecutor(threads) as pool:
         others = pool.submit(_write_all_but_boundaries, plan, out, own_costs)
         write_table(out / "boundaries.parquet", boundary.run(plan, pool), "boundaries")
         rows = others.result()
@@ -33,7 +39,7 @@ def finish(plan: Plan, out: Path, own_costs: list[dict], workers: int, began: fl
             "trials": plan.trials,
             "troubled": plan.troubled,
             "seed": plan.seed,
-            "workers": workers,
+            **by,
             "finished": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime()),
             "wall_s": round(time.time() - began, 1),
             "resumed": resumed,

@@ -12,7 +12,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 READERS = (
     *("answer", "figures", "claims", "cli", "compare", "history", "kept_laws", "libraries", "regress", "results"),
-    *("statistics", "trust", "__main__"),
+    *("scale", "statistics", "trust", "__main__"),
 )
 """Parts of bench/ that only read results, or concern other libraries: no number of a run depends on them."""
 VERSIONED = ("mujoco", "dm-control", "numpy", "scipy", "numba", "llvmlite", "pandas", "pyarrow")
@@ -76,7 +76,10 @@ def _git(*words: str) -> str:
 
 
 def _without_folders(word: str) -> str:
-    """A word of the command line; of an absolute path only what lies in this checkout, or the last name."""
+    """A word of the command line; of an absolute path what is in this checkout, or its last name; of a host nothing."""
+    scheme, is_address, _ = word.partition("://")
+    if is_address:
+        return f"{scheme}://..."
     path = Path(word)
     if not path.is_absolute():
         return word

@@ -1,5 +1,7 @@
 """A plan carried out: units run by a scheduler, each written when done, so that a run killed at any moment resumes."""
 
+import contextlib
+import functools
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -14,6 +16,7 @@ from bench.journal import begin, held, inspect, sweep, tidy
 from bench.plan import AnyUnit, Plan
 from bench.running_order import in_running_order
 from bench.schedulers import threads
+from bench.schedulers.words import THREADS, check_scheduler, kind
 
 
 class Progress(NamedTuple):
@@ -24,20 +27,31 @@ class Progress(NamedTuple):
 
 
 def run(
-    plan: Plan, out: Path, *, workers: int = 2, replace: bool = False, told: Callable[[Progress], None] = lambda _: None
+    plan: Plan,
+    out: Path,
+    *,
+    workers: int = 2,
+    scheduler: str = THREADS,
+    replace: bool = False,
+    told: Callable[[Progress], None] = lambda _: None,
 ) -> bool:
     """Carry out what is not done yet; whether there was anything to do.
 
+    Args:
+        workers: threads of this process. scheduler: who carries out the units (bench/schedulers/words.py).
     Errors:
         BadNumber: workers. BadResults: the folder cannot be used or written, or another run is at work there.
-        KeyboardInterrupt: after the units under way are written.
+        MissingTool, LostWorkers: a cluster. KeyboardInterrupt: after what is finished is written.
     """
     check_workers(workers)
+    check_scheduler(scheduler)
     with held(Path(out)):
-        return _run(plan, Path(out), workers, replace, told)
+        return _run(plan, Path(out), workers, scheduler, replace, told)
 
 
-def _run(plan: Plan, out: Path, workers: int, replace: bool, told: Callable[[Progress], None]) -> bool:
+def _run(
+    plan: Plan, out: Path, workers: int, scheduler: str, replace: bool, told: Callable[[Progress], None]
+) -> bool:
     """The same in a folder that is held."""
     state = inspect(plan, out, replace)
     if state.finished:
@@ -46,18 +60,43 @@ def _run(plan: Plan, out: Path, workers: int, replace: bool, told: Callable[[Pro
     began = time.time()
     _compile_own_laws(plan)
     costs = own_costs(plan)
-    if state.done:
-        sweep(out)
-    else:
-        begin(plan, out)
     todo = [unit for unit in in_running_order(plan.work) if unit.key not in state.done]
-    for unit in plan.work:
-        if unit.key in state.done:
-            told(Progress(unit, unit.count))
-    with compiling_ahead(_ours(plan, todo)):
-        threads.run(plan, todo, out, workers, lambda unit: told(Progress(unit, unit.count)))
-    finish(plan, out, costs, workers, began, resumed=bool(state.done))
+
+    def done(unit: AnyUnit) -> None:
+        told(Progress(unit, unit.count))
+
+    with _team(plan, todo, out, workers, scheduler) as carry_out:
+        if state.done:
+            sweep(out)
+        else:
+            begin(plan, out)
+        for unit in plan.work:
+            if unit.key in state.done:
+                done(unit)
+        by = {"scheduler": kind(scheduler), "workers": carry_out(done)}
+    finish(plan, out, costs, workers, by, began, resumed=bool(state.done))
     return True
+
+
+@contextlib.contextmanager
+def _team(plan: Plan, todo: list[AnyUnit], out: Path, workers: int, scheduler: str) -> Iterator[Callable]:
+    """What carries out the units, tells its argument of each, and returns the number of its workers.
+
+    A cluster has answered when this yields, so that nothing is written, or replaced, for one that does not.
+    """
+    if scheduler == THREADS:
+
+        def by_threads(done: Callable[[AnyUnit], None]) -> int:
+            threads.run(plan, todo, out, workers, done)
+            return workers
+
+        with compiling_ahead(_ours(plan, todo)):
+            yield by_threads
+        return
+    from bench.schedulers import cluster  # Dask is an extra, and takes a second to import
+
+    with cluster.client_of(scheduler) as client:
+        yield functools.partial(cluster.run, client, plan, todo, out)
 
 
 def _ours(plan: Plan, todo: list[AnyUnit]) -> Iterator[str]:

@@ -325,8 +325,8 @@ def readme() -> str:
         "",
         "`reference/` is committed and small: what `make check` compares with. `latest/` is what `make bench` wrote",
         "last. `timings/` holds one file for each kind of machine, `libraries/` what other robot libraries answered",
-        "(`make libraries`). Every table is parquet, its units are in the columns' metadata, and `provenance.json`",
-        "says where a run comes from.",
+        "(`make libraries`), `scale/` what many episodes cost (`python -m bench.scale`). Every table is parquet, its",
+        "units are in the columns' metadata, and `provenance.json` says where a run comes from.",
     ]
     for table, columns in TABLES.items():
         lines += ["", f"## {table}.parquet", "", (columns.__doc__ or "").strip(), ""]

@@ -1,53 +1,19 @@
 """Units as JSON: another process makes the same rows of it, and refuses those of other sources."""
 
-import dataclasses
 import json
 
 import pandas as pd
 import pytest
+from unit_kinds import plan_of_all_kinds
 
-from bench import chunk, plan
-from bench.choice import Choice
-from bench.discovery import find_contender, load_law
+from bench import chunk
 from bench.errors import BadResults
 from bench.work import rows
-
-OWN = """
-from bench.contender import Regulator
-from bench.scalar import kernel
-
-
-@kernel
-def law(R, omega, goal, gains):
-    return (-gains.kv * omega[0], -gains.kv * omega[1], -gains.kv * omega[2])
-
-
-REGULATOR = Regulator("mine", "Mine", "none", "u", law)
-"""
 
 
 @pytest.fixture(scope="module")
 def made(tmp_path_factory):
-    """A plan with a unit of each kind, on the free body, an arm, in contact and in trouble, and with a user's law."""
-    path = tmp_path_factory.mktemp("own") / "mine.py"
-    path.write_text(OWN)
-    laws = [find_contender("rotation-matrix"), find_contender("mine", (load_law(path),))]
-    short = {"count": 2, "horizon_s": 0.05}
-    alone = plan.make("quick", laws, Choice(start_sets=("paper",), engines=("ideal-rk4",)), **short)
-    choices = (
-        Choice(("arm-regulation",), ("clear",), ("native",), ("ur5e",), ("geometric",), ("solve",)),
-        Choice(("wrench-probe",), arms=("ur5e",), controllers=("hybrid-base+inverse",)),
-        Choice(axes=("delay",)),
-    )
-    others = [plan.make("quick", laws if choice.controllers == () else [], choice, **short) for choice in choices]
-    contenders = dict.fromkeys(one for each in (alone, *others) for one in each.contenders)
-    return dataclasses.replace(
-        alone,
-        units=(*alone.units, *others[0].units),
-        contacts=others[1].contacts[:1],
-        troubles=others[2].troubles,
-        contenders=tuple(contenders),
-    )
+    return plan_of_all_kinds(tmp_path_factory.mktemp("own"))
 
 
 @pytest.fixture(scope="module")

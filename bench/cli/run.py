@@ -11,6 +11,7 @@ from bench.cli import options
 from bench.cli.screen import console, episode_progress
 from bench.contender import Gains
 from bench.plan import IN_CONTACT, WITHOUT
+from bench.schedulers.words import THREADS, check_scheduler
 from bench.suites import NOMINAL
 
 EPILOG = """
@@ -34,6 +35,9 @@ hybrid-base+inverse --out /tmp/plate[/b]  a hand pressed onto a tilted plate: co
 
 [b]python -m bench run --suite full --controller impedance-geometric --out /tmp/spring[/b]  one controller in every task
 in contact, on dense grids of poses.
+
+[b]python -m bench run --suite full --scheduler local:8 --out /tmp/full[/b]  by eight processes; with an address, by the
+workers of a Dask cluster. The rows are the same.
 
 [b]python -m bench run --axis delay --axis half-turn-noise --regulator hybrid --count 200 --out /tmp/late[/b]  a law in
 trouble: robustness.parquet.
@@ -73,13 +77,20 @@ trouble: robustness.parquet.
 @click.option("--seed", type=int, default=0, show_default=True, help="Of the sampled start sets.")
 @click.option("--workers", type=int, default=os.cpu_count() or 1, show_default="cores", help="Threads.")
 @click.option(
+    "--scheduler",
+    default=THREADS,
+    show_default="threads of this process",
+    metavar="WORD",
+    help="Who runs the episodes: local:N, so many processes here, or tcp://host:8786, a Dask cluster.",
+)
+@click.option(
     "--out", type=click.Path(path_type=Path), default=options.LATEST, show_default="results/latest", help="Folder."
 )
 @click.option("--replace", is_flag=True, help="Start over if the folder holds another plan.")
 @click.option("--dry-run", is_flag=True, help="Print the plan and its size; run nothing.")
 def COMMAND(
     suite, laws, regulators, representations, controllers, tasks, arms, jacobians, inverses, variations, axes,
-    starts, engines, count, dt_s, horizon_s, kp, kv, integrator, seed, workers, out, replace, dry_run,
+    starts, engines, count, dt_s, horizon_s, kp, kv, integrator, seed, workers, scheduler, out, replace, dry_run,
 ):  # fmt: skip
     """Run a suite and store its episodes; a run that was stopped goes on where it was.
 
@@ -118,6 +129,7 @@ def COMMAND(
         seed=seed,
     )
     check_workers(workers)
+    check_scheduler(scheduler)
     _print_plan(plan, out)
     if dry_run:
         return
@@ -136,7 +148,7 @@ def COMMAND(
             if progress.tasks[0].finished:
                 progress.update(bar, description="curves, costs, boundaries")
 
-        did = running.run(plan, out, workers=workers, replace=replace, told=told)
+        did = running.run(plan, out, workers=workers, scheduler=scheduler, replace=replace, told=told)
         progress.update(bar, completed=total, description="finished")
     console().print(f"{'wrote' if did else 'up to date:'} {out}   (python -m bench show {out})")
 

@@ -1,0 +1,38 @@
+"""What a worker of a cluster does: a chunk's text in, its rows as parquet out. It knows nothing of Dask."""
+
+import json
+import signal
+
+import pyarrow as pa
+import pyarrow.parquet as pq
+
+from bench.chunk import plan_of
+from bench.store import as_table, encoding
+from bench.work import rows
+
+
+def carry_out(text: str) -> list[tuple[str, bytes]]:
+    """(key, file of its rows) of every unit of a chunk.
+
+    Args:
+        text: what `chunk.described` says of it, as JSON.
+    Errors:
+        BadResults: this worker has other sources. BadLaw: a user's law that it cannot load.
+    """
+    plan = plan_of(json.loads(text))
+    return [(unit.key, _file(as_table(rows(plan, unit), unit.table))) for unit in plan.work]
+
+
+def _file(table: pa.Table) -> bytes:
+    sink = pa.BufferOutputStream()
+    pq.write_table(table, sink, **encoding(table.schema))
+    return sink.getvalue().to_pybytes()
+
+
+def dask_setup(_) -> None:
+    """Called in the main thread of a worker that begins (--preload bench.schedulers.worker).
+
+    Ctrl-C is the client's to answer, though a terminal sends it to all; and GLFW can be silenced in this thread only.
+    """
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    import tasks.episode  # noqa: F401

@@ -1,0 +1,44 @@
+"""A small plan with units of every kind, and with a user's law."""
+
+import dataclasses
+from pathlib import Path
+
+from bench import plan
+from bench.choice import Choice
+from bench.discovery import find_contender, load_law
+
+OWN = """
+from bench.contender import Regulator
+from bench.scalar import kernel
+
+
+@kernel
+def law(R, omega, goal, gains):
+    return (-gains.kv * omega[0], -gains.kv * omega[1], -gains.kv * omega[2])
+
+
+REGULATOR = Regulator("mine", "Mine", "none", "u", law)
+"""
+
+
+def plan_of_all_kinds(folder: Path) -> plan.Plan:
+    """Units on the free body, an arm, in contact and in trouble; some of a user's law, whose file is in the folder."""
+    path = folder / "mine.py"
+    path.write_text(OWN)
+    laws = [find_contender("rotation-matrix"), find_contender("mine", (load_law(path),))]
+    short = {"count": 2, "horizon_s": 0.05}
+    alone = plan.make("quick", laws, Choice(start_sets=("paper",), engines=("ideal-rk4",)), **short)
+    choices = (
+        Choice(("arm-regulation",), ("clear",), ("native",), ("ur5e",), ("geometric",), ("solve",)),
+        Choice(("wrench-probe",), arms=("ur5e",), controllers=("hybrid-base+inverse",)),
+        Choice(axes=("delay",)),
+    )
+    others = [plan.make("quick", laws if choice.controllers == () else [], choice, **short) for choice in choices]
+    contenders = dict.fromkeys(one for each in (alone, *others) for one in each.contenders)
+    return dataclasses.replace(
+        alone,
+        units=(*alone.units, *others[0].units),
+        contacts=others[1].contacts[:1],
+        troubles=others[2].troubles,
+        contenders=tuple(contenders),
+    )
