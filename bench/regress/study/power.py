@@ -4,7 +4,9 @@ Each step puts two dependent operations more in the way of the command, so that 
 is, is measured: the median ratio of all comparisons of a step.
 """
 
+import itertools
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 import numpy as np
@@ -39,31 +41,36 @@ def slower(steps: int) -> Edit:
 
 
 def run(repeats: int = REPEATS) -> Iterator[dict[str, Any]]:
-    """One row a step: in how many comparisons one run found it, and in how many a second one agreed."""
-    for place, steps in enumerate(STEPS):
-        edit = unchanged if steps is None else slower(steps)
-        asked = Laws(engines=False, names=(LAW,))
-        both = [(ROOT, asked), (ROOT, asked)]
-        with copy_with(edit) as copy:
-            both[1] = (copy, asked)
-            with running(both) as first, running(both) as second:
-                found = []
-                for number in range(repeats):
-                    seed = 1000 * (place + 1) + number
-                    with neighbours(seed):
-                        one = timed_once(first, [LAW], Wanted(seed=seed))[1][LAW]
-                        other = timed_once(second, [LAW], Wanted(seed=seed + 500))[1][LAW]
-                    found.append((one, confirmed(one, other), other))
-                counts = _instructions(first)
-        ratios = [one.ratio for one, _, other in found] + [other.ratio for _, _, other in found]
-        yield {
-            "steps": steps,
-            "slower": round(float(np.median(ratios)) - 1.0, 5),
-            "repeats": repeats,
-            "once": sum(one.verdict == SLOWER for one, _, _ in found),
-            "twice": sum(both_say.verdict == SLOWER for _, both_say, _ in found),
-            "instructions": counts,
-        }
+    """One row a step: in how many comparisons one run found it, and in how many a second one agreed.
+
+    All steps run at the same time: each is a neighbour to the others.
+    """
+    with ThreadPoolExecutor(len(STEPS)) as pool:
+        yield from pool.map(_step, range(len(STEPS)), itertools.repeat(repeats))
+
+
+def _step(place: int, repeats: int) -> dict[str, Any]:
+    steps = STEPS[place]
+    asked = Laws(engines=False, names=(LAW,))
+    with copy_with(unchanged if steps is None else slower(steps)) as copy:
+        both = [(ROOT, asked), (copy, asked)]
+        with running(both) as first, running(both) as second:
+            found = []
+            for number in range(repeats):
+                seed = 1000 * (place + 1) + number
+                with neighbours(seed):
+                    one = timed_once(first, [LAW], Wanted(seed=seed))[1][LAW]
+                    other = timed_once(second, [LAW], Wanted(seed=seed + 500))[1][LAW]
+                found.append((one, other))
+            counts = _instructions(first)
+    return {
+        "steps": steps,
+        "slower": round(float(np.median([said.ratio for pair in found for said in pair])) - 1.0, 5),
+        "repeats": repeats,
+        "once": sum(one.verdict == SLOWER for one, _ in found),
+        "twice": sum(confirmed(one, other).verdict == SLOWER for one, other in found),
+        "instructions": counts,
+    }
 
 
 def _instructions(sides) -> list[float] | None:

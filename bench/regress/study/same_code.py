@@ -12,11 +12,11 @@ from bench.regress.process import Laws, running
 from bench.regress.study.load import neighbours
 
 COMPARISONS = 50
-COUNTED = 10
+COUNTED = 25
 """Of how many comparisons one has its instructions counted too, on both sides."""
 
 
-AT_ONCE = 4
+AT_ONCE = 6
 """Comparisons that run at a time: each is a neighbour to the others."""
 
 
