@@ -34,6 +34,12 @@ from numba.core.codegen import JITCodeLibrary
 TIMER = "time.thread_time"
 ENGINES_OF = "rotation-matrix"
 ON_ARM = ("ur5e", "rotation-matrix@geometric+solve")
+BLOCKS, SWEEPS = 4, 5
+"""Four times the states, with other goals each, five times over: 0.7 MB, which a second-level cache holds."""
+
+GOAL = 12
+"""Column of a state at which its goal begins."""
+
 NAMES = re.compile(rb"[\w.$%]*v\d{6,}B[\w.$%]*")
 """numba's names carry a number of its own drawing."""
 
@@ -76,7 +82,27 @@ class Timed:
         self.code = self.symbol = ""
 
 
-def laws_alone(files: list[str], only: bool, names: list[str], folder: Path) -> list[Timed]:
+class Shuffled:
+    """States in an order that is new in every round, and the same for both sides.
+
+    A processor learns the branches of a thousand states that come again and again, in one process and not in another: a
+    law with a branch then took 1.5 times as long. What comes in a new order is learnt in none.
+    """
+
+    def __init__(self, states: np.ndarray):
+        self.states = states
+        self.rows = np.empty((BLOCKS * len(states), states.shape[1]))
+        self.draw(0)
+
+    def draw(self, number: int) -> None:
+        """The order of a round."""
+        draw, count = np.random.default_rng(number), len(self.states)
+        for rows in np.split(self.rows, BLOCKS):
+            rows[:, :GOAL] = self.states[draw.permutation(count), :GOAL]
+            rows[:, GOAL:] = self.states[draw.permutation(count), GOAL:]
+
+
+def laws_alone(files: list[str], only: bool, names: list[str], folder: Path, shuffled: Shuffled) -> list[Timed]:
     """Every law in its latency chain, its machine code written to the folder."""
     from bench import discovery
     from bench.contender import Gains
@@ -85,8 +111,8 @@ def laws_alone(files: list[str], only: bool, names: list[str], folder: Path) -> 
 
     own = tuple(discovery.load_law(Path(path)) for path in files)
     known = [one for one in discovery.all_contenders(own) if one.regulator.origin or not only]
-    states, gains = law.states(), Gains()
-    states.tofile(folder / "states")
+    gains = Gains()
+    law.states().tofile(folder / "states")
     found = []
     for one in known:
         if one.regulator.in_engine or (names and one.name not in names):
@@ -94,9 +120,9 @@ def laws_alone(files: list[str], only: bool, names: list[str], folder: Path) -> 
         loop = law.loop_of(command_of(one), memory_of(one), cache=not one.regulator.origin)
 
         def call(loop=loop):
-            return loop(states, gains.kp, gains.kv, law.SWEEPS)
+            return loop(shuffled.rows, gains.kp, gains.kv, SWEEPS)
 
-        timed = Timed(one.name, "law", law.SWEEPS * law.STATES if call() == 0.0 else 0, call)
+        timed = Timed(one.name, "law", SWEEPS * len(shuffled.rows) if call() == 0.0 else 0, call)
         [compiled] = loop.overloads.values()
         code = _objects.get(id(compiled.library)) or compiled.library._get_compiled_object()
         timed.code, timed.symbol = digest(code), compiled.fndesc.mangled_name
@@ -134,10 +160,10 @@ def engines() -> list[Timed]:
 class Session:
     """The plugin that makes a benchmark of each thing, and its set-up wait for the parent."""
 
-    def __init__(self, channel: Channel, things: list[Timed], rounds: int):
+    def __init__(self, channel: Channel, things: list[Timed], rounds: int, shuffled: Shuffled):
         from bench.timing import reference_kernel
 
-        self.channel, self.things, self.rounds = channel, things, rounds
+        self.channel, self.things, self.rounds, self.shuffled = channel, things, rounds, shuffled
         chain, given = reference_kernel.compiled(), (reference_kernel.START, reference_kernel.STEPS)
         self.kernel = lambda: chain(*given)
         self.kernel_steps = reference_kernel.STEPS
@@ -179,11 +205,12 @@ class Session:
 def test_rounds(benchmark, timed):
     """One thing, all its rounds; each waits for the parent's word."""
     session, one = timed
-    kernels = []
+    kernels: list[float] = []
 
     def wait():
         session.channel.say(waiting=True)
         session.on(session.channel.hear()["core"])
+        session.shuffled.draw(len(kernels))
         began = time.thread_time()
         session.kernel()
         kernels.append((time.thread_time() - began) / session.kernel_steps)
@@ -202,14 +229,17 @@ def main() -> None:
 
     if not Path(timing.__file__).is_relative_to(Path.cwd()):  # another checkout's, installed, stood in for it
         raise ImportError("there is no bench.timing yet")
-    things = laws_alone(asked["laws"], asked["only"], asked["names"], Path(asked["objects"]))
+    from bench.timing import law
+
+    shuffled = Shuffled(law.states())
+    things = laws_alone(asked["laws"], asked["only"], asked["names"], Path(asked["objects"]), shuffled)
     if asked["engines"]:
         things += engines()
     kept = ("name", "what", "ticks", "code", "symbol")
     channel.say(things=[{key: getattr(one, key) for key in kept} for one in things], sources=source_digest())
     by_name = {one.name: one for one in things}
     while asked := channel.hear():
-        session = Session(channel, [by_name[name] for name in asked["order"]], asked["rounds"])
+        session = Session(channel, [by_name[name] for name in asked["order"]], asked["rounds"], shuffled)
         session.run()
         channel.say(seconds=session.seconds)
 
