@@ -63,6 +63,11 @@ def rendered(markdown: str) -> Tags:
     return Tags(page[page.index("<main") : page.index("</main>")])
 
 
+def live(page: Tags) -> list[tuple[str, tuple]]:
+    """Its elements without those that only say where a line may break, of which a longer text has more."""
+    return [one for one in page.found if one not in (("wbr", ()), ("span", ("class",)))]
+
+
 def as_read(text: str) -> str:
     """What a reader sees: white space as one space, no word joiners."""
     return " ".join(text.replace("\u2060", "").split())
@@ -108,7 +113,7 @@ def test_provenance_from_elsewhere_is_shown_as_it_is(monkeypatch, text):
         monkeypatch.setattr(results, "provenance", lambda said=said: said)
         pages.append(rendered(origin.run()))
     word, given = pages
-    assert [one for one in given.found if one[0] != "wbr"] == [one for one in word.found if one[0] != "wbr"]
+    assert live(given) == live(word)
     assert as_read(markup.unescape(text)) in as_read(given.text) or as_read(text) in as_read(given.text)
 
 

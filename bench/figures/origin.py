@@ -43,19 +43,20 @@ def files() -> list[Path]:
 
 def run() -> html.Markdown:
     """provenance.json in words, one fact a line."""
-    said = {name: escaped(value) for name, value in results.provenance().items()}
+    given = results.provenance()
+    said = {name: escaped(value) for name, value in given.items()}
     changed = "yes: the sources had changes that no commit holds" if said["dirty"] else "no"
     facts = {
-        "Suite": f"{code(said['suite'])}, {html.number(said['episodes'])} episodes",
-        "Command": f"{code(said['command'])}",
+        "Suite": f"{code(given['suite'])}, {html.number(said['episodes'])} episodes",
+        "Command": code(given["command"]),
         "Seed": f"{said['seed']}",
         "Finished": said["finished"].replace("T", " ").replace("Z", " UTC"),
         "Wall time": f"{said['wall_s']:.0f} s with {said['workers']} workers",
         "Resumed after a stop": "yes" if said["resumed"] else "no",
-        "Commit": f"{code(said['commit'])}" if said["commit"] else "none: not a checkout",
+        "Commit": code(given["commit"]) if said["commit"] else "none: not a checkout",
         "Uncommitted changes": changed,
-        "Digest of the sources": f"{code(said['sources'])}",
-        "Digest of the plan": f"{code(said['plan'])}",
+        "Digest of the sources": code(given["sources"]),
+        "Digest of the plan": code(given["plan"]),
         "Processor": f"{said['cpu']}, {said['cores']} cores",
         "System": said["platform"],
         **{html.foreign(name): version for name, version in sorted(said["versions"].items())},
@@ -65,8 +66,10 @@ def run() -> html.Markdown:
 
 
 def code(text: str) -> str:
-    """An escaped text as code; in Markdown's own code an entity would show as it is spelled."""
-    return f"<code>{text}</code>"
+    """A text as Markdown's code, in which nothing is markup: between more backticks than it holds in a row."""
+    text = " ".join(str(text).split())
+    fence = "`" * (1 + max(map(len, re.findall("`+", text)), default=0))
+    return f"{fence} {text} {fence}" if "`" in text else f"`{text}`"
 
 
 def escaped(value):
