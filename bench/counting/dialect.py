@@ -6,6 +6,7 @@ Counting would meet most of these only on the branch that holds them; the text s
 import ast
 import importlib
 from collections.abc import Iterator
+from typing import TypeGuard
 
 from bench.scalar import KERNELS, PRIMITIVES
 
@@ -96,7 +97,7 @@ def _defined(tree: ast.Module) -> set[str]:
     return names
 
 
-def _is_kernel(node: ast.AST) -> bool:
+def _is_kernel(node: ast.AST) -> TypeGuard[ast.FunctionDef]:
     return isinstance(node, ast.FunctionDef) and any(
         isinstance(mark, ast.Name) and mark.id == "kernel" for mark in node.decorator_list
     )
