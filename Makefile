@@ -126,6 +126,7 @@ lock: $(DEV)
 	@$(call compile,cluster,--extra cluster --constraint requirements/dev.txt)
 	@$(call compile,libraries,--extra libraries --constraint requirements/dev.txt)
 	@$(locked) --group audit --output-file requirements/audit.txt
+	@$(locked) --group install --output-file requirements/install.txt
 	@echo "Locked. Look at the change: git diff --stat requirements"
 
 clean:  ## remove .venv, the built report, caches and results/quick; other results stay
@@ -140,11 +141,14 @@ help:
 	@printf '\nNew here? Type: make bench\n'
 
 # ------------------------------------------------------------------------------------------- set-up
-# Installed as locked and checked by hash. The lock is complete, so pip need not resolve (--no-deps: it would ask
-# for labmaze, see pyproject.toml); wheels only, so that nothing is ever compiled here.
+# Installed as locked and checked by hash, by uv, which pip brings in. The lock is complete, so nothing need be resolved
+# (--no-deps: it would ask for labmaze, see pyproject.toml); wheels only, so that nothing is ever compiled here.
 PIP = $(PY) -m pip --disable-pip-version-check --quiet --no-input
-install = $(PIP) install --require-hashes --no-deps --only-binary :all: -r requirements/$(1).txt \
-	&& $(PIP) install --no-deps --no-build-isolation -e .
+UV = UV_PYTHON_DOWNLOADS=never $(PY) -m uv
+AS_LOCKED = --require-hashes --no-deps --only-binary :all: -r requirements
+install = $(PIP) install $(AS_LOCKED)/install.txt \
+	&& $(UV) pip install --quiet --python $(PY) --compile-bytecode $(AS_LOCKED)/$(1).txt \
+	&& $(UV) pip install --quiet --python $(PY) --no-deps --no-build-isolation -e .
 
 $(READY): $(PY) requirements/base.txt pyproject.toml
 	@echo "Installing the benchmark into $(VENV) ..."
@@ -171,7 +175,7 @@ $(LIBRARIES)/.made: requirements/libraries.txt pyproject.toml
 $(AUDIT)/.made: PY = $(AUDIT)/bin/python
 $(AUDIT)/.made: requirements/audit.txt
 	@$(PYTHON) -m venv --clear $(AUDIT)
-	@$(PIP) install --require-hashes --no-deps --only-binary :all: -r requirements/audit.txt && touch $@
+	@$(PIP) install $(AS_LOCKED)/audit.txt && touch $@
 
 # An environment whose Python has gone, or that the lock does not cover, is made anew.
 ifneq ($(shell $(PY) -c '$(SUPPORTED)' 2>/dev/null && echo ok),ok)
@@ -187,7 +191,7 @@ $(PY):
 	@$(PYTHON) -m venv --clear $(VENV)
 
 # Names, versions and hashes only. Pins already in the files are kept; to move one, pin it in pyproject.toml.
-locked = env -u UV_FIND_LINKS UV_PYTHON_DOWNLOADS=never $(VENV)/bin/uv pip compile --quiet \
+locked = env -u UV_FIND_LINKS $(UV) pip compile --quiet \
 	--universal --python-version 3.11 --generate-hashes --no-header --no-annotate --no-emit-index-url \
 	--no-emit-find-links
 compile = $(locked) $(2) pyproject.toml --output-file requirements/$(1).txt
