@@ -20,8 +20,11 @@ from bench.provenance import source_digest
 from bench.robustness_plan import RobustnessUnit
 
 KINDS = {kind.table: kind for kind in (Unit, ContactUnit, RobustnessUnit)}
-NUMBERS = ("suite", "dt_s", "integrator", "contact_integrator", "seed")
-"""Fields of a plan that rows depend on, beside the gains."""
+NUMBERS = (
+    *("suite", "dt_s", "integrator", "contact_integrator", "seed"),
+    *("traces", "boundary_axes", "arm_traces"),
+)
+"""Fields of a plan that rows, curves and boundaries depend on, beside the gains."""
 
 
 def described(plan: Plan, units: Sequence[AnyUnit]) -> dict:

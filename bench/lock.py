@@ -4,8 +4,8 @@ No file is left behind, however a run ends. Some network file systems lock no fo
 """
 
 import contextlib
-import logging
 import os
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -53,8 +53,9 @@ def _lock(folder: Path, handle: int) -> None:
 
 
 def _warn(folder: Path, reason: str) -> None:
-    logging.getLogger(__name__).warning(
-        "%s: cannot be locked (%s), so that nothing keeps a second run out of it; start none there", folder, reason
+    print(
+        f"{folder}: cannot be locked ({reason}), so that nothing keeps a second run out of it; start none there",
+        file=sys.stderr,
     )
 
 

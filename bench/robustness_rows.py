@@ -19,12 +19,13 @@ from tasks.verdict import OUTCOMES
 
 
 def frame(
-    suite: str, one: Contender, axis: Axis, starts: int, horizon_s: float, gains: Gains, seed: int
+    suite: str, one: Contender, axis: Axis, starts: int, horizon_s: float, gains: Gains, seed: int, simulate=run
 ) -> pd.DataFrame:
     """One row a level and start; none at a level whose command the law has no gains for.
 
     Args:
         starts: how many at each level; they and the noise are the same for every law.
+        simulate: makes the numbers of the rows.
     """
     parts = []
     for level in axis.levels:
@@ -32,7 +33,7 @@ def frame(
         chosen = gains_at(one, condition.peak) if condition.peak else gains
         if chosen is not None:
             some = axis.starts(starts, seed, level)
-            rows = _rows(one, some, condition, _settings(chosen, horizon_s), seed)
+            rows = _rows(one, some, condition, _settings(chosen, horizon_s), seed, simulate)
             parts.append(pd.DataFrame({"axis": axis.name, "level": level, **rows}))
     if not parts:
         return pd.DataFrame()
@@ -55,9 +56,9 @@ def _settings(gains: Gains, horizon_s: float) -> Settings:
     )
 
 
-def _rows(one: Contender, starts, condition: Condition, settings: Settings, seed: int) -> dict:
+def _rows(one: Contender, starts, condition: Condition, settings: Settings, seed: int, simulate) -> dict:
     metrics = metrics_of(on_arm=False)
-    numbers = run(one, starts, condition, settings, metrics, seed)
+    numbers = simulate(one, starts, condition, settings, metrics, seed)
     step_s = condition.period_s / disturbed.steps_of(condition)
     angle0 = [angle(start.quat_wxyz, start.goal_wxyz) for start in starts]
     outcomes = [OUTCOMES[int(code)] for code in numbers[:, OUTCOME]]

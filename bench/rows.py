@@ -110,6 +110,13 @@ def frame(plan: Plan, unit: Unit, contender: Contender, starts, numbers: np.ndar
     )
 
 
+def lost(numbers: np.ndarray, outcome: str) -> np.ndarray:
+    """Blank rows of `engines.episode` as those of episodes that a user's law never came back from."""
+    numbers[:, [OUTCOME, SETTLING_TICK, FAILURE_TICK]] = OUTCOMES.index(outcome), NEVER, NEVER
+    numbers[:, FINAL_ANGLE] = np.nan
+    return numbers
+
+
 def judged_columns(numbers: np.ndarray, dt_s: float) -> dict:
     """The columns that say how episodes ended, from rows of `engines.episode`."""
     return {

@@ -9,9 +9,8 @@ from typing import NamedTuple
 
 from bench.ahead import compiling_ahead
 from bench.choice import check_workers
-from bench.engines.run import evaluation
-from bench.engines.run_arm import pointers
-from bench.finish import finish, own_costs
+from bench.finish import finish
+from bench.guard import Guard
 from bench.journal import begin, held, inspect, sweep, tidy
 from bench.plan import AnyUnit, Plan
 from bench.running_order import in_running_order
@@ -34,38 +33,45 @@ def run(
     scheduler: str = THREADS,
     replace: bool = False,
     told: Callable[[Progress], None] = lambda _: None,
+    law_limit_s: float | None = None,
 ) -> bool:
     """Carry out what is not done yet; whether there was anything to do.
 
     Args:
         workers: threads of this process. scheduler: who carries out the units (bench/schedulers/words.py).
+        law_limit_s: how long a unit of a user's law may take; None for the rule of `bench.guard`.
     Errors:
         BadNumber: workers. BadResults: the folder cannot be used or written, or another run is at work there.
         MissingTool, LostWorkers: a cluster. KeyboardInterrupt: after what is finished is written.
     """
     check_workers(workers)
     check_scheduler(scheduler)
-    with held(Path(out)):
-        return _run(plan, Path(out), workers, scheduler, replace, told)
+    with held(Path(out)), Guard(plan, law_limit_s) as guard:
+        return _run(plan, Path(out), workers, scheduler, replace, told, guard)
 
 
 def _run(
-    plan: Plan, out: Path, workers: int, scheduler: str, replace: bool, told: Callable[[Progress], None]
+    plan: Plan,
+    out: Path,
+    workers: int,
+    scheduler: str,
+    replace: bool,
+    told: Callable[[Progress], None],
+    guard: Guard,
 ) -> bool:
-    """The same in a folder that is held."""
+    """The same in a folder that is held, with a guard over the user's laws."""
     state = inspect(plan, out, replace)
     if state.finished:
         tidy(out)
         return False
     began = time.time()
-    _compile_own_laws(plan)
-    costs = own_costs(plan)
+    guard.check()
     todo = [unit for unit in in_running_order(plan.work) if unit.key not in state.done]
 
     def done(unit: AnyUnit) -> None:
         told(Progress(unit, unit.count))
 
-    with _team(plan, todo, out, workers, scheduler) as carry_out:
+    with _team(plan, todo, out, workers, scheduler, guard) as carry_out:
         if state.done:
             sweep(out)
         else:
@@ -74,12 +80,14 @@ def _run(
             if unit.key in state.done:
                 done(unit)
         by = {"scheduler": kind(scheduler), "workers": carry_out(done)}
-    finish(plan, out, costs, workers, by, began, resumed=bool(state.done))
+    finish(plan, out, guard, workers, by, began, resumed=bool(state.done))
     return True
 
 
 @contextlib.contextmanager
-def _team(plan: Plan, todo: list[AnyUnit], out: Path, workers: int, scheduler: str) -> Iterator[Callable]:
+def _team(
+    plan: Plan, todo: list[AnyUnit], out: Path, workers: int, scheduler: str, guard: Guard
+) -> Iterator[Callable]:
     """What carries out the units, tells its argument of each, and returns the number of its workers.
 
     A cluster has answered when this yields, so that nothing is written, or replaced, for one that does not.
@@ -87,7 +95,7 @@ def _team(plan: Plan, todo: list[AnyUnit], out: Path, workers: int, scheduler: s
     if scheduler == THREADS:
 
         def by_threads(done: Callable[[AnyUnit], None]) -> int:
-            threads.run(plan, todo, out, workers, done)
+            threads.run(plan, todo, out, workers, guard, done)
             return workers
 
         with compiling_ahead(_ours(plan, todo)):
@@ -96,22 +104,10 @@ def _team(plan: Plan, todo: list[AnyUnit], out: Path, workers: int, scheduler: s
     from bench.schedulers import cluster  # Dask is an extra, and takes a second to import
 
     with cluster.client_of(scheduler) as client:
-        yield functools.partial(cluster.run, client, plan, todo, out)
+        yield functools.partial(cluster.run, client, plan, todo, out, law_limit_s=guard.limit_s)
 
 
 def _ours(plan: Plan, todo: list[AnyUnit]) -> Iterator[str]:
     """Contenders that a user's laws have no part in, in the order in which they run."""
     own = {one.name for one in plan.contenders if one.regulator.origin}
     return (unit.contender for unit in todo if unit.contender not in own)
-
-
-def _compile_own_laws(plan: Plan) -> None:
-    """Compile a user's laws before anything is written: what cannot be compiled is a mistake, not a row."""
-    names = [unit.contender for unit in plan.units if unit.engine != "reference"]
-    for name in dict.fromkeys((*names, *(unit.contender for unit in plan.troubles))):
-        one = plan.contender(name)
-        if one.regulator.origin:
-            if one.is_on_arm:
-                pointers(one)
-            else:
-                evaluation(one)

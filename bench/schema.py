@@ -60,7 +60,7 @@ SET = [
     *_numbers("s", "time under a hundredth of the band after which an engine stops early", "hold_s"),
 ]
 JUDGED = [
-    *_words(outcome="settled, stuck, timed-out, diverged, singular or saturated"),
+    *_words(outcome="settled, stuck, timed-out, diverged, singular, saturated; of a user's law also crashed or hung"),
     *_numbers("s", "first time after which the angle stays in the band; null if it does not", "settling_time_s"),
     *_numbers("s", "time at which the episode failed; null if it did not", "failure_time_s"),
     *_numbers("rad", "angle to the goal at the end, by the judge", "final_angle_rad"),

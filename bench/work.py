@@ -2,18 +2,23 @@
 
 import functools
 
+import numpy as np
 import pandas as pd
 
 import tasks
 from bench import contact_rows, robustness_rows
 from bench.contact_plan import ContactUnit, poses_of
 from bench.discovery import find_compliant, metrics_of
+from bench.engines.arm_episode import blank_arm
 from bench.engines.contact_episode import Conditions
+from bench.engines.disturbed import blank_rows
+from bench.engines.episode import blank
 from bench.engines.run import run as run_engine
 from bench.engines.run_arm import run as run_on_arm
+from bench.engines.run_disturbed import run as run_in_trouble
 from bench.plan import AnyUnit, Plan, Unit
 from bench.robustness_plan import RobustnessUnit
-from bench.rows import frame, settings_of
+from bench.rows import frame, lost, settings_of
 from tasks.base import Start
 
 
@@ -26,7 +31,7 @@ def rows(plan: Plan, unit: AnyUnit) -> pd.DataFrame:
 
 def _episodes(plan: Plan, unit: Unit) -> pd.DataFrame:
     """The rows of a unit without contact."""
-    starts = _starts_of(plan, unit)
+    starts = starts_of(plan, unit)
     one, settings = plan.contender(unit.contender), settings_of(plan, unit.horizon_s)
     metrics = metrics_of(on_arm=one.is_on_arm)
     if one.is_on_arm:
@@ -35,6 +40,23 @@ def _episodes(plan: Plan, unit: Unit) -> pd.DataFrame:
     else:
         numbers = run_engine(unit.engine, one, unit.task, starts, settings, metrics, plan.integrator)
     return frame(plan, unit, one, starts, numbers, metrics)
+
+
+def lost_rows(plan: Plan, unit: Unit | RobustnessUnit, outcome: str) -> pd.DataFrame:
+    """The rows of a unit that a user's law never came back from: what was asked, the outcome, no measure."""
+    one = plan.contender(unit.contender)
+    metrics = metrics_of(on_arm=one.is_on_arm)
+    nothing = dict.fromkeys((metric.column for metric in metrics), np.nan)
+    if isinstance(unit, RobustnessUnit):
+        simulate = functools.partial(_lost_in_trouble, outcome)
+        return _in_trouble(plan, unit, simulate).assign(**nothing, variation=np.nan)
+    starts = starts_of(plan, unit)
+    blanks = blank_arm(len(starts), metrics) if unit.arm else blank(len(starts), metrics)
+    return frame(plan, unit, one, starts, lost(blanks, outcome), metrics).assign(**nothing, cond_jacobian_max=np.nan)
+
+
+def _lost_in_trouble(outcome, _one, starts, _condition, _settings, metrics, _seed):
+    return lost(blank_rows(len(starts), metrics), outcome)
 
 
 def _in_contact(plan: Plan, unit: ContactUnit) -> pd.DataFrame:
@@ -46,13 +68,13 @@ def _in_contact(plan: Plan, unit: ContactUnit) -> pd.DataFrame:
     return contact_rows.frame(plan.suite, one, task._replace(horizon_s=unit.horizon_s), arm, some, conditions)
 
 
-def _in_trouble(plan: Plan, unit: RobustnessUnit) -> pd.DataFrame:
+def _in_trouble(plan: Plan, unit: RobustnessUnit, simulate=run_in_trouble) -> pd.DataFrame:
     """The rows of a unit along an axis."""
     one, axis = plan.contender(unit.contender), tasks.axis(unit.axis)
-    return robustness_rows.frame(plan.suite, one, axis, unit.starts, unit.horizon_s, plan.gains, plan.seed)
+    return robustness_rows.frame(plan.suite, one, axis, unit.starts, unit.horizon_s, plan.gains, plan.seed, simulate)
 
 
-def _starts_of(plan: Plan, unit: Unit) -> list[Start]:
+def starts_of(plan: Plan, unit: Unit) -> list[Start]:
     """A unit's stretch of its start set."""
     end = unit.first + unit.count
     if unit.arm:

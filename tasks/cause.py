@@ -20,7 +20,7 @@ def cause(outcome: str, min_margin: float, condition: float) -> str:
     """The cause of a failure, in a word; empty for an episode that settled.
 
     "both" singularities were near; "torque": neither, and the torque rule ended it; "law": none of these, as at a
-    dead point or a jump of the coordinates.
+    dead point or a jump of the coordinates, and whatever was near if the law crashed or hung.
 
     Args:
         outcome: one of verdict.OUTCOMES.
@@ -29,6 +29,8 @@ def cause(outcome: str, min_margin: float, condition: float) -> str:
     """
     if outcome == "settled":
         return ""
+    if outcome in ("crashed", "hung"):
+        return "law"
     near_representation, near_kinematic = min_margin < NEAR_MARGIN, not condition <= NEAR_CONDITION
     if near_representation and near_kinematic:
         return "both"

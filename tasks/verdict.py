@@ -6,8 +6,10 @@ for every engine. The angle is seen as haversine = sin^2(theta/2), which is mono
 
 from typing import NamedTuple
 
-SETTLED, STUCK, TIMED_OUT, DIVERGED, SINGULAR, SATURATED = range(6)
-OUTCOMES = ("settled", "stuck", "timed-out", "diverged", "singular", "saturated")
+SETTLED, STUCK, TIMED_OUT, DIVERGED, SINGULAR, SATURATED, CRASHED, HUNG = range(8)
+OUTCOMES = ("settled", "stuck", "timed-out", "diverged", "singular", "saturated", "crashed", "hung")
+"""The last two are of a user's law alone: it raised, gave no three numbers, or ended its process; it never returned."""
+
 GOING = -1
 
 

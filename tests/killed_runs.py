@@ -24,7 +24,7 @@ from bench.discovery import find_contender
 
 SEED = 20260119
 KILLS = 10
-MOST_TRIES = 30  # a moment after the end of its run kills nothing and is drawn again
+TRIES = 3  # a kill: a moment after the end of its run kills nothing and is drawn again
 EVENTS = {"open", "os.mkdir", "os.remove", "os.rename", "os.rmdir", "os.chmod"}
 
 
@@ -103,20 +103,20 @@ def resumed(wanted: Undisturbed, out: Path, workers: int) -> dict:
     return {"names": names, "parts": len(parts), "code": code, "same": files_of(out) == wanted.files}
 
 
-def at_random_moments(wanted: Undisturbed, folder: Path) -> list[dict]:
+def at_random_moments(wanted: Undisturbed, folder: Path, kills: int = KILLS) -> list[dict]:
     """Runs killed after a random time each, on one thread or two, and resumed on one or two."""
     chance, found = random.Random(SEED), []
     began = time.monotonic()
     ended(start(wanted.plan, folder / "timed", 2))
     longest = time.monotonic() - began
-    for k in range(MOST_TRIES):
+    for k in range(TRIES * kills):
         out = folder / f"random-{k}"
         child = start(wanted.plan, out, chance.choice((1, 2)))
         time.sleep(chance.uniform(0.0, longest))
         os.kill(child, signal.SIGKILL)
         if ended(child) == -signal.SIGKILL:
             found.append(resumed(wanted, out, chance.choice((1, 2))))
-        if len(found) == KILLS:
+        if len(found) == kills:
             break
     return found
 

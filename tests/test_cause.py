@@ -18,7 +18,8 @@ from tasks.cause import CAUSES, NEAR_CONDITION, NEAR_MARGIN, cause
 from tasks.kinematics import kinematics, rotation_vector
 from tasks.verdict import OUTCOMES
 
-FAILED = [word for word in OUTCOMES if word != "settled"]
+NEVER_NEAR = ("settled", "crashed", "hung")
+FAILED = [word for word in OUTCOMES if word not in NEVER_NEAR]
 FAR, NEAR = (1.0, 5.0), (0.5 * NEAR_MARGIN, 2.0 * NEAR_CONDITION)
 
 
@@ -26,6 +27,12 @@ FAR, NEAR = (1.0, 5.0), (0.5 * NEAR_MARGIN, 2.0 * NEAR_CONDITION)
 @pytest.mark.parametrize("condition", [*FAR, *NEAR, math.inf, math.nan])
 def test_settled_episode_has_no_cause(margin, condition):
     assert cause("settled", margin, condition) == ""
+
+
+@pytest.mark.parametrize("margin", [*FAR, *NEAR, math.nan])
+@pytest.mark.parametrize("outcome", ["crashed", "hung"])
+def test_law_is_the_cause_when_it_crashes_or_hangs(outcome, margin):
+    assert cause(outcome, margin, NEAR[1]) == "law"
 
 
 @pytest.mark.parametrize("outcome", FAILED)

@@ -6,8 +6,10 @@ import pytest
 
 from tasks.rules import RULES
 from tasks.verdict import (
+    CRASHED,
     DIVERGED,
     GOING,
+    HUNG,
     OUTCOMES,
     SATURATED,
     SETTLED,
@@ -40,7 +42,7 @@ def ending(failure=GOING, inside=False, speed=0.0, command=0.0):
 
 
 def test_codes_are_the_places_of_the_words():
-    codes = (SETTLED, STUCK, TIMED_OUT, DIVERGED, SINGULAR, SATURATED)
+    codes = (SETTLED, STUCK, TIMED_OUT, DIVERGED, SINGULAR, SATURATED, CRASHED, HUNG)
     assert [OUTCOMES[code] for code in codes] == [
         "settled",
         "stuck",
@@ -48,6 +50,8 @@ def test_codes_are_the_places_of_the_words():
         "diverged",
         "singular",
         "saturated",
+        "crashed",
+        "hung",
     ]
 
 

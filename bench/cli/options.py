@@ -1,5 +1,7 @@
 """Options that several commands share."""
 
+import signal
+import threading
 from pathlib import Path
 from typing import NamedTuple
 
@@ -7,6 +9,7 @@ import rich_click as click
 
 from bench import discovery
 from bench.contender import Contender, Regulator
+from bench.errors import BadLaw
 from bench.schema import RESULTS
 
 LATEST = RESULTS / "latest"
@@ -76,9 +79,32 @@ def named(regulators, jacobians, inverses) -> Named:
     return Named(tuple(word.partition("@")[0] for word in whole), (by,), (through,))
 
 
+LOAD_S = 60.0
+"""For a user's file to import, and its law to be tried once."""
+
+
+def _loaded(path: Path) -> Regulator:
+    """The law of a file; one that does not return is interrupted, where the system has such a clock."""
+    if not hasattr(signal, "setitimer") or threading.current_thread() is not threading.main_thread():
+        return discovery.load_law(path)
+
+    def too_long(*_):
+        raise TimeoutError(f"it did not return within {LOAD_S:g} s")
+
+    before = signal.signal(signal.SIGALRM, too_long)
+    signal.setitimer(signal.ITIMER_REAL, LOAD_S)
+    try:
+        return discovery.load_law(path)
+    except TimeoutError as error:
+        raise BadLaw(f"--law {path}: it does not load ({error}); mend what runs when it is imported") from error
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0.0)
+        signal.signal(signal.SIGALRM, before)
+
+
 def own_laws(files: tuple[Path, ...]) -> tuple[Regulator, ...]:
     """The user's regulators; two of one name are refused."""
-    own = tuple(discovery.load_law(path) for path in files)
+    own = tuple(map(_loaded, files))
     names = [one.name for one in own]
     for name in names:
         if names.count(name) > 1:

@@ -86,11 +86,19 @@ trouble: robustness.parquet.
 @click.option(
     "--out", type=click.Path(path_type=Path), default=options.LATEST, show_default="results/latest", help="Folder."
 )
+@click.option(
+    "--law-limit",
+    type=click.FloatRange(min=0.0, min_open=True),
+    metavar="SECONDS",
+    show_default="30, and ten times what ours take",
+    help="A --law that takes longer for a unit of work is stopped there, and its rows say hung.",
+)
 @click.option("--replace", is_flag=True, help="Start over if the folder holds another plan.")
 @click.option("--dry-run", is_flag=True, help="Print the plan and its size; run nothing.")
 def COMMAND(
     suite, laws, regulators, representations, controllers, tasks, arms, jacobians, inverses, variations, axes,
-    starts, engines, count, dt_s, horizon_s, kp, kv, integrator, seed, workers, scheduler, out, replace, dry_run,
+    starts, engines, count, dt_s, horizon_s, kp, kv, integrator, seed, workers, scheduler, out, law_limit, replace,
+    dry_run,
 ):  # fmt: skip
     """Run a suite and store its episodes; a run that was stopped goes on where it was.
 
@@ -148,7 +156,9 @@ def COMMAND(
             if progress.tasks[0].finished:
                 progress.update(bar, description="curves, costs, boundaries")
 
-        did = running.run(plan, out, workers=workers, scheduler=scheduler, replace=replace, told=told)
+        did = running.run(
+            plan, out, workers=workers, scheduler=scheduler, replace=replace, told=told, law_limit_s=law_limit
+        )
         progress.update(bar, completed=total, description="finished")
     console().print(f"{'wrote' if did else 'up to date:'} {out}   (python -m bench show {out})")
 

@@ -14,7 +14,7 @@ from bench.errors import BadResults
 from bench.store import read, read_json
 from bench.suites import NOMINAL
 from tasks.cause import CAUSES
-from tasks.verdict import OUTCOMES
+from tasks.verdict import CRASHED, OUTCOMES
 
 
 @click.command("show")
@@ -190,7 +190,8 @@ def outcome_table(episodes):
     keys = ["start_set", "variation", "law"] if varies else ["start_set", "law"]
     named = results.with_contender(episodes).rename(columns={"contender": "law"})
     grouped = named.groupby(keys, observed=True, sort=False)
-    counts = grouped["outcome"].value_counts().unstack(fill_value=0).reindex(columns=list(OUTCOMES), fill_value=0)
+    usual = [word for code, word in enumerate(OUTCOMES) if code < CRASHED or (episodes["outcome"] == word).any()]
+    counts = grouped["outcome"].value_counts().unstack(fill_value=0).reindex(columns=usual, fill_value=0)
     counts.insert(0, "n", grouped.size())
     counts["median s"] = grouped["settling_time_s"].median().round(3)
     counts["worst s"] = grouped["settling_time_s"].max().round(3)

@@ -9,21 +9,20 @@ On an analytic Jacobian the command is that of the coordinates: command(chart, E
 import math
 
 import tasks
+from bench.cartesian import Parts, parts_of
 from bench.contender import NO_MEMORY, Contender, Gains
-from bench.engines.episode import FIRST_METRIC
+from bench.engines.episode import CRASHED_COMMAND, FIRST_METRIC, has_crashed
 from bench.scalar import kernel
 from bench.so3 import relative
 from tasks.base import Task
 
-NOT_A_NUMBER = (math.nan, math.nan, math.nan)
-
 
 def command_of(contender: Contender):
-    """The law with a memory slot; a user's law that raises commands NaN, which the judge sees as singular.
+    """The law with a memory slot; in the place of a user's law that raises stands CRASHED_COMMAND.
 
-    So does one that returns anything but three numbers in some state. Times 1.0 keeps every bit of a number.
+    So it does for one that returns anything but three numbers in some state. Times 1.0 keeps every bit of a number.
     """
-    if contender.jacobian is not None and contender.jacobian.takes == "coordinates":
+    if _takes_coordinates(contender):
         return _coordinate_command_of(contender)
     law = contender.law
     if contender.regulator.memory is not None:
@@ -31,21 +30,61 @@ def command_of(contender: Contender):
     return _guarded(law) if contender.regulator.origin else _memoryless(law)
 
 
+def parts_for(contender: Contender) -> Parts:
+    """The parts of a controller on an arm with its law as `command_of` has it."""
+    parts = parts_of(contender, command_of(contender))
+    if contender.regulator.origin and parts.coordinates is not None:
+        return parts._replace(report=_passing_crashes_on(parts.coordinates.accelerate))
+    return parts
+
+
+def _takes_coordinates(contender: Contender) -> bool:
+    return contender.jacobian is not None and contender.jacobian.takes == "coordinates"
+
+
 def _coordinate_command_of(contender: Contender):
     law = contender.coordinate_law
-    return _guarded_coordinates(law) if contender.regulator.origin else law
+    if not contender.regulator.origin:
+        return law
+    return _guarded_four(law) if contender.rows == 7 else _guarded_three(law)
 
 
-def _guarded_coordinates(law):
+def _guarded_three(law):
     @kernel
     def command(at, E_d, Edot, gains):
         try:
-            u_E = law(at, E_d, Edot, gains)
+            x, y, z = law(at, E_d, Edot, gains)
+            u_E = (1.0 * x, 1.0 * y, 1.0 * z)
         except Exception:
-            u_E = NOT_A_NUMBER
+            u_E = CRASHED_COMMAND
         return u_E
 
     return command
+
+
+def _guarded_four(law):
+    """Of four coordinates."""
+
+    @kernel
+    def command(at, E_d, Edot, gains):
+        try:
+            w, x, y, z = law(at, E_d, Edot, gains)
+            u_E = (1.0 * w, 1.0 * x, 1.0 * y, 1.0 * z)
+        except Exception:
+            u_E = (*CRASHED_COMMAND, math.nan)
+        return u_E
+
+    return command
+
+
+def _passing_crashes_on(accelerate):
+    @kernel
+    def report(at, Edot, u_E):
+        if has_crashed(u_E):
+            return CRASHED_COMMAND
+        return accelerate(at, Edot, u_E)
+
+    return report
 
 
 def _memoryless(law):
@@ -63,7 +102,7 @@ def _guarded(law):
             x, y, z = law(R, omega, goal, gains)
             u = (1.0 * x, 1.0 * y, 1.0 * z)
         except Exception:
-            u = NOT_A_NUMBER
+            u = CRASHED_COMMAND
         return u, memory
 
     return command
@@ -76,7 +115,7 @@ def _guarded_memory(law):
             (x, y, z), after = law(R, omega, goal, gains, memory)
             u = (1.0 * x, 1.0 * y, 1.0 * z)
         except Exception:
-            u, after = NOT_A_NUMBER, memory
+            u, after = CRASHED_COMMAND, memory
         return u, after
 
     return command

@@ -12,7 +12,7 @@ from numba import float64, int64, types
 
 from bench.contender import AT_REST, Gains, Goal
 from bench.engines.compiled import EVALUATE, FOUR, MATRIX, NUMBERS, THREE, compile_function
-from bench.engines.episode import FIRST_METRIC, Numbers, Sample, finish
+from bench.engines.episode import FIRST_METRIC, Numbers, Sample, blamed, finish
 from bench.engines.ideal import angle_between, haversine, held_step, moved, plus, rotation_rate, turned, weighted
 from bench.scalar import kernel, sqrt
 from bench.so3 import Rotation, cross, dot, from_quaternion, rotate, rotate_back, turn_quaternion
@@ -191,7 +191,7 @@ def episodes_of(observe):
             R_d, omega_d, alpha_d = goal_at(R_0, 0.0, trouble.sway)
             band = start[11]
             memory, margin = memory0, math.nan
-            u = AT_REST
+            u = given = AT_REST
             hav = haversine(R, R_d)
             watch = first_watch(hav, band)
             tick, period = 0, 0
@@ -203,7 +203,8 @@ def episodes_of(observe):
                     seen, turning = reported(R, omega, R_d, drawn, trouble, trouble.steps * h)
                     rate, acceleration = told_of(omega_d, alpha_d, trouble.told)
                     goal = Goal(R_d, AT_REST, AT_REST)
-                    u, memory, margin = evaluate(seen, seen_from_goal(turning, rate), goal, gains, memory)
+                    given, memory, margin = evaluate(seen, seen_from_goal(turning, rate), goal, gains, memory)
+                    u = given
                     if trouble.sway > 0.0:
                         u = carried_along(u, turning, rate, acceleration)
                     u = bounded(u, trouble.bound)
@@ -237,6 +238,7 @@ def episodes_of(observe):
                     extra[TAIL_WORST] = max(extra[TAIL_WORST], error)
             speed = seen_from_goal(omega, omega_d)
             final = angle_between(R, R_d)
+            failure = blamed(failure, given)
             finish(row, failure, watch, tick, final, hav <= band, dot(speed, speed), dot(u, u), numbers)
 
     return episodes

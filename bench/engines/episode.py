@@ -1,5 +1,6 @@
 """What every engine is given and gives back: settings, one row of numbers in and one row out per episode."""
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -9,7 +10,7 @@ from bench.scalar import kernel
 from bench.so3 import Rotation
 from tasks.rules import RULES
 from tasks.truth import angle
-from tasks.verdict import GOING, SETTLED, verdict
+from tasks.verdict import CRASHED, GOING, SETTLED, SINGULAR, verdict
 
 
 class Settings(NamedTuple):
@@ -81,6 +82,28 @@ def numbers(settings: Settings) -> Numbers:
         settings.rest_speed**2,
         settings.rest_command**2,
     )
+
+
+CRASHED_COMMAND = (math.nan, math.nan, 3e-300)
+"""What the guard of a user's law commands in its place (`binding`); by accident no law does."""
+
+
+@kernel
+def has_crashed(u):
+    """Whether it is CRASHED_COMMAND: two numbers that differ from themselves, and one that nobody comes by."""
+    return u[0] != u[0] and u[1] != u[1] and u[2] == CRASHED_COMMAND[2]
+
+
+@kernel
+def blamed(failure, u):
+    """Why an episode failed; of a command that was none, whether the law crashed.
+
+    Args:
+        u: as the law returned it.
+    """
+    if failure == SINGULAR and has_crashed(u):
+        return CRASHED
+    return failure
 
 
 @kernel

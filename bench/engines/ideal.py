@@ -10,7 +10,7 @@ from numba import types
 from bench.contender import AT_REST, Gains, Goal
 from bench.engines.compiled import CURVES, EVALUATE, FOUR, MATRIX, NUMBERS, compile_function
 from bench.engines.curve import keep
-from bench.engines.episode import Sample, finish
+from bench.engines.episode import Sample, blamed, finish
 from bench.scalar import atan2, cos, kernel, sin, sqrt
 from bench.so3 import Rotation, cross, dot, from_quaternion
 from tasks.verdict import GOING, check_command, check_state, first_watch, watched
@@ -174,6 +174,7 @@ def episodes_of(engine, observe):
                     break
                 hav = haversine(R, R_d)
                 watch = watched(watch, tick, hav, band)
-            finish(row, failure, watch, tick, angle_between(R, R_d), hav <= band, dot(omega, omega), dot(u, u), numbers)
+            final, speed = angle_between(R, R_d), dot(omega, omega)
+            finish(row, blamed(failure, u), watch, tick, final, hav <= band, speed, dot(u, u), numbers)
 
     return compile_function(episodes, EPISODES)

@@ -8,10 +8,10 @@ import mujoco
 import numpy as np
 
 import tasks
-from bench.cartesian import assembly, parts_of
+from bench.cartesian import assembly
 from bench.contender import Contender
 from bench.engines.arm_episode import blank_arm, controls, joints
-from bench.engines.binding import command_of, margin_of, memory_of, observer
+from bench.engines.binding import margin_of, memory_of, observer, parts_for
 from bench.engines.compiled import compile_function, own_law
 from bench.engines.curve import Curves, blank_curves
 from bench.engines.episode import Settings, numbers, start_rows
@@ -141,7 +141,7 @@ def _compiled_loop(metrics: tuple):
 @functools.cache
 def _assemble(contender: Contender):
     with own_law(contender.regulator.origin) as cache:
-        return compile_function(assembly(parts_of(contender, command_of(contender))), native.ASSEMBLE, cache)
+        return compile_function(assembly(parts_for(contender)), native.ASSEMBLE, cache)
 
 
 @functools.cache

@@ -19,6 +19,8 @@ HOW = {
     "timed-out": "too slow",
     "diverged": "diverge",
     "saturated": "too strong",
+    "crashed": "crash",
+    "hung": "hang",
 }
 """Outcome of an episode -> what it is called in the table."""
 

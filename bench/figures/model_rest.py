@@ -116,7 +116,7 @@ def gravity(found: pd.DataFrame, narrow: bool):
 
 def ratios(found: pd.DataFrame) -> pd.Series:
     """Measured over predicted, of episodes that did not fail outright."""
-    ended = found[~found["outcome"].isin(("saturated", "diverged", "singular"))]
+    ended = found[~found["outcome"].isin(("saturated", "diverged", "singular", "crashed", "hung"))]
     return (ended["final_angle_rad"] / ended["gravity_rad"]).dropna()
 
 

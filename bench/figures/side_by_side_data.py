@@ -194,6 +194,8 @@ def ending(end: pd.Series) -> str:
         "diverged": f"diverges {when}",
         "singular": f"is singular {when} and has no command",
         "saturated": f"asks for more than {html.number(RULES.command_limit)}{NO_BREAK}rad/s² {when}",
+        "crashed": f"crashes {when}",
+        "hung": "never returns a command",
     }[end["outcome"]]
 
 

@@ -96,6 +96,8 @@ OUTCOMES = {
     "diverged": ("#d55e00", "^"),
     "singular": ("#cc79a7", "s"),
     "saturated": ("#56b4e9", "v"),
+    "crashed": ("#0072b2", "P"),
+    "hung": ("#009e73", "D"),
 }
 
 PAPER_STYLE = {

@@ -41,17 +41,22 @@ logging.getLogger("distributed").setLevel(logging.CRITICAL)
 
 
 def run(
-    client: distributed.Client, plan: Plan, todo: Sequence[AnyUnit], out: Path, done: Callable[[AnyUnit], None]
+    client: distributed.Client,
+    plan: Plan,
+    todo: Sequence[AnyUnit],
+    out: Path,
+    done: Callable[[AnyUnit], None],
+    law_limit_s: float | None = None,
 ) -> int:
     """Carry out units and write each when its chunk has come back; the most threads of workers that were there.
 
     Args:
-        done: told of each unit, when it is written.
+        done: told of each unit, when it is written. law_limit_s: of a user's law, as `bench.guard` takes it.
     Errors:
         MissingTool: a worker without this package. BadResults: a worker has other sources. LostWorkers: a unit ended
         all that took it, or the scheduler is gone. KeyboardInterrupt: what has come back is written.
     """
-    chunks = Chunks(client, plan, out, done)
+    chunks = Chunks(client, plan, out, done, law_limit_s)
     chunks.carry_out(todo)
     return chunks.threads
 
@@ -90,8 +95,15 @@ def client_of(word: str) -> Iterator[distributed.Client]:
 class Chunks:
     """Chunks on their way to workers and back: as many as keep them busy, and no more."""
 
-    def __init__(self, client: distributed.Client, plan: Plan, out: Path, done: Callable[[AnyUnit], None]):
-        self.client, self.plan, self.out, self.done = client, plan, out, done
+    def __init__(
+        self,
+        client: distributed.Client,
+        plan: Plan,
+        out: Path,
+        done: Callable[[AnyUnit], None],
+        law_limit_s: float | None = None,
+    ):
+        self.client, self.plan, self.out, self.done, self.law_limit_s = client, plan, out, done, law_limit_s
         self.threads = 0
         self.waiting: deque[tuple[AnyUnit, ...]] = deque()
         self.given: dict[distributed.Future, tuple[AnyUnit, ...]] = {}
@@ -127,7 +139,7 @@ class Chunks:
         while self.waiting and len(self.given) < room:
             units = self.waiting.popleft()
             text = json.dumps(described(self.plan, units))
-            future = self.client.submit(worker.carry_out, text, pure=False)
+            future = self.client.submit(worker.carry_out, text, self.law_limit_s, pure=False)
             self.given[future] = units
             ended.add(future)
 

@@ -1,4 +1,4 @@
-"""Units carried out by threads of this process."""
+"""Units carried out by threads of this process; those of a user's law, by processes that threads wait for."""
 
 import importlib
 import threading
@@ -6,17 +6,23 @@ from collections.abc import Callable, Sequence
 from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
 from pathlib import Path
 
+from bench.guard import Guard
 from bench.journal import part
 from bench.plan import AnyUnit, Plan, Unit
 from bench.store import write_table
 from bench.work import rows
 
+UNITS_A_PROCESS = 8
+"""Of a user's law, beyond which a second process is worth its start of some seconds, if there is nothing of ours."""
 
-def run(plan: Plan, todo: Sequence[AnyUnit], out: Path, workers: int, done: Callable[[AnyUnit], None]) -> None:
+
+def run(
+    plan: Plan, todo: Sequence[AnyUnit], out: Path, workers: int, guard: Guard, done: Callable[[AnyUnit], None]
+) -> None:
     """Carry out units, in their order, and write each when it is done.
 
     Args:
-        done: told of each, when it is written.
+        guard: of the user's laws. done: told of each, when it is written.
     Errors:
         KeyboardInterrupt: after the units under way are written.
     """
@@ -25,13 +31,16 @@ def run(plan: Plan, todo: Sequence[AnyUnit], out: Path, workers: int, done: Call
     def work(unit: AnyUnit) -> AnyUnit | None:
         if stop.is_set():
             return None
-        write_table(part(out, unit), rows(plan, unit), unit.table)
+        made = guard.rows(unit) if guard.has(unit) else rows(plan, unit)
+        write_table(part(out, unit), made, unit.table)
         return unit
 
-    if any(isinstance(unit, Unit) and unit.engine == "reference" for unit in todo):
+    ours, own = [unit for unit in todo if not guard.has(unit)], [unit for unit in todo if guard.has(unit)]
+    processes = 1 if ours else min(workers, 1 + len(own) // UNITS_A_PROCESS)
+    if any(isinstance(unit, Unit) and unit.engine == "reference" for unit in ours):
         importlib.import_module("tasks.episode")  # it silences GLFW's import, which works in the main thread only
-    with ThreadPoolExecutor(workers) as pool:
-        pending = {pool.submit(work, unit) for unit in todo}
+    with ThreadPoolExecutor(workers) as pool, ThreadPoolExecutor(processes) as apart:
+        pending = {pool.submit(work, unit) for unit in ours} | {apart.submit(work, unit) for unit in own}
         try:
             while pending:
                 ended, pending = wait(pending, return_when=FIRST_COMPLETED)
@@ -41,4 +50,5 @@ def run(plan: Plan, todo: Sequence[AnyUnit], out: Path, workers: int, done: Call
                         done(unit)
         except BaseException:
             stop.set()
+            guard.stopping = True
             raise

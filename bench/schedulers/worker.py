@@ -7,20 +7,27 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from bench.chunk import plan_of
+from bench.guard import Guard
+from bench.plan import AnyUnit, Plan
 from bench.store import as_table, encoding
 from bench.work import rows
 
 
-def carry_out(text: str) -> list[tuple[str, bytes]]:
+def carry_out(text: str, law_limit_s: float | None = None) -> list[tuple[str, bytes]]:
     """(key, file of its rows) of every unit of a chunk.
 
     Args:
-        text: what `chunk.described` says of it, as JSON.
+        text: what `chunk.described` says of it, as JSON. law_limit_s: of a user's law, as `bench.guard` takes it.
     Errors:
         BadResults: this worker has other sources. BadLaw: a user's law that it cannot load.
     """
     plan = plan_of(json.loads(text))
-    return [(unit.key, _file(as_table(rows(plan, unit), unit.table))) for unit in plan.work]
+    with Guard(plan, law_limit_s) as guard:
+        return [(unit.key, _file(_rows(plan, unit, guard))) for unit in plan.work]
+
+
+def _rows(plan: Plan, unit: AnyUnit, guard: Guard) -> pa.Table:
+    return guard.rows(unit) if guard.has(unit) else as_table(rows(plan, unit), unit.table)
 
 
 def _file(table: pa.Table) -> bytes:

@@ -27,7 +27,7 @@ from bench.engines.arm_episode import (
 )
 from bench.engines.compiled import CURVES, FOUR, GAINS, GOAL, MATRIX, NUMBERS, ROTATION, THREE, compile_function
 from bench.engines.curve import keep_on_arm
-from bench.engines.episode import finish
+from bench.engines.episode import blamed, finish
 from bench.engines.native.libmujoco import mj_fullM, mj_resetData, mj_step, mj_step1, mj_step2
 from bench.engines.native.pointers import address_of, matrix, vector
 from bench.resolved_motion import Chain, Scratch
@@ -196,6 +196,6 @@ def episodes_of(observe):
                 watch = watched(watch, tick, hav, band)
             final = angle((s[12], s[13], s[14], s[15]), quat_d)
             speed, command = squared(qvel, n), u[0] * u[0] + u[1] * u[1] + u[2] * u[2]
-            finish(row, failure, watch, tick, final, hav <= band, speed, command, numbers)
+            finish(row, blamed(failure, u), watch, tick, final, hav <= band, speed, command, numbers)
 
     return compile_function(episodes, EPISODES)

@@ -18,7 +18,7 @@ from numba import float64, int32, int64, types
 from bench.contender import AT_REST, Gains, Goal
 from bench.engines.compiled import CURVES, EVALUATE, FOUR, MATRIX, NUMBERS, compile_function
 from bench.engines.curve import keep
-from bench.engines.episode import Sample, finish
+from bench.engines.episode import Sample, blamed, finish
 from bench.engines.native.libmujoco import mj_fwdActuation, mj_resetData, mj_step, mj_step1, mj_step2
 from bench.so3 import Rotation, dot, from_quaternion, rotate
 from tasks.truth import angle, haversine
@@ -117,6 +117,6 @@ def episodes_of(observe):
                 watch = watched(watch, tick, hav, band)
             final = angle((s[12], s[13], s[14], s[15]), quat_d)
             speed = s[9] * s[9] + s[10] * s[10] + s[11] * s[11]
-            finish(row, failure, watch, tick, final, hav <= band, speed, dot(u, u), numbers)
+            finish(row, blamed(failure, u), watch, tick, final, hav <= band, speed, dot(u, u), numbers)
 
     return compile_function(episodes, EPISODES)

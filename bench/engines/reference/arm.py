@@ -7,7 +7,7 @@ import mujoco
 import numpy as np
 
 import tasks
-from bench.cartesian import assembly, control, parts_of
+from bench.cartesian import assembly, control
 from bench.contender import Gains, Goal
 from bench.engines.arm_episode import (
     PROBE_TICKS,
@@ -21,8 +21,8 @@ from bench.engines.arm_episode import (
     seven,
     squared,
 )
-from bench.engines.binding import command_of, margin_of, memory_of, observer
-from bench.engines.episode import Settings, finish, numbers
+from bench.engines.binding import margin_of, memory_of, observer, parts_for
+from bench.engines.episode import Settings, blamed, finish, numbers
 from bench.engines.reference.free_body import STILL, vector
 from bench.resolved_motion import Chain
 from bench.so3 import Rotation, dot, from_quaternion
@@ -45,7 +45,7 @@ def _episode(contender, task, arm_name, start, band, settings, metrics, row, int
     limits, arm = numbers(settings), tasks.arm(arm_name)
     dt, n = limits.dt, arm.joints
     margin, observe = margin_of(contender), observer(metrics)
-    assemble, resolve = assembly(parts_of(contender, command_of(contender))), contender.inverse.resolve
+    assemble, resolve = assembly(parts_for(contender)), contender.inverse.resolve
     own = variation != "nominal"
     environment = tasks.load(
         task, start=start, dt=dt, horizon=(limits.ticks + 1) * dt, integrator=integrator, arm=arm_name,
@@ -95,4 +95,4 @@ def _episode(contender, task, arm_name, start, band, settings, metrics, row, int
         hav = haversine(s[12:16], start.goal_wxyz)
         watch = watched(watch, tick, hav, band)
     final = angle(s[12:16], start.goal_wxyz)
-    finish(row, failure, watch, tick, final, hav <= band, squared(plant.qvel, n), dot(u, u), limits)
+    finish(row, blamed(failure, u), watch, tick, final, hav <= band, squared(plant.qvel, n), dot(u, u), limits)

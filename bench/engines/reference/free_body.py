@@ -10,7 +10,7 @@ import numpy as np
 import tasks
 from bench.contender import AT_REST, Gains, Goal
 from bench.engines.binding import command_of, margin_of, memory_of, observer, plant_of
-from bench.engines.episode import Sample, Settings, blank, finish, numbers
+from bench.engines.episode import Sample, Settings, blamed, blank, finish, numbers
 from bench.so3 import Rotation, dot, from_quaternion, rotate
 from tasks.truth import angle, haversine
 from tasks.verdict import GOING, check_command, check_state, first_watch, watched
@@ -59,7 +59,7 @@ def _episode(contender, margin, observe, task, start, band, settings, row, integ
         hav = haversine(sensors[12:16], start.goal_wxyz)
         watch = watched(watch, tick, hav, band)
     final = angle(sensors[12:16], start.goal_wxyz)
-    finish(row, failure, watch, tick, final, hav <= band, dot(omega, omega), dot(u, u), limits)
+    finish(row, blamed(failure, u), watch, tick, final, hav <= band, dot(omega, omega), dot(u, u), limits)
 
 
 def _servo(physics, goal_wxyz):

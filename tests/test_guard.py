@@ -1,0 +1,181 @@
+"""A user's law that raises, exits, hangs or is no law at all in some states costs its own rows, never the run."""
+
+import json
+import os
+import subprocess
+import sys
+import textwrap
+from pathlib import Path
+
+import pandas as pd
+import pytest
+from command_line import bench, refused
+
+from bench import apart, finish, guard, run, store
+from bench import plan as planning
+from bench.choice import Choice
+from bench.chunk import described
+from bench.cli import options
+from bench.discovery import contenders_of, find_contender, load_law
+from bench.errors import BadLaw
+
+LAW = """
+import os, sys, time
+from bench.contender import Regulator
+from bench.scalar import kernel
+
+@kernel
+def law(R, omega, goal, gains):
+    x = 0.5 * gains.kp * (R.o[2] - R.a[1]) + gains.kv * omega[0]
+    y = 0.5 * gains.kp * (R.a[0] - R.n[2]) + gains.kv * omega[1]
+    z = 0.5 * gains.kp * (R.n[1] - R.o[0]) + gains.kv * omega[2]
+    {body}
+    return (-x, -y, -z)
+
+REGULATOR = Regulator("mine", "Mine", "none", "u", law)
+"""
+FAR = "R.n[0] < -0.1 and "
+LIMIT_S = 1.0
+
+
+def plan_of(folder: Path, *body: str, engine: str, sets=("uniform",)):
+    """Our law and a user's, with `body` before its return, from the same four starts."""
+    path = folder / "own.py"
+    path.write_text(LAW.replace("{body}", "\n    ".join(body)))
+    laws = [find_contender("rotation-matrix"), *contenders_of(load_law(path))]
+    choice = Choice(("free-body",), sets, (engine,))
+    return planning.make("quick", laws, choice, count=4, horizon_s=0.05)
+
+
+@pytest.fixture(autouse=True, scope="module")
+def few_costs():
+    """Our laws are not counted here, to be fast."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(finish, "all_contenders", tuple)
+        yield
+
+
+def outcomes(out: Path) -> dict[str, list[str]]:
+    """Law -> how its episodes ended, in the order of their starts."""
+    rows = store.read(out, "episodes")
+    return {str(law): part["outcome"].astype(str).tolist() for law, part in rows.groupby("regulator", observed=True)}
+
+
+@pytest.fixture(scope="module")
+def undisturbed(tmp_path_factory):
+    """The rows of both laws when the user's is sound, on each engine."""
+    made = {}
+    for engine in ("ideal-rk4", "reference"):
+        folder = tmp_path_factory.mktemp(engine)
+        run.run(plan_of(folder, "pass", engine=engine), folder / "run", workers=1)
+        made[engine] = store.read(folder / "run", "episodes")
+    return made
+
+
+@pytest.mark.parametrize(
+    ("engine", "word", "body"),
+    [
+        ("ideal-rk4", "crashed", ["if R.n[0] < -0.1: raise ValueError('no')"]),
+        ("reference", "crashed", ["if R.n[0] < -0.1: os._exit(3)"]),
+        ("reference", "crashed", ["if R.n[0] < -0.1: return (1.0, 2.0)"]),
+        ("reference", "crashed", ["if R.n[0] < -0.1: return ('a', 'b', 'c')"]),
+        ("ideal-rk4", "hung", ["while R.n[0] < -0.1: x = x + 1e-9"]),
+        ("reference", "hung", ["while R.n[0] < -0.1: x = x + 1e-9"]),
+    ],
+)
+def test_law_that_breaks_in_some_states_costs_those_rows_alone(tmp_path, undisturbed, engine, word, body):
+    plan = plan_of(tmp_path, *body, engine=engine)
+    run.run(plan, tmp_path / "run", workers=2, law_limit_s=LIMIT_S)
+    rows, sound = store.read(tmp_path / "run", "episodes"), undisturbed[engine]
+    own = rows["regulator"] == "mine"
+    broken = rows["outcome"].astype(str) == word
+    assert 0 < broken.sum() < own.sum()
+    assert not (broken & ~own).any()
+    pd.testing.assert_frame_equal(rows[~broken], sound[~broken], check_categorical=False)
+
+
+def test_rows_of_a_law_that_hangs_say_what_was_asked_and_measure_nothing(tmp_path):
+    plan = plan_of(tmp_path, "while R.n[0] < -0.1: x = x + 1e-9", engine="ideal-rk4")
+    run.run(plan, tmp_path / "run", workers=1, law_limit_s=LIMIT_S)
+    rows = store.read(tmp_path / "run", "episodes")
+    hung = rows[rows["outcome"] == "hung"]
+    assert hung[["quat_w", "angle0_rad", "kp", "horizon_s"]].notna().all(axis=None)
+    assert hung[["settling_time_s", "failure_time_s", "final_angle_rad", "peak_u", "effort"]].isna().all(axis=None)
+    lost = json.loads((tmp_path / "run" / "provenance.json").read_text())["lost"]
+    assert any("did not return within 1 s of processor time; its episodes are run singly" in text for text in lost)
+
+
+def test_unit_gives_up_after_some_lost_episodes(tmp_path, monkeypatch):
+    monkeypatch.setattr(guard, "MOST_LOST", 1)
+    plan = plan_of(tmp_path, "if R.n[0] < 2.0 and omega[0] == 0.0: os._exit(3)", engine="reference")
+    run.run(plan, tmp_path / "run", workers=1, law_limit_s=LIMIT_S)
+    assert outcomes(tmp_path / "run")["mine"] == ["crashed"] * 4
+
+
+def test_law_that_hangs_in_trouble_loses_the_whole_unit(tmp_path):
+    path = tmp_path / "own.py"
+    path.write_text(LAW.replace("{body}", "while R.n[0] < -0.1: x = x + 1e-9"))
+    plan = planning.make("quick", contenders_of(load_law(path)), Choice(axes=("delay",)), count=3, horizon_s=0.05)
+    run.run(plan, tmp_path / "run", workers=1, law_limit_s=LIMIT_S)
+    rows = store.read(tmp_path / "run", "robustness")
+    assert len(rows) == plan.troubled
+    assert set(rows["outcome"]) == {"hung"}
+    assert rows[["final_angle_rad", "tail_rms_rad", "peak_u", "variation"]].isna().all(axis=None)
+
+
+def test_process_of_a_law_ends_with_the_run(tmp_path):
+    """Also when the law never would: here it hangs in compiled code while the run is killed."""
+    script = """
+        import os, sys
+        from bench import guard
+        from test_guard import Path, plan_of
+        plan = plan_of(Path(sys.argv[1]), "while abs(R.n[0] - 0.36) > 1e-3: x = x + 1e-9", engine="reference")
+        class Told(guard._Process):
+            def _say(self, said, longest_s):
+                print(self.process.pid, flush=True)
+                return super()._say(said, longest_s)
+        guard._Process = Told
+        guard.Guard(plan).rows(plan.units[-1])
+    """
+    words = [sys.executable, "-c", textwrap.dedent(script), str(tmp_path)]
+    path = os.pathsep.join(map(str, (Path(__file__).parent, Path(__file__).parents[1])))
+    environment = {**os.environ, "PYTHONPATH": path}
+    with subprocess.Popen(words, stdout=subprocess.PIPE, text=True, env=environment) as process:
+        pids = [int(process.stdout.readline()) for _ in range(3)]  # the chunk, ready, rows
+        process.kill()
+    gone = subprocess.run(["tail", f"--pid={pids[0]}", "-f", "/dev/null"], timeout=60)
+    assert gone.returncode == 0
+
+
+def test_law_file_that_does_not_return_is_refused(capsys, tmp_path, monkeypatch):
+    monkeypatch.setattr(options, "LOAD_S", 0.2)
+    path = tmp_path / "own.py"
+    path.write_text("while True: pass")
+    assert "did not return within 0.2 s" in refused(capsys, "run", "--law", path, "--out", tmp_path / "run")
+
+
+def test_limit_must_be_positive(capsys, tmp_path):
+    assert "law-limit" in refused(capsys, "run", "--law-limit", "0", "--out", tmp_path / "run")
+
+
+def test_mistake_in_a_law_names_the_users_file(tmp_path):
+    plan = plan_of(tmp_path, "x = float(str(x))", engine="ideal-rk4")
+    with guard.Guard(plan) as kept, pytest.raises(BadLaw, match=f"--law {tmp_path / 'own.py'}: the law cannot be"):
+        kept.check()
+
+
+def test_answer_of_the_process_is_the_rows_that_a_thread_makes(tmp_path):
+    plan = plan_of(tmp_path, "pass", engine="ideal-rk4")
+    unit = next(one for one in plan.units if one.contender == "mine")
+    content = apart.answer(plan, {"what": "rows", "key": unit.key, "first": 1, "count": 2})
+    assert content[:1] == apart.DONE
+    assert apart.unpacked(content[1:]).column("start_id").to_pylist() == ["uniform-00001", "uniform-00002"]
+    assert described(plan, [unit])["laws"]
+
+
+def test_bench_shows_crashed_and_hung_where_there_are_any(capsys, tmp_path, undisturbed):
+    plan = plan_of(tmp_path, "if R.n[0] < -0.1: raise ValueError('no')", engine="ideal-rk4")
+    run.run(plan, tmp_path / "run", workers=1)
+    said = bench(capsys, "show", tmp_path / "run").out
+    assert "crashed" in said
+    assert "hung" not in said
