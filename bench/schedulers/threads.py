@@ -3,7 +3,7 @@
 import importlib
 import threading
 from collections.abc import Callable, Sequence
-from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
+from concurrent.futures import ThreadPoolExecutor, as_completed
 from pathlib import Path
 
 from bench.guard import Guard
@@ -42,12 +42,10 @@ def run(
     with ThreadPoolExecutor(workers) as pool, ThreadPoolExecutor(processes) as apart:
         pending = {pool.submit(work, unit) for unit in ours} | {apart.submit(work, unit) for unit in own}
         try:
-            while pending:
-                ended, pending = wait(pending, return_when=FIRST_COMPLETED)
-                for future in ended:
-                    unit = future.result()
-                    if unit is not None:
-                        done(unit)
+            for future in as_completed(pending):
+                unit = future.result()
+                if unit is not None:
+                    done(unit)
         except BaseException:
             stop.set()
             guard.stopping = True
