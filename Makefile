@@ -103,6 +103,10 @@ regress: ## your files against BASE (where you left main): outcomes, operations,
 regress: $(READY)
 	@$(PY) -m bench compare $(BASE) $(ARGS)
 
+regress-study: ## does that gate cry wolf, and does it bite? (an hour): results/regress
+regress-study: $(READY)
+	@$(PY) -m bench.regress.study $(ARGS)
+
 reference: ## run the quick suite and make it the new reference (commit it by itself)
 reference: $(READY)
 	@rm -rf results/quick

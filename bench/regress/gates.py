@@ -82,16 +82,20 @@ def _by_rows(old: Checkout, new: Checkout, told: Told) -> tuple[list[Gate], list
     """The exact gate and that of operations."""
     if old.is_new:
         with sides.finished_run(new, told) as run:
-            operations = own.by_law(read(run, "costs"))
+            counted = own.by_law(read(run, "costs"))
         says = "the law is new: there is nothing to compare it with"
-        return [Gate(name, SKIPPED, says) for name in (EXACT, OPERATIONS)], [], ({}, operations)
+        return [Gate(name, SKIPPED, says) for name in (EXACT, OPERATIONS)], [], ({}, counted)
     if old.sources == new.sources and not new.own:
         says = "both sides have the same sources and versions, so a run would be the same"
         return [Gate(name, PASSED, says) for name in (EXACT, OPERATIONS)], [], ({}, {})
     with sides.finished_run(old, told) as before, sides.finished_run(new, told) as after:
-        found = _exact(before, after)
-        operations_of = own.by_law(read(before, "costs")), own.by_law(read(after, "costs"))
-    return _gates(found, (EXACT, OPERATIONS)), found, operations_of
+        try:
+            found = _exact(before, after)
+            operations = own.by_law(read(before, "costs")), own.by_law(read(after, "costs"))
+        except BadResults as error:  # both have just been written by their own program: it is the schema that differs
+            says = f"the schema differs: {error}"
+            found, operations = [Finding(EXACT, REGRESSION, "", "schema", "", "", says)], ({}, {})
+    return _gates(found, (EXACT, OPERATIONS)), found, operations
 
 
 def _by_process(

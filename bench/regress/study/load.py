@@ -39,13 +39,15 @@ MOST = {"compute": 2, "move": 1}
 def neighbours(seed: int) -> Iterator[dict[str, int]]:
     """From none to MOST processes for as long as the block lasts; how many there are of each kind.
 
-    They have less claim to a core than what is timed, or they would take most of the study's hours.
+    They have the least claim to a core, or they would take most of the study's hours.
     """
     draw = random.Random(seed)
     counts = {kind: draw.randint(0, most) for kind, most in MOST.items()}
     programs = [COMPUTE] * counts["compute"] + [MOVE] * counts["move"]
     started = [
-        subprocess.Popen(["nice", sys.executable, "-c", program.format(seed=seed + at)], start_new_session=True)
+        subprocess.Popen(
+            ["nice", "-n", "19", sys.executable, "-c", program.format(seed=seed + at)], start_new_session=True
+        )
         for at, program in enumerate(programs)
     ]
     try:

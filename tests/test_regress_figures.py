@@ -1,0 +1,77 @@
+"""The page on the gate: its numbers follow from the rows, and what is committed holds what the page says."""
+
+import pandas as pd
+import pytest
+
+from bench.figures import regress_noise, regress_power, regress_rows, regress_said, regress_tables
+from bench.regress.study import faults, same_code
+from bench.regress.study.load import MOST
+
+
+def test_study_if_it_was_run_has_all_its_comparisons_and_no_false_alarm():
+    if not regress_rows.part("same_code"):
+        pytest.skip("results/regress/same_code.json is not there: make regress-study")
+    verdicts = regress_rows.verdicts()
+    assert verdicts["comparison"].nunique() == same_code.COMPARISONS == 50
+    assert len(verdicts) == verdicts["comparison"].nunique() * verdicts["benchmark"].nunique()
+    assert verdicts["neighbours"].between(0, sum(MOST.values())).all()
+    assert not verdicts["alarm"].any()
+
+
+def test_every_planted_fault_is_caught_and_named_and_nothing_else_is():
+    nothing, *planted = regress_rows.part("faults")
+    assert (nothing["caught"], nothing["law"]) == (False, "")
+    assert len(planted) == len(faults.behaviour()) + 1
+    assert all(one["caught"] and one["named"] and not one["others_blamed"] for one in planted)
+
+
+MADE = pd.DataFrame(
+    {
+        "comparison": [1, 1, 2, 2],
+        "neighbours": [0, 0, 3, 3],
+        "benchmark": ["a", "b", "a", "b"],
+        "ratio": [1.0, 1.2, 1.3, 0.9],
+        "p": [0.5, 1e-4, 1e-5, 1e-3],
+        "doubted": [False, True, True, False],
+        "alarm": [False, False, True, False],
+    }
+)
+STEPS = pd.DataFrame(
+    {
+        "steps": [None, 1, 3],
+        "slower": [0.0, 0.09, 0.2],
+        "repeats": [16, 16, 16],
+        "once": [0.0, 0.5, 1.0],
+        "twice": [0.0, 0.25, 1.0],
+        "instructions": [0.0, 0.02, 0.05],
+    }
+)
+
+
+def test_sentences_count_doubts_and_alarms():
+    said = regress_said.noise(MADE, pd.Series([-2e-6, 1e-6]))
+    assert "By p alone 2 comparisons would have rung" in said
+    assert "both conditions held for 2 benchmarks in 2 of them, and the second run confirmed 1" in said
+    assert "2 pairs, differed by 2·10⁻⁶ at most" in said
+    assert "2 times on a busy machine: 1 false alarms" in regress_said.lead(MADE, [])
+
+
+def test_sentences_say_what_a_tenth_looks_like():
+    said = regress_said.found(STEPS)
+    assert "9 % slower is found in 50 % of single runs and in 25 % of pairs of runs; it has 2.0 % more" in said
+    assert "Time is sure from 20 % on. Instructions tell from 9 % on." in said
+
+
+def test_figures_say_in_words_what_they_show_or_that_there_is_nothing():
+    assert "1 in the second too" in regress_noise.ratios(MADE).alt
+    assert regress_power.found(STEPS).alt.count("slower: found in") == len(STEPS)
+    nothing = pd.DataFrame()
+    words = (regress_noise.ratios(nothing).alt, regress_power.found(nothing).alt, regress_said.found(nothing))
+    assert all("make regress-study" in one for one in words)
+
+
+def test_table_escapes_the_words_of_findings():
+    rows = [{"fault": "one", "law": "a", "gates": ["exact"], "says": ["a: 1 -> 2 | <b>"]}]
+    table = regress_tables.faults(rows)
+    assert "<b>" not in table
+    assert table.count("|") == 3 * 5

@@ -1,0 +1,114 @@
+"""From revisions to a comparison: what is left out and why, and what a summary makes of it. Nothing is run or timed."""
+
+import contextlib
+import subprocess
+
+import pytest
+
+from bench.cli import main
+from bench.errors import BadResults
+from bench.regress import comparison, gates, sides, summary
+from bench.regress.process import SideFailed
+
+LAW = """
+from bench.contender import Regulator
+from bench.scalar import kernel
+
+
+@kernel
+def law(R, omega, goal, gains):
+    return (-gains.kv * omega[0], -gains.kv * omega[1], -gains.kv * omega[2])
+
+
+REGULATOR = Regulator("braking", "Braking", "", "u", law=law)
+"""
+AS_NOBODY = ("-c", "user.name=nobody", "-c", "user.email=nobody@example.org", "-c", "commit.gpgsign=false")
+
+
+@pytest.fixture
+def user(tmp_path):
+    """A user's repository: a first commit without a law, a second with one. The law's file."""
+    folder = tmp_path / "user"
+    subprocess.run(["git", "init", "-q", "-b", "main", folder], check=True)
+    for text in ("", LAW):
+        (folder / ("law.py" if text else "README")).write_text(text)
+        subprocess.run(["git", "-C", folder, "add", "."], check=True)
+        subprocess.run(["git", *AS_NOBODY, "-C", folder, "commit", "-qm", "more"], check=True)
+    return folder / "law.py"
+
+
+@pytest.fixture
+def failing(monkeypatch, finished):
+    """Every side's run is one and the same; the process of the side that is named cannot be compiled."""
+    monkeypatch.setattr(sides, "finished_run", lambda side, told: contextlib.nullcontext(finished))
+
+    def at(place):
+        @contextlib.contextmanager
+        def running(asked):
+            raise SideFailed(place, "no bench.timing yet")
+            yield
+
+        monkeypatch.setattr(gates, "running", running)
+
+    return at
+
+
+def test_base_that_is_too_old_leaves_the_last_gates_out_and_says_why(user, failing):
+    failing(0)
+    said = gates.of_revisions("HEAD", None, (user,))
+    assert [(one.gate, one.state) for one in said.gates] == [
+        ("exact", "passed"),
+        ("operations", "passed"),
+        ("instructions", "skipped"),
+        ("time", "skipped"),
+    ]
+    assert said.gates[-1].says == "base is too old for it: no bench.timing yet"
+    assert said.findings == ()
+    assert said.base.commit == said.head.commit
+
+
+def test_head_that_cannot_be_compiled_is_a_mistake(user, failing):
+    failing(1)
+    with pytest.raises(SideFailed):
+        gates.of_revisions("HEAD", None, (user,))
+
+
+def test_law_that_base_lacks_is_new_and_one_that_head_lacks_a_mistake(user, failing, monkeypatch):
+    monkeypatch.setattr(gates, "running", lambda asked: contextlib.nullcontext(list(asked)))
+    monkeypatch.setattr(gates, "measured", lambda processes, *rest: ([], [], [len(processes)]))
+    said = gates.of_revisions("HEAD~1", None, (user,))
+    assert said.gates[0].says == "the law is new: there is nothing to compare it with"
+    assert said.benchmarks == (1,)
+    with pytest.raises(BadResults, match="none of the --law files is there"):
+        gates.of_revisions("HEAD", "HEAD~1", (user,))
+
+
+def test_runs_of_two_schemas_are_a_regression_and_no_mistake(user, failing, finished):
+    failing(0)
+    (finished / "robustness.parquet").unlink()
+    said = gates.of_revisions("HEAD", None, (user,))
+    [found] = said.regressions
+    assert found.what == "schema"
+    assert "robustness.parquet" in found.says
+
+
+def test_command_writes_json_and_adds_to_the_summaries(finished, tmp_path, monkeypatch, capsys):
+    job = tmp_path / "job.md"
+    job.write_text("before\n")
+    monkeypatch.setenv("GITHUB_STEP_SUMMARY", str(job))
+    files = {name: tmp_path / name for name in ("said.json", "own.md")}
+    words = ["compare", finished, finished, "--json", files["said.json"], "--summary", files["own.md"]]
+    assert main([str(word) for word in words]) == 0
+    assert "agrees with" in capsys.readouterr().out
+    assert job.read_text() == "before\n" + files["own.md"].read_text()
+    said = comparison.read(files["said.json"])
+    assert files["own.md"].read_text().startswith("### no regression: ")
+    assert [one.state for one in said.gates] == ["passed", "passed"]
+
+
+def test_markdown_leaves_no_markup_of_what_it_quotes(finished):
+    said = gates.of_folders(finished, finished)
+    found = comparison.Finding("exact", "regression", "a", "b", "1", "2", "a|b <img src=x> `c` *d*")
+    text = summary.markdown(said._replace(findings=(found,)))
+    assert "- **regression**: a\\|b &lt;img src=x&gt; \\`c\\` \\*d\\*" in text
+    assert text.startswith("### 1 regression: ")
