@@ -13,6 +13,8 @@ import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 
+from bench import results
+from bench.contender import Regulator
 from bench.discovery import find_contender
 from bench.figures import families, html, robustness_rows, robustness_theory, style
 from bench.figures.inline import responsive_picture
@@ -113,6 +115,11 @@ def _marks(axes: Axes, place: int, shares: pd.Series, colour: str) -> None:
             axes.plot(level, place, "o", markersize=6, fillstyle="left", color=colour, markerfacecoloralt=style.PAPER)
 
 
+def regulator_of(law: str) -> Regulator:
+    """The regulator of a contender, the user's own of the run among them."""
+    return find_contender(law, results.own_laws()).regulator
+
+
 def table(rows: pd.DataFrame) -> html.Markdown:
     """A law a row: its property, half the jump of its command, the least noise by theory, and what was measured.
 
@@ -122,11 +129,11 @@ def table(rows: pd.DataFrame) -> html.Markdown:
     kp, kv = robustness_rows.gains(rows)
     shares, lines = leaving(rows), []
     for law in robustness_rows.laws(rows):
-        regulator, begin = find_contender(law).regulator, least(law, kp, kv)
+        regulator, begin = regulator_of(law), least(law, kp, kv)
         lines.append(
             {
                 "Law": families.link(law, families.word(law)),
-                "Proved": regulator.property,
+                "Proved": html.foreign(regulator.property),
                 "Memory": "yes" if regulator.memory else "no",
                 "Jump [rad/s²]": 2.0 * jump(law, kp),
                 "Held from, by theory [rad]": begin,
@@ -165,7 +172,7 @@ def facts(rows: pd.DataFrame) -> dict:
         for law, begin in known.items()
         for level in noisy.index
     ]
-    minding = [law for law in laws if find_contender(law).regulator.memory]
+    minding = [law for law in laws if regulator_of(law).memory]
     blind = [law for law in laws if law not in minding]
     jumping = {law: begin for law, begin in known.items() if law in blind and begin > 0.0}
     middle = float(noisy.index[noisy.index < min(KEEPS.values())].max())
