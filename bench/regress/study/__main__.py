@@ -1,6 +1,8 @@
 """`python -m bench.regress.study [PART ...]`: run parts of the study, all of them unless named."""
 
+import os
 import sys
+import tempfile
 import time
 
 from bench.errors import BenchError, UnknownWord
@@ -30,4 +32,6 @@ def main(words: list[str]) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    with tempfile.TemporaryDirectory(prefix="orientation-bench-") as cache:
+        os.environ.setdefault("NUMBA_CACHE_DIR", cache)  # every planted copy is a state of its own in the shared cache
+        sys.exit(main(sys.argv[1:]))
