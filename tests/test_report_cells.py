@@ -44,8 +44,16 @@ def test_outputs_are_kept_and_a_page_that_fails_is_left_to_sphinx(book):
     assert shown.cells[-1].outputs[0]["data"]["text/plain"] == "42"
 
 
-def test_pages_that_judge_all_claims_are_begun_first():
-    texts = [path.read_text() for path in cells.notebooks()]
-    judging = ["judge_all" in text for text in texts]
-    assert judging == sorted(judging, reverse=True)
-    assert any(judging)
+def test_names_of_one_page_are_not_those_of_the_next(book):
+    (book / "index.md").write_text(PAGE.format(cell="left = 1"))
+    (book / "pages" / "raising.md").write_text(PAGE.format(cell="assert 'left' not in globals()"))
+    cache, pages = get_cache(book / "cache"), [book / "index.md", book / "pages" / "raising.md"]
+    asyncio.run(cells.work([pages], cells.notebooks(), cache))
+    assert [cells.is_known(cache, page) for page in cells.notebooks().values()] == [True, True]
+
+
+def test_one_kernel_runs_all_pages_that_judge_all_claims():
+    first, *others = cells.batches(list(cells.notebooks()))
+    assert len(first) > 1
+    assert all("judge_all" in path.read_text() for path in first)
+    assert [len(batch) for batch in others] == [1] * len(others)

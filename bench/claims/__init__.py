@@ -81,8 +81,14 @@ def judge_all(folder: Path | None = None) -> list[Verdict]:
     Errors:
         NoEvidence: a claim that can be measured, and no row about it. BadResults: the folder.
     """
-    results = Results(Path(folder) if folder else published.folder())
-    return [decide(claim, results) for claim in all_claims()]
+    return list(_judged(Path(folder) if folder else published.folder()))
+
+
+@functools.lru_cache(maxsize=1)
+def _judged(folder: Path) -> tuple[Verdict, ...]:
+    """Once for all that read a run: it takes ten seconds."""
+    results = Results(folder)
+    return tuple(decide(claim, results) for claim in all_claims())
 
 
 def table(verdicts: list[Verdict]) -> pd.DataFrame:
