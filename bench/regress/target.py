@@ -26,6 +26,10 @@ def target() -> str:
 
 
 def environment(checkout: Path) -> dict[str, str]:
-    """Variables of a process that compiles a checkout's laws for the target."""
+    """Variables of a process that compiles a checkout's laws for the target; none of a pytest that asks for it.
+
+    Under pytest-xdist's, pytest-benchmark would switch itself off.
+    """
+    ours = {name: value for name, value in os.environ.items() if not name.startswith("PYTEST_")}
     chosen = {"PYTHONPATH": str(checkout), "NUMBA_CPU_NAME": target(), "NUMBA_CPU_FEATURES": ""}
-    return {**os.environ, **chosen, "PYTHONHASHSEED": "0"}
+    return {**ours, **chosen, "PYTHONHASHSEED": "0"}
