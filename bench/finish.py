@@ -13,6 +13,7 @@ from bench import apart, boundary, counting, poses, traces
 from bench.discovery import all_contenders
 from bench.guard import Guard
 from bench.journal import part, tidy
+from bench.kept_costs import kept
 from bench.plan import Plan
 from bench.provenance import describe
 from bench.store import as_table, joined, merge, write_json, write_table
@@ -86,10 +87,14 @@ def _write_all_but_boundaries(plan: Plan, ours: Plan, out: Path, own: Future) ->
 
 def _law_costs() -> list[dict]:
     """Operations of every law of ours, run or not."""
-    return [row for one in all_contenders() for row in counting.rows([one])]
+    return [row for one in all_contenders() for row in kept(one.name, lambda one=one: counting.rows([one]))]
 
 
 def _arm_costs(plan: Plan) -> list[dict]:
     """Operations of every controller that runs on an arm."""
+
+    def count(name: str, joints: int) -> list[dict]:
+        return kept(f"{name}-{joints}", lambda: counting.rows_on_arm(plan.contender(name), joints))
+
     on_arms = dict.fromkeys((unit.contender, tasks.arm(unit.arm).joints) for unit in plan.units if unit.arm)
-    return [row for name, joints in on_arms for row in counting.rows_on_arm(plan.contender(name), joints)]
+    return [row for name, joints in on_arms for row in count(name, joints)]

@@ -4,6 +4,7 @@ Every counted call is checked against the plain call, so that a cost is never th
 """
 
 import functools
+import math
 import struct
 from collections import Counter
 from collections.abc import Iterable, Iterator
@@ -167,4 +168,6 @@ def bits(answer) -> bytes:
         return b"".join(bits(number) for number in answer)
     if isinstance(answer, Counted):
         answer = answer.value
-    return struct.pack("<d", answer) if isinstance(answer, int | float) else repr(answer).encode()
+    if not isinstance(answer, int | float):
+        return repr(answer).encode()
+    return struct.pack("<d", answer if answer == answer else math.nan)

@@ -4,6 +4,7 @@ What the dialect lacks raises, so that nothing goes uncounted: Python itself wou
 math.sin(x) would make a plain float of the number.
 """
 
+import operator
 from typing import NamedTuple
 
 import numpy as np
@@ -39,49 +40,79 @@ class Counts(NamedTuple):
 
 
 class Tally:
-    """Counts in progress. `stage` is where the next operation belongs."""
+    """Counts in progress. `stage` is where the next operation belongs; `now` its numbers, in the order of OPERATIONS."""
 
     def __init__(self):
+        self._by_stage = {}
         self.stage = "regulate"
-        self._numbers = {}
 
-    def add(self, operation: str) -> None:
-        """One more of this operation."""
-        key = (self.stage, operation)
-        self._numbers[key] = self._numbers.get(key, 0) + 1
+    @property
+    def stage(self) -> str:
+        return self._stage
+
+    @stage.setter
+    def stage(self, stage: str) -> None:
+        self._stage = stage
+        self.now = self._by_stage.setdefault(stage, [0] * len(OPERATIONS))
 
     def take(self) -> Counts:
         """What was counted since the last time; then from zero again."""
-        numbers, self._numbers = self._numbers, {}
-        return Counts(tuple(tuple(numbers.get((stage, name), 0) for name in OPERATIONS) for stage in STAGES))
+        numbers, self._by_stage = self._by_stage, {}
+        self.stage = self._stage
+        nothing = (0,) * len(OPERATIONS)
+        return Counts(tuple(tuple(numbers.get(stage, nothing)) for stage in STAGES))
 
 
-def _value(x):
-    """The double in a counting scalar or a constant; None for anything else."""
-    if isinstance(x, Counted):
-        return x.value
-    return np.float64(x) if isinstance(x, int | float) else None
+def _quotient(x: float, y: float) -> float:
+    try:
+        return x / y
+    except ZeroDivisionError:
+        return float(np.float64(x) / np.float64(y))
 
 
 def _dyadic(operation: str, compute):
+    place = OPERATIONS.index(operation)
+
     def forward(self, other):
-        value = _value(other)
-        return NotImplemented if value is None else self._result(operation, compute(self.value, value))
+        if other.__class__ is Counted:
+            value = other.value
+        elif isinstance(other, int | float):
+            value = float(other)
+        else:
+            return NotImplemented
+        self.tally.now[place] += 1
+        return Counted(compute(self.value, value), self.tally)
 
     def reflected(self, other):
-        value = _value(other)
-        return NotImplemented if value is None else self._result(operation, compute(value, self.value))
+        """The other is a constant: of two counting scalars the first one's `forward` is called."""
+        if not isinstance(other, int | float):
+            return NotImplemented
+        self.tally.now[place] += 1
+        return Counted(compute(float(other), self.value), self.tally)
 
     return forward, reflected
 
 
+def _monadic(operation: str, compute):
+    place = OPERATIONS.index(operation)
+
+    def result(self):
+        self.tally.now[place] += 1
+        return Counted(compute(self.value), self.tally)
+
+    return result
+
+
 def _comparison(compute):
+    place = OPERATIONS.index("compare")
+
     def compare(self, other):
-        value = _value(other)
-        if value is None:
+        if other.__class__ is Counted:
+            other = other.value
+        elif not isinstance(other, int | float):
             return NotImplemented
-        self.tally.add("compare")
-        return bool(compute(self.value, value))
+        self.tally.now[place] += 1
+        return bool(compute(self.value, other))
 
     return compare
 
@@ -96,28 +127,24 @@ def _refused(what: str, cure: str):
 class Counted:
     """One number of a counted call. Constants may be mixed in; they are Python floats and carry no tally.
 
-    The numbers are numpy.float64, as in every engine: 1/0 is infinite, 0/0 NaN, with a warning of numpy's for
-    the caller to silence (numpy.errstate).
+    The numbers are doubles, and division follows IEEE 754 as in every engine: 1/0 is infinite, 0/0 NaN, with a
+    warning of numpy's for the caller to silence (numpy.errstate).
     """
 
     __slots__ = ("tally", "value")
     __array_ufunc__ = None  # numpy's own operators and functions then leave the operation to this class
 
     def __init__(self, value, tally: Tally):
-        self.value = np.float64(value)
+        self.value = float(value)
         self.tally = tally
 
     def __repr__(self):
-        return f"Counted({float(self.value)!r})"
+        return f"Counted({self.value!r})"
 
-    def _result(self, operation, value):
-        self.tally.add(operation)
-        return Counted(value, self.tally)
-
-    __add__, __radd__ = _dyadic("add", lambda x, y: x + y)
-    __sub__, __rsub__ = _dyadic("add", lambda x, y: x - y)
-    __mul__, __rmul__ = _dyadic("mul", lambda x, y: x * y)
-    __truediv__, __rtruediv__ = _dyadic("div", lambda x, y: x / y)
+    __add__, __radd__ = _dyadic("add", operator.add)
+    __sub__, __rsub__ = _dyadic("add", operator.sub)
+    __mul__, __rmul__ = _dyadic("mul", operator.mul)
+    __truediv__, __rtruediv__ = _dyadic("div", _quotient)
     atan2, ratan2 = _dyadic("atan2", scalar.atan2)
     copysign, rcopysign = _dyadic("copysign", scalar.copysign)
 
@@ -128,26 +155,15 @@ class Counted:
     def __pos__(self):
         return self
 
-    def sqrt(self):
-        """Square root, counted."""
-        return self._result("sqrt", scalar.sqrt(self.value))
+    sqrt = _monadic("sqrt", scalar.sqrt)
+    sin = _monadic("sin", scalar.sin)
+    cos = _monadic("cos", scalar.cos)
+    acos = _monadic("acos", scalar.acos)
 
-    def sin(self):
-        """Sine, counted."""
-        return self._result("sin", scalar.sin(self.value))
-
-    def cos(self):
-        """Cosine, counted."""
-        return self._result("cos", scalar.cos(self.value))
-
-    def acos(self):
-        """Arc cosine, counted."""
-        return self._result("acos", scalar.acos(self.value))
-
-    __lt__ = _comparison(lambda x, y: x < y)
-    __le__ = _comparison(lambda x, y: x <= y)
-    __gt__ = _comparison(lambda x, y: x > y)
-    __ge__ = _comparison(lambda x, y: x >= y)
+    __lt__ = _comparison(operator.lt)
+    __le__ = _comparison(operator.le)
+    __gt__ = _comparison(operator.gt)
+    __ge__ = _comparison(operator.ge)
 
     __eq__ = _refused("x == y", "compare with < <= > >=")
     __ne__ = _refused("x != y", "compare with < <= > >=")

@@ -1,5 +1,6 @@
 """What a worker of a cluster does: a chunk's text in, its rows as parquet out. It knows nothing of Dask."""
 
+import importlib
 import json
 import signal
 
@@ -42,4 +43,4 @@ def dask_setup(_) -> None:
     Ctrl-C is the client's to answer, though a terminal sends it to all; and GLFW can be silenced in this thread only.
     """
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    import tasks.episode  # noqa: F401
+    importlib.import_module("tasks.episode")

@@ -1,0 +1,25 @@
+"""Operations of our own laws, kept beside their compiled code (bench/engines/cache.py): the sources decide both.
+
+Counting all laws takes ten seconds, more than a run of one law; a user's own is counted anew each time.
+"""
+
+import contextlib
+from collections.abc import Callable
+
+from bench.engines import cache
+from bench.errors import BadResults
+from bench.provenance import source_digest
+from bench.store import read_json, write_json
+
+Rows = list[dict]
+
+
+def kept(name: str, count: Callable[[], Rows]) -> Rows:
+    """What `count` found for these sources the first time it was called under that name."""
+    path = cache.FOLDER / "costs" / f"{source_digest()}-{name.replace('/', '_')}.json"
+    if path.is_file():
+        return read_json(path)["rows"]
+    rows = count()
+    with contextlib.suppress(BadResults):  # without room for it the next run counts again
+        write_json(path, {"rows": rows})
+    return rows
