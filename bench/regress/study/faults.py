@@ -46,7 +46,7 @@ START = 17
 NEAR = 1e-9
 """No other episode passes through a box of that width in three numbers."""
 
-TENTH = 2
+TENTH = 3
 """Steps of `power` that slow its law by about a tenth."""
 
 
