@@ -6,7 +6,7 @@
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
 .PHONY: help setup setup-cluster bench bench-quick time libraries report test check lint gate regress regress-study
-.PHONY: reference media lock clean audit judge history
+.PHONY: scale-study reference media lock clean audit judge history
 
 SHELL := /bin/sh
 VENV := .venv
@@ -63,6 +63,10 @@ judge: $(READY)
 history: ## measure this commit and append it to results/history/history.jsonl (minutes)
 history: $(READY)
 	@$(PY) -m bench history add $(ARGS)
+
+scale-study: ## what 10^3 to 10^6 episodes cost, on one thread and on processes (ten minutes): results/scale
+scale-study: $(CLUSTER)
+	@$(PY) -m bench.scale $(ARGS)
 
 setup:  ## install what the benchmark needs, and nothing else
 setup: $(READY)

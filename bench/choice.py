@@ -11,6 +11,9 @@ from bench.suites import ENGINES
 
 INTEGRATORS = ("euler", "implicit", "implicitfast", "rk4")
 
+MOST_STARTS = 1_000_000
+"""Of each set, in one run."""
+
 
 @dataclass(frozen=True)
 class Choice:
@@ -160,7 +163,7 @@ def check_numbers(dt_s: float, horizon_s: float | None, gains: Gains, count: int
     for name, value in zip(("--kp", "--kv"), gains, strict=True):
         if not (math.isfinite(value) and 0.0 < value <= 1e6):
             raise BadNumber(f"{name} {value}: a gain must lie in (0, 1e6] (the paper's: --kp 100 --kv 20)")
-    if count is not None and not 1 <= count <= 1_000_000:
-        raise BadNumber(f"--count {count}: give between 1 and 1000000 starts of each set")
+    if count is not None and not 1 <= count <= MOST_STARTS:
+        raise BadNumber(f"--count {count}: give between 1 and {MOST_STARTS} starts of each set")
     if not 0 <= seed < 2**32:
         raise BadNumber(f"--seed {seed}: give a whole number from 0 to 4294967295")

@@ -2,10 +2,12 @@
 
     python -m bench.scale                     all of it: some ten minutes on an idle machine
     python -m bench.scale --only schedulers   one part anew; the others stay as they are
+    python -m bench.scale --most 10000 --out /tmp/scale.json    a try of it
 
-Each run is a process of its own, on one law on the ideal plant. It first runs a single episode, which imports, compiles
-and counts; what that takes when it is repeated is taken off, so that an episode's cost is what grows with their number.
-Seconds of CPU do not hang on what else the machine does, wall time does: the load is written beside it.
+Each run is a process of its own, on one law on the ideal plant. It first runs an episode for each process, which
+imports, compiles and counts; what that takes when it is repeated is taken off, so that an episode's cost is what grows
+with their number.
+CPU seconds hang little on what else the machine does, wall time much: the cores that others took are written beside.
 """
 
 import argparse
@@ -21,6 +23,8 @@ import tempfile
 import time
 from pathlib import Path
 
+import numpy as np
+
 from bench import finish, run
 from bench import plan as planning
 from bench.choice import Choice
@@ -28,23 +32,35 @@ from bench.contender import Contender, Regulator
 from bench.discovery import find_contender
 from bench.plan import Plan
 from bench.provenance import ROOT, describe
-from bench.schedulers.words import THREADS
+from bench.schedulers.words import LOCAL, THREADS
 from bench.store import read_json, write_json
 
 LAW = "rotation-matrix"
-SIZES = (1_000, 10_000, 100_000, 1_000_000)
-"""Episodes whose cost and memory are compared."""
 
-SHARED = 100_000
-"""Episodes that one thread, one process and two processes run."""
+FEW, BASE, MANY, MOST = 1_000, 10_000, 100_000, 1_000_000
+AROUND = (FEW, BASE, FEW, BASE, FEW, BASE, MANY)
+ORDER = (*AROUND, MOST, *reversed(AROUND))
+"""Episodes of the runs whose cost and memory are compared: small ones before the largest and after it, so that what the
+machine's clock does in those minutes befalls them too."""
+
+FIXED = 3
+"""Runs of an episode for each process, whose median is taken off."""
 
 SCHEDULERS = (THREADS, "local:1", "local:2")
+"""They run MANY episodes each."""
+
 PARTS = ("sizes", "schedulers", "killed")
 
 
-def ideal(count: int) -> Plan:
-    """So many uniform starts of one law on the ideal plant."""
-    return planning.make("default", [find_contender(LAW)], Choice((), ("uniform",), ("ideal-rk4",)), count=count)
+def ideal(count: int, start_sets: tuple[str, ...] = ("uniform",)) -> Plan:
+    """So many starts of each set of one law on the ideal plant."""
+    return planning.make("default", [find_contender(LAW)], Choice((), start_sets, ("ideal-rk4",)), count=count)
+
+
+def least(scheduler: str) -> Plan:
+    """An episode for each process of a scheduler, so that each begins: of sets of their own, or it were one unit."""
+    processes = 1 if scheduler == THREADS else int(scheduler.removeprefix(LOCAL))
+    return ideal(1, ("uniform", "half-turn")[:processes])
 
 
 def mixed() -> Plan:
@@ -62,32 +78,46 @@ def one_law(extra: tuple[Regulator, ...] = ()) -> list[Contender]:
     return [find_contender(LAW)]
 
 
-def cpu_s() -> float:
-    """Seconds of CPU of this process and of those that it has seen the end of."""
+def clocks() -> np.ndarray:
+    """Seconds: CPU of this process, of those that it has seen the end of, and of the whole machine; the wall's."""
     both = (resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN))
-    return sum(one.ru_utime + one.ru_stime for one in both)
+    user, nice, system, _idle, _waiting, *interrupted = map(int, Path("/proc/stat").read_text().split()[1:9])
+    whole = (user + nice + system + sum(interrupted)) / os.sysconf("SC_CLK_TCK")
+    return np.array([*(one.ru_utime + one.ru_stime for one in both), whole, time.perf_counter()])
+
+
+def spent(plan: Plan, out: Path, scheduler: str) -> np.ndarray:
+    """What a run takes of each clock."""
+    before = clocks()
+    run.run(plan, out, workers=1, scheduler=scheduler)
+    return clocks() - before
 
 
 def measured(scheduler: str, count: int) -> dict:
-    """A run of so many episodes in this process, and by its scheduler's: what it costs and holds."""
+    """A run of so many episodes in this process, and by its scheduler's: what it costs and holds.
+
+    cpu_s: of all processes; own_cpu_s: of this one, which plans, writes and merges, and gives out work if others do it.
+    others: cores that other programs took meanwhile. rows: digest of episodes.parquet.
+    """
     finish.all_contenders = one_law  # counting the others takes ten seconds whatever the number
     with tempfile.TemporaryDirectory() as folder:
-        took = {}
-        for name, number in (("first", 1), ("fixed", 1), ("all", count)):
-            forget_peak()
-            plan_s, wall_s = cpu_s(), time.perf_counter()
-            run.run(ideal(number), Path(folder) / name, workers=1, scheduler=scheduler)
-            took[name] = (cpu_s() - plan_s, time.perf_counter() - wall_s)
-        size = (Path(folder) / "all" / "episodes.parquet").stat().st_size
-    cpu, wall = (whole - fixed for whole, fixed in zip(took["all"], took["fixed"], strict=True))
+        _first, *again = (spent(least(scheduler), Path(folder) / str(turn), scheduler) for turn in range(1 + FIXED))
+        forget_peak()
+        whole = spent(ideal(count), Path(folder) / "all", scheduler)
+        peak = peak_bytes()
+        rows = (Path(folder) / "all" / "episodes.parquet").read_bytes()
+    own, children, _, wall = whole - np.median(again, axis=0)
     return {
+        "law": LAW,
         "scheduler": scheduler,
         "episodes": count,
-        "cpu_s": cpu,
+        "cpu_s": own + children,
+        "own_cpu_s": own,
         "wall_s": wall,
-        "peak_bytes": peak_bytes(),
-        "row_bytes": size / count,
-        "load": os.getloadavg()[0],
+        "others": max(0.0, whole[2] - whole[0] - whole[1]) / whole[3],
+        "peak_bytes": peak,
+        "row_bytes": len(rows) / count,
+        "rows": hashlib.sha256(rows).hexdigest(),
     }
 
 
@@ -143,14 +173,14 @@ def apart(*words) -> dict:
     return json.loads(answer.stdout.splitlines()[-1])
 
 
-def study(parts: tuple[str, ...], out: Path) -> None:
-    """Measure the parts anew, and keep what the file says of the others."""
+def study(parts: tuple[str, ...], most: int, out: Path) -> None:
+    """Measure the parts anew, each written when it is done, and keep what the file says of the others."""
     content = read_json(out) if out.is_file() else {}
     for part in parts:
         if part == "sizes":
-            content[part] = [apart("--run", THREADS, count) for count in SIZES]
+            content[part] = [apart("--run", THREADS, count) for count in ORDER if count <= most]
         elif part == "schedulers":
-            content[part] = [apart("--run", one, SHARED) for one in SCHEDULERS]
+            content[part] = [apart("--run", one, min(MANY, most)) for one in SCHEDULERS]
         else:
             content[part] = apart("--killed")
         about = describe()
@@ -163,6 +193,7 @@ def main() -> None:
     """Take the words of the command line."""
     parser = argparse.ArgumentParser(prog="python -m bench.scale", description=__doc__.split("\n")[0])
     parser.add_argument("--only", choices=PARTS, action="append", help="this part alone; repeatable")
+    parser.add_argument("--most", type=int, default=MOST, help="no run of more episodes than this")
     parser.add_argument("--out", type=Path, default=ROOT / "results" / "scale" / "scale.json")
     parser.add_argument("--run", nargs=2, metavar=("SCHEDULER", "COUNT"), help=argparse.SUPPRESS)
     parser.add_argument("--killed", action="store_true", help=argparse.SUPPRESS)
@@ -172,7 +203,7 @@ def main() -> None:
     elif words.killed:
         print(json.dumps(killed()))
     else:
-        study(tuple(words.only or PARTS), words.out)
+        study(tuple(words.only or PARTS), words.most, words.out)
 
 
 if __name__ == "__main__":

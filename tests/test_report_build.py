@@ -80,6 +80,7 @@ def tree(tmp_path, monkeypatch):
         "requirements/report.txt",
         "report/index.md",
         "results/timings/a.parquet",
+        "results/scale/scale.json",
     ):
         path = tmp_path / name
         path.parent.mkdir(parents=True, exist_ok=True)
@@ -92,7 +93,11 @@ def keys(tree):
 
 
 @pytest.mark.parametrize(
-    "name", ["bench/law.py", "tasks/base.py", "requirements/report.txt", "results/timings/a.parquet"]
+    "name",
+    [
+        *("bench/law.py", "tasks/base.py", "requirements/report.txt"),
+        *("results/timings/a.parquet", "results/scale/scale.json"),
+    ],
 )
 def test_cells_run_again_when_what_they_read_changes(tree, name):
     finished(tree / "results" / "reference")
