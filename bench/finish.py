@@ -1,6 +1,7 @@
 """The end of a run: its tables from the parts, and what is made of the plan as a whole."""
 
 import dataclasses
+import functools
 import time
 from concurrent.futures import Future, ThreadPoolExecutor
 from pathlib import Path
@@ -87,7 +88,7 @@ def _write_all_but_boundaries(plan: Plan, ours: Plan, out: Path, own: Future) ->
 
 def _law_costs() -> list[dict]:
     """Operations of every law of ours, run or not."""
-    return [row for one in all_contenders() for row in kept(one.name, lambda one=one: counting.rows([one]))]
+    return [row for one in all_contenders() for row in kept(one.name, functools.partial(counting.rows, [one]))]
 
 
 def _arm_costs(plan: Plan) -> list[dict]:

@@ -40,7 +40,7 @@ class Counts(NamedTuple):
 
 
 class Tally:
-    """Counts in progress. `stage` is where the next operation belongs; `now` its numbers, in the order of OPERATIONS."""
+    """Counts in progress. `stage` is where the next operation belongs, `now` its numbers in the order of OPERATIONS."""
 
     def __init__(self):
         self._by_stage = {}
@@ -48,6 +48,7 @@ class Tally:
 
     @property
     def stage(self) -> str:
+        """Where the next operation belongs."""
         return self._stage
 
     @stage.setter
