@@ -31,18 +31,38 @@ def law(R, omega, goal, gains):
     {body}
     return (-x, -y, -z)
 
-REGULATOR = Regulator("mine", "Mine", "none", "u", law)
+REGULATOR = Regulator("{name}", "Mine", "none", "u", law)
 """
 FAR = "R.n[0] < -0.1 and "
 LIMIT_S = 1.0
 
 
-def plan_of(folder: Path, *body: str, engine: str, sets=("uniform",)):
+BREAKS = {
+    "ideal-rk4": {
+        "raises": ("crashed", "if R.n[0] < -0.1: raise ValueError('no')"),
+        "loops": ("hung", "while R.n[0] < -0.1: x = x + 1e-9"),
+    },
+    "reference": {
+        "exits": ("crashed", "if R.n[0] < -0.1: os._exit(3)"),
+        "speaks": ("crashed", "if R.n[0] < -0.1: return ('a', 'b', 'c')"),
+    },
+}
+"""Engine -> law -> the outcome of what it does in some states."""
+
+
+def plan_of(folder: Path, body: str, *, engine: str):
     """Our law and a user's, with `body` before its return, from the same four starts."""
-    path = folder / "own.py"
-    path.write_text(LAW.replace("{body}", "\n    ".join(body)))
-    laws = [find_contender("rotation-matrix"), *contenders_of(load_law(path))]
-    choice = Choice(("free-body",), sets, (engine,))
+    return plan_of_laws(folder, {"mine": body}, engine)
+
+
+def plan_of_laws(folder: Path, bodies: dict[str, str], engine: str):
+    """Our law and some of a user's."""
+    laws = [find_contender("rotation-matrix")]
+    for name, body in bodies.items():
+        path = folder / f"{name}.py"
+        path.write_text(LAW.replace("{body}", body).replace("{name}", name))
+        laws += contenders_of(load_law(path))
+    choice = Choice(("free-body",), ("uniform",), (engine,))
     return planning.make("quick", laws, choice, count=4, horizon_s=0.05)
 
 
@@ -54,58 +74,63 @@ def few_costs():
         yield
 
 
-def outcomes(out: Path) -> dict[str, list[str]]:
-    """Law -> how its episodes ended, in the order of their starts."""
+def rows_by_law(out: Path) -> dict[str, pd.DataFrame]:
+    """Law -> its rows, in the order of their starts."""
     rows = store.read(out, "episodes")
-    return {str(law): part["outcome"].astype(str).tolist() for law, part in rows.groupby("regulator", observed=True)}
+    return {str(law): part.drop(columns="regulator") for law, part in rows.groupby("regulator", observed=True)}
+
+
+@pytest.fixture(scope="module", params=BREAKS)
+def engine(request):
+    return request.param
 
 
 @pytest.fixture(scope="module")
-def undisturbed(tmp_path_factory):
-    """The rows of both laws when the user's is sound, on each engine."""
-    made = {}
-    for engine in ("ideal-rk4", "reference"):
-        folder = tmp_path_factory.mktemp(engine)
-        run.run(plan_of(folder, "pass", engine=engine), folder / "run", workers=1)
-        made[engine] = store.read(folder / "run", "episodes")
-    return made
+def broken(tmp_path_factory, engine):
+    """A run of our law, a sound one of a user's, and some that break."""
+    folder = tmp_path_factory.mktemp(engine)
+    bodies = {"sound": "pass", **{name: line for name, (_, line) in BREAKS[engine].items()}}
+    run.run(plan_of_laws(folder, bodies, engine), folder / "run", workers=2, law_limit_s=LIMIT_S)
+    return folder / "run"
 
 
-@pytest.mark.parametrize(
-    ("engine", "word", "body"),
-    [
-        ("ideal-rk4", "crashed", ["if R.n[0] < -0.1: raise ValueError('no')"]),
-        ("reference", "crashed", ["if R.n[0] < -0.1: os._exit(3)"]),
-        ("reference", "crashed", ["if R.n[0] < -0.1: return ('a', 'b', 'c')"]),
-        ("ideal-rk4", "hung", ["while R.n[0] < -0.1: x = x + 1e-9"]),
-    ],
-)
-def test_law_that_breaks_in_some_states_costs_those_rows_alone(tmp_path, undisturbed, engine, word, body):
-    plan = plan_of(tmp_path, *body, engine=engine)
-    run.run(plan, tmp_path / "run", workers=2, law_limit_s=LIMIT_S)
-    rows, sound = store.read(tmp_path / "run", "episodes"), undisturbed[engine]
-    own = rows["regulator"] == "mine"
-    broken = rows["outcome"].astype(str) == word
-    assert 0 < broken.sum() < own.sum()
-    assert not (broken & ~own).any()
-    pd.testing.assert_frame_equal(rows[~broken], sound[~broken], check_categorical=False)
-    assert rows.loc[broken, ["quat_w", "angle0_rad", "kp", "horizon_s"]].notna().all(axis=None)
-    if word == "hung":
-        assert rows.loc[broken, ["settling_time_s", "failure_time_s", "peak_u", "effort"]].isna().all(axis=None)
-    lost = store.read_json(tmp_path / "run" / "provenance.json").get("lost", [])
-    assert any("its episodes are run singly" in text for text in lost) == (word == "hung" or "os._exit" in body[0])
+def test_law_that_breaks_in_some_states_costs_those_rows_alone(broken, engine):
+    rows = rows_by_law(broken)
+    for name, (word, _) in BREAKS[engine].items():
+        lost = (rows[name]["outcome"] == word).to_numpy()
+        assert 0 < lost.sum() < len(lost)
+        kept, sound = (rows[law][~lost].reset_index(drop=True) for law in (name, "sound"))
+        pd.testing.assert_frame_equal(kept, sound, check_categorical=False)
+        assert rows[name].loc[lost, ["quat_w", "angle0_rad", "kp", "horizon_s"]].notna().all(axis=None)
+        if word == "hung":
+            measures = ["settling_time_s", "failure_time_s", "peak_u", "effort"]
+            assert rows[name].loc[lost, measures].isna().all(axis=None)
+    notes = [text for text in store.read_json(broken / "provenance.json")["lost"] if "are run singly" in text]
+    assert {name for name in rows if any(name in text for text in notes)} == {"loops", "exits"} & rows.keys()
+
+
+def test_laws_that_break_leave_ours_as_it_is(broken, engine, tmp_path):
+    run.run(plan_of_laws(tmp_path, {}, engine), tmp_path / "run", workers=1)
+    both = (rows_by_law(out)["rotation-matrix"].reset_index(drop=True) for out in (broken, tmp_path / "run"))
+    pd.testing.assert_frame_equal(*both, check_categorical=False)
+
+
+def test_bench_shows_crashed_and_hung_where_there_are_any(capsys, broken, engine):
+    said = bench(capsys, "show", broken, "--outcomes").out
+    assert "crashed" in said
+    assert ("hung" in said) == (engine == "ideal-rk4")
 
 
 def test_unit_gives_up_after_some_lost_episodes(tmp_path, monkeypatch):
     monkeypatch.setattr(guard, "MOST_LOST", 1)
     plan = plan_of(tmp_path, "if R.n[0] < 2.0 and omega[0] == 0.0: os._exit(3)", engine="reference")
     run.run(plan, tmp_path / "run", workers=1, law_limit_s=LIMIT_S)
-    assert outcomes(tmp_path / "run")["mine"] == ["crashed"] * 4
+    assert rows_by_law(tmp_path / "run")["mine"]["outcome"].tolist() == ["crashed"] * 4
 
 
 def test_law_that_hangs_in_trouble_loses_the_whole_unit(tmp_path):
     path = tmp_path / "own.py"
-    path.write_text(LAW.replace("{body}", "while R.n[0] < -0.1: x = x + 1e-9"))
+    path.write_text(LAW.replace("{body}", "while R.n[0] < -0.1: x = x + 1e-9").replace("{name}", "mine"))
     plan = planning.make("quick", contenders_of(load_law(path)), Choice(axes=("delay",)), count=3, horizon_s=0.05)
     run.run(plan, tmp_path / "run", workers=1, law_limit_s=LIMIT_S)
     rows = store.read(tmp_path / "run", "robustness")
@@ -151,7 +176,7 @@ def test_limit_must_be_positive(capsys, tmp_path):
 
 def test_mistake_in_a_law_names_the_users_file(tmp_path):
     plan = plan_of(tmp_path, "x = float(str(x))", engine="ideal-rk4")
-    with guard.Guard(plan) as kept, pytest.raises(BadLaw, match=f"--law {tmp_path / 'own.py'}: the law cannot be"):
+    with guard.Guard(plan) as kept, pytest.raises(BadLaw, match=f"--law {tmp_path / 'mine.py'}: the law cannot be"):
         kept.check()
 
 
@@ -162,11 +187,3 @@ def test_answer_of_the_process_is_the_rows_that_a_thread_makes(tmp_path):
     assert content[:1] == apart.DONE
     assert apart.unpacked(content[1:]).column("start_id").to_pylist() == ["uniform-00001", "uniform-00002"]
     assert described(plan, [unit])["laws"]
-
-
-def test_bench_shows_crashed_and_hung_where_there_are_any(capsys, tmp_path, undisturbed):
-    plan = plan_of(tmp_path, "if R.n[0] < -0.1: raise ValueError('no')", engine="ideal-rk4")
-    run.run(plan, tmp_path / "run", workers=1)
-    said = bench(capsys, "show", tmp_path / "run").out
-    assert "crashed" in said
-    assert "hung" not in said

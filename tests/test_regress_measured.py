@@ -25,7 +25,7 @@ REGULATOR = Regulator("tilted", "Tilted", "", "u", law=law)
 """
 
 
-def side(folder, name, more=""):
+def side(folder, name, more):
     """A side that has nothing but one law of a user's."""
     file = folder / f"{name}.py"
     file.write_text(LAW.format(more=more))
@@ -33,12 +33,20 @@ def side(folder, name, more=""):
 
 
 @pytest.fixture(scope="module")
-def two(tmp_path_factory):
-    """The gates of a law against itself with three multiplications more, few rounds."""
-    folder = tmp_path_factory.mktemp("two")
-    with running([side(folder, "base"), side(folder, "head", " * R.n[0] * R.n[1] * R.n[2]")]) as processes:
-        assert {one.things["tilted"].ticks for one in processes} == {20_000}
-        return measured(processes, ({}, {}), Wanted(rounds=6), lambda _: None)
+def sides(tmp_path_factory):
+    """A law, the same once more, and with three multiplications more."""
+    folder = tmp_path_factory.mktemp("sides")
+    more = {"base": "", "again": "", "head": " * R.n[0] * R.n[1] * R.n[2]"}
+    with running([side(folder, name, what) for name, what in more.items()]) as processes:
+        yield processes
+
+
+@pytest.fixture(scope="module")
+def two(sides):
+    """The gates of a law against itself with more to multiply, few rounds."""
+    base, _, head = sides
+    assert {one.things["tilted"].ticks for one in (base, head)} == {20_000}
+    return measured([base, head], ({}, {}), Wanted(rounds=6), lambda _: None)
 
 
 def test_multiplications_more_are_other_code_and_so_timed(two):
@@ -58,12 +66,11 @@ def test_multiplications_more_are_found_and_named_by_instructions(two):
     assert gates[0].state == "failed"
 
 
-def test_same_law_is_the_same_machine_code_and_is_not_timed(tmp_path, monkeypatch):
+def test_same_law_is_the_same_machine_code_and_is_not_timed(sides, monkeypatch):
     monkeypatch.setattr(instructions, "missing", lambda: "valgrind not found")
-    with running([side(tmp_path, "base"), side(tmp_path, "head")]) as processes:
-        gates, found, [one] = measured(processes, ({}, {}), Wanted(rounds=6), lambda _: None)
-        with pytest.raises(MissingTool, match="valgrind not found"):
-            instructions.count(processes[0], own.timed_laws(processes[0]))
+    gates, found, [one] = measured(sides[:2], ({}, {}), Wanted(rounds=6), lambda _: None)
+    with pytest.raises(MissingTool, match="valgrind not found"):
+        instructions.count(sides[0], own.timed_laws(sides[0]))
     assert one.same_code
     assert (one.time, found) == (None, [])
     assert gates[0].state == "skipped"
