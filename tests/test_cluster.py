@@ -79,7 +79,9 @@ def address(client) -> str:
     return client.scheduler.address
 
 
-def test_run_goes_on_with_another_scheduler(plan, client, by_threads, tmp_path):
+def test_run_goes_on_with_another_scheduler(plan, client, by_threads, tmp_path, monkeypatch):
+    monkeypatch.setattr(cluster, "portions", lambda todo, _: [(unit,) for unit in todo])
+    monkeypatch.setattr(cluster, "AHEAD", 1)
     told = []
 
     def stop(progress):

@@ -81,7 +81,7 @@ def client_of(word: str) -> Iterator[distributed.Client]:
             yield client
         return
     # A worker is a process of one thread: compiling and the making of rows hold Python's lock.
-    alone = {"threads_per_worker": 1, "host": "127.0.0.1", "dashboard_address": None, "memory_limit": None}
+    alone = {"threads_per_worker": 1, "host": "127.0.0.1", "dashboard_address": ":0", "memory_limit": None}
     quiet = {"silence_logs": logging.CRITICAL, "preload": [worker.__name__]}
     count = int(word.removeprefix(LOCAL))
     with (
