@@ -6,7 +6,7 @@
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
 .PHONY: help setup setup-cluster bench bench-quick time libraries report test check lint gate regress regress-study
-.PHONY: scale-study reference media lock clean audit judge history
+.PHONY: scale-study kill-study reference media lock clean audit judge history
 
 SHELL := /bin/sh
 VENV := .venv
@@ -110,6 +110,10 @@ regress: $(READY)
 regress-study: ## does that gate cry wolf, and does it bite? (an hour): results/regress
 regress-study: $(READY)
 	@$(PY) -m bench.regress.study $(ARGS)
+
+kill-study: ## kill 100 runs, fill disks, break laws: does each end the same? (minutes): results/survival
+kill-study: $(CLUSTER)
+	@$(PY) -W ignore tests/kill_study.py $(ARGS)
 
 reference: ## run the quick suite and make it the new reference (commit it by itself)
 reference: $(READY)

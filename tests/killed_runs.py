@@ -14,6 +14,7 @@ import shutil
 import signal
 import sys
 import time
+from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
 
@@ -97,28 +98,33 @@ def undisturbed(one: plan.Plan, out: Path) -> Undisturbed:
 
 def resumed(wanted: Undisturbed, out: Path, workers: int) -> dict:
     """How far the killed run had come, and what the run that goes on ends with."""
-    names = sorted(path.name for path in out.glob("*"))
-    parts = [path.name for path in (out / "parts").glob("*.parquet")]
+    far = how_far(out)
     code = ended(start(wanted.plan, out, workers))
-    return {"names": names, "parts": len(parts), "code": code, "same": files_of(out) == wanted.files}
+    return {**far, "code": code, "same": files_of(out) == wanted.files}
 
 
-def at_random_moments(wanted: Undisturbed, folder: Path, kills: int = KILLS) -> list[dict]:
+def how_far(out: Path) -> dict:
+    """What lies in the folder of a killed run, and how many of its units are done."""
+    names = sorted(path.name for path in out.glob("*"))
+    return {"names": names, "parts": len(list((out / "parts").glob("*.parquet")))}
+
+
+def at_random_moments(wanted: Undisturbed, folder: Path, kills: int = KILLS) -> Iterator[dict]:
     """Runs killed after a random time each, on one thread or two, and resumed on one or two."""
-    chance, found = random.Random(SEED), []
+    chance, found = random.Random(SEED), 0
     began = time.monotonic()
     ended(start(wanted.plan, folder / "timed", 2))
     longest = time.monotonic() - began
     for k in range(TRIES * kills):
+        if found == kills:
+            return
         out = folder / f"random-{k}"
         child = start(wanted.plan, out, chance.choice((1, 2)))
         time.sleep(chance.uniform(0.0, longest))
         os.kill(child, signal.SIGKILL)
         if ended(child) == -signal.SIGKILL:
-            found.append(resumed(wanted, out, chance.choice((1, 2))))
-        if len(found) == kills:
-            break
-    return found
+            found += 1
+            yield resumed(wanted, out, chance.choice((1, 2)))
 
 
 def is_file_below(out: Path, path, _, flags: int) -> bool:
@@ -175,9 +181,9 @@ def while_clearing(wanted: Undisturbed, folder: Path) -> list[dict]:
     return at_every_file_operation(wanted, template, is_new)
 
 
-def remember() -> None:
-    """Count the laws of the plans, and follow each plan's traces and boundaries, once for all forks."""
-    finish.all_contenders = lambda: LONG.laws
+def remember(laws: tuple) -> None:
+    """Count these laws alone, and follow each plan's traces and boundaries, once for all forks."""
+    finish.all_contenders = lambda: laws
     counting.rows_on_arm = functools.cache(counting.rows_on_arm)
     traces.run, alone, poses.run = map(functools.cache, (traces.run, boundary.run, poses.run))
     boundary.run = lambda plan, pool: alone(plan)
@@ -185,11 +191,11 @@ def remember() -> None:
 
 def main(folder: Path) -> dict:
     """All that the tests ask."""
-    remember()
+    remember(LONG.laws)
     long = undisturbed(LONG, folder / "long")
     ended(start(LONG, folder / "one-thread", 1))
     answer = {"one thread": files_of(folder / "one-thread") == long.files, "files": sorted(long.files)}
-    answer["at random moments"] = at_random_moments(long, folder)
+    answer["at random moments"] = list(at_random_moments(long, folder))
     short = undisturbed(SHORT, folder / "short")
     answer["while finishing"] = while_finishing(short, folder)
     answer["while clearing"] = while_clearing(short, folder)

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pandas as pd
 import pytest
+from breaking_laws import LAW, plan_of, plan_of_laws
 from command_line import bench, refused
 
 from bench import apart, finish, guard, run, store
@@ -15,27 +16,10 @@ from bench import plan as planning
 from bench.choice import Choice
 from bench.chunk import described
 from bench.cli import options
-from bench.discovery import contenders_of, find_contender, load_law
+from bench.discovery import contenders_of, load_law
 from bench.errors import BadLaw
 
-LAW = """
-import os, sys, time
-from bench.contender import Regulator
-from bench.scalar import kernel
-
-@kernel
-def law(R, omega, goal, gains):
-    x = 0.5 * gains.kp * (R.o[2] - R.a[1]) + gains.kv * omega[0]
-    y = 0.5 * gains.kp * (R.a[0] - R.n[2]) + gains.kv * omega[1]
-    z = 0.5 * gains.kp * (R.n[1] - R.o[0]) + gains.kv * omega[2]
-    {body}
-    return (-x, -y, -z)
-
-REGULATOR = Regulator("{name}", "Mine", "none", "u", law)
-"""
-FAR = "R.n[0] < -0.1 and "
 LIMIT_S = 1.0
-
 
 BREAKS = {
     "ideal-rk4": {
@@ -48,22 +32,6 @@ BREAKS = {
     },
 }
 """Engine -> law -> the outcome of what it does in some states."""
-
-
-def plan_of(folder: Path, body: str, *, engine: str):
-    """Our law and a user's, with `body` before its return, from the same four starts."""
-    return plan_of_laws(folder, {"mine": body}, engine)
-
-
-def plan_of_laws(folder: Path, bodies: dict[str, str], engine: str):
-    """Our law and some of a user's."""
-    laws = [find_contender("rotation-matrix")]
-    for name, body in bodies.items():
-        path = folder / f"{name}.py"
-        path.write_text(LAW.replace("{body}", body).replace("{name}", name))
-        laws += contenders_of(load_law(path))
-    choice = Choice(("free-body",), ("uniform",), (engine,))
-    return planning.make("quick", laws, choice, count=4, horizon_s=0.05)
 
 
 @pytest.fixture(autouse=True, scope="module")
@@ -143,8 +111,9 @@ def test_process_of_a_law_ends_with_the_run(tmp_path):
     """Also when the law never would: here it hangs in compiled code while the run is killed."""
     script = """
         import os, sys
+        from pathlib import Path
+        from breaking_laws import plan_of
         from bench import guard
-        from test_guard import Path, plan_of
         plan = plan_of(Path(sys.argv[1]), "while abs(R.n[0] - 0.36) > 1e-3: x = x + 1e-9", engine="reference")
         class Told(guard._Process):
             def _say(self, said, longest_s):
