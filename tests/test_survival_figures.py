@@ -91,7 +91,7 @@ def test_disks_and_laws_that_spoiled_something_say_so():
 
 
 def test_words_and_figure_say_what_was_found():
-    assert "0.2 s at most" in survival.said(MADE)
+    assert "within 0.2 s" in survival.said(MADE)
     assert "a run on threads: 4 kills, 1 of them" in survival_moments.moments(MADE).alt
 
 

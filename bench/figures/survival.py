@@ -124,7 +124,7 @@ def said(found: dict[str, Any]) -> html.Markdown:
     left = [one["left_s"] for one in found["kills"] if one["left_s"] is not None]
     if left:
         text += (
-            f" When a run on processes is killed, its processes are orphans; the last was gone after {max(left):.1f} s "
-            "at most."
+            " When a run on processes is killed, its workers are orphans, and end of themselves: in each of the "
+            f"{len(left)} kills within {max(left):.1f} s."
         )
     return html.Markdown(text)

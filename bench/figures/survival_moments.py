@@ -37,6 +37,7 @@ def moments(found: dict[str, Any], *, narrow=False):
         axes.axvline(units - 0.5, color=style.MUTED, linewidth=1.0, linestyle=style.DASHED)
         axes.set_title(words)
         axes.set_xlim(-0.8, units + tables + 0.8)
+        axes.xaxis.set_major_locator(MaxNLocator(5, integer=True))
         axes.yaxis.set_major_locator(MaxNLocator(4, integer=True))
         axes.grid(visible=False, axis="x")
         among = sum(0 < k < units for k in done)
