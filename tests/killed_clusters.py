@@ -4,7 +4,7 @@
 """
 
 import contextlib
-import multiprocessing.process
+import multiprocessing
 import os
 import random
 import signal
@@ -18,7 +18,6 @@ from pathlib import Path
 from killed_runs import SEED, TRIES, Undisturbed, ended, files_of, how_far, plan_of, start
 
 from bench import finish, run
-from bench.schedulers import cluster
 
 STUDIED = plan_of(("rotation-matrix",), ("half-turn", "paper"), ("ideal-rk4", "native", "reference"), 12)
 """Free body, an arm and contact, on three engines."""
@@ -86,33 +85,34 @@ def until_it_writes(out: Path, process: subprocess.Popen) -> None:
 def gone_on_alone(wanted: Undisturbed, folder: Path, kills: int) -> Iterator[dict]:
     """One of two workers killed at a random moment at which units are left; the run goes on with the other.
 
-    How long a run takes is known from the one before; the first is left alone.
+    How long a run takes from its first file on is known from the one before; the first is left alone.
     """
     chance, found, longest = random.Random(SEED), 0, 0.0
-    with cluster.client_of(LOCAL) as client:
-        for k in range(TRIES * kills):
-            if found == kills:
-                return
-            out = folder / f"worker-{k}"
-            client.wait_for_workers(2)
-            victim, moment = chance.choice(multiprocessing.active_children()), chance.uniform(0.0, longest)
-            todo, at = list(wanted.plan.work), []
-            timer, began = threading.Timer(moment, kill_worker, (victim, out, todo, at)), time.monotonic()
-            if longest:
-                timer.start()
-            run.run(wanted.plan, out, scheduler=client.scheduler.address, told=lambda _, todo=todo: todo.pop())
-            timer.cancel()
-            longest = time.monotonic() - began
-            if at:
-                found += 1
-                yield {**at[0], "by": "itself", "code": 0, "same": files_of(out) == wanted.files}
+    for k in range(TRIES * kills):
+        if found == kills:
+            return
+        out, todo, at = folder / f"worker-{k}", list(wanted.plan.work), []
+        moment = chance.uniform(0.0, longest)
+        killer = threading.Thread(target=kill_worker, args=(out, moment, chance, todo, at))
+        if longest:
+            killer.start()
+        run.run(wanted.plan, out, scheduler=LOCAL, told=lambda _, todo=todo: todo.pop())
+        longest = time.time() - (out / "plan.json").stat().st_mtime
+        if killer.is_alive():
+            killer.join()
+        if at:
+            found += 1
+            yield {**at[0], "by": "itself", "code": 0, "same": files_of(out) == wanted.files}
 
 
-def kill_worker(victim: multiprocessing.process.BaseProcess, out: Path, todo: list, at: list[dict]) -> None:
-    """Kill a worker, if there is anything to do yet; note how far its run has come."""
+def kill_worker(out: Path, moment: float, chance: random.Random, todo: list, at: list[dict]) -> None:
+    """Kill a worker so long after the run's first file, if there is anything to do yet; note how far it has come."""
+    while not (out / "plan.json").is_file():
+        time.sleep(0.01)
+    time.sleep(moment)
     if todo:
         at.append(how_far(out))
-        victim.kill()
+        chance.choice(multiprocessing.active_children()).kill()
 
 
 def main(out: Path) -> None:
