@@ -1,7 +1,6 @@
 """The end of a run: its tables from the parts, and what is made of the plan as a whole."""
 
 import dataclasses
-import functools
 import time
 from concurrent.futures import Future, ThreadPoolExecutor
 from pathlib import Path
@@ -10,11 +9,10 @@ import pandas as pd
 import pyarrow as pa
 
 import tasks
-from bench import apart, boundary, counting, poses, traces
+from bench import apart, boundary, kept_costs, poses, traces
 from bench.discovery import all_contenders
 from bench.guard import Guard
 from bench.journal import part, tidy
-from bench.kept_costs import kept
 from bench.plan import Plan
 from bench.provenance import describe
 from bench.store import as_table, joined, merge, write_json, write_table
@@ -88,14 +86,10 @@ def _write_all_but_boundaries(plan: Plan, ours: Plan, out: Path, own: Future) ->
 
 def _law_costs() -> list[dict]:
     """Operations of every law of ours, run or not."""
-    return [row for one in all_contenders() for row in kept(one.name, functools.partial(counting.rows, [one]))]
+    return [row for one in all_contenders() for row in kept_costs.of_law(one)]
 
 
 def _arm_costs(plan: Plan) -> list[dict]:
     """Operations of every controller that runs on an arm."""
-
-    def count(name: str, joints: int) -> list[dict]:
-        return kept(f"{name}-{joints}", lambda: counting.rows_on_arm(plan.contender(name), joints))
-
     on_arms = dict.fromkeys((unit.contender, tasks.arm(unit.arm).joints) for unit in plan.units if unit.arm)
-    return [row for name, joints in on_arms for row in count(name, joints)]
+    return [row for name, joints in on_arms for row in kept_costs.of_controller(plan.contender(name), joints)]

@@ -6,6 +6,8 @@ Counting all laws takes ten seconds, more than a run of one law; a user's own is
 import contextlib
 from collections.abc import Callable
 
+from bench import counting
+from bench.contender import Contender
 from bench.engines import cache
 from bench.errors import BadResults
 from bench.provenance import source_digest
@@ -14,8 +16,20 @@ from bench.store import read_json, write_json
 Rows = list[dict]
 
 
-def kept(name: str, count: Callable[[], Rows]) -> Rows:
+def of_law(contender: Contender) -> Rows:
+    """Rows of costs.parquet of a law alone."""
+    return _kept(contender, contender.name, lambda: counting.rows([contender]))
+
+
+def of_controller(contender: Contender, joints: int) -> Rows:
+    """Those of a controller on so many joints."""
+    return _kept(contender, f"{contender.name}-{joints}", lambda: counting.rows_on_arm(contender, joints))
+
+
+def _kept(contender: Contender, name: str, count: Callable[[], Rows]) -> Rows:
     """What `count` found for these sources the first time it was called under that name."""
+    if contender.regulator.origin:
+        return count()
     path = cache.FOLDER / "costs" / f"{source_digest()}-{name.replace('/', '_')}.json"
     if path.is_file():
         return read_json(path)["rows"]

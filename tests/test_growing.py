@@ -1,6 +1,7 @@
 """The promise of growing: one file adds a regulator, representation, Jacobian, inverse, impedance, metric, task, arm,
 start set of the free body or of arms, axis of trouble, or page; a metric or task of contact too."""
 
+import json
 import os
 import shutil
 import subprocess
@@ -253,8 +254,26 @@ def tree(tmp_path_factory):
     return tree
 
 
-def said(tree: Path, *words) -> str:
-    """What a command prints in that tree; it must succeed."""
+COMMANDS = """
+import json, sys
+from bench.cli import main
+
+for words in json.loads(sys.argv[1]):
+    code = main(words)
+    print(sys.argv[2], flush=True)
+    if code:
+        sys.exit(f"{words}: exit code {code}")
+"""
+END = "=" * 100
+
+
+def said(tree: Path, *commands: tuple[str, ...]) -> list[str]:
+    """What each command prints in that tree; all must succeed."""
+    return ran(tree, "-c", COMMANDS, json.dumps(commands), END).split(END)[:-1]
+
+
+def ran(tree: Path, *words: str) -> str:
+    """What Python prints there."""
     ours = {
         **os.environ,
         "PYTHONPATH": str(tree),
@@ -282,14 +301,30 @@ def test_dropped_files_are_listed_run_counted_and_shown_without_another_touched(
     for name, text in DROPPED.items():
         (tree / name).write_text(text.lstrip("\n"))
 
-    listed = said(tree, "-m", "bench", "list")
+    engines = ("--engine", "native", "--engine", "reference")
+    words = ("run", "--task", "dropped-task", "--starts", "dropped-starts", "--horizon", "1", *engines)
+    on_arm = ("run", "--task", "dropped-arm-task", "--arm", "dropped-arm", "--starts", "dropped-turns")
+    way = ("--regulator", "dropped-regulator@dropped-jacobian+dropped-inverse", "--out", "results/arm")
+    touching = ("run", "--task", "dropped-probe", "--arm", "dropped-arm", "--out", "results/contact")
+    controllers = ("--controller", "impedance-dropped-impedance", "--controller", "hybrid/dropped-coordinates+inverse")
+    in_trouble = ("run", "--axis", "dropped-axis", "--count", "2", "--out", "results/trouble")
+    listed, dry, counted, told, *_ = said(
+        tree,
+        ("list",),
+        (*words, "--regulator", "feedback-linearized", "--dry-run"),
+        ("count", "--regulator", "dropped-regulator"),
+        (*words, "--regulator", "dropped-regulator"),
+        (*on_arm, "--horizon", "1", "--engine", "reference", *way),
+        (*touching, *controllers),
+        (*in_trouble, "--regulator", "dropped-regulator"),
+    )
+
     for name in LISTED.values():
         assert f"\n{name} " in listed
-
-    engines = ("--engine", "native", "--engine", "reference")
-    words = ("--task", "dropped-task", "--starts", "dropped-starts", "--horizon", "1", *engines)
-    told = said(tree, "-m", "bench", "run", *words, "--regulator", "dropped-regulator")
+    assert "feedback-linearized/dropped-coordinates" in dry  # a law for any coordinates has met the new ones
+    assert "dropped-regulator  dropped-coordinates" in counted
     assert "laws: dropped-regulator/dropped-coordinates" in told
+
     found = store.read(tree / "results" / "latest", "episodes")
     assert {name: set(found[name]) for name in ("regulator", "representation", "task", "start_set", "engine")} == {
         "regulator": {"dropped-regulator"},
@@ -301,24 +336,12 @@ def test_dropped_files_are_listed_run_counted_and_shown_without_another_touched(
     assert (found["dropped_column"] == found["ticks"]).all()
     assert set(found["outcome"]) == {"settled"}
 
-    ours = said(tree, "-m", "bench", "run", *words, "--regulator", "feedback-linearized", "--dry-run")
-    assert "feedback-linearized/dropped-coordinates" in ours  # a law for any coordinates has met the new ones
-
-    counted = said(tree, "-m", "bench", "count", "--regulator", "dropped-regulator")
-    assert "dropped-regulator  dropped-coordinates" in counted
-
-    on_arm = ("--task", "dropped-arm-task", "--arm", "dropped-arm", "--starts", "dropped-turns", "--horizon", "1")
-    way = ("--regulator", "dropped-regulator@dropped-jacobian+dropped-inverse", "--out", "results/arm")
-    said(tree, "-m", "bench", "run", *on_arm, "--engine", "reference", *way)
     turned = store.read(tree / "results" / "arm", "episodes")
     assert set(turned["arm"]) == {"dropped-arm"}
     assert set(turned["start_id"]) == {"turn"}
     assert (turned["dropped_column"] == turned["ticks"]).all()
     assert len(turned) == 1
 
-    touching = ("--task", "dropped-probe", "--arm", "dropped-arm", "--out", "results/contact")
-    controllers = ("--controller", "impedance-dropped-impedance", "--controller", "hybrid/dropped-coordinates+inverse")
-    said(tree, "-m", "bench", "run", *touching, *controllers)
     rows = store.read_arrow(tree / "results" / "contact" / "compliance.parquet", "compliance").to_pandas()
     assert list(rows["controller"]) == ["impedance-dropped-impedance", "hybrid", "hybrid"]
     assert list(rows["representation"]) == ["", "dropped-coordinates", "dropped-coordinates"]
@@ -327,13 +350,11 @@ def test_dropped_files_are_listed_run_counted_and_shown_without_another_touched(
     }
     assert list(rows["dropped_touch"]) == [300.0] * 3
 
-    in_trouble = ("--axis", "dropped-axis", "--count", "2", "--out", "results/trouble")
-    said(tree, "-m", "bench", "run", *in_trouble, "--regulator", "dropped-regulator")
     troubled = store.read(tree / "results" / "trouble", "robustness")
     assert list(troubled["level"]) == [60.0, 60.0, 70.0, 70.0]
     assert (troubled["dropped_column"] > 0).all()
 
-    said(tree, "report/build.py")
+    ran(tree, "report/build.py")
     page = (tree / "report" / "_build" / "html" / "pages" / "90-dropped-page.html").read_text()
     assert "rows with the dropped column: 4" in page
     assert "90-dropped-page.html" in (tree / "report" / "_build" / "html" / "index.html").read_text()

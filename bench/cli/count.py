@@ -41,7 +41,7 @@ def COMMAND(laws, regulators, representations, jacobians, inverses, controllers,
     computes. A Jacobian or inverse that is not named is every one that fits. With a controller: of it in contact, on
     six joints, told to comply about x and y.
     """
-    from bench import counting
+    from bench import kept_costs
 
     if controllers:
         if laws or regulators or representations or jacobians or inverses or joints or arm:
@@ -53,10 +53,11 @@ def COMMAND(laws, regulators, representations, jacobians, inverses, controllers,
     if joints or arm or named.jacobians or named.inverses:
         n = _joints(joints, arm)
         controllers = _controllers(chosen, named, n)
-        table = pd.DataFrame([row for one in controllers for row in counting.rows_on_arm(one, n)])
+        table = pd.DataFrame([row for one in controllers for row in kept_costs.of_controller(one, n)])
         title = f"Operations per tick of a controller of {n} joints"
     else:
-        table = pd.DataFrame(counting.rows(chosen)).drop(columns=["jacobian", "inverse"])
+        table = pd.DataFrame([row for one in chosen for row in kept_costs.of_law(one)])
+        table = table.drop(columns=["jacobian", "inverse"])
         title = "Operations per tick"
     _print(table.drop(columns="joints"), title, stages)
 

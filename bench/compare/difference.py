@@ -68,7 +68,7 @@ def _rows(table: str, kind: str, words: str, frame: pd.DataFrame, key: Sequence[
 
 
 def _words(frame: pd.DataFrame, key: Sequence[str]) -> list[dict[str, str]]:
-    return frame[list(key)].astype(str).to_dict("records")
+    return [] if frame.empty else frame[list(key)].astype(str).to_dict("records")
 
 
 def changed(
@@ -80,6 +80,8 @@ def changed(
         rows: whether each has.
     """
     picked = np.asarray(rows)
+    if not picked.any():
+        return []
     old, new = old[picked], new[picked]
     return [
         Difference(table, CHANGED, column, f"{column}: {was} -> {now}: {name}", row, str(was), str(now))

@@ -5,7 +5,7 @@ from typing import Any, NamedTuple
 
 import pandas as pd
 
-from bench import counting
+from bench import counting, kept_costs
 from bench.discovery import all_contenders
 from bench.errors import MissingTool
 from bench.provenance import ROOT, commit, cpu_name, describe, lock_digest, machine_key, source_digest, versions
@@ -110,7 +110,7 @@ def operations() -> Operations:
         origin = folder / "provenance.json"
         if origin.is_file() and read_json(origin)["sources"] == source_digest():
             return by_law(read(folder, "costs"))
-    return by_law(pd.DataFrame(counting.rows(all_contenders())))
+    return by_law(pd.DataFrame([row for one in all_contenders() for row in kept_costs.of_law(one)]))
 
 
 def by_law(costs: pd.DataFrame) -> Operations:
