@@ -8,12 +8,12 @@ import pytest
 from bench import plan as planning
 
 LONG = (
-    *("test_cluster", "test_growing", "test_guard", "test_resume", "test_regress_measured"),
-    *("test_report_in_browser", "test_arm_response", "test_arm_engines"),
-    *("test_every_representation", "test_contact_engines", "test_every_regulator", "test_compliance_theory"),
-    *("test_every_jacobian", "test_impedances", "test_side_by_side_in_browser", "test_every_arm_start_set"),
-    *("test_claims_of_controllers", "test_timing", "test_every_figure", "test_command_line", "test_compiled_cache"),
-    *("test_every_task", "test_every_regulator_counted", "test_claims", "test_robustness_figures"),
+    *("test_resume", "test_cluster", "test_growing", "test_guard", "test_contact_engines", "test_regress_measured"),
+    *("test_every_regulator", "test_every_representation", "test_every_arm_start_set", "test_arm_figures"),
+    *("test_arm_response", "test_arm_engines", "test_every_jacobian", "test_command_line", "test_impedances"),
+    *("test_report_in_browser", "test_every_inverse", "test_plan_on_arms", "test_cartesian", "test_compare"),
+    *("test_every_figure", "test_every_impedance", "test_compiled_cache", "test_own_law", "test_claims"),
+    *("test_side_by_side_in_browser", "test_compliance_figures", "test_force", "test_every_task", "test_timing"),
 )
 """Files that take longest: begun last, one would be left to a single process while the others wait."""
 
