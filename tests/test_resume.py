@@ -46,13 +46,13 @@ def spoiled(runs: list[dict]) -> list[dict]:
 
 @pytest.mark.slow
 def test_run_killed_at_random_moments_ends_with_the_same_files(killed):
-    assert len(killed["at random moments"]) == 10
+    assert len(killed["at random moments"]) == 4
     assert spoiled(killed["at random moments"]) == []
 
 
 @pytest.mark.slow
 def test_random_moments_fall_into_the_middle_of_runs(killed):
-    assert sum(0 < one["parts"] < UNITS for one in killed["at random moments"]) >= 3
+    assert sum(0 < one["parts"] < UNITS for one in killed["at random moments"]) >= 1
 
 
 @pytest.mark.slow
