@@ -147,7 +147,7 @@ def test_energy_only_goes_and_goes_by_what_the_damping_takes(word, draw):
     """d/dt (omega^2/2 + kp U(theta)) = -kv omega^2, from far away and spinning."""
     turn, goal = ScipyRotation.random(2, rng=draw)
     omega = 4.0 * draw.normal(size=3)
-    times, R, spin, _ = free_body(law_of(of(word).impedance, None), turn, omega, goal, 1.2, count=241)
+    times, R, spin, _ = free_body(law_of(of(word).impedance, None), turn, omega, goal, 2.0, count=401)
     theta = (ScipyRotation.from_matrix(R) * goal.inv()).magnitude()
     energy = 0.5 * (spin**2).sum(axis=1) + GAINS.kp * ENERGY_OF[word](theta)
     check_energy(times, energy, GAINS.kv * (spin**2).sum(axis=1))
@@ -159,7 +159,7 @@ def test_energy_in_coordinates_only_goes_and_goes_by_what_the_damping_takes(word
     one = of(word)
     goal = ScipyRotation.from_euler("ZYX", (0.3, 0.4, -0.2))
     turn, omega = ScipyRotation.from_rotvec(0.4 * draw.normal(size=3)) * goal, draw.normal(size=3)
-    times, R, spin, _ = free_body(law_of(one.impedance, one.representation), turn, omega, goal, 1.2, count=241)
+    times, R, spin, _ = free_body(law_of(one.impedance, one.representation), turn, omega, goal, 2.0, count=401)
     E_d = np.array(one.representation.chart(columns(seen(one, goal, goal))).E)
     E, Edot = [], []
     for here, w in zip(ScipyRotation.from_matrix(R), spin, strict=True):
