@@ -82,7 +82,12 @@ test: $(DEV)
 	@$(PY) -m pytest -q -n $(JOBS) --maxprocesses 8 --dist loadfile --no-loadscope-reorder $(ARGS)
 
 check:  ## all that must hold before a merge: lint, gate, report, test
-check: lint gate report test
+check: lint
+	@trap 'kill $$report' INT TERM; \
+		$(MAKE) --no-print-directory report >$(VENV)/report.log 2>&1 & report=$$!; \
+		$(MAKE) --no-print-directory gate; gate=$$?; \
+		wait $$report; report=$$?; cat $(VENV)/report.log; test $$gate -eq 0 && test $$report -eq 0
+	@$(MAKE) --no-print-directory test
 	@echo "check: all green"
 
 lint:   ## style (ruff), types (mypy), layers (import-linter) and workflow files (check-jsonschema)

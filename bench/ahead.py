@@ -9,7 +9,7 @@ import functools
 import os
 import subprocess
 import sys
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 
 WORTH = 8
 """Contenders from which on a process more is worth its start of some seconds."""
@@ -56,7 +56,7 @@ def main(names: list[str]) -> None:
     from bench.kept_costs import of_law
 
     asked_by, laws = os.getppid(), {one.name: one for one in all_contenders()}
-    todo = [functools.partial(compile_one, name) for name in names]
+    todo: list[Callable[[], object]] = [functools.partial(compile_one, name) for name in names]
     todo += [functools.partial(of_law, laws[name]) for name in names if name in laws]
     for work in todo:
         if os.getppid() != asked_by:
