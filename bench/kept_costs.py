@@ -32,8 +32,9 @@ def _kept(contender: Contender, name: str, count: Callable[[], Rows]) -> Rows:
         return count()
     path = cache.FOLDER / "costs" / f"{source_digest()}-{name.replace('/', '_')}.json"
     if path.is_file():
-        return read_json(path)["rows"]
+        content = read_json(path)
+        return [dict(zip(content["columns"], row, strict=True)) for row in content["rows"]]
     rows = count()
     with contextlib.suppress(BadResults):  # without room for it the next run counts again
-        write_json(path, {"rows": rows})
+        write_json(path, {"columns": list(rows[0]), "rows": [list(row.values()) for row in rows]})
     return rows

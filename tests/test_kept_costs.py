@@ -25,6 +25,12 @@ def test_is_counted_once(calls):
     assert calls == [LAW] * 3
 
 
+def test_columns_keep_their_order(calls, monkeypatch):
+    row = {"law": "mrp", "branch": "worst", "add": 3}
+    monkeypatch.setattr(counting, "rows", lambda _: [row])
+    assert [list(one.items()) for _ in range(2) for one in of_law(LAW)] == [list(row.items())] * 2
+
+
 def test_law_of_a_user_is_counted_each_time(calls):
     own = LAW._replace(regulator=LAW.regulator._replace(origin="/home/user/mrp.py"))
     assert of_law(own) == of_law(own)
