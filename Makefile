@@ -112,7 +112,7 @@ regress: ## your files against BASE (where you left main): outcomes, operations,
 regress: $(READY)
 	@$(PY) -m bench compare $(BASE) $(ARGS)
 
-regress-study: ## does that gate cry wolf, and does it bite? (an hour): results/regress
+regress-study: ## does that gate cry wolf, and does it bite? (half an hour): results/regress
 regress-study: $(READY)
 	@$(PY) -m bench.regress.study $(ARGS)
 

@@ -61,7 +61,8 @@ def free_body(law, turn, omega, goal, seconds: float, moment=lambda t: STILL, co
         R, w, m = y[:9].reshape(3, 3), y[9:12], moment(t)
         with np.errstate(all="ignore"):
             u = law(as_rotation(R.T), numbers(w), numbers(m), columns(goal), GAINS, np.float64(TOUCH.m_o))
-        return np.concatenate((np.cross(w, R.T).T.ravel(), u, [m @ w]))
+        spin = np.array([[0.0, -w[2], w[1]], [w[2], 0.0, -w[0]], [-w[1], w[0], 0.0]])
+        return np.concatenate(((spin @ R).ravel(), u, [m @ w]))
 
     first = np.concatenate((turn.as_matrix().ravel(), omega, [0.0]))
     times = np.linspace(0.0, seconds, count)

@@ -70,7 +70,7 @@ CASES = [
 @functools.cache
 def starts(arm: str) -> tuple:
     """`clear` was chosen to be so along the geodesic and the straight line in Z-Y-X angles."""
-    return tuple(tasks.start_set("clear", 8, arm=arm))
+    return tuple(tasks.start_set("clear", 4, arm=arm))
 
 
 @functools.cache

@@ -50,9 +50,9 @@ def small_run(tmp_path_factory):
     """A folder of results, which bench.results reads while this module runs."""
     words = ("rotation-matrix", "linearized-euler/zyx-euler", "feedback-linearized/zyx-euler")
     laws = [find_contender(word) for word in words]
-    made = plan.make("quick", laws, Choice(("free-body",), STARTS, ("ideal-rk4", "ideal-held")), count=300)
+    made = plan.make("quick", laws, Choice(("free-body",), STARTS, ("ideal-rk4", "ideal-held")), count=150)
     folder = tmp_path_factory.mktemp("figures") / "run"
-    run.run(dataclasses.replace(made, traces=2, boundary_axes=24), folder)
+    run.run(dataclasses.replace(made, traces=2, boundary_axes=12), folder)
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv(results.VARIABLE, str(folder))
         yield folder
