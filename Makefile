@@ -6,7 +6,7 @@
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
 .PHONY: help setup setup-cluster bench bench-quick time libraries report test check lint gate regress regress-study
-.PHONY: scale-study kill-study reference media lock clean audit judge history
+.PHONY: scale-study settings-study kill-study reference media lock clean audit judge history
 
 SHELL := /bin/sh
 VENV := .venv
@@ -115,6 +115,10 @@ regress: $(READY)
 regress-study: ## does that gate cry wolf, and does it bite? (half an hour): results/regress
 regress-study: $(READY)
 	@$(PY) -m bench.regress.study $(ARGS)
+
+settings-study: ## is a run the same on every processor? quick suites under other settings (15 minutes): results/settings
+settings-study: $(READY)
+	@$(PY) -m bench.settings_study $(ARGS)
 
 kill-study: ## kill 100 runs, fill disks, break laws: does each end the same? (minutes): results/survival
 kill-study: $(CLUSTER)

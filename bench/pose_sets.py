@@ -19,6 +19,7 @@ from tasks.arm import Arm
 from tasks.arm_starts.uniform import spread
 from tasks.haar import halton
 from tasks.kinematics import Kinematics, rotation_vector
+from tasks.linear_algebra import least_norm
 from tasks.paths import cos_beta, zyx_angles
 from tasks.rotations import zyx
 
@@ -133,4 +134,5 @@ def polished(kin: Kinematics, q: np.ndarray, p: np.ndarray, quat) -> np.ndarray:
     """One more step of Newton's method: from the 1e-12 at which `reach` is content to rounding."""
     here, orientation = kin.pose(q)
     error = np.concatenate((p - here, rotation_vector(quat, orientation)))
-    return q + np.linalg.lstsq(kin.jacobian(q), error, rcond=None)[0]
+    step = least_norm(kin.jacobian(q), error)
+    return q if step is None else q + step

@@ -12,7 +12,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 READERS = (
     *("answer", "figures", "claims", "cli", "compare", "history", "kept_laws", "libraries", "regress", "results"),
-    *("scale", "statistics", "trust", "__main__"),
+    *("scale", "settings_study", "statistics", "trust", "__main__"),
 )
 """Parts of bench/ that only read results, or concern other libraries: no number of a run depends on them."""
 VERSIONED = ("mujoco", "dm-control", "numpy", "scipy", "numba", "llvmlite", "pandas", "pyarrow")
@@ -48,6 +48,25 @@ def cpu_name() -> str:
             if line.startswith("model name"):
                 return line.split(":", 1)[1].strip()
     return platform.processor() or platform.machine()
+
+
+VECTORS = ("sse4_2", "avx", "avx2", "fma", "avx512f")
+ARITHMETIC = ("OPENBLAS_CORETYPE", "NUMBA_CPU_NAME", "NUMBA_CPU_FEATURES", "NPY_DISABLE_CPU_FEATURES", "GLIBC_TUNABLES")
+"""Variables that make libraries round as on another processor."""
+
+
+def vectors() -> str:
+    """Which of VECTORS the processor has, by which libraries choose their kernels; empty where the system is silent."""
+    info = Path("/proc/cpuinfo")
+    flags = info.read_text().partition("\nflags")[2].partition("\n")[0].split() if info.is_file() else []
+    return " ".join(word for word in VECTORS if word in flags)
+
+
+def rounded_on(origin: dict) -> str:
+    """A run's processor, and what made its libraries round as on another one, in words; of its provenance."""
+    arithmetic = origin.get("arithmetic")
+    settings = [f"{name}={value}" for name, value in arithmetic.items()] if isinstance(arithmetic, dict) else []
+    return ", ".join(filter(None, (*(str(origin.get(name, "")) for name in ("cpu", "vectors")), *settings)))
 
 
 def machine_key() -> str:
@@ -95,6 +114,8 @@ def describe() -> dict:
         "lock": lock_digest(),
         "platform": " ".join((platform.system(), platform.machine(), *platform.libc_ver())).strip(),
         "cpu": cpu_name(),
+        "vectors": vectors(),
+        "arithmetic": {name: os.environ[name] for name in ARITHMETIC if os.environ.get(name)},
         "cores": os.cpu_count(),
         "command": " ".join(["python -m bench", *map(_without_folders, sys.argv[1:])]),
     }

@@ -22,6 +22,7 @@ from bench.engines.episode import (
 from bench.metric import Ending
 from bench.plan import Plan, Unit
 from bench.representations.zyx_euler import chart
+from bench.rounding import BESIDE, CHANGE
 from bench.so3 import from_quaternion
 from tasks.cause import cause
 from tasks.kinematics import Kinematics
@@ -106,6 +107,8 @@ def frame(plan: Plan, unit: Unit, contender: Contender, starts, numbers: np.ndar
             **columns,
             "cond_jacobian_max": seen,
             "cause": [cause(*near) if unit.arm else "" for near in zip(judged["outcome"], margins, seen, strict=True)],
+            BESIDE: "",
+            CHANGE: np.nan,
         }
     )
 

@@ -71,7 +71,17 @@ SEEN_ON_ARM = [
         "largest condition number of the tool's Jacobian (SI units), looked at every 8 ticks, by the judge",
         "cond_jacobian_max",
     ),
-    *_words(cause="what a failed episode on an arm was near: representation, kinematic, both, torque or law"),
+    *_words(
+        cause="what a failed episode on an arm was near: representation, kinematic, both, torque or law",
+        outcome_beside="on an arm, the other outcome of the same start with its joints turned by 1e-12 rad: rounding "
+        "decides; empty if there is none",
+    ),
+    *_numbers(
+        "1",
+        "largest relative change of this row's numbers by those 1e-12 rad; null if the episode came near no "
+        "singularity and no hundredfold rated torque",
+        "rounding_change",
+    ),
 ]
 TICKS = [Column("ticks", COUNT, "1", "control periods simulated")]
 

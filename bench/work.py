@@ -18,6 +18,7 @@ from bench.engines.run_arm import run as run_on_arm
 from bench.engines.run_disturbed import run as run_in_trouble
 from bench.plan import AnyUnit, Plan, Unit
 from bench.robustness_plan import RobustnessUnit
+from bench.rounding import judged_on_both_sides
 from bench.rows import frame, lost, settings_of
 from tasks.base import Start
 
@@ -34,12 +35,15 @@ def _episodes(plan: Plan, unit: Unit) -> pd.DataFrame:
     starts = starts_of(plan, unit)
     one, settings = plan.contender(unit.contender), settings_of(plan, unit.horizon_s)
     metrics = metrics_of(on_arm=one.is_on_arm)
-    if one.is_on_arm:
-        given = (unit.task, unit.arm, starts, settings, metrics, plan.integrator, unit.variation)
-        numbers = run_on_arm(unit.engine, one, *given)
-    else:
+    if not one.is_on_arm:
         numbers = run_engine(unit.engine, one, unit.task, starts, settings, metrics, plan.integrator)
-    return frame(plan, unit, one, starts, numbers, metrics)
+        return frame(plan, unit, one, starts, numbers, metrics)
+
+    def simulated(some: list[Start]) -> pd.DataFrame:
+        given = (unit.task, unit.arm, some, settings, metrics, plan.integrator, unit.variation)
+        return frame(plan, unit, one, some, run_on_arm(unit.engine, one, *given), metrics)
+
+    return judged_on_both_sides(simulated(starts), starts, simulated)
 
 
 def lost_rows(plan: Plan, unit: Unit | RobustnessUnit, outcome: str) -> pd.DataFrame:

@@ -1,11 +1,12 @@
 """Finds the one named constant of every module in a folder: no registry to edit, no import with side effects.
 
-`constants(tasks.domains, "TASK")` imports every module of the folder that is there at the time of the call
-and keeps those that have the constant. The name of the file, with dashes, is the key.
+`constants(tasks.domains, "TASK")` imports every module of the folder and keeps those that have the constant. The name
+of the file, with dashes, is the key. A folder is read once in a process; a file added later is found by the next one.
 """
 
 from __future__ import annotations
 
+import functools
 import importlib
 import pkgutil
 from collections.abc import Mapping
@@ -17,9 +18,9 @@ from tasks.base import UnknownName
 Found = TypeVar("Found")
 
 
+@functools.cache
 def constants(folder: ModuleType, constant: str) -> dict[str, Any]:
     """{file name with dashes: its constant} for every module of a package's folder, sorted by name."""
-    importlib.invalidate_caches()  # a file added since the last call is found too
     found = {}
     for module_info in sorted(pkgutil.iter_modules(folder.__path__), key=lambda info: info.name):
         module = importlib.import_module(f"{folder.__name__}.{module_info.name}")

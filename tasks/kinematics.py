@@ -22,7 +22,8 @@ import mujoco
 import numpy as np
 
 from tasks.arm import Arm, model_xml
-from tasks.base import Quat, Start, Vector
+from tasks.base import BadValue, Quat, Start, Vector
+from tasks.linear_algebra import damped, least_norm, length
 from tasks.paths import geodesic
 
 # |(p_d - p, log(R_d R^T))| at which a pose is reached [m, rad]. Rounding of a chain of seven transformations is about
@@ -91,9 +92,9 @@ class Kinematics:
             here, orientation = self.pose(q)
             error[:3] = p - here
             error[3:] = rotation_vector(quat, orientation)
-            if error @ error <= REACHED * REACHED:
+            if length(error) <= REACHED:
                 return q
-            step = self._least_squares(self._jacobian_here(), error)
+            step = least_norm(self._jacobian_here(), error)
             if step is None or not abs(step).max() <= LARGEST_STEP:
                 return None
             q += step
@@ -107,16 +108,14 @@ class Kinematics:
         """
         q = np.array(q, dtype=float)
         error = np.empty(6)
-        eye = np.eye(len(q))
         for _ in range(SEARCH_STEPS):
             here, orientation = self.pose(q)
             error[:3] = p - here
             error[3:] = rotation_vector(quat, orientation)
-            square = float(error @ error)
-            if square <= NEAR * NEAR:
+            distance = length(error)
+            if distance <= NEAR:
                 return self.reach(q, p, quat)
-            J = self._jacobian_here()
-            q += np.linalg.solve(J.T @ J + (0.5 * square + DAMPING) * eye, J.T @ error)
+            q += damped(self._jacobian_here(), error, 0.5 * distance * distance + DAMPING)
         return None
 
     def walk(self, q: Sequence[float] | np.ndarray, quats: Iterable[Quat]) -> Iterator[np.ndarray]:
@@ -140,8 +139,15 @@ class Kinematics:
         return self.follow(q, geodesic(self.pose(q)[1], axis, angle, steps))
 
     def rates(self, q: Sequence[float] | np.ndarray, omega: Vector) -> np.ndarray:
-        """The least joint rates [rad/s] at which the tool turns with omega [rad/s] in place."""
-        return np.linalg.lstsq(self.jacobian(q), np.array((0.0, 0.0, 0.0, *omega)), rcond=None)[0]
+        """The least joint rates [rad/s] at which the tool turns with omega [rad/s] in place.
+
+        Errors:
+            BadValue: the arm is at a singularity.
+        """
+        found = least_norm(self.jacobian(q), np.array((0.0, 0.0, 0.0, *omega)))
+        if found is None:
+            raise BadValue(f"{self.arm.name} is singular at q = {list(map(float, q))}; turn it from another pose")
+        return found
 
     def start(
         self,
@@ -167,14 +173,6 @@ class Kinematics:
         mujoco.mj_comPos(self.model, self._data)
         mujoco.mj_jacSite(self.model, self._data, self._J[:3], self._J[3:], self._site)
         return self._J
-
-    def _least_squares(self, J: np.ndarray, error: np.ndarray) -> np.ndarray | None:
-        try:
-            if J.shape[1] == 6:
-                return np.linalg.solve(J, error)
-            return np.linalg.lstsq(J, error, rcond=None)[0]
-        except np.linalg.LinAlgError:
-            return None
 
 
 _of_thread = threading.local()

@@ -23,6 +23,16 @@ import numpy as np
 
 from tasks.base import Vector
 from tasks.kinematics import Kinematics
+from tasks.linear_algebra import (
+    largest,
+    least_norm,
+    length,
+    of_lost_rank,
+    product,
+    smallest,
+    transposed_product,
+    unit,
+)
 from tasks.paths import turned
 
 DIFFERENCE = 1e-6  # [rad]
@@ -43,25 +53,26 @@ class Singularity(NamedTuple):
 
     q: np.ndarray
     u: np.ndarray  # the lost twist
-    null: np.ndarray  # n x (n - 5): joint rates that leave the tool where it is
+    still: np.ndarray  # n x n: projects joint rates onto those that leave the tool where it is, 1 - J^+ J
     M: np.ndarray  # n x n: u . Jdot qdot = qdot . M qdot
 
 
 def singularity_near(model: Kinematics, q: np.ndarray) -> Singularity | None:
     """Newton's method, steps of least norm, on J(q)^T u = 0 and |u| = 1."""
     q = np.array(q, dtype=float)
-    u = np.linalg.svd(model.jacobian(q))[0][:, -1]
+    _, u = smallest(model.jacobian(q))
     n = len(q)
     A = np.zeros((n + 1, n + 6))
     for _ in range(NEWTON_STEPS):
         J = model.jacobian(q)
-        residual = np.append(J.T @ u, 0.5 * (u @ u - 1.0))
+        residual = np.append(transposed_product(J, u), 0.5 * (length(u) ** 2 - 1.0))
         M = _derivative(model, q, u)
         if abs(residual).max() < SINGULAR:
-            _, s, right = np.linalg.svd(J)
-            return Singularity(q, u, right[5:].T, M) if s[4] > 1e-2 * s[0] else None
+            return Singularity(q, u, _still(J, u), M) if _loses_one(J) else None
         A[:n, :n], A[:n, n:], A[n, n:] = M, J.T, u
-        step = -np.linalg.lstsq(A, residual, rcond=None)[0]
+        step = least_norm(A, -residual)
+        if step is None:
+            return None
         step *= min(1.0, LARGEST_STEP / abs(step).max())
         q += step[:n]
         u = u + step[n:]
@@ -70,13 +81,13 @@ def singularity_near(model: Kinematics, q: np.ndarray) -> Singularity | None:
 
 def rates_through(model: Kinematics, at: Singularity, axis: Vector) -> list[np.ndarray]:
     """The joint rates, none to two of them, at which a turn about `axis` passes smoothly through a singularity."""
-    least = np.linalg.pinv(model.jacobian(at.q), rcond=1e-9) @ np.array((0.0, 0.0, 0.0, *axis))
-    slope = at.null.T @ (at.M + at.M.T) @ least
-    length = float(np.linalg.norm(slope))
-    if length < 1e-6:
+    least = of_lost_rank(model.jacobian(at.q), at.u, np.array((0.0, 0.0, 0.0, *axis)))
+    slope = product(at.still, product(at.M + at.M.T, least))
+    b = length(slope)
+    if b < 1e-6:
         return []
-    w = at.null @ slope / length
-    a, b, c = float(w @ at.M @ w), length, float(least @ at.M @ least)
+    w = slope / b
+    a, c = _form(at.M, w), _form(at.M, least)
     root = b * b - 4.0 * a * c
     if root < 0.0:
         return []
@@ -91,21 +102,22 @@ def path_from(model: Kinematics, at: Singularity, axis: Vector, rates: np.ndarra
     begin = math.copysign(BEGIN, angles[-1])
     guess = at.q + begin * rates
     q = model.reach(guess, p, turned(quat, axis, begin))
-    if q is None or np.linalg.norm(q - guess) > 0.5 * BEGIN * np.linalg.norm(rates):
+    if q is None or length(q - guess) > 0.5 * BEGIN * length(rates):
         return None
     return model.follow(q, [turned(quat, axis, angle) for angle in angles])
 
 
 def beside(model: Kinematics, at: Singularity, distance: float) -> tuple[np.ndarray, Vector] | None:
     """Joint angles with sigma_min = distance, and the axis, of unit length, about which the tool can hardly turn."""
-    w = np.linalg.svd(at.null.T @ at.M)[2][0]
+    # the rates at which J leaves the singular matrices fastest: d(sigma_min) = |(1 - J^+ J) M dq|
+    w = largest(np.array([product(at.still, column) for column in at.M.T]).T)
     t = distance
     for _ in range(20):
-        left, s, _ = np.linalg.svd(model.jacobian(at.q + t * w))
-        if abs(s[5] - distance) < 1e-6 * distance:
-            x, y, z = (left[3:, 5] / np.linalg.norm(left[3:, 5])).tolist()
+        sigma, u = smallest(model.jacobian(at.q + t * w))
+        if abs(sigma - distance) < 1e-6 * distance:
+            x, y, z = unit(u[3:]).tolist()
             return at.q + t * w, (x, y, z)
-        t *= distance / s[5]
+        t *= distance / sigma
     return None
 
 
@@ -117,9 +129,25 @@ def widening(distance: float, half: float, step: float) -> list[float]:
     return angles
 
 
+def _still(J: np.ndarray, u: np.ndarray) -> np.ndarray:
+    """1 - J^+ J, symmetric, at a singularity with the lost twist u."""
+    return np.eye(J.shape[1]) - np.array([of_lost_rank(J, u, column) for column in J.T])
+
+
+def _loses_one(J: np.ndarray) -> bool:
+    """Whether J has lost one twist alone; a bound that no rounding comes near."""
+    s = np.linalg.svd(J, compute_uv=False)
+    return bool(s[4] > 1e-2 * s[0])
+
+
+def _form(M: np.ndarray, v: np.ndarray) -> float:
+    """v . M v."""
+    return float(product(v[None, :], product(M, v))[0])
+
+
 def _derivative(model: Kinematics, q: np.ndarray, u: np.ndarray) -> np.ndarray:
     """M with M[i, j] = d(J^T u)_i / dq_j."""
     M = np.empty((len(q), len(q)))
     for j, away in enumerate(DIFFERENCE * np.eye(len(q))):
-        M[:, j] = (model.jacobian(q + away) - model.jacobian(q - away)).T @ u / (2.0 * DIFFERENCE)
+        M[:, j] = transposed_product(model.jacobian(q + away) - model.jacobian(q - away), u) / (2.0 * DIFFERENCE)
     return M

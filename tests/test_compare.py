@@ -194,11 +194,11 @@ def arm_candidate(arm_reference, tmp_path):
     return shutil.copytree(arm_reference, tmp_path / "candidate")
 
 
-def conditioned(folder, number):
-    """Episodes that came to this condition number, as the run would have written them."""
+def doubtful(folder, beside="", by=float("nan")):
+    """Episodes that 1e-12 rad gives this other outcome, and changes by so much, as the run would have written them."""
 
     def edit(frame):
-        frame["cond_jacobian_max"] = number
+        frame["outcome_beside"], frame["rounding_change"] = beside, by
         return frame
 
     change(folder, "episodes", edit)
@@ -236,19 +236,19 @@ def test_gate_names_the_joints_that_a_cost_is_for(arm_reference, arm_candidate):
 
 
 @pytest.mark.parametrize(
-    ("condition", "change_by", "is_told"),
+    ("by_rounding", "change_by", "is_told"),
     [
-        (50.0, 2e-6, True),
-        (50.0, 5e-7, False),
-        (1e3, 2e-6, True),
-        (1e4, 5e-5, False),  # a hundred times as much as at 1e3
-        (1e4, 2e-4, True),
-        (1e7, 1.0, False),
-        (float("inf"), 1.0, False),
+        (float("nan"), 2e-6, True),
+        (float("nan"), 5e-7, False),
+        (1e-9, 2e-6, True),
+        (1e-5, 5e-5, False),  # ten times what 1e-12 rad did
+        (1e-5, 2e-4, True),
+        (0.2, 5.0, False),
+        (float("inf"), 5.0, False),
     ],
 )
 def test_gate_allows_a_torque_what_rounding_makes_of_it(
-    arm_reference, arm_candidate, tmp_path, condition, change_by, is_told
+    arm_reference, arm_candidate, tmp_path, by_rounding, change_by, is_told
 ):
     before = shutil.copytree(arm_candidate, tmp_path / "before")
 
@@ -257,25 +257,28 @@ def test_gate_allows_a_torque_what_rounding_makes_of_it(
         return frame
 
     for folder in (before, arm_candidate):
-        conditioned(folder, condition)
+        doubtful(folder, by=by_rounding)
     change(arm_candidate, "episodes", shake)
     lines = compare(before, arm_candidate)
     assert bool(lines) == is_told
     assert all(line.startswith("peak_tau_nm: ") for line in lines)
 
 
-@pytest.mark.parametrize(("now", "lines"), [(50.0, True), (1e9, False)])
-def test_gate_leaves_an_outcome_open_only_if_both_runs_met_a_singularity(arm_candidate, tmp_path, now, lines):
+@pytest.mark.parametrize(
+    ("beside", "beside_now", "is_told"),
+    [("", "", True), ("diverged", "", False), ("", "settled", False), ("", "stuck", True), ("stuck", "stuck", False)],
+)
+def test_gate_asks_for_one_outcome_in_common(arm_candidate, tmp_path, beside, beside_now, is_told):
     before = shutil.copytree(arm_candidate, tmp_path / "before")
-    conditioned(before, 1e9)
-    conditioned(arm_candidate, now)
+    doubtful(before, beside)
+    doubtful(arm_candidate, beside_now)
 
     def flip(frame):
         frame["outcome"] = frame["outcome"].astype(str).where(~nominal(frame), "diverged")
         return frame
 
     change(arm_candidate, "episodes", flip)
-    assert any(line.startswith("outcome: settled -> diverged") for line in compare(before, arm_candidate)) == lines
+    assert any(line.startswith("outcome: settled -> diverged") for line in compare(before, arm_candidate)) == is_told
 
 
 def test_gate_compares_no_cause(arm_candidate, tmp_path):

@@ -178,7 +178,8 @@ def test_singularity_has_rank_five_and_loses_its_twist(singularities):
         J = model.jacobian(at.q)
         assert np.linalg.svd(J, compute_uv=False)[5] < 1e-12
         np.testing.assert_allclose(J.T @ at.u, 0.0, atol=1e-13)
-        np.testing.assert_allclose(J @ at.null, 0.0, atol=1e-12)
+        np.testing.assert_allclose(J @ at.still, 0.0, atol=1e-12)
+        np.testing.assert_allclose(at.still, np.eye(len(at.q)) - np.linalg.pinv(J, rcond=1e-9) @ J, atol=1e-11)
 
 
 def test_singularities_of_a_ur5e_are_where_one_of_three_factors_of_its_determinant_vanishes():

@@ -64,10 +64,11 @@ def COMMAND(base, head, laws, no_timing, json_file, summary):
     for path in filter(None, (summary, os.environ.get("GITHUB_STEP_SUMMARY"))):
         with open(path, "a", encoding="utf-8") as file:
             file.write(words.markdown(said))
-    if folders and differences:
-        console().print(f"{len(differences)} differences between {base} and {head}")
-    elif folders:
-        console().print(f"{head} agrees with {base}")
+    if folders:
+        for folder in (base, head):
+            console().print(f"{folder} was made on: {_machine(Path(folder))}")
+        agree = f"{len(differences)} differences between {base} and {head}"
+        console().print(agree if differences else f"{head} agrees with {base}")
     else:
         console().print(f"\n{words.headline(said)}")
     if differences if folders else said.regressions:
@@ -78,6 +79,13 @@ def _lines(base: Path, head: Path) -> list[str]:
     from bench.compare import compare
 
     return compare(base, head)
+
+
+def _machine(folder: Path) -> str:
+    from bench.provenance import rounded_on
+    from bench.store import read_json
+
+    return rounded_on(read_json(folder / "provenance.json")) or "an unknown machine"
 
 
 def _meant(base: str | None, head: str | None, laws) -> tuple[str, str | None, bool]:

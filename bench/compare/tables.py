@@ -14,11 +14,12 @@ leave 1e-12; step-size effects that a change of code could bring start at 1e-4."
 ABSOLUTE = 1e-9
 """Below this an angle [rad] or a margin is rounding itself."""
 
-WELL_CONDITIONED = 1e3
-"""Condition number of an arm's Jacobian up to which RELATIVE holds: the 1e-12 above times its square."""
+MARGIN = 10.0
+"""Times the change that 1e-12 rad made of a doubtful episode on an arm: two samples of what rounding makes of it."""
 
-UNDECIDED = 1e6
-"""Condition number whose square makes 1e-12 into everything."""
+FRICTION_RELATIVE = 1e-3
+"""With dry friction an arm's joints stick and creep, by what MuJoCo's solver leaves of each tick at its own tolerance:
+1e-4 of the angle that is left differs between two libraries' sines."""
 
 COST_KEY = ("regulator", "representation", "jacobian", "inverse", "joints", "branch", "stage")
 BOUNDARY_KEY = ("regulator", "representation", "jacobian", "inverse", "axis_x", "axis_y", "axis_z")
@@ -42,18 +43,20 @@ STEADY = 1e8
 
 
 def episodes(old: pd.DataFrame, new: pd.DataFrame) -> list[Difference]:
-    """Outcomes exactly; numbers of what settled in both, on arms by how well conditioned they stayed."""
+    """Outcomes exactly, on a knife's edge either; numbers of what settled in both, to what rounding makes of them."""
     table = "episodes"
     old, new, found = aligned(table, old, new, KEY)
     settled = old["outcome"].astype(str) == OUTCOMES[SETTLED]
     same = new["outcome"].astype(str) == old["outcome"].astype(str)
-    # NaN on the free body, which has no Jacobian and is well conditioned everywhere
-    condition = np.fmax(1.0, np.fmin(new["cond_jacobian_max"].to_numpy(), old["cond_jacobian_max"].to_numpy()))
-    decided = condition <= UNDECIDED
-    found += changed(table, "outcome", old, new, ~same & decided, KEY)
-    both = settled & same & decided
-    relative = RELATIVE * np.clip(condition, WELL_CONDITIONED, UNDECIDED) ** 2 / WELL_CONDITIONED**2
-    for name in old.columns.difference([*KEY, "outcome", "cause"], sort=False):
+    found += changed(table, "outcome", old, new, ~same & ~_share_an_outcome(old, new), KEY)
+    both = settled & same
+    rubs = old["variation"].astype(str).str.startswith("friction").to_numpy()
+    known = np.where(rubs, FRICTION_RELATIVE, RELATIVE)
+    doubt = MARGIN * np.fmax(old["rounding_change"].to_numpy(), new["rounding_change"].to_numpy())
+    relative = np.fmax(known, doubt)  # no doubt is NaN, which fmax passes over
+    both &= relative < 1.0
+    relative = np.fmin(relative, 1.0)
+    for name in old.columns.difference([*KEY, "outcome", "cause", "outcome_beside", "rounding_change"], sort=False):
         if old[name].dtype.kind not in "iuf":
             found += changed(table, name, old, new, new[name].astype(str) != old[name].astype(str), KEY)
             continue
@@ -63,9 +66,16 @@ def episodes(old: pd.DataFrame, new: pd.DataFrame) -> list[Difference]:
         elif name == "ticks":
             close = np.abs(a - b) <= (relative - RELATIVE) * b
         else:
-            close = np.isclose(a, b, rtol=relative, atol=ABSOLUTE)
+            close = np.abs(a - b) <= ABSOLUTE + relative * np.abs(b)
         found += changed(table, name, old, new, both & ~(close | (np.isnan(a) & np.isnan(b))), KEY)
     return found
+
+
+def _share_an_outcome(old: pd.DataFrame, new: pd.DataFrame) -> np.ndarray:
+    """Whether an outcome of base, on either side of a row's start, is one of head's; on no edge there is but one."""
+    sides = ("outcome", "outcome_beside")
+    pairs = [(old[a].astype(str).to_numpy(), new[b].astype(str).to_numpy()) for a in sides for b in sides]
+    return np.any([(was == now) & (was != "") for was, now in pairs], axis=0)
 
 
 def costs(old: pd.DataFrame, new: pd.DataFrame) -> list[Difference]:

@@ -31,6 +31,7 @@ from tasks.arm_starts.clear import around_home
 from tasks.base import ArmStartSet, Quat, Start, Vector
 from tasks.clearance import CONDITION, RANGE, is_clear_of_pole
 from tasks.kinematics import Kinematics, kinematics
+from tasks.linear_algebra import length
 from tasks.paths import beyond, turned
 from tasks.rotations import unit
 from tasks.singular import Singularity, beside, path_from, rates_through, singularity_near, widening
@@ -43,6 +44,8 @@ POSES = 4
 SIZE = POSES * (1 + len(DECADES))
 SEARCHED = 40
 ROUNDS = 5
+# A condition number that rises by more above what it has fallen to comes near another singularity.
+RISE = 1.5
 # |u's rotational part|, of 1: less, and a turn in place hardly notices.
 LEAST_ROTATION = 0.05
 # Axes tried for the turn that passes, and the shortest part of one across u to be an axis at all.
@@ -80,7 +83,7 @@ def _families(model: Kinematics, seed: int) -> Iterator[list[Turn]]:
 
 
 def _rotation(at: Singularity) -> float:
-    return float(np.linalg.norm(at.u[3:]))
+    return length(at.u[3:])
 
 
 def _family(model: Kinematics, at: Singularity, drawn: list[Vector]) -> list[Turn] | None:
@@ -94,9 +97,10 @@ def _family(model: Kinematics, at: Singularity, drawn: list[Vector]) -> list[Tur
 
 def _across(lost: np.ndarray | Vector, drawn: list[Vector]) -> Iterator[Vector]:
     """What is left of the drawn axes across the lost one, of unit length."""
-    along = np.array(lost) / np.linalg.norm(lost)
+    along = unit((lost[0], lost[1], lost[2]))
     for axis in drawn:
-        x, y, z = (np.array(axis) - (along @ np.array(axis)) * along).tolist()
+        share = along[0] * axis[0] + along[1] * axis[1] + along[2] * axis[2]
+        x, y, z = (a - share * b for a, b in zip(axis, along, strict=True))
         if math.hypot(x, y, z) > ACROSS:
             yield unit((x, y, z))
 
@@ -134,7 +138,12 @@ def _turn(model: Kinematics, q: np.ndarray, axis: Vector, paths: Iterable[np.nda
     for path in paths:
         if path is None or not all(model.within_range(now, RANGE) for now in path):
             return None
-        if model.condition(path[-1]) > CONDITION:
+        conditions = [model.condition(now) for now in path]
+        # it falls towards the end, so that the middle's singularity is the only one on the way
+        least = itertools.accumulate(conditions, min)
+        if any(now > max(CONDITION, RISE * before) for now, before in zip(conditions, least, strict=True)):
+            return None
+        if conditions[-1] > CONDITION:
             return None
         ends.append(path[-1])
     return ends[0], beyond(model.pose(ends[0])[1], middle)

@@ -1,0 +1,71 @@
+"""What rounding decides of an arm's episodes: each doubtful one is judged again from both sides of its start.
+
+An arm that passes a singularity, or asks far more of its motors than they are rated for, multiplies the last bit of a
+library's sine until it is an outcome. Such an episode is repeated from q + NUDGE and q - NUDGE in every joint, further
+than any two libraries' roundings lead apart and nearer than any difference one could mean: where an outcome is another
+one there, it is on a knife's edge, and the row says both.
+
+Fails: an episode that is neither DOUBTFUL in conditioning nor in torque, and hangs on rounding nevertheless, is not
+seen. Under other BLAS kernels, compiler targets and C libraries' variants of sin and cos there was none.
+"""
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+import pandas as pd
+
+from tasks.base import Start
+
+NUDGE = 1e-12
+"""[rad]. Joint angles are rounded to 4e-16; two libraries' sines and some 1e3 ticks make 1e-14 of that."""
+
+CONDITION = 1e3
+"""Condition number of J from which on an episode is doubtful: accelerations have it twice, 1e6 times rounding."""
+
+TORQUE_RATIO = 100.0
+"""Torque over its rated one, likewise: the law's own coordinates were near a singularity."""
+
+ZERO = 1e-9
+"""What is smaller in every repetition does not count as a change: it is rounding itself."""
+
+BESIDE, CHANGE = "outcome_beside", "rounding_change"
+
+
+def judged_on_both_sides(
+    rows: pd.DataFrame, starts: Sequence[Start], again: Callable[[list[Start]], pd.DataFrame]
+) -> pd.DataFrame:
+    """The rows of episodes on an arm, with the columns BESIDE and CHANGE.
+
+    BESIDE: the other outcome found beside the start; empty if there is none, or the episode is not doubtful.
+    CHANGE: the largest relative change of any number of the row beside its start; null if not doubtful.
+
+    Args:
+        rows: one a start, in order. again: the rows of other starts, simulated in the same way.
+    """
+    doubtful = np.flatnonzero((rows["cond_jacobian_max"] > CONDITION) | (rows["peak_torque_ratio"] > TORQUE_RATIO))
+    other, change = np.full(len(rows), "", object), np.full(len(rows), np.nan)
+    if len(doubtful):
+        here = rows.iloc[doubtful].reset_index(drop=True)
+        sides = [again([nudged(starts[i], sign * NUDGE) for i in doubtful.tolist()]) for sign in (1.0, -1.0)]
+        for side in sides:
+            differs = (side["outcome"] != here["outcome"]).to_numpy()
+            other[doubtful[differs]] = side["outcome"][differs]
+        change[doubtful] = np.fmax(*(_change(here, side) for side in sides))
+    return rows.assign(**{BESIDE: other, CHANGE: change})
+
+
+def nudged(start: Start, by: float) -> Start:
+    """The same start and goal, every joint turned by so much [rad]."""
+    return start._replace(q=tuple(angle + by for angle in start.q))
+
+
+def _change(here: pd.DataFrame, there: pd.DataFrame) -> np.ndarray:
+    """Of each row the largest relative change of a number; infinite where one of them is none."""
+    a, b = (frame.select_dtypes("number").to_numpy(float) for frame in (here, there))
+    size = np.fmax(abs(a), abs(b))
+    with np.errstate(invalid="ignore", divide="ignore"):
+        changes = np.where((a == b) | (size < ZERO), 0.0, abs(a - b) / size)
+    changes[np.isnan(a) & np.isnan(b)] = 0.0
+    changes[np.isnan(a) != np.isnan(b)] = np.inf
+    changes[np.isnan(changes)] = np.inf
+    return changes.max(axis=1)

@@ -1,0 +1,86 @@
+"""Episodes on an arm that rounding decides are told from those that it does not."""
+
+import numpy as np
+import pandas as pd
+import pytest
+
+import tasks
+from bench import plan as planning
+from bench.choice import Choice
+from bench.discovery import find_contender
+from bench.rounding import BESIDE, CHANGE, NUDGE, judged_on_both_sides, nudged
+from bench.work import rows
+
+START = tasks.start_set("clear", 1, arm="ur5e")[0]
+
+
+def row(outcome="settled", effort=1.0, condition=1e4):
+    return {"outcome": outcome, "effort": effort, "cond_jacobian_max": condition, "peak_torque_ratio": 0.5}
+
+
+def judged(first, plus, minus):
+    """What is said of one row, given those of the start's two neighbours; and which starts were asked for."""
+    asked, sides = [], iter((plus, minus))
+
+    def again(starts):
+        asked.extend(starts)
+        return pd.DataFrame([next(sides)])
+
+    [found] = judged_on_both_sides(pd.DataFrame([first]), [START], again).to_dict("records")
+    return found, asked
+
+
+def test_doubtful_row_is_judged_on_both_sides_of_its_start():
+    found, asked = judged(row(), row(), row())
+    assert asked == [nudged(START, NUDGE), nudged(START, -NUDGE)]
+    assert (found[BESIDE], found[CHANGE]) == ("", 0.0)
+
+
+def test_row_far_from_any_singularity_is_not_judged_again():
+    found, asked = judged(row(condition=10.0), row("stuck"), row("stuck"))
+    assert asked == []
+    assert found[BESIDE] == ""
+    assert np.isnan(found[CHANGE])
+
+
+def test_torque_far_beyond_the_rated_one_is_doubtful_too():
+    found, _ = judged(row(condition=10.0) | {"peak_torque_ratio": 1e3}, row("stuck"), row())
+    assert found[BESIDE] == "stuck"
+
+
+@pytest.mark.parametrize("sides", [(row("saturated"), row()), (row(), row("saturated"))])
+def test_outcome_of_either_side_is_kept_if_it_is_another_one(sides):
+    assert judged(row(), *sides)[0][BESIDE] == "saturated"
+
+
+def test_change_is_the_largest_relative_one_of_any_number():
+    assert judged(row(), row(effort=1.0 + 1e-4), row(effort=1.0 - 1e-3))[0][CHANGE] == pytest.approx(1e-3)
+
+
+def test_number_that_is_there_on_one_side_alone_changes_without_bound():
+    assert judged(row(), row(effort=np.nan), row())[0][CHANGE] == np.inf
+
+
+def test_numbers_of_the_size_of_rounding_do_not_count():
+    assert judged(row(effort=1e-12), row(effort=5e-10), row(effort=0.0))[0][CHANGE] == 0.0
+
+
+def test_nudged_start_differs_in_its_joints_alone():
+    moved = nudged(START, NUDGE)
+    assert moved._replace(q=START.q) == START
+    np.testing.assert_allclose(np.subtract(moved.q, START.q), NUDGE, rtol=1e-3)
+
+
+def test_run_marks_what_passes_a_singularity_and_nothing_in_the_clear():
+    plan = planning.make(
+        "quick",
+        [find_contender("rotation-matrix")],
+        Choice(("arm-regulation",), ("clear", "wrist"), ("native",), ("ur5e",), ("geometric",), ("solve",)),
+        count=8,
+        horizon_s=3.0,
+    )
+    found = pd.concat([rows(plan, unit) for unit in plan.units])
+    doubtful = found[CHANGE].notna()
+    assert not doubtful[found["start_set"] == "clear"].any()
+    assert doubtful[found["start_set"] == "wrist"].any()
+    assert (found.loc[doubtful & (found[BESIDE] == ""), CHANGE] > 0.0).all()
