@@ -11,12 +11,14 @@ import pyarrow.parquet as pq
 
 from bench import results
 from bench.figures import html, times
-from bench.provenance import ROOT
+from bench.provenance import ROOT, rounded_on
 from bench.schema import TABLES
+from bench.store import read_json
 
 OFFERED_BYTES = 8_000_000
 """A larger file is named, not offered: the site stays small enough to be mailed or put on a stick."""
 CITATION = ROOT / "CITATION.cff"
+SETTINGS = ROOT / "results" / "settings" / "settings.json"
 SITE_DATA = "../data"
 """Seen from a page in pages/; report/build.py copies there what pages link to."""
 
@@ -57,7 +59,7 @@ def run() -> html.Markdown:
         "Uncommitted changes": changed,
         "Digest of the sources": code(given["sources"]),
         "Digest of the plan": code(given["plan"]),
-        "Processor": f"{said['cpu']}, {said['cores']} cores",
+        "Processor": f"{html.foreign(rounded_on(given))}, {said['cores']} cores",
         "System": said["platform"],
         **{html.foreign(name): version for name, version in sorted(said["versions"].items())},
         "Lock requirements/base.txt, SHA-256": spelled(said["lock"]) if said["lock"] else "none",
@@ -77,6 +79,27 @@ def escaped(value):
     if isinstance(value, dict):
         return {name: escaped(one) for name, one in value.items()}
     return html.foreign(value) if isinstance(value, str) else value
+
+
+def settings() -> html.Markdown:
+    """The published run made again under settings that round as other processors do: what differs from it."""
+    every = [one for made in read_json(SETTINGS).values() for one in made.values()]
+    return html.table(pd.DataFrame(map(_against_published, every)))
+
+
+def _against_published(found: dict) -> dict:
+    unlike = [
+        f"{name} {html.number(one['differ'])} of {html.number(one['rows'])}"
+        for name, one in found["tables"].items()
+        if one["differ"]
+    ]
+    return {
+        "Made on": html.foreign(found["made_on"]),
+        "Equal bit for bit": ", ".join(name for name, one in found["tables"].items() if not one["differ"]),
+        "Rows that differ in some bit": ", ".join(unlike) or "none",
+        "Other outcome": sum(one["outcomes"] for one in found["tables"].values()),
+        "Differences for the gate": found["gate"],
+    }
 
 
 def tables() -> html.Markdown:
