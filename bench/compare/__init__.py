@@ -4,7 +4,7 @@ Schema, row keys, outcomes and operation counts must be the same exactly; a sett
 other numbers of settled episodes to RELATIVE. Numbers of an episode that failed are not compared, its cause among
 them: on its way it may pass a singular point, where the last bit of a library's sine decides them.
 
-An arm has more such points. Where it passed one it has been judged on both sides of its start (bench/rounding.py): one
+An arm has more such points. Where it passed one it has been judged on both sides of its start (`rounding`): one
 outcome of base must then be one of head, and a number the same to what it changed by.
 
 In contact rounding decides for coordinates whose singular set the goal lies on, and for a hand that was THROWN about.
