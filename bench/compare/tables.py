@@ -66,7 +66,7 @@ def episodes(old: pd.DataFrame, new: pd.DataFrame) -> list[Difference]:
         elif name == "ticks":
             close = np.abs(a - b) <= (relative - RELATIVE) * b
         else:
-            close = np.abs(a - b) <= ABSOLUTE + relative * np.abs(b)
+            close = np.isclose(a, b, rtol=relative, atol=ABSOLUTE)
         found += changed(table, name, old, new, both & ~(close | (np.isnan(a) & np.isnan(b))), KEY)
     return found
 
