@@ -52,7 +52,7 @@ time: $(READY)
 
 libraries: ## ask other robot libraries for orientation errors (2 GB of their own): results/libraries
 libraries: $(LIBRARIES)/.made
-	@$(LIBRARIES)/bin/python -m bench.libraries $(ARGS)
+	@$(LIBRARIES)/bin/python -m bench.studies.libraries $(ARGS)
 
 judge:  ## judge your law against an older one of it: make judge LAW=my_law.py BASE=main (writes judge.md)
 judge: $(READY)
@@ -66,7 +66,7 @@ history: $(READY)
 
 scale-study: ## what 10^3 to 10^6 episodes cost, on one thread and on processes (ten minutes): results/scale
 scale-study: $(CLUSTER)
-	@$(PY) -m bench.scale $(ARGS)
+	@$(PY) -m bench.studies.scale $(ARGS)
 
 setup:  ## install what the benchmark needs, and nothing else
 setup: $(READY)
@@ -114,11 +114,11 @@ regress: $(READY)
 
 regress-study: ## does that gate cry wolf, and does it bite? (half an hour): results/regress
 regress-study: $(READY)
-	@$(PY) -m bench.regress.study $(ARGS)
+	@$(PY) -m bench.studies.gates $(ARGS)
 
 settings-study: ## is a run the same on every processor? quick suites under other settings (15 minutes): results/settings
 settings-study: $(READY)
-	@$(PY) -m bench.settings_study $(ARGS)
+	@$(PY) -m bench.studies.settings $(ARGS)
 
 kill-study: ## kill 100 runs, fill disks, break laws: does each end the same? (minutes): results/survival
 kill-study: $(CLUSTER)
@@ -130,7 +130,7 @@ reference: $(READY)
 	@$(PY) -m bench run --suite quick --out results/quick
 	@rm -rf results/reference && mkdir -p results/reference
 	@cp results/quick/*.parquet results/quick/plan.json results/quick/provenance.json results/reference/
-	@$(PY) -c 'from bench.schema import readme; print(readme(), end="")' > results/README.md
+	@$(PY) -c 'from bench.tables.schema import readme; print(readme(), end="")' > results/README.md
 	@kilobytes=$$(du -sk results/reference | cut -f1); test $$kilobytes -lt 5000 || \
 		{ echo "results/reference is $$kilobytes kB; at most 5000 are committed" >&2; exit 1; }
 	@echo "Promoted. Now: git add results && git commit"

@@ -1,21 +1,26 @@
 """Orientation regulators on a free body and on arms: laws, engines, costs, results. Way in: `python -m bench --help`.
 
-What a law is      scalar (the dialect), so3, linalg/, contender (Gains, Goal, Representation, Regulator, Jacobian, ...)
-The contestants    regulators/, representations/, jacobians/, inverses/ (one file each), discovery (finds them, and a
-                   user's file)
-On an arm          cartesian (tau = D J^-1 (u - Jdot qdot) + fg), chain, weighting, combinations (what goes together)
-In contact         force (hybrid control), impedance, impedances/, compliance (a controller), contact_metric,
-                   contact_metrics/ over touching and yielding, contact_plan, contact_rows
-In trouble         tracking (goals that move), equal_peak, robustness_plan, robustness_rows, engines/disturbed
-Running            engines/ (reference, native, ideal-rk4, ideal-held), metric, metrics/
-A run              suites, choice, plan, run, journal (its folder until it is finished), schedulers/ (threads, and a
-                   Dask cluster), work (a unit's rows), chunk (units as JSON, for other processes), finish (its
-                   tables), ahead (a second process compiles), scale (what many episodes cost), rows, traces, boundary,
-                   poses, counting/, schema, store, provenance
-Reading results    claims/ (the paper's sentences), compare/ (two runs), regress/ (two revisions), history/ (every
-                   build), figures/ (the report's), kept_laws and trust (laws of a results folder that may run)
-Time               timing/ (pytest-benchmark)
-The command line   cli/ (one file a command)
+Rooms, bottom up; each imports only from rooms above it in this list (pyproject.toml says so, and `make lint` looks):
 
-The judge (plants, arms, starts, rules, truth) is the package `tasks`, which imports nothing from here.
+law/          what a law is: the dialect, rotations, linear algebra, records. `from bench.law import Regulator, kernel`
+contenders/   the contestants, one file each: regulators/ representations/ jacobians/ inverses/ impedances/; registry
+              finds them, law_file a user's own, combinations says what goes together
+control/      contenders at work: resolved_acceleration (tau = D J^-1 (u - Jdot qdot) + fg), hybrid, impedance,
+              contact_controller, registry
+engines/      one episode, four ways: reference, native, ideal-rk4, ideal-held; and disturbed
+metrics/      what is measured: motion/ along an episode, contact/ of a hand in contact, over contact_force and
+              measured_compliance
+counting/     operations of the code that runs
+tables/       schema, store, read, statistics, lock; trust and kept_laws (laws of a results folder that may run)
+experiments/  suites, choice, plan, and the rows of every unit: work, rows, traces, boundary, poses, contact_rows, ...
+running/      run, run_folder (until it is finished), order, precompile, sandbox (a user's laws), wire_format,
+              schedulers/ (threads, and a Dask cluster), finish (the tables)
+timing/       time per tick (pytest-benchmark)
+findings/     claims/ (the paper's sentences), selection/ (which law), theory/ (closed forms)
+regression/   rows/ (two runs), revisions/ (two revisions), history/ (every build)
+studies/      scale (what many episodes cost), settings (other processors), libraries/ (other robot libraries), gates/
+cli/          the command line, one file a command
+
+Beside them errors (each says its cure) and provenance (where numbers come from). The judge (plants, arms, starts,
+rules, truth) is the package `tasks`, which imports nothing from here; the book is `report`, which nothing here imports.
 """

@@ -10,11 +10,12 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
-READERS = (
-    *("answer", "figures", "claims", "cli", "compare", "history", "kept_laws", "libraries", "regress", "results"),
-    *("scale", "settings_study", "statistics", "trust", "__main__"),
+DECIDING = (
+    *("tasks", "bench/errors.py", "bench/law", "bench/contenders", "bench/control", "bench/engines"),
+    *("bench/metrics", "bench/counting", "bench/experiments", "bench/running"),
+    *("bench/tables/schema.py", "bench/tables/store.py", "bench/tables/kept_costs.py"),
 )
-"""Parts of bench/ that only read results, or concern other libraries: no number of a run depends on them."""
+"""What numbers of a run depend on; everything else only reads results, or is measured and kept apart from them."""
 VERSIONED = ("mujoco", "dm-control", "numpy", "scipy", "numba", "llvmlite", "pandas", "pyarrow")
 
 
@@ -25,12 +26,11 @@ def source_digest() -> str:
     Of the sources as they were when first asked for, which is when the engines are imported.
     """
     digest = hashlib.sha256()
-    for room in ("bench", "tasks"):
-        for path in sorted((ROOT / room).rglob("*")):
-            relative = path.relative_to(ROOT)
-            if path.suffix not in (".py", ".xml") or (room == "bench" and relative.parts[1].split(".")[0] in READERS):
-                continue
-            digest.update(relative.as_posix().encode() + b"\0" + path.read_bytes() + b"\0")
+    for name in DECIDING:
+        found = ROOT / name
+        for path in sorted(found.rglob("*")) if found.is_dir() else [found]:
+            if path.suffix in (".py", ".xml"):
+                digest.update(path.relative_to(ROOT).as_posix().encode() + b"\0" + path.read_bytes() + b"\0")
     digest.update(repr(sorted(versions().items())).encode())
     return digest.hexdigest()[:16]
 

@@ -24,7 +24,7 @@ from pathlib import Path
 
 import check_site
 
-from bench import trust
+from bench.tables import trust
 
 REPORT = Path(__file__).resolve().parent
 ROOT = REPORT.parent
@@ -104,6 +104,7 @@ def keys(results: Path) -> dict[str, str]:
         *(mark for mark in marks if mark.is_file()),
         *(path for name in STUDIES for path in files_below(ROOT / "results" / name)),
         *files_below(ROOT / "bench"),
+        *files_below(REPORT / "figures"),
         *files_below(ROOT / "tasks"),
         *files_below(ROOT / "requirements"),
         *(path for path in (ROOT / "pyproject.toml", ROOT / "CITATION.cff") if path.is_file()),

@@ -42,7 +42,7 @@ class Seen(NamedTuple):
 def seen(task: str, trial: str, controller: str) -> Seen:
     """One episode by the compiled engine."""
     import tasks
-    from bench.discovery import find_compliant
+    from bench.control.registry import find_compliant
     from bench.engines.contact_episode import USUAL
     from bench.engines.run_contact import run
 

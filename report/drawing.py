@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 MEDIA = Path(__file__).resolve().parent / "_static" / "media"
-FACE = MEDIA.parents[2] / "bench" / "figures" / "fonts" / "OrientationSans-Bold.ttf"
+FACE = MEDIA.parents[1] / "figures" / "kit" / "fonts" / "OrientationSans-Bold.ttf"
 INK, PAPER = (28, 36, 48), (255, 255, 255)
 COLOURS = 128  # of a PNG's palette: shading of plain shapes needs no more
 HALF = (360, 340)  # pixels of a loop's each half

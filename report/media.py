@@ -60,13 +60,13 @@ def motions() -> list[Motion]:
     import numpy as np
 
     import tasks
-    from bench.claims.arm_probes import controller
-    from bench.discovery import metrics_of
     from bench.engines.curve import ARM_NUMBERS, blank_curves
     from bench.engines.run_arm import run, run_native
-    from bench.plan import Plan, Unit
-    from bench.rows import frame, settings_of
-    from bench.suites import ON_ARM
+    from bench.experiments.plan import Plan, Unit
+    from bench.experiments.rows import frame, settings_of
+    from bench.experiments.suites import ON_ARM
+    from bench.findings.claims.arm_probes import controller
+    from bench.metrics.registry import metrics_of
 
     start = next(one for one in tasks.start_set(START_SET, None, SEED, arm=ARM) if one.id == START)
     metrics, joints = metrics_of(on_arm=True), tasks.arm(ARM).joints
@@ -106,7 +106,7 @@ class View:
     def __init__(self, arm, size: tuple[int, int], part=WHOLE):
         import mujoco
 
-        from tasks.arm import model_xml
+        from tasks.arm_model import model_xml
 
         width, height = (round(side / share) for side, share in zip(size, self.shares(part), strict=True))
         self.model = mujoco.MjModel.from_xml_string(model_xml(arm, 1e-3))

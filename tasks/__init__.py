@@ -19,8 +19,9 @@
     rules.py      the numbers of the rules: band, limits, hold window
     verdict.py    the rules at work, tick by tick: the six outcomes
     rotations.py  quaternions that are exact where a double can be exact (half turns, poles)
-    haar.py       low-discrepancy points on SO(3)
-    arm.py        Arm; finds the files of arms and makes models of them; arm_check.py refuses the broken ones
+    haar.py       low-discrepancy points on SO(3); sphere.py: directions spread evenly
+    arm.py        finds the files of arms; arm_check.py refuses the broken ones
+    arm_model.py  Arm, and the judge's model of one
     variations.py how an arm's plant differs from its model
     condition.py  Condition and Axis: rate, delay, noise, bounds, model errors, goals that move
     moving_goal.py a goal that sways, with its rate and acceleration

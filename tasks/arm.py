@@ -1,4 +1,4 @@
-"""Arms: the manipulators of tasks/arms, found, checked and made into the judge's model.
+"""Arms: the manipulators of tasks/arms, found and checked; `arm_model.py` makes the judge's model of one.
 
     <name>.xml     MJCF, all in this one text (no meshes, no includes)
     <name>.py      a function xml() -> str that writes it
@@ -16,61 +16,14 @@ from __future__ import annotations
 
 import re
 import types
-import xml.etree.ElementTree as ElementTree
 from functools import lru_cache
 from pathlib import Path
-from typing import NamedTuple
 
-from tasks.base import BadArm, UnknownName, sensor_xml
+from tasks.arm_model import Arm
+from tasks.base import BadArm, UnknownName
 
 ARMS = Path(__file__).parent / "arms"
 WORD = re.compile(r"[a-z][a-z0-9]*(-[a-z0-9]+)*")
-
-# The same light and white sky for every arm, and the base axes; the arm's file has the camera "view".
-LOOK = """<mujoco>
-  <visual>
-    <global offwidth="1600" offheight="1200"/>
-    <rgba haze="1 1 1 1"/>
-    <headlight ambient=".35 .35 .35" diffuse=".45 .45 .45" specular=".1 .1 .1"/>
-  </visual>
-  <asset>
-    <texture type="skybox" builtin="flat" rgb1="1 1 1" rgb2="1 1 1" width="8" height="8"/>
-  </asset>
-  <worldbody>
-    <light directional="true" pos="1 -1 2" dir="-.4 .4 -.8" diffuse=".7 .7 .7" castshadow="false"/>
-    <geom type="capsule" size=".004" mass="0" fromto="0 0 0 .4 0 0" rgba=".8 .25 .2 .5"/>
-    <geom type="capsule" size=".004" mass="0" fromto="0 0 0 0 .4 0" rgba=".2 .6 .25 .5"/>
-    <geom type="capsule" size=".004" mass="0" fromto="0 0 0 0 0 .4" rgba=".2 .35 .85 .5"/>
-  </worldbody>
-</mujoco>"""
-
-
-class Arm(NamedTuple):
-    """A manipulator with torque motors; joints in order from the base, SI units and radians."""
-
-    name: str  # of the file, with dashes: "ur5e"
-    title: str
-    source: str
-    xml: str  # the complete MJCF text, as its file has it
-    home: tuple[float, ...]  # the keyframe "home"
-    lower: tuple[float, ...]  # ends of the joint ranges, -inf and inf where there are none
-    upper: tuple[float, ...]
-    rated: tuple[float, ...]  # rated torque [N m]: a rule's business, the plant never clips
-    poses: tuple[tuple[str, tuple[float, ...]], ...] = ()  # every keyframe: (name, joint angles)
-
-    @property
-    def joints(self) -> int:
-        """Number of joints."""
-        return len(self.home)
-
-    def pose(self, name: str) -> tuple[float, ...]:
-        """Joint angles of a keyframe."""
-        known = dict(self.poses)
-        if name not in known:
-            raise UnknownName(
-                f"arm '{self.name}' has no keyframe '{name}'; known: {', '.join(known)} (use one, or add a <key>)"
-            )
-        return known[name]
 
 
 def arm_names(folder: Path = ARMS) -> list[str]:
@@ -111,22 +64,6 @@ def arms(folder: Path = ARMS) -> dict[str, Arm | BadArm]:
         except BadArm as refusal:
             found[name] = refusal
     return found
-
-
-def model_xml(arm: Arm, dt: float) -> str:
-    """The judge's MJCF model of an arm with integration step dt [s].
-
-    Gravity as on Earth; no contacts, joint limits or automatic reset. Sensors of the site "tool": those of
-    tasks.base.SENSORS, then its position p [m].
-    """
-    root = ElementTree.fromstring(arm.xml)
-    # Later options override those of the file, and its sensors (arm_check.py allows none) would come first.
-    option = ElementTree.SubElement(root, "option", timestep=repr(dt), gravity="0 0 -9.81")
-    ElementTree.SubElement(option, "flag", contact="disable", limit="disable", autoreset="disable", gravity="enable")
-    sensors = ElementTree.fromstring(sensor_xml("tool"))
-    ElementTree.SubElement(sensors, "framepos", name="p", objtype="site", objname="tool")
-    root.extend([*ElementTree.fromstring(LOOK), sensors])
-    return ElementTree.tostring(root, encoding="unicode")
 
 
 def _files(folder: Path) -> dict[str, list[Path]]:

@@ -15,7 +15,7 @@ from typing import NoReturn
 import mujoco
 import numpy as np
 
-from tasks.arm import Arm, model_xml
+from tasks.arm_model import Arm, model_xml
 from tasks.base import BadArm
 
 FEWEST, MOST = 6, 7  # fewer joints cannot hold a position and turn freely; the inverses' buffers end at seven

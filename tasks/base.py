@@ -12,7 +12,7 @@ from tasks.truth import angle as angle
 from tasks.truth import haversine as haversine
 
 if TYPE_CHECKING:
-    from tasks.arm import Arm
+    from tasks.arm_model import Arm
 
 Quat = tuple[float, float, float, float]
 Vector = tuple[float, float, float]

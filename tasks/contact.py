@@ -18,7 +18,7 @@ import xml.etree.ElementTree as ElementTree
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from tasks.arm import LOOK, Arm
+from tasks.arm_model import LOOK, Arm
 from tasks.base import AT_REST, IDENTITY, BadValue, Quat, Vector, sensor_xml
 
 if TYPE_CHECKING:

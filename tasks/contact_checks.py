@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from tasks.arm import Arm
+from tasks.arm_model import Arm
 from tasks.base import BadValue
 from tasks.contact import AXES, MOST_LEGS, ContactModel, Order, Trial
 from tasks.episode import UNIT_NORM_TOLERANCE

@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from tasks.arm import Arm
+from tasks.arm_model import Arm
 from tasks.contact import STANDARD, ContactModel, ContactTask, Trial, leg, model_xml, prepare
 from tasks.contact_checks import check_contact, check_trial
 from tasks.discovery import pick

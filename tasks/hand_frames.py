@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from tasks.arm import Arm
+from tasks.arm_model import Arm
 from tasks.base import Quat, Vector
 from tasks.rotations import about, multiply, to_base
 

@@ -21,7 +21,7 @@ from collections.abc import Iterable, Iterator, Sequence
 import mujoco
 import numpy as np
 
-from tasks.arm import Arm, model_xml
+from tasks.arm_model import Arm, model_xml
 from tasks.base import BadValue, Quat, Start, Vector
 from tasks.linear_algebra import damped, least_norm, length
 from tasks.paths import geodesic

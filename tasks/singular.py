@@ -23,16 +23,7 @@ import numpy as np
 
 from tasks.base import Vector
 from tasks.kinematics import Kinematics
-from tasks.linear_algebra import (
-    largest,
-    least_norm,
-    length,
-    of_lost_rank,
-    product,
-    smallest,
-    transposed_product,
-    unit,
-)
+from tasks.linear_algebra import largest, least_norm, length, of_lost_rank, product, smallest, transposed_product, unit
 from tasks.paths import turned
 
 DIFFERENCE = 1e-6  # [rad]

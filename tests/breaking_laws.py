@@ -2,14 +2,15 @@
 
 from pathlib import Path
 
-from bench import plan
-from bench.choice import Choice
-from bench.discovery import contenders_of, find_contender, load_law
+from bench.contenders.law_file import load_law
+from bench.contenders.registry import contenders_of, find_contender
+from bench.experiments import plan
+from bench.experiments.choice import Choice
 
 LAW = """
 import os, sys, time
-from bench.contender import Regulator
-from bench.scalar import kernel
+from bench.law.contender import Regulator
+from bench.law.scalar import kernel
 
 @kernel
 def law(R, omega, goal, gains):

@@ -7,8 +7,8 @@ import mujoco
 import numpy as np
 
 from bench.counting import Counted, Tally
-from bench.resolved_motion import Chain, Scratch
-from bench.so3 import Rotation
+from bench.law.resolved_motion import Chain, Scratch
+from bench.law.so3 import Rotation
 
 SIZE = 7
 

@@ -1,7 +1,7 @@
 """Lines of a history that are made up."""
 
-from bench.history.line import Line
-from bench.regress.measurement import Measurement, Spread
+from bench.regression.history.line import Line
+from bench.regression.revisions.measurement import Measurement, Spread
 
 
 def line(build, *, machine="a-2-cores", time=None, instructions=None, compiler="0" * 16, code="", **typical) -> Line:

@@ -5,7 +5,7 @@ import shutil
 
 import pytest
 
-from bench import plan as planning
+from bench.experiments import plan as planning
 
 LONG = (
     *("test_resume", "test_cluster", "test_growing", "test_guard", "test_contact_engines", "test_regress_measured"),
@@ -41,10 +41,10 @@ def pytest_collection_finish():
 @pytest.fixture(scope="module")
 def run_once(tmp_path_factory):
     """A finished run that tests copy."""
-    from bench import finish
-    from bench import run as running
-    from bench.choice import Choice
-    from bench.discovery import find_contender
+    from bench.contenders.registry import find_contender
+    from bench.experiments.choice import Choice
+    from bench.running import finish
+    from bench.running import run as running
 
     folder = tmp_path_factory.mktemp("run") / "finished"
     plan = planning.make(

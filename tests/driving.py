@@ -1,9 +1,9 @@
 """How the tests run episodes: the settings, one start of each kind, a metric that keeps what it sees."""
 
 import tasks
-from bench.contender import Gains
 from bench.engines.episode import Settings
-from bench.metric import Metric
+from bench.law.contender import Gains
+from bench.metrics.metric import Metric
 from tasks.rules import RULES, ticks
 
 NO_EARLY_STOP = 10**9

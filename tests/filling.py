@@ -4,8 +4,8 @@ import numpy as np
 from bits import EPS
 from buffers import as_floats, buffer, of_numbers
 
-from bench.chain import twist
-from bench.discovery import known_jacobians, known_representations
+from bench.contenders.registry import known_jacobians, known_representations
+from bench.law.chain import twist
 
 EVERY = known_jacobians().values()
 ON_OMEGA = [(one, None) for one in EVERY if one.takes == "angular-acceleration"]

@@ -15,12 +15,12 @@ from scipy.spatial.transform import Rotation as ScipyRotation
 from states import as_rotation
 
 import tasks
-from bench.contact_plan import can_do
-from bench.contender import Gains
-from bench.discovery import all_compliants
+from bench.control.hybrid import Rows, Touch, Wish, comply
+from bench.control.registry import all_compliants
 from bench.engines.contact_episode import room, rows, wrench
-from bench.force import Rows, Touch, Wish, comply
-from bench.resolved_motion import Chain
+from bench.experiments.contact_plan import can_do
+from bench.law.contender import Gains
+from bench.law.resolved_motion import Chain
 from tasks.contact import Order, Trial, model_xml, prepare
 from tasks.domains.wrench_probe import TASK
 

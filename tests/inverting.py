@@ -6,7 +6,7 @@ import numpy as np
 from bits import EPS
 from buffers import as_floats, buffer, matrices, poses, scratch, symmetric
 
-from bench.weighting import LENGTH
+from bench.law.weighting import LENGTH
 
 SHAPES = [(6, 6), (6, 7), (7, 6), (7, 7)]
 A = np.array([1.0, -2.0, 0.5, 0.3, 1.5, -0.7, 0.2])

@@ -18,9 +18,10 @@ from killed_clusters import LOCAL, STUDIED, gone_on_alone, gone_on_with
 from killed_runs import Undisturbed, at_random_moments, files_of, remember, undisturbed
 from small_disk import NoDisk, fill, mounted
 
-from bench import run, store
 from bench.errors import BadResults
 from bench.provenance import ROOT, describe
+from bench.running import run
+from bench.tables import store
 
 KILLS = 100
 SHARES = {"threads": 0.6, LOCAL: 0.2, "worker": 0.2}

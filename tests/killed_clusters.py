@@ -17,7 +17,7 @@ from pathlib import Path
 
 from killed_runs import SEED, TRIES, Undisturbed, ended, files_of, how_far, plan_of, start
 
-from bench import finish, run
+from bench.running import finish, run
 
 STUDIED = plan_of(("rotation-matrix",), ("half-turn", "paper"), ("ideal-rk4", "native", "reference"), 12)
 """Free body, an arm and contact, on three engines."""

@@ -18,10 +18,12 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
 
-from bench import boundary, counting, finish, plan, poses, run, traces
-from bench.choice import Choice
-from bench.contender import Gains
-from bench.discovery import find_contender
+from bench import counting
+from bench.contenders.registry import find_contender
+from bench.experiments import boundary, plan, poses, traces
+from bench.experiments.choice import Choice
+from bench.law.contender import Gains
+from bench.running import finish, run
 
 SEED = 20260119
 KILLS = 4  # a hundred are studied (kill_study.py)

@@ -7,15 +7,15 @@ import mujoco
 import numpy as np
 
 import tasks
-from bench import combinations
-from bench.cartesian import assembly, control, parts_of
-from bench.contender import Gains, Goal
-from bench.discovery import all_contenders
+from bench.contenders import combinations
+from bench.contenders.registry import all_contenders
+from bench.control.resolved_acceleration import assembly, control, parts_of
 from bench.engines.arm_episode import buffers
 from bench.engines.binding import command_of, memory_of
-from bench.resolved_motion import Chain
-from bench.so3 import Rotation, from_quaternion
-from tasks.arm import model_xml
+from bench.law.contender import Gains, Goal
+from bench.law.resolved_motion import Chain
+from bench.law.so3 import Rotation, from_quaternion
+from tasks.arm_model import model_xml
 
 ARMS = tasks.arm_names()
 LAWS = {one.name: one for one in all_contenders()}

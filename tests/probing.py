@@ -3,10 +3,10 @@
 import functools
 
 import tasks
-from bench.compliance import hybrid, springy
-from bench.contact_metric import Pose, response
-from bench.discovery import known_impedances, known_representations
+from bench.contenders.registry import known_impedances, known_representations
+from bench.control.contact_controller import hybrid, springy
 from bench.engines.run_contact import run
+from bench.metrics.contact_metric import Pose, response
 from tasks.domains.wrench_probe import TASK, trials
 
 COORDINATES = {word: one for word, one in known_representations().items() if one.about is not None}

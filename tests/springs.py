@@ -8,7 +8,7 @@ from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation as ScipyRotation
 from states import as_rotation
 
-from bench.impedance import law_of
+from bench.control.impedance import law_of
 
 STILL = np.zeros(3)
 

@@ -10,7 +10,7 @@ import itertools
 import numpy as np
 
 import tasks
-from bench.so3 import Rotation
+from bench.law.so3 import Rotation
 from tasks.rotations import about, columns
 
 SAMPLED = 40

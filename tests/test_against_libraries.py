@@ -19,11 +19,11 @@ from bits import EPS
 from scipy.spatial.transform import Rotation as ScipyRotation
 from states import as_rotation, axis_permuting, matrix, vector
 
-from bench.contender import AT_REST, Gains, Goal
-from bench.discovery import find_contender
-from bench.libraries import turns
-from bench.libraries.found import find
-from bench.libraries.library import MATRIX
+from bench.contenders.registry import find_contender
+from bench.law.contender import AT_REST, Gains, Goal
+from bench.studies.libraries import turns
+from bench.studies.libraries.found import find
+from bench.studies.libraries.library import MATRIX
 
 GAINS = Gains(kp=100.0, kv=20.0)
 # A dozen roundings of numbers up to pi on either side; most differences are below 5 EPS.

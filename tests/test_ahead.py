@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from bench import ahead
+from bench.running import precompile
 
 
 def cached(folder: Path) -> int:
@@ -18,7 +18,7 @@ def cached(folder: Path) -> int:
 def test_it_leaves_laws_controllers_of_arms_and_of_contact_in_the_cache(tmp_path):
     names = ["rotation-matrix", "rotation-matrix@geometric+solve", "impedance-geometric"]
     environment = {**os.environ, "NUMBA_CACHE_DIR": str(tmp_path)}
-    words = [sys.executable, "-m", "bench.ahead", *names]
+    words = [sys.executable, "-m", "bench.running.precompile", *names]
     subprocess.run(words, env=environment, check=True, capture_output=True)
     kept = {path.name.split(".")[0] for path in tmp_path.rglob("*.nbi")}
     assert {"binding", "cartesian"} <= kept
@@ -34,18 +34,18 @@ def started(monkeypatch):
         begun.append(usual(*words, **options))
         return begun[-1]
 
-    monkeypatch.setattr(ahead.subprocess, "Popen", popen)
+    monkeypatch.setattr(precompile.subprocess, "Popen", popen)
     return begun
 
 
 def test_a_few_contenders_are_not_worth_a_process(monkeypatch):
     begun = started(monkeypatch)
-    with ahead.compiling_ahead(["hybrid"] * 100):
+    with precompile.compiling_ahead(["hybrid"] * 100):
         assert begun == []
 
 
 def interrupted(begun):
-    with ahead.compiling_ahead(["rotation-matrix", *map(str, range(ahead.WORTH))]):
+    with precompile.compiling_ahead(["rotation-matrix", *map(str, range(precompile.WORTH))]):
         assert begun[0].poll() is None
         raise KeyboardInterrupt
 

@@ -5,12 +5,12 @@ import math
 import numpy as np
 import pytest
 
-from bench.answer.criteria import BY_NAME, CRITERIA, jump
-from bench.answer.front import front
-from bench.answer.measured import Measured
-from bench.answer.needs import NEEDS, Fact, Need, decide
-from bench.answer.tables import Tables
-from bench.discovery import find_contender
+from bench.contenders.registry import find_contender
+from bench.findings.selection.criteria import BY_NAME, CRITERIA, jump
+from bench.findings.selection.front import front
+from bench.findings.selection.measured import Measured
+from bench.findings.selection.needs import NEEDS, Fact, Need, decide
+from bench.findings.selection.tables import Tables
 
 CHEAP, MIDDLE, DEAR = "quaternion-shortest", "mrp", "hybrid"
 ANY = Fact("is a law", lambda found, law: True)

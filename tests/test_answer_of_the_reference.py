@@ -5,15 +5,17 @@ import math
 import numpy as np
 import pytest
 
-from bench import claims, combinations
-from bench.answer.best import best
-from bench.answer.measured import measured
-from bench.answer.needs import ANSWER, EVERYWHERE, NEEDS, UNHELD, decide, decisions, has_all
-from bench.claims.tables import Results
-from bench.claims.verdict import Word
-from bench.discovery import find_contender
-from bench.figures import answer_plane, answer_said, answer_tables, families, html
-from bench.schema import RESULTS
+from bench.contenders import combinations
+from bench.contenders.registry import find_contender
+from bench.findings import claims
+from bench.findings.claims.tables import Results
+from bench.findings.claims.verdict import Word
+from bench.findings.selection.best import best
+from bench.findings.selection.measured import measured
+from bench.findings.selection.needs import ANSWER, EVERYWHERE, NEEDS, UNHELD, decide, decisions, has_all
+from bench.tables.schema import RESULTS
+from report.figures.answer import answer_plane, answer_said, answer_tables
+from report.figures.kit import families, html
 
 FOLDER = RESULTS / "reference"
 LAW = "hybrid"

@@ -11,7 +11,8 @@ import pytest
 from own_arm import xml
 
 import tasks
-from tasks.arm import arm, arm_names, model_xml
+from tasks.arm import arm, arm_names
+from tasks.arm_model import model_xml
 from tasks.base import UnknownName
 
 PYTHON_ARM = '''

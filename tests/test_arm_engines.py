@@ -13,12 +13,13 @@ from bits import different_rows
 from driving import settings
 
 import tasks
-from bench import combinations
-from bench.choice import INTEGRATORS
-from bench.discovery import all_contenders, known_inverses, known_jacobians, known_representations, metrics_of
+from bench.contenders import combinations
+from bench.contenders.registry import all_contenders, known_inverses, known_jacobians, known_representations
 from bench.engines.arm_episode import POSE
 from bench.engines.episode import OUTCOME, SETTLING_TICK, TICKS
 from bench.engines.run_arm import compiled_loop, pointers, run
+from bench.experiments.choice import INTEGRATORS
+from bench.metrics.registry import metrics_of
 from tasks.kinematics import kinematics
 from tasks.variations import VARIATIONS
 from tasks.verdict import DIVERGED, OUTCOMES, SATURATED, SETTLED, SINGULAR, STUCK, TIMED_OUT

@@ -9,11 +9,12 @@ import pytest
 
 pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
 
-from bench import plan, results, run
-from bench.choice import Choice
-from bench.discovery import find_contender
-from bench.figures import (
-    absent,
+from bench.contenders.registry import find_contender
+from bench.experiments import plan
+from bench.experiments.choice import Choice
+from bench.running import run
+from bench.tables import read
+from report.figures.arms import (
     arm_causes,
     arm_findings,
     arm_matrix,
@@ -26,8 +27,8 @@ from bench.figures import (
     arm_wrist,
     model_error,
     model_rest,
-    style,
 )
+from report.figures.kit import absent, style
 
 ARM = "puma560"
 CHOICE = Choice(
@@ -57,13 +58,13 @@ FIGURES = {
 
 @pytest.fixture(scope="module", autouse=True)
 def small_run(tmp_path_factory):
-    """A folder of results, which bench.results reads while this module runs."""
+    """A folder of results, which bench.tables.read reads while this module runs."""
     laws = [find_contender(word) for word in ("rotation-matrix", "feedback-linearized/zyx-euler")]
     made = plan.make("quick", laws, CHOICE, count=STARTS, horizon_s=2.5)
     folder = tmp_path_factory.mktemp("arms") / "run"
     run.run(dataclasses.replace(made, arm_traces=1), folder)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setenv(results.VARIABLE, str(folder))
+        patch.setenv(read.VARIABLE, str(folder))
         yield folder
 
 
@@ -81,7 +82,7 @@ def varied():
 
 
 def traces():
-    return arm_rows.named(results.traces(task="arm-regulation"))
+    return arm_rows.named(read.traces(task="arm-regulation"))
 
 
 @pytest.mark.parametrize("name", FIGURES)

@@ -10,10 +10,10 @@ from driving import recorder, settings
 from on_arms import named
 
 import tasks
-from bench.discovery import metrics_of
 from bench.engines.episode import FINAL_ANGLE, FIRST_METRIC, OUTCOME
 from bench.engines.run_arm import run
-from bench.metric import Ending
+from bench.metrics.metric import Ending
+from bench.metrics.registry import metrics_of
 from tasks.kinematics import kinematics
 from tasks.verdict import OUTCOMES
 

@@ -15,12 +15,12 @@ from driving import settings
 from on_arms import ARMS, LAWS, named
 
 import tasks
-from bench.discovery import metrics_of
 from bench.engines import run_arm
 from bench.engines.arm_episode import POSE, controls
 from bench.engines.episode import FINAL_ANGLE, FIRST_METRIC, OUTCOME, SETTLING_TICK
 from bench.engines.run import run
-from bench.so3 import from_quaternion
+from bench.law.so3 import from_quaternion
+from bench.metrics.registry import metrics_of
 from tasks.cause import NEAR_CONDITION
 from tasks.kinematics import kinematics
 from tasks.verdict import SETTLED

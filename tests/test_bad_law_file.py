@@ -4,12 +4,12 @@
 import pytest
 from command_line import TINY, bench, refused_run
 
-from bench import store
+from bench.tables import store
 
 LAW = """
 import math
-from bench.contender import Regulator
-from bench.scalar import kernel, sqrt
+from bench.law.contender import Regulator
+from bench.law.scalar import kernel, sqrt
 
 @kernel
 def law(R, omega, goal, gains):

@@ -7,10 +7,11 @@ import pyarrow.parquet as pq
 import pytest
 from command_line import TINY, bench, digest, refused, refused_run
 
-from bench import finish, store
-from bench.discovery import find_contender
+from bench.contenders.registry import find_contender
 from bench.errors import BadResults
-from bench.schema import VERSION
+from bench.running import finish
+from bench.tables import store
+from bench.tables.schema import VERSION
 
 
 def test_file_in_place_of_a_results_folder_is_refused(capsys, tmp_path):

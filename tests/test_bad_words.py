@@ -4,10 +4,7 @@ import pytest
 from command_line import bench, refused, refused_run
 
 import tasks
-from bench import plan as planning
-from bench.choice import INTEGRATORS, Choice
-from bench.compliance import HYBRIDS
-from bench.discovery import (
+from bench.contenders.registry import (
     find_contender,
     known_impedances,
     known_inverses,
@@ -15,8 +12,11 @@ from bench.discovery import (
     known_regulators,
     known_representations,
 )
+from bench.control.contact_controller import HYBRIDS
 from bench.errors import Incompatible
-from bench.suites import ENGINES, SUITES
+from bench.experiments import plan as planning
+from bench.experiments.choice import INTEGRATORS, Choice
+from bench.experiments.suites import ENGINES, SUITES
 
 LAWS_IN_CONTACT = sorted((*HYBRIDS, *(f"impedance-{name}" for name in known_impedances())))
 

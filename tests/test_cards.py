@@ -8,8 +8,8 @@ import pytest
 
 pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
 
-from bench.discovery import known_regulators
-from bench.figures import card_response, card_robustness, cards
+from bench.contenders.registry import known_regulators
+from report.figures.cards import card_response, card_robustness, cards
 
 
 def trace(start_id, angles):

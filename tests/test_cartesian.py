@@ -13,11 +13,11 @@ from on_arms import ARMS, GAINS, LAWS, here, named, torques
 from scipy.spatial.transform import Rotation
 
 import tasks
-from bench import combinations
-from bench.contender import Gains
-from bench.discovery import known_inverses, known_representations, representation
+from bench.contenders import combinations
+from bench.contenders.registry import known_inverses, known_representations, representation
 from bench.engines.arm_episode import buffers
-from bench.weighting import GREATEST_GAIN, LENGTH
+from bench.law.contender import Gains
+from bench.law.weighting import GREATEST_GAIN, LENGTH
 from tasks.kinematics import kinematics, rotation_vector
 
 over_arms = pytest.mark.parametrize("arm", ARMS)

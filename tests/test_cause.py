@@ -8,12 +8,12 @@ from driving import settings
 from on_arms import named
 
 import tasks
-from bench import plan as planning
-from bench.choice import Choice
-from bench.discovery import metrics_of
 from bench.engines.run_arm import run
-from bench.plan import Unit
-from bench.rows import frame
+from bench.experiments import plan as planning
+from bench.experiments.choice import Choice
+from bench.experiments.plan import Unit
+from bench.experiments.rows import frame
+from bench.metrics.registry import metrics_of
 from tasks.cause import CAUSES, NEAR_CONDITION, NEAR_MARGIN, cause
 from tasks.kinematics import kinematics, rotation_vector
 from tasks.verdict import OUTCOMES

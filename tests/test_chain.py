@@ -6,8 +6,8 @@ import pytest
 from bits import EPS, same_bits
 from buffers import as_floats, of_numbers, poses, serial_arm
 
-from bench.chain import bias_acceleration, twist
 from bench.engines.compiled import JIT, register_kernels
+from bench.law.chain import bias_acceleration, twist
 
 COUNT = 60
 # Sums over n joints of cross products of vectors that are orthonormal or placed to a few EPS themselves: the state

@@ -6,9 +6,9 @@ import pandas as pd
 import pytest
 from unit_kinds import plan_of_all_kinds
 
-from bench import chunk
 from bench.errors import BadResults
-from bench.work import rows
+from bench.experiments.work import rows
+from bench.running import wire_format
 
 
 @pytest.fixture(scope="module")
@@ -19,7 +19,7 @@ def made(tmp_path_factory):
 @pytest.fixture(scope="module")
 def carried(made):
     """The plan as it is on the other side."""
-    return chunk.plan_of(json.loads(json.dumps(chunk.described(made, made.work))))
+    return wire_format.plan_of(json.loads(json.dumps(wire_format.described(made, made.work))))
 
 
 def test_chunk_has_the_units_of_every_kind(made, carried):
@@ -33,10 +33,10 @@ def test_other_process_makes_the_same_rows_of_a_chunk(made, carried):
 
 
 def test_chunk_of_one_unit_carries_no_law_of_another(made):
-    assert len(chunk.described(made, made.work)["laws"]) == 1
-    assert chunk.described(made, made.contacts)["laws"] == []
+    assert len(wire_format.described(made, made.work)["laws"]) == 1
+    assert wire_format.described(made, made.contacts)["laws"] == []
 
 
 def test_chunk_of_other_sources_is_refused(made):
     with pytest.raises(BadResults, match="install the same commit and lock on every machine"):
-        chunk.plan_of(chunk.described(made, made.units) | {"sources": "0123456789abcdef"})
+        wire_format.plan_of(wire_format.described(made, made.units) | {"sources": "0123456789abcdef"})

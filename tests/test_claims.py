@@ -10,13 +10,14 @@ import pytest
 from scipy.linalg import expm
 from scipy.special import lambertw
 
-from bench import claims, results
-from bench.claims import coordinates, probes
-from bench.claims.errata import ERRATA
-from bench.claims.tables import Results, share
-from bench.claims.verdict import Claim, Evidence, NoEvidence, Word, claim, decide
-from bench.contender import Gains
-from bench.discovery import representation
+from bench.contenders.registry import representation
+from bench.findings import claims
+from bench.findings.claims import coordinates, probes
+from bench.findings.claims.errata import ERRATA
+from bench.findings.claims.tables import Results, share
+from bench.findings.claims.verdict import Claim, Evidence, NoEvidence, Word, claim, decide
+from bench.law.contender import Gains
+from bench.tables import read
 
 TESTED = tuple(f"C{i:02d}" for i in range(1, 18))
 WITHOUT_TABLES = ("C13", "C15")
@@ -30,7 +31,7 @@ def frames():
     """The committed run of the quick suite, which `make gate` holds to today's code: the paper's laws, free body."""
     reference, found = Results(REFERENCE), {}
     for name in TABLES:
-        frame = reference.table(name, **results.FREE_BODY)
+        frame = reference.table(name, **read.FREE_BODY)
         found[name] = frame[frame["regulator"].isin(LAWS) & frame["representation"].isin(("", "zyx-euler"))]
     return found
 
@@ -94,7 +95,7 @@ def test_claim_of_the_free_body_has_its_criterion_and_its_judge(id):
 
 def test_claim_is_found_when_a_file_is_dropped(tmp_path, monkeypatch):
     (tmp_path / "dropped.py").write_text(
-        "from bench.claims.verdict import Claim\nCLAIMS = (Claim('C99', '9', 'a', 'b', 'c'),)\n"
+        "from bench.findings.claims.verdict import Claim\nCLAIMS = (Claim('C99', '9', 'a', 'b', 'c'),)\n"
     )
     monkeypatch.setattr(claims, "__path__", [*claims.__path__, str(tmp_path)])
     claims.all_claims.cache_clear()

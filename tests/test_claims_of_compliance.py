@@ -8,12 +8,12 @@ import pandas as pd
 import pytest
 from scipy.spatial.transform import Rotation as Turn
 
-from bench import claims
-from bench.claims import force_conversion, side_by_side
-from bench.claims.euler_jacobian import DIFFERENCED, EPS
-from bench.claims.tables import Results
-from bench.claims.verdict import NoEvidence, Word
-from bench.discovery import representation
+from bench.contenders.registry import representation
+from bench.findings import claims
+from bench.findings.claims import force_conversion, side_by_side
+from bench.findings.claims.euler_jacobian import DIFFERENCED, EPS
+from bench.findings.claims.tables import Results
+from bench.findings.claims.verdict import NoEvidence, Word
 
 ORDERS = {"about x": "x", "about y": "y", "about z": "z"}
 ORDERS |= {f"about {a} and {b}": a + b for a, b in ("xy", "yz", "zx")}

@@ -6,10 +6,10 @@ import math
 import pandas as pd
 import pytest
 
-from bench import claims
-from bench.claims.contact import FLOORS, PERFORMANCE
-from bench.claims.tables import Results
-from bench.claims.verdict import NoEvidence, Word
+from bench.findings import claims
+from bench.findings.claims.contact import FLOORS, PERFORMANCE
+from bench.findings.claims.tables import Results
+from bench.findings.claims.verdict import NoEvidence, Word
 
 TASKS = {"surface-alignment": "z, about x and y", "peg-in-hole": "z, about x and y", "force-on-plane": "z"}
 CONTROLLERS = (("hybrid-base", ""), ("hybrid", "zyx-euler"))

@@ -7,14 +7,15 @@ import pandas as pd
 import pytest
 
 import tasks
-from bench import claims, poses
-from bench.claims import arm_probes, euler_controller, probes
-from bench.claims.euler_controller import BY_COMMON, BY_EULER, INVERSES, ON_MATRIX, words
-from bench.claims.tables import Results
-from bench.claims.verdict import NoEvidence, Word
-from bench.contender import Gains
 from bench.counting.counted import OPERATIONS
-from bench.suites import ON_ARM
+from bench.experiments import poses
+from bench.experiments.suites import ON_ARM
+from bench.findings import claims
+from bench.findings.claims import arm_probes, euler_controller, probes
+from bench.findings.claims.euler_controller import BY_COMMON, BY_EULER, INVERSES, ON_MATRIX, words
+from bench.findings.claims.tables import Results
+from bench.findings.claims.verdict import NoEvidence, Word
+from bench.law.contender import Gains
 
 ARMS = {"ur5e": 6, "panda": 7}
 COSTS = {BY_EULER: (900, 24, 3), BY_COMMON: (830, 24, 3), ON_MATRIX: (810, 55, 0)}

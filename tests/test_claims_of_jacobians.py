@@ -6,10 +6,10 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from bench import claims
-from bench.claims.euler_jacobian import EPS, WELL_CONDITIONED
-from bench.claims.tables import Results
-from bench.claims.verdict import NoEvidence, Word
+from bench.findings import claims
+from bench.findings.claims.euler_jacobian import EPS, WELL_CONDITIONED
+from bench.findings.claims.tables import Results
+from bench.findings.claims.verdict import NoEvidence, Word
 
 
 def row(arm, pose_set, pose_id, margin, **cells):

@@ -5,9 +5,9 @@ import math
 import pandas as pd
 import pytest
 
-from bench import claims
-from bench.claims.tables import Results
-from bench.claims.verdict import NoEvidence, Word
+from bench.findings import claims
+from bench.findings.claims.tables import Results
+from bench.findings.claims.verdict import NoEvidence, Word
 
 PAPERS = {
     ("rotation-matrix", ""): (40, 0),

@@ -7,7 +7,7 @@ import pytest
 
 pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
 
-from bench.figures import closed_form
+from bench.findings.theory import closed_form
 
 PAPER = 100.0, 20.0
 TOLERANCE = 0.02

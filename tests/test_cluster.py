@@ -8,33 +8,33 @@ from pathlib import Path
 import pytest
 from unit_kinds import plan_of_all_kinds
 
-from bench import finish, run
-from bench import plan as planning
-from bench.choice import Choice
-from bench.discovery import find_contender
+from bench.contenders.registry import find_contender
 from bench.errors import BadNumber, BadResults, LostWorkers, MissingTool, UnknownWord
-from bench.journal import part
-from bench.schedulers import cluster
-from bench.schedulers.portions import CHUNK_S, MOST_EPISODES, portions, seconds
-from bench.schedulers.words import check_scheduler, kind
-from bench.store import read_json
+from bench.experiments import plan as planning
+from bench.experiments.choice import Choice
+from bench.running import finish, run
+from bench.running.run_folder import part
+from bench.running.schedulers import cluster
+from bench.running.schedulers.batches import CHUNK_S, MOST_EPISODES, portions, seconds
+from bench.running.schedulers.words import check_scheduler, kind
+from bench.tables.store import read_json
 
 DIES = """
 import os, signal
-from bench.schedulers import worker
+from bench.running.schedulers import worker
 worker.rows = lambda plan, unit: os.kill(os.getpid(), signal.SIGKILL)
 """
 """Run in a worker: it is killed while it makes the rows of a unit of ours, with another chunk in its hand."""
 
-OTHER_SOURCES = "from bench import chunk; chunk.own, chunk.source_digest = chunk.source_digest, lambda: 16 * '0'"
-OWN_SOURCES = "from bench import chunk; chunk.source_digest = chunk.own"
+OTHER_SOURCES = "from bench.running import wire_format as w; w.own, w.source_digest = w.source_digest, lambda: 16 * '0'"
+OWN_SOURCES = "from bench.running import wire_format as w; w.source_digest = w.own"
 
 WITHOUT = """
 import pathlib, sys
-from bench import finish, run
-from bench import plan as planning
-from bench.choice import Choice
-from bench.discovery import find_contender
+from bench.running import finish, run
+from bench.experiments import plan as planning
+from bench.experiments.choice import Choice
+from bench.contenders.registry import find_contender
 finish.all_contenders = list
 choice = Choice(start_sets=("paper",), engines=("reference",))
 plan = planning.make("quick", [find_contender("rotation-matrix")], choice, horizon_s=0.01)

@@ -7,20 +7,19 @@ import rich_click as click
 from command_line import TINY, bench
 
 import tasks
-from bench import store
 from bench.cli import commands
-from bench.discovery import (
-    all_compliants,
+from bench.contenders.registry import (
     all_contenders,
-    known_contact_metrics,
     known_impedances,
     known_inverses,
     known_jacobians,
-    known_metrics,
     known_regulators,
     known_representations,
 )
-from bench.suites import ENGINES, SUITES
+from bench.control.registry import all_compliants
+from bench.experiments.suites import ENGINES, SUITES
+from bench.metrics.registry import known_contact_metrics, known_metrics
+from bench.tables import store
 from tasks.base import BadArm
 
 EULER = "hybrid/zyx-euler+inverse"

@@ -6,14 +6,14 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 
-from bench import boundary, traces
-from bench import plan as planning
-from bench import run as running
-from bench.choice import Choice
 from bench.cli import main
-from bench.compare import compare
-from bench.discovery import find_contender
-from bench.store import read, write_table
+from bench.contenders.registry import find_contender
+from bench.experiments import boundary, traces
+from bench.experiments import plan as planning
+from bench.experiments.choice import Choice
+from bench.regression.rows import compare
+from bench.running import run as running
+from bench.tables.store import read, write_table
 
 
 @pytest.fixture(scope="module")

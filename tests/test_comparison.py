@@ -8,9 +8,10 @@ import pytest
 
 pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
 
-from bench import results
-from bench.figures import (
-    closed_form,
+from bench.findings.theory import closed_form, isotropic
+from bench.tables import read
+from bench.tables.schema import RESULTS
+from report.figures.comparison import (
     comparison_angle,
     comparison_dead,
     comparison_peak,
@@ -18,26 +19,23 @@ from bench.figures import (
     comparison_rows,
     comparison_said,
     comparison_tables,
-    families,
-    isotropic,
-    style,
 )
-from bench.schema import RESULTS
+from report.figures.kit import families, style
 
 GAINS = (100.0, 20.0, 0.02)
 
 
 @pytest.fixture(autouse=True)
 def reference(monkeypatch):
-    monkeypatch.setenv(results.VARIABLE, str(RESULTS / "reference"))
+    monkeypatch.setenv(read.VARIABLE, str(RESULTS / "reference"))
 
 
 def rows():
-    return comparison_rows.common(results.episodes(engine="ideal-rk4", **results.FREE_BODY))
+    return comparison_rows.common(read.episodes(engine="ideal-rk4", **read.FREE_BODY))
 
 
 def directed():
-    return comparison_dead.directed(results.episodes(engine="ideal-rk4", **results.FREE_BODY))
+    return comparison_dead.directed(read.episodes(engine="ideal-rk4", **read.FREE_BODY))
 
 
 def episode(contender, start, outcome="settled", time=1.0, **more):
@@ -157,7 +155,7 @@ def test_tables_of_the_comparison_have_a_row_for_each_law():
     laws = found["contender"].nunique()
     lines = laws + len(families.present(found["contender"].unique())) + 2
     assert len(comparison_tables.settling(found).splitlines()) == lines
-    assert len(comparison_tables.way(found, results.costs(**results.FREE_BODY)).splitlines()) == lines
+    assert len(comparison_tables.way(found, read.costs(**read.FREE_BODY)).splitlines()) == lines
     assert len(comparison_dead.table(directed()).splitlines()) == lines
 
 

@@ -12,8 +12,8 @@ LAWS = ("linearized-euler/zyx-euler", "linearized-euler-literal/zyx-euler")
 
 ANGLES = """
 import json, sys
-from bench.contender import Gains
-from bench.discovery import find_contender
+from bench.law.contender import Gains
+from bench.contenders.registry import find_contender
 from bench.engines.episode import FINAL_ANGLE, Settings
 from bench.engines.run import run
 from tasks import start_set

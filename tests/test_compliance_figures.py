@@ -10,12 +10,12 @@ import pytest
 pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
 
 import tasks
-from bench import contact_rows, results
-from bench.contact_plan import poses_of
-from bench.discovery import find_compliant
+from bench.control.registry import find_compliant
 from bench.engines.contact_episode import USUAL
-from bench.figures import (
-    absent,
+from bench.experiments import contact_rows
+from bench.experiments.contact_plan import poses_of
+from bench.tables import read
+from report.figures.contact import (
     compliance_axes,
     compliance_forms,
     compliance_laws,
@@ -27,8 +27,8 @@ from bench.figures import (
     contact_models,
     contact_results,
     contact_said,
-    style,
 )
+from report.figures.kit import absent, style
 
 ARM = "puma560"
 ZYZ = compliance_rows.ZYZ
@@ -66,16 +66,16 @@ def chosen(task: str, poses):
 
 @pytest.fixture(scope="module", autouse=True)
 def few_rows():
-    """Rows of one arm, as bench.results would read them."""
+    """Rows of one arm, as bench.tables.read would read them."""
     frames, arm = [], tasks.arm(ARM)
     for name, words in WANTED.items():
         task = tasks.contact_task(name)
         for compliant in map(find_compliant, words):
             poses = chosen(name, poses_of(compliant, task, arm, dense=False))
             frames.append(contact_rows.frame("mine", compliant, task, arm, poses, USUAL))
-    whole = results.with_compliant(pd.concat(frames, ignore_index=True))
+    whole = read.with_compliant(pd.concat(frames, ignore_index=True))
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(results, "compliance", lambda **words: results.chosen(whole, words))
+        patch.setattr(read, "compliance", lambda **words: read.chosen(whole, words))
         yield whole
 
 

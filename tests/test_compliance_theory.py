@@ -9,14 +9,14 @@ from probing import COORDINATES, HYBRIDS, SPRINGS, probed
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation as Turn
 
-from bench import compliance_theory as theory
-from bench.compliance import hybrid, springy
-from bench.contact_metrics import leakage, least_yield, misalignment, stiffness_axes, stiffness_condition
-from bench.contender import PAPERS_GAINS, Gains
-from bench.force import TOUCH
-from bench.impedances import coordinates, coordinates_relative
-from bench.so3 import IDENTITY, Rotation, from_quaternion
-from bench.yielding import compliance
+from bench.contenders.impedances import coordinates, coordinates_relative
+from bench.control.contact_controller import hybrid, springy
+from bench.control.hybrid import TOUCH
+from bench.findings.theory import compliance_theory as theory
+from bench.law.contender import PAPERS_GAINS, Gains
+from bench.law.so3 import IDENTITY, Rotation, from_quaternion
+from bench.metrics.contact import leakage, least_yield, misalignment, stiffness_axes, stiffness_condition
+from bench.metrics.measured_compliance import compliance
 from tasks.domains.wrench_probe import ORDERS, TASK
 from tasks.rotations import on_pole
 

@@ -6,13 +6,14 @@ from in_contact import ARMS
 from own_arm import JOINTS, xml
 
 import tasks
-from bench.compliance import FORMS, HYBRIDS, hybrid, springy
-from bench.contender import Gains
-from bench.discovery import find_compliant, known_impedances, known_representations, representation
+from bench.contenders.registry import known_impedances, known_representations, representation
+from bench.control.contact_controller import FORMS, HYBRIDS, hybrid, springy
+from bench.control.hybrid import TOUCH
+from bench.control.registry import find_compliant
 from bench.engines.contact_episode import USUAL
 from bench.engines.run_contact import run
 from bench.errors import BenchError
-from bench.force import TOUCH
+from bench.law.contender import Gains
 from tasks.arm import arm as arm_in
 from tasks.base import BadValue, TaskError
 from tasks.contact import STANDARD, Order, model_xml

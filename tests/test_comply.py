@@ -7,9 +7,9 @@ import pytest
 from bits import EPS
 from in_contact import LONGEST, SELECTIONS, TOUCH, backward
 
-from bench.compliance import FORMS
+from bench.control.contact_controller import FORMS
+from bench.control.hybrid import Touch, comply
 from bench.engines.contact_episode import room, rows
-from bench.force import Touch, comply
 
 IN_FORMS = pytest.mark.parametrize("form", FORMS)
 
@@ -43,7 +43,7 @@ def answer(into, touch=TOUCH) -> np.ndarray:
 
 
 def by_formula(form: str, held, J, into) -> np.ndarray:
-    """y: see the docstring of bench.force."""
+    """y: see the docstring of bench.control.hybrid."""
     S, left = np.diag(held), np.eye(6) - np.diag(held)
     complies = np.linalg.solve(J, left @ (answer(into) - into.drift))
     if form == "inverse":

@@ -8,7 +8,7 @@ from bits import different_rows, same_bits
 from in_contact import ARMS
 
 import tasks
-from bench.discovery import all_compliants, find_compliant
+from bench.control.registry import all_compliants, find_compliant
 from bench.engines.contact_episode import FORCE, USUAL, P, R
 from bench.engines.run import MUJOCO_INTEGRATORS
 from bench.engines.run_contact import run

@@ -7,9 +7,10 @@ import pytest
 from scipy.spatial.transform import Rotation as Turn
 
 import tasks
-from bench.compliance import hybrid, springy
-from bench.contact_metric import Pose, Response
-from bench.contact_metrics import (
+from bench.contenders.impedances import coordinates_relative, geometric
+from bench.contenders.representations import zyx_euler
+from bench.control.contact_controller import hybrid, springy
+from bench.metrics.contact import (
     alignment_error,
     contact_settling_time,
     crank_angle,
@@ -36,9 +37,8 @@ from bench.contact_metrics import (
     stiffness_condition,
     work_residual,
 )
-from bench.impedances import coordinates_relative, geometric
-from bench.representations import zyx_euler
-from bench.yielding import compliance, rotation_vector
+from bench.metrics.contact_metric import Pose, Response
+from bench.metrics.measured_compliance import compliance, rotation_vector
 from tasks.contact import Order, Trial
 from tasks.domains import crank, force_on_plane, peg_in_hole, surface_alignment, wrench_probe
 from tasks.rotations import about, zyx

@@ -6,13 +6,14 @@ import pytest
 from command_line import bench, refused
 
 import tasks
-from bench import contact_plan
-from bench import plan as planning
-from bench.choice import Choice
-from bench.contact_plan import can_do, poses_of
-from bench.discovery import all_compliants, find_compliant, find_contender
+from bench.contenders.registry import find_contender
+from bench.control.registry import all_compliants, find_compliant
 from bench.errors import Incompatible, UnknownWord
-from bench.suites import SUITES
+from bench.experiments import contact_plan
+from bench.experiments import plan as planning
+from bench.experiments.choice import Choice
+from bench.experiments.contact_plan import can_do, poses_of
+from bench.experiments.suites import SUITES
 from tasks.base import BadValue
 
 LAW = [find_contender("rotation-matrix")]

@@ -7,16 +7,18 @@ import pandas as pd
 import pytest
 
 import tasks
-from bench import contact_rows, store
-from bench.contact_metric import Pose, response
-from bench.contact_plan import poses_of
-from bench.contact_rows import WORST_LAST, frame
-from bench.discovery import find_compliant, known_contact_metrics
+from bench.control.hybrid import TOUCH
+from bench.control.registry import find_compliant
 from bench.engines.contact_episode import OUTCOMES, WIDTH, Conditions, Ended
 from bench.engines.run_contact import run
-from bench.force import TOUCH
-from bench.schema import COMPLIANCE_KEY, compliance_columns
-from bench.yielding import compliance
+from bench.experiments import contact_rows
+from bench.experiments.contact_plan import poses_of
+from bench.experiments.contact_rows import WORST_LAST, frame
+from bench.metrics.contact_metric import Pose, response
+from bench.metrics.measured_compliance import compliance
+from bench.metrics.registry import known_contact_metrics
+from bench.tables import store
+from bench.tables.schema import COMPLIANCE_KEY, compliance_columns
 
 ARM = tasks.arm("ur5e")
 PROBE = tasks.contact_task("wrench-probe")._replace(horizon_s=0.05)

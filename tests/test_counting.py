@@ -5,13 +5,14 @@ import math
 import numpy as np
 import pytest
 
-from bench import scalar
-from bench.contender import Contender, Regulator, contender
+from bench.contenders.law_file import load_law
+from bench.contenders.registry import contenders_of, find_contender
 from bench.counting import OPERATIONS, TOTAL, Counted, OutsideDialect, Tally, cost, flops
 from bench.counting.costs import counted_calls
-from bench.discovery import contenders_of, find_contender, load_law
 from bench.errors import BadLaw
-from bench.so3 import dot
+from bench.law import scalar
+from bench.law.contender import Contender, Regulator, contender
+from bench.law.so3 import dot
 
 
 def counted(*numbers):
@@ -299,8 +300,8 @@ def test_law_with_memory_is_typical_once_its_memory_is_its_own():
 def test_law_of_a_user_is_counted(tmp_path):
     path = tmp_path / "mine.py"
     path.write_text(
-        "from bench.contender import Regulator\n"
-        "from bench.scalar import kernel, sqrt\n"
+        "from bench.law.contender import Regulator\n"
+        "from bench.law.scalar import kernel, sqrt\n"
         "@kernel\n"
         "def law(R, omega, goal, gains):\n"
         "    return (-gains.kv * omega[0], sqrt(omega[1] * omega[1]), -omega[2])\n"

@@ -6,15 +6,15 @@ import numpy as np
 import pytest
 from in_contact import HYBRIDS, IMPEDANCES
 
-from bench.compliance import Compliant, hybrid
+from bench.contenders.registry import known_representations
+from bench.control.contact_controller import Compliant, hybrid
+from bench.control.hybrid import in_base
 from bench.counting import in_contact
 from bench.counting.costs import counted
 from bench.counting.counted import OPERATIONS, TOTAL, Tally
 from bench.counting.on_arms import arm_states
-from bench.discovery import known_representations
 from bench.errors import BadLaw
-from bench.force import in_base
-from bench.impedance import Impedance
+from bench.law.impedance import Impedance
 from tasks.contact import Order
 
 COORDINATES = [one for one in known_representations().values() if one.about is not None]

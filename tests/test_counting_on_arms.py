@@ -7,14 +7,14 @@ import pytest
 from on_arms import ARMS, LAWS, named
 
 import tasks
-from bench import combinations
+from bench.contenders import combinations
+from bench.contenders.registry import known_inverses
 from bench.counting import on_arms
 from bench.counting.costs import cost
 from bench.counting.counted import OPERATIONS, STAGES, TOTAL
-from bench.discovery import known_inverses
 from bench.errors import BadLaw
-from bench.resolved_motion import Inverse
-from bench.scalar import kernel
+from bench.law.resolved_motion import Inverse
+from bench.law.scalar import kernel
 
 ITERATES = ("truncated-svd", "damped-least-squares-variable")
 """Inverses that decide by the state how much they do."""
@@ -115,7 +115,7 @@ def test_cost_does_not_depend_on_the_arm_where_nothing_iterates(elsewhere, arm):
 
 
 def test_every_controller_of_the_default_suite_can_be_counted():
-    from bench.suites import SUITES
+    from bench.experiments.suites import SUITES
 
     for n, arm in on_arms.ARM_OF.items():
         for one in combinations.on(SUITES["default"].on_arms.words, LAWS, tasks.arm(arm).joints):

@@ -15,10 +15,10 @@ import numpy as np
 import pytest
 from casadi import SX, atan2, cos, sin, sqrt
 
-from bench.contender import Gains, Goal
+from bench.contenders.registry import find_contender
 from bench.counting import OPERATIONS, TOTAL, cost
-from bench.discovery import find_contender
-from bench.so3 import Rotation, from_quaternion
+from bench.law.contender import Gains, Goal
+from bench.law.so3 import Rotation, from_quaternion
 
 COLUMN = {
     casadi.OP_ADD: "add",

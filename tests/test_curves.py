@@ -6,12 +6,13 @@ from bits import different_rows, same_bits
 from driving import recorder, settings
 
 import tasks
-from bench import combinations
-from bench.discovery import find_contender, metrics_of
+from bench.contenders import combinations
+from bench.contenders.registry import find_contender
 from bench.engines import run_arm
 from bench.engines.curve import ARM_NUMBERS, NUMBERS, blank_curves
 from bench.engines.episode import TICKS
 from bench.engines.run import run, run_compiled
+from bench.metrics.registry import metrics_of
 
 LAW, ARM = "feedback-linearized/zyx-euler", "puma560"
 CHOSEN = settings(horizon_s=0.1)

@@ -5,29 +5,29 @@ from pathlib import Path
 import pytest
 
 import bench
+from bench.contenders.registry import all_contenders, known_representations
 from bench.counting.dialect import CONTROLLER_SOURCES, violations
-from bench.discovery import all_contenders, known_representations
-from bench.scalar import KERNELS
+from bench.law.scalar import KERNELS
 
 ROOM = Path(bench.__file__).parent
 FILES = sorted(
     path
     for pattern in (
-        *("regulators/*.py", "representations/*.py", "jacobians/*.py", "inverses/*.py", "linalg/*.py"),
-        *("so3.py", "chain.py", "weighting.py"),
+        *(f"contenders/{kind}/*.py" for kind in ("regulators", "representations", "jacobians", "inverses")),
+        *("law/linalg/*.py", "law/so3.py", "law/chain.py", "law/weighting.py"),
     )
     for path in ROOM.glob(pattern)
     if path.name != "__init__.py"
 )
-CONTROLLERS = [ROOM / "force.py", ROOM / "impedance.py"]
-CONTROLLERS += sorted(path for path in ROOM.glob("impedances/*.py") if path.name != "__init__.py")
+CONTROLLERS = [ROOM / "control" / "hybrid.py", ROOM / "control" / "impedance.py"]
+CONTROLLERS += sorted(path for path in ROOM.glob("contenders/impedances/*.py") if path.name != "__init__.py")
 FUNCTIONS = (*("chart", "chart_of", "to_matrix", "rates", "accelerate", "angular_velocity", "generalized", "margin"),)
 
 LAW = '''"""A law."""
 
-from bench.contender import Regulator
-from bench.scalar import kernel, sin
-from bench.so3 import cross
+from bench.law.contender import Regulator
+from bench.law.scalar import kernel, sin
+from bench.law.so3 import cross
 
 
 def plain(x):
@@ -63,8 +63,8 @@ def test_controller_in_contact_keeps_to_the_dialect(path):
 
 
 def test_package_of_an_allowed_module_is_not_allowed_for_a_law():
-    """bench.linalg may be imported from, all of bench may not; nor may a law import another."""
-    for module in ("bench", "bench.regulators.rotation_matrix"):
+    """bench.law.linalg may be imported from, all of bench may not; nor may a law import another."""
+    for module in ("bench", "bench.law.chain", "bench.contenders.regulators.rotation_matrix"):
         [told] = violations(f"from {module} import law\n{LAW.replace('{statement}', 'pass')}")
         assert told.startswith("line 1: ")
 

@@ -10,14 +10,15 @@ from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation as ScipyRotation
 
 import tasks
-from bench.discovery import find_contender, metrics_of
+from bench.contenders.registry import find_contender
+from bench.contenders.regulators.hybrid import DELTA
 from bench.engines import disturbed, run_disturbed
 from bench.engines.binding import evaluation_of, memory_of, observer
 from bench.engines.episode import FINAL_ANGLE, FIRST_METRIC, OUTCOME, SETTLING_TICK, TICKS, numbers, start_rows
 from bench.engines.run import run as run_untroubled
 from bench.engines.run_disturbed import drawn, run
-from bench.regulators.hybrid import DELTA
-from bench.so3 import Rotation
+from bench.law.so3 import Rotation
+from bench.metrics.registry import metrics_of
 from tasks.base import Start
 from tasks.condition import RATE, UNTOLD, Condition
 from tasks.moving_goal import sway_rates

@@ -7,10 +7,11 @@ import pytest
 from bits import different_rows
 from driving import settings, spread
 
-from bench.discovery import find_contender, metrics_of
+from bench.contenders.registry import find_contender
 from bench.engines import ideal
 from bench.engines import run as engines
 from bench.engines.native import free_body as native
+from bench.metrics.registry import metrics_of
 
 METRICS = metrics_of(on_arm=False)
 ENGINES = ("ideal-rk4", "ideal-held", "native")

@@ -7,10 +7,11 @@ import pytest
 from driving import settings
 
 import tasks
-from bench.discovery import all_contenders, find_contender, metrics_of
+from bench.contenders.registry import all_contenders, find_contender
 from bench.engines.episode import FIRST_METRIC
 from bench.engines.run import run
-from bench.equal_peak import gains_at, greatest_command
+from bench.experiments.equal_peak import gains_at, greatest_command
+from bench.metrics.registry import metrics_of
 
 METRICS = metrics_of(on_arm=False)
 SPRINGS = {

@@ -9,8 +9,8 @@ from exact import EXACT, STEP, exact_matrix
 from scipy.spatial.transform import Rotation as ScipyRotation
 from states import as_rotation, rotations, vector
 
-from bench.discovery import known_representations
-from bench.so3 import Rotation, cross
+from bench.contenders.registry import known_representations
+from bench.law.so3 import Rotation, cross
 
 SEQUENCES = {"zyx-euler": "ZYX", "zyz-euler": "ZYZ", "xyz-euler": "XYZ"}
 DIFFERENTIATED = [one for one in known_representations().values() if one.differentiate is not None]

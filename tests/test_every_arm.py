@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 import tasks
-from tasks.arm import WORD, model_xml
+from tasks.arm import WORD
+from tasks.arm_model import model_xml
 from tasks.base import SENSORS
 from tasks.kinematics import Kinematics
 

@@ -1,4 +1,4 @@
-"""Contracts that every metric in bench/contact_metrics keeps, on every task in contact; a new file is under them."""
+"""Contracts that every metric in bench/metrics/contact keeps, on every task in contact; a new file is under them."""
 
 import functools
 import itertools
@@ -9,14 +9,14 @@ import numpy as np
 import pytest
 
 import tasks
-from bench import contact_metrics
-from bench.compliance import hybrid, springy
-from bench.contact_metric import Pose, response
-from bench.discovery import known_contact_metrics
+from bench.contenders.impedances import coordinates
+from bench.contenders.representations import zyx_euler
+from bench.control.contact_controller import hybrid, springy
 from bench.engines.contact_episode import OUTCOMES, WIDTH, Ended
 from bench.engines.run_contact import run
-from bench.impedances import coordinates
-from bench.representations import zyx_euler
+from bench.metrics import contact
+from bench.metrics.contact_metric import Pose, response
+from bench.metrics.registry import known_contact_metrics
 
 METRICS = list(known_contact_metrics().values())
 EULER = zyx_euler.REPRESENTATION
@@ -72,7 +72,7 @@ def broken_poses() -> list[Pose]:
 
 
 def test_every_file_is_found():
-    files = [one.name.replace("_", "-") for one in pkgutil.iter_modules(contact_metrics.__path__)]
+    files = [one.name.replace("_", "-") for one in pkgutil.iter_modules(contact.__path__)]
     assert [metric.name for metric in METRICS] == sorted(files)
 
 

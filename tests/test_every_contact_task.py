@@ -14,7 +14,7 @@ from in_contact import ARMS
 from scipy.spatial.transform import Rotation
 
 import tasks
-from tasks.arm import model_xml as arm_xml
+from tasks.arm_model import model_xml as arm_xml
 from tasks.base import SENSORS
 from tasks.contact import STANDARD, model_xml, prepare
 

@@ -14,47 +14,39 @@ import pytest
 
 pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
 
-from bench import plan, results, run
-from bench.choice import Choice
-from bench.discovery import find_contender
-from bench.figures import (
-    boundary_map,
-    corners,
-    failure_ball,
-    failure_map,
-    failure_tables,
-    findings,
-    hero,
-    responses,
-    settling_angle,
-    settling_decades,
-    style,
-)
-from bench.figures.share import share
+from bench.contenders.registry import find_contender
+from bench.experiments import plan
+from bench.experiments.choice import Choice
+from bench.running import run
+from bench.tables import read
+from report.figures.failures import boundary_map, corners, failure_ball, failure_map, failure_tables
+from report.figures.kit import style
+from report.figures.kit.share import share
+from report.figures.responses import findings, hero, responses, settling_angle, settling_decades
 
 STARTS = ("uniform", "half-turn", "poles", "wraps", "box", "paper")
 FIGURES = {
     "hero": lambda: hero.hero(ideal()),
-    "response": lambda: responses.response(results.traces(), findings.LINEARIZED, "figure-2.4", 100.0, 20.0),
+    "response": lambda: responses.response(read.traces(), findings.LINEARIZED, "figure-2.4", 100.0, 20.0),
     "settling-angle": lambda: settling_angle.bands(ideal("uniform")),
     "settling-decades": lambda: settling_decades.decades(findings.of(ideal(), findings.MATRIX, "half-turn")),
     "failure-map": lambda: failure_map.world(ideal()),
     "corners": lambda: corners.corners(ideal("uniform"), findings.LINEARIZED),
-    "boundary": lambda: boundary_map.hemispheres(results.boundaries(), findings.LINEARIZED),
-    "boundary-of-a-law-that-never-fails": lambda: boundary_map.hemispheres(results.boundaries(), findings.MATRIX),
+    "boundary": lambda: boundary_map.hemispheres(read.boundaries(), findings.LINEARIZED),
+    "boundary-of-a-law-that-never-fails": lambda: boundary_map.hemispheres(read.boundaries(), findings.MATRIX),
 }
 
 
 @pytest.fixture(scope="module", autouse=True)
 def small_run(tmp_path_factory):
-    """A folder of results, which bench.results reads while this module runs."""
+    """A folder of results, which bench.tables.read reads while this module runs."""
     words = ("rotation-matrix", "linearized-euler/zyx-euler", "feedback-linearized/zyx-euler")
     laws = [find_contender(word) for word in words]
     made = plan.make("quick", laws, Choice(("free-body",), STARTS, ("ideal-rk4", "ideal-held")), count=150)
     folder = tmp_path_factory.mktemp("figures") / "run"
     run.run(dataclasses.replace(made, traces=2, boundary_axes=12), folder)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setenv(results.VARIABLE, str(folder))
+        patch.setenv(read.VARIABLE, str(folder))
         yield folder
 
 
@@ -64,7 +56,7 @@ def drawn(name):
 
 
 def ideal(*start_sets):
-    rows = results.episodes(engine="ideal-rk4")
+    rows = read.episodes(engine="ideal-rk4")
     return rows[rows["start_set"].isin(start_sets)] if start_sets else rows
 
 
@@ -109,13 +101,13 @@ def test_map_keeps_areas():
 
 
 def test_findings_of_every_page_are_numbers():
-    episodes, costs = ideal(), results.costs(branch="typical", stage="total")
-    paper = results.traces(start_set="paper")
+    episodes, costs = ideal(), read.costs(branch="typical", stage="total")
+    paper = read.traces(start_set="paper")
     pages = (
         findings.front(episodes, costs),
         findings.responding(paper, episodes[episodes["start_set"] == "paper"], ("2.3", "2.4", "2.5")),
         findings.settling(episodes),
-        findings.failing(episodes, results.boundaries()),
+        findings.failing(episodes, read.boundaries()),
     )
     for values in pages:
         assert all("nan" not in str(value) for value in values.values()), values
@@ -131,14 +123,14 @@ def test_exact_points_are_where_the_laws_are_known_to_fail():
 
 
 def test_tables_have_a_row_for_each_law():
-    assert len(failure_tables.shares(results.episodes())) == 6
-    assert len(failure_tables.nearest(results.boundaries(), ideal())) == 3
-    assert len(settling_decades.slopes(results.episodes(start_set="half-turn", regulator="rotation-matrix"))) == 2
+    assert len(failure_tables.shares(read.episodes())) == 6
+    assert len(failure_tables.nearest(read.boundaries(), ideal())) == 3
+    assert len(settling_decades.slopes(read.episodes(start_set="half-turn", regulator="rotation-matrix"))) == 2
     assert set(settling_angle.times(ideal("uniform"))["Law"].str.contains("Euler")) == {True, False}
 
 
 def test_response_bends_are_nothing_under_feedback_linearization():
-    bends = responses.bends_deg(results.traces(start_set="paper"), "figure-2.5", 100.0, 20.0).set_index("contender")
+    bends = responses.bends_deg(read.traces(start_set="paper"), "figure-2.5", 100.0, 20.0).set_index("contender")
     assert bends.loc[findings.FEEDBACK, ["alpha", "beta", "gamma"]].max() < 1e-6
 
 

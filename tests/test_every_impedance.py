@@ -14,14 +14,14 @@ from scipy.spatial.transform import Rotation as ScipyRotation
 from springs import STILL, B_at, called, command, free_body, margin
 from states import rotations
 
-from bench.contender import Gains
+from bench.contenders.registry import known_impedances, known_representations
+from bench.control.impedance import law_of
 from bench.counting.costs import counted, values
 from bench.counting.counted import Tally
-from bench.discovery import known_impedances, known_representations
 from bench.engines.compiled import MATRIX, compile_function
-from bench.impedance import law_of
-from bench.scalar import KERNELS
-from bench.so3 import IDENTITY, Rotation
+from bench.law.contender import Gains
+from bench.law.scalar import KERNELS
+from bench.law.so3 import IDENTITY, Rotation
 
 REGULAR = 0.3
 GOALS = list(ScipyRotation.random(12, rng=np.random.default_rng(41)))

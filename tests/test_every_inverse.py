@@ -1,4 +1,4 @@
-"""Contracts that every inverse in bench/inverses keeps; a new file is under them unnamed. Oracle: numpy.linalg."""
+"""Contracts that every inverse in bench/contenders/inverses keeps; a new file is under them. Oracle: numpy.linalg."""
 
 from pathlib import Path
 
@@ -9,10 +9,10 @@ from bits import same_bits
 from buffers import as_counted, buffer, scratch
 from inverting import FACTORED, SHAPES, A, accepted, anything, inertia, resolved, well_conditioned
 
+from bench.contenders.registry import known_inverses
 from bench.counting.dialect import violations
-from bench.discovery import known_inverses
 from bench.engines.compiled import JIT, register_kernels
-from bench.scalar import KERNELS
+from bench.law.scalar import KERNELS
 
 EVERY = known_inverses().values()
 ACCELERATIONS, TORQUES = ([one for one in EVERY if one.gives == what] for what in ("acceleration", "torque"))

@@ -1,4 +1,4 @@
-"""Contracts that every Jacobian in bench/jacobians keeps, in every representation; a new file is under them unnamed."""
+"""Contracts that every Jacobian in bench/contenders/jacobians keeps in all representations; a new one is under them."""
 
 import functools
 from pathlib import Path
@@ -11,10 +11,10 @@ from buffers import poses
 from filling import AWAY, EVERY, ON_COORDINATES, ON_OMEGA, PAIRS, ROUNDING, converted, filled, named, rows_of
 from states import rotations
 
-from bench.chain import bias_acceleration
 from bench.counting.dialect import violations
 from bench.engines.compiled import JIT, register_kernels
-from bench.scalar import KERNELS
+from bench.law.chain import bias_acceleration
+from bench.law.scalar import KERNELS
 
 
 def chains(n):

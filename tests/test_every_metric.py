@@ -1,4 +1,4 @@
-"""Contracts that every metric in bench/metrics keeps; a new file is under them without being named here."""
+"""Contracts that every metric in bench/metrics/motion keeps; a new file is under them without being named here."""
 
 import functools
 import math
@@ -10,14 +10,15 @@ from driving import NO_EARLY_STOP, settings, spread
 from on_arms import named
 
 import tasks
-from bench.discovery import find_contender, metrics_of
+from bench.contenders.registry import find_contender
 from bench.engines import run_arm
 from bench.engines.arm_episode import ArmSample
 from bench.engines.compiled import MATRIX, compile_function
 from bench.engines.episode import FINAL_ANGLE, FIRST_METRIC, OUTCOME, Sample
 from bench.engines.run import run
-from bench.metric import Ending
-from bench.so3 import Rotation
+from bench.law.so3 import Rotation
+from bench.metrics.metric import Ending
+from bench.metrics.registry import metrics_of
 from tasks.verdict import OUTCOMES, SETTLED
 
 METRICS, ON_ARM = metrics_of(on_arm=False), metrics_of(on_arm=True)

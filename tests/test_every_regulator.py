@@ -13,13 +13,15 @@ from scipy.spatial.transform import Rotation as ScipyRotation
 from states import as_rotation, rotations, vector
 
 import tasks
-from bench.contender import AT_REST, Gains, Goal
-from bench.discovery import TRIAL, all_contenders, metrics_of
+from bench.contenders.law_file import TRIAL
+from bench.contenders.registry import all_contenders
 from bench.engines.binding import command_of, evaluation_of, margin_of, memory_of
 from bench.engines.compiled import EVALUATE, FOUR, MATRIX, compile_function
 from bench.engines.episode import OUTCOME, SETTLING_TICK, TICKS
 from bench.engines.run import evaluation, run
-from bench.so3 import IDENTITY, Rotation
+from bench.law.contender import AT_REST, Gains, Goal
+from bench.law.so3 import IDENTITY, Rotation
+from bench.metrics.registry import metrics_of
 from tasks.base import Start
 from tasks.rotations import about
 from tasks.verdict import DIVERGED, OUTCOMES, SATURATED, SETTLED, SINGULAR

@@ -10,12 +10,12 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation as Oracle
 
-from bench.contender import AT_REST, NO_MEMORY, Gains, Goal
+from bench.contenders.registry import all_contenders, known_representations
 from bench.counting import OPERATIONS, STAGES, TOTAL, Counted, Tally, cost, flops, rows
 from bench.counting.costs import counted
 from bench.counting.staged import STAGE_OF, law_of, staged
-from bench.discovery import all_contenders, known_representations
-from bench.so3 import Rotation
+from bench.law.contender import AT_REST, NO_MEMORY, Gains, Goal
+from bench.law.so3 import Rotation
 
 CONTENDERS = all_contenders()
 SEED = 20260712

@@ -14,7 +14,7 @@ SETTINGS = {
 
 STARTS = """
 import json, tasks
-from bench.pose_sets import poses
+from bench.experiments.pose_sets import poses
 
 found = {}
 for name in ("wrist", "pole", "tumbling"):

@@ -7,8 +7,8 @@ import pytest
 
 pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
 
-from bench.figures import html, style
-from bench.figures.inline import Picture, picture, responsive_picture
+from report.figures.kit import html, style
+from report.figures.kit.inline import Picture, picture, responsive_picture
 
 
 @picture

@@ -10,10 +10,11 @@ import pytest
 pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
 
 import tasks
-from bench import poses
-from bench.claims.arm_probes import controller
 from bench.counting import rows_on_arm
-from bench.figures import (
+from bench.experiments import poses
+from bench.findings.claims.arm_probes import controller
+from bench.tables.read import with_contender
+from report.figures.arms import (
     arm_times,
     condition_growth,
     condition_maps,
@@ -22,9 +23,8 @@ from bench.figures import (
     derivations,
     inverse_costs,
     named_poses,
-    style,
 )
-from bench.results import with_contender
+from report.figures.kit import style
 
 ARMS = ("puma560", "panda")
 WORDS = {
@@ -53,7 +53,7 @@ def counted():
     frames = [pd.DataFrame(rows_on_arm(controller(word), n)) for n, words in WORDS.items() for word in words]
     with pytest.MonkeyPatch.context() as patch:
         table = with_contender(pd.concat(frames, ignore_index=True))
-        patch.setattr("bench.results.costs", lambda **_: table[table["branch"] == "typical"])
+        patch.setattr("bench.tables.read.costs", lambda **_: table[table["branch"] == "typical"])
         return controller_costs.counted()
 
 
@@ -161,7 +161,7 @@ def test_damping_costs_more_than_the_inverse(counted):
 
 
 def test_times_say_so_where_none_were_measured(monkeypatch, tmp_path):
-    monkeypatch.setattr("bench.figures.times.FOLDER", tmp_path)
+    monkeypatch.setattr("report.figures.cost.times.FOLDER", tmp_path)
     none = arm_times.rows()
     assert "make time" in arm_times.ratios(none).alt
     assert "make time" in arm_times.table(none)

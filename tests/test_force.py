@@ -27,12 +27,12 @@ from scipy.spatial.transform import Rotation as ScipyRotation
 from states import as_rotation, rotations
 
 import tasks
-from bench.compliance import FORMS, hybrid
-from bench.discovery import known_representations
-from bench.force import TOUCH as TOUCHING
-from bench.force import axes_of
-from bench.impedance import law_of
-from bench.so3 import IDENTITY
+from bench.contenders.registry import known_representations
+from bench.control.contact_controller import FORMS, hybrid
+from bench.control.hybrid import TOUCH as TOUCHING
+from bench.control.hybrid import axes_of
+from bench.control.impedance import law_of
+from bench.law.so3 import IDENTITY
 from tasks.contact import Order
 
 INERTIA = np.array([TOUCH.m_p] * 3 + [TOUCH.m_o] * 3)
@@ -352,7 +352,7 @@ def test_coordinates_are_the_base_frames_at_their_origin(representation, arm, fo
 
 @over_arms
 def test_apparent_inertias_are_above_half_of_the_hands_own_at_home(arm):
-    """Below that a cancelled force that comes a tick late would destabilize a contact (bench.force.TOUCH)."""
+    """Below that a cancelled force that comes a tick late would destabilize a contact (bench.control.hybrid.TOUCH)."""
     at = hand(arm, tasks.arm(arm).home, np.zeros(6), ScipyRotation.identity(), np.zeros(6))
     mobility = at.J @ np.linalg.solve(at.D, at.J.T)
     assert 0.5 / np.linalg.eigvalsh(mobility[:3, :3]).min() < TOUCHING.m_p

@@ -11,17 +11,18 @@ import pyarrow.parquet as pq
 import pytest
 from command_line import TINY, bench, digest, refused, refused_run
 
-from bench import results, store
-from bench.answer.tables import tables_of
-from bench.claims.tables import Results
 from bench.errors import BadResults
-from bench.figures import cards, origin
-from bench.schema import RESULTS
+from bench.findings.claims.tables import Results
+from bench.findings.selection.tables import tables_of
+from bench.tables import read, store
+from bench.tables.schema import RESULTS
+from report.figures.cards import cards
+from report.figures.method import origin
 
 EVIL = """
 from pathlib import Path
 Path({marker!r}).write_text("ran")
-from bench.contender import Regulator
+from bench.law.contender import Regulator
 REGULATOR = Regulator("evil-law", "Evil <b>law</b>", "s", "f", lambda R, omega, goal, gains: (0.0, 0.0, 0.0))
 # </pre><script>alert(1)</script>
 """
@@ -58,12 +59,12 @@ def evil(renamed, tmp_path, marker, monkeypatch):
     folder = shutil.copytree(renamed, tmp_path / "evil")
     (folder / "laws").mkdir()
     (folder / "laws" / "evil_law.py").write_text(EVIL.format(marker=str(marker)))
-    monkeypatch.setenv(results.VARIABLE, str(folder))
+    monkeypatch.setenv(read.VARIABLE, str(folder))
     return folder
 
 
 def test_law_from_elsewhere_is_shown_as_text_and_not_run(evil, marker):
-    [own] = results.own_laws()
+    [own] = read.own_laws()
     shown = "".join(cards.parts(own))
     assert (own.name, own.law, marker.exists()) == ("evil-law", None, False)
     assert "was not run" in shown
@@ -87,12 +88,12 @@ def test_answer_from_their_results_runs_no_law_of_theirs(evil, marker):
 def test_law_runs_once_its_text_is_trusted_and_not_when_a_sign_changes(capsys, evil, marker):
     path = evil / "laws" / "evil_law.py"
     assert bench(capsys, "trust", path).code == 0
-    [own] = results.own_laws()
+    [own] = read.own_laws()
     assert own.title == "Evil <b>law</b>"
     assert marker.exists()
     marker.unlink()
     path.write_text(path.read_text() + "#")
-    [own] = results.own_laws()
+    [own] = read.own_laws()
     assert (own.title, marker.exists()) == ("evil-law", False)
 
 
@@ -104,14 +105,14 @@ def test_trust_in_a_file_that_is_not_there_is_refused(capsys, tmp_path):
 def test_law_file_of_an_odd_name_is_refused(evil, name):
     (evil / "laws" / name).write_text("")
     with pytest.raises(BadResults, match="named by a word"):
-        results.own_laws()
+        read.own_laws()
 
 
 def test_law_that_leads_outside_is_refused(evil, tmp_path):
     (tmp_path / "secret").write_text("secret")
     (evil / "laws" / "secret.py").symlink_to(tmp_path / "secret")
     with pytest.raises(BadResults, match="it is a link"):
-        results.own_laws()
+        read.own_laws()
 
 
 @pytest.mark.parametrize("name", ["episodes.parquet", "provenance.json"])

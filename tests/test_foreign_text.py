@@ -13,11 +13,13 @@ import pandas as pd
 from docutils.core import publish_string
 from myst_parser.parsers.docutils_ import Parser
 
-from bench import results
-from bench.contender import Regulator
-from bench.discovery import contenders_of
-from bench.figures import cards, html, origin
-from bench.schema import RESULTS
+from bench.contenders.registry import contenders_of
+from bench.law.contender import Regulator
+from bench.tables import read
+from bench.tables.schema import RESULTS
+from report.figures.cards import cards
+from report.figures.kit import html
+from report.figures.method import origin
 
 ENABLED = ["amsmath", "attrs_block", "attrs_inline", "colon_fence", "deflist", "dollarmath"]
 PAYLOADS = (
@@ -110,7 +112,7 @@ def test_provenance_from_elsewhere_is_shown_as_it_is(monkeypatch, text):
     versions = dict.fromkeys(usual["versions"], text)
     pages = []
     for said in (usual | dict.fromkeys(names, "word"), usual | dict.fromkeys(names, text) | {"versions": versions}):
-        monkeypatch.setattr(results, "provenance", lambda said=said: said)
+        monkeypatch.setattr(read, "provenance", lambda said=said: said)
         pages.append(rendered(origin.run()))
     word, given = pages
     assert live(given) == live(word)

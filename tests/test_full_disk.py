@@ -4,11 +4,12 @@ import pytest
 from command_line import digest
 from small_disk import KILOBYTES, NoDisk, fill, mounted
 
-from bench import finish, run, store
-from bench import plan as planning
-from bench.choice import Choice
-from bench.discovery import find_contender
+from bench.contenders.registry import find_contender
 from bench.errors import BadResults
+from bench.experiments import plan as planning
+from bench.experiments.choice import Choice
+from bench.running import finish, run
+from bench.tables import store
 
 
 @pytest.fixture(scope="module")

@@ -11,8 +11,8 @@ from pathlib import Path
 import pytest
 from command_line import digest
 
-from bench import store
-from bench.discovery import known_regulators
+from bench.contenders.registry import known_regulators
+from bench.tables import store
 
 ROOT = Path(__file__).parents[1]
 
@@ -21,18 +21,18 @@ INDEX = "# A book of one page\n\nIt cites {cite}`murphy1988`.\n"
 CONTENTS = "format: jb-book\nroot: index\nchapters:\n- glob: pages/*\n"
 
 DROPPED = {
-    "bench/representations/dropped_coordinates.py": '''
+    "bench/contenders/representations/dropped_coordinates.py": '''
 """Z-Y-X angles by another name."""
 
-from bench.representations import zyx_euler
+from bench.contenders.representations import zyx_euler
 
 REPRESENTATION = zyx_euler.REPRESENTATION._replace(name="dropped-coordinates", title="Dropped coordinates")
 ''',
-    "bench/regulators/dropped_regulator.py": '''
+    "bench/contenders/regulators/dropped_regulator.py": '''
 """Damping, and a spring on the first coordinate."""
 
-from bench.contender import Regulator
-from bench.scalar import kernel
+from bench.law.contender import Regulator
+from bench.law.scalar import kernel
 
 
 def law_in(representation):
@@ -58,11 +58,11 @@ REGULATOR = Regulator(
     property="none",
 )
 ''',
-    "bench/metrics/dropped_metric.py": '''
+    "bench/metrics/motion/dropped_metric.py": '''
 """Ticks with a command: all of them."""
 
-from bench.metric import Metric
-from bench.scalar import kernel
+from bench.metrics.metric import Metric
+from bench.law.scalar import kernel
 
 
 @kernel
@@ -78,31 +78,31 @@ def finish(value, ending):
 
 METRIC = Metric("dropped-metric", "dropped_column", "1", "ticks with a command", 0.0, update, finish)
 ''',
-    "bench/jacobians/dropped_jacobian.py": '''
+    "bench/contenders/jacobians/dropped_jacobian.py": '''
 """The geometric Jacobian by another name."""
 
-from bench.jacobians import geometric
+from bench.contenders.jacobians import geometric
 
 JACOBIAN = geometric.JACOBIAN._replace(name="dropped-jacobian", title="Dropped Jacobian")
 ''',
-    "bench/inverses/dropped_inverse.py": '''
+    "bench/contenders/inverses/dropped_inverse.py": '''
 """The inverse by another name."""
 
-from bench.inverses import solve
+from bench.contenders.inverses import solve
 
 INVERSE = solve.INVERSE._replace(name="dropped-inverse", title="Dropped inverse")
 ''',
-    "bench/impedances/dropped_impedance.py": '''
+    "bench/contenders/impedances/dropped_impedance.py": '''
 """The spring on the columns of R by another name."""
 
-from bench.impedances import geometric
+from bench.contenders.impedances import geometric
 
 IMPEDANCE = geometric.IMPEDANCE._replace(name="dropped-impedance", title="Dropped impedance")
 ''',
-    "bench/contact_metrics/dropped_touch.py": '''
+    "bench/metrics/contact/dropped_touch.py": '''
 """Ticks recorded: all of them."""
 
-from bench.contact_metric import ContactMetric
+from bench.metrics.contact_metric import ContactMetric
 
 
 def measure(pose):
@@ -212,8 +212,8 @@ kernelspec: {name: python3, display_name: Python 3}
 # The dropped page
 
 ```{code-cell} python
-from bench import results
-print("rows with the dropped column:", results.episodes(task="dropped-task")["dropped_column"].count())
+from bench.tables import read
+print("rows with the dropped column:", read.episodes(task="dropped-task")["dropped_column"].count())
 ```
 """,
 }
@@ -245,7 +245,7 @@ def tree(tmp_path_factory):
     for room in ("bench", "tasks", "report"):
         shutil.copytree(ROOT / room, tree / room, ignore=ignored)
     for name in known_regulators().keys() - {"rotation-matrix", "feedback-linearized"}:
-        (tree / "bench" / "regulators" / f"{name.replace('-', '_')}.py").unlink()
+        (tree / "bench" / "contenders" / "regulators" / f"{name.replace('-', '_')}.py").unlink()
     (tree / "report" / "pages").mkdir()
     for name in ("pyproject.toml", "CITATION.cff", "report/pages/99-references.md"):
         shutil.copy(ROOT / name, tree / name)

@@ -11,13 +11,15 @@ import pytest
 from breaking_laws import LAW, plan_of, plan_of_laws
 from command_line import bench, refused
 
-from bench import apart, finish, guard, run, store
-from bench import plan as planning
-from bench.choice import Choice
-from bench.chunk import described
 from bench.cli import options
-from bench.discovery import contenders_of, load_law
+from bench.contenders.law_file import load_law
+from bench.contenders.registry import contenders_of
 from bench.errors import BadLaw
+from bench.experiments import plan as planning
+from bench.experiments.choice import Choice
+from bench.running import finish, run, sandbox, sandbox_process
+from bench.running.wire_format import described
+from bench.tables import store
 
 LIMIT_S = 1.0
 
@@ -90,7 +92,7 @@ def test_bench_shows_crashed_and_hung_where_there_are_any(capsys, broken, engine
 
 
 def test_unit_gives_up_after_some_lost_episodes(tmp_path, monkeypatch):
-    monkeypatch.setattr(guard, "MOST_LOST", 1)
+    monkeypatch.setattr(sandbox, "MOST_LOST", 1)
     plan = plan_of(tmp_path, "if R.n[0] < 2.0 and omega[0] == 0.0: os._exit(3)", engine="reference")
     run.run(plan, tmp_path / "run", workers=1, law_limit_s=LIMIT_S)
     assert rows_by_law(tmp_path / "run")["mine"]["outcome"].tolist() == ["crashed"] * 4
@@ -113,7 +115,7 @@ def test_process_of_a_law_ends_with_the_run(tmp_path):
         import os, sys
         from pathlib import Path
         from breaking_laws import plan_of
-        from bench import guard
+        from bench.running import sandbox as guard
         plan = plan_of(Path(sys.argv[1]), "while abs(R.n[0] - 0.36) > 1e-3: x = x + 1e-9", engine="reference")
         class Told(guard._Process):
             def _say(self, said, longest_s):
@@ -145,14 +147,14 @@ def test_limit_must_be_positive(capsys, tmp_path):
 
 def test_mistake_in_a_law_names_the_users_file(tmp_path):
     plan = plan_of(tmp_path, "x = float(str(x))", engine="ideal-rk4")
-    with guard.Guard(plan) as kept, pytest.raises(BadLaw, match=f"--law {tmp_path / 'mine.py'}: the law cannot be"):
+    with sandbox.Guard(plan) as kept, pytest.raises(BadLaw, match=f"--law {tmp_path / 'mine.py'}: the law cannot be"):
         kept.check()
 
 
 def test_answer_of_the_process_is_the_rows_that_a_thread_makes(tmp_path):
     plan = plan_of(tmp_path, "pass", engine="ideal-rk4")
     unit = next(one for one in plan.units if one.contender == "mine")
-    content = apart.answer(plan, {"what": "rows", "key": unit.key, "first": 1, "count": 2})
-    assert content[:1] == apart.DONE
-    assert apart.unpacked(content[1:]).column("start_id").to_pylist() == ["uniform-00001", "uniform-00002"]
+    content = sandbox_process.answer(plan, {"what": "rows", "key": unit.key, "first": 1, "count": 2})
+    assert content[:1] == sandbox_process.DONE
+    assert sandbox_process.unpacked(content[1:]).column("start_id").to_pylist() == ["uniform-00001", "uniform-00002"]
     assert described(plan, [unit])["laws"]

@@ -10,12 +10,12 @@ from builds import line
 from command_line import bench, refused
 
 from bench.errors import BadResults
-from bench.history import book
-from bench.history.line import Commit, Line, from_json, of_comparison, to_json
-from bench.history.series import FLOPS, INSTRUCTIONS, TIME, series
-from bench.history.steps import BUILDS, steps
 from bench.provenance import ROOT
-from bench.regress import comparison
+from bench.regression.history import book
+from bench.regression.history.line import Commit, Line, from_json, of_comparison, to_json
+from bench.regression.history.series import FLOPS, INSTRUCTIONS, TIME, series
+from bench.regression.history.steps import BUILDS, steps
+from bench.regression.revisions import comparison
 
 GOOD = line(1, time=2.5, instructions=100.0, flops=45, mul=20)
 

@@ -6,8 +6,8 @@ pytest.importorskip("matplotlib", reason="the report extra is not installed (cur
 
 from builds import line
 
-from bench.figures import history_chart, history_rows, history_said
-from bench.history import book
+from bench.regression.history import book
+from report.figures.tool import history_chart, history_rows, history_said
 
 
 @pytest.fixture

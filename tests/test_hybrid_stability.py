@@ -7,9 +7,19 @@ import numpy as np
 import pytest
 
 import tasks
-from bench.contender import PAPERS_GAINS
-from bench.hybrid_stability import ORIGINAL, PROJECTED, Pose, eigenvalues, even, growth, poses, tuned, unstable_share
-from tasks.arm import model_xml
+from bench.findings.theory.hybrid_stability import (
+    ORIGINAL,
+    PROJECTED,
+    Pose,
+    eigenvalues,
+    even,
+    growth,
+    poses,
+    tuned,
+    unstable_share,
+)
+from bench.law.contender import PAPERS_GAINS
+from tasks.arm_model import model_xml
 
 ARMS = [name for name in tasks.arm_names() if tasks.arm(name).joints == 6]
 SELECTIONS = [held for held in itertools.product((0, 1), repeat=6) if any(held)]

@@ -13,11 +13,12 @@ from scipy.spatial.transform import Rotation as ScipyRotation
 from states import as_rotation, matrix, vector
 
 import tasks
-from bench.discovery import find_contender, metrics_of
+from bench.contenders.registry import find_contender
 from bench.engines import ideal
 from bench.engines.curve import NUMBERS, blank_curves
 from bench.engines.episode import FIRST_METRIC, OUTCOME, SETTLING_TICK
 from bench.engines.run import run, run_compiled
+from bench.metrics.registry import metrics_of
 from tasks.base import Start
 from tasks.rotations import short_of_half_turn, zyx
 from tasks.verdict import SETTLED

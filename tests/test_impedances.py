@@ -8,7 +8,7 @@ from scipy.integrate import simpson
 from scipy.spatial.transform import Rotation as ScipyRotation
 from springs import STILL, B_at, columns, command, free_body, margin, of, seen
 
-from bench.impedance import law_of
+from bench.control.impedance import law_of
 
 HALF_TURN = np.pi
 SPRING_OF = {

@@ -13,14 +13,15 @@ from scipy.spatial.transform import Rotation as ScipyRotation
 from states import as_rotation, vector
 
 import tasks
-from bench.choice import Choice
-from bench.contender import Gains, Goal
-from bench.discovery import find_contender, metrics_of
+from bench.contenders.registry import find_contender
 from bench.engines.episode import OUTCOME, SETTLING_TICK
 from bench.engines.run import run
 from bench.errors import Incompatible
-from bench.plan import make
-from bench.suites import SUITES
+from bench.experiments.choice import Choice
+from bench.experiments.plan import make
+from bench.experiments.suites import SUITES
+from bench.law.contender import Gains, Goal
+from bench.metrics.registry import metrics_of
 from tasks.base import BadValue, Start
 from tasks.rotations import about
 from tasks.verdict import SETTLED
@@ -214,7 +215,8 @@ def test_arm_has_no_such_actuator():
 
 def test_page_says_how_far_it_is_from_the_linear_response_and_dashes_where_it_was_not_run():
     pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
-    from bench.figures import comparison_in_engine, html
+    from report.figures.comparison import comparison_in_engine
+    from report.figures.kit import html
 
     usual = {"contender": "in-engine", "kp": 100.0, "kv": 20.0, "tolerance": 0.02, "outcome": "settled"}
     linear = brentq(lambda t: angle_left(t) - 0.02, 0.1, 2.0)

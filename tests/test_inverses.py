@@ -7,12 +7,12 @@ from bits import EPS
 from inverting import FACTORED, A, accepted, anything, inertia, resolved, well_conditioned
 
 import tasks
-from bench import linalg
-from bench.discovery import inverse
-from bench.inverses.damped_least_squares import DAMPING
-from bench.inverses.damped_least_squares_variable import EPSILON, MAX_DAMPING_SQUARED, least_eigenvalue
-from bench.inverses.truncated_svd import TOLERANCE
-from bench.weighting import GREATEST_GAIN, LENGTH
+from bench.contenders.inverses.damped_least_squares import DAMPING
+from bench.contenders.inverses.damped_least_squares_variable import EPSILON, MAX_DAMPING_SQUARED, least_eigenvalue
+from bench.contenders.inverses.truncated_svd import TOLERANCE
+from bench.contenders.registry import inverse
+from bench.law import linalg
+from bench.law.weighting import GREATEST_GAIN, LENGTH
 
 
 def weighed(J):

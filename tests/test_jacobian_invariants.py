@@ -7,8 +7,8 @@ from buffers import buffer, poses, scratch, serial_arm
 from filling import AWAY, ON_COORDINATES, ROUNDING, converted, filled, named, rows_of
 from states import as_rotation
 
-from bench.chain import bias_acceleration, twist
-from bench.discovery import inverse, jacobian, known_representations, representation
+from bench.contenders.registry import inverse, jacobian, known_representations, representation
+from bench.law.chain import bias_acceleration, twist
 from tasks.rotations import columns
 
 A = np.array([1.0, -2.0, 0.5, 0.3, 1.5, -0.7])

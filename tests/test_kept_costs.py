@@ -2,9 +2,10 @@
 
 import pytest
 
-from bench import counting, kept_costs
-from bench.discovery import find_contender
-from bench.kept_costs import of_controller, of_law
+from bench import counting
+from bench.contenders.registry import find_contender
+from bench.tables import kept_costs
+from bench.tables.kept_costs import of_controller, of_law
 
 LAW = find_contender("mrp")
 

@@ -10,11 +10,12 @@ from scipy.spatial.transform import Rotation as ScipyRotation
 from states import as_rotation, vector
 
 import tasks
-from bench.contender import AT_REST, Gains, Goal
-from bench.discovery import find_contender, metrics_of
+from bench.contenders.registry import find_contender
+from bench.contenders.regulators.late_braking import EASED, law
 from bench.engines.episode import OUTCOME, SETTLING_TICK
 from bench.engines.run_disturbed import run
-from bench.regulators.late_braking import EASED, law
+from bench.law.contender import AT_REST, Gains, Goal
+from bench.metrics.registry import metrics_of
 from tasks.condition import Condition
 from tasks.rules import RULES
 from tasks.verdict import SETTLED

@@ -9,8 +9,8 @@ from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation as ScipyRotation
 from states import as_rotation, vector
 
-from bench.contender import AT_REST, Gains, Goal
-from bench.discovery import find_contender, known_regulators
+from bench.contenders.registry import find_contender, known_regulators
+from bench.law.contender import AT_REST, Gains, Goal
 
 GAINS = Gains(kp=100.0, kv=20.0)
 

@@ -8,14 +8,14 @@ import pytest
 from bits import EPS
 from scipy.spatial.transform import Rotation as ScipyRotation
 
-from bench.figures import libraries_digits, libraries_rows, libraries_said, libraries_tables
-from bench.libraries import turns
-from bench.libraries.__main__ import FOLDER, rows
-from bench.libraries.forms import FORMS
-from bench.libraries.found import find, version_of
-from bench.libraries.judge import KINDS, judge
-from bench.libraries.library import MATRIX, QUATERNION, Function, Library
-from bench.store import read, read_json
+from bench.studies.libraries import turns
+from bench.studies.libraries.__main__ import FOLDER, rows
+from bench.studies.libraries.forms import FORMS
+from bench.studies.libraries.found import find, version_of
+from bench.studies.libraries.judge import KINDS, judge
+from bench.studies.libraries.library import MATRIX, QUATERNION, Function, Library
+from bench.tables.store import read, read_json
+from report.figures.libraries import libraries_digits, libraries_rows, libraries_said, libraries_tables
 
 SOME = turns.drawn()._replace(turns=turns.drawn().turns[:50])
 HALF_TURNS = turns.half_turns()

@@ -10,9 +10,9 @@ from bits import EPS, same_bits
 from buffers import as_counted, as_floats, buffer, matrices, symmetric
 from sympy.combinatorics import Permutation
 
-from bench import linalg
 from bench.engines.compiled import JIT, register_kernels
-from bench.linalg.rotations import SWEEPS
+from bench.law import linalg
+from bench.law.linalg.rotations import SWEEPS
 
 SHAPES = [(6, 6), (6, 7), (7, 6), (7, 7), (3, 5), (2, 2), (1, 1)]
 SQUARES = [3, 4, 5, 6, 7]

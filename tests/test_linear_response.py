@@ -6,9 +6,10 @@ from driving import settings
 from scipy.spatial.transform import Rotation as ScipyRotation
 from states import as_rotation
 
-from bench.discovery import contenders_of, known_regulators, metrics_of
+from bench.contenders.registry import contenders_of, known_regulators
 from bench.engines.curve import NUMBERS, blank_curves
 from bench.engines.run import run_compiled
+from bench.metrics.registry import metrics_of
 from tasks.base import Start
 from tasks.rotations import zyx
 

@@ -10,12 +10,12 @@ from pathlib import Path
 import pytest
 from command_line import TINY, bench, digest, refused
 
-from bench import lock
+from bench.tables import lock
 
 RUN = ("run", *TINY, "--engine", "reference")
 HOLD = """
 import pathlib, sys
-from bench import lock
+from bench.tables import lock
 with lock.held(pathlib.Path(sys.argv[1])):
     print("held", flush=True)
     sys.stdin.read()
@@ -64,7 +64,7 @@ def test_folder_that_cannot_be_locked_is_used_and_said_so(finished, monkeypatch,
 def test_refused_run_leaves_no_empty_folder(capsys, tmp_path):
     law = tmp_path / "own.py"
     law.write_text(
-        "from bench.contender import Regulator\nfrom bench.scalar import kernel\n@kernel\n"
+        "from bench.law.contender import Regulator\nfrom bench.law.scalar import kernel\n@kernel\n"
         "def law(R, omega, goal, gains):\n    return (float(str(omega[0])), 0.0, 0.0)\n"
         'REGULATOR = Regulator("mine", "Mine", "none", "u", law)\n'
     )

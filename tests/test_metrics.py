@@ -9,10 +9,11 @@ from bits import EPS
 from driving import recorder, settings
 
 import tasks
-from bench.discovery import find_contender, metrics_of
+from bench.contenders.registry import find_contender
 from bench.engines.episode import FINAL_ANGLE, FIRST_METRIC, OUTCOME
 from bench.engines.run import run
-from bench.metric import Ending
+from bench.metrics.metric import Ending
+from bench.metrics.registry import metrics_of
 from tasks.base import Start, angle
 from tasks.rotations import zyx
 from tasks.rules import RULES

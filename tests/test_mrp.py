@@ -9,8 +9,8 @@ from scipy.spatial.transform import Rotation as ScipyRotation
 from states import as_rotation, rotations, vector
 
 import tasks
-from bench.contender import Gains, Goal
-from bench.discovery import find_contender, representation
+from bench.contenders.registry import find_contender, representation
+from bench.law.contender import Gains, Goal
 from tasks.rotations import columns
 
 MRP = representation("mrp")

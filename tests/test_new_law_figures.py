@@ -10,10 +10,11 @@ pytest.importorskip("matplotlib", reason="the report extra is not installed (cur
 
 from scipy.integrate import quad
 
-from bench.contender import Gains
-from bench.figures import absent, new_law, new_law_tables
-from bench.figures.comparison_peak import LEVEL
-from bench.figures.isotropic import ANGLE, LATE, SLIDING
+from bench.findings.theory.isotropic import ANGLE, LATE, SLIDING
+from bench.law.contender import Gains
+from report.figures.comparison import new_law, new_law_tables
+from report.figures.comparison.comparison_peak import LEVEL
+from report.figures.kit import absent
 
 KP, KV = Gains()
 

@@ -9,12 +9,14 @@ from bits import different_rows
 from command_line import bench
 from driving import settings, spread
 
-from bench import results, store
-from bench.discovery import contenders_of, load_law, metrics_of
+from bench.contenders.law_file import load_law
+from bench.contenders.registry import contenders_of
 from bench.engines.episode import FAILURE_TICK, OUTCOME
 from bench.engines.run import run
-from bench.figures import cards
-from bench.suites import ENGINES
+from bench.experiments.suites import ENGINES
+from bench.metrics.registry import metrics_of
+from bench.tables import read, store
+from report.figures.cards import cards
 from tasks.base import Start
 from tasks.verdict import CRASHED, SINGULAR
 
@@ -24,8 +26,8 @@ METRICS = metrics_of(on_arm=False)
 
 LAW = """
 import math
-from bench.contender import Regulator
-from bench.scalar import kernel
+from bench.law.contender import Regulator
+from bench.law.scalar import kernel
 
 @kernel
 def law(R, omega, goal, gains{memory}):
@@ -157,8 +159,8 @@ def test_run_keeps_a_law_of_ones_own_and_the_report_shows_it(tmp_path, monkeypat
     assert bench(capsys, "run", "--law", path, *words).code == 0
     assert (out / "laws" / "my_law.py").read_text() == EXAMPLE
     path.unlink()
-    monkeypatch.setenv(results.VARIABLE, str(out))
-    [own] = results.own_laws()
+    monkeypatch.setenv(read.VARIABLE, str(out))
+    [own] = read.own_laws()
     assert own.name == "my-law"
     assert cards.in_order()[-1].name == "my-law"
     text = cards.source(own)

@@ -9,9 +9,9 @@ from exact import EXACT, exact_B, motion, solved
 from scipy.spatial.transform import Rotation as ScipyRotation
 from states import as_rotation, axis_permuting, rotations, vector
 
-from bench.contender import AT_REST, Gains, Goal
-from bench.discovery import find_contender
-from bench.so3 import IDENTITY
+from bench.contenders.registry import find_contender
+from bench.law.contender import AT_REST, Gains, Goal
+from bench.law.so3 import IDENTITY
 
 GAINS = Gains(kp=100.0, kv=20.0)
 REGULAR = 0.05  # margin above which B^-1 is at most 20 times larger than 1

@@ -7,20 +7,20 @@ from command_line import bench, refused
 from on_arms import ARMS, LAWS
 
 import tasks
-from bench import combinations
-from bench import plan as planning
-from bench.choice import Choice
-from bench.contender import refusal
-from bench.discovery import find_contender, known_inverses, known_jacobians
+from bench.contenders import combinations
+from bench.contenders.registry import find_contender, known_inverses, known_jacobians
 from bench.errors import Incompatible
-from bench.suites import NOMINAL, SUITES
+from bench.experiments import plan as planning
+from bench.experiments.choice import Choice
+from bench.experiments.suites import NOMINAL, SUITES
+from bench.law.contender import refusal
 
 ON_BOTH = ("ur5e", "panda")  # six joints and seven: nothing else of an arm decides what goes together
 SHORT = ("run", "--dry-run", "--suite", "quick", "--task", "arm-regulation", "--starts", "clear", "--count", "2")
 
 OWN = """
-from bench.contender import Regulator
-from bench.scalar import kernel
+from bench.law.contender import Regulator
+from bench.law.scalar import kernel
 
 @kernel
 def law(R, omega, goal, gains):
@@ -150,7 +150,7 @@ def test_users_law_on_R_takes_no_analytic_jacobian(capsys, own):
 
 
 def test_users_law_runs_on_an_arm(capsys, own, tmp_path):
-    from bench import store
+    from bench.tables import store
 
     out = tmp_path / "out"
     words = ("--suite", "quick", "--arm", "ur5e", "--starts", "clear", "--count", "2", "--horizon", "0.05")

@@ -10,11 +10,13 @@ from bits import EPS
 from scipy.spatial.transform import Rotation as Turn
 
 import tasks
-from bench import compare, plan, poses, schema
-from bench.compare import difference
-from bench.discovery import find_contender, known_representations
-from bench.pose_sets import DECADES, FAMILIES, WELL_CONDITIONED, grid, pair, polished, towards_pole
-from tasks.arm import model_xml
+from bench.contenders.registry import find_contender, known_representations
+from bench.experiments import plan, poses
+from bench.experiments.pose_sets import DECADES, FAMILIES, WELL_CONDITIONED, grid, pair, polished, towards_pole
+from bench.regression import rows as compare
+from bench.regression.rows import difference
+from bench.tables import schema
+from tasks.arm_model import model_xml
 from tasks.kinematics import Kinematics
 from tasks.paths import cos_beta, zyx_angles
 from tasks.rotations import zyx

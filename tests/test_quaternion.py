@@ -9,9 +9,9 @@ from scipy.spatial.transform import Rotation as ScipyRotation
 from states import as_rotation, rotations, vector
 
 import tasks
-from bench.contender import Gains, Goal
-from bench.discovery import find_contender, representation
-from bench.so3 import quaternion_direction
+from bench.contenders.registry import find_contender, representation
+from bench.law.contender import Gains, Goal
+from bench.law.so3 import quaternion_direction
 from tasks.rotations import columns
 
 QUATERNION = representation("quaternion")

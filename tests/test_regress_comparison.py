@@ -5,9 +5,9 @@ import json
 import pytest
 
 from bench.errors import BadResults
-from bench.regress import comparison
-from bench.regress.comparison import Benchmark, Comparison, Finding, Gate, Side, Timed
-from bench.regress.measurement import Measurement, Spread
+from bench.regression.revisions import comparison
+from bench.regression.revisions.comparison import Benchmark, Comparison, Finding, Gate, Side, Timed
+from bench.regression.revisions.measurement import Measurement, Spread
 
 OPERATIONS = {"typical": {"add": 3, "mul": 4, "flops": 7}}
 BASE = Measurement("rotation-matrix", "law", Spread(0.34, 0.33, 0.35), 60, 69.0, OPERATIONS, "c0de")

@@ -4,10 +4,10 @@ import shutil
 
 import pytest
 
-from bench.compare.difference import CHANGED, COLUMN, MISSING, NEW, Difference
-from bench.regress.exact import basins, findings, removed
-from bench.schema import KEY
-from bench.store import read, write_table
+from bench.regression.revisions.exact import basins, findings, removed
+from bench.regression.rows.difference import CHANGED, COLUMN, MISSING, NEW, Difference
+from bench.tables.schema import KEY
+from bench.tables.store import read, write_table
 
 
 def episode(column, was, now, law="rotation-matrix", start="half-turn-x"):

@@ -3,9 +3,9 @@
 import pandas as pd
 import pytest
 
-from bench.figures import regress_noise, regress_power, regress_rows, regress_said, regress_tables
-from bench.regress.study import faults, same_code
-from bench.regress.study.load import MOST
+from bench.studies.gates import faults, same_code
+from bench.studies.gates.load import MOST
+from report.figures.tool import regress_noise, regress_power, regress_rows, regress_said, regress_tables
 
 
 def test_study_if_it_was_run_has_all_its_comparisons_and_no_false_alarm():

@@ -7,12 +7,12 @@ import pytest
 
 from bench.cli import main
 from bench.errors import BadResults
-from bench.regress import comparison, gates, sides, summary
-from bench.regress.process import SideFailed
+from bench.regression.revisions import comparison, gates, sides, summary
+from bench.regression.revisions.process import SideFailed
 
 LAW = """
-from bench.contender import Regulator
-from bench.scalar import kernel
+from bench.law.contender import Regulator
+from bench.law.scalar import kernel
 
 
 @kernel

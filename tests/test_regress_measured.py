@@ -6,13 +6,13 @@ import pytest
 
 from bench.errors import MissingTool
 from bench.provenance import ROOT
-from bench.regress import instructions, own
-from bench.regress.measured import Wanted, measured
-from bench.regress.process import Laws, SideFailed, running
+from bench.regression.revisions import instructions, own
+from bench.regression.revisions.measured import Wanted, measured
+from bench.regression.revisions.process import Laws, SideFailed, running
 
 LAW = """
-from bench.contender import Regulator
-from bench.scalar import kernel
+from bench.law.contender import Regulator
+from bench.law.scalar import kernel
 
 
 @kernel

@@ -5,7 +5,7 @@ import subprocess
 import pytest
 
 from bench.errors import BadResults, Incompatible, UnknownWord
-from bench.regress.revisions import commit_of, default_base, git, is_folder, repository, worktree
+from bench.regression.revisions.commits import commit_of, default_base, git, is_folder, repository, worktree
 
 AS_NOBODY = ("-c", "user.name=nobody", "-c", "user.email=nobody@example.org", "-c", "commit.gpgsign=false")
 

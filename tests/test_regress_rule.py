@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from bench.regress.rule import RATIO, P, confirmed, judge
+from bench.regression.revisions.rule import RATIO, P, confirmed, judge
 
 SEED = 20
 

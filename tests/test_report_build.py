@@ -79,6 +79,7 @@ def tree(tmp_path, monkeypatch):
         "tasks/base.py",
         "requirements/report.txt",
         "report/index.md",
+        "report/figures/kit/style.py",
         "results/timings/a.parquet",
         "results/scale/scale.json",
     ):
@@ -95,7 +96,7 @@ def keys(tree):
 @pytest.mark.parametrize(
     "name",
     [
-        *("bench/law.py", "tasks/base.py", "requirements/report.txt"),
+        *("bench/law.py", "tasks/base.py", "report/figures/kit/style.py", "requirements/report.txt"),
         *("results/timings/a.parquet", "results/scale/scale.json"),
     ],
 )

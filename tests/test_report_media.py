@@ -13,9 +13,9 @@ import contact_media
 import media as rendering
 
 import tasks
-from bench.claims.arm_probes import controller
 from bench.engines.contact_episode import P, R
-from bench.figures import media
+from bench.findings.claims.arm_probes import controller
+from report.figures.method import media
 
 ABOUT = media.facts()
 LOOPS = ("pole-loop", "plate-loop")

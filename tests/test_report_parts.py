@@ -11,30 +11,19 @@ import pytest
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "report"))
 import build
 
-from bench import results
-from bench.discovery import known_regulators
-from bench.figures import (
-    cards,
-    conditioning,
-    diagrams,
-    engines,
-    extraction,
-    inventory,
-    laws,
-    operations,
-    origin,
-    plane,
-    poles,
-    prices,
-    spelling,
-    times,
-)
-from bench.schema import RESULTS
+from bench.contenders.registry import known_regulators
+from bench.tables import read
+from bench.tables.schema import RESULTS
+from report.figures.cards import cards
+from report.figures.cost import operations, plane, prices, times
+from report.figures.kit import laws, spelling
+from report.figures.method import engines, inventory, origin
+from report.figures.problem import conditioning, diagrams, extraction, poles
 
 
 @pytest.fixture(autouse=True)
 def reference(monkeypatch):
-    monkeypatch.setenv(results.VARIABLE, str(RESULTS / "reference"))
+    monkeypatch.setenv(read.VARIABLE, str(RESULTS / "reference"))
 
 
 @pytest.mark.parametrize("draw", [diagrams.judge_and_contestants, diagrams.on_the_matrix, diagrams.on_the_angles])
@@ -65,30 +54,30 @@ def test_each_pole_determines_its_own_combination():
 def test_every_regulator_has_a_card_with_its_source():
     page = cards.cards()
     for regulator in known_regulators().values():
-        assert f"bench/regulators/{regulator.name.replace('-', '_')}.py" in page
+        assert f"bench/contenders/regulators/{regulator.name.replace('-', '_')}.py" in page
 
 
 def test_costs_are_drawn_and_tabled_for_every_law():
-    costs, titles = results.costs(), inventory.titles()
+    costs, titles = read.costs(), inventory.titles()
     assert operations.operations(costs, titles).alt.count("transcendental") == costs["contender"].nunique()
     assert len(prices.stages(costs, titles).splitlines()) == 2 + costs["contender"].nunique()
 
 
 def test_plane_gives_every_law_its_place():
-    uniform = laws.without_later(results.episodes(engine="ideal-rk4", start_set="uniform"))
-    found = plane.places(results.costs(), uniform)
+    uniform = laws.without_later(read.episodes(engine="ideal-rk4", start_set="uniform"))
+    found = plane.places(read.costs(), uniform)
     assert len(found) == uniform["contender"].nunique()
     assert plane.plane(found, inventory.titles(), 0.6).alt
 
 
 def test_page_says_so_when_nothing_was_timed():
     none = pd.DataFrame(columns=["contender", "what", "ticks", "ratio", "jacobian"])
-    assert "make time" in times.times(times.alone(none), results.costs(), {}).alt
+    assert "make time" in times.times(times.alone(none), read.costs(), {}).alt
     assert "make time" in prices.times(none, {})
 
 
 def test_engines_are_compared_where_both_have_rows():
-    runs = results.episodes()
+    runs = read.episodes()
     both, equal = engines.agreement(runs, "reference", "native")
     assert both == equal > 0
     assert engines.engines(engines.differences(runs)).alt

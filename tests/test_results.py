@@ -2,9 +2,9 @@
 
 import pandas as pd
 
-from bench import results
 from bench.cli.show import contact_summary, outcome_table, summary
-from bench.discovery import find_compliant
+from bench.control.registry import find_compliant
+from bench.tables import read
 
 LAWS = pd.DataFrame(
     {
@@ -21,15 +21,15 @@ NAMES = ["rotation-matrix", "feedback-linearized/mrp", "feedback-linearized/zyx-
 
 
 def test_contender_is_the_word_of_the_command_line():
-    assert list(results.with_contender(LAWS)["contender"]) == NAMES
+    assert list(read.with_contender(LAWS)["contender"]) == NAMES
 
 
 def test_contender_of_a_table_of_times_is_the_law():
-    assert list(results.with_contender(LAWS[["regulator", "representation"]])["contender"])[2] == NAMES[2].split("@")[0]
+    assert list(read.with_contender(LAWS[["regulator", "representation"]])["contender"])[2] == NAMES[2].split("@")[0]
 
 
 def test_free_body_has_no_jacobian():
-    assert list(results.chosen(LAWS, results.FREE_BODY)["regulator"]) == ["rotation-matrix", "feedback-linearized"]
+    assert list(read.chosen(LAWS, read.FREE_BODY)["regulator"]) == ["rotation-matrix", "feedback-linearized"]
 
 
 def test_summary_keeps_a_law_on_an_arm_apart():
@@ -57,7 +57,7 @@ CONTROLLERS = ["hybrid-base+inverse", "hybrid/zyx-euler+projected", "impedance-g
 
 
 def test_contender_in_contact_is_the_word_of_the_command_line():
-    names = results.with_compliant(IN_CONTACT)["contender"]
+    names = read.with_compliant(IN_CONTACT)["contender"]
     assert list(names.drop_duplicates()) == CONTROLLERS
     assert [find_compliant(name).name for name in CONTROLLERS] == CONTROLLERS
 

@@ -11,9 +11,9 @@ from pathlib import Path
 import pytest
 from command_line import bench, digest
 
-from bench import plan as planning
-from bench import run as running
-from bench.choice import Choice
+from bench.experiments import plan as planning
+from bench.experiments.choice import Choice
+from bench.running import run as running
 
 ROOT = Path(__file__).parents[1]
 TABLES = [

@@ -10,13 +10,14 @@ import pytest
 
 pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
 
-from bench import plan, results, run
-from bench.choice import Choice
-from bench.discovery import find_contender
-from bench.figures import (
-    absent,
-    closed_form,
-    isotropic,
+from bench.contenders.registry import find_contender
+from bench.experiments import plan
+from bench.experiments.choice import Choice
+from bench.findings.theory import closed_form, isotropic, robustness_theory
+from bench.running import run
+from bench.tables import read
+from report.figures.kit import absent, style
+from report.figures.robustness import (
     robustness_bundle,
     robustness_half_turn,
     robustness_levels,
@@ -26,8 +27,6 @@ from bench.figures import (
     robustness_rows,
     robustness_said,
     robustness_tables,
-    robustness_theory,
-    style,
 )
 from tasks.condition import RATE, RATE_AND_ACCELERATION, UNTOLD
 from tasks.rules import RULES
@@ -185,13 +184,13 @@ FACTS = {
 
 @pytest.fixture(scope="module", autouse=True)
 def small_run(tmp_path_factory):
-    """A folder of results with two starts a level of five laws, which bench.results reads while this module runs."""
+    """A folder of results with two starts a level of five laws, which `read` reads while this module runs."""
     choice = Choice(axes=tuple(robustness_reach.PAGES))
     made = plan.make("quick", [find_contender(law) for law in LAWS], choice, count=STARTS)
     folder = tmp_path_factory.mktemp("robustness") / "run"
     run.run(made, folder)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setenv(results.VARIABLE, str(folder))
+        patch.setenv(read.VARIABLE, str(folder))
         yield folder
 
 

@@ -5,16 +5,16 @@ import pandas as pd
 import pytest
 
 import tasks
-from bench import plan, robustness_plan
-from bench import run as running
-from bench.choice import EVERYTHING, Choice
 from bench.cli.show import MASTERED, robustness_summary
-from bench.discovery import all_contenders, find_contender
+from bench.contenders.registry import all_contenders, find_contender
 from bench.errors import Incompatible, UnknownWord
-from bench.results import with_contender
-from bench.schema import ROBUSTNESS_KEY
-from bench.store import read
-from bench.suites import SUITES
+from bench.experiments import plan, robustness_plan
+from bench.experiments.choice import EVERYTHING, Choice
+from bench.experiments.suites import SUITES
+from bench.running import run as running
+from bench.tables.read import with_contender
+from bench.tables.schema import ROBUSTNESS_KEY
+from bench.tables.store import read
 
 LAWS = [one for one in all_contenders() if not one.regulator.costing_only]
 TWO = [find_contender("rotation-matrix"), find_contender("hybrid")]

@@ -11,9 +11,9 @@ from scipy.spatial.transform import Rotation as ScipyRotation
 from states import as_rotation, rotations, vector
 
 import tasks
-from bench.contender import AT_REST, Gains, Goal
-from bench.discovery import find_contender, representation
-from bench.representations.rotation_vector import FLAT, NEAR, coefficients, slopes
+from bench.contenders.registry import find_contender, representation
+from bench.contenders.representations.rotation_vector import FLAT, NEAR, coefficients, slopes
+from bench.law.contender import AT_REST, Gains, Goal
 from tasks.rotations import columns
 
 VECTOR = representation("rotation-vector")

@@ -5,11 +5,11 @@ import pandas as pd
 import pytest
 
 import tasks
-from bench import plan as planning
-from bench.choice import Choice
-from bench.discovery import find_contender
-from bench.rounding import BESIDE, CHANGE, NUDGE, judged_on_both_sides, nudged
-from bench.work import rows
+from bench.contenders.registry import find_contender
+from bench.experiments import plan as planning
+from bench.experiments.choice import Choice
+from bench.experiments.rounding import BESIDE, CHANGE, NUDGE, judged_on_both_sides, nudged
+from bench.experiments.work import rows
 
 START = tasks.start_set("clear", 1, arm="ur5e")[0]
 

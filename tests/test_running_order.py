@@ -1,8 +1,8 @@
 """The order in which units run: contender by contender, each compiled while the last one runs."""
 
-from bench import plan as planning
-from bench.discovery import find_contender
-from bench.running_order import in_running_order
+from bench.contenders.registry import find_contender
+from bench.experiments import plan as planning
+from bench.running.order import in_running_order
 
 
 def test_first_unit_of_each_contender_runs_before_the_rest_of_the_one_before_it():

@@ -9,7 +9,7 @@ import pytest
 from bits import EPS, same_bits
 
 from bench.engines.compiled import compile_function, float64
-from bench.scalar import PRIMITIVES, acos, atan2, copysign, cos, sin, sqrt
+from bench.law.scalar import PRIMITIVES, acos, atan2, copysign, cos, sin, sqrt
 
 TINY = 5e-324  # the smallest double above zero
 SPECIAL = (

@@ -4,12 +4,13 @@ import copy
 
 import pytest
 
-from bench import finish, scale
-from bench.schedulers.words import THREADS
+from bench.running import finish
+from bench.running.schedulers.words import THREADS
+from bench.studies import scale
 
 pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
 
-from bench.figures import clusters_rows, clusters_said, clusters_tables
+from report.figures.tool import clusters_rows, clusters_said, clusters_tables
 
 EACH_US = {10**3: 240.0, 10**4: 200.0, 10**5: 210.0, 10**6: 218.0}
 

@@ -12,11 +12,13 @@ import pytest
 pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
 
 import tasks
-from bench import counting, results, traces
-from bench.discovery import find_contender, known_regulators
-from bench.figures import side_by_side
-from bench.figures import side_by_side_data as sides
-from bench.plan import Plan
+from bench import counting
+from bench.contenders.registry import find_contender, known_regulators
+from bench.experiments import traces
+from bench.experiments.plan import Plan
+from bench.tables import read
+from report.figures.cards import side_by_side
+from report.figures.cards import side_by_side_data as sides
 from tasks.truth import angle
 
 LAWS = ("rotation-matrix", "feedback-linearized/zyx-euler", "gibbs", "quaternion-unwinding")
@@ -32,7 +34,7 @@ def starts_of(start_set, ids):
 def rows():
     """Curves of four laws, as the page reads them."""
     plan = Plan("quick", (), tuple(map(find_contender, LAWS)), traces=traces.FEW)
-    return sides.shown(results.with_contender(traces.run(plan).to_pandas()))
+    return sides.shown(read.with_contender(traces.run(plan).to_pandas()))
 
 
 @pytest.fixture(scope="module")
@@ -55,7 +57,7 @@ def episodes(rows):
 
 @pytest.fixture(scope="module")
 def costs():
-    return results.with_contender(pd.DataFrame(counting.rows([find_contender(name) for name in LAWS])))
+    return read.with_contender(pd.DataFrame(counting.rows([find_contender(name) for name in LAWS])))
 
 
 @pytest.fixture(scope="module")

@@ -8,7 +8,7 @@ from scipy.spatial.transform import Rotation as ScipyRotation
 from states import as_rotation, matrix, rotations, vector
 
 import tasks
-from bench.so3 import IDENTITY, cross, dot, from_quaternion, relative, rotate, rotate_back
+from bench.law.so3 import IDENTITY, cross, dot, from_quaternion, relative, rotate, rotate_back
 
 # An element is a sum of three products of numbers up to 1: five roundings, EPS/2 each, and as much again in
 # the columns given, which are orthonormal only to rounding.

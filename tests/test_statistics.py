@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.stats import binom, norm
 
-from bench import statistics
+from bench.tables import statistics
 
 NEVER = np.inf
 

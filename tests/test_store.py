@@ -8,8 +8,8 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 
-from bench import schema, store
 from bench.errors import BadResults
+from bench.tables import schema, store
 
 README = Path(__file__).parents[1] / "results" / "README.md"
 

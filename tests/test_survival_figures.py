@@ -6,7 +6,7 @@ pytest.importorskip("matplotlib", reason="the report extra is not installed (cur
 
 from kill_study import KILLS, LAWS, LEFT_KB, SHARES
 
-from bench.figures import survival, survival_moments
+from report.figures.tool import survival, survival_moments
 
 
 def kill(what="threads", by="threads", units=0, tables=0, same=True):

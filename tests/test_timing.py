@@ -7,10 +7,10 @@ import pytest
 from scipy.stats import binom
 
 from bench import timing
-from bench.contender import Contender, Regulator
-from bench.discovery import find_contender
+from bench.contenders.registry import find_contender
+from bench.law.contender import Contender, Regulator
+from bench.law.scalar import kernel, sqrt
 from bench.provenance import machine_key
-from bench.scalar import kernel, sqrt
 from bench.timing import law, reference_kernel, things
 from bench.timing.ratios import ranks, ratio
 from bench.timing.rows import QUICK_PASSES, frame

@@ -7,8 +7,8 @@ from on_arms import ARMS, here, named, torques
 
 import tasks
 from bench import timing
-from bench.contender import PAPERS_GAINS
-from bench.discovery import find_contender
+from bench.contenders.registry import find_contender
+from bench.law.contender import PAPERS_GAINS
 from bench.timing import dm_control_loop, on_arms, threads
 from bench.timing.rows import QUICK_PASSES, frame
 from bench.timing.thing import DM_CONTROL, ENGINE, KERNEL, ROLLOUT, THREADS, Thing

@@ -5,12 +5,14 @@ import pytest
 from driving import settings
 
 import tasks
-from bench import combinations, traces
-from bench.discovery import find_contender, metrics_of
+from bench.contenders import combinations
+from bench.contenders.registry import find_contender
 from bench.engines.curve import NUMBERS, blank_curves
 from bench.engines.run import run_compiled
-from bench.plan import Plan, Unit
-from bench.rows import judged_columns
+from bench.experiments import traces
+from bench.experiments.plan import Plan, Unit
+from bench.experiments.rows import judged_columns
+from bench.metrics.registry import metrics_of
 from tasks.rules import RULES
 
 PAPERS, LATER = "rotation-matrix", "quaternion-unwinding"
@@ -72,7 +74,7 @@ def test_curve_says_how_its_episode_ended(kept, start_id):
 
 
 def test_two_neighbours_at_the_kept_bits_are_one_to_the_gate():
-    from bench.compare.tables import RELATIVE
+    from bench.regression.rows.tables import RELATIVE
 
     assert 2.0 ** (1 - traces.KEPT_BITS) < RELATIVE
 

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 import tasks
-from tasks.arm import model_xml
+from tasks.arm_model import model_xml
 from tasks.base import UnknownName
 from tasks.variations import IMPEDANCE, SPREAD
 

@@ -9,7 +9,7 @@ from scipy.spatial.transform import Rotation as ScipyRotation
 from states import as_rotation, matrix, rotations, vector
 
 import tasks
-from bench.discovery import representation
+from bench.contenders.registry import representation
 from tasks.rotations import columns
 
 XYZ = representation("xyz-euler")

@@ -11,7 +11,7 @@ from scipy.spatial.transform import Rotation as ScipyRotation
 from states import as_rotation, matrix, vector
 
 import tasks
-from bench.discovery import representation
+from bench.contenders.registry import representation
 from tasks.rotations import columns, on_pole
 
 ZYX = representation("zyx-euler")

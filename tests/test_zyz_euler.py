@@ -9,7 +9,7 @@ from scipy.spatial.transform import Rotation as ScipyRotation
 from states import as_rotation, axis_permuting, matrix, vector
 
 import tasks
-from bench.discovery import representation
+from bench.contenders.registry import representation
 from tasks.rotations import columns
 
 ZYZ = representation("zyz-euler")

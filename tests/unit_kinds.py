@@ -3,13 +3,14 @@
 import dataclasses
 from pathlib import Path
 
-from bench import plan
-from bench.choice import Choice
-from bench.discovery import find_contender, load_law
+from bench.contenders.law_file import load_law
+from bench.contenders.registry import find_contender
+from bench.experiments import plan
+from bench.experiments.choice import Choice
 
 OWN = """
-from bench.contender import Regulator
-from bench.scalar import kernel
+from bench.law.contender import Regulator
+from bench.law.scalar import kernel
 
 
 @kernel

@@ -4,8 +4,8 @@ from pathlib import Path
 
 import rich_click as click
 
-from bench import results
 from bench.cli.screen import console
+from bench.tables import read
 
 
 @click.command("claims")
@@ -14,9 +14,9 @@ from bench.cli.screen import console
 @click.option("--criteria", is_flag=True, help="Print each claim's criterion below it.")
 def COMMAND(folder, everything, criteria):
     """The claims of Murphy (1988), one line each: id, verdict, evidence, rows (default: results/latest)."""
-    from bench.claims import NOT_YET_MEASURED, judge_all
+    from bench.findings.claims import NOT_YET_MEASURED, judge_all
 
-    folder = folder or results.folder()
+    folder = folder or read.folder()
     for verdict in judge_all(folder):
         if verdict.word == NOT_YET_MEASURED and not everything:
             continue

@@ -41,8 +41,8 @@ def COMMAND(base, head, laws, no_timing, json_file, summary):
     smaller basin, a row or a law that is gone, more of any operation, more than 1 % more instructions, or a slower
     tick. A law of your own is judged against its file at BASE; in $GITHUB_STEP_SUMMARY the summary is left by itself.
     """
-    from bench.regress import comparison, gates
-    from bench.regress import summary as words
+    from bench.regression.revisions import comparison, gates
+    from bench.regression.revisions import summary as words
 
     base, head, folders = _meant(base, head, laws)
     if folders:
@@ -76,14 +76,14 @@ def COMMAND(base, head, laws, no_timing, json_file, summary):
 
 
 def _lines(base: Path, head: Path) -> list[str]:
-    from bench.compare import compare
+    from bench.regression.rows import compare
 
     return compare(base, head)
 
 
 def _machine(folder: Path) -> str:
     from bench.provenance import rounded_on
-    from bench.store import read_json
+    from bench.tables.store import read_json
 
     return rounded_on(read_json(folder / "provenance.json")) or "an unknown machine"
 
@@ -95,16 +95,16 @@ def _meant(base: str | None, head: str | None, laws) -> tuple[str, str | None, b
         UsageError: one is a folder and the other is not; or a user's law is to be judged in folders.
     """
     from bench.errors import Incompatible
-    from bench.regress import revisions
+    from bench.regression.revisions import commits
 
     if base is None:
         try:
-            return revisions.default_base(revisions.repository(laws), head), None, False
+            return commits.default_base(commits.repository(laws), head), None, False
         except Incompatible:
-            if laws or (revisions.ROOT / ".git").exists():
+            if laws or (commits.ROOT / ".git").exists():
                 raise
             return str(options.REFERENCE), str(options.REFERENCE.with_name("quick")), True
-    folders = [revisions.is_folder(word) for word in (base, head) if word is not None]
+    folders = [commits.is_folder(word) for word in (base, head) if word is not None]
     if not any(folders):
         return base, head, False
     if head is None or not all(folders):

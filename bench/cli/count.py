@@ -4,13 +4,13 @@ import pandas as pd
 import rich_click as click
 
 import tasks
-from bench import combinations
 from bench.cli import options
 from bench.cli.screen import console, frame_table
-from bench.contender import Contender
-from bench.discovery import find_compliant
+from bench.contenders import combinations
+from bench.control.registry import find_compliant
 from bench.errors import Incompatible
-from bench.suites import SUITES
+from bench.experiments.suites import SUITES
+from bench.law.contender import Contender
 
 EPILOG = """
 [b]python -m bench count --stages[/b]  the laws alone.
@@ -41,7 +41,7 @@ def COMMAND(laws, regulators, representations, jacobians, inverses, controllers,
     computes. A Jacobian or inverse that is not named is every one that fits. With a controller: of it in contact, on
     six joints, told to comply about x and y.
     """
-    from bench import kept_costs
+    from bench.tables import kept_costs
 
     if controllers:
         if laws or regulators or representations or jacobians or inverses or joints or arm:

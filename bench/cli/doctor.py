@@ -14,7 +14,7 @@ from rich.text import Text
 
 from bench.cli.screen import console
 from bench.provenance import ROOT
-from bench.schema import RESULTS
+from bench.tables.schema import RESULTS
 
 CURE_INSTALL = "make setup (or: pip install --require-hashes -r requirements/base.txt)"
 
@@ -75,10 +75,11 @@ def _compiler() -> str:
 
 def _engines() -> str:
     import tasks
-    from bench.discovery import find_contender, metrics_of
+    from bench.contenders.registry import find_contender
     from bench.engines.run import run
-    from bench.plan import Plan
-    from bench.rows import settings_of
+    from bench.experiments.plan import Plan
+    from bench.experiments.rows import settings_of
+    from bench.metrics.registry import metrics_of
 
     law = find_contender("rotation-matrix")
     plan = Plan("doctor", (), (law,))
@@ -93,11 +94,12 @@ def _engines() -> str:
 
 def _arms() -> str:
     import tasks
-    from bench import combinations
-    from bench.discovery import all_contenders, metrics_of
+    from bench.contenders import combinations
+    from bench.contenders.registry import all_contenders
     from bench.engines.run_arm import run
-    from bench.plan import Plan
-    from bench.rows import settings_of
+    from bench.experiments.plan import Plan
+    from bench.experiments.rows import settings_of
+    from bench.metrics.registry import metrics_of
     from tasks.arm import arms
     from tasks.base import BadArm
 
@@ -120,9 +122,9 @@ def _arms() -> str:
 
 def _contact() -> str:
     import tasks
-    from bench.contact_plan import can_do
-    from bench.discovery import find_compliant
+    from bench.control.registry import find_compliant
     from bench.engines.run_contact import run
+    from bench.experiments.contact_plan import can_do
     from tasks.arm import arms
     from tasks.base import BadArm
 

@@ -37,8 +37,8 @@ def add(comparisons, sides, path):
 
     A build that this machine has measured before adds nothing.
     """
-    from bench.history import book, line
-    from bench.regress import comparison, own
+    from bench.regression.history import book, line
+    from bench.regression.revisions import comparison, own
 
     if comparisons:
         given = [(one, side) for one in map(comparison.read, comparisons) for side in sides or SIDES[:1]]
@@ -58,7 +58,7 @@ def add(comparisons, sides, path):
 @book
 def merge(histories, path):
     """Append the lines of other histories: of another machine, or of a branch that keeps them."""
-    from bench.history import book
+    from bench.regression.history import book
 
     path = path or book.BOOK
     for one in histories:
@@ -73,8 +73,8 @@ def merge(histories, path):
 @book
 def walk(commits, path):
     """Measure older commits today, each in a checkout of its own, and append their lines (minutes each)."""
-    from bench.history import book, line
-    from bench.history.walk import measure
+    from bench.regression.history import book, line
+    from bench.regression.history.walk import measure
 
     path = path or book.BOOK
     for commit in commits:
@@ -86,9 +86,9 @@ def walk(commits, path):
 @book
 def show(path):
     """The builds, and every step: what changed, from which commit on, by how much."""
-    from bench.history import book
-    from bench.history.series import series
-    from bench.history.steps import steps
+    from bench.regression.history import book
+    from bench.regression.history.series import series
+    from bench.regression.history.steps import steps
 
     lines = book.read(path or book.BOOK)
     if not lines:
@@ -118,7 +118,7 @@ def commit_of(name: str):
     Errors:
         BadResults: there is no such commit, or a clone without the history before it.
     """
-    from bench.history.line import Commit
+    from bench.regression.history.line import Commit
 
     if _git("rev-parse", "--is-shallow-repository") == "true":
         raise BadResults("this clone lacks older commits, which order a history (cure: git fetch --unshallow)")

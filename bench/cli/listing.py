@@ -6,12 +6,20 @@ import rich_click as click
 from rich.table import Table
 
 import tasks
-from bench import discovery
 from bench.cli import options
 from bench.cli.screen import console
-from bench.compliance import HYBRIDS
-from bench.contact_plan import can_do
+from bench.contenders.registry import (
+    known_impedances,
+    known_inverses,
+    known_jacobians,
+    known_regulators,
+    known_representations,
+)
+from bench.control.contact_controller import HYBRIDS
+from bench.control.registry import all_compliants
 from bench.errors import UnknownWord
+from bench.experiments.contact_plan import can_do
+from bench.metrics.registry import known_contact_metrics, known_metrics
 from tasks.arm import arms
 from tasks.base import BadArm
 
@@ -50,17 +58,17 @@ def _regulators(own):
         note = "costing only" if one.costing_only else one.property
         return one.name, on, note, one.origin or one.source
 
-    every = (*discovery.known_regulators().values(), *own)
+    every = (*known_regulators().values(), *own)
     return _table("Regulators", ("name", "acts on", "proved", "source"), map(row, every))
 
 
 def _representations(own):
-    rows = ((one.name, ", ".join(one.symbols), one.source) for one in discovery.known_representations().values())
+    rows = ((one.name, ", ".join(one.symbols), one.source) for one in known_representations().values())
     return _table("Representations", ("name", "coordinates", "source"), rows)
 
 
 def _jacobians(own):
-    every = discovery.known_jacobians().values()
+    every = known_jacobians().values()
     rows = ((one.name, one.takes.replace("-", " "), one.title, one.source) for one in every)
     return _table("Jacobians", ("name", "takes", "title", "source"), rows)
 
@@ -76,11 +84,11 @@ def _inverses(own):
         return one.name, one.gives, shapes, one.title, one.source
 
     columns = ("name", "gives", "Jacobians it takes", "title", "source")
-    return _table("Inverses", columns, map(row, discovery.known_inverses().values()))
+    return _table("Inverses", columns, map(row, known_inverses().values()))
 
 
 def _controllers(own):
-    every = discovery.all_compliants()
+    every = all_compliants()
     titles = {one.law: f"impedance: {one.impedance.title}" for one in every if one.impedance}
 
     def row(law):
@@ -98,12 +106,12 @@ def _impedances(own):
         return one.name, "coordinates" if one.law_in else "R", one.title, one.source
 
     columns = ("name", "acts on", "title", "source")
-    return _table("Impedances", columns, map(row, discovery.known_impedances().values()))
+    return _table("Impedances", columns, map(row, known_impedances().values()))
 
 
 def _metrics(own):
-    alone = ((one, "arms" if one.arm_only else "all") for one in discovery.known_metrics().values())
-    contact = ((one, "contact") for one in discovery.known_contact_metrics().values())
+    alone = ((one, "arms" if one.arm_only else "all") for one in known_metrics().values())
+    contact = ((one, "contact") for one in known_contact_metrics().values())
     rows = ((one.name, one.column, one.unit, of, one.title) for one, of in (*alone, *contact))
     return _table("Metrics", ("name", "column", "unit", "of", "meaning"), rows)
 
@@ -163,7 +171,7 @@ def _engines(own):
 
 
 def _suites(own):
-    from bench.suites import SUITES
+    from bench.experiments.suites import SUITES
 
     def row(one):
         words = len(one.on_arms.words)
@@ -178,7 +186,7 @@ def _suites(own):
 
 
 def _claims(own):
-    from bench import claims
+    from bench.findings import claims
 
     return _table("Claims", ("id", "section", "claim"), ((c.id, c.section, c.text) for c in claims.all_claims()))
 

@@ -7,10 +7,10 @@ from typing import NamedTuple
 
 import rich_click as click
 
-from bench import discovery
-from bench.contender import Contender, Regulator
+from bench.contenders import law_file, registry
 from bench.errors import BadLaw
-from bench.schema import RESULTS
+from bench.law.contender import Contender, Regulator
+from bench.tables.schema import RESULTS
 
 LATEST = RESULTS / "latest"
 REFERENCE = RESULTS / "reference"
@@ -86,7 +86,7 @@ LOAD_S = 60.0
 def _loaded(path: Path) -> Regulator:
     """The law of a file; one that does not return is interrupted, where the system has such a clock."""
     if not hasattr(signal, "setitimer") or threading.current_thread() is not threading.main_thread():
-        return discovery.load_law(path)
+        return law_file.load_law(path)
 
     def too_long(*_):
         raise TimeoutError(f"it did not return within {LOAD_S:g} s")
@@ -94,7 +94,7 @@ def _loaded(path: Path) -> Regulator:
     before = signal.signal(signal.SIGALRM, too_long)
     signal.setitimer(signal.ITIMER_REAL, LOAD_S)
     try:
-        return discovery.load_law(path)
+        return law_file.load_law(path)
     except TimeoutError as error:
         raise BadLaw(f"--law {path}: it does not load ({error}); mend what runs when it is imported") from error
     finally:
@@ -118,11 +118,11 @@ def chosen(files, regulators, representations, costings: bool = False) -> list[C
     if regulators:
         picked = [one for word in regulators for one in _named(word, own)]
         named = {one.regulator.name for one in picked}
-        picked += [one for law in own if law.name not in named for one in discovery.contenders_of(law)]
+        picked += [one for law in own if law.name not in named for one in registry.contenders_of(law)]
     else:
-        picked = [one for one in discovery.all_contenders(own) if costings or not one.regulator.costing_only]
+        picked = [one for one in registry.all_contenders(own) if costings or not one.regulator.costing_only]
     for word in representations:
-        discovery.representation(word)
+        registry.representation(word)
     if representations:
         picked = [one for one in picked if one.representation and one.representation.name in representations]
         if not picked:
@@ -134,5 +134,5 @@ def chosen(files, regulators, representations, costings: bool = False) -> list[C
 
 def _named(word: str, own) -> list[Contender]:
     if "/" in word:
-        return [discovery.find_contender(word, own)]
-    return discovery.contenders_of(discovery.regulator(word, own))
+        return [registry.find_contender(word, own)]
+    return registry.contenders_of(registry.regulator(word, own))

@@ -5,14 +5,14 @@ from pathlib import Path
 
 import rich_click as click
 
-from bench import plan as planning
-from bench.choice import Choice, check_workers
 from bench.cli import options
 from bench.cli.screen import console, episode_progress
-from bench.contender import Gains
-from bench.plan import IN_CONTACT, WITHOUT
-from bench.schedulers.words import THREADS, check_scheduler
-from bench.suites import NOMINAL
+from bench.experiments import plan as planning
+from bench.experiments.choice import Choice, check_workers
+from bench.experiments.plan import IN_CONTACT, WITHOUT
+from bench.experiments.suites import NOMINAL
+from bench.law.contender import Gains
+from bench.running.schedulers.words import THREADS, check_scheduler
 
 EPILOG = """
 [b]python -m bench run[/b]  the default suite into results/latest.
@@ -141,7 +141,8 @@ def COMMAND(
     _print_plan(plan, out)
     if dry_run:
         return
-    from bench import run as running  # numba and mujoco take seconds to import; --dry-run and mistakes should not
+    # numba and mujoco take seconds to import; --dry-run and mistakes should not
+    from bench.running import run as running
 
     state = running.inspect(plan, out, replace)
     if state.done and not state.finished:

@@ -7,12 +7,12 @@ import pandas as pd
 import rich_click as click
 from scipy.stats import binomtest
 
-from bench import results
 from bench.cli import options
 from bench.cli.screen import console, frame_table
 from bench.errors import BadResults
-from bench.store import read, read_json
-from bench.suites import NOMINAL
+from bench.experiments.suites import NOMINAL
+from bench.tables import read as results
+from bench.tables.store import read, read_json
 from tasks.cause import CAUSES
 from tasks.verdict import CRASHED, OUTCOMES
 

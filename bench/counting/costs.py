@@ -12,11 +12,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from bench.contender import NO_MEMORY, Contender
 from bench.counting.counted import OPERATIONS, STAGES, TOTAL, Counted, Counts, OutsideDialect, Tally
 from bench.counting.staged import law_of
 from bench.counting.states import GAINS, State, states
 from bench.errors import BadLaw
+from bench.law.contender import NO_MEMORY, Contender
 
 FLOPS = ("add", "mul", "div", "sqrt")
 BRANCHES = ("typical", "worst")
@@ -134,7 +134,7 @@ def _call(contender: Contender, plain, counting, tally: Tally, state: State, mem
         if trouble is None:
             raise BadLaw(
                 f"law '{contender.name}' cannot be counted: with counting scalars it raises "
-                f"{type(error).__name__}: {error}; use only the dialect of bench/scalar.py"
+                f"{type(error).__name__}: {error}; use only the dialect of bench/law/scalar.py"
             ) from error
     if bits(answer) != bits(want):
         raise BadLaw(

@@ -9,8 +9,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bench import scalar
 from bench.errors import BadLaw
+from bench.law import scalar
 
 OPERATIONS = ("add", "mul", "div", "sqrt", "sin", "cos", "atan2", "acos", "compare", "copysign")
 """One column each. A subtraction is an add."""
@@ -120,7 +120,7 @@ def _comparison(compute):
 
 def _refused(what: str, cure: str):
     def refuse(self, *others):
-        raise OutsideDialect(f"{what} cannot be counted; {cure} (what a law may contain: bench/scalar.py)")
+        raise OutsideDialect(f"{what} cannot be counted; {cure} (what a law may contain: bench/law/scalar.py)")
 
     return refuse
 
@@ -171,12 +171,12 @@ class Counted:
     __hash__ = _refused("a number as a key", "keep numbers in tuples")
     __bool__ = _refused("a number as a condition", "write the comparison, such as x > 0.0")
     __float__ = _refused(
-        "math, numpy or float() of a number", "call sqrt, sin, cos, atan2, acos of bench.scalar"
+        "math, numpy or float() of a number", "call sqrt, sin, cos, atan2, acos of bench.law.scalar"
     )
     __int__ = __index__ = __complex__ = __float__
     __round__ = __trunc__ = __floor__ = __ceil__ = _refused("rounding", "write it with comparisons")
-    __pow__ = __rpow__ = _refused("x ** y", "write x * x, or sqrt(x) of bench.scalar")
-    __abs__ = _refused("abs(x)", "write copysign(x, 1.0) of bench.scalar")
+    __pow__ = __rpow__ = _refused("x ** y", "write x * x, or sqrt(x) of bench.law.scalar")
+    __abs__ = _refused("abs(x)", "write copysign(x, 1.0) of bench.law.scalar")
     __mod__ = __rmod__ = __floordiv__ = __rfloordiv__ = __divmod__ = __rdivmod__ = _refused(
         "% or //", "write it with comparisons"
     )

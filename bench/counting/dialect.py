@@ -8,15 +8,22 @@ import importlib
 from collections.abc import Iterator
 from typing import TypeGuard
 
-from bench.scalar import KERNELS, PRIMITIVES
+from bench.law.scalar import KERNELS, PRIMITIVES
 
-SOURCES = ("bench.scalar", "bench.so3", "bench.linalg", "bench.weighting", "bench.resolved_motion", "bench.contender")
+FACE = "bench.law"
+"""It holds what a law needs of the modules below: from it, but not from everything in its folder, any law imports."""
+
+SOURCES = (
+    *("bench.law.scalar", "bench.law.so3", "bench.law.linalg", "bench.law.weighting", "bench.law.resolved_motion"),
+    "bench.law.contender",
+)
 """Modules of ours a law may import from; and NamedTuple from typing, to name its tuples."""
 
 CONTROLLER_SOURCES = (
     *SOURCES,
-    *("bench.chain", "bench.force", "bench.impedance", "bench.errors", "collections.abc"),
-    *("bench.representations", "bench.regulators", "bench.jacobians", "bench.impedances"),
+    *("bench.law.chain", "bench.law.impedance", "bench.control.hybrid", "bench.control.impedance"),
+    *("bench.errors", "collections.abc", "bench.contenders.representations", "bench.contenders.regulators"),
+    *("bench.contenders.jacobians", "bench.contenders.impedances"),
 )
 """What a controller in contact may import from: it is put together of laws, coordinates and Jacobians."""
 
@@ -60,11 +67,11 @@ def _imports(tree: ast.Module, modules: tuple[str, ...]) -> Iterator[tuple[int, 
         if isinstance(node, ast.Import) or (
             isinstance(node, ast.ImportFrom) and not _is_among(node.module, (*modules, "typing"))
         ):
-            yield node.lineno, f"`{ast.unparse(node)}`: a law file imports from {', '.join(modules)} only"
+            yield node.lineno, f"`{ast.unparse(node)}`: a law file imports from {', '.join((FACE, *modules))} only"
 
 
 def _is_among(module: str | None, modules: tuple[str, ...]) -> bool:
-    return module is not None and (module in modules or module.rpartition(".")[0] in modules)
+    return module is not None and (module in (FACE, *modules) or module.rpartition(".")[0] in modules)
 
 
 def _imported(tree: ast.Module, modules: tuple[str, ...]) -> set[str]:

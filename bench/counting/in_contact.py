@@ -1,4 +1,4 @@
-"""What a controller in contact costs per tick: its rows, and what `force.comply` makes torques of.
+"""What a controller in contact costs per tick: its rows, and what `hybrid.comply` makes torques of.
 
 Counted as on an arm, on the same states, with a wrench on the hand; see `on_arms`. The stage "regulate" is the rows: J,
 Jdot qdot, the law, and the wrench in its frame. "invert" is y and the torques.
@@ -9,14 +9,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bench.compliance import Compliant
+from bench.control.contact_controller import Compliant
+from bench.control.hybrid import INVERSE, PROJECTED, TOUCH, Wish, comply
 from bench.counting.costs import BRANCHES, Call, bits, flops, size
 from bench.counting.counted import TOTAL, Counts, OutsideDialect, Tally
 from bench.counting.on_arms import ArmState, arm_states, as_counted
 from bench.counting.states import GAINS
 from bench.engines.contact_episode import room, rows
 from bench.errors import BadLaw
-from bench.force import INVERSE, PROJECTED, TOUCH, Wish, comply
 from tasks.contact import Order
 
 TILTING = Order("about x and y", (1, 1, 1, 0, 0, 1))

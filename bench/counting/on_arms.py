@@ -13,15 +13,15 @@ import mujoco
 import numpy as np
 
 import tasks
-from bench.cartesian import Buffers, Parts, assembly, control, parts_of
-from bench.contender import AT_REST, NO_MEMORY, Contender, Goal
+from bench.control.resolved_acceleration import Buffers, Parts, assembly, control, parts_of
 from bench.counting.costs import Call, Cost, bits, counted, rows_of, size
 from bench.counting.counted import Counted, OutsideDialect, Tally
 from bench.counting.staged import in_stage, law_of, staged
 from bench.counting.states import GAINS
 from bench.errors import BadLaw
-from bench.resolved_motion import Chain, Scratch
-from bench.so3 import Rotation, from_quaternion
+from bench.law.contender import AT_REST, NO_MEMORY, Contender, Goal
+from bench.law.resolved_motion import Chain, Scratch
+from bench.law.so3 import Rotation, from_quaternion
 from tasks.base import Start
 
 ARM_OF = {6: "ur5e", 7: "panda"}
@@ -102,7 +102,7 @@ def rows_on_arm(contender: Contender, joints: int) -> list[dict]:
 
 
 def _command(contender: Contender, tally: Tally | None):
-    """The law as `cartesian.Parts` takes it; staged if there is a tally."""
+    """The law as `resolved_acceleration.Parts` takes it; staged if there is a tally."""
     if contender.jacobian is not None and contender.jacobian.takes == "coordinates":
         return contender.coordinate_law
     law = contender.law if tally is None else law_of(contender, tally)

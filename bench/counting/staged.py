@@ -7,8 +7,8 @@ no representation and is all `regulate`.
 from types import SimpleNamespace
 from typing import cast
 
-from bench.contender import Contender, Representation, bind
 from bench.counting.counted import Tally
+from bench.law.contender import Contender, Representation, bind
 
 STAGE_OF = {
     "goal_chart": "goal",

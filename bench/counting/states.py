@@ -11,8 +11,8 @@ from typing import NamedTuple
 import numpy as np
 
 import tasks
-from bench.contender import AT_REST, Gains, Goal
-from bench.so3 import Rotation, from_quaternion
+from bench.law.contender import AT_REST, Gains, Goal
+from bench.law.so3 import Rotation, from_quaternion
 
 SAMPLED = "uniform"
 SAMPLE = 256

@@ -8,15 +8,15 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bench.cartesian import Buffers
-from bench.contender import Contender
+from bench.contenders.jacobians.geometric import fill
+from bench.control.resolved_acceleration import Buffers
 from bench.engines.episode import blank
-from bench.jacobians.geometric import fill
-from bench.linalg import determinant, gram
-from bench.resolved_motion import Scratch
-from bench.scalar import kernel
-from bench.so3 import Rotation
-from tasks.arm import Arm
+from bench.law.contender import Contender
+from bench.law.linalg import determinant, gram
+from bench.law.resolved_motion import Scratch
+from bench.law.scalar import kernel
+from bench.law.so3 import Rotation
+from tasks.arm_model import Arm
 from tasks.rules import RULES
 
 MOST = 7

@@ -9,11 +9,11 @@ On an analytic Jacobian the command is that of the coordinates: command(chart, E
 import math
 
 import tasks
-from bench.cartesian import Parts, parts_of
-from bench.contender import NO_MEMORY, Contender, Gains
+from bench.control.resolved_acceleration import Parts, parts_of
 from bench.engines.episode import CRASHED_COMMAND, FIRST_METRIC, has_crashed
-from bench.scalar import kernel
-from bench.so3 import relative
+from bench.law.contender import NO_MEMORY, Contender, Gains
+from bench.law.scalar import kernel
+from bench.law.so3 import relative
 from tasks.base import Task
 
 

@@ -12,13 +12,13 @@ from numba.core.bytecode import FunctionIdentity
 from numba.core.caching import IndexDataCacheFile
 from numba.extending import overload, register_jitable
 
-from bench import scalar
-from bench.contender import Gains, Goal
 from bench.engines.cache import to_itself
 from bench.engines.curve import Curves
 from bench.engines.episode import Numbers
 from bench.errors import BadLaw
-from bench.so3 import Rotation
+from bench.law import scalar
+from bench.law.contender import Gains, Goal
+from bench.law.so3 import Rotation
 from tasks import moving_goal, truth, verdict
 
 FunctionIdentity._unique_ids = itertools.count(secrets.randbits(56))
@@ -56,8 +56,8 @@ EVALUATE = types.Tuple((THREE, FOUR, float64))(ROTATION, THREE, GOAL, GAINS, FOU
 """evaluate(R, omega, goal, gains, memory) -> (u, memory, margin): a law as loops on the free body call it."""
 
 INLINED = (
-    *("bench.chain", "bench.linalg", "bench.jacobians", "bench.cartesian", "bench.engines.arm_episode"),
-    *("bench.force", "bench.engines.contact_episode"),
+    *("bench.law.chain", "bench.law.linalg", "bench.contenders.jacobians", "bench.control.resolved_acceleration"),
+    *("bench.control.hybrid", "bench.engines.arm_episode", "bench.engines.contact_episode"),
 )
 """Modules whose kernels take buffers and are always inlined: a call passes each array as seven words, and counts a
 reference to it; the chain's velocity took 60 ns, and takes 9."""
@@ -118,7 +118,7 @@ def own_law(origin: str):
             raise
         raise BadLaw(
             f"--law {origin}: the law cannot be compiled ({_deepest_reason(error)}); keep to the dialect of "
-            "bench/scalar.py, functions marked @kernel, or run it uncompiled with --engine reference"
+            "bench/law/scalar.py, functions marked @kernel, or run it uncompiled with --engine reference"
         ) from error
 
 

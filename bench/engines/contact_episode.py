@@ -5,11 +5,11 @@ from typing import Any, NamedTuple
 import mujoco
 import numpy as np
 
-from bench.compliance import FORMS, Compliant
-from bench.contender import PAPERS_GAINS, Gains
-from bench.force import TOUCH, Room, Rows, Touch
-from bench.resolved_motion import Scratch
-from bench.scalar import kernel
+from bench.control.contact_controller import FORMS, Compliant
+from bench.control.hybrid import TOUCH, Room, Rows, Touch
+from bench.law.contender import PAPERS_GAINS, Gains
+from bench.law.resolved_motion import Scratch
+from bench.law.scalar import kernel
 from tasks.contact import Trial
 from tasks.rules import RULES, ticks
 from tasks.verdict import DIVERGED, GOING, SATURATED, SINGULAR
@@ -91,7 +91,7 @@ def rows(dtype=float) -> Rows:
 
 
 def room(dtype=float) -> Room:
-    """Fresh buffers for `force.comply`."""
+    """Fresh buffers for `hybrid.comply`."""
     A, B, V = (np.zeros((6, 6), dtype) for _ in range(3))
     y, b, s, t = (np.zeros(6, dtype) for _ in range(4))
     return Room(y, b, np.zeros((6, 6), dtype), Scratch(A, B, V, s, t))

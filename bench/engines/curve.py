@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from bench.engines.arm_episode import MOST
-from bench.scalar import kernel, sqrt
+from bench.law.scalar import kernel, sqrt
 
 _VECTORS = ("n", "o", "a", "omega", "u")
 NUMBERS = ("time_s", *(f"{vector}_{axis}" for vector in _VECTORS for axis in "xyz"), "haversine")

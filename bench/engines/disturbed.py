@@ -10,13 +10,13 @@ from typing import NamedTuple
 import numpy as np
 from numba import float64, int64, types
 
-from bench.contender import AT_REST, Gains, Goal
 from bench.engines.compiled import EVALUATE, FOUR, MATRIX, NUMBERS, THREE, compile_function
 from bench.engines.episode import FIRST_METRIC, Numbers, Sample, blamed, finish
 from bench.engines.ideal import angle_between, haversine, held_step, moved, plus, rotation_rate, turned, weighted
-from bench.scalar import kernel, sqrt
-from bench.so3 import Rotation, cross, dot, from_quaternion, rotate, rotate_back, turn_quaternion
-from bench.tracking import carried_along, seen_from_goal
+from bench.law.contender import AT_REST, Gains, Goal
+from bench.law.scalar import kernel, sqrt
+from bench.law.so3 import Rotation, cross, dot, from_quaternion, rotate, rotate_back, turn_quaternion
+from bench.law.tracking import carried_along, seen_from_goal
 from tasks.condition import RATE, RATE_AND_ACCELERATION, Condition
 from tasks.moving_goal import sway_rates, swayed
 from tasks.verdict import GOING, check_command, check_state, first_watch, watched

@@ -5,9 +5,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bench.contender import Gains
-from bench.scalar import kernel
-from bench.so3 import Rotation
+from bench.law.contender import Gains
+from bench.law.scalar import kernel
+from bench.law.so3 import Rotation
 from tasks.rules import RULES
 from tasks.truth import angle
 from tasks.verdict import CRASHED, GOING, SETTLED, SINGULAR, verdict

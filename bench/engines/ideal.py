@@ -7,12 +7,12 @@ by exp([Omega]x), Omega by Magnus to fourth order in the tick.
 
 from numba import types
 
-from bench.contender import AT_REST, Gains, Goal
 from bench.engines.compiled import CURVES, EVALUATE, FOUR, MATRIX, NUMBERS, compile_function
 from bench.engines.curve import keep
 from bench.engines.episode import Sample, blamed, finish
-from bench.scalar import atan2, cos, kernel, sin, sqrt
-from bench.so3 import Rotation, cross, dot, from_quaternion
+from bench.law.contender import AT_REST, Gains, Goal
+from bench.law.scalar import atan2, cos, kernel, sin, sqrt
+from bench.law.so3 import Rotation, cross, dot, from_quaternion
 from tasks.verdict import GOING, check_command, check_state, first_watch, watched
 
 SMALL_TURN_SQUARED = 1e-2

@@ -6,7 +6,6 @@ import threading
 import mujoco
 import numpy as np
 
-from bench.contender import Contender
 from bench.engines import ideal
 from bench.engines.binding import evaluation_of, memory_of, observer, plant_of
 from bench.engines.compiled import EVALUATE, compile_function, own_law
@@ -14,6 +13,7 @@ from bench.engines.curve import Curves, blank_curves
 from bench.engines.episode import Settings, blank, numbers, start_rows
 from bench.engines.native import free_body as native
 from bench.engines.reference import free_body as reference
+from bench.law.contender import Contender
 
 MUJOCO_INTEGRATORS = {
     "euler": mujoco.mjtIntegrator.mjINT_EULER,

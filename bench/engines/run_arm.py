@@ -8,8 +8,7 @@ import mujoco
 import numpy as np
 
 import tasks
-from bench.cartesian import assembly
-from bench.contender import Contender
+from bench.control.resolved_acceleration import assembly
 from bench.engines.arm_episode import blank_arm, controls, joints
 from bench.engines.binding import margin_of, memory_of, observer, parts_for
 from bench.engines.compiled import compile_function, own_law
@@ -18,7 +17,8 @@ from bench.engines.episode import Settings, numbers, start_rows
 from bench.engines.native import arm as native
 from bench.engines.reference import arm as reference
 from bench.engines.run import MUJOCO_INTEGRATORS
-from tasks.arm import Arm
+from bench.law.contender import Contender
+from tasks.arm_model import Arm
 
 NOMINAL = "nominal"
 """The variation in which the controller's model is the plant."""

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import mujoco
 import numpy as np
 
-from bench.compliance import Compliant, check_constants
+from bench.control.contact_controller import Compliant, check_constants
 from bench.engines import contact_episode
 from bench.engines.compiled import compile_function
 from bench.engines.contact_episode import USUAL, Conditions, Ended, blank, made, numbers
@@ -17,7 +17,7 @@ from bench.engines.native import trapped
 from bench.engines.reference import contact as reference
 from bench.engines.run import MUJOCO_INTEGRATORS
 from bench.errors import BadNumber, UnknownWord
-from tasks.arm import Arm
+from tasks.arm_model import Arm
 from tasks.contact import STANDARD, ContactModel, ContactTask, Trial, model_xml, prepare, refuse
 from tasks.contact_checks import check_contact, check_trial
 

@@ -4,11 +4,11 @@ import functools
 
 import numpy as np
 
-from bench.contender import Contender
 from bench.engines import disturbed
 from bench.engines.binding import memory_of, observer
 from bench.engines.episode import Settings, numbers, start_rows
 from bench.engines.run import evaluation
+from bench.law.contender import Contender
 from tasks.condition import Condition
 from tasks.rules import RULES
 

@@ -1,1 +1,1 @@
-"""Columns measured along an episode, one file each, with one constant METRIC. The file name is the word."""
+"""What is measured: along an episode (motion/), and of a hand in contact (contact/)."""

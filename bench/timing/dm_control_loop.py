@@ -12,8 +12,8 @@ import mujoco
 import numpy as np
 
 import tasks
-from bench.contender import Gains
-from bench.so3 import from_quaternion
+from bench.law.contender import Gains
+from bench.law.so3 import from_quaternion
 from tasks.base import Start
 
 HORIZON_S = 1000.0

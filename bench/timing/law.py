@@ -14,10 +14,10 @@ import functools
 import numpy as np
 
 import tasks
-from bench.contender import AT_REST, Gains, Goal, Regulator
 from bench.engines.compiled import MATRIX, compile_function, float64, int64
-from bench.scalar import kernel
-from bench.so3 import Rotation, from_quaternion
+from bench.law.contender import AT_REST, Gains, Goal, Regulator
+from bench.law.scalar import kernel
+from bench.law.so3 import Rotation, from_quaternion
 
 STATES = 1000
 SWEEPS = 20

@@ -9,17 +9,17 @@ import numpy as np
 from mujoco.rollout import Rollout
 
 import tasks
-from bench import combinations
-from bench.contender import PAPERS_GAINS, Contender
-from bench.discovery import metrics_of
+from bench.contenders import combinations
 from bench.engines import run_arm
 from bench.engines.arm_episode import blank_arm, controls, joints
 from bench.engines.binding import memory_of
 from bench.engines.curve import blank_curves
 from bench.engines.episode import TICKS, numbers, start_rows
-from bench.plan import Plan
-from bench.rows import settings_of
-from bench.suites import suite
+from bench.experiments.plan import Plan
+from bench.experiments.rows import settings_of
+from bench.experiments.suites import suite
+from bench.law.contender import PAPERS_GAINS, Contender
+from bench.metrics.registry import metrics_of
 from bench.timing import dm_control_loop
 from bench.timing.thing import DM_CONTROL, ENGINE, NEVER, ROLLOUT, Thing
 from tasks.base import Start

@@ -12,7 +12,7 @@ stays a few ulps, and RESULT holds on every machine.
 import functools
 
 from bench.engines.compiled import compile_function, float64, int64
-from bench.scalar import sin, sqrt
+from bench.law.scalar import sin, sqrt
 
 STEPS = 20_000
 """About half a millisecond: a thousand times what calling it costs."""

@@ -8,11 +8,11 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from bench.contender import Contender
+from bench.experiments.rows import contender_columns
+from bench.law.contender import Contender
 from bench.provenance import describe, machine_key
-from bench.rows import contender_columns
-from bench.schema import RESULTS
-from bench.store import read_arrow, write_table
+from bench.tables.schema import RESULTS
+from bench.tables.store import read_arrow, write_table
 from bench.timing import threads
 from bench.timing.ratios import Ratio, ratio
 from bench.timing.session import measure

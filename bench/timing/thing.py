@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from typing import NamedTuple
 
-from bench.contender import Contender
+from bench.law.contender import Contender
 
 KERNEL, LAW, LOOP, ENGINE, THREADS = "reference-kernel", "law", "loop", "engine", "threads"
 ROLLOUT, DM_CONTROL = "rollout", "dm-control"

@@ -13,15 +13,15 @@ import numpy as np
 from mujoco.rollout import Rollout
 
 import tasks
-from bench.contender import Contender, Gains
-from bench.discovery import metrics_of
 from bench.engines.binding import command_of, memory_of
 from bench.engines.curve import blank_curves
 from bench.engines.episode import TICKS, blank, numbers, start_rows
 from bench.engines.native import free_body as native
 from bench.engines.run import compiled_loop, evaluation
-from bench.plan import Plan
-from bench.rows import settings_of
+from bench.experiments.plan import Plan
+from bench.experiments.rows import settings_of
+from bench.law.contender import Contender, Gains
+from bench.metrics.registry import metrics_of
 from bench.timing import law, on_arms, reference_kernel
 from bench.timing.thing import ENGINE, KERNEL, LAW, LOOP, NEVER, ROLLOUT, Thing
 

@@ -14,9 +14,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bench import combinations
-from bench.contender import Contender
-from bench.discovery import find_contender
+from bench.contenders import combinations
+from bench.contenders.registry import find_contender
+from bench.law.contender import Contender
 from bench.timing import on_arms
 from bench.timing.ratios import Ratio, ratio
 

@@ -18,7 +18,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from tasks.arm import Arm
+from tasks.arm_model import Arm
 from tasks.base import ArmStartSet, Quat, Start, Vector
 from tasks.clearance import CONDITION, RANGE, clear_path, is_clear_of_pole, is_clear_of_wraps, steps_for
 from tasks.haar import direction, halton

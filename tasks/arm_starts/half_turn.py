@@ -17,7 +17,7 @@ import math
 
 import numpy as np
 
-from tasks.arm import Arm
+from tasks.arm_model import Arm
 from tasks.arm_starts.clear import around_home
 from tasks.base import ArmStartSet, Quat, Start, Vector
 from tasks.clearance import clear_path, steps_for

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import functools
 
-from tasks.arm import Arm
+from tasks.arm_model import Arm
 from tasks.arm_starts.clear import clear_turns, van_der_corput
 from tasks.base import ArmStartSet, Start
 from tasks.haar import direction, halton

@@ -14,7 +14,7 @@ import math
 
 import numpy as np
 
-from tasks.arm import Arm
+from tasks.arm_model import Arm
 from tasks.base import ArmStartSet, Quat, Start
 from tasks.haar import halton, orientation
 from tasks.kinematics import Kinematics, kinematics

@@ -26,7 +26,7 @@ from collections.abc import Iterable, Iterator
 
 import numpy as np
 
-from tasks.arm import Arm
+from tasks.arm_model import Arm
 from tasks.arm_starts.clear import around_home
 from tasks.base import ArmStartSet, Quat, Start, Vector
 from tasks.clearance import CONDITION, RANGE, is_clear_of_pole

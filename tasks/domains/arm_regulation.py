@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import functools
 
-from tasks.arm import Arm, model_xml
+from tasks.arm_model import Arm, model_xml
 from tasks.base import ArmTask, Start, Task
 
 NAME = "arm-regulation"

@@ -13,7 +13,7 @@ from __future__ import annotations
 import functools
 import math
 
-from tasks.arm import Arm
+from tasks.arm_model import Arm
 from tasks.contact import ContactTask, Order, Surroundings, Trial
 from tasks.domains import wrench_probe
 from tasks.hand_frames import mounts, posture

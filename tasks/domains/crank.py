@@ -18,7 +18,7 @@ import functools
 import itertools
 import math
 
-from tasks.arm import Arm
+from tasks.arm_model import Arm
 from tasks.contact import ContactTask, Order, Surroundings, Trial
 from tasks.hand_frames import at, mounts, posture, wrist
 from tasks.rotations import columns, multiply, zyx

@@ -15,7 +15,7 @@ import functools
 import itertools
 import math
 
-from tasks.arm import Arm
+from tasks.arm_model import Arm
 from tasks.contact import ContactTask, Order, Surroundings, Trial
 from tasks.hand_frames import at, leaning, mounts, posture
 from tasks.rotations import columns, zyx

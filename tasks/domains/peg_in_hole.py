@@ -18,7 +18,7 @@ import functools
 import itertools
 import math
 
-from tasks.arm import Arm
+from tasks.arm_model import Arm
 from tasks.base import Vector
 from tasks.contact import ContactTask, Order, Surroundings, Trial
 from tasks.hand_frames import at, leaning, mounts, plus, posture, wrist

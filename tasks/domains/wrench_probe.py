@@ -17,7 +17,7 @@ import math
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from tasks.arm import Arm
+from tasks.arm_model import Arm
 from tasks.base import AT_REST
 from tasks.contact import ContactTask, Order, Surroundings, Trial
 from tasks.hand_frames import mounts, posture

@@ -11,8 +11,7 @@ import mujoco
 import numpy as np
 from numba import float64, int64, types
 
-from bench.cartesian import Buffers, control
-from bench.contender import AT_REST, Gains, Goal
+from bench.control.resolved_acceleration import Buffers, control
 from bench.engines.arm_episode import (
     MOST,
     PROBE_TICKS,
@@ -30,8 +29,9 @@ from bench.engines.curve import keep_on_arm
 from bench.engines.episode import blamed, finish
 from bench.engines.native.libmujoco import mj_fullM, mj_resetData, mj_step, mj_step1, mj_step2
 from bench.engines.native.pointers import address_of, matrix, vector
-from bench.resolved_motion import Chain, Scratch
-from bench.so3 import Rotation, from_quaternion
+from bench.law.contender import AT_REST, Gains, Goal
+from bench.law.resolved_motion import Chain, Scratch
+from bench.law.so3 import Rotation, from_quaternion
 from tasks.truth import angle, haversine
 from tasks.verdict import GOING, check_command, check_state, first_watch, watched
 

@@ -10,24 +10,16 @@ import mujoco
 import numpy as np
 from numba import float64, int64, types
 
+from bench.control.hybrid import Room, Rows, Touch, Wish, comply
 from bench.engines.compiled import MATRIX, compile_function, register
-from bench.engines.contact_episode import (
-    BROKEN,
-    Numbers,
-    moved,
-    overload,
-    sensors_of,
-    wrench,
-    write_record,
-)
+from bench.engines.contact_episode import BROKEN, Numbers, moved, overload, sensors_of, wrench, write_record
 from bench.engines.native.arm import CHAIN, GAINS, ROTATION, THREE, VECTOR
 from bench.engines.native.libmujoco import mj_fullM
 from bench.engines.native.pointers import address_of, integers, matrix, vector
 from bench.engines.native.trapped import BEGIN, RUNGE_KUTTA, STEP, step
-from bench.force import Room, Rows, Touch, Wish, comply
-from bench.resolved_motion import Chain, Scratch
-from bench.scalar import sqrt
-from bench.so3 import Rotation, from_quaternion
+from bench.law.resolved_motion import Chain, Scratch
+from bench.law.scalar import sqrt
+from bench.law.so3 import Rotation, from_quaternion
 from tasks.contact import MOST_LEGS, leg
 from tasks.verdict import GOING, check_command, check_state
 

@@ -15,12 +15,12 @@ import mujoco
 import numpy as np
 from numba import float64, int32, int64, types
 
-from bench.contender import AT_REST, Gains, Goal
 from bench.engines.compiled import CURVES, EVALUATE, FOUR, MATRIX, NUMBERS, compile_function
 from bench.engines.curve import keep
 from bench.engines.episode import Sample, blamed, finish
 from bench.engines.native.libmujoco import mj_fwdActuation, mj_resetData, mj_step, mj_step1, mj_step2
-from bench.so3 import Rotation, dot, from_quaternion, rotate
+from bench.law.contender import AT_REST, Gains, Goal
+from bench.law.so3 import Rotation, dot, from_quaternion, rotate
 from tasks.truth import angle, haversine
 from tasks.verdict import GOING, check_command, check_state, first_watch, watched
 

@@ -7,8 +7,7 @@ import mujoco
 import numpy as np
 
 import tasks
-from bench.cartesian import assembly, control
-from bench.contender import Gains, Goal
+from bench.control.resolved_acceleration import assembly, control
 from bench.engines.arm_episode import (
     PROBE_TICKS,
     ArmSample,
@@ -24,8 +23,9 @@ from bench.engines.arm_episode import (
 from bench.engines.binding import margin_of, memory_of, observer, parts_for
 from bench.engines.episode import Settings, blamed, finish, numbers
 from bench.engines.reference.free_body import STILL, vector
-from bench.resolved_motion import Chain
-from bench.so3 import Rotation, dot, from_quaternion
+from bench.law.contender import Gains, Goal
+from bench.law.resolved_motion import Chain
+from bench.law.so3 import Rotation, dot, from_quaternion
 from tasks.truth import angle, haversine
 from tasks.verdict import GOING, check_command, check_state, first_watch, watched
 

@@ -8,8 +8,8 @@ import contextlib
 import mujoco
 import numpy as np
 
-from bench.compliance import Compliant
-from bench.contender import Gains
+from bench.control.contact_controller import Compliant
+from bench.control.hybrid import Touch, Wish, comply
 from bench.engines.contact_episode import (
     BROKEN,
     Conditions,
@@ -26,11 +26,11 @@ from bench.engines.contact_episode import (
     write_record,
 )
 from bench.engines.reference.free_body import vector
-from bench.force import Touch, Wish, comply
-from bench.resolved_motion import Chain
-from bench.scalar import sqrt
-from bench.so3 import Rotation, from_quaternion
-from tasks.arm import Arm
+from bench.law.contender import Gains
+from bench.law.resolved_motion import Chain
+from bench.law.scalar import sqrt
+from bench.law.so3 import Rotation, from_quaternion
+from tasks.arm_model import Arm
 from tasks.contact import ContactModel, ContactTask, Trial
 from tasks.contact_episode import environment
 from tasks.verdict import GOING, check_command, check_state

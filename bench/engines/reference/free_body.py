@@ -8,10 +8,10 @@ import mujoco
 import numpy as np
 
 import tasks
-from bench.contender import AT_REST, Gains, Goal
 from bench.engines.binding import command_of, margin_of, memory_of, observer, plant_of
 from bench.engines.episode import Sample, Settings, blamed, blank, finish, numbers
-from bench.so3 import Rotation, dot, from_quaternion, rotate
+from bench.law.contender import AT_REST, Gains, Goal
+from bench.law.so3 import Rotation, dot, from_quaternion, rotate
 from tasks.truth import angle, haversine
 from tasks.verdict import GOING, check_command, check_state, first_watch, watched
 

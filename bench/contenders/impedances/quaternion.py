@@ -1,0 +1,30 @@
+"""Impedance on the error quaternion, the short way round: e = 2 sgn(eta) eps = 2 sin(theta/2) k.
+
+Fails: at half turns e jumps to -e; there the sign is that of `so3.quaternion_direction`.
+"""
+
+from bench.law.impedance import Impedance
+from bench.law.scalar import kernel, sqrt
+from bench.law.so3 import quaternion_direction, relative, rotate
+
+
+@kernel
+def law(R, omega, m, R_d, gains, inertia):
+    """u = m/m_o + 2 Kp eps - Kv omega, (eta, eps) the unit quaternion of R^T R_d with eta >= 0, in the base frame."""
+    (_, x, y, z), t = quaternion_direction(relative(R, R_d))
+    scale = gains.kp / sqrt(t)
+    e = rotate(R, (scale * x, scale * y, scale * z))
+    return (
+        m[0] / inertia + e[0] - gains.kv * omega[0],
+        m[1] / inertia + e[1] - gains.kv * omega[1],
+        m[2] / inertia + e[2] - gains.kv * omega[2],
+    )
+
+
+IMPEDANCE = Impedance(
+    name="quaternion",
+    title="Quaternion to the goal",
+    source="Yuan 1988; Caccavale et al. 1999",
+    formula=r"u = m/m_o + 2 K_p\,\operatorname{sgn}(\eta)\,\epsilon - K_v\,\omega",
+    law=law,
+)

@@ -1,0 +1,29 @@
+"""Impedance on the rotation vector from where the hand is to where it shall be: e = theta k, the spring of angle/axis.
+
+Fails: at half turns e jumps to -e.
+"""
+
+from bench.contenders.representations.rotation_vector import chart
+from bench.law.impedance import Impedance
+from bench.law.scalar import kernel
+from bench.law.so3 import relative, rotate
+
+
+@kernel
+def law(R, omega, m, R_d, gains, inertia):
+    """u = m/m_o + Kp theta k - Kv omega; theta k is that of R^T R_d, turned to the base frame."""
+    e = rotate(R, chart(relative(R, R_d)).E)
+    return (
+        m[0] / inertia + gains.kp * e[0] - gains.kv * omega[0],
+        m[1] / inertia + gains.kp * e[1] - gains.kv * omega[1],
+        m[2] / inertia + gains.kp * e[2] - gains.kv * omega[2],
+    )
+
+
+IMPEDANCE = Impedance(
+    name="rotation-vector",
+    title="Rotation vector to the goal",
+    source="Caccavale et al. 1999 (angle/axis)",
+    formula=r"u = m/m_o + K_p\,\theta k - K_v\,\omega",
+    law=law,
+)

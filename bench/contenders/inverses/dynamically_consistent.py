@@ -1,0 +1,54 @@
+"""Operational space: tau = J^T Lambda a, Lambda = (J D^-1 J^T)^-1 the inertia seen at the tool (Khatib 1987).
+
+On six joints it is D J^-1 a. On seven it is the torque of least kinetic energy, and leaves alone what the tool does not
+see. From D = L L^T and Y = L^-1 J^T, Lambda^-1 = Y^T Y, so that D is never inverted.
+
+Fails: where J loses rank Lambda is not finite; like pseudo-inverse it squares the condition number of J.
+"""
+
+from bench.law.linalg import factor, gram, multiply_transposed, solve_factored, solve_lower
+from bench.law.resolved_motion import Inverse
+from bench.law.scalar import kernel
+
+
+@kernel
+def resolve(J, a, D, x, rows, n, scratch):
+    """x = J^T (J D^-1 J^T)^-1 a; by Cholesky's factors, twice."""
+    L, Y_transposed, S, column, force = scratch.B, scratch.V, scratch.A, scratch.t, scratch.s
+    for i in range(n):
+        for j in range(i + 1):
+            L[i, j] = D[i, j]
+    factor(L, n)
+    for i in range(rows):
+        for j in range(n):
+            column[j] = J[i, j]
+        solve_lower(L, column, n)
+        for j in range(n):
+            Y_transposed[i, j] = column[j]
+    gram(Y_transposed, S, rows, n)
+    factor(S, rows)
+    for i in range(rows):
+        force[i] = a[i]
+    solve_factored(S, force, rows)
+    multiply_transposed(J, force, x, rows, n)
+
+
+def refuses(rows: int, n: int) -> str:
+    """More rows than a rigid body has freedoms, or than the arm has joints."""
+    if rows > 6 or rows > n:
+        return (
+            f"J D^-1 J^T of a {rows} x {n} Jacobian is singular, so Lambda does not exist; "
+            "use coordinates of three numbers on six joints or more, or damped-least-squares"
+        )
+    return ""
+
+
+INVERSE = Inverse(
+    name="dynamically-consistent",
+    title="Dynamically consistent",
+    source="Khatib 1987",
+    formula=r"\tau = J^\top \Lambda\, a, \quad \Lambda = (J D^{-1} J^\top)^{-1}",
+    resolve=resolve,
+    gives="torque",
+    refuses=refuses,
+)

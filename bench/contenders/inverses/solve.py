@@ -1,0 +1,42 @@
+"""The inverse of a square Jacobian, by elimination: x = J^-1 a (Murphy 1988, 2.2, 3.7).
+
+Fails: where J is singular x is not finite, and towards it x grows like 1 / sigma_min(J) without bound.
+"""
+
+from bench.law.linalg import solve
+from bench.law.resolved_motion import Inverse
+from bench.law.scalar import kernel
+
+
+@kernel
+def resolve(J, a, D, x, rows, n, scratch):
+    """J x = a by Gauss elimination with partial pivoting."""
+    A = scratch.A
+    for i in range(rows):
+        x[i] = a[i]
+        for j in range(n):
+            A[i, j] = J[i, j]
+    solve(A, x, n)
+
+
+def refuses(rows: int, n: int) -> str:
+    """Anything but 6 x 6 or smaller squares."""
+    if rows > 6 and n > 6:
+        return (
+            f"a {rows} x {n} Jacobian has rank 6, as a rigid body has six freedoms, and no inverse; "
+            "use damped-least-squares or truncated-svd"
+        )
+    if rows != n:
+        return f"a {rows} x {n} Jacobian is not square; use pseudo-inverse, damped-least-squares or truncated-svd"
+    return ""
+
+
+INVERSE = Inverse(
+    name="solve",
+    title="Inverse",
+    source="Murphy 1988, (2.2), (3.7); Luh, Walker, Paul 1980",
+    formula=r"\ddot q = J^{-1} a",
+    resolve=resolve,
+    gives="acceleration",
+    refuses=refuses,
+)

@@ -1,0 +1,33 @@
+"""The Jacobian's transpose in place of an inverse: tau = J^T a, as if a were the force and moment on the tool.
+
+The force that would give a unit mass of unit inertia the acceleration a. It needs no inverse and exists everywhere, but
+the arm is no unit mass: it does not linearize, its stiffness depends on the pose, and only rest at the goal is kept.
+
+Fails: never by itself; the motion is that of another plant, slower or faster by the arm's own inertia.
+"""
+
+from bench.law.linalg import multiply_transposed
+from bench.law.resolved_motion import Inverse
+from bench.law.scalar import kernel
+
+
+@kernel
+def resolve(J, a, D, x, rows, n, scratch):
+    """x = J^T a, unit mass and inertia taken for the arm's."""
+    multiply_transposed(J, a, x, rows, n)
+
+
+def refuses(rows: int, n: int) -> str:
+    """Nothing."""
+    return ""
+
+
+INVERSE = Inverse(
+    name="transpose",
+    title="Transpose",
+    source="Takegaki & Arimoto 1981; Craig 1986",
+    formula=r"\tau = J^\top a",
+    resolve=resolve,
+    gives="torque",
+    refuses=refuses,
+)

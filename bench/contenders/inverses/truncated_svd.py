@@ -1,0 +1,49 @@
+"""The pseudo-inverse without small singular values: x = sum of (u_i . W a) / sigma_i v_i over sigma_i > TOLERANCE.
+
+From W J with its rows turned until they are orthogonal (linalg/rotations.py): each is sigma_i v_i^T, and W a turned
+with them is u_i . W a.
+
+Fails: never by itself, but the answer jumps where a singular value crosses the tolerance, and what was asked for along
+those left out is not done at all.
+"""
+
+from bench.law.linalg import multiply_transposed, orthogonalize
+from bench.law.resolved_motion import Inverse
+from bench.law.scalar import kernel
+from bench.law.weighting import GREATEST_GAIN, weigh
+
+TOLERANCE = 1.0 / GREATEST_GAIN
+"""The gain along v_i is 1 / sigma_i, so that what is left keeps to GREATEST_GAIN."""
+
+
+@kernel
+def resolve(J, a, D, x, rows, n, scratch):
+    """x = sum over sigma_i > TOLERANCE of (u_i . W a) / sigma_i^2 times row i of U^T W J."""
+    J_W, a_W = scratch.B, scratch.s
+    weigh(J, a, J_W, a_W, rows, n)
+    orthogonalize(J_W, a_W, rows, n)
+    for i in range(rows):
+        square = J_W[i, 0] * J_W[i, 0]
+        for j in range(1, n):
+            square = square + J_W[i, j] * J_W[i, j]
+        if square > TOLERANCE * TOLERANCE:
+            a_W[i] = a_W[i] / square
+        else:
+            a_W[i] = 0.0
+    multiply_transposed(J_W, a_W, x, rows, n)
+
+
+def refuses(rows: int, n: int) -> str:
+    """Nothing."""
+    return ""
+
+
+INVERSE = Inverse(
+    name="truncated-svd",
+    title="Truncated SVD",
+    source="Golub & Kahan 1965; Hestenes 1958",
+    formula=r"\ddot q = \sum_{\sigma_i > \epsilon} \frac{u_i \cdot W a}{\sigma_i}\, v_i, \quad W J = U \Sigma V^\top",
+    resolve=resolve,
+    gives="acceleration",
+    refuses=refuses,
+)

@@ -1,0 +1,55 @@
+"""The Euler Jacobian by conversion, J_E = diag(I, B^-1) J, and Jdot_E qdot from Jdot qdot (Murphy 1988, 3.3-3.7).
+
+In any representation. Of a quaternion there are four rows, (1/2) Xi(q) z_i, a Jacobian of 7 x n and rank 6. Along q
+itself, out of the unit sphere, no motion can be commanded, and the drift leaves its own part -|omega|^2 / 4 q out. No
+inverse sees either: J_E^T (0, q) = 0, and each of them is J_E^T (J_E J_E^T + ...)^-1 a or (...) J_E^T a.
+
+Fails: where the coordinates are singular, B^-1 and with it J_E are not finite, and where the arm itself is singular.
+"""
+
+from bench.law.contender import AT_REST
+from bench.law.resolved_motion import Jacobian
+from bench.law.scalar import kernel
+from bench.law.so3 import cross
+
+STILL_QUATERNION = (0.0, 0.0, 0.0, 0.0)
+
+
+def kernels_in(representation):
+    """fill and drift in the coordinates of one representation."""
+    rates, accelerate = representation.rates, representation.accelerate
+    count = len(representation.symbols)
+    still = AT_REST if count < 4 else STILL_QUATERNION
+
+    @kernel
+    def fill(J, chain, at):
+        """J_i = [z_i x (p - p_i); B^-1 z_i] (Murphy 1988, 3.3)."""
+        axes, anchors, p = chain.axes, chain.anchors, chain.p
+        for i in range(chain.n):
+            z = (axes[i, 0], axes[i, 1], axes[i, 2])
+            swept = cross(z, (p[0] - anchors[i, 0], p[1] - anchors[i, 1], p[2] - anchors[i, 2]))
+            turned = rates(at, z)
+            for k in range(3):
+                J[k, i] = swept[k]
+            for k in range(count):
+                J[3 + k, i] = turned[k]
+
+    @kernel
+    def drift(chain, at, Edot, omega, bias):
+        """Jdot_E qdot = (pddot, B^-1 (omegadot - Bdot Edot)), pddot and omegadot those of Jdot qdot."""
+        bent = accelerate(at, Edot, still)
+        # added, not spread with a star: compiled code has no (*a, *b) of tuples
+        return (bias[0], bias[1], bias[2]) + rates(at, (bias[3] - bent[0], bias[4] - bent[1], bias[5] - bent[2]))  # noqa: RUF005
+
+    return fill, drift
+
+
+JACOBIAN = Jacobian(
+    name="analytic",
+    title="Analytic, converted",
+    source="Murphy 1988, (3.3)-(3.7)",
+    formula=r"J_E = \operatorname{diag}(I, B^{-1})\, J, \quad "
+    r"\dot J_E \dot q = \bigl(\ddot p,\; B^{-1} (\dot\omega - \dot B \dot E)\bigr)\big|_{\ddot q = 0}",
+    takes="coordinates",
+    kernels_in=kernels_in,
+)

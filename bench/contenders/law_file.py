@@ -1,0 +1,140 @@
+"""A user's law: the one file outside the package that holds a REGULATOR."""
+
+import hashlib
+import re
+import sys
+import types
+from pathlib import Path
+
+from bench.contenders.registry import contenders_of, known_regulators, representation
+from bench.errors import BadLaw
+from bench.law.contender import NO_MEMORY, Contender, Gains, Goal, Regulator
+from bench.law.so3 import Rotation
+
+WORD = re.compile(r"[a-z0-9]+(-[a-z0-9]+)*")
+"""A name as rows, file names and the command line write it."""
+
+
+def load_law(path: Path, text: bytes | None = None) -> Regulator:
+    """The REGULATOR of a file outside the package. This runs the file.
+
+    The module's name carries a digest of the file, so that nothing of an earlier version is ever reused.
+
+    Args:
+        text: what the file holds, if it has been read already.
+
+    Errors:
+        BadLaw: the file is missing, does not import, lacks REGULATOR, or its law does not return three numbers.
+    """
+    path = Path(path)
+    if not path.is_file():
+        raise BadLaw(f"--law {path}: there is no such file; give the path of a Python file with a constant REGULATOR")
+    try:
+        text = path.read_bytes() if text is None else text
+    except OSError as error:
+        raise BadLaw(f"--law {path}: it cannot be read ({error.strerror}); mend its rights") from error
+    name = f"user_law_{path.stem}_{hashlib.sha256(text).hexdigest()[:12]}"
+    module = types.ModuleType(name)
+    module.__file__ = str(path)
+    sys.modules[name] = module
+    try:
+        exec(compile(text, path, "exec"), module.__dict__)
+    except (Exception, SystemExit) as error:
+        del sys.modules[name]
+        raise BadLaw(f"--law {path}: it does not import ({type(error).__name__}: {error}); mend the file") from error
+    own = getattr(module, "REGULATOR", None)
+    if not isinstance(own, Regulator):
+        given = "no REGULATOR" if own is None else f"a REGULATOR of type {type(own).__name__}"
+        raise BadLaw(
+            f"--law {path}: it has {given}; it needs a constant REGULATOR = bench.law.Regulator(...) (see README)"
+        )
+    _check_fields(own, path)
+    if own.name in known_regulators():
+        raise BadLaw(f"--law {path}: the name '{own.name}' is one of ours; give your REGULATOR another name")
+    own = own._replace(origin=str(path))
+    for one in contenders_of(own):
+        _check_shape(one, path)
+    return own
+
+
+TRIAL = Rotation((0.36, 0.48, -0.8), (-0.8, 0.6, 0.0), (0.48, 0.64, 0.6))
+"""A rotation with short decimals, away from every singular set we know: where a law is tried once."""
+
+
+def _check_fields(own: Regulator, path: Path) -> None:
+    """What the fields of a user's REGULATOR must be, before anything is made of them."""
+    on_matrix = own.coordinates == "rotation-matrix"
+    needed = "law" if on_matrix else "law_in"
+    memory = own.memory or ()
+    coordinates = own.coordinates if isinstance(own.coordinates, tuple) else ()
+    problems = (
+        (
+            not (isinstance(own.name, str) and WORD.fullmatch(own.name)),
+            f"its name {own.name!r} is no word of a-z, 0-9 and dashes, such as 'my-law'",
+        ),
+        (
+            not all(isinstance(text, str) for text in (own.title, own.source, own.formula, own.property)),
+            "title, source, formula and property must be texts",
+        ),
+        (
+            not (on_matrix or own.coordinates == "any" or coordinates),
+            f"its coordinates are {own.coordinates!r}; allowed: 'rotation-matrix', 'any', a tuple of names",
+        ),
+        (
+            not callable(getattr(own, needed)),
+            f"its {needed} is {_shown(getattr(own, needed))}; on {own.coordinates!r} coordinates give a function",
+        ),
+        (
+            not (
+                isinstance(memory, tuple)
+                and len(memory) <= len(NO_MEMORY)
+                and all(isinstance(x, float) for x in memory)
+            ),
+            f"its memory is {own.memory!r}; give None or a tuple of up to {len(NO_MEMORY)} floats",
+        ),
+        (own.in_engine is not False, "it has in_engine; MuJoCo's own actuator would run in its place: leave it away"),
+    )
+    for is_wrong, problem in problems:
+        if is_wrong:
+            raise BadLaw(f"--law {path}: {problem}")
+    for word in coordinates:
+        representation(word)
+
+
+MISTAKES = (TypeError, NameError, AttributeError, ImportError)
+"""What a law raises that was written wrongly; anything else it may raise in some state, and that is a row."""
+
+
+def _check_shape(one: Contender, path: Path) -> None:
+    first = one.regulator.memory
+    has_memory = first is not None
+    memory = () if first is None else ((*first, *NO_MEMORY[len(first) :]),)
+    try:
+        answer = one.law(TRIAL, (0.1, 0.2, 0.3), Goal(), Gains(), *memory)
+    except MISTAKES as error:
+        arguments = "R, omega, goal, gains, memory" if has_memory else "R, omega, goal, gains"
+        raise BadLaw(
+            f"--law {path}: the law of '{one.name}' cannot be called as law({arguments}) "
+            f"({type(error).__name__}: {error}); see the example in README"
+        ) from error
+    except Exception:
+        return  # a law that raises in an episode is a row, not a mistake of the caller
+    if has_memory:
+        if not (
+            isinstance(answer, tuple) and len(answer) == 2 and isinstance(answer[1], tuple) and len(answer[1]) == 4
+        ):
+            raise BadLaw(
+                f"--law {path}: the law of '{one.name}' has memory and returned {_shown(answer)}; it must return "
+                "(command, memory) with a memory of four floats"
+            )
+        answer = answer[0]
+    if not (isinstance(answer, tuple) and len(answer) == 3 and all(isinstance(x, float) for x in answer)):
+        raise BadLaw(
+            f"--law {path}: the law of '{one.name}' returned {_shown(answer)}; it must return a tuple of three floats, "
+            "the angular acceleration in the base frame"
+        )
+
+
+def _shown(answer) -> str:
+    text = repr(answer)
+    return text if len(text) <= 60 else text[:57] + "..."

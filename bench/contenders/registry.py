@@ -1,0 +1,135 @@
+"""Finding what exists: every module of a folder that holds the one named constant.
+
+Nothing registers itself; dropping a file is enough. The file name, underscores turned to dashes, must be the
+constant's name.
+"""
+
+import functools
+import importlib
+import pkgutil
+from typing import Any
+
+from bench.contenders import impedances, inverses, jacobians, regulators, representations
+from bench.errors import BadLaw, Incompatible, UnknownWord
+from bench.law.contender import Contender, Regulator, Representation, contender
+from bench.law.impedance import Impedance
+from bench.law.resolved_motion import Inverse, Jacobian
+
+
+def collect(package, constant: str, kind: type) -> dict[str, Any]:
+    """Word -> the constant of that name, from every module of a package, in alphabetical order.
+
+    Errors:
+        BadLaw: a module has no such constant, or its name is not the file's.
+    """
+    found: dict[str, Any] = {}
+    for module_info in pkgutil.iter_modules(package.__path__):
+        module = importlib.import_module(f"{package.__name__}.{module_info.name}")
+        value: Any = getattr(module, constant, None)
+        if not isinstance(value, kind):
+            raise BadLaw(f"{module.__file__} has no {constant} that is a {kind.__name__}; each file there needs one")
+        word, name = module_info.name.replace("_", "-"), getattr(value, "name", None)
+        if name != word:
+            raise BadLaw(f"{module.__file__}: {constant}.name is '{name}', but the file's name makes it '{word}'")
+        found[word] = value
+    return found
+
+
+@functools.cache
+def known_representations() -> dict:
+    """Word -> Representation, from bench/contenders/representations."""
+    return collect(representations, "REPRESENTATION", Representation)
+
+
+@functools.cache
+def known_regulators() -> dict:
+    """Word -> Regulator, from bench/contenders/regulators."""
+    return collect(regulators, "REGULATOR", Regulator)
+
+
+@functools.cache
+def known_jacobians() -> dict:
+    """Word -> Jacobian, from bench/contenders/jacobians."""
+    return collect(jacobians, "JACOBIAN", Jacobian)
+
+
+@functools.cache
+def known_inverses() -> dict:
+    """Word -> Inverse, from bench/contenders/inverses."""
+    return collect(inverses, "INVERSE", Inverse)
+
+
+@functools.cache
+def known_impedances() -> dict:
+    """Word -> Impedance, from bench/contenders/impedances."""
+    return collect(impedances, "IMPEDANCE", Impedance)
+
+
+def contenders_of(regulator: Regulator) -> list[Contender]:
+    """A regulator in every representation it acts on."""
+    if regulator.coordinates == "rotation-matrix":
+        return [contender(regulator)]
+    every = known_representations()
+    words = every if regulator.coordinates == "any" else regulator.coordinates
+    return [contender(regulator, representation(word)) for word in words]
+
+
+def all_contenders(extra: tuple[Regulator, ...] = ()) -> list[Contender]:
+    """Every regulator in every representation it acts on, costings included; then the user's own."""
+    return [one for regulator in (*known_regulators().values(), *extra) for one in contenders_of(regulator)]
+
+
+def regulator(word: str, extra: tuple[Regulator, ...] = ()) -> Regulator:
+    """The regulator of that name, the user's own among them."""
+    every = known_regulators() | {own.name: own for own in extra}
+    if word not in every:
+        raise UnknownWord("regulator", word, sorted(every))
+    return every[word]
+
+
+def representation(word: str):
+    """The representation of that name."""
+    every = known_representations()
+    if word not in every:
+        raise UnknownWord("representation", word, sorted(every))
+    return every[word]
+
+
+def jacobian(word: str) -> Jacobian:
+    """The Jacobian of that name."""
+    every = known_jacobians()
+    if word not in every:
+        raise UnknownWord("Jacobian", word, sorted(every))
+    return every[word]
+
+
+def inverse(word: str) -> Inverse:
+    """The inverse of that name."""
+    every = known_inverses()
+    if word not in every:
+        raise UnknownWord("inverse", word, sorted(every))
+    return every[word]
+
+
+def find_contender(word: str, extra: tuple[Regulator, ...] = ()) -> Contender:
+    """`regulator[/representation][@jacobian+inverse]`, as rows and the command line write it.
+
+    Errors:
+        UnknownWord: a part that is in no list. Incompatible: no representation is named, and the regulator acts on
+        several.
+    """
+    law, _, way = word.partition("@")
+    name, _, coordinates = law.partition("/")
+    chosen = regulator(name, extra)
+    several = contenders_of(chosen)
+    if coordinates:
+        one = contender(chosen, representation(coordinates))
+    elif len(several) == 1:
+        one = several[0]
+    else:
+        choices = ", ".join(each.name for each in several)
+        raise Incompatible(f"regulator '{name}' acts on several coordinates; name one: {choices}")
+    if not way:
+        return one
+    by, _, through = way.partition("+")
+    return one._replace(jacobian=jacobian(by), inverse=inverse(through))

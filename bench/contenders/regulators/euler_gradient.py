@@ -1,0 +1,38 @@
+"""Feedback linearization without the term Bdot Edot, and so without B^-1: u = Kp B (E_d - E) - Kv omega.
+
+Fails: where a coordinate jumps.
+"""
+
+from bench.law.contender import Regulator
+from bench.law.scalar import kernel
+
+
+def law_in(representation):
+    """The law in the coordinates of one representation."""
+    chart, goal_chart, push = representation.chart, representation.goal_chart, representation.angular_velocity
+
+    @kernel
+    def law(R, omega, goal, gains):
+        """u = Kp B (E_d - E) - Kv omega."""
+        at = chart(R)
+        E, E_d = at.E, goal_chart(goal.R).E
+        e = push(at, (E_d[0] - E[0], E_d[1] - E[1], E_d[2] - E[2]))
+        return (
+            gains.kp * e[0] - gains.kv * omega[0],
+            gains.kp * e[1] - gains.kv * omega[1],
+            gains.kp * e[2] - gains.kv * omega[2],
+        )
+
+    return law
+
+
+REGULATOR = Regulator(
+    name="euler-gradient",
+    title="Coordinates pushed forward",
+    source="Ablation of Murphy 1988, (2.15)",
+    formula=r"u = K_p\, B\,(E_d - E) - K_v\,\omega",
+    law_in=law_in,
+    coordinates=("zyx-euler",),
+    property="local",
+    later=True,
+)

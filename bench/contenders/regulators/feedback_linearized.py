@@ -1,0 +1,79 @@
+"""Feedback linearization in any coordinates: E obeys a linear double integrator (Murphy 1988, 2.15-2.16).
+
+What that is, from rest towards the identity:
+- Euler angles (zyx, zyz, xyz): each angle decays by itself; the path bends the more, the nearer the pole.
+- rotation vector: u = -Kp phi - Kd omega along the fixed axis, the angle decays linearly.
+- mrp: tan(theta/4) decays linearly; u is trig-free.
+- quaternion: u = -2 Kp eps - Kd omega exactly, eps = (x, y, z): what is along E moves nothing and drops out.
+
+Where E_d and E lie on different sheets (of mrp and rotation vector past the half turn, of the quaternion's sign) the
+numbers are taken as they come, and the way round is the long one.
+
+Fails: where B^-1 does not exist (in Z-Y-Z at the identity itself), and where a coordinate jumps.
+"""
+
+from bench.law.contender import Regulator
+from bench.law.scalar import kernel
+
+
+@kernel
+def pd_of_three(at, E_d, Edot, gains):
+    """u_E = Kp (E_d - E) - Kd Edot (Murphy 1988, 2.16), of three coordinates."""
+    return (
+        gains.kp * (E_d[0] - at.E[0]) - gains.kv * Edot[0],
+        gains.kp * (E_d[1] - at.E[1]) - gains.kv * Edot[1],
+        gains.kp * (E_d[2] - at.E[2]) - gains.kv * Edot[2],
+    )
+
+
+@kernel
+def pd_of_four(at, E_d, Edot, gains):
+    """The same of four."""
+    return (
+        gains.kp * (E_d[0] - at.E[0]) - gains.kv * Edot[0],
+        gains.kp * (E_d[1] - at.E[1]) - gains.kv * Edot[1],
+        gains.kp * (E_d[2] - at.E[2]) - gains.kv * Edot[2],
+        gains.kp * (E_d[3] - at.E[3]) - gains.kv * Edot[3],
+    )
+
+
+PD = {3: pd_of_three, 4: pd_of_four}
+"""By the number of coordinates: compiled code knows the length of a tuple, not a loop over it."""
+
+
+def coordinate_law_in(representation):
+    """u_E in the coordinates of one representation, for the analytic Jacobian (Murphy 1988, 3.7)."""
+    return PD[len(representation.symbols)]
+
+
+def law_in(representation):
+    """The law in the coordinates of one representation."""
+    chart, rates, accelerate = representation.chart, representation.rates, representation.accelerate
+    goal_chart = representation.goal_chart
+    pd = coordinate_law_in(representation)
+
+    @kernel
+    def law(R, omega, goal, gains):
+        """u = B u_E + Bdot Edot with u_E = Kp (E_d - E) - Kd Edot.
+
+        -B d(B^-1)/dt omega = Bdot Edot, so this is (2.15) without an inverse to differentiate.
+        Source: Murphy 1988, (2.15)-(2.16).
+        """
+        at = chart(R)
+        E_d = goal_chart(goal.R).E
+        Edot = rates(at, omega)
+        return accelerate(at, Edot, pd(at, E_d, Edot, gains))
+
+    return law
+
+
+REGULATOR = Regulator(
+    name="feedback-linearized",
+    title="Feedback-linearized",
+    source="Murphy 1988, (2.15)-(2.16)",
+    formula=r"u = B\,u_E + \dot B\,\dot E, \quad u_E = K_p (E_d - E) - K_d \dot E",
+    law_in=law_in,
+    coordinate_law_in=coordinate_law_in,
+    coordinates="any",
+    property="local",
+)

@@ -1,0 +1,32 @@
+"""Rodrigues parameters (the Gibbs vector) of the turn to the goal: e = 2 tan(theta/2) k = 2 s/(1 + t), one division.
+
+Fails: at half turns the command is unbounded, and on them not finite.
+"""
+
+from bench.law.contender import Regulator
+from bench.law.scalar import kernel
+from bench.law.so3 import double_sine, half_cosine_squared, trace
+
+
+@kernel
+def law(R, omega, goal, gains):
+    """u = 2 Kp s/(1 + t) - Kv omega, s = n x n_d + o x o_d + a x a_d, t = tr(R_d^T R)."""
+    s = double_sine(R, goal.R)
+    scale = 2.0 * gains.kp / (1.0 + trace(R, goal.R))
+    return (
+        scale * s[0] - gains.kv * omega[0],
+        scale * s[1] - gains.kv * omega[1],
+        scale * s[2] - gains.kv * omega[2],
+    )
+
+
+REGULATOR = Regulator(
+    name="gibbs",
+    title="Rodrigues parameters (Gibbs)",
+    source="Rodrigues 1840; Tsiotras 1996",
+    formula=r"u = 2 K_p\, s/(1 + t) - K_v\,\omega",
+    law=law,
+    property="almost global",
+    margin=half_cosine_squared,
+    later=True,
+)

@@ -1,0 +1,47 @@
+"""The square-root law with one quaternion of memory: global, with no point of rest but the goal.
+
+The error quaternion is followed from tick to tick, and its sign changed only where its scalar part has fallen below
+-DELTA: near a half turn the law keeps to the way it has begun, so that no noise holds it there. No continuous law
+without memory can do it (Bhat & Bernstein 2000).
+
+Fails: nowhere known; within asin(DELTA) beyond a half turn it goes the longer way on.
+"""
+
+from bench.law.contender import Regulator
+from bench.law.scalar import kernel, sqrt
+from bench.law.so3 import turn_quaternion
+
+DELTA = 0.4
+"""Half the width of the hysteresis, in eta = cos(theta/2): 47 degrees beyond a half turn."""
+
+
+@kernel
+def law(R, omega, goal, gains, memory):
+    """u = 2 Kp h eps - Kv omega; memory: the quaternion (w, v) of the last tick, of any length, whose side h is kept.
+
+    Here (eta, eps) = (w, v)/(2 root): eta and eps themselves are needed nowhere.
+    """
+    w, v, t = turn_quaternion(R, goal.R)
+    root = sqrt(t)
+    kept = memory[0] * w + memory[1] * v[0] + memory[2] * v[1] + memory[3] * v[2]
+    if kept < 0.0 and w < 2.0 * DELTA * root:
+        w, v = -w, (-v[0], -v[1], -v[2])
+    pull = gains.kp / root
+    u = (
+        pull * v[0] - gains.kv * omega[0],
+        pull * v[1] - gains.kv * omega[1],
+        pull * v[2] - gains.kv * omega[2],
+    )
+    return u, (w, v[0], v[1], v[2])
+
+
+REGULATOR = Regulator(
+    name="hybrid",
+    title="Hybrid, with one quaternion of memory",
+    source="Mayhew, Sanfelice, Teel 2011",
+    formula=r"u = 2 K_p\, h\,\epsilon - K_v\,\omega, \quad h^+ = -h \text{ where } h\,\eta < -\delta",
+    law=law,
+    memory=(1.0, 0.0, 0.0, 0.0),
+    property="global with memory",
+    later=True,
+)

@@ -1,0 +1,37 @@
+"""MuJoCo's <orientation> actuator: what a user of the simulator gets who writes no law, a servo along the geodesic.
+
+It is run in MuJoCo, in place of our motors, with the goal as its control; the rotation vector's law is what it
+computes, to rounding. Within 1e-15 rad of a half turn rounding chooses the side, and at exactly a half turn q and -q,
+one attitude, are pushed opposite ways.
+
+Fails: nowhere; at a half turn the command jumps to its opposite.
+"""
+
+from bench.law.contender import Regulator
+from bench.law.scalar import atan2, kernel, sqrt
+from bench.law.so3 import dot, turn_quaternion
+
+
+@kernel
+def law(R, omega, goal, gains):
+    """u = Kp theta k - Kv omega, what the actuator computes; counted from R, where MuJoCo begins with a quaternion."""
+    w, v, _ = turn_quaternion(R, goal.R)
+    size = sqrt(dot(v, v))
+    pull = gains.kp * (2.0 * atan2(size, w) / size if size > 0.0 else 0.0)
+    return (
+        pull * v[0] - gains.kv * omega[0],
+        pull * v[1] - gains.kv * omega[1],
+        pull * v[2] - gains.kv * omega[2],
+    )
+
+
+REGULATOR = Regulator(
+    name="in-engine",
+    title="MuJoCo's orientation actuator",
+    source="MuJoCo documentation, XML reference, actuator/orientation (3.11)",
+    formula=r"u = K_p \log(R_d R^\top) - K_v\,\omega",
+    law=law,
+    property="almost global",
+    later=True,
+    in_engine=True,
+)

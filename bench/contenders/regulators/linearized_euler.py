@@ -1,0 +1,39 @@
+"""PD on the Euler model linearized about zero, gains in the order that (2.14) asks for (Murphy 1988, 2.3).
+
+The paper writes u = -Kp E - Kd Edot and regulates to zero; here the goal's angles are subtracted, so that other goals
+can be asked for. Fails: far from zero angles, where B is no longer the permutation of (2.14), and through the pole.
+"""
+
+from bench.law.contender import Regulator
+from bench.law.scalar import kernel
+
+
+def law_in(representation):
+    """The law in Z-Y-X Euler angles."""
+    chart, rates, goal_chart = representation.chart, representation.rates, representation.goal_chart
+
+    @kernel
+    def law(R, omega, goal, gains):
+        """u = (u_gamma, u_beta, u_alpha) with u_E = Kp (E_d - E) - Kd Edot (Murphy 1988, 2.14)."""
+        at = chart(R)
+        E_d = goal_chart(goal.R).E
+        Edot = rates(at, omega)
+        return (
+            gains.kp * (E_d[2] - at.E[2]) - gains.kv * Edot[2],
+            gains.kp * (E_d[1] - at.E[1]) - gains.kv * Edot[1],
+            gains.kp * (E_d[0] - at.E[0]) - gains.kv * Edot[0],
+        )
+
+    return law
+
+
+REGULATOR = Regulator(
+    name="linearized-euler",
+    title="Linearized Euler",
+    source="Murphy 1988, (2.14)",
+    formula=r"u = P\,\bigl(K_p (E_d - E) - K_d \dot E\bigr), \quad P: (\alpha, \beta, \gamma) \mapsto "
+    r"(\gamma, \beta, \alpha)",
+    law_in=law_in,
+    coordinates=("zyx-euler",),
+    property="local",
+)

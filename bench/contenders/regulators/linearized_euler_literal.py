@@ -1,0 +1,38 @@
+"""The linearized regulator typed as the paper prints it, u = -Kp E - Kd Edot: a negative control.
+
+(2.14) maps u_x to gammaddot and u_z to alphaddot; without that permutation alpha is driven by gamma and gamma by
+alpha. Fails: unstable at the goal itself.
+"""
+
+from bench.law.contender import Regulator
+from bench.law.scalar import kernel
+
+
+def law_in(representation):
+    """The law in Z-Y-X Euler angles."""
+    chart, rates, goal_chart = representation.chart, representation.rates, representation.goal_chart
+
+    @kernel
+    def law(R, omega, goal, gains):
+        """u = Kp (E_d - E) - Kd Edot, component by component (Murphy 1988, 2.3, as printed)."""
+        at = chart(R)
+        E_d = goal_chart(goal.R).E
+        Edot = rates(at, omega)
+        return (
+            gains.kp * (E_d[0] - at.E[0]) - gains.kv * Edot[0],
+            gains.kp * (E_d[1] - at.E[1]) - gains.kv * Edot[1],
+            gains.kp * (E_d[2] - at.E[2]) - gains.kv * Edot[2],
+        )
+
+    return law
+
+
+REGULATOR = Regulator(
+    name="linearized-euler-literal",
+    title="Linearized Euler, as printed",
+    source="Murphy 1988, 2.3, without the permutation of (2.14): negative control",
+    formula=r"u = K_p (E_d - E) - K_d \dot E",
+    law_in=law_in,
+    coordinates=("zyx-euler",),
+    property="none",
+)

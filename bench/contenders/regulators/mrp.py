@@ -1,0 +1,31 @@
+"""Modified Rodrigues parameters of the turn to the goal, on the sheet within a half turn: e = 4 tan(theta/4) k.
+
+Fails: nowhere; at a half turn the command jumps to its opposite.
+"""
+
+from bench.law.contender import Regulator
+from bench.law.scalar import kernel, sqrt
+from bench.law.so3 import turn_quaternion
+
+
+@kernel
+def law(R, omega, goal, gains):
+    """u = 4 Kp eps/(1 + eta) - Kv omega, (eta, eps) the unit quaternion of the turn from R to R_d, eta >= 0."""
+    w, v, t = turn_quaternion(R, goal.R)
+    scale = 4.0 * gains.kp / (w + 2.0 * sqrt(t))
+    return (
+        scale * v[0] - gains.kv * omega[0],
+        scale * v[1] - gains.kv * omega[1],
+        scale * v[2] - gains.kv * omega[2],
+    )
+
+
+REGULATOR = Regulator(
+    name="mrp",
+    title="Modified Rodrigues parameters",
+    source="Tsiotras 1996; Schaub & Junkins 2018",
+    formula=r"u = 4 K_p\,\sigma - K_v\,\omega, \quad \sigma = \tan(\theta/4)\,k",
+    law=law,
+    property="almost global",
+    later=True,
+)

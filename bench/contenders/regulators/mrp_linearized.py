@@ -1,0 +1,52 @@
+"""Feedback linearization in the modified Rodrigues parameters of the turn to the goal: no trigonometry, no pole.
+
+With sigma = tan(theta/4) k of the turn from R to a fixed R_d, sigmaddot = -Kv sigmadot - Kp sigma. Beyond a half turn
+the shadow set, -sigma/|sigma|^2, is the shorter; a sheet is kept until |sigma|^2 is over SWITCH, so that the law does
+not chatter there.
+
+Fails: nowhere within a turn; where the sheet changes the command jumps.
+"""
+
+from bench.law.contender import Regulator
+from bench.law.scalar import kernel, sqrt
+from bench.law.so3 import dot, turn_quaternion
+
+SWITCH = 1.5
+"""|sigma|^2 at which the sheet changes: 23 degrees beyond the half turn, where it is 1."""
+
+
+@kernel
+def law(R, omega, goal, gains, memory):
+    """u = -Kv omega + (4 Kp/(1 + sigma^2) - |omega|^2/2) sigma + omega (omega . sigma); memory: the last quaternion.
+
+    Re-derived from sigmadot = -((1 - sigma^2) I + 2 [sigma]x + 2 sigma sigma^T) omega / 4, base frame; see tests.
+    Here sigma = v/(w + 2 root) and 1 + sigma^2 = 4 root/(w + 2 root).
+    """
+    w, v, t = turn_quaternion(R, goal.R)
+    root = sqrt(t)
+    whole = root + root
+    kept = memory[0] * w + memory[1] * v[0] + memory[2] * v[1] + memory[3] * v[2]
+    # on the sheet that was kept |sigma|^2 = (whole + w)/(whole - w), for this w >= 0
+    if kept < 0.0 and whole + w < SWITCH * (whole - w):
+        w, v = -w, (-v[0], -v[1], -v[2])
+    down = 1.0 / (w + whole)
+    spring = gains.kp / root - 0.5 * down * dot(omega, omega)
+    along = down * dot(omega, v) - gains.kv
+    u = (
+        spring * v[0] + along * omega[0],
+        spring * v[1] + along * omega[1],
+        spring * v[2] + along * omega[2],
+    )
+    return u, (w, v[0], v[1], v[2])
+
+
+REGULATOR = Regulator(
+    name="mrp-linearized",
+    title="Linear in modified Rodrigues parameters",
+    source="Schaub, Akella, Junkins 2001",
+    formula=r"u = -K_v\,\omega + \bigl(4 K_p/(1+\sigma^2) - \omega^2/2\bigr)\,\sigma + \omega\,(\omega\cdot\sigma)",
+    law=law,
+    memory=(1.0, 0.0, 0.0, 0.0),
+    property="global with memory",
+    later=True,
+)

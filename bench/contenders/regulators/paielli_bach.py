@@ -1,0 +1,34 @@
+"""Paielli and Bach's law: the quaternion's vector part eps = sin(theta/2) k obeys a linear equation exactly.
+
+With a fixed goal epsddot = -Kv epsdot - Kp eps; for it eps must be divided by eta: eps/eta = s/(1 + t).
+
+Fails: at half turns the command is unbounded, and on them not finite.
+"""
+
+from bench.law.contender import Regulator
+from bench.law.scalar import kernel
+from bench.law.so3 import dot, double_sine, half_cosine_squared, trace
+
+
+@kernel
+def law(R, omega, goal, gains):
+    """u = (2 Kp - |omega|^2/2) s/(1 + t) - Kv omega; re-derived, see tests."""
+    s = double_sine(R, goal.R)
+    scale = (2.0 * gains.kp - 0.5 * dot(omega, omega)) / (1.0 + trace(R, goal.R))
+    return (
+        scale * s[0] - gains.kv * omega[0],
+        scale * s[1] - gains.kv * omega[1],
+        scale * s[2] - gains.kv * omega[2],
+    )
+
+
+REGULATOR = Regulator(
+    name="paielli-bach",
+    title="Linear in the quaternion",
+    source="Paielli & Bach 1993",
+    formula=r"u = (2 K_p - \tfrac{1}{2}|\omega|^2)\, s/(1 + t) - K_v\,\omega",
+    law=law,
+    property="almost global",
+    margin=half_cosine_squared,
+    later=True,
+)

@@ -1,0 +1,41 @@
+"""The error quaternion without its sign, a negative control: u = 2 Kp eps - Kv omega on the sheet it happens to be on.
+
+Its quaternion is followed from tick to tick, as an attitude filter does, and begins on the sheet with eta <= 0, as half
+of all quaternions do. There the law drives to eta = 1 the long way round, through up to 360 degrees: unwinding. On the
+other sheet it would be quaternion-shortest.
+
+Fails: it settles everywhere but goes the wrong way.
+"""
+
+from bench.law.contender import Regulator
+from bench.law.scalar import kernel, sqrt
+from bench.law.so3 import turn_quaternion
+
+
+@kernel
+def law(R, omega, goal, gains, memory):
+    """u = 2 Kp eps - Kv omega; memory: the error quaternion of the last tick, whose side is kept."""
+    w, v, t = turn_quaternion(R, goal.R)
+    scale = 0.5 / sqrt(t)
+    if memory[0] * w + memory[1] * v[0] + memory[2] * v[1] + memory[3] * v[2] < 0.0:
+        scale = -scale
+    eta, eps = scale * w, (scale * v[0], scale * v[1], scale * v[2])
+    double = 2.0 * gains.kp
+    u = (
+        double * eps[0] - gains.kv * omega[0],
+        double * eps[1] - gains.kv * omega[1],
+        double * eps[2] - gains.kv * omega[2],
+    )
+    return u, (eta, eps[0], eps[1], eps[2])
+
+
+REGULATOR = Regulator(
+    name="quaternion-unwinding",
+    title="Quaternion without its sign",
+    source="Wen & Kreutz-Delgado 1991; Bhat & Bernstein 2000",
+    formula=r"u = 2 K_p\,\epsilon - K_v\,\omega",
+    law=law,
+    memory=(-1.0, 0.0, 0.0, 0.0),
+    property="none",
+    later=True,
+)

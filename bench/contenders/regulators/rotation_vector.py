@@ -1,0 +1,36 @@
+"""The rotation vector of the turn to the goal: e = theta k, a spring whose force grows with the angle to the end.
+
+Fails: nowhere; at a half turn the command jumps to its opposite.
+"""
+
+from bench.law.contender import Regulator
+from bench.law.scalar import atan2, kernel, sqrt
+from bench.law.so3 import dot, turn_quaternion
+
+
+@kernel
+def law(R, omega, goal, gains):
+    """u = Kp log(R_d R^T) - Kv omega, the logarithm by theta = 2 atan2(sin(theta/2), cos(theta/2)) in [0, pi]."""
+    w, v, _ = turn_quaternion(R, goal.R)
+    square = dot(v, v)
+    if square > 0.0:
+        size = sqrt(square)
+        scale = 2.0 * gains.kp * atan2(size, w) / size
+    else:
+        scale = 2.0 * gains.kp / w
+    return (
+        scale * v[0] - gains.kv * omega[0],
+        scale * v[1] - gains.kv * omega[1],
+        scale * v[2] - gains.kv * omega[2],
+    )
+
+
+REGULATOR = Regulator(
+    name="rotation-vector",
+    title="Rotation vector",
+    source="Bullo & Murray 1995; Caccavale et al. 1999 (angle/axis)",
+    formula=r"u = K_p \log(R_d R^\top) - K_v\,\omega",
+    law=law,
+    property="almost global",
+    later=True,
+)

@@ -1,0 +1,48 @@
+"""Sliding on omega = lambda eps: the error quaternion's vector part decays along a first-order path.
+
+With the error quaternion (eta, eps) of the turn to the goal, depsdt = -(eta omega + eps x omega)/2; the law makes
+z = omega - lambda eps obey zdot = -K z. Near the goal that is the double pole of the gains,
+K = Kv/2 + d, lambda/2 = Kv/2 - d, d^2 = Kv^2/4 - Kp. Gains whose poles are not real leave no surface to slide on: then
+d is taken for 0, and K lambda eps, which is 2 Kp eps, stays that.
+
+Fails: nowhere; at a half turn the command jumps to its opposite.
+"""
+
+from bench.law.contender import Regulator
+from bench.law.scalar import kernel, sqrt
+from bench.law.so3 import cross, turn_quaternion
+
+
+@kernel
+def law(R, omega, goal, gains):
+    """u = -(lambda/2)(eta omega + eps x omega) - K (omega - lambda eps), base frame, eta >= 0.
+
+    Re-derived, see tests.
+    """
+    w, v, t = turn_quaternion(R, goal.R)
+    scale = 0.5 / sqrt(t)
+    eta, eps = scale * w, (scale * v[0], scale * v[1], scale * v[2])
+    half = 0.5 * gains.kv
+    square = half * half - gains.kp
+    apart = 0.0
+    if square > 0.0:
+        apart = sqrt(square)
+    K, half_lambda = half + apart, half - apart
+    swept = cross(eps, omega)
+    spring, drag = 2.0 * gains.kp, half_lambda * eta + K
+    return (
+        spring * eps[0] - drag * omega[0] - half_lambda * swept[0],
+        spring * eps[1] - drag * omega[1] - half_lambda * swept[1],
+        spring * eps[2] - drag * omega[2] - half_lambda * swept[2],
+    )
+
+
+REGULATOR = Regulator(
+    name="sliding",
+    title="Sliding on the quaternion",
+    source="Egeland & Godhavn 1994; Lo & Chen 1995",
+    formula=r"u = -\tfrac{\lambda}{2}(\eta\,\omega + \epsilon \times \omega) - K(\omega - \lambda\,\epsilon)",
+    law=law,
+    property="almost global",
+    later=True,
+)

@@ -1,0 +1,38 @@
+"""The rotation-matrix regulator with a weight of its own for each column: only four points of rest are left.
+
+With distinct weights the spring is zero at the goal and at half turns about n_d, o_d and a_d, no more, and those three
+are saddles. The price is a stiffness that depends on the axis: about column i half of the sum of the other two weights.
+
+Fails: at those three half turns, exactly.
+"""
+
+from bench.law.contender import Regulator
+from bench.law.scalar import kernel
+from bench.law.so3 import cross
+
+WEIGHTS = (0.8, 1.0, 1.2)
+"""Distinct, and their sum 3, so that the stiffness is kp on the average: 1.1, 1.0 and 0.9 of it."""
+
+
+@kernel
+def law(R, omega, goal, gains):
+    """u = Kp/2 (k_1 n x n_d + k_2 o x o_d + k_3 a x a_d) - Kv omega, k = WEIGHTS."""
+    n, o, a = cross(R.n, goal.R.n), cross(R.o, goal.R.o), cross(R.a, goal.R.a)
+    k_1, k_2, k_3 = 0.5 * gains.kp * WEIGHTS[0], 0.5 * gains.kp * WEIGHTS[1], 0.5 * gains.kp * WEIGHTS[2]
+    return (
+        k_1 * n[0] + k_2 * o[0] + k_3 * a[0] - gains.kv * omega[0],
+        k_1 * n[1] + k_2 * o[1] + k_3 * a[1] - gains.kv * omega[1],
+        k_1 * n[2] + k_2 * o[2] + k_3 * a[2] - gains.kv * omega[2],
+    )
+
+
+REGULATOR = Regulator(
+    name="weighted-columns",
+    title="Weighted columns",
+    source="Chillingworth, Marsden, Wan 1982; Chaturvedi, Sanyal, McClamroch 2011",
+    formula=r"u = \tfrac{1}{2} K_p\,(k_1\, n \times n_d + k_2\, o \times o_d + k_3\, a \times a_d) - K_v\,\omega",
+    law=law,
+    property="almost global",
+    stiffness=(1.1, 1.0, 0.9),
+    later=True,
+)

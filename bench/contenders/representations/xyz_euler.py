@@ -1,0 +1,162 @@
+"""X-Y-Z Euler angles E = (alpha, beta, gamma): R = Rx(alpha) Ry(beta) Rz(gamma), each about the axis as turned so far.
+
+Singular where cos(beta) = 0: at beta = +90 deg only alpha + gamma, at -90 deg only alpha - gamma is determined, and
+B^-1 does not exist. alpha and gamma jump by 2 pi at +-pi.
+"""
+
+from typing import NamedTuple
+
+from bench.law.contender import Representation
+from bench.law.scalar import atan2, cos, kernel, sin, sqrt
+from bench.law.so3 import Rotation
+
+
+class Chart(NamedTuple):
+    """The angles, and the sines and cosines that B needs."""
+
+    E: tuple
+    sin_alpha: float
+    cos_alpha: float
+    sin_beta: float
+    cos_beta: float
+
+
+@kernel
+def chart(R):
+    """Angles of R; alpha, gamma in [-pi, pi], beta in [-pi/2, pi/2].
+
+    gamma is measured in the frame already turned by alpha, so R is rebuilt to rounding however close the pole is,
+    where alpha itself is lost. On the pole alpha := 0, and gamma carries the whole turn.
+    """
+    cos_beta = sqrt(R.a[1] * R.a[1] + R.a[2] * R.a[2])
+    if cos_beta > 0.0:
+        alpha = atan2(-R.a[1], R.a[2])
+        cos_alpha = R.a[2] / cos_beta
+        sin_alpha = -R.a[1] / cos_beta
+    else:
+        alpha = 0.0
+        cos_alpha = 1.0
+        sin_alpha = 0.0
+    beta = atan2(R.a[0], cos_beta)
+    gamma = atan2(cos_alpha * R.n[1] + sin_alpha * R.n[2], cos_alpha * R.o[1] + sin_alpha * R.o[2])
+    return Chart((alpha, beta, gamma), sin_alpha, cos_alpha, R.a[0], cos_beta)
+
+
+@kernel
+def chart_of(E):
+    """The chart of given angles."""
+    return Chart(E, sin(E[0]), cos(E[0]), sin(E[1]), cos(E[1]))
+
+
+@kernel
+def to_matrix(E):
+    """R = Rx(alpha) Ry(beta) Rz(gamma)."""
+    sa, ca, sb, cb, sc, cc = sin(E[0]), cos(E[0]), sin(E[1]), cos(E[1]), sin(E[2]), cos(E[2])
+    return Rotation(
+        (cb * cc, sa * sb * cc + ca * sc, sa * sc - ca * sb * cc),
+        (-cb * sc, ca * cc - sa * sb * sc, ca * sb * sc + sa * cc),
+        (sb, -sa * cb, ca * cb),
+    )
+
+
+@kernel
+def rates(at, omega):
+    """Edot = B^-1 omega, written with its one division; not finite on the pole."""
+    gammadot = (at.cos_alpha * omega[2] - at.sin_alpha * omega[1]) / at.cos_beta
+    betadot = at.cos_alpha * omega[1] + at.sin_alpha * omega[2]
+    return (omega[0] - at.sin_beta * gammadot, betadot, gammadot)
+
+
+@kernel
+def accelerate(at, Edot, Eddot):
+    """B Eddot + Bdot Edot, the angular acceleration that gives Eddot."""
+    alphadot, betadot, gammadot = Edot
+    across = at.cos_beta * gammadot  # part of gammadot about the axis (0, -sin alpha, cos alpha)
+    along_y = Eddot[1] - alphadot * across
+    along_z = Eddot[2] * at.cos_beta + betadot * (alphadot - at.sin_beta * gammadot)
+    return (
+        Eddot[0] + at.sin_beta * Eddot[2] + betadot * across,
+        at.cos_alpha * along_y - at.sin_alpha * along_z,
+        at.cos_alpha * along_z + at.sin_alpha * along_y,
+    )
+
+
+@kernel
+def angular_velocity(at, Edot):
+    """omega = B Edot."""
+    along_z = at.cos_beta * Edot[2]
+    return (
+        Edot[0] + at.sin_beta * Edot[2],
+        at.cos_alpha * Edot[1] - at.sin_alpha * along_z,
+        at.cos_alpha * along_z + at.sin_alpha * Edot[1],
+    )
+
+
+@kernel
+def generalized(at, moment):
+    """B^T m, the generalised forces of a moment (Murphy 1988, 3.12); exists at every orientation."""
+    along_z = at.cos_alpha * moment[2] - at.sin_alpha * moment[1]
+    return (
+        moment[0],
+        at.cos_alpha * moment[1] + at.sin_alpha * moment[2],
+        at.sin_beta * moment[0] + at.cos_beta * along_z,
+    )
+
+
+@kernel
+def margin(R):
+    """cos(beta): 0 on the pole, 1 farthest from it."""
+    return sqrt(R.a[1] * R.a[1] + R.a[2] * R.a[2])
+
+
+@kernel
+def slopes(R, Rdot):
+    """Edot along Rdot, and 1/cos(beta) and its square."""
+    inverse = 1.0 / sqrt(R.a[1] * R.a[1] + R.a[2] * R.a[2])
+    inverse_square = inverse * inverse
+    Edot = (
+        (R.a[1] * Rdot.a[2] - R.a[2] * Rdot.a[1]) * inverse_square,
+        Rdot.a[0] * inverse,
+        (R.o[0] * Rdot.n[0] - R.n[0] * Rdot.o[0]) * inverse_square,
+    )
+    return Edot, inverse, inverse_square
+
+
+@kernel
+def differentiate(R, Rdot):
+    """Edot, with alpha = atan2(-a_y, a_z), beta = asin(a_x), gamma = atan2(-o_x, n_x) differentiated (3.5).
+
+    a stays a unit vector, so both pairs have the length cos(beta). Not finite on the pole.
+    """
+    return slopes(R, Rdot)[0]
+
+
+@kernel
+def differentiate_twice(R, Rdot, Rddot):
+    """Eddot, the same differentiated again."""
+    (alphadot, betadot, gammadot), inverse, inverse_square = slopes(R, Rdot)
+    growth = -2.0 * R.a[0] * Rdot.a[0]  # of cos(beta)^2 = 1 - a_x^2
+    return (
+        (R.a[1] * Rddot.a[2] - R.a[2] * Rddot.a[1] - growth * alphadot) * inverse_square,
+        (Rddot.a[0] + R.a[0] * betadot * betadot) * inverse,
+        (R.o[0] * Rddot.n[0] - R.n[0] * Rddot.o[0] - growth * gammadot) * inverse_square,
+    )
+
+
+REPRESENTATION = Representation(
+    name="xyz-euler",
+    title="X-Y-Z Euler angles",
+    source="Craig 1986",
+    formula=r"R = R_x(\alpha)\, R_y(\beta)\, R_z(\gamma), \quad E = (\alpha, \beta, \gamma)",
+    symbols=("alpha", "beta", "gamma"),
+    chart=chart,
+    chart_of=chart_of,
+    to_matrix=to_matrix,
+    rates=rates,
+    accelerate=accelerate,
+    angular_velocity=angular_velocity,
+    generalized=generalized,
+    margin=margin,
+    differentiate=differentiate,
+    differentiate_twice=differentiate_twice,
+)

@@ -1,0 +1,163 @@
+"""Z-Y-Z Euler angles E = (alpha, beta, gamma): R = Rz(alpha) Ry(beta) Rz(gamma) (Murphy 1988, 2.2).
+
+Singular where sin(beta) = 0, the identity included: at beta = 0 only alpha + gamma, at 180 deg only alpha - gamma is
+determined, and B^-1 does not exist. alpha and gamma jump by 2 pi at +-pi.
+"""
+
+from typing import NamedTuple
+
+from bench.law.contender import Representation
+from bench.law.scalar import atan2, cos, kernel, sin, sqrt
+from bench.law.so3 import Rotation
+
+
+class Chart(NamedTuple):
+    """The angles, and the sines and cosines that B needs."""
+
+    E: tuple
+    sin_alpha: float
+    cos_alpha: float
+    sin_beta: float
+    cos_beta: float
+
+
+@kernel
+def chart(R):
+    """Angles of R; alpha, gamma in [-pi, pi], beta in [0, pi].
+
+    gamma is measured in the frame already turned by alpha, so R is rebuilt to rounding however close the pole is,
+    where alpha itself is lost. On the pole alpha := 0, and gamma carries the whole turn.
+    """
+    sin_beta = sqrt(R.a[0] * R.a[0] + R.a[1] * R.a[1])
+    if sin_beta > 0.0:
+        alpha = atan2(R.a[1], R.a[0])
+        cos_alpha = R.a[0] / sin_beta
+        sin_alpha = R.a[1] / sin_beta
+    else:
+        alpha = 0.0
+        cos_alpha = 1.0
+        sin_alpha = 0.0
+    beta = atan2(sin_beta, R.a[2])
+    gamma = atan2(cos_alpha * R.n[1] - sin_alpha * R.n[0], cos_alpha * R.o[1] - sin_alpha * R.o[0])
+    return Chart((alpha, beta, gamma), sin_alpha, cos_alpha, sin_beta, R.a[2])
+
+
+@kernel
+def chart_of(E):
+    """The chart of given angles."""
+    return Chart(E, sin(E[0]), cos(E[0]), sin(E[1]), cos(E[1]))
+
+
+@kernel
+def to_matrix(E):
+    """R = Rz(alpha) Ry(beta) Rz(gamma)."""
+    sa, ca, sb, cb, sc, cc = sin(E[0]), cos(E[0]), sin(E[1]), cos(E[1]), sin(E[2]), cos(E[2])
+    return Rotation(
+        (ca * cb * cc - sa * sc, sa * cb * cc + ca * sc, -sb * cc),
+        (-ca * cb * sc - sa * cc, ca * cc - sa * cb * sc, sb * sc),
+        (ca * sb, sa * sb, cb),
+    )
+
+
+@kernel
+def rates(at, omega):
+    """Edot = B^-1 omega, written with its one division; not finite on the pole."""
+    gammadot = (at.cos_alpha * omega[0] + at.sin_alpha * omega[1]) / at.sin_beta
+    betadot = at.cos_alpha * omega[1] - at.sin_alpha * omega[0]
+    return (omega[2] - at.cos_beta * gammadot, betadot, gammadot)
+
+
+@kernel
+def accelerate(at, Edot, Eddot):
+    """B Eddot + Bdot Edot, the angular acceleration that gives Eddot."""
+    alphadot, betadot, gammadot = Edot
+    level = at.sin_beta * gammadot  # part of gammadot about the level axis (cos alpha, sin alpha, 0)
+    along_y = Eddot[1] + alphadot * level
+    along_x = Eddot[2] * at.sin_beta + betadot * (at.cos_beta * gammadot - alphadot)
+    return (
+        at.cos_alpha * along_x - at.sin_alpha * along_y,
+        at.cos_alpha * along_y + at.sin_alpha * along_x,
+        Eddot[0] + at.cos_beta * Eddot[2] - betadot * level,
+    )
+
+
+@kernel
+def angular_velocity(at, Edot):
+    """omega = B Edot."""
+    along_x = at.sin_beta * Edot[2]
+    return (
+        at.cos_alpha * along_x - at.sin_alpha * Edot[1],
+        at.cos_alpha * Edot[1] + at.sin_alpha * along_x,
+        Edot[0] + at.cos_beta * Edot[2],
+    )
+
+
+@kernel
+def generalized(at, moment):
+    """B^T m, the generalised forces of a moment (Murphy 1988, 3.12); exists at every orientation."""
+    along_x = at.cos_alpha * moment[0] + at.sin_alpha * moment[1]
+    return (
+        moment[2],
+        at.cos_alpha * moment[1] - at.sin_alpha * moment[0],
+        at.sin_beta * along_x + at.cos_beta * moment[2],
+    )
+
+
+@kernel
+def margin(R):
+    """sin(beta): 0 on the pole, 1 farthest from it."""
+    return sqrt(R.a[0] * R.a[0] + R.a[1] * R.a[1])
+
+
+@kernel
+def slopes(R, Rdot):
+    """Edot along Rdot, and 1/sin(beta) and its square."""
+    inverse = 1.0 / sqrt(R.a[0] * R.a[0] + R.a[1] * R.a[1])
+    inverse_square = inverse * inverse
+    Edot = (
+        (R.a[0] * Rdot.a[1] - R.a[1] * Rdot.a[0]) * inverse_square,
+        -Rdot.a[2] * inverse,
+        (R.o[2] * Rdot.n[2] - R.n[2] * Rdot.o[2]) * inverse_square,
+    )
+    return Edot, inverse, inverse_square
+
+
+@kernel
+def differentiate(R, Rdot):
+    """Edot, with alpha = atan2(a_y, a_x), beta = acos(a_z), gamma = atan2(o_z, -n_z) differentiated (3.5).
+
+    a stays a unit vector, so both pairs have the length sin(beta). Not finite on the pole.
+    """
+    return slopes(R, Rdot)[0]
+
+
+@kernel
+def differentiate_twice(R, Rdot, Rddot):
+    """Eddot, the same differentiated again."""
+    (alphadot, betadot, gammadot), inverse, inverse_square = slopes(R, Rdot)
+    growth = -2.0 * R.a[2] * Rdot.a[2]  # of sin(beta)^2 = 1 - a_z^2
+    return (
+        (R.a[0] * Rddot.a[1] - R.a[1] * Rddot.a[0] - growth * alphadot) * inverse_square,
+        -(Rddot.a[2] + R.a[2] * betadot * betadot) * inverse,
+        (R.o[2] * Rddot.n[2] - R.n[2] * Rddot.o[2] - growth * gammadot) * inverse_square,
+    )
+
+
+REPRESENTATION = Representation(
+    name="zyz-euler",
+    title="Z-Y-Z Euler angles",
+    source="Murphy 1988, 2.2; Craig 1986",
+    formula=r"R = R_z(\alpha)\, R_y(\beta)\, R_z(\gamma), \quad E = (\alpha, \beta, \gamma)",
+    symbols=("alpha", "beta", "gamma"),
+    chart=chart,
+    chart_of=chart_of,
+    to_matrix=to_matrix,
+    rates=rates,
+    accelerate=accelerate,
+    angular_velocity=angular_velocity,
+    generalized=generalized,
+    margin=margin,
+    about=(2, 1, 0),
+    differentiate=differentiate,
+    differentiate_twice=differentiate_twice,
+)

@@ -1,0 +1,1 @@
+"""Contenders put to work: the torques of an arm, and its controllers in contact."""

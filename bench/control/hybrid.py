@@ -1,0 +1,268 @@
+"""Control of position and force together: hybrid control, on the geometric Jacobian and on the Euler Jacobian.
+
+With the measured wrench F on the hand cancelled, tau = D y + fg - J^T F, the tool's acceleration is J y + Jdot qdot in
+whatever frame J is of. A controller commands, row by row of that frame,
+
+    held       a_i = the position law
+    complies   a_i = (F_i + h_i) / m_i - kc v_i        h: what the hand shall exert, m: apparent inertia, v = J qdot
+
+so that where it complies it comes to rest with F = -h, and in free space moves at (F + h)/(m kc). What is held or
+complies is the selection matrix S of Raibert and Craig: diag(held). Two ways to the joints:
+
+    inverse      y = J^-1 (S a + (I - S) a - Jdot qdot)
+    projected    y = (S J)^+ S (a - Jdot qdot) + J^-1 (I - S)(a - Jdot qdot)
+
+The first uses J^-1 S, the second the pseudo-inverse of what is held, S J: of all joint motions that do what is held,
+the least (Fisher and Mujtaba 1991). In the second what complies is dragged along by what is held.
+
+Three frames, and with each the wrench converted to it:
+
+    base           J,             F
+    hand           diag(Q^T, Q^T) J,  diag(Q^T, Q^T) F,  Q = R R_d^T: the base's axes as the hand carries them along,
+                   and Q^T Jdot qdot: what is commanded is the acceleration along these axes, not of components in them
+    coordinates    J_E,           F_E = diag(I, B)^T F   (Murphy 1988, 3.12)
+
+`unconverted` is a negative control: the moment's components taken for generalized forces as they are.
+
+Fails: where J is singular, and on coordinates where B^-1 does not exist; what complies there is then lost with it.
+Source: Raibert and Craig 1981; Murphy 1988, 3.3; Fisher and Mujtaba 1991.
+"""
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+from bench.contenders.jacobians import analytic
+from bench.contenders.jacobians.geometric import fill
+from bench.contenders.regulators import feedback_linearized
+from bench.contenders.regulators.rotation_matrix import law as regulate
+from bench.errors import Incompatible
+from bench.law.chain import bias_acceleration, twist
+from bench.law.contender import AT_REST, Goal, Representation
+from bench.law.linalg import multiply, multiply_transposed, solve
+from bench.law.resolved_motion import Scratch
+from bench.law.scalar import kernel
+from bench.law.so3 import rotate, rotate_back
+from bench.law.weighting import smaller_gram, solve_gram
+
+
+class Touch(NamedTuple):
+    """Constants of a controller in contact; the judge asks none of them, and all controllers share them.
+
+    m_p [kg] and m_o [kg m^2]: apparent inertia. kc [1/s]: damping of what complies. The stiffness of an impedance is
+    kp m_p and kp m_o. Along coordinates they are those of a coordinate: at E = 0 of mrp, where B = 4 I, a moment turns
+    the hand 16 times as far as about axes.
+    """
+
+    m_p: float = 20.0
+    m_o: float = 0.5
+    kc: float = 10.0
+
+
+TOUCH = Touch()
+"""Apparent inertias like those of the arms' hands at home (at most 18 kg and 0.64 kg m^2): a cancelled force comes a
+tick late, and below half of those that tick would destabilize a contact."""
+
+
+class Wish(NamedTuple):
+    """What is wanted at one tick, base frame.
+
+    R_d: orientation. p_d, v_d: place [m] and its velocity [m/s]. f_d, m_d: force [N] and moment [N m] to exert where
+    the hand complies; along the axes that it carries along, if those are the controller's.
+    """
+
+    R_d: Any
+    p_d: tuple
+    v_d: tuple
+    f_d: tuple
+    m_d: tuple
+
+
+class Rows(NamedTuple):
+    """Five buffers of six numbers, along the axes or coordinates of a controller.
+
+    a: commanded acceleration of what is held; drift: Jdot qdot; F: the wrench on the hand; h: what it shall exert;
+    v: its velocity.
+    """
+
+    a: Any
+    drift: Any
+    F: Any
+    h: Any
+    v: Any
+
+
+@kernel
+def hold_moving(p, pdot, wish, gains):
+    """u_p = Kp (p_d - p) + Kv (v_d - pdot) [m/s^2], base frame."""
+    p_d, v_d = wish.p_d, wish.v_d
+    return (
+        gains.kp * (p_d[0] - p[0]) + gains.kv * (v_d[0] - pdot[0]),
+        gains.kp * (p_d[1] - p[1]) + gains.kv * (v_d[1] - pdot[1]),
+        gains.kp * (p_d[2] - p[2]) + gains.kv * (v_d[2] - pdot[2]),
+    )
+
+
+@kernel
+def write(buffer, linear, angular):
+    """The six numbers of a row buffer."""
+    for i in range(3):
+        buffer[i] = linear[i]
+        buffer[3 + i] = angular[i]
+
+
+@kernel
+def in_base(chain, wish, f, m, gains, touch, J, rows):
+    """J and the rows of hybrid control along the axes of the base frame."""
+    pdot, omega = twist(chain)
+    bias = bias_acceleration(chain)
+    fill(J, chain)
+    u = regulate(chain.R, omega, Goal(wish.R_d, AT_REST, AT_REST), gains)
+    write(rows.a, hold_moving(chain.p, pdot, wish, gains), u)
+    write(rows.drift, (bias[0], bias[1], bias[2]), (bias[3], bias[4], bias[5]))
+    write(rows.F, f, m)
+    write(rows.h, wish.f_d, wish.m_d)
+    write(rows.v, pdot, omega)
+
+
+@kernel
+def in_base_by_rate(chain, wish, f, m, gains, touch, J, rows):
+    """The same; a turn that is held is held by its rate alone, omegadot = -Kv omega, whatever the orientation."""
+    in_base(chain, wish, f, m, gains, touch, J, rows)
+    for i in range(3, 6):
+        rows.a[i] = -gains.kv * rows.v[i]
+
+
+@kernel
+def carried_back(R, R_d, v):
+    """Q^T v with Q = R R_d^T."""
+    return rotate(R_d, rotate_back(R, v))
+
+
+@kernel
+def in_hand(chain, wish, f, m, gains, touch, J, rows):
+    """J and the rows of hybrid control along the base's axes as the hand carries them along from the goal."""
+    in_base(chain, wish, f, m, gains, touch, J, rows)
+    R, R_d = chain.R, wish.R_d
+    for i in range(chain.n):
+        linear, angular = (J[0, i], J[1, i], J[2, i]), (J[3, i], J[4, i], J[5, i])
+        linear, angular = carried_back(R, R_d, linear), carried_back(R, R_d, angular)
+        for k in range(3):
+            J[k, i] = linear[k]
+            J[3 + k, i] = angular[k]
+    _carry_back(R, R_d, rows.a)
+    _carry_back(R, R_d, rows.drift)
+    _carry_back(R, R_d, rows.F)
+    _carry_back(R, R_d, rows.v)
+
+
+@kernel
+def _carry_back(R, R_d, row):
+    write(
+        row,
+        carried_back(R, R_d, (row[0], row[1], row[2])),
+        carried_back(R, R_d, (row[3], row[4], row[5])),
+    )
+
+
+def in_coordinates(representation: Representation, converts: bool = True) -> Callable:
+    """The rows along the coordinates of a representation, on J_E = diag(I, B^-1) J.
+
+    Args:
+        converts: F_E = (f, B^T m) (Murphy 1988, 3.12); otherwise m's components as they are, a negative control.
+    Errors:
+        Incompatible: coordinates of which no three are those about x, y and z.
+    """
+    axes_of(representation)
+    chart, rates = representation.chart, representation.rates
+    fill_in, drift_of = analytic.kernels_in(representation)
+    law = feedback_linearized.coordinate_law_in(representation)
+    convert = conversion(representation, converts)
+
+    @kernel
+    def assemble(chain, wish, f, m, gains, touch, J, rows):
+        """J_E and the rows of hybrid control along x, y, z and E."""
+        pdot, omega = twist(chain)
+        at = chart(chain.R)
+        Edot = rates(at, omega)
+        drift = drift_of(chain, at, Edot, omega, bias_acceleration(chain))
+        fill_in(J, chain, at)
+        write(rows.a, hold_moving(chain.p, pdot, wish, gains), law(at, chart(wish.R_d).E, Edot, gains))
+        write(rows.drift, (drift[0], drift[1], drift[2]), (drift[3], drift[4], drift[5]))
+        write(rows.F, f, convert(at, m))
+        write(rows.h, wish.f_d, convert(at, wish.m_d))
+        write(rows.v, pdot, Edot)
+
+    return assemble
+
+
+def conversion(representation: Representation, converts: bool = True) -> Callable:
+    """convert(chart, m): B^T m, or m's components about the axes that the coordinates stand for."""
+    if converts:
+        return representation.generalized
+    about_first, about_second, about_third = (axes_of(representation).index(k) for k in range(3))
+
+    @kernel
+    def convert(at, m):
+        return (m[about_first], m[about_second], m[about_third])
+
+    return convert
+
+
+def axes_of(representation: Representation) -> tuple[int, int, int]:
+    """Which coordinate is the one about x, about y and about z, near E = 0.
+
+    Errors:
+        Incompatible: there are four coordinates, or none for some axis.
+    """
+    if representation.about is None:
+        raise Incompatible(
+            f"'{representation.name}' has no coordinate for each of the axes x, y and z to be held or to comply "
+            "(try: zyx-euler)"
+        )
+    return representation.about
+
+
+INVERSE, PROJECTED = 0, 1
+"""The two ways to the joints, as a compiled loop takes them."""
+
+
+class Room(NamedTuple):
+    """Buffers of `comply`: y and b (n), what is held of J (6 x n), and the inverse's scratch."""
+
+    y: Any
+    b: Any
+    held: Any
+    scratch: Scratch
+
+
+@kernel
+def comply(form, held, n, D, fg, J, rows, touch, room, tau):
+    """tau = D y + fg - J^T F, with y by the rows that are held (held[i] > 0) or comply; J is 6 x n, n = 6."""
+    y, b, scratch = room.y, room.b, room.scratch
+    count = 0
+    for i in range(6):
+        for j in range(n):
+            scratch.A[i, j] = J[i, j]
+        if held[i] > 0.0:
+            y[i] = rows.a[i] - rows.drift[i]
+            if form > 0:
+                b[count] = y[i]
+                y[i] = 0.0
+                for j in range(n):
+                    room.held[count, j] = J[i, j]
+                count = count + 1
+        else:
+            inertia = touch.m_p
+            if i > 2:
+                inertia = touch.m_o
+            y[i] = (rows.F[i] + rows.h[i]) / inertia - touch.kc * rows.v[i] - rows.drift[i]
+    solve(scratch.A, y, n)
+    if count > 0:
+        smaller_gram(room.held, scratch.A, count, n)
+        solve_gram(room.held, b, scratch.A, scratch.t, count, n)
+        for i in range(n):
+            y[i] = y[i] + scratch.t[i]
+    multiply_transposed(J, rows.F, scratch.t, 6, n)
+    multiply(D, y, tau, n, n)
+    for i in range(n):
+        tau[i] = tau[i] + fg[i] - scratch.t[i]

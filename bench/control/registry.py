@@ -1,0 +1,39 @@
+"""Every controller in contact there is: hybrids in both forms, and the impedances that were found."""
+
+from bench.contenders.registry import known_impedances, known_representations, representation
+from bench.control.contact_controller import ALONG_AXES, FORMS, HYBRIDS, Compliant, hybrid, springy
+from bench.errors import Incompatible, UnknownWord
+
+
+def all_compliants() -> list[Compliant]:
+    """Every hybrid controller in both forms, then every impedance; each in every representation that it takes."""
+    along = [one for one in known_representations().values() if one.about is not None]
+    found = []
+    for law in HYBRIDS:
+        for one in (None,) if law in ALONG_AXES else along:
+            found += [hybrid(law, form, one) for form in FORMS]
+    for impedance in known_impedances().values():
+        found += [springy(impedance, one) for one in (along if impedance.law_in else (None,))]
+    return found
+
+
+def find_compliant(word: str) -> Compliant:
+    """`law[/representation][+form]`, as the command line writes a controller in contact.
+
+    Errors:
+        UnknownWord: of the law or the representation. Incompatible: a part too many, too few, or unfitting.
+    """
+    rest, plus, form = word.partition("+")
+    law, _, coordinates = rest.partition("/")
+    springs = {f"impedance-{name}": one for name, one in known_impedances().items()}
+    if law not in (*HYBRIDS, *springs):
+        raise UnknownWord("controller", law, sorted((*HYBRIDS, *springs)))
+    along = representation(coordinates) if coordinates else None
+    if law in HYBRIDS:
+        one = hybrid(law, form or FORMS[0], along)
+        if not form:
+            raise Incompatible(f"'{word}' lacks its way to the joints (try: {rest}+inverse, or {rest}+projected)")
+        return one
+    if plus:
+        raise Incompatible(f"'{word}': an impedance has one way to the joints (leave '+{form}' away)")
+    return springy(springs[law], along)

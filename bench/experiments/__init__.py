@@ -1,0 +1,1 @@
+"""What is run: the suites, the plan with its units, and the rows of each kind of unit."""

@@ -1,0 +1,170 @@
+"""What a user names of a plan, and whether it can be: words that exist, numbers that an episode can be run with."""
+
+import math
+from dataclasses import dataclass
+
+import tasks
+from bench.contenders.registry import known_inverses, known_jacobians
+from bench.control.registry import find_compliant
+from bench.errors import BadNumber, Incompatible, UnknownWord
+from bench.experiments.suites import ENGINES
+from bench.law.contender import Gains
+
+INTEGRATORS = ("euler", "implicit", "implicitfast", "rk4")
+
+MOST_STARTS = 1_000_000
+"""Of each set, in one run."""
+
+
+@dataclass(frozen=True)
+class Choice:
+    """What the user named, beside the laws; empty means the suite's own."""
+
+    tasks: tuple[str, ...] = ()
+    start_sets: tuple[str, ...] = ()
+    engines: tuple[str, ...] = ()
+    arms: tuple[str, ...] = ()
+    jacobians: tuple[str, ...] = ()
+    inverses: tuple[str, ...] = ()
+    variations: tuple[str, ...] = ()
+    controllers: tuple[str, ...] = ()
+    regulators: tuple[str, ...] = ()
+    representations: tuple[str, ...] = ()
+    axes: tuple[str, ...] = ()
+
+    def checked(self) -> "Choice":
+        """Each word once; UnknownWord for one in no list, Incompatible for words that exclude each other."""
+        once = Choice(**{name: tuple(dict.fromkeys(words)) for name, words in vars(self).items()})
+        every_set = dict.fromkeys((*tasks.start_set_names(), *tasks.start_set_names(arm=True)))
+        known: dict[str, tuple] = {
+            "task": (once.tasks, sorted((*tasks.names(), *tasks.contact_names()))),
+            "start": (once.start_sets, every_set),
+            "engine": (once.engines, ENGINES),
+            "arm": (once.arms, tasks.arm_names()),
+            "jacobian": (once.jacobians, known_jacobians()),
+            "inverse": (once.inverses, known_inverses()),
+            "variation": (once.variations, once.variations and tasks.variation_names()),
+            "axis": (once.axes, once.axes and tasks.axis_names()),
+        }
+        for kind, (words, allowed) in known.items():
+            for word in words:
+                check_word(kind, word, list(allowed))
+        for word in once.controllers:
+            find_compliant(word)
+        once._check_contact()
+        once._check_axes()
+        bodies = [word for word in once.tasks if word in tasks.names() and not tasks.is_for_arms(word)]
+        if bodies and once.is_about_arms and len(bodies) == len(once.tasks):
+            raise Incompatible(
+                f"task '{bodies[0]}' has no arm, so no Jacobian, inverse or variation (try: --task arm-regulation)"
+            )
+        return once
+
+    def _check_contact(self) -> None:
+        """Refuse words that the tasks in contact do not take, if they are all that is named; and controllers else."""
+        contact = tasks.contact_names()
+        others = [word for word in self.tasks if word not in contact]
+        if self.controllers and others:
+            raise Incompatible(
+                f"task '{others[0]}' takes regulators and no controller '{self.controllers[0]}' (try: --task "
+                f"{contact[0]})"
+            )
+        for kind, words in self.of_episodes.items() if self.is_contact_alone else ():
+            if words:
+                raise Incompatible(
+                    f"tasks in contact take an arm and a --controller, no {kind} such as '{words[0]}' (try: python -m "
+                    "bench list controllers)"
+                )
+
+    def _check_axes(self) -> None:
+        """Refuse words that laws along an axis do not take."""
+        given = {"task": self.tasks, "arm": self.arms, "controller": self.controllers, **self.of_episodes}
+        for kind in ("task", "start", "engine", "arm", "jacobian", "inverse", "variation", "controller"):
+            if self.axes and given[kind]:
+                raise Incompatible(
+                    f"along the axis '{self.axes[0]}' goes the free body on starts of the axis's own, with no {kind} "
+                    f"such as '{given[kind][0]}' (name regulators and --count alone, or leave --axis away)"
+                )
+
+    @property
+    def of_episodes(self) -> dict[str, tuple[str, ...]]:
+        """By kind, the words that only tasks without contact take."""
+        return {
+            "start": self.start_sets,
+            "engine": self.engines,
+            "regulator": self.regulators,
+            "jacobian": self.jacobians,
+            "inverse": self.inverses,
+            "variation": self.variations,
+        }
+
+    @property
+    def is_about_contact(self) -> bool:
+        """Whether it names a task in contact or a controller for one."""
+        return bool(self.controllers or set(self.tasks) & set(tasks.contact_names()))
+
+    @property
+    def takes_robustness(self) -> bool:
+        """Whether laws are put in trouble: if axes are named, or nothing that has to do with other episodes."""
+        beside = (self.arms, self.jacobians, self.inverses, self.variations, self.controllers)
+        is_elsewhere = bool(self.tasks) and "free-body" not in self.tasks
+        return bool(self.axes) or not (is_elsewhere or self.narrows or any(beside))
+
+    @property
+    def is_contact_alone(self) -> bool:
+        """Whether all that it names is in contact."""
+        return self.is_about_contact and set(self.tasks) <= set(tasks.contact_names())
+
+    @property
+    def takes_contact(self) -> bool:
+        """Whether tasks in contact are run: if some are named, or nothing that they do not take."""
+        return self.is_about_contact or not (self.tasks or self.axes or any(self.of_episodes.values()))
+
+    @property
+    def is_about_arms(self) -> bool:
+        """Whether it names something that only arms have."""
+        return bool(self.arms or self.jacobians or self.inverses or self.variations)
+
+    @property
+    def narrows(self) -> bool:
+        """Whether less or other than the suite's start sets and engines is asked for."""
+        return bool(self.start_sets or self.engines)
+
+
+EVERYTHING = Choice()
+"""Nothing named: the suite as it is."""
+
+
+def check_word(kind: str, word: str, known: list[str]) -> None:
+    """Refuse a word that is in no list."""
+    if word not in known:
+        raise UnknownWord(kind, word, sorted(known))
+
+
+def check_workers(workers: int) -> None:
+    """Refuse a number of threads that cannot work."""
+    if not 1 <= workers <= 256:
+        raise BadNumber(f"--workers {workers}: give between 1 and 256 threads (the number of cores is best)")
+
+
+SHORTEST_DT_S, LONGEST_DT_S = 1e-6, 0.1
+"""The default gains' time constant is 0.1 s; a microsecond makes ten million ticks of the shorter horizon."""
+
+
+def check_numbers(dt_s: float, horizon_s: float | None, gains: Gains, count: int | None, seed: int) -> None:
+    """Refuse numbers that no episode can be run with."""
+    if not SHORTEST_DT_S <= dt_s <= LONGEST_DT_S:
+        raise BadNumber(
+            f"--dt {dt_s}: the control period must lie between {SHORTEST_DT_S} and {LONGEST_DT_S} s (try: --dt 0.001)"
+        )
+    if horizon_s is not None and not (math.isfinite(horizon_s) and dt_s <= horizon_s <= 1000.0):
+        raise BadNumber(
+            f"--horizon {horizon_s}: it must lie between one tick ({dt_s} s) and 1000 s (try: --horizon 10)"
+        )
+    for name, value in zip(("--kp", "--kv"), gains, strict=True):
+        if not (math.isfinite(value) and 0.0 < value <= 1e6):
+            raise BadNumber(f"{name} {value}: a gain must lie in (0, 1e6] (the paper's: --kp 100 --kv 20)")
+    if count is not None and not 1 <= count <= MOST_STARTS:
+        raise BadNumber(f"--count {count}: give between 1 and {MOST_STARTS} starts of each set")
+    if not 0 <= seed < 2**32:
+        raise BadNumber(f"--seed {seed}: give a whole number from 0 to 4294967295")

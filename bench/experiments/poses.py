@@ -1,0 +1,195 @@
+"""Jacobians over an arm's poses: where J_E is singular of its own, and if its derivations agree (Murphy 1988, 3.1).
+
+    J      6 x n, by MuJoCo; and by our own kernels, from MuJoCo's axes and anchors
+    J_E    diag(I, B^-1) J by conversion (3.3), and by differentiating the coordinates of R (3.5)
+
+Condition numbers are of the 2-norm, in metres and radians, over six singular values: of a quaternion's seven rows one
+is dependent. What is not finite has the condition number infinity.
+
+Fails: nowhere; a pose on a singularity is a row like others.
+"""
+
+import math
+from typing import NamedTuple
+
+import mujoco
+import numpy as np
+import pandas as pd
+
+import tasks
+from bench.contenders.registry import known_jacobians, known_representations
+from bench.experiments.plan import Plan
+from bench.experiments.pose_sets import Pose, poses
+from bench.law.contender import Representation
+from bench.law.resolved_motion import Chain
+from bench.law.so3 import Rotation
+from bench.tables.schema import pose_columns
+from tasks.arm_model import Arm, model_xml
+
+LONGEST = 7
+"""Joints that the table has columns for."""
+
+STEP = float(np.finfo(float).eps) ** (1 / 3)
+"""rad, times the margin: where truncation and rounding of a central difference are alike, both about eps^(2/3)."""
+
+PAPERS = "zyx-euler"
+"""The paper's coordinates: those whose forward kinematics are differenced, whose determinant is checked, and whose
+second derivation is looked at on a slice too."""
+
+JUMP = 1.0
+"""rad: a change of coordinates over one step that is none of the motion's but a wrap."""
+
+
+class Eye:
+    """An arm seen by MuJoCo."""
+
+    def __init__(self, arm: Arm):
+        self.model = mujoco.MjModel.from_xml_string(model_xml(arm, 1e-3))
+        self.data = mujoco.MjData(self.model)
+        self.site = self.model.site("tool").id
+        self.n = arm.joints
+
+    def rotation(self, q) -> Rotation:
+        """The tool's orientation."""
+        self.data.qpos[:] = q
+        mujoco.mj_kinematics(self.model, self.data)
+        m = self.data.site_xmat[self.site]
+        return Rotation((m[0], m[3], m[6]), (m[1], m[4], m[7]), (m[2], m[5], m[8]))
+
+    def position(self) -> np.ndarray:
+        """Its position, where `rotation` was last called [m]."""
+        return self.data.site_xpos[self.site].copy()
+
+    def look(self, q) -> tuple[Chain, np.ndarray]:
+        """What a controller sees of a pose, at rest; and J."""
+        R = self.rotation(q)
+        mujoco.mj_comPos(self.model, self.data)
+        J = np.empty((6, self.n))
+        mujoco.mj_jacSite(self.model, self.data, J[:3], J[3:], self.site)
+        data = self.data
+        return Chain(self.n, data.xaxis.copy(), data.xanchor.copy(), np.zeros(self.n), tuple(self.position()), R), J
+
+
+class Seen(NamedTuple):
+    """All poses of an arm: chains, and J (N x 6 x n) by the judge and by our kernel."""
+
+    poses: list[Pose]
+    chains: list[Chain]
+    J: np.ndarray
+    ours: np.ndarray
+
+
+def run(plan: Plan) -> pd.DataFrame:
+    """poses.parquet of a plan: a row for each arm of it, pose and representation."""
+    frames = [frame(tasks.arm(name), plan.poses, plan.seed) for name in plan.arms if plan.poses]
+    names = [column.name for column in pose_columns()]
+    return pd.concat(frames, ignore_index=True) if frames else pd.DataFrame(columns=names)
+
+
+def frame(arm: Arm, count: int, seed: int) -> pd.DataFrame:
+    """The rows of one arm."""
+    eye = Eye(arm)
+    chosen = poses(arm, count, seed)
+    with np.errstate(all="ignore"):
+        chains, Js = zip(*(eye.look(pose.q) for pose in chosen), strict=True)
+        ours = filled("geometric", None, chains, chains)
+        seen = Seen(chosen, list(chains), np.array(Js), ours)
+        shared = _shared(arm, seen)
+        parts = [pd.DataFrame({**shared, **_of(eye, seen, one)}) for one in known_representations().values()]
+    return pd.concat(parts, ignore_index=True)
+
+
+def _shared(arm: Arm, seen: Seen) -> dict:
+    """The columns that are the same in every representation."""
+    q = np.full((len(seen.poses), LONGEST), np.nan)
+    q[:, : arm.joints] = [pose.q for pose in seen.poses]
+    return {
+        "arm": arm.name,
+        "pose_set": [pose.set for pose in seen.poses],
+        "pose_id": [pose.id for pose in seen.poses],
+        **{f"q_{i + 1}": q[:, i] for i in range(LONGEST)},
+        "beta": [math.atan2(-chain.R.n[2], math.hypot(chain.R.n[0], chain.R.n[1])) for chain in seen.chains],
+        "condition": conditions(seen.J),
+        "kernel_gap": gap(seen.ours, seen.J),
+        "det": determinants(seen.J),
+    }
+
+
+def _of(eye: Eye, seen: Seen, one: Representation) -> dict:
+    """The columns of one representation."""
+    charts = [one.chart(chain.R) for chain in seen.chains]
+    J_E = filled("analytic", one, seen.chains, charts)
+    margin = np.array([one.margin(chain.R) for chain in seen.chains], dtype=float)
+    derivation, difference = np.full((2, len(margin)), np.nan)
+    drawn = np.array([pose.set == "slice" for pose in seen.poses])
+    if one.differentiate is not None:
+        some = np.flatnonzero(~drawn | (one.name == PAPERS))
+        again = filled("analytic-differentiated", one, [seen.chains[i] for i in some], [charts[i] for i in some])
+        derivation[some] = gap(again, J_E[some])
+    if one.name == PAPERS:
+        qs = np.array([pose.q for pose in seen.poses])[~drawn]
+        difference[~drawn] = gap(_differences(eye, one, qs, margin[~drawn]), J_E[~drawn])
+    return {
+        "representation": one.name,
+        "margin": margin,
+        "condition_analytic": conditions(J_E),
+        "largest": abs(J_E[:, 3:]).max(axis=(1, 2)),
+        "det_analytic": determinants(J_E),
+        "det_gap": _det_gap(seen.ours, J_E, margin) if one.name == PAPERS else np.nan,
+        "derivation_gap": derivation,
+        "difference_gap": difference,
+    }
+
+
+def filled(jacobian: str, representation: Representation | None, chains, charts) -> np.ndarray:
+    """The Jacobian of that name at every pose, N x rows x n."""
+    fill = known_jacobians()[jacobian].kernels_in(representation)[0]
+    rows = 3 + len(representation.symbols) if representation else 6
+    Js = np.empty((len(chains), rows, chains[0].n))
+    for J, chain, at in zip(Js, chains, charts, strict=True):
+        fill(J, chain, at) if representation else fill(J, chain)
+    return Js
+
+
+def conditions(J: np.ndarray) -> np.ndarray:
+    """Largest over sixth singular value of each; infinite where an element is not finite."""
+    good = np.isfinite(J).all(axis=(1, 2))
+    s = np.linalg.svd(np.where(good[:, None, None], J, 0.0), compute_uv=False)
+    with np.errstate(all="ignore"):
+        return np.where(good & (s[:, 5] > 0), s[:, 0] / s[:, 5], np.inf)
+
+
+def determinants(J: np.ndarray) -> np.ndarray:
+    """det of each six by six; NaN of other shapes."""
+    return np.linalg.det(J) if J.shape[1:] == (6, 6) else np.full(len(J), np.nan)
+
+
+def gap(one: np.ndarray, other: np.ndarray) -> np.ndarray:
+    """Largest difference of elements over the largest element of `other`."""
+    return abs(one - other).max(axis=(1, 2)) / abs(other).max(axis=(1, 2))
+
+
+def _det_gap(J: np.ndarray, J_E: np.ndarray, cos_beta: np.ndarray) -> np.ndarray:
+    """|det J_E + det J / cos(beta)| over the product of J_E's row norms, which rounding of a determinant goes by.
+
+    J is ours: an element near zero is known to eps of a metre only, so that MuJoCo's and ours differ by all of it.
+    """
+    scale = np.linalg.norm(J_E, axis=2).prod(axis=1)
+    return abs(determinants(J_E) + determinants(J) / cos_beta) / scale
+
+
+def _differences(eye: Eye, one: Representation, qs: np.ndarray, margin: np.ndarray) -> np.ndarray:
+    """Central differences of position and coordinates, N x rows x n; NaN beside a jump of the coordinates."""
+    ends = np.empty((2, len(qs), 3 + len(one.symbols), eye.n))
+    steps = np.empty((2, len(qs), eye.n))
+    for place, (q, h) in enumerate(zip(qs, STEP * margin, strict=True)):
+        for i in range(eye.n):
+            for end, moved in enumerate((q[i] + h, q[i] - h)):
+                there = q.copy()
+                there[i] = steps[end, place, i] = moved
+                E = one.chart(eye.rotation(there)).E
+                ends[end, place, :3, i], ends[end, place, 3:, i] = eye.position(), E
+    change = ends[0] - ends[1]
+    change = np.where(abs(change) > JUMP, np.remainder(change + math.pi, math.tau) - math.pi, change)
+    change = np.where(abs(change).max(axis=(1, 2), keepdims=True) > JUMP, np.nan, change)
+    return change / (steps[0] - steps[1])[:, None, :]

@@ -1,0 +1,141 @@
+"""From numbers to rows: what an engine gives back, as columns of episodes.parquet."""
+
+import math
+
+import numpy as np
+import pandas as pd
+
+import tasks
+from bench.contenders.representations.zyx_euler import chart
+from bench.engines.arm_episode import POSE
+from bench.engines.episode import (
+    FAILURE_TICK,
+    FINAL_ANGLE,
+    FIRST_METRIC,
+    NEVER,
+    OUTCOME,
+    SETTLING_TICK,
+    TICKS,
+    Settings,
+)
+from bench.experiments.plan import Plan, Unit
+from bench.experiments.rounding import BESIDE, CHANGE
+from bench.law.contender import Contender
+from bench.law.so3 import from_quaternion
+from bench.metrics.metric import Ending
+from bench.metrics.registry import known_metrics
+from tasks.cause import cause
+from tasks.kinematics import Kinematics
+from tasks.rules import RULES
+from tasks.truth import angle
+from tasks.verdict import OUTCOMES
+
+INTEGRATORS = {"ideal-rk4": "rk4", "ideal-held": "magnus4"}
+
+
+def settings_of(plan: Plan, horizon_s: float) -> Settings:
+    """The judge's rules and the plan's numbers, as engines take them."""
+    return Settings(
+        plan.gains,
+        plan.dt_s,
+        max(1, math.floor(horizon_s / plan.dt_s + 0.5)),
+        RULES.hold_ticks(plan.dt_s),
+        RULES.command_limit,
+        RULES.speed_limit,
+        RULES.rest_speed,
+        RULES.rest_command,
+    )
+
+
+def contender_columns(one: Contender) -> dict:
+    """The columns that say which law a row is about."""
+    coordinates = one.representation.name if one.representation else ""
+    jacobian, inverse = one.way
+    return {
+        "regulator": one.regulator.name,
+        "representation": coordinates,
+        "jacobian": jacobian,
+        "inverse": inverse,
+    }
+
+
+def frame(plan: Plan, unit: Unit, contender: Contender, starts, numbers: np.ndarray, metrics) -> pd.DataFrame:
+    """The rows of one unit."""
+    angles = np.array([chart(from_quaternion(start.quat_wxyz)).E for start in starts])
+    quats = np.array([start.quat_wxyz for start in starts])
+    omegas = np.array([start.omega for start in starts])
+    goals = np.array([start.goal_wxyz for start in starts])
+    angle0 = [angle(start.quat_wxyz, start.goal_wxyz) for start in starts]
+    judged = judged_columns(numbers, plan.dt_s)
+    columns = {
+        "suite": plan.suite,
+        "task": unit.task,
+        "arm": unit.arm,
+        "variation": unit.variation,
+        **contender_columns(contender),
+        "engine": unit.engine,
+        "start_set": unit.start_set,
+        "start_id": [start.id for start in starts],
+        **{f"quat_{axis}": quats[:, i] for i, axis in enumerate("wxyz")},
+        **{name: angles[:, i] for i, name in enumerate(("alpha0", "beta0", "gamma0"))},
+        "angle0_rad": angle0,
+        **{f"omega0_{axis}": omegas[:, i] for i, axis in enumerate("xyz")},
+        **{f"goal_quat_{axis}": goals[:, i] for i, axis in enumerate("wxyz")},
+        "kp": plan.gains.kp,
+        "kv": plan.gains.kv,
+        "dt_s": plan.dt_s,
+        "integrator": INTEGRATORS.get(unit.engine, plan.integrator),
+        "horizon_s": unit.horizon_s,
+        "tolerance": RULES.tolerance,
+        "hold_s": RULES.hold_s,
+        **judged,
+        "ticks": numbers[:, TICKS].astype(np.int64),
+    }
+    endings = [
+        Ending(start, final, RULES.band_rad(start), outcome)
+        for start, final, outcome in zip(angle0, numbers[:, FINAL_ANGLE], judged["outcome"], strict=True)
+    ]
+    for column, metric in enumerate(metrics, start=FIRST_METRIC):
+        columns[metric.column] = [
+            metric.finish(value, ending) for value, ending in zip(numbers[:, column].tolist(), endings, strict=True)
+        ]
+    seen = _seen_on_arm(unit.arm, numbers) if unit.arm else np.full(len(starts), np.nan)
+    margins = columns["min_margin"]
+    return pd.DataFrame(
+        {
+            **dict.fromkeys((one.column for one in known_metrics().values()), np.nan),
+            **columns,
+            "cond_jacobian_max": seen,
+            "cause": [cause(*near) if unit.arm else "" for near in zip(judged["outcome"], margins, seen, strict=True)],
+            BESIDE: "",
+            CHANGE: np.nan,
+        }
+    )
+
+
+def lost(numbers: np.ndarray, outcome: str) -> np.ndarray:
+    """Blank rows of `engines.episode` as those of episodes that a user's law never came back from."""
+    numbers[:, [OUTCOME, SETTLING_TICK, FAILURE_TICK]] = OUTCOMES.index(outcome), NEVER, NEVER
+    numbers[:, FINAL_ANGLE] = np.nan
+    return numbers
+
+
+def judged_columns(numbers: np.ndarray, dt_s: float) -> dict:
+    """The columns that say how episodes ended, from rows of `engines.episode`."""
+    return {
+        "outcome": [OUTCOMES[int(code)] for code in numbers[:, OUTCOME]],
+        "settling_time_s": _time(numbers[:, SETTLING_TICK], dt_s),
+        "failure_time_s": _time(numbers[:, FAILURE_TICK], dt_s),
+        "final_angle_rad": numbers[:, FINAL_ANGLE],
+    }
+
+
+def _seen_on_arm(arm: str, numbers: np.ndarray) -> list[float]:
+    """The judge's condition number where each episode was worst conditioned; infinite if the angles are no numbers."""
+    judge = Kinematics(tasks.arm(arm))
+    poses = numbers[:, POSE + 1 :][:, : tasks.arm(arm).joints]
+    return [judge.condition(q) if np.isfinite(q).all() else math.inf for q in poses]
+
+
+def _time(ticks: np.ndarray, dt_s: float) -> np.ndarray:
+    return np.where(ticks == NEVER, np.nan, ticks * dt_s)

@@ -1,0 +1,1 @@
+"""What the results say: the paper's claims, which law to use, closed forms."""

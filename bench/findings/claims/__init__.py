@@ -1,0 +1,105 @@
+"""The paper's claims, C01 to C27: each sentence with a criterion fixed before the results, and its verdict.
+
+One file for each part of the paper; a file with a constant CLAIMS is found by being here.
+
+    verdict.py               what a claim, a verdict and its evidence are
+    rotation_matrix.py       C01 to C03
+    half_turns.py            C04, C05
+    linearized_euler.py      C06 to C08
+    feedback_linearized.py   C09
+    boundary_points.py       C10, C11
+    costs.py                 C12, C17
+    representations.py       C13 to C16
+    euler_jacobian.py        C18, C19
+    euler_controller.py      C20, C26
+    force_conversion.py      C21
+    compliance.py            C22 to C24
+    contact.py               C25
+    later.py                 C27
+    adequacy.py              every law by the tests of C17 and C27
+    tables.py                what a judging function reads
+    probes.py                the small experiments of claims that no table answers
+    arm_probes.py            the same on arms
+    side_by_side.py          rows of two controllers in contact, side by side
+    coordinates.py           the coordinates of C13
+    errata.py                what is printed wrongly in the paper, each with a check
+"""
+
+import functools
+import importlib
+import pkgutil
+from pathlib import Path
+
+import pandas as pd
+
+from bench.findings.claims.tables import CHECK_ENGINES, MAIN_ENGINE, Results
+from bench.findings.claims.verdict import Claim, Evidence, NoEvidence, Verdict, Word, decide
+from bench.tables import read as published
+
+__all__ = [
+    "NOT_YET_MEASURED",
+    "RULE",
+    "Claim",
+    "Evidence",
+    "NoEvidence",
+    "Results",
+    "Verdict",
+    "Word",
+    "all_claims",
+    "judge",
+    "judge_all",
+    "table",
+]
+
+NOT_YET_MEASURED = Word.UNMEASURED
+
+RULE = (
+    f"Engine {MAIN_ENGINE}, the paper's continuous system (2.6)-(2.7), decides. A claim about episodes is asked of "
+    f"{' and '.join(CHECK_ENGINES)} too where they have rows: if one of them decides otherwise, 'holds' becomes "
+    "'holds with a correction' and the evidence says so; other verdicts stay. No verdict is given on an empty table: "
+    "that is an error."
+)
+"""What is common to all criteria."""
+
+
+@functools.cache
+def all_claims() -> tuple[Claim, ...]:
+    """Every claim of every file here, in the order of the ids."""
+    modules = [importlib.import_module(f"{__name__}.{info.name}") for info in pkgutil.iter_modules(__path__)]
+    found = [claim for module in modules for claim in getattr(module, "CLAIMS", ())]
+    return tuple(sorted(found, key=lambda claim: claim.id))
+
+
+def judge(id: str, results: Results) -> Verdict:
+    """One claim on a run's tables."""
+    return decide(next(claim for claim in all_claims() if claim.id == id), results)
+
+
+def judge_all(folder: Path | None = None) -> list[Verdict]:
+    """Every claim on the run in a folder; without one, on the run that the report shows.
+
+    Errors:
+        NoEvidence: a claim that can be measured, and no row about it. BadResults: the folder.
+    """
+    return list(_judged(Path(folder) if folder else published.folder()))
+
+
+@functools.lru_cache(maxsize=1)
+def _judged(folder: Path) -> tuple[Verdict, ...]:
+    """Once for all that read a run: it takes ten seconds."""
+    results = Results(folder)
+    return tuple(decide(claim, results) for claim in all_claims())
+
+
+def table(verdicts: list[Verdict]) -> pd.DataFrame:
+    """One line a verdict."""
+    return pd.DataFrame(
+        {
+            "claim": [one.id for one in verdicts],
+            "section": [one.claim.section for one in verdicts],
+            "sentence": [one.claim.sentence for one in verdicts],
+            "verdict": [str(one.word) for one in verdicts],
+            "evidence": [str(one.evidence) for one in verdicts],
+            "rows": [one.rows for one in verdicts],
+        }
+    )

@@ -1,0 +1,124 @@
+"""Every law of a run by the tests of C17 and C27, a row a law: what settles, how fast, by what way, at what cost."""
+
+from typing import NamedTuple
+
+import numpy as np
+import pandas as pd
+
+from bench.findings.claims import probes
+from bench.findings.claims.tables import Results, settled, some
+from bench.tables.read import FREE_BODY
+
+CALLS = ("sin", "cos", "atan2", "acos")
+DIRECTED = ("half-turn", "poles", "wraps", "box", "tumbling", "goals")
+
+PAPERS = (
+    "rotation-matrix",
+    "linearized-euler/zyx-euler",
+    "linearized-euler-literal/zyx-euler",
+    "linearized-euler-relative/zyx-euler",
+    "feedback-linearized/zyx-euler",
+)
+"""The paper's laws as contenders, with its reading of 2.4 and its equation to the letter; all others are later."""
+
+CALL_PRICE, CALL_PRICES = 10.0, (1.0, 20.0)
+"""Flops that one sin, cos, atan2 or acos stands for where two columns must become one; the range tried."""
+
+SETTLED_SHARE, SLOW, DEAR = 0.999, 2.0, 2.0
+EXACT_RAD = 1e-13
+"""As in feedback_linearized: between the nearest near start (1e-12 rad) and rounding."""
+
+NOISE = "half-turn-noise"
+
+
+class Adequacy(NamedTuple):
+    """One law: n uniform starts of which a share settles, the slowest of them, and directed starts that do not.
+
+    lost_exact: directed starts that do not settle and are on a half turn, a pole or a wrap themselves; lost: others.
+    detour: greatest way over the shortest, from uniform starts and half turns. rows: looked at.
+    """
+
+    name: str
+    n: int
+    settled: float
+    slowest_s: float
+    lost: int
+    lost_exact: int
+    detour: float
+    flops: int
+    calls: int
+    rows: int
+
+    def cost(self, price: float = CALL_PRICE) -> float:
+        """Flops with a call counted as so many."""
+        return self.flops + price * self.calls
+
+
+def every(results: Results, engine: str) -> list[Adequacy]:
+    """All laws that have uniform starts, half turns and a cost; the cheapest first.
+
+    Errors:
+        NoEvidence: no episode on the free body by this engine.
+    """
+    runs = results.table("episodes", **FREE_BODY, task="free-body", engine=engine)
+    runs = some(runs[runs["start_set"].isin(("uniform", *DIRECTED))], f"episode by {engine}")
+    runs = runs.assign(lost=~settled(runs), exact=exact(runs))
+    costs = results.table("costs", **FREE_BODY, branch="typical")
+    priced = {str(name): rows for name, rows in costs.groupby("contender", observed=True)}
+    found = [
+        _row(str(name), own, priced[str(name)])
+        for name, own in runs.groupby("contender", observed=True)
+        if name in priced and {"uniform", "half-turn"} <= set(own["start_set"])
+    ]
+    return sorted(found, key=Adequacy.cost)
+
+
+def held(results: Results, noise_rad: float) -> dict[str, tuple[int, int]]:
+    """Law -> starts on half turns that worst-case noise up to an angle holds there, of how many; laws it was tried on.
+
+    Errors:
+        NoEvidence: such noise was tried on no law.
+    """
+    noise = results.table("robustness", axis=NOISE)
+    tried = some(noise[noise["level"] <= noise_rad], f"episode under '{NOISE}'")
+    counts = tried.assign(lost=~settled(tried)).groupby("contender", observed=True)["lost"].agg(["sum", "size"])
+    return {str(name): (int(lost), int(of)) for name, lost, of in counts.itertuples()}
+
+
+def _row(name: str, own: pd.DataFrame, costs: pd.DataFrame) -> Adequacy:
+    is_uniform = own["start_set"] == "uniform"
+    uniform, directed = own[is_uniform], own[~is_uniform]
+    plain = own[is_uniform | (own["start_set"] == "half-turn")]
+    flops, calls = tallied(costs, with_goal=False)
+    return Adequacy(
+        name,
+        len(uniform),
+        float(1.0 - uniform["lost"].mean()),
+        float(uniform["settling_time_s"].max()),
+        int((directed["lost"] & ~directed["exact"]).sum()),
+        int((directed["lost"] & directed["exact"]).sum()),
+        float(plain["path_ratio"].max()),
+        flops,
+        calls,
+        len(own),
+    )
+
+
+def exact(runs: pd.DataFrame) -> pd.Series:
+    """Whether a start is on a half turn, a pole or a wrap to EXACT_RAD, or its goal on a pole."""
+    distance = probes.boundary_distance(runs)
+    at_goal = distance["half_turn"].where(runs["angle0_rad"] > 1, np.pi)
+    found = (distance["pole"] <= EXACT_RAD) | (distance["wrap"] <= EXACT_RAD) | (at_goal <= EXACT_RAD)
+    goals = runs.drop_duplicates(list(probes.GOAL_QUAT))
+    to_pole = goals[list(probes.GOAL_QUAT)].assign(far=probes.goal_to_pole(goals))
+    far = runs[list(probes.GOAL_QUAT)].merge(to_pole, how="left", on=list(probes.GOAL_QUAT))["far"]
+    return found | (far.to_numpy() <= EXACT_RAD)
+
+
+def tallied(rows: pd.DataFrame, with_goal: bool) -> tuple[int, int]:
+    """Flops and transcendental calls of one contender's rows, a row a stage."""
+    total, goal = (rows[rows["stage"] == stage].iloc[0] for stage in ("total", "goal"))
+    flops, calls = int(total["flops"]), int(sum(total[name] for name in CALLS))
+    if with_goal:
+        return flops, calls
+    return flops - int(goal["flops"]), calls - int(sum(goal[name] for name in CALLS))

@@ -1,0 +1,89 @@
+"""Small experiments that claims make on arms: curves at another step, episodes from poses of a table."""
+
+import dataclasses
+import math
+
+import numpy as np
+import pandas as pd
+
+import tasks
+from bench.contenders.registry import find_contender, inverse, jacobian
+from bench.findings.claims.probes import euler_angles, response
+from bench.law.contender import Contender, Gains
+from bench.law.so3 import Rotation, from_quaternion
+from bench.metrics.registry import metrics_of
+from tasks.kinematics import kinematics
+
+TASK = "arm-regulation"
+BENDS = ("bend_0", "bend_1", "bend_2")
+
+
+def controller(word: str) -> Contender:
+    """The contender of `law@jacobian+inverse`."""
+    law, _, way = word.partition("@")
+    by, _, through = way.partition("+")
+    return find_contender(law)._replace(jacobian=jacobian(by), inverse=inverse(through))
+
+
+def curves(word: str, arm: str, gains: Gains, dt_s: float, count: int) -> pd.DataFrame:
+    """Traces of a contender from the first clear starts of an arm: the angles' departure from the closed form.
+
+    Returns:
+        a row a sample: start_id, time_s, bend_0 to bend_2 (E less E_d + (E_0 - E_d) response(t)) [rad],
+        position_error_m.
+    """
+    from bench.experiments import traces
+    from bench.experiments.plan import Plan, Unit
+
+    one = controller(word)
+    unit = Unit("native", one.name, TASK, "clear", 0, count, count, traces.LONGEST_S, arm)
+    plan = dataclasses.replace(Plan("experiment", (unit,), (one,), gains, dt_s), arm_traces=count)
+    frame = traces.run(plan).to_pandas()
+    frame = frame[frame["start_set"] == "clear"]
+    goals = {start.id: start.goal_wxyz for start in tasks.start_set("clear", count, 0, arm=arm)}
+    parts = []
+    for id, curve in frame.groupby("start_id", sort=False):
+        n, o, a = (curve[[f"{c}_{x}" for x in "xyz"]].to_numpy().tolist() for c in "noa")
+        E = np.array([euler_angles(Rotation(*triple)) for triple in zip(n, o, a, strict=True)])
+        E_d = np.array(euler_angles(from_quaternion(goals[str(id)])))
+        linear = E_d + (E[0] - E_d) * response(curve["time_s"].to_numpy(), gains)[:, None]
+        part = curve[["start_id", "time_s", "position_error_m"]].copy()
+        part[list(BENDS)] = E - linear
+        parts.append(part)
+    return pd.concat(parts, ignore_index=True)
+
+
+def beside_poles(word: str, arm: str, poses: pd.DataFrame, gains: Gains) -> pd.DataFrame:
+    """Episodes from rest at poses of the table, at 10^-2 from a pole or nearer, to the pose of each family at 10^-1.
+
+    Returns:
+        rows of episodes.parquet; start_id is the pose's.
+    """
+    from bench.engines.run_arm import run
+    from bench.experiments.plan import Plan, Unit
+    from bench.experiments.rows import frame, settings_of
+    from bench.experiments.suites import ON_ARM
+
+    judge = kinematics(tasks.arm(arm))
+    own = poses[(poses["arm"] == arm) & (poses["pose_set"] == "pole")].drop_duplicates("pose_id")
+    names = [f"q_{i + 1}" for i in range(tasks.arm(arm).joints)]
+    at = {str(id): tuple(q) for id, q in zip(own["pose_id"], own[names].to_numpy().tolist(), strict=True)}
+    goals = {id.removesuffix("-1e-01"): judge.pose(q)[1] for id, q in at.items() if id.endswith("-1e-01")}
+    starts = [
+        judge.start(id, q, goals[family])
+        for id, q in at.items()
+        if not id.endswith("-1e-01") and (family := id.rpartition("-1e-")[0] or id.removesuffix("-exact")) in goals
+    ]
+    one, metrics = controller(word), metrics_of(on_arm=True)
+    plan, unit = (
+        Plan("experiment", (), (one,), gains),
+        Unit("native", one.name, TASK, "pole", 0, len(starts), len(starts), ON_ARM, arm),
+    )
+    numbers = run("native", one, TASK, arm, starts, settings_of(plan, ON_ARM), metrics)
+    return frame(plan, unit, one, starts, numbers, metrics)
+
+
+def largest(frame: pd.DataFrame) -> float:
+    """The largest bend of any angle [rad]; infinite if one is no number."""
+    bends = frame[list(BENDS)].to_numpy()
+    return float(np.abs(bends).max()) if np.isfinite(bends).all() else math.inf

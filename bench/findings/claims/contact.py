@@ -1,0 +1,155 @@
+"""C25: complex compliant motions by both Jacobians (Murphy 1988, 3.3)."""
+
+import numpy as np
+import pandas as pd
+
+from bench.control.contact_controller import FORMS
+from bench.findings.claims.euler_jacobian import COORDINATES
+from bench.findings.claims.side_by_side import BASE, paired
+from bench.findings.claims.tables import evidence, some
+from bench.findings.claims.verdict import NoEvidence, Word, claim
+
+TURNED_DEG = 45.0
+"""|beta| of the hand's frame from which on the two shall part: its x then leans to z as much as it lies level."""
+
+PARTS = 2.0
+"""Factor between two numbers that are not the same performance."""
+
+FLOORS = {"rad": 1e-3, "N": 0.1, "N m": 0.01, "m": 1e-4}
+"""By unit; a number below is taken for it, so that nothing is compared with almost nothing. About what the contact of a
+simulated hand leaves at rest."""
+
+PERFORMANCE = {
+    "alignment_error_rad": "rad",
+    "force_error_rms_n": "N",
+    "moment_error_rms_nm": "N m",
+    "peak_force_n": "N",
+    "peak_moment_nm": "N m",
+    "insertion_depth_m": "m",
+}
+"""Columns that say how well a task went, and their units."""
+
+MORE_IS_BETTER = ("insertion_depth_m",)
+TOUCHED = ["force_error_rms_n", "moment_error_rms_nm"]
+"""Columns that have a number only after a touch."""
+
+ZERO_RAD, SLACK_DEG = 1e-9, 1e-6
+"""What rounding may make of an angle that a frame is named after."""
+
+C25 = claim(
+    id="C25",
+    section="3.3",
+    sentence="How well complex compliant motions go depends on the Jacobian used.",
+    question="Do contact tasks end differently with the two Jacobians?",
+    criterion=f"""
+        compliance.parquet, every task with contact whose order lets two or more turns comply: hybrid/zyx-euler against
+        hybrid-base, the same law but for the Jacobian, on the same arm, scene and frame of the hand and in the same
+        form. Compared: outcomes, and if both are done each number of performance that the task has: alignment error,
+        rms error and peak of force and of moment, insertion depth. A pair parts if the outcomes differ or one number
+        does by a factor of {PARTS:g} or more, numbers below {", ".join(f"{x:g} {unit}" for unit, x in FLOORS.items())}
+        being taken for that. A task depends on the Jacobian if on every arm and in both forms some pair with |beta| >=
+        {TURNED_DEG:g} degrees parts, and none with beta = 0: then the coordinates are to blame, and not the way to the
+        joints. It holds if every such task depends on it; with a correction if on some task some pair with |beta| >=
+        {TURNED_DEG:g} degrees parts; otherwise it does not hold. A task without both kinds of frames is no evidence.
+        Reported: how often Euler is the worse of a pair that parts, and how many pairs part on tasks where fewer turns
+        comply.
+    """,
+    open="""
+        "The performance of complex compliant robot motions will depend upon which form of Jacobian is used in the
+        controller." Neither motions nor performance are named. Complex is read from the sentence before it: two
+        rotational axes comply. Tasks and frames are ours.
+    """,
+)
+
+
+def c25(results):
+    """Pairs of episodes in contact that differ in the Jacobian alone, by task."""
+    rows = some(paired(results, COORDINATES), f"pose of a task by hybrid/{COORDINATES} and {BASE}")
+    touching = rows[TOUCHED].notna().groupby(rows["task"]).transform("any").any(axis=1)
+    rows = some(_compared(rows[touching].reset_index(drop=True)), "pose of a task with contact")
+    complex_ones = some(rows[rows["turns"] >= 2], "pose of a task with contact where two turns comply")
+    depends = {task: _depends(task, own) for task, own in complex_ones.groupby("task")}
+    turned = complex_ones[complex_ones["is_turned"]]
+    if all(depends.values()):
+        word = Word.HOLDS
+    else:
+        word = Word.CORRECTED if turned["parts"].any() else Word.FAILS
+    parted = complex_ones[complex_ones["parts"]]
+    agree = complex_ones.groupby(["task", "arm", "pose"])["parts"].nunique() == 1
+    simple = rows[rows["turns"] < 2]
+    return word, evidence(
+        """{depending} of {tasks} tasks in which two turns comply depend on the Jacobian, by {n} pairs on {arms} arms:
+        {listed}. Of the pairs that part Euler is the worse in {worse} of {parted}; both ways to the joints agree at
+        {agreeing} of {frames} frames and scenes. Where fewer turns comply {simple_k} of {simple_n} pairs part.""",
+        len(rows),
+        ("compliance",),
+        depending=sum(depends.values()),
+        tasks=len(depends),
+        n=len(complex_ones),
+        arms=complex_ones["arm"].nunique(),
+        listed="; ".join(_told(task, own) for task, own in complex_ones.groupby("task")),
+        worse=int(parted["euler_is_worse"].sum()),
+        parted=len(parted),
+        agreeing=int(agree.sum()),
+        frames=len(agree),
+        simple_k=int(simple["parts"].sum()),
+        simple_n=len(simple),
+    )
+
+
+def _depends(task: str, rows: pd.DataFrame) -> bool:
+    """Whether on every arm and in both forms some pair with a turned frame parts, and none with beta = 0.
+
+    Errors:
+        NoEvidence: an arm lacks a form, or a form such frames.
+    """
+    found = []
+    for arm, on_arm in rows.groupby("arm"):
+        for form in FORMS:
+            own = on_arm[on_arm["form"] == form]
+            turned, straight = own[own["is_turned"]], own[own["beta"].abs() <= ZERO_RAD]
+            if turned.empty or straight.empty:
+                raise NoEvidence(f"{task} on {arm}, {form}: no frames both at beta = 0 and from {TURNED_DEG:g} degrees")
+            found.append(turned["parts"].any() and not straight["parts"].any())
+    return all(found)
+
+
+def _compared(rows: pd.DataFrame) -> pd.DataFrame:
+    """The pairs with: turns, how many comply; is_turned; factor, NaN if both fail alike; parts; euler_is_worse."""
+    worse_by = np.stack([_worse_by(rows, column) for column in PERFORMANCE], axis=1)
+    most = worse_by[np.arange(len(rows)), np.abs(worse_by).argmax(axis=1)]
+    ends, base_ends = rows["outcome"].astype(str), rows["outcome_base"].astype(str)
+    alike = ends == base_ends
+    most = np.select([~alike & (ends == "done"), ~alike, ends != "done"], [-np.inf, np.inf, np.nan], most)
+    factor = np.exp(np.abs(most))
+    return rows.assign(
+        turns=[len(set(word.partition("about ")[2]) & set("xyz")) for word in rows["complies"]],
+        is_turned=np.degrees(rows["beta"].abs()) >= TURNED_DEG - SLACK_DEG,
+        factor=factor,
+        parts=factor >= PARTS,
+        euler_is_worse=most > 0,
+    )
+
+
+def _worse_by(rows: pd.DataFrame, column: str) -> np.ndarray:
+    """Logarithm of the factor by which Euler is worse in one number; infinite if one of the two has none."""
+    floor = FLOORS[PERFORMANCE[column]]
+    own, base = (np.log(rows[name].clip(lower=floor)) for name in (column, f"{column}_base"))
+    by = base - own if column in MORE_IS_BETTER else own - base
+    return np.select([own.isna() & base.isna(), own.isna(), base.isna()], [0.0, np.inf, -np.inf], by)
+
+
+def _told(task: str, rows: pd.DataFrame) -> str:
+    """Of a task how the pairs with turned and with straight frames part."""
+    turned, straight = rows[rows["is_turned"]], rows[rows["beta"].abs() <= ZERO_RAD]
+    return f"{task}, {_parted(turned)} with |beta| >= {TURNED_DEG:g} degrees and {_parted(straight)} with beta = 0"
+
+
+def _parted(rows: pd.DataFrame) -> str:
+    """How many part, how many of them by their outcomes, and the greatest factor of the others."""
+    by_outcome = np.isinf(rows["factor"])
+    ends = f"{by_outcome.sum()} by outcome, the others " if by_outcome.any() else ""
+    return f"{rows['parts'].sum()} of {len(rows)} ({ends}up to {rows['factor'][~by_outcome].max():.3g} times)"
+
+
+CLAIMS = (C25.judged_by(c25),)

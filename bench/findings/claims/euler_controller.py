@@ -1,0 +1,274 @@
+"""C20, C26: the controller on the Euler Jacobian, what it does and what it costs (Murphy 1988, 3.6-3.8 and 4)."""
+
+import functools
+import itertools
+from typing import NamedTuple
+
+import numpy as np
+import pandas as pd
+
+import tasks
+from bench.findings.claims import arm_probes
+from bench.findings.claims.adequacy import CALL_PRICE, CALL_PRICES, CALLS, tallied
+from bench.findings.claims.costs import AGREES, MIXED, compared
+from bench.findings.claims.tables import evidence, some
+from bench.findings.claims.verdict import Word, claim
+from bench.law.contender import Gains
+
+LAW, COORDINATES = "feedback-linearized", "zyx-euler"
+INVERSES = {6: "solve", 7: "pseudo-inverse"}
+"""The inverse of the claims, by number of joints: what J^-1 means on six, and its least-squares heir on seven."""
+
+BY_EULER, BY_COMMON, ON_MATRIX = (
+    f"{LAW}/{COORDINATES}@analytic",
+    f"{LAW}/{COORDINATES}@geometric",
+    "rotation-matrix@geometric",
+)
+"""(3.7), (2.2) with (2.15), and (2.2) with the law on R; the inverse goes by the number of joints."""
+
+CURVES = 8
+"""Clear starts whose curves are computed at both steps."""
+
+BEND_TIGHT, BEND_LOOSE = 1e-3, 1e-2
+"""rad, at step zero by Richardson. What the extrapolation leaves is of second order: (10/s x 1 ms)^2 = 1e-4, times a
+motion of up to pi, times a few for the curvature of the angles. A visible bend is a hundredth, as in C09."""
+
+DRIFT_M = 1e-3
+"""m, at step zero: a thousandth of an arm's reach."""
+
+HALVING = (0.4, 0.6)
+"""Departure at half the step over that at the step: a half if it is the integrator's, of first order; one if it is the
+law's. A second-order part of -0.3 to 0.7 of the first-order one moves it this far from a half."""
+
+HAMMERED = 10.0
+"""Peak torque over that of the geometric Jacobian from the same start: beyond it the Jacobian is to blame."""
+
+C20 = claim(
+    id="C20",
+    section="3.2",
+    sentence="With it the plant is decoupled double integrators; this fails at places and hides a cost.",
+    question="Is the arm's answer linear, how does it end near the pole, and what do (2.2), (3.7) cost?",
+    criterion=f"""
+        Native engine, every arm, perfect model, law (3.7): {LAW}/{COORDINATES}@analytic with the inverse {INVERSES[6]}
+        on six joints and {INVERSES[7]} on seven. Against it: rotation-matrix@geometric, (2.2), with the same inverse.
+        (a) Double integrators: from clear starts, each angle's departure from E_d + (E_0 - E_d) response(t), the closed
+        form of C09, is the integration error of MuJoCo's semi-implicit Euler step, which is of first order: with half
+        the step it is {HALVING[0]:g} to {HALVING[1]:g} of what it was, and extrapolated to step zero (twice the
+        half-step trace less the full) at most {BEND_TIGHT:g} rad; the tool's position likewise, at most {DRIFT_M:g} m.
+        (b) Orientations: on every arm some start at a pole fails with it that settles with the other, where failing is
+        not settling, or a peak torque {HAMMERED:g} times the other's; no clear start fails. Starts at a pole are those
+        of the set pole, and the poses of C18's families at 10^-2 or nearer, at rest, with the pose at 10^-1 for a goal.
+        (c) Hidden expense: by costs.parquet, typical branch, its stage 'regulate' has fewer flops and no more calls
+        than the other's, and yet its total without the goal's angles costs more, flops and calls at {CALL_PRICES[0]:g}
+        to {CALL_PRICES[1]:g} flops each, on six and on seven joints. It holds if all three pass; with a correction if
+        (a) extrapolates to {BEND_LOOSE:g} rad or less and (b) or (c) passes; otherwise it does not hold. Also reported:
+        (2.2) with (2.15), the same law on the geometric Jacobian.
+    """,
+    open="""
+        "The result is truly a system of decoupled double integrators." "However, this linearization fails to exist for
+        certain orientations mentioned above and it hides the expense of calculating the Euler angles." The paper
+        computes no arm. The halved step is an experiment of the judge's, and so are the episodes from C18's poses: a
+        response in E is straight in E, so it nears a pole only from there or to there, while the starts of the set pole
+        begin and end 40 degrees away from one, and only the tool of a law on R passes it.
+    """,
+)
+
+C26 = claim(
+    id="C26",
+    section="4",
+    sentence="The Euler Jacobian costs more to calculate.",
+    question="What do the tallies of both say?",
+    criterion=f"""
+        costs.parquet, typical branch, on six joints with {INVERSES[6]} and on seven with {INVERSES[7]}: whole
+        controllers, what MuJoCo computes for all of them left out. Pairs, the cheaper by the claim first: the same law
+        both ways, {LAW}/{COORDINATES}@geometric, (2.2) with (2.15), and @analytic, (3.7); and
+        rotation-matrix@geometric, (2.2), and the latter. Flops and calls in columns of their own, with the goal's
+        angles and without (the paper's accounting), as in C12: a pair agrees if the dearer has no fewer of either and
+        more of one; it is mixed if the columns differ, and in order if it is so once a call costs {CALL_PRICE:g} flops
+        or less. It holds if every pair agrees; with a correction if every pair agrees or is mixed and in order;
+        otherwise it does not hold. Times per tick of whole controllers, where results/timings has them, are reported;
+        where they contradict the order, 'holds' falls to 'with a correction'.
+    """,
+    open="""
+        "This Jacobian is commonly used in the literature without statement to the fact that it must exclude certain
+        orientations and has a higher calculation cost." Higher than what is not said: than the common Jacobian with the
+        same law is the narrow reading, than the cheapest controller without Euler angles the wide one; both are asked.
+    """,
+    readings=(
+        "dearer than the same law on the common Jacobian",
+        "dearer than the law on R on the common Jacobian",
+    ),
+)
+
+
+def words(controller: str, joints: int) -> dict[str, str]:
+    """The words of a controller's rows on so many joints."""
+    law, _, by = controller.partition("@")
+    regulator, _, representation = law.partition("/")
+    return {"regulator": regulator, "representation": representation, "jacobian": by, "inverse": INVERSES[joints]}
+
+
+def controller_costs(results, controller: str, joints: int) -> pd.DataFrame:
+    """Its rows of costs.parquet, typical branch, a row a stage."""
+    rows = results.table("costs", **words(controller, joints), branch="typical")
+    return some(rows[rows["joints"] == joints], f"cost of {controller} on {joints} joints")
+
+
+class Bend(NamedTuple):
+    """How far an arm is from double integrators: [rad] at the step, the halved one's share, at step zero; [m]."""
+
+    full: float
+    share: float
+    limit: float
+    drift: float
+    samples: int
+
+
+def c20(results):
+    """Curves at two steps; outcomes at the poles against the law on R; stages and totals."""
+    found = some(
+        results.table("episodes", task=arm_probes.TASK, engine="native", variation="nominal"),
+        "nominal episode of an arm",
+    )
+    arms = sorted(set(found["arm"].astype(str)))
+    poses = some(results.table("poses", representation=COORDINATES, pose_set="pole"), "pose at a pole")
+    gains = Gains(float(found["kp"].iloc[0]), float(found["kv"].iloc[0]))
+    bends = {arm: _bend(arm, gains, float(found["dt_s"].iloc[0])) for arm in arms}
+    compared_at = {arm: _at_poles(found, poses, arm, gains) for arm in arms}
+    clear, common = (pd.concat([_pairs(found, arm, "clear", one) for arm in arms]) for one in (BY_EULER, BY_COMMON))
+    hidden = [_hidden(results, joints) for joints in INVERSES]
+    limit, drift = max(one.limit for one in bends.values()), max(one.drift for one in bends.values())
+    first_order = all(HALVING[0] <= one.share <= HALVING[1] for one in bends.values())
+    linear = first_order and limit <= BEND_TIGHT and drift <= DRIFT_M
+    fails = all(rows["fails"].any() for rows in compared_at.values()) and not clear["fails"].any()
+    hides = all(one.hides for one in hidden)
+    if linear and fails and hides:
+        word = Word.HOLDS
+    else:
+        word = Word.CORRECTED if limit <= BEND_LOOSE and (fails or hides) else Word.FAILS
+    return word, evidence(
+        """{curves} clear curves a step on {arms} arms: angles are at most {full:.1e} rad off the closed form at the
+        step, {low:.3f} to {high:.3f} of that at half of it, and {limit:.1e} rad at step zero; the tool moves
+        {drift:.1e} m. At a pole it fails, and the law on R does not, from {at_poles}; from {clear_k} of {clear_n}
+        clear starts (by the same law on the common Jacobian: {common}). {hidden}""",
+        sum(one.samples for one in bends.values()) + sum(map(len, compared_at.values())) + len(clear) + 3 * len(hidden),
+        ("episodes", "poses", "costs", "experiment"),
+        curves=CURVES * len(arms),
+        arms=len(arms),
+        full=max(one.full for one in bends.values()),
+        low=min(one.share for one in bends.values()),
+        high=max(one.share for one in bends.values()),
+        limit=limit,
+        drift=drift,
+        at_poles=", ".join(f"{rows['fails'].sum()} of {len(rows)} ({arm})" for arm, rows in compared_at.items()),
+        clear_k=int(clear["fails"].sum()),
+        clear_n=len(clear),
+        common=int(common["fails"].sum()),
+        hidden=" ".join(one.said for one in hidden),
+    )
+
+
+@functools.cache
+def _bend(arm: str, gains: Gains, dt_s: float) -> Bend:
+    word = f"{BY_EULER}+{INVERSES[tasks.arm(arm).joints]}"
+    full, half = (arm_probes.curves(word, arm, gains, step, CURVES) for step in (dt_s, dt_s / 2))
+    both = full.merge(half, on=["start_id", "time_s"], suffixes=("", "_half"))
+    limits = [2 * both[f"{name}_half"] - both[name] for name in arm_probes.BENDS]
+    drift = 2 * both["position_error_m_half"] - both["position_error_m"]
+    whole = arm_probes.largest(full)
+    share = arm_probes.largest(half) / whole
+    return Bend(whole, share, float(np.abs(limits).max()), float(np.abs(drift.to_numpy()).max()), len(both))
+
+
+def _pairs(found: pd.DataFrame, arm: str, start_set: str, controller: str = BY_EULER) -> pd.DataFrame:
+    """Episodes by a controller and by the law on R from the same starts of a set."""
+    rows = found[(found["arm"] == arm) & (found["start_set"] == start_set)]
+    parts = []
+    for one in (controller, ON_MATRIX):
+        named = words(one, tasks.arm(arm).joints).items()
+        own = rows[np.logical_and.reduce([rows[column] == word for column, word in named])]
+        parts.append(some(own, f"episode of {one} on {arm} from {start_set}"))
+    return _against(*parts)
+
+
+def _against(own: pd.DataFrame, other: pd.DataFrame) -> pd.DataFrame:
+    """Both controllers' episodes side by side: whether the first fails where the other settles."""
+    both = own.merge(other, on="start_id", suffixes=("", "_other"))
+    hammered = ~(both["peak_tau_nm"] <= HAMMERED * both["peak_tau_nm_other"])
+    fails = (both["outcome_other"] == "settled") & ((both["outcome"] != "settled") | hammered)
+    return pd.DataFrame({"start_id": both["start_id"].astype(str), "fails": fails})
+
+
+def _at_poles(found: pd.DataFrame, poses: pd.DataFrame, arm: str, gains: Gains) -> pd.DataFrame:
+    inverse = INVERSES[tasks.arm(arm).joints]
+    beside = [arm_probes.beside_poles(f"{one}+{inverse}", arm, poses, gains) for one in (BY_EULER, ON_MATRIX)]
+    return pd.concat([_pairs(found, arm, "pole"), _against(*beside)], ignore_index=True)
+
+
+class Hidden(NamedTuple):
+    """Whether the law seems cheaper and the controller is dearer, and the numbers in a sentence."""
+
+    hides: bool
+    said: str
+
+
+def _hidden(results, joints: int) -> Hidden:
+    rows = {one: controller_costs(results, one, joints) for one in (BY_EULER, BY_COMMON, ON_MATRIX)}
+    laws = {one: own[own["stage"] == "regulate"].iloc[0] for one, own in rows.items()}
+    seen = {one: (int(law["flops"]), int(sum(law[name] for name in CALLS))) for one, law in laws.items()}
+    total = {one: tallied(own, with_goal=False) for one, own in rows.items()}
+    seems_cheaper = seen[BY_EULER][0] < seen[ON_MATRIX][0] and seen[BY_EULER][1] <= seen[ON_MATRIX][1]
+    weighed = {one: [flops + price * calls for price in CALL_PRICES] for one, (flops, calls) in total.items()}
+    is_dearer = all(dear > cheap for dear, cheap in zip(weighed[BY_EULER], weighed[ON_MATRIX], strict=True))
+    told = "; ".join(
+        f"{name} {seen[one][0]} flops of {total[one][0]} and {total[one][1]} calls"
+        for name, one in (("(3.7)", BY_EULER), ("(2.2) with the law on R", ON_MATRIX), ("(2.2) with (2.15)", BY_COMMON))
+    )
+    return Hidden(seems_cheaper and is_dearer, f"On {joints} joints the law itself is {told}.")
+
+
+def c26(results):
+    """Pairs of controllers on six and seven joints, in both accountings; then time."""
+    pairs, listed = [], []
+    for joints, with_goal in itertools.product(INVERSES, (False, True)):
+        total = {
+            one: tallied(controller_costs(results, one, joints), with_goal) for one in (BY_COMMON, ON_MATRIX, BY_EULER)
+        }
+        pairs += [compared(total[one], total[BY_EULER]) for one in (BY_COMMON, ON_MATRIX)]
+        told = ", ".join(f"{flops} and {calls}" for flops, calls in total.values())
+        listed.append(f"{joints} joints{', goal and all' if with_goal else ''}: {told}")
+    said, is_dearer, timed = _timed(results)
+    in_order = all(how == AGREES or (how == MIXED and price <= CALL_PRICE) for how, price in pairs)
+    if all(how == AGREES for how, _ in pairs):
+        word = Word.HOLDS if is_dearer else Word.CORRECTED
+    else:
+        word = Word.CORRECTED if in_order else Word.FAILS
+    return word, evidence(
+        """Flops and calls a tick of (2.2) with (2.15), (2.2) with the law on R, and (3.7): {listed}. The last is dearer
+        in both columns in {agreeing} of {pairs} pairs. {said}""",
+        3 * len(listed) + timed,
+        ("costs", "timings") if timed else ("costs",),
+        listed="; ".join(listed),
+        agreeing=sum(how == AGREES for how, _ in pairs),
+        pairs=len(pairs),
+        said=said,
+    )
+
+
+def _timed(results) -> tuple[str, bool, int]:
+    """What the timings say, whether none contradicts the order, and how many rows say it."""
+    frame = results.controller_timings()
+    columns = []
+    for controller in (BY_COMMON, ON_MATRIX, BY_EULER):
+        own = frame[frame["contender"].isin([f"{controller}+{inverse}" for inverse in INVERSES.values()])]
+        columns.append(own.groupby(["machine", "arm"], observed=True)["ns_per_tick"].median())
+    table = pd.concat(columns, axis=1, keys=("common", "matrix", "euler")).dropna()
+    if table.empty:
+        return "No timings of all three to confirm it.", True, 0
+    dearer = table["euler"] > np.maximum(table["common"], table["matrix"])
+    medians = ", ".join(f"{1e-3 * table[name].median():.2f}" for name in table)
+    said = f"Time a tick is in that order on {int(dearer.sum())} of {len(table)} arms and machines ({medians} µs)."
+    return said, bool(dearer.all()), 3 * len(table)
+
+
+CLAIMS = (C20.judged_by(c20), C26.judged_by(c26))

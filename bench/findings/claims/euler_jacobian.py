@@ -1,0 +1,180 @@
+"""C18, C19: the Euler Jacobian J_E, its singularities and its two derivations (Murphy 1988, 3.1-3.5)."""
+
+import numpy as np
+import pandas as pd
+
+from bench.findings.claims.tables import evidence, share, some
+from bench.findings.claims.verdict import NoEvidence, Word, claim
+
+COORDINATES = "zyx-euler"
+
+WELL_CONDITIONED = 50.0
+"""Condition number of J, in metres and radians, up to which the manipulator is not to blame: six times the 7.9 of the
+PUMA's stock pose; a milliradian off a wrist singularity it is in the thousands."""
+
+SLOPE, SLOPE_TIGHT, SLOPE_LOOSE = 1.0, 0.05, 0.5
+"""Decades a decade. cond B = (1 + |sin beta|)/cos beta is 2/d to a relative d^2 at a distance d; the constant between
+it and J_E, at most cond J, bends the first decade or two. 5 % of a fit over 8 decades is a factor of 2.5 in all."""
+
+DECADES = 8
+"""Decades that the slopes are of; beyond them cos(beta) is known to less than 1e-8."""
+
+UNBOUNDED, NEAREST = 1e10, 12
+"""Largest element at 10^-12 from the pole: 1/d, less a factor 100 for J's own elements."""
+
+EPS = 2.0**-52
+ROUNDINGS = 100.0
+"""A determinant or a product of 6 x 6 sums 36 rounded terms; R itself is orthonormal to a few eps only. What is
+divided by cos(beta) errs by as many eps over the margin."""
+
+DETERMINANT_LOOSE, AWAY, NEAR = 1e-6, 1e-3, 1e-6
+"""Ten digits short of rounding; and the margin cos(beta) from which on agreement is asked for a correction (AWAY) and
+to hold (NEAR)."""
+
+DIFFERENCED = EPS ** (2 / 3)
+"""What a central difference keeps: with a step of eps^(1/3) times the margin, truncation (step/margin)^2/3 and
+rounding eps/step are both about eps^(2/3), over the margin."""
+
+C18 = claim(
+    id="C18",
+    section="3.1",
+    sentence="""
+        The Euler Jacobian adds singularities of its own, with unbounded elements, to those of the manipulator.
+    """,
+    question="Does J_E grow without bound where J is well conditioned, and is it singular wherever J is?",
+    criterion=f"""
+        poses.parquet, Z-Y-X angles, every arm. A family is one arm posture brought to distances 10^-k from beta =
+        +-pi/2; it speaks if J's condition number (metres, radians) is at most {WELL_CONDITIONED:g} at every k. (a) Own
+        singularities: over k = 1 to {DECADES}, the least-squares slopes of log10 of J_E's condition number and of its
+        largest element (orientation rows) are {SLOPE:g} +- {SLOPE_TIGHT:.0%} decades a decade. (b) Unbounded: at k =
+        {NEAREST} the largest element is {UNBOUNDED:g} or more. (c) The manipulator's: on six joints, at every pose with
+        cos(beta) >= {NEAR:g}, det J_E = -det J / cos(beta) to {ROUNDINGS:g} eps / cos(beta) of the product of J_E's row
+        norms, so that det J_E is zero exactly where det J is. It holds if every family of every arm passes (a) and (b)
+        and every pose (c); with a correction if every slope is at least {SLOPE_LOOSE:g} and (c) holds to
+        {DETERMINANT_LOOSE:g}: it is singular, but not like 1/d; otherwise it does not hold. An arm without a family is
+        no evidence.
+    """,
+    open="""
+        "... it has the property of being zero at points in the workspace as well as being undefined, or having elements
+        values approaching infinity, at other points in the workspace." No matrix of an arm with hinges is zero: zero is
+        read of the determinant, and the smallest value that the largest element takes over all poses is reported.
+        Families, arms and distances are ours.
+    """,
+    readings=(
+        "'zero' of the determinant: singular (decides)",
+        "'zero' of every element (reported)",
+    ),
+)
+
+C19 = claim(
+    id="C19",
+    section="3.1",
+    sentence="Its two derivations agree: diag(I, B^-1) J, and the derivative of the forward kinematics.",
+    question="Are (3.3) and (3.5) the same matrix, and that of the differentiated forward kinematics?",
+    criterion=f"""
+        poses.parquet, Z-Y-X angles, every arm, every pose with cos(beta) >= {NEAR:g}. The gap of two matrices is the
+        largest difference of elements over the largest element. (a) Derivations: the gap between (3.3) and (3.5), the
+        extraction differentiated element by element, is at most {ROUNDINGS:g} eps / cos(beta). (b) Differentiation: the
+        gap between (3.3) and central differences of the judge's forward kinematics is at most {ROUNDINGS:g} eps^(2/3) /
+        cos(beta). It holds if every pose passes both; with a correction if every pose with cos(beta) >= {AWAY:g} does:
+        they part near the pole; otherwise it does not hold.
+    """,
+    open="""
+        "The function is differentiated with respect to the joint angles and the resultant matrix is the manipulator
+        Jacobian with respect to Euler angles." and "This Jacobian has the same properties as that presented in the
+        previous section". The paper states the equality and does not show it; tolerances are ours.
+    """,
+)
+
+
+def c18(results):
+    """Slopes towards the pole by family, the largest element on arrival, and the determinants' identity."""
+    rows = some(results.table("poses", representation=COORDINATES), "pose of an arm")
+    families = _families(rows)
+    silent = sorted(set(rows["arm"]) - set(families["arm"]))
+    if silent:
+        raise NoEvidence(f"no well-conditioned family of poses towards the pole on {', '.join(silent)}")
+    square = some(rows[rows["det_gap"].notna() & (rows["margin"] >= NEAR)], "pose of an arm with six joints")
+    slopes = families[["condition_analytic", "largest"]].to_numpy()
+    errors = square["det_gap"] * square["margin"] / EPS
+    tight = abs(slopes - SLOPE).max() <= SLOPE_TIGHT * SLOPE and (families["nearest"] >= UNBOUNDED).all()
+    if tight and (errors <= ROUNDINGS).all():
+        word = Word.HOLDS
+    else:
+        loose = slopes.min() >= SLOPE_LOOSE and (square["det_gap"] <= DETERMINANT_LOOSE).all()
+        word = Word.CORRECTED if loose else Word.FAILS
+    well = some(rows[(rows["pose_set"] == "random") & (rows["condition"] <= WELL_CONDITIONED)], "random pose")
+    return word, evidence(
+        """{families} families on {arms} arms, J's condition number at most {condition:.0f}: towards the pole J_E's
+        grows by {low:.3f} to {high:.3f} decades a decade, its largest element by {least:.3f} to {most:.3f}, to
+        {nearest:.1e} or more at 1e-{k}. det J_E = -det J / cos(beta) at {square:,} poses, to {errors:.1f} eps /
+        cos(beta). Of the random poses with J well conditioned, J_E has ten times its condition number at {worse}. Its
+        largest element is nowhere below {smallest:.2f}: only its determinant is ever zero.""",
+        len(rows),
+        ("poses",),
+        families=len(families),
+        arms=rows["arm"].nunique(),
+        condition=families["condition"].max(),
+        low=slopes[:, 0].min(),
+        high=slopes[:, 0].max(),
+        least=slopes[:, 1].min(),
+        most=slopes[:, 1].max(),
+        nearest=families["nearest"].min(),
+        k=NEAREST,
+        square=len(square),
+        errors=errors.max(),
+        worse=share(well["condition_analytic"] > 10 * well["condition"]),
+        smallest=rows["largest"].min(),
+    )
+
+
+def _families(rows: pd.DataFrame) -> pd.DataFrame:
+    """Each family that speaks: slopes over the first decades, the largest element at the last, J's worst condition."""
+    pole = rows[rows["pose_set"] == "pole"]
+    ids = pole["pose_id"].astype(str).str.extract(r"^(?P<family>.+)-1e-(?P<k>\d+)$")
+    found = []
+    for (arm, _), way in pole.assign(**ids).dropna(subset="k").groupby(["arm", "family"], observed=True):
+        k = way["k"].astype(int)
+        if way["condition"].max() > WELL_CONDITIONED or not {*range(1, DECADES + 1), NEAREST} <= set(k):
+            continue
+        near = way[k <= DECADES]
+        decades = -np.log10(near["margin"])
+        slopes = {name: np.polyfit(decades, np.log10(near[name]), 1)[0] for name in ("condition_analytic", "largest")}
+        nearest, condition = float(way.loc[k == NEAREST, "largest"].iloc[0]), way["condition"].max()
+        found.append({"arm": str(arm), **slopes, "nearest": nearest, "condition": condition})
+    return pd.DataFrame(found, columns=["arm", "condition_analytic", "largest", "nearest", "condition"])
+
+
+def c19(results):
+    """Both gaps at every pose away from the pole, in the units of what rounding leaves."""
+    rows = some(results.table("poses", representation=COORDINATES), "pose of an arm")
+    rows = some(rows[rows["margin"] >= NEAR], f"pose with cos(beta) of {NEAR:g} or more")
+    differenced = rows[rows["pose_set"] != "slice"]
+    for name, found in (("derivation_gap", rows), ("difference_gap", differenced)):
+        silent = sorted(set(rows["arm"]) - set(found.loc[found[name].notna(), "arm"]))
+        if silent:
+            raise NoEvidence(f"no {name} of any pose of {', '.join(silent)}")
+    kept = differenced[differenced["difference_gap"].notna()]
+    derived = (rows["derivation_gap"] * rows["margin"] / EPS).fillna(np.inf)
+    measured = kept["difference_gap"] * kept["margin"] / DIFFERENCED
+    away = derived[rows["margin"] >= AWAY], measured[kept["margin"] >= AWAY]
+    if derived.max() <= ROUNDINGS and measured.max() <= ROUNDINGS:
+        word = Word.HOLDS
+    else:
+        word = Word.CORRECTED if all((part <= ROUNDINGS).all() for part in away) else Word.FAILS
+    return word, evidence(
+        """{poses:,} poses of {arms} arms: (3.3) and (3.5) differ by at most {derived:.1f} eps / cos(beta), relatively;
+        (3.3) and central differences of the forward kinematics, at {differenced:,} of them, by at most {measured:.1f}
+        eps^(2/3) / cos(beta). Left out, a jump of an angle between both ends of a difference: {jumps}.""",
+        len(rows),
+        ("poses",),
+        poses=len(rows),
+        arms=rows["arm"].nunique(),
+        derived=derived.max(),
+        differenced=len(kept),
+        measured=measured.max(),
+        jumps=len(differenced) - len(kept),
+    )
+
+
+CLAIMS = (C18.judged_by(c18), C19.judged_by(c19))

@@ -1,0 +1,166 @@
+"""C21: measured moments in Euler coordinates, F_e = diag(I, B)^T F_c, and their work (Murphy 1988, 3.10-3.12)."""
+
+import functools
+import math
+
+import numpy as np
+import pandas as pd
+from scipy.spatial.transform import Rotation as Turn
+
+from bench.contenders.registry import known_representations, representation
+from bench.findings.claims.euler_jacobian import COORDINATES, DIFFERENCED, EPS, ROUNDINGS
+from bench.findings.claims.side_by_side import PROBE
+from bench.findings.claims.tables import evidence, some
+from bench.findings.claims.verdict import Word, claim
+from bench.law.contender import Representation
+from bench.law.so3 import Rotation, from_quaternion
+
+TURNS, TURNS_ELSEWHERE, SEED = 2000, 200, 0
+"""Haar-random orientations of Z-Y-X, and of every other representation."""
+
+LOST = 1e-12
+"""Smallest singular value of B at a pole, and the size of what it leaves of the lost moment: rounding of pi/2."""
+
+AT_RANDOM, NEAR_POLE, AT_POLE = "random", "near", "exact"
+DECADES = 12
+BESIDE = 20
+"""Orientations at each distance from each pole."""
+
+STEP = 2.0 ** (-52 / 3)
+"""rad; of a central difference, whose truncation and rounding then are both about its square."""
+
+C21 = claim(
+    id="C21",
+    section="3.3",
+    sentence="Measured forces can be converted by B transposed at every orientation, and work is conserved.",
+    question="Does the power balance close over all poses, the poles included?",
+    criterion=f"""
+        Experiment, Z-Y-X angles: {TURNS:,} Haar-random orientations; both poles, exactly and at 10^-k rad from them,
+        k = 1 to 12, each with random alpha and gamma; at each a random moment m and random rates Edot, of length 1.
+        (a) Exists: F_E = B^T m is finite. (b) Work: |F_E . Edot - m . omega|, omega = B Edot (2.8), is at most
+        {ROUNDINGS:g} eps. (c) The same with omega from central differences of R(E), which know no B, to {ROUNDINGS:g}
+        eps^(2/3). (d) In the loop: in every row of wrench-probe of hybrid/zyx-euler in compliance.parquet that is done,
+        the work residual, the largest |m . omega - F_E . Edot| over the largest |m| |omega|, is at most {ROUNDINGS:g}
+        eps / cos(beta). It holds if all four pass everywhere; with a correction if they pass at every orientation but
+        the exact poles; otherwise it does not hold. Reported: at the exact poles the rank of B and the moment that it
+        loses, |B^T m| at most {LOST:g}; (b) in every other representation; and what (b) is for a moment that is not
+        converted.
+    """,
+    open="""
+        "Since the matrix B always exists ... Forces measured by the force wrist may always be converted to forces
+        usable by the Euler Jacobian controller for every manipulator orientation." At a pole F_E exists, and one moment
+        does not reach it: that it exists and balances the work of every motion of the angles is the reading judged. A
+        turn about the lost moment's axis is no motion of the angles.
+    """,
+    readings=(
+        "F_E exists and balances the work of every motion of the coordinates (decides)",
+        "no moment is lost on the way (reported)",
+    ),
+)
+
+
+def c21(results):
+    """The balance at random and polar orientations, the loop's own work residual, and what is lost at the poles."""
+    looped = results.table("compliance", task=PROBE, controller="hybrid", representation=COORDINATES)
+    looped = looped[(looped["outcome"] == "done") & looped["work_residual"].notna()]
+    looped = some(looped, f"work residual of {PROBE} by hybrid/{COORDINATES}")
+    residual = looped["work_residual"] * np.cos(looped["beta"]) / EPS
+    found, elsewhere = experiment()
+    closes = found["exists"] & (found["gap"] <= ROUNDINGS * EPS) & (found["difference_gap"] <= ROUNDINGS * DIFFERENCED)
+    poles = found["place"] == AT_POLE
+    if closes[~poles].all() and (residual <= ROUNDINGS).all():
+        word = Word.HOLDS if closes.all() else Word.CORRECTED
+    else:
+        word = Word.FAILS
+    return word, evidence(
+        """{n:,} orientations, {poles} of them exact poles: F_E is finite at {finite:,}; F_E . Edot is m . omega to
+        {gap:.1f} eps, and to {differenced:.1f} eps^(2/3) with omega differenced from R(E); in the loop, at {looped:,}
+        poses and forms of the wrench probe, to {residual:.1f} eps / cos(beta). At the poles B has rank {rank}: of one
+        moment {lost:.0g} is left. In {others} other representations the balance closes to {elsewhere:.1f} eps. A moment
+        that is not converted misses it by {raw:.2f} in the median.""",
+        len(found) + len(looped),
+        ("experiment", "compliance"),
+        n=len(found),
+        poles=int(poles.sum()),
+        finite=int(found["exists"].sum()),
+        gap=found["gap"].max() / EPS,
+        differenced=found["difference_gap"].max() / DIFFERENCED,
+        looped=len(looped),
+        residual=residual.max(),
+        rank=2 if found.loc[poles, "least"].max() <= LOST else 3,
+        lost=found.loc[poles, "lost"].max(),
+        others=len(elsewhere),
+        elsewhere=max(elsewhere) / EPS,
+        raw=found["raw_gap"].median(),
+    )
+
+
+@functools.cache
+def experiment() -> tuple[pd.DataFrame, list[float]]:
+    """`balances` of Z-Y-X at random and polar orientations, and the greatest gap of every other representation."""
+    zyx = representation(COORDINATES)
+    anywhere = [(AT_RANDOM, R) for R in random_orientations(TURNS, SEED)]
+    others = [one for one in known_representations().values() if one.name != COORDINATES]
+    elsewhere = [float(balances(one, anywhere[:TURNS_ELSEWHERE], SEED)["gap"].max()) for one in others]
+    return balances(zyx, anywhere + polar_orientations(zyx, SEED), SEED), elsewhere
+
+
+def random_orientations(count: int, seed: int) -> list[Rotation]:
+    """Uniform by the Haar measure: normalized quaternions of four normal numbers."""
+    quats = np.random.default_rng(seed).normal(size=(count, 4))
+    quats /= np.linalg.norm(quats, axis=1, keepdims=True)
+    return [from_quaternion(tuple(quat)) for quat in quats.tolist()]
+
+
+def polar_orientations(zyx: Representation, seed: int) -> list[tuple[str, Rotation]]:
+    """About both poles of Z-Y-X: (exact or near, R), at 10^-1 to 10^-12 rad and exactly."""
+    rng, found = np.random.default_rng(seed), []
+    for side in (1.0, -1.0):
+        for alpha, gamma in rng.uniform(-math.pi, math.pi, (BESIDE, 2)).tolist():
+            s, c = math.sin(alpha), math.cos(alpha)  # gamma adds to alpha on a pole
+            found.append((AT_POLE, Rotation((0.0, 0.0, -side), (-s, c, 0.0), (side * c, side * s, 0.0))))
+            near = [side * (math.pi / 2 - 10.0**-k) for k in range(1, DECADES + 1)]
+            found += [(NEAR_POLE, zyx.to_matrix((alpha, beta, gamma))) for beta in near]
+    return found
+
+
+def balance(along: Representation, R: Rotation, moment: np.ndarray, rates: np.ndarray) -> dict:
+    """Both sides of (3.10) at R for a moment and rates of the coordinates, each of length 1.
+
+    Returns:
+        exists: whether F_E = B^T m is finite. gap: |F_E . Edot - m . B Edot|. difference_gap: the same with omega from
+        R(E), differenced along Edot. raw_gap: the same with the moment not converted (of three coordinates). least:
+        smallest singular value of B; lost: |B^T e| of the moment e of length 1 that it belongs to.
+    """
+    at = along.chart(R)
+    B = np.array([along.angular_velocity(at, tuple(one)) for one in np.eye(len(rates)).tolist()]).T
+    F_E = np.array(along.generalized(at, tuple(moment.tolist())))
+    raw = [moment[along.about.index(i)] for i in range(3)] if along.about else [math.nan] * len(rates)
+    ends = [along.to_matrix(tuple((at.E + side * STEP * rates).tolist())) for side in (1, -1)]
+    after, before = (np.array(one).T for one in ends)
+    omega = Turn.from_matrix(after @ before.T).as_rotvec() / (2 * STEP)
+    moments, sizes, _ = np.linalg.svd(B)
+    return {
+        "exists": bool(np.isfinite(F_E).all()),
+        "gap": abs(F_E @ rates - moment @ along.angular_velocity(at, tuple(rates.tolist()))),
+        "difference_gap": abs(F_E @ rates - moment @ omega),
+        "raw_gap": abs(raw @ rates - moment @ B @ rates),
+        "least": sizes[-1],
+        "lost": float(np.linalg.norm(along.generalized(at, tuple(moments[:, -1].tolist())))),
+    }
+
+
+def balances(along: Representation, places: list[tuple[str, Rotation]], seed: int) -> pd.DataFrame:
+    """A row an orientation: `place` and what `balance` finds for random directions of moment and rates."""
+    rng, rows = np.random.default_rng(seed), []
+    for place, R in places:
+        moment, rates = rng.normal(size=3), rng.normal(size=len(along.chart(R).E))
+        rows.append({"place": place, **balance(along, R, _unit(moment), _unit(rates))})
+    return pd.DataFrame(rows)
+
+
+def _unit(vector: np.ndarray) -> np.ndarray:
+    return vector / np.linalg.norm(vector)
+
+
+CLAIMS = (C21.judged_by(c21),)

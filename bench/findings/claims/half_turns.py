@@ -1,0 +1,140 @@
+"""C04 and C05: where the rotation-matrix law's error is zero away from the goal (Murphy 1988, 2.12 and 2.4)."""
+
+import numpy as np
+from scipy.optimize import minimize
+
+from bench.findings.claims import probes
+from bench.findings.claims.rotation_matrix import EXACT_RAD, LAW
+from bench.findings.claims.tables import MAIN_ENGINE, evidence, on_every_engine, settled, some
+from bench.findings.claims.verdict import Word, claim
+from bench.law.contender import Gains
+from bench.law.so3 import IDENTITY, cross, from_quaternion
+from tasks.sphere import axes
+
+ZERO_ERROR = 2.0**-52
+"""One rounding of an element of R."""
+
+AWAY_RAD = 1e-3
+NO_ZERO, NEAR_ZERO = 0.999, 1e-9
+
+C04 = claim(
+    id="C04",
+    section="2.4",
+    sentence="""
+        Example: a rotation of 180 degrees about any axis, because anti-parallel vectors have no cross
+        product.
+    """,
+    question="""
+        Is the error zero at exact half turns about every axis, does the body stay there, and for that
+        reason?
+    """,
+    criterion=f"""
+        At every exact half turn of the set half-turn: |e| of (2.12) at most {ZERO_ERROR:.1e} (one
+        rounding). It holds if so, if none of these episodes settles, and if each of the three cross
+        products of (2.12) vanishes by itself there (columns parallel or anti-parallel); with a correction
+        if the error vanishes at all of them but some leave by rounding alone, or the three cross products
+        cancel only in their sum; if the error is larger at any of them, it does not hold.
+    """,
+    open="""
+        Whether a start stays is a matter of rounding, so of the engine and its step: each engine is
+        reported. Gains and horizon decide how long an escape takes, not whether the error is zero.
+    """,
+)
+
+C05 = claim(
+    id="C05",
+    section="2.4",
+    sentence="""
+        The elements of the cross product may also cancel in a series of points about the 180 degree
+        rotation.
+    """,
+    question="Does the error vanish anywhere but at zero and at half turns?",
+    criterion=f"""
+        |e| of (2.12) against sin(angle), the angle by the judge, at every start of the run's tables with
+        angle and pi - angle above {AWAY_RAD:g} rad, and by a search (downhill simplex on |e| / sin(angle)
+        over rotation vectors, from 16 directions). It holds if |e| < {NEAR_ZERO:g} is found there; with a
+        correction if |e| < {NO_ZERO} sin(angle) but no zero is found; if neither, it does not hold.
+    """,
+    open="Nothing: the error is a function of the orientation alone.",
+    readings=(
+        "zeros near, but not at, the half turn: the sentence says 'also' (the one judged)",
+        """
+            half turns about axes other than x, y, z, where no cross product is zero but their sum is: see
+            C04
+        """,
+    ),
+)
+
+
+@on_every_engine
+def c04(results, engine):
+    """The error and its three cross products at exact half turns, and how the episodes end."""
+    turns = results.episodes(LAW, engine, "half-turn")
+    exact = some(turns[probes.boundary_distance(turns)["half_turn"] <= EXACT_RAD], "exact half turn")
+    orientations = probes.rotations(exact)
+    errors = [float(np.linalg.norm(error(R))) for R in orientations]
+    products = [max(np.linalg.norm(cross(c, d)) for c, d in zip(R, IDENTITY, strict=True)) for R in orientations]
+    parallel = sum(product <= ZERO_ERROR for product in products)
+    leave = int(settled(exact).sum())
+    if max(errors) > ZERO_ERROR:
+        word = Word.FAILS
+    else:
+        word = Word.CORRECTED if leave or parallel < len(exact) else Word.HOLDS
+    return word, evidence(
+        """At {n} exact half turns the error is at most {error:.1g}, and {leave} of them settle. Each cross product is
+        zero by itself at {parallel} (axes x, y, z); at the other {summed} they cancel in the sum only, the largest
+        being {product:.2f}.""",
+        len(exact),
+        ("episodes", "experiment"),
+        n=len(exact),
+        error=max(errors),
+        leave=leave,
+        parallel=parallel,
+        summed=len(exact) - parallel,
+        product=float(max(products)),
+    )
+
+
+def c05(results):
+    """|e| over sin(angle): at every start of the run, and as low as a search gets."""
+    frame = results.episodes(LAW, MAIN_ENGINE).drop_duplicates(["start_set", "start_id"])
+    frame = some(frame[frame["angle0_rad"].between(AWAY_RAD, np.pi - AWAY_RAD)], "start away from zero and half turn")
+    pairs = zip(probes.rotations(frame), probes.rotations(frame, probes.GOAL_QUAT), strict=True)
+    ratios = np.array([np.linalg.norm(error(R, R_d)) for R, R_d in pairs]) / np.sin(frame["angle0_rad"])
+    found = [minimize(_ratio, 1.5 * axis, method="Nelder-Mead", options={"maxiter": 200}) for axis in axes(16)]
+    states = sum(one.nfev for one in found)
+    lowest = min(float(ratios.min()), *(one.fun for one in found))
+    least = min(float((ratios * np.sin(frame["angle0_rad"])).min()), *(_length(one.x) for one in found))
+    word = Word.HOLDS if least < NEAR_ZERO else Word.CORRECTED if lowest < NO_ZERO else Word.FAILS
+    return word, evidence(
+        """|e| / sin(angle) is never below {lowest:.9f} at {starts:,} starts and {states:,} states of a
+        search; {so}.""",
+        len(frame) + states,
+        ("episodes", "experiment"),
+        lowest=lowest,
+        starts=len(frame),
+        states=states,
+        so="the error is sin(angle) times the axis, zero at 0 and 180 degrees only"
+        if word == Word.FAILS
+        else f"the least error is {least:.1e}",
+    )
+
+
+def error(R, R_d=IDENTITY) -> np.ndarray:
+    """e of (2.12): the law's command at rest over Kp."""
+    return probes.command(LAW, R, R_d=R_d) / Gains().kp
+
+
+def _ratio(vector) -> float:
+    angle = float(np.linalg.norm(vector))
+    if not AWAY_RAD < angle < np.pi - AWAY_RAD:
+        return 2.0  # out of bounds: more than any ratio
+    return _length(vector) / np.sin(angle)
+
+
+def _length(vector) -> float:
+    """|e| at a rotation vector."""
+    return float(np.linalg.norm(error(from_quaternion(probes.about(vector, float(np.linalg.norm(vector)))))))
+
+
+CLAIMS = (C04.judged_by(c04), C05.judged_by(c05))

@@ -1,0 +1,148 @@
+"""Small experiments that claims make themselves: a law at one state, a few episodes, closed forms of linear systems."""
+
+import functools
+import math
+
+import numpy as np
+import pandas as pd
+from scipy.optimize import brentq
+from scipy.spatial.transform import Rotation as Turn
+
+from bench.contenders.registry import find_contender, representation
+from bench.law.contender import AT_REST, Gains, Goal
+from bench.law.so3 import IDENTITY, Rotation, from_quaternion
+from bench.metrics.registry import metrics_of
+from tasks.base import Start
+from tasks.rules import RULES
+from tasks.sphere import axes
+from tasks.verdict import OUTCOMES
+
+PAPER = Gains()
+QUAT = ("quat_w", "quat_x", "quat_y", "quat_z")
+GOAL_QUAT = tuple(f"goal_{name}" for name in QUAT)
+OMEGA = ("omega0_x", "omega0_y", "omega0_z")
+
+
+def doubles(numbers):
+    """Nested tuples with numpy's doubles, for which 1/0 is infinite as in every engine."""
+    inside = [doubles(x) if isinstance(x, tuple) else np.float64(x) for x in numbers]
+    return type(numbers)(*inside) if hasattr(numbers, "_fields") else tuple(inside)
+
+
+def command(contender: str, R: Rotation, omega=AT_REST, R_d: Rotation = IDENTITY, gains: Gains = PAPER) -> np.ndarray:
+    """u of a law at one state."""
+    goal = doubles(Goal(R_d))
+    with np.errstate(all="ignore"):
+        return np.array(find_contender(contender).law(doubles(R), doubles(omega), goal, doubles(gains)))
+
+
+def euler_B(R: Rotation) -> np.ndarray:
+    """B of (2.8) at R, column by column: omega of each unit rate."""
+    zyx = representation("zyx-euler")
+    at = zyx.chart(R)
+    return np.array([zyx.angular_velocity(at, tuple(rate)) for rate in np.eye(3).tolist()]).T
+
+
+def euler_angles(R: Rotation) -> tuple:
+    """alpha, beta, gamma."""
+    return representation("zyx-euler").chart(R).E
+
+
+def rotations(frame: pd.DataFrame, columns=QUAT) -> list[Rotation]:
+    """The orientation of each row."""
+    return [from_quaternion(tuple(quat)) for quat in frame[list(columns)].to_numpy().tolist()]
+
+
+def about(axis, angle: float) -> tuple:
+    """The quaternion of a rotation."""
+    unit = np.asarray(axis, dtype=float) / np.linalg.norm(axis)
+    return (math.cos(angle / 2), *(math.sin(angle / 2) * unit).tolist())
+
+
+def episodes(contender: str, starts: list[Start], gains: Gains, dt_s: float, horizon_s: float) -> pd.DataFrame:
+    """Outcome and settling time of a few starts on the continuous plant."""
+    from bench.engines.episode import FIRST_METRIC, NEVER, OUTCOME, SETTLING_TICK
+    from bench.engines.run import run as run_engine  # imports the compiler: listing claims must not
+    from bench.experiments.plan import Plan
+    from bench.experiments.rows import settings_of
+
+    settings = settings_of(Plan("experiment", (), (), gains, dt_s), horizon_s)
+    metrics = metrics_of(on_arm=False)
+    rows = run_engine("ideal-rk4", find_contender(contender), "free-body", starts, settings, metrics)
+    ticks = rows[:, SETTLING_TICK]
+    return pd.DataFrame(
+        {
+            "outcome": [OUTCOMES[int(code)] for code in rows[:, OUTCOME]],
+            "settling_time_s": np.where(ticks == NEVER, np.nan, ticks * dt_s),
+            "peak_u": np.sqrt(rows[:, FIRST_METRIC + [metric.column for metric in metrics].index("peak_u")]),
+        }
+    )
+
+
+def finer(contender: str, frame: pd.DataFrame, gains: Gains, factor: int = 10) -> pd.DataFrame:
+    """Episodes of a table again, with a tick that many times shorter: is it the law, or its integration?"""
+    if frame.empty:
+        return pd.DataFrame({"outcome": [], "peak_u": []})
+    columns = [list(QUAT), list(OMEGA), list(GOAL_QUAT)]
+    starts = [
+        Start("", *(tuple(part) for part in parts))
+        for parts in zip(*(frame[names].to_numpy().tolist() for names in columns), strict=True)
+    ]
+    return episodes(contender, starts, gains, frame["dt_s"].iloc[0] / factor, frame["horizon_s"].iloc[0])
+
+
+SPEED, BESIDE = 20.0, 64
+"""rad/s, as fast as the fastest tumbling start; starts at each margin."""
+
+
+@functools.cache
+def beside_pole(margin: float, contender: str, gains: Gains) -> pd.DataFrame:
+    """Bodies that spin at 20 rad/s, in directions all over the sphere, a thousandth of a radian outside a margin."""
+    zyx = representation("zyx-euler")
+    starts = []
+    for i, direction in enumerate(axes(BESIDE)):
+        alpha, gamma = (math.remainder(turn * (i + 0.5), 2 * math.pi) / 2 for turn in (2.4, 3.7))
+        R = zyx.to_matrix((alpha, (-1) ** i * (math.pi / 2 - margin - 1e-3), gamma))
+        quat = Turn.from_matrix(np.array(R).T).as_quat(scalar_first=True)
+        starts.append(Start("", tuple(quat.tolist()), tuple((SPEED * direction).tolist())))
+    return episodes(contender, starts, gains, 1e-3, 10.0)
+
+
+def response(t, gains: Gains):
+    """x of x'' = -Kp x - Kd x' from 1 at rest; (1 + w t) exp(-w t) if critically damped."""
+    decay = gains.kv / 2
+    square = decay * decay - gains.kp
+    if abs(square) < 1e-9 * gains.kp:  # rounding of decay^2 - Kp; beyond it sinh(r t)/r is exact enough
+        return (1 + decay * t) * np.exp(-decay * t)
+    root = np.sqrt(complex(square))
+    return (np.exp(-decay * t) * (np.cosh(root * t) + decay / root * np.sinh(root * t))).real
+
+
+def linear_settling(gains: Gains, tolerance: float = RULES.tolerance) -> float:
+    """The last time at which |response| is the tolerance [s]."""
+    slowest = gains.kv / 2 - math.sqrt(max(0.0, gains.kv**2 / 4 - gains.kp))
+    t = np.linspace(0.0, 20.0 / slowest, 20_001)  # exp(-20) = 2e-9, far below any tolerance
+    last = np.flatnonzero(np.abs(response(t, gains)) > tolerance)[-1]
+    return brentq(lambda x: abs(response(x, gains)) - tolerance, t[last], t[last + 1])
+
+
+def slope_per_decade(gains: Gains) -> float:
+    """Seconds by which one decade of pi - angle delays: the saddle's unstable root is sqrt(Kp + Kd^2/4) - Kd/2."""
+    return math.log(10) / (math.sqrt(gains.kp + gains.kv**2 / 4) - gains.kv / 2)
+
+
+def boundary_distance(frame: pd.DataFrame) -> pd.DataFrame:
+    """How far each start is from the poles, the jumps of alpha and gamma, and the half turn [rad]."""
+    return pd.DataFrame(
+        {
+            "pole": math.pi / 2 - frame["beta0"].abs(),
+            "wrap": np.minimum(math.pi - frame["alpha0"].abs(), math.pi - frame["gamma0"].abs()),
+            "half_turn": math.pi - frame["angle0_rad"],
+        }
+    )
+
+
+def goal_to_pole(frame: pd.DataFrame) -> pd.Series:
+    """How far each goal is from the poles [rad]."""
+    betas = [abs(euler_angles(R)[1]) for R in rotations(frame, GOAL_QUAT)]
+    return math.pi / 2 - pd.Series(betas, index=frame.index)

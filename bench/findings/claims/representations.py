@@ -1,0 +1,224 @@
+"""C13 to C16: where coordinates of a rotation break down (Murphy 1988, 2.2, 2.3 and 3.3)."""
+
+import math
+
+import numpy as np
+
+from bench.contenders.registry import representation
+from bench.findings.claims import probes
+from bench.findings.claims.coordinates import ANGLE_AND_AXIS, conditions
+from bench.findings.claims.tables import MAIN_ENGINE, evidence, settled, some
+from bench.findings.claims.verdict import Word, claim
+from bench.law.so3 import from_quaternion
+from tasks.sphere import axes
+
+EXACT_RAD = 1e-13
+"""Between the nearest near start (1e-12 rad from a pole) and what rounding leaves of an exact one."""
+
+DIRECTIONS = 12
+SHIFT = 0.7
+"""rad: any amount that no symmetry of the angles shares."""
+
+
+DECADES = (1, 6)
+DEGENERATE, SMOOTH = 0.9, 0.01
+ON_POLE, OFF_POLE, SAME = 1e-12, 0.99, 1e-12
+
+C13 = claim(
+    id="C13",
+    section="2.2",
+    sentence="""
+        Z-Y-Z Euler angles and equivalent angle-axis are degenerate at zero rotation: unfit to regulate
+        about it.
+    """,
+    question="""
+        How does the map from coordinate rates to angular velocity behave at rotations of 10^-k rad?
+    """,
+    criterion=f"""
+        Condition number of that map at rotations of 10^-k rad, k = {DECADES[0]} to {DECADES[1]}, about 12
+        directions. Degenerate: log10 of the condition number rises by at least {DEGENERATE} per decade.
+        Smooth: it is within {SMOOTH:.0%} of 1 throughout. Judged on Z-Y-Z; on angle and axis (angle and
+        two angles of a unit axis); and on the rotation vector (axis times angle). It holds if all three
+        are degenerate; with a correction if Z-Y-Z is, and exactly one of the other two; otherwise it does
+        not hold.
+    """,
+    open="""
+        The paper does not say whether angle-axis means angle and axis kept apart or their product: its
+        source has both.
+    """,
+    readings=(
+        "angle and axis kept apart",
+        "the rotation vector, axis times angle",
+    ),
+)
+
+C14 = claim(
+    id="C14",
+    section="2.2 against 2.3",
+    sentence="With Z-Y-X angles the degeneracy is at a rotation of 180 degrees about Y.",
+    question="Is the degenerate rotation about Y one of 180 degrees, or of 90 as the equations have it?",
+    criterion=f"""
+        Smallest singular value of B (2.8) at rotations of 180, 90 and -90 degrees about Y. It holds if it
+        is below {ON_POLE:g} at 180 degrees; it does not hold if it is below that at both +-90 degrees and
+        above {OFF_POLE} at 180; in any other case it holds with a correction. The exact half turn about y
+        of the set half-turn and the exact poles say the same from simulation: whether the
+        feedback-linearized law settles from them is reported.
+    """,
+    open="Nothing.",
+)
+
+C15 = claim(
+    id="C15",
+    section="2.2",
+    sentence="At beta = +-pi/2 only the sum of alpha and gamma is determined.",
+    question="Is it the sum at both poles?",
+    criterion=f"""
+        At each pole, over 64 pairs (alpha, gamma): R is the same (to {SAME:g}) if alpha grows and gamma
+        falls by one amount (the sum kept), and differs if both grow. It holds if so at both poles; with a
+        correction if at exactly one (the difference at the other); otherwise it does not hold.
+    """,
+    open="Nothing; it follows from the convention of (2.8).",
+)
+
+C16 = claim(
+    id="C16",
+    section="2.2 against 3.3",
+    sentence="B does not exist at beta = +-pi/2 (2.2); B always exists (3.3).",
+    question="Which of the two sentences do B and its inverse support?",
+    criterion=f"""
+        B (2.8) over the run's orientations and the exact poles. The sentence of 2.2 holds if an element
+        of B is not finite at a pole; it holds with a correction if B is finite at every orientation
+        (elements at most 1) but of rank 2 at both poles (smallest singular value below {ON_POLE:g}), so
+        that B^-1 is what does not exist and 3.3 is right; it does not hold if B is finite and of rank 3
+        at a pole.
+    """,
+    open="Nothing.",
+)
+
+
+def c13(results):
+    """Condition numbers near zero rotation."""
+    decades = range(DECADES[0], DECADES[1] + 1)
+    tables = [conditions(axis, 10.0**-k) for k in decades for axis in axes(DIRECTIONS)]
+    found = {}
+    for word in tables[0]:
+        numbers = np.array([one[word] for one in tables]).reshape(len(decades), -1)
+        rise = np.diff(np.log10(np.median(numbers, axis=1))).min()
+        found[word] = (rise >= DEGENERATE, float(rise), float(numbers.max()))
+    zyz, axis, vector = found["zyz-euler"], found[ANGLE_AND_AXIS], found["rotation-vector"]
+    is_zyz, is_axis, is_vector = zyz[0], axis[0], vector[0]
+    if is_zyz and is_axis and is_vector:
+        word = Word.HOLDS
+    else:
+        word = Word.CORRECTED if is_zyz and is_axis != is_vector else Word.FAILS
+    return word, evidence(
+        """Per decade towards zero rotation the condition number of the rate map rises by {zyz:.3f} decades for Z-Y-Z
+        and {axis:.3f} for angle and axis (to {zyz_max:.1e} and {axis_max:.1e}); for the rotation vector it is at most
+        {vector_max:.5f}.""",
+        3 * len(tables),
+        ("experiment",),
+        zyz=zyz[1],
+        axis=axis[1],
+        zyz_max=zyz[2],
+        axis_max=axis[2],
+        vector_max=vector[2],
+    )
+
+
+def _least(R) -> float:
+    return float(np.linalg.svd(probes.euler_B(R), compute_uv=False)[-1])
+
+
+def c14(results):
+    """B at half and quarter turns about Y, and what a simulation from there does."""
+    quats = {180: (0.0, 0.0, 1.0, 0.0), 90: (1.0, 0.0, 1.0, 0.0), -90: (1.0, 0.0, -1.0, 0.0)}
+    half = math.sqrt(0.5)
+    least = {
+        degrees: _least(from_quaternion(tuple(x if degrees == 180 else half * x for x in quat)))
+        for degrees, quat in quats.items()
+    }
+    turns = results.free_body("episodes", task="free-body", regulator="feedback-linearized", engine=MAIN_ENGINE)
+    about_y = some(turns[turns["start_id"] == "half-turn-y-exact"], "exact half turn about y")
+    poles = turns[turns["start_set"] == "poles"]
+    poles = some(poles[probes.boundary_distance(poles)["pole"] <= EXACT_RAD], "exact pole")
+    at_quarter = least[90] < ON_POLE and least[-90] < ON_POLE
+    if least[180] < ON_POLE:
+        word = Word.HOLDS
+    else:
+        word = Word.FAILS if at_quarter and least[180] > OFF_POLE else Word.CORRECTED
+    return word, evidence(
+        """Smallest singular value of B: {half:.3f} at 180 degrees about Y, {plus:.0e} and {minus:.0e} at +-90. The
+        feedback-linearized law settles from {y_k} of {y_n} exact half turns about y and from {p_k} of {p_n} exact
+        poles. {so}.""",
+        len(least) + len(about_y) + len(poles),
+        ("experiment", "episodes"),
+        half=least[180],
+        plus=least[90],
+        minus=least[-90],
+        y_k=int(settled(about_y).sum()),
+        y_n=len(about_y),
+        p_k=int(settled(poles).sum()),
+        p_n=len(poles),
+        so="2.3 and the equations are right, 2.2 is not" if word == Word.FAILS else "2.2 is not refuted",
+    )
+
+
+def _change(to_matrix, E, other) -> float:
+    return float(np.abs(np.subtract(to_matrix(E), to_matrix(other))).max())
+
+
+def c15(results):
+    """R at both poles as alpha and gamma move against and with each other."""
+    to_matrix = representation("zyx-euler").to_matrix
+    grid = np.linspace(-3.0, 3.0, 8).tolist()
+    moved = {}
+    for sign in (1, -1):
+        for word, direction in (("sum", -1), ("difference", 1)):
+            moved[sign, word] = max(
+                _change(to_matrix, (a, sign * math.pi / 2, g), (a + SHIFT, sign * math.pi / 2, g + direction * SHIFT))
+                for a in grid
+                for g in grid
+            )
+    by_sum = [moved[sign, "sum"] <= SAME < moved[sign, "difference"] for sign in (1, -1)]
+    sums = [pole for pole, is_sum in zip(("+90", "-90"), by_sum, strict=True) if is_sum]
+    word = {2: Word.HOLDS, 1: Word.CORRECTED, 0: Word.FAILS}[sum(by_sum)]
+    return word, evidence(
+        """With the sum kept R changes by {plus_sum:.1g} at +90 and {minus_sum:.0e} at -90 degrees, with the difference
+        kept by {plus_difference:.0e} and {minus_difference:.1g}. {so}.""",
+        4 * len(grid) ** 2,
+        ("experiment",),
+        plus_sum=moved[1, "sum"],
+        minus_sum=moved[-1, "sum"],
+        plus_difference=moved[1, "difference"],
+        minus_difference=moved[-1, "difference"],
+        so=f"Only the sum is determined at {' and '.join(sums) or 'neither pole'}",
+    )
+
+
+def c16(results):
+    """B at the run's orientations and at both poles."""
+    frame = results.episodes("feedback-linearized", MAIN_ENGINE).drop_duplicates(["start_set", "start_id"])
+    is_pole = (probes.boundary_distance(frame)["pole"] <= EXACT_RAD).to_numpy()
+    matrices = np.array([probes.euler_B(R) for R in probes.rotations(frame)])
+    at_poles = some(frame[is_pole], "exact pole")
+    values = np.linalg.svd(matrices[is_pole], compute_uv=False)
+    largest = float(np.abs(matrices).max())
+    if not np.isfinite(matrices[is_pole]).all():
+        word = Word.HOLDS
+    else:
+        word = Word.CORRECTED if largest <= 1 + SAME and values[:, 2].max() < ON_POLE else Word.FAILS
+    return word, evidence(
+        """B is finite at all {n:,} orientations (elements at most {largest:.3f}); at {poles} exact poles its smallest
+        singular value is at most {least:.0e} and the next {middle:.2f}. {so}.""",
+        len(frame),
+        ("episodes", "experiment"),
+        n=len(frame),
+        largest=largest,
+        poles=len(at_poles),
+        least=float(values[:, 2].max()),
+        middle=float(values[:, 1].min()),
+        so="B exists everywhere, as 3.3 says; B^-1 does not" if word == Word.CORRECTED else "3.3 is not confirmed",
+    )
+
+
+CLAIMS = (C13.judged_by(c13), C14.judged_by(c14), C15.judged_by(c15), C16.judged_by(c16))

@@ -1,0 +1,200 @@
+"""C01 to C03: stability and settling time of the rotation-matrix law (Murphy 1988, 2.12-2.13 and 2.4)."""
+
+import numpy as np
+
+from bench.findings.claims import probes
+from bench.findings.claims.tables import MAIN_ENGINE, evidence, on_every_engine, settled, share, some
+from bench.findings.claims.verdict import Word, claim
+from bench.law.contender import Gains
+from tasks.base import Start
+
+LAW = "rotation-matrix"
+EXACT_RAD = 1e-13
+"""Between the nearest near start (1e-12 rad short of the half turn) and what rounding leaves of an exact one."""
+
+STRAY_SHARE = 1e-3
+"""Above one uniform start in 1,000 the starts that do not settle are no longer isolated orientations."""
+
+ENERGY_SLACK = 1e-6
+"""rad^2/s^2 over Kp: rounding and integration of an energy that never grows; the largest is 2."""
+
+SMALL_ANGLES = (0.1, 0.01, 0.001)
+GAINS = ((100.0, 20.0), (25.0, 10.0), (400.0, 40.0), (100.0, 10.0), (100.0, 40.0))
+"""Critically damped at 10, 5 and 20 rad/s; then damping ratios 1/2 and 2 at 10 rad/s."""
+
+LOOSE_SETTLING = 0.05
+GAINS_TRIED = ", ".join(f"({kp:g}, {kv:g})" for kp, kv in GAINS)
+
+SLOPE_DECADES = (3, 10)
+"""Below 3 the sine is not yet linear in pi - angle; beyond 10, rounding of R (1e-16) exceeds 1e-6 of it."""
+
+SLOPE_TIGHT, SLOPE_LOOSE = 0.01, 0.1
+
+C01 = claim(
+    id="C01",
+    section="2.4",
+    sentence="The rotation-matrix regulator is stable over the entire range of rotations.",
+    question="Does any start diverge; and does every start reach the goal?",
+    criterion=f"""
+        Start sets uniform, half-turn and tumbling. Stable (Lyapunov) means: no episode ends diverged,
+        singular or saturated, and none ends beyond its initial energy, 1 - cos(angle_end) <= 1 -
+        cos(angle_0) + |omega_0|^2 / (2 Kp) + {ENERGY_SLACK:g}. It holds if that is so and every episode
+        settles; it holds with a correction if that is so but some episodes do not settle (stable, yet not
+        attracted from everywhere), as long as they are at most {STRAY_SHARE:.1%} of the uniform starts;
+        otherwise it does not hold.
+    """,
+    open="""
+        The paper gives no gains for this law (ours are those of the other two), no starts and no horizon;
+        a start that has not settled at the horizon counts as not settled. The energy bound is free of all
+        three.
+    """,
+    readings=(
+        "stable: nothing diverges (the one judged)",
+        "attracted: every start reaches the goal (what a correction says)",
+    ),
+)
+
+C02 = claim(
+    id="C02",
+    section="2.4",
+    sentence="Near zero its settling time can be chosen by the gains.",
+    question="""
+        Is the settling time of small rotations the closed form of the linear system, at every pair of
+        gains?
+    """,
+    criterion=f"""
+        Rotations of 0.1, 0.01 and 0.001 rad about x, y, z and a diagonal, at (Kp, Kd) = {GAINS_TRIED},
+        and the small steps of the set goals. The closed form is the last time at which the response of
+        x'' = -Kp x - Kd x' from 1 is 0.02, for the paper's gains (1 + 10 t) exp(-10 t) = 0.02. It holds
+        if every settling time is within one tick plus angle^2 of it (sin x = x - x^3/6 softens the spring
+        by angle^2/6); with a correction if within {LOOSE_SETTLING:.0%}; otherwise it does not hold.
+    """,
+    open="""
+        The paper states no settling band; 2 % of the initial angle is ours, and the closed form uses the
+        same.
+    """,
+)
+
+C03 = claim(
+    id="C03",
+    section="2.4",
+    sentence="For large rotations the settling time grows, and it can become infinite.",
+    question="Does it grow with the angle, at which rate towards the half turn, and is it ever infinite?",
+    criterion=f"""
+        Three tests. Growth: mean settling time of uniform starts rises from each 30 degree bin of the
+        initial angle to the next (bins of 5 starts or more). Rate: least squares over the set half-turn,
+        pi - angle = 10^-k, k = {SLOPE_DECADES[0]} to {SLOPE_DECADES[1]}, gives a slope per decade within
+        {SLOPE_TIGHT:.0%} of ln 10 / (sqrt(Kp + Kd^2/4) - Kd/2). Infinity: at least one exact half turn
+        has not settled at its horizon, and that horizon is more than twice the longest settling time of
+        the inexact ones. It holds if all three pass; with a correction if growth passes and the slope is
+        within {SLOPE_LOOSE:.0%}, whatever infinity says; otherwise it does not hold.
+    """,
+    open="""
+        The slope depends on the gains, which enter the formula; the horizon bounds what 'infinite' can
+        mean.
+    """,
+)
+
+
+@on_every_engine
+def c01(results, engine):
+    """Outcomes and final energies of uniform, half-turn and tumbling starts."""
+    frame = results.episodes(LAW, engine, "uniform", "half-turn", "tumbling")
+    broken = frame["outcome"].isin(["diverged", "singular", "saturated"])
+    speed = (frame[list(probes.OMEGA)] ** 2).sum(axis=1)
+    gained = np.cos(frame["angle0_rad"]) - np.cos(frame["final_angle_rad"]) - speed / (2 * frame["kp"])
+    unstable = broken | (gained > ENERGY_SLACK)
+    uniform = share(settled(frame[frame["start_set"] == "uniform"]))
+    left = frame[~settled(frame)]
+    away = probes.boundary_distance(left)["half_turn"].abs() if len(left) else np.zeros(0)
+    if unstable.any() or 1 - uniform.value > STRAY_SHARE:
+        word = Word.FAILS
+    else:
+        word = Word.CORRECTED if len(left) else Word.HOLDS
+    return word, evidence(
+        """{unstable} of {n:,} starts diverge or gain energy. {left} do not settle, {exact} of them exactly a half turn
+        from the goal; of uniform starts {uniform} settle.""",
+        len(frame),
+        ("episodes",),
+        unstable=int(unstable.sum()),
+        n=len(frame),
+        left=len(left),
+        exact=int((away < EXACT_RAD).sum()),
+        uniform=uniform,
+    )
+
+
+def c02(results):
+    """Small rotations at several gains, and the small steps of the run."""
+    axes = {"x": (1, 0, 0), "y": (0, 1, 0), "z": (0, 0, 1), "diagonal": (1, 1, 1)}
+    pairs = [(angle, axis) for angle in SMALL_ANGLES for axis in axes.values()]
+    starts = [Start("", probes.about(axis, angle)) for angle, axis in pairs]
+    angles = np.array([angle for angle, _ in pairs])
+    dt, off, share_off, longest = 1e-3, [], [], {}
+    for gains in (Gains(*pair) for pair in GAINS):
+        closed = probes.linear_settling(gains)
+        found = probes.episodes(LAW, starts, gains, dt, 20.0)["settling_time_s"].to_numpy()
+        off += list(np.abs(found - closed) - dt - angles**2 * closed)
+        share_off += list(np.abs(found - closed) / closed)
+        longest[gains] = closed
+    steps = results.episodes(LAW, MAIN_ENGINE, "goals")
+    steps = some(steps[steps["angle0_rad"].between(1e-3, 0.11)], "small step of the start set goals")
+    closed = probes.linear_settling(results.gains())
+    wrong = (steps["settling_time_s"] - closed).abs()
+    off += list(wrong - steps["dt_s"] - steps["angle0_rad"] ** 2 * closed)
+    share_off += list(wrong / closed)
+    tight, loose = np.max(off) <= 0, np.max(share_off) <= LOOSE_SETTLING
+    return (Word.HOLDS if tight else Word.CORRECTED if loose else Word.FAILS), evidence(
+        """{n} small rotations at {pairs} pairs of gains: settling times from {shortest:.3f} to {longest:.3f} s, at
+        most {worst:.2%} from the closed form ({paper:.4f} s at the paper's gains).""",
+        len(off),
+        ("experiment", "episodes"),
+        n=len(off),
+        pairs=len(GAINS),
+        shortest=min(longest.values()),
+        longest=max(longest.values()),
+        worst=float(np.max(share_off)),
+        paper=probes.linear_settling(Gains()),
+    )
+
+
+@on_every_engine
+def c03(results, engine):
+    """Settling time by angle, its slope towards the half turn, and the exact half turns."""
+    uniform = results.episodes(LAW, engine, "uniform")
+    bins = uniform.groupby(np.floor(np.degrees(uniform["angle0_rad"]) / 30))["settling_time_s"]
+    means = some(bins.mean()[bins.count() >= 5], "30 degree bin of 5 uniform starts")
+    grows = bool((np.diff(means) > 0).all())
+    turns = results.episodes(LAW, engine, "half-turn")
+    short = probes.boundary_distance(turns)["half_turn"]
+    decades = -np.log10(short.clip(lower=1e-17))
+    low, high = SLOPE_DECADES
+    fitted = some(turns[decades.between(low - 0.5, high + 0.5) & settled(turns)], "half-turn start that settles")
+    slope = np.polyfit(decades[fitted.index], fitted["settling_time_s"], 1)[0]
+    closed = probes.slope_per_decade(results.gains())
+    off = abs(slope / closed - 1)
+    exact = some(turns[short <= EXACT_RAD], "exact half turn")
+    stay = exact[~settled(exact)]
+    slowest = turns.loc[short > EXACT_RAD, "settling_time_s"].max()
+    infinite = len(stay) > 0 and exact["horizon_s"].min() > 2 * slowest
+    held = grows and off <= SLOPE_TIGHT and infinite
+    word = Word.HOLDS if held else Word.CORRECTED if grows and off <= SLOPE_LOOSE else Word.FAILS
+    return word, evidence(
+        """Mean settling time rises from {first:.2f} to {last:.2f} s over {bins} bins of the angle; towards the half
+        turn by {slope:.4f} s a decade (closed form {closed:.4f} s), to {slowest:.2f} s at 1e-12 rad. {stay} of
+        {exact} exact half turns never settle in {horizon:g} s.""",
+        len(uniform) + len(turns),
+        ("episodes",),
+        first=float(means.iloc[0]),
+        last=float(means.iloc[-1]),
+        bins=len(means),
+        slope=float(slope),
+        closed=closed,
+        slowest=float(slowest),
+        stay=len(stay),
+        exact=len(exact),
+        horizon=float(exact["horizon_s"].min()),
+    )
+
+
+CLAIMS = (C01.judged_by(c01), C02.judged_by(c02), C03.judged_by(c03))

@@ -1,0 +1,167 @@
+"""What judging functions read: a run's tables, the engines that are asked, shares with their intervals."""
+
+import functools
+from collections.abc import Callable
+from pathlib import Path
+from typing import NamedTuple
+
+import pandas as pd
+from scipy.stats import binomtest
+
+from bench.findings.claims.verdict import Evidence, NoEvidence, Word
+from bench.law.contender import Gains
+from bench.tables import read
+from bench.tables.schema import RESULTS
+from bench.tables.store import read_arrow
+
+MAIN_ENGINE = "ideal-rk4"
+CHECK_ENGINES = ("ideal-held", "native")
+SETTLED = "settled"
+
+PAPERS_COORDINATES = ("", "zyx-euler")
+"""None, or Z-Y-X angles: what chapter 2 runs its laws in. In others they are later laws."""
+
+
+TIMED = (
+    *("what", "engine", "arm", "regulator", "representation", "jacobian", "inverse"),
+    *("ns_per_tick", "ticks", "machine"),
+)
+
+
+class Results:
+    """The tables of one run, read when first asked for; `frames` puts others in their place."""
+
+    def __init__(self, folder: Path | None, frames: dict | None = None, timings: Path = RESULTS / "timings"):
+        self.folder = folder
+        self.frames = dict(frames or {})
+        self.timings_folder = timings
+
+    def table(self, name: str, **words: str) -> pd.DataFrame:
+        """Rows of one table that have these words; there may be none."""
+        frame = self.frames.get(name)
+        if frame is None:
+            if self.folder is None:
+                raise NoEvidence(f"table '{name}': there is no folder to read it from; give one, or its frame")
+            frame = self.frames[name] = read.table(self.folder, name)
+        return read.chosen(frame, words)
+
+    def free_body(self, name: str, **words: str) -> pd.DataFrame:
+        """Rows of one table that have these words and are about the free body, in the paper's coordinates."""
+        frame = self.table(name, **read.FREE_BODY, **words)
+        return frame[frame["representation"].isin(PAPERS_COORDINATES)]
+
+    def episodes(self, regulator: str, engine: str, *start_sets: str) -> pd.DataFrame:
+        """Episodes of a law on the free body from some start sets.
+
+        Errors:
+            NoEvidence: there are none.
+        """
+        frame = self.free_body("episodes", task="free-body", regulator=regulator, engine=engine)
+        if start_sets:
+            frame = frame[frame["start_set"].isin(start_sets)]
+        return some(frame, f"episode of {regulator} by {engine} from {', '.join(start_sets) or 'any start set'}")
+
+    def gains(self) -> Gains:
+        """The run's gains."""
+        row = some(self.free_body("episodes", engine=MAIN_ENGINE), f"episode by {MAIN_ENGINE}").iloc[0]
+        return Gains(float(row["kp"]), float(row["kv"]))
+
+    def timings(self) -> pd.DataFrame:
+        """Time per tick of laws alone, on every machine that was timed, a column `machine` added; maybe empty.
+
+        The paper's coordinates only, as everywhere in chapter 2.
+        """
+        every = self._all_timings()
+        timed = (every["what"] == "law") & (every["ticks"] > 0)
+        return every[timed & every["representation"].isin(PAPERS_COORDINATES)]
+
+    def controller_timings(self) -> pd.DataFrame:
+        """Time per tick of whole controllers of arms, on every machine that was timed; maybe empty."""
+        every = self._all_timings()
+        if not set(TIMED) <= set(every):
+            return pd.DataFrame(columns=[*TIMED, "contender"])
+        compiled = (every["what"] == "engine") & (every["engine"] == "native") & (every["jacobian"] != "")
+        return every[compiled & (every["ticks"] > 0)]
+
+    def _all_timings(self) -> pd.DataFrame:
+        paths = sorted(self.timings_folder.glob("*.parquet"))
+        frames = [read_arrow(path, "timings").to_pandas().assign(machine=path.stem) for path in paths]
+        every = pd.concat(frames, ignore_index=True) if frames else pd.DataFrame(columns=TIMED)
+        return read.with_contender(every)
+
+
+def some(frame: pd.DataFrame, what: str) -> pd.DataFrame:
+    """The frame, if it has rows.
+
+    Errors:
+        NoEvidence: it has none.
+    """
+    if len(frame) == 0:
+        raise NoEvidence(f"no {what}: run the suite 'quick', 'default' or 'full' without narrowing it")
+    return frame
+
+
+class Share(NamedTuple):
+    """k of n, with the Wilson 95 % interval of the share."""
+
+    k: int
+    n: int
+    value: float
+    low: float
+    high: float
+
+    def __format__(self, _) -> str:
+        return f"{self.value:.2%} ({self.low:.2%} to {self.high:.2%}, n = {self.n:,})"
+
+
+def share(facts: pd.Series) -> Share:
+    """How many of some yes-or-no rows are yes.
+
+    Errors:
+        NoEvidence: there are no rows.
+    """
+    k, n = int(facts.sum()), len(facts)
+    if n == 0:
+        raise NoEvidence("a share of no rows at all")
+    interval = binomtest(k, n).proportion_ci(method="wilson")
+    return Share(k, n, k / n, float(interval.low), float(interval.high))
+
+
+def settled(frame: pd.DataFrame) -> pd.Series:
+    """Whether each episode settled."""
+    return frame["outcome"] == SETTLED
+
+
+def evidence(template: str, rows: int, tables: tuple[str, ...], **numbers) -> Evidence:
+    """A sentence all of whose numbers come from `numbers`."""
+    return Evidence(" ".join(template.split()).format(**numbers), numbers, int(rows), tables)
+
+
+def on_every_engine(decide: Callable) -> Callable:
+    """A judging function of (results, engine) asked of the main engine, then of the sampled ones that have rows."""
+
+    @functools.wraps(decide)
+    def judge(results: Results):
+        word, found = decide(results, MAIN_ENGINE)
+        others, rows = {}, found.rows
+        for engine in CHECK_ENGINES:
+            try:
+                others[engine], also = decide(results, engine)
+            except NoEvidence:
+                continue
+            rows += also.rows
+        differing = {engine: other for engine, other in others.items() if other != word}
+        if differing and word == Word.HOLDS:
+            word = Word.CORRECTED
+        sentence = f"{found.sentence} {_said_by(others, differing)}"
+        return word, Evidence(sentence, {**found.numbers, "engines_differing": len(differing)}, rows, found.tables)
+
+    return judge
+
+
+def _said_by(others: dict, differing: dict) -> str:
+    if not others:
+        return "No sampled engine has rows for this."
+    if not differing:
+        return f"Sampled engines agree ({', '.join(others)})."
+    return "Sampled: " + ", ".join(f"{engine} says '{word}'" for engine, word in others.items()) + "."

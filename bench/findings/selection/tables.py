@@ -1,0 +1,99 @@
+"""The rows of a run that laws are compared on: the free body, and the same starts for every law."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+import pandas as pd
+
+from bench.contenders.registry import all_contenders, contenders_of
+from bench.findings.claims.adequacy import CALL_PRICE, DIRECTED, tallied
+from bench.findings.claims.tables import MAIN_ENGINE, Results, settled, some
+from bench.law.contender import Contender
+from bench.tables import read as published
+
+SAMPLED = "native"
+"""The engine of a law that cannot run on the continuous plant: MuJoCo's own actuator."""
+
+
+class Tables(NamedTuple):
+    """uniform, directed: starts that every law ran; arms: episodes on arms by the geometric Jacobian, nominal plant.
+
+    contenders: the laws compared, by name, in the order of cost.
+    """
+
+    uniform: pd.DataFrame
+    directed: pd.DataFrame
+    costs: dict[str, pd.DataFrame]
+    robustness: pd.DataFrame
+    arms: pd.DataFrame
+    contenders: dict[str, Contender]
+
+    def costing(self, name: str, branch: str = "typical", price: float = CALL_PRICE) -> float:
+        """Flops a tick without the goal's own stage, a call counted as so many."""
+        rows = self.costs[name]
+        flops, calls = tallied(rows[rows["branch"] == branch], with_goal=False)
+        return flops + price * calls
+
+
+def tables_of(results: Results) -> Tables:
+    """The tables of a run, of every law that has uniform starts, half turns and a cost.
+
+    Errors:
+        NoEvidence: the run has no such law, or puts none in trouble.
+    """
+    every = results.table("episodes")
+    runs = every[(every["task"] == "free-body") & every["engine"].isin((MAIN_ENGINE, SAMPLED))]
+    on_main = set(runs.loc[runs["engine"] == MAIN_ENGINE, "contender"])
+    runs = runs[(runs["engine"] == MAIN_ENGINE) | ~runs["contender"].isin(on_main)]
+    costs = results.table("costs", **published.FREE_BODY)
+    priced = {str(name): rows for name, rows in costs.groupby("contender", observed=True)}
+    sets = runs.groupby("contender", observed=True)["start_set"].agg(set)
+    known = {one.name: one for one in (*all_contenders(), *_own(results))}
+    names = [name for name in sets.index if {"uniform", "half-turn"} <= sets[name] and name in priced and name in known]
+    runs = some(runs[runs["contender"].isin(names)], "law with uniform starts, half turns and a cost")
+    runs = runs.assign(contender=runs["contender"].astype(str), lost=~settled(runs))
+    named = {name: known[name] for name in names}
+    robustness = some(results.table("robustness"), "law in trouble")
+    found = Tables(
+        common(runs[runs["start_set"] == "uniform"]),
+        common(runs[runs["start_set"].isin(DIRECTED)]),
+        priced,
+        robustness.assign(contender=robustness["contender"].astype(str), lost=~settled(robustness)),
+        _on_arms(every),
+        named,
+    )
+    return found._replace(contenders=dict(sorted(named.items(), key=lambda item: found.costing(item[0]))))
+
+
+def common(runs: pd.DataFrame) -> pd.DataFrame:
+    """Rows of the starts that every law ran, in the order of the starts."""
+    ran = runs.groupby(["start_set", "start_id"], observed=True)["contender"].transform("nunique")
+    kept = runs[ran == runs["contender"].nunique()]
+    return kept.sort_values(["start_set", "start_id"], kind="stable").reset_index(drop=True)
+
+
+def by_law(rows: pd.DataFrame, column: str, failed: float | None = None) -> dict[str, np.ndarray]:
+    """A column by law, in the order of the starts; where a law does not settle, `failed` if that is given."""
+    values = rows[column].astype(float) if failed is None else rows[column].where(~rows["lost"], failed)
+    return {str(name): own.to_numpy() for name, own in values.groupby(rows["contender"], observed=True)}
+
+
+def _on_arms(every: pd.DataFrame) -> pd.DataFrame:
+    """Uniform starts on arms; `contender` is the law alone."""
+    is_wanted = (every["task"] == "arm-regulation") & (every["start_set"] == "uniform")
+    is_wanted &= (every["jacobian"] == "geometric") & (every["variation"] == "nominal") & (every["engine"] == SAMPLED)
+    rows = every[is_wanted & every["inverse"].isin(("solve", "pseudo-inverse"))]
+    law, inverse = rows["contender"].astype(str).str.partition("@")[0], rows["inverse"].astype(str)
+    rows = rows.assign(contender=law, inverse=inverse, lost=~settled(rows))
+    has_solve = rows.groupby(["contender", "arm"], observed=True)["inverse"].transform(
+        lambda own: (own == "solve").any()
+    )
+    return rows[~has_solve | (rows["inverse"] == "solve")].sort_values(["arm", "start_id"], kind="stable")
+
+
+def _own(results: Results) -> list[Contender]:
+    """The user's laws of the run; one that may not run cannot be asked how far it jumps, and is left out."""
+    laws = published.own_laws(results.folder) if results.folder else ()
+    return [one for law in laws if law.law or law.law_in for one in contenders_of(law)]

@@ -1,0 +1,136 @@
+"""What theory predicts of a hand in free space that complies with small moments: C, the rotation per moment, 3 x 3.
+
+    hybrid                  C = B_C B_C^T  free(t)       B_C: the columns of B whose coordinates comply
+    impedance-coordinates   C = B B^T      sprung(t)
+    other impedances        C = I          sprung(t)
+
+from Edot = B^-1 omega (Murphy 1988, 3.2) and F_E = B^T m (3.12): coordinates that comply turn the hand along columns of
+B, and are turned by what B^T takes of a moment. On axes of the base or the hand B = I. All is to first order in the
+moment, and B is that of the goal.
+
+With Z-Y-X angles B B^T has the eigenvalues 1 and 1 -+ sin beta, at any alpha and gamma: the closed forms below.
+
+Fails: no prediction (NaN) for moments that are not converted, since what is not cancelled then acts on the whole arm;
+nor where B^-1 does not exist. Radians, N m.
+Source: Murphy 1988, 3.1 and 3.3; Hogan 1985 for stiffness in other coordinates, K -> B^-T K B^-1.
+"""
+
+import cmath
+import math
+
+import numpy as np
+
+from bench.control.contact_controller import Compliant
+from bench.control.hybrid import TOUCH, Touch
+from bench.law.contender import PAPERS_GAINS, Gains, Representation
+from bench.law.so3 import IDENTITY, Rotation
+from tasks.contact import Order
+
+UNITS = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+FROM_GOAL = "impedance-coordinates-relative"
+NOWHERE = 1e-12
+"""Smallest singular value of B, over its largest, at which there is no B^-1: rounding of an angle of pi/2."""
+
+
+def matrix_B(representation: Representation, R: Rotation) -> np.ndarray:
+    """B of omega = B Edot (Murphy 1988, 2.8), 3 x 3: what each coordinate turns the hand about, in its columns."""
+    at = representation.chart(R)
+    return np.array([representation.angular_velocity(at, unit) for unit in UNITS]).T
+
+
+def compliance(
+    controller: Compliant,
+    order: Order,
+    goal: Rotation,
+    time_s: float,
+    gains: Gains = PAPERS_GAINS,
+    touch: Touch = TOUCH,
+) -> np.ndarray:
+    """C [rad/(N m)], 3 x 3: what a controller makes of a constant moment in some time, from rest at its goal.
+
+    order: ignored by an impedance, as by the controller.
+    """
+    if not controller.converts:
+        return np.full((3, 3), np.nan)
+    B = directions(controller, goal)
+    if controller.impedance is not None:
+        return B @ B.T * sprung(time_s, gains, touch.m_o)
+    own = B[:, np.array(controller.held(order)[3:]) == 0.0]
+    return own @ own.T * free(time_s, touch)
+
+
+def directions(controller: Compliant, goal: Rotation) -> np.ndarray:
+    """What the rotational rows of a controller turn the hand about, 3 x 3, base frame; NaN if there is no B^-1."""
+    if controller.representation is None:
+        return np.eye(3)
+    seen_from_goal = controller.law == FROM_GOAL
+    B = matrix_B(controller.representation, IDENTITY if seen_from_goal else goal)
+    size = np.linalg.svd(B, compute_uv=False)
+    if size[-1] <= NOWHERE * size[0]:
+        return np.full((3, 3), np.nan)
+    return np.array(goal).T @ B if seen_from_goal else B
+
+
+def free(time_s: float, touch: Touch = TOUCH) -> float:
+    """Rotation per moment [rad/(N m)] of what complies: m_o thetadd = m - m_o kc thetad from rest."""
+    return (time_s - (1.0 - math.exp(-touch.kc * time_s)) / touch.kc) / (touch.kc * touch.m_o)
+
+
+def sprung(time_s: float, gains: Gains = PAPERS_GAINS, inertia: float = TOUCH.m_o) -> float:
+    """Rotation per moment [rad/(N m)] of an impedance: m_o (thetadd + kv thetad + kp theta) = m from rest."""
+    root = cmath.sqrt(gains.kv**2 / 4.0 - gains.kp)
+    fading = math.exp(-gains.kv / 2.0 * time_s)
+    along = cmath.cosh(root * time_s)
+    across = cmath.sinh(root * time_s) / root if root != 0.0 else time_s
+    left = fading * (along + gains.kv / 2.0 * across).real
+    return (1.0 - left) / (gains.kp * inertia)
+
+
+def leakage(beta: float) -> float:
+    """Rotation about z over that about x, of a moment about x with Z-Y-X angles beta and gamma complying, alpha = 0.
+
+    C e_x is along the column (cos beta, 0, -sin beta) of gamma: tan |beta|.
+    """
+    return math.tan(abs(beta))
+
+
+def least_yield(beta: float) -> float:
+    """The least eigenvalue of B B^T with Z-Y-X angles: 1 - |sin beta|; at the pole a moment is lost."""
+    return 1.0 - abs(math.sin(beta))
+
+
+def stiffness_condition(beta: float) -> float:
+    """Condition number of B^-T B^-1 with Z-Y-X angles: (1 + |sin beta|)/(1 - |sin beta|); infinite at the poles."""
+    sine = abs(math.sin(beta))
+    return (1.0 + sine) / (1.0 - sine) if sine < 1.0 else math.inf
+
+
+def stiffness_axes(beta: float) -> float:
+    """Angle [rad] of x and z to the nearest principal axis of B B^T with Z-Y-X angles, alpha = 0, beta not 0.
+
+    In that plane B B^T is [[c^2, -s c], [-s c, 1 + s^2]], whose axes are at pi/4 - beta/2: pi/4 at once, and less then.
+    """
+    return math.pi / 4.0 - abs(beta) / 2.0
+
+
+def lost_moment(representation: Representation, R: Rotation) -> tuple[np.ndarray, float]:
+    """The unit moment m of which B^T keeps least, and |B^T m|: exactly 0 where it is lost (rank of B below 3).
+
+    With Z-Y-X angles at beta = +-90 deg it is about (cos alpha, sin alpha, 0); with Z-Y-Z at the identity about x.
+    """
+    turned, sizes, _ = np.linalg.svd(matrix_B(representation, R))
+    return turned[:, -1], float(sizes[-1])
+
+
+def square_loop(angle: float) -> np.ndarray:
+    """What is left [rad], as a rotation vector, of turns by an angle about x, y, -x and -y one after another.
+
+    Axes of the base frame, and no turn about z on the way: cos(theta/2) = 1 - 2 sin^4(angle/2), and theta is angle^2
+    about -z to leading order; a closed loop of what complies is not closed.
+    """
+    half = math.sin(angle / 2.0) ** 2
+    w = 1.0 - 2.0 * half * half
+    c, s = math.cos(angle / 2.0), math.sin(angle / 2.0)
+    v = 2.0 * s * s * np.array((c * s, -c * s, -c * c))
+    size = float(np.linalg.norm(v))
+    return 2.0 * math.atan2(size, w) / size * v if size > 0.0 else v

@@ -1,0 +1,174 @@
+"""What theory says of a loop in trouble, to be drawn beside what was measured.
+
+Most is about the linear loop x'' = -c Kp x - Kv x' that every isotropic law is near the goal, and that the rotation
+vector's law is from rest at any angle; c, the stiffness, is the slope of a law's spring elsewhere.
+"""
+
+from __future__ import annotations
+
+import functools
+import math
+
+import numpy as np
+from scipy.linalg import solve_discrete_lyapunov
+from scipy.signal import lsim
+
+from bench.engines.disturbed import LEAD
+from bench.findings.theory.isotropic import Equation
+from tasks.condition import RATE, UNTOLD
+from tasks.moving_goal import sway_rates
+
+STEP_S = 1e-3
+"""Longest step of the plant [s], as in the episodes."""
+
+LONGEST_S = 3.0
+"""Five settling times of the undisturbed loop."""
+
+GRID_S = 5e-3
+"""Between points [s] that are joined by straight lines; the goal sways with 0.3 s to the radian or slower."""
+
+MEAN_LENGTH = math.sqrt(8.0 / math.pi)
+"""Mean length of a vector of three independent normal numbers of unit variance."""
+
+LEAVING_TICKS = 1500
+"""Ticks after which a body that has not left the half turn is held there: thirty time constants 1/Kv at 1 kHz."""
+
+
+def crossover(kp: float, kv: float, stiffness: float = 1.0) -> float:
+    """Angular frequency [rad/s] at which the open loop (Kv s + c Kp)/s^2 has unit gain."""
+    spring = stiffness * kp
+    return math.sqrt((kv * kv + math.sqrt(kv**4 + 4.0 * spring * spring)) / 2.0)
+
+
+def phase_margin(kp: float, kv: float, stiffness: float = 1.0) -> float:
+    """Phase [rad] that the open loop may lose at its crossover: arctan(Kv w/(c Kp))."""
+    return math.atan2(kv * crossover(kp, kv, stiffness), stiffness * kp)
+
+
+def delay_margin(kp: float, kv: float, stiffness: float = 1.0) -> float:
+    """Delay [s] from which the linear loop is unstable: phase margin over crossover."""
+    return phase_margin(kp, kv, stiffness) / crossover(kp, kv, stiffness)
+
+
+def least_rate(kp: float, kv: float, stiffness: float = 1.0) -> float:
+    """Control rate [Hz] at and below which the sampled linear loop is unstable, its command held between ticks.
+
+    Its polynomial z^2 + (c Kp h^2/2 + Kv h - 2) z + (1 + c Kp h^2/2 - Kv h) has its roots inside the unit circle where
+    Kv h < 2 and c Kp h < 2 Kv.
+    """
+    return max(kv / 2.0, stiffness * kp / (2.0 * kv))
+
+
+@functools.cache
+def settling(
+    kp: float, kv: float, tolerance: float, period_s: float = STEP_S, delay_s: float = 0.0, inertia: float = 1.0
+) -> float:
+    """Settling time [s] of the linear loop from rest: sampled, held, late, and with an inertia the law does not know.
+
+    Infinite if it does not settle in LONGEST_S.
+    """
+    steps = max(1, math.ceil(period_s / STEP_S - 1e-9))
+    h = period_s / steps
+    late = round(delay_s / h)
+    x, v, last, sent = 1.0, 0.0, -1, []
+    for tick in range(round(LONGEST_S / h)):
+        if tick % steps == 0:
+            sent.append(-(kp * x + kv * v) / inertia)
+        u = sent[(tick - late) // steps] if tick >= late else 0.0
+        x, v = x + h * v + 0.5 * h * h * u, v + h * u
+        if abs(x) > tolerance:
+            last = tick + 1
+    return math.inf if last >= round(LONGEST_S / h) else (last + 1) * h
+
+
+def sampled(kp: float, kv: float, period_s: float) -> tuple[np.ndarray, np.ndarray]:
+    """(A, B) of the loop about one axis, closed and sampled: state (x, x') from tick to tick, noise (x, x') added."""
+    h = period_s
+    free, pushed = np.array([[1.0, h], [0.0, 1.0]]), np.array([[0.5 * h * h], [h]])
+    gains = np.array([[kp, kv]])
+    return free - pushed @ gains, -pushed @ gains
+
+
+def noisy_rms(kp: float, kv: float, period_s: float, attitude: float = 0.0, rate: float = 0.0) -> float:
+    """Root mean square angle [rad] that white noise on orientation [rad] and rate [rad/s] leaves: sqrt(3 P_11).
+
+    P, the covariance about one axis, solves P = A P A^T + B diag(attitude^2, rate^2) B^T.
+    """
+    A, B = sampled(kp, kv, period_s)
+    P = solve_discrete_lyapunov(A, B @ np.diag([attitude**2, rate**2]) @ B.T)
+    return math.sqrt(3.0 * P[0, 0])
+
+
+def jitter(kp: float, kv: float, attitude: float = 0.0, rate: float = 0.0) -> float:
+    """Mean |u - u before| from tick to tick [rad/s^2] that white noise makes: sqrt(8/pi) sqrt(2) |(Kp a, Kv r)|."""
+    return MEAN_LENGTH * math.sqrt(2.0) * math.hypot(kp * attitude, kv * rate)
+
+
+@functools.cache
+def swaying_rms(kp: float, kv: float, told: int, period_s: float, horizon_s: float, tail_s: float = 1.0) -> float:
+    """Root mean square angle [rad] to a goal that sways little, over its peak rate [rad/s], at the end of an episode.
+
+    e'' + Kv e' + Kp e = w,    w = alpha_d + Kv omega_d  untold,   alpha_d  told the rate,
+                                   (h/2) d(alpha_d)/dt   told both, for the command is held a tick of h
+    """
+    little = 1e-6
+    times = np.arange(0.0, horizon_s + 0.5 * GRID_S, GRID_S)
+    rates, accelerations = (
+        np.array(part) / little for part in zip(*(sway_rates(time, little) for time in times), strict=True)
+    )
+    if told == UNTOLD:
+        push = accelerations + kv * rates
+    elif told == RATE:
+        push = accelerations
+    else:
+        push = 0.5 * period_s * np.gradient(accelerations, GRID_S, axis=0)
+    errors = np.column_stack([lsim(([1.0], [1.0, kv, kp]), one, times)[1] for one in push.T])
+    tail = errors[times > horizon_s - tail_s]
+    return math.sqrt(float((tail**2).sum(axis=1).mean()))
+
+
+def least_settling(angle: float, bound: float, tolerance: float) -> float:
+    """Least time [s] in which any law with |u| <= bound settles a turn from rest to within `tolerance` of it.
+
+    The angle shrinks no faster than |omega|, and what has entered the band must be able to stop before its far edge:
+    full thrust to (1 + tolerance) of the angle and full brakes, up to where the band begins.
+
+        2 sqrt((1 + tolerance) angle/bound) - sqrt(4 tolerance angle/bound)
+    """
+    return (2.0 * math.sqrt(1.0 + tolerance) - math.sqrt(4.0 * tolerance)) * math.sqrt(angle / bound)
+
+
+def reversal_angle(kp: float, blind_s: float) -> float:
+    """Angle [rad] from which paielli-bach, blind for a while, pushes itself past the rate where its spring turns round.
+
+    u = (2 Kp - |omega|^2/2) tan(theta/2) k - Kv omega pushes away from |omega| = 2 sqrt(Kp) on; from rest the first
+    command, 2 Kp tan(theta/2), reaches that in 1/(sqrt(Kp) tan(theta/2)).
+    """
+    return 2.0 * math.atan2(1.0, math.sqrt(kp) * blind_s)
+
+
+def is_held(equation: Equation, kp: float, kv: float, beyond: float, period_s: float = STEP_S) -> bool:
+    """Whether the worst noise holds a law at the half turn: its scalar equation, asked every tick and told a lie.
+
+    x is the angle by which the body has left the half turn, of either sign. Within `beyond` of it the law is told
+    x - beyond sgn(x + LEAD h x'), with the side where the body is about to be; it leaves once |x| is more.
+    """
+    h, x, v = period_s, 0.0, 0.0
+    for _ in range(LEAVING_TICKS):
+        if abs(x) > beyond:
+            return False
+        told = x - math.copysign(beyond, x + LEAD * h * v)
+        side, angle = math.copysign(1.0, told), math.pi - abs(told)
+        # the angle is pi - |told|: what shrinks it drives the body out on the side where it seems to be
+        outward = kp * equation.spring(angle) - equation.added(angle, -side * v, kp, kv)
+        u = side * outward - kv * v
+        x, v = x + h * v + 0.5 * h * h * u, v + h * u
+    return True
+
+
+def two_ticks(push: float, kv: float, period_s: float = STEP_S) -> float:
+    """Angle [rad] that a body is driven from the half turn before a jump of 2 `push` brakes it: U h^2 (1 - Kv h/2).
+
+    One tick of U, before the law can be told of any motion, makes the rate U h; the next, of -U - Kv U h, takes it.
+    """
+    return push * period_s * period_s * (1.0 - 0.5 * kv * period_s)

@@ -1,1 +1,0 @@
-"""Impedances, one file each with a constant IMPEDANCE; a file dropped here is found (see `bench.impedance`)."""

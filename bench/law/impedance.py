@@ -1,0 +1,22 @@
+"""What an impedance is: the record that each file of bench/contenders/impedances holds."""
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+
+class Impedance(NamedTuple):
+    """A law u = law(R, omega, m, R_d, gains, inertia): the hand's angular acceleration in the base frame [rad/s^2].
+
+    m: the moment on the hand and what it shall exert besides [N m], base frame. inertia: apparent, [kg m^2]. Near the
+    goal the stiffness is kp inertia [N m/rad]; of an impedance in coordinates it is that times B^-T B^-1.
+    law_in(representation) -> law, of an impedance in coordinates; `law` is then None.
+    relative: the coordinates are those of R_d^T R.
+    """
+
+    name: str
+    title: str
+    source: str
+    formula: str
+    law: Callable | None = None
+    law_in: Callable | None = None
+    relative: bool = False

@@ -1,0 +1,29 @@
+"""Small dense kernels on buffers, of any element type: float64, or counting scalars in an object array.
+
+    products.py     J x, J^T y, and the symmetric J J^T, J^T J
+    elimination.py  solve, determinant: Gauss with partial pivoting
+    cholesky.py     factor, solve_factored, and the parts of them
+    rotations.py    orthogonalize: one-sided Jacobi, the singular value decomposition
+
+A buffer may be larger than what is used of it; sizes are passed. Nothing is allocated. A singular matrix ends in
+numbers that are not finite, and those that are not finite in any number, but never in an exception or an endless loop.
+"""
+
+from bench.law.linalg.cholesky import factor, solve_factored, solve_lower, solve_upper
+from bench.law.linalg.elimination import determinant, solve
+from bench.law.linalg.products import gram, gram_transposed, multiply, multiply_transposed
+from bench.law.linalg.rotations import orthogonalize
+
+__all__ = [
+    "determinant",
+    "factor",
+    "gram",
+    "gram_transposed",
+    "multiply",
+    "multiply_transposed",
+    "orthogonalize",
+    "solve",
+    "solve_factored",
+    "solve_lower",
+    "solve_upper",
+]

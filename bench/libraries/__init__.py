@@ -1,1 +1,0 @@
-"""What robot libraries return as an orientation error, all at the same turns: python -m bench.libraries."""

@@ -1,0 +1,55 @@
+"""Older commits measured today: each in a checkout of its own that goes away, with today's packages.
+
+It is how the history began, and how a machine that joins later gets a past of its own. Fails: on commits before
+MuJoCo's actuator was judged beside the laws (5adc219), and where today's packages do not run their sources.
+"""
+
+import json
+import os
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+
+from bench.errors import Incompatible
+from bench.provenance import ROOT
+from bench.regression.revisions import alternating, commits, instructions, own
+from bench.regression.revisions.process import Laws, running
+
+COUNT = """
+import json
+from bench import counting
+from bench.contenders.registry import all_contenders
+print(json.dumps(counting.rows(all_contenders())))
+"""
+"""Run in the checkout: every row of operations of its laws."""
+
+
+def measure(revision: str, told: Callable[[str], None] = lambda _: None) -> own.Own:
+    """All benchmarks of a commit, as `own.measure` does of this checkout.
+
+    Errors:
+        UnknownWord: no such commit. Incompatible: its sources do not run. MissingTool: no valgrind.
+    """
+    commit = commits.commit_of(ROOT, revision)
+    told(f"{commit[:10]}: compiling")
+    with commits.worktree(ROOT, commit) as checkout, running([(checkout, Laws())]) as [side]:
+        told(f"{commit[:10]}: counting")
+        counted = instructions.count(side, own.timed_laws(side))
+        operations = own.by_law(pd.DataFrame(_counts(checkout)))
+        told(f"{commit[:10]}: timing")
+        [rounds] = alternating.take([side], own.timed(side))
+        found = own.measurements(side, counted, rounds, operations)
+    return own.Own(commit, False, side.sources, own.machine(), tuple(found.values()))
+
+
+def _counts(checkout: Path) -> list[dict[str, Any]]:
+    words = [sys.executable, "-P", "-c", COUNT]
+    environment = {**os.environ, "PYTHONPATH": str(checkout)}
+    ended = subprocess.run(words, cwd=checkout, env=environment, capture_output=True, text=True)
+    if ended.returncode:
+        raise Incompatible(f"{checkout.name}: its laws cannot be counted ({ended.stderr.strip().splitlines()[-1]})")
+    return json.loads(ended.stdout)

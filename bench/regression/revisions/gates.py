@@ -1,0 +1,115 @@
+"""One comparison, gate after gate: `of_folders` of two runs, `of_revisions` of two states of the code."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+from bench.errors import BadResults
+from bench.regression.revisions import exact, own, sides
+from bench.regression.revisions.comparison import (
+    EXACT,
+    FAILED,
+    OPERATIONS,
+    PASSED,
+    REGRESSION,
+    SKIPPED,
+    Benchmark,
+    Comparison,
+    Finding,
+    Gate,
+    Side,
+)
+from bench.regression.revisions.measured import Operations, Wanted, left_out, measured
+from bench.regression.revisions.process import SideFailed, running
+from bench.regression.revisions.sides import Checkout
+from bench.regression.rows import differences
+from bench.tables.store import read, read_json
+
+Told = Callable[[str], None]
+ALL = Wanted()
+
+
+def of_folders(base: Path, head: Path) -> Comparison:
+    """Two runs' folders, row by row; nothing is run.
+
+    Errors:
+        BadResults: a folder holds no finished run.
+    """
+    found = _exact(base, head)
+    was, now = (Side(str(one), **_origin(one)) for one in (base, head))
+    return Comparison(was, now, own.machine(), tuple(_gates(found, (EXACT, OPERATIONS))), tuple(found), ())
+
+
+def _origin(folder: Path) -> dict[str, str]:
+    about = read_json(folder / "provenance.json")
+    return {"commit": about["commit"], "sources": about["sources"]}
+
+
+def _exact(base: Path, head: Path) -> list[Finding]:
+    found = differences(base, head)
+    return [*exact.removed(found, head), *exact.basins(base, head), *exact.findings(found)]
+
+
+def _gates(found: list[Finding], names: tuple[str, ...]) -> list[Gate]:
+    """What came of gates that were not left out."""
+    gates = []
+    for name in names:
+        of_gate = [one for one in found if one.gate == name]
+        bad = sum(one.verdict == REGRESSION for one in of_gate)
+        says = f"{bad} regressions, {len(of_gate) - bad} other changes" if of_gate else "nothing differs"
+        gates.append(Gate(name, FAILED if bad else PASSED, says))
+    return gates
+
+
+def of_revisions(
+    base: str, head: str | None, laws: tuple[Path, ...] = (), wanted: Wanted = ALL, told: Told = lambda _: None
+) -> Comparison:
+    """Two revisions, or a revision and the files as they lie (head None), through every gate.
+
+    Errors:
+        UnknownWord, Incompatible: a revision. BadResults: a side does not run. BadLaw: a user's file.
+    """
+    with sides.checkouts(base, head, laws) as (old, new):
+        if new.is_new:
+            raise BadResults(f"{new.name}: none of the --law files is there")
+        gates, found, operations = _by_rows(old, new, told)
+        more_gates, more, benchmarks = _by_process(old, new, operations, wanted, told)
+        machine = own.machine()
+    was, now = (Side(one.name, one.commit, one.sources) for one in (old, new))
+    return Comparison(was, now, machine, (*gates, *more_gates), (*found, *more), tuple(benchmarks))
+
+
+def _by_rows(old: Checkout, new: Checkout, told: Told) -> tuple[list[Gate], list[Finding], Operations]:
+    """The exact gate and that of operations."""
+    if old.is_new:
+        with sides.finished_run(new, told) as run:
+            counted = own.by_law(read(run, "costs"))
+        says = "the law is new: there is nothing to compare it with"
+        return [Gate(name, SKIPPED, says) for name in (EXACT, OPERATIONS)], [], ({}, counted)
+    if old.sources == new.sources and not new.own:
+        says = "both sides have the same sources and versions, so a run would be the same"
+        return [Gate(name, PASSED, says) for name in (EXACT, OPERATIONS)], [], ({}, {})
+    with sides.finished_run(old, told) as before, sides.finished_run(new, told) as after:
+        try:
+            found = _exact(before, after)
+            operations = own.by_law(read(before, "costs")), own.by_law(read(after, "costs"))
+        except BadResults as error:  # both have just been written by their own program: it is the schema that differs
+            says = f"the schema differs: {error}"
+            found, operations = [Finding(EXACT, REGRESSION, "", "schema", "", "", says)], ({}, {})
+    return _gates(found, (EXACT, OPERATIONS)), found, operations
+
+
+def _by_process(
+    old: Checkout, new: Checkout, operations: Operations, wanted: Wanted, told: Told
+) -> tuple[list[Gate], list[Finding], list[Benchmark]]:
+    """The gates of instructions and time, which need both sides compiled."""
+    if not (old.is_new or sides.locks_agree(old, new)):
+        return left_out(f"{sides.LOCK} differs, so base was made for other packages than are installed"), [], []
+    told("compiling")
+    both = [(new.path, new.asked)] if old.is_new else [(old.path, old.asked), (new.path, new.asked)]
+    try:
+        with running(both) as processes:
+            return measured(processes, operations, wanted, told)
+    except SideFailed as error:
+        if error.at == len(both) - 1:
+            raise
+        return left_out(f"base is too old for it: {error}"), [], []

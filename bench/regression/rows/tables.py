@@ -1,0 +1,152 @@
+"""How tables of free bodies and arms are compared: each function takes base's and head's rows."""
+
+import numpy as np
+import pandas as pd
+
+from bench.regression.rows.difference import MISSING, NEW, Difference, aligned, changed
+from bench.tables.schema import KEY
+from tasks.verdict import OUTCOMES, SETTLED
+
+RELATIVE = 1e-6
+"""Rounding grows by less than a millionth in a settled episode: two libraries' sines (1e-16 apart) and some 1e4 ticks
+leave 1e-12; step-size effects that a change of code could bring start at 1e-4."""
+
+ABSOLUTE = 1e-9
+"""Below this an angle [rad] or a margin is rounding itself."""
+
+MARGIN = 10.0
+"""Times the change that 1e-12 rad made of a doubtful episode on an arm: two samples of what rounding makes of it."""
+
+FRICTION_RELATIVE = 1e-3
+"""With dry friction an arm's joints stick and creep, by what MuJoCo's solver leaves of each tick at its own tolerance:
+1e-4 of the angle that is left differs between two libraries' sines."""
+
+COST_KEY = ("regulator", "representation", "jacobian", "inverse", "joints", "branch", "stage")
+BOUNDARY_KEY = ("regulator", "representation", "jacobian", "inverse", "axis_x", "axis_y", "axis_z")
+BOUNDARY_ANGLE = 1e-5
+"""Bisection ends at 7e-7 rad; near a fractal boundary the last steps may go either way."""
+
+TRACE_KEY = (
+    *("task", "arm", "regulator", "representation", "jacobian", "inverse"),
+    *("engine", "start_set", "start_id", "time_s"),
+)
+CURVE_KEY = TRACE_KEY[:-1]
+ARRIVED = 0.02
+"""A curve whose angle ends below the settling band's share of where it began came to the goal."""
+
+POSE_KEY = ("arm", "pose_set", "pose_id", "representation")
+POSE_RELATIVE = 1e-5
+"""Single precision is 6e-8; condition numbers up to STEADY lose half the digits of the doubles they are made of."""
+
+STEADY = 1e8
+"""Condition number beyond which the last bit of a joint angle decides its value."""
+
+
+def episodes(old: pd.DataFrame, new: pd.DataFrame) -> list[Difference]:
+    """Outcomes exactly, on a knife's edge either; numbers of what settled in both, to what rounding makes of them."""
+    table = "episodes"
+    old, new, found = aligned(table, old, new, KEY)
+    settled = old["outcome"].astype(str) == OUTCOMES[SETTLED]
+    same = new["outcome"].astype(str) == old["outcome"].astype(str)
+    found += changed(table, "outcome", old, new, ~same & ~_share_an_outcome(old, new), KEY)
+    both = settled & same
+    rubs = old["variation"].astype(str).str.startswith("friction").to_numpy()
+    known = np.where(rubs, FRICTION_RELATIVE, RELATIVE)
+    doubt = MARGIN * np.fmax(old["rounding_change"].to_numpy(), new["rounding_change"].to_numpy())
+    relative = np.fmax(known, doubt)  # no doubt is NaN, which fmax passes over
+    both &= relative < 1.0
+    relative = np.fmin(relative, 1.0)
+    for name in old.columns.difference([*KEY, "outcome", "cause", "outcome_beside", "rounding_change"], sort=False):
+        if old[name].dtype.kind not in "iuf":
+            found += changed(table, name, old, new, new[name].astype(str) != old[name].astype(str), KEY)
+            continue
+        a, b = new[name].to_numpy(float), old[name].to_numpy(float)
+        if name in ("settling_time_s", "failure_time_s"):
+            close = np.abs(a - b) < 0.5 * old["dt_s"].to_numpy() + (relative - RELATIVE) * b
+        elif name == "ticks":
+            close = np.abs(a - b) <= (relative - RELATIVE) * b
+        else:
+            close = np.isclose(a, b, rtol=relative, atol=ABSOLUTE)
+        found += changed(table, name, old, new, both & ~(close | (np.isnan(a) & np.isnan(b))), KEY)
+    return found
+
+
+def _share_an_outcome(old: pd.DataFrame, new: pd.DataFrame) -> np.ndarray:
+    """Whether an outcome of base, on either side of a row's start, is one of head's; on no edge there is but one."""
+    sides = ("outcome", "outcome_beside")
+    pairs = [(old[a].astype(str).to_numpy(), new[b].astype(str).to_numpy()) for a in sides for b in sides]
+    return np.any([(was == now) & (was != "") for was, now in pairs], axis=0)
+
+
+def costs(old: pd.DataFrame, new: pd.DataFrame) -> list[Difference]:
+    """Operations, exactly."""
+    table = "costs"
+    old, new = (frame.assign(joints=_joints(frame)) for frame in (old, new))
+    old, new, found = aligned(table, old, new, COST_KEY)
+    for name in old.columns.difference(COST_KEY, sort=False):
+        found += changed(table, name, old, new, new[name].to_numpy() != old[name].to_numpy(), COST_KEY)
+    return found
+
+
+def _joints(costs: pd.DataFrame) -> pd.Series:
+    """Joints as a row's name says them: nothing of a law alone."""
+    return costs["joints"].map(lambda joints: f"{joints} joints" if joints else "")
+
+
+def boundaries(old: pd.DataFrame, new: pd.DataFrame) -> list[Difference]:
+    """Where each law first fails, to BOUNDARY_ANGLE."""
+    table = "boundaries"
+    old, new, found = aligned(table, old.round(_digits(old)), new.round(_digits(new)), BOUNDARY_KEY)
+    for name in ("settled_to_rad", "fails_from_rad"):
+        a, b = new[name].to_numpy(float), old[name].to_numpy(float)
+        close = np.isclose(a, b, rtol=0.0, atol=BOUNDARY_ANGLE, equal_nan=True)
+        found += changed(table, name, old, new, ~close, BOUNDARY_KEY)
+    return found
+
+
+def _digits(frame: pd.DataFrame) -> dict[str, int]:
+    """Axes are compared by their first nine digits: they name a row."""
+    return {name: 9 for name in frame.columns if name.startswith("axis_")}
+
+
+def traces(old: pd.DataFrame, new: pd.DataFrame) -> list[Difference]:
+    """Samples of the curves that end at the goal; which curves there are, of all."""
+    table = "traces"
+    curves = [frame.groupby(list(CURVE_KEY), observed=True)["angle_rad"] for frame in (old, new)]
+    was, now = ({tuple(map(str, key)) for key in one.groups} for one in curves)
+    found = _curves(MISSING, "curve is missing", was - now) + _curves(NEW, "curve is new", now - was)
+    if found:
+        return found
+    arrived = [one.transform("last") <= ARRIVED * one.transform("first") for one in curves]
+    old, new, found = aligned(table, old[arrived[0]], new[arrived[1]], TRACE_KEY)
+    for name in old.columns.difference([*TRACE_KEY, "outcome"], sort=False):  # a curve that arrives has settled
+        a, b = new[name].to_numpy(float), old[name].to_numpy(float)
+        close = np.isclose(a, b, rtol=RELATIVE, atol=RELATIVE, equal_nan=True)
+        found += changed(table, name, old, new, ~close, TRACE_KEY)
+    return found
+
+
+def _curves(kind: str, words: str, keys: set[tuple[str, ...]]) -> list[Difference]:
+    return [
+        Difference(
+            "traces",
+            kind,
+            "",
+            f"traces: {words}: {' '.join(filter(None, key))}",
+            dict(zip(CURVE_KEY, key, strict=True)),
+        )
+        for key in sorted(keys)
+    ]
+
+
+def poses(old: pd.DataFrame, new: pd.DataFrame) -> list[Difference]:
+    """Poses and what their Jacobians are; the gaps are rounding itself, and claims look at their size."""
+    table = "poses"
+    old, new, found = aligned(table, old, new, POSE_KEY)
+    steady = (old["condition_analytic"].to_numpy() < STEADY) & (old["condition"].to_numpy() < STEADY)
+    for name in old.columns.difference(POSE_KEY, sort=False):
+        if not name.endswith("_gap"):
+            a, b = new[name].to_numpy(float), old[name].to_numpy(float)
+            close = np.isclose(a, b, rtol=POSE_RELATIVE, atol=ABSOLUTE, equal_nan=True)
+            found += changed(table, name, old, new, steady & ~close, POSE_KEY)
+    return found

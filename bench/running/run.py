@@ -1,0 +1,113 @@
+"""A plan carried out: units run by a scheduler, each written when done, so that a run killed at any moment resumes."""
+
+import contextlib
+import functools
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import NamedTuple
+
+from bench.experiments.choice import check_workers
+from bench.experiments.plan import AnyUnit, Plan
+from bench.running.finish import finish
+from bench.running.order import in_running_order
+from bench.running.precompile import compiling_ahead
+from bench.running.run_folder import begin, held, inspect, sweep, tidy
+from bench.running.sandbox import Guard
+from bench.running.schedulers import threads
+from bench.running.schedulers.words import THREADS, check_scheduler, kind
+
+
+class Progress(NamedTuple):
+    """Told to the caller after every unit: the unit, and how many episodes of the whole it was."""
+
+    unit: AnyUnit
+    episodes: int
+
+
+def run(
+    plan: Plan,
+    out: Path,
+    *,
+    workers: int = 2,
+    scheduler: str = THREADS,
+    replace: bool = False,
+    told: Callable[[Progress], None] = lambda _: None,
+    law_limit_s: float | None = None,
+) -> bool:
+    """Carry out what is not done yet; whether there was anything to do.
+
+    Args:
+        workers: threads of this process. scheduler: who carries out the units (bench/running/schedulers/words.py).
+        law_limit_s: how long a unit of a user's law may take; None for the rule of `bench.running.sandbox`.
+    Errors:
+        BadNumber: workers. BadResults: the folder cannot be used or written, or another run is at work there.
+        MissingTool, LostWorkers: a cluster. KeyboardInterrupt: after what is finished is written.
+    """
+    check_workers(workers)
+    check_scheduler(scheduler)
+    with held(Path(out)), Guard(plan, law_limit_s) as guard:
+        return _run(plan, Path(out), workers, scheduler, replace, told, guard)
+
+
+def _run(
+    plan: Plan,
+    out: Path,
+    workers: int,
+    scheduler: str,
+    replace: bool,
+    told: Callable[[Progress], None],
+    guard: Guard,
+) -> bool:
+    """The same in a folder that is held, with a guard over the user's laws."""
+    state = inspect(plan, out, replace)
+    if state.finished:
+        tidy(out)
+        return False
+    began = time.time()
+    guard.check()
+    todo = [unit for unit in in_running_order(plan.work) if unit.key not in state.done]
+
+    def done(unit: AnyUnit) -> None:
+        told(Progress(unit, unit.count))
+
+    with _team(plan, todo, out, workers, scheduler, guard) as carry_out:
+        if state.done:
+            sweep(out)
+        else:
+            begin(plan, out)
+        for unit in plan.work:
+            if unit.key in state.done:
+                done(unit)
+        by = {"scheduler": kind(scheduler), "workers": carry_out(done)}
+    finish(plan, out, guard, workers, by, began, resumed=bool(state.done))
+    return True
+
+
+@contextlib.contextmanager
+def _team(
+    plan: Plan, todo: list[AnyUnit], out: Path, workers: int, scheduler: str, guard: Guard
+) -> Iterator[Callable]:
+    """What carries out the units, tells its argument of each, and returns the number of its workers.
+
+    A cluster has answered when this yields, so that nothing is written, or replaced, for one that does not.
+    """
+    if scheduler == THREADS:
+
+        def by_threads(done: Callable[[AnyUnit], None]) -> int:
+            threads.run(plan, todo, out, workers, guard, done)
+            return workers
+
+        with compiling_ahead(_ours(plan, todo)):
+            yield by_threads
+        return
+    from bench.running.schedulers import cluster  # Dask is an extra, and takes a second to import
+
+    with cluster.client_of(scheduler) as client:
+        yield functools.partial(cluster.run, client, plan, todo, out, law_limit_s=guard.limit_s)
+
+
+def _ours(plan: Plan, todo: list[AnyUnit]) -> Iterator[str]:
+    """Contenders that a user's laws have no part in, in the order in which they run."""
+    own = {one.name for one in plan.contenders if one.regulator.origin}
+    return (unit.contender for unit in todo if unit.contender not in own)

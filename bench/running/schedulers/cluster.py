@@ -1,0 +1,171 @@
+"""Units carried out by a Dask cluster: of processes of this machine, or one that is there already.
+
+Text travels to a worker (wire_format.py) and parquet travels back; the client writes it, so that no disk is shared. A
+chunk whose worker is lost is run again by another. Fails: if a unit ends every worker that takes it.
+"""
+
+import contextlib
+import json
+import logging
+from collections import deque
+from collections.abc import Callable, Iterator, Sequence
+from pathlib import Path
+
+import distributed
+from dask import config
+
+from bench.errors import LostWorkers, MissingTool
+from bench.experiments.plan import AnyUnit, Plan
+from bench.running.run_folder import part
+from bench.running.schedulers import worker
+from bench.running.schedulers.batches import portions
+from bench.running.schedulers.words import LOCAL
+from bench.running.wire_format import described
+from bench.tables.store import write_atomically
+
+AHEAD = 2
+"""Chunks given to each thread of a worker: one to work on and one that waits. Memory holds no more than their rows."""
+
+LOSSES = 3
+"""Workers that a chunk may lose before it is taken apart: Dask's own number, which a local cluster is told."""
+
+ANSWER_S = 10.0
+"""How long a scheduler may take to answer."""
+
+GONE = "the scheduler is gone; what is done is kept (start it again and give the same command)"
+"""What the user is told when it no longer answers."""
+
+
+logging.getLogger("distributed").setLevel(logging.CRITICAL)
+"""What goes wrong is said by our errors; of a lost worker there is nothing to say, for another takes its chunk."""
+
+
+def run(
+    client: distributed.Client,
+    plan: Plan,
+    todo: Sequence[AnyUnit],
+    out: Path,
+    done: Callable[[AnyUnit], None],
+    law_limit_s: float | None = None,
+) -> int:
+    """Carry out units and write each when its chunk has come back; the most threads of workers that were there.
+
+    Args:
+        done: told of each unit, when it is written. law_limit_s: of a user's law, as `bench.running.sandbox` takes it.
+    Errors:
+        MissingTool: a worker without this package. BadResults: a worker has other sources. LostWorkers: a unit ended
+        all that took it, or the scheduler is gone. KeyboardInterrupt: what has come back is written.
+    """
+    chunks = Chunks(client, plan, out, done, law_limit_s)
+    chunks.carry_out(todo)
+    return chunks.threads
+
+
+@contextlib.contextmanager
+def client_of(word: str) -> Iterator[distributed.Client]:
+    """A client of the cluster that the word names; a local one lives as long as this.
+
+    Args:
+        word: local:N, or the address of a scheduler.
+    Errors:
+        MissingTool: no scheduler answers there.
+    """
+    if not word.startswith(LOCAL):
+        try:
+            client = distributed.Client(word, timeout=ANSWER_S, set_as_default=False)
+        except OSError as error:
+            raise MissingTool(
+                f"--scheduler {word}: no Dask scheduler answers there (start one: dask scheduler; or try local:2)"
+            ) from error
+        with client:
+            yield client
+        return
+    # A worker is a process of one thread: compiling and the making of rows hold Python's lock.
+    alone = {"threads_per_worker": 1, "host": "127.0.0.1", "dashboard_address": ":0", "memory_limit": None}
+    quiet = {"silence_logs": logging.CRITICAL, "preload": [worker.__name__]}
+    count = int(word.removeprefix(LOCAL))
+    with (
+        config.set({"distributed.scheduler.allowed-failures": LOSSES}),
+        distributed.LocalCluster(n_workers=count, **alone, **quiet) as cluster,
+        distributed.Client(cluster, set_as_default=False) as client,
+    ):
+        yield client
+
+
+class Chunks:
+    """Chunks on their way to workers and back: as many as keep them busy, and no more."""
+
+    def __init__(
+        self,
+        client: distributed.Client,
+        plan: Plan,
+        out: Path,
+        done: Callable[[AnyUnit], None],
+        law_limit_s: float | None = None,
+    ):
+        self.client, self.plan, self.out, self.done, self.law_limit_s = client, plan, out, done, law_limit_s
+        self.threads = 0
+        self.waiting: deque[tuple[AnyUnit, ...]] = deque()
+        self.given: dict[distributed.Future, tuple[AnyUnit, ...]] = {}
+
+    def carry_out(self, todo: Sequence[AnyUnit]) -> None:
+        """Give, take and write until all is done."""
+        self.waiting.extend(portions(todo, self._present()))
+        ended = distributed.as_completed(loop=self.client.loop)
+        try:
+            self.give(ended)
+            for future in ended:
+                self.take(future)
+                self.give(ended)
+        except BaseException:
+            for future in [one for one in self.given if one.status == "finished"]:
+                self.take(future)
+            with contextlib.suppress(OSError):  # the scheduler may be what is lost
+                self.client.cancel(list(self.given))
+            raise
+
+    def _present(self) -> int:
+        """Threads of the workers that are there now; others may come and go."""
+        try:
+            present = sum(self.client.nthreads().values())
+        except OSError as error:
+            raise LostWorkers(GONE) from error
+        self.threads = max(self.threads, present)
+        return present
+
+    def give(self, ended: distributed.as_completed) -> None:
+        """Send chunks as long as there is room; tell `ended` of each."""
+        room = AHEAD * max(1, self._present())
+        while self.waiting and len(self.given) < room:
+            units = self.waiting.popleft()
+            text = json.dumps(described(self.plan, units))
+            future = self.client.submit(worker.carry_out, text, self.law_limit_s, pure=False)
+            self.given[future] = units
+            ended.add(future)
+
+    def take(self, future: distributed.Future) -> None:
+        """Write what a chunk has brought; one that lost all its workers is given anew, each unit by itself."""
+        units = self.given[future]
+        try:
+            files = dict(future.result())
+        except distributed.KilledWorker as error:
+            if len(units) == 1:
+                raise LostWorkers(
+                    f"unit {units[0].key}: each of {error.allowed_failures + 1} workers that ran it was lost; what is "
+                    "done is kept (give the workers more memory, or leave its law away, and run again)"
+                ) from error
+            self.waiting.extendleft((unit,) for unit in reversed(units))
+            del self.given[future]
+            return
+        except ModuleNotFoundError as error:
+            raise MissingTool(
+                f"a worker has no {error.name}; install the same commit and lock on every machine of the cluster"
+            ) from error
+        except distributed.CancelledError as error:
+            raise LostWorkers(GONE) from error
+        for unit in units:
+            path, file = part(self.out, unit), files[unit.key]
+            if not path.is_file():  # it is there if Ctrl-C came while the chunk was written
+                write_atomically(path, lambda temporary, file=file: Path(temporary).write_bytes(file))
+                self.done(unit)
+        del self.given[future]

@@ -1,0 +1,52 @@
+"""Units carried out by threads of this process; those of a user's law, by processes that threads wait for."""
+
+import importlib
+import threading
+from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor, as_completed
+from pathlib import Path
+
+from bench.experiments.plan import AnyUnit, Plan, Unit
+from bench.experiments.work import rows
+from bench.running.run_folder import part
+from bench.running.sandbox import Guard
+from bench.tables.store import write_table
+
+UNITS_A_PROCESS = 8
+"""Of a user's law, beyond which a second process is worth its start of some seconds, if there is nothing of ours."""
+
+
+def run(
+    plan: Plan, todo: Sequence[AnyUnit], out: Path, workers: int, guard: Guard, done: Callable[[AnyUnit], None]
+) -> None:
+    """Carry out units, in their order, and write each when it is done.
+
+    Args:
+        guard: of the user's laws. done: told of each, when it is written.
+    Errors:
+        KeyboardInterrupt: after the units under way are written.
+    """
+    stop = threading.Event()
+
+    def work(unit: AnyUnit) -> AnyUnit | None:
+        if stop.is_set():
+            return None
+        made = guard.rows(unit) if guard.has(unit) else rows(plan, unit)
+        write_table(part(out, unit), made, unit.table)
+        return unit
+
+    ours, own = [unit for unit in todo if not guard.has(unit)], [unit for unit in todo if guard.has(unit)]
+    processes = 1 if ours else min(workers, 1 + len(own) // UNITS_A_PROCESS)
+    if any(isinstance(unit, Unit) and unit.engine == "reference" for unit in ours):
+        importlib.import_module("tasks.episode")  # it silences GLFW's import, which works in the main thread only
+    with ThreadPoolExecutor(workers) as pool, ThreadPoolExecutor(processes) as apart:
+        pending = {pool.submit(work, unit) for unit in ours} | {apart.submit(work, unit) for unit in own}
+        try:
+            for future in as_completed(pending):
+                unit = future.result()
+                if unit is not None:
+                    done(unit)
+        except BaseException:
+            stop.set()
+            guard.stopping = True
+            raise

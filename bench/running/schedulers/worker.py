@@ -1,0 +1,47 @@
+"""What a worker of a cluster does: a chunk's text in, its rows as parquet out. It knows nothing of Dask."""
+
+import importlib
+import json
+import signal
+
+import pyarrow as pa
+import pyarrow.parquet as pq
+
+from bench.experiments.plan import AnyUnit, Plan
+from bench.experiments.work import rows
+from bench.running.sandbox import Guard
+from bench.running.wire_format import plan_of
+from bench.tables.store import as_table, encoding
+
+
+def carry_out(text: str, law_limit_s: float | None = None) -> list[tuple[str, bytes]]:
+    """(key, file of its rows) of every unit of a chunk.
+
+    Args:
+        text: what `wire_format.described` says of it, as JSON. law_limit_s: of a user's law, as `bench.running.sandbox`
+            takes it.
+    Errors:
+        BadResults: this worker has other sources. BadLaw: a user's law that it cannot load.
+    """
+    plan = plan_of(json.loads(text))
+    with Guard(plan, law_limit_s) as guard:
+        return [(unit.key, _file(_rows(plan, unit, guard))) for unit in plan.work]
+
+
+def _rows(plan: Plan, unit: AnyUnit, guard: Guard) -> pa.Table:
+    return guard.rows(unit) if guard.has(unit) else as_table(rows(plan, unit), unit.table)
+
+
+def _file(table: pa.Table) -> bytes:
+    sink = pa.BufferOutputStream()
+    pq.write_table(table, sink, **encoding(table.schema))
+    return sink.getvalue().to_pybytes()
+
+
+def dask_setup(_) -> None:
+    """Called in the main thread of a worker that begins (--preload bench.running.schedulers.worker).
+
+    Ctrl-C is the client's to answer, though a terminal sends it to all; and GLFW can be silenced in this thread only.
+    """
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    importlib.import_module("tasks.episode")

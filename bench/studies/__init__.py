@@ -1,0 +1,1 @@
+"""Studies that stand beside the benchmark, each with results of its own."""

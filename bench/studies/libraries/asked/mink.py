@@ -1,0 +1,48 @@
+"""mink: the logarithm in Python, and the one in C that its FrameTask takes where it is compiled."""
+
+import mink
+import mujoco
+import numpy as np
+from mink.lie import _lie_ops_c
+
+from bench.studies.libraries.library import MATRIX, QUATERNION, Function, Library
+
+MODEL = mujoco.MjModel.from_xml_string("""
+<mujoco><worldbody><body name="body"><joint type="ball"/><inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/></body>
+</worldbody></mujoco>
+""")
+AT_IDENTITY = mink.Configuration(MODEL)
+
+
+def python_log(quat_wxyz) -> np.ndarray:
+    """SO3.log."""
+    return mink.SO3(np.array(quat_wxyz)).log()
+
+
+def compiled_log(quat_wxyz) -> np.ndarray:
+    """se3_log of _lie_ops_c, the angular part."""
+    return _lie_ops_c.se3_log(np.array((*quat_wxyz, 0.0, 0.0, 0.0)))[3:]
+
+
+def compiled_log_of_matrix(R) -> np.ndarray:
+    """xmat_xpos_to_wxyz_xyz, then se3_log."""
+    return _lie_ops_c.se3_log(_lie_ops_c.xmat_xpos_to_wxyz_xyz(np.ravel(R), np.zeros(3)))[3:]
+
+
+def frame_task(quat_wxyz) -> np.ndarray:
+    """FrameTask.compute_error of a body at the identity whose target is turned; its angular part."""
+    task = mink.FrameTask("body", "body", position_cost=1.0, orientation_cost=1.0)
+    task.set_target(mink.SE3.from_rotation(mink.SO3(np.array(quat_wxyz))))
+    return task.compute_error(AT_IDENTITY)[3:]
+
+
+LIBRARY = Library(
+    "mink",
+    "mink",
+    (
+        Function("SO3.log (Python)", QUATERNION, "rotation-vector", python_log),
+        Function("se3_log (compiled)", QUATERNION, "rotation-vector", compiled_log),
+        Function("se3_log (compiled), of a matrix", MATRIX, "rotation-vector", compiled_log_of_matrix),
+        Function("FrameTask.compute_error", QUATERNION, "rotation-vector", frame_task),
+    ),
+)

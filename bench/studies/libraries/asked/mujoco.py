@@ -1,0 +1,81 @@
+"""MuJoCo: its functions on quaternions, and what its constraints and actuators make of them."""
+
+import mujoco
+import numpy as np
+
+from bench.studies.libraries.library import MATRIX, QUATERNION, Function, Library
+
+BODY = """
+<body name="body"><joint type="ball"/><inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/><site name="body"/></body>
+"""
+ACTUATED = mujoco.MjModel.from_xml_string(f"""
+<mujoco><worldbody><site name="goal"/>{BODY}</worldbody>
+<actuator><orientation site="body" refsite="goal" kp="1"/></actuator></mujoco>
+""")
+WELDED = mujoco.MjModel.from_xml_string(f"""
+<mujoco><worldbody><body name="goal" mocap="true"/>{BODY}</worldbody>
+<equality><weld body1="goal" body2="body" relpose="0 0 0 1 0 0 0"/></equality></mujoco>
+""")
+DATA = {model: mujoco.MjData(model) for model in (ACTUATED, WELDED)}
+IDENTITY = np.array((1.0, 0.0, 0.0, 0.0))
+
+
+def sub_quat(quat_wxyz) -> np.ndarray:
+    """mju_subQuat, the difference of two quaternions that mj_differentiatePos takes."""
+    e = np.empty(3)
+    mujoco.mju_subQuat(e, quat_wxyz, IDENTITY)
+    return e
+
+
+def quat_to_vel(quat_wxyz) -> np.ndarray:
+    """mju_quat2Vel over one second."""
+    e = np.empty(3)
+    mujoco.mju_quat2Vel(e, quat_wxyz, 1.0)
+    return e
+
+
+def mat_to_quat(R) -> np.ndarray:
+    """Twice the vector part of mju_mat2Quat, with no look at the sign of the scalar."""
+    quat_wxyz = np.empty(4)
+    mujoco.mju_mat2Quat(quat_wxyz, np.ascontiguousarray(R).ravel())
+    return 2.0 * quat_wxyz[1:]
+
+
+def mat_to_vel(R) -> np.ndarray:
+    """mju_mat2Quat, then mju_quat2Vel: what operational-space controllers on MuJoCo do."""
+    quat_wxyz = np.empty(4)
+    mujoco.mju_mat2Quat(quat_wxyz, np.ascontiguousarray(R).ravel())
+    return quat_to_vel(quat_wxyz)
+
+
+def forward(model, quat_wxyz) -> mujoco.MjData:
+    """The model's data with its body turned so."""
+    data = DATA[model]
+    data.qpos[:] = quat_wxyz
+    mujoco.mj_forward(model, data)
+    return data
+
+
+def orientation_actuator(quat_wxyz) -> np.ndarray:
+    """Minus the force of the three <orientation> actuators with kp = 1 on a body that is turned so, in its frame."""
+    return -forward(ACTUATED, quat_wxyz).qfrc_actuator
+
+
+def weld_pull(quat_wxyz) -> np.ndarray:
+    """A weld's residual r, in size sin(theta/2)/2, through its own Jacobian, 4 J^T r: where a soft weld pulls."""
+    data = forward(WELDED, quat_wxyz)
+    return 4.0 * data.efc_J.reshape(-1, WELDED.nv)[3:6].T @ data.efc_pos[3:6]
+
+
+LIBRARY = Library(
+    "mujoco",
+    "mujoco",
+    (
+        Function("mju_subQuat", QUATERNION, "rotation-vector", sub_quat),
+        Function("mju_quat2Vel", QUATERNION, "rotation-vector", quat_to_vel),
+        Function("mju_mat2Quat, mju_quat2Vel", MATRIX, "rotation-vector", mat_to_vel),
+        Function("2 mju_mat2Quat, vector part", MATRIX, "sine-of-half", mat_to_quat),
+        Function("<orientation> actuator", QUATERNION, "rotation-vector", orientation_actuator),
+        Function("weld, pull", QUATERNION, "sine", weld_pull),
+    ),
+)

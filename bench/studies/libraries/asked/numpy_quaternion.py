@@ -1,0 +1,24 @@
+"""numpy-quaternion: rotation vectors of quaternions and matrices."""
+
+import quaternion
+
+from bench.studies.libraries.library import MATRIX, QUATERNION, Function, Library
+
+LIBRARY = Library(
+    "numpy-quaternion",
+    "numpy-quaternion",
+    (
+        Function(
+            "as_rotation_vector",
+            QUATERNION,
+            "rotation-vector",
+            lambda q: quaternion.as_rotation_vector(quaternion.quaternion(*q)),
+        ),
+        Function(
+            "from_rotation_matrix, as_rotation_vector",
+            MATRIX,
+            "rotation-vector",
+            lambda R: quaternion.as_rotation_vector(quaternion.from_rotation_matrix(R)),
+        ),
+    ),
+)

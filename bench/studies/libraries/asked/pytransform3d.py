@@ -1,0 +1,28 @@
+"""pytransform3d: pytransform3d.rotations."""
+
+import numpy as np
+from pytransform3d import rotations
+
+from bench.studies.libraries.library import MATRIX, QUATERNION, Function, Library
+
+
+def of_matrix(R) -> np.ndarray:
+    """axis_angle_from_matrix as one vector."""
+    found = rotations.axis_angle_from_matrix(R)
+    return found[3] * found[:3]
+
+
+LIBRARY = Library(
+    "pytransform3d",
+    "pytransform3d",
+    (
+        Function("axis_angle_from_matrix", MATRIX, "rotation-vector", of_matrix),
+        Function(
+            "compact_axis_angle_from_quaternion",
+            QUATERNION,
+            "rotation-vector",
+            rotations.compact_axis_angle_from_quaternion,
+        ),
+        Function("4 mrp_from_quaternion", QUATERNION, "mrp", lambda q: 4.0 * rotations.mrp_from_quaternion(q)),
+    ),
+)

@@ -1,0 +1,28 @@
+"""SciPy: scipy.spatial.transform.Rotation."""
+
+from scipy.spatial.transform import Rotation
+
+from bench.studies.libraries.library import MATRIX, QUATERNION, Function, Library
+
+
+def of_matrix(R) -> Rotation:
+    """As the functions that take matrices are asked."""
+    return Rotation.from_matrix(R)
+
+
+def of_quaternion(quat_wxyz) -> Rotation:
+    """As the functions that take quaternions are asked."""
+    return Rotation.from_quat(quat_wxyz, scalar_first=True)
+
+
+LIBRARY = Library(
+    "scipy",
+    "scipy",
+    (
+        Function("as_rotvec, of a matrix", MATRIX, "rotation-vector", lambda R: of_matrix(R).as_rotvec()),
+        Function("as_rotvec, of a quaternion", QUATERNION, "rotation-vector", lambda q: of_quaternion(q).as_rotvec()),
+        Function("2 as_quat, vector part", MATRIX, "sine-of-half", lambda R: 2.0 * of_matrix(R).as_quat()[:3]),
+        Function("4 as_mrp", MATRIX, "mrp", lambda R: 4.0 * of_matrix(R).as_mrp()),
+        Function('as_euler("ZYX")', MATRIX, "z-y-x", lambda R: of_matrix(R).as_euler("ZYX")[::-1]),
+    ),
+)

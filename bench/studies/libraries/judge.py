@@ -1,0 +1,115 @@
+"""Ask one function for every turn of one set, and compare what it says with the axis and angle that are known.
+
+Of an exact half turn either direction along its axis is right. A function that takes quaternions is asked of both that
+stand for a turn: (w, x, y, z) with w >= 0 is judged, and its negative compared with that.
+"""
+
+import math
+import warnings
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from bench.studies.libraries.forms import FORMS
+from bench.studies.libraries.library import QUATERNION, Function
+from bench.studies.libraries.turns import Turn, TurnSet
+
+NOUGHT = 1e-6
+"""An answer smaller than this times the angle is none: six decades below what is asked for."""
+ASTRAY_RAD = 0.1
+"""Angle between an answer and the axis beyond which it is no error in that direction, 6 degrees: no form bends so."""
+
+
+class Answer(NamedTuple):
+    """What came of one turn; lengths in rad, NaN where there is no number."""
+
+    kind: str
+    error_rad: float = math.nan
+    form_error_rad: float = math.nan
+    size_rad: float = math.nan
+
+
+def judge(function: Function, turns: TurnSet) -> dict[str, Any]:
+    """One row: the counts and the worst of a set.
+
+    Returns: how many turns, how many of them failed in each of the ways of KINDS, of how many the negative quaternion
+    is answered otherwise (`other_sheet`), the largest error, the largest error of its own form, the largest and the
+    smallest answer.
+    """
+    is_half_turn = turns.distance_rad == 0.0
+    answers = [ask(function, one, is_half_turn) for one in turns.turns]
+    kinds = [answer.kind for answer in answers]
+    return {
+        "turns": len(answers),
+        **{kind.replace("-", "_"): kinds.count(kind) for kind in KINDS},
+        "other_sheet": sum(is_other_sheet(function, one, is_half_turn) for one in turns.turns),
+        "error_rad": largest(answer.error_rad for answer in answers),
+        "form_error_rad": largest(answer.form_error_rad for answer in answers),
+        "largest_rad": largest(answer.size_rad for answer in answers),
+        "smallest_rad": -largest(-answer.size_rad for answer in answers),
+    }
+
+
+KINDS = ("raised", "not-finite", "nought", "long-way", "astray")
+"""How an answer can fail to point the short way along the axis; else it is `usable`."""
+
+
+def ask(function: Function, turn: Turn, is_half_turn: bool) -> Answer:
+    """What a function says of one turn."""
+    try:
+        e = said(function, turn)
+    except Exception:  # whatever a library raises is its answer
+        return Answer("raised")
+    if not np.isfinite(e).all():
+        return Answer("not-finite")
+    form, size = FORMS[function.form], float(np.linalg.norm(e))
+    axis = -turn.axis if is_half_turn and e @ turn.axis < 0.0 else turn.axis
+    apart = math.atan2(float(np.linalg.norm(np.cross(axis, e))), float(axis @ e))
+    if size <= NOUGHT * turn.angle:
+        kind = "nought"
+    elif apart > math.pi - ASTRAY_RAD:
+        kind = "long-way"
+    elif apart > ASTRAY_RAD:
+        kind = "astray"
+    else:
+        kind = "usable"
+    return Answer(kind, gap(e, turn.angle * axis), form_error(form, e, turn, axis), size)
+
+
+def said(function: Function, turn: Turn, sign: float = 1.0) -> np.ndarray:
+    """The three numbers; a library that warns of them is taken at its word all the same."""
+    value = sign * turn.quat_wxyz if function.takes == QUATERNION else turn.R.copy()
+    with warnings.catch_warnings(), np.errstate(all="ignore"):
+        warnings.simplefilter("ignore")
+        return np.asarray(function.call(value), dtype=float).reshape(3)
+
+
+def form_error(form, e: np.ndarray, turn: Turn, axis: np.ndarray) -> float:
+    """How far e is from what it means to be: in rad along the axis, or of the turn that its angles stand for."""
+    if form.size is not None:
+        return gap(e, form.size(turn.angle) * axis)
+    # |R - R'| = 2 sqrt(2) sin(angle/2) in Frobenius' norm
+    return 2.0 * math.asin(min(1.0, float(np.linalg.norm(form.matrix(e) - turn.R)) / math.sqrt(8.0)))
+
+
+def is_other_sheet(function: Function, turn: Turn, is_half_turn: bool) -> bool:
+    """Whether -q, the same turn, has an answer that differs by more than a thousandth of the angle."""
+    if function.takes != QUATERNION:
+        return False
+    try:
+        e, other = said(function, turn), said(function, turn, -1.0)
+    except Exception:  # counted as raised already
+        return False
+    if is_half_turn and e @ other < 0.0:
+        other = -other
+    return not gap(e, other) <= 1e-3 * turn.angle
+
+
+def gap(one: np.ndarray, other: np.ndarray) -> float:
+    """|one - other|."""
+    return float(np.linalg.norm(one - other))
+
+
+def largest(numbers) -> float:
+    """The largest that is a number; NaN if none is."""
+    return max((number for number in numbers if not math.isnan(number)), default=math.nan)

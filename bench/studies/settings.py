@@ -1,0 +1,84 @@
+"""Is a run the same on every processor? Quick suites under settings that round as others do: results/settings.
+
+    python -m bench.studies.settings                every setting, some two minutes each
+    python -m bench.studies.settings --only blas    one anew; the others, and other machines', stay as they are
+
+Libraries choose their kernels by the processor: OpenBLAS those of its linear algebra, numpy its vectors, the C library
+its sin and cos, the compiler its target. Variables make them choose as on another one. Each run is held against
+results/reference, bit for bit and by the gate.
+"""
+
+import argparse
+import os
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from bench.provenance import ROOT, machine_key, rounded_on
+from bench.regression.rows import TABLES, differences
+from bench.tables.store import read, read_json, write_json
+
+REFERENCE = ROOT / "results" / "reference"
+STORED = ROOT / "results" / "settings" / "settings.json"
+
+NO_VECTORS = "AVX512F AVX512CD AVX512_SKX AVX512_CLX AVX512_CNL AVX512_ICL X86_V4 AVX2 FMA3 X86_V3"
+
+SETTINGS: dict[str, dict[str, str]] = {
+    "as-it-is": {},
+    "blas": {"OPENBLAS_CORETYPE": "Prescott"},
+    "blas-haswell": {"OPENBLAS_CORETYPE": "Haswell"},
+    "blas-zen": {"OPENBLAS_CORETYPE": "Zen"},
+    "compiler": {"NUMBA_CPU_NAME": "x86-64", "NUMBA_CPU_FEATURES": "", "NPY_DISABLE_CPU_FEATURES": NO_VECTORS},
+    "c-library": {"GLIBC_TUNABLES": "glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4,-AVX512F"},
+}
+"""What each is called, and the variables that make it."""
+
+
+def measure(variables: dict[str, str], folder: Path) -> dict:
+    """A quick suite under these variables, against the reference."""
+    command = [sys.executable, "-m", "bench", "run", "--suite", "quick", "--out", str(folder)]
+    subprocess.run(command, env=os.environ | variables, check=True)
+    return {
+        "made_on": rounded_on(read_json(folder / "provenance.json")),
+        "gate": len(differences(REFERENCE, folder)),
+        "tables": {table: _bits(read(REFERENCE, table), read(folder, table)) for table in TABLES},
+    }
+
+
+def _bits(old: pd.DataFrame, new: pd.DataFrame) -> dict:
+    """How many rows a table has, how many of them differ in any bit, and in how many the outcome does."""
+    if old.shape != new.shape:
+        return {"rows": len(old), "differ": max(len(old), len(new)), "outcomes": 0}
+    unlike = {name: ~_same(old[name], new[name]) for name in old}
+    outcomes = unlike.get("outcome", np.zeros(len(old), bool))
+    return {"rows": len(old), "differ": int(np.any([*unlike.values()], axis=0).sum()), "outcomes": int(outcomes.sum())}
+
+
+def _same(a: pd.Series, b: pd.Series) -> np.ndarray:
+    if a.dtype.kind not in "iuf":
+        return (a.astype(str) == b.astype(str)).to_numpy()
+    return (a.to_numpy() == b.to_numpy()) | (a.isna() & b.isna()).to_numpy()
+
+
+def main() -> None:
+    """The study's command."""
+    parser = argparse.ArgumentParser(prog="python -m bench.studies.settings", description=__doc__.splitlines()[0])
+    parser.add_argument("--only", choices=list(SETTINGS), help="one setting anew")
+    parser.add_argument("--out", type=Path, default=STORED, help="where to write (default: results/settings)")
+    chosen = parser.parse_args()
+    found = read_json(chosen.out) if chosen.out.is_file() else {}
+    here = found.setdefault(machine_key(), {})
+    for name in [chosen.only] if chosen.only else list(SETTINGS):
+        print(f"{name}: {SETTINGS[name] or 'this machine as it is'}", flush=True)
+        with tempfile.TemporaryDirectory(prefix="orientation-bench-") as folder:
+            here[name] = measure(SETTINGS[name], Path(folder) / "run")
+        write_json(chosen.out, found)
+        print(f"  {here[name]['gate']} differences for the gate; {here[name]['tables']}", flush=True)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,59 @@
+"""The laws in a results folder that are none of ours: run if they are this user's, else known by their rows."""
+
+from pathlib import Path
+
+import pandas as pd
+
+from bench.contenders.law_file import WORD, load_law
+from bench.contenders.registry import known_regulators, known_representations
+from bench.errors import BadResults
+from bench.law.contender import Regulator
+from bench.tables import trust
+from bench.tables.store import refuse_link
+
+UNTRUSTED = "a file that came with the results; it was not run"
+"""The source of a law that is known by its rows alone."""
+
+
+def kept_laws(folder: Path, costs: pd.DataFrame) -> tuple[Regulator, ...]:
+    """The laws that the folder keeps, in alphabetical order; one that is now ours is left out.
+
+    Args:
+        costs: the folder's costs.parquet, which says what a law acts on that may not run.
+    Errors:
+        BadResults: laws/ is a link or holds one, or a file whose name is no word. BadLaw: of a law that may run.
+    """
+    refuse_link(folder / "laws")
+    paths = sorted((folder / "laws").glob("*.py"))
+    ours = known_regulators()
+    return tuple(_law(path, costs) for path in paths if _word(path) not in ours)
+
+
+def _word(path: Path) -> str:
+    word = path.stem.replace("_", "-")
+    if not WORD.fullmatch(word):
+        raise BadResults(f"{str(path)!r}: a law's file is named by a word of a-z, 0-9 and _; take it out of the folder")
+    return word
+
+
+def _law(path: Path, costs: pd.DataFrame) -> Regulator:
+    refuse_link(path)
+    text = path.read_bytes()
+    return load_law(path, text) if trust.is_own(text) else _by_its_rows(path, costs)
+
+
+def _by_its_rows(path: Path, costs: pd.DataFrame) -> Regulator:
+    """A regulator without a law, on the coordinates that its rows name."""
+    word = _word(path)
+    rows = costs[costs["regulator"] == word]
+    known = known_representations()
+    coordinates = tuple(name for name in rows["representation"].astype(str).unique() if name in known)
+    return Regulator(
+        word,
+        title=word,
+        source=UNTRUSTED,
+        formula="",
+        coordinates=coordinates or "rotation-matrix",
+        property="nothing is known",
+        origin=str(path),
+    )

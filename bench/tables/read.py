@@ -1,0 +1,126 @@
+"""What the report and the claims read: the folder of a finished run, and its tables, each read once a process.
+
+    read.episodes(engine="ideal-rk4", start_set="uniform")     the rows that have these words
+    read.costs(), read.boundaries(), read.poses(), read.traces(), read.compliance()
+    read.provenance(), read.own_laws()
+
+Every frame about contenders has a column `contender`: "regulator" or "regulator/representation", on an arm
+"...@jacobian+inverse", and in contact "controller/representation+form". Rows about the free body are those that have
+the words FREE_BODY.
+"""
+
+import functools
+import os
+from pathlib import Path
+
+import pandas as pd
+
+from bench.errors import BadResults
+from bench.law.contender import Regulator
+from bench.tables.kept_laws import kept_laws
+from bench.tables.schema import RESULTS
+from bench.tables.store import read, read_json
+
+VARIABLE = "ORIENTATION_BENCH_RESULTS"
+
+FREE_BODY = {"jacobian": ""}
+"""The words of every row about the body that turns freely, whatever the table: only an arm has a Jacobian."""
+
+
+def folder() -> Path:
+    """The folder that the environment names, else results/latest if its run has finished, else results/reference."""
+    named = os.environ.get(VARIABLE)
+    if named:
+        return Path(named).expanduser().resolve()
+    finished = (RESULTS / "latest" / "provenance.json").is_file()
+    return RESULTS / ("latest" if finished else "reference")
+
+
+def episodes(**words: str) -> pd.DataFrame:
+    """Rows of episodes.parquet that have these words, as in episodes(engine="native", start_set="poles")."""
+    return chosen(table(folder(), "episodes"), words)
+
+
+def traces(**words: str) -> pd.DataFrame:
+    """Rows of traces.parquet that have these words."""
+    return chosen(table(folder(), "traces"), words)
+
+
+def costs(**words: str) -> pd.DataFrame:
+    """Rows of costs.parquet that have these words, as in costs(branch="typical", stage="total")."""
+    return chosen(table(folder(), "costs"), words)
+
+
+def boundaries(**words: str) -> pd.DataFrame:
+    """Rows of boundaries.parquet that have these words."""
+    return chosen(table(folder(), "boundaries"), words)
+
+
+def poses(**words: str) -> pd.DataFrame:
+    """Rows of poses.parquet that have these words, as in poses(arm="puma560", representation="zyx-euler")."""
+    return chosen(table(folder(), "poses"), words)
+
+
+def compliance(**words: str) -> pd.DataFrame:
+    """Rows of compliance.parquet that have these words, as in compliance(task="wrench-probe", arm="ur5e")."""
+    return chosen(table(folder(), "compliance"), words)
+
+
+def robustness(**words: str) -> pd.DataFrame:
+    """Rows of robustness.parquet that have these words, as in robustness(axis="delay")."""
+    return chosen(table(folder(), "robustness"), words)
+
+
+def provenance() -> dict:
+    """Where the run comes from: provenance.json."""
+    return read_json(folder() / "provenance.json")
+
+
+def own_laws(run: Path | None = None) -> tuple[Regulator, ...]:
+    """The user's laws that took part in a run, see `kept_laws`; in the chosen folder's if none is named."""
+    run = run or folder()
+    return kept_laws(run, table(run, "costs"))
+
+
+@functools.cache
+def table(path: Path, name: str) -> pd.DataFrame:
+    """A whole table with `contender` added where it has some; shared, so copy it before you change it."""
+    frame = read(path, name)
+    if "controller" in frame:
+        return with_compliant(frame)
+    return with_contender(frame) if "regulator" in frame else frame
+
+
+def with_contender(frame: pd.DataFrame) -> pd.DataFrame:
+    """The frame with `contender` added, as the command line writes it."""
+    regulator, representation = frame["regulator"].astype(str), frame["representation"].astype(str)
+    names = regulator.where(representation == "", regulator + "/" + representation)
+    if "jacobian" in frame:  # not in a table of times
+        jacobian, inverse = frame["jacobian"].astype(str), frame["inverse"].astype(str)
+        names = names.where(jacobian == "", names + "@" + jacobian + "+" + inverse)
+    return frame.assign(contender=names.astype("category"))
+
+
+def with_compliant(frame: pd.DataFrame) -> pd.DataFrame:
+    """Rows of compliance.parquet with `contender` added, as the command line writes it."""
+    names = frame["controller"].astype(str)
+    for mark, column in (("/", "representation"), ("+", "form")):
+        word = frame[column].astype(str)
+        names = names.where(word == "", names + mark + word)
+    return frame.assign(contender=names.astype("category"))
+
+
+def chosen(frame: pd.DataFrame, words: dict[str, str]) -> pd.DataFrame:
+    """The rows whose columns have these words, counted anew from 0, with only the words that occur.
+
+    Errors:
+        BadResults: the table has no such column.
+    """
+    for column, word in words.items():
+        if column not in frame:
+            raise BadResults(f"no column '{column}' in this table; it has: {', '.join(map(str, frame.columns))}")
+        frame = frame[frame[column] == word]
+    frame = frame.reset_index(drop=True)
+    for column in frame.select_dtypes("category"):
+        frame[column] = frame[column].cat.remove_unused_categories()
+    return frame

@@ -1,0 +1,1 @@
+"""The book: its pages, its figures, and how it is built."""

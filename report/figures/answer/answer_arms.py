@@ -1,0 +1,53 @@
+"""The later laws on arms, beside the paper's three: what settles, and when, by the geometric Jacobian."""
+
+from __future__ import annotations
+
+import pandas as pd
+
+from bench.contenders.combinations import BEST
+from report.figures.arms import arm_rows
+from report.figures.kit import families, html
+from report.figures.kit.laws import TITLES
+
+
+def rows() -> pd.DataFrame:
+    """Episodes of the paper's three and of the best later laws by the geometric Jacobian and the standard inverse."""
+    every = arm_rows.episodes()
+    laws = [*TITLES, *(word.partition("@")[0] for word in BEST)]
+    is_wanted = (every["way"] == every["law"] + f"@geometric+{arm_rows.STANDARD}") & every["law"].isin(laws)
+    return every[is_wanted]
+
+
+def table(found: pd.DataFrame) -> html.Markdown:
+    """A row a law: episodes that settle on each arm, on all of them, and the median settling time of clear starts."""
+    lines = []
+    for law in families.in_order(found["law"].unique()):
+        own = found[found["law"] == law]
+        cells = {arm: _settled(own[own["arm"] == arm]) for arm in arm_rows.arms(found)}
+        clear = own.loc[(own["start_set"] == "clear") & arm_rows.settled(own), "settling_time_s"]
+        line = {"Law": families.link(law, families.word(law)), **cells, "All": _settled(own)}
+        lines.append({**line, "Clear starts, median [s]": f"{clear.median():.3f}" if len(clear) else html.MISSING})
+    return html.table(pd.DataFrame(lines))
+
+
+def _settled(own: pd.DataFrame) -> str:
+    return f"{int(arm_rows.settled(own).sum())} of {len(own)}"
+
+
+def facts(found: pd.DataFrame) -> dict:
+    """How many later laws ran, and of all laws the one that settles most and the one that settles least."""
+    shares = arm_rows.settled(found).groupby(found["law"]).mean()
+    later = [law for law in shares.index if law not in TITLES]
+    same = shares[later].nunique() <= 1
+    return {
+        "arms": found["arm"].nunique(),
+        "arm_laws": len(later),
+        "arm_starts": len(found) // max(1, len(shares)),
+        "arm_most": families.word(str(shares.idxmax())),
+        "arm_most_share": f"{100 * shares.max():.0f}",
+        "arm_least": families.word(str(shares.idxmin())),
+        "arm_least_share": f"{100 * shares.min():.0f}",
+        "arm_alike": "all alike"
+        if same
+        else f"from {100 * shares[later].min():.0f} to {100 * shares[later].max():.0f} %",
+    }

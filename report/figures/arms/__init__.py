@@ -1,0 +1,1 @@
+"""Laws on arms: outcomes, Jacobians, costs, wrong models."""

@@ -1,0 +1,105 @@
+"""Starts whose turn passes the pole of Z-Y-X angles: (2.2) with a law on R beside (3.7), arm by arm."""
+
+from __future__ import annotations
+
+import numpy as np
+import pandas as pd
+
+from report.figures.arms import arm_rows
+from report.figures.kit import html, style
+from report.figures.kit.inline import responsive_picture
+
+SHOWN = (arm_rows.ON_MATRIX, arm_rows.ON_ANGLES)
+MISSES = r"-(exact|k\d+)$"
+HAMMERED = 10.0
+"""Peak torque over that of the law on R from the same start, as in claim C20: beyond it something hammers the arm."""
+
+
+def decade(start_ids: pd.Series) -> pd.Series:
+    """k of a start that misses the pole by 10^-k rad; one more than the largest for exact ones."""
+    words = start_ids.str.extract(MISSES)[0]
+    numbers = pd.to_numeric(words.str.removeprefix("k"), errors="coerce")
+    beyond = 1 + (int(numbers.max()) if numbers.notna().any() else 0)
+    return numbers.fillna(beyond).astype(int)
+
+
+@responsive_picture
+def pole(rows: pd.DataFrame, narrow: bool):
+    """Peak torque over rated against how near to the pole the turn passes; a cross for an episode that fails.
+
+    Args:
+        rows: of `arm_rows.episodes`, by the standard inverse.
+    """
+    starts = rows[(rows["start_set"] == "pole") & rows["controller"].isin(SHOWN)]
+    starts = starts.assign(k=decade(starts["start_id"]))
+    names = arm_rows.arms(starts)
+    cols = 1 if narrow else 2
+    height = (1.75 if narrow else 1.9) * -(-len(names) // cols) + 0.8
+    figure, grid = style.panels(
+        -(-len(names) // cols), cols, height=height, narrow=narrow, sharex=True, sharey=True, squeeze=False
+    )
+    said = []
+    for axes, arm in zip(grid.flat, names, strict=False):
+        told = []
+        for step, controller in enumerate(SHOWN):
+            own = starts[(starts["arm"] == arm) & (starts["controller"] == controller)]
+            look, place = style.look(controller), own["k"] + 0.16 * (2 * step - 1)
+            good = arm_rows.settled(own)
+            face = {"color": look.colour, "linestyle": "none"}
+            axes.plot(place[good], own.loc[good, "peak_torque_ratio"], marker=look.marker, markersize=4, **face)
+            axes.plot(place[~good], own.loc[~good, "peak_torque_ratio"], marker="x", markersize=6, **face)
+            told.append(
+                f"{arm_rows.title(controller)} fails {int((~good).sum())} of {len(own)}, median peak torque "
+                f"{html.number(own['peak_torque_ratio'].median())} times the rated one"
+            )
+        axes.axhline(1.0, color=style.INK, linewidth=0.9, linestyle=style.DASHED)
+        axes.set(title=arm, yscale="log")
+        axes.minorticks_off()
+        said.append(f"{arm}: {', '.join(told)}")
+    for axes in grid.flat[len(names) :]:
+        axes.axis("off")
+    steps = sorted(set(starts["k"]))
+    labels = [f"$10^{{-{k}}}$" for k in steps[:-1]] + ["0"]
+    for axes in grid[-1]:
+        axes.set_xticks(steps, labels)
+        axes.set_xlabel("passes the pole at [rad]")
+    for controller in SHOWN:
+        look = style.look(controller)
+        axes.plot([], [], look.marker, color=look.colour, label=arm_rows.title(controller), markersize=5)
+    axes.plot([], [], "x", color=style.INK, label="fails", markersize=6, linestyle="none")
+    handles, words = axes.get_legend_handles_labels()
+    figure.legend(handles, words, loc="outside lower center", ncols=1 if narrow else 3)
+    style.label_rows(figure, "peak torque over rated")
+    return figure, f"Turns that pass the pole. {'; '.join(said)}."
+
+
+def side_by_side(rows: pd.DataFrame) -> pd.DataFrame:
+    """Pole starts by (3.7) and by (2.2) with the law on R, joined: a row a start."""
+    starts = rows[rows["start_set"] == "pole"]
+    columns = ["arm", "start_id", "outcome", "path_ratio", "peak_torque_ratio", "cond_jacobian_max", "min_margin"]
+    own, other = (arm_rows.of(starts, controller)[columns] for controller in (arm_rows.ON_ANGLES, arm_rows.ON_MATRIX))
+    both = own.merge(other, on=["arm", "start_id"], suffixes=("", "_matrix"))
+    return both.assign(
+        fails=both["outcome"] != "settled",
+        fails_matrix=both["outcome_matrix"] != "settled",
+        harder=both["peak_torque_ratio"] / both["peak_torque_ratio_matrix"],
+    )
+
+
+def table(rows: pd.DataFrame) -> html.Markdown:
+    """An arm a row: failures of both, way travelled over the shortest, peak torque of one over the other's."""
+    both = side_by_side(rows)
+    lines = []
+    for arm, own in both.groupby("arm"):
+        lines.append(
+            {
+                "Arm": arm,
+                "Starts": len(own),
+                "(2.2) fails": int(own["fails_matrix"].sum()),
+                "(3.7) fails": int(own["fails"].sum()),
+                "fails or hammers": int((own["fails"] | (own["harder"] > HAMMERED)).sum()),
+                "Way": float(own.loc[~own["fails"], "path_ratio"].median()) if (~own["fails"]).any() else np.nan,
+                "Torque": float(own["harder"].median()),
+            }
+        )
+    return html.table(pd.DataFrame(lines), {"Way": ".1f", "Torque": html.number})

@@ -1,0 +1,95 @@
+"""What the pages on Jacobians read of poses.parquet: rows by set, arms by name, how singularities are told apart.
+
+A run without poses (or without some of them) gives empty tables, and the figures say so.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import pandas as pd
+
+import tasks
+from bench.contenders.registry import known_representations
+from bench.errors import BadResults
+from bench.tables import read
+from bench.tables.schema import pose_columns
+from report.figures.kit import style
+
+PAPERS = "zyx-euler"
+NOT_HERE = "Not in this run: it looked at no poses of arms."
+
+BAD = 100.0
+"""Condition number (metres, radians) from which on maps and tables call a Jacobian bad: twice what the claims allow."""
+
+NEAR = 0.1
+"""Margin of the coordinates below which a pose counts as near their singularity; of Z-Y-X angles 5.7 deg of beta."""
+
+LOOKS = {
+    "puma560": style.Look("#d55e00", "s", style.DASHED),
+    "ur5e": style.Look("#0072b2", "o", style.SOLID),
+    "panda": style.Look("#009e73", "^", style.DASH_DOT),
+    "jaco": style.Look("#cc79a7", "D", style.DOTTED),
+}
+COORDINATES = {
+    "zyx-euler": style.Look("#d55e00", "s", style.SOLID),
+    "xyz-euler": style.Look("#e69f00", "v", style.DASHED),
+    "zyz-euler": style.Look("#009e73", "^", style.DASH_DOT),
+    "rotation-vector": style.Look("#cc79a7", "D", style.DOTTED),
+    "mrp": style.Look("#56b4e9", "X", style.DASHED),
+    "quaternion": style.Look("#0072b2", "o", style.SOLID),
+}
+
+
+def poses(pose_set: str = "", representation: str = "") -> pd.DataFrame:
+    """Rows of this run's poses with these words; an empty table where it has none."""
+    words = {"pose_set": pose_set, "representation": representation}
+    try:
+        return read.poses(**{name: word for name, word in words.items() if word})
+    except BadResults:
+        if (read.folder() / "poses.parquet").exists():
+            raise
+        return pd.DataFrame(columns=[column.name for column in pose_columns()])
+
+
+def arms(rows: pd.DataFrame) -> list[str]:
+    """Names of the arms that the rows are about, the paper's own first."""
+    there = set(rows["arm"].astype(str))
+    return [name for name in LOOKS if name in there] + sorted(there - set(LOOKS))
+
+
+def title(arm: str) -> str:
+    """How an arm is called."""
+    return tasks.arm(arm).title if arm in tasks.arm_names() else arm
+
+
+def look(arm: str) -> style.Look:
+    """How an arm is drawn."""
+    return LOOKS.get(arm) or style.look(arm)
+
+
+def look_of_coordinates(name: str) -> style.Look:
+    """How the Jacobian of these coordinates is drawn."""
+    return COORDINATES.get(name) or style.look(name)
+
+
+def short_title(name: str) -> str:
+    """How coordinates are called at the head of a column."""
+    return known_representations()[name].title.removesuffix(" angles")
+
+
+def share(found: pd.Series) -> float:
+    """How many of the rows it is true of; NaN of none."""
+    return float(found.mean()) if len(found) else float("nan")
+
+
+def finite(values: pd.Series, ceiling: float) -> np.ndarray:
+    """Values for a logarithmic axis: what is infinite or beyond stands at the ceiling."""
+    return np.minimum(np.nan_to_num(values.to_numpy(dtype=float), nan=ceiling, posinf=ceiling), ceiling)
+
+
+def empty(draw: str, narrow: bool):
+    """A figure that says that there is nothing to draw."""
+    figure, axes = style.panels(height=1.0, narrow=narrow)
+    axes.axis("off")
+    axes.text(0.5, 0.5, NOT_HERE, ha="center", va="center", color=style.MUTED, wrap=True)
+    return figure, f"{draw}: {NOT_HERE}"

@@ -1,0 +1,137 @@
+"""Episodes on arms: by which law, Jacobian and inverse each is, in what order they are shown, and how they are called.
+
+A way is `law@jacobian+inverse`, with "standard" for the inverse that is taken if none is named, so that six joints and
+seven share a line: it is another one for each.
+"""
+
+from __future__ import annotations
+
+import functools
+
+import numpy as np
+import pandas as pd
+
+import tasks
+from bench.contenders import combinations
+from bench.contenders.registry import (
+    all_contenders,
+    contenders_of,
+    known_inverses,
+    known_jacobians,
+    known_regulators,
+    known_representations,
+)
+from bench.experiments.suites import NOMINAL
+from bench.law.contender import Contender
+from bench.tables import read
+from report.figures.kit import families
+
+STANDARD = "standard"
+WORDS = ("arm", "variation", "regulator", "representation", "jacobian", "inverse", "start_set", "start_id", "outcome")
+ON_MATRIX, ON_ANGLES = "rotation-matrix@geometric", "feedback-linearized/zyx-euler@analytic"
+"""The law on R by (2.2), and the paper's (3.7)."""
+SAME_BOTH_WAYS = "feedback-linearized/zyx-euler@geometric"
+"""(2.2) with (2.15): the law of (3.7), by the geometric Jacobian."""
+PAPERS_JACOBIANS = ("geometric", "analytic")
+SETS = ("clear", "pole", "wrist", "half-turn", "uniform", "tumbling")
+"""Nothing in the way, then what the paper warns of, then the rest."""
+
+
+def episodes(variation: str = NOMINAL) -> pd.DataFrame:
+    """Episodes of the run on arms under one variation, with their law, way and controller; maybe none."""
+    found = read.episodes(task="arm-regulation", engine="native")
+    return named(found[found["variation"] == variation])
+
+
+def varied() -> pd.DataFrame:
+    """Those whose plant differs from the controller's model; maybe none."""
+    found = read.episodes(task="arm-regulation", engine="native")
+    return named(found[found["variation"] != NOMINAL])
+
+
+def named(frame: pd.DataFrame) -> pd.DataFrame:
+    """The frame with plain words, and columns law, controller (law@jacobian) and way (law@jacobian+inverse)."""
+    frame = frame.assign(**{word: frame[word].astype(str) for word in WORDS if word in frame})
+    slash = np.where(frame["representation"] == "", "", "/")
+    law = frame["regulator"] + slash + frame["representation"]
+    parts = zip(frame["arm"], law, frame["jacobian"], frame["inverse"], strict=True)
+    inverse = [STANDARD if one[3] == standard(*one[:3]) else one[3] for one in parts]
+    controller = law + "@" + frame["jacobian"]
+    return frame.assign(law=law, controller=controller, way=controller + "+" + pd.Series(inverse, frame.index, str))
+
+
+@functools.cache
+def standard(arm: str, law: str, jacobian: str) -> str:
+    """The inverse that this law and Jacobian take on that arm if none is named; empty if nothing fits."""
+    fitting = combinations.on((f"{law}@{jacobian}+{STANDARD}",), contenders(), tasks.arm(arm).joints)
+    return fitting[0].way[1] if fitting else ""
+
+
+@functools.cache
+def contenders() -> dict[str, Contender]:
+    """Every law in its coordinates by name, the user's own of the run among them."""
+    own = [one for law in read.own_laws() for one in contenders_of(law)]
+    return {one.name: one for one in (*all_contenders(), *own)}
+
+
+def with_standard(rows: pd.DataFrame) -> pd.DataFrame:
+    """Those by the paper's two Jacobians and the standard inverse."""
+    return rows[rows["way"].str.endswith(f"+{STANDARD}") & rows["jacobian"].isin(PAPERS_JACOBIANS)]
+
+
+def of(rows: pd.DataFrame, controller: str, inverse: str = STANDARD, start_set: str = "") -> pd.DataFrame:
+    """Rows by one controller and inverse, from one start set or from all."""
+    rows = rows[rows["way"] == f"{controller}+{inverse}"]
+    return rows[rows["start_set"] == start_set] if start_set else rows
+
+
+def in_order(rows: pd.DataFrame) -> list[str]:
+    """The controllers that the rows hold: (2.2) first, by the order of the paper and then by name."""
+    first = (ON_MATRIX, "linearized-euler/zyx-euler@geometric", "linearized-euler-relative/zyx-euler@geometric")
+    ranks = {name: place for place, name in enumerate((*first, SAME_BOTH_WAYS, ON_ANGLES))}
+    return sorted(set(rows["controller"]), key=lambda name: (equation(name), ranks.get(name, len(ranks)), name))
+
+
+def equation(controller: str) -> str:
+    """Which of the paper's two controllers it is."""
+    jacobian = known_jacobians()[controller.partition("@")[2]]
+    return "(2.2)" if jacobian.takes == "angular-acceleration" else "(3.7)"
+
+
+def title(controller: str) -> str:
+    """How a controller is called in a figure: its equation, and the law or the coordinates."""
+    law, _, jacobian = controller.partition("@")
+    regulator, _, coordinates = law.partition("/")
+    which = known_representations()[coordinates].title.removesuffix(" angles") if coordinates else ""
+    known = known_regulators()
+    name = known[regulator].title.partition(" (")[0] if regulator in known else regulator
+    if regulator in known and known[regulator].later:
+        word = families.word(law)
+        name = word[:1].upper() + word[1:]
+    if equation(controller) == "(2.2)":
+        acts_on_any = coordinates and regulator in known and known[regulator].coordinate_law_in is not None
+        said = f"{name}, {which}" if acts_on_any else name
+    else:
+        said = which
+    frame = "" if jacobian in PAPERS_JACOBIANS else f", {known_jacobians()[jacobian].title.lower()}"
+    return f"{equation(controller)} {said}{frame}"
+
+
+def title_of_inverse(inverse: str) -> str:
+    """How an inverse is called in a figure."""
+    return "Inverse, or pseudo-inverse" if inverse == STANDARD else known_inverses()[inverse].title
+
+
+def arms(rows: pd.DataFrame) -> list[str]:
+    """The arms of the rows, sorted."""
+    return sorted(set(rows["arm"]))
+
+
+def settled(rows: pd.DataFrame) -> pd.Series:
+    """Whether each episode settled."""
+    return rows["outcome"] == "settled"
+
+
+def short_title(arm: str) -> str:
+    """An arm's name without its maker: the last word or two of its title."""
+    return tasks.arm(arm).title.split(" ", 1)[-1]

@@ -1,0 +1,110 @@
+"""Settling times on arms against those of the free body, for the same law, start and goal.
+
+The paper's claim for both of its controllers: behind them the wrist is the free body of its first chapter. The free
+body runs here, in MuJoCo too, from the orientations of the arm's starts.
+"""
+
+from __future__ import annotations
+
+import functools
+
+import numpy as np
+import pandas as pd
+
+from bench.engines.episode import OUTCOME, SETTLING_TICK, Settings
+from bench.engines.run import run
+from bench.law.contender import Gains
+from bench.metrics.registry import metrics_of
+from report.figures.arms import arm_rows
+from report.figures.kit import style
+from report.figures.kit.inline import responsive_picture
+from tasks import Start
+from tasks.rules import RULES
+from tasks.verdict import SETTLED
+
+START_SET = "clear"
+CLOSE_TICKS = 5
+"""Differences of so many ticks are told apart from larger ones: both plants integrate with errors of first order."""
+DRAWN_MS = 60.0
+MARKERS = ("o", "s", "^", "D", "v", "P", "X")
+
+
+def differences(rows: pd.DataFrame) -> pd.DataFrame:
+    """Clear starts by the standard inverse: settling time on the arm, on the free body, and the difference [s]."""
+    clear = rows[rows["start_set"] == START_SET]
+    parts = []
+    for law, own in clear.groupby("law"):
+        starts = own.drop_duplicates(["arm", "start_id"])
+        alone = pd.Series(_alone(law, starts), index=pd.MultiIndex.from_frame(starts[["arm", "start_id"]]))
+        there = alone.reindex(pd.MultiIndex.from_frame(own[["arm", "start_id"]])).to_numpy()
+        parts.append(own.assign(alone_s=there, later_s=own["settling_time_s"] - there))
+    return pd.concat(parts, ignore_index=True) if parts else clear.assign(alone_s=np.nan, later_s=np.nan)
+
+
+def _alone(law: str, starts: pd.DataFrame) -> list[float]:
+    """Settling times of the free body from the orientations of these rows [s], NaN where it does not settle."""
+    columns = [[f"{kind}_{axis}" for axis in "wxyz"] for kind in ("quat", "goal_quat")]
+    columns.insert(1, [f"omega0_{axis}" for axis in "xyz"])
+    places = (starts[names].itertuples(index=False, name=None) for names in columns)
+    given = tuple(Start(str(i), *place) for i, place in enumerate(zip(*places, strict=True)))
+    one = starts.iloc[0]
+    horizon = float(starts["horizon_s"].max())
+    return list(_settling_s(law, given, float(one["kp"]), float(one["kv"]), float(one["dt_s"]), horizon))
+
+
+@functools.cache
+def _settling_s(law: str, starts: tuple, kp: float, kv: float, dt_s: float, horizon_s: float) -> tuple[float, ...]:
+    ticks = round(horizon_s / dt_s)
+    limits = RULES.command_limit, RULES.speed_limit, RULES.rest_speed, RULES.rest_command
+    settings = Settings(Gains(kp, kv), dt_s, ticks, round(RULES.hold_s / dt_s), *limits)
+    found = run("native", arm_rows.contenders()[law], "free-body", starts, settings, metrics_of(on_arm=False))
+    times = np.where(found[:, OUTCOME] == SETTLED, found[:, SETTLING_TICK] * dt_s, np.nan)
+    return tuple(times.tolist())
+
+
+@responsive_picture
+def later(found: pd.DataFrame, narrow: bool):
+    """How much later the arm settles than the free body, a row a controller, a mark an episode.
+
+    Args:
+        found: of `differences`.
+    """
+    controllers = arm_rows.in_order(found)
+    figure, axes = style.panels(height=(0.5 if narrow else 0.4) * len(controllers) + 1.2, narrow=narrow)
+    names = arm_rows.arms(found)
+    said = []
+    for i, controller in enumerate(controllers):
+        own = found[found["controller"] == controller]
+        look = style.look(controller)
+        for k, arm in enumerate(names):
+            later_ms = 1e3 * own.loc[own["arm"] == arm, "later_s"].dropna().clip(-DRAWN_MS, DRAWN_MS)
+            place = i + 0.11 * (k - 0.5 * (len(names) - 1)) + (0.16 if narrow else 0.0)
+            face = {"markersize": 3.2, "markeredgewidth": 0.6, "alpha": 0.75}
+            axes.plot(later_ms, [place] * len(later_ms), MARKERS[k % len(MARKERS)], color=look.colour, **face)
+        title = arm_rows.title(controller)
+        if narrow:
+            axes.text(-DRAWN_MS, i - 0.12, title, ha="left", va="bottom", fontsize=9)
+        both = own["later_s"].dropna()
+        if len(both):
+            middle = f"median {1e3 * both.median():+.1f}, largest {1e3 * both.abs().max():.0f} ms of {len(both)}"
+            said.append(f"{title}: {middle}")
+    for k, arm in enumerate(names):
+        axes.plot([], [], MARKERS[k % len(MARKERS)], color=style.INK, markersize=4.5, label=arm)
+    axes.axvline(0.0, color=style.MUTED, linewidth=0.9, zorder=0)
+    axes.set_xscale("symlog", linthresh=CLOSE_TICKS, linscale=1.5)
+    ticks = [-50, -10, -5, 0, 5, 10, 50]
+    axes.set_xticks(ticks, [f"{tick}".replace("-", "\N{MINUS SIGN}") for tick in ticks])
+    axes.minorticks_off()
+    axes.set_yticks([] if narrow else range(len(controllers)), [] if narrow else map(arm_rows.title, controllers))
+    axes.set(xlabel="settles later than the free body by [ms]", xlim=(-1.1 * DRAWN_MS, 1.1 * DRAWN_MS))
+    axes.set_ylim(len(controllers) - 0.4, -0.7)
+    axes.grid(visible=False, axis="y")
+    axes.tick_params(axis="y", length=0)
+    figure.legend(loc="outside lower center", ncols=2 if narrow else 4)
+    return figure, f"Settling time on an arm minus that of the free body, from clear starts. {'. '.join(said)}."
+
+
+def close(found: pd.DataFrame) -> pd.Series:
+    """Whether an episode settles as the free body does: within CLOSE_TICKS, or neither does."""
+    within = found["later_s"].abs() <= (CLOSE_TICKS + 0.5) * found["dt_s"]
+    return within | (found["alone_s"].isna() & found["settling_time_s"].isna())

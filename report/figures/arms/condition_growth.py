@@ -1,0 +1,107 @@
+"""Postures brought to the Z-Y-X pole decade by decade: how the condition numbers of J and of every J_E grow."""
+
+from __future__ import annotations
+
+import math
+
+import pandas as pd
+
+from report.figures.arms import arm_poses
+from report.figures.kit import html, style
+from report.figures.kit.inline import responsive_picture
+from report.figures.kit.spelling import power
+
+WAY = r"^(?P<family>.+)-1e-(?P<k>\d+)$"
+FARTHEST = 12
+
+
+def ways(rows: pd.DataFrame) -> pd.DataFrame:
+    """The poses at 10^-k from the pole with their family and k; those on the pole itself left out."""
+    parts = rows["pose_id"].astype(str).str.extract(WAY)
+    kept = rows.assign(family=parts["family"], k=pd.to_numeric(parts["k"]))
+    return kept[kept["k"].notna()].astype({"k": int})
+
+
+@responsive_picture
+def growth(rows: pd.DataFrame, *, narrow=False):
+    """Left: J and the Euler Jacobian of each arm; right: every coordinates' Jacobian, all arms. Medians and extremes.
+
+    Args:
+        rows: pose set `pole`, every representation.
+    """
+    found = ways(rows)
+    if found.empty:
+        return arm_poses.empty("Condition numbers towards the pole", narrow)
+    shape = (2, 1) if narrow else (1, 2)
+    figure, (left, right) = style.panels(*shape, height=7.4 if narrow else 3.9, narrow=narrow, sharey=True)
+    papers = found[found["representation"] == arm_poses.PAPERS]
+    for arm in arm_poses.arms(papers):
+        own, look = papers[papers["arm"] == arm], arm_poses.look(arm)
+        _band(left, own, "condition_analytic", look, f"$J_E$, {arm_poses.title(arm)}")
+    _band(left, papers, "condition", style.Look(style.MUTED, "", style.SOLID), "$J$, all arms")
+    for name in found["representation"].cat.categories if len(found) else ():
+        _band(
+            right,
+            found[found["representation"] == name],
+            "condition_analytic",
+            arm_poses.look_of_coordinates(name),
+            arm_poses.short_title(name),
+        )
+    for axes in (left, right):
+        axes.set(xscale="log", yscale="log", xlabel=r"Distance to $\beta = \pm\pi/2$ [rad]")
+        axes.invert_xaxis()
+        axes.set_xticks([10.0**-k for k in range(1, FARTHEST + 1, 3)])
+        axes.minorticks_off()
+        axes.legend(loc="upper left", fontsize=8.5, handlelength=2.2)
+    left.set_ylabel("Condition number")
+    left.set_title("Z-Y-X angles, by arm", fontweight="normal")
+    right.set_title("By coordinates, all arms", fontweight="normal")
+    right.set_ylim(1, 1e20)
+    if narrow:
+        right.set_ylabel("Condition number")
+    last = found[found["k"] == found["k"].max()]
+    words = "; ".join(
+        f"{name} {own['condition_analytic'].median():.1e}"
+        for name, own in last.groupby("representation", observed=True)
+    )
+    return figure, (
+        f"Condition numbers against the distance to the Z-Y-X pole, both logarithmic. J stays at "
+        f"{papers['condition'].min():.1f} to {papers['condition'].max():.1f}. At 1e-{found['k'].max()} the medians of "
+        f"J_E are: {words}."
+    )
+
+
+def _band(axes, rows: pd.DataFrame, column: str, look: style.Look, label: str) -> None:
+    """Median over families against distance, and the range in a lighter shade."""
+    at = rows.groupby("k", observed=True)[column].agg(["min", "median", "max"])
+    x = [10.0**-k for k in at.index]
+    axes.fill_between(x, at["min"], at["max"], color=look.colour, alpha=0.18, linewidth=0)
+    axes.plot(x, at["median"], color=look.colour, linestyle=look.line, marker=look.marker, markersize=3.5, label=label)
+
+
+def slopes(rows: pd.DataFrame) -> html.Markdown:
+    """A row for coordinates: the largest growth of cond J_E a decade over the first eight, and cond J_E at 10^-8."""
+    found = ways(rows)
+    lines = []
+    for name, own in found.groupby("representation", observed=True):
+        at = own.set_index(["arm", "family", "k"])["condition_analytic"].unstack("k")
+        if not {1, 8} <= set(at):
+            continue
+        growing = (at[8] / at[1]).map(math.log10) / 7.0
+        lines.append(
+            {
+                "Coordinates": f"`{name}`",
+                "Ways": len(at),
+                "Least": growing.min(),
+                "Most": growing.max(),
+                "Largest at 10⁻⁸": float(at[8].max()),
+            }
+        )
+    if not lines:
+        return html.Markdown(f"| Poses |\n| :-- |\n| {arm_poses.NOT_HERE} |")
+    big = "{:.1f}".format
+    frame = pd.DataFrame(lines).sort_values("Most", ascending=False)
+    return html.table(
+        frame,
+        {"Least": ".3f", "Most": ".3f", "Largest at 10⁻⁸": lambda value: big(value) if value < 1e4 else power(value)},
+    )

@@ -1,0 +1,159 @@
+"""Where an arm comes to rest whose model is wrong, by a formula beside what was measured.
+
+With masses and inertias wrong by a factor s it rests where the command makes up for the gravity that the model has
+not: s fg = D x + fg, so that a = J x and
+
+    Kp e = (s - 1) J D^-1 fg          D and fg those of the model, at the goal
+
+and with dry friction wherever friction can hold what the command asks for, |D J^-1 Kp e| <= f: an error is held as
+long as the friction is large beside the inertia.
+
+Fails: on seven joints the posture at rest is not known, for nothing drives it; the formula takes the nearest one.
+"""
+
+from __future__ import annotations
+
+import functools
+import math
+
+import mujoco
+import numpy as np
+import pandas as pd
+
+import tasks
+from report.figures.arms import arm_rows, model_error
+from report.figures.kit import html, style
+from report.figures.kit.inline import responsive_picture
+from tasks.arm_model import model_xml
+from tasks.kinematics import kinematics, rotation_vector
+from tasks.paths import geodesic
+
+UNIFORM, RUBBED = "mass-", "friction-"
+STEPS = 60
+"""Points of a geodesic along which the arm's posture at the goal is followed."""
+
+
+def predicted(rows: pd.DataFrame) -> pd.DataFrame:
+    """Rows whose masses are all wrong by one factor, with the angle that gravity alone leaves [rad], NaN if unknown.
+
+    Args:
+        rows: of `model_error.compared`.
+    """
+    scaled = rows[rows["variation"].str.startswith(UNIFORM)]
+    angles = [_gravity_angle(row) for _, row in scaled.iterrows()]
+    return scaled.assign(gravity_rad=angles)
+
+
+def _gravity_angle(row: pd.Series) -> float:
+    start = next((one for one in _starts(str(row["arm"])) if one.id == row["start_id"]), None)
+    if start is None:
+        return math.nan
+    factor = float(str(row["variation"]).removeprefix(UNIFORM))
+    return abs(factor - 1.0) * _pull(str(row["arm"]), start) / float(row["kp"])
+
+
+@functools.cache
+def _starts(arm: str) -> tuple:
+    return tuple(tasks.start_set("clear", arm=arm))
+
+
+@functools.cache
+def _pull(arm: str, start) -> float:
+    """|J D^-1 fg|, its rows of orientation, with the tool at the goal [rad/s^2]; NaN if the arm cannot be led there."""
+    one = tasks.arm(arm)
+    turn = np.array(rotation_vector(start.goal_wxyz, start.quat_wxyz))
+    angle = float(np.linalg.norm(turn))
+    axis = (turn / angle).tolist()
+    path = kinematics(one).follow(start.q, geodesic(start.quat_wxyz, tuple(axis), angle, STEPS))
+    if path is None:
+        return math.nan
+    D, fg = _dynamics(arm, tuple(path[-1]))
+    return float(np.linalg.norm((kinematics(one).jacobian(path[-1]) @ np.linalg.solve(D, fg))[3:]))
+
+
+def _dynamics(arm: str, q: tuple[float, ...]) -> tuple[np.ndarray, np.ndarray]:
+    """D and fg at rest, by MuJoCo."""
+    model = mujoco.MjModel.from_xml_string(model_xml(tasks.arm(arm), 1e-3))
+    data = mujoco.MjData(model)
+    data.qpos[:] = q
+    mujoco.mj_forward(model, data)
+    D = np.zeros((model.nv, model.nv))
+    mujoco.mj_fullM(model, data, D)
+    return D, data.qfrc_bias - data.qfrc_passive
+
+
+@responsive_picture
+def gravity(found: pd.DataFrame, narrow: bool):
+    """Measured angle at the end against what gravity alone leaves, both logarithmic.
+
+    Args:
+        found: of `predicted`.
+    """
+    figure, axes = style.panels(height=3.9 if narrow else 3.6, narrow=narrow)
+    names = arm_rows.arms(found)
+    known = found.dropna(subset="gravity_rad")
+    for k, arm in enumerate(names):
+        own = known[known["arm"] == arm]
+        axes.plot(
+            np.degrees(own["gravity_rad"]),
+            np.degrees(own["final_angle_rad"]),
+            model_error.MARKERS[k % len(model_error.MARKERS)],
+            color=model_error.COLOURS[k % len(model_error.COLOURS)],
+            markersize=4.5,
+            label=arm,
+        )
+    ends = np.degrees([known["gravity_rad"].min(), known["gravity_rad"].max()])
+    axes.plot(ends, ends, color=style.INK, linewidth=0.9, linestyle=style.DASHED, label="gravity alone", zorder=0)
+    axes.set(xscale="log", yscale="log", xlabel="left by gravity alone [deg]", ylabel="angle at the end [deg]")
+    axes.minorticks_off()
+    axes.legend(loc="upper left")
+    ratio = ratios(found)
+    return figure, (
+        f"Angle to the goal at the end against the angle that gravity alone leaves, {len(known)} episodes: "
+        f"the ratio is {ratio.median():.2f} in the median and {ratio.quantile(0.05):.2f} to {ratio.quantile(0.95):.2f} "
+        "from 5 to 95 per cent."
+    )
+
+
+def ratios(found: pd.DataFrame) -> pd.Series:
+    """Measured over predicted, of episodes that did not fail outright."""
+    ended = found[~found["outcome"].isin(("saturated", "diverged", "singular", "crashed", "hung"))]
+    return (ended["final_angle_rad"] / ended["gravity_rad"]).dropna()
+
+
+def held_deg(arm: str, percent: float, kp: float) -> float:
+    """Angle that friction of so many per cent of the rated torques can hold at home [deg].
+
+    Of |J D^-1 f| / Kp, its rows of orientation, the root of the sum over joints: as if each stuck by itself.
+    """
+    one = tasks.arm(arm)
+    D, _ = _dynamics(arm, one.home)
+    torques = percent / 100.0 * np.array(one.rated)
+    return math.degrees(float(np.linalg.norm(kinematics(one).jacobian(one.home)[3:] @ np.linalg.inv(D) * torques)) / kp)
+
+
+def friction(rows: pd.DataFrame) -> html.Markdown:
+    """An arm and friction a row: least inertia of a joint, what friction can hold, what was measured.
+
+    Args:
+        rows: of `model_error.compared`.
+    """
+    lines = []
+    for arm in arm_rows.arms(rows):
+        least = float(np.diag(_dynamics(arm, tasks.arm(arm).home)[0]).min())
+        for word in (one for one in model_error.in_order(rows) if one.startswith(RUBBED)):
+            own = rows[(rows["arm"] == arm) & (rows["variation"] == word)]
+            if own.empty:
+                continue
+            held = held_deg(arm, float(word.removeprefix(RUBBED)), float(own["kp"].iloc[0]))
+            lines.append(
+                {
+                    "Arm": arm,
+                    "Least inertia [kg m²]": least,
+                    "Variation": html.together(f"`{word}`"),
+                    "Can hold [deg]": held,
+                    "Measured [deg]": float(np.degrees(own["final_angle_rad"].median())),
+                }
+            )
+    forms = {"Least inertia [kg m²]": ".3f", "Can hold [deg]": ".2f", "Measured [deg]": ".2f"}
+    return html.table(pd.DataFrame(lines), forms)

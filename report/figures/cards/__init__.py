@@ -1,0 +1,1 @@
+"""A card for each law, and two laws beside each other."""

@@ -1,0 +1,86 @@
+"""The verdicts on a page: tiles, the table of the front page, and a claim's section. All words are the claim's own."""
+
+from __future__ import annotations
+
+import html as escape
+from collections import Counter
+from typing import TYPE_CHECKING
+
+import pandas as pd
+
+from report.figures.kit import html
+from report.figures.kit.spelling import marked_up, prose
+
+if TYPE_CHECKING:
+    from bench.findings.claims import Verdict
+
+SMALL = ("Criterion", "Left open")
+
+
+def measured(verdicts: list[Verdict]) -> list[Verdict]:
+    """Those that have been decided."""
+    return [one for one in verdicts if html.VERDICTS[str(one.word)] != "unmeasured"]
+
+
+def tiles(verdicts: list[Verdict]) -> html.Html:
+    """How many statements were decided, and how many got each word."""
+    decided = measured(verdicts)
+    counts = Counter(str(one.word) for one in decided)
+    labels = {
+        "holds": "hold",
+        "holds with a correction": "hold with a correction",
+        "does not hold": "do not hold",
+        "not testable": "cannot be tested",
+    }
+    entries: list = [(len(decided), "statements of the paper decided")]
+    return html.tiles(entries + [(counts[word], label, word) for word, label in labels.items() if counts[word]])
+
+
+def table(verdicts: list[Verdict], page: str) -> html.Markdown:
+    """Id, sentence and verdict of each decided claim, linked to its section of the page."""
+    decided = measured(verdicts)
+    frame = pd.DataFrame(
+        {
+            "": [link(one, page) for one in decided],
+            "What the paper says, in our words": [prose(one.claim.sentence) for one in decided],
+            "Verdict": [html.badge(str(one.word)) for one in decided],
+        }
+    )
+    return html.table(frame, words=frame.columns)
+
+
+def link(one: Verdict, page: str) -> str:
+    """The claim's id, leading to its section."""
+    return f'<a href="{page}#{anchor(one)}">{one.claim.id}</a>'
+
+
+def anchor(one: Verdict) -> str:
+    """What a claim's section is called in links."""
+    return one.claim.id.lower()
+
+
+def section(one: Verdict) -> html.Html:
+    """All that is said of one claim: verdict and evidence first, then how it was decided and what is left open."""
+    claim = one.claim
+    rows = {
+        "In our words": claim.sentence,
+        "Question": claim.question,
+        "Evidence": str(one.evidence),
+        "Criterion": claim.criterion,
+        "Left open": claim.open,
+    }
+    small = ' class="small"'
+    parts = [
+        f"<dt{small if name in SMALL else ''}>{name}</dt><dd>{marked_up(text)}</dd>"
+        for name, text in rows.items()
+        if text
+    ]
+    if claim.readings:
+        items = "".join(f"<li>{marked_up(text)}</li>" for text in claim.readings)
+        parts.append(f'<dt class="small">Readings</dt><dd><ul>{items}</ul></dd>')
+    tables = ", ".join(one.evidence.tables)
+    head = (
+        f'<p class="claim-head">{html.badge(str(one.word))}<span>section {escape.escape(claim.section)}</span>'
+        f"<span>n = {html.number(one.evidence.rows)} from {escape.escape(tables)}</span></p>"
+    )
+    return html.Html(f'{head}<dl class="claim">{"".join(parts)}</dl>')

@@ -1,0 +1,1 @@
+"""All laws side by side, and the new one among them."""

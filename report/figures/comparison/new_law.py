@@ -1,0 +1,116 @@
+"""The law that brakes late beside its neighbours, from their scalar equations: its two parts, and what they do."""
+
+from __future__ import annotations
+
+import functools
+import math
+
+import numpy as np
+from scipy.integrate import solve_ivp
+
+from bench.findings.theory.isotropic import ANGLE, CHORD, LATE, SINE, SLIDING, TIGHT, Equation
+from bench.law.contender import PAPERS_GAINS
+from report.figures.comparison.comparison_peak import LEVEL
+from report.figures.kit import families, style
+from report.figures.kit.inline import responsive_picture
+
+DRAWN = {"rotation-matrix": SINE, "quaternion-shortest": CHORD, "rotation-vector": ANGLE, "late-braking": LATE}
+EASING = {"quaternion-shortest": CHORD, "sliding": SLIDING, "late-braking": LATE}
+"""Of laws with one spring or damper the first stands for all."""
+
+FROM_DEG, SHOWN_S = 175.0, 1.2
+"""Where the responses begin, five degrees from where the sine has no pull at all; and how long they are shown."""
+
+
+def peak_gains(equation: Equation) -> tuple[float, float]:
+    """(kp, kv) with which the greatest pull over all angles is LEVEL, critically damped near the goal."""
+    kp = LEVEL / greatest_pull(equation)
+    return kp, 2.0 * math.sqrt(kp)
+
+
+def greatest_pull(equation: Equation) -> float:
+    """max f: the greatest command from rest, over Kp."""
+    return max(map(equation.spring, np.linspace(0.0, math.pi, 1801)))
+
+
+def share_left(equation: Equation, theta: float) -> float:
+    """Damping of a motion towards the goal, over Kv; of laws whose damping does not grow with the speed."""
+    kp, kv = PAPERS_GAINS
+    return 1.0 + equation.added(theta, -1.0, kp, kv) / kv
+
+
+@functools.cache
+def response(equation: Equation, theta: float, kp: float, kv: float) -> np.ndarray:
+    """Rows: time [s], angle [rad], command towards the goal [rad/s^2], integral of its square; from rest at theta."""
+
+    def acceleration(angle, rate):
+        return -kp * equation.spring(angle) - kv * rate + equation.added(angle, rate, kp, kv)
+
+    def rate(_, state):
+        pull = acceleration(state[0], state[1])
+        return state[1], pull, pull * pull
+
+    times = np.linspace(0.0, SHOWN_S, 241)
+    angle, speed, effort = solve_ivp(rate, (0.0, SHOWN_S), (theta, 0.0, 0.0), t_eval=times, **TIGHT).y
+    return np.array([times, angle, [-acceleration(*each) for each in zip(angle, speed, strict=True)], effort])
+
+
+@responsive_picture
+def parts(narrow: bool):
+    """Springs and dampers against the angle."""
+    figure, (left, right) = style.panels(
+        *((2, 1) if narrow else (1, 2)), height=5.6 if narrow else 3.1, narrow=narrow, sharex=True
+    )
+    angles = np.linspace(0.0, math.pi, 181)
+    said = []
+    for axes, laws, curve in ((left, DRAWN, lambda equation: equation.spring), (right, EASING, easing)):
+        for name, equation in laws.items():
+            look = style.look(name)
+            values = np.array(list(map(curve(equation), angles)))
+            axes.plot(np.degrees(angles), values, color=look.colour, linestyle=look.line, label=families.word(name))
+            said.append(f"{families.word(name)} {values[-1]:.2f}")
+        axes.set(xlim=(0, 180), xticks=range(0, 181, 60), ylim=(0, None))
+        axes.legend(loc="upper left" if axes is left else "lower left")
+        axes.set_xlabel("angle to the goal [deg]")
+    left.set_ylabel("pull from rest over $K_p$")
+    right.set_ylabel("damping homewards over $K_v$")
+    return figure, (
+        f"At the half turn the pulls from rest are, in units of Kp, {', '.join(said[: len(DRAWN)])}; the damping of a "
+        f"motion towards the goal, in units of Kv, {', '.join(said[len(DRAWN) :])}."
+    )
+
+
+def easing(equation: Equation):
+    """share_left of an equation, as a function of the angle."""
+    return functools.partial(share_left, equation)
+
+
+@responsive_picture
+def responses(narrow: bool):
+    """Angle and command against time from nearly a half turn: at equal gain, and at equal peak command."""
+    figure, axes = style.panels(
+        *((4, 1) if narrow else (2, 2)), height=9.6 if narrow else 5.2, narrow=narrow, sharex=True
+    )
+    above, below = (axes[::2], axes[1::2]) if narrow else axes
+    said = []
+    for i, (title, gains) in enumerate((("Equal gain", lambda _: PAPERS_GAINS), ("Equal peak", peak_gains))):
+        ends = []
+        for name, equation in DRAWN.items():
+            look = style.look(name)
+            times, angle, command, _ = response(equation, math.radians(FROM_DEG), *gains(equation))
+            marks = {"color": look.colour, "linestyle": look.line}
+            above[i].plot(times, np.degrees(angle), label=families.word(name), **marks)
+            below[i].plot(times, command, **marks)
+            half = times.searchsorted(SHOWN_S / 2.0)
+            ends.append(f"{families.word(name)} {np.degrees(angle[half]):.1f} degrees")
+        above[i].set(title=title, ylim=(0, 180), yticks=range(0, 181, 60))
+        below[i].axhline(0.0, color=style.MUTED, linewidth=0.7)
+        said.append(f"{title.lower()}: {', '.join(ends)}")
+    for each in above if narrow else above[:1]:
+        each.set_ylabel("angle to the goal [deg]")
+    for each in below if narrow else below[:1]:
+        each.set_ylabel("command [rad/s²]")
+    for each in below[-1:] if narrow else below:
+        each.set(xlabel="time [s]", xlim=(0, SHOWN_S))
+    figure.legend(*above[0].get_legend_handles_labels(), loc="outside upper left", ncols=2 if narrow else 4)
+    return figure, f"Left after {SHOWN_S / 2.0:g} s of {FROM_DEG:g} degrees. At {'; at '.join(said)}."

@@ -1,0 +1,1 @@
+"""Operations and time per tick."""

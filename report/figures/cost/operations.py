@@ -1,0 +1,70 @@
+"""Operations a tick of every law, by kind: what a count says, with transcendental calls apart."""
+
+from __future__ import annotations
+
+from textwrap import wrap
+
+import pandas as pd
+
+from report.figures.kit import style
+from report.figures.kit.inline import responsive_picture
+
+# kind -> (columns of costs.parquet, colour)
+KINDS = {
+    "add": (("add",), "#56b4e9"),
+    "multiply": (("mul",), "#0072b2"),
+    "divide, root": (("div", "sqrt"), "#cc79a7"),
+    "transcendental": (("sin", "cos", "atan2", "acos"), "#d55e00"),
+    "compare, copy sign": (("compare", "copysign"), "#b9c3cf"),
+}
+CALLS = KINDS["transcendental"][0]
+NARROW_LETTERS = 20
+LEAST_LABELLED = 2
+"""A narrower piece of a bar has no room for its number."""
+
+
+def by_kind(costs: pd.DataFrame, branch: str = "typical") -> pd.DataFrame:
+    """A row a contender, the cheapest first, a column a kind; the goal's stage included."""
+    rows = costs[(costs["branch"] == branch) & (costs["stage"] == "total")].set_index("contender")
+    kinds = pd.DataFrame({kind: rows[list(columns)].sum(axis=1) for kind, (columns, _) in KINDS.items()})
+    return kinds.loc[kinds.sum(axis=1).sort_values(kind="stable").index]
+
+
+@responsive_picture
+def operations(costs: pd.DataFrame, titles: dict[str, str], *, narrow=False):
+    """Bars of operations by kind, one a law."""
+    kinds = by_kind(costs)
+    figure, axes = style.panels(height=0.75 + (0.6 if narrow else 0.36) * len(kinds), narrow=narrow)
+    places = range(len(kinds))
+    left = pd.Series(0, index=kinds.index)
+    for kind, (_, colour) in KINDS.items():
+        if not kinds[kind].any():
+            continue
+        axes.barh(places, kinds[kind], left=left, color=colour, height=0.62, label=kind, edgecolor=style.PAPER)
+        for place, (start, width) in enumerate(zip(left, kinds[kind], strict=True)):
+            if width >= LEAST_LABELLED * (2 if narrow else 1):
+                axes.text(
+                    start + width / 2, place, f"{width}", ha="center", va="center", fontsize=8.5, color=ink(colour)
+                )
+        left = left + kinds[kind]
+    names = [titles.get(name, name) for name in kinds.index]
+    axes.set_yticks(places, ["\n".join(wrap(name, NARROW_LETTERS)) for name in names] if narrow else names)
+    axes.invert_yaxis()
+    axes.set_xlabel("Operations a tick, typical branch")
+    axes.grid(visible=False, axis="y")
+    axes.tick_params(axis="y", length=0)
+    axes.legend(
+        loc="lower center", bbox_to_anchor=(0.35, 1.0), ncols=2 if narrow else 5, columnspacing=1.2, handlelength=1
+    )
+    words = "; ".join(
+        f"{titles.get(name, name)} {row.sum()}, of which {row['transcendental']} transcendental"
+        for name, row in kinds.iterrows()
+    )
+    return figure, f"Operations a tick by kind, one bar a law: {words}."
+
+
+def ink(colour: str) -> str:
+    """A colour for numbers on a bar that reads on both pages."""
+    if colour == "#b9c3cf":  # the one whose twin is darker than itself
+        return style.INK
+    return style.PAPER if colour in ("#0072b2", "#d55e00") else style.ON_COLOUR

@@ -1,0 +1,1 @@
+"""Where laws fail, and where they stop to."""

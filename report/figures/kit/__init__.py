@@ -1,0 +1,1 @@
+"""How all figures look, and what a page shows beside drawings."""

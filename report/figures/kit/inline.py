@@ -1,0 +1,116 @@
+"""A drawn figure as inline SVG: follows the page's light and dark, described in words, at home on a phone.
+
+Inline, because an `<img>` sees nothing of the page's theme. Each colour of `style.TWINS` becomes a variable
+of `light-dark(light, dark)`, which the theme's `color-scheme` decides. Ids are the figure's own, so figures
+share a page.
+"""
+
+from __future__ import annotations
+
+import functools
+import html
+import io
+import re
+from collections.abc import Callable
+from typing import NamedTuple
+
+from matplotlib.figure import Figure
+
+from report.figures.kit import style
+
+USED_ID = re.compile(r"""(?:url\(#|href="#)([^)"]+)""")
+ID = re.compile(r'\s+id="([^"]*)"')
+COLOUR = re.compile("|".join(style.TWINS), re.IGNORECASE)
+PATH = re.compile(r'\bd="[^"]*"')
+DOT = re.compile(r"M (\S+ \S+)\s+L \1(?=\s)")  # of `dots`: a segment of no length says its place once
+LONG_NUMBER = re.compile(r"(\d\.\d{2})\d+")  # of a path, in points: a hundredth is invisible
+# What matplotlib says in a <style> element, which inline would hold for the whole page:
+STROKES = "stroke-linejoin: round; stroke-linecap: butt"
+
+
+class Picture(NamedTuple):
+    """Inline SVG for a page, with the words that stand for it where it cannot be seen."""
+
+    wide: str
+    alt: str
+    narrow: str = ""
+
+    def _repr_html_(self) -> str:
+        if not self.narrow:
+            return f'<div class="picture">{self.wide}</div>'
+        return f'<div class="picture wide">{self.wide}</div><div class="picture narrow">{self.narrow}</div>'
+
+
+def picture(draw: Callable[..., tuple[Figure, str]]) -> Callable[..., Picture]:
+    """Decorate a function that draws, in the paper style, and returns (figure, alternative text)."""
+
+    @functools.wraps(draw)
+    def drawn(*args, **kwargs) -> Picture:
+        with style.paper_style():
+            figure, alt = draw(*args, **kwargs)
+            return Picture(svg(figure, alt, draw.__name__), alt)
+
+    return drawn
+
+
+def responsive_picture(draw: Callable[..., tuple[Figure, str]]) -> Callable[..., Picture]:
+    """As `picture`, for a function with a keyword `narrow`: it is drawn a second time, for a phone."""
+
+    @functools.wraps(draw)
+    def drawn(*args, **kwargs) -> Picture:
+        with style.paper_style():
+            figure, alt = draw(*args, narrow=False, **kwargs)
+            phone, _ = draw(*args, narrow=True, **kwargs)
+            name = draw.__name__
+            return Picture(svg(figure, alt, name), alt, svg(phone, alt, f"{name}-narrow"))
+
+    return drawn
+
+
+def svg(figure: Figure, alt: str, name: str) -> str:
+    """The figure as an `<svg>` element that names its colours and describes itself."""
+    if not alt.strip():
+        raise ValueError(
+            f"figure {name} has no alternative text (cure: return (figure, 'what it shows, in a sentence'))"
+        )
+    raw = io.StringIO()
+    figure.savefig(raw, format="svg", transparent=True, metadata={"Date": None, "Creator": None})
+    text = raw.getvalue()
+    text = text[text.index("<svg") :]
+    text = re.sub(r"<metadata>.*?</metadata>|<style.*?</style>|<!--.*?-->", "", text, flags=re.DOTALL)
+    text = PATH.sub(lambda path: DOT.sub(r"M \1h0", LONG_NUMBER.sub(r"\1", path[0])), text)
+    text = own_ids(text, name.replace("_", "-"), alt)
+    text = named_colours(text)
+    colours = "; ".join(
+        f"{variable(light)}: light-dark({light}, {dark})"
+        for light, dark in style.TWINS.items()
+        if variable(light) in text
+    )
+    words = html.escape(alt, quote=True)
+    size = re.search(r'width="([\d.]+)pt"', text)
+    width = f"{float(size[1]) * 4 / 3:.0f}px" if size else "100%"
+    text = re.sub(r'(<svg[^>]*?)\s+width="[^"]*"', r"\1", text, count=1)
+    text = re.sub(r'(<svg[^>]*?)\s+height="[^"]*"', r"\1", text, count=1)
+    opening = f'<svg role="img" aria-label="{words}" style="max-width: {width}; {STROKES}; {colours}"'
+    return " ".join(text.replace("<svg", opening, 1).split())
+
+
+def own_ids(text: str, name: str, alt: str = "") -> str:
+    """Keep the ids that are referred to, each under this figure's name."""
+    # The content decides, not only the name: one function may draw several figures of a page. So do its words:
+    # two laws may fail alike.
+    prefix = f"{name}-{style.mark(text + alt):08x}-"
+    used = set(USED_ID.findall(text))
+    text = ID.sub(lambda found: f' id="{prefix}{found[1]}"' if found[1] in used else "", text)
+    return USED_ID.sub(lambda found: found[0].replace(f"#{found[1]}", f"#{prefix}{found[1]}"), text)
+
+
+def named_colours(text: str) -> str:
+    """Every colour that has a twin, as its variable; attributes become styles, which allow one."""
+    text = re.sub(r'\b(fill|stroke)="(#[0-9a-fA-F]{6})"', r'style="\1: \2"', text)
+    return COLOUR.sub(lambda found: f"var({variable(found[0])})", text)
+
+
+def variable(colour: str) -> str:
+    """The name of a colour's variable."""
+    return f"--c{colour[1:].lower()}"

@@ -1,0 +1,1 @@
+"""What robot libraries return."""

@@ -1,0 +1,1 @@
+"""Engines, steps, inventory, and where the numbers come from."""

@@ -1,0 +1,105 @@
+"""Does the step matter? The angle at one moment, against the step, for every engine that integrates.
+
+The reference is the continuous plant at the finest step. RK4 should err by the fourth power of the step; a plant
+that is sampled, or integrated by MuJoCo's Euler, by the first: that is what it is, not an error of the program.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import pandas as pd
+
+from bench.contenders.registry import find_contender
+from bench.engines.episode import FINAL_ANGLE, Settings
+from bench.engines.run import run
+from bench.law.contender import Gains
+from report.figures.kit import style
+from report.figures.kit.inline import responsive_picture
+from report.figures.kit.laws import TITLES
+from tasks import start_set
+from tasks.rules import RULES
+
+AT_S = 0.4
+"""Most of the response is still under way, and every step below divides it."""
+STEPS_S = (4e-3, 2e-3, 1e-3, 5e-4, 2.5e-4)
+FINEST_S = 1.25e-4
+ENGINES = {"ideal-rk4": style.SOLID, "ideal-held": style.DASHED, "native": style.DOTTED}
+ENGINE_TITLES = {
+    "ideal-rk4": "continuous, Runge-Kutta 4",
+    "ideal-held": "sampled, command held",
+    "native": "MuJoCo, Euler",
+}
+STARTS = dict(zip(TITLES, ("figure-2.3", "figure-2.4", "figure-2.5"), strict=True))
+"""Each law from the start of its own figure of the paper."""
+THROUGH_THE_POLE = "linearized-euler/zyx-euler", "figure-2.5"
+"""A law and a start whose response has no limit as the step goes to zero."""
+FLOOR_RAD = 1e-16
+
+
+def settings(dt_s: float) -> Settings:
+    """The paper's gains to AT_S, without an early stop."""
+    ticks = round(AT_S / dt_s)
+    limits = RULES.command_limit, RULES.speed_limit, RULES.rest_speed, RULES.rest_command
+    return Settings(Gains(), dt_s, ticks, ticks + 1, *limits)
+
+
+def angle_at(engine: str, name: str, start_id: str, dt_s: float) -> float:
+    """Angle to the goal at AT_S from one of the `paper` starts [rad]."""
+    starts = [start for start in start_set("paper") if start.id == start_id]
+    return float(run(engine, find_contender(name), "free-body", starts, settings(dt_s), ())[0, FINAL_ANGLE])
+
+
+def errors() -> pd.DataFrame:
+    """Deviation from the finest continuous run: a row an engine, law and step."""
+    return pd.DataFrame([row for name, start_id in STARTS.items() for row in errors_of(name, start_id)])
+
+
+def errors_of(name: str, start_id: str) -> list[dict]:
+    """The same for one law from one start."""
+    truth = angle_at("ideal-rk4", name, start_id, FINEST_S)
+    return [
+        {
+            "contender": name,
+            "engine": engine,
+            "dt_s": dt_s,
+            "error_rad": abs(angle_at(engine, name, start_id, dt_s) - truth),
+        }
+        for engine in ENGINES
+        for dt_s in STEPS_S
+    ]
+
+
+def orders(found: pd.DataFrame) -> pd.DataFrame:
+    """Slope of log error against log step from the largest step to the next, a column an engine, a row a law."""
+    coarse, finer = STEPS_S[0], STEPS_S[1]
+    table = found.pivot_table(index=["contender", "engine"], columns="dt_s", values="error_rad")
+    slope = np.log(table[coarse] / table[finer]) / np.log(coarse / finer)
+    return slope.unstack("engine")[list(ENGINES)]
+
+
+@responsive_picture
+def steps(found: pd.DataFrame, *, narrow=False):
+    """Deviation against step, both logarithmic."""
+    figure, axes = style.panels(height=4.6 if narrow else 3.6, narrow=narrow)
+    for (name, engine), rows in found.groupby(["contender", "engine"], sort=False):
+        look = style.look(name)
+        label = TITLES[name] if engine == "ideal-rk4" else None
+        axes.plot(
+            rows["dt_s"] * 1e3,
+            rows["error_rad"].clip(lower=FLOOR_RAD),
+            label=label,
+            color=look.colour,
+            marker=look.marker,
+            linestyle=ENGINES[engine],
+            linewidth=1.4,
+        )
+    for engine, line in ENGINES.items():
+        axes.plot([], [], color=style.INK, linestyle=line, label=ENGINE_TITLES[engine])
+    axes.set(xscale="log", yscale="log", xlabel="Step [ms]", ylabel=f"Angle at {AT_S:g} s is off by [rad]")
+    ticks = [1e3 * step for step in STEPS_S]
+    axes.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
+    axes.minorticks_off()
+    figure.legend(*axes.get_legend_handles_labels(), loc="outside upper left", ncols=1 if narrow else 2)
+    slopes = orders(found).median()
+    words = ", ".join(f"{ENGINE_TITLES[engine]} order {slopes[engine]:.1f}" for engine in ENGINES)
+    return figure, f"Deviation of the angle at {AT_S:g} s against the step, logarithmic, for three laws: {words}."

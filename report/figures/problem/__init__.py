@@ -1,0 +1,1 @@
+"""The plant, its coordinates, and the settings of a run."""

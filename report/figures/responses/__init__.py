@@ -1,0 +1,1 @@
+"""Single responses, and how long laws take to settle."""

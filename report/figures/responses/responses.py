@@ -1,0 +1,96 @@
+"""Figures 2.3 to 2.5 of the paper drawn again: an episode's Euler angles, and its angle to the goal, against time."""
+
+import numpy as np
+import pandas as pd
+
+from bench.contenders.representations.zyx_euler import chart
+from bench.findings.theory import closed_form
+from bench.law.so3 import Rotation
+from report.figures.kit import laws, style
+from report.figures.kit.inline import responsive_picture
+
+ANGLES = (
+    ("alpha", r"$\alpha$", style.SOLID),
+    ("beta", r"$\beta$", style.DASH_DOT),
+    ("gamma", r"$\gamma$", style.DOTTED),
+)
+SHOWN_S = 1.2
+"""Two settling times of a small error: all there is to see."""
+
+
+def euler_deg(trace: pd.DataFrame) -> np.ndarray:
+    """Z-Y-X Euler angles [deg] of every sample, one row each, unwrapped from the first."""
+    columns = [[f"{c}_{x}" for x in "xyz"] for c in "noa"]
+    samples = zip(*(trace[names].itertuples(index=False, name=None) for names in columns), strict=True)
+    angles = np.array([chart(Rotation(*columns)).E for columns in samples])
+    return np.degrees(np.unwrap(angles, axis=0))
+
+
+@responsive_picture
+def response(traces: pd.DataFrame, contender: str, start_id: str, kp: float, kv: float, narrow: bool):
+    """One law from one start: its angles with the linear closed form, and the angle to the goal of all three laws.
+
+    Args:
+        traces: rows of one engine. kp, kv: gains of the closed form, dashed.
+    """
+    episode = traces[(traces["start_id"] == start_id) & (traces["time_s"] <= SHOWN_S)]
+    own = episode[episode["contender"] == contender]
+    times, angles = own["time_s"].to_numpy(), euler_deg(own)
+    figure, (left, right) = style.panels(
+        *((2, 1) if narrow else (1, 2)), height=5.4 if narrow else 3.0, narrow=narrow, sharex=True
+    )
+    fine = np.linspace(0.0, SHOWN_S, 200)
+    linear = closed_form.linear(fine, kp, kv)
+    colour = style.look(contender).colour
+    for i, (_, symbol, line) in enumerate(ANGLES):
+        left.plot(fine, angles[0, i] * linear, color=style.MUTED, linewidth=0.9, linestyle=style.DASHED)
+        left.plot(times, angles[:, i], color=colour, linestyle=line)
+        style.label_line(left, -0.02, angles[0, i], symbol, colour, ha="right", fontsize=11)
+    left.axhline(0.0, color=style.MUTED, linewidth=0.7)
+    left.set(ylabel="Z-Y-X Euler angle [deg]", xlim=(-0.1, SHOWN_S), title=laws.TITLES[contender])
+    ends = _angle_to_goal(right, episode)
+    first = np.degrees(own["angle_rad"].iloc[0])
+    right.plot(fine, first * linear, color=style.MUTED, linewidth=0.9, linestyle=style.DASHED)
+    right.set(ylabel="angle to the goal [deg]", ylim=(0, None), title="All three, from the same start")
+    for axes in (left, right) if not narrow else (right,):
+        axes.set_xlabel("time [s]")
+    begins = ", ".join(f"{name} {value:.0f}" for (name, *_), value in zip(ANGLES, angles[0], strict=True))
+    bend = np.abs(angles - angles[0] * closed_form.linear(times, kp, kv)[:, None]).max(axis=0)
+    bends = ", ".join(f"{name} {value:.2g}" for (name, *_), value in zip(ANGLES, bend, strict=True))
+    return figure, (
+        f"{laws.TITLES[contender]} from {begins} degrees: the angles against time. Largest distance from the "
+        f"linear closed form, in degrees: {bends}. Beside it the angle to the goal for each law, from {first:.0f} "
+        f"degrees; at {SHOWN_S} s {ends}."
+    )
+
+
+def _angle_to_goal(axes, episode: pd.DataFrame) -> str:
+    said = []
+    for name, title, rows in laws.each(episode):
+        look = style.look(name)
+        angle = np.degrees(rows["angle_rad"])
+        axes.plot(rows["time_s"], angle, color=look.colour, linestyle=look.line, label=title)
+        said.append(f"{title} is at {angle.iloc[-1]:.2g} degrees")
+    axes.legend(loc="upper right")
+    return ", ".join(said)
+
+
+def bends_deg(traces: pd.DataFrame, start_id: str, kp: float, kv: float) -> pd.DataFrame:
+    """Largest distance [deg] of each Euler angle from its linear closed form, one row a law."""
+    rows = []
+    for name, title, trace in laws.each(traces[traces["start_id"] == start_id]):
+        angles = euler_deg(trace)
+        away = np.abs(angles - angles[0] * closed_form.linear(trace["time_s"], kp, kv)[:, None]).max(axis=0)
+        rows.append({"contender": name, "law": title, **dict(zip(("alpha", "beta", "gamma"), away, strict=True))})
+    return pd.DataFrame(rows)
+
+
+def first_deg(traces: pd.DataFrame, start_id: str) -> float:
+    """Initial angle to the goal [deg]."""
+    return float(np.degrees(traces.loc[traces["start_id"] == start_id, "angle_rad"].iloc[0]))
+
+
+def highest_deg(traces: pd.DataFrame, start_id: str, contender: str) -> float:
+    """Largest angle to the goal on the way [deg]."""
+    rows = traces[(traces["start_id"] == start_id) & (traces["contender"] == contender)]
+    return float(np.degrees(rows["angle_rad"].max()))

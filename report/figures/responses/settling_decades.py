@@ -1,0 +1,109 @@
+"""Settling time near the half turn against log10(pi - angle): a straight line whose slope the gains decide."""
+
+import re
+
+import numpy as np
+import pandas as pd
+
+from bench.findings.theory import closed_form
+from report.figures.kit import html, style
+from report.figures.kit.inline import responsive_picture
+
+DECADE = re.compile(r"-k(\d+)$")
+FITTED = (3, 10)
+"""Decades of the slope: the sine is linear in pi - angle from the first on, and rounding of R is small to the last."""
+
+RAIL, NEVER, CEILING = 8.6, 9.6, 10.6  # [s]: where exact half turns, which have no settling time, are drawn
+
+
+def decade(start_ids: pd.Series) -> pd.Series:
+    """k of a start of the set half-turn at pi - 10^-k; missing for the exact ones."""
+    return start_ids.astype(str).str.extract(DECADE, expand=False).astype(float)
+
+
+def slope(rows: pd.DataFrame) -> float:
+    """Seconds a decade, by least squares over the decades FITTED."""
+    k = decade(rows["start_id"])
+    used = k.between(*FITTED) & rows["settling_time_s"].notna()
+    return float(np.polyfit(k[used], rows.loc[used, "settling_time_s"], 1)[0])
+
+
+@responsive_picture
+def decades(episodes: pd.DataFrame, narrow: bool):
+    """Settling time against the distance from the half turn.
+
+    Args:
+        episodes: rows of one engine, of the rotation-matrix law and the set half-turn.
+    """
+    figure, axes = style.panels(height=3.9 if narrow else 3.6, narrow=narrow)
+    kp, kv, tolerance = (float(episodes[name].iloc[0]) for name in ("kp", "kv", "tolerance"))
+    look = style.look("rotation-matrix")
+    k = decade(episodes["start_id"])
+    near, exact = episodes[k.notna()], episodes[k.isna()]
+    theory = np.arange(0.0, k.max() + 0.01, 0.25)
+    times = closed_form.settling_curve(kp, kv, tolerance)(10.0**-theory)
+    axes.plot(theory, times, color=style.INK, linewidth=0.9, zorder=1)
+    axes.plot(
+        k[k.notna()],
+        near["settling_time_s"],
+        look.marker,
+        color=look.colour,
+        markersize=5,
+        alpha=0.5,
+        markeredgewidth=0,
+    )
+    stuck = exact["outcome"] != "settled"
+    at = k.max() + 1.5
+    axes.axhspan(RAIL, CEILING, facecolor=style.GRID, alpha=0.45, zorder=0)
+    _exact(axes, at, exact[stuck], exact[~stuck], look)
+    axes.set(
+        ylim=(0, CEILING),
+        xlim=(-0.5, at + 0.9),
+        ylabel="settling time [s]",
+        xlabel="distance from the half turn, $\\pi - \\theta$ [rad]",
+    )
+    ticks = range(0, int(k.max()) + 1, 3)
+    axes.set_xticks([*ticks, at], [*(f"$10^{{-{one}}}$" if one else "1" for one in ticks), "0"])
+    axes.set_yticks([0, 2, 4, 6, 8, NEVER], [*map(str, (0, 2, 4, 6, 8)), "never"])
+    place = 0.5 * k.max()
+    height = float(np.interp(place, theory, times))
+    words = f"closed form, slope\n{closed_form.decade_slope(kp, kv):.4f} s a decade"
+    axes.text(place + 0.5, height - 0.35, words, va="top", color=style.INK, fontsize=9.5)
+    taken = near["settling_time_s"]
+    return figure, (
+        f"Settling time of the rotation-matrix law against its distance from the half turn, {len(near)} starts from "
+        f"1 to 1e-{k.max():.0f} rad: from {taken.min():.2f} to {taken.max():.2f} s on a straight line of "
+        f"{slope(episodes):.4f} s a decade. Of {len(exact)} exact half turns {stuck.sum()} never settle."
+    )
+
+
+def _exact(axes, at: float, stuck: pd.DataFrame, left: pd.DataFrame, look) -> None:
+    colour, marker = style.OUTCOMES["stuck"]
+    spread = np.linspace(-0.5, 0.5, max(2, len(stuck)))[: len(stuck)]
+    axes.plot(at + spread, np.full(len(stuck), NEVER), marker, linestyle="none", color=colour, markersize=5)
+    axes.plot(np.full(len(left), at), left["settling_time_s"], look.marker, linestyle="none", color=look.colour)
+    axes.text(
+        at - 0.9, NEVER, f"{len(stuck)} exact half turns stay", ha="right", va="center", fontsize=9.5, color=style.INK
+    )
+
+
+def slopes(episodes: pd.DataFrame) -> pd.DataFrame:
+    """Engine: measured slope beside the closed form, and what became of exact half turns."""
+    rows = []
+    for engine, part in episodes.groupby("engine", observed=True, sort=False):
+        k = decade(part["start_id"])
+        theory = closed_form.decade_slope(float(part["kp"].iloc[0]), float(part["kv"].iloc[0]))
+        found, exact = slope(part), part[k.isna()]
+        rows.append(
+            {
+                "Engine": html.together(engine),
+                "Starts fitted": int(k.between(*FITTED).sum()),
+                "Slope [s/decade]": found,
+                "Closed form": theory,
+                "Difference [%]": 100.0 * (found / theory - 1.0),
+                "Exact half turns": len(exact),
+                "of which settle": int((exact["outcome"] == "settled").sum()),
+                "Horizon [s]": float(part["horizon_s"].max()),
+            }
+        )
+    return pd.DataFrame(rows)

@@ -1,0 +1,1 @@
+"""Laws along the axes of trouble."""

@@ -1,0 +1,1 @@
+"""The benchmark itself: history, regressions, clusters, survival."""
