@@ -21,7 +21,7 @@ def test_it_leaves_laws_controllers_of_arms_and_of_contact_in_the_cache(tmp_path
     words = [sys.executable, "-m", "bench.running.precompile", *names]
     subprocess.run(words, env=environment, check=True, capture_output=True)
     kept = {path.name.split(".")[0] for path in tmp_path.rglob("*.nbi")}
-    assert {"binding", "cartesian"} <= kept
+    assert {"binding", "resolved_acceleration"} <= kept
     assert cached(tmp_path) >= len(names)
     assert [path.name.partition("-")[2] for path in (tmp_path / "costs").iterdir()] == ["rotation-matrix.json"]
 
