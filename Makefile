@@ -122,7 +122,7 @@ settings-study: $(READY)
 
 kill-study: ## kill 100 runs, fill disks, break laws: does each end the same? (minutes): results/survival
 kill-study: $(CLUSTER)
-	@$(PY) -W ignore tests/kill_study.py $(ARGS)
+	@PYTHONPATH=tests $(PY) -W ignore tests/studies/kill_study.py $(ARGS)
 
 reference: ## run the quick suite and make it the new reference (commit it by itself)
 reference: $(READY)

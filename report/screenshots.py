@@ -6,7 +6,7 @@
 
 Pictures go to report/_build/screenshots.
 
-tests/test_report_in_browser.py drives the same browser. Needs selenium (the dev extra) and Debian's
+tests/report/test_report_in_browser.py drives the same browser. Needs selenium (the dev extra) and Debian's
 chromium and chromium-driver; nothing is downloaded.
 """
 

@@ -61,7 +61,7 @@ def settling_curve(kp: float, kv: float, tolerance: float) -> Callable[[np.ndarr
     """The same as a function of many pi - angle [rad] at once, a cubic spline.
 
     Its variable, log(tan((pi - angle)/4)), is the logarithm near the half turn and linear in the angle near zero.
-    Within 1e-6 s of `settling`, a thousandth of a tick (tests/test_closed_form.py).
+    Within 1e-6 s of `settling`, a thousandth of a tick (tests/findings/test_closed_form.py).
     """
     low, middle, high = (math.log(math.tan(short / 4.0)) for short in (CLOSEST, LINEAR_TO, math.pi - FURTHEST))
     nodes = np.concatenate((np.linspace(low, middle, 40)[:-1], np.linspace(middle, high, 120)))

@@ -1,0 +1,330 @@
+"""The command line where nothing is wrong: what each command prints of a small run, and what its help explains."""
+
+import re
+
+import pytest
+import rich_click as click
+from support.command_line import TINY, bench
+
+import tasks
+from bench.cli import commands
+from bench.contenders.registry import (
+    all_contenders,
+    known_impedances,
+    known_inverses,
+    known_jacobians,
+    known_regulators,
+    known_representations,
+)
+from bench.control.registry import all_compliants
+from bench.experiments.suites import ENGINES, SUITES
+from bench.metrics.registry import known_contact_metrics, known_metrics
+from bench.tables import store
+from tasks.base import BadArm
+
+EULER = "hybrid/zyx-euler+inverse"
+COMMANDS = {command.name: command for command in commands()}
+
+
+@pytest.fixture(scope="module")
+def tiny_run(tmp_path_factory):
+    """Three episodes on the reference engine."""
+    from bench.cli import main
+
+    out = tmp_path_factory.mktemp("run") / "tiny"
+    assert main(["run", *TINY, "--engine", "reference", "--out", str(out)]) == 0
+    return out
+
+
+# ----------------------------------------------------------------------------------------------- help
+
+
+def test_commands_are_those_of_the_design():
+    assert set(COMMANDS) == {"list", "run", "show", "count", "time", "compare", "claims", "doctor", "trust", "history"}
+
+
+def test_help_names_every_command(capsys):
+    said = bench(capsys, "--help")
+    assert said.code == 0
+    assert [name for name in COMMANDS if f" {name} " not in said.out] == []
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_help_of_a_command_explains_every_option(capsys, name):
+    said = bench(capsys, name, "--help")
+    shown = re.sub(r"[^\w./:;,'-]+", " ", said.out)
+    assert said.code == 0
+    for option in COMMANDS[name].params:
+        if isinstance(option, click.Option):
+            assert option.opts[0] in said.out
+            assert option.help.endswith(".")
+            assert " ".join(option.help.split()[:2]).strip("[]:;,.") in shown
+        else:
+            assert option.name.upper() in said.out
+
+
+def test_version_is_the_one_installed(capsys):
+    assert re.search(r"\d+\.\d+\.\d+", bench(capsys, "--version").out)
+
+
+# ----------------------------------------------------------------------------------------------- list
+
+KNOWN = {
+    "regulators": known_regulators(),
+    "representations": known_representations(),
+    "jacobians": known_jacobians(),
+    "inverses": known_inverses(),
+    "controllers": dict.fromkeys(one.law for one in all_compliants()),
+    "impedances": known_impedances(),
+    "metrics": [*known_metrics(), *known_contact_metrics()],
+    "tasks": [*tasks.names(), *tasks.contact_names()],
+    "arms": tasks.arm_names(),
+    "variations": tasks.variation_names(),
+    "starts": [*tasks.start_set_names(), *tasks.start_set_names(arm=True)],
+    "engines": ENGINES,
+    "suites": SUITES,
+}
+
+
+@pytest.mark.parametrize("kind", KNOWN)
+def test_list_names_everything_of_a_kind_and_nothing_else(capsys, kind):
+    said = bench(capsys, "list", kind)
+    rows = [line.split()[0] for line in said.out.splitlines()[2:] if line.strip() and not line.startswith(" ")]
+    assert said.code == 0
+    assert sorted(rows) == sorted(KNOWN[kind])
+
+
+@pytest.mark.parametrize("kind", KNOWN)
+def test_list_takes_the_singular_too(capsys, kind):
+    assert bench(capsys, "list", kind[:-1]).out == bench(capsys, "list", kind).out
+
+
+def test_list_says_which_start_sets_are_of_arms(capsys):
+    said = bench(capsys, "list", "starts")
+    assert len(re.findall(r"^half-turn +(free body|each arm)", said.out, re.MULTILINE)) == 2
+    assert re.search(r"^poles +free body +136 ", said.out, re.MULTILINE)
+    assert re.search(r"^wrist +each arm, at most +24 ", said.out, re.MULTILINE)
+
+
+def test_list_names_a_broken_arm_with_the_reason(capsys, monkeypatch):
+    broken = BadArm("arm 'bent': it has no site 'tool' (add one)")
+    monkeypatch.setattr("bench.cli.listing.arms", lambda: {"bent": broken, "ur5e": tasks.arm("ur5e")})
+    said = bench(capsys, "list", "arms")
+    assert said.code == 0
+    assert re.search(r"^bent +cannot be used: arm 'bent': it has no site 'tool' \(add one\)", said.out, re.MULTILINE)
+    assert re.search(r"^ur5e +6 ", said.out, re.MULTILINE)
+
+
+def test_list_says_which_jacobians_an_inverse_takes(capsys):
+    said = bench(capsys, "list", "inverses")
+    assert re.search(r"^solve +acceleration +6 x 6  ", said.out, re.MULTILINE)
+    assert re.search(r"^pseudo-inverse +acceleration +6 x 6, 6 x 7, 7 x 6  ", said.out, re.MULTILINE)
+
+
+def test_list_shows_units_in_brackets_and_formulas_as_they_are(capsys):
+    said = bench(capsys, "list", "metrics")
+    assert all(one.unit in said.out for one in (*known_metrics().values(), *known_contact_metrics().values()))
+
+
+def test_list_says_which_arms_a_task_in_contact_takes_and_of_what_a_controllers_name_is_made(capsys):
+    assert re.search(r"^wrench-probe +contact: puma560, ur5e  ", bench(capsys, "list", "tasks").out, re.MULTILINE)
+    said = bench(capsys, "list", "controllers")
+    assert re.search(r"^name +/coordinates +\+form ", said.out, re.MULTILINE)
+    assert re.search(r"^hybrid +mrp, rotation-vector, .*inverse, projected ", said.out, re.MULTILINE)
+    assert re.search(r"^impedance-geometric +impedance: ", said.out, re.MULTILINE)
+
+
+def test_list_without_a_kind_lists_every_kind(capsys):
+    said = bench(capsys, "list")
+    assert said.code == 0
+    for kind, names in KNOWN.items():
+        assert kind.capitalize().removesuffix("s") in said.out
+        assert all(name in said.out for name in names)
+
+
+# ------------------------------------------------------------------------------------------ run, show
+
+
+def test_run_prints_its_plan_and_what_to_do_next(capsys, tmp_path):
+    said = bench(capsys, "run", *TINY, "--engine", "reference", "--out", tmp_path / "run")
+    assert (said.code, said.err) == (0, "")
+    assert "suite quick: 3 episodes in 1 units" in said.out
+    assert f"python -m bench show {tmp_path / 'run'}" in said.out.replace("\n", "")
+
+
+def test_dry_run_counts_what_a_run_then_writes(capsys, tiny_run):
+    said = bench(capsys, "run", *TINY, "--engine", "reference", "--dry-run")
+    assert f"suite quick: {len(store.read(tiny_run, 'episodes'))} episodes" in said.out
+
+
+@pytest.mark.parametrize("suite", SUITES)
+def test_suite_runs_every_law_that_is_not_a_costing(capsys, suite):
+    said = bench(capsys, "run", "--suite", suite, "--dry-run")
+    laws = re.search(r"laws: (.*?)\n\S+: ", said.out, re.DOTALL)[1].replace(",", " ").split()
+    assert laws == [one.name for one in all_contenders() if not one.regulator.costing_only]
+
+
+def test_show_counts_what_did_not_settle_by_law_and_start_set(capsys, tiny_run):
+    """A hundred ticks are too few to settle."""
+    said = bench(capsys, "show", tiny_run)
+    assert said.code == 0
+    assert "suite quick, 3 episodes" in said.out
+    assert re.search(r"law +paper\s+rotation-matrix +3/3\s", said.out)
+
+
+def test_show_has_every_outcome_of_one_engine_and_set_when_asked(capsys, tiny_run):
+    whole = bench(capsys, "show", tiny_run, "--outcomes")
+    assert re.search(r"paper +rotation-matrix +3 ", whole.out)
+    assert bench(capsys, "show", tiny_run, "--outcomes", "--engine", "reference", "--starts", "paper") == whole
+
+
+ON_ARM = ("run", "--arm", "ur5e", "--starts", "clear", "--count", "1", "--horizon", "0.1")
+WHOLE = "rotation-matrix@geometric+solve"
+
+
+@pytest.fixture(scope="module")
+def arm_run(tmp_path_factory):
+    """One start, two inverses, two plants, on the reference engine: four episodes of twenty ticks."""
+    from bench.cli import main
+
+    out = tmp_path_factory.mktemp("run") / "arm"
+    words = ("--regulator", "rotation-matrix", "--jacobian", "geometric", "--inverse", "solve")
+    plants = ("--variation", "nominal", "--variation", "friction-5", "--engine", "reference", "--dt", "0.005")
+    assert main([*ON_ARM, *words, "--inverse", "transpose", *plants, "--out", str(out)]) == 0
+    return out
+
+
+@pytest.mark.parametrize("suite", SUITES)
+def test_whole_name_runs_what_its_parts_run(capsys, suite):
+    apart = ("--regulator", "rotation-matrix", "--jacobian", "geometric", "--inverse", "solve")
+    said = [bench(capsys, *ON_ARM, "--suite", suite, *words, "--dry-run") for words in (("--regulator", WHOLE), apart)]
+    assert said[0] == said[1]
+    assert "native, ur5e: clear 1 (each of 1 combinations)" in said[0].out
+
+
+def test_show_keeps_controllers_causes_and_variations_of_an_arm_apart(capsys, arm_run):
+    said = bench(capsys, "show", arm_run)
+    first, second = said.out.split("plant other than the model")
+    assert re.search(rf"\n{re.escape(WHOLE)} +0/1 +never +never +1 law", first)
+    assert re.search(r"\nrotation-matrix@geometric\+transpose +0/1 ", first)
+    assert re.search(rf"friction-5 *\n{re.escape(WHOLE)} +0  \d", second)
+    assert "SO(3)" not in said.out
+
+
+def test_show_of_one_controller_shows_it_alone(capsys, arm_run):
+    said = bench(capsys, "show", arm_run, "--regulator", WHOLE)
+    assert WHOLE in said.out
+    assert "transpose" not in said.out
+    assert bench(capsys, "show", arm_run, "--regulator", "rotation-matrix") == bench(capsys, "show", arm_run)
+
+
+def test_show_counts_outcomes_of_each_variation(capsys, arm_run):
+    said = bench(capsys, "show", arm_run, "--outcomes")
+    assert len(re.findall(r"^clear +(?:nominal|friction-5) +rotation-matrix@", said.out, re.MULTILINE)) == 4
+
+
+@pytest.fixture(scope="module")
+def contact_run(tmp_path_factory):
+    """Two controllers, three poses of one task in contact on one arm, 20 ticks a trial."""
+    from bench.cli import main
+
+    out = tmp_path_factory.mktemp("run") / "contact"
+    words = ("--controller", "hybrid-base+inverse", "--controller", "impedance-geometric", "--horizon", "0.02")
+    place = ("--task", "wrench-probe", "--arm", "ur5e", "--count", "3")
+    assert main(["run", *place, *words, "--out", str(out)]) == 0
+    return out
+
+
+def test_run_in_contact_has_its_rows_and_no_episodes(contact_run):
+    rows = store.read(contact_run, "compliance")
+    assert list(zip(rows.controller, rows.form, strict=True)) == [("hybrid-base", "inverse")] * 3 + [
+        ("impedance-geometric", "")
+    ] * len(rows[3:])
+    assert set(rows.outcome) == {"done"}
+    assert len(store.read(contact_run, "episodes")) == 0
+    assert store.read_json(contact_run / "provenance.json")["trials"] == rows.trials.sum()
+
+
+def test_show_of_a_run_in_contact_has_a_line_for_each_controller(capsys, contact_run):
+    said = bench(capsys, "show", contact_run)
+    assert said.code == 0
+    assert re.search(r"in contact, ur5e: .*\ncontroller +done +leakage ", said.out)
+    assert re.search(r"\nhybrid-base\+inverse +3/3 +0.000  0.000 ", said.out)
+    assert re.search(r"\nimpedance-geometric +\d/\d ", said.out)
+
+
+def test_run_compared_with_itself_agrees(capsys, tiny_run):
+    said = bench(capsys, "compare", tiny_run, tiny_run)
+    assert said.code == 0
+    assert "agrees with" in said.out
+
+
+# --------------------------------------------------------------------------------------- count, doctor
+
+
+def test_count_has_a_line_for_each_law_and_branch(capsys):
+    said = bench(capsys, "count")
+    rows = [line.split()[:2] for line in said.out.splitlines() if " typical " in line]
+    assert said.code == 0
+    assert [row[0] for row in rows] == [one.regulator.name for one in all_contenders()]
+
+
+def test_count_of_one_law_by_stage_adds_up(capsys):
+    said = bench(capsys, "count", "--regulator", "rotation-matrix", "--stages")
+    assert "regulate" in said.out
+    assert "linearized-euler" not in said.out
+
+
+def stages(said) -> dict:
+    """Flops of each stage of the typical branch; the last column."""
+    rows = (line.split() for line in said.out.splitlines() if " typical " in line)
+    return {row[row.index("typical") + 1]: int(row[-1]) for row in rows}
+
+
+def test_count_of_a_controller_has_its_stages_and_more_joints_cost_more(capsys):
+    six, seven = (
+        stages(
+            bench(capsys, "count", "--regulator", "rotation-matrix@geometric+pseudo-inverse", "--joints", n, "--stages")
+        )
+        for n in (6, 7)
+    )
+    for flops in (six, seven):
+        assert flops["total"] == sum(number for stage, number in flops.items() if stage != "total")
+        assert min(flops[stage] for stage in ("measure", "regulate", "jacobian", "invert", "linearize")) > 0
+    # u = Kp s/2 - Kv omega and the position loop know nothing of joints
+    assert six["regulate"] == seven["regulate"]
+    assert all(six[stage] < seven[stage] for stage in ("jacobian", "linearize", "total"))
+
+
+def test_count_of_joints_alone_counts_the_quick_suites_controllers(capsys):
+    said = bench(capsys, "count", "--joints", "6")
+    rows = [line for line in said.out.splitlines() if " typical " in line]
+    assert len(rows) == len(SUITES["quick"].on_arms.words)
+    assert bench(capsys, "count", "--arm", "ur5e", "--joints", "6") == said
+
+
+def test_count_of_controllers_in_contact_has_their_stages(capsys):
+    said = bench(capsys, "count", "--controller", "hybrid-base+inverse", "--controller", EULER, "--stages")
+    flops = {
+        name: {line.split()[2]: int(line.split()[-1]) for line in said.out.splitlines() if f"{name} " in line}
+        for name in ("hybrid-base+inverse", EULER)
+    }
+    for each in flops.values():
+        assert each["total"] == each["regulate"] + each["invert"]
+    assert flops[EULER]["regulate"] > flops["hybrid-base+inverse"]["regulate"]
+    assert flops[EULER]["invert"] == flops["hybrid-base+inverse"]["invert"]
+
+
+def test_doctor_says_what_it_checked(capsys):
+    said = bench(capsys, "doctor")
+    assert [line.split()[1] for line in said.out.splitlines()] == [
+        "python",
+        "versions",
+        "compiler",
+        "engines",
+        "arms",
+        "contact",
+        "rendering",
+        "results",
+    ]
+    assert all(line.startswith(("ok", "note")) or "Cure: " in line for line in said.out.splitlines())

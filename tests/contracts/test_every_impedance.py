@@ -1,0 +1,247 @@
+"""Contracts that every impedance keeps, in every representation it acts on; a new file is under them unnamed.
+
+B is that of `exact`; a free body under a law is moved by scipy's integrator.
+"""
+
+import functools
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation as ScipyRotation
+from support.bits import EPS, different_rows
+from support.in_contact import GAINS, IMPEDANCES, TOUCH
+from support.on_arms import numbers
+from support.springs import STILL, B_at, called, command, free_body, margin
+from support.states import rotations
+
+from bench.contenders.registry import known_impedances, known_representations
+from bench.control.impedance import law_of
+from bench.counting.costs import counted, values
+from bench.counting.counted import Tally
+from bench.engines.compiled import MATRIX, compile_function
+from bench.law.contender import Gains
+from bench.law.scalar import KERNELS
+from bench.law.so3 import IDENTITY, Rotation
+
+REGULAR = 0.3
+GOALS = list(ScipyRotation.random(12, rng=np.random.default_rng(41)))
+
+
+def goals(one) -> list[ScipyRotation]:
+    """Those at which its coordinates are far from singular: of coordinates seen from the goal all, or none."""
+    return [goal for goal in GOALS if margin(one, goal, goal) > REGULAR]
+
+
+SPRINGS = [one for one in IMPEDANCES if goals(one)]
+# a law on R_d^T R can tell base frames apart only by mistake; coordinates of R are measured in one
+FRAMELESS = [one for one in IMPEDANCES if one.representation is None or one.impedance.relative]
+
+
+def over(controllers):
+    return pytest.mark.parametrize("one", controllers, ids=lambda one: one.name)
+
+
+@pytest.fixture(params=known_impedances().values(), ids=lambda impedance: impedance.name)
+def impedance(request):
+    return request.param
+
+
+def test_fields_say_what_it_is(impedance):
+    assert all((impedance.title, impedance.source, impedance.formula))
+    assert (impedance.law is None) != (impedance.law_in is None)
+    assert impedance.law_in is not None or not impedance.relative
+
+
+@over(IMPEDANCES)
+def test_law_is_a_kernel(one):
+    law = law_of(one.impedance, one.representation)
+    assert law in KERNELS
+
+
+def test_only_coordinates_that_are_singular_at_the_identity_have_no_goal_of_their_own():
+    """Seen from the goal they are singular at every goal."""
+    without = {one.representation.name for one in IMPEDANCES if one not in SPRINGS}
+    assert without == {"zyz-euler"}
+
+
+# ---------------------------------------------------------------------------- at the goal
+
+
+@over(SPRINGS)
+def test_command_at_the_goal_at_rest_is_zero(one):
+    for goal in goals(one):
+        # R_d^T R of the goal itself differs from the identity by EPS or two, and B from rounding by 1/margin
+        assert np.abs(command(one, goal, STILL, STILL, goal)).max() <= 8 * EPS * GAINS.kp / REGULAR
+
+
+# A step of 1e-4 leaves h^2/6 = 2e-9 of a law's third derivatives, of up to 1/margin^3 = 40, and EPS pi/h = 7e-12 by
+# rounding.
+STEP = 1e-4
+SLOPE = 1e-7
+
+
+def slope(of_step) -> np.ndarray:
+    """Central differences along the three axes, as columns."""
+    return np.array([(of_step(STEP * axis) - of_step(-STEP * axis)) / (2.0 * STEP) for axis in np.eye(3)]).T
+
+
+def spring_of(one, goal):
+    return slope(lambda h: command(one, ScipyRotation.from_rotvec(h) * goal, STILL, STILL, goal))
+
+
+def mobility_of(one, goal):
+    return slope(lambda m: command(one, goal, STILL, m, goal))
+
+
+@over(SPRINGS)
+def test_small_turn_is_sprung_back_by_kp_and_its_rate_damped_by_kv(one):
+    for goal in goals(one):
+        damping = slope(lambda omega, goal=goal: command(one, goal, omega, STILL, goal))
+        np.testing.assert_allclose(spring_of(one, goal), -GAINS.kp * np.eye(3), rtol=0.0, atol=SLOPE * GAINS.kp)
+        np.testing.assert_allclose(damping, -GAINS.kv * np.eye(3), rtol=0.0, atol=SLOPE * GAINS.kv)
+
+
+@over(SPRINGS)
+def test_stiffness_is_kp_times_the_apparent_inertia_and_in_coordinates_times_B_to_the_minus_T_and_minus_1(one):
+    """Moment per angle at rest, measured: (du/dm)^-1 du/dphi."""
+    for goal in goals(one):
+        measured = -np.linalg.solve(mobility_of(one, goal), spring_of(one, goal))
+        back = np.linalg.inv(B_at(one, goal, goal))
+        wanted = GAINS.kp * TOUCH.m_o * back.T @ back
+        np.testing.assert_allclose(measured, wanted, rtol=0.0, atol=10 * SLOPE * np.linalg.norm(wanted, 2))
+
+
+# ---------------------------------------------------------------------------- everywhere
+
+
+def anywhere(one, count: int = 60):
+    """(R, omega, m, R_d) where its coordinates are regular."""
+    draw = np.random.default_rng(42)
+    while count:
+        turn, goal = ScipyRotation.random(2, rng=draw)
+        omega, m = draw.normal(scale=5.0, size=3), draw.normal(size=3)
+        if margin(one, turn, goal) > REGULAR:
+            count -= 1
+            yield turn, omega, m, goal
+
+
+def size(turn, omega, m) -> float:
+    """No term of a command is larger: B^-1 and its derivative are 1/REGULAR and its square at most."""
+    linear = GAINS.kp * 4.0 * np.pi + (GAINS.kv + np.linalg.norm(omega)) * np.linalg.norm(omega)
+    return (linear + 16.0 * np.linalg.norm(m) / TOUCH.m_o) / REGULAR**2
+
+
+@over(IMPEDANCES)
+def test_moment_turns_the_hand_linearly_and_with_positive_power(one):
+    """u(m) - u(0) = M m with M symmetric and positive definite, B B^T/m_o: no moment turns the hand against it."""
+    for turn, omega, m, goal in anywhere(one):
+        free = command(one, turn, omega, STILL, goal)
+        M = np.array([command(one, turn, omega, axis, goal) - free for axis in np.eye(3)]).T
+        allowed = 50 * EPS * size(turn, omega, m)
+        np.testing.assert_allclose(command(one, turn, omega, m, goal) - free, M @ m, rtol=0.0, atol=allowed)
+        np.testing.assert_allclose(M, M.T, rtol=0.0, atol=allowed)
+        assert np.linalg.eigvalsh(M).min() > 0.0
+
+
+@over(FRAMELESS)
+def test_command_is_the_same_in_every_base_frame_unless_the_coordinates_are_the_base_frames(one):
+    """u(QR, Q omega, Q m, QR_d) = Q u(R, omega, m, R_d)."""
+    for Q, (turn, omega, m, goal) in zip(GOALS * 5, anywhere(one), strict=True):
+        seen = command(one, turn, omega, m, goal)
+        turned = command(one, Q * turn, Q.apply(omega), Q.apply(m), Q * goal)
+        np.testing.assert_allclose(turned, Q.apply(seen), rtol=0.0, atol=50 * EPS * size(turn, omega, m))
+
+
+@over([one for one in IMPEDANCES if one not in FRAMELESS])
+def test_command_is_another_in_another_base_frame_if_the_coordinates_are_the_base_frames(one):
+    apart = []
+    for Q, (turn, omega, m, goal) in zip(GOALS * 5, anywhere(one), strict=True):
+        if margin(one, Q * turn, Q * goal) > REGULAR:
+            seen = command(one, turn, omega, m, goal)
+            turned = command(one, Q * turn, Q.apply(omega), Q.apply(m), Q * goal)
+            apart.append(np.linalg.norm(turned - Q.apply(seen)))
+    assert np.median(apart) > 1.0
+
+
+def pushing(draw):
+    """A moment [N m] of the time: six tones a component, up to 5 Hz."""
+    size, frequency, phase = draw.normal(scale=0.1, size=(3, 6)), draw.uniform(1.0, 30.0, (3, 6)), draw.uniform(0, 6, 6)
+    return lambda t: (size * np.sin(frequency * t + phase)).sum(axis=1)
+
+
+def least_work(law, goal, draw) -> float:
+    """The least [J] that surroundings have done, up to any time, which push a hand that began at rest at its goal."""
+    *_, work = free_body(law, goal, STILL, goal, 2.0, pushing(draw))
+    return work.min()
+
+
+@over(SPRINGS)
+def test_impedance_is_passive(one):
+    """From rest at the goal no push, however it goes, takes work out of the hand."""
+    draw, law = np.random.default_rng(43), law_of(one.impedance, one.representation)
+    for goal in goals(one)[:2]:
+        assert (
+            least_work(law, goal, draw) > -1e-9
+        )  # of the integrator, whose relative error is 1e-9; they do up to 0.1 J
+
+
+def test_work_can_be_taken_out_where_moments_are_left_unconverted():
+    """The test above can fail: with m for B^T m it does."""
+    zyx = known_representations()["zyx-euler"]
+
+    def law(R, omega, m, R_d, gains, inertia):
+        at, E_d = zyx.chart(R), zyx.chart(R_d).E
+        Edot, g = zyx.rates(at, omega), (m[2], m[1], m[0])
+        Eddot = [g[i] / inertia + gains.kp * (E_d[i] - at.E[i]) - gains.kv * Edot[i] for i in range(3)]
+        return zyx.accelerate(at, Edot, tuple(Eddot))
+
+    goal = ScipyRotation.from_euler("ZYX", (2.5, 0.5, -0.4))
+    assert least_work(law, goal, np.random.default_rng(43)) < -1e-3
+
+
+# ---------------------------------------------------------------------------- plain, compiled, counted
+
+
+@functools.cache
+def rows() -> np.ndarray:
+    """R, omega, m, R_d, gains, inertia at every orientation of interest."""
+    draw, every, found = np.random.default_rng(44), rotations(), []
+    for R in every:
+        for R_d in (IDENTITY, every[draw.integers(len(every))]):
+            drawn = (draw.normal(scale=5.0, size=6), draw.uniform(1.0, 200.0, 2), draw.uniform(0.1, 1.0))
+            found.append(np.concatenate((np.ravel(R), drawn[0], np.ravel(R_d), drawn[1], [drawn[2]])))
+    return np.array(found)
+
+
+def over_rows(law):
+    def over(given, out):
+        for row, into in zip(given, out):  # noqa: B905  numba's zip takes no strict
+            R = Rotation((row[0], row[1], row[2]), (row[3], row[4], row[5]), (row[6], row[7], row[8]))
+            R_d = Rotation((row[15], row[16], row[17]), (row[18], row[19], row[20]), (row[21], row[22], row[23]))
+            omega, m = (row[9], row[10], row[11]), (row[12], row[13], row[14])
+            into[0], into[1], into[2] = law(R, omega, m, R_d, Gains(row[24], row[25]), row[26])
+
+    return over
+
+
+@over(IMPEDANCES)
+def test_compiled_command_is_the_plain_command_bit_for_bit(one):
+    law = law_of(one.impedance, one.representation)
+    plain, compiled = np.empty((2, len(rows()), 3))
+    with np.errstate(all="ignore"):
+        over_rows(law)(rows(), plain)
+    compile_function(over_rows(law), (MATRIX, MATRIX), cache=False)(rows(), compiled)
+    assert different_rows(compiled, plain) == []
+    assert np.isfinite(plain).all(axis=1).mean() > 0.5
+
+
+@over(IMPEDANCES)
+def test_counted_command_is_the_plain_command_bit_for_bit(one):
+    law, tally = law_of(one.impedance, one.representation), Tally()
+    for turn, omega, m, goal in anywhere(one, 20):
+        plain = called(law, turn, omega, m, goal)
+        given = (*(tuple(map(tuple, t.as_matrix().T)) for t in (turn, goal)), numbers(omega), numbers(m))
+        R, R_d, omega_c, m_c = (counted(part, tally) for part in given)
+        gains = counted(Gains(*map(np.float64, GAINS)), tally)
+        answer = law(Rotation(*R), omega_c, m_c, Rotation(*R_d), gains, counted(np.float64(TOUCH.m_o), tally))
+        assert values(answer) == tuple(plain)

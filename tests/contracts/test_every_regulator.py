@@ -1,0 +1,255 @@
+"""Contracts that every regulator keeps, in every representation it acts on; a new file is under them unnamed."""
+
+import functools
+import math
+
+import numpy as np
+import pytest
+from numba import types
+from scipy.optimize import brentq
+from scipy.spatial.transform import Rotation as ScipyRotation
+from support.bits import EPS, different_rows
+from support.driving import settings, spread
+from support.states import as_rotation, rotations, vector
+
+import tasks
+from bench.contenders.law_file import TRIAL
+from bench.contenders.registry import all_contenders
+from bench.engines.binding import command_of, evaluation_of, margin_of, memory_of
+from bench.engines.compiled import EVALUATE, FOUR, MATRIX, compile_function
+from bench.engines.episode import OUTCOME, SETTLING_TICK, TICKS
+from bench.engines.run import evaluation, run
+from bench.law.contender import AT_REST, Gains, Goal
+from bench.law.so3 import IDENTITY, Rotation
+from bench.metrics.registry import metrics_of
+from tasks.base import Start
+from tasks.rotations import about
+from tasks.verdict import DIVERGED, OUTCOMES, SATURATED, SETTLED, SINGULAR
+
+METRICS = metrics_of(on_arm=False)
+BODIES = [name for name in tasks.names() if not tasks.is_for_arms(name)]  # arms have contracts of their own
+GAINS = Gains(kp=37.0, kv=9.0)  # not the defaults: a law that has those built in is found out
+
+
+@pytest.fixture(params=all_contenders(), ids=lambda contender: contender.name)
+def contender(request):
+    return request.param
+
+
+def call(contender, R, omega, R_d=IDENTITY, gains=GAINS) -> np.ndarray:
+    """The command of one tick, from the initial memory."""
+    with np.errstate(all="ignore"):
+        u, _ = command_of(contender)(R, omega, Goal(R_d), gains, memory_of(contender))
+    return np.array(u)
+
+
+def is_regular(contender, R, R_d) -> bool:
+    """Off the singular set of the law's coordinates, where there is one."""
+    return margin_of(contender)(R, R_d) != 0.0  # NaN, for a law on R, is regular
+
+
+def has_linear_goal(contender) -> bool:
+    """Whether the law claims the small-angle gains, and its coordinates exist at the goal they are tested at."""
+    return contender.regulator.property != "none" and is_regular(contender, IDENTITY, IDENTITY)
+
+
+LINEAR = [one for one in all_contenders() if has_linear_goal(one)]
+# a law on R, or on R_d^T R, can tell base frames apart only by mistake; angles of R are measured in one
+FRAMELESS = [one for one in all_contenders() if one.regulator.relative or one.representation is None]
+
+
+def over(contenders):
+    return pytest.mark.parametrize("contender", contenders, ids=lambda contender: contender.name)
+
+
+# ---------------------------------------------------------------------------- one tick
+
+
+def over_rows(evaluate, memory, given, out):
+    """The command, the memory after it and the margin, over rows of R, omega, R_d and gains."""
+    for row, into in zip(given, out):  # noqa: B905  numba's zip takes no strict
+        R = Rotation((row[0], row[1], row[2]), (row[3], row[4], row[5]), (row[6], row[7], row[8]))
+        R_d = Rotation((row[12], row[13], row[14]), (row[15], row[16], row[17]), (row[18], row[19], row[20]))
+        goal = Goal(R_d, AT_REST, AT_REST)
+        u, after, into[7] = evaluate(R, (row[9], row[10], row[11]), goal, Gains(row[21], row[22]), memory)
+        into[0], into[1], into[2] = u
+        into[3], into[4], into[5], into[6] = after
+
+
+@functools.cache
+def compiled_over_rows():
+    """The same for every law, which it calls by pointer as the loops do."""
+    return compile_function(over_rows, types.void(types.FunctionType(EVALUATE), FOUR, MATRIX, MATRIX), cache=False)
+
+
+@functools.cache
+def one_tick_rows() -> np.ndarray:
+    """Every orientation of interest, at rest and tumbling, towards the identity and towards another one of them."""
+    draw = np.random.default_rng(9)
+    every = rotations()
+    rows = []
+    for R in every:
+        other = every[draw.integers(len(every))]
+        for omega, R_d in ((AT_REST, IDENTITY), (draw.normal(scale=5.0, size=3), other)):
+            rows.append([*R.n, *R.o, *R.a, *omega, *R_d.n, *R_d.o, *R_d.a, *draw.uniform(1.0, 200.0, 2)])
+    return np.array(rows)
+
+
+def test_compiled_command_is_the_plain_command_bit_for_bit(contender):
+    given = one_tick_rows()
+    plain, compiled = np.empty((2, len(given), 8))
+    with np.errstate(all="ignore"):
+        over_rows(evaluation_of(contender), memory_of(contender), given, plain)
+    compiled_over_rows()(evaluation(contender), memory_of(contender), given, compiled)
+    assert different_rows(compiled, plain) == []
+    # the comparison has seen numbers, not only NaN
+    assert np.isfinite(plain[:, :7]).all(axis=1).mean() > 0.5
+
+
+# A step of 1e-4 rad leaves h^2/6 = 2e-9 of the gain by the law's curvature, and EPS pi/h = 7e-12 by rounding.
+STEP = 1e-4
+GAIN_TOLERANCE = 1e-8
+
+
+@over(LINEAR)
+def test_small_angle_gain_is_kp(contender):
+    for i, axis in enumerate(np.eye(3)):
+        there, back = (
+            call(contender, as_rotation(ScipyRotation.from_rotvec(h * axis).as_matrix().T), vector(AT_REST))
+            for h in (STEP, -STEP)
+        )
+        slope = (there - back) / (2.0 * STEP)
+        expected = -GAINS.kp * contender.regulator.stiffness[i] * np.eye(3)[i]
+        np.testing.assert_allclose(slope, expected, rtol=0.0, atol=GAIN_TOLERANCE * GAINS.kp)
+
+
+@over(LINEAR)
+def test_rate_gain_is_kv(contender):
+    for i, axis in enumerate(np.eye(3)):
+        there, back = (call(contender, as_rotation(IDENTITY), vector(h * axis)) for h in (STEP, -STEP))
+        slope = (there - back) / (2.0 * STEP)
+        np.testing.assert_allclose(slope, -GAINS.kv * np.eye(3)[i], rtol=0.0, atol=GAIN_TOLERANCE * GAINS.kv)
+
+
+def test_command_at_the_goal_at_rest_is_zero(contender):
+    """To rounding: R_d^T R of the goal itself differs from the identity by EPS or two."""
+    for R in rotations():
+        if is_regular(contender, R, R):
+            assert np.abs(call(contender, R, vector(AT_REST), R)).max() <= 8 * EPS * GAINS.kp, R
+
+
+@over(FRAMELESS)
+def test_command_is_the_same_in_every_base_frame_where_the_law_has_none_of_its_own(contender):
+    """u(QR, Q omega, QR_d) = Q u(R, omega, R_d): the error of such a law depends on R_d^T R alone."""
+    draw = np.random.default_rng(10)
+    for _ in range(100):
+        Q, R, R_d = ScipyRotation.random(3, rng=draw)
+        omega = draw.normal(scale=5.0, size=3)
+        seen, turned = (
+            call(
+                contender,
+                as_rotation((P * R).as_matrix().T),
+                vector(P.apply(omega)),
+                as_rotation((P * R_d).as_matrix().T),
+            )
+            for P in (ScipyRotation.identity(), Q)
+        )
+        margin = margin_of(contender)(as_rotation(R.as_matrix().T), as_rotation(R_d.as_matrix().T))
+        near = 1.0 if math.isnan(margin) else margin
+        # rounding of the relative orientation, 10 EPS, in coordinates that magnify it by 1/margin twice
+        scale = 10 * EPS / near**2 * (GAINS.kp * math.pi + GAINS.kv * np.linalg.norm(omega))
+        np.testing.assert_allclose(turned, Q.apply(seen), rtol=0.0, atol=scale)
+
+
+def test_command_is_finite_off_the_singular_set(contender):
+    for R in rotations():
+        if is_regular(contender, R, IDENTITY):
+            assert np.isfinite(call(contender, R, vector((0.5, -1.0, 2.0)))).all(), R
+
+
+# ---------------------------------------------------------------------------- episodes
+
+# name: (settings, starts of each set); together they end in every way an episode can end
+RUNS = {
+    "as judged": (settings(dt_s=1e-3, horizon_s=0.1), 2),
+    "to the end, with early stop": (settings(dt_s=1e-2, horizon_s=2.0, hold_ticks=10), 1),
+    "under tight limits": (settings(dt_s=1e-2, horizon_s=0.5, command_limit=350.0, speed_limit=8.0), 2),
+}
+
+
+INTEGRATORS = ("euler", "rk4")
+# Every law runs in every way, and with both integrators, which take turns.
+TURNS = [
+    pytest.param(one, way, INTEGRATORS[(k + w) % 2], id=f"{one.name}-{way}-{INTEGRATORS[(k + w) % 2]}")
+    for k, one in enumerate(all_contenders())
+    for w, way in enumerate(RUNS)
+]
+
+
+@pytest.mark.parametrize(("contender", "way", "integrator"), TURNS)
+@pytest.mark.parametrize("task", BODIES)
+def test_native_rows_are_the_reference_rows_bit_for_bit(contender, task, integrator, way):
+    chosen, each = RUNS[way]
+    starts = spread(each, task)
+    fast, slow = (
+        run(engine, contender, task, starts, chosen, METRICS, integrator) for engine in ("native", "reference")
+    )
+    assert [starts[i].id for i in different_rows(fast, slow)] == []
+
+
+def test_the_compared_runs_end_in_every_way_an_episode_can_end():
+    seen = set()
+    for contender in all_contenders():
+        for chosen, each in RUNS.values():
+            rows = run("native", contender, "free-body", spread(each), chosen, METRICS)
+            seen |= set(rows[:, OUTCOME].astype(int))
+    assert {SETTLED, DIVERGED, SINGULAR, SATURATED} <= seen, [OUTCOMES[i] for i in sorted(seen)]
+
+
+SMALL_ANGLE = 1e-3  # sin differs from the angle by 2e-7 of it: a ten-thousandth of a tick of settling time
+
+
+@over([one for one in LINEAR if one.regulator.stiffness == (1.0, 1.0, 1.0)])
+def test_settling_near_the_goal_takes_the_critically_damped_time(contender):
+    """theta/theta0 = (1 + 10 t) exp(-10 t) = 0.02 (Murphy 1988, 2.3: Kp = 100, Kd = 20), to one tick."""
+    expected = brentq(lambda t: (1.0 + 10.0 * t) * math.exp(-10.0 * t) - 0.02, 0.1, 2.0)
+    axes = np.random.default_rng(11).normal(size=(8, 3))
+    starts = [Start(f"small-{i}", about(tuple(axis), SMALL_ANGLE)) for i, axis in enumerate(axes)]
+    chosen = settings(horizon_s=1.5)
+    rows = run("ideal-rk4", contender, "free-body", starts, chosen, METRICS)
+    assert (rows[:, OUTCOME] == SETTLED).all()
+    np.testing.assert_allclose(rows[:, SETTLING_TICK] * chosen.dt_s, expected, rtol=0.0, atol=chosen.dt_s)
+
+
+@pytest.mark.parametrize("task", BODIES)
+@pytest.mark.parametrize("engine", ["native", "ideal-rk4"])
+def test_episode_gives_the_same_row_whatever_ran_before_it(contender, task, engine):
+    """No state of MuJoCo, of the law's memory or of a metric leaks from one episode into the next."""
+    starts, chosen = spread(1, task), settings(dt_s=1e-2, horizon_s=0.3)
+    forward = run(engine, contender, task, starts, chosen, METRICS)
+    backward = run(engine, contender, task, starts[::-1], chosen, METRICS)[::-1]
+    assert different_rows(forward, backward) == []
+
+
+def test_early_stop_changes_no_settling_tick(contender):
+    starts = spread(2)
+    to_the_end, stopped = (
+        run(
+            "ideal-rk4",
+            contender,
+            "free-body",
+            starts,
+            settings(dt_s=5e-3, horizon_s=4.0, hold_ticks=hold),
+            METRICS,
+        )
+        for hold in (10**9, 50)
+    )
+    assert different_rows(to_the_end[:, :3], stopped[:, :3]) == []
+    assert (stopped[:, TICKS] <= to_the_end[:, TICKS]).all()
+
+
+def test_law_answers_three_floats_to_floats(contender):
+    answer = contender.law(TRIAL, (0.1, 0.2, 0.3), Goal(), Gains()) if contender.regulator.memory is None else None
+    if answer is not None:
+        assert len(answer) == 3
+        assert all(type(x) is float for x in answer)

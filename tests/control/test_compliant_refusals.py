@@ -1,0 +1,246 @@
+"""Controllers, constants, orders, trials and contacts that mean nothing: one line that says what, and the cure."""
+
+import numpy as np
+import pytest
+from support.in_contact import ARMS
+from support.own_arm import JOINTS, xml
+
+import tasks
+from bench.contenders.registry import known_impedances, known_representations, representation
+from bench.control.contact_controller import FORMS, HYBRIDS, hybrid, springy
+from bench.control.hybrid import TOUCH
+from bench.control.registry import find_compliant
+from bench.engines.contact_episode import USUAL
+from bench.engines.run_contact import run
+from bench.errors import BenchError
+from bench.law.contender import Gains
+from tasks.arm import arm as arm_in
+from tasks.base import BadValue, TaskError
+from tasks.contact import STANDARD, Order, model_xml
+from tasks.contact_checks import check_contact, check_order, check_trial
+from tasks.contact_episode import environment
+from tasks.domains.wrench_probe import TASK
+
+ARM = tasks.arm("ur5e")
+TRIAL = TASK.trials(ARM)[0]
+ORDER = Order("about x", (1, 1, 1, 0, 1, 1))
+BASE = hybrid("hybrid-base", "inverse")
+ZYX, QUATERNION = representation("zyx-euler"), representation("quaternion")
+GEOMETRIC, COORDINATES = (known_impedances()[word] for word in ("geometric", "coordinates"))
+ENGINES = pytest.mark.parametrize("engine", ["native", "reference"])
+
+
+def line_of(action, kind) -> str:
+    """The one line of a refusal."""
+    with pytest.raises(kind) as caught:
+        action()
+    line = str(caught.value)
+    assert "\n" not in line
+    return line
+
+
+# ---------------------------------------------------------------------------- controllers
+
+
+@pytest.mark.parametrize(
+    ("action", "says"),
+    [
+        (lambda: hybrid("hybrid-tool", "inverse"), ["'hybrid-tool' is no hybrid controller", *HYBRIDS]),
+        (lambda: hybrid("hybrid-base", "transpose"), ["'transpose' is no way to the joints", *FORMS]),
+        (lambda: hybrid("hybrid", "inverse"), ["needs some", "try: hybrid/zyx-euler+inverse"]),
+        (lambda: hybrid("hybrid-unconverted", "projected"), ["try: hybrid-unconverted/zyx-euler+projected"]),
+        (lambda: hybrid("hybrid-base", "inverse", ZYX), ["takes no representation", "try: hybrid-base+inverse"]),
+        (lambda: hybrid("hybrid-hand", "projected", ZYX), ["try: hybrid-hand+projected"]),
+        (
+            lambda: hybrid("hybrid", "inverse", QUATERNION),
+            ["'quaternion' has no coordinate for each", "try: zyx-euler"],
+        ),
+        (lambda: springy(COORDINATES, QUATERNION), ["'quaternion' has no coordinate for each", "try: zyx-euler"]),
+        (lambda: springy(COORDINATES), ["needs some", "try: impedance-coordinates/zyx-euler"]),
+        (lambda: springy(GEOMETRIC, ZYX), ["takes no representation", "leave 'zyx-euler' away"]),
+        (lambda: find_compliant("hybrid-bse+inverse"), ["'hybrid-bse' is unknown", "did you mean 'hybrid-base'"]),
+        (lambda: find_compliant("hybrid/zyx+inverse"), ["representation 'zyx' is unknown", *known_representations()]),
+        (lambda: find_compliant("hybrid-base"), ["try: hybrid-base+inverse, or hybrid-base+projected"]),
+        (lambda: find_compliant("impedance-geometric+inverse"), ["leave '+inverse' away"]),
+        (lambda: find_compliant("impedance-coordinates/quaternion"), ["'quaternion' has no coordinate for each"]),
+    ],
+)
+def test_controller_that_has_no_meaning_is_refused_with_the_cure(action, says):
+    line = line_of(action, BenchError)
+    assert [part for part in says if part not in line] == []
+
+
+@pytest.mark.parametrize("law", HYBRIDS)
+@pytest.mark.parametrize("form", FORMS)
+def test_cure_of_a_missing_or_needless_representation_is_a_controller(law, form):
+    """What the message says to try can be had."""
+    for given in (None, ZYX):
+        try:
+            one = hybrid(law, form, given)
+        except BenchError as error:
+            word = str(error).rpartition("try: ")[2].rstrip(")")
+            one = find_compliant(word)
+        assert (one.law, one.form) == (law, form)
+
+
+# ---------------------------------------------------------------------------- constants, words
+
+
+@pytest.mark.parametrize("value", [0.0, -1.0, np.nan, np.inf])
+@pytest.mark.parametrize("name", [*Gains._fields, *TOUCH._fields])
+def test_stiffness_inertia_or_damping_that_is_none_is_refused_before_anything_runs(name, value):
+    if name in Gains._fields:
+        conditions = USUAL._replace(gains=USUAL.gains._replace(**{name: value}))
+    else:
+        conditions = USUAL._replace(touch=TOUCH._replace(**{name: value}))
+    line = line_of(lambda: run("native", BASE, TASK, ARM, [TRIAL], conditions), BenchError)
+    assert line.startswith(f"{name} = {value} ")
+    assert "above 0 (try: " in line
+
+
+@pytest.mark.parametrize(
+    ("engine", "conditions", "says"),
+    [
+        ("nativ", USUAL, "engine 'nativ' is unknown (did you mean 'native'?)"),
+        ("native", USUAL._replace(integrator="eulr"), "integrator 'eulr' is unknown (did you mean 'euler'?)"),
+        ("native", USUAL._replace(dt_s=0.0), "dt_s = 0.0 s: give a finite number above 0"),
+        ("reference", USUAL._replace(dt_s=np.nan), "dt_s = nan s: give a finite number above 0"),
+    ],
+)
+def test_word_or_period_that_is_none_is_refused_before_anything_runs(engine, conditions, says):
+    assert says in line_of(lambda: run(engine, BASE, TASK, ARM, [TRIAL], conditions), BenchError)
+
+
+# ---------------------------------------------------------------------------- orders
+
+
+@pytest.mark.parametrize(
+    ("order", "says"),
+    [
+        (ORDER._replace(held=(1, 1, 1, 0.5, 1, 1)), "must be six of 0 and 1"),
+        (ORDER._replace(held=(1, 1, 1, 2, 1, 1)), "must be six of 0 and 1"),
+        (ORDER._replace(held=(1, 1, 1, -1, 1, 1)), "must be six of 0 and 1"),
+        (ORDER._replace(held=(1, 1, 1, np.nan, 1, 1)), "must be six of 0 and 1"),
+        (ORDER._replace(held=(1, 1, 1)), "must be six of 0 and 1"),
+        (ORDER._replace(held=(1, 1, 1, 0, 1, 1, 1)), "must be six of 0 and 1"),
+        (ORDER._replace(held=np.eye(6)), "the diagonal of the selection matrix"),
+        (ORDER._replace(exerts=(0.0, 0.0, -5.0, 0.0, 0.0, 0.0)), "z is held and shall exert -5 at once (release it"),
+        (ORDER._replace(exerts=(0.0, 0.0, 0.0, np.inf, 0.0, 0.0)), "exerts = "),
+        (ORDER._replace(exerts=(0.0, 0.0, 0.0)), "must be 6 finite numbers [N, N m]"),
+        (ORDER._replace(velocity=(0.0, np.nan, 0.0)), "must be 3 finite numbers [m/s]"),
+        (ORDER._replace(velocity=(0.1, 0.0)), "must be 3 finite numbers [m/s]"),
+    ],
+)
+def test_order_that_selects_too_much_too_little_or_halves_is_refused(order, says):
+    line = line_of(lambda: check_order(order), BadValue)
+    assert line.startswith("order 'about x': ")
+    assert says in line
+
+
+@pytest.mark.parametrize("held", [(0,) * 6, (1,) * 6, (True, True, False, False, True, True), (1.0,) * 6])
+def test_order_that_holds_nothing_or_everything_is_unusual_and_no_more(held):
+    order = Order("", held)
+    check_order(order)
+    ended = next(run("native", BASE, TASK._replace(horizon_s=0.02), ARM, [TRIAL._replace(order=order)]))
+    assert ended.outcome == "done"
+
+
+@ENGINES
+def test_bad_order_is_refused_by_both_engines_before_the_first_episode(engine):
+    bad = TRIAL._replace(order=ORDER._replace(held=(1, 1, 1, 0.5, 1, 1)))
+    assert "six of 0 and 1" in line_of(lambda: run(engine, BASE, TASK, ARM, [TRIAL, bad]), TaskError)
+
+
+# ---------------------------------------------------------------------------- trials and arms
+
+OTHERS_RANGE = (*TRIAL.q[:2], 7.0, *TRIAL.q[3:])
+
+
+@pytest.mark.parametrize(
+    ("trial", "says"),
+    [
+        (TRIAL._replace(q=(*TRIAL.q, 0.0)), "must be 6 finite numbers [rad], one for each joint of arm 'ur5e'"),
+        (TRIAL._replace(q=(np.nan, *TRIAL.q[1:])), "must be 6 finite numbers [rad]"),
+        (TRIAL._replace(q=OTHERS_RANGE), "joint 3 of arm 'ur5e' at 7 rad, outside "),
+        (TRIAL._replace(goal_wxyz=(2.0, 0.0, 0.0, 0.0)), "goal_wxyz = (2.0, 0.0, 0.0, 0.0) is no unit quaternion"),
+        (TRIAL._replace(mount_wxyz=(0.0, 0.0, 0.0, 0.0)), "divide it by its norm"),
+        (TRIAL._replace(scene_wxyz=(1.0, 0.0, 0.0)), "scene_wxyz = (1.0, 0.0, 0.0) is no unit quaternion"),
+        (TRIAL._replace(scene_pos=(0.0, np.inf, 0.0)), "must be 3 finite numbers [m]"),
+        (TRIAL._replace(push=(1.0, 2.0, 3.0)), "must be 6 finite numbers [N, N m]"),
+        (TRIAL._replace(legs=((0.0,) * 6,)), "it has a push and legs"),
+        (TRIAL._replace(push=(0.0,) * 6, legs=((1.0,) * 6,) * 9), "9 legs, and 8 are the most"),
+    ],
+)
+def test_trial_that_no_episode_of_the_arm_can_be_made_of_is_refused(trial, says):
+    line = line_of(lambda: check_trial(trial, ARM), BadValue)
+    assert line.startswith(f"trial '{TRIAL.id}': ")
+    assert says in line
+
+
+@pytest.mark.parametrize("word", tasks.contact_names())
+@pytest.mark.parametrize("arm", ARMS)
+def test_no_trial_of_ours_is_refused(word, arm):
+    task, on = tasks.contact_task(word), tasks.arm(arm)
+    for trial in (*task.trials(on), *(task.dense or task.trials)(on)):
+        check_trial(trial, on)
+
+
+@ENGINES
+def test_arm_without_a_wrist_is_refused_with_the_cure(engine, tmp_path):
+    (tmp_path / "own.xml").write_text(xml())
+    own = arm_in("own", tmp_path)
+    line = line_of(lambda: run(engine, BASE, TASK, own, [TRIAL]), BadValue)
+    assert line.startswith("arm 'own' has no site 'wrist'")
+    assert '(add <site name="wrist"/> to the last body of its file)' in line
+
+
+@ENGINES
+def test_arm_of_seven_joints_is_refused_with_the_reason(engine, tmp_path):
+    (tmp_path / "own.xml").write_text(xml((*JOINTS, ("7", "0 1 0"))))
+    own = arm_in("own", tmp_path)
+    line = line_of(lambda: run(engine, BASE, TASK, own, [TRIAL]), BadValue)
+    assert "needs an arm of six joints, and 'own' has 7 (choose another" in line
+
+
+def test_arm_is_taken_once_it_has_a_wrist(tmp_path):
+    (tmp_path / "own.xml").write_text(xml().replace('<site name="tool"', '<site name="wrist"/><site name="tool"'))
+    own = arm_in("own", tmp_path)
+    assert 'name="hand"' in model_xml(TASK, own, 1e-3)
+
+
+# ---------------------------------------------------------------------------- contacts
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [
+        (name, value)
+        for name in STANDARD._fields
+        for value in (0.0, -0.01, np.nan, np.inf)
+        if (name, value) != ("friction", 0.0)
+    ],
+)
+def test_contact_that_MuJoCo_would_replace_without_a_word_is_refused(name, value):
+    contact = STANDARD._replace(**{name: value})
+    line = line_of(lambda: check_contact(contact), BadValue)
+    assert line.startswith(f"contact model: {name} = {value} must be ")
+    assert line.endswith(f"(try: {getattr(STANDARD, name)})")
+
+
+@ENGINES
+def test_bad_contact_is_refused_by_both_engines_and_by_dm_controls_environment(engine):
+    contact = STANDARD._replace(timeconst=-0.01)
+    for action in (
+        lambda: run(engine, BASE, TASK, ARM, [TRIAL], USUAL, contact),
+        lambda: environment(TASK, ARM, TRIAL, contact=contact),
+    ):
+        assert "timeconst = -0.01" in line_of(action, BadValue)
+
+
+def test_contact_may_be_smooth():
+    check_contact(STANDARD._replace(friction=0.0))
+
+
+def test_impedance_of_a_contact_is_a_share():
+    for value in (1.0, 2.0):
+        assert "dmax = " in line_of(lambda value=value: check_contact(STANDARD._replace(dmax=value)), BadValue)

@@ -1,0 +1,122 @@
+"""`comply`: joint accelerations and torques of given rows, against formulas in numpy, for every selection."""
+
+import itertools
+
+import numpy as np
+import pytest
+from support.bits import EPS
+from support.in_contact import LONGEST, SELECTIONS, TOUCH, backward
+
+from bench.control.contact_controller import FORMS
+from bench.control.hybrid import Touch, comply
+from bench.engines.contact_episode import room, rows
+
+IN_FORMS = pytest.mark.parametrize("form", FORMS)
+
+
+def given(count: int = 6):
+    """J, D, fg and rows, drawn; J with a condition of some tens."""
+    draw = np.random.default_rng(31)
+    while count:
+        J, root = draw.normal(size=(2, 6, 6))
+        if np.linalg.cond(J) > 50.0:
+            continue
+        count -= 1
+        into = rows()
+        for row in into:
+            row[:] = draw.normal(scale=5.0, size=6)
+        yield J, root @ root.T + np.eye(6), draw.normal(size=6), into
+
+
+def complied(form: str, held, J, D, fg, into, touch=TOUCH):
+    """(y, tau) of `comply`."""
+    about, tau = room(), np.full(6, np.nan)
+    for buffer in (about.y, about.b, about.held, *about.scratch):
+        buffer[...] = np.nan
+    comply(FORMS.index(form), held, 6, D, fg, J, into, touch, about, tau)
+    return about.y, tau
+
+
+def answer(into, touch=TOUCH) -> np.ndarray:
+    """What is commanded where the hand complies."""
+    return (into.F + into.h) / np.repeat((touch.m_p, touch.m_o), 3) - touch.kc * into.v
+
+
+def by_formula(form: str, held, J, into) -> np.ndarray:
+    """y: see the docstring of bench.control.hybrid."""
+    S, left = np.diag(held), np.eye(6) - np.diag(held)
+    complies = np.linalg.solve(J, left @ (answer(into) - into.drift))
+    if form == "inverse":
+        return complies + np.linalg.solve(J, S @ (into.a - into.drift))
+    return complies + np.linalg.pinv(S @ J) @ (into.a - into.drift)
+
+
+@IN_FORMS
+def test_torques_are_the_formula_for_every_selection(form):
+    for (J, D, fg, into), held in itertools.product(given(), SELECTIONS):
+        y, tau = complied(form, held, J, D, fg, into)
+        wanted = by_formula(form, held, J, into)
+        size = np.linalg.norm(np.linalg.inv(J), 2) * np.linalg.norm([answer(into), into.a, into.drift])
+        np.testing.assert_allclose(y, wanted, rtol=0.0, atol=backward(J) * size, err_msg=held)
+        allowed = backward(J) * (np.linalg.norm(D, 2) * size + np.linalg.norm(J, 2) * np.linalg.norm(into.F))
+        np.testing.assert_allclose(tau, D @ wanted + fg - J.T @ into.F, rtol=0.0, atol=allowed, err_msg=held)
+
+
+@IN_FORMS
+def test_what_is_held_is_followed_for_every_selection(form):
+    """J y + drift = a on the rows that are held, whatever the others do."""
+    for (J, D, fg, into), held in itertools.product(given(), SELECTIONS):
+        y, _ = complied(form, held, J, D, fg, into)
+        size = np.linalg.norm(J, 2) * np.linalg.norm(np.linalg.inv(J), 2) * LONGEST
+        followed = np.array(held) > 0.0
+        np.testing.assert_allclose((J @ y + into.drift)[followed], into.a[followed], rtol=0.0, atol=backward(J) * size)
+
+
+def test_what_complies_answers_the_wrench_for_every_selection_in_the_inverse_form():
+    """(F + h)/m - kc v, in the apparent inertia of the row."""
+    for (J, D, fg, into), held in itertools.product(given(), SELECTIONS):
+        y, _ = complied("inverse", held, J, D, fg, into)
+        size = np.linalg.norm(J, 2) * np.linalg.norm(np.linalg.inv(J), 2) * LONGEST
+        complies = np.array(held) == 0.0
+        np.testing.assert_allclose(
+            (J @ y + into.drift)[complies], answer(into)[complies], rtol=0.0, atol=backward(J) * size
+        )
+
+
+def test_forms_are_one_where_all_is_held_or_all_complies_and_two_elsewhere():
+    for J, D, fg, into in given():
+        for held in SELECTIONS:
+            one, other = (complied(form, held, J, D, fg, into)[0] for form in FORMS)
+            size = np.linalg.norm(np.linalg.inv(J), 2) * LONGEST
+            apart = np.linalg.norm(one - other)
+            assert apart <= backward(J) * size if len(set(held)) == 1 else apart > 1e-3, held
+
+
+def test_projected_form_holds_with_the_least_motion_of_the_joints():
+    """Where nothing acts on what complies, y is lstsq's answer of least norm to S J y = S (a - drift)."""
+    for (J, D, fg, into), held in itertools.product(given(), SELECTIONS[1:]):
+        kept, nothing = np.array(held) > 0.0, np.zeros(6)
+        quiet = into._replace(drift=np.where(kept, into.drift, 0.0), F=nothing, h=nothing, v=nothing)
+        y, _ = complied("projected", held, J, D, fg, quiet)
+        least = np.linalg.lstsq(J[kept], (into.a - into.drift)[kept], rcond=None)[0]
+        np.testing.assert_allclose(y, least, rtol=0.0, atol=backward(J) * np.linalg.norm(np.linalg.inv(J), 2) * LONGEST)
+
+
+@IN_FORMS
+def test_hand_stays_at_rest_where_the_wrench_is_the_wished_one(form):
+    """F = -h: y = 0, and the torques fg + J^T h are those that hold against it statically."""
+    for J, D, fg, into in given():
+        still = into._replace(F=-into.h, v=np.zeros(6), drift=np.zeros(6))
+        y, tau = complied(form, (0.0,) * 6, J, D, fg, still)
+        assert (y == 0.0).all()
+        # six products a torque, and the row of J no longer than all of it
+        allowed = 12 * EPS * (np.linalg.norm(J) * np.linalg.norm(into.h) + np.linalg.norm(fg))
+        np.testing.assert_allclose(tau, fg + J.T @ into.h, rtol=0.0, atol=allowed)
+
+
+def test_constants_of_touch_act_on_the_rows_they_are_of():
+    """m_p along x, y, z, m_o about them, kc on all."""
+    _, D, fg, into = next(given())
+    for touch in (Touch(11.0, 0.3, 4.0), Touch(7.0, 0.9, 4.0), Touch(7.0, 0.3, 1.5)):
+        y, _ = complied("inverse", (0.0,) * 6, np.eye(6), D, fg, into, touch)
+        np.testing.assert_allclose(y, answer(into, touch) - into.drift, rtol=0.0, atol=8 * EPS * LONGEST)

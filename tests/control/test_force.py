@@ -1,0 +1,378 @@
+"""Controllers in contact against MuJoCo's forward dynamics, by the work they do, and one frame against another.
+
+B and its derivative are those of `exact`, differentiated with 80 digits.
+"""
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation as ScipyRotation
+from support.bits import EPS
+from support.exact import exact_B, motion
+from support.in_contact import (
+    ARMS,
+    GAINS,
+    HYBRIDS,
+    IMPEDANCES,
+    LONGEST,
+    SELECTIONS,
+    TOUCH,
+    backward,
+    drawn,
+    felt,
+    hand,
+    tick,
+    wish_of,
+)
+from support.on_arms import numbers
+from support.states import as_rotation, rotations
+
+import tasks
+from bench.contenders.registry import known_representations
+from bench.control.contact_controller import FORMS, hybrid
+from bench.control.hybrid import TOUCH as TOUCHING
+from bench.control.hybrid import axes_of
+from bench.control.impedance import law_of
+from bench.law.so3 import IDENTITY
+from tasks.contact import Order
+
+INERTIA = np.array([TOUCH.m_p] * 3 + [TOUCH.m_o] * 3)
+IN_FORMS = pytest.mark.parametrize("form", FORMS)
+FRAMES = [one for one in HYBRIDS if one.form == "inverse"]
+CONVERTED = [one for one in FRAMES if one.law != "hybrid-unconverted"]
+UNCONVERTED = [one for one in FRAMES if one.law == "hybrid-unconverted"]
+COORDINATES = [one for one in known_representations().values() if one.about is not None]
+AT_ORIGIN = [one for one in COORDINATES if one.name in ("rotation-vector", "xyz-euler", "zyx-euler")]
+# Sums of a few products of numbers that carry the rounding of n rotations each (test_chain).
+ROUNDING = 200 * EPS
+
+
+def named(one) -> str:
+    return one.name
+
+
+over_arms = pytest.mark.parametrize("arm", ARMS)
+over_frames = pytest.mark.parametrize("one", CONVERTED, ids=named)
+
+
+# ---------------------------------------------------------------------------- frames, by 80 digits and scipy
+
+
+def B_of(representation, E) -> np.ndarray:
+    return np.array(exact_B(representation.to_matrix, E).tolist(), dtype=float)
+
+
+def frame(one, at, wish) -> tuple[np.ndarray, np.ndarray]:
+    """(M, bent): its rows' velocity is M (pdot, omega), their acceleration M (pddot, omegadot) - bent."""
+    M, bent = np.eye(6), np.zeros(6)
+    if one.law == "hybrid-hand":
+        M = np.kron(np.eye(2), (at.R @ np.array(wish.R_d)).T)  # Q = R R_d^T; rows of np.array(R_d) are R_d's columns
+    elif one.representation is not None:
+        E = one.representation.chart(at.chain.R).E
+        B = B_of(one.representation, E)
+        Edot = np.linalg.solve(B, at.velocity[3:])
+        M[3:, 3:] = np.linalg.inv(B)
+        bent[3:] = np.linalg.solve(B, np.array(motion(one.representation.to_matrix, E, Edot)[1], dtype=float))
+    return M, bent
+
+
+def commanded(one, at, wish, held) -> np.ndarray:
+    """The acceleration along its rows."""
+    M, _ = frame(one, at, wish)
+    velocity, into_frame = M @ at.velocity, np.linalg.inv(M).T
+    spring = GAINS.kp * (np.array(wish.p_d) - at.chain.p) + GAINS.kv * (np.array(wish.v_d) - at.velocity[:3])
+    f_d, m_d = np.array(wish.f_d), np.array(wish.m_d)
+    if one.representation is not None:
+        E, E_d = (np.array(one.representation.chart(R).E) for R in (at.chain.R, wish.R_d))
+        a = np.concatenate((spring, GAINS.kp * (E_d - E) - GAINS.kv * velocity[3:]))
+        h = into_frame @ np.concatenate((f_d, m_d))
+    else:
+        turn = (ScipyRotation.from_matrix(np.array(wish.R_d).T) * ScipyRotation.from_matrix(at.R).inv()).as_rotvec()
+        stiff = 0.0 if one.law == "hybrid-rate" else GAINS.kp * np.sinc(np.linalg.norm(turn) / np.pi)
+        a = M @ np.concatenate((spring, stiff * turn - GAINS.kv * at.velocity[3:]))
+        h = np.concatenate((f_d, m_d))
+    return np.where(held, a, (into_frame @ at.F + h) / INERTIA - TOUCH.kc * velocity)
+
+
+def regular(one, at) -> bool:
+    return one.representation is None or one.representation.margin(at.chain.R) > 0.2
+
+
+def some_selections():
+    draw = np.random.default_rng(32)
+    return [SELECTIONS[0], SELECTIONS[-1], *(SELECTIONS[i] for i in draw.integers(64, size=4))]
+
+
+def rounding(at, J) -> float:
+    """Relative error of an acceleration of the hand: what is solved with J, and MuJoCo's forward dynamics with D."""
+    return backward(J) + 36 * EPS * np.linalg.cond(at.D)
+
+
+def sizes(at, M, bent) -> float:
+    """What is added up to an acceleration along rows: that of the joints, that of the wrench, the drift."""
+    joints = np.linalg.norm(at.data.qacc) + np.linalg.norm(np.linalg.solve(at.D, at.J.T @ at.F))
+    return np.linalg.norm(M, 2) * (np.linalg.norm(at.J, 2) * joints + np.linalg.norm(at.drift)) + np.linalg.norm(bent)
+
+
+@over_arms
+def test_wrench_that_is_felt_is_the_one_applied_moved_to_the_hands_frame(arm):
+    for state, _ in drawn(arm):
+        at = hand(*state)
+        np.testing.assert_allclose(np.concatenate(felt(at)), at.F, rtol=0.0, atol=ROUNDING * np.linalg.norm(at.F))
+
+
+@over_arms
+@pytest.mark.parametrize("one", [one for one in HYBRIDS if one.law != "hybrid-unconverted"], ids=named)
+def test_perfect_model_gives_the_hand_the_commanded_acceleration(arm, one):
+    """MuJoCo's J qacc + Jdot qdot under the wrench in the controller's frame: all rows; of `projected` what is held."""
+    compared = 0
+    for state, wish in drawn(arm):
+        at = hand(*state)
+        if not regular(one, at):
+            continue
+        M, bent = frame(one, at, wish)
+        for held in some_selections():
+            made = tick(one, at, wish, held)
+            got = M @ at.acceleration(made.tau) - bent
+            wanted = commanded(one, at, wish, held)
+            if one.form == "projected" and not all(x == 0.0 for x in held):
+                got, wanted = got[np.array(held) > 0.0], wanted[np.array(held) > 0.0]
+            allowed = rounding(at, M @ at.J) * sizes(at, M, bent)
+            np.testing.assert_allclose(got, wanted, rtol=0.0, atol=allowed, err_msg=held)
+            compared += 1
+    assert compared >= 12
+
+
+@over_arms
+@pytest.mark.parametrize("one", UNCONVERTED, ids=named)
+def test_acceleration_is_not_the_commanded_one_when_moments_are_left_unconverted(arm, one):
+    """The test above can fail: a wrench taken for generalized forces as it is is not the one that acts."""
+    for state, wish in drawn(arm):
+        at = hand(*state)
+        if regular(one, at):
+            M, bent = frame(one, at, wish)
+            got = M @ at.acceleration(tick(one, at, wish, SELECTIONS[0]).tau) - bent
+            assert np.abs(got - commanded(one, at, wish, SELECTIONS[0])).max() > 1e-2
+
+
+@over_arms
+@pytest.mark.parametrize("one", IMPEDANCES, ids=named)
+def test_perfect_model_gives_the_hand_the_acceleration_of_the_impedance(arm, one):
+    """p as a mass, damper and spring; the turn as the law says."""
+    compared = 0
+    for state, wish in drawn(arm):
+        at = hand(*state)
+        law = law_of(one.impedance, one.representation)
+        f_d, m_d = np.array(wish.f_d), np.array(wish.m_d)
+        u = law(at.chain.R, numbers(at.velocity[3:]), numbers(at.F[3:] + m_d), wish.R_d, GAINS, TOUCH.m_o)
+        if np.linalg.norm(u) > 1e3:
+            continue  # beside a pole of its coordinates
+        pddot = GAINS.kp * (np.array(wish.p_d) - at.chain.p) + GAINS.kv * (np.array(wish.v_d) - at.velocity[:3])
+        wanted = np.concatenate((pddot + (at.F[:3] + f_d) / TOUCH.m_p, u))
+        got = at.acceleration(tick(one, at, wish, one.held(None)).tau)
+        allowed = rounding(at, at.J) * sizes(at, np.eye(6), np.zeros(6)) + ROUNDING * 20 * np.linalg.norm(u)
+        np.testing.assert_allclose(got, wanted, rtol=0.0, atol=allowed)
+        compared += 1
+    assert compared >= 4
+
+
+# ---------------------------------------------------------------------------- work (Murphy 1988, 3.10-3.12)
+
+
+@over_arms
+@over_frames
+def test_wrench_does_the_same_work_in_every_frame(arm, one):
+    """F_E . v_E = F . v and J_E^T F_E = J^T F."""
+    for state, wish in drawn(arm):
+        at = hand(*state)
+        if regular(one, at):
+            made = tick(one, at, wish, SELECTIONS[0])
+            into, terms = made.rows, np.linalg.norm(at.F) * np.linalg.norm(at.velocity)
+            # a moment passes through B^T, its rate through B^-1: 1/margin = 5 at most
+            assert abs(into.F @ into.v - at.F @ at.velocity) <= 5 * ROUNDING * terms
+            np.testing.assert_allclose(
+                made.J.T @ into.F,
+                at.J.T @ at.F,
+                rtol=0.0,
+                atol=5 * ROUNDING * np.linalg.norm(at.J, 2) * np.linalg.norm(at.F),
+            )
+            np.testing.assert_allclose(into.v, made.J @ at.chain.qdot, rtol=0.0, atol=25 * ROUNDING * terms)
+
+
+@pytest.mark.parametrize("one", UNCONVERTED, ids=named)
+def test_unconverted_moments_are_their_components_about_the_axes_that_the_coordinates_stand_for(one):
+    for state, wish in drawn(ARMS[0]):
+        at = hand(*state)
+        into = tick(one, at, wish, SELECTIONS[0]).rows
+        _, m = felt(at)
+        for row, moment in ((into.F, m), (into.h, wish.m_d)):
+            assert tuple(row[3 + k] for k in axes_of(one.representation)) == tuple(moment)
+
+
+@over_arms
+@pytest.mark.parametrize("one", UNCONVERTED, ids=named)
+def test_wrench_does_other_work_when_moments_are_left_unconverted(arm, one):
+    for state, wish in drawn(arm):
+        at = hand(*state)
+        if regular(one, at):
+            into = tick(one, at, wish, SELECTIONS[0]).rows
+            assert abs(into.F @ into.v - at.F @ at.velocity) > 1e-3
+
+
+def test_generalized_forces_along_zyx_angles_are_the_moments_about_their_axes():
+    """About z, about the level axis, about the hand's own x: (alpha, beta, gamma) turn the hand about these."""
+    one = hybrid("hybrid", "inverse", known_representations()["zyx-euler"])
+    for state, wish in drawn(ARMS[0]):
+        at = hand(*state)
+        alpha, _, _ = ScipyRotation.from_matrix(at.R).as_euler("ZYX")
+        m = at.F[3:]
+        about = (m[2], m @ (-np.sin(alpha), np.cos(alpha), 0.0), m @ at.R[:, 0])
+        F = tick(one, at, wish, SELECTIONS[0]).rows.F
+        np.testing.assert_allclose(F, (*at.F[:3], *about), rtol=0.0, atol=ROUNDING * np.linalg.norm(at.F))
+
+
+ON_POLES = [
+    pytest.param(one, R, id=f"{one.name}-{i}")
+    for one in COORDINATES
+    for i, R in enumerate(R for R in rotations() if one.margin(R) == 0.0)
+]
+
+
+def at_orientation(R):
+    """A hand of that orientation in one of the drawn states: its frame redrawn, as a trial's mount does."""
+    state, wish = drawn(ARMS[0])[0]
+    at = hand(*state)
+    return at._replace(chain=at.chain._replace(R=R)), wish
+
+
+@pytest.mark.parametrize(("representation", "R"), ON_POLES)
+def test_wrench_is_converted_on_the_pole_too_and_does_the_work_of_what_motion_is_left(representation, R):
+    """F_E = diag(I, B)^T F, of rank 5: F_E . (v, Edot) = F . (v, B Edot) for every Edot, though B^-1 does not exist."""
+    at, wish = at_orientation(R)
+    made = tick(hybrid("hybrid", "inverse", representation), at, wish, SELECTIONS[0])
+    f, m = (np.array(three) for three in felt(at))
+    # felt() turns the sensors' components by R, and B is of coordinates that are exact on the pole but for rounding
+    B = B_of(representation, representation.chart(R).E)
+    np.testing.assert_allclose(made.rows.F[3:], B.T @ m, rtol=0.0, atol=ROUNDING * np.linalg.norm(m))
+    np.testing.assert_array_equal(made.rows.F[:3], f)
+    Edot = np.array((0.7, -1.1, 0.4))
+    omega = np.array(representation.angular_velocity(representation.chart(R), numbers(Edot)))
+    assert abs(made.rows.F[3:] @ Edot - m @ omega) <= ROUNDING * np.linalg.norm(m)
+    assert np.linalg.matrix_rank(B, tol=1e-12) == 2
+    assert not np.isfinite(made.J).all()
+
+
+@pytest.mark.parametrize(("representation", "R"), ON_POLES)
+def test_one_moment_is_lost_on_the_pole_though_the_hand_can_turn_with_it(representation, R):
+    """B^T m = 0 for a moment m of unit length, the axis that no coordinate turns the hand about."""
+    at = representation.chart(R)
+    lost = np.linalg.svd(B_of(representation, at.E))[0][:, 2]
+    np.testing.assert_allclose(representation.generalized(at, numbers(lost)), 0.0, rtol=0.0, atol=ROUNDING)
+    for unit in np.eye(3):
+        omega = representation.angular_velocity(at, numbers(unit))
+        assert abs(lost @ np.array(omega)) <= ROUNDING
+    felt_elsewhere = representation.generalized(at, numbers(np.roll(lost, 1) + np.roll(lost, 2)))
+    assert np.linalg.norm(felt_elsewhere) > 0.1
+
+
+def test_poles_are_among_the_orientations_tried():
+    assert {one.values[0].name for one in ON_POLES} == {"xyz-euler", "zyx-euler", "zyz-euler"}
+
+
+# ---------------------------------------------------------------------------- one frame against another
+
+
+@over_arms
+def test_rows_of_the_hand_are_those_of_the_base_turned_back(arm):
+    on_base, in_hand = (hybrid(law, "inverse") for law in ("hybrid-base", "hybrid-hand"))
+    for state, wish in drawn(arm):
+        at = hand(*state)
+        base, turned = (tick(one, at, wish, SELECTIONS[0]) for one in (on_base, in_hand))
+        back = np.kron(np.eye(2), np.array(wish.R_d).T @ at.R.T)  # Q^T = R_d R^T
+        for name in ("a", "drift", "F", "v"):
+            row = getattr(base.rows, name)
+            np.testing.assert_allclose(
+                getattr(turned.rows, name), back @ row, rtol=0.0, atol=20 * EPS * np.linalg.norm(row), err_msg=name
+            )
+        np.testing.assert_allclose(turned.J, back @ base.J, rtol=0.0, atol=20 * EPS * np.linalg.norm(base.J))
+        np.testing.assert_array_equal(turned.rows.h, base.rows.h)  # what it exerts, it exerts along its own axes
+
+
+@IN_FORMS
+@over_arms
+def test_hand_and_base_are_one_while_all_is_held(arm, form):
+    on_base, in_hand = (hybrid(law, form) for law in ("hybrid-base", "hybrid-hand"))
+    for state, wish in drawn(arm):
+        at = hand(*state)
+        base, turned = (tick(one, at, wish, SELECTIONS[-1]).tau for one in (on_base, in_hand))
+        size = np.linalg.norm(at.D, 2) * np.linalg.norm(np.linalg.inv(at.J), 2) * LONGEST
+        np.testing.assert_allclose(turned, base, rtol=0.0, atol=backward(at.J) * size)
+
+
+@IN_FORMS
+@over_arms
+def test_hand_and_base_are_one_at_the_goal_for_every_selection(arm, form):
+    on_base, in_hand = (hybrid(law, form) for law in ("hybrid-base", "hybrid-hand"))
+    for state, wish in drawn(arm)[:2]:
+        at = hand(*state)
+        there = wish._replace(R_d=at.chain.R)
+        for held in SELECTIONS:
+            base, turned = (tick(one, at, there, held).tau for one in (on_base, in_hand))
+            size = np.linalg.norm(at.D, 2) * np.linalg.norm(np.linalg.inv(at.J), 2) * LONGEST
+            np.testing.assert_allclose(turned, base, rtol=0.0, atol=backward(at.J) * size)
+
+
+def oriented(arm: str, moving: bool):
+    """A hand whose frame is the base's, at its goal: E = E_d = 0."""
+    (_, q, qdot, _, push), _ = drawn(arm)[0]
+    draw, qdot = np.random.default_rng(33), qdot if moving else np.zeros(6)
+    wrist = hand(arm, q, qdot, ScipyRotation.identity(), push)
+    at = hand(arm, q, qdot, ScipyRotation.from_matrix(wrist.R).inv(), push)
+    at = at._replace(chain=at.chain._replace(R=as_rotation(IDENTITY)))
+    return at, wish_of(ScipyRotation.identity(), np.array(at.chain.p) + 0.1, draw)
+
+
+@IN_FORMS
+@over_arms
+@pytest.mark.parametrize("representation", AT_ORIGIN, ids=named)
+def test_coordinates_are_the_base_frames_at_their_origin(representation, arm, form):
+    """Where B is the identity but for the order of its columns, at rest; on the rotation vector moving too."""
+    np.testing.assert_array_equal(B_of(representation, (0.0, 0.0, 0.0))[:, axes_of(representation)], np.eye(3))
+    at, wish = oriented(arm, moving=representation.name == "rotation-vector")
+    for held in SELECTIONS:
+        order = Order("", tuple(map(int, held)))
+        taus = []
+        for one in (hybrid("hybrid", form, representation), hybrid("hybrid-base", form)):
+            taus.append(tick(one, at, wish, one.held(order)).tau)
+        size = np.linalg.norm(at.D, 2) * np.linalg.norm(np.linalg.inv(at.J), 2) * LONGEST
+        np.testing.assert_allclose(*taus, rtol=0.0, atol=backward(at.J) * size, err_msg=held)
+
+
+# ---------------------------------------------------------------------------- selections, constants
+
+
+@over_arms
+def test_apparent_inertias_are_above_half_of_the_hands_own_at_home(arm):
+    """Below that a cancelled force that comes a tick late would destabilize a contact (bench.control.hybrid.TOUCH)."""
+    at = hand(arm, tasks.arm(arm).home, np.zeros(6), ScipyRotation.identity(), np.zeros(6))
+    mobility = at.J @ np.linalg.solve(at.D, at.J.T)
+    assert 0.5 / np.linalg.eigvalsh(mobility[:3, :3]).min() < TOUCHING.m_p
+    assert 0.5 / np.linalg.eigvalsh(mobility[3:, 3:]).min() < TOUCHING.m_o
+
+
+@pytest.mark.parametrize("one", HYBRIDS, ids=named)
+def test_each_axis_of_an_order_selects_the_row_that_moves_along_it(one):
+    """Near the origin of its coordinates a row's motion is along or about that axis, more than any other row's."""
+    near = (0.01, 0.02, 0.03)
+    M = np.eye(6)
+    if one.representation is not None:
+        B = B_of(one.representation, near)
+        M[3:, 3:] = B / np.linalg.norm(B, axis=0)
+    for axis in range(6):
+        held = one.held(Order("", tuple(int(k != axis) for k in range(6))))
+        [row] = [k for k in range(6) if held[k] == 0.0]
+        assert abs(M[axis, row]) == pytest.approx(np.abs(M[axis]).max(), rel=1e-3)
+
+
+@pytest.mark.parametrize("one", IMPEDANCES, ids=named)
+def test_impedance_holds_every_row_whatever_the_order(one):
+    assert one.held(Order("", (0,) * 6)) == (1.0,) * 6

@@ -1,0 +1,224 @@
+"""Both engines of arms give the same rows, bit for bit; dm_control's loop with the plain controller is the truth.
+
+Every law runs on every arm, and meets there, by turns, every Jacobian that takes it; inverses, integrators and start
+sets take turns too.
+"""
+
+import functools
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+import pytest
+from support.bits import different_rows
+from support.driving import settings
+
+import tasks
+from bench.contenders import combinations
+from bench.contenders.registry import all_contenders, known_inverses, known_jacobians, known_representations
+from bench.engines.arm_episode import POSE
+from bench.engines.episode import OUTCOME, SETTLING_TICK, TICKS
+from bench.engines.run_arm import compiled_loop, pointers, run
+from bench.experiments.choice import INTEGRATORS
+from bench.metrics.registry import metrics_of
+from tasks.kinematics import kinematics
+from tasks.variations import VARIATIONS
+from tasks.verdict import DIVERGED, OUTCOMES, SATURATED, SETTLED, SINGULAR, STUCK, TIMED_OUT
+
+TASK = "arm-regulation"
+METRICS = metrics_of(on_arm=True)
+ARMS = tasks.arm_names()
+SETS = tasks.task(TASK, ARMS[0]).start_sets
+VARIED = ("mass-1.30", "links-1", "friction-10", "mass-0.70")
+LAWS = {one.name: one for one in all_contenders()}
+over_arms = pytest.mark.parametrize("arm", ARMS)
+
+
+@functools.cache
+def contenders_on(arm: str) -> tuple:
+    """Every law by one of its Jacobians and inverses; which, shifts from law to law and from arm to arm."""
+    a, by = ARMS.index(arm), {}
+    for one in combinations.every(LAWS, tasks.arm(arm).joints):
+        by.setdefault(one.on_free_body, {}).setdefault(one.jacobian.name, []).append(one)
+    found = []
+    for k, ways in enumerate(by.values()):
+        inverted = list(ways.values())[(k + a) % len(ways)]
+        found.append(inverted[(k + a) % len(inverted)])
+    return tuple(found)
+
+
+def named(arm: str, word: str):
+    """A contender by its word, with the standard inverse of the arm if none is named."""
+    [one] = combinations.on((word,), LAWS, tasks.arm(arm).joints)
+    return one
+
+
+CASES = [
+    pytest.param(arm, one, INTEGRATORS[(k + a) % 4], k, id=f"{arm}-{one.name}")
+    for a, arm in enumerate(ARMS)
+    for k, one in enumerate(contenders_on(arm))
+]
+
+
+def of(arm: str, word: str, at: int):
+    """One start of a set, the last one if it has fewer."""
+    every = tasks.start_set(word, arm=arm)
+    return every[min(at, len(every) - 1)]
+
+
+def straight(arm: str):
+    """All joints at zero, where every arm here is stretched out and its Jacobian singular; home is the goal."""
+    model = kinematics(tasks.arm(arm))
+    return model.start("straight", [0.0] * len(model.arm.home), model.pose(model.arm.home)[1])
+
+
+def both(arm, one, starts, chosen, integrator="euler", variation="nominal"):
+    """Rows of the compiled loop and of dm_control's."""
+    return [
+        run(engine, one, TASK, arm, starts, chosen, METRICS, integrator, variation)
+        for engine in ("native", "reference")
+    ]
+
+
+@pytest.mark.parametrize(("arm", "one", "integrator", "k"), CASES)
+def test_native_rows_are_the_reference_rows_bit_for_bit(arm, one, integrator, k):
+    starts = [of(arm, SETS[k % len(SETS)], k), of(arm, SETS[(k + 3) % len(SETS)], k)]
+    chosen = settings(dt_s=(1e-3, 2e-3, 5e-4)[k % 3], horizon_s=(0.04, 0.08, 0.02)[k % 3])
+    fast, slow = both(arm, one, starts, chosen, integrator)
+    assert [starts[i].id for i in different_rows(fast, slow)] == []
+    assert np.isfinite(slow[:, POSE:][:, : 1 + tasks.arm(arm).joints]).all()
+
+
+def test_the_compared_runs_cover_every_part_and_integrator():
+    for kind, known in (("jacobian", known_jacobians()), ("inverse", known_inverses())):
+        assert {getattr(case.values[1], kind).name for case in CASES} == set(known)
+    met = {(case.values[1].on_free_body, case.values[1].jacobian.name) for case in CASES}
+    assert met == {(one.on_free_body, one.jacobian.name) for one in combinations.every(LAWS, 6)}
+    used = {one.representation.name for one in (case.values[1] for case in CASES) if one.representation}
+    assert used == set(known_representations())
+    for arm in ARMS:
+        own = [case.values for case in CASES if case.values[0] == arm]
+        refused = {"solve"} if tasks.arm(arm).joints > 6 else set()  # no square Jacobian there
+        assert {one.inverse.name for _, one, _, _ in own} == set(known_inverses()) - refused
+        assert {integrator for _, _, integrator, _ in own} == set(INTEGRATORS)
+        assert {SETS[k % len(SETS)] for *_, k in own} == set(SETS)
+
+
+ROUGH = settings(dt_s=1e-2, horizon_s=2.0, hold_ticks=10)
+TIGHT = settings(dt_s=1e-2, horizon_s=0.3, speed_limit=2.0)
+PLAIN, PAPERS, KHATIB, FLIPPED = (
+    "rotation-matrix@geometric+standard",
+    "feedback-linearized/zyx-euler@analytic+standard",
+    "rotation-matrix@geometric+dynamically-consistent",
+    "feedback-linearized/zyx-euler@geometric+transpose",
+)
+
+
+def endings(arm: str):
+    """(word, start, settings) of episodes that end in different ways."""
+    yield PLAIN, of(arm, "clear", 1), ROUGH  # settles, and stops early
+    yield PLAIN, of(arm, "half-turn", 0), settings(dt_s=1e-2, horizon_s=0.3)  # stands at the dead point
+    yield PAPERS, of(arm, "pole", 0), ROUGH
+    yield PLAIN, of(arm, "wrist", 0), ROUGH
+    yield KHATIB, straight(arm), ROUGH  # no Lambda at a singular pose
+    yield FLIPPED, of(arm, "tumbling", 0), ROUGH
+    yield PLAIN, of(arm, "tumbling", 1), TIGHT
+
+
+@functools.cache
+def ended(arm: str):
+    """(start, row compiled, row of the reference) of each."""
+    found = []
+    for word, start, chosen in endings(arm):
+        fast, slow = both(arm, named(arm, word), [start], chosen)
+        found.append((f"{word} {start.id}", fast[0], slow[0]))
+    return found
+
+
+@over_arms
+def test_native_rows_are_the_reference_rows_however_an_episode_ends(arm):
+    names, fast, slow = zip(*ended(arm), strict=True)
+    assert [names[i] for i in different_rows(fast, slow)] == []
+
+
+def test_the_compared_episodes_end_in_every_way_an_episode_can_end():
+    seen = {int(row[OUTCOME]) for arm in ARMS for _, row, _ in ended(arm)}
+    assert seen == {SETTLED, STUCK, TIMED_OUT, DIVERGED, SINGULAR, SATURATED}, [OUTCOMES[i] for i in sorted(seen)]
+
+
+@over_arms
+@pytest.mark.parametrize(("integrator", "variation"), list(zip(INTEGRATORS, VARIED, strict=True)))
+def test_native_rows_are_the_reference_rows_when_the_plant_is_not_the_model(arm, integrator, variation):
+    starts, chosen = [of(arm, "clear", 2), of(arm, "tumbling", 2)], settings(horizon_s=0.03)
+    one = named(arm, PAPERS)
+    fast, slow = both(arm, one, starts, chosen, integrator, variation)
+    assert [starts[i].id for i in different_rows(fast, slow)] == []
+    exact = run("native", one, TASK, arm, starts, chosen, METRICS, integrator)
+    assert different_rows(fast, exact) != []  # it does make a difference
+
+
+@over_arms
+@pytest.mark.parametrize("integrator", INTEGRATORS)
+def test_second_model_equal_to_the_plant_changes_no_bit(arm, integrator, monkeypatch):
+    """The controller's own model is put into the plant's state in every tick, and sees what the plant sees."""
+    nothing = tasks.variation("nominal")._replace(name="no-difference")
+    monkeypatch.setitem(VARIATIONS, nothing.name, nothing)
+    starts, chosen, one = [of(arm, "clear", 3), of(arm, "uniform", 3)], settings(horizon_s=0.2), named(arm, PLAIN)
+    alone, beside = (
+        run("native", one, TASK, arm, starts, chosen, METRICS, integrator, word) for word in ("nominal", nothing.name)
+    )
+    assert different_rows(beside, alone) == []
+
+
+@over_arms
+def test_episode_gives_the_same_row_whatever_ran_before_it(arm):
+    """Nothing leaks from one episode into the next: no state, no buffer; not even from one that failed."""
+    starts = [*(of(arm, word, 1) for word in SETS), straight(arm)]
+    for word in (PLAIN, PAPERS, KHATIB, FLIPPED):
+        forward, backward = (
+            run("native", named(arm, word), TASK, arm, order, settings(horizon_s=0.5), METRICS)
+            for order in (starts, starts[::-1])
+        )
+        assert different_rows(forward, backward[::-1]) == []
+
+
+@over_arms
+def test_early_stop_changes_no_settling_tick(arm):
+    starts = [of(arm, word, at) for word in SETS for at in (0, 5)]
+    to_the_end, stopped = (
+        run("native", named(arm, PLAIN), TASK, arm, starts, settings(horizon_s=4.0, hold_ticks=hold), METRICS)
+        for hold in (10**9, 250)
+    )
+    assert different_rows(to_the_end[:, [OUTCOME, SETTLING_TICK]], stopped[:, [OUTCOME, SETTLING_TICK]]) == []
+    assert (stopped[:, TICKS] < to_the_end[:, TICKS]).any()
+
+
+def test_two_threads_give_the_rows_of_one():
+    units = [(arm, word) for arm in ARMS for word in (PLAIN, PAPERS, KHATIB)]
+
+    def rows(unit):
+        arm, word = unit
+        starts = [of(arm, name, 4) for name in SETS]
+        return run("native", named(arm, word), TASK, arm, starts, settings(horizon_s=1.0), METRICS)
+
+    one_by_one = [rows(unit) for unit in units]
+    with ThreadPoolExecutor(2) as pool:
+        at_once = list(pool.map(rows, units))
+    for unit, alone, beside in zip(units, one_by_one, at_once, strict=True):
+        assert different_rows(beside, alone) == [], unit
+
+
+def test_threads_that_need_the_same_controller_compile_it_once():
+    one = named(ARMS[0], PLAIN)
+    with ThreadPoolExecutor(4) as pool:
+        found = list(pool.map(lambda _: (*pointers(one), compiled_loop(METRICS)), range(8)))
+    assert all(part is first for parts in found for part, first in zip(parts, found[0], strict=True))
+
+
+def test_inverse_is_compiled_apart_from_the_law():
+    """So that seven inverses cost seven compilations, not seven for each law."""
+    solved, damped = (
+        pointers(named(ARMS[-1], f"rotation-matrix@geometric+{word}"))
+        for word in ("pseudo-inverse", "damped-least-squares")
+    )
+    assert solved.assemble is damped.assemble
+    assert solved.resolve is not damped.resolve

@@ -1,0 +1,246 @@
+"""Plans of tasks in contact: every controller, task and arm that go together, what a user names and nothing else."""
+
+import dataclasses
+
+import pytest
+from support.command_line import bench, refused
+
+import tasks
+from bench.contenders.registry import find_contender
+from bench.control.registry import all_compliants, find_compliant
+from bench.errors import Incompatible, UnknownWord
+from bench.experiments import contact_plan
+from bench.experiments import plan as planning
+from bench.experiments.choice import Choice
+from bench.experiments.contact_plan import can_do, poses_of
+from bench.experiments.suites import SUITES
+from tasks.base import BadValue
+
+LAW = [find_contender("rotation-matrix")]
+TASKS = tasks.contact_names()
+ABLE = [arm for arm in tasks.arm_names() if can_do(tasks.contact_task("wrench-probe"), tasks.arm(arm))]
+UNABLE = sorted(set(tasks.arm_names()) - set(ABLE))
+EULER = "hybrid/zyx-euler+inverse"
+DRY = ("run", "--dry-run", "--suite", "quick")
+
+
+def contacts(suite="quick", **words):
+    """The units in contact of a suite with these words of a choice, and the episodes beside them."""
+    plan = planning.make(suite, LAW, Choice(**words))
+    return plan.contacts, plan.episodes
+
+
+def named(units, name):
+    """The different values that units have there, in their order."""
+    return list(dict.fromkeys(getattr(unit, name) for unit in units))
+
+
+# ---------------------------------------------------------------------------------------------- suites
+
+
+@pytest.mark.parametrize("suite", SUITES)
+def test_suite_sets_every_task_to_every_arm_that_can_do_it(suite):
+    units, episodes = contacts(suite)
+    words = SUITES[suite].in_contact.controllers or [one.name for one in all_compliants()]
+    assert named(units, "task") == TASKS
+    assert named(units, "arm") == ABLE
+    assert named(units, "contender") == list(words)
+    assert len({(unit.task, unit.arm, unit.contender) for unit in units}) == len(TASKS) * len(ABLE) * len(words)
+    assert episodes > 0
+
+
+def test_arms_that_cannot_are_seven_jointed_or_have_no_wrist():
+    assert {"panda", "jaco"} <= set(UNABLE)
+
+
+@pytest.mark.parametrize("suite", SUITES)
+def test_units_cover_each_pose_once_and_have_keys_of_their_own(suite):
+    plan = planning.make(suite, LAW)
+    assert len({unit.key for unit in plan.work}) == len(plan.work)
+    reached: dict = {}
+    for unit in plan.contacts:
+        place = dataclasses.replace(unit, first=0, poses=0, count=0)
+        assert unit.first == reached.get(place, 0)
+        reached[place] = unit.first + unit.poses
+    for place, poses in reached.items():
+        one, task, arm = find_compliant(place.contender), tasks.contact_task(place.task), tasks.arm(place.arm)
+        every = poses_of(one, task, arm, place.dense)
+        assert poses == min(len(every), SUITES[suite].in_contact.poses or len(every))
+
+
+def test_trials_are_those_of_the_units_poses():
+    plan = planning.make("quick", LAW, Choice(tasks=("wrench-probe",), arms=("ur5e",), controllers=(EULER,)), count=7)
+    every = poses_of(find_compliant(EULER), tasks.contact_task("wrench-probe"), tasks.arm("ur5e"), dense=False)
+    assert [unit.poses for unit in plan.contacts] == [7]
+    assert plan.trials == sum(map(len, every[:7]))
+
+
+def test_unit_lasts_some_seconds_at_most(monkeypatch):
+    monkeypatch.setattr(contact_plan, "LONGEST_S", 20.0)
+    units, _ = contacts(tasks=("wrench-probe",), arms=("ur5e",), controllers=(EULER,))
+    assert len(units) > 5
+    assert all(unit.count * unit.horizon_s <= 20.0 for unit in units)
+
+
+def test_full_suite_takes_dense_trials_where_a_task_has_them():
+    task = tasks.contact_task("wrench-probe")
+    units, _ = contacts("full", tasks=(task.name,), arms=("ur5e",), controllers=(EULER,))
+    assert sum(unit.count for unit in units) == len(task.dense(tasks.arm("ur5e"))) > len(task.trials(tasks.arm("ur5e")))
+
+
+def test_poses_of_a_hybrid_are_all_trials_of_the_task_in_their_order():
+    for name in TASKS:
+        task, arm = tasks.contact_task(name), tasks.arm("ur5e")
+        poses = poses_of(find_compliant(EULER), task, arm, dense=False)
+        assert [trial for pose in poses for trial in pose] == list(task.trials(arm))
+        assert all(len({trial.pose for trial in pose}) == 1 for pose in poses)
+
+
+def test_impedance_is_set_what_differs_in_more_than_the_selection():
+    """wrench-probe has several orders at each frame of the hand, alike but for what is held."""
+    task, arm = tasks.contact_task("wrench-probe"), tasks.arm("ur5e")
+    trials = [trial for pose in poses_of(find_compliant("impedance-geometric"), task, arm, False) for trial in pose]
+    frames = {(trial.goal_wxyz, trial.push) for trial in task.trials(arm)}
+    assert len(trials) == len(frames) < len(task.trials(arm))
+    assert {(trial.goal_wxyz, trial.push) for trial in trials} == frames
+
+
+def test_integrator_in_contact_is_implicit_unless_one_is_named():
+    assert planning.make("quick", LAW).contact_integrator == "implicitfast"
+    assert planning.make("quick", LAW).integrator == "euler"
+    both = planning.make("quick", LAW, integrator="rk4")
+    assert (both.integrator, both.contact_integrator) == ("rk4", "rk4")
+
+
+def test_plan_knows_the_models_of_arms_in_contact(monkeypatch):
+    before = planning.make("quick", LAW, Choice(tasks=("wrench-probe",), arms=("ur5e",)))
+    digest, known = before.digest(), tasks.arm("ur5e")
+    edited = known._replace(xml=known.xml.replace("</worldbody>", "</worldbody >"))
+    monkeypatch.setattr(tasks, "arm", lambda name: edited)
+    assert before.digest() != digest
+
+
+# --------------------------------------------------------------------------------------------- choices
+
+
+def test_named_controller_runs_alone_on_every_task_in_contact():
+    units, episodes = contacts(controllers=("impedance-quaternion", EULER))
+    assert named(units, "contender") == ["impedance-quaternion", EULER]
+    assert named(units, "task") == TASKS
+    assert episodes == 0
+
+
+def test_named_task_in_contact_runs_alone():
+    units, episodes = contacts(tasks=("wrench-probe",))
+    assert named(units, "task") == ["wrench-probe"]
+    assert named(units, "contender") == list(SUITES["quick"].in_contact.controllers)
+    assert episodes == 0
+
+
+def test_task_in_contact_beside_another_runs_both():
+    units, episodes = contacts(tasks=("free-body", "wrench-probe"))
+    assert named(units, "task") == ["wrench-probe"]
+    assert episodes > 0
+
+
+def test_named_arm_narrows_contact_too():
+    assert named(contacts(arms=("ur5e",))[0], "arm") == ["ur5e"]
+
+
+@pytest.mark.parametrize("arm", UNABLE)
+def test_arm_alone_that_cannot_is_left_out(arm):
+    units, episodes = contacts(arms=(arm,))
+    assert units == ()
+    assert episodes > 0
+
+
+@pytest.mark.parametrize("arm", UNABLE)
+@pytest.mark.parametrize("words", [{"tasks": ("wrench-probe",)}, {"controllers": (EULER,)}])
+def test_arm_that_cannot_is_refused_by_name_with_the_judges_reason(arm, words):
+    with pytest.raises(BadValue, match=r"needs an arm of six joints|has no site 'wrist'"):
+        contacts(arms=("ur5e", arm), **words)
+
+
+@pytest.mark.parametrize("arm", ["panda", "jaco"])
+def test_refused_arm_is_one_line_of_the_command(capsys, arm):
+    line = refused(capsys, *DRY, "--task", "wrench-probe", "--arm", arm)
+    assert f"'{arm}'" in line
+    assert "wrench-probe" in line
+
+
+def test_named_representation_narrows_the_suites_controllers():
+    units, _ = contacts("default", representations=("mrp",))
+    assert named(units, "contender") == ["hybrid/mrp+inverse"]
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        {"start_sets": ("paper",)},
+        {"engines": ("native",)},
+        {"jacobians": ("geometric",)},
+        {"inverses": ("solve",)},
+        {"variations": ("mass-1.30",)},
+        {"regulators": ("rotation-matrix",)},
+        {"tasks": ("free-body",)},
+    ],
+)
+def test_what_contact_does_not_take_leaves_it_out(words):
+    units, episodes = contacts(**words)
+    assert units == ()
+    assert episodes > 0
+
+
+def test_contact_takes_a_horizon():
+    plan = planning.make("quick", LAW, Choice(tasks=("wrench-probe",)), horizon_s=0.1)
+    assert {unit.horizon_s for unit in plan.contacts} == {0.1}
+
+
+# ----------------------------------------------------------------------------------------------- names
+
+
+def test_every_controller_is_found_by_its_name():
+    assert [find_compliant(one.name) for one in all_compliants()] == all_compliants()
+
+
+def test_hybrids_come_in_both_forms_and_impedances_in_one():
+    forms = {one.law: {other.form for other in all_compliants() if other.law == one.law} for one in all_compliants()}
+    assert all(
+        found == ({""} if law.startswith("impedance-") else {"inverse", "projected"}) for law, found in forms.items()
+    )
+
+
+@pytest.mark.parametrize(
+    ("word", "reason"),
+    [
+        ("hybrid-base", r"lacks its way to the joints \(try: hybrid-base\+inverse"),
+        ("hybrid", r"needs some \(try: hybrid/zyx-euler\+inverse\)"),
+        ("hybrid-base/zyx-euler+inverse", r"takes no representation \(try: hybrid-base\+inverse\)"),
+        ("hybrid/zyx-euler+solve", "known: inverse, projected"),
+        ("hybrid/quaternion+inverse", r"no coordinate for each of the axes x, y and z"),
+        ("impedance-coordinates", r"needs some \(try: impedance-coordinates/zyx-euler\)"),
+        ("impedance-geometric/mrp", r"leave 'mrp' away"),
+        ("impedance-geometric+inverse", r"leave '\+inverse' away"),
+    ],
+)
+def test_word_that_is_no_controller_is_refused_with_the_reason(word, reason):
+    with pytest.raises(Incompatible, match=reason):
+        find_compliant(word)
+
+
+@pytest.mark.parametrize(("word", "guess"), [("hybird-base+inverse", "hybrid-base"), ("hybrid/zyx+inverse", "")])
+def test_unknown_word_of_a_controller_lists_the_known_ones(word, guess):
+    with pytest.raises(UnknownWord, match=guess or "zyx-euler"):
+        find_compliant(word)
+
+
+# ------------------------------------------------------------------------------------------ the command
+
+
+def test_dry_run_counts_trials_of_each_arm_and_task(capsys):
+    said = bench(capsys, *DRY, "--controller", EULER, "--task", "wrench-probe", "--count", "3")
+    assert (said.code, said.err) == (0, "")
+    assert f"0 episodes and {18 * len(ABLE)} in contact in {len(ABLE)} units" in said.out
+    assert f"controllers in contact: {EULER}" in said.out
+    for arm in ABLE:
+        assert f"in contact, {arm}: wrench-probe 18 " in said.out

@@ -1,0 +1,182 @@
+"""Plans of arms: every compatible combination has one, every other is refused with the reason; a user's law too."""
+
+import dataclasses
+
+import pytest
+from support.command_line import bench, refused
+from support.on_arms import ARMS, LAWS
+
+import tasks
+from bench.contenders import combinations
+from bench.contenders.registry import find_contender, known_inverses, known_jacobians
+from bench.errors import Incompatible
+from bench.experiments import plan as planning
+from bench.experiments.choice import Choice
+from bench.experiments.suites import NOMINAL, SUITES
+from bench.law.contender import refusal
+
+ON_BOTH = ("ur5e", "panda")  # six joints and seven: nothing else of an arm decides what goes together
+SHORT = ("run", "--dry-run", "--suite", "quick", "--task", "arm-regulation", "--starts", "clear", "--count", "2")
+
+OWN = """
+from bench.law.contender import Regulator
+from bench.law.scalar import kernel
+
+@kernel
+def law(R, omega, goal, gains):
+    x = 0.5 * gains.kp * (R.o[2] - R.a[1]) + gains.kv * omega[0]
+    y = 0.5 * gains.kp * (R.a[0] - R.n[2]) + gains.kv * omega[1]
+    z = 0.5 * gains.kp * (R.n[1] - R.o[0]) + gains.kv * omega[2]
+    return (-x, -y, -z)
+
+REGULATOR = Regulator("mine", "Mine", "none", "u", law)
+"""
+
+
+@pytest.fixture
+def own(tmp_path):
+    path = tmp_path / "mine.py"
+    path.write_text(OWN)
+    return path
+
+
+def crossed(joints: int):
+    """(law, Jacobian, inverse, whether they go together) of everything there is."""
+    for law in LAWS.values():
+        for by in known_jacobians():
+            for through in known_inverses():
+                one = law._replace(jacobian=known_jacobians()[by], inverse=known_inverses()[through])
+                yield law, by, through, not refusal(one, joints)
+
+
+@pytest.mark.parametrize("arm", ON_BOTH)
+def test_plan_of_a_named_combination_is_that_one_alone_or_refused_with_its_reason(arm):
+    planned = 0
+    for law, by, through, is_compatible in crossed(tasks.arm(arm).joints):
+        choice = Choice(("arm-regulation",), ("clear",), (), (arm,), (by,), (through,))
+        if is_compatible:
+            plan = planning.make("quick", [law], choice, count=2)
+            assert [one.name for one in plan.contenders] == [f"{law.name}@{by}+{through}"]
+            assert {(unit.arm, unit.start_set, unit.variation) for unit in plan.units} == {(arm, "clear", NOMINAL)}
+            planned += 1
+        else:
+            one = law._replace(jacobian=known_jacobians()[by], inverse=known_inverses()[through])
+            with pytest.raises(Incompatible) as refused_with:
+                planning.make("quick", [law], choice, count=2)
+            assert refusal(one, tasks.arm(arm).joints) in str(refused_with.value)
+            assert "try:" in str(refused_with.value) or "use " in str(refused_with.value)
+    assert planned == len(combinations.every(LAWS, tasks.arm(arm).joints))
+
+
+@pytest.mark.parametrize("arm", ARMS)
+@pytest.mark.parametrize("by", known_jacobians())
+def test_command_line_plans_every_combination_of_a_jacobian(capsys, arm, by):
+    for law, jacobian, through, is_compatible in crossed(tasks.arm(arm).joints):
+        if jacobian != by or not law.name.startswith(
+            ("rotation-matrix", "feedback-linearized/q", "feedback-linearized/zyx")
+        ):
+            continue
+        words = (*SHORT, "--arm", arm, "--regulator", law.name, "--jacobian", by, "--inverse", through)
+        if is_compatible:
+            said = bench(capsys, *words)
+            assert (said.code, said.err) == (0, "")
+            assert f"{arm}: clear 2 (each of 1 combinations)" in said.out
+        else:
+            assert refused(capsys, *words).startswith("error: nothing to run: ")
+
+
+def test_arm_alone_is_the_suite_on_that_arm():
+    laws = list(LAWS.values())
+    plan = planning.make("default", laws, Choice(arms=("puma560",)))
+    assert {unit.arm for unit in plan.units} == {"puma560"}
+    nominal = {unit.contender for unit in plan.units if unit.variation == NOMINAL}
+    assert nominal == {one.name for one in combinations.on(SUITES["default"].on_arms.words, LAWS, 6)}
+    assert {unit.start_set for unit in plan.units if unit.variation == NOMINAL} == set(
+        tasks.task("arm-regulation", "puma560").start_sets
+    )
+
+
+def test_default_suite_varies_the_model_on_every_arm():
+    plan = planning.make("default", list(LAWS.values()))
+    varied = {(unit.arm, unit.variation) for unit in plan.units if unit.variation != NOMINAL}
+    assert varied == {(arm, word) for arm in ARMS for word in tasks.variation_names() if word != NOMINAL}
+
+
+def test_full_suite_runs_every_compatible_combination():
+    plan = planning.make("full", list(LAWS.values()), Choice(arms=ON_BOTH), count=1)
+    for arm in ON_BOTH:
+        planned = {unit.contender for unit in plan.units if unit.arm == arm and unit.variation == NOMINAL}
+        assert planned == {one.name for one in combinations.every(LAWS, tasks.arm(arm).joints)}
+
+
+def test_named_variations_are_run_and_no_others():
+    law = find_contender("rotation-matrix")
+    plan = planning.make("quick", [law], Choice(arms=("ur5e",), variations=("mass-1.30", NOMINAL)), count=1)
+    assert {unit.variation for unit in plan.units} == {"mass-1.30", NOMINAL}
+
+
+def test_units_cover_each_start_once_and_have_keys_of_their_own():
+    plan = planning.make("quick", list(LAWS.values()), count=7)
+    assert len({unit.key for unit in plan.units}) == len(plan.units)
+    whole: dict = {}
+    for unit in plan.units:
+        place = dataclasses.replace(unit, first=0, count=0)
+        assert whole.get(place, 0) == unit.first
+        whole[place] = unit.first + unit.count
+    assert all(reached == place.total for place, reached in whole.items())
+
+
+def test_plan_knows_an_arms_model(monkeypatch):
+    """A results folder of another arm of the same name is not gone on with."""
+    law = find_contender("rotation-matrix")
+    before = planning.make("quick", [law], Choice(arms=("ur5e",)), count=1)
+    digest, known = before.digest(), tasks.arm("ur5e")
+    assert "</worldbody>" in known.xml
+    edited = known._replace(xml=known.xml.replace("</worldbody>", "</worldbody >"))
+    monkeypatch.setattr(tasks, "arm", lambda name: edited)
+    assert before.digest() != digest
+
+
+def test_users_law_is_planned_on_every_arm_by_the_geometric_jacobian(capsys, own):
+    said = bench(capsys, *SHORT, "--law", own, "--regulator", "mine")
+    assert (said.code, said.err) == (0, "")
+    for arm in ARMS:
+        assert f"{arm}: clear 2 (each of 1 combinations)" in said.out
+
+
+def test_users_law_on_R_takes_no_analytic_jacobian(capsys, own):
+    line = refused(capsys, *SHORT, "--law", own, "--regulator", "mine", "--arm", "ur5e", "--jacobian", "analytic")
+    assert "regulator 'mine' commands an angular acceleration (try: the Jacobian geometric" in line
+
+
+def test_users_law_runs_on_an_arm(capsys, own, tmp_path):
+    from bench.tables import store
+
+    out = tmp_path / "out"
+    words = ("--suite", "quick", "--arm", "ur5e", "--starts", "clear", "--count", "2", "--horizon", "0.05")
+    said = bench(capsys, "run", *words, "--engine", "native", "--engine", "reference", "--law", own,
+                 "--regulator", "mine", "--out", out)  # fmt: skip
+    assert said.code == 0, said
+    rows = store.read(out, "episodes")
+    assert set(rows.regulator) == {"mine"}
+    assert set(zip(rows.jacobian, rows.inverse, strict=True)) == {("geometric", "solve")}
+    fast, slow = (rows[rows.engine == engine].reset_index(drop=True) for engine in ("native", "reference"))
+    assert fast.drop(columns="engine").equals(slow.drop(columns="engine"))
+    costs = store.read(out, "costs")
+    assert set(costs[costs.regulator == "mine"].joints) == {6}
+
+
+@pytest.mark.parametrize("arm", ["nosuch", "ur5"])
+def test_unknown_arm_lists_the_known_ones(capsys, arm):
+    line = refused(capsys, "run", "--dry-run", "--arm", arm)
+    assert f"arm '{arm}' is unknown" in line
+    assert f"known: {', '.join(ARMS)}" in line
+
+
+@pytest.mark.parametrize(
+    "words", [("--jacobian", "analytic"), ("--inverse", "solve"), ("--variation", "mass-1.30"), ("--arm", "ur5e")]
+)
+def test_free_body_has_nothing_of_an_arm(capsys, words):
+    line = refused(capsys, "run", "--dry-run", "--task", "free-body", *words)
+    assert "task 'free-body' has no arm" in line
+    assert "try: --task arm-regulation" in line

@@ -1,0 +1,249 @@
+"""Jacobians over poses, against MuJoCo, numpy and scipy: none of them ours."""
+
+import itertools
+import math
+
+import mujoco
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation as Turn
+from support.bits import EPS
+
+import tasks
+from bench.contenders.registry import find_contender, known_representations
+from bench.experiments import plan, poses
+from bench.experiments.pose_sets import DECADES, FAMILIES, WELL_CONDITIONED, grid, pair, polished, towards_pole
+from bench.regression import rows as compare
+from bench.regression.rows import difference
+from bench.tables import schema
+from tasks.arm_model import model_xml
+from tasks.kinematics import Kinematics
+from tasks.paths import cos_beta, zyx_angles
+from tasks.rotations import zyx
+
+ARMS = ("puma560", "ur5e")
+COUNT, SEED = 30, 7
+
+
+@pytest.fixture(scope="module")
+def frames():
+    """The rows of two arms with few poses."""
+    return {name: poses.frame(tasks.arm(name), COUNT, SEED) for name in ARMS}
+
+
+def of_zyx(frame, *sets):
+    rows = frame[frame["representation"] == "zyx-euler"]
+    return rows[rows["pose_set"].isin(sets)] if sets else rows
+
+
+def x_of(model, data, q):
+    """Position and Z-Y-X angles of the tool: MuJoCo's frame, scipy's angles."""
+    data.qpos[:] = q
+    mujoco.mj_forward(model, data)
+    site = model.site("tool").id
+    R = data.site_xmat[site].reshape(3, 3)
+    return np.concatenate((data.site_xpos[site], Turn.from_matrix(R).as_euler("ZYX")))
+
+
+@pytest.mark.parametrize("name", ARMS)
+def test_euler_jacobian_is_the_derivative_of_scipys_angles(frames, name):
+    arm = tasks.arm(name)
+    model = mujoco.MjModel.from_xml_string(model_xml(arm, 1e-3))
+    data = mujoco.MjData(model)
+    rows = of_zyx(frames[name], "random")
+    looked = 0
+    for row in rows[rows["margin"] > 0.1].itertuples():
+        q = np.array([getattr(row, f"q_{i + 1}") for i in range(arm.joints)])
+        ends = [[x_of(model, data, q + sign * 1e-6 * e) for sign in (1, -1)] for e in np.eye(arm.joints)]
+        J_E = np.array([(plus - minus) / 2e-6 for plus, minus in ends]).T
+        if abs(J_E).max() > 1e3:  # an angle jumped between the two ends
+            continue
+        # step^2/margin^2 = 1e-10 and eps/step = 2e-10, both relative to elements of up to 1/margin, times the
+        # condition numbers they end up in
+        assert row.condition_analytic == pytest.approx(np.linalg.cond(J_E), rel=1e-8 * row.condition_analytic)
+        assert row.largest == pytest.approx(abs(J_E[3:]).max(), rel=1e-7)
+        looked += 1
+    assert looked > COUNT // 2
+
+
+@pytest.mark.parametrize("name", ARMS)
+def test_condition_and_determinant_are_numpys_of_mujocos_jacobian(frames, name):
+    kin = Kinematics(tasks.arm(name))
+    for row in of_zyx(frames[name], "random", "named").itertuples():
+        J = kin.jacobian([getattr(row, f"q_{i + 1}") for i in range(6)])
+        assert row.condition == pytest.approx(np.linalg.cond(J), rel=1e-9)
+        assert row.det == pytest.approx(np.linalg.det(J), abs=1e-15)
+
+
+@pytest.mark.parametrize("name", ARMS)
+def test_our_jacobian_is_mujocos(frames, name):
+    # a cross product of sums of rounded lengths of about a metre, six of them along the chain
+    assert frames[name]["kernel_gap"].max() <= 16 * EPS
+
+
+@pytest.mark.parametrize("name", ARMS)
+def test_our_jacobian_from_mujoco_alone_is_mujocos(name):
+    eye = poses.Eye(tasks.arm(name))
+    chain, J = eye.look(tasks.arm(name).home)
+    swept = np.cross(chain.axes, np.array(chain.p) - chain.anchors)
+    assert np.abs(np.vstack((swept.T, chain.axes.T)) - J).max() <= 16 * EPS
+
+
+def test_puma_stands_on_the_pole_at_its_stock_pose(frames):
+    rows = of_zyx(frames["puma560"], "named").set_index("pose_id")
+    assert rows.at["qn", "margin"] < 1e-15
+    assert rows.at["qn", "condition"] == pytest.approx(7.88, abs=0.01)
+    assert rows.at["qn", "condition_analytic"] > 1e15
+
+
+@pytest.mark.parametrize("name", ARMS)
+def test_determinants_are_those_of_the_converted_jacobian(frames, name):
+    rows = of_zyx(frames[name], "random")
+    rows = rows[rows["margin"] > 0.01]
+    wanted = -rows["det"] / rows["margin"]
+    np.testing.assert_allclose(rows["det_analytic"], wanted, atol=1e-12, rtol=1e-12)
+    assert rows["det_gap"].max() <= 100 * EPS / 0.01
+
+
+@pytest.mark.parametrize("name", ARMS)
+def test_pole_poses_come_to_their_distances_with_the_arm_well_conditioned(frames, name):
+    rows = of_zyx(frames[name], "pole")
+    assert len(rows) == 2 * FAMILIES * (DECADES + 1)
+    assert rows["condition"].max() <= WELL_CONDITIONED
+    for row in rows.itertuples():
+        distance = row.pose_id.split("-", 2)[2]
+        wanted = 0.0 if distance == "exact" else math.sin(float(distance))
+        # Newton's last step leaves the rounding of six joints and of the forward kinematics
+        assert row.margin == pytest.approx(wanted, abs=16 * EPS)
+        assert (row.beta > 0) == ("plus" in row.pose_id)
+
+
+def test_pole_poses_of_a_family_hold_position_and_angles(frames):
+    kin = Kinematics(tasks.arm("ur5e"))
+    rows = of_zyx(frames["ur5e"], "pole")
+    family = rows[rows["pose_id"].str.startswith("0-plus-1e-0")].head(6)
+    seen = [kin.pose(q) for q in family[[f"q_{i + 1}" for i in range(6)]].to_numpy()]
+    positions, angles = np.array([p for p, _ in seen]), np.array([zyx_angles(quat) for _, quat in seen])
+    assert np.ptp(positions, axis=0).max() <= 32 * EPS
+    # at 1e-6 from the pole alpha and gamma are known to eps/1e-6
+    assert np.ptp(angles[:, [0, 2]], axis=0).max() <= 32 * EPS / 1e-6
+
+
+def test_polished_joints_are_closer_than_newton_left_them():
+    kin = Kinematics(tasks.arm("ur5e"))
+    p, quat = kin.pose(kin.arm.home)
+    near = np.array(kin.arm.home) + 1e-7
+    found = polished(kin, near, p, quat)
+    assert np.abs(found - kin.arm.home).max() < 1e-12 < np.abs(near - kin.arm.home).max()
+
+
+@pytest.mark.parametrize("name", ARMS)
+def test_slice_shows_both_kinds_of_singularity(name):
+    kin = Kinematics(tasks.arm(name))
+    seen = [(kin.condition(q), cos_beta(kin.pose(q)[1])) for _, q in grid(kin.arm, *pair(kin), 61)]
+    conditions, margins = (np.array(numbers) for numbers in zip(*seen, strict=True))
+    assert conditions.max() > 10 * np.median(conditions)
+    assert margins[conditions <= WELL_CONDITIONED].min() < 0.1
+
+
+def test_slice_varies_two_joints_over_their_ranges_and_leaves_the_others_at_home():
+    arm = tasks.arm("puma560")
+    places, qs = zip(*grid(arm, 1, 4, 5), strict=True)
+    qs = np.array(qs)
+    assert list(places) == list(itertools.product(range(5), repeat=2))
+    assert np.ptp(qs[:, [0, 2, 3, 5]], axis=0).max() == 0.0
+    for joint in (1, 4):
+        span = arm.upper[joint] - arm.lower[joint]
+        assert np.ptp(qs[:, joint]) == pytest.approx(min(span, math.tau) * 4 / 5)
+
+
+def test_random_poses_are_in_range_and_the_first_of_more(frames):
+    arm = tasks.arm("puma560")
+    rows = of_zyx(frames["puma560"], "random")
+    q = rows[[f"q_{i + 1}" for i in range(6)]].to_numpy()
+    assert len(q) == COUNT
+    assert ((q >= arm.lower) & (q <= arm.upper)).all()
+    more = of_zyx(poses.frame(arm, 2 * COUNT, SEED), "random")
+    assert np.array_equal(more[[f"q_{i + 1}" for i in range(6)]].to_numpy()[:COUNT], q)
+
+
+def test_every_pose_has_a_row_in_every_representation(frames):
+    for frame in frames.values():
+        counts = frame.groupby(["pose_set", "pose_id"]).size()
+        assert set(counts) == {len(known_representations())}
+        assert frame["q_7"].isna().all()
+        assert {column.name for column in schema.pose_columns()} == set(frame.columns)
+
+
+def test_conditions_are_numpys_and_infinite_where_nothing_is_finite():
+    square, tall = np.random.default_rng(3).normal(size=(2, 4, 7, 6))
+    square = square[:, :6]
+    tall[:, 6] = tall[:, 5]  # rank 6
+    tall[3, 0, 0] = math.nan
+    np.testing.assert_allclose(poses.conditions(square), np.linalg.cond(square), rtol=1e-12)
+    np.testing.assert_allclose(poses.conditions(tall)[:3], np.linalg.cond(tall[:3]), rtol=1e-12)
+    assert poses.conditions(tall)[3] == math.inf
+    assert poses.conditions(np.zeros((1, 6, 6)))[0] == math.inf
+
+
+def test_determinant_is_null_unless_square():
+    assert np.isnan(poses.determinants(np.ones((2, 6, 7)))).all()
+
+
+def test_run_without_arms_has_no_poses():
+    one = plan.make("quick", [find_contender("rotation-matrix")], plan.Choice(tasks=("free-body",)))
+    table = poses.run(one)
+    assert len(table) == 0
+    assert list(table.columns) == [column.name for column in schema.pose_columns()]
+
+
+def test_run_has_the_arms_of_its_plan():
+    one = plan.make("quick", [find_contender("rotation-matrix")], plan.Choice(arms=("ur5e",), start_sets=("clear",)))
+    assert set(poses.run(plan.dataclasses.replace(one, poses=10))["arm"]) == {"ur5e"}
+    assert len(poses.run(one)) == 0  # narrowed to a start set, a run looks at no poses
+
+
+def test_way_to_the_pole_is_refused_from_a_singular_posture():
+    kin = Kinematics(tasks.arm("puma560"))
+    stretched = np.array(tasks.arm("puma560").home)
+    stretched[4] = 0.0  # the wrist's first and last axis in line
+    assert kin.condition(stretched) > WELL_CONDITIONED
+    assert towards_pole(kin, stretched, 1.0) is None
+
+
+def test_tool_is_turned_to_the_angles_that_were_asked_for():
+    # what the families rest on: quaternions of angles beside the pole, to rounding
+    for k in range(1, DECADES + 1):
+        assert cos_beta(zyx(0.3, math.pi / 2 - 10.0**-k, -1.1)) == pytest.approx(math.sin(10.0**-k), abs=4 * EPS)
+
+
+@pytest.mark.parametrize(
+    ("pose_set", "column", "lines"),
+    [
+        ("random", "condition", 1),
+        ("random", "det_analytic", 1),
+        ("random", "q_3", 1),
+        ("random", "derivation_gap", 0),
+        ("named", "condition_analytic", 1),
+    ],
+)
+def test_gate_catches_a_pose_that_changed_but_for_rounding(frames, pose_set, column, lines):
+    old = frames["ur5e"]
+    row = old.index[(old["pose_set"] == pose_set) & (old["representation"] == "zyx-euler")][0]
+    new = old.copy()
+    new.loc[row, column] = 1.001 * new.loc[row, column] + 1e-3
+    assert compare.TABLES["poses"](old, old) == []
+    assert len(compare.TABLES["poses"](old, new)) == lines
+
+
+def test_gate_takes_no_notice_of_a_condition_number_on_the_pole(frames):
+    old = frames["puma560"]
+    on = (old["pose_id"] == "qn") & (old["representation"] == "zyx-euler")
+    new = old.assign(condition_analytic=old["condition_analytic"].where(~on, 1e18))
+    assert compare.TABLES["poses"](old, new) == []
+
+
+def test_gate_catches_a_pose_that_is_gone(frames):
+    old = frames["ur5e"]
+    [gone] = compare.TABLES["poses"](old, old.iloc[1:])
+    assert (gone.table, gone.kind) == ("poses", difference.MISSING)

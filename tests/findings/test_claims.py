@@ -1,0 +1,323 @@
+"""The paper's claims: all present, decided by the data, and refused without any."""
+
+import itertools
+import math
+
+import numpy as np
+import pandas as pd
+import pytest
+from scipy.linalg import expm
+from scipy.special import lambertw
+
+from bench.contenders.registry import representation
+from bench.findings import claims
+from bench.findings.claims import coordinates, probes
+from bench.findings.claims.errata import ERRATA
+from bench.findings.claims.tables import Results, share
+from bench.findings.claims.verdict import Claim, Evidence, NoEvidence, Word, claim, decide
+from bench.law.contender import Gains
+from bench.provenance import ROOT
+from bench.tables import read
+
+TESTED = tuple(f"C{i:02d}" for i in range(1, 18))
+WITHOUT_TABLES = ("C13", "C15")
+LAWS = ("rotation-matrix", "linearized-euler", "linearized-euler-relative", "feedback-linearized")
+REFERENCE = ROOT / "results" / "reference"
+TABLES = ("episodes", "costs", "traces", "boundaries")
+
+
+@pytest.fixture(scope="session")
+def frames():
+    """The committed run of the quick suite, which `make gate` holds to today's code: the paper's laws, free body."""
+    reference, found = Results(REFERENCE), {}
+    for name in TABLES:
+        frame = reference.table(name, **read.FREE_BODY)
+        found[name] = frame[frame["regulator"].isin(LAWS) & frame["representation"].isin(("", "zyx-euler"))]
+    return found
+
+
+@pytest.fixture
+def doctored(frames, tmp_path):
+    """A judge of the run with some cells changed: doctored(id, table, rows, column=value)."""
+
+    def judge(id, table="episodes", rows=None, drop=False, **cells):
+        frame = frames[table].copy()
+        chosen = slice(None) if rows is None else rows(frame)
+        if drop:
+            frame = frame[~chosen]
+        for column, value in cells.items():
+            if isinstance(frame[column].dtype, pd.CategoricalDtype):
+                frame[column] = frame[column].astype(str)
+            frame.loc[chosen, column] = value(frame.loc[chosen, column]) if callable(value) else value
+        return claims.judge(id, Results(None, {**frames, table: frame}, tmp_path)).word
+
+    return judge
+
+
+def of(law, *start_sets, engine="ideal-rk4"):
+    def rows(frame):
+        chosen = (frame["regulator"] == law) & (frame["engine"] == engine)
+        return chosen & frame["start_set"].isin(start_sets) if start_sets else chosen
+
+    return rows
+
+
+def law_of(regulator):
+    """The rows of one law, whatever the table."""
+    return lambda frame: frame["regulator"] == regulator
+
+
+def both(one, other):
+    return lambda frame: one(frame) & other(frame)
+
+
+def test_every_claim_is_there_once():
+    assert [one.id for one in claims.all_claims()] == [f"C{i:02d}" for i in range(1, 28)]
+
+
+@pytest.mark.parametrize("one", claims.all_claims(), ids=lambda one: one.id)
+def test_claim_has_its_texts(one):
+    assert all((one.section, one.sentence, one.question, one.criterion))
+
+
+@pytest.mark.parametrize("one", claims.all_claims(), ids=lambda one: one.id)
+def test_criterion_says_what_holds_and_what_does_not(one):
+    assert "does not hold" in one.criterion
+    assert "with a correction" in one.criterion
+
+
+@pytest.mark.parametrize("id", TESTED)
+def test_claim_of_the_free_body_has_its_criterion_and_its_judge(id):
+    one = next(one for one in claims.all_claims() if one.id == id)
+    assert one.criterion
+    assert one.judge is not None
+
+
+def test_claim_is_found_when_a_file_is_dropped(tmp_path, monkeypatch):
+    (tmp_path / "dropped.py").write_text(
+        "from bench.findings.claims.verdict import Claim\nCLAIMS = (Claim('C99', '9', 'a', 'b', 'c'),)\n"
+    )
+    monkeypatch.setattr(claims, "__path__", [*claims.__path__, str(tmp_path)])
+    claims.all_claims.cache_clear()
+    try:
+        assert claims.all_claims()[-1].id == "C99"
+    finally:
+        monkeypatch.undo()
+        claims.all_claims.cache_clear()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("id", TESTED)
+def test_claim_is_decided_by_a_quick_run(frames, tmp_path, id):
+    verdict = claims.judge(id, Results(None, frames, tmp_path))
+    assert verdict.word in (Word.HOLDS, Word.CORRECTED, Word.FAILS)
+    assert verdict.rows > 0
+    assert any(character.isdigit() for character in str(verdict.evidence))
+
+
+@pytest.mark.slow
+def test_table_has_a_line_a_verdict(frames, tmp_path):
+    last = [one for one in claims.all_claims() if one.id == "C17"]
+    verdicts = [decide(one, Results(None, frames, tmp_path)) for one in last]
+    table = claims.table(verdicts)
+    assert list(table["claim"]) == [one.id for one in last]
+    assert table["rows"].iloc[0] > 0
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("id", [id for id in TESTED if id not in WITHOUT_TABLES])
+def test_claim_is_refused_without_rows(frames, tmp_path, id):
+    empty = {name: frame.iloc[:0] for name, frame in frames.items()}
+    with pytest.raises(NoEvidence):
+        claims.judge(id, Results(None, empty, tmp_path))
+
+
+def test_verdict_on_no_rows_is_an_error():
+    nothing = Evidence("all of none", {}, 0, ("episodes",))
+    with pytest.raises(NoEvidence, match="C00: no row of episodes"):
+        decide(Claim("C00", "", "", "", "", judge=lambda results: (Word.HOLDS, nothing)), None)
+
+
+def beside(frame):
+    """A table with rows that no claim of chapter 2 is about: the same laws on an arm, and in other coordinates."""
+    spoilt = frame.assign(regulator=frame["regulator"].astype(str), representation=frame["representation"].astype(str))
+    for name, value in (("outcome", "diverged"), ("flops", 0), ("atan2", 0), ("time_s", 1e3), ("fails_from_rad", 0.1)):
+        if name in frame:
+            spoilt[name] = value
+    on_arm = spoilt.assign(
+        jacobian="geometric", inverse="solve", **({"task": "arm-regulation"} if "task" in frame else {})
+    )
+    together = pd.concat([on_arm, frame, spoilt.assign(representation="mrp")], ignore_index=True)
+    # evidence lists outcomes that are equally frequent in the order of their categories
+    return together.astype({"outcome": frame["outcome"].dtype}) if "outcome" in frame else together
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("id", ["C03", "C06", "C09", "C12", "C14", "C17"])
+def test_claim_of_the_free_body_looks_at_no_arm_and_no_other_coordinates(frames, tmp_path, id):
+    alone, among = (
+        claims.judge(id, Results(None, tables, tmp_path))
+        for tables in (frames, {name: beside(frame) for name, frame in frames.items()})
+    )
+    assert (among.word, among.rows, str(among.evidence)) == (alone.word, alone.rows, str(alone.evidence))
+
+
+@pytest.mark.slow
+def test_c01_fails_when_one_start_diverges(doctored):
+    def first(frame):
+        return frame.index == frame.index[of("rotation-matrix", "uniform")(frame)][0]
+
+    assert doctored("C01", rows=first, outcome="diverged") == Word.FAILS
+
+
+@pytest.mark.slow
+def test_c01_fails_when_energy_grows(doctored):
+    short = both(of("rotation-matrix", "uniform"), lambda frame: frame["angle0_rad"] < 1.0)
+    assert doctored("C01", rows=short, final_angle_rad=2.0) == Word.FAILS
+
+
+@pytest.mark.slow
+def test_c01_holds_when_every_start_settles(doctored):
+    assert doctored("C01", rows=lambda frame: frame["regulator"] == "rotation-matrix", outcome="settled") == Word.HOLDS
+
+
+@pytest.mark.slow
+def test_c01_is_corrected_when_a_sampled_engine_differs(doctored):
+    assert doctored("C01", rows=of("rotation-matrix"), outcome="settled") == Word.CORRECTED
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("id", "word", "rows", "cells"),
+    [
+        ("C02", Word.FAILS, of("rotation-matrix", "goals"), {"settling_time_s": lambda t: 2 * t}),
+        ("C03", Word.CORRECTED, of("rotation-matrix", "half-turn"), {"settling_time_s": lambda t: 1.05 * t}),
+        ("C03", Word.FAILS, of("rotation-matrix", "half-turn"), {"settling_time_s": lambda t: 1.2 * t}),
+        ("C03", Word.FAILS, of("rotation-matrix", "uniform"), {"settling_time_s": 1.0}),
+        ("C05", Word.CORRECTED, of("rotation-matrix", "uniform"), {"angle0_rad": math.pi / 2}),
+        ("C06", Word.FAILS, of("linearized-euler", "box"), {"outcome": "diverged"}),
+        ("C08", Word.FAILS, of("linearized-euler-relative", "goals"), {"outcome": "timed-out"}),
+        ("C09", Word.FAILS, of("feedback-linearized", "uniform"), {"outcome": "diverged"}),
+        ("C10", Word.FAILS, of("feedback-linearized", "poles"), {"outcome": "settled"}),
+        ("C11", Word.FAILS, of("feedback-linearized", "uniform"), {"peak_u": 1e5}),
+        ("C17", Word.HOLDS, lambda frame: frame["regulator"] == "feedback-linearized", {"outcome": "diverged"}),
+    ],
+)
+def test_verdict_follows_the_data_when_they_contradict(doctored, id, word, rows, cells):
+    assert doctored(id, rows=rows, **cells) == word
+
+
+@pytest.mark.slow
+def test_c06_holds_when_the_outside_fails(frames, tmp_path):
+    frame = frames["episodes"].assign(outcome=frames["episodes"]["outcome"].astype(str))
+    law = frame["regulator"] == "linearized-euler"
+    frame.loc[law, "outcome"] = np.where(frame.loc[law, "alpha0"].abs() < math.pi / 2, "settled", "diverged")
+    assert claims.judge("C06", Results(None, {**frames, "episodes": frame}, tmp_path)).word == Word.HOLDS
+
+
+@pytest.mark.slow
+def test_c07_fails_when_the_pole_changes_nothing(doctored):
+    assert doctored("C07", rows=law_of("linearized-euler"), outcome="settled", peak_u=100.0) == Word.FAILS
+
+
+@pytest.mark.slow
+def test_c09_fails_when_a_trace_bends(doctored):
+    assert doctored("C09", "traces", of("feedback-linearized"), time_s=lambda t: 1.1 * t) == Word.FAILS
+
+
+@pytest.mark.slow
+def test_c12_holds_when_the_first_law_has_few_flops(doctored):
+    assert doctored("C12", "costs", law_of("rotation-matrix"), flops=1) == Word.HOLDS
+
+
+@pytest.mark.slow
+def test_c12_fails_when_the_last_law_is_free(doctored):
+    assert doctored("C12", "costs", law_of("feedback-linearized"), flops=0, atan2=0) == Word.FAILS
+
+
+@pytest.mark.slow
+def test_c17_does_not_hold_when_a_law_is_adequate_everywhere(doctored):
+    assert (
+        doctored(
+            "C17",
+            rows=lambda frame: frame["regulator"] == "rotation-matrix",
+            outcome="settled",
+            settling_time_s=0.6,
+        )
+        == Word.FAILS
+    )
+
+
+def test_share_has_wilsons_interval():
+    # Newcombe 1998, Statistics in Medicine 17, 857-872, table I: 81 of 263
+    found = share(pd.Series([True] * 81 + [False] * 182))
+    assert (found.low, found.high) == pytest.approx((0.2553, 0.3662), abs=5e-5)
+
+
+def test_share_of_no_rows_is_an_error():
+    with pytest.raises(NoEvidence):
+        share(pd.Series([], dtype=bool))
+
+
+@pytest.mark.parametrize("kp", [25.0, 100.0, 400.0])
+def test_linear_settling_solves_the_critically_damped_closed_form(kp):
+    # (1 + x) exp(-x) = c has the solution x = -1 - W_-1(-c/e)
+    x = -1.0 - lambertw(-0.02 / math.e, -1).real
+    assert probes.linear_settling(Gains(kp, 2 * math.sqrt(kp))) == pytest.approx(x / math.sqrt(kp), rel=1e-9)
+
+
+@pytest.mark.parametrize("gains", [Gains(), Gains(100.0, 10.0), Gains(100.0, 40.0)])
+def test_response_is_the_matrix_exponential(gains):
+    system = np.array([[0.0, 1.0], [-gains.kp, -gains.kv]])
+    for t in (0.03, 0.2, 0.7):
+        assert probes.response(t, gains) == pytest.approx(expm(system * t)[0, 0], abs=1e-12)
+
+
+def test_slope_per_decade_is_the_saddles_unstable_root():
+    root = np.linalg.eigvals(np.array([[0.0, 1.0], [100.0, -20.0]])).max()
+    assert probes.slope_per_decade(Gains()) == pytest.approx(math.log(10) / root, rel=1e-12)
+
+
+def test_condition_of_the_rotation_vector_is_that_of_the_left_jacobian():
+    # singular values 1 and 2 sin(angle / 2) / angle (twice)
+    E = (0.8, -0.5, 1.1)
+    angle = math.hypot(*E)
+    R = representation("rotation-vector").to_matrix(E)
+    expected = angle / (2 * math.sin(angle / 2))
+    assert coordinates.condition_in("rotation-vector", R) == pytest.approx(expected, rel=1e-12)
+
+
+def test_condition_of_zyz_is_that_of_its_middle_angle():
+    # B^T B has eigenvalues 1, 1 + cos(beta), 1 - cos(beta)
+    expected = math.sqrt((1 + math.cos(0.3)) / (1 - math.cos(0.3)))
+    R = representation("zyz-euler").to_matrix((0.4, 0.3, -0.9))
+    assert coordinates.condition_in("zyz-euler", R) == pytest.approx(expected, rel=1e-12)
+
+
+def test_condition_of_angle_and_axis_is_that_of_its_half_angle():
+    # columns of length 1, 2 sin(angle / 2) and that times sin(polar angle), orthogonal
+    angle, polar = 0.3, 0.7
+    expected = 1.0 / (2 * math.sin(angle / 2) * math.sin(polar))
+    found = coordinates.condition_of_angle_and_axis(np.array((angle, polar, -0.9)))
+    assert found == pytest.approx(expected, rel=1e-12)
+
+
+@pytest.mark.parametrize("one", [one for one in ERRATA if one.check], ids=lambda one: one.id)
+def test_erratum_is_confirmed(one):
+    assert one.check()
+
+
+def test_errata_are_numbered_and_complete():
+    assert [one.id for one in ERRATA] == [f"E{i:02d}" for i in range(1, len(ERRATA) + 1)]
+    assert all(one.where and one.printed and one.right and one.how for one in ERRATA)
+
+
+def test_texts_are_joined_into_lines():
+    one = claim(id="C00", section="", sentence=" a\n   b ", question="", criterion="", readings=("c\n d",))
+    assert (one.sentence, one.readings) == ("a b", ("c d",))
+
+
+def test_bodies_beside_a_pole_are_fast_and_outside_the_margin():
+    outcomes = probes.beside_pole(0.2, "feedback-linearized/zyx-euler", Gains())
+    assert len(outcomes) == probes.BESIDE
+    assert list(itertools.compress(outcomes["outcome"], outcomes["outcome"] == "settled"))

@@ -1,0 +1,263 @@
+"""The dense kernels against numpy.linalg, on matrices of every condition and rank; floats, counted, compiled alike."""
+
+from fractions import Fraction
+
+import numba
+import numpy as np
+import pytest
+import sympy
+from support.bits import EPS, same_bits
+from support.buffers import as_counted, as_floats, buffer, matrices, symmetric
+from sympy.combinatorics import Permutation
+
+from bench.engines.compiled import JIT, register_kernels
+from bench.law import linalg
+from bench.law.linalg.rotations import SWEEPS
+
+SHAPES = [(6, 6), (6, 7), (7, 6), (7, 7), (3, 5), (2, 2), (1, 1)]
+SQUARES = [3, 4, 5, 6, 7]
+UNUSABLE = ("nan", "inf")
+B = np.array([0.3, -1.2, 0.7, 2.0, -0.4, 0.9, 1.1])
+
+
+def norm(A) -> float:
+    return float(np.linalg.norm(A))
+
+
+def usable(rows, n, above_rank=False):
+    """The finite ones; those of full rank only, to rounding, if asked."""
+    for word, A in matrices_of(rows, n).items():
+        if word not in UNUSABLE and not (above_rank and np.linalg.matrix_rank(A) < min(rows, n)):
+            yield word, A
+
+
+def matrices_of(rows, n):
+    return matrices(rows, n) if n > 3 else {f"random-{i}": matrices(7, 7)[f"random-{i}"][:rows, :n] for i in range(8)}
+
+
+# ------------------------------------------------------------------------------------------------- products
+@pytest.mark.parametrize(("rows", "n"), SHAPES)
+def test_products_are_numpys(rows, n):
+    for word, A in usable(rows, n):
+        held, y, x, S, T = buffer(A), np.zeros(7), np.zeros(7), np.zeros((7, 7)), np.zeros((7, 7))
+        linalg.multiply(held, B, y, rows, n)
+        linalg.multiply_transposed(held, B, x, rows, n)
+        linalg.gram(held, S, rows, n)
+        linalg.gram_transposed(held, T, rows, n)
+        within = {"rtol": 0.0, "atol": 7 * EPS * norm(A) * norm(B)}  # sums of up to 7 rounded products
+        np.testing.assert_allclose(y[:rows], A @ B[:n], **within, err_msg=word)
+        np.testing.assert_allclose(x[:n], A.T @ B[:rows], **within, err_msg=word)
+        within["atol"] = 7 * EPS * norm(A) * norm(A)
+        np.testing.assert_allclose(S[:rows, :rows], np.tril(A @ A.T), **within, err_msg=word)
+        np.testing.assert_allclose(T[:n, :n], np.tril(A.T @ A), **within, err_msg=word)
+
+
+# ---------------------------------------------------------------------------------------------- elimination
+@pytest.mark.parametrize("n", SQUARES)
+def test_solution_is_exact_for_a_matrix_next_to_the_given_one(n):
+    for word, A in usable(n, n, above_rank=True):
+        upper, x = buffer(A), buffer(B[:n])
+        linalg.solve(upper, x, n)
+        growth = np.abs(np.triu(upper[:n, :n])).max() / np.abs(A).max()
+        residual = norm(A @ x[:n] - B[:n])
+        # Higham 2002, theorem 9.5: |dA| <= n^2 gamma_3n growth |A| in the row-sum norm, sqrt(n) apart from this one;
+        # and n EPS |A| |x| for the product here
+        allowed = (1.5 * n**3 * growth * n**0.5 + n) * EPS * norm(A) * norm(x[:n])
+        assert residual <= allowed, (word, residual / allowed)
+
+
+@pytest.mark.parametrize("n", SQUARES)
+def test_solution_is_numpys_within_the_condition(n):
+    for word, A in usable(n, n, above_rank=True):
+        x = buffer(B[:n])
+        linalg.solve(buffer(A), x, n)
+        theirs = np.linalg.solve(A, B[:n])
+        # two backward errors of the size above, growth below 4 here, times the condition number
+        assert norm(x[:n] - theirs) <= 2 * 6 * n**3 * EPS * np.linalg.cond(A) * norm(theirs), word
+
+
+def test_permutation_is_solved_exactly():
+    draw = np.random.default_rng(1)
+    for n in SQUARES:
+        for _ in range(20):
+            order = draw.permutation(n)
+            x = buffer(B[:n])
+            linalg.solve(buffer(np.eye(n)[order]), x, n)
+            np.testing.assert_array_equal(np.eye(n)[order] @ x[:n], B[:n])
+
+
+def test_pivots_are_found_among_numbers_whose_squares_are_zero():
+    A = 1e-200 * np.array([[1e-17, 1.0], [1.0, 1.0]])
+    x = np.array([1e-200, 2e-200])
+    linalg.solve(A.copy(), x, 2)
+    np.testing.assert_allclose(x, [1.0, 1.0], rtol=0.0, atol=2 * EPS)
+
+
+@pytest.mark.parametrize("n", SQUARES)
+@pytest.mark.parametrize("word", ["zero", "zero-column", "equal-columns", "nan"])
+def test_solution_of_a_singular_matrix_is_not_finite(word, n):
+    x = buffer(B[:n])
+    A = np.ones((n, n)) if word == "equal-columns" else matrices(n, n)[word]
+    with np.errstate(all="ignore"):
+        linalg.solve(buffer(A), x, n)
+    assert not np.isfinite(x[:n]).all()
+
+
+@pytest.mark.parametrize("n", [2, *SQUARES])
+def test_determinant_is_the_exact_one_of_integers(n):
+    draw = np.random.default_rng(n)
+    for _ in range(10):
+        A = draw.integers(-9, 10, (n, n))
+        exact = int(sympy.Matrix(A.tolist()).det())
+        found = linalg.determinant(buffer(A), np.zeros(7), n)
+        # the determinant of a matrix 1.5 n^3 growth EPS |A| away: n |A|^(n-1) times that bounds the change
+        allowed = 6 * n**3 * EPS * max(1.0, abs(exact) * np.linalg.cond(A)) if exact else n**4 * EPS * norm(A) ** n
+        assert abs(found - exact) <= allowed
+
+
+def test_determinant_of_a_singular_matrix_is_zero():
+    for n in SQUARES:
+        for word in ("zero", "zero-column"):
+            found = linalg.determinant(buffer(matrices(n, n)[word]), np.zeros(7), n)
+            assert found <= 0.0 <= found
+        assert linalg.determinant(np.ones((n, n)), np.zeros(n), n) == 0.0
+
+
+def test_determinant_of_a_permutation_is_its_sign():
+    draw = np.random.default_rng(2)
+    for _ in range(50):
+        order = draw.permutation(6)
+        expected = Permutation(order.tolist()).signature()
+        assert linalg.determinant(buffer(np.eye(6)[order]), np.zeros(7), 6) == expected
+
+
+# ------------------------------------------------------------------------------------------------- Cholesky
+@pytest.mark.parametrize("n", SQUARES)
+def test_factor_is_numpys_and_reads_the_lower_half_only(n):
+    for word, S in symmetric(n).items():
+        if word in UNUSABLE or word == "large":
+            continue
+        L = buffer(np.where(np.tri(n), S, np.nan))
+        linalg.factor(L, n)
+        theirs = np.linalg.cholesky(S)
+        # |L - L'| <= n^2 EPS |L| cond(S) (Sun 1992), n^2 EPS the backward error of either
+        allowed = 2 * n**2 * EPS * norm(theirs) * np.linalg.cond(S)
+        found = np.tril(L[:n, :n], -1) + np.diag(1.0 / np.diag(L[:n, :n]))
+        np.testing.assert_allclose(found, theirs, rtol=0.0, atol=allowed, err_msg=word)
+
+
+@pytest.mark.parametrize("n", SQUARES)
+def test_factored_solution_is_numpys_within_the_condition(n):
+    for word, S in symmetric(n).items():
+        if word in UNUSABLE or word == "large":
+            continue
+        L, x = buffer(S), buffer(B[:n])
+        linalg.factor(L, n)
+        linalg.solve_factored(L, x, n)
+        theirs = np.linalg.solve(S, B[:n])
+        # Higham 2002, theorem 10.4: |dS| <= 4 n (3 n + 1) EPS/2 |S|, and as much again for theirs
+        assert norm(x[:n] - theirs) <= 4 * n * (3 * n + 1) * EPS * np.linalg.cond(S) * norm(theirs), word
+
+
+@pytest.mark.parametrize("n", SQUARES)
+def test_factor_of_an_indefinite_matrix_is_not_a_number(n):
+    S = np.eye(n)
+    S[n - 1, n - 1] = -1.0
+    L = buffer(S)
+    with np.errstate(all="ignore"):
+        linalg.factor(L, n)
+    assert np.isnan(L[n - 1, n - 1])
+
+
+# ------------------------------------------------------------------------------------------------ rotations
+def turned(A, b):
+    rows, n = A.shape
+    held, beside = buffer(A), buffer(b)
+    sweeps = linalg.orthogonalize(held, beside, rows, n)
+    return held[:rows, :n], beside[:rows], sweeps
+
+
+def rounding(rows, sweeps) -> float:
+    """Each row is rotated rows - 1 times a sweep, each time with an error of up to 4 EPS of the two rows."""
+    return 4 * EPS * (rows - 1) * sweeps + EPS
+
+
+@pytest.mark.parametrize(("rows", "n"), SHAPES)
+def test_lengths_of_orthogonalized_rows_are_numpys_singular_values(rows, n):
+    for word, A in usable(rows, n):
+        found, _, sweeps = turned(A, B[:rows])
+        lengths = np.sort(np.linalg.norm(found, axis=1))[::-1]
+        theirs = np.zeros(rows)
+        theirs[: min(rows, n)] = np.linalg.svd(A, compute_uv=False)
+        np.testing.assert_allclose(
+            lengths, theirs, rtol=0.0, atol=(rounding(rows, sweeps) + 7 * EPS) * norm(A), err_msg=word
+        )
+
+
+@pytest.mark.parametrize(("rows", "n"), SHAPES)
+def test_orthogonalized_rows_are_orthogonal_and_turned_from_the_given_ones(rows, n):
+    for word, A in usable(rows, n):
+        found, beside, sweeps = turned(A, B[:rows])
+        products = found @ found.T
+        off = products - np.diag(np.diag(products))
+        # n EPS of two rows, or of a row that is zero to rounding, and the rounding of the product here
+        assert np.abs(off).max() <= 3 * n * EPS * norm(A) ** 2, word
+        # U is orthogonal: A^T b is (U^T A)^T (U^T b)
+        within = 2 * rounding(rows, sweeps) * norm(A) * norm(B)
+        np.testing.assert_allclose(found.T @ beside, A.T @ B[:rows], rtol=0.0, atol=within, err_msg=word)
+
+
+@pytest.mark.parametrize(("rows", "n"), SHAPES)
+def test_rotations_end_before_their_bound_at_any_rank(rows, n):
+    assert max(turned(A, B[:rows])[2] for _, A in usable(rows, n)) < SWEEPS
+
+
+# -------------------------------------------------------------------------------- floats, counted, compiled
+def calls(rows, n):
+    """Kernel -> its arguments from a matrix; arrays among them are what it writes to."""
+    square = {
+        linalg.solve: lambda A: (A, buffer(B), n),
+        linalg.determinant: lambda A: (A, buffer(B), n),
+        linalg.factor: lambda A: (A, n),
+        linalg.solve_factored: lambda A: (A, buffer(B), n),
+    }
+    any_shape = {
+        linalg.multiply: lambda A: (A, buffer(B), buffer(B), rows, n),
+        linalg.multiply_transposed: lambda A: (A, buffer(B), buffer(B), rows, n),
+        linalg.gram: lambda A: (A, buffer(np.eye(7)), rows, n),
+        linalg.gram_transposed: lambda A: (A, buffer(np.eye(7)), rows, n),
+        linalg.orthogonalize: lambda A: (A, buffer(B), rows, n),
+    }
+    return any_shape | (square if rows == n else {})
+
+
+def outcome(function, given):
+    """All numbers a call leaves: its buffers', and what it returns."""
+    with np.errstate(all="ignore"):
+        answer = function(*given)
+    left = [as_floats(part).ravel() for part in given if isinstance(part, np.ndarray)]
+    returned = [] if answer is None else [as_floats([answer])]
+    return np.concatenate(left + returned)
+
+
+@pytest.mark.parametrize(("rows", "n"), SHAPES[:4])
+def test_counted_and_compiled_kernels_give_the_bits_of_the_plain_ones(rows, n):
+    register_kernels()
+    for kernel, arguments in calls(rows, n).items():
+        compiled = numba.njit(**JIT)(kernel)
+        for word, A in matrices(rows, n).items():
+            plain = outcome(kernel, arguments(buffer(A)))
+            given = [as_counted(part) if isinstance(part, np.ndarray) else part for part in arguments(buffer(A))]
+            assert same_bits(outcome(kernel, given), plain), (kernel.__name__, word, "counted")
+            assert same_bits(outcome(compiled, arguments(buffer(A))), plain), (kernel.__name__, word, "compiled")
+
+
+def test_solve_of_six_is_exact_arithmetic_to_its_condition():
+    """An oracle without floating point: the rational solution of an integer system."""
+    draw = np.random.default_rng(5)
+    A, b = draw.integers(-9, 10, (6, 6)), draw.integers(-9, 10, 6)
+    exact = sympy.Matrix(A.tolist()).LUsolve(sympy.Matrix(b.tolist()))
+    x = buffer(b)
+    linalg.solve(buffer(A), x, 6)
+    expected = np.array([float(Fraction(int(v.p), int(v.q))) for v in exact])
+    assert norm(x[:6] - expected) <= 6 * 6**3 * EPS * np.linalg.cond(A) * norm(expected)

@@ -1,0 +1,139 @@
+"""The law dialect's functions: IEEE 754 instead of exceptions, and the same bits compiled as plain."""
+
+import itertools
+import math
+
+import mpmath
+import numpy as np
+import pytest
+from support.bits import EPS, same_bits
+
+from bench.engines.compiled import compile_function, float64
+from bench.law.scalar import PRIMITIVES, acos, atan2, copysign, cos, sin, sqrt
+
+TINY = 5e-324  # the smallest double above zero
+SPECIAL = (
+    0.0,
+    TINY,
+    1e-308,
+    1e-8,
+    0.5,
+    1.0,
+    1.0 + EPS,
+    2.0,
+    math.pi / 2,
+    math.pi,
+    1e17,
+    1e308,
+    math.inf,
+    math.nan,
+)
+SIGNED = [np.float64(sign * x) for x in SPECIAL for sign in (1.0, -1.0)]
+DRAWN = [np.float64(x) for x in np.random.default_rng(3).normal(scale=2.0, size=400)]
+
+
+def arguments(function) -> list[tuple]:
+    """All special numbers, in pairs where two are taken, and drawn ones."""
+    if function.__code__.co_argcount == 1:
+        return [(x,) for x in SIGNED + DRAWN]
+    return [*itertools.product(SIGNED, repeat=2), *itertools.pairwise(DRAWN)]
+
+
+def plain(function) -> np.ndarray:
+    with np.errstate(all="ignore"):
+        return np.array([function(*given) for given in arguments(function)])
+
+
+@pytest.fixture(params=PRIMITIVES, ids=lambda function: function.__name__)
+def primitive(request):
+    return request.param
+
+
+def test_primitive_compiles_to_the_plain_call_bit_for_bit(primitive):
+    given = np.array(arguments(primitive))
+    if given.shape[1] == 1:
+
+        def over(rows, out):
+            for i in range(rows.shape[0]):
+                out[i] = primitive(rows[i, 0])
+    else:
+
+        def over(rows, out):
+            for i in range(rows.shape[0]):
+                out[i] = primitive(rows[i, 0], rows[i, 1])
+
+    out = np.empty(len(given))
+    compile_function(over, (float64[:, ::1], float64[::1]), cache=False)(given, out)
+    assert same_bits(out, plain(primitive))
+
+
+@pytest.mark.parametrize("kind", [float, np.float64])
+def test_primitive_keeps_the_type_it_is_given(primitive, kind):
+    given = [kind(0.5)] * primitive.__code__.co_argcount
+    assert type(primitive(*given)) is kind
+
+
+@pytest.mark.parametrize(
+    ("function", "true", "given"),
+    [
+        (sqrt, mpmath.sqrt, [(abs(x),) for x in DRAWN]),
+        (sin, mpmath.sin, [(x,) for x in DRAWN]),
+        (cos, mpmath.cos, [(x,) for x in DRAWN]),
+        (acos, mpmath.acos, [(sin(x),) for x in DRAWN]),
+        (atan2, mpmath.atan2, list(itertools.pairwise(DRAWN))),
+    ],
+    ids=lambda value: getattr(value, "__name__", ""),
+)
+def test_primitive_is_within_one_last_place_of_the_true_value(function, true, given):
+    for numbers in given:
+        answer = function(*numbers)
+        with mpmath.workdps(40):
+            error = abs(true(*map(mpmath.mpf, numbers)) - mpmath.mpf(answer))
+        assert error < np.spacing(abs(answer)), numbers
+
+
+@pytest.mark.parametrize(
+    ("function", "given"),
+    [
+        (sqrt, -1.0),
+        (sqrt, -TINY),
+        (sqrt, -math.inf),
+        (acos, 1.0 + EPS),
+        (acos, -2.0),
+        (sin, math.inf),
+        (cos, -math.inf),
+        (sin, math.nan),
+    ],
+)
+@pytest.mark.parametrize("kind", [float, np.float64])
+def test_primitive_is_nan_outside_its_domain(function, given, kind):
+    assert math.isnan(function(kind(given)))
+
+
+def test_sqrt_of_minus_zero_keeps_the_sign():
+    assert same_bits([sqrt(np.float64(-0.0))], [-0.0])
+
+
+@pytest.mark.parametrize(
+    ("y", "x", "angle"),
+    [
+        (0.0, 0.0, 0.0),
+        (-0.0, 0.0, -0.0),
+        (0.0, -0.0, math.pi),
+        (-0.0, -1.0, -math.pi),
+        (math.inf, math.inf, math.pi / 4),
+    ],
+)
+def test_atan2_follows_the_signs_of_zero_and_infinity(y, x, angle):
+    assert same_bits([atan2(np.float64(y), np.float64(x))], [angle])
+
+
+@pytest.mark.parametrize("sign", [0.0, -0.0, 3.0, -3.0, math.inf, -math.inf])
+def test_copysign_takes_the_sign_bit_of_zero_too(sign):
+    assert same_bits([copysign(np.float64(-2.0), np.float64(sign))], [math.copysign(2.0, sign)])
+
+
+def test_division_of_what_engines_pass_follows_ieee_754():
+    with np.errstate(all="ignore"):
+        assert np.float64(1.0) / np.float64(0.0) == math.inf
+        assert math.isnan(np.float64(0.0) / np.float64(0.0))

@@ -1,0 +1,187 @@
+"""The report's own tools: which results it takes, what makes it build again, what its page check refuses."""
+
+
+import build
+import check_site
+import pytest
+
+
+def finished(folder):
+    folder.mkdir(parents=True)
+    (folder / build.WRITTEN_LAST).write_text("{}")
+    return folder
+
+
+@pytest.fixture(autouse=True)
+def unset(monkeypatch):
+    monkeypatch.delenv(build.RESULTS_VARIABLE, raising=False)
+
+
+def test_report_prefers_the_latest_results(tmp_path):
+    latest = finished(tmp_path / "results" / "latest")
+    finished(tmp_path / "results" / "reference")
+    assert build.results_folder(tmp_path) == latest
+
+
+def test_report_takes_the_reference_when_the_latest_run_is_unfinished(tmp_path):
+    (tmp_path / "results" / "latest").mkdir(parents=True)
+    reference = finished(tmp_path / "results" / "reference")
+    assert build.results_folder(tmp_path) == reference
+
+
+def test_report_takes_the_folder_the_environment_names(tmp_path, monkeypatch):
+    named = finished(tmp_path / "elsewhere")
+    monkeypatch.setenv(build.RESULTS_VARIABLE, str(named))
+    assert build.results_folder(tmp_path) == named
+
+
+def test_report_says_the_cure_when_there_are_no_results(tmp_path):
+    with pytest.raises(build.CannotBuild, match="cure: make bench"):
+        build.results_folder(tmp_path)
+
+
+def test_report_says_the_cure_when_the_named_folder_is_no_run(tmp_path, monkeypatch):
+    monkeypatch.setenv(build.RESULTS_VARIABLE, str(tmp_path))
+    with pytest.raises(build.CannotBuild, match=r"holds no provenance\.json"):
+        build.results_folder(tmp_path)
+
+
+def test_report_refuses_results_that_lead_outside(tmp_path):
+    reference = finished(tmp_path / "results" / "reference")
+    (tmp_path / "secret").write_text("secret")
+    (reference / "laws").mkdir()
+    (reference / "laws" / "secret.py").symlink_to(tmp_path / "secret")
+    with pytest.raises(build.CannotBuild, match=r"secret\.py is a link"):
+        build.results_folder(tmp_path)
+
+
+def test_data_of_a_page_come_from_the_results_and_stay_in_the_site(tmp_path):
+    results, site = finished(tmp_path / "a" / "results"), tmp_path / "b" / "site"
+    (tmp_path / "a" / "secret").write_text("secret")
+    (results / "table").write_text("ours")
+    site.mkdir(parents=True)
+    (site / "index.html").write_text('<a href="data/table"></a><a href="data/../secret"></a><a href="data//x"></a>')
+    build.offer_data(results, site)
+    assert sorted(path.name for path in (tmp_path / "b").rglob("*") if path.is_file()) == ["index.html", "table"]
+
+
+@pytest.fixture
+def tree(tmp_path, monkeypatch):
+    monkeypatch.setattr(build, "ROOT", tmp_path)
+    monkeypatch.setattr(build, "REPORT", tmp_path / "report")
+    for name in (
+        "bench/law.py",
+        "tasks/base.py",
+        "requirements/report.txt",
+        "report/index.md",
+        "report/figures/kit/style.py",
+        "results/timings/a.parquet",
+        "results/scale/scale.json",
+    ):
+        path = tmp_path / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(name)
+    return tmp_path
+
+
+def keys(tree):
+    return build.keys(tree / "results" / "reference")
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        *("bench/law.py", "tasks/base.py", "report/figures/kit/style.py", "requirements/report.txt"),
+        *("results/timings/a.parquet", "results/scale/scale.json"),
+    ],
+)
+def test_cells_run_again_when_what_they_read_changes(tree, name):
+    finished(tree / "results" / "reference")
+    before = keys(tree)
+    (tree / name).write_text("changed")
+    assert keys(tree)["cells"] != before["cells"]
+
+
+def test_cells_run_again_when_a_law_of_the_results_is_trusted(tree):
+    law = finished(tree / "results" / "reference") / "laws" / "own.py"
+    law.parent.mkdir()
+    law.write_text("REGULATOR = 1")
+    before = keys(tree)
+    build.trust.remember(b"REGULATOR = 2")
+    assert keys(tree) == before
+    build.trust.remember(law.read_bytes())
+    assert keys(tree)["cells"] != before["cells"]
+
+
+def test_cells_run_again_when_results_change(tree):
+    results = finished(tree / "results" / "reference")
+    before = keys(tree)
+    (results / "episodes.parquet").write_bytes(b"other")
+    assert keys(tree)["cells"] != before["cells"]
+
+
+def test_pages_build_again_but_cells_stay_when_text_changes(tree):
+    finished(tree / "results" / "reference")
+    before = keys(tree)
+    (tree / "report" / "index.md").write_text("changed")
+    assert keys(tree)["site"] != before["site"]
+    assert keys(tree)["cells"] == before["cells"]
+
+
+def test_failed_build_shows_the_cell_that_raised():
+    raised = f"X: {build.CELL_RAISED}:\nfigure()\nKeyError: 'n'"
+    log = f"noise\nTraceback\n  File\n{raised}\n\x1b[31mThe end\nTraceback\nnoise"
+    assert build.complaints(log)[1:3] == ["figure()", "KeyError: 'n'"]
+    assert "noise" not in build.complaints(log)
+
+
+GOOD = '<html><article><h1>Title</h1><p id="here"><a href="#here">on</a></p></article></html>'
+
+
+@pytest.mark.parametrize(
+    ("markup", "problem"),
+    [
+        (
+            '<script src="https://example.org/a.js"></script>',
+            "loads https://example.org/a.js from the network",
+        ),
+        ('<link rel="stylesheet" href="//example.org/a.css">', "loads //example.org/a.css from the network"),
+        ('<p style="background: url(https://example.org/a.png)">', "loads https://example.org/a.png"),
+        ('<a href="gone.html">x</a>', "dead link gone.html"),
+        ('<a href="#gone">x</a>', "no anchor #gone"),
+        ('<img src="data:," alt="">', "image data:, has no alternative text"),
+        ('<img src="data:," alt="_images/a.svg">', "image data:, has no alternative text"),
+        ('<svg role="img"></svg>', "svg  has no aria-label"),
+        ("<figure><p>a table</p></figure>", "figure without a described picture"),
+        ('<p id="here">', "id here appears twice"),
+        ("<h1>Second</h1>", "2 main headings instead of one"),
+    ],
+)
+def test_page_check_refuses(tmp_path, markup, problem):
+    (tmp_path / "index.html").write_text(GOOD.replace("</article>", f"{markup}</article>"))
+    assert check_site.problems(tmp_path) == [f"index.html: {problem}"]
+
+
+def test_page_check_accepts_a_good_page(tmp_path):
+    (tmp_path / "index.html").write_text(GOOD)
+    assert check_site.problems(tmp_path) == []
+
+
+def test_page_check_keeps_the_size_budget(tmp_path, monkeypatch):
+    (tmp_path / "index.html").write_text(GOOD)
+    monkeypatch.setattr(check_site, "BUDGET_BYTES", 10)
+    assert "above its budget" in check_site.problems(tmp_path)[0]
+
+
+def test_page_check_says_the_cure_when_nothing_is_built(tmp_path):
+    assert "cure: make report" in check_site.problems(tmp_path)[0]
+
+
+def test_number_and_unit_stay_on_one_line_wherever_the_text_is_cut():
+    nodes = pytest.importorskip("docutils.nodes", reason="the report extra is not installed (cure: make setup)")
+    import units
+
+    pasted = nodes.inline("", "", nodes.Text("12"))
+    block = nodes.paragraph("", "", pasted, nodes.Text(" % (n = 3) of starts in 5 ms, "), nodes.literal("", "2 s"))
+    units.close_up(block)
+    assert block.astext() == "12\u00a0% (n\u00a0=\u00a03) of starts in 5\u00a0ms, 2 s"

@@ -1,0 +1,81 @@
+"""Every page of the built report as a reader's browser sees it: from its file, light, dark, wide, narrow."""
+
+
+import pytest
+import screenshots
+
+pytestmark = [
+    pytest.mark.browser,
+    pytest.mark.skipif(bool(screenshots.missing()), reason=screenshots.missing() or "ready"),
+]
+
+PAGES = [] if screenshots.missing() else screenshots.pages()
+
+# A canvas is read from a copy: Chromium warns of one that is read twice.
+FACTS = """
+const root = document.documentElement, heading = document.querySelector("article h1");
+const shown = [...document.images].filter(image => image.src && image.getClientRects().length);
+const formulas = [...document.querySelectorAll("span.math, div.math")];
+const copied = c => {
+  const copy = Object.assign(document.createElement("canvas"), {width: c.width, height: c.height}).getContext("2d");
+  copy.drawImage(c, 0, 0);
+  return copy;
+};
+const inked = c => copied(c).getImageData(0, 0, c.width, c.height).data.some(byte => byte);
+return {
+  theme: root.dataset.theme,
+  heading: heading ? heading.innerText.trim() : "",
+  overflow: Math.max(root.scrollWidth, document.body.scrollWidth) - root.clientWidth,
+  broken: shown.filter(image => !image.complete || image.naturalWidth === 0).map(image => image.src),
+  empty: [...document.querySelectorAll("canvas.ball")].filter(c => !inked(c)).map(c => c.id),
+  unset: formulas.filter(formula => !formula.querySelector("mjx-container")).length,
+};
+"""
+
+
+@pytest.fixture(scope="module")
+def driver():
+    with screenshots.browser() as opened:
+        yield opened
+
+
+@pytest.fixture(scope="module", params=PAGES, ids=lambda page: page.stem)
+def seen(request, driver):
+    """What one page shows in two views, with all that it asked of the network and told the console.
+
+    Each page is opened in one view, and then looked at in the other theme and width, as when a reader turns a phone
+    into the night. Pages take turns in which view they are opened in.
+    """
+    turn = PAGES.index(request.param) % len(screenshots.VIEWS)
+    first, second = screenshots.VIEWS[turn], screenshots.VIEWS[-1 - turn]
+    screenshots.open_page(driver, request.param, first)
+    facts = {first: driver.execute_script(FACTS)}
+    screenshots.look(driver, second)
+    screenshots.settle(driver)
+    facts[second] = driver.execute_script(FACTS)
+    return facts, screenshots.network_requests(driver), screenshots.console_errors(driver)
+
+
+def test_page_asks_nothing_of_the_network(seen):
+    assert seen[1] == []
+
+
+def test_page_makes_no_console_error(seen):
+    assert seen[2] == []
+
+
+def test_page_follows_the_readers_theme(seen):
+    assert {view: facts["theme"] for view, facts in seen[0].items()} == {view: view.theme for view in seen[0]}
+
+
+def test_page_never_scrolls_sideways(seen):
+    assert {view: facts["overflow"] for view, facts in seen[0].items() if facts["overflow"] > 0} == {}
+
+
+def test_page_has_a_main_heading(seen):
+    assert all(facts["heading"] for facts in seen[0].values())
+
+
+def test_page_shows_every_image_ball_and_formula(seen):
+    for facts in seen[0].values():
+        assert (facts["broken"], facts["empty"], facts["unset"]) == ([], [], 0)

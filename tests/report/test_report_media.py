@@ -1,0 +1,94 @@
+"""The rendered files of the report: there, small, of a start and contenders that exist and still do what is said."""
+
+
+import numpy as np
+import pytest
+
+pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
+
+import contact_media
+import media as rendering
+
+import tasks
+from bench.engines.contact_episode import P, R
+from bench.findings.claims.arm_probes import controller
+from report.figures.method import media
+
+ABOUT = media.facts()
+LOOPS = ("pole-loop", "plate-loop")
+FILES = (
+    *("arms.png", "pole-film.png", "contact-tasks.png"),
+    *(f"{loop}.{kind}" for loop in LOOPS for kind in ("png", "webm", "mp4")),
+)
+LARGEST, LARGEST_IN_ALL = 300_000, 1_500_000
+STARTS_OF = {"png": b"\x89PNG\r\n", "webm": b"\x1a\x45\xdf\xa3", "mp4": b"ftyp"}
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_file_is_what_its_name_says_and_small(name):
+    content = (media.FOLDER / name).read_bytes()
+    assert STARTS_OF[name.rpartition(".")[2]] in content[:12]
+    assert len(content) <= LARGEST
+
+
+def test_folder_holds_nothing_else_and_is_within_its_budget():
+    assert {path.name for path in media.FOLDER.iterdir()} == {*FILES, "media.json"}
+    assert sum(path.stat().st_size for path in media.FOLDER.iterdir()) <= LARGEST_IN_ALL
+
+
+@pytest.mark.parametrize("about", [ABOUT, ABOUT["contact"]["plate"]], ids=LOOPS)
+def test_loop_is_no_longer_than_three_seconds(about):
+    assert about["loop_s"] * about["slower"] <= 3.0
+
+
+def test_start_exists():
+    starts = tasks.start_set(ABOUT["start_set"], None, ABOUT["seed"], arm=ABOUT["arm"])
+    assert ABOUT["start"] in {start.id for start in starts}
+
+
+@pytest.mark.parametrize("episode", ABOUT["episodes"], ids=lambda one: one["contender"])
+def test_contender_exists(episode):
+    assert controller(episode["contender"]).name == episode["contender"]
+
+
+def test_files_are_of_what_the_program_would_draw_now():
+    named = {name: ABOUT[name] for name in ("arm", "start_set", "start", "seed", "slower")}
+    assert named == {
+        "arm": rendering.ARM,
+        "start_set": rendering.START_SET,
+        "start": rendering.START,
+        "seed": rendering.SEED,
+        "slower": rendering.SLOWER,
+    }
+    assert [one["contender"] for one in ABOUT["episodes"]] == list(rendering.CONTENDERS)
+    assert ABOUT["contact"] == contact_media.facts()
+
+
+def test_a_still_shows_every_task_in_contact():
+    assert set(contact_media.SHOWN) == set(tasks.contact_names()) - {"wrench-probe", "compliance-loop"}
+
+
+def test_joints_follow_the_hand_of_the_record():
+    one = contact_media.seen(contact_media.PLATE, contact_media.TILTED, contact_media.BY)
+    puppet = contact_media.put(contact_media.PLATE, one)
+    for line in contact_media.along(one, 2.0, 25):
+        puppet.follow(line)
+    hand = puppet.data.site("hand")
+    np.testing.assert_allclose(hand.xpos, line[P : P + 3], atol=1e-9)
+    np.testing.assert_allclose(hand.xmat.reshape(3, 3).T.ravel(), line[R : R + 9], atol=1e-9)
+
+
+@pytest.mark.slow
+def test_motion_is_still_that_of_the_two_controllers():
+    # The first passes a singularity, where rounding decides the torque; that it swings wildly is not rounding's.
+    euler, geometric = (one.row for one in rendering.motions())
+    assert geometric["outcome"] == "settled"
+    assert geometric["peak_torque_ratio"] < 1.0
+    assert geometric["path_ratio"] == pytest.approx(1.0, abs=0.01)
+    assert euler["peak_torque_ratio"] > 100.0
+    assert euler["outcome"] != "settled" or euler["path_ratio"] > 3.0
+
+
+def test_how_near_the_pole_is_read_off_the_starts_name():
+    assert media.miss("pole-minus-1-k3") == "past the pole at 0.001 rad"
+    assert media.miss("pole-plus-0-exact") == "through the pole itself"

@@ -1,0 +1,125 @@
+"""What pages are made of besides the figures of results: diagrams, coordinates, cards, prices, origins, spelling."""
+
+import hashlib
+
+import build
+import numpy as np
+import pandas as pd
+import pytest
+
+from bench.contenders.registry import known_regulators
+from bench.tables import read
+from bench.tables.schema import RESULTS
+from report.figures.cards import cards
+from report.figures.cost import operations, plane, prices, times
+from report.figures.kit import laws, spelling
+from report.figures.method import engines, inventory, origin
+from report.figures.problem import conditioning, diagrams, extraction, poles
+
+
+@pytest.fixture(autouse=True)
+def reference(monkeypatch):
+    monkeypatch.setenv(read.VARIABLE, str(RESULTS / "reference"))
+
+
+@pytest.mark.parametrize("draw", [diagrams.judge_and_contestants, diagrams.on_the_matrix, diagrams.on_the_angles])
+def test_diagrams_are_drawn_for_page_and_phone(draw):
+    picture = draw()
+    assert picture.wide != picture.narrow
+    assert picture.alt
+
+
+def test_condition_number_of_zyx_is_its_closed_form():
+    of = dict(conditioning.curves())["Z-Y-X Euler angles"]
+    for beta in (0.3, 1.0, 1.5):
+        assert of(beta) == pytest.approx(np.sqrt((1 + np.sin(beta)) / (1 - np.sin(beta))))
+
+
+def test_our_extraction_is_exact_at_every_distance_and_the_textbooks_is_not():
+    worst = extraction.errors().groupby("way")["error"].max()
+    textbook, scipy, ours = (worst[way.title] for way in extraction.WAYS)
+    assert ours < 1e-14 < scipy < 1.0 < textbook
+
+
+def test_each_pole_determines_its_own_combination():
+    found = poles.measured().set_index("pole")
+    assert found.loc["+π/2", "together"] < 1e-14 < 0.1 < found.loc["+π/2", "against"]
+    assert found["against"].iloc[1] < 1e-14 < 0.1 < found["together"].iloc[1]
+
+
+def test_every_regulator_has_a_card_with_its_source():
+    page = cards.cards()
+    for regulator in known_regulators().values():
+        assert f"bench/contenders/regulators/{regulator.name.replace('-', '_')}.py" in page
+
+
+def test_costs_are_drawn_and_tabled_for_every_law():
+    costs, titles = read.costs(), inventory.titles()
+    assert operations.operations(costs, titles).alt.count("transcendental") == costs["contender"].nunique()
+    assert len(prices.stages(costs, titles).splitlines()) == 2 + costs["contender"].nunique()
+
+
+def test_plane_gives_every_law_its_place():
+    uniform = laws.without_later(read.episodes(engine="ideal-rk4", start_set="uniform"))
+    found = plane.places(read.costs(), uniform)
+    assert len(found) == uniform["contender"].nunique()
+    assert plane.plane(found, inventory.titles(), 0.6).alt
+
+
+def test_page_says_so_when_nothing_was_timed():
+    none = pd.DataFrame(columns=["contender", "what", "ticks", "ratio", "jacobian"])
+    assert "make time" in times.times(times.alone(none), read.costs(), {}).alt
+    assert "make time" in prices.times(none, {})
+
+
+def test_engines_are_compared_where_both_have_rows():
+    runs = read.episodes()
+    both, equal = engines.agreement(runs, "reference", "native")
+    assert both == equal > 0
+    assert engines.engines(engines.differences(runs)).alt
+
+
+def test_digest_on_the_page_is_that_of_the_file():
+    path = RESULTS / "reference" / "costs.parquet"
+    assert hashlib.sha256(path.read_bytes()).hexdigest() in origin.tables().replace("<wbr>", "")
+
+
+def test_build_copies_what_pages_link_to(tmp_path):
+    site, run = tmp_path / "site", tmp_path / "run"
+    (site / "pages").mkdir(parents=True)
+    run.mkdir()
+    (run / "costs.parquet").write_bytes(b"costs")
+    (run / "other.parquet").write_bytes(b"other")
+    (site / "pages" / "a.html").write_text('<a href="../data/costs.parquet" download>costs</a>')
+    build.offer_data(run, site)
+    assert [path.name for path in (site / "data").iterdir()] == ["costs.parquet"]
+
+
+@pytest.mark.parametrize(
+    ("plain", "page"),
+    [
+        ("+-pi/2", "±π/2"),
+        ("B^-1 theta^2/2", "B⁻¹ θ²/2"),
+        ("10^-k rad", "10⁻ᵏ\u00a0rad"),
+        ("2^-26.5 to 1e-06", "2^-26.5 to 10⁻⁶"),
+        ("5.0e+06 and 0e+00", "5.0·10⁶ and 0"),
+        ("1 - cos(alpha_0) <= -Kp", "1 − cos(α_0) ≤ −Kp"),
+        ("12,296 poses", "12\u202f296 poses"),
+        ("0.5% in 3 ms, n = 12", "0.5\u00a0% in 3\u00a0ms, n\u00a0=\u00a012"),
+        ("the arm's 'zero' of x'' = x'", "the arm’s ‘zero’ of x'' = x'"),
+        ("alphabet", "alphabet"),
+        ("half-turn", "half-turn"),
+    ],
+)
+def test_spelling_takes_words_and_signs_only(plain, page):
+    assert spelling.typeset(plain) == page
+
+
+def test_spelling_in_html_sets_indices_and_fractions_and_escapes_the_rest():
+    assert spelling.marked_up("J_E < R_d^T, peak_u") == "J<sub>E</sub> &lt; R<sub>d</sub>ᵀ, peak_u"
+    assert spelling.marked_up("eps^(2/3)") == "eps<sup>2/3</sup>"
+
+
+@pytest.mark.parametrize(("value", "text"), [(2.3e-7, "2·10⁻⁷"), (1e6, "10⁶"), (0.034, "0.03"), (0.0, "0")])
+def test_powers_are_spelled_as_powers(value, text):
+    assert spelling.power(value) == text

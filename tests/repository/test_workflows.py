@@ -1,0 +1,93 @@
+"""Workflow files: what they run can be run by hand, nobody's text reaches a shell, no token can do more than asked."""
+
+import importlib.util
+import re
+import sys
+from pathlib import Path
+
+import pytest
+
+from bench.provenance import ROOT
+
+yaml = pytest.importorskip("yaml", reason="the report extra is not installed (cure: make report)")
+
+FILES = sorted((ROOT / ".github" / "workflows").glob("*.yml"))
+TARGETS = set(re.findall(r"^([a-z-]+):", (ROOT / "Makefile").read_text(), re.MULTILINE))
+SYSTEM = ("sudo apt-get", "gh pr comment", "git config")
+
+
+def steps(path: Path) -> list[dict]:
+    content = yaml.safe_load(path.read_text())
+    return [step for job in content["jobs"].values() for step in job["steps"]]
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda path: path.name)
+def test_what_a_workflow_runs_is_a_target_or_a_script_of_ours(path):
+    for step in steps(path):
+        for line in step.get("run", "").splitlines():
+            word, _, rest = line.strip().partition(" ")
+            is_ours = (word == "make" and rest.split()[0] in TARGETS) or (ROOT / word).is_file()
+            assert is_ours or line.strip().startswith(SYSTEM), line
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda path: path.name)
+def test_workflow_puts_no_text_of_others_into_a_shell(path):
+    assert [step["run"] for step in steps(path) if "${{" in step.get("run", "")] == []
+    assert "pull_request_target" not in yaml.safe_load(path.read_text()).get(True, {})
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda path: path.name)
+def test_workflow_names_its_permissions_and_pins_its_actions(path):
+    content = yaml.safe_load(path.read_text())
+    assert all("permissions" in content or "permissions" in job for job in content["jobs"].values())
+    used = [step["uses"] for step in steps(path) if "uses" in step]
+    assert [one for one in used if not re.fullmatch(r"actions/[a-z-]+@v\d+", one)] == []
+
+
+def test_job_that_runs_a_strangers_law_may_only_read_and_keeps_no_credentials():
+    judge = yaml.safe_load((ROOT / ".github/workflows/judge.yml").read_text())["jobs"]["judge"]
+    assert judge["permissions"] == {"contents": "read"}
+    checkouts = [step for step in judge["steps"] if step.get("uses", "").startswith("actions/checkout")]
+    assert [step["with"]["persist-credentials"] for step in checkouts] == [False, False]
+    assert not any("GH_TOKEN" in step.get("env", {}) for step in judge["steps"])
+
+
+@pytest.fixture
+def audit(monkeypatch):
+    """The script .ci/audit.py as a module."""
+    made = importlib.util.spec_from_file_location("audit", ROOT / ".ci" / "audit.py")
+    module = importlib.util.module_from_spec(made)
+    made.loader.exec_module(module)
+    return module
+
+
+PACKAGE = {"name": "numpy", "version": "1.0"}
+FLAW = {"id": "CVE-1", "fix_versions": ["1.1"]}
+
+
+@pytest.mark.parametrize(
+    ("known", "code", "words"),
+    [
+        ([PACKAGE | {"vulns": []}], 0, "1 of 1 packages audited, 0 known vulnerabilities"),
+        ([PACKAGE | {"vulns": [FLAW]}, PACKAGE | {"skip_reason": "x"}], 1, "numpy 1.0 has CVE-1, fixed in 1.1"),
+        ([PACKAGE | {"skip_reason": "not found"}], 0, "audit skipped, the index knows nothing"),
+        ("no route to host", 0, "audit skipped, no answer (no route to host)"),
+    ],
+)
+def test_audit_fails_for_a_vulnerability_and_says_what_it_could_not_ask(audit, monkeypatch, capsys, known, code, words):
+    monkeypatch.setattr(audit, "audit", lambda lock: known)
+    assert audit.main(["a.txt"]) == code
+    assert words in capsys.readouterr().out
+
+
+def test_audit_without_its_tool_is_no_vulnerability(audit, monkeypatch):
+    monkeypatch.setattr(audit, "AUDIT", ("-c", "import sys; sys.exit('no network')"))
+    assert audit.audit("a.txt") == "no network"
+    assert sys.executable
+
+
+@pytest.mark.parametrize("name", ["base", "report", "dev", "libraries", "audit"])
+def test_lock_holds_names_versions_and_hashes_only(name):
+    line = re.compile(r"[a-z0-9._\[\],-]+==[\w.!+-]+(?: ; [^\\]+)?(?: \\)?|    --hash=sha256:[0-9a-f]{64}(?: \\)?")
+    lines = (ROOT / "requirements" / f"{name}.txt").read_text().splitlines()
+    assert [one for one in lines if not line.fullmatch(one)] == []

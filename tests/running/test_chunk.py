@@ -1,0 +1,42 @@
+"""Units as JSON: another process makes the same rows of it, and refuses those of other sources."""
+
+import json
+
+import pandas as pd
+import pytest
+from support.unit_kinds import plan_of_all_kinds
+
+from bench.errors import BadResults
+from bench.experiments.work import rows
+from bench.running import wire_format
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory):
+    return plan_of_all_kinds(tmp_path_factory.mktemp("own"))
+
+
+@pytest.fixture(scope="module")
+def carried(made):
+    """The plan as it is on the other side."""
+    return wire_format.plan_of(json.loads(json.dumps(wire_format.described(made, made.work))))
+
+
+def test_chunk_has_the_units_of_every_kind(made, carried):
+    assert {unit.table for unit in made.work} == {"episodes", "compliance", "robustness"}
+    assert carried.work == made.work
+
+
+def test_other_process_makes_the_same_rows_of_a_chunk(made, carried):
+    for unit in made.work:
+        pd.testing.assert_frame_equal(rows(carried, unit), rows(made, unit), check_exact=True)
+
+
+def test_chunk_of_one_unit_carries_no_law_of_another(made):
+    assert len(wire_format.described(made, made.work)["laws"]) == 1
+    assert wire_format.described(made, made.contacts)["laws"] == []
+
+
+def test_chunk_of_other_sources_is_refused(made):
+    with pytest.raises(BadResults, match="install the same commit and lock on every machine"):
+        wire_format.plan_of(wire_format.described(made, made.units) | {"sources": "0123456789abcdef"})

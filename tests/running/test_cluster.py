@@ -1,0 +1,207 @@
+"""A cluster carries out a plan, with the bytes that threads make, a worker killed or not; what it says if it cannot."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from support.unit_kinds import plan_of_all_kinds
+
+from bench.contenders.registry import find_contender
+from bench.errors import BadNumber, BadResults, LostWorkers, MissingTool, UnknownWord
+from bench.experiments import plan as planning
+from bench.experiments.choice import Choice
+from bench.provenance import ROOT
+from bench.running import finish, run
+from bench.running.run_folder import part
+from bench.running.schedulers import cluster
+from bench.running.schedulers.batches import CHUNK_S, MOST_EPISODES, portions, seconds
+from bench.running.schedulers.words import check_scheduler, kind
+from bench.tables.store import read_json
+
+DIES = """
+import os, signal
+from bench.running.schedulers import worker
+worker.rows = lambda plan, unit: os.kill(os.getpid(), signal.SIGKILL)
+"""
+"""Run in a worker: it is killed while it makes the rows of a unit of ours, with another chunk in its hand."""
+
+OTHER_SOURCES = "from bench.running import wire_format as w; w.own, w.source_digest = w.source_digest, lambda: 16 * '0'"
+OWN_SOURCES = "from bench.running import wire_format as w; w.source_digest = w.own"
+
+WITHOUT = """
+import pathlib, sys
+from bench.running import finish, run
+from bench.experiments import plan as planning
+from bench.experiments.choice import Choice
+from bench.contenders.registry import find_contender
+finish.all_contenders = list
+choice = Choice(start_sets=("paper",), engines=("reference",))
+plan = planning.make("quick", [find_contender("rotation-matrix")], choice, horizon_s=0.01)
+assert run.run(plan, pathlib.Path(sys.argv[1]))
+print(sorted({"dask", "distributed"} & set(sys.modules)))
+"""
+
+
+@pytest.fixture(scope="module")
+def plan(tmp_path_factory):
+    return plan_of_all_kinds(tmp_path_factory.mktemp("own"))
+
+
+@pytest.fixture(scope="module")
+def client():
+    """Two processes, asked through their address as any cluster is."""
+    with cluster.client_of("local:2") as client:
+        yield client
+
+
+@pytest.fixture(autouse=True)
+def few_costs(plan, monkeypatch):
+    """Count the plan's laws alone, to be fast."""
+    monkeypatch.setattr(finish, "all_contenders", lambda: plan.laws[:1])
+
+
+@pytest.fixture(scope="module")
+def by_threads(plan, tmp_path_factory):
+    out = tmp_path_factory.mktemp("threads") / "run"
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(finish, "all_contenders", lambda: plan.laws[:1])
+        run.run(plan, out, workers=2)
+    return tables(out)
+
+
+def tables(out: Path) -> dict[str, bytes]:
+    """The bytes of every table."""
+    return {path.name: path.read_bytes() for path in out.glob("*.parquet")}
+
+
+def address(client) -> str:
+    return client.scheduler.address
+
+
+def test_run_goes_on_with_another_scheduler(plan, client, by_threads, tmp_path, monkeypatch):
+    monkeypatch.setattr(cluster, "portions", lambda todo, _: [(unit,) for unit in todo])
+    monkeypatch.setattr(cluster, "AHEAD", 1)
+    told = []
+
+    def stop(progress):
+        told.append(progress.unit)
+        if len(told) == 2:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        run.run(plan, tmp_path, scheduler=address(client), told=stop)
+    assert all(part(tmp_path, unit).is_file() for unit in told)
+    before = list((tmp_path / "parts").iterdir())
+    assert 2 <= len(before) < len(plan.work)
+    assert run.run(plan, tmp_path, workers=1)
+    assert tables(tmp_path) == by_threads
+
+
+def test_worker_of_other_sources_is_refused(plan, client, tmp_path):
+    client.run(exec, OTHER_SOURCES, {})
+    with pytest.raises(BadResults, match="this process has 0000000000000000; install the same commit"):
+        run.run(plan, tmp_path, scheduler=address(client))
+    client.run(exec, OWN_SOURCES, {})
+
+
+def test_cluster_makes_the_bytes_that_threads_make_though_a_worker_is_killed(
+    plan, client, by_threads, tmp_path, monkeypatch
+):
+    monkeypatch.setattr(sys, "argv", ["bench", "run", "--scheduler", address(client)])
+    pids, told = client.run(os.getpid), []
+    client.run(exec, DIES, {}, workers=[next(iter(pids))])
+    run.run(plan, tmp_path, scheduler=address(client), told=told.append)
+    assert len(by_threads) == 7
+    assert tables(tmp_path) == by_threads
+    assert sorted(one.unit.key for one in told) == sorted(unit.key for unit in plan.work)
+    assert set(client.run(os.getpid).values()) != set(pids.values())
+    said = read_json(tmp_path / "provenance.json")
+    assert (said["scheduler"], said["workers"]) == ("tcp", 2)
+    assert said["command"] == "python -m bench run --scheduler tcp://..."
+
+
+class Killed:
+    """A chunk that lost all its workers."""
+
+    status = "error"
+
+    def result(self):
+        raise cluster.distributed.KilledWorker("chunk", None, 3)
+
+
+def test_chunk_that_lost_all_its_workers_is_taken_apart_and_its_unit_named(plan, tmp_path):
+    chunks = cluster.Chunks(None, plan, tmp_path, None)
+    future, (first, second) = Killed(), plan.work[:2]
+    chunks.given[future] = (first, second)
+    chunks.take(future)
+    assert list(chunks.waiting) == [(first,), (second,)]
+    chunks.given[future] = (second,)
+    with pytest.raises(LostWorkers, match=f"unit {second.key}: each of 4 workers that ran it was lost"):
+        chunks.take(future)
+
+
+def test_without_a_scheduler_dask_is_not_imported(tmp_path):
+    words = [sys.executable, "-W", "ignore", "-c", WITHOUT, str(tmp_path)]
+    done = subprocess.run(words, cwd=ROOT, capture_output=True, text=True)
+    assert (done.returncode, done.stdout) == (0, "[]\n"), done.stderr
+
+
+def test_missing_dask_is_said_with_the_cure(monkeypatch):
+    monkeypatch.setitem(sys.modules, "distributed", None)
+    check_scheduler("threads")
+    with pytest.raises(MissingTool, match=r"needs Dask, which is not installed \(try: make setup-cluster"):
+        check_scheduler("local:2")
+
+
+def test_address_without_a_scheduler_is_refused_and_nothing_replaced(plan, tmp_path, monkeypatch):
+    monkeypatch.setattr(cluster, "ANSWER_S", 0.1)
+    with pytest.raises(MissingTool, match=r"--scheduler tcp://127.0.0.1:1: no Dask scheduler answers there"):
+        run.run(plan, tmp_path / "new", scheduler="tcp://127.0.0.1:1")
+    assert not (tmp_path / "new").exists()
+
+
+@pytest.mark.parametrize("word", ["threads", "local:1", "local:256", "tcp://10.0.0.1:8786", "tls://[::1]:8786"])
+def test_scheduler_is_known(word):
+    check_scheduler(word)
+    assert kind(word) in ("threads", "local", "tcp", "tls")
+
+
+@pytest.mark.parametrize("word", ["", "dask", "local", "tcp://host", "tcp://:8786", "http://host:8786", "thread"])
+def test_other_word_for_a_scheduler_is_refused(word):
+    with pytest.raises(UnknownWord, match="local:N, tcp://host:8786"):
+        check_scheduler(word)
+
+
+@pytest.mark.parametrize("word", ["local:", "local:0", "local:-1", "local:257", "local:two", "local:1e1"])
+def test_impossible_number_of_processes_is_refused(word):
+    with pytest.raises(BadNumber, match="between 1 and 256 processes"):
+        check_scheduler(word)
+
+
+def test_portions_keep_every_unit_in_its_order(plan):
+    for workers in (0, 1, 2, 100):
+        assert [unit for chunk in portions(plan.work, workers) for unit in chunk] == list(plan.work)
+    assert portions([], 2) == []
+
+
+def test_portions_of_little_work_leave_no_worker_idle(plan):
+    assert len(portions(plan.work * 20, 2)) >= 8
+
+
+@pytest.mark.parametrize("engine", ["ideal-rk4", "native"])
+def test_portions_of_much_work_are_of_ten_to_sixty_seconds(engine):
+    lasting = [sum(map(seconds, chunk)) for chunk in portions(units_of_much_work(engine), 2)]
+    assert min(lasting[:-1]) > 10.0
+    assert max(lasting) <= CHUNK_S
+
+
+def test_portions_of_fast_episodes_are_of_as_many_as_memory_holds():
+    chunks = portions(units_of_much_work("ideal-held"), 1)
+    assert {sum(unit.count for unit in chunk) for chunk in chunks} == {MOST_EPISODES}
+
+
+def units_of_much_work(engine):
+    choice = Choice(("free-body",), ("uniform",), (engine,))
+    return planning.make("default", [find_contender("rotation-matrix")], choice, count=300_000).units

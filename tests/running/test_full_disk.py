@@ -1,0 +1,66 @@
+"""A disk that fills up at any moment of a run: one line, what was finished stays, and with room made it goes on."""
+
+import pytest
+from support.command_line import digest
+from support.small_disk import KILOBYTES, NoDisk, fill, mounted
+
+from bench.contenders.registry import find_contender
+from bench.errors import BadResults
+from bench.experiments import plan as planning
+from bench.experiments.choice import Choice
+from bench.running import finish, run
+from bench.tables import store
+
+
+@pytest.fixture(scope="module")
+def plan():
+    choice = Choice(start_sets=("paper",), engines=("reference",))
+    return planning.make("quick", [find_contender("rotation-matrix")], choice, horizon_s=0.1)
+
+
+@pytest.fixture
+def disk(tmp_path):
+    try:
+        with mounted(tmp_path / "disk") as folder:
+            yield folder
+    except NoDisk as error:
+        pytest.skip(str(error))
+
+
+@pytest.fixture
+def few_costs(plan, monkeypatch):
+    """Count the plan's law alone, to be fast."""
+    monkeypatch.setattr(finish, "all_contenders", lambda: plan.laws)
+
+
+@pytest.fixture
+def undisturbed(plan, tmp_path, few_costs):
+    run.run(plan, tmp_path / "undisturbed", workers=1)
+    return digest(tmp_path / "undisturbed")
+
+
+@pytest.mark.parametrize("left", [0, 16, 40, 64], ids=lambda left: f"{left} kB left")
+def test_run_on_a_full_disk_goes_on_when_there_is_room(plan, disk, undisturbed, left):
+    filler, out = fill(disk, left), disk / "run"
+    with pytest.raises(BadResults, match=r"cannot be written \(No space left on device\); make room and give the same"):
+        run.run(plan, out, workers=1)
+    kept = digest(out) if out.exists() else {}
+    assert not [name for name in kept if name.endswith(".tmp")]
+    filler.unlink()
+    assert run.run(plan, out, workers=1)
+    mended = digest(out)
+    assert mended == undisturbed | {"provenance.json": mended["provenance.json"]}  # which tells the time
+    assert {name for name in kept if not name.startswith("parts")} <= set(mended)
+
+
+def test_temporary_files_of_killed_writes_make_room_first(plan, disk, undisturbed):
+    out = disk / "run"
+    filler = fill(disk, 64)
+    with pytest.raises(BadResults):
+        run.run(plan, out, workers=1)
+    leftover = out / "parts" / ".a.parquet.b.tmp"
+    assert store.is_leftover(leftover)
+    filler.unlink()
+    leftover.write_bytes(bytes((KILOBYTES - 128) * 1024))
+    assert run.run(plan, out, workers=1)
+    assert not leftover.exists()

@@ -1,0 +1,161 @@
+"""A user's law that raises, exits, hangs or is no law at all in some states costs its own rows, never the run."""
+
+import os
+import subprocess
+import sys
+import textwrap
+from pathlib import Path
+
+import pandas as pd
+import pytest
+from support.breaking_laws import LAW, plan_of, plan_of_laws
+from support.command_line import bench, refused
+
+from bench.cli import options
+from bench.contenders.law_file import load_law
+from bench.contenders.registry import contenders_of
+from bench.errors import BadLaw
+from bench.experiments import plan as planning
+from bench.experiments.choice import Choice
+from bench.provenance import ROOT
+from bench.running import finish, run, sandbox, sandbox_process
+from bench.running.wire_format import described
+from bench.tables import store
+
+LIMIT_S = 1.0
+
+BREAKS = {
+    "ideal-rk4": {
+        "raises": ("crashed", "if R.n[0] < -0.1: raise ValueError('no')"),
+        "loops": ("hung", "while R.n[0] < -0.1: x = x + 1e-9"),
+    },
+    "reference": {
+        "exits": ("crashed", "if R.n[0] < -0.1: os._exit(3)"),
+        "speaks": ("crashed", "if R.n[0] < -0.1: return ('a', 'b', 'c')"),
+    },
+}
+"""Engine -> law -> the outcome of what it does in some states."""
+
+
+@pytest.fixture(autouse=True, scope="module")
+def few_costs():
+    """Our laws are not counted here, to be fast."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(finish, "all_contenders", tuple)
+        yield
+
+
+def rows_by_law(out: Path) -> dict[str, pd.DataFrame]:
+    """Law -> its rows, in the order of their starts."""
+    rows = store.read(out, "episodes")
+    return {str(law): part.drop(columns="regulator") for law, part in rows.groupby("regulator", observed=True)}
+
+
+@pytest.fixture(scope="module", params=BREAKS)
+def engine(request):
+    return request.param
+
+
+@pytest.fixture(scope="module")
+def broken(tmp_path_factory, engine):
+    """A run of our law, a sound one of a user's, and some that break."""
+    folder = tmp_path_factory.mktemp(engine)
+    bodies = {"sound": "pass", **{name: line for name, (_, line) in BREAKS[engine].items()}}
+    run.run(plan_of_laws(folder, bodies, engine), folder / "run", workers=2, law_limit_s=LIMIT_S)
+    return folder / "run"
+
+
+def test_law_that_breaks_in_some_states_costs_those_rows_alone(broken, engine):
+    rows = rows_by_law(broken)
+    for name, (word, _) in BREAKS[engine].items():
+        lost = (rows[name]["outcome"] == word).to_numpy()
+        assert 0 < lost.sum() < len(lost)
+        kept, sound = (rows[law][~lost].reset_index(drop=True) for law in (name, "sound"))
+        pd.testing.assert_frame_equal(kept, sound, check_categorical=False)
+        assert rows[name].loc[lost, ["quat_w", "angle0_rad", "kp", "horizon_s"]].notna().all(axis=None)
+        if word == "hung":
+            measures = ["settling_time_s", "failure_time_s", "peak_u", "effort"]
+            assert rows[name].loc[lost, measures].isna().all(axis=None)
+    notes = [text for text in store.read_json(broken / "provenance.json")["lost"] if "are run singly" in text]
+    assert {name for name in rows if any(name in text for text in notes)} == {"loops", "exits"} & rows.keys()
+
+
+def test_laws_that_break_leave_ours_as_it_is(broken, engine, tmp_path):
+    run.run(plan_of_laws(tmp_path, {}, engine), tmp_path / "run", workers=1)
+    both = (rows_by_law(out)["rotation-matrix"].reset_index(drop=True) for out in (broken, tmp_path / "run"))
+    pd.testing.assert_frame_equal(*both, check_categorical=False)
+
+
+def test_bench_shows_crashed_and_hung_where_there_are_any(capsys, broken, engine):
+    said = bench(capsys, "show", broken, "--outcomes").out
+    assert "crashed" in said
+    assert ("hung" in said) == (engine == "ideal-rk4")
+
+
+def test_unit_gives_up_after_some_lost_episodes(tmp_path, monkeypatch):
+    monkeypatch.setattr(sandbox, "MOST_LOST", 1)
+    plan = plan_of(tmp_path, "if R.n[0] < 2.0 and omega[0] == 0.0: os._exit(3)", engine="reference")
+    run.run(plan, tmp_path / "run", workers=1, law_limit_s=LIMIT_S)
+    assert rows_by_law(tmp_path / "run")["mine"]["outcome"].tolist() == ["crashed"] * 4
+
+
+def test_law_that_hangs_in_trouble_loses_the_whole_unit(tmp_path):
+    path = tmp_path / "own.py"
+    path.write_text(LAW.replace("{body}", "while R.n[0] < -0.1: x = x + 1e-9").replace("{name}", "mine"))
+    plan = planning.make("quick", contenders_of(load_law(path)), Choice(axes=("delay",)), count=3, horizon_s=0.05)
+    run.run(plan, tmp_path / "run", workers=1, law_limit_s=LIMIT_S)
+    rows = store.read(tmp_path / "run", "robustness")
+    assert len(rows) == plan.troubled
+    assert set(rows["outcome"]) == {"hung"}
+    assert rows[["final_angle_rad", "tail_rms_rad", "peak_u", "variation"]].isna().all(axis=None)
+
+
+def test_process_of_a_law_ends_with_the_run(tmp_path):
+    """Also when the law never would: here it hangs in compiled code while the run is killed."""
+    script = """
+        import os, sys
+        from pathlib import Path
+        from support.breaking_laws import plan_of
+        from bench.running import sandbox as guard
+        plan = plan_of(Path(sys.argv[1]), "while abs(R.n[0] - 0.36) > 1e-3: x = x + 1e-9", engine="reference")
+        class Told(guard._Process):
+            def _say(self, said, longest_s):
+                print(self.process.pid, flush=True)
+                return super()._say(said, longest_s)
+        guard._Process = Told
+        guard.Guard(plan).rows(plan.units[-1])
+    """
+    words = [sys.executable, "-c", textwrap.dedent(script), str(tmp_path)]
+    path = os.pathsep.join(map(str, (ROOT / "tests", ROOT)))
+    environment = {**os.environ, "PYTHONPATH": path}
+    with subprocess.Popen(words, stdout=subprocess.PIPE, text=True, env=environment) as process:
+        pids = [int(process.stdout.readline()) for _ in range(3)]  # the chunk, ready, rows
+        process.kill()
+    gone = subprocess.run(["tail", f"--pid={pids[0]}", "-f", "/dev/null"], timeout=60)
+    assert gone.returncode == 0
+
+
+def test_law_file_that_does_not_return_is_refused(capsys, tmp_path, monkeypatch):
+    monkeypatch.setattr(options, "LOAD_S", 0.2)
+    path = tmp_path / "own.py"
+    path.write_text("while True: pass")
+    assert "did not return within 0.2 s" in refused(capsys, "run", "--law", path, "--out", tmp_path / "run")
+
+
+def test_limit_must_be_positive(capsys, tmp_path):
+    assert "law-limit" in refused(capsys, "run", "--law-limit", "0", "--out", tmp_path / "run")
+
+
+def test_mistake_in_a_law_names_the_users_file(tmp_path):
+    plan = plan_of(tmp_path, "x = float(str(x))", engine="ideal-rk4")
+    with sandbox.Guard(plan) as kept, pytest.raises(BadLaw, match=f"--law {tmp_path / 'mine.py'}: the law cannot be"):
+        kept.check()
+
+
+def test_answer_of_the_process_is_the_rows_that_a_thread_makes(tmp_path):
+    plan = plan_of(tmp_path, "pass", engine="ideal-rk4")
+    unit = next(one for one in plan.units if one.contender == "mine")
+    content = sandbox_process.answer(plan, {"what": "rows", "key": unit.key, "first": 1, "count": 2})
+    assert content[:1] == sandbox_process.DONE
+    assert sandbox_process.unpacked(content[1:]).column("start_id").to_pylist() == ["uniform-00001", "uniform-00002"]
+    assert described(plan, [unit])["laws"]

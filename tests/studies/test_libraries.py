@@ -1,0 +1,223 @@
+"""What other libraries are asked, and how that is judged: exact turns, every way to fail, and the committed answers."""
+
+import math
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation as ScipyRotation
+from support.bits import EPS
+
+from bench.studies.libraries import turns
+from bench.studies.libraries.__main__ import FOLDER, rows
+from bench.studies.libraries.forms import FORMS
+from bench.studies.libraries.found import find, version_of
+from bench.studies.libraries.judge import KINDS, judge
+from bench.studies.libraries.library import MATRIX, QUATERNION, Function, Library
+from bench.tables.store import read, read_json
+from report.figures.libraries import libraries_digits, libraries_rows, libraries_said, libraries_tables
+
+SOME = turns.drawn()._replace(turns=turns.drawn().turns[:50])
+HALF_TURNS = turns.half_turns()
+FEW = (turns.small(3), SOME, turns.poles(), turns.near_half_turn(3), HALF_TURNS)
+
+
+def vector(turn_set, size=lambda theta: theta):
+    """A function on matrices that knows the answers."""
+    answers = {turn.R.tobytes(): size(turn.angle) * turn.axis for turn in turn_set.turns}
+    return lambda R: answers[R.tobytes()]
+
+
+def judged(call, turn_set=SOME, takes=MATRIX, form="rotation-vector"):
+    return judge(Function("f", takes, form, call), turn_set)
+
+
+def failures(row):
+    return {kind: row[kind.replace("-", "_")] for kind in KINDS if row[kind.replace("-", "_")]}
+
+
+# --------------------------------------------------------------------------- turns
+
+
+def test_half_turns_are_exact_rational_matrices_rounded_once():
+    """R = 2 k k^T/(k.k) - I, in fractions."""
+    for k, turn in zip(turns.axes(), HALF_TURNS.turns, strict=True):
+        square = sum(part * part for part in k)
+        exact = [[Fraction(2 * a * b, square) - (i == j) for j, b in enumerate(k)] for i, a in enumerate(k)]
+        assert turn.R.tolist() == [[float(element) for element in row] for row in exact]
+        assert turn.quat_wxyz[0] == 0.0
+        assert turn.angle == math.pi
+
+
+SETS = (turns.drawn, turns.poles, turns.half_turns, lambda: turns.small(5), lambda: turns.near_half_turn(3, 2))
+
+
+@pytest.mark.parametrize("turn_set", SETS)
+def test_turns_agree_with_rodrigues_formula_on_their_own_axis_and_angle(turn_set):
+    for turn in turn_set().turns:
+        K = np.cross(turn.axis, np.eye(3)).T
+        expected = np.eye(3) + math.sin(turn.angle) * K + (1.0 - math.cos(turn.angle)) * K @ K
+        np.testing.assert_allclose(turn.R, expected, rtol=0.0, atol=8 * EPS)
+        assert abs(np.linalg.norm(turn.quat_wxyz) - 1.0) <= 2 * EPS
+
+
+def test_distance_to_the_half_turn_keeps_its_digits():
+    for turn in turns.near_half_turn(12, 5).turns:
+        assert turn.quat_wxyz[0] == pytest.approx(2.5e-12, rel=1e-14)
+
+
+def test_poles_have_cosine_nought_and_are_no_half_turns():
+    found = turns.poles().turns
+    assert max(abs(turn.R[i, 0]) for turn in found for i in (0, 1)) <= EPS
+    assert {round(turn.R[2, 0]) for turn in found} == {1, -1}
+    assert max(turn.angle for turn in found) < 3.1
+
+
+# --------------------------------------------------------------------------- judge
+
+
+@pytest.mark.parametrize("form", [word for word, form in FORMS.items() if form.size is not None])
+def test_answer_of_its_own_form_is_usable_and_exact(form):
+    row = judged(vector(SOME, FORMS[form].size), form=form)
+    assert failures(row) == {}
+    assert row["form_error_rad"] == 0.0
+    assert (row["error_rad"] == 0.0) == (form == "rotation-vector")
+
+
+def test_error_is_that_of_the_worst_turn():
+    right = vector(SOME)
+    worst = SOME.turns[3].R.tobytes()
+    row = judged(lambda R: right(R) + (0.003 if R.tobytes() == worst else 0.0))
+    assert row["error_rad"] == pytest.approx(0.003 * math.sqrt(3.0), rel=1e-9)
+
+
+def test_angles_are_judged_by_the_turn_that_they_stand_for():
+    """The wrap by 2 pi is no error of angles, nor is the second triple that stands for the same turn."""
+
+    def angles(R):
+        return (math.atan2(R[2, 1], R[2, 2]) + 2 * math.pi, -math.asin(R[2, 0]), math.atan2(R[1, 0], R[0, 0]))
+
+    assert judged(angles, form="z-y-x")["form_error_rad"] < 1e-13
+    assert judged(lambda R: np.add(angles(R), (0.0, 0.0, 0.1)), form="z-y-x")["form_error_rad"] == pytest.approx(0.1)
+
+
+def raising(_):
+    raise ZeroDivisionError
+
+
+@pytest.mark.parametrize(
+    ("call", "kind"),
+    [
+        (raising, "raised"),
+        (lambda R: (math.nan, 0.0, 0.0), "not-finite"),
+        (lambda R: (0.0, 0.0, 0.0), "nought"),
+        (lambda R: -vector(SOME)(R), "long-way"),
+        (lambda R: np.cross(vector(SOME)(R), (0.3, 0.5, 0.7)), "astray"),
+    ],
+)
+def test_every_way_to_fail_has_its_name(call, kind):
+    assert failures(judged(call)) == {kind: len(SOME.turns)}
+
+
+def test_either_direction_is_right_on_an_exact_half_turn():
+    for sign in (1.0, -1.0):
+        row = judged(lambda R, sign=sign: sign * vector(HALF_TURNS)(R), HALF_TURNS)
+        assert failures(row) == {}
+        assert row["error_rad"] == 0.0
+
+
+def test_negative_quaternion_is_compared_with_the_positive():
+    def bare(quat_wxyz):
+        return 2.0 * quat_wxyz[1:]
+
+    def signed(quat_wxyz):
+        return math.copysign(2.0, quat_wxyz[0]) * quat_wxyz[1:]
+
+    assert judged(bare, takes=QUATERNION, form="sine-of-half")["other_sheet"] == len(SOME.turns)
+    assert judged(signed, takes=QUATERNION, form="sine-of-half")["other_sheet"] == 0
+    assert judged(bare, HALF_TURNS, QUATERNION, "sine-of-half")["other_sheet"] == 0
+
+
+# --------------------------------------------------------------------------- the committed answers
+
+
+@pytest.mark.parametrize("library", find().libraries, ids=lambda one: one.name)
+def test_committed_answers_are_what_the_library_says_here(library):
+    """Of the same version: how many turns of three telling sets fail, and how."""
+    table = read(FOLDER, "libraries")
+    table = table[table["library"] == library.name].set_index(["function", "turn_set"])
+    assert set(table.index.get_level_values("function")) == {one.name for one in library.functions}
+    if table["version"].iloc[0] != version_of(library):
+        pytest.skip(f"{library.name} {version_of(library)} is installed, {table['version'].iloc[0]} was asked")
+    for function in library.functions:
+        for one in (turns.small(9), turns.near_half_turn(6), HALF_TURNS):
+            row, committed = judge(function, one), table.loc[(function.name, one.name)]
+            counted = ["turns", *(kind.replace("-", "_") for kind in KINDS)]
+            assert [row[name] for name in counted] == [committed[name] for name in counted], (function.name, one.name)
+
+
+def test_committed_answers_say_of_which_version_they_are():
+    table, about = read(FOLDER, "libraries"), read_json(FOLDER / "provenance.json")["libraries"]
+    versions = table.groupby("library", observed=True)["version"].unique()
+    assert {name: [one["version"]] for name, one in about.items()} == {k: list(v) for k, v in versions.items()}
+
+
+# --------------------------------------------------------------------------- the page
+
+
+def line(call, takes=MATRIX, form="rotation-vector"):
+    """A function of numpy's, as the page has it."""
+    library = Library("numpy", "numpy", (Function("f", takes, form, call),))
+    (found,) = libraries_rows.functions(rows(library, FEW)).to_dict("records")
+    return found
+
+
+def logarithm(R):
+    return ScipyRotation.from_matrix(R).as_rotvec()
+
+
+def test_nothing_is_said_against_a_logarithm():
+    assert line(logarithm)["objections"] == {}
+
+
+@pytest.mark.parametrize(
+    ("call", "form", "said"),
+    [
+        (lambda R: logarithm(R) if R.trace() > -1.0 + 1e-15 else np.zeros(3), "rotation-vector", "nought at all half"),
+        (lambda R: -logarithm(R), "rotation-vector", "the long way round for"),
+        (lambda R: logarithm(R)[[1, 2, 0]], "rotation-vector", "another axis for"),
+        (lambda R: logarithm(R) * (1.0 + 1e-3 * (R.trace() < 0.0)), "rotation-vector", "off by 0.003 rad"),
+        (lambda R: logarithm(R) / (R.trace() > 0.0), "rotation-vector", "no number for"),
+        (lambda R: ScipyRotation.from_matrix(R).as_euler("ZYX"), "z-y-x", "off by"),
+    ],
+)
+def test_page_says_what_is_wrong_with_a_function(call, form, said):
+    assert said in "; ".join(line(call, form=form)["objections"].values())
+
+
+def test_page_says_that_the_negative_quaternion_is_answered_otherwise():
+    found = line(lambda quat_wxyz: 2.0 * quat_wxyz[1:], QUATERNION, "sine-of-half")
+    assert found["objections"] == {libraries_rows.SHEET: "the long way round for −q"}
+
+
+def test_page_names_the_functions_that_the_committed_answers_condemn():
+    lines = libraries_rows.functions(libraries_rows.table()).set_index(["library", "function"])["objections"]
+    assert set(lines["mink", "SO3.log (Python)"]) == {libraries_rows.NOUGHT}
+    assert lines["mink", "se3_log (compiled)"] == {}
+    for sine in (("robosuite", "orientation_error"), ("spatialmath", "base.tr2delta"), ("mujoco", "weld, pull")):
+        assert set(lines[sine]) == {libraries_rows.NOUGHT}
+    assert set(lines["dm_control", 'rmat_to_euler("ZYX")']) == {libraries_rows.DIGITS}
+    assert lines["scipy", "as_rotvec, of a matrix"] == lines["orientation-bench", "rotation-vector"] == {}
+
+
+def test_every_number_of_the_page_is_said_and_drawn():
+    table = libraries_rows.table()
+    lines = libraries_rows.functions(table)
+    said = libraries_said.said(table, lines)
+    assert said["right"] + len(libraries_tables.faulty(lines)) - 1 == said["functions"]  # one of ours is faulty
+    assert all("nan" not in str(value) for value in said.values())
+    for draw in (libraries_tables.to_use, libraries_tables.faults, libraries_tables.errors, libraries_tables.angles):
+        assert "nan" not in draw(lines)
+    picture = libraries_digits.digits(table)
+    assert "mink SO3.log" in picture.alt
+    assert picture.narrow != picture.wide

@@ -1,0 +1,156 @@
+"""An arm's hand in one state, pushed by a wrench, as its controller sees it there, and the controller called on it.
+
+J, Jdot, D, fg and the wrench are MuJoCo's own; so is the acceleration that torques give the hand.
+"""
+
+import functools
+import itertools
+from typing import NamedTuple
+
+import mujoco
+import numpy as np
+from scipy.spatial.transform import Rotation as ScipyRotation
+
+import tasks
+from bench.control.hybrid import Rows, Touch, Wish, comply
+from bench.control.registry import all_compliants
+from bench.engines.contact_episode import room, rows, wrench
+from bench.experiments.contact_plan import can_do
+from bench.law.contender import Gains
+from bench.law.resolved_motion import Chain
+from support.bits import EPS
+from support.on_arms import numbers
+from support.states import as_rotation
+from tasks.contact import Order, Trial, model_xml, prepare
+from tasks.domains.wrench_probe import TASK
+
+ARMS = [arm for arm in tasks.arm_names() if can_do(TASK, tasks.arm(arm))]
+HYBRIDS = [one for one in all_compliants() if one.impedance is None]
+IMPEDANCES = [one for one in all_compliants() if one.impedance is not None]
+
+# Not the defaults: what has those built in is found out.
+GAINS = Gains(kp=37.0, kv=9.0)
+TOUCH = Touch(m_p=7.0, m_o=0.3, kc=4.0)
+SELECTIONS = [tuple(map(float, held)) for held in itertools.product((0, 1), repeat=6)]
+"""All of them; the first holds nothing, the last everything."""
+
+LONGEST = 300.0
+"""No acceleration that is commanded in these states is longer [m/s^2, rad/s^2]."""
+
+
+def backward(J) -> float:
+    """Relative error of what is solved with J or with normal equations of its rows (test_linalg, test_inverses)."""
+    return 6**3 * EPS * np.linalg.cond(J) ** 2
+
+
+class Hand(NamedTuple):
+    """A state: what MuJoCo says of it (J, drift = Jdot qdot, D, fg, the wrench F) and what the controller sees."""
+
+    model: mujoco.MjModel
+    data: mujoco.MjData
+    chain: Chain
+    J: np.ndarray
+    drift: np.ndarray
+    D: np.ndarray
+    fg: np.ndarray
+    F: np.ndarray
+
+    @property
+    def R(self) -> np.ndarray:
+        """The hand's orientation, 3 x 3."""
+        return np.array(self.chain.R).T
+
+    @property
+    def velocity(self) -> np.ndarray:
+        """(pdot, omega), base frame."""
+        return self.J @ self.chain.qdot
+
+    def acceleration(self, tau) -> np.ndarray:
+        """(pddot, omegadot) under these torques and the wrench, by MuJoCo's forward dynamics."""
+        self.data.ctrl[:] = tau
+        mujoco.mj_forward(self.model, self.data)
+        return self.J @ self.data.qacc + self.drift
+
+
+class Tick(NamedTuple):
+    """What a controller made of a state: the torques, J in its frame, its rows, and y, what J y + drift is of."""
+
+    tau: np.ndarray
+    J: np.ndarray
+    rows: Rows
+    y: np.ndarray
+
+
+@functools.cache
+def simulated(arm: str):
+    """One model and its data for all states of an arm."""
+    model = mujoco.MjModel.from_xml_string(model_xml(TASK, tasks.arm(arm), 1e-3))
+    return model, mujoco.MjData(model)
+
+
+def hand(arm: str, q, qdot, mount: ScipyRotation, push) -> Hand:
+    """That state, the hand's frame drawn on it by `mount`; valid until the next one is asked for."""
+    model, data = simulated(arm)
+    mujoco.mj_resetData(model, data)
+    anyhow = Order("none", (1,) * 6)
+    prepare(
+        model,
+        data,
+        Trial(
+            "", "", anyhow, tuple(q), (1.0, 0.0, 0.0, 0.0), tuple(mount.as_quat(scalar_first=True)), push=tuple(push)
+        ),
+    )
+    data.qvel[:] = qdot
+    mujoco.mj_forward(model, data)
+    J, Jdot, D = np.zeros((6, 6)), np.zeros((6, 6)), np.zeros((6, 6))
+    site, body = model.site("hand").id, model.body("hand").id
+    p = data.site_xpos[site].copy()
+    mujoco.mj_jacSite(model, data, J[:3], J[3:], site)
+    mujoco.mj_jacDot(model, data, Jdot[:3], Jdot[3:], p, body)
+    mujoco.mj_fullM(model, data, D)
+    R = as_rotation(data.site_xmat[site].reshape(3, 3).T)
+    chain = Chain(6, data.xaxis.copy(), data.xanchor.copy(), data.qvel.copy(), numbers(p), R)
+    f, m = np.array(push[:3]), np.array(push[3:])
+    F = np.concatenate((f, m + np.cross(data.xipos[body] - p, f)))
+    return Hand(model, data, chain, J, Jdot @ data.qvel, D, data.qfrc_bias - data.qfrc_passive, F)
+
+
+@functools.cache
+def drawn(arm: str, count: int = 8, turn: float = 0.5) -> tuple:
+    """(arguments of `hand`, wish) in states around home, moving and pushed; goals some `turn` rad away."""
+    draw, home, found = np.random.default_rng(21), np.array(tasks.arm(arm).home), []
+    while len(found) < count:
+        q, qdot = home + draw.uniform(-0.7, 0.7, 6), draw.normal(scale=0.5, size=6)
+        at = hand(arm, q, qdot, ScipyRotation.random(rng=draw), np.zeros(6))
+        if np.linalg.svd(at.J, compute_uv=False)[-1] < 0.05:
+            continue
+        mount = ScipyRotation.random(rng=draw)
+        push = draw.normal(size=6) * (20.0, 20.0, 20.0, 2.0, 2.0, 2.0)
+        at = hand(arm, q, qdot, mount, push)
+        goal = ScipyRotation.from_matrix(at.R) * ScipyRotation.from_rotvec(turn * draw.normal(size=3) / 3**0.5)
+        found.append(
+            ((arm, q, qdot, mount, push), wish_of(goal, np.array(at.chain.p) + 0.05 * draw.normal(size=3), draw))
+        )
+    return tuple(found)
+
+
+def wish_of(goal: ScipyRotation, p_d, draw) -> Wish:
+    """A wish with that goal; velocity, force and moment drawn."""
+    v_d, f_d, m_d = (numbers(draw.normal(scale=scale, size=3)) for scale in (0.1, 15.0, 1.5))
+    return Wish(as_rotation(goal.as_matrix().T), numbers(p_d), v_d, f_d, m_d)
+
+
+def felt(at: Hand):
+    """(f, m), base frame, as the engines read them from MuJoCo's sensors."""
+    return wrench(at.chain.R, at.data.sensordata)
+
+
+def tick(one, at: Hand, wish: Wish, held) -> Tick:
+    """One tick of a controller, with the wrench that MuJoCo's sensors read."""
+    into, about, J, tau = rows(), room(), np.zeros((6, 6)), np.zeros(6)
+    gains, touch = Gains(*map(np.float64, GAINS)), Touch(*map(np.float64, TOUCH))
+    f, m = (numbers(three) for three in felt(at))
+    with np.errstate(all="ignore"):
+        one.assemble(at.chain, wish, f, m, gains, touch, J, into)
+        comply(int(one.form == "projected"), held, 6, at.D, at.fg, J, into, touch, about, tau)
+    return Tick(tau, J, into, about.y.copy())

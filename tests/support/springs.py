@@ -1,0 +1,71 @@
+"""An impedance's law called on arrays, and a free body under it: what the tests of impedances share."""
+
+import numpy as np
+from scipy.integrate import solve_ivp
+from scipy.spatial.transform import Rotation as ScipyRotation
+
+from bench.control.impedance import law_of
+from support.exact import exact_B
+from support.in_contact import GAINS, IMPEDANCES, TOUCH
+from support.on_arms import numbers
+from support.states import as_rotation
+
+STILL = np.zeros(3)
+
+
+def of(word: str):
+    """The impedance controller of that name."""
+    [one] = [one for one in IMPEDANCES if one.name == f"impedance-{word}"]
+    return one
+
+
+def columns(turn: ScipyRotation):
+    """A rotation as laws take it."""
+    return as_rotation(turn.as_matrix().T)
+
+
+def called(law, turn, omega, m, goal, gains=GAINS) -> np.ndarray:
+    """u of a law, of scipy's rotations and arrays."""
+    with np.errstate(all="ignore"):
+        return np.array(law(columns(turn), numbers(omega), numbers(m), columns(goal), gains, np.float64(TOUCH.m_o)))
+
+
+def command(one, turn, omega, m, goal, gains=GAINS) -> np.ndarray:
+    """u of a controller's law."""
+    return called(law_of(one.impedance, one.representation), turn, omega, m, goal, gains)
+
+
+def seen(one, turn: ScipyRotation, goal: ScipyRotation) -> ScipyRotation:
+    """The orientation that its coordinates are of."""
+    return goal.inv() * turn if one.impedance.relative else turn
+
+
+def margin(one, turn: ScipyRotation, goal: ScipyRotation) -> float:
+    """Of its coordinates there; 1 without."""
+    return 1.0 if one.representation is None else one.representation.margin(columns(seen(one, turn, goal)))
+
+
+def B_at(one, turn: ScipyRotation, goal: ScipyRotation) -> np.ndarray:
+    """B of omega = B Edot, base frame, by 80 digits; the identity without coordinates."""
+    if one.representation is None:
+        return np.eye(3)
+    E = one.representation.chart(columns(seen(one, turn, goal))).E
+    B = np.array(exact_B(one.representation.to_matrix, E).tolist(), dtype=float)
+    return goal.as_matrix() @ B if one.impedance.relative else B
+
+
+def free_body(law, turn, omega, goal, seconds: float, moment=lambda t: STILL, count: int = 200):
+    """(times, R, omega, work) of Rdot = [omega]x R, omegadot = u; work: integral of moment . omega, by scipy."""
+
+    def slope(t, y):
+        R, w, m = y[:9].reshape(3, 3), y[9:12], moment(t)
+        with np.errstate(all="ignore"):
+            u = law(as_rotation(R.T), numbers(w), numbers(m), columns(goal), GAINS, np.float64(TOUCH.m_o))
+        spin = np.array([[0.0, -w[2], w[1]], [w[2], 0.0, -w[0]], [-w[1], w[0], 0.0]])
+        return np.concatenate(((spin @ R).ravel(), u, [m @ w]))
+
+    first = np.concatenate((turn.as_matrix().ravel(), omega, [0.0]))
+    times = np.linspace(0.0, seconds, count)
+    found = solve_ivp(slope, (0.0, seconds), first, method="DOP853", t_eval=times, rtol=1e-9, atol=1e-11)
+    assert found.success, found.message
+    return times, found.y[:9].T.reshape(-1, 3, 3), found.y[9:12].T, found.y[12]

@@ -1,0 +1,73 @@
+"""Two runs on one folder: the second is refused in one line, and nothing of the first stays when it ends."""
+
+import errno
+import fcntl
+import os
+import subprocess
+import sys
+
+import pytest
+from support.command_line import TINY, bench, digest, refused
+
+from bench.provenance import ROOT
+from bench.tables import lock
+
+RUN = ("run", *TINY, "--engine", "reference")
+HOLD = """
+import pathlib, sys
+from bench.tables import lock
+with lock.held(pathlib.Path(sys.argv[1])):
+    print("held", flush=True)
+    sys.stdin.read()
+"""
+
+
+@pytest.fixture
+def holder(finished):
+    """A process that holds the folder of a finished run."""
+    words = [sys.executable, "-c", HOLD, str(finished)]
+    pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "text": True}
+    with subprocess.Popen(words, cwd=ROOT, **pipes) as process:
+        assert process.stdout.readline() == "held\n"
+        yield process
+        process.kill()
+
+
+@pytest.mark.parametrize("words", [(), ("--replace", "--kp", "7")], ids=["same plan", "another plan"])
+def test_folder_of_another_run_is_refused_and_left_alone(capsys, holder, finished, words):
+    before = digest(finished)
+    line = refused(capsys, *RUN, *words, "--out", finished)
+    assert f"{finished}: another run (process {holder.pid}) is writing into it" in line
+    assert "choose another folder" in line
+    assert digest(finished) == before
+
+
+def test_killed_run_leaves_no_lock(capsys, holder, finished):
+    before = digest(finished)
+    holder.kill()
+    holder.wait()
+    assert bench(capsys, *RUN, "--out", finished).code == 0
+    assert digest(finished) == before
+
+
+def test_folder_that_cannot_be_locked_is_used_and_said_so(finished, monkeypatch, capsys):
+    def unsupported(*_):
+        raise OSError(errno.ENOLCK, os.strerror(errno.ENOLCK))
+
+    monkeypatch.setattr(fcntl, "flock", unsupported)
+    with lock.held(finished):
+        said = capsys.readouterr().err
+    assert said.startswith(f"{finished}: cannot be locked (No locks available)")
+    assert len(said.splitlines()) == 1
+
+
+def test_refused_run_leaves_no_empty_folder(capsys, tmp_path):
+    law = tmp_path / "own.py"
+    law.write_text(
+        "from bench.law.contender import Regulator\nfrom bench.law.scalar import kernel\n@kernel\n"
+        "def law(R, omega, goal, gains):\n    return (float(str(omega[0])), 0.0, 0.0)\n"
+        'REGULATOR = Regulator("mine", "Mine", "none", "u", law)\n'
+    )
+    words = ("--law", law, "--regulator", "mine", "--starts", "paper", "--engine", "ideal-rk4")
+    assert "cannot be compiled" in refused(capsys, "run", *words, "--out", tmp_path / "new")
+    assert not (tmp_path / "new").exists()

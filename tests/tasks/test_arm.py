@@ -1,0 +1,142 @@
+"""Arms are found at the time of the call, by what is in their files; the judge's model of one."""
+
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import mujoco
+import numpy as np
+import pytest
+from support.own_arm import xml
+
+import tasks
+from tasks.arm import arm, arm_names
+from tasks.arm_model import model_xml
+from tasks.base import UnknownName
+
+PYTHON_ARM = '''
+from pathlib import Path
+
+def xml() -> str:
+    return """{}"""
+'''
+
+DROPPED = """
+import tasks
+print(tasks.arm_names())
+start = tasks.start_set("clear", 1, arm="dropped-in")[0]
+environment = tasks.load("arm-regulation", start, arm="dropped-in")
+print(environment.reset().observation["R"].shape)
+"""
+
+LISTING = """
+import sys, tasks
+print(tasks.arm_names(), "mujoco" in sys.modules)
+"""
+
+
+def test_arms_of_the_issue_are_there():
+    assert {"puma560", "ur5e", "panda", "jaco"} <= set(tasks.arm_names())
+
+
+def test_unknown_arm_lists_the_known_ones():
+    with pytest.raises(UnknownName, match=r"arm 'puma' is not in tasks/arms; known: .*puma560.*\(use one"):
+        tasks.arm("puma")
+
+
+def test_names_are_file_names_with_dashes(tmp_path):
+    (tmp_path / "my_arm.xml").write_text(xml())
+    (tmp_path / "__init__.py").write_text("")
+    (tmp_path / "notes.txt").write_text("")
+    assert arm_names(tmp_path) == ["my-arm"]
+    assert arm("my-arm", tmp_path).name == "my-arm"
+
+
+def test_text_is_kept_as_the_file_has_it(tmp_path):
+    (tmp_path / "own.xml").write_text(xml())
+    assert arm("own", tmp_path).xml == xml()
+
+
+def test_python_file_writes_its_arm(tmp_path):
+    (tmp_path / "own.py").write_text(PYTHON_ARM.format(xml()))
+    assert arm("own", tmp_path).xml == xml()
+
+
+@pytest.mark.parametrize("suffix", ["xml", "py"])
+def test_edited_file_is_another_arm_at_once(suffix, tmp_path):
+    """Also within the second that a file's time is kept to, and at the same length."""
+    path = tmp_path / f"own.{suffix}"
+    for title in ("A small arm", "A smell arm", "A small arm"):
+        text = xml().replace("A small arm", title)
+        path.write_text(PYTHON_ARM.format(text) if suffix == "py" else text)
+        assert arm("own", tmp_path).title == title
+
+
+def test_same_text_is_checked_once(tmp_path):
+    (tmp_path / "own.xml").write_text(xml())
+    assert arm("own", tmp_path) is arm("own", tmp_path)
+
+
+def test_file_that_is_gone_is_gone(tmp_path):
+    path = tmp_path / "own.xml"
+    path.write_text(xml())
+    arm("own", tmp_path)
+    path.unlink()
+    with pytest.raises(UnknownName):
+        arm("own", tmp_path)
+
+
+def test_every_keyframe_is_a_pose(tmp_path):
+    (tmp_path / "own.xml").write_text(xml().replace("</keyframe>", '<key name="up" qpos="0 0 0 0 0 1"/></keyframe>'))
+    own = arm("own", tmp_path)
+    assert own.pose("home") == own.home
+    assert own.pose("up") == (0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
+    with pytest.raises(UnknownName, match=r"no keyframe 'down'; known: home, up \(use one"):
+        own.pose("down")
+
+
+def test_joint_without_a_range_turns_for_ever(tmp_path):
+    (tmp_path / "own.xml").write_text(xml().replace('axis="0 0 1" range="-3 3"', 'axis="0 0 1"', 1))
+    own = arm("own", tmp_path)
+    assert np.isinf([own.lower, own.upper]).sum() == 2
+    assert np.nanmin(own.upper) == 3.0
+
+
+def test_model_overrides_the_options_of_the_file(tmp_path):
+    option = '<option timestep=".004" gravity="0 0 -1"><flag gravity="disable" contact="enable"/></option>'
+    (tmp_path / "own.xml").write_text(xml().replace('<option timestep=".004"/>', option))
+    model = mujoco.MjModel.from_xml_string(model_xml(arm("own", tmp_path), 0.002))
+    disabled = mujoco.mjtDisableBit
+    assert model.opt.timestep == 0.002
+    assert model.opt.gravity.tolist() == [0.0, 0.0, -9.81]
+    assert model.opt.disableflags == (disabled.mjDSBL_CONTACT | disabled.mjDSBL_LIMIT | disabled.mjDSBL_AUTORESET)
+
+
+def test_integration_step_is_carried_to_the_last_digit(tmp_path):
+    (tmp_path / "own.xml").write_text(xml())
+    dt = 1.0 / 3000.0
+    assert mujoco.MjModel.from_xml_string(model_xml(arm("own", tmp_path), dt)).opt.timestep == dt
+
+
+@pytest.fixture
+def copy_of_tasks(tmp_path) -> Path:
+    shutil.copytree(Path(tasks.__file__).parent, tmp_path / "tasks", ignore=shutil.ignore_patterns("__pycache__"))
+    return tmp_path
+
+
+def test_dropped_file_is_found_checked_and_loaded(copy_of_tasks):
+    arms = copy_of_tasks / "tasks" / "arms"
+    shutil.copy(arms / "ur5e.xml", arms / "dropped_in.xml")
+    done = subprocess.run(
+        [sys.executable, "-c", DROPPED], cwd=copy_of_tasks, capture_output=True, text=True, check=True
+    )
+    assert "'dropped-in'" in done.stdout
+    assert "(9,)" in done.stdout
+
+
+def test_listing_names_loads_no_simulator(copy_of_tasks):
+    done = subprocess.run(
+        [sys.executable, "-c", LISTING], cwd=copy_of_tasks, capture_output=True, text=True, check=True
+    )
+    assert done.stdout.split()[-1] == "False"

@@ -1,0 +1,209 @@
+"""A broken file of an arm is refused in one line: what is wrong, and the cure."""
+
+import pytest
+from support.own_arm import JOINTS, xml
+
+from tasks.arm import arm, arm_names, arms
+from tasks.base import BadArm
+
+MOTOR_3 = '<motor name="motor 3" joint="joint 3" ctrlrange="-20 20" ctrllimited="false"/>\n'
+LINK_6 = '<inertial pos="0 0 .1" mass="1" diaginertia=".01 .01 .005"/>\n<site'
+SEVENTH = ("7", "0 1 0")
+EIGHTH = ("8", "0 0 1")
+
+# What is wrong: (the line to find in the small arm, what stands there instead, what the refusal says).
+SPOILED = {
+    "no XML": ("</custom>", "</costum>", r"it is not XML: mismatched tag.*\(mend that line\)"),
+    "not MJCF": ("<worldbody>", "<worldbody><bidy/>", r"MuJoCo refuses it: .*unrecognized element.*bidy.*\(mend"),
+    "a mesh": (
+        "<worldbody>",
+        '<asset><mesh file="no.stl"/></asset><worldbody>',
+        r"MuJoCo refuses it: .*no\.stl.*\(mend",
+    ),
+    "unphysical link": (
+        LINK_6,
+        LINK_6.replace(".01 .01 .005", ".01 .01 .05"),
+        r"MuJoCo refuses it: .*inertia must satisfy A \+ B >= C.*\(mend",
+    ),
+    "no title": ('<text name="title" data="A small arm"/>', "", r"does not say its title \(add <custom>"),
+    "blank source": ("Made up for a test", " ", r"does not say its source \(add <custom>"),
+    "own sensors": (
+        "<actuator>",
+        "<sensor><clock/></sensor><actuator>",
+        r"sensors of its own.*\(take its <sensor> out",
+    ),
+    "no tool": ('<site name="tool"', '<site name="tip"', r'no site "tool" \(add <site name="tool"/>'),
+    "no home": ('<key name="home"', '<key name="hut"', r'no keyframe "home" \(add <keyframe>'),
+    "home outside": (
+        'qpos="0 .5 1',
+        'qpos="0 .5 3.1',
+        r"home has joint 'joint 3' at 3\.1 rad, outside -3 to 3 \(move it inside\)",
+    ),
+    "a slide": (
+        '<joint name="joint 3" axis',
+        '<joint name="joint 3" type="slide" axis',
+        r"joint 'joint 3' is a slide joint \(every joint must be a hinge\)",
+    ),
+    "a branch": (
+        '<body name="link 6"',
+        '<body><joint axis="1 0 0"/><geom size=".1"/></body><body name="link 6"',
+        r"not one serial chain \(let each joint's body hold the next one's\)",
+    ),
+    "a motor missing": (MOTOR_3, "", r"5 motors for 6 joints \(give <motor joint"),
+    "a motor twice": (MOTOR_3, MOTOR_3.replace("joint 3", "joint 2"), r"motor 3 does not drive joint 'joint 3' \(give"),
+    "a gear": ('<motor name="motor 3"', '<motor name="motor 3" gear="50"', r"gear 50 \(gear 1: ctrl is the joint's"),
+    "a servo": (
+        MOTOR_3,
+        MOTOR_3.replace("<motor", '<position kp="9"'),
+        r"actuator of joint 'joint 3' is no <motor>.*\(give <motor",
+    ),
+    "a clipping motor": (
+        MOTOR_3,
+        MOTOR_3.replace(' ctrllimited="false"', ""),
+        r"motor of joint 'joint 3' is limited: the plant never clips \(give",
+    ),
+    "no rated torque": (
+        MOTOR_3,
+        MOTOR_3.replace(' ctrlrange="-20 20"', ""),
+        r"motor of joint 'joint 3' has ctrlrange 0 to 0, no rated torque \(<motor",
+    ),
+    "lopsided torque": (
+        MOTOR_3,
+        MOTOR_3.replace("-20 20", "-10 20"),
+        r"ctrlrange -10 to 20, no rated torque \(<motor",
+    ),
+    "dry friction": (
+        '<joint name="joint 2"',
+        '<joint name="joint 2" frictionloss=".1"',
+        r"joint 'joint 2' has dry friction \(take frictionloss out",
+    ),
+    "singular inertia": (
+        LINK_6,
+        LINK_6.replace('mass="1" diaginertia=".01 .01 .005"', 'mass="1e-9" diaginertia="1e-12 1e-12 1e-12"'),
+        r"inertia matrix is singular at home: eigenvalues from .*e-.* to .* \(give the last links their inertia",
+    ),
+    "an equality": (
+        "<actuator>",
+        '<equality><joint joint1="joint 1" joint2="joint 2"/></equality><actuator>',
+        r"at home more acts than inertia.*\(take out what else acts: equalities",
+    ),
+    "an actuator's lag": (
+        MOTOR_3,
+        MOTOR_3.replace("<motor", '<general dyntype="filter" dynprm=".1"'),
+        r"actuator of joint 'joint 3' is no <motor>",
+    ),
+    "motors switched off": (
+        '<option timestep=".004"/>',
+        '<option><flag actuation="disable"/></option>',
+        r"at home more acts than inertia.*disabled flags\)",
+    ),
+}
+
+
+def refusal(folder, name: str = "own") -> str:
+    with pytest.raises(BadArm) as caught:
+        arm(name, folder)
+    return str(caught.value)
+
+
+def test_arm_that_nobody_spoiled_is_taken(tmp_path):
+    (tmp_path / "own.xml").write_text(xml())
+    assert arm("own", tmp_path).home == (0.0, 0.5, 1.0, 0.1, 0.8, 0.0)
+
+
+@pytest.mark.parametrize("wrong", SPOILED)
+def test_broken_arm_is_refused_with_the_cure(wrong, tmp_path):
+    line, instead, says = SPOILED[wrong]
+    assert xml().count(line) == 1
+    (tmp_path / "own.xml").write_text(xml().replace(line, instead))
+    message = refusal(tmp_path)
+    assert message.startswith("arm 'own': ")
+    assert "\n" not in message
+    assert message.endswith(")")
+    with pytest.raises(BadArm, match=says):
+        arm("own", tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("joints", "says"),
+    [
+        (JOINTS[:5], r"5 joints, not 6 or 7 \(fewer than 6 cannot hold a position and turn freely\)"),
+        ((*JOINTS, SEVENTH, EIGHTH), r"8 joints, not 6 or 7 \(at most 7 are handled\)"),
+    ],
+)
+def test_too_few_or_too_many_joints_are_refused(joints, says, tmp_path):
+    (tmp_path / "own.xml").write_text(xml(joints))
+    with pytest.raises(BadArm, match=says):
+        arm("own", tmp_path)
+
+
+@pytest.mark.parametrize("after", ["<worldbody>", '<joint name="joint 5" axis="0 1 0" range="-3 3"/>'])
+def test_tool_that_does_not_move_with_the_last_joint_is_refused(after, tmp_path):
+    """On the ground, or on the last link but one."""
+    elsewhere = xml().replace('<site name="tool" pos="0 0 .2"/>', "").replace(after, f'{after}<site name="tool"/>')
+    (tmp_path / "own.xml").write_text(elsewhere)
+    assert '"tool" does not move with the last joint (move it to the last body)' in refusal(tmp_path)
+
+
+def test_seven_joints_are_taken(tmp_path):
+    (tmp_path / "own.xml").write_text(xml((*JOINTS, SEVENTH)))
+    assert arm("own", tmp_path).joints == 7
+
+
+def test_viscous_damping_and_springs_are_taken(tmp_path):
+    """They are in qfrc_passive, which the controller compensates."""
+    (tmp_path / "own.xml").write_text(xml().replace('range="-3 3"', 'range="-3 3" damping="1" stiffness="2"'))
+    assert arm("own", tmp_path).joints == 6
+
+
+def test_own_integration_step_and_limits_do_not_matter(tmp_path):
+    """At a joint's limit MuJoCo would push back; the plant has none."""
+    (tmp_path / "own.xml").write_text(xml().replace('qpos="0 .5 1', 'qpos="0 .5 3'))
+    assert arm("own", tmp_path).home[2] == arm("own", tmp_path).upper[2]
+
+
+@pytest.mark.parametrize("name", ["Own", "own arm", "7dof", "own--arm"])
+def test_file_whose_name_is_no_word_is_refused(name, tmp_path):
+    (tmp_path / f"{name}.xml").write_text(xml())
+    assert arm_names(tmp_path) == [name]
+    assert "no word of a-z, 0-9 and _ (rename it" in refusal(tmp_path, name)
+
+
+def test_two_files_of_one_arm_are_refused(tmp_path):
+    (tmp_path / "own.xml").write_text(xml())
+    (tmp_path / "own.py").write_text("def xml(): return ''")
+    assert "own.py and own.xml (keep one)" in refusal(tmp_path)
+
+
+def test_file_that_is_no_text_is_refused(tmp_path):
+    (tmp_path / "own.xml").write_bytes(b"\xff\xfe\x00")
+    assert "own.xml cannot be read" in refusal(tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        ("def xml(: pass", r"xml\(\) of own\.py does not work \(SyntaxError"),
+        ("import no_such_module", r"xml\(\) of own\.py does not work \(ModuleNotFoundError: .*no_such_module"),
+        ("TITLE = 'no function'", r"xml\(\) of own\.py does not work \(AttributeError"),
+        ("def xml(): raise SystemExit('stop')", r"xml\(\) of own\.py does not work \(SystemExit: stop"),
+        ("def xml(): return 7", r"xml\(\) of own\.py returns int \(return the MJCF text, a str\)"),
+        ("def xml(): return '<mujoco>'", r"it is not XML"),
+    ],
+)
+def test_broken_python_file_is_refused(text, says, tmp_path):
+    (tmp_path / "own.py").write_text(text)
+    assert "\n" not in refusal(tmp_path)
+    with pytest.raises(BadArm, match=says):
+        arm("own", tmp_path)
+
+
+def test_broken_arm_leaves_the_others_usable(tmp_path):
+    (tmp_path / "broken.xml").write_text("<mujoco")
+    (tmp_path / "own.xml").write_text(xml())
+    assert arm_names(tmp_path) == ["broken", "own"]
+    assert arm("own", tmp_path).title == "A small arm"
+    found = arms(tmp_path)
+    assert list(found) == ["broken", "own"]
+    assert isinstance(found["broken"], BadArm)
+    assert found["own"] == arm("own", tmp_path)
