@@ -75,13 +75,13 @@ def _compiler() -> str:
 
 def _engines() -> str:
     import tasks
-    from bench.contenders.registry import find_contender
+    from bench.contenders.registry import papers_laws
     from bench.engines.run import run
     from bench.experiments.plan import Plan
     from bench.experiments.rows import settings_of
     from bench.metrics.registry import metrics_of
 
-    law = find_contender("rotation-matrix")
+    law = papers_laws()[0]
     plan = Plan("doctor", (), (law,))
     metrics = metrics_of(on_arm=False)
     starts = tasks.start_set("paper")[:1]

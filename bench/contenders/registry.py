@@ -11,7 +11,7 @@ from typing import Any
 
 from bench.contenders import impedances, inverses, jacobians, regulators, representations
 from bench.errors import BadLaw, Incompatible, UnknownWord
-from bench.law.contender import Contender, Regulator, Representation, contender
+from bench.law.contender import ON_MATRIX, Contender, Regulator, Representation, contender
 from bench.law.impedance import Impedance
 from bench.law.resolved_motion import Inverse, Jacobian
 
@@ -67,7 +67,7 @@ def known_impedances() -> dict:
 
 def contenders_of(regulator: Regulator) -> list[Contender]:
     """A regulator in every representation it acts on."""
-    if regulator.coordinates == "rotation-matrix":
+    if regulator.coordinates == ON_MATRIX:
         return [contender(regulator)]
     every = known_representations()
     words = every if regulator.coordinates == "any" else regulator.coordinates
@@ -77,6 +77,19 @@ def contenders_of(regulator: Regulator) -> list[Contender]:
 def all_contenders(extra: tuple[Regulator, ...] = ()) -> list[Contender]:
     """Every regulator in every representation it acts on, costings included; then the user's own."""
     return [one for regulator in (*known_regulators().values(), *extra) for one in contenders_of(regulator)]
+
+
+@functools.cache
+def papers_laws() -> tuple[Contender, ...]:
+    """The paper's three laws in its order and coordinates."""
+    found = (one for one in all_contenders() if one.regulator.papers and not one.is_elsewhere)
+    return tuple(sorted(found, key=lambda one: one.regulator.papers))
+
+
+@functools.cache
+def papers_coordinates() -> Representation:
+    """The paper's own coordinates."""
+    return next(one for one in known_representations().values() if one.papers)
 
 
 def regulator(word: str, extra: tuple[Regulator, ...] = ()) -> Regulator:

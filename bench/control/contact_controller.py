@@ -12,6 +12,7 @@ impedance-coordinates/zyx-euler   in coordinates
 from collections.abc import Callable
 from typing import NamedTuple
 
+from bench.contenders.registry import papers_coordinates
 from bench.control import hybrid as hybrid_control
 from bench.control.impedance import assembly, law_of
 from bench.errors import BadNumber, Incompatible
@@ -89,7 +90,8 @@ def hybrid(law: str, form: str, representation: Representation | None = None) ->
         raise Incompatible(f"'{form}' is no way to the joints; known: {', '.join(FORMS)}")
     takes = law in ("hybrid", "hybrid-unconverted")
     if takes and representation is None:
-        raise Incompatible(f"'{law}' selects along coordinates and needs some (try: {law}/zyx-euler+{form})")
+        usual = papers_coordinates().name
+        raise Incompatible(f"'{law}' selects along coordinates and needs some (try: {law}/{usual}+{form})")
     if not takes and representation is not None:
         raise Incompatible(f"'{law}' selects along axes and takes no representation (try: {law}+{form})")
     if representation is not None:
@@ -105,7 +107,7 @@ def springy(one: Impedance, representation: Representation | None = None) -> Com
     """
     word = f"impedance-{one.name}"
     if one.law_in is not None and representation is None:
-        raise Incompatible(f"'{word}' acts on coordinates and needs some (try: {word}/zyx-euler)")
+        raise Incompatible(f"'{word}' acts on coordinates and needs some (try: {word}/{papers_coordinates().name})")
     if one.law_in is None and representation is not None:
         raise Incompatible(f"'{word}' takes no representation (leave '{representation.name}' away)")
     if representation is not None:

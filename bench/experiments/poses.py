@@ -17,7 +17,7 @@ import numpy as np
 import pandas as pd
 
 import tasks
-from bench.contenders.registry import known_jacobians, known_representations
+from bench.contenders.registry import known_jacobians, known_representations, papers_coordinates
 from bench.experiments.plan import Plan
 from bench.experiments.pose_sets import Pose, poses
 from bench.law.contender import Representation
@@ -32,7 +32,7 @@ LONGEST = 7
 STEP = float(np.finfo(float).eps) ** (1 / 3)
 """rad, times the margin: where truncation and rounding of a central difference are alike, both about eps^(2/3)."""
 
-PAPERS = "zyx-euler"
+PAPERS = papers_coordinates().name
 """The paper's coordinates: those whose forward kinematics are differenced, whose determinant is checked, and whose
 second derivation is looked at on a slice too."""
 

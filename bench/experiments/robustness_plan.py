@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import tasks
+from bench.contenders.registry import papers_laws
 from bench.errors import Incompatible
 from bench.experiments.choice import Choice
 from bench.experiments.suites import Robustness
@@ -51,7 +52,8 @@ def units(
         return ()
     chosen = [one for one in laws if _takes_part(one, part, choice)]
     if choice.axes and not chosen:
-        raise Incompatible("nothing to run: along an axis go laws of the free body (try: --regulator rotation-matrix)")
+        usual = papers_laws()[0].name
+        raise Incompatible(f"nothing to run: along an axis go laws of the free body (try: --regulator {usual})")
     axes = [tasks.axis(name) for name in choice.axes or tasks.axis_names()]
     each = starts or part.starts
     return tuple(
@@ -63,7 +65,6 @@ def units(
 
 def _takes_part(one: Contender, part: Robustness, choice: Choice) -> bool:
     """Whether it is a law on R or on the paper's coordinates, a user's, or named; and no actuator of MuJoCo's."""
-    coordinates = one.representation.name if one.representation else ""
     is_wanted = bool(one.regulator.origin or choice.regulators or choice.representations)
-    is_usual = coordinates in ("", "zyx-euler") or part.others is None or one.name in part.others
+    is_usual = not one.is_elsewhere or part.others is None or one.name in part.others
     return (is_wanted or is_usual) and not one.regulator.in_engine

@@ -1,42 +1,57 @@
 """What a law is: the dialect it is written in, rotations, small linear algebra, and the records it is made of.
 
-A law imports from here, or from the file that has it:
+Whoever writes a law, coordinates, a Jacobian, an inverse or an impedance imports from here and from nowhere below:
 
     from bench.law import Regulator, cross, dot, kernel, sqrt
 
 scalar           the dialect: @kernel, and the functions of a number that it has
 so3              rotations as three columns, and vectors
 linalg/          products, eliminations and rotations of small matrices
-contender        Regulator, Representation, Contender, Gains, Goal
+contender        Regulator, Contender, Gains, Goal
+representation   Representation
 resolved_motion  Jacobian, Inverse: from the tool's acceleration to the joints
 impedance        Impedance
+equation, look   what the book shows of a law: its scalar equation, and how it is drawn
 chain, weighting an arm as kernels see it; weights of its joints
 tracking         goals that move
 """
+# ruff: noqa: F401  the public face: what it imports is what it gives
 
-from bench.law.contender import Contender, Gains, Goal, Regulator, Representation
+from bench.law.chain import bias_acceleration, twist
+from bench.law.contender import AT_REST, Contender, Gains, Goal, Regulator
+from bench.law.equation import ANGLE, CHORD, LINEAR_MRP, SINE, Equation
 from bench.law.impedance import Impedance
+from bench.law.linalg import (
+    determinant,
+    factor,
+    gram,
+    gram_transposed,
+    multiply,
+    multiply_transposed,
+    orthogonalize,
+    solve,
+    solve_factored,
+    solve_lower,
+    solve_upper,
+)
+from bench.law.look import Look
+from bench.law.representation import Representation
 from bench.law.resolved_motion import Inverse, Jacobian
 from bench.law.scalar import acos, atan2, copysign, cos, kernel, sin, sqrt
-from bench.law.so3 import Rotation, cross, dot
-
-__all__ = [
-    "Contender",
-    "Gains",
-    "Goal",
-    "Impedance",
-    "Inverse",
-    "Jacobian",
-    "Regulator",
-    "Representation",
-    "Rotation",
-    "acos",
-    "atan2",
-    "copysign",
-    "cos",
-    "cross",
-    "dot",
-    "kernel",
-    "sin",
-    "sqrt",
-]
+from bench.law.so3 import (
+    IDENTITY,
+    Rotation,
+    cross,
+    dot,
+    double_sine,
+    from_quaternion,
+    half_cosine_squared,
+    quaternion_direction,
+    relative,
+    rotate,
+    rotate_back,
+    trace,
+    turn_matrix,
+    turn_quaternion,
+)
+from bench.law.weighting import GREATEST_GAIN, LENGTH, smaller_gram, solve_gram, weigh

@@ -1,4 +1,4 @@
-"""What takes part: gains, goals, representations, regulators, and a contender made of them.
+"""What takes part: gains, goals, regulators, and a contender made of one and its coordinates.
 
 Shapes: a vector is a tuple of 3 numbers, R a `Rotation`, E a tuple of 3 coordinates (4 of a quaternion). Base frame,
 radians, seconds. What a contender needs on an arm is in `resolved_motion`.
@@ -8,12 +8,18 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from bench.errors import Incompatible
+from bench.law.equation import Equation
+from bench.law.look import Look
+from bench.law.representation import Representation
 from bench.law.resolved_motion import Inverse, Jacobian
 from bench.law.so3 import IDENTITY, Rotation
 
 AT_REST = (0.0, 0.0, 0.0)
 NO_MEMORY = (0.0, 0.0, 0.0, 0.0)
 """A law with memory carries four numbers from tick to tick: a quaternion fits."""
+
+ON_MATRIX = "rotation-matrix"
+"""The coordinates of a law that acts on R itself."""
 
 
 class Gains(NamedTuple):
@@ -37,51 +43,6 @@ class Goal(NamedTuple):
     alpha: tuple = AT_REST
 
 
-class Representation(NamedTuple):
-    """Coordinates E of a rotation, with omega = B(E) Edot (Murphy 1988, 2.8): three, or four of a quaternion.
-
-    A `chart` is E together with what its extraction has computed already (sines and cosines, say), so that nothing is
-    computed twice in a tick; `chart.E` is E.
-
-    chart(R) -> chart
-    chart_of(E) -> chart
-    to_matrix(E) -> R
-    rates(chart, omega) -> Edot = B^-1 omega                     (2.9)
-    accelerate(chart, Edot, Eddot) -> B Eddot + Bdot Edot        (2.10 solved for u = omegadot)
-    angular_velocity(chart, Edot) -> B Edot                      (2.8)
-    generalized(chart, m) -> B^T m                               (3.12, rotational part)
-    margin(R) -> number in [0, 1], 0 exactly on the singular set
-
-    Of an extraction that can be differentiated element by element, as (3.5) does (else None):
-    differentiate(R, Rdot) -> Edot                               dE/dR along Rdot, Rdot by columns
-    differentiate_twice(R, Rdot, Rddot) -> Eddot
-
-    about: which coordinate a user takes for the turn about x, about y and about z; None if there is no such choice.
-    """
-
-    name: str
-    title: str
-    source: str
-    formula: str
-    symbols: tuple
-    chart: Callable
-    chart_of: Callable
-    to_matrix: Callable
-    rates: Callable
-    accelerate: Callable
-    angular_velocity: Callable
-    generalized: Callable
-    margin: Callable
-    differentiate: Callable | None = None
-    differentiate_twice: Callable | None = None
-    about: tuple[int, int, int] | None = (0, 1, 2)
-
-    @property
-    def goal_chart(self) -> Callable:
-        """The chart again, for the goal: a name of its own, so that its cost is a stage of its own."""
-        return self.chart
-
-
 class Regulator(NamedTuple):
     """A law u = law(R, omega, goal, gains): commanded angular acceleration in the base frame [rad/s^2].
 
@@ -99,6 +60,12 @@ class Regulator(NamedTuple):
     margin: of a law on R that is singular somewhere: margin(R, R_d) in [0, 1], 0 exactly there; else None.
     coordinate_law_in: of a law that commands Eddot itself: coordinate_law_in(representation) returns
     law(chart, E_d, Edot, gains) -> u_E, what the controller on an analytic Jacobian needs (Murphy 1988, 3.7).
+
+    What the book shows, all of it optional:
+    short: what it is called beside a curve. look: how it is drawn. family: the title of those it is drawn with.
+    papers: its place among the paper's three laws; 0 of another. control: a negative one, here because it must fail.
+    equation: of its angle, if it turns a free body about one fixed axis from rest; equation_in(representation) of a
+    law in coordinates.
     """
 
     name: str
@@ -107,7 +74,7 @@ class Regulator(NamedTuple):
     formula: str
     law: Callable | None = None
     law_in: Callable | None = None
-    coordinates: str | tuple = "rotation-matrix"
+    coordinates: str | tuple = ON_MATRIX
     relative: bool = False
     memory: tuple | None = None
     property: str = "local"
@@ -118,6 +85,13 @@ class Regulator(NamedTuple):
     stiffness: tuple[float, float, float] = (1.0, 1.0, 1.0)
     margin: Callable | None = None
     coordinate_law_in: Callable | None = None
+    short: str = ""
+    look: Look | None = None
+    family: str = ""
+    papers: int = 0
+    control: bool = False
+    equation: Equation | None = None
+    equation_in: Callable[[Representation], Equation | None] | None = None
 
 
 class Contender(NamedTuple):
@@ -147,8 +121,38 @@ class Contender(NamedTuple):
     @property
     def is_beyond_the_paper(self) -> bool:
         """Whether it is a later law of ours, or one on coordinates that the paper sets aside (Murphy 1988, 2.2)."""
-        other = self.representation is not None and self.representation.name != "zyx-euler"
-        return (other or self.regulator.later) and not self.regulator.origin
+        return (self.is_elsewhere or self.regulator.later) and not self.regulator.origin
+
+    @property
+    def is_elsewhere(self) -> bool:
+        """Whether it acts on coordinates that the paper sets aside (Murphy 1988, 2.2)."""
+        return self.representation is not None and not self.representation.papers
+
+    @property
+    def short(self) -> str:
+        """What it is called beside a curve: the law, or of one in several coordinates where it is."""
+        if not self.regulator.short:
+            return self.on_free_body
+        if self.representation is None or not self._is_abroad:
+            return self.regulator.short
+        return f"in {self.representation.short or self.representation.name}"
+
+    @property
+    def family(self) -> str:
+        """The title of those it is drawn with; another one for a law in others than the paper's coordinates."""
+        if self.regulator.short and self._is_abroad:
+            return f"{self.regulator.short[:1].upper()}{self.regulator.short[1:]} elsewhere"
+        return self.regulator.family
+
+    @property
+    def _is_abroad(self) -> bool:
+        return self.is_elsewhere and (self.regulator.coordinates == "any" or len(self.regulator.coordinates) > 1)
+
+    @property
+    def equation(self) -> Equation | None:
+        """Of its angle, if it turns a free body about one fixed axis from rest."""
+        equation_in = self.regulator.equation_in
+        return equation_in(self.representation) if equation_in and self.representation else self.regulator.equation
 
     @property
     def is_on_arm(self) -> bool:
@@ -185,12 +189,6 @@ def bind(regulator: Regulator, representation: Representation | None) -> Callabl
     return law
 
 
-def acts_on(regulator: Regulator, representation_name: str) -> bool:
-    """Whether the regulator has a law in that representation."""
-    allowed = regulator.coordinates
-    return allowed == "any" or (allowed != "rotation-matrix" and representation_name in allowed)
-
-
 def on_arm(one: Contender, jacobian: Jacobian, inverse: Inverse, joints: int = 6) -> Contender:
     """A contender on an arm of so many joints, or refuse with the reason.
 
@@ -210,7 +208,7 @@ def refusal(one: Contender, joints: int) -> str:
     if one.regulator.in_engine:
         return (
             f"regulator '{one.regulator.name}' is an actuator of MuJoCo and turns the free body alone "
-            "(try: rotation-vector, the same law)"
+            "(try: a law in Python that commands the same)"
         )
     if jacobian is None or inverse is None:
         return "an arm needs a Jacobian and an inverse (try: @geometric+pseudo-inverse)"
@@ -218,8 +216,7 @@ def refusal(one: Contender, joints: int) -> str:
         if one.regulator.coordinate_law_in is None or representation is None:
             return (
                 f"the Jacobian '{jacobian.name}' takes an acceleration of coordinates, and regulator "
-                f"'{one.regulator.name}' commands an angular acceleration (try: the Jacobian geometric, or the "
-                "regulator feedback-linearized)"
+                f"'{one.regulator.name}' commands an angular acceleration (try: the Jacobian geometric)"
             )
         if jacobian.needs_derivatives and representation.differentiate is None:
             return (
@@ -235,7 +232,7 @@ def contender(regulator: Regulator, representation: Representation | None = None
     Errors:
         Incompatible: the regulator acts on R and a representation was given, or the other way about.
     """
-    if regulator.coordinates == "rotation-matrix":
+    if regulator.coordinates == ON_MATRIX:
         if representation is not None:
             raise Incompatible(
                 f"regulator '{regulator.name}' acts on the rotation matrix and takes no representation "
@@ -245,7 +242,7 @@ def contender(regulator: Regulator, representation: Representation | None = None
     allowed = "any representation" if regulator.coordinates == "any" else ", ".join(regulator.coordinates)
     if representation is None:
         raise Incompatible(f"regulator '{regulator.name}' acts on coordinates and needs one of: {allowed}")
-    if not acts_on(regulator, representation.name):
+    if regulator.coordinates != "any" and representation.name not in regulator.coordinates:
         raise Incompatible(
             f"regulator '{regulator.name}' acts on {allowed}, not on '{representation.name}': "
             "its gains are permuted for those coordinates"

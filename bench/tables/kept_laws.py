@@ -7,7 +7,7 @@ import pandas as pd
 from bench.contenders.law_file import WORD, load_law
 from bench.contenders.registry import known_regulators, known_representations
 from bench.errors import BadResults
-from bench.law.contender import Regulator
+from bench.law.contender import ON_MATRIX, Regulator
 from bench.tables import trust
 from bench.tables.store import refuse_link
 
@@ -53,7 +53,7 @@ def _by_its_rows(path: Path, costs: pd.DataFrame) -> Regulator:
         title=word,
         source=UNTRUSTED,
         formula="",
-        coordinates=coordinates or "rotation-matrix",
+        coordinates=coordinates or ON_MATRIX,
         property="nothing is known",
         origin=str(path),
     )

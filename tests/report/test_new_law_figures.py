@@ -10,13 +10,15 @@ pytest.importorskip("matplotlib", reason="the report extra is not installed (cur
 
 from scipy.integrate import quad
 
-from bench.findings.theory.isotropic import ANGLE, LATE, SLIDING
+from bench.findings.theory.isotropic import EQUATIONS
 from bench.law.contender import Gains
+from bench.law.equation import ANGLE
 from report.figures.comparison import new_law, new_law_tables
 from report.figures.comparison.comparison_peak import LEVEL
 from report.figures.kit import absent
 
 KP, KV = Gains()
+LATE, SLIDING = EQUATIONS["late-braking"], EQUATIONS["sliding"]
 
 
 def test_greatest_pull_is_the_closed_forms():

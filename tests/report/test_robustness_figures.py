@@ -14,6 +14,7 @@ from bench.contenders.registry import find_contender
 from bench.experiments import plan
 from bench.experiments.choice import Choice
 from bench.findings.theory import closed_form, isotropic, robustness_theory
+from bench.law.equation import Equation
 from bench.running import run
 from bench.tables import read
 from report.figures.kit import absent, style
@@ -120,7 +121,7 @@ def test_paielli_bach_turns_its_spring_round_at_the_angle_where_blindness_lets_i
 
 @pytest.mark.parametrize(("factor", "is_held"), [(0.99, False), (1.01, True)])
 def test_noise_holds_a_law_of_constant_force_if_it_is_more_than_two_ticks_of_it(factor, is_held):
-    push = isotropic.Equation("1", lambda theta: 1.0)
+    push = Equation("1", lambda theta: 1.0)
     assert robustness_theory.is_held(push, KP, KV, factor * robustness_theory.two_ticks(KP, KV)) == is_held
 
 

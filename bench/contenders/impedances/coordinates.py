@@ -9,8 +9,7 @@ is (1 + |sin beta|)/(1 - |sin beta|).
 Fails: where B^-1 does not exist; a moment is lost there.
 """
 
-from bench.law.impedance import Impedance
-from bench.law.scalar import kernel
+from bench.law import Impedance, kernel
 
 
 def law_in(representation):

@@ -4,9 +4,7 @@ Fails: where B^-1 of the relative orientation does not exist; with Z-Y-X angles 
 """
 
 from bench.contenders.impedances import coordinates
-from bench.law.impedance import Impedance
-from bench.law.scalar import kernel
-from bench.law.so3 import IDENTITY, relative, rotate, rotate_back
+from bench.law import IDENTITY, Impedance, kernel, relative, rotate, rotate_back
 
 
 def law_in(representation):

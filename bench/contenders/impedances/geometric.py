@@ -4,9 +4,7 @@ Fails: at half turns from the goal the spring gives way to nothing.
 """
 
 from bench.contenders.regulators.rotation_matrix import law as regulate
-from bench.law.contender import AT_REST, Goal
-from bench.law.impedance import Impedance
-from bench.law.scalar import kernel
+from bench.law import AT_REST, Goal, Impedance, kernel
 
 
 @kernel

@@ -3,9 +3,7 @@
 Fails: at half turns e jumps to -e; there the sign is that of `so3.quaternion_direction`.
 """
 
-from bench.law.impedance import Impedance
-from bench.law.scalar import kernel, sqrt
-from bench.law.so3 import quaternion_direction, relative, rotate
+from bench.law import Impedance, kernel, quaternion_direction, relative, rotate, sqrt
 
 
 @kernel

@@ -4,9 +4,7 @@ Fails: at half turns e jumps to -e.
 """
 
 from bench.contenders.representations.rotation_vector import chart
-from bench.law.impedance import Impedance
-from bench.law.scalar import kernel
-from bench.law.so3 import relative, rotate
+from bench.law import Impedance, kernel, relative, rotate
 
 
 @kernel

@@ -7,9 +7,7 @@ at sigma = 0.2, half at sigma = lambda, and never nothing.
 Fails: never by itself, but it gives less than was asked for everywhere; it cannot help where J itself is not finite.
 """
 
-from bench.law.resolved_motion import Inverse
-from bench.law.scalar import kernel
-from bench.law.weighting import GREATEST_GAIN, smaller_gram, solve_gram, weigh
+from bench.law import GREATEST_GAIN, Inverse, kernel, smaller_gram, solve_gram, weigh
 
 DAMPING = 0.5 / GREATEST_GAIN
 """lambda: sigma / (sigma^2 + lambda^2) is largest at sigma = lambda, where it is 1 / (2 lambda) = GREATEST_GAIN."""

@@ -11,10 +11,18 @@ Fails: as damped-least-squares does, but only within epsilon of a singularity; a
 epsilon the estimate may lie between them.
 """
 
-from bench.law.linalg import factor, solve_factored, solve_upper
-from bench.law.resolved_motion import Inverse
-from bench.law.scalar import copysign, kernel
-from bench.law.weighting import GREATEST_GAIN, smaller_gram, solve_gram, weigh
+from bench.law import (
+    GREATEST_GAIN,
+    Inverse,
+    copysign,
+    factor,
+    kernel,
+    smaller_gram,
+    solve_factored,
+    solve_gram,
+    solve_upper,
+    weigh,
+)
 
 EPSILON = 1.0 / GREATEST_GAIN
 """Without damping the gain is 1 / sigma, which is GREATEST_GAIN here."""

@@ -6,9 +6,7 @@ see. From D = L L^T and Y = L^-1 J^T, Lambda^-1 = Y^T Y, so that D is never inve
 Fails: where J loses rank Lambda is not finite; like pseudo-inverse it squares the condition number of J.
 """
 
-from bench.law.linalg import factor, gram, multiply_transposed, solve_factored, solve_lower
-from bench.law.resolved_motion import Inverse
-from bench.law.scalar import kernel
+from bench.law import Inverse, factor, gram, kernel, multiply_transposed, solve_factored, solve_lower
 
 
 @kernel

@@ -7,9 +7,7 @@ Fails: as `solve` does where J loses rank, and sooner: the equations square the 
 nothing is left of the digits.
 """
 
-from bench.law.resolved_motion import Inverse
-from bench.law.scalar import kernel
-from bench.law.weighting import smaller_gram, solve_gram
+from bench.law import Inverse, kernel, smaller_gram, solve_gram
 
 
 @kernel

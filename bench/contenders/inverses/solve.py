@@ -3,9 +3,7 @@
 Fails: where J is singular x is not finite, and towards it x grows like 1 / sigma_min(J) without bound.
 """
 
-from bench.law.linalg import solve
-from bench.law.resolved_motion import Inverse
-from bench.law.scalar import kernel
+from bench.law import Inverse, kernel, solve
 
 
 @kernel

@@ -6,9 +6,7 @@ the arm is no unit mass: it does not linearize, its stiffness depends on the pos
 Fails: never by itself; the motion is that of another plant, slower or faster by the arm's own inertia.
 """
 
-from bench.law.linalg import multiply_transposed
-from bench.law.resolved_motion import Inverse
-from bench.law.scalar import kernel
+from bench.law import Inverse, kernel, multiply_transposed
 
 
 @kernel

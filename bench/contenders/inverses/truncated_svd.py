@@ -7,10 +7,7 @@ Fails: never by itself, but the answer jumps where a singular value crosses the 
 those left out is not done at all.
 """
 
-from bench.law.linalg import multiply_transposed, orthogonalize
-from bench.law.resolved_motion import Inverse
-from bench.law.scalar import kernel
-from bench.law.weighting import GREATEST_GAIN, weigh
+from bench.law import GREATEST_GAIN, Inverse, kernel, multiply_transposed, orthogonalize, weigh
 
 TOLERANCE = 1.0 / GREATEST_GAIN
 """The gain along v_i is 1 / sigma_i, so that what is left keeps to GREATEST_GAIN."""

@@ -7,10 +7,7 @@ inverse sees either: J_E^T (0, q) = 0, and each of them is J_E^T (J_E J_E^T + ..
 Fails: where the coordinates are singular, B^-1 and with it J_E are not finite, and where the arm itself is singular.
 """
 
-from bench.law.contender import AT_REST
-from bench.law.resolved_motion import Jacobian
-from bench.law.scalar import kernel
-from bench.law.so3 import cross
+from bench.law import AT_REST, Jacobian, cross, kernel
 
 STILL_QUATERNION = (0.0, 0.0, 0.0, 0.0)
 

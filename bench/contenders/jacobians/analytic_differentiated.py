@@ -7,9 +7,7 @@ as `analytic` to rounding: what the literature before the paper did, and the pri
 Fails: as `analytic` does.
 """
 
-from bench.law.resolved_motion import Jacobian
-from bench.law.scalar import kernel
-from bench.law.so3 import Rotation, cross
+from bench.law import Jacobian, Rotation, cross, kernel
 
 
 @kernel

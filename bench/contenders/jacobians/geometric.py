@@ -3,9 +3,7 @@
 Fails: nowhere; it loses rank where the arm itself is singular.
 """
 
-from bench.law.resolved_motion import Jacobian
-from bench.law.scalar import kernel
-from bench.law.so3 import cross
+from bench.law import Jacobian, cross, kernel
 
 
 @kernel

@@ -5,9 +5,7 @@ not either, as the weight on translations is the same in every direction.
 Fails: where the geometric one does.
 """
 
-from bench.law.resolved_motion import Jacobian
-from bench.law.scalar import kernel
-from bench.law.so3 import cross, rotate_back
+from bench.law import Jacobian, cross, kernel, rotate_back
 
 
 @kernel

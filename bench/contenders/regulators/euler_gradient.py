@@ -3,8 +3,7 @@
 Fails: where a coordinate jumps.
 """
 
-from bench.law.contender import Regulator
-from bench.law.scalar import kernel
+from bench.law import Look, Regulator, kernel
 
 
 def law_in(representation):
@@ -35,4 +34,7 @@ REGULATOR = Regulator(
     coordinates=("zyx-euler",),
     property="local",
     later=True,
+    short="Euler gradient",
+    look=Look("sky", "s", "dashed"),
+    family="Euler variants, controls",
 )

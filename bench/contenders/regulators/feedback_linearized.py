@@ -12,8 +12,7 @@ numbers are taken as they come, and the way round is the long one.
 Fails: where B^-1 does not exist (in Z-Y-Z at the identity itself), and where a coordinate jumps.
 """
 
-from bench.law.contender import Regulator
-from bench.law.scalar import kernel
+from bench.law import Look, Regulator, kernel
 
 
 @kernel
@@ -76,4 +75,9 @@ REGULATOR = Regulator(
     coordinate_law_in=coordinate_law_in,
     coordinates="any",
     property="local",
+    short="feedback-linearized",
+    look=Look("green", "^", "dash-dot"),
+    family="The paper's three",
+    papers=3,
+    equation_in=lambda representation: representation.linear,
 )

@@ -4,8 +4,7 @@ The same command as feedback-linearized to rounding; listed so that its price ca
 Fails: as feedback-linearized does.
 """
 
-from bench.law.contender import Regulator
-from bench.law.scalar import cos, kernel, sin
+from bench.law import Look, Regulator, cos, kernel, sin
 
 
 @kernel
@@ -74,4 +73,5 @@ REGULATOR = Regulator(
     coordinates=("zyx-euler",),
     property="local",
     costing_only=True,
+    look=Look("sky", "v", "dotted"),
 )

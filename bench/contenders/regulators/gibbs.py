@@ -3,9 +3,9 @@
 Fails: at half turns the command is unbounded, and on them not finite.
 """
 
-from bench.law.contender import Regulator
-from bench.law.scalar import kernel
-from bench.law.so3 import double_sine, half_cosine_squared, trace
+import math
+
+from bench.law import Equation, Look, Regulator, double_sine, half_cosine_squared, kernel, trace
 
 
 @kernel
@@ -29,4 +29,8 @@ REGULATOR = Regulator(
     property="almost global",
     margin=half_cosine_squared,
     later=True,
+    short="Gibbs",
+    look=Look("green", "s", "dashed"),
+    family="On three parameters",
+    equation=Equation(r"2 \tan(\theta/2)", lambda theta: 2.0 * math.tan(theta / 2.0)),
 )

@@ -7,9 +7,7 @@ without memory can do it (Bhat & Bernstein 2000).
 Fails: nowhere known; within asin(DELTA) beyond a half turn it goes the longer way on.
 """
 
-from bench.law.contender import Regulator
-from bench.law.scalar import kernel, sqrt
-from bench.law.so3 import turn_quaternion
+from bench.law import CHORD, Look, Regulator, kernel, sqrt, turn_quaternion
 
 DELTA = 0.4
 """Half the width of the hysteresis, in eta = cos(theta/2): 47 degrees beyond a half turn."""
@@ -44,4 +42,8 @@ REGULATOR = Regulator(
     memory=(1.0, 0.0, 0.0, 0.0),
     property="global with memory",
     later=True,
+    short="hybrid",
+    look=Look("vermillion", "P", "dashed"),
+    family="On the quaternion",
+    equation=CHORD,
 )

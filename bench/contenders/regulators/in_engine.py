@@ -7,9 +7,7 @@ one attitude, are pushed opposite ways.
 Fails: nowhere; at a half turn the command jumps to its opposite.
 """
 
-from bench.law.contender import Regulator
-from bench.law.scalar import atan2, kernel, sqrt
-from bench.law.so3 import dot, turn_quaternion
+from bench.law import Look, Regulator, atan2, dot, kernel, sqrt, turn_quaternion
 
 
 @kernel
@@ -34,4 +32,7 @@ REGULATOR = Regulator(
     property="almost global",
     later=True,
     in_engine=True,
+    short="MuJoCo's actuator",
+    look=Look("blue", "*", "dotted"),
+    family="On three parameters",
 )

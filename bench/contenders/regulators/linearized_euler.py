@@ -4,8 +4,7 @@ The paper writes u = -Kp E - Kd Edot and regulates to zero; here the goal's angl
 can be asked for. Fails: far from zero angles, where B is no longer the permutation of (2.14), and through the pole.
 """
 
-from bench.law.contender import Regulator
-from bench.law.scalar import kernel
+from bench.law import Look, Regulator, kernel
 
 
 def law_in(representation):
@@ -36,4 +35,8 @@ REGULATOR = Regulator(
     law_in=law_in,
     coordinates=("zyx-euler",),
     property="local",
+    short="linearized Euler",
+    look=Look("vermillion", "s", "dashed"),
+    family="The paper's three",
+    papers=2,
 )

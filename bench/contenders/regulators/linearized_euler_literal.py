@@ -4,8 +4,7 @@
 alpha. Fails: unstable at the goal itself.
 """
 
-from bench.law.contender import Regulator
-from bench.law.scalar import kernel
+from bench.law import Look, Regulator, kernel
 
 
 def law_in(representation):
@@ -35,4 +34,8 @@ REGULATOR = Regulator(
     law_in=law_in,
     coordinates=("zyx-euler",),
     property="none",
+    short="control: literal",
+    look=Look("orange", "x", "dotted"),
+    family="Euler variants, controls",
+    control=True,
 )

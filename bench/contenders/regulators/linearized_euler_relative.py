@@ -3,9 +3,7 @@
 Fails: as linearized-euler does, but at the same errors for every goal.
 """
 
-from bench.law.contender import Regulator
-from bench.law.scalar import kernel
-from bench.law.so3 import relative, rotate, rotate_back
+from bench.law import Look, Regulator, kernel, relative, rotate, rotate_back
 
 
 def law_in(representation):
@@ -36,4 +34,7 @@ REGULATOR = Regulator(
     coordinates=("zyx-euler",),
     relative=True,
     property="local",
+    short="linearized, from goal",
+    look=Look("purple", "D", "dash-dot"),
+    family="Euler variants, controls",
 )

@@ -3,9 +3,9 @@
 Fails: nowhere; at a half turn the command jumps to its opposite.
 """
 
-from bench.law.contender import Regulator
-from bench.law.scalar import kernel, sqrt
-from bench.law.so3 import turn_quaternion
+import math
+
+from bench.law import Equation, Look, Regulator, kernel, sqrt, turn_quaternion
 
 
 @kernel
@@ -28,4 +28,8 @@ REGULATOR = Regulator(
     law=law,
     property="almost global",
     later=True,
+    short="MRP",
+    look=Look("vermillion", "^", "solid"),
+    family="On three parameters",
+    equation=Equation(r"4 \tan(\theta/4)", lambda theta: 4.0 * math.tan(theta / 4.0)),
 )

@@ -7,9 +7,7 @@ not chatter there.
 Fails: nowhere within a turn; where the sheet changes the command jumps.
 """
 
-from bench.law.contender import Regulator
-from bench.law.scalar import kernel, sqrt
-from bench.law.so3 import dot, turn_quaternion
+from bench.law import LINEAR_MRP, Look, Regulator, dot, kernel, sqrt, turn_quaternion
 
 SWITCH = 1.5
 """|sigma|^2 at which the sheet changes: 23 degrees beyond the half turn, where it is 1."""
@@ -49,4 +47,8 @@ REGULATOR = Regulator(
     memory=(1.0, 0.0, 0.0, 0.0),
     property="global with memory",
     later=True,
+    short="MRP made linear",
+    look=Look("purple", "v", "dash-dot"),
+    family="On three parameters",
+    equation=LINEAR_MRP,
 )

@@ -5,9 +5,9 @@ With a fixed goal epsddot = -Kv epsdot - Kp eps; for it eps must be divided by e
 Fails: at half turns the command is unbounded, and on them not finite.
 """
 
-from bench.law.contender import Regulator
-from bench.law.scalar import kernel
-from bench.law.so3 import dot, double_sine, half_cosine_squared, trace
+import math
+
+from bench.law import Equation, Look, Regulator, dot, double_sine, half_cosine_squared, kernel, trace
 
 
 @kernel
@@ -31,4 +31,12 @@ REGULATOR = Regulator(
     property="almost global",
     margin=half_cosine_squared,
     later=True,
+    short="Paielli, Bach",
+    look=Look("yellow", "d", "solid"),
+    family="On the quaternion",
+    equation=Equation(
+        r"2 \tan(\theta/2) - \dot\theta^2 \tan(\theta/2)/(2 K_p)",
+        lambda theta: 2.0 * math.tan(theta / 2.0),
+        lambda theta, rate, kp, kv: 0.5 * rate * rate * math.tan(theta / 2.0),
+    ),
 )

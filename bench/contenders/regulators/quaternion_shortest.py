@@ -4,9 +4,7 @@ Fails: nowhere; at a half turn the command jumps to its opposite. sgn(0) is 1 he
 there for ever.
 """
 
-from bench.law.contender import Regulator
-from bench.law.scalar import kernel, sqrt
-from bench.law.so3 import turn_quaternion
+from bench.law import CHORD, Look, Regulator, kernel, sqrt, turn_quaternion
 
 
 @kernel
@@ -29,4 +27,8 @@ REGULATOR = Regulator(
     law=law,
     property="almost global",
     later=True,
+    short="shortest quaternion",
+    look=Look("purple", "o", "solid"),
+    family="On the quaternion",
+    equation=CHORD,
 )

@@ -7,9 +7,7 @@ other sheet it would be quaternion-shortest.
 Fails: it settles everywhere but goes the wrong way.
 """
 
-from bench.law.contender import Regulator
-from bench.law.scalar import kernel, sqrt
-from bench.law.so3 import turn_quaternion
+from bench.law import CHORD, Look, Regulator, kernel, sqrt, turn_quaternion
 
 
 @kernel
@@ -38,4 +36,9 @@ REGULATOR = Regulator(
     memory=(-1.0, 0.0, 0.0, 0.0),
     property="none",
     later=True,
+    short="control: no sign",
+    look=Look("yellow", "x", "dotted"),
+    family="Euler variants, controls",
+    control=True,
+    equation=CHORD._replace(the_long_way=True),
 )

@@ -3,9 +3,7 @@
 Fails: every half turn is a point of rest, for there sin(theta) = 0; settling time grows without bound towards it.
 """
 
-from bench.law.contender import Regulator
-from bench.law.scalar import kernel
-from bench.law.so3 import cross
+from bench.law import SINE, Look, Regulator, cross, kernel
 
 
 @kernel
@@ -34,4 +32,9 @@ REGULATOR = Regulator(
     formula=r"u = \tfrac{1}{2} K_p\,(n \times n_d + o \times o_d + a \times a_d) - K_v\,\omega",
     law=law,
     property="almost global",
+    short="rotation matrix",
+    look=Look("blue", "o", "solid"),
+    family="The paper's three",
+    papers=1,
+    equation=SINE,
 )

@@ -3,9 +3,7 @@
 Fails: nowhere; at a half turn the command jumps to its opposite.
 """
 
-from bench.law.contender import Regulator
-from bench.law.scalar import atan2, kernel, sqrt
-from bench.law.so3 import dot, turn_quaternion
+from bench.law import ANGLE, Look, Regulator, atan2, dot, kernel, sqrt, turn_quaternion
 
 
 @kernel
@@ -33,4 +31,8 @@ REGULATOR = Regulator(
     law=law,
     property="almost global",
     later=True,
+    short="rotation vector",
+    look=Look("sky", "o", "solid"),
+    family="On three parameters",
+    equation=ANGLE,
 )

@@ -8,9 +8,9 @@ d is taken for 0, and K lambda eps, which is 2 Kp eps, stays that.
 Fails: nowhere; at a half turn the command jumps to its opposite.
 """
 
-from bench.law.contender import Regulator
-from bench.law.scalar import kernel, sqrt
-from bench.law.so3 import cross, turn_quaternion
+import math
+
+from bench.law import CHORD, Equation, Look, Regulator, cross, kernel, sqrt, turn_quaternion
 
 
 @kernel
@@ -37,6 +37,11 @@ def law(R, omega, goal, gains):
     )
 
 
+def half_lambda(kp, kv):
+    """Half the rate of the path [1/s], as the law above has it."""
+    return kv / 2.0 - math.sqrt(max(0.0, kv * kv / 4.0 - kp))
+
+
 REGULATOR = Regulator(
     name="sliding",
     title="Sliding on the quaternion",
@@ -45,4 +50,12 @@ REGULATOR = Regulator(
     law=law,
     property="almost global",
     later=True,
+    short="sliding",
+    look=Look("orange", "v", "dash-dot"),
+    family="On the quaternion",
+    equation=Equation(
+        r"2 \sin(\theta/2) - \lambda\,(1 - \cos(\theta/2))\,\dot\theta/(2 K_p)",
+        CHORD.spring,
+        lambda theta, rate, kp, kv: half_lambda(kp, kv) * (1.0 - math.cos(theta / 2.0)) * rate,
+    ),
 )

@@ -9,9 +9,7 @@ diagonal element (`so3.turn_quaternion`).
 Fails: nowhere; at a half turn the command jumps to its opposite, and on it the sign is a rule's.
 """
 
-from bench.law.contender import Regulator
-from bench.law.scalar import kernel, sqrt
-from bench.law.so3 import double_sine, trace, turn_quaternion
+from bench.law import CHORD, Look, Regulator, double_sine, kernel, sqrt, trace, turn_quaternion
 
 
 @kernel
@@ -39,4 +37,8 @@ REGULATOR = Regulator(
     law=law,
     property="almost global",
     later=True,
+    short="square root",
+    look=Look("blue", "D", "solid"),
+    family="On the matrix",
+    equation=CHORD,
 )

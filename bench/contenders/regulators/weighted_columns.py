@@ -6,9 +6,7 @@ are saddles. The price is a stiffness that depends on the axis: about column i h
 Fails: at those three half turns, exactly.
 """
 
-from bench.law.contender import Regulator
-from bench.law.scalar import kernel
-from bench.law.so3 import cross
+from bench.law import Look, Regulator, cross, kernel
 
 WEIGHTS = (0.8, 1.0, 1.2)
 """Distinct, and their sum 3, so that the stiffness is kp on the average: 1.1, 1.0 and 0.9 of it."""
@@ -35,4 +33,7 @@ REGULATOR = Regulator(
     property="almost global",
     stiffness=(1.1, 1.0, 0.9),
     later=True,
+    short="weighted columns",
+    look=Look("sky", "p", "dashed"),
+    family="On the matrix",
 )

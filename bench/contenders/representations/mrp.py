@@ -6,9 +6,7 @@ reach. Beyond a half turn the shadow set -sigma/sigma^2 takes over: E jumps to -
 
 from typing import NamedTuple
 
-from bench.law.contender import Representation
-from bench.law.scalar import kernel, sqrt
-from bench.law.so3 import cross, dot, from_quaternion, quaternion_direction
+from bench.law import LINEAR_MRP, Look, Representation, cross, dot, from_quaternion, kernel, quaternion_direction, sqrt
 
 
 class Chart(NamedTuple):
@@ -121,4 +119,7 @@ REPRESENTATION = Representation(
     angular_velocity=angular_velocity,
     generalized=generalized,
     margin=margin,
+    short="MRP",
+    look=Look("sky", "X", "dashed"),
+    linear=LINEAR_MRP,
 )

@@ -7,9 +7,7 @@ the one with w >= 0: E jumps to -E at half turns.
 
 from typing import NamedTuple
 
-from bench.law.contender import Representation
-from bench.law.scalar import kernel, sqrt
-from bench.law.so3 import from_quaternion, quaternion_direction
+from bench.law import CHORD, Look, Representation, from_quaternion, kernel, quaternion_direction, sqrt
 
 
 class Chart(NamedTuple):
@@ -107,4 +105,7 @@ REPRESENTATION = Representation(
     generalized=generalized,
     margin=margin,
     about=None,
+    short="quaternions",
+    look=Look("blue", "o", "solid"),
+    linear=CHORD,
 )

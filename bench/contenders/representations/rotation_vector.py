@@ -5,9 +5,20 @@ B = J_l(phi), the left Jacobian, is singular at |phi| = 2 pi only, beyond reach.
 
 from typing import NamedTuple
 
-from bench.law.contender import Representation
-from bench.law.scalar import atan2, cos, kernel, sin, sqrt
-from bench.law.so3 import cross, dot, from_quaternion, quaternion_direction
+from bench.law import (
+    ANGLE,
+    Look,
+    Representation,
+    atan2,
+    cos,
+    cross,
+    dot,
+    from_quaternion,
+    kernel,
+    quaternion_direction,
+    sin,
+    sqrt,
+)
 
 FLAT = 1e-7
 """rad^2. Below, (1 - (theta/2) cot(theta/2))/theta^2 is 1/12: the theta^2/720 dropped, times theta^2 for the two
@@ -202,4 +213,7 @@ REPRESENTATION = Representation(
     angular_velocity=angular_velocity,
     generalized=generalized,
     margin=margin,
+    short="rotation vectors",
+    look=Look("purple", "D", "dotted"),
+    linear=ANGLE,
 )

@@ -6,9 +6,7 @@ B^-1 does not exist. alpha and gamma jump by 2 pi at +-pi.
 
 from typing import NamedTuple
 
-from bench.law.contender import Representation
-from bench.law.scalar import atan2, cos, kernel, sin, sqrt
-from bench.law.so3 import Rotation
+from bench.law import Look, Representation, Rotation, atan2, cos, kernel, sin, sqrt
 
 
 class Chart(NamedTuple):
@@ -159,4 +157,6 @@ REPRESENTATION = Representation(
     margin=margin,
     differentiate=differentiate,
     differentiate_twice=differentiate_twice,
+    short="X-Y-Z angles",
+    look=Look("orange", "v", "dashed"),
 )

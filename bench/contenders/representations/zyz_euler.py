@@ -6,9 +6,7 @@ determined, and B^-1 does not exist. alpha and gamma jump by 2 pi at +-pi.
 
 from typing import NamedTuple
 
-from bench.law.contender import Representation
-from bench.law.scalar import atan2, cos, kernel, sin, sqrt
-from bench.law.so3 import Rotation
+from bench.law import Look, Representation, Rotation, atan2, cos, kernel, sin, sqrt
 
 
 class Chart(NamedTuple):
@@ -160,4 +158,6 @@ REPRESENTATION = Representation(
     about=(2, 1, 0),
     differentiate=differentiate,
     differentiate_twice=differentiate_twice,
+    short="Z-Y-Z angles",
+    look=Look("green", "^", "dash-dot"),
 )

@@ -27,7 +27,6 @@ from bench.law.so3 import IDENTITY, Rotation
 from tasks.contact import Order
 
 UNITS = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
-FROM_GOAL = "impedance-coordinates-relative"
 NOWHERE = 1e-12
 """Smallest singular value of B, over its largest, at which there is no B^-1: rounding of an angle of pi/2."""
 
@@ -63,7 +62,7 @@ def directions(controller: Compliant, goal: Rotation) -> np.ndarray:
     """What the rotational rows of a controller turn the hand about, 3 x 3, base frame; NaN if there is no B^-1."""
     if controller.representation is None:
         return np.eye(3)
-    seen_from_goal = controller.law == FROM_GOAL
+    seen_from_goal = controller.impedance is not None and controller.impedance.relative
     B = matrix_B(controller.representation, IDENTITY if seen_from_goal else goal)
     size = np.linalg.svd(B, compute_uv=False)
     if size[-1] <= NOWHERE * size[0]:

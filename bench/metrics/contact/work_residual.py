@@ -10,7 +10,6 @@ from bench.law.contender import Representation
 from bench.law.so3 import Rotation, from_quaternion, relative, rotate_back
 from bench.metrics.contact_metric import ContactMetric, Pose, Response
 
-SEEN_FROM_GOAL = "impedance-coordinates-relative"
 # Ticks of an episode that are looked at, evenly spaced: nothing in a rounding depends on the tick.
 TICKS = 16
 
@@ -21,7 +20,7 @@ def measure(pose: Pose) -> float:
     if controller.representation is None or any(one.outcome != "done" for one in pose.responses):
         return np.nan
     convert = hybrid.conversion(controller.representation, controller.converts)
-    from_goal = controller.law == SEEN_FROM_GOAL
+    from_goal = controller.impedance is not None and controller.impedance.relative
     works = np.array(
         [work for one in pose.responses for work in _works(controller.representation, convert, from_goal, one)]
     )

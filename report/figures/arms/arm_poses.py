@@ -9,13 +9,13 @@ import numpy as np
 import pandas as pd
 
 import tasks
-from bench.contenders.registry import known_representations
+from bench.contenders.registry import known_representations, papers_coordinates
 from bench.errors import BadResults
 from bench.tables import read
 from bench.tables.schema import pose_columns
 from report.figures.kit import style
 
-PAPERS = "zyx-euler"
+PAPERS = papers_coordinates().name
 NOT_HERE = "Not in this run: it looked at no poses of arms."
 
 BAD = 100.0
@@ -29,14 +29,6 @@ LOOKS = {
     "ur5e": style.Look("#0072b2", "o", style.SOLID),
     "panda": style.Look("#009e73", "^", style.DASH_DOT),
     "jaco": style.Look("#cc79a7", "D", style.DOTTED),
-}
-COORDINATES = {
-    "zyx-euler": style.Look("#d55e00", "s", style.SOLID),
-    "xyz-euler": style.Look("#e69f00", "v", style.DASHED),
-    "zyz-euler": style.Look("#009e73", "^", style.DASH_DOT),
-    "rotation-vector": style.Look("#cc79a7", "D", style.DOTTED),
-    "mrp": style.Look("#56b4e9", "X", style.DASHED),
-    "quaternion": style.Look("#0072b2", "o", style.SOLID),
 }
 
 
@@ -69,7 +61,7 @@ def look(arm: str) -> style.Look:
 
 def look_of_coordinates(name: str) -> style.Look:
     """How the Jacobian of these coordinates is drawn."""
-    return COORDINATES.get(name) or style.look(name)
+    return style.look_of_coordinates(name)
 
 
 def short_title(name: str) -> str:

@@ -13,7 +13,7 @@ from pygments import highlight
 from pygments.formatters import HtmlFormatter
 from pygments.lexers import PythonLexer
 
-from bench.contenders.registry import contenders_of, known_regulators
+from bench.contenders.registry import contenders_of, known_regulators, papers_laws
 from bench.law.contender import Contender, Regulator
 from bench.tables import read
 from report.figures.cards.card_map import card_map
@@ -23,11 +23,6 @@ from report.figures.kit import html
 from report.figures.kit.families import anchor
 from report.figures.kit.share import share
 from report.figures.kit.spelling import typeset
-
-PAPERS_OWN = ("rotation-matrix", "linearized-euler", "feedback-linearized")
-"""Shown first, in the paper's order; then the paper's variants by name, and the later laws by name."""
-
-PAPERS_COORDINATES = "zyx-euler"
 
 PROPERTIES = {
     "local": "Stable near the goal, by linearization; no more than that.",
@@ -45,25 +40,22 @@ FAILS = re.compile(r"\bFails:\s*(.*)", re.DOTALL)
 
 
 def in_order() -> list[Regulator]:
-    """Every registered regulator, the paper's first, and at the end the user's own that took part in the run."""
-    known = known_regulators()
-    first = [known[name] for name in PAPERS_OWN if name in known]
-    others = sorted((one for one in known.values() if one not in first), key=lambda one: (one.later, one.name))
-    return [*first, *others, *read.own_laws()]
+    """The paper's three regulators, its variants by name, the later ones by name, the user's own of the run."""
+    first = [one.regulator for one in papers_laws()]
+    others = [one for one in known_regulators().values() if one not in first]
+    return [*first, *sorted(others, key=lambda one: (one.later, one.name)), *read.own_laws()]
 
 
 def papers_first(regulator: Regulator) -> list[Contender]:
     """A law in every representation it acts on, the paper's own coordinates first."""
-    return sorted(contenders_of(regulator), key=lambda one: not one.name.endswith(f"/{PAPERS_COORDINATES}"))
+    return sorted(contenders_of(regulator), key=lambda one: one.is_elsewhere)
 
 
 def title_of(one: Contender) -> str:
     """The law's title, and its coordinates where it acts on others than the paper's."""
     where = one.representation
     return (
-        one.regulator.title
-        if where is None or where.name == PAPERS_COORDINATES
-        else f"{one.regulator.title}: {where.title}"
+        f"{one.regulator.title}: {where.title}" if where and one.is_elsewhere else one.regulator.title
     )
 
 

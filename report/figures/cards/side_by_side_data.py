@@ -13,10 +13,10 @@ import numpy as np
 import pandas as pd
 from scipy.spatial.transform import Rotation as Turn
 
-from bench.contenders.registry import find_contender
+from bench.contenders.registry import find_contender, papers_coordinates
 from bench.experiments.traces import EVERY_S, TELLING
 from bench.tables import read
-from report.figures.cards.cards import PAPERS_COORDINATES, title_of
+from report.figures.cards.cards import title_of
 from report.figures.cost.operations import CALLS
 from report.figures.kit import families, html, style
 from tasks.rules import RULES
@@ -144,7 +144,7 @@ def law(name: str, costs: pd.DataFrame) -> dict:
 
 def word(name: str) -> str:
     """A contender, without the coordinates if they are the paper's."""
-    return name.removesuffix(f"/{PAPERS_COORDINATES}")
+    return name.removesuffix(f"/{papers_coordinates().name}")
 
 
 def cost(name: str, costs: pd.DataFrame) -> str:

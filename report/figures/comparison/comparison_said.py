@@ -11,7 +11,7 @@ from report.figures.comparison.comparison_rows import DETOUR, costs
 from report.figures.comparison.comparison_tables import percent
 from report.figures.kit import families, html
 
-LITERAL, UNWINDING = families.CONTROLS
+LITERAL, UNWINDING = "linearized-euler-literal/zyx-euler", "quaternion-unwinding"
 
 
 def facts(rows: pd.DataFrame, directed: pd.DataFrame) -> dict:

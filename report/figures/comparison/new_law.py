@@ -8,14 +8,15 @@ import math
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from bench.findings.theory.isotropic import ANGLE, CHORD, LATE, SINE, SLIDING, TIGHT, Equation
+from bench.findings.theory.isotropic import EQUATIONS, TIGHT
 from bench.law.contender import PAPERS_GAINS
+from bench.law.equation import Equation
 from report.figures.comparison.comparison_peak import LEVEL
 from report.figures.kit import families, style
 from report.figures.kit.inline import responsive_picture
 
-DRAWN = {"rotation-matrix": SINE, "quaternion-shortest": CHORD, "rotation-vector": ANGLE, "late-braking": LATE}
-EASING = {"quaternion-shortest": CHORD, "sliding": SLIDING, "late-braking": LATE}
+DRAWN = {law: EQUATIONS[law] for law in ("rotation-matrix", "quaternion-shortest", "rotation-vector", "late-braking")}
+EASING = {law: EQUATIONS[law] for law in ("quaternion-shortest", "sliding", "late-braking")}
 """Of laws with one spring or damper the first stands for all."""
 
 FROM_DEG, SHOWN_S = 175.0, 1.2

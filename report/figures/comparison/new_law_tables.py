@@ -7,8 +7,9 @@ import math
 import numpy as np
 import pandas as pd
 
-from bench.findings.theory.isotropic import ANGLE, CHORD, LATE, LEAST_RAD, Equation, settling
+from bench.findings.theory.isotropic import EQUATIONS, LEAST_RAD, settling
 from bench.law.contender import PAPERS_GAINS
+from bench.law.equation import ANGLE, CHORD, Equation
 from report.figures.comparison import comparison_peak
 from report.figures.comparison.comparison_rows import costs
 from report.figures.comparison.comparison_tables import NEVER
@@ -18,6 +19,7 @@ from report.figures.kit import absent, families, html
 from tasks.rules import RULES
 
 NEW = "late-braking"
+LATE = EQUATIONS[NEW]
 NEIGHBOURS = ("rotation-matrix", "square-root", "hybrid", "sliding", "rotation-vector", "mrp", "mrp-linearized", NEW)
 """The 1980 law; the laws whose parts it has; the two whose response is linear; the fastest at equal gain."""
 

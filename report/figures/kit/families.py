@@ -9,7 +9,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import NamedTuple
 
-from report.figures.kit import html
+from bench.contenders.registry import all_contenders
+from report.figures.kit import html, laws
 
 CARDS = "03-regulators.html"
 OTHERS = "Others"
@@ -23,70 +24,36 @@ class Family(NamedTuple):
     laws: dict[str, str]
 
 
-FAMILIES = (
-    Family(
-        "The paper's three",
-        {
-            "rotation-matrix": "rotation matrix",
-            "linearized-euler/zyx-euler": "linearized Euler",
-            "feedback-linearized/zyx-euler": "feedback-linearized",
-        },
-    ),
-    Family(
-        "On the matrix",
-        {"weighted-columns": "weighted columns", "square-root": "square root", "late-braking": "late braking"},
-    ),
-    Family(
-        "On the quaternion",
-        {
-            "quaternion-shortest": "shortest quaternion",
-            "hybrid": "hybrid",
-            "sliding": "sliding",
-            "paielli-bach": "Paielli, Bach",
-        },
-    ),
-    Family(
-        "On three parameters",
-        {
-            "rotation-vector": "rotation vector",
-            "in-engine": "MuJoCo's actuator",
-            "mrp": "MRP",
-            "gibbs": "Gibbs",
-            "mrp-linearized": "MRP made linear",
-        },
-    ),
-    Family(
-        "Feedback-linearized elsewhere",
-        {
-            "feedback-linearized/mrp": "in MRP",
-            "feedback-linearized/rotation-vector": "in rotation vectors",
-            "feedback-linearized/quaternion": "in quaternions",
-            "feedback-linearized/xyz-euler": "in X-Y-Z angles",
-            "feedback-linearized/zyz-euler": "in Z-Y-Z angles",
-        },
-    ),
-    Family(
-        "Euler variants, controls",
-        {
-            "linearized-euler-relative/zyx-euler": "linearized, from goal",
-            "euler-gradient/zyx-euler": "Euler gradient",
-            "linearized-euler-literal/zyx-euler": "control: literal",
-            "quaternion-unwinding": "control: no sign",
-        },
-    ),
+FIRST = (
+    "The paper's three",
+    "On the matrix",
+    "On the quaternion",
+    "On three parameters",
+    "Feedback-linearized elsewhere",
+    "Euler variants, controls",
 )
+"""Titles in the order of the figures; what else a law calls its family comes after them."""
 
-CONTROLS = ("linearized-euler-literal/zyx-euler", "quaternion-unwinding")
+CONTROLS = tuple(one.name for one in all_contenders() if one.regulator.control)
 """Negative controls: laws that are here because they must fail."""
 
 
 def present(names: Iterable[str]) -> list[Family]:
-    """The families, with those of their laws that occur in `names`; at the end what no family names."""
-    left = set(names)
-    found = [Family(one.title, {name: word for name, word in one.laws.items() if name in left}) for one in FAMILIES]
-    others = left - {name for one in FAMILIES for name in one.laws}
-    found.append(Family(OTHERS, {name: name for name in sorted(others)}))
-    return [one for one in found if one.laws]
+    """The families of the laws of these names, the paper's first in theirs and controls last; at the end the others."""
+    found: dict[str, dict[str, str]] = {title: {} for title in FIRST}
+    others = {}
+    for name in sorted(set(names), key=_place):
+        one = laws.contender(name)
+        if one and one.family:
+            found.setdefault(one.family, {})[name] = one.short
+        else:
+            others[name] = name
+    return [Family(title, own) for title, own in (*found.items(), (OTHERS, others)) if own]
+
+
+def _place(name: str) -> tuple:
+    own = laws.regulator(laws.regulator_of(name))
+    return (own.papers, own.control, name) if own else (0, False, name)
 
 
 def in_order(names: Iterable[str]) -> list[str]:
@@ -96,8 +63,9 @@ def in_order(names: Iterable[str]) -> list[str]:
 
 def word(name: str) -> str:
     """What a law is called where its family is not said too."""
+    one = laws.contender(name)
     short = present([name])[0].laws[name]
-    return f"feedback-linearized {short}" if short.startswith("in ") else short
+    return f"{one.regulator.short} {short}" if one and short.startswith("in ") else short
 
 
 def anchor(name: str) -> str:

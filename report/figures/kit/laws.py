@@ -1,14 +1,15 @@
-"""The paper's three laws in the order of the paper, and their rows in a table of results; all laws but the later."""
+"""The laws as figures name them: the paper's three in its order, their rows; any law of a run, all but the later."""
+
+import functools
+from pathlib import Path
 
 import pandas as pd
 
-from bench.contenders.registry import known_regulators
+from bench.contenders.registry import contenders_of, known_regulators, papers_laws
+from bench.law.contender import Contender, Regulator
+from bench.tables import read
 
-TITLES = {
-    "rotation-matrix": "Rotation matrix",
-    "linearized-euler/zyx-euler": "Linearized Euler",
-    "feedback-linearized/zyx-euler": "Feedback-linearized Euler",
-}
+TITLES = {one.name: one.regulator.title.partition(" (")[0] for one in papers_laws()}
 """contender -> how it is called in a figure."""
 
 
@@ -22,3 +23,26 @@ def without_later(frame: pd.DataFrame) -> pd.DataFrame:
     """The rows of the paper's laws in any coordinates, and of the user's own: what the paper's chapters are about."""
     later = {name for name, one in known_regulators().items() if one.later}
     return frame[~frame["regulator"].isin(later)].reset_index(drop=True)
+
+
+def regulator(word: str) -> Regulator | None:
+    """The regulator of that name, the user's own of the run among them; None if there is none."""
+    return known_regulators().get(word) or _own(read.folder()).get(word)
+
+
+def contender(name: str) -> Contender | None:
+    """The contender of a name, as rows write it; None if there is none."""
+    law = regulator(regulator_of(name))
+    found = contenders_of(law) if law else []
+    return next((one for one in found if one.name == name.partition("@")[0]), None)
+
+
+def regulator_of(name: str) -> str:
+    """The regulator's word in a contender's name."""
+    return name.partition("@")[0].partition("/")[0]
+
+
+@functools.cache
+def _own(folder: Path) -> dict[str, Regulator]:
+    """The user's laws of a run by name."""
+    return {one.name: one for one in read.own_laws(folder)} if (folder / "laws").is_dir() else {}

@@ -17,6 +17,10 @@ from matplotlib import font_manager, rc_context
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from bench.contenders.registry import known_representations
+from bench.law import look as law_look
+from report.figures.kit import laws
+
 FONTS = Path(__file__).parent / "fonts"
 TEXT_WIDTH_IN = 7.5  # the column of a page at 1280 pixels, 720 of CSS's 96 to the inch
 PHONE_WIDTH_IN = 3.7  # the column of a page at 390 pixels, so that words keep their size there
@@ -61,29 +65,18 @@ class Look(NamedTuple):
 
 SOLID, DASHED, DOTTED, DASH_DOT = "-", (0, (5, 2)), (0, (1.5, 1.5)), (0, (6, 2, 1.5, 2))
 
-LOOKS = {
-    "rotation-matrix": Look("#0072b2", "o", SOLID),
-    "linearized-euler": Look("#d55e00", "s", DASHED),
-    "linearized-euler-literal": Look("#e69f00", "x", DOTTED),
-    "linearized-euler-relative": Look("#cc79a7", "D", DASH_DOT),
-    "feedback-linearized": Look("#009e73", "^", DASH_DOT),
-    "feedback-linearized-literal": Look("#56b4e9", "v", DOTTED),
-    "euler-gradient": Look("#56b4e9", "s", DASHED),
-    "weighted-columns": Look("#56b4e9", "p", DASHED),
-    "square-root": Look("#0072b2", "D", SOLID),
-    "quaternion-shortest": Look("#cc79a7", "o", SOLID),
-    "quaternion-unwinding": Look("#a39400", "x", DOTTED),
-    "hybrid": Look("#d55e00", "P", DASHED),
-    "sliding": Look("#e69f00", "v", DASH_DOT),
-    "paielli-bach": Look("#a39400", "d", SOLID),
-    "rotation-vector": Look("#56b4e9", "o", SOLID),
-    "mrp": Look("#d55e00", "^", SOLID),
-    "gibbs": Look("#009e73", "s", DASHED),
-    "in-engine": Look("#0072b2", "*", DOTTED),
-    "late-braking": Look("#a39400", "D", DASH_DOT),
-    "mrp-linearized": Look("#cc79a7", "v", DASH_DOT),
+# What the words of a law's own look are.
+COLOURS = {
+    "blue": "#0072b2",
+    "vermillion": "#d55e00",
+    "green": "#009e73",
+    "purple": "#cc79a7",
+    "orange": "#e69f00",
+    "sky": "#56b4e9",
+    "yellow": "#a39400",
 }
-# For a law that has no look of its own yet: 3 colours x 5 markers x 3 lines, chosen by its name.
+LINES: dict[str, str | tuple] = {"solid": SOLID, "dashed": DASHED, "dotted": DOTTED, "dash-dot": DASH_DOT}
+# For a law that has no look of its own: 3 colours x 5 markers x 3 lines, chosen by its name.
 SPARE_COLOURS = ("#a39400", "#56b4e9", "#cc79a7")
 SPARE_MARKERS = ("P", "X", "h", "*", "<")
 SPARE_LINES = (SOLID, DASHED, DASH_DOT)
@@ -146,10 +139,25 @@ PAPER_STYLE = {
 
 def look(name: str) -> Look:
     """How to draw a regulator or a contender (`regulator/representation@...`), unknown ones included."""
-    regulator = name.partition("@")[0].partition("/")[0]
-    if regulator in LOOKS:
-        return LOOKS[regulator]
-    rest, colour = divmod(mark(regulator), len(SPARE_COLOURS))
+    word = laws.regulator_of(name)
+    own = laws.regulator(word)
+    return drawn(own.look) if own and own.look else spare(word)
+
+
+def look_of_coordinates(name: str) -> Look:
+    """How to draw coordinates, unknown ones included."""
+    own = known_representations().get(name)
+    return drawn(own.look) if own and own.look else spare(name)
+
+
+def drawn(words: law_look.Look) -> Look:
+    """The look that these words name."""
+    return Look(COLOURS[words.colour], words.marker, LINES[words.line])
+
+
+def spare(word: str) -> Look:
+    """A look chosen by a name."""
+    rest, colour = divmod(mark(word), len(SPARE_COLOURS))
     rest, marker = divmod(rest, len(SPARE_MARKERS))
     return Look(SPARE_COLOURS[colour], SPARE_MARKERS[marker], SPARE_LINES[rest % len(SPARE_LINES)])
 

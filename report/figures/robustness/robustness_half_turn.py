@@ -31,7 +31,7 @@ KEEPS = {
 }
 """Law with memory -> angle [rad] beyond the half turn up to which it keeps to the way it has begun."""
 
-UNBOUNDED = ("gibbs", "paielli-bach")
+UNBOUNDED = tuple(law for law, equation in EQUATIONS.items() if not equation.is_bounded)
 """Laws without a greatest command: at the half turn they have none that a tick could hold."""
 
 FOOT, TOP = 1e-4, 1.6
