@@ -12,7 +12,7 @@ from support.driving import settings
 import tasks
 from bench.contenders.registry import find_contender
 from bench.contenders.regulators.hybrid import DELTA
-from bench.engines import disturbed, run_disturbed
+from bench.engines import disturbed, rigid_body, run_disturbed
 from bench.engines.binding import evaluation_of, memory_of, observer
 from bench.engines.episode import FINAL_ANGLE, FIRST_METRIC, OUTCOME, SETTLING_TICK, TICKS, numbers, start_rows
 from bench.engines.run import run as run_untroubled
@@ -116,7 +116,7 @@ def test_a_bound_is_never_exceeded_and_keeps_the_direction():
     rows = ended("rotation-matrix", tasks.start_set("tumbling", 20), Condition(bound=30.0))
     peak = FIRST_METRIC + [one.name for one in METRICS].index("peak-u")
     np.testing.assert_allclose(rows[:, peak], 30.0**2, rtol=1e-14)  # all of them reach it; kept squared
-    assert disturbed.bounded((3.0, 0.0, 4.0), 1.0) == pytest.approx((0.6, 0.0, 0.8), rel=1e-15)
+    assert rigid_body.bounded((3.0, 0.0, 4.0), 1.0) == pytest.approx((0.6, 0.0, 0.8), rel=1e-15)
 
 
 def test_small_noise_adds_up_as_it_does_in_the_linear_loop():
@@ -193,7 +193,7 @@ def test_an_uneven_body_obeys_eulers_equations(inertia):
     omega, u = (3.0, -5.0, 8.0), (20.0, -10.0, 5.0)
     expected, turning = eulers_equations(R, omega, u, inertia, 0.2)
     for _ in range(200):
-        R, omega = disturbed.step(R, omega, u, inertia, 1e-3)
+        R, omega = rigid_body.step(R, omega, u, inertia, 1e-3)
     np.testing.assert_allclose(np.column_stack(R), expected, atol=1e-9)
     np.testing.assert_allclose(omega, turning, atol=1e-8)
 

@@ -11,9 +11,11 @@ One file for each part of the paper; a file with a constant CLAIMS is found by b
     costs.py                 C12, C17
     representations.py       C13 to C16
     euler_jacobian.py        C18, C19
-    euler_controller.py      C20, C26
+    euler_controller.py      C20
+    controller_costs.py      C26
     force_conversion.py      C21
-    compliance.py            C22 to C24
+    compliance.py            C22, C23
+    zyz_compliance.py        C24
     contact.py               C25
     later.py                 C27
     adequacy.py              every law by the tests of C17 and C27

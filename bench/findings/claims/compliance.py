@@ -1,4 +1,4 @@
-"""C22 to C24: about which axes Euler angles comply, measured in free space (Murphy 1988, 3.3)."""
+"""C22, C23: about which axes Euler angles comply, measured in free space (Murphy 1988, 3.3)."""
 
 import math
 
@@ -14,7 +14,6 @@ from bench.findings.claims.verdict import Word, claim
 ONE_AXIS = ("about x", "about y", "about z")
 TWO_AXES = ("about x and y", "about y and z", "about z and x")
 LEVEL_PAIR = TWO_AXES[0]
-ZYZ = "zyz-euler"
 ANGLES = ("alpha", "beta", "gamma")
 EARLIER = {"about x": (1, 1, 0), "about y": (1, 0, 0), "about z": (0, 0, 0)}
 """By order, the angles that come before the one that complies."""
@@ -39,8 +38,6 @@ PLANE_RAD = 0.005
 ZERO_RAD, SLACK_DEG = 1e-9, 1e-6
 """What rounding may make of an angle that a pose is named after."""
 
-NEAR_DEG, LITTLE = 15.0, 0.5
-"""What 'near zero' is; and the share of the wanted compliance under which something is a problem."""
 
 C22 = claim(
     id="C22",
@@ -91,26 +88,6 @@ C23 = claim(
         "However, when two rotational axes are to comply to external forces, Euler angle rotations and rotations about
         two of the x, y, z axes do not correspond." Where all angles are zero they do to first order, whatever the
         coordinates, and two axes are then told apart by finite rotations only: a general pose is what is judged.
-    """,
-)
-
-C24 = claim(
-    id="C24",
-    section="3.3",
-    sentence="Z-Y-Z angles are a problem where compliance about x is wanted.",
-    question="What does a wrench probe about x see with Z-Y-Z angles at and near zero?",
-    criterion=f"""
-        wrench-probe in compliance.parquet, order 'about x', every arm and form: hybrid/zyz-euler, whose third angle is
-        taken for the turn about x, against hybrid-base. A problem: it is not done, or its rotation about x per moment
-        about x, c_xx, is less than {LITTLE:g} of that of hybrid-base. Poses: the identity, and all within
-        {NEAR_DEG:g} degrees of it. It holds if there is a problem at all of them, and none with hybrid/zyx-euler; with
-        a correction if there is a problem at some of them, or with hybrid/zyx-euler too; if there is none, it does not
-        hold. Reported: c_xx over the wanted one, and c_zx, the rotation about z, over c_xx.
-    """,
-    open="""
-        "Clearly compliance will be a problem if, for example, Z-Y-Z Euler angles are used and rotational compliance is
-        desired about the x axis." Where is not said; zero is where 2.2 has the degeneracy. No Z-Y-Z angle is one about
-        x: that the third stands for it is our choice, and with the first it would be the base's z at every orientation.
     """,
 )
 
@@ -215,46 +192,4 @@ def _leak(rows: pd.DataFrame, C: np.ndarray) -> np.ndarray:
     return np.abs(turn[:, 2] / np.sum(turn * level, axis=1))
 
 
-def c24(results):
-    """Rotation about x per moment about x with Z-Y-Z and with Z-Y-X angles, over what is wanted."""
-    zyz, zyx = (_about_x(results, coordinates) for coordinates in (ZYZ, COORDINATES))
-    at_zero = some(zyz[zyz["from_zero"] <= ZERO_RAD], f"pose of {side_by_side.PROBE} by hybrid/{ZYZ} at zero rotation")
-    near = some(zyz[zyz["from_zero"] > ZERO_RAD], f"pose of {side_by_side.PROBE} by hybrid/{ZYZ} near zero rotation")
-    if zyz["problem"].all() and not zyx["problem"].any():
-        word = Word.HOLDS
-    else:
-        word = Word.CORRECTED if zyz["problem"].any() else Word.FAILS
-    done = near[near["outcome"] == "done"]
-    astray = (done["c_zx"] / done["c_xx"]).abs()
-    return word, evidence(
-        """Z-Y-Z is a problem at {zero_k} of {zero_n} poses at zero ({ends}) and at {near_k} of {near_n} within
-        {near_deg:g} degrees: about x it yields {least:.1e} to {most:.1e} of what is wanted, and about z {astray:.1f} to
-        {farthest:.1f} times that. Z-Y-X is one at {zyx_k} of {zyx_n}, where it yields {zyx_least:.3f} or more.""",
-        len(zyz) + len(zyx),
-        ("compliance",),
-        zero_k=int(at_zero["problem"].sum()),
-        zero_n=len(at_zero),
-        ends=", ".join(sorted(set(at_zero["outcome"].astype(str)))),
-        near_k=int(near["problem"].sum()),
-        near_n=len(near),
-        near_deg=NEAR_DEG,
-        least=done["yields"].min(),
-        most=done["yields"].max(),
-        astray=astray.min(),
-        farthest=astray.max(),
-        zyx_k=int(zyx["problem"].sum()),
-        zyx_n=len(zyx),
-        zyx_least=zyx["yields"].min(),
-    )
-
-
-def _about_x(results, coordinates: str) -> pd.DataFrame:
-    """Poses near zero, order 'about x': c_xx over that of hybrid-base, and whether it is a problem."""
-    rows = side_by_side.beside_base(results, coordinates, ONE_AXIS[:1])
-    rows = rows[np.degrees(rows["from_zero"]) <= NEAR_DEG + SLACK_DEG].reset_index(drop=True)
-    C, base = side_by_side.compliances(rows), side_by_side.compliances(rows, "_base")
-    yields = C[:, 0, 0] / base[:, 0, 0]
-    return rows.assign(yields=yields, problem=~(yields >= LITTLE))
-
-
-CLAIMS = (C22.judged_by(c22), C23.judged_by(c23), C24.judged_by(c24))
+CLAIMS = (C22.judged_by(c22), C23.judged_by(c23))

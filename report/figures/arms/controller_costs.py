@@ -11,7 +11,7 @@ from textwrap import wrap
 import pandas as pd
 
 from bench.counting import STAGES
-from bench.findings.claims.euler_controller import INVERSES
+from bench.findings.claims.controller_costs import INVERSES
 from bench.tables import read
 from report.figures.arms import arm_rows
 from report.figures.cost.operations import CALLS, ink

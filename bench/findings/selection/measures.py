@@ -1,0 +1,110 @@
+"""How each criterion is measured: functions of a run's tables to one value a law and start."""
+
+from __future__ import annotations
+
+import functools
+import math
+from collections.abc import Callable
+
+import numpy as np
+
+from bench.findings.claims.adequacy import NOISE
+from bench.findings.selection.tables import Tables, by_law
+from bench.law.contender import AT_REST, Contender, Gains, Goal
+from bench.law.so3 import from_quaternion
+from tasks.sphere import axes
+
+
+def of_one_law(measure: Callable[[Tables, str], float]) -> Callable[[Tables], dict[str, np.ndarray]]:
+    """A measure from a function of one law."""
+    return lambda tables: {name: np.array([measure(tables, name)]) for name in tables.contenders}
+
+
+def over_uniform(column: str) -> Callable[[Tables], dict[str, np.ndarray]]:
+    """A column of all uniform starts; infinite where the law does not settle."""
+    return lambda tables: by_law(tables.uniform, column, math.inf)
+
+
+def worst_of_uniform(column: str) -> Callable[[Tables], dict[str, np.ndarray]]:
+    """Its largest value."""
+
+    def measure(tables):
+        return {name: np.array([values.max()]) for name, values in by_law(tables.uniform, column, math.inf).items()}
+
+    return measure
+
+
+def perturbed(axis: str, level: float, column: str) -> Callable[[Tables], dict[str, np.ndarray]]:
+    """A column at one level of a perturbation; infinite where the law does not settle."""
+
+    def measure(tables):
+        rows = tables.robustness
+        rows = rows[(rows["axis"] == axis) & (rows["level"] == level) & rows["contender"].isin(tables.contenders)]
+        return by_law(rows.sort_values("start_id", kind="stable"), column, math.inf)
+
+    return measure
+
+
+def spread(tables: Tables) -> dict[str, np.ndarray]:
+    """Slowest less fastest settling time of uniform starts [s]; infinite if one does not settle."""
+    times = by_law(tables.uniform, "settling_time_s", math.inf)
+    return {
+        name: np.array([values.max() - values.min() if np.isfinite(values).all() else math.inf])
+        for name, values in times.items()
+    }
+
+
+def longest_path(tables: Tables) -> dict[str, np.ndarray]:
+    """Longest path over the geodesic, from uniform starts and 180° rotations."""
+    half_turns = tables.directed[tables.directed["start_set"] == "half-turn"]
+    ways = [by_law(rows, "path_ratio") for rows in (tables.uniform, half_turns)]
+    return {name: np.array([np.nanmax(np.concatenate([way[name] for way in ways]))]) for name in ways[0]}
+
+
+def held_by_noise_from(tables: Tables) -> dict[str, np.ndarray]:
+    """Least noise that was tried and holds a law at some half turn; infinite if none does."""
+    rows = tables.robustness[tables.robustness["axis"] == NOISE]
+    found = {}
+    for name, own in rows[rows["contender"].isin(tables.contenders)].groupby("contender", observed=True):
+        holding = own.loc[own["lost"], "level"]
+        found[str(name)] = np.array([holding.min() if len(holding) else math.inf])
+    return found
+
+
+def memory(tables: Tables, name: str) -> float:
+    """Numbers that a law keeps from tick to tick."""
+    return float(sum(1 for _ in tables.contenders[name].regulator.memory or ()))
+
+
+BESIDE_RAD, DIRECTIONS = 1e-6, 16
+
+
+@functools.cache
+def jump(one: Contender) -> float:
+    """How far the command jumps where a body at rest is pushed through a half turn, over kp [rad].
+
+    On coordinates: not a number, for a chart of SO(3) jumps somewhere else as well. What a law remembers goes with it.
+    """
+    if one.representation is not None:
+        return math.nan
+    return max(_across(one, axis) for axis in axes(DIRECTIONS))
+
+
+def _across(one: Contender, axis: np.ndarray) -> float:
+    gains, goal = Gains(np.float64(1.0), np.float64(2.0)), Goal()
+    memory = one.regulator.memory
+    commands = []
+    with np.errstate(all="ignore"):
+        for angle in (math.pi - BESIDE_RAD, math.pi + BESIDE_RAD):
+            quat = (math.cos(angle / 2), *(math.sin(angle / 2) * axis))
+            R = from_quaternion(tuple(map(np.float64, quat)))
+            found = one.law(R, AT_REST, goal, gains, *(() if memory is None else (memory,)))
+            u, memory = (found, None) if memory is None else found
+            commands.append(np.array(u))
+    return float(np.linalg.norm(commands[1] - commands[0]))
+
+
+def lost_on_arms(tables: Tables) -> dict[str, np.ndarray]:
+    """Episodes on arms from uniform starts that do not settle [%]."""
+    lost = by_law(tables.arms[tables.arms["contender"].isin(tables.contenders)], "lost")
+    return {name: 100.0 * values for name, values in lost.items()}
