@@ -1,18 +1,26 @@
 """A user's law: the one file outside the package that holds a REGULATOR."""
 
+import ast
 import hashlib
 import re
 import sys
 import types
 from pathlib import Path
 
+from bench import law
 from bench.contenders.registry import contenders_of, known_regulators, representation
 from bench.errors import BadLaw
-from bench.law.contender import NO_MEMORY, Contender, Gains, Goal, Regulator
+from bench.law.contender import NO_MEMORY, ON_MATRIX, Contender, Gains, Goal, Regulator
+from bench.law.equation import Equation
+from bench.law.look import COLOURS, LINES, MARKERS, Look
 from bench.law.so3 import Rotation
 
 WORD = re.compile(r"[a-z0-9]+(-[a-z0-9]+)*")
 """A name as rows, file names and the command line write it."""
+
+LONGEST = 32
+SHORT = re.compile(rf"[\w ,.'-]{{0,{LONGEST}}}")
+"""What stands beside a curve; markup and formulas would break a figure."""
 
 
 def load_law(path: Path, text: bytes | None = None) -> Regulator:
@@ -41,7 +49,8 @@ def load_law(path: Path, text: bytes | None = None) -> Regulator:
         exec(compile(text, path, "exec"), module.__dict__)
     except (Exception, SystemExit) as error:
         del sys.modules[name]
-        raise BadLaw(f"--law {path}: it does not import ({type(error).__name__}: {error}); mend the file") from error
+        cure = _new_imports(text) if isinstance(error, ImportError) else "mend the file"
+        raise BadLaw(f"--law {path}: it does not import ({type(error).__name__}: {error}); {cure}") from error
     own = getattr(module, "REGULATOR", None)
     if not isinstance(own, Regulator):
         given = "no REGULATOR" if own is None else f"a REGULATOR of type {type(own).__name__}"
@@ -57,13 +66,24 @@ def load_law(path: Path, text: bytes | None = None) -> Regulator:
     return own
 
 
+def _new_imports(text: bytes) -> str:
+    """What to write in place of imports from modules of ours that are there no more."""
+    old = [
+        one
+        for one in ast.walk(ast.parse(text))
+        if isinstance(one, ast.ImportFrom) and re.match(r"bench\.(?!law\b)", one.module or "")
+    ]
+    moved = sorted({name.name for one in old for name in one.names if hasattr(law, name.name)})
+    return f"write: from bench.law import {', '.join(moved)}" if moved else "mend the file"
+
+
 TRIAL = Rotation((0.36, 0.48, -0.8), (-0.8, 0.6, 0.0), (0.48, 0.64, 0.6))
 """A rotation with short decimals, away from every singular set we know: where a law is tried once."""
 
 
 def _check_fields(own: Regulator, path: Path) -> None:
     """What the fields of a user's REGULATOR must be, before anything is made of them."""
-    on_matrix = own.coordinates == "rotation-matrix"
+    on_matrix = own.coordinates == ON_MATRIX
     needed = "law" if on_matrix else "law_in"
     memory = own.memory or ()
     coordinates = own.coordinates if isinstance(own.coordinates, tuple) else ()
@@ -77,8 +97,22 @@ def _check_fields(own: Regulator, path: Path) -> None:
             "title, source, formula and property must be texts",
         ),
         (
+            not all(isinstance(text, str) and SHORT.fullmatch(text) for text in (own.short, own.family)),
+            f"its short name and family are {_shown((own.short, own.family))}; give texts of at most {LONGEST} "
+            "letters, digits, spaces and , . ' -",
+        ),
+        (
+            not (own.look is None or (isinstance(own.look, Look) and own.look.is_known)),
+            f"its look is {_shown(own.look)}; give a bench.law.Look of a colour ({', '.join(COLOURS)}), a marker "
+            f"({' '.join(MARKERS)}) and a line ({', '.join(LINES)})",
+        ),
+        (
+            not (own.equation is None or isinstance(own.equation, Equation)),
+            f"its equation is {_shown(own.equation)}; give a bench.law.Equation(formula, spring)",
+        ),
+        (
             not (on_matrix or own.coordinates == "any" or coordinates),
-            f"its coordinates are {own.coordinates!r}; allowed: 'rotation-matrix', 'any', a tuple of names",
+            f"its coordinates are {own.coordinates!r}; allowed: '{ON_MATRIX}', 'any', a tuple of names",
         ),
         (
             not callable(getattr(own, needed)),

@@ -43,6 +43,9 @@ def law_text(*body: str) -> str:
         (law_text("return omega").replace('"mine"', '"../mine"'), "its name '../mine' is no word"),
         (law_text("return omega").replace('"mine"', "7"), "its name 7 is no word"),
         (law_text("return omega").replace('"Mine"', "7"), "title, source, formula and property must be texts"),
+        (law_text("return omega").replace("law)", "law, short='$x$')"), "its short name and family are ('$x$', '')"),
+        (law_text("return omega").replace("law)", "law, look=('red', 'o', '-'))"), "its look is ('red', 'o', '-')"),
+        (law_text("return omega").replace("law)", "law, equation=3.0)"), "give a bench.law.Equation(formula, spring)"),
         (law_text("return omega").replace('"u", law', '"u"'), "its law is None"),
         (law_text("return omega").replace('"u", law', '"u", 3.0'), "its law is 3.0"),
         (law_text("return omega").replace("law)", "law, coordinates='any')"), "its law_in is None"),
@@ -67,6 +70,20 @@ def law_text(*body: str) -> str:
 def test_law_file_is_refused_with_the_reason(capsys, finished, tmp_path, text, reason):
     line = refused_run(capsys, finished, "--law", written(tmp_path, text), *TINY)
     assert reason in line
+
+
+OLD = """
+from bench.contender import Regulator
+from bench.scalar import kernel, sqrt
+from bench.so3 import (cross,
+    dot)
+"""
+
+
+def test_imports_of_before_the_public_face_are_refused_with_the_line_to_write(capsys, finished, tmp_path):
+    line = refused_run(capsys, finished, "--law", written(tmp_path, OLD), *TINY)
+    assert "No module named 'bench.contender'" in line
+    assert line.endswith("write: from bench.law import Regulator, cross, dot, kernel, sqrt")
 
 
 def test_missing_law_file_is_refused(capsys, finished, tmp_path):
