@@ -1,32 +1,16 @@
 """A law file that cannot be used: one line with the reason, exit code 2, nothing touched."""
 
-
 import pytest
 from support.command_line import TINY, bench, refused_run
+from support.user_law import law_text
 
 from bench.tables import store
-
-LAW = """
-import math
-from bench.law.contender import Regulator
-from bench.law.scalar import kernel, sqrt
-
-@kernel
-def law(R, omega, goal, gains):
-    {body}
-
-REGULATOR = Regulator("mine", "Mine", "none", "u", law)
-"""
 
 
 def written(tmp_path, text: str):
     path = tmp_path / "own.py"
     path.write_text(text)
     return path
-
-
-def law_text(*body: str) -> str:
-    return LAW.replace("{body}", "\n    ".join(body))
 
 
 @pytest.mark.parametrize(

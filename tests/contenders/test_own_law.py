@@ -7,6 +7,7 @@ import pytest
 from support.bits import different_rows
 from support.command_line import bench
 from support.driving import settings, spread
+from support.user_law import spring_text
 
 from bench.contenders.law_file import load_law
 from bench.contenders.registry import contenders_of
@@ -24,30 +25,15 @@ README = (ROOT / "README.md").read_text()
 EXAMPLE = next(code for code in re.findall(r"```python\n(.*?)```", README, re.DOTALL) if "REGULATOR" in code)
 METRICS = metrics_of(on_arm=False)
 
-LAW = """
-import math
-from bench.law.contender import Regulator
-from bench.law.scalar import kernel
-
-@kernel
-def law(R, omega, goal, gains{memory}):
-    x = 0.5 * gains.kp * (R.o[2] - R.a[1]) + gains.kv * omega[0]
-    y = 0.5 * gains.kp * (R.a[0] - R.n[2]) + gains.kv * omega[1]
-    z = 0.5 * gains.kp * (R.n[1] - R.o[0]) + gains.kv * omega[2]
-    {body}
-    return (-x, -y, -z){memory}
-
-REGULATOR = Regulator("mine", "Mine", "none", "u", law, memory={initial})
-"""
-
 
 def contender(folder, *body: str, remembers: bool = False):
     """The rotation-matrix law to the identity, with `body` before its return."""
-    text = LAW.replace("{body}", "\n    ".join(body) or "pass").replace("{memory}", ", memory" if remembers else "")
+    text = spring_text(*body)
     if remembers:
-        text = text.replace("return (-x, -y, -z), memory", "return ((-x, -y, -z), memory)")
+        text = text.replace("gains):", "gains, memory):").replace("return (-x, -y, -z)", "return (-x, -y, -z), memory")
+        text = text.replace("law)\n", "law, memory=(0.0, 1.0, 2.0, 3.0))\n")
     path = folder / "own.py"
-    path.write_text(text.replace("{initial}", "(0.0, 1.0, 2.0, 3.0)" if remembers else "None"))
+    path.write_text(text)
     [one] = contenders_of(load_law(path))
     return one
 

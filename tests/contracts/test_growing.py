@@ -30,8 +30,7 @@ REPRESENTATION = zyx_euler.REPRESENTATION._replace(name="dropped-coordinates", t
     "bench/contenders/regulators/dropped_regulator.py": '''
 """Damping, and a spring on the first coordinate."""
 
-from bench.law.contender import Regulator
-from bench.law.scalar import kernel
+from bench.law import Regulator, kernel
 
 
 def law_in(representation):
@@ -60,8 +59,8 @@ REGULATOR = Regulator(
     "bench/metrics/motion/dropped_metric.py": '''
 """Ticks with a command: all of them."""
 
+from bench.law import kernel
 from bench.metrics.metric import Metric
-from bench.law.scalar import kernel
 
 
 @kernel

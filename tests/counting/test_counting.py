@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from support.user_law import law_text
 
 from bench.contenders.law_file import load_law
 from bench.contenders.registry import contenders_of, find_contender
@@ -299,13 +300,6 @@ def test_law_with_memory_is_typical_once_its_memory_is_its_own():
 
 def test_law_of_a_user_is_counted(tmp_path):
     path = tmp_path / "mine.py"
-    path.write_text(
-        "from bench.law.contender import Regulator\n"
-        "from bench.law.scalar import kernel, sqrt\n"
-        "@kernel\n"
-        "def law(R, omega, goal, gains):\n"
-        "    return (-gains.kv * omega[0], sqrt(omega[1] * omega[1]), -omega[2])\n"
-        'REGULATOR = Regulator(name="mine", title="", source="", formula="", law=law)\n'
-    )
+    path.write_text(law_text("return (-gains.kv * omega[0], sqrt(omega[1] * omega[1]), -omega[2])"))
     [one] = contenders_of(load_law(path))
     assert {name: n for name, n in cost(one).typical.of(TOTAL).items() if n} == {"mul": 2, "sqrt": 1}

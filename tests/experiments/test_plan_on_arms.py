@@ -5,6 +5,7 @@ import dataclasses
 import pytest
 from support.command_line import bench, refused
 from support.on_arms import ARMS, LAWS
+from support.user_law import spring_text
 
 import tasks
 from bench.contenders import combinations
@@ -18,25 +19,11 @@ from bench.law.contender import refusal
 ON_BOTH = ("ur5e", "panda")  # six joints and seven: nothing else of an arm decides what goes together
 SHORT = ("run", "--dry-run", "--suite", "quick", "--task", "arm-regulation", "--starts", "clear", "--count", "2")
 
-OWN = """
-from bench.law.contender import Regulator
-from bench.law.scalar import kernel
-
-@kernel
-def law(R, omega, goal, gains):
-    x = 0.5 * gains.kp * (R.o[2] - R.a[1]) + gains.kv * omega[0]
-    y = 0.5 * gains.kp * (R.a[0] - R.n[2]) + gains.kv * omega[1]
-    z = 0.5 * gains.kp * (R.n[1] - R.o[0]) + gains.kv * omega[2]
-    return (-x, -y, -z)
-
-REGULATOR = Regulator("mine", "Mine", "none", "u", law)
-"""
-
 
 @pytest.fixture
 def own(tmp_path):
     path = tmp_path / "mine.py"
-    path.write_text(OWN)
+    path.write_text(spring_text())
     return path
 
 

@@ -4,24 +4,14 @@ import contextlib
 import subprocess
 
 import pytest
+from support.user_law import DAMPER, law_text
 
 from bench.cli import main
 from bench.errors import BadResults
 from bench.regression.revisions import comparison, gates, sides, summary
 from bench.regression.revisions.process import SideFailed
 
-LAW = """
-from bench.law.contender import Regulator
-from bench.law.scalar import kernel
-
-
-@kernel
-def law(R, omega, goal, gains):
-    return (-gains.kv * omega[0], -gains.kv * omega[1], -gains.kv * omega[2])
-
-
-REGULATOR = Regulator("braking", "Braking", "", "u", law=law)
-"""
+LAW = law_text(DAMPER, name="braking")
 AS_NOBODY = ("-c", "user.name=nobody", "-c", "user.email=nobody@example.org", "-c", "commit.gpgsign=false")
 
 

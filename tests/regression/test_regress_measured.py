@@ -3,6 +3,7 @@
 import shutil
 
 import pytest
+from support.user_law import law_text
 
 from bench.errors import MissingTool
 from bench.provenance import ROOT
@@ -10,25 +11,12 @@ from bench.regression.revisions import instructions, own
 from bench.regression.revisions.measured import Wanted, measured
 from bench.regression.revisions.process import Laws, SideFailed, running
 
-LAW = """
-from bench.law.contender import Regulator
-from bench.law.scalar import kernel
-
-
-@kernel
-def law(R, omega, goal, gains):
-    x = gains.kp * (goal.R.o[2] - R.o[2]){more}
-    return (x - gains.kv * omega[0], -gains.kv * omega[1], -gains.kv * omega[2])
-
-
-REGULATOR = Regulator("tilted", "Tilted", "", "u", law=law)
-"""
-
 
 def side(folder, name, more):
     """A side that has nothing but one law of a user's."""
     file = folder / f"{name}.py"
-    file.write_text(LAW.format(more=more))
+    x = f"gains.kp * (goal.R.o[2] - R.o[2]){more} - gains.kv * omega[0]"
+    file.write_text(law_text(f"return ({x}, -gains.kv * omega[1], -gains.kv * omega[2])", name="tilted"))
     return ROOT, Laws((file,), only=True, engines=False)
 
 

@@ -8,8 +8,9 @@ from pathlib import Path
 
 import pandas as pd
 import pytest
-from support.breaking_laws import LAW, plan_of, plan_of_laws
+from support.breaking_laws import plan_of, plan_of_laws
 from support.command_line import bench, refused
+from support.user_law import spring_text
 
 from bench.cli import options
 from bench.contenders.law_file import load_law
@@ -101,7 +102,7 @@ def test_unit_gives_up_after_some_lost_episodes(tmp_path, monkeypatch):
 
 def test_law_that_hangs_in_trouble_loses_the_whole_unit(tmp_path):
     path = tmp_path / "own.py"
-    path.write_text(LAW.replace("{body}", "while R.n[0] < -0.1: x = x + 1e-9").replace("{name}", "mine"))
+    path.write_text(spring_text("while R.n[0] < -0.1: x = x + 1e-9"))
     plan = planning.make("quick", contenders_of(load_law(path)), Choice(axes=("delay",)), count=3, horizon_s=0.05)
     run.run(plan, tmp_path / "run", workers=1, law_limit_s=LIMIT_S)
     rows = store.read(tmp_path / "run", "robustness")

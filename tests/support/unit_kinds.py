@@ -7,25 +7,13 @@ from bench.contenders.law_file import load_law
 from bench.contenders.registry import find_contender
 from bench.experiments import plan
 from bench.experiments.choice import Choice
-
-OWN = """
-from bench.law.contender import Regulator
-from bench.law.scalar import kernel
-
-
-@kernel
-def law(R, omega, goal, gains):
-    return (-gains.kv * omega[0], -gains.kv * omega[1], -gains.kv * omega[2])
-
-
-REGULATOR = Regulator("mine", "Mine", "none", "u", law)
-"""
+from support.user_law import DAMPER, law_text
 
 
 def plan_of_all_kinds(folder: Path) -> plan.Plan:
     """Units on the free body, an arm, in contact and in trouble; one of a user's law, whose file is in the folder."""
     path = folder / "mine.py"
-    path.write_text(OWN)
+    path.write_text(law_text(DAMPER))
     ours = find_contender("rotation-matrix")
     laws, short = [ours, find_contender("mine", (load_law(path),))], {"count": 2, "horizon_s": 0.05}
     alone = plan.make("quick", laws, Choice(start_sets=("paper",), engines=("ideal-rk4",)), **short)

@@ -22,7 +22,7 @@ from report.figures.method import origin
 EVIL = """
 from pathlib import Path
 Path({marker!r}).write_text("ran")
-from bench.law.contender import Regulator
+from bench.law import Regulator
 REGULATOR = Regulator("evil-law", "Evil <b>law</b>", "s", "f", lambda R, omega, goal, gains: (0.0, 0.0, 0.0))
 # </pre><script>alert(1)</script>
 """

@@ -8,6 +8,7 @@ import sys
 
 import pytest
 from support.command_line import TINY, bench, digest, refused
+from support.user_law import law_text
 
 from bench.provenance import ROOT
 from bench.tables import lock
@@ -63,11 +64,7 @@ def test_folder_that_cannot_be_locked_is_used_and_said_so(finished, monkeypatch,
 
 def test_refused_run_leaves_no_empty_folder(capsys, tmp_path):
     law = tmp_path / "own.py"
-    law.write_text(
-        "from bench.law.contender import Regulator\nfrom bench.law.scalar import kernel\n@kernel\n"
-        "def law(R, omega, goal, gains):\n    return (float(str(omega[0])), 0.0, 0.0)\n"
-        'REGULATOR = Regulator("mine", "Mine", "none", "u", law)\n'
-    )
+    law.write_text(law_text("return (float(str(omega[0])), 0.0, 0.0)"))
     words = ("--law", law, "--regulator", "mine", "--starts", "paper", "--engine", "ideal-rk4")
     assert "cannot be compiled" in refused(capsys, "run", *words, "--out", tmp_path / "new")
     assert not (tmp_path / "new").exists()

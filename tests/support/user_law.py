@@ -1,0 +1,28 @@
+"""The text of a user's law: what tests write into a file and name with --law."""
+
+LAW = """
+import math, os, sys, time
+from bench.law import Regulator, kernel, sqrt
+
+@kernel
+def law(R, omega, goal, gains):
+    {body}
+
+REGULATOR = Regulator("{name}", "Mine", "none", "u", law)
+"""
+DAMPER = "return (-gains.kv * omega[0], -gains.kv * omega[1], -gains.kv * omega[2])"
+SPRING = (
+    "x = 0.5 * gains.kp * (R.o[2] - R.a[1]) + gains.kv * omega[0]",
+    "y = 0.5 * gains.kp * (R.a[0] - R.n[2]) + gains.kv * omega[1]",
+    "z = 0.5 * gains.kp * (R.n[1] - R.o[0]) + gains.kv * omega[2]",
+)
+
+
+def law_text(*body: str, name: str = "mine") -> str:
+    """A law of these lines."""
+    return LAW.replace("{body}", "\n    ".join(body)).replace("{name}", name)
+
+
+def spring_text(*before: str, name: str = "mine") -> str:
+    """The rotation-matrix law to the identity, with these lines before its return."""
+    return law_text(*SPRING, *before, "return (-x, -y, -z)", name=name)
