@@ -21,8 +21,9 @@ from bench.running import run
 from bench.tables import read
 from report.figures.failures import boundary_map, corners, failure_ball, failure_map, failure_tables
 from report.figures.kit import style
+from report.figures.kit.page import run_in
 from report.figures.kit.share import share
-from report.figures.responses import findings, hero, responses, settling_angle, settling_decades
+from report.figures.responses import findings, hero, responses, settling_angle, settling_decades, settling_time
 
 STARTS = ("uniform", "half-turn", "poles", "wraps", "box", "paper")
 FIGURES = {
@@ -106,7 +107,7 @@ def test_findings_of_every_page_are_numbers():
     pages = (
         findings.front(episodes, costs),
         findings.responding(paper, episodes[episodes["start_set"] == "paper"], ("2.3", "2.4", "2.5")),
-        findings.settling(episodes),
+        settling_time.facts(run_in(read.folder())),
         findings.failing(episodes, read.boundaries()),
     )
     for values in pages:
@@ -125,8 +126,9 @@ def test_exact_points_are_where_the_laws_are_known_to_fail():
 def test_tables_have_a_row_for_each_law():
     assert len(failure_tables.shares(read.episodes())) == 6
     assert len(failure_tables.nearest(read.boundaries(), ideal())) == 3
-    assert len(settling_decades.slopes(read.episodes(start_set="half-turn", regulator="rotation-matrix"))) == 2
-    assert set(settling_angle.times(ideal("uniform"))["Law"].str.contains("Euler")) == {True, False}
+    shown = settling_time.tables(run_in(read.folder()))
+    assert len(shown["tab_slopes"].splitlines()) == 2 + 2
+    assert {"Euler" in row for row in shown["tab_times"].splitlines()[2:]} == {True, False}
 
 
 def test_response_bends_are_nothing_under_feedback_linearization():

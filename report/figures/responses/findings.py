@@ -3,14 +3,12 @@
 import numpy as np
 import pandas as pd
 
-from bench.findings.theory import closed_form
 from report.figures.failures.failure_tables import EXACT_RAD
 from report.figures.kit import html
+from report.figures.kit.rows import FEEDBACK, LINEARIZED, MATRIX, SHORT, lost, of
 from report.figures.kit.share import share
-from report.figures.responses import responses, settling_angle, settling_decades
+from report.figures.responses import responses, settling_decades
 
-MATRIX, LINEARIZED, FEEDBACK = "rotation-matrix", "linearized-euler/zyx-euler", "feedback-linearized/zyx-euler"
-SHORT = {"m": MATRIX, "l": LINEARIZED, "f": FEEDBACK}
 CALLS = ["sin", "cos", "atan2", "acos"]
 
 
@@ -20,16 +18,6 @@ def glue_all(values: dict) -> None:
 
     for key, value in values.items():
         glue(key, html.cell(value), display=False)
-
-
-def of(frame: pd.DataFrame, contender: str, start_set: str = "uniform") -> pd.DataFrame:
-    """Rows of one law and start set."""
-    return frame[(frame["contender"] == contender) & (frame["start_set"] == start_set)]
-
-
-def lost(rows: pd.DataFrame) -> pd.DataFrame:
-    """Those that did not settle."""
-    return rows[rows["outcome"] != "settled"]
 
 
 def exact_half_turns(episodes: pd.DataFrame) -> pd.DataFrame:
@@ -78,39 +66,6 @@ def responding(traces: pd.DataFrame, episodes: pd.DataFrame, figures: tuple[str,
         values |= {f"{angle}_{end}": float(rows[f"{angle}0"].iloc[0]) for angle in ("alpha", "beta", "gamma")}
         values[f"peak_{end}"] = f"{responses.highest_deg(traces, start, FEEDBACK):.0f}"
         values[f"first_{end}"] = f"{responses.first_deg(traces, start):.0f}"
-    return values
-
-
-def settling(episodes: pd.DataFrame) -> dict:
-    """Of the settling times; episodes of one engine."""
-    kp, kv, tolerance, tick = (float(episodes[name].iloc[0]) for name in ("kp", "kv", "tolerance", "dt_s"))
-    half, exact = of(episodes, MATRIX, "half-turn"), exact_half_turns(episodes)
-    near = half[settling_decades.decade(half["start_id"]).notna()]
-    late = settling_angle.late_ms(of(episodes, MATRIX), kp, kv, tolerance)
-    values = {
-        "kp": kp,
-        "kv": kv,
-        "band": f"{100 * tolerance:g}",
-        "tick": f"{1000 * tick:g}",
-        "rtol": f"{closed_form.TIGHT['rtol']:.0e}",
-        "linear": f"{closed_form.linear_settling(kp, kv, tolerance):.4f}",
-        "n": len(late),
-        "early": f"{late.min():.2f}",
-        "late": f"{late.max():.2f}",
-        "slope": f"{settling_decades.slope(half):.4f}",
-        "theory": f"{closed_form.decade_slope(kp, kv):.4f}",
-        "near": len(near),
-        "closest": f"{10.0 ** -settling_decades.decade(near['start_id']).max():.0e}",
-        "longest": f"{near['settling_time_s'].max():.2f}",
-        "exact": len(exact),
-        "stuck": int((exact["outcome"] == "stuck").sum()),
-        "horizon": float(exact["horizon_s"].max()),
-        "first_k": settling_decades.FITTED[0],
-        "last_k": settling_decades.FITTED[1],
-    }
-    for letter, name in SHORT.items():
-        times = of(episodes, name)["settling_time_s"]
-        values |= {f"median_{letter}": f"{times.median():.3f}", f"worst_{letter}": f"{times.max():.3f}"}
     return values
 
 

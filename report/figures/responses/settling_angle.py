@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 
 from bench.findings.theory import closed_form
-from report.figures.kit import html, laws, style
+from report.figures.kit import laws, style
 from report.figures.kit.dots import dots
 from report.figures.kit.inline import responsive_picture
 
@@ -94,25 +94,3 @@ def _residual(axes, rows: pd.DataFrame, kp: float, kv: float, tolerance: float, 
     axes.set_ylim(low - 0.2 * (high - low), high + 0.2 * (high - low))
     span = f"{late.min():.2f} to {late.max():.2f} ms"
     return f" The rotation-matrix law is {span} later than its closed form ({len(rows)} starts)."
-
-
-def times(episodes: pd.DataFrame, width_deg: float = 30) -> pd.DataFrame:
-    """Angle and law: starts, share that settles, quantiles of settling time; the rows of a table on a page."""
-    parts = []
-    for place, (name, title, rows) in enumerate(laws.each(episodes)):
-        table = by_angle(rows, width_deg)
-        parts.append(
-            pd.DataFrame(
-                {
-                    "Angle [deg]": [f"{a - width_deg / 2:.0f} to {a + width_deg / 2:.0f}" for a in table["angle"]],
-                    "Law": html.law(name, title),
-                    "Starts": table["starts"],
-                    "Settled [%]": 100.0 * table["settled"],
-                    "5 %": table["low"],
-                    "Median [s]": table["median"],
-                    "95 %": table["high"],
-                    "order": table["angle"] * len(laws.TITLES) + place,
-                }
-            )
-        )
-    return pd.concat(parts).sort_values("order").drop(columns="order").reset_index(drop=True)

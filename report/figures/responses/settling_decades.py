@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 
 from bench.findings.theory import closed_form
-from report.figures.kit import html, style
+from report.figures.kit import style
 from report.figures.kit.inline import responsive_picture
 
 DECADE = re.compile(r"-k(\d+)$")
@@ -19,6 +19,12 @@ RAIL, NEVER, CEILING = 8.6, 9.6, 10.6  # [s]: where exact half turns, which have
 def decade(start_ids: pd.Series) -> pd.Series:
     """k of a start of the set half-turn at pi - 10^-k; missing for the exact ones."""
     return start_ids.astype(str).str.extract(DECADE, expand=False).astype(float)
+
+
+def near_and_exact(rows: pd.DataFrame) -> tuple[pd.DataFrame, pd.DataFrame]:
+    """Rows of the set half-turn: those at a distance from one, and those exactly on one."""
+    is_near = decade(rows["start_id"]).notna()
+    return rows[is_near], rows[~is_near]
 
 
 def slope(rows: pd.DataFrame) -> float:
@@ -39,7 +45,7 @@ def decades(episodes: pd.DataFrame, narrow: bool):
     kp, kv, tolerance = (float(episodes[name].iloc[0]) for name in ("kp", "kv", "tolerance"))
     look = style.look("rotation-matrix")
     k = decade(episodes["start_id"])
-    near, exact = episodes[k.notna()], episodes[k.isna()]
+    near, exact = near_and_exact(episodes)
     theory = np.arange(0.0, k.max() + 0.01, 0.25)
     times = closed_form.settling_curve(kp, kv, tolerance)(10.0**-theory)
     axes.plot(theory, times, color=style.INK, linewidth=0.9, zorder=1)
@@ -85,25 +91,3 @@ def _exact(axes, at: float, stuck: pd.DataFrame, left: pd.DataFrame, look) -> No
     axes.text(
         at - 0.9, NEVER, f"{len(stuck)} exact half turns stay", ha="right", va="center", fontsize=9.5, color=style.INK
     )
-
-
-def slopes(episodes: pd.DataFrame) -> pd.DataFrame:
-    """Engine: measured slope beside the closed form, and what became of exact half turns."""
-    rows = []
-    for engine, part in episodes.groupby("engine", observed=True, sort=False):
-        k = decade(part["start_id"])
-        theory = closed_form.decade_slope(float(part["kp"].iloc[0]), float(part["kv"].iloc[0]))
-        found, exact = slope(part), part[k.isna()]
-        rows.append(
-            {
-                "Engine": html.together(engine),
-                "Starts fitted": int(k.between(*FITTED).sum()),
-                "Slope [s/decade]": found,
-                "Closed form": theory,
-                "Difference [%]": 100.0 * (found / theory - 1.0),
-                "Exact half turns": len(exact),
-                "of which settle": int((exact["outcome"] == "settled").sum()),
-                "Horizon [s]": float(part["horizon_s"].max()),
-            }
-        )
-    return pd.DataFrame(rows)

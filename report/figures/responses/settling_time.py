@@ -1,0 +1,115 @@
+"""What the page on settling times shows: the three laws by angle, and the rotation matrix towards the half turn."""
+
+import functools
+
+import pandas as pd
+
+from bench.findings.theory import closed_form
+from report.figures.kit import html, laws
+from report.figures.kit.page import Run
+from report.figures.kit.rows import MATRIX, SHORT, of
+from report.figures.kit.tables import Table
+from report.figures.responses import settling_angle, settling_decades
+
+BIN_DEG = 30
+TIMES = Table(
+    {"Angle [deg]": "", "Law": "", "Starts": "", "Settled [%]": ".1f", "5 %": ".3f", "Median [s]": ".3f", "95 %": ".3f"}
+)
+SLOPES = Table(
+    {
+        "Engine": "",
+        "Starts fitted": "",
+        "Slope [s/decade]": ".4f",
+        "Closed form": ".4f",
+        "Difference [%]": "+.3f",
+        "Exact half turns": "",
+        "of which settle": "",
+        "Horizon [s]": "",
+    }
+)
+
+
+@functools.cache
+def continuous(run: Run) -> pd.DataFrame:
+    """Episodes on the continuous plant."""
+    return run.rows("episodes", engine="ideal-rk4")
+
+
+def facts(run: Run) -> dict:
+    """Settling near zero, against the angle by law, and towards the half turn."""
+    episodes = continuous(run)
+    kp, kv, tolerance, tick = (float(episodes[name].iloc[0]) for name in ("kp", "kv", "tolerance", "dt_s"))
+    near, exact = settling_decades.near_and_exact(of(episodes, MATRIX, "half-turn"))
+    late = settling_angle.late_ms(of(episodes, MATRIX), kp, kv, tolerance)
+    values = {
+        "kp": kp,
+        "kv": kv,
+        "band": f"{100 * tolerance:g}",
+        "tick": f"{1000 * tick:g}",
+        "rtol": f"{closed_form.TIGHT['rtol']:.0e}",
+        "linear": f"{closed_form.linear_settling(kp, kv, tolerance):.4f}",
+        "n": len(late),
+        "early": f"{late.min():.2f}",
+        "late": f"{late.max():.2f}",
+        "slope": f"{settling_decades.slope(near):.4f}",
+        "theory": f"{closed_form.decade_slope(kp, kv):.4f}",
+        "near": len(near),
+        "closest": f"{10.0 ** -settling_decades.decade(near['start_id']).max():.0e}",
+        "longest": f"{near['settling_time_s'].max():.2f}",
+        "exact": len(exact),
+        "stuck": int((exact["outcome"] == "stuck").sum()),
+        "horizon": float(exact["horizon_s"].max()),
+        "first_k": settling_decades.FITTED[0],
+        "last_k": settling_decades.FITTED[1],
+    }
+    for letter, name in SHORT.items():
+        times = of(episodes, name)["settling_time_s"]
+        values |= {f"median_{letter}": f"{times.median():.3f}", f"worst_{letter}": f"{times.max():.3f}"}
+    return values
+
+
+def tables(run: Run) -> dict:
+    """By angle and law; the slope by engine."""
+    half = run.rows("episodes", task="free-body", start_set="half-turn", regulator="rotation-matrix")
+    engines = half.groupby("engine", observed=True, sort=False)
+    return {
+        "tab_times": TIMES(times(continuous(run))),
+        "tab_slopes": SLOPES(slope_on(engine, part) for engine, part in engines),
+    }
+
+
+def figures(run: Run) -> dict:
+    """Against the angle; against the distance from the half turn."""
+    episodes = continuous(run)
+    return {
+        "settling-angle": settling_angle.bands(episodes[episodes["start_set"] == "uniform"]),
+        "settling-decades": settling_decades.decades(of(episodes, MATRIX, "half-turn")),
+    }
+
+
+def times(episodes: pd.DataFrame) -> list[tuple]:
+    """Angle by angle the laws: starts, share that settles, quantiles of settling time."""
+    rows = []
+    for place, (name, title, _) in enumerate(laws.each(episodes)):
+        for one in settling_angle.by_angle(of(episodes, name), BIN_DEG).itertuples():
+            angles = f"{one.angle - BIN_DEG / 2:.0f} to {one.angle + BIN_DEG / 2:.0f}"
+            row = (angles, html.law(name, title), one.starts, 100.0 * one.settled, one.low, one.median, one.high)
+            rows.append((one.angle, place, row))
+    return [row for _, _, row in sorted(rows, key=lambda each: each[:2])]
+
+
+def slope_on(engine: str, rows: pd.DataFrame) -> tuple:
+    """An engine's measured slope beside the closed form, and what became of exact half turns."""
+    near, exact = settling_decades.near_and_exact(rows)
+    theory = closed_form.decade_slope(float(rows["kp"].iloc[0]), float(rows["kv"].iloc[0]))
+    found = settling_decades.slope(near)
+    return (
+        html.together(engine),
+        int(settling_decades.decade(near["start_id"]).between(*settling_decades.FITTED).sum()),
+        found,
+        theory,
+        100.0 * (found / theory - 1.0),
+        len(exact),
+        int((exact["outcome"] == "settled").sum()),
+        float(rows["horizon_s"].max()),
+    )
