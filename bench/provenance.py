@@ -13,7 +13,8 @@ ROOT = Path(__file__).resolve().parents[1]
 DECIDING = (
     *("tasks", "bench/errors.py", "bench/law", "bench/contenders", "bench/control", "bench/engines"),
     *("bench/metrics", "bench/counting", "bench/experiments", "bench/running"),
-    *("bench/tables/schema.py", "bench/tables/store.py", "bench/tables/kept_costs.py"),
+    *("bench/tables/column.py", "bench/tables/motion_columns.py", "bench/tables/other_columns.py"),
+    *("bench/tables/schema.py", "bench/tables/files.py", "bench/tables/store.py", "bench/tables/kept_costs.py"),
 )
 """What numbers of a run depend on; everything else only reads results, or is measured and kept apart from them."""
 VERSIONED = ("mujoco", "dm-control", "numpy", "scipy", "numba", "llvmlite", "pandas", "pyarrow")

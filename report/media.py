@@ -62,26 +62,26 @@ def motions() -> list[Motion]:
     import tasks
     from bench.engines.curve import ARM_NUMBERS, blank_curves
     from bench.engines.run_arm import run, run_native
-    from bench.experiments.plan import Plan, Unit
-    from bench.experiments.rows import frame, settings_of
-    from bench.experiments.suites import ON_ARM
+    from bench.experiments.experiment import Settings, Unit
+    from bench.experiments.rows.episodes import frame
+    from bench.experiments.suites import NOMINAL, ON_ARM
     from bench.findings.claims.arm_probes import controller
     from bench.metrics.registry import metrics_of
 
     start = next(one for one in tasks.start_set(START_SET, None, SEED, arm=ARM) if one.id == START)
-    metrics, joints = metrics_of(on_arm=True), tasks.arm(ARM).joints
+    metrics, joints, settings = metrics_of(on_arm=True), tasks.arm(ARM).joints, Settings("media")
     found = []
     for word, title in CONTENDERS.items():
         one = controller(word)
-        plan, unit = Plan("media", (), (one,)), Unit("native", one.name, TASK, START_SET, 0, 1, 1, ON_ARM, ARM)
-        judged = run("native", one, TASK, ARM, [start], settings_of(plan, ON_ARM), metrics)
-        curves = blank_curves(1, round(LOOP_S / plan.dt_s), numbers=ARM_NUMBERS)
-        run_native(one, TASK, ARM, [start], settings_of(plan, LOOP_S), metrics, curves)
+        unit = Unit("arm", one.name, TASK, ARM, "native", START_SET, NOMINAL, count=1, horizon_s=ON_ARM)
+        judged = run("native", one, TASK, ARM, [start], settings.limits(ON_ARM), metrics)
+        curves = blank_curves(1, round(LOOP_S / settings.dt_s), numbers=ARM_NUMBERS)
+        run_native(one, TASK, ARM, [start], settings.limits(LOOP_S), metrics, curves)
         [ticks] = curves.samples
         first = ARM_NUMBERS.index("q_1")
         q = ticks[~np.isnan(ticks[:, 0]), first : first + joints].tolist()
-        row = frame(plan, unit, one, [start], judged, metrics).iloc[0].to_dict()
-        found.append(Motion(one.name, title, plan.dt_s, q, row))
+        row = frame(settings, unit, one, [start], judged, metrics).iloc[0].to_dict()
+        found.append(Motion(one.name, title, settings.dt_s, q, row))
     return found
 
 

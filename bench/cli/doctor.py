@@ -77,15 +77,13 @@ def _engines() -> str:
     import tasks
     from bench.contenders.registry import papers_laws
     from bench.engines.run import run
-    from bench.experiments.plan import Plan
-    from bench.experiments.rows import settings_of
+    from bench.experiments.experiment import Settings
     from bench.metrics.registry import metrics_of
 
     law = papers_laws()[0]
-    plan = Plan("doctor", (), (law,))
     metrics = metrics_of(on_arm=False)
     starts = tasks.start_set("paper")[:1]
-    settings = settings_of(plan, 0.05)
+    settings = Settings().limits(0.05)
     both = [run(engine, law, "free-body", starts, settings, metrics) for engine in ("reference", "native")]
     if both[0].tobytes() != both[1].tobytes():
         raise RuntimeError(f"the compiled engine and the dm_control loop differ. Cure: {CURE_INSTALL}")
@@ -97,8 +95,7 @@ def _arms() -> str:
     from bench.contenders import combinations
     from bench.contenders.registry import all_contenders
     from bench.engines.run_arm import run
-    from bench.experiments.plan import Plan
-    from bench.experiments.rows import settings_of
+    from bench.experiments.experiment import Settings
     from bench.metrics.registry import metrics_of
     from tasks.arm import arms
     from tasks.base import BadArm
@@ -110,7 +107,7 @@ def _arms() -> str:
     arm = next((one for one in found if one.name == "ur5e"), found[0])
     laws = {one.name: one for one in all_contenders()}
     [law] = combinations.on((f"{combinations.RESOLVED}+standard",), laws, arm.joints)
-    metrics, settings = metrics_of(on_arm=True), settings_of(Plan("doctor", (), (law,)), 0.05)
+    metrics, settings = metrics_of(on_arm=True), Settings().limits(0.05)
     starts = tasks.start_set("clear", 1, arm=arm.name)
     both = [
         run(engine, law, "arm-regulation", arm.name, starts, settings, metrics) for engine in ("reference", "native")
@@ -124,7 +121,7 @@ def _contact() -> str:
     import tasks
     from bench.control.registry import find_compliant
     from bench.engines.run_contact import run
-    from bench.experiments.contact_plan import can_do
+    from bench.experiments.contact import can_do
     from tasks.arm import arms
     from tasks.base import BadArm
 

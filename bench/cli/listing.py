@@ -18,7 +18,8 @@ from bench.contenders.registry import (
 from bench.control.contact_controller import HYBRIDS
 from bench.control.registry import all_compliants
 from bench.errors import UnknownWord
-from bench.experiments.contact_plan import can_do
+from bench.experiments.contact import can_do
+from bench.experiments.experiment import known_experiments
 from bench.metrics.registry import known_contact_metrics, known_metrics
 from tasks.arm import arms
 from tasks.base import BadArm
@@ -31,7 +32,7 @@ def COMMAND(kind, laws):
     """What there is to run, of one kind or of all.
 
     Kinds: regulators, representations, jacobians, inverses, controllers, impedances, metrics, tasks, arms, variations,
-    axes, starts, engines, suites, claims. A file of an arm that cannot be used is listed with the reason.
+    axes, starts, engines, suites, experiments, claims. A file of an arm that cannot be used is listed with the reason.
     """
     own = options.own_laws(laws)
     if kind is not None and kind not in _TABLES:
@@ -185,6 +186,11 @@ def _suites(own):
     return _table("Suites", columns, map(row, SUITES.values()))
 
 
+def _experiments(own):
+    rows = ((one.name, f"{one.table.name}.parquet", one.title) for one in known_experiments().values())
+    return _table("Experiments", ("name", "table", "title"), rows)
+
+
 def _claims(own):
     from bench.findings import claims
 
@@ -206,5 +212,6 @@ _TABLES = {
     "starts": _starts,
     "engines": _engines,
     "suites": _suites,
+    "experiments": _experiments,
     "claims": _claims,
 }

@@ -9,7 +9,7 @@ from bench.cli import options
 from bench.cli.screen import console, episode_progress
 from bench.experiments import plan as planning
 from bench.experiments.choice import Choice, check_workers
-from bench.experiments.plan import IN_CONTACT, WITHOUT
+from bench.experiments.experiment import IN_CONTACT, WITHOUT
 from bench.experiments.suites import NOMINAL
 from bench.law.contender import Gains
 from bench.running.schedulers.words import THREADS, check_scheduler
@@ -60,6 +60,7 @@ trouble: robustness.parquet.
 @click.option(
     "--axis", "axes", multiple=True, metavar="NAME", help="Only along this axis of trouble, as delay; repeatable."
 )
+@click.option("--experiment", "experiments", multiple=True, metavar="NAME", help="Only this experiment; repeatable.")
 @click.option("--starts", multiple=True, metavar="NAME", help="Only this start set; repeatable.")
 @click.option("--engine", "engines", multiple=True, metavar="NAME", help="Only this engine; repeatable.")
 @click.option(
@@ -97,8 +98,8 @@ trouble: robustness.parquet.
 @click.option("--dry-run", is_flag=True, help="Print the plan and its size; run nothing.")
 def COMMAND(
     suite, laws, regulators, representations, controllers, tasks, arms, jacobians, inverses, variations, axes,
-    starts, engines, count, dt_s, horizon_s, kp, kv, integrator, seed, workers, scheduler, out, law_limit, replace,
-    dry_run,
+    experiments, starts, engines, count, dt_s, horizon_s, kp, kv, integrator, seed, workers, scheduler, out, law_limit,
+    replace, dry_run,
 ):  # fmt: skip
     """Run a suite and store its episodes; a run that was stopped goes on where it was.
 
@@ -128,6 +129,7 @@ def COMMAND(
             named.regulators,
             representations,
             axes,
+            experiments,
         ),
         count=count,
         dt_s=dt_s,
@@ -146,10 +148,10 @@ def COMMAND(
 
     state = running.inspect(plan, out, replace)
     if state.done and not state.finished:
-        console().print(f"going on: {len(state.done)} of {len(plan.work)} units are done")
+        console().print(f"going on: {len(state.done)} of {len(plan.units)} units are done")
 
     with episode_progress() as progress:
-        total = plan.episodes + plan.trials + plan.troubled
+        total = plan.episodes()
         bar = progress.add_task("compiling", total=total)
 
         def told(done):
@@ -166,30 +168,31 @@ def COMMAND(
 
 def _print_plan(plan, out) -> None:
     laws = ", ".join(dict.fromkeys(one.on_free_body for one in plan.contenders))
-    trials = f" and {plan.trials:,} in contact" if plan.contacts else ""
-    troubled = f" and {plan.troubled:,} in trouble" if plan.troubles else ""
-    size = f"{plan.episodes:,} episodes{trials}{troubled} in {len(plan.work)} units"
-    console().print(f"suite {plan.suite}: {size}, dt {plan.dt_s} s, into {out}")
+    alone, contacts, troubles = plan.of("free-body", "arm"), plan.of("contact"), plan.of("robustness")
+    trials = f" and {plan.episodes('contact'):,} in contact" if contacts else ""
+    troubled = f" and {plan.episodes('robustness'):,} in trouble" if troubles else ""
+    size = f"{plan.episodes('free-body', 'arm'):,} episodes{trials}{troubled} in {len(plan.units)} units"
+    console().print(f"suite {plan.settings.suite}: {size}, dt {plan.settings.dt_s} s, into {out}")
     if laws:
         console().print(f"laws: {laws}")
     sizes: dict = {}
-    for unit in plan.units:
+    for unit in alone:
         place = f"{unit.engine}, {unit.arm}" if unit.arm else unit.engine
         varied = "" if unit.variation == NOMINAL else " under each variation"
-        sizes.setdefault(place, {}).setdefault(unit.start_set + varied, unit.total)
+        sizes.setdefault(place, {}).setdefault(unit.selector + varied, unit.total)
     for place, sets in sizes.items():
-        on = {unit.contender for unit in plan.units if unit.arm and place.endswith(f", {unit.arm}")}
+        on = {unit.contender for unit in alone if unit.arm and place.endswith(f", {unit.arm}")}
         each = f"each of {len(on)} combinations" if on else "each law"
         console().print(f"{place}: " + ", ".join(f"{name} {total}" for name, total in sets.items()) + f" ({each})")
-    if plan.troubles:
-        _print_troubles(plan.troubles)
-    if plan.contacts:
-        _print_contacts(plan.contacts)
+    if troubles:
+        _print_troubles(troubles)
+    if contacts:
+        _print_contacts(contacts)
 
 
 def _print_troubles(units) -> None:
-    each = {unit.axis: unit.count // unit.starts for unit in units}
-    listed = ", ".join(f"{name} {levels} x {units[0].starts}" for name, levels in each.items())
+    each = {unit.selector: unit.episodes // unit.count for unit in units}
+    listed = ", ".join(f"{name} {levels} x {units[0].count}" for name, levels in each.items())
     laws = len({unit.contender for unit in units})
     console().print(f"in trouble, levels x starts: {listed} (each of {laws} laws)")
 
@@ -199,7 +202,7 @@ def _print_contacts(units) -> None:
     trials: dict = {}
     for unit in units:
         of_task = trials.setdefault(unit.arm, {}).setdefault(unit.task, {})
-        of_task[unit.contender] = of_task.get(unit.contender, 0) + unit.count
+        of_task[unit.contender] = of_task.get(unit.contender, 0) + unit.episodes
     for arm, by_task in trials.items():
         listed = ", ".join(f"{task} {max(counts.values())}" for task, counts in by_task.items())
         console().print(f"in contact, {arm}: {listed} (each controller, an impedance fewer)")

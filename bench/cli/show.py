@@ -10,6 +10,7 @@ from scipy.stats import binomtest
 from bench.cli import options
 from bench.cli.screen import console, frame_table
 from bench.errors import BadResults
+from bench.experiments.experiment import known_experiments
 from bench.experiments.suites import NOMINAL
 from bench.tables import read as results
 from bench.tables.store import read, read_json
@@ -60,6 +61,9 @@ def COMMAND(folder, engine, starts, outcomes, regulators):
         if len(troubled):
             title = f"\nin trouble: axes where {MASTERED} % settle at every level; of others the smallest share [%]"
             console().print(frame_table(robustness_summary(troubled), title))
+        for one in known_experiments().values():
+            if one.summary:
+                console().print(frame_table(one.summary(read(folder, one.table)), f"\n{one.title}"))
     console().print("\nThe counts of each outcome: --outcomes")
 
 

@@ -31,6 +31,7 @@ class Choice:
     regulators: tuple[str, ...] = ()
     representations: tuple[str, ...] = ()
     axes: tuple[str, ...] = ()
+    experiments: tuple[str, ...] = ()
 
     def checked(self) -> "Choice":
         """Each word once; UnknownWord for one in no list, Incompatible for words that exclude each other."""

@@ -4,23 +4,19 @@ On the free body, of every law: the `paper` starts, some uniform ones and those 
 laws on the first two, to the last digit; every other curve is there to be drawn, to KEPT_BITS.
 """
 
-import itertools
+from __future__ import annotations
+
+from collections.abc import Iterator
 
 import numpy as np
 import pandas as pd
-import pyarrow as pa
 
 import tasks
-from bench.engines import run_arm
-from bench.engines.curve import ARM_NUMBERS, NUMBERS, blank_curves
-from bench.engines.run import run_compiled
-from bench.experiments.plan import Plan
-from bench.experiments.rows import contender_columns, judged_columns, settings_of
-from bench.experiments.suites import HORIZON, SHORT
+from bench.experiments import arm, free_body, robustness
+from bench.experiments.experiment import Asked, Experiment, Settings, Unit, own_last
+from bench.experiments.suites import HORIZON, LONG, SHORT
 from bench.law.contender import Contender
-from bench.metrics.registry import metrics_of
-from bench.tables.schema import trace_columns
-from bench.tables.store import as_table, joined
+from bench.tables.schema import TABLES
 
 EVERY_S = 0.02
 """Five samples in each time constant of 0.1 s."""
@@ -51,56 +47,88 @@ ARM_SETS = ("clear", "pole")
 """Start sets of arms whose first episodes are kept."""
 
 
-def run(plan: Plan) -> pa.Table:
-    """traces.parquet of a plan.
+CURVE_S = 0.05
+"""CPU seconds a curve; most of it goes into its rows."""
+
+
+def laws(asked: Asked) -> list[Contender]:
+    """The laws that are run on the free body, undisturbed or not."""
+    names = {unit.contender for unit in (*free_body.units(asked), *robustness.units(asked))}
+    return [one for one in asked.laws if one.name in names]
+
+
+def units(asked: Asked) -> tuple[Unit, ...]:
+    """A unit a law on the free body, then one for each arm and controller on it; a user's last.
 
     On the free body, continuous but for MuJoCo's own actuator, the starts above; of the paper's laws and the user's the
-    first `plan.traces` uniform ones. On arms the first `plan.arm_traces` of each of ARM_SETS. A table of arrow's,
-    joined from one for each law and set of starts: as one data frame it took five times the memory, and a table for
-    each curve took 65 kB beside its numbers.
+    suite's number of uniform ones. On arms the first so many of each of ARM_SETS.
     """
-    every = max(1, round(EVERY_S / plan.dt_s))
-    names = [column.name for column in trace_columns()]
-    frames = itertools.chain(_on_free_body(plan, every), _on_arms(plan, every))
-    tables = [as_table(frame.reindex(columns=names), "traces") for frame in frames]
-    return joined(tables) if tables else as_table(pd.DataFrame(columns=names), "traces")
+    if asked.choice.narrows:
+        return ()
+    on_arms = dict.fromkeys((unit.contender, unit.task, unit.arm) for unit in arm.units(asked))
+    several, few = asked.suite.traces, asked.suite.on_arms.traced
+    found = [of_law(one, several) for one in laws(asked) if several] + [of_arm(*one, few) for one in on_arms if few]
+    return own_last(found, asked.own)
 
 
-def _on_free_body(plan: Plan, every: int):
+def of_law(one: Contender, count: int) -> Unit:
+    """The unit of a law on the free body, from so many uniform starts beside the others."""
+    engine = "native" if one.regulator.in_engine else "ideal-rk4"
+    return Unit("traces", one.name, "free-body", engine=engine, count=count, horizon_s=LONG)
+
+
+def of_arm(contender: str, task: str, arm: str, count: int) -> Unit:
+    """The unit of a controller on an arm, from the first so many of each of ARM_SETS."""
+    return Unit("traces", contender, task, arm, "native", count=count, horizon_s=LONGEST_S)
+
+
+def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
+    """The samples of all curves of a unit."""
+    every = max(1, round(EVERY_S / settings.dt_s))
+    frames = (_on_arm if unit.arm else _on_free_body)(settings, unit, settings.contender(unit.contender), every)
+    return pd.concat(list(frames), ignore_index=True).reindex(columns=TABLES["traces"].names)
+
+
+def _on_free_body(settings: Settings, unit: Unit, one: Contender, every: int) -> Iterator[pd.DataFrame]:
+    from bench.engines.curve import NUMBERS, blank_curves
+    from bench.engines.run import run_compiled
+    from bench.experiments.rows.episodes import contender_columns, judged_columns
+    from bench.metrics.registry import metrics_of
+
     metrics = metrics_of(on_arm=False)
-    for one in plan.laws if plan.traces else ():
-        engine = "native" if one.regulator.in_engine else "ideal-rk4"
-        place = {"task": "free-body", "arm": "", **contender_columns(one), "engine": engine}
-        for start_set, starts, is_measured in _starts(plan, one):
-            curves = blank_curves(len(starts), SAMPLES, every)
-            settings = settings_of(plan, HORIZON.get(start_set, SHORT))
-            rows = run_compiled(engine, one, "free-body", starts, settings, metrics, curves, plan.integrator)
-            endings = judged_columns(rows, plan.dt_s)
-            frame = _frame({**place, "start_set": start_set}, starts, curves.samples, NUMBERS, endings)
-            yield frame if is_measured else _to_draw(frame)
+    place = {"task": unit.task, "arm": "", **contender_columns(one), "engine": unit.engine}
+    for start_set, starts, is_measured in _starts(settings, unit, one):
+        curves = blank_curves(len(starts), SAMPLES, every)
+        limits = settings.limits(HORIZON.get(start_set, SHORT))
+        given = (unit.engine, one, unit.task, starts, limits, metrics, curves, settings.integrator)
+        endings = judged_columns(run_compiled(*given), settings.dt_s)
+        frame = _frame({**place, "start_set": start_set}, starts, curves.samples, NUMBERS, endings)
+        yield frame if is_measured else _to_draw(frame, [*NUMBERS[1:-1], "angle_rad"])
 
 
-def _starts(plan: Plan, one: Contender):
+def _starts(settings: Settings, unit: Unit, one: Contender):
     """(start set, starts, whether claims measure the curves) of a law."""
     is_papers = not one.is_beyond_the_paper
     yield "paper", tasks.start_set("paper"), is_papers
-    yield "uniform", tasks.start_set("uniform", plan.traces if is_papers else FEW, plan.seed), is_papers
+    yield "uniform", tasks.start_set("uniform", unit.count if is_papers else FEW, settings.seed), is_papers
     for start_set, ids in TELLING.items():
-        yield start_set, [start for start in tasks.start_set(start_set, None, plan.seed) if start.id in ids], False
+        yield start_set, [start for start in tasks.start_set(start_set, None, settings.seed) if start.id in ids], False
 
 
-def _on_arms(plan: Plan, every: int):
-    if not plan.arm_traces:
-        return
-    metrics, settings = metrics_of(on_arm=True), settings_of(plan, LONGEST_S)
-    for task, arm, name in dict.fromkeys((unit.task, unit.arm, unit.contender) for unit in plan.units if unit.arm):
-        one = plan.contender(name)
-        for start_set in ARM_SETS:
-            starts = tasks.start_set(start_set, plan.arm_traces, plan.seed, arm=arm)
-            curves = blank_curves(len(starts), SAMPLES, every, ARM_NUMBERS)
-            run_arm.run_native(one, task, arm, starts, settings, metrics, curves, plan.integrator)
-            place = {"task": task, "arm": arm, **contender_columns(one), "engine": "native", "start_set": start_set}
-            yield _frame(place, starts, curves.samples, ARM_NUMBERS, {"outcome": [""] * len(starts)})
+def _on_arm(settings: Settings, unit: Unit, one: Contender, every: int) -> Iterator[pd.DataFrame]:
+    from bench.engines.curve import ARM_NUMBERS, blank_curves
+    from bench.engines.run_arm import run_native
+    from bench.experiments.rows.episodes import contender_columns
+    from bench.metrics.registry import metrics_of
+
+    metrics, limits = metrics_of(on_arm=True), settings.limits(unit.horizon_s)
+    place = {"task": unit.task, "arm": unit.arm, **contender_columns(one), "engine": unit.engine}
+    for start_set in ARM_SETS:
+        starts = tasks.start_set(start_set, unit.count, settings.seed, arm=unit.arm)
+        curves = blank_curves(len(starts), SAMPLES, every, ARM_NUMBERS)
+        run_native(one, unit.task, unit.arm, starts, limits, metrics, curves, settings.integrator)
+        endings = {"outcome": [""] * len(starts)}
+        yield _frame({**place, "start_set": start_set}, starts, curves.samples, ARM_NUMBERS, endings)
 
 
 def _frame(place: dict, starts, samples: np.ndarray, names, endings: dict) -> pd.DataFrame:
@@ -113,9 +141,32 @@ def _frame(place: dict, starts, samples: np.ndarray, names, endings: dict) -> pd
     return pd.DataFrame({**place, "start_id": np.repeat([start.id for start in starts], lengths), **columns, **said})
 
 
-def _to_draw(frame: pd.DataFrame) -> pd.DataFrame:
-    """The frame with its state and command to KEPT_BITS."""
-    names = [*NUMBERS[1:-1], "angle_rad"]
+def _to_draw(frame: pd.DataFrame, names: list[str]) -> pd.DataFrame:
+    """The frame with these columns to KEPT_BITS."""
     mantissa, exponent = np.frexp(frame[names].to_numpy())
     frame[names] = np.ldexp(np.rint(np.ldexp(mantissa, KEPT_BITS)), exponent - KEPT_BITS)
     return frame
+
+
+def curves_of(unit: Unit) -> int:
+    """How many curves a unit has at most."""
+    if unit.arm:
+        return len(ARM_SETS) * unit.count
+    return len(tasks.start_set("paper")) + unit.count + sum(map(len, TELLING.values()))
+
+
+def prepare(settings: Settings, unit: Unit) -> None:
+    """Compile the loop and the contender."""
+    (arm.prepare if unit.arm else free_body.prepare)(settings, unit)
+
+
+EXPERIMENT = Experiment(
+    "traces",
+    "curves of telling episodes",
+    TABLES["traces"],
+    units,
+    rows,
+    cost_s=lambda unit: CURVE_S * curves_of(unit),
+    prepare=prepare,
+    ticks=lambda settings, unit: curves_of(unit) * unit.horizon_s / settings.dt_s,
+)

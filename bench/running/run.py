@@ -8,7 +8,8 @@ from pathlib import Path
 from typing import NamedTuple
 
 from bench.experiments.choice import check_workers
-from bench.experiments.plan import AnyUnit, Plan
+from bench.experiments.experiment import Unit, experiment_of
+from bench.experiments.plan import Plan
 from bench.running.finish import finish
 from bench.running.order import in_running_order
 from bench.running.precompile import compiling_ahead
@@ -21,7 +22,7 @@ from bench.running.schedulers.words import THREADS, check_scheduler, kind
 class Progress(NamedTuple):
     """Told to the caller after every unit: the unit, and how many episodes of the whole it was."""
 
-    unit: AnyUnit
+    unit: Unit
     episodes: int
 
 
@@ -66,39 +67,37 @@ def _run(
         return False
     began = time.time()
     guard.check()
-    todo = [unit for unit in in_running_order(plan.work) if unit.key not in state.done]
+    todo = [unit for unit in in_running_order(plan.units) if unit.key not in state.done]
 
-    def done(unit: AnyUnit) -> None:
-        told(Progress(unit, unit.count))
+    def done(unit: Unit) -> None:
+        told(Progress(unit, unit.episodes))
 
     with _team(plan, todo, out, workers, scheduler, guard) as carry_out:
         if state.done:
             sweep(out)
         else:
             begin(plan, out)
-        for unit in plan.work:
+        for unit in plan.units:
             if unit.key in state.done:
                 done(unit)
         by = {"scheduler": kind(scheduler), "workers": carry_out(done)}
-    finish(plan, out, guard, workers, by, began, resumed=bool(state.done))
+    finish(plan, out, guard.notes, by, began, resumed=bool(state.done))
     return True
 
 
 @contextlib.contextmanager
-def _team(
-    plan: Plan, todo: list[AnyUnit], out: Path, workers: int, scheduler: str, guard: Guard
-) -> Iterator[Callable]:
+def _team(plan: Plan, todo: list[Unit], out: Path, workers: int, scheduler: str, guard: Guard) -> Iterator[Callable]:
     """What carries out the units, tells its argument of each, and returns the number of its workers.
 
     A cluster has answered when this yields, so that nothing is written, or replaced, for one that does not.
     """
     if scheduler == THREADS:
 
-        def by_threads(done: Callable[[AnyUnit], None]) -> int:
+        def by_threads(done: Callable[[Unit], None]) -> int:
             threads.run(plan, todo, out, workers, guard, done)
             return workers
 
-        with compiling_ahead(_ours(plan, todo)):
+        with compiling_ahead(_ours(todo, guard)):
             yield by_threads
         return
     from bench.running.schedulers import cluster  # Dask is an extra, and takes a second to import
@@ -107,7 +106,6 @@ def _team(
         yield functools.partial(cluster.run, client, plan, todo, out, law_limit_s=guard.limit_s)
 
 
-def _ours(plan: Plan, todo: list[AnyUnit]) -> Iterator[str]:
+def _ours(todo: list[Unit], guard: Guard) -> Iterator[str]:
     """Contenders that a user's laws have no part in, in the order in which they run."""
-    own = {one.name for one in plan.contenders if one.regulator.origin}
-    return (unit.contender for unit in todo if unit.contender not in own)
+    return (unit.contender for unit in todo if experiment_of(unit).compiles and not guard.has(unit))

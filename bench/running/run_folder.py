@@ -12,10 +12,10 @@ from pathlib import Path
 from typing import NamedTuple
 
 from bench.errors import BadResults
-from bench.experiments.plan import AnyUnit, Plan
+from bench.experiments.experiment import Unit, experiment_of, known_tables
+from bench.experiments.plan import Plan
 from bench.tables import lock, trust
-from bench.tables.store import (
-    check,
+from bench.tables.files import (
     is_leftover,
     make_folder,
     read_json,
@@ -24,9 +24,7 @@ from bench.tables.store import (
     write_atomically,
     write_json,
 )
-
-TABLES = ("costs", "traces", "boundaries", "poses", "compliance", "robustness", "episodes")
-"""The tables of a finished run."""
+from bench.tables.store import check
 
 
 class State(NamedTuple):
@@ -80,16 +78,17 @@ def inspect(plan: Plan, out: Path, replace: bool = False) -> State:
             f"{out}: it holds another plan (other suite, options, rules or sources); add --replace to start over, or "
             "choose another folder with --out"
         )
-    finished = (out / "provenance.json").is_file() and all((out / f"{table}.parquet").is_file() for table in TABLES)
-    for path in (out / f"{table}.parquet" for table in TABLES) if finished else ():
-        check(path, path.stem)
-    done = [unit for unit in plan.work if part(out, unit).is_file()]
+    tables = {out / f"{name}.parquet": table for name, table in known_tables().items()}
+    finished = (out / "provenance.json").is_file() and all(path.is_file() for path in tables)
+    for path, table in tables.items() if finished else ():
+        check(path, table)
+    done = [unit for unit in plan.units if part(out, unit).is_file()]
     for unit in () if finished else done:
-        check(part(out, unit), unit.table)
+        check(part(out, unit), experiment_of(unit).table)
     return State(finished, frozenset(unit.key for unit in done))
 
 
-def part(out: Path, unit: AnyUnit) -> Path:
+def part(out: Path, unit: Unit) -> Path:
     """The file of a unit that is done."""
     return out / "parts" / f"{unit.key}.parquet"
 
@@ -113,12 +112,11 @@ def begin(plan: Plan, out: Path) -> None:
 
 def _keep_own_laws(plan: Plan, out: Path) -> None:
     """Copy a user's laws into the run, so that its rows can be read, and its report written, with what made them."""
-    for origin, name in {one.regulator.origin: one.regulator.name for one in plan.contenders}.items():
-        if origin:
-            copy = out / "laws" / f"{name.replace('-', '_')}.py"
-            write_atomically(copy, functools.partial(shutil.copyfile, origin))
-            with contextlib.suppress(OSError):  # without it the report shows the law's rows, and asks to trust it
-                trust.remember(copy.read_bytes())
+    for own in plan.settings.own:
+        copy = out / "laws" / f"{own.name.replace('-', '_')}.py"
+        write_atomically(copy, functools.partial(shutil.copyfile, own.origin))
+        with contextlib.suppress(OSError):  # without it the report shows the law's rows, and asks to trust it
+            trust.remember(copy.read_bytes())
 
 
 def _clear(out: Path) -> None:
@@ -127,7 +125,7 @@ def _clear(out: Path) -> None:
         return
     with _removing(out):
         (out / "provenance.json").unlink(missing_ok=True)
-        for name in TABLES:
+        for name in known_tables():
             (out / f"{name}.parquet").unlink(missing_ok=True)
         if (out / "laws").is_dir():
             shutil.rmtree(out / "laws")

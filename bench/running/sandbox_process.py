@@ -5,8 +5,7 @@ chunk (wire_format.py), then one request after the other, JSON; back go bytes, t
 a limit of processor time, which no other load on the machine shortens, and one of time for a law that waits.
 """
 
-import dataclasses
-import importlib
+import functools
 import json
 import math
 import os
@@ -14,19 +13,15 @@ import resource
 import signal
 import sys
 import time
+from collections.abc import Callable
 from multiprocessing.connection import Connection, wait
 from typing import NoReturn
 
 import pyarrow as pa
 
-import tasks
-from bench import counting
-from bench.engines import run, run_arm
 from bench.errors import BenchError
-from bench.experiments import boundary, traces
-from bench.experiments.plan import AnyUnit, Plan, Unit
-from bench.experiments.work import rows, starts_of
-from bench.metrics.registry import metrics_of
+from bench.experiments.experiment import Unit, experiment_of, rows_of
+from bench.experiments.plan import Plan
 from bench.running.wire_format import plan_of
 from bench.tables.store import as_table
 
@@ -36,72 +31,26 @@ DONE, MISTAKE, CRASHED, HUNG = b"+", b"?", b"!", b"."
 READY_S = 300
 """Seconds of processor time for compiling: five times what all engines take that were never compiled before."""
 
-TABLES = ("traces", "boundaries")
 
-
-def answer(plan: Plan, asked: dict) -> bytes:
-    """What a request is answered with, by this process.
-
-    Args:
-        asked: `what`, one of ready, rows, costs and TABLES; for the first two a unit's `key`, and the `first` and
-        `count` of its episodes that are meant; for the others a `contender`.
-    """
+def answer(work: Callable[[], bytes]) -> bytes:
+    """What a request is answered with, by this process."""
     try:
-        return DONE + _answer(plan, **asked)
+        return DONE + work()
     except BenchError as error:
         return MISTAKE + str(error).encode()
     except Exception as error:
         return CRASHED + f"{type(error).__name__}: {error}".encode()
 
 
-def _answer(plan: Plan, what: str, key: str = "", first: int = 0, count: int = 0, contender: str = "") -> bytes:
-    if what in TABLES:
-        return packed(_made_of(_alone(plan, contender), what))
-    if what == "costs":
-        return json.dumps(_costs(plan, contender)).encode()
-    unit = next(one for one in plan.work if one.key == key)
-    if what == "ready":
-        _prepare(plan, unit)
-        return b""
-    some = dataclasses.replace(unit, first=first, count=count) if isinstance(unit, Unit) else unit
-    return packed(as_table(rows(plan, some), some.table))
+def prepared(plan: Plan, unit: Unit) -> bytes:
+    """Nothing, when all is compiled, imported and built that the unit's rows need, for all forks."""
+    experiment_of(unit).prepare(plan.settings, unit)
+    return b""
 
 
-def _prepare(plan: Plan, unit: AnyUnit) -> None:
-    """Compile, import and build what the unit's rows need, for all forks."""
-    one = plan.contender(unit.contender)
-    metrics = tuple(metrics_of(on_arm=one.is_on_arm))
-    if isinstance(unit, Unit):
-        starts_of(plan, unit)
-    if not isinstance(unit, Unit):
-        run.evaluation(one)
-    elif unit.engine == "reference":
-        importlib.import_module("tasks.episode")
-    elif one.is_on_arm:
-        run_arm.compiled_loop(metrics)
-        run_arm.pointers(one)
-    else:
-        run.compiled_loop(unit.engine, metrics)
-        run.evaluation(one)
-
-
-def _alone(plan: Plan, contender: str) -> Plan:
-    """The plan of one contender."""
-    units = tuple(unit for unit in plan.units if unit.contender == contender)
-    return dataclasses.replace(plan, contenders=(plan.contender(contender),), units=units)
-
-
-def _costs(plan: Plan, contender: str) -> list[dict]:
-    """Operations of a law, or of its controller on every number of joints that it is run with."""
-    one = plan.contender(contender)
-    if not one.is_on_arm:
-        return counting.rows([one])
-    joints = dict.fromkeys(tasks.arm(unit.arm).joints for unit in plan.units if unit.contender == contender)
-    return [row for n in joints for row in counting.rows_on_arm(one, n)]
-
-
-def _made_of(plan: Plan, table: str) -> pa.Table:
-    return traces.run(plan) if table == "traces" else as_table(boundary.run(plan), table)
+def made(plan: Plan, unit: Unit) -> bytes:
+    """The rows of a unit."""
+    return packed(as_table(rows_of(plan.settings, unit), experiment_of(unit).table))
 
 
 def packed(table: pa.Table) -> bytes:
@@ -117,7 +66,7 @@ def unpacked(content: bytes) -> pa.Table:
     return pa.ipc.open_stream(content).read_all()
 
 
-def answer_of_a_fork(plan: Plan, asked: dict, processor_s: float, longest_s: float, run_of: Connection) -> bytes:
+def answer_of_a_fork(work: Callable[[], bytes], processor_s: float, longest_s: float, run_of: Connection) -> bytes:
     """The same by a fork of this process, with its limits; the end of the run is its end too.
 
     Args:
@@ -126,7 +75,7 @@ def answer_of_a_fork(plan: Plan, asked: dict, processor_s: float, longest_s: flo
     reading, writing = os.pipe()
     child = os.fork()
     if not child:
-        _answer_and_exit(plan, asked, processor_s, writing)
+        _answer_and_exit(work, processor_s, writing)
     os.close(writing)
     said, deadline = [b" "], time.monotonic() + longest_s
     while said[-1] and (ready := wait([reading, run_of], max(0.0, deadline - time.monotonic()))):
@@ -148,11 +97,11 @@ def answer_of_a_fork(plan: Plan, asked: dict, processor_s: float, longest_s: flo
     return CRASHED + f"it ended its process ({ending})".encode()
 
 
-def _answer_and_exit(plan: Plan, asked: dict, processor_s: float, writing: int) -> NoReturn:
+def _answer_and_exit(work: Callable[[], bytes], processor_s: float, writing: int) -> NoReturn:
     try:
         _limit(processor_s)
         with open(writing, "wb") as pipe:
-            pipe.write(answer(plan, asked))
+            pipe.write(answer(work))
         os._exit(0)
     finally:
         os._exit(1)  # what is no Exception, as sys.exit: the law wants to leave
@@ -175,14 +124,17 @@ def main(descriptor: int) -> None:
             run_of.send_bytes(MISTAKE + str(error).encode())
             return
         run_of.send_bytes(DONE)
+        units = {unit.key: unit for unit in plan.units}
         while True:
             asked = json.loads(run_of.recv_bytes())
-            if asked["what"] == "ready":
+            unit = units[asked["key"]]
+            if "processor_s" not in asked:
                 _limit(READY_S)
-                run_of.send_bytes(answer(plan, asked))
+                run_of.send_bytes(answer(functools.partial(prepared, plan, unit)))
             else:
-                limits = asked.pop("processor_s"), asked.pop("longest_s")
-                run_of.send_bytes(answer_of_a_fork(plan, asked, *limits, run_of))
+                some = unit.part(asked["first"], asked["count"]) if "count" in asked else unit
+                limits = asked["processor_s"], asked["longest_s"]
+                run_of.send_bytes(answer_of_a_fork(functools.partial(made, plan, some), *limits, run_of))
 
 
 if __name__ == "__main__":

@@ -29,9 +29,8 @@ from bench.contenders.registry import find_contender
 from bench.experiments import plan as planning
 from bench.experiments.choice import Choice
 from bench.experiments.plan import Plan
-from bench.law.contender import Contender, Regulator
 from bench.provenance import ROOT, describe
-from bench.running import finish, run
+from bench.running import run
 from bench.running.schedulers.words import LOCAL, THREADS
 from bench.tables.store import read_json, write_json
 
@@ -54,7 +53,8 @@ PARTS = ("sizes", "schedulers", "killed")
 
 def ideal(count: int, start_sets: tuple[str, ...] = ("uniform",)) -> Plan:
     """So many starts of each set of one law on the ideal plant."""
-    return planning.make("default", [find_contender(LAW)], Choice((), start_sets, ("ideal-rk4",)), count=count)
+    choice = Choice((), start_sets, ("ideal-rk4",), experiments=("free-body",))
+    return planning.make("default", [find_contender(LAW)], choice, count=count)
 
 
 def least(scheduler: str) -> Plan:
@@ -64,18 +64,13 @@ def least(scheduler: str) -> Plan:
 
 
 def mixed() -> Plan:
-    """Units of every kind: on the free body, on an arm, in contact and in trouble."""
+    """Units of every experiment, on one arm, in contact in one task and under one perturbation."""
     laws = [find_contender(name) for name in (LAW, "hybrid", "feedback-linearized/zyx-euler")]
     touching = Choice(("wrench-probe",), arms=("ur5e",), controllers=("hybrid-base+inverse",))
     alone, others = Choice(("free-body", "arm-regulation"), arms=("ur5e",)), (touching, Choice(axes=("delay",)))
     made = planning.make("quick", laws, alone, count=40)
-    contact, trouble = (planning.make("quick", laws, choice, count=8) for choice in others)
-    return dataclasses.replace(made, contacts=contact.contacts, troubles=trouble.troubles, traces=0, poses=0)
-
-
-def one_law(extra: tuple[Regulator, ...] = ()) -> list[Contender]:
-    """The law of the study, in the place of all."""
-    return [find_contender(LAW)]
+    contact, perturbed = (planning.make("quick", laws, choice, count=8) for choice in others)
+    return dataclasses.replace(made, units=(*made.units, *contact.of("contact"), *perturbed.of("robustness")))
 
 
 def clocks() -> np.ndarray:
@@ -99,7 +94,6 @@ def measured(scheduler: str, count: int) -> dict:
     cpu_s: of all processes; own_cpu_s: of this one, which plans, writes and merges, and gives out work if others do it.
     others: cores that other programs took meanwhile. rows: digest of episodes.parquet.
     """
-    finish.all_contenders = one_law  # counting the others takes ten seconds whatever the number
     with tempfile.TemporaryDirectory() as folder:
         _first, *again = (spent(least(scheduler), Path(folder) / str(turn), scheduler) for turn in range(1 + FIXED))
         forget_peak()
@@ -135,7 +129,7 @@ def peak_bytes() -> int:
 def killed() -> dict:
     """A plan by threads, by two processes, and by two of which one is killed half way: the tables' digests."""
     plan = mixed()
-    half = (plan.episodes + plan.trials + plan.troubled) / 2
+    half = plan.episodes() / 2
     found: dict[str, dict[str, str]] = {}
     victims: list[multiprocessing.process.BaseProcess] = []
 
@@ -156,7 +150,7 @@ def killed() -> dict:
             paths = sorted((Path(folder) / "run").glob("*.parquet"))
             found[name] = {path.name: hashlib.sha256(path.read_bytes()).hexdigest() for path in paths}
     return {
-        "units": len(plan.work),
+        "units": len(plan.units),
         "killed": len(victims),
         "same": all(tables == found["threads"] for tables in found.values()),
         "tables": found,

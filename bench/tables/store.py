@@ -1,18 +1,12 @@
-"""Results on disk: tables with their schema, written whole or not at all, checked when read.
-
-A file appears by rename after fsync, and its folder is synced after the rename: a process killed at any moment, or a
-machine without power, leaves whole files only, and each that was finished.
+"""Results on disk: tables with their schema, written whole or not at all (files.py), checked when read.
 
 A folder may come from anywhere. Nothing is read but parquet and JSON, which hold no code; a link is refused, so that
 nothing outside the folder is read or written; and a word holds no sign that a page or a terminal takes for its own.
 """
 
-import errno
 import json
-import os
 import re
-import tempfile
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from pathlib import Path
 
 import pandas as pd
@@ -20,7 +14,17 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from bench.errors import BadResults
-from bench.tables.schema import TABLES, VERSION, arrow_schema
+from bench.tables.column import VERSION, Table
+from bench.tables.files import (  # noqa: F401
+    is_leftover,
+    make_folder,
+    read_json,
+    refuse_link,
+    refused,
+    write_atomically,
+    write_json,
+)
+from bench.tables.schema import table_of
 
 
 def encoding(schema: pa.Schema) -> dict:
@@ -37,137 +41,16 @@ def encoding(schema: pa.Schema) -> dict:
     }
 
 
-def write_atomically(path: Path, write) -> None:
-    """Call write(temporary path), then put the file in its place; when this returns, it outlives a loss of power.
-
-    Errors:
-        BadResults: the folder cannot be made or written, or the disk is full; no temporary file stays.
-    """
-    path = Path(path)
-    try:
-        make_folder(path.parent)
-        handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.", suffix=".tmp")
-        os.close(handle)
-    except OSError as error:
-        raise refused(path.parent, error) from error
-    try:
-        write(temporary)
-        with open(temporary, "rb") as file:
-            os.fsync(file.fileno())
-        os.chmod(temporary, 0o644)
-        os.replace(temporary, path)
-        _sync_folder(path.parent)
-    except BaseException as error:
-        Path(temporary).unlink(missing_ok=True)
-        if isinstance(error, OSError):
-            raise refused(path, error) from error
-        raise
-
-
-FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
-"""The disk, a share of it, or what one file may take."""
-
-
-def refused(path: Path, error: OSError) -> BadResults:
-    """What the user is told of a file or folder that could not be written, with the cure."""
-    is_full = error.errno in FULL
-    reason = os.strerror(error.errno) if error.errno else error  # arrow's own text runs over lines
-    cure = "make room and give the same command again" if is_full else "mend its rights"
-    return BadResults(f"{path}: cannot be written ({reason}); {cure}, or choose another folder with --out")
-
-
-def make_folder(folder: Path) -> None:
-    """The folder and those above it, each known to the one that holds it before anything is put there."""
-    new = [one for one in (folder, *folder.parents) if not one.exists()]
-    folder.mkdir(parents=True, exist_ok=True)
-    for one in new:
-        _sync_folder(one.parent)
-
-
-def _sync_folder(folder: Path) -> None:
-    """Bring a folder's list of names to the disk, where the system can: a rename alone may be lost with the power."""
-    if not hasattr(os, "O_DIRECTORY"):
-        return
-    handle = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
-    try:
-        os.fsync(handle)
-    finally:
-        os.close(handle)
-
-
-def is_leftover(path: Path) -> bool:
-    """Whether this is the temporary file of a write that was killed."""
-    return path.name.startswith(".") and path.name.endswith(".tmp")
-
-
-def write_json(path: Path, content: dict) -> None:
-    """A JSON file, whole or not at all."""
-    text = json.dumps(content, indent=1, sort_keys=True) + "\n"
-    write_atomically(path, lambda temporary: Path(temporary).write_text(text, encoding="utf-8"))
-
-
 PLAIN = re.compile(r"[A-Za-z0-9 .,+_/~@=-]{0,200}")
 """A word of a table: names of contenders, starts, outcomes, nothing that HTML, Markdown or TeX would read."""
 
 FREE_WORDS = ("libraries",)
 """Tables whose words are not PLAIN: other libraries' functions, asked in this checkout, never a run's."""
 
-MOST_JSON_BYTES = 200_000_000
-"""A plan of 10^9 episodes takes half of it."""
 
-
-def refuse_link(path: Path) -> None:
-    """What lies in a results folder lies there itself.
-
-    Errors:
-        BadResults: the path is a symbolic link.
-    """
-    if path.is_symlink():
-        raise BadResults(
-            f"{path}: it is a link, and a results folder holds files of its own; put what it leads to in its place, "
-            "if you trust it"
-        )
-
-
-def read_json(path: Path) -> dict:
-    """A JSON file of ours.
-
-    Errors:
-        BadResults: missing, a link, too large, no object, or with texts that a terminal would obey.
-    """
-    path = Path(path)
-    refuse_link(path)
-    try:
-        if path.stat().st_size > MOST_JSON_BYTES:
-            raise BadResults(f"{path}: it has more than {MOST_JSON_BYTES:,} bytes, so it is none of ours; delete it")
-        content = json.loads(path.read_text(encoding="utf-8"))
-    except FileNotFoundError:
-        raise BadResults(f"{path}: there is no such file; the folder holds no run of ours") from None
-    except (OSError, ValueError, RecursionError) as error:
-        raise BadResults(f"{path}: cannot be read ({error}); delete the folder and run again") from error
-    if not isinstance(content, dict):
-        raise BadResults(f"{path}: it holds no JSON object, so it is none of ours; choose another folder with --out")
-    if not all(text.isprintable() for text in _texts(content)):
-        raise BadResults(f"{path}: a text in it holds signs that cannot be printed; delete the folder and run again")
-    return content
-
-
-def _texts(content) -> Iterator[str]:
-    """Every text of a JSON value, names of fields too."""
-    if isinstance(content, str):
-        yield content
-    elif isinstance(content, dict):
-        for name, value in content.items():
-            yield name
-            yield from _texts(value)
-    elif isinstance(content, list):
-        for value in content:
-            yield from _texts(value)
-
-
-def as_table(frame: pd.DataFrame, table: str) -> pa.Table:
+def as_table(frame: pd.DataFrame, table: str | Table) -> pa.Table:
     """A data frame in the table's schema, columns in its order."""
-    schema = arrow_schema(table)
+    schema = table_of(table).schema()
     if frame.empty:
         return schema.empty_table()
     return pa.Table.from_pandas(frame[schema.names], schema=schema, preserve_index=False).replace_schema_metadata(
@@ -175,7 +58,7 @@ def as_table(frame: pd.DataFrame, table: str) -> pa.Table:
     )
 
 
-def write_table(path: Path, frame: pd.DataFrame | pa.Table, table: str, about: dict | None = None) -> None:
+def write_table(path: Path, frame: pd.DataFrame | pa.Table, table: str | Table, about: dict | None = None) -> None:
     """One table, whole or not at all; `about` goes into its metadata as JSON, for a table that has no run's folder."""
     arrow = frame if isinstance(frame, pa.Table) else as_table(frame, table)
     if about is not None:
@@ -190,13 +73,13 @@ PARTS = 64
 """Tables that a merge holds at most; each takes 50 kB beside its rows, as much as those of a hundred episodes."""
 
 
-def merge(path: Path, parts: Iterable[Path], table: str) -> int:
+def merge(path: Path, parts: Iterable[Path], table: str | Table) -> int:
     """All parts in their order as one table, at most GROUP rows and one part in memory; the number of rows."""
     rows = 0
 
     def write(temporary):
         nonlocal rows
-        schema = arrow_schema(table)
+        schema = table_of(table).schema()
         with pq.ParquetWriter(temporary, schema, **encoding(schema)) as writer:
             held: list[pa.Table] = []
             for part in parts:
@@ -219,22 +102,22 @@ def joined(tables: list[pa.Table]) -> pa.Table:
     return pa.concat_tables(tables).unify_dictionaries().combine_chunks()
 
 
-def read_arrow(path: Path, table: str) -> pa.Table:
+def read_arrow(path: Path, table: str | Table) -> pa.Table:
     """A table of ours with its schema checked.
 
     Errors:
         BadResults: missing, truncated, or of another schema; the message says which and the cure.
     """
-    return _checked(path, table, lambda: pq.ParquetFile(path).read(use_threads=False))
+    return _checked(path, table_of(table).name, lambda: pq.ParquetFile(path).read(use_threads=False))
 
 
-def check(path: Path, table: str) -> None:
+def check(path: Path, table: str | Table) -> None:
     """The same checks from the file's end alone, where parquet keeps its schema: what a truncated file lacks.
 
     Errors:
         BadResults: see `read_arrow`.
     """
-    _checked(path, table, lambda: pq.read_schema(path).empty_table())
+    _checked(path, table_of(table).name, lambda: pq.read_schema(path).empty_table())
 
 
 def _checked(path: Path, table: str, opened) -> pa.Table:
@@ -273,17 +156,15 @@ def _refuse_words(path: Path, arrow: pa.Table) -> None:
                 raise BadResults(f"{path}: {word!r} in column {name!r} is no word of ours; delete the file")
 
 
-def read(folder: Path, table: str) -> pd.DataFrame:
+def read(folder: Path, table: str | Table) -> pd.DataFrame:
     """One table of a finished run as a data frame.
 
     Errors:
         BadResults: see `read_arrow`; also a folder whose run has not finished.
     """
-    if table not in TABLES:
-        raise KeyError(table)
-    folder = Path(folder)
+    table, folder = table_of(table), Path(folder)
     if not folder.is_dir():
         raise BadResults(f"{folder}: there is no such folder; run `make bench` (or python -m bench run) first")
     if not (folder / "provenance.json").is_file():
         raise BadResults(f"{folder}: the run there has not finished; the same `python -m bench run` command resumes it")
-    return read_arrow(folder / f"{table}.parquet", table).to_pandas(ignore_metadata=True)
+    return read_arrow(folder / f"{table.name}.parquet", table).to_pandas(ignore_metadata=True)

@@ -15,8 +15,7 @@ from bench.engines.arm_episode import blank_arm, controls, joints
 from bench.engines.binding import memory_of
 from bench.engines.curve import blank_curves
 from bench.engines.episode import TICKS, numbers, start_rows
-from bench.experiments.plan import Plan
-from bench.experiments.rows import settings_of
+from bench.experiments.experiment import Settings
 from bench.experiments.suites import suite
 from bench.law.contender import PAPERS_GAINS, Contender
 from bench.metrics.registry import metrics_of
@@ -63,7 +62,7 @@ def _start(arm: str) -> Start:
 
 
 def _settings(horizon_s: float):
-    return settings_of(Plan("timing", (), ()), horizon_s)._replace(hold_ticks=NEVER)
+    return Settings().limits(horizon_s)._replace(hold_ticks=NEVER)
 
 
 def native(arm: str, one: Contender, horizon_s: float = HORIZON_S) -> Thing:

@@ -18,8 +18,7 @@ from bench.engines.curve import blank_curves
 from bench.engines.episode import TICKS, blank, numbers, start_rows
 from bench.engines.native import free_body as native
 from bench.engines.run import compiled_loop, evaluation
-from bench.experiments.plan import Plan
-from bench.experiments.rows import settings_of
+from bench.experiments.experiment import Settings
 from bench.law.contender import Contender, Gains
 from bench.metrics.registry import metrics_of
 from bench.timing import law, on_arms, reference_kernel
@@ -91,7 +90,7 @@ def _law(what: str, one: Contender) -> Thing:
 
 
 def _settings():
-    return settings_of(Plan("timing", (), ()), HORIZON_S)._replace(hold_ticks=NEVER)
+    return Settings().limits(HORIZON_S)._replace(hold_ticks=NEVER)
 
 
 def _engine(engine: str, one: Contender) -> Thing:

@@ -15,7 +15,7 @@ import pytest
 pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
 
 from bench.contenders.registry import find_contender
-from bench.experiments import plan
+from bench.experiments import boundaries, plan, traces
 from bench.experiments.choice import Choice
 from bench.running import run
 from bench.tables import read
@@ -45,7 +45,8 @@ def small_run(tmp_path_factory):
     laws = [find_contender(word) for word in words]
     made = plan.make("quick", laws, Choice(("free-body",), STARTS, ("ideal-rk4", "ideal-held")), count=150)
     folder = tmp_path_factory.mktemp("figures") / "run"
-    run.run(dataclasses.replace(made, traces=2, boundary_axes=12), folder)
+    more = [made_of(one, count) for made_of, count in ((traces.of_law, 2), (boundaries.of_law, 12)) for one in laws]
+    run.run(dataclasses.replace(made, units=(*made.units, *more)), folder)
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv(read.VARIABLE, str(folder))
         yield folder

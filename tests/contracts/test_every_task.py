@@ -92,8 +92,7 @@ def test_reward_is_minus_the_angle_to_the_goal(task):
         environment.reset()
         reward = environment.step(np.zeros(environment.action_spec().shape)).reward
         quat, goal = (
-            Rotation.from_quat(q, scalar_first=True)
-            for q in (environment.physics.quat_wxyz(), start.goal_wxyz)
+            Rotation.from_quat(q, scalar_first=True) for q in (environment.physics.quat_wxyz(), start.goal_wxyz)
         )
         assert reward == pytest.approx(-(goal.inv() * quat).magnitude(), abs=1e-14)
 
@@ -141,9 +140,7 @@ def test_impossible_horizon_is_refused(task, horizon):
         tasks.load(task, horizon=horizon)
 
 
-@pytest.mark.parametrize(
-    "quat", [(2.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0), (math.nan, 0.0, 0.0, 0.0), (1.0, 0.0)]
-)
+@pytest.mark.parametrize("quat", [(2.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0), (math.nan, 0.0, 0.0, 0.0), (1.0, 0.0)])
 def test_quaternion_that_is_not_unit_is_refused(task, quat):
     for start in (Start("odd", quat), Start("odd", (1.0, 0.0, 0.0, 0.0), goal_wxyz=quat)):
         with pytest.raises(ValueError, match=r"start 'odd': .*unit quaternion"):

@@ -1,13 +1,15 @@
 """The promise of growing: one file adds a regulator, representation, Jacobian, inverse, impedance, metric, task, arm,
-start set of the free body or of arms, axis of trouble, or page; a metric or task of contact too."""
+start set of the free body or of arms, axis of trouble, experiment, or page; a metric or task of contact too."""
 
 import json
 import os
 import shutil
+import signal
 import subprocess
 import sys
 from pathlib import Path
 
+import pyarrow.parquet as pq
 import pytest
 from support.command_line import digest
 
@@ -216,6 +218,48 @@ print("rows with the dropped column:", read.episodes(task="dropped-task")["dropp
 """,
 }
 
+EXPERIMENT = "bench/experiments/dropped_experiment.py"
+DROPPED_EXPERIMENT = '''
+"""Position gains: a unit a law; killed at the one that the environment names."""
+
+import os
+import signal
+
+import pandas as pd
+
+from bench.experiments.experiment import Experiment, Unit
+from bench.tables.column import Table, numbers, words
+
+
+def columns():
+    """dropped.parquet: a row a law."""
+    return [*words(law="the law"), *numbers("1/s^2", "position gain", "kp")]
+
+
+def units(asked):
+    """A unit a law."""
+    return tuple(Unit("dropped-experiment", one.name, episodes=1) for one in asked.laws)
+
+
+def rows(settings, unit):
+    """One."""
+    if os.environ.get("KILLED_AT") == unit.contender:
+        os.kill(os.getpid(), signal.SIGKILL)
+    return pd.DataFrame({"law": [unit.contender], "kp": [settings.gains.kp]})
+
+
+EXPERIMENT = Experiment(
+    "dropped-experiment",
+    "A dropped experiment",
+    Table("dropped", columns, ("law",)),
+    units,
+    rows,
+    cost_s=lambda unit: 0.1,
+    compiles=False,
+    summary=lambda frame: frame,
+)
+'''
+
 LISTED = {
     "regulators": "dropped-regulator",
     "representations": "dropped-coordinates",
@@ -270,17 +314,18 @@ def said(tree: Path, *commands: tuple[str, ...]) -> list[str]:
     return ran(tree, "-c", COMMANDS, json.dumps(commands), END).split(END)[:-1]
 
 
-def ran(tree: Path, *words: str) -> str:
-    """What Python prints there."""
+def ran(tree: Path, *words: str, code: int = 0, **variables: str) -> str:
+    """What Python prints there, with these variables of the environment."""
     ours = {
         **os.environ,
+        **variables,
         "PYTHONPATH": str(tree),
         "XDG_CACHE_HOME": str(tree / "cache"),
     }
     ours.pop("NUMBA_CACHE_DIR", None)
     ours.pop("ORIENTATION_BENCH_RESULTS", None)
     done = subprocess.run([sys.executable, *words], cwd=tree, env=ours, capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stdout + done.stderr
+    assert done.returncode == code, done.stdout + done.stderr
     return done.stdout
 
 
@@ -360,3 +405,34 @@ def test_dropped_files_are_listed_run_counted_and_shown_without_another_touched(
     after = sources(tree)
     assert {name: after[name] for name in before} == before
     assert after.keys() - before.keys() == DROPPED.keys()
+
+
+@pytest.mark.slow
+def test_dropped_experiment_is_planned_run_resumed_stored_shown_and_compared_without_another_file_touched(tree):
+    before = sources(tree)
+    (tree / EXPERIMENT).write_text(DROPPED_EXPERIMENT.lstrip("\n"))
+    words = ("run", "--experiment", "dropped-experiment", "--workers", "1", "--out")
+    ran(tree, "-m", "bench", *words, "results/killed", code=-signal.SIGKILL, KILLED_AT="rotation-matrix")
+    listed, planned, resumed, whole, shown, compared = said(
+        tree,
+        ("list", "experiments"),
+        (*words, "results/none", "--dry-run"),
+        (*words, "results/killed"),
+        (*words, "results/whole"),
+        ("show", "results/killed"),
+        ("compare", "results/killed", "results/whole"),
+    )
+    found = [pq.read_table(tree / "results" / name / "dropped.parquet") for name in ("killed", "whole")]
+    count = found[1].num_rows
+    assert "\ndropped-experiment  dropped.parquet" in listed
+    assert f"in {count} units" in planned
+    assert f"going on: {count - 1} of {count} units are done" in resumed
+    assert "going on" not in whole
+    assert found[0].equals(found[1])
+    assert found[1].schema.field("kp").metadata[b"unit"] == b"1/s^2"
+    assert "A dropped experiment" in shown
+    assert "rotation-matrix" in shown
+    assert "agrees with" in compared
+    after = sources(tree)
+    assert {name: after[name] for name in before} == before
+    assert after.keys() - before.keys() <= {EXPERIMENT}

@@ -68,9 +68,7 @@ def test_operation_counts_once_and_keeps_its_value(operation, compute):
     assert taken(tally) == {operation: 1}
 
 
-@pytest.mark.parametrize(
-    "compare", [lambda x, y: x < y, lambda x, y: x <= y, lambda x, y: x > y, lambda x, y: x >= y]
-)
+@pytest.mark.parametrize("compare", [lambda x, y: x < y, lambda x, y: x <= y, lambda x, y: x > y, lambda x, y: x >= y])
 @pytest.mark.parametrize("other", [0.5, 0.25, 0.0, math.nan])
 def test_comparison_counts_once_and_follows_the_value(compare, other):
     for right in (other, np.float64(other)):
@@ -141,9 +139,7 @@ def test_what_cannot_be_counted_raises(use):
     assert taken(tally) == {}
 
 
-@pytest.mark.parametrize(
-    "use", [np.sin, np.abs, np.sqrt, lambda x: np.arctan2(x, 1.0), lambda x: np.array([1.0]) * x]
-)
+@pytest.mark.parametrize("use", [np.sin, np.abs, np.sqrt, lambda x: np.arctan2(x, 1.0), lambda x: np.array([1.0]) * x])
 def test_numpy_raises(use):
     _, x = counted(0.25)
     with pytest.raises(TypeError):
@@ -240,8 +236,7 @@ def test_goal_chart_and_chart_have_stages_of_their_own():
 
 def test_linearization_has_a_stage_of_its_own():
     linear, nonlinear = (
-        cost(find_contender(f"{word}/zyx-euler")).typical
-        for word in ("linearized-euler", "feedback-linearized")
+        cost(find_contender(f"{word}/zyx-euler")).typical for word in ("linearized-euler", "feedback-linearized")
     )
     assert sum(linear.of("linearize").values()) == 0
     assert sum(nonlinear.of("linearize").values()) > 0

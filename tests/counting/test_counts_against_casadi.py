@@ -294,9 +294,7 @@ ALL_FORMS = [
 ]
 
 
-@pytest.mark.parametrize(
-    ("expression", "word"), ALL_FORMS, ids=lambda value: getattr(value, "__name__", value)
-)
+@pytest.mark.parametrize(("expression", "word"), ALL_FORMS, ids=lambda value: getattr(value, "__name__", value))
 def test_expression_is_the_law_that_is_counted(expression, word):
     rng = np.random.default_rng(1988)
     function, law, gains = function_of(expression), find_contender(word).law, Gains()

@@ -9,10 +9,9 @@ import tasks
 from bench.contenders.registry import find_contender
 from bench.control.registry import all_compliants, find_compliant
 from bench.errors import Incompatible, UnknownWord
-from bench.experiments import contact_plan
 from bench.experiments import plan as planning
 from bench.experiments.choice import Choice
-from bench.experiments.contact_plan import can_do, poses_of
+from bench.experiments.contact import DENSE, can_do, cut, poses_of
 from bench.experiments.suites import SUITES
 from tasks.base import BadValue
 
@@ -27,7 +26,7 @@ DRY = ("run", "--dry-run", "--suite", "quick")
 def contacts(suite="quick", **words):
     """The units in contact of a suite with these words of a choice, and the episodes beside them."""
     plan = planning.make(suite, LAW, Choice(**words))
-    return plan.contacts, plan.episodes
+    return plan.of("contact"), plan.episodes("free-body", "arm")
 
 
 def named(units, name):
@@ -56,36 +55,38 @@ def test_arms_that_cannot_are_seven_jointed_or_have_no_wrist():
 @pytest.mark.parametrize("suite", SUITES)
 def test_units_cover_each_pose_once_and_have_keys_of_their_own(suite):
     plan = planning.make(suite, LAW)
-    assert len({unit.key for unit in plan.work}) == len(plan.work)
+    assert len({unit.key for unit in plan.units}) == len(plan.units)
     reached: dict = {}
-    for unit in plan.contacts:
-        place = dataclasses.replace(unit, first=0, poses=0, count=0)
+    for unit in plan.of("contact"):
+        place = dataclasses.replace(unit, first=0, count=0, episodes=0)
         assert unit.first == reached.get(place, 0)
-        reached[place] = unit.first + unit.poses
+        reached[place] = unit.first + unit.count
     for place, poses in reached.items():
         one, task, arm = find_compliant(place.contender), tasks.contact_task(place.task), tasks.arm(place.arm)
-        every = poses_of(one, task, arm, place.dense)
+        every = poses_of(one, task, arm, place.selector == DENSE)
         assert poses == min(len(every), SUITES[suite].in_contact.poses or len(every))
 
 
 def test_trials_are_those_of_the_units_poses():
     plan = planning.make("quick", LAW, Choice(tasks=("wrench-probe",), arms=("ur5e",), controllers=(EULER,)), count=7)
     every = poses_of(find_compliant(EULER), tasks.contact_task("wrench-probe"), tasks.arm("ur5e"), dense=False)
-    assert [unit.poses for unit in plan.contacts] == [7]
-    assert plan.trials == sum(map(len, every[:7]))
+    assert [unit.count for unit in plan.of("contact")] == [7]
+    assert plan.episodes("contact") == sum(map(len, every[:7]))
 
 
-def test_unit_lasts_some_seconds_at_most(monkeypatch):
-    monkeypatch.setattr(contact_plan, "LONGEST_S", 20.0)
-    units, _ = contacts(tasks=("wrench-probe",), arms=("ur5e",), controllers=(EULER,))
+def test_unit_lasts_some_seconds_at_most():
+    task = tasks.contact_task("wrench-probe")
+    units = list(cut(find_compliant(EULER), task, tasks.arm("ur5e"), None, False, task.horizon_s, longest_s=20.0))
     assert len(units) > 5
-    assert all(unit.count * unit.horizon_s <= 20.0 for unit in units)
+    assert all(unit.episodes * unit.horizon_s <= 20.0 for unit in units)
 
 
 def test_full_suite_takes_dense_trials_where_a_task_has_them():
     task = tasks.contact_task("wrench-probe")
     units, _ = contacts("full", tasks=(task.name,), arms=("ur5e",), controllers=(EULER,))
-    assert sum(unit.count for unit in units) == len(task.dense(tasks.arm("ur5e"))) > len(task.trials(tasks.arm("ur5e")))
+    assert (
+        sum(unit.episodes for unit in units) == len(task.dense(tasks.arm("ur5e"))) > len(task.trials(tasks.arm("ur5e")))
+    )
 
 
 def test_poses_of_a_hybrid_are_all_trials_of_the_task_in_their_order():
@@ -106,9 +107,8 @@ def test_impedance_is_set_what_differs_in_more_than_the_selection():
 
 
 def test_integrator_in_contact_is_implicit_unless_one_is_named():
-    assert planning.make("quick", LAW).contact_integrator == "implicitfast"
-    assert planning.make("quick", LAW).integrator == "euler"
-    both = planning.make("quick", LAW, integrator="rk4")
+    usual, both = (planning.make("quick", LAW, integrator=word).settings for word in (None, "rk4"))
+    assert (usual.integrator, usual.contact_integrator) == ("euler", "implicitfast")
     assert (both.integrator, both.contact_integrator) == ("rk4", "rk4")
 
 
@@ -193,7 +193,7 @@ def test_what_contact_does_not_take_leaves_it_out(words):
 
 def test_contact_takes_a_horizon():
     plan = planning.make("quick", LAW, Choice(tasks=("wrench-probe",)), horizon_s=0.1)
-    assert {unit.horizon_s for unit in plan.contacts} == {0.1}
+    assert {unit.horizon_s for unit in plan.of("contact")} == {0.1}
 
 
 # ----------------------------------------------------------------------------------------------- names
@@ -238,7 +238,9 @@ def test_unknown_word_of_a_controller_lists_the_known_ones(word, guess):
 
 
 def test_dry_run_counts_trials_of_each_arm_and_task(capsys):
-    said = bench(capsys, *DRY, "--controller", EULER, "--task", "wrench-probe", "--count", "3")
+    said = bench(
+        capsys, *DRY, "--experiment", "contact", "--controller", EULER, "--task", "wrench-probe", "--count", "3"
+    )
     assert (said.code, said.err) == (0, "")
     assert f"0 episodes and {18 * len(ABLE)} in contact in {len(ABLE)} units" in said.out
     assert f"controllers in contact: {EULER}" in said.out

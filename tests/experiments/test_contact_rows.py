@@ -11,16 +11,17 @@ from bench.control.hybrid import TOUCH
 from bench.control.registry import find_compliant
 from bench.engines.contact_episode import OUTCOMES, WIDTH, Conditions, Ended
 from bench.engines.run_contact import run
-from bench.experiments import contact_rows
-from bench.experiments.contact_plan import poses_of
-from bench.experiments.contact_rows import WORST_LAST, frame
+from bench.experiments.contact import poses_of
+from bench.experiments.rows import contact as contact_rows
+from bench.experiments.rows.contact import WORST_LAST, frame
 from bench.metrics.contact_metric import Pose, response
 from bench.metrics.measured_compliance import compliance
 from bench.metrics.registry import known_contact_metrics
 from bench.tables import store
-from bench.tables.schema import COMPLIANCE_KEY, compliance_columns
+from bench.tables.schema import TABLES
 
 ARM = tasks.arm("ur5e")
+COMPLIANCE = TABLES["compliance"]
 PROBE = tasks.contact_task("wrench-probe")._replace(horizon_s=0.05)
 EULER = find_compliant("hybrid/zyx-euler+inverse")
 POSES = poses_of(EULER, PROBE, ARM, dense=False)
@@ -50,14 +51,14 @@ def record(ticks: int, value: float = 0.0) -> np.ndarray:
 
 
 def test_row_has_the_columns_of_the_schema_in_any_order(rows):
-    assert set(rows.columns) == {one.name for one in compliance_columns()}
+    assert set(rows.columns) == set(COMPLIANCE.names)
 
 
 def test_columns_end_in_the_metrics_by_name_and_the_measured_rotation():
-    names = [one.name for one in compliance_columns()]
+    names = COMPLIANCE.names
     metrics = [known_contact_metrics()[word].column for word in sorted(known_contact_metrics())]
     assert names[-len(C) - len(metrics) :] == metrics + C
-    assert tuple(names[: len(COMPLIANCE_KEY)]) == COMPLIANCE_KEY
+    assert tuple(names[: len(COMPLIANCE.key)]) == COMPLIANCE.key
 
 
 def test_one_row_a_pose_says_whose_it_is_and_of_what(rows):

@@ -44,7 +44,7 @@ def test_plan_of_a_named_combination_is_that_one_alone_or_refused_with_its_reaso
         if is_compatible:
             plan = planning.make("quick", [law], choice, count=2)
             assert [one.name for one in plan.contenders] == [f"{law.name}@{by}+{through}"]
-            assert {(unit.arm, unit.start_set, unit.variation) for unit in plan.units} == {(arm, "clear", NOMINAL)}
+            assert {(unit.arm, unit.selector, unit.variation) for unit in plan.of("arm")} == {(arm, "clear", NOMINAL)}
             planned += 1
         else:
             one = law._replace(jacobian=known_jacobians()[by], inverse=known_inverses()[through])
@@ -75,39 +75,39 @@ def test_command_line_plans_every_combination_of_a_jacobian(capsys, arm, by):
 def test_arm_alone_is_the_suite_on_that_arm():
     laws = list(LAWS.values())
     plan = planning.make("default", laws, Choice(arms=("puma560",)))
-    assert {unit.arm for unit in plan.units} == {"puma560"}
-    nominal = {unit.contender for unit in plan.units if unit.variation == NOMINAL}
+    assert {unit.arm for unit in plan.units if unit.arm} == {"puma560"}
+    nominal = {unit.contender for unit in plan.of("arm") if unit.variation == NOMINAL}
     assert nominal == {one.name for one in combinations.on(SUITES["default"].on_arms.words, LAWS, 6)}
-    assert {unit.start_set for unit in plan.units if unit.variation == NOMINAL} == set(
+    assert {unit.selector for unit in plan.of("arm") if unit.variation == NOMINAL} == set(
         tasks.task("arm-regulation", "puma560").start_sets
     )
 
 
 def test_default_suite_varies_the_model_on_every_arm():
     plan = planning.make("default", list(LAWS.values()))
-    varied = {(unit.arm, unit.variation) for unit in plan.units if unit.variation != NOMINAL}
+    varied = {(unit.arm, unit.variation) for unit in plan.of("arm") if unit.variation != NOMINAL}
     assert varied == {(arm, word) for arm in ARMS for word in tasks.variation_names() if word != NOMINAL}
 
 
 def test_full_suite_runs_every_compatible_combination():
     plan = planning.make("full", list(LAWS.values()), Choice(arms=ON_BOTH), count=1)
     for arm in ON_BOTH:
-        planned = {unit.contender for unit in plan.units if unit.arm == arm and unit.variation == NOMINAL}
+        planned = {unit.contender for unit in plan.of("arm") if unit.arm == arm and unit.variation == NOMINAL}
         assert planned == {one.name for one in combinations.every(LAWS, tasks.arm(arm).joints)}
 
 
 def test_named_variations_are_run_and_no_others():
     law = find_contender("rotation-matrix")
     plan = planning.make("quick", [law], Choice(arms=("ur5e",), variations=("mass-1.30", NOMINAL)), count=1)
-    assert {unit.variation for unit in plan.units} == {"mass-1.30", NOMINAL}
+    assert {unit.variation for unit in plan.of("arm")} == {"mass-1.30", NOMINAL}
 
 
 def test_units_cover_each_start_once_and_have_keys_of_their_own():
     plan = planning.make("quick", list(LAWS.values()), count=7)
     assert len({unit.key for unit in plan.units}) == len(plan.units)
     whole: dict = {}
-    for unit in plan.units:
-        place = dataclasses.replace(unit, first=0, count=0)
+    for unit in plan.of("free-body", "arm"):
+        place = dataclasses.replace(unit, first=0, count=0, episodes=0)
         assert whole.get(place, 0) == unit.first
         whole[place] = unit.first + unit.count
     assert all(reached == place.total for place, reached in whole.items())

@@ -11,8 +11,9 @@ from support.bits import EPS
 
 import tasks
 from bench.contenders.registry import find_contender, known_representations
-from bench.experiments import plan, poses
-from bench.experiments.pose_sets import DECADES, FAMILIES, WELL_CONDITIONED, grid, pair, polished, towards_pole
+from bench.experiments import plan
+from bench.experiments.rows import poses
+from bench.experiments.rows.pose_sets import DECADES, FAMILIES, WELL_CONDITIONED, grid, pair, polished, towards_pole
 from bench.regression import rows as compare
 from bench.regression.rows import difference
 from bench.tables import schema
@@ -172,7 +173,7 @@ def test_every_pose_has_a_row_in_every_representation(frames):
         counts = frame.groupby(["pose_set", "pose_id"]).size()
         assert set(counts) == {len(known_representations())}
         assert frame["q_7"].isna().all()
-        assert {column.name for column in schema.pose_columns()} == set(frame.columns)
+        assert set(schema.TABLES["poses"].names) == set(frame.columns)
 
 
 def test_conditions_are_numpys_and_infinite_where_nothing_is_finite():
@@ -190,17 +191,15 @@ def test_determinant_is_null_unless_square():
     assert np.isnan(poses.determinants(np.ones((2, 6, 7)))).all()
 
 
-def test_run_without_arms_has_no_poses():
-    one = plan.make("quick", [find_contender("rotation-matrix")], plan.Choice(tasks=("free-body",)))
-    table = poses.run(one)
-    assert len(table) == 0
-    assert list(table.columns) == [column.name for column in schema.pose_columns()]
+def jacobians_of(**words):
+    law = [find_contender("rotation-matrix")]
+    return plan.make("quick", law, plan.Choice(**words)).of("jacobians")
 
 
 def test_run_has_the_arms_of_its_plan():
-    one = plan.make("quick", [find_contender("rotation-matrix")], plan.Choice(arms=("ur5e",), start_sets=("clear",)))
-    assert set(poses.run(plan.dataclasses.replace(one, poses=10))["arm"]) == {"ur5e"}
-    assert len(poses.run(one)) == 0  # narrowed to a start set, a run looks at no poses
+    assert jacobians_of(tasks=("free-body",)) == ()
+    assert [unit.arm for unit in jacobians_of(arms=("ur5e",))] == ["ur5e"]
+    assert jacobians_of(arms=("ur5e",), start_sets=("clear",)) == ()  # narrowed, a run looks at no poses
 
 
 def test_way_to_the_pole_is_refused_from_a_singular_posture():

@@ -8,12 +8,13 @@ import tasks
 from bench.cli.show import MASTERED, robustness_summary
 from bench.contenders.registry import all_contenders, find_contender
 from bench.errors import Incompatible, UnknownWord
-from bench.experiments import plan, robustness_plan
+from bench.experiments import plan, robustness
 from bench.experiments.choice import EVERYTHING, Choice
+from bench.experiments.experiment import Asked
 from bench.experiments.suites import SUITES
 from bench.running import run as running
 from bench.tables.read import with_contender
-from bench.tables.schema import ROBUSTNESS_KEY
+from bench.tables.schema import TABLES
 from bench.tables.store import read
 
 LAWS = [one for one in all_contenders() if not one.regulator.costing_only]
@@ -21,7 +22,7 @@ TWO = [find_contender("rotation-matrix"), find_contender("hybrid")]
 
 
 def units(choice, laws=TWO, suite="quick"):
-    return robustness_plan.units(SUITES[suite].robustness, laws, choice, None, None)
+    return robustness.units(Asked(SUITES[suite], tuple(laws), choice))
 
 
 def made(choice, laws=TWO, **words):
@@ -31,20 +32,18 @@ def made(choice, laws=TWO, **words):
 @pytest.mark.parametrize("suite", SUITES)
 def test_every_suite_puts_every_law_on_r_in_trouble_along_every_axis(suite):
     found = units(EVERYTHING, LAWS, suite)
-    met = {(unit.contender, unit.axis) for unit in found}
+    met = {(unit.contender, unit.selector) for unit in found}
     on_matrix = [one.name for one in LAWS if one.representation is None and not one.regulator.in_engine]
     assert met >= {(name, axis) for name in on_matrix for axis in tasks.axis_names()}
     assert len(met) == len(found)
     for unit in found:
-        assert unit.count == unit.starts * len(tasks.axis(unit.axis).levels)
+        assert unit.episodes == unit.count * len(tasks.axis(unit.selector).levels)
 
 
 def test_a_named_axis_is_all_that_runs():
     found = made(Choice(axes=("delay",)), count=3)
-    assert {unit.axis for unit in found.work} == {"delay"}
-    assert found.troubled == 2 * 3 * len(tasks.axis("delay").levels)
-    assert not found.units
-    assert not found.contacts
+    assert {unit.selector for unit in found.of("robustness")} == {"delay"}
+    assert found.episodes("robustness") == found.episodes() == 2 * 3 * len(tasks.axis("delay").levels)
 
 
 def test_what_has_to_do_with_other_episodes_leaves_trouble_out():
@@ -66,12 +65,14 @@ def test_words_that_an_axis_does_not_take_are_refused():
 def rows(tmp_path_factory) -> pd.DataFrame:
     out = tmp_path_factory.mktemp("trouble")
     laws = [find_contender(word) for word in ("rotation-matrix", "hybrid", "gibbs")]
-    running.run(made(Choice(axes=("delay", "equal-peak", "half-turn-noise")), laws, count=3), out)
+    running.run(
+        made(Choice(axes=("delay", "equal-peak", "half-turn-noise"), experiments=("robustness",)), laws, count=3), out
+    )
     return with_contender(read(out, "robustness"))
 
 
 def test_there_is_a_row_for_each_law_level_and_start(rows):
-    assert not rows.duplicated(list(ROBUSTNESS_KEY)).any()
+    assert not rows.duplicated(list(TABLES["robustness"].key)).any()
     counts = rows.groupby(["contender", "axis", "level"], observed=True).size()
     assert (counts == 3).all()
     for axis in ("delay", "half-turn-noise"):

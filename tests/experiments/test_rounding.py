@@ -8,8 +8,8 @@ import tasks
 from bench.contenders.registry import find_contender
 from bench.experiments import plan as planning
 from bench.experiments.choice import Choice
-from bench.experiments.rounding import BESIDE, CHANGE, NUDGE, judged_on_both_sides, nudged
-from bench.experiments.work import rows
+from bench.experiments.experiment import rows_of
+from bench.experiments.rows.rounding import BESIDE, CHANGE, NUDGE, judged_on_both_sides, nudged
 
 START = tasks.start_set("clear", 1, arm="ur5e")[0]
 
@@ -79,7 +79,7 @@ def test_run_marks_what_passes_a_singularity_and_nothing_in_the_clear():
         count=8,
         horizon_s=3.0,
     )
-    found = pd.concat([rows(plan, unit) for unit in plan.units])
+    found = pd.concat([rows_of(plan.settings, unit) for unit in plan.of("arm")])
     doubtful = found[CHANGE].notna()
     assert not doubtful[found["start_set"] == "clear"].any()
     assert doubtful[found["start_set"] == "wrist"].any()

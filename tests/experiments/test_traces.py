@@ -1,6 +1,7 @@
 """Curves that a run keeps: of every law from every telling start, exact for claims, to 22 bits for figures."""
 
 import numpy as np
+import pandas as pd
 import pytest
 from support.driving import settings
 
@@ -10,8 +11,8 @@ from bench.contenders.registry import find_contender
 from bench.engines.curve import NUMBERS, blank_curves
 from bench.engines.run import run_compiled
 from bench.experiments import traces
-from bench.experiments.plan import Plan, Unit
-from bench.experiments.rows import judged_columns
+from bench.experiments.experiment import Settings
+from bench.experiments.rows.episodes import judged_columns
 from bench.metrics.registry import metrics_of
 from tasks.rules import RULES
 
@@ -21,8 +22,8 @@ HOLD_TICKS = RULES.hold_ticks(1e-3)
 
 @pytest.fixture(scope="module")
 def kept():
-    laws = tuple(map(find_contender, (PAPERS, LATER)))
-    return traces.run(Plan("quick", (), laws, traces=5)).to_pandas()
+    laws = map(find_contender, (PAPERS, LATER))
+    return pd.concat([traces.rows(Settings(), traces.of_law(one, 5)) for one in laws])
 
 
 def rerun(law, start_set, start_id, horizon_s=20.0):
@@ -81,7 +82,6 @@ def test_two_neighbours_at_the_kept_bits_are_one_to_the_gate():
 
 def test_curves_on_an_arm_share_the_table_and_name_no_outcome():
     [one] = combinations.on((f"{PAPERS}@geometric+solve",), {PAPERS: find_contender(PAPERS)}, 6)
-    unit = Unit("native", one.name, "arm-regulation", "clear", 0, 1, 1, 4.0, "puma560")
-    kept = traces.run(Plan("quick", (unit,), (one,), arm_traces=1)).to_pandas()
+    kept = traces.rows(Settings(), traces.of_arm(one.name, "arm-regulation", "puma560", 1))
     assert set(kept["start_set"]) == set(traces.ARM_SETS)
     assert set(kept["outcome"]) == {""}

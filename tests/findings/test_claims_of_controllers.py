@@ -8,7 +8,7 @@ import pytest
 
 import tasks
 from bench.counting.counted import OPERATIONS
-from bench.experiments import poses
+from bench.experiments.rows import poses
 from bench.experiments.suites import ON_ARM
 from bench.findings import claims
 from bench.findings.claims import arm_probes, euler_controller, probes

@@ -8,9 +8,10 @@ import pytest
 
 from bench.cli import main
 from bench.contenders.registry import find_contender
-from bench.experiments import boundary, traces
+from bench.experiments import boundaries, traces
 from bench.experiments import plan as planning
 from bench.experiments.choice import Choice
+from bench.experiments.experiment import Settings
 from bench.regression.rows import compare
 from bench.running import run as running
 from bench.tables.store import read, write_table
@@ -119,9 +120,8 @@ def test_gate_catches_a_changed_column(reference, candidate, edit):
 
 
 def test_gate_catches_a_moved_failure_boundary(reference, candidate, tmp_path):
-    laws = [find_contender("linearized-euler")]
-    plan = planning.Plan("quick", (), tuple(laws), boundary_axes=16)
-    write_table(candidate / "boundaries.parquet", boundary.run(plan), "boundaries")
+    unit = boundaries.of_law(find_contender("linearized-euler"), 16)
+    write_table(candidate / "boundaries.parquet", boundaries.rows(Settings(), unit), "boundaries")
     before = tmp_path / "before"
     shutil.copytree(candidate, before)
 
@@ -138,8 +138,8 @@ def test_gate_catches_a_moved_failure_boundary(reference, candidate, tmp_path):
 
 
 def test_gate_catches_a_curve_that_bends_and_one_that_is_gone(candidate, tmp_path):
-    plan = planning.Plan("quick", (), (find_contender("rotation-matrix"),), traces=3)
-    write_table(candidate / "traces.parquet", traces.run(plan), "traces")
+    unit = traces.of_law(find_contender("rotation-matrix"), 3)
+    write_table(candidate / "traces.parquet", traces.rows(Settings(), unit), "traces")
     before = tmp_path / "before"
     shutil.copytree(candidate, before)
     assert compare(before, candidate) == []

@@ -12,6 +12,7 @@ pytest.importorskip("matplotlib", reason="the report extra is not installed (cur
 from bench.contenders.registry import find_contender
 from bench.experiments import plan
 from bench.experiments.choice import Choice
+from bench.experiments.traces import of_arm
 from bench.running import run
 from bench.tables import read
 from report.figures.arms import (
@@ -62,7 +63,8 @@ def small_run(tmp_path_factory):
     laws = [find_contender(word) for word in ("rotation-matrix", "feedback-linearized/zyx-euler")]
     made = plan.make("quick", laws, CHOICE, count=STARTS, horizon_s=2.5)
     folder = tmp_path_factory.mktemp("arms") / "run"
-    run.run(dataclasses.replace(made, arm_traces=1), folder)
+    more = (of_arm(*one, 1) for one in dict.fromkeys((u.contender, u.task, u.arm) for u in made.of("arm")))
+    run.run(dataclasses.replace(made, units=(*made.units, *more)), folder)
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv(read.VARIABLE, str(folder))
         yield folder

@@ -12,8 +12,8 @@ pytest.importorskip("matplotlib", reason="the report extra is not installed (cur
 import tasks
 from bench.control.registry import find_compliant
 from bench.engines.contact_episode import USUAL
-from bench.experiments import contact_rows
-from bench.experiments.contact_plan import poses_of
+from bench.experiments.contact import poses_of
+from bench.experiments.rows import contact as contact_rows
 from bench.tables import read
 from report.figures.contact import (
     compliance_axes,

@@ -11,7 +11,7 @@ pytest.importorskip("matplotlib", reason="the report extra is not installed (cur
 
 import tasks
 from bench.counting import rows_on_arm
-from bench.experiments import poses
+from bench.experiments.rows import poses
 from bench.findings.claims.arm_probes import controller
 from bench.tables.read import with_contender
 from report.figures.arms import (

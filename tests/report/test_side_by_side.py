@@ -15,7 +15,7 @@ import tasks
 from bench import counting
 from bench.contenders.registry import find_contender, known_regulators
 from bench.experiments import traces
-from bench.experiments.plan import Plan
+from bench.experiments.experiment import Settings
 from bench.tables import read
 from report.figures.cards import side_by_side
 from report.figures.cards import side_by_side_data as sides
@@ -33,8 +33,9 @@ def starts_of(start_set, ids):
 @pytest.fixture(scope="module")
 def rows():
     """Curves of four laws, as the page reads them."""
-    plan = Plan("quick", (), tuple(map(find_contender, LAWS)), traces=traces.FEW)
-    return sides.shown(read.with_contender(traces.run(plan).to_pandas()))
+    units = [traces.of_law(find_contender(name), traces.FEW) for name in LAWS]
+    frames = [traces.rows(Settings(), unit) for unit in units]
+    return sides.shown(read.with_contender(pd.concat(frames, ignore_index=True)))
 
 
 @pytest.fixture(scope="module")

@@ -11,7 +11,11 @@ from bench.provenance import DECIDING, ROOT
 READ_ONLY = {"bench/__init__.py", "bench/provenance.py", "bench/tables/__init__.py"}
 MODULES = """
 import sys
-from bench.experiments import boundary, poses, traces, work
+from bench.experiments.experiment import known_experiments
+from bench.experiments.rows import contact, episodes, poses, robustness, rounding
+from bench.engines import run, run_arm, run_contact, run_disturbed
+from bench.tables import kept_costs
+known_experiments()
 from bench.counting import in_contact, on_arms
 for name, module in list(sys.modules.items()):
     if name.partition(".")[0] in ("bench", "tasks"):

@@ -7,7 +7,7 @@ import pytest
 from support.unit_kinds import plan_of_all_kinds
 
 from bench.errors import BadResults
-from bench.experiments.work import rows
+from bench.experiments.experiment import known_experiments, rows_of
 from bench.running import wire_format
 
 
@@ -19,22 +19,23 @@ def made(tmp_path_factory):
 @pytest.fixture(scope="module")
 def carried(made):
     """The plan as it is on the other side."""
-    return wire_format.plan_of(json.loads(json.dumps(wire_format.described(made, made.work))))
+    return wire_format.plan_of(json.loads(json.dumps(wire_format.described(made, made.units))))
 
 
 def test_chunk_has_the_units_of_every_kind(made, carried):
-    assert {unit.table for unit in made.work} == {"episodes", "compliance", "robustness"}
-    assert carried.work == made.work
+    assert {unit.experiment for unit in made.units} == known_experiments().keys()
+    assert carried.units == made.units
 
 
 def test_other_process_makes_the_same_rows_of_a_chunk(made, carried):
-    for unit in made.work:
-        pd.testing.assert_frame_equal(rows(carried, unit), rows(made, unit), check_exact=True)
+    for unit in made.units:
+        both = (rows_of(plan.settings, unit) for plan in (carried, made))
+        pd.testing.assert_frame_equal(*both, check_exact=True)
 
 
 def test_chunk_of_one_unit_carries_no_law_of_another(made):
-    assert len(wire_format.described(made, made.work)["laws"]) == 1
-    assert wire_format.described(made, made.contacts)["laws"] == []
+    assert len(wire_format.described(made, made.units)["settings"]["own"]) == 1
+    assert wire_format.described(made, made.of("contact"))["settings"]["own"] == []
 
 
 def test_chunk_of_other_sources_is_refused(made):

@@ -13,7 +13,7 @@ from bench.errors import BadNumber, BadResults, LostWorkers, MissingTool, Unknow
 from bench.experiments import plan as planning
 from bench.experiments.choice import Choice
 from bench.provenance import ROOT
-from bench.running import finish, run
+from bench.running import run
 from bench.running.run_folder import part
 from bench.running.schedulers import cluster
 from bench.running.schedulers.batches import CHUNK_S, MOST_EPISODES, portions, seconds
@@ -23,7 +23,7 @@ from bench.tables.store import read_json
 DIES = """
 import os, signal
 from bench.running.schedulers import worker
-worker.rows = lambda plan, unit: os.kill(os.getpid(), signal.SIGKILL)
+worker.rows_of = lambda settings, unit: os.kill(os.getpid(), signal.SIGKILL)
 """
 """Run in a worker: it is killed while it makes the rows of a unit of ours, with another chunk in its hand."""
 
@@ -32,12 +32,11 @@ OWN_SOURCES = "from bench.running import wire_format as w; w.source_digest = w.o
 
 WITHOUT = """
 import pathlib, sys
-from bench.running import finish, run
+from bench.running import run
 from bench.experiments import plan as planning
 from bench.experiments.choice import Choice
 from bench.contenders.registry import find_contender
-finish.all_contenders = list
-choice = Choice(start_sets=("paper",), engines=("reference",))
+choice = Choice(start_sets=("paper",), engines=("reference",), experiments=("free-body",))
 plan = planning.make("quick", [find_contender("rotation-matrix")], choice, horizon_s=0.01)
 assert run.run(plan, pathlib.Path(sys.argv[1]))
 print(sorted({"dask", "distributed"} & set(sys.modules)))
@@ -56,18 +55,10 @@ def client():
         yield client
 
 
-@pytest.fixture(autouse=True)
-def few_costs(plan, monkeypatch):
-    """Count the plan's laws alone, to be fast."""
-    monkeypatch.setattr(finish, "all_contenders", lambda: plan.laws[:1])
-
-
 @pytest.fixture(scope="module")
 def by_threads(plan, tmp_path_factory):
     out = tmp_path_factory.mktemp("threads") / "run"
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(finish, "all_contenders", lambda: plan.laws[:1])
-        run.run(plan, out, workers=2)
+    run.run(plan, out, workers=2)
     return tables(out)
 
 
@@ -94,7 +85,7 @@ def test_run_goes_on_with_another_scheduler(plan, client, by_threads, tmp_path, 
         run.run(plan, tmp_path, scheduler=address(client), told=stop)
     assert all(part(tmp_path, unit).is_file() for unit in told)
     before = list((tmp_path / "parts").iterdir())
-    assert 2 <= len(before) < len(plan.work)
+    assert 2 <= len(before) < len(plan.units)
     assert run.run(plan, tmp_path, workers=1)
     assert tables(tmp_path) == by_threads
 
@@ -115,7 +106,7 @@ def test_cluster_makes_the_bytes_that_threads_make_though_a_worker_is_killed(
     run.run(plan, tmp_path, scheduler=address(client), told=told.append)
     assert len(by_threads) == 7
     assert tables(tmp_path) == by_threads
-    assert sorted(one.unit.key for one in told) == sorted(unit.key for unit in plan.work)
+    assert sorted(one.unit.key for one in told) == sorted(unit.key for unit in plan.units)
     assert set(client.run(os.getpid).values()) != set(pids.values())
     said = read_json(tmp_path / "provenance.json")
     assert (said["scheduler"], said["workers"]) == ("tcp", 2)
@@ -133,7 +124,7 @@ class Killed:
 
 def test_chunk_that_lost_all_its_workers_is_taken_apart_and_its_unit_named(plan, tmp_path):
     chunks = cluster.Chunks(None, plan, tmp_path, None)
-    future, (first, second) = Killed(), plan.work[:2]
+    future, (first, second) = Killed(), plan.units[:2]
     chunks.given[future] = (first, second)
     chunks.take(future)
     assert list(chunks.waiting) == [(first,), (second,)]
@@ -182,12 +173,12 @@ def test_impossible_number_of_processes_is_refused(word):
 
 def test_portions_keep_every_unit_in_its_order(plan):
     for workers in (0, 1, 2, 100):
-        assert [unit for chunk in portions(plan.work, workers) for unit in chunk] == list(plan.work)
+        assert [unit for chunk in portions(plan.units, workers) for unit in chunk] == list(plan.units)
     assert portions([], 2) == []
 
 
 def test_portions_of_little_work_leave_no_worker_idle(plan):
-    assert len(portions(plan.work * 20, 2)) >= 8
+    assert len(portions(plan.units * 20, 2)) >= 8
 
 
 @pytest.mark.parametrize("engine", ["ideal-rk4", "native"])
@@ -199,9 +190,9 @@ def test_portions_of_much_work_are_of_ten_to_sixty_seconds(engine):
 
 def test_portions_of_fast_episodes_are_of_as_many_as_memory_holds():
     chunks = portions(units_of_much_work("ideal-held"), 1)
-    assert {sum(unit.count for unit in chunk) for chunk in chunks} == {MOST_EPISODES}
+    assert {sum(unit.episodes for unit in chunk) for chunk in chunks} == {MOST_EPISODES}
 
 
 def units_of_much_work(engine):
-    choice = Choice(("free-body",), ("uniform",), (engine,))
+    choice = Choice(("free-body",), ("uniform",), (engine,), experiments=("free-body",))
     return planning.make("default", [find_contender("rotation-matrix")], choice, count=300_000).units

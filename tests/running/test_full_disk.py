@@ -8,13 +8,13 @@ from bench.contenders.registry import find_contender
 from bench.errors import BadResults
 from bench.experiments import plan as planning
 from bench.experiments.choice import Choice
-from bench.running import finish, run
+from bench.running import run
 from bench.tables import store
 
 
 @pytest.fixture(scope="module")
 def plan():
-    choice = Choice(start_sets=("paper",), engines=("reference",))
+    choice = Choice(start_sets=("paper",), engines=("reference",), experiments=("free-body",))
     return planning.make("quick", [find_contender("rotation-matrix")], choice, horizon_s=0.1)
 
 
@@ -28,13 +28,7 @@ def disk(tmp_path):
 
 
 @pytest.fixture
-def few_costs(plan, monkeypatch):
-    """Count the plan's law alone, to be fast."""
-    monkeypatch.setattr(finish, "all_contenders", lambda: plan.laws)
-
-
-@pytest.fixture
-def undisturbed(plan, tmp_path, few_costs):
+def undisturbed(plan, tmp_path):
     run.run(plan, tmp_path / "undisturbed", workers=1)
     return digest(tmp_path / "undisturbed")
 

@@ -19,7 +19,7 @@ from bench.errors import BadLaw
 from bench.experiments import plan as planning
 from bench.experiments.choice import Choice
 from bench.provenance import ROOT
-from bench.running import finish, run, sandbox, sandbox_process
+from bench.running import run, sandbox, sandbox_process
 from bench.running.wire_format import described
 from bench.tables import store
 
@@ -36,14 +36,6 @@ BREAKS = {
     },
 }
 """Engine -> law -> the outcome of what it does in some states."""
-
-
-@pytest.fixture(autouse=True, scope="module")
-def few_costs():
-    """Our laws are not counted here, to be fast."""
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(finish, "all_contenders", tuple)
-        yield
 
 
 def rows_by_law(out: Path) -> dict[str, pd.DataFrame]:
@@ -103,10 +95,11 @@ def test_unit_gives_up_after_some_lost_episodes(tmp_path, monkeypatch):
 def test_law_that_hangs_in_trouble_loses_the_whole_unit(tmp_path):
     path = tmp_path / "own.py"
     path.write_text(spring_text("while R.n[0] < -0.1: x = x + 1e-9"))
-    plan = planning.make("quick", contenders_of(load_law(path)), Choice(axes=("delay",)), count=3, horizon_s=0.05)
+    choice = Choice(axes=("delay",), experiments=("robustness",))
+    plan = planning.make("quick", contenders_of(load_law(path)), choice, count=3, horizon_s=0.05)
     run.run(plan, tmp_path / "run", workers=1, law_limit_s=LIMIT_S)
     rows = store.read(tmp_path / "run", "robustness")
-    assert len(rows) == plan.troubled
+    assert len(rows) == plan.episodes()
     assert set(rows["outcome"]) == {"hung"}
     assert rows[["final_angle_rad", "tail_rms_rad", "peak_u", "variation"]].isna().all(axis=None)
 
@@ -156,7 +149,7 @@ def test_mistake_in_a_law_names_the_users_file(tmp_path):
 def test_answer_of_the_process_is_the_rows_that_a_thread_makes(tmp_path):
     plan = plan_of(tmp_path, "pass", engine="ideal-rk4")
     unit = next(one for one in plan.units if one.contender == "mine")
-    content = sandbox_process.answer(plan, {"what": "rows", "key": unit.key, "first": 1, "count": 2})
+    content = sandbox_process.answer(lambda: sandbox_process.made(plan, unit.part(1, 2)))
     assert content[:1] == sandbox_process.DONE
     assert sandbox_process.unpacked(content[1:]).column("start_id").to_pylist() == ["uniform-00001", "uniform-00002"]
-    assert described(plan, [unit])["laws"]
+    assert described(plan, [unit])["settings"]["own"]

@@ -8,7 +8,7 @@ import sys
 import time
 
 import pytest
-from support.command_line import bench, digest
+from support.command_line import ALONE, bench, digest
 
 from bench.experiments import plan as planning
 from bench.experiments.choice import Choice
@@ -76,7 +76,7 @@ def test_one_thread_and_two_give_the_same_files(killed):
     assert killed["one thread"]
 
 
-RUN = ("run", "--suite", "quick", "--task", "free-body", "--starts", "half-turn", "--engine", "reference")
+RUN = ("run", "--suite", "quick", *ALONE, "--starts", "half-turn", "--engine", "reference")
 MANY = (*RUN, "--regulator", "rotation-matrix", "--count", "60", "--horizon", "1", "--workers", "1")
 """Fifteen units of four episodes, each about a tenth of a second: time to be stopped in, on a busy machine too."""
 
@@ -87,6 +87,7 @@ CONTROLLERS = (
 )
 IN_CONTACT = (
     *("run", "--suite", "quick", "--task", "wrench-probe", "--arm", "ur5e", "--count", "6", "--horizon", "0.1"),
+    *("--experiment", "contact"),
     *(word for name in CONTROLLERS for word in ("--controller", name)),
     *("--workers", "1"),
 )
@@ -130,12 +131,12 @@ def test_stopped_run_in_contact_goes_on_and_ends_with_the_same_files(tmp_path, c
             raise KeyboardInterrupt
 
     keys: list[str] = []
-    choice = Choice(tasks=("wrench-probe",), arms=("ur5e",), controllers=CONTROLLERS)
+    choice = Choice(("wrench-probe",), arms=("ur5e",), controllers=CONTROLLERS, experiments=("contact",))
     plan = planning.make("quick", [], choice, count=6, horizon_s=0.1)
     with pytest.raises(KeyboardInterrupt):
         running.run(plan, tmp_path / "stopped", workers=1, told=stop_after_two)
     kept = {path.stem for path in (tmp_path / "stopped" / "parts").iterdir()}
-    assert set(keys) <= kept < {unit.key for unit in plan.contacts}
+    assert set(keys) <= kept < {unit.key for unit in plan.units}
     said = bench(capsys, *IN_CONTACT, "--out", tmp_path / "stopped")
     assert f"going on: {len(kept)} of 4 units are done" in said.out
     assert bench(capsys, *IN_CONTACT, "--out", tmp_path / "undisturbed").code == 0

@@ -7,7 +7,8 @@ from bench.running.order import in_running_order
 
 def test_first_unit_of_each_contender_runs_before_the_rest_of_the_one_before_it():
     laws = [find_contender(word) for word in ("rotation-matrix", "linearized-euler/zyx-euler")]
-    units = planning.make("quick", laws, count=4).work  # on the free body, on arms and in contact
+    plan = planning.make("quick", laws, count=4)
+    units = plan.of("free-body", "arm", "contact", "robustness")
     each = {name: [unit for unit in units if unit.contender == name] for name in [unit.contender for unit in units]}
     assert len(each) > 4
     assert all(len(own) > 1 for own in each.values())
@@ -17,3 +18,5 @@ def test_first_unit_of_each_contender_runs_before_the_rest_of_the_one_before_it(
         expected += [head, *rest]
         rest = tail
     assert in_running_order(units) == [*expected, *rest]
+    compiling_none = plan.of("costs", "jacobians")
+    assert in_running_order((*compiling_none, *units)) == [*expected, *rest, *compiling_none]

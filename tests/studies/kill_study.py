@@ -15,7 +15,7 @@ from pathlib import Path
 
 from support import breaking_laws
 from support.killed_clusters import LOCAL, STUDIED, gone_on_alone, gone_on_with
-from support.killed_runs import Undisturbed, at_random_moments, files_of, remember, undisturbed
+from support.killed_runs import Undisturbed, at_random_moments, files_of, undisturbed
 from support.small_disk import NoDisk, fill, mounted
 
 from bench.errors import BadResults
@@ -102,7 +102,7 @@ def study(folder: Path, kills: int, out: Path) -> None:
     """All of it, in a folder that may go; the file is written after every row, and each is told."""
     about, began = describe() | {"command": "make kill-study"}, time.monotonic()
     about["versions"]["distributed"] = version("distributed")
-    found: dict = {"provenance": about, "units": len(STUDIED.work), "laws": [], "kills": [], "disks": []}
+    found: dict = {"provenance": about, "units": len(STUDIED.units), "laws": [], "kills": [], "disks": []}
 
     def keep(part: str, rows: Iterator[dict]) -> None:
         for row in rows:
@@ -111,7 +111,6 @@ def study(folder: Path, kills: int, out: Path) -> None:
             store.write_json(out, found)
             print(f"{part} {len(found[part])}: {row}", flush=True)
 
-    remember(STUDIED.laws)
     wanted = undisturbed(STUDIED, folder / "undisturbed")
     found["tables"] = sum(name.endswith(".parquet") for name in wanted.files)
     keep("kills", killed(wanted, folder, kills))

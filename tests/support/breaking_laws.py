@@ -21,5 +21,5 @@ def plan_of_laws(folder: Path, bodies: dict[str, str], engine: str) -> plan.Plan
         path = folder / f"{name}.py"
         path.write_text(spring_text(body, name=name))
         laws += contenders_of(load_law(path))
-    choice = Choice(("free-body",), ("uniform",), (engine,))
+    choice = Choice(("free-body",), ("uniform",), (engine,), experiments=("free-body",))
     return plan.make("quick", laws, choice, count=4, horizon_s=0.05)

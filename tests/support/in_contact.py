@@ -15,7 +15,7 @@ import tasks
 from bench.control.hybrid import Rows, Touch, Wish, comply
 from bench.control.registry import all_compliants
 from bench.engines.contact_episode import room, rows, wrench
-from bench.experiments.contact_plan import can_do
+from bench.experiments.contact import can_do
 from bench.law.contender import Gains
 from bench.law.resolved_motion import Chain
 from support.bits import EPS

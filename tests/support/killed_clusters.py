@@ -16,7 +16,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from bench.provenance import ROOT
-from bench.running import finish, run
+from bench.running import run
 from support.killed_runs import SEED, TRIES, Undisturbed, ended, files_of, how_far, plan_of, start
 
 STUDIED = plan_of(("rotation-matrix",), ("half-turn", "paper"), ("ideal-rk4", "native", "reference"), 12)
@@ -92,7 +92,7 @@ def gone_on_alone(wanted: Undisturbed, folder: Path, kills: int) -> Iterator[dic
     for k in range(TRIES * kills):
         if found == kills:
             return
-        out, todo, at = folder / f"worker-{k}", list(wanted.plan.work), []
+        out, todo, at = folder / f"worker-{k}", list(wanted.plan.units), []
         moment = chance.uniform(0.0, longest)
         killer = threading.Thread(target=kill_worker, args=(out, moment, chance, todo, at))
         if longest:
@@ -117,8 +117,7 @@ def kill_worker(out: Path, moment: float, chance: random.Random, todo: list, at:
 
 
 def main(out: Path) -> None:
-    """A run of STUDIED on processes; its laws alone are counted, to be fast."""
-    finish.all_contenders = lambda: STUDIED.laws
+    """A run of STUDIED on processes."""
     run.run(STUDIED, out, scheduler=LOCAL)
 
 

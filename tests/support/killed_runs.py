@@ -1,11 +1,10 @@
 """Runs killed by SIGKILL, and what their resumption ends with; prints one JSON object. `test_resume` starts it.
 
 Everything is imported and compiled once; each run is then a fork of this process, so that a run costs its episodes and
-its files only. Costs, traces and boundaries are remembered between forks: they take time and touch no file.
+its files only.
 """
 
 import dataclasses
-import functools
 import hashlib
 import json
 import os
@@ -18,12 +17,11 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
 
-from bench import counting
 from bench.contenders.registry import find_contender
-from bench.experiments import boundary, plan, poses, traces
+from bench.experiments import boundaries, jacobians, plan, traces
 from bench.experiments.choice import Choice
 from bench.law.contender import Gains
-from bench.running import finish, run
+from bench.running import run
 
 SEED = 20260119
 KILLS = 4  # a hundred are studied (kill_study.py)
@@ -32,17 +30,20 @@ EVENTS = {"open", "os.mkdir", "os.remove", "os.rename", "os.rmdir", "os.chmod"}
 
 
 def plan_of(words: tuple, start_sets: tuple, engines: tuple, count: int, kp: float = 100.0) -> plan.Plan:
-    """A small plan with traces and boundaries; the native engine, if it is named, on an arm and in contact too."""
+    """A small plan with curves, boundaries and costs; with the native engine an arm, its poses, and contact too."""
     laws = [find_contender(word) for word in words]
     settings = {"count": count, "horizon_s": 0.25, "gains": Gains(kp, 20.0)}
     choice = Choice(("free-body", "arm-regulation"), start_sets, engines, ("ur5e",))
     made = plan.make("quick", laws, choice, **settings)
-    units = tuple(unit for unit in made.units if unit.engine == "native" or not unit.arm)
-    touching = Choice(("wrench-probe",), arms=("ur5e",), controllers=("hybrid-base+inverse", "impedance-geometric"))
-    contacts = plan.make("quick", laws, touching, count=2, horizon_s=0.1).contacts if "native" in engines else ()
-    used = {unit.contender for unit in units}
-    contenders = tuple(one for one in made.contenders if one.name in used)
-    return dataclasses.replace(made, units=units, contenders=contenders, traces=4, boundary_axes=2, contacts=contacts)
+    units = [unit for unit in made.of("free-body", "arm") if unit.engine == "native" or not unit.arm]
+    if "native" in engines:
+        touching = Choice(("wrench-probe",), arms=("ur5e",), controllers=("hybrid-base+inverse", "impedance-geometric"))
+        units += plan.make("quick", laws, touching, count=2, horizon_s=0.1).of("contact")
+        units.append(jacobians.of_arm("ur5e", 2))
+    names = {unit.contender for unit in units}
+    units += [unit for unit in made.of("costs") if unit.contender in names]
+    units += [of_law(one, 2) for of_law in (traces.of_law, boundaries.of_law) for one in laws]
+    return dataclasses.replace(made, units=tuple(units))
 
 
 LONG = plan_of(
@@ -64,14 +65,14 @@ class Undisturbed(NamedTuple):
     files: dict
 
 
-def start(one: plan.Plan, out: Path, workers: int, before=lambda: None) -> int:
+def start(one: plan.Plan, out: Path, workers: int, before=lambda: None, told=lambda _: None) -> int:
     """A run in a process of its own; its id."""
     child = os.fork()
     if child:
         return child
     try:
         before()
-        run.run(one, out, workers=workers, replace=True)
+        run.run(one, out, workers=workers, replace=True, told=told)
         os._exit(0)
     finally:
         os._exit(1)
@@ -162,10 +163,14 @@ def at_every_file_operation(wanted: Undisturbed, template: Path, is_over=lambda 
 def while_finishing(wanted: Undisturbed, folder: Path) -> list[dict]:
     """All parts are there; killed at each file operation from there to the end."""
 
-    def die_first():
-        run.finish = lambda *_, **__: os.kill(os.getpid(), signal.SIGKILL)
+    left = list(wanted.plan.units)
 
-    ended(start(wanted.plan, folder / "finishing", 1, before=die_first))
+    def die_at_the_last(_):
+        left.pop()
+        if not left:
+            os.kill(os.getpid(), signal.SIGKILL)
+
+    ended(start(wanted.plan, folder / "finishing", 1, told=die_at_the_last))
     return at_every_file_operation(wanted, folder / "finishing")
 
 
@@ -183,17 +188,8 @@ def while_clearing(wanted: Undisturbed, folder: Path) -> list[dict]:
     return at_every_file_operation(wanted, template, is_new)
 
 
-def remember(laws: tuple) -> None:
-    """Count these laws alone, and follow each plan's traces and boundaries, once for all forks."""
-    finish.all_contenders = lambda: laws
-    counting.rows_on_arm = functools.cache(counting.rows_on_arm)
-    traces.run, alone, poses.run = map(functools.cache, (traces.run, boundary.run, poses.run))
-    boundary.run = lambda plan, pool: alone(plan)
-
-
 def main(folder: Path) -> dict:
     """All that the tests ask."""
-    remember(LONG.laws)
     long = undisturbed(LONG, folder / "long")
     ended(start(LONG, folder / "one-thread", 1))
     answer = {"one thread": files_of(folder / "one-thread") == long.files, "files": sorted(long.files)}

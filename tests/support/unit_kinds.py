@@ -1,4 +1,4 @@
-"""A small plan with units of every kind, one of them a user's law's."""
+"""A small plan with units of every experiment, some of a user's law."""
 
 import dataclasses
 from pathlib import Path
@@ -7,27 +7,30 @@ from bench.contenders.law_file import load_law
 from bench.contenders.registry import find_contender
 from bench.experiments import plan
 from bench.experiments.choice import Choice
+from bench.experiments.experiment import Unit
 from support.user_law import DAMPER, law_text
 
 
 def plan_of_all_kinds(folder: Path) -> plan.Plan:
-    """Units on the free body, an arm, in contact and in trouble; one of a user's law, whose file is in the folder."""
+    """Units of every experiment; some of a user's law, whose file is in the folder."""
     path = folder / "mine.py"
     path.write_text(law_text(DAMPER))
     ours = find_contender("rotation-matrix")
     laws, short = [ours, find_contender("mine", (load_law(path),))], {"count": 2, "horizon_s": 0.05}
-    alone = plan.make("quick", laws, Choice(start_sets=("paper",), engines=("ideal-rk4",)), **short)
     choices = (
+        Choice(start_sets=("paper",), engines=("ideal-rk4",), experiments=("free-body",)),
         Choice(("arm-regulation",), ("clear",), ("native",), ("ur5e",), ("geometric",), ("solve",)),
-        Choice(("wrench-probe",), arms=("ur5e",), controllers=("hybrid-base+inverse",)),
-        Choice(axes=("delay",)),
+        Choice(("wrench-probe",), arms=("ur5e",), controllers=("hybrid-base+inverse",), experiments=("contact",)),
+        Choice(axes=("delay",), experiments=("robustness",)),
     )
-    others = [plan.make("quick", [] if choice.controllers else [ours], choice, **short) for choice in choices]
-    contenders = dict.fromkeys(one for each in (alone, *others) for one in each.contenders)
-    return dataclasses.replace(
-        alone,
-        units=(*alone.units, *others[0].units),
-        contacts=others[1].contacts[:1],
-        troubles=others[2].troubles,
-        contenders=tuple(contenders),
+    alone, *others = [plan.make("quick", laws if k == 0 else [ours], one, **short) for k, one in enumerate(choices)]
+    on_arm, contact, perturbed = (one.units for one in others)
+    made = (
+        Unit("traces", "mine", "free-body", engine="ideal-rk4", count=1, horizon_s=20.0),
+        Unit("boundaries", "mine", "free-body", engine="ideal-rk4", count=1, total=1, horizon_s=10.0),
+        Unit("costs", "rotation-matrix"),
+        Unit("costs", "mine"),
+        Unit("jacobians", arm="ur5e", count=1, total=1),
     )
+    runs = (*alone.units, *(unit for unit in on_arm if unit.experiment == "arm"), *contact[:1], *perturbed)
+    return dataclasses.replace(alone, units=(*runs, *made))

@@ -7,11 +7,9 @@ import pyarrow.parquet as pq
 import pytest
 from support.command_line import TINY, bench, digest, refused, refused_run
 
-from bench.contenders.registry import find_contender
 from bench.errors import BadResults
-from bench.running import finish
 from bench.tables import store
-from bench.tables.schema import VERSION
+from bench.tables.column import VERSION
 
 
 def test_file_in_place_of_a_results_folder_is_refused(capsys, tmp_path):
@@ -88,8 +86,7 @@ def test_truncated_table_is_refused_by_name(capsys, finished, command):
     assert digest(finished) == before
 
 
-def test_deleted_table_is_measured_again_by_the_same_command(capsys, finished, monkeypatch):
-    monkeypatch.setattr(finish, "all_contenders", lambda: [find_contender("rotation-matrix")])  # as `finished` has it
+def test_deleted_table_is_measured_again_by_the_same_command(capsys, finished):
     before = digest(finished)
     (finished / "episodes.parquet").unlink()
     assert bench(capsys, *SAME, "--out", finished).code == 0
@@ -101,7 +98,7 @@ def test_deleted_table_is_measured_again_by_the_same_command(capsys, finished, m
 def test_truncated_part_is_refused_by_name_before_anything_runs(capsys, finished):
     (finished / "provenance.json").unlink()
     (finished / "parts").mkdir()
-    part = finished / "parts" / "reference_rotation-matrix_free-body_nominal_paper_000000.parquet"
+    part = finished / "parts" / "free-body_reference_rotation-matrix_free-body_nominal_paper_000000.parquet"
     shutil.copy(finished / "episodes.parquet", part)
     cut(part)
     before = digest(finished)

@@ -14,7 +14,7 @@ from support.command_line import TINY, bench, digest, refused, refused_run
 from bench.errors import BadResults
 from bench.findings.claims.tables import Results
 from bench.findings.selection.tables import tables_of
-from bench.tables import read, store
+from bench.tables import files, read, store
 from bench.tables.schema import RESULTS
 from report.figures.cards import cards
 from report.figures.method import origin
@@ -187,7 +187,7 @@ def test_json_that_a_terminal_would_obey_or_that_has_no_end_is_refused(tmp_path,
 
 
 def test_json_of_absurd_size_is_not_read(tmp_path, monkeypatch):
-    monkeypatch.setattr(store, "MOST_JSON_BYTES", 10)
+    monkeypatch.setattr(files, "MOST_JSON_BYTES", 10)
     (tmp_path / "plan.json").write_text('{"digest": "0123456789"}')
     with pytest.raises(BadResults, match="more than 10 bytes"):
         store.read_json(tmp_path / "plan.json")

@@ -10,17 +10,17 @@ import pytest
 
 from bench.errors import BadResults
 from bench.provenance import ROOT
-from bench.tables import schema, store
+from bench.tables import column, files, schema, store
 
 README = ROOT / "results" / "README.md"
 
 
 def frame(table: str, rows: int, first: int = 0) -> pd.DataFrame:
     """Rows with every column of a table filled."""
-    fill = {schema.WORD: lambda i: f"word-{i % 3}", schema.NUMBER: lambda i: i / 7.0, schema.COUNT: lambda i: i}
-    fill[schema.SINGLE] = fill[schema.NUMBER]
+    fill = {column.WORD: lambda i: f"word-{i % 3}", column.NUMBER: lambda i: i / 7.0, column.COUNT: lambda i: i}
+    fill[column.SINGLE] = fill[column.NUMBER]
     return pd.DataFrame(
-        {one.name: [fill[one.type](i) for i in range(first, first + rows)] for one in schema.TABLES[table]()}
+        {one.name: [fill[one.type](i) for i in range(first, first + rows)] for one in schema.TABLES[table].columns()}
     )
 
 
@@ -29,22 +29,22 @@ def test_table_comes_back_with_units_and_meanings(tmp_path, table):
     store.write_table(tmp_path / "x.parquet", frame(table, 5), table)
     found = pq.read_schema(tmp_path / "x.parquet")
     assert found.metadata[b"orientation-bench table"].decode() == table
-    assert found.metadata[b"orientation-bench schema"].decode() == schema.VERSION
-    for one in schema.TABLES[table]():
+    assert found.metadata[b"orientation-bench schema"].decode() == column.VERSION
+    for one in schema.TABLES[table].columns():
         metadata = found.field(one.name).metadata
         assert (metadata[b"unit"].decode(), metadata[b"meaning"].decode()) == (one.unit, one.meaning)
 
 
 @pytest.mark.parametrize("table", schema.TABLES)
 def test_every_column_has_a_meaning_and_every_number_a_unit(table):
-    for one in schema.TABLES[table]():
+    for one in schema.TABLES[table].columns():
         assert one.meaning
-        assert bool(one.unit) == (one.type != schema.WORD), one.name
+        assert bool(one.unit) == (one.type != column.WORD), one.name
 
 
 @pytest.mark.parametrize("table", schema.TABLES)
 def test_no_column_comes_twice(table):
-    names = [one.name for one in schema.TABLES[table]()]
+    names = [one.name for one in schema.TABLES[table].columns()]
     assert len(set(names)) == len(names)
 
 
@@ -62,11 +62,11 @@ def test_numbers_come_back_bit_for_bit(tmp_path):
 def test_fractions_are_written_byte_by_byte_and_words_once(tmp_path, table):
     store.write_table(tmp_path / "x.parquet", frame(table, 5), table)
     columns = pq.ParquetFile(tmp_path / "x.parquet").metadata.row_group(0).to_dict()["columns"]
-    types = {one.name: one.type for one in schema.TABLES[table]()}
-    for column in columns:
-        is_fraction = types[column["path_in_schema"]] in (schema.NUMBER, schema.SINGLE)
-        assert ("BYTE_STREAM_SPLIT" in column["encodings"]) == is_fraction, column["path_in_schema"]
-        assert column["has_dictionary_page"] != is_fraction, column["path_in_schema"]
+    types = {one.name: one.type for one in schema.TABLES[table].columns()}
+    for one in columns:
+        is_fraction = types[one["path_in_schema"]] in (column.NUMBER, column.SINGLE)
+        assert ("BYTE_STREAM_SPLIT" in one["encodings"]) == is_fraction, one["path_in_schema"]
+        assert one["has_dictionary_page"] != is_fraction, one["path_in_schema"]
 
 
 def test_columns_come_in_the_order_of_the_schema(tmp_path):
@@ -79,7 +79,7 @@ def test_columns_come_in_the_order_of_the_schema(tmp_path):
 def test_empty_table_keeps_its_columns(tmp_path, table):
     store.write_table(tmp_path / "x.parquet", frame(table, 0), table)
     found = store.read_arrow(tmp_path / "x.parquet", table)
-    assert (found.num_rows, found.schema) == (0, schema.arrow_schema(table))
+    assert (found.num_rows, found.schema) == (0, schema.TABLES[table].schema())
 
 
 class Broken(Exception):
@@ -95,14 +95,14 @@ def test_writer_that_raises_leaves_no_file_and_the_old_one_whole(tmp_path, stopp
     path = tmp_path / "table.json"
     for before in ([], ["table.json"]):
         with pytest.raises(stopped):
-            store.write_atomically(path, half)
+            files.write_atomically(path, half)
         assert [one.name for one in tmp_path.iterdir()] == before
-        store.write_json(path, {"whole": 1})
-    assert store.read_json(path) == {"whole": 1}
+        files.write_json(path, {"whole": 1})
+    assert files.read_json(path) == {"whole": 1}
 
 
 def test_written_file_is_readable_by_all(tmp_path):
-    store.write_json(tmp_path / "x.json", {})
+    files.write_json(tmp_path / "x.json", {})
     assert (tmp_path / "x.json").stat().st_mode & 0o777 == 0o644
 
 
@@ -147,7 +147,7 @@ def test_merge_of_a_truncated_part_names_it_and_leaves_no_file(tmp_path):
 def test_table_of_another_kind_is_refused(tmp_path):
     store.write_table(tmp_path / "x.parquet", frame("costs", 1), "costs")
     for opened in (store.read_arrow, store.check):
-        with pytest.raises(BadResults, match=f"this program reads '{schema.VERSION}' of table 'episodes'"):
+        with pytest.raises(BadResults, match=f"this program reads '{column.VERSION}' of table 'episodes'"):
             opened(tmp_path / "x.parquet", "episodes")
 
 
@@ -165,8 +165,8 @@ def test_readme_of_results_is_the_one_the_schema_writes():
 
 
 def test_readme_of_results_names_every_column_with_its_unit():
-    for columns in schema.TABLES.values():
-        for one in columns():
+    for table in schema.TABLES.values():
+        for one in table.columns():
             assert f"| {one.name} | {one.unit} | {one.meaning} |" in schema.readme()
 
 

@@ -9,10 +9,9 @@ from support.on_arms import named
 
 import tasks
 from bench.engines.run_arm import run
-from bench.experiments import plan as planning
-from bench.experiments.choice import Choice
-from bench.experiments.plan import Unit
-from bench.experiments.rows import frame
+from bench.experiments.experiment import Settings, Unit
+from bench.experiments.rows.episodes import frame
+from bench.experiments.suites import NOMINAL
 from bench.metrics.registry import metrics_of
 from tasks.cause import CAUSES, NEAR_CONDITION, NEAR_MARGIN, cause
 from tasks.kinematics import kinematics, rotation_vector
@@ -81,12 +80,9 @@ METRICS = metrics_of(on_arm=True)
 def rows_of(word: str, starts, horizon_s: float = 3.0):
     """The rows that a run would store."""
     one = named(ARM, word)
-    law = one._replace(jacobian=None, inverse=None)
-    choice = Choice(arms=(ARM,), jacobians=(one.way[0],), inverses=(one.way[1],))
-    plan = planning.make("quick", [law], choice, count=1)
-    unit = Unit("native", one.name, "arm-regulation", "clear", 0, len(starts), len(starts), horizon_s, ARM)
+    unit = Unit("arm", one.name, "arm-regulation", ARM, "native", "clear", NOMINAL, horizon_s=horizon_s)
     numbers = run("native", one, unit.task, ARM, starts, settings(horizon_s=horizon_s), METRICS)
-    return frame(plan, unit, one, starts, numbers, METRICS)
+    return frame(Settings(), unit, one, starts, numbers, METRICS)
 
 
 def test_condition_of_a_row_is_the_judges_largest_along_the_way():

@@ -156,9 +156,7 @@ def test_uniform_angles_follow_the_haar_distribution():
 def test_uniform_is_near_the_pole_as_often_as_haar():
     """sin(beta) is uniform: 1 - cos 10 degrees = 1.5 % lie within 10 degrees of a pole."""
     beta = euler_angles(tasks.start_set("uniform"))[1]
-    assert (np.abs(beta) > math.radians(80)).mean() == pytest.approx(
-        1 - math.cos(math.radians(10)), abs=0.004
-    )
+    assert (np.abs(beta) > math.radians(80)).mean() == pytest.approx(1 - math.cos(math.radians(10)), abs=0.004)
 
 
 def test_uniform_is_haar_for_other_seeds():

@@ -37,9 +37,7 @@ print(environment.reset().observation["R"].tolist())
 
 @pytest.fixture
 def copy_of_tasks(tmp_path) -> Path:
-    shutil.copytree(
-        Path(tasks.__file__).parent, tmp_path / "tasks", ignore=shutil.ignore_patterns("__pycache__")
-    )
+    shutil.copytree(Path(tasks.__file__).parent, tmp_path / "tasks", ignore=shutil.ignore_patterns("__pycache__"))
     return tmp_path
 
 
@@ -78,9 +76,7 @@ def test_start_sets_of_the_design_are_there():
 
 @pytest.mark.parametrize("call", [tasks.task, tasks.load])
 def test_unknown_task_lists_the_known_ones(call):
-    with pytest.raises(
-        UnknownName, match=r"task 'puma' is not in tasks/domains; known: .*free-body.*\(use one"
-    ):
+    with pytest.raises(UnknownName, match=r"task 'puma' is not in tasks/domains; known: .*free-body.*\(use one"):
         call("puma")
 
 
@@ -90,9 +86,7 @@ def test_unknown_start_set_lists_the_known_ones():
 
 
 def test_unknown_integrator_lists_the_known_ones():
-    with pytest.raises(
-        UnknownName, match=r"integrator 'midpoint'.*known: euler, implicit, implicitfast, rk4"
-    ):
+    with pytest.raises(UnknownName, match=r"integrator 'midpoint'.*known: euler, implicit, implicitfast, rk4"):
         tasks.load(integrator="midpoint")
 
 

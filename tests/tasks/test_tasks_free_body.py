@@ -136,9 +136,7 @@ def test_first_command_acts_in_the_first_tick():
     """The moment of the motors is ready after reset, although dm_control's own forward pass has none."""
     environment = tasks.load("free-body", Start("turned", about((1.0, -1.0, 0.5), 1.5)))
     environment.reset()
-    np.testing.assert_allclose(
-        environment.step([7.0, 0.0, 0.0]).observation["omega"], [7e-3, 0.0, 0.0], atol=1e-17
-    )
+    np.testing.assert_allclose(environment.step([7.0, 0.0, 0.0]).observation["omega"], [7e-3, 0.0, 0.0], atol=1e-17)
 
 
 def test_diverged_body_is_not_put_back_by_the_simulator():

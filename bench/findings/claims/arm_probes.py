@@ -1,6 +1,5 @@
 """Small experiments that claims make on arms: curves at another step, episodes from poses of a table."""
 
-import dataclasses
 import math
 
 import numpy as np
@@ -33,12 +32,9 @@ def curves(word: str, arm: str, gains: Gains, dt_s: float, count: int) -> pd.Dat
         position_error_m.
     """
     from bench.experiments import traces
-    from bench.experiments.plan import Plan, Unit
+    from bench.experiments.experiment import Settings
 
-    one = controller(word)
-    unit = Unit("native", one.name, TASK, "clear", 0, count, count, traces.LONGEST_S, arm)
-    plan = dataclasses.replace(Plan("experiment", (unit,), (one,), gains, dt_s), arm_traces=count)
-    frame = traces.run(plan).to_pandas()
+    frame = traces.rows(Settings(gains=gains, dt_s=dt_s), traces.of_arm(controller(word).name, TASK, arm, count))
     frame = frame[frame["start_set"] == "clear"]
     goals = {start.id: start.goal_wxyz for start in tasks.start_set("clear", count, 0, arm=arm)}
     parts = []
@@ -60,9 +56,9 @@ def beside_poles(word: str, arm: str, poses: pd.DataFrame, gains: Gains) -> pd.D
         rows of episodes.parquet; start_id is the pose's.
     """
     from bench.engines.run_arm import run
-    from bench.experiments.plan import Plan, Unit
-    from bench.experiments.rows import frame, settings_of
-    from bench.experiments.suites import ON_ARM
+    from bench.experiments.experiment import Settings, Unit
+    from bench.experiments.rows.episodes import frame
+    from bench.experiments.suites import NOMINAL, ON_ARM
 
     judge = kinematics(tasks.arm(arm))
     own = poses[(poses["arm"] == arm) & (poses["pose_set"] == "pole")].drop_duplicates("pose_id")
@@ -74,13 +70,10 @@ def beside_poles(word: str, arm: str, poses: pd.DataFrame, gains: Gains) -> pd.D
         for id, q in at.items()
         if not id.endswith("-1e-01") and (family := id.rpartition("-1e-")[0] or id.removesuffix("-exact")) in goals
     ]
-    one, metrics = controller(word), metrics_of(on_arm=True)
-    plan, unit = (
-        Plan("experiment", (), (one,), gains),
-        Unit("native", one.name, TASK, "pole", 0, len(starts), len(starts), ON_ARM, arm),
-    )
-    numbers = run("native", one, TASK, arm, starts, settings_of(plan, ON_ARM), metrics)
-    return frame(plan, unit, one, starts, numbers, metrics)
+    one, metrics, settings = controller(word), metrics_of(on_arm=True), Settings(gains=gains)
+    unit = Unit("arm", one.name, TASK, arm, "native", "pole", NOMINAL, count=len(starts), horizon_s=ON_ARM)
+    numbers = run("native", one, TASK, arm, starts, settings.limits(ON_ARM), metrics)
+    return frame(settings, unit, one, starts, numbers, metrics)
 
 
 def largest(frame: pd.DataFrame) -> float:

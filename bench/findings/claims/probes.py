@@ -63,10 +63,9 @@ def episodes(contender: str, starts: list[Start], gains: Gains, dt_s: float, hor
     """Outcome and settling time of a few starts on the continuous plant."""
     from bench.engines.episode import FIRST_METRIC, NEVER, OUTCOME, SETTLING_TICK
     from bench.engines.run import run as run_engine  # imports the compiler: listing claims must not
-    from bench.experiments.plan import Plan
-    from bench.experiments.rows import settings_of
+    from bench.experiments.experiment import Settings
 
-    settings = settings_of(Plan("experiment", (), (), gains, dt_s), horizon_s)
+    settings = Settings(gains=gains, dt_s=dt_s).limits(horizon_s)
     metrics = metrics_of(on_arm=False)
     rows = run_engine("ideal-rk4", find_contender(contender), "free-body", starts, settings, metrics)
     ticks = rows[:, SETTLING_TICK]

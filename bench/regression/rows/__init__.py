@@ -17,9 +17,11 @@ contact      tables of hands in contact, and of laws in trouble
 from pathlib import Path
 
 from bench.errors import BadResults
+from bench.experiments.experiment import known_tables
 from bench.regression.rows.contact import compliance, robustness
 from bench.regression.rows.difference import COLUMN, Difference, lines
-from bench.regression.rows.tables import boundaries, costs, episodes, poses, traces
+from bench.regression.rows.tables import boundaries, costs, episodes, of_key, poses, traces
+from bench.tables.column import Table
 from bench.tables.store import read, read_arrow
 
 __all__ = ["TABLES", "Difference", "compare", "differences", "lines"]
@@ -33,7 +35,7 @@ TABLES = {
     "robustness": robustness,
     "traces": traces,
 }
-"""What is compared, and how."""
+"""What is compared in a way of its own; tables of other experiments are, row by row, as `of_key` says."""
 
 
 def compare(base: Path, head: Path) -> list[str]:
@@ -52,18 +54,20 @@ def differences(base: Path, head: Path) -> list[Difference]:
         BadResults: a folder holds no finished run.
     """
     found: list[Difference] = []
-    for table, rows in TABLES.items():
+    tables = known_tables()
+    for name in (*TABLES, *(tables.keys() - TABLES.keys())):
+        rows = TABLES.get(name) or of_key(tables[name])
         try:
-            old, new = read(base, table), read(head, table)
+            old, new = read(base, tables[name]), read(head, tables[name])
         except BadResults as error:
             raise BadResults(f"nothing to compare: {error}") from error
-        found += _schema(table, base, head) or rows(old, new)
+        found += _schema(tables[name], base, head) or rows(old, new)
     return found
 
 
-def _schema(table: str, base: Path, head: Path) -> list[Difference]:
+def _schema(table: Table, base: Path, head: Path) -> list[Difference]:
     """Columns, types and units that differ."""
-    was, now = (_fields(Path(folder) / f"{table}.parquet", table) for folder in (base, head))
+    was, now = (_fields(Path(folder) / f"{table.name}.parquet", table) for folder in (base, head))
     said = [(name, f"column {name} is missing") for name in was if name not in now]
     said += [(name, f"column {name} is new") for name in now if name not in was]
     for name in was:
@@ -71,10 +75,10 @@ def _schema(table: str, base: Path, head: Path) -> list[Difference]:
             said.append((name, f"column {name} is {_typed(now[name])}, was {_typed(was[name])}"))
     if not said and list(now) != list(was):
         said.append(("", "the columns come in another order"))
-    return [Difference(table, COLUMN, name, f"{table}: {words}", {}) for name, words in said]
+    return [Difference(table.name, COLUMN, name, f"{table.name}: {words}", {}) for name, words in said]
 
 
-def _fields(path: Path, table: str) -> dict[str, tuple[str, str]]:
+def _fields(path: Path, table: Table) -> dict[str, tuple[str, str]]:
     return {
         field.name: (str(field.type), (field.metadata or {}).get(b"unit", b"").decode())
         for field in read_arrow(path, table).schema

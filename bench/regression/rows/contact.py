@@ -7,8 +7,10 @@ from bench.contenders.registry import known_representations
 from bench.contenders.representations.zyx_euler import to_matrix
 from bench.regression.rows.difference import Difference, aligned, changed
 from bench.regression.rows.tables import ABSOLUTE
-from bench.tables.schema import COMPLIANCE_KEY, ROBUSTNESS_KEY
+from bench.tables.schema import TABLES
 from tasks.verdict import OUTCOMES, SETTLED
+
+COMPLIANCE_KEY, ROBUSTNESS_KEY = TABLES["compliance"].key, TABLES["robustness"].key
 
 ON_SET = 1e-6
 """Margin of coordinates: a goal that is nearer to their singular set is meant to be on it."""

@@ -1,11 +1,17 @@
 """How tables of free bodies and arms are compared: each function takes base's and head's rows."""
 
+from collections.abc import Callable
+
 import numpy as np
 import pandas as pd
 
 from bench.regression.rows.difference import MISSING, NEW, Difference, aligned, changed
-from bench.tables.schema import KEY
+from bench.tables.column import Table
+from bench.tables.schema import TABLES
 from tasks.verdict import OUTCOMES, SETTLED
+
+KEY, COST_KEY = TABLES["episodes"].key, TABLES["costs"].key
+BOUNDARY_KEY, TRACE_KEY, POSE_KEY = TABLES["boundaries"].key, TABLES["traces"].key, TABLES["poses"].key
 
 RELATIVE = 1e-6
 """Rounding grows by less than a millionth in a settled episode: two libraries' sines (1e-16 apart) and some 1e4 ticks
@@ -21,25 +27,35 @@ FRICTION_RELATIVE = 1e-3
 """With dry friction an arm's joints stick and creep, by what MuJoCo's solver leaves of each tick at its own tolerance:
 1e-4 of the angle that is left differs between two libraries' sines."""
 
-COST_KEY = ("regulator", "representation", "jacobian", "inverse", "joints", "branch", "stage")
-BOUNDARY_KEY = ("regulator", "representation", "jacobian", "inverse", "axis_x", "axis_y", "axis_z")
 BOUNDARY_ANGLE = 1e-5
 """Bisection ends at 7e-7 rad; near a fractal boundary the last steps may go either way."""
 
-TRACE_KEY = (
-    *("task", "arm", "regulator", "representation", "jacobian", "inverse"),
-    *("engine", "start_set", "start_id", "time_s"),
-)
 CURVE_KEY = TRACE_KEY[:-1]
 ARRIVED = 0.02
 """A curve whose angle ends below the settling band's share of where it began came to the goal."""
 
-POSE_KEY = ("arm", "pose_set", "pose_id", "representation")
 POSE_RELATIVE = 1e-5
 """Single precision is 6e-8; condition numbers up to STEADY lose half the digits of the doubles they are made of."""
 
 STEADY = 1e8
 """Condition number beyond which the last bit of a joint angle decides its value."""
+
+
+def of_key(table: Table) -> Callable[[pd.DataFrame, pd.DataFrame], list[Difference]]:
+    """Rows of the same key: words exactly, numbers to RELATIVE."""
+
+    def rows(old: pd.DataFrame, new: pd.DataFrame) -> list[Difference]:
+        old, new, found = aligned(table.name, old, new, table.key)
+        for name in old.columns.difference(table.key, sort=False):
+            if old[name].dtype.kind in "iuf":
+                a, b = new[name].to_numpy(float), old[name].to_numpy(float)
+                close = np.isclose(a, b, rtol=RELATIVE, atol=ABSOLUTE, equal_nan=True)
+            else:
+                close = new[name].astype(str).to_numpy() == old[name].astype(str).to_numpy()
+            found += changed(table.name, name, old, new, ~close, table.key)
+        return found
+
+    return rows
 
 
 def episodes(old: pd.DataFrame, new: pd.DataFrame) -> list[Difference]:

@@ -15,13 +15,14 @@ import distributed
 from dask import config
 
 from bench.errors import LostWorkers, MissingTool
-from bench.experiments.plan import AnyUnit, Plan
+from bench.experiments.experiment import Unit
+from bench.experiments.plan import Plan
 from bench.running.run_folder import part
 from bench.running.schedulers import worker
 from bench.running.schedulers.batches import portions
 from bench.running.schedulers.words import LOCAL
 from bench.running.wire_format import described
-from bench.tables.store import write_atomically
+from bench.tables.files import write_atomically
 
 AHEAD = 2
 """Chunks given to each thread of a worker: one to work on and one that waits. Memory holds no more than their rows."""
@@ -43,9 +44,9 @@ logging.getLogger("distributed").setLevel(logging.CRITICAL)
 def run(
     client: distributed.Client,
     plan: Plan,
-    todo: Sequence[AnyUnit],
+    todo: Sequence[Unit],
     out: Path,
-    done: Callable[[AnyUnit], None],
+    done: Callable[[Unit], None],
     law_limit_s: float | None = None,
 ) -> int:
     """Carry out units and write each when its chunk has come back; the most threads of workers that were there.
@@ -100,15 +101,15 @@ class Chunks:
         client: distributed.Client,
         plan: Plan,
         out: Path,
-        done: Callable[[AnyUnit], None],
+        done: Callable[[Unit], None],
         law_limit_s: float | None = None,
     ):
         self.client, self.plan, self.out, self.done, self.law_limit_s = client, plan, out, done, law_limit_s
         self.threads = 0
-        self.waiting: deque[tuple[AnyUnit, ...]] = deque()
-        self.given: dict[distributed.Future, tuple[AnyUnit, ...]] = {}
+        self.waiting: deque[tuple[Unit, ...]] = deque()
+        self.given: dict[distributed.Future, tuple[Unit, ...]] = {}
 
-    def carry_out(self, todo: Sequence[AnyUnit]) -> None:
+    def carry_out(self, todo: Sequence[Unit]) -> None:
         """Give, take and write until all is done."""
         self.waiting.extend(portions(todo, self._present()))
         ended = distributed.as_completed(loop=self.client.loop)

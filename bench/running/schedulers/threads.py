@@ -6,8 +6,8 @@ from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from pathlib import Path
 
-from bench.experiments.plan import AnyUnit, Plan, Unit
-from bench.experiments.work import rows
+from bench.experiments.experiment import Unit, experiment_of, rows_of
+from bench.experiments.plan import Plan
 from bench.running.run_folder import part
 from bench.running.sandbox import Guard
 from bench.tables.store import write_table
@@ -16,9 +16,7 @@ UNITS_A_PROCESS = 8
 """Of a user's law, beyond which a second process is worth its start of some seconds, if there is nothing of ours."""
 
 
-def run(
-    plan: Plan, todo: Sequence[AnyUnit], out: Path, workers: int, guard: Guard, done: Callable[[AnyUnit], None]
-) -> None:
+def run(plan: Plan, todo: Sequence[Unit], out: Path, workers: int, guard: Guard, done: Callable[[Unit], None]) -> None:
     """Carry out units, in their order, and write each when it is done.
 
     Args:
@@ -28,16 +26,16 @@ def run(
     """
     stop = threading.Event()
 
-    def work(unit: AnyUnit) -> AnyUnit | None:
+    def work(unit: Unit) -> Unit | None:
         if stop.is_set():
             return None
-        made = guard.rows(unit) if guard.has(unit) else rows(plan, unit)
-        write_table(part(out, unit), made, unit.table)
+        made = guard.rows(unit) if guard.has(unit) else rows_of(plan.settings, unit)
+        write_table(part(out, unit), made, experiment_of(unit).table)
         return unit
 
     ours, own = [unit for unit in todo if not guard.has(unit)], [unit for unit in todo if guard.has(unit)]
     processes = 1 if ours else min(workers, 1 + len(own) // UNITS_A_PROCESS)
-    if any(isinstance(unit, Unit) and unit.engine == "reference" for unit in ours):
+    if any(unit.engine == "reference" for unit in ours):
         importlib.import_module("tasks.episode")  # it silences GLFW's import, which works in the main thread only
     with ThreadPoolExecutor(workers) as pool, ThreadPoolExecutor(processes) as apart:
         pending = {pool.submit(work, unit) for unit in ours} | {apart.submit(work, unit) for unit in own}

@@ -7,8 +7,8 @@ import signal
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from bench.experiments.plan import AnyUnit, Plan
-from bench.experiments.work import rows
+from bench.experiments.experiment import Unit, experiment_of, rows_of
+from bench.experiments.plan import Plan
 from bench.running.sandbox import Guard
 from bench.running.wire_format import plan_of
 from bench.tables.store import as_table, encoding
@@ -25,11 +25,11 @@ def carry_out(text: str, law_limit_s: float | None = None) -> list[tuple[str, by
     """
     plan = plan_of(json.loads(text))
     with Guard(plan, law_limit_s) as guard:
-        return [(unit.key, _file(_rows(plan, unit, guard))) for unit in plan.work]
+        return [(unit.key, _file(_rows(plan, unit, guard))) for unit in plan.units]
 
 
-def _rows(plan: Plan, unit: AnyUnit, guard: Guard) -> pa.Table:
-    return guard.rows(unit) if guard.has(unit) else as_table(rows(plan, unit), unit.table)
+def _rows(plan: Plan, unit: Unit, guard: Guard) -> pa.Table:
+    return guard.rows(unit) if guard.has(unit) else as_table(rows_of(plan.settings, unit), experiment_of(unit).table)
 
 
 def _file(table: pa.Table) -> bytes:

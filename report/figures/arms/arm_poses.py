@@ -12,7 +12,7 @@ import tasks
 from bench.contenders.registry import known_representations, papers_coordinates
 from bench.errors import BadResults
 from bench.tables import read
-from bench.tables.schema import pose_columns
+from bench.tables.schema import TABLES
 from report.figures.kit import style
 
 PAPERS = papers_coordinates().name
@@ -40,7 +40,7 @@ def poses(pose_set: str = "", representation: str = "") -> pd.DataFrame:
     except BadResults:
         if (read.folder() / "poses.parquet").exists():
             raise
-        return pd.DataFrame(columns=[column.name for column in pose_columns()])
+        return pd.DataFrame(columns=TABLES["poses"].names)
 
 
 def arms(rows: pd.DataFrame) -> list[str]:

@@ -6,8 +6,8 @@ from typing import Any
 
 import pandas as pd
 
+from bench.experiments import arm, contact, free_body
 from bench.experiments.choice import MOST_STARTS
-from bench.running.schedulers import batches
 from report.figures.kit.html import Markdown, number
 from report.figures.kit.spelling import power
 from report.figures.tool.clusters_rows import FEW, MANY, NOT_RUN, rows_are_same, tables_apart
@@ -123,11 +123,14 @@ def study(sizes: pd.DataFrame, schedulers: pd.DataFrame) -> Markdown:
 def dearer(sizes: pd.DataFrame) -> str:
     """How much more other episodes cost."""
     each_s = 1e-6 * sizes["each_us"].iloc[-1]
-    native, arm, contact = (
+    native, on_arm, in_contact = (
         number(float(f"{one / each_s:.1g}"))
-        for one in (batches.EPISODE_S["native"], batches.ARM_EPISODE_S["native"], batches.TRIAL_S)
+        for one in (free_body.EPISODE_S["native"], arm.EPISODE_S["native"], contact.TRIAL_S)
     )
-    return f"In MuJoCo an episode costs some {native} times as much, on an arm {arm} times, in contact {contact} times."
+    return (
+        f"In MuJoCo an episode costs some {native} times as much, on an arm {on_arm} times, in contact {in_contact} "
+        "times."
+    )
 
 
 def core_hours(sizes: pd.DataFrame, schedulers: pd.DataFrame) -> float:

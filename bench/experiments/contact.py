@@ -1,4 +1,4 @@
-"""The part of a plan that is in contact: which controllers do which tasks on which arms, in units of some seconds.
+"""Tasks in contact: which controllers do which tasks on which arms, in units of some seconds.
 
 A suite leaves an arm out that cannot be set a task; the user who names both is told why.
 """
@@ -7,15 +7,18 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
+
+import pandas as pd
 
 import tasks
 from bench.control.contact_controller import Compliant
 from bench.control.registry import all_compliants, find_compliant
 from bench.errors import Incompatible
 from bench.experiments.choice import Choice
+from bench.experiments.experiment import Asked, Experiment, Settings, Unit
 from bench.experiments.suites import InContact
+from bench.tables.schema import TABLES
 from tasks.base import BadValue
 
 if TYPE_CHECKING:
@@ -25,46 +28,21 @@ if TYPE_CHECKING:
 LONGEST_S = 300.0
 """Simulated time of a unit [s], if it has more than one pose: two seconds in free space, some five in contact."""
 
+TRIAL_S = 0.025
+"""CPU seconds an episode, see `free_body`: from 0.0035 (probed) to 0.06 (a peg)."""
 
-@dataclass(frozen=True)
-class ContactUnit:
-    """A piece of work that is done or not done: one controller on a stretch of a task's poses.
-
-    count: its episodes. dense: of the task's dense set.
-    """
-
-    contender: str
-    task: str
-    arm: str
-    first: int
-    poses: int
-    count: int
-    dense: bool
-    horizon_s: float
-
-    table = "compliance"
-
-    @property
-    def key(self) -> str:
-        """A name for a file."""
-        return f"contact_{self.contender.replace('/', '~')}_{self.task}_{self.arm}_{self.first:06d}"
-
-    @property
-    def label(self) -> str:
-        """Where it is and what it runs, in a few words."""
-        return f"{self.arm} {self.contender}"
+DENSE = "dense"
+"""The selector of a task's dense set of trials."""
 
 
-def units(
-    part: InContact, choice: Choice, poses: int | None = None, horizon_s: float | None = None
-) -> tuple[ContactUnit, ...]:
-    """The units of a suite's part in contact, narrowed or widened by what the user named.
+@functools.lru_cache(maxsize=8)
+def units(asked: Asked) -> tuple[Unit, ...]:
+    """The units of a suite's part in contact, narrowed or widened by what the user named; `count` poses of each task.
 
-    Args:
-        poses: the first so many of each task; the suite's number if None.
     Errors:
         BadValue: an arm that was named cannot be set a task that was. Incompatible: no controller is left.
     """
+    part, choice = asked.suite.in_contact, asked.choice
     if not choice.takes_contact:
         return ()
     chosen = _controllers(part, choice)
@@ -73,11 +51,11 @@ def units(
             f"nothing to run: no controller of the suite's, or that was named, acts on "
             f"{', '.join(choice.representations)} (try: python -m bench list controllers, and --controller)"
         )
-    found = []
+    found: list[Unit] = []
     for task in _tasks(choice):
         for arm in _arms(task, choice):
             for one in chosen:
-                found += _cut(one, task, arm, poses or part.poses, part.dense, horizon_s or task.horizon_s)
+                found += cut(one, task, arm, asked.count or part.poses, part.dense, asked.horizon_s or task.horizon_s)
     if not found and choice.is_about_contact:
         raise Incompatible("nothing to run: no arm has six joints and a site 'wrist' (add one to a file of tasks/arms)")
     return tuple(found)
@@ -119,13 +97,32 @@ def can_do(task: ContactTask, arm: Arm, or_refuse: bool = False) -> bool:
     return True
 
 
-def _cut(one: Compliant, task: ContactTask, arm: Arm, size: int | None, dense: bool, horizon_s: float):
+def cut(
+    one: Compliant,
+    task: ContactTask,
+    arm: Arm,
+    size: int | None,
+    dense: bool,
+    horizon_s: float,
+    longest_s: float = LONGEST_S,
+) -> Iterator[Unit]:
+    """The units of a controller on a task's first so many poses."""
     every = poses_of(one, task, arm, dense)[:size]
-    longest = max(map(len, every)) * horizon_s
-    step = max(1, int(LONGEST_S / longest))
+    step = max(1, int(longest_s / (max(map(len, every)) * horizon_s)))
     for first in range(0, len(every), step):
         some = every[first : first + step]
-        yield ContactUnit(one.name, task.name, arm.name, first, len(some), sum(map(len, some)), dense, horizon_s)
+        yield Unit(
+            "contact",
+            one.name,
+            task.name,
+            arm.name,
+            selector=DENSE if dense else "",
+            first=first,
+            count=len(some),
+            total=len(every),
+            episodes=sum(map(len, some)),
+            horizon_s=horizon_s,
+        )
 
 
 def poses_of(one: Compliant, task: ContactTask, arm: Arm, dense: bool) -> tuple[tuple[Trial, ...], ...]:
@@ -153,3 +150,26 @@ def _without_selection(trials: tuple[Trial, ...]) -> Iterator[Trial]:
         if what not in seen:
             seen.add(what)
             yield trial
+
+
+def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
+    """One row a pose."""
+    from bench.engines.contact_episode import Conditions
+    from bench.experiments.rows.contact import frame
+
+    one, arm = find_compliant(unit.contender), tasks.arm(unit.arm)
+    task = tasks.contact_task(unit.task)
+    some = poses_of(one, task, arm, unit.selector == DENSE)[unit.first : unit.first + unit.count]
+    conditions = Conditions(settings.gains, dt_s=settings.dt_s, integrator=settings.contact_integrator)
+    return frame(settings.suite, one, task._replace(horizon_s=unit.horizon_s), arm, some, conditions)
+
+
+EXPERIMENT = Experiment(
+    "contact",
+    "controllers of a hand in contact",
+    TABLES["compliance"],
+    units,
+    rows,
+    cost_s=lambda unit: unit.episodes * TRIAL_S,
+    rank=2,
+)

@@ -16,14 +16,11 @@ import mujoco
 import numpy as np
 import pandas as pd
 
-import tasks
 from bench.contenders.registry import known_jacobians, known_representations, papers_coordinates
-from bench.experiments.plan import Plan
-from bench.experiments.pose_sets import Pose, poses
+from bench.experiments.rows.pose_sets import Pose, poses
 from bench.law.contender import Representation
 from bench.law.resolved_motion import Chain
 from bench.law.so3 import Rotation
-from bench.tables.schema import pose_columns
 from tasks.arm_model import Arm, model_xml
 
 LONGEST = 7
@@ -77,13 +74,6 @@ class Seen(NamedTuple):
     chains: list[Chain]
     J: np.ndarray
     ours: np.ndarray
-
-
-def run(plan: Plan) -> pd.DataFrame:
-    """poses.parquet of a plan: a row for each arm of it, pose and representation."""
-    frames = [frame(tasks.arm(name), plan.poses, plan.seed) for name in plan.arms if plan.poses]
-    names = [column.name for column in pose_columns()]
-    return pd.concat(frames, ignore_index=True) if frames else pd.DataFrame(columns=names)
 
 
 def frame(arm: Arm, count: int, seed: int) -> pd.DataFrame:

@@ -1,50 +1,63 @@
-"""From numbers to rows: a law along an axis of trouble, as rows of robustness.parquet."""
+"""From numbers to rows: a law under a perturbation, as rows of robustness.parquet."""
 
 import math
 
 import numpy as np
 import pandas as pd
 
+import tasks
 from bench.engines import disturbed
-from bench.engines.episode import FAILURE_TICK, FINAL_ANGLE, FIRST_METRIC, NEVER, OUTCOME, SETTLING_TICK, Settings
-from bench.engines.run_disturbed import run
-from bench.experiments.equal_peak import gains_at
+from bench.engines.episode import FAILURE_TICK, FINAL_ANGLE, FIRST_METRIC, NEVER, OUTCOME, SETTLING_TICK
+from bench.engines.episode import Settings as Limits
+from bench.experiments.experiment import Settings, Unit
+from bench.experiments.rows.episodes import lost
+from bench.experiments.rows.equal_peak import gains_at
 from bench.law.contender import Contender, Gains
 from bench.metrics.metric import Ending
 from bench.metrics.registry import metrics_of
-from tasks.condition import Axis, Condition
+from tasks.condition import Condition
 from tasks.rules import RULES
 from tasks.truth import angle
 from tasks.verdict import OUTCOMES
 
 
-def frame(
-    suite: str, one: Contender, axis: Axis, starts: int, horizon_s: float, gains: Gains, seed: int, simulate=run
-) -> pd.DataFrame:
+def frame(settings: Settings, unit: Unit, simulate) -> pd.DataFrame:
     """One row a level and start; none at a level whose command the law has no gains for.
 
+    The starts and the noise are the same for every law.
+
     Args:
-        starts: how many at each level; they and the noise are the same for every law.
-        simulate: makes the numbers of the rows.
+        simulate: makes the numbers of the rows, as `run_disturbed.run`.
     """
+    one, axis, seed = settings.contender(unit.contender), tasks.axis(unit.selector), settings.seed
     parts = []
     for level in axis.levels:
         condition = axis.at(level)
-        chosen = gains_at(one, condition.peak) if condition.peak else gains
+        chosen = gains_at(one, condition.peak) if condition.peak else settings.gains
         if chosen is not None:
-            some = axis.starts(starts, seed, level)
-            rows = _rows(one, some, condition, _settings(chosen, horizon_s), seed, simulate)
+            some = axis.starts(unit.count, seed, level)
+            rows = _rows(one, some, condition, _limits(chosen, unit.horizon_s), seed, simulate)
             parts.append(pd.DataFrame({"axis": axis.name, "level": level, **rows}))
     if not parts:
         return pd.DataFrame()
     coordinates = one.representation.name if one.representation else ""
     whole = pd.concat(parts, ignore_index=True)
-    return whole.assign(suite=suite, regulator=one.regulator.name, representation=coordinates)
+    return whole.assign(suite=settings.suite, regulator=one.regulator.name, representation=coordinates)
 
 
-def _settings(gains: Gains, horizon_s: float) -> Settings:
+def lost_frame(settings: Settings, unit: Unit, outcome: str) -> pd.DataFrame:
+    """The rows of a unit that a user's law never came back from: what was asked, the outcome, no measure."""
+
+    def simulate(_one, starts, _condition, _limits, metrics, _seed):
+        return lost(disturbed.blank_rows(len(starts), metrics), outcome)
+
+    nothing = dict.fromkeys((metric.column for metric in metrics_of(on_arm=False)), np.nan)
+    return frame(settings, unit, simulate).assign(**nothing, variation=np.nan)
+
+
+def _limits(gains: Gains, horizon_s: float) -> Limits:
     """The judge's rules in ticks of a microsecond, which the condition's own steps replace."""
-    return Settings(
+    return Limits(
         gains,
         1e-6,
         round(1e6 * horizon_s),
@@ -56,9 +69,9 @@ def _settings(gains: Gains, horizon_s: float) -> Settings:
     )
 
 
-def _rows(one: Contender, starts, condition: Condition, settings: Settings, seed: int, simulate) -> dict:
+def _rows(one: Contender, starts, condition: Condition, limits: Limits, seed: int, simulate) -> dict:
     metrics = metrics_of(on_arm=False)
-    numbers = simulate(one, starts, condition, settings, metrics, seed)
+    numbers = simulate(one, starts, condition, limits, metrics, seed)
     step_s = condition.period_s / disturbed.steps_of(condition)
     angle0 = [angle(start.quat_wxyz, start.goal_wxyz) for start in starts]
     outcomes = [OUTCOMES[int(code)] for code in numbers[:, OUTCOME]]
@@ -78,10 +91,10 @@ def _rows(one: Contender, starts, condition: Condition, settings: Settings, seed
     return {
         "start_id": [start.id for start in starts],
         "angle0_rad": angle0,
-        "kp": settings.gains.kp,
-        "kv": settings.gains.kv,
+        "kp": limits.gains.kp,
+        "kv": limits.gains.kv,
         "dt_s": condition.period_s,
-        "horizon_s": settings.ticks * settings.dt_s,
+        "horizon_s": limits.ticks * limits.dt_s,
         "outcome": outcomes,
         "settling_time_s": _time(numbers[:, SETTLING_TICK], step_s),
         "failure_time_s": _time(numbers[:, FAILURE_TICK], step_s),

@@ -8,18 +8,9 @@ import pandas as pd
 import tasks
 from bench.contenders.representations.zyx_euler import chart
 from bench.engines.arm_episode import POSE
-from bench.engines.episode import (
-    FAILURE_TICK,
-    FINAL_ANGLE,
-    FIRST_METRIC,
-    NEVER,
-    OUTCOME,
-    SETTLING_TICK,
-    TICKS,
-    Settings,
-)
-from bench.experiments.plan import Plan, Unit
-from bench.experiments.rounding import BESIDE, CHANGE
+from bench.engines.episode import FAILURE_TICK, FINAL_ANGLE, FIRST_METRIC, NEVER, OUTCOME, SETTLING_TICK, TICKS
+from bench.experiments.experiment import Settings, Unit
+from bench.experiments.rows.rounding import BESIDE, CHANGE
 from bench.law.contender import Contender
 from bench.law.so3 import from_quaternion
 from bench.metrics.metric import Ending
@@ -31,20 +22,6 @@ from tasks.truth import angle
 from tasks.verdict import OUTCOMES
 
 INTEGRATORS = {"ideal-rk4": "rk4", "ideal-held": "magnus4"}
-
-
-def settings_of(plan: Plan, horizon_s: float) -> Settings:
-    """The judge's rules and the plan's numbers, as engines take them."""
-    return Settings(
-        plan.gains,
-        plan.dt_s,
-        max(1, math.floor(horizon_s / plan.dt_s + 0.5)),
-        RULES.hold_ticks(plan.dt_s),
-        RULES.command_limit,
-        RULES.speed_limit,
-        RULES.rest_speed,
-        RULES.rest_command,
-    )
 
 
 def contender_columns(one: Contender) -> dict:
@@ -59,32 +36,32 @@ def contender_columns(one: Contender) -> dict:
     }
 
 
-def frame(plan: Plan, unit: Unit, contender: Contender, starts, numbers: np.ndarray, metrics) -> pd.DataFrame:
+def frame(settings: Settings, unit: Unit, contender: Contender, starts, numbers: np.ndarray, metrics) -> pd.DataFrame:
     """The rows of one unit."""
     angles = np.array([chart(from_quaternion(start.quat_wxyz)).E for start in starts])
     quats = np.array([start.quat_wxyz for start in starts])
     omegas = np.array([start.omega for start in starts])
     goals = np.array([start.goal_wxyz for start in starts])
     angle0 = [angle(start.quat_wxyz, start.goal_wxyz) for start in starts]
-    judged = judged_columns(numbers, plan.dt_s)
+    judged = judged_columns(numbers, settings.dt_s)
     columns = {
-        "suite": plan.suite,
+        "suite": settings.suite,
         "task": unit.task,
         "arm": unit.arm,
         "variation": unit.variation,
         **contender_columns(contender),
         "engine": unit.engine,
-        "start_set": unit.start_set,
+        "start_set": unit.selector,
         "start_id": [start.id for start in starts],
         **{f"quat_{axis}": quats[:, i] for i, axis in enumerate("wxyz")},
         **{name: angles[:, i] for i, name in enumerate(("alpha0", "beta0", "gamma0"))},
         "angle0_rad": angle0,
         **{f"omega0_{axis}": omegas[:, i] for i, axis in enumerate("xyz")},
         **{f"goal_quat_{axis}": goals[:, i] for i, axis in enumerate("wxyz")},
-        "kp": plan.gains.kp,
-        "kv": plan.gains.kv,
-        "dt_s": plan.dt_s,
-        "integrator": INTEGRATORS.get(unit.engine, plan.integrator),
+        "kp": settings.gains.kp,
+        "kv": settings.gains.kv,
+        "dt_s": settings.dt_s,
+        "integrator": INTEGRATORS.get(unit.engine, settings.integrator),
         "horizon_s": unit.horizon_s,
         "tolerance": RULES.tolerance,
         "hold_s": RULES.hold_s,
@@ -111,6 +88,17 @@ def frame(plan: Plan, unit: Unit, contender: Contender, starts, numbers: np.ndar
             CHANGE: np.nan,
         }
     )
+
+
+def lost_frame(settings: Settings, unit: Unit, starts, blanks: np.ndarray, metrics, outcome: str) -> pd.DataFrame:
+    """The rows of episodes that a user's law never came back from: what was asked, the outcome, no measure.
+
+    Args:
+        blanks: rows of `engines.episode` in which nothing has happened yet.
+    """
+    nothing = dict.fromkeys((metric.column for metric in metrics), np.nan)
+    made = frame(settings, unit, settings.contender(unit.contender), starts, lost(blanks, outcome), metrics)
+    return made.assign(**nothing)
 
 
 def lost(numbers: np.ndarray, outcome: str) -> np.ndarray:

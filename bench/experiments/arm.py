@@ -1,0 +1,130 @@
+"""Episodes of arms: laws by a Jacobian and its inverse, on the model they know and on plants that differ from it."""
+
+from __future__ import annotations
+
+import functools
+import importlib
+from collections.abc import Iterator
+
+import numpy as np
+import pandas as pd
+
+import tasks
+from bench.contenders import combinations
+from bench.errors import Incompatible
+from bench.experiments.choice import Choice
+from bench.experiments.episodes import Place, cut, narrowed, runs_on, starts_of, tasks_of
+from bench.experiments.experiment import Asked, Experiment, Settings, Unit
+from bench.experiments.suites import NOMINAL, OnArms, Slice
+from bench.law.contender import Contender
+from bench.tables.schema import TABLES
+from tasks.base import Start
+
+MOST = {"native": 100, "reference": 2}
+"""Episodes a unit at most, as on the free body."""
+
+EPISODE_S = {"native": 0.01, "reference": 0.3}
+"""CPU seconds an episode, as on the free body; of the reference engine, which the default suite does not run, a
+guess."""
+
+
+@functools.lru_cache(maxsize=8)
+def units(asked: Asked) -> tuple[Unit, ...]:
+    """The units on every arm.
+
+    Errors:
+        Incompatible: no law, Jacobian and inverse that were named go together on any arm that was named.
+    """
+    places, every_task = [], tasks_of(asked)
+    for task in filter(tasks.is_for_arms, every_task):
+        for arm in asked.choice.arms or tasks.arm_names():
+            fitting = tasks.task(task, arm).start_sets
+            for part, one, variation in _on_arm(asked.suite.on_arms, asked.laws, tasks.arm(arm).joints, asked.choice):
+                if part.start_set in fitting and runs_on(part.engine, task, one):
+                    places.append(Place(part, one, task, arm, variation))
+    if every_task and not places and asked.choice.is_about_arms:
+        _check_combinations(asked)
+    return tuple(cut("arm", places, asked, MOST))
+
+
+def _on_arm(on_arms: OnArms, laws, joints: int, choice: Choice) -> Iterator[tuple[Slice, Contender, str]]:
+    """(slice, contender, variation) of everything on one arm."""
+    by_name = {one.name: one for one in laws}
+    slices = narrowed(on_arms.slices, choice)
+    variations = choice.variations or (NOMINAL,)
+    for one in combinations.chosen(on_arms.words, by_name, joints, choice.jacobians, choice.inverses):
+        for part in slices:
+            for variation in variations:
+                yield part, one, variation
+    if on_arms.varied and not (choice.narrows or choice.variations or choice.jacobians or choice.inverses):
+        for one in combinations.on(on_arms.varied, by_name, joints):
+            for part in on_arms.varied_slices:
+                for variation in tasks.variation_names():
+                    if variation != NOMINAL:
+                        yield part, one, variation
+
+
+def _check_combinations(asked: Asked) -> None:
+    """Refuse if no law, Jacobian and inverse that were named go together on any arm that was named; say why."""
+    choice, laws = asked.choice, list(asked.laws)
+    by_name, named = {one.name: one for one in laws}, (choice.jacobians, choice.inverses)
+    counts = dict.fromkeys(tasks.arm(arm).joints for arm in choice.arms or tasks.arm_names())
+    if not any(combinations.chosen(asked.suite.on_arms.words, by_name, joints, *named) for joints in counts):
+        reasons = [reason for joints in counts for reason in combinations.refusals(laws, joints, *named)]
+        raise Incompatible(f"nothing to run: {combinations.shown(reasons)}")
+
+
+def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
+    """The rows of a unit, each doubtful one judged on both sides of its start."""
+    from bench.engines.run_arm import run
+    from bench.experiments.rows.episodes import frame
+    from bench.experiments.rows.rounding import judged_on_both_sides
+    from bench.metrics.registry import metrics_of
+
+    starts, one, metrics = starts_of(settings, unit), settings.contender(unit.contender), metrics_of(on_arm=True)
+    limits = settings.limits(unit.horizon_s)
+
+    def simulated(some: list[Start]) -> pd.DataFrame:
+        given = (unit.task, unit.arm, some, limits, metrics, settings.integrator, unit.variation)
+        return frame(settings, unit, one, some, run(unit.engine, one, *given), metrics)
+
+    return judged_on_both_sides(simulated(starts), starts, simulated)
+
+
+def prepare(settings: Settings, unit: Unit) -> None:
+    """Build the starts, and compile the loop and the controller."""
+    from bench.engines.run_arm import compiled_loop, pointers
+    from bench.metrics.registry import metrics_of
+
+    if unit.selector:
+        starts_of(settings, unit)
+    if unit.engine == "reference":
+        importlib.import_module("tasks.episode")
+    else:
+        compiled_loop(tuple(metrics_of(on_arm=True)))
+        pointers(settings.contender(unit.contender))
+
+
+def lost(settings: Settings, unit: Unit, outcome: str) -> pd.DataFrame:
+    """What was asked, the outcome, no measure."""
+    from bench.engines.arm_episode import blank_arm
+    from bench.experiments.rows.episodes import lost_frame
+    from bench.metrics.registry import metrics_of
+
+    starts, metrics = starts_of(settings, unit), metrics_of(on_arm=True)
+    made = lost_frame(settings, unit, starts, blank_arm(len(starts), metrics), metrics, outcome)
+    return made.assign(cond_jacobian_max=np.nan)
+
+
+EXPERIMENT = Experiment(
+    "arm",
+    "laws on arms, by a Jacobian and its inverse",
+    TABLES["episodes"],
+    units,
+    rows,
+    cost_s=lambda unit: unit.count * EPISODE_S[unit.engine],
+    prepare=prepare,
+    lost=lost,
+    is_divisible=True,
+    rank=1,
+)

@@ -1,0 +1,102 @@
+"""Where a law first fails, along geodesics from the goal: a scan for the first failing angle, then bisection.
+
+A failing set of measure zero (a half turn, a pole) is not found by a scan and not looked for here: the directed start
+sets hit those exactly.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pandas as pd
+
+from bench.experiments import free_body
+from bench.experiments.experiment import Asked, Experiment, Settings, Unit, own_last
+from bench.experiments.suites import SHORT
+from bench.experiments.traces import laws
+from bench.law.contender import Contender
+from bench.tables.schema import TABLES
+from tasks.base import Start
+from tasks.sphere import axes
+from tasks.verdict import OUTCOMES, SETTLED
+
+SCAN = np.radians(np.arange(2.5, 178.0, 2.5))
+BISECTIONS = 16
+"""2.5 degrees halved 16 times: 7e-7 rad, finer than any use of it."""
+
+
+AXIS_S = 0.02
+"""CPU seconds an axis."""
+
+
+def units(asked: Asked) -> tuple[Unit, ...]:
+    """A unit for each of the paper's laws, and the user's, over the suite's axes; a user's last."""
+    count = 0 if asked.choice.narrows else asked.suite.boundary_axes
+    found = [of_law(one, count) for one in laws(asked) if count and not one.is_beyond_the_paper]
+    return own_last(found, asked.own)
+
+
+def of_law(one: Contender, count: int) -> Unit:
+    """The unit of a law, along so many axes."""
+    return Unit("boundaries", one.name, "free-body", engine="ideal-rk4", count=count, total=count, horizon_s=SHORT)
+
+
+def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
+    """One row an axis."""
+    from bench.experiments.rows.episodes import contender_columns
+
+    one, directions = settings.contender(unit.contender), axes(unit.count)
+    count = len(directions)
+    first = np.full(count, len(SCAN))
+    outcome = np.full(count, SETTLED)
+    for place, angle in enumerate(SCAN):
+        searching = np.flatnonzero(first == len(SCAN))
+        if not len(searching):
+            break
+        codes = _outcomes(settings, unit, one, directions[searching], np.full(len(searching), angle))
+        failed = searching[codes != SETTLED]
+        first[failed], outcome[failed] = place, codes[codes != SETTLED]
+    settled = np.where(first > 0, SCAN[np.minimum(first, len(SCAN)) - 1], 0.0)
+    fails = np.where(first < len(SCAN), SCAN[np.minimum(first, len(SCAN) - 1)], np.nan)
+    found = np.flatnonzero(first < len(SCAN))
+    for _ in range(BISECTIONS if len(found) else 0):
+        middle = 0.5 * (settled[found] + fails[found])
+        codes = _outcomes(settings, unit, one, directions[found], middle)
+        good = codes == SETTLED
+        settled[found[good]] = middle[good]
+        fails[found[~good]], outcome[found[~good]] = middle[~good], codes[~good]
+    return pd.DataFrame(
+        {
+            **contender_columns(one),
+            **{f"axis_{axis}": directions[:, i] for i, axis in enumerate("xyz")},
+            "settled_to_rad": settled,
+            "fails_from_rad": fails,
+            "outcome": [OUTCOMES[code] if code != SETTLED else "" for code in outcome],
+        }
+    )
+
+
+def _outcomes(settings: Settings, unit: Unit, one: Contender, directions: np.ndarray, angles: np.ndarray) -> np.ndarray:
+    from bench.engines.episode import OUTCOME
+    from bench.engines.run import run
+    from bench.metrics.registry import metrics_of
+
+    starts = [
+        Start("", (math.cos(angle / 2), *(math.sin(angle / 2) * axis).tolist()))
+        for axis, angle in zip(directions, angles, strict=True)
+    ]
+    made = run(unit.engine, one, unit.task, starts, settings.limits(unit.horizon_s), metrics_of(on_arm=False))
+    return made[:, OUTCOME].astype(int)
+
+
+EXPERIMENT = Experiment(
+    "boundaries",
+    "where a law first fails, along geodesics",
+    TABLES["boundaries"],
+    units,
+    rows,
+    cost_s=lambda unit: unit.count * AXIS_S,
+    prepare=free_body.prepare,
+    ticks=lambda settings, unit: unit.count * len(SCAN) * unit.horizon_s / settings.dt_s,
+)

@@ -1,0 +1,122 @@
+"""Episodes without contact: what a suite's slices become when the user narrows them, and the units they are cut into.
+
+`free_body` and `arm` are made of these; what is refused, they refuse together.
+"""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import tasks
+from bench.errors import Incompatible
+from bench.experiments.choice import Choice
+from bench.experiments.experiment import Asked, Settings, Unit
+from bench.experiments.suites import HORIZON, NOMINAL, ON_ARM, SHORT, Slice
+from bench.law.contender import Contender
+from tasks.base import Start
+
+
+class Place(NamedTuple):
+    """A contender on a slice of a task: what is cut into units."""
+
+    part: Slice
+    contender: Contender
+    task: str
+    arm: str = ""
+    variation: str = NOMINAL
+
+
+def tasks_of(asked: Asked) -> tuple[str, ...]:
+    """The tasks without contact that are meant; none with a perturbation, whose starts are its own."""
+    choice = asked.choice
+    if choice.axes:
+        return ()
+    if choice.is_contact_alone:
+        if asked.own:
+            raise Incompatible(
+                f"tasks in contact take controllers, not the regulator '{asked.own[0].name}' (leave --law away)"
+            )
+        return ()
+    named = tuple(word for word in choice.tasks if word in tasks.names())
+    every = tuple(word for word in tasks.names() if tasks.is_for_arms(word) or not choice.is_about_arms)
+    return named or every
+
+
+def runs_on(engine: str, task: str, one: Contender) -> bool:
+    """Whether an engine can run a task: the ideal plant is the free body's alone, and has no actuators of MuJoCo."""
+    return not engine.startswith("ideal") or (task == "free-body" and not one.regulator.in_engine)
+
+
+def narrowed(slices: tuple[Slice, ...], choice: Choice) -> tuple[Slice, ...]:
+    """The start sets and engines that are named, with the suite's sizes where it has some."""
+    if not choice.narrows:
+        return slices
+    sizes = {(part.engine, part.start_set): part for part in slices}
+    wanted_engines = choice.engines or tuple(dict.fromkeys(part.engine for part in slices))
+    wanted_sets = choice.start_sets or tuple(dict.fromkeys(part.start_set for part in slices))
+    horizons = dict.fromkeys((part.start_set for part in slices if part.horizon_s == ON_ARM), ON_ARM)
+    return tuple(
+        sizes.get((engine, name)) or Slice(engine, name, None, horizons.get(name) or HORIZON.get(name, SHORT))
+        for engine in wanted_engines
+        for name in wanted_sets
+        if not (engine == "reference" and not choice.engines and (engine, name) not in sizes)
+    )
+
+
+def cut(experiment: str, places: list[Place], asked: Asked, most: dict[str, int]) -> Iterator[Unit]:
+    """The units of places, of at most so many episodes each by engine."""
+    number = functools.cache(lambda word, size, arm: tasks.start_set_length(word, size, asked.seed, arm))
+    for part, one, task, arm, variation in places:
+        total, step = number(part.start_set, asked.count or part.size, arm), most[part.engine]
+        for first in range(0, total, step):
+            count = min(step, total - first)
+            yield Unit(
+                experiment,
+                one.name,
+                task,
+                arm,
+                part.engine,
+                part.start_set,
+                variation,
+                first,
+                count,
+                total,
+                count,
+                asked.horizon_s or part.horizon_s,
+            )
+
+
+def refuse_if_none(asked: Asked, units: tuple[Unit, ...]) -> None:
+    """Say why no task, engine and start set go together, if some are meant and there is not one unit."""
+    every_task = tasks_of(asked)
+    if units or not every_task:
+        return
+    reasons, suite, choice = [], asked.suite, asked.choice
+    for task in every_task:
+        is_for_arms = tasks.is_for_arms(task)
+        allowed = tasks.start_set_names(arm=True) if is_for_arms else tasks.task(task).start_sets
+        slices = narrowed(suite.on_arms.slices if is_for_arms else suite.slices, choice)
+        refused = [part.engine for part in slices if not any(runs_on(part.engine, task, one) for one in asked.laws)]
+        if refused:
+            what = f"free-body alone, not '{task}'" if task != "free-body" else "no actuator of MuJoCo"
+            reasons.append(f"{', '.join(dict.fromkeys(refused))} simulates {what}")
+        foreign = [part.start_set for part in slices if part.start_set not in allowed]
+        if foreign:
+            reasons.append(
+                f"task '{task}' takes the starts {', '.join(allowed)}, not {', '.join(dict.fromkeys(foreign))}"
+            )
+    raise Incompatible(f"nothing to run: {'; '.join(reasons)} (choose another --task, --engine or --starts)")
+
+
+def starts_of(settings: Settings, unit: Unit) -> list[Start]:
+    """A unit's stretch of its start set."""
+    end = unit.first + unit.count
+    if unit.arm:
+        return _on_arm(unit.selector, unit.total, settings.seed, unit.arm)[unit.first : end]
+    return tasks.starts_between(unit.selector, unit.first, end, settings.seed)
+
+
+_on_arm = functools.lru_cache(maxsize=16)(tasks.start_set)
+"""A start set of an arm is searched for, so it is built once for all its units."""

@@ -1,0 +1,204 @@
+"""What an experiment is, and the piece of work that it is made of: the same for every table of a run.
+
+An experiment is one file of this folder with a constant EXPERIMENT. Its units are planned from what was asked, carried
+out one by one, each by whatever process, and their rows, in the order of the units, are the table.
+
+Fails: an experiment whose file imports an engine outside its functions makes every plan wait for the compiler.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import pandas as pd
+
+from bench import experiments
+from bench.contenders.registry import find_contender
+from bench.engines.episode import Settings as Limits
+from bench.errors import BadLaw
+from bench.experiments.choice import Choice
+from bench.experiments.suites import Suite
+from bench.law.contender import PAPERS_GAINS, Contender, Gains, Regulator
+from bench.tables.schema import Table
+from tasks.discovery import constants
+from tasks.rules import RULES
+
+WITHOUT, IN_CONTACT = "euler", "implicitfast"
+"""Integrators if none is named: the default of MuJoCo, and what it recommends for contacts."""
+
+
+class Settings(NamedTuple):
+    """What all units of a run share.
+
+    own: the user's laws. suite: what the rows say that they belong to.
+    """
+
+    suite: str = "experiment"
+    gains: Gains = PAPERS_GAINS
+    dt_s: float = 1e-3
+    integrator: str = WITHOUT
+    contact_integrator: str = IN_CONTACT
+    seed: int = 0
+    own: tuple[Regulator, ...] = ()
+
+    def contender(self, name: str) -> Contender:
+        """The law, or the controller of an arm, of that name."""
+        return find_contender(name, self.own)
+
+    def limits(self, horizon_s: float) -> Limits:
+        """These numbers and the judge's rules, as engines take them."""
+        return Limits(
+            self.gains,
+            self.dt_s,
+            max(1, math.floor(horizon_s / self.dt_s + 0.5)),
+            RULES.hold_ticks(self.dt_s),
+            RULES.command_limit,
+            RULES.speed_limit,
+            RULES.rest_speed,
+            RULES.rest_command,
+        )
+
+
+@dataclass(frozen=True)
+class Unit:
+    """A piece of work that is done or not done.
+
+    selector: which starts: a start set, a perturbation, or "dense" of a task in contact. first, count: the stretch of
+    them that is meant, in starts, poses or axes; total: of so many. episodes: how many are run, of those that progress
+    is counted in.
+    """
+
+    experiment: str
+    contender: str = ""
+    task: str = ""
+    arm: str = ""
+    engine: str = ""
+    selector: str = ""
+    variation: str = ""
+    first: int = 0
+    count: int = 0
+    total: int = 0
+    episodes: int = 0
+    horizon_s: float = 0.0
+
+    @property
+    def key(self) -> str:
+        """A name for a file."""
+        law = self.contender.replace("/", "~")
+        words = (self.experiment, self.engine, law, self.task, self.arm, self.variation, self.selector)
+        return "_".join((*filter(None, words), f"{self.first:06d}"))
+
+    @property
+    def label(self) -> str:
+        """Where it is and what it runs, in a few words."""
+        where = (self.arm or self.engine or self.selector) if self.episodes else self.experiment
+        return f"{where} {self.contender.split('/')[0] or self.arm}"
+
+    def part(self, first: int, count: int) -> Unit:
+        """Some of its starts, an episode each."""
+        return dataclasses.replace(self, first=first, count=count, episodes=count)
+
+
+@dataclass(frozen=True)
+class Asked:
+    """What a plan is made of: a suite, laws of the free body, and what the user narrowed or widened them to.
+
+    count: of the starts of each set or level, and the poses of each task in contact. horizon_s: of every episode. None
+    of them: the suite's own.
+    """
+
+    suite: Suite
+    laws: tuple[Contender, ...]
+    choice: Choice
+    count: int | None = None
+    horizon_s: float | None = None
+    seed: int = 0
+
+    @property
+    def own(self) -> tuple[Regulator, ...]:
+        """The user's laws."""
+        return tuple(dict.fromkeys(one.regulator for one in self.laws if one.regulator.origin))
+
+
+def nothing(settings: Settings, unit: Unit, outcome: str = "") -> pd.DataFrame:
+    """No rows: of a unit that tells of a law what cannot be told of one that crashed or hung."""
+    return pd.DataFrame()
+
+
+def usual_ticks(settings: Settings, unit: Unit) -> float:
+    """Control periods of every episode to its horizon."""
+    return unit.episodes * unit.horizon_s / settings.dt_s
+
+
+class Experiment(NamedTuple):
+    """The constant EXPERIMENT of a file: what there is to do, and what comes of it.
+
+    name: the file's, with dashes. units(asked) -> units, in the order of the table's rows. rows(settings, unit) ->
+    its rows. cost_s(unit) -> seconds it usually takes.
+
+    prepare(settings, unit): compile, import and build what its rows need, for all processes that are forked then.
+    lost(settings, unit, outcome) -> what is left of a unit whose law crashed or hung. ticks(settings, unit) -> control
+    periods that it takes at most, which a user's law has its time by. is_divisible: whether `Unit.part` of it is a unit
+    too. is_tried_first: whether a user's law goes through it before a run begins, so that a mistake leaves no folder.
+    compiles: whether its contender is compiled. summary(frame) -> what `show` prints of the table.
+    rank: place among all experiments, then by name.
+    """
+
+    name: str
+    title: str
+    table: Table
+    units: Callable[[Asked], tuple[Unit, ...]]
+    rows: Callable[[Settings, Unit], pd.DataFrame]
+    cost_s: Callable[[Unit], float]
+    prepare: Callable[[Settings, Unit], None] = lambda settings, unit: None
+    lost: Callable[[Settings, Unit, str], pd.DataFrame] = nothing
+    ticks: Callable[[Settings, Unit], float] = usual_ticks
+    is_divisible: bool = False
+    is_tried_first: bool = False
+    compiles: bool = True
+    summary: Callable[[pd.DataFrame], pd.DataFrame] | None = None
+    rank: int = 9
+
+
+@functools.cache
+def known_experiments() -> dict[str, Experiment]:
+    """Word -> Experiment, from bench/experiments, in the order in which they are planned.
+
+    Errors:
+        BadLaw: one that is none, or whose name is not its file's.
+    """
+    found = constants(experiments, "EXPERIMENT")
+    for word, one in found.items():
+        if not isinstance(one, Experiment) or one.name != word:
+            raise BadLaw(
+                f"bench/experiments/{word.replace('-', '_')}.py: EXPERIMENT must be an Experiment named '{word}'"
+            )
+    return dict(sorted(found.items(), key=lambda item: item[1].rank))
+
+
+def known_tables() -> dict[str, Table]:
+    """Word -> Table of every experiment."""
+    return {one.table.name: one.table for one in known_experiments().values()}
+
+
+def experiment_of(unit: Unit) -> Experiment:
+    """The experiment that a unit is of."""
+    return known_experiments()[unit.experiment]
+
+
+def rows_of(settings: Settings, unit: Unit) -> pd.DataFrame:
+    """The rows of a unit."""
+    return experiment_of(unit).rows(settings, unit)
+
+
+def own_last(units: list[Unit], own: tuple[Regulator, ...]) -> tuple[Unit, ...]:
+    """Units of our laws in their order, then those of a user's, contender by contender."""
+    names = [one.name for one in own]
+    theirs = [unit.contender for unit in units if unit.contender.partition("@")[0].partition("/")[0] in names]
+    place = {name: 1 + i for i, name in enumerate(dict.fromkeys(theirs))}
+    return tuple(sorted(units, key=lambda unit: place.get(unit.contender, 0)))

@@ -1,0 +1,100 @@
+"""Episodes of the body that turns freely: every law, from the suite's start sets, on each of its engines."""
+
+from __future__ import annotations
+
+import functools
+import importlib
+
+import pandas as pd
+
+import tasks
+from bench.experiments import arm
+from bench.experiments.episodes import Place, cut, narrowed, refuse_if_none, runs_on, starts_of, tasks_of
+from bench.experiments.experiment import Asked, Experiment, Settings, Unit
+from bench.experiments.suites import Slice, Suite
+from bench.law.contender import Contender
+from bench.tables.schema import TABLES
+
+MOST = {"ideal-rk4": 1000, "ideal-held": 1000, "native": 250, "reference": 4}
+"""Episodes a unit at most: a few seconds each even if none of them settles, so that Ctrl-C answers soon."""
+
+EPISODE_S = {"ideal-rk4": 4e-4, "ideal-held": 2e-4, "native": 3e-3, "reference": 0.06}
+"""CPU seconds an episode, here and in the other experiments: medians over six units of each kind of the default suite
+on a core of 2026, to one digit. A factor of two does not matter. Compiling comes on top, once."""
+
+
+@functools.lru_cache(maxsize=8)
+def units(asked: Asked) -> tuple[Unit, ...]:
+    """The units of a suite's slices.
+
+    Errors:
+        Incompatible: no named task, engine and start set go together, here or on arms.
+    """
+    places = [
+        Place(part, one, task)
+        for task in tasks_of(asked)
+        if not tasks.is_for_arms(task)
+        for one in asked.laws
+        for part in narrowed(slices_of(asked.suite, one), asked.choice)
+        if part.start_set in tasks.task(task).start_sets and runs_on(part.engine, task, one)
+    ]
+    found = tuple(cut("free-body", places, asked, MOST))
+    refuse_if_none(asked, found or arm.units(asked))
+    return found
+
+
+def slices_of(suite: Suite, one: Contender) -> tuple[Slice, ...]:
+    """The slices of a suite that a contender runs on."""
+    if one.regulator.in_engine:
+        return suite.in_engine
+    return suite.beyond if one.is_beyond_the_paper else suite.slices
+
+
+def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
+    """The rows of a unit."""
+    from bench.engines.run import run
+    from bench.experiments.rows.episodes import frame
+    from bench.metrics.registry import metrics_of
+
+    starts, one, metrics = starts_of(settings, unit), settings.contender(unit.contender), metrics_of(on_arm=False)
+    limits = settings.limits(unit.horizon_s)
+    numbers = run(unit.engine, one, unit.task, starts, limits, metrics, settings.integrator)
+    return frame(settings, unit, one, starts, numbers, metrics)
+
+
+def prepare(settings: Settings, unit: Unit) -> None:
+    """Build the starts, and compile the loop and the law."""
+    from bench.engines.run import compiled_loop, evaluation
+    from bench.metrics.registry import metrics_of
+
+    if unit.selector:
+        starts_of(settings, unit)
+    if unit.engine == "reference":
+        importlib.import_module("tasks.episode")
+    else:
+        compiled_loop(unit.engine, tuple(metrics_of(on_arm=False)))
+        evaluation(settings.contender(unit.contender))
+
+
+def lost(settings: Settings, unit: Unit, outcome: str) -> pd.DataFrame:
+    """What was asked, the outcome, no measure."""
+    from bench.engines.episode import blank
+    from bench.experiments.rows.episodes import lost_frame
+    from bench.metrics.registry import metrics_of
+
+    starts, metrics = starts_of(settings, unit), metrics_of(on_arm=False)
+    return lost_frame(settings, unit, starts, blank(len(starts), metrics), metrics, outcome)
+
+
+EXPERIMENT = Experiment(
+    "free-body",
+    "laws on the body that turns freely",
+    TABLES["episodes"],
+    units,
+    rows,
+    cost_s=lambda unit: unit.count * EPISODE_S[unit.engine],
+    prepare=prepare,
+    lost=lost,
+    is_divisible=True,
+    rank=0,
+)

@@ -1,0 +1,125 @@
+"""Tables of episodes without contact: how they ended, their curves, where laws first fail, and perturbations."""
+
+from bench.metrics.registry import known_metrics, metrics_of
+from bench.tables.column import COUNT, NUMBER, SINGLE, Column, numbers, words
+
+CONTENDER = words(
+    regulator="the law",
+    representation="coordinates the law acts on; empty for a law on R",
+    jacobian="Jacobian of the arm; empty for the free body",
+    inverse="how the Jacobian is inverted; empty for the free body",
+)
+PLACE = words(
+    suite="plan the row belongs to",
+    task="plant and goal",
+    arm="manipulator; empty for the free body",
+    variation="how the plant differs from the controller's model of it; nominal if it does not",
+)
+STARTED = [
+    *words(engine="what simulated the episode", start_set="family of starts", start_id="start within its family"),
+    *numbers("1", "initial orientation, body to base, unit quaternion", "quat_w", "quat_x", "quat_y", "quat_z"),
+    *numbers("rad", "Z-Y-X Euler angles of the initial orientation", "alpha0", "beta0", "gamma0"),
+    *numbers("rad", "initial angle to the goal, by the judge", "angle0_rad"),
+    *numbers("rad/s", "initial angular velocity, base frame", "omega0_x", "omega0_y", "omega0_z"),
+    *numbers("1", "goal orientation, unit quaternion", "goal_quat_w", "goal_quat_x", "goal_quat_y", "goal_quat_z"),
+]
+SET = [
+    *numbers("1/s^2", "position gain", "kp"),
+    *numbers("1/s", "velocity gain", "kv"),
+    *numbers("s", "control period and integration step", "dt_s"),
+    *words(integrator="how the plant is integrated"),
+    *numbers("s", "longest time simulated", "horizon_s"),
+    *numbers("1", "settling band over initial angle", "tolerance"),
+    *numbers("s", "time under a hundredth of the band after which an engine stops early", "hold_s"),
+]
+JUDGED = [
+    *words(outcome="settled, stuck, timed-out, diverged, singular, saturated; of a user's law also crashed or hung"),
+    *numbers("s", "first time after which the angle stays in the band; null if it does not", "settling_time_s"),
+    *numbers("s", "time at which the episode failed; null if it did not", "failure_time_s"),
+    *numbers("rad", "angle to the goal at the end, by the judge", "final_angle_rad"),
+]
+SEEN_ON_ARM = [
+    *numbers(
+        "1",
+        "largest condition number of the tool's Jacobian (SI units), looked at every 8 ticks, by the judge",
+        "cond_jacobian_max",
+    ),
+    *words(
+        cause="what a failed episode on an arm was near: representation, kinematic, both, torque or law",
+        outcome_beside="on an arm, the other outcome of the same start with its joints turned by 1e-12 rad: rounding "
+        "decides; empty if there is none",
+    ),
+    *numbers(
+        "1",
+        "largest relative change of this row's numbers by those 1e-12 rad; null if the episode came near no "
+        "singularity and no hundredfold rated torque",
+        "rounding_change",
+    ),
+]
+TICKS = [Column("ticks", COUNT, "1", "control periods simulated")]
+
+
+def episode_columns() -> list[Column]:
+    """episodes.parquet: one row an episode; every metric found adds its column."""
+    measured = [Column(one.column, NUMBER, one.unit, one.title) for one in known_metrics().values()]
+    return [*PLACE, *CONTENDER, *STARTED, *SET, *JUDGED, *measured, *SEEN_ON_ARM, *TICKS]
+
+
+def trace_columns() -> list[Column]:
+    """traces.parquet: an episode every few ticks."""
+    return [
+        *words(task="plant and goal", arm="manipulator; empty for the free body"),
+        *CONTENDER,
+        *words(engine="what simulated the episode", start_set="family of starts", start_id="start within its family"),
+        *numbers("s", "time", "time_s"),
+        *numbers("1", "columns of R = [n o a], base frame", *(f"{c}_{x}" for c in "noa" for x in "xyz")),
+        *numbers("rad/s", "angular velocity, base frame", "omega_x", "omega_y", "omega_z"),
+        *numbers("rad/s^2", "command, base frame", "u_x", "u_y", "u_z"),
+        *numbers("rad", "angle to the goal", "angle_rad"),
+        *numbers("m", "distance of the tool from its place; null on the free body", "position_error_m"),
+        *numbers("rad", "joint angles; null where there is no such joint", *(f"q_{i}" for i in range(1, 8))),
+        *(one._replace(meaning=f"of the episode: {one.meaning}; none on an arm") for one in JUDGED),
+    ]
+
+
+def boundary_columns() -> list[Column]:
+    """boundaries.parquet: along the geodesic about one axis, where a law first fails."""
+    return [
+        *CONTENDER,
+        *numbers("1", "axis of the initial rotation, base frame", "axis_x", "axis_y", "axis_z"),
+        *numbers("rad", "largest angle of the scan below which every start settled", "settled_to_rad"),
+        *numbers("rad", "first failing angle, bisected; null if none fails", "fails_from_rad"),
+        *words(outcome="how it fails there; empty if it does not"),
+    ]
+
+
+def robustness_columns() -> list[Column]:
+    """robustness.parquet: the free body in trouble, an episode a row; starts and noise are the same for every law.
+
+    The plant moves between commands, which are held; every metric of the free body adds its column, over the plant's
+    steps. Of an episode that ended early, what is left in its tail is the final angle.
+    """
+    measured = [Column(one.column, SINGLE, one.unit, one.title) for one in metrics_of(on_arm=False)]
+    left = {
+        "tail_rms_rad": ("rad", "root of the mean squared angle to the goal over the last second"),
+        "tail_max_rad": ("rad", "largest angle to the goal in the last second"),
+        "variation": ("rad/s^2", "variation of the command: sum of |u - u before| over control periods"),
+    }
+    return [
+        *words(
+            suite="plan the row belongs to",
+            axis="kind of trouble: python -m bench list axes",
+            regulator="the law",
+            representation="coordinates the law acts on; empty for a law on R",
+        ),
+        *numbers("the axis's", "how much of it", "level"),
+        *words(start_id="start; the axes' starts are their own"),
+        *numbers("rad", "initial angle to the goal, by the judge", "angle0_rad"),
+        *numbers("1/s^2", "position gain", "kp"),
+        *numbers("1/s", "velocity gain", "kv"),
+        *numbers("s", "control period", "dt_s"),
+        *numbers("s", "longest time simulated", "horizon_s"),
+        *JUDGED,
+        *measured,
+        *(Column(name, SINGLE, unit, meaning) for name, (unit, meaning) in left.items()),
+    ]
