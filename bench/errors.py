@@ -36,6 +36,10 @@ class BadLaw(BenchError):
     """A law file that cannot be used."""
 
 
+class BadMetric(BenchError):
+    """A metric's file that cannot be used."""
+
+
 class BadResults(BenchError):
     """A results folder that cannot be read, written, or continued."""
 

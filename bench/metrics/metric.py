@@ -1,5 +1,6 @@
 """What a metric is: a number folded over the ticks of an episode, compiled with the loop and never stored per tick."""
 
+import math
 from collections.abc import Callable
 from typing import NamedTuple
 
@@ -29,3 +30,18 @@ class Metric(NamedTuple):
     update: Callable
     finish: Callable
     arm_only: bool = False
+
+
+def as_it_is(value, ending):
+    """The number itself."""
+    return value
+
+
+def if_finite(value, ending):
+    """The number itself; none where it is infinite: nothing was seen, or it was lost."""
+    return value if value < math.inf else math.nan
+
+
+def root(value, ending):
+    """Of the largest square."""
+    return math.sqrt(value)

@@ -1,8 +1,11 @@
 """Every metric there is: what is measured along an episode, and in contact."""
 
 import functools
+import importlib
+import pkgutil
+from typing import Any
 
-from bench.contenders.registry import collect
+from bench.errors import BadMetric
 from bench.metrics import contact, motion
 from bench.metrics.metric import Metric
 
@@ -10,7 +13,7 @@ from bench.metrics.metric import Metric
 @functools.cache
 def known_metrics() -> dict:
     """Word -> Metric, from bench/metrics/motion, in alphabetical order: the order of their columns."""
-    return collect(motion, "METRIC", Metric)
+    return collect(motion, Metric)
 
 
 @functools.cache
@@ -19,9 +22,31 @@ def known_contact_metrics() -> dict:
     # MuJoCo takes a moment to import; naming other things must not
     from bench.metrics.contact_metric import ContactMetric
 
-    return collect(contact, "METRIC", ContactMetric)
+    return collect(contact, ContactMetric)
 
 
 def metrics_of(on_arm: bool) -> tuple[Metric, ...]:
     """The metrics that can be measured on an arm (all), or on the free body."""
     return tuple(one for one in known_metrics().values() if on_arm or not one.arm_only)
+
+
+def collect(package, kind: type[Any]) -> dict[str, Any]:
+    """Word -> metric, from METRIC or METRICS of every module of a package, in alphabetical order.
+
+    Errors:
+        BadMetric: a module has neither, or a name or column stands twice.
+    """
+    found: dict[str, Any] = {}
+    for info in pkgutil.iter_modules(package.__path__):
+        module = importlib.import_module(f"{package.__name__}.{info.name}")
+        metrics = getattr(module, "METRICS", None) or (getattr(module, "METRIC", None),)
+        for one in metrics:
+            if not isinstance(one, kind):
+                raise BadMetric(f"{module.__file__} has no METRIC that is a {kind.__name__}, and no METRICS of them")
+            if one.name in found or one.column in {other.column for other in found.values()}:
+                raise BadMetric(
+                    f"{module.__file__}: there is a metric '{one.name}' or a column '{one.column}' already; "
+                    "give it a name and a column of its own"
+                )
+            found[one.name] = one
+    return dict(sorted(found.items()))

@@ -3,7 +3,6 @@
 import functools
 import itertools
 import math
-import pkgutil
 
 import numpy as np
 import pytest
@@ -14,7 +13,6 @@ from bench.contenders.representations import zyx_euler
 from bench.control.contact_controller import hybrid, springy
 from bench.engines.contact_episode import OUTCOMES, WIDTH, Ended
 from bench.engines.run_contact import run
-from bench.metrics import contact
 from bench.metrics.contact_metric import Pose, response
 from bench.metrics.registry import known_contact_metrics
 
@@ -69,11 +67,6 @@ def broken_poses() -> list[Pose]:
         for pose in measured_poses()[:: len(CONTROLLERS)]
         for word, record in itertools.product(words, records)
     ]
-
-
-def test_every_file_is_found():
-    files = [one.name.replace("_", "-") for one in pkgutil.iter_modules(contact.__path__)]
-    assert [metric.name for metric in METRICS] == sorted(files)
 
 
 def test_metric_is_named_as_its_column_and_the_column_ends_in_its_unit(metric):

@@ -15,7 +15,8 @@ from bench.control.hybrid import TOUCH
 from bench.findings.theory import compliance_theory as theory
 from bench.law.contender import PAPERS_GAINS, Gains
 from bench.law.so3 import IDENTITY, Rotation, from_quaternion
-from bench.metrics.contact import leakage, least_yield, misalignment, stiffness_axes, stiffness_condition
+from bench.metrics.contact.held_axes import leakage
+from bench.metrics.contact.stiffness import least_yield, misalignment, stiffness_axes, stiffness_condition
 from bench.metrics.measured_compliance import compliance
 from tasks.domains.wrench_probe import ORDERS, TASK
 from tasks.rotations import on_pole
@@ -106,31 +107,31 @@ def compare(controller, pose, tolerance):
 def test_two_euler_axes_leak_the_tangent_of_beta(form, beta):
     """Relative to the tangent, and where it vanishes to that of 0.1 degree."""
     pose = probed(hybrid("hybrid", form, EULER), beta=beta)
-    assert leakage.measure(pose) == pytest.approx(theory.leakage(math.radians(beta)), rel=1e-4, abs=2e-3 * FREE)
-    assert misalignment.measure(pose) == pytest.approx(math.radians(beta), rel=1e-4, abs=2e-3 * FREE)
+    assert leakage(pose) == pytest.approx(theory.leakage(math.radians(beta)), rel=1e-4, abs=2e-3 * FREE)
+    assert misalignment(pose) == pytest.approx(math.radians(beta), rel=1e-4, abs=2e-3 * FREE)
 
 
 @pytest.mark.parametrize("form", ["inverse", "projected"])
 @pytest.mark.parametrize("law", ["hybrid-base", "hybrid-hand"])
 def test_two_axes_of_the_base_leak_nothing(law, form):
-    assert leakage.measure(probed(hybrid(law, form), beta=60)) < HELD
+    assert leakage(probed(hybrid(law, form), beta=60)) < HELD
 
 
 @pytest.mark.parametrize("beta", [1, 5, 15, 30, 45, 60, 75, 85, 89])
 def test_springs_along_euler_angles_are_conditioned_as_predicted(beta):
     """Relative to (1 + |sin beta|)/(1 - |sin beta|); the time that springs take is common to all directions."""
     pose, angle = probed(SPRINGS_OF_EULER, "about x", beta=beta), math.radians(beta)
-    assert stiffness_condition.measure(pose) == pytest.approx(theory.stiffness_condition(angle), rel=1e-3)
-    assert stiffness_axes.measure(pose) == pytest.approx(theory.stiffness_axes(angle), abs=1e-4)
-    assert least_yield.measure(pose) == pytest.approx(
+    assert stiffness_condition(pose) == pytest.approx(theory.stiffness_condition(angle), rel=1e-3)
+    assert stiffness_axes(pose) == pytest.approx(theory.stiffness_axes(angle), abs=1e-4)
+    assert least_yield(pose) == pytest.approx(
         theory.least_yield(angle) * theory.sprung(TASK.horizon_s), rel=2e-3
     )
 
 
 def test_springs_of_the_matrix_have_no_axes_of_their_own():
     pose = probed(next(one for one in SPRINGS if one.law == "impedance-geometric"), "about x", beta=75)
-    assert stiffness_condition.measure(pose) == pytest.approx(1.0, abs=1e-6)
-    assert stiffness_axes.measure(pose) == pytest.approx(0.0, abs=4.0 * math.sqrt(EPS))  # an arc cosine of 1
+    assert stiffness_condition(pose) == pytest.approx(1.0, abs=1e-6)
+    assert stiffness_axes(pose) == pytest.approx(0.0, abs=4.0 * math.sqrt(EPS))  # an arc cosine of 1
 
 
 def test_eigenvalues_of_euler_springs_are_one_and_one_plus_minus_sine_at_any_alpha_and_gamma():

@@ -10,33 +10,7 @@ import tasks
 from bench.contenders.impedances import coordinates_relative, geometric
 from bench.contenders.representations import zyx_euler
 from bench.control.contact_controller import hybrid, springy
-from bench.metrics.contact import (
-    alignment_error,
-    contact_settling_time,
-    crank_angle,
-    force_error_peak,
-    force_error_rms,
-    held_turn,
-    insertion_depth,
-    jam,
-    leakage,
-    least_yield,
-    loop_drift,
-    loop_rest,
-    mean_misalignment,
-    misalignment,
-    moment_error_peak,
-    moment_error_rms,
-    normal_force_error,
-    peak_force,
-    peak_moment,
-    peak_torque_ratio,
-    penetration,
-    stiffness_asymmetry,
-    stiffness_axes,
-    stiffness_condition,
-    work_residual,
-)
+from bench.metrics.contact import held_axes, scene, stiffness, work, wrench
 from bench.metrics.contact_metric import Pose, Response
 from bench.metrics.measured_compliance import compliance, rotation_vector
 from tasks.contact import Order, Trial
@@ -134,67 +108,76 @@ def leaning(angle: float) -> np.ndarray:
 
 def test_misalignment_is_the_angle_of_the_leaning_axis():
     measured = yielding(leaning(0.6), 0, 0, 1)
-    assert misalignment.measure(measured) == pytest.approx(0.6)
-    assert mean_misalignment.measure(measured) == pytest.approx(0.3)
+    assert stiffness.misalignment(measured) == pytest.approx(0.6)
+    assert stiffness.mean_misalignment(measured) == pytest.approx(0.3)
 
 
 def test_leakage_is_the_tangent_of_the_leaning_axis():
-    assert leakage.measure(yielding(leaning(0.6), 0, 0, 1)) == pytest.approx(math.tan(0.6))
+    assert held_axes.leakage(yielding(leaning(0.6), 0, 0, 1)) == pytest.approx(math.tan(0.6))
 
 
 def test_a_hand_that_turns_backwards_is_half_a_turn_astray():
-    assert misalignment.measure(yielding(-0.1 * np.eye(3), 0, 0, 1)) == pytest.approx(math.pi)
+    assert stiffness.misalignment(yielding(-0.1 * np.eye(3), 0, 0, 1)) == pytest.approx(math.pi)
 
 
 def test_a_moment_that_turns_nothing_has_no_angle_and_no_leakage():
     deaf = yielding(np.diag((0.0, 0.1, 0.0)), 0, 0, 1)
-    assert math.isnan(misalignment.measure(deaf))
-    assert math.isnan(leakage.measure(deaf))
-    assert least_yield.measure(deaf) == pytest.approx(0.0, abs=1e-15)
+    assert math.isnan(stiffness.misalignment(deaf))
+    assert math.isnan(held_axes.leakage(deaf))
+    assert stiffness.least_yield(deaf) == pytest.approx(0.0, abs=1e-15)
 
 
 def test_least_yield_is_the_least_over_all_moments_about_axes_that_comply():
     """[[2, 1], [1, 2]] yields 1 to the moment about (1, -1)."""
     C = np.array([[0.2, 0.1, 0.0], [0.1, 0.2, 0.0], [0.0, 0.0, 0.0]])
-    assert least_yield.measure(yielding(C, 0, 0, 1)) == pytest.approx(0.1)
+    assert stiffness.least_yield(yielding(C, 0, 0, 1)) == pytest.approx(0.1)
 
 
-@pytest.mark.parametrize("metric", [leakage, misalignment, least_yield, stiffness_condition, stiffness_axes])
-def test_nothing_complies_and_nothing_is_measured(metric):
-    assert math.isnan(metric.measure(yielding(GENERAL, 1, 1, 1)))
+@pytest.mark.parametrize(
+    "measure",
+    [
+        held_axes.leakage,
+        stiffness.misalignment,
+        stiffness.least_yield,
+        stiffness.stiffness_condition,
+        stiffness.stiffness_axes,
+    ],
+)
+def test_nothing_complies_and_nothing_is_measured(measure):
+    assert math.isnan(measure(yielding(GENERAL, 1, 1, 1)))
 
 
 def test_an_impedance_complies_about_all_axes_whatever_the_order():
     springs = yielding(np.diag((0.1, 0.2, 0.4)), 0, 1, 1, controller=SPRINGS)
-    assert stiffness_condition.measure(springs) == pytest.approx(4.0)
-    assert math.isnan(leakage.measure(springs))
+    assert stiffness.stiffness_condition(springs) == pytest.approx(4.0)
+    assert math.isnan(held_axes.leakage(springs))
 
 
 def test_stiffness_of_one_axis_has_no_condition():
-    assert math.isnan(stiffness_condition.measure(yielding(GENERAL, 0, 1, 1)))
+    assert math.isnan(stiffness.stiffness_condition(yielding(GENERAL, 0, 1, 1)))
 
 
 def test_a_symmetric_stiffness_has_no_asymmetry():
-    assert stiffness_asymmetry.measure(yielding(GENERAL + GENERAL.T, 0, 0, 0)) == pytest.approx(0.0, abs=1e-12)
+    assert stiffness.stiffness_asymmetry(yielding(GENERAL + GENERAL.T, 0, 0, 0)) == pytest.approx(0.0, abs=1e-12)
 
 
 def test_asymmetry_is_the_skew_part_over_the_symmetric_one():
     skew = np.array([[0.0, -0.1, 0.0], [0.1, 0.0, 0.0], [0.0, 0.0, 0.0]])
     C = skew + 0.1 * np.eye(3)
-    assert stiffness_asymmetry.measure(yielding(C, 0, 0, 0)) == pytest.approx(math.sqrt(2.0 / 3.0))
+    assert stiffness.stiffness_asymmetry(yielding(C, 0, 0, 0)) == pytest.approx(math.sqrt(2.0 / 3.0))
 
 
 @pytest.mark.parametrize("angle", [0.0, 0.2, 0.7])
 def test_principal_axes_are_those_that_the_stiffness_was_turned_to(angle):
     Q = Turn.from_rotvec((0.0, angle, 0.0)).as_matrix()
     springs = yielding(Q @ np.diag((0.1, 0.2, 0.3)) @ Q.T, 0, 0, 0, controller=SPRINGS)
-    assert stiffness_axes.measure(springs) == pytest.approx(angle, abs=1e-7)
+    assert stiffness.stiffness_axes(springs) == pytest.approx(angle, abs=1e-7)
 
 
 def test_principal_axes_within_a_plane_of_equal_stiffness_are_any():
     Q = Turn.from_rotvec((0.0, 0.0, 0.5)).as_matrix()
     springs = yielding(Q @ np.diag((0.1, 0.1, 0.3)) @ Q.T, 0, 0, 0, controller=SPRINGS)
-    assert stiffness_axes.measure(springs) == pytest.approx(0.0, abs=1e-7)
+    assert stiffness.stiffness_axes(springs) == pytest.approx(0.0, abs=1e-7)
 
 
 def moving(seed: int) -> dict:
@@ -212,7 +195,7 @@ def test_work_is_conserved_to_rounding_in_coordinates_that_convert(law):
         hybrid("hybrid", "inverse", euler) if law == "hybrid" else springy(coordinates_relative.IMPEDANCE, euler)
     )
     assert (
-        work_residual.measure(pose(answered(trial(order(1, 1, 1, 0, 0, 1)), **moving(1)), controller=controller))
+        work.work_residual(pose(answered(trial(order(1, 1, 1, 0, 0, 1)), **moving(1)), controller=controller))
         < 1e-13
     )
 
@@ -220,14 +203,14 @@ def test_work_is_conserved_to_rounding_in_coordinates_that_convert(law):
 def test_work_is_not_conserved_by_moments_that_are_not_converted():
     controller = hybrid("hybrid-unconverted", "inverse", zyx_euler.REPRESENTATION)
     ran = answered(trial(order(1, 1, 1, 0, 0, 1)), **moving(1))
-    assert work_residual.measure(pose(ran, controller=controller)) > 0.1
+    assert work.work_residual(pose(ran, controller=controller)) > 0.1
 
 
 def test_work_has_no_residual_without_coordinates_or_without_motion():
     still = answered(trial(order(1, 1, 1, 0, 0, 1)))
-    assert math.isnan(work_residual.measure(pose(still)))
+    assert math.isnan(work.work_residual(pose(still)))
     assert math.isnan(
-        work_residual.measure(pose(still, controller=hybrid("hybrid", "inverse", zyx_euler.REPRESENTATION)))
+        work.work_residual(pose(still, controller=hybrid("hybrid", "inverse", zyx_euler.REPRESENTATION)))
     )
 
 
@@ -245,39 +228,42 @@ def pressed(force, moment=(0.0, 0.0, 0.0), task=surface_alignment.TASK, **more) 
 
 def test_force_error_is_what_is_missing_along_the_axis_that_complies():
     measured = pressed((3.0, -4.0, 17.0))
-    assert force_error_rms.measure(measured) == pytest.approx(3.0)
-    assert force_error_peak.measure(measured) == pytest.approx(3.0)
+    assert wrench.force_error_rms(measured) == pytest.approx(3.0)
+    assert wrench.force_error_peak(measured) == pytest.approx(3.0)
 
 
 def test_moment_error_is_the_moment_about_axes_that_comply():
     measured = pressed((0.0, 0.0, 20.0), (0.3, 0.4, 9.0))
-    assert moment_error_rms.measure(measured) == pytest.approx(0.5)
-    assert moment_error_peak.measure(measured) == pytest.approx(0.5)
+    assert wrench.moment_error_rms(measured) == pytest.approx(0.5)
+    assert wrench.moment_error_peak(measured) == pytest.approx(0.5)
 
 
 def test_errors_are_counted_from_the_first_touch_on():
     ramp = np.zeros((TICKS - FROM, 3))
     ramp[:, 2] = np.linspace(10.0, 20.0, TICKS - FROM)
-    assert force_error_peak.measure(pressed(ramp)) == pytest.approx(10.0)
+    assert wrench.force_error_peak(pressed(ramp)) == pytest.approx(10.0)
 
 
-@pytest.mark.parametrize("metric", [force_error_rms, moment_error_peak, contact_settling_time, normal_force_error])
-def test_without_a_touch_there_is_no_error(metric):
-    assert math.isnan(metric.measure(pressed((0.0, 0.0, 0.0))))
+@pytest.mark.parametrize(
+    "measure",
+    [wrench.force_error_rms, wrench.moment_error_peak, wrench.contact_settling_time, wrench.normal_force_error],
+)
+def test_without_a_touch_there_is_no_error(measure):
+    assert math.isnan(measure(pressed((0.0, 0.0, 0.0))))
 
 
 def test_settling_is_counted_from_the_touch_to_the_last_tick_outside_the_band():
     force = np.tile((0.0, 0.0, 20.3), (TICKS - FROM, 1))
     force[10] = (0.0, 0.0, 20.5)  # 2.5 %, once
-    assert contact_settling_time.measure(pressed(force)) == pytest.approx(0.11)
+    assert wrench.contact_settling_time(pressed(force)) == pytest.approx(0.11)
 
 
 def test_a_force_within_the_band_from_the_touch_on_settles_at_once():
-    assert contact_settling_time.measure(pressed((0.0, 0.0, 19.9))) == 0.0
+    assert wrench.contact_settling_time(pressed((0.0, 0.0, 19.9))) == 0.0
 
 
 def test_a_force_that_stays_outside_the_band_does_not_settle():
-    assert math.isnan(contact_settling_time.measure(pressed((0.0, 0.0, 19.0))))
+    assert math.isnan(wrench.contact_settling_time(pressed((0.0, 0.0, 19.0))))
 
 
 def test_a_tool_flat_on_a_plate_has_no_alignment_error():
@@ -288,9 +274,9 @@ def test_a_tool_flat_on_a_plate_has_no_alignment_error():
     flat = answered(
         trial(PRESSING, mount_wxyz=mount, scene_wxyz=about((1.0, 0.0, 0.0), -0.2)), R=np.tile(drawn, (TICKS, 1, 1))
     )
-    assert alignment_error.measure(pose(flat, task=surface_alignment.TASK)) == pytest.approx(0.0, abs=1e-12)
+    assert scene.alignment_error(pose(flat, task=surface_alignment.TASK)) == pytest.approx(0.0, abs=1e-12)
     askew = flat._replace(trial=flat.trial._replace(scene_wxyz=about((1.0, 0.0, 0.0), 0.1)))
-    assert alignment_error.measure(pose(askew, task=surface_alignment.TASK)) == pytest.approx(0.3)
+    assert scene.alignment_error(pose(askew, task=surface_alignment.TASK)) == pytest.approx(0.3)
 
 
 def test_normal_force_error_is_along_the_normal_of_the_plane():
@@ -300,7 +286,7 @@ def test_normal_force_error_is_along_the_normal_of_the_plane():
     measured = pressed(
         (20.0 * math.sqrt(0.75) + 2.0) * normal + 7.0 * along, task=force_on_plane.TASK, scene_wxyz=plane
     )
-    assert normal_force_error.measure(measured) == pytest.approx(2.0)
+    assert wrench.normal_force_error(measured) == pytest.approx(2.0)
 
 
 def test_peaks_are_the_largest_of_all_ticks_and_trials():
@@ -310,13 +296,13 @@ def test_peaks_are_the_largest_of_all_ticks_and_trials():
         answered(trial(PRESSING), force=loud, moment=quiet, load=load),
         answered(trial(PRESSING), force=quiet, moment=loud, gap=gap),
     )
-    assert peak_force.measure(both) == peak_moment.measure(both) == 5.0
-    assert peak_torque_ratio.measure(both) == 0.7
-    assert penetration.measure(both) == 2e-3
+    assert wrench.peak_force(both) == wrench.peak_moment(both) == 5.0
+    assert wrench.peak_torque_ratio(both) == 0.7
+    assert scene.penetration(both) == 2e-3
 
 
 def test_nothing_penetrates_that_does_not_touch():
-    assert math.isnan(penetration.measure(pose(answered(trial(PRESSING)))))
+    assert math.isnan(scene.penetration(pose(answered(trial(PRESSING)))))
 
 
 HOLE = {"scene_pos": (0.4, 0.1, 0.2), "scene_wxyz": about((1.0, 0.0, 0.0), 0.1)}
@@ -331,30 +317,30 @@ def inserted(depths, beside=0.0) -> Pose:
 
 def test_a_peg_at_the_bottom_is_in():
     measured = inserted(np.linspace(-0.002, peg_in_hole.DEPTH, TICKS))
-    assert insertion_depth.measure(measured) == pytest.approx(peg_in_hole.DEPTH)
-    assert jam.measure(measured) == 0.0
+    assert scene.insertion_depth(measured) == pytest.approx(peg_in_hole.DEPTH)
+    assert scene.jam(measured) == 0.0
 
 
 def test_a_peg_that_stands_halfway_is_stuck():
     measured = inserted(np.minimum(np.linspace(0.0, 0.03, TICKS), 0.015))
-    assert insertion_depth.measure(measured) == pytest.approx(0.015)
-    assert jam.measure(measured) == 1.0
+    assert scene.insertion_depth(measured) == pytest.approx(0.015)
+    assert scene.jam(measured) == 1.0
 
 
 def test_a_peg_on_its_way_is_not_stuck():
-    assert jam.measure(inserted(np.linspace(0.0, 0.02, TICKS))) == 0.0
+    assert scene.jam(inserted(np.linspace(0.0, 0.02, TICKS))) == 0.0
 
 
 def test_a_peg_beside_the_hole_is_not_in_it():
     measured = inserted(np.full(TICKS, 0.03), beside=2.0 * peg_in_hole.HOLE)
-    assert insertion_depth.measure(measured) == 0.0
-    assert jam.measure(measured) == 1.0
+    assert scene.insertion_depth(measured) == 0.0
+    assert scene.jam(measured) == 1.0
 
 
 def test_crank_angle_is_how_far_its_joint_turned():
     turned = answered(trial(order(1, 0, 0, 0, 0, 1)), turned=np.linspace(0.2, 0.9, TICKS))
-    assert crank_angle.measure(pose(turned, task=crank.TASK)) == pytest.approx(0.7)
-    assert math.isnan(crank_angle.measure(pose(turned)))
+    assert scene.crank_angle(pose(turned, task=crank.TASK)) == pytest.approx(0.7)
+    assert math.isnan(scene.crank_angle(pose(turned)))
 
 
 LEGS = ((0.0,) * 6,) * 4
@@ -362,16 +348,16 @@ LEGS = ((0.0,) * 6,) * 4
 
 def test_loop_leaves_its_rotation_and_its_part_about_held_axes():
     left = answered(trial(order(1, 1, 1, 0, 0, 1), legs=LEGS), R=spun((0.03, 0.0, -0.04)))
-    assert loop_rest.measure(pose(left)) == pytest.approx(0.05)
-    assert loop_drift.measure(pose(left)) == pytest.approx(0.04)
+    assert held_axes.loop_rest(pose(left)) == pytest.approx(0.05)
+    assert held_axes.loop_drift(pose(left)) == pytest.approx(0.04)
 
 
 def test_a_push_that_is_no_loop_leaves_nothing_to_measure():
     pushed = answered(trial(order(1, 1, 1, 0, 0, 1)), R=spun((0.0, 0.0, 0.1)))
-    assert math.isnan(loop_rest.measure(pose(pushed)))
-    assert math.isnan(loop_drift.measure(pose(pushed)))
+    assert math.isnan(held_axes.loop_rest(pose(pushed)))
+    assert math.isnan(held_axes.loop_drift(pose(pushed)))
 
 
 def test_held_turn_is_about_held_axes_alone():
     turned = answered(trial(PRESSING), R=spun((0.3, 0.1, 0.02)))
-    assert held_turn.measure(pose(turned, task=surface_alignment.TASK)) == pytest.approx(0.02)
+    assert held_axes.held_turn(pose(turned, task=surface_alignment.TASK)) == pytest.approx(0.02)

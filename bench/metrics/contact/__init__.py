@@ -1,1 +1,1 @@
-"""Metrics of contact, one file each with a constant METRIC. The file name is the word."""
+"""Metrics of contact by theme: each file holds one METRIC, or several METRICS. A file dropped here is found."""

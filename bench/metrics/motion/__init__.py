@@ -1,1 +1,4 @@
-"""Columns measured along an episode, one file each, with one constant METRIC. The file name is the word."""
+"""Columns measured along an episode, by theme: each file holds one METRIC, or several METRICS.
+
+An `update` is compiled into the loop; `finish` is plain Python. A file dropped here is found.
+"""

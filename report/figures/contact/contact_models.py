@@ -11,18 +11,18 @@ import tasks
 from bench.control.registry import find_compliant
 from bench.engines.contact_episode import USUAL, Conditions, Ended
 from bench.engines.run_contact import run
-from bench.metrics.contact import alignment_error, force_error_rms, peak_force, penetration
 from bench.metrics.contact_metric import Pose, response
+from bench.metrics.registry import known_contact_metrics
 from report.figures.kit import html
 from tasks.contact import STANDARD, ContactModel
 
 TASK, ARM, TRIAL = "surface-alignment", "puma560", "tilt 20 about 0, beta+75"
 CONTROLLERS = ("hybrid-base+inverse", "hybrid/zyx-euler+inverse")
 METRICS = (
-    (alignment_error.METRIC, "Tool to plate [deg]", 57.29577951308232, ".2f"),
-    (force_error_rms.METRIC, "Force error, rms [N]", 1.0, ".2f"),
-    (peak_force.METRIC, "Largest force [N]", 1.0, ".0f"),
-    (penetration.METRIC, "Penetration [mm]", 1e3, ".3f"),
+    ("alignment-error", "Tool to plate [deg]", 57.29577951308232, ".2f"),
+    ("force-error-rms", "Force error, rms [N]", 1.0, ".2f"),
+    ("peak-force", "Largest force [N]", 1.0, ".0f"),
+    ("penetration", "Penetration [mm]", 1e3, ".3f"),
 )
 
 
@@ -54,7 +54,8 @@ def episode(controller: str, variant: Variant) -> tuple[str, tuple[float, ...]]:
     conditions = Conditions(dt_s=variant.dt_s)
     ended: Ended = next(run("native", compliant, task, arm, (trial,), conditions, variant.contact))
     pose = Pose(task, arm, compliant, (response(trial, ended),))
-    return ended.outcome, tuple(metric.measure(pose) * factor for metric, _, factor, _ in METRICS)
+    metrics = known_contact_metrics()
+    return ended.outcome, tuple(metrics[name].measure(pose) * factor for name, _, factor, _ in METRICS)
 
 
 def table() -> html.Markdown:

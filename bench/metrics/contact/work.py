@@ -14,7 +14,7 @@ from bench.metrics.contact_metric import ContactMetric, Pose, Response
 TICKS = 16
 
 
-def measure(pose: Pose) -> float:
+def work_residual(pose: Pose) -> float:
     """max |m . omega - F_E . Edot| / max |m| |omega| over ticks; NaN without coordinates, moment or motion."""
     controller = pose.controller
     if controller.representation is None or any(one.outcome != "done" for one in pose.responses):
@@ -44,5 +44,5 @@ def _length(v) -> float:
 
 
 METRIC = ContactMetric(
-    "work-residual", "work_residual", "1", "work lost between Cartesian and generalized forces", measure
+    "work-residual", "work_residual", "1", "work lost between Cartesian and generalized forces", work_residual
 )

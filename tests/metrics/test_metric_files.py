@@ -1,0 +1,58 @@
+"""What a file of bench/metrics must hold: METRIC or METRICS, each with a name and a column of its own."""
+
+import importlib
+import sys
+
+import pytest
+
+from bench.errors import BadMetric
+from bench.metrics import registry
+from bench.metrics.metric import Metric
+
+ONE = """
+from bench.metrics.metric import Metric, as_it_is
+
+def update(value, sample):
+    return value
+
+"""
+FIRST = 'METRIC = Metric("zeta", "zeta", "1", "first", 0.0, update, as_it_is)'
+PAIR = """METRICS = (
+    Metric("{name}", "{column}", "1", "second", 0.0, update, as_it_is),
+    Metric("beta", "beta", "1", "third", 0.0, update, as_it_is),
+)"""
+
+
+@pytest.fixture
+def package(tmp_path, monkeypatch):
+    """A package of metrics that are in the files given."""
+    monkeypatch.syspath_prepend(tmp_path)
+
+    def of(**files: str):
+        folder = tmp_path / "some_metrics"
+        folder.mkdir()
+        for name, text in {"__init__": "", **files}.items():
+            (folder / f"{name}.py").write_text(text)
+        return importlib.import_module("some_metrics")
+
+    yield of
+    for name in [name for name in sys.modules if name.startswith("some_metrics")]:
+        del sys.modules[name]
+
+
+def test_metrics_of_several_files_stand_in_alphabetical_order(package):
+    found = registry.collect(package(a=ONE + FIRST, b=ONE + PAIR.format(name="alpha", column="alpha")), Metric)
+    assert list(found) == ["alpha", "beta", "zeta"]
+    assert {name: one.name for name, one in found.items()} == {name: name for name in found}
+
+
+@pytest.mark.parametrize("taken", [("zeta", "other"), ("other", "zeta")])
+def test_a_name_or_column_that_stands_twice_is_refused_with_both(package, taken):
+    name, column = taken
+    with pytest.raises(BadMetric, match=f"b.py: there is a metric '{name}' or a column '{column}' already"):
+        registry.collect(package(a=ONE + FIRST, b=ONE + PAIR.format(name=name, column=column)), Metric)
+
+
+def test_a_file_without_a_metric_is_refused(package):
+    with pytest.raises(BadMetric, match="has no METRIC that is a Metric, and no METRICS of them"):
+        registry.collect(package(a="METRIC = 3.0"), Metric)
