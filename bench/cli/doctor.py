@@ -93,7 +93,7 @@ def _engines() -> str:
 def _arms() -> str:
     import tasks
     from bench.contenders import combinations
-    from bench.contenders.registry import all_contenders
+    from bench.contenders.registry import all_contenders, papers_laws
     from bench.engines.run_arm import run
     from bench.experiments.experiment import Settings
     from bench.metrics.registry import metrics_of
@@ -106,7 +106,7 @@ def _arms() -> str:
         raise RuntimeError(f"{'; '.join(broken) or 'there is none'}. Cure: mend the file, or take it out of tasks/arms")
     arm = next((one for one in found if one.name == "ur5e"), found[0])
     laws = {one.name: one for one in all_contenders()}
-    [law] = combinations.on((f"{combinations.RESOLVED}+standard",), laws, arm.joints)
+    [law] = combinations.on((f"{papers_laws()[0].name}@geometric+standard",), laws, arm.joints)
     metrics, settings = metrics_of(on_arm=True), Settings().limits(0.05)
     starts = tasks.start_set("clear", 1, arm=arm.name)
     both = [

@@ -12,47 +12,6 @@ STANDARD = ("solve", "pseudo-inverse", "truncated-svd")
 """What inverts a Jacobian if nothing is said: exact where it is square, of least norm where it is not, and by singular
 values where its rank is less than its rows and columns (a quaternion on seven joints)."""
 
-ON_ANGULAR = (
-    "rotation-matrix",
-    "linearized-euler/zyx-euler",
-    "linearized-euler-relative/zyx-euler",
-    "feedback-linearized/zyx-euler",
-)
-IN_COORDINATES = ("zyx-euler", "zyz-euler", "xyz-euler", "rotation-vector", "mrp", "quaternion")
-LAWS = tuple(f"{law}@geometric+standard" for law in ON_ANGULAR)
-BEST = tuple(
-    f"{law}@geometric+standard"
-    for law in ("hybrid", "late-braking", "mrp-linearized", "quaternion-shortest", "mrp", "rotation-vector")
-)
-"""The six best of the later laws, the best first, as `answer.best` finds them in the results on the free body."""
-ANALYTIC = tuple(f"feedback-linearized/{word}@analytic+standard" for word in IN_COORDINATES)
-RESOLVED = "rotation-matrix@geometric"
-INVERSES = (
-    *(
-        f"{RESOLVED}+{word}"
-        for word in (
-            "pseudo-inverse",
-            "damped-least-squares",
-            "damped-least-squares-variable",
-            "truncated-svd",
-            "dynamically-consistent",
-            "transpose",
-        )
-    ),
-    *(
-        f"feedback-linearized/zyx-euler@analytic+{word}"
-        for word in ("damped-least-squares", "damped-least-squares-variable", "truncated-svd", "dynamically-consistent")
-    ),
-)
-TWINS = (
-    "rotation-matrix@geometric-body+standard",
-    "feedback-linearized/zyx-euler@analytic-differentiated+standard",
-)
-"""What ought to equal another contender: the same command by another Jacobian. So would each feedback-linearized law
-by the geometric Jacobian, whose equality is tested and which `full` runs."""
-
-VARIED = (*LAWS, *ANALYTIC, f"{RESOLVED}+dynamically-consistent", f"{RESOLVED}+damped-least-squares")
-
 SHOWN = 3
 """Reasons of a refusal that are printed."""
 

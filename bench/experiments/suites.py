@@ -2,7 +2,6 @@
 
 from typing import NamedTuple
 
-from bench.contenders.combinations import ANALYTIC, BEST, INVERSES, LAWS, TWINS, VARIED
 from bench.errors import UnknownWord
 
 ENGINES = ("ideal-rk4", "ideal-held", "native", "reference")
@@ -20,6 +19,36 @@ shows by then."""
 
 NOMINAL = "nominal"
 """The variation in which the plant is the controller's model."""
+
+
+ON_ANGULAR = (
+    "rotation-matrix",
+    "linearized-euler/zyx-euler",
+    "linearized-euler-relative/zyx-euler",
+    "feedback-linearized/zyx-euler",
+)
+IN_COORDINATES = ("zyx-euler", "zyz-euler", "xyz-euler", "rotation-vector", "mrp", "quaternion")
+LAWS = tuple(f"{law}@geometric+standard" for law in ON_ANGULAR)
+BEST = tuple(
+    f"{law}@geometric+standard"
+    for law in ("hybrid", "late-braking", "mrp-linearized", "quaternion-shortest", "mrp", "rotation-vector")
+)
+"""The six best of the later laws, the best first, as `selection.best` finds them in the results on the free body."""
+ANALYTIC = tuple(f"feedback-linearized/{word}@analytic+standard" for word in IN_COORDINATES)
+RESOLVED = "rotation-matrix@geometric"
+BOUNDED = ("damped-least-squares", "damped-least-squares-variable", "truncated-svd", "dynamically-consistent")
+INVERSES = (
+    *(f"{RESOLVED}+{word}" for word in ("pseudo-inverse", *BOUNDED, "transpose")),
+    *(f"feedback-linearized/zyx-euler@analytic+{word}" for word in BOUNDED),
+)
+TWINS = (
+    "rotation-matrix@geometric-body+standard",
+    "feedback-linearized/zyx-euler@analytic-differentiated+standard",
+)
+"""What ought to equal another contender: the same command by another Jacobian. So would each feedback-linearized law
+by the geometric Jacobian, whose equality is tested and which `full` runs."""
+
+VARIED = (*LAWS, *ANALYTIC, f"{RESOLVED}+dynamically-consistent", f"{RESOLVED}+damped-least-squares")
 
 
 class Slice(NamedTuple):

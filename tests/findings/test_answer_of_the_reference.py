@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from bench.contenders import combinations
 from bench.contenders.registry import find_contender
+from bench.experiments import suites
 from bench.findings import claims
 from bench.findings.claims.tables import Results
 from bench.findings.claims.verdict import Word
@@ -38,7 +38,7 @@ def changed(found, criterion, law, value):
 
 
 def test_suites_run_on_arms_the_six_that_are_best(found):
-    assert tuple(f"{law}@geometric+standard" for law in best(found)) == combinations.BEST
+    assert tuple(f"{law}@geometric+standard" for law in best(found)) == suites.BEST
 
 
 def test_answer_is_a_law_with_memory(found):

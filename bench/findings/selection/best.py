@@ -1,4 +1,4 @@
-"""The best six of the later laws: those that run on arms beside the paper's three (`combinations.BEST`).
+"""The best six of the later laws: those that run on arms beside the paper's three (`suites.BEST`).
 
 Of the laws that settle from every start of the run and unwind from none, those that no noise holds at half turns come
 first, then the cheaper. Of laws with the same response from rest and the same fate under noise the cheapest alone

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pandas as pd
 
-from bench.contenders.combinations import BEST
+from bench.experiments.suites import BEST
 from report.figures.arms import arm_rows
 from report.figures.kit import families, html
 from report.figures.kit.laws import TITLES

@@ -1,0 +1,83 @@
+"""Where sources name a law or coordinates: in their own file, and where a choice among them is the matter."""
+
+import ast
+import re
+from pathlib import Path
+
+from bench.contenders.registry import known_impedances, known_regulators, known_representations
+
+ROOT = Path(__file__).parents[2]
+ROOMS = ("bench", "tasks", "report")
+
+CHAPTERS = ("answer", "arms", "cards", "comparison", "contact", "method", "problem", "responses", "robustness")
+
+ALLOWED = {
+    "bench/contenders/regulators/": "its own file, and the coordinates it acts on",
+    "bench/contenders/representations/": "its own file",
+    "bench/contenders/impedances/": "its own file",
+    "bench/law/contender.py": "ON_MATRIX, the word for what acts on R itself",
+    "bench/control/contact_controller.py": "hybrid control in contact, whose words these are",
+    "bench/experiments/suites.py": "what a suite runs",
+    "bench/findings/claims/": "sentences about them",
+    "bench/findings/selection/": "what is asked of them",
+    "bench/studies/": "what a study was designed for",
+    "bench/regression/revisions/side.py": "what is timed on every revision",
+    "bench/timing/": "what the loop in numpy computes",
+    "bench/cli/": "examples of --help",
+    **dict.fromkeys((f"report/figures/{chapter}/" for chapter in CHAPTERS), "what a page of the book is about"),
+    "report/figures/libraries/": "what the libraries were asked",
+    "report/figures/tool/": "what the history shows",
+    "report/figures/kit/rows.py": "the paper's three, for the pages that are about them",
+    "report/media.py": "what is filmed",
+    "report/contact_media.py": "what is filmed",
+}
+"""Files and folders that may name them, and why. Anywhere else the registry is asked."""
+
+
+def words() -> set[str]:
+    """As rows and the command line write them."""
+    return {*known_regulators(), *known_representations(), *(f"impedance-{name}" for name in known_impedances())}
+
+
+def pattern(every: set[str]) -> re.Pattern:
+    """A word with a dash anywhere in a text; one without, which is English too, as the whole text or in a contender."""
+    dashed = "|".join(sorted((re.escape(word) for word in every if "-" in word), key=len, reverse=True))
+    plain = "|".join(sorted(word for word in every if "-" not in word))
+    in_contender = rf"(?<![\w-])(?:{plain})(?=[/@])|(?<=/)(?:{plain})\b"
+    return re.compile(rf"(?<![\w-])(?:{dashed})(?![\w-])|^(?:{plain})$|{in_contender}")
+
+
+def named(path: Path, found: re.Pattern) -> list[str]:
+    """The words that the texts of a file have, docstrings apart."""
+    tree = ast.parse(path.read_text())
+    prose = {id(one.value) for one in ast.walk(tree) if isinstance(one, ast.Expr)}
+    texts = (
+        one.value
+        for one in ast.walk(tree)
+        if isinstance(one, ast.Constant) and isinstance(one.value, str) and id(one) not in prose
+    )
+    return [word for text in texts for word in found.findall(text)]
+
+
+def namings() -> dict[str, list[str]]:
+    """File -> what it names, of all sources."""
+    found = pattern(words())
+    paths = (path for room in ROOMS for path in sorted((ROOT / room).rglob("*.py")) if "_build" not in path.parts)
+    every = {path.relative_to(ROOT).as_posix(): named(path, found) for path in paths}
+    return {name: which for name, which in every.items() if which}
+
+
+def test_nothing_but_what_is_allowed_names_a_law_or_coordinates():
+    assert {name: which for name, which in namings().items() if not name.startswith(tuple(ALLOWED))} == {}
+
+
+def test_whatever_is_allowed_to_name_one_does():
+    every = namings()
+    assert [place for place in ALLOWED if not any(name.startswith(place) for name in every)] == []
+
+
+def test_a_word_is_found_in_a_contender_and_not_in_english():
+    found = pattern({"late-braking", "mrp"})
+    assert found.findall("late-braking@geometric, mrp/quaternion, feedback/mrp") == ["late-braking", "mrp", "mrp"]
+    assert found.findall("mrp") == ["mrp"]
+    assert found.findall("the mrp-like, late-braking-literal and mrp in a sentence") == []
