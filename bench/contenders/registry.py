@@ -94,33 +94,27 @@ def papers_coordinates() -> Representation:
 
 def regulator(word: str, extra: tuple[Regulator, ...] = ()) -> Regulator:
     """The regulator of that name, the user's own among them."""
-    every = known_regulators() | {own.name: own for own in extra}
-    if word not in every:
-        raise UnknownWord("regulator", word, sorted(every))
-    return every[word]
+    return _known("regulator", word, known_regulators() | {own.name: own for own in extra})
 
 
-def representation(word: str):
+def representation(word: str) -> Representation:
     """The representation of that name."""
-    every = known_representations()
-    if word not in every:
-        raise UnknownWord("representation", word, sorted(every))
-    return every[word]
+    return _known("representation", word, known_representations())
 
 
 def jacobian(word: str) -> Jacobian:
     """The Jacobian of that name."""
-    every = known_jacobians()
-    if word not in every:
-        raise UnknownWord("Jacobian", word, sorted(every))
-    return every[word]
+    return _known("Jacobian", word, known_jacobians())
 
 
 def inverse(word: str) -> Inverse:
     """The inverse of that name."""
-    every = known_inverses()
+    return _known("inverse", word, known_inverses())
+
+
+def _known(kind: str, word: str, every: dict[str, Any]) -> Any:
     if word not in every:
-        raise UnknownWord("inverse", word, sorted(every))
+        raise UnknownWord(kind, word, sorted(every))
     return every[word]
 
 

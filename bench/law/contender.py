@@ -189,19 +189,6 @@ def bind(regulator: Regulator, representation: Representation | None) -> Callabl
     return law
 
 
-def on_arm(one: Contender, jacobian: Jacobian, inverse: Inverse, joints: int = 6) -> Contender:
-    """A contender on an arm of so many joints, or refuse with the reason.
-
-    Errors:
-        Incompatible: the law, the Jacobian, the inverse and the number of joints do not go together.
-    """
-    wanted = one._replace(jacobian=jacobian, inverse=inverse)
-    reason = refusal(wanted, joints)
-    if reason:
-        raise Incompatible(f"'{wanted.name}' on {joints} joints: {reason}")
-    return wanted
-
-
 def refusal(one: Contender, joints: int) -> str:
     """Why a contender cannot control an arm of so many joints; empty if it can."""
     jacobian, inverse, representation = one.jacobian, one.inverse, one.representation

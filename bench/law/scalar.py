@@ -17,9 +17,6 @@ Python float would raise ZeroDivisionError.
 
 import math
 
-PI = math.pi
-HALF_PI = math.pi / 2
-
 KERNELS: list = []
 """Every function marked `@kernel`, in the order of definition; the compiled engines register them with numba."""
 

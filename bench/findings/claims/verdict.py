@@ -11,12 +11,11 @@ from bench.errors import BenchError
 
 
 class Word(StrEnum):
-    """The five things that can be said of a claim."""
+    """The four things that can be said of a claim."""
 
     HOLDS = "holds"
     CORRECTED = "holds with a correction"
     FAILS = "does not hold"
-    UNTESTABLE = "not testable"
     UNMEASURED = "not yet measured"
 
 

@@ -10,11 +10,9 @@ from pathlib import Path
 
 from bench.errors import BadResults, Incompatible, UnknownWord
 from bench.provenance import ROOT
-from bench.tables.schema import RESULTS
 
 WORKING_TREE = "working tree"
 MAIN = ("origin/main", "main", "origin/master", "master")
-REFERENCE = RESULTS / "reference"
 
 
 def is_folder(word: str) -> bool:

@@ -24,7 +24,6 @@ from bench.tables.store import read_json, write_json
 SCHEMA = "orientation-bench comparison 1"
 
 EXACT, OPERATIONS, INSTRUCTIONS, TIME = "exact", "operations", "instructions", "time"
-GATES = (EXACT, OPERATIONS, INSTRUCTIONS, TIME)
 
 REGRESSION, CHANGE, IMPROVEMENT = "regression", "change", "improvement"
 PASSED, FAILED, SKIPPED = "passed", "failed", "skipped"

@@ -30,7 +30,6 @@ def tiles(verdicts: list[Verdict]) -> html.Html:
         "holds": "hold",
         "holds with a correction": "hold with a correction",
         "does not hold": "do not hold",
-        "not testable": "cannot be tested",
     }
     entries: list = [(len(decided), "statements of the paper decided")]
     return html.tiles(entries + [(counts[word], label, word) for word, label in labels.items() if counts[word]])

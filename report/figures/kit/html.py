@@ -23,7 +23,6 @@ VERDICTS = {
     "holds": "holds",
     "holds with a correction": "corrected",
     "does not hold": "fails",
-    "not testable": "untestable",
     "not yet measured": "unmeasured",
 }
 MISSING = "–"
