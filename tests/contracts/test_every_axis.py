@@ -7,7 +7,6 @@ import pytest
 
 import tasks
 from bench.engines import disturbed
-from tasks.base import UnknownName
 from tasks.condition import Condition
 
 AXES = [tasks.axis(name) for name in tasks.axis_names()]
@@ -68,8 +67,3 @@ def test_starts_are_as_many_as_asked_for_and_differ(axis, seed):
         assert axis.starts(5, seed, level) == starts[:5]
         for one in starts:
             assert math.hypot(*one.quat_wxyz) == pytest.approx(1.0, abs=1e-15)
-
-
-def test_an_axis_that_is_not_there_is_refused_with_those_that_are():
-    with pytest.raises(UnknownName, match="control-rate"):
-        tasks.axis("bad-luck")

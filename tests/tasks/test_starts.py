@@ -35,44 +35,6 @@ def chosen(name, pattern):
     return found
 
 
-@pytest.mark.parametrize("name", NAMES)
-def test_ids_are_unique_plain_words(name):
-    ids = [start.id for start in tasks.start_set(name)]
-    assert len(set(ids)) == len(ids)
-    assert all(re.fullmatch(r"[a-z0-9][a-z0-9.-]*", word) for word in ids)
-
-
-@pytest.mark.parametrize("name", NAMES)
-def test_quaternions_are_unit(name):
-    for start in tasks.start_set(name):
-        assert math.hypot(*start.quat_wxyz) == pytest.approx(1.0, abs=4e-16)
-        assert math.hypot(*start.goal_wxyz) == pytest.approx(1.0, abs=4e-16)
-
-
-@pytest.mark.parametrize("name", NAMES)
-def test_elements_are_plain_floats(name):
-    for start in tasks.start_set(name, 40):
-        numbers = (*start.quat_wxyz, *start.omega, *start.goal_wxyz)
-        assert len(numbers) == 11
-        assert {type(x) for x in numbers} == {float}
-
-
-@pytest.mark.parametrize("name", NAMES)
-def test_same_seed_gives_the_same_starts(name):
-    assert tasks.start_set(name) == tasks.start_set(name)
-
-
-@pytest.mark.parametrize("name", NAMES)
-def test_shorter_set_begins_the_longer_one(name):
-    for count in (1, 2, 17, 150):
-        assert tasks.start_set(name, count) == tasks.start_set(name)[:count]
-
-
-@pytest.mark.parametrize("name", SAMPLED)
-def test_sampled_set_has_as_many_as_asked_for(name):
-    assert len(tasks.start_set(name, 321)) == 321
-
-
 @pytest.mark.parametrize("seed", [0, 7])
 @pytest.mark.parametrize("name", NAMES)
 def test_stretch_is_that_of_the_whole_set(name, seed):
@@ -101,21 +63,10 @@ def test_length_is_known_without_the_starts(name):
         assert tasks.start_set_length(name, count) == len(tasks.start_set(name, count))
 
 
-@pytest.mark.parametrize("name", SAMPLED)
-def test_other_seed_gives_other_starts(name):
-    assert tasks.start_set(name, 100, seed=1) != tasks.start_set(name, 100, seed=0)
-
-
 @pytest.mark.parametrize("name", DIRECTED)
 def test_directed_set_ends_at_its_own_number(name):
     assert tasks.start_set(name, 10**6) == tasks.start_set(name)
     assert len(tasks.start_set(name)) <= 250
-
-
-@pytest.mark.parametrize("count", [0, -3])
-def test_count_below_one_is_refused(count):
-    with pytest.raises(ValueError, match=r"count .* at least 1 \(try: count=10\)"):
-        tasks.start_set("uniform", count)
 
 
 @pytest.mark.parametrize("name", [name for name in NAMES if name not in ("goals", "tumbling")])
@@ -133,15 +84,13 @@ def test_default_numbers():
 # 0.014 (trace, variance 1), 0.7 degrees (median) and 0.0044 (share); low-discrepancy points do better.
 
 
-def test_uniform_has_mean_trace_zero():
-    traces = np.trace(rotations(tasks.start_set("uniform")).as_matrix(), axis1=1, axis2=2)
+@pytest.mark.parametrize("seed", range(4))
+def test_uniform_has_the_mean_matrix_zero_and_traces_of_variance_1(seed):
+    found = rotations(tasks.start_set("uniform", seed=seed)).as_matrix()
+    traces = np.trace(found, axis1=1, axis2=2)
     assert abs(traces.mean()) < 0.014
     assert (traces**2).mean() == pytest.approx(1.0, abs=0.03)
-
-
-def test_uniform_has_the_mean_matrix_zero():
-    mean = rotations(tasks.start_set("uniform")).as_matrix().mean(axis=0)
-    assert np.abs(mean).max() < 0.01
+    assert np.abs(found.mean(axis=0)).max() < 0.01
 
 
 def test_uniform_angles_follow_the_haar_distribution():
@@ -157,12 +106,6 @@ def test_uniform_is_near_the_pole_as_often_as_haar():
     """sin(beta) is uniform: 1 - cos 10 degrees = 1.5 % lie within 10 degrees of a pole."""
     beta = euler_angles(tasks.start_set("uniform"))[1]
     assert (np.abs(beta) > math.radians(80)).mean() == pytest.approx(1 - math.cos(math.radians(10)), abs=0.004)
-
-
-def test_uniform_is_haar_for_other_seeds():
-    for seed in (1, 2, 3):
-        traces = np.trace(rotations(tasks.start_set("uniform", seed=seed)).as_matrix(), axis1=1, axis2=2)
-        assert abs(traces.mean()) < 0.014
 
 
 def test_half_turn_angles_are_pi_minus_powers_of_ten():

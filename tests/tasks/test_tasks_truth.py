@@ -1,8 +1,6 @@
 """The judge's angle and haversine against scipy's rotations and against known rotations."""
 
 import math
-import subprocess
-import sys
 from fractions import Fraction
 
 import numpy as np
@@ -10,7 +8,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from tasks.base import angle, haversine
-from tasks.rotations import about, multiply, on_pole, short_of_half_turn, zyx
+from tasks.rotations import about, on_pole, short_of_half_turn, zyx
 
 IDENTITY = (1.0, 0.0, 0.0, 0.0)
 SEED = 7
@@ -75,13 +73,6 @@ def test_angle_agrees_with_scipy_when_start_or_goal_is_on_pole(sign, twist):
         assert angle(other, pole) == pytest.approx(expected, abs=4 * ROUNDING)
 
 
-def test_angle_is_that_of_a_step_from_any_goal():
-    step = about((1.0, 2.0, -0.5), 0.3)
-    for goal in random_quats(50):
-        assert angle(multiply(goal, step), goal) == pytest.approx(0.3, abs=ROUNDING * 2)
-        assert angle(multiply(step, goal), goal) == pytest.approx(0.3, abs=ROUNDING * 2)
-
-
 def test_haversine_is_sine_squared_of_half_the_angle():
     for quat, goal in zip(random_quats(300), random_quats(300, SEED + 1), strict=True):
         assert haversine(quat, goal) == pytest.approx(math.sin(angle(quat, goal) / 2) ** 2, abs=ROUNDING)
@@ -113,9 +104,3 @@ def test_truth_compiles_unchanged():
         compiled = numba.njit(error_model="numpy")(function)
         for quat, goal in zip(random_quats(100), random_quats(100, SEED + 1), strict=True):
             assert compiled(quat, goal) == function(quat, goal)
-
-
-def test_listing_names_imports_no_simulator():
-    code = "import sys, tasks; tasks.names(); tasks.start_set('poles'); print('mujoco' in sys.modules)"
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert done.stdout.strip() == "False"

@@ -6,7 +6,6 @@ import pytest
 
 import tasks
 from tasks.arm_model import model_xml
-from tasks.base import UnknownName
 from tasks.variations import IMPEDANCE, SPREAD
 
 DT = 1e-3
@@ -64,11 +63,6 @@ def test_nominal_is_first_and_changes_nothing():
 def test_names_are_those_of_the_registry():
     assert [tasks.variation(name).name for name in tasks.variation_names()] == tasks.variation_names()
     assert set(tasks.variation_names()) == {"nominal", *FACTORS, *LINKS, *FRICTIONS}
-
-
-def test_unknown_variation_lists_the_known_ones():
-    with pytest.raises(UnknownName, match=r"variation 'heavier' .*mass-1.30"):
-        tasks.variation("heavier")
 
 
 @pytest.mark.parametrize("arm", tasks.arm_names())

@@ -1,0 +1,64 @@
+"""What is asked of the judge and is not there, or cannot be: one line with what there is, or the cure."""
+
+import math
+from functools import partial
+
+import pytest
+
+import tasks
+from tasks.base import BadValue, UnknownName
+
+NAN = (0.0, 0.0, math.nan, 0.0, 0.0, 0.0)
+
+
+def on_ur5e(start_set="tumbling", of="ur5e", **fields):
+    """A UR5e is loaded with the first start of a set, perhaps of another arm's, some of its fields changed."""
+    tasks.load("arm-regulation", tasks.start_set(start_set, 1, arm=of)[0]._replace(**fields), arm="ur5e")
+
+
+UNKNOWN = [
+    (partial(tasks.task, "puma"), r"task 'puma' is not in tasks/domains; known: .*free-body.*\(use one"),
+    (partial(tasks.load, "puma"), r"task 'puma' is not in tasks/domains; known: .*free-body.*\(use one"),
+    (partial(tasks.arm, "ur6"), r"arm 'ur6' is not in tasks/arms; known: .*puma560.*ur5e.*\(use one"),
+    (partial(tasks.task, "arm-regulation", "ur6"), r"arm 'ur6' is not in tasks/arms; known: .*ur5e"),
+    (partial(tasks.start_set, "clear", arm="ur6"), r"arm 'ur6' is not in tasks/arms"),
+    (partial(tasks.start_set, "corners"), r"start set 'corners' is not in tasks/starts; known: .*half-turn"),
+    (partial(tasks.start_set, "clear"), r"start set 'clear' is not in tasks/starts; known: box"),
+    (partial(tasks.start_set, "paper", arm="ur5e"), r"start set 'paper' is not in tasks/arm_starts; known: clear"),
+    (partial(tasks.load, integrator="midpoint"), r"integrator 'midpoint'.*known: euler, implicit, implicitfast, rk4"),
+    (partial(tasks.variation, "heavier"), r"variation 'heavier' .*mass-1.30"),
+    (partial(tasks.axis, "bad-luck"), "control-rate"),
+]
+BAD = [
+    (partial(tasks.task, "arm-regulation"), r"task 'arm-regulation' needs an arm; known: .*ur5e.* \(try: arm='"),
+    (partial(tasks.load, "arm-regulation"), r"task 'arm-regulation' needs an arm; known: .*ur5e.* \(try: arm='"),
+    (partial(tasks.task, "free-body", "ur5e"), r"'free-body' has no arm, but 'ur5e' was named .*arm-regulation\)"),
+    (partial(tasks.load, "free-body", arm="ur5e"), r"'free-body' has no arm, but 'ur5e' was named .*arm-regulation\)"),
+    (partial(tasks.start_set, "uniform", 0), r"count .* at least 1 \(try: count=10\)"),
+    (partial(tasks.start_set, "uniform", -3), r"count .* at least 1 \(try: count=10\)"),
+    (partial(tasks.start_set, "clear", 0, arm="ur5e"), r"count .* at least 1 \(try: count=10\)"),
+    (partial(tasks.start_set, "clear", -3, arm="ur5e"), r"count .* at least 1 \(try: count=10\)"),
+    (partial(on_ur5e, "paper", ""), r"q = \(\) must be 6 finite numbers on arm 'ur5e' \(try: .*'clear', arm='ur5e'"),
+    (partial(on_ur5e, of="panda"), r"must be 6 finite numbers on arm 'ur5e'"),
+    (partial(on_ur5e, q=NAN), r"q = .*finite"),
+    (partial(on_ur5e, qdot=NAN), r"qdot = .*finite"),
+]
+
+
+@pytest.mark.parametrize(("call", "says"), UNKNOWN)
+def test_unknown_name_lists_the_known_ones(call, says):
+    with pytest.raises(UnknownName, match=says):
+        call()
+
+
+@pytest.mark.parametrize(("call", "says"), BAD)
+def test_bad_value_is_refused_with_the_cure(call, says):
+    with pytest.raises(BadValue, match=says):
+        call()
+
+
+def test_model_without_the_sensors_is_refused():
+    free_body = tasks.task("free-body")
+    blind = free_body._replace(name="blind", xml=lambda dt: free_body.xml(dt).replace('"n" objtype', '"m" objtype'))
+    with pytest.raises(ValueError, match=r"task 'blind': .*sensor_xml"):
+        tasks.load(blind)
