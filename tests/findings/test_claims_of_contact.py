@@ -5,10 +5,10 @@ import math
 
 import pandas as pd
 import pytest
+from support import tables
+from support.tables import changed
 
-from bench.findings import claims
 from bench.findings.claims.contact import FLOORS, PERFORMANCE
-from bench.findings.claims.tables import Results
 from bench.findings.claims.verdict import NoEvidence, Word
 
 TASKS = {"surface-alignment": "z, about x and y", "peg-in-hole": "z, about x and y", "force-on-plane": "z"}
@@ -42,7 +42,7 @@ def table():
 
 
 def judged(frame):
-    return claims.judge("C25", Results(None, {"compliance": frame}))
+    return tables.judged("C25", compliance=frame)
 
 
 def euler(frame, beta, **words):
@@ -50,13 +50,6 @@ def euler(frame, beta, **words):
     for column, word in words.items():
         chosen &= frame[column] == word
     return chosen
-
-
-def changed(frame, chosen, **cells):
-    frame = frame.copy()
-    for name, value in cells.items():
-        frame.loc[chosen, name] = value
-    return frame
 
 
 def test_c25_holds_when_every_task_depends_on_the_jacobian(table):
@@ -67,31 +60,20 @@ def test_c25_holds_when_every_task_depends_on_the_jacobian(table):
     assert "Euler is the worse in 8 of 8" in str(verdict.evidence)
 
 
-def test_c25_is_refused_without_rows(table):
-    with pytest.raises(NoEvidence):
-        judged(table.iloc[:0])
-
-
-def test_c25_is_refused_where_nothing_is_touched(table):
-    with pytest.raises(NoEvidence, match="with contact"):
-        judged(table[table["task"] == "wrench-probe"])
-
-
-def test_c25_is_refused_where_no_two_turns_comply(table):
-    with pytest.raises(NoEvidence, match="two turns"):
-        judged(table[table["task"].isin(["force-on-plane", "wrench-probe"])])
-
-
-@pytest.mark.parametrize("missing", ["straight", "turned"])
-def test_c25_is_refused_without_both_kinds_of_frames(table, missing):
-    kept = table["beta"] > 0.0 if missing == "straight" else table["beta"] == 0.0
-    with pytest.raises(NoEvidence, match="peg-in-hole on puma560"):
-        judged(table[kept])
-
-
-def test_c25_is_refused_without_both_forms(table):
-    with pytest.raises(NoEvidence, match="projected"):
-        judged(table[table["form"] == "inverse"])
+@pytest.mark.parametrize(
+    ("kept", "says"),
+    [
+        (lambda table: table["task"] == "nothing", None),
+        (lambda table: table["task"] == "wrench-probe", "with contact"),
+        (lambda table: table["task"].isin(["force-on-plane", "wrench-probe"]), "two turns"),
+        (lambda table: table["beta"] > 0.0, "peg-in-hole on puma560"),
+        (lambda table: table["beta"] == 0.0, "peg-in-hole on puma560"),
+        (lambda table: table["form"] == "inverse", "projected"),
+    ],
+)
+def test_c25_is_refused_without_all_kinds_of_rows(table, kept, says):
+    with pytest.raises(NoEvidence, match=says):
+        judged(table[kept(table)])
 
 
 def test_c25_fails_when_no_pair_parts(table):

@@ -4,9 +4,9 @@ import math
 
 import pandas as pd
 import pytest
+from support import tables
+from support.tables import changed
 
-from bench.findings import claims
-from bench.findings.claims.tables import Results
 from bench.findings.claims.verdict import NoEvidence, Word
 
 PAPERS = {
@@ -51,19 +51,6 @@ def frames():
     }
 
 
-@pytest.fixture
-def judged(frames, tmp_path):
-    """judged(table, rows, column=value): C27 with some cells changed."""
-
-    def judge(table="episodes", rows=None, **cells):
-        frame = frames[table].copy()
-        for column, value in cells.items():
-            frame.loc[rows(frame), column] = value
-        return claims.judge("C27", Results(None, {**frames, table: frame}, tmp_path))
-
-    return judge
-
-
 def of(law, **words):
     def rows(frame):
         chosen = frame["regulator"] == law[0]
@@ -72,6 +59,16 @@ def of(law, **words):
         return chosen
 
     return rows
+
+
+@pytest.fixture
+def judged(frames):
+    """judged(table, rows, column=value): C27 with some cells changed."""
+
+    def judge(table="episodes", rows=lambda frame: (), **cells):
+        return tables.judged("C27", **frames | {table: changed(frames[table], rows(frames[table]), **cells)})
+
+    return judge
 
 
 def later(**words):
@@ -119,10 +116,10 @@ def test_noise_beyond_the_stated_angle_does_not_count(judged):
     assert judged("robustness", later(level=1.0), outcome="stuck").word == Word.FAILS
 
 
-def test_law_that_no_noise_was_tried_on_is_no_answer(judged, frames, tmp_path):
+def test_law_that_no_noise_was_tried_on_is_no_answer(frames):
     noise = frames["robustness"]
     untried = noise[noise["regulator"] != "quaternion-shortest"]
-    verdict = claims.judge("C27", Results(None, {**frames, "robustness": untried}, tmp_path))
+    verdict = tables.judged("C27", **frames | {"robustness": untried})
     assert verdict.evidence.numbers["answers"].startswith("hybrid")
 
 
@@ -134,28 +131,28 @@ def test_price_from_which_a_law_is_affordable_is_reported(judged):
 
 
 @pytest.mark.parametrize("table", ["episodes", "robustness"])
-def test_no_verdict_without_rows(frames, tmp_path, table):
+def test_no_verdict_without_rows(frames, table):
     with pytest.raises(NoEvidence):
-        claims.judge("C27", Results(None, {**frames, table: frames[table].iloc[:0]}, tmp_path))
+        tables.judged("C27", **frames | {table: frames[table].iloc[:0]})
 
 
-def test_no_verdict_on_the_papers_laws_alone(frames, tmp_path):
+def test_no_verdict_on_the_papers_laws_alone(frames):
     episodes = frames["episodes"]
     papers = episodes[~later()(episodes)]
     with pytest.raises(NoEvidence, match="no later law"):
-        claims.judge("C27", Results(None, {**frames, "episodes": papers}, tmp_path))
+        tables.judged("C27", **frames | {"episodes": papers})
 
 
-def test_user_law_is_asked_too(frames, tmp_path):
+def test_user_law_is_asked_too(frames):
     own = {name: frame.replace("quaternion-shortest", "mine") for name, frame in frames.items()}
-    assert claims.judge("C27", Results(None, own, tmp_path)).evidence.numbers["answers"].startswith("mine")
+    assert tables.judged("C27", **own).evidence.numbers["answers"].startswith("mine")
 
 
-def test_engine_that_ran_no_law_on_which_noise_was_tried_is_not_asked(frames, tmp_path):
+def test_engine_that_ran_no_law_on_which_noise_was_tried_is_not_asked(frames):
     episodes = frames["episodes"]
     native = episodes[of(SHORTEST)(episodes)].assign(engine="native", regulator="mine", contender="mine")
     costs = frames["costs"]
     own = costs[of(SHORTEST)(costs)].assign(regulator="mine", contender="mine")
     both = {"episodes": pd.concat([episodes, native]), "costs": pd.concat([costs, own])}
-    verdict = claims.judge("C27", Results(None, {**frames, **both}, tmp_path))
+    verdict = tables.judged("C27", **frames | both)
     assert "No sampled engine has rows" in str(verdict.evidence)

@@ -190,10 +190,6 @@ def test_a_square_loop_leaves_what_scipys_turns_leave(angle):
     np.testing.assert_allclose(theory.square_loop(angle), left, atol=4 * EPS)
 
 
-def test_a_small_square_loop_drifts_about_z_by_its_area():
-    assert theory.square_loop(0.01)[2] == pytest.approx(-1e-4, rel=1e-3)
-
-
 def test_nothing_is_predicted_for_moments_that_are_not_converted():
     controller = hybrid("hybrid-unconverted", "inverse", EULER)
     assert np.isnan(theory.compliance(controller, ORDERS[0], IDENTITY, 0.5)).all()

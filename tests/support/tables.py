@@ -1,0 +1,30 @@
+"""Tables that a test has written or changed, and claims judged on them."""
+
+from pathlib import Path
+
+import pandas as pd
+
+from bench.findings import claims
+from bench.findings.claims.tables import Results
+
+NO_TIMINGS = Path("no-such-folder")
+
+
+def judged(id: str, **tables: pd.DataFrame):
+    """The verdict on these tables, nothing having been timed."""
+    return claims.judge(id, Results(None, tables, NO_TIMINGS))
+
+
+def decided(verdict, word) -> bool:
+    """Whether that is the verdict, on some rows and with a number for evidence."""
+    return verdict.word == word and verdict.rows > 0 and any(map(str.isdigit, str(verdict.evidence)))
+
+
+def changed(frame: pd.DataFrame, rows, **cells) -> pd.DataFrame:
+    """The frame with some cells of some rows set, or turned by a function."""
+    frame = frame.copy()
+    for name, value in cells.items():
+        if isinstance(frame[name].dtype, pd.CategoricalDtype):
+            frame[name] = frame[name].astype(str)
+        frame.loc[rows, name] = value(frame.loc[rows, name]) if callable(value) else value
+    return frame
