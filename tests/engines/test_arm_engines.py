@@ -11,10 +11,11 @@ import numpy as np
 import pytest
 from support.bits import different_rows
 from support.driving import settings
+from support.on_arms import ARMS, LAWS, named
 
 import tasks
 from bench.contenders import combinations
-from bench.contenders.registry import all_contenders, known_inverses, known_jacobians, known_representations
+from bench.contenders.registry import known_inverses, known_jacobians, known_representations
 from bench.engines.arm_episode import POSE
 from bench.engines.episode import OUTCOME, SETTLING_TICK, TICKS
 from bench.engines.run_arm import compiled_loop, pointers, run
@@ -26,10 +27,8 @@ from tasks.verdict import DIVERGED, OUTCOMES, SATURATED, SETTLED, SINGULAR, STUC
 
 TASK = "arm-regulation"
 METRICS = metrics_of(on_arm=True)
-ARMS = tasks.arm_names()
 SETS = tasks.task(TASK, ARMS[0]).start_sets
 VARIED = ("mass-1.30", "links-1", "friction-10", "mass-0.70")
-LAWS = {one.name: one for one in all_contenders()}
 over_arms = pytest.mark.parametrize("arm", ARMS)
 
 
@@ -44,12 +43,6 @@ def contenders_on(arm: str) -> tuple:
         inverted = list(ways.values())[(k + a) % len(ways)]
         found.append(inverted[(k + a) % len(inverted)])
     return tuple(found)
-
-
-def named(arm: str, word: str):
-    """A contender by its word, with the standard inverse of the arm if none is named."""
-    [one] = combinations.on((word,), LAWS, tasks.arm(arm).joints)
-    return one
 
 
 CASES = [
