@@ -299,25 +299,14 @@ def test_rows_of_the_hand_are_those_of_the_base_turned_back(arm):
 
 @IN_FORMS
 @over_arms
-def test_hand_and_base_are_one_while_all_is_held(arm, form):
+def test_hand_and_base_are_one_while_all_is_held_and_at_the_goal_for_every_selection(arm, form):
     on_base, in_hand = (hybrid(law, form) for law in ("hybrid-base", "hybrid-hand"))
-    for state, wish in drawn(arm):
+    for k, (state, wish) in enumerate(drawn(arm)):
         at = hand(*state)
-        base, turned = (tick(one, at, wish, SELECTIONS[-1]).tau for one in (on_base, in_hand))
         size = np.linalg.norm(at.D, 2) * np.linalg.norm(np.linalg.inv(at.J), 2) * LONGEST
-        np.testing.assert_allclose(turned, base, rtol=0.0, atol=backward(at.J) * size)
-
-
-@IN_FORMS
-@over_arms
-def test_hand_and_base_are_one_at_the_goal_for_every_selection(arm, form):
-    on_base, in_hand = (hybrid(law, form) for law in ("hybrid-base", "hybrid-hand"))
-    for state, wish in drawn(arm)[:2]:
-        at = hand(*state)
         there = wish._replace(R_d=at.chain.R)
-        for held in SELECTIONS:
-            base, turned = (tick(one, at, there, held).tau for one in (on_base, in_hand))
-            size = np.linalg.norm(at.D, 2) * np.linalg.norm(np.linalg.inv(at.J), 2) * LONGEST
+        for wished, held in [(wish, SELECTIONS[-1]), *((there, held) for held in SELECTIONS if k < 2)]:
+            base, turned = (tick(one, at, wished, held).tau for one in (on_base, in_hand))
             np.testing.assert_allclose(turned, base, rtol=0.0, atol=backward(at.J) * size)
 
 
