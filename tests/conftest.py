@@ -2,25 +2,35 @@
 
 import gc
 import shutil
+from collections import Counter
+from pathlib import Path
 
 import pytest
 
 from bench.experiments import plan as planning
 
-LONG = (
-    *("test_resume", "test_cluster", "test_growing", "test_guard", "test_contact_engines", "test_regress_measured"),
-    *("test_every_regulator", "test_every_representation", "test_every_arm_start_set", "test_arm_figures"),
-    *("test_arm_response", "test_arm_engines", "test_every_jacobian", "test_command_line", "test_impedances"),
-    *("test_report_in_browser", "test_every_inverse", "test_plan_on_arms", "test_cartesian", "test_compare"),
-    *("test_every_figure", "test_every_impedance", "test_compiled_cache", "test_own_law", "test_claims"),
-    *("test_side_by_side_in_browser", "test_compliance_figures", "test_force", "test_every_task", "test_timing"),
-)
-"""Files that take longest: begun last, one would be left to a single process while the others wait."""
+TOOK = "orientation-bench/seconds"
+"""In pytest's cache: file -> what its tests took when they were last run [s]."""
+SLOW_ROOMS = ("running", "contracts", "engines", "regression")
+"""Whose files take longest on the whole: first where nothing was run yet."""
+seconds: Counter = Counter()
 
 
-def pytest_collection_modifyitems(items):
-    """The long ones first, longest of all in front."""
-    items.sort(key=lambda item: LONG.index(item.path.stem) if item.path.stem in LONG else len(LONG))
+def pytest_collection_modifyitems(config, items):
+    """Files that take longest first: begun last, one would be left to a single process while the others wait."""
+    took = config.cache.get(TOOK, {}) if hasattr(config, "cache") else {}
+    items.sort(key=lambda item: (-took.get(item.path.stem, 0), item.path.parent.name not in SLOW_ROOMS))
+
+
+def pytest_runtest_logreport(report):
+    """Add up what each file takes."""
+    seconds[Path(report.fspath).stem] += report.duration
+
+
+def pytest_sessionfinish(session):
+    """Keep it for the next time, once for all processes."""
+    if hasattr(session.config, "cache") and not hasattr(session.config, "workerinput"):
+        session.config.cache.set(TOOK, session.config.cache.get(TOOK, {}) | {k: round(v) for k, v in seconds.items()})
 
 
 @pytest.fixture(scope="session", autouse=True)
