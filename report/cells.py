@@ -10,6 +10,7 @@ it again, in a kernel of its own, and says what is wrong.
 import asyncio
 import contextlib
 import os
+import re
 import time
 from pathlib import Path
 
@@ -28,6 +29,8 @@ CONFIG = yaml.safe_load((REPORT / "_config.yml").read_text(encoding="utf-8"))
 MOST = 4
 """Kernels at the most: each takes some 500 MB."""
 
+PAGE = re.compile(r'kit\.page\("([\w.]+)"\)')
+
 FORGET = "get_ipython().reset()"
 """Empties the namespace, and counts cells from 1 again."""
 
@@ -38,7 +41,7 @@ def notebooks() -> dict:
     texts = {path: path.read_text(encoding="utf-8") for path in (REPORT / "index.md", *REPORT.glob("pages/*.md"))}
     return {
         path: read_myst_markdown_notebook(texts[path], config)
-        for path in sorted(texts, key=lambda path: ("judge_all" not in texts[path], path))
+        for path in sorted(texts, key=lambda path: (not judges(texts[path]), path))
         if is_myst_markdown_notebook(texts[path])
     }
 
@@ -52,9 +55,16 @@ def is_known(cache, notebook) -> bool:
     return True
 
 
+def judges(text: str) -> bool:
+    """Whether a page's module judges all claims, which takes a while and is kept in its kernel."""
+    named = PAGE.search(text)
+    module = REPORT / "figures" / f"{named[1].replace('.', '/')}.py" if named else None
+    return module is not None and module.is_file() and "judge_all" in module.read_text(encoding="utf-8")
+
+
 def batches(pages: list[Path]) -> list[list[Path]]:
     """Pages that one kernel runs in turn: those that judge all claims together, for one judging serves them all."""
-    judging = [path for path in pages if "judge_all" in path.read_text(encoding="utf-8")]
+    judging = [path for path in pages if judges(path.read_text(encoding="utf-8"))]
     return [batch for batch in (judging, *([path] for path in pages if path not in judging)) if batch]
 
 

@@ -19,23 +19,22 @@ from bench.experiments import boundaries, plan, traces
 from bench.experiments.choice import Choice
 from bench.running import run
 from bench.tables import read
-from report.figures.failures import boundary_map, corners, failure_ball, failure_map, failure_tables
+from report.figures import index
+from report.figures.failures import ball, boundary_map, failure_map, world_map
 from report.figures.kit import style
 from report.figures.kit.page import run_in
+from report.figures.kit.rows import FEEDBACK, MATRIX
 from report.figures.kit.share import share
-from report.figures.responses import findings, hero, responses, settling_angle, settling_decades, settling_time
+from report.figures.responses import responses, settling_time
 
 STARTS = ("uniform", "half-turn", "poles", "wraps", "box", "paper")
 FIGURES = {
-    "hero": lambda: hero.hero(ideal()),
-    "response": lambda: responses.response(read.traces(), findings.LINEARIZED, "figure-2.4", 100.0, 20.0),
-    "settling-angle": lambda: settling_angle.bands(ideal("uniform")),
-    "settling-decades": lambda: settling_decades.decades(findings.of(ideal(), findings.MATRIX, "half-turn")),
-    "failure-map": lambda: failure_map.world(ideal()),
-    "corners": lambda: corners.corners(ideal("uniform"), findings.LINEARIZED),
-    "boundary": lambda: boundary_map.hemispheres(read.boundaries(), findings.LINEARIZED),
-    "boundary-of-a-law-that-never-fails": lambda: boundary_map.hemispheres(read.boundaries(), findings.MATRIX),
+    **dict.fromkeys(("response-matrix", "response-linearized", "response-feedback"), responses),
+    **dict.fromkeys(("settling-angle", "settling-decades"), settling_time),
+    **dict.fromkeys(("failure-map", "corners", "boundary"), failure_map),
+    "hero": index,
 }
+"""Figure -> the page's module that has it."""
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -53,8 +52,12 @@ def small_run(tmp_path_factory):
 
 
 @functools.cache
+def of_page(module):
+    return module.figures(run_in(read.folder()))
+
+
 def drawn(name):
-    return FIGURES[name]()
+    return of_page(FIGURES[name])[name]
 
 
 def ideal(*start_sets):
@@ -84,7 +87,7 @@ def test_figure_is_drawn_for_a_phone_too(name):
 
 
 def test_ball_shows_half_turns_at_both_ends_of_their_axis():
-    points = failure_ball.unit_ball(pd.DataFrame([(0.0, 1.0, 0.0, 0.0)], columns=[f"quat_{one}" for one in "wxyz"]))
+    points = ball.unit_ball(pd.DataFrame([(0.0, 1.0, 0.0, 0.0)], columns=[f"quat_{one}" for one in "wxyz"]))
     assert points == [[-1.0, 0.0, 0.0], [1.0, 0.0, 0.0]]
 
 
@@ -92,49 +95,43 @@ def test_map_keeps_areas():
     # Archimedes: directions even in longitude and in the sine of the latitude have equal shares of the sphere
     longitude, sine = np.meshgrid(np.linspace(-3.1, 3.1, 60), np.linspace(-0.95, 0.95, 60))
     step = 1e-5
-    along = np.array(failure_map.hammer(longitude + step, np.arcsin(sine))) - failure_map.hammer(
-        longitude, np.arcsin(sine)
-    )
-    up = np.array(failure_map.hammer(longitude, np.arcsin(sine + step))) - failure_map.hammer(
-        longitude, np.arcsin(sine)
-    )
+    along = np.array(world_map.hammer(longitude + step, np.arcsin(sine))) - world_map.hammer(longitude, np.arcsin(sine))
+    up = np.array(world_map.hammer(longitude, np.arcsin(sine + step))) - world_map.hammer(longitude, np.arcsin(sine))
     area = along[0] * up[1] - along[1] * up[0]
     np.testing.assert_allclose(area / area.mean(), 1.0, rtol=1e-3)
 
 
-def test_findings_of_every_page_are_numbers():
-    episodes, costs = ideal(), read.costs(branch="typical", stage="total")
-    paper = read.traces(start_set="paper")
-    pages = (
-        findings.front(episodes, costs),
-        findings.responding(paper, episodes[episodes["start_set"] == "paper"], ("2.3", "2.4", "2.5")),
-        settling_time.facts(run_in(read.folder())),
-        findings.failing(episodes, read.boundaries()),
-    )
-    for values in pages:
-        assert all("nan" not in str(value) for value in values.values()), values
+@pytest.mark.parametrize("facts", [index.of_the_paper, responses.facts, settling_time.facts, failure_map.facts])
+def test_facts_of_a_page_are_numbers(facts):
+    values = facts(run_in(read.folder()))
+    assert all("nan" not in str(value) for value in values.values()), values
+
+
+def test_boundary_of_a_law_that_never_fails_is_drawn():
+    assert boundary_map.hemispheres(read.boundaries(), MATRIX).alt.endswith("axes none has a failing angle.")
 
 
 def test_exact_points_are_where_the_laws_are_known_to_fail():
-    table = failure_tables.exact_points(ideal())
-    of_matrix = table[table["Law"].str.contains("Rotation matrix")]
-    assert set(of_matrix["Start on"]) == {"half turn", "half turn and pole"}
-    of_feedback = table[table["Law"].str.contains("Feedback")]
-    assert set(of_feedback["Start on"]) == {"pole", "half turn and pole"}
-    assert (of_feedback["Tried"] == of_feedback["Failing"]).all()
+    found = {(law, place): (tried, failing) for law, place, tried, failing, *_ in failure_map.exact_points(ideal())}
+    of_matrix = {place for law, place in found if "Rotation matrix" in law}
+    assert of_matrix == {"half turn", "half turn and pole"}
+    of_feedback = {place: tally for (law, place), tally in found.items() if "Feedback" in law}
+    assert set(of_feedback) == {"pole", "half turn and pole"}
+    assert all(tried == failing for tried, failing in of_feedback.values())
 
 
 def test_tables_have_a_row_for_each_law():
-    assert len(failure_tables.shares(read.episodes())) == 6
-    assert len(failure_tables.nearest(read.boundaries(), ideal())) == 3
-    shown = settling_time.tables(run_in(read.folder()))
-    assert len(shown["tab_slopes"].splitlines()) == 2 + 2
-    assert {"Euler" in row for row in shown["tab_times"].splitlines()[2:]} == {True, False}
+    shown = {
+        key: text for one in (failure_map, settling_time) for key, text in one.tables(run_in(read.folder())).items()
+    }
+    rows = {key: text.splitlines()[2:] for key, text in shown.items()}
+    assert (len(rows["tab_shares"]), len(rows["tab_nearest"]), len(rows["tab_slopes"])) == (6, 3, 2)
+    assert {"Euler" in row for row in rows["tab_times"]} == {True, False}
 
 
 def test_response_bends_are_nothing_under_feedback_linearization():
     bends = responses.bends_deg(read.traces(start_set="paper"), "figure-2.5", 100.0, 20.0).set_index("contender")
-    assert bends.loc[findings.FEEDBACK, ["alpha", "beta", "gamma"]].max() < 1e-6
+    assert bends.loc[FEEDBACK, ["alpha", "beta", "gamma"]].max() < 1e-6
 
 
 def test_share_is_within_wilsons_interval():

@@ -2,7 +2,9 @@
 
 import dataclasses
 import functools
+import importlib
 import re
+import shutil
 
 import pandas as pd
 import pytest
@@ -14,22 +16,21 @@ from bench.experiments import plan
 from bench.experiments.choice import Choice
 from bench.experiments.traces import of_arm
 from bench.running import run
-from bench.tables import read
+from bench.tables import read, store
+from bench.tables.schema import RESULTS
 from report.figures.arms import (
     arm_causes,
-    arm_findings,
-    arm_matrix,
     arm_pole,
-    arm_responses,
     arm_rows,
     arm_settling,
-    arm_strain,
-    arm_tables,
-    arm_wrist,
+    arms,
     model_error,
     model_rest,
+    responses_on_arms,
 )
-from report.figures.kit import absent, style
+from report.figures.kit import style
+from report.figures.kit.page import ABSENT, Run, contents, run_in, text_of
+from report.figures.method import method
 
 ARM = "puma560"
 CHOICE = Choice(
@@ -44,17 +45,11 @@ CHOICE = Choice(
 STARTS = 2
 
 FIGURES = {
-    "matrix": lambda: arm_matrix.matrix(standard()),
-    "causes": lambda: arm_causes.causes(standard()),
-    "pole": lambda: arm_pole.pole(standard()),
-    "settling": lambda: arm_settling.later(arm_settling.differences(standard())),
-    "strain": lambda: arm_strain.strain(standard()),
-    "wrist": lambda: arm_wrist.wrist(arm_rows.episodes()),
-    "responses": lambda: arm_responses.angles(traces(), arm_rows.episodes()),
-    "linear": lambda: arm_responses.linear(traces(), arm_rows.episodes(), 100.0, 20.0),
-    "model-error": lambda: model_error.spread(varied()),
-    "gravity": lambda: model_rest.gravity(model_rest.predicted(varied())),
+    **dict.fromkeys(("arm-matrix", "arm-causes", "arm-pole", "arm-settling", "arm-strain", "arm-wrist"), arms),
+    **dict.fromkeys(("arm-angles", "arm-linear"), responses_on_arms),
+    **dict.fromkeys(("model-error", "model-gravity"), model_error),
 }
+"""Figure -> the page's module that has it."""
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -70,21 +65,17 @@ def small_run(tmp_path_factory):
         yield folder
 
 
+def shown():
+    return run_in(read.folder())
+
+
 @functools.cache
+def of_page(module):
+    return module.figures(shown())
+
+
 def drawn(name):
-    return FIGURES[name]()
-
-
-def standard():
-    return arm_rows.with_standard(arm_rows.episodes())
-
-
-def varied():
-    return model_error.compared(arm_rows.with_standard(arm_rows.varied()))
-
-
-def traces():
-    return arm_rows.named(read.traces(task="arm-regulation"))
+    return of_page(FIGURES[name])[name]
 
 
 @pytest.mark.parametrize("name", FIGURES)
@@ -104,22 +95,21 @@ def test_figure_is_drawn_for_a_phone_too(name):
     assert drawn(name).narrow not in ("", drawn(name).wide)
 
 
-def test_every_page_finds_its_numbers():
-    every = arm_rows.episodes()
-    for values in (
-        arm_findings.on_arms(every),
-        arm_findings.responding(traces(), every, 100.0, 20.0),
-        arm_findings.varied(arm_rows.varied(), every),
-    ):
-        assert all("nan" not in str(value) and absent.WORDS not in str(value) for value in values.values()), values
+@pytest.mark.parametrize("page", [arms, responses_on_arms, model_error])
+def test_every_page_finds_its_numbers(page):
+    values = page.facts(shown())
+    assert all("nan" not in str(value) and ABSENT not in str(value) for value in values.values()), values
 
 
-def test_answers_say_so_when_a_run_holds_no_variations_or_curves():
-    none, every = arm_rows.varied().iloc[:0], arm_rows.episodes()
-    assert all(absent.WORDS in said for said in arm_findings.varied(none, every).values())
-    assert set(arm_findings.responding(traces().iloc[:0], every, 100.0, 20.0).values()) == {absent.WORDS}
-    assert absent.WORDS in absent.picture(none, model_error.spread, "Model errors").alt
-    assert absent.WORDS in absent.table(none, model_error.table)
+@pytest.mark.parametrize("name", ["responses_on_arms", "model_error"])
+def test_pages_say_so_when_a_run_holds_no_variations_or_curves(name, small_run, tmp_path):
+    episodes = store.read(small_run, "episodes")
+    store.write_table(tmp_path / "episodes.parquet", episodes[episodes["variation"] == "nominal"], "episodes")
+    shutil.copy(small_run / "provenance.json", tmp_path)
+    page = contents(importlib.import_module(f"report.figures.arms.{name}"), Run(tmp_path), text_of(f"arms.{name}"))
+    gains = page.pop("kp", None), page.pop("kv", None)
+    assert gains in ((None, None), ("100", "20"))
+    assert all(ABSENT in getattr(value, "alt", value) for value in page.values())
 
 
 def test_standard_inverse_goes_by_the_number_of_joints_and_rows():
@@ -138,14 +128,15 @@ def test_every_controller_has_a_title_of_its_own():
 
 
 def test_failures_are_all_filed_under_a_cause():
-    counts = arm_causes.tallied(standard())
-    failed = (~arm_rows.settled(standard())).groupby(standard()["controller"]).sum()
+    standard = arms.standard(shown())
+    counts = arm_causes.tallied(standard)
+    failed = (~arm_rows.settled(standard)).groupby(standard["controller"]).sum()
     assert counts[list(arm_causes.COLOURS)].sum(axis=1).to_dict() == failed.to_dict()
-    assert counts["n"].sum() == len(standard())
+    assert counts["n"].sum() == len(standard)
 
 
 def test_clear_starts_settle_as_the_free_body_does():
-    assert arm_settling.close(arm_settling.differences(standard())).all()
+    assert arm_settling.close(arms.later(shown())).all()
 
 
 def test_pole_distances_are_read_from_the_names_of_the_starts():
@@ -155,7 +146,7 @@ def test_pole_distances_are_read_from_the_names_of_the_starts():
 
 def test_six_joints_rest_where_gravity_alone_leaves_them():
     # 1 % of a transient is left after 2.5 s at most: (1 + 25) exp(-25) of the first angle is far below it
-    ratios = model_rest.ratios(model_rest.predicted(varied()))
+    ratios = model_rest.ratios(model_rest.predicted(model_error.compared(shown())))
     assert len(ratios) == STARTS * len(model_error.SHOWN)
     assert ratios.to_numpy() == pytest.approx(1.0, abs=0.02)
 
@@ -167,11 +158,12 @@ def test_friction_holds_more_where_there_is_more_of_it():
 def test_reach_of_a_puma_is_that_of_its_outstretched_links():
     # Corke's table: shoulder to elbow a2 and, across it, d3; elbow to wrist hypot(a3, d4); the elbow stretches wholly
     stretched = 0.4318 + (0.0203**2 + 0.4318**2) ** 0.5
-    assert arm_tables.reach("puma560") == pytest.approx((stretched**2 + 0.15005**2) ** 0.5, rel=1e-3)
+    assert arms.reach("puma560") == pytest.approx((stretched**2 + 0.15005**2) ** 0.5, rel=1e-3)
 
 
 def test_tables_of_what_there_is_have_a_row_each():
-    assert len(arm_tables.jacobians().splitlines()) == 2 + 4
-    assert all(f"`{name}`" in arm_tables.arms() for name in ("jaco", "panda", "puma560", "ur5e"))
-    assert arm_tables.start_sets(arm_rows.episodes()).count("none") == 2
-    assert "damped-least-squares" in arm_tables.inverses()
+    tables, there = arms.tables(shown()), method.tables(run_in(RESULTS / "reference"))
+    assert len(there["jacobians"].splitlines()) == 2 + 4
+    assert all(f"`{name}`" in tables["tab_arms"] for name in ("jaco", "panda", "puma560", "ur5e"))
+    assert tables["tab_starts"].count("none") == 2
+    assert "damped-least-squares" in there["inverses"]

@@ -20,11 +20,13 @@ from report.figures.arms import (
     condition_maps,
     condition_shares,
     controller_costs,
+    cost_on_arms,
     derivations,
     inverse_costs,
-    named_poses,
+    jacobians,
 )
 from report.figures.kit import style
+from report.figures.kit.page import Run
 
 ARMS = ("puma560", "panda")
 WORDS = {
@@ -51,10 +53,8 @@ def seen():
 def counted():
     """costs.parquet of a few controllers, as `controller_costs.counted` gives it."""
     frames = [pd.DataFrame(rows_on_arm(controller(word), n)) for n, words in WORDS.items() for word in words]
-    with pytest.MonkeyPatch.context() as patch:
-        table = with_contender(pd.concat(frames, ignore_index=True))
-        patch.setattr("bench.tables.read.costs", lambda **_: table[table["branch"] == "typical"])
-        return controller_costs.counted()
+    table = with_contender(pd.concat(frames, ignore_index=True))
+    return controller_costs.prepared(table[table["branch"] == "typical"])
 
 
 def of(seen, pose_set="", representation=""):
@@ -85,21 +85,15 @@ def test_figure_speaks_in_numbers_and_uses_the_palette_on_page_and_phone(name, s
     assert drawn <= twins
 
 
-@pytest.mark.parametrize(
-    "draw", [condition_maps.maps, condition_growth.growth, derivations.derivations, condition_shares.shares]
-)
-def test_figure_says_so_where_a_run_has_no_poses(draw, seen):
-    assert "Not in this run" in draw(seen.head(0)).alt
-
-
-def test_tables_say_so_where_a_run_has_no_poses(seen):
-    none = seen.head(0)
-    for table in (named_poses.conditions(none), condition_growth.slopes(none), condition_shares.spoilt(none)):
-        assert "Not in this run" in table
+def test_page_says_so_where_a_run_has_no_poses(tmp_path):
+    none = Run(tmp_path)
+    shown = jacobians.tables(none) | jacobians.figures(none)
+    assert {key for key, value in shown.items() if value is not None} == {"pole-loop"}
 
 
 def test_stock_pose_is_well_conditioned_and_on_the_pole(seen):
-    said = named_poses.stock(of(seen, "named"))
+    rows = of(seen, "named", "zyx-euler")
+    said = jacobians.first_example(rows[(rows["arm"] == "puma560") & (rows["pose_id"] == "qn")])
     assert (said["qn_beta"], said["qn_J"]) == ("90°", "7.9")
     # how large, rounding decides, up to a one with nothing before its power of ten
     assert re.fullmatch(r"([2-9]·)?10[⁰¹²³⁴⁵⁶⁷⁸⁹]{2}", said["qn_zyx"])
@@ -118,9 +112,7 @@ def test_slice_is_put_back_on_its_grid(seen):
 
 
 def test_only_the_papers_coordinates_grow_towards_their_pole(seen):
-    slopes = {
-        line.split("`")[1]: float(line.split("|")[4]) for line in lines(condition_growth.slopes(of(seen, "pole")))
-    }
+    slopes = {line.split("`")[1]: float(line.split("|")[4]) for line in lines(jacobians.slopes(of(seen, "pole")))}
     assert slopes.pop("zyx-euler") == pytest.approx(1.0, abs=0.05)
     assert max(slopes.values()) < 0.1
 
@@ -132,7 +124,7 @@ def test_share_above_a_value_is_that_of_the_values():
 
 
 def test_gap_is_nothing_but_rounding(seen):
-    found = derivations.facts(of(seen, representation="zyx-euler"))
+    found = derivations.gaps(of(seen, representation="zyx-euler"))
     assert max(found.values()) < derivations.ROUNDINGS
 
 
@@ -152,7 +144,7 @@ def test_quaternion_is_shown_with_the_inverse_that_fits_it(counted):
 
 def test_price_of_damping_says_so_where_a_run_has_none(counted):
     none = pd.DataFrame(columns=["controller", "start_set", "arm", "inverse", "outcome"])
-    assert "Not in this run" in inverse_costs.said(counted, none)
+    assert "Not in this run" in cost_on_arms.price_of_damping(counted, none)
 
 
 def test_damping_costs_more_than_the_inverse(counted):
@@ -164,8 +156,8 @@ def test_times_say_so_where_none_were_measured(monkeypatch, tmp_path):
     monkeypatch.setattr("report.figures.cost.times.FOLDER", tmp_path)
     none = arm_times.rows()
     assert "make time" in arm_times.ratios(none).alt
-    assert "make time" in arm_times.table(none)
-    assert "make time" in arm_times.said(none)
+    assert "make time" in cost_on_arms.by_arm(none)
+    assert "make time" in cost_on_arms.duration(none)
 
 
 def lines(table):

@@ -12,7 +12,8 @@ import media as rendering
 import tasks
 from bench.engines.contact_episode import P, R
 from bench.findings.claims.arm_probes import controller
-from report.figures.method import media
+from report.figures.arms import jacobians
+from report.figures.kit import media
 
 ABOUT = media.facts()
 LOOPS = ("pole-loop", "plate-loop")
@@ -90,5 +91,5 @@ def test_motion_is_still_that_of_the_two_controllers():
 
 
 def test_how_near_the_pole_is_read_off_the_starts_name():
-    assert media.miss("pole-minus-1-k3") == "past the pole at 0.001 rad"
-    assert media.miss("pole-plus-0-exact") == "through the pole itself"
+    assert jacobians.miss("pole-minus-1-k3") == "past the pole at 0.001 rad"
+    assert jacobians.miss("pole-plus-0-exact") == "through the pole itself"

@@ -11,10 +11,12 @@ from bench.contenders.registry import known_regulators
 from bench.tables import read
 from bench.tables.schema import RESULTS
 from report.figures.cards import cards
-from report.figures.cost import operations, plane, prices, times
+from report.figures.cost import cost, operations, plane, times
 from report.figures.kit import laws, spelling
-from report.figures.method import engines, inventory, origin
-from report.figures.problem import conditioning, diagrams, extraction, poles
+from report.figures.kit.page import run_in
+from report.figures.kit.rows import titles
+from report.figures.method import engines, provenance
+from report.figures.problem import conditioning, problem_and_plant, representations
 
 
 @pytest.fixture(autouse=True)
@@ -22,9 +24,13 @@ def reference(monkeypatch):
     monkeypatch.setenv(read.VARIABLE, str(RESULTS / "reference"))
 
 
-@pytest.mark.parametrize("draw", [diagrams.judge_and_contestants, diagrams.on_the_matrix, diagrams.on_the_angles])
-def test_diagrams_are_drawn_for_page_and_phone(draw):
-    picture = draw()
+def shown():
+    return run_in(RESULTS / "reference")
+
+
+@pytest.mark.parametrize("name", ["judge", "on-the-matrix", "on-the-angles"])
+def test_diagrams_are_drawn_for_page_and_phone(name):
+    picture = problem_and_plant.figures(shown())[name]
     assert picture.wide != picture.narrow
     assert picture.alt
 
@@ -36,13 +42,13 @@ def test_condition_number_of_zyx_is_its_closed_form():
 
 
 def test_our_extraction_is_exact_at_every_distance_and_the_textbooks_is_not():
-    worst = extraction.errors().groupby("way")["error"].max()
-    textbook, scipy, ours = (worst[way.title] for way in extraction.WAYS)
+    worst = representations.extracted().groupby("way")["error"].max()
+    textbook, scipy, ours = (worst[way.title] for way in representations.extraction.WAYS)
     assert ours < 1e-14 < scipy < 1.0 < textbook
 
 
 def test_each_pole_determines_its_own_combination():
-    found = poles.measured().set_index("pole")
+    found = representations.poles().set_index("pole")
     assert found.loc["+π/2", "together"] < 1e-14 < 0.1 < found.loc["+π/2", "against"]
     assert found["against"].iloc[1] < 1e-14 < 0.1 < found["together"].iloc[1]
 
@@ -54,22 +60,22 @@ def test_every_regulator_has_a_card_with_its_source():
 
 
 def test_costs_are_drawn_and_tabled_for_every_law():
-    costs, titles = read.costs(), inventory.titles()
-    assert operations.operations(costs, titles).alt.count("transcendental") == costs["contender"].nunique()
-    assert len(prices.stages(costs, titles).splitlines()) == 2 + costs["contender"].nunique()
+    costs = read.costs()
+    assert operations.operations(costs, titles()).alt.count("transcendental") == costs["contender"].nunique()
+    assert len(cost.by_stage(costs).splitlines()) == 2 + costs["contender"].nunique()
 
 
 def test_plane_gives_every_law_its_place():
     uniform = laws.without_later(read.episodes(engine="ideal-rk4", start_set="uniform"))
     found = plane.places(read.costs(), uniform)
     assert len(found) == uniform["contender"].nunique()
-    assert plane.plane(found, inventory.titles(), 0.6).alt
+    assert plane.plane(found, titles(), 0.6).alt
 
 
 def test_page_says_so_when_nothing_was_timed():
     none = pd.DataFrame(columns=["contender", "what", "ticks", "ratio", "jacobian"])
     assert "make time" in times.times(times.alone(none), read.costs(), {}).alt
-    assert "make time" in prices.times(none, {})
+    assert "make time" in cost.by_time(none)
 
 
 def test_engines_are_compared_where_both_have_rows():
@@ -81,7 +87,7 @@ def test_engines_are_compared_where_both_have_rows():
 
 def test_digest_on_the_page_is_that_of_the_file():
     path = RESULTS / "reference" / "costs.parquet"
-    assert hashlib.sha256(path.read_bytes()).hexdigest() in origin.tables().replace("<wbr>", "")
+    assert hashlib.sha256(path.read_bytes()).hexdigest() in provenance.tables(shown())["tables"].replace("<wbr>", "")
 
 
 def test_build_copies_what_pages_link_to(tmp_path):

@@ -17,7 +17,8 @@ from bench.findings.selection.tables import tables_of
 from bench.tables import files, read, store
 from bench.tables.schema import RESULTS
 from report.figures.cards import cards
-from report.figures.method import origin
+from report.figures.kit.page import run_in
+from report.figures.method import provenance as origin
 
 EVIL = """
 from pathlib import Path
@@ -195,7 +196,7 @@ def test_json_of_absurd_size_is_not_read(tmp_path, monkeypatch):
 
 def test_file_that_is_no_table_of_ours_is_not_offered(evil):
     (evil / "<img src=x onerror=alert(1)>.parquet").write_bytes((evil / "costs.parquet").read_bytes())
-    assert not any("img" in path.name for path in origin.files())
+    assert not any("img" in path.name for path in origin.files(run_in(read.folder())))
 
 
 @pytest.mark.parametrize("banned", ["import pickle", "from joblib import load", "import numpy as np\nnp.load('x')"])

@@ -19,7 +19,8 @@ from bench.tables import read
 from bench.tables.schema import RESULTS
 from report.figures.cards import cards
 from report.figures.kit import html
-from report.figures.method import origin
+from report.figures.kit.page import run_in
+from report.figures.method import provenance as origin
 
 ENABLED = ["amsmath", "attrs_block", "attrs_inline", "colon_fence", "deflist", "dollarmath"]
 PAYLOADS = (
@@ -113,7 +114,7 @@ def test_provenance_from_elsewhere_is_shown_as_it_is(monkeypatch, text):
     pages = []
     for said in (usual | dict.fromkeys(names, "word"), usual | dict.fromkeys(names, text) | {"versions": versions}):
         monkeypatch.setattr(read, "provenance", lambda said=said: said)
-        pages.append(rendered(origin.run()))
+        pages.append(rendered(origin.tables(run_in(read.folder()))["run"]))
     word, given = pages
     assert live(given) == live(word)
     assert as_read(markup.unescape(text)) in as_read(given.text) or as_read(text) in as_read(given.text)

@@ -5,14 +5,16 @@ from __future__ import annotations
 import pandas as pd
 
 from bench.experiments.suites import BEST
+from bench.tables import read
 from report.figures.arms import arm_rows
 from report.figures.kit import families, html
 from report.figures.kit.laws import TITLES
+from report.figures.kit.page import run_in
 
 
 def rows() -> pd.DataFrame:
     """Episodes of the paper's three and of the best later laws by the geometric Jacobian and the standard inverse."""
-    every = arm_rows.episodes()
+    every = arm_rows.episodes(run_in(read.folder()))
     laws = [*TITLES, *(word.partition("@")[0] for word in BEST)]
     is_wanted = (every["way"] == every["law"] + f"@geometric+{arm_rows.STANDARD}") & every["law"].isin(laws)
     return every[is_wanted]

@@ -71,20 +71,6 @@ def tallied(rows: pd.DataFrame) -> pd.DataFrame:
     return counts.assign(n=rows.groupby("controller").size())
 
 
-def table(rows: pd.DataFrame) -> html.Markdown:
-    """Every cause: what it says, and how many failures of all controllers were of it."""
-    counts = tallied(rows)
-    lines = [
-        {
-            "Cause": html.together(key(cause)),
-            "What the judge saw": MEANINGS[cause],
-            "Failures": int(counts[cause].sum()),
-        }
-        for cause in COLOURS
-    ]
-    return html.table(pd.DataFrame(lines))
-
-
 def key(cause: str) -> str:
     """A cause with the colour it has in the figure."""
     return f'<span class="key" style="--key: {html.both(COLOURS[cause])}"></span>{cause}'

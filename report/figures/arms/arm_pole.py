@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import numpy as np
 import pandas as pd
 
 from report.figures.arms import arm_rows
@@ -86,20 +85,6 @@ def side_by_side(rows: pd.DataFrame) -> pd.DataFrame:
     )
 
 
-def table(rows: pd.DataFrame) -> html.Markdown:
-    """An arm a row: failures of both, way travelled over the shortest, peak torque of one over the other's."""
-    both = side_by_side(rows)
-    lines = []
-    for arm, own in both.groupby("arm"):
-        lines.append(
-            {
-                "Arm": arm,
-                "Starts": len(own),
-                "(2.2) fails": int(own["fails_matrix"].sum()),
-                "(3.7) fails": int(own["fails"].sum()),
-                "fails or hammers": int((own["fails"] | (own["harder"] > HAMMERED)).sum()),
-                "Way": float(own.loc[~own["fails"], "path_ratio"].median()) if (~own["fails"]).any() else np.nan,
-                "Torque": float(own["harder"].median()),
-            }
-        )
-    return html.table(pd.DataFrame(lines), {"Way": ".1f", "Torque": html.number})
+def hammers(both: pd.DataFrame) -> pd.Series:
+    """Of `side_by_side`: whether (3.7) fails or hammers the arm."""
+    return both["fails"] | (both["harder"] > HAMMERED)

@@ -1,7 +1,4 @@
-"""What the pages on Jacobians read of poses.parquet: rows by set, arms by name, how singularities are told apart.
-
-A run without poses (or without some of them) gives empty tables, and the figures say so.
-"""
+"""How the pages on Jacobians show poses: arms and coordinates by name and look, how singularities are told apart."""
 
 from __future__ import annotations
 
@@ -10,13 +7,9 @@ import pandas as pd
 
 import tasks
 from bench.contenders.registry import known_representations, papers_coordinates
-from bench.errors import BadResults
-from bench.tables import read
-from bench.tables.schema import TABLES
 from report.figures.kit import style
 
 PAPERS = papers_coordinates().name
-NOT_HERE = "Not in this run: it looked at no poses of arms."
 
 BAD = 100.0
 """Condition number (metres, radians) from which on maps and tables call a Jacobian bad: twice what the claims allow."""
@@ -30,17 +23,6 @@ LOOKS = {
     "panda": style.Look("#009e73", "^", style.DASH_DOT),
     "jaco": style.Look("#cc79a7", "D", style.DOTTED),
 }
-
-
-def poses(pose_set: str = "", representation: str = "") -> pd.DataFrame:
-    """Rows of this run's poses with these words; an empty table where it has none."""
-    words = {"pose_set": pose_set, "representation": representation}
-    try:
-        return read.poses(**{name: word for name, word in words.items() if word})
-    except BadResults:
-        if (read.folder() / "poses.parquet").exists():
-            raise
-        return pd.DataFrame(columns=TABLES["poses"].names)
 
 
 def arms(rows: pd.DataFrame) -> list[str]:
@@ -77,11 +59,3 @@ def share(found: pd.Series) -> float:
 def finite(values: pd.Series, ceiling: float) -> np.ndarray:
     """Values for a logarithmic axis: what is infinite or beyond stands at the ceiling."""
     return np.minimum(np.nan_to_num(values.to_numpy(dtype=float), nan=ceiling, posinf=ceiling), ceiling)
-
-
-def empty(draw: str, narrow: bool):
-    """A figure that says that there is nothing to draw."""
-    figure, axes = style.panels(height=1.0, narrow=narrow)
-    axes.axis("off")
-    axes.text(0.5, 0.5, NOT_HERE, ha="center", va="center", color=style.MUTED, wrap=True)
-    return figure, f"{draw}: {NOT_HERE}"

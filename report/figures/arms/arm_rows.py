@@ -25,6 +25,7 @@ from bench.experiments.suites import NOMINAL
 from bench.law.contender import Contender
 from bench.tables import read
 from report.figures.kit import families
+from report.figures.kit.page import Run
 
 STANDARD = "standard"
 WORDS = ("arm", "variation", "regulator", "representation", "jacobian", "inverse", "start_set", "start_id", "outcome")
@@ -33,20 +34,28 @@ ON_MATRIX, ON_ANGLES = "rotation-matrix@geometric", "feedback-linearized/zyx-eul
 SAME_BOTH_WAYS = "feedback-linearized/zyx-euler@geometric"
 """(2.2) with (2.15): the law of (3.7), by the geometric Jacobian."""
 PAPERS_JACOBIANS = ("geometric", "analytic")
+COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9")
+MARKERS = ("o", "s", "^", "D", "v", "P", "X")
+"""Of arms, where they are told apart by them."""
 SETS = ("clear", "pole", "wrist", "half-turn", "uniform", "tumbling")
 """Nothing in the way, then what the paper warns of, then the rest."""
 
 
-def episodes(variation: str = NOMINAL) -> pd.DataFrame:
-    """Episodes of the run on arms under one variation, with their law, way and controller; maybe none."""
-    found = read.episodes(task="arm-regulation", engine="native")
-    return named(found[found["variation"] == variation])
+@functools.cache
+def every(run: Run) -> pd.DataFrame:
+    """Episodes of the run on arms with their law, way and controller; maybe none."""
+    found = run.rows("episodes", task="arm-regulation", engine="native")
+    return named(found) if len(found) else found.assign(variation="")
 
 
-def varied() -> pd.DataFrame:
-    """Those whose plant differs from the controller's model; maybe none."""
-    found = read.episodes(task="arm-regulation", engine="native")
-    return named(found[found["variation"] != NOMINAL])
+def episodes(run: Run) -> pd.DataFrame:
+    """Those by a perfect model."""
+    return every(run)[every(run)["variation"] == NOMINAL]
+
+
+def varied(run: Run) -> pd.DataFrame:
+    """Those whose plant differs from the controller's model."""
+    return every(run)[every(run)["variation"] != NOMINAL]
 
 
 def named(frame: pd.DataFrame) -> pd.DataFrame:
@@ -130,6 +139,11 @@ def arms(rows: pd.DataFrame) -> list[str]:
 def settled(rows: pd.DataFrame) -> pd.Series:
     """Whether each episode settled."""
     return rows["outcome"] == "settled"
+
+
+def mark(place: int) -> tuple[str, str]:
+    """Colour and marker of an arm, by its place among those of a figure."""
+    return COLOURS[place % len(COLOURS)], MARKERS[place % len(MARKERS)]
 
 
 def short_title(arm: str) -> str:

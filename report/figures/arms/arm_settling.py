@@ -26,7 +26,6 @@ START_SET = "clear"
 CLOSE_TICKS = 5
 """Differences of so many ticks are told apart from larger ones: both plants integrate with errors of first order."""
 DRAWN_MS = 60.0
-MARKERS = ("o", "s", "^", "D", "v", "P", "X")
 
 
 def differences(rows: pd.DataFrame) -> pd.DataFrame:
@@ -80,7 +79,13 @@ def later(found: pd.DataFrame, narrow: bool):
             later_ms = 1e3 * own.loc[own["arm"] == arm, "later_s"].dropna().clip(-DRAWN_MS, DRAWN_MS)
             place = i + 0.11 * (k - 0.5 * (len(names) - 1)) + (0.16 if narrow else 0.0)
             face = {"markersize": 3.2, "markeredgewidth": 0.6, "alpha": 0.75}
-            axes.plot(later_ms, [place] * len(later_ms), MARKERS[k % len(MARKERS)], color=look.colour, **face)
+            axes.plot(
+                later_ms,
+                [place] * len(later_ms),
+                arm_rows.mark(k)[1],
+                color=look.colour,
+                **face,
+            )
         title = arm_rows.title(controller)
         if narrow:
             axes.text(-DRAWN_MS, i - 0.12, title, ha="left", va="bottom", fontsize=9)
@@ -89,7 +94,7 @@ def later(found: pd.DataFrame, narrow: bool):
             middle = f"median {1e3 * both.median():+.1f}, largest {1e3 * both.abs().max():.0f} ms of {len(both)}"
             said.append(f"{title}: {middle}")
     for k, arm in enumerate(names):
-        axes.plot([], [], MARKERS[k % len(MARKERS)], color=style.INK, markersize=4.5, label=arm)
+        axes.plot([], [], arm_rows.mark(k)[1], color=style.INK, markersize=4.5, label=arm)
     axes.axvline(0.0, color=style.MUTED, linewidth=0.9, zorder=0)
     axes.set_xscale("symlog", linthresh=CLOSE_TICKS, linscale=1.5)
     ticks = [-50, -10, -5, 0, 5, 10, 50]

@@ -58,16 +58,3 @@ def strain(rows: pd.DataFrame, narrow: bool):
         axes.minorticks_off()
     figure.legend(loc="outside lower center", ncols=1 if narrow else 2)
     return figure, f"Medians over clear starts. {'; '.join(said)}."
-
-
-def possible(rows: pd.DataFrame) -> html.Markdown:
-    """Share of episodes that stay within the rated torques [%]: a row an arm, a column a start set."""
-    lines = []
-    for arm in arm_rows.arms(rows):
-        own = rows[rows["arm"] == arm]
-        line: dict = {"Arm": arm}
-        for name in (one for one in arm_rows.SETS if one in set(rows["start_set"])):
-            line[name] = 100.0 * float((own.loc[own["start_set"] == name, "peak_torque_ratio"] <= 1.0).mean())
-        lines.append({**line, "all": 100.0 * float((own["peak_torque_ratio"] <= 1.0).mean())})
-    frame = pd.DataFrame(lines)
-    return html.table(frame, {column: ".0f" for column in frame if column != "Arm"})

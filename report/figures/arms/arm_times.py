@@ -8,11 +8,10 @@ from report.figures.arms import arm_rows
 from report.figures.arms.arm_poses import look as look_of_arm
 from report.figures.arms.arm_poses import title as title_of_arm
 from report.figures.cost import times
-from report.figures.kit import html, style
+from report.figures.kit import style
 from report.figures.kit.inline import responsive_picture
 
 NONE_YET = "No closed loop on an arm has been timed yet: `make time` does."
-FORMATS = {"Rollout [µs]": ".2f", "dm_control [µs]": ".0f", "Times as long": ".0f", "Two threads": ".2f"}
 COLUMNS = ("arm", "jacobian", "inverse", "ratio_rollout")
 
 
@@ -93,50 +92,3 @@ def ratios(found: pd.DataFrame, *, narrow=False):
         for arm, mine in own.groupby(own["arm"].astype(str))
     )
     return figure, f"Time a tick of closed loops over the open loop of mujoco.rollout: {words}."
-
-
-def table(found: pd.DataFrame) -> html.Markdown:
-    """A row an arm: ns a tick of the open loop, of our loops from the cheapest to the dearest, and of dm_control's."""
-    lines = []
-    for arm in sorted(set(found["arm"].astype(str))):
-        mine = found[found["arm"] == arm]
-        own = loops(mine).sort_values("ns_per_tick")
-        if own.empty:
-            continue
-        open_loop = mine[mine["engine"] == "rollout"]["ns_per_tick"]
-        other = mine[mine["engine"] == "dm-control"]
-        threads = mine[mine["what"] == "threads"]
-        lines.append(
-            {
-                "Arm": title_of_arm(arm),
-                "Rollout [µs]": open_loop.iloc[0] / 1e3 if len(open_loop) else None,
-                "Ours [µs]": f"{own['ns_per_tick'].iloc[0] / 1e3:.2f} to {own['ns_per_tick'].iloc[-1] / 1e3:.2f}",
-                "Over rollout": f"{own['ratio_rollout'].min():.2f} to {own['ratio_rollout'].max():.2f}",
-                "dm_control [µs]": other["ns_per_tick"].iloc[0] / 1e3 if len(other) else None,
-                "Times as long": other["speedup"].iloc[0] if len(other) else None,
-                "Two threads": threads["speedup"].iloc[0] if len(threads) else None,
-            }
-        )
-    if not lines:
-        return html.Markdown(f"| No timings |\n| :-- |\n| {NONE_YET} |")
-    frame = pd.DataFrame(lines).dropna(axis=1, how="all")
-    return html.table(frame, {name: form for name, form in FORMATS.items() if name in frame})
-
-
-def said(found: pd.DataFrame) -> str:
-    """On which machine; and how much longer a loop by (3.7) takes than one by (2.2), with the standard inverse."""
-    own = loops(found)
-    if own.empty:
-        return NONE_YET
-    own, parts = own[is_standard(own)], []
-    for arm, mine in own.groupby(own["arm"].astype(str)):
-        by = mine.set_index("controller")["ns_per_tick"]
-        if {arm_rows.ON_MATRIX, arm_rows.ON_ANGLES} <= set(by.index):
-            parts.append((title_of_arm(str(arm)), by[arm_rows.ON_ANGLES] / by[arm_rows.ON_MATRIX] - 1.0))
-    if not parts:
-        return times.said()
-    low, high = (f(parts, key=lambda part: part[1]) for f in (min, max))
-    return (
-        f"{times.said()} A whole loop by (3.7) takes {100 * low[1]:.0f} % ({low[0]}) to "
-        f"{100 * high[1]:.0f} % ({high[0]}) longer than one by (2.2) with the rotation matrix."
-    )

@@ -76,26 +76,3 @@ def wrist(rows: pd.DataFrame, narrow: bool):
         axes.tick_params(axis="y", length=0)
     figure.legend(loc="outside lower center", ncols=1 if narrow else 2)
     return figure, f"Turns through and past singularities of the arm. {'. '.join(said)}."
-
-
-def table(rows: pd.DataFrame) -> html.Markdown:
-    """Controller and inverse: starts, share that settles, how far the tool strays, torque over rated."""
-    starts = of_wrist(rows)
-    lines = []
-    for controller in SHOWN:
-        for name in inverses(starts):
-            own = arm_rows.of(starts, controller, name)
-            if own.empty:
-                continue
-            lines.append(
-                {
-                    "Controller": arm_rows.title(controller),
-                    "Inverse": arm_rows.title_of_inverse(name),
-                    "Starts": len(own),
-                    "Settled [%]": 100.0 * float(arm_rows.settled(own).mean()),
-                    "Strays [mm]": 1e3 * float(own["position_error_m"].median()),
-                    "95 %": 1e3 * float(own["position_error_m"].quantile(QUANTILES[-1])),
-                    "Torque": float(own["peak_torque_ratio"].median()),
-                }
-            )
-    return html.table(pd.DataFrame(lines), {"Settled [%]": ".0f", "Strays [mm]": html.number, "95 %": html.number})

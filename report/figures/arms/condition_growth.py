@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-import math
-
 import pandas as pd
 
 from report.figures.arms import arm_poses
-from report.figures.kit import html, style
+from report.figures.kit import style
 from report.figures.kit.inline import responsive_picture
-from report.figures.kit.spelling import power
 
 WAY = r"^(?P<family>.+)-1e-(?P<k>\d+)$"
 FARTHEST = 12
@@ -30,8 +27,6 @@ def growth(rows: pd.DataFrame, *, narrow=False):
         rows: pose set `pole`, every representation.
     """
     found = ways(rows)
-    if found.empty:
-        return arm_poses.empty("Condition numbers towards the pole", narrow)
     shape = (2, 1) if narrow else (1, 2)
     figure, (left, right) = style.panels(*shape, height=7.4 if narrow else 3.9, narrow=narrow, sharey=True)
     papers = found[found["representation"] == arm_poses.PAPERS]
@@ -39,7 +34,7 @@ def growth(rows: pd.DataFrame, *, narrow=False):
         own, look = papers[papers["arm"] == arm], arm_poses.look(arm)
         _band(left, own, "condition_analytic", look, f"$J_E$, {arm_poses.title(arm)}")
     _band(left, papers, "condition", style.Look(style.MUTED, "", style.SOLID), "$J$, all arms")
-    for name in found["representation"].cat.categories if len(found) else ():
+    for name in found["representation"].cat.categories:
         _band(
             right,
             found[found["representation"] == name],
@@ -77,31 +72,3 @@ def _band(axes, rows: pd.DataFrame, column: str, look: style.Look, label: str) -
     x = [10.0**-k for k in at.index]
     axes.fill_between(x, at["min"], at["max"], color=look.colour, alpha=0.18, linewidth=0)
     axes.plot(x, at["median"], color=look.colour, linestyle=look.line, marker=look.marker, markersize=3.5, label=label)
-
-
-def slopes(rows: pd.DataFrame) -> html.Markdown:
-    """A row for coordinates: the largest growth of cond J_E a decade over the first eight, and cond J_E at 10^-8."""
-    found = ways(rows)
-    lines = []
-    for name, own in found.groupby("representation", observed=True):
-        at = own.set_index(["arm", "family", "k"])["condition_analytic"].unstack("k")
-        if not {1, 8} <= set(at):
-            continue
-        growing = (at[8] / at[1]).map(math.log10) / 7.0
-        lines.append(
-            {
-                "Coordinates": f"`{name}`",
-                "Ways": len(at),
-                "Least": growing.min(),
-                "Most": growing.max(),
-                "Largest at 10⁻⁸": float(at[8].max()),
-            }
-        )
-    if not lines:
-        return html.Markdown(f"| Poses |\n| :-- |\n| {arm_poses.NOT_HERE} |")
-    big = "{:.1f}".format
-    frame = pd.DataFrame(lines).sort_values("Most", ascending=False)
-    return html.table(
-        frame,
-        {"Least": ".3f", "Most": ".3f", "Largest at 10⁻⁸": lambda value: big(value) if value < 1e4 else power(value)},
-    )

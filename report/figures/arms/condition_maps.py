@@ -46,8 +46,6 @@ class Grid:
 def maps(rows: pd.DataFrame, *, narrow=False):
     """A row of two maps for each arm; contours say which singularity is the arm's and which the coordinates'."""
     names = arm_poses.arms(rows)
-    if not names:
-        return arm_poses.empty("Condition numbers over a slice of poses", narrow)
     height = (1.95 if narrow else 2.4) * len(names) + 1.0
     figure, grid = style.panels(len(names), 2, height=height, narrow=narrow, squeeze=False)
     words, image = [], None
@@ -113,13 +111,3 @@ def said(name: str, own: Grid) -> str:
         f"{arm_poses.BAD:g} at {kinematic.mean():.1%}, J_E at {added.mean():.1%} more; the coordinates are near their "
         f"singularity at {near.mean():.1%}."
     )
-
-
-def joints(rows: pd.DataFrame) -> str:
-    """The joints of each slice and its number of poses, for a caption."""
-    parts = []
-    for name in arm_poses.arms(rows):
-        own = Grid(rows[rows["arm"] == name])
-        parts.append(f"{arm_poses.title(name)}: joints {own.first} and {own.second}")
-    counted = rows.groupby("arm", observed=True)["pose_id"].nunique().max() if len(rows) else 0
-    return f"{'; '.join(parts)} ({counted} poses each)" if parts else arm_poses.NOT_HERE

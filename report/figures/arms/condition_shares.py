@@ -5,10 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 
-from bench.contenders.registry import known_representations
-from bench.findings.claims.euler_jacobian import WELL_CONDITIONED
 from report.figures.arms import arm_poses
-from report.figures.kit import html, style
+from report.figures.kit import style
 from report.figures.kit.inline import responsive_picture
 
 CEILING = 1e5
@@ -25,8 +23,6 @@ def beyond(values: pd.Series) -> np.ndarray:
 def shares(rows: pd.DataFrame, *, narrow=False):
     """Share of random poses whose condition number is above a value, a panel an arm, a curve for each Jacobian."""
     names = arm_poses.arms(rows)
-    if not names:
-        return arm_poses.empty("Condition numbers of random poses", narrow)
     columns = 1 if narrow else 2
     lines = -(-len(names) // columns)
     height = (2.3 if narrow else 2.45) * lines + (1.3 if narrow else 0.9)
@@ -64,36 +60,3 @@ def shares(rows: pd.DataFrame, *, narrow=False):
         axes.set_ylabel("Poses above it")
     figure.legend(*grid[0][0].get_legend_handles_labels(), loc="outside upper left", ncols=2 if narrow else 3)
     return figure, f"Share of random poses above a condition number, logarithmic. {'; '.join(words)}."
-
-
-def spoilt(rows: pd.DataFrame) -> html.Markdown:
-    """A row an arm: poses where J is well conditioned, and of those how many each J_E makes bad."""
-    lines = []
-    for arm in arm_poses.arms(rows):
-        own = rows[rows["arm"] == arm]
-        fine = own[own["condition"] <= WELL_CONDITIONED]
-        once = own["pose_id"].nunique()
-        line = {"Arm": arm_poses.title(arm), "Poses": once, "J fine [%]": 100 * fine["pose_id"].nunique() / once}
-        for name in known_representations():
-            of = fine[fine["representation"] == name]
-            line[arm_poses.short_title(name)] = 100 * (of["condition_analytic"] > arm_poses.BAD).mean()
-        lines.append(line)
-    if not lines:
-        return html.Markdown(f"| Poses |\n| :-- |\n| {arm_poses.NOT_HERE} |")
-    frame = pd.DataFrame(lines)
-    shares = dict.fromkeys(frame.columns.drop(["Arm", "Poses"]), ".1f")
-    return html.table(frame, shares | {"J fine [%]": ".0f"})
-
-
-def spaced(text: str) -> str:
-    """A share as a page spells it: 3.1 %."""
-    return text.replace("%", "\N{NO-BREAK SPACE}%")
-
-
-def facts(rows: pd.DataFrame) -> dict[str, str]:
-    """Of poses where J is well conditioned, the least and the greatest share that J_E makes bad, by Z-Y-X angles."""
-    fine = rows[(rows["representation"] == arm_poses.PAPERS) & (rows["condition"] <= WELL_CONDITIONED)]
-    by = (fine["condition_analytic"] > arm_poses.BAD).groupby(fine["arm"].astype(str)).mean()
-    if by.empty:
-        return {"spoilt_least": html.MISSING, "spoilt_most": html.MISSING}
-    return {"spoilt_least": spaced(f"{by.min():.1%}"), "spoilt_most": spaced(f"{by.max():.1%}")}

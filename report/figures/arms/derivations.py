@@ -36,8 +36,6 @@ def derivations(rows: pd.DataFrame, *, narrow=False):
     Args:
         rows: every pose, Z-Y-X angles.
     """
-    if rows.empty:
-        return arm_poses.empty("Gaps between derivations of J_E", narrow)
     shape = (2, 1) if narrow else (1, 2)
     figure, grid = style.panels(*shape, height=6.6 if narrow else 3.5, narrow=narrow, sharey=True)
     margins = np.array([1e-12, 1.0])
@@ -55,14 +53,14 @@ def derivations(rows: pd.DataFrame, *, narrow=False):
     if narrow:
         grid[1].set_ylabel("Largest relative gap")
     figure.legend(*grid[0].get_legend_handles_labels(), loc="outside upper left", ncols=2 if narrow else 4)
-    found = facts(rows)
+    found = gaps(rows)
     return figure, (
         f"Gaps between derivations of J_E against cos(beta), logarithmic: at most {found['derived']:.1f} "
         f"eps/cos(beta) between the two derivations and {found['measured']:.1f} eps^(2/3)/cos(beta) to differences."
     )
 
 
-def facts(rows: pd.DataFrame) -> dict[str, float]:
+def gaps(rows: pd.DataFrame) -> dict[str, float]:
     """Both gaps and the determinant's where the margin is NEAR or more, in the units of what rounding leaves."""
     near = rows[rows["margin"] >= NEAR]
     at = {
@@ -70,4 +68,4 @@ def facts(rows: pd.DataFrame) -> dict[str, float]:
         "measured": near["difference_gap"] * near["margin"] / DIFFERENCED,
         "determinants": near["det_gap"] * near["margin"] / EPS,
     }
-    return {name: float(gaps.max()) if gaps.notna().any() else math.nan for name, gaps in at.items()}
+    return {name: float(one.max()) if one.notna().any() else math.nan for name, one in at.items()}

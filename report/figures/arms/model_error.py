@@ -1,36 +1,101 @@
-"""When the plant is not the controller's model: how far from the goal the tool ends, by variation, arm, controller."""
+"""What the page on model errors shows: how far from the goal the tool ends when the plant is not the model."""
 
 from __future__ import annotations
+
+import functools
+from collections.abc import Iterator
 
 import numpy as np
 import pandas as pd
 
 import tasks
-from report.figures.arms import arm_rows
-from report.figures.failures.failure_tables import outcomes
+from report.figures.arms import arm_rows, model_rest
+from report.figures.failures.failure_map import outcomes
 from report.figures.kit import html, style
 from report.figures.kit.inline import responsive_picture
+from report.figures.kit.page import ABSENT, Run, given
+from report.figures.kit.tables import Table
 
 SHOWN = (arm_rows.ON_MATRIX, arm_rows.SAME_BOTH_WAYS, arm_rows.ON_ANGLES)
 QUANTILES = (0.05, 0.5, 0.95)
-COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9")
-MARKERS = ("o", "s", "^", "D", "v", "P")
 FLOOR_DEG, FLOOR_MM = 1e-3, 1e-2
+RUBBED = "friction-"
+VARIATIONS = Table(
+    {
+        "Variation": "",
+        "The plant": "",
+        "Episodes": "",
+        "Settled [%]": ".0f",
+        "The others": "",
+        "Angle [deg]": ".2f",
+        "Strays [mm]": ".1f",
+    }
+)
+FRICTION = Table(
+    {
+        "Arm": "",
+        "Least inertia [kg m²]": ".3f",
+        "Variation": "",
+        "Can hold [deg]": ".2f",
+        "Measured [deg]": ".2f",
+    }
+)
 
 
-def compared(rows: pd.DataFrame) -> pd.DataFrame:
-    """Rows by the controllers that settle every clear start of a perfect model, so that what is left is the model's.
+@functools.cache
+def compared(run: Run) -> pd.DataFrame:
+    """Rows by the controllers that settle every clear start of a perfect model, so that what is left is the model's."""
+    varied = arm_rows.varied(run)
+    return arm_rows.with_standard(varied[varied["controller"].isin(SHOWN)]) if len(varied) else varied
 
-    Args:
-        rows: of `arm_rows.varied`, by the standard inverse.
-    """
-    return rows[rows["controller"].isin(SHOWN)]
+
+def facts(run: Run) -> dict:
+    """Whole sentences: what variations leave, on what that stands, and what of it is gravity's."""
+    own = compared(run)
+    if own.empty:
+        return dict.fromkeys(("lead", "setting", "gravity"), f"Variations of the plant are {ABSENT}.")
+    medians = np.degrees(own.groupby("variation")["final_angle_rad"].median())
+    angles = own.pivot_table(
+        index=["arm", "start_id", "variation"], columns="controller", values="final_angle_rad", observed=True
+    ).dropna()
+    apart = np.degrees((angles.max(axis=1) - angles.min(axis=1)).median())
+    nominal = arm_rows.episodes(run)
+    clear = nominal[(nominal["start_set"] == "clear") & nominal["controller"].isin(SHOWN)]
+    lost = int((~arm_rows.settled(arm_rows.with_standard(clear))).sum())
+    settled = 100.0 * float(arm_rows.settled(own).mean())
+    return {
+        "lead": f"From the same start the controllers end {apart:.1g}° apart in the median; the worst variation, "
+        f"{medians.idxmax()}, leaves {medians.max():.1f}°, the mildest, {medians.idxmin()}, {medians.min():.2f}°.",
+        "setting": f"From clear starts, {len(own)} episodes of {float(own['horizon_s'].max()):g} s by "
+        f"{own['controller'].nunique()} controllers on {len(arm_rows.arms(own))} arms. With a perfect model {lost} of "
+        f"their clear episodes fail; with these {settled:.0f} % settle, and the others stay outside "
+        f"{100 * float(own['tolerance'].iloc[0]):g} % of the initial angle.",
+        "gravity": by_gravity(own),
+    }
+
+
+def tables(run: Run) -> dict:
+    """By variation, by controller and inverse, and what friction can hold."""
+    own = compared(run)
+    return {
+        "tab_variations": VARIATIONS(by_variation(own)),
+        "tab_controllers": given(arm_rows.varied(run), by_controller),
+        "tab_friction": FRICTION(held_by_friction(own)),
+    }
+
+
+def figures(run: Run) -> dict:
+    """Where the tool ends, and what of it is gravity's."""
+    own = compared(run)
+    return {
+        "model-error": given(own, spread),
+        "model-gravity": given(own, lambda rows: model_rest.gravity(model_rest.predicted(rows))),
+    }
 
 
 def in_order(rows: pd.DataFrame) -> list[str]:
     """The variations that the rows hold, in the order of tasks/variations.py."""
-    there = set(rows["variation"])
-    return [name for name in tasks.variation_names() if name in there]
+    return [name for name in tasks.variation_names() if len(rows) and name in set(rows["variation"])]
 
 
 @responsive_picture
@@ -56,13 +121,14 @@ def spread(rows: pd.DataFrame, narrow: bool):
             strays = (1e3 * own["position_error_m"]).clip(lower=FLOOR_MM).quantile(QUANTILES)
             place = i + 0.17 * (k - 0.5 * (len(names) - 1))
             for axes, (low, middle, high) in ((left, angle), (right, strays)):
-                colour = COLOURS[k % len(COLOURS)]
+                colour, marker = arm_rows.mark(k)
                 axes.plot([low, high], [place, place], color=colour, linewidth=2.2, alpha=0.5)
-                axes.plot(middle, place, MARKERS[k % len(MARKERS)], color=colour, markersize=4.5)
+                axes.plot(middle, place, marker, color=colour, markersize=4.5)
             told.append(f"{arm} {angle[0.5]:.2g}")
         said.append(f"{word}: {', '.join(told)}")
     for k, arm in enumerate(names):
-        left.plot([], [], MARKERS[k % len(MARKERS)], color=COLOURS[k % len(COLOURS)], label=arm)
+        colour, marker = arm_rows.mark(k)
+        left.plot([], [], marker, color=colour, label=arm)
     left.set(xscale="log", xlabel="angle to the goal at the end [deg]", ylim=(len(words) - 0.4, -0.6))
     right.set(xscale="log", xlabel="tool strays by [mm]")
     left.set_yticks(range(len(words)), words)
@@ -74,27 +140,26 @@ def spread(rows: pd.DataFrame, narrow: bool):
     return figure, f"Median angle to the goal at the end in degrees. {'; '.join(said)}."
 
 
-def table(rows: pd.DataFrame) -> html.Markdown:
-    """A variation a row: what it is, episodes, share settled, how the others end, angle and distance.
+def by_gravity(own: pd.DataFrame) -> str:
+    """Measured angle over that of the formula, for arms of six joints and of seven."""
+    found = model_rest.predicted(own)
+    joints = found["arm"].map(lambda name: tasks.arm(name).joints)
+    said = []
+    for words, rows in (("six joints", found[joints == 6]), ("seven", found[joints > 6])):
+        ratio = model_rest.ratios(rows)
+        if len(ratio):
+            low, middle, high = ratio.quantile(0.05), ratio.median(), ratio.quantile(0.95)
+            said.append(f"on {words} {middle:.3f} in the median ({low:.2f} to {high:.2f} from 5 to 95 %)")
+    return f"Measured over predicted is {', '.join(said)}." if said else f"The comparison is {ABSENT}."
 
-    Args:
-        rows: of `compared`.
-    """
-    lines = []
+
+def by_variation(rows: pd.DataFrame) -> Iterator[tuple]:
+    """Every variation: what it is, episodes, share settled, how the others end, angle and distance."""
     for word in in_order(rows):
         own = rows[rows["variation"] == word]
-        lines.append(
-            {
-                "Variation": html.together(f"`{word}`"),
-                "The plant": tasks.variation(word).title,
-                "Episodes": len(own),
-                "Settled [%]": 100.0 * float(arm_rows.settled(own).mean()),
-                "The others": html.together(outcomes(own)),
-                "Angle [deg]": float(np.degrees(own["final_angle_rad"].median())),
-                "Strays [mm]": 1e3 * float(own["position_error_m"].median()),
-            }
-        )
-    return html.table(pd.DataFrame(lines), {"Settled [%]": ".0f", "Angle [deg]": ".2f", "Strays [mm]": ".1f"})
+        settled, others = 100.0 * arm_rows.settled(own).mean(), html.together(outcomes(own))
+        left = np.degrees(own["final_angle_rad"].median()), 1e3 * own["position_error_m"].median()
+        yield html.together(f"`{word}`"), tasks.variation(word).title, len(own), settled, others, *left
 
 
 def by_controller(rows: pd.DataFrame) -> html.Markdown:
@@ -118,3 +183,14 @@ def by_controller(rows: pd.DataFrame) -> html.Markdown:
     frame = pd.DataFrame(lines)
     forms = {column: ".2f" for column in frame if str(column).endswith("[deg]")}
     return html.table(frame, {"Settled [%]": ".0f", **forms})
+
+
+def held_by_friction(rows: pd.DataFrame) -> Iterator[tuple]:
+    """Every arm and friction: least inertia of a joint, what friction can hold, what was measured."""
+    for arm in arm_rows.arms(rows) if len(rows) else ():
+        for word in (one for one in in_order(rows) if one.startswith(RUBBED)):
+            own = rows[(rows["arm"] == arm) & (rows["variation"] == word)]
+            if len(own):
+                held = model_rest.held_deg(arm, float(word.removeprefix(RUBBED)), float(own["kp"].iloc[0]))
+                measured = np.degrees(own["final_angle_rad"].median())
+                yield arm, model_rest.least_inertia(arm), html.together(f"`{word}`"), held, measured

@@ -21,14 +21,14 @@ import numpy as np
 import pandas as pd
 
 import tasks
-from report.figures.arms import arm_rows, model_error
-from report.figures.kit import html, style
+from report.figures.arms import arm_rows
+from report.figures.kit import style
 from report.figures.kit.inline import responsive_picture
 from tasks.arm_model import model_xml
 from tasks.kinematics import kinematics, rotation_vector
 from tasks.paths import geodesic
 
-UNIFORM, RUBBED = "mass-", "friction-"
+UNIFORM = "mass-"
 STEPS = 60
 """Points of a geodesic along which the arm's posture at the goal is followed."""
 
@@ -97,8 +97,8 @@ def gravity(found: pd.DataFrame, narrow: bool):
         axes.plot(
             np.degrees(own["gravity_rad"]),
             np.degrees(own["final_angle_rad"]),
-            model_error.MARKERS[k % len(model_error.MARKERS)],
-            color=model_error.COLOURS[k % len(model_error.COLOURS)],
+            arm_rows.mark(k)[1],
+            color=arm_rows.mark(k)[0],
             markersize=4.5,
             label=arm,
         )
@@ -132,28 +132,6 @@ def held_deg(arm: str, percent: float, kp: float) -> float:
     return math.degrees(float(np.linalg.norm(kinematics(one).jacobian(one.home)[3:] @ np.linalg.inv(D) * torques)) / kp)
 
 
-def friction(rows: pd.DataFrame) -> html.Markdown:
-    """An arm and friction a row: least inertia of a joint, what friction can hold, what was measured.
-
-    Args:
-        rows: of `model_error.compared`.
-    """
-    lines = []
-    for arm in arm_rows.arms(rows):
-        least = float(np.diag(_dynamics(arm, tasks.arm(arm).home)[0]).min())
-        for word in (one for one in model_error.in_order(rows) if one.startswith(RUBBED)):
-            own = rows[(rows["arm"] == arm) & (rows["variation"] == word)]
-            if own.empty:
-                continue
-            held = held_deg(arm, float(word.removeprefix(RUBBED)), float(own["kp"].iloc[0]))
-            lines.append(
-                {
-                    "Arm": arm,
-                    "Least inertia [kg m²]": least,
-                    "Variation": html.together(f"`{word}`"),
-                    "Can hold [deg]": held,
-                    "Measured [deg]": float(np.degrees(own["final_angle_rad"].median())),
-                }
-            )
-    forms = {"Least inertia [kg m²]": ".3f", "Can hold [deg]": ".2f", "Measured [deg]": ".2f"}
-    return html.table(pd.DataFrame(lines), forms)
+def least_inertia(arm: str) -> float:
+    """Of a joint, at home [kg m^2]."""
+    return float(np.diag(_dynamics(arm, tasks.arm(arm).home)[0]).min())

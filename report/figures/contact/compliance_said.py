@@ -7,7 +7,7 @@ import pandas as pd
 
 from bench.findings import claims
 from bench.tables import read
-from report.figures.claims import verdicts as shown
+from report.figures.claims import claims as shown
 from report.figures.contact import compliance_laws, compliance_rows, compliance_tables
 from report.figures.kit import absent, html
 from report.figures.kit.spelling import power
@@ -87,7 +87,7 @@ def forms(rows: pd.DataFrame) -> str:
     return f"Over {len(pair)} pairs of rows that differ in nothing else, C is the same to {power(apart.max())}."
 
 
-def verdicts(*ids: str) -> html.Markdown:
+def verdicts(*ids: str) -> html.Markdown | None:
     """These claims with their words, linked to their sections."""
     run = claims.Results(read.folder())
     return shown.table([claims.judge(one, run) for one in ids], "40-claims.html")

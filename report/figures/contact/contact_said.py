@@ -7,9 +7,8 @@ import pandas as pd
 
 import tasks
 from report.figures.contact import compliance_rows, contact_models, contact_results
-from report.figures.kit import absent, html
+from report.figures.kit import absent, html, media
 from report.figures.kit.spelling import power
-from report.figures.method import media
 from tasks.contact import STANDARD
 
 CONTROLS = ("hybrid-unconverted/zyx-euler",)

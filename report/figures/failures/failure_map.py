@@ -1,121 +1,145 @@
-"""Where each law fails, as a map of the world: a point is where the body's x axis, the column n of R, points.
+"""What the page on failures shows: shares of SO(3), the exact points at which a law fails, how far its failures are."""
 
-Longitude is alpha, latitude -beta, in Hammer's projection, which keeps areas: Haar measure on SO(3) is area on this
-map times the turn gamma about n, which the map does not show (n is the base point of Hopf's fibration). The poles of
-the map are the poles of Z-Y-X angles, its rim is alpha = +-pi, and the dashed meridians bound the paper's range.
-"""
+import functools
+import math
+from collections.abc import Iterator
 
 import numpy as np
 import pandas as pd
-from matplotlib.lines import Line2D
-from matplotlib.patheffects import withStroke
 
-from report.figures.kit import html, laws, style
-from report.figures.kit.dots import dots
-from report.figures.kit.inline import responsive_picture
+from report.figures.failures import ball, boundary_map, corners, world_map
+from report.figures.failures.world_map import SETS
+from report.figures.kit import html, laws
+from report.figures.kit.page import Run
+from report.figures.kit.rows import LINEARIZED, SHORT, lost, of
+from report.figures.kit.share import share
+from report.figures.kit.tables import Table
 
-DRAWN = 1200
-"""Settled dots a map; every failing start is drawn."""
+EXACT_RAD = 1e-13
+"""Between the nearest of the near starts (1e-12 rad) and what rounding leaves of an exact one (4e-16 rad)."""
 
-SETS = ("half-turn", "poles", "wraps", "box")
-"""Directed sets at rest whose goal is zero; tumbling starts and far goals are not points of SO(3) alone."""
+NEAR_RAD = 0.1 + EXACT_RAD
+"""Of a pole: the first decade of the set poles, 0.1 rad with its rounding."""
 
-HALO = [withStroke(linewidth=2.5, foreground=style.PAPER)]
-FINE = np.linspace(-0.5, 0.5, 61) * np.pi
-
-
-def hammer(longitude, latitude):
-    """Equal-area coordinates of a direction: an ellipse of half axes 2 and 1 (up to sqrt 2)."""
-    root = np.sqrt(1.0 + np.cos(latitude) * np.cos(np.asarray(longitude) / 2.0))
-    return 2.0 * np.cos(latitude) * np.sin(np.asarray(longitude) / 2.0) / root, np.sin(latitude) / root
+ENGINES = ("ideal-rk4", "ideal-held", "native", "reference")
+SHARES = Table({"Law": "", "Engine": "", "Starts": "", "Settled [%]": ".2f", "95 % interval": "", "The others": ""})
+EXACT = Table({"Law": "", "Start on": "", "Tried": "", "Failing": "", "How": "", "One of them (w, x, y, z)": ""})
+NEAREST = Table(
+    {"Law": "", "Axes": "", "Failing": "", "Smallest": ".1f", "About": "", "Median": ".1f", "Nearest start": ".1f"}
+)
 
 
-@responsive_picture
-def world(episodes: pd.DataFrame, narrow: bool):
-    """A map a law: settled uniform starts in grey, failing ones by outcome, exact points of the directed sets larger.
+@functools.cache
+def every(run: Run) -> pd.DataFrame:
+    """Episodes of the free body."""
+    return run.rows("episodes", task="free-body")
 
-    Args:
-        episodes: rows of one engine.
-    """
-    parts = laws.each(episodes[episodes["start_set"].isin(("uniform", *SETS))])
-    figure, places = _places(parts, narrow)
-    said: list[str] = []
-    met: dict[str, Line2D] = {}
-    for axes, (name, title, rows) in zip(places, parts, strict=True):
-        _globe(axes)
-        axes.set_title(title, color=style.look(name).colour)
-        said.append(_starts(axes, title, rows, met))
-        for line in axes.lines:
-            line.set_in_layout(False)  # marks on the rim are not clipped, and must not shrink the map
-    handles = [met[name] for name in style.OUTCOMES if name in met]
-    figure.legend(handles=handles, loc="outside lower center", ncols=3 if narrow else 6, fontsize=9)
-    return figure, (
-        "Maps of the direction of the body's x axis at the start, with longitude alpha and latitude minus beta. "
-        + " ".join(said)
+
+def continuous(run: Run) -> pd.DataFrame:
+    """Those on the continuous plant."""
+    return every(run)[every(run)["engine"] == "ideal-rk4"]
+
+
+def facts(run: Run) -> dict:
+    """How much each law loses, where the linearized law's failures begin, and how far along each axis."""
+    episodes, boundaries = continuous(run), run.rows("boundaries")
+    linearized = of(episodes, LINEARIZED)
+    failed = lost(linearized)
+    outside = linearized[linearized["alpha0"].abs() > np.pi / 2.0]
+    along = {key: boundaries.loc[boundaries["contender"] == name, "fails_from_rad"] for key, name in SHORT.items()}
+    values = {
+        "n": len(linearized),
+        "percent": f"{100 * len(failed) / len(linearized):.1f}",
+        "least": f"{np.degrees(failed['alpha0'].abs().min()):.0f}",
+        "least_gamma": f"{np.degrees(failed['gamma0'].abs().min()):.0f}",
+        "inside": int((failed["alpha0"].abs() < np.pi / 2.0).sum()),
+        "outside": f"{100 * (1 - len(lost(outside)) / len(outside)):.0f}",
+        "reach": f"{np.degrees(boundaries['settled_to_rad'].max()):.0f}",
+        "axes": len(along["l"]),
+        "axes_first": f"{np.degrees(along['l'].min()):.0f}",
+        "axes_median": f"{np.degrees(along['l'].median()):.0f}",
+    }
+    for letter, name in SHORT.items():
+        values[f"failed_{letter}"] = len(lost(of(episodes, name)))
+        values[f"axes_{letter}"] = int(along[letter].notna().sum())
+    return values
+
+
+def tables(run: Run) -> dict:
+    """Shares by law and engine; exact points; nearest failures in degrees."""
+    episodes = continuous(run)
+    return {
+        "tab_shares": SHARES(shares(every(run))),
+        "tab_exact": EXACT(exact_points(episodes)),
+        "tab_nearest": NEAREST(nearest(run.rows("boundaries"), episodes)),
+    }
+
+
+def figures(run: Run) -> dict:
+    """Map of the world, corners of the plane of angles, ball, and hemispheres of axes."""
+    episodes = continuous(run)
+    return {
+        "failure-map": world_map.world(episodes),
+        "corners": corners.corners(of(episodes, LINEARIZED), LINEARIZED),
+        "ball": ball.ball(episodes),
+        "boundary": boundary_map.hemispheres(run.rows("boundaries"), LINEARIZED),
+    }
+
+
+def outcomes(rows: pd.DataFrame) -> str:
+    """How those that did not settle ended, in words."""
+    failed = lost(rows)["outcome"].astype(str).value_counts()
+    return ", ".join(f"{html.number(count)} {word}" for word, count in failed.items()) or "none"
+
+
+def shares(episodes: pd.DataFrame) -> Iterator[tuple]:
+    """Law and engine: uniform starts, share that settles with its interval, how the others end."""
+    for name, title, own in laws.each(episodes[episodes["start_set"] == "uniform"]):
+        for engine in ENGINES:
+            part = own[own["engine"] == engine]
+            if len(part):
+                settled = share(int((part["outcome"] == "settled").sum()), len(part))
+                interval = html.together(f"{100.0 * settled.low:.2f} to {100.0 * settled.high:.2f}")
+                law, percent = html.law(name, title), 100.0 * settled.value
+                yield law, html.together(engine), settled.n, percent, interval, outcomes(part)
+
+
+def places(rows: pd.DataFrame) -> pd.Series:
+    """On which special point of SO(3) each start lies exactly, or that it is near a pole, in words."""
+    half = math.pi - rows["angle0_rad"] < EXACT_RAD
+    pole = math.pi / 2.0 - rows["beta0"].abs() < EXACT_RAD
+    wrap = (math.pi - rows["alpha0"].abs() < EXACT_RAD) | (math.pi - rows["gamma0"].abs() < EXACT_RAD)
+    beside = math.pi / 2.0 - rows["beta0"].abs() <= NEAR_RAD
+    words = np.select(
+        [half & pole, half, pole, wrap, beside],
+        ["half turn and pole", "half turn", "pole", "jump of atan2", "near a pole"],
+        "elsewhere",
     )
+    return pd.Series(words, rows.index)
 
 
-def _places(parts, narrow: bool):
-    """One map below the other on a phone; else the linearized law's, which has most to show, above the others."""
-    if narrow or len(parts) != 3:
-        figure, axes = style.panels(len(parts), 1, height=2.2 * len(parts) + 0.5, narrow=narrow, squeeze=False)
-        return figure, list(axes.flat)
-    figure, ((left, right), (low_left, low_right)) = style.panels(2, 2, height=6.0, height_ratios=(1.75, 1))
-    grid = left.get_gridspec()
-    left.remove()
-    right.remove()
-    return figure, [low_left, figure.add_subplot(grid[0, :]), low_right]
+def exact_points(episodes: pd.DataFrame) -> Iterator[tuple]:
+    """Law and special place: directed starts exactly there, how many fail and how, and one of them."""
+    directed = episodes[episodes["start_set"].isin(SETS)]
+    for name, title, own in laws.each(directed.assign(place=places(directed))):
+        for place, part in own.groupby("place", sort=True):
+            failed = lost(part)
+            if failed.empty:
+                continue
+            quat = ", ".join(html.cell(float(failed.iloc[0][f"quat_{axis}"])) for axis in "wxyz")
+            one = html.together(f"({quat})") if place not in ("near a pole", "elsewhere") else None
+            yield html.law(name, title), place, len(part), len(failed), outcomes(part), one
 
 
-def _globe(axes) -> None:
-    axes.set(aspect="equal", xlim=(-2.02, 2.02), ylim=(-1.02, 1.02))
-    axes.axis("off")
-    for edge in (-np.pi, np.pi):
-        axes.plot(*hammer(edge * np.ones_like(FINE), FINE), color=style.MUTED, linewidth=0.8)
-    for half in (-np.pi / 2, np.pi / 2):
-        axes.plot(*hammer(half * np.ones_like(FINE), FINE), color=style.INK, linewidth=0.9, linestyle=style.DASHED)
-    for latitude in (-np.pi / 4, 0.0, np.pi / 4):
-        axes.plot(*hammer(2.0 * FINE, latitude * np.ones_like(FINE)), color=style.GRID, linewidth=0.7, zorder=0)
-    for degrees in (-90, 0, 90):
-        x, y = hammer(np.radians(degrees), 0.0)
-        axes.text(
-            x,
-            y - 0.02,
-            f"{degrees}°".replace("-", "\N{MINUS SIGN}"),
-            ha="center",
-            va="top",
-            fontsize=8.5,
-            zorder=6,
-            path_effects=HALO,
-        )
-
-
-def _starts(axes, title: str, rows: pd.DataFrame, met: dict) -> str:
-    x, y = hammer(rows["alpha0"], -rows["beta0"])
-    rows = rows.assign(x=x, y=y)
-    uniform = rows[rows["start_set"] == "uniform"]
-    good = uniform[uniform["outcome"] == "settled"].head(DRAWN)
-    colour = style.OUTCOMES["settled"][0]
-    dots(axes, good["x"], good["y"], colour, 1.7)
-    (met["settled"],) = axes.plot([], [], ".", color=colour, linestyle="none", label="settled")
-    for outcome, (colour, marker) in style.OUTCOMES.items():
-        failed = rows[(rows["outcome"] == outcome) & (outcome != "settled")]
-        if failed.empty:
-            continue
-        look = {
-            "marker": marker,
-            "color": colour,
-            "linestyle": "none",
-            "clip_on": False,
-            "markeredgewidth": 0.4,
-            "markeredgecolor": style.PAPER,
-        }
-        drawn = failed[failed["start_set"] == "uniform"]
-        axes.plot(drawn["x"], drawn["y"], markersize=3.6, zorder=4, **look)
-        directed = failed[failed["start_set"] != "uniform"].drop_duplicates(["x", "y"])
-        axes.plot(directed["x"], directed["y"], markersize=6, zorder=5, **look)
-        (met[outcome],) = axes.plot([], [], markersize=5.5, label=outcome, **look)
-    bad = int((uniform["outcome"] != "settled").sum())
-    directed = rows[rows["start_set"] != "uniform"]
-    ends = ", ".join(f"{count} {word}" for word, count in directed["outcome"].astype(str).value_counts().items())
-    return f"{title}: {html.number(bad)} of {html.number(len(uniform))} uniform starts fail; directed starts: {ends}."
+def nearest(boundaries: pd.DataFrame, episodes: pd.DataFrame) -> Iterator[tuple]:
+    """Law: axes with a failing angle, its smallest and median, the axis of the smallest; smallest failing start."""
+    at_rest = lost(episodes[episodes["start_set"].isin(("uniform", *SETS))])
+    for name, title, own in laws.each(boundaries):
+        fails = own["fails_from_rad"].dropna()
+        starts = at_rest.loc[at_rest["contender"] == name, "angle0_rad"]
+        axis = None  # a dash in the table, as for any other that is missing
+        if len(fails):
+            first = own.loc[fails.idxmin()]
+            axis = html.together("(" + ", ".join(html.cell(float(first[f"axis_{one}"]), ".2f") for one in "xyz") + ")")
+        smallest, median, start = (float(np.degrees(one)) for one in (fails.min(), fails.median(), starts.min()))
+        yield html.law(name, title), len(own), len(fails), smallest, axis, median, start

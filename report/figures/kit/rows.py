@@ -1,6 +1,14 @@
-"""Rows of one law in a table of episodes, and the paper's three laws by name."""
+"""Rows of a table of results, chosen and summed up as several pages do; the paper's three laws by name."""
+
+import functools
+from pathlib import Path
 
 import pandas as pd
+
+from bench.contenders.registry import contenders_of, known_regulators
+from bench.findings.theory.closed_form import linear_settling
+from bench.tables import read
+from report.figures.kit import html
 
 MATRIX, LINEARIZED, FEEDBACK = "rotation-matrix", "linearized-euler/zyx-euler", "feedback-linearized/zyx-euler"
 SHORT = {"m": MATRIX, "l": LINEARIZED, "f": FEEDBACK}
@@ -14,3 +22,33 @@ def of(frame: pd.DataFrame, contender: str, start_set: str = "uniform") -> pd.Da
 def lost(rows: pd.DataFrame) -> pd.DataFrame:
     """Those that did not settle."""
     return rows[rows["outcome"] != "settled"]
+
+
+def uniform_starts(episodes: pd.DataFrame) -> str:
+    """How many uniform starts a law met on the continuous plant; from fewest to most where laws differ."""
+    mine = episodes[(episodes["start_set"] == "uniform") & (episodes["engine"] == "ideal-rk4")]
+    counts = mine["contender"].astype(str).value_counts()
+    fewest, most = (html.number(counts.iloc[place]) for place in (-1, 0))
+    return most if fewest == most else f"{fewest} to {most}"
+
+
+def small_error_settling_s(episodes: pd.DataFrame) -> float:
+    """Settling time of a small error, from the closed form and the run's gains and band [s]."""
+    kp, kv, band = (float(episodes[column].iloc[0]) for column in ("kp", "kv", "tolerance"))
+    return linear_settling(kp, kv, band)
+
+
+def titles() -> dict[str, str]:
+    """contender -> the title of its law, with its coordinates where it has several."""
+    return _titles(read.folder())
+
+
+@functools.cache
+def _titles(folder: Path) -> dict[str, str]:
+    named = {}
+    for regulator in (*known_regulators().values(), *read.own_laws(folder)):
+        several = contenders_of(regulator)
+        for one in several:
+            coordinates = f", {one.representation.name}" if one.representation and len(several) > 1 else ""
+            named[one.name] = regulator.title + coordinates
+    return named

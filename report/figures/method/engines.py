@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pandas as pd
 
-from report.figures.kit import html, style
+from report.figures.kit import style
 from report.figures.kit.inline import responsive_picture
 from report.figures.kit.laws import TITLES
 from report.figures.method.steps import ENGINE_TITLES
@@ -93,13 +93,3 @@ def engines(found: pd.DataFrame, *, narrow=False):
         for row in table.itertuples()
     )
     return figure, f"Mean difference in settling time to the continuous plant, with its 5 to 95 % range: {words}."
-
-
-def alike_table(episodes: pd.DataFrame, titles: dict[str, str]) -> html.Markdown:
-    """`same_outcome` of MuJoCo, a row a law."""
-    frame = same_outcome(episodes, "native")
-    laws = [html.law(name, titles.get(name, name)) for name in frame["contender"]]
-    frame = frame.assign(contender=laws)
-    return html.table(
-        frame.rename(columns={"contender": "Law", "outcome": "same outcome", "settles": "both or neither settle"})
-    )

@@ -1,5 +1,7 @@
 """Figures 2.3 to 2.5 of the paper drawn again: an episode's Euler angles, and its angle to the goal, against time."""
 
+import functools
+
 import numpy as np
 import pandas as pd
 
@@ -8,6 +10,8 @@ from bench.findings.theory import closed_form
 from bench.law.so3 import Rotation
 from report.figures.kit import laws, style
 from report.figures.kit.inline import responsive_picture
+from report.figures.kit.page import Run
+from report.figures.kit.rows import FEEDBACK, SHORT, lost
 
 ANGLES = (
     ("alpha", r"$\alpha$", style.SOLID),
@@ -16,6 +20,52 @@ ANGLES = (
 )
 SHOWN_S = 1.2
 """Two settling times of a small error: all there is to see."""
+
+FIGURES = {
+    "response-matrix": ("m", "figure-2.3"),
+    "response-linearized": ("l", "figure-2.4"),
+    "response-feedback": ("f", "figure-2.5"),
+}
+"""Of each figure the letter of its law, and the start."""
+
+
+@functools.cache
+def drawn(run: Run) -> tuple[pd.DataFrame, pd.DataFrame]:
+    """Traces and episodes of the starts of the paper's figures, on the continuous plant."""
+    words = {"engine": "ideal-rk4", "start_set": "paper"}
+    return run.rows("traces", **words), run.rows("episodes", **words)
+
+
+def gains(episodes: pd.DataFrame) -> dict[str, float]:
+    """Those of the closed form."""
+    return {name: float(episodes[name].iloc[0]) for name in ("kp", "kv")}
+
+
+def facts(run: Run) -> dict:
+    """Of each figure its start, and how far, how long and how straight the laws go from there."""
+    traces, every = drawn(run)
+    episodes = every[every["contender"].isin(SHORT.values())]
+    values: dict = {**gains(every), "drawn": len(episodes), "good": len(episodes) - len(lost(episodes))}
+    for _, start in FIGURES.values():
+        end = start[-1]
+        bends = bends_deg(traces, start, **gains(every)).set_index("contender")
+        rows = episodes[episodes["start_id"] == start].set_index("contender")
+        for letter, name in SHORT.items():
+            values[f"bend_{letter}{end}"] = float(bends.loc[name, ["alpha", "beta", "gamma"]].max())
+            values[f"time_{letter}{end}"] = f"{rows.loc[name, 'settling_time_s']:.3f}"
+            values[f"path_{letter}{end}"] = f"{rows.loc[name, 'path_ratio']:.2f}"
+        values |= {f"{angle}_{end}": float(rows[f"{angle}0"].iloc[0]) for angle in ("alpha", "beta", "gamma")}
+        angles = np.degrees(traces[traces["start_id"] == start].set_index("contender")["angle_rad"])
+        values |= {f"first_{end}": f"{angles.iloc[0]:.0f}", f"peak_{end}": f"{angles[FEEDBACK].max():.0f}"}
+    return values
+
+
+def figures(run: Run) -> dict:
+    """The paper's figures 2.3 to 2.5."""
+    traces, episodes = drawn(run)
+    return {
+        name: response(traces, SHORT[letter], start, **gains(episodes)) for name, (letter, start) in FIGURES.items()
+    }
 
 
 def euler_deg(trace: pd.DataFrame) -> np.ndarray:
@@ -83,14 +133,3 @@ def bends_deg(traces: pd.DataFrame, start_id: str, kp: float, kv: float) -> pd.D
         away = np.abs(angles - angles[0] * closed_form.linear(trace["time_s"], kp, kv)[:, None]).max(axis=0)
         rows.append({"contender": name, "law": title, **dict(zip(("alpha", "beta", "gamma"), away, strict=True))})
     return pd.DataFrame(rows)
-
-
-def first_deg(traces: pd.DataFrame, start_id: str) -> float:
-    """Initial angle to the goal [deg]."""
-    return float(np.degrees(traces.loc[traces["start_id"] == start_id, "angle_rad"].iloc[0]))
-
-
-def highest_deg(traces: pd.DataFrame, start_id: str, contender: str) -> float:
-    """Largest angle to the goal on the way [deg]."""
-    rows = traces[(traces["start_id"] == start_id) & (traces["contender"] == contender)]
-    return float(np.degrees(rows["angle_rad"].max()))

@@ -4,17 +4,26 @@ from __future__ import annotations
 
 import html as escape
 from collections import Counter
-from typing import TYPE_CHECKING
 
-import pandas as pd
-
+from bench.findings import claims
+from bench.findings.claims import Verdict
 from report.figures.kit import html
-from report.figures.kit.spelling import marked_up, prose
-
-if TYPE_CHECKING:
-    from bench.findings.claims import Verdict
+from report.figures.kit.page import Run
+from report.figures.kit.spelling import marked_up, prose, typeset
+from report.figures.kit.tables import Table
 
 SMALL = ("Criterion", "Left open")
+VERDICTS = Table({"": "", "What the paper says, in our words": "", "Verdict": ""})
+
+
+def facts(_: Run) -> dict:
+    """How many are decided, and by what rule."""
+    return {"rule": typeset(claims.RULE), "decided": len(measured(claims.judge_all()))}
+
+
+def tables(_: Run) -> dict:
+    """A section for each claim, by its anchor."""
+    return {anchor(one): section(one) for one in claims.judge_all()}
 
 
 def measured(verdicts: list[Verdict]) -> list[Verdict]:
@@ -35,17 +44,11 @@ def tiles(verdicts: list[Verdict]) -> html.Html:
     return html.tiles(entries + [(counts[word], label, word) for word, label in labels.items() if counts[word]])
 
 
-def table(verdicts: list[Verdict], page: str) -> html.Markdown:
+def table(verdicts: list[Verdict], page: str) -> html.Markdown | None:
     """Id, sentence and verdict of each decided claim, linked to its section of the page."""
-    decided = measured(verdicts)
-    frame = pd.DataFrame(
-        {
-            "": [link(one, page) for one in decided],
-            "What the paper says, in our words": [prose(one.claim.sentence) for one in decided],
-            "Verdict": [html.badge(str(one.word)) for one in decided],
-        }
+    return VERDICTS(
+        (link(one, page), prose(one.claim.sentence), html.badge(str(one.word))) for one in measured(verdicts)
     )
-    return html.table(frame, words=frame.columns)
 
 
 def link(one: Verdict, page: str) -> str:

@@ -9,7 +9,7 @@ import math
 import numpy as np
 import pandas as pd
 
-from report.figures.failures.failure_map import SETS
+from report.figures.failures.world_map import SETS
 from report.figures.kit import html, laws, style
 
 ON_SURFACE = 1e-9

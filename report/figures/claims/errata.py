@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-import pandas as pd
-
 from bench.findings.claims.errata import ERRATA, Erratum
-from report.figures.kit import html
+from report.figures.kit.page import Run
 from report.figures.kit.spelling import prose
+from report.figures.kit.tables import Table
+
+SLIPS = Table({"": "", "Where": "", "Printed": "", "Should be": "", "Checked": ""})
+COMPUTED = [one for one in ERRATA if one.check is not None]
+READ = [one for one in ERRATA if one.check is None]
 
 
 class Unconfirmed(RuntimeError):
@@ -28,22 +31,16 @@ def checked(one: Erratum) -> str:
     return f"computed: {prose(one.how)}"
 
 
-def table(computed: bool) -> html.Markdown:
-    """The computed ones, or those found by reading."""
-    rows = [
-        {
-            "": one.id,
-            "Where": prose(one.where),
-            "Printed": f"“{prose(one.printed)}”",
-            "Should be": prose(one.right),
-            "Checked": checked(one),
-        }
-        for one in ERRATA
-        if (one.check is not None) == computed
-    ]
-    return html.table(pd.DataFrame(rows))
+def row(one: Erratum) -> tuple:
+    """Of the table."""
+    return one.id, prose(one.where), f"“{prose(one.printed)}”", prose(one.right), checked(one)
 
 
-def count(computed: bool) -> int:
+def facts(_: Run) -> dict:
     """How many of either kind."""
-    return sum((one.check is not None) == computed for one in ERRATA)
+    return {"n_computed": len(COMPUTED), "n_read": len(READ)}
+
+
+def tables(_: Run) -> dict:
+    """The computed ones, and those found by reading."""
+    return {"computed": SLIPS(map(row, COMPUTED)), "read": SLIPS(map(row, READ))}

@@ -1,4 +1,4 @@
-"""Where the numbers come from: provenance, the tables with their digests, their columns, and links to take them."""
+"""What the page on provenance shows: the run, its tables with their digests and columns, and links to take them."""
 
 from __future__ import annotations
 
@@ -15,6 +15,8 @@ from bench.tables.schema import TABLES
 from bench.tables.store import read_json
 from report.figures.cost import times
 from report.figures.kit import html
+from report.figures.kit.page import Run
+from report.figures.kit.tables import Table
 
 OFFERED_BYTES = 8_000_000
 """A larger file is named, not offered: the site stays small enough to be mailed or put on a stick."""
@@ -22,6 +24,37 @@ CITATION = ROOT / "CITATION.cff"
 SETTINGS = ROOT / "results" / "settings" / "settings.json"
 SITE_DATA = "../data"
 """Seen from a page in pages/; report/build.py copies there what pages link to."""
+FACTS = Table({"Fact": "", "Value": ""})
+FILES = Table({"File": "", "Rows": "", "Size": "", "SHA-256": ""})
+REMADE = Table(
+    {
+        "Made on": "",
+        "Equal bit for bit": "",
+        "Rows that differ in some bit": "",
+        "Other outcome": "",
+        "Differences for the gate": "",
+    }
+)
+
+
+def facts(_: Run) -> dict:
+    """The version that CITATION.cff gives, and its date."""
+    said = dict(
+        re.findall(r"^(version|date-released): *[\"']?([^\"'\n]+)", CITATION.read_text(encoding="utf-8"), re.MULTILINE)
+    )
+    released = f" ({said['date-released']})" if "date-released" in said else ""
+    return {"version": said["version"] + released}
+
+
+def tables(run: Run) -> dict:
+    """The run, its files with their columns, and the published run made again elsewhere."""
+    made = [one for every in read_json(SETTINGS).values() for one in every.values()] if SETTINGS.is_file() else []
+    return {
+        "run": FACTS(said_of_itself(read.provenance()).items()),
+        "tables": FILES(map(offered, files(run))),
+        "columns": columns(run),
+        "settings": REMADE(map(against_published, made)),
+    }
 
 
 def digest(path: Path) -> str:
@@ -36,20 +69,17 @@ def spelled(hex_digits: str) -> str:
     return f'<code class="digest">{"<wbr>".join(parts)}</code>'
 
 
-def files() -> list[Path]:
+def files(run: Run) -> list[Path]:
     """The files of the run, tables first, then every machine's timings."""
-    folder = read.folder()
-    tables = [folder / f"{name}.parquet" for name in sorted(TABLES)]
-    plain = [folder / name for name in ("provenance.json", "plan.json")]
-    return [*(path for path in (*tables, *plain) if path.is_file()), *times.files()]
+    names = [*(f"{name}.parquet" for name in sorted(TABLES)), "provenance.json", "plan.json"]
+    return [*(path for path in (run.folder / name for name in names) if path.is_file()), *times.files()]
 
 
-def run() -> html.Markdown:
-    """provenance.json in words, one fact a line."""
-    given = read.provenance()
+def said_of_itself(given: dict) -> dict[str, str]:
+    """provenance.json in words."""
     said = {name: escaped(value) for name, value in given.items()}
     changed = "yes: the sources had changes that no commit holds" if said["dirty"] else "no"
-    facts = {
+    return {
         "Suite": f"{code(given['suite'])}, {html.number(said['episodes'])} episodes",
         "Command": code(given["command"]),
         "Seed": f"{said['seed']}",
@@ -65,7 +95,6 @@ def run() -> html.Markdown:
         **{html.foreign(name): version for name, version in sorted(said["versions"].items())},
         "Lock requirements/base.txt, SHA-256": spelled(said["lock"]) if said["lock"] else "none",
     }
-    return html.table(pd.DataFrame({"Fact": list(facts), "Value": list(facts.values())}))
 
 
 def code(text: str) -> str:
@@ -82,13 +111,8 @@ def escaped(value):
     return html.foreign(value) if isinstance(value, str) else value
 
 
-def settings() -> html.Markdown:
-    """The published run made again under settings that round as other processors do: what differs from it."""
-    every = [one for made in read_json(SETTINGS).values() for one in made.values()]
-    return html.table(pd.DataFrame(map(_against_published, every)))
-
-
-def _against_published(found: dict) -> dict:
+def against_published(found: dict) -> dict:
+    """The run made again under a setting that rounds as another processor does: what differs from the published."""
     unlike = [
         f"{name} {html.number(one['differ'])} of {html.number(one['rows'])}"
         for name, one in found["tables"].items()
@@ -103,20 +127,10 @@ def _against_published(found: dict) -> dict:
     }
 
 
-def tables() -> html.Markdown:
-    """Every file: rows, size, digest, and a link to it."""
-    rows = []
-    for path in files():
-        is_table = path.suffix == ".parquet"
-        rows.append(
-            {
-                "File": link(path),
-                "Rows": pq.read_metadata(path).num_rows if is_table else None,
-                "Size": size(path.stat().st_size),
-                "SHA-256": spelled(digest(path)),
-            }
-        )
-    return html.table(pd.DataFrame(rows))
+def offered(path: Path) -> tuple:
+    """A file: a link to it, its rows, size and digest."""
+    rows = pq.read_metadata(path).num_rows if path.suffix == ".parquet" else None
+    return link(path), rows, size(path.stat().st_size), spelled(digest(path))
 
 
 def link(path: Path) -> str:
@@ -136,10 +150,10 @@ def size(count: int) -> str:
     )
 
 
-def columns() -> html.Html:
+def columns(run: Run) -> html.Html:
     """Name, type, unit and meaning of every column, one folded table a file."""
     parts = []
-    for path in files():
+    for path in files(run):
         if path.suffix != ".parquet":
             continue
         schema = pq.read_schema(path)
@@ -155,11 +169,3 @@ def columns() -> html.Html:
             f'<div class="card-costs" tabindex="0">{table}</div></details>'
         )
     return html.Html("".join(parts))
-
-
-def version() -> str:
-    """The version that CITATION.cff gives, and its date."""
-    said = dict(
-        re.findall(r"^(version|date-released): *[\"']?([^\"'\n]+)", CITATION.read_text(encoding="utf-8"), re.MULTILINE)
-    )
-    return f"{said['version']} ({said['date-released']})" if "date-released" in said else said["version"]

@@ -1,19 +1,29 @@
-"""What a run held fixed, as a table, and the closed form that the gains imply."""
+"""What the page on the plant shows: block diagrams, and what a run held fixed."""
 
 from __future__ import annotations
 
 import pandas as pd
 
-from bench.findings.theory.closed_form import linear_settling
 from report.figures.kit import html
+from report.figures.kit.page import Run
+from report.figures.kit.rows import small_error_settling_s
+from report.figures.kit.tables import Table
+from report.figures.problem import diagrams
 
 YES, NO = "yes", "no: ours"
+HELD = Table({"What": "", "Value": "", "Paper": ""})
 
 
-def held(episodes: pd.DataFrame) -> html.Markdown:
+def facts(run: Run) -> dict:
+    """What the gains imply."""
+    return {"small": f"{small_error_settling_s(run.rows('episodes', task='free-body')):.3f}"}
+
+
+def tables(run: Run) -> dict:
     """Gains, step, horizon, band: every value that occurs in the run, and whether the paper states it."""
+    episodes = run.rows("episodes", task="free-body")
     horizons = [f"{value:g}" for value in sorted(episodes["horizon_s"].unique())]
-    facts = [
+    held = [
         ("Position gain $K_p$", values(episodes, "kp", "1/s²"), "yes, but for regulator 1"),
         ("Velocity gain $K_v$, $K_d$", values(episodes, "kv", "1/s"), "yes, but for regulator 1"),
         ("Inertia", "identity", YES),
@@ -23,7 +33,16 @@ def held(episodes: pd.DataFrame) -> html.Markdown:
         ("Engines", ", ".join(f"`{name}`" for name in sorted(episodes["engine"].unique())), "one: Simnon"),
         ("Orientations", f"{html.number(starts(episodes))} starts a law", NO),
     ]
-    return html.table(pd.DataFrame(facts, columns=["What", "Value", "Paper"]))
+    return {"held": HELD(held)}
+
+
+def figures(_: Run) -> dict:
+    """The loop of one tick, and the paper's figures 2.1 and 2.2."""
+    return {
+        "judge": diagrams.judge_and_contestants(),
+        "on-the-matrix": diagrams.on_the_matrix(),
+        "on-the-angles": diagrams.on_the_angles(),
+    }
 
 
 def values(episodes: pd.DataFrame, column: str, unit: str) -> str:
@@ -34,17 +53,3 @@ def values(episodes: pd.DataFrame, column: str, unit: str) -> str:
 def starts(episodes: pd.DataFrame) -> int:
     """Different starts of the continuous plant."""
     return len(episodes.loc[episodes["engine"] == "ideal-rk4", ["start_set", "start_id"]].drop_duplicates())
-
-
-def uniform_starts(episodes: pd.DataFrame) -> str:
-    """How many uniform starts a law met on the continuous plant; from fewest to most where laws differ."""
-    mine = episodes[(episodes["start_set"] == "uniform") & (episodes["engine"] == "ideal-rk4")]
-    counts = mine["contender"].astype(str).value_counts()
-    fewest, most = (html.number(counts.iloc[place]) for place in (-1, 0))
-    return most if fewest == most else f"{fewest} to {most}"
-
-
-def small_error_settling_s(episodes: pd.DataFrame) -> float:
-    """Settling time of a small error, from the closed form and the run's gains and band [s]."""
-    kp, kv, band = (float(episodes[column].iloc[0]) for column in ("kp", "kv", "tolerance"))
-    return linear_settling(kp, kv, band)

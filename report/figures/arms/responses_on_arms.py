@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import functools
+
 import numpy as np
 import pandas as pd
 
@@ -9,7 +11,8 @@ from bench.findings.theory import closed_form
 from report.figures.arms import arm_rows
 from report.figures.kit import style
 from report.figures.kit.inline import responsive_picture
-from report.figures.responses.responses import ANGLES, euler_deg
+from report.figures.kit.page import Run, given
+from report.figures.responses.responses import ANGLES, euler_deg, gains
 from tasks.paths import zyx_angles
 
 SHOWN_S = 1.2
@@ -26,6 +29,32 @@ OTHER = "#cc79a7"
 TOP_DEG = 200.0
 LABEL_HEIGHT = 0.1
 """Of a Greek letter beside its curve, over what the curves of a panel span."""
+
+
+@functools.cache
+def curves(run: Run) -> pd.DataFrame:
+    """Traces of the run on arms; maybe none."""
+    found = run.rows("traces", task="arm-regulation")
+    return arm_rows.named(found) if len(found) else found
+
+
+def facts(run: Run) -> dict:
+    """Gains, and how far any angle under (3.7) leaves its closed form."""
+    traces, episodes = curves(run), arm_rows.episodes(run)
+    if traces.empty:
+        return given(episodes, gains) or {}
+    found = bends(traces, episodes, **gains(episodes))
+    worst = found.loc[found["bend_deg"].idxmax()]
+    far = {"bend": f"{worst['bend_deg']:.2g}", "bend_n": int(found["n"].sum()), "bend_arm": worst["arm"]}
+    return {**gains(episodes), **far}
+
+
+def figures(run: Run) -> dict:
+    """Angles to the goal; Euler angles."""
+    traces, episodes = curves(run), arm_rows.episodes(run)
+    if traces.empty:
+        return {}
+    return {"arm-angles": angles(traces, episodes), "arm-linear": linear(traces, episodes, **gains(episodes))}
 
 
 def colour(controller: str) -> str:

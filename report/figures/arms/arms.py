@@ -1,0 +1,236 @@
+"""What the page on arms shows: the arms, their starts, which controllers settle, why others fail, at what cost."""
+
+from __future__ import annotations
+
+import functools
+import sys
+from collections.abc import Iterator
+
+import mujoco
+import numpy as np
+import pandas as pd
+from scipy.optimize import minimize
+
+import tasks
+from report.figures.arms import (
+    arm_advice,
+    arm_causes,
+    arm_matrix,
+    arm_pole,
+    arm_rows,
+    arm_settling,
+    arm_strain,
+    arm_wrist,
+)
+from report.figures.kit import html
+from report.figures.kit.page import Run
+from report.figures.kit.spelling import prose
+from report.figures.kit.tables import Table
+from tasks.arm_model import Arm, model_xml
+from tasks.cause import NEAR_CONDITION, NEAR_MARGIN
+from tasks.kinematics import kinematics
+from tasks.paths import zyx_angles
+
+TRIED, POLISHED, SEED = 400, 4, 0
+"""Random postures for the furthest one, and from how many of them it is climbed to."""
+
+ARMS = Table(
+    {
+        "Arm": "",
+        "Maker's name": "",
+        "Joints": "",
+        "Reach [m]": ".2f",
+        "Condition": ".1f",
+        "β [deg]": "",
+        "Rated torques [N m]": "",
+    }
+)
+STARTS = Table({"Set": "", "What it is for": "", "Starts an arm": "", "Horizon [s]": ""})
+CAUSES = Table({"Cause": "", "What the judge saw": "", "Failures": ""})
+POLE = Table(
+    {
+        "Arm": "",
+        "Starts": "",
+        "(2.2) fails": "",
+        "(3.7) fails": "",
+        "fails or hammers": "",
+        "Way": ".1f",
+        "Torque": html.number,
+    }
+)
+WRIST = Table(
+    {
+        "Controller": "",
+        "Inverse": "",
+        "Starts": "",
+        "Settled [%]": ".0f",
+        "Strays [mm]": html.number,
+        "95 %": html.number,
+        "Torque": "",
+    }
+)
+
+
+@functools.cache
+def standard(run: Run) -> pd.DataFrame:
+    """Episodes by the paper's two Jacobians and the standard inverse."""
+    return arm_rows.with_standard(arm_rows.episodes(run))
+
+
+@functools.cache
+def later(run: Run) -> pd.DataFrame:
+    """Settling times beside those of the free body."""
+    return arm_settling.differences(standard(run))
+
+
+def facts(run: Run) -> dict:
+    """Which law and inverse to take, what the pole, the arm's own singularities and torques do."""
+    rows = arm_rows.episodes(run)
+    if rows.empty:
+        return {}
+    both, counts, beside = arm_pole.side_by_side(standard(run)), arm_causes.tallied(standard(run)), later(run)
+    clear = rows[rows["start_set"] == "clear"]
+    return {
+        **arm_advice.advice(rows),
+        **arm_advice.damping(rows),
+        "tick_ms": f"{1e3 * float(rows['dt_s'].iloc[0]):g}",
+        "pole_n": len(both),
+        "pole_fails": int(both["fails"].sum()),
+        "pole_fails_m": int(both["fails_matrix"].sum()),
+        "hammer": f"{arm_pole.HAMMERED:g}",
+        "hammered": int(arm_pole.hammers(both).sum()),
+        "near_margin": int((both["min_margin"] < NEAR_MARGIN).sum()),
+        "cond": html.number(both["cond_jacobian_max"].median()),
+        "cond_m": html.number(both["cond_jacobian_max_matrix"].median()),
+        "margin": f"{NEAR_MARGIN:g}",
+        "condition": f"{NEAR_CONDITION:g}",
+        "both_ways": arm_advice.same_both_ways(rows),
+        "clear_n": len(beside),
+        "close": int(arm_settling.close(beside).sum()),
+        "close_ms": f"{1e3 * arm_settling.CLOSE_TICKS * float(beside['dt_s'].iloc[0]):g}",
+        "median_ms": f"{1e3 * beside['later_s'].abs().median():.1f}",
+        "possible": f"{possible(standard(run)):.0f}",
+        "possible_clear": f"{possible(arm_rows.of(clear, arm_rows.ON_MATRIX)):.0f}",
+        "possible_clear_f": f"{possible(arm_rows.of(clear, arm_rows.ON_ANGLES)):.0f}",
+        "kinematic": int(counts["kinematic"].sum()),
+        "failures": int(counts[list(arm_causes.COLOURS)].to_numpy().sum()),
+    }
+
+
+def tables(run: Run) -> dict:
+    """The arms and their starts; failures by cause, at the pole, at the wrist, and what torques allow."""
+    rows, counts = arm_rows.episodes(run), arm_causes.tallied(standard(run))
+    causes = (
+        (html.together(arm_causes.key(one)), arm_causes.MEANINGS[one], int(counts[one].sum()))
+        for one in arm_causes.COLOURS
+    )
+    return {
+        "tab_arms": ARMS(map(arm_row, tasks.arm_names())),
+        "sources": "\n".join(f"- `{name}`: {prose(tasks.arm(name).source)}" for name in tasks.arm_names()),
+        "tab_starts": STARTS(start_sets(rows)),
+        "tab_causes": CAUSES(causes),
+        "tab_pole": POLE(at_the_pole(standard(run))),
+        "tab_wrist": WRIST(at_the_wrist(rows)),
+        "tab_possible": within_torques(standard(run)),
+        "by_arm": arm_matrix.by_arm(standard(run)),
+    }
+
+
+def figures(run: Run) -> dict:
+    """Who settles, why others fail, the pole, the free body beside, what turning asks for, the wrist."""
+    return {
+        "arm-matrix": arm_matrix.matrix(standard(run)),
+        "arm-causes": arm_causes.causes(standard(run)),
+        "arm-pole": arm_pole.pole(standard(run)),
+        "arm-settling": arm_settling.later(later(run)),
+        "arm-strain": arm_strain.strain(standard(run)),
+        "arm-wrist": arm_wrist.wrist(arm_rows.episodes(run)),
+    }
+
+
+def possible(rows: pd.DataFrame) -> float:
+    """Share of episodes within the rated torques [%]."""
+    return 100.0 * float((rows["peak_torque_ratio"] <= 1.0).mean())
+
+
+def arm_row(name: str) -> tuple:
+    """An arm: joints, reach, its Jacobian's condition number and the tool's beta at home, torques."""
+    one = tasks.arm(name)
+    model = kinematics(one)
+    beta = round(float(np.degrees(zyx_angles(model.pose(one.home)[1])[1]))) + 0
+    rated = ", ".join(f"{torque:g}" for torque in one.rated)
+    named = html.together(f"`{name}`"), prose(one.title)
+    return *named, one.joints, reach(name), model.condition(one.home), beta, rated
+
+
+@functools.cache
+def reach(name: str) -> float:
+    """Furthest distance of the tool from the second joint's anchor, joints within their ranges [m]."""
+    one = tasks.arm(name)
+    model = mujoco.MjModel.from_xml_string(model_xml(one, 1e-3))
+    data = mujoco.MjData(model)
+    site = model.site("tool").id
+
+    def near(q) -> float:
+        data.qpos[:] = q
+        mujoco.mj_kinematics(model, data)
+        return -float(np.linalg.norm(data.site_xpos[site] - data.xanchor[1]))
+
+    low, high = ranges(one)
+    tried = np.random.default_rng(SEED).uniform(low, high, size=(TRIED, one.joints))
+    best = sorted(tried, key=near)[:POLISHED]
+    bounds = list(zip(low, high, strict=True))
+    return -min(minimize(near, q, method="L-BFGS-B", bounds=bounds).fun for q in best)
+
+
+def ranges(one: Arm) -> tuple[np.ndarray, np.ndarray]:
+    """Joint ranges [rad], one turn where there is none."""
+    return np.clip(one.lower, -np.pi, None), np.clip(one.upper, None, np.pi)
+
+
+def start_sets(rows: pd.DataFrame) -> Iterator[tuple]:
+    """Every set: what its module says of it first, its starts on each arm of the run, its horizon."""
+    for name in arm_rows.SETS:
+        mine = rows[rows["start_set"] == name]
+        tasks.start_set_title(name, arm=True)  # reads the module
+        counts = mine.groupby("arm")["start_id"].nunique()
+        starts = f"{counts.min()}" if counts.nunique() == 1 else f"{counts.min()} to {counts.max()}"
+        summary = prose(first_paragraph(f"tasks.arm_starts.{name.replace('-', '_')}"))
+        horizon = float(mine["horizon_s"].max()) if len(mine) else None
+        yield html.together(f"`{name}`"), summary, starts if len(counts) else "none", horizon
+
+
+def first_paragraph(module: str) -> str:
+    """The summary of a module's docstring."""
+    return " ".join((sys.modules[module].__doc__ or "").partition("\n\n")[0].split())
+
+
+def at_the_pole(rows: pd.DataFrame) -> Iterator[tuple]:
+    """Arm by arm: failures of both, way travelled over the shortest, peak torque of one over the other's."""
+    for arm, own in arm_pole.side_by_side(rows).groupby("arm"):
+        fails = int(own["fails_matrix"].sum()), int(own["fails"].sum()), int(arm_pole.hammers(own).sum())
+        yield arm, len(own), *fails, own.loc[~own["fails"], "path_ratio"].median(), own["harder"].median()
+
+
+def at_the_wrist(rows: pd.DataFrame) -> Iterator[tuple]:
+    """Controller and inverse: starts, share that settles, how far the tool strays, torque over rated."""
+    starts = arm_wrist.of_wrist(rows)
+    for controller in arm_wrist.SHOWN:
+        for name in arm_wrist.inverses(starts):
+            own = arm_rows.of(starts, controller, name)
+            if len(own):
+                strays = 1e3 * own["position_error_m"]
+                named = arm_rows.title(controller), arm_rows.title_of_inverse(name), len(own)
+                measured = strays.median(), strays.quantile(0.95), own["peak_torque_ratio"].median()
+                yield *named, 100.0 * arm_rows.settled(own).mean(), *measured
+
+
+def within_torques(rows: pd.DataFrame) -> html.Markdown:
+    """Share of episodes that stay within the rated torques [%]: a row an arm, a column a start set."""
+    sets = [name for name in arm_rows.SETS if name in set(rows["start_set"])]
+    of_arms = {arm: rows[rows["arm"] == arm] for arm in arm_rows.arms(rows)}
+    lines = [
+        {"Arm": arm, **{name: possible(own[own["start_set"] == name]) for name in sets}, "all": possible(own)}
+        for arm, own in of_arms.items()
+    ]
+    return html.table(pd.DataFrame(lines), dict.fromkeys([*sets, "all"], ".0f"))

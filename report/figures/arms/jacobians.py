@@ -1,0 +1,171 @@
+"""What the page on Jacobians shows: how well J and each J_E are conditioned, and what that does to an arm (3.1)."""
+
+from __future__ import annotations
+
+import math
+
+import pandas as pd
+
+from bench.contenders.registry import known_representations
+from bench.findings.claims.euler_jacobian import WELL_CONDITIONED
+from report.figures.arms import arm_poses, condition_growth, condition_maps, condition_shares, derivations
+from report.figures.kit import html, media
+from report.figures.kit.page import Run, given
+from report.figures.kit.spelling import power
+from report.figures.kit.tables import Table
+
+LOST = 1e12
+"""A condition number beyond which the rest is rounding: what a double holds, less four digits."""
+FIRST_EXAMPLE = {"pose_set": "named", "arm": "puma560", "pose_id": "qn"}
+FILM = (
+    "The same two motions side by side: the Euler Jacobian throws the arm about, the geometric one turns the tool in "
+    "place."
+)
+
+
+def condition(value: float) -> str:
+    """A condition number; one beyond all digits by its power alone."""
+    return html.MISSING if math.isnan(value) else (power(value) if value > LOST else f"{value:.1f}")
+
+
+def largest(value: float) -> str:
+    """The largest of several, which may be ordinary or beyond."""
+    return f"{value:.1f}" if value < 1e4 else power(value)
+
+
+COORDINATES = {name: arm_poses.short_title(name) for name in known_representations()}
+SLOPES = Table({"Coordinates": "", "Ways": "", "Least": ".3f", "Most": ".3f", "Largest at 10⁻⁸": largest})
+
+
+def papers(run: Run, **words: str) -> pd.DataFrame:
+    """Poses seen in the paper's coordinates."""
+    return run.rows("poses", representation=arm_poses.PAPERS, **words)
+
+
+def facts(run: Run) -> dict:
+    """The first example, poses that J_E spoils, how far derivations are apart, and the film."""
+    every = papers(run)
+    return {
+        **(given(papers(run, **FIRST_EXAMPLE), first_example) or {}),
+        **(given(papers(run, pose_set="random"), most_spoilt) or {}),
+        **{name: f"{value:.1f}" for name, value in (given(every, derivations.gaps) or {}).items()},
+        **filmed(run),
+        "joints": given(papers(run, pose_set="slice"), joints),
+        "bad": f"{arm_poses.BAD:g}",
+        "well": f"{WELL_CONDITIONED:g}",
+        "poses": f"{len(every):,}".replace(",", "\u202f"),
+    }
+
+
+def tables(run: Run) -> dict:
+    """Named poses, growth towards the pole, and poses that J_E spoils."""
+    return {
+        "named": given(run.rows("poses", pose_set="named"), conditions),
+        "slopes": given(run.rows("poses", pose_set="pole"), slopes),
+        "spoilt": given(run.rows("poses", pose_set="random"), spoilt),
+    }
+
+
+def figures(run: Run) -> dict:
+    """Maps of two joints, growth towards the pole, two derivations, shares of a workspace, and the film."""
+    return {
+        "condition-maps": given(papers(run, pose_set="slice"), condition_maps.maps),
+        "condition-growth": given(run.rows("poses", pose_set="pole"), condition_growth.growth),
+        "derivations": given(papers(run), derivations.derivations),
+        "condition-shares": given(run.rows("poses", pose_set="random"), condition_shares.shares),
+        "pole-loop": media.loop(FILM),
+    }
+
+
+def first_example(rows: pd.DataFrame) -> dict[str, str]:
+    """The first example in words: beta, cond J, and cond J_E."""
+    at = rows.iloc[0]
+    return {
+        "qn_beta": f"{math.degrees(at['beta']):.0f}°",
+        "qn_J": f"{at['condition']:.1f}",
+        "qn_zyx": condition(float(at["condition_analytic"])),
+    }
+
+
+def most_spoilt(rows: pd.DataFrame) -> dict[str, str]:
+    """Of poses where J is well conditioned, the least and the greatest share that J_E makes bad, by Z-Y-X angles."""
+    fine = rows[rows["condition"] <= WELL_CONDITIONED]
+    by = (fine["condition_analytic"] > arm_poses.BAD).groupby(fine["arm"].astype(str)).mean()
+    least, most = (f"{share:.1%}".replace("%", "\N{NO-BREAK SPACE}%") for share in (by.min(), by.max()))
+    return {"spoilt_least": least, "spoilt_most": most}
+
+
+def joints(rows: pd.DataFrame) -> str:
+    """The joints of each slice and its number of poses, for a caption."""
+    grids = {name: condition_maps.Grid(rows[rows["arm"] == name]) for name in arm_poses.arms(rows)}
+    parts = [f"{arm_poses.title(name)}: joints {own.first} and {own.second}" for name, own in grids.items()]
+    return f"{'; '.join(parts)} ({rows.groupby('arm', observed=True)['pose_id'].nunique().max()} poses each)"
+
+
+def conditions(rows: pd.DataFrame) -> html.Markdown:
+    """A row a named pose: beta, cond J, and cond J_E in every representation."""
+    lines = []
+    for arm in arm_poses.arms(rows):
+        own = rows[rows["arm"] == arm]
+        for pose, at in own.groupby("pose_id", observed=True, sort=False):
+            by = at.set_index(at["representation"].astype(str))["condition_analytic"]
+            beta = round(math.degrees(at["beta"].iloc[0]), 1) + 0.0
+            line = {"Arm": arm_poses.title(arm), "Pose": f"`{pose}`", "β [deg]": beta, "J": at["condition"].iloc[0]}
+            lines.append(line | {title: by[name] for name, title in COORDINATES.items() if name in by})
+    frame = pd.DataFrame(lines)
+    return html.table(frame, dict.fromkeys(frame.columns.drop(["Arm", "Pose"]), condition) | {"β [deg]": ".1f"})
+
+
+def slopes(rows: pd.DataFrame) -> html.Markdown | None:
+    """A row for coordinates: the growth of cond J_E a decade over the first eight, and its largest at 10^-8."""
+    lines = []
+    for name, own in condition_growth.ways(rows).groupby("representation", observed=True):
+        at = own.set_index(["arm", "family", "k"])["condition_analytic"].unstack("k")
+        if {1, 8} <= set(at):
+            growing = (at[8] / at[1]).map(math.log10) / 7.0
+            lines.append((f"`{name}`", len(at), growing.min(), growing.max(), at[8].max()))
+    return SLOPES(sorted(lines, key=lambda line: -line[3]))
+
+
+def spoilt(rows: pd.DataFrame) -> html.Markdown:
+    """A row an arm: poses where J is well conditioned, and of those how many each J_E makes bad."""
+    lines = []
+    for arm in arm_poses.arms(rows):
+        own = rows[rows["arm"] == arm]
+        fine, once = own[own["condition"] <= WELL_CONDITIONED], own["pose_id"].nunique()
+        bad = (fine["condition_analytic"] > arm_poses.BAD).groupby(fine["representation"].astype(str)).mean()
+        line = {"Arm": arm_poses.title(arm), "Poses": once, "J fine [%]": 100 * fine["pose_id"].nunique() / once}
+        lines.append(line | {title: 100 * bad.get(name, math.nan) for name, title in COORDINATES.items()})
+    return html.table(pd.DataFrame(lines), dict.fromkeys(COORDINATES.values(), ".1f") | {"J fine [%]": ".0f"})
+
+
+def filmed(run: Run) -> dict[str, str]:
+    """How far off both controllers of the film are, how much torque they ask for, how long a way they go."""
+    about = media.facts()
+    euler, geometric = about["episodes"]
+    return {
+        "film_arm": arm_poses.title(about["arm"]),
+        "film_ratio": f"{euler['peak_torque_ratio']:.0f}",
+        "film_ratio_geometric": f"{geometric['peak_torque_ratio']:.2f}",
+        "film_path": f"{euler['path_ratio']:.1f}",
+        "film_off": f"{100 * euler['position_error_m']:.0f}",
+        "film_off_geometric": f"{1000 * geometric['position_error_m']:.1f}",
+        "film_miss": miss(about["start"]),
+        **family(run, about),
+    }
+
+
+def miss(start: str) -> str:
+    """How near the pole a start's turn leads: pole-minus-1-k3 misses it by 10^-3 rad."""
+    how = start.rpartition("-")[2]
+    return "through the pole itself" if how == "exact" else f"past the pole at {power(10.0 ** -int(how[1:]))} rad"
+
+
+def family(run: Run, about: dict) -> dict[str, str]:
+    """How many of the arm's starts at the same pole and pose the first controller loses in this run, of how many."""
+    words = {"arm": about["arm"], "start_set": about["start_set"], "variation": "nominal", "engine": "native"}
+    rows = run.rows("episodes", **words)
+    rows = rows[rows["contender"] == about["episodes"][0]["contender"]]
+    alike = rows[rows["start_id"].astype(str).str.startswith(about["start"].rpartition("-")[0])]
+    failed = int((alike["outcome"] != "settled").sum())
+    return {"film_alike": str(len(alike)), "film_lost": str(failed)}

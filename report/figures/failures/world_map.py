@@ -1,0 +1,121 @@
+"""Where each law fails, as a map of the world: a point is where the body's x axis, the column n of R, points.
+
+Longitude is alpha, latitude -beta, in Hammer's projection, which keeps areas: Haar measure on SO(3) is area on this
+map times the turn gamma about n, which the map does not show (n is the base point of Hopf's fibration). The poles of
+the map are the poles of Z-Y-X angles, its rim is alpha = +-pi, and the dashed meridians bound the paper's range.
+"""
+
+import numpy as np
+import pandas as pd
+from matplotlib.lines import Line2D
+from matplotlib.patheffects import withStroke
+
+from report.figures.kit import html, laws, style
+from report.figures.kit.dots import dots
+from report.figures.kit.inline import responsive_picture
+
+DRAWN = 1200
+"""Settled dots a map; every failing start is drawn."""
+
+SETS = ("half-turn", "poles", "wraps", "box")
+"""Directed sets at rest whose goal is zero; tumbling starts and far goals are not points of SO(3) alone."""
+
+HALO = [withStroke(linewidth=2.5, foreground=style.PAPER)]
+FINE = np.linspace(-0.5, 0.5, 61) * np.pi
+
+
+def hammer(longitude, latitude):
+    """Equal-area coordinates of a direction: an ellipse of half axes 2 and 1 (up to sqrt 2)."""
+    root = np.sqrt(1.0 + np.cos(latitude) * np.cos(np.asarray(longitude) / 2.0))
+    return 2.0 * np.cos(latitude) * np.sin(np.asarray(longitude) / 2.0) / root, np.sin(latitude) / root
+
+
+@responsive_picture
+def world(episodes: pd.DataFrame, narrow: bool):
+    """A map a law: settled uniform starts in grey, failing ones by outcome, exact points of the directed sets larger.
+
+    Args:
+        episodes: rows of one engine.
+    """
+    parts = laws.each(episodes[episodes["start_set"].isin(("uniform", *SETS))])
+    figure, places = _places(parts, narrow)
+    said: list[str] = []
+    met: dict[str, Line2D] = {}
+    for axes, (name, title, rows) in zip(places, parts, strict=True):
+        _globe(axes)
+        axes.set_title(title, color=style.look(name).colour)
+        said.append(_starts(axes, title, rows, met))
+        for line in axes.lines:
+            line.set_in_layout(False)  # marks on the rim are not clipped, and must not shrink the map
+    handles = [met[name] for name in style.OUTCOMES if name in met]
+    figure.legend(handles=handles, loc="outside lower center", ncols=3 if narrow else 6, fontsize=9)
+    return figure, (
+        "Maps of the direction of the body's x axis at the start, with longitude alpha and latitude minus beta. "
+        + " ".join(said)
+    )
+
+
+def _places(parts, narrow: bool):
+    """One map below the other on a phone; else the linearized law's, which has most to show, above the others."""
+    if narrow or len(parts) != 3:
+        figure, axes = style.panels(len(parts), 1, height=2.2 * len(parts) + 0.5, narrow=narrow, squeeze=False)
+        return figure, list(axes.flat)
+    figure, ((left, right), (low_left, low_right)) = style.panels(2, 2, height=6.0, height_ratios=(1.75, 1))
+    grid = left.get_gridspec()
+    left.remove()
+    right.remove()
+    return figure, [low_left, figure.add_subplot(grid[0, :]), low_right]
+
+
+def _globe(axes) -> None:
+    axes.set(aspect="equal", xlim=(-2.02, 2.02), ylim=(-1.02, 1.02))
+    axes.axis("off")
+    for edge in (-np.pi, np.pi):
+        axes.plot(*hammer(edge * np.ones_like(FINE), FINE), color=style.MUTED, linewidth=0.8)
+    for half in (-np.pi / 2, np.pi / 2):
+        axes.plot(*hammer(half * np.ones_like(FINE), FINE), color=style.INK, linewidth=0.9, linestyle=style.DASHED)
+    for latitude in (-np.pi / 4, 0.0, np.pi / 4):
+        axes.plot(*hammer(2.0 * FINE, latitude * np.ones_like(FINE)), color=style.GRID, linewidth=0.7, zorder=0)
+    for degrees in (-90, 0, 90):
+        x, y = hammer(np.radians(degrees), 0.0)
+        axes.text(
+            x,
+            y - 0.02,
+            f"{degrees}°".replace("-", "\N{MINUS SIGN}"),
+            ha="center",
+            va="top",
+            fontsize=8.5,
+            zorder=6,
+            path_effects=HALO,
+        )
+
+
+def _starts(axes, title: str, rows: pd.DataFrame, met: dict) -> str:
+    x, y = hammer(rows["alpha0"], -rows["beta0"])
+    rows = rows.assign(x=x, y=y)
+    uniform = rows[rows["start_set"] == "uniform"]
+    good = uniform[uniform["outcome"] == "settled"].head(DRAWN)
+    colour = style.OUTCOMES["settled"][0]
+    dots(axes, good["x"], good["y"], colour, 1.7)
+    (met["settled"],) = axes.plot([], [], ".", color=colour, linestyle="none", label="settled")
+    for outcome, (colour, marker) in style.OUTCOMES.items():
+        failed = rows[(rows["outcome"] == outcome) & (outcome != "settled")]
+        if failed.empty:
+            continue
+        look = {
+            "marker": marker,
+            "color": colour,
+            "linestyle": "none",
+            "clip_on": False,
+            "markeredgewidth": 0.4,
+            "markeredgecolor": style.PAPER,
+        }
+        drawn = failed[failed["start_set"] == "uniform"]
+        axes.plot(drawn["x"], drawn["y"], markersize=3.6, zorder=4, **look)
+        directed = failed[failed["start_set"] != "uniform"].drop_duplicates(["x", "y"])
+        axes.plot(directed["x"], directed["y"], markersize=6, zorder=5, **look)
+        (met[outcome],) = axes.plot([], [], markersize=5.5, label=outcome, **look)
+    bad = int((uniform["outcome"] != "settled").sum())
+    directed = rows[rows["start_set"] != "uniform"]
+    ends = ", ".join(f"{count} {word}" for word, count in directed["outcome"].astype(str).value_counts().items())
+    return f"{title}: {html.number(bad)} of {html.number(len(uniform))} uniform starts fail; directed starts: {ends}."

@@ -1,0 +1,83 @@
+"""What the front page shows: the answer, the paper's three laws in a line each, all verdicts, and the edition."""
+
+import re
+
+import numpy as np
+
+from bench.findings import claims
+from bench.provenance import ROOT
+from bench.tables import read
+from report.figures.answer import answer_said
+from report.figures.claims import claims as judged
+from report.figures.contact import contact_results, contact_said
+from report.figures.failures.failure_map import EXACT_RAD
+from report.figures.kit import html
+from report.figures.kit.page import Run
+from report.figures.kit.rows import FEEDBACK, LINEARIZED, MATRIX, SHORT, lost, of
+from report.figures.kit.share import share
+from report.figures.responses import hero, settling_decades
+
+CALLS = ["sin", "cos", "atan2", "acos"]
+VERSION = re.compile(r"^version:\s*(\S+)", re.MULTILINE)
+SHORT_COMMIT = 10
+"""Digits of a commit that tell it from every other."""
+
+
+def facts(run: Run) -> dict:
+    """The answer, the laws, and which edition this is."""
+    return {
+        "which_law": answer_said.front_page(run.folder),
+        "pegs": contact_said.stuck(contact_results.all_rows()),
+        **of_the_paper(run),
+        **edition(read.provenance()),
+    }
+
+
+def tables(_: Run) -> dict:
+    """Every verdict, and how many there are of each."""
+    every = claims.judge_all()
+    return {"tiles": judged.tiles(every), "verdicts": judged.table(every, "pages/40-claims.html")}
+
+
+def figures(run: Run) -> dict:
+    """The paper's three laws from every angle."""
+    return {"hero": hero.hero(run.rows("episodes", engine="ideal-rk4"))}
+
+
+def of_the_paper(run: Run) -> dict:
+    """The paper's three laws on the continuous plant: what they settle, how fast, and what they cost."""
+    episodes = run.rows("episodes", engine="ideal-rk4")
+    tallies = run.rows("costs", **read.FREE_BODY, branch="typical", stage="total").set_index("contender")
+    half, poles = of(episodes, MATRIX, "half-turn"), of(episodes, FEEDBACK, "poles")
+    on_pole = poles[np.pi / 2.0 - poles["beta0"].abs() < EXACT_RAD]
+    _, exact = settling_decades.near_and_exact(half)
+    values = {
+        "slope": f"{settling_decades.slope(half):.3f}",
+        "stuck": len(lost(exact)),
+        "exact": len(exact),
+        "least": f"{np.degrees(lost(of(episodes, LINEARIZED))['alpha0'].abs().min()):.0f}",
+        "polar": len(lost(on_pole)),
+        "on_pole": len(on_pole),
+    }
+    for letter, name in SHORT.items():
+        rows = of(episodes, name)
+        found = share(len(rows) - len(lost(rows)), len(rows))
+        interval = f"{100 * found.low:.1f} to {100 * found.high:.1f} %"
+        values[f"share_{letter}"] = f"{100 * found.value:.1f} % ({interval}, n = {html.number(found.n)})"
+        values[f"slowest_{letter}"] = f"{rows['settling_time_s'].max():.2f}"
+        values[f"flops_{letter}"] = int(tallies.loc[name, "flops"])
+        values[f"calls_{letter}"] = int(tallies.loc[name, CALLS].sum())
+    return values
+
+
+def edition(provenance: dict) -> dict:
+    """The version of CITATION.cff, and the run that is shown."""
+    found = VERSION.search((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
+    commit = provenance["commit"][:SHORT_COMMIT] or "none"
+    return {
+        "version": found[1] if found else "unknown",
+        "date": provenance["finished"].partition("T")[0],
+        "commit": f"{commit}, with changes" if provenance["dirty"] else commit,
+        "suite": provenance["suite"],
+        "episodes": provenance["episodes"],
+    }

@@ -1,0 +1,140 @@
+"""What the page on method shows: what there is, read from the code, and whether engines agree and steps are fine."""
+
+from __future__ import annotations
+
+import functools
+import inspect
+import re
+from collections.abc import Iterator
+
+import pandas as pd
+
+import bench.engines
+import tasks
+from bench.contenders.registry import known_inverses, known_jacobians
+from bench.counting import RULES as COUNT_RULES
+from bench.law.resolved_motion import Inverse, Jacobian
+from bench.metrics.registry import known_metrics
+from report.figures.kit import html
+from report.figures.kit.page import Run
+from report.figures.kit.rows import titles
+from report.figures.kit.spelling import power, prose
+from report.figures.kit.tables import Table
+from report.figures.method import engines, steps
+from tasks.rules import RULES, Rules
+
+LISTED = re.compile(r"^(\S+)  +(\S.*)$", re.MULTILINE)
+FIELD = re.compile(r"^\s+(\w+): float = ")
+COMMENT = re.compile(r"^\s+# ?(.*)$")
+UNITS = {
+    "floor_rad": "rad",
+    "at_goal_rad": "rad",
+    "hold_s": "s",
+    "command_limit": "rad/s²",
+    "speed_limit": "rad/s",
+    "rest_speed": "rad/s",
+    "rest_command": "rad/s²",
+}
+JUDGES = Table({"Rule": "", "Value": "", "Why": ""})
+METRICS = Table({"Column": "", "Metric": "", "Unit": ""})
+JACOBIANS = Table({"Jacobian": "", "Formula": "", "For": "", "Source": ""})
+INVERSES = Table({"Inverse": "", "Formula": "", "Source": ""})
+STARTS = Table({"Set": "", "What it holds": "", "Starts": "", "Horizon [s]": ""})
+ENGINES = Table({"Engine": "", "What it is": "", "Episodes": ""})
+ALIKE = Table({"Law": "", "n": "", "same outcome": "", "both or neither settle": ""})
+halved = functools.cache(steps.errors)
+
+
+@functools.cache
+def episodes(run: Run) -> pd.DataFrame:
+    """Those of the free body."""
+    return run.rows("episodes", task="free-body")
+
+
+def facts(run: Run) -> dict:
+    """Whether engines agree, how right the step is, and the rules of counting."""
+    both, equal = engines.agreement(episodes(run), "reference", "native")
+    rk4 = halved()[halved()["engine"] == "ideal-rk4"]
+    pole = [row for row in steps.errors_of(*steps.THROUGH_THE_POLE) if row["engine"] == "ideal-rk4"]
+    through = {row["dt_s"]: power(row["error_rad"]) for row in pole}
+    bias = engines.summary(engines.differences(episodes(run)))
+    return {
+        "both": both,
+        "equal": equal,
+        "order": f"{steps.orders(halved())['ideal-rk4'].min():.1f}",
+        "rk4_error": power(float(rk4.loc[rk4["dt_s"] == 1e-3, "error_rad"].max())),
+        "at_s": steps.AT_S,
+        "finest_ms": 1e3 * steps.FINEST_S,
+        "through_coarse": through[1e-3],
+        "through_fine": through[2.5e-4],
+        "most_ms": f"{1e3 * bias.loc[bias['engine'] == 'native', 'mean_s'].max():.1f}",
+        "count_rules": "\n".join(f"1. {prose(rule)}" for rule in COUNT_RULES),
+    }
+
+
+def tables(run: Run) -> dict:
+    """The judge's rules, metrics, Jacobians, inverses, start sets and engines; how alike episodes end."""
+    runs = episodes(run)
+    counts = runs["engine"].value_counts()
+    listed = LISTED.findall(bench.engines.__doc__ or "")
+    named = titles()
+    alike = engines.same_outcome(runs, "native").itertuples(index=False)
+    return {
+        "rules": JUDGES((f"`{name}`", value(name), prose(why)) for name, why in reasons().items()),
+        "metrics": METRICS((f"`{one.column}`", one.title, prose(one.unit)) for one in known_metrics().values()),
+        "jacobians": JACOBIANS(
+            (word(one), lines(one.formula), used(one), prose(one.source)) for one in known_jacobians().values()
+        ),
+        "inverses": INVERSES((word(one), lines(one.formula), prose(one.source)) for one in known_inverses().values()),
+        "starts": STARTS(start_sets(runs)),
+        "tab_engines": ENGINES((f"`{name}`", prose(text), int(counts.get(name, 0)) or None) for name, text in listed),
+        "alike": ALIKE((html.law(name, named.get(name, name)), *rest) for name, *rest in alike),
+    }
+
+
+def figures(run: Run) -> dict:
+    """Error against step; settling time on other engines."""
+    return {"steps": steps.steps(halved()), "engines": engines.engines(engines.differences(episodes(run)))}
+
+
+def start_sets(runs: pd.DataFrame) -> Iterator[tuple]:
+    """Every start set of the judge, and how many starts of it a law met in this run on the continuous plant."""
+    for name in tasks.start_set_names():
+        mine = runs[(runs["start_set"] == name) & (runs["engine"] == "ideal-rk4")]
+        horizon = mine["horizon_s"].max() if len(mine) else None
+        yield f"`{name}`", prose(tasks.start_set_title(name)), mine["start_id"].nunique(), horizon
+
+
+def value(name: str) -> str:
+    """A number of the rules with its unit: in full, or as a power of ten."""
+    found = getattr(RULES, name)
+    text = power(found) if "e" in f"{found:g}" else f"{found:g}"
+    return f"{text}\N{NO-BREAK SPACE}{UNITS.get(name, '')}".strip()
+
+
+def reasons() -> dict[str, str]:
+    """Field of the rules -> the comment above it; a comment that runs on over two fields is split between them."""
+    found: dict[str, str] = {}
+    said: list[str] = []
+    for line in inspect.getsource(Rules).splitlines():
+        if comment := COMMENT.match(line):
+            said.append(comment[1])
+        elif field := FIELD.match(line):
+            found[field[1]] = " ".join(said)
+            said = []
+    return found
+
+
+def word(one: Jacobian | Inverse) -> str:
+    """Its title, and below it its word on the command line."""
+    return f"{one.title}<br>{html.together(f'`{one.name}`')}"
+
+
+def used(one: Jacobian) -> str:
+    """The paper's controller that uses it."""
+    return "(2.2)" if one.takes == "angular-acceleration" else "(3.7)"
+
+
+def lines(formula: str) -> str:
+    """A formula, each of its equations on a line."""
+    return "<br>".join(f"${equation}$" for equation in formula.split(r", \quad "))
