@@ -7,9 +7,9 @@ import numpy as np
 from bench.findings import claims
 from bench.provenance import ROOT
 from bench.tables import read
-from report.figures.answer import answer_said
+from report.figures.answer import which_law
 from report.figures.claims import claims as judged
-from report.figures.contact import contact_results, contact_said
+from report.figures.contact import in_contact
 from report.figures.failures.failure_map import EXACT_RAD
 from report.figures.kit import html
 from report.figures.kit.page import Run
@@ -26,8 +26,8 @@ SHORT_COMMIT = 10
 def facts(run: Run) -> dict:
     """The answer, the laws, and which edition this is."""
     return {
-        "which_law": answer_said.front_page(run.folder),
-        "pegs": contact_said.stuck(contact_results.all_rows()),
+        "which_law": which_law.front_page(run),
+        "pegs": in_contact.stuck(in_contact.all_rows(run)),
         **of_the_paper(run),
         **edition(read.provenance()),
     }

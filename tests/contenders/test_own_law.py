@@ -17,7 +17,7 @@ from bench.experiments.suites import ENGINES
 from bench.metrics.registry import metrics_of
 from bench.provenance import ROOT
 from bench.tables import read, store
-from report.figures.cards import cards
+from report.figures.cards import regulators
 from tasks.base import Start
 from tasks.verdict import CRASHED, SINGULAR
 
@@ -148,7 +148,7 @@ def test_run_keeps_a_law_of_ones_own_and_the_report_shows_it(tmp_path, monkeypat
     monkeypatch.setenv(read.VARIABLE, str(out))
     [own] = read.own_laws()
     assert own.name == "my-law"
-    assert cards.in_order()[-1].name == "my-law"
-    text = cards.source(own)
+    assert regulators.in_order()[-1].name == "my-law"
+    text = regulators.source(own)
     assert "laws/my_law.py" in text
     assert "REGULATOR" in text

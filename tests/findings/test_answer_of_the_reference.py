@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from support.pages import assert_is_whole
 
 from bench.contenders.registry import find_contender
 from bench.experiments import suites
@@ -14,8 +15,9 @@ from bench.findings.selection.best import best
 from bench.findings.selection.measured import measured
 from bench.findings.selection.needs import ANSWER, EVERYWHERE, NEEDS, UNHELD, decide, decisions, has_all
 from bench.tables.schema import RESULTS
-from report.figures.answer import answer_plane, answer_said, answer_tables
+from report.figures.answer import plane, which_law
 from report.figures.kit import families, html
+from report.figures.kit.page import run_in
 
 FOLDER = RESULTS / "reference"
 LAW = "hybrid"
@@ -91,24 +93,22 @@ def test_papers_verdict_has_later_laws_beside_it():
 
 
 def test_three_fronts_are_nested_by_what_they_ask_and_each_gets_dearer_and_faster(found):
-    for least, members in enumerate(answer_plane.fronts(found)):
+    for least, members in enumerate(plane.fronts(found)):
         assert members
-        assert all(answer_plane.coverage(found, law) >= least for law in members)
+        assert all(plane.coverage(found, law) >= least for law in members)
         times = [found.number("time", law) for law in members]
         assert times == sorted(times, reverse=True)
 
 
 def test_page_names_every_law_and_every_need(found, decided):
-    every, needs = answer_tables.every_law(found), answer_tables.decided(decisions(FOLDER))
+    every, needs = which_law.every_law(found), which_law.decided(decisions(FOLDER))
     assert all(f">{html.foreign(families.present([law])[0].laws[law])}<" in every for law in found.laws)
     assert all(words in needs for words in decided)
 
 
-def test_figure_says_what_it_shows(found):
-    drawn = answer_plane.plane(found, 0.58)
-    assert f"{families.word(LAW)} (" in drawn.alt
-    assert drawn.narrow != drawn.wide
+def test_page_is_whole():
+    assert_is_whole(which_law, run_in(FOLDER))
 
 
 def test_front_page_names_the_answer():
-    assert families.word(LAW) in answer_said.front_page(FOLDER)
+    assert families.word(LAW) in which_law.front_page(run_in(FOLDER))

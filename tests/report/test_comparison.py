@@ -2,9 +2,9 @@
 
 import math
 
-import numpy as np
 import pandas as pd
 import pytest
+from support.pages import assert_is_whole
 
 pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
 
@@ -13,16 +13,10 @@ from bench.findings.theory import closed_form, isotropic
 from bench.law.equation import ANGLE, LINEAR_MRP, SINE
 from bench.tables import read
 from bench.tables.schema import RESULTS
-from report.figures.comparison import (
-    comparison_angle,
-    comparison_dead,
-    comparison_peak,
-    comparison_profiles,
-    comparison_rows,
-    comparison_said,
-    comparison_tables,
-)
+from report.figures.comparison import cells, comparison, directed, profiles
+from report.figures.comparison.angle import lateness
 from report.figures.kit import families, style
+from report.figures.kit.page import run_in
 
 GAINS = (100.0, 20.0, 0.02)
 
@@ -32,12 +26,11 @@ def reference(monkeypatch):
     monkeypatch.setenv(read.VARIABLE, str(RESULTS / "reference"))
 
 
+RUN = run_in(RESULTS / "reference")
+
+
 def rows():
-    return comparison_rows.common(read.episodes(engine="ideal-rk4", **read.FREE_BODY))
-
-
-def directed():
-    return comparison_dead.directed(read.episodes(engine="ideal-rk4", **read.FREE_BODY))
+    return comparison.uniform(RUN)
 
 
 def episode(contender, start, outcome="settled", time=1.0, **more):
@@ -52,14 +45,14 @@ def episode(contender, start, outcome="settled", time=1.0, **more):
 
 def test_common_keeps_the_starts_that_every_law_ran():
     made = [episode("square-root", one) for one in "ab"] + [episode("rotation-matrix", one) for one in "abc"]
-    kept = comparison_rows.common(pd.DataFrame(made))
+    kept = cells.common(pd.DataFrame(made))
     assert list(kept["contender"]) == ["rotation-matrix"] * 2 + ["square-root"] * 2
     assert list(kept["start_id"]) == ["a", "b"] * 2
 
 
 def test_costs_of_starts_that_do_not_settle_are_infinite():
     made = [episode("gibbs", "a", "stuck", effort=3.0), episode("gibbs", "b", effort=5.0)]
-    table = comparison_rows.costs(pd.DataFrame(made).astype({"contender": "category"}), "effort")
+    table = cells.costs(pd.DataFrame(made).astype({"contender": "category"}), "effort")
     assert table["gibbs"].tolist() == [math.inf, 5.0]
 
 
@@ -72,19 +65,20 @@ def test_costs_of_starts_that_do_not_settle_are_infinite():
     ],
 )
 def test_axis_is_said_in_words(axis, words):
-    assert comparison_rows.axis_words(pd.Series(axis, ["quat_x", "quat_y", "quat_z"])) == words
+    assert comparison.axis_words(pd.Series(axis, ["quat_x", "quat_y", "quat_z"])) == words
 
 
 def test_worst_start_is_the_nearest_that_fails_and_else_the_slowest():
     made = [episode("gibbs", "a", time=2.0), episode("gibbs", "b", angle0_rad=0.5), episode("gibbs", "c")]
-    assert comparison_tables.worst(pd.DataFrame(made)) == "2.00 s from 57°, near x"
+    assert comparison.worst(pd.DataFrame(made)) == "2.00 s from 57°, near x"
     failing = [episode("gibbs", "d", "stuck", angle0_rad=3.0), episode("gibbs", "e", "stuck", angle0_rad=2.0)]
-    assert comparison_tables.worst(pd.DataFrame(made + failing)) == "fails from 115°, near x"
+    assert comparison.worst(pd.DataFrame(made + failing)) == "fails from 115°, near x"
 
 
 def test_interval_is_left_away_where_it_is_the_number():
-    assert comparison_tables.seconds((0.5, 0.5, 0.5001)) == "0.500"
-    assert "(0.400 to never)" in comparison_tables.seconds((0.5, 0.4, math.inf))
+    write = "{:.3f}".format
+    assert cells.spelled((0.5, 0.5, 0.5001), write) == "0.500"
+    assert "(0.400 to never)" in cells.spelled((0.5, 0.4, math.inf), write)
 
 
 def test_law_of_no_family_comes_last_under_its_own_name():
@@ -95,15 +89,13 @@ def test_law_of_no_family_comes_last_under_its_own_name():
 
 def test_laws_of_one_panel_are_told_apart():
     for family in families.present(one.name for one in all_contenders()):
-        lines = comparison_profiles.lines_of(family)
+        lines = profiles.lines_of(family)
         looks = {(style.look(name).colour, str(line)) for name, line in zip(family.laws, lines, strict=True)}
         assert len(looks) == len(family.laws)
 
 
 def test_labels_are_stacked_from_the_top_without_touching():
-    assert comparison_profiles.stacked([0.3, 1.02, 1.01]) == pytest.approx(
-        [0.3, 1.0, 1.0 - comparison_profiles.LABELLED]
-    )
+    assert profiles.stacked([0.3, 1.02, 1.01]) == pytest.approx([0.3, 1.0, 1.0 - profiles.LABELLED])
 
 
 def test_sine_settles_as_the_closed_form_of_the_rotation_matrix():
@@ -136,33 +128,26 @@ def test_springs_push_alike_near_the_goal(name):
 def test_measured_times_are_within_a_tick_after_the_equations():
     found = rows()
     tick = 1000.0 * float(found["dt_s"].iloc[0])
-    for late in comparison_angle.lateness(found).values():
+    for late in lateness(found).values():
         assert len(late)
         assert late.min() > -1e-3
         assert late.max() < tick + 1e-3
 
 
-def test_comparison_is_drawn_for_page_and_phone_and_said_in_numbers():
-    found = rows()
-    for picture in (
-        comparison_profiles.profiles(found, "settling_time_s", (1, 2), "settling time"),
-        comparison_angle.curves(found),
-    ):
-        assert picture.wide != picture.narrow
-        assert sum(letter.isdigit() for letter in picture.alt) > 10
+def test_page_is_whole():
+    assert_is_whole(comparison, RUN)
 
 
 def test_tables_of_the_comparison_have_a_row_for_each_law():
-    found = rows()
-    laws = found["contender"].nunique()
-    lines = laws + len(families.present(found["contender"].unique())) + 2
-    assert len(comparison_tables.settling(found).splitlines()) == lines
-    assert len(comparison_tables.way(found, read.costs(**read.FREE_BODY)).splitlines()) == lines
-    assert len(comparison_dead.table(directed()).splitlines()) == lines
+    found = comparison.tables(RUN)
+    laws = rows()["contender"].nunique()
+    lines = laws + len(families.present(rows()["contender"].unique())) + 2
+    assert {len(found[key].splitlines()) for key in ("settling", "way", "dead")} == {lines}
+    assert "100.0" in next(line for line in found["at_peak"].splitlines() if "rotation matrix" in line)
 
 
 def test_dead_points_are_where_the_laws_are_known_to_fail():
-    found = directed()
+    found = directed.directed(comparison.ideal(RUN))
     lost = found[found["outcome"] != "settled"].groupby("contender", observed=True)["place"].unique()
     assert set(lost["rotation-matrix"]) == {"half turn", "half turn and pole"}
     assert set(lost["feedback-linearized/zyx-euler"]) == {"pole", "half turn and pole"}
@@ -170,34 +155,20 @@ def test_dead_points_are_where_the_laws_are_known_to_fail():
 
 def test_an_orientation_counts_once_whatever_the_sign_of_its_quaternion():
     turns = pd.DataFrame([(0.6, 0.8, 0.0, 0.0), (-0.6, -0.8, 0.0, 0.0)], columns=[f"quat_{one}" for one in "wxyz"])
-    assert len(comparison_dead.orientation(turns).drop_duplicates()) == 1
+    assert len(directed.orientation(turns).drop_duplicates()) == 1
 
 
 def test_negative_controls_fail_as_they_must():
     found = rows()
     literal, unwinding = (found[found["contender"] == name] for name in families.CONTROLS)
     assert not (literal["outcome"] == "settled").any()
-    assert comparison_said.controls(found)["literal_settled"] == 0
+    assert comparison.of_controls(found)["literal_settled"] == 0
     if len(unwinding):  # not in a run from before it was written
-        is_near = unwinding["angle0_rad"] < 2.0 * math.pi / (1.0 + comparison_rows.DETOUR)
-        assert (unwinding.loc[is_near, "path_ratio"] > comparison_rows.DETOUR).all()
+        is_near = unwinding["angle0_rad"] < 2.0 * math.pi / (1.0 + comparison.DETOUR)
+        assert (unwinding.loc[is_near, "path_ratio"] > comparison.DETOUR).all()
 
 
-def test_facts_of_the_comparison_are_numbers():
-    facts = comparison_said.facts(rows(), directed())
-    assert not any("nan" in str(value) or value is None for value in facts.values())
-    assert np.isfinite(float(facts["fastest_s"]))
-
-
-def test_equal_peak_is_compared_at_gains_that_its_rows_say():
-    found = comparison_peak.rows()
-    if len(found):  # not in a run from before there was the table
-        times = comparison_rows.costs(found, "settling_time_s")
-        assert times.shape == (found["start_id"].nunique(), found["contender"].nunique())
-        assert "100.0" in next(line for line in comparison_peak.table(found).splitlines() if "rotation matrix" in line)
-    assert set(comparison_peak.facts(found)) >= {"peak_fastest", "peak_matrix"}
-
-
-def test_page_says_so_where_there_are_no_rows_at_equal_peak():
-    assert "not in this run" in comparison_peak.table(pd.DataFrame())
-    assert set(comparison_peak.facts(pd.DataFrame()).values()) == {"–"}
+def test_page_says_so_where_there_are_no_rows_at_equal_peak(monkeypatch):
+    monkeypatch.setattr(comparison, "at_peak", lambda run: pd.DataFrame())
+    assert comparison.tables(RUN)["at_peak"] is None
+    assert "peak_fastest" not in comparison.facts(RUN)

@@ -7,7 +7,7 @@ pytest.importorskip("matplotlib", reason="the report extra is not installed (cur
 from support.builds import line
 
 from bench.regression.history import book
-from report.figures.tool import history_chart, history_rows, history_said
+from report.figures.tool import history, performance
 
 
 @pytest.fixture
@@ -16,11 +16,11 @@ def given(monkeypatch):
 
     def of(lines):
         monkeypatch.setattr(book, "read", lambda: lines)
-        history_rows.history.cache_clear()
-        return history_rows.history()
+        history.history.cache_clear()
+        return history.history()
 
     yield of
-    history_rows.history.cache_clear()
+    history.history.cache_clear()
 
 
 def builds(count=4):
@@ -34,11 +34,11 @@ def builds(count=4):
 def test_step_is_marked_and_listed_once_though_two_machines_counted_it(given):
     shown = given(builds())
     assert [(step.series.measure, step.at) for step in shown.steps] == [("operations", 2), ("instructions", 2)]
-    table = history_said.steps(shown)
+    table = performance.STEPS(performance.stepped(shown))
     assert len(table.splitlines()) == 3
     assert "45 → 46" in table
     assert "100 → 101" in table
-    assert "typical flops 45 to 46" in history_chart.chart(shown).alt
+    assert "typical flops 45 to 46" in history.chart(shown).alt
 
 
 def test_every_machine_has_a_line_of_its_own(given):
@@ -46,33 +46,34 @@ def test_every_machine_has_a_line_of_its_own(given):
     assert shown.machines == ("a-2-cores", "b-2-cores")
     assert len(shown.of("law", "my-law", "time")) == 2
     assert len(shown.of("law", "my-law", "operations")) == 1
-    assert history_said.counts(shown)["machines"] == "2 machines"
+    assert performance.facts(None)["machines"] == "2 machines"
 
 
 def test_builds_are_listed_newest_first_with_their_steps(given):
-    rows = history_said.builds(given(builds())).splitlines()[2:]
-    assert [row.rsplit("|", 2)[1].strip() for row in rows] == ["0", "2", "0", "0"]
+    rows = performance.measured(given(builds()))
+    assert [row[-1] for row in rows] == [0, 2, 0, 0]
 
 
 def test_commit_leads_to_the_repository_that_the_citation_names(monkeypatch, tmp_path):
     name = "0123456789" * 4
     (tmp_path / "CITATION.cff").write_text('repository-code: "https://example.org/a/b"\n')
-    monkeypatch.setattr(history_rows, "ROOT", tmp_path)
-    history_rows.repository.cache_clear()
-    assert f'href="https://example.org/a/b/commit/{name}"' in history_rows.commit(name)
+    monkeypatch.setattr(performance, "ROOT", tmp_path)
+    performance.repository.cache_clear()
+    assert f'href="https://example.org/a/b/commit/{name}"' in performance.commit(name)
     (tmp_path / "CITATION.cff").write_text("repository-code: javascript:alert(1)\n")
-    history_rows.repository.cache_clear()
-    assert "href" not in history_rows.commit(name)
-    history_rows.repository.cache_clear()
+    performance.repository.cache_clear()
+    assert "href" not in performance.commit(name)
+    performance.repository.cache_clear()
 
 
 def test_noise_is_of_builds_with_the_same_machine_code(given):
     lines = [line(at, time=time, code=code) for at, (time, code) in enumerate([(2.0, "a"), (2.2, "a"), (9.0, "b")])]
-    assert history_said.noise(given(lines)) == {"same_code": 1, "noise": "10.0\xa0%", "most_noise": "10.0\xa0%"}
-    assert history_said.noise(given(lines[:1]))["same_code"] == 0
+    assert performance.same_code(given(lines)) == [pytest.approx(1.1)]
+    assert performance.facts(None)["noise"] == "10.0\xa0%"
+    given(lines[:1])
+    assert (performance.facts(None)["same_code"], performance.facts(None)["noise"]) == (0, "–")
 
 
-def test_history_without_a_build_says_how_to_begin(given):
-    shown = given([])
-    assert "python -m bench history add" in history_chart.chart(shown).alt
-    assert len(history_said.steps(shown).splitlines()) == 2
+def test_history_without_a_build_has_nothing_to_show(given):
+    given([])
+    assert not any((*performance.tables(None).values(), *performance.figures(None).values()))

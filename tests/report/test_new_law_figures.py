@@ -1,10 +1,10 @@
 """The page of the law that brakes late: its figures and tables say what its scalar equation says."""
 
 import math
-import re
 
 import pandas as pd
 import pytest
+from support.pages import assert_is_whole
 
 pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
 
@@ -13,9 +13,10 @@ from scipy.integrate import quad
 from bench.findings.theory.isotropic import EQUATIONS
 from bench.law.contender import Gains
 from bench.law.equation import ANGLE
-from report.figures.comparison import new_law, new_law_tables
-from report.figures.comparison.comparison_peak import LEVEL
-from report.figures.kit import absent
+from bench.tables.schema import RESULTS
+from report.figures.comparison import a_new_law, new_law
+from report.figures.comparison.cells import LEVEL
+from report.figures.kit.page import run_in
 
 KP, KV = Gains()
 LATE, SLIDING = EQUATIONS["late-braking"], EQUATIONS["sliding"]
@@ -47,22 +48,9 @@ def test_response_of_a_straight_spring_is_the_linear_one_with_its_effort():
     assert effort[-1] == pytest.approx(spent, rel=1e-7)
 
 
-@pytest.mark.parametrize("draw", [new_law.parts, new_law.responses])
-def test_figure_is_drawn_for_page_and_phone_and_said_in_numbers(draw):
-    picture = draw()
-    assert picture.wide != picture.narrow
-    assert len(re.findall(r"\d", picture.alt)) > 1
-
-
-def test_every_variant_that_was_tried_has_its_row():
-    text = new_law_tables.tried()
-    assert all(f"| {what} |" in text for what in new_law_tables.TRIED)
-
-
-def test_page_says_so_where_the_law_did_not_run():
-    rows = pd.DataFrame({"contender": ["hybrid"]})
-    assert absent.WORDS in new_law_tables.measured(rows, pd.DataFrame())
-    counted = pd.DataFrame({"contender": ["hybrid"], "branch": ["typical"], "stage": ["total"], "flops": [9]})
-    found = new_law_tables.counts(counted)
-    assert found["flops_hybrid"] == 9
-    assert not isinstance(found["flops"], int)
+def test_page_is_whole_and_says_so_where_the_law_did_not_run(monkeypatch):
+    run = run_in(RESULTS / "reference")
+    assert_is_whole(a_new_law, run)
+    assert all(f"| {what} |" in a_new_law.tables(run)["tried"] for what in a_new_law.TRIED)
+    monkeypatch.setattr(a_new_law, "uniform", lambda run: pd.DataFrame({"contender": ["hybrid"]}))
+    assert a_new_law.measured(run) is None

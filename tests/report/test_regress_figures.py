@@ -5,13 +5,13 @@ import pytest
 
 from bench.studies.gates import faults, same_code
 from bench.studies.gates.load import MOST
-from report.figures.tool import regress_noise, regress_power, regress_rows, regress_said, regress_tables
+from report.figures.tool import regressions
 
 
 def test_study_if_it_was_run_has_all_its_comparisons_and_no_false_alarm():
-    if not regress_rows.part("same_code"):
+    if not regressions.part("same_code"):
         pytest.skip("results/regress/same_code.json is not there: make regress-study")
-    verdicts = regress_rows.verdicts()
+    verdicts = regressions.verdicts()
     assert verdicts["comparison"].nunique() == same_code.COMPARISONS == 50
     assert len(verdicts) == verdicts["comparison"].nunique() * verdicts["benchmark"].nunique()
     assert verdicts["neighbours"].between(0, sum(MOST.values())).all()
@@ -19,7 +19,7 @@ def test_study_if_it_was_run_has_all_its_comparisons_and_no_false_alarm():
 
 
 def test_every_planted_fault_is_caught_and_named_and_nothing_else_is():
-    nothing, *planted = regress_rows.part("faults")
+    nothing, *planted = regressions.part("faults")
     assert (nothing["caught"], nothing["law"]) == (False, "")
     assert len(planted) == len(faults.behaviour()) + 1
     assert all(one["caught"] and one["named"] and not one["others_blamed"] for one in planted)
@@ -49,29 +49,32 @@ STEPS = pd.DataFrame(
 
 
 def test_sentences_count_doubts_and_alarms():
-    said = regress_said.noise(MADE, pd.Series([-2e-6, 1e-6]))
+    said = regressions.noise(MADE, pd.Series([-2e-6, 1e-6]))
     assert "By p alone 2 comparisons would have rung" in said
     assert "both conditions held for 2 benchmarks in 2 of them, and the second run confirmed 1" in said
     assert "2 pairs, differed by 2·10⁻⁶ at most" in said
-    assert "2 times on a busy machine: 1 false alarms" in regress_said.lead(MADE, [])
+    assert "2 times on a busy machine: 1 false alarms" in regressions.lead(MADE, [])
 
 
 def test_sentences_say_what_a_tenth_looks_like():
-    said = regress_said.found(STEPS)
+    said = regressions.found(STEPS)
     assert "9 % slower is found in 50 % of single runs and in 25 % of pairs of runs; it has 2.0 % more" in said
     assert "Time is sure from 20 % on. Instructions tell from 9 % on." in said
 
 
-def test_figures_say_in_words_what_they_show_or_that_there_is_nothing():
-    assert "1 in the second too" in regress_noise.ratios(MADE).alt
-    assert regress_power.found(STEPS).alt.count("slower: found in") == len(STEPS)
-    nothing = pd.DataFrame()
-    words = (regress_noise.ratios(nothing).alt, regress_power.found(nothing).alt, regress_said.found(nothing))
-    assert all("make regress-study" in one for one in words)
+def test_figures_say_in_words_what_they_show():
+    assert "1 in the second too" in regressions.ratios(MADE).alt
+    assert regressions.shares(STEPS).alt.count("slower: found in") == len(STEPS)
+
+
+def test_page_without_a_study_has_only_the_numbers_of_the_rule(monkeypatch):
+    monkeypatch.setattr(regressions, "part", lambda name: [])
+    assert {key for key, value in regressions.facts(None).items() if value is None} == {"lead", "noise", "found"}
+    assert not any((*regressions.tables(None).values(), *regressions.figures(None).values()))
 
 
 def test_table_escapes_the_words_of_findings():
     rows = [{"fault": "one", "law": "a", "gates": ["exact"], "says": ["a: 1 -> 2 | <b>"]}]
-    table = regress_tables.faults(rows)
+    table = regressions.FAULTS(map(regressions.fault, rows))
     assert "<b>" not in table
     assert table.count("|") == 3 * 5

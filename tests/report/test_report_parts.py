@@ -10,7 +10,7 @@ import pytest
 from bench.contenders.registry import known_regulators
 from bench.tables import read
 from bench.tables.schema import RESULTS
-from report.figures.cards import cards
+from report.figures.cards import regulators
 from report.figures.cost import cost, operations, plane, times
 from report.figures.kit import laws, spelling
 from report.figures.kit.page import run_in
@@ -54,7 +54,7 @@ def test_each_pole_determines_its_own_combination():
 
 
 def test_every_regulator_has_a_card_with_its_source():
-    page = cards.cards()
+    page = regulators.figures(run_in(read.folder()))["cards"]
     for regulator in known_regulators().values():
         assert f"bench/contenders/regulators/{regulator.name.replace('-', '_')}.py" in page
 

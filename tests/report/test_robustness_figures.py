@@ -1,12 +1,11 @@
-"""Closed forms of the pages on trouble, against what they solve; the pages' figures and numbers, from a small run."""
+"""Closed forms of the pages on robustness, against what they solve; the pages themselves, from a small run."""
 
 import cmath
-import functools
 import math
-import re
 
 import numpy as np
 import pytest
+from support.pages import Nothing, assert_is_whole
 
 pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
 
@@ -17,17 +16,21 @@ from bench.findings.theory import closed_form, isotropic, robustness_theory
 from bench.law.equation import Equation
 from bench.running import run
 from bench.tables import read
-from report.figures.kit import absent, style
+from report.figures.kit.page import run_in
 from report.figures.robustness import (
-    robustness_bundle,
-    robustness_half_turn,
-    robustness_levels,
-    robustness_loops,
-    robustness_margins,
-    robustness_reach,
-    robustness_rows,
-    robustness_said,
-    robustness_tables,
+    control_rate,
+    delay,
+    half_turn_noise,
+    inertia,
+    loops,
+    moving_goals,
+    noise,
+    reach,
+    robustness,
+    rows,
+    saturation,
+    spin,
+    tables,
 )
 from tasks.condition import RATE, RATE_AND_ACCELERATION, UNTOLD
 from tasks.rules import RULES
@@ -126,134 +129,79 @@ def test_noise_holds_a_law_of_constant_force_if_it_is_more_than_two_ticks_of_it(
 
 
 def test_law_whose_command_vanishes_at_the_half_turn_is_held_by_any_noise():
-    assert robustness_half_turn.least("rotation-matrix", KP, KV) == 0.0
+    assert half_turn_noise.least("rotation-matrix", KP, KV) == 0.0
 
 
 def test_memory_ends_where_its_hysteresis_does():
     # eta = cos(theta/2) at -delta; the trace at 0; |sigma| = tan(theta/4) at sqrt(switch)
-    assert math.cos((math.pi + robustness_half_turn.KEEPS["hybrid"]) / 2.0) == pytest.approx(-0.4)
-    assert 1.0 + 2.0 * math.cos(math.pi + robustness_half_turn.KEEPS["late-braking"]) == pytest.approx(0.0)
-    assert math.tan((math.pi + robustness_half_turn.KEEPS["mrp-linearized"]) / 4.0) ** 2 == pytest.approx(1.5)
+    assert math.cos((math.pi + half_turn_noise.KEEPS["hybrid"]) / 2.0) == pytest.approx(-0.4)
+    assert 1.0 + 2.0 * math.cos(math.pi + half_turn_noise.KEEPS["late-braking"]) == pytest.approx(0.0)
+    assert math.tan((math.pi + half_turn_noise.KEEPS["mrp-linearized"]) / 4.0) ** 2 == pytest.approx(1.5)
 
 
 def test_stiffness_near_the_goal_is_one_for_every_law():
     for law in isotropic.EQUATIONS:
-        assert robustness_margins.stiffness(law, 1e-3) == pytest.approx(1.0, abs=1e-5)
+        assert delay.stiffness(law, 1e-3) == pytest.approx(1.0, abs=1e-5)
 
 
 # ---------------------------------------------------------------------------------------------- pages, from a small run
 
-
-@functools.cache
-def along(name):
-    return robustness_rows.along(name)
-
-
-def loops(name):
-    return robustness_levels.levels(
-        along(name), name, robustness_levels.TIME, robustness_loops.theory(along(name), name)
-    )
-
-
-def swaying():
-    strands = [
-        robustness_bundle.Strand(name, along(name), robustness_said.sway_theory(along(name), name))
-        for name in robustness_said.MOVING
-    ]
-    return robustness_bundle.bundle(strands)
-
-
-FIGURES = {
-    "overview": lambda: robustness_reach.overview(robustness_reach.reaches()),
-    "delay": lambda: loops("delay"),
-    "inertia": lambda: loops("inertia"),
-    "half-turn": lambda: robustness_half_turn.strips(along("half-turn-noise")),
-    "moving-goals": swaying,
-}
-FACTS = {
-    "overview": lambda: robustness_said.overview(along("delay"), robustness_reach.reaches()),
-    "control-rate": lambda: robustness_loops.loop(along("control-rate"), "control-rate"),
-    "delay": lambda: robustness_loops.loop(along("delay"), "delay"),
-    "noise": lambda: robustness_said.noise(along("attitude-noise"), along("rate-noise")),
-    "half-turn": lambda: robustness_said.half_turn(along("half-turn-noise")),
-    "saturation": lambda: robustness_said.saturation(robustness_said.over_least(along("saturation")), along("delay")),
-    "inertia": lambda: robustness_loops.inertia(along("inertia"), along("uneven-inertia")),
-    "spin": lambda: robustness_said.spin(robustness_said.turned(along("spin"))),
-    "moving": lambda: robustness_said.moving(*(along(name) for name in robustness_said.MOVING)),
-}
+PAGES = (robustness, control_rate, delay, noise, half_turn_noise, saturation, inertia, spin, moving_goals)
 
 
 @pytest.fixture(scope="module", autouse=True)
 def small_run(tmp_path_factory):
-    """A folder of results with two starts a level of five laws, which `read` reads while this module runs."""
-    choice = Choice(axes=tuple(robustness_reach.PAGES))
+    """Results with two starts a level of five laws; the pages read those of this module's folder."""
+    choice = Choice(axes=tuple(robustness.PAGES))
     made = plan.make("quick", [find_contender(law) for law in LAWS], choice, count=STARTS)
     folder = tmp_path_factory.mktemp("robustness") / "run"
     run.run(made, folder)
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv(read.VARIABLE, str(folder))
-        yield folder
+        yield run_in(folder)
 
 
-@functools.cache
-def drawn(name):
-    return FIGURES[name]()
+@pytest.fixture
+def along(small_run):
+    return lambda name: rows.along(small_run, name)
 
 
-@pytest.mark.parametrize("name", FIGURES)
-def test_figure_says_its_numbers_and_is_drawn_for_a_phone_too(name):
-    assert len(re.findall(r"\d", drawn(name).alt)) > 5
-    assert drawn(name).narrow not in ("", drawn(name).wide)
+@pytest.mark.parametrize("page", PAGES, ids=lambda one: one.__name__.rpartition(".")[2])
+def test_page_is_whole_and_says_so_if_the_run_was_not_perturbed(page, small_run):
+    assert_is_whole(page, small_run)
+    assert not page.facts(Nothing())
+    others = {**page.tables(Nothing()), **page.figures(Nothing())}
+    assert {key for key, value in others.items() if value is not None} <= {"tab_axes"}
 
 
-@pytest.mark.parametrize("name", FIGURES)
-def test_figure_uses_colours_of_the_palette_only(name):
-    twins = {colour.lower() for pair in style.TWINS.items() for colour in pair}
-    for svg in (drawn(name).wide, drawn(name).narrow):
-        assert {colour.lower() for colour in re.findall(r"#[0-9a-fA-F]{6}\b", svg)} <= twins
-
-
-@pytest.mark.parametrize("name", FACTS)
-def test_every_page_finds_its_numbers(name):
-    values = FACTS[name]()
-    assert all("nan" not in str(value) and absent.WORDS not in str(value) for value in values.values()), values
-
-
-@pytest.mark.parametrize("name", FACTS)
-def test_page_says_so_for_every_number_when_a_run_was_in_no_trouble(name, monkeypatch):
-    found = FACTS[name]()
-    monkeypatch.setitem(globals(), "along", lambda _: robustness_rows.along("delay").iloc[:0])
-    assert FACTS[name]() == dict.fromkeys(found, absent.WORDS)
-
-
-def test_tables_have_a_column_for_each_level_and_a_line_for_each_law():
-    lines = robustness_tables.levels(along("delay"), "delay").splitlines()
-    assert lines[0].count("|") == 2 + len(robustness_rows.levels(along("delay")))
+def test_tables_have_a_column_for_each_level_and_a_line_for_each_law(along):
+    lines = tables.by_level(along("delay"), "delay").splitlines()
+    assert lines[0].count("|") == 2 + len(rows.levels(along("delay")))
     assert sum("03-regulators.html#" in line for line in lines) == len(LAWS)
 
 
-def test_rotation_vector_is_the_linear_loop_from_rest_at_every_level_and_angle():
+def test_rotation_vector_is_the_linear_loop_from_rest_at_every_level_and_angle(along):
     for name in ("control-rate", "delay", "inertia"):
-        assert robustness_loops.farthest_ms(along(name), name) == pytest.approx(0.0, abs=1e-6)
+        assert loops.farthest_ms(along(name), name) == pytest.approx(0.0, abs=1e-6)
 
 
-def test_no_law_settles_sooner_than_the_bound_on_its_command_allows():
-    assert robustness_said.over_least(along("saturation"))["over_least"].min() >= 1.0
+def test_no_law_settles_sooner_than_the_bound_on_its_command_allows(small_run):
+    assert saturation.bounded(small_run)["over_least"].min() >= 1.0
 
 
-def test_theory_says_which_laws_the_worst_noise_holds_at_the_half_turn():
-    found = robustness_half_turn.facts(along("half-turn-noise"))
+def test_theory_says_which_laws_the_worst_noise_holds_at_the_half_turn(small_run):
+    found = half_turn_noise.facts(small_run)
     assert found["agree"] == found["told"] > 0
 
 
-def test_paielli_bach_loses_only_starts_that_its_blindness_explains():
+def test_paielli_bach_loses_only_starts_that_its_blindness_explains(along):
     for name in ("control-rate", "delay"):
-        assert robustness_margins.is_within(along(name), name)
+        assert loops.is_within(along(name), name)
 
 
-def test_law_gives_way_at_the_first_level_that_costs_it_starts():
-    walk = next(one for one in robustness_reach.WALKS if one.axis == "half-turn-noise")
-    held = robustness_reach.reach(along(walk.axis), "quaternion-shortest", walk)
+def test_law_gives_way_at_the_first_level_that_costs_it_starts(along):
+    walk = next(one for one in reach.WALKS if one.axis == "half-turn-noise")
+    held = reach.reach(along(walk.axis), "quaternion-shortest", walk)
     assert held.level == 0.001
-    assert robustness_reach.reach(along(walk.axis), "hybrid", walk).level == 1.0
-    assert robustness_reach.reach(along(walk.axis), "paielli-bach", walk).fails
+    assert reach.reach(along(walk.axis), "hybrid", walk).level == 1.0
+    assert reach.reach(along(walk.axis), "paielli-bach", walk).fails

@@ -6,7 +6,7 @@ pytest.importorskip("matplotlib", reason="the report extra is not installed (cur
 
 from studies.kill_study import KILLS, LAWS, LEFT_KB, SHARES
 
-from report.figures.tool import survival, survival_moments
+from report.figures.tool import survival
 
 
 def kill(what="threads", by="threads", units=0, tables=0, same=True):
@@ -71,7 +71,7 @@ def test_full_disks_and_broken_laws_of_the_study_cost_nothing_else(committed):
 
 
 def test_kills_are_counted_by_how_far_the_run_had_come():
-    rows = cells(survival.kills(MADE))
+    rows = cells(survival.KILLS(survival.kills(MADE)))
     assert [row[2:] for row in rows] == [
         ["4", "1", "1", "2", "4", "3"],
         ["1", "0", "0", "1", "1", "1"],
@@ -83,21 +83,21 @@ def test_kills_are_counted_by_how_far_the_run_had_come():
 
 
 def test_disks_and_laws_that_spoiled_something_say_so():
-    assert [(row[1], row[-1]) for row in cells(survival.disks(MADE))] == [
+    assert [(row[1], row[-1]) for row in cells(survival.DISKS(survival.disks(MADE)))] == [
         ("rows of a unit", "same files"),
         ("<code>episodes.parquet</code>", "other files"),
     ]
-    assert cells(survival.laws(MADE)) == [["never returns", "compiled", "3 hung, 1 settled", "changed"]]
+    assert cells(survival.LAWS(survival.laws(MADE))) == [["never returns", "compiled", "3 hung, 1 settled", "changed"]]
 
 
 def test_words_and_figure_say_what_was_found():
-    assert "within 0.2 s" in survival.said(MADE)
-    assert "a run on threads: 4 kills, 1 of them" in survival_moments.moments(MADE).alt
+    assert "within 0.2 s" in survival.about(MADE)
+    assert "a run on threads: 4 kills, 1 of them" in survival.moments(MADE).alt
 
 
-def test_page_without_a_study_says_how_to_run_it(monkeypatch, tmp_path):
+def test_page_without_a_study_has_nothing_to_say(monkeypatch, tmp_path):
     monkeypatch.setattr(survival, "FILE", tmp_path / "none.json")
-    nothing = survival.study()
-    parts = (survival.lead, survival.said, survival.kills, survival.disks, survival.laws)
-    assert all("make kill-study" in part(nothing) for part in parts)
-    assert "make kill-study" in survival_moments.moments(nothing).alt
+    survival.study.cache_clear()
+    parts = [part(None) for part in (survival.facts, survival.tables, survival.figures)]
+    survival.study.cache_clear()
+    assert not any(value for part in parts for value in part.values())

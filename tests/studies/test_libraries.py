@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation as ScipyRotation
 from support.bits import EPS
+from support.pages import assert_is_whole
 
 from bench.studies.libraries import turns
 from bench.studies.libraries.__main__ import FOLDER, rows
@@ -15,7 +16,7 @@ from bench.studies.libraries.found import find, version_of
 from bench.studies.libraries.judge import KINDS, judge
 from bench.studies.libraries.library import MATRIX, QUATERNION, Function, Library
 from bench.tables.store import read, read_json
-from report.figures.libraries import libraries_digits, libraries_rows, libraries_said, libraries_tables
+from report.figures.libraries import answers, libraries
 
 SOME = turns.drawn()._replace(turns=turns.drawn().turns[:50])
 HALF_TURNS = turns.half_turns()
@@ -168,7 +169,7 @@ def test_committed_answers_say_of_which_version_they_are():
 def line(call, takes=MATRIX, form="rotation-vector"):
     """A function of numpy's, as the page has it."""
     library = Library("numpy", "numpy", (Function("f", takes, form, call),))
-    (found,) = libraries_rows.functions(rows(library, FEW)).to_dict("records")
+    (found,) = answers.functions(rows(library, FEW)).to_dict("records")
     return found
 
 
@@ -197,27 +198,21 @@ def test_page_says_what_is_wrong_with_a_function(call, form, said):
 
 def test_page_says_that_the_negative_quaternion_is_answered_otherwise():
     found = line(lambda quat_wxyz: 2.0 * quat_wxyz[1:], QUATERNION, "sine-of-half")
-    assert found["objections"] == {libraries_rows.SHEET: "the long way round for −q"}
+    assert found["objections"] == {answers.SHEET: "the long way round for −q"}
 
 
 def test_page_names_the_functions_that_the_committed_answers_condemn():
-    lines = libraries_rows.functions(libraries_rows.table()).set_index(["library", "function"])["objections"]
-    assert set(lines["mink", "SO3.log (Python)"]) == {libraries_rows.NOUGHT}
+    lines = answers.functions(answers.table()).set_index(["library", "function"])["objections"]
+    assert set(lines["mink", "SO3.log (Python)"]) == {answers.ZERO}
     assert lines["mink", "se3_log (compiled)"] == {}
     for sine in (("robosuite", "orientation_error"), ("spatialmath", "base.tr2delta"), ("mujoco", "weld, pull")):
-        assert set(lines[sine]) == {libraries_rows.NOUGHT}
-    assert set(lines["dm_control", 'rmat_to_euler("ZYX")']) == {libraries_rows.DIGITS}
+        assert set(lines[sine]) == {answers.ZERO}
+    assert set(lines["dm_control", 'rmat_to_euler("ZYX")']) == {answers.DIGITS}
     assert lines["scipy", "as_rotvec, of a matrix"] == lines["orientation-bench", "rotation-vector"] == {}
 
 
-def test_every_number_of_the_page_is_said_and_drawn():
-    table = libraries_rows.table()
-    lines = libraries_rows.functions(table)
-    said = libraries_said.said(table, lines)
-    assert said["right"] + len(libraries_tables.faulty(lines)) - 1 == said["functions"]  # one of ours is faulty
-    assert all("nan" not in str(value) for value in said.values())
-    for draw in (libraries_tables.to_use, libraries_tables.faults, libraries_tables.errors, libraries_tables.angles):
-        assert "nan" not in draw(lines)
-    picture = libraries_digits.digits(table)
-    assert "mink SO3.log" in picture.alt
-    assert picture.narrow != picture.wide
+def test_page_is_whole_and_faulty_functions_are_counted():
+    assert_is_whole(libraries, None)
+    found = libraries.facts(None)
+    assert found["right"] + len(libraries.faulty(libraries.lines())) - 1 == found["functions"]  # one of ours is faulty
+    assert "mink SO3.log" in libraries.figures(None)["libraries-digits"].alt

@@ -9,7 +9,7 @@ from bench.studies import scale
 
 pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
 
-from report.figures.tool import clusters_rows, clusters_said, clusters_tables
+from report.figures.tool import clusters
 
 EACH_US = {10**3: 240.0, 10**4: 200.0, 10**5: 210.0, 10**6: 218.0}
 
@@ -48,32 +48,28 @@ def found():
     }
 
 
-def sizes_and_schedulers(found):
-    return clusters_rows.sizes(found), clusters_rows.schedulers(found)
-
-
 def test_committed_study_has_the_same_rows_whoever_made_them():
-    study = clusters_rows.study()
+    study = clusters.study()
     if not study:
         pytest.skip("results/scale/scale.json is not there: make scale-study")
     assert [one["scheduler"] for one in study["schedulers"]] == list(scale.SCHEDULERS)
     assert {one["episodes"] for one in study["sizes"]} == set(scale.ORDER)
-    assert clusters_rows.rows_are_same(study)
-    assert clusters_rows.tables_apart(study) == []
+    assert clusters.rows_are_same(study)
+    assert clusters.tables_apart(study) == []
     assert (study["killed"]["killed"], len(study["killed"]["tables"])) == (1, 3)
-    text = clusters_rows.FILE.read_text()
+    text = clusters.FILE.read_text()
     assert "tcp://" not in text
     assert str(scale.ROOT) not in text
 
 
 def test_page_says_that_what_was_asked_for_is_met(found):
-    sizes, _ = sizes_and_schedulers(found)
-    cost = clusters_said.cost(found, sizes)
+    text = clusters.text(found)
+    cost = text["cost"]
     assert "an episode costs 218 µs, in one of 10⁴ 200 µs: +9 %, within" in cost
     assert "3 runs of 10⁴, before the largest and after it, lie between 180 and 220 µs" in cost
-    assert "50 bytes for each episode more" in clusters_said.memory(sizes)
-    assert "Memory is flat" in clusters_said.memory(sizes)
-    assert "All 2 tables have the same bytes." in clusters_said.same(found)
+    assert "50 bytes for each episode more" in text["memory"]
+    assert "Memory is flat" in text["memory"]
+    assert "All 2 tables have the same bytes." in text["same"]
 
 
 def test_page_says_that_what_was_asked_for_is_not_met(found):
@@ -84,50 +80,38 @@ def test_page_says_that_what_was_asked_for_is_not_met(found):
             one["peak_bytes"] *= 1.25
     worse["killed"]["tables"]["local:2"]["traces.parquet"] = "c"
     worse["schedulers"][2]["rows"] = "other"
-    sizes, _ = sizes_and_schedulers(worse)
-    assert "**not** within a tenth" in clusters_said.cost(worse, sizes)
-    assert "Memory is **not** flat" in clusters_said.memory(sizes)
-    assert "These tables differ: traces.parquet. Of the runs below, some" in clusters_said.same(worse)
+    text = clusters.text(worse)
+    assert "**not** within a tenth" in text["cost"]
+    assert "Memory is **not** flat" in text["memory"]
+    assert "These tables differ: traces.parquet. Of the runs below, some" in text["same"]
 
 
 def test_efficiency_is_one_thread_s_time_over_that_of_all_processes(found):
-    schedulers = clusters_rows.schedulers(found)
+    schedulers = clusters.schedulers(found)
     assert schedulers["by_wall"].tolist() == pytest.approx([1.0, 0.8, 0.8])
     assert schedulers["by_cpu"].tolist() == pytest.approx([1.0, 0.8, 0.8])
-    said = clusters_said.efficiency(schedulers)
+    said = clusters.text(found)["efficiency"]
     assert "80 % with one process and 80 % with two. Other programs took 0.02 cores at most meanwhile." in said
     assert "25 µs are the client's" in said
     assert "some 9 processes busy" in said
 
 
 def test_study_of_very_many_is_computed_from_the_largest_run_and_two_processes(found):
-    said = clusters_said.study(*sizes_and_schedulers(found))
+    said = clusters.text(found)["study"]
     hours = 1e9 * 218e-6 / 0.8 / 3600
     assert f"10⁹ episodes take {hours:.0f} core-hours: {60 * hours / 1000:.0f} minutes" in said
     assert "Rows take 230 GB" in said
     assert "In MuJoCo an episode costs some 10 times as much" in said
-    assert f"{hours:.0f} core-hours" in clusters_said.lead(*sizes_and_schedulers(found))
+    assert f"{hours:.0f} core-hours" in clusters.text(found)["lead"]
 
 
 def test_tables_have_a_row_for_every_size_and_scheduler(found):
-    sizes, schedulers = sizes_and_schedulers(found)
-    assert len(clusters_tables.sizes(sizes).splitlines()) == 2 + len(EACH_US)
-    assert len(clusters_tables.schedulers(schedulers).splitlines()) == 2 + len(scale.SCHEDULERS)
+    assert len(clusters.by_size(found).splitlines()) == 2 + len(EACH_US)
+    assert len(clusters.by_scheduler(found).splitlines()) == 2 + len(scale.SCHEDULERS)
 
 
-def test_page_says_what_was_not_run():
-    sizes, schedulers = sizes_and_schedulers({})
-    said = (
-        clusters_said.lead(sizes, schedulers),
-        clusters_said.same({}),
-        clusters_said.cost({}, sizes),
-        clusters_said.memory(sizes),
-        clusters_said.efficiency(schedulers),
-        clusters_said.study(sizes, schedulers),
-        clusters_tables.sizes(sizes),
-        clusters_tables.schedulers(schedulers),
-    )
-    assert all("make scale-study" in one for one in said)
+def test_page_says_nothing_of_what_was_not_run():
+    assert (clusters.text({}), clusters.by_size({}), clusters.by_scheduler({})) == ({}, None, None)
 
 
 def test_every_process_begins_before_it_is_measured():

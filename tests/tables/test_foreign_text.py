@@ -17,7 +17,7 @@ from bench.contenders.registry import contenders_of
 from bench.law.contender import Regulator
 from bench.tables import read
 from bench.tables.schema import RESULTS
-from report.figures.cards import cards
+from report.figures.cards import regulators
 from report.figures.kit import html
 from report.figures.kit.page import run_in
 from report.figures.method import provenance as origin
@@ -88,14 +88,16 @@ def test_foreign_text_in_a_table_reads_as_it_is_and_nothing_is_live(text):
 
 def nasty(text: str) -> Regulator:
     """One of our laws under another's words."""
-    [mrp] = [one for one in cards.in_order() if one.name == "mrp"]
+    [mrp] = [one for one in regulators.in_order() if one.name == "mrp"]
     return mrp._replace(title=text, source=text, property=text)
 
 
 @pytest.mark.parametrize("text", PAYLOADS)
 def test_card_of_a_law_shows_its_words_and_takes_none_for_its_own(text):
     regulator = nasty(text)
-    shown, usual = (Tags(cards.card(contenders_of(one)[0])) for one in (regulator, nasty("word")))
+    shown, usual = (
+        Tags(regulators.card(contenders_of(one)[0], run_in(read.folder()))) for one in (regulator, nasty("word"))
+    )
     assert shown.found == usual.found
     assert as_read(text) in as_read(shown.text)
     assert "$$" not in shown.text

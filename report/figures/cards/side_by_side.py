@@ -5,6 +5,7 @@ Without a script there stand one pair as a figure, and how every law ends from e
 
 from __future__ import annotations
 
+import functools
 import html as markup
 import itertools
 import json
@@ -14,9 +15,11 @@ import numpy as np
 import pandas as pd
 
 from bench.experiments.traces import EVERY_S, LONGEST_S
-from report.figures.cards.side_by_side_data import Start, data, degrees, starts, word
+from bench.tables import read
+from report.figures.cards.side_by_side_data import Start, data, degrees, shown, starts, word
 from report.figures.kit import families, html, style
 from report.figures.kit.inline import responsive_picture
+from report.figures.kit.page import Run, given
 from tasks.rules import RULES
 
 OPENING = {"a": "rotation-matrix", "b": "feedback-linearized/zyx-euler", "start": "figure-2.5"}
@@ -34,6 +37,18 @@ PRESETS = (
 
 LINES = {"a": style.SOLID, "b": style.DASHED}
 WORDS = {"timed-out": "never"}
+
+
+@functools.cache
+def followed(run: Run) -> pd.DataFrame:
+    """Traces of every law from every telling start."""
+    return shown(run.rows("traces", task="free-body"))
+
+
+@functools.cache
+def ideal(run: Run) -> pd.DataFrame:
+    """Episodes on the continuous plant."""
+    return run.rows("episodes", engine="ideal-rk4", task="free-body")
 
 
 def page(rows: pd.DataFrame, episodes: pd.DataFrame, costs: pd.DataFrame) -> html.Html:
@@ -121,8 +136,9 @@ def _group(title: str, options: Iterable[tuple[str, str]], chosen: str) -> str:
     return f'<optgroup label="{markup.escape(title)}">{inside}</optgroup>'
 
 
-def facts(episodes: pd.DataFrame) -> dict:
+def facts(run: Run) -> dict:
     """Numbers of the page's text."""
+    episodes = ideal(run)
     return {
         "kp": float(episodes["kp"].iloc[0]),
         "kv": float(episodes["kv"].iloc[0]),
@@ -132,20 +148,34 @@ def facts(episodes: pd.DataFrame) -> dict:
     }
 
 
+def tables(run: Run) -> dict:
+    """How every law ends from every start."""
+    return {"ends": given(followed(run), lambda rows: table(rows, ideal(run)))}
+
+
+def figures(run: Run) -> dict:
+    """What the script brings to life; and one pair without it."""
+    rows, costs = followed(run), run.rows("costs", **read.FREE_BODY)
+    return {
+        "two-laws": given(rows, lambda rows: page(rows, ideal(run), costs)),
+        "side-by-side": given(rows, pair),
+    }
+
+
 @responsive_picture
 def pair(rows: pd.DataFrame, narrow: bool):
     """The pair of OPENING: angle to the goal, and size of the command."""
     figure, (left, right) = style.panels(
         *((2, 1) if narrow else (1, 2)), height=5.2 if narrow else 2.9, narrow=narrow, sharex=True
     )
-    said = []
+    words = []
     for side, line in LINES.items():
         own = rows[(rows["contender"] == OPENING[side]) & (rows["start_id"] == OPENING["start"])]
         look, name = style.look(OPENING[side]), word(OPENING[side])
         times, command = own["time_s"], np.linalg.norm(own[["u_x", "u_y", "u_z"]], axis=1)
         left.plot(times, np.degrees(own["angle_rad"]), color=look.colour, linestyle=line, label=name)
         right.plot(times, command, color=look.colour, linestyle=line)
-        said.append(
+        words.append(
             f"{name} from {degrees(own['angle_rad'].iloc[0])}, at most {degrees(own['angle_rad'].max())} and "
             f"{command.max():.0f} rad/s², settled in {own['settling_time_s'].iloc[0]:.2f} s"
         )
@@ -154,7 +184,7 @@ def pair(rows: pd.DataFrame, narrow: bool):
     if not narrow:
         left.set_xlabel("time [s]")
     left.legend(loc="upper right")
-    return figure, f"Two laws from one start: {'; '.join(said)}."
+    return figure, f"Two laws from one start: {'; '.join(words)}."
 
 
 def table(rows: pd.DataFrame, episodes: pd.DataFrame) -> html.Markdown:

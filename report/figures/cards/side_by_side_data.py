@@ -16,7 +16,7 @@ from scipy.spatial.transform import Rotation as Turn
 from bench.contenders.registry import find_contender, papers_coordinates
 from bench.experiments.traces import EVERY_S, TELLING
 from bench.tables import read
-from report.figures.cards.cards import title_of
+from report.figures.cards.regulators import title_of
 from report.figures.cost.operations import CALLS
 from report.figures.kit import families, html, style
 from tasks.rules import RULES

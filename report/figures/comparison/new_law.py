@@ -11,7 +11,7 @@ from scipy.integrate import solve_ivp
 from bench.findings.theory.isotropic import EQUATIONS, TIGHT
 from bench.law.contender import PAPERS_GAINS
 from bench.law.equation import Equation
-from report.figures.comparison.comparison_peak import LEVEL
+from report.figures.comparison.cells import LEVEL
 from report.figures.kit import families, style
 from report.figures.kit.inline import responsive_picture
 
@@ -63,21 +63,21 @@ def parts(narrow: bool):
         *((2, 1) if narrow else (1, 2)), height=5.6 if narrow else 3.1, narrow=narrow, sharex=True
     )
     angles = np.linspace(0.0, math.pi, 181)
-    said = []
+    words = []
     for axes, laws, curve in ((left, DRAWN, lambda equation: equation.spring), (right, EASING, easing)):
         for name, equation in laws.items():
             look = style.look(name)
             values = np.array(list(map(curve(equation), angles)))
             axes.plot(np.degrees(angles), values, color=look.colour, linestyle=look.line, label=families.word(name))
-            said.append(f"{families.word(name)} {values[-1]:.2f}")
+            words.append(f"{families.word(name)} {values[-1]:.2f}")
         axes.set(xlim=(0, 180), xticks=range(0, 181, 60), ylim=(0, None))
         axes.legend(loc="upper left" if axes is left else "lower left")
         axes.set_xlabel("angle to the goal [deg]")
     left.set_ylabel("pull from rest over $K_p$")
     right.set_ylabel("damping homewards over $K_v$")
     return figure, (
-        f"At the half turn the pulls from rest are, in units of Kp, {', '.join(said[: len(DRAWN)])}; the damping of a "
-        f"motion towards the goal, in units of Kv, {', '.join(said[len(DRAWN) :])}."
+        f"At the half turn the pulls from rest are, in units of Kp, {', '.join(words[: len(DRAWN)])}; the damping of a "
+        f"motion towards the goal, in units of Kv, {', '.join(words[len(DRAWN) :])}."
     )
 
 
@@ -93,7 +93,7 @@ def responses(narrow: bool):
         *((4, 1) if narrow else (2, 2)), height=9.6 if narrow else 5.2, narrow=narrow, sharex=True
     )
     above, below = (axes[::2], axes[1::2]) if narrow else axes
-    said = []
+    words = []
     for i, (title, gains) in enumerate((("Equal gain", lambda _: PAPERS_GAINS), ("Equal peak", peak_gains))):
         ends = []
         for name, equation in DRAWN.items():
@@ -106,7 +106,7 @@ def responses(narrow: bool):
             ends.append(f"{families.word(name)} {np.degrees(angle[half]):.1f} degrees")
         above[i].set(title=title, ylim=(0, 180), yticks=range(0, 181, 60))
         below[i].axhline(0.0, color=style.MUTED, linewidth=0.7)
-        said.append(f"{title.lower()}: {', '.join(ends)}")
+        words.append(f"{title.lower()}: {', '.join(ends)}")
     for each in above if narrow else above[:1]:
         each.set_ylabel("angle to the goal [deg]")
     for each in below if narrow else below[:1]:
@@ -114,4 +114,4 @@ def responses(narrow: bool):
     for each in below[-1:] if narrow else below:
         each.set(xlabel="time [s]", xlim=(0, SHOWN_S))
     figure.legend(*above[0].get_legend_handles_labels(), loc="outside upper left", ncols=2 if narrow else 4)
-    return figure, f"Left after {SHOWN_S / 2.0:g} s of {FROM_DEG:g} degrees. At {'; at '.join(said)}."
+    return figure, f"Left after {SHOWN_S / 2.0:g} s of {FROM_DEG:g} degrees. At {'; at '.join(words)}."

@@ -1,0 +1,190 @@
+"""What a law's card shows beside its words: the map of its failures, its response, the strip of what it withstands.
+
+Map: the ball of rotation vectors is cut open along a meridian and turned flat: height is the z component, distance
+from the axis the rest. The rim is the half turns, where opposite points are one orientation.
+Response: written as SVG by hand, for two dozen cards stand on one page, and drawing each would take longer than all
+else on it. Its colours and letters are the page's own (`.card-response` in report/_static/report.css).
+"""
+
+from __future__ import annotations
+
+import functools
+import html as markup
+import math
+
+import numpy as np
+import pandas as pd
+from matplotlib.lines import Line2D
+
+import tasks
+from report.figures.kit import style
+from report.figures.kit.dots import dots
+from report.figures.kit.html import number
+from report.figures.kit.inline import Picture, picture
+from report.figures.kit.page import Run
+from report.figures.robustness import rows as perturbed
+
+AT_REST_TO_IDENTITY = ("uniform", "box", "half-turn", "poles", "wraps")
+"""Start sets in which only the orientation varies: at rest, goal identity."""
+NEAR_RIM_RAD = 1e-9
+WIDTH_IN = 3.15
+MOST_SETTLED = 800
+"""Settled starts drawn, the first of an evenly spread sequence: they are the ground, and a page is not made of dots."""
+
+
+def at_rest(episodes: pd.DataFrame) -> pd.DataFrame:
+    """The rows that the map shows: one point an orientation."""
+    return episodes[episodes["start_set"].isin(AT_REST_TO_IDENTITY)]
+
+
+def flat(rows: pd.DataFrame) -> np.ndarray:
+    """(distance from the z axis, height) of each start's rotation vector [rad]; half turns once on either side."""
+    vector = rows[["quat_x", "quat_y", "quat_z"]].to_numpy() * np.where(rows["quat_w"] < 0.0, -1.0, 1.0)[:, None]
+    length = np.linalg.norm(vector, axis=1)
+    angle = rows["angle0_rad"].to_numpy()
+    vector = vector * (angle / np.where(length > 0.0, length, 1.0))[:, None]
+    points = np.column_stack((np.hypot(vector[:, 0], vector[:, 1]), vector[:, 2]))
+    on_rim = points[angle > math.pi - NEAR_RIM_RAD]
+    return np.vstack((points, on_rim * (1.0, -1.0)))
+
+
+@picture
+def card_map(episodes: pd.DataFrame, title: str):
+    """Outcomes of one law over orientations at rest."""
+    figure, axes = style.panels(height=3.1, narrow=True)
+    figure.set_size_inches(WIDTH_IN, 3.1)
+    rows = at_rest(episodes)
+    rim = np.linspace(-math.pi / 2, math.pi / 2, 181)
+    axes.plot(math.pi * np.cos(rim), math.pi * np.sin(rim), color=style.MUTED, linewidth=0.8)
+    axes.plot([0, 0], [-math.pi, math.pi], color=style.MUTED, linewidth=0.8)
+    handles, words = [], []
+    for outcome, (colour, marker) in style.OUTCOMES.items():
+        chosen = rows[rows["outcome"] == outcome]
+        if not len(chosen):
+            continue
+        sampled = chosen[chosen["start_set"] == "uniform"]
+        if outcome == "settled":
+            sampled = sampled.iloc[:MOST_SETTLED]
+        x, y = flat(sampled).T
+        dots(axes, x, y, colour, size=1.4 if outcome == "settled" else 2.0)
+        directed = chosen[chosen["start_set"] != "uniform"]
+        if outcome != "settled" and len(directed):
+            x, y = flat(directed).T
+            axes.plot(x, y, marker, color=colour, markersize=4.2, markeredgewidth=0.5, markeredgecolor=style.PAPER)
+        look: dict = {"markeredgecolor": style.PAPER, "markeredgewidth": 0.4, "markersize": 6}
+        handles.append(Line2D([], [], linestyle="none", marker=marker, color=colour, **look))
+        words.append(f"{outcome} {number(len(chosen))}")
+    axes.set(xlim=(-0.08, 3.3), ylim=(-3.3, 3.3), aspect="equal")
+    axes.set_xticks([0, math.pi / 2, math.pi], ["0", "90°", "180°"])
+    axes.set_yticks([-math.pi, 0, math.pi], ["180°", "0", "180°"])
+    axes.set_xlabel(r"about $x, y$", labelpad=1)
+    axes.set_ylabel(r"about $z$", labelpad=-6)
+    axes.grid(visible=False)
+    axes.spines[["left", "bottom"]].set_visible(False)
+    axes.legend(handles, words, loc="center left", bbox_to_anchor=(1.0, 0.5), handlelength=1.0, labelspacing=0.7)
+    counts = ", ".join(words)
+    return figure, f"{title}: outcomes of {number(len(rows))} starts at rest over the ball of rotations: {counts}."
+
+
+# ---------------------------------------------------------------------------------------------------------- response
+
+SHOWN = {"figure-2.3": "", "figure-2.5": "6 3", "figure-2.4": "8 3 2 3", "half-turn-random0-k04": "2 3"}
+"""The paper's three starts, and one short of a half turn by 0.006 degrees; each with the dashes of its line."""
+
+SHOWN_S, TOP_DEG = 2.0, 190.0
+LEFT, RIGHT, ABOVE, BELOW = 38.0, 292.0, 6.0, 122.0
+"""Of the panel, in a picture of 300 by 158."""
+
+TIMES, ANGLES = (0.0, 0.5, 1.0, 1.5, 2.0), (0, 90, 180)
+
+
+def card_response(traces: pd.DataFrame, title: str) -> Picture:
+    """Curves of one law; a start that the run did not follow is left out.
+
+    Args:
+        traces: rows of one law and engine.
+    """
+    curves, ends = [], []
+    for start_id, dashes in SHOWN.items():
+        own = traces[(traces["start_id"] == start_id) & (traces["time_s"] <= SHOWN_S)]
+        if len(own):
+            times, angles = own["time_s"].to_numpy(), own["angle_rad"].to_numpy() * 180.0 / math.pi
+            points = " ".join(f"{across(t):.1f},{up(a):.1f}" for t, a in zip(times, angles, strict=True))
+            curves.append(f'<polyline points="{points}" stroke-dasharray="{dashes}"/>')
+            ends.append(f"{angles[0]:.0f} at first, {angles[-1]:.2g} at {times[-1]:.1f} s")
+    words = f"{title}: angle to the goal in degrees from {len(ends)} starts: {'; '.join(ends)}."
+    alt = markup.escape(words, quote=True)
+    opening = f'<svg class="card-response" viewBox="0 0 300 158" role="img" aria-label="{alt}">'
+    return Picture(f"{opening}{axes()}{''.join(curves)}</svg>", words)
+
+
+def axes() -> str:
+    """Two axes with their ticks and names."""
+    lines = [f'<path d="M{LEFT} {ABOVE}V{BELOW}H{RIGHT}"/>']
+    lines += [f'<text x="{across(t)}" y="{BELOW + 14}" text-anchor="middle">{t:g}</text>' for t in TIMES]
+    lines += [f'<text x="{LEFT - 5}" y="{up(a) + 4:.1f}" text-anchor="end">{a}°</text>' for a in ANGLES]
+    name = "angle to the goal over time [s]"
+    lines.append(f'<text x="{(LEFT + RIGHT) / 2.0}" y="{BELOW + 31}" text-anchor="middle">{name}</text>')
+    return "".join(lines)
+
+
+def across(time: float) -> float:
+    """A time's place."""
+    return LEFT + (RIGHT - LEFT) * time / SHOWN_S
+
+
+def up(angle: float) -> float:
+    """An angle's place."""
+    return BELOW - (BELOW - ABOVE) * angle / TOP_DEG
+
+
+# ------------------------------------------------------------------------------------------------------------- strip
+
+ENOUGH = 0.95
+AXES = {
+    "control-rate": ("Control rate [Hz]", 1.0),
+    "delay": ("Delay [ms]", 1e3),
+    "attitude-noise": ("Noise on the orientation [mrad]", 1e3),
+    "rate-noise": ("Noise on the rate [rad/s]", 1.0),
+    "half-turn-noise": ("Worst noise at half turns [mrad]", 1e3),
+    "saturation": ("Command bounded to [rad/s²]", 1.0),
+    "spin": ("Initial spin [rad/s]", 1.0),
+}
+"""Perturbation -> its row's head, and what its levels are multiplied by there."""
+
+
+@functools.cache
+def shares(axis: str, run: Run) -> pd.DataFrame:
+    """Law and level -> share of the starts that go well; empty where the run was not perturbed."""
+    rows = perturbed.along(run, axis)
+    if rows.empty:
+        return rows
+    return rows.groupby(["contender", "level"], observed=True)["good"].mean().unstack()
+
+
+def card_strip(name: str, run: Run) -> str:
+    """A table, a row a perturbation, a cell a level; nothing for a law that was not perturbed."""
+    rows = [row(axis, shares(axis, run).loc[name]) for axis in AXES if name in shares(axis, run).index]
+    if not rows:
+        return ""
+    return (
+        f'<div class="card-strip" tabindex="0"><p class="card-fact"><b>In trouble</b></p>'
+        f"<table>{''.join(rows)}</table></div>"
+    )
+
+
+def row(axis: str, own: pd.Series) -> str:
+    """One perturbation: its levels, each with its share in words."""
+    head, scale = AXES[axis]
+    nominal = tasks.axis(axis).nominal
+    cells = "".join(
+        f'<td class="{tone(share)}{" usual" if level == nominal else ""}" title="{share:.0%} go well">'
+        f"{scale * level:g}</td>"
+        for level, share in own.items()
+    )
+    return f'<tr><th scope="row">{markup.escape(head)}</th>{cells}</tr>'
+
+
+def tone(share: float) -> str:
+    """The word of a cell's looks."""
+    return "well" if share >= ENOUGH else "lost" if share == 0.0 else "part"

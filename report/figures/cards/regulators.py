@@ -1,0 +1,186 @@
+"""The page of regulators: a card for every law that the registry knows; nothing of it is typed here."""
+
+from __future__ import annotations
+
+import html as markup
+import re
+import sys
+from pathlib import Path
+from types import ModuleType
+
+import pandas as pd
+from pygments import highlight
+from pygments.formatters import HtmlFormatter
+from pygments.lexers import PythonLexer
+
+from bench.contenders.registry import contenders_of, known_regulators, papers_laws
+from bench.law.contender import Contender, Regulator
+from bench.tables import read
+from report.figures.cards.card_parts import ENOUGH, MOST_SETTLED, card_map, card_response, card_strip
+from report.figures.kit import html
+from report.figures.kit.families import anchor
+from report.figures.kit.page import Run
+from report.figures.kit.rows import uniform_starts
+from report.figures.kit.share import share
+from report.figures.kit.spelling import typeset
+from report.figures.kit.tables import Table
+
+PROPERTIES = {
+    "local": "Stable near the goal, by linearization; no more than that.",
+    "almost global": "Stable from all starts but a set of measure zero. No continuous law without memory can do more "
+    "(Bhat & Bernstein 2000).",
+    "global with memory": "Stable from every start, with memory. No continuous law is without (Bhat & Bernstein 2000).",
+    "none": "Nothing.",
+}
+UNTRUSTED = (
+    "A law of somebody else, by its rows alone: its file came with these results and was not run. If you have read it, "
+    "python -m bench trust FILE lets it run, and its card then says what it is."
+)
+LAWS = Table({"Law": "", "Proved": "", "Settles": lambda share: f"{100 * share:.1f} %", "On the command line": ""})
+COUNTED = ("flops", "sin", "cos", "atan2", "acos", "compare")
+FAILS = re.compile(r"\bFails:\s*(.*)", re.DOTALL)
+
+
+def in_order() -> list[Regulator]:
+    """The paper's three regulators, its variants by name, the later ones by name, the user's own of the run."""
+    first = [one.regulator for one in papers_laws()]
+    others = [one for one in known_regulators().values() if one not in first]
+    return [*first, *sorted(others, key=lambda one: (one.later, one.name)), *read.own_laws()]
+
+
+def papers_first(regulator: Regulator) -> list[Contender]:
+    """A law in every representation it acts on, the paper's own coordinates first."""
+    return sorted(contenders_of(regulator), key=lambda one: one.is_elsewhere)
+
+
+def title_of(one: Contender) -> str:
+    """The law's title, and its coordinates where it acts on others than the paper's."""
+    where = one.representation
+    return f"{one.regulator.title}: {where.title}" if where and one.is_elsewhere else one.regulator.title
+
+
+def module(regulator: Regulator) -> ModuleType:
+    """The file of a regulator."""
+    return sys.modules[(regulator.law or regulator.law_in).__module__]
+
+
+def was_run(regulator: Regulator) -> bool:
+    """Whether its file was run; one that came with results from elsewhere was not (`trust`)."""
+    return bool(regulator.law or regulator.law_in)
+
+
+def file_of(regulator: Regulator) -> Path:
+    """Where its source is."""
+    return Path(module(regulator).__file__ or "") if was_run(regulator) else Path(regulator.origin)
+
+
+def text_of(regulator: Regulator) -> tuple[str, str]:
+    """What its docstring says: what the law is, and where it fails."""
+    if not was_run(regulator):
+        return UNTRUSTED, ""
+    text = typeset(" ".join((module(regulator).__doc__ or "").split()))
+    found = FAILS.search(text)
+    fails = found[1] if found else ""
+    return text[: found.start()].strip() if found else text, fails[:1].upper() + fails[1:]
+
+
+def costs_of(one: Contender, run: Run) -> pd.DataFrame:
+    """Operations of the typical branch: a row a stage, the stages that do nothing left out."""
+    rows = run.rows("costs", contender=one.name, branch="typical").set_index("stage")
+    numbers = rows[[name for name in COUNTED if name == "flops" or rows[name].any()]]
+    return numbers[(numbers > 0).any(axis=1)].rename(columns={"compare": "<"}).reset_index()
+
+
+def engine_of(regulator: Regulator) -> str:
+    """Where a card's episodes ran: on the continuous plant, but for an actuator that only MuJoCo has."""
+    return "native" if regulator.in_engine else "ideal-rk4"
+
+
+def measured(episodes: pd.DataFrame, regulator: Regulator) -> str:
+    """How many of the uniform starts settled, and how fast."""
+    uniform = episodes[episodes["start_set"] == "uniform"]
+    if regulator.costing_only:
+        return "Its price only: it gives the command of another law to rounding, and is not run again."
+    if uniform.empty:
+        return "Not in this run."
+    settled = uniform[uniform["outcome"] == "settled"]
+    found = share(len(settled), len(uniform))
+    times = settled["settling_time_s"]
+    pace = f", in {times.median():.2f} s (median) to {times.max():.2f} s (worst)" if len(settled) else ""
+    return f"{found} of {html.number(len(uniform))} uniform starts settle{pace}."
+
+
+def card(one: Contender, run: Run) -> str:
+    """Heading and card of one law."""
+    regulator = one.regulator
+    what, fails = text_of(regulator)
+    acts = one.representation.title if one.representation else "the rotation matrix"
+    words = {"contender": one.name, "engine": engine_of(regulator)}
+    episodes, traces = run.rows("episodes", **words), run.rows("traces", **words)
+    proved = PROPERTIES.get(regulator.property, f"{regulator.property}.")
+    facts = {"Acts on": f"{acts[:1].upper()}{acts[1:]}.", "Proved": proved, "Measured": measured(episodes, regulator)}
+    return html.card(
+        one.name,
+        title_of(one),
+        regulator.formula,
+        regulator.source,
+        what,
+        costs_of(one, run),
+        card_map(episodes, title_of(one)) if len(episodes) else None,
+        fails,
+        facts,
+        anchor(one.name),
+        card_response(traces, title_of(one)) if len(traces) else None,
+        card_strip(one.name, run),
+    )
+
+
+def source(regulator: Regulator) -> str:
+    """The law's own file, folded."""
+    text = file_of(regulator).read_text(encoding="utf-8", errors="replace")
+    code = highlight(text, PythonLexer(), HtmlFormatter(nowrap=True))
+    folder = "laws" if regulator.origin else "bench/contenders/regulators"
+    where = markup.escape(f"{folder}/{regulator.name.replace('-', '_')}.py")
+    return (
+        f'<details class="law-source"><summary>Its file, <code>{where}</code></summary>'
+        f'<div class="highlight"><pre tabindex="0">{code}</pre></div></details>'
+    )
+
+
+def parts(regulator: Regulator, run: Run) -> list[str]:
+    """The pieces of one law: its card and its file, then, folded, the same law in other coordinates."""
+    first, *others = papers_first(regulator)
+    found = [card(first, run), source(regulator)]
+    if others:
+        words = f"{html.law(first.name, regulator.title)} in {len(others)} other coordinates"
+        inside = "".join(card(one, run) for one in others)
+        found.append(f'<details class="columns"><summary>{words}</summary>{inside}</details>')
+    return found
+
+
+def facts(run: Run) -> dict:
+    """What a card's drawings hold."""
+    episodes = run.rows("episodes", **read.FREE_BODY)
+    enough = f"{ENOUGH:.0%}".replace("%", " %")
+    return {"uniform": uniform_starts(episodes), "enough": enough, "drawn": MOST_SETTLED}
+
+
+def tables(run: Run) -> dict:
+    """Every law as a line."""
+    return {"laws": LAWS(line(one, run) for regulator in in_order() for one in papers_first(regulator))}
+
+
+def line(one: Contender, run: Run) -> tuple:
+    """A link to a law's card, what is proved, what was measured, its word on the command line."""
+    uniform = run.rows("episodes", contender=one.name, engine=engine_of(one.regulator), start_set="uniform")
+    return (
+        f'<a href="#{anchor(one.name)}">{html.law(one.name, title_of(one))}</a>',
+        html.together(html.foreign(one.regulator.property)),
+        (uniform["outcome"] == "settled").mean() if len(uniform) else None,
+        f"`{one.name}`",
+    )
+
+
+def figures(run: Run) -> dict:
+    """All cards, in order."""
+    return {"cards": html.Html("".join(part for regulator in in_order() for part in parts(regulator, run)))}

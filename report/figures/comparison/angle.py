@@ -1,0 +1,110 @@
+"""Settling time against the initial angle of the laws that turn about one fixed axis: measured, and the closed form."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pandas as pd
+
+from bench.findings.theory.isotropic import EQUATIONS, LEAST_RAD, NEAREST_RAD, Equation, settling
+from report.figures.kit import families, html, style
+from report.figures.kit.dots import dots
+from report.figures.kit.inline import responsive_picture
+from report.figures.kit.tables import Table
+
+AGAINST = Table({"Law": "", "Spring": "", "Starts": "", "Late by [ms]": ""})
+
+CURVE = 60
+DRAWN = 150
+CHECKED = 12
+"""At least so many starts of each law are held against its equation, at even steps through their sequence."""
+
+FOOT_S, TOP_S = 0.42, 0.86
+"""Of the panel: most of the curves lie between, and the steepest leave it."""
+
+APART_S = 0.022
+"""Least distance of two labels beside curves."""
+
+ASIDE_DEG = 7.0
+"""How far before a curve leaves the panel its name ends."""
+
+
+def groups(rows: pd.DataFrame) -> dict[Equation, list[str]]:
+    """Equation -> the laws of the run that obey it, family by family."""
+    found: dict[Equation, list[str]] = {}
+    for name in families.in_order(rows["contender"].unique()):
+        if name in EQUATIONS:
+            found.setdefault(EQUATIONS[name], []).append(name)
+    return found
+
+
+@responsive_picture
+def curves(rows: pd.DataFrame, narrow: bool):
+    """Curves of the equations, and dots of the starts, of the first law of each.
+
+    Args:
+        rows: of `cells.common`.
+    """
+    figure, axes = style.panels(height=4.4 if narrow else 4.2, narrow=narrow)
+    kp, kv, tolerance = (float(rows[column].iloc[0]) for column in ("kp", "kv", "tolerance"))
+    angles = np.linspace(LEAST_RAD, math.pi - NEAREST_RAD, CURVE)
+    beside, words = [], []
+    for equation, names in groups(rows).items():
+        colour = style.look(names[0]).colour
+        times = np.array([settling(equation, float(angle), kp, kv, tolerance) for angle in angles])
+        axes.plot(np.degrees(angles), times, color=colour, linewidth=1.1, zorder=2)
+        own = rows[rows["contender"] == names[0]].head(DRAWN)
+        dots(axes, np.degrees(own["angle0_rad"]), own["settling_time_s"], colour, 3.0, zorder=3)
+        word = families.word(names[0]) + (f" +{len(names) - 1}" if len(names) > 1 else "")
+        words.append(f"{', '.join(map(families.word, names))} from {times[0]:.2f} to {times[-1]:.2f} s")
+        leaves = left_at(np.degrees(angles), times)
+        if leaves:
+            axes.text(*leaves, word, color=colour, fontsize=9, ha="right", va="top" if leaves[1] == TOP_S else "bottom")
+        else:
+            beside.append((float(times[-1]), word, colour))
+    places = style.apart([time for time, _, _ in beside], APART_S)
+    for place, (_, word, colour) in zip(places, beside, strict=True):
+        style.label_line(axes, 181.5, place, word, colour, fontsize=9)
+    axes.set(xlim=(0, 180), ylim=(FOOT_S, TOP_S), xticks=range(0, 181, 30))
+    axes.set(xlabel="initial angle to the goal [deg]", ylabel="settling time [s]")
+    return figure, f"Settling time from {np.degrees(angles[0]):.0f} to nearly 180 degrees: {'; '.join(words)}."
+
+
+def left_at(angles: np.ndarray, times: np.ndarray) -> tuple[float, float] | None:
+    """Where to end the name of a curve that begins in the panel and leaves it: (angle, edge); None if it stays."""
+    outside = np.flatnonzero((times > TOP_S) | (times < FOOT_S))
+    if not len(outside) or outside[0] == 0:
+        return None
+    return float(angles[outside[0]]) - ASIDE_DEG, TOP_S if times[outside[0]] > TOP_S else FOOT_S
+
+
+def lateness(rows: pd.DataFrame) -> dict[str, np.ndarray]:
+    """Law -> measured settling time minus its equation's [ms], of CHECKED starts.
+
+    Args:
+        rows: of `cells.common`.
+    """
+    gains = [float(rows[column].iloc[0]) for column in ("kp", "kv", "tolerance")]
+    names = [name for name in families.in_order(rows["contender"].unique()) if name in EQUATIONS]
+    return {name: late_ms(rows[rows["contender"] == name], EQUATIONS[name], *gains) for name in names}
+
+
+def against(late: dict[str, np.ndarray]) -> html.Markdown | None:
+    """A row a law: its spring, and how much later than the equation says it settled, least and most."""
+    return AGAINST(
+        (families.link(name, families.word(name)), f"${EQUATIONS[name].formula}$", len(own), _span(own))
+        for name, own in late.items()
+    )
+
+
+def _span(values: np.ndarray) -> str:
+    return f"{values.min():.2f} to {values.max():.2f}"
+
+
+def late_ms(own: pd.DataFrame, equation: Equation, kp: float, kv: float, tolerance: float) -> np.ndarray:
+    """Measured settling time minus the equation's [ms], of CHECKED starts of one law within the curve's angles."""
+    within = own[own["angle0_rad"].between(LEAST_RAD, math.pi - NEAREST_RAD) & (own["outcome"] == "settled")]
+    chosen = within.iloc[:: max(1, len(within) // CHECKED)]
+    expected = [settling(equation, angle, kp, kv, tolerance) for angle in chosen["angle0_rad"]]
+    return 1000.0 * (chosen["settling_time_s"].to_numpy() - expected)

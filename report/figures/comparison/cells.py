@@ -1,0 +1,114 @@
+"""What laws are compared by: the starts that all ran, and numbers of a law's rows as a table's cells."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+
+import numpy as np
+import pandas as pd
+
+from bench.tables.statistics import Estimate, quantile, quantile_estimate
+from report.figures.cost.operations import CALLS
+from report.figures.kit import families, html
+from report.figures.kit.share import share
+from report.figures.kit.spelling import power
+
+NEVER = "never"
+LEVEL = 100.0
+"""Greatest command from rest [rad/s^2]: what the 1980 law asks for at the paper's gains. Time goes as 1/sqrt(LEVEL)."""
+
+SMALL_PEAK = 1e4
+"""Commands [rad/s^2] above this are those of a division by nearly nothing."""
+
+
+def common(episodes: pd.DataFrame) -> pd.DataFrame:
+    """Rows of uniform starts that every law ran, so that none is judged by easier ones; laws family by family.
+
+    Args:
+        episodes: rows of one engine. The paper's laws ran more starts than the later ones.
+    """
+    uniform = episodes[(episodes["start_set"] == "uniform") & (episodes["arm"] == "")]
+    ran = uniform.groupby("start_id", observed=True)["contender"].nunique()
+    return in_families(uniform[uniform["start_id"].isin(ran.index[ran == uniform["contender"].nunique()])])
+
+
+def in_families(rows: pd.DataFrame) -> pd.DataFrame:
+    """The rows with their laws family by family."""
+    names = families.in_order(rows["contender"].unique())
+    ordered = rows.assign(contender=pd.Categorical(rows["contender"].astype(str), names, ordered=True))
+    return ordered.sort_values(["contender", "start_id"]).reset_index(drop=True)
+
+
+def costs(rows: pd.DataFrame, column: str) -> pd.DataFrame:
+    """A column by start and law, infinite where the law did not settle: shape (starts, laws)."""
+    settled = rows["outcome"] == "settled"
+    return rows.assign(cost=rows[column].where(settled, np.inf)).pivot(
+        index="start_id", columns="contender", values="cost"
+    )
+
+
+def medians(table: pd.DataFrame) -> pd.Series:
+    """Median of each column, of which some values may be infinite."""
+    return pd.Series({name: float(quantile(table[name].to_numpy(), 0.5)) for name in table})
+
+
+def by_family(names: Iterable[str], line: Callable[[str], dict]) -> html.Markdown | None:
+    """A line for each law, under the name of its family; no table without laws."""
+    lines: list[dict] = []
+    for family in families.present(names):
+        lines.append({"Law": f"*{family.title}*"})
+        lines += [{"Law": families.link(name, word), **line(name)} for name, word in family.laws.items()]
+    return html.table(pd.DataFrame(lines).fillna("")) if lines else None
+
+
+def settles(own: pd.DataFrame) -> str:
+    """The share of a law's rows that settle [%], with its interval."""
+    found = share(int((own["outcome"] == "settled").sum()), len(own))
+    return with_interval(*map(percent, (found.value, found.low, found.high)))
+
+
+def tick(counted: pd.DataFrame, name: str) -> str:
+    """Flops and calls of a typical tick.
+
+    Args:
+        counted: rows of costs.parquet about the free body.
+    """
+    totals = counted[(counted["branch"] == "typical") & (counted["stage"] == "total")].set_index("contender")
+    flops, calls = int(totals.loc[name, "flops"]), int(totals.loc[name, list(CALLS)].sum())
+    return f"{flops} + {calls}" if calls else f"{flops}"
+
+
+def percent(part: float) -> str:
+    """A share in per cent, to a tenth, whole where it is all or nothing."""
+    return f"{100 * part:.0f}" if part in (0.0, 1.0) else f"{100 * part:.1f}"
+
+
+def slowest(values: pd.Series, form: str = ".3f") -> str:
+    """The longest of some times."""
+    return format(values.max(), form) if np.isfinite(values.max()) else NEVER
+
+
+def seconds(values: pd.Series, level: float = 0.5) -> str:
+    """A quantile of times with its interval; among the failures it is never reached."""
+    return spelled(quantile_estimate(values.to_numpy(), level), lambda value: f"{value:.3f}")
+
+
+def three_figures(values: pd.Series) -> str:
+    """The median of numbers of any size with its interval."""
+    return spelled(quantile_estimate(values.to_numpy(), 0.5), lambda value: html.number(float(f"{value:.3g}")))
+
+
+def large(value: float) -> str:
+    """A number to three figures, or as a power of ten where it stands for no bound."""
+    return html.number(float(f"{value:.3g}")) if value < SMALL_PEAK else power(value)
+
+
+def spelled(found: Estimate, write: Callable[[float], str]) -> str:
+    """An estimate as words; where both ends are the number itself, the number alone."""
+    value, low, high = (write(one) if np.isfinite(one) else NEVER for one in found)
+    return value if value == low == high else with_interval(value, low, high)
+
+
+def with_interval(value: str, low: str, high: str) -> str:
+    """A number, and its interval, which no line breaks."""
+    return f"{value} {html.together(f'({low} to {high})')}"

@@ -1,0 +1,278 @@
+"""The page that compares all laws: on the same uniform starts, at the same gains and at the same peak command."""
+
+from __future__ import annotations
+
+import functools
+
+import numpy as np
+import pandas as pd
+
+from bench.findings.theory import closed_form
+from bench.tables import read
+from report.figures.comparison import directed
+from report.figures.comparison.angle import against, curves, lateness
+from report.figures.comparison.cells import (
+    LEVEL,
+    by_family,
+    common,
+    costs,
+    in_families,
+    large,
+    medians,
+    percent,
+    seconds,
+    settles,
+    slowest,
+    three_figures,
+    tick,
+)
+from report.figures.comparison.profiles import profiles
+from report.figures.kit import families, html
+from report.figures.kit.page import Run, given
+
+DETOUR = 1.5
+"""Path over shortest path from which a start is a detour; about one fixed axis only the long way round is one."""
+
+LITERAL, UNWINDING = "linearized-euler-literal/zyx-euler", "quaternion-unwinding"
+ACTUATOR, MATRIX = "in-engine", "rotation-matrix"
+
+NEAR_AXIS, NEAR_PLANE = float(np.cos(np.radians(30.0))), float(np.sin(np.radians(15.0)))
+"""Within 30 degrees of an axis, within 15 degrees of a plane of two."""
+
+TIMES, EFFORTS = (1, 1.5, 2, 3), (1, 3, 10, 30, 100)
+"""Factors on the axes of the profiles."""
+
+
+@functools.cache
+def ideal(run: Run) -> pd.DataFrame:
+    """Episodes of the free body on the continuous plant."""
+    return run.rows("episodes", engine="ideal-rk4", **read.FREE_BODY)
+
+
+@functools.cache
+def uniform(run: Run) -> pd.DataFrame:
+    """Those from uniform starts that every law ran."""
+    return common(ideal(run))
+
+
+@functools.cache
+def at_peak(run: Run) -> pd.DataFrame:
+    """Rows of every law at LEVEL, family by family; a law whose command has no bound has none."""
+    every = run.rows("robustness", axis="equal-peak")
+    return in_families(every[every["level"] == LEVEL]) if len(every) else every
+
+
+@functools.cache
+def in_mujoco(run: Run) -> pd.DataFrame:
+    """Episodes of the free body in MuJoCo if its own actuator is among them, else none."""
+    every = run.rows("episodes", engine="native", **read.FREE_BODY)
+    return every if (every["contender"] == ACTUATOR).any() else every.iloc[:0]
+
+
+# ------------------------------------------------------------------------------------------------------------- facts
+
+
+def facts(run: Run) -> dict:
+    """Numbers in the sentences of the page."""
+    late = np.concatenate(list(lateness(uniform(run)).values()))
+    return {
+        **of_all(uniform(run), directed.directed(ideal(run))),
+        **of_controls(uniform(run)),
+        "least_late": f"{late.min():.2f}",
+        "most_late": f"{late.max():.2f}",
+        "checked": len(late),
+        **(given(at_peak(run), of_peak) or {}),
+        **(given(in_mujoco(run), of_actuator) or {}),
+    }
+
+
+def of_all(rows: pd.DataFrame, tried: pd.DataFrame) -> dict:
+    """Of the laws that are no negative controls.
+
+    Args:
+        rows: of `uniform`. tried: of `directed.directed`.
+    """
+    times, efforts = costs(rows, "settling_time_s"), costs(rows, "effort")
+    laws = [name for name in times if name not in families.CONTROLS]
+    middle, spent = medians(times[laws]), medians(efforts[laws])
+    whole = times[[name for name in laws if np.isfinite(times[name]).all()]].max()
+    left = [name for name in directed.left(tried) if name not in families.CONTROLS]
+    return {
+        "laws": len(laws),
+        "starts": len(times),
+        "kp": float(rows["kp"].iloc[0]),
+        "kv": float(rows["kv"].iloc[0]),
+        "band": f"{100 * float(rows['tolerance'].iloc[0]):g}",
+        "tick": f"{1000 * float(rows['dt_s'].iloc[0]):g}",
+        "detour": DETOUR,
+        "fastest": families.word(middle.idxmin()),
+        "fastest_s": f"{middle.min():.2f}",
+        "slowest_s": f"{middle.max():.2f}",
+        "whole": len(whole),
+        "surest": families.word(whole.idxmin()),
+        "surest_s": f"{whole.min():.2f}",
+        "sparest": families.word(spent.idxmin()),
+        "dearest": families.word(spent.idxmax()),
+        "dearer": f"{spent.max() / spent.min():.0f}",
+        "left": len(left),
+        "left_laws": ", ".join(map(families.word, left)),
+        "directed": len(tried) // tried["contender"].nunique(),
+    }
+
+
+def of_controls(rows: pd.DataFrame) -> dict:
+    """That the negative controls fail, and how."""
+    literal, unwinding = (rows[rows["contender"] == name] for name in (LITERAL, UNWINDING))
+    found: dict = {}
+    if len(literal):
+        found |= {"literal_settled": int((literal["outcome"] == "settled").sum()), "literal_n": len(literal)}
+    if len(unwinding):
+        travelled = np.degrees(unwinding["path_ratio"] * unwinding["angle0_rad"])
+        found |= {
+            "unwound": percent(float((unwinding["path_ratio"] > DETOUR).mean())),
+            "unwound_settled": percent(float((unwinding["outcome"] == "settled").mean())),
+            "longest": f"{travelled.max():.0f}",
+        }
+    return found
+
+
+def of_peak(rows: pd.DataFrame) -> dict:
+    """At equal peak command: the fastest laws, and the rotation matrix."""
+    times = costs(rows, "settling_time_s")
+    middle, longest = medians(times), times.max()
+    fastest, surest = middle.idxmin(), longest.idxmin()
+    best = f"Now the fastest in the median is {families.word(fastest)}, {middle[fastest]:.2f} s"
+    if fastest == surest:
+        best += f", and from its slowest start too, {longest[fastest]:.2f} s."
+    else:
+        best += (
+            f", but its slowest start takes {longest[fastest]:.2f} s. The slowest start is the fastest with "
+            f"{families.word(surest)}, {longest[surest]:.2f} s."
+        )
+    matrix = f"{middle[MATRIX]:.2f} s in the median, and {longest[MATRIX]:.2f} s from its slowest start"
+    return {"peak": html.number(LEVEL), "peak_starts": len(times), "peak_fastest": best, "peak_matrix": matrix}
+
+
+def of_actuator(episodes: pd.DataFrame) -> dict:
+    """From how many starts at rest MuJoCo's actuator settles, and how far from the linear response."""
+    own = episodes[episodes["contender"] == ACTUATOR]
+    even, half_turns = (own[own["start_set"] == word] for word in ("uniform", "half-turn"))
+    linear = closed_form.linear_settling(*own.iloc[0][["kp", "kv", "tolerance"]])
+    late = pd.concat((even, half_turns))["settling_time_s"] - linear
+    return {
+        "servo_starts": len(even),
+        "servo_settled": int((even["outcome"] == "settled").sum()),
+        "half_turns": len(half_turns),
+        "half_turns_settled": int((half_turns["outcome"] == "settled").sum()),
+        "linear_s": f"{linear:.3f}",
+        "off_linear_ms": f"{1000 * late.abs().max():.1f}",
+    }
+
+
+# ------------------------------------------------------------------------------------------------------------ tables
+
+
+def tables(run: Run) -> dict:
+    """A row a law, family by family."""
+    return {
+        "settling": settling(uniform(run)),
+        "way": way(uniform(run), run.rows("costs", **read.FREE_BODY)),
+        "against": against(lateness(uniform(run))),
+        "at_peak": given(at_peak(run), of_gains),
+        "dead": directed.table(directed.directed(ideal(run))),
+        "in_engine": given(in_mujoco(run), lambda rows: beside_actuator(common(rows))),
+    }
+
+
+def each(rows: pd.DataFrame, line) -> html.Markdown | None:
+    """line(own, times, efforts) of each law: its rows, and what the starts took, infinite where it did not settle."""
+    times, efforts = costs(rows, "settling_time_s"), costs(rows, "effort")
+    return by_family(times, lambda name: line(rows[rows["contender"] == name], times[name], efforts[name]))
+
+
+def settling(rows: pd.DataFrame) -> html.Markdown | None:
+    """Share that settles, median and 99th percentile of settling time with intervals, and the worst start."""
+    return each(
+        rows,
+        lambda own, times, _: {
+            "Settles [%]": settles(own),
+            "Median [s]": seconds(times),
+            "99 % [s]": seconds(times, 0.99),
+            "Worst start": worst(own),
+        },
+    )
+
+
+def way(rows: pd.DataFrame, counted: pd.DataFrame) -> html.Markdown | None:
+    """Overshoot, detours, effort and peak of the command, and operations a tick."""
+    return each(
+        rows,
+        lambda own, _, efforts: {
+            "Overshoot [deg]": f"{np.degrees(own['overshoot_rad'].max()):.0f}",
+            "Detours [%]": percent(float((own["path_ratio"] > DETOUR).mean())),
+            "Effort": three_figures(efforts),
+            "Peak": large(own["peak_u"].max()),
+            "A tick": tick(counted, efforts.name),
+        },
+    )
+
+
+def of_gains(rows: pd.DataFrame) -> html.Markdown | None:
+    """The gain that the peak allows; share that settles; median and slowest settling time; effort."""
+    return each(
+        rows,
+        lambda own, times, efforts: {
+            "$K_p$": f"{own['kp'].iloc[0]:.1f}",
+            "Settles [%]": settles(own),
+            "Median [s]": seconds(times),
+            "Slowest [s]": slowest(times, ".2f"),
+            "Effort": three_figures(efforts),
+        },
+    )
+
+
+def beside_actuator(rows: pd.DataFrame) -> html.Markdown | None:
+    """In MuJoCo: share that settles; median and slowest settling time; effort and largest command."""
+    return each(
+        rows,
+        lambda own, times, efforts: {
+            "Settles [%]": settles(own),
+            "Median [s]": seconds(times),
+            "Slowest [s]": slowest(times),
+            "Effort": three_figures(efforts),
+            "Peak": large(own["peak_u"].max()),
+        },
+    )
+
+
+def worst(own: pd.DataFrame) -> str:
+    """The nearest start that fails, or else the slowest, by its angle and axis."""
+    failed = own[own["outcome"] != "settled"]
+    if len(failed):
+        start = failed.loc[failed["angle0_rad"].idxmin()]
+        return f"fails from {np.degrees(start['angle0_rad']):.0f}°, {axis_words(start)}"
+    start = own.loc[own["settling_time_s"].idxmax()]
+    return f"{start['settling_time_s']:.2f} s from {np.degrees(start['angle0_rad']):.0f}°, {axis_words(start)}"
+
+
+def axis_words(start: pd.Series) -> str:
+    """Where the axis of a start's rotation lies: near one of the base's axes, or between them."""
+    axis = np.abs(start[["quat_x", "quat_y", "quat_z"]].to_numpy(float))
+    parts = axis / np.linalg.norm(axis)
+    if parts.max() > NEAR_AXIS:
+        return f"near {'xyz'[int(parts.argmax())]}"
+    if parts.min() < NEAR_PLANE:
+        one, other = np.delete(list("xyz"), int(parts.argmin()))
+        return f"between {one} and {other}"
+    return "between all three"
+
+
+def figures(run: Run) -> dict:
+    """Settling times and efforts over the best law's, and settling times over the angle."""
+    rows = uniform(run)
+    return {
+        "comparison-time": profiles(rows, "settling_time_s", TIMES, "settling time"),
+        "comparison-angle": curves(rows),
+        "comparison-effort": profiles(rows, "effort", EFFORTS, "effort"),
+        "comparison-peak": given(at_peak(run), lambda own: profiles(own, "settling_time_s", TIMES, "settling time")),
+    }

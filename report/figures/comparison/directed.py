@@ -1,0 +1,67 @@
+"""Where each law fails exactly: half turns, poles and jumps of coordinates that uniform starts never hit."""
+
+from __future__ import annotations
+
+import pandas as pd
+from scipy.spatial.transform import Rotation
+
+from report.figures.comparison.cells import by_family
+from report.figures.failures.failure_map import places
+from report.figures.failures.world_map import SETS
+from report.figures.kit import families, html
+
+EXACT = ("half turn", "half turn and pole", "pole", "jump of atan2")
+"""Of `failure_map.places`, those that are points and no neighbourhoods."""
+
+ELSEWHERE = "beside them"
+HOW = {
+    "stuck": "rest",
+    "singular": "undefined",
+    "timed-out": "too slow",
+    "diverged": "diverge",
+    "saturated": "too strong",
+    "crashed": "crash",
+    "hung": "hang",
+}
+"""Outcome of an episode -> what it is called in the table."""
+
+
+def directed(episodes: pd.DataFrame) -> pd.DataFrame:
+    """Directed starts at rest, with the special place of each, and each orientation once; rows of one engine."""
+    rows = episodes[episodes["start_set"].isin(SETS) & (episodes["arm"] == "")]
+    place = places(rows)
+    rows = rows.assign(place=place.where(place.isin(EXACT), ELSEWHERE))
+    return rows[~orientation(rows).assign(contender=rows["contender"]).duplicated()]
+
+
+def orientation(rows: pd.DataFrame) -> pd.DataFrame:
+    """R, which both quaternions of an orientation share, to the last digit but three."""
+    turns = Rotation.from_quat(rows[["quat_w", "quat_x", "quat_y", "quat_z"]].to_numpy(), scalar_first=True)
+    return pd.DataFrame(turns.as_matrix().reshape(-1, 9).round(13), rows.index)
+
+
+def table(rows: pd.DataFrame) -> html.Markdown | None:
+    """A row a law, a column a place: how many of the starts there fail, and how; a dash where none was tried."""
+    shown = [place for place in (*EXACT, ELSEWHERE) if (rows["place"] == place).any()]
+
+    def line(name: str) -> dict:
+        own = rows[rows["contender"] == name]
+        return {place.capitalize(): failing(own[own["place"] == place]) for place in shown}
+
+    return by_family(rows["contender"].unique(), line)
+
+
+def failing(rows: pd.DataFrame) -> str:
+    """ "26 of 26 rest": how many do not settle, and what most of them do instead."""
+    if rows.empty:
+        return html.MISSING
+    failed = rows.loc[rows["outcome"] != "settled", "outcome"].astype(str)
+    if failed.empty:
+        return f"none of {len(rows)}"
+    return f"{len(failed)} of {len(rows)} {HOW[failed.value_counts().index[0]]}"
+
+
+def left(rows: pd.DataFrame) -> list[str]:
+    """The laws that leave every directed start, family by family."""
+    failed = set(rows.loc[rows["outcome"] != "settled", "contender"])
+    return [name for name in families.in_order(rows["contender"].unique()) if name not in failed]

@@ -1,0 +1,216 @@
+"""The page on tasks in contact."""
+
+from __future__ import annotations
+
+import functools
+
+import numpy as np
+import pandas as pd
+
+import tasks
+from report.figures.contact import contact_models
+from report.figures.contact.by_frame import MEASURES, Measure, by_frame, tasks_of
+from report.figures.contact.rows import CARTESIAN, EULER, of, of_task, title, verdicts, ways
+from report.figures.kit import html, media
+from report.figures.kit.page import ABSENT, Run, given
+from report.figures.kit.spelling import power
+from report.figures.kit.tables import Table
+from tasks.contact import STANDARD
+
+CONTROLS = ("hybrid-unconverted/zyx-euler",)
+"""Controllers that are there to fail."""
+
+QUANTILE = 0.95
+
+
+CONTACT = Table(
+    {
+        "Task": "",
+        "Episodes": "",
+        "Reach the end [%]": ".1f",
+        "The others": "",
+        "Penetration, median [mm]": ".3f",
+        f"in {QUANTILE:.0%} [mm]": ".2f",
+        "Largest force, median [N]": ".0f",
+    }
+)
+
+
+@functools.cache
+def all_rows(run: Run) -> pd.DataFrame:
+    """Rows of every task in contact; maybe none."""
+    return pd.concat([of_task(run, name) for name in MEASURES], ignore_index=True)
+
+
+def facts(run: Run) -> dict:
+    """How episodes end, and what they are."""
+    rows = all_rows(run)
+    return {
+        **plate(rows),
+        "orders": orders(),
+        "timeconst": f"{1e3 * STANDARD.timeconst:g}",
+        "friction": f"{STANDARD.friction:g}",
+        "models_trial": f"{tasks.arm(contact_models.ARM).title}, {named(contact_models.TRIAL)}",
+        "betas": given(rows, lambda _: ", ".join(f"{beta:.0f}°" for beta in sorted(set(rows["beta_deg"])))),
+        "penetration": penetration(rows),
+        "worst": worst(rows),
+        "stuck": stuck(rows),
+    }
+
+
+def plate(rows: pd.DataFrame) -> dict[str, str]:
+    """What the loop shows: the angles [deg] at the end of its two episodes, in this run."""
+    about = media.facts()["contact"]
+    shown, values = about["plate"], {"plate_arm": tasks.arm(about["arm"]).title}
+    trials = tasks.contact_task(shown["task"]).trials(tasks.arm(about["arm"]))
+    trial = next(one for one in trials if one.id == shown["trial"])
+    values["plate_tilt"] = f"{np.degrees(trial.tilt):.0f}"
+    values["plate_force"] = f"{np.linalg.norm(trial.order.exerts[:3]):.0f}"
+    values["plate_beta"] = trial.id.rpartition("beta+")[2]
+    own = rows[(rows["task"] == shown["task"]) & (rows["arm"] == about["arm"]) & (rows["pose"] == shown["trial"])]
+    for word, contender in zip(("plate_cartesian", "plate_euler"), shown["controllers"], strict=True):
+        one = own[own["contender"] == contender]
+        values[word] = f"{np.degrees(one['alignment_error_rad'].iloc[0]):.1f}" if len(one) else ABSENT
+    return values
+
+
+def orders() -> str:
+    """What each task is, and what its order lets comply."""
+    arm, lines = tasks.arm(media.facts()["contact"]["arm"]), []
+    for name in MEASURES:
+        task = tasks.contact_task(name)
+        lines.append(f"{task.title} (complies: {task.trials(arm)[0].order.name})")
+    return f"{'. '.join(lines)}."
+
+
+def working(rows: pd.DataFrame) -> pd.DataFrame:
+    """Rows of controllers that are not there to fail."""
+    return rows[~rows["way"].isin(CONTROLS)]
+
+
+def penetration(rows: pd.DataFrame) -> str:
+    """How deep the hand is in its surroundings at the worst, of those that reach the end."""
+    own = working(rows)
+    own = own[own["outcome"] == "done"]
+    if own.empty:
+        return f"How deep they penetrate is {ABSENT}."
+    deepest = 1e3 * own["penetration_m"].dropna()
+    return (
+        f"Over the {len(deepest)} episodes that reach the end hand and scene penetrate by {deepest.median():.2f} mm in "
+        f"the median, and by {deepest.quantile(QUANTILE):.2f} mm or less in {QUANTILE:.0%}; what is beyond are hands "
+        "thrown about by coordinates near their singularity."
+    )
+
+
+def worst(rows: pd.DataFrame) -> str:
+    """Where the Euler Jacobian is furthest from the Cartesian one, on the plate."""
+    own = rows[rows["task"] == "surface-alignment"]
+    if own.empty:
+        return f"How tools end on the plate is {ABSENT}."
+    both = (of(own, name) for name in (CARTESIAN, EULER))
+    pair = next(both).merge(next(both), on=["arm", "pose"])
+    turned = pair.loc[pair["held_turn_rad_y"].idxmax()]
+    tilted = pair.loc[pair["alignment_error_rad_y"].idxmax()]
+    flat = np.degrees(pair["alignment_error_rad_x"].max())
+    return (
+        f"On the plate the Cartesian tool lies flat to {power(flat)} degrees in all {len(pair)} episodes. By the Euler "
+        f"one it ends {np.degrees(tilted['alignment_error_rad_y']):.0f}° off ({of_pose(tilted)}), and has turned by "
+        f"{np.degrees(turned['held_turn_rad_y']):.0f}° about the axis that it was told to hold ({of_pose(turned)})."
+    )
+
+
+def stuck(rows: pd.DataFrame) -> str:
+    """How many pegs end stuck, by both Jacobians, where the hand's frame leans and where it does not."""
+    own = rows[rows["task"] == "peg-in-hole"]
+    if own.empty:
+        return f"How pegs end is {ABSENT}."
+    counts = []
+    for contender, who in ((CARTESIAN, "Cartesian"), (EULER, "on the Euler Jacobian")):
+        mine = of(own, contender)
+        level, leaning = mine[mine["beta_deg"] == 0.0]["jam"], mine[mine["beta_deg"] != 0.0]["jam"]
+        counts.append(
+            f"{who} {level.sum():.0f} of {level.count()} where the frame is level and {leaning.sum():.0f} of "
+            f"{leaning.count()} where it leans"
+        )
+    return f"Pegs that end stuck: {'; '.join(counts)}."
+
+
+def of_pose(row: pd.Series) -> str:
+    """An episode's arm and pose."""
+    return f"{row['arm']}, {named(row['pose'])}"
+
+
+def named(pose: str) -> str:
+    """A pose as the page spells it: tilt 20 about 0, beta+75."""
+    return pose.replace("beta+", "β = ").replace("beta-", "β = −") + "°"
+
+
+def tables(run: Run) -> dict:
+    """All tasks; other models of contact; verdicts; a table a task."""
+    rows = all_rows(run)
+    return {
+        "tab_contact": CONTACT(ends(name, working(rows[rows["task"] == name])) for name in tasks_of(rows)),
+        "tab_models": contact_models.table(),
+        "verdicts": verdicts(run, "C25"),
+        **{f"tab_{name}": given(rows[rows["task"] == name], of_controllers) for name in MEASURES},
+    }
+
+
+def ends(name: str, own: pd.DataFrame) -> tuple:
+    """How episodes of a task end, how deep hand and scene penetrate, and how hard they press."""
+    failed = own.loc[own["outcome"] != "done", "outcome"].value_counts()
+    return (
+        html.together(name),
+        len(own),
+        100.0 * float((own["outcome"] == "done").mean()),
+        ", ".join(f"{count} {word}" for word, count in failed.items()) or "none",
+        1e3 * float(own["penetration_m"].median()) + 0.0,
+        1e3 * float(own["penetration_m"].quantile(QUANTILE)) + 0.0,
+        float(own["peak_force_n"].median()),
+    )
+
+
+def of_controllers(own: pd.DataFrame) -> html.Markdown | None:
+    """A controller a line: how many episodes of one task reach the end, and its two medians at every beta."""
+    measures = MEASURES[str(own["task"].iloc[0])]
+    betas = sorted(set(own["beta_deg"]))
+    shown = betas if len(betas) <= 3 else [betas[0], betas[len(betas) // 2], betas[-1]]
+    lines = []
+    for contender in in_order(own):
+        mine = own[own["contender"] == contender]
+        count = html.together(f"{(mine['outcome'] == 'done').sum()} of {len(mine)}")
+        middles = [measure.over_beta(mine) for measure in measures]
+        lines.append((controller(contender), count, *(middle.get(b, np.nan) for middle in middles for b in shown)))
+    forms = {_head(measure, b): measure.form for measure in measures for b in shown}
+    return Table({"Controller": "", "Reach the end": "", **forms})(lines)
+
+
+def _head(measure: Measure, beta: float) -> str:
+    return f"{measure.short} [{measure.unit}], {beta:.0f}°"
+
+
+def controller(contender: str) -> str:
+    """A controller in a cell, its coordinates and its form kept whole."""
+    way, _, form = contender.partition("+")
+    name, comma, coordinates = title(way).rpartition(", ")
+    whole = f"{name}, {html.together(coordinates)}" if "/" in way else f"{name}{comma}{coordinates}"
+    return f"{whole}, {html.together('(S J)⁺')}" if form == "projected" else whole
+
+
+def in_order(rows: pd.DataFrame) -> list[str]:
+    """The controllers of the rows: hybrid ones first, each with its two forms side by side."""
+    ranks = {way: place for place, way in enumerate(ways(rows))}
+    return sorted(
+        set(rows["contender"]), key=lambda name: (name.startswith("impedance"), ranks[name.partition("+")[0]], name)
+    )
+
+
+LOOP = (
+    "Two arms press a square tool onto a tilted plate. With Cartesian compliance the tool turns until it lies flat; "
+    "with the Euler Jacobian it stays level, on one edge."
+)
+
+
+def figures(run: Run) -> dict:
+    """The loop of two arms at a plate; tasks by frame of the hand."""
+    return {"plate-loop": media.loop(LOOP, "plate-loop"), "in-contact": given(all_rows(run), by_frame)}

@@ -1,0 +1,129 @@
+"""What the pages on compliance read of compliance.parquet: rows of a task, who is drawn how, and what was measured.
+
+C, 3 x 3, is a row's rotation per moment [rad/(N m)]: C[i, j] about i per moment about j.
+"""
+
+from __future__ import annotations
+
+import functools
+
+import numpy as np
+import pandas as pd
+
+from bench.contenders.registry import known_impedances
+from bench.findings import claims
+from report.figures.claims import claims as shown
+from report.figures.kit import html, style
+from report.figures.kit.page import Run
+
+CARTESIAN, EULER = "hybrid-base+inverse", "hybrid/zyx-euler+inverse"
+HAND, BY_RATE = "hybrid-hand+inverse", "hybrid-rate+inverse"
+ZYZ, UNCONVERTED = "hybrid/zyz-euler+inverse", "hybrid-unconverted/zyx-euler+inverse"
+SPRINGS_OF_EULER = "impedance-coordinates/zyx-euler"
+
+LOOKS = {
+    "hybrid-base": style.Look("#0072b2", "o", style.SOLID),
+    "hybrid-hand": style.Look("#56b4e9", "D", style.DOTTED),
+    "hybrid-rate": style.Look("#009e73", "^", style.DASH_DOT),
+    "hybrid/zyx-euler": style.Look("#d55e00", "s", style.DASHED),
+    "hybrid/zyz-euler": style.Look("#e69f00", "v", style.DASHED),
+    "hybrid/xyz-euler": style.Look("#a39400", "P", style.DASHED),
+    "hybrid/rotation-vector": style.Look("#cc79a7", "X", style.DASH_DOT),
+    "hybrid/mrp": style.Look("#009e73", "h", style.DASH_DOT),
+    "hybrid-unconverted/zyx-euler": style.Look("#cc79a7", "X", style.DOTTED),
+    "impedance-geometric": style.Look("#0072b2", "o", style.SOLID),
+    "impedance-coordinates/zyx-euler": style.Look("#d55e00", "s", style.DASHED),
+}
+TITLES = {
+    "hybrid-base": "Cartesian",
+    "hybrid-hand": "Cartesian, the hand's axes",
+    "hybrid-rate": "Cartesian, turns held by rate",
+    "hybrid": "Euler Jacobian",
+    "hybrid-unconverted": "Moments unconverted",
+}
+SPRINGS, OTHER = "Impedance: ", "Analytic Jacobian"
+COORDINATES = {
+    "zyx-euler": "Z-Y-X",
+    "zyz-euler": "Z-Y-Z",
+    "xyz-euler": "X-Y-Z",
+    "rotation-vector": "rotation vector",
+    "mrp": "Rodrigues",
+}
+WORDS = ("task", "arm", "contender", "complies", "pose", "outcome", "form")
+COLUMNS = (*WORDS, "way", "alpha_deg", "beta_deg", "gamma_deg", "tilt_deg")
+"""Those that a table without rows has too."""
+
+ORDERS = ("about x", "about y", "about z", "about x and y", "about y and z", "about z and x")
+
+
+@functools.cache
+def of_task(run: Run, task: str) -> pd.DataFrame:
+    """Rows of one task, maybe none: with plain words, `way` (controller without its form), the goal's angles [deg]."""
+    found = run.rows("compliance", task=task)
+    if found.empty:
+        return pd.DataFrame(columns=COLUMNS)
+    found = found.assign(**{word: found[word].astype(str) for word in WORDS})
+    degrees = {f"{name}_deg": np.degrees(found[name]).round(6) + 0.0 for name in ("alpha", "beta", "gamma", "tilt")}
+    return found.assign(way=found["contender"].str.partition("+")[0], **degrees)
+
+
+def verdicts(run: Run, *ids: str) -> html.Markdown | None:
+    """These claims with their words, linked to their sections; None if no row speaks of them."""
+    results = claims.Results(run.folder)
+    try:
+        return shown.table([claims.judge(one, results) for one in ids], "40-claims.html")
+    except claims.NoEvidence:
+        return None
+
+
+def of(rows: pd.DataFrame, contender: str, complies: str = "") -> pd.DataFrame:
+    """Rows of one controller, and of one order if it is named."""
+    own = rows[rows["contender"] == contender]
+    return own[own["complies"] == complies] if complies else own
+
+
+def level(rows: pd.DataFrame) -> pd.DataFrame:
+    """Those whose goal has no alpha and no gamma, by beta."""
+    return rows[(rows["alpha_deg"] == 0.0) & (rows["gamma_deg"] == 0.0)].sort_values("beta_deg", kind="stable")
+
+
+def nearest(rows: pd.DataFrame, betas: tuple[float, ...]) -> list[float]:
+    """Of the betas [deg] that rows have, those nearest to the ones asked for: grids of suites differ."""
+    there = sorted(set(rows["beta_deg"]))
+    return list(dict.fromkeys(min(there, key=lambda one: abs(one - beta)) for beta in betas))
+
+
+def compliance(row) -> np.ndarray:
+    """C of one row; NaN where the hand did not get to the end."""
+    return np.array([[float(row[f"c_{i}{j}"]) for j in "xyz"] for i in "xyz"])
+
+
+def wanted(rows: pd.DataFrame) -> dict[str, float]:
+    """Arm -> rotation per moment [rad/(N m)] of an axis that complies: c_xx of Cartesian compliance about x."""
+    return {arm: float(own["c_xx"].median()) for arm, own in of(rows, CARTESIAN, "about x").groupby("arm")}
+
+
+def arms(rows: pd.DataFrame) -> list[str]:
+    """The arms of the rows, sorted."""
+    return sorted(set(rows["arm"]))
+
+
+def ways(rows: pd.DataFrame) -> list[str]:
+    """The controllers of the rows without their forms: those that have a look first, in its order."""
+    there = set(rows["way"])
+    return [way for way in LOOKS if way in there] + sorted(there - set(LOOKS))
+
+
+def look(way: str) -> style.Look:
+    """How a controller is drawn, whatever its form."""
+    return LOOKS.get(way) or style.look(way.replace("/", "-"))
+
+
+def title(way: str) -> str:
+    """How a controller is called in a figure: its frame, or its coordinates."""
+    law, _, coordinates = way.partition("/")
+    if law.startswith("impedance-"):
+        name = f"{SPRINGS}{known_impedances()[law.removeprefix('impedance-')].title}"
+    else:
+        name = OTHER if law == "hybrid" and not coordinates.endswith("euler") else TITLES.get(law, law)
+    return f"{name}, {COORDINATES.get(coordinates, coordinates)}" if coordinates else name

@@ -1,0 +1,149 @@
+"""The page on other libraries: which functions are right, which are not and where, and Euler angles."""
+
+from __future__ import annotations
+
+import functools
+
+import pandas as pd
+
+from bench.studies.libraries.forms import FORMS
+from report.figures.kit import html
+from report.figures.kit.page import Run
+from report.figures.kit.spelling import power
+from report.figures.kit.tables import Table
+from report.figures.libraries.answers import (
+    ANGLES,
+    COUNT_RAD,
+    DIGITS,
+    LONG_WAY,
+    MISALIGNED,
+    NO_NUMBER,
+    OURS,
+    SHEET,
+    SINE,
+    UNDECIDED_RAD,
+    VECTOR,
+    ZERO,
+    functions,
+    origins,
+    table,
+)
+from report.figures.libraries.digits import digits
+
+EVERYWHERE = ["small", "drawn", "near", "at", "pole"]
+
+TO_USE = Table({"Library": "", "From a matrix": "", "From a quaternion": ""})
+FAULTS = Table({"Function": "", "But": ""})
+ERRORS = Table({"Function": "", "It is": "", "Small": "", "Drawn": "", "Near half turns": "", "At them": ""})
+AS_ANGLES = Table({"Function": "", "Drawn": "", "Poles": "", "Half turns": "", "As an error": ""})
+VERSIONS = Table({"Library": "", "Version": "", "Python": "", "numpy": ""})
+
+TAKES = ("matrix", "quaternion")
+
+
+@functools.cache
+def lines() -> pd.DataFrame:
+    """A line a function."""
+    return functions(table())
+
+
+def right(every: pd.DataFrame) -> pd.DataFrame:
+    """The functions against which nothing is said, with their largest error anywhere."""
+    kept = every[every["objections"].map(len).eq(0) & every["form"].ne(ANGLES)]
+    return kept.assign(largest=kept[EVERYWHERE].max(axis=1))
+
+
+def faulty(every: pd.DataFrame) -> pd.DataFrame:
+    """Those against which something is, angles apart."""
+    return every[every["objections"].map(len).gt(0) & every["form"].ne(ANGLES)]
+
+
+def facts(_: Run) -> dict:
+    """Every number and list of names that the text takes; ours are not counted among other libraries'."""
+    rows, every = table(), lines()
+    others = every[(every["library"] != OURS) & (every["form"] != ANGLES)]
+    kinds = others["objections"].map(set)
+    dead = others[kinds.map(lambda found: ZERO in found) & (others["form"] != SINE)]
+    sheets = others[kinds.map(lambda found: SHEET in found)]
+    sines, angles = others[others["form"] == SINE], every[every["form"] == ANGLES]
+    exact = angles["objections"].map(len) == 0
+    small, near = (rows[rows[name] > 0.0] for name in ("angle_rad", "distance_rad"))
+    return {
+        "libraries": others["library"].nunique(),
+        "functions": len(others),
+        "right": len(right(others)),
+        "count": power(COUNT_RAD),
+        "sines": len(sines),
+        "sine_names": names(sines),
+        "sine_error": power(sines[EVERYWHERE].to_numpy().max()),
+        "dead": names(dead),
+        "dead_else": power(dead[["small", "drawn", "near", "pole"]].to_numpy().max()) if len(dead) else "0",
+        "sheets": len(sheets),
+        "sheet_names": names(sheets),
+        "digits": int(kinds.map(lambda found: bool(found & {DIGITS, MISALIGNED, NO_NUMBER})).sum()),
+        "long_names": names(others[kinds.map(lambda found: found == {LONG_WAY})]),
+        "worst_right": power(right(others)["largest"].max()),
+        "axes": int(near["turns"].max()),
+        "drawn": int(rows[rows["turn_set"] == "drawn"]["turns"].max()),
+        "smallest": power(small["angle_rad"].min()),
+        "nearest": power(near["distance_rad"].min()),
+        "undecided": power(UNDECIDED_RAD),
+        "least_astray": f"{100 * angles['misaligned'].min():.0f}",
+        "angle_functions": len(angles),
+        "angles_exact": int(exact.sum()),
+        "angles_wrong": names(angles[~exact]),
+    }
+
+
+def names(some: pd.DataFrame) -> str:
+    """`library's function, function; library's ...` as words, or none."""
+    by_library = some.groupby("library", sort=False)["function"].agg(lambda found: ", ".join(dict.fromkeys(found)))
+    return "; ".join(f"{library}: {found}" for library, found in by_library.items()) or "none"
+
+
+def tables(_: Run) -> dict:
+    """What to use, what not, largest errors by set of turns [rad], angles, versions."""
+    every = lines()
+    angles, others = every[every["form"] == ANGLES].itertuples(), every[every["form"] != ANGLES].itertuples()
+    return {
+        "tab_to_use": TO_USE(to_use(every)),
+        "tab_faults": FAULTS((asked(one), "; ".join(one.objections.values())) for one in faulty(every).itertuples()),
+        "tab_errors": ERRORS(
+            (asked(one), html.together(FORMS[one.form].title), *map(power, (one.small, one.drawn, one.near, one.at)))
+            for one in others
+        ),
+        "tab_angles": AS_ANGLES(
+            (asked(one), *map(power, (one.drawn, one.pole, max(one.near, one.at))), f"{one.off:.1f}") for one in angles
+        ),
+        "tab_versions": VERSIONS(
+            (f"`{name}`", one["version"], one["python"], one["numpy"])
+            for name, one in sorted(origins().items())
+            if name != OURS
+        ),
+    }
+
+
+def to_use(every: pd.DataFrame) -> list[tuple]:
+    """A row a library: its functions that are right and give the rotation vector, by what they take."""
+    kept = right(every)
+    kept = kept[kept["form"] == VECTOR]
+    return [
+        (f"`{library}`", *(_named(kept[(kept["library"] == library) & (kept["takes"] == what)]) for what in TAKES))
+        for library in dict.fromkeys(every["library"])
+        if library != OURS
+    ]
+
+
+def _named(own: pd.DataFrame) -> str:
+    """Names as code, without what the column says already."""
+    return "<br>".join(f"`{name.partition(', of a ')[0]}`" for name in own["function"]) or html.MISSING
+
+
+def asked(one) -> str:
+    """A line's library and function."""
+    return f"{one.library} `{one.function}`"
+
+
+def figures(_: Run) -> dict:
+    """Errors over small turns, and towards the half turn."""
+    return {"libraries-digits": digits(table())}

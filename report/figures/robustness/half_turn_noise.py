@@ -1,0 +1,212 @@
+"""The page on the worst noise at the half turn: which laws it holds there, from which noise on, and why.
+
+A law that turns about one axis is a scalar equation there (`isotropic`), and the lie a change of one sign: whether it
+is held follows from adding up. A law with memory is held from where its memory ends.
+"""
+
+from __future__ import annotations
+
+import functools
+import math
+
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+
+from bench.contenders.registry import find_contender
+from bench.contenders.regulators import hybrid, mrp_linearized
+from bench.findings.theory import robustness_theory
+from bench.findings.theory.isotropic import EQUATIONS
+from bench.law.contender import Regulator
+from bench.tables import read
+from report.figures.kit import families, html, style
+from report.figures.kit.inline import responsive_picture
+from report.figures.kit.page import Run, given
+from report.figures.kit.spelling import power
+from report.figures.kit.tables import Table
+from report.figures.robustness.rows import along, gains, laws, starts
+
+NAME = "half-turn-noise"
+
+KEEPS = {
+    "hybrid": 2.0 * math.asin(hybrid.DELTA),
+    "late-braking": math.pi / 3.0,
+    "mrp-linearized": 4.0 * math.atan(math.sqrt(mrp_linearized.SWITCH)) - math.pi,
+}
+"""Law with memory -> angle [rad] beyond the half turn up to which it keeps to the way it has begun."""
+
+UNBOUNDED = tuple(law for law, equation in EQUATIONS.items() if not equation.is_bounded)
+"""Laws without a greatest command: at the half turn they have none that a tick could hold."""
+
+FOOT, TOP = 1e-4, 1.6
+STEPS = 16
+"""Halvings of the interval that holds the least noise: to 1e-4 of it on a scale of factors."""
+
+
+def least(law: str, kp: float, kv: float) -> float:
+    """Least noise [rad] that holds a law at the half turn, by its equation or memory; 0 if any does, NaN if unknown."""
+    if law in KEEPS:
+        return KEEPS[law]
+    if law not in EQUATIONS or law in UNBOUNDED or find_contender(law).regulator.memory:
+        return math.nan
+    return _least(law, kp, kv)
+
+
+@functools.cache
+def _least(law: str, kp: float, kv: float) -> float:
+    held = functools.partial(robustness_theory.is_held, EQUATIONS[law], kp, kv)
+    low, high = math.log(1e-6), math.log(1.0)
+    if held(math.exp(low)):
+        return 0.0
+    for _ in range(STEPS):
+        middle = 0.5 * (low + high)
+        low, high = (low, middle) if held(math.exp(middle)) else (middle, high)
+    return math.exp(high)
+
+
+def jump(law: str, kp: float) -> float:
+    """Half the jump of a law's command at the half turn [rad/s^2], of a law with a scalar equation; NaN of others."""
+    return kp * EQUATIONS[law].spring(math.pi) if law in EQUATIONS and law not in UNBOUNDED else math.nan
+
+
+def leaving(rows: pd.DataFrame) -> pd.DataFrame:
+    """Share of starts that leave and settle: a row a level, a column a law."""
+    return rows.pivot_table(index="level", columns="contender", values="good", aggfunc="mean", observed=True)
+
+
+@responsive_picture
+def strips(rows: pd.DataFrame, narrow: bool):
+    """A row a law: in colour the noise that holds it by theory; marks are the episodes, full where all are held."""
+    shares = leaving(rows)
+    shares = shares[shares.index > 0]
+    own = laws(rows, controls=False)
+    figure, axes = style.panels(height=0.25 * len(own) + 0.9, narrow=narrow)
+    words = []
+    for place, law in enumerate(own):
+        colour, begin = style.look(law).colour, least(law, *gains(rows))
+        if not math.isnan(begin):
+            axes.plot(
+                [max(begin, FOOT), TOP], [place] * 2, color=colour, alpha=0.35, linewidth=7, solid_capstyle="butt"
+            )
+        _marks(axes, place, shares[law], colour)
+        settled = ", ".join(f"{100 * share:.0f}" for share in shares[law])
+        words.append(
+            f"{families.word(law)} {settled}" + ("" if math.isnan(begin) else f" (held from {begin:.2g} by theory)")
+        )
+    axes.set(xscale="log", xlim=(FOOT, TOP), ylim=(len(own) - 0.4, -0.6), xlabel="worst noise at the half turn [rad]")
+    axes.set_yticks(range(len(own)), map(families.word, own), fontsize=9)
+    # 0.3 and its like lie too close to their neighbours on a phone
+    axes.set_xticks(list(shares.index), ["" if narrow and f"{x:g}"[-1] == "3" else f"{x:g}" for x in shares.index])
+    axes.minorticks_off()
+    axes.tick_params(axis="y", length=0)
+    axes.grid(visible=False, axis="y")
+    levels = ", ".join(f"{level:g}" for level in shares.index)
+    return (
+        figure,
+        f"Share of half turns that is left and settled, in per cent, at noise of {levels} rad: {'; '.join(words)}.",
+    )
+
+
+def _marks(axes: Axes, place: int, shares: pd.Series, colour: str) -> None:
+    for level, share in shares.items():
+        fill = colour if share == 0.0 else style.PAPER
+        axes.plot(level, place, "o", markersize=6, markerfacecolor=fill, markeredgecolor=colour, markeredgewidth=1.3)
+        if 0.0 < share < 1.0:
+            axes.plot(level, place, "o", markersize=6, fillstyle="left", color=colour, markerfacecoloralt=style.PAPER)
+
+
+def regulator_of(law: str) -> Regulator:
+    """The regulator of a contender, the user's own of the run among them."""
+    return find_contender(law, read.own_laws()).regulator
+
+
+def _noise(value: float) -> str:
+    return "any" if value == 0.0 else power(value) if value < 1e-3 else f"{value:.3g}"
+
+
+LAWS = Table(
+    {
+        "Law": "",
+        "Proved": "",
+        "Memory": "",
+        "Jump [rad/s²]": ".0f",
+        "Held from, by theory [rad]": _noise,
+        "Exact half turns left [%]": ".0f",
+        "Measured": "",
+    }
+)
+
+
+def table(rows: pd.DataFrame) -> html.Markdown | None:
+    """A law a row: its property, half the jump of its command, the least noise by theory, and what was measured."""
+    kp, kv = gains(rows)
+    shares, lines = leaving(rows), []
+    for law in laws(rows):
+        regulator = regulator_of(law)
+        words = (families.link(law, families.word(law)), html.foreign(regulator.property))
+        numbers = (2.0 * jump(law, kp), least(law, kp, kv), 100.0 * float(shares[law].get(0.0, np.nan)))
+        lines.append((*words, "yes" if regulator.memory else "no", *numbers, measured(shares[law])))
+    return LAWS(lines)
+
+
+def measured(shares: pd.Series) -> str:
+    """Between which levels a law begins to be held: at the first it leaves all starts, at the second it does not."""
+    noisy = shares[shares.index > 0]
+    held = noisy.index[noisy < 1.0]
+    if not len(held):
+        return "never held"
+    free = noisy.index[noisy.index < held[0]]
+    begin = "any" if not len(free) else f"{free[-1]:g} to {held[0]:g}"
+    return begin if (noisy[noisy.index >= held[0]] == 0.0).all() else f"{begin}, in part"
+
+
+def facts(run: Run) -> dict:
+    """Whom noise holds, by theory and in the episodes; laws with memory and without."""
+    rows = along(run, NAME)
+    if rows.empty:
+        return {}
+    kp, kv = gains(rows)
+    shares = leaving(rows)
+    noisy = shares[shares.index > 0]
+    own = laws(rows, controls=False)
+    known = {law: least(law, kp, kv) for law in own if not math.isnan(least(law, kp, kv))}
+    agree = [(level >= begin) == (noisy.loc[level, law] < 0.5) for law, begin in known.items() for level in noisy.index]
+    minding = [law for law in own if regulator_of(law).memory]
+    blind = [law for law in own if law not in minding]
+    jumping = [begin for law, begin in known.items() if law in blind and begin > 0.0]
+    middle = float(noisy.index[noisy.index < min(KEEPS.values())].max())
+    chord, chord_least = jump("square-root", kp), least("square-root", kp, kv)
+    memories = {"hybrid": "hybrid", "late": "late-braking", "mrp": "mrp-linearized"}
+    return {
+        "n": starts(rows),
+        "agree": sum(map(bool, agree)),
+        "told": len(agree),
+        "known": len(known),
+        "minding": len(minding),
+        "blind": len(blind),
+        "blind_free": sum(bool((noisy[law] == 1.0).all()) for law in blind),
+        "middle": f"{middle:g}",
+        "blind_middle": f"{100 * float(noisy.loc[middle, blind].max()):.0f}",
+        "memory_middle": f"{100 * float(noisy.loc[middle, minding].min()):.0f}",
+        "stuck": int((shares.loc[0.0, own] < 1.0).sum()),
+        "least": f"{min(jumping):.2g}",
+        "most": f"{max(jumping):.2g}",
+        "chord": f"{chord:g}",
+        "chord_least": f"{robustness_theory.two_ticks(chord, kv):.3g}",
+        "chord_exact": f"{chord_least:.3g}",
+        "faster": power(chord_least / 100.0),
+        **{key: f"{KEEPS[law]:.3f}" for key, law in memories.items()},
+        **{f"{key}_deg": f"{math.degrees(KEEPS[law]):.0f}" for key, law in memories.items()},
+        "delta": f"{hybrid.DELTA:g}",
+        "switch": f"{mrp_linearized.SWITCH:g}",
+    }
+
+
+def tables(run: Run) -> dict:
+    """What was measured of every law, beside what theory says."""
+    return {"tab_half_turn": given(along(run, NAME), table)}
+
+
+def figures(run: Run) -> dict:
+    """Who leaves the half turn at which noise."""
+    return {NAME: given(along(run, NAME), strips)}

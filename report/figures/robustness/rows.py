@@ -1,0 +1,144 @@
+"""Episodes under perturbations as the pages read them, and what every page says of them.
+
+An episode went well if it settled. Where the perturbation lasts after the goal is reached, and the angle's own 2 % say
+nothing, it went well if over the last second the root mean square angle to the goal is at most HELD_RAD.
+"""
+
+from __future__ import annotations
+
+import functools
+import math
+from collections.abc import Iterable
+
+import numpy as np
+import pandas as pd
+
+import tasks
+from bench.tables.statistics import quantile
+from report.figures.kit import families
+from report.figures.kit.page import Run
+from report.figures.kit.share import share
+from tasks.condition import Axis
+
+DEG = 180.0 / math.pi
+HELD_RAD = math.radians(3.0)
+LASTING = ("attitude-noise", "rate-noise", "moving-goal", "moving-goal-rate", "moving-goal-untold")
+"""Perturbations that last."""
+
+
+@functools.cache
+def along(run: Run, name: str) -> pd.DataFrame:
+    """Rows of one perturbation, laws family by family, with `good` and `time_s`, infinite where nothing settled."""
+    rows = run.rows("robustness", axis=name)
+    if rows.empty:
+        return rows
+    settled = rows["outcome"] == "settled"
+    good = rows["tail_rms_rad"] <= HELD_RAD if name in LASTING else settled
+    names = families.in_order(rows["contender"].unique())
+    return rows.assign(
+        contender=pd.Categorical(rows["contender"].astype(str), names, ordered=True),
+        good=good,
+        time_s=rows["settling_time_s"].where(settled, np.inf),
+    )
+
+
+def laws(rows: pd.DataFrame, controls: bool = True) -> list[str]:
+    """The laws of the rows, family by family; without the negative controls if so asked."""
+    if rows.empty:
+        return []
+    names = [name for name in rows["contender"].cat.categories if (rows["contender"] == name).any()]
+    return names if controls else [name for name in names if name not in families.CONTROLS]
+
+
+def of(rows: pd.DataFrame, law: str, level: float | None = None) -> pd.DataFrame:
+    """Rows of one law, or of one law at one level."""
+    own = rows[rows["contender"] == law]
+    return own if level is None else own[own["level"] == level]
+
+
+def gains(rows: pd.DataFrame) -> tuple[float, float]:
+    """(kp, kv) of the rows."""
+    return float(rows["kp"].iloc[0]), float(rows["kv"].iloc[0])
+
+
+def starts(rows: pd.DataFrame) -> int:
+    """Starts of a law at a level."""
+    return int(rows.groupby(["contender", "level"], observed=True).size().max())
+
+
+def levels(rows: pd.DataFrame) -> list[float]:
+    """The levels that the rows hold, from the least."""
+    return sorted(rows["level"].unique()) if len(rows) else []
+
+
+def nominal(axis: Axis) -> float:
+    """The level without perturbation; of one that has none, its mildest: the largest bound."""
+    return max(axis.levels) if axis.nominal is None else axis.nominal
+
+
+def worst(rows: pd.DataFrame, name: str) -> float:
+    """The level most levels away from the nominal one; of two such the greater."""
+    there = levels(rows)
+    place = there.index(nominal(tasks.axis(name)))
+    return there[0] if place > len(there) - 1 - place else there[-1]
+
+
+def with_unit(level: float, name: str) -> str:
+    """A level with its unit, in a unit that suits it."""
+    unit = tasks.axis(name).unit
+    if unit == "s":
+        return f"{1000.0 * level:g} ms"
+    if unit == "Hz" and level >= 1000.0:
+        return f"{level / 1000.0:g} kHz"
+    return f"{level:g}" if unit == "1" else f"{level:g} {unit.replace('^2', '²')}"
+
+
+def plain(level: float) -> str:
+    """A level alone, thousands as k."""
+    return f"{level / 1000.0:g}k" if level >= 1000.0 else f"{level:g}"
+
+
+def median(values: pd.Series) -> float:
+    """Of values of which some may be infinite."""
+    return float(quantile(values.to_numpy(), 0.5))
+
+
+def medians(rows: pd.DataFrame, column: str = "time_s") -> pd.DataFrame:
+    """Median of a column: a row a level, a column a law; negative controls left out."""
+    kept = rows[rows["contender"].isin(laws(rows, controls=False))]
+    return kept.groupby(["level", "contender"], observed=True)[column].apply(median).unstack()
+
+
+def slower(rows: pd.DataFrame, name: str) -> pd.Series:
+    """Median settling time at the worst level over that without perturbation, law by law, of laws that have both."""
+    table = medians(rows)
+    ratio = table.loc[worst(rows, name)] / table.loc[nominal(tasks.axis(name))]
+    return ratio[np.isfinite(ratio)]
+
+
+def losses(rows: pd.DataFrame, name: str) -> str:
+    """From which laws fewer starts go well at the worst level, in words, with Wilson intervals."""
+    before, after = (
+        rows[rows["level"] == level].groupby("contender", observed=True)["good"].agg(["sum", "size"])
+        for level in (nominal(tasks.axis(name)), worst(rows, name))
+    )
+    parts = []
+    for law in laws(rows, controls=False):
+        if after["sum"][law] < before["sum"][law]:
+            kept = share(int(after["sum"][law]), int(after["size"][law]))
+            low, high = 100.0 * kept.low, 100.0 * kept.high
+            parts.append(f"{families.word(law)} ({kept.k} of {kept.n}; {low:.0f} to {high:.0f} %)")
+    if not parts:
+        return "No law loses a start there that goes well without trouble."
+    return f"There fewer starts go well than without trouble for {listed(parts)}."
+
+
+def ends(rows: pd.DataFrame, name: str) -> dict:
+    """What every page says: starts, and at the worst level who loses some."""
+    return {"n": starts(rows), "worst": with_unit(worst(rows, name), name), "losses": losses(rows, name)}
+
+
+def listed(words: Iterable[str]) -> str:
+    """The words with commas and an "and"."""
+    *most, last = words
+    return f"{', '.join(most)} and {last}" if most else last

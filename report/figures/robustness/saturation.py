@@ -1,0 +1,73 @@
+"""The page on a bound on the command."""
+
+from __future__ import annotations
+
+import pandas as pd
+
+from bench.findings.theory import robustness_theory
+from report.figures.kit import families
+from report.figures.kit.page import Run, given
+from report.figures.robustness.half_turn_noise import UNBOUNDED
+from report.figures.robustness.level_panels import OVER_LEAST, panels
+from report.figures.robustness.rows import DEG, along, ends, laws, listed, medians, of, with_unit
+from report.figures.robustness.tables import by_level, costs
+from tasks.rules import RULES
+
+NAME = "saturation"
+
+
+def bounded(run: Run) -> pd.DataFrame:
+    """Rows with `over_least`: settling time over the least that the bound allows from that angle."""
+    rows = along(run, NAME)
+    if rows.empty:
+        return rows
+    least = [
+        robustness_theory.least_settling(angle, bound, RULES.tolerance)
+        for angle, bound in zip(rows["angle0_rad"], rows["level"], strict=True)
+    ]
+    return rows.assign(over_least=rows["time_s"] / least)
+
+
+def facts(run: Run) -> dict:
+    """Which laws come near the least time; and what becomes of commands without bound, without one and with."""
+    rows, free = bounded(run), along(run, "delay")
+    if rows.empty or free.empty:
+        return {}
+    table = medians(rows, "over_least")
+    kept = rows[rows["contender"].isin(laws(rows, controls=False))]
+    best, tight, mild = kept.loc[kept["over_least"].idxmin()], min(table.index), max(table.index)
+    overshoot = medians(rows, "overshoot_rad").loc[tight]
+    return {
+        **ends(rows, NAME),
+        "record": f"{best['over_least']:.3f}",
+        "record_law": families.word(str(best["contender"])),
+        "record_bound": with_unit(float(best["level"]), NAME),
+        "tight": f"{table.loc[tight].min():.2f}",
+        "tight_law": families.word(table.loc[tight].idxmin()),
+        "place": int(table.loc[mild].rank()[table.loc[tight].idxmin()]),
+        "of": table.shape[1],
+        "slack": f"{table.loc[tight].max():.2f}",
+        "slack_law": families.word(table.loc[tight].idxmax()),
+        "mild": f"{table.loc[mild].min():.0f}",
+        "mild_bound": with_unit(mild, NAME),
+        "over_law": families.word(overshoot.idxmax()),
+        "over": f"{DEG * overshoot.max():.0f}",
+        "tamed": listed(_settled(rows, law, tight) for law in UNBOUNDED if law in table),
+        "untamed": listed(_settled(free, law, 0.0) for law in UNBOUNDED if law in table),
+    }
+
+
+def _settled(rows: pd.DataFrame, law: str, level: float) -> str:
+    own = of(rows, law, level)
+    return f"{families.word(law)} {int(own['good'].sum())} of {len(own)}"
+
+
+def tables(run: Run) -> dict:
+    """How it went by bound, and what it took."""
+    rows = along(run, NAME)
+    return {"tab_levels": by_level(rows, NAME), "tab_costs": costs(rows, NAME)}
+
+
+def figures(run: Run) -> dict:
+    """Settling time over the least time, by bound."""
+    return {NAME: given(bounded(run), lambda rows: panels(rows, NAME, OVER_LEAST, lambda _: 1.0))}

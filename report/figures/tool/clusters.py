@@ -1,0 +1,248 @@
+"""The page on clusters: what very many episodes cost. Read from results/scale, which is committed."""
+
+from __future__ import annotations
+
+import functools
+from typing import Any
+
+import pandas as pd
+
+from bench.experiments import arm, contact, free_body
+from bench.experiments.choice import MOST_STARTS
+from bench.running.schedulers.words import THREADS
+from bench.tables.schema import RESULTS
+from bench.tables.store import read_json
+from report.figures.kit.html import number
+from report.figures.kit.page import Run
+from report.figures.kit.spelling import power
+from report.figures.kit.tables import Table
+
+FILE = RESULTS / "scale" / "scale.json"
+FEW, MANY = 10**4, 10**6
+"""Episodes of the two runs that are held against each other."""
+
+TENTH = 0.10
+"""What an episode of many may cost more than one of few."""
+
+FLAT = 0.25
+"""What memory may grow by and be called flat, for a hundred times the episodes."""
+
+QUIET = 0.1
+"""Cores that other programs may take and leave wall times what they are."""
+
+STUDY = 10**9
+"""Episodes of the study that is reckoned."""
+
+CORES = 1000
+
+MEASURED = ["scheduler", "episodes", "cpu_s", "own_cpu_s", "wall_s", "others", "peak_bytes", "row_bytes", "rows"]
+
+COST = "CPU an episode [µs]"
+SIZES = Table(
+    {
+        "Episodes": "",
+        "Runs": "",
+        COST: ".0f",
+        "Least to most": "",
+        "Peak memory [MB]": ".0f",
+        "Rows on disk [B an episode]": ".0f",
+    }
+)
+SCHEDULERS = Table(
+    {
+        "Scheduler": "",
+        COST: ".0f",
+        "Wall [s]": ".1f",
+        "Efficiency by CPU": "{:.0f} %",
+        "By wall time": "{:.0f} %",
+        "Others [cores]": ".2f",
+    }
+)
+
+
+@functools.cache
+def study() -> dict[str, Any]:
+    """All that was measured, part by part; empty if nothing was."""
+    return read_json(FILE) if FILE.is_file() else {}
+
+
+def sizes(found: dict[str, Any]) -> pd.DataFrame:
+    """By number of episodes, from few to many: over its runs the median, and the least and most of their cost."""
+    runs = pd.DataFrame(found.get("sizes", []), columns=MEASURED)
+    runs["each_us"] = 1e6 * runs["cpu_s"] / runs["episodes"]
+    return runs.groupby("episodes").agg(
+        runs=("each_us", "size"),
+        each_us=("each_us", "median"),
+        least_us=("each_us", "min"),
+        most_us=("each_us", "max"),
+        peak_bytes=("peak_bytes", "median"),
+        row_bytes=("row_bytes", "median"),
+    )
+
+
+def schedulers(found: dict[str, Any]) -> pd.DataFrame:
+    """A row a scheduler, one thread first.
+
+    Columns: scheduler, episodes, processes; CPU an episode of all of them, each_us, and of the command's own alone,
+    own_us; wall_s; efficiency, one thread's time over that of all processes, by_cpu and by_wall; others, the cores that
+    other programs took.
+    """
+    rows = pd.DataFrame(found.get("schedulers", []), columns=MEASURED)
+    alone = rows.iloc[:1].squeeze()
+    rows["processes"] = [1 if one == THREADS else int(one.partition(":")[2]) for one in rows["scheduler"]]
+    rows["each_us"], rows["own_us"] = (1e6 * rows[name] / rows["episodes"] for name in ("cpu_s", "own_cpu_s"))
+    rows["by_cpu"] = alone["cpu_s"] / rows["cpu_s"]
+    rows["by_wall"] = alone["wall_s"] / (rows["processes"] * rows["wall_s"])
+    return rows
+
+
+def tables_apart(found: dict[str, Any]) -> list[str]:
+    """Names of tables whose bytes depend on the scheduler, or on a worker that was killed."""
+    by_threads, *others = found["killed"]["tables"].values()
+    names = dict.fromkeys(name for tables in (by_threads, *others) for name in tables)
+    return [name for name in names if any(tables.get(name) != by_threads.get(name) for tables in others)]
+
+
+def rows_are_same(found: dict[str, Any]) -> bool:
+    """Whether runs of as many episodes have the same bytes, whoever carried them out."""
+    runs = pd.DataFrame([*found.get("sizes", []), *found.get("schedulers", [])], columns=MEASURED)
+    return bool((runs.groupby("episodes")["rows"].nunique() == 1).all())
+
+
+def facts(_: Run) -> dict:
+    """A paragraph each."""
+    return text(study())
+
+
+def text(found: dict[str, Any]) -> dict:
+    """Those paragraphs whose part of the study was run."""
+    size, by = sizes(found), schedulers(found)
+    words: dict = {"same": same(found)} if "killed" in found else {}
+    if {FEW, MANY} <= set(size.index):
+        words |= {"cost": cost(found, size), "memory": memory(size)}
+    if len(by):
+        words["efficiency"] = efficiency(by)
+    if len(size) and len(by):
+        words["lead"] = (
+            f"An episode on the ideal plant costs {size['each_us'].iloc[-1]:.0f} µs of a core, and {power(STUDY)} of "
+            f"them {core_hours(size, by):.0f} core-hours."
+        )
+        words["study"] = of_many(size, by)
+    return words
+
+
+def same(found: dict[str, Any]) -> str:
+    """Whether rows depend on who makes them, or on a worker that is lost."""
+    apart, killed = tables_apart(found), found["killed"]
+    count = len(next(iter(killed["tables"].values())))
+    words = (
+        f"A plan of {killed['units']} units, on the free body, on an arm, in contact and in trouble, was run by "
+        f"threads, by two processes, and by two of which {killed['killed']} was killed half way. "
+    )
+    words += f"These tables differ: {', '.join(apart)}." if apart else f"All {count} tables have the same bytes."
+    if not rows_are_same(found):
+        words += " Of the runs below, some of as many episodes have other rows."
+    return words
+
+
+def cost(found: dict[str, Any], size: pd.DataFrame) -> str:
+    """What an episode of the largest run costs against one of 10^4, and how far that can be told."""
+    few, many, about = size.loc[FEW], size.loc[MANY], found["provenance"]["sizes"]
+    change = many["each_us"] / few["each_us"] - 1.0
+    return (
+        f"`{found['sizes'][0]['law']}` on uniform starts on the ideal plant, by one thread ({about['cpu']}, "
+        f"{about['cores']} cores). In a run of {power(MANY)} an episode costs {many['each_us']:.0f} µs, in one of "
+        f"{power(FEW)} {few['each_us']:.0f} µs: {_signed(change)}, "
+        f"{'within' if abs(change) <= TENTH else '**not** within'} a tenth. The {few['runs']:.0f} runs of "
+        f"{power(FEW)}, before the largest and after it, lie between {few['least_us']:.0f} and {few['most_us']:.0f} µs."
+    )
+
+
+def memory(size: pd.DataFrame) -> str:
+    """How the largest memory grows, with the same two runs."""
+    few, many = size.loc[FEW], size.loc[MANY]
+    change = many["peak_bytes"] / few["peak_bytes"] - 1.0
+    more = (many["peak_bytes"] - few["peak_bytes"]) / (MANY - FEW)
+    return (
+        f"The process holds {few['peak_bytes'] / 1e6:.0f} MB at most in the one and {many['peak_bytes'] / 1e6:.0f} MB "
+        f"in the other: {_signed(change)}, or {more:.0f} bytes for each episode more, whose row takes "
+        f"{many['row_bytes']:.0f} on disk. Memory is {'flat' if change <= FLAT else '**not** flat'}, if a quarter more "
+        "for a hundred times the episodes is."
+    )
+
+
+def efficiency(by: pd.DataFrame) -> str:
+    """How much of the time of one process and of two goes into episodes, and how many one client keeps busy."""
+    one, two = (by[by["processes"] == number].iloc[-1] for number in (1, 2))
+    others = by["others"].max()
+    longer = "" if others <= QUIET else ", so that wall times are longer than they need be"
+    busy = (two["each_us"] - two["own_us"]) / two["own_us"]
+    return (
+        f"{power(two['episodes'])} episodes each. Efficiency is one thread's time over that of all processes: by wall "
+        f"time {100 * one['by_wall']:.0f} % with one process and {100 * two['by_wall']:.0f} % with two. Other programs "
+        f"took {others:.2f} cores at most meanwhile{longer}. The start of the processes is left out. Of an episode's "
+        f"CPU time with two, {two['own_us']:.0f} µs are the client's, which gives out, writes and merges: one client "
+        f"keeps some {busy:.0f} processes busy with episodes as cheap as these, and more with others."
+    )
+
+
+def of_many(size: pd.DataFrame, by: pd.DataFrame) -> str:
+    """What very many episodes would cost, computed from what was measured."""
+    hours, runs, last = core_hours(size, by), STUDY // MOST_STARTS, size.iloc[-1]
+    native, on_arm, in_contact = (
+        number(float(f"{1e6 * one / last['each_us']:.1g}"))
+        for one in (free_body.EPISODE_S["native"], arm.EPISODE_S["native"], contact.TRIAL_S)
+    )
+    return (
+        f"At the cost of the largest run, and two processes' efficiency by wall time, {power(STUDY)} episodes take "
+        f"{hours:.0f} core-hours: {60 * hours / CORES:.0f} minutes on {number(CORES)} cores if these are as efficient, "
+        f"which was not measured. Rows take {STUDY * last['row_bytes'] / 1e9:.0f} GB. A run has at most "
+        f"{power(MOST_STARTS)} starts of a set, so it is {number(runs)} runs, each with a seed (`--seed`), a folder "
+        f"and a client of its own. In MuJoCo an episode costs some {native} times as much, on an arm {on_arm} times, "
+        f"in contact {in_contact} times."
+    )
+
+
+def core_hours(size: pd.DataFrame, by: pd.DataFrame) -> float:
+    """Of STUDY, by the largest run's cost and the efficiency of the most processes."""
+    return STUDY * 1e-6 * size["each_us"].iloc[-1] / by["by_wall"].iloc[-1] / 3600.0
+
+
+def _signed(change: float) -> str:
+    """A change in per cent, with its sign."""
+    return f"{100 * change:+.0f} %".replace("-", "\N{MINUS SIGN}")
+
+
+def tables(_: Run) -> dict:
+    """What episodes cost by their number, and by who runs them."""
+    return {"tab_sizes": by_size(study()), "tab_schedulers": by_scheduler(study())}
+
+
+def by_size(found: dict[str, Any]):
+    """A row a number of episodes: what one costs, and the memory of the whole run."""
+    return SIZES(
+        (
+            power(one.Index),
+            one.runs,
+            one.each_us,
+            f"{one.least_us:.0f} to {one.most_us:.0f}" if one.runs > 1 else None,
+            one.peak_bytes / 1e6,
+            one.row_bytes,
+        )
+        for one in sizes(found).itertuples()
+    )
+
+
+def by_scheduler(found: dict[str, Any]):
+    """A row a scheduler: CPU, wall time, how much of its processes' time went into episodes, and what others took."""
+    return SCHEDULERS(
+        (
+            "one thread" if one.scheduler == THREADS else f"`{one.scheduler}`",
+            one.each_us,
+            one.wall_s,
+            100 * one.by_cpu,
+            100 * one.by_wall,
+            one.others,
+        )
+        for one in schedulers(found).itertuples()
+    )

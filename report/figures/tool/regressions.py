@@ -1,0 +1,206 @@
+"""The page on the regression gate, read from results/regress, which is committed."""
+
+from __future__ import annotations
+
+import functools
+from typing import Any
+
+import pandas as pd
+
+from bench.regression.revisions import alternating, instructions, rule
+from bench.regression.revisions.comparison import SAME
+from bench.regression.revisions.target import LEVEL
+from bench.studies.gates import FOLDER, power
+from bench.tables.store import read_json
+from report.figures.kit import html, style
+from report.figures.kit.inline import responsive_picture
+from report.figures.kit.page import Run, given
+from report.figures.kit.spelling import power as in_powers
+from report.figures.kit.tables import Table
+
+TENTH = 0.10
+QUIET, DOUBTED, ALARM = "#56b4e9", "#e69f00", "#d55e00"
+ONCE, TWICE, COUNTED = "#56b4e9", "#0072b2", "#d55e00"
+
+FAULTS = Table({"Planted": "", "In": "", "Caught by": "", "In the words": ""})
+
+
+@functools.cache
+def part(name: str) -> list[dict[str, Any]]:
+    """The rows of same_code, power or faults; none if it has not been run."""
+    path = FOLDER / f"{name}.json"
+    return read_json(path)["rows"] if path.is_file() else []
+
+
+def verdicts() -> pd.DataFrame:
+    """A row for each benchmark of each comparison of the same code.
+
+    Columns: comparison, neighbours (busy processes), benchmark, ratio and p of the first run, `doubted` (its verdict
+    was not "same") and `alarm` (a second run agreed).
+    """
+    rows = [
+        {
+            "comparison": number,
+            "neighbours": sum(one["load"].values()),
+            "benchmark": name,
+            "ratio": timed["ratio"],
+            "p": timed["p"],
+            "doubted": name in one["doubted"],
+            "alarm": name in one["doubted"] and one["doubted"][name]["verdict"] != SAME,
+        }
+        for number, one in enumerate(part("same_code"), start=1)
+        for name, timed in one["timed"].items()
+    ]
+    return pd.DataFrame(rows)
+
+
+def counts_apart() -> pd.Series:
+    """Instructions of the same code, head over base - 1; one for each law of each comparison that counted them."""
+    return pd.Series(
+        [apart for one in part("same_code") for apart in (one["instructions"] or {}).values()], dtype=float
+    )
+
+
+def steps() -> pd.DataFrame:
+    """A row for each planted step: how much slower, the shares found by one run and by two, and more instructions."""
+    found = [
+        {
+            "slower": one["slower"],
+            "repeats": one["repeats"],
+            "once": one["once"] / one["repeats"],
+            "twice": one["twice"] / one["repeats"],
+            "instructions": one["instructions"][1] / one["instructions"][0] - 1.0,
+        }
+        for one in part("power")
+        if one["instructions"]
+    ]
+    return pd.DataFrame(found).sort_values("slower", ignore_index=True) if found else pd.DataFrame()
+
+
+def facts(_: Run) -> dict:
+    """The rule's numbers, and a paragraph each on false alarms, faults, the same code and slower code."""
+    return {
+        "p": rule.P,
+        "ratio": f"{rule.RATIO:.2f}",
+        "rounds": alternating.ROUNDS,
+        "tolerance": f"{100 * instructions.TOLERANCE:g} %",
+        "level": LEVEL,
+        "lead": lead(verdicts(), part("faults")),
+        "noise": given(verdicts(), lambda rows: noise(rows, counts_apart())),
+        "found": given(steps(), found),
+    }
+
+
+def lead(rows: pd.DataFrame, faults: list[dict[str, Any]]) -> str | None:
+    """Both figures: false alarms, and faults found."""
+    words = []
+    if len(rows):
+        alarms = rows.groupby("comparison")["alarm"].any()
+        words.append(
+            f"Same code against itself, {len(alarms)} times on a busy machine: {int(alarms.sum())} false alarms."
+        )
+    if planted := [one for one in faults if one["law"]]:
+        named = sum(one["caught"] and one["named"] for one in planted)
+        words.append(f"Of {len(planted)} planted faults {named} are caught and named.")
+    return " ".join(words) or None
+
+
+def noise(rows: pd.DataFrame, apart: pd.Series) -> str:
+    """How far apart the same code was, and what each condition of the rule took away."""
+    comparisons = rows.groupby("comparison")
+    alone = comparisons["p"].min() < rule.P
+    words = (
+        f"{len(comparisons)} comparisons of {rows['benchmark'].nunique()} benchmarks, beside up to "
+        f"{rows['neighbours'].max()} busy processes of the study's own. The {len(rows)} ratios go from "
+        f"{rows['ratio'].min():.2f} to {rows['ratio'].max():.2f}. By p alone {int(alone.sum())} comparisons "
+        f"would have rung; both conditions held for {int(rows['doubted'].sum())} benchmarks in "
+        f"{int(comparisons['doubted'].any().sum())} of them, and the second run confirmed "
+        f"{int(rows['alarm'].sum())}. No machine code was taken to be as fast because it is the same."
+    )
+    if len(apart):
+        most = in_powers(float(apart.abs().max()))
+        words += f" Counts of instructions, {len(apart)} pairs, differed by {most} at most."
+    return words
+
+
+def found(rows: pd.DataFrame) -> str:
+    """What a tenth more time looks like, and from where on each gate is sure."""
+    near = rows.iloc[(rows["slower"] - TENTH).abs().argmin()]
+    words = (
+        f"`{power.LAW}`, {rows['repeats'].iloc[0]} comparisons a step. What is {100 * near['slower']:.0f} % slower is "
+        f"found in {100 * near['once']:.0f} % of single runs and in {100 * near['twice']:.0f} % of pairs of runs; it "
+        f"has {100 * near['instructions']:.1f} % more instructions."
+    )
+    for who, which in (
+        ("Time is sure", (rows["twice"] == 1.0) & (rows["slower"] > 0.0)),
+        ("Instructions tell", rows["instructions"] > instructions.TOLERANCE),
+    ):
+        if which.any():
+            words += f" {who} from {100 * rows.loc[which, 'slower'].min():.0f} % on."
+    return words
+
+
+def tables(_: Run) -> dict:
+    """What was planted, which gates caught it, and in what words; what has no law is caught by nothing."""
+    return {"tab_faults": FAULTS(map(fault, part("faults")))}
+
+
+def fault(one: dict[str, Any]) -> tuple:
+    """A line of the table."""
+    words = html.foreign(one["says"][0]) if one["says"] else html.MISSING
+    return one["fault"], one["law"] or html.MISSING, ", ".join(one["gates"]) or "nothing", words
+
+
+def figures(_: Run) -> dict:
+    """The same code compared with itself; and a law made slower."""
+    return {"regress-noise": given(verdicts(), ratios), "regress-power": given(steps(), shares)}
+
+
+@responsive_picture
+def ratios(rows: pd.DataFrame, *, narrow=False):
+    """Head over base of the first run, a column a comparison; what a second run took back, and what it did not."""
+    figure, axes = style.panels(height=3.4, narrow=narrow)
+    kinds = {
+        "same": (rows[~rows["doubted"]], QUIET, ".", 4),
+        "doubted, and taken back by the second run": (rows[rows["doubted"] & ~rows["alarm"]], DOUBTED, "s", 5),
+        "false alarm": (rows[rows["alarm"]], ALARM, "X", 7),
+    }
+    for name, (chosen, colour, marker, size) in kinds.items():
+        if len(chosen) or name == "same":
+            marks = {"color": colour, "marker": marker, "markersize": size, "linestyle": "none", "alpha": 0.75}
+            axes.plot(chosen["comparison"], chosen["ratio"], label=name, **marks)
+    for bound in (rule.RATIO, 1.0 / rule.RATIO):
+        axes.axhline(bound, color=style.MUTED, linewidth=1.0, linestyle=style.DASHED)
+    axes.set_yscale("log")
+    low, high = min(rows["ratio"].min(), 0.88), max(rows["ratio"].max(), 1.12)
+    ticks = [tick for tick in (0.6, 0.7, 0.8, 0.9, 1.0, 1.1, 1.2, 1.4, 1.6) if low <= tick <= high]
+    axes.set_yticks(ticks, [f"{tick:g}" for tick in ticks])
+    axes.minorticks_off()
+    axes.set(xlabel="Comparison", ylabel="Time, head over base")
+    figure.legend(loc="outside upper left", ncols=1 if narrow else 3)
+    return figure, (
+        f"{rows['comparison'].nunique()} comparisons of the same code, {rows['benchmark'].nunique()} benchmarks each: "
+        f"ratios from {rows['ratio'].min():.3f} to {rows['ratio'].max():.3f}; {int(rows['doubted'].sum())} with "
+        f"p < {rule.P} and a ratio beyond {rule.RATIO} in the first run, {int(rows['alarm'].sum())} in the second too."
+    )
+
+
+@responsive_picture
+def shares(rows: pd.DataFrame, *, narrow=False):
+    """Above the shares found by time, below the instructions; against how much slower the law truly is."""
+    figure, (above, below) = style.panels(2, 1, height=4.6, narrow=narrow, sharex=True, height_ratios=(3, 2))
+    slower = 100.0 * rows["slower"]
+    above.plot(slower, 100.0 * rows["once"], color=ONCE, marker="o", linestyle=style.DASHED, label="one run")
+    above.plot(slower, 100.0 * rows["twice"], color=TWICE, marker="s", label="and a second that agrees")
+    above.axvline(100.0 * (rule.RATIO - 1.0), color=style.MUTED, linewidth=1.0, linestyle=style.DOTTED)
+    above.set(ylabel="Found by time [%]", ylim=(-5, 105))
+    below.plot(slower, 100.0 * rows["instructions"], color=COUNTED, marker="^", linestyle=style.DASH_DOT)
+    below.axhline(100.0 * instructions.TOLERANCE, color=style.MUTED, linewidth=1.0, linestyle=style.DOTTED)
+    below.set(ylabel="More instr. [%]", xlabel="Slower, measured [%]")
+    figure.legend(loc="outside upper left", ncols=1 if narrow else 2)
+    alt = "; ".join(
+        f"{100 * row.slower:.1f} % slower: found in {100 * row.once:.0f} % of runs, in {100 * row.twice:.0f} % twice, "
+        f"{100 * row.instructions:+.1f} % instructions"
+        for row in rows.itertuples()
+    )
+    return figure, f"{alt}."

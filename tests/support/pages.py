@@ -1,0 +1,43 @@
+"""What is asked of every page and drawing of the book."""
+
+import re
+
+import pandas as pd
+
+from report.figures.kit import style
+from report.figures.kit.page import ABSENT, contents, text_of
+
+
+class Nothing:
+    """A run without a row in any table."""
+
+    folder = None
+
+    def rows(self, table, **words):
+        """None."""
+        return pd.DataFrame()
+
+
+def assert_is_drawn(picture, numbers=2):
+    """In colours of the palette, for page and phone, and said in words with numbers."""
+    assert len(re.findall(r"\d", picture.alt)) >= numbers
+    assert picture.narrow not in ("", picture.wide)
+    twins = {colour.lower() for pair in style.TWINS.items() for colour in pair}
+    for svg in (picture.wide, picture.narrow):
+        assert {colour.lower() for colour in re.findall(r"#[0-9a-fA-F]{6}\b", svg)} <= twins
+
+
+def pasted(module, run):
+    """What a page pastes, key by key."""
+    return contents(module, run, text_of(module.__name__.removeprefix("report.figures.")))
+
+
+def assert_is_whole(module, run):
+    """All that the page pastes is there, and every drawing is drawn."""
+    found = pasted(module, run)
+    assert found
+    for key, value in found.items():
+        if hasattr(value, "wide"):
+            assert_is_drawn(value)
+        assert "nan" not in str(value) or hasattr(value, "wide"), key
+        assert ABSENT not in (value.alt if hasattr(value, "wide") else str(value)), key
