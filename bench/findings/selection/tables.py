@@ -85,7 +85,7 @@ def _on_arms(every: pd.DataFrame) -> pd.DataFrame:
     is_wanted = (every["task"] == "arm-regulation") & (every["start_set"] == "uniform")
     is_wanted &= (every["jacobian"] == "geometric") & (every["variation"] == "nominal") & (every["engine"] == SAMPLED)
     rows = every[is_wanted & every["inverse"].isin(("solve", "pseudo-inverse"))]
-    law, inverse = rows["contender"].astype(str).str.partition("@")[0], rows["inverse"].astype(str)
+    law, inverse = rows["contender"].astype(str).str.split("@").str[0], rows["inverse"].astype(str)
     rows = rows.assign(contender=law, inverse=inverse, lost=~settled(rows))
     has_solve = rows.groupby(["contender", "arm"], observed=True)["inverse"].transform(
         lambda own: (own == "solve").any()
