@@ -2,12 +2,12 @@
 
 import itertools
 
+import pandas as pd
 import rich_click as click
-from rich.table import Table
 
 import tasks
 from bench.cli import options
-from bench.cli.screen import console
+from bench.cli.screen import Frame, console, frame_table
 from bench.contenders.registry import (
     known_impedances,
     known_inverses,
@@ -44,13 +44,8 @@ def COMMAND(kind, laws):
         console().print(_TABLES[one](own))
 
 
-def _table(title: str, columns: tuple[str, ...], rows) -> Table:
-    table = Table(title=title, title_justify="left", title_style="bold", box=None, pad_edge=False)
-    for column in columns:
-        table.add_column(column, style="bold" if column == columns[0] else None, overflow="fold")
-    for row in rows:
-        table.add_row(*map(str, row))
-    return table
+def _table(title: str, columns: tuple[str, ...], rows) -> Frame:
+    return frame_table(pd.DataFrame([[*map(str, row)] for row in rows], columns=list(columns)), title)
 
 
 def _regulators(own):
@@ -152,7 +147,7 @@ def _axes(own):
         return one.name, one.unit, levels, one.title
 
     every = map(tasks.axis, tasks.axis_names())
-    return _table("Axes of trouble, on the free body", ("name", "unit", "levels", "title"), map(row, every))
+    return _table("Perturbations of the free body (--axis)", ("name", "unit", "levels", "title"), map(row, every))
 
 
 def _starts(own):
@@ -179,10 +174,10 @@ def _suites(own):
         varied = ", and a study of model errors" if one.on_arms.varied else ""
         on_arms = f"{words} combinations{varied}" if words else f"every combination{varied}"
         in_contact = f"{len(one.in_contact.controllers) or 'all'} controllers"
-        in_trouble = f"{one.robustness.starts} starts a level"
-        return one.name, len({part.engine for part in one.slices}), on_arms, in_contact, in_trouble, one.title
+        robustness = f"{one.robustness.starts} starts a level"
+        return one.name, len({part.engine for part in one.slices}), on_arms, in_contact, robustness, one.title
 
-    columns = ("name", "engines", "on each arm", "in contact", "in trouble", "title")
+    columns = ("name", "engines", "on each arm", "in contact", "robustness", "title")
     return _table("Suites", columns, map(row, SUITES.values()))
 
 

@@ -1,16 +1,18 @@
 """`run`: carry out a suite, or a part of it."""
 
 import os
+import time
+from datetime import timedelta
 from pathlib import Path
 
 import rich_click as click
 
-from bench.cli import options
-from bench.cli.screen import console, episode_progress
+from bench.cli import options, planned
+from bench.cli.progress import progress
+from bench.cli.screen import console, shown_path
 from bench.experiments import plan as planning
 from bench.experiments.choice import Choice, check_workers
 from bench.experiments.experiment import IN_CONTACT, WITHOUT
-from bench.experiments.suites import NOMINAL
 from bench.law.contender import Gains
 from bench.running.schedulers.words import THREADS, check_scheduler
 
@@ -39,8 +41,8 @@ in contact, on dense grids of poses.
 [b]python -m bench run --suite full --scheduler local:8 --out /tmp/full[/b]  by eight processes; with an address, by the
 workers of a Dask cluster. The rows are the same.
 
-[b]python -m bench run --axis delay --axis half-turn-noise --regulator hybrid --count 200 --out /tmp/late[/b]  a law in
-trouble: robustness.parquet.
+[b]python -m bench run --axis delay --axis half-turn-noise --regulator hybrid --count 200 --out /tmp/late[/b]
+robustness: one law under two perturbations.
 """
 
 
@@ -58,7 +60,7 @@ trouble: robustness.parquet.
     "--variation", "variations", multiple=True, metavar="NAME", help="On arms, a plant that differs so; repeatable."
 )
 @click.option(
-    "--axis", "axes", multiple=True, metavar="NAME", help="Only along this axis of trouble, as delay; repeatable."
+    "--axis", "axes", multiple=True, metavar="NAME", help="Only under this perturbation, as delay; repeatable."
 )
 @click.option("--experiment", "experiments", multiple=True, metavar="NAME", help="Only this experiment; repeatable.")
 @click.option("--starts", multiple=True, metavar="NAME", help="Only this start set; repeatable.")
@@ -95,7 +97,7 @@ trouble: robustness.parquet.
     help="A --law that takes longer for a unit of work is stopped there, and its rows say hung.",
 )
 @click.option("--replace", is_flag=True, help="Start over if the folder holds another plan.")
-@click.option("--dry-run", is_flag=True, help="Print the plan and its size; run nothing.")
+@click.option("--dry-run", is_flag=True, help="Print the whole plan; run nothing.")
 def COMMAND(
     suite, laws, regulators, representations, controllers, tasks, arms, jacobians, inverses, variations, axes,
     experiments, starts, engines, count, dt_s, horizon_s, kp, kv, integrator, seed, workers, scheduler, out, law_limit,
@@ -110,8 +112,8 @@ def COMMAND(
     A task in contact has controllers (python -m bench list controllers) and trials of its own. It is run with the suite
     unless something is named that it does not take: another task, a regulator, a Jacobian, starts, an engine, ...
 
-    Along an axis of trouble (python -m bench list axes) goes the free body, on starts of the axis's own: asked rarely,
-    told late or wrongly, held back, or sent after a goal that moves. Name an axis, and nothing else is run.
+    Robustness is of the free body: under a perturbation (python -m bench list axes), from initial conditions of its
+    own, as a low control rate, delay, noise, saturation or a moving goal. Name one, and nothing else is run.
     """
     named = options.named(regulators, jacobians, inverses)
     plan = planning.make(
@@ -140,69 +142,30 @@ def COMMAND(
     )
     check_workers(workers)
     check_scheduler(scheduler)
-    _print_plan(plan, out)
+    planned.print_size(plan, out, workers, scheduler)
     if dry_run:
+        planned.print_all(plan)
         return
-    # numba and mujoco take seconds to import; --dry-run and mistakes should not
-    from bench.running import run as running
+    from bench.running import run as running  # numba and mujoco take seconds; --dry-run and mistakes should not
 
     state = running.inspect(plan, out, replace)
+    kept = sum(unit.episodes for unit in plan.units if unit.key in state.done)
     if state.done and not state.finished:
         console().print(f"going on: {len(state.done)} of {len(plan.units)} units are done")
+    began = time.monotonic()
+    with progress("episodes") as steps:
+        total, done = plan.episodes(), kept
+        steps.now("compiling the laws")
 
-    with episode_progress() as progress:
-        total = plan.episodes()
-        bar = progress.add_task("compiling", total=total)
+        def told(one):
+            nonlocal done
+            if one.unit.key not in state.done:
+                done += one.episodes
+                steps.now(one.unit.label, done, total)
 
-        def told(done):
-            progress.update(bar, advance=done.episodes, description=done.unit.label[:34])
-            if progress.tasks[0].finished:
-                progress.update(bar, description="curves, costs, boundaries")
-
-        did = running.run(
-            plan, out, workers=workers, scheduler=scheduler, replace=replace, told=told, law_limit_s=law_limit
-        )
-        progress.update(bar, completed=total, description="finished")
-    console().print(f"{'wrote' if did else 'up to date:'} {out}   (python -m bench show {out})")
-
-
-def _print_plan(plan, out) -> None:
-    laws = ", ".join(dict.fromkeys(one.on_free_body for one in plan.contenders))
-    alone, contacts, troubles = plan.of("free-body", "arm"), plan.of("contact"), plan.of("robustness")
-    trials = f" and {plan.episodes('contact'):,} in contact" if contacts else ""
-    troubled = f" and {plan.episodes('robustness'):,} in trouble" if troubles else ""
-    size = f"{plan.episodes('free-body', 'arm'):,} episodes{trials}{troubled} in {len(plan.units)} units"
-    console().print(f"suite {plan.settings.suite}: {size}, dt {plan.settings.dt_s} s, into {out}")
-    if laws:
-        console().print(f"laws: {laws}")
-    sizes: dict = {}
-    for unit in alone:
-        place = f"{unit.engine}, {unit.arm}" if unit.arm else unit.engine
-        varied = "" if unit.variation == NOMINAL else " under each variation"
-        sizes.setdefault(place, {}).setdefault(unit.selector + varied, unit.total)
-    for place, sets in sizes.items():
-        on = {unit.contender for unit in alone if unit.arm and place.endswith(f", {unit.arm}")}
-        each = f"each of {len(on)} combinations" if on else "each law"
-        console().print(f"{place}: " + ", ".join(f"{name} {total}" for name, total in sets.items()) + f" ({each})")
-    if troubles:
-        _print_troubles(troubles)
-    if contacts:
-        _print_contacts(contacts)
-
-
-def _print_troubles(units) -> None:
-    each = {unit.selector: unit.episodes // unit.count for unit in units}
-    listed = ", ".join(f"{name} {levels} x {units[0].count}" for name, levels in each.items())
-    laws = len({unit.contender for unit in units})
-    console().print(f"in trouble, levels x starts: {listed} (each of {laws} laws)")
-
-
-def _print_contacts(units) -> None:
-    console().print(f"controllers in contact: {', '.join(dict.fromkeys(unit.contender for unit in units))}")
-    trials: dict = {}
-    for unit in units:
-        of_task = trials.setdefault(unit.arm, {}).setdefault(unit.task, {})
-        of_task[unit.contender] = of_task.get(unit.contender, 0) + unit.episodes
-    for arm, by_task in trials.items():
-        listed = ", ".join(f"{task} {max(counts.values())}" for task, counts in by_task.items())
-        console().print(f"in contact, {arm}: {listed} (each controller, an impedance fewer)")
+        words = {"workers": workers, "scheduler": scheduler, "law_limit_s": law_limit}
+        did = running.run(plan, out, replace=replace, told=told, **words)
+    took = f" in {timedelta(seconds=round(time.monotonic() - began))}" if did else ""
+    console().print(
+        f"{'wrote' if did else 'up to date:'} {shown_path(out)}{took}   (python -m bench show {shown_path(out)})"
+    )

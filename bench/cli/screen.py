@@ -1,58 +1,103 @@
 """Printing: one console, the same width rules everywhere, plain text when the output is not a terminal."""
 
-from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, ProgressColumn, TextColumn, TimeRemainingColumn
+import os
+from collections.abc import Iterator
+from pathlib import Path
+
+from rich.console import Console, ConsoleOptions, RenderableType
 from rich.table import Table
 from rich.text import Text
+
+PIPED = 200
+"""Characters a line where no terminal says how many it has."""
 
 
 def console(stderr: bool = False) -> Console:
     """A console; wide enough for tables when piped into a file. It prints brackets, as in [1/s^2], as they are."""
     made = Console(stderr=stderr, highlight=False, markup=False, emoji=False)
     if not made.is_terminal:
-        made.width = 200
+        made.width = PIPED
     return made
 
 
-class Rate(ProgressColumn):
-    """Episodes a second."""
-
-    def render(self, task) -> Text:
-        """The rate, once there is one."""
-        return Text(f"{task.speed:,.0f}/s" if task.speed else "")
+def shown_path(path: Path) -> str:
+    """A path as one would type it here: relative if it lies in the working directory."""
+    relative = os.path.relpath(path)
+    return str(path) if relative.startswith("..") else relative
 
 
-def episode_progress() -> Progress:
-    """A bar of episodes with rate and time left; nothing where there is no terminal to draw it on."""
-    screen = console(stderr=True)
-    return Progress(
-        TextColumn("{task.description:34}"),
-        BarColumn(bar_width=30),
-        MofNCompleteColumn(),
-        Rate(),
-        TimeRemainingColumn(),
-        console=screen,
-        disable=not screen.is_terminal,
-    )
+def counted(number: int, word: str) -> str:
+    """A number and its noun: 1 law, 1,200 laws."""
+    return f"{number:,} {word}{'' if number == 1 else 's'}"
 
 
-def count_progress() -> Progress:
-    """A bar of measurements with time left."""
-    return Progress(
-        TextColumn("{task.description:34}"),
-        BarColumn(bar_width=30),
-        MofNCompleteColumn(),
-        TimeRemainingColumn(),
-        console=console(stderr=True),
-    )
+SENTENCE = 30
+"""Longest cell with a space in it that is kept on one line; longer ones wrap, to no less than this width."""
+
+GAP = 2
 
 
-def frame_table(frame, title: str = "") -> Table:
-    """A data frame as a table, numbers to the right."""
-    table = Table(title=title or None, title_justify="left", title_style="bold", box=None, pad_edge=False)
-    for name in frame.columns:
-        numeric = frame[name].dtype.kind in "iuf"
-        table.add_column(Text(str(name)), justify="right" if numeric else "left", overflow="fold")
-    for row in frame.itertuples(index=False):
-        table.add_row(*(Text("" if value is None or value != value else str(value)) for value in row))
+class Column:
+    """One column: its cells as text, its width, and the least width that breaks no word."""
+
+    def __init__(self, name: str, cells: list[str], is_number: bool):
+        self.name, self.cells, self.is_number = name, cells, is_number
+        self.width = max(map(len, (name, *cells)))
+        self.wraps = any(" " in cell and len(cell) > SENTENCE for cell in cells)
+        self.least = SENTENCE if self.wraps else self.width
+
+
+class Frame:
+    """A data frame as a table, numbers to the right; no name is broken while the screen has room for it.
+
+    What is too wide goes below in blocks of columns, each with the first column again; sentences wrap.
+    """
+
+    def __init__(self, columns: list[Column], title: str):
+        self.columns, self.title = columns, title
+
+    def __rich_console__(self, screen: Console, options: ConsoleOptions) -> Iterator[RenderableType]:
+        if self.title:
+            yield Text(self.title, "bold")
+        for place, block in enumerate(_blocks(self.columns, options.max_width)):
+            if place:
+                yield Text()
+            yield _table(block)
+
+
+def frame_table(frame, title: str = "") -> Frame:
+    """A data frame, for a console to print."""
+    columns = [
+        Column(
+            str(name),
+            ["" if value is None or value != value else str(value) for value in frame[name]],
+            frame[name].dtype.kind in "iuf",
+        )
+        for name in frame.columns
+    ]
+    return Frame(columns, title)
+
+
+def _blocks(columns: list[Column], width: int) -> list[list[Column]]:
+    """The columns in blocks that fit, the first column in each."""
+    if sum(GAP + one.least for one in columns) - GAP <= width:
+        return [columns]
+    key, *others = columns
+    key = Column(key.name, [cell.replace("@", "\n  @") for cell in key.cells], key.is_number)
+    key.width = key.least = max(len(line) for cell in (key.name, *key.cells) for line in cell.split("\n"))
+    blocks = [[key]]
+    for one in others:
+        if len(blocks[-1]) > 1 and sum(GAP + other.least for other in (*blocks[-1], one)) - GAP > width:
+            blocks.append([key])
+        blocks[-1].append(one)
+    return blocks
+
+
+def _table(columns: list[Column]) -> Table:
+    table = Table(box=None, pad_edge=False)
+    for one in columns:
+        side = "right" if one.is_number else "left"
+        table.add_column(Text(one.name), justify=side, overflow="fold", no_wrap=not one.wraps)  # type: ignore[arg-type]
+    for row in zip(*(one.cells for one in columns), strict=True):
+        table.add_row(*map(Text, row))
     return table

@@ -3,7 +3,8 @@
 import rich_click as click
 
 from bench.cli import options
-from bench.cli.screen import console, count_progress, frame_table
+from bench.cli.progress import progress
+from bench.cli.screen import console, frame_table
 
 
 @click.command("time")
@@ -20,12 +21,10 @@ def COMMAND(laws, regulators, representations, arms, quick):
     named = tuple(dict.fromkeys(arms)) or tuple(tasks.arm_names())
     for arm in named:
         tasks.arm(arm)  # a word that names none is refused before anything is compiled
-    with count_progress() as progress:
-        bar = progress.add_task("compiling", total=None)
+    with progress("samples") as steps:
 
         def told(done):
-            doing = "timing" if done.total else "compiling"
-            progress.update(bar, total=done.total or None, completed=done.done, description=f"{doing} {done.name}"[:34])
+            steps.now(f"{'timing' if done.total else 'compiling'} {done.name}", done.done, done.total or None)
 
         chosen = options.chosen(laws, regulators, representations, costings=True)
         path = timing.run(chosen, quick=quick, told=told, arms=named)

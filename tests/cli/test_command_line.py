@@ -1,13 +1,15 @@
 """The command line where nothing is wrong: what each command prints of a small run, and what its help explains."""
 
 import re
+from pathlib import Path
 
 import pytest
 import rich_click as click
 from support.command_line import TINY, bench
 
 import tasks
-from bench.cli import commands
+from bench.cli import commands, planned
+from bench.cli.paragraphs import laid_out
 from bench.contenders.registry import (
     all_contenders,
     known_impedances,
@@ -17,8 +19,10 @@ from bench.contenders.registry import (
     known_representations,
 )
 from bench.control.registry import all_compliants
+from bench.experiments import plan as planning
 from bench.experiments.suites import ENGINES, SUITES
 from bench.metrics.registry import known_contact_metrics, known_metrics
+from bench.running.schedulers.words import THREADS
 from bench.tables import store
 from tasks.base import BadArm
 
@@ -148,8 +152,17 @@ def test_list_without_a_kind_lists_every_kind(capsys):
 def test_run_prints_its_plan_and_what_to_do_next(capsys, tmp_path):
     said = bench(capsys, "run", *TINY, "--engine", "reference", "--out", tmp_path / "run")
     assert (said.code, said.err) == (0, "")
-    assert "suite quick: 3 episodes in 1 units" in said.out
+    assert "suite quick: 3 episodes in 1 unit\n" in said.out
     assert f"python -m bench show {tmp_path / 'run'}" in said.out.replace("\n", "")
+
+
+@pytest.mark.parametrize("suite", SUITES)
+def test_plan_of_a_suite_takes_twelve_lines_at_most(suite):
+    chosen = [one for one in all_contenders() if not one.regulator.costing_only]
+    plan = planning.make(suite, chosen, count=1)
+    lines = laid_out(planned.size(plan, Path("results/latest"), 2, THREADS), 80)
+    assert len(lines) <= 11  # and one if the run goes on
+    assert max(map(len, lines)) <= 80
 
 
 def test_dry_run_counts_what_a_run_then_writes(capsys, tiny_run):
@@ -199,7 +212,7 @@ def test_whole_name_runs_what_its_parts_run(capsys, suite):
     apart = ("--regulator", "rotation-matrix", "--jacobian", "geometric", "--inverse", "solve")
     said = [bench(capsys, *ON_ARM, "--suite", suite, *words, "--dry-run") for words in (("--regulator", WHOLE), apart)]
     assert said[0] == said[1]
-    assert "native, ur5e: clear 1 (each of 1 combinations)" in said[0].out
+    assert "native, ur5e: clear 1 (each of 1 controller)" in said[0].out
 
 
 def test_show_keeps_controllers_causes_and_variations_of_an_arm_apart(capsys, arm_run):

@@ -366,7 +366,7 @@ def test_dropped_files_are_listed_run_counted_and_shown_without_another_touched(
         assert f"\n{name} " in listed
     assert "feedback-linearized/dropped-coordinates" in dry  # a law for any coordinates has met the new ones
     assert "dropped-regulator  dropped-coordinates" in counted
-    assert "laws: dropped-regulator/dropped-coordinates" in told
+    assert "episodes: dropped-regulator/dropped-coordinates by native and reference from dropped-starts" in told
 
     found = store.read(tree / "results" / "latest", "episodes")
     assert {name: set(found[name]) for name in ("regulator", "representation", "task", "start_set", "engine")} == {

@@ -67,7 +67,7 @@ def test_command_line_plans_every_combination_of_a_jacobian(capsys, arm, by):
         if is_compatible:
             said = bench(capsys, *words)
             assert (said.code, said.err) == (0, "")
-            assert f"{arm}: clear 2 (each of 1 combinations)" in said.out
+            assert f"{arm}: clear 2 (each of 1 controller)" in said.out
         else:
             assert refused(capsys, *words).startswith("error: nothing to run: ")
 
@@ -128,7 +128,7 @@ def test_users_law_is_planned_on_every_arm_by_the_geometric_jacobian(capsys, own
     said = bench(capsys, *SHORT, "--law", own, "--regulator", "mine")
     assert (said.code, said.err) == (0, "")
     for arm in ARMS:
-        assert f"{arm}: clear 2 (each of 1 combinations)" in said.out
+        assert f"{arm}: clear 2 (each of 1 controller)" in said.out
 
 
 def test_users_law_on_R_takes_no_analytic_jacobian(capsys, own):

@@ -1,0 +1,49 @@
+"""Paragraphs with their heads in a column of their own, as a summary and a plan are printed."""
+
+import textwrap
+from typing import NamedTuple
+
+from bench.cli.screen import console
+
+WIDTH = 100
+"""Longest line, where the screen is wider."""
+
+HEAD = 13
+
+
+class Paragraph(NamedTuple):
+    """A head, and sentences each of which begins a line."""
+
+    head: str
+    sentences: tuple[str, ...]
+
+
+def laid_out(every: list[Paragraph], width: int) -> list[str]:
+    """Their lines; nothing is broken but at spaces, so that a name or a command is copied whole."""
+    lines = []
+    for head, sentences in every:
+        for place, sentence in enumerate(sentences):
+            first = f"{'' if place else head:{HEAD}}"
+            wrapped = textwrap.wrap(
+                sentence,
+                width,
+                initial_indent=first,
+                subsequent_indent=" " * HEAD,
+                break_long_words=False,
+                break_on_hyphens=False,
+            )
+            lines += wrapped
+    return lines
+
+
+def print_paragraphs(*every: Paragraph) -> None:
+    """Print some, as wide as the screen and at most WIDTH."""
+    screen = console()
+    for line in laid_out(list(every), min(screen.width, WIDTH)):
+        screen.print(line, soft_wrap=True)
+
+
+def listed(words: list[str], last: str = "and") -> str:
+    """Words as a sentence has them: a, b and c."""
+    *others, end = words
+    return f"{', '.join(others)} {last} {end}" if others else end

@@ -1,0 +1,97 @@
+"""What `run` prints of a plan: its size in a few lines, or everything in it."""
+
+from pathlib import Path
+
+from bench.cli.paragraphs import Paragraph, listed, print_paragraphs
+from bench.cli.screen import console, counted, shown_path
+from bench.experiments.plan import Plan
+from bench.experiments.suites import NOMINAL
+from bench.running.schedulers.words import THREADS
+
+FEW = 3
+"""Names up to this number are printed, more are counted."""
+
+
+def print_size(plan: Plan, out: Path, workers: int, scheduler: str) -> None:
+    """How much of what is run, how, and into which folder."""
+    print_paragraphs(*size(plan, out, workers, scheduler))
+
+
+def size(plan: Plan, out: Path, workers: int, scheduler: str) -> list[Paragraph]:
+    """The same as paragraphs."""
+    return [*_sizes(plan), _settings(plan, workers, scheduler), Paragraph("into", (shown_path(out),))]
+
+
+def _sizes(plan: Plan) -> list[Paragraph]:
+    free_body, on_arms, contacts, perturbed = (plan.of(name) for name in ("free-body", "arm", "contact", "robustness"))
+    parts = [counted(plan.episodes("free-body", "arm"), "episode")]
+    parts += [f"{plan.episodes('contact'):,} in contact"] if contacts else []
+    parts += [f"{plan.episodes('robustness'):,} for robustness"] if perturbed else []
+    size = f"suite {plan.settings.suite}: {listed(parts)} in {counted(len(plan.units), 'unit')}"
+    found = [Paragraph("plan", (size,))]
+    if free_body:
+        what = f"{_few(free_body, 'contender', 'law')} by {_few(free_body, 'engine', 'engine')}"
+        found.append(_part("free body", free_body, "episode", f"{what} from {_few(free_body, 'selector', 'start set')}"))
+    if on_arms:
+        what = f"{_few(on_arms, 'contender', 'controller')} on {_few(on_arms, 'arm', 'arm')}"
+        what += f" from {_few(on_arms, 'selector', 'start set')}"
+        varied = [unit for unit in on_arms if unit.variation != NOMINAL]
+        what += f", {_few(varied, 'variation', 'model error')}" if varied else ""
+        found.append(_part("arms", on_arms, "episode", what))
+    if contacts:
+        what = f"{_few(contacts, 'contender', 'controller')} in {_few(contacts, 'task', 'task')}"
+        found.append(_part("contact", contacts, "trial", f"{what} on {_few(contacts, 'arm', 'arm')}"))
+    if perturbed:
+        what = f"{_few(perturbed, 'contender', 'law')} under {_few(perturbed, 'selector', 'perturbation')}"
+        found.append(_part("robustness", perturbed, "episode", what))
+    return found
+
+
+def _part(head: str, units, word: str, what: str) -> Paragraph:
+    return Paragraph(head, (f"{counted(sum(unit.episodes for unit in units), word)}: {what}",))
+
+
+def _few(units, field: str, word: str) -> str:
+    names = list(dict.fromkeys(getattr(unit, field) for unit in units))
+    return listed(names) if len(names) <= FEW else counted(len(names), word)
+
+
+def _settings(plan: Plan, workers: int, scheduler: str) -> Paragraph:
+    given, who = plan.settings, counted(workers, "thread") if scheduler == THREADS else scheduler
+    gains = f"kp {given.gains.kp:g}/s², kv {given.gains.kv:g}/s"
+    return Paragraph("with", (f"control period {given.dt_s:g} s, {gains}, seed {given.seed}; by {who}",))
+
+
+def print_all(plan: Plan) -> None:
+    """Every law, engine, arm, start set, perturbation, controller and task of a plan."""
+    laws = ", ".join(dict.fromkeys(one.on_free_body for one in plan.contenders))
+    if laws:
+        console().print(f"\nlaws: {laws}")
+    alone, contacts, perturbed = plan.of("free-body", "arm"), plan.of("contact"), plan.of("robustness")
+    sizes: dict = {}
+    for unit in alone:
+        place = f"{unit.engine}, {unit.arm}" if unit.arm else unit.engine
+        varied = "" if unit.variation == NOMINAL else " under each variation"
+        sizes.setdefault(place, {}).setdefault(unit.selector + varied, unit.total)
+    for place, sets in sizes.items():
+        on = {unit.contender for unit in alone if unit.arm and place.endswith(f", {unit.arm}")}
+        each = f"each of {counted(len(on), 'controller')}" if on else "each law"
+        console().print(f"{place}: " + ", ".join(f"{name} {total}" for name, total in sets.items()) + f" ({each})")
+    if perturbed:
+        levels = {unit.selector: unit.episodes // unit.count for unit in perturbed}
+        each = ", ".join(f"{name} {number} x {perturbed[0].count}" for name, number in levels.items())
+        laws = counted(len({unit.contender for unit in perturbed}), "law")
+        console().print(f"perturbations, levels x starts: {each} (each of {laws})")
+    if contacts:
+        _print_contacts(contacts)
+
+
+def _print_contacts(units) -> None:
+    console().print(f"controllers in contact: {', '.join(dict.fromkeys(unit.contender for unit in units))}")
+    trials: dict = {}
+    for unit in units:
+        of_task = trials.setdefault(unit.arm, {}).setdefault(unit.task, {})
+        of_task[unit.contender] = of_task.get(unit.contender, 0) + unit.episodes
+    for arm, by_task in trials.items():
+        each = ", ".join(f"{task} {max(counts.values())}" for task, counts in by_task.items())
+        console().print(f"in contact, {arm}: {each} (each controller, an impedance fewer)")

@@ -1,0 +1,115 @@
+"""How far something is: a bar on a terminal; elsewhere, as in a log, a line now and then."""
+
+import threading
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from datetime import timedelta
+
+from rich.console import Console
+from rich.progress import BarColumn, Progress, ProgressColumn, Task, TextColumn
+from rich.text import Text
+
+from bench.cli.screen import console
+
+LINE_S = 25.0
+"""Between two lines where there is no terminal [s]; logs of services that end silent jobs see one every half minute."""
+
+SURE_S = 5.0
+"""Nothing is said of the time left before so many seconds are counted."""
+
+WORDS = 30
+"""Characters for what is being done, so that the bar stands still."""
+
+
+class Steps:
+    """What is being done, how many of how many are, and since when; the number is None while nobody can know it."""
+
+    def __init__(self, unit: str):
+        self.unit, self.doing = unit, ""
+        self.done, self.before = 0, 0
+        self.total: int | None = None
+        self.began = self.counting = time.monotonic()
+        self.changed: Callable[[], None] = lambda: None
+
+    def now(self, doing: str, done: int = 0, total: int | None = None) -> None:
+        """Say what is done now; with a total, how much of it."""
+        if total is not None and self.total is None:
+            self.counting, self.before = time.monotonic(), done
+        self.doing, self.done, self.total = doing, done, total
+        self.changed()
+
+    @property
+    def line(self) -> str:
+        """All of it in one line."""
+        passed = _clock(time.monotonic() - self.began)
+        if self.total is None:
+            return f"{passed}  {self.doing}"
+        share = f"{self.done:,} of {self.total:,} {self.unit} ({self.done / max(1, self.total):.0%})"
+        return f"{passed}  {share}{self._left()}: {self.doing}"
+
+    @property
+    def numbers(self) -> str:
+        """What stands to the right of the bar."""
+        passed = f"{_clock(time.monotonic() - self.began)} so far"
+        return passed if self.total is None else f"{self.done:,}/{self.total:,}{self._left()}"
+
+    def _left(self) -> str:
+        passed, made = time.monotonic() - self.counting, self.done - self.before
+        if not self.total or made <= 0 or passed < SURE_S:
+            return ""
+        return f", {_clock(passed * (self.total - self.done) / made)} left"
+
+
+def _clock(seconds: float) -> str:
+    return str(timedelta(seconds=round(seconds)))
+
+
+@contextmanager
+def progress(unit: str) -> Iterator[Steps]:
+    """Shown on stderr until the block ends; `unit` is what is counted, as episodes."""
+    steps, screen = Steps(unit), console(stderr=True)
+    with _bar(steps, screen) if screen.is_terminal else _lines(steps, screen):
+        yield steps
+
+
+class Numbers(ProgressColumn):
+    """What stands to the right of the bar, as the steps have it at the moment."""
+
+    def __init__(self, steps: Steps):
+        self.steps = steps
+        super().__init__()
+
+    def render(self, task: Task) -> Text:
+        """The text."""
+        return Text(self.steps.numbers)
+
+
+@contextmanager
+def _bar(steps: Steps, screen: Console) -> Iterator[None]:
+    """A bar; while no number is known, one that moves to and fro."""
+    words = TextColumn(f"{{task.description:{WORDS}}}", markup=False)
+    with Progress(words, BarColumn(bar_width=16), Numbers(steps), console=screen, transient=True) as bar:
+        task = bar.add_task("", total=None)
+        steps.changed = lambda: bar.update(
+            task, description=steps.doing[:WORDS], completed=steps.done, total=steps.total
+        )
+        yield
+
+
+@contextmanager
+def _lines(steps: Steps, screen: Console) -> Iterator[None]:
+    """A line every LINE_S, from a thread of its own."""
+    ended = threading.Event()
+
+    def repeat():
+        while not ended.wait(LINE_S):
+            screen.print(steps.line, soft_wrap=True)
+
+    thread = threading.Thread(target=repeat, daemon=True)
+    thread.start()
+    try:
+        yield
+    finally:
+        ended.set()
+        thread.join()
