@@ -31,7 +31,8 @@ def _sizes(plan: Plan) -> list[Paragraph]:
     found = [Paragraph("plan", (size,))]
     if free_body:
         what = f"{_few(free_body, 'contender', 'law')} by {_few(free_body, 'engine', 'engine')}"
-        found.append(_part("free body", free_body, "episode", f"{what} from {_few(free_body, 'selector', 'start set')}"))
+        what += f" from {_few(free_body, 'selector', 'start set')}"
+        found.append(_part("free body", free_body, "episode", what))
     if on_arms:
         what = f"{_few(on_arms, 'contender', 'controller')} on {_few(on_arms, 'arm', 'arm')}"
         what += f" from {_few(on_arms, 'selector', 'start set')}"

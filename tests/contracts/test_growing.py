@@ -419,7 +419,7 @@ def test_dropped_experiment_is_planned_run_resumed_stored_shown_and_compared_wit
         (*words, "results/none", "--dry-run"),
         (*words, "results/killed"),
         (*words, "results/whole"),
-        ("show", "results/killed"),
+        ("show", "results/killed", "--details"),
         ("compare", "results/killed", "results/whole"),
     )
     found = [pq.read_table(tree / "results" / name / "dropped.parquet") for name in ("killed", "whole")]

@@ -2,7 +2,8 @@
 
 import pandas as pd
 
-from bench.cli.show import contact_summary, outcome_table, summary
+from bench.cli.details import contact, free_body
+from bench.cli.details.episodes import outcome_table
 from bench.control.registry import find_compliant
 from bench.tables import read
 
@@ -33,8 +34,8 @@ def test_free_body_has_no_jacobian():
 
 
 def test_summary_keeps_a_law_on_an_arm_apart():
-    assert list(summary(LAWS)["law"]) == NAMES
-    assert list(summary(LAWS)["worst s"]) == ["1.000", "2.000", "never"]
+    assert list(free_body.summary(LAWS)["law"]) == NAMES
+    assert list(free_body.summary(LAWS)["worst s"]) == ["1.000", "2.000", "never"]
 
 
 def test_outcomes_keep_a_law_on_an_arm_apart():
@@ -63,7 +64,7 @@ def test_contender_in_contact_is_the_word_of_the_command_line():
 
 
 def test_summary_in_contact_is_of_the_poses_that_are_done():
-    table = contact_summary(IN_CONTACT).set_index("controller")
+    table = contact.summary(IN_CONTACT).set_index("controller")
     assert list(table.index) == CONTROLLERS
     assert list(table["done"]) == ["1/1", "2/3", "1/1"]
     assert list(table["leakage"]) == ["0.000  0.000", "2.000  3.000", ""]

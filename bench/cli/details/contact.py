@@ -1,0 +1,33 @@
+"""Tasks in contact: how many trials of each controller are done, and how well the hand complies."""
+
+import math
+
+import pandas as pd
+
+from bench.tables import read as results
+
+COLUMNS = {
+    "leakage_ratio": ("leakage", 1.0),
+    "misalignment_rad": ("misaligned deg", 180.0 / math.pi),
+    "alignment_error_rad": ("off the plate deg", 180.0 / math.pi),
+}
+"""Columns of compliance.parquet that are summarized: as what, in which unit."""
+
+
+def tables(rows):
+    """A table for each arm."""
+    for arm, part in rows.groupby("arm", observed=True, sort=False):
+        yield f"{arm}, contact (a/b: a of b poses done; then median and worst of these)", summary(part)
+
+
+def summary(rows):
+    """One line for each controller: poses whose trials are all done, then median and worst of COLUMNS over them."""
+    lines = []
+    for name, part in results.with_compliant(rows).groupby("contender", observed=True, sort=False):
+        done = part[part["outcome"] == "done"]
+        line = {"controller": str(name), "done": f"{len(done)}/{len(part)}"}
+        for column, (title, scale) in COLUMNS.items():
+            some = scale * done[column].dropna()
+            line[title] = f"{some.median():.3f}  {some.max():.3f}" if len(some) else ""
+        lines.append(line)
+    return pd.DataFrame(lines)

@@ -1,0 +1,48 @@
+"""Robustness: which perturbations each law withstands, and at what share of starts it ends under the others."""
+
+import pandas as pd
+
+from bench.cli.details.episodes import OF_STARTS, settled
+from bench.tables import read as results
+
+WITHSTOOD = 95
+"""Share of its starts [%] that a law settles at every level of a perturbation that it withstands."""
+
+
+def tables(rows):
+    """One table."""
+    least = least_shares(rows)
+    nobody = [axis for axis in least if not (least[axis] >= WITHSTOOD).any()]
+    title = f"robustness ({OF_STARTS}; withstood: at least {WITHSTOOD} % of them at every level)"
+    table = summary(rows)
+    if nobody and len(nobody) < least.shape[1]:
+        title += f"\nwithstood by no law, and left out on the right: {', '.join(nobody)}"
+    yield title, table
+
+
+def summary(rows):
+    """One line for each law: perturbations withstood, and its least share [%] under others that some law withstands."""
+    least = least_shares(rows)
+    withstood = least >= WITHSTOOD
+    shown = withstood.any() if withstood.to_numpy().any() else withstood.any() | True
+    named = results.with_contender(rows)
+    lines = []
+    for name, one in least.iterrows():
+        short = ", ".join(f"{axis} {share:.0f}" for axis, share in one[shown].items() if share < WITHSTOOD)
+        lines.append(
+            {
+                "law": str(name),
+                "settled": settled(named[named["contender"] == name]),
+                f"withstood of {one.size}": int((one >= WITHSTOOD).sum()),
+                "settled least [%]": short,
+            }
+        )
+    return pd.DataFrame(lines)
+
+
+def least_shares(rows):
+    """A row a law, a column a perturbation: the share [%] settled at its worst level."""
+    named = results.with_contender(rows)
+    settles = 100.0 * (named["outcome"] == "settled")
+    shares = settles.groupby([named["contender"], named["axis"], named["level"]], observed=True, sort=False).mean()
+    return shares.groupby(level=[0, 1], observed=True, sort=False).min().unstack()

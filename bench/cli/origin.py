@@ -1,0 +1,27 @@
+"""Where a run comes from, in a line."""
+
+from pathlib import Path
+
+from bench.cli.screen import counted, shown_path
+from bench.errors import BadResults
+from bench.tables.store import read_json
+
+NEEDED = ("suite", "episodes", "commit", "dirty", "cpu", "wall_s")
+
+
+def origin(folder: Path) -> str:
+    """Suite, size, commit, processor and time of a run.
+
+    Errors:
+        BadResults: provenance.json lacks one of them.
+    """
+    path = folder / "provenance.json"
+    found = read_json(path)
+    lacking = [name for name in NEEDED if name not in found]
+    if lacking:
+        raise BadResults(f"{path}: it lacks {', '.join(lacking)}; delete the folder and run again")
+    changed = " with changes" if found["dirty"] else ""
+    return (
+        f"{shown_path(folder)}: suite {found['suite']}, {counted(found['episodes'], 'episode')}, commit "
+        f"{found['commit'][:10] or 'none'}{changed}, {found['cpu']}, {found['wall_s']} s"
+    )

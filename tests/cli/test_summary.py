@@ -1,0 +1,206 @@
+"""What `show` says of a run in at most 40 lines, whatever is in the run, and the parts it prints in full."""
+
+import re
+
+import pandas as pd
+import pytest
+from support.command_line import TINY, bench, refused
+
+from bench.cli import paragraphs
+from bench.cli.details import PARTS
+from bench.cli.options import REFERENCE
+from bench.cli.summary import absent, answer, failures, verdicts
+from bench.findings.claims import Results, all_claims
+from bench.findings.selection.measured import measure
+from bench.findings.selection.needs import ANSWER, decide
+from bench.tables import read as results
+
+LINES, COLUMNS = 40, 100
+
+
+@pytest.fixture(scope="module")
+def tables():
+    return {name: results.table(REFERENCE, name) for name in ("episodes", "compliance", "robustness", "costs")}
+
+
+@pytest.fixture(scope="module")
+def reference(tables):
+    return Results(REFERENCE, dict(tables))
+
+
+def only(tables, *names, **words):
+    """Some tables with rows, of `episodes` those that have these words."""
+    frames = {name: frame if name in (*names, "costs") else frame.iloc[:0] for name, frame in tables.items()}
+    return Results(REFERENCE, {**frames, "episodes": results.chosen(frames["episodes"], words)})
+
+
+def text(*found) -> str:
+    return " ".join(sentence for one in found for sentence in one.sentences)
+
+
+# ------------------------------------------------------------------------------------------- its size
+
+
+@pytest.mark.slow
+def test_summary_of_the_reference_fits_the_screen_and_begins_with_the_law(capsys, monkeypatch, reference):
+    said = bench(capsys, "show", REFERENCE)
+    lines = said.out.splitlines()
+    law = decide(ANSWER, measure(reference)).law
+    assert (said.code, said.err) == (0, "")
+    assert (len(lines) <= LINES, max(map(len, lines)) <= COLUMNS) == (True, True)
+    assert lines[0].startswith("Which law ")
+    assert f"Use the law {law}." in lines[0]
+    for head in ("Exceptions", "Claims", "What failed", "This run", "Next"):
+        assert any(line.startswith(head) for line in lines)
+
+
+def test_summary_of_a_tiny_run_fits_too_and_says_what_is_not_in_it(capsys, finished, monkeypatch):
+    monkeypatch.chdir(finished.parent)
+    said = bench(capsys, "show", finished.name)
+    lines = said.out.splitlines()
+    assert (len(lines) <= LINES, max(map(len, lines)) <= COLUMNS) == (True, True)
+    assert lines[0].startswith("Which law    This run cannot say: it has no law with uniform and half-turn starts")
+    assert "Not in this run: arms, contact, robustness and" in said.out
+    assert "settled 0 of 3 episodes" in said.out
+    assert f"python -m bench show {finished.name} --details" in said.out
+
+
+def test_no_line_of_a_paragraph_is_broken_inside_a_name():
+    name = "feedback-linearized/quaternion@analytic+pseudo-inverse"
+    lines = paragraphs.laid_out([paragraphs.Paragraph("What failed", (f"most often {name}, " * 3,))], 80)
+    assert max(map(len, lines)) <= 80
+    assert sum(name in line for line in lines) == 3
+
+
+# ----------------------------------------------------------------------------------------- its words
+
+
+def test_exceptions_are_what_the_decisions_name(reference):
+    found = measure(reference)
+    said = answer.paragraphs(found)[1].sentences
+    law = decide(ANSWER, found).law
+    for (need, _), sentence in zip(answer.EXCEPTIONS.values(), said, strict=True):
+        decision = decide(need, found)
+        assert (law if law in (decision.law, *decision.alike) else decision.law) in sentence
+
+
+@pytest.mark.parametrize(
+    ("names", "words", "said"),
+    [
+        (("compliance",), {}, "no law with uniform and half-turn starts on the free body and no robustness episodes"),
+        (("episodes",), {"arm": ""}, "it has no robustness episodes"),
+        (("robustness",), {}, "it has no law with uniform and half-turn starts on the free body."),
+    ],
+)
+def test_run_without_what_laws_are_compared_by_says_what_is_lacking(tables, names, words, said):
+    assert said in text(absent.undecided(only(tables, *names, **words)))
+
+
+def test_laws_of_a_run_without_arms_are_compared(tables):
+    assert "Use the law" in text(*answer.paragraphs(measure(only(tables, "episodes", "robustness", arm=""))))
+
+
+def test_run_of_one_law_is_no_choice(tables):
+    found = measure(only(tables, "episodes", "robustness", contender="hybrid"))
+    assert "no other law to compare it with" in text(*answer.paragraphs(found))
+    assert len(answer.paragraphs(found)) == 1
+
+
+def test_run_whose_laws_all_fail_somewhere_names_none(tables):
+    found = measure(only(tables, "episodes", "robustness", contender="rotation-matrix"))
+    assert "No law of this run (rotation-matrix) settles from all" in text(*answer.paragraphs(found))
+
+
+def test_noise_that_was_not_tried_is_not_taken_for_noise_that_holds(tables):
+    calm = tables["robustness"]
+    frames = {**tables, "robustness": calm[calm["axis"] == "delay"]}
+    assert "was not tried" in text(answer.paragraphs(measure(Results(REFERENCE, frames)))[0])
+
+
+def test_every_share_of_what_failed_is_settled_or_done_a_of_b(reference):
+    said = text(failures.paragraph(reference))
+    assert not re.search(r"\d/\d", said)
+    assert said.count("settled ") >= len(set(reference.table("episodes")["arm"])) + 2
+
+
+def test_settled_counts_are_those_of_the_tables(tables, reference):
+    episodes = tables["episodes"]
+    free_body = episodes[episodes["arm"] == ""]
+    settled = (free_body["outcome"] == "settled").sum()
+    assert f"Free body: settled {settled:,} of {len(free_body):,} episodes" in text(failures.paragraph(reference))
+
+
+def test_law_that_broke_is_named(tables):
+    lost = tables["episodes"].head(3).assign(outcome=pd.Categorical(["crashed", "hung", "crashed"]))
+    law = str(lost["contender"].iloc[0]).partition("@")[0]
+    said = text(failures.paragraph(Results(REFERENCE, {**tables, "episodes": lost})))
+    assert f"{law} crashed in 2 episodes and {law} hung in 1 episode" in said
+
+
+def test_claims_without_rows_are_counted_apart(tables):
+    frames = dict.fromkeys(("traces", "boundaries", "poses", "episodes", "compliance", "robustness"))
+    empty = {name: results.table(REFERENCE, name).iloc[:0] for name in frames}
+    said = text(verdicts.paragraph(Results(REFERENCE, {**empty, "costs": tables["costs"]})))
+    number = int(re.search(r"(\d+) cannot be judged from this run", said)[1])
+    assert f"of the paper's {len(all_claims())} claims" in said
+    assert 0 < number < len(all_claims())
+
+
+# ------------------------------------------------------------------------------------------- its parts
+
+
+@pytest.mark.parametrize("part", PARTS)
+def test_part_is_shown_alone_with_the_meaning_of_its_cells(capsys, part):
+    said = bench(capsys, "show", REFERENCE, part)
+    heads = re.findall(r"^(.*\(a/b: .*)", said.out, re.MULTILINE)
+    assert said.code == 0
+    assert heads
+    assert len(re.findall(r"^(?:law|controller) ", said.out, re.MULTILINE)) == len(heads)
+    assert all({"free-body": "free body", "robustness": "robustness"}.get(part, "") in head for head in heads)
+
+
+def test_details_are_all_parts(capsys):
+    whole = bench(capsys, "show", REFERENCE, "--details").out
+    for part in PARTS:
+        assert bench(capsys, "show", REFERENCE, part).out.split("\n", 1)[1] in whole
+
+
+def test_part_without_a_folder_is_of_the_usual_run(capsys, monkeypatch):
+    monkeypatch.setenv(results.VARIABLE, str(REFERENCE))
+    assert bench(capsys, "show", "contact") == bench(capsys, "show", REFERENCE, "contact")
+
+
+def test_part_that_a_run_lacks_is_said(capsys, finished):
+    said = bench(capsys, "show", finished, "robustness")
+    assert said.code == 0
+    assert "nothing of robustness in this run" in said.out
+
+
+@pytest.mark.parametrize("words", [("arm",), ("results/reference", "arm")])
+def test_unknown_part_is_refused_with_the_parts(capsys, words):
+    line = refused(capsys, "show", *words)
+    assert ", ".join(PARTS) in line
+    assert "try: " in line
+
+
+def test_option_that_a_part_does_not_take_is_refused(capsys, finished):
+    assert "contact takes no --starts" in refused(capsys, "show", finished, "contact", "--starts", "paper")
+
+
+# ------------------------------------------------------------------------------------------ its tables
+
+
+def test_names_stay_whole_where_the_table_is_wider_than_the_screen(capsys, monkeypatch):
+    monkeypatch.setattr("bench.cli.screen.PIPED", 80)
+    lines = bench(capsys, "show", REFERENCE, "arms").out.splitlines()
+    tables = [line for line in lines if "(a/b: " not in line and not line.startswith("results/")]
+    assert max(len(line.rstrip()) for line in tables) <= 80
+    assert any(re.match(r"linearized-euler-relative/zyx-euler +\d/\d ", line) for line in lines)
+    assert any(line.rstrip() == "  @geometric+pseudo-inverse" for line in lines)
+
+
+def test_tiny_run_says_what_it_will_do_in_few_lines(capsys, tmp_path):
+    said = bench(capsys, "run", *TINY, "--engine", "reference", "--out", tmp_path / "run")
+    before, after = said.out.split("wrote ")
+    assert 0 < len(before.splitlines()) <= 12
+    assert len(after.splitlines()) == 1
