@@ -5,7 +5,7 @@ import pandas as pd
 import pytest
 
 import tasks
-from bench.cli.details import robustness
+from bench.cli.details import robustness as details
 from bench.contenders.registry import all_contenders, find_contender
 from bench.errors import Incompatible, UnknownWord
 from bench.experiments import plan, robustness
@@ -102,8 +102,8 @@ def test_noise_at_the_half_turn_holds_the_law_that_rests_there_and_not_the_one_w
 
 
 def test_table_says_under_which_perturbations_a_law_fails(rows):
-    lines = robustness.summary(rows[rows["level"] != 1.0]).set_index("law")
+    lines = details.summary(rows[rows["level"] != 1.0]).set_index("law")
     assert "half-turn-noise 0" in lines.loc["rotation-matrix", "settled least [%]"]
     assert "delay" not in lines.loc["hybrid", "settled least [%]"]
     delayed = rows[(rows["axis"] == "delay") & (rows["contender"] == "hybrid")]
-    assert 100.0 * (delayed["outcome"] == "settled").groupby(delayed["level"]).mean().min() >= robustness.WITHSTOOD
+    assert 100.0 * (delayed["outcome"] == "settled").groupby(delayed["level"]).mean().min() >= details.WITHSTOOD
