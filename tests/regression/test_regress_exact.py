@@ -6,12 +6,13 @@ import pytest
 
 from bench.regression.revisions.exact import basins, findings, removed
 from bench.regression.rows.difference import CHANGED, COLUMN, MISSING, NEW, Difference
-from bench.tables.schema import KEY
+from bench.tables.schema import TABLES
 from bench.tables.store import read, write_table
 
 
 def episode(column, was, now, law="rotation-matrix", start="half-turn-x"):
-    row = dict.fromkeys(KEY, "") | {"regulator": law, "start_set": "half-turn", "start_id": start, "engine": "native"}
+    blank = dict.fromkeys(TABLES["episodes"].key, "")
+    row = blank | {"regulator": law, "start_set": "half-turn", "start_id": start, "engine": "native"}
     return Difference("episodes", CHANGED, column, "", row, was, now)
 
 
