@@ -9,7 +9,7 @@ from bench.contenders.registry import known_impedances, known_regulators, known_
 ROOT = Path(__file__).parents[2]
 ROOMS = ("bench", "tasks", "report")
 
-CHAPTERS = ("answer", "arms", "cards", "comparison", "contact", "method", "problem", "responses", "robustness")
+CHAPTERS = ("answer", "arms", "cards", "comparison", "contact", "cost", "method", "problem", "responses", "robustness")
 
 ALLOWED = {
     "bench/contenders/regulators/": "its own file, and the coordinates it acts on",
