@@ -32,7 +32,7 @@ REPRESENTATION = zyx_euler.REPRESENTATION._replace(name="dropped-coordinates", t
     "bench/contenders/regulators/dropped_regulator.py": '''
 """Damping, and a spring on the first coordinate."""
 
-from bench.law import Regulator, kernel
+from bench.law import ANGLE, Look, Regulator, kernel
 
 
 def law_in(representation):
@@ -56,6 +56,10 @@ REGULATOR = Regulator(
     law_in=law_in,
     coordinates=("dropped-coordinates",),
     property="none",
+    short="dropped law",
+    look=Look("green", "x", "dotted"),
+    family="Dropped family",
+    equation=ANGLE,
 )
 ''',
     "bench/metrics/motion/dropped_metric.py": '''
@@ -215,6 +219,23 @@ kernelspec: {name: python3, display_name: Python 3}
 from bench.tables import read
 print("rows with the dropped column:", read.episodes(task="dropped-task")["dropped_column"].count())
 ```
+
+```{code-cell} python
+from bench.findings.theory.isotropic import EQUATIONS
+from report.figures.kit import families, style
+from report.figures.kit.inline import picture
+
+@picture
+def drawn():
+    figure, axes = style.panels()
+    [family] = families.present(read.episodes()["contender"].unique())
+    for name, word in family.laws.items():
+        look = style.look(name)
+        axes.plot([0, 1], color=look.colour, marker=look.marker, linestyle=look.line, label=word)
+    return figure, f"{family.title}: {word}, {look.colour} {look.marker}, f = {EQUATIONS[name].formula}"
+
+drawn()
+```
 """,
 }
 
@@ -351,7 +372,7 @@ def test_dropped_files_are_listed_run_counted_and_shown_without_another_touched(
     touching = ("run", "--task", "dropped-probe", "--arm", "dropped-arm", "--out", "results/contact")
     controllers = ("--controller", "impedance-dropped-impedance", "--controller", "hybrid/dropped-coordinates+inverse")
     in_trouble = ("run", "--axis", "dropped-axis", "--count", "2", "--out", "results/trouble")
-    listed, dry, counted, told, *_ = said(
+    listed, dry, counted, told, *_, shown, compared = said(
         tree,
         ("list",),
         (*words, "--regulator", "feedback-linearized", "--dry-run"),
@@ -360,6 +381,8 @@ def test_dropped_files_are_listed_run_counted_and_shown_without_another_touched(
         (*on_arm, "--horizon", "1", "--engine", "reference", *way),
         (*touching, *controllers),
         (*in_trouble, "--regulator", "dropped-regulator"),
+        ("show", "results/latest"),
+        ("compare", "results/latest", "results/latest"),
     )
 
     for name in LISTED.values():
@@ -367,6 +390,9 @@ def test_dropped_files_are_listed_run_counted_and_shown_without_another_touched(
     assert "feedback-linearized/dropped-coordinates" in dry  # a law for any coordinates has met the new ones
     assert "dropped-regulator  dropped-coordinates" in counted
     assert "episodes: dropped-regulator/dropped-coordinates by native and reference from dropped-starts" in told
+
+    assert "dropped-regulator" in shown
+    assert "results/latest agrees with results/latest" in compared
 
     found = store.read(tree / "results" / "latest", "episodes")
     assert {name: set(found[name]) for name in ("regulator", "representation", "task", "start_set", "engine")} == {
@@ -400,6 +426,7 @@ def test_dropped_files_are_listed_run_counted_and_shown_without_another_touched(
     ran(tree, "report/build.py")
     page = (tree / "report" / "_build" / "html" / "pages" / "90-dropped-page.html").read_text()
     assert "rows with the dropped column: 4" in page
+    assert r"Dropped family: dropped law, #009e73 x, f = \theta" in page
     assert "90-dropped-page.html" in (tree / "report" / "_build" / "html" / "index.html").read_text()
 
     after = sources(tree)
