@@ -33,7 +33,6 @@ from typing import Any, NamedTuple
 
 from bench.contenders.jacobians import analytic
 from bench.contenders.jacobians.geometric import fill
-from bench.contenders.registry import papers_coordinates
 from bench.contenders.regulators import feedback_linearized
 from bench.contenders.regulators.rotation_matrix import law as regulate
 from bench.errors import Incompatible
@@ -218,7 +217,7 @@ def axes_of(representation: Representation) -> tuple[int, int, int]:
     if representation.about is None:
         raise Incompatible(
             f"'{representation.name}' has no coordinate for each of the axes x, y and z to be held or to comply "
-            f"(try: {papers_coordinates().name})"
+            "(try: zyx-euler)"
         )
     return representation.about
 

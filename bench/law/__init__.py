@@ -19,7 +19,7 @@ tracking         goals that move
 
 from bench.law.chain import bias_acceleration, twist
 from bench.law.contender import AT_REST, Contender, Gains, Goal, Regulator
-from bench.law.equation import ANGLE, CHORD, LINEAR_MRP, SINE, Equation
+from bench.law.equation import ANGLE, CHORD, LINEAR_MRP, LINEAR_SINE, QUARTER, SINE, TANGENT, Equation
 from bench.law.impedance import Impedance
 from bench.law.linalg import (
     determinant,

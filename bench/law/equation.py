@@ -2,7 +2,8 @@
 
     theta'' = -Kp f(theta) - Kv theta' + g(theta, theta')       theta the angle to the goal, from rest
 
-Laws differ in the spring f, and a few by a term g that vanishes with the rate. Here are those that several share.
+Laws differ in the spring f, and a few by a term g that vanishes with the rate. Here are those that several share, or
+that need a tangent: a law's file has no mathematics but the dialect's.
 """
 
 import math
@@ -30,9 +31,17 @@ class Equation(NamedTuple):
 SINE = Equation(r"\sin\theta", math.sin)
 CHORD = Equation(r"2 \sin(\theta/2)", lambda theta: 2.0 * math.sin(theta / 2.0))
 ANGLE = Equation(r"\theta", lambda theta: theta)
+QUARTER = Equation(r"4 \tan(\theta/4)", lambda theta: 4.0 * math.tan(theta / 4.0))
+TANGENT = Equation(r"2 \tan(\theta/2)", lambda theta: 2.0 * math.tan(theta / 2.0))
 LINEAR_MRP = Equation(
     r"2 \sin(\theta/2) + \dot\theta^2 \tan(\theta/4)/(2 K_p)",
     CHORD.spring,
     lambda theta, rate, kp, kv: -0.5 * rate * rate * math.tan(theta / 4.0),
 )
 """tan(theta/4) obeys the linear equation."""
+LINEAR_SINE = Equation(
+    r"2 \tan(\theta/2) - \dot\theta^2 \tan(\theta/2)/(2 K_p)",
+    TANGENT.spring,
+    lambda theta, rate, kp, kv: 0.5 * rate * rate * math.tan(theta / 2.0),
+)
+"""sin(theta/2) obeys the linear equation."""

@@ -3,9 +3,7 @@
 Fails: at half turns the command is unbounded, and on them not finite.
 """
 
-import math
-
-from bench.law import Equation, Look, Regulator, double_sine, half_cosine_squared, kernel, trace
+from bench.law import TANGENT, Look, Regulator, double_sine, half_cosine_squared, kernel, trace
 
 
 @kernel
@@ -32,5 +30,5 @@ REGULATOR = Regulator(
     short="Gibbs",
     look=Look("green", "s", "dashed"),
     family="On three parameters",
-    equation=Equation(r"2 \tan(\theta/2)", lambda theta: 2.0 * math.tan(theta / 2.0)),
+    equation=TANGENT,
 )

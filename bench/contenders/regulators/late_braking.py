@@ -18,9 +18,7 @@ Global: V = Kp U + |omega|^2/2 with U' = f has Vdot <= -(Kv/5) |omega|^2, and a 
 Fails: nowhere known; up to 60 degrees beyond a half turn it goes the longer way on.
 """
 
-import math
-
-from bench.law import Equation, Look, Regulator, dot, kernel, quaternion_direction, sqrt, turn_matrix
+from bench.law import Equation, Look, Regulator, cos, dot, kernel, quaternion_direction, sin, sqrt, turn_matrix
 
 EASED = 0.8
 """Share of the damper that is gone at the half turn; under 1, so that it never pushes."""
@@ -70,7 +68,7 @@ REGULATOR = Regulator(
     family="On the matrix",
     equation=Equation(
         r"\bigl(1 + \cos^2(\theta/2)\bigr) \sin(\theta/2) - 4 K_v \sin^2(\theta/2)\, \min(0, \dot\theta)/(5 K_p)",
-        lambda theta: (1.0 + math.cos(theta / 2.0) ** 2) * math.sin(theta / 2.0),
-        lambda theta, rate, kp, kv: EASED * kv * math.sin(theta / 2.0) ** 2 * min(0.0, rate),
+        lambda theta: (1.0 + cos(theta / 2.0) ** 2) * sin(theta / 2.0),
+        lambda theta, rate, kp, kv: EASED * kv * sin(theta / 2.0) ** 2 * min(0.0, rate),
     ),
 )

@@ -3,9 +3,7 @@
 Fails: nowhere; at a half turn the command jumps to its opposite.
 """
 
-import math
-
-from bench.law import Equation, Look, Regulator, kernel, sqrt, turn_quaternion
+from bench.law import QUARTER, Look, Regulator, kernel, sqrt, turn_quaternion
 
 
 @kernel
@@ -31,5 +29,5 @@ REGULATOR = Regulator(
     short="MRP",
     look=Look("vermillion", "^", "solid"),
     family="On three parameters",
-    equation=Equation(r"4 \tan(\theta/4)", lambda theta: 4.0 * math.tan(theta / 4.0)),
+    equation=QUARTER,
 )

@@ -5,9 +5,7 @@ With a fixed goal epsddot = -Kv epsdot - Kp eps; for it eps must be divided by e
 Fails: at half turns the command is unbounded, and on them not finite.
 """
 
-import math
-
-from bench.law import Equation, Look, Regulator, dot, double_sine, half_cosine_squared, kernel, trace
+from bench.law import LINEAR_SINE, Look, Regulator, dot, double_sine, half_cosine_squared, kernel, trace
 
 
 @kernel
@@ -34,9 +32,5 @@ REGULATOR = Regulator(
     short="Paielli, Bach",
     look=Look("yellow", "d", "solid"),
     family="On the quaternion",
-    equation=Equation(
-        r"2 \tan(\theta/2) - \dot\theta^2 \tan(\theta/2)/(2 K_p)",
-        lambda theta: 2.0 * math.tan(theta / 2.0),
-        lambda theta, rate, kp, kv: 0.5 * rate * rate * math.tan(theta / 2.0),
-    ),
+    equation=LINEAR_SINE,
 )

@@ -8,9 +8,7 @@ d is taken for 0, and K lambda eps, which is 2 Kp eps, stays that.
 Fails: nowhere; at a half turn the command jumps to its opposite.
 """
 
-import math
-
-from bench.law import CHORD, Equation, Look, Regulator, cross, kernel, sqrt, turn_quaternion
+from bench.law import CHORD, Equation, Look, Regulator, cos, cross, kernel, sqrt, turn_quaternion
 
 
 @kernel
@@ -39,7 +37,7 @@ def law(R, omega, goal, gains):
 
 def half_lambda(kp, kv):
     """Half the rate of the path [1/s], as the law above has it."""
-    return kv / 2.0 - math.sqrt(max(0.0, kv * kv / 4.0 - kp))
+    return kv / 2.0 - sqrt(max(0.0, kv * kv / 4.0 - kp))
 
 
 REGULATOR = Regulator(
@@ -56,6 +54,6 @@ REGULATOR = Regulator(
     equation=Equation(
         r"2 \sin(\theta/2) - \lambda\,(1 - \cos(\theta/2))\,\dot\theta/(2 K_p)",
         CHORD.spring,
-        lambda theta, rate, kp, kv: half_lambda(kp, kv) * (1.0 - math.cos(theta / 2.0)) * rate,
+        lambda theta, rate, kp, kv: half_lambda(kp, kv) * (1.0 - cos(theta / 2.0)) * rate,
     ),
 )
