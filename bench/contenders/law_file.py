@@ -126,7 +126,7 @@ def _check_fields(own: Regulator, path: Path) -> None:
             ),
             f"its memory is {own.memory!r}; give None or a tuple of up to {len(NO_MEMORY)} floats",
         ),
-        (own.in_engine is not False, "it has in_engine; MuJoCo's own actuator would run in its place: leave it away"),
+        (own.in_engine is not False, "it has in_engine; MuJoCo's own actuator would run in its place: omit it"),
     )
     for is_wrong, problem in problems:
         if is_wrong:

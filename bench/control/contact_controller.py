@@ -15,6 +15,7 @@ from typing import NamedTuple
 from bench.contenders.registry import papers_coordinates
 from bench.control import hybrid as hybrid_control
 from bench.control.impedance import assembly, law_of
+from bench.control.setpoint import TOUCH, ContactParameters
 from bench.errors import BadNumber, Incompatible
 from bench.law.contender import PAPERS_GAINS, Gains, Representation
 from bench.law.impedance import Impedance
@@ -109,15 +110,15 @@ def springy(one: Impedance, representation: Representation | None = None) -> Com
     if one.law_in is not None and representation is None:
         raise Incompatible(f"'{word}' acts on coordinates and needs some (try: {word}/{papers_coordinates().name})")
     if one.law_in is None and representation is not None:
-        raise Incompatible(f"'{word}' takes no representation (leave '{representation.name}' away)")
+        raise Incompatible(f"'{word}' takes no representation (omit '{representation.name}')")
     if representation is not None:
         hybrid_control.axes_of(representation)
     return Compliant(word, representation, impedance=one)
 
 
-def check_constants(gains: Gains, touch: hybrid_control.Touch) -> None:
+def check_constants(gains: Gains, touch: ContactParameters) -> None:
     """BadNumber if a gain, an apparent inertia or a damping is none."""
-    usual = PAPERS_GAINS._asdict() | hybrid_control.TOUCH._asdict()
+    usual = PAPERS_GAINS._asdict() | TOUCH._asdict()
     units = {"kp": "1/s^2", "kv": "1/s", "m_p": "kg", "m_o": "kg m^2", "kc": "1/s"}
     for name, value in (gains._asdict() | touch._asdict()).items():
         if not 0.0 < value < float("inf"):

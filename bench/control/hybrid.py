@@ -29,7 +29,6 @@ Source: Raibert and Craig 1981; Murphy 1988, 3.3; Fisher and Mujtaba 1991.
 """
 
 from collections.abc import Callable
-from typing import Any, NamedTuple
 
 from bench.contenders.jacobians import analytic
 from bench.contenders.jacobians.geometric import fill
@@ -39,56 +38,9 @@ from bench.errors import Incompatible
 from bench.law.chain import bias_acceleration, twist
 from bench.law.contender import AT_REST, Goal, Representation
 from bench.law.linalg import multiply, multiply_transposed, solve
-from bench.law.resolved_motion import Scratch
 from bench.law.scalar import kernel
 from bench.law.so3 import rotate, rotate_back
 from bench.law.weighting import smaller_gram, solve_gram
-
-
-class Touch(NamedTuple):
-    """Constants of a controller in contact; the judge asks none of them, and all controllers share them.
-
-    m_p [kg] and m_o [kg m^2]: apparent inertia. kc [1/s]: damping of what complies. The stiffness of an impedance is
-    kp m_p and kp m_o. Along coordinates they are those of a coordinate: at E = 0 of mrp, where B = 4 I, a moment turns
-    the hand 16 times as far as about axes.
-    """
-
-    m_p: float = 20.0
-    m_o: float = 0.5
-    kc: float = 10.0
-
-
-TOUCH = Touch()
-"""Apparent inertias like those of the arms' hands at home (at most 18 kg and 0.64 kg m^2): a cancelled force comes a
-tick late, and below half of those that tick would destabilize a contact."""
-
-
-class Wish(NamedTuple):
-    """What is wanted at one tick, base frame.
-
-    R_d: orientation. p_d, v_d: place [m] and its velocity [m/s]. f_d, m_d: force [N] and moment [N m] to exert where
-    the hand complies; along the axes that it carries along, if those are the controller's.
-    """
-
-    R_d: Any
-    p_d: tuple
-    v_d: tuple
-    f_d: tuple
-    m_d: tuple
-
-
-class Rows(NamedTuple):
-    """Five buffers of six numbers, along the axes or coordinates of a controller.
-
-    a: commanded acceleration of what is held; drift: Jdot qdot; F: the wrench on the hand; h: what it shall exert;
-    v: its velocity.
-    """
-
-    a: Any
-    drift: Any
-    F: Any
-    h: Any
-    v: Any
 
 
 @kernel
@@ -224,15 +176,6 @@ def axes_of(representation: Representation) -> tuple[int, int, int]:
 
 INVERSE, PROJECTED = 0, 1
 """The two ways to the joints, as a compiled loop takes them."""
-
-
-class Room(NamedTuple):
-    """Buffers of `comply`: y and b (n), what is held of J (6 x n), and the inverse's scratch."""
-
-    y: Any
-    b: Any
-    held: Any
-    scratch: Scratch
 
 
 @kernel

@@ -35,5 +35,5 @@ def find_compliant(word: str) -> Compliant:
             raise Incompatible(f"'{word}' lacks its way to the joints (try: {rest}+inverse, or {rest}+projected)")
         return one
     if plus:
-        raise Incompatible(f"'{word}': an impedance has one way to the joints (leave '+{form}' away)")
+        raise Incompatible(f"'{word}': an impedance has one way to the joints (omit '+{form}')")
     return springy(springs[law], along)

@@ -10,7 +10,8 @@ from typing import NamedTuple
 import numpy as np
 
 from bench.control.contact_controller import Compliant
-from bench.control.hybrid import INVERSE, PROJECTED, TOUCH, Wish, comply
+from bench.control.hybrid import INVERSE, PROJECTED, comply
+from bench.control.setpoint import TOUCH, Setpoint
 from bench.counting.costs import BRANCHES, Call, bits, flops, size
 from bench.counting.counted import TOTAL, Counts, OutsideDialect, Tally
 from bench.counting.on_arms import ArmState, arm_states, as_counted
@@ -60,7 +61,7 @@ def rows_in_contact(controller: Compliant) -> Iterator[dict]:
 
 def _call(controller: Compliant, held, state: ArmState, draw) -> Call:
     f, m, v_d, f_d, m_d = (tuple(three) for three in draw.normal(size=(5, 3)))
-    wish = Wish(state.goal.R, state.p_d, v_d, f_d, m_d)
+    wish = Setpoint(state.goal.R, state.p_d, v_d, f_d, m_d)
     given, tally = (state.chain, wish, f, m, GAINS, TOUCH, state.D, state.fg), Tally()
     want = _torques(controller, held, Tally(), given, float)
     try:

@@ -6,7 +6,7 @@ import mujoco
 import numpy as np
 
 from bench.control.contact_controller import FORMS, Compliant
-from bench.control.hybrid import TOUCH, Room, Rows, Touch
+from bench.control.setpoint import TOUCH, ContactBuffers, ContactParameters, Rows
 from bench.law.contender import PAPERS_GAINS, Gains
 from bench.law.resolved_motion import Scratch
 from bench.law.scalar import kernel
@@ -28,7 +28,7 @@ scene [m], angle of the scene's joint [rad], largest torque over its rated one. 
 
 
 class Numbers(NamedTuple):
-    """What a loop needs of an episode besides the models; see `Order`, `Touch`. legs: pushes that follow each other."""
+    """What a loop needs of an episode besides the models; see `Order`, `ContactParameters`. legs: successive pushes."""
 
     dt: float
     ticks: int
@@ -56,7 +56,7 @@ class Conditions(NamedTuple):
     """What is common to the episodes of a run."""
 
     gains: Gains = PAPERS_GAINS
-    touch: Touch = TOUCH
+    touch: ContactParameters = TOUCH
     dt_s: float = 1e-3
     integrator: str = "implicitfast"
 
@@ -90,11 +90,11 @@ def rows(dtype=float) -> Rows:
     return Rows(*(np.zeros(6, dtype) for _ in Rows._fields))
 
 
-def room(dtype=float) -> Room:
+def room(dtype=float) -> ContactBuffers:
     """Fresh buffers for `hybrid.comply`."""
     A, B, V = (np.zeros((6, 6), dtype) for _ in range(3))
     y, b, s, t = (np.zeros(6, dtype) for _ in range(4))
-    return Room(y, b, np.zeros((6, 6), dtype), Scratch(A, B, V, s, t))
+    return ContactBuffers(y, b, np.zeros((6, 6), dtype), Scratch(A, B, V, s, t))
 
 
 @kernel

@@ -223,7 +223,7 @@ def contender(regulator: Regulator, representation: Representation | None = None
         if representation is not None:
             raise Incompatible(
                 f"regulator '{regulator.name}' acts on the rotation matrix and takes no representation "
-                f"(given '{representation.name}'); leave the representation away"
+                f"(given '{representation.name}'); omit the representation"
             )
         return Contender(regulator)
     allowed = "any representation" if regulator.coordinates == "any" else ", ".join(regulator.coordinates)

@@ -83,7 +83,7 @@ def is_still(yields: np.ndarray) -> np.ndarray:
     return np.linalg.norm(yields, axis=0) < STILL
 
 
-def astray(C: np.ndarray, axes: np.ndarray) -> np.ndarray:
+def misaligned(C: np.ndarray, axes: np.ndarray) -> np.ndarray:
     """Angles [rad] between axes e and C e; NaN where C e is no rotation.
 
     Args:

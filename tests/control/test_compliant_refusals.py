@@ -8,8 +8,8 @@ from support.own_arm import JOINTS, xml
 import tasks
 from bench.contenders.registry import known_impedances, known_representations, representation
 from bench.control.contact_controller import FORMS, HYBRIDS, hybrid, springy
-from bench.control.hybrid import TOUCH
 from bench.control.registry import find_compliant
+from bench.control.setpoint import TOUCH
 from bench.engines.contact_episode import USUAL
 from bench.engines.run_contact import run
 from bench.errors import BenchError
@@ -57,11 +57,11 @@ def line_of(action, kind) -> str:
         ),
         (lambda: springy(COORDINATES, QUATERNION), ["'quaternion' has no coordinate for each", "try: zyx-euler"]),
         (lambda: springy(COORDINATES), ["needs some", "try: impedance-coordinates/zyx-euler"]),
-        (lambda: springy(GEOMETRIC, ZYX), ["takes no representation", "leave 'zyx-euler' away"]),
+        (lambda: springy(GEOMETRIC, ZYX), ["takes no representation", "omit 'zyx-euler'"]),
         (lambda: find_compliant("hybrid-bse+inverse"), ["'hybrid-bse' is unknown", "did you mean 'hybrid-base'"]),
         (lambda: find_compliant("hybrid/zyx+inverse"), ["representation 'zyx' is unknown", *known_representations()]),
         (lambda: find_compliant("hybrid-base"), ["try: hybrid-base+inverse, or hybrid-base+projected"]),
-        (lambda: find_compliant("impedance-geometric+inverse"), ["leave '+inverse' away"]),
+        (lambda: find_compliant("impedance-geometric+inverse"), ["omit '+inverse'"]),
         (lambda: find_compliant("impedance-coordinates/quaternion"), ["'quaternion' has no coordinate for each"]),
     ],
 )

@@ -29,9 +29,9 @@ from support.states import as_rotation, rotations
 import tasks
 from bench.contenders.registry import known_representations
 from bench.control.contact_controller import FORMS, hybrid
-from bench.control.hybrid import TOUCH as TOUCHING
 from bench.control.hybrid import axes_of
 from bench.control.impedance import law_of
+from bench.control.setpoint import TOUCH as TOUCHING
 from bench.law.so3 import IDENTITY
 from tasks.contact import Order
 
@@ -341,7 +341,7 @@ def test_coordinates_are_the_base_frames_at_their_origin(representation, arm, fo
 
 @over_arms
 def test_apparent_inertias_are_above_half_of_the_hands_own_at_home(arm):
-    """Below that a cancelled force that comes a tick late would destabilize a contact (bench.control.hybrid.TOUCH)."""
+    """Below that a cancelled force, which comes a tick late, would destabilize a contact (control.setpoint.TOUCH)."""
     at = hand(arm, tasks.arm(arm).home, np.zeros(6), ScipyRotation.identity(), np.zeros(6))
     mobility = at.J @ np.linalg.solve(at.D, at.J.T)
     assert 0.5 / np.linalg.eigvalsh(mobility[:3, :3]).min() < TOUCHING.m_p

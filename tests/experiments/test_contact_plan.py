@@ -219,8 +219,8 @@ def test_hybrids_come_in_both_forms_and_impedances_in_one():
         ("hybrid/zyx-euler+solve", "known: inverse, projected"),
         ("hybrid/quaternion+inverse", r"no coordinate for each of the axes x, y and z"),
         ("impedance-coordinates", r"needs some \(try: impedance-coordinates/zyx-euler\)"),
-        ("impedance-geometric/mrp", r"leave 'mrp' away"),
-        ("impedance-geometric+inverse", r"leave '\+inverse' away"),
+        ("impedance-geometric/mrp", r"omit 'mrp'"),
+        ("impedance-geometric+inverse", r"omit '\+inverse'"),
     ],
 )
 def test_word_that_is_no_controller_is_refused_with_the_reason(word, reason):

@@ -7,8 +7,8 @@ import pandas as pd
 import pytest
 
 import tasks
-from bench.control.hybrid import TOUCH
 from bench.control.registry import find_compliant
+from bench.control.setpoint import TOUCH
 from bench.engines.contact_episode import OUTCOMES, WIDTH, Conditions, Ended
 from bench.engines.run_contact import run
 from bench.experiments.contact import poses_of

@@ -11,7 +11,7 @@ from support.probing import COORDINATES, HYBRIDS, SPRINGS, probed
 
 from bench.contenders.impedances import coordinates, coordinates_relative
 from bench.control.contact_controller import hybrid, springy
-from bench.control.hybrid import TOUCH
+from bench.control.setpoint import TOUCH
 from bench.findings.theory import compliance_theory as theory
 from bench.law.contender import PAPERS_GAINS, Gains
 from bench.law.so3 import IDENTITY, Rotation, from_quaternion

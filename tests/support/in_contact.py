@@ -12,8 +12,9 @@ import numpy as np
 from scipy.spatial.transform import Rotation as ScipyRotation
 
 import tasks
-from bench.control.hybrid import Rows, Touch, Wish, comply
+from bench.control.hybrid import comply
 from bench.control.registry import all_compliants
+from bench.control.setpoint import ContactParameters, Rows, Setpoint
 from bench.engines.contact_episode import room, rows, wrench
 from bench.experiments.contact import can_do
 from bench.law.contender import Gains
@@ -30,7 +31,7 @@ IMPEDANCES = [one for one in all_compliants() if one.impedance is not None]
 
 # Not the defaults: what has those built in is found out.
 GAINS = Gains(kp=37.0, kv=9.0)
-TOUCH = Touch(m_p=7.0, m_o=0.3, kc=4.0)
+TOUCH = ContactParameters(m_p=7.0, m_o=0.3, kc=4.0)
 SELECTIONS = [tuple(map(float, held)) for held in itertools.product((0, 1), repeat=6)]
 """All of them; the first holds nothing, the last everything."""
 
@@ -134,10 +135,10 @@ def drawn(arm: str, count: int = 8, turn: float = 0.5) -> tuple:
     return tuple(found)
 
 
-def wish_of(goal: ScipyRotation, p_d, draw) -> Wish:
+def wish_of(goal: ScipyRotation, p_d, draw) -> Setpoint:
     """A wish with that goal; velocity, force and moment drawn."""
     v_d, f_d, m_d = (numbers(draw.normal(scale=scale, size=3)) for scale in (0.1, 15.0, 1.5))
-    return Wish(as_rotation(goal.as_matrix().T), numbers(p_d), v_d, f_d, m_d)
+    return Setpoint(as_rotation(goal.as_matrix().T), numbers(p_d), v_d, f_d, m_d)
 
 
 def felt(at: Hand):
@@ -145,10 +146,10 @@ def felt(at: Hand):
     return wrench(at.chain.R, at.data.sensordata)
 
 
-def tick(one, at: Hand, wish: Wish, held) -> Tick:
+def tick(one, at: Hand, wish: Setpoint, held) -> Tick:
     """One tick of a controller, with the wrench that MuJoCo's sensors read."""
     into, about, J, tau = rows(), room(), np.zeros((6, 6)), np.zeros(6)
-    gains, touch = Gains(*map(np.float64, GAINS)), Touch(*map(np.float64, TOUCH))
+    gains, touch = Gains(*map(np.float64, GAINS)), ContactParameters(*map(np.float64, TOUCH))
     f, m = (numbers(three) for three in felt(at))
     with np.errstate(all="ignore"):
         one.assemble(at.chain, wish, f, m, gains, touch, J, into)

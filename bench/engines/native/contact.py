@@ -10,7 +10,8 @@ import mujoco
 import numpy as np
 from numba import float64, int64, types
 
-from bench.control.hybrid import Room, Rows, Touch, Wish, comply
+from bench.control.hybrid import comply
+from bench.control.setpoint import ContactBuffers, ContactParameters, Rows, Setpoint
 from bench.engines.compiled import MATRIX, compile_function, register
 from bench.engines.contact_episode import BROKEN, Numbers, moved, overload, sensors_of, wrench, write_record
 from bench.engines.native.arm import CHAIN, GAINS, ROTATION, THREE, VECTOR
@@ -53,7 +54,7 @@ class ContactView(NamedTuple):
 
 
 class Workspace(NamedTuple):
-    """Addresses of the buffers of `Rows` and `Room`, of J, D (nv x nv), fg, tau, and the trial's pushes."""
+    """Addresses of the buffers of `Rows` and `ContactBuffers`, of J, D (nv x nv), fg, tau, and the trial's pushes."""
 
     a: int
     drift: int
@@ -76,8 +77,8 @@ class Workspace(NamedTuple):
 
 
 SIX = types.UniTuple(float64, 6)
-WISH = types.NamedTuple((ROTATION, THREE, THREE, THREE, THREE), Wish)
-TOUCH = types.NamedUniTuple(float64, len(Touch._fields), Touch)
+WISH = types.NamedTuple((ROTATION, THREE, THREE, THREE, THREE), Setpoint)
+TOUCH = types.NamedUniTuple(float64, len(ContactParameters._fields), ContactParameters)
 ROWS = types.NamedUniTuple(VECTOR, len(Rows._fields), Rows)
 FOUR = types.UniTuple(float64, 4)
 NUMBERS = types.NamedTuple(
@@ -112,7 +113,7 @@ def view(model, data, batch, callback: int, asked: np.ndarray, n: int) -> Contac
     )
 
 
-def workspace(rows: Rows, room: Room, nv: int, n: int) -> tuple[Workspace, tuple]:
+def workspace(rows: Rows, room: ContactBuffers, nv: int, n: int) -> tuple[Workspace, tuple]:
     """The addresses of a controller's buffers, and the arrays, to be kept."""
     arrays = (
         *rows, room.y, room.b, room.held, *room.scratch,
@@ -135,7 +136,7 @@ def episode_loop(cache: bool = True):
         scratch = Scratch(
             matrix(work.A, 6, 6), matrix(work.B, 6, 6), matrix(work.V, 6, 6), vector(work.s, 6), vector(work.t, 6)
         )
-        room = Room(vector(work.y, 6), vector(work.b, 6), matrix(work.held, 6, 6), scratch)
+        room = ContactBuffers(vector(work.y, 6), vector(work.b, 6), matrix(work.held, 6, 6), scratch)
         asked = integers(sim.asked, 3)
         asked[2] = BEGIN
         if step(sim.batch, sim.callback, sim.asked) > 0:
@@ -147,7 +148,7 @@ def episode_loop(cache: bool = True):
             R = Rotation((s[0], s[1], s[2]), (s[3], s[4], s[5]), (s[6], s[7], s[8]))
             p, omega = (s[16], s[17], s[18]), (s[9], s[10], s[11])
             f, m = wrench(R, s)
-            wish = Wish(R_d, moved(p_0, numbers.v_d, time), numbers.v_d, numbers.f_d, numbers.m_d)
+            wish = Setpoint(R_d, moved(p_0, numbers.v_d, time), numbers.v_d, numbers.f_d, numbers.m_d)
             mj_fullM(sim.model, sim.data, work.D)
             for i in range(n):
                 fg[i] = bias[i] - passive[i]

@@ -9,7 +9,8 @@ import mujoco
 import numpy as np
 
 from bench.control.contact_controller import Compliant
-from bench.control.hybrid import Touch, Wish, comply
+from bench.control.hybrid import comply
+from bench.control.setpoint import ContactParameters, Setpoint
 from bench.engines.contact_episode import (
     BROKEN,
     Conditions,
@@ -57,7 +58,7 @@ def _episode(compliant, arm, trial, loop, conditions, shape, record):
         return BROKEN, 0, str(error)
     plant, model, n = loop.physics.data, loop.physics.model.ptr, arm.joints
     assemble, s = compliant.assemble, plant.sensordata
-    gains, touch = Gains(*map(np.float64, conditions.gains)), Touch(*map(np.float64, conditions.touch))
+    gains, touch = Gains(*map(np.float64, conditions.gains)), ContactParameters(*map(np.float64, conditions.touch))
     into, about, J = rows(), room(), np.zeros((6, 6))
     D, tau = np.zeros((model.nv, model.nv)), np.zeros(n)
     at_gap, at_turned = sensors_of(model)
@@ -67,7 +68,7 @@ def _episode(compliant, arm, trial, loop, conditions, shape, record):
         R = Rotation(vector(s[0:3]), vector(s[3:6]), vector(s[6:9]))
         p, omega = vector(s[16:19]), vector(s[9:12])
         f, m = wrench(R, s)
-        wish = Wish(R_d, moved(p_0, shape.v_d, time), shape.v_d, shape.f_d, shape.m_d)
+        wish = Setpoint(R_d, moved(p_0, shape.v_d, time), shape.v_d, shape.f_d, shape.m_d)
         mujoco.mj_fullM(model, plant.ptr, D)
         fg = (plant.qfrc_bias - plant.qfrc_passive)[:n]
         assemble(Chain(n, plant.xaxis, plant.xanchor, plant.qvel, p, R), wish, f, m, gains, touch, J, into)

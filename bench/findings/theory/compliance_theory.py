@@ -21,7 +21,7 @@ import math
 import numpy as np
 
 from bench.control.contact_controller import Compliant
-from bench.control.hybrid import TOUCH, Touch
+from bench.control.setpoint import TOUCH, ContactParameters
 from bench.law.contender import PAPERS_GAINS, Gains, Representation
 from bench.law.so3 import IDENTITY, Rotation
 from tasks.contact import Order
@@ -43,7 +43,7 @@ def compliance(
     goal: Rotation,
     time_s: float,
     gains: Gains = PAPERS_GAINS,
-    touch: Touch = TOUCH,
+    touch: ContactParameters = TOUCH,
 ) -> np.ndarray:
     """C [rad/(N m)], 3 x 3: what a controller makes of a constant moment in some time, from rest at its goal.
 
@@ -70,7 +70,7 @@ def directions(controller: Compliant, goal: Rotation) -> np.ndarray:
     return np.array(goal).T @ B if seen_from_goal else B
 
 
-def free(time_s: float, touch: Touch = TOUCH) -> float:
+def free(time_s: float, touch: ContactParameters = TOUCH) -> float:
     """Rotation per moment [rad/(N m)] of what complies: m_o thetadd = m - m_o kc thetad from rest."""
     return (time_s - (1.0 - math.exp(-touch.kc * time_s)) / touch.kc) / (touch.kc * touch.m_o)
 

@@ -7,7 +7,7 @@ that complies, and as springs do: C = c I. With Z-Y-X angles kp I becomes kp B^-
 import numpy as np
 
 from bench.metrics.contact_metric import ContactMetric, Pose
-from bench.metrics.measured_compliance import among_complying, astray, compliance, complying
+from bench.metrics.measured_compliance import among_complying, compliance, complying, misaligned
 
 # Relative gap between principal values of C up to which they count as one: what the moments' own size, some
 # milliradians of rotation, may change C by, and a fifteenth of what Z-Y-X angles make of one degree of beta.
@@ -16,13 +16,13 @@ ALIKE = 1e-3
 
 def misalignment(pose: Pose) -> float:
     """The largest angle [rad] between e and C e over the axes e that comply; NaN if a moment turns nothing."""
-    angles = astray(compliance(pose), complying(pose))
+    angles = misaligned(compliance(pose), complying(pose))
     return float(angles.max()) if len(angles) else np.nan
 
 
 def mean_misalignment(pose: Pose) -> float:
     """The mean angle [rad] between e and C e over the axes e that comply; NaN if a moment turns nothing."""
-    angles = astray(compliance(pose), complying(pose))
+    angles = misaligned(compliance(pose), complying(pose))
     return float(angles.mean()) if len(angles) else np.nan
 
 
