@@ -11,8 +11,9 @@ engines/      one episode, four ways: reference, native, ideal-rk4, ideal-held; 
 metrics/      what is measured: motion/ along an episode, contact/ of a hand in contact, over contact_force and
               measured_compliance
 counting/     operations of the code that runs
-tables/       schema, store, read, statistics, lock; trust and kept_laws (laws of a results folder that may run)
-experiments/  suites, choice, plan, and the rows of every unit: work, rows, traces, boundary, poses, contact_rows, ...
+tables/       schema, store, files, read, statistics, lock; trust and kept_laws (laws of a results folder that may run)
+experiments/  one file an experiment: free_body, arm, contact, robustness, traces, boundaries, jacobians, costs; what
+              plans them (experiment, plan, suites, choice); rows/ (from what engines give back)
 running/      run, run_folder (until it is finished), order, precompile, sandbox (a user's laws), wire_format,
               schedulers/ (threads, and a Dask cluster), finish (the tables)
 timing/       time per tick (pytest-benchmark)

@@ -187,9 +187,9 @@ def test_it_settles_from_every_start_at_rest_in_the_time_of_the_linear_response(
 
 @pytest.mark.parametrize("word", SUITES)
 def test_suite_runs_it_in_mujoco_alone_on_sampled_starts_and_half_turns(word):
-    units = make(word, [ONE]).units
+    units = make(word, [ONE]).of("free-body", "arm", "robustness")
     assert {unit.engine for unit in units} <= {"native", "reference"}
-    assert {"uniform", "half-turn", "paper", "poles"} <= {unit.start_set for unit in units}
+    assert {"uniform", "half-turn", "paper", "poles"} <= {unit.selector for unit in units}
     assert {unit.arm for unit in units} == {""}
 
 

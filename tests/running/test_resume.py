@@ -19,7 +19,6 @@ TABLES = [
     *("boundaries.parquet", "compliance.parquet", "costs.parquet", "episodes.parquet", "plan.json"),
     *("poses.parquet", "provenance.json", "robustness.parquet", "traces.parquet"),
 ]
-UNITS = 21
 
 
 def python(*words, **options):
@@ -51,7 +50,7 @@ def test_run_killed_at_random_moments_ends_with_the_same_files(killed):
 
 @pytest.mark.slow
 def test_random_moments_fall_into_the_middle_of_runs(killed):
-    assert sum(0 < one["parts"] < UNITS for one in killed["at random moments"]) >= 1
+    assert sum(0 < one["parts"] < killed["units"] for one in killed["at random moments"]) >= 1
 
 
 @pytest.mark.slow

@@ -52,10 +52,10 @@ LONG = plan_of(
     ("ideal-rk4", "native", "reference"),
     12,
 )
-"""16 units on three engines, 3 on an arm and 2 in contact: about a second."""
+"""Units of every experiment but robustness, on three engines: some seconds, most of them for curves and poses."""
 
 SHORT, OTHER = (plan_of(("rotation-matrix",), ("paper", "tumbling"), ("ideal-rk4",), 3, kp) for kp in (100.0, 50.0))
-"""Two units, so few files: killed at every one of its file operations. OTHER is what SHORT replaces."""
+"""Five units, so few files: killed at every one of its file operations. OTHER is what SHORT replaces."""
 
 
 class Undisturbed(NamedTuple):
@@ -192,7 +192,8 @@ def main(folder: Path) -> dict:
     """All that the tests ask."""
     long = undisturbed(LONG, folder / "long")
     ended(start(LONG, folder / "one-thread", 1))
-    answer = {"one thread": files_of(folder / "one-thread") == long.files, "files": sorted(long.files)}
+    is_same = files_of(folder / "one-thread") == long.files
+    answer = {"one thread": is_same, "files": sorted(long.files), "units": len(LONG.units)}
     answer["at random moments"] = list(at_random_moments(long, folder))
     short = undisturbed(SHORT, folder / "short")
     answer["while finishing"] = while_finishing(short, folder)
