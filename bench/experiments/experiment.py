@@ -94,6 +94,11 @@ class Unit:
         return "_".join((*filter(None, words), f"{self.first:06d}"))
 
     @property
+    def law(self) -> str:
+        """The name of the contender's regulator."""
+        return self.contender.partition("@")[0].partition("/")[0]
+
+    @property
     def label(self) -> str:
         """Where it is and what it runs, in a few words."""
         where = (self.arm or self.engine or self.selector) if self.episodes else self.experiment
@@ -199,6 +204,6 @@ def rows_of(settings: Settings, unit: Unit) -> pd.DataFrame:
 def own_last(units: list[Unit], own: tuple[Regulator, ...]) -> tuple[Unit, ...]:
     """Units of our laws in their order, then those of a user's, contender by contender."""
     names = [one.name for one in own]
-    theirs = [unit.contender for unit in units if unit.contender.partition("@")[0].partition("/")[0] in names]
+    theirs = [unit.contender for unit in units if unit.law in names]
     place = {name: 1 + i for i, name in enumerate(dict.fromkeys(theirs))}
     return tuple(sorted(units, key=lambda unit: place.get(unit.contender, 0)))

@@ -14,7 +14,7 @@ from bench.running.finish import finish
 from bench.running.order import in_running_order
 from bench.running.precompile import compiling_ahead
 from bench.running.run_folder import begin, held, inspect, sweep, tidy
-from bench.running.sandbox import Guard
+from bench.running.sandbox import Sandbox
 from bench.running.schedulers import threads
 from bench.running.schedulers.words import THREADS, check_scheduler, kind
 
@@ -47,8 +47,8 @@ def run(
     """
     check_workers(workers)
     check_scheduler(scheduler)
-    with held(Path(out)), Guard(plan, law_limit_s) as guard:
-        return _run(plan, Path(out), workers, scheduler, replace, told, guard)
+    with held(Path(out)), Sandbox(plan, law_limit_s) as sandbox:
+        return _run(plan, Path(out), workers, scheduler, replace, told, sandbox)
 
 
 def _run(
@@ -58,21 +58,21 @@ def _run(
     scheduler: str,
     replace: bool,
     told: Callable[[Progress], None],
-    guard: Guard,
+    sandbox: Sandbox,
 ) -> bool:
-    """The same in a folder that is held, with a guard over the user's laws."""
+    """The same in a folder that is held, with a sandbox of the user's laws."""
     state = inspect(plan, out, replace)
     if state.finished:
         tidy(out)
         return False
     began = time.time()
-    guard.check()
+    sandbox.check()
     todo = [unit for unit in in_running_order(plan.units) if unit.key not in state.done]
 
     def done(unit: Unit) -> None:
         told(Progress(unit, unit.episodes))
 
-    with _team(plan, todo, out, workers, scheduler, guard) as carry_out:
+    with _team(plan, todo, out, workers, scheduler, sandbox) as carry_out:
         if state.done:
             sweep(out)
         else:
@@ -81,12 +81,14 @@ def _run(
             if unit.key in state.done:
                 done(unit)
         by = {"scheduler": kind(scheduler), "workers": carry_out(done)}
-    finish(plan, out, guard.notes, by, began, resumed=bool(state.done))
+    finish(plan, out, sandbox.notes, by, began, resumed=bool(state.done))
     return True
 
 
 @contextlib.contextmanager
-def _team(plan: Plan, todo: list[Unit], out: Path, workers: int, scheduler: str, guard: Guard) -> Iterator[Callable]:
+def _team(
+    plan: Plan, todo: list[Unit], out: Path, workers: int, scheduler: str, sandbox: Sandbox
+) -> Iterator[Callable]:
     """What carries out the units, tells its argument of each, and returns the number of its workers.
 
     A cluster has answered when this yields, so that nothing is written, or replaced, for one that does not.
@@ -94,18 +96,18 @@ def _team(plan: Plan, todo: list[Unit], out: Path, workers: int, scheduler: str,
     if scheduler == THREADS:
 
         def by_threads(done: Callable[[Unit], None]) -> int:
-            threads.run(plan, todo, out, workers, guard, done)
+            threads.run(plan, todo, out, workers, sandbox, done)
             return workers
 
-        with compiling_ahead(_ours(todo, guard)):
+        with compiling_ahead(_ours(todo, sandbox)):
             yield by_threads
         return
     from bench.running.schedulers import cluster  # Dask is an extra, and takes a second to import
 
     with cluster.client_of(scheduler) as client:
-        yield functools.partial(cluster.run, client, plan, todo, out, law_limit_s=guard.limit_s)
+        yield functools.partial(cluster.run, client, plan, todo, out, law_limit_s=sandbox.limit_s)
 
 
-def _ours(todo: list[Unit], guard: Guard) -> Iterator[str]:
+def _ours(todo: list[Unit], sandbox: Sandbox) -> Iterator[str]:
     """Contenders that a user's laws have no part in, in the order in which they run."""
-    return (unit.contender for unit in todo if experiment_of(unit).compiles and not guard.has(unit))
+    return (unit.contender for unit in todo if experiment_of(unit).compiles and not sandbox.has(unit))

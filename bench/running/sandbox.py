@@ -8,13 +8,9 @@ without being tried, and so does a whole unit of which no part can be asked for.
 import contextlib
 import functools
 import json
-import os
 import queue
-import socket
-import subprocess
 import sys
 from collections.abc import Iterator
-from multiprocessing.connection import Connection
 
 import pyarrow as pa
 
@@ -22,9 +18,9 @@ from bench.errors import BadLaw
 from bench.experiments.experiment import Unit, experiment_of
 from bench.experiments.plan import Plan
 from bench.running import sandbox_process
+from bench.running.sandbox_line import Ended, Lost, Mistake, Process
 from bench.running.wire_format import described
 from bench.tables.store import as_table, joined
-from tasks.verdict import CRASHED, HUNG, OUTCOMES
 
 PATIENCE_S, SINGLE_S = 30.0, 1.0
 """A unit's limit, and that of an episode by itself, beside TICK_S for each of their ticks."""
@@ -33,27 +29,11 @@ TICK_S = {"": 1e-5, "ideal-rk4": 1e-5, "ideal-held": 1e-5, "native": 1e-4, "refe
 """Seconds of processor time, by engine: ten times what a tick of ours takes. A perturbed body is simulated as
 ideal-held is."""
 
-WAITING, AND_S = 10.0, 20.0
-"""Times the limit, and seconds more, on the wall: for a law that waits, or is kept waiting by a busy machine."""
-
-START_S = 1800.0
-"""On the wall: for the process to start, and to compile, which has a limit of its own."""
-
 MOST_LOST = 100
 """Episodes of a unit that may be lost one by one, each for SINGLE_S."""
 
-SIGNS = {sandbox_process.CRASHED: OUTCOMES[CRASHED], sandbox_process.HUNG: OUTCOMES[HUNG]}
 
-
-class Lost(Exception):
-    """What was asked for did not come: the outcome, as a word, and the reason."""
-
-    def __init__(self, outcome: str, reason: str):
-        self.outcome = outcome
-        super().__init__(reason)
-
-
-class Guard:
+class Sandbox:
     """The processes of a plan's own laws, as many as there are threads that ask; started when first needed.
 
     Args:
@@ -66,10 +46,10 @@ class Guard:
         self.notes: list[str] = []
         self._own = {one.name: one for one in plan.settings.own}
         self._tried: dict[Unit, pa.Table] = {}
-        self._idle: queue.LifoQueue[_Process] = queue.LifoQueue()
-        self._all: list[_Process] = []
+        self._idle: queue.LifoQueue[Process] = queue.LifoQueue()
+        self._all: list[Process] = []
 
-    def __enter__(self) -> "Guard":
+    def __enter__(self) -> "Sandbox":
         return self
 
     def __exit__(self, *_) -> None:
@@ -78,7 +58,7 @@ class Guard:
 
     def has(self, unit: Unit) -> bool:
         """Whether the unit is of a user's law."""
-        return _law_of(unit) in self._own
+        return unit.law in self._own
 
     def check(self) -> None:
         """Compile the laws for every engine that they run on, and try them where an experiment says so.
@@ -94,7 +74,7 @@ class Guard:
                     process.prepare(unit)
             except Lost as lost:
                 raise BadLaw(
-                    f"--law {self._own[_law_of(unit)].origin}: it cannot be compiled for "
+                    f"--law {self._own[unit.law].origin}: it cannot be compiled for "
                     f"{unit.engine or unit.experiment} ({lost}); mend the file"
                 ) from lost
         for unit in own:
@@ -155,16 +135,16 @@ class Guard:
         print(text, file=sys.stderr)
 
     @contextlib.contextmanager
-    def _process(self, unit: Unit) -> Iterator["_Process"]:
+    def _process(self, unit: Unit) -> Iterator["Process"]:
         """One that is idle, or a new one; it is idle again unless it was lost."""
         try:
             process = self._idle.get_nowait()
         except queue.Empty:
-            process = _Process(self._chunk)
+            process = Process(self._chunk)
             self._all.append(process)
         try:
             yield process
-        except _Ended:
+        except Ended:
             process.end()
             self._all.remove(process)
             raise
@@ -175,84 +155,10 @@ class Guard:
             self._idle.put(process)
             # the process has the law in a file of another name
             reason = str(mistake).partition(": ")[2]
-            raise BadLaw(f"--law {self._own[_law_of(unit)].origin}: {reason}") from mistake
+            raise BadLaw(f"--law {self._own[unit.law].origin}: {reason}") from mistake
         else:
             self._idle.put(process)
 
     @functools.cached_property
     def _chunk(self) -> bytes:
         return json.dumps(described(self.plan, [unit for unit in self.plan.units if self.has(unit)])).encode()
-
-
-def _law_of(unit: Unit) -> str:
-    """The name of the law."""
-    return unit.contender.partition("@")[0].partition("/")[0]
-
-
-class _Ended(Lost):
-    """The process itself is gone, or must go."""
-
-
-class Mistake(Exception):
-    """The user's mistake, in the words of the other process."""
-
-
-class _Process:
-    """One process, and the line to it."""
-
-    def __init__(self, chunk: bytes):
-        ours, theirs = socket.socketpair()
-        words = [sys.executable, "-m", sandbox_process.__name__, str(theirs.fileno())]
-        # no threads of the linear algebra, which would not be in a fork; and a terminal's Ctrl-C is the run's to answer
-        environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1"}
-        with theirs:
-            self.process = subprocess.Popen(
-                words,
-                stdin=subprocess.DEVNULL,
-                pass_fds=[theirs.fileno()],
-                env=environment,
-                start_new_session=True,
-            )
-        self.line = Connection(ours.detach())
-        self.prepared: set = set()
-        self._say(chunk, START_S)
-
-    def prepare(self, unit: Unit) -> None:
-        """Compile, import and build what the unit needs."""
-        place = (unit.experiment, unit.contender, unit.engine, unit.selector, unit.arm)
-        if place not in self.prepared:
-            self._say(json.dumps({"key": unit.key}).encode(), START_S)
-            self.prepared.add(place)
-
-    def ask(self, unit: Unit, some: Unit, limit_s: float) -> bytes:
-        """The rows of a unit, or of some of its starts.
-
-        Errors:
-            Lost: they did not come in time, or the process ended, or the law broke the judge. Mistake: the user's.
-        """
-        longest_s = AND_S + WAITING * limit_s
-        asked = {"key": unit.key, "processor_s": limit_s, "longest_s": longest_s}
-        if some is not unit:
-            asked |= {"first": some.first, "count": some.count}
-        return self._say(json.dumps(asked).encode(), longest_s + START_S)
-
-    def _say(self, said: bytes, longest_s: float) -> bytes:
-        try:
-            self.line.send_bytes(said)
-            if not self.line.poll(longest_s):
-                raise _Ended(OUTCOMES[HUNG], f"it did not return within {longest_s:g} s")
-            content = self.line.recv_bytes()
-        except (EOFError, OSError) as error:
-            raise _Ended(OUTCOMES[CRASHED], "its process was ended") from error
-        sign, rest = content[:1], content[1:]
-        if sign == sandbox_process.MISTAKE:
-            raise Mistake(rest.decode())
-        if sign in SIGNS:
-            raise Lost(SIGNS[sign], rest.decode())
-        return rest
-
-    def end(self) -> None:
-        """Stop it, wherever it is."""
-        self.line.close()
-        self.process.kill()
-        self.process.wait()

@@ -21,7 +21,7 @@ from bench.provenance import source_digest
 
 def described(plan: Plan, units: Sequence[Unit]) -> dict:
     """The units, and what they need of the plan, as JSON takes it; of the user's laws those that the units name."""
-    named = {unit.contender.partition("@")[0].partition("/")[0] for unit in units}
+    named = {unit.law for unit in units}
     laws = [one.origin for one in plan.settings.own if one.name in named]
     return {
         "sources": source_digest(),

@@ -16,7 +16,7 @@ from bench.provenance import ROOT
 from bench.running import run
 from bench.running.run_folder import part
 from bench.running.schedulers import cluster
-from bench.running.schedulers.batches import CHUNK_S, MOST_EPISODES, portions, seconds
+from bench.running.schedulers.batches import CHUNK_S, MOST_EPISODES, in_batches, seconds
 from bench.running.schedulers.words import check_scheduler, kind
 from bench.tables.store import read_json
 
@@ -72,7 +72,7 @@ def address(client) -> str:
 
 
 def test_run_goes_on_with_another_scheduler(plan, client, by_threads, tmp_path, monkeypatch):
-    monkeypatch.setattr(cluster, "portions", lambda todo, _: [(unit,) for unit in todo])
+    monkeypatch.setattr(cluster, "in_batches", lambda todo, _: [(unit,) for unit in todo])
     monkeypatch.setattr(cluster, "AHEAD", 1)
     told = []
 
@@ -171,25 +171,25 @@ def test_impossible_number_of_processes_is_refused(word):
         check_scheduler(word)
 
 
-def test_portions_keep_every_unit_in_its_order(plan):
+def test_batches_keep_every_unit_in_its_order(plan):
     for workers in (0, 1, 2, 100):
-        assert [unit for chunk in portions(plan.units, workers) for unit in chunk] == list(plan.units)
-    assert portions([], 2) == []
+        assert [unit for chunk in in_batches(plan.units, workers) for unit in chunk] == list(plan.units)
+    assert in_batches([], 2) == []
 
 
-def test_portions_of_little_work_leave_no_worker_idle(plan):
-    assert len(portions(plan.units * 20, 2)) >= 8
+def test_batches_of_little_work_leave_no_worker_idle(plan):
+    assert len(in_batches(plan.units * 20, 2)) >= 8
 
 
 @pytest.mark.parametrize("engine", ["ideal-rk4", "native"])
-def test_portions_of_much_work_are_of_ten_to_sixty_seconds(engine):
-    lasting = [sum(map(seconds, chunk)) for chunk in portions(units_of_much_work(engine), 2)]
+def test_batches_of_much_work_are_of_ten_to_sixty_seconds(engine):
+    lasting = [sum(map(seconds, chunk)) for chunk in in_batches(units_of_much_work(engine), 2)]
     assert min(lasting[:-1]) > 10.0
     assert max(lasting) <= CHUNK_S
 
 
-def test_portions_of_fast_episodes_are_of_as_many_as_memory_holds():
-    chunks = portions(units_of_much_work("ideal-held"), 1)
+def test_batches_of_fast_episodes_are_of_as_many_as_memory_holds():
+    chunks = in_batches(units_of_much_work("ideal-held"), 1)
     assert {sum(unit.episodes for unit in chunk) for chunk in chunks} == {MOST_EPISODES}
 
 

@@ -22,7 +22,7 @@ def seconds(unit: Unit) -> float:
     return experiment_of(unit).cost_s(unit)
 
 
-def portions(units: Sequence[Unit], workers: int) -> list[tuple[Unit, ...]]:
+def in_batches(units: Sequence[Unit], workers: int) -> list[tuple[Unit, ...]]:
     """The units in their order, cut into chunks of at most CHUNK_S, or one unit that takes more by itself.
 
     Args:

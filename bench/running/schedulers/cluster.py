@@ -19,7 +19,7 @@ from bench.experiments.experiment import Unit
 from bench.experiments.plan import Plan
 from bench.running.run_folder import part
 from bench.running.schedulers import worker
-from bench.running.schedulers.batches import portions
+from bench.running.schedulers.batches import in_batches
 from bench.running.schedulers.words import LOCAL
 from bench.running.wire_format import described
 from bench.tables.files import write_atomically
@@ -111,7 +111,7 @@ class Chunks:
 
     def carry_out(self, todo: Sequence[Unit]) -> None:
         """Give, take and write until all is done."""
-        self.waiting.extend(portions(todo, self._present()))
+        self.waiting.extend(in_batches(todo, self._present()))
         ended = distributed.as_completed(loop=self.client.loop)
         try:
             self.give(ended)

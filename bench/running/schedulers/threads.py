@@ -9,18 +9,20 @@ from pathlib import Path
 from bench.experiments.experiment import Unit, experiment_of, rows_of
 from bench.experiments.plan import Plan
 from bench.running.run_folder import part
-from bench.running.sandbox import Guard
+from bench.running.sandbox import Sandbox
 from bench.tables.store import write_table
 
 UNITS_A_PROCESS = 8
 """Of a user's law, beyond which a second process is worth its start of some seconds, if there is nothing of ours."""
 
 
-def run(plan: Plan, todo: Sequence[Unit], out: Path, workers: int, guard: Guard, done: Callable[[Unit], None]) -> None:
+def run(
+    plan: Plan, todo: Sequence[Unit], out: Path, workers: int, sandbox: Sandbox, done: Callable[[Unit], None]
+) -> None:
     """Carry out units, in their order, and write each when it is done.
 
     Args:
-        guard: of the user's laws. done: told of each, when it is written.
+        sandbox: of the user's laws. done: told of each, when it is written.
     Errors:
         KeyboardInterrupt: after the units under way are written.
     """
@@ -29,11 +31,11 @@ def run(plan: Plan, todo: Sequence[Unit], out: Path, workers: int, guard: Guard,
     def work(unit: Unit) -> Unit | None:
         if stop.is_set():
             return None
-        made = guard.rows(unit) if guard.has(unit) else rows_of(plan.settings, unit)
+        made = sandbox.rows(unit) if sandbox.has(unit) else rows_of(plan.settings, unit)
         write_table(part(out, unit), made, experiment_of(unit).table)
         return unit
 
-    ours, own = [unit for unit in todo if not guard.has(unit)], [unit for unit in todo if guard.has(unit)]
+    ours, own = [unit for unit in todo if not sandbox.has(unit)], [unit for unit in todo if sandbox.has(unit)]
     processes = 1 if ours else min(workers, 1 + len(own) // UNITS_A_PROCESS)
     if any(unit.engine == "reference" for unit in ours):
         importlib.import_module("tasks.episode")  # it silences GLFW's import, which works in the main thread only
@@ -46,5 +48,5 @@ def run(plan: Plan, todo: Sequence[Unit], out: Path, workers: int, guard: Guard,
                     done(unit)
         except BaseException:
             stop.set()
-            guard.stopping = True
+            sandbox.stopping = True
             raise

@@ -9,7 +9,7 @@ import pyarrow.parquet as pq
 
 from bench.experiments.experiment import Unit, experiment_of, rows_of
 from bench.experiments.plan import Plan
-from bench.running.sandbox import Guard
+from bench.running.sandbox import Sandbox
 from bench.running.wire_format import plan_of
 from bench.tables.store import as_table, encoding
 
@@ -24,12 +24,14 @@ def carry_out(text: str, law_limit_s: float | None = None) -> list[tuple[str, by
         BadResults: this worker has other sources. BadLaw: a user's law that it cannot load.
     """
     plan = plan_of(json.loads(text))
-    with Guard(plan, law_limit_s) as guard:
-        return [(unit.key, _file(_rows(plan, unit, guard))) for unit in plan.units]
+    with Sandbox(plan, law_limit_s) as sandbox:
+        return [(unit.key, _file(_rows(plan, unit, sandbox))) for unit in plan.units]
 
 
-def _rows(plan: Plan, unit: Unit, guard: Guard) -> pa.Table:
-    return guard.rows(unit) if guard.has(unit) else as_table(rows_of(plan.settings, unit), experiment_of(unit).table)
+def _rows(plan: Plan, unit: Unit, sandbox: Sandbox) -> pa.Table:
+    return (
+        sandbox.rows(unit) if sandbox.has(unit) else as_table(rows_of(plan.settings, unit), experiment_of(unit).table)
+    )
 
 
 def _file(table: pa.Table) -> bytes:

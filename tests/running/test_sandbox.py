@@ -110,14 +110,14 @@ def test_process_of_a_law_ends_with_the_run(tmp_path):
         import os, sys
         from pathlib import Path
         from support.breaking_laws import plan_of
-        from bench.running import sandbox as guard
+        from bench.running import sandbox
         plan = plan_of(Path(sys.argv[1]), "while abs(R.n[0] - 0.36) > 1e-3: x = x + 1e-9", engine="reference")
-        class Told(guard._Process):
+        class Told(sandbox.Process):
             def _say(self, said, longest_s):
                 print(self.process.pid, flush=True)
                 return super()._say(said, longest_s)
-        guard._Process = Told
-        guard.Guard(plan).rows(plan.units[-1])
+        sandbox.Process = Told
+        sandbox.Sandbox(plan).rows(plan.units[-1])
     """
     words = [sys.executable, "-c", textwrap.dedent(script), str(tmp_path)]
     path = os.pathsep.join(map(str, (ROOT / "tests", ROOT)))
@@ -142,7 +142,7 @@ def test_limit_must_be_positive(capsys, tmp_path):
 
 def test_mistake_in_a_law_names_the_users_file(tmp_path):
     plan = plan_of(tmp_path, "x = float(str(x))", engine="ideal-rk4")
-    with sandbox.Guard(plan) as kept, pytest.raises(BadLaw, match=f"--law {tmp_path / 'mine.py'}: the law cannot be"):
+    with sandbox.Sandbox(plan) as kept, pytest.raises(BadLaw, match=f"--law {tmp_path / 'mine.py'}: the law cannot be"):
         kept.check()
 
 

@@ -1,0 +1,97 @@
+"""The line from a run to a process of a user's laws (sandbox_process.py): its requests, its limits, and how it ends."""
+
+import json
+import os
+import socket
+import subprocess
+import sys
+from multiprocessing.connection import Connection
+
+from bench.experiments.experiment import Unit
+from bench.running import sandbox_process
+from tasks.verdict import CRASHED, HUNG, OUTCOMES
+
+WAITING, AND_S = 10.0, 20.0
+"""Times the limit, and seconds more, on the wall: for a law that waits, or is kept waiting by a busy machine."""
+
+START_S = 1800.0
+"""On the wall: for the process to start, and to compile, which has a limit of its own."""
+
+SIGNS = {sandbox_process.CRASHED: OUTCOMES[CRASHED], sandbox_process.HUNG: OUTCOMES[HUNG]}
+
+
+class Lost(Exception):
+    """What was asked for did not come: the outcome, as a word, and the reason."""
+
+    def __init__(self, outcome: str, reason: str):
+        self.outcome = outcome
+        super().__init__(reason)
+
+
+class Ended(Lost):
+    """The process itself is gone, or must go."""
+
+
+class Mistake(Exception):
+    """The user's mistake, in the words of the other process."""
+
+
+class Process:
+    """One process, and the line to it."""
+
+    def __init__(self, chunk: bytes):
+        ours, theirs = socket.socketpair()
+        words = [sys.executable, "-m", sandbox_process.__name__, str(theirs.fileno())]
+        # no threads of the linear algebra, which would not be in a fork; and a terminal's Ctrl-C is the run's to answer
+        environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1"}
+        with theirs:
+            self.process = subprocess.Popen(
+                words,
+                stdin=subprocess.DEVNULL,
+                pass_fds=[theirs.fileno()],
+                env=environment,
+                start_new_session=True,
+            )
+        self.line = Connection(ours.detach())
+        self.prepared: set = set()
+        self._say(chunk, START_S)
+
+    def prepare(self, unit: Unit) -> None:
+        """Compile, import and build what the unit needs."""
+        place = (unit.experiment, unit.contender, unit.engine, unit.selector, unit.arm)
+        if place not in self.prepared:
+            self._say(json.dumps({"key": unit.key}).encode(), START_S)
+            self.prepared.add(place)
+
+    def ask(self, unit: Unit, some: Unit, limit_s: float) -> bytes:
+        """The rows of a unit, or of some of its starts.
+
+        Errors:
+            Lost: they did not come in time, or the process ended, or the law broke the judge. Mistake: the user's.
+        """
+        longest_s = AND_S + WAITING * limit_s
+        asked = {"key": unit.key, "processor_s": limit_s, "longest_s": longest_s}
+        if some is not unit:
+            asked |= {"first": some.first, "count": some.count}
+        return self._say(json.dumps(asked).encode(), longest_s + START_S)
+
+    def _say(self, said: bytes, longest_s: float) -> bytes:
+        try:
+            self.line.send_bytes(said)
+            if not self.line.poll(longest_s):
+                raise Ended(OUTCOMES[HUNG], f"it did not return within {longest_s:g} s")
+            content = self.line.recv_bytes()
+        except (EOFError, OSError) as error:
+            raise Ended(OUTCOMES[CRASHED], "its process was ended") from error
+        sign, rest = content[:1], content[1:]
+        if sign == sandbox_process.MISTAKE:
+            raise Mistake(rest.decode())
+        if sign in SIGNS:
+            raise Lost(SIGNS[sign], rest.decode())
+        return rest
+
+    def end(self) -> None:
+        """Stop it, wherever it is."""
+        self.line.close()
+        self.process.kill()
+        self.process.wait()
