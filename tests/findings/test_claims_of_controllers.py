@@ -6,6 +6,7 @@ import numpy as np
 import pandas as pd
 import pytest
 from support.tables import changed, decided
+from support.tables import judged as judged_on
 
 import tasks
 from bench.counting.counted import OPERATIONS
@@ -81,7 +82,7 @@ def judged(frames, monkeypatch):
         monkeypatch.setattr(arm_probes, "beside_poles", beside_poles)
         euler_controller._bend.cache_clear()
         try:
-            return tables.judged(id, **frames | tables)
+            return judged_on(id, **frames | tables)
         finally:
             euler_controller._bend.cache_clear()
 
