@@ -10,6 +10,7 @@ from support.bits import EPS
 from support.exact import exact_B, motion
 from support.in_contact import (
     ARMS,
+    COORDINATES,
     GAINS,
     HYBRIDS,
     IMPEDANCES,
@@ -27,7 +28,6 @@ from support.on_arms import numbers
 from support.states import as_rotation, rotations
 
 import tasks
-from bench.contenders.registry import known_representations
 from bench.control.contact_controller import FORMS, hybrid
 from bench.control.hybrid import axes_of
 from bench.control.impedance import law_of
@@ -40,8 +40,7 @@ IN_FORMS = pytest.mark.parametrize("form", FORMS)
 FRAMES = [one for one in HYBRIDS if one.form == "inverse"]
 CONVERTED = [one for one in FRAMES if one.law != "hybrid-unconverted"]
 UNCONVERTED = [one for one in FRAMES if one.law == "hybrid-unconverted"]
-COORDINATES = [one for one in known_representations().values() if one.about is not None]
-AT_ORIGIN = [one for one in COORDINATES if one.name in ("rotation-vector", "xyz-euler", "zyx-euler")]
+AT_ORIGIN = [one for one in COORDINATES.values() if one.name in ("rotation-vector", "xyz-euler", "zyx-euler")]
 # Sums of a few products of numbers that carry the rounding of n rotations each (test_chain).
 ROUNDING = 200 * EPS
 
@@ -220,7 +219,7 @@ def test_wrench_does_other_work_when_moments_are_left_unconverted(arm, one):
 
 def test_generalized_forces_along_zyx_angles_are_the_moments_about_their_axes():
     """About z, about the level axis, about the hand's own x: (alpha, beta, gamma) turn the hand about these."""
-    one = hybrid("hybrid", "inverse", known_representations()["zyx-euler"])
+    one = hybrid("hybrid", "inverse", COORDINATES["zyx-euler"])
     for state, wish in drawn(ARMS[0]):
         at = hand(*state)
         alpha, _, _ = ScipyRotation.from_matrix(at.R).as_euler("ZYX")
@@ -232,7 +231,7 @@ def test_generalized_forces_along_zyx_angles_are_the_moments_about_their_axes():
 
 ON_POLES = [
     pytest.param(one, R, id=f"{one.name}-{i}")
-    for one in COORDINATES
+    for one in COORDINATES.values()
     for i, R in enumerate(R for R in rotations() if one.margin(R) == 0.0)
 ]
 

@@ -4,9 +4,8 @@ import functools
 
 import numpy as np
 import pytest
-from support.in_contact import HYBRIDS, IMPEDANCES
+from support.in_contact import COORDINATES, HYBRIDS, IMPEDANCES
 
-from bench.contenders.registry import known_representations
 from bench.control.contact_controller import Compliant, hybrid
 from bench.control.hybrid import in_base
 from bench.counting import in_contact
@@ -17,7 +16,6 @@ from bench.errors import BadLaw
 from bench.law.impedance import Impedance
 from tasks.contact import Order
 
-COORDINATES = [one for one in known_representations().values() if one.about is not None]
 N = 6
 
 cost = functools.cache(in_contact.cost_in_contact)
@@ -86,7 +84,7 @@ def test_axes_carried_by_the_hand_cost_two_rotations_of_every_column_and_row():
     assert tuple(carried - base) == (2 * 9 * vectors, 0, 2 * 6 * vectors)
 
 
-@pytest.mark.parametrize("representation", COORDINATES, ids=lambda one: one.name)
+@pytest.mark.parametrize("representation", COORDINATES.values(), ids=COORDINATES)
 def test_conversion_of_moments_costs_two_products_with_B_transposed(representation):
     """Of the measured one and of the one to exert."""
     tally = Tally()

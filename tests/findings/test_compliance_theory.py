@@ -1,5 +1,6 @@
 """What theory says of a hand that complies: against scipy, and against hands in MuJoCo."""
 
+import functools
 import math
 
 import numpy as np
@@ -7,16 +8,20 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation as Turn
 from support.bits import EPS
-from support.probing import COORDINATES, HYBRIDS, SPRINGS, probed
+from support.in_contact import COORDINATES
 
+import tasks
 from bench.contenders.impedances import coordinates, coordinates_relative
+from bench.contenders.registry import known_impedances
 from bench.control.contact_controller import hybrid, springy
 from bench.control.setpoint import TOUCH
+from bench.engines.run_contact import run
 from bench.findings.theory import compliance_theory as theory
 from bench.law.contender import PAPERS_GAINS, Gains
 from bench.law.so3 import IDENTITY, Rotation, from_quaternion
 from bench.metrics.contact.held_axes import leakage
 from bench.metrics.contact.stiffness import least_yield, misalignment, stiffness_axes, stiffness_condition
+from bench.metrics.contact_metric import Pose, response
 from bench.metrics.measured_compliance import compliance
 from tasks.domains.wrench_probe import ORDERS, TASK
 from tasks.rotations import on_pole
@@ -39,6 +44,30 @@ FREE, SPRUNG, AT_89 = 1e-4, 1e-3, 1e-3
 # Of what is held, rad per rad: what is dragged along moves it by 2e-8, its own square by less.
 HELD = 1e-7
 POSES = [(0, 0, 0), (0, 30, 0), (35, 45, -20), (0, 75, 0), (0, 85, 0), (0, 89, 0)]
+
+
+# Singular away from zero, at zero, and nowhere; every pair that is run has to be compiled.
+TRIED = ("zyx-euler", "zyz-euler", "mrp")
+HYBRIDS = [
+    *(hybrid(law, form) for law in ("hybrid-base", "hybrid-rate", "hybrid-hand") for form in ("inverse", "projected")),
+    *(hybrid("hybrid", form, COORDINATES[word]) for word in TRIED for form in ("inverse", "projected")),
+]
+SPRINGS = [
+    springy(impedance, one)
+    for impedance in known_impedances().values()
+    for one in ([COORDINATES[word] for word in TRIED] if impedance.law_in else [None])
+]
+
+
+@functools.cache
+def probed(controller, complies="about x and y", alpha=0, beta=30, gamma=0, arm="ur5e") -> Pose:
+    """One pose of the default probe: angles in degrees, the order by its name."""
+    on = tasks.arm(arm)
+    words = f"alpha{alpha:+d} beta{beta:+d} gamma{gamma:+d}, {complies}"
+    chosen = tuple(trial for trial in TASK.trials(on) if trial.pose == words)
+    assert chosen, f"no pose '{words}'"
+    ended = run("native", controller, TASK, on, chosen)
+    return Pose(TASK, on, controller, tuple(response(*each) for each in zip(chosen, ended, strict=True)))
 
 
 def rotation(turn: Turn) -> Rotation:

@@ -12,6 +12,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation as ScipyRotation
 
 import tasks
+from bench.contenders.registry import known_representations
 from bench.control.hybrid import comply
 from bench.control.registry import all_compliants
 from bench.control.setpoint import ContactParameters, Rows, Setpoint
@@ -28,6 +29,8 @@ from tasks.domains.wrench_probe import TASK
 ARMS = [arm for arm in tasks.arm_names() if can_do(TASK, tasks.arm(arm))]
 HYBRIDS = [one for one in all_compliants() if one.impedance is None]
 IMPEDANCES = [one for one in all_compliants() if one.impedance is not None]
+COORDINATES = {word: one for word, one in known_representations().items() if one.about is not None}
+"""Those with a coordinate for each of the axes x, y and z."""
 
 # Not the defaults: what has those built in is found out.
 GAINS = Gains(kp=37.0, kv=9.0)
