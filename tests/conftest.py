@@ -16,10 +16,23 @@ SLOW_ROOMS = ("running", "contracts", "engines", "regression")
 seconds: Counter = Counter()
 
 
+def took(config) -> dict:
+    """What was kept, as the first process read it: those that it starts must have one and the same order."""
+    if hasattr(config, "workerinput"):
+        return config.workerinput["took"]
+    return config.cache.get(TOOK, {}) if hasattr(config, "cache") else {}
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_configure_node(node):
+    """Give it to a process of xdist's."""
+    node.workerinput["took"] = took(node.config)
+
+
 def pytest_collection_modifyitems(config, items):
     """Files that take longest first: begun last, one would be left to a single process while the others wait."""
-    took = config.cache.get(TOOK, {}) if hasattr(config, "cache") else {}
-    items.sort(key=lambda item: (-took.get(item.path.stem, 0), item.path.parent.name not in SLOW_ROOMS))
+    before = took(config)
+    items.sort(key=lambda item: (-before.get(item.path.stem, 0), item.path.parent.name not in SLOW_ROOMS))
 
 
 def pytest_runtest_logreport(report):
@@ -29,8 +42,9 @@ def pytest_runtest_logreport(report):
 
 def pytest_sessionfinish(session):
     """Keep it for the next time, once for all processes."""
-    if hasattr(session.config, "cache") and not hasattr(session.config, "workerinput"):
-        session.config.cache.set(TOOK, session.config.cache.get(TOOK, {}) | {k: round(v) for k, v in seconds.items()})
+    config = session.config
+    if hasattr(config, "cache") and not hasattr(config, "workerinput"):
+        config.cache.set(TOOK, took(config) | {file: round(total) for file, total in seconds.items()})
 
 
 @pytest.fixture(scope="session", autouse=True)
