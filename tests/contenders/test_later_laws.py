@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation as ScipyRotation
-from support.bits import EPS
 from support.states import as_rotation, vector
 
 from bench.contenders.registry import find_contender, known_regulators
@@ -60,29 +59,6 @@ def axes(count, seed):
     """Unit vectors, drawn."""
     drawn = np.random.default_rng(seed).normal(size=(count, 3))
     return drawn / np.linalg.norm(drawn, axis=1, keepdims=True)
-
-
-@pytest.mark.parametrize("word", SPRINGS)
-def test_spring_is_the_one_of_the_law_along_the_axis_to_the_goal(word):
-    goals = ScipyRotation.random(20, rng=np.random.default_rng(1))
-    for theta in ANGLES:
-        for k, R_d in zip(axes(20, 2), goals, strict=True):
-            u, _ = command(word, ScipyRotation.from_rotvec(-theta * k) * R_d, R_d=R_d)
-            expected = GAINS.kp * SPRINGS[word](theta)
-            # cos(theta/2)^2 comes of a difference of numbers near 1 in laws that divide by it
-            near = math.cos(theta / 2.0) ** 2 if word in UNBOUNDED else 1.0
-            np.testing.assert_allclose(u, expected * k, rtol=0.0, atol=20 * EPS / near * GAINS.kp * max(1.0, expected))
-
-
-@pytest.mark.parametrize("word", [word for word in SPRINGS if word not in (*UNBOUNDED, "rotation-matrix")])
-def test_spring_pushes_with_its_whole_strength_at_exact_half_turns(word):
-    """About many axes, those of the base among them: no dead point, and the side is the rule's, one of the two."""
-    turns = [*np.eye(3), *-np.eye(3), (0.6, 0.8, 0.0), (0.0, 0.6, 0.8), (1 / 3, 2 / 3, 2 / 3), *axes(20, 3)]
-    for k in map(np.array, turns):
-        R = ScipyRotation.from_matrix(2.0 * np.outer(k, k) - np.eye(3))
-        u, _ = command(word, R)
-        np.testing.assert_allclose(np.linalg.norm(u), GAINS.kp * SPRINGS[word](math.pi), rtol=1e-12)
-        assert abs(abs(u @ k) - np.linalg.norm(u)) <= 1e-9 * np.linalg.norm(u)
 
 
 def test_weighted_columns_rests_at_three_half_turns_and_no_others():

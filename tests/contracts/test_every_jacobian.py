@@ -1,7 +1,6 @@
 """Contracts that every Jacobian in bench/contenders/jacobians keeps in all representations; a new one is under them."""
 
 import functools
-from pathlib import Path
 
 import numba
 import numpy as np
@@ -11,7 +10,6 @@ from support.buffers import poses
 from support.filling import AWAY, EVERY, ON_COORDINATES, ON_OMEGA, PAIRS, ROUNDING, converted, filled, named, rows_of
 from support.states import rotations
 
-from bench.counting.dialect import violations
 from bench.engines.compiled import JIT, register_kernels
 from bench.law.chain import bias_acceleration
 from bench.law.scalar import KERNELS
@@ -22,12 +20,6 @@ def chains(n):
     found = [chain for _, chain in poses(n, 20)]
     permuting, others = rotations()[:24], rotations()[24::3]
     return found + [found[i % 20]._replace(R=R) for i, R in enumerate((*permuting, *others))]
-
-
-@pytest.mark.parametrize("jacobian", EVERY, ids=lambda one: one.name)
-def test_file_keeps_to_the_dialect(jacobian):
-    path = Path(jacobian.kernels_in.__code__.co_filename)
-    assert violations(path.read_text()) == []
 
 
 @pytest.mark.parametrize("jacobian", EVERY, ids=lambda one: one.name)

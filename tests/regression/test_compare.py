@@ -5,6 +5,7 @@ import shutil
 import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
+from support.tables import changed
 
 from bench.cli import main
 from bench.contenders.registry import find_contender
@@ -43,59 +44,45 @@ def test_gate_passes_when_nothing_changed(reference, candidate):
     assert main(["compare", str(reference), str(candidate)]) == 0
 
 
-def test_gate_catches_one_flipped_outcome(reference, candidate, capsys):
-    def flip(frame):
-        row = frame.index[frame["outcome"] == "settled"][3]
-        frame["outcome"] = frame["outcome"].astype(str)
-        frame.loc[row, "outcome"] = "stuck"
-        return frame
+def worst_total(frame):
+    return (frame["regulator"] == "rotation-matrix") & (frame["branch"] == "worst") & (frame["stage"] == "total")
 
-    change(candidate, "episodes", flip)
-    lines = compare(reference, candidate)
-    assert len(lines) == 1
-    assert "outcome: settled -> stuck" in lines[0]
+
+def settled(frame):
+    return frame.index[frame["outcome"] == "settled"][3:4]
+
+
+@pytest.mark.parametrize(
+    ("table", "edit", "says"),
+    [
+        ("episodes", lambda frame: changed(frame, settled(frame), outcome="stuck"), "outcome: settled -> stuck"),
+        (
+            "costs",
+            lambda frame: changed(frame, worst_total(frame), mul=lambda mul: mul + 1),
+            "mul: 25 -> 26: rotation-matrix worst total",
+        ),
+        (
+            "episodes",
+            lambda frame: changed(frame, settled(frame), settling_time_s=lambda time: time + frame.loc[0, "dt_s"]),
+            "settling_time_s: ",
+        ),
+        ("episodes", lambda frame: frame.drop(index=5), "episodes: row is missing: quick free-body"),
+    ],
+    ids=["one flipped outcome", "one more multiplication", "one tick later", "a missing row"],
+)
+def test_gate_catches(reference, candidate, capsys, table, edit, says):
+    change(candidate, table, edit)
+    [line] = compare(reference, candidate)
+    assert line.startswith(says)
     assert main(["compare", str(reference), str(candidate)]) == 1
-    assert "settled -> stuck" in capsys.readouterr().out
-
-
-def test_gate_catches_one_more_multiplication(reference, candidate):
-    def add_one(frame):
-        rows = (frame["regulator"] == "rotation-matrix") & (frame["branch"] == "worst") & (frame["stage"] == "total")
-        assert rows.sum() == 1
-        frame.loc[rows, "mul"] += 1
-        return frame
-
-    change(candidate, "costs", add_one)
-    lines = compare(reference, candidate)
-    assert len(lines) == 1
-    assert lines[0].startswith("mul: 25 -> 26: rotation-matrix worst total")
-
-
-def test_gate_catches_a_settling_time_off_by_one_tick(reference, candidate):
-    def delay(frame):
-        row = frame.index[frame["outcome"] == "settled"][0]
-        frame.loc[row, "settling_time_s"] += frame.loc[row, "dt_s"]
-        return frame
-
-    change(candidate, "episodes", delay)
-    lines = compare(reference, candidate)
-    assert len(lines) == 1
-    assert lines[0].startswith("settling_time_s: ")
-
-
-def test_gate_catches_a_missing_row(reference, candidate):
-    change(candidate, "episodes", lambda frame: frame.drop(index=5))
-    lines = compare(reference, candidate)
-    assert len(lines) == 1
-    assert lines[0].startswith("episodes: row is missing: quick free-body")
+    assert says.partition(": ")[2].partition(":")[0] in capsys.readouterr().out
 
 
 def test_gate_catches_a_new_row(reference, candidate):
-    def rename(frame):
-        frame["start_id"] = frame["start_id"].astype(str).replace({"figure-2.3": "figure-9.9"})
-        return frame
+    def paper(frame):
+        return frame["start_id"] == "figure-2.3"
 
-    change(candidate, "episodes", rename)
+    change(candidate, "episodes", lambda frame: changed(frame, paper(frame), start_id="figure-9.9"))
     lines = compare(reference, candidate)
     assert any(line.startswith("episodes: row is new") for line in lines)
     assert any(line.startswith("episodes: row is missing") for line in lines)
@@ -127,14 +114,12 @@ def test_gate_catches_a_moved_failure_boundary(reference, candidate, tmp_path):
 
     def move(frame):
         row = frame.index[frame["fails_from_rad"].notna()][0]
-        frame.loc[row, "fails_from_rad"] += 1e-3
-        return frame
+        return changed(frame, row, fails_from_rad=lambda angle: angle + 1e-3)
 
     assert compare(before, candidate) == []
     change(candidate, "boundaries", move)
-    lines = compare(before, candidate)
-    assert len(lines) == 1
-    assert lines[0].startswith("fails_from_rad: ")
+    [line] = compare(before, candidate)
+    assert line.startswith("fails_from_rad: ")
 
 
 def test_gate_catches_a_curve_that_bends_and_one_that_is_gone(candidate, tmp_path):
@@ -144,11 +129,7 @@ def test_gate_catches_a_curve_that_bends_and_one_that_is_gone(candidate, tmp_pat
     shutil.copytree(candidate, before)
     assert compare(before, candidate) == []
 
-    def bend(frame):
-        frame.loc[7, "omega_x"] += 1e-3
-        return frame
-
-    change(candidate, "traces", bend)
+    change(candidate, "traces", lambda frame: changed(frame, 7, omega_x=lambda rate: rate + 1e-3))
     [line] = compare(before, candidate)
     assert line.startswith("omega_x: ")
     change(candidate, "traces", lambda frame: frame[frame["start_id"] != "uniform-00001"])
@@ -161,8 +142,7 @@ def test_gate_ignores_what_a_failed_episode_measured(reference, candidate):
     def shake(frame):
         failed = frame["outcome"] != "settled"
         assert failed.any()
-        frame.loc[failed, "effort"] *= 3.0
-        return frame
+        return changed(frame, failed, effort=lambda effort: 3.0 * effort)
 
     change(candidate, "episodes", shake)
     assert compare(reference, candidate) == []
