@@ -20,7 +20,10 @@ from bench.tables import store
 from report.figures.kit.page import contents, run_in, text_of
 from report.figures.responses import settling_time
 
-WORDS = ["run", "--experiment", "free-body", "--regulator", "rotation-matrix", "--engine", "native", "--starts", "paper"]
+WORDS = (
+    *("run", "--experiment", "free-body", "--starts", "paper"),
+    *("--regulator", "rotation-matrix", "--engine", "native"),
+)
 STEPS = {engine.run.__code__, store.write_table.__code__, store.merge.__code__, store.read.__code__}
 """Where one looks at who waits."""
 
