@@ -65,9 +65,10 @@ def advice(rows: pd.DataFrame) -> dict:
 def damping(rows: pd.DataFrame) -> dict:
     """What damping does to turns through and past singularities, of each controller a clause."""
     starts = arm_wrist.of_wrist(rows)
-    said = {}
+    said: dict[str, str | None] = {}
     for key, controller in (("damped_m", arm_rows.ON_MATRIX), ("damped_f", arm_rows.ON_ANGLES)):
         ways = [arm_rows.of(starts, controller, name) for name in (arm_rows.STANDARD, DAMPED)]
+        said[key] = None
         if any(own.empty for own in ways):
             continue
         plain, damped = (100.0 * float(arm_rows.settled(own).mean()) for own in ways)

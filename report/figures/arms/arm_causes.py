@@ -56,8 +56,7 @@ def causes(rows: pd.DataFrame, narrow: bool):
             axes.barh([0], [0], color=colour, label=cause)
     axes.set_yticks([] if narrow else range(len(controllers)), [] if narrow else map(arm_rows.title, controllers))
     axes.set(xlabel="episodes that fail [%]", xlim=(0, 108 * widest), ylim=(len(controllers) - 0.4, -0.75))
-    axes.grid(visible=False, axis="y")
-    axes.tick_params(axis="y", length=0)
+    style.listed(axes)
     if counts[list(COLOURS)].to_numpy().any():
         figure.legend(loc="outside lower center", ncols=3 if narrow else 5)
     return figure, f"Failed episodes by cause. {'. '.join(said)}."

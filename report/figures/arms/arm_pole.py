@@ -32,11 +32,7 @@ def pole(rows: pd.DataFrame, narrow: bool):
     starts = rows[(rows["start_set"] == "pole") & rows["controller"].isin(SHOWN)]
     starts = starts.assign(k=decade(starts["start_id"]))
     names = arm_rows.arms(starts)
-    cols = 1 if narrow else 2
-    height = (1.75 if narrow else 1.9) * -(-len(names) // cols) + 0.8
-    figure, grid = style.panels(
-        -(-len(names) // cols), cols, height=height, narrow=narrow, sharex=True, sharey=True, squeeze=False
-    )
+    figure, grid = style.grid(len(names), 1.9, 1.75, narrow, top=0.8, sharey=True)
     said = []
     for axes, arm in zip(grid.flat, names, strict=False):
         told = []
@@ -55,8 +51,6 @@ def pole(rows: pd.DataFrame, narrow: bool):
         axes.set(title=arm, yscale="log")
         axes.minorticks_off()
         said.append(f"{arm}: {', '.join(told)}")
-    for axes in grid.flat[len(names) :]:
-        axes.axis("off")
     steps = sorted(set(starts["k"]))
     labels = [f"$10^{{-{k}}}$" for k in steps[:-1]] + ["0"]
     for axes in grid[-1]:

@@ -79,13 +79,7 @@ def later(found: pd.DataFrame, narrow: bool):
             later_ms = 1e3 * own.loc[own["arm"] == arm, "later_s"].dropna().clip(-DRAWN_MS, DRAWN_MS)
             place = i + 0.11 * (k - 0.5 * (len(names) - 1)) + (0.16 if narrow else 0.0)
             face = {"markersize": 3.2, "markeredgewidth": 0.6, "alpha": 0.75}
-            axes.plot(
-                later_ms,
-                [place] * len(later_ms),
-                arm_rows.mark(k)[1],
-                color=look.colour,
-                **face,
-            )
+            axes.plot(later_ms, [place] * len(later_ms), arm_rows.mark(k)[1], color=look.colour, **face)
         title = arm_rows.title(controller)
         if narrow:
             axes.text(-DRAWN_MS, i - 0.12, title, ha="left", va="bottom", fontsize=9)
@@ -103,8 +97,7 @@ def later(found: pd.DataFrame, narrow: bool):
     axes.set_yticks([] if narrow else range(len(controllers)), [] if narrow else map(arm_rows.title, controllers))
     axes.set(xlabel="settles later than the free body by [ms]", xlim=(-1.1 * DRAWN_MS, 1.1 * DRAWN_MS))
     axes.set_ylim(len(controllers) - 0.4, -0.7)
-    axes.grid(visible=False, axis="y")
-    axes.tick_params(axis="y", length=0)
+    style.listed(axes)
     figure.legend(loc="outside lower center", ncols=2 if narrow else 4)
     return figure, f"Settling time on an arm minus that of the free body, from clear starts. {'. '.join(said)}."
 

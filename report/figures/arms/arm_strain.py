@@ -23,9 +23,7 @@ def strain(rows: pd.DataFrame, narrow: bool):
     """
     clear = rows[rows["start_set"] == "clear"]
     names = arm_rows.arms(clear)
-    figure, (left, right) = style.panels(
-        *((2, 1) if narrow else (1, 2)), height=6.2 if narrow else 3.4, narrow=narrow, sharey=True
-    )
+    figure, (left, right) = style.beside(2, 3.4, 6.2, narrow, sharey=True)
     said = []
     for i, arm in enumerate(names):
         told = []
@@ -52,9 +50,8 @@ def strain(rows: pd.DataFrame, narrow: bool):
     left.set(xscale="log", xlabel="tool strays by [mm]", ylim=(len(names) - 0.4, -0.85))
     left.set_yticks(range(len(names)), names)
     right.set(xscale="log", xlabel="peak torque over rated")
+    style.listed(left, right)
     for axes in (left, right):
-        axes.grid(visible=False, axis="y")
-        axes.tick_params(axis="y", length=0)
         axes.minorticks_off()
     figure.legend(loc="outside lower center", ncols=1 if narrow else 2)
     return figure, f"Medians over clear starts. {'; '.join(said)}."

@@ -52,10 +52,7 @@ def ratios(found: pd.DataFrame, *, narrow=False):
     """Time a tick over mujoco.rollout's, a row a controller and inverse, a mark an arm with its interval."""
     own = loops(found)
     if own.empty:
-        figure, axes = style.panels(height=1.0, narrow=narrow)
-        axes.axis("off")
-        axes.text(0.5, 0.5, NONE_YET.replace("`", ""), ha="center", va="center", color=style.MUTED, wrap=True)
-        return figure, NONE_YET
+        return style.words(NONE_YET.replace("`", ""), narrow), NONE_YET
     labels = labelled(own)
     order = own.groupby(labels)["ratio_rollout"].median().sort_values(kind="stable").index.tolist()
     figure, axes = style.panels(height=1.2 + (0.42 if narrow else 0.26) * len(order), narrow=narrow)

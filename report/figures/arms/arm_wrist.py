@@ -42,9 +42,7 @@ def wrist(rows: pd.DataFrame, narrow: bool):
     """
     starts = of_wrist(rows)
     names = inverses(starts)
-    figure, (left, right) = style.panels(
-        *((2, 1) if narrow else (1, 2)), height=6.0 if narrow else 0.42 * len(names) + 1.5, narrow=narrow, sharey=True
-    )
+    figure, (left, right) = style.beside(2, 0.42 * len(names) + 1.5, 6.0, narrow, sharey=True)
     said = []
     for i, name in enumerate(names):
         told = []
@@ -71,8 +69,6 @@ def wrist(rows: pd.DataFrame, narrow: bool):
     left.set_yticks(range(len(names)), [arm_rows.title_of_inverse(name).replace(", ", ",\n") for name in names])
     right.set(xscale="log", xlabel="tool strays by [mm]")
     right.minorticks_off()
-    for axes in (left, right):
-        axes.grid(visible=False, axis="y")
-        axes.tick_params(axis="y", length=0)
+    style.listed(left, right)
     figure.legend(loc="outside lower center", ncols=1 if narrow else 2)
     return figure, f"Turns through and past singularities of the arm. {'. '.join(said)}."

@@ -34,41 +34,11 @@ from tasks.paths import zyx_angles
 TRIED, POLISHED, SEED = 400, 4, 0
 """Random postures for the furthest one, and from how many of them it is climbed to."""
 
-ARMS = Table(
-    {
-        "Arm": "",
-        "Maker's name": "",
-        "Joints": "",
-        "Reach [m]": ".2f",
-        "Condition": ".1f",
-        "β [deg]": "",
-        "Rated torques [N m]": "",
-    }
-)
-STARTS = Table({"Set": "", "What it is for": "", "Starts an arm": "", "Horizon [s]": ""})
-CAUSES = Table({"Cause": "", "What the judge saw": "", "Failures": ""})
-POLE = Table(
-    {
-        "Arm": "",
-        "Starts": "",
-        "(2.2) fails": "",
-        "(3.7) fails": "",
-        "fails or hammers": "",
-        "Way": ".1f",
-        "Torque": html.number,
-    }
-)
-WRIST = Table(
-    {
-        "Controller": "",
-        "Inverse": "",
-        "Starts": "",
-        "Settled [%]": ".0f",
-        "Strays [mm]": html.number,
-        "95 %": html.number,
-        "Torque": "",
-    }
-)
+ARMS = Table("Arm | Maker's name | Joints | Reach [m]:.2f | Condition:.1f | β [deg] | Rated torques [N m]")
+STARTS = Table("Set | What it is for | Starts an arm | Horizon [s]")
+CAUSES = Table("Cause | What the judge saw | Failures")
+POLE = Table("Arm | Starts | (2.2) fails | (3.7) fails | fails or hammers | Way:.1f | Torque")
+WRIST = Table("Controller | Inverse | Starts | Settled [%]:.0f | Strays [mm] | 95 % | Torque")
 
 
 @functools.cache

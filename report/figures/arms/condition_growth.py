@@ -27,8 +27,7 @@ def growth(rows: pd.DataFrame, *, narrow=False):
         rows: pose set `pole`, every representation.
     """
     found = ways(rows)
-    shape = (2, 1) if narrow else (1, 2)
-    figure, (left, right) = style.panels(*shape, height=7.4 if narrow else 3.9, narrow=narrow, sharey=True)
+    figure, (left, right) = style.beside(2, 3.9, 7.4, narrow, sharey=True)
     papers = found[found["representation"] == arm_poses.PAPERS]
     for arm in arm_poses.arms(papers):
         own, look = papers[papers["arm"] == arm], arm_poses.look(arm)

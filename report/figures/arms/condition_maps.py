@@ -81,12 +81,7 @@ def _map(axes, own: Grid, column: str):
     """One map with its contours."""
     values = np.clip(getattr(own, column), LEAST, MOST * 10)
     image = axes.imshow(
-        values,
-        extent=own.extent,
-        origin="lower",
-        aspect="auto",
-        norm=LogNorm(LEAST, MOST),
-        interpolation="none",
+        values, extent=own.extent, origin="lower", aspect="auto", norm=LogNorm(LEAST, MOST), interpolation="none"
     )
     for level, values, colour, line in (
         (np.log10(arm_poses.BAD), np.log10(own.condition), KINEMATIC, "-"),

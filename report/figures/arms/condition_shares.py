@@ -23,10 +23,7 @@ def beyond(values: pd.Series) -> np.ndarray:
 def shares(rows: pd.DataFrame, *, narrow=False):
     """Share of random poses whose condition number is above a value, a panel an arm, a curve for each Jacobian."""
     names = arm_poses.arms(rows)
-    columns = 1 if narrow else 2
-    lines = -(-len(names) // columns)
-    height = (2.3 if narrow else 2.45) * lines + (1.3 if narrow else 0.9)
-    figure, grid = style.panels(lines, columns, height=height, narrow=narrow, sharex=True, sharey=True, squeeze=False)
+    figure, grid = style.grid(len(names), 2.45, 2.3, narrow, top=1.3 if narrow else 0.9, sharey=True)
     words = []
     for arm, axes in zip(names, grid.flat, strict=False):
         own = rows[rows["arm"] == arm]

@@ -15,7 +15,7 @@ from bench.counting import STAGES
 from bench.findings.claims.controller_costs import INVERSES
 from report.figures.arms import arm_rows
 from report.figures.cost.cost import spent
-from report.figures.cost.operations import CALLS, ink
+from report.figures.cost.operations import CALLS, stack
 from report.figures.kit import style
 from report.figures.kit.inline import responsive_picture
 from report.figures.kit.page import Run
@@ -78,17 +78,7 @@ def bars(rows: pd.DataFrame, *, narrow=False):
     table, calls = stages(own), stages(own, "calls")
     figure, axes = style.panels(height=1.0 + (0.66 if narrow else 0.36) * len(table), narrow=narrow)
     widest = int(table.sum(axis=1).max())
-    left = pd.Series(0, index=table.index)
-    for stage, colour in COLOURS.items():
-        axes.barh(
-            range(len(table)), table[stage], left=left, color=colour, height=0.64, label=stage, edgecolor=style.PAPER
-        )
-        for place, (start, width) in enumerate(zip(left, table[stage], strict=True)):
-            if width > LEAST_LABELLED * widest * (2.2 if narrow else 1.2):
-                axes.text(
-                    start + width / 2, place, f"{width}", ha="center", va="center", fontsize=8.5, color=ink(colour)
-                )
-        left = left + table[stage]
+    left = stack(axes, table, COLOURS, 0.64, LEAST_LABELLED * widest * (2.2 if narrow else 1.2))
     for place, name in enumerate(table.index):
         said = spent(int(left[name]), int(calls.loc[name].sum()))
         axes.text(left[name] + 0.01 * widest, place, said, va="center", fontsize=8.5, color=style.MUTED)
@@ -102,8 +92,7 @@ def bars(rows: pd.DataFrame, *, narrow=False):
     axes.set_xlim(0, 1.13 * widest)
     axes.set_ylim(len(table) - 0.5, -0.75 if narrow else -0.5)
     axes.set_xlabel("Flops a tick, six joints")
-    axes.grid(visible=False, axis="y")
-    axes.tick_params(axis="y", length=0)
+    style.listed(axes)
     figure.legend(loc="outside upper left", ncols=3 if narrow else 7, handlelength=1, columnspacing=1.1)
     words = "; ".join(
         f"{arm_rows.title(name)} {row.sum()}, of which {row['invert']} invert" for name, row in table.iterrows()

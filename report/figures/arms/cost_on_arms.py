@@ -30,19 +30,9 @@ LAW = ("goal", "represent", "regulate")
 """Stages that a free body has too: the orientation law and its coordinates."""
 
 FORMATS = {"Rollout [µs]": ".2f", "dm_control [µs]": ".0f", "Times as long": ".0f", "Two threads": ".2f"}
-MEANT = Table({"Stage": "", "What it computes": ""})
-STAGED = Table({"Controller": "", **dict.fromkeys((*STAGES, "total"), "")})
-BOUGHT = Table(
-    {
-        "Inverse": "",
-        "Flops": "",
-        "Tick": "",
-        "Times the cheapest": ".1f",
-        "Settle": "",
-        "Strays [mm]": "",
-        "Torque": "",
-    }
-)
+MEANT = Table("Stage | What it computes")
+STAGED = Table(" | ".join(("Controller", *STAGES, "total")))
+BOUGHT = Table("Inverse | Flops | Tick | Times the cheapest:.1f | Settle | Strays [mm] | Torque")
 SAID = {
     "damped-least-squares": "Damping costs {times} times as much",
     "damped-least-squares-variable": "damping only where it is needed, to be exact elsewhere, {times} times",

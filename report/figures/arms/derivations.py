@@ -36,8 +36,7 @@ def derivations(rows: pd.DataFrame, *, narrow=False):
     Args:
         rows: every pose, Z-Y-X angles.
     """
-    shape = (2, 1) if narrow else (1, 2)
-    figure, grid = style.panels(*shape, height=6.6 if narrow else 3.5, narrow=narrow, sharey=True)
+    figure, grid = style.beside(2, 3.5, 6.6, narrow, sharey=True)
     margins = np.array([1e-12, 1.0])
     for axes, (column, (title, unit)) in zip(grid, GAPS.items(), strict=True):
         for arm in arm_poses.arms(rows):

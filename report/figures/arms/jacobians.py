@@ -34,7 +34,7 @@ def largest(value: float) -> str:
 
 
 COORDINATES = {name: arm_poses.short_title(name) for name in known_representations()}
-SLOPES = Table({"Coordinates": "", "Ways": "", "Least": ".3f", "Most": ".3f", "Largest at 10⁻⁸": largest})
+SLOPES = Table("Coordinates | Ways | Least:.3f | Most:.3f | Largest at 10⁻⁸", {"Largest at 10⁻⁸": largest})
 
 
 def papers(run: Run, **words: str) -> pd.DataFrame:

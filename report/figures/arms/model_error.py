@@ -21,25 +21,9 @@ QUANTILES = (0.05, 0.5, 0.95)
 FLOOR_DEG, FLOOR_MM = 1e-3, 1e-2
 RUBBED = "friction-"
 VARIATIONS = Table(
-    {
-        "Variation": "",
-        "The plant": "",
-        "Episodes": "",
-        "Settled [%]": ".0f",
-        "The others": "",
-        "Angle [deg]": ".2f",
-        "Strays [mm]": ".1f",
-    }
+    "Variation | The plant | Episodes | Settled [%]:.0f | The others | Angle [deg]:.2f | Strays [mm]:.1f"
 )
-FRICTION = Table(
-    {
-        "Arm": "",
-        "Least inertia [kg m²]": ".3f",
-        "Variation": "",
-        "Can hold [deg]": ".2f",
-        "Measured [deg]": ".2f",
-    }
-)
+FRICTION = Table("Arm | Least inertia [kg m²]:.3f | Variation | Can hold [deg]:.2f | Measured [deg]:.2f")
 
 
 @functools.cache
@@ -106,12 +90,8 @@ def spread(rows: pd.DataFrame, narrow: bool):
         rows: of `compared`.
     """
     words, names = in_order(rows), arm_rows.arms(rows)
-    figure, (left, right) = style.panels(
-        *((2, 1) if narrow else (1, 2)),
-        height=0.46 * len(words) * (2 if narrow else 1) + 1.2,
-        narrow=narrow,
-        sharey=True,
-    )
+    height = 0.46 * len(words)
+    figure, (left, right) = style.beside(2, height + 1.2, 2 * height + 1.2, narrow, sharey=True)
     said = []
     for i, word in enumerate(words):
         told = []
@@ -132,9 +112,8 @@ def spread(rows: pd.DataFrame, narrow: bool):
     left.set(xscale="log", xlabel="angle to the goal at the end [deg]", ylim=(len(words) - 0.4, -0.6))
     right.set(xscale="log", xlabel="tool strays by [mm]")
     left.set_yticks(range(len(words)), words)
+    style.listed(left, right)
     for axes in (left, right):
-        axes.grid(visible=False, axis="y")
-        axes.tick_params(axis="y", length=0)
         axes.minorticks_off()
     figure.legend(loc="outside lower center", ncols=2 if narrow else 4)
     return figure, f"Median angle to the goal at the end in degrees. {'; '.join(said)}."

@@ -137,15 +137,7 @@ def linear(traces: pd.DataFrame, episodes: pd.DataFrame, kp: float, kv: float, n
         traces: of `arm_rows.named`. episodes: of `arm_rows.episodes`, for the goals. kp, kv: of the closed form.
     """
     names = arm_rows.arms(traces)
-    cols = 1 if narrow else 2
-    figure, grid = style.panels(
-        -(-len(names) // cols),
-        cols,
-        height=1.9 * -(-len(names) // cols) + 0.4,
-        narrow=narrow,
-        sharex=True,
-        squeeze=False,
-    )
+    figure, grid = style.grid(len(names), 1.9, 1.9, narrow, top=0.4)
     fine = np.linspace(0.0, SHOWN_S, 200)
     shape, shade = closed_form.linear(fine, kp, kv), style.look(arm_rows.ON_ANGLES).colour
     said = []
@@ -160,8 +152,6 @@ def linear(traces: pd.DataFrame, episodes: pd.DataFrame, kp: float, kv: float, n
         axes.axhline(0.0, color=style.MUTED, linewidth=0.7)
         axes.set(title=arm, xlim=(-0.1, SHOWN_S))
         said.append(f"{arm} is at most {bend_deg(own, goal, kp, kv):.2g} degrees from its closed form")
-    for axes in grid.flat[len(names) :]:
-        axes.axis("off")
     for axes in grid[-1]:
         axes.set_xlabel("time [s]")
     style.label_rows(figure, "Z-Y-X angle to go [deg]")

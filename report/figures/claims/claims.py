@@ -13,7 +13,7 @@ from report.figures.kit.spelling import marked_up, prose, typeset
 from report.figures.kit.tables import Table
 
 SMALL = ("Criterion", "Left open")
-VERDICTS = Table({"": "", "What the paper says, in our words": "", "Verdict": ""})
+VERDICTS = Table(" | What the paper says, in our words | Verdict")
 
 
 def facts(_: Run) -> dict:

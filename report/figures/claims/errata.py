@@ -7,7 +7,7 @@ from report.figures.kit.page import Run
 from report.figures.kit.spelling import prose
 from report.figures.kit.tables import Table
 
-SLIPS = Table({"": "", "Where": "", "Printed": "", "Should be": "", "Checked": ""})
+SLIPS = Table(" | Where | Printed | Should be | Checked")
 COMPUTED = [one for one in ERRATA if one.check is not None]
 READ = [one for one in ERRATA if one.check is None]
 

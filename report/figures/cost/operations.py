@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from textwrap import wrap
 
 import pandas as pd
@@ -35,24 +36,13 @@ def operations(costs: pd.DataFrame, titles: dict[str, str], *, narrow=False):
     """Bars of operations by kind, one a law."""
     kinds = by_kind(costs)
     figure, axes = style.panels(height=0.75 + (0.6 if narrow else 0.36) * len(kinds), narrow=narrow)
-    places = range(len(kinds))
-    left = pd.Series(0, index=kinds.index)
-    for kind, (_, colour) in KINDS.items():
-        if not kinds[kind].any():
-            continue
-        axes.barh(places, kinds[kind], left=left, color=colour, height=0.62, label=kind, edgecolor=style.PAPER)
-        for place, (start, width) in enumerate(zip(left, kinds[kind], strict=True)):
-            if width >= LEAST_LABELLED * (2 if narrow else 1):
-                axes.text(
-                    start + width / 2, place, f"{width}", ha="center", va="center", fontsize=8.5, color=ink(colour)
-                )
-        left = left + kinds[kind]
+    colours = {kind: colour for kind, (_, colour) in KINDS.items() if kinds[kind].any()}
+    stack(axes, kinds, colours, 0.62, LEAST_LABELLED * (2 if narrow else 1))
     names = [titles.get(name, name) for name in kinds.index]
-    axes.set_yticks(places, ["\n".join(wrap(name, NARROW_LETTERS)) for name in names] if narrow else names)
+    axes.set_yticks(range(len(kinds)), ["\n".join(wrap(name, NARROW_LETTERS)) for name in names] if narrow else names)
     axes.invert_yaxis()
     axes.set_xlabel("Operations a tick, typical branch")
-    axes.grid(visible=False, axis="y")
-    axes.tick_params(axis="y", length=0)
+    style.listed(axes)
     axes.legend(
         loc="lower center", bbox_to_anchor=(0.35, 1.0), ncols=2 if narrow else 5, columnspacing=1.2, handlelength=1
     )
@@ -61,6 +51,20 @@ def operations(costs: pd.DataFrame, titles: dict[str, str], *, narrow=False):
         for name, row in kinds.iterrows()
     )
     return figure, f"Operations a tick by kind, one bar a law: {words}."
+
+
+def stack(axes, table: pd.DataFrame, colours: Mapping[str, str], height: float, least: float) -> pd.Series:
+    """A bar a row of pieces in these colours, each with its number if it is at least so long; gives their ends."""
+    left = pd.Series(0, index=table.index)
+    for kind, colour in colours.items():
+        look = {"color": colour, "height": height, "label": kind, "edgecolor": style.PAPER}
+        axes.barh(range(len(table)), table[kind], left=left, **look)
+        words = {"ha": "center", "va": "center", "fontsize": 8.5, "color": ink(colour)}
+        for place, (start, width) in enumerate(zip(left, table[kind], strict=True)):
+            if width >= least:
+                axes.text(start + width / 2, place, f"{width}", **words)
+        left = left + table[kind]
+    return left
 
 
 def ink(colour: str) -> str:

@@ -58,8 +58,7 @@ def plane(found: list[Place], titles: dict[str, str], small_s: float, *, narrow=
     Args:
         small_s: settling time of a small error, the measure of the slowest that is adequate.
     """
-    shape = (2, 1) if narrow else (1, 2)
-    figure, (left, right) = style.panels(*shape, height=6.6 if narrow else 3.7, narrow=narrow)
+    figure, (left, right) = style.beside(2, 3.7, 6.6, narrow)
     bound = DEAR * min(one.cost() for one in found)
     for one in found:
         look = style.look(one.name)

@@ -37,10 +37,7 @@ def alone(frame: pd.DataFrame) -> pd.DataFrame:
 def times(rows: pd.DataFrame, costs: pd.DataFrame, titles: dict[str, str], *, narrow=False):
     """Time in steps of the reference kernel against flops; no rows: a line that says so."""
     if rows.empty:
-        figure, axes = style.panels(height=1.0, narrow=narrow)
-        axes.axis("off")
-        axes.text(0.5, 0.5, NONE_YET, ha="center", va="center", color=style.MUTED, linespacing=1.6)
-        return figure, " ".join(NONE_YET.split())
+        return style.words(NONE_YET, narrow), " ".join(NONE_YET.split())
     figure, axes = style.panels(height=4.2 if narrow else 3.5, narrow=narrow)
     total = costs[(costs["branch"] == "typical") & (costs["stage"] == "total")].set_index("contender")
     rows = rows[rows["contender"].isin(total.index)]

@@ -21,9 +21,7 @@ def corners(episodes: pd.DataFrame, contender: str, narrow: bool):
         episodes: rows of one engine and of the set uniform.
     """
     rows = episodes[episodes["contender"] == contender]
-    figure, grid = style.panels(
-        *((3, 1) if narrow else (1, 3)), height=8.2 if narrow else 3.2, narrow=narrow, sharex=True, sharey=True
-    )
+    figure, grid = style.beside(3, 3.2, 8.2, narrow, sharex=True, sharey=True)
     said, sine = [], np.sin(rows["beta0"])
     for axes, low, high in zip(grid.flat, EDGES[:-1], EDGES[1:], strict=True):
         part = rows[(sine > low) & (sine <= high)]

@@ -22,11 +22,9 @@ NEAR_RAD = 0.1 + EXACT_RAD
 """Of a pole: the first decade of the set poles, 0.1 rad with its rounding."""
 
 ENGINES = ("ideal-rk4", "ideal-held", "native", "reference")
-SHARES = Table({"Law": "", "Engine": "", "Starts": "", "Settled [%]": ".2f", "95 % interval": "", "The others": ""})
-EXACT = Table({"Law": "", "Start on": "", "Tried": "", "Failing": "", "How": "", "One of them (w, x, y, z)": ""})
-NEAREST = Table(
-    {"Law": "", "Axes": "", "Failing": "", "Smallest": ".1f", "About": "", "Median": ".1f", "Nearest start": ".1f"}
-)
+SHARES = Table("Law | Engine | Starts | Settled [%]:.2f | 95 % interval | The others")
+EXACT = Table("Law | Start on | Tried | Failing | How | One of them (w, x, y, z)")
+NEAREST = Table("Law | Axes | Failing | Smallest:.1f | About | Median:.1f | Nearest start:.1f")
 
 
 @functools.cache

@@ -90,9 +90,7 @@ def both(light: str) -> str:
 
 
 def table(
-    frame: pd.DataFrame,
-    formats: Mapping[str, str | Callable[[Any], str]] | None = None,
-    words: Iterable[str] = (),
+    frame: pd.DataFrame, formats: Mapping[str, str | Callable[[Any], str]] | None = None, words: Iterable[str] = ()
 ) -> Markdown:
     """A frame as a Markdown table: numbers to the right, words to the left, gaps as a dash.
 

@@ -100,7 +100,4 @@ def absent(key: str, kind: str) -> Any:
 @responsive_picture
 def blank(what: str, narrow: bool):
     """The words alone, in the place of a figure."""
-    figure, axes = style.panels(height=0.6, narrow=narrow)
-    axes.axis("off")
-    axes.text(0.5, 0.5, f"{what}: {ABSENT}", ha="center", va="center", color=style.MUTED, transform=axes.transAxes)
-    return figure, f"{what}: {ABSENT}. The default suite holds it."
+    return style.words(f"{what}: {ABSENT}", narrow, height=0.6), f"{what}: {ABSENT}. The default suite holds it."

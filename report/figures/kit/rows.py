@@ -9,8 +9,9 @@ from bench.contenders.registry import contenders_of, known_regulators
 from bench.findings.theory.closed_form import linear_settling
 from bench.tables import read
 from report.figures.kit import html
+from report.figures.kit.laws import TITLES
 
-MATRIX, LINEARIZED, FEEDBACK = "rotation-matrix", "linearized-euler/zyx-euler", "feedback-linearized/zyx-euler"
+MATRIX, LINEARIZED, FEEDBACK = TITLES
 SHORT = {"m": MATRIX, "l": LINEARIZED, "f": FEEDBACK}
 
 

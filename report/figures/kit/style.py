@@ -191,6 +191,38 @@ def panels(rows: int = 1, cols: int = 1, *, height: float = 3.2, narrow: bool = 
     return figure, axes
 
 
+def beside(count: int, height: float, narrow_height: float, narrow: bool, **subplots):
+    """A figure of panels side by side, one below the other on a phone, and its axes."""
+    shape = (count, 1) if narrow else (1, count)
+    return panels(*shape, height=narrow_height if narrow else height, narrow=narrow, **subplots)
+
+
+def grid(count: int, height: float, narrow_height: float, narrow: bool, top: float = 0.0, **subplots):
+    """A figure of so many panels in two columns, one on a phone, with shared axes; heights of a row of them [in]."""
+    columns = 1 if narrow else 2
+    lines = -(-count // columns)
+    height = (narrow_height if narrow else height) * lines + top
+    figure, axes = panels(lines, columns, height=height, narrow=narrow, sharex=True, squeeze=False, **subplots)
+    for left_over in axes.flat[count:]:
+        left_over.axis("off")
+    return figure, axes
+
+
+def words(text: str, narrow: bool, height: float = 1.0) -> Figure:
+    """A figure that only says something."""
+    figure, axes = panels(height=height, narrow=narrow)
+    axes.axis("off")
+    axes.text(0.5, 0.5, text, ha="center", va="center", color=MUTED, linespacing=1.6, wrap=True)
+    return figure
+
+
+def listed(*each: Axes) -> None:
+    """Axes whose rows are a list of names: no lines and no ticks between them."""
+    for axes in each:
+        axes.grid(visible=False, axis="y")
+        axes.tick_params(axis="y", length=0)
+
+
 def label_line(axes: Axes, x: float, y: float, text: str, colour: str = INK, **place) -> None:
     """Name a curve beside it, which reads faster than a legend."""
     place = {"ha": "left", "va": "center", "fontsize": 9.5, **place}

@@ -13,17 +13,25 @@ from report.figures.kit import html
 class Table:
     """A table of a page.
 
-        TIMES = Table({"Law": "", "Starts": "", "Settled [%]": ".1f"})
+        TIMES = Table("Law | Starts | Settled [%]:.1f | Error", {"Error": power})
         TIMES(rows)
 
     Args:
-        columns: head of each column, its unit in brackets -> ".2f", "{:.2f} s" or a function; "" for three figures.
+        columns: heads with their units, each with the format of its numbers if three figures are not what it wants.
+        forms: head -> a function that writes its numbers.
         words: columns that are set as words, to the left, although they hold numbers.
     """
 
-    def __init__(self, columns: Mapping[str, str | Callable[[Any], str]], words: Iterable[str] = ()):
+    def __init__(
+        self,
+        columns: str | Mapping[str, str | Callable[[Any], str]],
+        forms: Mapping[str, Callable[[Any], str]] | None = None,
+        words: Iterable[str] = (),
+    ):
+        if isinstance(columns, str):
+            columns = {head: form for head, _, form in (one.strip().partition(":") for one in columns.split("|"))}
         self.heads = list(columns)
-        self.formats = {head: form for head, form in columns.items() if form}
+        self.formats = {head: form for head, form in {**columns, **(forms or {})}.items() if form}
         self.words = tuple(words)
 
     def __call__(self, rows: Iterable) -> html.Markdown | None:

@@ -85,8 +85,7 @@ def engines(found: pd.DataFrame, *, narrow=False):
     axes.invert_yaxis()
     axes.set_ylim(len(table) - 0.4, -0.6)
     axes.axvline(0.0, color=style.MUTED, linewidth=0.9)
-    axes.grid(visible=False, axis="y")
-    axes.tick_params(axis="y", length=0)
+    style.listed(axes)
     axes.set_xlabel("Settles later by [ms]" if narrow else "Settles later than on the continuous plant by [ms]")
     words = "; ".join(
         f"{TITLES[row.contender]} on {ENGINE_TITLES[row.engine]} {1e3 * row.mean_s:+.1f} ms"

@@ -35,13 +35,13 @@ UNITS = {
     "rest_speed": "rad/s",
     "rest_command": "rad/s²",
 }
-JUDGES = Table({"Rule": "", "Value": "", "Why": ""})
-METRICS = Table({"Column": "", "Metric": "", "Unit": ""})
-JACOBIANS = Table({"Jacobian": "", "Formula": "", "For": "", "Source": ""})
-INVERSES = Table({"Inverse": "", "Formula": "", "Source": ""})
-STARTS = Table({"Set": "", "What it holds": "", "Starts": "", "Horizon [s]": ""})
-ENGINES = Table({"Engine": "", "What it is": "", "Episodes": ""})
-ALIKE = Table({"Law": "", "n": "", "same outcome": "", "both or neither settle": ""})
+JUDGES = Table("Rule | Value | Why")
+METRICS = Table("Column | Metric | Unit")
+JACOBIANS = Table("Jacobian | Formula | For | Source")
+INVERSES = Table("Inverse | Formula | Source")
+STARTS = Table("Set | What it holds | Starts | Horizon [s]")
+ENGINES = Table("Engine | What it is | Episodes")
+ALIKE = Table("Law | n | same outcome | both or neither settle")
 halved = functools.cache(steps.errors)
 
 

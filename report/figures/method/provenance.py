@@ -24,17 +24,9 @@ CITATION = ROOT / "CITATION.cff"
 SETTINGS = ROOT / "results" / "settings" / "settings.json"
 SITE_DATA = "../data"
 """Seen from a page in pages/; report/build.py copies there what pages link to."""
-FACTS = Table({"Fact": "", "Value": ""})
-FILES = Table({"File": "", "Rows": "", "Size": "", "SHA-256": ""})
-REMADE = Table(
-    {
-        "Made on": "",
-        "Equal bit for bit": "",
-        "Rows that differ in some bit": "",
-        "Other outcome": "",
-        "Differences for the gate": "",
-    }
-)
+FACTS = Table("Fact | Value")
+FILES = Table("File | Rows | Size | SHA-256")
+REMADE = Table("Made on | Equal bit for bit | Rows that differ in some bit | Other outcome | Differences for the gate")
 
 
 def facts(_: Run) -> dict:

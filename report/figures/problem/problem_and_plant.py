@@ -11,7 +11,7 @@ from report.figures.kit.tables import Table
 from report.figures.problem import diagrams
 
 YES, NO = "yes", "no: ours"
-HELD = Table({"What": "", "Value": "", "Paper": ""})
+HELD = Table("What | Value | Paper")
 
 
 def facts(run: Run) -> dict:

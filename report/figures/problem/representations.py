@@ -21,8 +21,12 @@ POLES = {"+π/2": math.pi / 2.0, "−π/2": -math.pi / 2.0}
 STEP_RAD = 1.0
 """alpha and gamma move by this much: far above rounding, and no multiple of a turn."""
 
-COORDINATES = Table({"Coordinates": "", "Definition": "", "Where it breaks": "", "Source": ""})
-ON_POLES = Table({"β": "", "α and γ both + 1": power, "α + 1, γ − 1": power, "What R determines": ""}, words=["β"])
+COORDINATES = Table("Coordinates | Definition | Where it breaks | Source")
+ON_POLES = Table(
+    "β | α and γ both + 1 | α + 1, γ − 1 | What R determines",
+    {"α and γ both + 1": power, "α + 1, γ − 1": power},
+    words=["β"],
+)
 extracted = functools.cache(extraction.errors)
 
 

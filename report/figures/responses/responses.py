@@ -86,9 +86,7 @@ def response(traces: pd.DataFrame, contender: str, start_id: str, kp: float, kv:
     episode = traces[(traces["start_id"] == start_id) & (traces["time_s"] <= SHOWN_S)]
     own = episode[episode["contender"] == contender]
     times, angles = own["time_s"].to_numpy(), euler_deg(own)
-    figure, (left, right) = style.panels(
-        *((2, 1) if narrow else (1, 2)), height=5.4 if narrow else 3.0, narrow=narrow, sharex=True
-    )
+    figure, (left, right) = style.beside(2, 3.0, 5.4, narrow, sharex=True)
     fine = np.linspace(0.0, SHOWN_S, 200)
     linear = closed_form.linear(fine, kp, kv)
     colour = style.look(contender).colour

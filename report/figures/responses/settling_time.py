@@ -12,20 +12,10 @@ from report.figures.kit.tables import Table
 from report.figures.responses import settling_angle, settling_decades
 
 BIN_DEG = 30
-TIMES = Table(
-    {"Angle [deg]": "", "Law": "", "Starts": "", "Settled [%]": ".1f", "5 %": ".3f", "Median [s]": ".3f", "95 %": ".3f"}
-)
+TIMES = Table("Angle [deg] | Law | Starts | Settled [%]:.1f | 5 %:.3f | Median [s]:.3f | 95 %:.3f")
 SLOPES = Table(
-    {
-        "Engine": "",
-        "Starts fitted": "",
-        "Slope [s/decade]": ".4f",
-        "Closed form": ".4f",
-        "Difference [%]": "+.3f",
-        "Exact half turns": "",
-        "of which settle": "",
-        "Horizon [s]": "",
-    }
+    "Engine | Starts fitted | Slope [s/decade]:.4f | Closed form:.4f | Difference [%]:+.3f | Exact half turns | "
+    "of which settle | Horizon [s]"
 )
 
 

@@ -1,0 +1,76 @@
+"""Every page and its module: named alike, and what the one pastes the other gives; what a run does not hold is said."""
+
+import importlib
+import re
+from pathlib import Path
+
+import pandas as pd
+import pytest
+
+pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
+
+from report.figures.kit import html
+from report.figures.kit.page import ABSENT, PARTS, REPORT, as_pasted, contents, pasted, run_in, text_of
+from report.figures.kit.tables import Table
+
+CALL = re.compile(r'^kit\.page\("([\w.]+)"\)$', re.MULTILINE)
+PAGES = {
+    found[1]: path
+    for path in (REPORT / "index.md", *sorted(REPORT.glob("pages/*.md")))
+    if (found := CALL.search(path.read_text(encoding="utf-8")))
+}
+QUICK = sorted(set(PAGES) - {"index", "claims.claims"})
+"""Without those that judge all claims, which are tested by themselves."""
+
+
+@pytest.mark.parametrize("name", PAGES)
+def test_page_pastes_the_module_that_bears_its_name(name):
+    assert text_of(name) == PAGES[name].read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("name", QUICK)
+def test_module_gives_what_its_page_pastes_of_the_published_run(name):
+    module, run = importlib.import_module(f"report.figures.{name}"), run_in(Path("results/reference").resolve())
+    given = {key for part in PARTS[:2] if hasattr(module, part) for key in getattr(module, part)(run)}
+    wanted = {key for key, kind in pasted(PAGES[name].read_text(encoding="utf-8")).items() if kind != "figure"}
+    assert wanted - given == set()
+
+
+def test_keys_of_a_page_are_told_apart_by_how_they_are_pasted():
+    text = "{glue:text}`n` {glue:md}`why`\n```{glue:md} rows\n```\n```{glue:figure} curve\n```\n```{glue} tiles\n```\n"
+    kinds = {"n": "fact", "why": "sentence", "rows": "table", "curve": "figure", "tiles": "piece"}
+    assert pasted(text) == kinds
+
+
+@pytest.mark.parametrize("kind", ["fact", "sentence", "table", "figure", "piece"])
+def test_page_says_of_each_kind_that_it_is_not_in_this_run(kind):
+    shown = as_pasted(None, kind, "a-key")
+    assert ABSENT in getattr(shown, "alt", shown)
+
+
+def test_page_takes_what_it_pastes_and_nothing_else():
+    class Module:
+        @staticmethod
+        def facts(_):
+            return {"n": 12296, "unused": 1}
+
+    assert contents(Module, None, "{glue:text}`n` of {glue:text}`missing`") == {"n": "12\u202f296", "missing": ABSENT}
+
+
+def test_table_writes_its_columns_in_their_order_with_their_formats():
+    rows = Table("Law | Settled [%]:.1f | Error | k", {"Error": lambda value: f"<{value}>"}, words=["k"])
+    head, rule, line = rows([("one", 12.34, 5, 1)]).splitlines()
+    assert head == "| Law | Settled [%] | Error | k |"
+    assert rule == "| :-- | --: | --: | :-- |"
+    assert line == "| one | 12.3 | <5> | 1 |"
+    assert rows(pd.DataFrame([{"k": 1, "Error": 5, "Settled [%]": 12.34, "Law": "one"}])) == rows(
+        [("one", 12.34, 5, 1)]
+    )
+
+
+def test_table_without_rows_is_none():
+    assert Table("Law | n")([]) is None
+
+
+def test_sentence_is_pasted_as_markdown():
+    assert isinstance(as_pasted("a *sentence*", "sentence", "why"), html.Markdown)
