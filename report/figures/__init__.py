@@ -1,10 +1,13 @@
-"""What the report shows: a folder a chapter, in it one module per figure; and in kit/ how all of them look.
+"""What the book shows: a folder a chapter, in it one module a page; and in kit/ what they share.
 
-=============  ==========================================================================================
-kit.style      colours, markers and lines of every regulator and outcome; the paper style of matplotlib
-kit.inline     a drawn figure becomes inline SVG that follows the page's light and dark, with words for it
-kit.html       what is not a drawing: verdict badges, tables, tiles, the card of a law, the canvas of a ball
-=============  ==========================================================================================
+==========  ============================================================================================
+kit.page    pastes a page's facts(run), tables(run) and figures(run); says what is not in the run
+kit.tables  plain tables, declared
+kit.style   colours, markers and lines of every regulator and outcome; the paper style of matplotlib
+kit.inline  a drawn figure becomes inline SVG that follows the page's light and dark, with words for it
+kit.html    what is not a drawing: verdict badges, tables, tiles, the card of a law, the canvas of a ball
+==========  ============================================================================================
 
-A module of a chapter holds one figure: a function from results to `Picture`, decorated with `inline.picture`.
+The page pages/05-settling-time.md has the module responses/settling_time.py. A substantial drawing is a module of
+its own beside it: a function from results to `Picture`, decorated with `inline.responsive_picture`.
 """
