@@ -44,22 +44,10 @@ SHOWN = ("lost", "time", "worst", "cost", "memory", "held", "effort", "peak", "v
 """Criteria of the table of all laws, beside the share that settles; with the cost, that of the dearest branch."""
 
 KINDS = Table(
-    {
-        "Kind": "",
-        "Laws": "",
-        "Exact half turns never left": "",
-        "Held by noise from [rad]": "",
-        "Settles from every start": "",
-        "and is not held": "",
-    }
+    "Kind | Laws | Exact half turns never left | Held by noise from [rad] | Settles from every start | and is not held"
 )
 PRICES = Table(
-    {
-        "A call counts as [flops]": "",
-        "Adequate up to": "",
-        "Cheapest that settles everywhere": "",
-        "and is not held by noise": "",
-    }
+    "A call counts as [flops] | Adequate up to | Cheapest that settles everywhere | and is not held by noise"
 )
 
 

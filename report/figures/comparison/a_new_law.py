@@ -44,19 +44,10 @@ TRIED = {
     "This law": LATE,
 }
 
-VARIANTS = Table({"Variant": "", "Slowest [s]": "", "Peak [$K_p$]": "", "Effort": "", "Slowest at equal peak [s]": ""})
+VARIANTS = Table("Variant | Slowest [s] | Peak [$K_p$] | Effort | Slowest at equal peak [s]")
 
 MEASURED = Table(
-    {
-        "Law": "",
-        "Median [s]": "",
-        "Slowest [s]": "",
-        "Effort": "",
-        "Peak": "",
-        "Slowest at equal peak [s]": "",
-        "A tick": "",
-        "Held from [rad]": "",
-    }
+    "Law | Median [s] | Slowest [s] | Effort | Peak | Slowest at equal peak [s] | A tick | Held from [rad]"
 )
 
 

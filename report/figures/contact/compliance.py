@@ -70,15 +70,9 @@ def lost_work(value: float) -> str:
 
 
 CONVERSION = Table(
-    {
-        "β [deg]": "",
-        "Turn, converted [%]": ".1f",
-        "Work lost, converted": lost_work,
-        "Ends, converted": "",
-        "Turn, unconverted [%]": ".1f",
-        "Work lost, unconverted": lost_work,
-        "Ends, unconverted": "",
-    }
+    "β [deg] | Turn, converted [%]:.1f | Work lost, converted | Ends, converted | Turn, unconverted [%]:.1f | "
+    "Work lost, unconverted | Ends, unconverted",
+    {"Work lost, converted": lost_work, "Work lost, unconverted": lost_work},
 )
 
 

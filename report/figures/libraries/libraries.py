@@ -32,11 +32,11 @@ from report.figures.libraries.digits import digits
 
 EVERYWHERE = ["small", "drawn", "near", "at", "pole"]
 
-TO_USE = Table({"Library": "", "From a matrix": "", "From a quaternion": ""})
-FAULTS = Table({"Function": "", "But": ""})
-ERRORS = Table({"Function": "", "It is": "", "Small": "", "Drawn": "", "Near half turns": "", "At them": ""})
-AS_ANGLES = Table({"Function": "", "Drawn": "", "Poles": "", "Half turns": "", "As an error": ""})
-VERSIONS = Table({"Library": "", "Version": "", "Python": "", "numpy": ""})
+TO_USE = Table("Library | From a matrix | From a quaternion")
+FAULTS = Table("Function | But")
+ERRORS = Table("Function | It is | Small | Drawn | Near half turns | At them")
+AS_ANGLES = Table("Function | Drawn | Poles | Half turns | As an error")
+VERSIONS = Table("Library | Version | Python | numpy")
 
 TAKES = ("matrix", "quaternion")
 

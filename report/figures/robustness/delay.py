@@ -23,7 +23,7 @@ FAR_DEG = 170.0
 SIDE_RAD = 1e-5
 """Of the difference that gives the slope: its error is 1e-10 of the slope for springs that double within a radian."""
 
-MARGINS = Table({"Law": "", "Stiffness": ".3g", "Delay margin [ms]": ".0f", "Least rate [Hz]": ".3g"})
+MARGINS = Table("Law | Stiffness:.3g | Delay margin [ms]:.0f | Least rate [Hz]:.3g")
 
 
 def stiffness(law: str, angle: float) -> float:

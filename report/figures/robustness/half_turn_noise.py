@@ -125,15 +125,8 @@ def _noise(value: float) -> str:
 
 
 LAWS = Table(
-    {
-        "Law": "",
-        "Proved": "",
-        "Memory": "",
-        "Jump [rad/s²]": ".0f",
-        "Held from, by theory [rad]": _noise,
-        "Exact half turns left [%]": ".0f",
-        "Measured": "",
-    }
+    "Law | Proved | Memory | Jump [rad/s²]:.0f | Held from, by theory [rad] | Exact half turns left [%]:.0f | Measured",
+    {"Held from, by theory [rad]": _noise},
 )
 
 

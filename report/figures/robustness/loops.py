@@ -23,7 +23,7 @@ EXACT = "rotation-vector"
 
 PAIELLI = "paielli-bach"
 
-REVERSAL = Table({"Level": "", "Possible from [deg]": ".1f", "Starts": "", "Lost": "", "Least angle lost [deg]": ".1f"})
+REVERSAL = Table("Level | Possible from [deg]:.1f | Starts | Lost | Least angle lost [deg]:.1f")
 
 
 def theory(rows: pd.DataFrame, name: str) -> Callable[[float], float]:

@@ -26,7 +26,7 @@ PAGES = {
 }
 """Perturbation -> the page about it."""
 
-AXES = Table({"Axis": "", "Levels": ""})
+AXES = Table("Axis | Levels")
 
 
 def facts(run: Run) -> dict:

@@ -18,8 +18,8 @@ from report.figures.tool.history import SHORT, History, chart, history
 
 REPOSITORY = re.compile(r"""^repository-code:\s*["']?(https://[\w./-]+?)/?["']?\s*$""", re.MULTILINE)
 
-COMMITS = Table({"Commit": "", "Date": "", "Benchmarks": "", "Timed on": "", "Steps": ""})
-STEPS = Table({"Commit": "", "Date": "", "Benchmark": "", "Flops": "", "Instructions": "", "Time": ""})
+COMMITS = Table("Commit | Date | Benchmarks | Timed on | Steps")
+STEPS = Table("Commit | Date | Benchmark | Flops | Instructions | Time")
 
 
 @functools.cache

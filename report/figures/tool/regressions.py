@@ -22,7 +22,7 @@ TENTH = 0.10
 QUIET, DOUBTED, ALARM = "#56b4e9", "#e69f00", "#d55e00"
 ONCE, TWICE, COUNTED = "#56b4e9", "#0072b2", "#d55e00"
 
-FAULTS = Table({"Planted": "", "In": "", "Caught by": "", "In the words": ""})
+FAULTS = Table("Planted | In | Caught by | In the words")
 
 
 @functools.cache

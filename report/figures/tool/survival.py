@@ -29,28 +29,9 @@ GOES_ON = {
 ENGINES = {"reference": "Python", "ideal-rk4": "compiled"}
 COLOUR = "#0072b2"
 
-KILLS = Table(
-    {
-        "Killed": "",
-        "Goes on": "",
-        "Kills": "",
-        "Before the first unit": "",
-        "Among units": "",
-        "Among tables": "",
-        "Went on": "",
-        "Same files": "",
-    }
-)
-DISKS = Table(
-    {
-        "Room [kB]": "",
-        "Could not be written": "",
-        "Units kept": "",
-        "Temporary files left": "",
-        "With room again": "",
-    }
-)
-LAWS = Table({"In some states the law": "", "Law is": "", "Its episodes": "", "All other rows": ""})
+KILLS = Table("Killed | Goes on | Kills | Before the first unit | Among units | Among tables | Went on | Same files")
+DISKS = Table("Room [kB] | Could not be written | Units kept | Temporary files left | With room again")
+LAWS = Table("In some states the law | Law is | Its episodes | All other rows")
 
 
 @functools.cache
