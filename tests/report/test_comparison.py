@@ -65,14 +65,14 @@ def test_costs_of_starts_that_do_not_settle_are_infinite():
     ],
 )
 def test_axis_is_said_in_words(axis, words):
-    assert comparison.axis_words(pd.Series(axis, ["quat_x", "quat_y", "quat_z"])) == words
+    assert cells.axis_words(pd.Series(axis, ["quat_x", "quat_y", "quat_z"])) == words
 
 
 def test_worst_start_is_the_nearest_that_fails_and_else_the_slowest():
     made = [episode("gibbs", "a", time=2.0), episode("gibbs", "b", angle0_rad=0.5), episode("gibbs", "c")]
-    assert comparison.worst(pd.DataFrame(made)) == "2.00 s from 57°, near x"
+    assert cells.worst(pd.DataFrame(made)) == "2.00 s from 57°, near x"
     failing = [episode("gibbs", "d", "stuck", angle0_rad=3.0), episode("gibbs", "e", "stuck", angle0_rad=2.0)]
-    assert comparison.worst(pd.DataFrame(made + failing)) == "fails from 115°, near x"
+    assert cells.worst(pd.DataFrame(made + failing)) == "fails from 115°, near x"
 
 
 def test_interval_is_left_away_where_it_is_the_number():

@@ -10,20 +10,10 @@ import pandas as pd
 from bench.findings.claims import Results, judge
 from bench.findings.claims.adequacy import CALL_PRICE, CALL_PRICES, DEAR, PAPERS, exact
 from bench.findings.claims.later import HELD_RAD
+from bench.findings.selection import needs
 from bench.findings.selection.criteria import BY_NAME, Criterion
 from bench.findings.selection.front import front
 from bench.findings.selection.measured import Measured, measured
-from bench.findings.selection.needs import (
-    ANSWER,
-    CONTINUOUS,
-    EVERYWHERE,
-    SURE,
-    TRIED,
-    UNHELD,
-    Decision,
-    decisions,
-    has_all,
-)
 from bench.tables import read
 from bench.tables.statistics import Estimate
 from report.figures.answer import on_arms
@@ -51,22 +41,19 @@ PRICES = Table(
 )
 
 
-# ------------------------------------------------------------------------------------------------------------- facts
-
-
 def facts(run: Run) -> dict:
     """The answer in a few sentences, and the numbers about it."""
-    found, every = measured(run.folder), decisions(run.folder)
+    found, every = measured(run.folder), needs.decisions(run.folder)
     able = [law for law in found.laws if law not in families.CONTROLS]
-    whole = [law for law in able if EVERYWHERE.has(found, law)]
+    whole = [law for law in able if needs.EVERYWHERE.has(found, law)]
     forgetful = [law for law in able if not found.number("memory", law) and law in found.values["held"]]
     verdict = judge("C27", Results(run.folder))
     return {
         "lead": lead(found, every),
         "laws": len(able),
-        "tried": sum(TRIED.has(found, law) for law in able),
+        "tried": sum(needs.TRIED.has(found, law) for law in able),
         "whole": len(whole),
-        "unheld": sum(UNHELD.has(found, law) for law in whole),
+        "unheld": sum(needs.UNHELD.has(found, law) for law in whole),
         "uniform": len(found.values["time"][found.laws[0]]),
         "directed": len(found.tables.directed) // len(found.laws),
         "noise": f"{HELD_RAD:g}",
@@ -74,16 +61,17 @@ def facts(run: Run) -> dict:
         "band": f"{100 * float(found.tables.uniform['tolerance'].iloc[0]):g}",
         "rate": f"{1 / float(found.tables.uniform['dt_s'].iloc[0]):g}",
         "forgetful": len(forgetful),
-        "forgetful_both": sum(has_all(found, law, (EVERYWHERE, UNHELD)) for law in forgetful) or "none",
+        "forgetful_both": sum(needs.has_all(found, law, (needs.EVERYWHERE, needs.UNHELD)) for law in forgetful)
+        or "none",
         "verdict": str(verdict.word),
         **{key: verdict.evidence.numbers[key] for key in ("nearly", "adequate", "answers")},
         **on_arms.facts(on_arms.rows(run)),
     }
 
 
-def lead(found: Measured, every: tuple[Decision, ...]) -> str:
+def lead(found: Measured, every: tuple[needs.Decision, ...]) -> str:
     """The whole answer in a few sentences."""
-    answer = next(one for one in every if one.need is ANSWER)
+    answer = next(one for one in every if one.need is needs.ANSWER)
     if answer.law is None:
         cheapest = families.word(every[0].law) if every[0].law else "no law of this run"
         return (
@@ -104,7 +92,7 @@ def lead(found: Measured, every: tuple[Decision, ...]) -> str:
 def front_page(run: Run) -> str:
     """The answer in one sentence."""
     found = measured(run.folder)
-    law = next(one.law for one in decisions(run.folder) if one.need is ANSWER)
+    law = next(one.law for one in needs.decisions(run.folder) if one.need is needs.ANSWER)
     if law is None:
         return f"No law of this run settles from every start tried and is held by no noise up to {HELD_RAD:g} rad."
     times = told(BY_NAME["time"], found.estimate("time", law))
@@ -115,14 +103,11 @@ def front_page(run: Run) -> str:
     )
 
 
-# ------------------------------------------------------------------------------------------------------------ tables
-
-
 def tables(run: Run) -> dict:
     """Needs, laws, kinds of laws, prices of a call, arms."""
     found = measured(run.folder)
     return {
-        "decided": decided(decisions(run.folder)),
+        "decided": decided(needs.decisions(run.folder)),
         "laws_table": every_law(found),
         "allowed": KINDS(kind_of(found, kind, laws) for kind, laws in kinds(found).items()),
         "priced": PRICES(priced(found, price) for price in (CALL_PRICES[0], CALL_PRICE, CALL_PRICES[1])),
@@ -130,7 +115,7 @@ def tables(run: Run) -> dict:
     }
 
 
-def decided(every: tuple[Decision, ...]) -> html.Markdown:
+def decided(every: tuple[needs.Decision, ...]) -> html.Markdown:
     """A line a need: the law to use, the number that decides, laws as good, and the next best."""
     lines: list[dict] = []
     heads: list[str] = []
@@ -142,7 +127,7 @@ def decided(every: tuple[Decision, ...]) -> html.Markdown:
     return html.table(pd.DataFrame(lines).fillna(""))
 
 
-def _answer(one: Decision) -> dict:
+def _answer(one: needs.Decision) -> dict:
     if one.law is None or one.number is None:
         return {"use": "no law of this run"}
     criterion = BY_NAME[one.need.by]
@@ -195,10 +180,7 @@ def head(criterion: Criterion) -> str:
 def kinds(found: Measured) -> dict[str, list[str]]:
     """What topology tells apart -> the laws of that kind, but for the negative controls."""
     groups: dict[str, list[str]] = {
-        "no memory, no jump": [],
-        "no memory, jumps": [],
-        "on coordinates": [],
-        "memory": [],
+        kind: [] for kind in ("no memory, no jump", "no memory, jumps", "on coordinates", "memory")
     }
     for law in families.in_order(found.laws):
         jumps = found.number("jump", law)
@@ -209,7 +191,7 @@ def kinds(found: Measured) -> dict[str, list[str]]:
         elif math.isnan(jumps):
             groups["on coordinates"].append(law)
         else:
-            groups["no memory, no jump" if jumps < CONTINUOUS else "no memory, jumps"].append(law)
+            groups["no memory, no jump" if jumps < needs.CONTINUOUS else "no memory, jumps"].append(law)
     return {kind: laws for kind, laws in groups.items() if laws}
 
 
@@ -223,8 +205,8 @@ def kind_of(found: Measured, kind: str, laws: list[str]) -> tuple:
         ", ".join(map(families.word, laws)),
         f"{spanned(lost.sum())} of {int(lost.size().max())}",
         spanned(pd.Series([found.number("held", law) for law in laws])),
-        sum(EVERYWHERE.has(found, law) for law in laws),
-        sum(has_all(found, law, (EVERYWHERE, UNHELD)) for law in laws),
+        sum(needs.EVERYWHERE.has(found, law) for law in laws),
+        sum(needs.has_all(found, law, (needs.EVERYWHERE, needs.UNHELD)) for law in laws),
     )
 
 
@@ -242,8 +224,8 @@ def priced(found: Measured, price: float) -> tuple:
     """At a price of a call the most that is adequate by C17, and the cheapest law of each coverage."""
     least = min(found.tables.costing(law, price=price) for law in found.laws if law in PAPERS)
     cheapest = []
-    for asked in (SURE, (*SURE, UNHELD)):
-        spent = {law: found.tables.costing(law, price=price) for law in found.laws if has_all(found, law, asked)}
+    for asked in (needs.SURE, (*needs.SURE, needs.UNHELD)):
+        spent = {law: found.tables.costing(law, price=price) for law in found.laws if needs.has_all(found, law, asked)}
         best = min(spent, key=lambda law: spent[law], default=None)
         cheapest.append(f"{families.word(best)}, {spent[best]:.0f}" if best else html.MISSING)
     return f"{price:g}", f"{DEAR * least:.0f}", *cheapest

@@ -9,23 +9,8 @@ import pandas as pd
 
 from bench.findings.theory import closed_form
 from bench.tables import read
-from report.figures.comparison import directed
+from report.figures.comparison import cells, directed
 from report.figures.comparison.angle import against, curves, lateness
-from report.figures.comparison.cells import (
-    LEVEL,
-    by_family,
-    common,
-    costs,
-    in_families,
-    large,
-    medians,
-    percent,
-    seconds,
-    settles,
-    slowest,
-    three_figures,
-    tick,
-)
 from report.figures.comparison.profiles import profiles
 from report.figures.kit import families, html
 from report.figures.kit.page import Run, given
@@ -35,9 +20,6 @@ DETOUR = 1.5
 
 LITERAL, UNWINDING = "linearized-euler-literal/zyx-euler", "quaternion-unwinding"
 ACTUATOR, MATRIX = "in-engine", "rotation-matrix"
-
-NEAR_AXIS, NEAR_PLANE = float(np.cos(np.radians(30.0))), float(np.sin(np.radians(15.0)))
-"""Within 30 degrees of an axis, within 15 degrees of a plane of two."""
 
 TIMES, EFFORTS = (1, 1.5, 2, 3), (1, 3, 10, 30, 100)
 """Factors on the axes of the profiles."""
@@ -52,14 +34,14 @@ def ideal(run: Run) -> pd.DataFrame:
 @functools.cache
 def uniform(run: Run) -> pd.DataFrame:
     """Those from uniform starts that every law ran."""
-    return common(ideal(run))
+    return cells.common(ideal(run))
 
 
 @functools.cache
 def at_peak(run: Run) -> pd.DataFrame:
-    """Rows of every law at LEVEL, family by family; a law whose command has no bound has none."""
+    """Rows of every law at cells.LEVEL, family by family; a law whose command has no bound has none."""
     every = run.rows("robustness", axis="equal-peak")
-    return in_families(every[every["level"] == LEVEL]) if len(every) else every
+    return cells.in_families(every[every["level"] == cells.LEVEL]) if len(every) else every
 
 
 @functools.cache
@@ -67,9 +49,6 @@ def in_mujoco(run: Run) -> pd.DataFrame:
     """Episodes of the free body in MuJoCo if its own actuator is among them, else none."""
     every = run.rows("episodes", engine="native", **read.FREE_BODY)
     return every if (every["contender"] == ACTUATOR).any() else every.iloc[:0]
-
-
-# ------------------------------------------------------------------------------------------------------------- facts
 
 
 def facts(run: Run) -> dict:
@@ -92,9 +71,9 @@ def of_all(rows: pd.DataFrame, tried: pd.DataFrame) -> dict:
     Args:
         rows: of `uniform`. tried: of `directed.directed`.
     """
-    times, efforts = costs(rows, "settling_time_s"), costs(rows, "effort")
+    times, efforts = cells.costs(rows, "settling_time_s"), cells.costs(rows, "effort")
     laws = [name for name in times if name not in families.CONTROLS]
-    middle, spent = medians(times[laws]), medians(efforts[laws])
+    middle, spent = cells.medians(times[laws]), cells.medians(efforts[laws])
     whole = times[[name for name in laws if np.isfinite(times[name]).all()]].max()
     left = [name for name in directed.left(tried) if name not in families.CONTROLS]
     return {
@@ -129,8 +108,8 @@ def of_controls(rows: pd.DataFrame) -> dict:
     if len(unwinding):
         travelled = np.degrees(unwinding["path_ratio"] * unwinding["angle0_rad"])
         found |= {
-            "unwound": percent(float((unwinding["path_ratio"] > DETOUR).mean())),
-            "unwound_settled": percent(float((unwinding["outcome"] == "settled").mean())),
+            "unwound": cells.percent(float((unwinding["path_ratio"] > DETOUR).mean())),
+            "unwound_settled": cells.percent(float((unwinding["outcome"] == "settled").mean())),
             "longest": f"{travelled.max():.0f}",
         }
     return found
@@ -138,8 +117,8 @@ def of_controls(rows: pd.DataFrame) -> dict:
 
 def of_peak(rows: pd.DataFrame) -> dict:
     """At equal peak command: the fastest laws, and the rotation matrix."""
-    times = costs(rows, "settling_time_s")
-    middle, longest = medians(times), times.max()
+    times = cells.costs(rows, "settling_time_s")
+    middle, longest = cells.medians(times), times.max()
     fastest, surest = middle.idxmin(), longest.idxmin()
     best = f"Now the fastest in the median is {families.word(fastest)}, {middle[fastest]:.2f} s"
     if fastest == surest:
@@ -150,7 +129,7 @@ def of_peak(rows: pd.DataFrame) -> dict:
             f"{families.word(surest)}, {longest[surest]:.2f} s."
         )
     matrix = f"{middle[MATRIX]:.2f} s in the median, and {longest[MATRIX]:.2f} s from its slowest start"
-    return {"peak": html.number(LEVEL), "peak_starts": len(times), "peak_fastest": best, "peak_matrix": matrix}
+    return {"peak": html.number(cells.LEVEL), "peak_starts": len(times), "peak_fastest": best, "peak_matrix": matrix}
 
 
 def of_actuator(episodes: pd.DataFrame) -> dict:
@@ -169,9 +148,6 @@ def of_actuator(episodes: pd.DataFrame) -> dict:
     }
 
 
-# ------------------------------------------------------------------------------------------------------------ tables
-
-
 def tables(run: Run) -> dict:
     """A row a law, family by family."""
     return {
@@ -180,14 +156,14 @@ def tables(run: Run) -> dict:
         "against": against(lateness(uniform(run))),
         "at_peak": given(at_peak(run), of_gains),
         "dead": directed.table(directed.directed(ideal(run))),
-        "in_engine": given(in_mujoco(run), lambda rows: beside_actuator(common(rows))),
+        "in_engine": given(in_mujoco(run), lambda rows: beside_actuator(cells.common(rows))),
     }
 
 
 def each(rows: pd.DataFrame, line) -> html.Markdown | None:
     """line(own, times, efforts) of each law: its rows, and what the starts took, infinite where it did not settle."""
-    times, efforts = costs(rows, "settling_time_s"), costs(rows, "effort")
-    return by_family(times, lambda name: line(rows[rows["contender"] == name], times[name], efforts[name]))
+    times, efforts = cells.costs(rows, "settling_time_s"), cells.costs(rows, "effort")
+    return cells.by_family(times, lambda name: line(rows[rows["contender"] == name], times[name], efforts[name]))
 
 
 def settling(rows: pd.DataFrame) -> html.Markdown | None:
@@ -195,10 +171,10 @@ def settling(rows: pd.DataFrame) -> html.Markdown | None:
     return each(
         rows,
         lambda own, times, _: {
-            "Settles [%]": settles(own),
-            "Median [s]": seconds(times),
-            "99 % [s]": seconds(times, 0.99),
-            "Worst start": worst(own),
+            "Settles [%]": cells.settles(own),
+            "Median [s]": cells.seconds(times),
+            "99 % [s]": cells.seconds(times, 0.99),
+            "Worst start": cells.worst(own),
         },
     )
 
@@ -209,10 +185,10 @@ def way(rows: pd.DataFrame, counted: pd.DataFrame) -> html.Markdown | None:
         rows,
         lambda own, _, efforts: {
             "Overshoot [deg]": f"{np.degrees(own['overshoot_rad'].max()):.0f}",
-            "Detours [%]": percent(float((own["path_ratio"] > DETOUR).mean())),
-            "Effort": three_figures(efforts),
-            "Peak": large(own["peak_u"].max()),
-            "A tick": tick(counted, efforts.name),
+            "Detours [%]": cells.percent(float((own["path_ratio"] > DETOUR).mean())),
+            "Effort": cells.three_figures(efforts),
+            "Peak": cells.large(own["peak_u"].max()),
+            "A tick": cells.tick(counted, efforts.name),
         },
     )
 
@@ -223,10 +199,10 @@ def of_gains(rows: pd.DataFrame) -> html.Markdown | None:
         rows,
         lambda own, times, efforts: {
             "$K_p$": f"{own['kp'].iloc[0]:.1f}",
-            "Settles [%]": settles(own),
-            "Median [s]": seconds(times),
-            "Slowest [s]": slowest(times, ".2f"),
-            "Effort": three_figures(efforts),
+            "Settles [%]": cells.settles(own),
+            "Median [s]": cells.seconds(times),
+            "Slowest [s]": cells.slowest(times, ".2f"),
+            "Effort": cells.three_figures(efforts),
         },
     )
 
@@ -236,35 +212,13 @@ def beside_actuator(rows: pd.DataFrame) -> html.Markdown | None:
     return each(
         rows,
         lambda own, times, efforts: {
-            "Settles [%]": settles(own),
-            "Median [s]": seconds(times),
-            "Slowest [s]": slowest(times),
-            "Effort": three_figures(efforts),
-            "Peak": large(own["peak_u"].max()),
+            "Settles [%]": cells.settles(own),
+            "Median [s]": cells.seconds(times),
+            "Slowest [s]": cells.slowest(times),
+            "Effort": cells.three_figures(efforts),
+            "Peak": cells.large(own["peak_u"].max()),
         },
     )
-
-
-def worst(own: pd.DataFrame) -> str:
-    """The nearest start that fails, or else the slowest, by its angle and axis."""
-    failed = own[own["outcome"] != "settled"]
-    if len(failed):
-        start = failed.loc[failed["angle0_rad"].idxmin()]
-        return f"fails from {np.degrees(start['angle0_rad']):.0f}°, {axis_words(start)}"
-    start = own.loc[own["settling_time_s"].idxmax()]
-    return f"{start['settling_time_s']:.2f} s from {np.degrees(start['angle0_rad']):.0f}°, {axis_words(start)}"
-
-
-def axis_words(start: pd.Series) -> str:
-    """Where the axis of a start's rotation lies: near one of the base's axes, or between them."""
-    axis = np.abs(start[["quat_x", "quat_y", "quat_z"]].to_numpy(float))
-    parts = axis / np.linalg.norm(axis)
-    if parts.max() > NEAR_AXIS:
-        return f"near {'xyz'[int(parts.argmax())]}"
-    if parts.min() < NEAR_PLANE:
-        one, other = np.delete(list("xyz"), int(parts.argmin()))
-        return f"between {one} and {other}"
-    return "between all three"
 
 
 def figures(run: Run) -> dict:

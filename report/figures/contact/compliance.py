@@ -15,24 +15,9 @@ from bench.findings.theory import compliance_theory as theory
 from bench.findings.theory import hybrid_stability as stability
 from bench.law.so3 import from_quaternion
 from report.figures.contact import loops
+from report.figures.contact import rows as controllers
 from report.figures.contact.hand_axes import axes_of_turning
 from report.figures.contact.misalignment_map import misalignment
-from report.figures.contact.rows import (
-    EULER,
-    SPRINGS,
-    SPRINGS_OF_EULER,
-    UNCONVERTED,
-    ZYZ,
-    arms,
-    level,
-    nearest,
-    of,
-    of_task,
-    title,
-    verdicts,
-    wanted,
-    ways,
-)
 from report.figures.contact.theory_panels import COMPARED_TO, gaps, measured_and_predicted
 from report.figures.kit import html
 from report.figures.kit.page import ABSENT, Run, given
@@ -79,8 +64,8 @@ CONVERSION = Table(
 def facts(run: Run) -> dict:
     """Of the probe and of closed loops of moments."""
     return {
-        **(given(of_task(run, PROBE), probed) or {}),
-        **(given(of_task(run, LOOP), loops.facts) or {}),
+        **(given(controllers.of_task(run, PROBE), probed) or {}),
+        **(given(controllers.of_task(run, LOOP), loops.facts) or {}),
         "forms_poses": POSES,
     }
 
@@ -88,10 +73,10 @@ def facts(run: Run) -> dict:
 def probed(rows: pd.DataFrame) -> dict:
     """Of the probe: theory against measurement, the other controllers, work, and the moment that a pole loses."""
     axis, kept = theory.lost_moment(known_representations()["zyx-euler"], from_quaternion(zyx(0.0, math.pi / 2.0, 0.0)))
-    work = rows.loc[rows["way"].isin(("hybrid/zyx-euler", SPRINGS_OF_EULER)), "work_residual"].dropna()
+    work = rows.loc[rows["way"].isin(("hybrid/zyx-euler", controllers.SPRINGS_OF_EULER)), "work_residual"].dropna()
     return {
-        "axes_arm": arms(rows)[0],
-        "probe_arms": " and ".join(arms(rows)),
+        "axes_arm": controllers.arms(rows)[0],
+        "probe_arms": " and ".join(controllers.arms(rows)),
         "probe_rows": len(rows),
         "gap": f"{power(max(gaps(rows).values()))} of the value (up to {COMPARED_TO:g}°)",
         "cartesian": cartesian(rows),
@@ -118,11 +103,11 @@ def cartesian(rows: pd.DataFrame) -> str:
 
 def zyz(rows: pd.DataFrame) -> str:
     """What Z-Y-Z angles make of compliance about x near zero."""
-    own = level(of(rows, ZYZ, "about x"))
+    own = controllers.level(controllers.of(rows, controllers.ZYZ, "about x"))
     near = own[own["beta_deg"].abs() <= NEAR_ZERO_DEG]
     if near.empty:
         return f"Rows of Z-Y-Z angles are {ABSENT}."
-    share = 100.0 * near["c_xx"] / near["arm"].map(wanted(rows)).astype(float)
+    share = 100.0 * near["c_xx"] / near["arm"].map(controllers.wanted(rows)).astype(float)
     around = share[near["beta_deg"] != 0.0]
     words = (
         f"within {NEAR_ZERO_DEG:g} degrees of zero a moment about x turns the hand about x by {power(around.min())} to "
@@ -154,9 +139,9 @@ def tables(run: Run) -> dict:
     """Stability, springs, conversion of moments, verdicts."""
     return {
         "tab_forms": UNSTABLE(unstable()),
-        "tab_springs": given(of_task(run, PROBE), springs),
-        "tab_conversion": given(of_task(run, PROBE), conversion),
-        "verdicts": verdicts(run, "C21", "C22", "C23", "C24"),
+        "tab_springs": given(controllers.of_task(run, PROBE), springs),
+        "tab_conversion": given(controllers.of_task(run, PROBE), conversion),
+        "verdicts": controllers.verdicts(run, "C21", "C22", "C23", "C24"),
     }
 
 
@@ -178,14 +163,14 @@ def unstable() -> list[tuple]:
 
 def springs(rows: pd.DataFrame) -> html.Markdown | None:
     """An impedance a line: condition number of its stiffness over beta, asymmetry, and how far its axes are off."""
-    own = level(rows[rows["way"].str.startswith("impedance-")])
-    lines, betas = [], nearest(own, BETAS)
-    for way in ways(own):
+    own = controllers.level(rows[rows["way"].str.startswith("impedance-")])
+    lines, betas = [], controllers.nearest(own, BETAS)
+    for way in controllers.ways(own):
         mine = own[own["way"] == way].groupby("beta_deg")
         condition, axes = mine["stiffness_condition"].max(), mine["stiffness_axes_rad"].max()
         off = math.degrees(axes.get(OFF_AT, math.nan))
         asymmetry = float(mine["stiffness_asymmetry"].max().max())
-        words = title(way).removeprefix(SPRINGS)
+        words = controllers.title(way).removeprefix(controllers.SPRINGS)
         lines.append((words, *(condition.get(beta, math.nan) for beta in betas), off, asymmetry))
     heads = {f"κ at β = {beta:.0f}°": html.number if beta == betas[-1] else ".2f" for beta in betas}
     return Table({"Error of orientation": "", **heads, f"Axes off at {OFF_AT:.0f}° [deg]": ".1f", "Asymmetry": power})(
@@ -195,12 +180,12 @@ def springs(rows: pd.DataFrame) -> html.Markdown | None:
 
 def conversion(rows: pd.DataFrame) -> html.Markdown | None:
     """A beta a line: what (3.12) does with moments, and what happens without it, complying about x."""
-    own, full = level(rows[rows["complies"] == ORDER]), wanted(rows)
+    own, full = controllers.level(rows[rows["complies"] == ORDER]), controllers.wanted(rows)
     lines = []
-    for beta in nearest(own, LISTED):
+    for beta in controllers.nearest(own, LISTED):
         line: list = [f"{beta:.0f}"]
-        for name in (EULER, UNCONVERTED):
-            mine = of(own[own["beta_deg"] == beta], name)
+        for name in (controllers.EULER, controllers.UNCONVERTED):
+            mine = controllers.of(own[own["beta_deg"] == beta], name)
             turned = 100.0 * float((mine["c_xx"] / mine["arm"].map(full).astype(float)).median())
             failed = [word for word in dict.fromkeys(mine["outcome"]) if word != "done"]
             line += [turned, float(mine["work_residual"].max()), ", ".join(failed) or "done"]
@@ -210,10 +195,10 @@ def conversion(rows: pd.DataFrame) -> html.Markdown | None:
 
 def figures(run: Run) -> dict:
     """Axes of turning, theory against measurement, the map of frames, closed loops."""
-    probe = of_task(run, PROBE)
+    probe = controllers.of_task(run, PROBE)
     return {
         "compliance-axes": given(probe, axes_of_turning),
         "compliance-laws": given(probe, measured_and_predicted),
-        "compliance-map": given(probe, lambda rows: misalignment(rows, (EULER, ZYZ))),
-        "compliance-loops": given(of_task(run, LOOP), loops.left_over),
+        "compliance-map": given(probe, lambda rows: misalignment(rows, (controllers.EULER, controllers.ZYZ))),
+        "compliance-loops": given(controllers.of_task(run, LOOP), loops.left_over),
     }

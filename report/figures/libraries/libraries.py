@@ -11,23 +11,7 @@ from report.figures.kit import html
 from report.figures.kit.page import Run
 from report.figures.kit.spelling import power
 from report.figures.kit.tables import Table
-from report.figures.libraries.answers import (
-    ANGLES,
-    COUNT_RAD,
-    DIGITS,
-    LONG_WAY,
-    MISALIGNED,
-    NO_NUMBER,
-    OURS,
-    SHEET,
-    SINE,
-    UNDECIDED_RAD,
-    VECTOR,
-    ZERO,
-    functions,
-    origins,
-    table,
-)
+from report.figures.libraries import answers
 from report.figures.libraries.digits import digits
 
 EVERYWHERE = ["small", "drawn", "near", "at", "pole"]
@@ -44,35 +28,35 @@ TAKES = ("matrix", "quaternion")
 @functools.cache
 def lines() -> pd.DataFrame:
     """A line a function."""
-    return functions(table())
+    return answers.functions(answers.table())
 
 
 def right(every: pd.DataFrame) -> pd.DataFrame:
     """The functions against which nothing is said, with their largest error anywhere."""
-    kept = every[every["objections"].map(len).eq(0) & every["form"].ne(ANGLES)]
+    kept = every[every["objections"].map(len).eq(0) & every["form"].ne(answers.ANGLES)]
     return kept.assign(largest=kept[EVERYWHERE].max(axis=1))
 
 
 def faulty(every: pd.DataFrame) -> pd.DataFrame:
     """Those against which something is, angles apart."""
-    return every[every["objections"].map(len).gt(0) & every["form"].ne(ANGLES)]
+    return every[every["objections"].map(len).gt(0) & every["form"].ne(answers.ANGLES)]
 
 
 def facts(_: Run) -> dict:
     """Every number and list of names that the text takes; ours are not counted among other libraries'."""
-    rows, every = table(), lines()
-    others = every[(every["library"] != OURS) & (every["form"] != ANGLES)]
+    rows, every = answers.table(), lines()
+    others = every[(every["library"] != answers.OURS) & (every["form"] != answers.ANGLES)]
     kinds = others["objections"].map(set)
-    dead = others[kinds.map(lambda found: ZERO in found) & (others["form"] != SINE)]
-    sheets = others[kinds.map(lambda found: SHEET in found)]
-    sines, angles = others[others["form"] == SINE], every[every["form"] == ANGLES]
+    dead = others[kinds.map(lambda found: answers.ZERO in found) & (others["form"] != answers.SINE)]
+    sheets = others[kinds.map(lambda found: answers.SHEET in found)]
+    sines, angles = others[others["form"] == answers.SINE], every[every["form"] == answers.ANGLES]
     exact = angles["objections"].map(len) == 0
     small, near = (rows[rows[name] > 0.0] for name in ("angle_rad", "distance_rad"))
     return {
         "libraries": others["library"].nunique(),
         "functions": len(others),
         "right": len(right(others)),
-        "count": power(COUNT_RAD),
+        "count": power(answers.COUNT_RAD),
         "sines": len(sines),
         "sine_names": names(sines),
         "sine_error": power(sines[EVERYWHERE].to_numpy().max()),
@@ -80,14 +64,16 @@ def facts(_: Run) -> dict:
         "dead_else": power(dead[["small", "drawn", "near", "pole"]].to_numpy().max()) if len(dead) else "0",
         "sheets": len(sheets),
         "sheet_names": names(sheets),
-        "digits": int(kinds.map(lambda found: bool(found & {DIGITS, MISALIGNED, NO_NUMBER})).sum()),
-        "long_names": names(others[kinds.map(lambda found: found == {LONG_WAY})]),
+        "digits": int(
+            kinds.map(lambda found: bool(found & {answers.DIGITS, answers.MISALIGNED, answers.NO_NUMBER})).sum()
+        ),
+        "long_names": names(others[kinds.map(lambda found: found == {answers.LONG_WAY})]),
         "worst_right": power(right(others)["largest"].max()),
         "axes": int(near["turns"].max()),
         "drawn": int(rows[rows["turn_set"] == "drawn"]["turns"].max()),
         "smallest": power(small["angle_rad"].min()),
         "nearest": power(near["distance_rad"].min()),
-        "undecided": power(UNDECIDED_RAD),
+        "undecided": power(answers.UNDECIDED_RAD),
         "least_astray": f"{100 * angles['misaligned'].min():.0f}",
         "angle_functions": len(angles),
         "angles_exact": int(exact.sum()),
@@ -104,7 +90,10 @@ def names(some: pd.DataFrame) -> str:
 def tables(_: Run) -> dict:
     """What to use, what not, largest errors by set of turns [rad], angles, versions."""
     every = lines()
-    angles, others = every[every["form"] == ANGLES].itertuples(), every[every["form"] != ANGLES].itertuples()
+    angles, others = (
+        every[every["form"] == answers.ANGLES].itertuples(),
+        every[every["form"] != answers.ANGLES].itertuples(),
+    )
     return {
         "tab_to_use": TO_USE(to_use(every)),
         "tab_faults": FAULTS((asked(one), "; ".join(one.objections.values())) for one in faulty(every).itertuples()),
@@ -117,8 +106,8 @@ def tables(_: Run) -> dict:
         ),
         "tab_versions": VERSIONS(
             (f"`{name}`", one["version"], one["python"], one["numpy"])
-            for name, one in sorted(origins().items())
-            if name != OURS
+            for name, one in sorted(answers.origins().items())
+            if name != answers.OURS
         ),
     }
 
@@ -126,11 +115,11 @@ def tables(_: Run) -> dict:
 def to_use(every: pd.DataFrame) -> list[tuple]:
     """A row a library: its functions that are right and give the rotation vector, by what they take."""
     kept = right(every)
-    kept = kept[kept["form"] == VECTOR]
+    kept = kept[kept["form"] == answers.VECTOR]
     return [
         (f"`{library}`", *(_named(kept[(kept["library"] == library) & (kept["takes"] == what)]) for what in TAKES))
         for library in dict.fromkeys(every["library"])
-        if library != OURS
+        if library != answers.OURS
     ]
 
 
@@ -146,4 +135,4 @@ def asked(one) -> str:
 
 def figures(_: Run) -> dict:
     """Errors over small turns, and towards the half turn."""
-    return {"libraries-digits": digits(table())}
+    return {"libraries-digits": digits(answers.table())}
