@@ -120,11 +120,11 @@ def test_measurements_lie_on_the_lines_of_theory(probe):
 
 
 def test_map_holds_beta_where_the_frame_is_level_and_a_cross_where_nothing_is_left(probe):
-    of = {name: level(of(probe, name)) for name in (EULER, ZYZ)}
-    values, words = frames.cells(of[EULER])
+    by = {name: level(of(probe, name)) for name in (EULER, ZYZ)}
+    values, words = frames.cells(by[EULER])
     assert values.loc["about x and y"].to_numpy() == pytest.approx(values.columns.to_numpy(), abs=0.1)
     assert words.loc["about x", 60.0] == "60"
-    failed = of[ZYZ].assign(outcome="singular")
+    failed = by[ZYZ].assign(outcome="singular")
     assert set(frames.cells(failed)[1].to_numpy().ravel()) == {frames.FAILED}
 
 

@@ -5,7 +5,7 @@ from bench.findings.theory import robustness_theory
 from report.figures.kit.page import Run
 from report.figures.robustness import loops
 from report.figures.robustness.rows import along, gains, nominal, with_unit, worst
-from report.figures.robustness.tables import by_level, costs
+from report.figures.robustness.tables import usual
 
 NAME = "control-rate"
 
@@ -27,11 +27,7 @@ def facts(run: Run) -> dict:
 def tables(run: Run) -> dict:
     """How it went by level, who turns its spring round, what it took."""
     rows = along(run, NAME)
-    return {
-        "tab_levels": by_level(rows, NAME),
-        "tab_reversal": loops.reversal(rows, NAME),
-        "tab_costs": costs(rows, NAME),
-    }
+    return {**usual(rows, NAME), "tab_reversal": loops.reversal(rows, NAME)}
 
 
 def figures(run: Run) -> dict:

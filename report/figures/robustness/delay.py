@@ -13,7 +13,7 @@ from report.figures.kit.page import Run, given
 from report.figures.kit.tables import Table
 from report.figures.robustness import loops
 from report.figures.robustness.rows import DEG, along, gains, laws, worst
-from report.figures.robustness.tables import by_level, costs
+from report.figures.robustness.tables import usual
 
 NAME = "delay"
 
@@ -65,10 +65,9 @@ def tables(run: Run) -> dict:
     """How it went by level, margins, who turns its spring round, what it took."""
     rows = along(run, NAME)
     return {
-        "tab_levels": by_level(rows, NAME),
+        **usual(rows, NAME),
         "tab_margins": given(rows, margins),
         "tab_reversal": loops.reversal(rows, NAME),
-        "tab_costs": costs(rows, NAME),
     }
 
 

@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 
 import tasks
 from bench.tables.statistics import quantile_estimate
-from report.figures.comparison.profiles import REST, lines_of
+from report.figures.comparison.profiles import REST, a_panel_each, lines_of
 from report.figures.kit import families, style
 from report.figures.kit.inline import Picture, responsive_picture
 from report.figures.robustness.rows import levels, plain, with_unit
@@ -71,11 +71,7 @@ def panels(rows: pd.DataFrame, name: str, measure: Measure, theory: Callable[[fl
 @responsive_picture
 def _panels(found: pd.DataFrame, name: str, measure: Measure, there: list[float], curve, *, narrow=False):
     groups = families.present(found["law"])
-    cols = 1 if narrow else 2
-    lines = -(-len(groups) // cols)
-    figure, grid = style.panels(
-        lines, cols, height=1.75 * lines + 0.5, narrow=narrow, squeeze=False, sharex=True, sharey=True
-    )
+    figure, grid = a_panel_each(groups, 1.75, 0.5, narrow)
     wide = found.pivot(index="level", columns="law", values="value").reindex(there)
     limits = _limits(wide, curve, measure.is_log)
     for axes, family in zip(grid.flat, groups, strict=False):
@@ -85,8 +81,6 @@ def _panels(found: pd.DataFrame, name: str, measure: Measure, there: list[float]
             axes.plot(range(len(there)), curve, color=style.INK, linewidth=0.8, linestyle=style.DOTTED, zorder=4)
         axes.set_xticks(range(len(there)), [plain(level) for level in there], fontsize=9)
         axes.minorticks_off()
-    for axes in grid.flat[len(groups) :]:
-        axes.axis("off")
     unit = tasks.axis(name).unit
     title = tasks.axis(name).title + ("" if unit == "1" else f" [{unit.replace('^2', '²')}]")
     figure.supxlabel(title, fontsize=10.5)

@@ -10,7 +10,7 @@ from report.figures.kit.page import Run, given
 from report.figures.robustness.half_turn_noise import UNBOUNDED
 from report.figures.robustness.level_panels import OVER_LEAST, panels
 from report.figures.robustness.rows import DEG, along, ends, laws, listed, medians, of, with_unit
-from report.figures.robustness.tables import by_level, costs
+from report.figures.robustness.tables import usual
 from tasks.rules import RULES
 
 NAME = "saturation"
@@ -64,8 +64,7 @@ def _settled(rows: pd.DataFrame, law: str, level: float) -> str:
 
 def tables(run: Run) -> dict:
     """How it went by bound, and what it took."""
-    rows = along(run, NAME)
-    return {"tab_levels": by_level(rows, NAME), "tab_costs": costs(rows, NAME)}
+    return usual(along(run, NAME), NAME)
 
 
 def figures(run: Run) -> dict:

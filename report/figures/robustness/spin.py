@@ -10,7 +10,7 @@ from report.figures.kit import families
 from report.figures.kit.page import Run, given
 from report.figures.robustness.level_panels import TURNED, panels
 from report.figures.robustness.rows import DEG, along, ends, gains, laws, medians, of, slower, worst
-from report.figures.robustness.tables import by_level, costs
+from report.figures.robustness.tables import usual
 
 NAME = "spin"
 
@@ -56,8 +56,7 @@ def facts(run: Run) -> dict:
 
 def tables(run: Run) -> dict:
     """How it went by spin, and what it took."""
-    rows = along(run, NAME)
-    return {"tab_levels": by_level(rows, NAME), "tab_costs": costs(rows, NAME)}
+    return usual(along(run, NAME), NAME)
 
 
 def figures(run: Run) -> dict:

@@ -69,3 +69,8 @@ def costs(rows: pd.DataFrame, name: str) -> html.Markdown | None:
         return {title: f"{write(here)} → {write(there)}" for title, write in COSTS.items()}
 
     return by_family(laws(rows), line)
+
+
+def usual(rows: pd.DataFrame, name: str) -> dict:
+    """The two tables of a page on one perturbation."""
+    return {"tab_levels": by_level(rows, name), "tab_costs": costs(rows, name)}
