@@ -36,7 +36,7 @@ UNTRUSTED = (
     "A law of somebody else, by its rows alone: its file came with these results and was not run. If you have read it, "
     "python -m bench trust FILE lets it run, and its card then says what it is."
 )
-LAWS = Table({"Law": "", "Proved": "", "Settles": lambda share: f"{100 * share:.1f} %", "On the command line": ""})
+LAWS = Table("Law | Proved | Settles | On the command line", {"Settles": lambda share: f"{100 * share:.1f} %"})
 COUNTED = ("flops", "sin", "cos", "atan2", "acos", "compare")
 FAILS = re.compile(r"\bFails:\s*(.*)", re.DOTALL)
 

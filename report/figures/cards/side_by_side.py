@@ -165,9 +165,7 @@ def figures(run: Run) -> dict:
 @responsive_picture
 def pair(rows: pd.DataFrame, narrow: bool):
     """The pair of OPENING: angle to the goal, and size of the command."""
-    figure, (left, right) = style.panels(
-        *((2, 1) if narrow else (1, 2)), height=5.2 if narrow else 2.9, narrow=narrow, sharex=True
-    )
+    figure, (left, right) = style.beside(2, 2.9, 5.2, narrow, sharex=True)
     words = []
     for side, line in LINES.items():
         own = rows[(rows["contender"] == OPENING[side]) & (rows["start_id"] == OPENING["start"])]

@@ -59,9 +59,7 @@ def response(equation: Equation, theta: float, kp: float, kv: float) -> np.ndarr
 @responsive_picture
 def parts(narrow: bool):
     """Springs and dampers against the angle."""
-    figure, (left, right) = style.panels(
-        *((2, 1) if narrow else (1, 2)), height=5.6 if narrow else 3.1, narrow=narrow, sharex=True
-    )
+    figure, (left, right) = style.beside(2, 3.1, 5.6, narrow, sharex=True)
     angles = np.linspace(0.0, math.pi, 181)
     words = []
     for axes, laws, curve in ((left, DRAWN, lambda equation: equation.spring), (right, EASING, easing)):

@@ -6,8 +6,6 @@ A panel is a family; every other law is in it as a thin line in grey.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
@@ -33,17 +31,6 @@ OTHER_LINES = (style.SOLID, style.DASHED, style.DASH_DOT, style.DOTTED, (0, (8, 
 """Of laws of one panel that share a look: one regulator in several coordinates."""
 
 
-def a_panel_each(groups: Sequence, high: float, more: float, narrow: bool):
-    """A figure with a panel a family, rows `high` [in] and `more` in all, and the grid of its axes."""
-    cols = 1 if narrow else 2
-    lines = -(-len(groups) // cols)
-    height = high * lines + more
-    figure, grid = style.panels(lines, cols, height=height, narrow=narrow, squeeze=False, sharex=True, sharey=True)
-    for axes in grid.flat[len(groups) :]:
-        axes.axis("off")
-    return figure, grid
-
-
 @responsive_picture
 def profiles(rows: pd.DataFrame, column: str, marks: tuple[float, ...], what: str, *, narrow=False):
     """A panel a family: share of starts against the factor over the best law.
@@ -56,7 +43,7 @@ def profiles(rows: pd.DataFrame, column: str, marks: tuple[float, ...], what: st
     factors = np.geomspace(1.0, marks[-1], FACTORS)
     shares = pd.DataFrame(profile(over_best(table.to_numpy()), factors), columns=table.columns)
     groups = families.present(table.columns)
-    figure, grid = a_panel_each(groups, 1.8, 0.4, narrow)
+    figure, grid = style.grid(len(groups), 1.8, 1.8, narrow, top=0.4, sharey=True)
     for axes, family in zip(grid.flat, groups, strict=False):
         _panel(axes, family, shares, factors)
         axes.set_xticks(marks, [f"{mark:g}" for mark in marks])

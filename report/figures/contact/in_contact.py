@@ -24,15 +24,8 @@ QUANTILE = 0.95
 
 
 CONTACT = Table(
-    {
-        "Task": "",
-        "Episodes": "",
-        "Reach the end [%]": ".1f",
-        "The others": "",
-        "Penetration, median [mm]": ".3f",
-        f"in {QUANTILE:.0%} [mm]": ".2f",
-        "Largest force, median [N]": ".0f",
-    }
+    "Task | Episodes | Reach the end [%]:.1f | The others | Penetration, median [mm]:.3f | "
+    f"in {QUANTILE:.0%} [mm]:.2f | Largest force, median [N]:.0f"
 )
 
 

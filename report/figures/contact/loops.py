@@ -31,9 +31,7 @@ def left_over(rows: pd.DataFrame, narrow: bool):
         rows: of compliance-loop.
     """
     own = in_form(rows)
-    figure, panels = style.panels(
-        *((2, 1) if narrow else (1, 2)), height=6.4 if narrow else 3.5, narrow=narrow, sharey=True
-    )
+    figure, panels = style.beside(2, 3.5, 6.4, narrow, sharey=True)
     for axes, (column, head) in zip(panels, COLUMNS, strict=True):
         for way in (one for one in ways(own) if one in SHOWN):
             mine, drawn = own[own["way"] == way], look(way)

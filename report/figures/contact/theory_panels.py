@@ -95,7 +95,7 @@ def measured_and_predicted(rows: pd.DataFrame, narrow: bool):
     """
     names = arms(rows)
     looks = dict(zip(names, itertools.cycle(MARKS), strict=False))
-    figure, panels = style.panels(*((3, 1) if narrow else (1, 3)), height=7.4 if narrow else 2.9, narrow=narrow)
+    figure, panels = style.beside(3, 2.9, 7.4, narrow)
     smooth = np.linspace(0.4, DRAWN_TO, 400)
     counted = 0
     for axes, law in zip(panels, LAWS.values(), strict=True):

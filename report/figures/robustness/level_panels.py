@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 
 import tasks
 from bench.tables.statistics import quantile_estimate
-from report.figures.comparison.profiles import REST, a_panel_each, lines_of
+from report.figures.comparison.profiles import REST, lines_of
 from report.figures.kit import families, style
 from report.figures.kit.inline import Picture, responsive_picture
 from report.figures.robustness.rows import levels, plain, with_unit
@@ -71,7 +71,7 @@ def panels(rows: pd.DataFrame, name: str, measure: Measure, theory: Callable[[fl
 @responsive_picture
 def _panels(found: pd.DataFrame, name: str, measure: Measure, there: list[float], curve, *, narrow=False):
     groups = families.present(found["law"])
-    figure, grid = a_panel_each(groups, 1.75, 0.5, narrow)
+    figure, grid = style.grid(len(groups), 1.75, 1.75, narrow, top=0.5, sharey=True)
     wide = found.pivot(index="level", columns="law", values="value").reindex(there)
     limits = _limits(wide, curve, measure.is_log)
     for axes, family in zip(grid.flat, groups, strict=False):

@@ -38,25 +38,10 @@ CORES = 1000
 MEASURED = ["scheduler", "episodes", "cpu_s", "own_cpu_s", "wall_s", "others", "peak_bytes", "row_bytes", "rows"]
 
 COST = "CPU an episode [µs]"
-SIZES = Table(
-    {
-        "Episodes": "",
-        "Runs": "",
-        COST: ".0f",
-        "Least to most": "",
-        "Peak memory [MB]": ".0f",
-        "Rows on disk [B an episode]": ".0f",
-    }
-)
+SIZES = Table(f"Episodes | Runs | {COST}:.0f | Least to most | Peak memory [MB]:.0f | Rows on disk [B an episode]:.0f")
 SCHEDULERS = Table(
-    {
-        "Scheduler": "",
-        COST: ".0f",
-        "Wall [s]": ".1f",
-        "Efficiency by CPU": "{:.0f} %",
-        "By wall time": "{:.0f} %",
-        "Others [cores]": ".2f",
-    }
+    f"Scheduler | {COST}:.0f | Wall [s]:.1f | Efficiency by CPU:{{:.0f}} % | By wall time:{{:.0f}} % | "
+    "Others [cores]:.2f"
 )
 
 

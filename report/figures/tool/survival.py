@@ -143,8 +143,7 @@ def figures(_: Run) -> dict:
 def moments(found: dict[str, Any], *, narrow=False):
     """Bars of the kills at each count of finished units and tables, a panel for what was killed."""
     units, count = found["units"], found["tables"]
-    grid = (3, 1) if narrow else (1, 3)
-    figure, panels = style.panels(*grid, height=5.2 if narrow else 2.4, narrow=narrow, sharex=True)
+    figure, panels = style.beside(3, 2.4, 5.2, narrow, sharex=True)
     words = []
     for axes, (what, title) in zip(panels, KILLED.items(), strict=True):
         done = [files_done(one, units) for one in found["kills"] if one["killed"] == what]
