@@ -28,7 +28,6 @@ ALLOWED = {
     **dict.fromkeys((f"report/figures/{chapter}/" for chapter in CHAPTERS), "what a page of the book is about"),
     "report/figures/libraries/": "what the libraries were asked",
     "report/figures/tool/": "what the history shows",
-    "report/figures/kit/rows.py": "the paper's three, for the pages that are about them",
     "report/media.py": "what is filmed",
     "report/contact_media.py": "what is filmed",
 }
