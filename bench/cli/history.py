@@ -37,20 +37,20 @@ def add(comparisons, sides, path):
 
     A build that this machine has measured before adds nothing.
     """
-    from bench.regression.history import book, line
-    from bench.regression.revisions import comparison, own
+    from bench.regression.history import log, record
+    from bench.regression.revisions import comparison, self_measure
 
     if comparisons:
         given = [(one, side) for one in map(comparison.read, comparisons) for side in sides or SIDES[:1]]
-        lines = [new for one, side in given for new in line.of_comparison(one, side, commit_of)]
+        lines = [new for one, side in given for new in record.of_comparison(one, side, commit_of)]
     else:
         commit_of("HEAD")  # a clone that cannot say is refused before the minutes that measuring takes
-        measured = own.measure(lambda words: console(stderr=True).print(words))
-        lines = line.of_own(measured, commit_of)
+        measured = self_measure.measure(lambda words: console(stderr=True).print(words))
+        lines = record.of_self_measure(measured, commit_of)
         if measured.uncounted:
             console().print(measured.uncounted)
-    path = path or book.BOOK
-    console().print(f"{book.append(lines, path)} of {len(lines)} lines are new: {path}")
+    path = path or log.LOG
+    console().print(f"{log.append(lines, path)} of {len(lines)} lines are new: {path}")
 
 
 @COMMAND.command("merge")
@@ -58,14 +58,14 @@ def add(comparisons, sides, path):
 @book
 def merge(histories, path):
     """Append the lines of other histories: of another machine, or of a branch that keeps them."""
-    from bench.regression.history import book
+    from bench.regression.history import log
 
-    path = path or book.BOOK
+    path = path or log.LOG
     for one in histories:
         if not one.is_file():
             raise BadResults(f"{one}: there is no such file; give a history, as results/history/history.jsonl")
-    lines = [line for one in histories for line in book.read(one)]
-    console().print(f"{book.append(lines, path)} of {len(lines)} lines are new: {path}")
+    lines = [line for one in histories for line in log.read(one)]
+    console().print(f"{log.append(lines, path)} of {len(lines)} lines are new: {path}")
 
 
 @COMMAND.command("walk")
@@ -73,34 +73,34 @@ def merge(histories, path):
 @book
 def walk(commits, path):
     """Measure older commits today, each in a checkout of its own, and append their lines (minutes each)."""
-    from bench.regression.history import book, line
-    from bench.regression.history.walk import measure
+    from bench.regression.history import log, record
+    from bench.regression.history.backfill import measure
 
-    path = path or book.BOOK
+    path = path or log.LOG
     for commit in commits:
-        lines = line.of_own(measure(commit, lambda words: console(stderr=True).print(words)), commit_of)
-        console().print(f"{commit}: {book.append(lines, path)} of {len(lines)} lines are new: {path}")
+        lines = record.of_self_measure(measure(commit, lambda words: console(stderr=True).print(words)), commit_of)
+        console().print(f"{commit}: {log.append(lines, path)} of {len(lines)} lines are new: {path}")
 
 
 @COMMAND.command("show")
 @book
 def show(path):
     """The builds, and every step: what changed, from which commit on, by how much."""
-    from bench.regression.history import book
+    from bench.regression.history import log
     from bench.regression.history.series import series
     from bench.regression.history.steps import steps
 
-    lines = book.read(path or book.BOOK)
+    lines = log.read(path or log.LOG)
     if not lines:
         raise BadResults("the history is empty; add a build to it (try: python -m bench history add --help)")
     builds = pd.DataFrame(
-        [(line.date, line.commit[:10], line.machine, line.benchmark.name) for line in lines],
+        [(record.date, record.commit[:10], record.machine, record.benchmark.name) for record in lines],
         columns=["date", "commit", "machine", "benchmarks"],
     )
     counted = builds.groupby(["date", "commit", "machine"], sort=False)["benchmarks"].count().reset_index()
     console().print(frame_table(counted, "Builds"))
     every = series(lines)
-    places = {line.commit: line.place for line in lines}
+    places = {record.commit: record.place for record in lines}
     found = sorted((step for one in every for step in steps(one)), key=lambda step: places[step.point.commit])
     table = pd.DataFrame(
         [
@@ -118,7 +118,7 @@ def commit_of(name: str):
     Errors:
         BadResults: there is no such commit, or a clone without the history before it.
     """
-    from bench.regression.history.line import Commit
+    from bench.regression.history.record import Commit
 
     if _git("rev-parse", "--is-shallow-repository") == "true":
         raise BadResults("this clone lacks older commits, which order a history (cure: git fetch --unshallow)")

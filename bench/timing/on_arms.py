@@ -20,7 +20,7 @@ from bench.experiments.suites import suite
 from bench.law.contender import PAPERS_GAINS, Contender
 from bench.metrics.registry import metrics_of
 from bench.timing import dm_control_loop
-from bench.timing.thing import DM_CONTROL, ENGINE, NEVER, ROLLOUT, Thing
+from bench.timing.benchmark import DM_CONTROL, ENGINE, NEVER, ROLLOUT, Benchmark
 from tasks.base import Start
 
 TASK = "arm-regulation"
@@ -48,7 +48,7 @@ def controllers(laws: list[Contender], arm: str) -> list[Contender]:
     return combinations.on((*suite("default").on_arms.words, *own), by_name, tasks.arm(arm).joints)
 
 
-def of_arm(arm: str, laws: list[Contender]) -> list[Thing]:
+def of_arm(arm: str, laws: list[Contender]) -> list[Benchmark]:
     """Everything of one arm, rollout first; all is compiled and has run once."""
     found = [rollout(arm), *(native(arm, one) for one in controllers(laws, arm))]
     by_name = {one.name: one for one in laws}
@@ -65,14 +65,14 @@ def _settings(horizon_s: float):
     return Settings().limits(horizon_s)._replace(hold_ticks=NEVER)
 
 
-def native(arm: str, one: Contender, horizon_s: float = HORIZON_S) -> Thing:
+def native(arm: str, one: Contender, horizon_s: float = HORIZON_S) -> Benchmark:
     """A controller in the compiled loop; one that fails from the start is held at it, to last longer."""
     start = _start(arm)
-    thing = _native(arm, one, start, horizon_s)
-    return thing if thing.ticks else _native(arm, one, start._replace(goal_wxyz=start.quat_wxyz), horizon_s)
+    benchmark = _native(arm, one, start, horizon_s)
+    return benchmark if benchmark.ticks else _native(arm, one, start._replace(goal_wxyz=start.quat_wxyz), horizon_s)
 
 
-def _native(arm: str, one: Contender, start: Start, horizon_s: float) -> Thing:
+def _native(arm: str, one: Contender, start: Start, horizon_s: float) -> Benchmark:
     metrics = metrics_of(on_arm=True)
     settings = _settings(horizon_s)
     ready = run_arm.simulation(TASK, arm, settings.dt_s, "euler")
@@ -99,10 +99,10 @@ def _native(arm: str, one: Contender, start: Start, horizon_s: float) -> Thing:
 
     call()
     ticks = int(rows[0, TICKS])
-    return Thing(ENGINE, one, "native", ticks if ticks >= FEWEST_TICKS else 0, call, arm)
+    return Benchmark(ENGINE, one, "native", ticks if ticks >= FEWEST_TICKS else 0, call, arm)
 
 
-def rollout(arm: str) -> Thing:
+def rollout(arm: str) -> Benchmark:
     """mujoco.rollout on the arm's model, its torques drawn beforehand."""
     settings, start, rated = _settings(HORIZON_S), _start(arm), np.array(tasks.arm(arm).rated)
     model = mujoco.MjModel.from_xml_string(tasks.task(TASK, arm).xml(settings.dt_s))
@@ -118,12 +118,12 @@ def rollout(arm: str) -> Thing:
         loop.rollout(model, data, initial, control, state=state, sensordata=sensors)
 
     call()
-    return Thing(ENGINE, None, ROLLOUT, settings.ticks, call, arm)
+    return Benchmark(ENGINE, None, ROLLOUT, settings.ticks, call, arm)
 
 
-def dm_control(arm: str, one: Contender) -> Thing:
+def dm_control(arm: str, one: Contender) -> Benchmark:
     """dm_control's loop; `one` is the controller that it has written in numpy."""
     dt_s = _settings(HORIZON_S).dt_s
     call = dm_control_loop.loop(TASK, arm, _start(arm), dt_s, SLOW_TICKS, PAPERS_GAINS)
     call()
-    return Thing(ENGINE, one, DM_CONTROL, SLOW_TICKS, call, arm)
+    return Benchmark(ENGINE, one, DM_CONTROL, SLOW_TICKS, call, arm)

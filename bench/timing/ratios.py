@@ -1,4 +1,4 @@
-"""Ratios of things timed in the same pass: their median, and an interval that assumes no distribution."""
+"""Ratios of benchmarks timed in the same pass: their median, and an interval that assumes no distribution."""
 
 import math
 from typing import NamedTuple

@@ -14,10 +14,10 @@ from bench.provenance import describe, machine_key
 from bench.tables.schema import RESULTS
 from bench.tables.store import read_arrow, write_table
 from bench.timing import threads
+from bench.timing.benchmark import DM_CONTROL, KERNEL, ROLLOUT, THREADS, Benchmark
+from bench.timing.benchmarks import benchmarks
 from bench.timing.ratios import Ratio, ratio
 from bench.timing.session import measure
-from bench.timing.thing import DM_CONTROL, KERNEL, ROLLOUT, THREADS, Thing
-from bench.timing.things import things
 
 FOLDER = RESULTS / "timings"
 PASSES, QUICK_PASSES = 31, 7
@@ -35,11 +35,11 @@ def run(
 
     Args:
         arms: names of those that are timed too; and if there are any, two threads against one.
-        told: called with a `things.Progress` for every law compiled and after every visit.
+        told: called with a `benchmarks.Progress` for every law compiled and after every sample.
     Errors:
         BadLaw: a user's law that cannot be compiled. BadResults: the folder cannot be written.
     """
-    measured = things(contenders, told, arms)
+    measured = benchmarks(contenders, told, arms)
     seconds = measure(measured, QUICK_PASSES if quick else PASSES, told=told)
     rows = frame(measured, seconds)
     if arms:
@@ -51,11 +51,11 @@ def run(
     return path
 
 
-def frame(measured: list[Thing], seconds: np.ndarray) -> pd.DataFrame:
+def frame(measured: list[Benchmark], seconds: np.ndarray) -> pd.DataFrame:
     """The rows of timings.parquet.
 
     Args:
-        seconds: one row a pass, one column a thing.
+        seconds: one row a pass, one column a benchmark.
     """
     ticks = np.array([float(one.ticks) if one.ticks else np.nan for one in measured])
     ns = seconds / ticks * 1e9
@@ -76,7 +76,7 @@ NO_RATIO = Ratio(np.nan, np.nan, np.nan)
 NO_LAW = {"regulator": "", "representation": "", "jacobian": "", "inverse": ""}
 
 
-def _row(one: Thing, times: np.ndarray, kernel: np.ndarray, open_loop: Ratio, faster: Ratio, passes: int) -> dict:
+def _row(one: Benchmark, times: np.ndarray, kernel: np.ndarray, open_loop: Ratio, faster: Ratio, passes: int) -> dict:
     return {
         "what": one.what,
         "arm": one.arm,

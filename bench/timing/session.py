@@ -1,7 +1,7 @@
-"""The interleaved run: passes over all things, each in an order of its own, timed by pytest-benchmark.
+"""The interleaved run: passes over all benchmarks, each in an order of its own, timed by pytest-benchmark.
 
 CPU time of the measuring thread is taken (time.thread_time), not the clock on the wall: on a shared machine that
-leaves out the time in which others ran, and a progress bar's thread. No thing uses a second thread. A visit is two
+leaves out the time in which others ran, and a progress bar's thread. No benchmark uses a second thread. A sample is two
 rounds on end and counts with the fastest, for a disturbance only ever adds; the first also warms the caches.
 """
 
@@ -18,18 +18,18 @@ import numpy as np
 import pytest
 
 from bench.errors import MissingTool
-from bench.timing.thing import Thing
-from bench.timing.things import Progress
+from bench.timing.benchmark import Benchmark
+from bench.timing.benchmarks import Progress
 
 ROUNDS = 2
 TIMER = "time.thread_time"
 PASSES_FILE = Path(__file__).with_name("passes.py")
 
 
-class Visit(NamedTuple):
-    """One thing in one pass, and where its seconds go."""
+class Sample(NamedTuple):
+    """One benchmark in one pass, and where its seconds go."""
 
-    thing: Thing
+    benchmark: Benchmark
     pass_number: int
     taken: Callable
 
@@ -40,36 +40,36 @@ def order(count: int, passes: int, seed: int) -> list[list[int]]:
     return [shuffled.sample(range(count), count) for _ in range(passes)]
 
 
-def measure(things: list[Thing], passes: int, seed: int = 0, told: Callable = lambda _: None) -> np.ndarray:
-    """Seconds of the fastest round: one row a pass, one column a thing.
+def measure(benchmarks: list[Benchmark], passes: int, seed: int = 0, told: Callable = lambda _: None) -> np.ndarray:
+    """Seconds of the fastest round: one row a pass, one column a benchmark.
 
     Errors:
         MissingTool: pytest-benchmark is not there. KeyboardInterrupt: after Ctrl-C; there is nothing to keep.
     """
-    seconds = np.full((passes, len(things)), np.nan)
-    total = passes * len(things)
+    seconds = np.full((passes, len(benchmarks)), np.nan)
+    total = passes * len(benchmarks)
 
-    def visit(number: int, place: int) -> Visit:
+    def sample(number: int, place: int) -> Sample:
         def taken(rounds):
             seconds[number, place] = min(rounds)
-            told(Progress(things[place].name, int(np.isfinite(seconds).sum()), total))
+            told(Progress(benchmarks[place].name, int(np.isfinite(seconds).sum()), total))
 
-        return Visit(things[place], number, taken)
+        return Sample(benchmarks[place], number, taken)
 
-    visits = [visit(number, at) for number, row in enumerate(order(len(things), passes, seed)) for at in row]
-    _benchmark(visits)
+    samples = [sample(number, at) for number, row in enumerate(order(len(benchmarks), passes, seed)) for at in row]
+    _benchmark(samples)
     return seconds
 
 
 class _Visits:
-    """The plugin that gives the visits to passes.py and pytest's own report to a buffer.
+    """The plugin that gives the samples to passes.py and pytest's own report to a buffer.
 
     Reporters keep the streams they find while pytest configures itself: a buffer, then. Whatever is written later, a
     progress bar say, has the real ones.
     """
 
-    def __init__(self, visits: list[Visit]):
-        self.visits = visits
+    def __init__(self, samples: list[Sample]):
+        self.samples = samples
         self.report = io.StringIO()
         self.redirected = contextlib.ExitStack()
 
@@ -83,12 +83,12 @@ class _Visits:
         self.redirected.close()
 
     def pytest_generate_tests(self, metafunc):
-        names = [f"pass {one.pass_number} {one.thing.name}" for one in self.visits]
-        metafunc.parametrize("visit", self.visits, ids=names)
+        names = [f"pass {one.pass_number} {one.benchmark.name}" for one in self.samples]
+        metafunc.parametrize("sample", self.samples, ids=names)
 
 
-def _benchmark(visits: list[Visit]) -> None:
-    plugin = _Visits(visits)
+def _benchmark(samples: list[Sample]) -> None:
+    plugin = _Visits(samples)
     words = [
         str(PASSES_FILE),
         *("-c", os.devnull, "--rootdir", str(PASSES_FILE.parent), "--noconftest"),

@@ -5,9 +5,9 @@ from pathlib import Path
 
 import pandas as pd
 
+from bench.timing.benchmark import DM_CONTROL, ENGINE, LOOP, ROLLOUT, THREADS
+from bench.timing.benchmarks import ENGINES
 from bench.timing.rows import read
-from bench.timing.thing import DM_CONTROL, ENGINE, LOOP, ROLLOUT, THREADS
-from bench.timing.things import ENGINES
 
 ALONE, TO_KERNEL, TO_ROLLOUT = "alone [ns]", "alone / kernel", "native / rollout"
 NOT_TIMED = "fails"

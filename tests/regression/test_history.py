@@ -11,8 +11,8 @@ from support.command_line import bench, refused
 
 from bench.errors import BadResults
 from bench.provenance import ROOT
-from bench.regression.history import book
-from bench.regression.history.line import Commit, Line, from_json, of_comparison, to_json
+from bench.regression.history import log
+from bench.regression.history.record import Commit, Record, from_json, of_comparison, to_json
 from bench.regression.history.series import FLOPS, INSTRUCTIONS, TIME, series
 from bench.regression.history.steps import BUILDS, steps
 from bench.regression.revisions import comparison
@@ -65,7 +65,7 @@ def test_foreign_line_is_refused_by_its_number(tmp_path, text, problem):
     path = tmp_path / "history.jsonl"
     path.write_text(f"{to_json(GOOD)}\n{text}\n")
     with pytest.raises(BadResults, match="line 2: ") as found:
-        book.read(path)
+        log.read(path)
     assert problem in str(found.value)
 
 
@@ -73,15 +73,15 @@ def test_line_that_is_there_twice_is_refused_with_both_numbers(tmp_path):
     path = tmp_path / "history.jsonl"
     path.write_text(f"{to_json(GOOD)}\n{to_json(line(2))}\n{to_json(GOOD)}\n")
     with pytest.raises(BadResults, match="line 3: line 1 is about the same"):
-        book.read(path)
+        log.read(path)
 
 
 def test_lines_come_in_the_order_of_their_commits(tmp_path):
     path = tmp_path / "deeper" / "history.jsonl"
-    assert book.read(path) == []
-    assert book.append([line(3), line(1)], path) == 2
-    assert book.append([line(2), line(3, time=9.0)], path) == 1
-    assert [one.commit for one in book.read(path)] == [line(at).commit for at in (1, 2, 3)]
+    assert log.read(path) == []
+    assert log.append([line(3), line(1)], path) == 2
+    assert log.append([line(2), line(3, time=9.0)], path) == 1
+    assert [one.commit for one in log.read(path)] == [line(at).commit for at in (1, 2, 3)]
     assert [one.name for one in path.parent.iterdir()] == ["history.jsonl"]
 
 
@@ -89,7 +89,7 @@ def test_append_to_a_broken_history_leaves_it_as_it_is(tmp_path):
     path = tmp_path / "history.jsonl"
     path.write_text(to_json(GOOD)[:-9])
     with pytest.raises(BadResults, match="line 1: no JSON"):
-        book.append([line(2)], path)
+        log.append([line(2)], path)
     assert path.read_text() == to_json(GOOD)[:-9]
 
 
@@ -97,20 +97,20 @@ def test_line_that_could_not_be_read_again_is_not_written(tmp_path):
     path = tmp_path / "history.jsonl"
     odd = GOOD._replace(benchmark=GOOD.benchmark._replace(name="<script>"))
     with pytest.raises(BadResults, match="name is '<script>'"):
-        book.append([GOOD, odd], path)
+        log.append([GOOD, odd], path)
     assert not path.exists()
 
 
 def write_some(path, first):
     for build in range(first, first + 20):
-        book.append([line(build)], path)
+        log.append([line(build)], path)
 
 
 def test_two_writers_lose_no_line(tmp_path):
     path = tmp_path / "history.jsonl"
     with ThreadPoolExecutor(2) as writers:  # the lock is of an open folder, not of a process
         list(writers.map(write_some, (path, path), (0, 100)))
-    assert len(book.read(path)) == 40
+    assert len(log.read(path)) == 40
 
 
 def test_series_of_counts_is_one_across_machines_and_of_times_one_a_machine():
@@ -149,7 +149,7 @@ def test_instructions_of_the_same_machine_code_never_step_and_another_compiler_i
     assert "another compiler" in steps_of(other, INSTRUCTIONS)[0].says
 
 
-def noisy(seed: int, levels, outliers: float = 0.05) -> list[Line]:
+def noisy(seed: int, levels, outliers: float = 0.05) -> list[Record]:
     """Times about these levels with 3 % of noise, and some half as long again, as on a shared machine."""
     draw = np.random.default_rng(seed)
     rare = np.where(draw.random(len(levels)) < outliers, 1.5, 1.0)
@@ -215,10 +215,10 @@ def test_comparison_of_another_checkouts_commit_is_refused(capsys, tmp_path, com
 
 def test_histories_of_two_machines_become_one(capsys, tmp_path):
     ours, theirs = tmp_path / "ours.jsonl", tmp_path / "theirs.jsonl"
-    book.append([line(1), line(2)], ours)
-    book.append([line(2), line(2, machine="b-4-cores"), line(3)], theirs)
+    log.append([line(1), line(2)], ours)
+    log.append([line(2), line(2, machine="b-4-cores"), line(3)], theirs)
     assert "2 of 3 lines are new" in bench(capsys, "history", "merge", theirs, "--file", ours).out
-    assert len(book.read(ours)) == 4
+    assert len(log.read(ours)) == 4
     assert "no such file" in refused(capsys, "history", "merge", tmp_path / "none", "--file", ours)
 
 
@@ -227,5 +227,5 @@ def test_empty_history_says_how_to_begin(capsys, tmp_path):
 
 
 def test_history_of_this_checkout_can_be_read():
-    lines = book.read()
+    lines = log.read()
     assert len({one.commit for one in lines}) >= 4

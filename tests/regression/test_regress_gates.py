@@ -8,7 +8,7 @@ from support.user_law import DAMPER, law_text
 
 from bench.cli import main
 from bench.errors import BadResults
-from bench.regression.revisions import comparison, gates, sides, summary
+from bench.regression.revisions import checkouts, comparison, gates, summary
 from bench.regression.revisions.process import SideFailed
 
 LAW = law_text(DAMPER, name="braking")
@@ -30,7 +30,7 @@ def user(tmp_path):
 @pytest.fixture
 def failing(monkeypatch, finished):
     """Every side's run is one and the same; the process of the side that is named cannot be compiled."""
-    monkeypatch.setattr(sides, "finished_run", lambda side, told: contextlib.nullcontext(finished))
+    monkeypatch.setattr(checkouts, "finished_run", lambda side, told: contextlib.nullcontext(finished))
 
     def at(place):
         @contextlib.contextmanager

@@ -7,7 +7,7 @@ from support.user_law import law_text
 
 from bench.errors import MissingTool
 from bench.provenance import ROOT
-from bench.regression.revisions import instructions, own
+from bench.regression.revisions import instructions, self_measure
 from bench.regression.revisions.measured import Wanted, measured
 from bench.regression.revisions.process import Laws, SideFailed, running
 
@@ -33,7 +33,7 @@ def sides(tmp_path_factory):
 def two(sides):
     """The gates of a law against itself with more to multiply, few rounds."""
     base, _, head = sides
-    assert {one.things["tilted"].ticks for one in (base, head)} == {20_000}
+    assert {one.benchmarks["tilted"].ticks for one in (base, head)} == {20_000}
     return measured([base, head], ({}, {}), Wanted(rounds=6), lambda _: None)
 
 
@@ -58,7 +58,7 @@ def test_same_law_is_the_same_machine_code_and_is_not_timed(sides, monkeypatch):
     monkeypatch.setattr(instructions, "missing", lambda: "valgrind not found")
     gates, found, [one] = measured(sides[:2], ({}, {}), Wanted(rounds=6), lambda _: None)
     with pytest.raises(MissingTool, match="valgrind not found"):
-        instructions.count(sides[0], own.timed_laws(sides[0]))
+        instructions.count(sides[0], self_measure.timed_laws(sides[0]))
     assert one.same_code
     assert (one.time, found) == (None, [])
     assert gates[0].state == "skipped"

@@ -6,7 +6,7 @@ pytest.importorskip("matplotlib", reason="the report extra is not installed (cur
 
 from support.builds import line
 
-from bench.regression.history import book
+from bench.regression.history import log
 from report.figures.tool import history, performance
 
 
@@ -15,7 +15,7 @@ def given(monkeypatch):
     """Builds of one law on two machines: one multiplication more at the third, and the time with it."""
 
     def of(lines):
-        monkeypatch.setattr(book, "read", lambda: lines)
+        monkeypatch.setattr(log, "read", lambda: lines)
         history.history.cache_clear()
         return history.history()
 

@@ -11,18 +11,18 @@ from bench.contenders.registry import find_contender
 from bench.law.contender import Contender, Regulator
 from bench.law.scalar import kernel, sqrt
 from bench.provenance import machine_key
-from bench.timing import law, reference_kernel, things
+from bench.timing import benchmarks, law, reference_kernel
+from bench.timing.benchmark import ENGINE, KERNEL, LAW, LOOP, ROLLOUT, Benchmark
 from bench.timing.ratios import ranks, ratio
 from bench.timing.rows import QUICK_PASSES, frame
 from bench.timing.session import measure, order
-from bench.timing.thing import ENGINE, KERNEL, LAW, LOOP, ROLLOUT, Thing
 
 LAWS = ("rotation-matrix", "linearized-euler/zyx-euler")
 
 
 @pytest.fixture(scope="module")
 def quick(tmp_path_factory):
-    """A quick run of two laws: its file, and what it told of its visits."""
+    """A quick run of two laws: its file, and what it told of its samples."""
     told = []
     contenders = [find_contender(word) for word in LAWS]
     path = timing.run(contenders, tmp_path_factory.mktemp("timings"), quick=True, told=told.append)
@@ -30,17 +30,17 @@ def quick(tmp_path_factory):
     return path, [one for one in told if one.total]
 
 
-def thing(name, call=lambda: None, ticks=10):
+def benchmark(name, call=lambda: None, ticks=10):
     regulator = Regulator(name, "", "", "", law=None)
-    return Thing(LAW, Contender(regulator), "", ticks, call)
+    return Benchmark(LAW, Contender(regulator), "", ticks, call)
 
 
 def three(drift):
-    """A kernel of 1, rollout of 2 and a native loop of 3 s a visit, each pass slowed by its drift."""
+    """A kernel of 1, rollout of 2 and a native loop of 3 s a sample, each pass slowed by its drift."""
     every = [
-        Thing(KERNEL, None, "", 10, lambda: None),
-        Thing(ENGINE, None, ROLLOUT, 10, lambda: None),
-        thing("one")._replace(what=ENGINE, engine="native"),
+        Benchmark(KERNEL, None, "", 10, lambda: None),
+        Benchmark(ENGINE, None, ROLLOUT, 10, lambda: None),
+        benchmark("one")._replace(what=ENGINE, engine="native"),
     ]
     return every, np.outer(drift, (1.0, 2.0, 3.0))
 
@@ -84,7 +84,7 @@ def test_file_has_one_row_for_everything_timed(quick):
     keys = set(zip(rows.what, rows.engine, rows.regulator, rows.representation, strict=True))
     laws = [tuple(f"{word}/".split("/")[:2]) for word in LAWS]
     expected = {(LAW, "", *one) for one in laws} | {(LOOP, "", "", ""), (ENGINE, ROLLOUT, "", "")}
-    expected |= {(ENGINE, engine, *one) for engine in things.ENGINES for one in laws}
+    expected |= {(ENGINE, engine, *one) for engine in benchmarks.ENGINES for one in laws}
     assert keys == expected
     assert len(rows) == len(keys)
 
@@ -147,7 +147,7 @@ def not_a_number(R, omega, goal, gains):
 
 def test_law_without_a_finite_command_is_a_row_without_a_time():
     failing = Contender(Regulator("failing", "", "", "", law=not_a_number, origin=__file__))
-    one = things._law(LAW, failing)
+    one = benchmarks._law(LAW, failing)
     assert one.ticks == 0
     every, seconds = three(drift=np.ones(7))
     rows = frame([*every, one], np.column_stack((seconds, np.ones(7))))
@@ -157,7 +157,7 @@ def test_law_without_a_finite_command_is_a_row_without_a_time():
 
 def test_measuring_takes_the_fastest_round_and_writes_nothing_to_the_terminal(capfd):
     before = os.environ.get("PYTEST_CURRENT_TEST")
-    seconds = measure([thing("one"), thing("two")], passes=3)
+    seconds = measure([benchmark("one"), benchmark("two")], passes=3)
     assert seconds.shape == (3, 2)
     assert np.isfinite(seconds).all()
     assert capfd.readouterr() == ("", "")
@@ -169,7 +169,7 @@ def test_interrupt_ends_the_measuring():
         raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
-        measure([thing("one", interrupted)], passes=2)
+        measure([benchmark("one", interrupted)], passes=2)
 
 
 def test_failure_of_a_thing_is_reported_with_its_reason():
@@ -177,4 +177,4 @@ def test_failure_of_a_thing_is_reported_with_its_reason():
         raise ArithmeticError("as planned")
 
     with pytest.raises(RuntimeError, match="as planned"):
-        measure([thing("one", broken)], passes=2)
+        measure([benchmark("one", broken)], passes=2)

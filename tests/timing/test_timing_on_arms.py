@@ -10,8 +10,8 @@ from bench import timing
 from bench.contenders.registry import find_contender
 from bench.law.contender import PAPERS_GAINS
 from bench.timing import dm_control_loop, on_arms, threads
+from bench.timing.benchmark import DM_CONTROL, ENGINE, KERNEL, ROLLOUT, THREADS, Benchmark
 from bench.timing.rows import QUICK_PASSES, frame
-from bench.timing.thing import DM_CONTROL, ENGINE, KERNEL, ROLLOUT, THREADS, Thing
 
 LAWS = [find_contender(word) for word in ("rotation-matrix", "linearized-euler/zyx-euler")]
 
@@ -83,16 +83,16 @@ def test_tables_keep_the_free_body_and_the_arms_apart(quick):
 
 def test_speed_up_is_taken_within_a_pass_over_the_same_controller_of_the_same_arm():
     one, other = named("ur5e", "rotation-matrix@geometric+solve"), named("ur5e", "rotation-matrix@geometric+transpose")
-    things = [Thing(KERNEL, None, "", 10, print), Thing(ENGINE, None, ROLLOUT, 10, print)]
+    benchmarks = [Benchmark(KERNEL, None, "", 10, print), Benchmark(ENGINE, None, ROLLOUT, 10, print)]
     seconds = [1.0, 2.0]
     for arm, factor in (("ur5e", 1.0), ("puma560", 10.0)):
-        things += [
-            Thing(ENGINE, None, ROLLOUT, 10, print, arm),
-            *(Thing(ENGINE, each, "native", 10, print, arm) for each in (one, other)),
-            Thing(ENGINE, one, DM_CONTROL, 10, print, arm),
+        benchmarks += [
+            Benchmark(ENGINE, None, ROLLOUT, 10, print, arm),
+            *(Benchmark(ENGINE, each, "native", 10, print, arm) for each in (one, other)),
+            Benchmark(ENGINE, one, DM_CONTROL, 10, print, arm),
         ]
         seconds += [factor * x for x in (3.0, 4.5, 4.0, 90.0)]
-    rows = frame(things, np.outer((1.0, 5.0, 0.5, 2.0, 3.0, 1.0, 7.0), seconds))
+    rows = frame(benchmarks, np.outer((1.0, 5.0, 0.5, 2.0, 3.0, 1.0, 7.0), seconds))
     for arm in ("ur5e", "puma560"):
         own = rows[rows.arm == arm].set_index(["engine", "inverse"])
         assert own.loc[("native", "solve"), "ratio_rollout"] == pytest.approx(1.5)

@@ -7,7 +7,7 @@ first that was measured stands. Times compare only on the machine where they wer
 from collections.abc import Iterable
 from typing import NamedTuple
 
-from bench.regression.history.line import Line
+from bench.regression.history.record import Record
 
 FLOPS, INSTRUCTIONS, TIME = "operations", "instructions", "time"
 MEASURES = (FLOPS, INSTRUCTIONS, TIME)
@@ -41,7 +41,7 @@ class Series(NamedTuple):
     points: tuple[Point, ...]
 
 
-def series(lines: Iterable[Line]) -> list[Series]:
+def series(lines: Iterable[Record]) -> list[Series]:
     """All series of these lines, which come in the order of their commits."""
     found: dict[tuple[str, str, str, str], dict[str, Point]] = {}
     for line in lines:
@@ -52,7 +52,7 @@ def series(lines: Iterable[Line]) -> list[Series]:
     return [Series(*key, tuple(points.values())) for key, points in found.items()]
 
 
-def _points(line: Line) -> dict[str, Point]:
+def _points(line: Record) -> dict[str, Point]:
     one, about = line.benchmark, (line.commit, line.date)
     found = {}
     if "typical" in one.operations:

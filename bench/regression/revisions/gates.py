@@ -4,7 +4,8 @@ from collections.abc import Callable
 from pathlib import Path
 
 from bench.errors import BadResults
-from bench.regression.revisions import exact, own, sides
+from bench.regression.revisions import checkouts, exact, self_measure
+from bench.regression.revisions.checkouts import Checkout
 from bench.regression.revisions.comparison import (
     EXACT,
     FAILED,
@@ -20,7 +21,6 @@ from bench.regression.revisions.comparison import (
 )
 from bench.regression.revisions.measured import Operations, Wanted, left_out, measured
 from bench.regression.revisions.process import SideFailed, running
-from bench.regression.revisions.sides import Checkout
 from bench.regression.rows import differences
 from bench.tables.store import read, read_json
 
@@ -36,7 +36,7 @@ def of_folders(base: Path, head: Path) -> Comparison:
     """
     found = _exact(base, head)
     was, now = (Side(str(one), **_origin(one)) for one in (base, head))
-    return Comparison(was, now, own.machine(), tuple(_gates(found, (EXACT, OPERATIONS))), tuple(found), ())
+    return Comparison(was, now, self_measure.machine(), tuple(_gates(found, (EXACT, OPERATIONS))), tuple(found), ())
 
 
 def _origin(folder: Path) -> dict[str, str]:
@@ -68,12 +68,12 @@ def of_revisions(
     Errors:
         UnknownWord, Incompatible: a revision. BadResults: a side does not run. BadLaw: a user's file.
     """
-    with sides.checkouts(base, head, laws) as (old, new):
+    with checkouts.checkouts(base, head, laws) as (old, new):
         if new.is_new:
             raise BadResults(f"{new.name}: none of the --law files is there")
         gates, found, operations = _by_rows(old, new, told)
         more_gates, more, benchmarks = _by_process(old, new, operations, wanted, told)
-        machine = own.machine()
+        machine = self_measure.machine()
     was, now = (Side(one.name, one.commit, one.sources) for one in (old, new))
     return Comparison(was, now, machine, (*gates, *more_gates), (*found, *more), tuple(benchmarks))
 
@@ -81,17 +81,17 @@ def of_revisions(
 def _by_rows(old: Checkout, new: Checkout, told: Told) -> tuple[list[Gate], list[Finding], Operations]:
     """The exact gate and that of operations."""
     if old.is_new:
-        with sides.finished_run(new, told) as run:
-            counted = own.by_law(read(run, "costs"))
+        with checkouts.finished_run(new, told) as run:
+            counted = self_measure.by_law(read(run, "costs"))
         says = "the law is new: there is nothing to compare it with"
         return [Gate(name, SKIPPED, says) for name in (EXACT, OPERATIONS)], [], ({}, counted)
     if old.sources == new.sources and not new.own:
         says = "both sides have the same sources and versions, so a run would be the same"
         return [Gate(name, PASSED, says) for name in (EXACT, OPERATIONS)], [], ({}, {})
-    with sides.finished_run(old, told) as before, sides.finished_run(new, told) as after:
+    with checkouts.finished_run(old, told) as before, checkouts.finished_run(new, told) as after:
         try:
             found = _exact(before, after)
-            operations = own.by_law(read(before, "costs")), own.by_law(read(after, "costs"))
+            operations = self_measure.by_law(read(before, "costs")), self_measure.by_law(read(after, "costs"))
         except BadResults as error:  # both have just been written by their own program: it is the schema that differs
             says = f"the schema differs: {error}"
             found, operations = [Finding(EXACT, REGRESSION, "", "schema", "", "", says)], ({}, {})
@@ -102,8 +102,8 @@ def _by_process(
     old: Checkout, new: Checkout, operations: Operations, wanted: Wanted, told: Told
 ) -> tuple[list[Gate], list[Finding], list[Benchmark]]:
     """The gates of instructions and time, which need both sides compiled."""
-    if not (old.is_new or sides.locks_agree(old, new)):
-        return left_out(f"{sides.LOCK} differs, so base was made for other packages than are installed"), [], []
+    if not (old.is_new or checkouts.locks_agree(old, new)):
+        return left_out(f"{checkouts.LOCK} differs, so base was made for other packages than are installed"), [], []
     told("compiling")
     both = [(new.path, new.asked)] if old.is_new else [(old.path, old.asked), (new.path, new.asked)]
     try:

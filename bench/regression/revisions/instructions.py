@@ -2,7 +2,7 @@
 
 A law's compiled loop is called with n sweeps over the states and with 2n; the difference is n sweeps, with all that
 starting and calling costs taken out. Address randomization is off and the environment empty, so that nothing depends
-on where things lie.
+on where benchmarks lie.
 
 Fails: counts of another processor, C library or compiler are other counts; compare only within one run of this.
 """
@@ -46,7 +46,7 @@ def count(side: Process, names: list[str]) -> dict[str, float]:
         raise MissingTool(f"no instructions are counted: {absent}")
     if not names:
         return {}
-    laws = [word for name in names for word in (side.things[name].file, side.things[name].symbol)]
+    laws = [word for name in names for word in (side.benchmarks[name].file, side.benchmarks[name].symbol)]
     with tempfile.TemporaryDirectory(prefix="orientation-bench-") as folder:
         dumps = Path(folder) / "callgrind"
         words = [

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from bench.errors import MissingTool
-from bench.regression.revisions import alternating, instructions, own, rule
+from bench.regression.revisions import alternating, instructions, rule, self_measure
 from bench.regression.revisions.comparison import (
     FAILED,
     FASTER,
@@ -24,7 +24,7 @@ from bench.regression.revisions.comparison import (
 from bench.regression.revisions.measurement import LAW, Measurement
 from bench.regression.revisions.process import Process, running
 
-Operations = tuple[own.Operations, own.Operations]
+Operations = tuple[self_measure.Operations, self_measure.Operations]
 """Of base and head."""
 
 
@@ -66,18 +66,18 @@ def measured(
     if not wanted.timing:
         gates.append(Gate(TIME, SKIPPED, "left out on request"))
     elif len(processes) == 1:
-        rounds = alternating.take(processes, own.timed(head), wanted.rounds, wanted.seed, told)
+        rounds = alternating.take(processes, self_measure.timed(head), wanted.rounds, wanted.seed, told)
         gates.append(Gate(TIME, SKIPPED, "there is no base to compare with"))
     else:
         names = _to_time(base, head, wanted.same_code)
         rounds, first = timed_once(processes, names, wanted, told)
         times = first | second_run(processes, first, wanted, told)
         slower = [_slower(name, one) for name, one in times.items() if one.verdict != SAME]
-        untimed = len(own.timed(head)) - len(names)
+        untimed = len(self_measure.timed(head)) - len(names)
         gates.append(_gate(TIME, slower, f"{len(names)} timed, {untimed} not: the same machine code, or new"))
         found += slower
     each = [
-        own.measurements(side, counted, taken, of)
+        self_measure.measurements(side, counted, taken, of)
         for side, counted, taken, of in zip(processes, counts, rounds, operations[-len(processes) :], strict=True)
     ]
     return gates, found, _benchmarks(each, times)
@@ -88,11 +88,11 @@ def _counts(processes: list[Process], told: Callable[[str], None]) -> tuple[list
     head, base = processes[-1], processes[0]
     told("counting instructions")
     try:
-        of_head = instructions.count(head, own.timed_laws(head))
+        of_head = instructions.count(head, self_measure.timed_laws(head))
         if base is head:
             return [of_head], ""
-        same = {name for name in own.timed_laws(base) if _same_code(base, head, name)}
-        of_base = instructions.count(base, [name for name in own.timed_laws(base) if name not in same])
+        same = {name for name in self_measure.timed_laws(base) if _same_code(base, head, name)}
+        of_base = instructions.count(base, [name for name in self_measure.timed_laws(base) if name not in same])
     except MissingTool as error:
         return [{} for _ in processes], str(error)
     return [{**of_base, **{name: of_head[name] for name in same}}, of_head], ""
@@ -100,12 +100,12 @@ def _counts(processes: list[Process], told: Callable[[str], None]) -> tuple[list
 
 def _same_code(base: Process, head: Process, name: str) -> bool:
     """Whether a law compiles to the same machine code on both sides."""
-    was, now = base.things.get(name), head.things.get(name)
+    was, now = base.benchmarks.get(name), head.benchmarks.get(name)
     return was is not None and now is not None and bool(was.code) and was.code == now.code
 
 
 def _to_time(base: Process, head: Process, same_code: bool) -> list[str]:
-    both = [name for name in own.timed(base) if name in set(own.timed(head))]
+    both = [name for name in self_measure.timed(base) if name in set(self_measure.timed(head))]
     return [name for name in both if not (same_code and _same_code(base, head, name))]
 
 

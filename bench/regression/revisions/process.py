@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from bench.errors import Incompatible
-from bench.regression.revisions.target import environment
+from bench.regression.revisions.machine import environment
 
 PROGRAM = Path(__file__).with_name("side.py")
 
@@ -25,7 +25,7 @@ class SideFailed(Incompatible):
 
 
 class Compiled(NamedTuple):
-    """A thing that a side can time: its machine code lies under `file`, if it is a law; 0 ticks if it cannot be timed.
+    """What a side can time: its machine code lies under `file`, if it is a law; 0 ticks if it cannot be timed.
 
     code: digest of the machine code. symbol: the function's name in it.
     """
@@ -71,7 +71,7 @@ class Process:
         )
         files = [str(path) for path in laws.files]
         self.say(laws=files, only=laws.only, engines=laws.engines, names=laws.names, objects=str(objects))
-        self.things: dict[str, Compiled] = {}
+        self.benchmarks: dict[str, Compiled] = {}
         self.sources = ""
 
     def say(self, **words: Any) -> None:
@@ -108,7 +108,7 @@ class Process:
     def ready(self) -> None:
         """Wait until all is compiled."""
         told = self.hear()
-        self.things = {one["name"]: Compiled(**one) for one in told["things"]}
+        self.benchmarks = {one["name"]: Compiled(**one) for one in told["benchmarks"]}
         self.sources = told["sources"]
 
 

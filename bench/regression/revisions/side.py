@@ -5,14 +5,14 @@ other side only what both have: bench.timing and what that stands on. It speaks 
 
     in   {"laws": [...], "only": bool, "names": [...], "engines": bool, "objects": folder}   a user's law files; whether
              nothing but these; nothing but these names, if any; whether engines too; where machine code is written
-    out  {"things": [{name, what, ticks, code, symbol}], "sources": ...}
+    out  {"benchmarks": [{name, what, ticks, code, symbol}], "sources": ...}
     in   {"order": [names], "rounds": n}   once a session; {} ends the process
     out  {"waiting": true}                 before every round, when the one before it is done
     in   {"core": n}                       begin the round, on this core
     out  {"seconds": {name: [[law, kernel], ...]}}
 
-A session is pytest-benchmark's: each thing is one benchmark of so many rounds, whose set-up waits for the word and
-then visits the reference kernel, so that its time stands beside the round's. CPU time of the thread is taken.
+A session is pytest-benchmark's: each of ours is one of its benchmarks, of so many rounds, whose set-up waits for the
+word and then times the reference kernel, so that its time stands beside the round's. CPU time of the thread is taken.
 """
 
 import contextlib
@@ -78,7 +78,7 @@ class Channel:
 
 
 class Timed:
-    """Something timed: a call, and how many ticks it does."""
+    """A benchmark: a call, and how many ticks it does."""
 
     def __init__(self, name: str, what: str, ticks: int, call):
         self.name, self.what, self.ticks, self.call = name, what, ticks, call
@@ -152,24 +152,24 @@ def engines() -> list[Timed]:
     from bench.contenders import combinations
     from bench.contenders.registry import find_contender
     from bench.timing import on_arms
-    from bench.timing.things import things
+    from bench.timing.benchmarks import benchmarks
 
     one = find_contender(ENGINES_OF)
-    loops = [thing for thing in things([one]) if thing.what == "engine" and thing.contender]
+    loops = [benchmark for benchmark in benchmarks([one]) if benchmark.what == "engine" and benchmark.contender]
     arm, word = ON_ARM
     [controller] = combinations.on((word,), {one.name: one}, 6)
     named = [(f"{loop.engine} {one.name}", loop) for loop in loops]
     named.append((f"native {arm} {word}", on_arms.native(arm, controller)))
-    return [Timed(name, "engine", thing.ticks, thing.call) for name, thing in named]
+    return [Timed(name, "engine", benchmark.ticks, benchmark.call) for name, benchmark in named]
 
 
 class Session:
-    """The plugin that makes a benchmark of each thing, and its set-up wait for the parent."""
+    """The plugin that makes a test of each benchmark, and its set-up wait for the parent."""
 
-    def __init__(self, channel: Channel, things: list[Timed], rounds: int, shuffled: Shuffled):
+    def __init__(self, channel: Channel, benchmarks: list[Timed], rounds: int, shuffled: Shuffled):
         from bench.timing import reference_kernel
 
-        self.channel, self.things, self.rounds, self.shuffled = channel, things, rounds, shuffled
+        self.channel, self.benchmarks, self.rounds, self.shuffled = channel, benchmarks, rounds, shuffled
         chain, given = reference_kernel.compiled(), (reference_kernel.START, reference_kernel.STEPS)
         self.kernel = lambda: chain(*given)
         self.kernel_steps = reference_kernel.STEPS
@@ -185,8 +185,9 @@ class Session:
         self.redirected.enter_context(contextlib.redirect_stderr(self.report))
 
     def pytest_generate_tests(self, metafunc):
-        """A benchmark of each thing."""
-        metafunc.parametrize("timed", [(self, one) for one in self.things], ids=[one.name for one in self.things])
+        """One test a benchmark."""
+        names = [one.name for one in self.benchmarks]
+        metafunc.parametrize("timed", [(self, one) for one in self.benchmarks], ids=names)
 
     def on(self, core: int) -> None:
         """Move to a core, the same that the other side's round of this pair has, where that can be chosen."""
@@ -195,7 +196,7 @@ class Session:
             self.core = core
 
     def run(self) -> None:
-        """All rounds of all things, in this order."""
+        """All rounds of all benchmarks, in this order."""
         words = [
             *(__file__, "-c", os.devnull, "--rootdir", str(Path(__file__).parent), "--noconftest"),
             *("-p", "no:cacheprovider", "-p", "no:xdist", "-p", "no:faulthandler"),
@@ -209,7 +210,7 @@ class Session:
 
 
 def test_rounds(benchmark, timed):
-    """One thing, all its rounds; each waits for the parent's word."""
+    """One benchmark, all its rounds; each waits for the parent's word."""
     session, one = timed
     kernels: list[float] = []
 
@@ -238,12 +239,12 @@ def main() -> None:
     from bench.timing import law
 
     shuffled = Shuffled(law.states())
-    things = laws_alone(asked["laws"], asked["only"], asked["names"], Path(asked["objects"]), shuffled)
+    benchmarks = laws_alone(asked["laws"], asked["only"], asked["names"], Path(asked["objects"]), shuffled)
     if asked["engines"]:
-        things += engines()
+        benchmarks += engines()
     kept = ("name", "what", "ticks", "code", "symbol")
-    channel.say(things=[{key: getattr(one, key) for key in kept} for one in things], sources=source_digest())
-    by_name = {one.name: one for one in things}
+    channel.say(benchmarks=[{key: getattr(one, key) for key in kept} for one in benchmarks], sources=source_digest())
+    by_name = {one.name: one for one in benchmarks}
     while asked := channel.hear():
         session = Session(channel, [by_name[name] for name in asked["order"]], asked["rounds"], shuffled)
         session.run()

@@ -16,9 +16,9 @@ from bench.law.so3 import from_quaternion
 from bench.provenance import ROOT
 from bench.regression.revisions.comparison import REGRESSION, Finding
 from bench.regression.revisions.gates import of_folders
+from bench.regression.revisions.machine import environment
 from bench.regression.revisions.measured import Wanted, measured
 from bench.regression.revisions.process import Laws, running
-from bench.regression.revisions.target import environment
 from bench.studies.gates import power
 from bench.studies.gates.planting import Edit, copy_with, removed, replaced, unchanged
 

@@ -5,7 +5,7 @@ from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 from bench.provenance import ROOT
-from bench.regression.revisions import instructions, own
+from bench.regression.revisions import instructions, self_measure
 from bench.regression.revisions.comparison import Timed
 from bench.regression.revisions.measured import Wanted, second_run, timed_once
 from bench.regression.revisions.process import Laws, running
@@ -33,7 +33,7 @@ def run(count: int = COMPARISONS) -> Iterator[dict[str, Any]]:
 def _comparison(number: int) -> dict[str, Any]:
     with neighbours(seed=number) as load, running([(ROOT, Laws()), (ROOT, Laws())]) as sides:
         wanted = Wanted(seed=number)
-        _, first = timed_once(sides, own.timed(sides[0]), wanted)
+        _, first = timed_once(sides, self_measure.timed(sides[0]), wanted)
         again = second_run(sides, first, wanted)
         counted = number % COUNTED == 0 and not instructions.missing()
         return {
@@ -50,6 +50,6 @@ def _numbers(one: Timed) -> dict[str, Any]:
 
 def _apart(sides) -> dict[str, float]:
     """How far apart counts of the same code are, by law, as a share."""
-    names = own.timed_laws(sides[0])
+    names = self_measure.timed_laws(sides[0])
     one, other = (instructions.count(side, names) for side in sides)
     return {name: other[name] / one[name] - 1.0 for name in names}

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bench.regression.history import book
+from bench.regression.history import log
 from bench.regression.history.series import FLOPS, INSTRUCTIONS, MEASURES, TIME, Point, Series, series
 from bench.regression.history.steps import Step, steps
 from bench.regression.revisions.measurement import LAW
@@ -61,7 +61,7 @@ class History(NamedTuple):
 @functools.cache
 def history() -> History:
     """The history of this checkout."""
-    lines = book.read()
+    lines = log.read()
     every = tuple(series(lines))
     builds = tuple(dict.fromkeys((line.date, line.commit) for line in lines))
     places = {commit: at for at, (_, commit) in enumerate(builds)}

@@ -9,7 +9,7 @@ import pandas as pd
 
 from bench.regression.revisions import alternating, instructions, rule
 from bench.regression.revisions.comparison import SAME
-from bench.regression.revisions.target import LEVEL
+from bench.regression.revisions.machine import LEVEL
 from bench.studies.gates import FOLDER, power
 from bench.tables.store import read_json
 from report.figures.kit import html, style

@@ -16,7 +16,7 @@ import pandas as pd
 
 from bench.errors import Incompatible
 from bench.provenance import ROOT
-from bench.regression.revisions import alternating, commits, instructions, own
+from bench.regression.revisions import alternating, commits, instructions, self_measure
 from bench.regression.revisions.process import Laws, running
 
 COUNT = """
@@ -28,8 +28,8 @@ print(json.dumps(counting.rows(all_contenders())))
 """Run in the checkout: every row of operations of its laws."""
 
 
-def measure(revision: str, told: Callable[[str], None] = lambda _: None) -> own.Own:
-    """All benchmarks of a commit, as `own.measure` does of this checkout.
+def measure(revision: str, told: Callable[[str], None] = lambda _: None) -> self_measure.SelfMeasure:
+    """All benchmarks of a commit, as `self_measure.measure` does of this checkout.
 
     Errors:
         UnknownWord: no such commit. Incompatible: its sources do not run. MissingTool: no valgrind.
@@ -38,12 +38,12 @@ def measure(revision: str, told: Callable[[str], None] = lambda _: None) -> own.
     told(f"{commit[:10]}: compiling")
     with commits.worktree(ROOT, commit) as checkout, running([(checkout, Laws())]) as [side]:
         told(f"{commit[:10]}: counting")
-        counted = instructions.count(side, own.timed_laws(side))
-        operations = own.by_law(pd.DataFrame(_counts(checkout)))
+        counted = instructions.count(side, self_measure.timed_laws(side))
+        operations = self_measure.by_law(pd.DataFrame(_counts(checkout)))
         told(f"{commit[:10]}: timing")
-        [rounds] = alternating.take([side], own.timed(side))
-        found = own.measurements(side, counted, rounds, operations)
-    return own.Own(commit, False, side.sources, own.machine(), tuple(found.values()))
+        [rounds] = alternating.take([side], self_measure.timed(side))
+        found = self_measure.measurements(side, counted, rounds, operations)
+    return self_measure.SelfMeasure(commit, False, side.sources, self_measure.machine(), tuple(found.values()))
 
 
 def _counts(checkout: Path) -> list[dict[str, Any]]:

@@ -1,4 +1,4 @@
-"""A checkout's own measurements alone, as a history keeps them: `own.measure()`."""
+"""A checkout's own measurements alone, as a history keeps them: `self_measure.measure()`."""
 
 from collections.abc import Callable
 from typing import Any, NamedTuple
@@ -10,9 +10,9 @@ from bench.contenders.registry import all_contenders
 from bench.errors import MissingTool
 from bench.provenance import ROOT, commit, cpu_name, describe, lock_digest, machine_key, source_digest, versions
 from bench.regression.revisions import alternating, instructions
+from bench.regression.revisions.machine import target
 from bench.regression.revisions.measurement import Measurement
 from bench.regression.revisions.process import Laws, Process, running
-from bench.regression.revisions.target import target
 from bench.tables import kept_costs
 from bench.tables.read import with_contender
 from bench.tables.schema import RESULTS
@@ -25,7 +25,7 @@ Operations = dict[str, dict[str, dict[str, int]]]
 """Law -> branch -> operation -> how many a tick."""
 
 
-class Own(NamedTuple):
+class SelfMeasure(NamedTuple):
     """All benchmarks of one checkout on this machine.
 
     commit: "" outside git. dirty: whether its sources had changes. machine: `machine()`. uncounted: why there are no
@@ -53,7 +53,7 @@ def machine() -> dict[str, Any]:
     }
 
 
-def measure(told: Callable[[str], None] = lambda _: None, rounds: int = alternating.ROUNDS) -> Own:
+def measure(told: Callable[[str], None] = lambda _: None, rounds: int = alternating.ROUNDS) -> SelfMeasure:
     """Compile, count and time every law and engine of this checkout.
 
     Args:
@@ -70,17 +70,17 @@ def measure(told: Callable[[str], None] = lambda _: None, rounds: int = alternat
         told("counting operations")
         found = measurements(side, counted, rounds_of, operations())
     at = commit()
-    return Own(at["commit"], at["dirty"], side.sources, machine(), tuple(found.values()), why)
+    return SelfMeasure(at["commit"], at["dirty"], side.sources, machine(), tuple(found.values()), why)
 
 
 def timed(side: Process) -> list[str]:
     """Names of what a side can time."""
-    return [name for name, one in side.things.items() if one.ticks]
+    return [name for name, one in side.benchmarks.items() if one.ticks]
 
 
 def timed_laws(side: Process) -> list[str]:
     """Of them, the laws alone."""
-    return [name for name in timed(side) if side.things[name].what == "law"]
+    return [name for name in timed(side) if side.benchmarks[name].what == "law"]
 
 
 def measurements(
@@ -91,7 +91,7 @@ def measurements(
 ) -> dict[str, Measurement]:
     """A side's measurements by name, of as much as was measured."""
     found = {}
-    for name, one in side.things.items():
+    for name, one in side.benchmarks.items():
         taken = rounds_of.get(name)
         found[name] = Measurement(
             name,

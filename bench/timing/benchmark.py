@@ -12,8 +12,8 @@ NEVER = 10**9
 """Ticks of quiet before an early stop: more than there are."""
 
 
-class Thing(NamedTuple):
-    """Something timed: `call()` does `ticks` ticks of it; 0 ticks if it cannot be timed (a law that fails)."""
+class Benchmark(NamedTuple):
+    """A benchmark: `call()` does `ticks` ticks of it; 0 ticks if it cannot be timed (a law that fails)."""
 
     what: str
     contender: Contender | None

@@ -9,16 +9,16 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 from bench.errors import BadResults
-from bench.regression.history.line import Line, from_json, to_json
+from bench.regression.history.record import Record, from_json, to_json
 from bench.tables.schema import RESULTS
 from bench.tables.store import refuse_link, write_atomically
 
-BOOK = RESULTS / "history" / "history.jsonl"
+LOG = RESULTS / "history" / "history.jsonl"
 MOST_BYTES = 100_000_000
 """Of a file that is read: a hundred thousand lines."""
 
 
-def read(path: Path = BOOK) -> list[Line]:
+def read(path: Path = LOG) -> list[Record]:
     """All lines, in the order of their commits; none where there is no file.
 
     Errors:
@@ -34,7 +34,7 @@ def read(path: Path = BOOK) -> list[Line]:
         text = path.read_text(encoding="utf-8")
     except UnicodeDecodeError as error:
         raise BadResults(f"{path}: it is no text (byte {error.start}: {error.reason}); take it from git") from error
-    found: dict[tuple, tuple[int, Line]] = {}
+    found: dict[tuple, tuple[int, Record]] = {}
     for number, one in enumerate(text.splitlines(), 1):
         try:
             line = from_json(one)
@@ -46,7 +46,7 @@ def read(path: Path = BOOK) -> list[Line]:
     return sorted((line for _, line in found.values()), key=lambda line: (line.place, line.date))
 
 
-def append(lines: Iterable[Line], path: Path = BOOK) -> int:
+def append(lines: Iterable[Record], path: Path = LOG) -> int:
     """Add the lines that the file does not have yet; how many those were.
 
     A build that is measured a second time on a machine adds nothing: the first measurement stands.

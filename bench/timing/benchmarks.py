@@ -22,7 +22,7 @@ from bench.experiments.experiment import Settings
 from bench.law.contender import Contender, Gains
 from bench.metrics.registry import metrics_of
 from bench.timing import law, on_arms, reference_kernel
-from bench.timing.thing import ENGINE, KERNEL, LAW, LOOP, NEVER, ROLLOUT, Thing
+from bench.timing.benchmark import ENGINE, KERNEL, LAW, LOOP, NEVER, ROLLOUT, Benchmark
 
 ENGINES = ("ideal-held", "ideal-rk4", "native")
 
@@ -31,16 +31,16 @@ HORIZON_S = 0.4
 """400 ticks of 1 ms: from rest through the fastest part of a response; a tick costs the same at any time."""
 
 STARTS = {"ideal-held": 128, "ideal-rk4": 128, "native": 8}
-"""Uniform starts; a visit takes from three milliseconds to twenty, 0.05 ms of them to hand the loop its arguments."""
+"""Uniform starts; a sample takes from three milliseconds to twenty, 0.05 ms of them to hand the loop its arguments."""
 
 PUSH = 10.0
 """Standard deviation of rollout's commands [rad/s^2]; they need only keep the body turning."""
 
 
 class Progress(NamedTuple):
-    """Told after every visit: what was timed, and how many visits of how many are done.
+    """Told after every sample: what was timed, and how many samples of how many are done.
 
-    Before the first visit it is told of every law that is being compiled, with a total of 0.
+    Before the first sample it is told of every law that is being compiled, with a total of 0.
     """
 
     name: str
@@ -48,7 +48,9 @@ class Progress(NamedTuple):
     total: int
 
 
-def things(contenders: list[Contender], told: Callable = lambda _: None, arms: tuple[str, ...] = ()) -> list[Thing]:
+def benchmarks(
+    contenders: list[Contender], told: Callable = lambda _: None, arms: tuple[str, ...] = ()
+) -> list[Benchmark]:
     """The reference kernel first, then everything else; all is compiled and has run once.
 
     MuJoCo's own actuator is left out: no law of ours runs there.
@@ -66,7 +68,7 @@ def things(contenders: list[Contender], told: Callable = lambda _: None, arms: t
             loops += [_engine(engine, one) for engine in ENGINES]
         laws.append(_law(LAW, one))
     empty = _law(LOOP, Contender(law.EMPTY))._replace(contender=None)
-    kernel = Thing(KERNEL, None, "", reference_kernel.STEPS, _kernel())
+    kernel = Benchmark(KERNEL, None, "", reference_kernel.STEPS, _kernel())
     found = [kernel, *laws, *loops, empty, _rollout()]
     for arm in arms:
         told(Progress(arm, 0, 0))
@@ -79,21 +81,21 @@ def _kernel() -> Callable:
     return lambda: chain(reference_kernel.START, reference_kernel.STEPS)
 
 
-def _law(what: str, one: Contender) -> Thing:
+def _law(what: str, one: Contender) -> Benchmark:
     loop = law.loop_of(command_of(one), memory_of(one), cache=not one.regulator.origin)
     states, gains = law.states(), Gains()
 
     def call():
         return loop(states, gains.kp, gains.kv, law.SWEEPS)
 
-    return Thing(what, one, "", law.SWEEPS * law.STATES if call() == 0.0 else 0, call)
+    return Benchmark(what, one, "", law.SWEEPS * law.STATES if call() == 0.0 else 0, call)
 
 
 def _settings():
     return Settings().limits(HORIZON_S)._replace(hold_ticks=NEVER)
 
 
-def _engine(engine: str, one: Contender) -> Thing:
+def _engine(engine: str, one: Contender) -> Benchmark:
     metrics = metrics_of(on_arm=False)
     loop, asked = compiled_loop(engine, metrics), (evaluation(one), memory_of(one))
     starts = tasks.start_set("uniform", STARTS[engine])
@@ -115,7 +117,7 @@ def _engine(engine: str, one: Contender) -> Thing:
             loop(*asked, *given)
 
     call()
-    return Thing(ENGINE, one, engine, int(rows[:, TICKS].sum()), call)
+    return Benchmark(ENGINE, one, engine, int(rows[:, TICKS].sum()), call)
 
 
 def _simulation(starts):
@@ -124,7 +126,7 @@ def _simulation(starts):
     return model, mujoco.MjData(model), np.array([[*qpos, *qvel] for qpos, qvel in map(task.state, starts)])
 
 
-def _rollout() -> Thing:
+def _rollout() -> Benchmark:
     starts = tasks.start_set("uniform", STARTS["native"])
     model, data, states = _simulation(starts)
     count, ticks = len(starts), _settings().ticks
@@ -139,4 +141,4 @@ def _rollout() -> Thing:
         rollout.rollout(model, data, initial, control, state=state, sensordata=sensors)
 
     call()
-    return Thing(ENGINE, None, ROLLOUT, count * ticks, call)
+    return Benchmark(ENGINE, None, ROLLOUT, count * ticks, call)

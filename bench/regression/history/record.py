@@ -22,7 +22,7 @@ from bench.errors import BadResults
 from bench.regression.revisions import measurement
 from bench.regression.revisions.comparison import Comparison
 from bench.regression.revisions.measurement import ENGINE, LAW, Measurement
-from bench.regression.revisions.own import Own
+from bench.regression.revisions.self_measure import SelfMeasure
 
 SCHEMA = "orientation-bench history 1"
 FIELDS = ("schema", "commit", "date", "place", "machine", "compiler", "benchmark")
@@ -42,7 +42,7 @@ class Commit(NamedTuple):
     place: int
 
 
-class Line(NamedTuple):
+class Record(NamedTuple):
     """What one build measured of one benchmark; see the module."""
 
     commit: str
@@ -58,7 +58,7 @@ class Line(NamedTuple):
         return self.commit, self.machine, self.benchmark.what, self.benchmark.name
 
 
-def of_own(given: Own, at: Callable[[str], Commit]) -> list[Line]:
+def of_self_measure(given: SelfMeasure, at: Callable[[str], Commit]) -> list[Record]:
     """The lines of a checkout that measured itself.
 
     Args:
@@ -71,7 +71,7 @@ def of_own(given: Own, at: Callable[[str], Commit]) -> list[Line]:
     return _lines(at(given.commit), given.machine, given.measurements)
 
 
-def of_comparison(given: Comparison, side: str, at: Callable[[str], Commit]) -> list[Line]:
+def of_comparison(given: Comparison, side: str, at: Callable[[str], Commit]) -> list[Record]:
     """The lines of one side of a comparison.
 
     Args:
@@ -86,19 +86,19 @@ def of_comparison(given: Comparison, side: str, at: Callable[[str], Commit]) -> 
     return _lines(at(which.commit), given.machine, (one for one in measured if one is not None))
 
 
-def _lines(at: Commit, machine: dict[str, Any], measured: Iterable[Measurement]) -> list[Line]:
+def _lines(at: Commit, machine: dict[str, Any], measured: Iterable[Measurement]) -> list[Record]:
     with_what = [machine[name] for name in ("versions", "target")]
     compiler = hashlib.sha256(json.dumps(with_what, sort_keys=True).encode()).hexdigest()[:16]
-    return [Line(*at, machine["key"], compiler, one) for one in measured]
+    return [Record(*at, machine["key"], compiler, one) for one in measured]
 
 
-def to_json(line: Line) -> str:
+def to_json(line: Record) -> str:
     """The line as it stands in the file, without its end."""
     content = {"schema": SCHEMA, **line._asdict(), "benchmark": line.benchmark.as_json()}
     return json.dumps(content, sort_keys=True, separators=(",", ":"))
 
 
-def from_json(text: str) -> Line:
+def from_json(text: str) -> Record:
     """The line that `to_json` wrote.
 
     Errors:
@@ -116,7 +116,7 @@ def from_json(text: str) -> Line:
         _match(name, given[name], form)
     if type(given["place"]) is not int or given["place"] < 1:
         raise BadResults(f"place is {given['place']!r}; a whole number from 1 on")
-    return Line(**{name: given[name] for name in FIELDS[1:-1]}, benchmark=_measurement(given["benchmark"]))
+    return Record(**{name: given[name] for name in FIELDS[1:-1]}, benchmark=_measurement(given["benchmark"]))
 
 
 def _match(name: str, value: Any, form: re.Pattern) -> None:
