@@ -60,7 +60,7 @@ class Puppet:
 
         import tasks
         from bench.engines.contact_episode import USUAL
-        from tasks.contact import model_xml
+        from tasks.contact_model import model_xml
 
         self.joints = tasks.arm(ARM).joints
         xml = model_xml(tasks.contact_task(task), tasks.arm(ARM), USUAL.dt_s)

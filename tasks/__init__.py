@@ -5,39 +5,23 @@
     tasks.described(name)               what a task's file says, with no arm named
     tasks.start_set(name, count, seed)  the starts: one file each in tasks/starts
     tasks.starts_between(name, 5000, 6000, seed), tasks.start_set_length(name, count)    a stretch of many; how many
-    tasks.start_set_names()
-
     tasks.load("arm-regulation", start, arm="ur5e"), tasks.task("arm-regulation", "ur5e")
     tasks.start_set(name, count, seed, arm="ur5e")    one file each in tasks/arm_starts
     tasks.pairs()                       every (task, arm) there is; the arm is "" on the free body
     tasks.arm(name), tasks.arm_names()  the manipulators: one file each in tasks/arms
     tasks.variation(name), tasks.variation_names()    a plant that differs from the controller's model of it
-    tasks.axis(name), tasks.axis_names()    kinds of trouble on the free body: one file each in tasks/conditions
+    tasks.axis(name), tasks.axis_names()    perturbations of the free body: one file each in tasks/conditions
 
-    base.py       Start, Task, StartSet, and those of arms; the sensors of every model; the errors
-    truth.py      angle and haversine: the judge's own measure of the error
-    rules.py      the numbers of the rules: band, limits, hold window
-    verdict.py    the rules at work, tick by tick: the six outcomes
-    rotations.py  quaternions that are exact where a double can be exact (half turns, poles)
-    haar.py       low-discrepancy points on SO(3); sphere.py: directions spread evenly
-    arm.py        finds the files of arms; arm_check.py refuses the broken ones
-    arm_model.py  Arm, and the judge's model of one
-    variations.py how an arm's plant differs from its model
-    condition.py  Condition and Axis: rate, delay, noise, bounds, model errors, goals that move
-    moving_goal.py a goal that sways, with its rate and acceleration
-    kinematics.py an arm's forward kinematics, Jacobian, and joint paths that turn the tool in place
-    paths.py      the two paths of an orientation that start sets keep clear of trouble
-    clearance.py  what they keep clear of, and by how much
-    singular.py   kinematic singularities: found, passed through, passed at a distance
-    episode.py    one episode of any Task as a dm_control Environment
-    discovery.py  finds the one named constant of every module in a folder
+What it stands on: base (Start, Task, StartSet, sensors, errors), rules and verdict (when an episode is settled, stuck
+or failed), truth (its own angle), rotations and haar (exact quaternions, points of SO(3)), arm and arm_model, contact
+and contact_model, condition and moving_goal, kinematics, linear_algebra, paths, clearance and singular (how starts of
+arms are found), episode (a Task as a dm_control Environment), discovery (the one constant of every file in a folder).
 
 Frames and units: everything is in the base frame unless its name ends in `_body`; radians, seconds;
 quaternions are (w, x, y, z) and take body coordinates to base coordinates.
 
-To add a task, put one file with a constant TASK in tasks/domains; to add a start set, one file with a
-constant STARTS in tasks/starts, or tasks/arm_starts if it is for arms; to add an arm, one MJCF file in
-tasks/arms. `free_body.py` is `free-body` on the command line and in the results.
+One file adds a task (constant TASK, tasks/domains), a start set (STARTS, tasks/starts or tasks/arm_starts) or an arm
+(MJCF, tasks/arms). `free_body.py` is `free-body` on the command line and in the results.
 """
 
 from __future__ import annotations

@@ -18,8 +18,8 @@ import xml.etree.ElementTree as ElementTree
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from tasks.arm_model import LOOK, Arm
-from tasks.base import AT_REST, IDENTITY, BadValue, Quat, Vector, sensor_xml
+from tasks.arm_model import Arm
+from tasks.base import AT_REST, IDENTITY, BadValue, Quat, Vector
 
 if TYPE_CHECKING:
     import mujoco
@@ -108,71 +108,6 @@ class ContactTask(NamedTuple):
     dense: Callable[[Arm], tuple[Trial, ...]] | None = None
 
 
-class ContactModel(NamedTuple):
-    """MuJoCo's model of a contact, with elliptic friction cones; what is welded to the hand is as soft.
-
-    The constants are stable at a control period of 1 ms.
-
-    timeconst [s], dampratio: of solref. Ten periods, critically damped: what strikes at 5 cm/s goes 0.2 mm deep.
-    dmin, dmax, width [m]: of solimp. Constant, so that at rest force and depth are in proportion. What
-    controllers cancel is the force of the tick before, and this share of the mistake returns in the next tick's force.
-    friction: its coefficient; machined steel.
-    slip [s]: time constant in which friction ends a slip it can hold. MuJoCo's convex friction pushes what slips at a
-    speed v off a surface with the acceleration 2 friction v/(dmax slip); with a time constant as short as that of the
-    normal force a tip that slides at 5 cm/s under 15 N would be thrown off and hop.
-    impratio: how much harder friction is than the normal force. At 1 a jammed peg creeps on into its hole; at 100 peg
-    and hole blow rounding errors up to micrometres.
-    """
-
-    timeconst: float = 0.01
-    dampratio: float = 1.0
-    dmin: float = 0.8
-    dmax: float = 0.8
-    width: float = 0.001
-    friction: float = 0.2
-    slip: float = 0.1
-    impratio: float = 10.0
-
-
-STANDARD = ContactModel()
-
-
-def model_xml(task: ContactTask, arm: Arm, dt: float, contact: ContactModel = STANDARD) -> str:
-    """The judge's MJCF model of a task on an arm, with integration step dt [s].
-
-    Sensors of the site "hand": those of tasks.base.SENSORS, its position p [m], then force [N] and moment [N m] in the
-    hand's frame as MuJoCo gives them, if anything can touch the gap at the deepest contact [m] (at most 0, and 0 where
-    there is no contact), and the joint of the scene [rad] if there is one.
-
-    Errors:
-        BadValue: the arm has no six joints, or no site "wrist".
-    """
-    refuse(task, arm)
-    around = task.surroundings(arm)
-    root = ElementTree.fromstring(arm.xml)
-    option = ElementTree.SubElement(root, "option", timestep=repr(dt), gravity="0 0 -9.81", cone="elliptic")
-    option.set("impratio", repr(contact.impratio))
-    ElementTree.SubElement(option, "flag", contact="enable", limit="disable", autoreset="disable", gravity="enable")
-    link, wrist = _wrist(root)
-    for axis in link.findall("geom[@class='axis']"):
-        link.remove(axis)  # the arms draw their tool's frame, which would stick out of the hand
-    place = {key: wrist.attrib[key] for key in ("pos", "quat", "euler") if key in wrist.attrib}
-    hand = ElementTree.SubElement(link, "body", name="hand", **place)
-    ElementTree.SubElement(hand, "site", name="hand", pos=_numbers(around.tip), size=".002")
-    hand.extend(_elements(around.hand))
-    world = root.find("worldbody")
-    assert world is not None
-    scene = ElementTree.SubElement(world, "body", name="scene", mocap="true", pos="0 0 -10")  # until a trial places it
-    scene.extend(_elements(around.scene))
-    pairs = _pairs(hand, scene, contact)
-    root.extend([*_elements(around.others), pairs, *ElementTree.fromstring(LOOK), _sensors(around, len(pairs) > 0)])
-    for geom in root.iter("geom"):
-        geom.attrib.update(contype="0", conaffinity="0")  # pairs are what touches
-    for weld in root.iter("weld"):
-        weld.attrib.update(_softness(contact))
-    return ElementTree.tostring(root, encoding="unicode")
-
-
 def refuse(task: ContactTask, arm: Arm) -> None:
     """BadValue if the arm cannot be set the task."""
     if arm.joints != 6:
@@ -180,7 +115,7 @@ def refuse(task: ContactTask, arm: Arm) -> None:
             f"task '{task.name}' needs an arm of six joints, and '{arm.name}' has {arm.joints} "
             "(choose another: what a seventh does by itself would be measured too)"
         )
-    if _wrist(ElementTree.fromstring(arm.xml)) is None:
+    if wrist_of(ElementTree.fromstring(arm.xml)) is None:
         raise BadValue(
             f"arm '{arm.name}' has no site 'wrist', where task '{task.name}' mounts the hand and its force sensor "
             '(add <site name="wrist"/> to the last body of its file)'
@@ -204,52 +139,6 @@ def prepare(model: mujoco.MjModel, data: Any, trial: Trial) -> None:
     data.xfrc_applied[model.body("hand").id] = trial.pushes[0]
 
 
-def _wrist(root: ElementTree.Element) -> Any:
+def wrist_of(root: ElementTree.Element) -> Any:
     """(the body, the site "wrist" in it), or None."""
     return next(((body, site) for body in root.iter("body") for site in body.findall("site[@name='wrist']")), None)
-
-
-def _elements(xml: str) -> list[ElementTree.Element]:
-    return list(ElementTree.fromstring(f"<some>{xml}</some>"))
-
-
-def _pairs(hand: ElementTree.Element, scene: ElementTree.Element, contact: ContactModel) -> ElementTree.Element:
-    pairs = ElementTree.Element("contact")
-    for one in hand.findall(".//geom[@name]"):
-        for other in scene.findall(".//geom[@name]"):
-            ElementTree.SubElement(
-                pairs,
-                "pair",
-                geom1=one.attrib["name"],
-                geom2=other.attrib["name"],
-                condim="3",
-                friction=f"{contact.friction!r} {contact.friction!r} 0 0 0",
-                solreffriction=f"{contact.slip!r} 1",
-            ).attrib.update(_softness(contact))
-    return pairs
-
-
-def _softness(contact: ContactModel) -> dict[str, str]:
-    return {
-        "solref": f"{contact.timeconst!r} {contact.dampratio!r}",
-        "solimp": f"{contact.dmin!r} {contact.dmax!r} {contact.width!r}",
-    }
-
-
-def _sensors(around: Surroundings, touches: bool) -> ElementTree.Element:
-    sensors = ElementTree.fromstring(sensor_xml("hand"))
-    ElementTree.SubElement(sensors, "framepos", name="p", objtype="site", objname="hand")
-    ElementTree.SubElement(sensors, "force", name="force", site="hand")
-    ElementTree.SubElement(sensors, "torque", name="moment", site="hand")
-    if touches:
-        # of what collision found anyway; the distance sensor looks at every pair of geoms, which costs more than a step
-        ElementTree.SubElement(
-            sensors, "contact", name="gap", body1="hand", body2="scene", data="dist", reduce="mindist", num="1"
-        )
-    if around.joint:
-        ElementTree.SubElement(sensors, "jointpos", name="turned", joint=around.joint)
-    return sensors
-
-
-def _numbers(values: Vector) -> str:
-    return " ".join(map(repr, values))

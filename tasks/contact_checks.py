@@ -12,7 +12,8 @@ import numpy as np
 
 from tasks.arm_model import Arm
 from tasks.base import BadValue
-from tasks.contact import AXES, MOST_LEGS, ContactModel, Order, Trial
+from tasks.contact import AXES, MOST_LEGS, Order, Trial
+from tasks.contact_model import ContactModel
 from tasks.episode import UNIT_NORM_TOLERANCE
 
 

@@ -14,8 +14,9 @@ from typing import Any
 import numpy as np
 
 from tasks.arm_model import Arm
-from tasks.contact import STANDARD, ContactModel, ContactTask, Trial, leg, model_xml, prepare
+from tasks.contact import ContactTask, Trial, leg, prepare
 from tasks.contact_checks import check_contact, check_trial
+from tasks.contact_model import STANDARD, ContactModel, model_xml
 from tasks.discovery import pick
 from tasks.episode import INTEGRATORS, Physics, control, engine
 from tasks.rules import ticks

@@ -18,8 +18,9 @@ from bench.engines.reference import contact as reference
 from bench.engines.run import MUJOCO_INTEGRATORS
 from bench.errors import BadNumber, UnknownWord
 from tasks.arm_model import Arm
-from tasks.contact import STANDARD, ContactModel, ContactTask, Trial, model_xml, prepare, refuse
+from tasks.contact import ContactTask, Trial, prepare, refuse
 from tasks.contact_checks import check_contact, check_trial
+from tasks.contact_model import STANDARD, ContactModel, model_xml
 
 ENGINES = ("native", "reference")
 

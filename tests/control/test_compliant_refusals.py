@@ -16,9 +16,10 @@ from bench.errors import BenchError
 from bench.law.contender import Gains
 from tasks.arm import arm as arm_in
 from tasks.base import BadValue, TaskError
-from tasks.contact import STANDARD, Order, model_xml
+from tasks.contact import Order
 from tasks.contact_checks import check_contact, check_order, check_trial
 from tasks.contact_episode import environment
+from tasks.contact_model import STANDARD, model_xml
 from tasks.domains.wrench_probe import TASK
 
 ARM = tasks.arm("ur5e")

@@ -12,7 +12,7 @@ from bench.control.registry import all_compliants, find_compliant
 from bench.engines.contact_episode import FORCE, USUAL, P, R
 from bench.engines.run import MUJOCO_INTEGRATORS
 from bench.engines.run_contact import run
-from tasks.contact import STANDARD
+from tasks.contact_model import STANDARD
 
 TASKS = tasks.contact_names()
 THREE = ("hybrid-base+inverse", "hybrid/zyx-euler+projected", "impedance-coordinates/zyx-euler")

@@ -23,7 +23,8 @@ from bench.law.resolved_motion import Chain
 from support.bits import EPS
 from support.on_arms import numbers
 from support.states import as_rotation
-from tasks.contact import Order, Trial, model_xml, prepare
+from tasks.contact import Order, Trial, prepare
+from tasks.contact_model import model_xml
 from tasks.domains.wrench_probe import TASK
 
 ARMS = [arm for arm in tasks.arm_names() if can_do(TASK, tasks.arm(arm))]

@@ -32,8 +32,9 @@ from bench.law.resolved_motion import Chain
 from bench.law.scalar import sqrt
 from bench.law.so3 import Rotation, from_quaternion
 from tasks.arm_model import Arm
-from tasks.contact import ContactModel, ContactTask, Trial
+from tasks.contact import ContactTask, Trial
 from tasks.contact_episode import environment
+from tasks.contact_model import ContactModel
 from tasks.verdict import GOING, check_command, check_state
 
 

@@ -1,7 +1,7 @@
 """Older commits measured today: each in a checkout of its own that goes away, with today's packages.
 
 It is how the history began, and how a machine that joins later gets a past of its own. Fails: on commits before
-MuJoCo's actuator was judged beside the laws (5adc219), and where today's packages do not run their sources.
+the laws lay in bench/contenders, and where today's packages do not run their sources.
 """
 
 import json

@@ -39,9 +39,7 @@ ENGINES_OF = "rotation-matrix"
 ON_ARM = ("ur5e", "rotation-matrix@geometric+solve")
 BLOCKS, SWEEPS = 4, 5
 """Four times the states, with other goals each, five times over: 0.7 MB, which a second-level cache holds."""
-
-GOAL = 12
-"""Column of a state at which its goal begins."""
+GOAL = 12  # column of a state at which its goal begins
 
 NAMES = re.compile(rb"[\w.$%]*v\d{6,}B[\w.$%]*")
 """numba's names carry a number of its own drawing."""
@@ -155,9 +153,9 @@ def engines() -> list[Timed]:
     from bench.timing.benchmarks import benchmarks
 
     one = find_contender(ENGINES_OF)
-    loops = [benchmark for benchmark in benchmarks([one]) if benchmark.what == "engine" and benchmark.contender]
     arm, word = ON_ARM
     [controller] = combinations.on((word,), {one.name: one}, 6)
+    loops = [loop for loop in benchmarks([one]) if loop.what == "engine" and loop.contender]
     named = [(f"{loop.engine} {one.name}", loop) for loop in loops]
     named.append((f"native {arm} {word}", on_arms.native(arm, controller)))
     return [Timed(name, "engine", benchmark.ticks, benchmark.call) for name, benchmark in named]
@@ -186,8 +184,8 @@ class Session:
 
     def pytest_generate_tests(self, metafunc):
         """One test a benchmark."""
-        names = [one.name for one in self.benchmarks]
-        metafunc.parametrize("timed", [(self, one) for one in self.benchmarks], ids=names)
+        pairs = [(self, one) for one in self.benchmarks]
+        metafunc.parametrize("timed", pairs, ids=lambda pair: pair[1].name)
 
     def on(self, core: int) -> None:
         """Move to a core, the same that the other side's round of this pair has, where that can be chosen."""
@@ -231,13 +229,11 @@ def main() -> None:
     """Answer the parent until it has nothing more to ask."""
     channel = Channel()
     asked = channel.hear()
-    from bench import timing
     from bench.provenance import source_digest
-
-    if not Path(timing.__file__).is_relative_to(Path.cwd()):  # another checkout's, installed, stood in for it
-        raise ImportError("there is no bench.timing yet")
     from bench.timing import law
 
+    if not Path(law.__file__).is_relative_to(Path.cwd()):  # another checkout's, installed, stood in for it
+        raise ImportError("there is no bench.timing yet")
     shuffled = Shuffled(law.states())
     benchmarks = laws_alone(asked["laws"], asked["only"], asked["names"], Path(asked["objects"]), shuffled)
     if asked["engines"]:

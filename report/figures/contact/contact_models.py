@@ -14,7 +14,7 @@ from bench.engines.run_contact import run
 from bench.metrics.contact_metric import Pose, response
 from bench.metrics.registry import known_contact_metrics
 from report.figures.kit import html
-from tasks.contact import STANDARD, ContactModel
+from tasks.contact_model import STANDARD, ContactModel
 
 TASK, ARM, TRIAL = "surface-alignment", "puma560", "tilt 20 about 0, beta+75"
 CONTROLLERS = ("hybrid-base+inverse", "hybrid/zyx-euler+inverse")

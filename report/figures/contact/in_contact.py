@@ -15,7 +15,7 @@ from report.figures.kit import html, media
 from report.figures.kit.page import ABSENT, Run, given
 from report.figures.kit.spelling import power
 from report.figures.kit.tables import Table
-from tasks.contact import STANDARD
+from tasks.contact_model import STANDARD
 
 CONTROLS = ("hybrid-unconverted/zyx-euler",)
 """Controllers that are there to fail."""
