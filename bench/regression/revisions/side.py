@@ -41,8 +41,7 @@ BLOCKS, SWEEPS = 4, 5
 """Four times the states, with other goals each, five times over: 0.7 MB, which a second-level cache holds."""
 GOAL = 12  # column of a state at which its goal begins
 
-NAMES = re.compile(rb"[\w.$%]*v\d{6,}B[\w.$%]*")
-"""numba's names carry a number of its own drawing."""
+NAMES = re.compile(rb"[\w.$%]*v\d{6,}B[\w.$%]*")  # numba's names carry a number of its own drawing
 
 _objects: dict[int, bytes] = {}
 _kept = JITCodeLibrary._set_compiled_object
