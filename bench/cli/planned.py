@@ -8,6 +8,9 @@ from bench.experiments.plan import Plan
 from bench.experiments.suites import NOMINAL
 from bench.running.schedulers.words import THREADS
 
+OF_EPISODES = ("free-body", "arm", "contact", "robustness")
+"""Experiments whose size is said; of others the name."""
+
 FEW = 3
 """Names up to this number are printed, more are counted."""
 
@@ -23,7 +26,7 @@ def size(plan: Plan, out: Path, workers: int, scheduler: str) -> list[Paragraph]
 
 
 def _sizes(plan: Plan) -> list[Paragraph]:
-    free_body, on_arms, contacts, perturbed = (plan.of(name) for name in ("free-body", "arm", "contact", "robustness"))
+    free_body, on_arms, contacts, perturbed = map(plan.of, OF_EPISODES)
     parts = [counted(plan.episodes("free-body", "arm"), "episode")]
     parts += [f"{plan.episodes('contact'):,} in contact"] if contacts else []
     parts += [f"{plan.episodes('robustness'):,} for robustness"] if perturbed else []
@@ -45,7 +48,8 @@ def _sizes(plan: Plan) -> list[Paragraph]:
     if perturbed:
         what = f"{_few(perturbed, 'contender', 'law')} under {_few(perturbed, 'selector', 'perturbation')}"
         found.append(_part("robustness", perturbed, "episode", what))
-    return found
+    others = dict.fromkeys(unit.experiment for unit in plan.units if unit.experiment not in OF_EPISODES)
+    return [*found, Paragraph("also", (listed(list(others)),))] if others else found
 
 
 def _part(head: str, units, word: str, what: str) -> Paragraph:

@@ -9,7 +9,7 @@ import rich_click as click
 
 from bench.cli import options, planned
 from bench.cli.progress import progress
-from bench.cli.screen import console, shown_path
+from bench.cli.screen import console, counted, shown_path
 from bench.experiments import plan as planning
 from bench.experiments.choice import Choice, check_workers
 from bench.experiments.experiment import IN_CONTACT, WITHOUT
@@ -149,19 +149,22 @@ def COMMAND(
     from bench.running import run as running  # numba and mujoco take seconds; --dry-run and mistakes should not
 
     state = running.inspect(plan, out, replace)
-    kept = sum(unit.episodes for unit in plan.units if unit.key in state.done)
     if state.done and not state.finished:
         console().print(f"going on: {len(state.done)} of {len(plan.units)} units are done")
     began = time.monotonic()
     with progress("episodes") as steps:
-        total, done = plan.episodes(), kept
+        left = {unit.key: unit.episodes for unit in plan.units if unit.key not in state.done}
+        total = plan.episodes()
         steps.now("compiling the laws")
 
         def told(one):
-            nonlocal done
-            if one.unit.key not in state.done:
-                done += one.episodes
-                steps.now(one.unit.label, done, total)
+            if left.pop(one.unit.key, None) is None:
+                return
+            missing = sum(left.values())
+            if missing:
+                steps.now(one.unit.label, total - missing, total)
+            else:
+                steps.now(f"{counted(len(left), 'unit')} left" if left else "joining the tables")
 
         words = {"workers": workers, "scheduler": scheduler, "law_limit_s": law_limit}
         did = running.run(plan, out, replace=replace, told=told, **words)

@@ -5,7 +5,7 @@ from pathlib import Path
 import rich_click as click
 
 from bench.cli import options
-from bench.cli.details import PARTS, arms, contact, free_body, robustness
+from bench.cli.details import arms, contact, free_body, parts, robustness
 from bench.cli.details.episodes import of_laws, only, outcome_table, places
 from bench.cli.origin import origin
 from bench.cli.screen import console, frame_table, shown_path
@@ -48,7 +48,7 @@ def COMMAND(folder, part, details, engine, starts, outcomes, regulators):
 
         print_summary(path, is_named=folder is not None)
         return
-    if part in ("contact", "robustness") and given:
+    if part not in (None, "free-body", "arms") and given:
         raise click.UsageError(f"{part} takes no {given[0]}, which is about episodes from start sets; leave it away")
     found = _tables(path, part, engine, starts, outcomes, regulators)
     console().print(origin(path))
@@ -64,14 +64,14 @@ def _meant(folder: str | None, part: str | None) -> tuple[Path, str | None]:
     Errors:
         UsageError: the second word is no part. BadResults: the first is neither a part nor a folder.
     """
-    if part is None and folder in PARTS:
+    if part is None and folder in parts():
         return results.folder(), folder
-    if part is not None and part not in PARTS:
-        raise click.UsageError(f"'{part}' is no part of a run; parts: {', '.join(PARTS)} (try: show {folder} arms)")
+    if part is not None and part not in parts():
+        raise click.UsageError(f"'{part}' is no part of a run; parts: {', '.join(parts())} (try: show {folder} arms)")
     path = Path(folder) if folder else results.folder()
     if folder and not path.exists():
         raise BadResults(
-            f"{folder}: there is no such folder, nor such a part; parts: {', '.join(PARTS)}; `make bench` makes "
+            f"{folder}: there is no such folder, nor such a part; parts: {', '.join(parts())}; `make bench` makes "
             "results/latest (try: python -m bench show)"
         )
     return path, part
@@ -97,7 +97,8 @@ def _tables(folder: Path, part, engine, starts, outcomes, regulators) -> list:
     if part == "robustness" or not (part or engine or regulators):
         rows = read(folder, "robustness")
         found += robustness.tables(rows) if len(rows) else ()
-    if not (part or engine or regulators):
-        more = [one for one in known_experiments().values() if one.summary]
-        found += [(one.title, one.summary(read(folder, one.table))) for one in more if one.summary]
+    for one in known_experiments().values():
+        if one.summary and (part == one.name or not (part or engine or regulators)):
+            frame = one.summary(read(folder, one.table))
+            found += [(one.title, frame)] if len(frame) else []
     return found

@@ -165,6 +165,11 @@ def test_plan_of_a_suite_takes_twelve_lines_at_most(suite):
     assert max(map(len, lines)) <= 80
 
 
+def test_plan_names_what_is_made_beside_episodes(capsys):
+    said = bench(capsys, "run", "--suite", "quick", "--dry-run").out
+    assert re.search(r"^also +boundaries, costs, jacobians and traces$", said, re.MULTILINE)
+
+
 def test_dry_run_counts_what_a_run_then_writes(capsys, tiny_run):
     said = bench(capsys, "run", *TINY, "--engine", "reference", "--dry-run")
     assert f"suite quick: {len(store.read(tiny_run, 'episodes'))} episodes" in said.out

@@ -7,7 +7,7 @@ import pytest
 from support.command_line import TINY, bench, refused
 
 from bench.cli import paragraphs
-from bench.cli.details import PARTS
+from bench.cli.details import parts
 from bench.cli.options import REFERENCE
 from bench.cli.summary import absent, answer, failures, verdicts
 from bench.findings.claims import Results, all_claims
@@ -149,7 +149,7 @@ def test_claims_without_rows_are_counted_apart(tables):
 # ------------------------------------------------------------------------------------------- its parts
 
 
-@pytest.mark.parametrize("part", PARTS)
+@pytest.mark.parametrize("part", parts())
 def test_part_is_shown_alone_with_the_meaning_of_its_cells(capsys, part):
     said = bench(capsys, "show", REFERENCE, part)
     heads = re.findall(r"^(.*\(a/b: .*)", said.out, re.MULTILINE)
@@ -161,7 +161,7 @@ def test_part_is_shown_alone_with_the_meaning_of_its_cells(capsys, part):
 
 def test_details_are_all_parts(capsys):
     whole = bench(capsys, "show", REFERENCE, "--details").out
-    for part in PARTS:
+    for part in parts():
         assert bench(capsys, "show", REFERENCE, part).out.split("\n", 1)[1] in whole
 
 
@@ -179,7 +179,7 @@ def test_part_that_a_run_lacks_is_said(capsys, finished):
 @pytest.mark.parametrize("words", [("arm",), ("results/reference", "arm")])
 def test_unknown_part_is_refused_with_the_parts(capsys, words):
     line = refused(capsys, "show", *words)
-    assert ", ".join(PARTS) in line
+    assert ", ".join(parts()) in line
     assert "try: " in line
 
 

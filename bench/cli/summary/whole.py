@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-from bench.cli.details import PARTS
+from bench.cli.details import parts
 from bench.cli.options import REFERENCE
 from bench.cli.origin import origin
 from bench.cli.paragraphs import Paragraph, listed, print_paragraphs
@@ -49,7 +49,7 @@ def _next(folder: Path, is_named: bool) -> Paragraph:
         (
             f"{book}   the book of this run",
             f"{show} --details   every table",
-            f"{show} arms   one part of them; also {listed([part for part in PARTS if part != 'arms'])}",
+            f"{show} arms   one part of them; also {listed([part for part in parts() if part != 'arms'])}",
             f"python -m bench claims {here}   each claim with its evidence",
             f"{here}   the data; results/README.md explains the columns",
         ),
