@@ -381,7 +381,7 @@ def test_dropped_files_are_listed_run_counted_and_shown_without_another_touched(
         (*on_arm, "--horizon", "1", "--engine", "reference", *way),
         (*touching, *controllers),
         (*in_trouble, "--regulator", "dropped-regulator"),
-        ("show", "results/latest"),
+        ("show", "results/latest", "--details"),
         ("compare", "results/latest", "results/latest"),
     )
 
@@ -389,7 +389,7 @@ def test_dropped_files_are_listed_run_counted_and_shown_without_another_touched(
         assert f"\n{name} " in listed
     assert "feedback-linearized/dropped-coordinates" in dry  # a law for any coordinates has met the new ones
     assert "dropped-regulator  dropped-coordinates" in counted
-    assert "episodes: dropped-regulator/dropped-coordinates by native and reference from dropped-starts" in told
+    assert "4 episodes: dropped-regulator/dropped-coordinates by native and reference" in told
 
     assert "dropped-regulator" in shown
     assert "results/latest agrees with results/latest" in compared
