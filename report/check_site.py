@@ -3,7 +3,7 @@
     python report/check_site.py [FOLDER]
 
 A page must load nothing from the network, have no dead local link or anchor, describe every picture in
-words, hold one main heading and no repeated id; the site must stay within its size budget.
+words, hold one main heading, no repeated id and no directive as text; the site must stay within its size budget.
 """
 
 from __future__ import annotations
@@ -20,6 +20,7 @@ BUDGET_BYTES = 45_000_000
 GENERATED = {"genindex.html", "search.html"}  # the theme's own pages: checked for loads, not for headings
 LOADING_LINKS = {"stylesheet", "icon", "preload", "prefetch", "modulepreload", "preconnect", "dns-prefetch"}
 FILE_NAME = re.compile(r"\S+\.(svg|png|jpe?g|webp|gif)$", re.IGNORECASE)
+DIRECTIVE = re.compile(r"`{3,}\{[a-z:]+\}")
 CSS_URL = re.compile(r"""url\(\s*['"]?((?:https?:)?//[^)'"\s]+)|@import\s+['"]((?:https?:)?//[^'"]+)""")
 
 
@@ -34,6 +35,7 @@ class Page(HTMLParser):
         self.headings = 0
         self.undescribed: list[str] = []
         self.described_in_figure = True
+        self.unparsed: list[str] = []
         self.styles: list[str] = []
         self.in_style = False
         self.in_article = False
@@ -86,6 +88,8 @@ class Page(HTMLParser):
     def handle_data(self, data: str) -> None:
         if self.in_style:
             self.styles.append(data)
+        elif self.in_article:
+            self.unparsed += DIRECTIVE.findall(data)
 
 
 def parsed(path: Path) -> Page:
@@ -113,6 +117,7 @@ def problems(site: Path = SITE) -> list[str]:
 def problems_of_page(path: Path, page: Page, pages: dict[Path, Page], site: Path) -> list[str]:
     """The problems of one page."""
     found = list(page.undescribed)
+    found += [f"shows {start}, a directive taken for text (a backtick in its caption?)" for start in page.unparsed]
     found += [f"loads {url}" for style in page.styles for url in network_urls(style)]
     for url in dict.fromkeys(page.loads + page.links):
         parts = urlsplit(url)

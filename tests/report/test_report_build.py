@@ -155,6 +155,7 @@ GOOD = '<html><article><h1>Title</h1><p id="here"><a href="#here">on</a></p></ar
         ("<figure><p>a table</p></figure>", "figure without a described picture"),
         ('<p id="here">', "id here appears twice"),
         ("<h1>Second</h1>", "2 main headings instead of one"),
+        ("<p>```{table} A `b`.</p>", "shows ```{table}, a directive taken for text (a backtick in its caption?)"),
     ],
 )
 def test_page_check_refuses(tmp_path, markup, problem):
