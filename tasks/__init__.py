@@ -183,7 +183,7 @@ def starts_between(name: str, first: int, end: int, seed: int = 0) -> list[Start
 
 
 def axis_names() -> list[str]:
-    """Names of all axes of trouble, sorted."""
+    """Names of all perturbations, sorted."""
     return sorted(_axes())
 
 

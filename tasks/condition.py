@@ -1,4 +1,4 @@
-"""What a controller meets outside the paper: conditions of an episode on the free body, one axis a kind of trouble.
+"""What a controller meets outside the paper: conditions of an episode on the free body, one axis a perturbation.
 
 An axis is one file of tasks/conditions with a constant AXIS; along it a number, the level, grows or shrinks. At the
 nominal level of every axis the condition is the default one: a law asked every millisecond, told the truth at once.
@@ -46,14 +46,14 @@ class Condition(NamedTuple):
 
     @property
     def lasts(self) -> bool:
-        """Whether trouble goes on after the goal is reached, so that an episode must run to its horizon."""
+        """Whether the perturbation goes on after the goal is reached, so that an episode must run to its horizon."""
         return self.is_noisy or self.sway > 0.0
 
 
 class Axis(NamedTuple):
-    """A kind of trouble: the constant AXIS of every tasks/conditions/<name>.py.
+    """A perturbation: the constant AXIS of every tasks/conditions/<name>.py.
 
-    at(level) -> Condition; starts(count, seed, level) -> as many starts; nominal: the level of no trouble, None if
+    at(level) -> Condition; starts(count, seed, level) -> as many starts; nominal: the level of no perturbation, None if
     there is none.
     """
 

@@ -1,4 +1,4 @@
-"""The free body in trouble (tasks/condition.py): asked rarely, told late or wrongly, held back, or sent after a goal.
+"""The perturbed free body (tasks/condition.py): a low rate, delay, noise, saturation, model errors, moving goals.
 
 The plant is the paper's (2.6)-(2.7) or, with an inertia that is not the model's, Euler's equations; a command holds
 from tick to tick of the control, and the body is moved by steps of at most STEP_S between.
@@ -36,7 +36,7 @@ EXTRA = 4
 """Columns behind the metrics': sum of squared angles in the tail, how many, the largest, and the variation of u."""
 
 
-class Trouble(NamedTuple):
+class Perturbation(NamedTuple):
     """A condition as the compiled loop takes it.
 
     steps: of the plant in a period of control; late: steps by which a command is late; tail: steps in the tail.
@@ -54,11 +54,11 @@ class Trouble(NamedTuple):
     inertia: tuple
 
 
-def trouble(condition: Condition) -> Trouble:
+def perturbation(condition: Condition) -> Perturbation:
     """The condition in steps of the plant."""
     steps = steps_of(condition)
     step_s = condition.period_s / steps
-    return Trouble(
+    return Perturbation(
         steps,
         round(condition.delay_s / step_s),
         round(TAIL_S / step_s),
@@ -78,7 +78,7 @@ def steps_of(condition: Condition) -> int:
 
 
 @kernel
-def reported(R, omega, R_d, noise, trouble, period_s):
+def reported(R, omega, R_d, noise, perturbation, period_s):
     """(R, omega) as they are measured: turned and shifted by drawn numbers, and by the worst that can be at half turns.
 
     The worst is reported with foresight: away from the goal as it will be in LEAD periods, so that what turns back the
@@ -87,15 +87,15 @@ def reported(R, omega, R_d, noise, trouble, period_s):
     Args:
         noise: six numbers, of unit standard deviation.
     """
-    if trouble.attitude_noise > 0.0:
-        s = trouble.attitude_noise
+    if perturbation.attitude_noise > 0.0:
+        s = perturbation.attitude_noise
         R = turned(R, (s * noise[0], s * noise[1], s * noise[2]))
-    if trouble.rate_noise > 0.0:
-        omega = plus(omega, trouble.rate_noise, (noise[3], noise[4], noise[5]))
-    if trouble.beyond > 0.0 and angle_between(R, R_d) + trouble.beyond > math.pi:
+    if perturbation.rate_noise > 0.0:
+        omega = plus(omega, perturbation.rate_noise, (noise[3], noise[4], noise[5]))
+    if perturbation.beyond > 0.0 and angle_between(R, R_d) + perturbation.beyond > math.pi:
         ahead = LEAD * period_s
         _, v, _ = turn_quaternion(turned(R, (ahead * omega[0], ahead * omega[1], ahead * omega[2])), R_d)
-        away = -trouble.beyond / sqrt(dot(v, v))
+        away = -perturbation.beyond / sqrt(dot(v, v))
         R = turned(R, (away * v[0], away * v[1], away * v[2]))
     return R, omega
 
@@ -120,23 +120,23 @@ def told_of(omega_d, alpha_d, told):
     return omega_d, alpha_d
 
 
-TROUBLE = types.NamedTuple((*[int64] * 4, *[float64] * 5, THREE), Trouble)
-EPISODES = types.void(types.FunctionType(EVALUATE), FOUR, MATRIX, float64[:, :, ::1], NUMBERS, TROUBLE, MATRIX)
+PERTURBED = types.NamedTuple((*[int64] * 4, *[float64] * 5, THREE), Perturbation)
+EPISODES = types.void(types.FunctionType(EVALUATE), FOUR, MATRIX, float64[:, :, ::1], NUMBERS, PERTURBED, MATRIX)
 
 
 def episodes_of(observe):
-    """The loop over episodes, for all laws: `episodes(evaluate, memory0, starts, noise, numbers, trouble, rows)`.
+    """The loop over episodes, for all laws: `episodes(evaluate, memory0, starts, noise, numbers, perturbation, rows)`.
 
     numbers.dt is the plant's step, and ticks are such steps; noise: episodes x periods x six, read only if there is
     noise. The rows are filled: the judge's columns, the metrics', and EXTRA more.
     """
 
-    def episodes(evaluate, memory0, starts, noise, numbers, trouble, rows):
+    def episodes(evaluate, memory0, starts, noise, numbers, perturbation, rows):
         gains = Gains(numbers.kp, numbers.kv)
         h = numbers.dt
-        is_noisy = trouble.attitude_noise > 0.0 or trouble.rate_noise > 0.0
-        is_prompt = trouble.late == 0 and trouble.steps == 1
-        slots = trouble.late // trouble.steps + 2
+        is_noisy = perturbation.attitude_noise > 0.0 or perturbation.rate_noise > 0.0
+        is_prompt = perturbation.late == 0 and perturbation.steps == 1
+        slots = perturbation.late // perturbation.steps + 2
         sent = np.zeros((slots, 3))
         for k in range(starts.shape[0]):
             start, row = starts[k], rows[k]
@@ -144,7 +144,7 @@ def episodes_of(observe):
             R = from_quaternion((start[0], start[1], start[2], start[3]))
             omega = (start[4], start[5], start[6])
             R_0 = from_quaternion((start[7], start[8], start[9], start[10]))
-            R_d, omega_d, alpha_d = goal_at(R_0, 0.0, trouble.sway)
+            R_d, omega_d, alpha_d = goal_at(R_0, 0.0, perturbation.sway)
             band = start[11]
             memory, margin = memory0, math.nan
             u = given = AT_REST
@@ -153,17 +153,17 @@ def episodes_of(observe):
             tick, period = 0, 0
             failure = GOING
             while tick < numbers.ticks and watch.quiet < numbers.hold_ticks:
-                if tick == period * trouble.steps:
+                if tick == period * perturbation.steps:
                     before = u
                     drawn = noise[k, period] if is_noisy else noise[0, 0]
-                    seen, turning = reported(R, omega, R_d, drawn, trouble, trouble.steps * h)
-                    rate, acceleration = told_of(omega_d, alpha_d, trouble.told)
+                    seen, turning = reported(R, omega, R_d, drawn, perturbation, perturbation.steps * h)
+                    rate, acceleration = told_of(omega_d, alpha_d, perturbation.told)
                     goal = Goal(R_d, AT_REST, AT_REST)
                     given, memory, margin = evaluate(seen, seen_from_goal(turning, rate), goal, gains, memory)
                     u = given
-                    if trouble.sway > 0.0:
+                    if perturbation.sway > 0.0:
                         u = carried_along(u, turning, rate, acceleration)
-                    u = bounded(u, trouble.bound)
+                    u = bounded(u, perturbation.bound)
                     failure = check_command(dot(u, u), numbers.command_limit_squared)
                     if period > 0 and failure == GOING:
                         jump = plus(u, -1.0, before)
@@ -173,21 +173,21 @@ def episodes_of(observe):
                 applied = u
                 if not is_prompt:
                     applied = AT_REST
-                    if tick >= trouble.late:
-                        slot = ((tick - trouble.late) // trouble.steps) % slots
+                    if tick >= perturbation.late:
+                        slot = ((tick - perturbation.late) // perturbation.steps) % slots
                         applied = (sent[slot, 0], sent[slot, 1], sent[slot, 2])
                 observe(row, Sample(tick * h, h, R, hav, watch.entered, omega, applied, margin))
                 if failure != GOING:
                     break
-                R, omega = step(R, omega, applied, trouble.inertia, h)
+                R, omega = step(R, omega, applied, perturbation.inertia, h)
                 tick += 1
                 failure = check_state(dot(omega, omega), numbers.speed_limit_squared)
                 if failure != GOING:
                     break
-                R_d, omega_d, alpha_d = goal_at(R_0, tick * h, trouble.sway)
+                R_d, omega_d, alpha_d = goal_at(R_0, tick * h, perturbation.sway)
                 hav = haversine(R, R_d)
                 watch = watched(watch, tick, hav, band)
-                if tick > numbers.ticks - trouble.tail:
+                if tick > numbers.ticks - perturbation.tail:
                     error = angle_between(R, R_d)
                     extra[TAIL_SQUARES] += error * error
                     extra[TAIL_COUNT] += 1.0
@@ -213,7 +213,7 @@ def blank_rows(count: int, metrics) -> np.ndarray:
 
 
 def in_steps(numbers: Numbers, condition: Condition, hold_s: float, horizon_s: float) -> Numbers:
-    """The numbers with the plant's step for a tick; no episode stops early in trouble that lasts."""
+    """The numbers with the plant's step for a tick; no episode stops early under a perturbation that lasts."""
     step_s = condition.period_s / steps_of(condition)
     ticks = max(1, round(horizon_s / step_s))
     hold = ticks + 1 if condition.lasts else max(1, round(hold_s / step_s))

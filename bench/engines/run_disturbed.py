@@ -1,4 +1,4 @@
-"""One call for the free body in trouble: a contender on starts under a condition, rows of numbers back."""
+"""One call for the perturbed free body: a contender on starts under a condition, rows of numbers back."""
 
 import functools
 
@@ -30,11 +30,11 @@ def run(contender: Contender, starts, condition: Condition, settings: Settings, 
     periods = given.ticks // disturbed.steps_of(condition) + 1
     block = max(1, int(NOISE_BYTES // (8 * 6 * periods))) if condition.is_noisy else len(starts)
     law = evaluation(contender), memory_of(contender)
-    loop, trouble, begun = _loop(tuple(metrics)), disturbed.trouble(condition), start_rows(starts)
+    loop, perturbation, begun = _loop(tuple(metrics)), disturbed.perturbation(condition), start_rows(starts)
     for first in range(0, len(starts), block):
         some = slice(first, first + block)
         noise = drawn(len(begun[some]), periods, seed, condition.is_noisy, first)
-        loop(*law, begun[some], noise, given, trouble, rows[some])
+        loop(*law, begun[some], noise, given, perturbation, rows[some])
     return rows
 
 

@@ -106,7 +106,7 @@ class Choice:
 
     @property
     def takes_robustness(self) -> bool:
-        """Whether laws are put in trouble: if axes are named, or nothing that has to do with other episodes."""
+        """Whether laws are perturbed: if axes are named, or nothing that has to do with other episodes."""
         beside = (self.arms, self.jacobians, self.inverses, self.variations, self.controllers)
         is_elsewhere = bool(self.tasks) and "free-body" not in self.tasks
         return bool(self.axes) or not (is_elsewhere or self.narrows or any(beside))

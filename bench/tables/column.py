@@ -8,7 +8,7 @@ import pyarrow as pa
 VERSION = "2"
 WORD, NUMBER, COUNT = pa.dictionary(pa.int32(), pa.string()), pa.float64(), pa.int64()
 SINGLE = pa.float32()
-"""Where seven digits are enough: sizes of what is nearly zero, condition numbers, measures of laws in trouble."""
+"""Where seven digits are enough: sizes of what is nearly zero, condition numbers, measures of robustness."""
 
 
 class Column(NamedTuple):

@@ -94,7 +94,7 @@ def boundary_columns() -> list[Column]:
 
 
 def robustness_columns() -> list[Column]:
-    """robustness.parquet: the free body in trouble, an episode a row; starts and noise are the same for every law.
+    """robustness.parquet: the perturbed free body, an episode a row; starts and noise are the same for every law.
 
     The plant moves between commands, which are held; every metric of the free body adds its column, over the plant's
     steps. Of an episode that ended early, what is left in its tail is the final angle.
@@ -108,7 +108,7 @@ def robustness_columns() -> list[Column]:
     return [
         *words(
             suite="plan the row belongs to",
-            axis="kind of trouble: python -m bench list axes",
+            axis="perturbation: python -m bench list axes",
             regulator="the law",
             representation="coordinates the law acts on; empty for a law on R",
         ),

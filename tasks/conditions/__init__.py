@@ -1,1 +1,1 @@
-"""Axes of trouble: one file each, with a constant AXIS."""
+"""Perturbations of the free body: one file each, with a constant AXIS."""

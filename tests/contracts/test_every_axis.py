@@ -1,4 +1,4 @@
-"""Contracts that every axis of trouble in tasks/conditions keeps; a new file is under them without being named here."""
+"""Contracts that every perturbation in tasks/conditions keeps; a new file is under them without being named here."""
 
 import math
 

@@ -1,5 +1,5 @@
 """The promise of growing: one file adds a regulator, representation, Jacobian, inverse, impedance, metric, task, arm,
-start set of the free body or of arms, axis of trouble, experiment, or page; a metric or task of contact too."""
+start set of the free body or of arms, perturbation, experiment, or page; a metric or task of contact too."""
 
 import json
 import os
@@ -371,7 +371,7 @@ def test_dropped_files_are_listed_run_counted_and_shown_without_another_touched(
     way = ("--regulator", "dropped-regulator@dropped-jacobian+dropped-inverse", "--out", "results/arm")
     touching = ("run", "--task", "dropped-probe", "--arm", "dropped-arm", "--out", "results/contact")
     controllers = ("--controller", "impedance-dropped-impedance", "--controller", "hybrid/dropped-coordinates+inverse")
-    in_trouble = ("run", "--axis", "dropped-axis", "--count", "2", "--out", "results/trouble")
+    perturbed = ("run", "--axis", "dropped-axis", "--count", "2", "--out", "results/perturbation")
     listed, dry, counted, told, *_, shown, compared = said(
         tree,
         ("list",),
@@ -380,7 +380,7 @@ def test_dropped_files_are_listed_run_counted_and_shown_without_another_touched(
         (*words, "--regulator", "dropped-regulator"),
         (*on_arm, "--horizon", "1", "--engine", "reference", *way),
         (*touching, *controllers),
-        (*in_trouble, "--regulator", "dropped-regulator"),
+        (*perturbed, "--regulator", "dropped-regulator"),
         ("show", "results/latest", "--details"),
         ("compare", "results/latest", "results/latest"),
     )
@@ -419,9 +419,9 @@ def test_dropped_files_are_listed_run_counted_and_shown_without_another_touched(
     }
     assert list(rows["dropped_touch"]) == [300.0] * 3
 
-    troubled = store.read(tree / "results" / "trouble", "robustness")
-    assert list(troubled["level"]) == [60.0, 60.0, 70.0, 70.0]
-    assert (troubled["dropped_column"] > 0).all()
+    perturbed = store.read(tree / "results" / "perturbation", "robustness")
+    assert list(perturbed["level"]) == [60.0, 60.0, 70.0, 70.0]
+    assert (perturbed["dropped_column"] > 0).all()
 
     ran(tree, "report/build.py")
     page = (tree / "report" / "_build" / "html" / "pages" / "90-dropped-page.html").read_text()

@@ -1,4 +1,4 @@
-"""The free body in trouble: closed forms and recursions of one axis, scipy, and the engine without trouble."""
+"""The perturbed free body: closed forms and recursions of one axis, scipy, and the engine without perturbations."""
 
 import math
 
@@ -15,7 +15,7 @@ from bench.contenders.regulators.hybrid import DELTA
 from bench.engines import disturbed, rigid_body, run_disturbed
 from bench.engines.binding import evaluation_of, memory_of, observer
 from bench.engines.episode import FINAL_ANGLE, FIRST_METRIC, OUTCOME, SETTLING_TICK, TICKS, numbers, start_rows
-from bench.engines.run import run as run_untroubled
+from bench.engines.run import run as run_unperturbed
 from bench.engines.run_disturbed import drawn, run
 from bench.law.so3 import Rotation
 from bench.metrics.registry import metrics_of
@@ -38,10 +38,10 @@ def ended(word, starts, condition, horizon_s=3.0, seed=0, gains=None):
 
 
 @pytest.mark.parametrize("word", ["rotation-matrix", "hybrid", "feedback-linearized/zyx-euler", "paielli-bach"])
-def test_without_trouble_it_is_the_sampled_plant_bit_for_bit(word):
+def test_without_perturbation_it_is_the_sampled_plant_bit_for_bit(word):
     starts = [*tasks.start_set("uniform", 20), *tasks.start_set("tumbling", 10), *tasks.start_set("half-turn")[::20]]
     chosen = settings(horizon_s=2.0, hold_ticks=RULES.hold_ticks(1e-3))
-    expected = run_untroubled("ideal-held", find_contender(word), "free-body", starts, chosen, METRICS)
+    expected = run_unperturbed("ideal-held", find_contender(word), "free-body", starts, chosen, METRICS)
     rows = run(find_contender(word), starts, Condition(), chosen, METRICS)
     assert same_bits(rows[:, : expected.shape[1]], expected)
 
@@ -61,8 +61,8 @@ def test_compiled_and_plain_loops_agree_bit_for_bit(word):
     noise = drawn(len(starts), given.ticks, 0, True)
     plain = disturbed.episodes_of(observer(METRICS))
     with np.errstate(all="ignore"):
-        trouble = disturbed.trouble(EVERYTHING)
-        plain(evaluation_of(one), memory_of(one), start_rows(starts), noise, given, trouble, rows)
+        perturbation = disturbed.perturbation(EVERYTHING)
+        plain(evaluation_of(one), memory_of(one), start_rows(starts), noise, given, perturbation, rows)
     assert same_bits(ended(word, starts, EVERYTHING, horizon_s), rows)
 
 
@@ -226,7 +226,7 @@ def test_untold_it_lags_and_told_the_rate_alone_it_lags_less():
     assert tails[1] == pytest.approx(np.sqrt((accelerations**2).sum(1).mean()) / KP, rel=0.15)
 
 
-def test_episodes_stop_early_where_trouble_ends_with_the_error_and_not_where_it_lasts():
+def test_episodes_stop_early_where_a_perturbation_ends_with_the_error_and_not_where_it_lasts():
     starts = tasks.start_set("uniform", 5)
     assert np.all(ended("square-root", starts, Condition(bound=100.0))[:, TICKS] < 2000)
     for lasting in (Condition(rate_noise=1e-6), Condition(sway=0.1)):

@@ -1,4 +1,4 @@
-"""The part of a plan that is in trouble, and its rows."""
+"""The part of a plan that is under perturbations, and its rows."""
 
 import numpy as np
 import pandas as pd
@@ -30,7 +30,7 @@ def made(choice, laws=TWO, **words):
 
 
 @pytest.mark.parametrize("suite", SUITES)
-def test_every_suite_puts_every_law_on_r_in_trouble_along_every_axis(suite):
+def test_every_suite_perturbs_every_law_on_r_along_every_axis(suite):
     found = units(EVERYTHING, LAWS, suite)
     met = {(unit.contender, unit.selector) for unit in found}
     on_matrix = [one.name for one in LAWS if one.representation is None and not one.regulator.in_engine]
@@ -46,7 +46,7 @@ def test_a_named_axis_is_all_that_runs():
     assert found.episodes("robustness") == found.episodes() == 2 * 3 * len(tasks.axis("delay").levels)
 
 
-def test_what_has_to_do_with_other_episodes_leaves_trouble_out():
+def test_what_has_to_do_with_other_episodes_leaves_perturbations_out():
     for choice in (Choice(tasks=("arm-regulation",)), Choice(arms=("ur5e",)), Choice(start_sets=("paper",))):
         assert not units(choice)
     assert units(Choice(tasks=("free-body",)))
@@ -63,7 +63,7 @@ def test_words_that_an_axis_does_not_take_are_refused():
 
 @pytest.fixture(scope="module")
 def rows(tmp_path_factory) -> pd.DataFrame:
-    out = tmp_path_factory.mktemp("trouble")
+    out = tmp_path_factory.mktemp("perturbation")
     laws = [find_contender(word) for word in ("rotation-matrix", "hybrid", "gibbs")]
     running.run(
         made(Choice(axes=("delay", "equal-peak", "half-turn-noise"), experiments=("robustness",)), laws, count=3), out

@@ -92,7 +92,7 @@ def test_unit_gives_up_after_some_lost_episodes(tmp_path, monkeypatch):
     assert rows_by_law(tmp_path / "run")["mine"]["outcome"].tolist() == ["crashed"] * 4
 
 
-def test_law_that_hangs_in_trouble_loses_the_whole_unit(tmp_path):
+def test_perturbed_law_that_hangs_loses_the_whole_unit(tmp_path):
     path = tmp_path / "own.py"
     path.write_text(spring_text("while R.n[0] < -0.1: x = x + 1e-9"))
     choice = Choice(axes=("delay",), experiments=("robustness",))

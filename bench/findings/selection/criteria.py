@@ -49,7 +49,7 @@ class Criterion(NamedTuple):
 
 
 SLOW_HZ, LATE_S, BOUND, PEAK, HEAVY, SPIN, SWAY, NOISY_RAD = 20.0, 0.02, 10.0, 100.0, 2.0, 20.0, 10.0, 0.01
-"""The level of each axis of trouble at which laws are asked: the hardest, but for peak (the paper's own, at kp = 100)
+"""The level of each perturbation at which laws are asked: the hardest, but for peak (the paper's own, at kp = 100)
 and for noise, where it is what a cheap sensor has."""
 
 CRITERIA = (

@@ -71,13 +71,13 @@ ON_ANGLES = Fact(
     "is computed from Z-Y-X angles",
     lambda found, law: getattr(found.tables.contenders[law].representation, "name", "") == "zyx-euler",
 )
-TRIED = Fact("was put in trouble in this run", lambda found, law: law in found.values["variation"])
+TRIED = Fact("was perturbed in this run", lambda found, law: law in found.values["variation"])
 
 SURE = (TRIED, EVERYWHERE)
-ANYWHERE, COMMAND, TROUBLE, GIVEN = (
+ANYWHERE, COMMAND, PERTURBED, GIVEN = (
     "From every start",
     "The command",
-    "In trouble",
+    "Under perturbation",
     "With less at hand",
 )
 
@@ -94,12 +94,12 @@ NEEDS = (
     Need(COMMAND, "the smallest peak", SURE, "peak"),
     Need(COMMAND, f"the fastest whose peak is {criteria.PEAK:g} rad/s²: gains to suit", SURE, "matched"),
     Need(COMMAND, f"the fastest behind motors that end at {criteria.BOUND:g} rad/s²", SURE, "bounded"),
-    Need(TROUBLE, f"a computer that answers {criteria.SLOW_HZ:g} times a second", SURE, "slow"),
-    Need(TROUBLE, f"{1e3 * criteria.LATE_S:g} ms of delay", SURE, "late"),
-    Need(TROUBLE, f"inertia {criteria.HEAVY:g} times what the model says", SURE, "heavy"),
-    Need(TROUBLE, f"a body that spins at {criteria.SPIN:g} rad/s", SURE, "spinning"),
-    Need(TROUBLE, f"a goal that sways at {criteria.SWAY:g} rad/s, its motion told", SURE, "follows"),
-    Need(TROUBLE, f"orientation known to {criteria.NOISY_RAD:g} rad, and a calm command", SURE, "noisy"),
+    Need(PERTURBED, f"a computer that answers {criteria.SLOW_HZ:g} times a second", SURE, "slow"),
+    Need(PERTURBED, f"{1e3 * criteria.LATE_S:g} ms of delay", SURE, "late"),
+    Need(PERTURBED, f"inertia {criteria.HEAVY:g} times what the model says", SURE, "heavy"),
+    Need(PERTURBED, f"a body that spins at {criteria.SPIN:g} rad/s", SURE, "spinning"),
+    Need(PERTURBED, f"a goal that sways at {criteria.SWAY:g} rad/s, its motion told", SURE, "follows"),
+    Need(PERTURBED, f"orientation known to {criteria.NOISY_RAD:g} rad, and a calm command", SURE, "noisy"),
     Need(GIVEN, "no memory in the controller", (*SURE, FORGETFUL), "cost"),
     Need(GIVEN, "a command that never jumps", (TRIED, NEARLY, FORGETFUL, SMOOTH), "time"),
     Need(GIVEN, "the fewest operations, where half turns never occur", (TRIED, NEARLY), "cost"),

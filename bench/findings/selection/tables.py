@@ -41,7 +41,7 @@ def tables_of(results: Results) -> Tables:
     """The tables of a run, of every law that has uniform starts, half turns and a cost.
 
     Errors:
-        NoEvidence: the run has no such law, or puts none in trouble.
+        NoEvidence: the run has no such law, or perturbs none.
     """
     every = results.table("episodes")
     runs = every[(every["task"] == "free-body") & every["engine"].isin((MAIN_ENGINE, SAMPLED))]
@@ -55,7 +55,7 @@ def tables_of(results: Results) -> Tables:
     runs = some(runs[runs["contender"].isin(names)], "law with uniform starts, half turns and a cost")
     runs = runs.assign(contender=runs["contender"].astype(str), lost=~settled(runs))
     named = {name: known[name] for name in names}
-    robustness = some(results.table("robustness"), "law in trouble")
+    robustness = some(results.table("robustness"), "perturbed law")
     found = Tables(
         common(runs[runs["start_set"] == "uniform"]),
         common(runs[runs["start_set"].isin(DIRECTED)]),

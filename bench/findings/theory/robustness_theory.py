@@ -1,4 +1,4 @@
-"""What theory says of a loop in trouble, to be drawn beside what was measured.
+"""What theory says of a perturbed loop, to be drawn beside what was measured.
 
 Most is about the linear loop x'' = -c Kp x - Kv x' that every isotropic law is near the goal, and that the rotation
 vector's law is from rest at any angle; c, the stiffness, is the slope of a law's spring elsewhere.

@@ -11,7 +11,7 @@ In contact rounding decides for coordinates whose singular set the goal lies on,
 
 difference   what differs, and how it is said
 tables       how each table is compared, with its tolerances
-contact      tables of hands in contact, and of laws in trouble
+contact      tables of hands in contact, and of laws under perturbations
 """
 
 from pathlib import Path

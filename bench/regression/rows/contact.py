@@ -1,4 +1,4 @@
-"""How tables of hands in contact and of laws in trouble are compared: both are decided by rounding in places."""
+"""How tables of hands in contact and of perturbed laws are compared: both are decided by rounding in places."""
 
 import numpy as np
 import pandas as pd
@@ -23,7 +23,7 @@ CONTACT_RELATIVE, CONTACT_ABSOLUTE = 1e-4, 1e-7
 """Impacts multiply rounding: 1e-16 in a joint angle becomes 4e-7 in the peak of the force on a peg that jams, and each
 tick rounds anew. A rotation [rad] by its cosine is known to 2e-8."""
 
-TROUBLED_RELATIVE = 1e-4
+PERTURBED_RELATIVE = 1e-4
 """A law that jumps at half turns, asked there with noise, chooses its side by the last bit; what settles all the same
 has been driven on by its goal or its noise for five thousand steps."""
 
@@ -49,7 +49,7 @@ def compliance(old: pd.DataFrame, new: pd.DataFrame) -> list[Difference]:
 
 
 def robustness(old: pd.DataFrame, new: pd.DataFrame) -> list[Difference]:
-    """Laws in trouble: outcomes exactly, numbers of what settled in both."""
+    """Laws under perturbations: outcomes exactly, numbers of what settled in both."""
     table = "robustness"
     old, new, found = aligned(table, old, new, ROBUSTNESS_KEY)
     same = new["outcome"].astype(str) == old["outcome"].astype(str)
@@ -57,7 +57,7 @@ def robustness(old: pd.DataFrame, new: pd.DataFrame) -> list[Difference]:
     settled = same & (old["outcome"].astype(str) == OUTCOMES[SETTLED])
     for name in old.columns.difference([*ROBUSTNESS_KEY, "outcome"], sort=False):
         a, b = new[name].to_numpy(float), old[name].to_numpy(float)
-        close = np.isclose(a, b, rtol=TROUBLED_RELATIVE, atol=ABSOLUTE, equal_nan=True)
+        close = np.isclose(a, b, rtol=PERTURBED_RELATIVE, atol=ABSOLUTE, equal_nan=True)
         found += changed(table, name, old, new, settled & ~close, ROBUSTNESS_KEY)
     return found
 
