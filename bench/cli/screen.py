@@ -4,7 +4,7 @@ import os
 from collections.abc import Iterator
 from pathlib import Path
 
-from rich.console import Console, ConsoleOptions, RenderableType
+from rich.console import Console, ConsoleOptions, JustifyMethod, RenderableType
 from rich.table import Table
 from rich.text import Text
 
@@ -96,8 +96,8 @@ def _blocks(columns: list[Column], width: int) -> list[list[Column]]:
 def _table(columns: list[Column]) -> Table:
     table = Table(box=None, pad_edge=False)
     for one in columns:
-        side = "right" if one.is_number else "left"
-        table.add_column(Text(one.name), justify=side, overflow="fold", no_wrap=not one.wraps)  # type: ignore[arg-type]
+        side: JustifyMethod = "right" if one.is_number else "left"
+        table.add_column(Text(one.name), justify=side, overflow="fold", no_wrap=not one.wraps)
     for row in zip(*(one.cells for one in columns), strict=True):
         table.add_row(*map(Text, row))
     return table

@@ -33,7 +33,7 @@ def numbers(unit: str, meaning: str, *names: str) -> list[Column]:
 class Table(NamedTuple):
     """A table: the file <name>.parquet.
 
-    columns() -> its columns, in order; they may hang on what metrics there are. key: the columns that name a row.
+    columns() -> its columns, in order; they may depend on what metrics there are. key: the columns that name a row.
     """
 
     name: str

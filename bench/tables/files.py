@@ -46,7 +46,7 @@ FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 
 
 def refused(path: Path, error: OSError) -> BadResults:
-    """What the user is told of a file or folder that could not be written, with the cure."""
+    """The error for a file or folder that could not be written, with the cure."""
     is_full = error.errno in FULL
     reason = os.strerror(error.errno) if error.errno else error  # arrow's own text runs over lines
     cure = "make room and give the same command again" if is_full else "mend its rights"

@@ -20,7 +20,7 @@ def compliance_columns() -> list[Column]:
             controller="hybrid control along axes of the base or the hand, or coordinates; or an impedance",
             representation="coordinates the controller acts on; empty for none",
             form="inverse or projected: how a hybrid controller's rows become motion of the joints; empty for others",
-            pose="where the hand is, and what it is told",
+            pose="where the hand is, and what is asked of it",
             complies="what the order lets comply; an impedance complies along and about all axes whatever it says",
         ),
         *numbers("rad", "Z-Y-X Euler angles of the hand's goal", "alpha", "beta", "gamma"),

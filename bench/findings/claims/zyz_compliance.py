@@ -45,11 +45,12 @@ def c24(results):
     else:
         word = Word.CORRECTED if zyz["problem"].any() else Word.FAILS
     done = near[near["outcome"] == "done"]
-    astray = (done["c_zx"] / done["c_xx"]).abs()
+    misaligned = (done["c_zx"] / done["c_xx"]).abs()
     return word, evidence(
         """Z-Y-Z is a problem at {zero_k} of {zero_n} poses at zero ({ends}) and at {near_k} of {near_n} within
-        {near_deg:g} degrees: about x it yields {least:.1e} to {most:.1e} of what is wanted, and about z {astray:.1f} to
-        {farthest:.1f} times that. Z-Y-X is one at {zyx_k} of {zyx_n}, where it yields {zyx_least:.3f} or more.""",
+        {near_deg:g} degrees: about x it yields {least:.1e} to {most:.1e} of what is wanted, and about z
+        {misaligned:.1f} to {farthest:.1f} times that. Z-Y-X is one at {zyx_k} of {zyx_n}, where it
+        yields {zyx_least:.3f} or more.""",
         len(zyz) + len(zyx),
         ("compliance",),
         zero_k=int(at_zero["problem"].sum()),
@@ -60,8 +61,8 @@ def c24(results):
         near_deg=NEAR_DEG,
         least=done["yields"].min(),
         most=done["yields"].max(),
-        astray=astray.min(),
-        farthest=astray.max(),
+        misaligned=misaligned.min(),
+        farthest=misaligned.max(),
         zyx_k=int(zyx["problem"].sum()),
         zyx_n=len(zyx),
         zyx_least=zyx["yields"].min(),
