@@ -43,17 +43,13 @@ STEPS = 16
 """Halvings of the interval that holds the least noise: to 1e-4 of it on a scale of factors."""
 
 
+@functools.cache
 def least(law: str, kp: float, kv: float) -> float:
     """Least noise [rad] that holds a law at the half turn, by its equation or memory; 0 if any does, NaN if unknown."""
     if law in KEEPS:
         return KEEPS[law]
     if law not in EQUATIONS or law in UNBOUNDED or find_contender(law).regulator.memory:
         return math.nan
-    return _least(law, kp, kv)
-
-
-@functools.cache
-def _least(law: str, kp: float, kv: float) -> float:
     held = functools.partial(robustness_theory.is_held, EQUATIONS[law], kp, kv)
     low, high = math.log(1e-6), math.log(1.0)
     if held(math.exp(low)):

@@ -15,10 +15,10 @@ import pandas as pd
 
 import tasks
 from bench.tables.statistics import quantile
-from report.figures.kit import families
+from report.figures.comparison.cells import by_family
+from report.figures.kit import families, html
 from report.figures.kit.page import Run
 from report.figures.kit.share import share
-from tasks.condition import Axis
 
 DEG = 180.0 / math.pi
 HELD_RAD = math.radians(3.0)
@@ -71,15 +71,16 @@ def levels(rows: pd.DataFrame) -> list[float]:
     return sorted(rows["level"].unique()) if len(rows) else []
 
 
-def nominal(axis: Axis) -> float:
+def nominal(name: str) -> float:
     """The level without perturbation; of one that has none, its mildest: the largest bound."""
+    axis = tasks.axis(name)
     return max(axis.levels) if axis.nominal is None else axis.nominal
 
 
 def worst(rows: pd.DataFrame, name: str) -> float:
     """The level most levels away from the nominal one; of two such the greater."""
     there = levels(rows)
-    place = there.index(nominal(tasks.axis(name)))
+    place = there.index(nominal(name))
     return there[0] if place > len(there) - 1 - place else there[-1]
 
 
@@ -91,11 +92,6 @@ def with_unit(level: float, name: str) -> str:
     if unit == "Hz" and level >= 1000.0:
         return f"{level / 1000.0:g} kHz"
     return f"{level:g}" if unit == "1" else f"{level:g} {unit.replace('^2', '²')}"
-
-
-def plain(level: float) -> str:
-    """A level alone, thousands as k."""
-    return f"{level / 1000.0:g}k" if level >= 1000.0 else f"{level:g}"
 
 
 def median(values: pd.Series) -> float:
@@ -112,7 +108,7 @@ def medians(rows: pd.DataFrame, column: str = "time_s") -> pd.DataFrame:
 def slower(rows: pd.DataFrame, name: str) -> pd.Series:
     """Median settling time at the worst level over that without perturbation, law by law, of laws that have both."""
     table = medians(rows)
-    ratio = table.loc[worst(rows, name)] / table.loc[nominal(tasks.axis(name))]
+    ratio = table.loc[worst(rows, name)] / table.loc[nominal(name)]
     return ratio[np.isfinite(ratio)]
 
 
@@ -120,7 +116,7 @@ def losses(rows: pd.DataFrame, name: str) -> str:
     """From which laws fewer starts go well at the worst level, in words, with Wilson intervals."""
     before, after = (
         rows[rows["level"] == level].groupby("contender", observed=True)["good"].agg(["sum", "size"])
-        for level in (nominal(tasks.axis(name)), worst(rows, name))
+        for level in (nominal(name), worst(rows, name))
     )
     parts = []
     for law in laws(rows, controls=False):
@@ -129,16 +125,32 @@ def losses(rows: pd.DataFrame, name: str) -> str:
             low, high = 100.0 * kept.low, 100.0 * kept.high
             parts.append(f"{families.word(law)} ({kept.k} of {kept.n}; {low:.0f} to {high:.0f} %)")
     if not parts:
-        return "No law loses a start there that goes well without trouble."
-    return f"There fewer starts go well than without trouble for {listed(parts)}."
-
-
-def ends(rows: pd.DataFrame, name: str) -> dict:
-    """What every page says: starts, and at the worst level who loses some."""
-    return {"n": starts(rows), "worst": with_unit(worst(rows, name), name), "losses": losses(rows, name)}
+        return "No law loses a start there that goes well unperturbed."
+    return f"There fewer starts go well than unperturbed for {listed(parts)}."
 
 
 def listed(words: Iterable[str]) -> str:
     """The words with commas and an "and"."""
     *most, last = words
     return f"{', '.join(most)} and {last}" if most else last
+
+
+def by_level(rows: pd.DataFrame, name: str) -> html.Markdown | None:
+    """Settling time, laws by levels: the median and the longest, and how many starts do not settle, if any.
+
+    Args:
+        rows: of `along`. name: of the perturbation.
+    """
+
+    def line(law: str) -> dict:
+        there = dict(iter(of(rows, law).groupby("level")))
+        return {with_unit(one, name): _time(there[one]) if one in there else html.MISSING for one in levels(rows)}
+
+    return by_family(laws(rows), line)
+
+
+def _time(rows: pd.DataFrame) -> str:
+    middle, lost = median(rows["time_s"]), int((~rows["good"]).sum())
+    if not lost:
+        return f"{middle:.2f}, {rows['time_s'].max():.2f}"
+    return "all fail" if lost == len(rows) else f"{lost} fail" if np.isinf(middle) else f"{middle:.2f} ({lost} fail)"

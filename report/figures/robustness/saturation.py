@@ -6,11 +6,9 @@ import pandas as pd
 
 from bench.findings.theory import robustness_theory
 from report.figures.kit import families
-from report.figures.kit.page import Run, given
+from report.figures.kit.page import Run
 from report.figures.robustness.half_turn_noise import UNBOUNDED
-from report.figures.robustness.level_panels import OVER_LEAST, panels
-from report.figures.robustness.rows import DEG, along, ends, laws, listed, medians, of, with_unit
-from report.figures.robustness.tables import usual
+from report.figures.robustness.rows import DEG, along, by_level, laws, listed, losses, medians, of, with_unit
 from tasks.rules import RULES
 
 NAME = "saturation"
@@ -38,7 +36,8 @@ def facts(run: Run) -> dict:
     best, tight, mild = kept.loc[kept["over_least"].idxmin()], min(table.index), max(table.index)
     overshoot = medians(rows, "overshoot_rad").loc[tight]
     return {
-        **ends(rows, NAME),
+        "worst": with_unit(tight, NAME),
+        "losses": losses(rows, NAME),
         "record": f"{best['over_least']:.3f}",
         "record_law": families.word(str(best["contender"])),
         "record_bound": with_unit(float(best["level"]), NAME),
@@ -63,10 +62,5 @@ def _settled(rows: pd.DataFrame, law: str, level: float) -> str:
 
 
 def tables(run: Run) -> dict:
-    """How it went by bound, and what it took."""
-    return usual(along(run, NAME), NAME)
-
-
-def figures(run: Run) -> dict:
-    """Settling time over the least time, by bound."""
-    return {NAME: given(bounded(run), lambda rows: panels(rows, NAME, OVER_LEAST, lambda _: 1.0))}
+    """Settling times by bound and law."""
+    return {"tab_levels": by_level(along(run, NAME), NAME)}

@@ -1,0 +1,223 @@
+"""The page on the perturbations that act on all laws through the linear loop that all are near the goal.
+
+Control rate, delay, noise, inertia, initial spin and goals that move: a section each, with its facts and its table.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+import pandas as pd
+
+import tasks
+from bench.findings.theory import robustness_theory
+from report.figures.kit import families, html
+from report.figures.kit.page import Run
+from report.figures.kit.tables import Table
+from report.figures.robustness.rows import (
+    DEG,
+    HELD_RAD,
+    along,
+    by_level,
+    gains,
+    laws,
+    levels,
+    losses,
+    medians,
+    of,
+    slower,
+    with_unit,
+    worst,
+)
+from tasks.rules import RULES
+
+LINEAR = ("control-rate", "delay", "inertia")
+"""Perturbations of which the linear loop is stepped through."""
+
+TIMED = (*LINEAR, "uneven-inertia", "spin")
+"""Those under which laws settle; the others last."""
+
+MOVING = ("moving-goal", "moving-goal-rate", "moving-goal-untold")
+
+EXACT = "rotation-vector"
+"""The law that is the linear loop from rest at every angle."""
+
+PAIELLI = "paielli-bach"
+
+ERRORS = Table("Perturbation | Level | Linear theory [deg] | Median law [deg] | Least [deg] | Most [deg] | Of the law")
+
+
+def farthest_ms(rows: pd.DataFrame, name: str) -> float:
+    """Largest difference of any start of EXACT from the linear loop's settling time [ms].
+
+    Args:
+        rows: of `rows.along`. name: of LINEAR.
+    """
+    own = of(rows, EXACT)
+    there = {level: tasks.axis(name).at(level) for level in levels(own)}
+    theory = {
+        level: robustness_theory.settling(*gains(rows), RULES.tolerance, one.period_s, one.delay_s, one.inertia[0])
+        for level, one in there.items()
+    }
+    return 1000.0 * float((own["time_s"] - own["level"].map(theory)).abs().max())
+
+
+def left(rows: pd.DataFrame, name: str) -> float:
+    """Root mean square angle that the linear loop keeps of noise or of a goal that moves little [rad], over the level.
+
+    Args:
+        rows: of `rows.along`.
+    """
+    unit = tasks.axis(name).at(1.0)
+    if unit.is_noisy:
+        return robustness_theory.noisy_rms(*gains(rows), unit.period_s, unit.attitude_noise, unit.rate_noise)
+    return robustness_theory.swaying_rms(*gains(rows), unit.told, unit.period_s, float(rows["horizon_s"].iloc[0]))
+
+
+def over_theory(rows: pd.DataFrame, name: str) -> pd.DataFrame:
+    """The median error over `left`: a row a level that is not zero, a column a law."""
+    found = medians(rows, "tail_rms_rad")
+    found = found[found.index > 0.0]
+    return found.div(left(rows, name) * found.index.to_series(), axis=0)
+
+
+def errors(*each: tuple[str, pd.DataFrame]) -> html.Markdown | None:
+    """A level a row: the error that is left by theory, and over the laws."""
+    lines = []
+    for name, rows in each:
+        for level, ratios in over_theory(rows, name).iterrows() if len(rows) else ():
+            theory = DEG * left(rows, name) * level
+            found = theory * ratios
+            where = (tasks.axis(name).title, with_unit(level, name), theory)
+            lines.append((*where, found.median(), found.min(), found.max(), families.word(found.idxmax())))
+    return ERRORS(lines)
+
+
+def changes(rows: pd.DataFrame, name: str) -> dict:
+    """At the worst level: by how much median settling times change, the most of which law, and who loses starts."""
+    ratio = 100.0 * (slower(rows, name) - 1.0)
+    return {
+        f"{name}_worst": with_unit(worst(rows, name), name),
+        f"{name}_least": f"{round(ratio.min()):+d}".replace("-", "−"),
+        f"{name}_most": f"{round(ratio.max()):+d}".replace("-", "−"),
+        f"{name}_law": families.word(ratio.idxmax()),
+        f"{name}_losses": losses(rows, name),
+    }
+
+
+def control_rate(rows: pd.DataFrame) -> dict:
+    """The rate at which the sampled loop is unstable."""
+    limit = robustness_theory.least_rate(*gains(rows))
+    return {
+        "limit": f"{limit:g}",
+        "times": f"{worst(rows, 'control-rate') / limit:g}",
+        "rate_within": is_within(rows, "control-rate"),
+    }
+
+
+def delay(rows: pd.DataFrame) -> dict:
+    """The margin of the loop."""
+    margin = robustness_theory.delay_margin(*gains(rows))
+    return {
+        "margin_ms": f"{1000.0 * margin:.0f}",
+        "used": f"{100.0 * worst(rows, 'delay') / margin:.0f}",
+        "delay_within": is_within(rows, "delay"),
+    }
+
+
+def is_within(rows: pd.DataFrame, name: str) -> str:
+    """Whether PAIELLI loses only starts from which it can turn its own spring round, blind for a delay and a period."""
+    lost = of(rows, PAIELLI).query("not good")
+    blind = [one.delay_s + one.period_s for one in map(tasks.axis(name).at, lost["level"])]
+    beyond = [robustness_theory.reversal_angle(gains(rows)[0], one) for one in blind]
+    return "all" if (lost["angle0_rad"] >= beyond).all() else "not all"
+
+
+def noise(attitude: pd.DataFrame, rate: pd.DataFrame) -> dict:
+    """What noise leaves, by theory and in the episodes, and what it does to the command."""
+    ratios = pd.concat([over_theory(attitude, "attitude-noise"), over_theory(rate, "rate-noise")])
+    variation, most = medians(rate, "variation"), max(levels(rate))
+    return {
+        "part": f"{1.0 / left(attitude, 'attitude-noise'):.0f}",
+        "noise_low": f"{ratios.min(axis=None):.2f}",
+        "noise_high": f"{ratios.max(axis=None):.2f}",
+        "jitter": f"{robustness_theory.jitter(*gains(rate), rate=most):.0f}",
+        "shake": f"{(variation.loc[most] / variation.loc[0.0]).median():.0f}",
+        "worst_r": with_unit(most, "rate-noise"),
+        "losses_a": losses(attitude, "attitude-noise"),
+        "losses_r": losses(rate, "rate-noise"),
+    }
+
+
+def spin(rows: pd.DataFrame) -> dict:
+    """How far bodies turn [deg], and whether memory sends them the longer way."""
+    rows = rows.assign(turned_deg=DEG * rows["path_ratio"] * rows["angle0_rad"])
+    fastest = worst(rows, "spin")
+    last = rows[(rows["level"] == fastest) & rows["good"]]
+    farthest = last.groupby("contender", observed=True)["turned_deg"].max()
+    mine = farthest[[law for law in laws(rows, controls=False) if law in farthest]]
+    middle = medians(rows, "turned_deg").median(axis=1)
+    hybrid, short = (of(last, law).set_index("start_id")["turned_deg"] for law in ("hybrid", "quaternion-shortest"))
+    ratio = (hybrid / short).dropna()
+    return {
+        "turns": f"{fastest / (2.0 * math.pi):.1f}",
+        "coast_deg": f"{DEG * fastest / gains(rows)[1]:.0f}",
+        "rest_deg": f"{middle.iloc[0]:.0f}",
+        "spun_deg": f"{middle.loc[fastest]:.0f}",
+        "most": f"{mine.max():.0f}",
+        "most_law": families.word(mine.idxmax()),
+        "unwound": f"{farthest.get('quaternion-unwinding', math.nan):.0f}",
+        "memory": f"{ratio.max():.2f}" if len(ratio) else None,
+    }
+
+
+def moving_goals(full: pd.DataFrame, part: pd.DataFrame, none: pd.DataFrame) -> dict:
+    """What is left with rate and acceleration fed forward, with the rate alone, with neither."""
+    kp, kv = gains(full)
+    each = zip((full, part, none), MOVING, strict=True)
+    ratios = pd.concat([over_theory(rows, name).iloc[:1] for rows, name in each])
+    slow = float(ratios.index[0])
+    return {
+        "lag_s": f"{kv / kp:g}",
+        "lag_deg": f"{DEG * kv / kp:.0f}",
+        "moving_low": f"{ratios.min(axis=None):.2f}",
+        "moving_high": f"{ratios.max(axis=None):.2f}",
+        "slow": with_unit(slow, MOVING[0]),
+        "top": with_unit(worst(full, MOVING[0]), MOVING[0]),
+        "losses_m": losses(full, MOVING[0]),
+        "laws": ratios.shape[1],
+        "behind": int((medians(none, "tail_rms_rad").loc[slow] > HELD_RAD).sum()),
+    }
+
+
+SECTIONS: dict[Callable[..., dict], tuple[str, ...]] = {
+    control_rate: ("control-rate",),
+    delay: ("delay",),
+    noise: ("attitude-noise", "rate-noise"),
+    spin: ("spin",),
+    moving_goals: MOVING,
+}
+"""Facts of a section -> the perturbations that it is about."""
+
+
+def facts(run: Run) -> dict:
+    """Of every section whose perturbations the run has; and how near the linear loop is to the law that it is."""
+    found: dict = {}
+    for section, names in SECTIONS.items():
+        each = [along(run, name) for name in names]
+        if all(map(len, each)):
+            found |= section(*each)
+    for name in TIMED:
+        found |= changes(along(run, name), name) if len(along(run, name)) else {}
+    if far := [farthest_ms(along(run, name), name) for name in LINEAR if EXACT in laws(along(run, name))]:
+        found["far_ms"] = f"{max(far):.1g}"
+    return found
+
+
+def tables(run: Run) -> dict:
+    """Settling times by level and law; of what lasts, the error by level, near the goal one for all laws."""
+    lasting = {"noise": SECTIONS[noise], "moving-goals": MOVING}
+    return {name: by_level(along(run, name), name) for name in TIMED} | {
+        key: errors(*((name, along(run, name)) for name in names)) for key, names in lasting.items()
+    }
