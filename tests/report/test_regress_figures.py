@@ -62,15 +62,10 @@ def test_sentences_say_what_a_tenth_looks_like():
     assert "Time is sure from 20 % on. Instructions tell from 9 % on." in said
 
 
-def test_figures_say_in_words_what_they_show():
-    assert "1 in the second too" in regressions.ratios(MADE).alt
-    assert regressions.shares(STEPS).alt.count("slower: found in") == len(STEPS)
-
-
 def test_page_without_a_study_has_only_the_numbers_of_the_rule(monkeypatch):
     monkeypatch.setattr(regressions, "part", lambda name: [])
     assert {key for key, value in regressions.facts(None).items() if value is None} == {"lead", "noise", "found"}
-    assert not any((*regressions.tables(None).values(), *regressions.figures(None).values()))
+    assert not any(regressions.tables(None).values())
 
 
 def test_table_escapes_the_words_of_findings():

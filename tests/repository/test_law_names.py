@@ -27,7 +27,6 @@ ALLOWED = {
     "bench/cli/": "examples of --help",
     **dict.fromkeys((f"report/figures/{chapter}/" for chapter in CHAPTERS), "what a page of the book is about"),
     "report/figures/libraries/": "what the libraries were asked",
-    "report/figures/tool/": "what the history shows",
     "report/media.py": "what is filmed",
     "report/contact_media.py": "what is filmed",
 }

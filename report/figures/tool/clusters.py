@@ -7,7 +7,6 @@ from typing import Any
 
 import pandas as pd
 
-from bench.experiments import arm, contact, free_body
 from bench.experiments.choice import MOST_STARTS
 from bench.running.schedulers.words import THREADS
 from bench.tables.schema import RESULTS
@@ -27,9 +26,6 @@ TENTH = 0.10
 FLAT = 0.25
 """What memory may grow by and be called flat, for a hundred times the episodes."""
 
-QUIET = 0.1
-"""Cores that other programs may take and leave wall times what they are."""
-
 STUDY = 10**9
 """Episodes of the study that is reckoned."""
 
@@ -39,10 +35,6 @@ MEASURED = ["scheduler", "episodes", "cpu_s", "own_cpu_s", "wall_s", "others", "
 
 COST = "CPU an episode [µs]"
 SIZES = Table(f"Episodes | Runs | {COST}:.0f | Least to most | Peak memory [MB]:.0f | Rows on disk [B an episode]:.0f")
-SCHEDULERS = Table(
-    f"Scheduler | {COST}:.0f | Wall [s]:.1f | Efficiency by CPU:{{:.0f}} % | By wall time:{{:.0f}} % | "
-    "Others [cores]:.2f"
-)
 
 
 @functools.cache
@@ -55,37 +47,30 @@ def sizes(found: dict[str, Any]) -> pd.DataFrame:
     """By number of episodes, from few to many: over its runs the median, and the least and most of their cost."""
     runs = pd.DataFrame(found.get("sizes", []), columns=MEASURED)
     runs["each_us"] = 1e6 * runs["cpu_s"] / runs["episodes"]
-    return runs.groupby("episodes").agg(
-        runs=("each_us", "size"),
-        each_us=("each_us", "median"),
-        least_us=("each_us", "min"),
-        most_us=("each_us", "max"),
-        peak_bytes=("peak_bytes", "median"),
-        row_bytes=("row_bytes", "median"),
-    )
+    by = runs.groupby("episodes")
+    cost = by["each_us"].agg(runs="size", each_us="median", least_us="min", most_us="max")
+    return cost.join(by[["peak_bytes", "row_bytes"]].median())
 
 
 def schedulers(found: dict[str, Any]) -> pd.DataFrame:
     """A row a scheduler, one thread first.
 
     Columns: scheduler, episodes, processes; CPU an episode of all of them, each_us, and of the command's own alone,
-    own_us; wall_s; efficiency, one thread's time over that of all processes, by_cpu and by_wall; others, the cores that
-    other programs took.
+    own_us; wall_s; efficiency, one thread's time over that of all processes, by_wall; others, the cores that other
+    programs took.
     """
     rows = pd.DataFrame(found.get("schedulers", []), columns=MEASURED)
     alone = rows.iloc[:1].squeeze()
     rows["processes"] = [1 if one == THREADS else int(one.partition(":")[2]) for one in rows["scheduler"]]
     rows["each_us"], rows["own_us"] = (1e6 * rows[name] / rows["episodes"] for name in ("cpu_s", "own_cpu_s"))
-    rows["by_cpu"] = alone["cpu_s"] / rows["cpu_s"]
     rows["by_wall"] = alone["wall_s"] / (rows["processes"] * rows["wall_s"])
     return rows
 
 
 def tables_apart(found: dict[str, Any]) -> list[str]:
     """Names of tables whose bytes depend on the scheduler, or on a worker that was killed."""
-    by_threads, *others = found["killed"]["tables"].values()
-    names = dict.fromkeys(name for tables in (by_threads, *others) for name in tables)
-    return [name for name in names if any(tables.get(name) != by_threads.get(name) for tables in others)]
+    digests = pd.DataFrame(found["killed"]["tables"])
+    return list(digests.index[digests.nunique(axis=1, dropna=False) > 1])
 
 
 def rows_are_same(found: dict[str, Any]) -> bool:
@@ -121,7 +106,7 @@ def same(found: dict[str, Any]) -> str:
     apart, killed = tables_apart(found), found["killed"]
     count = len(next(iter(killed["tables"].values())))
     words = (
-        f"A plan of {killed['units']} units, on the free body, on an arm, in contact and in trouble, was run by "
+        f"A plan of {killed['units']} units, on the free body, on an arm, in contact and perturbed, was run by "
         f"threads, by two processes, and by two of which {killed['killed']} was killed half way. "
     )
     words += f"These tables differ: {', '.join(apart)}." if apart else f"All {count} tables have the same bytes."
@@ -159,13 +144,11 @@ def memory(size: pd.DataFrame) -> str:
 def efficiency(by: pd.DataFrame) -> str:
     """How much of the time of one process and of two goes into episodes, and how many one client keeps busy."""
     one, two = (by[by["processes"] == number].iloc[-1] for number in (1, 2))
-    others = by["others"].max()
-    longer = "" if others <= QUIET else ", so that wall times are longer than they need be"
     busy = (two["each_us"] - two["own_us"]) / two["own_us"]
     return (
         f"{power(two['episodes'])} episodes each. Efficiency is one thread's time over that of all processes: by wall "
         f"time {100 * one['by_wall']:.0f} % with one process and {100 * two['by_wall']:.0f} % with two. Other programs "
-        f"took {others:.2f} cores at most meanwhile{longer}. The start of the processes is left out. Of an episode's "
+        f"took {by['others'].max():.2f} cores at most meanwhile. The start of processes is left out. Of an episode's "
         f"CPU time with two, {two['own_us']:.0f} µs are the client's, which gives out, writes and merges: one client "
         f"keeps some {busy:.0f} processes busy with episodes as cheap as these, and more with others."
     )
@@ -174,17 +157,12 @@ def efficiency(by: pd.DataFrame) -> str:
 def of_many(size: pd.DataFrame, by: pd.DataFrame) -> str:
     """What very many episodes would cost, computed from what was measured."""
     hours, runs, last = core_hours(size, by), STUDY // MOST_STARTS, size.iloc[-1]
-    native, on_arm, in_contact = (
-        number(float(f"{1e6 * one / last['each_us']:.1g}"))
-        for one in (free_body.EPISODE_S["native"], arm.EPISODE_S["native"], contact.TRIAL_S)
-    )
     return (
         f"At the cost of the largest run, and two processes' efficiency by wall time, {power(STUDY)} episodes take "
         f"{hours:.0f} core-hours: {60 * hours / CORES:.0f} minutes on {number(CORES)} cores if these are as efficient, "
         f"which was not measured. Rows take {STUDY * last['row_bytes'] / 1e9:.0f} GB. A run has at most "
         f"{power(MOST_STARTS)} starts of a set, so it is {number(runs)} runs, each with a seed (`--seed`), a folder "
-        f"and a client of its own. In MuJoCo an episode costs some {native} times as much, on an arm {on_arm} times, "
-        f"in contact {in_contact} times."
+        "and a client of its own."
     )
 
 
@@ -199,8 +177,8 @@ def _signed(change: float) -> str:
 
 
 def tables(_: Run) -> dict:
-    """What episodes cost by their number, and by who runs them."""
-    return {"tab_sizes": by_size(study()), "tab_schedulers": by_scheduler(study())}
+    """What episodes cost by their number."""
+    return {"tab_sizes": by_size(study())}
 
 
 def by_size(found: dict[str, Any]):
@@ -215,19 +193,4 @@ def by_size(found: dict[str, Any]):
             one.row_bytes,
         )
         for one in sizes(found).itertuples()
-    )
-
-
-def by_scheduler(found: dict[str, Any]):
-    """A row a scheduler: CPU, wall time, how much of its processes' time went into episodes, and what others took."""
-    return SCHEDULERS(
-        (
-            "one thread" if one.scheduler == THREADS else f"`{one.scheduler}`",
-            one.each_us,
-            one.wall_s,
-            100 * one.by_cpu,
-            100 * one.by_wall,
-            one.others,
-        )
-        for one in schedulers(found).itertuples()
     )

@@ -12,15 +12,12 @@ from bench.regression.revisions.comparison import SAME
 from bench.regression.revisions.machine import LEVEL
 from bench.studies.gates import FOLDER, power
 from bench.tables.store import read_json
-from report.figures.kit import html, style
-from report.figures.kit.inline import responsive_picture
+from report.figures.kit import html
 from report.figures.kit.page import Run, given
 from report.figures.kit.spelling import power as in_powers
 from report.figures.kit.tables import Table
 
 TENTH = 0.10
-QUIET, DOUBTED, ALARM = "#56b4e9", "#e69f00", "#d55e00"
-ONCE, TWICE, COUNTED = "#56b4e9", "#0072b2", "#d55e00"
 
 FAULTS = Table("Planted | In | Caught by | In the words")
 
@@ -63,18 +60,12 @@ def counts_apart() -> pd.Series:
 
 def steps() -> pd.DataFrame:
     """A row for each planted step: how much slower, the shares found by one run and by two, and more instructions."""
-    found = [
-        {
-            "slower": one["slower"],
-            "repeats": one["repeats"],
-            "once": one["once"] / one["repeats"],
-            "twice": one["twice"] / one["repeats"],
-            "instructions": one["instructions"][1] / one["instructions"][0] - 1.0,
-        }
-        for one in part("power")
-        if one["instructions"]
-    ]
-    return pd.DataFrame(found).sort_values("slower", ignore_index=True) if found else pd.DataFrame()
+    found = pd.DataFrame([one for one in part("power") if one["instructions"]])
+    if found.empty:
+        return found
+    base, head = (found["instructions"].str[side] for side in (0, 1))
+    shares = {name: found[name] / found["repeats"] for name in ("once", "twice")}
+    return found.assign(instructions=head / base - 1.0, **shares).sort_values("slower", ignore_index=True)
 
 
 def facts(_: Run) -> dict:
@@ -149,58 +140,3 @@ def fault(one: dict[str, Any]) -> tuple:
     """A line of the table."""
     words = html.foreign(one["says"][0]) if one["says"] else html.MISSING
     return one["fault"], one["law"] or html.MISSING, ", ".join(one["gates"]) or "nothing", words
-
-
-def figures(_: Run) -> dict:
-    """The same code compared with itself; and a law made slower."""
-    return {"regress-noise": given(verdicts(), ratios), "regress-power": given(steps(), shares)}
-
-
-@responsive_picture
-def ratios(rows: pd.DataFrame, *, narrow=False):
-    """Head over base of the first run, a column a comparison; what a second run took back, and what it did not."""
-    figure, axes = style.panels(height=3.4, narrow=narrow)
-    kinds = {
-        "same": (rows[~rows["doubted"]], QUIET, ".", 4),
-        "doubted, and taken back by the second run": (rows[rows["doubted"] & ~rows["alarm"]], DOUBTED, "s", 5),
-        "false alarm": (rows[rows["alarm"]], ALARM, "X", 7),
-    }
-    for name, (chosen, colour, marker, size) in kinds.items():
-        if len(chosen) or name == "same":
-            marks = {"color": colour, "marker": marker, "markersize": size, "linestyle": "none", "alpha": 0.75}
-            axes.plot(chosen["comparison"], chosen["ratio"], label=name, **marks)
-    for bound in (rule.RATIO, 1.0 / rule.RATIO):
-        axes.axhline(bound, color=style.MUTED, linewidth=1.0, linestyle=style.DASHED)
-    axes.set_yscale("log")
-    low, high = min(rows["ratio"].min(), 0.88), max(rows["ratio"].max(), 1.12)
-    ticks = [tick for tick in (0.6, 0.7, 0.8, 0.9, 1.0, 1.1, 1.2, 1.4, 1.6) if low <= tick <= high]
-    axes.set_yticks(ticks, [f"{tick:g}" for tick in ticks])
-    axes.minorticks_off()
-    axes.set(xlabel="Comparison", ylabel="Time, head over base")
-    figure.legend(loc="outside upper left", ncols=1 if narrow else 3)
-    return figure, (
-        f"{rows['comparison'].nunique()} comparisons of the same code, {rows['benchmark'].nunique()} benchmarks each: "
-        f"ratios from {rows['ratio'].min():.3f} to {rows['ratio'].max():.3f}; {int(rows['doubted'].sum())} with "
-        f"p < {rule.P} and a ratio beyond {rule.RATIO} in the first run, {int(rows['alarm'].sum())} in the second too."
-    )
-
-
-@responsive_picture
-def shares(rows: pd.DataFrame, *, narrow=False):
-    """Above the shares found by time, below the instructions; against how much slower the law truly is."""
-    figure, (above, below) = style.panels(2, 1, height=4.6, narrow=narrow, sharex=True, height_ratios=(3, 2))
-    slower = 100.0 * rows["slower"]
-    above.plot(slower, 100.0 * rows["once"], color=ONCE, marker="o", linestyle=style.DASHED, label="one run")
-    above.plot(slower, 100.0 * rows["twice"], color=TWICE, marker="s", label="and a second that agrees")
-    above.axvline(100.0 * (rule.RATIO - 1.0), color=style.MUTED, linewidth=1.0, linestyle=style.DOTTED)
-    above.set(ylabel="Found by time [%]", ylim=(-5, 105))
-    below.plot(slower, 100.0 * rows["instructions"], color=COUNTED, marker="^", linestyle=style.DASH_DOT)
-    below.axhline(100.0 * instructions.TOLERANCE, color=style.MUTED, linewidth=1.0, linestyle=style.DOTTED)
-    below.set(ylabel="More instr. [%]", xlabel="Slower, measured [%]")
-    figure.legend(loc="outside upper left", ncols=1 if narrow else 2)
-    alt = "; ".join(
-        f"{100 * row.slower:.1f} % slower: found in {100 * row.once:.0f} % of runs, in {100 * row.twice:.0f} % twice, "
-        f"{100 * row.instructions:+.1f} % instructions"
-        for row in rows.itertuples()
-    )
-    return figure, f"{alt}."

@@ -6,12 +6,9 @@ import functools
 from collections import Counter
 from typing import Any
 
-from matplotlib.ticker import MaxNLocator
-
-from bench.tables.schema import RESULTS, TABLES
+from bench.tables.schema import RESULTS
 from bench.tables.store import read_json
-from report.figures.kit import html, style
-from report.figures.kit.inline import responsive_picture
+from report.figures.kit import html
 from report.figures.kit.page import Run, given
 from report.figures.kit.tables import Table
 
@@ -26,12 +23,7 @@ GOES_ON = {
     "local:2": "the same command, on processes",
     "itself": "the run itself",
 }
-ENGINES = {"reference": "Python", "ideal-rk4": "compiled"}
-COLOUR = "#0072b2"
-
 KILLS = Table("Killed | Goes on | Kills | Before the first unit | Among units | Among tables | Went on | Same files")
-DISKS = Table("Room [kB] | Could not be written | Units kept | Temporary files left | With room again")
-LAWS = Table("In some states the law | Law is | Its episodes | All other rows")
 
 
 @functools.cache
@@ -46,18 +38,20 @@ def files_done(one: dict[str, Any], units: int) -> int:
 
 
 def facts(_: Run) -> dict:
-    """The result in one sentence; and what was run."""
+    """The result in one sentence, what was run, and a paragraph each on full disks and on laws that break."""
     found = study()
-    return {"lead": lead(found), "said": about(found)} if found["kills"] else {}
+    return {
+        "lead": given(found["kills"], lambda _: lead(found)),
+        "said": given(found["kills"], lambda _: about(found)),
+        "disks": given(found["disks"], lambda rows: disks(rows, found["units"])),
+        "laws": given(found["laws"], laws),
+    }
 
 
 def lead(found: dict[str, Any]) -> str:
     """The result in one sentence."""
     same = sum(one["same"] for one in found["kills"])
-    words = f"Of {len(found['kills'])} runs killed at random moments {same} ended with the files of the undisturbed run"
-    if found["disks"]:
-        words += f", and so did {sum(one['same'] for one in found['disks'])} of {len(found['disks'])} on full disks"
-    return f"{words}."
+    return f"Of {len(found['kills'])} runs killed at random moments {same} ended with the files of the undisturbed run."
 
 
 def about(found: dict[str, Any]) -> str:
@@ -78,9 +72,8 @@ def about(found: dict[str, Any]) -> str:
 
 
 def tables(_: Run) -> dict:
-    """Kills, disks and laws."""
-    found = study()
-    return {"tab_kills": KILLS(kills(found)), "tab_disks": DISKS(disks(found)), "tab_laws": LAWS(laws(found))}
+    """Kills."""
+    return {"tab_kills": KILLS(kills(study()))}
 
 
 def kills(found: dict[str, Any]) -> list[tuple]:
@@ -97,66 +90,23 @@ def kills(found: dict[str, Any]) -> list[tuple]:
     return rows
 
 
-def disks(found: dict[str, Any]) -> list[tuple]:
-    """A row for a disk: its room, what could not be written, what was kept, and what the run ended with."""
-    return [
-        (
-            one["left_kb"],
-            called(one["failed_at"]),
-            one["units_kept"],
-            one["leftovers"],
-            "same files" if one["same"] else "other files",
-        )
-        for one in found["disks"]
-    ]
+def disks(rows: list[dict[str, Any]], units: int) -> str:
+    """What full disks kept, what they left behind, and what the same command made of it with room again."""
+    room, kept = ([one[name] for one in rows] for name in ("left_kb", "units_kept"))
+    return (
+        f"With {min(room)} to {max(room)} kB left, {min(kept)} to {max(kept)} of {units} units were kept, and "
+        f"{sum(one['leftovers'] for one in rows)} temporary files stayed. With room again "
+        f"{sum(one['same'] for one in rows)} of {len(rows)} runs ended with the files of the undisturbed one."
+    )
 
 
-def called(name: str) -> str:
-    """A file or folder of a run, as a reader calls it; a unit's name is long."""
-    if not name:
-        return "nothing: there was room"
-    if name in {"plan.json", "provenance.json", *(f"{table}.parquet" for table in TABLES)}:
-        return f"<code>{name}</code>"
-    return "rows of a unit" if name.endswith(".parquet") else "a new file"
-
-
-def laws(found: dict[str, Any]) -> list[tuple]:
-    """A row for a way to break: the outcomes of the law's own episodes, and whether all other rows are untouched."""
-    return [
-        (
-            one["law"].partition(",")[0],
-            ENGINES[one["engine"]],
-            ", ".join(f"{count} {outcome}" for outcome, count in sorted(one["outcomes"].items())),
-            "same" if one["others_same"] else "changed",
-        )
-        for one in found["laws"]
-    ]
-
-
-def figures(_: Run) -> dict:
-    """How far killed runs had come."""
-    found = study()
-    return {"survival-moments": given(found["kills"], lambda _: moments(found))}
-
-
-@responsive_picture
-def moments(found: dict[str, Any], *, narrow=False):
-    """Bars of the kills at each count of finished units and tables, a panel for what was killed."""
-    units, count = found["units"], found["tables"]
-    figure, panels = style.beside(3, 2.4, 5.2, narrow, sharex=True)
-    words = []
-    for axes, (what, title) in zip(panels, KILLED.items(), strict=True):
-        done = [files_done(one, units) for one in found["kills"] if one["killed"] == what]
-        counts = Counter(done)
-        axes.bar(list(counts), list(counts.values()), width=0.8, color=COLOUR)
-        axes.axvline(units - 0.5, color=style.MUTED, linewidth=1.0, linestyle=style.DASHED)
-        axes.set_title(title)
-        axes.set_xlim(-0.8, units + count + 0.8)
-        axes.xaxis.set_major_locator(MaxNLocator(5, integer=True))
-        axes.yaxis.set_major_locator(MaxNLocator(4, integer=True))
-        axes.grid(visible=False, axis="x")
-        among = sum(0 < k < units for k in done)
-        words.append(f"{title}: {len(done)} kills, {among} of them after the first unit and before the last")
-    (panels[-1] if narrow else panels[1]).set_xlabel("Files finished before the kill")
-    (panels[1] if narrow else panels[0]).set_ylabel("Kills")
-    return figure, f"{'; '.join(words)}. Of {units} units and {count} tables."
+def laws(rows: list[dict[str, Any]]) -> str:
+    """The ways to break, the outcomes of such laws' own episodes, and whether all other rows are untouched."""
+    ways = dict.fromkeys(one["law"].partition(",")[0] for one in rows)
+    outcomes: Counter = sum((Counter(one["outcomes"]) for one in rows), Counter())
+    counted = ", ".join(f"{count} {outcome}" for outcome, count in sorted(outcomes.items()))
+    same = sum(one["others_same"] for one in rows)
+    return (
+        f"{len(rows)} such laws, compiled or in Python: in some states the law {', '.join(ways)}. Their own episodes: "
+        f"{counted}. Beside {same} of the {len(rows)} all other rows are unchanged."
+    )
