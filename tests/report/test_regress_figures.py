@@ -53,7 +53,8 @@ def test_sentences_count_doubts_and_alarms():
     assert "By p alone 2 comparisons would have rung" in said
     assert "both conditions held for 2 benchmarks in 2 of them, and the second run confirmed 1" in said
     assert "2 pairs, differed by 2·10⁻⁶ at most" in said
-    assert "2 times on a busy machine: 1 false alarms" in regressions.lead(MADE, [])
+    faults = [{"law": "a", "caught": True, "named": is_named} for is_named in (True, False)]
+    assert "2 times on a busy machine: 1 false alarms. Of 2 planted faults 1" in regressions.lead(MADE, faults)
 
 
 def test_sentences_say_what_a_tenth_looks_like():

@@ -165,7 +165,6 @@ def facts(run: Run) -> dict:
     jumping = [begin for law, begin in known.items() if law in blind and begin > 0.0]
     middle = float(noisy.index[noisy.index < min(KEEPS.values())].max())
     chord, chord_least = jump("square-root", kp), least("square-root", kp, kv)
-    memories = {"hybrid": "hybrid", "late": "late-braking", "mrp": "mrp-linearized"}
     return {
         "n": starts(rows),
         "agree": sum(map(bool, agree)),
@@ -184,8 +183,8 @@ def facts(run: Run) -> dict:
         "chord_least": f"{robustness_theory.two_ticks(chord, kv):.3g}",
         "chord_exact": f"{chord_least:.3g}",
         "faster": power(chord_least / 100.0),
-        **{key: f"{KEEPS[law]:.3f}" for key, law in memories.items()},
-        **{f"{key}_deg": f"{math.degrees(KEEPS[law]):.0f}" for key, law in memories.items()},
+        **{law: f"{angle:.3f}" for law, angle in KEEPS.items()},
+        **{f"{law}_deg": f"{math.degrees(angle):.0f}" for law, angle in KEEPS.items()},
         "delta": f"{hybrid.DELTA:g}",
         "switch": f"{mrp_linearized.SWITCH:g}",
     }

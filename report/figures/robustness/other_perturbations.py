@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
+import numpy as np
 import pandas as pd
 
 import tasks
@@ -25,8 +26,8 @@ from report.figures.robustness.rows import (
     levels,
     losses,
     medians,
+    nominal,
     of,
-    slower,
     with_unit,
     worst,
 )
@@ -49,11 +50,7 @@ ERRORS = Table("Perturbation | Level | Linear theory [deg] | Median law [deg] | 
 
 
 def farthest_ms(rows: pd.DataFrame, name: str) -> float:
-    """Largest difference of any start of EXACT from the linear loop's settling time [ms].
-
-    Args:
-        rows: of `rows.along`. name: of LINEAR.
-    """
+    """Largest difference of any start of EXACT from the linear loop's settling time [ms], under one of LINEAR."""
     own = of(rows, EXACT)
     there = {level: tasks.axis(name).at(level) for level in levels(own)}
     theory = {
@@ -64,11 +61,7 @@ def farthest_ms(rows: pd.DataFrame, name: str) -> float:
 
 
 def left(rows: pd.DataFrame, name: str) -> float:
-    """Root mean square angle that the linear loop keeps of noise or of a goal that moves little [rad], over the level.
-
-    Args:
-        rows: of `rows.along`.
-    """
+    """Root mean square angle that the linear loop keeps of noise or of a slightly moving goal [rad], over the level."""
     unit = tasks.axis(name).at(1.0)
     if unit.is_noisy:
         return robustness_theory.noisy_rms(*gains(rows), unit.period_s, unit.attitude_noise, unit.rate_noise)
@@ -96,7 +89,9 @@ def errors(*each: tuple[str, pd.DataFrame]) -> html.Markdown | None:
 
 def changes(rows: pd.DataFrame, name: str) -> dict:
     """At the worst level: by how much median settling times change, the most of which law, and who loses starts."""
-    ratio = 100.0 * (slower(rows, name) - 1.0)
+    table = medians(rows)
+    ratio = table.loc[worst(rows, name)] / table.loc[nominal(name)]
+    ratio = 100.0 * (ratio[np.isfinite(ratio)] - 1.0)
     return {
         f"{name}_worst": with_unit(worst(rows, name), name),
         f"{name}_least": f"{round(ratio.min()):+d}".replace("-", "−"),

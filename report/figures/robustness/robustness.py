@@ -61,34 +61,28 @@ FAULT, FINE = "#d55e00", "#b9c3cf"
 
 
 class Reach(NamedTuple):
-    """How far a law goes: the level at which it gives way, None if at none, and which step of how many that is.
+    """The level at which a law gives way, None if at none; fails: it has nothing to lose, and no level.
 
-    fails: it has nothing to lose, and no level.
+    depth: 1 if at the first level, the less the farther it goes.
     """
 
-    level: float | None
-    step: int
-    steps: int
+    level: float | None = None
+    depth: float = 0.0
     fails: bool = False
 
 
 def reach(rows: pd.DataFrame, law: str, walk: Walk) -> Reach:
-    """Of one law along one way.
-
-    Args:
-        rows: of `rows.along`.
-    """
+    """Of one law along one way, in rows of `along`."""
     start = nominal(walk.axis)
-    there = [x for x in levels(rows) if (x > start if walk.outwards else x < start)]
-    path = there if walk.outwards else there[::-1]
+    path = [x for x in levels(rows) if x > start] if walk.outwards else [x for x in levels(rows)[::-1] if x < start]
     share, time = _at(of(rows, law, start))
     if share < 0.5:
-        return Reach(None, 0, len(path), fails=True)
+        return Reach(fails=True)
     for step, level in enumerate(path):
         good, slower = _at(of(rows, law, level))
         if good < share - LOST or (walk.axis not in TIMELESS and slower > SLOWED * time):
-            return Reach(level, step, len(path))
-    return Reach(None, len(path), len(path))
+            return Reach(level, 1.0 - step / len(path))
+    return Reach()
 
 
 def _at(rows: pd.DataFrame) -> tuple[float, float]:
@@ -112,7 +106,7 @@ def reaches(run: Run) -> dict[str, list[Reach]]:
 
 
 def facts(run: Run) -> dict:
-    """How many laws each perturbation hurts, and how many each law; without the negative controls."""
+    """How many laws give way to each perturbation, without the negative controls."""
     found = reaches(run)
     own = [law for law in found if law not in families.CONTROLS]
     if not own:
@@ -143,11 +137,7 @@ def figures(run: Run) -> dict:
 
 @responsive_picture
 def reach_map(found: dict[str, list[Reach]], narrow: bool):
-    """A cell a law and way: empty where nothing gives way, else the level at which it does.
-
-    Args:
-        found: of `reaches`.
-    """
+    """A cell a law and way, as found by `reaches`: empty where nothing gives way, else the level at which it does."""
     groups = families.present(found)
     lines = len(found) + 0.4 * len(groups)
     parts = [slice(0, SPLIT), slice(SPLIT, None)] if narrow else [slice(None)]
@@ -181,9 +171,8 @@ def _cells(axes, groups, found: dict[str, list[Reach]], part: slice) -> None:
 
 
 def _cell(axes, column: int, place: float, one: Reach) -> None:
-    depth = 1.0 - one.step / max(1, one.steps)
     colour, strength = (
-        (FINE, 0.35) if is_fine(one) else (style.MUTED, 0.5) if one.fails else (FAULT, 0.25 + 0.6 * depth)
+        (FINE, 0.35) if is_fine(one) else (style.MUTED, 0.5) if one.fails else (FAULT, 0.25 + 0.6 * one.depth)
     )
     axes.add_patch(Rectangle((column + 0.03, place + 0.05), 0.94, 0.9, color=colour, alpha=strength, linewidth=0))
     word = "" if is_fine(one) else "fails" if one.fails else f"{one.level:g}".removeprefix("0")

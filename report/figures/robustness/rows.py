@@ -105,13 +105,6 @@ def medians(rows: pd.DataFrame, column: str = "time_s") -> pd.DataFrame:
     return kept.groupby(["level", "contender"], observed=True)[column].apply(median).unstack()
 
 
-def slower(rows: pd.DataFrame, name: str) -> pd.Series:
-    """Median settling time at the worst level over that without perturbation, law by law, of laws that have both."""
-    table = medians(rows)
-    ratio = table.loc[worst(rows, name)] / table.loc[nominal(name)]
-    return ratio[np.isfinite(ratio)]
-
-
 def losses(rows: pd.DataFrame, name: str) -> str:
     """From which laws fewer starts go well at the worst level, in words, with Wilson intervals."""
     before, after = (
@@ -122,8 +115,9 @@ def losses(rows: pd.DataFrame, name: str) -> str:
     for law in laws(rows, controls=False):
         if after["sum"][law] < before["sum"][law]:
             kept = share(int(after["sum"][law]), int(after["size"][law]))
-            low, high = 100.0 * kept.low, 100.0 * kept.high
-            parts.append(f"{families.word(law)} ({kept.k} of {kept.n}; {low:.0f} to {high:.0f} %)")
+            parts.append(
+                f"{families.word(law)} ({kept.k} of {kept.n}; {100 * kept.low:.0f} to {100 * kept.high:.0f} %)"
+            )
     if not parts:
         return "No law loses a start there that goes well unperturbed."
     return f"There fewer starts go well than unperturbed for {listed(parts)}."
@@ -136,11 +130,7 @@ def listed(words: Iterable[str]) -> str:
 
 
 def by_level(rows: pd.DataFrame, name: str) -> html.Markdown | None:
-    """Settling time, laws by levels: the median and the longest, and how many starts do not settle, if any.
-
-    Args:
-        rows: of `along`. name: of the perturbation.
-    """
+    """Settling time, laws by levels of rows of `along`: median and longest, and how many starts fail, if any."""
 
     def line(law: str) -> dict:
         there = dict(iter(of(rows, law).groupby("level")))

@@ -55,14 +55,11 @@ def sizes(found: dict[str, Any]) -> pd.DataFrame:
 def schedulers(found: dict[str, Any]) -> pd.DataFrame:
     """A row a scheduler, one thread first.
 
-    Columns: scheduler, episodes, processes; CPU an episode of all of them, each_us, and of the command's own alone,
-    own_us; wall_s; efficiency, one thread's time over that of all processes, by_wall; others, the cores that other
-    programs took.
+    Columns of MEASURED, and processes; by_wall, the efficiency, one thread's time over that of all processes.
     """
     rows = pd.DataFrame(found.get("schedulers", []), columns=MEASURED)
     alone = rows.iloc[:1].squeeze()
     rows["processes"] = [1 if one == THREADS else int(one.partition(":")[2]) for one in rows["scheduler"]]
-    rows["each_us"], rows["own_us"] = (1e6 * rows[name] / rows["episodes"] for name in ("cpu_s", "own_cpu_s"))
     rows["by_wall"] = alone["wall_s"] / (rows["processes"] * rows["wall_s"])
     return rows
 
@@ -71,12 +68,6 @@ def tables_apart(found: dict[str, Any]) -> list[str]:
     """Names of tables whose bytes depend on the scheduler, or on a worker that was killed."""
     digests = pd.DataFrame(found["killed"]["tables"])
     return list(digests.index[digests.nunique(axis=1, dropna=False) > 1])
-
-
-def rows_are_same(found: dict[str, Any]) -> bool:
-    """Whether runs of as many episodes have the same bytes, whoever carried them out."""
-    runs = pd.DataFrame([*found.get("sizes", []), *found.get("schedulers", [])], columns=MEASURED)
-    return bool((runs.groupby("episodes")["rows"].nunique() == 1).all())
 
 
 def facts(_: Run) -> dict:
@@ -105,14 +96,11 @@ def same(found: dict[str, Any]) -> str:
     """Whether rows depend on who makes them, or on a worker that is lost."""
     apart, killed = tables_apart(found), found["killed"]
     count = len(next(iter(killed["tables"].values())))
-    words = (
+    return (
         f"A plan of {killed['units']} units, on the free body, on an arm, in contact and perturbed, was run by "
         f"threads, by two processes, and by two of which {killed['killed']} was killed half way. "
+        + (f"These tables differ: {', '.join(apart)}." if apart else f"All {count} tables have the same bytes.")
     )
-    words += f"These tables differ: {', '.join(apart)}." if apart else f"All {count} tables have the same bytes."
-    if not rows_are_same(found):
-        words += " Of the runs below, some of as many episodes have other rows."
-    return words
 
 
 def cost(found: dict[str, Any], size: pd.DataFrame) -> str:
@@ -144,12 +132,12 @@ def memory(size: pd.DataFrame) -> str:
 def efficiency(by: pd.DataFrame) -> str:
     """How much of the time of one process and of two goes into episodes, and how many one client keeps busy."""
     one, two = (by[by["processes"] == number].iloc[-1] for number in (1, 2))
-    busy = (two["each_us"] - two["own_us"]) / two["own_us"]
+    busy, own_us = two["cpu_s"] / two["own_cpu_s"] - 1.0, 1e6 * two["own_cpu_s"] / two["episodes"]
     return (
         f"{power(two['episodes'])} episodes each. Efficiency is one thread's time over that of all processes: by wall "
         f"time {100 * one['by_wall']:.0f} % with one process and {100 * two['by_wall']:.0f} % with two. Other programs "
         f"took {by['others'].max():.2f} cores at most meanwhile. The start of processes is left out. Of an episode's "
-        f"CPU time with two, {two['own_us']:.0f} µs are the client's, which gives out, writes and merges: one client "
+        f"CPU time with two, {own_us:.0f} µs are the client's, which gives out, writes and merges: one client "
         f"keeps some {busy:.0f} processes busy with episodes as cheap as these, and more with others."
     )
 

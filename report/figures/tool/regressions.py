@@ -76,24 +76,20 @@ def facts(_: Run) -> dict:
         "rounds": alternating.ROUNDS,
         "tolerance": f"{100 * instructions.TOLERANCE:g} %",
         "level": LEVEL,
-        "lead": lead(verdicts(), part("faults")),
+        "lead": given(verdicts(), lambda rows: lead(rows, part("faults"))),
         "noise": given(verdicts(), lambda rows: noise(rows, counts_apart())),
         "found": given(steps(), found),
     }
 
 
-def lead(rows: pd.DataFrame, faults: list[dict[str, Any]]) -> str | None:
+def lead(rows: pd.DataFrame, faults: list[dict[str, Any]]) -> str:
     """Both figures: false alarms, and faults found."""
-    words = []
-    if len(rows):
-        alarms = rows.groupby("comparison")["alarm"].any()
-        words.append(
-            f"Same code against itself, {len(alarms)} times on a busy machine: {int(alarms.sum())} false alarms."
-        )
-    if planted := [one for one in faults if one["law"]]:
-        named = sum(one["caught"] and one["named"] for one in planted)
-        words.append(f"Of {len(planted)} planted faults {named} are caught and named.")
-    return " ".join(words) or None
+    alarms = rows.groupby("comparison")["alarm"].any()
+    planted = [one["caught"] and one["named"] for one in faults if one["law"]]
+    return (
+        f"Same code against itself, {len(alarms)} times on a busy machine: {int(alarms.sum())} false alarms. "
+        f"Of {len(planted)} planted faults {sum(planted)} are caught and named."
+    )
 
 
 def noise(rows: pd.DataFrame, apart: pd.Series) -> str:
