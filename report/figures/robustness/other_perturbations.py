@@ -92,12 +92,13 @@ def changes(rows: pd.DataFrame, name: str) -> dict:
     table = medians(rows)
     ratio = table.loc[worst(rows, name)] / table.loc[nominal(name)]
     ratio = 100.0 * (ratio[np.isfinite(ratio)] - 1.0)
-    return {
-        f"{name}_worst": with_unit(worst(rows, name), name),
+    found = {f"{name}_worst": with_unit(worst(rows, name), name), f"{name}_losses": losses(rows, name)}
+    if ratio.empty:  # no law settles at both levels
+        return found
+    return found | {
         f"{name}_least": f"{round(ratio.min()):+d}".replace("-", "−"),
         f"{name}_most": f"{round(ratio.max()):+d}".replace("-", "−"),
         f"{name}_law": families.word(ratio.idxmax()),
-        f"{name}_losses": losses(rows, name),
     }
 
 
