@@ -21,9 +21,9 @@ from bench.experiments.choice import Choice
 from bench.running import run
 from bench.tables import read
 from report.figures import index
-from report.figures.failures import ball, boundary_map, failure_map, world_map
+from report.figures.failures import ball, failure_map, world_map
 from report.figures.kit.page import run_in
-from report.figures.kit.rows import FEEDBACK, MATRIX
+from report.figures.kit.rows import FEEDBACK
 from report.figures.kit.share import share
 from report.figures.responses import responses, settling_time
 
@@ -31,7 +31,7 @@ STARTS = ("uniform", "half-turn", "poles", "wraps", "box", "paper")
 FIGURES = {
     **dict.fromkeys(("response-matrix", "response-linearized", "response-feedback"), responses),
     **dict.fromkeys(("settling-angle", "settling-decades"), settling_time),
-    **dict.fromkeys(("failure-map", "corners", "boundary"), failure_map),
+    "failure-map": failure_map,
     "hero": index,
 }
 """Figure -> the page's module that has it."""
@@ -89,10 +89,6 @@ def test_map_keeps_areas():
 def test_facts_of_a_page_are_numbers(facts):
     values = facts(run_in(read.folder()))
     assert all("nan" not in str(value) for value in values.values()), values
-
-
-def test_boundary_of_a_law_that_never_fails_is_drawn():
-    assert boundary_map.hemispheres(read.boundaries(), MATRIX).alt.endswith("axes none has a failing angle.")
 
 
 def test_exact_points_are_where_the_laws_are_known_to_fail():

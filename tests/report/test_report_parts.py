@@ -43,8 +43,7 @@ def test_condition_number_of_zyx_is_its_closed_form():
 
 def test_our_extraction_is_exact_at_every_distance_and_the_textbooks_is_not():
     worst = representations.extracted().groupby("way")["error"].max()
-    textbook, scipy, ours = (worst[way.title] for way in representations.extraction.WAYS)
-    assert ours < 1e-14 < scipy < 1.0 < textbook
+    assert worst["ours"] < 1e-14 < worst["scipy"] < 1.0 < worst["textbook"]
 
 
 def test_each_pole_determines_its_own_combination():

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 import pandas as pd
 
-from report.figures.failures import ball, boundary_map, corners, world_map
+from report.figures.failures import ball, world_map
 from report.figures.failures.world_map import SETS
 from report.figures.kit import html, laws
 from report.figures.kit.page import Run
@@ -74,14 +74,8 @@ def tables(run: Run) -> dict:
 
 
 def figures(run: Run) -> dict:
-    """Map of the world, corners of the plane of angles, ball, and hemispheres of axes."""
-    episodes = continuous(run)
-    return {
-        "failure-map": world_map.world(episodes),
-        "corners": corners.corners(of(episodes, LINEARIZED), LINEARIZED),
-        "ball": ball.ball(episodes),
-        "boundary": boundary_map.hemispheres(run.rows("boundaries"), LINEARIZED),
-    }
+    """Map of the world, and ball."""
+    return {"failure-map": world_map.world(continuous(run)), "ball": ball.ball(continuous(run))}
 
 
 def outcomes(rows: pd.DataFrame) -> str:

@@ -8,37 +8,19 @@ from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Callable
-from typing import NamedTuple
 
 import numpy as np
 import pandas as pd
 from scipy.spatial.transform import Rotation as Scipy
 
-from bench.contenders.registry import representation
 from bench.contenders.representations.zyx_euler import chart, to_matrix
 from bench.law.so3 import Rotation, from_quaternion
-from report.figures.kit import style
-from report.figures.kit.inline import responsive_picture
 from tasks import start_set
 from tasks.rotations import multiply, on_pole, zyx
 
-ZYX = representation("zyx-euler")
 DECADES = np.arange(0.0, 16.01, 0.25)
 PAIRS = 64
 SEED = 0
-FLOOR = 1e-17
-"""Where an error of exactly zero is drawn."""
-
-
-class Way(NamedTuple):
-    """One extraction and how it is drawn."""
-
-    title: str
-    angles: Callable[[Rotation], tuple]
-    colour: str
-    marker: str
-    line: object
 
 
 def ours(R: Rotation) -> tuple:
@@ -59,11 +41,7 @@ def scipys(R: Rotation) -> tuple:
         return tuple(Scipy.from_matrix(np.array(R).T).as_euler("ZYX"))
 
 
-WAYS = (
-    Way("textbook (three separate arctangents)", textbook, "#d55e00", "s", style.DASHED),
-    Way("scipy", scipys, "#e69f00", "D", style.DASH_DOT),
-    Way("ours", ours, "#009e73", "o", style.SOLID),
-)
+WAYS = {"textbook": textbook, "scipy": scipys, "ours": ours}
 
 
 def error(R: Rotation, angles: tuple) -> float:
@@ -84,9 +62,9 @@ def errors() -> pd.DataFrame:
         exact = [start.quat_wxyz for start in start_set("poles") if start.id.startswith(f"pole-{word}-exact")]
         places.append((0.0, [from_quaternion(quat) for quat in exact]))
         for distance, rotations in places:
-            for way in WAYS:
-                worst = max(error(R, way.angles(R)) for R in rotations)
-                rows.append({"pole": sign, "distance": distance, "way": way.title, "error": worst})
+            for way, angles in WAYS.items():
+                worst = max(error(R, angles(R)) for R in rotations)
+                rows.append({"pole": sign, "distance": distance, "way": way, "error": worst})
     return pd.DataFrame(rows)
 
 
@@ -97,31 +75,7 @@ def short(alpha: float, gamma: float, sign: int, distance: float) -> Rotation:
     return from_quaternion(multiply(multiply(pole, back), zyx(0.0, 0.0, gamma)))
 
 
-@responsive_picture
-def extraction(found: pd.DataFrame, *, narrow=False):
-    """Error of the rebuilt rotation against distance to the pole, worse pole of the two."""
-    figure, axes = style.panels(height=3.3 if not narrow else 3.9, narrow=narrow)
-    worst = found.groupby(["way", "distance"], as_index=False).error.max()
-    for way in WAYS:
-        one = worst[(worst.way == way.title) & (worst.distance > 0.0)]
-        axes.plot(
-            one.distance,
-            one.error.clip(lower=FLOOR),
-            color=way.colour,
-            linestyle=way.line,
-            marker=way.marker,
-            markevery=8,
-            label=way.title,
-        )
-    axes.set(xscale="log", yscale="log", xlim=(1.5, 6e-17), ylim=(FLOOR, 20.0))
-    axes.set(xlabel=r"Distance to the pole, $\pi/2 - |\beta|$ [rad]", ylabel="Rebuilt rotation is off by [rad]")
-    axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=1 if narrow else 3)
-    words = "; ".join(f"{way.title}: at most {worst[worst.way == way.title].error.max():.1e} rad" for way in WAYS)
-    return figure, f"Error of the rotation rebuilt from its Z-Y-X angles against the distance to the pole. {words}."
-
-
 def jump(found: pd.DataFrame) -> float:
     """The largest distance at which scipy's error is a thousand times ours: where it gives one angle up [rad]."""
     worst = found[found["distance"] > 0.0].pivot_table(index="distance", columns="way", values="error", aggfunc="max")
-    ours, theirs = worst[WAYS[2].title], worst[WAYS[1].title]
-    return float(worst.index[theirs > 1e3 * ours].max())
+    return float(worst.index[worst["scipy"] > 1e3 * worst["ours"]].max())

@@ -35,10 +35,7 @@ def facts(_: Run) -> dict:
     found = extracted()
     worst = found.groupby("way")["error"].max()
     return {
-        **{
-            f"worst_{key}": power(float(worst[way.title]))
-            for key, way in zip(("textbook", "scipy", "ours"), extraction.WAYS, strict=True)
-        },
+        **{f"worst_{way}": power(float(worst[way])) for way in extraction.WAYS},
         "orientations": 2 * extraction.PAIRS,
         "scipy_jump": power(extraction.jump(found)),
         "gain": f"{gain(0.5):.0f}",
@@ -60,8 +57,8 @@ def tables(_: Run) -> dict:
 
 
 def figures(_: Run) -> dict:
-    """Where each map of rates is lost, and how far extracted angles are off."""
-    return {"conditioning": conditioning.conditioning(), "extraction": extraction.extraction(extracted())}
+    """Where each map of rates is lost."""
+    return {"conditioning": conditioning.conditioning()}
 
 
 def where_it_breaks(one) -> str:
