@@ -15,16 +15,14 @@ import tasks
 from bench.counting import rows_on_arm
 from bench.experiments.rows import poses
 from bench.findings.claims.arm_probes import controller
+from bench.findings.claims.euler_jacobian import ROUNDINGS
 from bench.tables.read import with_contender
 from report.figures.arms import (
     arm_times,
     condition_growth,
     condition_maps,
-    condition_shares,
     controller_costs,
     cost_on_arms,
-    derivations,
-    inverse_costs,
     jacobians,
 )
 from report.figures.kit.page import Run
@@ -66,10 +64,7 @@ def of(seen, pose_set="", representation=""):
 DRAWN = {
     "maps": lambda seen, _: condition_maps.maps(of(seen, "slice", "zyx-euler")),
     "growth": lambda seen, _: condition_growth.growth(of(seen, "pole")),
-    "derivations": lambda seen, _: derivations.derivations(of(seen, representation="zyx-euler")),
-    "shares": lambda seen, _: condition_shares.shares(of(seen, "random")),
     "stages": lambda _, counted: controller_costs.bars(counted),
-    "inverses": lambda _, counted: inverse_costs.inverses(counted),
 }
 
 
@@ -110,15 +105,9 @@ def test_only_the_papers_coordinates_grow_towards_their_pole(seen):
     assert max(slopes.values()) < 0.1
 
 
-def test_share_above_a_value_is_that_of_the_values():
-    beyond = condition_shares.beyond(pd.Series([5.0, 50.0, math.inf, 500.0]))
-    assert beyond[condition_shares.POINTS < 5.0].tolist() == [1.0] * int((condition_shares.POINTS < 5.0).sum())
-    assert beyond[-1] == 0.25
-
-
 def test_gap_is_nothing_but_rounding(seen):
-    found = derivations.gaps(of(seen, representation="zyx-euler"))
-    assert max(found.values()) < derivations.ROUNDINGS
+    found = jacobians.gaps(of(seen, representation="zyx-euler"))
+    assert max(found.values()) < ROUNDINGS
 
 
 def test_stages_add_up_to_the_total(counted):
@@ -140,17 +129,19 @@ def test_price_of_damping_says_so_where_a_run_has_none(counted):
     assert "Not in this run" in cost_on_arms.price_of_damping(counted, none)
 
 
-def test_damping_costs_more_than_the_inverse(counted):
-    flops = inverse_costs.invert(counted)[6]
+def test_damping_costs_more_than_the_inverse_and_fits_where_its_price_is_given(counted):
+    flops = cost_on_arms.invert(counted)[6]
     assert flops["damped-least-squares"] > flops["solve"]
+    table = {row[0]: row[1:] for row in cost_on_arms.prices(counted)}
+    assert len(table) == 3
+    assert table["Inverse"][-1] == 1.0
 
 
 def test_times_say_so_where_none_were_measured(monkeypatch, tmp_path):
     monkeypatch.setattr("report.figures.cost.times.FOLDER", tmp_path)
     none = arm_times.rows()
-    assert "make time" in arm_times.ratios(none).alt
-    assert "make time" in cost_on_arms.by_arm(none)
-    assert "make time" in cost_on_arms.duration(none)
+    assert "make time" in arm_times.by_arm(none)
+    assert "make time" in arm_times.duration(none)
 
 
 def lines(table):

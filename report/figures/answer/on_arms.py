@@ -7,7 +7,7 @@ import functools
 import pandas as pd
 
 from bench.experiments.suites import BEST
-from report.figures.arms import arm_rows
+from report.figures.arms import arm_looks, arm_rows
 from report.figures.kit import families, html
 from report.figures.kit.laws import TITLES
 from report.figures.kit.page import Run
@@ -45,7 +45,7 @@ def table(found: pd.DataFrame) -> html.Markdown:
     lines = []
     for law in families.in_order(found["law"].unique()):
         own = found[found["law"] == law]
-        cells = {arm: _settled(own[own["arm"] == arm]) for arm in arm_rows.arms(found)}
+        cells = {arm: _settled(own[own["arm"] == arm]) for arm in arm_looks.arms(found)}
         clear = own.loc[(own["start_set"] == "clear") & arm_rows.settled(own), "settling_time_s"]
         line = {"Law": families.link(law, families.word(law)), **cells, "All": _settled(own)}
         lines.append({**line, "Clear starts, median [s]": f"{clear.median():.3f}" if len(clear) else html.MISSING})

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pandas as pd
 
-from report.figures.arms import arm_rows, arm_wrist
+from report.figures.arms import arm_rows
 from report.figures.kit import html
 from report.figures.kit.page import ABSENT
 from report.figures.kit.share import share
@@ -64,10 +64,9 @@ def advice(rows: pd.DataFrame) -> dict:
 
 def damping(rows: pd.DataFrame) -> dict:
     """What damping does to turns through and past singularities, of each controller a clause."""
-    starts = arm_wrist.of_wrist(rows)
     said: dict[str, str | None] = {}
     for key, controller in (("damped_m", arm_rows.ON_MATRIX), ("damped_f", arm_rows.ON_ANGLES)):
-        ways = [arm_rows.of(starts, controller, name) for name in (arm_rows.STANDARD, DAMPED)]
+        ways = [arm_rows.of(rows, controller, name, "wrist") for name in (arm_rows.STANDARD, DAMPED)]
         said[key] = None
         if any(own.empty for own in ways):
             continue

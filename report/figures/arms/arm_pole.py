@@ -5,10 +5,10 @@ from __future__ import annotations
 import pandas as pd
 
 from report.figures.arms import arm_rows
+from report.figures.arms.arm_looks import arms
 from report.figures.kit import html, style
 from report.figures.kit.inline import responsive_picture
 
-SHOWN = (arm_rows.ON_MATRIX, arm_rows.ON_ANGLES)
 MISSES = r"-(exact|k\d+)$"
 HAMMERED = 10.0
 """Peak torque over that of the law on R from the same start, as in claim C20: beyond it something hammers the arm."""
@@ -29,14 +29,14 @@ def pole(rows: pd.DataFrame, narrow: bool):
     Args:
         rows: of `arm_rows.episodes`, by the standard inverse.
     """
-    starts = rows[(rows["start_set"] == "pole") & rows["controller"].isin(SHOWN)]
+    starts = rows[(rows["start_set"] == "pole") & rows["controller"].isin(arm_rows.PAPERS_TWO)]
     starts = starts.assign(k=decade(starts["start_id"]))
-    names = arm_rows.arms(starts)
+    names = arms(starts)
     figure, grid = style.grid(len(names), 1.9, 1.75, narrow, top=0.8, sharey=True)
     said = []
     for axes, arm in zip(grid.flat, names, strict=False):
         told = []
-        for step, controller in enumerate(SHOWN):
+        for step, controller in enumerate(arm_rows.PAPERS_TWO):
             own = starts[(starts["arm"] == arm) & (starts["controller"] == controller)]
             look, place = style.look(controller), own["k"] + 0.16 * (2 * step - 1)
             good = arm_rows.settled(own)
@@ -56,7 +56,7 @@ def pole(rows: pd.DataFrame, narrow: bool):
     for axes in grid[-1]:
         axes.set_xticks(steps, labels)
         axes.set_xlabel("passes the pole at [rad]")
-    for controller in SHOWN:
+    for controller in arm_rows.PAPERS_TWO:
         look = style.look(controller)
         axes.plot([], [], look.marker, color=look.colour, label=arm_rows.title(controller), markersize=5)
     axes.plot([], [], "x", color=style.INK, label="fails", markersize=6, linestyle="none")

@@ -19,24 +19,22 @@ from bench.contenders.registry import (
     known_inverses,
     known_jacobians,
     known_regulators,
-    known_representations,
 )
 from bench.experiments.suites import NOMINAL
 from bench.law.contender import Contender
 from bench.tables import read
+from report.figures.arms.arm_looks import short_title
 from report.figures.kit import families
 from report.figures.kit.page import Run
 
 STANDARD = "standard"
 WORDS = ("arm", "variation", "regulator", "representation", "jacobian", "inverse", "start_set", "start_id", "outcome")
 ON_MATRIX, ON_ANGLES = "rotation-matrix@geometric", "feedback-linearized/zyx-euler@analytic"
+PAPERS_TWO = ON_MATRIX, ON_ANGLES
 """The law on R by (2.2), and the paper's (3.7)."""
 SAME_BOTH_WAYS = "feedback-linearized/zyx-euler@geometric"
 """(2.2) with (2.15): the law of (3.7), by the geometric Jacobian."""
 PAPERS_JACOBIANS = ("geometric", "analytic")
-COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9")
-MARKERS = ("o", "s", "^", "D", "v", "P", "X")
-"""Of arms, where they are told apart by them."""
 SETS = ("clear", "pole", "wrist", "half-turn", "uniform", "tumbling")
 """Nothing in the way, then what the paper warns of, then the rest."""
 
@@ -111,7 +109,7 @@ def title(controller: str) -> str:
     """How a controller is called in a figure: its equation, and the law or the coordinates."""
     law, _, jacobian = controller.partition("@")
     regulator, _, coordinates = law.partition("/")
-    which = known_representations()[coordinates].title.removesuffix(" angles") if coordinates else ""
+    which = short_title(coordinates) if coordinates else ""
     known = known_regulators()
     name = known[regulator].title.partition(" (")[0] if regulator in known else regulator
     if regulator in known and known[regulator].later:
@@ -131,21 +129,6 @@ def title_of_inverse(inverse: str) -> str:
     return "Inverse, or pseudo-inverse" if inverse == STANDARD else known_inverses()[inverse].title
 
 
-def arms(rows: pd.DataFrame) -> list[str]:
-    """The arms of the rows, sorted."""
-    return sorted(set(rows["arm"]))
-
-
 def settled(rows: pd.DataFrame) -> pd.Series:
     """Whether each episode settled."""
     return rows["outcome"] == "settled"
-
-
-def mark(place: int) -> tuple[str, str]:
-    """Colour and marker of an arm, by its place among those of a figure."""
-    return COLOURS[place % len(COLOURS)], MARKERS[place % len(MARKERS)]
-
-
-def short_title(arm: str) -> str:
-    """An arm's name without its maker: the last word or two of its title."""
-    return tasks.arm(arm).title.split(" ", 1)[-1]

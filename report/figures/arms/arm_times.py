@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import pandas as pd
 
-from report.figures.arms import arm_rows
-from report.figures.arms.arm_poses import look as look_of_arm
-from report.figures.arms.arm_poses import title as title_of_arm
+from report.figures.arms import arm_looks, arm_rows
 from report.figures.cost import times
-from report.figures.kit import style
-from report.figures.kit.inline import responsive_picture
+from report.figures.kit import html
+from report.figures.kit.tables import Table
 
 NONE_YET = "No closed loop on an arm has been timed yet: `make time` does."
 COLUMNS = ("arm", "jacobian", "inverse", "ratio_rollout")
+TIMES = Table(
+    "Arm | Rollout [µs]:.2f | Ours [µs] | Over rollout | dm_control [µs]:.0f | Times as long:.0f | Two threads:.2f"
+)
 
 
 def rows() -> pd.DataFrame:
@@ -33,13 +34,6 @@ def loops(found: pd.DataFrame) -> pd.DataFrame:
     return found[(found["what"] == "engine") & (found["engine"] == "native") & (found["ticks"] > 0)]
 
 
-def labelled(found: pd.DataFrame) -> pd.Series:
-    """Controller and inverse, as a figure names them; without the inverse that is taken if none is named."""
-    inverses = found["inverse"].map(arm_rows.title_of_inverse)
-    named = found["controller"].map(arm_rows.title)
-    return named.where(is_standard(found), named + ": " + inverses.str[:1].str.lower() + inverses.str[1:])
-
-
 def is_standard(found: pd.DataFrame) -> pd.Series:
     """Whether each row is by the inverse that its arm and controller take if none is named."""
     parts = zip(found["arm"].astype(str), found["controller"], found["inverse"], strict=True)
@@ -47,45 +41,49 @@ def is_standard(found: pd.DataFrame) -> pd.Series:
     return pd.Series(taken, found.index, dtype=bool)
 
 
-@responsive_picture
-def ratios(found: pd.DataFrame, *, narrow=False):
-    """Time a tick over mujoco.rollout's, a row a controller and inverse, a mark an arm with its interval."""
+def by_arm(found: pd.DataFrame) -> html.Markdown:
+    """A row an arm: time a tick of the open loop, of our loops from the cheapest to the dearest, of dm_control's."""
+    lines = []
+    for arm in sorted(set(found["arm"].astype(str))):
+        mine = found[found["arm"] == arm]
+        own = loops(mine)
+        if own.empty:
+            continue
+        took, over = own["ns_per_tick"] / 1e3, own["ratio_rollout"]
+        open_loop, other = (mine[mine["engine"] == engine] for engine in ("rollout", "dm-control"))
+        lines.append(
+            {
+                "Arm": arm_looks.title(arm),
+                "Rollout [µs]": first(open_loop["ns_per_tick"] / 1e3),
+                "Ours [µs]": f"{took.min():.2f} to {took.max():.2f}",
+                "Over rollout": f"{over.min():.2f} to {over.max():.2f}",
+                "dm_control [µs]": first(other["ns_per_tick"] / 1e3),
+                "Times as long": first(other["speedup"]),
+                "Two threads": first(mine.loc[mine["what"] == "threads", "speedup"]),
+            }
+        )
+    return TIMES(lines) or html.Markdown(f"| No timings |\n| :-- |\n| {NONE_YET} |")
+
+
+def first(values: pd.Series) -> float | None:
+    """The only one, if there is one."""
+    return values.iloc[0] if len(values) else None
+
+
+def duration(found: pd.DataFrame) -> str:
+    """On which machine; and how much longer a loop by (3.7) takes than one by (2.2), with the standard inverse."""
     own = loops(found)
     if own.empty:
-        return style.words(NONE_YET.replace("`", ""), narrow), NONE_YET
-    labels = labelled(own)
-    order = own.groupby(labels)["ratio_rollout"].median().sort_values(kind="stable").index.tolist()
-    figure, axes = style.panels(height=1.2 + (0.42 if narrow else 0.26) * len(order), narrow=narrow)
-    for place, arm in enumerate(sorted(set(own["arm"].astype(str)))):
-        mine, look = own[own["arm"] == arm], look_of_arm(arm)
-        y = [order.index(label) + 0.14 * (place - 1.5) for label in labels[mine.index]]
-        low, high = (
-            mine["ratio_rollout"] - mine["ratio_rollout_low"],
-            mine["ratio_rollout_high"] - mine["ratio_rollout"],
-        )
-        axes.errorbar(
-            mine["ratio_rollout"],
-            y,
-            xerr=[low.clip(lower=0), high.clip(lower=0)],
-            color=look.colour,
-            marker=look.marker,
-            linestyle="none",
-            linewidth=1.2,
-            label=title_of_arm(arm),
-        )
-    axes.axvline(1.0, color=style.MUTED, linewidth=0.9, linestyle=(0, (4, 3)))
-    if narrow:
-        axes.set_yticks([])
-        for place, name in enumerate(order):
-            axes.text(0.0, place - 0.3, name, va="bottom", fontsize=8, transform=axes.get_yaxis_transform())
-    else:
-        axes.set_yticks(range(len(order)), order, fontsize=8.5)
-    axes.set_xlabel("Time a tick, closed loop over mujoco.rollout")
-    axes.set_ylim(len(order) - 0.4, -0.8)
-    axes.tick_params(axis="y", length=0)
-    figure.legend(loc="outside upper left", ncols=1 if narrow else 4)
-    words = "; ".join(
-        f"{title_of_arm(arm)} {mine['ratio_rollout'].min():.2f} to {mine['ratio_rollout'].max():.2f}"
-        for arm, mine in own.groupby(own["arm"].astype(str))
+        return NONE_YET
+    own, parts = own[is_standard(own)], []
+    for arm, mine in own.groupby(own["arm"].astype(str)):
+        by = mine.set_index("controller")["ns_per_tick"]
+        if set(arm_rows.PAPERS_TWO) <= set(by.index):
+            parts.append((arm_looks.title(str(arm)), by[arm_rows.ON_ANGLES] / by[arm_rows.ON_MATRIX] - 1.0))
+    if not parts:
+        return times.said()
+    low, high = (f(parts, key=lambda part: part[1]) for f in (min, max))
+    return (
+        f"{times.said()} A whole loop by (3.7) takes {100 * low[1]:.0f} % ({low[0]}) to "
+        f"{100 * high[1]:.0f} % ({high[0]}) longer than one by (2.2) with the rotation matrix."
     )
-    return figure, f"Time a tick of closed loops over the open loop of mujoco.rollout: {words}."

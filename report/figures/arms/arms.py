@@ -12,16 +12,8 @@ import pandas as pd
 from scipy.optimize import minimize
 
 import tasks
-from report.figures.arms import (
-    arm_advice,
-    arm_causes,
-    arm_matrix,
-    arm_pole,
-    arm_rows,
-    arm_settling,
-    arm_strain,
-    arm_wrist,
-)
+from report.figures.arms import arm_advice, arm_outcomes, arm_pole, arm_rows, free_body, linear_response
+from report.figures.arms.arm_rows import STANDARD
 from report.figures.kit import html
 from report.figures.kit.page import Run
 from report.figures.kit.spelling import prose
@@ -36,7 +28,6 @@ TRIED, POLISHED, SEED = 400, 4, 0
 
 ARMS = Table("Arm | Maker's name | Joints | Reach [m]:.2f | Condition:.1f | β [deg] | Rated torques [N m]")
 STARTS = Table("Set | What it is for | Starts an arm | Horizon [s]")
-CAUSES = Table("Cause | What the judge saw | Failures")
 POLE = Table("Arm | Starts | (2.2) fails | (3.7) fails | fails or hammers | Way:.1f | Torque")
 WRIST = Table("Controller | Inverse | Starts | Settled [%]:.0f | Strays [mm] | 95 % | Torque")
 
@@ -50,7 +41,7 @@ def standard(run: Run) -> pd.DataFrame:
 @functools.cache
 def later(run: Run) -> pd.DataFrame:
     """Settling times beside those of the free body."""
-    return arm_settling.differences(standard(run))
+    return free_body.differences(standard(run))
 
 
 def facts(run: Run) -> dict:
@@ -58,11 +49,12 @@ def facts(run: Run) -> dict:
     rows = arm_rows.episodes(run)
     if rows.empty:
         return {}
-    both, counts, beside = arm_pole.side_by_side(standard(run)), arm_causes.tallied(standard(run)), later(run)
+    both, counts, beside = arm_pole.side_by_side(standard(run)), arm_outcomes.tallied(standard(run)), later(run)
     clear = rows[rows["start_set"] == "clear"]
     return {
         **arm_advice.advice(rows),
         **arm_advice.damping(rows),
+        **linear_response.facts(run),
         "tick_ms": f"{1e3 * float(rows['dt_s'].iloc[0]):g}",
         "pole_n": len(both),
         "pole_fails": int(both["fails"].sum()),
@@ -76,51 +68,35 @@ def facts(run: Run) -> dict:
         "condition": f"{NEAR_CONDITION:g}",
         "both_ways": arm_advice.same_both_ways(rows),
         "clear_n": len(beside),
-        "close": int(arm_settling.close(beside).sum()),
-        "close_ms": f"{1e3 * arm_settling.CLOSE_TICKS * float(beside['dt_s'].iloc[0]):g}",
+        "close": int(free_body.close(beside).sum()),
+        "close_ms": f"{1e3 * free_body.CLOSE_TICKS * float(beside['dt_s'].iloc[0]):g}",
         "median_ms": f"{1e3 * beside['later_s'].abs().median():.1f}",
-        "possible": f"{possible(standard(run)):.0f}",
-        "possible_clear": f"{possible(arm_rows.of(clear, arm_rows.ON_MATRIX)):.0f}",
-        "possible_clear_f": f"{possible(arm_rows.of(clear, arm_rows.ON_ANGLES)):.0f}",
+        "possible": f"{arm_outcomes.possible(standard(run)):.0f}",
+        "possible_clear": f"{arm_outcomes.possible(arm_rows.of(clear, arm_rows.ON_MATRIX)):.0f}",
+        "possible_clear_f": f"{arm_outcomes.possible(arm_rows.of(clear, arm_rows.ON_ANGLES)):.0f}",
         "kinematic": int(counts["kinematic"].sum()),
-        "failures": int(counts[list(arm_causes.COLOURS)].to_numpy().sum()),
+        "failures": int(counts["failed"].sum()),
     }
 
 
 def tables(run: Run) -> dict:
-    """The arms and their starts; failures by cause, at the pole, at the wrist, and what torques allow."""
-    rows, counts = arm_rows.episodes(run), arm_causes.tallied(standard(run))
-    causes = (
-        (html.together(arm_causes.key(one)), arm_causes.MEANINGS[one], int(counts[one].sum()))
-        for one in arm_causes.COLOURS
-    )
+    """The arms and their starts; what settles, failures by cause, the pole, what is asked of the arm, the wrist."""
+    rows = arm_rows.episodes(run)
     return {
         "tab_arms": ARMS(map(arm_row, tasks.arm_names())),
         "sources": "\n".join(f"- `{name}`: {prose(tasks.arm(name).source)}" for name in tasks.arm_names()),
         "tab_starts": STARTS(start_sets(rows)),
-        "tab_causes": CAUSES(causes),
+        "tab_settled": arm_outcomes.settling(standard(run), later(run)),
+        "tab_causes": arm_outcomes.failing(arm_outcomes.tallied(standard(run))),
         "tab_pole": POLE(at_the_pole(standard(run))),
         "tab_wrist": WRIST(at_the_wrist(rows)),
-        "tab_possible": within_torques(standard(run)),
-        "by_arm": arm_matrix.by_arm(standard(run)),
+        "tab_strain": arm_outcomes.STRAIN(arm_outcomes.strain(standard(run))),
     }
 
 
 def figures(run: Run) -> dict:
-    """Who settles, why others fail, the pole, the free body beside, what turning asks for, the wrist."""
-    return {
-        "arm-matrix": arm_matrix.matrix(standard(run)),
-        "arm-causes": arm_causes.causes(standard(run)),
-        "arm-pole": arm_pole.pole(standard(run)),
-        "arm-settling": arm_settling.later(later(run)),
-        "arm-strain": arm_strain.strain(standard(run)),
-        "arm-wrist": arm_wrist.wrist(arm_rows.episodes(run)),
-    }
-
-
-def possible(rows: pd.DataFrame) -> float:
-    """Share of episodes within the rated torques [%]."""
-    return 100.0 * float((rows["peak_torque_ratio"] <= 1.0).mean())
+    """Turns that pass the pole."""
+    return {"arm-pole": arm_pole.pole(standard(run))}
 
 
 def arm_row(name: str) -> tuple:
@@ -184,23 +160,10 @@ def at_the_pole(rows: pd.DataFrame) -> Iterator[tuple]:
 
 def at_the_wrist(rows: pd.DataFrame) -> Iterator[tuple]:
     """Controller and inverse: starts, share that settles, how far the tool strays, torque over rated."""
-    starts = arm_wrist.of_wrist(rows)
-    for controller in arm_wrist.SHOWN:
-        for name in arm_wrist.inverses(starts):
-            own = arm_rows.of(starts, controller, name)
-            if len(own):
-                strays = 1e3 * own["position_error_m"]
-                named = arm_rows.title(controller), arm_rows.title_of_inverse(name), len(own)
-                measured = strays.median(), strays.quantile(0.95), own["peak_torque_ratio"].median()
-                yield *named, 100.0 * arm_rows.settled(own).mean(), *measured
-
-
-def within_torques(rows: pd.DataFrame) -> html.Markdown:
-    """Share of episodes that stay within the rated torques [%]: a row an arm, a column a start set."""
-    sets = [name for name in arm_rows.SETS if name in set(rows["start_set"])]
-    of_arms = {arm: rows[rows["arm"] == arm] for arm in arm_rows.arms(rows)}
-    lines = [
-        {"Arm": arm, **{name: possible(own[own["start_set"] == name]) for name in sets}, "all": possible(own)}
-        for arm, own in of_arms.items()
-    ]
-    return html.table(pd.DataFrame(lines), dict.fromkeys([*sets, "all"], ".0f"))
+    starts = rows[(rows["start_set"] == "wrist") & rows["controller"].isin(arm_rows.PAPERS_TWO)]
+    ways = [(*way.split("+"), own) for way, own in starts.groupby("way")]
+    for controller, inverse, own in sorted(ways, key=lambda one: (one[0] != arm_rows.ON_MATRIX, one[1] != STANDARD)):
+        strays = 1e3 * own["position_error_m"]
+        named = arm_rows.title(controller), arm_rows.title_of_inverse(inverse), len(own)
+        measured = strays.median(), strays.quantile(0.95), own["peak_torque_ratio"].median()
+        yield *named, 100.0 * arm_rows.settled(own).mean(), *measured

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import pandas as pd
 
-from report.figures.arms import arm_poses
+from bench.contenders.registry import papers_coordinates
+from report.figures.arms import arm_looks
 from report.figures.kit import style
 from report.figures.kit.inline import responsive_picture
 
+PAPERS = papers_coordinates().name
 WAY = r"^(?P<family>.+)-1e-(?P<k>\d+)$"
 FARTHEST = 12
 
@@ -28,18 +30,18 @@ def growth(rows: pd.DataFrame, *, narrow=False):
     """
     found = ways(rows)
     figure, (left, right) = style.beside(2, 3.9, 7.4, narrow, sharey=True)
-    papers = found[found["representation"] == arm_poses.PAPERS]
-    for arm in arm_poses.arms(papers):
-        own, look = papers[papers["arm"] == arm], arm_poses.look(arm)
-        _band(left, own, "condition_analytic", look, f"$J_E$, {arm_poses.title(arm)}")
+    papers = found[found["representation"] == PAPERS]
+    for arm in arm_looks.arms(papers):
+        own, look = papers[papers["arm"] == arm], arm_looks.look(arm)
+        _band(left, own, "condition_analytic", look, f"$J_E$, {arm_looks.title(arm)}")
     _band(left, papers, "condition", style.Look(style.MUTED, "", style.SOLID), "$J$, all arms")
     for name in found["representation"].cat.categories:
         _band(
             right,
             found[found["representation"] == name],
             "condition_analytic",
-            arm_poses.look_of_coordinates(name),
-            arm_poses.short_title(name),
+            style.look_of_coordinates(name),
+            arm_looks.short_title(name),
         )
     for axes in (left, right):
         axes.set(xscale="log", yscale="log", xlabel=r"Distance to $\beta = \pm\pi/2$ [rad]")

@@ -7,9 +7,15 @@ import pandas as pd
 from matplotlib.colors import LogNorm
 from matplotlib.lines import Line2D
 
-from report.figures.arms import arm_poses
+from report.figures.arms.arm_looks import arms, title
 from report.figures.kit import style
 from report.figures.kit.inline import responsive_picture
+
+BAD = 100.0
+"""Condition number (metres, radians) from which on maps and tables call a Jacobian bad: twice what the claims allow."""
+
+NEAR = 0.1
+"""Margin of the coordinates below which a pose counts as near their singularity; of Z-Y-X angles 5.7 deg of beta."""
 
 LEAST, MOST, HIGHEST = 6.0, 1e3, 1e18
 KINEMATIC, OF_COORDINATES = "#d55e00", "#56b4e9"
@@ -30,9 +36,9 @@ class Grid:
         self.y, self.x = (np.degrees(np.sort(rows[f"q_{joint}"].unique())) for joint in (self.second, self.first))
 
     def matrix(self, place, values: pd.Series) -> np.ndarray:
-        """The values at their places."""
+        """The values at their places; what is infinite or beyond stands at HIGHEST."""
         found = np.full((self.side, self.side), np.nan)
-        found[place] = arm_poses.finite(values, HIGHEST)
+        found[place] = values.fillna(HIGHEST).clip(upper=HIGHEST)
         return found
 
     @property
@@ -45,7 +51,7 @@ class Grid:
 @responsive_picture
 def maps(rows: pd.DataFrame, *, narrow=False):
     """A row of two maps for each arm; contours say which singularity is the arm's and which the coordinates'."""
-    names = arm_poses.arms(rows)
+    names = arms(rows)
     height = (1.95 if narrow else 2.4) * len(names) + 1.0
     figure, grid = style.panels(len(names), 2, height=height, narrow=narrow, squeeze=False)
     words, image = [], None
@@ -53,24 +59,24 @@ def maps(rows: pd.DataFrame, *, narrow=False):
         own = Grid(rows[rows["arm"] == name])
         for axes, column in zip(pair, ("condition", "condition_analytic"), strict=True):
             image = _map(axes, own, column)
-        pair[0].set_ylabel(f"{'' if narrow else arm_poses.title(name) + chr(10)}$q_{own.second}$ [deg]")
+        pair[0].set_ylabel(f"{'' if narrow else title(name) + chr(10)}$q_{own.second}$ [deg]")
         if narrow:
-            pair[0].set_title(arm_poses.title(name), fontweight="normal")
+            pair[0].set_title(title(name), fontweight="normal")
         words.append(said(name, own))
     for axes, letter in zip(grid[0], ("$J$", "$J_E$"), strict=True):
         above = f"{axes.get_title(loc='left')}\n" if narrow and axes is grid[0][0] else ""
         axes.set_title(f"{above}{letter}" if narrow else f"condition number of {letter}", fontweight="normal")
     if narrow:
-        grid[0][0].set_title(f"{arm_poses.title(names[0])}: $J$", fontweight="normal")
+        grid[0][0].set_title(f"{title(names[0])}: $J$", fontweight="normal")
     bar = figure.colorbar(image, ax=list(grid.flat), location="top", shrink=0.6, aspect=30)
     bar.set_label("Condition number [metres, radians]")
     ticks = [10, 30, 100, 300, 1000]
     bar.set_ticks(ticks, labels=[*map(str, ticks[:-1]), f"≥ {ticks[-1]}"])
     bar.minorticks_off()
     keys = [
-        Line2D([], [], color=KINEMATIC, label=f"cond $J$ > {arm_poses.BAD:g}: the arm's"),
+        Line2D([], [], color=KINEMATIC, label=f"cond $J$ > {BAD:g}: the arm's"),
         Line2D(
-            [], [], color=OF_COORDINATES, linestyle="--", label=rf"$\cos\beta$ < {arm_poses.NEAR:g}: the coordinates'"
+            [], [], color=OF_COORDINATES, linestyle="--", label=rf"$\cos\beta$ < {NEAR:g}: the coordinates'"
         ),
     ]
     figure.legend(handles=keys, loc="outside lower center", ncols=1 if narrow else 2)
@@ -84,8 +90,8 @@ def _map(axes, own: Grid, column: str):
         values, extent=own.extent, origin="lower", aspect="auto", norm=LogNorm(LEAST, MOST), interpolation="none"
     )
     for level, values, colour, line in (
-        (np.log10(arm_poses.BAD), np.log10(own.condition), KINEMATIC, "-"),
-        (arm_poses.NEAR, own.margin, OF_COORDINATES, (0, (4, 2))),
+        (np.log10(BAD), np.log10(own.condition), KINEMATIC, "-"),
+        (NEAR, own.margin, OF_COORDINATES, (0, (4, 2))),
     ):
         if values.min() < level < values.max():
             axes.contour(own.x, own.y, values, levels=[level], colors=[colour], linestyles=[line], linewidths=1.6)
@@ -99,10 +105,10 @@ def _map(axes, own: Grid, column: str):
 
 def said(name: str, own: Grid) -> str:
     """An arm's maps in words."""
-    kinematic, near = own.condition > arm_poses.BAD, own.margin < arm_poses.NEAR
-    added = (own.condition_analytic > arm_poses.BAD) & ~kinematic
+    kinematic, near = own.condition > BAD, own.margin < NEAR
+    added = (own.condition_analytic > BAD) & ~kinematic
     return (
-        f"{arm_poses.title(name)}, joints {own.first} and {own.second}, {own.side} by {own.side} poses: J is beyond "
-        f"{arm_poses.BAD:g} at {kinematic.mean():.1%}, J_E at {added.mean():.1%} more; the coordinates are near their "
+        f"{title(name)}, joints {own.first} and {own.second}, {own.side} by {own.side} poses: J is beyond "
+        f"{BAD:g} at {kinematic.mean():.1%}, J_E at {added.mean():.1%} more; the coordinates are near their "
         f"singularity at {near.mean():.1%}."
     )

@@ -8,10 +8,8 @@ import pandas as pd
 
 from bench.counting import STAGES
 from bench.findings.claims import Results, judge
-from report.figures.arms import arm_rows, arm_times, controller_costs, inverse_costs
-from report.figures.arms.arm_poses import title as title_of_arm
-from report.figures.arms.inverse_costs import CONTROLLER
-from report.figures.cost import times
+from report.figures.arms import arm_rows, arm_times, controller_costs
+from report.figures.arms.arm_rows import ON_MATRIX
 from report.figures.cost.cost import spent
 from report.figures.kit import html
 from report.figures.kit.page import Run, given
@@ -29,10 +27,9 @@ MEANINGS = {
 LAW = ("goal", "represent", "regulate")
 """Stages that a free body has too: the orientation law and its coordinates."""
 
-FORMATS = {"Rollout [µs]": ".2f", "dm_control [µs]": ".0f", "Times as long": ".0f", "Two threads": ".2f"}
 MEANT = Table("Stage | What it computes")
 STAGED = Table(" | ".join(("Controller", *STAGES, "total")))
-BOUGHT = Table("Inverse | Flops | Tick | Times the cheapest:.1f | Settle | Strays [mm] | Torque")
+PRICES = Table("Inverse | Flops, six joints | Flops, seven | Tick, six joints | Times the cheapest:.1f")
 SAID = {
     "damped-least-squares": "Damping costs {times} times as much",
     "damped-least-squares-variable": "damping only where it is needed, to be exact elsewhere, {times} times",
@@ -46,31 +43,25 @@ def facts(run: Run) -> dict:
     return {
         **by_joints(counted),
         "inverses_said": price_of_damping(counted, arm_rows.episodes(run)),
-        "said": duration(arm_times.rows()),
+        "said": arm_times.duration(arm_times.rows()),
         "c26": f"**{str(c26.word).capitalize()}.** {c26.evidence}",
     }
 
 
 def tables(run: Run) -> dict:
-    """Stages, controllers by stage, what inverses buy, times."""
+    """Stages, controllers by stage, inverses, times."""
     counted = controller_costs.counted(run)
     return {
         "meanings": MEANT((name, MEANINGS[name]) for name in STAGES),
-        "six": STAGED(by_stage(counted, 6)),
         "seven": STAGED(by_stage(counted, 7)),
-        "bought": BOUGHT(bought(counted, arm_rows.episodes(run))),
-        "times": by_arm(arm_times.rows()),
+        "inverses": PRICES(prices(counted)),
+        "times": arm_times.by_arm(arm_times.rows()),
     }
 
 
 def figures(run: Run) -> dict:
-    """Stages of every controller, inverses, times."""
-    counted = controller_costs.counted(run)
-    return {
-        "controller-costs": given(counted, controller_costs.bars),
-        "inverse-costs": given(counted, inverse_costs.inverses),
-        "arm-times": arm_times.ratios(arm_times.rows()),
-    }
+    """Stages of every controller."""
+    return {"controller-costs": given(controller_costs.counted(run), controller_costs.bars)}
 
 
 def by_joints(rows: pd.DataFrame) -> dict[str, str]:
@@ -126,31 +117,35 @@ def by_stage(rows: pd.DataFrame, joints: int) -> Iterator[tuple]:
 
 
 def on_square(episodes: pd.DataFrame) -> pd.DataFrame:
-    """`wrist` starts by CONTROLLER, on arms where the plain inverse fits."""
-    wrist = episodes[(episodes["controller"] == CONTROLLER) & (episodes["start_set"] == "wrist")]
-    fits = {arm for arm in set(wrist["arm"]) if arm_rows.standard(arm, *CONTROLLER.split("@")) == "solve"}
+    """`wrist` starts by the law on R, on arms where the plain inverse fits."""
+    wrist = episodes[(episodes["controller"] == ON_MATRIX) & (episodes["start_set"] == "wrist")]
+    fits = {arm for arm in set(wrist["arm"]) if arm_rows.standard(arm, *ON_MATRIX.split("@")) == "solve"}
     return wrist[wrist["arm"].isin(fits)]
 
 
-def bought(rows: pd.DataFrame, episodes: pd.DataFrame) -> Iterator[tuple]:
-    """Every inverse: its price on six joints as part of the tick, and what became of the `wrist` starts with it.
+def invert(rows: pd.DataFrame) -> pd.DataFrame:
+    """A row an inverse, the cheapest first: flops of the stage `invert` by the number of joints."""
+    own = rows[(rows["controller"] == ON_MATRIX) & (rows["stage"] == "invert")]
+    table = own.pivot_table(index="inverse", columns="joints", values="flops", sort=False)
+    return table.loc[table.min(axis=1).sort_values(kind="stable").index]
+
+
+def prices(rows: pd.DataFrame) -> Iterator[tuple]:
+    """Every inverse: flops on six joints and on seven, none where it does not fit; the tick on six, over the cheapest.
 
     Args:
-        rows: of `controller_costs.counted`; episodes: of `arm_rows.episodes`.
+        rows: of `controller_costs.counted`.
     """
-    table, square = inverse_costs.invert(rows), on_square(episodes)
-    six = rows[(rows["controller"] == CONTROLLER) & (rows["joints"] == 6) & (rows["stage"] == "total")]
-    totals = six.set_index("inverse")["flops"]
-    for name in (one for one in table.index if one in totals):
-        own = square[square["inverse"] == name]
-        settle = f"{int(arm_rows.settled(own).sum())} of {len(own)}" if len(own) else html.MISSING
-        price = arm_rows.title_of_inverse(name), int(table.at[name, 6]), int(totals[name]), totals[name] / totals.min()
-        yield *price, settle, 1e3 * own["position_error_m"].quantile(0.95), own["peak_torque_ratio"].quantile(0.95)
+    table = invert(rows).reindex(columns=(6, 7))
+    six = rows[(rows["controller"] == ON_MATRIX) & (rows["joints"] == 6) & (rows["stage"] == "total")]
+    ticks = six.set_index("inverse")["flops"].reindex(table.index)
+    for name, flops in table.iterrows():
+        yield arm_rows.title_of_inverse(str(name)), *flops, ticks[name], ticks[name] / ticks.min()
 
 
 def price_of_damping(rows: pd.DataFrame, episodes: pd.DataFrame) -> str:
     """What each kind of damping costs over the plain inverse on six joints, and how many `wrist` starts each loses."""
-    table = inverse_costs.invert(rows)
+    table = invert(rows)
     flops = table[6].dropna() if 6 in table else pd.Series(dtype=float)
     if not {"solve", *SAID} <= set(flops.index):
         return "Not in this run: it has one inverse for a number of joints, and no damped one."
@@ -161,50 +156,3 @@ def price_of_damping(rows: pd.DataFrame, episodes: pd.DataFrame) -> str:
         price = SAID[name].format(times=f"{flops[name] / flops['solve']:.1f}") if name in SAID else ""
         parts.append(f"{price} and {lost}" if price else f"The plain inverse {lost}.")
     return f"{parts[0]} {'; '.join(parts[1:])}."
-
-
-def by_arm(found: pd.DataFrame) -> html.Markdown:
-    """A row an arm: ns a tick of the open loop, of our loops from the cheapest to the dearest, and of dm_control's."""
-    lines = []
-    for arm in sorted(set(found["arm"].astype(str))):
-        mine = found[found["arm"] == arm]
-        own = arm_times.loops(mine).sort_values("ns_per_tick")
-        if own.empty:
-            continue
-        open_loop = mine[mine["engine"] == "rollout"]["ns_per_tick"]
-        other = mine[mine["engine"] == "dm-control"]
-        threads = mine[mine["what"] == "threads"]
-        lines.append(
-            {
-                "Arm": title_of_arm(arm),
-                "Rollout [µs]": open_loop.iloc[0] / 1e3 if len(open_loop) else None,
-                "Ours [µs]": f"{own['ns_per_tick'].iloc[0] / 1e3:.2f} to {own['ns_per_tick'].iloc[-1] / 1e3:.2f}",
-                "Over rollout": f"{own['ratio_rollout'].min():.2f} to {own['ratio_rollout'].max():.2f}",
-                "dm_control [µs]": other["ns_per_tick"].iloc[0] / 1e3 if len(other) else None,
-                "Times as long": other["speedup"].iloc[0] if len(other) else None,
-                "Two threads": threads["speedup"].iloc[0] if len(threads) else None,
-            }
-        )
-    if not lines:
-        return html.Markdown(f"| No timings |\n| :-- |\n| {arm_times.NONE_YET} |")
-    frame = pd.DataFrame(lines).dropna(axis=1, how="all")
-    return html.table(frame, {name: form for name, form in FORMATS.items() if name in frame})
-
-
-def duration(found: pd.DataFrame) -> str:
-    """On which machine; and how much longer a loop by (3.7) takes than one by (2.2), with the standard inverse."""
-    own = arm_times.loops(found)
-    if own.empty:
-        return arm_times.NONE_YET
-    own, parts = own[arm_times.is_standard(own)], []
-    for arm, mine in own.groupby(own["arm"].astype(str)):
-        by = mine.set_index("controller")["ns_per_tick"]
-        if {arm_rows.ON_MATRIX, arm_rows.ON_ANGLES} <= set(by.index):
-            parts.append((title_of_arm(str(arm)), by[arm_rows.ON_ANGLES] / by[arm_rows.ON_MATRIX] - 1.0))
-    if not parts:
-        return times.said()
-    low, high = (f(parts, key=lambda part: part[1]) for f in (min, max))
-    return (
-        f"{times.said()} A whole loop by (3.7) takes {100 * low[1]:.0f} % ({low[0]}) to "
-        f"{100 * high[1]:.0f} % ({high[0]}) longer than one by (2.2) with the rotation matrix."
-    )

@@ -7,8 +7,8 @@ import math
 import pandas as pd
 
 from bench.contenders.registry import known_representations
-from bench.findings.claims.euler_jacobian import WELL_CONDITIONED
-from report.figures.arms import arm_poses, condition_growth, condition_maps, condition_shares, derivations
+from bench.findings.claims.euler_jacobian import DIFFERENCED, EPS, NEAR, WELL_CONDITIONED
+from report.figures.arms import arm_looks, condition_growth, condition_maps
 from report.figures.kit import html, media
 from report.figures.kit.page import Run, given
 from report.figures.kit.spelling import power
@@ -33,13 +33,13 @@ def largest(value: float) -> str:
     return f"{value:.1f}" if value < 1e4 else power(value)
 
 
-COORDINATES = {name: arm_poses.short_title(name) for name in known_representations()}
+COORDINATES = {name: arm_looks.short_title(name) for name in known_representations()}
 SLOPES = Table("Coordinates | Ways | Least:.3f | Most:.3f | Largest at 10⁻⁸", {"Largest at 10⁻⁸": largest})
 
 
 def papers(run: Run, **words: str) -> pd.DataFrame:
     """Poses seen in the paper's coordinates."""
-    return run.rows("poses", representation=arm_poses.PAPERS, **words)
+    return run.rows("poses", representation=condition_growth.PAPERS, **words)
 
 
 def facts(run: Run) -> dict:
@@ -48,10 +48,10 @@ def facts(run: Run) -> dict:
     return {
         **(given(papers(run, **FIRST_EXAMPLE), first_example) or {}),
         **(given(papers(run, pose_set="random"), most_spoilt) or {}),
-        **{name: f"{value:.1f}" for name, value in (given(every, derivations.gaps) or {}).items()},
+        **{name: f"{value:.1f}" for name, value in (given(every, gaps) or {}).items()},
         **filmed(run),
         "joints": given(papers(run, pose_set="slice"), joints),
-        "bad": f"{arm_poses.BAD:g}",
+        "bad": f"{condition_maps.BAD:g}",
         "well": f"{WELL_CONDITIONED:g}",
         "poses": f"{len(every):,}".replace(",", "\u202f"),
     }
@@ -67,12 +67,10 @@ def tables(run: Run) -> dict:
 
 
 def figures(run: Run) -> dict:
-    """Maps of two joints, growth towards the pole, two derivations, shares of a workspace, and the film."""
+    """Maps of two joints, growth towards the pole, and the film."""
     return {
         "condition-maps": given(papers(run, pose_set="slice"), condition_maps.maps),
         "condition-growth": given(run.rows("poses", pose_set="pole"), condition_growth.growth),
-        "derivations": given(papers(run), derivations.derivations),
-        "condition-shares": given(run.rows("poses", pose_set="random"), condition_shares.shares),
         "pole-loop": media.loop(FILM),
     }
 
@@ -90,27 +88,38 @@ def first_example(rows: pd.DataFrame) -> dict[str, str]:
 def most_spoilt(rows: pd.DataFrame) -> dict[str, str]:
     """Of poses where J is well conditioned, the least and the greatest share that J_E makes bad, by Z-Y-X angles."""
     fine = rows[rows["condition"] <= WELL_CONDITIONED]
-    by = (fine["condition_analytic"] > arm_poses.BAD).groupby(fine["arm"].astype(str)).mean()
+    by = (fine["condition_analytic"] > condition_maps.BAD).groupby(fine["arm"].astype(str)).mean()
     least, most = (f"{share:.1%}".replace("%", "\N{NO-BREAK SPACE}%") for share in (by.min(), by.max()))
     return {"spoilt_least": least, "spoilt_most": most}
 
 
+def gaps(rows: pd.DataFrame) -> dict[str, float]:
+    """Largest gaps of J_E where the margin is NEAR or more, in the units of what rounding leaves, over the margin.
+
+    (3.3) against (3.5) and the determinants in eps; (3.3) against central differences in eps^(2/3).
+    """
+    near = rows[rows["margin"] >= NEAR]
+    units = {"derived": ("derivation_gap", EPS), "measured": ("difference_gap", DIFFERENCED)}
+    units["determinants"] = "det_gap", EPS
+    return {name: float((near[gap] * near["margin"] / unit).max()) for name, (gap, unit) in units.items()}
+
+
 def joints(rows: pd.DataFrame) -> str:
     """The joints of each slice and its number of poses, for a caption."""
-    grids = {name: condition_maps.Grid(rows[rows["arm"] == name]) for name in arm_poses.arms(rows)}
-    parts = [f"{arm_poses.title(name)}: joints {own.first} and {own.second}" for name, own in grids.items()]
+    grids = {name: condition_maps.Grid(rows[rows["arm"] == name]) for name in arm_looks.arms(rows)}
+    parts = [f"{arm_looks.title(name)}: joints {own.first} and {own.second}" for name, own in grids.items()]
     return f"{'; '.join(parts)} ({rows.groupby('arm', observed=True)['pose_id'].nunique().max()} poses each)"
 
 
 def conditions(rows: pd.DataFrame) -> html.Markdown:
     """A row a named pose: beta, cond J, and cond J_E in every representation."""
     lines = []
-    for arm in arm_poses.arms(rows):
+    for arm in arm_looks.arms(rows):
         own = rows[rows["arm"] == arm]
         for pose, at in own.groupby("pose_id", observed=True, sort=False):
             by = at.set_index(at["representation"].astype(str))["condition_analytic"]
             beta = round(math.degrees(at["beta"].iloc[0]), 1) + 0.0
-            line = {"Arm": arm_poses.title(arm), "Pose": f"`{pose}`", "β [deg]": beta, "J": at["condition"].iloc[0]}
+            line = {"Arm": arm_looks.title(arm), "Pose": f"`{pose}`", "β [deg]": beta, "J": at["condition"].iloc[0]}
             lines.append(line | {title: by[name] for name, title in COORDINATES.items() if name in by})
     frame = pd.DataFrame(lines)
     return html.table(frame, dict.fromkeys(frame.columns.drop(["Arm", "Pose"]), condition) | {"β [deg]": ".1f"})
@@ -130,11 +139,11 @@ def slopes(rows: pd.DataFrame) -> html.Markdown | None:
 def spoilt(rows: pd.DataFrame) -> html.Markdown:
     """A row an arm: poses where J is well conditioned, and of those how many each J_E makes bad."""
     lines = []
-    for arm in arm_poses.arms(rows):
+    for arm in arm_looks.arms(rows):
         own = rows[rows["arm"] == arm]
         fine, once = own[own["condition"] <= WELL_CONDITIONED], own["pose_id"].nunique()
-        bad = (fine["condition_analytic"] > arm_poses.BAD).groupby(fine["representation"].astype(str)).mean()
-        line = {"Arm": arm_poses.title(arm), "Poses": once, "J fine [%]": 100 * fine["pose_id"].nunique() / once}
+        bad = (fine["condition_analytic"] > condition_maps.BAD).groupby(fine["representation"].astype(str)).mean()
+        line = {"Arm": arm_looks.title(arm), "Poses": once, "J fine [%]": 100 * fine["pose_id"].nunique() / once}
         lines.append(line | {title: 100 * bad.get(name, math.nan) for name, title in COORDINATES.items()})
     return html.table(pd.DataFrame(lines), dict.fromkeys(COORDINATES.values(), ".1f") | {"J fine [%]": ".0f"})
 
@@ -144,7 +153,7 @@ def filmed(run: Run) -> dict[str, str]:
     about = media.facts()
     euler, geometric = about["episodes"]
     return {
-        "film_arm": arm_poses.title(about["arm"]),
+        "film_arm": arm_looks.title(about["arm"]),
         "film_ratio": f"{euler['peak_torque_ratio']:.0f}",
         "film_ratio_geometric": f"{geometric['peak_torque_ratio']:.2f}",
         "film_path": f"{euler['path_ratio']:.1f}",

@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 
 import tasks
-from report.figures.arms import arm_rows, model_rest
+from report.figures.arms import arm_looks, arm_rows, model_rest
 from report.figures.failures.failure_map import outcomes
 from report.figures.kit import html, style
 from report.figures.kit.inline import responsive_picture
@@ -51,7 +51,7 @@ def facts(run: Run) -> dict:
         "lead": f"From the same start the controllers end {apart:.1g}° apart in the median; the worst variation, "
         f"{medians.idxmax()}, leaves {medians.max():.1f}°, the mildest, {medians.idxmin()}, {medians.min():.2f}°.",
         "setting": f"From clear starts, {len(own)} episodes of {float(own['horizon_s'].max()):g} s by "
-        f"{own['controller'].nunique()} controllers on {len(arm_rows.arms(own))} arms. With a perfect model {lost} of "
+        f"{own['controller'].nunique()} controllers on {len(arm_looks.arms(own))} arms. With a perfect model {lost} of "
         f"their clear episodes fail; with these {settled:.0f} % settle, and the others stay outside "
         f"{100 * float(own['tolerance'].iloc[0]):g} % of the initial angle.",
         "gravity": by_gravity(own),
@@ -69,12 +69,8 @@ def tables(run: Run) -> dict:
 
 
 def figures(run: Run) -> dict:
-    """Where the tool ends, and what of it is gravity's."""
-    own = compared(run)
-    return {
-        "model-error": given(own, spread),
-        "model-gravity": given(own, lambda rows: model_rest.gravity(model_rest.predicted(rows))),
-    }
+    """Where the tool ends."""
+    return {"model-error": given(compared(run), spread)}
 
 
 def in_order(rows: pd.DataFrame) -> list[str]:
@@ -89,7 +85,7 @@ def spread(rows: pd.DataFrame, narrow: bool):
     Args:
         rows: of `compared`.
     """
-    words, names = in_order(rows), arm_rows.arms(rows)
+    words, names = in_order(rows), arm_looks.arms(rows)
     height = 0.46 * len(words)
     figure, (left, right) = style.beside(2, height + 1.2, 2 * height + 1.2, narrow, sharey=True)
     said = []
@@ -100,15 +96,14 @@ def spread(rows: pd.DataFrame, narrow: bool):
             angle = np.degrees(own["final_angle_rad"]).clip(lower=FLOOR_DEG).quantile(QUANTILES)
             strays = (1e3 * own["position_error_m"]).clip(lower=FLOOR_MM).quantile(QUANTILES)
             place = i + 0.17 * (k - 0.5 * (len(names) - 1))
+            drawn = arm_looks.look(arm)
             for axes, (low, middle, high) in ((left, angle), (right, strays)):
-                colour, marker = arm_rows.mark(k)
-                axes.plot([low, high], [place, place], color=colour, linewidth=2.2, alpha=0.5)
-                axes.plot(middle, place, marker, color=colour, markersize=4.5)
+                axes.plot([low, high], [place, place], color=drawn.colour, linewidth=2.2, alpha=0.5)
+                axes.plot(middle, place, drawn.marker, color=drawn.colour, markersize=4.5)
             told.append(f"{arm} {angle[0.5]:.2g}")
         said.append(f"{word}: {', '.join(told)}")
-    for k, arm in enumerate(names):
-        colour, marker = arm_rows.mark(k)
-        left.plot([], [], marker, color=colour, label=arm)
+    for arm in names:
+        left.plot([], [], arm_looks.look(arm).marker, color=arm_looks.look(arm).colour, label=arm)
     left.set(xscale="log", xlabel="angle to the goal at the end [deg]", ylim=(len(words) - 0.4, -0.6))
     right.set(xscale="log", xlabel="tool strays by [mm]")
     left.set_yticks(range(len(words)), words)
@@ -166,7 +161,7 @@ def by_controller(rows: pd.DataFrame) -> html.Markdown:
 
 def held_by_friction(rows: pd.DataFrame) -> Iterator[tuple]:
     """Every arm and friction: least inertia of a joint, what friction can hold, what was measured."""
-    for arm in arm_rows.arms(rows) if len(rows) else ():
+    for arm in arm_looks.arms(rows) if len(rows) else ():
         for word in (one for one in in_order(rows) if one.startswith(RUBBED)):
             own = rows[(rows["arm"] == arm) & (rows["variation"] == word)]
             if len(own):

@@ -21,9 +21,6 @@ import numpy as np
 import pandas as pd
 
 import tasks
-from report.figures.arms import arm_rows
-from report.figures.kit import style
-from report.figures.kit.inline import responsive_picture
 from tasks.arm_model import model_xml
 from tasks.kinematics import kinematics, rotation_vector
 from tasks.paths import geodesic
@@ -80,39 +77,6 @@ def _dynamics(arm: str, q: tuple[float, ...]) -> tuple[np.ndarray, np.ndarray]:
     D = np.zeros((model.nv, model.nv))
     mujoco.mj_fullM(model, data, D)
     return D, data.qfrc_bias - data.qfrc_passive
-
-
-@responsive_picture
-def gravity(found: pd.DataFrame, narrow: bool):
-    """Measured angle at the end against what gravity alone leaves, both logarithmic.
-
-    Args:
-        found: of `predicted`.
-    """
-    figure, axes = style.panels(height=3.9 if narrow else 3.6, narrow=narrow)
-    names = arm_rows.arms(found)
-    known = found.dropna(subset="gravity_rad")
-    for k, arm in enumerate(names):
-        own = known[known["arm"] == arm]
-        axes.plot(
-            np.degrees(own["gravity_rad"]),
-            np.degrees(own["final_angle_rad"]),
-            arm_rows.mark(k)[1],
-            color=arm_rows.mark(k)[0],
-            markersize=4.5,
-            label=arm,
-        )
-    ends = np.degrees([known["gravity_rad"].min(), known["gravity_rad"].max()])
-    axes.plot(ends, ends, color=style.INK, linewidth=0.9, linestyle=style.DASHED, label="gravity alone", zorder=0)
-    axes.set(xscale="log", yscale="log", xlabel="left by gravity alone [deg]", ylabel="angle at the end [deg]")
-    axes.minorticks_off()
-    axes.legend(loc="upper left")
-    ratio = ratios(found)
-    return figure, (
-        f"Angle to the goal at the end against the angle that gravity alone leaves, {len(known)} episodes: "
-        f"the ratio is {ratio.median():.2f} in the median and {ratio.quantile(0.05):.2f} to {ratio.quantile(0.95):.2f} "
-        "from 5 to 95 per cent."
-    )
 
 
 def ratios(found: pd.DataFrame) -> pd.Series:

@@ -16,8 +16,6 @@ from bench.engines.run import run
 from bench.law.contender import Gains
 from bench.metrics.registry import metrics_of
 from report.figures.arms import arm_rows
-from report.figures.kit import style
-from report.figures.kit.inline import responsive_picture
 from tasks import Start
 from tasks.rules import RULES
 from tasks.verdict import SETTLED
@@ -25,7 +23,6 @@ from tasks.verdict import SETTLED
 START_SET = "clear"
 CLOSE_TICKS = 5
 """Differences of so many ticks are told apart from larger ones: both plants integrate with errors of first order."""
-DRAWN_MS = 60.0
 
 
 def differences(rows: pd.DataFrame) -> pd.DataFrame:
@@ -59,47 +56,6 @@ def _settling_s(law: str, starts: tuple, kp: float, kv: float, dt_s: float, hori
     found = run("native", arm_rows.contenders()[law], "free-body", starts, settings, metrics_of(on_arm=False))
     times = np.where(found[:, OUTCOME] == SETTLED, found[:, SETTLING_TICK] * dt_s, np.nan)
     return tuple(times.tolist())
-
-
-@responsive_picture
-def later(found: pd.DataFrame, narrow: bool):
-    """How much later the arm settles than the free body, a row a controller, a mark an episode.
-
-    Args:
-        found: of `differences`.
-    """
-    controllers = arm_rows.in_order(found)
-    figure, axes = style.panels(height=(0.5 if narrow else 0.4) * len(controllers) + 1.2, narrow=narrow)
-    names = arm_rows.arms(found)
-    said = []
-    for i, controller in enumerate(controllers):
-        own = found[found["controller"] == controller]
-        look = style.look(controller)
-        for k, arm in enumerate(names):
-            later_ms = 1e3 * own.loc[own["arm"] == arm, "later_s"].dropna().clip(-DRAWN_MS, DRAWN_MS)
-            place = i + 0.11 * (k - 0.5 * (len(names) - 1)) + (0.16 if narrow else 0.0)
-            face = {"markersize": 3.2, "markeredgewidth": 0.6, "alpha": 0.75}
-            axes.plot(later_ms, [place] * len(later_ms), arm_rows.mark(k)[1], color=look.colour, **face)
-        title = arm_rows.title(controller)
-        if narrow:
-            axes.text(-DRAWN_MS, i - 0.12, title, ha="left", va="bottom", fontsize=9)
-        both = own["later_s"].dropna()
-        if len(both):
-            middle = f"median {1e3 * both.median():+.1f}, largest {1e3 * both.abs().max():.0f} ms of {len(both)}"
-            said.append(f"{title}: {middle}")
-    for k, arm in enumerate(names):
-        axes.plot([], [], arm_rows.mark(k)[1], color=style.INK, markersize=4.5, label=arm)
-    axes.axvline(0.0, color=style.MUTED, linewidth=0.9, zorder=0)
-    axes.set_xscale("symlog", linthresh=CLOSE_TICKS, linscale=1.5)
-    ticks = [-50, -10, -5, 0, 5, 10, 50]
-    axes.set_xticks(ticks, [f"{tick}".replace("-", "\N{MINUS SIGN}") for tick in ticks])
-    axes.minorticks_off()
-    axes.set_yticks([] if narrow else range(len(controllers)), [] if narrow else map(arm_rows.title, controllers))
-    axes.set(xlabel="settles later than the free body by [ms]", xlim=(-1.1 * DRAWN_MS, 1.1 * DRAWN_MS))
-    axes.set_ylim(len(controllers) - 0.4, -0.7)
-    style.listed(axes)
-    figure.legend(loc="outside lower center", ncols=2 if narrow else 4)
-    return figure, f"Settling time on an arm minus that of the free body, from clear starts. {'. '.join(said)}."
 
 
 def close(found: pd.DataFrame) -> pd.Series:
