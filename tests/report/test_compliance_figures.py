@@ -16,7 +16,7 @@ from bench.experiments.contact import poses_of
 from bench.experiments.rows import contact as contact_rows
 from bench.tables import read
 from bench.tables.schema import RESULTS
-from report.figures.contact import compliance, contact_models, hand_axes, in_contact, loops, theory_panels
+from report.figures.contact import against_theory, compliance, contact_models, hand_axes, in_contact, loops
 from report.figures.contact import misalignment_map as frames
 from report.figures.contact import rows as controllers
 from report.figures.contact.by_frame import MEASURES
@@ -89,7 +89,7 @@ def test_page_is_whole_and_says_so_when_a_run_holds_no_contact(page, run):
     assert_is_whole(page, run)
     nothing = page.facts(Nothing())
     assert set(nothing) <= set(page.facts(run))
-    assert not any(page.figures(Nothing()).get(key) for key in ("compliance-axes", "compliance-loops", "in-contact"))
+    assert not any(page.figures(Nothing()).get(key) for key in ("compliance-axes", "in-contact"))
     assert page.tables(Nothing())["verdicts"] is None
 
 
@@ -114,8 +114,8 @@ def test_cartesian_hand_turns_about_the_moment_and_holds_the_other_axis(probe):
 
 
 def test_measurements_lie_on_the_lines_of_theory(probe):
-    gaps = theory_panels.gaps(probe)
-    assert set(gaps) == set(theory_panels.LAWS)
+    gaps = against_theory.gaps(probe)
+    assert set(gaps) == set(against_theory.LAWS)
     assert max(gaps.values()) < 1e-3
 
 

@@ -23,7 +23,7 @@ def millimetres(value: float) -> str:
     return f"< {LEAST_MM:g}" if value < LEAST_MM else html.number(value)
 
 
-SETTLED = Table({"Controller": "", **dict.fromkeys(arm_rows.SETS, ".0f"), "Later by [ms]": "+.1f"})
+SETTLED = Table({"Controller": "", **dict.fromkeys(arm_rows.SETS, ".0f")})
 FAILED = Table(" | ".join(("Controller", "Episodes", "Failed", *CAUSES.values())))
 STRAIN = Table(
     "Arm | Strays, (2.2) [mm] | Strays, (3.7) [mm] | Torque, (2.2) | Torque, (3.7) | Within, clear [%]:.0f | "
@@ -32,19 +32,17 @@ STRAIN = Table(
 )
 
 
-def settling(rows: pd.DataFrame, beside: pd.DataFrame) -> html.Markdown | None:
-    """A controller a line: share of each start set that settles, and how much later than the free body, median.
+def settling(rows: pd.DataFrame) -> html.Markdown | None:
+    """A controller a line: share of each start set that settles [%].
 
     Args:
-        rows: of `arm_rows.episodes`, by the standard inverse. beside: of `free_body.differences`.
+        rows: of `arm_rows.episodes`, by the standard inverse.
     """
-    later_ms = 1e3 * beside.groupby("controller")["later_s"].median()
     lines = []
     for controller in arm_rows.in_order(rows):
         own = rows[rows["controller"] == controller]
         shares = 100.0 * arm_rows.settled(own).groupby(own["start_set"]).mean()
-        later = later_ms.get(controller)
-        lines.append({"Controller": arm_rows.title(controller), "Later by [ms]": later, **shares})
+        lines.append({"Controller": arm_rows.title(controller), **shares})
     return SETTLED(lines)
 
 

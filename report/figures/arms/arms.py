@@ -86,7 +86,7 @@ def tables(run: Run) -> dict:
         "tab_arms": ARMS(map(arm_row, tasks.arm_names())),
         "sources": "\n".join(f"- `{name}`: {prose(tasks.arm(name).source)}" for name in tasks.arm_names()),
         "tab_starts": STARTS(start_sets(rows)),
-        "tab_settled": arm_outcomes.settling(standard(run), later(run)),
+        "tab_settled": arm_outcomes.settling(standard(run)),
         "tab_causes": arm_outcomes.failing(arm_outcomes.tallied(standard(run))),
         "tab_pole": POLE(at_the_pole(standard(run))),
         "tab_wrist": WRIST(at_the_wrist(rows)),

@@ -16,9 +16,9 @@ from bench.findings.theory import hybrid_stability as stability
 from bench.law.so3 import from_quaternion
 from report.figures.contact import loops
 from report.figures.contact import rows as controllers
+from report.figures.contact.against_theory import COMPARED_TO, gaps
 from report.figures.contact.hand_axes import axes_of_turning
 from report.figures.contact.misalignment_map import misalignment
-from report.figures.contact.theory_panels import COMPARED_TO, gaps, measured_and_predicted
 from report.figures.kit import html
 from report.figures.kit.page import ABSENT, Run, given
 from report.figures.kit.spelling import power
@@ -194,11 +194,9 @@ def conversion(rows: pd.DataFrame) -> html.Markdown | None:
 
 
 def figures(run: Run) -> dict:
-    """Axes of turning, theory against measurement, the map of frames, closed loops."""
+    """Axes of turning, and the map of frames."""
     probe = controllers.of_task(run, PROBE)
     return {
         "compliance-axes": given(probe, axes_of_turning),
-        "compliance-laws": given(probe, measured_and_predicted),
         "compliance-map": given(probe, lambda rows: misalignment(rows, (controllers.EULER, controllers.ZYZ))),
-        "compliance-loops": given(controllers.of_task(run, LOOP), loops.left_over),
     }
