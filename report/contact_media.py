@@ -6,9 +6,9 @@ method from one frame to the next, and the scene's joint is in the record.
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from contextlib import closing
 
-from drawing import FRAMES_PER_S, HALF, LINE, encode, save, sheet, side_by_side, written
+from drawing import HALF, LINE, Motion, View, loop, save, sheet, written
 
 ARM = "puma560"
 SHOWN = {
@@ -26,21 +26,8 @@ LOOP_S, SLOWER = 2.4, 1.2
 NEWTON_STEPS = 6  # from one frame to the next the hand moves by centimetres at most, and each step squares what is left
 
 
-class Seen(NamedTuple):
-    """An episode as a picture needs it: its trial, time step [s], outcome and record."""
-
-    trial: Any
-    dt_s: float
-    outcome: str
-    record: Any
-
-    def tick(self, time_s: float) -> int:
-        """The record's line at a time; the last one once it has ended."""
-        return min(round(time_s / self.dt_s), len(self.record) - 1)
-
-
-def seen(task: str, trial: str, controller: str) -> Seen:
-    """One episode by the compiled engine."""
+def seen(task: str, trial: str, controller: str) -> tuple[Puppet, Motion]:
+    """One episode by the compiled engine, its record's lines, and a puppet at its beginning."""
     import tasks
     from bench.control.registry import find_compliant
     from bench.engines.contact_episode import USUAL
@@ -49,31 +36,24 @@ def seen(task: str, trial: str, controller: str) -> Seen:
     arm, about = tasks.arm(ARM), tasks.contact_task(task)
     one = next(each for each in about.trials(arm) if each.id == trial or not trial)
     ended = next(run("native", find_compliant(controller), about, arm, (one,)))
-    return Seen(one, USUAL.dt_s, ended.outcome, ended.record)
+    return Puppet(task, one), Motion(USUAL.dt_s, ended.record)
 
 
 class Puppet:
-    """A task on the arm, moved to where a record has the hand."""
+    """A task on the arm, the scene, the hand's frame and the joints where a trial has them at first."""
 
-    def __init__(self, task: str):
+    def __init__(self, task: str, trial):
         import mujoco
 
         import tasks
         from bench.engines.contact_episode import USUAL
+        from tasks.contact import prepare
         from tasks.contact_model import model_xml
 
         self.joints = tasks.arm(ARM).joints
         xml = model_xml(tasks.contact_task(task), tasks.arm(ARM), USUAL.dt_s)
         self.model = mujoco.MjModel.from_xml_string(xml)
         self.data = mujoco.MjData(self.model)
-
-    def begin(self, trial) -> None:
-        """Put the scene, the hand's frame and the joints where the trial has them."""
-        import mujoco
-
-        from tasks.contact import prepare
-
-        mujoco.mj_resetData(self.model, self.data)
         prepare(self.model, self.data, trial)
         mujoco.mj_forward(self.model, self.data)
 
@@ -99,47 +79,18 @@ class Puppet:
         mujoco.mj_forward(model, data)
 
 
-class Stage:
-    """A puppet before a camera that looks at where its hand begins."""
+def view(puppet: Puppet, azimuth: float, elevation: float, distance: float) -> View:
+    """Of where a puppet's hand begins, from so far [m]."""
+    import mujoco
 
-    def __init__(self, puppet: Puppet, azimuth: float, elevation: float, distance: float):
-        import mujoco
-
-        self.puppet, model = puppet, puppet.model
-        of_scene = model.body_rootid[model.geom_bodyid] == model.body("scene").id
-        # capsules of the arm are axes of its frames
-        model.geom_rgba[(model.geom_type == mujoco.mjtGeom.mjGEOM_CAPSULE) & ~of_scene, 3] = 0.0
-        self.renderer = mujoco.Renderer(model, HALF[1], HALF[0])
-        self.camera = mujoco.MjvCamera()
-        self.camera.azimuth, self.camera.elevation, self.camera.distance = azimuth, elevation, distance
-        self.camera.lookat[:] = puppet.data.site("hand").xpos
-
-    def __enter__(self) -> Stage:
-        return self
-
-    def __exit__(self, *_) -> None:
-        self.renderer.close()
-
-    def picture(self, line):
-        """A PIL image of a line of the record."""
-        from PIL import Image
-
-        self.puppet.follow(line)
-        self.renderer.update_scene(self.puppet.data, camera=self.camera)
-        return Image.fromarray(self.renderer.render())
-
-
-def put(task: str, one: Seen) -> Puppet:
-    """A puppet at the beginning of an episode."""
-    puppet = Puppet(task)
-    puppet.begin(one.trial)
-    return puppet
-
-
-def along(one: Seen, until_s: float, frames_per_s: float):
-    """Lines of the record, frame by frame."""
-    for number in range(round(until_s * frames_per_s)):
-        yield one.record[one.tick(number / frames_per_s)]
+    model = puppet.model
+    of_scene = model.body_rootid[model.geom_bodyid] == model.body("scene").id
+    # capsules of the arm are axes of its frames
+    model.geom_rgba[(model.geom_type == mujoco.mjtGeom.mjGEOM_CAPSULE) & ~of_scene, 3] = 0.0
+    camera = mujoco.MjvCamera()
+    camera.azimuth, camera.elevation, camera.distance = azimuth, elevation, distance
+    camera.lookat[:] = puppet.data.site("hand").xpos
+    return View(puppet, HALF, camera)
 
 
 def tasks_in_contact() -> None:
@@ -147,27 +98,22 @@ def tasks_in_contact() -> None:
     width, height = HALF
     strip = sheet(width * len(SHOWN), height + LINE)
     for place, (task, (trial, distance)) in enumerate(SHOWN.items()):
-        one = seen(task, trial, BY)
-        with Stage(put(task, one), 160.0, -14.0, distance) as stage:
-            for line in along(one, STILL_AT_S, FRAMES_PER_S):
-                stage.puppet.follow(line)
-            strip.paste(stage.picture(line), (place * width, 0))
+        puppet, motion = seen(task, trial, BY)
+        with closing(view(puppet, 160.0, -14.0, distance)) as of_task:
+            for line in motion.frames(STILL_AT_S):
+                puppet.follow(line)
+            strip.paste(of_task.picture(line), (place * width, 0))
         written(strip, (place * width + width // 2, height + LINE - 12), task.replace("-", " "), 24, anchor="ms")
     save(strip, "contact-tasks.png")
 
 
 def on_the_plate() -> None:
     """The loop: Cartesian and Euler compliance on the same plate, at equal times."""
-    halves = []
-    for controller in CONTROLLERS:
-        one = seen(PLATE, TILTED, controller)
-        with Stage(put(PLATE, one), 172.0, -5.0, 0.5) as stage:
-            halves.append([stage.picture(line) for line in along(one, LOOP_S, FRAMES_PER_S * SLOWER)])
-    images = [
-        side_by_side(list(both), list(CONTROLLERS.values()), f"{number / FRAMES_PER_S / SLOWER:.2f} s")
-        for number, both in enumerate(zip(*halves, strict=True))
-    ]
-    encode(images, "plate-loop", len(images) - 1)
+    shown = {}
+    for controller, title in CONTROLLERS.items():
+        puppet, motion = seen(PLATE, TILTED, controller)
+        shown[title] = view(puppet, 172.0, -5.0, 0.5), motion
+    loop("plate-loop", shown, LOOP_S, SLOWER)
 
 
 def facts() -> dict:

@@ -14,11 +14,10 @@ import math
 import os
 import subprocess
 import sys
-from collections.abc import Iterator
+from contextlib import closing
 from pathlib import Path
-from typing import NamedTuple
 
-from drawing import FRAMES_PER_S, HALF, MEDIA, encode, save, sheet, side_by_side, written
+from drawing import HALF, MEDIA, Motion, View, loop, save, sheet, written
 
 REPORT = Path(__file__).resolve().parent
 FACTS = MEDIA / "media.json"
@@ -37,26 +36,32 @@ LOOP_S, SLOWER = 0.7, 4  # played in 2.8 s; the band is reached in 0.65 s or so
 
 STRIP = (380, 460)  # pixels of an arm at home, and of a still
 STILL = (300, 300)
-# What is kept of a view of the model's own camera: left, top, right, bottom, as shares of its sides.
-WHOLE, CLOSE = (0.0, 0.0, 1.0, 1.0), (0.22, 0.11, 0.95, 0.88)
+CAMERA = "view"  # of an arm's model
+CLOSE = (0.22, 0.11, 0.95, 0.88)  # what is kept of it: left, top, right, bottom, as shares of its sides
 
 
-class Motion(NamedTuple):
-    """An episode: its words, joint angles [rad] tick by tick, and the judge's row."""
+class Puppet:
+    """An arm whose joints are put where a pose has them."""
 
-    contender: str
-    title: str
-    dt_s: float
-    q: list
-    row: dict
+    def __init__(self, name: str):
+        import mujoco
 
-    def at(self, time_s: float) -> list:
-        """Joint angles at a time; the last ones once it has ended."""
-        return self.q[min(round(time_s / self.dt_s), len(self.q) - 1)]
+        import tasks
+        from tasks.arm_model import model_xml
+
+        self.model = mujoco.MjModel.from_xml_string(model_xml(tasks.arm(name), 1e-3))
+        self.data = mujoco.MjData(self.model)
+
+    def follow(self, q) -> None:
+        """Take a pose, joint angles [rad]."""
+        import mujoco
+
+        self.data.qpos[:] = q
+        mujoco.mj_forward(self.model, self.data)
 
 
-def motions() -> list[Motion]:
-    """Both contenders from the same start: judged as any episode, and recorded tick by tick."""
+def motions() -> dict[str, tuple[Motion, dict]]:
+    """Both contenders from the same start: joint angles [rad] tick by tick, and the judge's row, as of any episode."""
     import numpy as np
 
     import tasks
@@ -70,8 +75,8 @@ def motions() -> list[Motion]:
 
     start = next(one for one in tasks.start_set(START_SET, None, SEED, arm=ARM) if one.id == START)
     metrics, joints, settings = metrics_of(on_arm=True), tasks.arm(ARM).joints, Settings("media")
-    found = []
-    for word, title in CONTENDERS.items():
+    found = {}
+    for word in CONTENDERS:
         one = controller(word)
         unit = Unit("arm", one.name, TASK, ARM, "native", START_SET, NOMINAL, count=1, horizon_s=ON_ARM)
         judged = run("native", one, TASK, ARM, [start], settings.limits(ON_ARM), metrics)
@@ -81,55 +86,23 @@ def motions() -> list[Motion]:
         first = ARM_NUMBERS.index("q_1")
         q = ticks[~np.isnan(ticks[:, 0]), first : first + joints].tolist()
         row = frame(settings, unit, one, [start], judged, metrics).iloc[0].to_dict()
-        found.append(Motion(one.name, title, settings.dt_s, q, row))
+        found[word] = Motion(settings.dt_s, q), row
     return found
 
 
-def facts(found: list[Motion], commit: str) -> dict:
+def facts(found: dict[str, tuple[Motion, dict]], commit: str) -> dict:
     """What the files show and where they come from."""
     numbers = ("settling_time_s", "failure_time_s", "path_ratio", "peak_torque_ratio", "position_error_m")
     episodes = [
         {
-            "contender": one.contender,
-            "outcome": str(one.row["outcome"]),
-            **{name: None if math.isnan(one.row[name]) else float(f"{one.row[name]:.6g}") for name in numbers},
+            "contender": word,
+            "outcome": str(row["outcome"]),
+            **{name: None if math.isnan(row[name]) else float(f"{row[name]:.6g}") for name in numbers},
         }
-        for one in found
+        for word, (_, row) in found.items()
     ]
     place = {"commit": commit, "arm": ARM, "start_set": START_SET, "start": START, "seed": SEED}
     return {**place, "episodes": episodes, "stills_s": STILLS_S, "loop_s": LOOP_S, "slower": SLOWER}
-
-
-class View:
-    """The camera "view" of an arm's model, which draws a pose as a picture of the size asked for."""
-
-    def __init__(self, arm, size: tuple[int, int], part=WHOLE):
-        import mujoco
-
-        from tasks.arm_model import model_xml
-
-        width, height = (round(side / share) for side, share in zip(size, self.shares(part), strict=True))
-        self.model = mujoco.MjModel.from_xml_string(model_xml(arm, 1e-3))
-        self.data = mujoco.MjData(self.model)
-        self.renderer = mujoco.Renderer(self.model, height, width)
-        self.box = (round(part[0] * width), round(part[1] * height))
-        self.size = size
-
-    @staticmethod
-    def shares(part) -> tuple[float, float]:
-        """Of the camera's width and height."""
-        return part[2] - part[0], part[3] - part[1]
-
-    def picture(self, q):
-        """A PIL image of the pose."""
-        import mujoco
-        from PIL import Image
-
-        self.data.qpos[:] = q
-        mujoco.mj_forward(self.model, self.data)
-        self.renderer.update_scene(self.data, camera="view")
-        left, top = self.box
-        return Image.fromarray(self.renderer.render()).crop((left, top, left + self.size[0], top + self.size[1]))
 
 
 def at_home() -> None:
@@ -140,19 +113,20 @@ def at_home() -> None:
     strip = sheet(width * len(names), height)
     for place, name in enumerate(names):
         arm = tasks.arm(name)
-        strip.paste(View(arm, STRIP).picture(arm.home), (place * width, 0))
+        with closing(View(Puppet(name), STRIP, CAMERA)) as of_arm:
+            strip.paste(of_arm.picture(arm.home), (place * width, 0))
         written(strip, (place * width + width // 2, height - 12), arm.title, 28, anchor="ms")
     save(strip, "arms.png")
 
 
-def film(found: list[Motion], view: View) -> None:
-    """Stills of both motions, one above the other."""
+def film(shown: dict[str, Motion], view: View) -> None:
+    """Stills of motions, one above the other, by title."""
     width, height = STILL
     line = 44
-    strip = sheet(width * len(STILLS_S), len(found) * (height + line) + line)
-    for row, motion in enumerate(found):
+    strip = sheet(width * len(STILLS_S), len(shown) * (height + line) + line)
+    for row, (title, motion) in enumerate(shown.items()):
         top = line + row * (height + line)
-        written(strip, (8, top + line - 12), f"with the {motion.title}", 32, anchor="ls")
+        written(strip, (8, top + line - 12), f"with the {title}", 32, anchor="ls")
         for column, time_s in enumerate(STILLS_S):
             strip.paste(view.picture(motion.at(time_s)), (column * width, top + line))
     for column, time_s in enumerate(STILLS_S):
@@ -160,33 +134,25 @@ def film(found: list[Motion], view: View) -> None:
     save(strip, "pole-film.png")
 
 
-def frames(found: list[Motion], view: View) -> Iterator:
-    """Images of the loop, both motions side by side."""
-    titles = [motion.title for motion in found]
-    for number in range(round(LOOP_S * SLOWER * FRAMES_PER_S)):
-        time_s = number / FRAMES_PER_S / SLOWER
-        pictures = [view.picture(motion.at(time_s)) for motion in found]
-        yield side_by_side(pictures, titles, f"{time_s:.2f} s, played {SLOWER} times slower")
-
-
 def draw() -> int:
     """All files, in this process; NO_GL if MuJoCo cannot draw here."""
     sys.path.insert(0, str(REPORT.parent))
     import contact_media
 
-    import tasks
     from bench.provenance import describe
 
     try:
-        large, small = (View(tasks.arm(ARM), size, CLOSE) for size in (HALF, STILL))
+        large, small = (View(Puppet(ARM), size, CAMERA, CLOSE) for size in (HALF, STILL))
     except Exception as reason:  # what a missing GL raises depends on the backend
         print(f"media: {os.environ['MUJOCO_GL']} does not draw here ({reason})", file=sys.stderr)
         return NO_GL
     MEDIA.mkdir(parents=True, exist_ok=True)
     found = motions()
+    shown = {CONTENDERS[word]: motion for word, (motion, _) in found.items()}
     at_home()
-    film(found, small)
-    encode(list(frames(found, large)), "pole-loop", round(STILLS_S[3] * SLOWER * FRAMES_PER_S))
+    film(shown, small)
+    both = {title: (large, motion) for title, motion in shown.items()}
+    loop("pole-loop", both, LOOP_S, SLOWER, f", played {SLOWER} times slower", STILLS_S[3])
     contact_media.tasks_in_contact()
     contact_media.on_the_plate()
     commit = describe()["commit"]

@@ -70,9 +70,8 @@ def test_a_still_shows_every_task_in_contact():
 
 
 def test_joints_follow_the_hand_of_the_record():
-    one = contact_media.seen(contact_media.PLATE, contact_media.TILTED, contact_media.BY)
-    puppet = contact_media.put(contact_media.PLATE, one)
-    for line in contact_media.along(one, 2.0, 25):
+    puppet, motion = contact_media.seen(contact_media.PLATE, contact_media.TILTED, contact_media.BY)
+    for line in motion.frames(2.0):
         puppet.follow(line)
     hand = puppet.data.site("hand")
     np.testing.assert_allclose(hand.xpos, line[P : P + 3], atol=1e-9)
@@ -82,7 +81,7 @@ def test_joints_follow_the_hand_of_the_record():
 @pytest.mark.slow
 def test_motion_is_still_that_of_the_two_controllers():
     # The first passes a singularity, where rounding decides the torque; that it swings wildly is not rounding's.
-    euler, geometric = (one.row for one in rendering.motions())
+    euler, geometric = (row for _, row in rendering.motions().values())
     assert geometric["outcome"] == "settled"
     assert geometric["peak_torque_ratio"] < 1.0
     assert geometric["path_ratio"] == pytest.approx(1.0, abs=0.01)
