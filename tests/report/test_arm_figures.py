@@ -148,12 +148,6 @@ def test_friction_holds_more_where_there_is_more_of_it():
     assert model_rest.held_deg(ARM, 10.0, 100.0) == pytest.approx(5.0 * model_rest.held_deg(ARM, 2.0, 100.0))
 
 
-def test_reach_of_a_puma_is_that_of_its_outstretched_links():
-    # Corke's table: shoulder to elbow a2 and, across it, d3; elbow to wrist hypot(a3, d4); the elbow stretches wholly
-    stretched = 0.4318 + (0.0203**2 + 0.4318**2) ** 0.5
-    assert arms.reach("puma560") == pytest.approx((stretched**2 + 0.15005**2) ** 0.5, rel=1e-3)
-
-
 def test_tables_of_what_there_is_have_a_row_each():
     tables, there = arms.tables(shown()), method.tables(run_in(RESULTS / "reference"))
     assert len(there["jacobians"].splitlines()) == 2 + 4

@@ -6,10 +6,8 @@ import functools
 import sys
 from collections.abc import Iterator
 
-import mujoco
 import numpy as np
 import pandas as pd
-from scipy.optimize import minimize
 
 import tasks
 from report.figures.arms import arm_advice, arm_outcomes, arm_pole, arm_rows, free_body, linear_response
@@ -18,15 +16,11 @@ from report.figures.kit import html
 from report.figures.kit.page import Run
 from report.figures.kit.spelling import prose
 from report.figures.kit.tables import Table
-from tasks.arm_model import Arm, model_xml
 from tasks.cause import NEAR_CONDITION, NEAR_MARGIN
 from tasks.kinematics import kinematics
 from tasks.paths import zyx_angles
 
-TRIED, POLISHED, SEED = 400, 4, 0
-"""Random postures for the furthest one, and from how many of them it is climbed to."""
-
-ARMS = Table("Arm | Maker's name | Joints | Reach [m]:.2f | Condition:.1f | β [deg] | Rated torques [N m]")
+ARMS = Table("Arm | Maker's name | Joints | Condition:.1f | β [deg] | Rated torques [N m]")
 STARTS = Table("Set | What it is for | Starts an arm | Horizon [s]")
 POLE = Table("Arm | Starts | (2.2) fails | (3.7) fails | fails or hammers | Way:.1f | Torque")
 WRIST = Table("Controller | Inverse | Starts | Settled [%]:.0f | Strays [mm] | 95 % | Torque")
@@ -100,38 +94,13 @@ def figures(run: Run) -> dict:
 
 
 def arm_row(name: str) -> tuple:
-    """An arm: joints, reach, its Jacobian's condition number and the tool's beta at home, torques."""
+    """An arm: joints, its Jacobian's condition number and the tool's beta at home, torques."""
     one = tasks.arm(name)
     model = kinematics(one)
     beta = round(float(np.degrees(zyx_angles(model.pose(one.home)[1])[1]))) + 0
     rated = ", ".join(f"{torque:g}" for torque in one.rated)
     named = html.together(f"`{name}`"), prose(one.title)
-    return *named, one.joints, reach(name), model.condition(one.home), beta, rated
-
-
-@functools.cache
-def reach(name: str) -> float:
-    """Furthest distance of the tool from the second joint's anchor, joints within their ranges [m]."""
-    one = tasks.arm(name)
-    model = mujoco.MjModel.from_xml_string(model_xml(one, 1e-3))
-    data = mujoco.MjData(model)
-    site = model.site("tool").id
-
-    def near(q) -> float:
-        data.qpos[:] = q
-        mujoco.mj_kinematics(model, data)
-        return -float(np.linalg.norm(data.site_xpos[site] - data.xanchor[1]))
-
-    low, high = ranges(one)
-    tried = np.random.default_rng(SEED).uniform(low, high, size=(TRIED, one.joints))
-    best = sorted(tried, key=near)[:POLISHED]
-    bounds = list(zip(low, high, strict=True))
-    return -min(minimize(near, q, method="L-BFGS-B", bounds=bounds).fun for q in best)
-
-
-def ranges(one: Arm) -> tuple[np.ndarray, np.ndarray]:
-    """Joint ranges [rad], one turn where there is none."""
-    return np.clip(one.lower, -np.pi, None), np.clip(one.upper, None, np.pi)
+    return *named, one.joints, model.condition(one.home), beta, rated
 
 
 def start_sets(rows: pd.DataFrame) -> Iterator[tuple]:

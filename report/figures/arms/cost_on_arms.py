@@ -65,34 +65,42 @@ def figures(run: Run) -> dict:
 
 
 def by_joints(rows: pd.DataFrame) -> dict[str, str]:
-    """How much of a tick is the law, and what the Euler Jacobian adds, on six joints and on seven."""
+    """How much of a tick is the law, and what the Euler Jacobian adds, on six joints and on seven; of six in full."""
     found: dict[str, str] = {}
     for joints, key in ((6, "six"), (7, "seven")):
         own = controller_costs.standard(rows, joints)
-        flops, calls = controller_costs.stages(own), controller_costs.stages(own, "calls")
-        if not {arm_rows.ON_MATRIX, arm_rows.ON_ANGLES, arm_rows.SAME_BOTH_WAYS} <= set(flops.index):
-            continue
-        matrix, same, angles = (
-            int(flops.loc[name].sum()) for name in (arm_rows.ON_MATRIX, arm_rows.SAME_BOTH_WAYS, arm_rows.ON_ANGLES)
-        )
-        laws = flops[list(LAW)].sum(axis=1)
-        papers = [name for name in flops.index if arm_rows.equation(name) == "(2.2)"]
-        papers = [name for name in papers if name.endswith("@geometric")]
-        totals = flops.loc[papers].sum(axis=1)
-        found |= {
-            f"{key}_matrix": str(matrix),
-            f"{key}_law": str(laws[arm_rows.ON_MATRIX]),
-            f"{key}_share": percent(laws[arm_rows.ON_MATRIX] / matrix),
-            f"{key}_spread": percent(totals.max() / totals.min() - 1.0),
-            f"{key}_angles": str(angles),
-            f"{key}_more": percent(angles / matrix - 1.0),
-            f"{key}_more_same": percent(angles / same - 1.0),
-            f"{key}_calls": str(int(calls.loc[arm_rows.ON_ANGLES].sum())),
-            f"{key}_invert": str(int(flops.at[arm_rows.ON_MATRIX, "invert"])),
-            f"{key}_linearize": str(int(flops.at[arm_rows.ON_MATRIX, "linearize"])),
-            f"{key}_differentiated": differentiated(flops, angles),
-        }
+        flops = controller_costs.stages(own)
+        if {*arm_rows.PAPERS_TWO, arm_rows.SAME_BOTH_WAYS} <= set(flops.index):
+            parts = shares(flops) | (in_full(flops, controller_costs.stages(own, "calls")) if joints == 6 else {})
+            found |= {f"{key}_{name}": text for name, text in parts.items()}
     return found
+
+
+def shares(flops: pd.DataFrame) -> dict[str, str]:
+    """The law on R over its whole tick; what (3.7) takes more than that, and than (2.2) with its own law."""
+    total = flops.sum(axis=1)
+    angles = total[arm_rows.ON_ANGLES]
+    return {
+        "share": percent(flops.loc[ON_MATRIX, list(LAW)].sum() / total[ON_MATRIX]),
+        "more": percent(angles / total[ON_MATRIX] - 1.0),
+        "more_same": percent(angles / total[arm_rows.SAME_BOTH_WAYS] - 1.0),
+    }
+
+
+def in_full(flops: pd.DataFrame, calls: pd.DataFrame) -> dict[str, str]:
+    """Flops of both controllers and of the stages of one, and between the cheapest law by (2.2) and the dearest."""
+    total, matrix = flops.sum(axis=1), flops.loc[ON_MATRIX]
+    laws = [name for name in flops.index if name.endswith("@geometric")]
+    return {
+        "matrix": str(total[ON_MATRIX]),
+        "law": str(matrix[list(LAW)].sum()),
+        "invert": str(matrix["invert"]),
+        "linearize": str(matrix["linearize"]),
+        "spread": percent(total[laws].max() / total[laws].min() - 1.0),
+        "angles": str(total[arm_rows.ON_ANGLES]),
+        "calls": str(calls.loc[arm_rows.ON_ANGLES].sum()),
+        "differentiated": differentiated(flops, total[arm_rows.ON_ANGLES]),
+    }
 
 
 def differentiated(flops: pd.DataFrame, converted: int) -> str:

@@ -54,12 +54,6 @@ MEASURES = {
 """Of each task the two numbers that say how it went, the tasks whose orders free turns first."""
 
 DRAWN = ("hybrid-base+inverse", "hybrid/zyx-euler+inverse", "impedance-geometric", "impedance-coordinates/zyx-euler")
-LOOKS = {
-    **controllers.LOOKS,
-    "impedance-geometric": style.Look("#009e73", "^", style.DASH_DOT),
-    "impedance-coordinates/zyx-euler": style.Look("#cc79a7", "D", style.DOTTED),
-}
-"""Springs stand beside hybrid control here, and so have colours of their own."""
 
 SHIFT = 0.022  # of the axis, between controllers that would hide each other
 
@@ -102,7 +96,7 @@ def _panel(axes, own: pd.DataFrame, measure: Measure, narrow: bool) -> list[str]
         if mine.empty:
             continue
         way = contender.partition("+")[0]
-        look = LOOKS[way]
+        look = controllers.LOOKS[way]
         middle = measure.over_beta(mine)
         shift = width * SHIFT * (k - (len(DRAWN) - 1) / 2.0)
         drawn = axes.plot(middle.index + shift, middle, color=look.colour, linestyle=look.line)[0]

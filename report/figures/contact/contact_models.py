@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import functools
+import math
+from collections.abc import Iterator
 from typing import NamedTuple
-
-import pandas as pd
 
 import tasks
 from bench.control.registry import find_compliant
@@ -13,16 +13,17 @@ from bench.engines.contact_episode import USUAL, Conditions, Ended
 from bench.engines.run_contact import run
 from bench.metrics.contact_metric import Pose, response
 from bench.metrics.registry import known_contact_metrics
-from report.figures.kit import html
+from report.figures.kit.tables import Table
 from tasks.contact_model import STANDARD, ContactModel
 
 TASK, ARM, TRIAL = "surface-alignment", "puma560", "tilt 20 about 0, beta+75"
 CONTROLLERS = ("hybrid-base+inverse", "hybrid/zyx-euler+inverse")
-METRICS = (
-    ("alignment-error", "Tool to plate [deg]", 57.29577951308232, ".2f"),
-    ("force-error-rms", "Force error, rms [N]", 1.0, ".2f"),
-    ("peak-force", "Largest force [N]", 1.0, ".0f"),
-    ("penetration", "Penetration [mm]", 1e3, ".3f"),
+METRICS = {"alignment-error": 180.0 / math.pi, "force-error-rms": 1.0, "peak-force": 1.0, "penetration": 1e3}
+"""Metric -> factor to its unit in the table."""
+
+MODELS = Table(
+    "Contact | Outcomes | Tool to plate [deg]:.2f | the same, Euler [deg]:.2f | Force error, rms [N]:.2f | "
+    "Largest force [N]:.0f | Penetration [mm]:.3f"
 )
 
 
@@ -55,22 +56,11 @@ def episode(controller: str, variant: Variant) -> tuple[str, tuple[float, ...]]:
     ended: Ended = next(run("native", compliant, task, arm, (trial,), conditions, variant.contact))
     pose = Pose(task, arm, compliant, (response(trial, ended),))
     metrics = known_contact_metrics()
-    return ended.outcome, tuple(metrics[name].measure(pose) * factor for name, _, factor, _ in METRICS)
+    return ended.outcome, tuple(metrics[name].measure(pose) * factor for name, factor in METRICS.items())
 
 
-def table() -> html.Markdown:
+def models() -> Iterator[tuple]:
     """A variant a line, both controllers side by side where they differ most: the angle to the plate."""
-    lines = []
     for variant in VARIANTS:
-        (done, numbers), (euler_ended, euler) = (episode(controller, variant) for controller in CONTROLLERS)
-        lines.append(
-            {
-                "Contact": variant.words,
-                "Outcomes": ", ".join(dict.fromkeys((done, euler_ended))),
-                METRICS[0][1]: numbers[0],
-                "the same, Euler [deg]": euler[0],
-                **{title: number for (_, title, _, _), number in zip(METRICS[1:], numbers[1:], strict=True)},
-            }
-        )
-    forms = {title: form for _, title, _, form in METRICS}
-    return html.table(pd.DataFrame(lines), {**forms, "the same, Euler [deg]": METRICS[0][3]})
+        (done, (angle, *others)), (euler_ended, euler) = (episode(controller, variant) for controller in CONTROLLERS)
+        yield variant.words, ", ".join(dict.fromkeys((done, euler_ended))), angle, euler[0], *others

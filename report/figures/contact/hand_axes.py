@@ -12,7 +12,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.patches import FancyArrowPatch, Polygon
 
-from report.figures.contact.rows import CARTESIAN, EULER, arms, compliance, level, look, nearest, of, wanted
+from report.figures.contact.rows import CARTESIAN, EULER, LOOKS, arms, compliance, level, nearest, of, wanted
 from report.figures.kit import style
 from report.figures.kit.inline import responsive_picture
 
@@ -162,7 +162,7 @@ def axes_of_turning(rows: pd.DataFrame, narrow: bool):
             who = "Cartesian" if contender == CARTESIAN else "Euler"
             if i == 0:
                 heading = "Cartesian, any β" if who == "Cartesian" else f"Euler, β = {beta:.0f}°"
-                axes.set_title(heading, color=look(contender.partition("+")[0]).colour)
+                axes.set_title(heading, color=LOOKS[contender.partition("+")[0]].colour)
             words.append(f"{who}, beta {beta:.0f} degrees, moment about {pushed}: {does}")
     _head(figure, grid, narrow)
     return figure, (
@@ -194,7 +194,7 @@ def _panel(axes, one: dict) -> str:
     draw_frame(axes)
     moment = np.eye(3)["xyz".index(one["pushed"])]
     draw_turn(axes, moment, 1.0, style.INK, 5.0, 1.1, (0, (4, 2.5)))
-    colour = look(one["contender"].partition("+")[0]).colour
+    colour = LOOKS[one["contender"].partition("+")[0]].colour
     if math.isnan(one["off"]):
         words = "stays" if one["pushed"] == "z" else "does not turn"
     else:

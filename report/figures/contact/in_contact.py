@@ -143,7 +143,7 @@ def tables(run: Run) -> dict:
     rows = all_rows(run)
     return {
         "tab_contact": CONTACT(ends(name, working(rows[rows["task"] == name])) for name in tasks_of(rows)),
-        "tab_models": contact_models.table(),
+        "tab_models": contact_models.MODELS(contact_models.models()),
         "verdicts": verdicts(run, "C25"),
         **{f"tab_{name}": given(rows[rows["task"] == name], of_controllers) for name in MEASURES},
     }

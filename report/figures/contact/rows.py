@@ -23,17 +23,12 @@ SPRINGS_OF_EULER = "impedance-coordinates/zyx-euler"
 
 LOOKS = {
     "hybrid-base": style.Look("#0072b2", "o", style.SOLID),
-    "hybrid-hand": style.Look("#56b4e9", "D", style.DOTTED),
-    "hybrid-rate": style.Look("#009e73", "^", style.DASH_DOT),
     "hybrid/zyx-euler": style.Look("#d55e00", "s", style.DASHED),
-    "hybrid/zyz-euler": style.Look("#e69f00", "v", style.DASHED),
-    "hybrid/xyz-euler": style.Look("#a39400", "P", style.DASHED),
-    "hybrid/rotation-vector": style.Look("#cc79a7", "X", style.DASH_DOT),
-    "hybrid/mrp": style.Look("#009e73", "h", style.DASH_DOT),
-    "hybrid-unconverted/zyx-euler": style.Look("#cc79a7", "X", style.DOTTED),
-    "impedance-geometric": style.Look("#0072b2", "o", style.SOLID),
-    "impedance-coordinates/zyx-euler": style.Look("#d55e00", "s", style.DASHED),
+    "impedance-geometric": style.Look("#009e73", "^", style.DASH_DOT),
+    "impedance-coordinates/zyx-euler": style.Look("#cc79a7", "D", style.DOTTED),
 }
+"""Of the controllers that are drawn, which tables show first."""
+
 TITLES = {
     "hybrid-base": "Cartesian",
     "hybrid-hand": "Cartesian, the hand's axes",
@@ -112,11 +107,6 @@ def ways(rows: pd.DataFrame) -> list[str]:
     """The controllers of the rows without their forms: those that have a look first, in its order."""
     there = set(rows["way"])
     return [way for way in LOOKS if way in there] + sorted(there - set(LOOKS))
-
-
-def look(way: str) -> style.Look:
-    """How a controller is drawn, whatever its form."""
-    return LOOKS.get(way) or style.look(way.replace("/", "-"))
 
 
 def title(way: str) -> str:
