@@ -46,12 +46,6 @@ def test_our_extraction_is_exact_at_every_distance_and_the_textbooks_is_not():
     assert worst["ours"] < 1e-14 < worst["scipy"] < 1.0 < worst["textbook"]
 
 
-def test_each_pole_determines_its_own_combination():
-    found = representations.poles().set_index("pole")
-    assert found.loc["+π/2", "together"] < 1e-14 < 0.1 < found.loc["+π/2", "against"]
-    assert found["against"].iloc[1] < 1e-14 < 0.1 < found["together"].iloc[1]
-
-
 def test_every_regulator_has_a_card_with_its_source():
     page = regulators.figures(run_in(read.folder()))["cards"]
     for regulator in known_regulators().values():

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
 import pandas as pd
 
 from bench.contenders.registry import known_representations
@@ -12,7 +13,6 @@ from report.figures.arms import arm_looks, condition_growth, condition_maps
 from report.figures.kit import html, media
 from report.figures.kit.page import Run, given
 from report.figures.kit.spelling import power
-from report.figures.kit.tables import Table
 
 LOST = 1e12
 """A condition number beyond which the rest is rounding: what a double holds, less four digits."""
@@ -28,13 +28,7 @@ def condition(value: float) -> str:
     return html.MISSING if math.isnan(value) else (power(value) if value > LOST else f"{value:.1f}")
 
 
-def largest(value: float) -> str:
-    """The largest of several, which may be ordinary or beyond."""
-    return f"{value:.1f}" if value < 1e4 else power(value)
-
-
 COORDINATES = {name: arm_looks.short_title(name) for name in known_representations()}
-SLOPES = Table("Coordinates | Ways | Least:.3f | Most:.3f | Largest at 10⁻⁸", {"Largest at 10⁻⁸": largest})
 
 
 def papers(run: Run, **words: str) -> pd.DataFrame:
@@ -49,6 +43,7 @@ def facts(run: Run) -> dict:
         **(given(papers(run, **FIRST_EXAMPLE), first_example) or {}),
         **(given(papers(run, pose_set="random"), most_spoilt) or {}),
         **{name: f"{value:.1f}" for name, value in (given(every, gaps) or {}).items()},
+        **(given(run.rows("poses", pose_set="pole"), slopes) or {}),
         **filmed(run),
         "joints": given(papers(run, pose_set="slice"), joints),
         "bad": f"{condition_maps.BAD:g}",
@@ -58,10 +53,9 @@ def facts(run: Run) -> dict:
 
 
 def tables(run: Run) -> dict:
-    """Named poses, growth towards the pole, and poses that J_E spoils."""
+    """Named poses, and poses that J_E spoils."""
     return {
         "named": given(run.rows("poses", pose_set="named"), conditions),
-        "slopes": given(run.rows("poses", pose_set="pole"), slopes),
         "spoilt": given(run.rows("poses", pose_set="random"), spoilt),
     }
 
@@ -125,15 +119,17 @@ def conditions(rows: pd.DataFrame) -> html.Markdown:
     return html.table(frame, dict.fromkeys(frame.columns.drop(["Arm", "Pose"]), condition) | {"β [deg]": ".1f"})
 
 
-def slopes(rows: pd.DataFrame) -> html.Markdown | None:
-    """A row for coordinates: the growth of cond J_E a decade over the first eight, and its largest at 10^-8."""
-    lines = []
-    for name, own in condition_growth.ways(rows).groupby("representation", observed=True):
-        at = own.set_index(["arm", "family", "k"])["condition_analytic"].unstack("k")
-        if {1, 8} <= set(at):
-            growing = (at[8] / at[1]).map(math.log10) / 7.0
-            lines.append((f"`{name}`", len(at), growing.min(), growing.max(), at[8].max()))
-    return SLOPES(sorted(lines, key=lambda line: -line[3]))
+def slopes(rows: pd.DataFrame) -> dict[str, str]:
+    """By which power of 1/distance cond J_E grows on each way to the Z-Y-X pole, from 0.1 to 10^-8 rad.
+
+    In Z-Y-X angles the least and the most of any way; in all other coordinates the most.
+    """
+    at = condition_growth.ways(rows).set_index(["representation", "arm", "family", "k"])["condition_analytic"]
+    at = at.unstack("k")
+    powers = np.log10(at[8] / at[1]) / 7.0
+    papers = powers.index.get_level_values("representation") == condition_growth.PAPERS
+    least, most, others = powers[papers].min(), powers[papers].max(), powers[~papers].max()
+    return {"slope_least": f"{least:.3f}", "slope_most": f"{most:.3f}", "slope_others": f"{others:.3f}"}
 
 
 def spoilt(rows: pd.DataFrame) -> html.Markdown:

@@ -9,7 +9,7 @@ import pandas as pd
 
 import tasks
 from report.figures.contact import contact_models
-from report.figures.contact.by_frame import MEASURES, Measure, by_frame, tasks_of
+from report.figures.contact.by_frame import MEASURES, Measure, by_frame
 from report.figures.contact.rows import CARTESIAN, EULER, of, of_task, title, verdicts, ways
 from report.figures.kit import html, media
 from report.figures.kit.page import ABSENT, Run, given
@@ -21,13 +21,6 @@ CONTROLS = ("hybrid-unconverted/zyx-euler",)
 """Controllers that are there to fail."""
 
 QUANTILE = 0.95
-
-
-CONTACT = Table(
-    "Task | Episodes | Reach the end [%]:.1f | The others | Penetration, median [mm]:.3f | "
-    f"in {QUANTILE:.0%} [mm]:.2f | Largest force, median [N]:.0f"
-)
-
 
 @functools.cache
 def all_rows(run: Run) -> pd.DataFrame:
@@ -76,15 +69,9 @@ def orders() -> str:
     return f"{'. '.join(lines)}."
 
 
-def working(rows: pd.DataFrame) -> pd.DataFrame:
-    """Rows of controllers that are not there to fail."""
-    return rows[~rows["way"].isin(CONTROLS)]
-
-
 def penetration(rows: pd.DataFrame) -> str:
     """How deep the hand is in its surroundings at the worst, of those that reach the end."""
-    own = working(rows)
-    own = own[own["outcome"] == "done"]
+    own = rows[(rows["outcome"] == "done") & ~rows["way"].isin(CONTROLS)]
     if own.empty:
         return f"How deep they penetrate is {ABSENT}."
     deepest = 1e3 * own["penetration_m"].dropna()
@@ -139,28 +126,13 @@ def named(pose: str) -> str:
 
 
 def tables(run: Run) -> dict:
-    """All tasks; other models of contact; verdicts; a table a task."""
+    """Other models of contact; verdicts; a table a task."""
     rows = all_rows(run)
     return {
-        "tab_contact": CONTACT(ends(name, working(rows[rows["task"] == name])) for name in tasks_of(rows)),
         "tab_models": contact_models.MODELS(contact_models.models()),
         "verdicts": verdicts(run, "C25"),
         **{f"tab_{name}": given(rows[rows["task"] == name], of_controllers) for name in MEASURES},
     }
-
-
-def ends(name: str, own: pd.DataFrame) -> tuple:
-    """How episodes of a task end, how deep hand and scene penetrate, and how hard they press."""
-    failed = own.loc[own["outcome"] != "done", "outcome"].value_counts()
-    return (
-        html.together(name),
-        len(own),
-        100.0 * float((own["outcome"] == "done").mean()),
-        ", ".join(f"{count} {word}" for word, count in failed.items()) or "none",
-        1e3 * float(own["penetration_m"].median()) + 0.0,
-        1e3 * float(own["penetration_m"].quantile(QUANTILE)) + 0.0,
-        float(own["peak_force_n"].median()),
-    )
 
 
 def of_controllers(own: pd.DataFrame) -> html.Markdown | None:
