@@ -105,6 +105,7 @@ def _write(axes, left: float, values: pd.DataFrame, words: pd.DataFrame, size: f
 def _sentence(tables: dict) -> str:
     parts = []
     for (alpha, gamma), (values, _) in tables.items():
-        span = "; ".join(f"{order} {row.min():.0f} to {row.max():.0f}" for order, row in values.iterrows())
+        measured = values.dropna(how="all")
+        span = "; ".join(f"{order} {row.min():.0f} to {row.max():.0f}" for order, row in measured.iterrows())
         parts.append(f"alpha {alpha:.0f}, gamma {gamma:.0f}: {span}")
     return "; ".join(parts)
