@@ -1,7 +1,6 @@
 """Figures, tables and findings of the pages about arms, from a small run on one arm; and what they say without one."""
 
 import dataclasses
-import functools
 import shutil
 
 import pandas as pd
@@ -9,7 +8,7 @@ import pytest
 
 pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
 
-from support.pictures import hold_to_page
+from support.pages import assert_is_whole, pasted
 
 from bench.contenders.registry import find_contender
 from bench.experiments import plan
@@ -28,7 +27,7 @@ from report.figures.arms import (
     model_error,
     model_rest,
 )
-from report.figures.kit.page import ABSENT, Run, contents, run_in, text_of
+from report.figures.kit.page import ABSENT, Run, run_in
 from report.figures.method import method
 
 ARM = "puma560"
@@ -44,12 +43,6 @@ CHOICE = Choice(
 STARTS = 2
 CONTROLLERS = 3
 """The law on R by the geometric Jacobian; Z-Y-X angles by both."""
-
-FIGURES = {
-    "arm-pole": arms,
-    "model-error": model_error,
-}
-"""Figure -> the page's module that has it."""
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -69,32 +62,16 @@ def shown():
     return run_in(read.folder())
 
 
-@functools.cache
-def of_page(module):
-    return module.figures(shown())
-
-
-def drawn(name):
-    return of_page(FIGURES[name])[name]
-
-
-@pytest.mark.parametrize("name", FIGURES)
-def test_figure_says_its_numbers_keeps_to_the_palette_and_fits_a_phone(name):
-    hold_to_page(drawn(name))
-
-
 @pytest.mark.parametrize("page", [arms, model_error])
-def test_every_page_finds_its_numbers(page):
-    values = page.facts(shown())
-    assert all("nan" not in str(value) and ABSENT not in str(value) for value in values.values()), values
+def test_page_is_whole(page):
+    assert_is_whole(page, shown())
 
 
 def test_pages_say_so_when_a_run_holds_no_variations_or_curves(small_run, tmp_path):
     episodes = store.read(small_run, "episodes")
     store.write_table(tmp_path / "episodes.parquet", episodes[episodes["variation"] == "nominal"], "episodes")
     shutil.copy(small_run / "provenance.json", tmp_path)
-    page = contents(model_error, Run(tmp_path), text_of("arms.model_error"))
-    assert all(ABSENT in getattr(value, "alt", value) for value in page.values())
+    assert all(ABSENT in getattr(value, "alt", value) for value in pasted(model_error, Run(tmp_path)).values())
     assert linear_response.facts(Run(tmp_path)) == {"kp": 100.0, "kv": 20.0}
 
 

@@ -75,9 +75,7 @@ def maps(rows: pd.DataFrame, *, narrow=False):
     bar.minorticks_off()
     keys = [
         Line2D([], [], color=KINEMATIC, label=f"cond $J$ > {BAD:g}: the arm's"),
-        Line2D(
-            [], [], color=OF_COORDINATES, linestyle="--", label=rf"$\cos\beta$ < {NEAR:g}: the coordinates'"
-        ),
+        Line2D([], [], color=OF_COORDINATES, linestyle="--", label=rf"$\cos\beta$ < {NEAR:g}: the coordinates'"),
     ]
     figure.legend(handles=keys, loc="outside lower center", ncols=1 if narrow else 2)
     return figure, f"Condition numbers of J and J_E over two joints, one row an arm. {' '.join(words)}"

@@ -22,6 +22,7 @@ CONTROLS = ("hybrid-unconverted/zyx-euler",)
 
 QUANTILE = 0.95
 
+
 @functools.cache
 def all_rows(run: Run) -> pd.DataFrame:
     """Rows of every task in contact; maybe none."""

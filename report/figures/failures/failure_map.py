@@ -2,7 +2,7 @@
 
 import functools
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 import numpy as np
 import pandas as pd
@@ -45,8 +45,12 @@ def facts(run: Run) -> dict:
     failed = lost(linearized)
     outside = linearized[linearized["alpha0"].abs() > np.pi / 2.0]
     along = {key: boundaries.loc[boundaries["contender"] == name, "fails_from_rad"] for key, name in SHORT.items()}
-    values = {
+    return {
         "n": len(linearized),
+        "failed_l": len(failed),
+        "failed_others": counted(len(lost(of(episodes, SHORT[letter]))) for letter in "mf"),
+        "axes_l": int(along["l"].notna().sum()),
+        "axes_others": counted(int(along[letter].notna().sum()) for letter in "mf"),
         "percent": f"{100 * len(failed) / len(linearized):.1f}",
         "least": f"{np.degrees(failed['alpha0'].abs().min()):.0f}",
         "least_gamma": f"{np.degrees(failed['gamma0'].abs().min()):.0f}",
@@ -57,10 +61,12 @@ def facts(run: Run) -> dict:
         "axes_first": f"{np.degrees(along['l'].min()):.0f}",
         "axes_median": f"{np.degrees(along['l'].median()):.0f}",
     }
-    for letter, name in SHORT.items():
-        values[f"failed_{letter}"] = len(lost(of(episodes, name)))
-        values[f"axes_{letter}"] = int(along[letter].notna().sum())
-    return values
+
+
+def counted(losses: Iterable[int]) -> str:
+    """How many each law loses; none where no law loses any."""
+    each = list(losses)
+    return " and ".join(map(str, each)) if any(each) else "none"
 
 
 def tables(run: Run) -> dict:
