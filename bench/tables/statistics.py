@@ -1,4 +1,4 @@
-"""Estimates with intervals, and shares of starts instead of means: what laws are compared by.
+"""Estimates with intervals, and quantiles instead of means: what laws are compared by.
 
 A start that a law never settles has no time. It counts as infinite here, not as missing: left out, a law that fails
 from the hard starts would look fast. Quantiles are therefore order statistics, never interpolated.
@@ -57,33 +57,3 @@ def bootstrap(values: np.ndarray, statistic: Callable[..., np.ndarray], seed: in
 def quantile_estimate(values: np.ndarray, level: float, seed: int = SEED) -> Estimate:
     """A quantile with its interval."""
     return bootstrap(values, lambda drawn, axis: quantile(drawn, level, axis), seed)
-
-
-def over_best(costs: np.ndarray) -> np.ndarray:
-    """Each law's cost over the least that any law has at that start: the ratio of Dolan and Moré (2002).
-
-    Args:
-        costs: positive, infinite where a law fails, shape (starts, laws).
-
-    Returns: ratios, at least 1, of the same shape; infinite where a law fails.
-
-    Errors:
-        ValueError: a cost is no positive number.
-    """
-    if not (costs > 0.0).all():
-        raise ValueError("a ratio to the best needs costs that are positive (infinite where a law fails)")
-    best = costs.min(axis=1, keepdims=True)
-    return np.divide(costs, best, out=np.full(costs.shape, np.inf), where=np.isfinite(costs))
-
-
-def profile(ratios: np.ndarray, factors: np.ndarray) -> np.ndarray:
-    """rho(tau): the share of starts whose ratio is at most tau (Dolan & Moré 2002); failures are in no share.
-
-    Args:
-        ratios: of `over_best`, shape (starts, laws).
-        factors: tau, shape (m,).
-
-    Returns: shares, shape (m, laws).
-    """
-    within = ratios[None, :, :] <= np.asarray(factors)[:, None, None]
-    return (within & np.isfinite(ratios)).mean(axis=1)

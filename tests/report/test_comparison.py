@@ -13,7 +13,7 @@ from bench.findings.theory import closed_form, isotropic
 from bench.law.equation import ANGLE, LINEAR_MRP, SINE
 from bench.tables import read
 from bench.tables.schema import RESULTS
-from report.figures.comparison import cells, comparison, directed, profiles
+from report.figures.comparison import cells, comparison, directed
 from report.figures.comparison.angle import lateness
 from report.figures.kit import families, style
 from report.figures.kit.page import run_in
@@ -56,23 +56,11 @@ def test_costs_of_starts_that_do_not_settle_are_infinite():
     assert table["gibbs"].tolist() == [math.inf, 5.0]
 
 
-@pytest.mark.parametrize(
-    ("axis", "words"),
-    [
-        ((0.1, -0.9, 0.1), "near y"),
-        ((0.7, 0.1, -0.7), "between x and z"),
-        ((0.5, 0.6, 0.6), "between all three"),
-    ],
-)
-def test_axis_is_said_in_words(axis, words):
-    assert cells.axis_words(pd.Series(axis, ["quat_x", "quat_y", "quat_z"])) == words
-
-
 def test_worst_start_is_the_nearest_that_fails_and_else_the_slowest():
     made = [episode("gibbs", "a", time=2.0), episode("gibbs", "b", angle0_rad=0.5), episode("gibbs", "c")]
-    assert cells.worst(pd.DataFrame(made)) == "2.00 s from 57°, near x"
+    assert cells.worst(pd.DataFrame(made)) == "2.00 s from 57°"
     failing = [episode("gibbs", "d", "stuck", angle0_rad=3.0), episode("gibbs", "e", "stuck", angle0_rad=2.0)]
-    assert cells.worst(pd.DataFrame(made + failing)) == "fails from 115°, near x"
+    assert cells.worst(pd.DataFrame(made + failing)) == "fails from 115°"
 
 
 def test_interval_is_left_away_where_it_is_the_number():
@@ -89,13 +77,9 @@ def test_law_of_no_family_comes_last_under_its_own_name():
 
 def test_laws_of_one_panel_are_told_apart():
     for family in families.present(one.name for one in all_contenders()):
-        lines = profiles.lines_of(family)
+        lines = families.lines_of(family)
         looks = {(style.look(name).colour, str(line)) for name, line in zip(family.laws, lines, strict=True)}
         assert len(looks) == len(family.laws)
-
-
-def test_labels_are_stacked_from_the_top_without_touching():
-    assert profiles.stacked([0.3, 1.02, 1.01]) == pytest.approx([0.3, 1.0, 1.0 - profiles.LABELLED])
 
 
 def test_sine_settles_as_the_closed_form_of_the_rotation_matrix():

@@ -1,4 +1,4 @@
-"""Estimates and profiles against closed forms: the binomial law of a resampled quantile, profiles counted by hand."""
+"""Estimates against closed forms: the binomial law of a resampled quantile."""
 
 import numpy as np
 import pytest
@@ -69,28 +69,3 @@ def test_quantile_takes_the_seventh_of_a_hundred_for_seven_per_cent():
 def test_bootstrap_refuses_nothing():
     with pytest.raises(ValueError, match="no values to resample"):
         statistics.bootstrap(np.array([]), np.mean)
-
-
-def test_profile_is_the_one_counted_by_hand():
-    costs = np.array([[1.0, 2.0, 4.0], [3.0, 1.5, NEVER], [2.0, 2.0, 2.0], [NEVER, NEVER, NEVER]])
-    ratios = statistics.over_best(costs)
-    np.testing.assert_array_equal(ratios[:3], [[1.0, 2.0, 4.0], [2.0, 1.0, NEVER], [1.0, 1.0, 1.0]])
-    assert np.isinf(ratios[3]).all()
-    shares = statistics.profile(ratios, np.array([1.0, 2.0, 4.0, NEVER]))
-    np.testing.assert_array_equal(4 * shares, [[2, 2, 1], [3, 3, 1], [3, 3, 2], [3, 3, 2]])
-
-
-def test_profile_rises_to_the_share_that_settles_and_starts_with_a_best_law():
-    rng = np.random.default_rng(4)
-    costs = rng.exponential(size=(300, 5))
-    costs[rng.uniform(size=costs.shape) < 0.1] = NEVER
-    shares = statistics.profile(statistics.over_best(costs), np.geomspace(1.0, 1e9, 50))
-    assert (np.diff(shares, axis=0) >= 0.0).all()
-    np.testing.assert_array_equal(shares[-1], np.isfinite(costs).mean(axis=0))
-    assert shares[0].sum() == pytest.approx(np.isfinite(costs).any(axis=1).mean())
-
-
-@pytest.mark.parametrize("cost", [0.0, -1.0, np.nan])
-def test_ratio_to_the_best_refuses_what_is_no_cost(cost):
-    with pytest.raises(ValueError, match="costs that are positive"):
-        statistics.over_best(np.array([[1.0, cost]]))

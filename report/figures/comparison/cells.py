@@ -21,10 +21,6 @@ SMALL_PEAK = 1e4
 """Commands [rad/s^2] above this are those of a division by nearly nothing."""
 
 
-NEAR_AXIS, NEAR_PLANE = float(np.cos(np.radians(30.0))), float(np.sin(np.radians(15.0)))
-"""Within 30 degrees of an axis, within 15 degrees of a plane of two."""
-
-
 def common(episodes: pd.DataFrame) -> pd.DataFrame:
     """Rows of uniform starts that every law ran, so that none is judged by easier ones; laws family by family.
 
@@ -119,22 +115,9 @@ def with_interval(value: str, low: str, high: str) -> str:
 
 
 def worst(own: pd.DataFrame) -> str:
-    """The nearest start that fails, or else the slowest, by its angle and axis."""
+    """The nearest start that fails, or else the slowest, by its angle."""
     failed = own[own["outcome"] != "settled"]
     if len(failed):
-        start = failed.loc[failed["angle0_rad"].idxmin()]
-        return f"fails from {np.degrees(start['angle0_rad']):.0f}°, {axis_words(start)}"
+        return f"fails from {np.degrees(failed['angle0_rad'].min()):.0f}°"
     start = own.loc[own["settling_time_s"].idxmax()]
-    return f"{start['settling_time_s']:.2f} s from {np.degrees(start['angle0_rad']):.0f}°, {axis_words(start)}"
-
-
-def axis_words(start: pd.Series) -> str:
-    """Where the axis of a start's rotation lies: near one of the base's axes, or between them."""
-    axis = np.abs(start[["quat_x", "quat_y", "quat_z"]].to_numpy(float))
-    parts = axis / np.linalg.norm(axis)
-    if parts.max() > NEAR_AXIS:
-        return f"near {'xyz'[int(parts.argmax())]}"
-    if parts.min() < NEAR_PLANE:
-        one, other = np.delete(list("xyz"), int(parts.argmin()))
-        return f"between {one} and {other}"
-    return "between all three"
+    return f"{start['settling_time_s']:.2f} s from {np.degrees(start['angle0_rad']):.0f}°"

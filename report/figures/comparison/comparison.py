@@ -7,22 +7,22 @@ import functools
 import numpy as np
 import pandas as pd
 
+from bench.contenders.registry import all_contenders
 from bench.findings.theory import closed_form
 from bench.tables import read
 from report.figures.comparison import cells, directed
 from report.figures.comparison.angle import against, curves, lateness
-from report.figures.comparison.profiles import profiles
 from report.figures.kit import families, html
 from report.figures.kit.page import Run, given
+from report.figures.kit.rows import MATRIX
 
 DETOUR = 1.5
 """Path over shortest path from which a start is a detour; about one fixed axis only the long way round is one."""
 
-LITERAL, UNWINDING = "linearized-euler-literal/zyx-euler", "quaternion-unwinding"
-ACTUATOR, MATRIX = "in-engine", "rotation-matrix"
-
-TIMES, EFFORTS = (1, 1.5, 2, 3), (1, 3, 10, 30, 100)
-"""Factors on the axes of the profiles."""
+ACTUATOR = next(one.name for one in all_contenders() if one.regulator.in_engine)
+CONTROLS = {one.regulator.later: one.name for one in all_contenders() if one.regulator.control}
+LITERAL, UNWINDING = CONTROLS[False], CONTROLS[True]
+"""The negative controls: a law of the paper as it is printed, and a later one."""
 
 
 @functools.cache
@@ -75,6 +75,7 @@ def of_all(rows: pd.DataFrame, tried: pd.DataFrame) -> dict:
     laws = [name for name in times if name not in families.CONTROLS]
     middle, spent = cells.medians(times[laws]), cells.medians(efforts[laws])
     whole = times[[name for name in laws if np.isfinite(times[name]).all()]].max()
+    is_first = times[laws].le(times[laws].min(axis=1), axis=0).mean()
     left = [name for name in directed.left(tried) if name not in families.CONTROLS]
     return {
         "laws": len(laws),
@@ -87,6 +88,8 @@ def of_all(rows: pd.DataFrame, tried: pd.DataFrame) -> dict:
         "fastest": families.word(middle.idxmin()),
         "fastest_s": f"{middle.min():.2f}",
         "slowest_s": f"{middle.max():.2f}",
+        "first": families.word(is_first.idxmax()),
+        "first_share": cells.percent(float(is_first.max())),
         "whole": len(whole),
         "surest": families.word(whole.idxmin()),
         "surest_s": f"{whole.min():.2f}",
@@ -156,7 +159,6 @@ def tables(run: Run) -> dict:
         "against": against(lateness(uniform(run))),
         "at_peak": given(at_peak(run), of_gains),
         "dead": directed.table(directed.directed(ideal(run))),
-        "in_engine": given(in_mujoco(run), lambda rows: beside_actuator(cells.common(rows))),
     }
 
 
@@ -207,26 +209,6 @@ def of_gains(rows: pd.DataFrame) -> html.Markdown | None:
     )
 
 
-def beside_actuator(rows: pd.DataFrame) -> html.Markdown | None:
-    """In MuJoCo: share that settles; median and slowest settling time; effort and largest command."""
-    return each(
-        rows,
-        lambda own, times, efforts: {
-            "Settles [%]": cells.settles(own),
-            "Median [s]": cells.seconds(times),
-            "Slowest [s]": cells.slowest(times),
-            "Effort": cells.three_figures(efforts),
-            "Peak": cells.large(own["peak_u"].max()),
-        },
-    )
-
-
 def figures(run: Run) -> dict:
-    """Settling times and efforts over the best law's, and settling times over the angle."""
-    rows = uniform(run)
-    return {
-        "comparison-time": profiles(rows, "settling_time_s", TIMES, "settling time"),
-        "comparison-angle": curves(rows),
-        "comparison-effort": profiles(rows, "effort", EFFORTS, "effort"),
-        "comparison-peak": given(at_peak(run), lambda own: profiles(own, "settling_time_s", TIMES, "settling time")),
-    }
+    """Settling times over the angle."""
+    return {"comparison-angle": curves(uniform(run))}
