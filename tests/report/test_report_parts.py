@@ -11,8 +11,8 @@ from bench.contenders.registry import known_regulators
 from bench.tables import read
 from bench.tables.schema import RESULTS
 from report.figures.cards import regulators
-from report.figures.cost import cost, operations, plane, times
-from report.figures.kit import laws, spelling
+from report.figures.cost import cost, operations, times
+from report.figures.kit import spelling
 from report.figures.kit.page import run_in
 from report.figures.kit.rows import titles
 from report.figures.method import engines, provenance
@@ -52,23 +52,22 @@ def test_every_regulator_has_a_card_with_its_source():
         assert f"bench/contenders/regulators/{regulator.name.replace('-', '_')}.py" in page
 
 
-def test_costs_are_drawn_and_tabled_for_every_law():
+def test_costs_are_drawn_for_every_law():
     costs = read.costs()
     assert operations.operations(costs, titles()).alt.count("transcendental") == costs["contender"].nunique()
-    assert len(cost.by_stage(costs).splitlines()) == 2 + costs["contender"].nunique()
 
 
-def test_plane_gives_every_law_its_place():
-    uniform = laws.without_later(read.episodes(engine="ideal-rk4", start_set="uniform"))
-    found = plane.places(read.costs(), uniform)
-    assert len(found) == uniform["contender"].nunique()
-    assert plane.plane(found, titles(), 0.6).alt
+def test_page_says_so_when_nothing_was_timed(monkeypatch):
+    monkeypatch.setattr(cost.times, "files", list)
+    assert "make time" in cost.tables(shown())["tab_times"]
+    assert "make time" in cost.facts(shown())["timed_on"]
 
 
-def test_page_says_so_when_nothing_was_timed():
-    none = pd.DataFrame(columns=["contender", "what", "ticks", "ratio", "jacobian"])
-    assert "make time" in times.times(times.alone(none), read.costs(), {}).alt
-    assert "make time" in cost.by_time(none)
+def test_times_stand_in_their_order_beside_the_flops():
+    lines = cost.by_time(cost.timed(), cost.costs(shown()))
+    ratios = [ratio for _, _, ratio, *_ in lines]
+    assert ratios == sorted(ratios)
+    assert all(flops > 0 for _, flops, *_ in lines)
 
 
 def test_engines_are_compared_where_both_have_rows():
