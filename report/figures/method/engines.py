@@ -4,39 +4,18 @@ from __future__ import annotations
 
 import pandas as pd
 
-from report.figures.kit import style
-from report.figures.kit.inline import responsive_picture
-from report.figures.kit.laws import TITLES
-from report.figures.method.steps import ENGINE_TITLES
-
 KEY = ["contender", "start_set", "start_id"]
-CONTINUOUS, SAMPLED = "ideal-rk4", ("ideal-held", "native")
-QUANTILES = (0.05, 0.5, 0.95)
+CONTINUOUS = "ideal-rk4"
 
 
-def differences(episodes: pd.DataFrame) -> pd.DataFrame:
-    """Settling time on a sampled engine minus that on the continuous one [s], uniform starts that settle on both."""
+def later_ms(episodes: pd.DataFrame, other: str) -> pd.Series:
+    """Law -> mean of how much later it settles on another engine than on the continuous plant [ms].
+
+    Over uniform starts that settle on both.
+    """
     uniform = episodes[episodes["start_set"] == "uniform"]
     times = uniform.pivot_table(index=KEY, columns="engine", values="settling_time_s", observed=True)
-    there = [engine for engine in SAMPLED if engine in times]
-    parts = [
-        (times[engine] - times[CONTINUOUS]).dropna().rename("later_s").reset_index().assign(engine=engine)
-        for engine in there
-    ]
-    return pd.concat(parts, ignore_index=True)
-
-
-def summary(found: pd.DataFrame) -> pd.DataFrame:
-    """Quantiles and mean of the difference, in order of the paper: a row a law and engine."""
-    rows = []
-    for name in TITLES:
-        for engine in SAMPLED:
-            one = found.loc[(found["contender"] == name) & (found["engine"] == engine), "later_s"]
-            if len(one):
-                low, middle, high = one.quantile(QUANTILES)
-                rows.append((name, engine, len(one), low, middle, high, one.mean(), one.min(), one.max()))
-    columns = ["contender", "engine", "n", "low_s", "median_s", "high_s", "mean_s", "least_s", "most_s"]
-    return pd.DataFrame(rows, columns=columns)
+    return 1e3 * (times[other] - times[CONTINUOUS]).groupby("contender", observed=True).mean()
 
 
 def agreement(episodes: pd.DataFrame, one: str, other: str) -> tuple[int, int]:
@@ -68,27 +47,3 @@ def same_outcome(episodes: pd.DataFrame, other: str) -> pd.DataFrame:
     one, two = both[CONTINUOUS], both[other]
     alike = pd.DataFrame({"n": 1, "outcome": one == two, "settles": (one == "settled") == (two == "settled")})
     return alike.astype(int).groupby("contender", observed=True).sum().reset_index()
-
-
-@responsive_picture
-def engines(found: pd.DataFrame, *, narrow=False):
-    """Median and 5 to 95 % of the difference in settling time, by law and engine."""
-    table = summary(found)
-    figure, axes = style.panels(height=(1.1 if narrow else 0.9) + 0.36 * len(table), narrow=narrow)
-    for place, row in enumerate(table.itertuples()):
-        look = style.look(row.contender)
-        axes.plot([1e3 * row.low_s, 1e3 * row.high_s], [place, place], color=look.colour, linewidth=3.2, alpha=0.55)
-        face = look.colour if row.engine == "native" else style.PAPER
-        axes.plot(1e3 * row.mean_s, place, look.marker, color=look.colour, markersize=7.5, markerfacecolor=face)
-    names = [f"{TITLES[row.contender]}\n{ENGINE_TITLES[row.engine]}" for row in table.itertuples()]
-    axes.set_yticks(range(len(table)), names, fontsize=9)
-    axes.invert_yaxis()
-    axes.set_ylim(len(table) - 0.4, -0.6)
-    axes.axvline(0.0, color=style.MUTED, linewidth=0.9)
-    style.listed(axes)
-    axes.set_xlabel("Settles later by [ms]" if narrow else "Settles later than on the continuous plant by [ms]")
-    words = "; ".join(
-        f"{TITLES[row.contender]} on {ENGINE_TITLES[row.engine]} {1e3 * row.mean_s:+.1f} ms"
-        for row in table.itertuples()
-    )
-    return figure, f"Mean difference in settling time to the continuous plant, with its 5 to 95 % range: {words}."

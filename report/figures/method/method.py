@@ -41,7 +41,7 @@ JACOBIANS = Table("Jacobian | Formula | For | Source")
 INVERSES = Table("Inverse | Formula | Source")
 STARTS = Table("Set | What it holds | Starts | Horizon [s]")
 ENGINES = Table("Engine | What it is | Episodes")
-ALIKE = Table("Law | n | same outcome | both or neither settle")
+ALIKE = Table("Law | n | same outcome | both or neither settle | later by [ms]:+.2f")
 halved = functools.cache(steps.errors)
 
 
@@ -54,20 +54,22 @@ def episodes(run: Run) -> pd.DataFrame:
 def facts(run: Run) -> dict:
     """Whether engines agree, how right the step is, and the rules of counting."""
     both, equal = engines.agreement(episodes(run), "reference", "native")
+    orders = steps.orders(halved())
     rk4 = halved()[halved()["engine"] == "ideal-rk4"]
     pole = [row for row in steps.errors_of(*steps.THROUGH_THE_POLE) if row["engine"] == "ideal-rk4"]
     through = {row["dt_s"]: power(row["error_rad"]) for row in pole}
-    bias = engines.summary(engines.differences(episodes(run)))
     return {
         "both": both,
         "equal": equal,
-        "order": f"{steps.orders(halved())['ideal-rk4'].min():.1f}",
+        "order": f"{orders['ideal-rk4'].min():.1f}",
+        "order_held": f"{orders['ideal-held'].median():.1f}",
+        "order_native": f"{orders['native'].median():.1f}",
         "rk4_error": power(float(rk4.loc[rk4["dt_s"] == 1e-3, "error_rad"].max())),
         "at_s": steps.AT_S,
         "finest_ms": 1e3 * steps.FINEST_S,
         "through_coarse": through[1e-3],
         "through_fine": through[2.5e-4],
-        "most_ms": f"{1e3 * bias.loc[bias['engine'] == 'native', 'mean_s'].max():.1f}",
+        "most_ms": f"{engines.later_ms(episodes(run), 'native').max():.1f}",
         "count_rules": "\n".join(f"1. {prose(rule)}" for rule in COUNT_RULES),
     }
 
@@ -77,8 +79,6 @@ def tables(run: Run) -> dict:
     runs = episodes(run)
     counts = runs["engine"].value_counts()
     listed = LISTED.findall(bench.engines.__doc__ or "")
-    named = titles()
-    alike = engines.same_outcome(runs, "native").itertuples(index=False)
     return {
         "rules": JUDGES((f"`{name}`", value(name), prose(why)) for name, why in reasons().items()),
         "metrics": METRICS((f"`{one.column}`", one.title, prose(one.unit)) for one in known_metrics().values()),
@@ -88,13 +88,15 @@ def tables(run: Run) -> dict:
         "inverses": INVERSES((word(one), lines(one.formula), prose(one.source)) for one in known_inverses().values()),
         "starts": STARTS(start_sets(runs)),
         "tab_engines": ENGINES((f"`{name}`", prose(text), int(counts.get(name, 0)) or None) for name, text in listed),
-        "alike": ALIKE((html.law(name, named.get(name, name)), *rest) for name, *rest in alike),
+        "alike": ALIKE(alike(runs)),
     }
 
 
-def figures(run: Run) -> dict:
-    """Error against step; settling time on other engines."""
-    return {"steps": steps.steps(halved()), "engines": engines.engines(engines.differences(episodes(run)))}
+def alike(runs: pd.DataFrame) -> Iterator[tuple]:
+    """A row a law: how its episodes end on the continuous plant and in MuJoCo, and how much later it settles."""
+    later = engines.later_ms(runs, "native")
+    for name, *counts in engines.same_outcome(runs, "native").itertuples(index=False):
+        yield html.law(name, titles().get(name, name)), *counts, later.get(name)
 
 
 def start_sets(runs: pd.DataFrame) -> Iterator[tuple]:

@@ -13,9 +13,8 @@ from bench.contenders.registry import find_contender
 from bench.engines.episode import FINAL_ANGLE, Settings
 from bench.engines.run import run
 from bench.law.contender import Gains
-from report.figures.kit import style
-from report.figures.kit.inline import responsive_picture
 from report.figures.kit.laws import TITLES
+from report.figures.kit.rows import LINEARIZED
 from tasks import start_set
 from tasks.rules import RULES
 
@@ -23,17 +22,11 @@ AT_S = 0.4
 """Most of the response is still under way, and every step below divides it."""
 STEPS_S = (4e-3, 2e-3, 1e-3, 5e-4, 2.5e-4)
 FINEST_S = 1.25e-4
-ENGINES = {"ideal-rk4": style.SOLID, "ideal-held": style.DASHED, "native": style.DOTTED}
-ENGINE_TITLES = {
-    "ideal-rk4": "continuous, Runge-Kutta 4",
-    "ideal-held": "sampled, command held",
-    "native": "MuJoCo, Euler",
-}
+ENGINES = ("ideal-rk4", "ideal-held", "native")
 STARTS = dict(zip(TITLES, ("figure-2.3", "figure-2.4", "figure-2.5"), strict=True))
 """Each law from the start of its own figure of the paper."""
-THROUGH_THE_POLE = "linearized-euler/zyx-euler", "figure-2.5"
+THROUGH_THE_POLE = LINEARIZED, "figure-2.5"
 """A law and a start whose response has no limit as the step goes to zero."""
-FLOOR_RAD = 1e-16
 
 
 def settings(dt_s: float) -> Settings:
@@ -74,32 +67,4 @@ def orders(found: pd.DataFrame) -> pd.DataFrame:
     coarse, finer = STEPS_S[0], STEPS_S[1]
     table = found.pivot_table(index=["contender", "engine"], columns="dt_s", values="error_rad")
     slope = np.log(table[coarse] / table[finer]) / np.log(coarse / finer)
-    return slope.unstack("engine")[list(ENGINES)]
-
-
-@responsive_picture
-def steps(found: pd.DataFrame, *, narrow=False):
-    """Deviation against step, both logarithmic."""
-    figure, axes = style.panels(height=4.6 if narrow else 3.6, narrow=narrow)
-    for (name, engine), rows in found.groupby(["contender", "engine"], sort=False):
-        look = style.look(name)
-        label = TITLES[name] if engine == "ideal-rk4" else None
-        axes.plot(
-            rows["dt_s"] * 1e3,
-            rows["error_rad"].clip(lower=FLOOR_RAD),
-            label=label,
-            color=look.colour,
-            marker=look.marker,
-            linestyle=ENGINES[engine],
-            linewidth=1.4,
-        )
-    for engine, line in ENGINES.items():
-        axes.plot([], [], color=style.INK, linestyle=line, label=ENGINE_TITLES[engine])
-    axes.set(xscale="log", yscale="log", xlabel="Step [ms]", ylabel=f"Angle at {AT_S:g} s is off by [rad]")
-    ticks = [1e3 * step for step in STEPS_S]
-    axes.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
-    axes.minorticks_off()
-    figure.legend(*axes.get_legend_handles_labels(), loc="outside upper left", ncols=1 if narrow else 2)
-    slopes = orders(found).median()
-    words = ", ".join(f"{ENGINE_TITLES[engine]} order {slopes[engine]:.1f}" for engine in ENGINES)
-    return figure, f"Deviation of the angle at {AT_S:g} s against the step, logarithmic, for three laws: {words}."
+    return slope.unstack("engine")[[*ENGINES]]

@@ -8,6 +8,7 @@ from bench.findings.theory import closed_form
 from report.figures.kit import html, laws, style
 from report.figures.kit.dots import dots
 from report.figures.kit.inline import responsive_picture
+from report.figures.kit.rows import MATRIX
 
 SETS = ("uniform", "half-turn", "poles", "wraps", "box")
 """Start sets at rest whose goal is zero."""
@@ -39,7 +40,7 @@ def hero(episodes: pd.DataFrame, narrow: bool):
         squeeze=False,
     )
     said = [_panel(axes, *part) for axes, part in zip(grid.flat, parts, strict=True)]
-    if parts[0][0] == "rotation-matrix":
+    if parts[0][0] == MATRIX:
         _closed_form(grid.flat[0], shown)
     for axes in grid[-1, :]:
         axes.set_xlabel("initial angle to the goal [deg]")

@@ -8,6 +8,7 @@ import pandas as pd
 from bench.findings.theory import closed_form
 from report.figures.kit import style
 from report.figures.kit.inline import responsive_picture
+from report.figures.kit.rows import MATRIX
 
 DECADE = re.compile(r"-k(\d+)$")
 FITTED = (3, 10)
@@ -43,7 +44,7 @@ def decades(episodes: pd.DataFrame, narrow: bool):
     """
     figure, axes = style.panels(height=3.9 if narrow else 3.6, narrow=narrow)
     kp, kv, tolerance = (float(episodes[name].iloc[0]) for name in ("kp", "kv", "tolerance"))
-    look = style.look("rotation-matrix")
+    look = style.look(MATRIX)
     k = decade(episodes["start_id"])
     near, exact = near_and_exact(episodes)
     theory = np.arange(0.0, k.max() + 0.01, 0.25)

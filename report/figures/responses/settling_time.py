@@ -5,14 +5,12 @@ import functools
 import pandas as pd
 
 from bench.findings.theory import closed_form
-from report.figures.kit import html, laws
+from report.figures.kit import html
 from report.figures.kit.page import Run
 from report.figures.kit.rows import MATRIX, SHORT, of
 from report.figures.kit.tables import Table
 from report.figures.responses import settling_angle, settling_decades
 
-BIN_DEG = 30
-TIMES = Table("Angle [deg] | Law | Starts | Settled [%]:.1f | 5 %:.3f | Median [s]:.3f | 95 %:.3f")
 SLOPES = Table(
     "Engine | Starts fitted | Slope [s/decade]:.4f | Closed form:.4f | Difference [%]:+.3f | Exact half turns | "
     "of which settle | Horizon [s]"
@@ -59,13 +57,10 @@ def facts(run: Run) -> dict:
 
 
 def tables(run: Run) -> dict:
-    """By angle and law; the slope by engine."""
-    half = run.rows("episodes", task="free-body", start_set="half-turn", regulator="rotation-matrix")
+    """The slope by engine."""
+    half = run.rows("episodes", task="free-body", start_set="half-turn", contender=MATRIX)
     engines = half.groupby("engine", observed=True, sort=False)
-    return {
-        "tab_times": TIMES(times(continuous(run))),
-        "tab_slopes": SLOPES(slope_on(engine, part) for engine, part in engines),
-    }
+    return {"tab_slopes": SLOPES(slope_on(engine, part) for engine, part in engines)}
 
 
 def figures(run: Run) -> dict:
@@ -75,17 +70,6 @@ def figures(run: Run) -> dict:
         "settling-angle": settling_angle.bands(episodes[episodes["start_set"] == "uniform"]),
         "settling-decades": settling_decades.decades(of(episodes, MATRIX, "half-turn")),
     }
-
-
-def times(episodes: pd.DataFrame) -> list[tuple]:
-    """Angle by angle the laws: starts, share that settles, quantiles of settling time."""
-    rows = []
-    for place, (name, title, _) in enumerate(laws.each(episodes)):
-        for one in settling_angle.by_angle(of(episodes, name), BIN_DEG).itertuples():
-            angles = f"{one.angle - BIN_DEG / 2:.0f} to {one.angle + BIN_DEG / 2:.0f}"
-            row = (angles, html.law(name, title), one.starts, 100.0 * one.settled, one.low, one.median, one.high)
-            rows.append((one.angle, place, row))
-    return [row for _, _, row in sorted(rows, key=lambda each: each[:2])]
 
 
 def slope_on(engine: str, rows: pd.DataFrame) -> tuple:
