@@ -13,7 +13,6 @@ from report.figures.cards import regulators
 from report.figures.cost import cost, operations
 from report.figures.kit import spelling
 from report.figures.kit.page import run_in
-from report.figures.kit.rows import titles
 from report.figures.method import engines, provenance
 from report.figures.problem import conditioning, problem_and_plant, representations
 
@@ -53,7 +52,7 @@ def test_every_regulator_has_a_card_with_its_source():
 
 def test_costs_are_drawn_for_every_law():
     costs = read.costs()
-    assert operations.operations(costs, titles()).alt.count("transcendental") == costs["contender"].nunique()
+    assert operations.operations(costs).alt.count("transcendental") == costs["contender"].nunique()
 
 
 def test_page_says_so_when_nothing_was_timed(monkeypatch):

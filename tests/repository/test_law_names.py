@@ -9,7 +9,7 @@ from bench.contenders.registry import known_impedances, known_regulators, known_
 ROOT = Path(__file__).parents[2]
 ROOMS = ("bench", "tasks", "report")
 
-CHAPTERS = ("answer", "arms", "cards", "comparison", "contact", "cost", "method", "problem", "responses", "robustness")
+CHAPTERS = ("arms", "contact", "problem", "robustness")
 
 ALLOWED = {
     "bench/contenders/regulators/": "its own file, and the coordinates it acts on",
@@ -26,6 +26,9 @@ ALLOWED = {
     "bench/timing/": "what the loop in numpy computes",
     "bench/cli/": "examples of --help",
     **dict.fromkeys((f"report/figures/{chapter}/" for chapter in CHAPTERS), "what a page of the book is about"),
+    "report/figures/cards/side_by_side.py": "pairs that are worth a look",
+    "report/figures/comparison/a_new_law.py": "the law that it is about, and its neighbours",
+    "report/figures/comparison/new_law.py": "those whose equations are drawn beside its own",
     "report/figures/libraries/": "what the libraries were asked",
     "report/media.py": "what is filmed",
     "report/contact_media.py": "what is filmed",

@@ -13,6 +13,7 @@ from bench.findings.selection.measured import Measured
 from bench.findings.selection.needs import EVERYWHERE, UNHELD
 from report.figures.kit import families, style
 from report.figures.kit.inline import responsive_picture
+from report.figures.kit.rows import FEEDBACK
 
 COVERAGE = ("loses starts", "settles everywhere, held by noise", "settles everywhere, not held")
 MARKERS = ("X", "o", "*")
@@ -22,6 +23,9 @@ COLOURS = (style.MUTED, "#0072b2", "#d55e00")
 
 SECONDS = (0.5, 0.6, 0.7, 0.8, 1.0, 1.5, 2.0, 3.0)
 """Ticks of the upright axis, which is even in 1/time: fast laws get room, and "never" has a place."""
+
+ABBREVIATED = families.word(FEEDBACK), "f-l"
+"""The longest name, and what stands for it on the plane."""
 
 CLOSE_PT = 12.0
 """A name farther from its mark than this [pt] is joined to it by a line."""
@@ -119,7 +123,7 @@ def _label(axes, places: dict[str, tuple[float, float]], colours: dict[str, str]
     for law, colour in colours.items():
         for shift in AROUND:
             side = {"ha": "left" if shift[0] > 0 else "right", "va": "center", "color": colour, "fontsize": 8.5}
-            text = axes.annotate(short(law), places[law], shift, textcoords="offset points", **side)
+            text = axes.annotate(families.word(law).replace(*ABBREVIATED), places[law], shift, textcoords="offset points", **side)
             spot = text.get_window_extent()
             edges = (spot.x0, spot.y0, spot.x1, spot.y1)
             is_inside = whole.x0 <= spot.x0 and spot.x1 <= whole.x1 and whole.y0 <= spot.y0 and spot.y1 <= whole.y1
@@ -136,11 +140,6 @@ def _box(axes, points: list[tuple[float, float]], margin: float) -> tuple[float,
     """The box around some points, in pixels."""
     at = axes.transData.transform(points)
     return (*(at.min(axis=0) - margin), *(at.max(axis=0) + margin))
-
-
-def short(law: str) -> str:
-    """What a law is called on the plane."""
-    return families.word(law).replace("feedback-linearized", "f-l")
 
 
 def _meet(one: tuple, other: tuple) -> bool:

@@ -16,8 +16,8 @@ from pygments.lexers import PythonLexer
 from bench.contenders.registry import contenders_of, known_regulators, papers_laws
 from bench.law.contender import Contender, Regulator
 from bench.tables import read
-from report.figures.cards.card_parts import ENOUGH, MOST_SETTLED, card_map, card_response, card_strip
-from report.figures.kit import html
+from report.figures.cards.card_parts import ENOUGH, MOST_SETTLED, card_map, card_strip
+from report.figures.kit import html, laws, style
 from report.figures.kit.families import anchor
 from report.figures.kit.page import Run
 from report.figures.kit.rows import uniform_starts
@@ -51,12 +51,6 @@ def in_order() -> list[Regulator]:
 def papers_first(regulator: Regulator) -> list[Contender]:
     """A law in every representation it acts on, the paper's own coordinates first."""
     return sorted(contenders_of(regulator), key=lambda one: one.is_elsewhere)
-
-
-def title_of(one: Contender) -> str:
-    """The law's title, and its coordinates where it acts on others than the paper's."""
-    where = one.representation
-    return f"{one.regulator.title}: {where.title}" if where and one.is_elsewhere else one.regulator.title
 
 
 def module(regulator: Regulator) -> ModuleType:
@@ -111,28 +105,34 @@ def measured(episodes: pd.DataFrame, regulator: Regulator) -> str:
 
 
 def card(one: Contender, run: Run) -> str:
-    """Heading and card of one law."""
-    regulator = one.regulator
-    what, fails = text_of(regulator)
-    acts = one.representation.title if one.representation else "the rotation matrix"
-    words = {"contender": one.name, "engine": engine_of(regulator)}
-    episodes, traces = run.rows("episodes", **words), run.rows("traces", **words)
-    proved = PROPERTIES.get(regulator.property, f"{regulator.property}.")
-    facts = {"Acts on": f"{acts[:1].upper()}{acts[1:]}.", "Proved": proved, "Measured": measured(episodes, regulator)}
-    return html.card(
-        one.name,
-        title_of(one),
-        regulator.formula,
-        regulator.source,
-        what,
-        costs_of(one, run),
-        card_map(episodes, title_of(one)) if len(episodes) else None,
-        fails,
-        facts,
-        anchor(one.name),
-        card_response(traces, title_of(one)) if len(traces) else None,
-        card_strip(one.name, run),
+    """Heading and card of one law: source, formula, words, costs, the map of its failures, what it withstands."""
+    regulator, title = one.regulator, laws.title_of(one)
+    episodes = run.rows("episodes", contender=one.name, engine=engine_of(regulator))
+    drawn = f'<div class="card-map">{card_map(episodes, title)._repr_html_()}</div>' if len(episodes) else ""
+    formula = f'<div class="card-formula">{html.formula(regulator.formula)}</div>' if regulator.formula else ""
+    look, alone = html.both(style.look(one.name).colour), "" if drawn else " alone"
+    return (
+        f'<section class="law-card{alone}" style="--law: {look}" aria-label="{markup.escape(title, quote=True)}">'
+        f'<header><h2 id="{anchor(one.name)}">{html.foreign(title)}</h2>'
+        f'<span class="card-source">{html.foreign(regulator.source)}</span></header>{formula}'
+        f'<div class="card-body"><div class="card-text">{said_of(one, episodes)}'
+        f'<div class="card-costs" tabindex="0">{html.plain_table(costs_of(one, run))}</div></div>{drawn}</div>'
+        f"{card_strip(one.name, run)}</section>"
     )
+
+
+def said_of(one: Contender, episodes: pd.DataFrame) -> str:
+    """What a law is, where it fails, what it acts on, what is proved, and what was measured."""
+    what, fails = text_of(one.regulator)
+    acts = one.representation.title if one.representation else "the rotation matrix"
+    words = {
+        "Fails": fails,
+        "Acts on": f"{acts[:1].upper()}{acts[1:]}.",
+        "Proved": PROPERTIES.get(one.regulator.property, f"{one.regulator.property}."),
+        "Measured": measured(episodes, one.regulator),
+    }
+    lines = [f'<p class="card-fact"><b>{head}.</b> {html.foreign(text)}</p>' for head, text in words.items() if text]
+    return f"<p>{html.foreign(what)}</p>{''.join(lines)}"
 
 
 def source(regulator: Regulator) -> str:
@@ -174,7 +174,7 @@ def line(one: Contender, run: Run) -> tuple:
     """A link to a law's card, what is proved, what was measured, its word on the command line."""
     uniform = run.rows("episodes", contender=one.name, engine=engine_of(one.regulator), start_set="uniform")
     return (
-        f'<a href="#{anchor(one.name)}">{html.law(one.name, title_of(one))}</a>',
+        f'<a href="#{anchor(one.name)}">{html.law(one.name, laws.title_of(one))}</a>',
         html.together(html.foreign(one.regulator.property)),
         (uniform["outcome"] == "settled").mean() if len(uniform) else None,
         f"`{one.name}`",

@@ -1,6 +1,6 @@
 """Two laws from one start: the controls of the page, which report/_extra/side-by-side.js brings to life.
 
-Without a script there stand one pair as a figure, and how every law ends from every start as a table.
+Without a script there stands how every law ends from every start, as a table.
 """
 
 from __future__ import annotations
@@ -11,14 +11,12 @@ import itertools
 import json
 from collections.abc import Iterable
 
-import numpy as np
 import pandas as pd
 
 from bench.experiments.traces import EVERY_S, LONGEST_S
 from bench.tables import read
-from report.figures.cards.side_by_side_data import Start, data, degrees, shown, starts, word
-from report.figures.kit import families, html, style
-from report.figures.kit.inline import responsive_picture
+from report.figures.cards.side_by_side_data import Start, data, shown, starts
+from report.figures.kit import families, html
 from report.figures.kit.page import Run, given
 from tasks.rules import RULES
 
@@ -35,7 +33,6 @@ PRESETS = (
 )
 """Title, laws A and B, start: one click each."""
 
-LINES = {"a": style.SOLID, "b": style.DASHED}
 WORDS = {"timed-out": "never"}
 
 
@@ -66,7 +63,7 @@ def page(rows: pd.DataFrame, episodes: pd.DataFrame, costs: pd.DataFrame) -> htm
     given |= {side: _law_options(rows["contender"].unique(), OPENING[side]) for side in "ab"}
     return html.Html(
         f'{CONTROLS.format(**given)}<script type="application/json" id="side-data">{inside}</script>'
-        "<noscript><p>Choosing needs JavaScript. Below, without it: one pair, and how every law ends.</p></noscript>"
+        "<noscript><p>Choosing needs JavaScript. Below, without it: how every law ends.</p></noscript>"
     )
 
 
@@ -116,7 +113,7 @@ half a turn, where a way leaves and goes on at the opposite point. Drag, or use 
 def _law_options(names: Iterable[str], chosen: str) -> str:
     """Laws by family."""
     return "".join(
-        _group(one.title, ((name, word(name)) for name in one.laws), chosen) for one in families.present(names)
+        _group(one.title, ((name, families.word(name)) for name in one.laws), chosen) for one in families.present(names)
     )
 
 
@@ -154,42 +151,16 @@ def tables(run: Run) -> dict:
 
 
 def figures(run: Run) -> dict:
-    """What the script brings to life; and one pair without it."""
-    rows, costs = followed(run), run.rows("costs", **read.FREE_BODY)
-    return {
-        "two-laws": given(rows, lambda rows: page(rows, ideal(run), costs)),
-        "side-by-side": given(rows, pair),
-    }
-
-
-@responsive_picture
-def pair(rows: pd.DataFrame, narrow: bool):
-    """The pair of OPENING: angle to the goal, and size of the command."""
-    figure, (left, right) = style.beside(2, 2.9, 5.2, narrow, sharex=True)
-    words = []
-    for side, line in LINES.items():
-        own = rows[(rows["contender"] == OPENING[side]) & (rows["start_id"] == OPENING["start"])]
-        look, name = style.look(OPENING[side]), word(OPENING[side])
-        times, command = own["time_s"], np.linalg.norm(own[["u_x", "u_y", "u_z"]], axis=1)
-        left.plot(times, np.degrees(own["angle_rad"]), color=look.colour, linestyle=line, label=name)
-        right.plot(times, command, color=look.colour, linestyle=line)
-        words.append(
-            f"{name} from {degrees(own['angle_rad'].iloc[0])}, at most {degrees(own['angle_rad'].max())} and "
-            f"{command.max():.0f} rad/s², settled in {own['settling_time_s'].iloc[0]:.2f} s"
-        )
-    left.set(title="Angle to the goal [deg]", ylim=(0, None))
-    right.set(title="Size of the command [rad/s²]", ylim=(0, None), xlabel="time [s]")
-    if not narrow:
-        left.set_xlabel("time [s]")
-    left.legend(loc="upper right")
-    return figure, f"Two laws from one start: {'; '.join(words)}."
+    """What the script brings to life."""
+    costs = run.rows("costs", **read.FREE_BODY)
+    return {"two-laws": given(followed(run), lambda rows: page(rows, ideal(run), costs))}
 
 
 def table(rows: pd.DataFrame, episodes: pd.DataFrame) -> html.Markdown:
     """A row a law, a column a start: settling time [s], or the outcome."""
     ends = rows.drop_duplicates(["contender", "start_id"]).set_index(["contender", "start_id"])
     lines = [
-        {"Law": families.link(name, word(name))}
+        {"Law": families.link(name, families.word(name))}
         | {one.short: _end(ends.loc[(name, one.id)]) for one in starts(rows, episodes)}
         for name in families.in_order(rows["contender"].unique())
     ]

@@ -13,12 +13,9 @@ import numpy as np
 import pandas as pd
 from scipy.spatial.transform import Rotation as Turn
 
-from bench.contenders.registry import find_contender, papers_coordinates
 from bench.experiments.traces import EVERY_S, TELLING
-from bench.tables import read
-from report.figures.cards.regulators import title_of
 from report.figures.cost.operations import CALLS
-from report.figures.kit import families, html, style
+from report.figures.kit import families, html, laws, style
 from tasks.rules import RULES
 
 ANGLE_UNIT = 1e-6
@@ -132,19 +129,14 @@ def data(rows: pd.DataFrame, episodes: pd.DataFrame, costs: pd.DataFrame) -> dic
 
 def law(name: str, costs: pd.DataFrame) -> dict:
     """How a law is called and drawn, where its card is, and what a tick of it costs."""
-    look, one = style.look(name), find_contender(name, read.own_laws())
+    look = style.look(name)
     return {
-        "name": word(name),
-        "title": title_of(one),
+        "name": families.word(name),
+        "title": laws.title(name),
         "card": f"{families.CARDS}#{families.anchor(name)}",
         "colour": [look.colour, look.dark],
         "cost": cost(name, costs),
     }
-
-
-def word(name: str) -> str:
-    """A contender, without the coordinates if they are the paper's."""
-    return name.removesuffix(f"/{papers_coordinates().name}")
 
 
 def cost(name: str, costs: pd.DataFrame) -> str:

@@ -40,8 +40,10 @@ def tiles(verdicts: list[Verdict]) -> html.Html:
         "holds with a correction": "hold with a correction",
         "does not hold": "do not hold",
     }
-    entries: list = [(len(decided), "statements of the paper decided")]
-    return html.tiles(entries + [(counts[word], label, word) for word, label in labels.items() if counts[word]])
+    entries = [("plain", len(decided), "statements of the paper decided")]
+    entries += [(html.VERDICTS[word], counts[word], label) for word, label in labels.items() if counts[word]]
+    tile = '<div class="tile {}"><b>{}</b><span>{}</span></div>'
+    return html.Html(f'<div class="tiles">{"".join(tile.format(*entry) for entry in entries)}</div>')
 
 
 def table(verdicts: list[Verdict], page: str) -> html.Markdown | None:

@@ -14,7 +14,7 @@ from report.figures.cost import operations, times
 from report.figures.cost.operations import CALLS
 from report.figures.kit import html, laws
 from report.figures.kit.page import Run
-from report.figures.kit.rows import FEEDBACK, titles
+from report.figures.kit.rows import FEEDBACK
 from report.figures.kit.tables import Table
 
 NO_TIMINGS = html.Markdown("| No timings |\n| :-- |\n| `make time` measures them and writes one file a machine. |")
@@ -64,12 +64,7 @@ def tables(run: Run) -> dict:
 
 def figures(run: Run) -> dict:
     """Operations by kind."""
-    return {"operations": operations.operations(costs(run), titles())}
-
-
-def named(name: str) -> html.Html:
-    """A law by its title."""
-    return html.law(name, titles().get(name, name))
+    return {"operations": operations.operations(costs(run))}
 
 
 def spent(flops: int, calls: int) -> str:
@@ -97,8 +92,8 @@ def by_time(measured: pd.DataFrame, counted: pd.DataFrame) -> list[tuple]:
         law = own[own["what"] == "law"].iloc[0]
         loops = own[own["what"] == "engine"].set_index("engine")["ns_per_tick"]
         interval = f"{law['ratio_low']:.2f} to {law['ratio_high']:.2f}"
-        in_loops = (loops.get(engine) for engine in ("ideal-rk4", "ideal-held", "native"))
-        lines.append((named(name), flops.get(name), law["ratio"], interval, law["ns_per_tick"], *in_loops))
+        alone = html.law(name, laws.title(name)), flops.get(name), law["ratio"], interval, law["ns_per_tick"]
+        lines.append((*alone, *(loops.get(engine) for engine in ("ideal-rk4", "ideal-held", "native"))))
     return sorted(lines, key=lambda line: line[2])
 
 
@@ -114,7 +109,7 @@ def against_time(alone: pd.DataFrame, counted: pd.DataFrame) -> str:
     if pairs:
         one, two = max(pairs, key=lambda pair: pair[0][2] / pair[1][2] * pair[1][1] / pair[0][1])
         return (
-            f"{titles()[one[0]]} takes {one[1]} flops and {titles()[two[0]]} {two[1]}, "
+            f"{laws.title(one[0])} takes {one[1]} flops and {laws.title(two[0])} {two[1]}, "
             f"yet the first takes {one[2] / two[2]:.1f} times as long."
         )
     calls = spent_by[list(CALLS)].sum(axis=1)

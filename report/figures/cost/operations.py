@@ -7,7 +7,7 @@ from textwrap import wrap
 
 import pandas as pd
 
-from report.figures.kit import style
+from report.figures.kit import laws, style
 from report.figures.kit.inline import responsive_picture
 
 # kind -> (columns of costs.parquet, colour)
@@ -32,13 +32,13 @@ def by_kind(costs: pd.DataFrame, branch: str = "typical") -> pd.DataFrame:
 
 
 @responsive_picture
-def operations(costs: pd.DataFrame, titles: dict[str, str], *, narrow=False):
+def operations(costs: pd.DataFrame, *, narrow=False):
     """Bars of operations by kind, one a law."""
     kinds = by_kind(costs)
     figure, axes = style.panels(height=0.75 + (0.6 if narrow else 0.36) * len(kinds), narrow=narrow)
     colours = {kind: colour for kind, (_, colour) in KINDS.items() if kinds[kind].any()}
     stack(axes, kinds, colours, 0.62, LEAST_LABELLED * (2 if narrow else 1))
-    names = [titles.get(name, name) for name in kinds.index]
+    names = [laws.title(name) for name in kinds.index]
     axes.set_yticks(range(len(kinds)), ["\n".join(wrap(name, NARROW_LETTERS)) for name in names] if narrow else names)
     axes.invert_yaxis()
     axes.set_xlabel("Operations a tick, typical branch")
@@ -47,7 +47,7 @@ def operations(costs: pd.DataFrame, titles: dict[str, str], *, narrow=False):
         loc="lower center", bbox_to_anchor=(0.35, 1.0), ncols=2 if narrow else 5, columnspacing=1.2, handlelength=1
     )
     words = "; ".join(
-        f"{titles.get(name, name)} {row.sum()}, of which {row['transcendental']} transcendental"
+        f"{laws.title(name)} {row.sum()}, of which {row['transcendental']} transcendental"
         for name, row in kinds.iterrows()
     )
     return figure, f"Operations a tick by kind, one bar a law: {words}."

@@ -1,4 +1,4 @@
-"""The parts of a page that are not drawings: badges, tables, tiles, the card of a law, a ball to turn.
+"""The parts of a page that are not drawings: badges, tables, formulas, a ball to turn.
 
 Their looks are in report/_static/report.css. Tables are Markdown, so that links and citations in their
 cells are checked when the report is built; the rest is HTML.
@@ -11,13 +11,12 @@ import json
 import math
 import numbers
 import re
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
 import pandas as pd
 
 from report.figures.kit import style
-from report.figures.kit.inline import Picture
 
 VERDICTS = {
     "holds": "holds",
@@ -51,12 +50,6 @@ def badge(verdict: str) -> Html:
     if verdict not in VERDICTS:
         raise ValueError(f"verdict {verdict!r} is none of ours; known: {', '.join(VERDICTS)}")
     return Html(f'<span class="verdict {VERDICTS[verdict]}">{verdict}</span>')
-
-
-def outcome(name: str) -> Html:
-    """An outcome with the colour it has in every failure map."""
-    light = style.OUTCOMES[name][0]
-    return Html(f'<span class="key" style="--key: {both(light)}"></span>{name}')
 
 
 def law(name: str, text: str | None = None) -> Html:
@@ -144,69 +137,9 @@ def number(value: Any) -> str:
     return f"{value:.3g}"
 
 
-def tiles(entries: Sequence[tuple[Any, str] | tuple[Any, str, str]]) -> Html:
-    """The front page's numbers: (value, what it is) or (value, what it is, verdict whose colour it takes)."""
-    parts = []
-    for value, label, *verdict in entries:
-        tone = VERDICTS[verdict[0]] if verdict else "plain"
-        parts.append(f'<div class="tile {tone}"><b>{cell(value)}</b><span>{html.escape(label)}</span></div>')
-    return Html(f'<div class="tiles">{"".join(parts)}</div>')
-
-
 def formula(tex: str) -> str:
     """TeX in a piece of HTML, set by the page's MathJax."""
     return f'<span class="math notranslate nohighlight">\\[{html.escape(tex)}\\]</span>'
-
-
-def card(
-    name: str,
-    title: str,
-    tex: str,
-    source: str,
-    summary: str,
-    costs: pd.DataFrame | None = None,
-    picture: Picture | None = None,
-    fails: str = "",
-    facts: Mapping[str, str] | None = None,
-    anchor: str = "",
-    response: Picture | None = None,
-    strip: str = "",
-) -> Html:
-    """The card of a law, drawn wholly from what its module and its results say.
-
-    Args:
-        name: the contender, which decides the colour.
-        title: how it is called in prose.
-        tex: its formula, in TeX without dollars.
-        source: where it was published, with equation numbers.
-        summary: a sentence on what it does.
-        costs: operations by stage, one row a stage; whole numbers.
-        picture: its failure map.
-        fails: a sentence on where it fails, in numbers.
-        facts: more such sentences by their first word, "Measured" say.
-        anchor: makes the title a heading of the page that links can name.
-        response: what stands under the map.
-        strip: a piece of HTML over the whole width, below.
-    """
-    left = [f"<p>{foreign(summary)}</p>"]
-    said = {**({"Fails": fails} if fails else {}), **(facts or {})}
-    left += [f'<p class="card-fact"><b>{label}.</b> {foreign(text)}</p>' for label, text in said.items()]
-    if costs is not None:
-        left.append(f'<div class="card-costs" tabindex="0">{plain_table(costs)}</div>')
-    drawn = "".join(one._repr_html_() for one in (picture, response) if one)
-    right = f'<div class="card-map">{drawn}</div>' if drawn else ""
-    name_of = foreign(title)
-    formula_line = f'<div class="card-formula">{formula(tex)}</div>' if tex else ""
-    heading = f'<h2 id="{anchor}">{name_of}</h2>' if anchor else f"<strong>{name_of}</strong>"
-    return Html(
-        f'<section class="law-card{"" if drawn else " alone"}" '
-        f'style="--law: {both(style.look(name).colour)}" '
-        f'aria-label="{html.escape(title, quote=True)}">'
-        f"<header>{heading}"
-        f'<span class="card-source">{foreign(source)}</span></header>'
-        f"{formula_line}"
-        f'<div class="card-body"><div class="card-text">{"".join(left)}</div>{right}</div>{strip}</section>'
-    )
 
 
 def plain_table(frame: pd.DataFrame) -> str:

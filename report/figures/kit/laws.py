@@ -37,6 +37,18 @@ def contender(name: str) -> Contender | None:
     return next((one for one in found if one.name == name.partition("@")[0]), None)
 
 
+def title(name: str) -> str:
+    """The title of a law by its name; the name itself of a law that is not known."""
+    one = contender(name)
+    return title_of(one) if one else name
+
+
+def title_of(one: Contender) -> str:
+    """The law's title, and its coordinates where they are others than the paper's."""
+    where, title = one.representation, one.regulator.title
+    return f"{title} in {where.short or where.name}" if where and one.is_elsewhere else title
+
+
 def regulator_of(name: str) -> str:
     """The regulator's word in a contender's name."""
     return name.partition("@")[0].partition("/")[0]

@@ -1,13 +1,8 @@
 """Rows of a table of results, chosen and summed up as several pages do; the paper's three laws by name."""
 
-import functools
-from pathlib import Path
-
 import pandas as pd
 
-from bench.contenders.registry import contenders_of, known_regulators
 from bench.findings.theory.closed_form import linear_settling
-from bench.tables import read
 from report.figures.kit import html
 from report.figures.kit.laws import TITLES
 
@@ -37,19 +32,3 @@ def small_error_settling_s(episodes: pd.DataFrame) -> float:
     """Settling time of a small error, from the closed form and the run's gains and band [s]."""
     kp, kv, band = (float(episodes[column].iloc[0]) for column in ("kp", "kv", "tolerance"))
     return linear_settling(kp, kv, band)
-
-
-def titles() -> dict[str, str]:
-    """contender -> the title of its law, with its coordinates where it has several."""
-    return _titles(read.folder())
-
-
-@functools.cache
-def _titles(folder: Path) -> dict[str, str]:
-    named = {}
-    for regulator in (*known_regulators().values(), *read.own_laws(folder)):
-        several = contenders_of(regulator)
-        for one in several:
-            coordinates = f", {one.representation.name}" if one.representation and len(several) > 1 else ""
-            named[one.name] = regulator.title + coordinates
-    return named

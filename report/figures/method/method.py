@@ -15,9 +15,8 @@ from bench.contenders.registry import known_inverses, known_jacobians
 from bench.counting import RULES as COUNT_RULES
 from bench.law.resolved_motion import Inverse, Jacobian
 from bench.metrics.registry import known_metrics
-from report.figures.kit import html
+from report.figures.kit import html, laws
 from report.figures.kit.page import Run
-from report.figures.kit.rows import titles
 from report.figures.kit.spelling import power, prose
 from report.figures.kit.tables import Table
 from report.figures.method import engines, steps
@@ -96,7 +95,7 @@ def alike(runs: pd.DataFrame) -> Iterator[tuple]:
     """A row a law: how its episodes end on the continuous plant and in MuJoCo, and how much later it settles."""
     later = engines.later_ms(runs, "native")
     for name, *counts in engines.same_outcome(runs, "native").itertuples(index=False):
-        yield html.law(name, titles().get(name, name)), *counts, later.get(name)
+        yield html.law(name, laws.title(name)), *counts, later.get(name)
 
 
 def start_sets(runs: pd.DataFrame) -> Iterator[tuple]:
