@@ -1,6 +1,4 @@
-"""What a law's card shows besides its map: words, and the strip of what it bears."""
-
-import re
+"""In which order the cards of laws stand, and what they say of laws without rows."""
 
 import pandas as pd
 import pytest
@@ -8,16 +6,7 @@ import pytest
 pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
 
 from bench.contenders.registry import known_regulators, papers_laws
-from report.figures.cards import card_parts, regulators
-
-
-def test_strip_fills_a_level_where_enough_starts_go_well(monkeypatch):
-    shares = pd.DataFrame({0.0: [1.0], 0.002: [0.95], 0.01: [0.5], 0.02: [0.0]}, index=["my-law"])
-    monkeypatch.setattr(card_parts, "shares", lambda axis, run: shares if axis == "delay" else pd.DataFrame())
-    found = card_parts.card_strip("my-law", None)
-    cells = re.findall(r'<td class="([a-z ]+)" title="(\d+%) go well">([\d.]+)</td>', found)
-    assert cells == [("well usual", "100%", "0"), ("well", "95%", "2"), ("part", "50%", "10"), ("lost", "0%", "20")]
-    assert card_parts.card_strip("another-law", None) == ""
+from report.figures.cards import regulators
 
 
 def test_cards_begin_with_the_papers_laws_and_end_with_later_ones():

@@ -28,7 +28,7 @@ ALLOWED = {
     **dict.fromkeys((f"report/figures/{chapter}/" for chapter in CHAPTERS), "what a page of the book is about"),
     "report/figures/cards/side_by_side.py": "pairs that are worth a look",
     "report/figures/comparison/a_new_law.py": "the law that it is about, and its neighbours",
-    "report/figures/comparison/new_law.py": "those whose equations are drawn beside its own",
+    "report/figures/comparison/new_law.py": "those whose responses are drawn beside its own",
     "report/figures/libraries/": "what the libraries were asked",
     "report/media.py": "what is filmed",
     "report/contact_media.py": "what is filmed",

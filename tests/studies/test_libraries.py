@@ -215,4 +215,4 @@ def test_page_is_whole_and_faulty_functions_are_counted():
     assert_is_whole(libraries, None)
     found = libraries.facts(None)
     assert found["right"] + len(libraries.faulty(libraries.lines())) - 1 == found["functions"]  # one of ours is faulty
-    assert "mink SO3.log" in libraries.figures(None)["libraries-digits"].alt
+    assert "mink `SO3.log (Python)`" in libraries.tables(None)["tab_faults"]

@@ -7,8 +7,8 @@ import functools
 import pandas as pd
 
 from bench.experiments.suites import BEST
-from report.figures.arms import arm_looks, arm_rows
-from report.figures.kit import families, html
+from report.figures.arms import arm_rows
+from report.figures.kit import families
 from report.figures.kit.laws import TITLES
 from report.figures.kit.page import Run
 
@@ -38,19 +38,3 @@ def facts(found: pd.DataFrame) -> dict:
         if later.nunique() <= 1
         else f"from {100 * later.min():.0f} to {100 * later.max():.0f} %",
     }
-
-
-def table(found: pd.DataFrame) -> html.Markdown:
-    """A row a law: episodes that settle on each arm, on all of them, and the median settling time of clear starts."""
-    lines = []
-    for law in families.in_order(found["law"].unique()):
-        own = found[found["law"] == law]
-        cells = {arm: _settled(own[own["arm"] == arm]) for arm in arm_looks.arms(found)}
-        clear = own.loc[(own["start_set"] == "clear") & arm_rows.settled(own), "settling_time_s"]
-        line = {"Law": families.link(law, families.word(law)), **cells, "All": _settled(own)}
-        lines.append({**line, "Clear starts, median [s]": f"{clear.median():.3f}" if len(clear) else html.MISSING})
-    return html.table(pd.DataFrame(lines))
-
-
-def _settled(own: pd.DataFrame) -> str:
-    return f"{int(arm_rows.settled(own).sum())} of {len(own)}"

@@ -123,7 +123,8 @@ def _label(axes, places: dict[str, tuple[float, float]], colours: dict[str, str]
     for law, colour in colours.items():
         for shift in AROUND:
             side = {"ha": "left" if shift[0] > 0 else "right", "va": "center", "color": colour, "fontsize": 8.5}
-            text = axes.annotate(families.word(law).replace(*ABBREVIATED), places[law], shift, textcoords="offset points", **side)
+            word = families.word(law).replace(*ABBREVIATED)
+            text = axes.annotate(word, places[law], shift, textcoords="offset points", **side)
             spot = text.get_window_extent()
             edges = (spot.x0, spot.y0, spot.x1, spot.y1)
             is_inside = whole.x0 <= spot.x0 and spot.x1 <= whole.x1 and whole.y0 <= spot.y0 and spot.y1 <= whole.y1

@@ -16,7 +16,7 @@ from pygments.lexers import PythonLexer
 from bench.contenders.registry import contenders_of, known_regulators, papers_laws
 from bench.law.contender import Contender, Regulator
 from bench.tables import read
-from report.figures.cards.card_parts import ENOUGH, MOST_SETTLED, card_map, card_strip
+from report.figures.cards.card_map import MOST_SETTLED, card_map
 from report.figures.kit import html, laws, style
 from report.figures.kit.families import anchor
 from report.figures.kit.page import Run
@@ -105,7 +105,7 @@ def measured(episodes: pd.DataFrame, regulator: Regulator) -> str:
 
 
 def card(one: Contender, run: Run) -> str:
-    """Heading and card of one law: source, formula, words, costs, the map of its failures, what it withstands."""
+    """Heading and card of one law: source, formula, words, costs, and the map of its failures."""
     regulator, title = one.regulator, laws.title_of(one)
     episodes = run.rows("episodes", contender=one.name, engine=engine_of(regulator))
     drawn = f'<div class="card-map">{card_map(episodes, title)._repr_html_()}</div>' if len(episodes) else ""
@@ -116,8 +116,7 @@ def card(one: Contender, run: Run) -> str:
         f'<header><h2 id="{anchor(one.name)}">{html.foreign(title)}</h2>'
         f'<span class="card-source">{html.foreign(regulator.source)}</span></header>{formula}'
         f'<div class="card-body"><div class="card-text">{said_of(one, episodes)}'
-        f'<div class="card-costs" tabindex="0">{html.plain_table(costs_of(one, run))}</div></div>{drawn}</div>'
-        f"{card_strip(one.name, run)}</section>"
+        f'<div class="card-costs" tabindex="0">{html.plain_table(costs_of(one, run))}</div></div>{drawn}</div></section>'
     )
 
 
@@ -161,8 +160,7 @@ def parts(regulator: Regulator, run: Run) -> list[str]:
 def facts(run: Run) -> dict:
     """What a card's drawings hold."""
     episodes = run.rows("episodes", **read.FREE_BODY)
-    enough = f"{ENOUGH:.0%}".replace("%", " %")
-    return {"uniform": uniform_starts(episodes), "enough": enough, "drawn": MOST_SETTLED}
+    return {"uniform": uniform_starts(episodes), "drawn": MOST_SETTLED}
 
 
 def tables(run: Run) -> dict:

@@ -1,30 +1,26 @@
-"""The page on the law that brakes late: measured beside its neighbours, and what was tried on the way to it."""
+"""The page on the law that brakes late: its response beside its neighbours', and what was tried on the way to it."""
 
 from __future__ import annotations
 
 import math
 
 import numpy as np
-import pandas as pd
 
 from bench.findings.theory.isotropic import EQUATIONS, LEAST_RAD, settling
 from bench.law.contender import PAPERS_GAINS
 from bench.law.equation import ANGLE, CHORD, Equation
 from bench.tables import read
 from report.figures.comparison import new_law
-from report.figures.comparison.cells import LEVEL, NEVER, costs, slowest, tick
-from report.figures.comparison.comparison import at_peak, uniform
+from report.figures.comparison.cells import LEVEL
 from report.figures.comparison.new_law import greatest_pull, peak_gains, response
-from report.figures.kit import families, html
+from report.figures.kit import html
 from report.figures.kit.page import Run
+from report.figures.kit.rows import MATRIX
 from report.figures.kit.tables import Table
 from tasks.rules import RULES
 
 NEW = "late-braking"
 LATE = EQUATIONS[NEW]
-NEIGHBOURS = ("rotation-matrix", "square-root", "hybrid", "sliding", "rotation-vector", "mrp", "mrp-linearized", NEW)
-"""The 1980 law; the laws whose parts it has; the two whose response is linear; the fastest at equal gain."""
-
 ROOTLESS = Equation(
     r"5 \sin\theta/(3 + 2\cos\theta),\ \tfrac52 \sin(\theta/2)",
     lambda theta: (
@@ -46,10 +42,6 @@ TRIED = {
 
 VARIANTS = Table("Variant | Slowest [s] | Peak [$K_p$] | Effort | Slowest at equal peak [s]")
 
-MEASURED = Table(
-    "Law | Median [s] | Slowest [s] | Effort | Peak | Slowest at equal peak [s] | A tick | Held from [rad]"
-)
-
 
 def facts(run: Run) -> dict:
     """By the equations, how slow and strong this law is beside the straight spring; and operations a tick."""
@@ -58,7 +50,7 @@ def facts(run: Run) -> dict:
     wanted = {
         "flops": (NEW, "typical"),
         "flops_worst": (NEW, "worst"),
-        "flops_1980": ("rotation-matrix", "typical"),
+        "flops_1980": (MATRIX, "typical"),
         "flops_hybrid": ("hybrid", "typical"),
     }
     return {
@@ -84,9 +76,9 @@ def effort(equation: Equation) -> float:
     return float(response(equation, math.pi, *PAPERS_GAINS)[-1, -1])
 
 
-def tables(run: Run) -> dict:
-    """What was measured, and what was tried."""
-    return {"measured": measured(run), "tried": VARIANTS(map(variant, TRIED))}
+def tables(_: Run) -> dict:
+    """What was tried."""
+    return {"tried": VARIANTS(map(variant, TRIED))}
 
 
 def variant(what: str) -> tuple:
@@ -101,47 +93,6 @@ def variant(what: str) -> tuple:
     )
 
 
-def measured(run: Run) -> html.Markdown | None:
-    """A row a neighbour: settling, effort, peak at equal gain; settling at equal peak; a tick; noise it withstands."""
-    rows, counted = uniform(run), run.rows("costs", **read.FREE_BODY)
-    if not (rows["contender"] == NEW).any():
-        return None
-    noise, times, efforts = (
-        run.rows("robustness", axis="half-turn-noise"),
-        *(costs(rows, column) for column in ("settling_time_s", "effort")),
-    )
-    return MEASURED(
-        (
-            families.link(name, families.word(name)),
-            f"{times[name].median():.3f}" if np.isfinite(times[name].median()) else NEVER,
-            slowest(times[name]),
-            html.number(float(f"{efforts[name].median():.3g}")),
-            html.number(round(rows.loc[rows["contender"] == name, "peak_u"].max())),
-            _of(
-                at_peak(run),
-                name,
-                lambda own: slowest(own["settling_time_s"].where(own["outcome"] == "settled", np.inf)),
-            ),
-            html.together(tick(counted, name)),
-            _of(noise, name, held_from),
-        )
-        for name in NEIGHBOURS
-        if name in times
-    )
-
-
-def _of(rows: pd.DataFrame, name: str, write) -> str:
-    """A cell about one law's rows; a dash without any."""
-    own = rows[rows["contender"] == name] if len(rows) else rows
-    return write(own) if len(own) else html.MISSING
-
-
-def held_from(noise: pd.DataFrame) -> str:
-    """The least level of the worst-case noise at which some start never settles."""
-    lost = noise.loc[noise["outcome"] != "settled", "level"]
-    return f"{lost.min():g}" if len(lost) else f"not to {noise['level'].max():g}"
-
-
 def figures(_: Run) -> dict:
-    """Its spring and damper, and how it responds."""
-    return {"new-law-parts": new_law.parts(), "new-law-responses": new_law.responses()}
+    """How it responds."""
+    return {"new-law-responses": new_law.responses()}

@@ -1,4 +1,4 @@
-"""The law that brakes late beside its neighbours, from their scalar equations: its two parts, and what they do."""
+"""The law that brakes late beside its neighbours, from their scalar equations."""
 
 from __future__ import annotations
 
@@ -16,8 +16,7 @@ from report.figures.kit import families, style
 from report.figures.kit.inline import responsive_picture
 
 DRAWN = {law: EQUATIONS[law] for law in ("rotation-matrix", "quaternion-shortest", "rotation-vector", "late-braking")}
-EASING = {law: EQUATIONS[law] for law in ("quaternion-shortest", "sliding", "late-braking")}
-"""Of laws with one spring or damper the first stands for all."""
+"""Of laws with one spring the first stands for all."""
 
 FROM_DEG, SHOWN_S = 175.0, 1.2
 """Where the responses begin, five degrees from where the sine has no pull at all; and how long they are shown."""
@@ -34,12 +33,6 @@ def greatest_pull(equation: Equation) -> float:
     return max(map(equation.spring, np.linspace(0.0, math.pi, 1801)))
 
 
-def share_left(equation: Equation, theta: float) -> float:
-    """Damping of a motion towards the goal, over Kv; of laws whose damping does not grow with the speed."""
-    kp, kv = PAPERS_GAINS
-    return 1.0 + equation.added(theta, -1.0, kp, kv) / kv
-
-
 @functools.cache
 def response(equation: Equation, theta: float, kp: float, kv: float) -> np.ndarray:
     """Rows: time [s], angle [rad], command towards the goal [rad/s^2], integral of its square; from rest at theta."""
@@ -54,34 +47,6 @@ def response(equation: Equation, theta: float, kp: float, kv: float) -> np.ndarr
     times = np.linspace(0.0, SHOWN_S, 241)
     angle, speed, effort = solve_ivp(rate, (0.0, SHOWN_S), (theta, 0.0, 0.0), t_eval=times, **TIGHT).y
     return np.array([times, angle, [-acceleration(*each) for each in zip(angle, speed, strict=True)], effort])
-
-
-@responsive_picture
-def parts(narrow: bool):
-    """Springs and dampers against the angle."""
-    figure, (left, right) = style.beside(2, 3.1, 5.6, narrow, sharex=True)
-    angles = np.linspace(0.0, math.pi, 181)
-    words = []
-    for axes, laws, curve in ((left, DRAWN, lambda equation: equation.spring), (right, EASING, easing)):
-        for name, equation in laws.items():
-            look = style.look(name)
-            values = np.array(list(map(curve(equation), angles)))
-            axes.plot(np.degrees(angles), values, color=look.colour, linestyle=look.line, label=families.word(name))
-            words.append(f"{families.word(name)} {values[-1]:.2f}")
-        axes.set(xlim=(0, 180), xticks=range(0, 181, 60), ylim=(0, None))
-        axes.legend(loc="upper left" if axes is left else "lower left")
-        axes.set_xlabel("angle to the goal [deg]")
-    left.set_ylabel("pull from rest over $K_p$")
-    right.set_ylabel("damping homewards over $K_v$")
-    return figure, (
-        f"At the half turn the pulls from rest are, in units of Kp, {', '.join(words[: len(DRAWN)])}; the damping of a "
-        f"motion towards the goal, in units of Kv, {', '.join(words[len(DRAWN) :])}."
-    )
-
-
-def easing(equation: Equation):
-    """share_left of an equation, as a function of the angle."""
-    return functools.partial(share_left, equation)
 
 
 @responsive_picture

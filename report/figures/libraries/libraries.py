@@ -12,7 +12,6 @@ from report.figures.kit.page import Run
 from report.figures.kit.spelling import power
 from report.figures.kit.tables import Table
 from report.figures.libraries import answers
-from report.figures.libraries.digits import digits
 
 EVERYWHERE = ["small", "drawn", "near", "at", "pole"]
 
@@ -131,8 +130,3 @@ def _named(own: pd.DataFrame) -> str:
 def asked(one) -> str:
     """A line's library and function."""
     return f"{one.library} `{one.function}`"
-
-
-def figures(_: Run) -> dict:
-    """Errors over small turns, and towards the half turn."""
-    return {"libraries-digits": digits(answers.table())}

@@ -78,7 +78,7 @@ def decades(episodes: pd.DataFrame, narrow: bool):
     axes.text(place + 0.5, height - 0.35, words, va="top", color=style.INK, fontsize=9.5)
     taken = near["settling_time_s"]
     return figure, (
-        f"Settling time of the rotation-matrix law against its distance from the half turn, {len(near)} starts from "
+        f"Settling time on the rotation matrix against the distance from the half turn, {len(near)} starts from "
         f"1 to 1e-{k.max():.0f} rad: from {taken.min():.2f} to {taken.max():.2f} s on a straight line of "
         f"{slope(episodes):.4f} s a decade. Of {len(exact)} exact half turns {stuck.sum()} never settle."
     )

@@ -1,26 +1,21 @@
-"""What a law's card shows beside its words: the map of its failures, and the strip of what it withstands.
+"""The map of a law's failures on its card.
 
-Map: the ball of rotation vectors is cut open along a meridian and turned flat: height is the z component, distance
+The ball of rotation vectors is cut open along a meridian and turned flat: height is the z component, distance
 from the axis the rest. The rim is the half turns, where opposite points are one orientation.
 """
 
 from __future__ import annotations
 
-import functools
-import html as markup
 import math
 
 import numpy as np
 import pandas as pd
 from matplotlib.lines import Line2D
 
-import tasks
 from report.figures.kit import style
 from report.figures.kit.dots import dots
 from report.figures.kit.html import number
 from report.figures.kit.inline import picture
-from report.figures.kit.page import Run
-from report.figures.robustness import rows as perturbed
 
 AT_REST_TO_IDENTITY = ("uniform", "box", "half-turn", "poles", "wraps")
 """Start sets in which only the orientation varies: at rest, goal identity."""
@@ -82,53 +77,3 @@ def card_map(episodes: pd.DataFrame, title: str):
     axes.legend(handles, words, loc="center left", bbox_to_anchor=(1.0, 0.5), handlelength=1.0, labelspacing=0.7)
     counts = ", ".join(words)
     return figure, f"{title}: outcomes of {number(len(rows))} starts at rest over the ball of rotations: {counts}."
-
-
-ENOUGH = 0.95
-AXES = {
-    "control-rate": ("Control rate [Hz]", 1.0),
-    "delay": ("Delay [ms]", 1e3),
-    "attitude-noise": ("Noise on the orientation [mrad]", 1e3),
-    "rate-noise": ("Noise on the rate [rad/s]", 1.0),
-    "half-turn-noise": ("Worst noise at half turns [mrad]", 1e3),
-    "saturation": ("Command bounded to [rad/s²]", 1.0),
-    "spin": ("Initial spin [rad/s]", 1.0),
-}
-"""Perturbation -> its row's head, and what its levels are multiplied by there."""
-
-
-@functools.cache
-def shares(axis: str, run: Run) -> pd.DataFrame:
-    """Law and level -> share of the starts that go well; empty where the run was not perturbed."""
-    rows = perturbed.along(run, axis)
-    if rows.empty:
-        return rows
-    return rows.groupby(["contender", "level"], observed=True)["good"].mean().unstack()
-
-
-def card_strip(name: str, run: Run) -> str:
-    """A table, a row a perturbation, a cell a level; nothing for a law that was not perturbed."""
-    rows = [row(axis, shares(axis, run).loc[name]) for axis in AXES if name in shares(axis, run).index]
-    if not rows:
-        return ""
-    return (
-        f'<div class="card-strip" tabindex="0"><p class="card-fact"><b>In trouble</b></p>'
-        f"<table>{''.join(rows)}</table></div>"
-    )
-
-
-def row(axis: str, own: pd.Series) -> str:
-    """One perturbation: its levels, each with its share in words."""
-    head, scale = AXES[axis]
-    nominal = tasks.axis(axis).nominal
-    cells = "".join(
-        f'<td class="{tone(share)}{" usual" if level == nominal else ""}" title="{share:.0%} go well">'
-        f"{scale * level:g}</td>"
-        for level, share in own.items()
-    )
-    return f'<tr><th scope="row">{markup.escape(head)}</th>{cells}</tr>'
-
-
-def tone(share: float) -> str:
-    """The word of a cell's looks."""
-    return "well" if share >= ENOUGH else "lost" if share == 0.0 else "part"
