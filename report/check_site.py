@@ -66,13 +66,10 @@ class Page(HTMLParser):
             if not words or FILE_NAME.match(words) or words.startswith("_images"):
                 self.undescribed.append(f"image {given.get('src', '')[:60]} has no alternative text")
             self.described_in_figure = True
-        if tag == "canvas" or (tag == "svg" and given.get("role") == "img" and not given.get("aria-hidden")):
+        is_drawing = tag == "svg" and given.get("role") == "img" and not given.get("aria-hidden")
+        if tag in ("canvas", "video") or is_drawing:
             if not given.get("aria-label", "").strip():
                 self.undescribed.append(f"{tag} {given.get('id', '')} has no aria-label")
-            self.described_in_figure = True
-        if tag == "video":
-            if not given.get("aria-label", "").strip():
-                self.undescribed.append("video has no aria-label")
             self.described_in_figure = True
 
     def handle_endtag(self, tag: str) -> None:

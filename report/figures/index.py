@@ -1,24 +1,22 @@
 """What the front page shows: the answer, the paper's three laws in a line each, all verdicts, and the edition."""
 
-import re
-
 import numpy as np
 
 from bench.findings import claims
-from bench.provenance import ROOT
 from bench.tables import read
 from report.figures.answer import which_law
 from report.figures.claims import claims as judged
 from report.figures.contact import in_contact
+from report.figures.cost.cost import totals
+from report.figures.cost.operations import CALLS
 from report.figures.failures.failure_map import EXACT_RAD
 from report.figures.kit import html
 from report.figures.kit.page import Run
 from report.figures.kit.rows import FEEDBACK, LINEARIZED, MATRIX, SHORT, lost, of
 from report.figures.kit.share import share
+from report.figures.method.provenance import cited
 from report.figures.responses import hero, settling_decades
 
-CALLS = ["sin", "cos", "atan2", "acos"]
-VERSION = re.compile(r"^version:\s*(\S+)", re.MULTILINE)
 SHORT_COMMIT = 10
 """Digits of a commit that tell it from every other."""
 
@@ -47,7 +45,7 @@ def figures(run: Run) -> dict:
 def of_the_paper(run: Run) -> dict:
     """The paper's three laws on the continuous plant: what they settle, how fast, and what they cost."""
     episodes = run.rows("episodes", engine="ideal-rk4")
-    tallies = run.rows("costs", **read.FREE_BODY, branch="typical", stage="total").set_index("contender")
+    tallies = totals(run.rows("costs", **read.FREE_BODY))
     half, poles = of(episodes, MATRIX, "half-turn"), of(episodes, FEEDBACK, "poles")
     on_pole = poles[np.pi / 2.0 - poles["beta0"].abs() < EXACT_RAD]
     _, exact = settling_decades.near_and_exact(half)
@@ -66,16 +64,15 @@ def of_the_paper(run: Run) -> dict:
         values[f"share_{letter}"] = f"{100 * found.value:.1f} % ({interval}, n = {html.number(found.n)})"
         values[f"slowest_{letter}"] = f"{rows['settling_time_s'].max():.2f}"
         values[f"flops_{letter}"] = int(tallies.loc[name, "flops"])
-        values[f"calls_{letter}"] = int(tallies.loc[name, CALLS].sum())
+        values[f"calls_{letter}"] = int(tallies.loc[name, list(CALLS)].sum())
     return values
 
 
 def edition(provenance: dict) -> dict:
     """The version of CITATION.cff, and the run that is shown."""
-    found = VERSION.search((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
     commit = provenance["commit"][:SHORT_COMMIT] or "none"
     return {
-        "version": found[1] if found else "unknown",
+        "version": cited()["version"],
         "date": provenance["finished"].partition("T")[0],
         "commit": f"{commit}, with changes" if provenance["dirty"] else commit,
         "suite": provenance["suite"],

@@ -116,7 +116,8 @@ def card(one: Contender, run: Run) -> str:
         f'<header><h2 id="{anchor(one.name)}">{html.foreign(title)}</h2>'
         f'<span class="card-source">{html.foreign(regulator.source)}</span></header>{formula}'
         f'<div class="card-body"><div class="card-text">{said_of(one, episodes)}'
-        f'<div class="card-costs" tabindex="0">{html.plain_table(costs_of(one, run))}</div></div>{drawn}</div></section>'
+        f'<div class="card-costs" tabindex="0">{html.plain_table(costs_of(one, run))}</div></div>{drawn}</div>'
+        "</section>"
     )
 
 

@@ -33,8 +33,6 @@ PRESETS = (
 )
 """Title, laws A and B, start: one click each."""
 
-WORDS = {"timed-out": "never"}
-
 
 @functools.cache
 def followed(run: Run) -> pd.DataFrame:
@@ -159,14 +157,11 @@ def figures(run: Run) -> dict:
 def table(rows: pd.DataFrame, episodes: pd.DataFrame) -> html.Markdown:
     """A row a law, a column a start: settling time [s], or the outcome."""
     ends = rows.drop_duplicates(["contender", "start_id"]).set_index(["contender", "start_id"])
+    times = ends["settling_time_s"].map("{:.2f}".format)
+    ends = ends.assign(end=times.where(ends["outcome"] == "settled", ends["outcome"].astype(str)))
     lines = [
         {"Law": families.link(name, families.word(name))}
-        | {one.short: _end(ends.loc[(name, one.id)]) for one in starts(rows, episodes)}
+        | {one.short: ends.at[(name, one.id), "end"] for one in starts(rows, episodes)}
         for name in families.in_order(rows["contender"].unique())
     ]
     return html.table(pd.DataFrame(lines))
-
-
-def _end(end: pd.Series) -> str:
-    outcome = end["outcome"]
-    return f"{end['settling_time_s']:.2f}" if outcome == "settled" else WORDS.get(outcome, outcome)

@@ -8,6 +8,7 @@ import numpy as np
 import pandas as pd
 
 from bench.tables.statistics import Estimate, quantile, quantile_estimate
+from report.figures.cost.cost import spent, totals
 from report.figures.cost.operations import CALLS
 from report.figures.kit import families, html
 from report.figures.kit.share import share
@@ -73,9 +74,8 @@ def tick(counted: pd.DataFrame, name: str) -> str:
     Args:
         counted: rows of costs.parquet about the free body.
     """
-    totals = counted[(counted["branch"] == "typical") & (counted["stage"] == "total")].set_index("contender")
-    flops, calls = int(totals.loc[name, "flops"]), int(totals.loc[name, list(CALLS)].sum())
-    return f"{flops} + {calls}" if calls else f"{flops}"
+    own = totals(counted).loc[name]
+    return spent(int(own["flops"]), int(own[list(CALLS)].sum()))
 
 
 def percent(part: float) -> str:

@@ -14,16 +14,6 @@ EXACT = ("half turn", "half turn and pole", "pole", "jump of atan2")
 """Of `failure_map.places`, those that are points and no neighbourhoods."""
 
 ELSEWHERE = "beside them"
-HOW = {
-    "stuck": "rest",
-    "singular": "undefined",
-    "timed-out": "too slow",
-    "diverged": "diverge",
-    "saturated": "too strong",
-    "crashed": "crash",
-    "hung": "hang",
-}
-"""Outcome of an episode -> what it is called in the table."""
 
 
 def directed(episodes: pd.DataFrame) -> pd.DataFrame:
@@ -52,13 +42,13 @@ def table(rows: pd.DataFrame) -> html.Markdown | None:
 
 
 def failing(rows: pd.DataFrame) -> str:
-    """ "26 of 26 rest": how many do not settle, and what most of them do instead."""
+    """ "26 of 26 stuck": how many do not settle, and what most of them do instead."""
     if rows.empty:
         return html.MISSING
     failed = rows.loc[rows["outcome"] != "settled", "outcome"].astype(str)
     if failed.empty:
         return f"none of {len(rows)}"
-    return f"{len(failed)} of {len(rows)} {HOW[failed.value_counts().index[0]]}"
+    return f"{len(failed)} of {len(rows)} {failed.value_counts().index[0]}"
 
 
 def left(rows: pd.DataFrame) -> list[str]:

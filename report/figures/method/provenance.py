@@ -1,4 +1,4 @@
-"""What the page on provenance shows: the run, its tables with their digests and columns, and links to take them."""
+"""What the page on provenance shows: the run, its tables with their digests, and links to take them."""
 
 from __future__ import annotations
 
@@ -6,7 +6,6 @@ import hashlib
 import re
 from pathlib import Path
 
-import pandas as pd
 import pyarrow.parquet as pq
 
 from bench.provenance import ROOT, rounded_on
@@ -30,21 +29,23 @@ REMADE = Table("Made on | Equal bit for bit | Rows that differ in some bit | Oth
 
 
 def facts(_: Run) -> dict:
-    """The version that CITATION.cff gives, and its date."""
-    said = dict(
-        re.findall(r"^(version|date-released): *[\"']?([^\"'\n]+)", CITATION.read_text(encoding="utf-8"), re.MULTILINE)
-    )
-    released = f" ({said['date-released']})" if "date-released" in said else ""
-    return {"version": said["version"] + released}
+    """The version that is cited, and its date."""
+    said = cited()
+    return {"version": f"{said['version']} ({said['date-released']})" if "date-released" in said else said["version"]}
+
+
+def cited() -> dict[str, str]:
+    """Version and date of CITATION.cff."""
+    text = CITATION.read_text(encoding="utf-8")
+    return dict(re.findall(r"^(version|date-released): *[\"']?([^\"'\n]+)", text, re.MULTILINE))
 
 
 def tables(run: Run) -> dict:
-    """The run, its files with their columns, and the published run made again elsewhere."""
+    """The run, its files, and the published run made again elsewhere."""
     made = [one for every in read_json(SETTINGS).values() for one in every.values()] if SETTINGS.is_file() else []
     return {
         "run": FACTS(said_of_itself(read.provenance()).items()),
         "tables": FILES(map(offered, files(run))),
-        "columns": columns(run),
         "settings": REMADE(map(against_published, made)),
     }
 
@@ -140,24 +141,3 @@ def size(count: int) -> str:
         if count >= 1e6
         else f"{max(1, round(count / 1e3))}\N{NO-BREAK SPACE}kB"
     )
-
-
-def columns(run: Run) -> html.Html:
-    """Name, type, unit and meaning of every column, one folded table a file."""
-    parts = []
-    for path in files(run):
-        if path.suffix != ".parquet":
-            continue
-        schema = pq.read_schema(path)
-        rows = []
-        for field in schema:
-            metadata = field.metadata or {}
-            kind = "word" if str(field.type).startswith("dictionary") else str(field.type)
-            unit, meaning = (metadata.get(key, b"").decode() for key in (b"unit", b"meaning"))
-            rows.append({"Column": field.name, "Type": kind, "Unit": unit, "Meaning": meaning})
-        table = html.plain_table(pd.DataFrame(rows))
-        parts.append(
-            f'<details class="columns"><summary><code>{path.name}</code>, {len(rows)} columns</summary>'
-            f'<div class="card-costs" tabindex="0">{table}</div></details>'
-        )
-    return html.Html("".join(parts))

@@ -48,14 +48,14 @@ def facts(run: Run) -> dict:
     values: dict = {**gains(every), "drawn": len(episodes), "good": len(episodes) - len(lost(episodes))}
     for _, start in FIGURES.values():
         end = start[-1]
-        bends = bends_deg(traces, start, **gains(every)).set_index("contender")
+        followed = traces[traces["start_id"] == start].set_index("contender")
         rows = episodes[episodes["start_id"] == start].set_index("contender")
         for letter, name in SHORT.items():
-            values[f"bend_{letter}{end}"] = float(bends.loc[name, ["alpha", "beta", "gamma"]].max())
+            values[f"bend_{letter}{end}"] = float(bend_deg(followed.loc[name], **gains(every)).max())
             values[f"time_{letter}{end}"] = f"{rows.loc[name, 'settling_time_s']:.3f}"
             values[f"path_{letter}{end}"] = f"{rows.loc[name, 'path_ratio']:.2f}"
         values |= {f"{angle}_{end}": float(rows[f"{angle}0"].iloc[0]) for angle in ("alpha", "beta", "gamma")}
-        angles = np.degrees(traces[traces["start_id"] == start].set_index("contender")["angle_rad"])
+        angles = np.degrees(followed["angle_rad"])
         values |= {f"first_{end}": f"{angles.iloc[0]:.0f}", f"peak_{end}": f"{angles[FEEDBACK].max():.0f}"}
     return values
 
@@ -103,8 +103,7 @@ def response(traces: pd.DataFrame, contender: str, start_id: str, kp: float, kv:
     for axes in (left, right) if not narrow else (right,):
         axes.set_xlabel("time [s]")
     begins = ", ".join(f"{name} {value:.0f}" for (name, *_), value in zip(ANGLES, angles[0], strict=True))
-    bend = np.abs(angles - angles[0] * closed_form.linear(times, kp, kv)[:, None]).max(axis=0)
-    bends = ", ".join(f"{name} {value:.2g}" for (name, *_), value in zip(ANGLES, bend, strict=True))
+    bends = ", ".join(f"{name} {value:.2g}" for (name, *_), value in zip(ANGLES, bend_deg(own, kp, kv), strict=True))
     return figure, (
         f"{laws.TITLES[contender]} from {begins} degrees: the angles against time. Largest distance from the "
         f"linear closed form, in degrees: {bends}. Beside it the angle to the goal for each law, from {first:.0f} "
@@ -123,11 +122,7 @@ def _angle_to_goal(axes, episode: pd.DataFrame) -> str:
     return ", ".join(said)
 
 
-def bends_deg(traces: pd.DataFrame, start_id: str, kp: float, kv: float) -> pd.DataFrame:
-    """Largest distance [deg] of each Euler angle from its linear closed form, one row a law."""
-    rows = []
-    for name, title, trace in laws.each(traces[traces["start_id"] == start_id]):
-        angles = euler_deg(trace)
-        away = np.abs(angles - angles[0] * closed_form.linear(trace["time_s"], kp, kv)[:, None]).max(axis=0)
-        rows.append({"contender": name, "law": title, **dict(zip(("alpha", "beta", "gamma"), away, strict=True))})
-    return pd.DataFrame(rows)
+def bend_deg(trace: pd.DataFrame, kp: float, kv: float) -> np.ndarray:
+    """Largest distance [deg] of each Euler angle of an episode from its linear closed form."""
+    angles = euler_deg(trace)
+    return np.abs(angles - angles[0] * closed_form.linear(trace["time_s"].to_numpy(), kp, kv)[:, None]).max(axis=0)

@@ -14,8 +14,6 @@ DECADE = re.compile(r"-k(\d+)$")
 FITTED = (3, 10)
 """Decades of the slope: the sine is linear in pi - angle from the first on, and rounding of R is small to the last."""
 
-RAIL, NEVER, CEILING = 8.6, 9.6, 10.6  # [s]: where exact half turns, which have no settling time, are drawn
-
 
 def decade(start_ids: pd.Series) -> pd.Series:
     """k of a start of the set half-turn at pi - 10^-k; missing for the exact ones."""
@@ -46,32 +44,16 @@ def decades(episodes: pd.DataFrame, narrow: bool):
     kp, kv, tolerance = (float(episodes[name].iloc[0]) for name in ("kp", "kv", "tolerance"))
     look = style.look(MATRIX)
     k = decade(episodes["start_id"])
-    near, exact = near_and_exact(episodes)
+    near, _ = near_and_exact(episodes)
     theory = np.arange(0.0, k.max() + 0.01, 0.25)
     times = closed_form.settling_curve(kp, kv, tolerance)(10.0**-theory)
     axes.plot(theory, times, color=style.INK, linewidth=0.9, zorder=1)
-    axes.plot(
-        k[k.notna()],
-        near["settling_time_s"],
-        look.marker,
-        color=look.colour,
-        markersize=5,
-        alpha=0.5,
-        markeredgewidth=0,
-    )
-    stuck = exact["outcome"] != "settled"
-    at = k.max() + 1.5
-    axes.axhspan(RAIL, CEILING, facecolor=style.GRID, alpha=0.45, zorder=0)
-    _exact(axes, at, exact[stuck], exact[~stuck], look)
-    axes.set(
-        ylim=(0, CEILING),
-        xlim=(-0.5, at + 0.9),
-        ylabel="settling time [s]",
-        xlabel="distance from the half turn, $\\pi - \\theta$ [rad]",
-    )
+    marks = {"color": look.colour, "marker": look.marker, "linestyle": "none", "markersize": 5}
+    axes.plot(k[k.notna()], near["settling_time_s"], alpha=0.5, markeredgewidth=0, **marks)
+    axes.set(ylim=(0, None), xlim=(-0.5, k.max() + 0.5), ylabel="settling time [s]")
+    axes.set_xlabel("distance from the half turn, $\\pi - \\theta$ [rad]")
     ticks = range(0, int(k.max()) + 1, 3)
-    axes.set_xticks([*ticks, at], [*(f"$10^{{-{one}}}$" if one else "1" for one in ticks), "0"])
-    axes.set_yticks([0, 2, 4, 6, 8, NEVER], [*map(str, (0, 2, 4, 6, 8)), "never"])
+    axes.set_xticks(ticks, [f"$10^{{-{one}}}$" if one else "1" for one in ticks])
     place = 0.5 * k.max()
     height = float(np.interp(place, theory, times))
     words = f"closed form, slope\n{closed_form.decade_slope(kp, kv):.4f} s a decade"
@@ -80,15 +62,5 @@ def decades(episodes: pd.DataFrame, narrow: bool):
     return figure, (
         f"Settling time on the rotation matrix against the distance from the half turn, {len(near)} starts from "
         f"1 to 1e-{k.max():.0f} rad: from {taken.min():.2f} to {taken.max():.2f} s on a straight line of "
-        f"{slope(episodes):.4f} s a decade. Of {len(exact)} exact half turns {stuck.sum()} never settle."
-    )
-
-
-def _exact(axes, at: float, stuck: pd.DataFrame, left: pd.DataFrame, look) -> None:
-    colour, marker = style.OUTCOMES["stuck"]
-    spread = np.linspace(-0.5, 0.5, max(2, len(stuck)))[: len(stuck)]
-    axes.plot(at + spread, np.full(len(stuck), NEVER), marker, linestyle="none", color=colour, markersize=5)
-    axes.plot(np.full(len(left), at), left["settling_time_s"], look.marker, linestyle="none", color=look.colour)
-    axes.text(
-        at - 0.9, NEVER, f"{len(stuck)} exact half turns stay", ha="right", va="center", fontsize=9.5, color=style.INK
+        f"{slope(episodes):.4f} s a decade."
     )

@@ -1,6 +1,7 @@
-"""What the page on settling times shows: the three laws by angle, and the rotation matrix towards the half turn."""
+"""What the page on settling times shows: numbers of the three laws, and the rotation matrix towards the half turn."""
 
 import functools
+import math
 
 import pandas as pd
 
@@ -9,7 +10,7 @@ from report.figures.kit import html
 from report.figures.kit.page import Run
 from report.figures.kit.rows import MATRIX, SHORT, of
 from report.figures.kit.tables import Table
-from report.figures.responses import settling_angle, settling_decades
+from report.figures.responses import settling_decades
 
 SLOPES = Table(
     "Engine | Starts fitted | Slope [s/decade]:.4f | Closed form:.4f | Difference [%]:+.3f | Exact half turns | "
@@ -28,7 +29,7 @@ def facts(run: Run) -> dict:
     episodes = continuous(run)
     kp, kv, tolerance, tick = (float(episodes[name].iloc[0]) for name in ("kp", "kv", "tolerance", "dt_s"))
     near, exact = settling_decades.near_and_exact(of(episodes, MATRIX, "half-turn"))
-    late = settling_angle.late_ms(of(episodes, MATRIX), kp, kv, tolerance)
+    late = late_ms(of(episodes, MATRIX), kp, kv, tolerance)
     values = {
         "kp": kp,
         "kv": kv,
@@ -64,12 +65,14 @@ def tables(run: Run) -> dict:
 
 
 def figures(run: Run) -> dict:
-    """Against the angle; against the distance from the half turn."""
-    episodes = continuous(run)
-    return {
-        "settling-angle": settling_angle.bands(episodes[episodes["start_set"] == "uniform"]),
-        "settling-decades": settling_decades.decades(of(episodes, MATRIX, "half-turn")),
-    }
+    """Against the distance from the half turn."""
+    return {"settling-decades": settling_decades.decades(of(continuous(run), MATRIX, "half-turn"))}
+
+
+def late_ms(rows: pd.DataFrame, kp: float, kv: float, tolerance: float) -> pd.Series:
+    """Measured settling time minus its closed form [ms], for rows of the rotation-matrix law at rest."""
+    theory = closed_form.settling_curve(kp, kv, tolerance)(math.pi - rows["angle0_rad"].to_numpy())
+    return 1000.0 * (rows["settling_time_s"] - theory)
 
 
 def slope_on(engine: str, rows: pd.DataFrame) -> tuple:
