@@ -66,8 +66,7 @@ def results_folder(root: Path = ROOT) -> Path:
         if (root / "results" / name / WRITTEN_LAST).is_file():
             return without_links(root / "results" / name)
     raise CannotBuild(
-        "neither results/latest nor results/reference holds a finished run "
-        "(cure: make bench, then make report)"
+        "neither results/latest nor results/reference holds a finished run (cure: make bench, then make report)"
     )
 
 

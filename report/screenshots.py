@@ -141,9 +141,7 @@ def network_requests(driver) -> list[str]:
 
 def console_errors(driver) -> list[str]:
     """What the console complained of since the last call."""
-    return [
-        entry["message"] for entry in driver.get_log("browser") if entry["level"] in ("SEVERE", "WARNING")
-    ]
+    return [entry["message"] for entry in driver.get_log("browser") if entry["level"] in ("SEVERE", "WARNING")]
 
 
 def picture(driver, view: View) -> bytes:

@@ -55,9 +55,7 @@ def finish(app, exception) -> None:
             target.parent.mkdir(parents=True, exist_ok=True)
             shutil.copyfile(str(file.locate()), target)
             return
-    raise FileNotFoundError(
-        f"{DISTRIBUTION} ships no {SCRIPT} (cure: make setup, which installs the pinned version)"
-    )
+    raise FileNotFoundError(f"{DISTRIBUTION} ships no {SCRIPT} (cure: make setup, which installs the pinned version)")
 
 
 def setup(app) -> dict:

@@ -1,6 +1,5 @@
 """The report's own tools: which results it takes, what makes it build again, what its page check refuses."""
 
-
 import build
 import check_site
 import pytest

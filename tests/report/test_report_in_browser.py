@@ -1,6 +1,5 @@
 """Every page of the built report as a reader's browser sees it: from its file, light, dark, wide, narrow."""
 
-
 import pytest
 import screenshots
 

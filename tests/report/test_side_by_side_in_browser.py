@@ -1,6 +1,5 @@
 """The page on which two laws are seen side by side, in a browser: keyboard, phone, address, and without a script."""
 
-
 import pytest
 
 pytest.importorskip("selenium", reason="the dev extra is not installed (cure: make setup)")

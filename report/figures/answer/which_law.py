@@ -7,6 +7,7 @@ import math
 import numpy as np
 import pandas as pd
 
+from bench.experiments.suites import BEST
 from bench.findings.claims import Results, judge
 from bench.findings.claims.adequacy import CALL_PRICE, CALL_PRICES
 from bench.findings.claims.later import HELD_RAD
@@ -16,10 +17,11 @@ from bench.findings.selection.front import front
 from bench.findings.selection.measured import Measured, measured
 from bench.tables import read
 from bench.tables.statistics import Estimate
-from report.figures.answer import on_arms
 from report.figures.answer.plane import plane, shown
+from report.figures.arms import arm_rows
 from report.figures.comparison.cells import by_family
 from report.figures.kit import families, html
+from report.figures.kit.laws import TITLES
 from report.figures.kit.page import Run
 from report.figures.kit.rows import small_error_settling_s
 
@@ -60,7 +62,32 @@ def facts(run: Run) -> dict:
         or "none",
         "verdict": str(verdict.word),
         **{key: verdict.evidence.numbers[key] for key in ("nearly", "adequate", "answers")},
-        **on_arms.facts(on_arms.rows(run)),
+        **on_arms(run),
+    }
+
+
+def on_arms(run: Run) -> dict:
+    """How many later laws ran on arms, and of all laws the one that settles most and the one that settles least.
+
+    Over episodes of the paper's three and of the best later laws by the geometric Jacobian and the standard inverse.
+    """
+    every = arm_rows.episodes(run)
+    laws = [*TITLES, *(word.partition("@")[0] for word in BEST)]
+    by_standard = every["way"] == every["law"] + f"@geometric+{arm_rows.STANDARD}"
+    found = every[by_standard & every["law"].isin(laws)]
+    shares = arm_rows.settled(found).groupby(found["law"]).mean()
+    later = shares[[law for law in shares.index if law not in TITLES]]
+    return {
+        "arms": found["arm"].nunique(),
+        "arm_laws": len(later),
+        "arm_starts": len(found) // max(1, len(shares)),
+        "arm_most": families.word(str(shares.idxmax())),
+        "arm_most_share": f"{100 * shares.max():.0f}",
+        "arm_least": families.word(str(shares.idxmin())),
+        "arm_least_share": f"{100 * shares.min():.0f}",
+        "arm_alike": "all alike"
+        if later.nunique() <= 1
+        else f"from {100 * later.min():.0f} to {100 * later.max():.0f} %",
     }
 
 

@@ -20,7 +20,6 @@ from report.figures.cards.card_map import MOST_SETTLED, card_map
 from report.figures.kit import html, laws, style
 from report.figures.kit.families import anchor
 from report.figures.kit.page import Run
-from report.figures.kit.rows import uniform_starts
 from report.figures.kit.share import share
 from report.figures.kit.spelling import typeset
 from report.figures.kit.tables import Table
@@ -160,8 +159,8 @@ def parts(regulator: Regulator, run: Run) -> list[str]:
 
 def facts(run: Run) -> dict:
     """What a card's drawings hold."""
-    episodes = run.rows("episodes", **read.FREE_BODY)
-    return {"uniform": uniform_starts(episodes), "drawn": MOST_SETTLED}
+    uniform = run.rows("episodes", **read.FREE_BODY, engine="ideal-rk4", start_set="uniform")
+    return {"uniform": int(uniform["contender"].value_counts().max()), "drawn": MOST_SETTLED}
 
 
 def tables(run: Run) -> dict:

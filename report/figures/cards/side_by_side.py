@@ -16,6 +16,7 @@ import pandas as pd
 from bench.experiments.traces import EVERY_S, LONGEST_S
 from bench.tables import read
 from report.figures.cards.side_by_side_data import Start, data, shown, starts
+from report.figures.comparison.comparison import ideal
 from report.figures.kit import families, html
 from report.figures.kit.page import Run, given
 from tasks.rules import RULES
@@ -38,12 +39,6 @@ PRESETS = (
 def followed(run: Run) -> pd.DataFrame:
     """Traces of every law from every telling start."""
     return shown(run.rows("traces", task="free-body"))
-
-
-@functools.cache
-def ideal(run: Run) -> pd.DataFrame:
-    """Episodes on the continuous plant."""
-    return run.rows("episodes", engine="ideal-rk4", task="free-body")
 
 
 def page(rows: pd.DataFrame, episodes: pd.DataFrame, costs: pd.DataFrame) -> html.Html:

@@ -83,9 +83,9 @@ def percent(part: float) -> str:
     return f"{100 * part:.0f}" if part in (0.0, 1.0) else f"{100 * part:.1f}"
 
 
-def slowest(values: pd.Series, form: str = ".3f") -> str:
+def slowest(values: pd.Series) -> str:
     """The longest of some times."""
-    return format(values.max(), form) if np.isfinite(values.max()) else NEVER
+    return f"{values.max():.2f}" if np.isfinite(values.max()) else NEVER
 
 
 def seconds(values: pd.Series, level: float = 0.5) -> str:

@@ -153,11 +153,12 @@ def of_actuator(episodes: pd.DataFrame) -> dict:
 
 def tables(run: Run) -> dict:
     """A row a law, family by family."""
+    counted = run.rows("costs", **read.FREE_BODY)
     return {
-        "settling": settling(uniform(run)),
-        "way": way(uniform(run), run.rows("costs", **read.FREE_BODY)),
+        "settling": each(uniform(run), settling),
+        "way": each(uniform(run), functools.partial(way, counted)),
         "against": against(lateness(uniform(run))),
-        "at_peak": given(at_peak(run), of_gains),
+        "at_peak": given(at_peak(run), lambda rows: each(rows, of_gains)),
         "dead": directed.table(directed.directed(ideal(run))),
     }
 
@@ -168,45 +169,36 @@ def each(rows: pd.DataFrame, line) -> html.Markdown | None:
     return cells.by_family(times, lambda name: line(rows[rows["contender"] == name], times[name], efforts[name]))
 
 
-def settling(rows: pd.DataFrame) -> html.Markdown | None:
+def settling(own: pd.DataFrame, times: pd.Series, _) -> dict:
     """Share that settles, median and 99th percentile of settling time with intervals, and the worst start."""
-    return each(
-        rows,
-        lambda own, times, _: {
-            "Settles [%]": cells.settles(own),
-            "Median [s]": cells.seconds(times),
-            "99 % [s]": cells.seconds(times, 0.99),
-            "Worst start": cells.worst(own),
-        },
-    )
+    return {
+        "Settles [%]": cells.settles(own),
+        "Median [s]": cells.seconds(times),
+        "99 % [s]": cells.seconds(times, 0.99),
+        "Worst start": cells.worst(own),
+    }
 
 
-def way(rows: pd.DataFrame, counted: pd.DataFrame) -> html.Markdown | None:
+def way(counted: pd.DataFrame, own: pd.DataFrame, _, efforts: pd.Series) -> dict:
     """Overshoot, detours, effort and peak of the command, and operations a tick."""
-    return each(
-        rows,
-        lambda own, _, efforts: {
-            "Overshoot [deg]": f"{np.degrees(own['overshoot_rad'].max()):.0f}",
-            "Detours [%]": cells.percent(float((own["path_ratio"] > DETOUR).mean())),
-            "Effort": cells.three_figures(efforts),
-            "Peak": cells.large(own["peak_u"].max()),
-            "A tick": cells.tick(counted, efforts.name),
-        },
-    )
+    return {
+        "Overshoot [deg]": f"{np.degrees(own['overshoot_rad'].max()):.0f}",
+        "Detours [%]": cells.percent(float((own["path_ratio"] > DETOUR).mean())),
+        "Effort": cells.three_figures(efforts),
+        "Peak": cells.large(own["peak_u"].max()),
+        "A tick": cells.tick(counted, efforts.name),
+    }
 
 
-def of_gains(rows: pd.DataFrame) -> html.Markdown | None:
+def of_gains(own: pd.DataFrame, times: pd.Series, efforts: pd.Series) -> dict:
     """The gain that the peak allows; share that settles; median and slowest settling time; effort."""
-    return each(
-        rows,
-        lambda own, times, efforts: {
-            "$K_p$": f"{own['kp'].iloc[0]:.1f}",
-            "Settles [%]": cells.settles(own),
-            "Median [s]": cells.seconds(times),
-            "Slowest [s]": cells.slowest(times, ".2f"),
-            "Effort": cells.three_figures(efforts),
-        },
-    )
+    return {
+        "$K_p$": f"{own['kp'].iloc[0]:.1f}",
+        "Settles [%]": cells.settles(own),
+        "Median [s]": cells.seconds(times),
+        "Slowest [s]": cells.slowest(times),
+        "Effort": cells.three_figures(efforts),
+    }
 
 
 def figures(run: Run) -> dict:

@@ -89,19 +89,17 @@ def names(some: pd.DataFrame) -> str:
 def tables(_: Run) -> dict:
     """What to use, what not, largest errors by set of turns [rad], angles, versions."""
     every = lines()
-    angles, others = (
-        every[every["form"] == answers.ANGLES].itertuples(),
-        every[every["form"] != answers.ANGLES].itertuples(),
-    )
+    is_angles = every["form"] == answers.ANGLES
     return {
         "tab_to_use": TO_USE(to_use(every)),
         "tab_faults": FAULTS((asked(one), "; ".join(one.objections.values())) for one in faulty(every).itertuples()),
         "tab_errors": ERRORS(
             (asked(one), html.together(FORMS[one.form].title), *map(power, (one.small, one.drawn, one.near, one.at)))
-            for one in others
+            for one in every[~is_angles].itertuples()
         ),
         "tab_angles": AS_ANGLES(
-            (asked(one), *map(power, (one.drawn, one.pole, max(one.near, one.at))), f"{one.off:.1f}") for one in angles
+            (asked(one), *map(power, (one.drawn, one.pole, max(one.near, one.at))), f"{one.off:.1f}")
+            for one in every[is_angles].itertuples()
         ),
         "tab_versions": VERSIONS(
             (f"`{name}`", one["version"], one["python"], one["numpy"])
