@@ -106,6 +106,10 @@ def test_page_names_every_law_and_every_need(found, decided):
     assert all(words in needs for words in decided)
 
 
+def test_cheapest_at_the_usual_price_is_the_answer(found):
+    assert which_law.cheapest(found, which_law.CALL_PRICE) == families.word(LAW)
+
+
 def test_page_is_whole():
     assert_is_whole(which_law, run_in(FOLDER))
 
