@@ -8,14 +8,13 @@ from support.pages import assert_is_whole
 
 pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
 
-from bench.contenders.registry import all_contenders
 from bench.findings.theory import closed_form, isotropic
 from bench.law.equation import ANGLE, LINEAR_MRP, SINE
 from bench.tables import read
 from bench.tables.schema import RESULTS
 from report.figures.comparison import cells, comparison, directed
 from report.figures.comparison.angle import lateness
-from report.figures.kit import families, style
+from report.figures.kit import families
 from report.figures.kit.page import run_in
 
 GAINS = (100.0, 20.0, 0.02)
@@ -73,13 +72,6 @@ def test_law_of_no_family_comes_last_under_its_own_name():
     found = families.present(["my-law", "hybrid"])
     assert [one.title for one in found] == ["On the quaternion", families.OTHERS]
     assert found[-1].laws == {"my-law": "my-law"}
-
-
-def test_laws_of_one_panel_are_told_apart():
-    for family in families.present(one.name for one in all_contenders()):
-        lines = families.lines_of(family)
-        looks = {(style.look(name).colour, str(line)) for name, line in zip(family.laws, lines, strict=True)}
-        assert len(looks) == len(family.laws)
 
 
 def test_sine_settles_as_the_closed_form_of_the_rotation_matrix():

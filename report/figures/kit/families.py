@@ -10,7 +10,7 @@ from collections.abc import Iterable
 from typing import NamedTuple
 
 from bench.contenders.registry import all_contenders
-from report.figures.kit import html, laws, style
+from report.figures.kit import html, laws
 
 CARDS = "03-regulators.html"
 OTHERS = "Others"
@@ -37,12 +37,6 @@ FIRST = (
 CONTROLS = tuple(one.name for one in all_contenders() if one.regulator.control)
 """Negative controls: laws that are here because they must fail."""
 
-REST = "#b9c3cf"
-"""The laws of other panels, behind those of a family."""
-
-OTHER_LINES = (style.SOLID, style.DASHED, style.DASH_DOT, style.DOTTED, (0, (8, 2)))
-"""Of laws of one panel that share a look: one regulator in several coordinates."""
-
 
 def present(names: Iterable[str]) -> list[Family]:
     """The families of the laws of these names, the paper's first in theirs and controls last; at the end the others."""
@@ -60,13 +54,6 @@ def present(names: Iterable[str]) -> list[Family]:
 def _place(name: str) -> tuple:
     own = laws.regulator(laws.regulator_of(name))
     return (own.papers, own.control, name) if own else (0, False, name)
-
-
-def lines_of(family: Family) -> list:
-    """A line for each law: its own, or where one regulator is there several times the next of OTHER_LINES."""
-    looks = [style.look(name) for name in family.laws]
-    is_told_apart = len({look.colour for look in looks}) == len(looks)
-    return [look.line for look in looks] if is_told_apart else list(OTHER_LINES[: len(looks)])
 
 
 def in_order(names: Iterable[str]) -> list[str]:
