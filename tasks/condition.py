@@ -50,6 +50,13 @@ class Condition(NamedTuple):
         return self.is_noisy or self.sway > 0.0
 
 
+def spread(count: int, seed: int, level: float) -> list[Start]:
+    """Orientations spread evenly over SO(3), at rest: the same at every level."""
+    from tasks.starts.uniform import build
+
+    return build(count, seed)
+
+
 class Axis(NamedTuple):
     """A perturbation: the constant AXIS of every tasks/conditions/<name>.py.
 
@@ -63,11 +70,4 @@ class Axis(NamedTuple):
     levels: tuple[float, ...]
     nominal: float | None
     at: Callable[[float], Condition]
-    starts: Callable[[int, int, float], list[Start]]
-
-
-def spread(count: int, seed: int, level: float) -> list[Start]:
-    """Orientations spread evenly over SO(3), at rest: the same at every level."""
-    from tasks.starts.uniform import build
-
-    return build(count, seed)
+    starts: Callable[[int, int, float], list[Start]] = spread

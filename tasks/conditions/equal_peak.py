@@ -3,14 +3,13 @@
 At equal stiffness near the goal a law that asks for more far from it is the faster one, and pays for it in torque.
 """
 
-from __future__ import annotations
+from tasks.condition import Axis, Condition
 
-from tasks.condition import Axis, Condition, spread
-
-
-def at(level: float) -> Condition:
-    """Gains such that the greatest command from rest is `level`."""
-    return Condition(peak=level)
-
-
-AXIS = Axis("equal-peak", "Greatest command from rest", "rad/s^2", (50.0, 100.0, 200.0, 400.0), None, at, spread)
+AXIS = Axis(
+    "equal-peak",
+    "Greatest command from rest",
+    "rad/s^2",
+    (50.0, 100.0, 200.0, 400.0),
+    None,
+    lambda level: Condition(peak=level),
+)

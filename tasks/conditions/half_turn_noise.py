@@ -14,11 +14,6 @@ from tasks.haar import direction, halton
 from tasks.rotations import short_of_half_turn
 
 
-def at(level: float) -> Condition:
-    """Reported beyond the half turn within `level` of it."""
-    return Condition(beyond=level)
-
-
 def starts(count: int, seed: int, level: float) -> list[Start]:
     """Exact half turns about axes spread evenly over the sphere, at rest."""
     axes = [direction(*point) for point in halton(count, 2, seed)]
@@ -31,6 +26,6 @@ AXIS = Axis(
     "rad",
     (0.0, 0.001, 0.01, 0.03, 0.1, 0.3, 1.0),
     0.0,
-    at,
+    lambda level: Condition(beyond=level),
     starts,
 )

@@ -1,14 +1,6 @@
-"""A goal that sways about two axes; the law is told its rate and acceleration."""
+"""A goal that sways about two axes, at a peak rate of the level; the law is told its rate and acceleration."""
 
-from __future__ import annotations
-
-from tasks.condition import RATE_AND_ACCELERATION, Axis, Condition, spread
-
-
-def at(level: float) -> Condition:
-    """A goal of peak rate `level`."""
-    return Condition(sway=level, told=RATE_AND_ACCELERATION)
-
+from tasks.condition import RATE_AND_ACCELERATION, Axis, Condition
 
 AXIS = Axis(
     "moving-goal",
@@ -16,6 +8,5 @@ AXIS = Axis(
     "rad/s",
     (0.0, 0.5, 1.0, 2.0, 5.0, 10.0),
     0.0,
-    at,
-    spread,
+    lambda level: Condition(sway=level, told=RATE_AND_ACCELERATION),
 )

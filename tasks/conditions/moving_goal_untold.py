@@ -1,13 +1,12 @@
-"""A goal that sways about two axes; the law is told where it is, and nothing of how it moves."""
+"""A goal that sways about two axes, at a peak rate of the level; the law is told where it is, not how it moves."""
 
-from __future__ import annotations
+from tasks.condition import UNTOLD, Axis, Condition
 
-from tasks.condition import UNTOLD, Axis, Condition, spread
-
-
-def at(level: float) -> Condition:
-    """A goal of peak rate `level`."""
-    return Condition(sway=level, told=UNTOLD)
-
-
-AXIS = Axis("moving-goal-untold", "Goal that moves untold", "rad/s", (0.0, 0.5, 1.0, 2.0, 5.0, 10.0), 0.0, at, spread)
+AXIS = Axis(
+    "moving-goal-untold",
+    "Goal that moves untold",
+    "rad/s",
+    (0.0, 0.5, 1.0, 2.0, 5.0, 10.0),
+    0.0,
+    lambda level: Condition(sway=level, told=UNTOLD),
+)

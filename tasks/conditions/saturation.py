@@ -1,13 +1,12 @@
 """The most a motor gives: a longer command is shortened, its direction kept."""
 
-from __future__ import annotations
+from tasks.condition import Axis, Condition
 
-from tasks.condition import Axis, Condition, spread
-
-
-def at(level: float) -> Condition:
-    """|u| cut to `level`."""
-    return Condition(bound=level)
-
-
-AXIS = Axis("saturation", "Bound on the command", "rad/s^2", (10.0, 20.0, 50.0, 100.0, 300.0, 1000.0), None, at, spread)
+AXIS = Axis(
+    "saturation",
+    "Bound on the command",
+    "rad/s^2",
+    (10.0, 20.0, 50.0, 100.0, 300.0, 1000.0),
+    None,
+    lambda level: Condition(bound=level),
+)

@@ -7,11 +7,6 @@ from tasks.condition import Axis, Condition
 from tasks.haar import direction, halton, orientation
 
 
-def at(level: float) -> Condition:
-    """The ideal condition: what differs is the start."""
-    return Condition()
-
-
 def starts(count: int, seed: int, level: float) -> list[Start]:
     """Orientations spread evenly over SO(3), each turning at `level` rad/s about an axis of its own."""
     found = []
@@ -21,4 +16,4 @@ def starts(count: int, seed: int, level: float) -> list[Start]:
     return found
 
 
-AXIS = Axis("spin", "Initial spin", "rad/s", (0.0, 5.0, 10.0, 15.0, 20.0), 0.0, at, starts)
+AXIS = Axis("spin", "Initial spin", "rad/s", (0.0, 5.0, 10.0, 15.0, 20.0), 0.0, lambda level: Condition(), starts)

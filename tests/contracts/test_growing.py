@@ -199,15 +199,9 @@ STARTS = StartSet("dropped-starts", "Two starts about z", 2, build)
     "tasks/conditions/dropped_axis.py": '''
 """A bound on the command."""
 
-from tasks.condition import Axis, Condition, spread
+from tasks.condition import Axis, Condition
 
-
-def at(level):
-    """|u| cut to it."""
-    return Condition(bound=level)
-
-
-AXIS = Axis("dropped-axis", "A dropped axis", "rad/s^2", (60.0, 70.0), None, at, spread)
+AXIS = Axis("dropped-axis", "A dropped axis", "rad/s^2", (60.0, 70.0), None, lambda level: Condition(bound=level))
 ''',
     "report/pages/90-dropped-page.md": """---
 jupytext: {text_representation: {extension: .md, format_name: myst}}
