@@ -26,12 +26,14 @@ One file adds a task (constant TASK, tasks/domains), a start set (STARTS, tasks/
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from tasks import arm_starts, conditions, domains, starts
 from tasks.arm import arm as arm
 from tasks.arm import arm_names as arm_names
+from tasks.arm_model import Arm
 from tasks.base import ArmStartSet, ArmTask, BadValue, Start, StartSet, Task
 from tasks.condition import Axis
 from tasks.contact import ContactTask
@@ -94,7 +96,23 @@ def task(name: str, arm: str = "") -> Task:
     Errors:
         BadValue: a task for arms and no arm, or a task without one and an arm.
     """
-    return _task_on(name, arm)
+    found = described(name)
+    if isinstance(found, ArmTask):
+        if not arm:
+            listed = arm_names()
+            raise BadValue(
+                f"task '{name}' needs an arm; known: {', '.join(listed)} (try: arm='{(listed or ['ur5e'])[0]}')"
+            )
+        return found.on(_find_arm(arm))
+    if arm:
+        with_arms = ", ".join(word for word, one in _tasks().items() if isinstance(one, ArmTask))
+        raise BadValue(
+            f"task '{name}' has no arm, but '{arm}' was named (leave it out, or choose a task for arms: {with_arms})"
+        )
+    return found
+
+
+_find_task = task
 
 
 def load(
@@ -120,7 +138,7 @@ def load(
     """
     from tasks.episode import environment  # dm_control takes a second to import; listing names must not
 
-    chosen = task if isinstance(task, Task) else _task_on(task, arm)
+    chosen = task if isinstance(task, Task) else _find_task(task, arm)
     if start is None:
         start = start_set(chosen.start_sets[0], 1, arm=chosen.arm)[0] if chosen.arm else start_set("paper")[0]
     return environment(chosen, start, dt, horizon, integrator, vary)
@@ -128,21 +146,17 @@ def load(
 
 def start_set_names(arm: bool = False) -> list[str]:
     """Names of all start sets of the free body, or of arms, sorted."""
-    return sorted(_arm_start_sets() if arm else _start_sets())
+    return sorted(_start_sets(arm))
 
 
 def start_set_title(name: str, arm: bool = False) -> str:
     """What a start set is, in a few words."""
-    if arm:
-        return pick("start set", name, _arm_start_sets(), "tasks/arm_starts").title
-    return pick("start set", name, _start_sets(), "tasks/starts").title
+    return _find_set(name, arm).title
 
 
 def start_set_size(name: str, arm: bool = False) -> int:
     """How many starts a set has if no number is asked for; an arm that cannot do so many has fewer."""
-    if arm:
-        return pick("start set", name, _arm_start_sets(), "tasks/arm_starts").size
-    return pick("start set", name, _start_sets(), "tasks/starts").size
+    return _find_set(name, arm).size
 
 
 def start_set(name: str, count: int | None = None, seed: int = 0, arm: str = "") -> list[Start]:
@@ -157,19 +171,24 @@ def start_set(name: str, count: int | None = None, seed: int = 0, arm: str = "")
     """
     if count is not None and count < 1:
         raise BadValue(f"count {count} starts of '{name}': a start set needs at least 1 (try: count=10)")
-    if arm:
-        for_arms = pick("start set", name, _arm_start_sets(), "tasks/arm_starts")
-        wanted = for_arms.size if count is None else count
-        return for_arms.build(_find_arm(arm), wanted, seed)[:wanted]
-    chosen = pick("start set", name, _start_sets(), "tasks/starts")
+    chosen = _find_set(name, bool(arm))
     wanted = chosen.size if count is None else count
+    if isinstance(chosen, ArmStartSet):
+        return list(_starts_on(_find_arm(arm), chosen, max(wanted, chosen.size), seed)[:wanted])
     return chosen.build(wanted, seed)[:wanted]
+
+
+@functools.lru_cache(maxsize=128)
+def _starts_on(arm: Arm, chosen: ArmStartSet, count: int, seed: int) -> tuple[Start, ...]:
+    """Kept, for they are found by searches of seconds."""
+    return tuple(chosen.build(arm, count, seed))
 
 
 def start_set_length(name: str, count: int | None = None, seed: int = 0, arm: str = "") -> int:
     """How many starts `start_set` has with the same arguments; none of a sampled set is made to know it."""
-    if not arm and pick("start set", name, _start_sets(), "tasks/starts").between:
-        return start_set_size(name) if count is None else count
+    chosen = _find_set(name, bool(arm))
+    if isinstance(chosen, StartSet) and chosen.between:
+        return chosen.size if count is None else count
     return len(start_set(name, count, seed, arm))
 
 
@@ -178,18 +197,20 @@ def starts_between(name: str, first: int, end: int, seed: int = 0) -> list[Start
 
     Of a sampled set no other is made, so that a stretch of a million costs what it costs of a thousand.
     """
-    chosen = pick("start set", name, _start_sets(), "tasks/starts")
-    return chosen.between(first, end, seed) if chosen.between else start_set(name, end, seed)[first:]
+    chosen = _find_set(name, False)
+    if isinstance(chosen, StartSet) and chosen.between:
+        return chosen.between(first, end, seed)
+    return start_set(name, end, seed)[first:]
 
 
 def axis_names() -> list[str]:
     """Names of all perturbations, sorted."""
-    return sorted(_axes())
+    return sorted(constants(conditions, "AXIS"))
 
 
 def axis(name: str) -> Axis:
     """The axis of this name; UnknownName lists the known ones."""
-    return pick("axis", name, _axes(), "tasks/conditions")
+    return pick("axis", name, constants(conditions, "AXIS"), "tasks/conditions")
 
 
 def variation_names() -> list[str]:
@@ -200,23 +221,6 @@ def variation_names() -> list[str]:
 def variation(name: str) -> Variation:
     """The variation of this name; UnknownName lists the known ones."""
     return pick("variation", name, VARIATIONS, "tasks/variations.py")
-
-
-def _task_on(name: str, arm: str) -> Task:
-    found = described(name)
-    if isinstance(found, ArmTask):
-        if not arm:
-            listed = arm_names()
-            raise BadValue(
-                f"task '{name}' needs an arm; known: {', '.join(listed)} (try: arm='{(listed or ['ur5e'])[0]}')"
-            )
-        return found.on(_find_arm(arm))
-    if arm:
-        with_arms = ", ".join(word for word, one in _tasks().items() if isinstance(one, ArmTask))
-        raise BadValue(
-            f"task '{name}' has no arm, but '{arm}' was named (leave it out, or choose a task for arms: {with_arms})"
-        )
-    return found
 
 
 def contact_names() -> list[str]:
@@ -238,13 +242,9 @@ def _contact_tasks() -> dict[str, ContactTask]:
     return {name: one for name, one in constants(domains, "TASK").items() if isinstance(one, ContactTask)}
 
 
-def _axes() -> dict[str, Axis]:
-    return constants(conditions, "AXIS")
+def _start_sets(arm: bool) -> dict[str, StartSet | ArmStartSet]:
+    return constants(arm_starts if arm else starts, "STARTS")
 
 
-def _start_sets() -> dict[str, StartSet]:
-    return constants(starts, "STARTS")
-
-
-def _arm_start_sets() -> dict[str, ArmStartSet]:
-    return constants(arm_starts, "STARTS")
+def _find_set(name: str, arm: bool) -> StartSet | ArmStartSet:
+    return pick("start set", name, _start_sets(arm), "tasks/arm_starts" if arm else "tasks/starts")

@@ -15,7 +15,7 @@ An arm takes part if it has six joints and a site "wrist" that moves with the la
 from __future__ import annotations
 
 import xml.etree.ElementTree as ElementTree
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from tasks.arm_model import Arm
@@ -96,7 +96,7 @@ class Surroundings(NamedTuple):
 class ContactTask(NamedTuple):
     """A task in contact: the constant TASK of a tasks/domains/<name>.py.
 
-    trials(arm): all of them, the same for the same arm. dense(arm): those of the suite `full`; the same if None.
+    trials(arm, dense): all of them, the same for the same arm; dense: those of the suite `full`.
     """
 
     name: str
@@ -104,8 +104,7 @@ class ContactTask(NamedTuple):
     source: str
     horizon_s: float
     surroundings: Callable[[Arm], Surroundings]
-    trials: Callable[[Arm], tuple[Trial, ...]]
-    dense: Callable[[Arm], tuple[Trial, ...]] | None = None
+    trials: Callable[..., tuple[Trial, ...]]
 
 
 def refuse(task: ContactTask, arm: Arm) -> None:
@@ -137,6 +136,11 @@ def prepare(model: mujoco.MjModel, data: Any, trial: Trial) -> None:
     data.mocap_pos[0] = trial.scene_pos
     data.mocap_quat[0] = trial.scene_wxyz
     data.xfrc_applied[model.body("hand").id] = trial.pushes[0]
+
+
+def attribute(numbers: Iterable[float]) -> str:
+    """Numbers as an attribute of MJCF, to the last digit."""
+    return " ".join(map(repr, numbers))
 
 
 def wrist_of(root: ElementTree.Element) -> Any:

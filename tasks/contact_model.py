@@ -6,8 +6,8 @@ import xml.etree.ElementTree as ElementTree
 from typing import NamedTuple
 
 from tasks.arm_model import LOOK, Arm
-from tasks.base import Vector, sensor_xml
-from tasks.contact import ContactTask, Surroundings, refuse, wrist_of
+from tasks.base import sensor_xml
+from tasks.contact import ContactTask, Surroundings, attribute, refuse, wrist_of
 
 
 class ContactModel(NamedTuple):
@@ -60,7 +60,7 @@ def model_xml(task: ContactTask, arm: Arm, dt: float, contact: ContactModel = ST
         link.remove(axis)  # the arms draw their tool's frame, which would stick out of the hand
     place = {key: wrist.attrib[key] for key in ("pos", "quat", "euler") if key in wrist.attrib}
     hand = ElementTree.SubElement(link, "body", name="hand", **place)
-    ElementTree.SubElement(hand, "site", name="hand", pos=_numbers(around.tip), size=".002")
+    ElementTree.SubElement(hand, "site", name="hand", pos=attribute(around.tip), size=".002")
     hand.extend(_elements(around.hand))
     world = root.find("worldbody")
     assert world is not None
@@ -73,7 +73,6 @@ def model_xml(task: ContactTask, arm: Arm, dt: float, contact: ContactModel = ST
     for weld in root.iter("weld"):
         weld.attrib.update(_softness(contact))
     return ElementTree.tostring(root, encoding="unicode")
-
 
 
 def _elements(xml: str) -> list[ElementTree.Element]:
@@ -116,7 +115,3 @@ def _sensors(around: Surroundings, touches: bool) -> ElementTree.Element:
     if around.joint:
         ElementTree.SubElement(sensors, "jointpos", name="turned", joint=around.joint)
     return sensors
-
-
-def _numbers(values: Vector) -> str:
-    return " ".join(map(repr, values))

@@ -33,7 +33,5 @@ def pick(kind: str, name: str, known: Mapping[str, Found], where: str) -> Found:
     """known[name], or an UnknownName that says what there is."""
     if name not in known:
         listed = ", ".join(sorted(known))
-        raise UnknownName(
-            f"{kind} '{name}' is not in {where}; known: {listed} (use one, or add a file there)"
-        )
+        raise UnknownName(f"{kind} '{name}' is not in {where}; known: {listed} (use one, or add a file there)")
     return known[name]

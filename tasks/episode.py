@@ -132,13 +132,10 @@ def _check(start: Start, dt: float, horizon: float) -> None:
     for what, quat in (("quat_wxyz", start.quat_wxyz), ("goal_wxyz", start.goal_wxyz)):
         if len(quat) != 4 or not abs(math.hypot(*quat) - 1.0) <= UNIT_NORM_TOLERANCE:
             raise BadValue(
-                f"start '{start.id}': {what} = {tuple(quat)} "
-                "is no unit quaternion wxyz (divide it by its norm)"
+                f"start '{start.id}': {what} = {tuple(quat)} is no unit quaternion wxyz (divide it by its norm)"
             )
     if len(start.omega) != 3 or not all(map(math.isfinite, start.omega)):
-        raise BadValue(
-            f"start '{start.id}': omega = {tuple(start.omega)} must be three finite numbers [rad/s]"
-        )
+        raise BadValue(f"start '{start.id}': omega = {tuple(start.omega)} must be three finite numbers [rad/s]")
 
 
 def _check_sensors(task: Task, physics: Physics) -> None:
@@ -146,9 +143,7 @@ def _check_sensors(task: Task, physics: Physics) -> None:
     found = [(model.id2name(i, "sensor"), int(model.sensor_dim[i])) for i in range(model.nsensor)]
     wanted = [(name, size) for name, _, size in SENSORS]
     if found[: len(wanted)] != wanted:
-        raise BadValue(
-            f"task '{task.name}': first sensors are {found}, not {wanted} (use tasks.base.sensor_xml)"
-        )
+        raise BadValue(f"task '{task.name}': first sensors are {found}, not {wanted} (use tasks.base.sensor_xml)")
 
 
 def _check_joints(task: Task, start: Start, physics: Physics) -> None:

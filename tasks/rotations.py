@@ -105,9 +105,7 @@ def on_pole(sign: int, twist: float) -> Quat:
     """
     c, s = _half(twist)
     a, b = c * math.sqrt(0.5), s * math.sqrt(0.5)
-    spread_a, spread_b = (
-        (SMALLER_PLACES, LARGER_PLACES) if abs(a) < abs(b) else (LARGER_PLACES, SMALLER_PLACES)
-    )
+    spread_a, spread_b = (SMALLER_PLACES, LARGER_PLACES) if abs(a) < abs(b) else (LARGER_PLACES, SMALLER_PLACES)
     best: tuple[float, Quat] | None = None
     for p, q in itertools.product(_neighbours(a, spread_a), _neighbours(b, spread_b)):
         quat = (p, -sign * q + 0.0, sign * p + 0.0, q)  # + 0.0: no negative zeros
@@ -119,9 +117,7 @@ def on_pole(sign: int, twist: float) -> Quat:
             if best is None or miss < best[0]:
                 best = (miss, quat)
     if best is None:
-        raise ArithmeticError(
-            f"no double near twist = {twist} has n exactly on the pole (try one further from 0)"
-        )
+        raise ArithmeticError(f"no double near twist = {twist} has n exactly on the pole (try one further from 0)")
     return best[1]
 
 

@@ -135,7 +135,7 @@ def poses_of(one: Compliant, task: ContactTask, arm: Arm, dense: bool) -> tuple[
 
 @functools.lru_cache(maxsize=64)
 def _poses(task: ContactTask, arm: Arm, dense: bool, is_impedance: bool) -> tuple[tuple[Trial, ...], ...]:
-    trials = task.dense(arm) if dense and task.dense else task.trials(arm)
+    trials = task.trials(arm, dense=dense)
     kept = _without_selection(trials) if is_impedance else trials
     found: dict[str, list[Trial]] = {}
     for trial in kept:

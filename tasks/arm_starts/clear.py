@@ -12,7 +12,6 @@ shortened by a fifth, until there is one: an arm that cannot turn far has small 
 
 from __future__ import annotations
 
-import functools
 import math
 from collections.abc import Iterator
 
@@ -38,15 +37,9 @@ SHORTENINGS = 30
 
 def build(arm: Arm, count: int, seed: int) -> list[Start]:
     """The first `count` of the sequence of this seed."""
-    return list(_clear(arm, max(count, SIZE), seed))
-
-
-@functools.lru_cache(maxsize=32)
-def _clear(arm: Arm, count: int, seed: int) -> tuple[Start, ...]:
-    model, starts = kinematics(arm), []
-    for i, (q, goal, degrees) in enumerate(clear_turns(model, count, seed)):
-        starts.append(model.start(f"clear-{i:03d}-{degrees:03.0f}-degrees", q, goal))
-    return tuple(starts)
+    model = kinematics(arm)
+    turns = enumerate(clear_turns(model, count, seed))
+    return [model.start(f"clear-{i:03d}-{degrees:03.0f}-degrees", q, goal) for i, (q, goal, degrees) in turns]
 
 
 def clear_turns(model: Kinematics, count: int, seed: int) -> Iterator[tuple[np.ndarray, Quat, float]]:

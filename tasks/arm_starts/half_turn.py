@@ -12,7 +12,6 @@ and its angle math.pi. R is not that of an exact half turn bit for bit, as it is
 
 from __future__ import annotations
 
-import functools
 import math
 
 import numpy as np
@@ -38,19 +37,14 @@ TRIES = 300
 
 def build(arm: Arm, count: int, seed: int) -> list[Start]:
     """Exact half turns about every axis first, then those at 0.1 rad, and so on."""
-    return list(_half_turn(arm, seed))
-
-
-@functools.lru_cache(maxsize=32)
-def _half_turn(arm: Arm, seed: int) -> tuple[Start, ...]:
     model = kinematics(arm)
     axes = AXES | {f"drawn{i}": direction(*point) for i, point in enumerate(halton(AXES_DRAWN, 2, seed))}
     found = {name: _pose(model, axis, seed) for name, axis in axes.items()}
-    return tuple(
+    return [
         model.start(f"half-turn-{name}-{word}", q, _goal(model.pose(q)[1], axis, delta))
         for word, delta in (("exact", 0.0), *((f"k{k}", 10.0**-k) for k in DECADES))
         for name, (q, axis) in ((name, one) for name, one in found.items() if one)
-    )
+    ]
 
 
 def _pose(model: Kinematics, axis: Vector, seed: int) -> tuple[np.ndarray, Vector] | None:

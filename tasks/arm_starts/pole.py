@@ -14,7 +14,6 @@ Poses are found around home: n is turned upright the shortest way, d points anyw
 
 from __future__ import annotations
 
-import functools
 import math
 
 import numpy as np
@@ -38,11 +37,6 @@ TRIES = 200
 
 def build(arm: Arm, count: int, seed: int) -> list[Start]:
     """Exact ones first, then every pose at 0.1 rad, 0.01 rad, ..."""
-    return list(_pole(arm, seed))
-
-
-@functools.lru_cache(maxsize=32)
-def _pole(arm: Arm, seed: int) -> tuple[Start, ...]:
     model, families = kinematics(arm), []
     candidates = around_home(arm, seed)
     for i in range(POSES):
@@ -51,7 +45,7 @@ def _pole(arm: Arm, seed: int) -> tuple[Start, ...]:
             if family:
                 names = [f"pole-{word}-{i}-{miss}" for miss in ("exact", *(f"k{k}" for k in DECADES))]
                 families.append([model.start(name, *one) for name, one in zip(names, family, strict=True)])
-    return tuple(start for level in zip(*families, strict=True) for start in level)
+    return [start for level in zip(*families, strict=True) for start in level]
 
 
 def _family(model: Kinematics, q: np.ndarray, axis: Vector, sign: int) -> list[tuple[np.ndarray, Quat]] | None:

@@ -7,8 +7,6 @@ paper starts at rest.
 
 from __future__ import annotations
 
-import functools
-
 from tasks.arm_model import Arm
 from tasks.arm_starts.clear import clear_turns, van_der_corput
 from tasks.base import ArmStartSet, Start
@@ -23,11 +21,6 @@ OTHER_SEED = 1000
 
 def build(arm: Arm, count: int, seed: int) -> list[Start]:
     """The first `count` of the sequence of this seed."""
-    return list(_tumbling(arm, max(count, SIZE), seed))
-
-
-@functools.lru_cache(maxsize=32)
-def _tumbling(arm: Arm, count: int, seed: int) -> tuple[Start, ...]:
     model, starts = kinematics(arm), []
     directions = halton(count, 2, seed + OTHER_SEED)
     for i, (q, goal, _) in enumerate(clear_turns(model, count, seed + OTHER_SEED)):
@@ -35,7 +28,7 @@ def _tumbling(arm: Arm, count: int, seed: int) -> tuple[Start, ...]:
         x, y, z = direction(*directions[i])
         omega = (speed * x, speed * y, speed * z)
         starts.append(model.start(f"tumbling-{i:03d}", q, goal, model.rates(q, omega)))
-    return tuple(starts)
+    return starts
 
 
 STARTS = ArmStartSet("tumbling", "The tool turning at up to 5 rad/s, its position at rest", SIZE, build)

@@ -9,7 +9,6 @@ that no search found may still be reachable.
 
 from __future__ import annotations
 
-import functools
 import math
 
 import numpy as np
@@ -28,11 +27,6 @@ MOST_TRIES = 50
 
 def build(arm: Arm, count: int, seed: int) -> list[Start]:
     """The first `count` candidates whose goal is reachable."""
-    return list(_uniform(arm, max(count, SIZE), seed))
-
-
-@functools.lru_cache(maxsize=32)
-def _uniform(arm: Arm, count: int, seed: int) -> tuple[Start, ...]:
     model, n = kinematics(arm), arm.joints
     seeds = [spread(arm, point) for point in halton(SEEDS, n, SEED_OF_SEEDS)]
     starts: list[Start] = []
@@ -46,7 +40,7 @@ def _uniform(arm: Arm, count: int, seed: int) -> tuple[Start, ...]:
                 if len(starts) == count:
                     break
         drawn = len(points)
-    return tuple(starts)
+    return starts
 
 
 def spread(arm: Arm, point: list[float]) -> np.ndarray:

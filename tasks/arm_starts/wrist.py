@@ -19,7 +19,6 @@ Fails: an arm with fewer such singularities around home has fewer starts.
 
 from __future__ import annotations
 
-import functools
 import itertools
 import math
 from collections.abc import Iterable, Iterator
@@ -57,17 +56,12 @@ Turn = tuple[np.ndarray, Quat]
 
 def build(arm: Arm, count: int, seed: int) -> list[Start]:
     """Exact ones first, then every singularity at 0.01, at 0.001, ..."""
-    return list(_wrist(arm, seed))
-
-
-@functools.lru_cache(maxsize=32)
-def _wrist(arm: Arm, seed: int) -> tuple[Start, ...]:
     model, words = kinematics(arm), ("exact", *(f"k{k}" for k in DECADES))
     families = [
         [model.start(f"wrist-{i}-{word}", *turn) for word, turn in zip(words, turns, strict=True)]
         for i, turns in enumerate(itertools.islice(_families(model, seed), POSES))
     ]
-    return tuple(start for level in zip(*families, strict=True) for start in level)
+    return [start for level in zip(*families, strict=True) for start in level]
 
 
 def _families(model: Kinematics, seed: int) -> Iterator[list[Turn]]:

@@ -14,7 +14,7 @@ import functools
 import math
 
 from tasks.arm_model import Arm
-from tasks.contact import ContactTask, Order, Surroundings, Trial
+from tasks.contact import ContactTask, Order, Trial
 from tasks.domains import wrench_probe
 from tasks.hand_frames import mounts, posture
 from tasks.rotations import zyx
@@ -27,26 +27,11 @@ BETAS = (0, 15, 30, 45, 60, 75)
 DENSE_BETAS = tuple(range(-80, 81, 5))
 
 
-def surroundings(arm: Arm) -> Surroundings:
-    """The hand of wrench_probe."""
-    return wrench_probe.surroundings(arm)
-
-
 @functools.cache
-def trials(arm: Arm) -> tuple[Trial, ...]:
-    """Both ways round, for several frames of the hand."""
-    return _trials(arm, BETAS)
-
-
-@functools.cache
-def dense(arm: Arm) -> tuple[Trial, ...]:
-    """The same for many."""
-    return _trials(arm, DENSE_BETAS)
-
-
-def _trials(arm: Arm, betas) -> tuple[Trial, ...]:
+def trials(arm: Arm, dense: bool = False) -> tuple[Trial, ...]:
+    """Both ways round, for several frames of the hand, or for many."""
     q, found = posture(arm), []
-    for beta in betas:
+    for beta in DENSE_BETAS if dense else BETAS:
         goal = zyx(0.0, math.radians(beta), 0.0)
         for word, way in LOOPS.items():
             name = f"beta{beta:+d}, {word}"
@@ -60,7 +45,6 @@ TASK = ContactTask(
     title="A closed loop of moments at a hand in free space",
     source="Murray, Li, Sastry 1994, chapter 7; Mason 1981",
     horizon_s=2.4,
-    surroundings=surroundings,
+    surroundings=wrench_probe.surroundings,
     trials=trials,
-    dense=dense,
 )

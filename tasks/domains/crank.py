@@ -19,7 +19,7 @@ import itertools
 import math
 
 from tasks.arm_model import Arm
-from tasks.contact import ContactTask, Order, Surroundings, Trial
+from tasks.contact import ContactTask, Order, Surroundings, Trial, attribute
 from tasks.hand_frames import at, mounts, posture, wrist
 from tasks.rotations import columns, multiply, zyx
 
@@ -48,25 +48,16 @@ def surroundings(arm: Arm) -> Surroundings:
       <geom type="capsule" size=".012" fromto="-.04 {handle} .04 {handle}" rgba=".75 .7 .6 1"/>
     </body>"""
     # anchor: the handle in the crank's frame; relpose: the handle, and how the crank lies, in the hand's
-    grip = f'<weld body1="hand" body2="crank" anchor="0 {handle}" relpose="{_text((*TIP, *UP))}"/>'
+    grip = f'<weld body1="hand" body2="crank" anchor="0 {handle}" relpose="{attribute((*TIP, *UP))}"/>'
     return Surroundings(hand, TIP, scene, f"<equality>{grip}</equality>", joint="hinge")
 
 
 @functools.cache
-def trials(arm: Arm) -> tuple[Trial, ...]:
-    """Every hinge with every frame of the hand."""
-    return _trials(arm, AZIMUTHS, BETAS)
-
-
-@functools.cache
-def dense(arm: Arm) -> tuple[Trial, ...]:
-    """The same on a dense grid."""
-    return _trials(arm, DENSE_AZIMUTHS, DENSE_BETAS)
-
-
-def _trials(arm: Arm, azimuths, betas) -> tuple[Trial, ...]:
+def trials(arm: Arm, dense: bool = False) -> tuple[Trial, ...]:
+    """Every hinge with every frame of the hand, on a coarse grid or a dense one."""
+    grid = itertools.product(DENSE_AZIMUTHS, DENSE_BETAS) if dense else itertools.product(AZIMUTHS, BETAS)
     found = []
-    for azimuth, beta in itertools.product(azimuths, betas):
+    for azimuth, beta in grid:
         q = _turned(arm, math.radians(azimuth))
         goal = zyx(0.0, math.radians(beta), 0.0)
         hub = at(arm, q, (TIP[0], TIP[1] + ASIDE, TIP[2] + ABOVE))
@@ -84,10 +75,6 @@ def _turned(arm: Arm, azimuth: float):
     return (*q[:-1], q[-1] - math.remainder(azimuth - math.atan2(x[1], x[0]), math.tau))
 
 
-def _text(numbers) -> str:
-    return " ".join(map(repr, numbers))
-
-
 TASK = ContactTask(
     name="crank",
     title="A crank turned on its hinge",
@@ -95,5 +82,4 @@ TASK = ContactTask(
     horizon_s=2.5,
     surroundings=surroundings,
     trials=trials,
-    dense=dense,
 )

@@ -43,22 +43,13 @@ def surroundings(arm: Arm) -> Surroundings:
 
 
 @functools.cache
-def trials(arm: Arm) -> tuple[Trial, ...]:
-    """Every plane with every frame of the hand."""
-    return _trials(arm, PLANES, BETAS)
-
-
-@functools.cache
-def dense(arm: Arm) -> tuple[Trial, ...]:
-    """The same on a dense grid."""
-    return _trials(arm, DENSE_PLANES, DENSE_BETAS)
-
-
-def _trials(arm: Arm, planes, betas) -> tuple[Trial, ...]:
+def trials(arm: Arm, dense: bool = False) -> tuple[Trial, ...]:
+    """Every plane with every frame of the hand, on a coarse grid or a dense one."""
+    grid = itertools.product(DENSE_PLANES, DENSE_BETAS) if dense else itertools.product(PLANES, BETAS)
     q = posture(arm)
     x, y, z = at(arm, q, TIP)
     found = []
-    for (tilt, azimuth), beta in itertools.product(planes, betas):
+    for (tilt, azimuth), beta in grid:
         plane, goal = leaning(tilt, azimuth), zyx(0.0, math.radians(beta), 0.0)
         place = (x, y, z - (RADIUS + CLEARANCE) / columns(plane)[2][2])
         pose = f"tilt {tilt} about {azimuth}, beta{beta:+d}"
@@ -73,5 +64,4 @@ TASK = ContactTask(
     horizon_s=2.5,
     surroundings=surroundings,
     trials=trials,
-    dense=dense,
 )

@@ -20,7 +20,7 @@ import math
 
 from tasks.arm_model import Arm
 from tasks.base import Vector
-from tasks.contact import ContactTask, Order, Surroundings, Trial
+from tasks.contact import ContactTask, Order, Surroundings, Trial, attribute
 from tasks.hand_frames import at, leaning, mounts, plus, posture, wrist
 from tasks.rotations import about, multiply, to_base, zyx
 
@@ -73,32 +73,19 @@ def _side(k: int) -> str:
 def _box(name: str, size: Vector, pos: Vector, quarters: int, lean: float = 0.0) -> str:
     turn = about((0.0, 0.0, 1.0), math.remainder(quarters * math.pi / 2, math.tau))
     place, quat = to_base(turn, pos), multiply(turn, about((0.0, 1.0, 0.0), lean))
-    where = f'size="{_text(size)}" pos="{_text(place)}" quat="{_text(quat)}"'
+    where = f'size="{attribute(size)}" pos="{attribute(place)}" quat="{attribute(quat)}"'
     return f'<geom name="{name}" type="box" {where} rgba=".75 .7 .6 .5"/>'
 
 
-def _text(numbers) -> str:
-    return " ".join(map(repr, numbers))
-
-
 @functools.cache
-def trials(arm: Arm) -> tuple[Trial, ...]:
-    """Every hole with every frame of the hand."""
-    return _trials(arm, HOLES, BETAS)
-
-
-@functools.cache
-def dense(arm: Arm) -> tuple[Trial, ...]:
-    """The same on a dense grid."""
-    return _trials(arm, DENSE_HOLES, DENSE_BETAS)
-
-
-def _trials(arm: Arm, holes, betas) -> tuple[Trial, ...]:
+def trials(arm: Arm, dense: bool = False) -> tuple[Trial, ...]:
+    """Every hole with every frame of the hand, on a coarse grid or a dense one."""
+    grid = itertools.product(DENSE_HOLES, DENSE_BETAS) if dense else itertools.product(HOLES, BETAS)
     q = posture(arm)
     upright = multiply(wrist(arm, q)[1], UP)
     tip = at(arm, q, TIP)
     found = []
-    for (tilt, azimuth), beta in itertools.product(holes, betas):
+    for (tilt, azimuth), beta in grid:
         hole, goal = multiply(leaning(tilt, azimuth), upright), zyx(0.0, math.radians(beta), 0.0)
         over = CLEARANCE + 2 * PEG * math.sin(math.radians(tilt))  # no corner is lower than that
         place = plus(tip, to_base(hole, (-OFFSET[0], -OFFSET[1], -over)))
@@ -114,5 +101,4 @@ TASK = ContactTask(
     horizon_s=2.5,
     surroundings=surroundings,
     trials=trials,
-    dense=dense,
 )

@@ -46,21 +46,12 @@ def surroundings(arm: Arm) -> Surroundings:
 
 
 @functools.cache
-def trials(arm: Arm) -> tuple[Trial, ...]:
-    """Every plate with every frame of the hand."""
-    return _trials(arm, PLATES, BETAS)
-
-
-@functools.cache
-def dense(arm: Arm) -> tuple[Trial, ...]:
-    """The same on a dense grid."""
-    return _trials(arm, DENSE_PLATES, DENSE_BETAS)
-
-
-def _trials(arm: Arm, plates, betas) -> tuple[Trial, ...]:
+def trials(arm: Arm, dense: bool = False) -> tuple[Trial, ...]:
+    """Every plate with every frame of the hand, on a coarse grid or a dense one."""
+    grid = itertools.product(DENSE_PLATES, DENSE_BETAS) if dense else itertools.product(PLATES, BETAS)
     q = posture(arm)
     found = []
-    for (tilt, azimuth), beta in itertools.product(plates, betas):
+    for (tilt, azimuth), beta in grid:
         plate, goal = leaning(tilt, azimuth), zyx(0.0, math.radians(beta), 0.0)
         pose = f"tilt {tilt} about {azimuth}, beta{beta:+d}"
         place = _below(arm, q, columns(plate)[2])
@@ -83,5 +74,4 @@ TASK = ContactTask(
     horizon_s=3.0,
     surroundings=surroundings,
     trials=trials,
-    dense=dense,
 )

@@ -76,22 +76,12 @@ def surroundings(arm: Arm) -> Surroundings:
 
 
 @functools.cache
-def trials(arm: Arm) -> tuple[Trial, ...]:
-    """Six moments, about x, y and z both ways, for every order and frame of the hand."""
-    return _trials(arm, GRIDS)
-
-
-@functools.cache
-def dense(arm: Arm) -> tuple[Trial, ...]:
-    """The same on denser grids of frames."""
-    return _trials(arm, DENSE_GRIDS)
-
-
-def _trials(arm: Arm, grids: tuple[Grid, ...]) -> tuple[Trial, ...]:
+def trials(arm: Arm, dense: bool = False) -> tuple[Trial, ...]:
+    """Six moments, about x, y and z both ways, for every order and frame of the hand, on coarse or dense grids."""
     q = posture(arm)
     return tuple(
         trial
-        for grid in grids
+        for grid in (DENSE_GRIDS if dense else GRIDS)
         for (alpha, gamma), beta in itertools.product(grid.turns, grid.betas)
         for trial in _at(arm, q, (alpha, beta, gamma), grid.orders)
     )
@@ -116,5 +106,4 @@ TASK = ContactTask(
     horizon_s=0.5,
     surroundings=surroundings,
     trials=trials,
-    dense=dense,
 )

@@ -29,12 +29,7 @@ OUTSIDE = ((0.0, 0.0), (0.7, -1.5), (-0.7, 2.5), (1.2, 0.5))
 
 def build(count: int, seed: int) -> list[Start]:
     """Grid, just inside, on, outside."""
-    return (
-        _grid()
-        + [start for depth in DEPTHS for start in _shell("inside", depth)]
-        + _shell("on", 0.0)
-        + _outside()
-    )
+    return _grid() + [start for depth in DEPTHS for start in _shell("inside", depth)] + _shell("on", 0.0) + _outside()
 
 
 def _grid() -> list[Start]:
@@ -43,9 +38,7 @@ def _grid() -> list[Start]:
         for width, cells in zip(HALF_WIDTHS, GRID, strict=True)
     ]
     cells = itertools.product(*(range(n) for n in GRID))
-    return [
-        Start(f"box-grid-{i}{j}{k}", zyx(centres[0][i], centres[1][j], centres[2][k])) for i, j, k in cells
-    ]
+    return [Start(f"box-grid-{i}{j}{k}", zyx(centres[0][i], centres[1][j], centres[2][k])) for i, j, k in cells]
 
 
 def _shell(word: str, depth: float) -> list[Start]:

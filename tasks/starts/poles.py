@@ -45,6 +45,4 @@ def build(count: int, seed: int) -> list[Start]:
     return exact + near
 
 
-STARTS = StartSet(
-    "poles", "At and near beta = +-pi/2", len(POLES) * (len(TWISTS) + len(DECADES) * len(PAIRS)), build
-)
+STARTS = StartSet("poles", "At and near beta = +-pi/2", len(POLES) * (len(TWISTS) + len(DECADES) * len(PAIRS)), build)

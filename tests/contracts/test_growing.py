@@ -122,14 +122,12 @@ METRIC = ContactMetric("dropped-touch", "dropped_touch", "1", "ticks recorded", 
 from tasks.domains import wrench_probe
 
 
-def trials(arm):
+def trials(arm, dense=False):
     """Of the first two poses."""
     return wrench_probe.trials(arm)[:12]
 
 
-TASK = wrench_probe.TASK._replace(
-    name="dropped-probe", title="Dropped probe", horizon_s=0.05, trials=trials, dense=None
-)
+TASK = wrench_probe.TASK._replace(name="dropped-probe", title="Dropped probe", horizon_s=0.05, trials=trials)
 ''',
     "tasks/arms/dropped_arm.py": '''
 """The UR5e by another title."""

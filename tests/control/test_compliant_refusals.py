@@ -182,7 +182,7 @@ def test_trial_that_no_episode_of_the_arm_can_be_made_of_is_refused(trial, says)
 @pytest.mark.parametrize("arm", ARMS)
 def test_no_trial_of_ours_is_refused(word, arm):
     task, on = tasks.contact_task(word), tasks.arm(arm)
-    for trial in (*task.trials(on), *(task.dense or task.trials)(on)):
+    for trial in (*task.trials(on), *task.trials(on, dense=True)):
         check_trial(trial, on)
 
 

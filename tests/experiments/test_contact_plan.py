@@ -84,9 +84,8 @@ def test_unit_lasts_some_seconds_at_most():
 def test_full_suite_takes_dense_trials_where_a_task_has_them():
     task = tasks.contact_task("wrench-probe")
     units, _ = contacts("full", tasks=(task.name,), arms=("ur5e",), controllers=(EULER,))
-    assert (
-        sum(unit.episodes for unit in units) == len(task.dense(tasks.arm("ur5e"))) > len(task.trials(tasks.arm("ur5e")))
-    )
+    coarse, dense = (task.trials(tasks.arm("ur5e"), dense=dense) for dense in (False, True))
+    assert sum(unit.episodes for unit in units) == len(dense) > len(coarse)
 
 
 def test_poses_of_a_hybrid_are_all_trials_of_the_task_in_their_order():
