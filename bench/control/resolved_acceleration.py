@@ -23,16 +23,13 @@ from bench.law.contender import Contender, Representation
 from bench.law.linalg import multiply
 from bench.law.resolved_motion import Scratch
 from bench.law.scalar import kernel
+from bench.law.so3 import minus, spring_damper
 
 
 @kernel
 def hold(p, p_d, pdot, gains):
     """u_p = Kp (p_d - p) - Kv pdot [m/s^2], base frame."""
-    return (
-        gains.kp * (p_d[0] - p[0]) - gains.kv * pdot[0],
-        gains.kp * (p_d[1] - p[1]) - gains.kv * pdot[1],
-        gains.kp * (p_d[2] - p[2]) - gains.kv * pdot[2],
-    )
+    return spring_damper(gains.kp, minus(p_d, p), gains.kv, pdot)
 
 
 class Parts(NamedTuple):

@@ -15,7 +15,7 @@ FACE = "bench.law"
 
 SOURCES = (
     *("bench.law.scalar", "bench.law.so3", "bench.law.linalg", "bench.law.weighting", "bench.law.resolved_motion"),
-    "bench.law.contender",
+    *("bench.law.contender", "bench.law.euler"),
 )
 """Modules of ours a law may import from; and NamedTuple from typing, to name its tuples."""
 

@@ -16,8 +16,8 @@ from bench.engines.ideal import angle_between, haversine, plus, turned
 from bench.engines.rigid_body import bounded, step
 from bench.law.contender import AT_REST, Gains, Goal
 from bench.law.scalar import kernel, sqrt
-from bench.law.so3 import Rotation, dot, from_quaternion, turn_quaternion
-from bench.law.tracking import carried_along, seen_from_goal
+from bench.law.so3 import Rotation, dot, from_quaternion, minus, turn_quaternion
+from bench.law.tracking import carried_along
 from tasks.condition import RATE, RATE_AND_ACCELERATION, Condition
 from tasks.moving_goal import sway_rates, swayed
 from tasks.verdict import GOING, check_command, check_state, first_watch, watched
@@ -159,7 +159,7 @@ def episodes_of(observe):
                     seen, turning = reported(R, omega, R_d, drawn, perturbation, perturbation.steps * h)
                     rate, acceleration = told_of(omega_d, alpha_d, perturbation.told)
                     goal = Goal(R_d, AT_REST, AT_REST)
-                    given, memory, margin = evaluate(seen, seen_from_goal(turning, rate), goal, gains, memory)
+                    given, memory, margin = evaluate(seen, minus(turning, rate), goal, gains, memory)
                     u = given
                     if perturbation.sway > 0.0:
                         u = carried_along(u, turning, rate, acceleration)
@@ -192,7 +192,7 @@ def episodes_of(observe):
                     extra[TAIL_SQUARES] += error * error
                     extra[TAIL_COUNT] += 1.0
                     extra[TAIL_WORST] = max(extra[TAIL_WORST], error)
-            speed = seen_from_goal(omega, omega_d)
+            speed = minus(omega, omega_d)
             final = angle_between(R, R_d)
             failure = blamed(failure, given)
             finish(row, failure, watch, tick, final, hav <= band, dot(speed, speed), dot(u, u), numbers)

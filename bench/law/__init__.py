@@ -8,7 +8,7 @@ scalar           the dialect: @kernel, and the functions of a number that it has
 so3              rotations as three columns, and vectors
 linalg/          products, eliminations and rotations of small matrices
 contender        Regulator, Contender, Gains, Goal
-representation   Representation
+representation   Representation; euler: what Euler angles share
 resolved_motion  Jacobian, Inverse: from the tool's acceleration to the joints
 impedance        Impedance
 equation, look   what the book shows of a law: its scalar equation, and how it is drawn
@@ -20,7 +20,7 @@ tracking         goals that move
 from bench.law.chain import bias_acceleration, twist
 from bench.law.contender import AT_REST, Contender, Gains, Goal, Regulator
 from bench.law.equation import ANGLE, CHORD, LINEAR_MRP, LINEAR_SINE, QUARTER, SINE, TANGENT, Equation
-from bench.law.impedance import Impedance
+from bench.law.impedance import Impedance, driven
 from bench.law.linalg import (
     determinant,
     factor,
@@ -46,10 +46,12 @@ from bench.law.so3 import (
     double_sine,
     from_quaternion,
     half_cosine_squared,
+    minus,
     quaternion_direction,
     relative,
     rotate,
     rotate_back,
+    spring_damper,
     trace,
     turn_matrix,
     turn_quaternion,

@@ -3,6 +3,18 @@
 from collections.abc import Callable
 from typing import NamedTuple
 
+from bench.law.scalar import kernel
+
+
+@kernel
+def driven(m, inertia, spring, kv, omega):
+    """m/m_o + spring - Kv omega: what the moment drives, the spring pulls and the damper holds."""
+    return (
+        m[0] / inertia + spring[0] - kv * omega[0],
+        m[1] / inertia + spring[1] - kv * omega[1],
+        m[2] / inertia + spring[2] - kv * omega[2],
+    )
+
 
 class Impedance(NamedTuple):
     """A law u = law(R, omega, m, R_d, gains, inertia): the hand's angular acceleration in the base frame [rad/s^2].

@@ -33,6 +33,18 @@ def dot(p, q):
 
 
 @kernel
+def minus(p, q):
+    """p - q."""
+    return (p[0] - q[0], p[1] - q[1], p[2] - q[2])
+
+
+@kernel
+def spring_damper(k, e, kv, omega):
+    """k e - Kv omega: a spring along e, and the damper that nearly all laws share."""
+    return (k * e[0] - kv * omega[0], k * e[1] - kv * omega[1], k * e[2] - kv * omega[2])
+
+
+@kernel
 def rotate(R, v):
     """R v: the base-frame vector whose body-frame components are v."""
     return (

@@ -13,12 +13,6 @@ from bench.law.so3 import cross
 
 
 @kernel
-def seen_from_goal(omega, omega_d):
-    """omega - omega_d [rad/s], base frame: the velocity that the law is given."""
-    return (omega[0] - omega_d[0], omega[1] - omega_d[1], omega[2] - omega_d[2])
-
-
-@kernel
 def carried_along(u, omega, omega_d, alpha_d):
     """alpha_d + omega_d x (omega - omega_d) + u [rad/s^2], base frame, u the law's command."""
     x, y, z = cross(omega_d, omega)

@@ -3,7 +3,7 @@
 Fails: at half turns e jumps to -e; there the sign is that of `so3.quaternion_direction`.
 """
 
-from bench.law import Impedance, kernel, quaternion_direction, relative, rotate, sqrt
+from bench.law import Impedance, driven, kernel, quaternion_direction, relative, rotate, sqrt
 
 
 @kernel
@@ -12,11 +12,7 @@ def law(R, omega, m, R_d, gains, inertia):
     (_, x, y, z), t = quaternion_direction(relative(R, R_d))
     scale = gains.kp / sqrt(t)
     e = rotate(R, (scale * x, scale * y, scale * z))
-    return (
-        m[0] / inertia + e[0] - gains.kv * omega[0],
-        m[1] / inertia + e[1] - gains.kv * omega[1],
-        m[2] / inertia + e[2] - gains.kv * omega[2],
-    )
+    return driven(m, inertia, e, gains.kv, omega)
 
 
 IMPEDANCE = Impedance(

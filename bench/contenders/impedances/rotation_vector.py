@@ -4,18 +4,14 @@ Fails: at half turns e jumps to -e.
 """
 
 from bench.contenders.representations.rotation_vector import chart
-from bench.law import Impedance, kernel, relative, rotate
+from bench.law import Impedance, driven, kernel, relative, rotate
 
 
 @kernel
 def law(R, omega, m, R_d, gains, inertia):
     """u = m/m_o + Kp theta k - Kv omega; theta k is that of R^T R_d, turned to the base frame."""
     e = rotate(R, chart(relative(R, R_d)).E)
-    return (
-        m[0] / inertia + gains.kp * e[0] - gains.kv * omega[0],
-        m[1] / inertia + gains.kp * e[1] - gains.kv * omega[1],
-        m[2] / inertia + gains.kp * e[2] - gains.kv * omega[2],
-    )
+    return driven(m, inertia, (gains.kp * e[0], gains.kp * e[1], gains.kp * e[2]), gains.kv, omega)
 
 
 IMPEDANCE = Impedance(

@@ -3,7 +3,7 @@
 Fails: where a coordinate jumps.
 """
 
-from bench.law import Look, Regulator, kernel
+from bench.law import Look, Regulator, kernel, minus, spring_damper
 
 
 def law_in(representation):
@@ -14,13 +14,8 @@ def law_in(representation):
     def law(R, omega, goal, gains):
         """u = Kp B (E_d - E) - Kv omega."""
         at = chart(R)
-        E, E_d = at.E, goal_chart(goal.R).E
-        e = push(at, (E_d[0] - E[0], E_d[1] - E[1], E_d[2] - E[2]))
-        return (
-            gains.kp * e[0] - gains.kv * omega[0],
-            gains.kp * e[1] - gains.kv * omega[1],
-            gains.kp * e[2] - gains.kv * omega[2],
-        )
+        e = push(at, minus(goal_chart(goal.R).E, at.E))
+        return spring_damper(gains.kp, e, gains.kv, omega)
 
     return law
 

@@ -12,17 +12,13 @@ numbers are taken as they come, and the way round is the long one.
 Fails: where B^-1 does not exist (in Z-Y-Z at the identity itself), and where a coordinate jumps.
 """
 
-from bench.law import Look, Regulator, kernel
+from bench.law import Look, Regulator, kernel, minus, spring_damper
 
 
 @kernel
 def pd_of_three(at, E_d, Edot, gains):
     """u_E = Kp (E_d - E) - Kd Edot (Murphy 1988, 2.16), of three coordinates."""
-    return (
-        gains.kp * (E_d[0] - at.E[0]) - gains.kv * Edot[0],
-        gains.kp * (E_d[1] - at.E[1]) - gains.kv * Edot[1],
-        gains.kp * (E_d[2] - at.E[2]) - gains.kv * Edot[2],
-    )
+    return spring_damper(gains.kp, minus(E_d, at.E), gains.kv, Edot)
 
 
 @kernel

@@ -3,7 +3,7 @@
 Fails: at half turns the command is unbounded, and on them not finite.
 """
 
-from bench.law import TANGENT, Look, Regulator, double_sine, half_cosine_squared, kernel, trace
+from bench.law import TANGENT, Look, Regulator, double_sine, half_cosine_squared, kernel, spring_damper, trace
 
 
 @kernel
@@ -11,11 +11,7 @@ def law(R, omega, goal, gains):
     """u = 2 Kp s/(1 + t) - Kv omega, s = n x n_d + o x o_d + a x a_d, t = tr(R_d^T R)."""
     s = double_sine(R, goal.R)
     scale = 2.0 * gains.kp / (1.0 + trace(R, goal.R))
-    return (
-        scale * s[0] - gains.kv * omega[0],
-        scale * s[1] - gains.kv * omega[1],
-        scale * s[2] - gains.kv * omega[2],
-    )
+    return spring_damper(scale, s, gains.kv, omega)
 
 
 REGULATOR = Regulator(

@@ -7,7 +7,7 @@ without memory can do it (Bhat & Bernstein 2000).
 Fails: nowhere known; within asin(DELTA) beyond a half turn it goes the longer way on.
 """
 
-from bench.law import CHORD, Look, Regulator, kernel, sqrt, turn_quaternion
+from bench.law import CHORD, Look, Regulator, kernel, spring_damper, sqrt, turn_quaternion
 
 DELTA = 0.4
 """Half the width of the hysteresis, in eta = cos(theta/2): 47 degrees beyond a half turn."""
@@ -25,11 +25,7 @@ def law(R, omega, goal, gains, memory):
     if kept < 0.0 and w < 2.0 * DELTA * root:
         w, v = -w, (-v[0], -v[1], -v[2])
     pull = gains.kp / root
-    u = (
-        pull * v[0] - gains.kv * omega[0],
-        pull * v[1] - gains.kv * omega[1],
-        pull * v[2] - gains.kv * omega[2],
-    )
+    u = spring_damper(pull, v, gains.kv, omega)
     return u, (w, v[0], v[1], v[2])
 
 

@@ -7,7 +7,7 @@ one attitude, are pushed opposite ways.
 Fails: nowhere; at a half turn the command jumps to its opposite.
 """
 
-from bench.law import Look, Regulator, atan2, dot, kernel, sqrt, turn_quaternion
+from bench.law import Look, Regulator, atan2, dot, kernel, spring_damper, sqrt, turn_quaternion
 
 
 @kernel
@@ -16,11 +16,7 @@ def law(R, omega, goal, gains):
     w, v, _ = turn_quaternion(R, goal.R)
     size = sqrt(dot(v, v))
     pull = gains.kp * (2.0 * atan2(size, w) / size if size > 0.0 else 0.0)
-    return (
-        pull * v[0] - gains.kv * omega[0],
-        pull * v[1] - gains.kv * omega[1],
-        pull * v[2] - gains.kv * omega[2],
-    )
+    return spring_damper(pull, v, gains.kv, omega)
 
 
 REGULATOR = Regulator(

@@ -4,7 +4,7 @@ The paper writes u = -Kp E - Kd Edot and regulates to zero; here the goal's angl
 can be asked for. Fails: far from zero angles, where B is no longer the permutation of (2.14), and through the pole.
 """
 
-from bench.law import Look, Regulator, kernel
+from bench.law import Look, Regulator, kernel, minus, spring_damper
 
 
 def law_in(representation):
@@ -16,12 +16,8 @@ def law_in(representation):
         """u = (u_gamma, u_beta, u_alpha) with u_E = Kp (E_d - E) - Kd Edot (Murphy 1988, 2.14)."""
         at = chart(R)
         E_d = goal_chart(goal.R).E
-        Edot = rates(at, omega)
-        return (
-            gains.kp * (E_d[2] - at.E[2]) - gains.kv * Edot[2],
-            gains.kp * (E_d[1] - at.E[1]) - gains.kv * Edot[1],
-            gains.kp * (E_d[0] - at.E[0]) - gains.kv * Edot[0],
-        )
+        u_alpha, u_beta, u_gamma = spring_damper(gains.kp, minus(E_d, at.E), gains.kv, rates(at, omega))
+        return (u_gamma, u_beta, u_alpha)
 
     return law
 

@@ -4,7 +4,7 @@
 alpha. Fails: unstable at the goal itself.
 """
 
-from bench.law import Look, Regulator, kernel
+from bench.law import Look, Regulator, kernel, minus, spring_damper
 
 
 def law_in(representation):
@@ -16,12 +16,7 @@ def law_in(representation):
         """u = Kp (E_d - E) - Kd Edot, component by component (Murphy 1988, 2.3, as printed)."""
         at = chart(R)
         E_d = goal_chart(goal.R).E
-        Edot = rates(at, omega)
-        return (
-            gains.kp * (E_d[0] - at.E[0]) - gains.kv * Edot[0],
-            gains.kp * (E_d[1] - at.E[1]) - gains.kv * Edot[1],
-            gains.kp * (E_d[2] - at.E[2]) - gains.kv * Edot[2],
-        )
+        return spring_damper(gains.kp, minus(E_d, at.E), gains.kv, rates(at, omega))
 
     return law
 

@@ -3,7 +3,7 @@
 Fails: nowhere; at a half turn the command jumps to its opposite.
 """
 
-from bench.law import QUARTER, Look, Regulator, kernel, sqrt, turn_quaternion
+from bench.law import QUARTER, Look, Regulator, kernel, spring_damper, sqrt, turn_quaternion
 
 
 @kernel
@@ -11,11 +11,7 @@ def law(R, omega, goal, gains):
     """u = 4 Kp eps/(1 + eta) - Kv omega, (eta, eps) the unit quaternion of the turn from R to R_d, eta >= 0."""
     w, v, t = turn_quaternion(R, goal.R)
     scale = 4.0 * gains.kp / (w + 2.0 * sqrt(t))
-    return (
-        scale * v[0] - gains.kv * omega[0],
-        scale * v[1] - gains.kv * omega[1],
-        scale * v[2] - gains.kv * omega[2],
-    )
+    return spring_damper(scale, v, gains.kv, omega)
 
 
 REGULATOR = Regulator(

@@ -5,7 +5,7 @@ With a fixed goal epsddot = -Kv epsdot - Kp eps; for it eps must be divided by e
 Fails: at half turns the command is unbounded, and on them not finite.
 """
 
-from bench.law import LINEAR_SINE, Look, Regulator, dot, double_sine, half_cosine_squared, kernel, trace
+from bench.law import LINEAR_SINE, Look, Regulator, dot, double_sine, half_cosine_squared, kernel, spring_damper, trace
 
 
 @kernel
@@ -13,11 +13,7 @@ def law(R, omega, goal, gains):
     """u = (2 Kp - |omega|^2/2) s/(1 + t) - Kv omega; re-derived, see tests."""
     s = double_sine(R, goal.R)
     scale = (2.0 * gains.kp - 0.5 * dot(omega, omega)) / (1.0 + trace(R, goal.R))
-    return (
-        scale * s[0] - gains.kv * omega[0],
-        scale * s[1] - gains.kv * omega[1],
-        scale * s[2] - gains.kv * omega[2],
-    )
+    return spring_damper(scale, s, gains.kv, omega)
 
 
 REGULATOR = Regulator(

@@ -4,7 +4,7 @@ Fails: nowhere; at a half turn the command jumps to its opposite. sgn(0) is 1 he
 there for ever.
 """
 
-from bench.law import CHORD, Look, Regulator, kernel, sqrt, turn_quaternion
+from bench.law import CHORD, Look, Regulator, kernel, spring_damper, sqrt, turn_quaternion
 
 
 @kernel
@@ -12,11 +12,7 @@ def law(R, omega, goal, gains):
     """u = 2 Kp sgn(eta) eps - Kv omega, (eta, eps) the unit quaternion of the turn from R to R_d, base frame."""
     _, eps, t = turn_quaternion(R, goal.R)
     scale = gains.kp / sqrt(t)
-    return (
-        scale * eps[0] - gains.kv * omega[0],
-        scale * eps[1] - gains.kv * omega[1],
-        scale * eps[2] - gains.kv * omega[2],
-    )
+    return spring_damper(scale, eps, gains.kv, omega)
 
 
 REGULATOR = Regulator(

@@ -7,7 +7,7 @@ other sheet it would be quaternion-shortest.
 Fails: it settles everywhere but goes the wrong way.
 """
 
-from bench.law import CHORD, Look, Regulator, kernel, sqrt, turn_quaternion
+from bench.law import CHORD, Look, Regulator, kernel, spring_damper, sqrt, turn_quaternion
 
 
 @kernel
@@ -19,11 +19,7 @@ def law(R, omega, goal, gains, memory):
         scale = -scale
     eta, eps = scale * w, (scale * v[0], scale * v[1], scale * v[2])
     double = 2.0 * gains.kp
-    u = (
-        double * eps[0] - gains.kv * omega[0],
-        double * eps[1] - gains.kv * omega[1],
-        double * eps[2] - gains.kv * omega[2],
-    )
+    u = spring_damper(double, eps, gains.kv, omega)
     return u, (eta, eps[0], eps[1], eps[2])
 
 

@@ -3,7 +3,7 @@
 Fails: nowhere; at a half turn the command jumps to its opposite.
 """
 
-from bench.law import ANGLE, Look, Regulator, atan2, dot, kernel, sqrt, turn_quaternion
+from bench.law import ANGLE, Look, Regulator, atan2, dot, kernel, spring_damper, sqrt, turn_quaternion
 
 
 @kernel
@@ -16,11 +16,7 @@ def law(R, omega, goal, gains):
         scale = 2.0 * gains.kp * atan2(size, w) / size
     else:
         scale = 2.0 * gains.kp / w
-    return (
-        scale * v[0] - gains.kv * omega[0],
-        scale * v[1] - gains.kv * omega[1],
-        scale * v[2] - gains.kv * omega[2],
-    )
+    return spring_damper(scale, v, gains.kv, omega)
 
 
 REGULATOR = Regulator(

@@ -9,7 +9,7 @@ diagonal element (`so3.turn_quaternion`).
 Fails: nowhere; at a half turn the command jumps to its opposite, and on it the sign is a rule's.
 """
 
-from bench.law import CHORD, Look, Regulator, double_sine, kernel, sqrt, trace, turn_quaternion
+from bench.law import CHORD, Look, Regulator, double_sine, kernel, spring_damper, sqrt, trace, turn_quaternion
 
 
 @kernel
@@ -22,11 +22,7 @@ def law(R, omega, goal, gains):
     else:
         s = double_sine(R, goal.R)
         scale = gains.kp / sqrt(1.0 + t)
-    return (
-        scale * s[0] - gains.kv * omega[0],
-        scale * s[1] - gains.kv * omega[1],
-        scale * s[2] - gains.kv * omega[2],
-    )
+    return spring_damper(scale, s, gains.kv, omega)
 
 
 REGULATOR = Regulator(

@@ -4,19 +4,8 @@ Singular where cos(beta) = 0: at beta = +90 deg only alpha + gamma, at -90 deg o
 B^-1 does not exist. alpha and gamma jump by 2 pi at +-pi.
 """
 
-from typing import NamedTuple
-
 from bench.law import Look, Representation, Rotation, atan2, cos, kernel, sin, sqrt
-
-
-class Chart(NamedTuple):
-    """The angles, and the sines and cosines that B needs."""
-
-    E: tuple
-    sin_alpha: float
-    cos_alpha: float
-    sin_beta: float
-    cos_beta: float
+from bench.law.euler import EulerChart, first_angle
 
 
 @kernel
@@ -24,26 +13,18 @@ def chart(R):
     """Angles of R; alpha, gamma in [-pi, pi], beta in [-pi/2, pi/2].
 
     gamma is measured in the frame already turned by alpha, so R is rebuilt to rounding however close the pole is,
-    where alpha itself is lost. On the pole alpha := 0, and gamma carries the whole turn.
+    where alpha itself is lost.
     """
-    cos_beta = sqrt(R.a[1] * R.a[1] + R.a[2] * R.a[2])
-    if cos_beta > 0.0:
-        alpha = atan2(-R.a[1], R.a[2])
-        cos_alpha = R.a[2] / cos_beta
-        sin_alpha = -R.a[1] / cos_beta
-    else:
-        alpha = 0.0
-        cos_alpha = 1.0
-        sin_alpha = 0.0
+    cos_beta, alpha, sin_alpha, cos_alpha = first_angle(R.a[2], -R.a[1])
     beta = atan2(R.a[0], cos_beta)
     gamma = atan2(cos_alpha * R.n[1] + sin_alpha * R.n[2], cos_alpha * R.o[1] + sin_alpha * R.o[2])
-    return Chart((alpha, beta, gamma), sin_alpha, cos_alpha, R.a[0], cos_beta)
+    return EulerChart((alpha, beta, gamma), sin_alpha, cos_alpha, cos_beta, R.a[0])
 
 
 @kernel
 def chart_of(E):
     """The chart of given angles."""
-    return Chart(E, sin(E[0]), cos(E[0]), sin(E[1]), cos(E[1]))
+    return EulerChart(E, sin(E[0]), cos(E[0]), cos(E[1]), sin(E[1]))
 
 
 @kernel
@@ -60,20 +41,20 @@ def to_matrix(E):
 @kernel
 def rates(at, omega):
     """Edot = B^-1 omega, written with its one division; not finite on the pole."""
-    gammadot = (at.cos_alpha * omega[2] - at.sin_alpha * omega[1]) / at.cos_beta
+    gammadot = (at.cos_alpha * omega[2] - at.sin_alpha * omega[1]) / at.level
     betadot = at.cos_alpha * omega[1] + at.sin_alpha * omega[2]
-    return (omega[0] - at.sin_beta * gammadot, betadot, gammadot)
+    return (omega[0] - at.upright * gammadot, betadot, gammadot)
 
 
 @kernel
 def accelerate(at, Edot, Eddot):
     """B Eddot + Bdot Edot, the angular acceleration that gives Eddot."""
     alphadot, betadot, gammadot = Edot
-    across = at.cos_beta * gammadot  # part of gammadot about the axis (0, -sin alpha, cos alpha)
+    across = at.level * gammadot  # part of gammadot about the axis (0, -sin alpha, cos alpha)
     along_y = Eddot[1] - alphadot * across
-    along_z = Eddot[2] * at.cos_beta + betadot * (alphadot - at.sin_beta * gammadot)
+    along_z = Eddot[2] * at.level + betadot * (alphadot - at.upright * gammadot)
     return (
-        Eddot[0] + at.sin_beta * Eddot[2] + betadot * across,
+        Eddot[0] + at.upright * Eddot[2] + betadot * across,
         at.cos_alpha * along_y - at.sin_alpha * along_z,
         at.cos_alpha * along_z + at.sin_alpha * along_y,
     )
@@ -82,9 +63,9 @@ def accelerate(at, Edot, Eddot):
 @kernel
 def angular_velocity(at, Edot):
     """omega = B Edot."""
-    along_z = at.cos_beta * Edot[2]
+    along_z = at.level * Edot[2]
     return (
-        Edot[0] + at.sin_beta * Edot[2],
+        Edot[0] + at.upright * Edot[2],
         at.cos_alpha * Edot[1] - at.sin_alpha * along_z,
         at.cos_alpha * along_z + at.sin_alpha * Edot[1],
     )
@@ -97,7 +78,7 @@ def generalized(at, moment):
     return (
         moment[0],
         at.cos_alpha * moment[1] + at.sin_alpha * moment[2],
-        at.sin_beta * moment[0] + at.cos_beta * along_z,
+        at.upright * moment[0] + at.level * along_z,
     )
 
 

@@ -4,19 +4,8 @@ Singular where cos(beta) = 0: at beta = +90 deg only alpha - gamma, at -90 deg o
 B^-1 does not exist. alpha and gamma jump by 2 pi at +-pi.
 """
 
-from typing import NamedTuple
-
 from bench.law import Look, Representation, Rotation, atan2, cos, kernel, sin, sqrt
-
-
-class Chart(NamedTuple):
-    """The angles, and the sines and cosines that B needs."""
-
-    E: tuple
-    sin_alpha: float
-    cos_alpha: float
-    sin_beta: float
-    cos_beta: float
+from bench.law.euler import EulerChart, accelerate, angular_velocity, first_angle, generalized, rates
 
 
 @kernel
@@ -24,26 +13,18 @@ def chart(R):
     """Angles of R; alpha, gamma in [-pi, pi], beta in [-pi/2, pi/2].
 
     gamma is measured in the frame already turned by alpha, so R is rebuilt to rounding however close the pole is,
-    where alpha itself is lost. On the pole alpha := 0, and gamma carries the whole turn.
+    where alpha itself is lost.
     """
-    cos_beta = sqrt(R.n[0] * R.n[0] + R.n[1] * R.n[1])
-    if cos_beta > 0.0:
-        alpha = atan2(R.n[1], R.n[0])
-        cos_alpha = R.n[0] / cos_beta
-        sin_alpha = R.n[1] / cos_beta
-    else:
-        alpha = 0.0
-        cos_alpha = 1.0
-        sin_alpha = 0.0
+    cos_beta, alpha, sin_alpha, cos_alpha = first_angle(R.n[0], R.n[1])
     beta = atan2(-R.n[2], cos_beta)
     gamma = atan2(sin_alpha * R.a[0] - cos_alpha * R.a[1], cos_alpha * R.o[1] - sin_alpha * R.o[0])
-    return Chart((alpha, beta, gamma), sin_alpha, cos_alpha, -R.n[2], cos_beta)
+    return EulerChart((alpha, beta, gamma), sin_alpha, cos_alpha, cos_beta, R.n[2])
 
 
 @kernel
 def chart_of(E):
     """The chart of given angles."""
-    return Chart(E, sin(E[0]), cos(E[0]), sin(E[1]), cos(E[1]))
+    return EulerChart(E, sin(E[0]), cos(E[0]), cos(E[1]), -sin(E[1]))
 
 
 @kernel
@@ -54,50 +35,6 @@ def to_matrix(E):
         (ca * cb, sa * cb, -sb),
         (ca * sb * sc - sa * cc, sa * sb * sc + ca * cc, cb * sc),
         (ca * sb * cc + sa * sc, sa * sb * cc - ca * sc, cb * cc),
-    )
-
-
-@kernel
-def rates(at, omega):
-    """Edot = B^-1 omega (Murphy 1988, 2.9), written with its one division; not finite on the pole."""
-    gammadot = (at.cos_alpha * omega[0] + at.sin_alpha * omega[1]) / at.cos_beta
-    betadot = at.cos_alpha * omega[1] - at.sin_alpha * omega[0]
-    return (omega[2] + at.sin_beta * gammadot, betadot, gammadot)
-
-
-@kernel
-def accelerate(at, Edot, Eddot):
-    """B Eddot + Bdot Edot, the angular acceleration that gives Eddot (Murphy 1988, 2.10 solved for u)."""
-    alphadot, betadot, gammadot = Edot
-    level = at.cos_beta * gammadot  # part of gammadot about the level axis (cos alpha, sin alpha, 0)
-    along_y = Eddot[1] + alphadot * level
-    along_x = Eddot[2] * at.cos_beta - betadot * (alphadot + at.sin_beta * gammadot)
-    return (
-        at.cos_alpha * along_x - at.sin_alpha * along_y,
-        at.cos_alpha * along_y + at.sin_alpha * along_x,
-        Eddot[0] - at.sin_beta * Eddot[2] - betadot * level,
-    )
-
-
-@kernel
-def angular_velocity(at, Edot):
-    """omega = B Edot (Murphy 1988, 2.8)."""
-    along_x = at.cos_beta * Edot[2]
-    return (
-        at.cos_alpha * along_x - at.sin_alpha * Edot[1],
-        at.cos_alpha * Edot[1] + at.sin_alpha * along_x,
-        Edot[0] - at.sin_beta * Edot[2],
-    )
-
-
-@kernel
-def generalized(at, moment):
-    """B^T m, the generalised forces of a moment (Murphy 1988, 3.12); exists at every orientation."""
-    along_x = at.cos_alpha * moment[0] + at.sin_alpha * moment[1]
-    return (
-        moment[2],
-        at.cos_alpha * moment[1] - at.sin_alpha * moment[0],
-        at.cos_beta * along_x - at.sin_beta * moment[2],
     )
 
 

@@ -4,19 +4,8 @@ Singular where sin(beta) = 0, the identity included: at beta = 0 only alpha + ga
 determined, and B^-1 does not exist. alpha and gamma jump by 2 pi at +-pi.
 """
 
-from typing import NamedTuple
-
 from bench.law import Look, Representation, Rotation, atan2, cos, kernel, sin, sqrt
-
-
-class Chart(NamedTuple):
-    """The angles, and the sines and cosines that B needs."""
-
-    E: tuple
-    sin_alpha: float
-    cos_alpha: float
-    sin_beta: float
-    cos_beta: float
+from bench.law.euler import EulerChart, accelerate, angular_velocity, first_angle, generalized, rates
 
 
 @kernel
@@ -24,26 +13,18 @@ def chart(R):
     """Angles of R; alpha, gamma in [-pi, pi], beta in [0, pi].
 
     gamma is measured in the frame already turned by alpha, so R is rebuilt to rounding however close the pole is,
-    where alpha itself is lost. On the pole alpha := 0, and gamma carries the whole turn.
+    where alpha itself is lost.
     """
-    sin_beta = sqrt(R.a[0] * R.a[0] + R.a[1] * R.a[1])
-    if sin_beta > 0.0:
-        alpha = atan2(R.a[1], R.a[0])
-        cos_alpha = R.a[0] / sin_beta
-        sin_alpha = R.a[1] / sin_beta
-    else:
-        alpha = 0.0
-        cos_alpha = 1.0
-        sin_alpha = 0.0
+    sin_beta, alpha, sin_alpha, cos_alpha = first_angle(R.a[0], R.a[1])
     beta = atan2(sin_beta, R.a[2])
     gamma = atan2(cos_alpha * R.n[1] - sin_alpha * R.n[0], cos_alpha * R.o[1] - sin_alpha * R.o[0])
-    return Chart((alpha, beta, gamma), sin_alpha, cos_alpha, sin_beta, R.a[2])
+    return EulerChart((alpha, beta, gamma), sin_alpha, cos_alpha, sin_beta, R.a[2])
 
 
 @kernel
 def chart_of(E):
     """The chart of given angles."""
-    return Chart(E, sin(E[0]), cos(E[0]), sin(E[1]), cos(E[1]))
+    return EulerChart(E, sin(E[0]), cos(E[0]), sin(E[1]), cos(E[1]))
 
 
 @kernel
@@ -54,50 +35,6 @@ def to_matrix(E):
         (ca * cb * cc - sa * sc, sa * cb * cc + ca * sc, -sb * cc),
         (-ca * cb * sc - sa * cc, ca * cc - sa * cb * sc, sb * sc),
         (ca * sb, sa * sb, cb),
-    )
-
-
-@kernel
-def rates(at, omega):
-    """Edot = B^-1 omega, written with its one division; not finite on the pole."""
-    gammadot = (at.cos_alpha * omega[0] + at.sin_alpha * omega[1]) / at.sin_beta
-    betadot = at.cos_alpha * omega[1] - at.sin_alpha * omega[0]
-    return (omega[2] - at.cos_beta * gammadot, betadot, gammadot)
-
-
-@kernel
-def accelerate(at, Edot, Eddot):
-    """B Eddot + Bdot Edot, the angular acceleration that gives Eddot."""
-    alphadot, betadot, gammadot = Edot
-    level = at.sin_beta * gammadot  # part of gammadot about the level axis (cos alpha, sin alpha, 0)
-    along_y = Eddot[1] + alphadot * level
-    along_x = Eddot[2] * at.sin_beta + betadot * (at.cos_beta * gammadot - alphadot)
-    return (
-        at.cos_alpha * along_x - at.sin_alpha * along_y,
-        at.cos_alpha * along_y + at.sin_alpha * along_x,
-        Eddot[0] + at.cos_beta * Eddot[2] - betadot * level,
-    )
-
-
-@kernel
-def angular_velocity(at, Edot):
-    """omega = B Edot."""
-    along_x = at.sin_beta * Edot[2]
-    return (
-        at.cos_alpha * along_x - at.sin_alpha * Edot[1],
-        at.cos_alpha * Edot[1] + at.sin_alpha * along_x,
-        Edot[0] + at.cos_beta * Edot[2],
-    )
-
-
-@kernel
-def generalized(at, moment):
-    """B^T m, the generalised forces of a moment (Murphy 1988, 3.12); exists at every orientation."""
-    along_x = at.cos_alpha * moment[0] + at.sin_alpha * moment[1]
-    return (
-        moment[2],
-        at.cos_alpha * moment[1] - at.sin_alpha * moment[0],
-        at.sin_beta * along_x + at.cos_beta * moment[2],
     )
 
 
