@@ -66,7 +66,7 @@ def motions() -> dict[str, tuple[Motion, dict]]:
 
     import tasks
     from bench.engines.curve import ARM_NUMBERS, blank_curves
-    from bench.engines.run_arm import run, run_native
+    from bench.engines.run_arm import run
     from bench.experiments.experiment import Settings, Unit
     from bench.experiments.rows.episodes import frame
     from bench.experiments.suites import NOMINAL, ON_ARM
@@ -81,7 +81,7 @@ def motions() -> dict[str, tuple[Motion, dict]]:
         unit = Unit("arm", one.name, TASK, ARM, "native", START_SET, NOMINAL, count=1, horizon_s=ON_ARM)
         judged = run("native", one, TASK, ARM, [start], settings.limits(ON_ARM), metrics)
         curves = blank_curves(1, round(LOOP_S / settings.dt_s), numbers=ARM_NUMBERS)
-        run_native(one, TASK, ARM, [start], settings.limits(LOOP_S), metrics, curves)
+        run("native", one, TASK, ARM, [start], settings.limits(LOOP_S), metrics, curves=curves)
         [ticks] = curves.samples
         first = ARM_NUMBERS.index("q_1")
         q = ticks[~np.isnan(ticks[:, 0]), first : first + joints].tolist()

@@ -23,12 +23,12 @@ BRANCHES = ("typical", "worst")
 
 
 class Cost(NamedTuple):
-    """Operations per tick of one contender; the rules are `bench.counting.RULES`.
+    """Operations per tick of one contender, or controller in contact; the rules are `bench.counting.RULES`.
 
     typical_share: fraction of the sampled states that take the typical branch. worst_at: the worst state.
     """
 
-    contender: Contender
+    contender: Any
     typical: Counts
     worst: Counts
     typical_share: float

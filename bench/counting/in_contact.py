@@ -5,19 +5,17 @@ Jdot qdot, the law, and the wrench in its frame. "invert" is y and the torques.
 """
 
 from collections.abc import Iterator
-from typing import NamedTuple
 
 import numpy as np
 
 from bench.control.contact_controller import Compliant
 from bench.control.hybrid import INVERSE, PROJECTED, comply
 from bench.control.setpoint import TOUCH, Setpoint
-from bench.counting.costs import BRANCHES, Call, bits, flops, size
-from bench.counting.counted import TOTAL, Counts, OutsideDialect, Tally
-from bench.counting.on_arms import ArmState, arm_states, as_counted
+from bench.counting.costs import BRANCHES, Call, Cost, flops
+from bench.counting.counted import TOTAL, Tally
+from bench.counting.on_arms import ArmState, arm_states, checked, median_and_worst
 from bench.counting.states import GAINS
 from bench.engines.contact_episode import room, rows
-from bench.errors import BadLaw
 from tasks.contact import Order
 
 TILTING = Order("about x and y", (1, 1, 1, 0, 0, 1))
@@ -27,16 +25,8 @@ what is held costs a pseudo-inverse of so many rows."""
 SEED = 61
 
 
-class ContactCost(NamedTuple):
-    """Operations per tick of one controller; the rules are `bench.counting.RULES`, typical is the median."""
-
-    controller: Compliant
-    typical: Counts
-    worst: Counts
-
-
-def cost_in_contact(controller: Compliant, order: Order = TILTING) -> ContactCost:
-    """Count a controller over all states of an arm of six joints.
+def cost_in_contact(controller: Compliant, order: Order = TILTING) -> Cost:
+    """Count a controller over all states of an arm of six joints; typical is the median.
 
     Errors:
         OutsideDialect: it uses what cannot be counted. BadLaw: counted it commands other torques than with floats.
@@ -44,8 +34,7 @@ def cost_in_contact(controller: Compliant, order: Order = TILTING) -> ContactCos
     held, draw = controller.held(order), np.random.default_rng(SEED)
     with np.errstate(all="ignore"):
         calls = [_call(controller, held, state, draw) for state in arm_states(6)]
-    ranked = sorted((call.counts for call in calls if call.is_typical), key=size)
-    return ContactCost(controller, ranked[len(ranked) // 2], max((call.counts for call in calls), key=size))
+    return median_and_worst(controller, calls)
 
 
 def rows_in_contact(controller: Compliant) -> Iterator[dict]:
@@ -63,25 +52,14 @@ def _call(controller: Compliant, held, state: ArmState, draw) -> Call:
     f, m, v_d, f_d, m_d = (tuple(three) for three in draw.normal(size=(5, 3)))
     wish = Setpoint(state.goal.R, state.p_d, v_d, f_d, m_d)
     given, tally = (state.chain, wish, f, m, GAINS, TOUCH, state.D, state.fg), Tally()
-    want = _torques(controller, held, Tally(), given, float)
-    try:
-        answer = _torques(controller, held, tally, tuple(as_counted(one, tally) for one in given), object)
-    except OutsideDialect as error:
-        raise OutsideDialect(f"'{controller.name}': {error}") from error
-    if bits(answer) != bits(want):
-        raise BadLaw(
-            f"'{controller.name}' commands other torques when counted than when called with floats, at {state.id}; a "
-            "law must not depend on the type of its numbers"
-        )
-    return Call(state, tally.take(), state.is_sampled)
 
+    def torques(chain, wish, f, m, gains, touch, D, fg, dtype):
+        J, tau, into = np.zeros((6, 6), dtype), np.zeros(6, dtype), rows(dtype)
+        tally.stage = "regulate"
+        controller.assemble(chain, wish, f, m, gains, touch, J, into)
+        tally.stage = "invert"
+        form = PROJECTED if controller.form == "projected" else INVERSE
+        comply(form, held, chain.n, D, fg, J, into, touch, room(dtype), tau)
+        return tuple(tau)
 
-def _torques(controller: Compliant, held, tally: Tally, given, dtype) -> tuple:
-    chain, wish, f, m, gains, touch, D, fg = given
-    J, tau, into = np.zeros((6, 6), dtype), np.zeros(6, dtype), rows(dtype)
-    tally.stage = "regulate"
-    controller.assemble(chain, wish, f, m, gains, touch, J, into)
-    tally.stage = "invert"
-    form = PROJECTED if controller.form == "projected" else INVERSE
-    comply(form, held, chain.n, D, fg, J, into, touch, room(dtype), tau)
-    return tuple(tau)
+    return checked(controller.name, state, tally, given, torques, torques)

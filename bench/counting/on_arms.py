@@ -13,14 +13,17 @@ import mujoco
 import numpy as np
 
 import tasks
-from bench.control.resolved_acceleration import Buffers, Parts, assembly, control, parts_of
+from bench.control.contact_controller import Compliant
+from bench.control.resolved_acceleration import Parts, assembly, control, parts_of
 from bench.counting.costs import Call, Cost, bits, counted, rows_of, size
 from bench.counting.counted import Counted, OutsideDialect, Tally
 from bench.counting.staged import in_stage, law_of, staged
 from bench.counting.states import GAINS
+from bench.engines.arm_episode import buffers
+from bench.engines.episode import vector
 from bench.errors import BadLaw
 from bench.law.contender import AT_REST, NO_MEMORY, Contender, Goal
-from bench.law.resolved_motion import Chain, Scratch
+from bench.law.resolved_motion import Chain
 from bench.law.so3 import Rotation, from_quaternion
 from tasks.base import Start
 
@@ -65,17 +68,13 @@ def _state(model, data, start: Start, is_sampled: bool) -> ArmState:
     D = np.zeros((model.nv, model.nv))
     mujoco.mj_fullM(model, data, D)
     s = data.sensordata
-    R = Rotation(_vector(s[0:3]), _vector(s[3:6]), _vector(s[6:9]))
-    chain = Chain(model.nv, data.xaxis.copy(), data.xanchor.copy(), data.qvel.copy(), _vector(s[16:19]), R)
-    at_rest = _vector(np.array(AT_REST))
-    R_d = Rotation(*(_vector(np.array(column)) for column in from_quaternion(start.goal_wxyz)))
+    R = Rotation(vector(s[0:3]), vector(s[3:6]), vector(s[6:9]))
+    chain = Chain(model.nv, data.xaxis.copy(), data.xanchor.copy(), data.qvel.copy(), vector(s[16:19]), R)
+    at_rest = vector(np.array(AT_REST))
+    R_d = Rotation(*(vector(np.array(column)) for column in from_quaternion(start.goal_wxyz)))
     return ArmState(
         start.id, chain, D, data.qfrc_bias - data.qfrc_passive, Goal(R_d, at_rest, at_rest), chain.p, is_sampled
     )
-
-
-def _vector(three) -> tuple:
-    return (three[0], three[1], three[2])
 
 
 def cost_on_arm(contender: Contender, joints: int) -> Cost:
@@ -89,11 +88,15 @@ def cost_on_arm(contender: Contender, joints: int) -> Cost:
     counting = _controller(contender, _staged_parts(contender, tally), tally)
     with np.errstate(all="ignore"):
         calls = [_call(contender, plain, counting, tally, state) for state in arm_states(joints)]
+    return median_and_worst(contender, calls)
+
+
+def median_and_worst(one: Contender | Compliant, calls: list[Call]) -> Cost:
+    """The cost that these calls show."""
     ranked = sorted((call.counts for call in calls if call.is_typical), key=size)
     typical = ranked[len(ranked) // 2]
     worst = max(calls, key=lambda call: size(call.counts))
-    share = Counter(ranked)[typical] / len(ranked)
-    return Cost(contender, typical, worst.counts, share, worst.state.id)
+    return Cost(one, typical, worst.counts, Counter(ranked)[typical] / len(ranked), worst.state.id)
 
 
 def rows_on_arm(contender: Contender, joints: int) -> list[dict]:
@@ -137,7 +140,7 @@ def _controller(contender: Contender, parts: Parts, tally: Tally | None):
     assemble, gives_torque = assembly(parts), int(inverse.gives == "torque")
 
     def controller(chain, D, fg, goal, p_d, memory, gains, dtype):
-        into = _buffers(chain.n, dtype)
+        into = buffers(chain.n, dtype)
         u, memory = control(
             assemble, resolve, gives_torque, contender.rows, chain, D, fg, goal, p_d, gains, memory, into
         )
@@ -146,25 +149,24 @@ def _controller(contender: Contender, parts: Parts, tally: Tally | None):
     return controller
 
 
-def _buffers(n: int, dtype) -> Buffers:
-    A, B, V, J = (np.zeros((7, 7), dtype) for _ in range(4))
-    s, t, a, x = (np.zeros(7, dtype) for _ in range(4))
-    return Buffers(J, a, x, np.zeros(n, dtype), Scratch(A, B, V, s, t))
-
-
 def _call(contender: Contender, plain, counting, tally: Tally, state: ArmState) -> Call:
     memory = tuple(np.float64(x) for x in (*(contender.regulator.memory or ()), *NO_MEMORY)[: len(NO_MEMORY)])
     given = (state.chain, state.D, state.fg, state.goal, state.p_d, memory, GAINS)
-    want = plain(*given, float)
     tally.stage = "linearize"
+    return checked(contender.name, state, tally, given, plain, counting)
+
+
+def checked(name: str, state: ArmState, tally: Tally, given, plain, counting) -> Call:
+    """The counted call, whose answer must be the plain one bit for bit."""
+    want = plain(*given, float)
     try:
         answer = counting(*(as_counted(one, tally) for one in given), object)
     except OutsideDialect as error:
-        raise OutsideDialect(f"'{contender.name}': {error}") from error
+        raise OutsideDialect(f"'{name}': {error}") from error
     if bits(answer) != bits(want):
         raise BadLaw(
-            f"'{contender.name}' commands other torques when counted than when called with floats, at {state.id}; a "
-            "law must not depend on the type of its numbers"
+            f"'{name}' commands other torques when counted than when called with floats, at {state.id}; a law must "
+            "not depend on the type of its numbers"
         )
     return Call(state, tally.take(), state.is_sampled)
 

@@ -10,6 +10,7 @@ from bench.control.setpoint import TOUCH, ContactBuffers, ContactParameters, Row
 from bench.law.contender import PAPERS_GAINS, Gains
 from bench.law.resolved_motion import Scratch
 from bench.law.scalar import kernel
+from bench.law.so3 import rotate
 from tasks.contact import Trial
 from tasks.rules import RULES, ticks
 from tasks.verdict import DIVERGED, GOING, SATURATED, SINGULAR
@@ -103,18 +104,7 @@ def wrench(R, s):
 
     MuJoCo's sensors say what the hand does to the wrist's side of them, in the hand's frame.
     """
-    f = (-s[19], -s[20], -s[21])
-    m = (-s[22], -s[23], -s[24])
-    return _turned(R, f), _turned(R, m)
-
-
-@kernel
-def _turned(R, v):
-    return (
-        R.n[0] * v[0] + R.o[0] * v[1] + R.a[0] * v[2],
-        R.n[1] * v[0] + R.o[1] * v[1] + R.a[1] * v[2],
-        R.n[2] * v[0] + R.o[2] * v[1] + R.a[2] * v[2],
-    )
+    return rotate(R, (-s[19], -s[20], -s[21])), rotate(R, (-s[22], -s[23], -s[24]))
 
 
 @kernel

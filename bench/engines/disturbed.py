@@ -36,40 +36,19 @@ EXTRA = 4
 """Columns behind the metrics': sum of squared angles in the tail, how many, the largest, and the variation of u."""
 
 
-class Perturbation(NamedTuple):
-    """A condition as the compiled loop takes it.
-
-    steps: of the plant in a period of control; late: steps by which a command is late; tail: steps in the tail.
-    """
+class Timing(NamedTuple):
+    """A condition's times in steps of the plant: a period of control, how late a command is, the tail."""
 
     steps: int
     late: int
     tail: int
-    told: int
-    attitude_noise: float
-    rate_noise: float
-    beyond: float
-    bound: float
-    sway: float
-    inertia: tuple
 
 
-def perturbation(condition: Condition) -> Perturbation:
-    """The condition in steps of the plant."""
+def timing(condition: Condition) -> Timing:
+    """The condition's times."""
     steps = steps_of(condition)
     step_s = condition.period_s / steps
-    return Perturbation(
-        steps,
-        round(condition.delay_s / step_s),
-        round(TAIL_S / step_s),
-        condition.told,
-        condition.attitude_noise,
-        condition.rate_noise,
-        condition.beyond,
-        condition.bound,
-        condition.sway,
-        condition.inertia,
-    )
+    return Timing(steps, round(condition.delay_s / step_s), round(TAIL_S / step_s))
 
 
 def steps_of(condition: Condition) -> int:
@@ -78,24 +57,23 @@ def steps_of(condition: Condition) -> int:
 
 
 @kernel
-def reported(R, omega, R_d, noise, perturbation, period_s):
+def reported(R, omega, R_d, noise, condition, ahead):
     """(R, omega) as they are measured: turned and shifted by drawn numbers, and by the worst that can be at half turns.
 
     The worst is reported with foresight: away from the goal as it will be in LEAD periods, so that what turns back the
     body brakes it too. Without, the body swings through the half turn farther each time, and gets away.
 
     Args:
-        noise: six numbers, of unit standard deviation.
+        noise: six numbers, of unit standard deviation. ahead: LEAD periods [s].
     """
-    if perturbation.attitude_noise > 0.0:
-        s = perturbation.attitude_noise
+    if condition.attitude_noise > 0.0:
+        s = condition.attitude_noise
         R = turned(R, (s * noise[0], s * noise[1], s * noise[2]))
-    if perturbation.rate_noise > 0.0:
-        omega = plus(omega, perturbation.rate_noise, (noise[3], noise[4], noise[5]))
-    if perturbation.beyond > 0.0 and angle_between(R, R_d) + perturbation.beyond > math.pi:
-        ahead = LEAD * period_s
+    if condition.rate_noise > 0.0:
+        omega = plus(omega, condition.rate_noise, (noise[3], noise[4], noise[5]))
+    if condition.beyond > 0.0 and angle_between(R, R_d) + condition.beyond > math.pi:
         _, v, _ = turn_quaternion(turned(R, (ahead * omega[0], ahead * omega[1], ahead * omega[2])), R_d)
-        away = -perturbation.beyond / sqrt(dot(v, v))
+        away = -condition.beyond / sqrt(dot(v, v))
         R = turned(R, (away * v[0], away * v[1], away * v[2]))
     return R, omega
 
@@ -120,23 +98,25 @@ def told_of(omega_d, alpha_d, told):
     return omega_d, alpha_d
 
 
-PERTURBED = types.NamedTuple((*[int64] * 4, *[float64] * 5, THREE), Perturbation)
-EPISODES = types.void(types.FunctionType(EVALUATE), FOUR, MATRIX, float64[:, :, ::1], NUMBERS, PERTURBED, MATRIX)
+TIMING = types.NamedUniTuple(int64, len(Timing._fields), Timing)
+CONDITION = types.NamedTuple((*[float64] * 6, THREE, float64, int64, float64), Condition)
+NOISE = float64[:, :, ::1]
+EPISODES = types.void(types.FunctionType(EVALUATE), FOUR, MATRIX, NOISE, NUMBERS, TIMING, CONDITION, MATRIX)
 
 
 def episodes_of(observe):
-    """The loop over episodes, for all laws: `episodes(evaluate, memory0, starts, noise, numbers, perturbation, rows)`.
+    """The loop over episodes, for all laws: `episodes(evaluate, memory0, starts, noise, numbers, ..., rows)`.
 
     numbers.dt is the plant's step, and ticks are such steps; noise: episodes x periods x six, read only if there is
     noise. The rows are filled: the judge's columns, the metrics', and EXTRA more.
     """
 
-    def episodes(evaluate, memory0, starts, noise, numbers, perturbation, rows):
+    def episodes(evaluate, memory0, starts, noise, numbers, timing, condition, rows):
         gains = Gains(numbers.kp, numbers.kv)
         h = numbers.dt
-        is_noisy = perturbation.attitude_noise > 0.0 or perturbation.rate_noise > 0.0
-        is_prompt = perturbation.late == 0 and perturbation.steps == 1
-        slots = perturbation.late // perturbation.steps + 2
+        is_noisy = condition.attitude_noise > 0.0 or condition.rate_noise > 0.0
+        is_prompt = timing.late == 0 and timing.steps == 1
+        slots = timing.late // timing.steps + 2
         sent = np.zeros((slots, 3))
         for k in range(starts.shape[0]):
             start, row = starts[k], rows[k]
@@ -144,7 +124,7 @@ def episodes_of(observe):
             R = from_quaternion((start[0], start[1], start[2], start[3]))
             omega = (start[4], start[5], start[6])
             R_0 = from_quaternion((start[7], start[8], start[9], start[10]))
-            R_d, omega_d, alpha_d = goal_at(R_0, 0.0, perturbation.sway)
+            R_d, omega_d, alpha_d = goal_at(R_0, 0.0, condition.sway)
             band = start[11]
             memory, margin = memory0, math.nan
             u = given = AT_REST
@@ -153,17 +133,17 @@ def episodes_of(observe):
             tick, period = 0, 0
             failure = GOING
             while tick < numbers.ticks and watch.quiet < numbers.hold_ticks:
-                if tick == period * perturbation.steps:
+                if tick == period * timing.steps:
                     before = u
                     drawn = noise[k, period] if is_noisy else noise[0, 0]
-                    seen, turning = reported(R, omega, R_d, drawn, perturbation, perturbation.steps * h)
-                    rate, acceleration = told_of(omega_d, alpha_d, perturbation.told)
+                    seen, turning = reported(R, omega, R_d, drawn, condition, LEAD * (timing.steps * h))
+                    rate, acceleration = told_of(omega_d, alpha_d, condition.told)
                     goal = Goal(R_d, AT_REST, AT_REST)
                     given, memory, margin = evaluate(seen, minus(turning, rate), goal, gains, memory)
                     u = given
-                    if perturbation.sway > 0.0:
+                    if condition.sway > 0.0:
                         u = carried_along(u, turning, rate, acceleration)
-                    u = bounded(u, perturbation.bound)
+                    u = bounded(u, condition.bound)
                     failure = check_command(dot(u, u), numbers.command_limit_squared)
                     if period > 0 and failure == GOING:
                         jump = plus(u, -1.0, before)
@@ -173,21 +153,21 @@ def episodes_of(observe):
                 applied = u
                 if not is_prompt:
                     applied = AT_REST
-                    if tick >= perturbation.late:
-                        slot = ((tick - perturbation.late) // perturbation.steps) % slots
+                    if tick >= timing.late:
+                        slot = ((tick - timing.late) // timing.steps) % slots
                         applied = (sent[slot, 0], sent[slot, 1], sent[slot, 2])
                 observe(row, Sample(tick * h, h, R, hav, watch.entered, omega, applied, margin))
                 if failure != GOING:
                     break
-                R, omega = step(R, omega, applied, perturbation.inertia, h)
+                R, omega = step(R, omega, applied, condition.inertia, h)
                 tick += 1
                 failure = check_state(dot(omega, omega), numbers.speed_limit_squared)
                 if failure != GOING:
                     break
-                R_d, omega_d, alpha_d = goal_at(R_0, tick * h, perturbation.sway)
+                R_d, omega_d, alpha_d = goal_at(R_0, tick * h, condition.sway)
                 hav = haversine(R, R_d)
                 watch = watched(watch, tick, hav, band)
-                if tick > numbers.ticks - perturbation.tail:
+                if tick > numbers.ticks - timing.tail:
                     error = angle_between(R, R_d)
                     extra[TAIL_SQUARES] += error * error
                     extra[TAIL_COUNT] += 1.0

@@ -119,6 +119,11 @@ def finish(row, failure, watch, tick, angle, inside, speed_squared, command_squa
     row[FINAL_ANGLE] = angle
 
 
+def vector(three) -> tuple:
+    """Three numbers of an array, numpy.float64 as they are."""
+    return (three[0], three[1], three[2])
+
+
 def start_rows(starts) -> np.ndarray:
     """The judge's starts as rows: quaternion, omega, goal, haversine of the settling band."""
     rows = np.empty((len(starts), START_WIDTH))

@@ -24,33 +24,27 @@ MUJOCO_INTEGRATORS = {
 
 
 def run(
-    engine: str, contender: Contender, task: str, starts, settings: Settings, metrics, integrator="euler"
-) -> np.ndarray:
-    """Rows of `engines.episode`, one per start, on the free body; on an arm: `run_arm.run`.
-
-    Args:
-        starts: tasks.Start, in order; metrics: Metric, in the order of their columns.
-    """
-    if engine == "reference":
-        return reference.run(contender, task, starts, start_rows(starts)[:, 11], settings, metrics, integrator)
-    return run_compiled(engine, contender, task, starts, settings, metrics, blank_curves(len(starts)), integrator)
-
-
-def run_compiled(
     engine: str,
     contender: Contender,
     task: str,
     starts,
     settings: Settings,
     metrics,
-    curves: Curves,
     integrator: str = "euler",
+    curves: Curves | None = None,
 ) -> np.ndarray:
-    """The same on any engine but `reference`, into curves also."""
+    """Rows of `engines.episode`, one per start, on the free body; on an arm: `run_arm.run`.
+
+    Args:
+        starts: tasks.Start, in order; metrics: Metric, in the order of their columns.
+        curves: filled too, on any engine but `reference`.
+    """
+    if engine == "reference":
+        return reference.run(contender, task, starts, start_rows(starts)[:, 11], settings, metrics, integrator)
     rows = blank(len(starts), metrics)
     loop = compiled_loop(engine, tuple(metrics))
     law = evaluation(contender), memory_of(contender)
-    given = start_rows(starts), numbers(settings), rows, curves
+    given = start_rows(starts), numbers(settings), rows, curves or blank_curves(len(starts))
     if engine == "native":
         plant = plant_of(contender, task, settings.gains)
         model = mujoco.MjModel.from_xml_string(plant.xml(settings.dt_s))

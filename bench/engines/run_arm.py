@@ -52,32 +52,17 @@ def run(
     metrics,
     integrator: str = "euler",
     variation: str = NOMINAL,
+    curves: Curves | None = None,
 ) -> np.ndarray:
     """Rows of `engines.arm_episode`, one per start.
 
     Args:
         starts: tasks.Start with joint angles, in order; metrics: Metric, in the order of their columns.
-        variation: how the plant differs from the controller's model.
+        variation: how the plant differs from the controller's model. curves: filled too, on the engine `native`.
     """
     if engine == "reference":
         bands = start_rows(starts)[:, 11]
         return reference.run(contender, task, arm, starts, bands, settings, metrics, integrator, variation)
-    curves = blank_curves(len(starts))
-    return run_native(contender, task, arm, starts, settings, metrics, curves, integrator, variation)
-
-
-def run_native(
-    contender: Contender,
-    task: str,
-    arm: str,
-    starts,
-    settings: Settings,
-    metrics,
-    curves: Curves,
-    integrator: str = "euler",
-    variation: str = NOMINAL,
-) -> np.ndarray:
-    """The same on the native engine, into curves also."""
     rows = blank_arm(len(starts), metrics)
     ready = simulation(task, arm, settings.dt_s, integrator, variation)
     compiled_loop(tuple(metrics))(
@@ -92,7 +77,7 @@ def run_native(
         start_rows(starts),
         numbers(settings),
         rows,
-        curves,
+        curves or blank_curves(len(starts)),
     )
     return rows
 

@@ -30,11 +30,11 @@ def run(contender: Contender, starts, condition: Condition, settings: Settings, 
     periods = given.ticks // disturbed.steps_of(condition) + 1
     block = max(1, int(NOISE_BYTES // (8 * 6 * periods))) if condition.is_noisy else len(starts)
     law = evaluation(contender), memory_of(contender)
-    loop, perturbation, begun = _loop(tuple(metrics)), disturbed.perturbation(condition), start_rows(starts)
+    loop, timing, begun = _loop(tuple(metrics)), disturbed.timing(condition), start_rows(starts)
     for first in range(0, len(starts), block):
         some = slice(first, first + block)
         noise = drawn(len(begun[some]), periods, seed, condition.is_noisy, first)
-        loop(*law, begun[some], noise, given, perturbation, rows[some])
+        loop(*law, begun[some], noise, given, timing, condition, rows[some])
     return rows
 
 

@@ -91,7 +91,7 @@ def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
 
 def _on_free_body(settings: Settings, unit: Unit, one: Contender, every: int) -> Iterator[pd.DataFrame]:
     from bench.engines.curve import NUMBERS, blank_curves
-    from bench.engines.run import run_compiled
+    from bench.engines.run import run
     from bench.experiments.rows.episodes import contender_columns, judged_columns
     from bench.metrics.registry import metrics_of
 
@@ -100,8 +100,8 @@ def _on_free_body(settings: Settings, unit: Unit, one: Contender, every: int) ->
     for start_set, starts, is_measured in _starts(settings, unit, one):
         curves = blank_curves(len(starts), SAMPLES, every)
         limits = settings.limits(HORIZON.get(start_set, SHORT))
-        given = (unit.engine, one, unit.task, starts, limits, metrics, curves, settings.integrator)
-        endings = judged_columns(run_compiled(*given), settings.dt_s)
+        given = (unit.engine, one, unit.task, starts, limits, metrics, settings.integrator, curves)
+        endings = judged_columns(run(*given), settings.dt_s)
         frame = _frame({**place, "start_set": start_set}, starts, curves.samples, NUMBERS, endings)
         yield frame if is_measured else _to_draw(frame, [*NUMBERS[1:-1], "angle_rad"])
 
@@ -117,7 +117,7 @@ def _starts(settings: Settings, unit: Unit, one: Contender):
 
 def _on_arm(settings: Settings, unit: Unit, one: Contender, every: int) -> Iterator[pd.DataFrame]:
     from bench.engines.curve import ARM_NUMBERS, blank_curves
-    from bench.engines.run_arm import run_native
+    from bench.engines.run_arm import run
     from bench.experiments.rows.episodes import contender_columns
     from bench.metrics.registry import metrics_of
 
@@ -126,7 +126,7 @@ def _on_arm(settings: Settings, unit: Unit, one: Contender, every: int) -> Itera
     for start_set in ARM_SETS:
         starts = tasks.start_set(start_set, unit.count, settings.seed, arm=unit.arm)
         curves = blank_curves(len(starts), SAMPLES, every, ARM_NUMBERS)
-        run_native(one, unit.task, unit.arm, starts, limits, metrics, curves, settings.integrator)
+        run(unit.engine, one, unit.task, unit.arm, starts, limits, metrics, settings.integrator, curves=curves)
         endings = {"outcome": [""] * len(starts)}
         yield _frame({**place, "start_set": start_set}, starts, curves.samples, ARM_NUMBERS, endings)
 

@@ -57,7 +57,7 @@ class Inverse(NamedTuple):
     resolve(J, a, D, x, rows, n, scratch): from J (rows x n), a (rows) and the inertia matrix D (n x n) writes x (n).
     J, a and D are left as they are.
     gives: "acceleration" if J x = a, up to the inverse's own error; "torque" if x is the torque for it.
-    refuses(rows, n) -> why it cannot be used with a Jacobian of that shape; empty if it can.
+    refuses(rows, n) -> why it cannot be used with a Jacobian of that shape; empty if it can, as any can by default.
     """
 
     name: str
@@ -66,7 +66,7 @@ class Inverse(NamedTuple):
     formula: str
     resolve: Callable
     gives: str
-    refuses: Callable
+    refuses: Callable[[int, int], str] = lambda rows, n: ""
 
 
 class Scratch(NamedTuple):

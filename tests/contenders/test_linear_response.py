@@ -8,7 +8,7 @@ from support.states import as_rotation
 
 from bench.contenders.registry import contenders_of, known_regulators
 from bench.engines.curve import NUMBERS, blank_curves
-from bench.engines.run import run_compiled
+from bench.engines.run import run
 from bench.metrics.registry import metrics_of
 from tasks.base import Start
 from tasks.rotations import zyx
@@ -30,7 +30,7 @@ def coordinates(one, R):
 def test_coordinates_follow_the_critically_damped_response(one):
     """E - E_d = (x + (v + 10 x) t) exp(-10 t) of Kp = 100, Kd = 20 (Murphy 1988, 2.3 and 2.16)."""
     curves = blank_curves(1, 1000)
-    run_compiled("ideal-rk4", one, "free-body", [START], settings(horizon_s=1.0), metrics_of(on_arm=False), curves)
+    run("ideal-rk4", one, "free-body", [START], settings(horizon_s=1.0), metrics_of(on_arm=False), curves=curves)
     columns = curves.samples[0][:, MATRIX].reshape(-1, 3, 3)
     E = np.array([coordinates(one, ScipyRotation.from_matrix(n_o_a.T)) for n_o_a in columns[::20]])
     times = curves.samples[0][::20, NUMBERS.index("time_s")][:, None]

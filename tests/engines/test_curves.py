@@ -11,7 +11,7 @@ from bench.contenders.registry import find_contender
 from bench.engines import run_arm
 from bench.engines.curve import ARM_NUMBERS, NUMBERS, blank_curves
 from bench.engines.episode import TICKS
-from bench.engines.run import run, run_compiled
+from bench.engines.run import run
 from bench.metrics.registry import metrics_of
 
 LAW, ARM = "feedback-linearized/zyx-euler", "puma560"
@@ -27,7 +27,7 @@ def flat(sample) -> tuple:
 def free_body(curves, engine="native"):
     """Rows of four starts, into curves."""
     starts = tasks.start_set("uniform", 4)
-    return run_compiled(engine, find_contender(LAW), "free-body", starts, CHOSEN, METRICS, curves)
+    return run(engine, find_contender(LAW), "free-body", starts, CHOSEN, METRICS, curves=curves)
 
 
 @pytest.mark.parametrize("every", [1, 3])
@@ -46,7 +46,7 @@ def test_curve_of_an_arm_is_what_dm_controls_loop_shows_a_metric_bit_for_bit():
     starts = tasks.start_set("clear", 2, arm=ARM)
     curves = blank_curves(2, 10, 5, ARM_NUMBERS)
     given = "arm-regulation", ARM, starts, settings(horizon_s=0.05)
-    run_arm.run_native(one, *given, metrics_of(on_arm=True), curves)
+    run_arm.run("native", one, *given, metrics_of(on_arm=True), curves=curves)
     kept = []
     run_arm.run("reference", one, *given, [recorder(kept)])
     expected = []

@@ -61,8 +61,8 @@ def test_compiled_and_plain_loops_agree_bit_for_bit(word):
     noise = drawn(len(starts), given.ticks, 0, True)
     plain = disturbed.episodes_of(observer(METRICS))
     with np.errstate(all="ignore"):
-        perturbation = disturbed.perturbation(EVERYTHING)
-        plain(evaluation_of(one), memory_of(one), start_rows(starts), noise, given, perturbation, rows)
+        times = disturbed.timing(EVERYTHING)
+        plain(evaluation_of(one), memory_of(one), start_rows(starts), noise, given, times, EVERYTHING, rows)
     assert same_bits(ended(word, starts, EVERYTHING, horizon_s), rows)
 
 

@@ -17,7 +17,7 @@ from bench.contenders.registry import find_contender
 from bench.engines import ideal
 from bench.engines.curve import NUMBERS, blank_curves
 from bench.engines.episode import FIRST_METRIC, OUTCOME, SETTLING_TICK
-from bench.engines.run import run, run_compiled
+from bench.engines.run import run
 from bench.metrics.registry import metrics_of
 from tasks.base import Start
 from tasks.rotations import short_of_half_turn, zyx
@@ -33,7 +33,7 @@ PATH = [NUMBERS.index(name) for name in (*(f"{v}_{x}" for v in ("omega", "n", "o
 def recorded(engine, word, starts, chosen):
     """Paths (starts, ticks, 12), omega, n, o, a, and the judge's columns."""
     curves = blank_curves(len(starts), chosen.ticks)
-    rows = run_compiled(engine, find_contender(word), "free-body", starts, chosen, METRICS, curves)
+    rows = run(engine, find_contender(word), "free-body", starts, chosen, METRICS, curves=curves)
     return curves.samples[:, :, PATH], rows[:, :FIRST_METRIC]
 
 

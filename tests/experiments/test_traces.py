@@ -9,7 +9,7 @@ import tasks
 from bench.contenders import combinations
 from bench.contenders.registry import find_contender
 from bench.engines.curve import NUMBERS, blank_curves
-from bench.engines.run import run_compiled
+from bench.engines.run import run
 from bench.experiments import traces
 from bench.experiments.experiment import Settings
 from bench.experiments.rows.episodes import judged_columns
@@ -30,7 +30,7 @@ def rerun(law, start_set, start_id, horizon_s=20.0):
     """(samples, columns of the judge) of one episode, run by itself."""
     [start] = [one for one in tasks.start_set(start_set) if one.id == start_id]
     curves, chosen = blank_curves(1, 200, 20), settings(horizon_s=horizon_s, hold_ticks=HOLD_TICKS)
-    rows = run_compiled("ideal-rk4", find_contender(law), "free-body", [start], chosen, metrics_of(False), curves)
+    rows = run("ideal-rk4", find_contender(law), "free-body", [start], chosen, metrics_of(False), curves=curves)
     return curves.samples[0], judged_columns(rows, chosen.dt_s)
 
 

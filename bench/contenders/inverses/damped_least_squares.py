@@ -24,11 +24,6 @@ def resolve(J, a, D, x, rows, n, scratch):
     solve_gram(J_W, a_W, S, x, rows, n)
 
 
-def refuses(rows: int, n: int) -> str:
-    """Nothing."""
-    return ""
-
-
 INVERSE = Inverse(
     name="damped-least-squares",
     title="Damped least squares",
@@ -36,5 +31,4 @@ INVERSE = Inverse(
     formula=r"\ddot q = J_W^\top (J_W J_W^\top + \lambda^2 I)^{-1}\, W a, \quad J_W = W J",
     resolve=resolve,
     gives="acceleration",
-    refuses=refuses,
 )

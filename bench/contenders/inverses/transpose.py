@@ -15,11 +15,6 @@ def resolve(J, a, D, x, rows, n, scratch):
     multiply_transposed(J, a, x, rows, n)
 
 
-def refuses(rows: int, n: int) -> str:
-    """Nothing."""
-    return ""
-
-
 INVERSE = Inverse(
     name="transpose",
     title="Transpose",
@@ -27,5 +22,4 @@ INVERSE = Inverse(
     formula=r"\tau = J^\top a",
     resolve=resolve,
     gives="torque",
-    refuses=refuses,
 )

@@ -30,11 +30,6 @@ def resolve(J, a, D, x, rows, n, scratch):
     multiply_transposed(J_W, a_W, x, rows, n)
 
 
-def refuses(rows: int, n: int) -> str:
-    """Nothing."""
-    return ""
-
-
 INVERSE = Inverse(
     name="truncated-svd",
     title="Truncated SVD",
@@ -42,5 +37,4 @@ INVERSE = Inverse(
     formula=r"\ddot q = \sum_{\sigma_i > \epsilon} \frac{u_i \cdot W a}{\sigma_i}\, v_i, \quad W J = U \Sigma V^\top",
     resolve=resolve,
     gives="acceleration",
-    refuses=refuses,
 )

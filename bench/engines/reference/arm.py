@@ -21,8 +21,8 @@ from bench.engines.arm_episode import (
     squared,
 )
 from bench.engines.binding import margin_of, memory_of, observer, parts_for
-from bench.engines.episode import Settings, blamed, finish, numbers
-from bench.engines.reference.free_body import STILL, vector
+from bench.engines.episode import Settings, blamed, finish, numbers, vector
+from bench.engines.reference.free_body import STILL
 from bench.law.contender import Gains, Goal
 from bench.law.resolved_motion import Chain
 from bench.law.so3 import Rotation, dot, from_quaternion

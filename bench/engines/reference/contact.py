@@ -26,7 +26,7 @@ from bench.engines.contact_episode import (
     wrench,
     write_record,
 )
-from bench.engines.reference.free_body import vector
+from bench.engines.episode import vector
 from bench.law.contender import Gains
 from bench.law.resolved_motion import Chain
 from bench.law.scalar import sqrt

@@ -9,7 +9,7 @@ import numpy as np
 
 import tasks
 from bench.engines.binding import command_of, margin_of, memory_of, observer, plant_of
-from bench.engines.episode import Sample, Settings, blamed, blank, finish, numbers
+from bench.engines.episode import Sample, Settings, blamed, blank, finish, numbers, vector
 from bench.law.contender import AT_REST, Gains, Goal
 from bench.law.so3 import Rotation, dot, from_quaternion, rotate
 from tasks.truth import angle, haversine
@@ -71,8 +71,3 @@ def _servo(physics, goal_wxyz):
         return rotate(R, vector(physics.data.qfrc_actuator)), memory
 
     return command
-
-
-def vector(three) -> tuple:
-    """Three numpy.float64."""
-    return (three[0], three[1], three[2])

@@ -8,22 +8,9 @@
 A buffer may be larger than what is used of it; sizes are passed. Nothing is allocated. A singular matrix ends in
 numbers that are not finite, and those that are not finite in any number, but never in an exception or an endless loop.
 """
+# ruff: noqa: F401  the face of the folder
 
 from bench.law.linalg.cholesky import factor, solve_factored, solve_lower, solve_upper
 from bench.law.linalg.elimination import determinant, solve
 from bench.law.linalg.products import gram, gram_transposed, multiply, multiply_transposed
 from bench.law.linalg.rotations import orthogonalize
-
-__all__ = [
-    "determinant",
-    "factor",
-    "gram",
-    "gram_transposed",
-    "multiply",
-    "multiply_transposed",
-    "orthogonalize",
-    "solve",
-    "solve_factored",
-    "solve_lower",
-    "solve_upper",
-]
