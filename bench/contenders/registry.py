@@ -35,34 +35,28 @@ def collect(package, constant: str, kind: type) -> dict[str, Any]:
     return found
 
 
-@functools.cache
-def known_representations() -> dict:
-    """Word -> Representation, from bench/contenders/representations."""
-    return collect(representations, "REPRESENTATION", Representation)
+FOLDERS = {
+    "regulator": (regulators, Regulator),
+    "representation": (representations, Representation),
+    "Jacobian": (jacobians, Jacobian),
+    "inverse": (inverses, Inverse),
+    "impedance": (impedances, Impedance),
+}
+"""What is found in a folder of bench/contenders: constants of one type, named as their kind."""
 
 
 @functools.cache
-def known_regulators() -> dict:
-    """Word -> Regulator, from bench/contenders/regulators."""
-    return collect(regulators, "REGULATOR", Regulator)
+def known(kind: str) -> dict[str, Any]:
+    """Word -> what there is of a kind, from its folder."""
+    package, record = FOLDERS[kind]
+    return collect(package, kind.upper(), record)
 
 
-@functools.cache
-def known_jacobians() -> dict:
-    """Word -> Jacobian, from bench/contenders/jacobians."""
-    return collect(jacobians, "JACOBIAN", Jacobian)
-
-
-@functools.cache
-def known_inverses() -> dict:
-    """Word -> Inverse, from bench/contenders/inverses."""
-    return collect(inverses, "INVERSE", Inverse)
-
-
-@functools.cache
-def known_impedances() -> dict:
-    """Word -> Impedance, from bench/contenders/impedances."""
-    return collect(impedances, "IMPEDANCE", Impedance)
+known_regulators = functools.partial(known, "regulator")
+known_representations = functools.partial(known, "representation")
+known_jacobians = functools.partial(known, "Jacobian")
+known_inverses = functools.partial(known, "inverse")
+known_impedances = functools.partial(known, "impedance")
 
 
 def contenders_of(regulator: Regulator) -> list[Contender]:
@@ -94,25 +88,26 @@ def papers_coordinates() -> Representation:
 
 def regulator(word: str, extra: tuple[Regulator, ...] = ()) -> Regulator:
     """The regulator of that name, the user's own among them."""
-    return _known("regulator", word, known_regulators() | {own.name: own for own in extra})
+    return _named("regulator", word, extra)
 
 
 def representation(word: str) -> Representation:
     """The representation of that name."""
-    return _known("representation", word, known_representations())
+    return _named("representation", word)
 
 
 def jacobian(word: str) -> Jacobian:
     """The Jacobian of that name."""
-    return _known("Jacobian", word, known_jacobians())
+    return _named("Jacobian", word)
 
 
 def inverse(word: str) -> Inverse:
     """The inverse of that name."""
-    return _known("inverse", word, known_inverses())
+    return _named("inverse", word)
 
 
-def _known(kind: str, word: str, every: dict[str, Any]) -> Any:
+def _named(kind: str, word: str, own: tuple = ()) -> Any:
+    every = known(kind) | {one.name: one for one in own}
     if word not in every:
         raise UnknownWord(kind, word, sorted(every))
     return every[word]

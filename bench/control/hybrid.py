@@ -63,17 +63,24 @@ def write(buffer, linear, angular):
 
 
 @kernel
-def in_base(chain, wish, f, m, gains, touch, J, rows):
-    """J and the rows of hybrid control along the axes of the base frame."""
+def measure(chain, wish, f, m, J, rows):
+    """J and all rows but a, along the axes of the base frame; returns pdot and omega."""
     pdot, omega = twist(chain)
     bias = bias_acceleration(chain)
     fill(J, chain)
-    u = regulate(chain.R, omega, Goal(wish.R_d, AT_REST, AT_REST), gains)
-    write(rows.a, hold_moving(chain.p, pdot, wish, gains), u)
     write(rows.drift, (bias[0], bias[1], bias[2]), (bias[3], bias[4], bias[5]))
     write(rows.F, f, m)
     write(rows.h, wish.f_d, wish.m_d)
     write(rows.v, pdot, omega)
+    return pdot, omega
+
+
+@kernel
+def in_base(chain, wish, f, m, gains, touch, J, rows):
+    """J and the rows of hybrid control along the axes of the base frame."""
+    pdot, omega = measure(chain, wish, f, m, J, rows)
+    u = regulate(chain.R, omega, Goal(wish.R_d, AT_REST, AT_REST), gains)
+    write(rows.a, hold_moving(chain.p, pdot, wish, gains), u)
 
 
 @kernel

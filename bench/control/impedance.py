@@ -12,9 +12,7 @@ Source: Hogan 1985; Caccavale, Natale, Siciliano, Villani 1999.
 
 from collections.abc import Callable
 
-from bench.contenders.jacobians.geometric import fill
-from bench.control.hybrid import hold_moving, write
-from bench.law.chain import bias_acceleration, twist
+from bench.control.hybrid import hold_moving, measure, write
 from bench.law.contender import Representation
 from bench.law.impedance import Impedance
 from bench.law.scalar import kernel
@@ -26,9 +24,7 @@ def assembly(law: Callable) -> Callable:
     @kernel
     def assemble(chain, wish, f, m, gains, touch, J, rows):
         """J, and a = (u_p, u) with the wrench put back, along the axes of the base frame."""
-        pdot, omega = twist(chain)
-        bias = bias_acceleration(chain)
-        fill(J, chain)
+        pdot, omega = measure(chain, wish, f, m, J, rows)
         spring, f_d, m_d = hold_moving(chain.p, pdot, wish, gains), wish.f_d, wish.m_d
         pressed = (
             spring[0] + (f[0] + f_d[0]) / touch.m_p,
@@ -37,10 +33,6 @@ def assembly(law: Callable) -> Callable:
         )
         moment = (m[0] + m_d[0], m[1] + m_d[1], m[2] + m_d[2])
         write(rows.a, pressed, law(chain.R, omega, moment, wish.R_d, gains, touch.m_o))
-        write(rows.drift, (bias[0], bias[1], bias[2]), (bias[3], bias[4], bias[5]))
-        write(rows.F, f, m)
-        write(rows.h, f_d, m_d)
-        write(rows.v, pdot, omega)
 
     return assemble
 

@@ -11,27 +11,11 @@ takes the same branches and returns the same bits, and they tally every operatio
     in_contact.py  and of one in contact, its rows apart from its torques
     dialect.py   what a law file may contain, checked in its text
 """
+# ruff: noqa: F401  the face of the folder
 
 from bench.counting.costs import BRANCHES, Cost, cost, flops, rows
 from bench.counting.counted import OPERATIONS, STAGES, TOTAL, Counted, Counts, OutsideDialect, Tally
 from bench.counting.on_arms import rows_on_arm
-
-__all__ = [
-    "BRANCHES",
-    "OPERATIONS",
-    "RULES",
-    "STAGES",
-    "TOTAL",
-    "Cost",
-    "Counted",
-    "Counts",
-    "OutsideDialect",
-    "Tally",
-    "cost",
-    "flops",
-    "rows",
-    "rows_on_arm",
-]
 
 RULES = (
     "Everything a law is given varies each tick, the goal R_d and the gains included.",

@@ -155,11 +155,6 @@ class Contender(NamedTuple):
         return equation_in(self.representation) if equation_in and self.representation else self.regulator.equation
 
     @property
-    def is_on_arm(self) -> bool:
-        """Whether it controls an arm (and not the free body)."""
-        return self.jacobian is not None
-
-    @property
     def rows(self) -> int:
         """Rows of the Jacobian: three of position, and one a coordinate of orientation."""
         by_coordinates = self.jacobian is not None and self.jacobian.takes == "coordinates"

@@ -78,3 +78,42 @@ def generalized(at, moment):
         at.cos_alpha * moment[1] - at.sin_alpha * moment[0],
         at.level * along_x + at.upright * moment[2],
     )
+
+
+def derivatives_of(elements):
+    """(differentiate, differentiate_twice) of the angles, element by element (Murphy 1988, 3.5).
+
+    elements(R) -> (x, y, z, X, Y): alpha = atan2(y, x), beta = asin(z) up to a constant, gamma = atan2(Y, X). A row and
+    a column of R stay unit vectors, so that both pairs have the length level, and level^2 = 1 - z^2.
+    """
+
+    @kernel
+    def slopes(R, Rdot):
+        """Edot along Rdot, and 1/level and its square."""
+        x, y, _, X, Y = elements(R)
+        dx, dy, dz, dX, dY = elements(Rdot)
+        inverse = 1.0 / sqrt(x * x + y * y)
+        inverse_square = inverse * inverse
+        Edot = ((x * dy - y * dx) * inverse_square, dz * inverse, (X * dY - Y * dX) * inverse_square)
+        return Edot, inverse, inverse_square
+
+    @kernel
+    def differentiate(R, Rdot):
+        """Edot; not finite on the pole."""
+        return slopes(R, Rdot)[0]
+
+    @kernel
+    def differentiate_twice(R, Rdot, Rddot):
+        """Eddot, the same differentiated again."""
+        (alphadot, betadot, gammadot), inverse, inverse_square = slopes(R, Rdot)
+        x, y, z, X, Y = elements(R)
+        dz = elements(Rdot)[2]
+        ddx, ddy, ddz, ddX, ddY = elements(Rddot)
+        growth = -2.0 * z * dz  # of level^2
+        return (
+            (x * ddy - y * ddx - growth * alphadot) * inverse_square,
+            (ddz + z * betadot * betadot) * inverse,
+            (X * ddY - Y * ddX - growth * gammadot) * inverse_square,
+        )
+
+    return differentiate, differentiate_twice

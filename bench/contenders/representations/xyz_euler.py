@@ -5,7 +5,7 @@ B^-1 does not exist. alpha and gamma jump by 2 pi at +-pi.
 """
 
 from bench.law import Look, Representation, Rotation, atan2, cos, kernel, sin, sqrt
-from bench.law.euler import EulerChart, first_angle
+from bench.law.euler import EulerChart, derivatives_of, first_angle
 
 
 @kernel
@@ -89,38 +89,12 @@ def margin(R):
 
 
 @kernel
-def slopes(R, Rdot):
-    """Edot along Rdot, and 1/cos(beta) and its square."""
-    inverse = 1.0 / sqrt(R.a[1] * R.a[1] + R.a[2] * R.a[2])
-    inverse_square = inverse * inverse
-    Edot = (
-        (R.a[1] * Rdot.a[2] - R.a[2] * Rdot.a[1]) * inverse_square,
-        Rdot.a[0] * inverse,
-        (R.o[0] * Rdot.n[0] - R.n[0] * Rdot.o[0]) * inverse_square,
-    )
-    return Edot, inverse, inverse_square
+def elements(R):
+    """Those that the angles are of: alpha = atan2(-a_y, a_z), beta = asin(a_x), gamma = atan2(-o_x, n_x)."""
+    return (R.a[2], -R.a[1], R.a[0], R.n[0], -R.o[0])
 
 
-@kernel
-def differentiate(R, Rdot):
-    """Edot, with alpha = atan2(-a_y, a_z), beta = asin(a_x), gamma = atan2(-o_x, n_x) differentiated (3.5).
-
-    a stays a unit vector, so both pairs have the length cos(beta). Not finite on the pole.
-    """
-    return slopes(R, Rdot)[0]
-
-
-@kernel
-def differentiate_twice(R, Rdot, Rddot):
-    """Eddot, the same differentiated again."""
-    (alphadot, betadot, gammadot), inverse, inverse_square = slopes(R, Rdot)
-    growth = -2.0 * R.a[0] * Rdot.a[0]  # of cos(beta)^2 = 1 - a_x^2
-    return (
-        (R.a[1] * Rddot.a[2] - R.a[2] * Rddot.a[1] - growth * alphadot) * inverse_square,
-        (Rddot.a[0] + R.a[0] * betadot * betadot) * inverse,
-        (R.o[0] * Rddot.n[0] - R.n[0] * Rddot.o[0] - growth * gammadot) * inverse_square,
-    )
-
+differentiate, differentiate_twice = derivatives_of(elements)
 
 REPRESENTATION = Representation(
     name="xyz-euler",

@@ -5,7 +5,7 @@ B^-1 does not exist. alpha and gamma jump by 2 pi at +-pi.
 """
 
 from bench.law import Look, Representation, Rotation, atan2, cos, kernel, sin, sqrt
-from bench.law.euler import EulerChart, accelerate, angular_velocity, first_angle, generalized, rates
+from bench.law.euler import EulerChart, accelerate, angular_velocity, derivatives_of, first_angle, generalized, rates
 
 
 @kernel
@@ -45,38 +45,12 @@ def margin(R):
 
 
 @kernel
-def slopes(R, Rdot):
-    """Edot along Rdot, and 1/cos(beta) and its square."""
-    inverse = 1.0 / sqrt(R.n[0] * R.n[0] + R.n[1] * R.n[1])
-    inverse_square = inverse * inverse
-    Edot = (
-        (R.n[0] * Rdot.n[1] - R.n[1] * Rdot.n[0]) * inverse_square,
-        -Rdot.n[2] * inverse,
-        (R.a[2] * Rdot.o[2] - R.o[2] * Rdot.a[2]) * inverse_square,
-    )
-    return Edot, inverse, inverse_square
+def elements(R):
+    """Those that the angles are of: alpha = atan2(n_y, n_x), beta = asin(-n_z), gamma = atan2(o_z, a_z)."""
+    return (R.n[0], R.n[1], -R.n[2], R.a[2], R.o[2])
 
 
-@kernel
-def differentiate(R, Rdot):
-    """Edot, with alpha = atan2(n_y, n_x), beta = -asin(n_z), gamma = atan2(o_z, a_z) differentiated (3.5).
-
-    n stays a unit vector, so both pairs have the length cos(beta). Not finite on the pole.
-    """
-    return slopes(R, Rdot)[0]
-
-
-@kernel
-def differentiate_twice(R, Rdot, Rddot):
-    """Eddot, the same differentiated again."""
-    (alphadot, betadot, gammadot), inverse, inverse_square = slopes(R, Rdot)
-    growth = -2.0 * R.n[2] * Rdot.n[2]  # of cos(beta)^2 = 1 - n_z^2
-    return (
-        (R.n[0] * Rddot.n[1] - R.n[1] * Rddot.n[0] - growth * alphadot) * inverse_square,
-        -(Rddot.n[2] + R.n[2] * betadot * betadot) * inverse,
-        (R.a[2] * Rddot.o[2] - R.o[2] * Rddot.a[2] - growth * gammadot) * inverse_square,
-    )
-
+differentiate, differentiate_twice = derivatives_of(elements)
 
 REPRESENTATION = Representation(
     name="zyx-euler",

@@ -5,7 +5,7 @@ determined, and B^-1 does not exist. alpha and gamma jump by 2 pi at +-pi.
 """
 
 from bench.law import Look, Representation, Rotation, atan2, cos, kernel, sin, sqrt
-from bench.law.euler import EulerChart, accelerate, angular_velocity, first_angle, generalized, rates
+from bench.law.euler import EulerChart, accelerate, angular_velocity, derivatives_of, first_angle, generalized, rates
 
 
 @kernel
@@ -45,38 +45,12 @@ def margin(R):
 
 
 @kernel
-def slopes(R, Rdot):
-    """Edot along Rdot, and 1/sin(beta) and its square."""
-    inverse = 1.0 / sqrt(R.a[0] * R.a[0] + R.a[1] * R.a[1])
-    inverse_square = inverse * inverse
-    Edot = (
-        (R.a[0] * Rdot.a[1] - R.a[1] * Rdot.a[0]) * inverse_square,
-        -Rdot.a[2] * inverse,
-        (R.o[2] * Rdot.n[2] - R.n[2] * Rdot.o[2]) * inverse_square,
-    )
-    return Edot, inverse, inverse_square
+def elements(R):
+    """Those that the angles are of: alpha = atan2(a_y, a_x), beta = asin(-a_z) + pi/2, gamma = atan2(o_z, -n_z)."""
+    return (R.a[0], R.a[1], -R.a[2], -R.n[2], R.o[2])
 
 
-@kernel
-def differentiate(R, Rdot):
-    """Edot, with alpha = atan2(a_y, a_x), beta = acos(a_z), gamma = atan2(o_z, -n_z) differentiated (3.5).
-
-    a stays a unit vector, so both pairs have the length sin(beta). Not finite on the pole.
-    """
-    return slopes(R, Rdot)[0]
-
-
-@kernel
-def differentiate_twice(R, Rdot, Rddot):
-    """Eddot, the same differentiated again."""
-    (alphadot, betadot, gammadot), inverse, inverse_square = slopes(R, Rdot)
-    growth = -2.0 * R.a[2] * Rdot.a[2]  # of sin(beta)^2 = 1 - a_z^2
-    return (
-        (R.a[0] * Rddot.a[1] - R.a[1] * Rddot.a[0] - growth * alphadot) * inverse_square,
-        -(Rddot.a[2] + R.a[2] * betadot * betadot) * inverse,
-        (R.o[2] * Rddot.n[2] - R.n[2] * Rddot.o[2] - growth * gammadot) * inverse_square,
-    )
-
+differentiate, differentiate_twice = derivatives_of(elements)
 
 REPRESENTATION = Representation(
     name="zyz-euler",
