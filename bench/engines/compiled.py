@@ -5,6 +5,7 @@ import functools
 import itertools
 import math
 import secrets
+import threading
 
 import numba
 from numba import float64, int64, types
@@ -63,6 +64,7 @@ INLINED = (
 reference to it; the chain's velocity took 60 ns, and takes 9."""
 
 _registered: set = set()
+_registering = threading.Lock()
 
 
 def _register_primitive(function):
@@ -76,11 +78,12 @@ def _register_primitive(function):
 
 def register_kernels() -> None:
     """Make every marked function known to numba; functions marked since the last call are added."""
-    for function in scalar.PRIMITIVES:
-        if function not in _registered:
-            _register_primitive(function)
-    for function in (*scalar.KERNELS, *verdict.COMPILABLE, *truth.COMPILABLE, *moving_goal.COMPILABLE):
-        register(function)
+    with _registering:
+        for function in scalar.PRIMITIVES:
+            if function not in _registered:
+                _register_primitive(function)
+        for function in (*scalar.KERNELS, *verdict.COMPILABLE, *truth.COMPILABLE, *moving_goal.COMPILABLE):
+            register(function)
 
 
 def register(function):
@@ -100,6 +103,19 @@ def compile_function(function, signature, cache: bool = True):
 def compile_callback(function, signature):
     """The function as C code calls it, by its `address`; cached on disk."""
     return numba.cfunc(signature, nopython=True, cache=True)(function)
+
+
+def made_once(make):
+    """A cache of what takes long to make: threads that need the same wait for the first, rather than make it again."""
+    made = functools.cache(make)
+    locks: dict[tuple, threading.Lock] = {}
+
+    @functools.wraps(make)
+    def asked(*words):
+        with locks.setdefault(words, threading.Lock()):
+            return made(*words)
+
+    return asked
 
 
 @contextlib.contextmanager

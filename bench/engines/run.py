@@ -1,14 +1,11 @@
 """One call for every engine: a contender on starts of a task, rows of numbers back."""
 
-import functools
-import threading
-
 import mujoco
 import numpy as np
 
 from bench.engines import ideal
 from bench.engines.binding import evaluation_of, memory_of, observer, plant_of
-from bench.engines.compiled import EVALUATE, compile_function, own_law
+from bench.engines.compiled import EVALUATE, compile_function, made_once, own_law
 from bench.engines.curve import Curves, blank_curves
 from bench.engines.episode import Settings, blank, numbers, start_rows
 from bench.engines.native import free_body as native
@@ -57,35 +54,19 @@ def run(
     return rows
 
 
-_locks: dict = {}
-
-
+@made_once
 def compiled_loop(engine: str, metrics: tuple):
-    """The loop of an engine, for all laws, compiled or taken from the disk cache.
-
-    Threads that need the same loop wait for the first of them, rather than compile it again.
-    """
-    with _locks.setdefault((engine, metrics), threading.Lock()):
-        return _compiled_loop(engine, metrics)
-
-
-@functools.cache
-def _compiled_loop(engine: str, metrics: tuple):
+    """The loop of an engine, for all laws, compiled or taken from the disk cache."""
     observe = observer(metrics)
     return native.episodes_of(observe) if engine == "native" else ideal.episodes_of(engine, observe)
 
 
+@made_once
 def evaluation(contender: Contender):
     """A contender as the loops call it, compiled or taken from the disk cache; a user's law is compiled anew.
 
     Errors:
         BadLaw: a user's law that the compiler cannot take.
     """
-    with _locks.setdefault(contender, threading.Lock()):
-        return _evaluation(contender)
-
-
-@functools.cache
-def _evaluation(contender: Contender):
     with own_law(contender.regulator.origin) as cache:
         return compile_function(evaluation_of(contender), EVALUATE, cache)

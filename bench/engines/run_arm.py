@@ -1,7 +1,6 @@
 """One call for both engines of arms: a contender on starts of a task and an arm, rows of numbers back."""
 
 import functools
-import threading
 from typing import NamedTuple
 
 import mujoco
@@ -11,7 +10,7 @@ import tasks
 from bench.control.resolved_acceleration import assembly
 from bench.engines.arm_episode import blank_arm, controls, joints
 from bench.engines.binding import margin_of, memory_of, observer, parts_for
-from bench.engines.compiled import compile_function, own_law
+from bench.engines.compiled import compile_function, made_once, own_law
 from bench.engines.curve import Curves, blank_curves
 from bench.engines.episode import Settings, numbers, start_rows
 from bench.engines.native import arm as native
@@ -102,38 +101,29 @@ def _model(task: str, arm: Arm, dt_s: float, integrator: str, variation: str) ->
     return model
 
 
-_lock = threading.Lock()
-
-
+@made_once
 def compiled_loop(metrics: tuple):
     """The loop with these metrics, for all contenders, compiled or taken from the disk cache."""
-    with _lock:
-        return _compiled_loop(metrics)
+    return native.episodes_of(observer(metrics))
 
 
 def pointers(contender: Contender) -> Pointers:
     """The three functions of a contender, compiled or taken from the disk cache; a user's law is compiled anew."""
     law = contender._replace(jacobian=None, inverse=None)
-    with _lock:
-        return Pointers(_assemble(contender._replace(inverse=None)), _resolve(contender.inverse), _margin(law))
+    return Pointers(_assemble(contender._replace(inverse=None)), _resolve(contender.inverse), _margin(law))
 
 
-@functools.cache
-def _compiled_loop(metrics: tuple):
-    return native.episodes_of(observer(metrics))
-
-
-@functools.cache
+@made_once
 def _assemble(contender: Contender):
     with own_law(contender.regulator.origin) as cache:
         return compile_function(assembly(parts_for(contender)), native.ASSEMBLE, cache)
 
 
-@functools.cache
+@made_once
 def _resolve(inverse):
     return compile_function(inverse.resolve, native.RESOLVE)
 
 
-@functools.cache
+@made_once
 def _margin(contender: Contender):
     return compile_function(margin_of(contender), native.MARGIN)

@@ -1,7 +1,5 @@
 """One call for both engines of contact: a controller on trials of a task and an arm, one record an episode back."""
 
-import functools
-import threading
 from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
@@ -10,7 +8,7 @@ import numpy as np
 
 from bench.control.contact_controller import Compliant, check_constants
 from bench.engines import contact_episode
-from bench.engines.compiled import compile_function
+from bench.engines.compiled import compile_function, made_once
 from bench.engines.contact_episode import USUAL, Conditions, Ended, blank, made, numbers
 from bench.engines.native import contact as native
 from bench.engines.native import trapped
@@ -101,23 +99,14 @@ def _episode(ready: Simulation, compliant: Compliant, task, arm: Arm, trial: Tri
     return made(record, failure, ticks, message, ready.data)
 
 
-_lock = threading.Lock()
-
-
 def pointer(compliant: Compliant):
     """The rows of a controller, compiled or taken from the disk cache."""
-    with _lock:
-        return _pointer(compliant._replace(form=""))
+    return _pointer(compliant._replace(form=""))
 
 
-@functools.cache
+@made_once
 def _pointer(compliant: Compliant):
     return compile_function(compliant.assemble, native.ASSEMBLE)
 
 
-def _loop():
-    with _lock:
-        return _compiled_loop()
-
-
-_compiled_loop = functools.cache(native.episode_loop)
+_loop = made_once(native.episode_loop)
