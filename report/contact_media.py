@@ -29,13 +29,13 @@ NEWTON_STEPS = 6  # from one frame to the next the hand moves by centimetres at 
 def seen(task: str, trial: str, controller: str) -> tuple[Puppet, Motion]:
     """One episode by the compiled engine, its record's lines, and a puppet at its beginning."""
     import tasks
-    from bench.control.registry import find_compliant
+    from bench.control.registry import find_controller
     from bench.engines.contact_episode import USUAL
     from bench.engines.run_contact import run
 
     arm, about = tasks.arm(ARM), tasks.contact_task(task)
     one = next(each for each in about.trials(arm) if each.id == trial or not trial)
-    ended = next(run("native", find_compliant(controller), about, arm, (one,)))
+    ended = next(run("native", find_controller(controller), about, arm, (one,)))
     return Puppet(task, one), Motion(USUAL.dt_s, ended.record)
 
 

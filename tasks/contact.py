@@ -33,34 +33,34 @@ OWN_FRAME = 0
 MOST_LEGS = 8
 
 
-class Order(NamedTuple):
-    """What a controller is told; along and about the axes of the base frame.
+class Specification(NamedTuple):
+    """What a controller shall do, along and about the axes of the base frame (Mason 1981; Raibert and Craig 1981).
 
-    held: of x, y, z and the turns about x, y, z, 1 if it is held at its place and 0 if it complies.
-    exerts: the force [N] and moment [N m] that the hand shall exert where it complies; 0 where it is held.
+    selection: of x, y, z and the turns about x, y, z, 1 if it is held at its place and 0 if it complies.
+    desired_wrench: the force [N] and moment [N m] that the hand shall exert where it complies; 0 where it is held.
     velocity: of the place at which the hand is held [m/s]; where it complies only an impedance's springs heed it.
     """
 
     name: str  # what complies, in words for a table: "z, about x and y"
-    held: tuple[int, int, int, int, int, int]
-    exerts: tuple[float, ...] = (0.0,) * 6
+    selection: tuple[int, int, int, int, int, int]
+    desired_wrench: tuple[float, ...] = (0.0,) * 6
     velocity: Vector = AT_REST
 
 
 class Trial(NamedTuple):
-    """One episode: where it begins, what surrounds the hand, and the order.
+    """One episode: where it begins, what surrounds the hand, and the specification.
 
     id: unique within its task and arm. pose: what a row of the results is about; trials that share it are measured
     together. goal_wxyz: the orientation to hold, hand to base. mount_wxyz: the hand's frame as the wrist's sees it.
     scene_pos, scene_wxyz: where the body "scene" of the surroundings stands, base frame.
     push: force [N] at the wrist and moment [N m] from outside, base frame, from the first tick on.
-    tilt: angle [rad] by which the surroundings differ from what the order supposes.
+    tilt: angle [rad] by which the surroundings differ from what the specification supposes.
     legs: instead of one push, several that follow each other, each for an equal part of the episode.
     """
 
     id: str
     pose: str
-    order: Order
+    specification: Specification
     q: tuple[float, ...]
     goal_wxyz: Quat
     mount_wxyz: Quat = IDENTITY

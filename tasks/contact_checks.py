@@ -1,6 +1,6 @@
 """What is refused before an episode in contact begins: what was given, what is allowed, the cure.
 
-An order may hold nothing (the hand is led by hand) or everything (nothing complies): unusual, and it has a meaning.
+A specification may hold nothing (the hand is led by hand) or everything (nothing complies): unusual, but meaningful.
 """
 
 from __future__ import annotations
@@ -12,29 +12,29 @@ import numpy as np
 
 from tasks.arm_model import Arm
 from tasks.base import BadValue
-from tasks.contact import AXES, MOST_LEGS, Order, Trial
+from tasks.contact import AXES, MOST_LEGS, Specification, Trial
 from tasks.contact_model import ContactModel
 from tasks.episode import UNIT_NORM_TOLERANCE
 
 
-def check_order(order: Order) -> None:
-    """BadValue if an order is none."""
-    what = f"order '{order.name}'"
-    if np.shape(order.held) != (6,) or any(one not in (0, 1) for one in order.held):
+def check_specification(specification: Specification) -> None:
+    """BadValue if a specification is none."""
+    what = f"specification '{specification.name}'"
+    if np.shape(specification.selection) != (6,) or any(one not in (0, 1) for one in specification.selection):
         raise BadValue(
-            f"{what}: held = {_on_one_line(order.held)} must be six of 0 and 1, for {', '.join(AXES)} "
-            "(the diagonal of the selection matrix: 1 is held, 0 complies)"
+            f"{what}: selection = {_on_one_line(specification.selection)} must be six of 0 and 1, for "
+            f"{', '.join(AXES)} (the diagonal of the selection matrix: 1 is held, 0 complies)"
         )
-    _check_numbers(f"{what}: exerts", order.exerts, 6, "N, N m")
-    _check_numbers(f"{what}: velocity", order.velocity, 3, "m/s")
-    for axis, held, exerted in zip(AXES, order.held, order.exerts, strict=True):
+    _check_numbers(f"{what}: desired_wrench", specification.desired_wrench, 6, "N, N m")
+    _check_numbers(f"{what}: velocity", specification.velocity, 3, "m/s")
+    for axis, held, exerted in zip(AXES, specification.selection, specification.desired_wrench, strict=True):
         if held and exerted:
             raise BadValue(f"{what}: {axis} is held and shall exert {exerted:g} at once (release it or exert 0)")
 
 
 def check_trial(trial: Trial, arm: Arm) -> None:
     """BadValue if no episode of this arm can be made of a trial."""
-    check_order(trial.order)
+    check_specification(trial.specification)
     what = f"trial '{trial.id}'"
     _check_numbers(f"{what}: q", trial.q, arm.joints, "rad", f", one for each joint of arm '{arm.name}'")
     for i, (angle, lower, upper) in enumerate(zip(trial.q, arm.lower, arm.upper, strict=True)):

@@ -7,7 +7,7 @@ import tasks
 from bench.cli import options
 from bench.cli.screen import console, frame_table
 from bench.contenders import combinations
-from bench.control.registry import find_compliant
+from bench.control.registry import find_controller
 from bench.errors import Incompatible
 from bench.experiments.suites import SUITES
 from bench.law.contender import Contender
@@ -72,7 +72,7 @@ def _in_contact(words: tuple[str, ...]) -> pd.DataFrame:
     """The costs of the controllers of these names."""
     from bench.counting.in_contact import rows_in_contact
 
-    controllers = [find_compliant(word) for word in dict.fromkeys(words)]
+    controllers = [find_controller(word) for word in dict.fromkeys(words)]
     return pd.DataFrame([row for one in controllers for row in rows_in_contact(one)])
 
 

@@ -119,13 +119,13 @@ def _arms() -> str:
 
 def _contact() -> str:
     import tasks
-    from bench.control.registry import find_compliant
+    from bench.control.registry import find_controller
     from bench.engines.run_contact import run
     from bench.experiments.contact import can_do
     from tasks.arm import arms
     from tasks.base import BadArm
 
-    task, one = tasks.contact_task("surface-alignment"), find_compliant("hybrid-base+inverse")
+    task, one = tasks.contact_task("surface-alignment"), find_controller("hybrid-base+inverse")
     able = [arm for arm in arms().values() if not isinstance(arm, BadArm) and can_do(task, arm)]
     if not able:
         raise RuntimeError("no arm has six joints and a site 'wrist'. Cure: add the site to an arm in tasks/arms")

@@ -16,7 +16,7 @@ from bench.contenders.registry import (
     known_representations,
 )
 from bench.control.contact_controller import HYBRIDS
-from bench.control.registry import all_compliants
+from bench.control.registry import all_controllers
 from bench.errors import UnknownWord
 from bench.experiments.contact import can_do
 from bench.experiments.experiment import known_experiments
@@ -84,7 +84,7 @@ def _inverses(own):
 
 
 def _controllers(own):
-    every = all_compliants()
+    every = all_controllers()
     titles = {one.law: f"impedance: {one.impedance.title}" for one in every if one.impedance}
 
     def row(law):

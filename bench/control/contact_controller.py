@@ -1,4 +1,4 @@
-"""Compliant controllers: what takes part in the tasks of contact, and the orders they are given.
+"""Contact controllers: what takes part in the tasks of contact.
 
 hybrid-base+inverse               along the axes of the base frame
 hybrid-rate+inverse               the same; turns that are held are held by their rate alone
@@ -36,7 +36,7 @@ HYBRIDS = {
 """Laws of hybrid control, and what each holds and complies along."""
 
 
-class Compliant(NamedTuple):
+class ContactController(NamedTuple):
     """A controller in contact.
 
     law: one of HYBRIDS, or "impedance-" and the name of an impedance. form: how a hybrid's rows become motion of the
@@ -68,18 +68,18 @@ class Compliant(NamedTuple):
         """Whether moments become generalized forces by (3.12); the negative control takes them as they are."""
         return self.law != "hybrid-unconverted"
 
-    def held(self, order) -> tuple[float, ...]:
+    def selection(self, specification) -> tuple[float, ...]:
         """Of each of its rows 1.0 if it is held, 0.0 if it complies; an impedance holds all, by its springs."""
         if self.impedance is not None:
             return (1.0,) * 6
-        turns = order.held[3:]
+        turns = specification.selection[3:]
         if self.representation is not None:
             of_coordinate = dict(zip(hybrid_control.axes_of(self.representation), turns, strict=True))
             turns = tuple(of_coordinate[k] for k in range(3))
-        return tuple(map(float, (*order.held[:3], *turns)))
+        return tuple(map(float, (*specification.selection[:3], *turns)))
 
 
-def hybrid(law: str, form: str, representation: Representation | None = None) -> Compliant:
+def hybrid(law: str, form: str, representation: Representation | None = None) -> ContactController:
     """A hybrid controller, or refuse with the reason.
 
     Errors:
@@ -97,10 +97,10 @@ def hybrid(law: str, form: str, representation: Representation | None = None) ->
         raise Incompatible(f"'{law}' selects along axes and takes no representation (try: {law}+{form})")
     if representation is not None:
         hybrid_control.axes_of(representation)
-    return Compliant(law, representation, form)
+    return ContactController(law, representation, form)
 
 
-def springy(one: Impedance, representation: Representation | None = None) -> Compliant:
+def impedance_controller(one: Impedance, representation: Representation | None = None) -> ContactController:
     """An impedance controller, or refuse with the reason.
 
     Errors:
@@ -113,7 +113,7 @@ def springy(one: Impedance, representation: Representation | None = None) -> Com
         raise Incompatible(f"'{word}' takes no representation (omit '{representation.name}')")
     if representation is not None:
         hybrid_control.axes_of(representation)
-    return Compliant(word, representation, impedance=one)
+    return ContactController(word, representation, impedance=one)
 
 
 def check_constants(gains: Gains, touch: ContactParameters) -> None:

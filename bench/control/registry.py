@@ -1,11 +1,11 @@
 """Every controller in contact there is: hybrids in both forms, and the impedances that were found."""
 
 from bench.contenders.registry import known_impedances, known_representations, representation
-from bench.control.contact_controller import ALONG_AXES, FORMS, HYBRIDS, Compliant, hybrid, springy
+from bench.control.contact_controller import ALONG_AXES, FORMS, HYBRIDS, ContactController, hybrid, impedance_controller
 from bench.errors import Incompatible, UnknownWord
 
 
-def all_compliants() -> list[Compliant]:
+def all_controllers() -> list[ContactController]:
     """Every hybrid controller in both forms, then every impedance; each in every representation that it takes."""
     along = [one for one in known_representations().values() if one.about is not None]
     found = []
@@ -13,11 +13,11 @@ def all_compliants() -> list[Compliant]:
         for one in (None,) if law in ALONG_AXES else along:
             found += [hybrid(law, form, one) for form in FORMS]
     for impedance in known_impedances().values():
-        found += [springy(impedance, one) for one in (along if impedance.law_in else (None,))]
+        found += [impedance_controller(impedance, one) for one in (along if impedance.law_in else (None,))]
     return found
 
 
-def find_compliant(word: str) -> Compliant:
+def find_controller(word: str) -> ContactController:
     """`law[/representation][+form]`, as the command line writes a controller in contact.
 
     Errors:
@@ -36,4 +36,4 @@ def find_compliant(word: str) -> Compliant:
         return one
     if plus:
         raise Incompatible(f"'{word}': an impedance has one way to the joints (omit '+{form}')")
-    return springy(springs[law], along)
+    return impedance_controller(springs[law], along)

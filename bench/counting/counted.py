@@ -170,9 +170,7 @@ class Counted:
     __ne__ = _refused("x != y", "compare with < <= > >=")
     __hash__ = _refused("a number as a key", "keep numbers in tuples")
     __bool__ = _refused("a number as a condition", "write the comparison, such as x > 0.0")
-    __float__ = _refused(
-        "math, numpy or float() of a number", "call sqrt, sin, cos, atan2, acos of bench.law.scalar"
-    )
+    __float__ = _refused("math, numpy or float() of a number", "call sqrt, sin, cos, atan2, acos of bench.law.scalar")
     __int__ = __index__ = __complex__ = __float__
     __round__ = __trunc__ = __floor__ = __ceil__ = _refused("rounding", "write it with comparisons")
     __pow__ = __rpow__ = _refused("x ** y", "write x * x, or sqrt(x) of bench.law.scalar")

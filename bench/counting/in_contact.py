@@ -8,7 +8,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from bench.control.contact_controller import Compliant
+from bench.control.contact_controller import ContactController
 from bench.control.hybrid import INVERSE, PROJECTED, comply
 from bench.control.setpoint import TOUCH, Setpoint
 from bench.counting.costs import BRANCHES, Call, Cost, flops
@@ -16,28 +16,28 @@ from bench.counting.counted import TOTAL, Tally
 from bench.counting.on_arms import ArmState, arm_states, checked, median_and_worst
 from bench.counting.states import GAINS
 from bench.engines.contact_episode import room, rows
-from tasks.contact import Order
+from tasks.contact import Specification
 
-TILTING = Order("about x and y", (1, 1, 1, 0, 0, 1))
+TILTING = Specification("about x and y", (1, 1, 1, 0, 0, 1))
 """Two compliant turns, the paper's case. What complies costs five operations, what is held one; of the projected form
 what is held costs a pseudo-inverse of so many rows."""
 
 SEED = 61
 
 
-def cost_in_contact(controller: Compliant, order: Order = TILTING) -> Cost:
+def cost_in_contact(controller: ContactController, specification: Specification = TILTING) -> Cost:
     """Count a controller over all states of an arm of six joints; typical is the median.
 
     Errors:
         OutsideDialect: it uses what cannot be counted. BadLaw: counted it commands other torques than with floats.
     """
-    held, draw = controller.held(order), np.random.default_rng(SEED)
+    held, draw = controller.selection(specification), np.random.default_rng(SEED)
     with np.errstate(all="ignore"):
         calls = [_call(controller, held, state, draw) for state in arm_states(6)]
     return median_and_worst(controller, calls)
 
 
-def rows_in_contact(controller: Compliant) -> Iterator[dict]:
+def rows_in_contact(controller: ContactController) -> Iterator[dict]:
     """A line for each branch and stage of a controller's cost."""
     cost = cost_in_contact(controller)
     for branch, counts in zip(BRANCHES, (cost.typical, cost.worst), strict=True):
@@ -48,7 +48,7 @@ def rows_in_contact(controller: Compliant) -> Iterator[dict]:
             }  # fmt: skip
 
 
-def _call(controller: Compliant, held, state: ArmState, draw) -> Call:
+def _call(controller: ContactController, held, state: ArmState, draw) -> Call:
     f, m, v_d, f_d, m_d = (tuple(three) for three in draw.normal(size=(5, 3)))
     wish = Setpoint(state.goal.R, state.p_d, v_d, f_d, m_d)
     given, tally = (state.chain, wish, f, m, GAINS, TOUCH, state.D, state.fg), Tally()

@@ -13,7 +13,7 @@ import mujoco
 import numpy as np
 
 import tasks
-from bench.control.contact_controller import Compliant
+from bench.control.contact_controller import ContactController
 from bench.control.resolved_acceleration import Parts, assembly, control, parts_of
 from bench.counting.costs import Call, Cost, bits, counted, rows_of, size
 from bench.counting.counted import Counted, OutsideDialect, Tally
@@ -91,7 +91,7 @@ def cost_on_arm(contender: Contender, joints: int) -> Cost:
     return median_and_worst(contender, calls)
 
 
-def median_and_worst(one: Contender | Compliant, calls: list[Call]) -> Cost:
+def median_and_worst(one: Contender | ContactController, calls: list[Call]) -> Cost:
     """The cost that these calls show."""
     ranked = sorted((call.counts for call in calls if call.is_typical), key=size)
     typical = ranked[len(ranked) // 2]

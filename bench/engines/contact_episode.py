@@ -5,7 +5,7 @@ from typing import Any, NamedTuple
 import mujoco
 import numpy as np
 
-from bench.control.contact_controller import FORMS, Compliant
+from bench.control.contact_controller import FORMS, ContactController
 from bench.control.setpoint import TOUCH, ContactBuffers, ContactParameters, Rows
 from bench.law.contender import PAPERS_GAINS, Gains
 from bench.law.resolved_motion import Scratch
@@ -29,7 +29,7 @@ scene [m], angle of the scene's joint [rad], largest torque over its rated one. 
 
 
 class Numbers(NamedTuple):
-    """What a loop needs of an episode besides the models; see `Order`, `ContactParameters`. legs: successive pushes."""
+    """What a loop needs of an episode besides the models; see `Specification`, `ContactParameters`. legs: pushes."""
 
     dt: float
     ticks: int
@@ -66,19 +66,19 @@ USUAL = Conditions()
 """Implicit in the joints' own damping, as MuJoCo recommends for contacts."""
 
 
-def numbers(compliant: Compliant, trial: Trial, rated, horizon_s: float, conditions: Conditions) -> Numbers:
+def numbers(controller: ContactController, trial: Trial, rated, horizon_s: float, conditions: Conditions) -> Numbers:
     """The numbers of one trial for one controller."""
-    order = trial.order
-    f_d, m_d = tuple(map(float, order.exerts[:3])), tuple(map(float, order.exerts[3:]))
+    specification = trial.specification
+    f_d, m_d = tuple(map(float, specification.desired_wrench[:3])), tuple(map(float, specification.desired_wrench[3:]))
     return Numbers(
         conditions.dt_s,
         ticks(horizon_s, conditions.dt_s),
-        FORMS.index(compliant.form) if compliant.form else 0,
+        FORMS.index(controller.form) if controller.form else 0,
         RULES.speed_limit**2,
         RULES.torque_limit**2,
-        compliant.held(order),
+        controller.selection(specification),
         tuple(map(float, trial.goal_wxyz)),
-        tuple(map(float, order.velocity)),
+        tuple(map(float, specification.velocity)),
         f_d,
         m_d,
         tuple(map(float, rated)),

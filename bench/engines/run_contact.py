@@ -6,7 +6,7 @@ from typing import NamedTuple
 import mujoco
 import numpy as np
 
-from bench.control.contact_controller import Compliant, check_constants
+from bench.control.contact_controller import ContactController, check_constants
 from bench.engines import contact_episode
 from bench.engines.compiled import compile_function, made_once
 from bench.engines.contact_episode import USUAL, Conditions, Ended, blank, made, numbers
@@ -36,7 +36,7 @@ class Simulation(NamedTuple):
 
 def run(
     engine: str,
-    compliant: Compliant,
+    controller: ContactController,
     task: ContactTask,
     arm: Arm,
     trials: Iterable[Trial],
@@ -54,9 +54,9 @@ def run(
     trials = tuple(trials)
     _check(engine, task, arm, trials, conditions, contact)
     if engine == "reference":
-        return (reference.run(compliant, task, arm, trial, conditions, contact) for trial in trials)
+        return (reference.run(controller, task, arm, trial, conditions, contact) for trial in trials)
     ready = simulation(task, arm, conditions, contact)
-    return (_episode(ready, compliant, task, arm, trial, conditions) for trial in trials)
+    return (_episode(ready, controller, task, arm, trial, conditions) for trial in trials)
 
 
 def _check(
@@ -86,27 +86,29 @@ def simulation(task: ContactTask, arm: Arm, conditions: Conditions, contact: Con
     return Simulation(model, data, seen, work, arrays[-1], (batch, asked, arrays))
 
 
-def _episode(ready: Simulation, compliant: Compliant, task, arm: Arm, trial: Trial, conditions: Conditions) -> Ended:
+def _episode(
+    ready: Simulation, controller: ContactController, task, arm: Arm, trial: Trial, conditions: Conditions
+) -> Ended:
     mujoco.mj_resetData(ready.model, ready.data)
     prepare(ready.model, ready.data, trial)
     ready.legs[: len(trial.pushes)] = trial.pushes
-    shape = numbers(compliant, trial, arm.rated, task.horizon_s, conditions)
+    shape = numbers(controller, trial, arm.rated, task.horizon_s, conditions)
     record = blank(shape)
     failure, ticks = _loop()(
-        pointer(compliant), ready.view, ready.work, shape, conditions.gains, conditions.touch, record
+        pointer(controller), ready.view, ready.work, shape, conditions.gains, conditions.touch, record
     )
     message = trapped.batch().error() if failure == contact_episode.BROKEN else ""
     return made(record, failure, ticks, message, ready.data)
 
 
-def pointer(compliant: Compliant):
+def pointer(controller: ContactController):
     """The rows of a controller, compiled or taken from the disk cache."""
-    return _pointer(compliant._replace(form=""))
+    return _pointer(controller._replace(form=""))
 
 
 @made_once
-def _pointer(compliant: Compliant):
-    return compile_function(compliant.assemble, native.ASSEMBLE)
+def _pointer(controller: ContactController):
+    return compile_function(controller.assemble, native.ASSEMBLE)
 
 
 _loop = made_once(native.episode_loop)

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import tasks
 from bench.contenders.registry import known_inverses, known_jacobians
-from bench.control.registry import find_compliant
+from bench.control.registry import find_controller
 from bench.errors import BadNumber, Incompatible, UnknownWord
 from bench.experiments.suites import ENGINES
 from bench.law.contender import Gains
@@ -51,7 +51,7 @@ class Choice:
             for word in words:
                 check_word(kind, word, list(allowed))
         for word in once.controllers:
-            find_compliant(word)
+            find_controller(word)
         once._check_contact()
         once._check_axes()
         bodies = [word for word in once.tasks if word in tasks.names() and not tasks.is_for_arms(word)]

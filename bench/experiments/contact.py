@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING
 import pandas as pd
 
 import tasks
-from bench.control.contact_controller import Compliant
-from bench.control.registry import all_compliants, find_compliant
+from bench.control.contact_controller import ContactController
+from bench.control.registry import all_controllers, find_controller
 from bench.errors import Incompatible
 from bench.experiments.choice import Choice
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit
@@ -66,9 +66,9 @@ def _tasks(choice: Choice) -> list[ContactTask]:
     return [tasks.contact_task(word) for word in named or tasks.contact_names()]
 
 
-def _controllers(part: InContact, choice: Choice) -> list[Compliant]:
+def _controllers(part: InContact, choice: Choice) -> list[ContactController]:
     words = choice.controllers or part.controllers
-    found = [find_compliant(word) for word in words] or all_compliants()
+    found = [find_controller(word) for word in words] or all_controllers()
     if choice.representations:
         found = [one for one in found if one.representation and one.representation.name in choice.representations]
     return found
@@ -98,7 +98,7 @@ def can_do(task: ContactTask, arm: Arm, or_refuse: bool = False) -> bool:
 
 
 def cut(
-    one: Compliant,
+    one: ContactController,
     task: ContactTask,
     arm: Arm,
     size: int | None,
@@ -125,7 +125,7 @@ def cut(
         )
 
 
-def poses_of(one: Compliant, task: ContactTask, arm: Arm, dense: bool) -> tuple[tuple[Trial, ...], ...]:
+def poses_of(one: ContactController, task: ContactTask, arm: Arm, dense: bool) -> tuple[tuple[Trial, ...], ...]:
     """The trials that a controller is set, by pose, in the task's order.
 
     To an impedance, which heeds no selection, trials that differ in nothing else are the same, and it is set the first.
@@ -146,7 +146,8 @@ def _poses(task: ContactTask, arm: Arm, dense: bool, is_impedance: bool) -> tupl
 def _without_selection(trials: tuple[Trial, ...]) -> Iterator[Trial]:
     seen = set()
     for trial in trials:
-        what = trial._replace(id="", pose="", order=trial.order._replace(name="", held=(1, 1, 1, 1, 1, 1)))
+        without = trial.specification._replace(name="", selection=(1, 1, 1, 1, 1, 1))
+        what = trial._replace(id="", pose="", specification=without)
         if what not in seen:
             seen.add(what)
             yield trial
@@ -157,7 +158,7 @@ def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
     from bench.engines.contact_episode import Conditions
     from bench.experiments.rows.contact import frame
 
-    one, arm = find_compliant(unit.contender), tasks.arm(unit.arm)
+    one, arm = find_controller(unit.contender), tasks.arm(unit.arm)
     task = tasks.contact_task(unit.task)
     some = poses_of(one, task, arm, unit.selector == DENSE)[unit.first : unit.first + unit.count]
     conditions = Conditions(settings.gains, dt_s=settings.dt_s, integrator=settings.contact_integrator)

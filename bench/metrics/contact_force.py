@@ -36,11 +36,11 @@ def moment_error(pose: Pose) -> np.ndarray:
 
 
 def _error(pose: Pose, felt: np.ndarray, kind: slice) -> np.ndarray:
-    order, touched = pose.first.trial.order, from_first_touch(pose)
-    complies = np.array(order.held[kind]) == 0
+    specification, touched = pose.first.trial.specification, from_first_touch(pose)
+    complies = np.array(specification.selection[kind]) == 0
     if touched is None or not complies.any():
         return NOTHING
-    return (felt[touched] + np.array(order.exerts[kind])) * complies
+    return (felt[touched] + np.array(specification.desired_wrench[kind])) * complies
 
 
 def rms(error: np.ndarray) -> float:

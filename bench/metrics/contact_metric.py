@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bench.control.contact_controller import Compliant
+from bench.control.contact_controller import ContactController
 from bench.engines.contact_episode import FORCE, GAP, LOAD, MOMENT, OMEGA, TIME, TURNED, Ended, P, R
 from tasks.arm_model import Arm
 from tasks.contact import ContactTask, Trial
@@ -37,7 +37,7 @@ class Pose(NamedTuple):
 
     task: ContactTask
     arm: Arm
-    controller: Compliant
+    controller: ContactController
     responses: tuple[Response, ...]
 
     @property

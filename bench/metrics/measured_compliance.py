@@ -61,8 +61,8 @@ def compliance(pose: Pose) -> np.ndarray:
 
 
 def held(pose: Pose) -> np.ndarray:
-    """Of the axes x, y and z whether the order says that the hand shall not turn about them."""
-    return np.array(pose.first.trial.order.held[3:]) == 1
+    """Of the axes x, y and z whether the specification says that the hand shall not turn about them."""
+    return np.array(pose.first.trial.specification.selection[3:]) == 1
 
 
 def complying(pose: Pose) -> np.ndarray:

@@ -38,11 +38,11 @@ def compiling_ahead(contenders: Iterable[str]) -> Iterator[None]:
 def compile_one(name: str) -> None:
     """Compile a contender of ours into the cache."""
     from bench.contenders.registry import find_contender
-    from bench.control.registry import all_compliants
+    from bench.control.registry import all_controllers
     from bench.engines import run_arm, run_contact
     from bench.engines.run import evaluation
 
-    touching = {one.name: one for one in all_compliants()}
+    touching = {one.name: one for one in all_controllers()}
     if name in touching:
         run_contact.pointer(touching[name])
     elif "@" in name:

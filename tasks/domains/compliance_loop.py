@@ -14,14 +14,14 @@ import functools
 import math
 
 from tasks.arm_model import Arm
-from tasks.contact import ContactTask, Order, Trial
+from tasks.contact import ContactTask, Specification, Trial
 from tasks.domains import wrench_probe
 from tasks.hand_frames import mounts, posture
 from tasks.rotations import zyx
 
 # N m: with the controllers' usual constants a quarter of the horizon turns the hand by about 0.25 rad.
 PUSH = 2.5
-ORDER = Order("about x and y", (1, 1, 1, 0, 0, 1))
+SPECIFICATION = Specification("about x and y", (1, 1, 1, 0, 0, 1))
 LOOPS = {"x first": ((1, 0), (0, 1), (-1, 0), (0, -1)), "y first": ((0, 1), (1, 0), (0, -1), (-1, 0))}
 BETAS = (0, 15, 30, 45, 60, 75)
 DENSE_BETAS = tuple(range(-80, 81, 5))
@@ -36,7 +36,7 @@ def trials(arm: Arm, dense: bool = False) -> tuple[Trial, ...]:
         for word, way in LOOPS.items():
             name = f"beta{beta:+d}, {word}"
             legs = tuple((0.0, 0.0, 0.0, PUSH * x, PUSH * y, 0.0) for x, y in way)
-            found.append(Trial(name, name, ORDER, q, goal, mounts(arm, q, goal), legs=legs))
+            found.append(Trial(name, name, SPECIFICATION, q, goal, mounts(arm, q, goal), legs=legs))
     return tuple(found)
 
 

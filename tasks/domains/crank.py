@@ -1,8 +1,8 @@
 """A hand turns a crank on the wall: one translation and the yaw are held, and the hinge decides the rest.
 
 The hand has the handle fast in its grip (a weld), so that it turns with the crank. The hinge is level and along no
-base axis. So its motion keeps the yaw, and an order that holds one translation, moving, and the yaw asks for just what
-the hinge allows; compliance along the other axes of the base must be what turns the hand. What a controller holds
+base axis. So its motion keeps the yaw, and to hold one translation, moving, and the yaw asks for just what the hinge
+allows; compliance along the other axes of the base must be what turns the hand. What a controller holds
 instead of the yaw it holds against the hinge.
 
 The crank begins leaning over by START to one side and is turned to the other. Trials differ in the azimuth of the
@@ -19,7 +19,7 @@ import itertools
 import math
 
 from tasks.arm_model import Arm
-from tasks.contact import ContactTask, Order, Surroundings, Trial, attribute
+from tasks.contact import ContactTask, Specification, Surroundings, Trial, attribute
 from tasks.hand_frames import at, mounts, posture, wrist
 from tasks.rotations import columns, multiply, zyx
 
@@ -62,9 +62,11 @@ def trials(arm: Arm, dense: bool = False) -> tuple[Trial, ...]:
         goal = zyx(0.0, math.radians(beta), 0.0)
         hub = at(arm, q, (TIP[0], TIP[1] + ASIDE, TIP[2] + ABOVE))
         speed = math.copysign(SPEED, azimuth)
-        order = Order("y, z, about x and y", (1, 0, 0, 0, 0, 1), velocity=(speed, 0.0, 0.0))
+        specification = Specification("y, z, about x and y", (1, 0, 0, 0, 0, 1), velocity=(speed, 0.0, 0.0))
         pose = f"azimuth {azimuth}, beta{beta:+d}"
-        found.append(Trial(pose, pose, order, q, goal, mounts(arm, q, goal), hub, multiply(wrist(arm, q)[1], UP)))
+        found.append(
+            Trial(pose, pose, specification, q, goal, mounts(arm, q, goal), hub, multiply(wrist(arm, q)[1], UP))
+        )
     return tuple(found)
 
 

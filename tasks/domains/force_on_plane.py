@@ -16,7 +16,7 @@ import itertools
 import math
 
 from tasks.arm_model import Arm
-from tasks.contact import ContactTask, Order, Surroundings, Trial
+from tasks.contact import ContactTask, Specification, Surroundings, Trial
 from tasks.hand_frames import at, leaning, mounts, posture
 from tasks.rotations import columns, zyx
 
@@ -24,7 +24,9 @@ RADIUS = 0.01  # of the tip [m]
 TIP = (0.0, 0.0, 0.14)  # its middle, in the wrist's frame [m]
 CLEARANCE = 0.001  # m
 # 0.05 m/s, not along a base axis
-ORDER = Order("z", (1, 1, 0, 1, 1, 1), exerts=(0.0, 0.0, -15.0, 0.0, 0.0, 0.0), velocity=(0.04, 0.03, 0.0))
+SPECIFICATION = Specification(
+    "z", (1, 1, 0, 1, 1, 1), desired_wrench=(0.0, 0.0, -15.0, 0.0, 0.0, 0.0), velocity=(0.04, 0.03, 0.0)
+)
 # degrees: by how much the plane is tilted, and the azimuth of the axis it is tilted about: to climb, fall and lean
 PLANES = ((0, 0), (5, -45), (5, 135), (10, 35))
 DENSE_PLANES = ((0, 0), *itertools.product((2, 5, 10, 15), range(0, 360, 45)))
@@ -53,7 +55,9 @@ def trials(arm: Arm, dense: bool = False) -> tuple[Trial, ...]:
         plane, goal = leaning(tilt, azimuth), zyx(0.0, math.radians(beta), 0.0)
         place = (x, y, z - (RADIUS + CLEARANCE) / columns(plane)[2][2])
         pose = f"tilt {tilt} about {azimuth}, beta{beta:+d}"
-        found.append(Trial(pose, pose, ORDER, q, goal, mounts(arm, q, goal), place, plane, tilt=math.radians(tilt)))
+        found.append(
+            Trial(pose, pose, SPECIFICATION, q, goal, mounts(arm, q, goal), place, plane, tilt=math.radians(tilt))
+        )
     return tuple(found)
 
 

@@ -20,7 +20,7 @@ import math
 
 from tasks.arm_model import Arm
 from tasks.base import Vector
-from tasks.contact import ContactTask, Order, Surroundings, Trial, attribute
+from tasks.contact import ContactTask, Specification, Surroundings, Trial, attribute
 from tasks.hand_frames import at, leaning, mounts, plus, posture, wrist
 from tasks.rotations import about, multiply, to_base, zyx
 
@@ -32,10 +32,10 @@ WALL = 0.01  # thick [m]
 TIP = (0.0, 0.0, 0.14)  # middle of the peg's lower face, in the wrist's frame [m]
 CLEARANCE = 0.001  # over the mouth, of the peg's lowest corner at the start [m]
 OFFSET = (0.0015, -0.001)  # of the peg from the hole's axis at the start, along the hole's x and y [m]
-ORDER = Order(
+SPECIFICATION = Specification(
     "x, y, z, about x and y",
     (0, 0, 0, 0, 0, 1),
-    exerts=(0.0, 0.0, -30.0, 0.0, 0.0, 0.0),
+    desired_wrench=(0.0, 0.0, -30.0, 0.0, 0.0, 0.0),
     velocity=(0.0, 0.0, -0.016),  # for springs: through the bottom by the end
 )
 # degrees: by how much the hole leans, and the azimuth of the axis it is turned about
@@ -90,7 +90,9 @@ def trials(arm: Arm, dense: bool = False) -> tuple[Trial, ...]:
         over = CLEARANCE + 2 * PEG * math.sin(math.radians(tilt))  # no corner is lower than that
         place = plus(tip, to_base(hole, (-OFFSET[0], -OFFSET[1], -over)))
         pose = f"tilt {tilt} about {azimuth}, beta{beta:+d}"
-        found.append(Trial(pose, pose, ORDER, q, goal, mounts(arm, q, goal), place, hole, tilt=math.radians(tilt)))
+        found.append(
+            Trial(pose, pose, SPECIFICATION, q, goal, mounts(arm, q, goal), place, hole, tilt=math.radians(tilt))
+        )
     return tuple(found)
 
 

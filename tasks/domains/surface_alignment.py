@@ -19,14 +19,14 @@ import itertools
 import math
 
 from tasks.arm_model import Arm
-from tasks.contact import ContactTask, Order, Surroundings, Trial
+from tasks.contact import ContactTask, Specification, Surroundings, Trial
 from tasks.hand_frames import at, leaning, mounts, posture, wrist
 from tasks.rotations import columns, zyx
 
 SIDE = 0.1  # of the face [m]
 TIP = (0.0, 0.0, 0.12)  # middle of the face, in the wrist's frame [m]
 CLEARANCE = 0.001  # of the lowest corner at the start [m]
-ORDER = Order("z, about x and y", (1, 1, 0, 0, 0, 1), exerts=(0.0, 0.0, -20.0, 0.0, 0.0, 0.0))
+SPECIFICATION = Specification("z, about x and y", (1, 1, 0, 0, 0, 1), desired_wrench=(0.0, 0.0, -20.0, 0.0, 0.0, 0.0))
 # degrees: by how much the plate is tilted, and the azimuth of the axis it is tilted about
 PLATES = ((5, 90), (10, 30), (20, 0), (20, 120))
 DENSE_PLATES = tuple(itertools.product((5, 10, 15, 20), range(0, 360, 45)))
@@ -55,7 +55,9 @@ def trials(arm: Arm, dense: bool = False) -> tuple[Trial, ...]:
         plate, goal = leaning(tilt, azimuth), zyx(0.0, math.radians(beta), 0.0)
         pose = f"tilt {tilt} about {azimuth}, beta{beta:+d}"
         place = _below(arm, q, columns(plate)[2])
-        found.append(Trial(pose, pose, ORDER, q, goal, mounts(arm, q, goal), place, plate, tilt=math.radians(tilt)))
+        found.append(
+            Trial(pose, pose, SPECIFICATION, q, goal, mounts(arm, q, goal), place, plate, tilt=math.radians(tilt))
+        )
     return tuple(found)
 
 

@@ -19,7 +19,7 @@ from typing import NamedTuple
 
 from tasks.arm_model import Arm
 from tasks.base import AT_REST
-from tasks.contact import ContactTask, Order, Surroundings, Trial
+from tasks.contact import ContactTask, Specification, Surroundings, Trial
 from tasks.hand_frames import mounts, posture
 from tasks.rotations import zyx
 
@@ -35,8 +35,8 @@ MOMENTS = {
     "-z": (0.0, 0.0, -PUSH),
 }
 # The single axes and pairs that comply, everything else being held.
-ORDERS = tuple(
-    Order(name, (1, 1, 1, *held))
+SPECIFICATIONS = tuple(
+    Specification(name, (1, 1, 1, *held))
     for name, held in (
         ("about x", (0, 1, 1)),
         ("about y", (1, 0, 1)),
@@ -46,26 +46,26 @@ ORDERS = tuple(
         ("about z and x", (0, 1, 0)),
     )
 )
-FEWER_ORDERS = (ORDERS[0], ORDERS[3])
+FEWER_SPECIFICATIONS = (SPECIFICATIONS[0], SPECIFICATIONS[3])
 
 
 class Grid(NamedTuple):
-    """Frames of the hand, each with every order: turns (alpha, gamma) and betas in degrees."""
+    """Frames of the hand, each with every specification: turns (alpha, gamma) and betas in degrees."""
 
     turns: tuple[tuple[int, int], ...]
     betas: tuple[int, ...]
-    orders: tuple[Order, ...]
+    specifications: tuple[Specification, ...]
 
 
 # evenly, and then towards the poles of Z-Y-X and of Z-Y-Z; elsewhere to see that alpha and gamma matter
 GRIDS = (
-    Grid(((0, 0),), (0, 1, 5, 15, 30, 45, 60, 75, 85, 89, 90), ORDERS),
-    Grid(((35, -20),), (45,), ORDERS),
-    Grid(((35, -20),), (15, 75), FEWER_ORDERS),
+    Grid(((0, 0),), (0, 1, 5, 15, 30, 45, 60, 75, 85, 89, 90), SPECIFICATIONS),
+    Grid(((35, -20),), (45,), SPECIFICATIONS),
+    Grid(((35, -20),), (15, 75), FEWER_SPECIFICATIONS),
 )
 DENSE_GRIDS = (
-    Grid(((0, 0), (35, -20)), tuple(sorted({*range(-90, 91, 3), -89, -1, 1, 89})), ORDERS),
-    Grid(((90, 0), (0, 90), (-120, 60)), tuple(range(-90, 91, 5)), FEWER_ORDERS),
+    Grid(((0, 0), (35, -20)), tuple(sorted({*range(-90, 91, 3), -89, -1, 1, 89})), SPECIFICATIONS),
+    Grid(((90, 0), (0, 90), (-120, 60)), tuple(range(-90, 91, 5)), FEWER_SPECIFICATIONS),
 )
 
 
@@ -77,26 +77,28 @@ def surroundings(arm: Arm) -> Surroundings:
 
 @functools.cache
 def trials(arm: Arm, dense: bool = False) -> tuple[Trial, ...]:
-    """Six moments, about x, y and z both ways, for every order and frame of the hand, on coarse or dense grids."""
+    """Six moments, about x, y and z both ways, for every selection and frame of the hand, on coarse or dense grids."""
     q = posture(arm)
     return tuple(
         trial
         for grid in (DENSE_GRIDS if dense else GRIDS)
         for (alpha, gamma), beta in itertools.product(grid.turns, grid.betas)
-        for trial in _at(arm, q, (alpha, beta, gamma), grid.orders)
+        for trial in _at(arm, q, (alpha, beta, gamma), grid.specifications)
     )
 
 
-def _at(arm: Arm, q: tuple[float, ...], angles: tuple[int, int, int], orders: tuple[Order, ...]) -> Iterator[Trial]:
+def _at(
+    arm: Arm, q: tuple[float, ...], angles: tuple[int, int, int], specifications: tuple[Specification, ...]
+) -> Iterator[Trial]:
     """The trials at one frame of the hand, by its Z-Y-X angles [deg]."""
     alpha, beta, gamma = angles
     goal = zyx(math.radians(alpha), math.radians(beta), math.radians(gamma))
     mount = mounts(arm, q, goal)
-    for order in orders:
-        pose = f"alpha{alpha:+d} beta{beta:+d} gamma{gamma:+d}, {order.name}"
+    for specification in specifications:
+        pose = f"alpha{alpha:+d} beta{beta:+d} gamma{gamma:+d}, {specification.name}"
         for name, moment in MOMENTS.items():
             push = (*AT_REST, *moment)
-            yield Trial(f"{pose}, moment {name}", pose, order, q, goal, mount, push=push)
+            yield Trial(f"{pose}, moment {name}", pose, specification, q, goal, mount, push=push)
 
 
 TASK = ContactTask(

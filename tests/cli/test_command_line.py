@@ -18,7 +18,7 @@ from bench.contenders.registry import (
     known_regulators,
     known_representations,
 )
-from bench.control.registry import all_compliants
+from bench.control.registry import all_controllers
 from bench.experiments import plan as planning
 from bench.experiments.suites import ENGINES, SUITES
 from bench.metrics.registry import known_contact_metrics, known_metrics
@@ -78,7 +78,7 @@ KNOWN = {
     "representations": known_representations(),
     "jacobians": known_jacobians(),
     "inverses": known_inverses(),
-    "controllers": dict.fromkeys(one.law for one in all_compliants()),
+    "controllers": dict.fromkeys(one.law for one in all_controllers()),
     "impedances": known_impedances(),
     "metrics": [*known_metrics(), *known_contact_metrics()],
     "tasks": [*tasks.names(), *tasks.contact_names()],

@@ -10,7 +10,7 @@ import pytest
 import tasks
 from bench.contenders.impedances import coordinates
 from bench.contenders.representations import zyx_euler
-from bench.control.contact_controller import hybrid, springy
+from bench.control.contact_controller import hybrid, impedance_controller
 from bench.engines.contact_episode import OUTCOMES, WIDTH, Ended
 from bench.engines.run_contact import run
 from bench.metrics.contact_metric import Pose, response
@@ -20,7 +20,7 @@ METRICS = list(known_contact_metrics().values())
 EULER = zyx_euler.REPRESENTATION
 CONTROLLERS = [
     hybrid("hybrid", "inverse", EULER),
-    springy(coordinates.IMPEDANCE, EULER),
+    impedance_controller(coordinates.IMPEDANCE, EULER),
     hybrid("hybrid-base", "inverse"),
 ]
 SUFFIXES = {

@@ -1,4 +1,4 @@
-"""Controllers, constants, orders, trials and contacts that mean nothing: one line that says what, and the cure."""
+"""Controllers, constants, specifications, trials and contacts that mean nothing: one line says what, and the cure."""
 
 import numpy as np
 import pytest
@@ -7,8 +7,8 @@ from support.own_arm import JOINTS, xml
 
 import tasks
 from bench.contenders.registry import known_impedances, known_representations, representation
-from bench.control.contact_controller import FORMS, HYBRIDS, hybrid, springy
-from bench.control.registry import find_compliant
+from bench.control.contact_controller import FORMS, HYBRIDS, hybrid, impedance_controller
+from bench.control.registry import find_controller
 from bench.control.setpoint import TOUCH
 from bench.engines.contact_episode import USUAL
 from bench.engines.run_contact import run
@@ -16,15 +16,15 @@ from bench.errors import BenchError
 from bench.law.contender import Gains
 from tasks.arm import arm as arm_in
 from tasks.base import BadValue, TaskError
-from tasks.contact import Order
-from tasks.contact_checks import check_contact, check_order, check_trial
+from tasks.contact import Specification
+from tasks.contact_checks import check_contact, check_specification, check_trial
 from tasks.contact_episode import environment
 from tasks.contact_model import STANDARD, model_xml
 from tasks.domains.wrench_probe import TASK
 
 ARM = tasks.arm("ur5e")
 TRIAL = TASK.trials(ARM)[0]
-ORDER = Order("about x", (1, 1, 1, 0, 1, 1))
+SPECIFICATION = Specification("about x", (1, 1, 1, 0, 1, 1))
 BASE = hybrid("hybrid-base", "inverse")
 ZYX, QUATERNION = representation("zyx-euler"), representation("quaternion")
 GEOMETRIC, COORDINATES = (known_impedances()[word] for word in ("geometric", "coordinates"))
@@ -56,14 +56,17 @@ def line_of(action, kind) -> str:
             lambda: hybrid("hybrid", "inverse", QUATERNION),
             ["'quaternion' has no coordinate for each", "try: zyx-euler"],
         ),
-        (lambda: springy(COORDINATES, QUATERNION), ["'quaternion' has no coordinate for each", "try: zyx-euler"]),
-        (lambda: springy(COORDINATES), ["needs some", "try: impedance-coordinates/zyx-euler"]),
-        (lambda: springy(GEOMETRIC, ZYX), ["takes no representation", "omit 'zyx-euler'"]),
-        (lambda: find_compliant("hybrid-bse+inverse"), ["'hybrid-bse' is unknown", "did you mean 'hybrid-base'"]),
-        (lambda: find_compliant("hybrid/zyx+inverse"), ["representation 'zyx' is unknown", *known_representations()]),
-        (lambda: find_compliant("hybrid-base"), ["try: hybrid-base+inverse, or hybrid-base+projected"]),
-        (lambda: find_compliant("impedance-geometric+inverse"), ["omit '+inverse'"]),
-        (lambda: find_compliant("impedance-coordinates/quaternion"), ["'quaternion' has no coordinate for each"]),
+        (
+            lambda: impedance_controller(COORDINATES, QUATERNION),
+            ["'quaternion' has no coordinate for each", "try: zyx-euler"],
+        ),
+        (lambda: impedance_controller(COORDINATES), ["needs some", "try: impedance-coordinates/zyx-euler"]),
+        (lambda: impedance_controller(GEOMETRIC, ZYX), ["takes no representation", "omit 'zyx-euler'"]),
+        (lambda: find_controller("hybrid-bse+inverse"), ["'hybrid-bse' is unknown", "did you mean 'hybrid-base'"]),
+        (lambda: find_controller("hybrid/zyx+inverse"), ["representation 'zyx' is unknown", *known_representations()]),
+        (lambda: find_controller("hybrid-base"), ["try: hybrid-base+inverse, or hybrid-base+projected"]),
+        (lambda: find_controller("impedance-geometric+inverse"), ["omit '+inverse'"]),
+        (lambda: find_controller("impedance-coordinates/quaternion"), ["'quaternion' has no coordinate for each"]),
     ],
 )
 def test_controller_that_has_no_meaning_is_refused_with_the_cure(action, says):
@@ -80,7 +83,7 @@ def test_cure_of_a_missing_or_needless_representation_is_a_controller(law, form)
             one = hybrid(law, form, given)
         except BenchError as error:
             word = str(error).rpartition("try: ")[2].rstrip(")")
-            one = find_compliant(word)
+            one = find_controller(word)
         assert (one.law, one.form) == (law, form)
 
 
@@ -112,43 +115,46 @@ def test_word_or_period_that_is_none_is_refused_before_anything_runs(engine, con
     assert says in line_of(lambda: run(engine, BASE, TASK, ARM, [TRIAL], conditions), BenchError)
 
 
-# ---------------------------------------------------------------------------- orders
+# ---------------------------------------------------------------------------- specifications
 
 
 @pytest.mark.parametrize(
-    ("order", "says"),
+    ("specification", "says"),
     [
-        (ORDER._replace(held=(1, 1, 1, 0.5, 1, 1)), "must be six of 0 and 1"),
-        (ORDER._replace(held=(1, 1, 1, 2, 1, 1)), "must be six of 0 and 1"),
-        (ORDER._replace(held=(1, 1, 1, -1, 1, 1)), "must be six of 0 and 1"),
-        (ORDER._replace(held=(1, 1, 1, np.nan, 1, 1)), "must be six of 0 and 1"),
-        (ORDER._replace(held=(1, 1, 1)), "must be six of 0 and 1"),
-        (ORDER._replace(held=(1, 1, 1, 0, 1, 1, 1)), "must be six of 0 and 1"),
-        (ORDER._replace(held=np.eye(6)), "the diagonal of the selection matrix"),
-        (ORDER._replace(exerts=(0.0, 0.0, -5.0, 0.0, 0.0, 0.0)), "z is held and shall exert -5 at once (release it"),
-        (ORDER._replace(exerts=(0.0, 0.0, 0.0, np.inf, 0.0, 0.0)), "exerts = "),
-        (ORDER._replace(exerts=(0.0, 0.0, 0.0)), "must be 6 finite numbers [N, N m]"),
-        (ORDER._replace(velocity=(0.0, np.nan, 0.0)), "must be 3 finite numbers [m/s]"),
-        (ORDER._replace(velocity=(0.1, 0.0)), "must be 3 finite numbers [m/s]"),
+        (SPECIFICATION._replace(selection=(1, 1, 1, 0.5, 1, 1)), "must be six of 0 and 1"),
+        (SPECIFICATION._replace(selection=(1, 1, 1, 2, 1, 1)), "must be six of 0 and 1"),
+        (SPECIFICATION._replace(selection=(1, 1, 1, -1, 1, 1)), "must be six of 0 and 1"),
+        (SPECIFICATION._replace(selection=(1, 1, 1, np.nan, 1, 1)), "must be six of 0 and 1"),
+        (SPECIFICATION._replace(selection=(1, 1, 1)), "must be six of 0 and 1"),
+        (SPECIFICATION._replace(selection=(1, 1, 1, 0, 1, 1, 1)), "must be six of 0 and 1"),
+        (SPECIFICATION._replace(selection=np.eye(6)), "the diagonal of the selection matrix"),
+        (
+            SPECIFICATION._replace(desired_wrench=(0.0, 0.0, -5.0, 0.0, 0.0, 0.0)),
+            "z is held and shall exert -5 at once (release it",
+        ),
+        (SPECIFICATION._replace(desired_wrench=(0.0, 0.0, 0.0, np.inf, 0.0, 0.0)), "desired_wrench = "),
+        (SPECIFICATION._replace(desired_wrench=(0.0, 0.0, 0.0)), "must be 6 finite numbers [N, N m]"),
+        (SPECIFICATION._replace(velocity=(0.0, np.nan, 0.0)), "must be 3 finite numbers [m/s]"),
+        (SPECIFICATION._replace(velocity=(0.1, 0.0)), "must be 3 finite numbers [m/s]"),
     ],
 )
-def test_order_that_selects_too_much_too_little_or_halves_is_refused(order, says):
-    line = line_of(lambda: check_order(order), BadValue)
-    assert line.startswith("order 'about x': ")
+def test_specification_that_selects_too_much_too_little_or_halves_is_refused(specification, says):
+    line = line_of(lambda: check_specification(specification), BadValue)
+    assert line.startswith("specification 'about x': ")
     assert says in line
 
 
 @pytest.mark.parametrize("held", [(0,) * 6, (1,) * 6, (True, True, False, False, True, True), (1.0,) * 6])
-def test_order_that_holds_nothing_or_everything_is_unusual_and_no_more(held):
-    order = Order("", held)
-    check_order(order)
-    ended = next(run("native", BASE, TASK._replace(horizon_s=0.02), ARM, [TRIAL._replace(order=order)]))
+def test_specification_that_holds_nothing_or_everything_is_unusual_and_no_more(held):
+    specification = Specification("", held)
+    check_specification(specification)
+    ended = next(run("native", BASE, TASK._replace(horizon_s=0.02), ARM, [TRIAL._replace(specification=specification)]))
     assert ended.outcome == "done"
 
 
 @ENGINES
-def test_bad_order_is_refused_by_both_engines_before_the_first_episode(engine):
-    bad = TRIAL._replace(order=ORDER._replace(held=(1, 1, 1, 0.5, 1, 1)))
+def test_bad_specification_is_refused_by_both_engines_before_the_first_episode(engine):
+    bad = TRIAL._replace(specification=SPECIFICATION._replace(selection=(1, 1, 1, 0.5, 1, 1)))
     assert "six of 0 and 1" in line_of(lambda: run(engine, BASE, TASK, ARM, [TRIAL, bad]), TaskError)
 
 

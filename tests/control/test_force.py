@@ -33,7 +33,7 @@ from bench.control.hybrid import axes_of
 from bench.control.impedance import law_of
 from bench.control.setpoint import TOUCH as TOUCHING
 from bench.law.so3 import IDENTITY
-from tasks.contact import Order
+from tasks.contact import Specification
 
 INERTIA = np.array([TOUCH.m_p] * 3 + [TOUCH.m_o] * 3)
 IN_FORMS = pytest.mark.parametrize("form", FORMS)
@@ -167,7 +167,7 @@ def test_perfect_model_gives_the_hand_the_acceleration_of_the_impedance(arm, one
             continue  # beside a pole of its coordinates
         pddot = GAINS.kp * (np.array(wish.p_d) - at.chain.p) + GAINS.kv * (np.array(wish.v_d) - at.velocity[:3])
         wanted = np.concatenate((pddot + (at.F[:3] + f_d) / TOUCH.m_p, u))
-        got = at.acceleration(tick(one, at, wish, one.held(None)).tau)
+        got = at.acceleration(tick(one, at, wish, one.selection(None)).tau)
         allowed = rounding(at, at.J) * sizes(at, np.eye(6), np.zeros(6)) + ROUNDING * 20 * np.linalg.norm(u)
         np.testing.assert_allclose(got, wanted, rtol=0.0, atol=allowed)
         compared += 1
@@ -323,14 +323,14 @@ def oriented(arm: str, moving: bool):
 @over_arms
 @pytest.mark.parametrize("representation", AT_ORIGIN, ids=named)
 def test_coordinates_are_the_base_frames_at_their_origin(representation, arm, form):
-    """Where B is the identity but for the order of its columns, at rest; on the rotation vector moving too."""
+    """Where B is the identity but for the specification of its columns, at rest; on the rotation vector moving too."""
     np.testing.assert_array_equal(B_of(representation, (0.0, 0.0, 0.0))[:, axes_of(representation)], np.eye(3))
     at, wish = oriented(arm, moving=representation.name == "rotation-vector")
     for held in SELECTIONS:
-        order = Order("", tuple(map(int, held)))
+        specification = Specification("", tuple(map(int, held)))
         taus = []
         for one in (hybrid("hybrid", form, representation), hybrid("hybrid-base", form)):
-            taus.append(tick(one, at, wish, one.held(order)).tau)
+            taus.append(tick(one, at, wish, one.selection(specification)).tau)
         size = np.linalg.norm(at.D, 2) * np.linalg.norm(np.linalg.inv(at.J), 2) * LONGEST
         np.testing.assert_allclose(*taus, rtol=0.0, atol=backward(at.J) * size, err_msg=held)
 
@@ -356,11 +356,11 @@ def test_each_axis_of_an_order_selects_the_row_that_moves_along_it(one):
         B = B_of(one.representation, near)
         M[3:, 3:] = B / np.linalg.norm(B, axis=0)
     for axis in range(6):
-        held = one.held(Order("", tuple(int(k != axis) for k in range(6))))
+        held = one.selection(Specification("", tuple(int(k != axis) for k in range(6))))
         [row] = [k for k in range(6) if held[k] == 0.0]
         assert abs(M[axis, row]) == pytest.approx(np.abs(M[axis]).max(), rel=1e-3)
 
 
 @pytest.mark.parametrize("one", IMPEDANCES, ids=named)
 def test_impedance_holds_every_row_whatever_the_order(one):
-    assert one.held(Order("", (0,) * 6)) == (1.0,) * 6
+    assert one.selection(Specification("", (0,) * 6)) == (1.0,) * 6

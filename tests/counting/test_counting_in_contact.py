@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from support.in_contact import COORDINATES, HYBRIDS, IMPEDANCES
 
-from bench.control.contact_controller import Compliant, hybrid
+from bench.control.contact_controller import ContactController, hybrid
 from bench.control.hybrid import in_base
 from bench.counting import in_contact
 from bench.counting.costs import counted
@@ -14,20 +14,20 @@ from bench.counting.counted import OPERATIONS, TOTAL, Tally
 from bench.counting.on_arms import arm_states
 from bench.errors import BadLaw
 from bench.law.impedance import Impedance
-from tasks.contact import Order
+from tasks.contact import Specification
 
 N = 6
 
 cost = functools.cache(in_contact.cost_in_contact)
 
 
-def holding(count: int) -> Order:
+def holding(count: int) -> Specification:
     """So many rows held, the first ones."""
-    return Order("", tuple(int(i < count) for i in range(N)))
+    return Specification("", tuple(int(i < count) for i in range(N)))
 
 
-def muls_divs_adds(one: Compliant, order: Order, stage: str) -> tuple[int, int, int]:
-    counts = cost(one, order).typical.of(stage)
+def muls_divs_adds(one: ContactController, specification: Specification, stage: str) -> tuple[int, int, int]:
+    counts = cost(one, specification).typical.of(stage)
     return counts["mul"], counts["div"], counts["add"]
 
 
@@ -118,7 +118,7 @@ class Asking:
 
     name, form, assemble = "asking", "inverse", staticmethod(asks_who_calls)
 
-    def held(self, order):
+    def selection(self, specification):
         return (1.0,) * N
 
 
@@ -134,4 +134,4 @@ def test_controller_outside_the_dialect_is_refused_by_its_name():
 
     own = Impedance("own", "", "", "", law)
     with pytest.raises(BadLaw, match=r"'impedance-own': .*==.* cannot be counted"):
-        in_contact.cost_in_contact(Compliant("impedance-own", impedance=own))
+        in_contact.cost_in_contact(ContactController("impedance-own", impedance=own))

@@ -8,7 +8,7 @@ from support.bits import different_rows, same_bits
 from support.in_contact import ARMS
 
 import tasks
-from bench.control.registry import all_compliants, find_compliant
+from bench.control.registry import all_controllers, find_controller
 from bench.engines.contact_episode import FORCE, USUAL, P, R
 from bench.engines.run import MUJOCO_INTEGRATORS
 from bench.engines.run_contact import run
@@ -30,7 +30,7 @@ def of(word: str, arm: str, k: int):
 
 def both(controller: str, task, arm, trial, *settings):
     """The episode of the compiled loop and of dm_control's."""
-    return [next(run(engine, find_compliant(controller), task, arm, [trial], *settings)) for engine in ENGINES]
+    return [next(run(engine, find_controller(controller), task, arm, [trial], *settings)) for engine in ENGINES]
 
 
 def assert_same(fast, slow) -> None:
@@ -68,7 +68,7 @@ def test_native_record_is_the_reference_record_with_every_integrator(k, word, in
     assert_same(*both(THREE[k % 3], task._replace(horizon_s=0.2), arm, trial, conditions))
 
 
-@pytest.mark.parametrize(("k", "controller"), list(enumerate(one.name for one in all_compliants())))
+@pytest.mark.parametrize(("k", "controller"), list(enumerate(one.name for one in all_controllers())))
 def test_native_record_is_the_reference_record_of_every_controller(k, controller):
     task, arm, trial = of(TASKS[k % len(TASKS)], ARMS[k % len(ARMS)], k)
     assert_same(*both(controller, task._replace(horizon_s=0.2), arm, trial))
@@ -116,7 +116,7 @@ def test_contact_that_explodes_is_an_outcome_in_both_engines_alike(arm):
 
 def test_episode_is_the_same_whatever_ran_before_it():
     task, arm, trial = of("surface-alignment", ARMS[0], 0)
-    short, controller = task._replace(horizon_s=0.3), find_compliant(THREE[0])
+    short, controller = task._replace(horizon_s=0.3), find_controller(THREE[0])
     x, y, z = trial.scene_pos
     inside = trial._replace(id="inside the plate", scene_pos=(x, y, z + 0.3))
     alone = next(run("native", controller, short, arm, [trial]))
@@ -143,7 +143,7 @@ def test_controller_along_the_bases_axes_does_not_see_how_the_hands_frame_is_dra
     task, on = tasks.contact_task(word), tasks.arm(arm)
     for group in alike(word, arm)[:2]:
         p, turn = [], []
-        for ended in run("native", find_compliant(controller), task, on, group):
+        for ended in run("native", find_controller(controller), task, on, group):
             assert ended.outcome == "done"
             p.append(ended.record[:, P : P + 3])
             matrix = ended.record[:, R : R + 9].reshape(-1, 3, 3).transpose(0, 2, 1)
@@ -157,5 +157,5 @@ def test_controller_along_the_bases_axes_does_not_see_how_the_hands_frame_is_dra
 def test_controller_along_euler_angles_does_see_it(word, arm):
     task, on = tasks.contact_task(word), tasks.arm(arm)
     trials = alike(word, arm)[1]
-    p = [ended.record[-1, P : P + 3] for ended in run("native", find_compliant(THREE[1]), task, on, trials)]
+    p = [ended.record[-1, P : P + 3] for ended in run("native", find_controller(THREE[1]), task, on, trials)]
     assert np.ptp(p, axis=0).max() > 1e-4

@@ -7,7 +7,7 @@ from support.command_line import bench, refused
 
 import tasks
 from bench.contenders.registry import find_contender
-from bench.control.registry import all_compliants, find_compliant
+from bench.control.registry import all_controllers, find_controller
 from bench.errors import Incompatible, UnknownWord
 from bench.experiments import plan as planning
 from bench.experiments.choice import Choice
@@ -40,7 +40,7 @@ def named(units, name):
 @pytest.mark.parametrize("suite", SUITES)
 def test_suite_sets_every_task_to_every_arm_that_can_do_it(suite):
     units, episodes = contacts(suite)
-    words = SUITES[suite].in_contact.controllers or [one.name for one in all_compliants()]
+    words = SUITES[suite].in_contact.controllers or [one.name for one in all_controllers()]
     assert named(units, "task") == TASKS
     assert named(units, "arm") == ABLE
     assert named(units, "contender") == list(words)
@@ -62,21 +62,21 @@ def test_units_cover_each_pose_once_and_have_keys_of_their_own(suite):
         assert unit.first == reached.get(place, 0)
         reached[place] = unit.first + unit.count
     for place, poses in reached.items():
-        one, task, arm = find_compliant(place.contender), tasks.contact_task(place.task), tasks.arm(place.arm)
+        one, task, arm = find_controller(place.contender), tasks.contact_task(place.task), tasks.arm(place.arm)
         every = poses_of(one, task, arm, place.selector == DENSE)
         assert poses == min(len(every), SUITES[suite].in_contact.poses or len(every))
 
 
 def test_trials_are_those_of_the_units_poses():
     plan = planning.make("quick", LAW, Choice(tasks=("wrench-probe",), arms=("ur5e",), controllers=(EULER,)), count=7)
-    every = poses_of(find_compliant(EULER), tasks.contact_task("wrench-probe"), tasks.arm("ur5e"), dense=False)
+    every = poses_of(find_controller(EULER), tasks.contact_task("wrench-probe"), tasks.arm("ur5e"), dense=False)
     assert [unit.count for unit in plan.of("contact")] == [7]
     assert plan.episodes("contact") == sum(map(len, every[:7]))
 
 
 def test_unit_lasts_some_seconds_at_most():
     task = tasks.contact_task("wrench-probe")
-    units = list(cut(find_compliant(EULER), task, tasks.arm("ur5e"), None, False, task.horizon_s, longest_s=20.0))
+    units = list(cut(find_controller(EULER), task, tasks.arm("ur5e"), None, False, task.horizon_s, longest_s=20.0))
     assert len(units) > 5
     assert all(unit.episodes * unit.horizon_s <= 20.0 for unit in units)
 
@@ -91,7 +91,7 @@ def test_full_suite_takes_dense_trials_where_a_task_has_them():
 def test_poses_of_a_hybrid_are_all_trials_of_the_task_in_their_order():
     for name in TASKS:
         task, arm = tasks.contact_task(name), tasks.arm("ur5e")
-        poses = poses_of(find_compliant(EULER), task, arm, dense=False)
+        poses = poses_of(find_controller(EULER), task, arm, dense=False)
         assert [trial for pose in poses for trial in pose] == list(task.trials(arm))
         assert all(len({trial.pose for trial in pose}) == 1 for pose in poses)
 
@@ -99,7 +99,7 @@ def test_poses_of_a_hybrid_are_all_trials_of_the_task_in_their_order():
 def test_impedance_is_set_what_differs_in_more_than_the_selection():
     """wrench-probe has several orders at each frame of the hand, alike but for what is held."""
     task, arm = tasks.contact_task("wrench-probe"), tasks.arm("ur5e")
-    trials = [trial for pose in poses_of(find_compliant("impedance-geometric"), task, arm, False) for trial in pose]
+    trials = [trial for pose in poses_of(find_controller("impedance-geometric"), task, arm, False) for trial in pose]
     frames = {(trial.goal_wxyz, trial.push) for trial in task.trials(arm)}
     assert len(trials) == len(frames) < len(task.trials(arm))
     assert {(trial.goal_wxyz, trial.push) for trial in trials} == frames
@@ -199,11 +199,11 @@ def test_contact_takes_a_horizon():
 
 
 def test_every_controller_is_found_by_its_name():
-    assert [find_compliant(one.name) for one in all_compliants()] == all_compliants()
+    assert [find_controller(one.name) for one in all_controllers()] == all_controllers()
 
 
 def test_hybrids_come_in_both_forms_and_impedances_in_one():
-    forms = {one.law: {other.form for other in all_compliants() if other.law == one.law} for one in all_compliants()}
+    forms = {one.law: {other.form for other in all_controllers() if other.law == one.law} for one in all_controllers()}
     assert all(
         found == ({""} if law.startswith("impedance-") else {"inverse", "projected"}) for law, found in forms.items()
     )
@@ -224,13 +224,13 @@ def test_hybrids_come_in_both_forms_and_impedances_in_one():
 )
 def test_word_that_is_no_controller_is_refused_with_the_reason(word, reason):
     with pytest.raises(Incompatible, match=reason):
-        find_compliant(word)
+        find_controller(word)
 
 
 @pytest.mark.parametrize(("word", "guess"), [("hybird-base+inverse", "hybrid-base"), ("hybrid/zyx+inverse", "")])
 def test_unknown_word_of_a_controller_lists_the_known_ones(word, guess):
     with pytest.raises(UnknownWord, match=guess or "zyx-euler"):
-        find_compliant(word)
+        find_controller(word)
 
 
 # ------------------------------------------------------------------------------------------ the command

@@ -7,7 +7,7 @@ import pandas as pd
 import pytest
 
 import tasks
-from bench.control.registry import find_compliant
+from bench.control.registry import find_controller
 from bench.control.setpoint import TOUCH
 from bench.engines.contact_episode import OUTCOMES, WIDTH, Conditions, Ended
 from bench.engines.run_contact import run
@@ -23,7 +23,7 @@ from bench.tables.schema import TABLES
 ARM = tasks.arm("ur5e")
 COMPLIANCE = TABLES["compliance"]
 PROBE = tasks.contact_task("wrench-probe")._replace(horizon_s=0.05)
-EULER = find_compliant("hybrid/zyx-euler+inverse")
+EULER = find_controller("hybrid/zyx-euler+inverse")
 POSES = poses_of(EULER, PROBE, ARM, dense=False)
 CONDITIONS = Conditions()
 C = [f"c_{i}{j}" for i in "xyz" for j in "xyz"]
@@ -63,7 +63,7 @@ def test_columns_end_in_the_metrics_by_name_and_the_measured_rotation():
 
 def test_one_row_a_pose_says_whose_it_is_and_of_what(rows):
     assert list(rows["pose"]) == [pose[0].pose for pose in POSES[:3]]
-    assert list(rows["complies"]) == [pose[0].order.name for pose in POSES[:3]]
+    assert list(rows["complies"]) == [pose[0].specification.name for pose in POSES[:3]]
     assert list(rows["trials"]) == [6, 6, 6]
     whose = rows[["suite", "task", "arm", "controller", "representation", "form"]].drop_duplicates()
     assert whose.to_numpy().tolist() == [["mine", "wrench-probe", "ur5e", "hybrid", "zyx-euler", "inverse"]]
@@ -74,7 +74,7 @@ def test_one_row_a_pose_says_whose_it_is_and_of_what(rows):
 
 def test_angles_are_the_goals():
     at = [pose for pose in POSES if "alpha+35 beta+45 gamma-20" in pose[0].pose][:1]
-    rows = frame("mine", find_compliant("hybrid-base+inverse"), PROBE, ARM, tuple(at), CONDITIONS)
+    rows = frame("mine", find_controller("hybrid-base+inverse"), PROBE, ARM, tuple(at), CONDITIONS)
     angles = rows.loc[0, ["alpha", "beta", "gamma"]].to_numpy(float)
     assert np.degrees(angles) == pytest.approx([35.0, 45.0, -20.0])
 
@@ -94,7 +94,7 @@ def test_rows_become_a_table_of_the_schema_and_back(rows, tmp_path):
 
 
 def test_impedance_has_no_form():
-    rows = frame("mine", find_compliant("impedance-geometric"), PROBE, ARM, POSES[:1], CONDITIONS)
+    rows = frame("mine", find_controller("impedance-geometric"), PROBE, ARM, POSES[:1], CONDITIONS)
     assert rows.loc[0, ["controller", "representation", "form"]].tolist() == ["impedance-geometric", "", ""]
 
 

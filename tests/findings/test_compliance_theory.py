@@ -13,7 +13,7 @@ from support.in_contact import COORDINATES
 import tasks
 from bench.contenders.impedances import coordinates, coordinates_relative
 from bench.contenders.registry import known_impedances
-from bench.control.contact_controller import hybrid, springy
+from bench.control.contact_controller import hybrid, impedance_controller
 from bench.control.setpoint import TOUCH
 from bench.engines.run_contact import run
 from bench.findings.theory import compliance_theory as theory
@@ -23,7 +23,7 @@ from bench.metrics.contact.held_axes import leakage
 from bench.metrics.contact.stiffness import least_yield, misalignment, stiffness_axes, stiffness_condition
 from bench.metrics.contact_metric import Pose, response
 from bench.metrics.measured_compliance import compliance
-from tasks.domains.wrench_probe import ORDERS, TASK
+from tasks.domains.wrench_probe import SPECIFICATIONS, TASK
 from tasks.rotations import on_pole
 
 SCIPYS = {
@@ -35,8 +35,8 @@ SCIPYS = {
 }
 STEP = EPS ** (1 / 3)
 EULER, ZYZ = COORDINATES["zyx-euler"], COORDINATES["zyz-euler"]
-SPRINGS_OF_EULER = springy(coordinates.IMPEDANCE, EULER)
-AT_ITS_POLE = springy(coordinates_relative.IMPEDANCE, ZYZ)
+SPRINGS_OF_EULER = impedance_controller(coordinates.IMPEDANCE, EULER)
+AT_ITS_POLE = impedance_controller(coordinates_relative.IMPEDANCE, ZYZ)
 
 # Of a hand sampled at 1 kHz against the closed form in time, at 0.5 s: 4e-5 of what is free, 8e-4 of what is sprung and
 # has almost come to rest. Within a degree of the pole the hand's own 1.6 mrad move it by a tenth of the distance.
@@ -53,7 +53,7 @@ HYBRIDS = [
     *(hybrid("hybrid", form, COORDINATES[word]) for word in TRIED for form in ("inverse", "projected")),
 ]
 SPRINGS = [
-    springy(impedance, one)
+    impedance_controller(impedance, one)
     for impedance in known_impedances().values()
     for one in ([COORDINATES[word] for word in TRIED] if impedance.law_in else [None])
 ]
@@ -61,7 +61,7 @@ SPRINGS = [
 
 @functools.cache
 def probed(controller, complies="about x and y", alpha=0, beta=30, gamma=0, arm="ur5e") -> Pose:
-    """One pose of the default probe: angles in degrees, the order by its name."""
+    """One pose of the default probe: angles in degrees, the specification by its name."""
     on = tasks.arm(arm)
     words = f"alpha{alpha:+d} beta{beta:+d} gamma{gamma:+d}, {complies}"
     chosen = tuple(trial for trial in TASK.trials(on) if trial.pose == words)
@@ -91,7 +91,7 @@ def test_columns_of_B_are_what_scipys_rotation_turns_about_along_each_coordinate
 
 
 COMPLIES = ("about x", "about x and y", "about y and z")
-# Every controller in every pose, with every order, which take turns.
+# Every controller in every pose, with every specification, which take turns.
 TURNS = [
     pytest.param(one, COMPLIES[(k + p) % 3], angles, id=f"{one.name}-{COMPLIES[(k + p) % 3]}-{angles}")
     for k, one in enumerate(HYBRIDS)
@@ -123,7 +123,7 @@ def test_another_arm_complies_alike(controller):
 def compare(controller, pose, tolerance):
     """The measured C against the predicted, Frobenius; where nothing is predicted, nothing was measured."""
     goal = from_quaternion(pose.first.trial.goal_wxyz)
-    predicted = theory.compliance(controller, pose.first.trial.order, goal, TASK.horizon_s)
+    predicted = theory.compliance(controller, pose.first.trial.specification, goal, TASK.horizon_s)
     measured = compliance(pose)
     if np.isnan(predicted).any():
         assert np.isnan(measured).all()
@@ -221,13 +221,13 @@ def test_a_square_loop_leaves_what_scipys_turns_leave(angle):
 
 def test_nothing_is_predicted_for_moments_that_are_not_converted():
     controller = hybrid("hybrid-unconverted", "inverse", EULER)
-    assert np.isnan(theory.compliance(controller, ORDERS[0], IDENTITY, 0.5)).all()
+    assert np.isnan(theory.compliance(controller, SPECIFICATIONS[0], IDENTITY, 0.5)).all()
 
 
 def test_nothing_is_predicted_of_zyz_angles_seen_from_the_goal_which_is_their_pole():
     goal = rotation(turned(4)[0])
-    assert np.isnan(theory.compliance(AT_ITS_POLE, ORDERS[0], goal, 0.5)).all()
+    assert np.isnan(theory.compliance(AT_ITS_POLE, SPECIFICATIONS[0], goal, 0.5)).all()
 
 
 def test_nothing_is_predicted_where_the_coordinates_have_no_rates():
-    assert np.isnan(theory.compliance(SPRINGS_OF_EULER, ORDERS[0], from_quaternion(on_pole(1, 0.7)), 0.5)).all()
+    assert np.isnan(theory.compliance(SPRINGS_OF_EULER, SPECIFICATIONS[0], from_quaternion(on_pole(1, 0.7)), 0.5)).all()

@@ -9,27 +9,27 @@ from scipy.spatial.transform import Rotation as Turn
 import tasks
 from bench.contenders.impedances import coordinates_relative, geometric
 from bench.contenders.representations import zyx_euler
-from bench.control.contact_controller import hybrid, springy
+from bench.control.contact_controller import hybrid, impedance_controller
 from bench.metrics.contact import held_axes, scene, stiffness, work, wrench
 from bench.metrics.contact_metric import Pose, Response
 from bench.metrics.measured_compliance import compliance, rotation_vector
-from tasks.contact import Order, Trial
+from tasks.contact import Specification, Trial
 from tasks.domains import crank, force_on_plane, peg_in_hole, surface_alignment, wrench_probe
 from tasks.rotations import about, zyx
 
 ARM = tasks.arm("ur5e")
 CARTESIAN = hybrid("hybrid-base", "inverse")
-SPRINGS = springy(geometric.IMPEDANCE)
+SPRINGS = impedance_controller(geometric.IMPEDANCE)
 TICKS = 101
 TIME = np.linspace(0.0, 1.0, TICKS)
 MOMENTS = 0.02 * np.vstack((np.eye(3), -np.eye(3)))
 
 
-def order(*held, exerts=(0.0,) * 6) -> Order:
-    return Order("as given", held, exerts)
+def specification(*held, desired_wrench=(0.0,) * 6) -> Specification:
+    return Specification("as given", held, desired_wrench)
 
 
-def trial(of: Order, **more) -> Trial:
+def trial(of: Specification, **more) -> Trial:
     return Trial("one", "pose", of, ARM.home, (1.0, 0.0, 0.0, 0.0), **more)
 
 
@@ -58,7 +58,7 @@ def yielding(C, *held, controller=CARTESIAN, outcome="done") -> Pose:
     """Six small moments on a hand whose rotation per moment is C."""
     return pose(
         *(
-            answered(trial(order(1, 1, 1, *held), push=(0.0, 0.0, 0.0, *m)), outcome, R=spun(C @ m))
+            answered(trial(specification(1, 1, 1, *held), push=(0.0, 0.0, 0.0, *m)), outcome, R=spun(C @ m))
             for m in MOMENTS.tolist()
         ),
         controller=controller,
@@ -192,14 +192,14 @@ def moving(seed: int) -> dict:
 
 EULER = zyx_euler.REPRESENTATION
 CONVERTS, UNCONVERTED = hybrid("hybrid", "inverse", EULER), hybrid("hybrid-unconverted", "inverse", EULER)
-ABOUT_XY = trial(order(1, 1, 1, 0, 0, 1))
+ABOUT_XY = trial(specification(1, 1, 1, 0, 0, 1))
 
 
 @pytest.mark.parametrize(
     ("controller", "least", "most"),
     [
         (CONVERTS, 0.0, 1e-13),
-        (springy(coordinates_relative.IMPEDANCE, EULER), 0.0, 1e-13),
+        (impedance_controller(coordinates_relative.IMPEDANCE, EULER), 0.0, 1e-13),
         (UNCONVERTED, 0.1, math.inf),
     ],
 )
@@ -212,7 +212,7 @@ def test_work_has_no_residual_without_coordinates_or_without_motion():
         assert math.isnan(work.work_residual(pose(answered(ABOUT_XY), controller=controller)))
 
 
-PRESSING = order(1, 1, 0, 0, 0, 1, exerts=(0.0, 0.0, -20.0, 0.0, 0.0, 0.0))
+PRESSING = specification(1, 1, 0, 0, 0, 1, desired_wrench=(0.0, 0.0, -20.0, 0.0, 0.0, 0.0))
 FROM = 40
 """Tick of the first touch in what follows."""
 
@@ -323,7 +323,7 @@ def test_depth_of_a_peg_and_whether_it_is_stuck(depths, beside, depth, is_stuck)
 
 
 def test_crank_angle_is_how_far_its_joint_turned():
-    turned = answered(trial(order(1, 0, 0, 0, 0, 1)), turned=np.linspace(0.2, 0.9, TICKS))
+    turned = answered(trial(specification(1, 0, 0, 0, 0, 1)), turned=np.linspace(0.2, 0.9, TICKS))
     assert scene.crank_angle(pose(turned, task=crank.TASK)) == pytest.approx(0.7)
     assert math.isnan(scene.crank_angle(pose(turned)))
 
@@ -332,13 +332,13 @@ LEGS = ((0.0,) * 6,) * 4
 
 
 def test_loop_leaves_its_rotation_and_its_part_about_held_axes():
-    left = answered(trial(order(1, 1, 1, 0, 0, 1), legs=LEGS), R=spun((0.03, 0.0, -0.04)))
+    left = answered(trial(specification(1, 1, 1, 0, 0, 1), legs=LEGS), R=spun((0.03, 0.0, -0.04)))
     assert held_axes.loop_rest(pose(left)) == pytest.approx(0.05)
     assert held_axes.loop_drift(pose(left)) == pytest.approx(0.04)
 
 
 def test_a_push_that_is_no_loop_leaves_nothing_to_measure():
-    pushed = answered(trial(order(1, 1, 1, 0, 0, 1)), R=spun((0.0, 0.0, 0.1)))
+    pushed = answered(trial(specification(1, 1, 1, 0, 0, 1)), R=spun((0.0, 0.0, 0.1)))
     assert math.isnan(held_axes.loop_rest(pose(pushed)))
     assert math.isnan(held_axes.loop_drift(pose(pushed)))
 

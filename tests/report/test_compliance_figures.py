@@ -10,7 +10,7 @@ from support.pages import Nothing, assert_is_whole
 pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
 
 import tasks
-from bench.control.registry import find_compliant
+from bench.control.registry import find_controller
 from bench.engines.contact_episode import USUAL
 from bench.experiments.contact import poses_of
 from bench.experiments.rows import contact as contact_rows
@@ -65,9 +65,9 @@ def run():
     frames, arm = [], tasks.arm(ARM)
     for name, words in WANTED.items():
         task = tasks.contact_task(name)
-        for compliant in map(find_compliant, words):
-            poses = chosen(name, poses_of(compliant, task, arm, dense=False))
-            frames.append(contact_rows.frame("mine", compliant, task, arm, poses, USUAL))
+        for controller in map(find_controller, words):
+            poses = chosen(name, poses_of(controller, task, arm, dense=False))
+            frames.append(contact_rows.frame("mine", controller, task, arm, poses, USUAL))
     return Rows(read.with_compliant(pd.concat(frames, ignore_index=True)))
 
 

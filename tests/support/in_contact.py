@@ -14,7 +14,7 @@ from scipy.spatial.transform import Rotation as ScipyRotation
 import tasks
 from bench.contenders.registry import known_representations
 from bench.control.hybrid import comply
-from bench.control.registry import all_compliants
+from bench.control.registry import all_controllers
 from bench.control.setpoint import ContactParameters, Rows, Setpoint
 from bench.engines.contact_episode import room, rows, wrench
 from bench.experiments.contact import can_do
@@ -23,13 +23,13 @@ from bench.law.resolved_motion import Chain
 from support.bits import EPS
 from support.on_arms import numbers
 from support.states import as_rotation
-from tasks.contact import Order, Trial, prepare
+from tasks.contact import Specification, Trial, prepare
 from tasks.contact_model import model_xml
 from tasks.domains.wrench_probe import TASK
 
 ARMS = [arm for arm in tasks.arm_names() if can_do(TASK, tasks.arm(arm))]
-HYBRIDS = [one for one in all_compliants() if one.impedance is None]
-IMPEDANCES = [one for one in all_compliants() if one.impedance is not None]
+HYBRIDS = [one for one in all_controllers() if one.impedance is None]
+IMPEDANCES = [one for one in all_controllers() if one.impedance is not None]
 COORDINATES = {word: one for word, one in known_representations().items() if one.about is not None}
 """Those with a coordinate for each of the axes x, y and z."""
 
@@ -97,7 +97,7 @@ def hand(arm: str, q, qdot, mount: ScipyRotation, push) -> Hand:
     """That state, the hand's frame drawn on it by `mount`; valid until the next one is asked for."""
     model, data = simulated(arm)
     mujoco.mj_resetData(model, data)
-    anyhow = Order("none", (1,) * 6)
+    anyhow = Specification("none", (1,) * 6)
     prepare(
         model,
         data,

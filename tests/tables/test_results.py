@@ -4,7 +4,7 @@ import pandas as pd
 
 from bench.cli.details import contact, free_body
 from bench.cli.details.episodes import outcome_table
-from bench.control.registry import find_compliant
+from bench.control.registry import find_controller
 from bench.tables import read
 
 LAWS = pd.DataFrame(
@@ -60,7 +60,7 @@ CONTROLLERS = ["hybrid-base+inverse", "hybrid/zyx-euler+projected", "impedance-g
 def test_contender_in_contact_is_the_word_of_the_command_line():
     names = read.with_compliant(IN_CONTACT)["contender"]
     assert list(names.drop_duplicates()) == CONTROLLERS
-    assert [find_compliant(name).name for name in CONTROLLERS] == CONTROLLERS
+    assert [find_controller(name).name for name in CONTROLLERS] == CONTROLLERS
 
 
 def test_summary_in_contact_is_of_the_poses_that_are_done():

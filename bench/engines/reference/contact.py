@@ -8,7 +8,7 @@ import contextlib
 import mujoco
 import numpy as np
 
-from bench.control.contact_controller import Compliant
+from bench.control.contact_controller import ContactController
 from bench.control.hybrid import comply
 from bench.control.setpoint import ContactParameters, Setpoint
 from bench.engines.contact_episode import (
@@ -39,26 +39,31 @@ from tasks.verdict import GOING, check_command, check_state
 
 
 def run(
-    compliant: Compliant, task: ContactTask, arm: Arm, trial: Trial, conditions: Conditions, contact: ContactModel
+    controller: ContactController,
+    task: ContactTask,
+    arm: Arm,
+    trial: Trial,
+    conditions: Conditions,
+    contact: ContactModel,
 ) -> Ended:
     """One trial; see `contact_episode` for what is recorded."""
-    shape = numbers(compliant, trial, arm.rated, task.horizon_s, conditions)
+    shape = numbers(controller, trial, arm.rated, task.horizon_s, conditions)
     record = blank(shape)
     with np.errstate(all="ignore"):
         loop = environment(task, arm, trial, conditions.dt_s, conditions.integrator, contact)
         # dm_control would raise what MuJoCo warns of, or log it by a deprecated call; the judge sees for himself
         loop.physics.check_invalid_state = contextlib.nullcontext
-        failure, ticks, message = _episode(compliant, arm, trial, loop, conditions, shape, record)
+        failure, ticks, message = _episode(controller, arm, trial, loop, conditions, shape, record)
     return made(record, failure, ticks, message, loop.physics.data.ptr)
 
 
-def _episode(compliant, arm, trial, loop, conditions, shape, record):
+def _episode(controller, arm, trial, loop, conditions, shape, record):
     try:
         loop.reset()
     except mujoco.FatalError as error:
         return BROKEN, 0, str(error)
     plant, model, n = loop.physics.data, loop.physics.model.ptr, arm.joints
-    assemble, s = compliant.assemble, plant.sensordata
+    assemble, s = controller.assemble, plant.sensordata
     gains, touch = Gains(*map(np.float64, conditions.gains)), ContactParameters(*map(np.float64, conditions.touch))
     into, about, J = rows(), room(), np.zeros((6, 6))
     D, tau = np.zeros((model.nv, model.nv)), np.zeros(n)

@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 
 from bench.contenders.representations.zyx_euler import chart
-from bench.control.contact_controller import Compliant
+from bench.control.contact_controller import ContactController
 from bench.engines.contact_episode import DONE, Conditions, Ended
 from bench.engines.run_contact import run
 from bench.law.so3 import from_quaternion
@@ -25,33 +25,35 @@ MEASURED = tuple(f"c_{i}{j}" for i in "xyz" for j in "xyz")
 
 def frame(
     suite: str,
-    compliant: Compliant,
+    controller: ContactController,
     task: ContactTask,
     arm: Arm,
     poses: tuple[tuple[Trial, ...], ...],
     conditions: Conditions,
 ) -> pd.DataFrame:
     """One row a pose; a pose is the trials that share it."""
-    episodes = run("native", compliant, task, arm, (trial for pose in poses for trial in pose), conditions)
-    rows = [_row(task, arm, compliant, [(one, next(episodes)) for one in pose], conditions) for pose in poses]
+    episodes = run("native", controller, task, arm, (trial for pose in poses for trial in pose), conditions)
+    rows = [_row(task, arm, controller, [(one, next(episodes)) for one in pose], conditions) for pose in poses]
     return pd.DataFrame([{"suite": suite, **row} for row in rows])
 
 
-def _row(task: ContactTask, arm: Arm, compliant: Compliant, ended: list[tuple[Trial, Ended]], conditions) -> dict:
+def _row(
+    task: ContactTask, arm: Arm, controller: ContactController, ended: list[tuple[Trial, Ended]], conditions
+) -> dict:
     first = ended[0][0]
     outcome = max((one.outcome for _, one in ended), key=WORST_LAST.index)
     ticks = min(len(one.record) for _, one in ended if one.outcome == outcome)
-    pose = Pose(task, arm, compliant, tuple(response(*each) for each in ended))
+    pose = Pose(task, arm, controller, tuple(response(*each) for each in ended))
     with np.errstate(all="ignore"):  # of a record that ends beyond all bounds
         measured = {one.column: one.measure(pose) for one in known_contact_metrics().values()}
     return {
         "task": task.name,
         "arm": arm.name,
-        "controller": compliant.law,
-        "representation": compliant.representation.name if compliant.representation else "",
-        "form": compliant.form,
+        "controller": controller.law,
+        "representation": controller.representation.name if controller.representation else "",
+        "form": controller.form,
         "pose": first.pose,
-        "complies": first.order.name,
+        "complies": first.specification.name,
         **dict(zip(("alpha", "beta", "gamma"), chart(from_quaternion(first.goal_wxyz)).E, strict=True)),
         "tilt": first.tilt,
         **conditions.gains._asdict(),

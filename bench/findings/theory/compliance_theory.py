@@ -20,11 +20,11 @@ import math
 
 import numpy as np
 
-from bench.control.contact_controller import Compliant
+from bench.control.contact_controller import ContactController
 from bench.control.setpoint import TOUCH, ContactParameters
 from bench.law.contender import PAPERS_GAINS, Gains, Representation
 from bench.law.so3 import IDENTITY, Rotation
-from tasks.contact import Order
+from tasks.contact import Specification
 
 UNITS = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 NOWHERE = 1e-12
@@ -38,8 +38,8 @@ def matrix_B(representation: Representation, R: Rotation) -> np.ndarray:
 
 
 def compliance(
-    controller: Compliant,
-    order: Order,
+    controller: ContactController,
+    specification: Specification,
     goal: Rotation,
     time_s: float,
     gains: Gains = PAPERS_GAINS,
@@ -47,18 +47,18 @@ def compliance(
 ) -> np.ndarray:
     """C [rad/(N m)], 3 x 3: what a controller makes of a constant moment in some time, from rest at its goal.
 
-    order: ignored by an impedance, as by the controller.
+    specification: ignored by an impedance, as by the controller.
     """
     if not controller.converts:
         return np.full((3, 3), np.nan)
     B = directions(controller, goal)
     if controller.impedance is not None:
         return B @ B.T * sprung(time_s, gains, touch.m_o)
-    own = B[:, np.array(controller.held(order)[3:]) == 0.0]
+    own = B[:, np.array(controller.selection(specification)[3:]) == 0.0]
     return own @ own.T * free(time_s, touch)
 
 
-def directions(controller: Compliant, goal: Rotation) -> np.ndarray:
+def directions(controller: ContactController, goal: Rotation) -> np.ndarray:
     """What the rotational rows of a controller turn the hand about, 3 x 3, base frame; NaN if there is no B^-1."""
     if controller.representation is None:
         return np.eye(3)

@@ -18,7 +18,7 @@ def contact_settling_time(pose: Pose) -> float:
     NaN if it does not, if no force was ordered, or if nothing was touched.
     """
     one, touched = last(pose), from_first_touch(pose)
-    ordered = np.linalg.norm(pose.first.trial.order.exerts[:3])
+    ordered = np.linalg.norm(pose.first.trial.specification.desired_wrench[:3])
     if one is None or touched is None or ordered == 0.0:
         return np.nan
     outside = np.flatnonzero(np.linalg.norm(force_error(pose), axis=1) > RULES.tolerance * ordered)
@@ -32,7 +32,7 @@ def normal_force_error(pose: Pose) -> float:
     one, touched = pose.first, from_first_touch(pose)
     if touched is None or pose.task.name != SLIDING:
         return np.nan
-    error = (one.force[touched] + np.array(one.trial.order.exerts[:3])) @ scene_normal(one.trial)
+    error = (one.force[touched] + np.array(one.trial.specification.desired_wrench[:3])) @ scene_normal(one.trial)
     return rms(error[:, None])
 
 

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 import tasks
-from bench.control.registry import find_compliant
+from bench.control.registry import find_controller
 from bench.engines.contact_episode import USUAL, Conditions, Ended
 from bench.engines.run_contact import run
 from bench.metrics.contact_metric import Pose, response
@@ -50,7 +50,7 @@ VARIANTS = (
 @functools.cache
 def episode(controller: str, variant: Variant) -> tuple[str, tuple[float, ...]]:
     """Outcome and the numbers of METRICS, in their units there."""
-    compliant, task, arm = find_compliant(controller), tasks.contact_task(TASK), tasks.arm(ARM)
+    compliant, task, arm = find_controller(controller), tasks.contact_task(TASK), tasks.arm(ARM)
     trial = next(one for one in task.trials(arm) if one.id == TRIAL)
     conditions = Conditions(dt_s=variant.dt_s)
     ended: Ended = next(run("native", compliant, task, arm, (trial,), conditions, variant.contact))

@@ -52,7 +52,7 @@ def plate(rows: pd.DataFrame) -> dict[str, str]:
     trials = tasks.contact_task(shown["task"]).trials(tasks.arm(about["arm"]))
     trial = next(one for one in trials if one.id == shown["trial"])
     values["plate_tilt"] = f"{np.degrees(trial.tilt):.0f}"
-    values["plate_force"] = f"{np.linalg.norm(trial.order.exerts[:3]):.0f}"
+    values["plate_force"] = f"{np.linalg.norm(trial.specification.desired_wrench[:3]):.0f}"
     values["plate_beta"] = trial.id.rpartition("beta+")[2]
     own = rows[(rows["task"] == shown["task"]) & (rows["arm"] == about["arm"]) & (rows["pose"] == shown["trial"])]
     for word, contender in zip(("plate_cartesian", "plate_euler"), shown["controllers"], strict=True):
@@ -66,7 +66,7 @@ def orders() -> str:
     arm, lines = tasks.arm(media.facts()["contact"]["arm"]), []
     for name in MEASURES:
         task = tasks.contact_task(name)
-        lines.append(f"{task.title} (complies: {task.trials(arm)[0].order.name})")
+        lines.append(f"{task.title} (complies: {task.trials(arm)[0].specification.name})")
     return f"{'. '.join(lines)}."
 
 
