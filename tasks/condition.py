@@ -1,7 +1,7 @@
 """What a controller meets outside the paper: conditions of an episode on the free body, one axis a perturbation.
 
 An axis is one file of tasks/conditions with a constant AXIS; along it a number, the level, grows or shrinks. At the
-nominal level of every axis the condition is the default one: a law asked every millisecond, told the truth at once.
+nominal level of every axis the condition is the default one: a law asked every millisecond, given the truth at once.
 """
 
 from __future__ import annotations
@@ -12,8 +12,8 @@ from typing import NamedTuple
 
 from tasks.base import Start, Vector
 
-UNTOLD, RATE, RATE_AND_ACCELERATION = range(3)
-"""What a law is told of a moving goal beside where it is."""
+NO_FEEDFORWARD, RATE, RATE_AND_ACCELERATION = range(3)
+"""What a law is given of a moving goal beside where it is."""
 
 
 class Condition(NamedTuple):
@@ -21,22 +21,22 @@ class Condition(NamedTuple):
 
     period_s: from one command to the next; between them it is held. delay_s: from measuring to the command's effect.
     attitude_noise, rate_noise: standard deviation about each axis, drawn anew each period [rad, rad/s].
-    beyond: the worst of measurements: within this angle [rad] of the half turn the body is reported so much farther
-    from the goal than it is, so that it seems to lie on the other side. bound: what |u| is cut to [rad/s^2].
-    inertia: true principal moments over the law's model of them, along the body's axes. sway: peak rate [rad/s] of a
-    goal that moves (`moving_goal`), and told: what of its motion. peak: gains such that the law's greatest command
-    from rest is this [rad/s^2], critically damped; 0: the gains as they are.
+    worst_attitude_error: within this angle [rad] of a 180-degree rotation the body is reported so much farther from the
+    goal than it is, so that it seems to lie on the other side. bound: what |u| is cut to [rad/s^2]. inertia: true
+    principal moments over the law's model of them, along the body's axes. reference_amplitude: peak rate [rad/s] of a
+    goal that moves (`moving_goal`), and feedforward: what the law is given of its motion. peak: gains such that the
+    law's greatest command from rest is this [rad/s^2], critically damped; 0: the gains as they are.
     """
 
     period_s: float = 1e-3
     delay_s: float = 0.0
     attitude_noise: float = 0.0
     rate_noise: float = 0.0
-    beyond: float = 0.0
+    worst_attitude_error: float = 0.0
     bound: float = math.inf
     inertia: Vector = (1.0, 1.0, 1.0)
-    sway: float = 0.0
-    told: int = RATE_AND_ACCELERATION
+    reference_amplitude: float = 0.0
+    feedforward: int = RATE_AND_ACCELERATION
     peak: float = 0.0
 
     @property
@@ -47,7 +47,7 @@ class Condition(NamedTuple):
     @property
     def lasts(self) -> bool:
         """Whether the perturbation goes on after the goal is reached, so that an episode must run to its horizon."""
-        return self.is_noisy or self.sway > 0.0
+        return self.is_noisy or self.reference_amplitude > 0.0
 
 
 def spread(count: int, seed: int, level: float) -> list[Start]:

@@ -1,23 +1,23 @@
 """A goal that sways about two axes at once, with its angular velocity and acceleration in closed form.
 
-    R_d(t) = exp(p [z]x) exp(q [x]x) R_d(0),   p = c sin(2 t)/2,   q = c sin(3.1 t)/3.1,   c = sway/sqrt(2)
+    R_d(t) = exp(p [z]x) exp(q [x]x) R_d(0),   p = c sin(2 t)/2,   q = c sin(3.1 t)/3.1,   c = amplitude/sqrt(2)
     omega_d = pdot z + qdot exp(p [z]x) x
     alpha_d = pddot z + qddot exp(p [z]x) x + pdot qdot exp(p [z]x) y
 
-The two axes z and exp(p [z]x) x stay at right angles: |omega_d|^2 = pdot^2 + qdot^2 <= sway^2, reached at t = 0.
+The two axes z and exp(p [z]x) x stay at right angles: |omega_d|^2 = pdot^2 + qdot^2 <= amplitude^2, reached at t = 0.
 Plain functions of numbers, so that the slow loop calls them and the compiled loops compile them.
 """
 
 import math
 
 
-def swayed(time, sway, column):
+def reference_column(time, amplitude, column):
     """A column of R_d at a time, from what it is at time 0 (base frame).
 
     Args:
-        time [s]; sway: peak rate [rad/s]; column: three numbers.
+        time [s]; amplitude: peak rate [rad/s]; column: three numbers.
     """
-    peak = sway * math.sqrt(0.5)
+    peak = amplitude * math.sqrt(0.5)
     p, q = peak * math.sin(2.0 * time) / 2.0, peak * math.sin(3.1 * time) / 3.1
     cos_p, sin_p, cos_q, sin_q = math.cos(p), math.sin(p), math.cos(q), math.sin(q)
     y = cos_q * column[1] - sin_q * column[2]
@@ -25,9 +25,9 @@ def swayed(time, sway, column):
     return (cos_p * column[0] - sin_p * y, sin_p * column[0] + cos_p * y, z)
 
 
-def sway_rates(time, sway):
+def reference_rates(time, amplitude):
     """(omega_d, alpha_d) at a time [rad/s, rad/s^2], base frame."""
-    peak = sway * math.sqrt(0.5)
+    peak = amplitude * math.sqrt(0.5)
     p = peak * math.sin(2.0 * time) / 2.0
     pdot, qdot = peak * math.cos(2.0 * time), peak * math.cos(3.1 * time)
     pddot, qddot = -2.0 * peak * math.sin(2.0 * time), -3.1 * peak * math.sin(3.1 * time)
@@ -37,5 +37,5 @@ def sway_rates(time, sway):
     return omega, alpha
 
 
-COMPILABLE = (swayed, sway_rates)
+COMPILABLE = (reference_column, reference_rates)
 """What a compiled loop needs of this module."""

@@ -64,7 +64,7 @@ def about(axis: Vector, theta: float) -> Quat:
     return (c, s * x, s * y, s * z)
 
 
-def short_of_half_turn(axis: Vector, delta: float) -> Quat:
+def short_of_180_degrees(axis: Vector, delta: float) -> Quat:
     """Rotation by pi - delta [rad] about an axis.
 
     w = sin(delta/2) has full relative precision for any delta, which pi - delta rounded to a double has not;

@@ -19,7 +19,7 @@ from bench.law.scalar import kernel, sqrt
 from bench.law.so3 import Rotation, dot, from_quaternion, minus, turn_quaternion
 from bench.law.tracking import carried_along
 from tasks.condition import RATE, RATE_AND_ACCELERATION, Condition
-from tasks.moving_goal import sway_rates, swayed
+from tasks.moving_goal import reference_column, reference_rates
 from tasks.verdict import GOING, check_command, check_state, first_watch, watched
 
 STEP_S = 1e-3
@@ -71,29 +71,33 @@ def reported(R, omega, R_d, noise, condition, ahead):
         R = turned(R, (s * noise[0], s * noise[1], s * noise[2]))
     if condition.rate_noise > 0.0:
         omega = plus(omega, condition.rate_noise, (noise[3], noise[4], noise[5]))
-    if condition.beyond > 0.0 and angle_between(R, R_d) + condition.beyond > math.pi:
+    if condition.worst_attitude_error > 0.0 and angle_between(R, R_d) + condition.worst_attitude_error > math.pi:
         _, v, _ = turn_quaternion(turned(R, (ahead * omega[0], ahead * omega[1], ahead * omega[2])), R_d)
-        away = -condition.beyond / sqrt(dot(v, v))
+        away = -condition.worst_attitude_error / sqrt(dot(v, v))
         R = turned(R, (away * v[0], away * v[1], away * v[2]))
     return R, omega
 
 
 @kernel
-def goal_at(R_0, time, sway):
+def goal_at(R_0, time, amplitude):
     """(R_d, omega_d, alpha_d) at a time."""
-    if sway > 0.0:
-        R_d = Rotation(swayed(time, sway, R_0.n), swayed(time, sway, R_0.o), swayed(time, sway, R_0.a))
-        omega_d, alpha_d = sway_rates(time, sway)
+    if amplitude > 0.0:
+        R_d = Rotation(
+            reference_column(time, amplitude, R_0.n),
+            reference_column(time, amplitude, R_0.o),
+            reference_column(time, amplitude, R_0.a),
+        )
+        omega_d, alpha_d = reference_rates(time, amplitude)
         return R_d, omega_d, alpha_d
     return R_0, AT_REST, AT_REST
 
 
 @kernel
-def told_of(omega_d, alpha_d, told):
-    """What the law is told of the goal's motion."""
-    if told < RATE:
+def fed_forward(omega_d, alpha_d, feedforward):
+    """What the law is given of the goal's motion."""
+    if feedforward < RATE:
         return AT_REST, AT_REST
-    if told < RATE_AND_ACCELERATION:
+    if feedforward < RATE_AND_ACCELERATION:
         return omega_d, AT_REST
     return omega_d, alpha_d
 
@@ -124,7 +128,7 @@ def episodes_of(observe):
             R = from_quaternion((start[0], start[1], start[2], start[3]))
             omega = (start[4], start[5], start[6])
             R_0 = from_quaternion((start[7], start[8], start[9], start[10]))
-            R_d, omega_d, alpha_d = goal_at(R_0, 0.0, condition.sway)
+            R_d, omega_d, alpha_d = goal_at(R_0, 0.0, condition.reference_amplitude)
             band = start[11]
             memory, margin = memory0, math.nan
             u = given = AT_REST
@@ -137,11 +141,11 @@ def episodes_of(observe):
                     before = u
                     drawn = noise[k, period] if is_noisy else noise[0, 0]
                     seen, turning = reported(R, omega, R_d, drawn, condition, LEAD * (timing.steps * h))
-                    rate, acceleration = told_of(omega_d, alpha_d, condition.told)
+                    rate, acceleration = fed_forward(omega_d, alpha_d, condition.feedforward)
                     goal = Goal(R_d, AT_REST, AT_REST)
                     given, memory, margin = evaluate(seen, minus(turning, rate), goal, gains, memory)
                     u = given
-                    if condition.sway > 0.0:
+                    if condition.reference_amplitude > 0.0:
                         u = carried_along(u, turning, rate, acceleration)
                     u = bounded(u, condition.bound)
                     failure = check_command(dot(u, u), numbers.command_limit_squared)
@@ -164,7 +168,7 @@ def episodes_of(observe):
                 failure = check_state(dot(omega, omega), numbers.speed_limit_squared)
                 if failure != GOING:
                     break
-                R_d, omega_d, alpha_d = goal_at(R_0, tick * h, condition.sway)
+                R_d, omega_d, alpha_d = goal_at(R_0, tick * h, condition.reference_amplitude)
                 hav = haversine(R, R_d)
                 watch = watched(watch, tick, hav, band)
                 if tick > numbers.ticks - timing.tail:

@@ -23,7 +23,7 @@ from tasks.clearance import clear_path, steps_for
 from tasks.haar import direction, halton
 from tasks.kinematics import Kinematics, kinematics
 from tasks.paths import geodesic, normal
-from tasks.rotations import multiply, short_of_half_turn
+from tasks.rotations import multiply, short_of_180_degrees
 
 AXES: dict[str, Vector] = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
 AXES_DRAWN = 3
@@ -60,7 +60,7 @@ def _pose(model: Kinematics, axis: Vector, seed: int) -> tuple[np.ndarray, Vecto
 
 
 def _goal(quat: Quat, axis: Vector, delta: float) -> Quat:
-    return normal(multiply(short_of_half_turn(axis, delta), quat))
+    return normal(multiply(short_of_180_degrees(axis, delta), quat))
 
 
 STARTS = ArmStartSet("half-turn", "Turns by exactly pi and by pi - 10^-k with the arm in good condition", SIZE, build)

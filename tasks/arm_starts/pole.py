@@ -2,7 +2,7 @@
 
 The tool's n stands upright in the middle, n = (0, 0, -+1), and the turn about a horizontal axis d takes it through
 there; or the middle is tilted by 10^-k rad towards d, and then no point of the turn is nearer to the pole. Start and
-goal are HALF_TURN before and after the middle, where |cos beta| = sin(HALF_TURN) = 0.64. All of the joint path is
+goal are HALF_ANGLE before and after the middle, where |cos beta| = sin(HALF_ANGLE) = 0.64. All of the joint path is
 clear (clearance.py): the arm can do this with a geometric Jacobian, and what fails there is the representation.
 
 How exact: the axis and the goal are computed from the start's own quaternion so that the geodesic's middle is the
@@ -25,7 +25,7 @@ from tasks.clearance import clear_path, clear_turn_through, steps_for
 from tasks.kinematics import Kinematics, kinematics
 from tasks.paths import to_vertical, turned
 
-HALF_TURN = math.radians(40.0)
+HALF_ANGLE = math.radians(40.0)
 POLES = {"plus": 1, "minus": -1}
 DECADES = range(1, 8)
 # Poses for each pole.
@@ -60,7 +60,7 @@ def _family(model: Kinematics, q: np.ndarray, axis: Vector, sign: int) -> list[t
     for tilt in (0.0, *(10.0**-k for k in DECADES)):
         # about the horizontal axis z x d, n leans from the vertical along d: the turn about d leaves that part of n
         middle = turned(upright, (-d[1], d[0], 0.0), tilt)
-        turn = clear_turn_through(model, there[-1], middle, d, HALF_TURN)
+        turn = clear_turn_through(model, there[-1], middle, d, HALF_ANGLE)
         if turn is None:
             return None
         found.append(turn)

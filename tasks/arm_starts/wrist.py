@@ -5,7 +5,7 @@ that passes: joint rates stay finite, in the limit, though J^-1 does not. `k2` t
 distance of J from the nearest singular matrix, is 10^-k, so that the condition number is about 2 times 10^k. The turn
 is then about the axis that is all but lost there, which takes joint rates of up to 10^k times the tool's; or, where
 the arm's workspace ends at the singularity and it can go no further that way (the Jaco's wrist, with its bent axes),
-about an axis across the lost one, along the end. Start and goal are HALF_TURN before and after the middle, where the
+about an axis across the lost one, along the end. Start and goal are HALF_ANGLE before and after the middle, where the
 condition number is at most CONDITION; all along, joints are RANGE inside their ranges and |cos beta| is at least
 COS_BETA (clearance.py). With seven joints all this is so of one joint path; others lead around the singularity.
 
@@ -35,7 +35,7 @@ from tasks.paths import beyond, turned
 from tasks.rotations import unit
 from tasks.singular import Singularity, beside, path_from, rates_through, singularity_near, widening
 
-HALF_TURN = math.radians(40.0)
+HALF_ANGLE = math.radians(40.0)
 # Points of a half turn: one degree apart, since with seven joints the path depends on its points near a singularity.
 THROUGH = 40
 DECADES = range(2, 7)
@@ -100,7 +100,7 @@ def _across(lost: np.ndarray | Vector, drawn: list[Vector]) -> Iterator[Vector]:
 
 
 def _through(model: Kinematics, at: Singularity, axis: Vector) -> Turn | None:
-    out = [HALF_TURN * i / THROUGH for i in range(1, THROUGH + 1)]
+    out = [HALF_ANGLE * i / THROUGH for i in range(1, THROUGH + 1)]
     for rates in rates_through(model, at, axis):
         paths = [path_from(model, at, axis, rates, [sign * x for x in out]) for sign in (-1.0, 1.0)]
         turn = _turn(model, at.q, axis, paths)
@@ -114,7 +114,7 @@ def _past(model: Kinematics, at: Singularity, distance: float, drawn: list[Vecto
     if found is None:
         return None
     q, lost = found
-    middle, out = model.pose(q)[1], widening(distance, HALF_TURN, HALF_TURN / THROUGH)
+    middle, out = model.pose(q)[1], widening(distance, HALF_ANGLE, HALF_ANGLE / THROUGH)
     for axis in (lost, *_across(lost, drawn)):
         paths = (model.follow(q, [turned(middle, axis, sign * x) for x in out]) for sign in (-1.0, 1.0))
         turn = _turn(model, q, axis, paths)
@@ -126,7 +126,7 @@ def _past(model: Kinematics, at: Singularity, distance: float, drawn: list[Vecto
 def _turn(model: Kinematics, q: np.ndarray, axis: Vector, paths: Iterable[np.ndarray | None]) -> Turn | None:
     """(start's q, goal) of the turn with the pose of q in its middle; the two paths lead away from there."""
     middle = model.pose(q)[1]
-    if not is_clear_of_pole(turned(middle, axis, HALF_TURN * i / 8.0) for i in range(-8, 9)):
+    if not is_clear_of_pole(turned(middle, axis, HALF_ANGLE * i / 8.0) for i in range(-8, 9)):
         return None
     ends = []
     for path in paths:

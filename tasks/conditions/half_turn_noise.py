@@ -11,13 +11,13 @@ from __future__ import annotations
 from tasks.base import Start
 from tasks.condition import Axis, Condition
 from tasks.haar import direction, halton
-from tasks.rotations import short_of_half_turn
+from tasks.rotations import short_of_180_degrees
 
 
 def starts(count: int, seed: int, level: float) -> list[Start]:
     """Exact half turns about axes spread evenly over the sphere, at rest."""
     axes = [direction(*point) for point in halton(count, 2, seed)]
-    return [Start(f"exact-{i:04d}", short_of_half_turn(axis, 0.0)) for i, axis in enumerate(axes)]
+    return [Start(f"exact-{i:04d}", short_of_180_degrees(axis, 0.0)) for i, axis in enumerate(axes)]
 
 
 AXIS = Axis(
@@ -26,6 +26,6 @@ AXIS = Axis(
     "rad",
     (0.0, 0.001, 0.01, 0.03, 0.1, 0.3, 1.0),
     0.0,
-    lambda level: Condition(beyond=level),
+    lambda level: Condition(worst_attitude_error=level),
     starts,
 )

@@ -1,4 +1,4 @@
-"""A goal that sways about two axes, at a peak rate of the level; the law is told its rate and acceleration."""
+"""A goal that sways about two axes, at a peak rate of the level; its rate and acceleration are feedforward."""
 
 from tasks.condition import RATE_AND_ACCELERATION, Axis, Condition
 
@@ -8,5 +8,5 @@ AXIS = Axis(
     "rad/s",
     (0.0, 0.5, 1.0, 2.0, 5.0, 10.0),
     0.0,
-    lambda level: Condition(sway=level, told=RATE_AND_ACCELERATION),
+    lambda level: Condition(reference_amplitude=level, feedforward=RATE_AND_ACCELERATION),
 )

@@ -1,6 +1,6 @@
-"""A goal that sways about two axes, at a peak rate of the level; the law is told where it is, not how it moves."""
+"""A goal that sways about two axes, at a peak rate of the level; the law is given where it is, without feedforward."""
 
-from tasks.condition import UNTOLD, Axis, Condition
+from tasks.condition import NO_FEEDFORWARD, Axis, Condition
 
 AXIS = Axis(
     "moving-goal-untold",
@@ -8,5 +8,5 @@ AXIS = Axis(
     "rad/s",
     (0.0, 0.5, 1.0, 2.0, 5.0, 10.0),
     0.0,
-    lambda level: Condition(sway=level, told=UNTOLD),
+    lambda level: Condition(reference_amplitude=level, feedforward=NO_FEEDFORWARD),
 )

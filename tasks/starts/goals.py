@@ -15,7 +15,7 @@ import threading
 
 from tasks.base import IDENTITY, Quat, Start, StartSet, haversine
 from tasks.haar import halton, orientation
-from tasks.rotations import about, multiply, on_pole, short_of_half_turn, zyx
+from tasks.rotations import about, multiply, on_pole, short_of_180_degrees, zyx
 
 FAR = 0.5  # haversine of a quarter turn
 BLOCK = 512  # candidates that are looked at together
@@ -51,7 +51,7 @@ def _directed() -> list[Start]:
         starts.append(_pair(f"goal-beyond-wrap-alpha-{word}", zyx(near, 0.3, 0.2), zyx(beyond, 0.3, 0.2)))
         starts.append(_pair(f"goal-beyond-wrap-gamma-{word}", zyx(0.2, 0.3, near), zyx(0.2, 0.3, beyond)))
     for name, axis in AXES.items():
-        goal = short_of_half_turn(axis, 0.0)
+        goal = short_of_180_degrees(axis, 0.0)
         starts.append(_pair(f"goal-half-turn-{name}-from-identity", IDENTITY, goal))
         starts.append(_pair(f"goal-half-turn-{name}-small-step", SMALL_STEP, goal, moved=True))
         starts.append(_pair(f"goal-half-turn-{name}-offset", OFFSET, goal, moved=True))

@@ -11,7 +11,7 @@ import math
 import numpy as np
 
 from tasks.base import Start, StartSet, Vector
-from tasks.rotations import short_of_half_turn
+from tasks.rotations import short_of_180_degrees
 
 AXES: dict[str, Vector] = {
     "x": (1.0, 0.0, 0.0),
@@ -37,9 +37,9 @@ DECADES = range(13)
 def build(count: int, seed: int) -> list[Start]:
     """Exact half turns first, then every axis at pi - 1 rad, pi - 0.1 rad, ...; `seed` draws random axes."""
     axes = AXES | _random_axes(seed)
-    exact = [Start(f"half-turn-{name}-exact", short_of_half_turn(axis, 0.0)) for name, axis in axes.items()]
+    exact = [Start(f"half-turn-{name}-exact", short_of_180_degrees(axis, 0.0)) for name, axis in axes.items()]
     near = [
-        Start(f"half-turn-{name}-k{k:02d}", short_of_half_turn(axis, 10.0**-k))
+        Start(f"half-turn-{name}-k{k:02d}", short_of_180_degrees(axis, 10.0**-k))
         for k in DECADES
         for name, axis in axes.items()
     ]

@@ -152,7 +152,7 @@ def judged(beyond):
     """Whether each exact half turn is left for good where the sensor lies by `beyond` near it, and when [s]."""
     chosen = settings(horizon_s=2.0)
     one = find_contender("late-braking")
-    rows = run(one, HALF_TURNS, Condition(beyond=beyond), chosen, metrics_of(on_arm=False), 0)
+    rows = run(one, HALF_TURNS, Condition(worst_attitude_error=beyond), chosen, metrics_of(on_arm=False), 0)
     return rows[:, OUTCOME] == SETTLED, rows[:, SETTLING_TICK] * chosen.dt_s
 
 

@@ -33,7 +33,7 @@ def test_at_its_nominal_level_nothing_is_wrong(axis):
     if axis.nominal is None:
         assert Condition() not in [axis.at(level) for level in axis.levels]
     else:
-        assert axis.at(axis.nominal)._replace(told=Condition().told) == Condition()
+        assert axis.at(axis.nominal)._replace(feedforward=Condition().feedforward) == Condition()
 
 
 def test_each_level_differs_from_the_others_in_condition_or_starts(axis):
@@ -49,7 +49,8 @@ def test_conditions_are_of_this_world(axis):
         assert x + y >= z * (1.0 - 1e-12)
         assert met.period_s > 0.0
         assert met.bound > 0.0
-        assert min(met.delay_s, met.attitude_noise, met.rate_noise, met.beyond, met.sway, met.peak) >= 0.0
+        assert min(met.delay_s, met.attitude_noise, met.rate_noise, met.peak) >= 0.0
+        assert min(met.worst_attitude_error, met.reference_amplitude) >= 0.0
 
 
 def test_delays_are_whole_steps_of_the_plant(axis):

@@ -20,9 +20,9 @@ from bench.engines.run_disturbed import drawn, run
 from bench.law.so3 import Rotation
 from bench.metrics.registry import metrics_of
 from tasks.base import Start
-from tasks.condition import RATE, UNTOLD, Condition
-from tasks.moving_goal import sway_rates
-from tasks.rotations import about, short_of_half_turn
+from tasks.condition import NO_FEEDFORWARD, RATE, Condition
+from tasks.moving_goal import reference_rates
+from tasks.rotations import about, short_of_180_degrees
 from tasks.rules import RULES
 from tasks.verdict import SETTLED
 
@@ -47,8 +47,8 @@ def test_without_perturbation_it_is_the_sampled_plant_bit_for_bit(word):
 
 
 EVERYTHING = Condition(
-    period_s=2e-3, delay_s=3e-3, attitude_noise=0.01, rate_noise=0.1, beyond=0.2, bound=80.0, inertia=(0.7, 1.0, 1.4),
-    sway=2.0,
+    period_s=2e-3, delay_s=3e-3, attitude_noise=0.01, rate_noise=0.1, worst_attitude_error=0.2, bound=80.0,
+    inertia=(0.7, 1.0, 1.4), reference_amplitude=2.0,
 )  # fmt: skip
 
 
@@ -150,14 +150,15 @@ def test_noise_is_that_of_its_seed_and_start_alone():
     assert abs(drawn(4, 5000, 0, True).std() - 1.0) < 0.01
 
 
-HALF_TURNS = [Start(f"{axis}", short_of_half_turn(axis, 0.0)) for axis in (X, AXIS, (1.0, 1.0, 1.0), (-0.3, 0.2, 0.9))]
+AXES = (X, AXIS, (1.0, 1.0, 1.0), (-0.3, 0.2, 0.9))
+HALF_TURNS = [Start(f"{axis}", short_of_180_degrees(axis, 0.0)) for axis in AXES]
 
 
 @pytest.mark.parametrize("word", ["square-root", "quaternion-shortest", "rotation-vector", "mrp", "sliding"])
 @pytest.mark.parametrize(("beyond", "period_s"), [(0.1, 1e-3), (1e-3, 1e-3), (1e-5, 1e-4)])
 def test_the_worst_noise_holds_a_law_without_memory_at_the_half_turn(word, beyond, period_s):
     """Any noise larger than the turn of one period, some Kp f(pi) period^2: asked more often, it is held by less."""
-    rows = ended(word, HALF_TURNS, Condition(beyond=beyond, period_s=period_s), horizon_s=2.0)
+    rows = ended(word, HALF_TURNS, Condition(worst_attitude_error=beyond, period_s=period_s), horizon_s=2.0)
     assert np.all(np.abs(rows[:, FINAL_ANGLE] - math.pi) < 2.0 * beyond)
     assert np.all(ended(word, HALF_TURNS, Condition(period_s=period_s))[:, OUTCOME] == SETTLED)
 
@@ -166,7 +167,7 @@ def test_the_worst_noise_holds_a_law_without_memory_at_the_half_turn(word, beyon
 def test_hysteresis_of_a_quaternion_resists_up_to_its_width(beyond, is_held):
     """The remembered side is left where the reported eta falls under -DELTA: 2 asin(DELTA) = 0.823 rad beyond."""
     assert (beyond > 2.0 * math.asin(DELTA)) == is_held
-    rows = ended("hybrid", HALF_TURNS, Condition(beyond=beyond))
+    rows = ended("hybrid", HALF_TURNS, Condition(worst_attitude_error=beyond))
     assert np.all((rows[:, OUTCOME] == SETTLED) != is_held)
 
 
@@ -205,10 +206,10 @@ RELATIVE = ["rotation-matrix", "square-root", "rotation-vector", "mrp-linearized
 def test_told_rate_and_acceleration_a_law_moves_about_its_goal_as_about_one_at_rest(word):
     """Started with the goal's own velocity, the error takes the course of regulation from rest, but for the hold."""
     still = [Start(f"{angle}", about(AXIS, angle)) for angle in (0.5, 1.6, 2.9)]
-    moving = [start._replace(omega=sway_rates(0.0, 5.0)[0]) for start in still]
+    moving = [start._replace(omega=reference_rates(0.0, 5.0)[0]) for start in still]
     condition = Condition(period_s=1e-4)
     expected = ended(word, still, condition, horizon_s=1.0)
-    rows = ended(word, moving, condition._replace(sway=5.0), horizon_s=1.0)
+    rows = ended(word, moving, condition._replace(reference_amplitude=5.0), horizon_s=1.0)
     np.testing.assert_allclose(rows[:, SETTLING_TICK], expected[:, SETTLING_TICK], atol=6)
     np.testing.assert_allclose(rows[:, FINAL_ANGLE], expected[:, FINAL_ANGLE], atol=6e-4)
 
@@ -217,11 +218,13 @@ def test_untold_it_lags_and_told_the_rate_alone_it_lags_less():
     """Behind a goal of rate r a PD lags by about Kv r / Kp; told the rate, by its acceleration over Kp."""
     start = [Start("still", (1.0, 0.0, 0.0, 0.0))]
     tails = []
-    for told in (UNTOLD, RATE):
-        extra = ended("rotation-vector", start, Condition(sway=0.5, told=told), horizon_s=4.0)[0, -disturbed.EXTRA :]
+    for told in (NO_FEEDFORWARD, RATE):
+        extra = ended("rotation-vector", start, Condition(reference_amplitude=0.5, feedforward=told), horizon_s=4.0)[
+            0, -disturbed.EXTRA :
+        ]
         tails.append(math.sqrt(extra[disturbed.TAIL_SQUARES] / extra[disturbed.TAIL_COUNT]))
     times = np.linspace(3.0, 4.0, 1000)
-    rates, accelerations = (np.array([sway_rates(t, 0.5)[i] for t in times]) for i in (0, 1))
+    rates, accelerations = (np.array([reference_rates(t, 0.5)[i] for t in times]) for i in (0, 1))
     assert tails[0] == pytest.approx(KV / KP * np.sqrt((rates**2).sum(1).mean()), rel=0.15)
     assert tails[1] == pytest.approx(np.sqrt((accelerations**2).sum(1).mean()) / KP, rel=0.15)
 
@@ -229,5 +232,5 @@ def test_untold_it_lags_and_told_the_rate_alone_it_lags_less():
 def test_episodes_stop_early_where_a_perturbation_ends_with_the_error_and_not_where_it_lasts():
     starts = tasks.start_set("uniform", 5)
     assert np.all(ended("square-root", starts, Condition(bound=100.0))[:, TICKS] < 2000)
-    for lasting in (Condition(rate_noise=1e-6), Condition(sway=0.1)):
+    for lasting in (Condition(rate_noise=1e-6), Condition(reference_amplitude=0.1)):
         assert np.all(ended("square-root", starts, lasting)[:, TICKS] == 3000)

@@ -20,7 +20,7 @@ from bench.engines.episode import FIRST_METRIC, OUTCOME, SETTLING_TICK
 from bench.engines.run import run
 from bench.metrics.registry import metrics_of
 from tasks.base import Start
-from tasks.rotations import short_of_half_turn, zyx
+from tasks.rotations import short_of_180_degrees, zyx
 from tasks.verdict import SETTLED
 
 METRICS = metrics_of(on_arm=False)
@@ -130,7 +130,7 @@ def test_rotation_matrix_settling_grows_by_the_closed_form_per_decade_from_the_h
     expected = math.log(10.0) / (math.sqrt(100.0 + 20.0**2 / 4.0) - 20.0 / 2.0)
     chosen = settings(horizon_s=8.0)
     for axis in ((1.0, 0.0, 0.0), (2.0, -1.0, 2.0)):
-        starts = [Start(f"{k}", short_of_half_turn(axis, 10.0 ** -float(k))) for k in decades]
+        starts = [Start(f"{k}", short_of_180_degrees(axis, 10.0 ** -float(k))) for k in decades]
         rows = run("ideal-rk4", find_contender("rotation-matrix"), "free-body", starts, chosen, METRICS)
         assert (rows[:, OUTCOME] == SETTLED).all()
         slope, _ = np.polyfit(decades, rows[:, SETTLING_TICK] * chosen.dt_s, 1)

@@ -18,7 +18,7 @@ from bench.running import run
 from bench.tables import read
 from report.figures.kit.page import run_in
 from report.figures.robustness import half_turn_noise, other_perturbations, robustness, rows, saturation
-from tasks.condition import RATE, RATE_AND_ACCELERATION, UNTOLD
+from tasks.condition import NO_FEEDFORWARD, RATE, RATE_AND_ACCELERATION
 from tasks.rules import RULES
 
 KP, KV, TOLERANCE = 100.0, 20.0, RULES.tolerance
@@ -82,12 +82,13 @@ def test_lag_behind_a_slow_goal_told_nothing_is_the_frequency_response():
         s = 1j * rate
         gain = (s**2 + KV * s) / (s**2 + KV * s + KP) / rate * math.sqrt(0.5)
         squares = squares + (gain * np.exp(s * times)).imag ** 2
-    found = robustness_theory.swaying_rms(KP, KV, UNTOLD, 1e-3, 5.0)
+    found = robustness_theory.swaying_rms(KP, KV, NO_FEEDFORWARD, 1e-3, 5.0)
     assert found == pytest.approx(math.sqrt(squares.mean()), rel=2e-3)
 
 
 def test_each_thing_told_of_a_goal_makes_the_error_smaller():
-    errors = [robustness_theory.swaying_rms(KP, KV, told, 1e-3, 5.0) for told in (UNTOLD, RATE, RATE_AND_ACCELERATION)]
+    given = (NO_FEEDFORWARD, RATE, RATE_AND_ACCELERATION)
+    errors = [robustness_theory.swaying_rms(KP, KV, one, 1e-3, 5.0) for one in given]
     assert errors[0] > 5.0 * errors[1] > 500.0 * errors[2]
 
 

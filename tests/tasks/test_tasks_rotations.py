@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from tasks.rotations import about, columns, multiply, on_pole, short_of_half_turn, to_body, zyx
+from tasks.rotations import about, columns, multiply, on_pole, short_of_180_degrees, to_body, zyx
 
 SEED = 11
 # Entries of R are sums of four products of numbers below 1: a few 2^-53.
@@ -70,15 +70,15 @@ def test_about_agrees_with_scipy():
 
 
 @pytest.mark.parametrize("delta", [1.0, 1e-3, 1e-9, 1e-12])
-def test_short_of_half_turn_agrees_with_scipy(delta):
+def test_short_of_180_degrees_agrees_with_scipy(delta):
     axis = np.array([1.0, -2.0, 0.5])
     expected = Rotation.from_rotvec((math.pi - delta) * axis / np.linalg.norm(axis)).as_matrix()
-    np.testing.assert_allclose(matrix(short_of_half_turn(tuple(axis), delta)), expected, atol=ROUNDING)
+    np.testing.assert_allclose(matrix(short_of_180_degrees(tuple(axis), delta)), expected, atol=ROUNDING)
 
 
 def test_half_turn_has_a_symmetric_matrix_about_any_axis():
     for axis in np.random.default_rng(SEED).normal(size=(50, 3)).tolist():
-        R = matrix(short_of_half_turn(tuple(axis), 0.0))
+        R = matrix(short_of_180_degrees(tuple(axis), 0.0))
         assert np.array_equal(R, R.T)
 
 

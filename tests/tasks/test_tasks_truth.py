@@ -8,7 +8,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from tasks.base import angle, haversine
-from tasks.rotations import about, on_pole, short_of_half_turn, zyx
+from tasks.rotations import about, on_pole, short_of_180_degrees, zyx
 
 IDENTITY = (1.0, 0.0, 0.0, 0.0)
 SEED = 7
@@ -40,7 +40,7 @@ def test_angle_keeps_its_digits_when_near_identity(theta):
 @pytest.mark.parametrize("delta", [1e-15, 1e-12, 1e-8, 1e-4, 1e-1])
 def test_angle_keeps_its_digits_when_near_half_turn(delta):
     for axis in np.random.default_rng(SEED).normal(size=(20, 3)).tolist():
-        quat = short_of_half_turn(tuple(axis), delta)
+        quat = short_of_180_degrees(tuple(axis), delta)
         assert angle(quat, IDENTITY) == pytest.approx(math.pi - delta, abs=ROUNDING)
         assert 1.0 - haversine(quat, IDENTITY) == pytest.approx((delta / 2) ** 2, rel=1e-2, abs=2**-52)
 

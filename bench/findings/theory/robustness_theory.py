@@ -15,8 +15,8 @@ from scipy.signal import lsim
 
 from bench.engines.disturbed import LEAD
 from bench.findings.theory.isotropic import Equation
-from tasks.condition import RATE, UNTOLD
-from tasks.moving_goal import sway_rates
+from tasks.condition import NO_FEEDFORWARD, RATE
+from tasks.moving_goal import reference_rates
 
 STEP_S = 1e-3
 """Longest step of the plant [s], as in the episodes."""
@@ -114,9 +114,9 @@ def swaying_rms(kp: float, kv: float, told: int, period_s: float, horizon_s: flo
     little = 1e-6
     times = np.arange(0.0, horizon_s + 0.5 * GRID_S, GRID_S)
     rates, accelerations = (
-        np.array(part) / little for part in zip(*(sway_rates(time, little) for time in times), strict=True)
+        np.array(part) / little for part in zip(*(reference_rates(time, little) for time in times), strict=True)
     )
-    if told == UNTOLD:
+    if told == NO_FEEDFORWARD:
         push = accelerations + kv * rates
     elif told == RATE:
         push = accelerations
