@@ -7,6 +7,7 @@
     tasks.starts_between(name, 5000, 6000, seed), tasks.start_set_length(name, count)    a stretch of many; how many
     tasks.load("arm-regulation", start, arm="ur5e"), tasks.task("arm-regulation", "ur5e")
     tasks.start_set(name, count, seed, arm="ur5e")    one file each in tasks/arm_starts
+    tasks.pairs()                       every (task, arm) there is; the arm is "" on the free body
     tasks.arm(name), tasks.arm_names()  the manipulators: one file each in tasks/arms
     tasks.variation(name), tasks.variation_names()    a plant that differs from the controller's model of it
     tasks.axis(name), tasks.axis_names()    perturbations of the free body: one file each in tasks/conditions
@@ -54,6 +55,11 @@ def names() -> list[str]:
 def is_for_arms(task: str) -> bool:
     """Whether a task of this name is done by an arm, which must then be named."""
     return isinstance(described(task), ArmTask)
+
+
+def pairs() -> list[tuple[str, str]]:
+    """Every (task, arm) that can be loaded; the arm is empty for a task without one."""
+    return [(name, arm) for name in names() for arm in (arm_names() if is_for_arms(name) else [""])]
 
 
 def described(name: str) -> Task | ArmTask:

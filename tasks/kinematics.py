@@ -87,11 +87,8 @@ class Kinematics:
     def reach(self, q: Sequence[float] | np.ndarray, p: np.ndarray, quat: Quat) -> np.ndarray | None:
         """The joint angles of a pose, by Newton's method from nearby ones; None if it does not converge."""
         q = np.array(q, dtype=float)
-        error = np.empty(6)
         for _ in range(NEWTON_STEPS):
-            here, orientation = self.pose(q)
-            error[:3] = p - here
-            error[3:] = rotation_vector(quat, orientation)
+            error = self._error(q, p, quat)
             if length(error) <= REACHED:
                 return q
             step = least_norm(self._jacobian_here(), error)
@@ -107,11 +104,8 @@ class Kinematics:
         pose a descent that no singularity disturbs, near it Newton's method, which finishes.
         """
         q = np.array(q, dtype=float)
-        error = np.empty(6)
         for _ in range(SEARCH_STEPS):
-            here, orientation = self.pose(q)
-            error[:3] = p - here
-            error[3:] = rotation_vector(quat, orientation)
+            error = self._error(q, p, quat)
             distance = length(error)
             if distance <= NEAR:
                 return self.reach(q, p, quat)
@@ -167,6 +161,11 @@ class Kinematics:
             x, y, z = self._data.sensordata[9:12].tolist()
             omega = (x, y, z)
         return Start(name, quat, omega, goal, angles, rates)
+
+    def _error(self, q: np.ndarray, p: np.ndarray, quat: Quat) -> np.ndarray:
+        """(p_d - p, log(R_d R^T)) [m, rad]."""
+        here, orientation = self.pose(q)
+        return np.array((*(p - here), *rotation_vector(quat, orientation)))
 
     def _jacobian_here(self) -> np.ndarray:
         """J where `pose` was last called."""

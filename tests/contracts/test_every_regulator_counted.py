@@ -1,7 +1,6 @@
 """Contract of every regulator in every representation: counting it changes no bit, and all of it is counted."""
 
 import itertools
-import struct
 
 import numpy as np
 import pytest
@@ -9,10 +8,11 @@ from scipy.spatial.transform import Rotation as Oracle
 from support.states import as_rotation, rotations
 
 from bench.contenders.registry import all_contenders, known_representations
-from bench.counting import OPERATIONS, STAGES, TOTAL, Counted, Tally, cost, flops, rows
-from bench.counting.costs import counted
+from bench.counting import OPERATIONS, STAGES, TOTAL, Tally, cost, flops, rows
+from bench.counting.costs import bits, counted
 from bench.counting.staged import STAGE_OF, law_of, staged
-from bench.law.contender import AT_REST, NO_MEMORY, Gains, Goal
+from bench.engines.binding import memory_of
+from bench.law.contender import AT_REST, Gains, Goal
 from bench.law.so3 import IDENTITY, Rotation
 
 CONTENDERS = all_contenders()
@@ -22,25 +22,6 @@ EVERY = rotations()
 SOME = (*EVERY[:37], *EVERY[37::5])  # all that permute axes or are near the identity, and some of the others
 ZYX = as_rotation(Oracle.from_euler("ZYX", [2.0, -1.1, 0.4]).as_matrix().T)
 GOALS = [IDENTITY, ZYX, next(R for R in EVERY if abs(R.n[2]) == 1.0)]
-
-
-def doubles(answer):
-    """The numbers of an answer, flat."""
-    if isinstance(answer, tuple):
-        return [number for part in answer for number in doubles(part)]
-    return [answer.value if isinstance(answer, Counted) else answer]
-
-
-def bytes_of(answer):
-    numbers = doubles(answer)
-    return struct.pack(f"<{len(numbers)}d", *numbers)
-
-
-def memories(one):
-    if one.regulator.memory is None:
-        return [()]
-    first = (*one.regulator.memory, *NO_MEMORY[len(one.regulator.memory) :])
-    return [(tuple(np.float64(x) for x in first),)]
 
 
 @pytest.fixture(params=CONTENDERS, ids=lambda one: one.name, scope="module")
@@ -54,9 +35,10 @@ def test_counted_command_is_the_float_command_bit_for_bit(one, pace):
     plain, counting = one.law, law_of(one, tally)
     omega = tuple(np.float64(x) for x in OMEGAS[pace])
     with np.errstate(all="ignore"):
-        for R, R_d, memory in itertools.product(SOME, GOALS, memories(one)):
+        memory = () if one.regulator.memory is None else (tuple(map(np.float64, memory_of(one))),)
+        for R, R_d in itertools.product(SOME, GOALS):
             given = (R, omega, Goal(R_d, *(omega, omega)), GAINS, *memory)
-            assert bytes_of(counting(*counted(given, tally))) == bytes_of(plain(*given))
+            assert bits(counting(*counted(given, tally))) == bits(plain(*given))
 
 
 @pytest.mark.parametrize("word", known_representations())
@@ -99,7 +81,7 @@ def test_counted_representation_is_the_float_one_bit_for_bit(word):
                     ),
                 ]
             for ours, floats in pairs:
-                assert bytes_of(ours) == bytes_of(floats)
+                assert bits(ours) == bits(floats)
 
 
 def test_every_function_of_a_representation_has_a_stage():

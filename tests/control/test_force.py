@@ -323,7 +323,7 @@ def oriented(arm: str, moving: bool):
 @over_arms
 @pytest.mark.parametrize("representation", AT_ORIGIN, ids=named)
 def test_coordinates_are_the_base_frames_at_their_origin(representation, arm, form):
-    """Where B is the identity but for the specification of its columns, at rest; on the rotation vector moving too."""
+    """Where B is the identity but for the order of its columns, at rest; on the rotation vector moving too."""
     np.testing.assert_array_equal(B_of(representation, (0.0, 0.0, 0.0))[:, axes_of(representation)], np.eye(3))
     at, wish = oriented(arm, moving=representation.name == "rotation-vector")
     for held in SELECTIONS:

@@ -20,6 +20,11 @@ def first(arm, name="tumbling"):
 # ----------------------------------------------------------------------------------------------- names
 
 
+def test_pairs_are_the_free_body_and_every_arm():
+    assert ("free-body", "") in tasks.pairs()
+    assert [arm for task, arm in tasks.pairs() if task == "arm-regulation"] == tasks.arm_names()
+
+
 def test_task_for_arms_says_so():
     assert tasks.is_for_arms("arm-regulation")
     assert not tasks.is_for_arms("free-body")

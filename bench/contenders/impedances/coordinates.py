@@ -9,7 +9,7 @@ is (1 + |sin beta|)/(1 - |sin beta|).
 Fails: where B^-1 does not exist; a moment is lost there.
 """
 
-from bench.law import Impedance, kernel
+from bench.law import Impedance, driven, kernel
 
 
 def law_in(representation):
@@ -22,15 +22,8 @@ def law_in(representation):
         """u = B (B^T m/m_o + Kp (E_d - E) - Kv Edot) + Bdot Edot."""
         at = chart(R)
         E, E_d, Edot, g = at.E, chart(R_d).E, rates(at, omega), generalized(at, m)
-        return accelerate(
-            at,
-            Edot,
-            (
-                g[0] / inertia + gains.kp * (E_d[0] - E[0]) - gains.kv * Edot[0],
-                g[1] / inertia + gains.kp * (E_d[1] - E[1]) - gains.kv * Edot[1],
-                g[2] / inertia + gains.kp * (E_d[2] - E[2]) - gains.kv * Edot[2],
-            ),
-        )
+        spring = (gains.kp * (E_d[0] - E[0]), gains.kp * (E_d[1] - E[1]), gains.kp * (E_d[2] - E[2]))
+        return accelerate(at, Edot, driven(g, inertia, spring, gains.kv, Edot))
 
     return law
 
