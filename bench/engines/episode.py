@@ -24,10 +24,10 @@ class Settings(NamedTuple):
     dt_s: float
     ticks: int
     hold_ticks: int
-    command_limit: float
-    speed_limit: float
-    rest_speed: float
-    rest_command: float
+    command_limit: float = RULES.command_limit
+    speed_limit: float = RULES.speed_limit
+    rest_speed: float = RULES.rest_speed
+    rest_command: float = RULES.rest_command
 
 
 class Numbers(NamedTuple):

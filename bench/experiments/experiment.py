@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import dataclasses
 import functools
-import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -26,7 +25,7 @@ from bench.experiments.suites import Suite
 from bench.law.contender import PAPERS_GAINS, Contender, Gains, Regulator
 from bench.tables.schema import Table
 from tasks.discovery import constants
-from tasks.rules import RULES
+from tasks.rules import RULES, ticks
 
 WITHOUT, IN_CONTACT = "euler", "implicitfast"
 """Integrators if none is named: the default of MuJoCo, and what it recommends for contacts."""
@@ -52,16 +51,7 @@ class Settings(NamedTuple):
 
     def limits(self, horizon_s: float) -> Limits:
         """These numbers and the judge's rules, as engines take them."""
-        return Limits(
-            self.gains,
-            self.dt_s,
-            max(1, math.floor(horizon_s / self.dt_s + 0.5)),
-            RULES.hold_ticks(self.dt_s),
-            RULES.command_limit,
-            RULES.speed_limit,
-            RULES.rest_speed,
-            RULES.rest_command,
-        )
+        return Limits(self.gains, self.dt_s, ticks(horizon_s, self.dt_s), RULES.hold_ticks(self.dt_s))
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation as ScipyRotation
 from support.bits import EPS
-from support.states import as_rotation, rotations, vector
+from support.states import as_rotation, of_scipy, rotations, vector
 
 import tasks
 from bench.contenders.registry import find_contender, representation
@@ -61,10 +61,6 @@ def skew(v):
     return np.array([[0.0, -v[2], v[1]], [v[2], 0.0, -v[0]], [-v[1], v[0], 0.0]])
 
 
-def of(scipys: ScipyRotation):
-    return as_rotation(scipys.as_matrix().T)
-
-
 def B_of(one, R):
     """B, column by column."""
     at = one.chart(R)
@@ -109,7 +105,7 @@ def test_exact_half_turn_has_its_own_element_positive(one, axial):
 def test_coordinates_change_sign_at_the_half_turn(one, axial):
     """MRP go to their shadow set."""
     for sign in (1, -1):
-        E = one.chart(of(ScipyRotation.from_rotvec((math.pi - sign * 1e-9) * AXES[3]))).E
+        E = one.chart(of_scipy(ScipyRotation.from_rotvec((math.pi - sign * 1e-9) * AXES[3]))).E
         # MRP and the quaternion move by less than the angle
         np.testing.assert_allclose(E[-3:], sign * axial.at_half_turn * AXES[3], rtol=0.0, atol=1.1e-9)
 
@@ -218,7 +214,7 @@ def test_extraction_is_continuous_over_the_seams_of_its_branches():
             on_seam = np.array(seam) / np.linalg.norm(seam)
             for nudge in draw.normal(scale=1e-15, size=(4, 4)):
                 scipys = ScipyRotation.from_quat(on_seam + nudge, scalar_first=True)
-                found = np.array(QUATERNION.chart(of(scipys)).E)
+                found = np.array(QUATERNION.chart(of_scipy(scipys)).E)
                 expected = scipys.as_quat(scalar_first=True)
                 np.testing.assert_allclose(found, expected * np.sign(expected @ found), rtol=0.0, atol=TOLERANCE)
 
@@ -242,6 +238,6 @@ def test_command_in_the_quaternion_takes_the_long_way_where_goal_and_orientation
     """By definition of the law: 20 degrees of error over the half turn command the turn of 340 degrees."""
     law, gains = find_contender("feedback-linearized/quaternion").law, Gains()
     z = np.array((0.0, 0.0, 1.0))
-    R, R_d = (of(ScipyRotation.from_rotvec(math.radians(angle) * z)) for angle in (170.0, 190.0))
+    R, R_d = (of_scipy(ScipyRotation.from_rotvec(math.radians(angle) * z)) for angle in (170.0, 190.0))
     u = law(R, vector((0.0, 0.0, 0.0)), Goal(R_d), gains)
     np.testing.assert_allclose(u, -2.0 * gains.kp * math.sin(math.radians(10.0)) * z, rtol=0.0, atol=TOLERANCE * 200)

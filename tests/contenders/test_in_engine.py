@@ -10,7 +10,7 @@ from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation as ScipyRotation
 from support.bits import EPS
 from support.driving import recorder, settings
-from support.states import as_rotation, vector
+from support.states import of_scipy, vector
 
 import tasks
 from bench.contenders.registry import find_contender
@@ -75,7 +75,7 @@ def test_torque_is_kp_times_the_rotation_vector_and_minus_kv_times_the_rate(angl
         omega = draw.normal(scale=3.0, size=3)
         found = R.apply(torque(quat_of(R), quat_of(R_d), R.inv().apply(omega)))
         expected = GAINS.kp * (R_d * R.inv()).as_rotvec() - GAINS.kv * omega
-        ours = ONE.law(as_rotation(R.as_matrix().T), vector(omega), Goal(as_rotation(R_d.as_matrix().T)), GAINS)
+        ours = ONE.law(of_scipy(R), vector(omega), Goal(of_scipy(R_d)), GAINS)
         scale = GAINS.kp * math.pi + GAINS.kv * np.linalg.norm(omega)
         # some ten roundings of each quaternion and matrix
         np.testing.assert_allclose(found, expected, rtol=0.0, atol=20 * EPS * scale)

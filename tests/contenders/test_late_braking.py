@@ -7,7 +7,7 @@ import pytest
 from scipy.integrate import quad, solve_ivp
 from scipy.spatial.transform import Rotation as ScipyRotation
 from support.driving import settings
-from support.states import as_rotation, vector
+from support.states import of_scipy, vector
 
 import tasks
 from bench.contenders.registry import find_contender
@@ -32,8 +32,8 @@ def command(E, omega=AT_REST, memory=NONE_YET, R_d=None):
     """(u, memory) where the turn from R to R_d is E, a scipy rotation."""
     R_d = R_d or ScipyRotation.identity()
     R = E.inv() * R_d
-    goal = Goal(as_rotation(R_d.as_matrix().T))
-    u, after = law(as_rotation(R.as_matrix().T), vector(omega), goal, GAINS, tuple(map(np.float64, memory)))
+    goal = Goal(of_scipy(R_d))
+    u, after = law(of_scipy(R), vector(omega), goal, GAINS, tuple(map(np.float64, memory)))
     return np.array(u), after
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation as ScipyRotation
-from support.states import as_rotation, vector
+from support.states import of_scipy, vector
 
 from bench.contenders.registry import find_contender, known_regulators
 from bench.law.contender import AT_REST, Gains, Goal
@@ -43,16 +43,11 @@ ANGLES = (1e-9, 1e-3, 0.3, 1.0, 2.0, 2.2, 3.0, 3.14)
 def command(word, R, omega=AT_REST, R_d=None, memory=None):
     """u of scipy rotations, and the memory after it."""
     one = find_contender(word)
-    goal = Goal(columns(R_d or ScipyRotation.identity()))
+    goal = Goal(of_scipy(R_d or ScipyRotation.identity()))
     if one.regulator.memory is None:
-        return np.array(one.law(columns(R), vector(omega), goal, GAINS)), None
-    u, after = one.law(columns(R), vector(omega), goal, GAINS, memory or one.regulator.memory)
+        return np.array(one.law(of_scipy(R), vector(omega), goal, GAINS)), None
+    u, after = one.law(of_scipy(R), vector(omega), goal, GAINS, memory or one.regulator.memory)
     return np.array(u), after
-
-
-def columns(R):
-    """A scipy rotation as ours."""
-    return as_rotation(R.as_matrix().T)
 
 
 def axes(count, seed):

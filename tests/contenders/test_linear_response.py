@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation as ScipyRotation
 from support.driving import settings
-from support.states import as_rotation
+from support.states import of_scipy
 
 from bench.contenders.registry import contenders_of, known_regulators
 from bench.engines.curve import NUMBERS, blank_curves
@@ -23,7 +23,7 @@ STEP = 1e-6
 
 
 def coordinates(one, R):
-    return np.array(one.representation.chart(as_rotation(R.as_matrix().T)).E)
+    return np.array(one.representation.chart(of_scipy(R)).E)
 
 
 @pytest.mark.parametrize("one", LINEAR, ids=lambda one: one.name)

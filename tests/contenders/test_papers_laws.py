@@ -7,7 +7,7 @@ import pytest
 from scipy.spatial.transform import Rotation as ScipyRotation
 from support.bits import EPS
 from support.exact import EXACT, exact_B, motion, solved
-from support.states import as_rotation, axis_permuting, rotations, vector
+from support.states import as_rotation, axis_permuting, of_scipy, rotations, vector
 
 from bench.contenders.registry import find_contender
 from bench.law.contender import AT_REST, Gains, Goal
@@ -38,7 +38,7 @@ def draw():
 
 def regular(draw, count=100):
     """Drawn orientations away from the poles, each with a tumbling velocity."""
-    drawn = (as_rotation(r.as_matrix().T) for r in ScipyRotation.random(2 * count, rng=draw))
+    drawn = (of_scipy(r) for r in ScipyRotation.random(2 * count, rng=draw))
     kept = [R for R in drawn if math.hypot(R.n[0], R.n[1]) > REGULAR][:count]
     return zip(kept, draw.normal(scale=5.0, size=(len(kept), 3)), strict=True)
 
@@ -58,12 +58,7 @@ def test_rotation_matrix_command_does_not_see_a_change_of_body_axes(draw):
     """R Q, R_d Q for any Q: the columns change, their sum of cross products does not."""
     for R, R_d, Q in zip(*(ScipyRotation.random(50, rng=draw) for _ in range(3)), strict=True):
         seen, changed = (
-            command(
-                "rotation-matrix",
-                as_rotation((R * P).as_matrix().T),
-                R_d=as_rotation((R_d * P).as_matrix().T),
-            )
-            for P in (ScipyRotation.identity(), Q)
+            command("rotation-matrix", of_scipy(R * P), R_d=of_scipy(R_d * P)) for P in (ScipyRotation.identity(), Q)
         )
         np.testing.assert_allclose(changed, seen, rtol=0.0, atol=10 * EPS * GAINS.kp)
 

@@ -10,7 +10,7 @@ from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation as ScipyRotation
 from support.bits import EPS, different_rows
 from support.driving import settings, spread
-from support.states import as_rotation, rotations, vector
+from support.states import as_rotation, of_scipy, rotations, vector
 
 import tasks
 from bench.contenders.law_file import TRIAL
@@ -115,8 +115,7 @@ GAIN_TOLERANCE = 1e-8
 def test_small_angle_gain_is_kp(contender):
     for i, axis in enumerate(np.eye(3)):
         there, back = (
-            call(contender, as_rotation(ScipyRotation.from_rotvec(h * axis).as_matrix().T), vector(AT_REST))
-            for h in (STEP, -STEP)
+            call(contender, of_scipy(ScipyRotation.from_rotvec(h * axis)), vector(AT_REST)) for h in (STEP, -STEP)
         )
         slope = (there - back) / (2.0 * STEP)
         expected = -GAINS.kp * contender.regulator.stiffness[i] * np.eye(3)[i]
@@ -146,15 +145,10 @@ def test_command_is_the_same_in_every_base_frame_where_the_law_has_none_of_its_o
         Q, R, R_d = ScipyRotation.random(3, rng=draw)
         omega = draw.normal(scale=5.0, size=3)
         seen, turned = (
-            call(
-                contender,
-                as_rotation((P * R).as_matrix().T),
-                vector(P.apply(omega)),
-                as_rotation((P * R_d).as_matrix().T),
-            )
+            call(contender, of_scipy(P * R), vector(P.apply(omega)), of_scipy(P * R_d))
             for P in (ScipyRotation.identity(), Q)
         )
-        margin = margin_of(contender)(as_rotation(R.as_matrix().T), as_rotation(R_d.as_matrix().T))
+        margin = margin_of(contender)(of_scipy(R), of_scipy(R_d))
         near = 1.0 if math.isnan(margin) else margin
         # rounding of the relative orientation, 10 EPS, in coordinates that magnify it by 1/margin twice
         scale = 10 * EPS / near**2 * (GAINS.kp * math.pi + GAINS.kv * np.linalg.norm(omega))
@@ -234,15 +228,7 @@ def test_episode_gives_the_same_row_whatever_ran_before_it(contender, task, engi
 def test_early_stop_changes_no_settling_tick(contender):
     starts = spread(2)
     to_the_end, stopped = (
-        run(
-            "ideal-rk4",
-            contender,
-            "free-body",
-            starts,
-            settings(dt_s=5e-3, horizon_s=4.0, hold_ticks=hold),
-            METRICS,
-        )
-        for hold in (10**9, 50)
+        run("ideal-rk4", contender, "free-body", starts, settings(5e-3, 4.0, hold), METRICS) for hold in (10**9, 50)
     )
     assert different_rows(to_the_end[:, :3], stopped[:, :3]) == []
     assert (stopped[:, TICKS] <= to_the_end[:, TICKS]).all()

@@ -5,7 +5,7 @@ import itertools
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation as Oracle
-from support.states import as_rotation, rotations
+from support.states import of_scipy, rotations
 
 from bench.contenders.registry import all_contenders, known_representations
 from bench.counting import OPERATIONS, STAGES, TOTAL, Tally, cost, flops, rows
@@ -20,7 +20,7 @@ OMEGAS = {"at rest": AT_REST, "spinning": (-2.0, 0.7, 11.0)}
 GAINS = Gains(np.float64(100.0), np.float64(20.0))
 EVERY = rotations()
 SOME = (*EVERY[:37], *EVERY[37::5])  # all that permute axes or are near the identity, and some of the others
-ZYX = as_rotation(Oracle.from_euler("ZYX", [2.0, -1.1, 0.4]).as_matrix().T)
+ZYX = of_scipy(Oracle.from_euler("ZYX", [2.0, -1.1, 0.4]))
 GOALS = [IDENTITY, ZYX, next(R for R in EVERY if abs(R.n[2]) == 1.0)]
 
 

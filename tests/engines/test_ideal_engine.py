@@ -10,7 +10,7 @@ from scipy.spatial.transform import Rotation as ScipyRotation
 from support import own_loop
 from support.bits import EPS
 from support.driving import settings
-from support.states import as_rotation, matrix, vector
+from support.states import as_rotation, matrix, of_scipy, vector
 
 import tasks
 from bench.contenders.registry import find_contender
@@ -156,7 +156,7 @@ def turned_by_scipy(turn, R) -> np.ndarray:
 
 
 def drawn_rotation(draw):
-    return as_rotation(ScipyRotation.random(rng=draw).as_matrix().T)
+    return of_scipy(ScipyRotation.random(rng=draw))
 
 
 @pytest.mark.parametrize("angle", [0.0, 1e-12, 1e-6, 1e-3, 0.0999999, 0.1000001, 0.5, 2.0, 3.1, 6.0])

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation as ScipyRotation
 from support.bits import EPS, same_bits
-from support.states import as_rotation, matrix, rotations, vector
+from support.states import matrix, of_scipy, rotations, vector
 
 import tasks
 from bench.law.so3 import IDENTITY, cross, dot, from_quaternion, relative, rotate, rotate_back
@@ -46,7 +46,7 @@ def test_rotate_is_scipys_apply_and_rotate_back_undoes_it(draw):
 def test_relative_is_the_rotation_seen_from_the_goal(draw):
     every = ScipyRotation.random(50, rng=draw), ScipyRotation.random(50, rng=draw)
     for goal, actual in zip(*every, strict=True):
-        R_d, R = (as_rotation(r.as_matrix().T) for r in (goal, actual))
+        R_d, R = (of_scipy(r) for r in (goal, actual))
         expected = (goal.inv() * actual).as_matrix()
         np.testing.assert_allclose(matrix(relative(R_d, R)), expected, rtol=0.0, atol=2 * TOLERANCE)
 

@@ -4,23 +4,14 @@ import tasks
 from bench.engines.episode import Settings
 from bench.law.contender import Gains
 from bench.metrics.metric import Metric
-from tasks.rules import RULES, ticks
+from tasks.rules import ticks
 
 NO_EARLY_STOP = 10**9
 
 
-def settings(dt_s=1e-3, horizon_s=3.0, hold_ticks=NO_EARLY_STOP, gains=None, command_limit=None, speed_limit=None):
-    """Settings under the judge's rules; no early stop unless asked for."""
-    return Settings(
-        gains=gains or Gains(),
-        dt_s=dt_s,
-        ticks=ticks(horizon_s, dt_s),
-        hold_ticks=hold_ticks,
-        command_limit=command_limit or RULES.command_limit,
-        speed_limit=speed_limit or RULES.speed_limit,
-        rest_speed=RULES.rest_speed,
-        rest_command=RULES.rest_command,
-    )
+def settings(dt_s=1e-3, horizon_s=3.0, hold_ticks=NO_EARLY_STOP, gains=None, **limits):
+    """Settings under the judge's rules, or other limits; no early stop unless asked for."""
+    return Settings(gains or Gains(), dt_s, ticks(horizon_s, dt_s), hold_ticks, **limits)
 
 
 def spread(each: int, task: str = "free-body") -> list:

@@ -22,6 +22,11 @@ def as_rotation(three_columns) -> Rotation:
     return Rotation(*(tuple(np.float64(x) for x in column) for column in three_columns))
 
 
+def of_scipy(turn) -> Rotation:
+    """A scipy rotation as ours."""
+    return as_rotation(turn.as_matrix().T)
+
+
 def vector(numbers) -> tuple:
     """Three numpy.float64."""
     return tuple(np.float64(x) for x in numbers)

@@ -57,16 +57,7 @@ def lost_frame(settings: Settings, unit: Unit, outcome: str) -> pd.DataFrame:
 
 def _limits(gains: Gains, horizon_s: float) -> Limits:
     """The judge's rules in ticks of a microsecond, which the condition's own steps replace."""
-    return Limits(
-        gains,
-        1e-6,
-        round(1e6 * horizon_s),
-        1,
-        RULES.command_limit,
-        RULES.speed_limit,
-        RULES.rest_speed,
-        RULES.rest_command,
-    )
+    return Limits(gains, 1e-6, round(1e6 * horizon_s), 1)
 
 
 def _rows(one: Contender, starts, condition: Condition, limits: Limits, seed: int, simulate) -> dict:
