@@ -22,6 +22,7 @@ from bench.experiments.contact import can_do
 from bench.experiments.experiment import known_experiments
 from bench.metrics.registry import known_contact_metrics, known_metrics
 from tasks.arm import arms
+from tasks.arm_model import Arm
 from tasks.base import BadArm
 
 
@@ -128,12 +129,14 @@ def _fitting(task) -> list[str]:
 
 
 def _arms(own):
-    def row(name, one):
-        if isinstance(one, BadArm):
-            return name, "", f"cannot be used: {one}", ""
-        return name, one.joints, one.title, one.source
+    return _table("Arms", ("name", "joints", "title", "source"), itertools.starmap(row_of_arm, arms().items()))
 
-    return _table("Arms", ("name", "joints", "title", "source"), itertools.starmap(row, arms().items()))
+
+def row_of_arm(name: str, one: Arm | BadArm) -> tuple:
+    """Its cells; of one that cannot be used, the reason."""
+    if isinstance(one, BadArm):
+        return name, "", f"cannot be used: {one}", ""
+    return name, one.joints, one.title, one.source
 
 
 def _variations(own):

@@ -83,16 +83,20 @@ LOAD_S = 60.0
 """For a user's file to import, and its law to be tried once."""
 
 
-def _loaded(path: Path) -> Regulator:
-    """The law of a file; one that does not return is interrupted, where the system has such a clock."""
+def loaded(path: Path, limit_s: float = LOAD_S) -> Regulator:
+    """The law of a file; one that does not return is interrupted, where the system has such a clock.
+
+    Errors:
+        BadLaw: it does not return, or is no law.
+    """
     if not hasattr(signal, "setitimer") or threading.current_thread() is not threading.main_thread():
         return law_file.load_law(path)
 
     def too_long(*_):
-        raise TimeoutError(f"it did not return within {LOAD_S:g} s")
+        raise TimeoutError(f"it did not return within {limit_s:g} s")
 
     before = signal.signal(signal.SIGALRM, too_long)
-    signal.setitimer(signal.ITIMER_REAL, LOAD_S)
+    signal.setitimer(signal.ITIMER_REAL, limit_s)
     try:
         return law_file.load_law(path)
     except TimeoutError as error:
@@ -104,7 +108,7 @@ def _loaded(path: Path) -> Regulator:
 
 def own_laws(files: tuple[Path, ...]) -> tuple[Regulator, ...]:
     """The user's regulators; two of one name are refused."""
-    own = tuple(map(_loaded, files))
+    own = tuple(map(loaded, files))
     names = [one.name for one in own]
     for name in names:
         if names.count(name) > 1:

@@ -25,24 +25,24 @@ WORDS = 30
 class Steps:
     """What is being done, how many of how many are, and since when; the number is None while nobody can know it."""
 
-    def __init__(self, unit: str):
-        self.unit, self.doing = unit, ""
+    def __init__(self, unit: str, clock: Callable[[], float] = time.monotonic):
+        self.unit, self.clock, self.doing = unit, clock, ""
         self.done, self.before = 0, 0
         self.total: int | None = None
-        self.began = self.counting = time.monotonic()
+        self.began = self.counting = clock()
         self.changed: Callable[[], None] = lambda: None
 
     def now(self, doing: str, done: int = 0, total: int | None = None) -> None:
         """Say what is done now; with a total, how much of it."""
         if total is not None and self.total is None:
-            self.counting, self.before = time.monotonic(), done
+            self.counting, self.before = self.clock(), done
         self.doing, self.done, self.total = doing, done, total
         self.changed()
 
     @property
     def line(self) -> str:
         """All of it in one line."""
-        passed = _clock(time.monotonic() - self.began)
+        passed = _clock(self.clock() - self.began)
         if self.total is None:
             return f"{passed}  {self.doing}"
         share = f"{self.done:,} of {self.total:,} {self.unit} ({self.done / max(1, self.total):.0%})"
@@ -51,11 +51,11 @@ class Steps:
     @property
     def numbers(self) -> str:
         """What stands to the right of the bar."""
-        passed = f"{_clock(time.monotonic() - self.began)} so far"
+        passed = f"{_clock(self.clock() - self.began)} so far"
         return passed if self.total is None else f"{self.done:,}/{self.total:,}{self._left()}"
 
     def _left(self) -> str:
-        passed, made = time.monotonic() - self.counting, self.done - self.before
+        passed, made = self.clock() - self.counting, self.done - self.before
         if not self.total or made <= 0 or passed < SURE_S:
             return ""
         return f", {_clock(passed * (self.total - self.done) / made)} left"
@@ -66,10 +66,10 @@ def _clock(seconds: float) -> str:
 
 
 @contextmanager
-def progress(unit: str) -> Iterator[Steps]:
-    """Shown on stderr until the block ends; `unit` is what is counted, as episodes."""
-    steps, screen = Steps(unit), console(stderr=True)
-    with _bar(steps, screen) if screen.is_terminal else _lines(steps, screen):
+def progress(unit: str, screen: Console | None = None, line_s: float = LINE_S) -> Iterator[Steps]:
+    """Shown on stderr, or another screen, until the block ends; `unit` is what is counted, as episodes."""
+    steps, screen = Steps(unit), screen or console(stderr=True)
+    with _bar(steps, screen) if screen.is_terminal else _lines(steps, screen, line_s):
         yield steps
 
 
@@ -98,12 +98,12 @@ def _bar(steps: Steps, screen: Console) -> Iterator[None]:
 
 
 @contextmanager
-def _lines(steps: Steps, screen: Console) -> Iterator[None]:
-    """A line every LINE_S, from a thread of its own."""
+def _lines(steps: Steps, screen: Console, line_s: float) -> Iterator[None]:
+    """A line every so many seconds, from a thread of its own."""
     ended = threading.Event()
 
     def repeat():
-        while not ended.wait(LINE_S):
+        while not ended.wait(line_s):
             screen.print(steps.line, soft_wrap=True)
 
     thread = threading.Thread(target=repeat, daemon=True)

@@ -16,21 +16,23 @@ WORTH = 8
 
 
 @contextlib.contextmanager
-def compiling_ahead(contenders: Iterable[str]) -> Iterator[None]:
+def compiling_ahead(contenders: Iterable[str]) -> Iterator[subprocess.Popen | None]:
     """While inside, another process compiles these contenders, the last one first; it is stopped at the end.
+
+    Of fewer than WORTH there is none.
 
     Args:
         contenders: names of laws, of controllers of arms (with `@`) and of controllers in contact.
     """
     names = list(dict.fromkeys(contenders))
     if len(names) < WORTH:
-        yield
+        yield None
         return
     quiet = subprocess.DEVNULL
     words = [sys.executable, "-m", __name__, *reversed(names)]
     with subprocess.Popen(words, stdin=quiet, stdout=quiet, stderr=quiet, start_new_session=True) as process:
         try:
-            yield
+            yield process
         finally:
             process.terminate()
 

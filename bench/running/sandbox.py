@@ -37,11 +37,12 @@ class Sandbox:
     """The processes of a plan's own laws, as many as there are threads that ask; started when first needed.
 
     Args:
-        limit_s: of processor time for every request, compiling apart; None for the rule above.
+        limit_s: of processor time for every request, compiling apart; None for the rule above. most_lost: episodes of a
+            unit, see MOST_LOST.
     """
 
-    def __init__(self, plan: Plan, limit_s: float | None = None):
-        self.plan, self.limit_s = plan, limit_s
+    def __init__(self, plan: Plan, limit_s: float | None = None, most_lost: int = MOST_LOST):
+        self.plan, self.limit_s, self.most_lost = plan, limit_s, most_lost
         self.stopping = False
         self.notes: list[str] = []
         self._own = {one.name: one for one in plan.settings.own}
@@ -111,7 +112,7 @@ class Sandbox:
                 yield self._rows(unit, single, SINGLE_S)
             except Lost as lost:
                 lost_before += 1
-                gives_up = lost_before == MOST_LOST
+                gives_up = lost_before == self.most_lost
                 yield self._lost(unit.part(first, end - first) if gives_up else single, lost.outcome)
                 if gives_up:
                     return

@@ -100,7 +100,7 @@ def refuse_link(path: Path) -> None:
         )
 
 
-def read_json(path: Path) -> dict:
+def read_json(path: Path, most_bytes: int = MOST_JSON_BYTES) -> dict:
     """A JSON file of ours.
 
     Errors:
@@ -109,8 +109,8 @@ def read_json(path: Path) -> dict:
     path = Path(path)
     refuse_link(path)
     try:
-        if path.stat().st_size > MOST_JSON_BYTES:
-            raise BadResults(f"{path}: it has more than {MOST_JSON_BYTES:,} bytes, so it is none of ours; delete it")
+        if path.stat().st_size > most_bytes:
+            raise BadResults(f"{path}: it has more than {most_bytes:,} bytes, so it is none of ours; delete it")
         content = json.loads(path.read_text(encoding="utf-8"))
     except FileNotFoundError:
         raise BadResults(f"{path}: there is no such file; the folder holds no run of ours") from None

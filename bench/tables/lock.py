@@ -6,7 +6,7 @@ No file is left behind, however a run ends. Some network file systems lock no fo
 import contextlib
 import os
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -18,29 +18,33 @@ try:
 except ImportError:  # no such locks on this system
     fcntl = None
 
+FLOCK = fcntl and fcntl.flock
+
 
 @contextlib.contextmanager
-def held(folder: Path) -> Iterator[None]:
+def held(folder: Path, waits: bool = False, flock: Callable | None = FLOCK) -> Iterator[None]:
     """Hold a folder that exists; where it cannot be locked, say so and go on.
 
+    Args:
+        waits: for another process that holds it. flock: the system's; None if it has no such locks.
     Errors:
-        BadResults: another process holds it.
+        BadResults: another process holds it, and this one does not wait.
     """
-    if fcntl is None:
+    if flock is None:
         _warn(folder, "this system has no such locks")
         yield
         return
     handle = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)  # not inherited by the programs that a run starts
     try:
-        _lock(folder, handle)
+        _lock(folder, handle, waits, flock)
         yield
     finally:
         os.close(handle)
 
 
-def _lock(folder: Path, handle: int) -> None:
+def _lock(folder: Path, handle: int, waits: bool, flock: Callable) -> None:
     try:
-        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        flock(handle, fcntl.LOCK_EX if waits else fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:
         holder = _holder(handle)
         by = f" (process {holder})" if holder else ""

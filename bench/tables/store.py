@@ -73,8 +73,8 @@ PARTS = 64
 """Tables that a merge holds at most; each takes 50 kB beside its rows, as much as those of a hundred episodes."""
 
 
-def merge(path: Path, parts: Iterable[Path], table: str | Table) -> int:
-    """All parts in their order as one table, at most GROUP rows and one part in memory; the number of rows."""
+def merge(path: Path, parts: Iterable[Path], table: str | Table, group: int = GROUP) -> int:
+    """All parts in their order as one table, at most `group` rows and one part in memory; the number of rows."""
     rows = 0
 
     def write(temporary):
@@ -87,7 +87,7 @@ def merge(path: Path, parts: Iterable[Path], table: str | Table) -> int:
                 rows += held[-1].num_rows
                 if len(held) == PARTS:
                     held = [joined(held)]
-                if sum(one.num_rows for one in held) >= GROUP:
+                if sum(one.num_rows for one in held) >= group:
                     writer.write_table(joined(held))
                     held.clear()
             if held:

@@ -65,14 +65,17 @@ def _settings(horizon_s: float):
     return Settings().limits(horizon_s)._replace(hold_ticks=NEVER)
 
 
-def native(arm: str, one: Contender, horizon_s: float = HORIZON_S) -> Benchmark:
+def native(
+    arm: str, one: Contender, horizon_s: float = HORIZON_S, start: Start | None = None, fewest: int = FEWEST_TICKS
+) -> Benchmark:
     """A controller in the compiled loop; one that fails from the start is held at it, to last longer."""
-    start = _start(arm)
-    benchmark = _native(arm, one, start, horizon_s)
-    return benchmark if benchmark.ticks else _native(arm, one, start._replace(goal_wxyz=start.quat_wxyz), horizon_s)
+    start = start or _start(arm)
+    benchmark = _native(arm, one, start, horizon_s, fewest)
+    at_rest = start._replace(goal_wxyz=start.quat_wxyz)
+    return benchmark if benchmark.ticks else _native(arm, one, at_rest, horizon_s, fewest)
 
 
-def _native(arm: str, one: Contender, start: Start, horizon_s: float) -> Benchmark:
+def _native(arm: str, one: Contender, start: Start, horizon_s: float, fewest: int) -> Benchmark:
     metrics = metrics_of(on_arm=True)
     settings = _settings(horizon_s)
     ready = run_arm.simulation(TASK, arm, settings.dt_s, "euler")
@@ -99,7 +102,7 @@ def _native(arm: str, one: Contender, start: Start, horizon_s: float) -> Benchma
 
     call()
     ticks = int(rows[0, TICKS])
-    return Benchmark(ENGINE, one, "native", ticks if ticks >= FEWEST_TICKS else 0, call, arm)
+    return Benchmark(ENGINE, one, "native", ticks if ticks >= fewest else 0, call, arm)
 
 
 def rollout(arm: str) -> Benchmark:

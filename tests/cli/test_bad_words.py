@@ -200,12 +200,8 @@ def _rotation_matrix():
     return find_contender("rotation-matrix")
 
 
-def test_nothing_to_run_says_which_starts_and_engines_a_task_takes(monkeypatch):
-    own = tasks.task("free-body")._replace(name="other", start_sets=("paper",))
-    monkeypatch.setattr(tasks, "names", lambda: ["free-body", "other"])
-    monkeypatch.setattr(tasks, "task", lambda name: own)
-    monkeypatch.setattr(tasks, "is_for_arms", lambda name: False)
-    with pytest.raises(Incompatible, match=r"ideal-rk4 simulates free-body alone, not 'other'"):
-        planning.make("quick", [_rotation_matrix()], Choice(("other",), engines=("ideal-rk4",)))
-    with pytest.raises(Incompatible, match=r"task 'other' takes the starts paper, not poles"):
-        planning.make("quick", [_rotation_matrix()], Choice(("other",), ("poles",), ("native",)))
+def test_nothing_to_run_says_which_starts_and_engines_a_task_takes():
+    with pytest.raises(Incompatible, match=r"ideal-rk4 simulates free-body alone, not 'arm-regulation'"):
+        planning.make("quick", [_rotation_matrix()], Choice(("arm-regulation",), engines=("ideal-rk4",)))
+    with pytest.raises(Incompatible, match=r"task 'free-body' takes the starts box, .*, not clear"):
+        planning.make("quick", [_rotation_matrix()], Choice(("free-body",), ("clear",), ("native",)))

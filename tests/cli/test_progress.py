@@ -9,23 +9,24 @@ from bench.cli import progress
 
 
 @pytest.fixture
-def clock(monkeypatch):
+def clock():
     """A clock that the test moves."""
-    now = [0.0]
-    monkeypatch.setattr(progress.time, "monotonic", lambda: now[0])
-    return now
+    return [0.0]
 
 
-def test_nothing_is_counted_before_something_is_done(clock):
-    steps = progress.Steps("episodes")
+@pytest.fixture
+def steps(clock):
+    return progress.Steps("episodes", lambda: clock[0])
+
+
+def test_nothing_is_counted_before_something_is_done(clock, steps):
     steps.now("compiling the laws")
     clock[0] = 90.0
     assert steps.line == "0:01:30  compiling the laws"
     assert steps.numbers == "0:01:30 so far"
 
 
-def test_time_left_is_of_what_this_run_does_and_not_of_what_was_kept(clock):
-    steps = progress.Steps("episodes")
+def test_time_left_is_of_what_this_run_does_and_not_of_what_was_kept(clock, steps):
     steps.now("native hybrid", 500, 1000)
     clock[0] = 10.0
     steps.now("native hybrid", 600, 1000)
@@ -33,17 +34,15 @@ def test_time_left_is_of_what_this_run_does_and_not_of_what_was_kept(clock):
     assert steps.numbers == "600/1,000, 0:00:40 left"
 
 
-def test_last_step_says_what_is_made_instead_of_no_time_left(clock):
-    steps = progress.Steps("episodes")
+def test_last_step_says_what_is_made_instead_of_no_time_left(clock, steps):
     steps.now("native hybrid", 1000, 1000)
     steps.now("making traces, operation counts")
     clock[0] = 5.0
     assert steps.line == "0:00:05  making traces, operation counts"
 
 
-def test_log_gets_lines_while_something_takes_long(capsys, monkeypatch):
-    monkeypatch.setattr(progress, "LINE_S", 0.01)
-    with progress.progress("episodes") as steps:
+def test_log_gets_lines_while_something_takes_long(capsys):
+    with progress.progress("episodes", line_s=0.01) as steps:
         steps.now("compiling the laws")
         time.sleep(0.1)
     lines = capsys.readouterr().err.splitlines()
@@ -61,9 +60,8 @@ def test_log_never_waits_half_a_minute():
     assert progress.LINE_S < 30.0
 
 
-def test_terminal_sees_the_step_and_no_number_before_there_is_one(capsys, monkeypatch):
-    monkeypatch.setattr(progress, "console", lambda stderr: Console(stderr=True, force_terminal=True, width=80))
-    with progress.progress("episodes") as steps:
+def test_terminal_sees_the_step_and_no_number_before_there_is_one(capsys):
+    with progress.progress("episodes", Console(stderr=True, force_terminal=True, width=80)) as steps:
         steps.now("compiling the laws")
     said = capsys.readouterr().err
     assert "compiling the laws" in said

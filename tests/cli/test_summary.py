@@ -4,11 +4,13 @@ import re
 
 import pandas as pd
 import pytest
+from rich.console import Console
 from support.command_line import TINY, bench, refused
 
 from bench.cli import paragraphs
-from bench.cli.details import parts
+from bench.cli.details import arms, parts
 from bench.cli.options import REFERENCE
+from bench.cli.screen import frame_table
 from bench.cli.summary import absent, answer, failures, verdicts
 from bench.findings.claims import Results, all_claims
 from bench.findings.selection.measured import measure
@@ -190,11 +192,12 @@ def test_option_that_a_part_does_not_take_is_refused(capsys, finished):
 # ------------------------------------------------------------------------------------------ its tables
 
 
-def test_names_stay_whole_where_the_table_is_wider_than_the_screen(capsys, monkeypatch):
-    monkeypatch.setattr("bench.cli.screen.PIPED", 80)
-    lines = bench(capsys, "show", REFERENCE, "arms").out.splitlines()
-    tables = [line for line in lines if "(a/b: " not in line and not line.startswith("results/")]
-    assert max(len(line.rstrip()) for line in tables) <= 80
+def test_names_stay_whole_where_the_table_is_wider_than_the_screen(capsys):
+    episodes = results.table(REFERENCE, "episodes")
+    for _, table in arms.tables(episodes[episodes["arm"] != ""]):
+        Console(width=80, highlight=False, markup=False, emoji=False).print(frame_table(table))
+    lines = capsys.readouterr().out.splitlines()
+    assert max(len(line.rstrip()) for line in lines) <= 80
     assert any(re.match(r"linearized-euler-relative/zyx-euler +\d/\d ", line) for line in lines)
     assert any(line.rstrip() == "  @geometric+pseudo-inverse" for line in lines)
 

@@ -111,14 +111,6 @@ def test_integrator_in_contact_is_implicit_unless_one_is_named():
     assert (both.integrator, both.contact_integrator) == ("rk4", "rk4")
 
 
-def test_plan_knows_the_models_of_arms_in_contact(monkeypatch):
-    before = planning.make("quick", LAW, Choice(tasks=("wrench-probe",), arms=("ur5e",)))
-    digest, known = before.digest(), tasks.arm("ur5e")
-    edited = known._replace(xml=known.xml.replace("</worldbody>", "</worldbody >"))
-    monkeypatch.setattr(tasks, "arm", lambda name: edited)
-    assert before.digest() != digest
-
-
 # --------------------------------------------------------------------------------------------- choices
 
 

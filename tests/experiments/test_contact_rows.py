@@ -12,7 +12,6 @@ from bench.control.setpoint import TOUCH
 from bench.engines.contact_episode import OUTCOMES, WIDTH, Conditions, Ended
 from bench.engines.run_contact import run
 from bench.experiments.contact import poses_of
-from bench.experiments.rows import contact as contact_rows
 from bench.experiments.rows.contact import WORST_LAST, frame
 from bench.metrics.contact_metric import Pose, response
 from bench.metrics.measured_compliance import compliance
@@ -35,11 +34,10 @@ def rows():
     return frame("mine", EULER, PROBE, ARM, POSES[:3], CONDITIONS)
 
 
-def of_records(monkeypatch, *ended: Ended) -> pd.Series:
+def of_records(*ended: Ended) -> pd.Series:
     """The row of a pose whose trials ended so."""
     given = POSES[0][: len(ended)]
-    monkeypatch.setattr(contact_rows, "run", lambda *_: iter(ended))
-    [row] = frame("mine", EULER, PROBE, ARM, (given,), CONDITIONS).to_dict("records")
+    [row] = frame("mine", EULER, PROBE, ARM, (given,), CONDITIONS, lambda *_: iter(ended)).to_dict("records")
     return pd.Series(row)
 
 
@@ -106,9 +104,9 @@ def test_every_outcome_has_its_rank():
     assert WORST_LAST == ("done", "singular", "saturated", "diverged", "broken")
 
 
-def test_row_has_the_worst_outcome_and_the_time_at_which_its_first_trial_failed(monkeypatch):
+def test_row_has_the_worst_outcome_and_the_time_at_which_its_first_trial_failed():
     ended = (Ended("done", record(50)), Ended("singular", record(3)), Ended("diverged", record(20)))
-    row = of_records(monkeypatch, *ended, Ended("diverged", record(11)))
+    row = of_records(*ended, Ended("diverged", record(11)))
     assert row["outcome"] == "diverged"
     assert row["failure_time_s"] == pytest.approx(0.011)
     assert row["trials"] == 4
@@ -122,14 +120,14 @@ def test_row_of_trials_that_are_done_has_no_time_of_failure(rows):
 @pytest.mark.parametrize("ticks", [0, 1, 7])
 @pytest.mark.parametrize("value", [np.nan, np.inf, 1e200])
 @pytest.mark.parametrize("outcome", ["broken", "diverged"])
-def test_trial_that_broke_is_a_row_with_no_measured_rotation(monkeypatch, outcome, ticks, value):
+def test_trial_that_broke_is_a_row_with_no_measured_rotation(outcome, ticks, value):
     ended = [Ended("done", record(50))] * 5 + [Ended(outcome, record(ticks, value), "Nan, Inf or huge value in QACC")]
-    row = of_records(monkeypatch, *ended)
+    row = of_records(*ended)
     assert row["outcome"] == outcome
     assert row[C].isna().all()
 
 
-def test_contact_that_explodes_is_a_row(monkeypatch):
+def test_contact_that_explodes_is_a_row():
     """A controller of the wrong sign, as a metric sees it: torques far beyond the rated ones at once."""
     wild = EULER._replace(law="hybrid-unconverted")
     pole = [pose for pose in POSES if "beta+89 " in pose[0].pose]
@@ -142,7 +140,7 @@ def test_contact_that_explodes_is_a_row(monkeypatch):
 # ---------------------------------------------------------------------------------------------- memory
 
 
-def test_records_are_dropped_with_their_pose(monkeypatch):
+def test_records_are_dropped_with_their_pose():
     alive: list = []
     most = 0
 
@@ -154,6 +152,5 @@ def test_records_are_dropped_with_their_pose(monkeypatch):
             most = max(most, sum(one() is not None for one in alive))
             yield Ended("done", made)
 
-    monkeypatch.setattr(contact_rows, "run", counting)
-    assert len(frame("mine", EULER, PROBE, ARM, POSES[:8], CONDITIONS)) == 8
+    assert len(frame("mine", EULER, PROBE, ARM, POSES[:8], CONDITIONS, counting)) == 8
     assert most <= 2 * len(POSES[0])

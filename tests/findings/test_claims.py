@@ -61,19 +61,6 @@ def test_claim_has_its_texts_and_its_judge(one):
     assert "with a correction" in one.criterion
 
 
-def test_claim_is_found_when_a_file_is_dropped(tmp_path, monkeypatch):
-    (tmp_path / "dropped.py").write_text(
-        "from bench.findings.claims.verdict import Claim\nCLAIMS = (Claim('C99', '9', 'a', 'b', 'c'),)\n"
-    )
-    monkeypatch.setattr(claims, "__path__", [*claims.__path__, str(tmp_path)])
-    claims.all_claims.cache_clear()
-    try:
-        assert claims.all_claims()[-1].id == "C99"
-    finally:
-        monkeypatch.undo()
-        claims.all_claims.cache_clear()
-
-
 @pytest.mark.slow
 @pytest.mark.parametrize("id", TESTED)
 def test_claim_is_decided_by_a_quick_run(frames, id):

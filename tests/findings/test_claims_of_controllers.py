@@ -1,5 +1,6 @@
 """C20 and C26 on tables written for them, and the experiments that C20 makes on an arm."""
 
+import functools
 import math
 
 import numpy as np
@@ -14,13 +15,14 @@ from bench.experiments.rows import poses
 from bench.experiments.suites import ON_ARM
 from bench.findings.claims import arm_probes, euler_controller, probes
 from bench.findings.claims.euler_controller import BY_COMMON, BY_EULER, INVERSES, ON_MATRIX, words
-from bench.findings.claims.tables import Results
 from bench.findings.claims.verdict import NoEvidence, Word
 from bench.law.contender import Gains
 
 ARMS = {"ur5e": 6, "panda": 7}
 COSTS = {BY_EULER: (900, 24, 3), BY_COMMON: (830, 24, 3), ON_MATRIX: (810, 55, 0)}
 """flops in total, of the law alone, and calls."""
+
+JOINTS = {f"q_{i + 1}": 0.0 for i in range(7)}
 
 
 def cost_rows():
@@ -62,7 +64,7 @@ def frames():
 
 
 @pytest.fixture
-def judged(frames, monkeypatch):
+def judged(frames):
     """judged(id, bend=, second=, drift=, beside=, table=frame): the experiments answer what they are told.
 
     bend: of an angle at 1 ms, first order in the step; second: what is left of it at step zero.
@@ -78,13 +80,8 @@ def judged(frames, monkeypatch):
             outcome = "settled" if word.startswith("rotation-matrix") else beside
             return pd.DataFrame({"start_id": ["0-plus-exact"], "outcome": [outcome], "peak_tau_nm": [30.0]})
 
-        monkeypatch.setattr(arm_probes, "curves", curves)
-        monkeypatch.setattr(arm_probes, "beside_poles", beside_poles)
-        euler_controller._bend.cache_clear()
-        try:
-            return judged_on(id, **frames | tables)
-        finally:
-            euler_controller._bend.cache_clear()
+        bends = functools.partial(euler_controller.bend.__wrapped__, curves=curves)
+        return judged_on(id, {"bend": bends, "beside_poles": beside_poles}, **frames | tables)
 
     return judge
 
@@ -111,6 +108,12 @@ def test_claim_is_refused_without_costs_of_an_arm_of_so_many_joints(judged, fram
     costs = frames["costs"]
     with pytest.raises(NoEvidence, match=f"on {joints} joints"):
         judged(id, costs=costs[costs["joints"] != joints])
+
+
+def test_episodes_beside_poles_are_refused_where_a_run_has_no_such_pose(frames):
+    of_ur5e = frames["poses"].iloc[:1].assign(**JOINTS)
+    with pytest.raises(NoEvidence, match="no pose of panda beside a pole"):
+        arm_probes.beside_poles(f"{ON_MATRIX}+pseudo-inverse", "panda", of_ur5e, Gains())
 
 
 def test_c20_is_refused_without_the_law_on_r(judged, frames):
@@ -211,13 +214,11 @@ def test_c26_counts_pairs_in_both_accountings_on_both_numbers_of_joints(judged):
 
 
 @pytest.mark.parametrize(("euler", "word"), [(3000.0, Word.HOLDS), (1900.0, Word.CORRECTED)])
-def test_c26_is_corrected_when_times_contradict(judged, monkeypatch, euler, word):
+def test_c26_is_corrected_when_times_contradict(judged, euler, word):
     times = {BY_COMMON: 2000.0, ON_MATRIX: 1800.0, BY_EULER: euler}
-    rows = [
-        {"contender": f"{one}+solve", "machine": "m", "arm": "ur5e", "ns_per_tick": time} for one, time in times.items()
-    ]
-    monkeypatch.setattr(Results, "controller_timings", lambda self: pd.DataFrame(rows))
-    assert judged("C26").word == word
+    where = {"what": "engine", "engine": "native", "arm": "ur5e", "machine": "m", "ticks": 1}
+    rows = [{**words(one, 6), **where, "ns_per_tick": time} for one, time in times.items()]
+    assert judged("C26", timings=pd.DataFrame(rows)).word == word
 
 
 def test_c26_says_that_nothing_was_timed(judged):

@@ -8,7 +8,7 @@ from support.user_law import DAMPER, law_text
 
 from bench.cli import main
 from bench.errors import BadResults
-from bench.regression.revisions import checkouts, comparison, gates, summary
+from bench.regression.revisions import comparison, gates, summary
 from bench.regression.revisions.process import SideFailed
 
 LAW = law_text(DAMPER, name="braking")
@@ -28,9 +28,8 @@ def user(tmp_path):
 
 
 @pytest.fixture
-def failing(monkeypatch, finished):
-    """Every side's run is one and the same; the process of the side that is named cannot be compiled."""
-    monkeypatch.setattr(checkouts, "finished_run", lambda side, told: contextlib.nullcontext(finished))
+def failing(finished):
+    """failing(place): every side's run is one and the same; the process of the side named cannot be compiled."""
 
     def at(place):
         @contextlib.contextmanager
@@ -38,14 +37,13 @@ def failing(monkeypatch, finished):
             raise SideFailed(place, "no bench.timing yet")
             yield
 
-        monkeypatch.setattr(gates, "running", running)
+        return gates.Means(lambda side, told: contextlib.nullcontext(finished), running)
 
     return at
 
 
 def test_base_that_is_too_old_leaves_the_last_gates_out_and_says_why(user, failing):
-    failing(0)
-    said = gates.of_revisions("HEAD", None, (user,))
+    said = gates.of_revisions("HEAD", None, (user,), by=failing(0))
     assert [(one.gate, one.state) for one in said.gates] == [
         ("exact", "passed"),
         ("operations", "passed"),
@@ -58,25 +56,25 @@ def test_base_that_is_too_old_leaves_the_last_gates_out_and_says_why(user, faili
 
 
 def test_head_that_cannot_be_compiled_is_a_mistake(user, failing):
-    failing(1)
     with pytest.raises(SideFailed):
-        gates.of_revisions("HEAD", None, (user,))
+        gates.of_revisions("HEAD", None, (user,), by=failing(1))
 
 
-def test_law_that_base_lacks_is_new_and_one_that_head_lacks_a_mistake(user, failing, monkeypatch):
-    monkeypatch.setattr(gates, "running", lambda asked: contextlib.nullcontext(list(asked)))
-    monkeypatch.setattr(gates, "measured", lambda processes, *rest: ([], [], [len(processes)]))
-    said = gates.of_revisions("HEAD~1", None, (user,))
+def test_law_that_base_lacks_is_new_and_one_that_head_lacks_a_mistake(user, failing):
+    by = failing(0)._replace(
+        running=lambda asked: contextlib.nullcontext(list(asked)),
+        measured=lambda processes, *rest: ([], [], [len(processes)]),
+    )
+    said = gates.of_revisions("HEAD~1", None, (user,), by=by)
     assert said.gates[0].says == "the law is new: there is nothing to compare it with"
     assert said.benchmarks == (1,)
     with pytest.raises(BadResults, match="none of the --law files is there"):
-        gates.of_revisions("HEAD", "HEAD~1", (user,))
+        gates.of_revisions("HEAD", "HEAD~1", (user,), by=by)
 
 
 def test_runs_of_two_schemas_are_a_regression_and_no_mistake(user, failing, finished):
-    failing(0)
     (finished / "robustness.parquet").unlink()
-    said = gates.of_revisions("HEAD", None, (user,))
+    said = gates.of_revisions("HEAD", None, (user,), by=failing(0))
     [found] = said.regressions
     assert found.what == "schema"
     assert "robustness.parquet" in found.says

@@ -55,14 +55,14 @@ def test_multiplications_more_are_found_and_named_by_instructions(two):
 
 
 def test_same_law_is_the_same_machine_code_and_is_not_timed(sides, monkeypatch):
-    monkeypatch.setattr(instructions, "missing", lambda: "valgrind not found")
+    monkeypatch.setenv("PATH", "")
     gates, found, [one] = measured(sides[:2], ({}, {}), Wanted(rounds=6), lambda _: None)
-    with pytest.raises(MissingTool, match="valgrind not found"):
+    with pytest.raises(MissingTool, match="valgrind and setarch not found"):
         instructions.count(sides[0], self_measure.timed_laws(sides[0]))
     assert one.same_code
     assert (one.time, found) == (None, [])
     assert gates[0].state == "skipped"
-    assert "valgrind not found" in gates[0].says
+    assert "valgrind and setarch not found" in gates[0].says
 
 
 def test_side_that_cannot_import_says_so_and_which_it_is(tmp_path):

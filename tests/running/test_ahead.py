@@ -26,32 +26,20 @@ def test_it_leaves_laws_controllers_of_arms_and_of_contact_in_the_cache(tmp_path
     assert [path.name.partition("-")[2] for path in (tmp_path / "costs").iterdir()] == ["rotation-matrix.json"]
 
 
-def started(monkeypatch):
-    """The processes that are begun from here on."""
-    begun, usual = [], subprocess.Popen
-
-    def popen(*words, **options):
-        begun.append(usual(*words, **options))
-        return begun[-1]
-
-    monkeypatch.setattr(precompile.subprocess, "Popen", popen)
-    return begun
-
-
-def test_a_few_contenders_are_not_worth_a_process(monkeypatch):
-    begun = started(monkeypatch)
-    with precompile.compiling_ahead(["hybrid"] * 100):
-        assert begun == []
+def test_a_few_contenders_are_not_worth_a_process():
+    with precompile.compiling_ahead(["hybrid"] * 100) as process:
+        assert process is None
 
 
 def interrupted(begun):
-    with precompile.compiling_ahead(["rotation-matrix", *map(str, range(precompile.WORTH))]):
-        assert begun[0].poll() is None
+    with precompile.compiling_ahead(["rotation-matrix", *map(str, range(precompile.WORTH))]) as process:
+        begun.append(process)
+        assert process.poll() is None
         raise KeyboardInterrupt
 
 
-def test_the_process_ends_with_the_run_even_if_that_fails(monkeypatch):
-    begun = started(monkeypatch)
+def test_the_process_ends_with_the_run_even_if_that_fails():
+    begun = []
     with pytest.raises(KeyboardInterrupt):
         interrupted(begun)
     assert begun[0].poll() is not None

@@ -1,8 +1,11 @@
 """A cluster carries out a plan, with the bytes that threads make, a worker killed or not; what it says if it cannot."""
 
+import json
 import os
+import signal
 import subprocess
 import sys
+from collections import deque
 from pathlib import Path
 
 import pytest
@@ -14,21 +17,12 @@ from bench.experiments import plan as planning
 from bench.experiments.choice import Choice
 from bench.provenance import ROOT
 from bench.running import run
-from bench.running.run_folder import part
-from bench.running.schedulers import cluster
+from bench.running.run_folder import begin, part
+from bench.running.schedulers import cluster, worker
 from bench.running.schedulers.batches import CHUNK_S, MOST_EPISODES, in_batches, seconds
 from bench.running.schedulers.words import check_scheduler, kind
-from bench.tables.store import read_json
-
-DIES = """
-import os, signal
-from bench.running.schedulers import worker
-worker.rows_of = lambda settings, unit: os.kill(os.getpid(), signal.SIGKILL)
-"""
-"""Run in a worker: it is killed while it makes the rows of a unit of ours, with another chunk in its hand."""
-
-OTHER_SOURCES = "from bench.running import wire_format as w; w.own, w.source_digest = w.source_digest, lambda: 16 * '0'"
-OWN_SOURCES = "from bench.running import wire_format as w; w.source_digest = w.own"
+from bench.running.wire_format import described
+from bench.tables.files import read_json
 
 WITHOUT = """
 import pathlib, sys
@@ -71,18 +65,18 @@ def address(client) -> str:
     return client.scheduler.address
 
 
-def test_run_goes_on_with_another_scheduler(plan, client, by_threads, tmp_path, monkeypatch):
-    monkeypatch.setattr(cluster, "in_batches", lambda todo, _: [(unit,) for unit in todo])
-    monkeypatch.setattr(cluster, "AHEAD", 1)
+def test_run_goes_on_with_another_scheduler(plan, client, by_threads, tmp_path):
     told = []
 
-    def stop(progress):
-        told.append(progress.unit)
+    def stop(unit):
+        told.append(unit)
         if len(told) == 2:
             raise KeyboardInterrupt
 
+    begin(plan, tmp_path)
+    chunks = cluster.Chunks(client, plan, tmp_path, stop, ahead=1, waiting=deque((unit,) for unit in plan.units))
     with pytest.raises(KeyboardInterrupt):
-        run.run(plan, tmp_path, scheduler=address(client), told=stop)
+        chunks.carry_out([])
     assert all(part(tmp_path, unit).is_file() for unit in told)
     before = list((tmp_path / "parts").iterdir())
     assert 2 <= len(before) < len(plan.units)
@@ -90,27 +84,28 @@ def test_run_goes_on_with_another_scheduler(plan, client, by_threads, tmp_path, 
     assert tables(tmp_path) == by_threads
 
 
-def test_worker_of_other_sources_is_refused(plan, client, tmp_path):
-    client.run(exec, OTHER_SOURCES, {})
-    with pytest.raises(BadResults, match="this process has 0000000000000000; install the same commit"):
-        run.run(plan, tmp_path, scheduler=address(client))
-    client.run(exec, OWN_SOURCES, {})
+def test_worker_of_other_sources_is_refused(plan, client):
+    """What it raises comes to the client as it is."""
+    text = json.dumps(described(plan, plan.units[:1]) | {"sources": 16 * "0"})
+    with pytest.raises(BadResults, match=r"made by the sources 0000000000000000, .*; install the same commit"):
+        client.submit(worker.carry_out, text).result()
 
 
-def test_cluster_makes_the_bytes_that_threads_make_though_a_worker_is_killed(
-    plan, client, by_threads, tmp_path, monkeypatch
-):
-    monkeypatch.setattr(sys, "argv", ["bench", "run", "--scheduler", address(client)])
+def test_cluster_makes_the_bytes_that_threads_make_though_a_worker_is_killed(plan, client, by_threads, tmp_path):
     pids, told = client.run(os.getpid), []
-    client.run(exec, DIES, {}, workers=[next(iter(pids))])
-    run.run(plan, tmp_path, scheduler=address(client), told=told.append)
+
+    def kill_one(progress):
+        if not told:
+            os.kill(next(iter(pids.values())), signal.SIGKILL)
+        told.append(progress)
+
+    run.run(plan, tmp_path, scheduler=address(client), told=kill_one)
     assert len(by_threads) == 7
     assert tables(tmp_path) == by_threads
     assert sorted(one.unit.key for one in told) == sorted(unit.key for unit in plan.units)
     assert set(client.run(os.getpid).values()) != set(pids.values())
     said = read_json(tmp_path / "provenance.json")
     assert (said["scheduler"], said["workers"]) == ("tcp", 2)
-    assert said["command"] == "python -m bench run --scheduler tcp://..."
 
 
 class Killed:
@@ -146,8 +141,8 @@ def test_missing_dask_is_said_with_the_cure(monkeypatch):
         check_scheduler("local:2")
 
 
-def test_address_without_a_scheduler_is_refused_and_nothing_replaced(plan, tmp_path, monkeypatch):
-    monkeypatch.setattr(cluster, "ANSWER_S", 0.1)
+@pytest.mark.slow
+def test_address_without_a_scheduler_is_refused_and_nothing_replaced(plan, tmp_path):
     with pytest.raises(MissingTool, match=r"--scheduler tcp://127.0.0.1:1: no Dask scheduler answers there"):
         run.run(plan, tmp_path / "new", scheduler="tcp://127.0.0.1:1")
     assert not (tmp_path / "new").exists()

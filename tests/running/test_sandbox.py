@@ -4,9 +4,11 @@ import os
 import subprocess
 import sys
 import textwrap
+import time
 from pathlib import Path
 
 import pandas as pd
+import psutil
 import pytest
 from support.breaking_laws import plan_of, plan_of_laws
 from support.command_line import bench, refused
@@ -85,11 +87,11 @@ def test_bench_shows_crashed_and_hung_where_there_are_any(capsys, broken, engine
     assert ("hung" in said) == (engine == "ideal-rk4")
 
 
-def test_unit_gives_up_after_some_lost_episodes(tmp_path, monkeypatch):
-    monkeypatch.setattr(sandbox, "MOST_LOST", 1)
+def test_unit_gives_up_after_some_lost_episodes(tmp_path):
     plan = plan_of(tmp_path, "if R.n[0] < 2.0 and omega[0] == 0.0: os._exit(3)", engine="reference")
-    run.run(plan, tmp_path / "run", workers=1, law_limit_s=LIMIT_S)
-    assert rows_by_law(tmp_path / "run")["mine"]["outcome"].tolist() == ["crashed"] * 4
+    [unit] = (one for one in plan.units if one.law == "mine")
+    with sandbox.Sandbox(plan, LIMIT_S, most_lost=1) as kept:
+        assert kept.rows(unit).column("outcome").to_pylist() == ["crashed"] * 4
 
 
 def test_perturbed_law_that_hangs_loses_the_whole_unit(tmp_path):
@@ -107,33 +109,31 @@ def test_perturbed_law_that_hangs_loses_the_whole_unit(tmp_path):
 def test_process_of_a_law_ends_with_the_run(tmp_path):
     """Also when the law never would: here it hangs in compiled code while the run is killed."""
     script = """
-        import os, sys
+        import sys
         from pathlib import Path
         from support.breaking_laws import plan_of
-        from bench.running import sandbox
+        from bench.running.sandbox import Sandbox
         plan = plan_of(Path(sys.argv[1]), "while abs(R.n[0] - 0.36) > 1e-3: x = x + 1e-9", engine="reference")
-        class Told(sandbox.Process):
-            def _say(self, said, longest_s):
-                print(self.process.pid, flush=True)
-                return super()._say(said, longest_s)
-        sandbox.Process = Told
-        sandbox.Sandbox(plan).rows(plan.units[-1])
+        Sandbox(plan).rows(plan.units[-1])
     """
     words = [sys.executable, "-c", textwrap.dedent(script), str(tmp_path)]
     path = os.pathsep.join(map(str, (ROOT / "tests", ROOT)))
     environment = {**os.environ, "PYTHONPATH": path}
-    with subprocess.Popen(words, stdout=subprocess.PIPE, text=True, env=environment) as process:
-        pids = [int(process.stdout.readline()) for _ in range(3)]  # the chunk, ready, rows
+    with subprocess.Popen(words, env=environment) as process:
+        own, begun = psutil.Process(process.pid), time.monotonic()
+        while not (forks := [(one, fork) for one in own.children() for fork in one.children()]):  # what makes the rows
+            assert time.monotonic() - begun < 120.0
+            time.sleep(0.05)
         process.kill()
-    gone = subprocess.run(["tail", f"--pid={pids[0]}", "-f", "/dev/null"], timeout=60)
-    assert gone.returncode == 0
+    _, alive = psutil.wait_procs(forks[0], timeout=60)
+    assert alive == []
 
 
-def test_law_file_that_does_not_return_is_refused(capsys, tmp_path, monkeypatch):
-    monkeypatch.setattr(options, "LOAD_S", 0.2)
+def test_law_file_that_does_not_return_is_refused(tmp_path):
     path = tmp_path / "own.py"
     path.write_text("while True: pass")
-    assert "did not return within 0.2 s" in refused(capsys, "run", "--law", path, "--out", tmp_path / "run")
+    with pytest.raises(BadLaw, match=r"--law .*own\.py: it does not load \(it did not return within 0\.2 s\)"):
+        options.loaded(path, 0.2)
 
 
 def test_limit_must_be_positive(capsys, tmp_path):

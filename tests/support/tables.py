@@ -10,9 +10,9 @@ from bench.findings.claims.tables import Results
 NO_TIMINGS = Path("no-such-folder")
 
 
-def judged(id: str, **tables: pd.DataFrame):
-    """The verdict on these tables, nothing having been timed."""
-    return claims.judge(id, Results(None, tables, NO_TIMINGS))
+def judged(id: str, experiments=None, **tables: pd.DataFrame):
+    """The verdict on these tables, and experiments if they are given; nothing was timed but what is among them."""
+    return claims.judge(id, Results(None, tables, NO_TIMINGS, experiments))
 
 
 def decided(verdict, word) -> bool:

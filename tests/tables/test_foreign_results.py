@@ -187,11 +187,10 @@ def test_json_that_a_terminal_would_obey_or_that_has_no_end_is_refused(tmp_path,
         store.read_json(path)
 
 
-def test_json_of_absurd_size_is_not_read(tmp_path, monkeypatch):
-    monkeypatch.setattr(files, "MOST_JSON_BYTES", 10)
+def test_json_of_absurd_size_is_not_read(tmp_path):
     (tmp_path / "plan.json").write_text('{"digest": "0123456789"}')
     with pytest.raises(BadResults, match="more than 10 bytes"):
-        store.read_json(tmp_path / "plan.json")
+        files.read_json(tmp_path / "plan.json", most_bytes=10)
 
 
 def test_file_that_is_no_table_of_ours_is_not_offered(evil):

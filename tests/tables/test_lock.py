@@ -1,7 +1,6 @@
 """Two runs on one folder: the second is refused in one line, and nothing of the first stays when it ends."""
 
 import errno
-import fcntl
 import os
 import subprocess
 import sys
@@ -51,12 +50,11 @@ def test_killed_run_leaves_no_lock(capsys, holder, finished):
     assert digest(finished) == before
 
 
-def test_folder_that_cannot_be_locked_is_used_and_said_so(finished, monkeypatch, capsys):
+def test_folder_that_cannot_be_locked_is_used_and_said_so(finished, capsys):
     def unsupported(*_):
         raise OSError(errno.ENOLCK, os.strerror(errno.ENOLCK))
 
-    monkeypatch.setattr(fcntl, "flock", unsupported)
-    with lock.held(finished):
+    with lock.held(finished, flock=unsupported):
         said = capsys.readouterr().err
     assert said.startswith(f"{finished}: cannot be locked (No locks available)")
     assert len(said.splitlines()) == 1

@@ -123,15 +123,9 @@ def test_merge_keeps_all_rows_in_the_order_of_the_parts(tmp_path):
     pd.testing.assert_frame_equal(found.astype(object), frame("episodes", 8).astype(object), check_dtype=False)
 
 
-def test_merge_holds_no_more_than_a_group_of_rows(tmp_path, monkeypatch):
-    """Each group is written before the next part is read: memory does not grow with the number of episodes."""
-    paths = parts(tmp_path, (3, 1, 4, 2))
-    monkeypatch.setattr(store, "GROUP", 4)
-    order, read, write = [], store.read_arrow, pq.ParquetWriter.write_table
-    monkeypatch.setattr(store, "read_arrow", lambda *words: order.append("read") or read(*words))
-    monkeypatch.setattr(pq.ParquetWriter, "write_table", lambda *words: order.append("write") or write(*words))
-    store.merge(tmp_path / "all.parquet", paths, "episodes")
-    assert order == ["read", "read", "write", "read", "write", "read", "write"]
+def test_merge_writes_a_group_of_rows_as_soon_as_it_is_full(tmp_path):
+    """So that memory does not grow with the number of episodes."""
+    store.merge(tmp_path / "all.parquet", parts(tmp_path, (3, 1, 4, 2)), "episodes", group=4)
     found = pq.ParquetFile(tmp_path / "all.parquet").metadata
     assert [found.row_group(i).num_rows for i in range(found.num_row_groups)] == [4, 4, 2]
 

@@ -17,6 +17,7 @@ def xml() -> str:
     return """{}"""
 '''
 
+
 def test_arms_of_the_issue_are_there():
     assert {"puma560", "ur5e", "panda", "jaco"} <= set(tasks.arm_names())
 

@@ -100,8 +100,6 @@ def test_speed_up_is_taken_within_a_pass_over_the_same_controller_of_the_same_ar
         assert own.loc[(DM_CONTROL, "solve"), ["speedup", "speedup_low", "speedup_high"]].tolist() == [20.0] * 3
 
 
-def test_controller_that_fails_at_once_is_a_row_without_a_time(monkeypatch):
-    monkeypatch.setattr(on_arms, "_start", lambda arm: tasks.start_set("wrist", arm=arm)[0])
-    one = named("jaco", "rotation-matrix@geometric+transpose")
-    monkeypatch.setattr(on_arms, "FEWEST_TICKS", 10**6)
-    assert on_arms.native("jaco", one).ticks == 0
+def test_controller_that_fails_at_once_is_a_row_without_a_time():
+    one, start = named("jaco", "rotation-matrix@geometric+transpose"), tasks.start_set("wrist", arm="jaco")[0]
+    assert on_arms.native("jaco", one, start=start, fewest=10**6).ticks == 0

@@ -3,6 +3,8 @@
 A record is folded into numbers as soon as the trials of its pose are there, and then dropped: it is 25 doubles a tick.
 """
 
+from collections.abc import Callable, Iterator
+
 import numpy as np
 import pandas as pd
 
@@ -30,9 +32,10 @@ def frame(
     arm: Arm,
     poses: tuple[tuple[Trial, ...], ...],
     conditions: Conditions,
+    simulate: Callable[..., Iterator[Ended]] = run,
 ) -> pd.DataFrame:
     """One row a pose; a pose is the trials that share it."""
-    episodes = run("native", controller, task, arm, (trial for pose in poses for trial in pose), conditions)
+    episodes = simulate("native", controller, task, arm, (trial for pose in poses for trial in pose), conditions)
     rows = [_row(task, arm, controller, [(one, next(episodes)) for one in pose], conditions) for pose in poses]
     return pd.DataFrame([{"suite": suite, **row} for row in rows])
 

@@ -8,6 +8,7 @@ import pandas as pd
 import tasks
 from bench.contenders.registry import find_contender, inverse, jacobian
 from bench.findings.claims.probes import euler_angles, response
+from bench.findings.claims.tables import some
 from bench.law.contender import Contender, Gains
 from bench.law.so3 import Rotation, from_quaternion
 from bench.metrics.registry import metrics_of
@@ -54,6 +55,8 @@ def beside_poles(word: str, arm: str, poses: pd.DataFrame, gains: Gains) -> pd.D
 
     Returns:
         rows of episodes.parquet; start_id is the pose's.
+    Errors:
+        NoEvidence: the table has no such pose of the arm, or none of its family at 10^-1.
     """
     from bench.engines.run_arm import run
     from bench.experiments.experiment import Settings, Unit
@@ -70,6 +73,7 @@ def beside_poles(word: str, arm: str, poses: pd.DataFrame, gains: Gains) -> pd.D
         for id, q in at.items()
         if not id.endswith("-1e-01") and (family := id.rpartition("-1e-")[0] or id.removesuffix("-exact")) in goals
     ]
+    some(starts, f"pose of {arm} beside a pole")
     one, metrics, settings = controller(word), metrics_of(on_arm=True), Settings(gains=gains)
     unit = Unit("arm", one.name, TASK, arm, "native", "pole", NOMINAL, count=len(starts), horizon_s=ON_ARM)
     numbers = run("native", one, TASK, arm, starts, settings.limits(ON_ARM), metrics)

@@ -1,6 +1,7 @@
 """C20: the controller on the Euler Jacobian (Murphy 1988, 3.6-3.8)."""
 
 import functools
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
@@ -90,8 +91,8 @@ def c20(results):
     arms = sorted(set(found["arm"].astype(str)))
     poses = some(results.table("poses", representation=COORDINATES, pose_set="pole"), "pose at a pole")
     gains = Gains(float(found["kp"].iloc[0]), float(found["kv"].iloc[0]))
-    bends = {arm: _bend(arm, gains, float(found["dt_s"].iloc[0])) for arm in arms}
-    compared_at = {arm: _at_poles(found, poses, arm, gains) for arm in arms}
+    bends = {arm: results.found_by(bend, arm, gains, float(found["dt_s"].iloc[0])) for arm in arms}
+    compared_at = {arm: _at_poles(results, found, poses, arm, gains) for arm in arms}
     clear, common = (pd.concat([_pairs(found, arm, "clear", one) for arm in arms]) for one in (BY_EULER, BY_COMMON))
     hidden = [_hidden(results, joints) for joints in INVERSES]
     limit, drift = max(one.limit for one in bends.values()), max(one.drift for one in bends.values())
@@ -126,9 +127,10 @@ def c20(results):
 
 
 @functools.cache
-def _bend(arm: str, gains: Gains, dt_s: float) -> Bend:
+def bend(arm: str, gains: Gains, dt_s: float, curves: Callable = arm_probes.curves) -> Bend:
+    """Of curves at a step and at half of it."""
     word = f"{BY_EULER}+{INVERSES[tasks.arm(arm).joints]}"
-    full, half = (arm_probes.curves(word, arm, gains, step, CURVES) for step in (dt_s, dt_s / 2))
+    full, half = (curves(word, arm, gains, step, CURVES) for step in (dt_s, dt_s / 2))
     both = full.merge(half, on=["start_id", "time_s"], suffixes=("", "_half"))
     limits = [2 * both[f"{name}_half"] - both[name] for name in arm_probes.BENDS]
     drift = 2 * both["position_error_m_half"] - both["position_error_m"]
@@ -156,9 +158,9 @@ def _against(own: pd.DataFrame, other: pd.DataFrame) -> pd.DataFrame:
     return pd.DataFrame({"start_id": both["start_id"].astype(str), "fails": fails})
 
 
-def _at_poles(found: pd.DataFrame, poses: pd.DataFrame, arm: str, gains: Gains) -> pd.DataFrame:
-    inverse = INVERSES[tasks.arm(arm).joints]
-    beside = [arm_probes.beside_poles(f"{one}+{inverse}", arm, poses, gains) for one in (BY_EULER, ON_MATRIX)]
+def _at_poles(results, found: pd.DataFrame, poses: pd.DataFrame, arm: str, gains: Gains) -> pd.DataFrame:
+    controllers = [f"{one}+{INVERSES[tasks.arm(arm).joints]}" for one in (BY_EULER, ON_MATRIX)]
+    beside = [results.found_by(arm_probes.beside_poles, one, arm, poses, gains) for one in controllers]
     return pd.concat([_pairs(found, arm, "pole"), _against(*beside)], ignore_index=True)
 
 

@@ -65,7 +65,7 @@ def c21(results):
     looped = looped[(looped["outcome"] == "done") & looped["work_residual"].notna()]
     looped = some(looped, f"work residual of {PROBE} by hybrid/{COORDINATES}")
     residual = looped["work_residual"] * np.cos(looped["beta"]) / EPS
-    found, elsewhere = experiment()
+    found, elsewhere = results.found_by(experiment)
     closes = found["exists"] & (found["gap"] <= ROUNDINGS * EPS) & (found["difference_gap"] <= ROUNDINGS * DIFFERENCED)
     poles = found["place"] == AT_POLE
     if closes[~poles].all() and (residual <= ROUNDINGS).all():

@@ -1,9 +1,9 @@
 """What judging functions read: a run's tables, the engines that are asked, shares with their intervals."""
 
 import functools
-from collections.abc import Callable
+from collections.abc import Callable, Sized
 from pathlib import Path
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
 
 import pandas as pd
 from scipy.stats import binomtest
@@ -29,12 +29,26 @@ TIMED = (
 
 
 class Results:
-    """The tables of one run, read when first asked for; `frames` puts others in their place."""
+    """The tables of one run, read when first asked for; `frames` puts others in their place.
 
-    def __init__(self, folder: Path | None, frames: dict | None = None, timings: Path = RESULTS / "timings"):
+    experiments: in place of the experiments that claims make themselves, by the function's name.
+    """
+
+    def __init__(
+        self,
+        folder: Path | None,
+        frames: dict | None = None,
+        timings: Path = RESULTS / "timings",
+        experiments: dict[str, Callable] | None = None,
+    ):
         self.folder = folder
         self.frames = dict(frames or {})
         self.timings_folder = timings
+        self.experiments = experiments or {}
+
+    def found_by(self, experiment: Callable, *given):
+        """What an experiment finds, or what stands in its place."""
+        return self.experiments.get(experiment.__name__, experiment)(*given)
 
     def table(self, name: str, **words: str) -> pd.DataFrame:
         """Rows of one table that have these words; there may be none."""
@@ -86,12 +100,16 @@ class Results:
     def _all_timings(self) -> pd.DataFrame:
         paths = sorted(self.timings_folder.glob("*.parquet"))
         frames = [read_arrow(path, "timings").to_pandas().assign(machine=path.stem) for path in paths]
+        frames += [self.frames["timings"]] if "timings" in self.frames else []
         every = pd.concat(frames, ignore_index=True) if frames else pd.DataFrame(columns=TIMED)
         return read.with_contender(every)
 
 
-def some(frame: pd.DataFrame, what: str) -> pd.DataFrame:
-    """The frame, if it has rows.
+Rows = TypeVar("Rows", bound=Sized)
+
+
+def some(frame: Rows, what: str) -> Rows:
+    """The frame, or a list, if it has rows.
 
     Errors:
         NoEvidence: it has none.

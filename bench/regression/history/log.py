@@ -3,15 +3,14 @@
 It is appended to whole or not at all: a new file takes the old one's place, and two writers wait for each other.
 """
 
-import contextlib
-import os
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from pathlib import Path
 
 from bench.errors import BadResults
 from bench.regression.history.record import Record, from_json, to_json
+from bench.tables import lock
+from bench.tables.files import refuse_link, write_atomically
 from bench.tables.schema import RESULTS
-from bench.tables.store import refuse_link, write_atomically
 
 LOG = RESULTS / "history" / "history.jsonl"
 MOST_BYTES = 100_000_000
@@ -57,7 +56,7 @@ def append(lines: Iterable[Record], path: Path = LOG) -> int:
     path = Path(path)
     lines = [from_json(to_json(line)) for line in lines]
     path.parent.mkdir(parents=True, exist_ok=True)
-    with _alone(path.parent):
+    with lock.held(path.parent, waits=True):
         known = {line.key for line in read(path)}
         new = {line.key: line for line in lines if line.key not in known}
         if new:
@@ -66,16 +65,3 @@ def append(lines: Iterable[Record], path: Path = LOG) -> int:
             )
             write_atomically(path, lambda temporary: Path(temporary).write_text(text, encoding="utf-8"))
     return len(new)
-
-
-@contextlib.contextmanager
-def _alone(folder: Path) -> Iterator[None]:
-    """Other writers wait; the lock is the folder's own, so that nothing is left lying there."""
-    import fcntl  # not on every system; reading the history needs none
-
-    handle = os.open(folder, os.O_RDONLY)
-    try:
-        fcntl.flock(handle, fcntl.LOCK_EX)
-        yield
-    finally:
-        os.close(handle)

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from pathlib import Path
+from typing import NamedTuple
 
 from bench.errors import BadResults
 from bench.regression.revisions import checkouts, exact, self_measure
@@ -26,6 +27,17 @@ from bench.tables.store import read, read_json
 
 Told = Callable[[str], None]
 ALL = Wanted()
+
+
+class Means(NamedTuple):
+    """What the gates are carried out by: a finished run of a side, the processes of both, and what they measure."""
+
+    finished_run: Callable = checkouts.finished_run
+    running: Callable = running
+    measured: Callable = measured
+
+
+USUAL = Means()
 
 
 def of_folders(base: Path, head: Path) -> Comparison:
@@ -61,7 +73,12 @@ def _gates(found: list[Finding], names: tuple[str, ...]) -> list[Gate]:
 
 
 def of_revisions(
-    base: str, head: str | None, laws: tuple[Path, ...] = (), wanted: Wanted = ALL, told: Told = lambda _: None
+    base: str,
+    head: str | None,
+    laws: tuple[Path, ...] = (),
+    wanted: Wanted = ALL,
+    told: Told = lambda _: None,
+    by: Means = USUAL,
 ) -> Comparison:
     """Two revisions, or a revision and the files as they lie (head None), through every gate.
 
@@ -71,24 +88,24 @@ def of_revisions(
     with checkouts.checkouts(base, head, laws) as (old, new):
         if new.is_new:
             raise BadResults(f"{new.name}: none of the --law files is there")
-        gates, found, operations = _by_rows(old, new, told)
-        more_gates, more, benchmarks = _by_process(old, new, operations, wanted, told)
+        gates, found, operations = _by_rows(old, new, told, by)
+        more_gates, more, benchmarks = _by_process(old, new, operations, wanted, told, by)
         machine = self_measure.machine()
     was, now = (Side(one.name, one.commit, one.sources) for one in (old, new))
     return Comparison(was, now, machine, (*gates, *more_gates), (*found, *more), tuple(benchmarks))
 
 
-def _by_rows(old: Checkout, new: Checkout, told: Told) -> tuple[list[Gate], list[Finding], Operations]:
+def _by_rows(old: Checkout, new: Checkout, told: Told, by: Means) -> tuple[list[Gate], list[Finding], Operations]:
     """The exact gate and that of operations."""
     if old.is_new:
-        with checkouts.finished_run(new, told) as run:
+        with by.finished_run(new, told) as run:
             counted = self_measure.by_law(read(run, "costs"))
         says = "the law is new: there is nothing to compare it with"
         return [Gate(name, SKIPPED, says) for name in (EXACT, OPERATIONS)], [], ({}, counted)
     if old.sources == new.sources and not new.own:
         says = "both sides have the same sources and versions, so a run would be the same"
         return [Gate(name, PASSED, says) for name in (EXACT, OPERATIONS)], [], ({}, {})
-    with checkouts.finished_run(old, told) as before, checkouts.finished_run(new, told) as after:
+    with by.finished_run(old, told) as before, by.finished_run(new, told) as after:
         try:
             found = _exact(before, after)
             operations = self_measure.by_law(read(before, "costs")), self_measure.by_law(read(after, "costs"))
@@ -99,7 +116,7 @@ def _by_rows(old: Checkout, new: Checkout, told: Told) -> tuple[list[Gate], list
 
 
 def _by_process(
-    old: Checkout, new: Checkout, operations: Operations, wanted: Wanted, told: Told
+    old: Checkout, new: Checkout, operations: Operations, wanted: Wanted, told: Told, by: Means
 ) -> tuple[list[Gate], list[Finding], list[Benchmark]]:
     """The gates of instructions and time, which need both sides compiled."""
     if not (old.is_new or checkouts.locks_agree(old, new)):
@@ -107,8 +124,8 @@ def _by_process(
     told("compiling")
     both = [(new.path, new.asked)] if old.is_new else [(old.path, old.asked), (new.path, new.asked)]
     try:
-        with running(both) as processes:
-            return measured(processes, operations, wanted, told)
+        with by.running(both) as processes:
+            return by.measured(processes, operations, wanted, told)
     except SideFailed as error:
         if error.at == len(both) - 1:
             raise

@@ -9,6 +9,7 @@ import json
 import logging
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import distributed
@@ -93,21 +94,22 @@ def client_of(word: str) -> Iterator[distributed.Client]:
         yield client
 
 
+@dataclass
 class Chunks:
-    """Chunks on their way to workers and back: as many as keep them busy, and no more."""
+    """Chunks on their way to workers and back: as many as keep them busy, and no more.
 
-    def __init__(
-        self,
-        client: distributed.Client,
-        plan: Plan,
-        out: Path,
-        done: Callable[[Unit], None],
-        law_limit_s: float | None = None,
-    ):
-        self.client, self.plan, self.out, self.done, self.law_limit_s = client, plan, out, done, law_limit_s
-        self.threads = 0
-        self.waiting: deque[tuple[Unit, ...]] = deque()
-        self.given: dict[distributed.Future, tuple[Unit, ...]] = {}
+    ahead: how many each thread of a worker is given. threads: the most that were there. waiting: not given yet.
+    """
+
+    client: distributed.Client
+    plan: Plan
+    out: Path
+    done: Callable[[Unit], None]
+    law_limit_s: float | None = None
+    ahead: int = AHEAD
+    threads: int = 0
+    waiting: deque[tuple[Unit, ...]] = field(default_factory=deque)
+    given: dict[distributed.Future, tuple[Unit, ...]] = field(default_factory=dict)
 
     def carry_out(self, todo: Sequence[Unit]) -> None:
         """Give, take and write until all is done."""
@@ -136,7 +138,7 @@ class Chunks:
 
     def give(self, ended: distributed.as_completed) -> None:
         """Send chunks as long as there is room; tell `ended` of each."""
-        room = AHEAD * max(1, self._present())
+        room = self.ahead * max(1, self._present())
         while self.waiting and len(self.given) < room:
             units = self.waiting.popleft()
             text = json.dumps(described(self.plan, units))
