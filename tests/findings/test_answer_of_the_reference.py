@@ -84,12 +84,12 @@ def test_cheapest_law_of_all_is_the_papers(decided):
 def test_open_question_is_answered():
     verdict = claims.judge("C27", Results(FOLDER))
     assert verdict.word == Word.FAILS
-    assert verdict.evidence.numbers["answers"].startswith(LAW)
-    assert verdict.evidence.numbers["nearly"].startswith("late-braking")
+    assert verdict.evidence.parts["answers"].startswith(LAW)
+    assert verdict.evidence.parts["nearly"].startswith("late-braking")
 
 
 def test_papers_verdict_has_later_laws_beside_it():
-    assert f"{LAW} 100.00%" in claims.judge("C17", Results(FOLDER)).evidence.numbers["later"]
+    assert f"{LAW} 100.00%" in str(claims.judge("C17", Results(FOLDER)).evidence)
 
 
 def test_three_fronts_are_nested_by_what_they_ask_and_each_gets_dearer_and_faster(found):

@@ -6,8 +6,6 @@ import math
 import numpy as np
 import pandas as pd
 import pytest
-from scipy.linalg import expm
-from scipy.special import lambertw
 from support.tables import changed, decided, judged
 
 from bench.contenders.registry import representation
@@ -85,7 +83,7 @@ def test_claim_is_refused_without_rows(frames, id):
 
 
 def test_verdict_on_no_rows_is_an_error():
-    nothing = Evidence("all of none", {}, 0, ("episodes",))
+    nothing = Evidence("all of none", 0, ("episodes",))
     with pytest.raises(NoEvidence, match="C00: no row of episodes"):
         decide(Claim("C00", "", "", "", "", judge=lambda results: (Word.HOLDS, nothing)), None)
 
@@ -184,25 +182,6 @@ def test_share_has_wilsons_interval():
 def test_share_of_no_rows_is_an_error():
     with pytest.raises(NoEvidence):
         share(pd.Series([], dtype=bool))
-
-
-@pytest.mark.parametrize("kp", [25.0, 100.0, 400.0])
-def test_linear_settling_solves_the_critically_damped_closed_form(kp):
-    # (1 + x) exp(-x) = c has the solution x = -1 - W_-1(-c/e)
-    x = -1.0 - lambertw(-0.02 / math.e, -1).real
-    assert probes.linear_settling(Gains(kp, 2 * math.sqrt(kp))) == pytest.approx(x / math.sqrt(kp), rel=1e-9)
-
-
-@pytest.mark.parametrize("gains", [Gains(), Gains(100.0, 10.0), Gains(100.0, 40.0)])
-def test_response_is_the_matrix_exponential(gains):
-    system = np.array([[0.0, 1.0], [-gains.kp, -gains.kv]])
-    for t in (0.03, 0.2, 0.7):
-        assert probes.response(t, gains) == pytest.approx(expm(system * t)[0, 0], abs=1e-12)
-
-
-def test_slope_per_decade_is_the_saddles_unstable_root():
-    root = np.linalg.eigvals(np.array([[0.0, 1.0], [100.0, -20.0]])).max()
-    assert probes.slope_per_decade(Gains()) == pytest.approx(math.log(10) / root, rel=1e-12)
 
 
 def test_condition_of_the_rotation_vector_is_that_of_the_left_jacobian():

@@ -13,7 +13,7 @@ import tasks
 from bench.counting.counted import OPERATIONS
 from bench.experiments.rows import poses
 from bench.experiments.suites import ON_ARM
-from bench.findings.claims import arm_probes, euler_controller, probes
+from bench.findings.claims import arm_probes, euler_controller
 from bench.findings.claims.euler_controller import BY_COMMON, BY_EULER, INVERSES, ON_MATRIX, words
 from bench.findings.claims.verdict import NoEvidence, Word
 from bench.law.contender import Gains
@@ -209,8 +209,7 @@ def test_c26_weighs_a_call_against_the_law_on_r(judged, frames, flops, word):
 
 
 def test_c26_counts_pairs_in_both_accountings_on_both_numbers_of_joints(judged):
-    numbers = judged("C26").evidence.numbers
-    assert (numbers["agreeing"], numbers["pairs"]) == (8, 8)
+    assert "dearer in both columns in 8 of 8 pairs" in str(judged("C26").evidence)
 
 
 @pytest.mark.parametrize(("euler", "word"), [(3000.0, Word.HOLDS), (1900.0, Word.CORRECTED)])
@@ -257,7 +256,3 @@ def test_largest_bend_is_infinite_where_one_is_no_number():
     frame = pd.DataFrame({"bend_0": [1e-3, -2e-3], "bend_1": 0.0, "bend_2": 0.0})
     assert arm_probes.largest(frame) == 2e-3
     assert arm_probes.largest(frame.assign(bend_1=[math.nan, 0.0])) == math.inf
-
-
-def test_closed_form_of_curves_is_that_of_c09():
-    assert probes.response(0.1, Gains()) == pytest.approx(2 * math.exp(-1))

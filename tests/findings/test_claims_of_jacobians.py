@@ -100,7 +100,8 @@ def test_c18_leaves_out_families_where_the_arm_is_to_blame(table):
     assert judged("C18", spoilt).word == Word.FAILS
     to_blame = spoilt.assign(condition=spoilt["condition"].where(~bent, 2 * WELL_CONDITIONED))
     verdict = judged("C18", to_blame)
-    assert (verdict.word, verdict.evidence.numbers["families"]) == (Word.HOLDS, 2)
+    assert verdict.word == Word.HOLDS
+    assert str(verdict.evidence).startswith("2 families on ")
 
 
 def test_c18_is_refused_when_an_arm_has_no_family(table):
@@ -115,7 +116,7 @@ def test_c18_is_refused_when_no_arm_has_a_determinant(table):
 
 def test_c18_takes_a_family_that_misses_a_distance_for_none(table):
     missing = (table["arm"] == "six") & (table["pose_id"] == "0-plus-1e-05")
-    assert judged("C18", table[~missing]).evidence.numbers["families"] == 3
+    assert str(judged("C18", table[~missing]).evidence).startswith("3 families on ")
 
 
 @pytest.mark.parametrize("gap", ["derivation_gap", "difference_gap"])
@@ -146,4 +147,5 @@ def test_c19_takes_a_derivation_that_is_no_number_for_a_failure(table):
 def test_c19_counts_the_jumps_it_leaves_out(table):
     at = table["pose_id"] == "0003"
     verdict = judged("C19", table.assign(difference_gap=table["difference_gap"].where(~at)))
-    assert (verdict.word, verdict.evidence.numbers["jumps"]) == (Word.HOLDS, 2)
+    assert verdict.word == Word.HOLDS
+    assert str(verdict.evidence).endswith("a difference: 2.")

@@ -4,8 +4,8 @@ import math
 
 import numpy as np
 import pytest
-
-pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
+from scipy.linalg import expm
+from scipy.special import lambertw
 
 from bench.findings.theory import closed_form
 
@@ -13,14 +13,19 @@ PAPER = 100.0, 20.0
 TOLERANCE = 0.02
 
 
-def test_linear_response_is_the_papers_critically_damped_one():
-    times = np.linspace(0.0, 1.0, 11)
-    np.testing.assert_allclose(closed_form.linear(times, *PAPER), (1 + 10 * times) * np.exp(-10 * times), atol=1e-13)
+@pytest.mark.parametrize("gains", [PAPER, (100.0, 10.0), (100.0, 40.0)])
+def test_linear_response_is_the_matrix_exponential(gains):
+    system = np.array([[0.0, 1.0], [-gains[0], -gains[1]]])
+    times = np.array((0.03, 0.2, 0.7))
+    expected = [expm(system * t)[0, 0] for t in times]
+    np.testing.assert_allclose(closed_form.linear(times, *gains), expected, atol=1e-12)
 
 
-def test_linear_settling_is_the_root_of_the_closed_form():
-    time = closed_form.linear_settling(*PAPER, TOLERANCE)
-    assert (1 + 10 * time) * math.exp(-10 * time) == pytest.approx(TOLERANCE, rel=1e-9)
+@pytest.mark.parametrize("kp", [25.0, 100.0, 400.0])
+def test_linear_settling_solves_the_critically_damped_closed_form(kp):
+    # (1 + x) exp(-x) = c has the solution x = -1 - W_-1(-c/e)
+    x = -1.0 - lambertw(-TOLERANCE / math.e, -1).real
+    assert closed_form.linear_settling(kp, 2 * math.sqrt(kp)) == pytest.approx(x / math.sqrt(kp), rel=1e-9)
 
 
 def test_linear_settling_is_the_last_crossing_when_underdamped():
@@ -40,6 +45,11 @@ def test_settling_of_a_small_angle_is_the_linear_one():
 
 def test_settling_is_infinite_at_the_half_turn():
     assert closed_form.settling(math.pi, *PAPER, TOLERANCE) == math.inf
+
+
+def test_slope_of_a_decade_is_the_saddles_unstable_root():
+    root = np.linalg.eigvals(np.array([[0.0, 1.0], [100.0, -20.0]])).max()
+    assert closed_form.decade_slope(*PAPER) == pytest.approx(math.log(10) / root, rel=1e-12)
 
 
 def test_settling_grows_by_the_slope_each_decade_near_the_half_turn():

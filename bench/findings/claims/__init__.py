@@ -1,6 +1,6 @@
 """The paper's claims, C01 to C27: each sentence with a criterion fixed before the results, and its verdict.
 
-One file for each part of the paper; a file with a constant CLAIMS is found by being here.
+One file for each part of the paper; a claim is found by being in one of them.
 
     verdict.py               what a claim, a verdict and its evidence are
     rotation_matrix.py       C01 to C03
@@ -68,8 +68,8 @@ RULE = (
 def all_claims() -> tuple[Claim, ...]:
     """Every claim of every file here, in the order of the ids."""
     modules = [importlib.import_module(f"{__name__}.{info.name}") for info in pkgutil.iter_modules(__path__)]
-    found = [claim for module in modules for claim in getattr(module, "CLAIMS", ())]
-    return tuple(sorted(found, key=lambda claim: claim.id))
+    found = {one.id: one for module in modules for one in vars(module).values() if isinstance(one, Claim)}
+    return tuple(found[id] for id in sorted(found))
 
 
 def judge(id: str, results: Results) -> Verdict:

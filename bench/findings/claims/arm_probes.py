@@ -7,8 +7,9 @@ import pandas as pd
 
 import tasks
 from bench.contenders.registry import find_contender, inverse, jacobian
-from bench.findings.claims.probes import euler_angles, response
+from bench.findings.claims.probes import euler_angles
 from bench.findings.claims.tables import some
+from bench.findings.theory.closed_form import linear
 from bench.law.contender import Contender, Gains
 from bench.law.so3 import Rotation, from_quaternion
 from bench.metrics.registry import metrics_of
@@ -29,7 +30,7 @@ def curves(word: str, arm: str, gains: Gains, dt_s: float, count: int) -> pd.Dat
     """Traces of a contender from the first clear starts of an arm: the angles' departure from the closed form.
 
     Returns:
-        a row a sample: start_id, time_s, bend_0 to bend_2 (E less E_d + (E_0 - E_d) response(t)) [rad],
+        a row a sample: start_id, time_s, bend_0 to bend_2 (E less E_d + (E_0 - E_d) linear(t)) [rad],
         position_error_m.
     """
     from bench.experiments import traces
@@ -43,9 +44,9 @@ def curves(word: str, arm: str, gains: Gains, dt_s: float, count: int) -> pd.Dat
         n, o, a = (curve[[f"{c}_{x}" for x in "xyz"]].to_numpy().tolist() for c in "noa")
         E = np.array([euler_angles(Rotation(*triple)) for triple in zip(n, o, a, strict=True)])
         E_d = np.array(euler_angles(from_quaternion(goals[str(id)])))
-        linear = E_d + (E[0] - E_d) * response(curve["time_s"].to_numpy(), gains)[:, None]
+        expected = E_d + (E[0] - E_d) * linear(curve["time_s"], *gains)[:, None]
         part = curve[["start_id", "time_s", "position_error_m"]].copy()
-        part[list(BENDS)] = E - linear
+        part[list(BENDS)] = E - expected
         parts.append(part)
     return pd.concat(parts, ignore_index=True)
 

@@ -8,7 +8,7 @@ from bench.contenders.registry import representation
 from bench.findings.claims import probes
 from bench.findings.claims.feedback_linearized import EXACT_RAD, LAW
 from bench.findings.claims.tables import MAIN_ENGINE, evidence, on_every_engine, settled, some
-from bench.findings.claims.verdict import Word, claim
+from bench.findings.claims.verdict import Word, claim, word_of
 from bench.law.contender import AT_REST, Gains
 
 CONTENDER = f"{LAW}/zyx-euler"
@@ -25,12 +25,11 @@ GROWTH_SLACK, JUMP_SLACK = 0.05, 0.01
 MARGINS_RAD = (0.01, 0.05, 0.1, 0.2)
 MARGINS = ", ".join(f"{margin:g}" for margin in MARGINS_RAD)
 
-C10 = claim(
+
+@claim(
     id="C10",
     section="2.4",
-    sentence="""
-        beta = +-pi/2 divides by zero in elements of B; passing alpha, gamma = +-pi jumps through atan2.
-    """,
+    sentence="beta = +-pi/2 divides by zero in elements of B; passing alpha, gamma = +-pi jumps through atan2.",
     question="What does the law command at and near the pole, and across the jump?",
     criterion=f"""
         Pole: at exact poles, at rest and spinning, the command is not a finite number and no episode
@@ -47,39 +46,6 @@ C10 = claim(
         'divide by zero' and so do IEEE numbers. Gains enter the jump.
     """,
 )
-
-C11 = claim(
-    id="C11",
-    section="2.4",
-    sentence="""
-        Excluding a small region about the boundary points keeps the regulator from passing them
-        erratically.
-    """,
-    question="How wide must the excluded region be, for bodies at rest and for spinning ones?",
-    criterion=f"""
-        An episode is erratic if it does not settle or its peak command exceeds twice Kp sqrt(3) pi + 20
-        Kd (spring and damping at most, at 20 rad/s). For margins {MARGINS} rad: starts with pi/2 -
-        |beta_0|, pi - |alpha_0| and pi - |gamma_0| all above the margin, at rest (uniform, half-turn,
-        poles, wraps, box) and spinning (tumbling). It holds if for some margin none is erratic, at rest
-        or spinning; with a correction if that is so at rest only: a start's place then does not assure
-        it, its velocity counts; if erratic ones remain at rest for every margin, it does not hold. Added
-        after the first results, because tumbling holds no body that spins beside a margin: {probes.BESIDE}
-        starts {probes.SPEED:g} rad/s fast, in all directions, 0.001 rad outside each margin of the poles,
-        count among the spinning ones. They can only make it harder to hold.
-    """,
-    open="""
-        'Small' is not given a number; 0.2 rad (11 degrees) is the widest that we call small. What the
-        robot does in the excluded region is not said either.
-    """,
-    readings=(
-        "the region is kept free of initial orientations (the one judged)",
-        """
-            the region is never entered on the way: reported from the smallest cos(beta) of each episode
-        """,
-    ),
-)
-
-
 def c10(results):
     """Commands at exact poles and near them, and on both sides of the jumps; B itself at the poles."""
     gains = results.gains()
@@ -93,27 +59,16 @@ def c10(results):
     jumps = _jumps(gains) / (2 * math.pi * gains.kp)
     pole = finite == 0 and not settled(exact).any()
     jump = bool((np.abs(jumps - 1) <= JUMP_SLACK).all())
-    if pole and jump:
-        word = Word.HOLDS if abs(slope + 1) <= GROWTH_SLACK and not math.isfinite(largest) else Word.CORRECTED
-    else:
-        word = Word.FAILS
+    divides = abs(slope + 1) <= GROWTH_SLACK and not math.isfinite(largest)
+    word = word_of(pole and jump and divides, pole and jump)
+    so = ", so that B^-1 is what divides" if math.isfinite(largest) else ""
     return word, evidence(
-        """{finite} of {n} commands at exact poles are finite, and {settled} of {exact} episodes there settle; the
-        largest element of B there is {largest:.3f}{so}. Spinning, |u| grows as cos(beta) to the
-        power {slope:.3f}, to {grown:.1e} rad/s^2. Across +-pi the command jumps by {jump_low:.4f} to {jump_high:.4f}
-        times 2 pi Kp.""",
+        f"""{finite} of {len(commands)} commands at exact poles are finite, and {int(settled(exact).sum())} of
+        {len(exact)} episodes there settle; the largest element of B there is {largest:.3f}{so}. Spinning, |u| grows as
+        cos(beta) to the power {slope:.3f}, to {grown:.1e} rad/s^2. Across +-pi the command jumps by
+        {float(jumps.min()):.4f} to {float(jumps.max()):.4f} times 2 pi Kp.""",
         len(commands) + len(exact) + len(jumps),
         ("experiment", "episodes"),
-        finite=finite,
-        n=len(commands),
-        settled=int(settled(exact).sum()),
-        exact=len(exact),
-        largest=largest,
-        so=", so that B^-1 is what divides" if math.isfinite(largest) else "",
-        slope=slope,
-        grown=grown,
-        jump_low=float(jumps.min()),
-        jump_high=float(jumps.max()),
     )
 
 
@@ -143,6 +98,34 @@ def _jumps(gains: Gains) -> np.ndarray:
     return np.array(found)
 
 
+@claim(
+    id="C11",
+    section="2.4",
+    sentence="""
+        Excluding a small region about the boundary points keeps the regulator from passing them
+        erratically.
+    """,
+    question="How wide must the excluded region be, for bodies at rest and for spinning ones?",
+    criterion=f"""
+        An episode is erratic if it does not settle or its peak command exceeds twice Kp sqrt(3) pi + 20
+        Kd (spring and damping at most, at 20 rad/s). For margins {MARGINS} rad: starts with pi/2 -
+        |beta_0|, pi - |alpha_0| and pi - |gamma_0| all above the margin, at rest (uniform, half-turn,
+        poles, wraps, box) and spinning (tumbling). It holds if for some margin none is erratic, at rest
+        or spinning; with a correction if that is so at rest only: a start's place then does not assure
+        it, its velocity counts; if erratic ones remain at rest for every margin, it does not hold. Added
+        after the first results, because tumbling holds no body that spins beside a margin: {probes.BESIDE}
+        starts {probes.SPEED:g} rad/s fast, in all directions, 0.001 rad outside each margin of the poles,
+        count among the spinning ones. They can only make it harder to hold.
+    """,
+    open="""
+        'Small' is not given a number; 0.2 rad (11 degrees) is the widest that we call small. What the
+        robot does in the excluded region is not said either.
+    """,
+    readings=(
+        "the region is kept free of initial orientations (the one judged)",
+        "the region is never entered on the way: reported from the smallest cos(beta) of each episode",
+    ),
+)
 @on_every_engine
 def c11(results, engine):
     """Erratic episodes among starts outside each margin, at rest and spinning."""
@@ -166,34 +149,22 @@ def c11(results, engine):
     word = _word(at_rest, all_three)
     widest = MARGINS_RAD[-1]
     clear = frame[spins & (frame["min_margin"] > math.sin(widest))]
+    still = ", ".join(str(rest) for rest, _ in counts.values())
+    turning = ", ".join(str(spinning) for _, spinning in counts.values())
+    near = ", ".join(str(count) for count in passed.values())
+    peak_rest = float(frame.loc[~spins & (room > MARGINS_RAD[0]), "peak_u"].max())
+    peak_spin = float(frame.loc[spins & (room > MARGINS_RAD[0]), "peak_u"].max())
     return word, evidence(
-        """Erratic starts outside margins of {margins} rad: {rest} at rest (of {n_rest:,} in all), {spinning} tumbling
-        (of {n_spin}), and {beside} of {n_beside} that spin at {speed:g} rad/s beside each margin; peak commands at
-        rest up to {peak_rest:,.0f}, tumbling up to {peak_spin:,.0f} rad/s^2. Of {clear} tumbling ones that never come
-        within {widest} rad of a pole, {clear_erratic} are erratic. By the criterion as first fixed, without the
-        spinning ones beside a margin: {as_first_fixed}.""",
+        f"""Erratic starts outside margins of {MARGINS} rad: {still} at rest (of {int((~spins).sum()):,} in all),
+        {turning} tumbling (of {int(spins.sum())}), and {near} of {probes.BESIDE} that spin at {probes.SPEED:g} rad/s
+        beside each margin; peak commands at rest up to {peak_rest:,.0f}, tumbling up to {peak_spin:,.0f} rad/s^2. Of
+        {len(clear)} tumbling ones that never come within {widest} rad of a pole, {int(erratic[clear.index].sum())} are
+        erratic. By the criterion as first fixed, without the spinning ones beside a margin: {as_first_fixed.value}.""",
         len(frame) + sum(len(one) for one in beside.values()),
         ("episodes", "experiment"),
-        margins=MARGINS,
-        rest=", ".join(str(rest) for rest, _ in counts.values()),
-        n_rest=int((~spins).sum()),
-        spinning=", ".join(str(spinning) for _, spinning in counts.values()),
-        n_spin=int(spins.sum()),
-        beside=", ".join(str(count) for count in passed.values()),
-        n_beside=probes.BESIDE,
-        speed=probes.SPEED,
-        peak_rest=float(frame.loc[~spins & (room > MARGINS_RAD[0]), "peak_u"].max()),
-        peak_spin=float(frame.loc[spins & (room > MARGINS_RAD[0]), "peak_u"].max()),
-        clear=len(clear),
-        widest=widest,
-        clear_erratic=int(erratic[clear.index].sum()),
-        as_first_fixed=as_first_fixed.value,
     )
 
 
 def _word(at_rest: list[float], spinning_too: list[float]) -> Word:
     """The verdict from the margins that assure bodies at rest, and those that assure spinning ones as well."""
-    return Word.HOLDS if spinning_too else Word.CORRECTED if at_rest else Word.FAILS
-
-
-CLAIMS = (C10.judged_by(c10), C11.judged_by(c11))
+    return word_of(spinning_too, at_rest)

@@ -9,7 +9,7 @@ from scipy.spatial.transform import Rotation as Turn
 from bench.findings.claims import side_by_side
 from bench.findings.claims.euler_jacobian import COORDINATES
 from bench.findings.claims.tables import evidence, some
-from bench.findings.claims.verdict import Word, claim
+from bench.findings.claims.verdict import claim, word_of
 
 ONE_AXIS = ("about x", "about y", "about z")
 TWO_AXES = ("about x and y", "about y and z", "about z and x")
@@ -39,7 +39,7 @@ ZERO_RAD, SLACK_DEG = 1e-9, 1e-6
 """What rounding may make of an angle that a pose is named after."""
 
 
-C22 = claim(
+@claim(
     id="C22",
     section="3.3",
     sentence="With one compliant rotational axis, Euler and Cartesian compliance are the same.",
@@ -66,8 +66,48 @@ C22 = claim(
         "those of the hand (reported)",
     ),
 )
+def c22(results):
+    """Measured compliance of one angle against that of one axis, as it is and turned by the angles before."""
+    rows = side_by_side.beside_base(results, COORDINATES, ONE_AXIS)
+    away = (rows["cos_beta"] >= CLOSE_TO_POLE).to_numpy()
+    earlier = rows[list(ANGLES)].to_numpy() * np.array([EARLIER[order] for order in rows["complies"]])
+    is_turned = away & (np.degrees(np.abs(earlier).max(axis=1)) >= APART_DEG)
+    for order in ONE_AXIS:
+        own = (rows["complies"] == order).to_numpy()
+        some(rows[own & (is_turned if any(EARLIER[order]) else away)], f"pose that tells angle and axis apart, {order}")
+    C, base = side_by_side.compliances(rows), side_by_side.compliances(rows, "_base")
+    differs = side_by_side.apart(C, base)
+    differs_turned = side_by_side.apart(C, side_by_side.turned(base, _turns(earlier)))
+    differs_in_hand = side_by_side.apart(C, side_by_side.turned(base, _turns(rows[list(ANGLES)].to_numpy())))
+    word = word_of((differs[away] <= SAME).all(), (differs_turned[away] <= SAME).all())
+    judged = rows.assign(same=differs <= SAME, same_in_hand=differs_in_hand <= SAME)[away]
+    ends = rows.loc[~away, "outcome"].astype(str).value_counts()
+    close = ", ".join(f"{n} {end}" for end, n in ends.items()) or "no pose"
+    return word, evidence(
+        f"""The same as along the base's axes {_by_order(judged, "same")} poses and forms ({judged["arm"].nunique()}
+        arms); elsewhere Euler compliance is up to {_greatest(differs[away]):.2f} of the Cartesian one off. Turned by
+        the angles before, the Cartesian one differs by at most {_greatest(differs_turned[away]):.1e}. The same as about
+        the hand's own axes {_by_order(judged, "same_in_hand")}. Closer to the pole: {close}.""",
+        len(rows),
+        ("compliance",),
+    )
 
-C23 = claim(
+
+def _turns(angles: np.ndarray) -> np.ndarray:
+    return Turn.from_euler("ZYX", angles).as_matrix()
+
+
+def _by_order(rows: pd.DataFrame, fact: str) -> str:
+    """'about x at 3 of 12, ...'."""
+    return ", ".join(f"{order} at {own.sum()} of {len(own)}" for order, own in rows.groupby("complies")[fact])
+
+
+def _greatest(numbers: np.ndarray) -> float:
+    """The greatest of those that were measured."""
+    return float(np.nanmax(numbers, initial=-np.inf))
+
+
+@claim(
     id="C23",
     section="3.3",
     sentence="With two compliant rotational axes they do not correspond.",
@@ -90,56 +130,6 @@ C23 = claim(
         coordinates, and two axes are then told apart by finite rotations only: a general pose is what is judged.
     """,
 )
-
-
-def c22(results):
-    """Measured compliance of one angle against that of one axis, as it is and turned by the angles before."""
-    rows = side_by_side.beside_base(results, COORDINATES, ONE_AXIS)
-    away = (rows["cos_beta"] >= CLOSE_TO_POLE).to_numpy()
-    earlier = rows[list(ANGLES)].to_numpy() * np.array([EARLIER[order] for order in rows["complies"]])
-    is_turned = away & (np.degrees(np.abs(earlier).max(axis=1)) >= APART_DEG)
-    for order in ONE_AXIS:
-        own = (rows["complies"] == order).to_numpy()
-        some(rows[own & (is_turned if any(EARLIER[order]) else away)], f"pose that tells angle and axis apart, {order}")
-    C, base = side_by_side.compliances(rows), side_by_side.compliances(rows, "_base")
-    differs = side_by_side.apart(C, base)
-    differs_turned = side_by_side.apart(C, side_by_side.turned(base, _turns(earlier)))
-    differs_in_hand = side_by_side.apart(C, side_by_side.turned(base, _turns(rows[list(ANGLES)].to_numpy())))
-    if (differs[away] <= SAME).all():
-        word = Word.HOLDS
-    else:
-        word = Word.CORRECTED if (differs_turned[away] <= SAME).all() else Word.FAILS
-    judged = rows.assign(same=differs <= SAME, same_in_hand=differs_in_hand <= SAME)[away]
-    return word, evidence(
-        """The same as along the base's axes {same} poses and forms ({arms} arms); elsewhere Euler compliance is up to
-        {most:.2f} of the Cartesian one off. Turned by the angles before, the Cartesian one differs by at most
-        {after:.1e}. The same as about the hand's own axes {in_hand}. Closer to the pole: {close}.""",
-        len(rows),
-        ("compliance",),
-        same=_by_order(judged, "same"),
-        arms=judged["arm"].nunique(),
-        most=_greatest(differs[away]),
-        after=_greatest(differs_turned[away]),
-        in_hand=_by_order(judged, "same_in_hand"),
-        close=", ".join(f"{n} {end}" for end, n in rows.loc[~away, "outcome"].astype(str).value_counts().items())
-        or "no pose",
-    )
-
-
-def _turns(angles: np.ndarray) -> np.ndarray:
-    return Turn.from_euler("ZYX", angles).as_matrix()
-
-
-def _by_order(rows: pd.DataFrame, fact: str) -> str:
-    """'about x at 3 of 12, ...'."""
-    return ", ".join(f"{order} at {own.sum()} of {len(own)}" for order, own in rows.groupby("complies")[fact])
-
-
-def _greatest(numbers: np.ndarray) -> float:
-    """The greatest of those that were measured."""
-    return float(np.nanmax(numbers, initial=-np.inf))
-
-
 def c23(results):
     """Measured compliance of two angles against that of two axes: apart or not, and by how much in theory."""
     rows = side_by_side.beside_base(results, COORDINATES, TWO_AXES)
@@ -159,29 +149,18 @@ def c23(results):
     missed = np.abs(leak - tan) / np.maximum(tan, floor)
     is_tilted = (tilt <= PLANE_RAD).all() and (flat <= PLANE_RAD).all()
     is_predicted = is_tilted and (missed <= LEAK).all() and (by_base <= LEAK * floor).all()
-    if parted.all() and is_predicted:
-        word = Word.HOLDS
-    else:
-        word = Word.CORRECTED if parted.mean() > 0.5 else Word.FAILS
+    word = word_of(parted.all() and is_predicted, parted.mean() > 0.5)
+    least = float(np.nanmin(differs[general], initial=np.inf))
+    special = _by_order(rows.assign(same=differs <= SAME)[~general], "same") or "at no pose: there is none"
     return word, evidence(
-        """With no angle zero they part at {parted_k} of {parted_n} poses and forms, by {least:.2f} of the Cartesian
-        compliance or more; with one zero they correspond {special}. {pair}, at {level} poses and forms up to |beta| =
-        {beta:.0f} degrees on {arms} arms: both planes are |beta| apart to {tilt:.1e} rad, and a moment about the level
-        axis leaks tan |beta| into z to {missed:.1e} of it, {leak:.2f} at most; along the base's axes {by_base:.0e}.""",
+        f"""With no angle zero they part at {int(parted.sum())} of {len(parted)} poses and forms, by {least:.2f} of the
+        Cartesian compliance or more; with one zero they correspond {special}. {LEVEL_PAIR.capitalize()}, at
+        {int(level.sum())} poses and forms up to |beta| = {math.degrees(beta.max()):.0f} degrees on
+        {rows["arm"].nunique()} arms: both planes are |beta| apart to {_greatest(tilt):.1e} rad, and a moment about the
+        level axis leaks tan |beta| into z to {_greatest(missed):.1e} of it, {_greatest(leak):.2f} at most; along the
+        base's axes {_greatest(by_base):.0e}.""",
         len(rows),
         ("compliance",),
-        parted_k=int(parted.sum()),
-        parted_n=len(parted),
-        least=float(np.nanmin(differs[general], initial=np.inf)),
-        special=_by_order(rows.assign(same=differs <= SAME)[~general], "same") or "at no pose: there is none",
-        pair=LEVEL_PAIR.capitalize(),
-        level=int(level.sum()),
-        beta=math.degrees(beta.max()),
-        arms=rows["arm"].nunique(),
-        tilt=_greatest(tilt),
-        missed=_greatest(missed),
-        leak=_greatest(leak),
-        by_base=_greatest(by_base),
     )
 
 
@@ -190,6 +169,3 @@ def _leak(rows: pd.DataFrame, C: np.ndarray) -> np.ndarray:
     level = np.stack([np.cos(rows["alpha"]), np.sin(rows["alpha"]), np.zeros(len(rows))], axis=1)
     turn = np.einsum("nij,nj->ni", C, level)
     return np.abs(turn[:, 2] / np.sum(turn * level, axis=1))
-
-
-CLAIMS = (C22.judged_by(c22), C23.judged_by(c23))

@@ -7,7 +7,7 @@ from bench.control.contact_controller import FORMS
 from bench.findings.claims.euler_jacobian import COORDINATES
 from bench.findings.claims.side_by_side import BASE, paired
 from bench.findings.claims.tables import evidence, some
-from bench.findings.claims.verdict import NoEvidence, Word, claim
+from bench.findings.claims.verdict import NoEvidence, claim, word_of
 
 TURNED_DEG = 45.0
 """|beta| of the hand's frame from which on the two shall part: its x then leans to z as much as it lies level."""
@@ -36,7 +36,8 @@ TOUCHED = ["force_error_rms_n", "moment_error_rms_nm"]
 ZERO_RAD, SLACK_DEG = 1e-9, 1e-6
 """What rounding may make of an angle that a frame is named after."""
 
-C25 = claim(
+
+@claim(
     id="C25",
     section="3.3",
     sentence="How well complex compliant motions go depends on the Jacobian used.",
@@ -60,8 +61,6 @@ C25 = claim(
         rotational axes comply. Tasks and frames are ours.
     """,
 )
-
-
 def c25(results):
     """Pairs of episodes in contact that differ in the Jacobian alone, by task."""
     rows = some(paired(results, COORDINATES), f"pose of a task by hybrid/{COORDINATES} and {BASE}")
@@ -70,30 +69,19 @@ def c25(results):
     complex_ones = some(rows[rows["turns"] >= 2], "pose of a task with contact where two turns comply")
     depends = {task: _depends(task, own) for task, own in complex_ones.groupby("task")}
     turned = complex_ones[complex_ones["is_turned"]]
-    if all(depends.values()):
-        word = Word.HOLDS
-    else:
-        word = Word.CORRECTED if turned["parts"].any() else Word.FAILS
+    word = word_of(all(depends.values()), turned["parts"].any())
     parted = complex_ones[complex_ones["parts"]]
     agree = complex_ones.groupby(["task", "arm", "pose"])["parts"].nunique() == 1
     simple = rows[rows["turns"] < 2]
+    listed = "; ".join(_told(task, own) for task, own in complex_ones.groupby("task"))
     return word, evidence(
-        """{depending} of {tasks} tasks in which two turns comply depend on the Jacobian, by {n} pairs on {arms} arms:
-        {listed}. Of the pairs that part Euler is the worse in {worse} of {parted}; both ways to the joints agree at
-        {agreeing} of {frames} frames and scenes. Where fewer turns comply {simple_k} of {simple_n} pairs part.""",
+        f"""{sum(depends.values())} of {len(depends)} tasks in which two turns comply depend on the Jacobian, by
+        {len(complex_ones)} pairs on {complex_ones["arm"].nunique()} arms: {listed}. Of the pairs that part Euler is the
+        worse in {int(parted["euler_is_worse"].sum())} of {len(parted)}; both ways to the joints agree at
+        {int(agree.sum())} of {len(agree)} frames and scenes. Where fewer turns comply {int(simple["parts"].sum())} of
+        {len(simple)} pairs part.""",
         len(rows),
         ("compliance",),
-        depending=sum(depends.values()),
-        tasks=len(depends),
-        n=len(complex_ones),
-        arms=complex_ones["arm"].nunique(),
-        listed="; ".join(_told(task, own) for task, own in complex_ones.groupby("task")),
-        worse=int(parted["euler_is_worse"].sum()),
-        parted=len(parted),
-        agreeing=int(agree.sum()),
-        frames=len(agree),
-        simple_k=int(simple["parts"].sum()),
-        simple_n=len(simple),
     )
 
 
@@ -150,6 +138,3 @@ def _parted(rows: pd.DataFrame) -> str:
     by_outcome = np.isinf(rows["factor"])
     ends = f"{by_outcome.sum()} by outcome, the others " if by_outcome.any() else ""
     return f"{rows['parts'].sum()} of {len(rows)} ({ends}up to {rows['factor'][~by_outcome].max():.3g} times)"
-
-
-CLAIMS = (C25.judged_by(c25),)

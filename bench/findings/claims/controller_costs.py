@@ -8,7 +8,7 @@ import pandas as pd
 from bench.findings.claims.adequacy import CALL_PRICE, tallied
 from bench.findings.claims.costs import AGREES, MIXED, compared
 from bench.findings.claims.tables import evidence, some
-from bench.findings.claims.verdict import Word, claim
+from bench.findings.claims.verdict import claim, word_of
 
 LAW, COORDINATES = "feedback-linearized", "zyx-euler"
 
@@ -22,7 +22,21 @@ BY_EULER, BY_COMMON, ON_MATRIX = (
 )
 """(3.7), (2.2) with (2.15), and (2.2) with the law on R; the inverse goes by the number of joints."""
 
-C26 = claim(
+
+def words(controller: str, joints: int) -> dict[str, str]:
+    """The words of a controller's rows on so many joints."""
+    law, _, by = controller.partition("@")
+    regulator, _, representation = law.partition("/")
+    return {"regulator": regulator, "representation": representation, "jacobian": by, "inverse": INVERSES[joints]}
+
+
+def controller_costs(results, controller: str, joints: int) -> pd.DataFrame:
+    """Its rows of costs.parquet, typical branch, a row a stage."""
+    rows = results.table("costs", **words(controller, joints), branch="typical")
+    return some(rows[rows["joints"] == joints], f"cost of {controller} on {joints} joints")
+
+
+@claim(
     id="C26",
     section="4",
     sentence="The Euler Jacobian costs more to calculate.",
@@ -48,21 +62,6 @@ C26 = claim(
         "dearer than the law on R on the common Jacobian",
     ),
 )
-
-
-def words(controller: str, joints: int) -> dict[str, str]:
-    """The words of a controller's rows on so many joints."""
-    law, _, by = controller.partition("@")
-    regulator, _, representation = law.partition("/")
-    return {"regulator": regulator, "representation": representation, "jacobian": by, "inverse": INVERSES[joints]}
-
-
-def controller_costs(results, controller: str, joints: int) -> pd.DataFrame:
-    """Its rows of costs.parquet, typical branch, a row a stage."""
-    rows = results.table("costs", **words(controller, joints), branch="typical")
-    return some(rows[rows["joints"] == joints], f"cost of {controller} on {joints} joints")
-
-
 def c26(results):
     """Pairs of controllers on six and seven joints, in both accountings; then time."""
     pairs, listed = [], []
@@ -75,19 +74,12 @@ def c26(results):
         listed.append(f"{joints} joints{', goal and all' if with_goal else ''}: {told}")
     said, is_dearer, timed = _timed(results)
     in_order = all(how == AGREES or (how == MIXED and price <= CALL_PRICE) for how, price in pairs)
-    if all(how == AGREES for how, _ in pairs):
-        word = Word.HOLDS if is_dearer else Word.CORRECTED
-    else:
-        word = Word.CORRECTED if in_order else Word.FAILS
+    word = word_of(is_dearer and all(how == AGREES for how, _ in pairs), in_order)
     return word, evidence(
-        """Flops and calls a tick of (2.2) with (2.15), (2.2) with the law on R, and (3.7): {listed}. The last is dearer
-        in both columns in {agreeing} of {pairs} pairs. {said}""",
+        f"""Flops and calls a tick of (2.2) with (2.15), (2.2) with the law on R, and (3.7): {"; ".join(listed)}. The
+        last is dearer in both columns in {sum(how == AGREES for how, _ in pairs)} of {len(pairs)} pairs. {said}""",
         3 * len(listed) + timed,
         ("costs", "timings") if timed else ("costs",),
-        listed="; ".join(listed),
-        agreeing=sum(how == AGREES for how, _ in pairs),
-        pairs=len(pairs),
-        said=said,
     )
 
 
@@ -105,6 +97,3 @@ def _timed(results) -> tuple[str, bool, int]:
     medians = ", ".join(f"{1e-3 * table[name].median():.2f}" for name in table)
     said = f"Time a tick is in that order on {int(dearer.sum())} of {len(table)} arms and machines ({medians} µs)."
     return said, bool(dearer.all()), 3 * len(table)
-
-
-CLAIMS = (C26.judged_by(c26),)

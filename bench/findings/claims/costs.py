@@ -7,58 +7,10 @@ import numpy as np
 from bench.findings.claims import adequacy, probes
 from bench.findings.claims.adequacy import CALL_PRICE, CALL_PRICES, DEAR, DIRECTED, SETTLED_SHARE, SLOW, tallied
 from bench.findings.claims.tables import evidence, on_every_engine, settled, share, some
-from bench.findings.claims.verdict import Word, claim
+from bench.findings.claims.verdict import Word, claim, word_of
+from bench.findings.theory import closed_form
 
 LAWS = ("rotation-matrix", "linearized-euler", "feedback-linearized")
-
-C12 = claim(
-    id="C12",
-    section="2.5",
-    sentence="""
-        Cost rises from the rotation-matrix law over the linearized to the feedback-linearized law.
-    """,
-    question="Do operations per tick, and time per tick, come in that order?",
-    criterion=f"""
-        costs.parquet, typical branch, flops and transcendental calls (sin, cos, atan2, acos) in columns
-        of their own. Paper's accounting: without the stage 'goal', for the paper gives E_d in Euler
-        angles; total: with it. A pair of neighbours agrees if the dearer has no fewer flops and no fewer
-        calls, and more of one; it is mixed if one column says so and the other not. A mixed pair is in
-        order if it is so once a call costs {CALL_PRICE:g} flops or less (its break-even price is
-        reported). It holds if both pairs agree in both accountings; with a correction if every pair
-        agrees or is mixed and in order; otherwise it does not hold. Time per tick from results/timings
-        confirms or not and is reported; where it contradicts the order, 'holds' falls to 'with a
-        correction'. No timings: said so.
-    """,
-    open="Cost of a call depends on the machine; the paper gives no numbers at all, only an order.",
-    readings=(
-        "the goal is given in the law's own coordinates (the paper's accounting)",
-        "the goal is a rotation matrix",
-    ),
-)
-
-C17 = claim(
-    id="C17",
-    section="2.5, 4",
-    sentence="No regulator performs adequately in both calculation cost and performance.",
-    question="Which of the three is adequate in which, on one plane of cost and performance?",
-    criterion=f"""
-        Adequate performance: (a) at least {SETTLED_SHARE:.1%} of the uniform starts settle; (b) every
-        directed start settles (half-turn, poles, wraps, box, tumbling, goals) that is not itself on a
-        half turn, a pole or a wrap to 1e-13 rad, nor its goal on a pole; (c) no uniform start takes
-        longer than {SLOW:g} times the settling time of a small error. Adequate cost: flops plus
-        {CALL_PRICE:g} for each transcendental call (paper's accounting of C12, typical branch) at most
-        {DEAR:g} times the cheapest of the three. It holds if none of rotation-matrix, linearized-euler
-        and feedback-linearized is adequate in both; with a correction if one is, but fails on starts that
-        (b) leaves out, or not at every price of a call from {CALL_PRICES[0]:g} to {CALL_PRICES[1]:g};
-        otherwise it does not hold. Later laws are put on the same plane with the same three numbers; they
-        do not change this verdict, they answer C27.
-    """,
-    open="""
-        'Adequate' is the paper's word without a number; (a) to (c) and the factor 2 are ours. (c) is what
-        the paper calls uncertain settling times.
-    """,
-)
-
 
 AGREES, MIXED, CONTRADICTS = "agrees", "mixed", "contradicts"
 
@@ -80,6 +32,28 @@ def compared(cheap: tuple, dear: tuple) -> tuple[str, float]:
     return CONTRADICTS, np.inf
 
 
+@claim(
+    id="C12",
+    section="2.5",
+    sentence="Cost rises from the rotation-matrix law over the linearized to the feedback-linearized law.",
+    question="Do operations per tick, and time per tick, come in that order?",
+    criterion=f"""
+        costs.parquet, typical branch, flops and transcendental calls (sin, cos, atan2, acos) in columns
+        of their own. Paper's accounting: without the stage 'goal', for the paper gives E_d in Euler
+        angles; total: with it. A pair of neighbours agrees if the dearer has no fewer flops and no fewer
+        calls, and more of one; it is mixed if one column says so and the other not. A mixed pair is in
+        order if it is so once a call costs {CALL_PRICE:g} flops or less (its break-even price is
+        reported). It holds if both pairs agree in both accountings; with a correction if every pair
+        agrees or is mixed and in order; otherwise it does not hold. Time per tick from results/timings
+        confirms or not and is reported; where it contradicts the order, 'holds' falls to 'with a
+        correction'. No timings: said so.
+    """,
+    open="Cost of a call depends on the machine; the paper gives no numbers at all, only an order.",
+    readings=(
+        "the goal is given in the law's own coordinates (the paper's accounting)",
+        "the goal is a rotation matrix",
+    ),
+)
 def c12(results):
     """Flops and calls of neighbours in both accountings; then time."""
     paper = [costs(results, law, with_goal=False) for law in LAWS]
@@ -88,21 +62,14 @@ def c12(results):
     in_order = [how == AGREES or (how == MIXED and price <= CALL_PRICE) for how, price in pairs]
     timings = results.timings()
     said, timed_in_order = _timed(timings)
-    if all(how == AGREES for how, _ in pairs):
-        word = Word.HOLDS if timed_in_order else Word.CORRECTED
-    else:
-        word = Word.CORRECTED if all(in_order) else Word.FAILS
+    word = word_of(timed_in_order and all(how == AGREES for how, _ in pairs), all(in_order))
+    priced = ", ".join(f"once a call costs {price:.1f} flops" for how, price in pairs if how != AGREES) or "none"
     return word, evidence(
-        """Flops and transcendental calls a tick: {paper}; with the goal's angles taken from its matrix: {total}. In
-        order: {agreeing} of {pairs} pairs in both columns, the others {priced}. {said}""",
+        f"""Flops and transcendental calls a tick: {_listed(paper)}; with the goal's angles taken from its matrix:
+        {_listed(total)}. In order: {sum(how == AGREES for how, _ in pairs)} of {len(pairs)} pairs in both columns, the
+        others {priced}. {said}""",
         2 * len(LAWS) + len(timings),
         ("costs", "timings") if len(timings) else ("costs",),
-        paper=_listed(paper),
-        total=_listed(total),
-        agreeing=sum(how == AGREES for how, _ in pairs),
-        pairs=len(pairs),
-        priced=", ".join(f"once a call costs {price:.1f} flops" for how, price in pairs if how != AGREES) or "none",
-        said=said,
     )
 
 
@@ -121,10 +88,32 @@ def _timed(timings) -> tuple[str, bool]:
     return f"Time a tick is in that order on {int(in_order.sum())} of {len(table)} machines ({times}).", in_order.all()
 
 
+@claim(
+    id="C17",
+    section="2.5, 4",
+    sentence="No regulator performs adequately in both calculation cost and performance.",
+    question="Which of the three is adequate in which, on one plane of cost and performance?",
+    criterion=f"""
+        Adequate performance: (a) at least {SETTLED_SHARE:.1%} of the uniform starts settle; (b) every
+        directed start settles (half-turn, poles, wraps, box, tumbling, goals) that is not itself on a
+        half turn, a pole or a wrap to 1e-13 rad, nor its goal on a pole; (c) no uniform start takes
+        longer than {SLOW:g} times the settling time of a small error. Adequate cost: flops plus
+        {CALL_PRICE:g} for each transcendental call (paper's accounting of C12, typical branch) at most
+        {DEAR:g} times the cheapest of the three. It holds if none of rotation-matrix, linearized-euler
+        and feedback-linearized is adequate in both; with a correction if one is, but fails on starts that
+        (b) leaves out, or not at every price of a call from {CALL_PRICES[0]:g} to {CALL_PRICES[1]:g};
+        otherwise it does not hold. Later laws are put on the same plane with the same three numbers; they
+        do not change this verdict, they answer C27.
+    """,
+    open="""
+        'Adequate' is the paper's word without a number; (a) to (c) and the factor 2 are ours. (c) is what
+        the paper calls uncertain settling times.
+    """,
+)
 @on_every_engine
 def c17(results, engine):
     """The three laws against the three tests of performance and the test of cost."""
-    linear = probes.linear_settling(results.gains())
+    linear = closed_form.linear_settling(*results.gains())
     plane: dict[str, dict] = {}
     rows = 0
     for law in LAWS:
@@ -147,20 +136,16 @@ def c17(results, engine):
     word = Word.FAILS if clean else Word.CORRECTED if both else Word.HOLDS
     beside = probes.beside_pole(0.1, "feedback-linearized/zyx-euler", results.gains())
     later = [one for one in adequacy.every(results, engine) if one.name not in adequacy.PAPERS]
+    laws = "; ".join(_placed(law, one, results) for law, one in plane.items())
+    adequate = ", ".join(both) or "none"
+    others = "; ".join(map(_beside, later)) or "none in this run"
     return word, evidence(
-        """{laws}. Adequate in both: {both}. Settling time of a small error: {linear:.3f} s. {said} Not counted:
-        feedback-linearized fails from {beside} of {beside_n} starts spinning at {speed:g} rad/s beside a pole. Later
-        laws on the same plane: {later}.""",
+        f"""{laws}. Adequate in both: {adequate}. Settling time of a small error: {linear:.3f} s.
+        {_timed(results.timings())[0]} Not counted: feedback-linearized fails from {int((~settled(beside)).sum())} of
+        {len(beside)} starts spinning at {probes.SPEED:g} rad/s beside a pole. Later laws on the same plane:
+        {others}.""",
         rows + len(LAWS) + sum(one.rows for one in later),
         ("episodes", "costs"),
-        laws="; ".join(_placed(law, one, results) for law, one in plane.items()),
-        both=", ".join(both) or "none",
-        linear=linear,
-        said=_timed(results.timings())[0],
-        beside=int((~settled(beside)).sum()),
-        beside_n=len(beside),
-        speed=probes.SPEED,
-        later="; ".join(map(_beside, later)) or "none in this run",
     )
 
 
@@ -185,6 +170,3 @@ def _placed(law: str, one: dict, results) -> str:
         f"{law}: {one['settled']:.2%} of SO(3) settles, {one['lost']} other starts do not ({one['lost_exact']} more of "
         f"the exact ones), slowest {one['slowest']:.2f} s, {flops} flops and {calls} calls, {cost}"
     )
-
-
-CLAIMS = (C12.judged_by(c12), C17.judged_by(c17))

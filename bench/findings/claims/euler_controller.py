@@ -21,7 +21,7 @@ from bench.findings.claims.controller_costs import (
     words,
 )
 from bench.findings.claims.tables import evidence, some
-from bench.findings.claims.verdict import Word, claim
+from bench.findings.claims.verdict import claim, word_of
 from bench.law.contender import Gains
 
 CURVES = 8
@@ -41,7 +41,18 @@ law's. A second-order part of -0.3 to 0.7 of the first-order one moves it this f
 HAMMERED = 10.0
 """Peak torque over that of the geometric Jacobian from the same start: beyond it the Jacobian is to blame."""
 
-C20 = claim(
+
+class Bend(NamedTuple):
+    """How far an arm is from double integrators: [rad] at the step, the halved one's share, at step zero; [m]."""
+
+    full: float
+    share: float
+    limit: float
+    drift: float
+    samples: int
+
+
+@claim(
     id="C20",
     section="3.2",
     sentence="With it the plant is decoupled double integrators; this fails at places and hides a cost.",
@@ -70,18 +81,6 @@ C20 = claim(
         begin and end 40 degrees away from one, and only the tool of a law on R passes it.
     """,
 )
-
-
-class Bend(NamedTuple):
-    """How far an arm is from double integrators: [rad] at the step, the halved one's share, at step zero; [m]."""
-
-    full: float
-    share: float
-    limit: float
-    drift: float
-    samples: int
-
-
 def c20(results):
     """Curves at two steps; outcomes at the poles against the law on R; stages and totals."""
     found = some(
@@ -100,29 +99,17 @@ def c20(results):
     linear = first_order and limit <= BEND_TIGHT and drift <= DRIFT_M
     fails = all(rows["fails"].any() for rows in compared_at.values()) and not clear["fails"].any()
     hides = all(one.hides for one in hidden)
-    if linear and fails and hides:
-        word = Word.HOLDS
-    else:
-        word = Word.CORRECTED if limit <= BEND_LOOSE and (fails or hides) else Word.FAILS
+    word = word_of(linear and fails and hides, limit <= BEND_LOOSE and (fails or hides))
+    at_poles = ", ".join(f"{rows['fails'].sum()} of {len(rows)} ({arm})" for arm, rows in compared_at.items())
     return word, evidence(
-        """{curves} clear curves a step on {arms} arms: angles are at most {full:.1e} rad off the closed form at the
-        step, {low:.3f} to {high:.3f} of that at half of it, and {limit:.1e} rad at step zero; the tool moves
-        {drift:.1e} m. At a pole it fails, and the law on R does not, from {at_poles}; from {clear_k} of {clear_n}
-        clear starts (by the same law on the common Jacobian: {common}). {hidden}""",
+        f"""{CURVES * len(arms)} clear curves a step on {len(arms)} arms: angles are at most
+        {max(one.full for one in bends.values()):.1e} rad off the closed form at the step,
+        {min(one.share for one in bends.values()):.3f} to {max(one.share for one in bends.values()):.3f} of that at half
+        of it, and {limit:.1e} rad at step zero; the tool moves {drift:.1e} m. At a pole it fails, and the law on R does
+        not, from {at_poles}; from {int(clear["fails"].sum())} of {len(clear)} clear starts (by the same law on the
+        common Jacobian: {int(common["fails"].sum())}). {" ".join(one.said for one in hidden)}""",
         sum(one.samples for one in bends.values()) + sum(map(len, compared_at.values())) + len(clear) + 3 * len(hidden),
         ("episodes", "poses", "costs", "experiment"),
-        curves=CURVES * len(arms),
-        arms=len(arms),
-        full=max(one.full for one in bends.values()),
-        low=min(one.share for one in bends.values()),
-        high=max(one.share for one in bends.values()),
-        limit=limit,
-        drift=drift,
-        at_poles=", ".join(f"{rows['fails'].sum()} of {len(rows)} ({arm})" for arm, rows in compared_at.items()),
-        clear_k=int(clear["fails"].sum()),
-        clear_n=len(clear),
-        common=int(common["fails"].sum()),
-        hidden=" ".join(one.said for one in hidden),
     )
 
 
@@ -184,6 +171,3 @@ def _hidden(results, joints: int) -> Hidden:
         for name, one in (("(3.7)", BY_EULER), ("(2.2) with the law on R", ON_MATRIX), ("(2.2) with (2.15)", BY_COMMON))
     )
     return Hidden(seems_cheaper and is_dearer, f"On {joints} joints the law itself is {told}.")
-
-
-CLAIMS = (C20.judged_by(c20),)

@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 
 from bench.findings.claims.tables import evidence, share, some
-from bench.findings.claims.verdict import NoEvidence, Word, claim
+from bench.findings.claims.verdict import NoEvidence, claim, word_of
 
 COORDINATES = "zyx-euler"
 
@@ -35,12 +35,11 @@ DIFFERENCED = EPS ** (2 / 3)
 """What a central difference keeps: with a step of eps^(1/3) times the margin, truncation (step/margin)^2/3 and
 rounding eps/step are both about eps^(2/3), over the margin."""
 
-C18 = claim(
+
+@claim(
     id="C18",
     section="3.1",
-    sentence="""
-        The Euler Jacobian adds singularities of its own, with unbounded elements, to those of the manipulator.
-    """,
+    sentence="The Euler Jacobian adds singularities of its own, with unbounded elements, to those of the manipulator.",
     question="Does J_E grow without bound where J is well conditioned, and is it singular wherever J is?",
     criterion=f"""
         poses.parquet, Z-Y-X angles, every arm. A family is one arm posture brought to distances 10^-k from beta =
@@ -65,28 +64,6 @@ C18 = claim(
         "'zero' of every element (reported)",
     ),
 )
-
-C19 = claim(
-    id="C19",
-    section="3.1",
-    sentence="Its two derivations agree: diag(I, B^-1) J, and the derivative of the forward kinematics.",
-    question="Are (3.3) and (3.5) the same matrix, and that of the differentiated forward kinematics?",
-    criterion=f"""
-        poses.parquet, Z-Y-X angles, every arm, every pose with cos(beta) >= {NEAR:g}. The gap of two matrices is the
-        largest difference of elements over the largest element. (a) Derivations: the gap between (3.3) and (3.5), the
-        extraction differentiated element by element, is at most {ROUNDINGS:g} eps / cos(beta). (b) Differentiation: the
-        gap between (3.3) and central differences of the judge's forward kinematics is at most {ROUNDINGS:g} eps^(2/3) /
-        cos(beta). It holds if every pose passes both; with a correction if every pose with cos(beta) >= {AWAY:g} does:
-        they part near the pole; otherwise it does not hold.
-    """,
-    open="""
-        "The function is differentiated with respect to the joint angles and the resultant matrix is the manipulator
-        Jacobian with respect to Euler angles." and "This Jacobian has the same properties as that presented in the
-        previous section". The paper states the equality and does not show it; tolerances are ours.
-    """,
-)
-
-
 def c18(results):
     """Slopes towards the pole by family, the largest element on arrival, and the determinants' identity."""
     rows = some(results.table("poses", representation=COORDINATES), "pose of an arm")
@@ -98,33 +75,20 @@ def c18(results):
     slopes = families[["condition_analytic", "largest"]].to_numpy()
     errors = square["det_gap"] * square["margin"] / EPS
     tight = abs(slopes - SLOPE).max() <= SLOPE_TIGHT * SLOPE and (families["nearest"] >= UNBOUNDED).all()
-    if tight and (errors <= ROUNDINGS).all():
-        word = Word.HOLDS
-    else:
-        loose = slopes.min() >= SLOPE_LOOSE and (square["det_gap"] <= DETERMINANT_LOOSE).all()
-        word = Word.CORRECTED if loose else Word.FAILS
+    loose = slopes.min() >= SLOPE_LOOSE and (square["det_gap"] <= DETERMINANT_LOOSE).all()
+    word = word_of(tight and (errors <= ROUNDINGS).all(), loose)
     well = some(rows[(rows["pose_set"] == "random") & (rows["condition"] <= WELL_CONDITIONED)], "random pose")
+    worse = share(well["condition_analytic"] > 10 * well["condition"])
     return word, evidence(
-        """{families} families on {arms} arms, J's condition number at most {condition:.0f}: towards the pole J_E's
-        grows by {low:.3f} to {high:.3f} decades a decade, its largest element by {least:.3f} to {most:.3f}, to
-        {nearest:.1e} or more at 1e-{k}. det J_E = -det J / cos(beta) at {square:,} poses, to {errors:.1f} eps /
-        cos(beta). Of the random poses with J well conditioned, J_E has ten times its condition number at {worse}. Its
-        largest element is nowhere below {smallest:.2f}: only its determinant is ever zero.""",
+        f"""{len(families)} families on {rows["arm"].nunique()} arms, J's condition number at most
+        {families["condition"].max():.0f}: towards the pole J_E's grows by {slopes[:, 0].min():.3f} to
+        {slopes[:, 0].max():.3f} decades a decade, its largest element by {slopes[:, 1].min():.3f} to
+        {slopes[:, 1].max():.3f}, to {families["nearest"].min():.1e} or more at 1e-{NEAREST}. det J_E = -det J /
+        cos(beta) at {len(square):,} poses, to {errors.max():.1f} eps / cos(beta). Of the random poses with J well
+        conditioned, J_E has ten times its condition number at {worse}. Its largest element is nowhere below
+        {rows["largest"].min():.2f}: only its determinant is ever zero.""",
         len(rows),
         ("poses",),
-        families=len(families),
-        arms=rows["arm"].nunique(),
-        condition=families["condition"].max(),
-        low=slopes[:, 0].min(),
-        high=slopes[:, 0].max(),
-        least=slopes[:, 1].min(),
-        most=slopes[:, 1].max(),
-        nearest=families["nearest"].min(),
-        k=NEAREST,
-        square=len(square),
-        errors=errors.max(),
-        worse=share(well["condition_analytic"] > 10 * well["condition"]),
-        smallest=rows["largest"].min(),
     )
 
 
@@ -145,6 +109,25 @@ def _families(rows: pd.DataFrame) -> pd.DataFrame:
     return pd.DataFrame(found, columns=["arm", "condition_analytic", "largest", "nearest", "condition"])
 
 
+@claim(
+    id="C19",
+    section="3.1",
+    sentence="Its two derivations agree: diag(I, B^-1) J, and the derivative of the forward kinematics.",
+    question="Are (3.3) and (3.5) the same matrix, and that of the differentiated forward kinematics?",
+    criterion=f"""
+        poses.parquet, Z-Y-X angles, every arm, every pose with cos(beta) >= {NEAR:g}. The gap of two matrices is the
+        largest difference of elements over the largest element. (a) Derivations: the gap between (3.3) and (3.5), the
+        extraction differentiated element by element, is at most {ROUNDINGS:g} eps / cos(beta). (b) Differentiation: the
+        gap between (3.3) and central differences of the judge's forward kinematics is at most {ROUNDINGS:g} eps^(2/3) /
+        cos(beta). It holds if every pose passes both; with a correction if every pose with cos(beta) >= {AWAY:g} does:
+        they part near the pole; otherwise it does not hold.
+    """,
+    open="""
+        "The function is differentiated with respect to the joint angles and the resultant matrix is the manipulator
+        Jacobian with respect to Euler angles." and "This Jacobian has the same properties as that presented in the
+        previous section". The paper states the equality and does not show it; tolerances are ours.
+    """,
+)
 def c19(results):
     """Both gaps at every pose away from the pole, in the units of what rounding leaves."""
     rows = some(results.table("poses", representation=COORDINATES), "pose of an arm")
@@ -158,23 +141,13 @@ def c19(results):
     derived = (rows["derivation_gap"] * rows["margin"] / EPS).fillna(np.inf)
     measured = kept["difference_gap"] * kept["margin"] / DIFFERENCED
     away = derived[rows["margin"] >= AWAY], measured[kept["margin"] >= AWAY]
-    if derived.max() <= ROUNDINGS and measured.max() <= ROUNDINGS:
-        word = Word.HOLDS
-    else:
-        word = Word.CORRECTED if all((part <= ROUNDINGS).all() for part in away) else Word.FAILS
+    everywhere = derived.max() <= ROUNDINGS and measured.max() <= ROUNDINGS
+    word = word_of(everywhere, all((part <= ROUNDINGS).all() for part in away))
     return word, evidence(
-        """{poses:,} poses of {arms} arms: (3.3) and (3.5) differ by at most {derived:.1f} eps / cos(beta), relatively;
-        (3.3) and central differences of the forward kinematics, at {differenced:,} of them, by at most {measured:.1f}
-        eps^(2/3) / cos(beta). Left out, a jump of an angle between both ends of a difference: {jumps}.""",
+        f"""{len(rows):,} poses of {rows["arm"].nunique()} arms: (3.3) and (3.5) differ by at most {derived.max():.1f}
+        eps / cos(beta), relatively; (3.3) and central differences of the forward kinematics, at {len(kept):,} of them,
+        by at most {measured.max():.1f} eps^(2/3) / cos(beta). Left out, a jump of an angle between both ends of a
+        difference: {len(differenced) - len(kept)}.""",
         len(rows),
         ("poses",),
-        poses=len(rows),
-        arms=rows["arm"].nunique(),
-        derived=derived.max(),
-        differenced=len(kept),
-        measured=measured.max(),
-        jumps=len(differenced) - len(kept),
     )
-
-
-CLAIMS = (C18.judged_by(c18), C19.judged_by(c19))

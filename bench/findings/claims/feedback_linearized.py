@@ -8,6 +8,7 @@ import pandas as pd
 from bench.findings.claims import probes
 from bench.findings.claims.tables import MAIN_ENGINE, evidence, settled, share, some
 from bench.findings.claims.verdict import Word, claim
+from bench.findings.theory import closed_form
 from bench.law.so3 import Rotation
 
 LAW = "feedback-linearized"
@@ -19,7 +20,8 @@ STRAY_SHARE = 0.01
 EXACT_RAD = 1e-13
 """Between the nearest of the near starts (1e-12 rad) and what rounding leaves of an exact one (4e-16 rad)."""
 
-C09 = claim(
+
+@claim(
     id="C09",
     section="2.4",
     sentence="""
@@ -44,8 +46,6 @@ C09 = claim(
         the angle.
     """,
 )
-
-
 def c09(results):
     """Traces against the linear closed form; outcomes off and on the boundary, spinning, and to far goals."""
     worst, traced = _bend(results)
@@ -72,26 +72,15 @@ def c09(results):
     else:
         good = worst <= LINEAR_LOOSE and 1 - settled(uniform).mean() <= STRAY_SHARE
         word = Word.CORRECTED if good else Word.FAILS
+    traces = _traced(results).groupby(["start_set", "start_id"], observed=True).ngroups
     return word, evidence(
-        """{traces} traces bend from the closed form by at most {worst:.1e} rad; settled: uniform {uniform}, {off_k} of
-        {off_n} starts off the boundary by 1e-12 rad or more, {wrap_k} of {wrap_n} exactly at +-pi, {pole_k} of
-        {pole_n} exactly on a pole, {tumbling} tumbling, {goals_k} of {goals_n} goals, {long_k} of them the long way
-        round.""",
+        f"""{traces} traces bend from the closed form by at most {worst:.1e} rad; settled: uniform
+        {share(settled(uniform))}, {int(settled(off).sum())} of {len(off)} starts off the boundary by 1e-12 rad or more,
+        {int(settled(wrap).sum())} of {len(wrap)} exactly at +-pi, {int(settled(pole).sum())} of {len(pole)} exactly on
+        a pole, {share(settled(tumbling))} tumbling, {int(settled(goals).sum())} of {len(goals)} goals, {long_way.k} of
+        them the long way round.""",
         traced + len(uniform) + len(near) + len(tumbling) + len(goals),
         ("traces", "episodes"),
-        traces=_traced(results).groupby(["start_set", "start_id"], observed=True).ngroups,
-        worst=worst,
-        uniform=share(settled(uniform)),
-        off_k=int(settled(off).sum()),
-        off_n=len(off),
-        wrap_k=int(settled(wrap).sum()),
-        wrap_n=len(wrap),
-        pole_k=int(settled(pole).sum()),
-        pole_n=len(pole),
-        tumbling=share(settled(tumbling)),
-        goals_k=int(settled(goals).sum()),
-        goals_n=len(goals),
-        long_k=long_way.k,
     )
 
 
@@ -110,9 +99,6 @@ def _bend(results) -> tuple[float, int]:
         trace = trace.sort_values("time_s")
         n, o, a = (trace[names].to_numpy().tolist() for names in columns)
         E = np.array([probes.euler_angles(Rotation(*triple)) for triple in zip(n, o, a, strict=True)])
-        linear = E[0] * probes.response(trace["time_s"].to_numpy(), results.gains())[:, None]
+        linear = E[0] * closed_form.linear(trace["time_s"], *results.gains())[:, None]
         worst = max(worst, float(np.abs(E - linear).max()))
     return worst, len(rows)
-
-
-CLAIMS = (C09.judged_by(c09),)

@@ -11,7 +11,7 @@ from bench.contenders.registry import known_representations, representation
 from bench.findings.claims.euler_jacobian import COORDINATES, DIFFERENCED, EPS, ROUNDINGS
 from bench.findings.claims.side_by_side import PROBE
 from bench.findings.claims.tables import evidence, some
-from bench.findings.claims.verdict import Word, claim
+from bench.findings.claims.verdict import claim, word_of
 from bench.law.contender import Representation
 from bench.law.so3 import Rotation, from_quaternion
 
@@ -29,7 +29,8 @@ BESIDE = 20
 STEP = 2.0 ** (-52 / 3)
 """rad; of a central difference, whose truncation and rounding then are both about its square."""
 
-C21 = claim(
+
+@claim(
     id="C21",
     section="3.3",
     sentence="Measured forces can be converted by B transposed at every orientation, and work is conserved.",
@@ -57,8 +58,6 @@ C21 = claim(
         "no moment is lost on the way (reported)",
     ),
 )
-
-
 def c21(results):
     """The balance at random and polar orientations, the loop's own work residual, and what is lost at the poles."""
     looped = results.table("compliance", task=PROBE, controller="hybrid", representation=COORDINATES)
@@ -68,30 +67,19 @@ def c21(results):
     found, elsewhere = results.found_by(experiment)
     closes = found["exists"] & (found["gap"] <= ROUNDINGS * EPS) & (found["difference_gap"] <= ROUNDINGS * DIFFERENCED)
     poles = found["place"] == AT_POLE
-    if closes[~poles].all() and (residual <= ROUNDINGS).all():
-        word = Word.HOLDS if closes.all() else Word.CORRECTED
-    else:
-        word = Word.FAILS
+    off_poles = closes[~poles].all() and (residual <= ROUNDINGS).all()
+    word = word_of(off_poles and closes.all(), off_poles)
+    rank = 2 if found.loc[poles, "least"].max() <= LOST else 3
     return word, evidence(
-        """{n:,} orientations, {poles} of them exact poles: F_E is finite at {finite:,}; F_E . Edot is m . omega to
-        {gap:.1f} eps, and to {differenced:.1f} eps^(2/3) with omega differenced from R(E); in the loop, at {looped:,}
-        poses and forms of the wrench probe, to {residual:.1f} eps / cos(beta). At the poles B has rank {rank}: of one
-        moment {lost:.0g} is left. In {others} other representations the balance closes to {elsewhere:.1f} eps. A moment
-        that is not converted misses it by {raw:.2f} in the median.""",
+        f"""{len(found):,} orientations, {int(poles.sum())} of them exact poles: F_E is finite at
+        {int(found["exists"].sum()):,}; F_E . Edot is m . omega to {found["gap"].max() / EPS:.1f} eps, and to
+        {found["difference_gap"].max() / DIFFERENCED:.1f} eps^(2/3) with omega differenced from R(E); in the loop, at
+        {len(looped):,} poses and forms of the wrench probe, to {residual.max():.1f} eps / cos(beta). At the poles B has
+        rank {rank}: of one moment {found.loc[poles, "lost"].max():.0g} is left. In {len(elsewhere)} other
+        representations the balance closes to {max(elsewhere) / EPS:.1f} eps. A moment that is not converted misses it
+        by {found["raw_gap"].median():.2f} in the median.""",
         len(found) + len(looped),
         ("experiment", "compliance"),
-        n=len(found),
-        poles=int(poles.sum()),
-        finite=int(found["exists"].sum()),
-        gap=found["gap"].max() / EPS,
-        differenced=found["difference_gap"].max() / DIFFERENCED,
-        looped=len(looped),
-        residual=residual.max(),
-        rank=2 if found.loc[poles, "least"].max() <= LOST else 3,
-        lost=found.loc[poles, "lost"].max(),
-        others=len(elsewhere),
-        elsewhere=max(elsewhere) / EPS,
-        raw=found["raw_gap"].median(),
     )
 
 
@@ -161,6 +149,3 @@ def balances(along: Representation, places: list[tuple[str, Rotation]], seed: in
 
 def _unit(vector: np.ndarray) -> np.ndarray:
     return vector / np.linalg.norm(vector)
-
-
-CLAIMS = (C21.judged_by(c21),)

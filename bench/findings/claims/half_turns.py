@@ -6,7 +6,7 @@ from scipy.optimize import minimize
 from bench.findings.claims import probes
 from bench.findings.claims.rotation_matrix import EXACT_RAD, LAW
 from bench.findings.claims.tables import MAIN_ENGINE, evidence, on_every_engine, settled, some
-from bench.findings.claims.verdict import Word, claim
+from bench.findings.claims.verdict import Word, claim, word_of
 from bench.law.contender import Gains
 from bench.law.so3 import IDENTITY, cross, from_quaternion
 from tasks.sphere import axes
@@ -17,7 +17,8 @@ ZERO_ERROR = 2.0**-52
 AWAY_RAD = 1e-3
 NO_ZERO, NEAR_ZERO = 0.999, 1e-9
 
-C04 = claim(
+
+@claim(
     id="C04",
     section="2.4",
     sentence="""
@@ -40,8 +41,28 @@ C04 = claim(
         reported. Gains and horizon decide how long an escape takes, not whether the error is zero.
     """,
 )
+@on_every_engine
+def c04(results, engine):
+    """The error and its three cross products at exact half turns, and how the episodes end."""
+    turns = results.episodes(LAW, engine, "half-turn")
+    exact = some(turns[probes.boundary_distance(turns)["half_turn"] <= EXACT_RAD], "exact half turn")
+    orientations = probes.rotations(exact)
+    errors = [float(np.linalg.norm(error(R))) for R in orientations]
+    products = [max(np.linalg.norm(cross(c, d)) for c, d in zip(R, IDENTITY, strict=True)) for R in orientations]
+    parallel = sum(product <= ZERO_ERROR for product in products)
+    leave = int(settled(exact).sum())
+    is_zero = max(errors) <= ZERO_ERROR
+    word = word_of(is_zero and not leave and parallel == len(exact), is_zero)
+    return word, evidence(
+        f"""At {len(exact)} exact half turns the error is at most {max(errors):.1g}, and {leave} of them settle. Each
+        cross product is zero by itself at {parallel} (axes x, y, z); at the other {len(exact) - parallel} they cancel
+        in the sum only, the largest being {float(max(products)):.2f}.""",
+        len(exact),
+        ("episodes", "experiment"),
+    )
 
-C05 = claim(
+
+@claim(
     id="C05",
     section="2.4",
     sentence="""
@@ -64,37 +85,6 @@ C05 = claim(
         """,
     ),
 )
-
-
-@on_every_engine
-def c04(results, engine):
-    """The error and its three cross products at exact half turns, and how the episodes end."""
-    turns = results.episodes(LAW, engine, "half-turn")
-    exact = some(turns[probes.boundary_distance(turns)["half_turn"] <= EXACT_RAD], "exact half turn")
-    orientations = probes.rotations(exact)
-    errors = [float(np.linalg.norm(error(R))) for R in orientations]
-    products = [max(np.linalg.norm(cross(c, d)) for c, d in zip(R, IDENTITY, strict=True)) for R in orientations]
-    parallel = sum(product <= ZERO_ERROR for product in products)
-    leave = int(settled(exact).sum())
-    if max(errors) > ZERO_ERROR:
-        word = Word.FAILS
-    else:
-        word = Word.CORRECTED if leave or parallel < len(exact) else Word.HOLDS
-    return word, evidence(
-        """At {n} exact half turns the error is at most {error:.1g}, and {leave} of them settle. Each cross product is
-        zero by itself at {parallel} (axes x, y, z); at the other {summed} they cancel in the sum only, the largest
-        being {product:.2f}.""",
-        len(exact),
-        ("episodes", "experiment"),
-        n=len(exact),
-        error=max(errors),
-        leave=leave,
-        parallel=parallel,
-        summed=len(exact) - parallel,
-        product=float(max(products)),
-    )
-
-
 def c05(results):
     """|e| over sin(angle): at every start of the run, and as low as a search gets."""
     frame = results.episodes(LAW, MAIN_ENGINE).drop_duplicates(["start_set", "start_id"])
@@ -105,18 +95,15 @@ def c05(results):
     states = sum(one.nfev for one in found)
     lowest = min(float(ratios.min()), *(one.fun for one in found))
     least = min(float((ratios * np.sin(frame["angle0_rad"])).min()), *(_length(one.x) for one in found))
-    word = Word.HOLDS if least < NEAR_ZERO else Word.CORRECTED if lowest < NO_ZERO else Word.FAILS
+    word = word_of(least < NEAR_ZERO, lowest < NO_ZERO)
+    so = f"the least error is {least:.1e}"
+    if word == Word.FAILS:
+        so = "the error is sin(angle) times the axis, zero at 0 and 180 degrees only"
     return word, evidence(
-        """|e| / sin(angle) is never below {lowest:.9f} at {starts:,} starts and {states:,} states of a
-        search; {so}.""",
+        f"""|e| / sin(angle) is never below {lowest:.9f} at {len(frame):,} starts and {states:,} states of a search;
+        {so}.""",
         len(frame) + states,
         ("episodes", "experiment"),
-        lowest=lowest,
-        starts=len(frame),
-        states=states,
-        so="the error is sin(angle) times the axis, zero at 0 and 180 degrees only"
-        if word == Word.FAILS
-        else f"the least error is {least:.1e}",
     )
 
 
@@ -135,6 +122,3 @@ def _ratio(vector) -> float:
 def _length(vector) -> float:
     """|e| at a rotation vector."""
     return float(np.linalg.norm(error(from_quaternion(probes.about(vector, float(np.linalg.norm(vector)))))))
-
-
-CLAIMS = (C04.judged_by(c04), C05.judged_by(c05))

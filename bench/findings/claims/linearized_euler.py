@@ -7,7 +7,7 @@ import numpy as np
 from bench.experiments.suites import SHORT
 from bench.findings.claims import probes
 from bench.findings.claims.tables import evidence, on_every_engine, settled, share, some
-from bench.findings.claims.verdict import Word, claim
+from bench.findings.claims.verdict import claim, word_of
 from tasks.base import IDENTITY, Start
 from tasks.sphere import axes
 
@@ -28,7 +28,8 @@ PEAK_EXTREME, PEAK_RAISED = 10.0, 2.0
 FAIL_EXTREME, FAIL_REST, FAIL_RAISED = 0.5, 0.1, 3.0
 FEW_GOALS, MANY_GOALS, CURE_SLACK = 0.05, 0.5, 0.05
 
-C06 = claim(
+
+@claim(
     id="C06",
     section="2.4",
     sentence="The linearized regulator is stable for about |alpha| < pi/2, |beta| < pi/2, |gamma| < pi.",
@@ -48,8 +49,35 @@ C06 = claim(
         were large at once. A start that is still moving at the horizon counts as not stable.
     """,
 )
+@on_every_engine
+def c06(results, engine):
+    """Shares that settle inside and outside the box, and the nearest boundary."""
+    uniform = results.episodes(LAW, engine, "uniform")
+    is_inside = uniform["alpha0"].abs() < math.pi / 2
+    whole, inside = share(settled(uniform)), share(settled(uniform[is_inside]))
+    outside = share(settled(uniform[~is_inside]))
+    box = results.episodes(LAW, engine, "box")
+    box = some(box[box["start_id"].str.contains("box-grid|box-inside")], "start inside the box")
+    directed = share(settled(box))
+    fails = results.free_body("boundaries", regulator=LAW)["fails_from_rad"].dropna()
+    least = min(inside.value, directed.value)
+    word = word_of(least >= INSIDE_TIGHT and outside.value <= 1 - OUTSIDE_SHARE, least >= INSIDE_LOOSE)
+    lost = box[~settled(box)]
+    again = probes.finer(f"{LAW}/zyx-euler", lost, results.gains())
+    how = uniform["outcome"][~settled(uniform)]
+    ends = ", ".join(f"{word} ({n:,})" for word, n in how.value_counts().items() if n) or "in no other way"
+    nearest = float(np.degrees(fails.min())) if len(fails) else math.nan
+    return word, evidence(
+        f"""Settled: {whole} of SO(3); inside the box {inside}, of the box set's inside starts {directed} (with a tick
+        ten times shorter {int(settled(again).sum())} of the {len(lost)} others do: beside the pole the law is stiff);
+        outside {outside}. The uniform ones that fail end {ends}. The nearest failure on a geodesic from the goal is at
+        {nearest:.1f} degrees.""",
+        len(uniform) + len(box) + len(fails),
+        ("episodes", "boundaries"),
+    )
 
-C07 = claim(
+
+@claim(
     id="C07",
     section="2.4",
     sentence="It has extreme difficulties whenever beta passes through +-pi/2.",
@@ -67,13 +95,39 @@ C07 = claim(
         compared.
     """,
 )
+@on_every_engine
+def c07(results, engine):
+    """Outcome and peak command of episodes that come near the pole, against the rest."""
+    frame = results.episodes(LAW, engine, "uniform")
+    frame = frame[np.cos(frame["beta0"]) >= PASSING]
+    near = frame["min_margin"] < PASSING
+    passing, rest = some(frame[near], "episode that comes near the pole"), some(frame[~near], "other episode")
+    lost, rest_lost = share(~settled(passing)), share(~settled(rest))
+    again = probes.finer(f"{LAW}/zyx-euler", passing, results.gains())
+    poles = results.episodes(LAW, engine, "poles")
+    poles = poles[probes.boundary_distance(poles)["pole"] > EXACT_RAD]
+    peak, rest_peak = passing["peak_u"].median(), rest["peak_u"].median()
+    extreme = lost.value >= FAIL_EXTREME and rest_lost.value <= FAIL_REST
+    calm = passing.loc[settled(passing), "peak_u"].median()
+    raised = peak >= PEAK_RAISED * rest_peak or lost.value >= FAIL_RAISED * max(rest_lost.value, 1 / rest_lost.n)
+    word = word_of(peak >= PEAK_EXTREME * rest_peak or extreme, raised)
+    beyond = int((~settled(frame) & (frame["alpha0"].abs() > math.pi / 2)).sum())
+    return word, evidence(
+        f"""{len(passing)} episodes come within {math.degrees(math.asin(PASSING)):.1f} degrees of the pole: {lost} of
+        them do not settle, against {rest_lost} of the rest; their median peak command is {float(peak):,.0f} rad/s^2
+        ({float(calm):,.0f} of those that settle) against {float(rest_peak):,.0f}. With a tick ten times shorter
+        {int(settled(again).sum())} of them settle. From rest beside the pole {share(settled(poles))} settle. Yet only
+        {lost.k} of the {lost.k + rest_lost.k} that fail pass near it; {beyond} of them start with |alpha| above 90
+        degrees.""",
+        len(frame) + len(poles) + len(again),
+        ("episodes",),
+    )
 
-C08 = claim(
+
+@claim(
     id="C08",
     section="2.4",
-    sentence="""
-        It cannot drive to any coordinates but zero; angles taken from the desired orientation avoid that.
-    """,
+    sentence="It cannot drive to any coordinates but zero; angles taken from the desired orientation avoid that.",
     question="""
         What share of far goals does it reach with E_d subtracted, and what share with angles from the
         goal?
@@ -101,86 +155,6 @@ C08 = claim(
         """,
     ),
 )
-
-
-@on_every_engine
-def c06(results, engine):
-    """Shares that settle inside and outside the box, and the nearest boundary."""
-    uniform = results.episodes(LAW, engine, "uniform")
-    is_inside = uniform["alpha0"].abs() < math.pi / 2
-    whole, inside = share(settled(uniform)), share(settled(uniform[is_inside]))
-    outside = share(settled(uniform[~is_inside]))
-    box = results.episodes(LAW, engine, "box")
-    box = some(box[box["start_id"].str.contains("box-grid|box-inside")], "start inside the box")
-    directed = share(settled(box))
-    fails = results.free_body("boundaries", regulator=LAW)["fails_from_rad"].dropna()
-    if min(inside.value, directed.value) >= INSIDE_TIGHT and outside.value <= 1 - OUTSIDE_SHARE:
-        word = Word.HOLDS
-    else:
-        word = Word.CORRECTED if min(inside.value, directed.value) >= INSIDE_LOOSE else Word.FAILS
-    lost = box[~settled(box)]
-    again = probes.finer(f"{LAW}/zyx-euler", lost, results.gains())
-    how = uniform["outcome"][~settled(uniform)]
-    return word, evidence(
-        """Settled: {whole} of SO(3); inside the box {inside}, of the box set's inside starts {directed} (with
-        a tick ten times shorter {again} of the {lost} others do: beside the pole the law is stiff); outside {outside}.
-        The uniform ones that fail end {how}. The nearest failure on a geodesic from the goal is at {nearest:.1f}
-        degrees.""",
-        len(uniform) + len(box) + len(fails),
-        ("episodes", "boundaries"),
-        whole=whole,
-        inside=inside,
-        directed=directed,
-        lost=len(lost),
-        again=int(settled(again).sum()),
-        outside=outside,
-        how=", ".join(f"{word} ({n:,})" for word, n in how.value_counts().items() if n) or "in no other way",
-        nearest=float(np.degrees(fails.min())) if len(fails) else math.nan,
-    )
-
-
-@on_every_engine
-def c07(results, engine):
-    """Outcome and peak command of episodes that come near the pole, against the rest."""
-    frame = results.episodes(LAW, engine, "uniform")
-    frame = frame[np.cos(frame["beta0"]) >= PASSING]
-    near = frame["min_margin"] < PASSING
-    passing, rest = some(frame[near], "episode that comes near the pole"), some(frame[~near], "other episode")
-    lost, rest_lost = share(~settled(passing)), share(~settled(rest))
-    again = probes.finer(f"{LAW}/zyx-euler", passing, results.gains())
-    poles = results.episodes(LAW, engine, "poles")
-    poles = poles[probes.boundary_distance(poles)["pole"] > EXACT_RAD]
-    peak, rest_peak = passing["peak_u"].median(), rest["peak_u"].median()
-    extreme = lost.value >= FAIL_EXTREME and rest_lost.value <= FAIL_REST
-    calm = passing.loc[settled(passing), "peak_u"].median()
-    raised = peak >= PEAK_RAISED * rest_peak or lost.value >= FAIL_RAISED * max(rest_lost.value, 1 / rest_lost.n)
-    if peak >= PEAK_EXTREME * rest_peak or extreme:
-        word = Word.HOLDS
-    else:
-        word = Word.CORRECTED if raised else Word.FAILS
-    return word, evidence(
-        """{n} episodes come within {degrees:.1f} degrees of the pole: {lost} of them do not settle, against {rest_lost}
-        of the rest; their median peak command is {peak:,.0f} rad/s^2 ({calm:,.0f} of those that settle) against
-        {rest_peak:,.0f}. With a tick ten times shorter {again} of them settle. From rest beside the pole {poles}
-        settle. Yet only {k} of the {all} that fail pass near it; {beyond} of them start with |alpha| above 90
-        degrees.""",
-        len(frame) + len(poles) + len(again),
-        ("episodes",),
-        n=len(passing),
-        degrees=math.degrees(math.asin(PASSING)),
-        lost=lost,
-        rest_lost=rest_lost,
-        peak=float(peak),
-        calm=float(calm),
-        again=int(settled(again).sum()),
-        poles=share(settled(poles)),
-        k=lost.k,
-        all=lost.k + rest_lost.k,
-        beyond=int((~settled(frame) & (frame["alpha0"].abs() > math.pi / 2)).sum()),
-        rest_peak=float(rest_peak),
-    )
-
-
 @on_every_engine
 def c08(results, engine):
     """Far goals with E_d subtracted and with angles from the goal; near goals with E_d subtracted."""
@@ -190,23 +164,11 @@ def c08(results, engine):
     starts = [Start("", IDENTITY, goal_wxyz=probes.about(axis, NEAR_GOAL_RAD)) for axis in axes(NEAR_GOALS)]
     near = share(probes.episodes(LAW, starts, results.gains(), 1e-3, SHORT)["outcome"] == "settled")
     works = cure.value >= zero.value - CURE_SLACK and cure.value > base.value
-    if works and base.value <= FEW_GOALS and not near.k:
-        word = Word.HOLDS
-    else:
-        word = Word.CORRECTED if works and base.value < MANY_GOALS else Word.FAILS
+    word = word_of(works and base.value <= FEW_GOALS and not near.k, works and base.value < MANY_GOALS)
     return word, evidence(
-        """With E_d subtracted it reaches {base} of the goals, and {near_k} of {near_n} goals {near_rad} rad from zero;
-        with angles from the goal {cure} of the goals, against {zero} of uniform starts with goal zero. As printed, u
-        contains no goal.""",
+        f"""With E_d subtracted it reaches {base} of the goals, and {near.k} of {near.n} goals {NEAR_GOAL_RAD} rad from
+        zero; with angles from the goal {cure} of the goals, against {zero} of uniform starts with goal zero. As
+        printed, u contains no goal.""",
         base.n + cure.n + zero.n + near.n,
         ("episodes", "experiment"),
-        base=base,
-        near_k=near.k,
-        near_n=near.n,
-        near_rad=NEAR_GOAL_RAD,
-        cure=cure,
-        zero=zero,
     )
-
-
-CLAIMS = (C06.judged_by(c06), C07.judged_by(c07), C08.judged_by(c08))

@@ -1,11 +1,10 @@
-"""Small experiments that claims make themselves: a law at one state, a few episodes, closed forms of linear systems."""
+"""Small experiments that claims make themselves: a law at one state, a few episodes, distances from the boundary."""
 
 import functools
 import math
 
 import numpy as np
 import pandas as pd
-from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation as Turn
 
 from bench.contenders.registry import find_contender, representation
@@ -13,7 +12,6 @@ from bench.law.contender import AT_REST, Gains, Goal
 from bench.law.so3 import IDENTITY, Rotation, from_quaternion
 from bench.metrics.registry import metrics_of
 from tasks.base import Start
-from tasks.rules import RULES
 from tasks.sphere import axes
 from tasks.verdict import OUTCOMES
 
@@ -105,29 +103,6 @@ def beside_pole(margin: float, contender: str, gains: Gains) -> pd.DataFrame:
         quat = Turn.from_matrix(np.array(R).T).as_quat(scalar_first=True)
         starts.append(Start("", tuple(quat.tolist()), tuple((SPEED * direction).tolist())))
     return episodes(contender, starts, gains, 1e-3, 10.0)
-
-
-def response(t, gains: Gains):
-    """x of x'' = -Kp x - Kd x' from 1 at rest; (1 + w t) exp(-w t) if critically damped."""
-    decay = gains.kv / 2
-    square = decay * decay - gains.kp
-    if abs(square) < 1e-9 * gains.kp:  # rounding of decay^2 - Kp; beyond it sinh(r t)/r is exact enough
-        return (1 + decay * t) * np.exp(-decay * t)
-    root = np.sqrt(complex(square))
-    return (np.exp(-decay * t) * (np.cosh(root * t) + decay / root * np.sinh(root * t))).real
-
-
-def linear_settling(gains: Gains, tolerance: float = RULES.tolerance) -> float:
-    """The last time at which |response| is the tolerance [s]."""
-    slowest = gains.kv / 2 - math.sqrt(max(0.0, gains.kv**2 / 4 - gains.kp))
-    t = np.linspace(0.0, 20.0 / slowest, 20_001)  # exp(-20) = 2e-9, far below any tolerance
-    last = np.flatnonzero(np.abs(response(t, gains)) > tolerance)[-1]
-    return brentq(lambda x: abs(response(x, gains)) - tolerance, t[last], t[last + 1])
-
-
-def slope_per_decade(gains: Gains) -> float:
-    """Seconds by which one decade of pi - angle delays: the saddle's unstable root is sqrt(Kp + Kd^2/4) - Kd/2."""
-    return math.log(10) / (math.sqrt(gains.kp + gains.kv**2 / 4) - gains.kv / 2)
 
 
 def boundary_distance(frame: pd.DataFrame) -> pd.DataFrame:

@@ -8,7 +8,7 @@ from bench.contenders.registry import representation
 from bench.findings.claims import probes
 from bench.findings.claims.coordinates import ANGLE_AND_AXIS, conditions
 from bench.findings.claims.tables import MAIN_ENGINE, evidence, settled, some
-from bench.findings.claims.verdict import Word, claim
+from bench.findings.claims.verdict import Word, claim, word_of
 from bench.law.so3 import from_quaternion
 from tasks.sphere import axes
 
@@ -24,16 +24,15 @@ DECADES = (1, 6)
 DEGENERATE, SMOOTH = 0.9, 0.01
 ON_POLE, OFF_POLE, SAME = 1e-12, 0.99, 1e-12
 
-C13 = claim(
+
+@claim(
     id="C13",
     section="2.2",
     sentence="""
         Z-Y-Z Euler angles and equivalent angle-axis are degenerate at zero rotation: unfit to regulate
         about it.
     """,
-    question="""
-        How does the map from coordinate rates to angular velocity behave at rotations of 10^-k rad?
-    """,
+    question="How does the map from coordinate rates to angular velocity behave at rotations of 10^-k rad?",
     criterion=f"""
         Condition number of that map at rotations of 10^-k rad, k = {DECADES[0]} to {DECADES[1]}, about 12
         directions. Degenerate: log10 of the condition number rises by at least {DEGENERATE} per decade.
@@ -51,8 +50,32 @@ C13 = claim(
         "the rotation vector, axis times angle",
     ),
 )
+def c13(results):
+    """Condition numbers near zero rotation."""
+    decades = range(DECADES[0], DECADES[1] + 1)
+    tables = [conditions(axis, 10.0**-k) for k in decades for axis in axes(DIRECTIONS)]
+    found = {}
+    for word in tables[0]:
+        numbers = np.array([one[word] for one in tables]).reshape(len(decades), -1)
+        rise = np.diff(np.log10(np.median(numbers, axis=1))).min()
+        found[word] = (rise >= DEGENERATE, float(rise), float(numbers.max()))
+    zyz, axis, vector = found["zyz-euler"], found[ANGLE_AND_AXIS], found["rotation-vector"]
+    is_zyz, is_axis, is_vector = zyz[0], axis[0], vector[0]
+    word = word_of(is_zyz and is_axis and is_vector, is_zyz and is_axis != is_vector)
+    return word, evidence(
+        f"""Per decade towards zero rotation the condition number of the rate map rises by {zyz[1]:.3f} decades for
+        Z-Y-Z and {axis[1]:.3f} for angle and axis (to {zyz[2]:.1e} and {axis[2]:.1e}); for the rotation vector it is at
+        most {vector[2]:.5f}.""",
+        3 * len(tables),
+        ("experiment",),
+    )
 
-C14 = claim(
+
+def _least(R) -> float:
+    return float(np.linalg.svd(probes.euler_B(R), compute_uv=False)[-1])
+
+
+@claim(
     id="C14",
     section="2.2 against 2.3",
     sentence="With Z-Y-X angles the degeneracy is at a rotation of 180 degrees about Y.",
@@ -66,69 +89,6 @@ C14 = claim(
     """,
     open="Nothing.",
 )
-
-C15 = claim(
-    id="C15",
-    section="2.2",
-    sentence="At beta = +-pi/2 only the sum of alpha and gamma is determined.",
-    question="Is it the sum at both poles?",
-    criterion=f"""
-        At each pole, over 64 pairs (alpha, gamma): R is the same (to {SAME:g}) if alpha grows and gamma
-        falls by one amount (the sum kept), and differs if both grow. It holds if so at both poles; with a
-        correction if at exactly one (the difference at the other); otherwise it does not hold.
-    """,
-    open="Nothing; it follows from the convention of (2.8).",
-)
-
-C16 = claim(
-    id="C16",
-    section="2.2 against 3.3",
-    sentence="B does not exist at beta = +-pi/2 (2.2); B always exists (3.3).",
-    question="Which of the two sentences do B and its inverse support?",
-    criterion=f"""
-        B (2.8) over the run's orientations and the exact poles. The sentence of 2.2 holds if an element
-        of B is not finite at a pole; it holds with a correction if B is finite at every orientation
-        (elements at most 1) but of rank 2 at both poles (smallest singular value below {ON_POLE:g}), so
-        that B^-1 is what does not exist and 3.3 is right; it does not hold if B is finite and of rank 3
-        at a pole.
-    """,
-    open="Nothing.",
-)
-
-
-def c13(results):
-    """Condition numbers near zero rotation."""
-    decades = range(DECADES[0], DECADES[1] + 1)
-    tables = [conditions(axis, 10.0**-k) for k in decades for axis in axes(DIRECTIONS)]
-    found = {}
-    for word in tables[0]:
-        numbers = np.array([one[word] for one in tables]).reshape(len(decades), -1)
-        rise = np.diff(np.log10(np.median(numbers, axis=1))).min()
-        found[word] = (rise >= DEGENERATE, float(rise), float(numbers.max()))
-    zyz, axis, vector = found["zyz-euler"], found[ANGLE_AND_AXIS], found["rotation-vector"]
-    is_zyz, is_axis, is_vector = zyz[0], axis[0], vector[0]
-    if is_zyz and is_axis and is_vector:
-        word = Word.HOLDS
-    else:
-        word = Word.CORRECTED if is_zyz and is_axis != is_vector else Word.FAILS
-    return word, evidence(
-        """Per decade towards zero rotation the condition number of the rate map rises by {zyz:.3f} decades for Z-Y-Z
-        and {axis:.3f} for angle and axis (to {zyz_max:.1e} and {axis_max:.1e}); for the rotation vector it is at most
-        {vector_max:.5f}.""",
-        3 * len(tables),
-        ("experiment",),
-        zyz=zyz[1],
-        axis=axis[1],
-        zyz_max=zyz[2],
-        axis_max=axis[2],
-        vector_max=vector[2],
-    )
-
-
-def _least(R) -> float:
-    return float(np.linalg.svd(probes.euler_B(R), compute_uv=False)[-1])
-
-
 def c14(results):
     """B at half and quarter turns about Y, and what a simulation from there does."""
     quats = {180: (0.0, 0.0, 1.0, 0.0), 90: (1.0, 0.0, 1.0, 0.0), -90: (1.0, 0.0, -1.0, 0.0)}
@@ -146,20 +106,13 @@ def c14(results):
         word = Word.HOLDS
     else:
         word = Word.FAILS if at_quarter and least[180] > OFF_POLE else Word.CORRECTED
+    so = "2.3 and the equations are right, 2.2 is not" if word == Word.FAILS else "2.2 is not refuted"
     return word, evidence(
-        """Smallest singular value of B: {half:.3f} at 180 degrees about Y, {plus:.0e} and {minus:.0e} at +-90. The
-        feedback-linearized law settles from {y_k} of {y_n} exact half turns about y and from {p_k} of {p_n} exact
-        poles. {so}.""",
+        f"""Smallest singular value of B: {least[180]:.3f} at 180 degrees about Y, {least[90]:.0e} and {least[-90]:.0e}
+        at +-90. The feedback-linearized law settles from {int(settled(about_y).sum())} of {len(about_y)} exact half
+        turns about y and from {int(settled(poles).sum())} of {len(poles)} exact poles. {so}.""",
         len(least) + len(about_y) + len(poles),
         ("experiment", "episodes"),
-        half=least[180],
-        plus=least[90],
-        minus=least[-90],
-        y_k=int(settled(about_y).sum()),
-        y_n=len(about_y),
-        p_k=int(settled(poles).sum()),
-        p_n=len(poles),
-        so="2.3 and the equations are right, 2.2 is not" if word == Word.FAILS else "2.2 is not refuted",
     )
 
 
@@ -167,6 +120,18 @@ def _change(to_matrix, E, other) -> float:
     return float(np.abs(np.subtract(to_matrix(E), to_matrix(other))).max())
 
 
+@claim(
+    id="C15",
+    section="2.2",
+    sentence="At beta = +-pi/2 only the sum of alpha and gamma is determined.",
+    question="Is it the sum at both poles?",
+    criterion=f"""
+        At each pole, over 64 pairs (alpha, gamma): R is the same (to {SAME:g}) if alpha grows and gamma
+        falls by one amount (the sum kept), and differs if both grow. It holds if so at both poles; with a
+        correction if at exactly one (the difference at the other); otherwise it does not hold.
+    """,
+    open="Nothing; it follows from the convention of (2.8).",
+)
 def c15(results):
     """R at both poles as alpha and gamma move against and with each other."""
     to_matrix = representation("zyx-euler").to_matrix
@@ -182,19 +147,29 @@ def c15(results):
     by_sum = [moved[sign, "sum"] <= SAME < moved[sign, "difference"] for sign in (1, -1)]
     sums = [pole for pole, is_sum in zip(("+90", "-90"), by_sum, strict=True) if is_sum]
     word = {2: Word.HOLDS, 1: Word.CORRECTED, 0: Word.FAILS}[sum(by_sum)]
+    so = f"Only the sum is determined at {' and '.join(sums) or 'neither pole'}"
     return word, evidence(
-        """With the sum kept R changes by {plus_sum:.1g} at +90 and {minus_sum:.0e} at -90 degrees, with the difference
-        kept by {plus_difference:.0e} and {minus_difference:.1g}. {so}.""",
+        f"""With the sum kept R changes by {moved[1, "sum"]:.1g} at +90 and {moved[-1, "sum"]:.0e} at -90 degrees, with
+        the difference kept by {moved[1, "difference"]:.0e} and {moved[-1, "difference"]:.1g}. {so}.""",
         4 * len(grid) ** 2,
         ("experiment",),
-        plus_sum=moved[1, "sum"],
-        minus_sum=moved[-1, "sum"],
-        plus_difference=moved[1, "difference"],
-        minus_difference=moved[-1, "difference"],
-        so=f"Only the sum is determined at {' and '.join(sums) or 'neither pole'}",
     )
 
 
+@claim(
+    id="C16",
+    section="2.2 against 3.3",
+    sentence="B does not exist at beta = +-pi/2 (2.2); B always exists (3.3).",
+    question="Which of the two sentences do B and its inverse support?",
+    criterion=f"""
+        B (2.8) over the run's orientations and the exact poles. The sentence of 2.2 holds if an element
+        of B is not finite at a pole; it holds with a correction if B is finite at every orientation
+        (elements at most 1) but of rank 2 at both poles (smallest singular value below {ON_POLE:g}), so
+        that B^-1 is what does not exist and 3.3 is right; it does not hold if B is finite and of rank 3
+        at a pole.
+    """,
+    open="Nothing.",
+)
 def c16(results):
     """B at the run's orientations and at both poles."""
     frame = results.episodes("feedback-linearized", MAIN_ENGINE).drop_duplicates(["start_set", "start_id"])
@@ -203,22 +178,12 @@ def c16(results):
     at_poles = some(frame[is_pole], "exact pole")
     values = np.linalg.svd(matrices[is_pole], compute_uv=False)
     largest = float(np.abs(matrices).max())
-    if not np.isfinite(matrices[is_pole]).all():
-        word = Word.HOLDS
-    else:
-        word = Word.CORRECTED if largest <= 1 + SAME and values[:, 2].max() < ON_POLE else Word.FAILS
+    word = word_of(not np.isfinite(matrices[is_pole]).all(), largest <= 1 + SAME and values[:, 2].max() < ON_POLE)
+    so = "B exists everywhere, as 3.3 says; B^-1 does not" if word == Word.CORRECTED else "3.3 is not confirmed"
     return word, evidence(
-        """B is finite at all {n:,} orientations (elements at most {largest:.3f}); at {poles} exact poles its smallest
-        singular value is at most {least:.0e} and the next {middle:.2f}. {so}.""",
+        f"""B is finite at all {len(frame):,} orientations (elements at most {largest:.3f}); at {len(at_poles)} exact
+        poles its smallest singular value is at most {float(values[:, 2].max()):.0e} and the next
+        {float(values[:, 1].min()):.2f}. {so}.""",
         len(frame),
         ("episodes", "experiment"),
-        n=len(frame),
-        largest=largest,
-        poles=len(at_poles),
-        least=float(values[:, 2].max()),
-        middle=float(values[:, 1].min()),
-        so="B exists everywhere, as 3.3 says; B^-1 does not" if word == Word.CORRECTED else "3.3 is not confirmed",
     )
-
-
-CLAIMS = (C13.judged_by(c13), C14.judged_by(c14), C15.judged_by(c15), C16.judged_by(c16))

@@ -4,7 +4,8 @@ import numpy as np
 
 from bench.findings.claims import probes
 from bench.findings.claims.tables import MAIN_ENGINE, evidence, on_every_engine, settled, share, some
-from bench.findings.claims.verdict import Word, claim
+from bench.findings.claims.verdict import claim, word_of
+from bench.findings.theory import closed_form
 from bench.law.contender import Gains
 from tasks.base import Start
 
@@ -30,7 +31,8 @@ SLOPE_DECADES = (3, 10)
 
 SLOPE_TIGHT, SLOPE_LOOSE = 0.01, 0.1
 
-C01 = claim(
+
+@claim(
     id="C01",
     section="2.4",
     sentence="The rotation-matrix regulator is stable over the entire range of rotations.",
@@ -53,8 +55,29 @@ C01 = claim(
         "attracted: every start reaches the goal (what a correction says)",
     ),
 )
+@on_every_engine
+def c01(results, engine):
+    """Outcomes and final energies of uniform, half-turn and tumbling starts."""
+    frame = results.episodes(LAW, engine, "uniform", "half-turn", "tumbling")
+    broken = frame["outcome"].isin(["diverged", "singular", "saturated"])
+    speed = (frame[list(probes.OMEGA)] ** 2).sum(axis=1)
+    gained = np.cos(frame["angle0_rad"]) - np.cos(frame["final_angle_rad"]) - speed / (2 * frame["kp"])
+    unstable = broken | (gained > ENERGY_SLACK)
+    uniform = share(settled(frame[frame["start_set"] == "uniform"]))
+    left = frame[~settled(frame)]
+    away = probes.boundary_distance(left)["half_turn"].abs() if len(left) else np.zeros(0)
+    is_stable = not unstable.any() and 1 - uniform.value <= STRAY_SHARE
+    word = word_of(is_stable and not len(left), is_stable)
+    return word, evidence(
+        f"""{int(unstable.sum())} of {len(frame):,} starts diverge or gain energy. {len(left)} do not settle,
+        {int((away < EXACT_RAD).sum())} of them exactly a half turn from the goal; of uniform starts {uniform}
+        settle.""",
+        len(frame),
+        ("episodes",),
+    )
 
-C02 = claim(
+
+@claim(
     id="C02",
     section="2.4",
     sentence="Near zero its settling time can be chosen by the gains.",
@@ -74,8 +97,36 @@ C02 = claim(
         same.
     """,
 )
+def c02(results):
+    """Small rotations at several gains, and the small steps of the run."""
+    axes = {"x": (1, 0, 0), "y": (0, 1, 0), "z": (0, 0, 1), "diagonal": (1, 1, 1)}
+    pairs = [(angle, axis) for angle in SMALL_ANGLES for axis in axes.values()]
+    starts = [Start("", probes.about(axis, angle)) for angle, axis in pairs]
+    angles = np.array([angle for angle, _ in pairs])
+    dt, off, share_off, longest = 1e-3, [], [], {}
+    for gains in (Gains(*pair) for pair in GAINS):
+        closed = closed_form.linear_settling(*gains)
+        found = probes.episodes(LAW, starts, gains, dt, 20.0)["settling_time_s"].to_numpy()
+        off += list(np.abs(found - closed) - dt - angles**2 * closed)
+        share_off += list(np.abs(found - closed) / closed)
+        longest[gains] = closed
+    steps = results.episodes(LAW, MAIN_ENGINE, "goals")
+    steps = some(steps[steps["angle0_rad"].between(1e-3, 0.11)], "small step of the start set goals")
+    closed = closed_form.linear_settling(*results.gains())
+    wrong = (steps["settling_time_s"] - closed).abs()
+    off += list(wrong - steps["dt_s"] - steps["angle0_rad"] ** 2 * closed)
+    share_off += list(wrong / closed)
+    tight, loose = np.max(off) <= 0, np.max(share_off) <= LOOSE_SETTLING
+    return (word_of(tight, loose)), evidence(
+        f"""{len(off)} small rotations at {len(GAINS)} pairs of gains: settling times from {min(longest.values()):.3f}
+        to {max(longest.values()):.3f} s, at most {float(np.max(share_off)):.2%} from the closed form
+        ({closed_form.linear_settling(*Gains()):.4f} s at the paper's gains).""",
+        len(off),
+        ("experiment", "episodes"),
+    )
 
-C03 = claim(
+
+@claim(
     id="C03",
     section="2.4",
     sentence="For large rotations the settling time grows, and it can become infinite.",
@@ -94,70 +145,6 @@ C03 = claim(
         mean.
     """,
 )
-
-
-@on_every_engine
-def c01(results, engine):
-    """Outcomes and final energies of uniform, half-turn and tumbling starts."""
-    frame = results.episodes(LAW, engine, "uniform", "half-turn", "tumbling")
-    broken = frame["outcome"].isin(["diverged", "singular", "saturated"])
-    speed = (frame[list(probes.OMEGA)] ** 2).sum(axis=1)
-    gained = np.cos(frame["angle0_rad"]) - np.cos(frame["final_angle_rad"]) - speed / (2 * frame["kp"])
-    unstable = broken | (gained > ENERGY_SLACK)
-    uniform = share(settled(frame[frame["start_set"] == "uniform"]))
-    left = frame[~settled(frame)]
-    away = probes.boundary_distance(left)["half_turn"].abs() if len(left) else np.zeros(0)
-    if unstable.any() or 1 - uniform.value > STRAY_SHARE:
-        word = Word.FAILS
-    else:
-        word = Word.CORRECTED if len(left) else Word.HOLDS
-    return word, evidence(
-        """{unstable} of {n:,} starts diverge or gain energy. {left} do not settle, {exact} of them exactly a half turn
-        from the goal; of uniform starts {uniform} settle.""",
-        len(frame),
-        ("episodes",),
-        unstable=int(unstable.sum()),
-        n=len(frame),
-        left=len(left),
-        exact=int((away < EXACT_RAD).sum()),
-        uniform=uniform,
-    )
-
-
-def c02(results):
-    """Small rotations at several gains, and the small steps of the run."""
-    axes = {"x": (1, 0, 0), "y": (0, 1, 0), "z": (0, 0, 1), "diagonal": (1, 1, 1)}
-    pairs = [(angle, axis) for angle in SMALL_ANGLES for axis in axes.values()]
-    starts = [Start("", probes.about(axis, angle)) for angle, axis in pairs]
-    angles = np.array([angle for angle, _ in pairs])
-    dt, off, share_off, longest = 1e-3, [], [], {}
-    for gains in (Gains(*pair) for pair in GAINS):
-        closed = probes.linear_settling(gains)
-        found = probes.episodes(LAW, starts, gains, dt, 20.0)["settling_time_s"].to_numpy()
-        off += list(np.abs(found - closed) - dt - angles**2 * closed)
-        share_off += list(np.abs(found - closed) / closed)
-        longest[gains] = closed
-    steps = results.episodes(LAW, MAIN_ENGINE, "goals")
-    steps = some(steps[steps["angle0_rad"].between(1e-3, 0.11)], "small step of the start set goals")
-    closed = probes.linear_settling(results.gains())
-    wrong = (steps["settling_time_s"] - closed).abs()
-    off += list(wrong - steps["dt_s"] - steps["angle0_rad"] ** 2 * closed)
-    share_off += list(wrong / closed)
-    tight, loose = np.max(off) <= 0, np.max(share_off) <= LOOSE_SETTLING
-    return (Word.HOLDS if tight else Word.CORRECTED if loose else Word.FAILS), evidence(
-        """{n} small rotations at {pairs} pairs of gains: settling times from {shortest:.3f} to {longest:.3f} s, at
-        most {worst:.2%} from the closed form ({paper:.4f} s at the paper's gains).""",
-        len(off),
-        ("experiment", "episodes"),
-        n=len(off),
-        pairs=len(GAINS),
-        shortest=min(longest.values()),
-        longest=max(longest.values()),
-        worst=float(np.max(share_off)),
-        paper=probes.linear_settling(Gains()),
-    )
-
-
 @on_every_engine
 def c03(results, engine):
     """Settling time by angle, its slope towards the half turn, and the exact half turns."""
@@ -171,30 +158,19 @@ def c03(results, engine):
     low, high = SLOPE_DECADES
     fitted = some(turns[decades.between(low - 0.5, high + 0.5) & settled(turns)], "half-turn start that settles")
     slope = np.polyfit(decades[fitted.index], fitted["settling_time_s"], 1)[0]
-    closed = probes.slope_per_decade(results.gains())
+    closed = closed_form.decade_slope(*results.gains())
     off = abs(slope / closed - 1)
     exact = some(turns[short <= EXACT_RAD], "exact half turn")
     stay = exact[~settled(exact)]
     slowest = turns.loc[short > EXACT_RAD, "settling_time_s"].max()
     infinite = len(stay) > 0 and exact["horizon_s"].min() > 2 * slowest
     held = grows and off <= SLOPE_TIGHT and infinite
-    word = Word.HOLDS if held else Word.CORRECTED if grows and off <= SLOPE_LOOSE else Word.FAILS
+    word = word_of(held, grows and off <= SLOPE_LOOSE)
     return word, evidence(
-        """Mean settling time rises from {first:.2f} to {last:.2f} s over {bins} bins of the angle; towards the half
-        turn by {slope:.4f} s a decade (closed form {closed:.4f} s), to {slowest:.2f} s at 1e-12 rad. {stay} of
-        {exact} exact half turns never settle in {horizon:g} s.""",
+        f"""Mean settling time rises from {float(means.iloc[0]):.2f} to {float(means.iloc[-1]):.2f} s over {len(means)}
+        bins of the angle; towards the half turn by {float(slope):.4f} s a decade (closed form {closed:.4f} s), to
+        {float(slowest):.2f} s at 1e-12 rad. {len(stay)} of {len(exact)} exact half turns never settle in
+        {float(exact["horizon_s"].min()):g} s.""",
         len(uniform) + len(turns),
         ("episodes",),
-        first=float(means.iloc[0]),
-        last=float(means.iloc[-1]),
-        bins=len(means),
-        slope=float(slope),
-        closed=closed,
-        slowest=float(slowest),
-        stay=len(stay),
-        exact=len(exact),
-        horizon=float(exact["horizon_s"].min()),
     )
-
-
-CLAIMS = (C01.judged_by(c01), C02.judged_by(c02), C03.judged_by(c03))

@@ -150,9 +150,9 @@ def settled(frame: pd.DataFrame) -> pd.Series:
     return frame["outcome"] == SETTLED
 
 
-def evidence(template: str, rows: int, tables: tuple[str, ...], **numbers) -> Evidence:
-    """A sentence all of whose numbers come from `numbers`."""
-    return Evidence(" ".join(template.split()).format(**numbers), numbers, int(rows), tables)
+def evidence(sentence: str, rows: int, tables: tuple[str, ...], **parts: str) -> Evidence:
+    """Evidence whose sentence may be broken into lines as the file likes."""
+    return Evidence(" ".join(sentence.split()), int(rows), tables, parts)
 
 
 def on_every_engine(decide: Callable) -> Callable:
@@ -171,8 +171,7 @@ def on_every_engine(decide: Callable) -> Callable:
         differing = {engine: other for engine, other in others.items() if other != word}
         if differing and word == Word.HOLDS:
             word = Word.CORRECTED
-        sentence = f"{found.sentence} {_said_by(others, differing)}"
-        return word, Evidence(sentence, {**found.numbers, "engines_differing": len(differing)}, rows, found.tables)
+        return word, found._replace(sentence=f"{found.sentence} {_said_by(others, differing)}", rows=rows)
 
     return judge
 

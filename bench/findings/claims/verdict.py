@@ -19,6 +19,11 @@ class Word(StrEnum):
     UNMEASURED = "not yet measured"
 
 
+def word_of(holds: object, corrected: object) -> Word:
+    """What a criterion of two parts comes to: the first alone decides, if it is met."""
+    return Word.HOLDS if holds else Word.CORRECTED if corrected else Word.FAILS
+
+
 class NoEvidence(BenchError):
     """A claim asked of tables that hold nothing about it: an error, never a pass."""
 
@@ -26,14 +31,14 @@ class NoEvidence(BenchError):
 class Evidence(NamedTuple):
     """Why the word is what it is.
 
-    sentence: plain prose, every number in it formatted from `numbers`. rows: table rows, states and episodes
-    looked at. tables: where they come from; "experiment" for what the claim computes itself.
+    sentence: plain prose, every number in it computed. rows: table rows, states and episodes looked at. tables: where
+    they come from; "experiment" for what the claim computes itself. parts: of the sentence, by name, for the book.
     """
 
     sentence: str
-    numbers: dict
     rows: int
     tables: tuple[str, ...]
+    parts: dict[str, str] = {}  # noqa: RUF012  a tuple's default, never written to
 
     def __str__(self) -> str:
         return self.sentence
@@ -56,10 +61,6 @@ class Claim(NamedTuple):
     readings: tuple[str, ...] = ()
     judge: Callable | None = None
 
-    def judged_by(self, judge: Callable) -> "Claim":
-        """The claim with what decides it."""
-        return self._replace(judge=judge)
-
     @property
     def text(self) -> str:
         """The sentence, as lists of things call it."""
@@ -68,14 +69,14 @@ class Claim(NamedTuple):
 
 def claim(
     *, id: str, section: str, sentence: str, question: str, criterion: str, open: str = "", readings: tuple = ()
-) -> Claim:
-    """A Claim whose texts may be broken into lines as the file likes."""
+) -> Callable[[Callable], Claim]:
+    """Makes the function below, which judges it, a Claim; its texts may be broken into lines as the file likes."""
 
     def joined(text: str) -> str:
         return " ".join(text.split())
 
     one = Claim(id, section, joined(sentence), joined(question), joined(criterion), joined(open))
-    return one._replace(readings=tuple(joined(text) for text in readings))
+    return lambda judge: one._replace(readings=tuple(map(joined, readings)), judge=judge)
 
 
 class Verdict(NamedTuple):
@@ -96,7 +97,7 @@ class Verdict(NamedTuple):
         return self.evidence.rows
 
 
-NOTHING_YET = Evidence("Not yet measured: it belongs to the work on arms and forces.", {}, 0, ())
+NOTHING_YET = Evidence("Not yet measured: it belongs to the work on arms and forces.", 0, ())
 
 
 def decide(claim: Claim, results) -> Verdict:

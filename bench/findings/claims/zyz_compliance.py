@@ -7,14 +7,15 @@ from bench.findings.claims import side_by_side
 from bench.findings.claims.compliance import ONE_AXIS, SLACK_DEG, ZERO_RAD
 from bench.findings.claims.euler_jacobian import COORDINATES
 from bench.findings.claims.tables import evidence, some
-from bench.findings.claims.verdict import Word, claim
+from bench.findings.claims.verdict import claim, word_of
 
 ZYZ = "zyz-euler"
 
 NEAR_DEG, LITTLE = 15.0, 0.5
 """What 'near zero' is; and the share of the wanted compliance under which something is a problem."""
 
-C24 = claim(
+
+@claim(
     id="C24",
     section="3.3",
     sentence="Z-Y-Z angles are a problem where compliance about x is wanted.",
@@ -33,39 +34,23 @@ C24 = claim(
         x: that the third stands for it is our choice, and with the first it would be the base's z at every orientation.
     """,
 )
-
-
 def c24(results):
     """Rotation about x per moment about x with Z-Y-Z and with Z-Y-X angles, over what is wanted."""
     zyz, zyx = (_about_x(results, coordinates) for coordinates in (ZYZ, COORDINATES))
     at_zero = some(zyz[zyz["from_zero"] <= ZERO_RAD], f"pose of {side_by_side.PROBE} by hybrid/{ZYZ} at zero rotation")
     near = some(zyz[zyz["from_zero"] > ZERO_RAD], f"pose of {side_by_side.PROBE} by hybrid/{ZYZ} near zero rotation")
-    if zyz["problem"].all() and not zyx["problem"].any():
-        word = Word.HOLDS
-    else:
-        word = Word.CORRECTED if zyz["problem"].any() else Word.FAILS
+    word = word_of(zyz["problem"].all() and not zyx["problem"].any(), zyz["problem"].any())
     done = near[near["outcome"] == "done"]
     misaligned = (done["c_zx"] / done["c_xx"]).abs()
+    ends = ", ".join(sorted(set(at_zero["outcome"].astype(str))))
     return word, evidence(
-        """Z-Y-Z is a problem at {zero_k} of {zero_n} poses at zero ({ends}) and at {near_k} of {near_n} within
-        {near_deg:g} degrees: about x it yields {least:.1e} to {most:.1e} of what is wanted, and about z
-        {misaligned:.1f} to {farthest:.1f} times that. Z-Y-X is one at {zyx_k} of {zyx_n}, where it
-        yields {zyx_least:.3f} or more.""",
+        f"""Z-Y-Z is a problem at {int(at_zero["problem"].sum())} of {len(at_zero)} poses at zero ({ends}) and at
+        {int(near["problem"].sum())} of {len(near)} within {NEAR_DEG:g} degrees: about x it yields
+        {done["yields"].min():.1e} to {done["yields"].max():.1e} of what is wanted, and about z {misaligned.min():.1f}
+        to {misaligned.max():.1f} times that. Z-Y-X is one at {int(zyx["problem"].sum())} of {len(zyx)}, where it yields
+        {zyx["yields"].min():.3f} or more.""",
         len(zyz) + len(zyx),
         ("compliance",),
-        zero_k=int(at_zero["problem"].sum()),
-        zero_n=len(at_zero),
-        ends=", ".join(sorted(set(at_zero["outcome"].astype(str)))),
-        near_k=int(near["problem"].sum()),
-        near_n=len(near),
-        near_deg=NEAR_DEG,
-        least=done["yields"].min(),
-        most=done["yields"].max(),
-        misaligned=misaligned.min(),
-        farthest=misaligned.max(),
-        zyx_k=int(zyx["problem"].sum()),
-        zyx_n=len(zyx),
-        zyx_least=zyx["yields"].min(),
     )
 
 
@@ -76,6 +61,3 @@ def _about_x(results, coordinates: str) -> pd.DataFrame:
     C, base = side_by_side.compliances(rows), side_by_side.compliances(rows, "_base")
     yields = C[:, 0, 0] / base[:, 0, 0]
     return rows.assign(yields=yields, problem=~(yields >= LITTLE))
-
-
-CLAIMS = (C24.judged_by(c24),)

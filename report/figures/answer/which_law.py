@@ -61,7 +61,7 @@ def facts(run: Run) -> dict:
         "forgetful_both": sum(needs.has_all(found, law, (needs.EVERYWHERE, needs.UNHELD)) for law in forgetful)
         or "none",
         "verdict": str(verdict.word),
-        **{key: verdict.evidence.numbers[key] for key in ("nearly", "adequate", "answers")},
+        **{key: verdict.evidence.parts[key] for key in ("nearly", "adequate", "answers")},
         **on_arms(run),
     }
 
