@@ -83,7 +83,7 @@ def _lines(base: Path, head: Path) -> list[str]:
 
 def _machine(folder: Path) -> str:
     from bench.provenance import rounded_on
-    from bench.tables.store import read_json
+    from bench.tables.files import read_json
 
     return rounded_on(read_json(folder / "provenance.json")) or "an unknown machine"
 

@@ -4,7 +4,7 @@ from pathlib import Path
 
 from bench.cli.screen import counted, shown_path
 from bench.errors import BadResults
-from bench.tables.store import read_json
+from bench.tables.files import read_json
 
 NEEDED = ("suite", "episodes", "commit", "dirty", "cpu", "wall_s")
 

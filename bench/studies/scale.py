@@ -32,7 +32,7 @@ from bench.experiments.plan import Plan
 from bench.provenance import ROOT, describe
 from bench.running import run
 from bench.running.schedulers.words import LOCAL, THREADS
-from bench.tables.store import read_json, write_json
+from bench.tables.files import read_json, write_json
 
 LAW = "rotation-matrix"
 

@@ -20,7 +20,8 @@ import pandas as pd
 
 from bench.provenance import ROOT, machine_key, rounded_on
 from bench.regression.rows import TABLES, differences
-from bench.tables.store import read, read_json, write_json
+from bench.tables.files import read_json, write_json
+from bench.tables.store import read
 
 REFERENCE = ROOT / "results" / "reference"
 STORED = ROOT / "results" / "settings" / "settings.json"

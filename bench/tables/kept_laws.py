@@ -9,7 +9,7 @@ from bench.contenders.registry import known_regulators, known_representations
 from bench.errors import BadResults
 from bench.law.contender import ON_MATRIX, Regulator
 from bench.tables import trust
-from bench.tables.store import refuse_link
+from bench.tables.files import refuse_link
 
 UNTRUSTED = "a file that came with the results; it was not run"
 """The source of a law that is known by its rows alone."""

@@ -17,9 +17,10 @@ import pandas as pd
 
 from bench.errors import BadResults
 from bench.law.contender import Regulator
+from bench.tables.files import read_json
 from bench.tables.kept_laws import kept_laws
 from bench.tables.schema import RESULTS
-from bench.tables.store import read, read_json
+from bench.tables.store import read
 
 VARIABLE = "ORIENTATION_BENCH_RESULTS"
 

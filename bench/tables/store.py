@@ -15,15 +15,7 @@ import pyarrow.parquet as pq
 
 from bench.errors import BadResults
 from bench.tables.column import VERSION, Table
-from bench.tables.files import (  # noqa: F401
-    is_leftover,
-    make_folder,
-    read_json,
-    refuse_link,
-    refused,
-    write_atomically,
-    write_json,
-)
+from bench.tables.files import refuse_link, write_atomically
 from bench.tables.schema import table_of
 
 

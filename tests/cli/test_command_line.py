@@ -24,7 +24,7 @@ from bench.experiments import plan as planning
 from bench.experiments.suites import ENGINES, SUITES
 from bench.metrics.registry import known_contact_metrics, known_metrics
 from bench.running.schedulers.words import THREADS
-from bench.tables import store
+from bench.tables import files, store
 from tasks.base import BadArm
 
 EULER = "hybrid/zyx-euler+inverse"
@@ -259,7 +259,7 @@ def test_run_in_contact_has_its_rows_and_no_episodes(contact_run):
     ] * len(rows[3:])
     assert set(rows.outcome) == {"done"}
     assert len(store.read(contact_run, "episodes")) == 0
-    assert store.read_json(contact_run / "provenance.json")["trials"] == rows.trials.sum()
+    assert files.read_json(contact_run / "provenance.json")["trials"] == rows.trials.sum()
 
 
 def test_show_of_a_run_in_contact_has_a_line_for_each_controller(capsys, contact_run):

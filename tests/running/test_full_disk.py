@@ -9,7 +9,7 @@ from bench.errors import BadResults
 from bench.experiments import plan as planning
 from bench.experiments.choice import Choice
 from bench.running import run
-from bench.tables import store
+from bench.tables import files
 
 
 @pytest.fixture(scope="module")
@@ -53,7 +53,7 @@ def test_temporary_files_of_killed_writes_make_room_first(plan, disk, undisturbe
     with pytest.raises(BadResults):
         run.run(plan, out, workers=1)
     leftover = out / "parts" / ".a.parquet.b.tmp"
-    assert store.is_leftover(leftover)
+    assert files.is_leftover(leftover)
     filler.unlink()
     leftover.write_bytes(bytes((KILOBYTES - 128) * 1024))
     assert run.run(plan, out, workers=1)

@@ -23,7 +23,7 @@ from bench.experiments.choice import Choice
 from bench.provenance import ROOT
 from bench.running import run, sandbox, sandbox_process
 from bench.running.wire_format import described
-from bench.tables import store
+from bench.tables import files, store
 
 LIMIT_S = 1.0
 
@@ -71,7 +71,7 @@ def test_law_that_breaks_in_some_states_costs_those_rows_alone(broken, engine):
         if word == "hung":
             measures = ["settling_time_s", "failure_time_s", "peak_u", "effort"]
             assert rows[name].loc[lost, measures].isna().all(axis=None)
-    notes = [text for text in store.read_json(broken / "provenance.json")["lost"] if "are run singly" in text]
+    notes = [text for text in files.read_json(broken / "provenance.json")["lost"] if "are run singly" in text]
     assert {name for name in rows if any(name in text for text in notes)} == {"loops", "exits"} & rows.keys()
 
 

@@ -21,7 +21,7 @@ from support.small_disk import NoDisk, fill, mounted
 from bench.errors import BadResults
 from bench.provenance import ROOT, describe
 from bench.running import run
-from bench.tables import store
+from bench.tables import files, store
 
 KILLS = 100
 SHARES = {"threads": 0.6, LOCAL: 0.2, "worker": 0.2}
@@ -69,7 +69,7 @@ def on_full_disks(wanted: Undisturbed, folder: Path) -> Iterator[dict]:
             except BadResults as error:
                 said = Path(str(error).partition(": cannot be written (No space left")[0]).name
             kept = len(list((out / "parts").glob("*.parquet")))
-            leftovers = sum(map(store.is_leftover, out.rglob("*")))
+            leftovers = sum(map(files.is_leftover, out.rglob("*")))
             filler.unlink()
             run.run(wanted.plan, out, workers=2)
             counts = {"left_kb": left, "failed_at": said, "units_kept": kept, "leftovers": leftovers}
@@ -108,7 +108,7 @@ def study(folder: Path, kills: int, out: Path) -> None:
         for row in rows:
             found[part].append(row)
             about["wall_s"] = round(time.monotonic() - began)
-            store.write_json(out, found)
+            files.write_json(out, found)
             print(f"{part} {len(found[part])}: {row}", flush=True)
 
     wanted = undisturbed(STUDIED, folder / "undisturbed")

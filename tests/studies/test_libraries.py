@@ -15,7 +15,8 @@ from bench.studies.libraries.forms import FORMS
 from bench.studies.libraries.found import find, version_of
 from bench.studies.libraries.judge import KINDS, judge
 from bench.studies.libraries.library import MATRIX, QUATERNION, Function, Library
-from bench.tables.store import read, read_json
+from bench.tables.files import read_json
+from bench.tables.store import read
 from report.figures.libraries import answers, libraries
 
 SOME = turns.drawn()._replace(turns=turns.drawn().turns[:50])

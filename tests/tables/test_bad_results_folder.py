@@ -8,7 +8,7 @@ import pytest
 from support.command_line import TINY, bench, digest, refused, refused_run
 
 from bench.errors import BadResults
-from bench.tables import store
+from bench.tables import files, store
 from bench.tables.column import VERSION
 
 
@@ -34,7 +34,7 @@ def test_full_disk_is_one_line_and_leaves_no_file(tmp_path):
         raise OSError(28, "No space left on device")
 
     with pytest.raises(BadResults, match=r"cannot be written \(No space left on device\); make room"):
-        store.write_atomically(tmp_path / "table.parquet", write)
+        files.write_atomically(tmp_path / "table.parquet", write)
     assert list(tmp_path.iterdir()) == []
 
 

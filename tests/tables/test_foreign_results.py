@@ -184,7 +184,7 @@ def test_json_that_a_terminal_would_obey_or_that_has_no_end_is_refused(tmp_path,
     path = tmp_path / "provenance.json"
     path.write_text(content)
     with pytest.raises(BadResults, match="delete the folder"):
-        store.read_json(path)
+        files.read_json(path)
 
 
 def test_json_of_absurd_size_is_not_read(tmp_path):

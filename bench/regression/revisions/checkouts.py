@@ -14,7 +14,7 @@ from bench.errors import BadResults
 from bench.provenance import ROOT
 from bench.regression.revisions.commits import WORKING_TREE, commit_of, repository, worktree
 from bench.regression.revisions.process import Laws
-from bench.tables.store import read_json
+from bench.tables.files import read_json
 
 LOCK = Path("requirements") / "base.txt"
 DIGEST = "from bench.provenance import source_digest; print(source_digest())"

@@ -19,7 +19,7 @@ from typing import Any, NamedTuple
 from bench.errors import BadResults
 from bench.regression.revisions import measurement
 from bench.regression.revisions.measurement import Measurement
-from bench.tables.store import read_json, write_json
+from bench.tables.files import read_json, write_json
 
 SCHEMA = "orientation-bench comparison 1"
 

@@ -23,7 +23,8 @@ from bench.regression.revisions.comparison import (
 from bench.regression.revisions.measured import Operations, Wanted, left_out, measured
 from bench.regression.revisions.process import SideFailed, running
 from bench.regression.rows import differences
-from bench.tables.store import read, read_json
+from bench.tables.files import read_json
+from bench.tables.store import read
 
 Told = Callable[[str], None]
 ALL = Wanted()

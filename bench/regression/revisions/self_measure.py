@@ -14,9 +14,10 @@ from bench.regression.revisions.machine import target
 from bench.regression.revisions.measurement import Measurement
 from bench.regression.revisions.process import Laws, Process, running
 from bench.tables import kept_costs
+from bench.tables.files import read_json
 from bench.tables.read import with_contender
 from bench.tables.schema import RESULTS
-from bench.tables.store import read, read_json
+from bench.tables.store import read
 
 RUNS = (RESULTS / "quick", RESULTS / "reference")
 """Where operations may have been counted already."""

@@ -8,7 +8,7 @@ import time
 from bench.errors import BenchError, UnknownWord
 from bench.provenance import describe
 from bench.studies.gates import FOLDER, faults, power, same_code
-from bench.tables.store import write_json
+from bench.tables.files import write_json
 
 PARTS = {"faults": faults.run, "power": power.run, "same-code": same_code.run}
 

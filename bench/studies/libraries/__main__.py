@@ -15,8 +15,9 @@ from bench.studies.libraries.found import find, version_of
 from bench.studies.libraries.judge import judge
 from bench.studies.libraries.library import Library
 from bench.studies.libraries.turns import TurnSet, every_set
+from bench.tables.files import read_json, write_json
 from bench.tables.schema import RESULTS
-from bench.tables.store import read, read_json, write_json, write_table
+from bench.tables.store import read, write_table
 
 FOLDER = RESULTS / "libraries"
 

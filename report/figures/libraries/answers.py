@@ -11,8 +11,9 @@ import math
 import pandas as pd
 
 from bench.studies.libraries.forms import FORMS
+from bench.tables.files import read_json
 from bench.tables.schema import RESULTS
-from bench.tables.store import read, read_json
+from bench.tables.store import read
 from report.figures.kit.spelling import power
 
 FOLDER = RESULTS / "libraries"

@@ -10,8 +10,8 @@ import pyarrow.parquet as pq
 
 from bench.provenance import ROOT, rounded_on
 from bench.tables import read
+from bench.tables.files import read_json
 from bench.tables.schema import TABLES
-from bench.tables.store import read_json
 from report.figures.cost import times
 from report.figures.kit import html
 from report.figures.kit.page import Run

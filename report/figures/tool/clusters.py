@@ -9,8 +9,8 @@ import pandas as pd
 
 from bench.experiments.choice import MOST_STARTS
 from bench.running.schedulers.words import THREADS
+from bench.tables.files import read_json
 from bench.tables.schema import RESULTS
-from bench.tables.store import read_json
 from report.figures.kit.html import number
 from report.figures.kit.page import Run
 from report.figures.kit.spelling import power

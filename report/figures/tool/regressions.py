@@ -11,7 +11,7 @@ from bench.regression.revisions import alternating, instructions, rule
 from bench.regression.revisions.comparison import SAME
 from bench.regression.revisions.machine import LEVEL
 from bench.studies.gates import FOLDER, power
-from bench.tables.store import read_json
+from bench.tables.files import read_json
 from report.figures.kit import html
 from report.figures.kit.page import Run, given
 from report.figures.kit.spelling import power as in_powers
