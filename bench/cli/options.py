@@ -15,41 +15,29 @@ from bench.tables.schema import RESULTS
 LATEST = RESULTS / "latest"
 REFERENCE = RESULTS / "reference"
 
-law = click.option(
-    "--law",
-    "laws",
-    multiple=True,
-    type=click.Path(path_type=Path),
-    metavar="FILE",
-    help="A file of your own with a constant REGULATOR; repeatable.",
-)
-regulator = click.option(
+
+def several(option: str, name: str, meaning: str, metavar: str = "NAME", **more):
+    """An option that may be given again and again."""
+    return click.option(option, name, multiple=True, metavar=metavar, help=f"{meaning}; repeatable.", **more)
+
+
+PATH = click.Path(path_type=Path)
+
+law = several("--law", "laws", "A file of your own with a constant REGULATOR", "FILE", type=PATH)
+regulator = several(
     "--regulator",
     "regulators",
-    multiple=True,
-    metavar="NAME",
-    help="Only this law: NAME or NAME/REPRESENTATION; on an arm also NAME@JACOBIAN+INVERSE; repeatable.",
+    "Only this law: NAME or NAME/REPRESENTATION; on an arm also NAME@JACOBIAN+INVERSE",
 )
-representation = click.option(
-    "--representation",
-    "representations",
-    multiple=True,
-    metavar="NAME",
-    help="Only laws on these coordinates; repeatable.",
-)
-jacobian = click.option(
-    "--jacobian", "jacobians", multiple=True, metavar="NAME", help="On arms, only this Jacobian; repeatable."
-)
-inverse = click.option(
-    "--inverse", "inverses", multiple=True, metavar="NAME", help="On arms, only this inverse; repeatable."
-)
-controller = click.option(
+representation = several("--representation", "representations", "Only laws on these coordinates")
+jacobian = several("--jacobian", "jacobians", "On arms, only this Jacobian")
+inverse = several("--inverse", "inverses", "On arms, only this inverse")
+controller = several(
     "--controller",
     "controllers",
-    multiple=True,
-    metavar="NAME",
-    help="In contact, only this controller, as hybrid/zyx-euler+inverse or impedance-geometric; repeatable.",
+    "In contact, only this controller, as hybrid/zyx-euler+inverse or impedance-geometric",
 )
+arm = several("--arm", "arms", "Only this arm")
 
 
 class Named(NamedTuple):

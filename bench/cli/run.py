@@ -3,7 +3,6 @@
 import os
 import time
 from datetime import timedelta
-from pathlib import Path
 
 import rich_click as click
 
@@ -52,19 +51,15 @@ robustness: one law under two perturbations.
 @options.regulator
 @options.representation
 @options.controller
-@click.option("--task", "tasks", multiple=True, metavar="NAME", help="Only this task; repeatable.")
-@click.option("--arm", "arms", multiple=True, metavar="NAME", help="Only this arm; repeatable.")
+@options.several("--task", "tasks", "Only this task")
+@options.arm
 @options.jacobian
 @options.inverse
-@click.option(
-    "--variation", "variations", multiple=True, metavar="NAME", help="On arms, a plant that differs so; repeatable."
-)
-@click.option(
-    "--axis", "axes", multiple=True, metavar="NAME", help="Only under this perturbation, as delay; repeatable."
-)
-@click.option("--experiment", "experiments", multiple=True, metavar="NAME", help="Only this experiment; repeatable.")
-@click.option("--starts", multiple=True, metavar="NAME", help="Only this start set; repeatable.")
-@click.option("--engine", "engines", multiple=True, metavar="NAME", help="Only this engine; repeatable.")
+@options.several("--variation", "variations", "On arms, a plant that differs so")
+@options.several("--axis", "axes", "Only under this perturbation, as delay")
+@options.several("--experiment", "experiments", "Only this experiment")
+@options.several("--starts", "start_sets", "Only this start set")
+@options.several("--engine", "engines", "Only this engine")
 @click.option(
     "--count",
     type=int,
@@ -86,9 +81,7 @@ robustness: one law under two perturbations.
     metavar="WORD",
     help="Who runs the episodes: local:N, so many processes here, or tcp://host:8786, a Dask cluster.",
 )
-@click.option(
-    "--out", type=click.Path(path_type=Path), default=options.LATEST, show_default="results/latest", help="Folder."
-)
+@click.option("--out", type=options.PATH, default=options.LATEST, show_default="results/latest", help="Folder.")
 @click.option(
     "--law-limit",
     type=click.FloatRange(min=0.0, min_open=True),
@@ -99,9 +92,8 @@ robustness: one law under two perturbations.
 @click.option("--replace", is_flag=True, help="Start over if the folder holds another plan.")
 @click.option("--dry-run", is_flag=True, help="Print the whole plan; run nothing.")
 def COMMAND(
-    suite, laws, regulators, representations, controllers, tasks, arms, jacobians, inverses, variations, axes,
-    experiments, starts, engines, count, dt_s, horizon_s, kp, kv, integrator, seed, workers, scheduler, out, law_limit,
-    replace, dry_run,
+    suite, laws, count, dt_s, horizon_s, kp, kv, integrator, seed, workers, scheduler, out, law_limit, replace, dry_run,
+    **words,
 ):  # fmt: skip
     """Run a suite and store its episodes; a run that was stopped goes on where it was.
 
@@ -115,24 +107,11 @@ def COMMAND(
     Robustness is of the free body: under a perturbation (python -m bench list axes), from initial conditions of its
     own, as a low control rate, delay, noise, saturation or a moving goal. Name one, and nothing else is run.
     """
-    named = options.named(regulators, jacobians, inverses)
+    choice = Choice(**{**words, **options.named(*map(words.get, options.Named._fields))._asdict()})
     plan = planning.make(
         suite,
-        options.chosen(laws, named.regulators, representations),
-        Choice(
-            tasks,
-            starts,
-            engines,
-            arms,
-            named.jacobians,
-            named.inverses,
-            variations,
-            controllers,
-            named.regulators,
-            representations,
-            axes,
-            experiments,
-        ),
+        options.chosen(laws, choice.regulators, choice.representations),
+        choice,
         count=count,
         dt_s=dt_s,
         horizon_s=horizon_s,
@@ -166,8 +145,8 @@ def COMMAND(
             else:
                 steps.now(f"{counted(len(left), 'unit')} left" if left else "joining the tables")
 
-        words = {"workers": workers, "scheduler": scheduler, "law_limit_s": law_limit}
-        did = running.run(plan, out, replace=replace, told=told, **words)
+        by = {"workers": workers, "scheduler": scheduler, "law_limit_s": law_limit}
+        did = running.run(plan, out, replace=replace, told=told, **by)
     took = f" in {timedelta(seconds=round(time.monotonic() - began))}" if did else ""
     console().print(
         f"{'wrote' if did else 'up to date:'} {shown_path(out)}{took}   (python -m bench show {shown_path(out)})"

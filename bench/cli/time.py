@@ -11,7 +11,7 @@ from bench.cli.screen import console, frame_table
 @options.law
 @options.regulator
 @options.representation
-@click.option("--arm", "arms", multiple=True, metavar="NAME", help="Only this arm; repeatable.")
+@options.arm
 @click.option("--quick", is_flag=True, help="Fewer passes: rougher numbers in a fraction of the time.")
 def COMMAND(laws, regulators, representations, arms, quick):
     """Time every law, engine and arm per tick, interleaved with a fixed reference kernel; into results/timings."""

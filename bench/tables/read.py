@@ -37,39 +37,15 @@ def folder() -> Path:
     return RESULTS / ("latest" if finished else "reference")
 
 
-def episodes(**words: str) -> pd.DataFrame:
-    """Rows of episodes.parquet that have these words, as in episodes(engine="native", start_set="poles")."""
-    return chosen(table(folder(), "episodes"), words)
+def rows(name: str, **words: str) -> pd.DataFrame:
+    """Rows of one table that have these words, as in rows("episodes", engine="native", start_set="poles")."""
+    return chosen(table(folder(), name), words)
 
 
-def traces(**words: str) -> pd.DataFrame:
-    """Rows of traces.parquet that have these words."""
-    return chosen(table(folder(), "traces"), words)
-
-
-def costs(**words: str) -> pd.DataFrame:
-    """Rows of costs.parquet that have these words, as in costs(branch="typical", stage="total")."""
-    return chosen(table(folder(), "costs"), words)
-
-
-def boundaries(**words: str) -> pd.DataFrame:
-    """Rows of boundaries.parquet that have these words."""
-    return chosen(table(folder(), "boundaries"), words)
-
-
-def poses(**words: str) -> pd.DataFrame:
-    """Rows of poses.parquet that have these words, as in poses(arm="puma560", representation="zyx-euler")."""
-    return chosen(table(folder(), "poses"), words)
-
-
-def compliance(**words: str) -> pd.DataFrame:
-    """Rows of compliance.parquet that have these words, as in compliance(task="wrench-probe", arm="ur5e")."""
-    return chosen(table(folder(), "compliance"), words)
-
-
-def robustness(**words: str) -> pd.DataFrame:
-    """Rows of robustness.parquet that have these words, as in robustness(axis="delay")."""
-    return chosen(table(folder(), "robustness"), words)
+episodes, traces, costs, boundaries, poses, compliance, robustness = (
+    functools.partial(rows, name)
+    for name in ("episodes", "traces", "costs", "boundaries", "poses", "compliance", "robustness")
+)
 
 
 def provenance() -> dict:

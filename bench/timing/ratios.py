@@ -1,9 +1,9 @@
 """Ratios of benchmarks timed in the same pass: their median, and an interval that assumes no distribution."""
 
-import math
 from typing import NamedTuple
 
 import numpy as np
+from scipy.stats import binom
 
 CONFIDENCE = 0.95
 
@@ -23,13 +23,7 @@ def ranks(passes: int) -> tuple[int, int]:
     (for independent passes; Conover 1999, 3.2). The largest such k is taken; below 6 passes the whole range is, with
     less confidence.
     """
-    tail, k = 0.0, 0
-    while k < passes // 2:
-        tail += math.comb(passes, k) / 2.0**passes
-        if 2.0 * tail > 1.0 - CONFIDENCE:
-            break
-        k += 1
-    k = max(k, 1)
+    k = max(1, int(binom.ppf((1.0 - CONFIDENCE) / 2.0, passes, 0.5)))
     return k - 1, passes - k
 
 

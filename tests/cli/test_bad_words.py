@@ -203,5 +203,5 @@ def _rotation_matrix():
 def test_nothing_to_run_says_which_starts_and_engines_a_task_takes():
     with pytest.raises(Incompatible, match=r"ideal-rk4 simulates free-body alone, not 'arm-regulation'"):
         planning.make("quick", [_rotation_matrix()], Choice(("arm-regulation",), engines=("ideal-rk4",)))
-    with pytest.raises(Incompatible, match=r"task 'free-body' takes the starts box, .*, not clear"):
+    with pytest.raises(Incompatible, match=r"task 'free-body' takes the starts paper, .*, not clear"):
         planning.make("quick", [_rotation_matrix()], Choice(("free-body",), ("clear",), ("native",)))

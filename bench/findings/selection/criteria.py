@@ -52,6 +52,13 @@ SLOW_HZ, LATE_S, BOUND, PEAK, HEAVY, SPIN, SWAY, NOISY_RAD = 20.0, 0.02, 10.0, 1
 """The level of each perturbation at which laws are asked: the hardest, but for peak (the paper's own, at kp = 100)
 and for noise, where it is what a cheap sensor has."""
 
+
+def settled_under(name: str, title: str, words: str, axis: str, level: float) -> Criterion:
+    """The median settling time at one level of a perturbation."""
+    meaning = f"median settling time{words}"
+    return Criterion(name, title, "s", meaning, perturbed(axis, level, "settling_time_s"), form="{:.3f}")
+
+
 CRITERIA = (
     Criterion(
         "unsettled",
@@ -142,54 +149,14 @@ CRITERIA = (
         "total variation of the command, median start",
         perturbed("delay", 0.0, "variation"),
     ),
-    Criterion(
-        "matched",
-        "Settled at equal peak",
-        "s",
-        f"median settling time with gains that give a peak of {PEAK:g} rad/s²",
-        perturbed("equal-peak", PEAK, "settling_time_s"),
-        form="{:.3f}",
+    settled_under(
+        "matched", "Settled at equal peak", f" with gains that give a peak of {PEAK:g} rad/s²", "equal-peak", PEAK
     ),
-    Criterion(
-        "bounded",
-        "Settled with weak motors",
-        "s",
-        f"median settling time, command cut at {BOUND:g} rad/s²",
-        perturbed("saturation", BOUND, "settling_time_s"),
-        form="{:.3f}",
-    ),
-    Criterion(
-        "slow",
-        f"Settled at {SLOW_HZ:g} Hz",
-        "s",
-        f"median settling time, asked {SLOW_HZ:g} times a second",
-        perturbed("control-rate", SLOW_HZ, "settling_time_s"),
-        form="{:.3f}",
-    ),
-    Criterion(
-        "late",
-        "Settled, late",
-        "s",
-        f"median settling time, {1e3 * LATE_S:g} ms late",
-        perturbed("delay", LATE_S, "settling_time_s"),
-        form="{:.3f}",
-    ),
-    Criterion(
-        "heavy",
-        "Settled, heavy",
-        "s",
-        f"median settling time, inertia {HEAVY:g} times the model's",
-        perturbed("inertia", HEAVY, "settling_time_s"),
-        form="{:.3f}",
-    ),
-    Criterion(
-        "spinning",
-        "Settled, spinning",
-        "s",
-        f"median settling time, {SPIN:g} rad/s at the start",
-        perturbed("spin", SPIN, "settling_time_s"),
-        form="{:.3f}",
-    ),
+    settled_under("bounded", "Settled with weak motors", f", command cut at {BOUND:g} rad/s²", "saturation", BOUND),
+    settled_under("slow", f"Settled at {SLOW_HZ:g} Hz", f", asked {SLOW_HZ:g} times a second", "control-rate", SLOW_HZ),
+    settled_under("late", "Settled, late", f", {1e3 * LATE_S:g} ms late", "delay", LATE_S),
+    settled_under("heavy", "Settled, heavy", f", inertia {HEAVY:g} times the model's", "inertia", HEAVY),
+    settled_under("spinning", "Settled, spinning", f", {SPIN:g} rad/s at the start", "spin", SPIN),
     Criterion(
         "follows",
         "Error behind the goal",

@@ -1,11 +1,13 @@
 """What differs between two runs: one row or column, and how a list of them is said."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from itertools import groupby
 from typing import NamedTuple
 
 import numpy as np
 import pandas as pd
+
+from bench.tables.column import Table
 
 MISSING, NEW, TWICE, COLUMN, CHANGED = "missing", "new", "twice", "column", "changed"
 
@@ -40,19 +42,16 @@ def lines(differences: Iterable[Difference]) -> list[str]:
     return said
 
 
-def aligned(
-    table: str, old: pd.DataFrame, new: pd.DataFrame, key: Sequence[str]
-) -> tuple[pd.DataFrame, pd.DataFrame, list[Difference]]:
+def aligned(table: Table, old: pd.DataFrame, new: pd.DataFrame) -> tuple[pd.DataFrame, pd.DataFrame, list[Difference]]:
     """The rows that both have, in one order and named by their key, and what only one has."""
-    old, new = (_keyed(frame, key) for frame in (old, new))
+    old, new = (_keyed(frame, table.key) for frame in (old, new))
     found = []
     for name, frame in (("base", old), ("head", new)):
-        twice = frame[frame.index.duplicated()]
-        found += _rows(table, TWICE, f"row twice in the {name}", twice, key)
+        found += _rows(table, TWICE, f"row twice in the {name}", frame[frame.index.duplicated()])
     if found:
         return old.iloc[:0], new.iloc[:0], found
-    found += _rows(table, MISSING, "row is missing", old[~old.index.isin(new.index)], key)
-    found += _rows(table, NEW, "row is new", new[~new.index.isin(old.index)], key)
+    found += _rows(table, MISSING, "row is missing", old[~old.index.isin(new.index)])
+    found += _rows(table, NEW, "row is new", new[~new.index.isin(old.index)])
     both = old.index.intersection(new.index, sort=False)
     return old.loc[both], new.loc[both], found
 
@@ -62,18 +61,16 @@ def _keyed(frame: pd.DataFrame, key: Sequence[str]) -> pd.DataFrame:
     return frame.set_axis(pd.Index([" ".join(filter(None, row)) for row in rows], dtype=str), axis=0)
 
 
-def _rows(table: str, kind: str, words: str, frame: pd.DataFrame, key: Sequence[str]) -> list[Difference]:
-    named = zip(frame.index, _words(frame, key), strict=True)
-    return [Difference(table, kind, "", f"{table}: {words}: {name}", row) for name, row in named]
+def _rows(table: Table, kind: str, words: str, frame: pd.DataFrame) -> list[Difference]:
+    named = zip(frame.index, _words(frame, table.key), strict=True)
+    return [Difference(table.name, kind, "", f"{table.name}: {words}: {name}", row) for name, row in named]
 
 
 def _words(frame: pd.DataFrame, key: Sequence[str]) -> list[dict[str, str]]:
     return [] if frame.empty else frame[list(key)].astype(str).to_dict("records")
 
 
-def changed(
-    table: str, column: str, old: pd.DataFrame, new: pd.DataFrame, rows, key: Sequence[str]
-) -> list[Difference]:
+def changed(table: Table, column: str, old: pd.DataFrame, new: pd.DataFrame, rows) -> list[Difference]:
     """The rows, of two aligned tables, in which a column has changed.
 
     Args:
@@ -84,6 +81,33 @@ def changed(
         return []
     old, new = old[picked], new[picked]
     return [
-        Difference(table, CHANGED, column, f"{column}: {was} -> {now}: {name}", row, str(was), str(now))
-        for name, row, was, now in zip(old.index, _words(old, key), old[column], new[column], strict=True)
+        Difference(table.name, CHANGED, column, f"{column}: {was} -> {now}: {name}", row, str(was), str(now))
+        for name, row, was, now in zip(old.index, _words(old, table.key), old[column], new[column], strict=True)
     ]
+
+
+Close = Callable[[str, np.ndarray, np.ndarray], np.ndarray]
+"""(column, head's numbers, base's) -> which of them count as the same."""
+
+
+def near(relative: float, absolute: float) -> Close:
+    """The same to a tolerance, whatever the column."""
+    return lambda _, a, b: np.isclose(a, b, rtol=relative, atol=absolute, equal_nan=True)
+
+
+def compared(
+    table: Table, old: pd.DataFrame, new: pd.DataFrame, close: Close, rows=True, but: Sequence[str] = ()
+) -> list[Difference]:
+    """What differs between two aligned tables in columns that are no key: words exactly, numbers unless `close`.
+
+    Args:
+        rows: in which numbers are compared. but: columns that are not.
+    """
+    found = []
+    for name in old.columns.difference([*table.key, *but], sort=False):
+        if old[name].dtype.kind in "iuf":
+            differs = rows & ~close(name, new[name].to_numpy(float), old[name].to_numpy(float))
+        else:
+            differs = new[name].astype(str) != old[name].astype(str)
+        found += changed(table, name, old, new, differs)
+    return found

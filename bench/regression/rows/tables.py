@@ -5,13 +5,10 @@ from collections.abc import Callable
 import numpy as np
 import pandas as pd
 
-from bench.regression.rows.difference import MISSING, NEW, Difference, aligned, changed
+from bench.regression.rows.difference import MISSING, NEW, Difference, aligned, changed, compared, near
 from bench.tables.column import Table
 from bench.tables.schema import TABLES
 from tasks.verdict import OUTCOMES, SETTLED
-
-KEY, COST_KEY = TABLES["episodes"].key, TABLES["costs"].key
-BOUNDARY_KEY, TRACE_KEY, POSE_KEY = TABLES["boundaries"].key, TABLES["traces"].key, TABLES["poses"].key
 
 RELATIVE = 1e-6
 """Rounding grows by less than a millionth in a settled episode: two libraries' sines (1e-16 apart) and some 1e4 ticks
@@ -30,7 +27,7 @@ FRICTION_RELATIVE = 1e-3
 BOUNDARY_ANGLE = 1e-5
 """Bisection ends at 7e-7 rad; near a fractal boundary the last steps may go either way."""
 
-CURVE_KEY = TRACE_KEY[:-1]
+CURVE_KEY = TABLES["traces"].key[:-1]
 ARRIVED = 0.02
 """A curve whose angle ends below the settling band's share of where it began came to the goal."""
 
@@ -45,46 +42,36 @@ def of_key(table: Table) -> Callable[[pd.DataFrame, pd.DataFrame], list[Differen
     """Rows of the same key: words exactly, numbers to RELATIVE."""
 
     def rows(old: pd.DataFrame, new: pd.DataFrame) -> list[Difference]:
-        old, new, found = aligned(table.name, old, new, table.key)
-        for name in old.columns.difference(table.key, sort=False):
-            if old[name].dtype.kind in "iuf":
-                a, b = new[name].to_numpy(float), old[name].to_numpy(float)
-                close = np.isclose(a, b, rtol=RELATIVE, atol=ABSOLUTE, equal_nan=True)
-            else:
-                close = new[name].astype(str).to_numpy() == old[name].astype(str).to_numpy()
-            found += changed(table.name, name, old, new, ~close, table.key)
-        return found
+        old, new, found = aligned(table, old, new)
+        return found + compared(table, old, new, near(RELATIVE, ABSOLUTE))
 
     return rows
 
 
 def episodes(old: pd.DataFrame, new: pd.DataFrame) -> list[Difference]:
     """Outcomes exactly, on a knife's edge either; numbers of what settled in both, to what rounding makes of them."""
-    table = "episodes"
-    old, new, found = aligned(table, old, new, KEY)
+    table = TABLES["episodes"]
+    old, new, found = aligned(table, old, new)
     settled = old["outcome"].astype(str) == OUTCOMES[SETTLED]
     same = new["outcome"].astype(str) == old["outcome"].astype(str)
-    found += changed(table, "outcome", old, new, ~same & ~_share_an_outcome(old, new), KEY)
-    both = settled & same
+    found += changed(table, "outcome", old, new, ~same & ~_share_an_outcome(old, new))
     rubs = old["variation"].astype(str).str.startswith("friction").to_numpy()
     known = np.where(rubs, FRICTION_RELATIVE, RELATIVE)
     doubt = MARGIN * np.fmax(old["rounding_change"].to_numpy(), new["rounding_change"].to_numpy())
-    relative = np.fmax(known, doubt)  # no doubt is NaN, which fmax passes over
-    both &= relative < 1.0
-    relative = np.fmin(relative, 1.0)
-    for name in old.columns.difference([*KEY, "outcome", "cause", "outcome_beside", "rounding_change"], sort=False):
-        if old[name].dtype.kind not in "iuf":
-            found += changed(table, name, old, new, new[name].astype(str) != old[name].astype(str), KEY)
-            continue
-        a, b = new[name].to_numpy(float), old[name].to_numpy(float)
+    loose = np.fmax(known, doubt)  # no doubt is NaN, which fmax passes over
+    relative = np.fmin(loose, 1.0)
+
+    def close(name, a, b):
         if name in ("settling_time_s", "failure_time_s"):
-            close = np.abs(a - b) < 0.5 * old["dt_s"].to_numpy() + (relative - RELATIVE) * b
+            is_close = np.abs(a - b) < 0.5 * old["dt_s"].to_numpy() + (relative - RELATIVE) * b
         elif name == "ticks":
-            close = np.abs(a - b) <= (relative - RELATIVE) * b
+            is_close = np.abs(a - b) <= (relative - RELATIVE) * b
         else:
-            close = np.isclose(a, b, rtol=relative, atol=ABSOLUTE)
-        found += changed(table, name, old, new, both & ~(close | (np.isnan(a) & np.isnan(b))), KEY)
-    return found
+            is_close = np.isclose(a, b, rtol=relative, atol=ABSOLUTE)
+        return is_close | (np.isnan(a) & np.isnan(b))
+
+    judged = ("outcome", "cause", "outcome_beside", "rounding_change")
+    return found + compared(table, old, new, close, settled & same & (loose < 1.0), judged)
 
 
 def _share_an_outcome(old: pd.DataFrame, new: pd.DataFrame) -> np.ndarray:
@@ -96,12 +83,9 @@ def _share_an_outcome(old: pd.DataFrame, new: pd.DataFrame) -> np.ndarray:
 
 def costs(old: pd.DataFrame, new: pd.DataFrame) -> list[Difference]:
     """Operations, exactly."""
-    table = "costs"
     old, new = (frame.assign(joints=_joints(frame)) for frame in (old, new))
-    old, new, found = aligned(table, old, new, COST_KEY)
-    for name in old.columns.difference(COST_KEY, sort=False):
-        found += changed(table, name, old, new, new[name].to_numpy() != old[name].to_numpy(), COST_KEY)
-    return found
+    old, new, found = aligned(TABLES["costs"], old, new)
+    return found + compared(TABLES["costs"], old, new, near(0.0, 0.0))
 
 
 def _joints(costs: pd.DataFrame) -> pd.Series:
@@ -111,13 +95,8 @@ def _joints(costs: pd.DataFrame) -> pd.Series:
 
 def boundaries(old: pd.DataFrame, new: pd.DataFrame) -> list[Difference]:
     """Where each law first fails, to BOUNDARY_ANGLE."""
-    table = "boundaries"
-    old, new, found = aligned(table, old.round(_digits(old)), new.round(_digits(new)), BOUNDARY_KEY)
-    for name in ("settled_to_rad", "fails_from_rad"):
-        a, b = new[name].to_numpy(float), old[name].to_numpy(float)
-        close = np.isclose(a, b, rtol=0.0, atol=BOUNDARY_ANGLE, equal_nan=True)
-        found += changed(table, name, old, new, ~close, BOUNDARY_KEY)
-    return found
+    old, new, found = aligned(TABLES["boundaries"], old.round(_digits(old)), new.round(_digits(new)))
+    return found + compared(TABLES["boundaries"], old, new, near(0.0, BOUNDARY_ANGLE), but=["outcome"])
 
 
 def _digits(frame: pd.DataFrame) -> dict[str, int]:
@@ -127,42 +106,25 @@ def _digits(frame: pd.DataFrame) -> dict[str, int]:
 
 def traces(old: pd.DataFrame, new: pd.DataFrame) -> list[Difference]:
     """Samples of the curves that end at the goal; which curves there are, of all."""
-    table = "traces"
     curves = [frame.groupby(list(CURVE_KEY), observed=True)["angle_rad"] for frame in (old, new)]
     was, now = ({tuple(map(str, key)) for key in one.groups} for one in curves)
     found = _curves(MISSING, "curve is missing", was - now) + _curves(NEW, "curve is new", now - was)
     if found:
         return found
     arrived = [one.transform("last") <= ARRIVED * one.transform("first") for one in curves]
-    old, new, found = aligned(table, old[arrived[0]], new[arrived[1]], TRACE_KEY)
-    for name in old.columns.difference([*TRACE_KEY, "outcome"], sort=False):  # a curve that arrives has settled
-        a, b = new[name].to_numpy(float), old[name].to_numpy(float)
-        close = np.isclose(a, b, rtol=RELATIVE, atol=RELATIVE, equal_nan=True)
-        found += changed(table, name, old, new, ~close, TRACE_KEY)
-    return found
+    old, new, found = aligned(TABLES["traces"], old[arrived[0]], new[arrived[1]])
+    # a curve that arrives has settled
+    return found + compared(TABLES["traces"], old, new, near(RELATIVE, RELATIVE), but=["outcome"])
 
 
 def _curves(kind: str, words: str, keys: set[tuple[str, ...]]) -> list[Difference]:
-    return [
-        Difference(
-            "traces",
-            kind,
-            "",
-            f"traces: {words}: {' '.join(filter(None, key))}",
-            dict(zip(CURVE_KEY, key, strict=True)),
-        )
-        for key in sorted(keys)
-    ]
+    named = [(" ".join(filter(None, key)), dict(zip(CURVE_KEY, key, strict=True))) for key in sorted(keys)]
+    return [Difference("traces", kind, "", f"traces: {words}: {name}", row) for name, row in named]
 
 
 def poses(old: pd.DataFrame, new: pd.DataFrame) -> list[Difference]:
     """Poses and what their Jacobians are; the gaps are rounding itself, and claims look at their size."""
-    table = "poses"
-    old, new, found = aligned(table, old, new, POSE_KEY)
+    old, new, found = aligned(TABLES["poses"], old, new)
     steady = (old["condition_analytic"].to_numpy() < STEADY) & (old["condition"].to_numpy() < STEADY)
-    for name in old.columns.difference(POSE_KEY, sort=False):
-        if not name.endswith("_gap"):
-            a, b = new[name].to_numpy(float), old[name].to_numpy(float)
-            close = np.isclose(a, b, rtol=POSE_RELATIVE, atol=ABSOLUTE, equal_nan=True)
-            found += changed(table, name, old, new, steady & ~close, POSE_KEY)
-    return found
+    gaps = [name for name in old.columns if name.endswith("_gap")]
+    return found + compared(TABLES["poses"], old, new, near(POSE_RELATIVE, ABSOLUTE), steady, gaps)
