@@ -1,6 +1,7 @@
 """`list`: what there is to run, by kind."""
 
 import itertools
+from collections.abc import Callable
 
 import pandas as pd
 import rich_click as click
@@ -20,10 +21,27 @@ from bench.control.registry import all_controllers
 from bench.errors import UnknownWord
 from bench.experiments.contact import can_do
 from bench.experiments.experiment import known_experiments
+from bench.law.contender import Regulator
 from bench.metrics.registry import known_contact_metrics, known_metrics
 from tasks.arm import arms
 from tasks.arm_model import Arm
 from tasks.base import BadArm
+
+KINDS: dict[str, Callable[[tuple[Regulator, ...]], Frame]] = {}
+"""Word -> the table of that kind, of the user's own laws too."""
+
+
+def kind(word: str, title: str, *columns: str):
+    """Makes the function below, own laws -> rows, the table of a kind."""
+
+    def listed(rows):
+        def table(own):
+            return frame_table(pd.DataFrame([[*map(str, row)] for row in rows(own)], columns=list(columns)), title)
+
+        KINDS[word] = table
+        return rows
+
+    return listed
 
 
 @click.command("list")
@@ -36,38 +54,30 @@ def COMMAND(kind, laws):
     axes, starts, engines, suites, experiments, claims. A file of an arm that cannot be used is listed with the reason.
     """
     own = options.own_laws(laws)
-    if kind is not None and kind not in _TABLES:
+    if kind is not None and kind not in KINDS:
         plural = {"axis": "axes"}.get(kind, kind + "s")
-        if plural not in _TABLES:
-            raise UnknownWord("kind", kind, list(_TABLES))
+        if plural not in KINDS:
+            raise UnknownWord("kind", kind, list(KINDS))
         kind = plural
-    for one in _TABLES if kind is None else (kind,):
-        console().print(_TABLES[one](own))
+    for one in KINDS if kind is None else (kind,):
+        console().print(KINDS[one](own))
 
 
-def _table(title: str, columns: tuple[str, ...], rows) -> Frame:
-    return frame_table(pd.DataFrame([[*map(str, row)] for row in rows], columns=list(columns)), title)
-
-
+@kind("regulators", "Regulators", "name", "acts on", "proved", "source")
 def _regulators(own):
-    def row(one):
+    for one in (*known_regulators().values(), *own):
         on = one.coordinates if isinstance(one.coordinates, str) else ", ".join(one.coordinates)
-        note = "costing only" if one.costing_only else one.property
-        return one.name, on, note, one.origin or one.source
-
-    every = (*known_regulators().values(), *own)
-    return _table("Regulators", ("name", "acts on", "proved", "source"), map(row, every))
+        yield one.name, on, "costing only" if one.costing_only else one.property, one.origin or one.source
 
 
-def _representations(own):
-    rows = ((one.name, ", ".join(one.symbols), one.source) for one in known_representations().values())
-    return _table("Representations", ("name", "coordinates", "source"), rows)
+@kind("representations", "Representations", "name", "coordinates", "source")
+def _representations(_):
+    return ((one.name, ", ".join(one.symbols), one.source) for one in known_representations().values())
 
 
-def _jacobians(own):
-    every = known_jacobians().values()
-    rows = ((one.name, one.takes.replace("-", " "), one.title, one.source) for one in every)
-    return _table("Jacobians", ("name", "takes", "title", "source"), rows)
+@kind("jacobians", "Jacobians", "name", "takes", "title", "source")
+def _jacobians(_):
+    return ((one.name, one.takes.replace("-", " "), one.title, one.source) for one in known_jacobians().values())
 
 
 SHAPES = ((6, 6), (6, 7), (7, 6), (7, 7))
@@ -75,61 +85,49 @@ SHAPES = ((6, 6), (6, 7), (7, 6), (7, 7))
 seven."""
 
 
-def _inverses(own):
-    def row(one):
+@kind("inverses", "Inverses", "name", "gives", "Jacobians it takes", "title", "source")
+def _inverses(_):
+    for one in known_inverses().values():
         shapes = ", ".join(f"{rows} x {n}" for rows, n in SHAPES if not one.refuses(rows, n))
-        return one.name, one.gives, shapes, one.title, one.source
-
-    columns = ("name", "gives", "Jacobians it takes", "title", "source")
-    return _table("Inverses", columns, map(row, known_inverses().values()))
+        yield one.name, one.gives, shapes, one.title, one.source
 
 
-def _controllers(own):
+@kind("controllers", "Controllers in contact", "name", "/coordinates", "+form", "what it is")
+def _controllers(_):
     every = all_controllers()
-    titles = {one.law: f"impedance: {one.impedance.title}" for one in every if one.impedance}
-
-    def row(law):
+    titles = {**HYBRIDS, **{one.law: f"impedance: {one.impedance.title}" for one in every if one.impedance}}
+    for law in dict.fromkeys(one.law for one in every):
         some = [one for one in every if one.law == law]
         along = dict.fromkeys(one.representation.name for one in some if one.representation)
         forms = dict.fromkeys(one.form for one in some if one.form)
-        return law, ", ".join(along), ", ".join(forms), {**HYBRIDS, **titles}[law]
-
-    columns = ("name", "/coordinates", "+form", "what it is")
-    return _table("Controllers in contact", columns, map(row, dict.fromkeys(one.law for one in every)))
+        yield law, ", ".join(along), ", ".join(forms), titles[law]
 
 
-def _impedances(own):
-    def row(one):
-        return one.name, "coordinates" if one.law_in else "R", one.title, one.source
-
-    columns = ("name", "acts on", "title", "source")
-    return _table("Impedances", columns, map(row, known_impedances().values()))
+@kind("impedances", "Impedances", "name", "acts on", "title", "source")
+def _impedances(_):
+    every = known_impedances().values()
+    return ((one.name, "coordinates" if one.law_in else "R", one.title, one.source) for one in every)
 
 
-def _metrics(own):
+@kind("metrics", "Metrics", "name", "column", "unit", "of", "meaning")
+def _metrics(_):
     alone = ((one, "arms" if one.arm_only else "all") for one in known_metrics().values())
     contact = ((one, "contact") for one in known_contact_metrics().values())
-    rows = ((one.name, one.column, one.unit, of, one.title) for one, of in (*alone, *contact))
-    return _table("Metrics", ("name", "column", "unit", "of", "meaning"), rows)
+    return ((one.name, one.column, one.unit, of, one.title) for one, of in (*alone, *contact))
 
 
-def _tasks(own):
-    def row(one):
-        plant = "each arm" if tasks.is_for_arms(one.name) else "no arm"
-        return one.name, plant, one.title, one.source
-
-    alone = map(row, map(tasks.described, tasks.names()))
-    touching = map(tasks.contact_task, tasks.contact_names())
-    contact = ((one.name, f"contact: {', '.join(_fitting(one))}", one.title, one.source) for one in touching)
-    return _table("Tasks", ("name", "of", "title", "source"), (*alone, *contact))
+@kind("tasks", "Tasks", "name", "of", "title", "source")
+def _tasks(_):
+    for one in map(tasks.described, tasks.names()):
+        yield one.name, "each arm" if tasks.is_for_arms(one.name) else "no arm", one.title, one.source
+    for task in map(tasks.contact_task, tasks.contact_names()):
+        fitting = [name for name, arm in arms().items() if not isinstance(arm, BadArm) and can_do(task, arm)]
+        yield task.name, f"contact: {', '.join(fitting)}", task.title, task.source
 
 
-def _fitting(task) -> list[str]:
-    return [name for name, one in arms().items() if not isinstance(one, BadArm) and can_do(task, one)]
-
-
-def _arms(own):
-    return _table("Arms", ("name", "joints", "title", "source"), itertools.starmap(row_of_arm, arms().items()))
+@kind("arms", "Arms", "name", "joints", "title", "source")
+def _arms(_):
+    return itertools.starmap(row_of_arm, arms().items())
 
 
 def row_of_arm(name: str, one: Arm | BadArm) -> tuple:
@@ -139,77 +137,51 @@ def row_of_arm(name: str, one: Arm | BadArm) -> tuple:
     return name, one.joints, one.title, one.source
 
 
-def _variations(own):
-    rows = ((name, tasks.variation(name).title) for name in tasks.variation_names())
-    return _table("Variations of an arm's plant", ("name", "title"), rows)
+@kind("variations", "Variations of an arm's plant", "name", "title")
+def _variations(_):
+    return ((name, tasks.variation(name).title) for name in tasks.variation_names())
 
 
-def _axes(own):
-    def row(one):
-        levels = ", ".join(f"{level:g}" for level in one.levels)
-        return one.name, one.unit, levels, one.title
-
+@kind("axes", "Perturbations of the free body (--axis)", "name", "unit", "levels", "title")
+def _axes(_):
     every = map(tasks.axis, tasks.axis_names())
-    return _table("Perturbations of the free body (--axis)", ("name", "unit", "levels", "title"), map(row, every))
+    return ((one.name, one.unit, ", ".join(f"{level:g}" for level in one.levels), one.title) for one in every)
 
 
-def _starts(own):
-    rows = [
-        (name, plant, tasks.start_set_size(name, of_arms), tasks.start_set_title(name, of_arms))
-        for plant, of_arms in (("free body", False), ("each arm, at most", True))
-        for name in tasks.start_set_names(of_arms)
-    ]
-    return _table("Start sets", ("name", "of", "starts", "title"), rows)
+@kind("starts", "Start sets", "name", "of", "starts", "title")
+def _starts(_):
+    for plant, of_arms in (("free body", False), ("each arm, at most", True)):
+        for name in tasks.start_set_names(of_arms):
+            yield name, plant, tasks.start_set_size(name, of_arms), tasks.start_set_title(name, of_arms)
 
 
-def _engines(own):
+@kind("engines", "Engines", "name", "what it is")
+def _engines(_):
     from bench import engines
 
-    rows = (line.split(None, 1) for line in engines.__doc__.splitlines()[2:] if line.strip())
-    return _table("Engines", ("name", "what it is"), rows)
+    return (line.split(None, 1) for line in engines.__doc__.splitlines()[2:] if line.strip())
 
 
-def _suites(own):
+@kind("suites", "Suites", "name", "engines", "on each arm", "in contact", "robustness", "title")
+def _suites(_):
     from bench.experiments.suites import SUITES
 
-    def row(one):
+    for one in SUITES.values():
         words = len(one.on_arms.words)
         varied = ", and a study of model errors" if one.on_arms.varied else ""
         on_arms = f"{words} combinations{varied}" if words else f"every combination{varied}"
         in_contact = f"{len(one.in_contact.controllers) or 'all'} controllers"
         robustness = f"{one.robustness.starts} starts a level"
-        return one.name, len({part.engine for part in one.slices}), on_arms, in_contact, robustness, one.title
-
-    columns = ("name", "engines", "on each arm", "in contact", "robustness", "title")
-    return _table("Suites", columns, map(row, SUITES.values()))
+        yield one.name, len({part.engine for part in one.slices}), on_arms, in_contact, robustness, one.title
 
 
-def _experiments(own):
-    rows = ((one.name, f"{one.table.name}.parquet", one.title) for one in known_experiments().values())
-    return _table("Experiments", ("name", "table", "title"), rows)
+@kind("experiments", "Experiments", "name", "table", "title")
+def _experiments(_):
+    return ((one.name, f"{one.table.name}.parquet", one.title) for one in known_experiments().values())
 
 
-def _claims(own):
+@kind("claims", "Claims", "id", "section", "claim")
+def _claims(_):
     from bench.findings import claims
 
-    return _table("Claims", ("id", "section", "claim"), ((c.id, c.section, c.text) for c in claims.all_claims()))
-
-
-_TABLES = {
-    "regulators": _regulators,
-    "representations": _representations,
-    "jacobians": _jacobians,
-    "inverses": _inverses,
-    "controllers": _controllers,
-    "impedances": _impedances,
-    "metrics": _metrics,
-    "tasks": _tasks,
-    "arms": _arms,
-    "variations": _variations,
-    "axes": _axes,
-    "starts": _starts,
-    "engines": _engines,
-    "suites": _suites,
-    "experiments": _experiments,
-    "claims": _claims,
-}
+    return ((one.id, one.section, one.sentence) for one in claims.all_claims())

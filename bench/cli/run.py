@@ -136,12 +136,12 @@ def COMMAND(
         total = plan.episodes()
         steps.now("compiling the laws")
 
-        def told(one):
-            if left.pop(one.unit.key, None) is None:
+        def told(unit):
+            if left.pop(unit.key, None) is None:
                 return
             missing = sum(left.values())
             if missing:
-                steps.now(one.unit.label, total - missing, total)
+                steps.now(unit.label, total - missing, total)
             else:
                 steps.now(f"{counted(len(left), 'unit')} left" if left else "joining the tables")
 

@@ -5,7 +5,6 @@ import functools
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import NamedTuple
 
 from bench.experiments.choice import check_workers
 from bench.experiments.experiment import Unit, experiment_of
@@ -19,13 +18,6 @@ from bench.running.schedulers import threads
 from bench.running.schedulers.words import THREADS, check_scheduler, kind
 
 
-class Progress(NamedTuple):
-    """Told to the caller after every unit: the unit, and how many episodes of the whole it was."""
-
-    unit: Unit
-    episodes: int
-
-
 def run(
     plan: Plan,
     out: Path,
@@ -33,56 +25,41 @@ def run(
     workers: int = 2,
     scheduler: str = THREADS,
     replace: bool = False,
-    told: Callable[[Progress], None] = lambda _: None,
+    told: Callable[[Unit], None] = lambda _: None,
     law_limit_s: float | None = None,
 ) -> bool:
     """Carry out what is not done yet; whether there was anything to do.
 
     Args:
         workers: threads of this process. scheduler: who carries out the units (bench/running/schedulers/words.py).
-        law_limit_s: how long a unit of a user's law may take; None for the rule of `bench.running.sandbox`.
+        told: of every unit when it is done. law_limit_s: how long a unit of a user's law may take; None for the rule of
+            `bench.running.sandbox`.
     Errors:
         BadNumber: workers. BadResults: the folder cannot be used or written, or another run is at work there.
         MissingTool, LostWorkers: a cluster. KeyboardInterrupt: after what is finished is written.
     """
     check_workers(workers)
     check_scheduler(scheduler)
-    with held(Path(out)), Sandbox(plan, law_limit_s) as sandbox:
-        return _run(plan, Path(out), workers, scheduler, replace, told, sandbox)
-
-
-def _run(
-    plan: Plan,
-    out: Path,
-    workers: int,
-    scheduler: str,
-    replace: bool,
-    told: Callable[[Progress], None],
-    sandbox: Sandbox,
-) -> bool:
-    """The same in a folder that is held, with a sandbox of the user's laws."""
-    state = inspect(plan, out, replace)
-    if state.finished:
-        tidy(out)
-        return False
-    began = time.time()
-    sandbox.check()
-    todo = [unit for unit in in_running_order(plan.units) if unit.key not in state.done]
-
-    def done(unit: Unit) -> None:
-        told(Progress(unit, unit.episodes))
-
-    with _team(plan, todo, out, workers, scheduler, sandbox) as carry_out:
-        if state.done:
-            sweep(out)
-        else:
-            begin(plan, out)
-        for unit in plan.units:
-            if unit.key in state.done:
-                done(unit)
-        by = {"scheduler": kind(scheduler), "workers": carry_out(done)}
-    finish(plan, out, sandbox.notes, by, began, resumed=bool(state.done))
-    return True
+    out = Path(out)
+    with held(out), Sandbox(plan, law_limit_s) as sandbox:
+        state = inspect(plan, out, replace)
+        if state.finished:
+            tidy(out)
+            return False
+        began = time.time()
+        sandbox.check()
+        todo = [unit for unit in in_running_order(plan.units) if unit.key not in state.done]
+        with _team(plan, todo, out, workers, scheduler, sandbox) as carry_out:
+            if state.done:
+                sweep(out)
+            else:
+                begin(plan, out)
+            for unit in plan.units:
+                if unit.key in state.done:
+                    told(unit)
+            by = {"scheduler": kind(scheduler), "workers": carry_out(told)}
+        finish(plan, out, sandbox.notes, by, began, resumed=bool(state.done))
+        return True
 
 
 @contextlib.contextmanager

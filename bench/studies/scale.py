@@ -133,8 +133,8 @@ def killed() -> dict:
     found: dict[str, dict[str, str]] = {}
     victims: list[multiprocessing.process.BaseProcess] = []
 
-    def kill_at_half(progress):
-        told.append(progress.episodes)
+    def kill_at_half(unit):
+        told.append(unit.episodes)
         if sum(told) >= half and not victims:
             victims.append(multiprocessing.active_children()[0])
             victims[0].kill()

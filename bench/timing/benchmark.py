@@ -3,6 +3,10 @@
 from collections.abc import Callable
 from typing import NamedTuple
 
+import mujoco
+import numpy as np
+from mujoco.rollout import Rollout
+
 from bench.law.contender import Contender
 
 KERNEL, LAW, LOOP, ENGINE, THREADS = "reference-kernel", "law", "loop", "engine", "threads"
@@ -27,3 +31,19 @@ class Benchmark(NamedTuple):
         """A word for progress and for the passes."""
         parts = (self.what, self.arm, self.engine, self.contender.name if self.contender else "")
         return " ".join(part for part in parts if part)
+
+
+def open_loop(model, data, states: np.ndarray, control: np.ndarray, arm: str = "") -> Benchmark:
+    """mujoco.rollout over a model from states (qpos, qvel), with commands (starts, ticks, nu) drawn beforehand."""
+    count, ticks, _ = control.shape
+    width = mujoco.mj_stateSize(model, mujoco.mjtState.mjSTATE_FULLPHYSICS)
+    initial = np.zeros((count, width))
+    initial[:, 1 : 1 + states.shape[1]] = states  # time comes first
+    state, sensors = np.zeros((count, ticks, width)), np.zeros((count, ticks, model.nsensordata))
+    rollout = Rollout(nthread=0)  # no pool: everything happens on the calling thread, whose time is taken
+
+    def call():
+        rollout.rollout(model, data, initial, control, state=state, sensordata=sensors)
+
+    call()
+    return Benchmark(ENGINE, None, ROLLOUT, count * ticks, call, arm)

@@ -10,7 +10,6 @@ from typing import NamedTuple
 
 import mujoco
 import numpy as np
-from mujoco.rollout import Rollout
 
 import tasks
 from bench.engines.binding import command_of, memory_of
@@ -22,7 +21,7 @@ from bench.experiments.experiment import Settings
 from bench.law.contender import Contender, Gains
 from bench.metrics.registry import metrics_of
 from bench.timing import law, on_arms, reference_kernel
-from bench.timing.benchmark import ENGINE, KERNEL, LAW, LOOP, NEVER, ROLLOUT, Benchmark
+from bench.timing.benchmark import ENGINE, KERNEL, LAW, LOOP, NEVER, Benchmark, open_loop
 
 ENGINES = ("ideal-held", "ideal-rk4", "native")
 
@@ -129,16 +128,5 @@ def _simulation(starts):
 def _rollout() -> Benchmark:
     starts = tasks.start_set("uniform", STARTS["native"])
     model, data, states = _simulation(starts)
-    count, ticks = len(starts), _settings().ticks
-    width = mujoco.mj_stateSize(model, mujoco.mjtState.mjSTATE_FULLPHYSICS)
-    initial = np.zeros((count, width))
-    initial[:, 1 : 1 + states.shape[1]] = states  # time comes first
-    control = np.random.default_rng(0).normal(scale=PUSH, size=(count, ticks, model.nu))
-    state, sensors = np.zeros((count, ticks, width)), np.zeros((count, ticks, model.nsensordata))
-    rollout = Rollout(nthread=0)  # no pool: everything happens on the calling thread, whose time is taken
-
-    def call():
-        rollout.rollout(model, data, initial, control, state=state, sensordata=sensors)
-
-    call()
-    return Benchmark(ENGINE, None, ROLLOUT, count * ticks, call)
+    size = (len(starts), _settings().ticks, model.nu)
+    return open_loop(model, data, states, np.random.default_rng(0).normal(scale=PUSH, size=size))

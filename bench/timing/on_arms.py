@@ -6,7 +6,6 @@ outside what is timed. `rollout` is the same model, start and number of ticks in
 
 import mujoco
 import numpy as np
-from mujoco.rollout import Rollout
 
 import tasks
 from bench.contenders import combinations
@@ -20,7 +19,7 @@ from bench.experiments.suites import suite
 from bench.law.contender import PAPERS_GAINS, Contender
 from bench.metrics.registry import metrics_of
 from bench.timing import dm_control_loop
-from bench.timing.benchmark import DM_CONTROL, ENGINE, NEVER, ROLLOUT, Benchmark
+from bench.timing.benchmark import DM_CONTROL, ENGINE, NEVER, Benchmark, open_loop
 from tasks.base import Start
 
 TASK = "arm-regulation"
@@ -109,19 +108,8 @@ def rollout(arm: str) -> Benchmark:
     """mujoco.rollout on the arm's model, its torques drawn beforehand."""
     settings, start, rated = _settings(HORIZON_S), _start(arm), np.array(tasks.arm(arm).rated)
     model = mujoco.MjModel.from_xml_string(tasks.task(TASK, arm).xml(settings.dt_s))
-    data = mujoco.MjData(model)
-    width = mujoco.mj_stateSize(model, mujoco.mjtState.mjSTATE_FULLPHYSICS)
-    initial = np.zeros((1, width))
-    initial[0, 1 : 1 + 2 * model.nv] = (*start.q, *start.qdot)  # time comes first
     control = np.random.default_rng(0).normal(size=(1, settings.ticks, model.nu)) * (PUSH * rated)
-    state, sensors = np.zeros((1, settings.ticks, width)), np.zeros((1, settings.ticks, model.nsensordata))
-    loop = Rollout(nthread=0)
-
-    def call():
-        loop.rollout(model, data, initial, control, state=state, sensordata=sensors)
-
-    call()
-    return Benchmark(ENGINE, None, ROLLOUT, settings.ticks, call, arm)
+    return open_loop(model, mujoco.MjData(model), np.array([[*start.q, *start.qdot]]), control, arm)
 
 
 def dm_control(arm: str, one: Contender) -> Benchmark:

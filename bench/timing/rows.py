@@ -93,19 +93,9 @@ def _row(one: Benchmark, times: np.ndarray, kernel: np.ndarray, open_loop: Ratio
 
 
 def _threads_row(scaling: threads.Scaling) -> dict:
-    return {
-        "what": THREADS,
-        "arm": scaling.arm,
-        **contender_columns(scaling.contender),
-        "engine": "native",
-        "ns_per_tick": scaling.ns_per_tick,
-        "ns_reference_kernel": np.nan,
-        **_numbers("ratio", NO_RATIO),
-        **_numbers("ratio_rollout", NO_RATIO),
-        **_numbers("speedup", scaling.speedup),
-        "passes": scaling.repetitions,
-        "ticks": scaling.ticks,
-    }
+    one = Benchmark(THREADS, scaling.contender, "native", scaling.ticks, print, scaling.arm)
+    nothing, times = np.full(1, np.nan), np.full(1, scaling.ns_per_tick)
+    return _row(one, times, nothing, NO_RATIO, scaling.speedup, scaling.repetitions)
 
 
 def _numbers(name: str, of: Ratio) -> dict:

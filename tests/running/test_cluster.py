@@ -94,15 +94,15 @@ def test_worker_of_other_sources_is_refused(plan, client):
 def test_cluster_makes_the_bytes_that_threads_make_though_a_worker_is_killed(plan, client, by_threads, tmp_path):
     pids, told = client.run(os.getpid), []
 
-    def kill_one(progress):
+    def kill_one(unit):
         if not told:
             os.kill(next(iter(pids.values())), signal.SIGKILL)
-        told.append(progress)
+        told.append(unit)
 
     run.run(plan, tmp_path, scheduler=address(client), told=kill_one)
     assert len(by_threads) == 7
     assert tables(tmp_path) == by_threads
-    assert sorted(one.unit.key for one in told) == sorted(unit.key for unit in plan.units)
+    assert sorted(unit.key for unit in told) == sorted(unit.key for unit in plan.units)
     assert set(client.run(os.getpid).values()) != set(pids.values())
     said = read_json(tmp_path / "provenance.json")
     assert (said["scheduler"], said["workers"]) == ("tcp", 2)

@@ -124,8 +124,8 @@ def test_ctrl_c_keeps_whole_parts_and_no_other_file(interrupted):
 
 
 def test_stopped_run_in_contact_goes_on_and_ends_with_the_same_files(tmp_path, capsys):
-    def stop_after_two(done):
-        keys.append(done.unit.key)
+    def stop_after_two(unit):
+        keys.append(unit.key)
         if len(keys) == 2:
             raise KeyboardInterrupt
 

@@ -31,7 +31,7 @@ def vector(turn_set, size=lambda theta: theta):
 
 
 def judged(call, turn_set=SOME, takes=MATRIX, form="rotation-vector"):
-    return judge(Function("f", takes, form, call), turn_set)
+    return judge(Function("f", takes, call, form), turn_set)
 
 
 def failures(row):
@@ -169,7 +169,7 @@ def test_committed_answers_say_of_which_version_they_are():
 
 def line(call, takes=MATRIX, form="rotation-vector"):
     """A function of numpy's, as the page has it."""
-    library = Library("numpy", "numpy", (Function("f", takes, form, call),))
+    library = Library("numpy", "numpy", (Function("f", takes, call, form),))
     (found,) = answers.functions(rows(library, FEW)).to_dict("records")
     return found
 

@@ -68,14 +68,7 @@ def frame(settings: Settings, unit: Unit, contender: Contender, starts, numbers:
         **judged,
         "ticks": numbers[:, TICKS].astype(np.int64),
     }
-    endings = [
-        Ending(start, final, RULES.band_rad(start), outcome)
-        for start, final, outcome in zip(angle0, numbers[:, FINAL_ANGLE], judged["outcome"], strict=True)
-    ]
-    for column, metric in enumerate(metrics, start=FIRST_METRIC):
-        columns[metric.column] = [
-            metric.finish(value, ending) for value, ending in zip(numbers[:, column].tolist(), endings, strict=True)
-        ]
+    columns |= measured_columns(numbers, metrics, angle0, judged)
     seen = _seen_on_arm(unit.arm, numbers) if unit.arm else np.full(len(starts), np.nan)
     margins = columns["min_margin"]
     return pd.DataFrame(
@@ -115,6 +108,18 @@ def judged_columns(numbers: np.ndarray, dt_s: float) -> dict:
         "settling_time_s": _time(numbers[:, SETTLING_TICK], dt_s),
         "failure_time_s": _time(numbers[:, FAILURE_TICK], dt_s),
         "final_angle_rad": numbers[:, FINAL_ANGLE],
+    }
+
+
+def measured_columns(numbers: np.ndarray, metrics, angle0: list[float], judged: dict) -> dict:
+    """The columns of the metrics, each finished by how its episode began and ended."""
+    endings = [
+        Ending(start, final, RULES.band_rad(start), outcome)
+        for start, final, outcome in zip(angle0, judged["final_angle_rad"], judged["outcome"], strict=True)
+    ]
+    return {
+        metric.column: [metric.finish(value, ending) for value, ending in zip(column.tolist(), endings, strict=True)]
+        for metric, column in zip(metrics, numbers[:, FIRST_METRIC:].T, strict=False)
     }
 
 

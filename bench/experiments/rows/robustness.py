@@ -1,24 +1,19 @@
 """From numbers to rows: a law under a perturbation, as rows of robustness.parquet."""
 
-import math
-
 import numpy as np
 import pandas as pd
 
 import tasks
 from bench.engines import disturbed
-from bench.engines.episode import FAILURE_TICK, FINAL_ANGLE, FIRST_METRIC, NEVER, OUTCOME, SETTLING_TICK
 from bench.engines.episode import Settings as Limits
 from bench.experiments.experiment import Settings, Unit
-from bench.experiments.rows.episodes import lost
+from bench.experiments.rows.episodes import judged_columns, lost, measured_columns
 from bench.experiments.rows.equal_peak import gains_at
 from bench.law.contender import Contender, Gains
-from bench.metrics.metric import Ending
 from bench.metrics.registry import metrics_of
 from tasks.condition import Condition
 from tasks.rules import RULES
 from tasks.truth import angle
-from tasks.verdict import OUTCOMES
 
 
 def frame(settings: Settings, unit: Unit, simulate) -> pd.DataFrame:
@@ -65,16 +60,8 @@ def _rows(one: Contender, starts, condition: Condition, limits: Limits, seed: in
     numbers = simulate(one, starts, condition, limits, metrics, seed)
     step_s = condition.period_s / disturbed.steps_of(condition)
     angle0 = [angle(start.quat_wxyz, start.goal_wxyz) for start in starts]
-    outcomes = [OUTCOMES[int(code)] for code in numbers[:, OUTCOME]]
-    finals = numbers[:, FINAL_ANGLE]
-    endings = [
-        Ending(first, last, RULES.band_rad(first), outcome)
-        for first, last, outcome in zip(angle0, finals, outcomes, strict=True)
-    ]
-    measured = {
-        metric.column: [metric.finish(value, ending) for value, ending in zip(column.tolist(), endings, strict=True)]
-        for metric, column in zip(metrics, numbers[:, FIRST_METRIC:].T, strict=False)
-    }
+    judged = judged_columns(numbers, step_s)
+    finals = judged["final_angle_rad"]
     extra = numbers[:, -disturbed.EXTRA :]
     tail = extra[:, disturbed.TAIL_COUNT]
     has_tail = tail > 0
@@ -86,16 +73,9 @@ def _rows(one: Contender, starts, condition: Condition, limits: Limits, seed: in
         "kv": limits.gains.kv,
         "dt_s": condition.period_s,
         "horizon_s": limits.ticks * limits.dt_s,
-        "outcome": outcomes,
-        "settling_time_s": _time(numbers[:, SETTLING_TICK], step_s),
-        "failure_time_s": _time(numbers[:, FAILURE_TICK], step_s),
-        "final_angle_rad": finals,
-        **measured,
+        **judged,
+        **measured_columns(numbers, metrics, angle0, judged),
         "tail_rms_rad": np.where(has_tail, rms, finals),
         "tail_max_rad": np.where(has_tail, extra[:, disturbed.TAIL_WORST], finals),
         "variation": extra[:, disturbed.VARIATION],
     }
-
-
-def _time(ticks: np.ndarray, step_s: float) -> np.ndarray:
-    return np.where(ticks == NEVER, math.nan, ticks * step_s)

@@ -61,11 +61,6 @@ class Claim(NamedTuple):
     readings: tuple[str, ...] = ()
     judge: Callable | None = None
 
-    @property
-    def text(self) -> str:
-        """The sentence, as lists of things call it."""
-        return self.sentence
-
 
 def claim(
     *, id: str, section: str, sentence: str, question: str, criterion: str, open: str = "", readings: tuple = ()

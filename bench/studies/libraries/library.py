@@ -20,8 +20,8 @@ class Function(NamedTuple):
 
     name: str
     takes: str
-    form: str
     call: Callable
+    form: str = "rotation-vector"
 
 
 class Library(NamedTuple):

@@ -11,19 +11,13 @@ LIBRARY = Library(
     "dm_control",
     "dm-control",
     (
-        Function("quat_to_axisangle", QUATERNION, "rotation-vector", transformations.quat_to_axisangle),
-        Function(
-            "2 quat_log, vector part",
-            QUATERNION,
-            "rotation-vector",
-            lambda q: 2.0 * transformations.quat_log(q)[1:],
-        ),
+        Function("quat_to_axisangle", QUATERNION, transformations.quat_to_axisangle),
+        Function("2 quat_log, vector part", QUATERNION, lambda q: 2.0 * transformations.quat_log(q)[1:]),
         Function(
             "mat_to_quat, quat_to_axisangle",
             MATRIX,
-            "rotation-vector",
             lambda R: transformations.quat_to_axisangle(transformations.mat_to_quat(R)),
         ),
-        Function('rmat_to_euler("ZYX")', MATRIX, "z-y-x", lambda R: transformations.rmat_to_euler(R, "ZYX")[::-1]),
+        Function('rmat_to_euler("ZYX")', MATRIX, lambda R: transformations.rmat_to_euler(R, "ZYX")[::-1], "z-y-x"),
     ),
 )

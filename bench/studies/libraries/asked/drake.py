@@ -21,16 +21,14 @@ LIBRARY = Library(
     "drake",
     "drake",
     (
-        Function(
-            "RotationMatrix.ToAngleAxis", MATRIX, "rotation-vector", lambda R: vector(RotationMatrix(R).ToAngleAxis())
-        ),
-        Function("AngleAxis, of a quaternion", QUATERNION, "rotation-vector", lambda q: vector(AngleAxis(unit(q)))),
+        Function("RotationMatrix.ToAngleAxis", MATRIX, lambda R: vector(RotationMatrix(R).ToAngleAxis())),
+        Function("AngleAxis, of a quaternion", QUATERNION, lambda q: vector(AngleAxis(unit(q)))),
         Function(
             "2 RotationMatrix.ToQuaternion, vector part",
             MATRIX,
-            "sine-of-half",
             lambda R: 2.0 * RotationMatrix(R).ToQuaternion().xyz(),
+            "sine-of-half",
         ),
-        Function("RollPitchYaw", MATRIX, "z-y-x", lambda R: RollPitchYaw(RotationMatrix(R)).vector()),
+        Function("RollPitchYaw", MATRIX, lambda R: RollPitchYaw(RotationMatrix(R)).vector(), "z-y-x"),
     ),
 )

@@ -16,14 +16,9 @@ LIBRARY = Library(
     "gtsam",
     "gtsam",
     (
-        Function("Rot3.Logmap", MATRIX, "rotation-vector", lambda R: gtsam.Rot3.Logmap(gtsam.Rot3(R))),
-        Function("Rot3.axisAngle", MATRIX, "rotation-vector", axis_angle),
-        Function(
-            "Rot3.Logmap, of a quaternion",
-            QUATERNION,
-            "rotation-vector",
-            lambda q: gtsam.Rot3.Logmap(gtsam.Rot3.Quaternion(*q)),
-        ),
-        Function("Rot3.rpy", MATRIX, "z-y-x", lambda R: gtsam.Rot3(R).rpy()),
+        Function("Rot3.Logmap", MATRIX, lambda R: gtsam.Rot3.Logmap(gtsam.Rot3(R))),
+        Function("Rot3.axisAngle", MATRIX, axis_angle),
+        Function("Rot3.Logmap, of a quaternion", QUATERNION, lambda q: gtsam.Rot3.Logmap(gtsam.Rot3.Quaternion(*q))),
+        Function("Rot3.rpy", MATRIX, lambda R: gtsam.Rot3(R).rpy(), "z-y-x"),
     ),
 )

@@ -40,9 +40,9 @@ LIBRARY = Library(
     "mink",
     "mink",
     (
-        Function("SO3.log (Python)", QUATERNION, "rotation-vector", python_log),
-        Function("se3_log (compiled)", QUATERNION, "rotation-vector", compiled_log),
-        Function("se3_log (compiled), of a matrix", MATRIX, "rotation-vector", compiled_log_of_matrix),
-        Function("FrameTask.compute_error", QUATERNION, "rotation-vector", frame_task),
+        Function("SO3.log (Python)", QUATERNION, python_log),
+        Function("se3_log (compiled)", QUATERNION, compiled_log),
+        Function("se3_log (compiled), of a matrix", MATRIX, compiled_log_of_matrix),
+        Function("FrameTask.compute_error", QUATERNION, frame_task),
     ),
 )

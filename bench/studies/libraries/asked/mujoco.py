@@ -71,11 +71,11 @@ LIBRARY = Library(
     "mujoco",
     "mujoco",
     (
-        Function("mju_subQuat", QUATERNION, "rotation-vector", sub_quat),
-        Function("mju_quat2Vel", QUATERNION, "rotation-vector", quat_to_vel),
-        Function("mju_mat2Quat, mju_quat2Vel", MATRIX, "rotation-vector", mat_to_vel),
-        Function("2 mju_mat2Quat, vector part", MATRIX, "sine-of-half", mat_to_quat),
-        Function("<orientation> actuator", QUATERNION, "rotation-vector", orientation_actuator),
-        Function("weld, pull", QUATERNION, "sine", weld_pull),
+        Function("mju_subQuat", QUATERNION, sub_quat),
+        Function("mju_quat2Vel", QUATERNION, quat_to_vel),
+        Function("mju_mat2Quat, mju_quat2Vel", MATRIX, mat_to_vel),
+        Function("2 mju_mat2Quat, vector part", MATRIX, mat_to_quat, "sine-of-half"),
+        Function("<orientation> actuator", QUATERNION, orientation_actuator),
+        Function("weld, pull", QUATERNION, weld_pull, "sine"),
     ),
 )

@@ -8,16 +8,10 @@ LIBRARY = Library(
     "numpy-quaternion",
     "numpy-quaternion",
     (
-        Function(
-            "as_rotation_vector",
-            QUATERNION,
-            "rotation-vector",
-            lambda q: quaternion.as_rotation_vector(quaternion.quaternion(*q)),
-        ),
+        Function("as_rotation_vector", QUATERNION, lambda q: quaternion.as_rotation_vector(quaternion.quaternion(*q))),
         Function(
             "from_rotation_matrix, as_rotation_vector",
             MATRIX,
-            "rotation-vector",
             lambda R: quaternion.as_rotation_vector(quaternion.from_rotation_matrix(R)),
         ),
     ),

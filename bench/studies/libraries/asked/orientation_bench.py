@@ -18,7 +18,7 @@ def law(word, form) -> Function:
         u = one.law(IDENTITY, AT_REST, Goal(Rotation(*map(tuple, R.T))), GAINS)
         return np.array(u)
 
-    return Function(word, MATRIX, form, error)
+    return Function(word, MATRIX, error, form)
 
 
 LIBRARY = Library(

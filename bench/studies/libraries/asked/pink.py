@@ -25,6 +25,4 @@ def frame_task(R) -> np.ndarray:
     return task.compute_error(BODY)[3:]
 
 
-LIBRARY = Library(
-    "pink", "pin-pink", (Function("FrameTask.compute_error", MATRIX, "rotation-vector", frame_task),)
-)
+LIBRARY = Library("pink", "pin-pink", (Function("FrameTask.compute_error", MATRIX, frame_task),))

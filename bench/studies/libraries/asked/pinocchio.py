@@ -26,10 +26,10 @@ LIBRARY = Library(
     "pinocchio",
     "pin",
     (
-        Function("log3, of a matrix", MATRIX, "rotation-vector", pinocchio.log3),
-        Function("log3, of a quaternion", QUATERNION, "rotation-vector", log3_of_quaternion),
-        Function("log6, angular part", MATRIX, "rotation-vector", log6),
-        Function("AngleAxis (Eigen)", MATRIX, "rotation-vector", angle_axis),
-        Function("rpy.matrixToRpy", MATRIX, "z-y-x", pinocchio.rpy.matrixToRpy),
+        Function("log3, of a matrix", MATRIX, pinocchio.log3),
+        Function("log3, of a quaternion", QUATERNION, log3_of_quaternion),
+        Function("log6, angular part", MATRIX, log6),
+        Function("AngleAxis (Eigen)", MATRIX, angle_axis),
+        Function("rpy.matrixToRpy", MATRIX, pinocchio.rpy.matrixToRpy, "z-y-x"),
     ),
 )

@@ -20,8 +20,8 @@ LIBRARY = Library(
     "pyquaternion",
     "pyquaternion",
     (
-        Function("angle, axis", QUATERNION, "rotation-vector", lambda q: vector(Quaternion(*q))),
-        Function("angle, axis, of a matrix", MATRIX, "rotation-vector", lambda R: vector(Quaternion(matrix=R))),
-        Function("2 log, vector part", QUATERNION, "rotation-vector", logarithm),
+        Function("angle, axis", QUATERNION, lambda q: vector(Quaternion(*q))),
+        Function("angle, axis, of a matrix", MATRIX, lambda R: vector(Quaternion(matrix=R))),
+        Function("2 log, vector part", QUATERNION, logarithm),
     ),
 )

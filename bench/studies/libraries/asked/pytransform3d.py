@@ -16,13 +16,8 @@ LIBRARY = Library(
     "pytransform3d",
     "pytransform3d",
     (
-        Function("axis_angle_from_matrix", MATRIX, "rotation-vector", of_matrix),
-        Function(
-            "compact_axis_angle_from_quaternion",
-            QUATERNION,
-            "rotation-vector",
-            rotations.compact_axis_angle_from_quaternion,
-        ),
-        Function("4 mrp_from_quaternion", QUATERNION, "mrp", lambda q: 4.0 * rotations.mrp_from_quaternion(q)),
+        Function("axis_angle_from_matrix", MATRIX, of_matrix),
+        Function("compact_axis_angle_from_quaternion", QUATERNION, rotations.compact_axis_angle_from_quaternion),
+        Function("4 mrp_from_quaternion", QUATERNION, lambda q: 4.0 * rotations.mrp_from_quaternion(q), "mrp"),
     ),
 )

@@ -24,8 +24,8 @@ LIBRARY = Library(
     "robosuite",
     "robosuite",
     (
-        Function("orientation_error", MATRIX, "sine", lambda R: orientation_error(R, np.eye(3))),
-        Function("quat2axisangle", QUATERNION, "rotation-vector", axis_angle),
-        Function("mat2quat, quat2axisangle", MATRIX, "rotation-vector", matrix_to_axis_angle),
+        Function("orientation_error", MATRIX, lambda R: orientation_error(R, np.eye(3)), "sine"),
+        Function("quat2axisangle", QUATERNION, axis_angle),
+        Function("mat2quat, quat2axisangle", MATRIX, matrix_to_axis_angle),
     ),
 )

@@ -20,10 +20,8 @@ LIBRARY = Library(
     "roboticstoolbox",
     "roboticstoolbox-python",
     (
-        Function(
-            "angle_axis", MATRIX, "rotation-vector", lambda R: roboticstoolbox.angle_axis(np.eye(4), base.r2t(R))[3:]
-        ),
-        Function('p_servo(method="angle-axis")', MATRIX, "rotation-vector", p_servo("angle-axis")),
-        Function("p_servo, by default", MATRIX, "z-y-x", p_servo("rpy")),
+        Function("angle_axis", MATRIX, lambda R: roboticstoolbox.angle_axis(np.eye(4), base.r2t(R))[3:]),
+        Function('p_servo(method="angle-axis")', MATRIX, p_servo("angle-axis")),
+        Function("p_servo, by default", MATRIX, p_servo("rpy"), "z-y-x"),
     ),
 )

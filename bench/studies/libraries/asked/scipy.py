@@ -19,10 +19,10 @@ LIBRARY = Library(
     "scipy",
     "scipy",
     (
-        Function("as_rotvec, of a matrix", MATRIX, "rotation-vector", lambda R: of_matrix(R).as_rotvec()),
-        Function("as_rotvec, of a quaternion", QUATERNION, "rotation-vector", lambda q: of_quaternion(q).as_rotvec()),
-        Function("2 as_quat, vector part", MATRIX, "sine-of-half", lambda R: 2.0 * of_matrix(R).as_quat()[:3]),
-        Function("4 as_mrp", MATRIX, "mrp", lambda R: 4.0 * of_matrix(R).as_mrp()),
-        Function('as_euler("ZYX")', MATRIX, "z-y-x", lambda R: of_matrix(R).as_euler("ZYX")[::-1]),
+        Function("as_rotvec, of a matrix", MATRIX, lambda R: of_matrix(R).as_rotvec()),
+        Function("as_rotvec, of a quaternion", QUATERNION, lambda q: of_quaternion(q).as_rotvec()),
+        Function("2 as_quat, vector part", MATRIX, lambda R: 2.0 * of_matrix(R).as_quat()[:3], "sine-of-half"),
+        Function("4 as_mrp", MATRIX, lambda R: 4.0 * of_matrix(R).as_mrp(), "mrp"),
+        Function('as_euler("ZYX")', MATRIX, lambda R: of_matrix(R).as_euler("ZYX")[::-1], "z-y-x"),
     ),
 )

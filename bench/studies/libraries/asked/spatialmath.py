@@ -21,10 +21,10 @@ LIBRARY = Library(
     "spatialmath",
     "spatialmath-python",
     (
-        Function("base.trlog", MATRIX, "rotation-vector", lambda R: base.trlog(R, twist=True)),
-        Function("SO3.angvec", MATRIX, "rotation-vector", lambda R: angvec(SO3(R))),
-        Function("UnitQuaternion.angvec", QUATERNION, "rotation-vector", lambda q: angvec(UnitQuaternion(q))),
-        Function("base.tr2delta", MATRIX, "sine", tr2delta),
-        Function('base.tr2rpy(order="zyx")', MATRIX, "z-y-x", lambda R: base.tr2rpy(R, order="zyx")),
+        Function("base.trlog", MATRIX, lambda R: base.trlog(R, twist=True)),
+        Function("SO3.angvec", MATRIX, lambda R: angvec(SO3(R))),
+        Function("UnitQuaternion.angvec", QUATERNION, lambda q: angvec(UnitQuaternion(q))),
+        Function("base.tr2delta", MATRIX, tr2delta, "sine"),
+        Function('base.tr2rpy(order="zyx")', MATRIX, lambda R: base.tr2rpy(R, order="zyx"), "z-y-x"),
     ),
 )

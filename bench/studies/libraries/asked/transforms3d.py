@@ -16,14 +16,9 @@ LIBRARY = Library(
     "transforms3d",
     "transforms3d",
     (
-        Function("mat2axangle", MATRIX, "rotation-vector", lambda R: vector(axangles.mat2axangle(R))),
-        Function("quat2axangle", QUATERNION, "rotation-vector", lambda q: vector(quaternions.quat2axangle(q))),
-        Function(
-            "mat2quat, quat2axangle",
-            MATRIX,
-            "rotation-vector",
-            lambda R: vector(quaternions.quat2axangle(quaternions.mat2quat(R))),
-        ),
-        Function("mat2euler", MATRIX, "z-y-x", lambda R: np.array(euler.mat2euler(R, "sxyz"))),
+        Function("mat2axangle", MATRIX, lambda R: vector(axangles.mat2axangle(R))),
+        Function("quat2axangle", QUATERNION, lambda q: vector(quaternions.quat2axangle(q))),
+        Function("mat2quat, quat2axangle", MATRIX, lambda R: vector(quaternions.quat2axangle(quaternions.mat2quat(R)))),
+        Function("mat2euler", MATRIX, lambda R: np.array(euler.mat2euler(R, "sxyz")), "z-y-x"),
     ),
 )
