@@ -28,6 +28,10 @@ SETTLED_SHARE, SLOW, DEAR = 0.999, 2.0, 2.0
 EXACT_RAD = 1e-13
 """As in feedback_linearized: between the nearest near start (1e-12 rad) and rounding."""
 
+DETOUR = 1.5
+"""Path over shortest path from which a start at rest counts as unwinding: halfway to a full turn from a half turn is
+3/2, and no spring that pulls towards the goal goes so far."""
+
 NOISE = "half-turn-noise"
 
 
@@ -122,3 +126,30 @@ def tallied(rows: pd.DataFrame, with_goal: bool) -> tuple[int, int]:
     if with_goal:
         return flops, calls
     return flops - int(goal["flops"]), calls - int(sum(goal[name] for name in CALLS))
+
+
+TESTS = "abcdefgh"
+"""The criterion's, in its order."""
+
+BOTH = "abcd"
+"""What C17 asks."""
+
+
+def missed(one: Adequacy, cheapest: dict[float, float], small_s: float, held: dict[str, tuple[int, int]]) -> str:
+    """The tests of the criterion that a law does not pass; (f) is among them if it was not tried.
+
+    Args:
+        cheapest: price of a call -> cost of the cheapest of the paper's three. held: of `adequacy.held`.
+    """
+    within = {price: one.cost(price) <= DEAR * least for price, least in cheapest.items()}
+    passed = {
+        "a": one.settled >= SETTLED_SHARE,
+        "b": not one.lost,
+        "c": one.slowest_s <= SLOW * small_s,
+        "d": within[CALL_PRICE],
+        "e": not one.lost_exact,
+        "f": held.get(one.name, (1, 0))[0] == 0,
+        "g": one.detour < DETOUR,
+        "h": all(within.values()),
+    }
+    return "".join(test for test in TESTS if not passed[test])

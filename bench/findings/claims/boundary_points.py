@@ -8,7 +8,7 @@ from bench.contenders.registry import representation
 from bench.findings.claims import probes
 from bench.findings.claims.feedback_linearized import EXACT_RAD, LAW
 from bench.findings.claims.tables import MAIN_ENGINE, evidence, on_every_engine, settled, some
-from bench.findings.claims.verdict import Word, claim, word_of
+from bench.findings.claims.verdict import claim, word_of
 from bench.law.contender import AT_REST, Gains
 
 CONTENDER = f"{LAW}/zyx-euler"
@@ -145,8 +145,8 @@ def c11(results, engine):
     passed = {margin: int((~settled(one) | (one["peak_u"] > limit)).sum()) for margin, one in beside.items()}
     tumbling_too = [margin for margin in at_rest if not counts[margin][1]]
     all_three = [margin for margin in tumbling_too if not passed[margin]]
-    as_first_fixed = _word(at_rest, tumbling_too)
-    word = _word(at_rest, all_three)
+    as_first_fixed = word_of(tumbling_too, at_rest)
+    word = word_of(all_three, at_rest)
     widest = MARGINS_RAD[-1]
     clear = frame[spins & (frame["min_margin"] > math.sin(widest))]
     still = ", ".join(str(rest) for rest, _ in counts.values())
@@ -163,8 +163,3 @@ def c11(results, engine):
         len(frame) + sum(len(one) for one in beside.values()),
         ("episodes", "experiment"),
     )
-
-
-def _word(at_rest: list[float], spinning_too: list[float]) -> Word:
-    """The verdict from the margins that assure bodies at rest, and those that assure spinning ones as well."""
-    return word_of(spinning_too, at_rest)

@@ -98,7 +98,7 @@ def c20(results):
     first_order = all(HALVING[0] <= one.share <= HALVING[1] for one in bends.values())
     linear = first_order and limit <= BEND_TIGHT and drift <= DRIFT_M
     fails = all(rows["fails"].any() for rows in compared_at.values()) and not clear["fails"].any()
-    hides = all(one.hides for one in hidden)
+    hides = all(is_hidden for is_hidden, _ in hidden)
     word = word_of(linear and fails and hides, limit <= BEND_LOOSE and (fails or hides))
     at_poles = ", ".join(f"{rows['fails'].sum()} of {len(rows)} ({arm})" for arm, rows in compared_at.items())
     return word, evidence(
@@ -107,7 +107,7 @@ def c20(results):
         {min(one.share for one in bends.values()):.3f} to {max(one.share for one in bends.values()):.3f} of that at half
         of it, and {limit:.1e} rad at step zero; the tool moves {drift:.1e} m. At a pole it fails, and the law on R does
         not, from {at_poles}; from {int(clear["fails"].sum())} of {len(clear)} clear starts (by the same law on the
-        common Jacobian: {int(common["fails"].sum())}). {" ".join(one.said for one in hidden)}""",
+        common Jacobian: {int(common["fails"].sum())}). {" ".join(said for _, said in hidden)}""",
         sum(one.samples for one in bends.values()) + sum(map(len, compared_at.values())) + len(clear) + 3 * len(hidden),
         ("episodes", "poses", "costs", "experiment"),
     )
@@ -151,14 +151,8 @@ def _at_poles(results, found: pd.DataFrame, poses: pd.DataFrame, arm: str, gains
     return pd.concat([_pairs(found, arm, "pole"), _against(*beside)], ignore_index=True)
 
 
-class Hidden(NamedTuple):
+def _hidden(results, joints: int) -> tuple[bool, str]:
     """Whether the law seems cheaper and the controller is dearer, and the numbers in a sentence."""
-
-    hides: bool
-    said: str
-
-
-def _hidden(results, joints: int) -> Hidden:
     rows = {one: controller_costs(results, one, joints) for one in (BY_EULER, BY_COMMON, ON_MATRIX)}
     laws = {one: own[own["stage"] == "regulate"].iloc[0] for one, own in rows.items()}
     seen = {one: (int(law["flops"]), int(sum(law[name] for name in CALLS))) for one, law in laws.items()}
@@ -170,4 +164,4 @@ def _hidden(results, joints: int) -> Hidden:
         f"{name} {seen[one][0]} flops of {total[one][0]} and {total[one][1]} calls"
         for name, one in (("(3.7)", BY_EULER), ("(2.2) with the law on R", ON_MATRIX), ("(2.2) with (2.15)", BY_COMMON))
     )
-    return Hidden(seems_cheaper and is_dearer, f"On {joints} joints the law itself is {told}.")
+    return seems_cheaper and is_dearer, f"On {joints} joints the law itself is {told}."

@@ -3,7 +3,7 @@
 import numpy as np
 
 from bench.findings.claims import adequacy, costs
-from bench.findings.claims.adequacy import CALL_PRICE, CALL_PRICES, DEAR, PAPERS, SETTLED_SHARE, SLOW, Adequacy
+from bench.findings.claims.adequacy import CALL_PRICE, CALL_PRICES, DEAR, DETOUR, PAPERS, SETTLED_SHARE, SLOW, Adequacy
 from bench.findings.claims.tables import evidence, on_every_engine
 from bench.findings.claims.verdict import NoEvidence, Word, claim
 from bench.findings.theory import closed_form
@@ -11,36 +11,6 @@ from bench.findings.theory import closed_form
 HELD_RAD = 0.1
 """Greatest worst-case noise near the half turn that must not hold a law there: six degrees, which no sensor of
 orientation in use exceeds by much, and far less than any law's memory could bridge."""
-
-DETOUR = 1.5
-"""Path over shortest path from which a start at rest counts as unwinding: halfway to a full turn from a half turn is
-3/2, and no spring that pulls towards the goal goes so far."""
-
-TESTS = "abcdefgh"
-"""The criterion's, in its order."""
-
-BOTH = "abcd"
-"""What C17 asks."""
-
-
-def missed(one: Adequacy, cheapest: dict[float, float], small_s: float, held: dict[str, tuple[int, int]]) -> str:
-    """The tests of the criterion that a law does not pass; (f) is among them if it was not tried.
-
-    Args:
-        cheapest: price of a call -> cost of the cheapest of the paper's three. held: of `adequacy.held`.
-    """
-    within = {price: one.cost(price) <= DEAR * least for price, least in cheapest.items()}
-    passed = {
-        "a": one.settled >= SETTLED_SHARE,
-        "b": not one.lost,
-        "c": one.slowest_s <= SLOW * small_s,
-        "d": within[CALL_PRICE],
-        "e": not one.lost_exact,
-        "f": held.get(one.name, (1, 0))[0] == 0,
-        "g": one.detour < DETOUR,
-        "h": all(within.values()),
-    }
-    return "".join(test for test in TESTS if not passed[test])
 
 
 @claim(
@@ -84,11 +54,11 @@ def c27(results, engine):
             "narrowing it"
         )
     small = closed_form.linear_settling(*results.gains())
-    cheapest = cheapest_of_the_papers(results)
-    lacks = {one.name: missed(one, cheapest, small, held) for one in later}
-    adequate = [one for one in later if not set(lacks[one.name]) & set(BOTH)]
+    cheapest = costs.cheapest_of_the_papers(results)
+    lacks = {one.name: adequacy.missed(one, cheapest, small, held) for one in later}
+    adequate = [one for one in later if not set(lacks[one.name]) & set(adequacy.BOTH)]
     answers = [one for one in adequate if not lacks[one.name]]
-    nearly = [one for one in adequate if lacks[one.name] == TESTS[-1]]
+    nearly = [one for one in adequate if lacks[one.name] == adequacy.TESTS[-1]]
     word = Word.FAILS if answers else Word.CORRECTED if adequate else Word.HOLDS
     parts = {
         "adequate": ", ".join(one.name for one in adequate) or "none",
@@ -107,16 +77,10 @@ def c27(results, engine):
     )
 
 
-def cheapest_of_the_papers(results, prices=(CALL_PRICE, *CALL_PRICES)) -> dict[float, float]:
-    """Price of a call -> cost of the cheapest of the paper's three."""
-    spent = [costs.costs(results, law, with_goal=False) for law in costs.LAWS]
-    return {price: min(flops + price * calls for flops, calls in spent) for price in prices}
-
-
 def least_price(one: Adequacy, results) -> float:
     """Price of a call, to a hundredth of a flop, from which on a law is no dearer than is adequate; inf: none."""
     prices = np.linspace(*CALL_PRICES, 1901)
-    least = cheapest_of_the_papers(results, prices)
+    least = costs.cheapest_of_the_papers(results, prices)
     dear = [price for price in prices if one.cost(price) > DEAR * least[price]]
     if not dear:
         return CALL_PRICES[0]

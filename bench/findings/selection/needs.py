@@ -11,8 +11,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import NamedTuple
 
-from bench.findings.claims.adequacy import SETTLED_SHARE
-from bench.findings.claims.later import DETOUR, HELD_RAD
+from bench.findings.claims.adequacy import DETOUR, SETTLED_SHARE
+from bench.findings.claims.later import HELD_RAD
 from bench.findings.selection import criteria
 from bench.findings.selection.measured import Measured, measured
 from bench.tables.statistics import Estimate
