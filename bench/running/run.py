@@ -3,14 +3,13 @@
 import contextlib
 import functools
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 
 from bench.experiments.choice import check_workers
 from bench.experiments.experiment import Unit, experiment_of
 from bench.experiments.plan import Plan
 from bench.running.finish import finish
-from bench.running.order import in_running_order
 from bench.running.precompile import compiling_ahead
 from bench.running.run_folder import begin, held, inspect, sweep, tidy
 from bench.running.sandbox import Sandbox
@@ -88,3 +87,16 @@ def _team(
 def _ours(todo: list[Unit], sandbox: Sandbox) -> Iterator[str]:
     """Contenders that a user's laws have no part in, in the order in which they run."""
     return (unit.contender for unit in todo if experiment_of(unit).compiles and not sandbox.has(unit))
+
+
+def in_running_order(units: Iterable[Unit]) -> list[Unit]:
+    """Contender by contender; the first unit of each before the rest of the one before it; what compiles nothing last.
+
+    A contender is compiled when its first unit runs, by one thread at a time: so the others have something to run.
+    """
+    units = list(units)
+    compiling = [unit for unit in units if experiment_of(unit).compiles]
+    place = {name: i for i, name in enumerate(dict.fromkeys(unit.contender for unit in compiling))}
+    heads = set({unit.contender: unit for unit in reversed(compiling)}.values())
+    ordered = sorted(compiling, key=lambda unit: (place[unit.contender] - (unit in heads), unit not in heads))
+    return ordered + [unit for unit in units if not experiment_of(unit).compiles]

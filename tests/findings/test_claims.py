@@ -10,7 +10,7 @@ from support.tables import changed, decided, judged
 
 from bench.contenders.registry import representation
 from bench.findings import claims
-from bench.findings.claims import coordinates, probes
+from bench.findings.claims import probes, representations
 from bench.findings.claims.errata import ERRATA
 from bench.findings.claims.tables import Results, share
 from bench.findings.claims.verdict import Claim, Evidence, NoEvidence, Word, claim, decide
@@ -89,7 +89,7 @@ def test_verdict_on_no_rows_is_an_error():
 
 
 def beside(frame):
-    """A table with rows that no claim of chapter 2 is about: the same laws on an arm, and in other coordinates."""
+    """A table with rows that no claim of chapter 2 is about: the same laws on an arm, and in other representations."""
     spoilt = frame.assign(regulator=frame["regulator"].astype(str), representation=frame["representation"].astype(str))
     for name, value in (("outcome", "diverged"), ("flops", 0), ("atan2", 0), ("time_s", 1e3), ("fails_from_rad", 0.1)):
         if name in frame:
@@ -190,21 +190,21 @@ def test_condition_of_the_rotation_vector_is_that_of_the_left_jacobian():
     angle = math.hypot(*E)
     R = representation("rotation-vector").to_matrix(E)
     expected = angle / (2 * math.sin(angle / 2))
-    assert coordinates.condition_in("rotation-vector", R) == pytest.approx(expected, rel=1e-12)
+    assert representations.condition_in("rotation-vector", R) == pytest.approx(expected, rel=1e-12)
 
 
 def test_condition_of_zyz_is_that_of_its_middle_angle():
     # B^T B has eigenvalues 1, 1 + cos(beta), 1 - cos(beta)
     expected = math.sqrt((1 + math.cos(0.3)) / (1 - math.cos(0.3)))
     R = representation("zyz-euler").to_matrix((0.4, 0.3, -0.9))
-    assert coordinates.condition_in("zyz-euler", R) == pytest.approx(expected, rel=1e-12)
+    assert representations.condition_in("zyz-euler", R) == pytest.approx(expected, rel=1e-12)
 
 
 def test_condition_of_angle_and_axis_is_that_of_its_half_angle():
     # columns of length 1, 2 sin(angle / 2) and that times sin(polar angle), orthogonal
     angle, polar = 0.3, 0.7
     expected = 1.0 / (2 * math.sin(angle / 2) * math.sin(polar))
-    found = coordinates.condition_of_angle_and_axis(np.array((angle, polar, -0.9)))
+    found = representations.condition_of_angle_and_axis(np.array((angle, polar, -0.9)))
     assert found == pytest.approx(expected, rel=1e-12)
 
 

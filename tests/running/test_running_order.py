@@ -2,7 +2,7 @@
 
 from bench.contenders.registry import find_contender
 from bench.experiments import plan as planning
-from bench.running.order import in_running_order
+from bench.running.run import in_running_order
 
 
 def test_first_unit_of_each_contender_runs_before_the_rest_of_the_one_before_it():

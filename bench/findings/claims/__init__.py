@@ -14,8 +14,7 @@ One file for each part of the paper; a claim is found by being in one of them.
     euler_controller.py      C20
     controller_costs.py      C26
     force_conversion.py      C21
-    compliance.py            C22, C23
-    zyz_compliance.py        C24
+    compliance.py            C22 to C24
     contact.py               C25
     later.py                 C27
     adequacy.py              every law by the tests of C17 and C27
@@ -23,7 +22,6 @@ One file for each part of the paper; a claim is found by being in one of them.
     probes.py                the small experiments of claims that no table answers
     arm_probes.py            the same on arms
     side_by_side.py          rows of two controllers in contact, side by side
-    coordinates.py           the coordinates of C13
     errata.py                what is printed wrongly in the paper, each with a check
 """
 

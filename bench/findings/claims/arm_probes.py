@@ -7,11 +7,11 @@ import pandas as pd
 
 import tasks
 from bench.contenders.registry import find_contender, inverse, jacobian
-from bench.findings.claims.probes import euler_angles
+from bench.findings.claims.probes import euler_angles, euler_angles_along
 from bench.findings.claims.tables import some
 from bench.findings.theory.closed_form import linear
 from bench.law.contender import Contender, Gains
-from bench.law.so3 import Rotation, from_quaternion
+from bench.law.so3 import from_quaternion
 from bench.metrics.registry import metrics_of
 from tasks.kinematics import kinematics
 
@@ -41,8 +41,7 @@ def curves(word: str, arm: str, gains: Gains, dt_s: float, count: int) -> pd.Dat
     goals = {start.id: start.goal_wxyz for start in tasks.start_set("clear", count, 0, arm=arm)}
     parts = []
     for id, curve in frame.groupby("start_id", sort=False):
-        n, o, a = (curve[[f"{c}_{x}" for x in "xyz"]].to_numpy().tolist() for c in "noa")
-        E = np.array([euler_angles(Rotation(*triple)) for triple in zip(n, o, a, strict=True)])
+        E = euler_angles_along(curve)
         E_d = np.array(euler_angles(from_quaternion(goals[str(id)])))
         expected = E_d + (E[0] - E_d) * linear(curve["time_s"], *gains)[:, None]
         part = curve[["start_id", "time_s", "position_error_m"]].copy()

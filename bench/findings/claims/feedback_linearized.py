@@ -9,7 +9,6 @@ from bench.findings.claims import probes
 from bench.findings.claims.tables import MAIN_ENGINE, evidence, settled, share, some
 from bench.findings.claims.verdict import Word, claim
 from bench.findings.theory import closed_form
-from bench.law.so3 import Rotation
 
 LAW = "feedback-linearized"
 
@@ -93,12 +92,10 @@ def _traced(results) -> pd.DataFrame:
 def _bend(results) -> tuple[float, int]:
     """Largest departure of any angle from E_0 response(t) over all traces, and their rows."""
     rows = some(_traced(results), "trace of the law")
-    columns = [[f"{c}_{x}" for x in "xyz"] for c in "noa"]
     worst = 0.0
     for _, trace in rows.groupby(["start_set", "start_id"], observed=True):
         trace = trace.sort_values("time_s")
-        n, o, a = (trace[names].to_numpy().tolist() for names in columns)
-        E = np.array([probes.euler_angles(Rotation(*triple)) for triple in zip(n, o, a, strict=True)])
+        E = probes.euler_angles_along(trace)
         linear = E[0] * closed_form.linear(trace["time_s"], *results.gains())[:, None]
         worst = max(worst, float(np.abs(E - linear).max()))
     return worst, len(rows)

@@ -46,6 +46,12 @@ def euler_angles(R: Rotation) -> tuple:
     return representation("zyx-euler").chart(R).E
 
 
+def euler_angles_along(trace: pd.DataFrame) -> np.ndarray:
+    """alpha, beta, gamma of each sample of a trace, n x 3."""
+    n, o, a = (trace[[f"{c}_{x}" for x in "xyz"]].to_numpy().tolist() for c in "noa")
+    return np.array([euler_angles(Rotation(*triple)) for triple in zip(n, o, a, strict=True)])
+
+
 def rotations(frame: pd.DataFrame, columns=QUAT) -> list[Rotation]:
     """The orientation of each row."""
     return [from_quaternion(tuple(quat)) for quat in frame[list(columns)].to_numpy().tolist()]

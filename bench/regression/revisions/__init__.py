@@ -7,15 +7,16 @@ one run, round by round in turn, and only what is slower by a tenth beyond chanc
 comparison       what one comparison says, and its JSON
 measurement      one side's own numbers: time over the reference kernel, instructions, operations
 side             the process that compiles and times one checkout's laws; run by path, with no import of this package
-process, target  that process as its parent sees it
+process          that process as its parent sees it
+machine          what it compiles for
 alternating      base and head in turn, round by round
 rule             from rounds to a verdict
 instructions     what callgrind counts, and the small process that it counts in
 commits          what BASE and HEAD mean, and checkouts that go away again
-sides            base and head made ready: sources, law files, finished runs
+checkouts        base and head made ready: sources, law files, finished runs
 exact            two runs, row by row, in words
 measured         the gates of instructions and time
 gates            all of it, gate after gate
 summary          tables, and Markdown for a pull request
-own              a checkout's own measurements alone, as a history keeps them
+self_measure     a checkout's own measurements alone, as a history keeps them
 """
