@@ -85,11 +85,12 @@ def _engines() -> str:
     starts = tasks.start_set("paper")[:1]
     settings = Settings().limits(0.05)
     both = [run(engine, law, "free-body", starts, settings, metrics) for engine in ("reference", "native")]
-    _check_equal(*both, "the compiled engine")
+    _check_equal(both, "the compiled engine")
     return "50 ticks of the compiled engine equal the dm_control loop bit for bit"
 
 
-def _check_equal(fast, slow, where: str) -> None:
+def _check_equal(both, where: str) -> None:
+    fast, slow = both
     if fast.tobytes() != slow.tobytes():
         raise RuntimeError(f"{where} and the dm_control loop differ. Cure: {CURE_INSTALL}")
 
@@ -116,7 +117,7 @@ def _arms() -> str:
     both = [
         run(engine, law, "arm-regulation", arm.name, starts, settings, metrics) for engine in ("reference", "native")
     ]
-    _check_equal(*both, f"on {arm.name} the compiled engine")
+    _check_equal(both, f"on {arm.name} the compiled engine")
     return f"{', '.join(one.name for one in found)}: 50 ticks on {arm.name} equal the dm_control loop bit for bit"
 
 
@@ -135,7 +136,7 @@ def _contact() -> str:
     arm, pressing = able[-1], task._replace(horizon_s=0.15)  # it touches after 0.05 s
     given = (pressing, arm, task.trials(arm)[:1])
     [fast], [slow] = ([one.record for one in run(engine, one, *given)] for engine in ("native", "reference"))
-    _check_equal(fast, slow, "in contact the compiled engine")
+    _check_equal((fast, slow), "in contact the compiled engine")
     return (
         f"{', '.join(one.name for one in able)}: {len(fast)} ticks on {arm.name} equal the dm_control loop bit for bit"
     )

@@ -219,7 +219,7 @@ def test_errata_are_numbered_and_complete():
 
 
 def test_texts_are_joined_into_lines():
-    one = claim(id="C00", section="", sentence=" a\n   b ", question="", criterion="", readings=("c\n d",))
+    one = claim(id="C00", section="", sentence=" a\n   b ", question="", criterion="", readings=("c\n d",))(None)
     assert (one.sentence, one.readings) == ("a b", ("c d",))
 
 
