@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 import functools
-import importlib
 from collections.abc import Iterator
 
-import numpy as np
 import pandas as pd
 
 import tasks
 from bench.contenders import combinations
 from bench.errors import Incompatible
 from bench.experiments.choice import Choice
-from bench.experiments.episodes import Place, cut, narrowed, runs_on, starts_of, tasks_of
+from bench.experiments.episodes import Place, cut, lost, narrowed, prepare, runs_on, starts_of, tasks_of
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit
 from bench.experiments.suites import NOMINAL, OnArms, Slice
 from bench.law.contender import Contender
@@ -89,31 +87,6 @@ def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
         return frame(settings, unit, one, some, run(unit.engine, one, *given), metrics)
 
     return judged_on_both_sides(simulated(starts), starts, simulated)
-
-
-def prepare(settings: Settings, unit: Unit) -> None:
-    """Build the starts, and compile the loop and the controller."""
-    from bench.engines.run_arm import compiled_loop, pointers
-    from bench.metrics.registry import metrics_of
-
-    if unit.selector:
-        starts_of(settings, unit)
-    if unit.engine == "reference":
-        importlib.import_module("tasks.episode")
-    else:
-        compiled_loop(tuple(metrics_of(on_arm=True)))
-        pointers(settings.contender(unit.contender))
-
-
-def lost(settings: Settings, unit: Unit, outcome: str) -> pd.DataFrame:
-    """What was asked, the outcome, no measure."""
-    from bench.engines.arm_episode import blank_arm
-    from bench.experiments.rows.episodes import lost_frame
-    from bench.metrics.registry import metrics_of
-
-    starts, metrics = starts_of(settings, unit), metrics_of(on_arm=True)
-    made = lost_frame(settings, unit, starts, blank_arm(len(starts), metrics), metrics, outcome)
-    return made.assign(cond_jacobian_max=np.nan)
 
 
 EXPERIMENT = Experiment(

@@ -11,7 +11,7 @@ import math
 import numpy as np
 import pandas as pd
 
-from bench.experiments import free_body
+from bench.experiments.episodes import prepare
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit, own_last
 from bench.experiments.suites import SHORT
 from bench.experiments.traces import laws
@@ -97,6 +97,6 @@ EXPERIMENT = Experiment(
     units,
     rows,
     cost_s=lambda unit: unit.count * AXIS_S,
-    prepare=free_body.prepare,
+    prepare=prepare,
     ticks=lambda settings, unit: unit.count * len(SCAN) * unit.horizon_s / settings.dt_s,
 )

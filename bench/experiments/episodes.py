@@ -6,8 +6,11 @@
 from __future__ import annotations
 
 import functools
+import importlib
 from collections.abc import Iterator
 from typing import NamedTuple
+
+import pandas as pd
 
 import tasks
 from bench.errors import Incompatible
@@ -120,3 +123,31 @@ def starts_of(settings: Settings, unit: Unit) -> list[Start]:
 
 _on_arm = functools.lru_cache(maxsize=16)(tasks.start_set)
 """A start set of an arm is searched for, so it is built once for all its units."""
+
+
+def prepare(settings: Settings, unit: Unit) -> None:
+    """Build the starts, and compile the loop and the contender."""
+    from bench.metrics.registry import metrics_of
+
+    if unit.selector:
+        starts_of(settings, unit)
+    one, metrics = settings.contender(unit.contender), tuple(metrics_of(on_arm=bool(unit.arm)))
+    if unit.engine == "reference":
+        importlib.import_module("tasks.episode")
+    elif unit.arm:
+        from bench.engines import run_arm
+
+        run_arm.compiled_loop(metrics)
+        run_arm.pointers(one)
+    else:
+        from bench.engines import run
+
+        run.compiled_loop(unit.engine, metrics)
+        run.evaluation(one)
+
+
+def lost(settings: Settings, unit: Unit, outcome: str) -> pd.DataFrame:
+    """What was asked, the outcome, no measure."""
+    from bench.experiments.rows.episodes import lost_frame
+
+    return lost_frame(settings, unit, starts_of(settings, unit), outcome)

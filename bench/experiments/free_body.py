@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import functools
-import importlib
 
 import pandas as pd
 
 import tasks
 from bench.experiments import arm
-from bench.experiments.episodes import Place, cut, narrowed, refuse_if_none, runs_on, starts_of, tasks_of
+from bench.experiments.episodes import Place, cut, lost, narrowed, prepare, refuse_if_none, runs_on, starts_of, tasks_of
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit
 from bench.experiments.suites import Slice, Suite
 from bench.law.contender import Contender
@@ -60,30 +59,6 @@ def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
     limits = settings.limits(unit.horizon_s)
     numbers = run(unit.engine, one, unit.task, starts, limits, metrics, settings.integrator)
     return frame(settings, unit, one, starts, numbers, metrics)
-
-
-def prepare(settings: Settings, unit: Unit) -> None:
-    """Build the starts, and compile the loop and the law."""
-    from bench.engines.run import compiled_loop, evaluation
-    from bench.metrics.registry import metrics_of
-
-    if unit.selector:
-        starts_of(settings, unit)
-    if unit.engine == "reference":
-        importlib.import_module("tasks.episode")
-    else:
-        compiled_loop(unit.engine, tuple(metrics_of(on_arm=False)))
-        evaluation(settings.contender(unit.contender))
-
-
-def lost(settings: Settings, unit: Unit, outcome: str) -> pd.DataFrame:
-    """What was asked, the outcome, no measure."""
-    from bench.engines.episode import blank
-    from bench.experiments.rows.episodes import lost_frame
-    from bench.metrics.registry import metrics_of
-
-    starts, metrics = starts_of(settings, unit), metrics_of(on_arm=False)
-    return lost_frame(settings, unit, starts, blank(len(starts), metrics), metrics, outcome)
 
 
 EXPERIMENT = Experiment(

@@ -13,6 +13,7 @@ import pandas as pd
 
 import tasks
 from bench.experiments import arm, free_body, robustness
+from bench.experiments.episodes import prepare
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit, own_last
 from bench.experiments.suites import HORIZON, LONG, SHORT
 from bench.law.contender import Contender
@@ -153,11 +154,6 @@ def curves_of(unit: Unit) -> int:
     if unit.arm:
         return len(ARM_SETS) * unit.count
     return len(tasks.start_set("paper")) + unit.count + sum(map(len, TELLING.values()))
-
-
-def prepare(settings: Settings, unit: Unit) -> None:
-    """Compile the loop and the contender."""
-    (arm.prepare if unit.arm else free_body.prepare)(settings, unit)
 
 
 EXPERIMENT = Experiment(

@@ -7,14 +7,14 @@ import pandas as pd
 
 import tasks
 from bench.contenders.representations.zyx_euler import chart
-from bench.engines.arm_episode import POSE
-from bench.engines.episode import FAILURE_TICK, FINAL_ANGLE, FIRST_METRIC, NEVER, OUTCOME, SETTLING_TICK, TICKS
+from bench.engines.arm_episode import POSE, blank_arm
+from bench.engines.episode import FAILURE_TICK, FINAL_ANGLE, FIRST_METRIC, NEVER, OUTCOME, SETTLING_TICK, TICKS, blank
 from bench.experiments.experiment import Settings, Unit
 from bench.experiments.rows.rounding import BESIDE, CHANGE
 from bench.law.contender import Contender
 from bench.law.so3 import from_quaternion
 from bench.metrics.metric import Ending
-from bench.metrics.registry import known_metrics
+from bench.metrics.registry import known_metrics, metrics_of
 from tasks.cause import cause
 from tasks.kinematics import Kinematics
 from tasks.rules import RULES
@@ -83,15 +83,12 @@ def frame(settings: Settings, unit: Unit, contender: Contender, starts, numbers:
     )
 
 
-def lost_frame(settings: Settings, unit: Unit, starts, blanks: np.ndarray, metrics, outcome: str) -> pd.DataFrame:
-    """The rows of episodes that a user's law never came back from: what was asked, the outcome, no measure.
-
-    Args:
-        blanks: rows of `engines.episode` in which nothing has happened yet.
-    """
-    nothing = dict.fromkeys((metric.column for metric in metrics), np.nan)
-    made = frame(settings, unit, settings.contender(unit.contender), starts, lost(blanks, outcome), metrics)
-    return made.assign(**nothing)
+def lost_frame(settings: Settings, unit: Unit, starts, outcome: str) -> pd.DataFrame:
+    """The rows of episodes that a user's law never came back from: what was asked, the outcome, no measure."""
+    metrics = metrics_of(on_arm=bool(unit.arm))
+    numbers = lost((blank_arm if unit.arm else blank)(len(starts), metrics), outcome)
+    made = frame(settings, unit, settings.contender(unit.contender), starts, numbers, metrics)
+    return made.assign(**dict.fromkeys((metric.column for metric in metrics), np.nan), cond_jacobian_max=np.nan)
 
 
 def lost(numbers: np.ndarray, outcome: str) -> np.ndarray:

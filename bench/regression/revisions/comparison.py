@@ -109,24 +109,16 @@ class Comparison(NamedTuple):
 
     def as_json(self) -> dict[str, Any]:
         """The object that this module describes."""
-        return {
-            "schema": SCHEMA,
-            "verdict": REGRESSION if self.regressions else "clean",
-            "base": self.base._asdict(),
-            "head": self.head._asdict(),
-            "machine": self.machine,
-            "gates": [one._asdict() for one in self.gates],
-            "findings": [one._asdict() for one in self.findings],
-            "benchmarks": [
-                {
-                    **one._asdict(),
-                    "base": one.base and one.base.as_json(),
-                    "head": one.head and one.head.as_json(),
-                    "time": one.time and one.time._asdict(),
-                }
-                for one in self.benchmarks
-            ],
-        }
+        return {"schema": SCHEMA, "verdict": REGRESSION if self.regressions else "clean", **_plain(self)}
+
+
+def _plain(value: Any) -> Any:
+    """Records as objects, and tuples of them as lists."""
+    if isinstance(value, Measurement):
+        return value.as_json()
+    if isinstance(value, tuple) and hasattr(value, "_asdict"):
+        return {name: _plain(one) for name, one in value._asdict().items()}
+    return [_plain(one) for one in value] if isinstance(value, tuple) else value
 
 
 def from_json(given: dict[str, Any]) -> Comparison:
