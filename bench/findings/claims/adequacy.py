@@ -6,6 +6,7 @@ import numpy as np
 import pandas as pd
 
 from bench.findings.claims import probes
+from bench.findings.claims.probes import EXACT_RAD
 from bench.findings.claims.tables import Results, settled, some
 from bench.tables.read import FREE_BODY
 
@@ -25,9 +26,6 @@ CALL_PRICE, CALL_PRICES = 10.0, (1.0, 20.0)
 """Flops that one sin, cos, atan2 or acos stands for where two columns must become one; the range tried."""
 
 SETTLED_SHARE, SLOW, DEAR = 0.999, 2.0, 2.0
-EXACT_RAD = 1e-13
-"""As in feedback_linearized: between the nearest near start (1e-12 rad) and rounding."""
-
 DETOUR = 1.5
 """Path over shortest path from which a start at rest counts as unwinding: halfway to a full turn from a half turn is
 3/2, and no spring that pulls towards the goal goes so far."""

@@ -6,7 +6,7 @@ import numpy as np
 
 from bench.contenders.registry import representation
 from bench.findings.claims import probes
-from bench.findings.claims.feedback_linearized import EXACT_RAD, LAW
+from bench.findings.claims.feedback_linearized import LAW
 from bench.findings.claims.tables import MAIN_ENGINE, evidence, on_every_engine, settled, some
 from bench.findings.claims.verdict import claim, word_of
 from bench.law.contender import AT_REST, Gains
@@ -50,7 +50,7 @@ def c10(results):
     """Commands at exact poles and near them, and on both sides of the jumps; B itself at the poles."""
     gains = results.gains()
     poles = results.episodes(LAW, MAIN_ENGINE, "poles")
-    exact = some(poles[probes.boundary_distance(poles)["pole"] <= EXACT_RAD], "exact pole")
+    exact = some(poles[probes.boundary_distance(poles)["pole"] <= probes.EXACT_RAD], "exact pole")
     at = probes.rotations(exact)
     commands = [probes.command(CONTENDER, R, omega, gains=gains) for R in at for omega in (AT_REST, SPIN)]
     finite = sum(bool(np.isfinite(u).all()) for u in commands)

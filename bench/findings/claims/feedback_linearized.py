@@ -16,9 +16,6 @@ LINEAR_TIGHT, LINEAR_LOOSE = 1e-4, 1e-2
 """rad: Runge-Kutta of order 4 at 1 ms errs by far less on a time constant of 0.1 s; a visible bend is a hundredth."""
 
 STRAY_SHARE = 0.01
-EXACT_RAD = 1e-13
-"""Between the nearest of the near starts (1e-12 rad) and what rounding leaves of an exact one (4e-16 rad)."""
-
 
 @claim(
     id="C09",
@@ -51,13 +48,13 @@ def c09(results):
     uniform = results.episodes(LAW, MAIN_ENGINE, "uniform")
     near = results.episodes(LAW, MAIN_ENGINE, "poles", "wraps")
     distance = probes.boundary_distance(near)
-    on = (distance["pole"] <= EXACT_RAD) | (distance["wrap"] <= EXACT_RAD)
-    pole = near[distance["pole"] <= EXACT_RAD]
-    wrap = near[on & (distance["pole"] > EXACT_RAD)]
+    on = (distance["pole"] <= probes.EXACT_RAD) | (distance["wrap"] <= probes.EXACT_RAD)
+    pole = near[distance["pole"] <= probes.EXACT_RAD]
+    wrap = near[on & (distance["pole"] > probes.EXACT_RAD)]
     off = some(near[~on], "inexact start of poles and wraps")
     tumbling = results.episodes(LAW, MAIN_ENGINE, "tumbling")
     goals = results.episodes(LAW, MAIN_ENGINE, "goals")
-    goals = some(goals[probes.goal_to_pole(goals) > EXACT_RAD], "goal off the pole")
+    goals = some(goals[probes.goal_to_pole(goals) > probes.EXACT_RAD], "goal off the pole")
     long_way = share(goals["path_ratio"] * goals["angle0_rad"] > math.pi)
     passed = (
         worst <= LINEAR_TIGHT,

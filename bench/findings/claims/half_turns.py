@@ -4,7 +4,7 @@ import numpy as np
 from scipy.optimize import minimize
 
 from bench.findings.claims import probes
-from bench.findings.claims.rotation_matrix import EXACT_RAD, LAW
+from bench.findings.claims.rotation_matrix import LAW
 from bench.findings.claims.tables import MAIN_ENGINE, evidence, on_every_engine, settled, some
 from bench.findings.claims.verdict import Word, claim, word_of
 from bench.law.contender import Gains
@@ -45,7 +45,7 @@ NO_ZERO, NEAR_ZERO = 0.999, 1e-9
 def c04(results, engine):
     """The error and its three cross products at exact half turns, and how the episodes end."""
     turns = results.episodes(LAW, engine, "half-turn")
-    exact = some(turns[probes.boundary_distance(turns)["half_turn"] <= EXACT_RAD], "exact half turn")
+    exact = some(turns[probes.boundary_distance(turns)["half_turn"] <= probes.EXACT_RAD], "exact half turn")
     orientations = probes.rotations(exact)
     errors = [float(np.linalg.norm(error(R))) for R in orientations]
     products = [max(np.linalg.norm(cross(c, d)) for c, d in zip(R, IDENTITY, strict=True)) for R in orientations]

@@ -13,9 +13,6 @@ from tasks.sphere import axes
 
 LAW, CURE = "linearized-euler", "linearized-euler-relative"
 NEAR_GOAL_RAD, NEAR_GOALS = 0.3, 16
-EXACT_RAD = 1e-13
-"""Between the nearest near start (1e-12 rad from a pole) and what rounding leaves of an exact one."""
-
 
 INSIDE_TIGHT, INSIDE_LOOSE, OUTSIDE_SHARE = 0.99, 0.9, 0.5
 """'Approximate' allows 1 % of the box to fail, or 10 % with a correction; a range that most of its outside shares is
@@ -105,7 +102,7 @@ def c07(results, engine):
     lost, rest_lost = share(~settled(passing)), share(~settled(rest))
     again = probes.finer(f"{LAW}/zyx-euler", passing, results.gains())
     poles = results.episodes(LAW, engine, "poles")
-    poles = poles[probes.boundary_distance(poles)["pole"] > EXACT_RAD]
+    poles = poles[probes.boundary_distance(poles)["pole"] > probes.EXACT_RAD]
     peak, rest_peak = passing["peak_u"].median(), rest["peak_u"].median()
     extreme = lost.value >= FAIL_EXTREME and rest_lost.value <= FAIL_REST
     calm = passing.loc[settled(passing), "peak_u"].median()

@@ -20,6 +20,10 @@ QUAT = ("quat_w", "quat_x", "quat_y", "quat_z")
 GOAL_QUAT = tuple(f"goal_{name}" for name in QUAT)
 OMEGA = ("omega0_x", "omega0_y", "omega0_z")
 
+EXACT_RAD = 1e-13
+"""Between the nearest of the near starts (1e-12 rad from a pole or a half turn) and what rounding leaves of an exact
+one (4e-16 rad)."""
+
 
 def doubles(numbers):
     """Nested tuples with numpy's doubles, for which 1/0 is infinite as in every engine."""

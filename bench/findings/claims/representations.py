@@ -11,9 +11,6 @@ from bench.findings.claims.verdict import Word, claim, word_of
 from bench.law.so3 import Rotation, from_quaternion
 from tasks.sphere import axes
 
-EXACT_RAD = 1e-13
-"""Between the nearest near start (1e-12 rad from a pole) and what rounding leaves of an exact one."""
-
 DIRECTIONS = 12
 SHIFT = 0.7
 """rad: any amount that no symmetry of the angles shares."""
@@ -105,7 +102,7 @@ def c14(results):
     turns = results.free_body("episodes", task="free-body", regulator="feedback-linearized", engine=MAIN_ENGINE)
     about_y = some(turns[turns["start_id"] == "half-turn-y-exact"], "exact half turn about y")
     poles = turns[turns["start_set"] == "poles"]
-    poles = some(poles[probes.boundary_distance(poles)["pole"] <= EXACT_RAD], "exact pole")
+    poles = some(poles[probes.boundary_distance(poles)["pole"] <= probes.EXACT_RAD], "exact pole")
     at_quarter = least[90] < ON_POLE and least[-90] < ON_POLE
     if least[180] < ON_POLE:
         word = Word.HOLDS
@@ -178,7 +175,7 @@ def c15(results):
 def c16(results):
     """B at the run's orientations and at both poles."""
     frame = results.episodes("feedback-linearized", MAIN_ENGINE).drop_duplicates(["start_set", "start_id"])
-    is_pole = (probes.boundary_distance(frame)["pole"] <= EXACT_RAD).to_numpy()
+    is_pole = (probes.boundary_distance(frame)["pole"] <= probes.EXACT_RAD).to_numpy()
     matrices = np.array([probes.euler_B(R) for R in probes.rotations(frame)])
     at_poles = some(frame[is_pole], "exact pole")
     values = np.linalg.svd(matrices[is_pole], compute_uv=False)

@@ -10,9 +10,6 @@ from bench.law.contender import Gains
 from tasks.base import Start
 
 LAW = "rotation-matrix"
-EXACT_RAD = 1e-13
-"""Between the nearest near start (1e-12 rad short of the half turn) and what rounding leaves of an exact one."""
-
 STRAY_SHARE = 1e-3
 """Above one uniform start in 1,000 the starts that do not settle are no longer isolated orientations."""
 
@@ -70,7 +67,7 @@ def c01(results, engine):
     word = word_of(is_stable and not len(left), is_stable)
     return word, evidence(
         f"""{int(unstable.sum())} of {len(frame):,} starts diverge or gain energy. {len(left)} do not settle,
-        {int((away < EXACT_RAD).sum())} of them exactly a half turn from the goal; of uniform starts {uniform}
+        {int((away < probes.EXACT_RAD).sum())} of them exactly a half turn from the goal; of uniform starts {uniform}
         settle.""",
         len(frame),
         ("episodes",),
@@ -160,9 +157,9 @@ def c03(results, engine):
     slope = np.polyfit(decades[fitted.index], fitted["settling_time_s"], 1)[0]
     closed = closed_form.decade_slope(*results.gains())
     off = abs(slope / closed - 1)
-    exact = some(turns[short <= EXACT_RAD], "exact half turn")
+    exact = some(turns[short <= probes.EXACT_RAD], "exact half turn")
     stay = exact[~settled(exact)]
-    slowest = turns.loc[short > EXACT_RAD, "settling_time_s"].max()
+    slowest = turns.loc[short > probes.EXACT_RAD, "settling_time_s"].max()
     infinite = len(stay) > 0 and exact["horizon_s"].min() > 2 * slowest
     held = grows and off <= SLOPE_TIGHT and infinite
     word = word_of(held, grows and off <= SLOPE_LOOSE)

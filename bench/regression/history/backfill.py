@@ -5,9 +5,6 @@ the laws lay in bench/contenders, and where today's packages do not run their so
 """
 
 import json
-import os
-import subprocess
-import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -17,6 +14,7 @@ import pandas as pd
 from bench.errors import Incompatible
 from bench.provenance import ROOT
 from bench.regression.revisions import alternating, commits, instructions, self_measure
+from bench.regression.revisions.checkouts import python_in
 from bench.regression.revisions.process import Laws, running
 
 COUNT = """
@@ -47,9 +45,7 @@ def measure(revision: str, told: Callable[[str], None] = lambda _: None) -> self
 
 
 def _counts(checkout: Path) -> list[dict[str, Any]]:
-    words = [sys.executable, "-P", "-c", COUNT]
-    environment = {**os.environ, "PYTHONPATH": str(checkout)}
-    ended = subprocess.run(words, cwd=checkout, env=environment, capture_output=True, text=True)
+    ended = python_in(checkout, "-P", "-c", COUNT)
     if ended.returncode:
         raise Incompatible(f"{checkout.name}: its laws cannot be counted ({ended.stderr.strip().splitlines()[-1]})")
     return json.loads(ended.stdout)

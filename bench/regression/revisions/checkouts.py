@@ -80,15 +80,16 @@ def _checkout(stack: contextlib.ExitStack, folder: Path, revision: str | None, l
 
 def _digest(checkout: Path) -> str:
     """The digest of a checkout's sources and of the versions they run with."""
-    words = [sys.executable, "-c", DIGEST]
-    ended = subprocess.run(words, cwd=checkout, env=_environment(checkout), capture_output=True, text=True)
+    ended = python_in(checkout, "-c", DIGEST)
     if ended.returncode:
         raise BadResults(f"{checkout}: these sources do not run ({_last(ended.stderr)})")
     return ended.stdout.strip()
 
 
-def _environment(checkout: Path) -> dict[str, str]:
-    return {**os.environ, "PYTHONPATH": str(checkout)}
+def python_in(checkout: Path, *words: str) -> subprocess.CompletedProcess:
+    """A Python of this environment, ended, with the sources of a checkout."""
+    environment = {**os.environ, "PYTHONPATH": str(checkout)}
+    return subprocess.run([sys.executable, *words], cwd=checkout, env=environment, capture_output=True, text=True)
 
 
 def _last(said: str) -> str:
@@ -118,10 +119,10 @@ def finished_run(side: Checkout, told: Callable[[str], None]) -> Iterator[Path]:
         kept = side.path / "results" / "quick"
         folder = Path(temporary) / "run" if side.own else kept
         told(f"running the quick suite of {side.name}")
-        words = [sys.executable, "-m", "bench", "run", "--suite", "quick", "--replace", "--out", str(folder)]
+        words = ["-m", "bench", "run", "--suite", "quick", "--replace", "--out", str(folder)]
         for law in side.laws:
             words += ["--law", str(law), "--regulator", load_law(law).name]
-        ended = subprocess.run(words, cwd=side.path, env=_environment(side.path), capture_output=True, text=True)
+        ended = python_in(side.path, *words)
         if ended.returncode:
             raise BadResults(
                 f"{side.name}: its quick suite does not run ({_last(ended.stderr).removeprefix('error: ')})"
