@@ -1,5 +1,5 @@
 """The promise of growing: one file adds a regulator, representation, Jacobian, inverse, impedance, metric, task, arm,
-start set of the free body or of arms, perturbation, experiment, or page; a metric or task of contact too."""
+start set of the free body or of arms, perturbation, experiment, claim, or page; a metric or task of contact too."""
 
 import json
 import os
@@ -201,6 +201,18 @@ from tasks.condition import Axis, Condition
 
 AXIS = Axis("dropped-axis", "A dropped axis", "rad/s^2", (60.0, 70.0), None, lambda level: Condition(bound=level))
 ''',
+    "bench/findings/claims/dropped_claim.py": '''
+"""A claim about nothing."""
+
+from bench.findings.claims.tables import evidence
+from bench.findings.claims.verdict import Word, claim
+
+
+@claim(id="C99", section="9", sentence="A dropped claim.", question="None?", criterion="It holds.")
+def c99(results):
+    """One row."""
+    return Word.HOLDS, evidence("1 row.", 1, ("experiment",))
+''',
     "report/pages/90-dropped-page.md": """---
 jupytext: {text_representation: {extension: .md, format_name: myst}}
 kernelspec: {name: python3, display_name: Python 3}
@@ -288,6 +300,7 @@ LISTED = {
     "tasks in contact": "dropped-probe",
     "arms": "dropped-arm",
     "axes": "dropped-axis",
+    "claims": "C99",
 }
 
 
