@@ -127,14 +127,14 @@ def tallied(rows: pd.DataFrame, with_goal: bool) -> tuple[int, int]:
 
 
 TESTS = "abcdefgh"
-"""The criterion's, in its order."""
+"""Of C27's criterion, in its order."""
 
 BOTH = "abcd"
 """What C17 asks."""
 
 
 def missed(one: Adequacy, cheapest: dict[float, float], small_s: float, held: dict[str, tuple[int, int]]) -> str:
-    """The tests of the criterion that a law does not pass; (f) is among them if it was not tried.
+    """The tests of C27's criterion that a law does not pass; (f) is among them if it was not tried.
 
     Args:
         cheapest: price of a call -> cost of the cheapest of the paper's three. held: of `adequacy.held`.
