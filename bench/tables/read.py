@@ -64,7 +64,7 @@ def table(path: Path, name: str) -> pd.DataFrame:
     """A whole table with `contender` added where it has some; shared, so copy it before you change it."""
     frame = read(path, name)
     if "controller" in frame:
-        return with_compliant(frame)
+        return with_controller(frame)
     return with_contender(frame) if "regulator" in frame else frame
 
 
@@ -78,7 +78,7 @@ def with_contender(frame: pd.DataFrame) -> pd.DataFrame:
     return frame.assign(contender=names.astype("category"))
 
 
-def with_compliant(frame: pd.DataFrame) -> pd.DataFrame:
+def with_controller(frame: pd.DataFrame) -> pd.DataFrame:
     """Rows of compliance.parquet with `contender` added, as the command line writes it."""
     names = frame["controller"].astype(str)
     for mark, column in (("/", "representation"), ("+", "form")):

@@ -68,7 +68,7 @@ def run():
         for controller in map(find_controller, words):
             poses = chosen(name, poses_of(controller, task, arm, dense=False))
             frames.append(contact_rows.frame("mine", controller, task, arm, poses, USUAL))
-    return Rows(read.with_compliant(pd.concat(frames, ignore_index=True)))
+    return Rows(read.with_controller(pd.concat(frames, ignore_index=True)))
 
 
 @pytest.fixture(scope="module")

@@ -82,13 +82,13 @@ def test_lag_behind_a_slow_goal_told_nothing_is_the_frequency_response():
         s = 1j * rate
         gain = (s**2 + KV * s) / (s**2 + KV * s + KP) / rate * math.sqrt(0.5)
         squares = squares + (gain * np.exp(s * times)).imag ** 2
-    found = robustness_theory.swaying_rms(KP, KV, NO_FEEDFORWARD, 1e-3, 5.0)
+    found = robustness_theory.tracking_rms(KP, KV, NO_FEEDFORWARD, 1e-3, 5.0)
     assert found == pytest.approx(math.sqrt(squares.mean()), rel=2e-3)
 
 
 def test_each_thing_told_of_a_goal_makes_the_error_smaller():
     given = (NO_FEEDFORWARD, RATE, RATE_AND_ACCELERATION)
-    errors = [robustness_theory.swaying_rms(KP, KV, one, 1e-3, 5.0) for one in given]
+    errors = [robustness_theory.tracking_rms(KP, KV, one, 1e-3, 5.0) for one in given]
     assert errors[0] > 5.0 * errors[1] > 500.0 * errors[2]
 
 

@@ -23,7 +23,7 @@ def tables(rows):
 def summary(rows):
     """One line for each controller: poses whose trials are all done, then median and worst of COLUMNS over them."""
     lines = []
-    for name, part in results.with_compliant(rows).groupby("contender", observed=True, sort=False):
+    for name, part in results.with_controller(rows).groupby("contender", observed=True, sort=False):
         done = part[part["outcome"] == "done"]
         line = {"controller": str(name), "done": f"{len(done)}/{len(part)}"}
         for column, (title, scale) in COLUMNS.items():

@@ -12,7 +12,6 @@ from bench.experiments.rows.equal_peak import gains_at
 from bench.law.contender import Contender, Gains
 from bench.metrics.registry import metrics_of
 from tasks.condition import Condition
-from tasks.rules import RULES
 from tasks.truth import angle
 
 

@@ -48,7 +48,7 @@ class Criterion(NamedTuple):
     form: str = "{:.3g}"
 
 
-SLOW_HZ, LATE_S, BOUND, PEAK, HEAVY, SPIN, SWAY, NOISY_RAD = 20.0, 0.02, 10.0, 100.0, 2.0, 20.0, 10.0, 0.01
+SLOW_HZ, LATE_S, BOUND, PEAK, HEAVY, SPIN, MOVING, NOISY_RAD = 20.0, 0.02, 10.0, 100.0, 2.0, 20.0, 10.0, 0.01
 """The level of each perturbation at which laws are asked: the hardest, but for peak (the paper's own, at kp = 100)
 and for noise, where it is what a cheap sensor has."""
 
@@ -161,8 +161,8 @@ CRITERIA = (
         "follows",
         "Error behind the goal",
         "rad",
-        f"greatest error in the last second, goal swaying at {SWAY:g} rad/s",
-        perturbed("moving-goal", SWAY, "tail_max_rad"),
+        f"greatest error in the last second, goal moving at {MOVING:g} rad/s",
+        perturbed("moving-goal", MOVING, "tail_max_rad"),
         form="{:.2g}",
     ),
     Criterion(

@@ -98,7 +98,7 @@ NEEDS = (
     Need(PERTURBED, f"{1e3 * criteria.LATE_S:g} ms of delay", SURE, "late"),
     Need(PERTURBED, f"inertia {criteria.HEAVY:g} times what the model says", SURE, "heavy"),
     Need(PERTURBED, f"a body that spins at {criteria.SPIN:g} rad/s", SURE, "spinning"),
-    Need(PERTURBED, f"a goal that sways at {criteria.SWAY:g} rad/s, its motion told", SURE, "follows"),
+    Need(PERTURBED, f"a goal that moves at {criteria.MOVING:g} rad/s, with feedforward", SURE, "follows"),
     Need(PERTURBED, f"orientation known to {criteria.NOISY_RAD:g} rad, and a calm command", SURE, "noisy"),
     Need(GIVEN, "no memory in the controller", (*SURE, FORGETFUL), "cost"),
     Need(GIVEN, "a command that never jumps", (TRIED, NEARLY, FORGETFUL, SMOOTH), "time"),

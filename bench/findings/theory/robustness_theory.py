@@ -105,20 +105,22 @@ def jitter(kp: float, kv: float, attitude: float = 0.0, rate: float = 0.0) -> fl
 
 
 @functools.cache
-def swaying_rms(kp: float, kv: float, told: int, period_s: float, horizon_s: float, tail_s: float = 1.0) -> float:
-    """Root mean square angle [rad] to a goal that sways little, over its peak rate [rad/s], at the end of an episode.
+def tracking_rms(
+    kp: float, kv: float, feedforward: int, period_s: float, horizon_s: float, tail_s: float = 1.0
+) -> float:
+    """Root mean square angle [rad] to a goal that moves little, over its peak rate [rad/s], at the end of an episode.
 
-    e'' + Kv e' + Kp e = w,    w = alpha_d + Kv omega_d  untold,   alpha_d  told the rate,
-                                   (h/2) d(alpha_d)/dt   told both, for the command is held a tick of h
+    e'' + Kv e' + Kp e = w,    w = alpha_d + Kv omega_d  without feedforward,   alpha_d  with the rate,
+                                   (h/2) d(alpha_d)/dt   with both, for the command is held a tick of h
     """
     little = 1e-6
     times = np.arange(0.0, horizon_s + 0.5 * GRID_S, GRID_S)
     rates, accelerations = (
         np.array(part) / little for part in zip(*(reference_rates(time, little) for time in times), strict=True)
     )
-    if told == NO_FEEDFORWARD:
+    if feedforward == NO_FEEDFORWARD:
         push = accelerations + kv * rates
-    elif told == RATE:
+    elif feedforward == RATE:
         push = accelerations
     else:
         push = 0.5 * period_s * np.gradient(accelerations, GRID_S, axis=0)
@@ -147,19 +149,19 @@ def reversal_angle(kp: float, blind_s: float) -> float:
     return 2.0 * math.atan2(1.0, math.sqrt(kp) * blind_s)
 
 
-def is_held(equation: Equation, kp: float, kv: float, beyond: float, period_s: float = STEP_S) -> bool:
-    """Whether the worst noise holds a law at the half turn: its scalar equation, asked every tick and told a lie.
+def is_held(equation: Equation, kp: float, kv: float, worst_error: float, period_s: float = STEP_S) -> bool:
+    """Whether the worst noise holds a law at the half turn: its scalar equation, evaluated every tick on a wrong angle.
 
-    x is the angle by which the body has left the half turn, of either sign. Within `beyond` of it the law is told
-    x - beyond sgn(x + LEAD h x'), with the side where the body is about to be; it leaves once |x| is more.
+    x is the angle by which the body has left the half turn, of either sign. Within `worst_error` of it the law is given
+    x - worst_error sgn(x + LEAD h x'), with the side where the body is about to be; it leaves once |x| is more.
     """
     h, x, v = period_s, 0.0, 0.0
     for _ in range(LEAVING_TICKS):
-        if abs(x) > beyond:
+        if abs(x) > worst_error:
             return False
-        told = x - math.copysign(beyond, x + LEAD * h * v)
-        side, angle = math.copysign(1.0, told), math.pi - abs(told)
-        # the angle is pi - |told|: what shrinks it drives the body out on the side where it seems to be
+        seen = x - math.copysign(worst_error, x + LEAD * h * v)
+        side, angle = math.copysign(1.0, seen), math.pi - abs(seen)
+        # the angle is pi - |seen|: what shrinks it drives the body out on the side where it seems to be
         outward = kp * equation.spring(angle) - equation.added(angle, -side * v, kp, kv)
         u = side * outward - kv * v
         x, v = x + h * v + 0.5 * h * h * u, v + h * u

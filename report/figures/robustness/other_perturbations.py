@@ -65,7 +65,8 @@ def left(rows: pd.DataFrame, name: str) -> float:
     unit = tasks.axis(name).at(1.0)
     if unit.is_noisy:
         return robustness_theory.noisy_rms(*gains(rows), unit.period_s, unit.attitude_noise, unit.rate_noise)
-    return robustness_theory.swaying_rms(*gains(rows), unit.told, unit.period_s, float(rows["horizon_s"].iloc[0]))
+    horizon_s = float(rows["horizon_s"].iloc[0])
+    return robustness_theory.tracking_rms(*gains(rows), unit.feedforward, unit.period_s, horizon_s)
 
 
 def over_theory(rows: pd.DataFrame, name: str) -> pd.DataFrame:
