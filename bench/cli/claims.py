@@ -10,16 +10,13 @@ from bench.tables import read
 
 @click.command("claims")
 @click.argument("folder", required=False, type=click.Path(path_type=Path))
-@click.option("--all", "everything", is_flag=True, help="Also the claims that no suite measures yet.")
 @click.option("--criteria", is_flag=True, help="Print each claim's criterion below it.")
-def COMMAND(folder, everything, criteria):
+def COMMAND(folder, criteria):
     """The claims of Murphy (1988), one line each: id, verdict, evidence, rows (default: results/latest)."""
-    from bench.findings.claims import NOT_YET_MEASURED, judge_all
+    from bench.findings.claims import judge_all
 
     folder = folder or read.folder()
     for verdict in judge_all(folder):
-        if verdict.word == NOT_YET_MEASURED and not everything:
-            continue
         console().print(f"{verdict.id}  {verdict.word}: {verdict.evidence} ({verdict.rows:,} rows)", soft_wrap=True)
         if criteria:
             console().print(f"     criterion: {verdict.claim.criterion}", soft_wrap=True)

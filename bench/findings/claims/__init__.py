@@ -37,7 +37,6 @@ from bench.findings.claims.verdict import Claim, Evidence, NoEvidence, Verdict, 
 from bench.tables import read as published
 
 __all__ = [
-    "NOT_YET_MEASURED",
     "RULE",
     "Claim",
     "Evidence",
@@ -50,8 +49,6 @@ __all__ = [
     "judge_all",
     "table",
 ]
-
-NOT_YET_MEASURED = Word.UNMEASURED
 
 RULE = (
     f"Engine {MAIN_ENGINE}, the paper's continuous system (2.6)-(2.7), decides. A claim about episodes is asked of "

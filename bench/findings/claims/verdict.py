@@ -11,12 +11,11 @@ from bench.errors import BenchError
 
 
 class Word(StrEnum):
-    """The four things that can be said of a claim."""
+    """The three things that can be said of a claim."""
 
     HOLDS = "holds"
     CORRECTED = "holds with a correction"
     FAILS = "does not hold"
-    UNMEASURED = "not yet measured"
 
 
 def word_of(holds: object, corrected: object) -> Word:
@@ -49,7 +48,7 @@ class Claim(NamedTuple):
 
     sentence: our paraphrase. criterion: what makes it hold, hold with a correction, or not hold, in numbers.
     open: what the paper leaves open and how the verdict hangs on it. readings: where there are several.
-    judge: results -> (word, evidence); None if nothing has been measured for it yet.
+    judge: results -> (word, evidence).
     """
 
     id: str
@@ -57,9 +56,9 @@ class Claim(NamedTuple):
     sentence: str
     question: str
     criterion: str
+    judge: Callable
     open: str = ""
     readings: tuple[str, ...] = ()
-    judge: Callable | None = None
 
 
 def claim(
@@ -70,8 +69,8 @@ def claim(
     def joined(text: str) -> str:
         return " ".join(text.split())
 
-    one = Claim(id, section, joined(sentence), joined(question), joined(criterion), joined(open))
-    return lambda judge: one._replace(readings=tuple(map(joined, readings)), judge=judge)
+    texts = (id, section, joined(sentence), joined(question), joined(criterion))
+    return lambda judge: Claim(*texts, judge, joined(open), tuple(map(joined, readings)))
 
 
 class Verdict(NamedTuple):
@@ -92,17 +91,12 @@ class Verdict(NamedTuple):
         return self.evidence.rows
 
 
-NOTHING_YET = Evidence("Not yet measured: it belongs to the work on arms and forces.", 0, ())
-
-
 def decide(claim: Claim, results) -> Verdict:
     """Judge one claim on a run's results.
 
     Errors:
         NoEvidence: the tables hold no row about it.
     """
-    if claim.judge is None:
-        return Verdict(claim, Word.UNMEASURED, NOTHING_YET)
     word, evidence = claim.judge(results)
     if evidence.rows < 1:
         raise NoEvidence(

@@ -18,7 +18,7 @@ VERDICTS = Table(" | What the paper says, in our words | Verdict")
 
 def facts(_: Run) -> dict:
     """How many are decided, and by what rule."""
-    return {"rule": typeset(claims.RULE), "decided": len(measured(claims.judge_all()))}
+    return {"rule": typeset(claims.RULE), "decided": len(claims.judge_all())}
 
 
 def tables(_: Run) -> dict:
@@ -26,21 +26,15 @@ def tables(_: Run) -> dict:
     return {anchor(one): section(one) for one in claims.judge_all()}
 
 
-def measured(verdicts: list[Verdict]) -> list[Verdict]:
-    """Those that have been decided."""
-    return [one for one in verdicts if html.VERDICTS[str(one.word)] != "unmeasured"]
-
-
 def tiles(verdicts: list[Verdict]) -> html.Html:
     """How many statements were decided, and how many got each word."""
-    decided = measured(verdicts)
-    counts = Counter(str(one.word) for one in decided)
+    counts = Counter(str(one.word) for one in verdicts)
     labels = {
         "holds": "hold",
         "holds with a correction": "hold with a correction",
         "does not hold": "do not hold",
     }
-    entries = [("plain", len(decided), "statements of the paper decided")]
+    entries = [("plain", len(verdicts), "statements of the paper decided")]
     entries += [(html.VERDICTS[word], counts[word], label) for word, label in labels.items() if counts[word]]
     tile = '<div class="tile {}"><b>{}</b><span>{}</span></div>'
     return html.Html(f'<div class="tiles">{"".join(tile.format(*entry) for entry in entries)}</div>')
@@ -49,7 +43,7 @@ def tiles(verdicts: list[Verdict]) -> html.Html:
 def table(verdicts: list[Verdict], page: str) -> html.Markdown | None:
     """Id, sentence and verdict of each decided claim, linked to its section of the page."""
     return VERDICTS(
-        (link(one, page), prose(one.claim.sentence), html.badge(str(one.word))) for one in measured(verdicts)
+        (link(one, page), prose(one.claim.sentence), html.badge(str(one.word))) for one in verdicts
     )
 
 

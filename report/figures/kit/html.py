@@ -22,7 +22,6 @@ VERDICTS = {
     "holds": "holds",
     "holds with a correction": "corrected",
     "does not hold": "fails",
-    "not yet measured": "unmeasured",
 }
 MISSING = "–"
 ROUNDED_FROM, SCIENTIFIC_FROM = 1e3, 1e9  # three figures of a number in between would read 1.23e+03
