@@ -26,7 +26,7 @@ from bench.tables.store import read
 REFERENCE = ROOT / "results" / "reference"
 STORED = ROOT / "results" / "settings" / "settings.json"
 
-NO_VECTORS = "AVX512F AVX512CD AVX512_SKX AVX512_CLX AVX512_CNL AVX512_ICL X86_V4 AVX2 FMA3 X86_V3"
+NO_VECTORS = "X86_V3 X86_V4 AVX512_ICL AVX512_SPR"
 
 SETTINGS: dict[str, dict[str, str]] = {
     "as-it-is": {},
@@ -34,6 +34,7 @@ SETTINGS: dict[str, dict[str, str]] = {
     "blas-haswell": {"OPENBLAS_CORETYPE": "Haswell"},
     "blas-zen": {"OPENBLAS_CORETYPE": "Zen"},
     "compiler": {"NUMBA_CPU_NAME": "x86-64", "NUMBA_CPU_FEATURES": "", "NPY_DISABLE_CPU_FEATURES": NO_VECTORS},
+    "compiler-fma": {"NUMBA_CPU_NAME": "haswell", "NUMBA_CPU_FEATURES": ""},
     "c-library": {"GLIBC_TUNABLES": "glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4,-AVX512F"},
 }
 """What each is called, and the variables that make it."""

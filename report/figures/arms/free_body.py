@@ -51,8 +51,7 @@ def _alone(law: str, starts: pd.DataFrame) -> list[float]:
 @functools.cache
 def _settling_s(law: str, starts: tuple, kp: float, kv: float, dt_s: float, horizon_s: float) -> tuple[float, ...]:
     ticks = round(horizon_s / dt_s)
-    limits = RULES.command_limit, RULES.speed_limit, RULES.rest_speed, RULES.rest_command
-    settings = Settings(Gains(kp, kv), dt_s, ticks, round(RULES.hold_s / dt_s), *limits)
+    settings = Settings(Gains(kp, kv), dt_s, ticks, round(RULES.hold_s / dt_s))
     found = run("native", arm_rows.contenders()[law], "free-body", starts, settings, metrics_of(on_arm=False))
     times = np.where(found[:, OUTCOME] == SETTLED, found[:, SETTLING_TICK] * dt_s, np.nan)
     return tuple(times.tolist())

@@ -16,7 +16,6 @@ from bench.law.contender import Gains
 from report.figures.kit.laws import TITLES
 from report.figures.kit.rows import LINEARIZED
 from tasks import start_set
-from tasks.rules import RULES
 
 AT_S = 0.4
 """Most of the response is still under way, and every step below divides it."""
@@ -32,8 +31,7 @@ THROUGH_THE_POLE = LINEARIZED, "figure-2.5"
 def settings(dt_s: float) -> Settings:
     """The paper's gains to AT_S, without an early stop."""
     ticks = round(AT_S / dt_s)
-    limits = RULES.command_limit, RULES.speed_limit, RULES.rest_speed, RULES.rest_command
-    return Settings(Gains(), dt_s, ticks, ticks + 1, *limits)
+    return Settings(Gains(), dt_s, ticks, ticks + 1)
 
 
 def angle_at(engine: str, name: str, start_id: str, dt_s: float) -> float:
