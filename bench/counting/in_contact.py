@@ -13,7 +13,7 @@ from bench.control.hybrid import INVERSE, PROJECTED, comply
 from bench.control.setpoint import TOUCH, Setpoint
 from bench.counting.costs import BRANCHES, Call, Cost, flops
 from bench.counting.counted import TOTAL, Tally
-from bench.counting.on_arms import ArmState, arm_states, checked, median_and_worst
+from bench.counting.on_arms import ARM_OF, ArmState, arm_states, checked, median_and_worst
 from bench.counting.states import GAINS
 from bench.engines.contact_episode import room, rows
 from tasks.contact import Specification
@@ -33,7 +33,7 @@ def cost_in_contact(controller: ContactController, specification: Specification 
     """
     held, draw = controller.selection(specification), np.random.default_rng(SEED)
     with np.errstate(all="ignore"):
-        calls = [_call(controller, held, state, draw) for state in arm_states(6)]
+        calls = [_call(controller, held, state, draw) for state in arm_states(ARM_OF[6])]
     return median_and_worst(controller, calls)
 
 

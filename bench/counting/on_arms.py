@@ -49,9 +49,8 @@ class ArmState(NamedTuple):
 
 
 @functools.cache
-def arm_states(joints: int) -> tuple[ArmState, ...]:
+def arm_states(arm: str) -> tuple[ArmState, ...]:
     """All of them, always the same, the sampled ones first."""
-    arm = ARM_OF[joints]
     model = mujoco.MjModel.from_xml_string(tasks.task(TASK, arm).xml(1e-3))
     data = mujoco.MjData(model)
     return tuple(
@@ -77,8 +76,8 @@ def _state(model, data, start: Start, is_sampled: bool) -> ArmState:
     )
 
 
-def cost_on_arm(contender: Contender, joints: int) -> Cost:
-    """Count a contender's controller over all states; typical is the median, for an iteration varies by the state.
+def cost_on_arm(contender: Contender, arm: str) -> Cost:
+    """Count a contender's controller over an arm's states; typical is the median, for an iteration varies by the state.
 
     Errors:
         OutsideDialect, BadLaw: see `costs.cost`.
@@ -87,7 +86,7 @@ def cost_on_arm(contender: Contender, joints: int) -> Cost:
     plain = _controller(contender, parts_of(contender, _command(contender, None)), None)
     counting = _controller(contender, _staged_parts(contender, tally), tally)
     with np.errstate(all="ignore"):
-        calls = [_call(contender, plain, counting, tally, state) for state in arm_states(joints)]
+        calls = [_call(contender, plain, counting, tally, state) for state in arm_states(arm)]
     return median_and_worst(contender, calls)
 
 
@@ -101,7 +100,7 @@ def median_and_worst(one: Contender | ContactController, calls: list[Call]) -> C
 
 def rows_on_arm(contender: Contender, joints: int) -> list[dict]:
     """Rows of costs.parquet of a contender on so many joints."""
-    return list(rows_of(cost_on_arm(contender, joints), joints))
+    return list(rows_of(cost_on_arm(contender, ARM_OF[joints]), joints))
 
 
 def _command(contender: Contender, tally: Tally | None):

@@ -11,7 +11,7 @@ from bench.control.hybrid import in_base
 from bench.counting import in_contact
 from bench.counting.costs import counted
 from bench.counting.counted import OPERATIONS, TOTAL, Tally
-from bench.counting.on_arms import arm_states
+from bench.counting.on_arms import ARM_OF, arm_states
 from bench.errors import BadLaw
 from bench.law.impedance import Impedance
 from tasks.contact import Specification
@@ -88,7 +88,7 @@ def test_axes_carried_by_the_hand_cost_two_rotations_of_every_column_and_row():
 def test_conversion_of_moments_costs_two_products_with_B_transposed(representation):
     """Of the measured one and of the one to exert."""
     tally = Tally()
-    state = arm_states(6)[0]
+    state = arm_states(ARM_OF[6])[0]
     at = representation.chart(state.chain.R)
     representation.generalized(counted(at, tally), counted((1.0, 2.0, 3.0), tally))
     once = tally.take().of(TOTAL)

@@ -22,10 +22,9 @@ ITERATES = ("truncated-svd", "damped-least-squares-variable")
 cost_on_arm = functools.cache(on_arms.cost_on_arm)
 
 
-def standing(arm_of: dict, word: str):
-    """The contender of a word on the arm that stands for its number of joints, and its cost."""
-    [joints] = arm_of
-    return cost_on_arm(named(arm_of[joints], word), joints)
+def standing(arm: str, word: str):
+    """What the contender of a word costs on an arm."""
+    return cost_on_arm(named(arm, word), arm)
 
 
 def by_hand(n: int) -> dict[str, tuple[int, int]]:
@@ -50,7 +49,7 @@ def by_hand(n: int) -> dict[str, tuple[int, int]]:
 
 @pytest.mark.parametrize(("arm", "n"), [("ur5e", 6), ("panda", 7)])
 def test_controller_costs_what_a_count_by_hand_says(arm, n):
-    counts = standing({n: arm}, "rotation-matrix@geometric+transpose").typical
+    counts = standing(arm, "rotation-matrix@geometric+transpose").typical
     law = cost(LAWS["rotation-matrix"]).typical
     for stage, (mul, add) in by_hand(n).items():
         own = law.of(stage)
@@ -61,18 +60,17 @@ def test_controller_costs_what_a_count_by_hand_says(arm, n):
             assert total[name] == law.of(TOTAL)[name]
 
 
-@pytest.mark.parametrize("n", [6, 7])
-def test_stages_sum_to_the_total(n):
-    arm = on_arms.ARM_OF[n]
+@pytest.mark.parametrize("arm", on_arms.ARM_OF.values())
+def test_stages_sum_to_the_total(arm):
     for word in ("rotation-matrix@geometric+standard", "feedback-linearized/zyx-euler@analytic+standard"):
-        for counts in (standing({n: arm}, word).typical, standing({n: arm}, word).worst):
+        for counts in (standing(arm, word).typical, standing(arm, word).worst):
             for name in OPERATIONS:
                 assert sum(counts.of(stage)[name] for stage in STAGES) == counts.of(TOTAL)[name]
 
 
 def test_elimination_costs_the_textbooks_number_of_multiplications():
     """n^3/3 - n/3 for the factors and n^2 for the two triangles (Golub & Van Loan 2013, 3.2), with D x after it."""
-    counts = standing({6: "ur5e"}, "rotation-matrix@geometric+solve").typical
+    counts = standing("ur5e", "rotation-matrix@geometric+solve").typical
     invert = counts.of("invert")
     n = 6
     textbook = (n**3 - n) // 3 + n * n
@@ -82,44 +80,28 @@ def test_elimination_costs_the_textbooks_number_of_multiplications():
 
 def test_analytic_jacobian_costs_more_than_the_geometric_one_with_the_same_law():
     analytic, geometric = (
-        standing({6: "ur5e"}, f"feedback-linearized/zyx-euler@{by}+solve").typical for by in ("analytic", "geometric")
+        standing("ur5e", f"feedback-linearized/zyx-euler@{by}+solve").typical for by in ("analytic", "geometric")
     )
     assert analytic.of("jacobian")["mul"] > geometric.of("jacobian")["mul"]
     assert analytic.of("invert") == geometric.of("invert")
 
 
-@pytest.fixture
-def elsewhere(monkeypatch):
-    """Counting on the states of another arm of as many joints."""
-
-    def count(arm, one):
-        n = tasks.arm(arm).joints
-        with monkeypatch.context() as patch:
-            patch.setattr(on_arms, "ARM_OF", {n: arm})
-            on_arms.arm_states.cache_clear()
-            found = on_arms.cost_on_arm(one, n)
-        on_arms.arm_states.cache_clear()
-        return found
-
-    return count
-
-
 @pytest.mark.parametrize("arm", [arm for arm in ARMS if arm not in on_arms.ARM_OF.values()])
-def test_cost_does_not_depend_on_the_arm_where_nothing_iterates(elsewhere, arm):
-    n = tasks.arm(arm).joints
+def test_cost_does_not_depend_on_the_arm_where_nothing_iterates(arm):
+    usual = on_arms.ARM_OF[tasks.arm(arm).joints]
     for word in known_inverses():
         if word in ITERATES:
             continue
-        one = named(on_arms.ARM_OF[n], f"rotation-matrix@geometric+{word}")
-        assert elsewhere(arm, one).typical.of(TOTAL) == cost_on_arm(one, n).typical.of(TOTAL), word
+        one = named(usual, f"rotation-matrix@geometric+{word}")
+        assert cost_on_arm(one, arm).typical.of(TOTAL) == cost_on_arm(one, usual).typical.of(TOTAL), word
 
 
 def test_every_controller_of_the_default_suite_can_be_counted():
     from bench.experiments.suites import SUITES
 
-    for n, arm in on_arms.ARM_OF.items():
+    for arm in on_arms.ARM_OF.values():
         for one in combinations.on(SUITES["default"].on_arms.words, LAWS, tasks.arm(arm).joints):
-            total = cost_on_arm(one, n).typical.of(TOTAL)
+            total = cost_on_arm(one, arm).typical.of(TOTAL)
             assert total["mul"] > 200, one.name
 
 
@@ -134,11 +116,11 @@ def test_controller_that_commands_other_torques_when_counted_is_refused():
     own = Inverse("own", "", "", "", asks_who_calls, "acceleration", lambda rows, n: "")
     one = named("ur5e", "rotation-matrix@geometric+solve")._replace(inverse=own)
     with pytest.raises(BadLaw, match="commands other torques when counted"):
-        on_arms.cost_on_arm(one, 6)
+        on_arms.cost_on_arm(one, "ur5e")
 
 
 def test_states_are_those_of_the_arm_and_typical_ones_are_sampled():
-    states = on_arms.arm_states(6)
+    states = on_arms.arm_states("ur5e")
     assert {state.is_sampled for state in states} == {True, False}
     for state in states:
         assert state.chain.n == 6
