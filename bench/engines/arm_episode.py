@@ -17,7 +17,6 @@ from bench.law.resolved_motion import Scratch
 from bench.law.scalar import kernel
 from bench.law.so3 import Rotation
 from tasks.arm_model import Arm
-from tasks.rules import RULES
 
 MOST = 7
 """The most joints an arm may have: the size of buffers and of a row's pose."""
@@ -76,10 +75,10 @@ class Joints(NamedTuple):
     rated: tuple
 
 
-def controls(contender: Contender, has_own_model: bool) -> Controls:
+def controls(contender: Contender, has_own_model: bool, torque_limit: float) -> Controls:
     """The numbers of a contender on an arm."""
     gives_torque = contender.inverse is not None and contender.inverse.gives == "torque"
-    return Controls(contender.rows, int(gives_torque), int(has_own_model), RULES.torque_limit**2)
+    return Controls(contender.rows, int(gives_torque), int(has_own_model), torque_limit**2)
 
 
 def joints(arm: Arm) -> Joints:

@@ -28,6 +28,7 @@ class Settings(NamedTuple):
     speed_limit: float = RULES.speed_limit
     rest_speed: float = RULES.rest_speed
     rest_command: float = RULES.rest_command
+    torque_limit: float = RULES.torque_limit
 
 
 class Numbers(NamedTuple):

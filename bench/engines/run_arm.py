@@ -69,7 +69,7 @@ def run(
         ready.plant,
         ready.model,
         ready.work,
-        controls(contender, ready.has_own_model),
+        controls(contender, ready.has_own_model, settings.torque_limit),
         joints(tasks.arm(arm)),
         memory_of(contender),
         np.array([[*start.q, *start.qdot] for start in starts], dtype=float),

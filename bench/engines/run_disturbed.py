@@ -17,7 +17,15 @@ NOISE_BYTES = 64e6
 The default suite's 24 are one block, so that all its laws share one draw."""
 
 
-def run(contender: Contender, starts, condition: Condition, settings: Settings, metrics, seed: int = 0) -> np.ndarray:
+def run(
+    contender: Contender,
+    starts,
+    condition: Condition,
+    settings: Settings,
+    metrics,
+    seed: int = 0,
+    noise_bytes: float = NOISE_BYTES,
+) -> np.ndarray:
     """Rows of `engines.episode`, one a start, with `disturbed.EXTRA` columns more.
 
     Args:
@@ -28,7 +36,7 @@ def run(contender: Contender, starts, condition: Condition, settings: Settings, 
     horizon_s = settings.ticks * settings.dt_s
     given = disturbed.in_steps(numbers(settings), condition, RULES.hold_s, horizon_s)
     periods = given.ticks // disturbed.steps_of(condition) + 1
-    block = max(1, int(NOISE_BYTES // (8 * 6 * periods))) if condition.is_noisy else len(starts)
+    block = max(1, int(noise_bytes // (8 * 6 * periods))) if condition.is_noisy else len(starts)
     law = evaluation(contender), memory_of(contender)
     loop, timing, begun = _loop(tuple(metrics)), disturbed.timing(condition), start_rows(starts)
     for first in range(0, len(starts), block):

@@ -84,7 +84,7 @@ def _native(arm: str, one: Contender, start: Start, horizon_s: float, fewest: in
     given = (
         *run_arm.pointers(one),
         *(ready.plant, ready.model, ready.work),
-        controls(one, ready.has_own_model),
+        controls(one, ready.has_own_model, settings.torque_limit),
         joints(tasks.arm(arm)),
         memory_of(one),
         np.array([[*start.q, *start.qdot]]),

@@ -16,7 +16,7 @@ from support.on_arms import ARMS, LAWS, named
 
 import tasks
 from bench.engines import run_arm
-from bench.engines.arm_episode import POSE, controls
+from bench.engines.arm_episode import POSE
 from bench.engines.episode import FINAL_ANGLE, FIRST_METRIC, OUTCOME, SETTLING_TICK
 from bench.engines.run import run
 from bench.law.so3 import from_quaternion
@@ -85,18 +85,9 @@ def angles_on_body(arm: str, law, engine: str, dt: float, ticks: int = 0) -> np.
 
 
 def on_arm(arm: str, one, dt: float, at: float) -> np.ndarray:
-    """Rows of the arm at that time, whatever its motors are rated for."""
-    return run_arm.run("native", one, "arm-regulation", arm, starts(arm), settings(dt_s=dt, horizon_s=at), ON_ARM)
-
-
-@pytest.fixture
-def strong(monkeypatch):
-    """Motors without a limit: the Jaco's are too weak for some of its turns."""
-
-    def unlimited(one, own):
-        return controls(one, own)._replace(torque_limit_squared=np.inf)
-
-    monkeypatch.setattr(run_arm, "controls", unlimited)
+    """Rows of the arm at that time, by motors without a limit: the Jaco's are too weak for some of its turns."""
+    chosen = settings(dt_s=dt, horizon_s=at, torque_limit=math.inf)
+    return run_arm.run("native", one, "arm-regulation", arm, starts(arm), chosen, ON_ARM)
 
 
 def regular(arm: str, law, one) -> np.ndarray:
@@ -131,7 +122,7 @@ def exact_angles(arm: str, law) -> np.ndarray:
 
 
 @pytest.mark.parametrize(("arm", "law", "by"), CASES)
-def test_arm_turns_as_the_free_body_does_to_the_integration_error(arm, law, by, strong):
+def test_arm_turns_as_the_free_body_does_to_the_integration_error(arm, law, by):
     one = named(arm, f"{law.name}@{by}+standard")
     chosen = regular(arm, law, one)
     assert chosen.any()

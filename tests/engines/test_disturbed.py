@@ -12,7 +12,7 @@ from support.driving import settings
 import tasks
 from bench.contenders.registry import find_contender
 from bench.contenders.regulators.hybrid import DELTA
-from bench.engines import disturbed, rigid_body, run_disturbed
+from bench.engines import disturbed, rigid_body
 from bench.engines.binding import evaluation_of, memory_of, observer
 from bench.engines.episode import FINAL_ANGLE, FIRST_METRIC, OUTCOME, SETTLING_TICK, TICKS, numbers, start_rows
 from bench.engines.run import run as run_unperturbed
@@ -32,9 +32,9 @@ AXIS = (0.48, -0.6, 0.64)
 X = (1.0, 0.0, 0.0)
 
 
-def ended(word, starts, condition, horizon_s=3.0, seed=0, gains=None):
+def ended(word, starts, condition, horizon_s=3.0, gains=None, **more):
     chosen = settings(horizon_s=horizon_s, gains=gains)
-    return run(find_contender(word), starts, condition, chosen, METRICS, seed)
+    return run(find_contender(word), starts, condition, chosen, METRICS, **more)
 
 
 @pytest.mark.parametrize("word", ["rotation-matrix", "hybrid", "feedback-linearized/zyx-euler", "paielli-bach"])
@@ -136,11 +136,10 @@ def test_small_noise_adds_up_as_it_does_in_the_linear_loop():
     assert tail[disturbed.TAIL_WORST] ** 2 == pytest.approx(max(squares[1000:]), rel=1e-4)
 
 
-def test_starts_in_blocks_of_noise_give_the_same_rows(monkeypatch):
+def test_starts_in_blocks_of_noise_give_the_same_rows():
     given = "hybrid", tasks.start_set("tumbling", 5), EVERYTHING, 0.1
-    whole = ended(*given)
-    monkeypatch.setattr(run_disturbed, "NOISE_BYTES", 2.0 * 8 * 6 * 51)  # of 51 periods, so two starts in a block
-    assert same_bits(ended(*given), whole)
+    two_starts = 2.0 * 8 * 6 * 51  # of 51 periods
+    assert same_bits(ended(*given, noise_bytes=two_starts), ended(*given))
 
 
 def test_noise_is_that_of_its_seed_and_start_alone():

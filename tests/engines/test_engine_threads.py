@@ -8,44 +8,46 @@ from support.bits import different_rows
 from support.driving import settings, spread
 
 from bench.contenders.registry import find_contender
-from bench.engines import ideal
 from bench.engines import run as engines
-from bench.engines.native import free_body as native
+from bench.engines.compiled import made_once
 from bench.metrics.registry import metrics_of
 
 METRICS = metrics_of(on_arm=False)
 ENGINES = ("ideal-rk4", "ideal-held", "native")
 
 
-def test_threads_that_need_the_same_loop_compile_it_once(monkeypatch):
-    compiled = []
+def test_threads_that_need_the_same_wait_for_the_first_to_make_it():
+    made = []
 
-    def slowly(*words):
-        compiled.append(words)
+    @made_once
+    def slowly(word):
+        made.append(word)
         time.sleep(0.05)
-        return words
+        return [word]
 
-    monkeypatch.setattr(ideal, "episodes_of", slowly)
     with ThreadPoolExecutor(4) as pool:
-        loops = list(pool.map(lambda _: engines.compiled_loop("ideal-of-a-test", ()), range(4)))
-    assert len(compiled) == 1
-    assert all(loop is loops[0] for loop in loops)
+        found = list(pool.map(slowly, 4 * ["loop"]))
+    assert made == ["loop"]
+    assert all(one is found[0] for one in found)
 
 
-def test_threads_that_need_the_same_law_compile_it_once():
-    one = find_contender("rotation-matrix")
+@pytest.mark.parametrize(
+    ("compiled", "given"),
+    [(engines.compiled_loop, ("ideal-held", ())), (engines.evaluation, (find_contender("rotation-matrix"),))],
+)
+def test_threads_that_need_the_same_loop_or_law_compile_it_once(compiled, given):
     with ThreadPoolExecutor(4) as pool:
-        found = list(pool.map(lambda _: engines.evaluation(one), range(4)))
-    assert all(law is found[0] for law in found)
+        found = list(pool.map(lambda _: compiled(*given), range(4)))
+    assert all(one is found[0] for one in found)
 
 
 @pytest.mark.parametrize("engine", ENGINES)
-def test_loop_of_one_law_runs_every_other(engine, monkeypatch):
-    """So that a law costs its own compilation, not that of a loop."""
-    engines.compiled_loop(engine, METRICS)
-    for module in (ideal, native):
-        monkeypatch.setattr(module, "episodes_of", None)
+def test_loop_of_one_law_runs_every_other(engine):
+    """So that a law costs its own compilation, not that of a loop: it is made for no law, and has one signature."""
+    loop = engines.compiled_loop(engine, METRICS)
     starts = spread(1)
     laws = [find_contender(word) for word in ("rotation-matrix", "linearized-euler/zyx-euler")]
     one, other = (engines.run(engine, law, "free-body", starts, settings(horizon_s=0.5), METRICS) for law in laws)
     assert different_rows(one, other) != []
+    assert engines.compiled_loop(engine, METRICS) is loop
+    assert len(loop.signatures) == 1

@@ -55,7 +55,7 @@ def _episode(contender, task, arm_name, start, band, settings, metrics, row, int
     plant = environment.physics.data
     model = mujoco.MjModel.from_xml_string(tasks.task(task, arm_name).xml(dt)) if own else environment.physics.model.ptr
     believed = mujoco.MjData(model) if own else plant.ptr
-    shape, of_joints, into = controls(contender, own), joints(arm), buffers(n)
+    shape, of_joints, into = controls(contender, own, settings.torque_limit), joints(arm), buffers(n)
     D, G = np.zeros((n, n)), np.zeros((7, 7))
     s = plant.sensordata
     R_d = from_quaternion(tuple(map(np.float64, start.goal_wxyz)))
