@@ -86,29 +86,30 @@ def files_below(folder: Path, pattern: str = "*") -> Iterator[Path]:
             yield path
 
 
-def digest(paths: Iterable[Path]) -> str:
-    """One digest of the names and the bytes of these files."""
+def digest(paths: Iterable[Path], root: Path) -> str:
+    """One digest of the bytes of these files and of their names below the root."""
     total = hashlib.sha256(sys.version.encode())
     for path in paths:
-        total.update(f"\0{os.path.relpath(path, ROOT)}\0".encode())
+        total.update(f"\0{os.path.relpath(path, root)}\0".encode())
         total.update(hashlib.sha256(path.read_bytes()).digest())
     return total.hexdigest()
 
 
-def keys(results: Path) -> dict[str, str]:
+def keys(results: Path, root: Path = ROOT) -> dict[str, str]:
     """Digests of what the cells read and run, and of all that a page is made of."""
     marks = (trust.mark(path.read_bytes()) for path in sorted(results.glob("laws/*.py")))
     behind_cells = [
         *files_below(results),
         *(mark for mark in marks if mark.is_file()),
-        *(path for name in STUDIES for path in files_below(ROOT / "results" / name)),
-        *files_below(ROOT / "bench"),
-        *files_below(REPORT / "figures"),
-        *files_below(ROOT / "tasks"),
-        *files_below(ROOT / "requirements"),
-        *(path for path in (ROOT / "pyproject.toml", ROOT / "CITATION.cff") if path.is_file()),
+        *(path for name in STUDIES for path in files_below(root / "results" / name)),
+        *files_below(root / "bench"),
+        *files_below(root / "report" / "figures"),
+        *files_below(root / "tasks"),
+        *files_below(root / "requirements"),
+        *(path for path in (root / "pyproject.toml", root / "CITATION.cff") if path.is_file()),
     ]
-    return {"cells": digest(behind_cells), "site": digest([*behind_cells, *files_below(REPORT)])}
+    of_site = [*behind_cells, *files_below(root / "report")]
+    return {"cells": digest(behind_cells, root), "site": digest(of_site, root)}
 
 
 def finished_keys() -> dict[str, str]:

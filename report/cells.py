@@ -35,10 +35,10 @@ FORGET = "get_ipython().reset()"
 """Empties the namespace, and counts cells from 1 again."""
 
 
-def notebooks() -> dict:
+def notebooks(report: Path = REPORT) -> dict:
     """Every page that has cells, as Sphinx reads it; those that judge all claims first."""
     config = MdParserConfig(enable_extensions=set(CONFIG["parse"]["myst_enable_extensions"]))
-    texts = {path: path.read_text(encoding="utf-8") for path in (REPORT / "index.md", *REPORT.glob("pages/*.md"))}
+    texts = {path: path.read_text(encoding="utf-8") for path in (report / "index.md", *report.glob("pages/*.md"))}
     return {
         path: read_myst_markdown_notebook(texts[path], config)
         for path in sorted(texts, key=lambda path: (not judges(texts[path]), path))
@@ -98,10 +98,10 @@ async def execute(notebook, folder: Path, kernel: AsyncKernelManager) -> None:
             client.kc.stop_channels()
 
 
-async def main() -> None:
+async def main(report: Path = REPORT) -> None:
     """Run what is not in the cache."""
-    cache = get_cache(CONFIG["execute"]["cache"])
-    pages = {path: notebook for path, notebook in notebooks().items() if not is_known(cache, notebook)}
+    cache = get_cache(report / CONFIG["execute"]["cache"])
+    pages = {path: notebook for path, notebook in notebooks(report).items() if not is_known(cache, notebook)}
     todo = batches(list(pages))
     kernels = min(MOST, os.cpu_count() or 1, len(todo))
     await asyncio.gather(*(work(todo, pages, cache) for _ in range(kernels)), return_exceptions=True)

@@ -65,9 +65,7 @@ def test_data_of_a_page_come_from_the_results_and_stay_in_the_site(tmp_path):
 
 
 @pytest.fixture
-def tree(tmp_path, monkeypatch):
-    monkeypatch.setattr(build, "ROOT", tmp_path)
-    monkeypatch.setattr(build, "REPORT", tmp_path / "report")
+def tree(tmp_path):
     for name in (
         "bench/law.py",
         "tasks/base.py",
@@ -84,7 +82,7 @@ def tree(tmp_path, monkeypatch):
 
 
 def keys(tree):
-    return build.keys(tree / "results" / "reference")
+    return build.keys(tree / "results" / "reference", tree)
 
 
 @pytest.mark.parametrize(
@@ -167,10 +165,9 @@ def test_page_check_accepts_a_good_page(tmp_path):
     assert check_site.problems(tmp_path) == []
 
 
-def test_page_check_keeps_the_size_budget(tmp_path, monkeypatch):
+def test_page_check_keeps_the_size_budget(tmp_path):
     (tmp_path / "index.html").write_text(GOOD)
-    monkeypatch.setattr(check_site, "BUDGET_BYTES", 10)
-    assert "above its budget" in check_site.problems(tmp_path)[0]
+    assert "above its budget" in check_site.problems(tmp_path, budget_bytes=10)[0]
 
 
 def test_page_check_says_the_cure_when_nothing_is_built(tmp_path):

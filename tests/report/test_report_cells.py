@@ -23,8 +23,6 @@ kernelspec: {{name: python3, display_name: Python 3}}
 @pytest.fixture
 def book(tmp_path, monkeypatch):
     """A book of three pages: one shows 42, one raises, one has no cells."""
-    monkeypatch.setattr(cells, "REPORT", tmp_path)
-    monkeypatch.setitem(cells.CONFIG["execute"], "cache", str(tmp_path / "cache"))
     monkeypatch.setenv("PYDEVD_DISABLE_FILE_VALIDATION", "1")
     (tmp_path / "pages").mkdir()
     (tmp_path / "index.md").write_text(PAGE.format(cell="6 * 7"))
@@ -33,9 +31,13 @@ def book(tmp_path, monkeypatch):
     return tmp_path
 
 
+def cache_of(book):
+    return get_cache(book / cells.CONFIG["execute"]["cache"])
+
+
 def test_outputs_are_kept_and_a_page_that_fails_is_left_to_sphinx(book):
-    asyncio.run(cells.main())
-    cache, pages = get_cache(book / "cache"), {path.stem: page for path, page in cells.notebooks().items()}
+    asyncio.run(cells.main(book))
+    cache, pages = cache_of(book), {path.stem: page for path, page in cells.notebooks(book).items()}
     assert {name: cells.is_known(cache, page) for name, page in pages.items()} == {"index": True, "raising": False}
     _, shown = cache.merge_match_into_notebook(pages["index"])
     assert shown.cells[-1].outputs[0]["data"]["text/plain"] == "42"
@@ -44,9 +46,9 @@ def test_outputs_are_kept_and_a_page_that_fails_is_left_to_sphinx(book):
 def test_names_of_one_page_are_not_those_of_the_next(book):
     (book / "index.md").write_text(PAGE.format(cell="left = 1"))
     (book / "pages" / "raising.md").write_text(PAGE.format(cell="assert 'left' not in globals()"))
-    cache, pages = get_cache(book / "cache"), [book / "index.md", book / "pages" / "raising.md"]
-    asyncio.run(cells.work([pages], cells.notebooks(), cache))
-    assert [cells.is_known(cache, page) for page in cells.notebooks().values()] == [True, True]
+    cache, pages = cache_of(book), [book / "index.md", book / "pages" / "raising.md"]
+    asyncio.run(cells.work([pages], cells.notebooks(book), cache))
+    assert [cells.is_known(cache, page) for page in cells.notebooks(book).values()] == [True, True]
 
 
 def test_one_kernel_runs_all_pages_that_judge_all_claims():
