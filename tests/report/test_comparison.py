@@ -15,7 +15,7 @@ from bench.tables.schema import RESULTS
 from report.figures.comparison import cells, comparison, directed
 from report.figures.comparison.angle import lateness
 from report.figures.kit import families
-from report.figures.kit.page import run_in
+from report.figures.kit.page import Run, run_in
 
 GAINS = (100.0, 20.0, 0.02)
 
@@ -153,7 +153,14 @@ def test_negative_controls_fail_as_they_must():
         assert (unwinding.loc[is_near, "path_ratio"] > comparison.DETOUR).all()
 
 
-def test_page_says_so_where_there_are_no_rows_at_equal_peak(monkeypatch):
-    monkeypatch.setattr(comparison, "at_peak", lambda run: pd.DataFrame())
-    assert comparison.tables(RUN)["at_peak"] is None
-    assert "peak_fastest" not in comparison.facts(RUN)
+class Unperturbed(Run):
+    """A run without a row on perturbations."""
+
+    def rows(self, table, **words):
+        return pd.DataFrame() if table == "robustness" else super().rows(table, **words)
+
+
+def test_page_says_so_where_there_are_no_rows_at_equal_peak():
+    run = Unperturbed(RESULTS / "reference")
+    assert comparison.tables(run)["at_peak"] is None
+    assert "peak_fastest" not in comparison.facts(run)

@@ -76,14 +76,6 @@ def probe(run):
     return controllers.of_task(run, compliance.PROBE)
 
 
-@pytest.fixture(autouse=True)
-def few_poses(monkeypatch):
-    monkeypatch.setattr(compliance, "POSES", 20)
-    compliance.unstable.cache_clear()
-    yield
-    compliance.unstable.cache_clear()
-
-
 @pytest.mark.parametrize("page", [compliance, in_contact], ids=["compliance", "in-contact"])
 def test_page_is_whole_and_says_so_when_a_run_holds_no_contact(page, run):
     assert_is_whole(page, run)

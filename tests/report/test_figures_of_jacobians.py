@@ -137,8 +137,7 @@ def test_damping_costs_more_than_the_inverse_and_fits_where_its_price_is_given(c
     assert table["Inverse"][-1] == 1.0
 
 
-def test_times_say_so_where_none_were_measured(monkeypatch, tmp_path):
-    monkeypatch.setattr("report.figures.cost.times.FOLDER", tmp_path)
-    none = arm_times.rows()
-    assert "make time" in arm_times.by_arm(none)
+def test_times_say_so_where_none_were_measured(tmp_path):
+    none = Run(tmp_path, studies=tmp_path)
+    assert "make time" in arm_times.by_arm(arm_times.rows(none))
     assert "make time" in arm_times.duration(none)

@@ -5,13 +5,17 @@ import pytest
 
 from bench.studies.gates import faults, same_code
 from bench.studies.gates.load import MOST
+from bench.tables.schema import RESULTS
+from report.figures.kit.page import Run
 from report.figures.tool import regressions
+
+COMMITTED = Run(RESULTS)
 
 
 def test_study_if_it_was_run_has_all_its_comparisons_and_no_false_alarm():
-    if not regressions.part("same_code"):
+    if not regressions.part(COMMITTED, "same_code"):
         pytest.skip("results/regress/same_code.json is not there: make regress-study")
-    verdicts = regressions.verdicts()
+    verdicts = regressions.verdicts(COMMITTED)
     assert verdicts["comparison"].nunique() == same_code.COMPARISONS == 50
     assert len(verdicts) == verdicts["comparison"].nunique() * verdicts["benchmark"].nunique()
     assert verdicts["neighbours"].between(0, sum(MOST.values())).all()
@@ -19,7 +23,7 @@ def test_study_if_it_was_run_has_all_its_comparisons_and_no_false_alarm():
 
 
 def test_every_planted_fault_is_caught_and_named_and_nothing_else_is():
-    nothing, *planted = regressions.part("faults")
+    nothing, *planted = regressions.part(COMMITTED, "faults")
     assert (nothing["caught"], nothing["law"]) == (False, "")
     assert len(planted) == len(faults.behaviour()) + 1
     assert all(one["caught"] and one["named"] and not one["others_blamed"] for one in planted)
@@ -63,10 +67,10 @@ def test_sentences_say_what_a_tenth_looks_like():
     assert "Time is sure from 20 % on. Instructions tell from 9 % on." in said
 
 
-def test_page_without_a_study_has_only_the_numbers_of_the_rule(monkeypatch):
-    monkeypatch.setattr(regressions, "part", lambda name: [])
-    assert {key for key, value in regressions.facts(None).items() if value is None} == {"lead", "noise", "found"}
-    assert not any(regressions.tables(None).values())
+def test_page_without_a_study_has_only_the_numbers_of_the_rule(tmp_path):
+    none = Run(tmp_path, studies=tmp_path)
+    assert {key for key, value in regressions.facts(none).items() if value is None} == {"lead", "noise", "found"}
+    assert not any(regressions.tables(none).values())
 
 
 def test_table_escapes_the_words_of_findings():

@@ -6,6 +6,8 @@ pytest.importorskip("matplotlib", reason="the report extra is not installed (cur
 
 from studies.kill_study import KILLS, LAWS, LEFT_KB, SHARES
 
+from bench.tables.schema import RESULTS
+from report.figures.kit.page import Run
 from report.figures.tool import survival
 
 
@@ -39,7 +41,7 @@ def cells(table):
 
 @pytest.fixture(scope="module")
 def committed():
-    found = survival.study()
+    found = survival.study(Run(RESULTS))
     if not found["kills"]:
         pytest.skip("results/survival/survival.json is not there: make kill-study")
     return found
@@ -93,9 +95,6 @@ def test_words_say_what_was_found():
     assert "within 0.2 s" in survival.about(MADE)
 
 
-def test_page_without_a_study_has_nothing_to_say(monkeypatch, tmp_path):
-    monkeypatch.setattr(survival, "FILE", tmp_path / "none.json")
-    survival.study.cache_clear()
-    parts = [part(None) for part in (survival.facts, survival.tables)]
-    survival.study.cache_clear()
+def test_page_without_a_study_has_nothing_to_say(tmp_path):
+    parts = [part(Run(tmp_path, studies=tmp_path)) for part in (survival.facts, survival.tables)]
     assert not any(value for part in parts for value in part.values())

@@ -7,6 +7,7 @@ import pandas as pd
 from report.figures.arms import arm_looks, arm_rows
 from report.figures.cost import times
 from report.figures.kit import html
+from report.figures.kit.page import Run
 from report.figures.kit.tables import Table
 
 NONE_YET = "No closed loop on an arm has been timed yet: `make time` does."
@@ -16,9 +17,9 @@ TIMES = Table(
 )
 
 
-def rows() -> pd.DataFrame:
+def rows(run: Run) -> pd.DataFrame:
     """Rows about arms of the first machine's file, with their controller; empty where it has none."""
-    paths = times.files()
+    paths = times.files(run)
     every = times.read(paths[0]) if paths else pd.DataFrame()
     if not set(COLUMNS) <= set(every):
         return pd.DataFrame(columns=COLUMNS)
@@ -70,9 +71,9 @@ def first(values: pd.Series) -> float | None:
     return values.iloc[0] if len(values) else None
 
 
-def duration(found: pd.DataFrame) -> str:
+def duration(run: Run) -> str:
     """On which machine; and how much longer a loop by (3.7) takes than one by (2.2), with the standard inverse."""
-    own = loops(found)
+    own = loops(rows(run))
     if own.empty:
         return NONE_YET
     own, parts = own[is_standard(own)], []
@@ -81,9 +82,9 @@ def duration(found: pd.DataFrame) -> str:
         if set(arm_rows.PAPERS_TWO) <= set(by.index):
             parts.append((arm_looks.title(str(arm)), by[arm_rows.ON_ANGLES] / by[arm_rows.ON_MATRIX] - 1.0))
     if not parts:
-        return times.said()
+        return times.said(run)
     low, high = (f(parts, key=lambda part: part[1]) for f in (min, max))
     return (
-        f"{times.said()} A whole loop by (3.7) takes {100 * low[1]:.0f} % ({low[0]}) to "
+        f"{times.said(run)} A whole loop by (3.7) takes {100 * low[1]:.0f} % ({low[0]}) to "
         f"{100 * high[1]:.0f} % ({high[0]}) longer than one by (2.2) with the rotation matrix."
     )

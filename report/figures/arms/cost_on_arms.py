@@ -43,7 +43,7 @@ def facts(run: Run) -> dict:
     return {
         **by_joints(counted),
         "inverses_said": price_of_damping(counted, arm_rows.episodes(run)),
-        "said": arm_times.duration(arm_times.rows()),
+        "said": arm_times.duration(run),
         "c26": f"**{str(c26.word).capitalize()}.** {c26.evidence}",
     }
 
@@ -55,7 +55,7 @@ def tables(run: Run) -> dict:
         "meanings": MEANT((name, MEANINGS[name]) for name in STAGES),
         "seven": STAGED(by_stage(counted, 7)),
         "inverses": PRICES(prices(counted)),
-        "times": arm_times.by_arm(arm_times.rows()),
+        "times": arm_times.by_arm(arm_times.rows(run)),
     }
 
 

@@ -30,9 +30,9 @@ def costs(run: Run) -> pd.DataFrame:
     return laws.without_later(run.rows("costs", **read.FREE_BODY))
 
 
-def timed() -> pd.DataFrame:
+def timed(run: Run) -> pd.DataFrame:
     """Their times on the first machine that has any."""
-    files = times.files()
+    files = times.files(run)
     none = pd.DataFrame(columns=["contender", "what", "jacobian", "ticks", "ratio"])
     return laws.without_later(times.read(files[0])) if files else none
 
@@ -48,8 +48,8 @@ def facts(run: Run) -> dict:
     return values | {
         "spared": f"{1 - spent_by_form['lean']['flops'] / spent_by_form['literal']['flops']:.0%}",
         "branches": f"{len(branches_differ(counted))} of {counted['contender'].nunique()}",
-        "timed_on": times.said(),
-        "against_time": against_time(times.alone(timed()), counted),
+        "timed_on": times.said(run),
+        "against_time": against_time(times.alone(timed(run)), counted),
         "price": f"{CALL_PRICE:.0f}",
         "low": f"{CALL_PRICES[0]:.0f}",
         "high": f"{CALL_PRICES[1]:.0f}",
@@ -58,7 +58,7 @@ def facts(run: Run) -> dict:
 
 def tables(run: Run) -> dict:
     """Times."""
-    return {"tab_times": TIMES(by_time(timed(), costs(run)))}
+    return {"tab_times": TIMES(by_time(timed(run), costs(run)))}
 
 
 def figures(run: Run) -> dict:

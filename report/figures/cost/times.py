@@ -8,15 +8,13 @@ from pathlib import Path
 import pandas as pd
 
 from bench.tables.read import with_contender
-from bench.tables.schema import RESULTS
 from bench.tables.store import read_arrow
+from report.figures.kit.page import Run
 
-FOLDER = RESULTS / "timings"
 
-
-def files() -> list[Path]:
+def files(run: Run) -> list[Path]:
     """One file a kind of machine."""
-    return sorted(FOLDER.glob("*.parquet"))
+    return sorted((run.studies / "timings").glob("*.parquet"))
 
 
 def read(path: Path) -> pd.DataFrame:
@@ -30,9 +28,9 @@ def alone(frame: pd.DataFrame) -> pd.DataFrame:
     return rows.sort_values("ratio", kind="stable").reset_index(drop=True)
 
 
-def said() -> str:
+def said(run: Run) -> str:
     """On which machine, and when; or that there is no timing yet."""
-    paths = files()
+    paths = files(run)
     if not paths:
         return "No law has been timed yet (`make time` does)."
     about = json.loads(read_arrow(paths[0], "timings").schema.metadata[b"about"])

@@ -18,6 +18,7 @@ from typing import Any
 import pandas as pd
 
 from bench.tables import read
+from bench.tables.schema import RESULTS
 from report.figures.kit import html, style
 from report.figures.kit.inline import responsive_picture
 
@@ -29,10 +30,10 @@ BLOCK = re.compile(r"^\s*(?:`{3,}|:{3,})\{glue:?(md|figure|)\}\s+(\S+)", re.MULT
 
 
 class Run:
-    """The run that is shown."""
+    """The run that is shown, beside the studies that are committed: timings, history, faults, kills."""
 
-    def __init__(self, folder: Path):
-        self.folder = folder
+    def __init__(self, folder: Path, studies: Path = RESULTS):
+        self.folder, self.studies = folder, studies
 
     def rows(self, table: str, **words: str) -> pd.DataFrame:
         """Rows of one of its tables that have these words; none where it has no such table."""

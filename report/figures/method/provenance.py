@@ -65,7 +65,7 @@ def spelled(hex_digits: str) -> str:
 def files(run: Run) -> list[Path]:
     """The files of the run, tables first, then every machine's timings."""
     names = [*(f"{name}.parquet" for name in sorted(TABLES)), "provenance.json", "plan.json"]
-    return [*(path for path in (run.folder / name for name in names) if path.is_file()), *times.files()]
+    return [*(path for path in (run.folder / name for name in names) if path.is_file()), *times.files(run)]
 
 
 def said_of_itself(given: dict) -> dict[str, str]:

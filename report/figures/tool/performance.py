@@ -30,17 +30,17 @@ class History(NamedTuple):
 
 
 @functools.cache
-def history() -> History:
+def history(run: Run) -> History:
     """The history of this checkout."""
-    lines = log.read()
+    lines = log.read(run.studies / "history" / log.LOG.name)
     every = tuple(series(lines))
     builds = tuple(dict.fromkeys((line.date, line.commit) for line in lines))
     return History(builds, every, tuple(step for one in every for step in steps(one)))
 
 
-def facts(_: Run) -> dict:
+def facts(run: Run) -> dict:
     """What there is; the rule; how much times of the same machine code differ."""
-    given = history()
+    given = history(run)
     counted = [step for step in given.steps if step.series.measure != TIME]
     longest = max((len(one.points) for one in given.series if one.measure == TIME), default=0)
     ratios = same_code(given)
@@ -69,9 +69,9 @@ def same_code(given: History) -> list[float]:
     return [max(a.value, b.value) / min(a.value, b.value) for a, b in pairs if a.code == b.code != ""]
 
 
-def tables(_: Run) -> dict:
+def tables(run: Run) -> dict:
     """Builds, and what they changed, newest first."""
-    return {"tab_builds": COMMITS(measured(history()))}
+    return {"tab_builds": COMMITS(measured(history(run)))}
 
 
 def measured(given: History) -> list[tuple]:

@@ -10,7 +10,7 @@ import pandas as pd
 from bench.regression.revisions import alternating, instructions, rule
 from bench.regression.revisions.comparison import SAME
 from bench.regression.revisions.machine import LEVEL
-from bench.studies.gates import FOLDER, power
+from bench.studies.gates import power
 from bench.tables.files import read_json
 from report.figures.kit import html
 from report.figures.kit.page import Run, given
@@ -23,13 +23,13 @@ FAULTS = Table("Planted | In | Caught by | In the words")
 
 
 @functools.cache
-def part(name: str) -> list[dict[str, Any]]:
+def part(run: Run, name: str) -> list[dict[str, Any]]:
     """The rows of same_code, power or faults; none if it has not been run."""
-    path = FOLDER / f"{name}.json"
+    path = run.studies / "regress" / f"{name}.json"
     return read_json(path)["rows"] if path.is_file() else []
 
 
-def verdicts() -> pd.DataFrame:
+def verdicts(run: Run) -> pd.DataFrame:
     """A row for each benchmark of each comparison of the same code.
 
     Columns: comparison, neighbours (busy processes), benchmark, ratio and p of the first run, `doubted` (its verdict
@@ -45,22 +45,22 @@ def verdicts() -> pd.DataFrame:
             "doubted": name in one["doubted"],
             "alarm": name in one["doubted"] and one["doubted"][name]["verdict"] != SAME,
         }
-        for number, one in enumerate(part("same_code"), start=1)
+        for number, one in enumerate(part(run, "same_code"), start=1)
         for name, timed in one["timed"].items()
     ]
     return pd.DataFrame(rows)
 
 
-def counts_apart() -> pd.Series:
+def counts_apart(run: Run) -> pd.Series:
     """Instructions of the same code, head over base - 1; one for each law of each comparison that counted them."""
     return pd.Series(
-        [apart for one in part("same_code") for apart in (one["instructions"] or {}).values()], dtype=float
+        [apart for one in part(run, "same_code") for apart in (one["instructions"] or {}).values()], dtype=float
     )
 
 
-def steps() -> pd.DataFrame:
+def steps(run: Run) -> pd.DataFrame:
     """A row for each planted step: how much slower, the shares found by one run and by two, and more instructions."""
-    found = pd.DataFrame([one for one in part("power") if one["instructions"]])
+    found = pd.DataFrame([one for one in part(run, "power") if one["instructions"]])
     if found.empty:
         return found
     base, head = (found["instructions"].str[side] for side in (0, 1))
@@ -68,7 +68,7 @@ def steps() -> pd.DataFrame:
     return found.assign(instructions=head / base - 1.0, **shares).sort_values("slower", ignore_index=True)
 
 
-def facts(_: Run) -> dict:
+def facts(run: Run) -> dict:
     """The rule's numbers, and a paragraph each on false alarms, faults, the same code and slower code."""
     return {
         "p": rule.P,
@@ -76,9 +76,9 @@ def facts(_: Run) -> dict:
         "rounds": alternating.ROUNDS,
         "tolerance": f"{100 * instructions.TOLERANCE:g} %",
         "level": LEVEL,
-        "lead": given(verdicts(), lambda rows: lead(rows, part("faults"))),
-        "noise": given(verdicts(), lambda rows: noise(rows, counts_apart())),
-        "found": given(steps(), found),
+        "lead": given(verdicts(run), lambda rows: lead(rows, part(run, "faults"))),
+        "noise": given(verdicts(run), lambda rows: noise(rows, counts_apart(run))),
+        "found": given(steps(run), found),
     }
 
 
@@ -127,9 +127,9 @@ def found(rows: pd.DataFrame) -> str:
     return words
 
 
-def tables(_: Run) -> dict:
+def tables(run: Run) -> dict:
     """What was planted, which gates caught it, and in what words; what has no law is caught by nothing."""
-    return {"tab_faults": FAULTS(map(fault, part("faults")))}
+    return {"tab_faults": FAULTS(map(fault, part(run, "faults")))}
 
 
 def fault(one: dict[str, Any]) -> tuple:

@@ -7,12 +7,10 @@ from collections import Counter
 from typing import Any
 
 from bench.tables.files import read_json
-from bench.tables.schema import RESULTS
 from report.figures.kit import html
 from report.figures.kit.page import Run, given
 from report.figures.kit.tables import Table
 
-FILE = RESULTS / "survival" / "survival.json"
 KILLED = {
     "threads": "a run on threads",
     "local:2": "a run on two processes",
@@ -27,9 +25,10 @@ KILLS = Table("Killed | Goes on | Kills | Before the first unit | Among units | 
 
 
 @functools.cache
-def study() -> dict[str, Any]:
+def study(run: Run) -> dict[str, Any]:
     """All that was found; the parts are empty if it has not been run."""
-    return read_json(FILE) if FILE.is_file() else {"kills": [], "disks": [], "laws": [], "units": 0, "tables": 0}
+    path = run.studies / "survival" / "survival.json"
+    return read_json(path) if path.is_file() else {"kills": [], "disks": [], "laws": [], "units": 0, "tables": 0}
 
 
 def files_done(one: dict[str, Any], units: int) -> int:
@@ -37,9 +36,9 @@ def files_done(one: dict[str, Any], units: int) -> int:
     return units + one["tables_done"] if one["tables_done"] else one["units_done"]
 
 
-def facts(_: Run) -> dict:
+def facts(run: Run) -> dict:
     """The result in one sentence, what was run, and a paragraph each on full disks and on laws that break."""
-    found = study()
+    found = study(run)
     return {
         "lead": given(found["kills"], lambda _: lead(found)),
         "said": given(found["kills"], lambda _: about(found)),
@@ -71,9 +70,9 @@ def about(found: dict[str, Any]) -> str:
     return words
 
 
-def tables(_: Run) -> dict:
+def tables(run: Run) -> dict:
     """Kills."""
-    return {"tab_kills": KILLS(kills(study()))}
+    return {"tab_kills": KILLS(kills(study(run)))}
 
 
 def kills(found: dict[str, Any]) -> list[tuple]:
