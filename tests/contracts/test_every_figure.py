@@ -13,7 +13,7 @@ import pytest
 
 pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
 
-from support.pictures import hold_to_page
+from support.pages import assert_is_drawn
 
 from bench.contenders.registry import find_contender
 from bench.experiments import boundaries, plan, traces
@@ -67,7 +67,7 @@ def ideal(*start_sets):
 
 @pytest.mark.parametrize("name", FIGURES)
 def test_figure_says_its_numbers_keeps_to_the_palette_and_fits_a_phone(name):
-    hold_to_page(drawn(name))
+    assert_is_drawn(drawn(name))
 
 
 def test_ball_shows_half_turns_at_both_ends_of_their_axis():

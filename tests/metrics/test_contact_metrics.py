@@ -109,62 +109,45 @@ def leaning(angle: float) -> np.ndarray:
     return 0.08 * axes.T @ axes
 
 
-def test_misalignment_is_the_angle_of_the_leaning_axis_and_leakage_its_tangent():
-    measured = yielding(leaning(0.6), 0, 0, 1)
-    assert stiffness.misalignment(measured) == pytest.approx(0.6)
-    assert stiffness.mean_misalignment(measured) == pytest.approx(0.3)
-    assert held_axes.leakage(measured) == pytest.approx(math.tan(0.6))
-
-
-def test_a_hand_that_turns_backwards_is_half_a_turn_astray():
-    assert stiffness.misalignment(yielding(-0.1 * np.eye(3), 0, 0, 1)) == pytest.approx(math.pi)
-
-
-def test_a_moment_that_turns_nothing_has_no_angle_and_no_leakage():
-    deaf = yielding(np.diag((0.0, 0.1, 0.0)), 0, 0, 1)
-    assert math.isnan(stiffness.misalignment(deaf))
-    assert math.isnan(held_axes.leakage(deaf))
-    assert stiffness.least_yield(deaf) == pytest.approx(0.0, abs=1e-15)
-
-
-def test_least_yield_is_the_least_over_all_moments_about_axes_that_comply():
-    """[[2, 1], [1, 2]] yields 1 to the moment about (1, -1)."""
-    C = np.array([[0.2, 0.1, 0.0], [0.1, 0.2, 0.0], [0.0, 0.0, 0.0]])
-    assert stiffness.least_yield(yielding(C, 0, 0, 1)) == pytest.approx(0.1)
+LEANING = yielding(leaning(0.6), 0, 0, 1)
+BACKWARDS = yielding(-0.1 * np.eye(3), 0, 0, 1)
+DEAF = yielding(np.diag((0.0, 0.1, 0.0)), 0, 0, 1)
+"""A moment about x turns nothing."""
+COUPLED = yielding(np.array([[0.2, 0.1, 0.0], [0.1, 0.2, 0.0], [0.0, 0.0, 0.0]]), 0, 0, 1)
+"""[[2, 1], [1, 2]] yields 1 to the moment about (1, -1): the least over all moments about axes that comply."""
+HELD = yielding(GENERAL, 1, 1, 1)
+OF_SPRINGS = yielding(np.diag((0.1, 0.2, 0.4)), 0, 1, 1, controller=SPRINGS)
+"""An impedance complies about all axes whatever the order."""
+SKEW = yielding(0.1 * np.array([[1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [0.0, 0.0, 1.0]]), 0, 0, 0)
+"""Asymmetry is the skew part, 0.1 sqrt(2), over the symmetric one, 0.1 sqrt(3)."""
+NONE = pytest.approx(math.nan, nan_ok=True)
 
 
 @pytest.mark.parametrize(
-    "measure",
+    ("measure", "measured", "found"),
     [
-        held_axes.leakage,
-        stiffness.misalignment,
-        stiffness.least_yield,
-        stiffness.stiffness_condition,
-        stiffness.stiffness_axes,
+        (stiffness.misalignment, LEANING, pytest.approx(0.6)),
+        (stiffness.mean_misalignment, LEANING, pytest.approx(0.3)),
+        (held_axes.leakage, LEANING, pytest.approx(math.tan(0.6))),
+        (stiffness.misalignment, BACKWARDS, pytest.approx(math.pi)),
+        (stiffness.misalignment, DEAF, NONE),
+        (held_axes.leakage, DEAF, NONE),
+        (stiffness.least_yield, DEAF, pytest.approx(0.0, abs=1e-15)),
+        (stiffness.least_yield, COUPLED, pytest.approx(0.1)),
+        (held_axes.leakage, HELD, NONE),
+        (stiffness.misalignment, HELD, NONE),
+        (stiffness.least_yield, HELD, NONE),
+        (stiffness.stiffness_condition, HELD, NONE),
+        (stiffness.stiffness_axes, HELD, NONE),
+        (stiffness.stiffness_condition, OF_SPRINGS, pytest.approx(4.0)),
+        (held_axes.leakage, OF_SPRINGS, NONE),
+        (stiffness.stiffness_condition, yielding(GENERAL, 0, 1, 1), NONE),  # of one axis
+        (stiffness.stiffness_asymmetry, yielding(GENERAL + GENERAL.T, 0, 0, 0), pytest.approx(0.0, abs=1e-12)),
+        (stiffness.stiffness_asymmetry, SKEW, pytest.approx(math.sqrt(2.0 / 3.0))),
     ],
 )
-def test_nothing_complies_and_nothing_is_measured(measure):
-    assert math.isnan(measure(yielding(GENERAL, 1, 1, 1)))
-
-
-def test_an_impedance_complies_about_all_axes_whatever_the_order():
-    springs = yielding(np.diag((0.1, 0.2, 0.4)), 0, 1, 1, controller=SPRINGS)
-    assert stiffness.stiffness_condition(springs) == pytest.approx(4.0)
-    assert math.isnan(held_axes.leakage(springs))
-
-
-def test_stiffness_of_one_axis_has_no_condition():
-    assert math.isnan(stiffness.stiffness_condition(yielding(GENERAL, 0, 1, 1)))
-
-
-def test_a_symmetric_stiffness_has_no_asymmetry():
-    assert stiffness.stiffness_asymmetry(yielding(GENERAL + GENERAL.T, 0, 0, 0)) == pytest.approx(0.0, abs=1e-12)
-
-
-def test_asymmetry_is_the_skew_part_over_the_symmetric_one():
-    skew = np.array([[0.0, -0.1, 0.0], [0.1, 0.0, 0.0], [0.0, 0.0, 0.0]])
-    C = skew + 0.1 * np.eye(3)
-    assert stiffness.stiffness_asymmetry(yielding(C, 0, 0, 0)) == pytest.approx(math.sqrt(2.0 / 3.0))
+def test_measure_of_a_compliance_is_what_follows_from_it(measure, measured, found):
+    assert measure(measured) == found
 
 
 @pytest.mark.parametrize(
@@ -224,37 +207,35 @@ def pressed(force, moment=(0.0, 0.0, 0.0), task=surface_alignment.TASK, **more) 
     return pose(answered(trial(PRESSING, **more), force=felt[0], moment=felt[1]), task=task)
 
 
-def test_errors_are_what_is_missing_along_and_about_the_axes_that_comply():
-    measured = pressed((3.0, -4.0, 17.0), (0.3, 0.4, 9.0))
-    for force_error in (wrench.force_error_rms, wrench.force_error_peak):
-        assert force_error(measured) == pytest.approx(3.0)
-    for moment_error in (wrench.moment_error_rms, wrench.moment_error_peak):
-        assert moment_error(measured) == pytest.approx(0.5)
-
-
-def test_errors_are_counted_from_the_first_touch_on():
-    ramp = np.zeros((TICKS - FROM, 3))
-    ramp[:, 2] = np.linspace(10.0, 20.0, TICKS - FROM)
-    assert wrench.force_error_peak(pressed(ramp)) == pytest.approx(10.0)
-
-
-@pytest.mark.parametrize(
-    "measure",
-    [wrench.force_error_rms, wrench.moment_error_peak, wrench.contact_settling_time, wrench.normal_force_error],
-)
-def test_without_a_touch_there_is_no_error(measure):
-    assert math.isnan(measure(pressed((0.0, 0.0, 0.0))))
-
-
+TOUCHING = pressed((3.0, -4.0, 17.0), (0.3, 0.4, 9.0))
+"""3 N and 0.5 N m are missing along and about the axes that comply."""
+RAMP = pressed(np.linspace((0.0, 0.0, 10.0), (0.0, 0.0, 20.0), TICKS - FROM))
+NO_TOUCH = pressed((0.0, 0.0, 0.0))
 ONCE_OUTSIDE = np.tile((0.0, 0.0, 20.3), (TICKS - FROM, 1))
 ONCE_OUTSIDE[10] = (0.0, 0.0, 20.5)  # 2.5 %
 
 
 @pytest.mark.parametrize(
-    ("force", "time"), [(ONCE_OUTSIDE, 0.11), ((0.0, 0.0, 19.9), 0.0), ((0.0, 0.0, 19.0), math.nan)]
+    ("measure", "measured", "found"),
+    [
+        (wrench.force_error_rms, TOUCHING, 3.0),
+        (wrench.force_error_peak, TOUCHING, 3.0),
+        (wrench.moment_error_rms, TOUCHING, 0.5),
+        (wrench.moment_error_peak, TOUCHING, 0.5),
+        (wrench.force_error_peak, RAMP, 10.0),  # counted from the first touch on
+        *(
+            (measure, NO_TOUCH, math.nan)
+            for measure in (wrench.force_error_rms, wrench.moment_error_peak, wrench.normal_force_error)
+        ),
+        # settling: from the touch to the last tick outside the band
+        (wrench.contact_settling_time, NO_TOUCH, math.nan),
+        (wrench.contact_settling_time, pressed(ONCE_OUTSIDE), 0.11),
+        (wrench.contact_settling_time, pressed((0.0, 0.0, 19.9)), 0.0),
+        (wrench.contact_settling_time, pressed((0.0, 0.0, 19.0)), math.nan),
+    ],
 )
-def test_settling_is_counted_from_the_touch_to_the_last_tick_outside_the_band(force, time):
-    assert wrench.contact_settling_time(pressed(force)) == pytest.approx(time, nan_ok=True)
+def test_errors_and_settling_are_of_what_is_felt_from_the_first_touch_on(measure, measured, found):
+    assert measure(measured) == pytest.approx(found, nan_ok=True)
 
 
 def test_a_tool_flat_on_a_plate_has_no_alignment_error():
@@ -322,27 +303,25 @@ def test_depth_of_a_peg_and_whether_it_is_stuck(depths, beside, depth, is_stuck)
     assert scene.jam(measured) == is_stuck
 
 
-def test_crank_angle_is_how_far_its_joint_turned():
-    turned = answered(trial(specification(1, 0, 0, 0, 0, 1)), turned=np.linspace(0.2, 0.9, TICKS))
-    assert scene.crank_angle(pose(turned, task=crank.TASK)) == pytest.approx(0.7)
-    assert math.isnan(scene.crank_angle(pose(turned)))
+CRANKED = answered(trial(specification(1, 0, 0, 0, 0, 1)), turned=np.linspace(0.2, 0.9, TICKS))
+LEFT = answered(ABOUT_XY._replace(legs=((0.0,) * 6,) * 4), R=spun((0.03, 0.0, -0.04)))
+"""What a loop of moments leaves."""
+PUSHED = answered(ABOUT_XY, R=spun((0.0, 0.0, 0.1)))
+"""A push is no loop."""
+TURNED = answered(trial(PRESSING), R=spun((0.3, 0.1, 0.02)))
 
 
-LEGS = ((0.0,) * 6,) * 4
-
-
-def test_loop_leaves_its_rotation_and_its_part_about_held_axes():
-    left = answered(trial(specification(1, 1, 1, 0, 0, 1), legs=LEGS), R=spun((0.03, 0.0, -0.04)))
-    assert held_axes.loop_rest(pose(left)) == pytest.approx(0.05)
-    assert held_axes.loop_drift(pose(left)) == pytest.approx(0.04)
-
-
-def test_a_push_that_is_no_loop_leaves_nothing_to_measure():
-    pushed = answered(trial(specification(1, 1, 1, 0, 0, 1)), R=spun((0.0, 0.0, 0.1)))
-    assert math.isnan(held_axes.loop_rest(pose(pushed)))
-    assert math.isnan(held_axes.loop_drift(pose(pushed)))
-
-
-def test_held_turn_is_about_held_axes_alone():
-    turned = answered(trial(PRESSING), R=spun((0.3, 0.1, 0.02)))
-    assert held_axes.held_turn(pose(turned, task=surface_alignment.TASK)) == pytest.approx(0.02)
+@pytest.mark.parametrize(
+    ("measure", "measured", "found"),
+    [
+        (scene.crank_angle, pose(CRANKED, task=crank.TASK), 0.7),
+        (scene.crank_angle, pose(CRANKED), math.nan),
+        (held_axes.loop_rest, pose(LEFT), 0.05),
+        (held_axes.loop_drift, pose(LEFT), 0.04),  # its part about held axes
+        (held_axes.loop_rest, pose(PUSHED), math.nan),
+        (held_axes.loop_drift, pose(PUSHED), math.nan),
+        (held_axes.held_turn, pose(TURNED, task=surface_alignment.TASK), 0.02),  # about held axes alone
+    ],
+)
+def test_turn_that_is_left_is_that_of_the_crank_the_loop_or_the_held_axes(measure, measured, found):
+    assert measure(measured) == pytest.approx(found, nan_ok=True)

@@ -9,7 +9,7 @@ import pytest
 
 pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
 
-from support.pictures import hold_to_page
+from support.pages import assert_is_drawn
 
 import tasks
 from bench.counting import rows_on_arm
@@ -70,7 +70,7 @@ DRAWN = {
 
 @pytest.mark.parametrize("name", DRAWN)
 def test_figure_says_its_numbers_keeps_to_the_palette_and_fits_a_phone(name, seen, counted):
-    hold_to_page(DRAWN[name](seen, counted))
+    assert_is_drawn(DRAWN[name](seen, counted))
 
 
 def test_page_says_so_where_a_run_has_no_poses(tmp_path):
