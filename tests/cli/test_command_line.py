@@ -8,7 +8,7 @@ import rich_click as click
 from support.command_line import TINY, bench
 
 import tasks
-from bench.cli import commands, planned
+from bench.cli import commands, main, planned
 from bench.cli.listing import row_of_arm
 from bench.cli.paragraphs import laid_out
 from bench.contenders.registry import (
@@ -32,13 +32,21 @@ COMMANDS = {command.name: command for command in commands()}
 
 
 @pytest.fixture(scope="module")
-def tiny_run(tmp_path_factory):
-    """Three episodes on the reference engine."""
-    from bench.cli import main
+def ran(tmp_path_factory):
+    """ran(words of a run...) -> its folder."""
 
-    out = tmp_path_factory.mktemp("run") / "tiny"
-    assert main(["run", *TINY, "--engine", "reference", "--out", str(out)]) == 0
-    return out
+    def folder(*words):
+        out = tmp_path_factory.mktemp("run") / "out"
+        assert main([*words, "--out", str(out)]) == 0
+        return out
+
+    return folder
+
+
+@pytest.fixture(scope="module")
+def tiny_run(ran):
+    """Three episodes on the reference engine."""
+    return ran("run", *TINY, "--engine", "reference")
 
 
 # ----------------------------------------------------------------------------------------------- help
@@ -107,33 +115,34 @@ def test_list_takes_the_singular_too(capsys, kind):
 def test_list_says_which_start_sets_are_of_arms(capsys):
     said = bench(capsys, "list", "starts")
     assert len(re.findall(r"^half-turn +(free body|each arm)", said.out, re.MULTILINE)) == 2
-    assert re.search(r"^poles +free body +136 ", said.out, re.MULTILINE)
-    assert re.search(r"^wrist +each arm, at most +24 ", said.out, re.MULTILINE)
 
 
-def test_list_names_a_broken_arm_with_the_reason(capsys):
+def test_list_names_a_broken_arm_with_the_reason():
     reason = "arm 'bent': it has no site 'tool' (add one)"
     assert row_of_arm("bent", BadArm(reason)) == ("bent", "", f"cannot be used: {reason}", "")
-    assert re.search(r"^ur5e +6 ", bench(capsys, "list", "arms").out, re.MULTILINE)
 
 
-def test_list_says_which_jacobians_an_inverse_takes(capsys):
-    said = bench(capsys, "list", "inverses")
-    assert re.search(r"^solve +acceleration +6 x 6  ", said.out, re.MULTILINE)
-    assert re.search(r"^pseudo-inverse +acceleration +6 x 6, 6 x 7, 7 x 6  ", said.out, re.MULTILINE)
+@pytest.mark.parametrize(
+    ("kind", "line"),
+    [
+        ("starts", r"poles +free body +136 "),
+        ("starts", r"wrist +each arm, at most +24 "),
+        ("arms", r"ur5e +6 "),
+        ("inverses", r"solve +acceleration +6 x 6  "),
+        ("inverses", r"pseudo-inverse +acceleration +6 x 6, 6 x 7, 7 x 6  "),
+        ("tasks", r"wrench-probe +contact: puma560, ur5e  "),
+        ("controllers", r"name +/coordinates +\+form "),
+        ("controllers", r"hybrid +mrp, rotation-vector, .*inverse, projected "),
+        ("controllers", r"impedance-geometric +impedance: "),
+    ],
+)
+def test_list_says_of_each_what_it_has_or_takes(capsys, kind, line):
+    assert re.search(rf"^{line}", bench(capsys, "list", kind).out, re.MULTILINE)
 
 
 def test_list_shows_units_in_brackets_and_formulas_as_they_are(capsys):
     said = bench(capsys, "list", "metrics")
     assert all(one.unit in said.out for one in (*known_metrics().values(), *known_contact_metrics().values()))
-
-
-def test_list_says_which_arms_a_task_in_contact_takes_and_of_what_a_controllers_name_is_made(capsys):
-    assert re.search(r"^wrench-probe +contact: puma560, ur5e  ", bench(capsys, "list", "tasks").out, re.MULTILINE)
-    said = bench(capsys, "list", "controllers")
-    assert re.search(r"^name +/coordinates +\+form ", said.out, re.MULTILINE)
-    assert re.search(r"^hybrid +mrp, rotation-vector, .*inverse, projected ", said.out, re.MULTILINE)
-    assert re.search(r"^impedance-geometric +impedance: ", said.out, re.MULTILINE)
 
 
 def test_list_without_a_kind_lists_every_kind(capsys):
@@ -199,15 +208,11 @@ WHOLE = "rotation-matrix@geometric+solve"
 
 
 @pytest.fixture(scope="module")
-def arm_run(tmp_path_factory):
+def arm_run(ran):
     """One start, two inverses, two plants, on the reference engine: four episodes of twenty ticks."""
-    from bench.cli import main
-
-    out = tmp_path_factory.mktemp("run") / "arm"
     words = ("--regulator", "rotation-matrix", "--jacobian", "geometric", "--inverse", "solve")
     plants = ("--variation", "nominal", "--variation", "friction-5", "--engine", "reference", "--dt", "0.005")
-    assert main([*ON_ARM, *words, "--inverse", "transpose", *plants, "--out", str(out)]) == 0
-    return out
+    return ran(*ON_ARM, *words, "--inverse", "transpose", *plants)
 
 
 @pytest.mark.parametrize("suite", SUITES)
@@ -241,15 +246,11 @@ def test_show_counts_outcomes_of_each_variation(capsys, arm_run):
 
 
 @pytest.fixture(scope="module")
-def contact_run(tmp_path_factory):
+def contact_run(ran):
     """Two controllers, three poses of one task in contact on one arm, 20 ticks a trial."""
-    from bench.cli import main
-
-    out = tmp_path_factory.mktemp("run") / "contact"
     words = ("--controller", "hybrid-base+inverse", "--controller", "impedance-geometric", "--horizon", "0.02")
     place = ("--task", "wrench-probe", "--arm", "ur5e", "--count", "3")
-    assert main(["run", *place, *words, "--out", str(out)]) == 0
-    return out
+    return ran("run", *place, *words)
 
 
 def test_run_in_contact_has_its_rows_and_no_episodes(contact_run):

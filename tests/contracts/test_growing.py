@@ -21,14 +21,20 @@ INDEX = "# A book of one page\n\nIt cites {cite}`murphy1988`.\n"
 
 CONTENTS = "format: jb-book\nroot: index\nchapters:\n- glob: pages/*\n"
 
+
+def renamed(room: str, of: str, kind: str) -> str:
+    """The file of a contender that is another one by another name."""
+    name = f'name="dropped-{kind}", title="Dropped {kind}"'
+    constant = room.removesuffix("s").upper()
+    head = f'"""By another name."""\n\nfrom bench.contenders.{room} import {of}\n\n'
+    return f"{head}{constant} = {of}.{constant}._replace({name})\n"
+
+
 DROPPED = {
-    "bench/contenders/representations/dropped_coordinates.py": '''
-"""Z-Y-X angles by another name."""
-
-from bench.contenders.representations import zyx_euler
-
-REPRESENTATION = zyx_euler.REPRESENTATION._replace(name="dropped-coordinates", title="Dropped coordinates")
-''',
+    "bench/contenders/representations/dropped_coordinates.py": renamed("representations", "zyx_euler", "coordinates"),
+    "bench/contenders/jacobians/dropped_jacobian.py": renamed("jacobians", "geometric", "jacobian"),
+    "bench/contenders/inverses/dropped_inverse.py": renamed("inverses", "solve", "inverse"),
+    "bench/contenders/impedances/dropped_impedance.py": renamed("impedances", "geometric", "impedance"),
     "bench/contenders/regulators/dropped_regulator.py": '''
 """Damping, and a spring on the first coordinate."""
 
@@ -81,27 +87,6 @@ def finish(value, ending):
 
 
 METRIC = Metric("dropped-metric", "dropped_column", "1", "ticks with a command", 0.0, update, finish)
-''',
-    "bench/contenders/jacobians/dropped_jacobian.py": '''
-"""The geometric Jacobian by another name."""
-
-from bench.contenders.jacobians import geometric
-
-JACOBIAN = geometric.JACOBIAN._replace(name="dropped-jacobian", title="Dropped Jacobian")
-''',
-    "bench/contenders/inverses/dropped_inverse.py": '''
-"""The inverse by another name."""
-
-from bench.contenders.inverses import solve
-
-INVERSE = solve.INVERSE._replace(name="dropped-inverse", title="Dropped inverse")
-''',
-    "bench/contenders/impedances/dropped_impedance.py": '''
-"""The spring on the columns of R by another name."""
-
-from bench.contenders.impedances import geometric
-
-IMPEDANCE = geometric.IMPEDANCE._replace(name="dropped-impedance", title="Dropped impedance")
 ''',
     "bench/metrics/contact/dropped_touch.py": '''
 """Ticks recorded: all of them."""

@@ -18,7 +18,7 @@ from bench.contenders import combinations
 from bench.contenders.registry import known_inverses, known_jacobians, known_representations
 from bench.engines.arm_episode import POSE
 from bench.engines.episode import OUTCOME, SETTLING_TICK, TICKS
-from bench.engines.run_arm import compiled_loop, pointers, run
+from bench.engines.run_arm import pointers, run
 from bench.experiments.choice import INTEGRATORS
 from bench.metrics.registry import metrics_of
 from tasks.kinematics import kinematics
@@ -198,13 +198,6 @@ def test_two_threads_give_the_rows_of_one():
         at_once = list(pool.map(rows, units))
     for unit, alone, beside in zip(units, one_by_one, at_once, strict=True):
         assert different_rows(beside, alone) == [], unit
-
-
-def test_threads_that_need_the_same_controller_compile_it_once():
-    one = named(ARMS[0], PLAIN)
-    with ThreadPoolExecutor(4) as pool:
-        found = list(pool.map(lambda _: (*pointers(one), compiled_loop(METRICS)), range(8)))
-    assert all(part is first for parts in found for part, first in zip(parts, found[0], strict=True))
 
 
 def test_inverse_is_compiled_apart_from_the_law():

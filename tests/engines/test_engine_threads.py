@@ -6,14 +6,20 @@ from concurrent.futures import ThreadPoolExecutor
 import pytest
 from support.bits import different_rows
 from support.driving import settings, spread
+from support.on_arms import named
 
 from bench.contenders.registry import find_contender
 from bench.engines import run as engines
+from bench.engines import run_arm
 from bench.engines.compiled import made_once
 from bench.metrics.registry import metrics_of
 
 METRICS = metrics_of(on_arm=False)
 ENGINES = ("ideal-rk4", "ideal-held", "native")
+
+
+PARTS = [lambda one, part=part: getattr(run_arm.pointers(one), part) for part in run_arm.Pointers._fields]
+"""Of a controller of an arm."""
 
 
 def test_threads_that_need_the_same_wait_for_the_first_to_make_it():
@@ -33,7 +39,12 @@ def test_threads_that_need_the_same_wait_for_the_first_to_make_it():
 
 @pytest.mark.parametrize(
     ("compiled", "given"),
-    [(engines.compiled_loop, ("ideal-held", ())), (engines.evaluation, (find_contender("rotation-matrix"),))],
+    [
+        (engines.compiled_loop, ("ideal-held", ())),
+        (engines.evaluation, (find_contender("rotation-matrix"),)),
+        (run_arm.compiled_loop, (metrics_of(on_arm=True),)),
+        *((part, (named("ur5e", "rotation-matrix@geometric+standard"),)) for part in PARTS),
+    ],
 )
 def test_threads_that_need_the_same_loop_or_law_compile_it_once(compiled, given):
     with ThreadPoolExecutor(4) as pool:

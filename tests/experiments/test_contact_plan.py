@@ -114,35 +114,24 @@ def test_integrator_in_contact_is_implicit_unless_one_is_named():
 # --------------------------------------------------------------------------------------------- choices
 
 
-def test_named_controller_runs_alone_on_every_task_in_contact():
-    units, episodes = contacts(controllers=("impedance-quaternion", EULER))
-    assert named(units, "contender") == ["impedance-quaternion", EULER]
-    assert named(units, "task") == TASKS
-    assert episodes == 0
+SUITES_OWN = list(SUITES["quick"].in_contact.controllers)
 
 
-def test_named_task_in_contact_runs_alone():
-    units, episodes = contacts(tasks=("wrench-probe",))
-    assert named(units, "task") == ["wrench-probe"]
-    assert named(units, "contender") == list(SUITES["quick"].in_contact.controllers)
-    assert episodes == 0
-
-
-def test_task_in_contact_beside_another_runs_both():
-    units, episodes = contacts(tasks=("free-body", "wrench-probe"))
-    assert named(units, "task") == ["wrench-probe"]
-    assert episodes > 0
-
-
-def test_named_arm_narrows_contact_too():
-    assert named(contacts(arms=("ur5e",))[0], "arm") == ["ur5e"]
-
-
-@pytest.mark.parametrize("arm", UNABLE)
-def test_arm_alone_that_cannot_is_left_out(arm):
-    units, episodes = contacts(arms=(arm,))
-    assert units == ()
-    assert episodes > 0
+@pytest.mark.parametrize(
+    ("words", "name", "values", "has_episodes"),
+    [
+        ({"controllers": ("impedance-quaternion", EULER)}, "contender", ["impedance-quaternion", EULER], False),
+        ({"controllers": ("impedance-quaternion", EULER)}, "task", TASKS, False),
+        ({"tasks": ("wrench-probe",)}, "task", ["wrench-probe"], False),
+        ({"tasks": ("wrench-probe",)}, "contender", SUITES_OWN, False),
+        ({"tasks": ("free-body", "wrench-probe")}, "task", ["wrench-probe"], True),
+        ({"arms": ("ur5e",)}, "arm", ["ur5e"], True),
+    ],
+)
+def test_what_is_named_runs_alone(words, name, values, has_episodes):
+    units, episodes = contacts(**words)
+    assert named(units, name) == values
+    assert (episodes > 0) == has_episodes
 
 
 @pytest.mark.parametrize("arm", UNABLE)
@@ -174,6 +163,7 @@ def test_named_representation_narrows_the_suites_controllers():
         {"variations": ("mass-1.30",)},
         {"regulators": ("rotation-matrix",)},
         {"tasks": ("free-body",)},
+        *({"arms": (arm,)} for arm in UNABLE),
     ],
 )
 def test_what_contact_does_not_take_leaves_it_out(words):

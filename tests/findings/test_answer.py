@@ -45,11 +45,21 @@ def alone(cheap, middle, dear):
     return {name: np.array([value]) for name, value in ((CHEAP, cheap), (MIDDLE, middle), (DEAR, dear))}
 
 
-def test_need_names_the_best_and_the_next():
-    found = made_up(peak=alone(3.0, 1.0, 2.0))
-    decision = decide(Need("", "", (ANY,), "peak"), found)
-    assert (decision.law, decision.alike, decision.next) == (MIDDLE, (), DEAR)
-    assert decision.number == (1.0, 1.0, 1.0)
+@pytest.mark.parametrize(
+    ("by", "values", "law", "alike", "second"),
+    [
+        ("peak", alone(3.0, 1.0, 2.0), MIDDLE, (), DEAR),
+        ("peak", {CHEAP: np.array([3.0]), DEAR: np.array([2.0])}, DEAR, (), CHEAP),  # the other was not asked
+        ("peak", alone(1.005, 1.0, 2.0), CHEAP, (MIDDLE,), DEAR),  # of equals the cheapest, the others beside it
+        ("cost", alone(77.0, 76.9, 90.0), MIDDLE, (), CHEAP),  # of costs none are equal but equal ones
+        ("held", alone(0.01, 0.03, math.inf), DEAR, (), MIDDLE),  # more is better
+    ],
+)
+def test_need_names_the_best_its_equals_and_the_next(by, values, law, alike, second):
+    decision = decide(Need("", "", (ANY,), by), made_up(**{by: values}))
+    assert (decision.law, decision.alike, decision.next) == (law, alike, second)
+    value = values[law][0]
+    assert decision.number == (value, value, value)
 
 
 def test_need_asks_its_facts_first():
@@ -62,27 +72,6 @@ def test_need_asks_its_facts_first():
 def test_need_that_no_law_meets_names_none():
     never = Fact("", lambda found, law: False)
     assert decide(Need("", "", (never,), "peak"), made_up(peak=alone(3.0, 1.0, 2.0))).law is None
-
-
-def test_need_ranks_only_laws_that_were_asked():
-    values = alone(3.0, 1.0, 2.0)
-    del values[MIDDLE]
-    assert decide(Need("", "", (ANY,), "peak"), made_up(peak=values)).law == DEAR
-
-
-def test_of_equals_the_cheapest_is_named_and_the_others_beside_it():
-    decision = decide(Need("", "", (ANY,), "peak"), made_up(peak=alone(1.005, 1.0, 2.0)))
-    assert (decision.law, decision.alike, decision.next) == (CHEAP, (MIDDLE,), DEAR)
-
-
-def test_of_costs_none_are_equal_but_equal_ones():
-    decision = decide(Need("", "", (ANY,), "cost"), made_up(cost=alone(77.0, 76.9, 90.0)))
-    assert decision.law == MIDDLE
-
-
-def test_where_more_is_better_the_greatest_wins():
-    decision = decide(Need("", "", (ANY,), "held"), made_up(held=alone(0.01, 0.03, math.inf)))
-    assert (decision.law, decision.next) == (DEAR, MIDDLE)
 
 
 def starts(offset, noise, seed):

@@ -137,8 +137,19 @@ def test_c20_looks_at_what_is_left_at_step_zero(judged, found, word):
     assert judged("C20", **found).word == word
 
 
-def test_c20_is_corrected_when_no_start_at_the_pole_fails(judged, frames):
-    assert judged("C20", episodes=frames["episodes"].assign(outcome="settled")).word == Word.CORRECTED
+@pytest.mark.parametrize(
+    ("rows", "cells"),
+    [
+        (lambda t: t["arm"] != "", {"outcome": "settled"}),  # no start at the pole fails
+        (lambda t: t["arm"] == "panda", {"outcome": "settled"}),  # one arm alone does not fail
+        (lambda t: (t["start_id"] == "clear-2") & of(t, BY_EULER), {"outcome": "diverged"}),
+        (lambda t: t["start_set"] == "pole", {"outcome": "saturated"}),  # both fail: it is not the orientation
+    ],
+    ids=["nothing fails", "one arm does not fail", "a clear start fails", "both fail"],
+)
+def test_c20_is_corrected_when(judged, frames, rows, cells):
+    episodes = frames["episodes"]
+    assert judged("C20", episodes=changed(episodes, rows(episodes), **cells)).word == Word.CORRECTED
 
 
 def test_c20_takes_a_start_on_the_pole_itself(judged, frames):
@@ -152,35 +163,10 @@ def test_c20_takes_a_hammered_torque_for_a_failure(judged, frames):
     assert judged("C20", episodes=changed(episodes, at_pole, peak_tau_nm=301.0)).word == Word.HOLDS
 
 
-def test_c20_is_corrected_when_one_arm_alone_does_not_fail(judged, frames):
-    episodes = frames["episodes"]
-    assert (
-        judged("C20", episodes=changed(episodes, episodes["arm"] == "panda", outcome="settled")).word == Word.CORRECTED
-    )
-
-
-def test_c20_is_corrected_when_a_clear_start_fails(judged, frames):
-    episodes = frames["episodes"]
-    clear = (episodes["start_id"] == "clear-2") & of(episodes, BY_EULER)
-    assert judged("C20", episodes=changed(episodes, clear, outcome="diverged")).word == Word.CORRECTED
-
-
-def test_c20_blames_the_orientation_for_no_start_that_both_fail(judged, frames):
-    episodes = changed(frames["episodes"], frames["episodes"]["start_set"] == "pole", outcome="saturated")
-    assert judged("C20", episodes=episodes).word == Word.CORRECTED
-
-
 def test_c20_leaves_out_plants_that_differ_from_the_model(judged, frames):
     other = frames["episodes"].assign(variation="mass-130", outcome="diverged")
     both = pd.concat([frames["episodes"], other], ignore_index=True)
     assert str(judged("C20", episodes=both).evidence) == str(judged("C20").evidence)
-
-
-@pytest.mark.parametrize(("stage", "cells"), [("regulate", {"flops": 60}), ("total", {"flops": 700})])
-def test_c20_is_corrected_when_nothing_is_hidden(judged, frames, stage, cells):
-    costs = frames["costs"]
-    rows = of(costs, BY_EULER) & (costs["stage"] == stage)
-    assert judged("C20", costs=changed(costs, rows, **cells)).word == Word.CORRECTED
 
 
 def test_c20_fails_when_it_neither_fails_nor_hides(judged, frames):
@@ -190,22 +176,22 @@ def test_c20_fails_when_it_neither_fails_nor_hides(judged, frames):
 
 
 @pytest.mark.parametrize(
-    ("flops", "word"),
-    [(829, Word.FAILS), (831, Word.HOLDS)],
+    ("id", "controller", "stage", "flops", "word"),
+    [
+        ("C20", BY_EULER, "regulate", 60, Word.CORRECTED),  # nothing is hidden
+        ("C20", BY_EULER, "total", 700, Word.CORRECTED),
+        # calls are the same in both: one flop less contradicts
+        ("C26", BY_EULER, "total", 829, Word.FAILS),
+        ("C26", BY_EULER, "total", 831, Word.HOLDS),
+        # 3 calls more and 10 flops less: in order once a call costs 3.3 flops; 100 less: not before 33
+        ("C26", ON_MATRIX, "total", 910, Word.CORRECTED),
+        ("C26", ON_MATRIX, "total", 1000, Word.FAILS),
+    ],
 )
-def test_c26_compares_with_the_same_law(judged, frames, flops, word):
-    # calls are the same in both: one flop less contradicts
+def test_verdict_follows_the_costs(judged, frames, id, controller, stage, flops, word):
     costs = frames["costs"]
-    rows = of(costs, BY_EULER) & (costs["stage"] == "total")
-    assert judged("C26", costs=changed(costs, rows, flops=flops)).word == word
-
-
-@pytest.mark.parametrize(("flops", "word"), [(910, Word.CORRECTED), (1000, Word.FAILS)])
-def test_c26_weighs_a_call_against_the_law_on_r(judged, frames, flops, word):
-    # 3 calls more and 10 flops less: in order once a call costs 3.3 flops; 100 less: not before 33
-    costs = frames["costs"]
-    rows = of(costs, ON_MATRIX) & (costs["stage"] == "total")
-    assert judged("C26", costs=changed(costs, rows, flops=flops)).word == word
+    rows = of(costs, controller) & (costs["stage"] == stage)
+    assert judged(id, costs=changed(costs, rows, flops=flops)).word == word
 
 
 def test_c26_counts_pairs_in_both_accountings_on_both_numbers_of_joints(judged):
