@@ -132,15 +132,6 @@ def test_law_on_the_matrix_takes_no_representation(capsys, finished):
         ),
         (("--arm", "ur5e", "--starts", "paper"), "takes the starts clear, half-turn, pole"),
         (("--arm", "ur5e", "--engine", "ideal-rk4"), "ideal-rk4 simulates free-body alone, not 'arm-regulation'"),
-    ],
-)
-def test_what_does_not_go_together_on_an_arm_is_refused_with_the_reason(capsys, finished, words, reason):
-    assert reason in refused_run(capsys, finished, *words)
-
-
-@pytest.mark.parametrize(
-    ("words", "reason"),
-    [
         (
             ("--task", "wrench-probe", "--arm", "panda"),
             "task 'wrench-probe' needs an arm of six joints, and 'panda' has",
@@ -159,7 +150,7 @@ def test_what_does_not_go_together_on_an_arm_is_refused_with_the_reason(capsys, 
         (("--controller", "impedance-geometric", "--representation", "mrp"), "acts on mrp"),
     ],
 )
-def test_what_does_not_go_together_in_contact_is_refused_with_the_reason(capsys, finished, words, reason):
+def test_what_does_not_go_together_is_refused_with_the_reason(capsys, finished, words, reason):
     assert reason in refused_run(capsys, finished, *words)
 
 

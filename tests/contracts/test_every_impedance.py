@@ -10,9 +10,8 @@ import pytest
 from scipy.spatial.transform import Rotation as ScipyRotation
 from support.bits import EPS, different_rows
 from support.in_contact import GAINS, IMPEDANCES, TOUCH
-from support.on_arms import numbers
 from support.springs import STILL, B_at, called, command, free_body, margin
-from support.states import rotations
+from support.states import rotations, vector
 
 from bench.contenders.registry import known_impedances, known_representations
 from bench.control.impedance import law_of
@@ -240,7 +239,7 @@ def test_counted_command_is_the_plain_command_bit_for_bit(one):
     law, tally = law_of(one.impedance, one.representation), Tally()
     for turn, omega, m, goal in anywhere(one, 20):
         plain = called(law, turn, omega, m, goal)
-        given = (*(tuple(map(tuple, t.as_matrix().T)) for t in (turn, goal)), numbers(omega), numbers(m))
+        given = (*(tuple(map(tuple, t.as_matrix().T)) for t in (turn, goal)), vector(omega), vector(m))
         R, R_d, omega_c, m_c = (counted(part, tally) for part in given)
         gains = counted(Gains(*map(np.float64, GAINS)), tally)
         answer = law(Rotation(*R), omega_c, m_c, Rotation(*R_d), gains, counted(np.float64(TOUCH.m_o), tally))

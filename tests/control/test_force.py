@@ -24,8 +24,7 @@ from support.in_contact import (
     tick,
     wish_of,
 )
-from support.on_arms import numbers
-from support.states import as_rotation, rotations
+from support.states import as_rotation, rotations, vector
 
 import tasks
 from bench.control.contact_controller import FORMS, hybrid
@@ -162,7 +161,7 @@ def test_perfect_model_gives_the_hand_the_acceleration_of_the_impedance(arm, one
         at = hand(*state)
         law = law_of(one.impedance, one.representation)
         f_d, m_d = np.array(wish.f_d), np.array(wish.m_d)
-        u = law(at.chain.R, numbers(at.velocity[3:]), numbers(at.F[3:] + m_d), wish.R_d, GAINS, TOUCH.m_o)
+        u = law(at.chain.R, vector(at.velocity[3:]), vector(at.F[3:] + m_d), wish.R_d, GAINS, TOUCH.m_o)
         if np.linalg.norm(u) > 1e3:
             continue  # beside a pole of its coordinates
         pddot = GAINS.kp * (np.array(wish.p_d) - at.chain.p) + GAINS.kv * (np.array(wish.v_d) - at.velocity[:3])
@@ -254,7 +253,7 @@ def test_wrench_is_converted_on_the_pole_too_and_does_the_work_of_what_motion_is
     np.testing.assert_allclose(made.rows.F[3:], B.T @ m, rtol=0.0, atol=ROUNDING * np.linalg.norm(m))
     np.testing.assert_array_equal(made.rows.F[:3], f)
     Edot = np.array((0.7, -1.1, 0.4))
-    omega = np.array(representation.angular_velocity(representation.chart(R), numbers(Edot)))
+    omega = np.array(representation.angular_velocity(representation.chart(R), vector(Edot)))
     assert abs(made.rows.F[3:] @ Edot - m @ omega) <= ROUNDING * np.linalg.norm(m)
     assert np.linalg.matrix_rank(B, tol=1e-12) == 2
     assert not np.isfinite(made.J).all()
@@ -265,11 +264,11 @@ def test_one_moment_is_lost_on_the_pole_though_the_hand_can_turn_with_it(represe
     """B^T m = 0 for a moment m of unit length, the axis that no coordinate turns the hand about."""
     at = representation.chart(R)
     lost = np.linalg.svd(B_of(representation, at.E))[0][:, 2]
-    np.testing.assert_allclose(representation.generalized(at, numbers(lost)), 0.0, rtol=0.0, atol=ROUNDING)
+    np.testing.assert_allclose(representation.generalized(at, vector(lost)), 0.0, rtol=0.0, atol=ROUNDING)
     for unit in np.eye(3):
-        omega = representation.angular_velocity(at, numbers(unit))
+        omega = representation.angular_velocity(at, vector(unit))
         assert abs(lost @ np.array(omega)) <= ROUNDING
-    felt_elsewhere = representation.generalized(at, numbers(np.roll(lost, 1) + np.roll(lost, 2)))
+    felt_elsewhere = representation.generalized(at, vector(np.roll(lost, 1) + np.roll(lost, 2)))
     assert np.linalg.norm(felt_elsewhere) > 0.1
 
 

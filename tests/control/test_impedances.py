@@ -6,7 +6,8 @@ from scipy.integrate import simpson
 from scipy.spatial.transform import Rotation as ScipyRotation
 from support.bits import EPS
 from support.in_contact import GAINS, TOUCH
-from support.springs import STILL, B_at, columns, command, free_body, margin, of, seen
+from support.springs import STILL, B_at, command, free_body, margin, of, seen
+from support.states import of_scipy
 
 from bench.control.impedance import law_of
 
@@ -93,7 +94,7 @@ def test_hand_rests_where_the_springs_of_the_coordinates_balance_the_generalized
         if min(margin(one, turn, goal), margin(one, goal, goal)) < 0.2:
             continue
         compared += 1
-        E, E_d = (np.array(one.representation.chart(columns(seen(one, R, goal))).E) for R in (turn, goal))
+        E, E_d = (np.array(one.representation.chart(of_scipy(seen(one, R, goal))).E) for R in (turn, goal))
         m = GAINS.kp * TOUCH.m_o * np.linalg.solve(B_at(one, turn, goal).T, E - E_d)
         u = command(one, turn, STILL, m, goal)
         np.testing.assert_allclose(u, 0.0, rtol=0.0, atol=500 * EPS * GAINS.kp * np.linalg.norm(E - E_d) / 0.2)
@@ -137,10 +138,10 @@ def test_energy_in_coordinates_only_goes_and_goes_by_what_the_damping_takes(word
     goal = ScipyRotation.from_euler("ZYX", (0.3, 0.4, -0.2))
     turn, omega = ScipyRotation.from_rotvec(0.4 * draw.normal(size=3)) * goal, draw.normal(size=3)
     times, R, spin, _ = free_body(law_of(one.impedance, one.representation), turn, omega, goal, 2.0, count=401)
-    E_d = np.array(one.representation.chart(columns(seen(one, goal, goal))).E)
+    E_d = np.array(one.representation.chart(of_scipy(seen(one, goal, goal))).E)
     E, Edot = [], []
     for here, w in zip(ScipyRotation.from_matrix(R), spin, strict=True):
-        E.append(one.representation.chart(columns(seen(one, here, goal))).E)
+        E.append(one.representation.chart(of_scipy(seen(one, here, goal))).E)
         Edot.append(np.linalg.solve(B_at(one, here, goal), w))
     E, Edot = np.array(E), np.array(Edot)
     energy = 0.5 * (Edot**2).sum(axis=1) + 0.5 * GAINS.kp * ((E - E_d) ** 2).sum(axis=1)

@@ -86,34 +86,25 @@ def test_one_law_is_enough(judged):
 
 
 @pytest.mark.parametrize(
-    ("table", "words", "cells"),
+    ("table", "words", "cells", "word"),
     [
-        ("episodes", {"start_set": "half-turn"}, {"outcome": "stuck"}),
-        ("episodes", {"start_set": "uniform"}, {"path_ratio": 1.5}),
-        ("robustness", {"level": 0.1}, {"outcome": "timed-out"}),
-        ("robustness", {"level": 0.0}, {"outcome": "stuck"}),
-        ("costs", {"stage": "total"}, {"flops": 73}),
+        # half answered: every law misses one of the further tests
+        ("episodes", {"start_set": "half-turn"}, {"outcome": "stuck"}, Word.CORRECTED),
+        ("episodes", {"start_set": "uniform"}, {"path_ratio": 1.5}, Word.CORRECTED),
+        ("robustness", {"level": 0.1}, {"outcome": "timed-out"}, Word.CORRECTED),
+        ("robustness", {"level": 0.0}, {"outcome": "stuck"}, Word.CORRECTED),
+        ("costs", {"stage": "total"}, {"flops": 73}, Word.CORRECTED),
+        # open: every law misses one of C17's tests
+        ("episodes", {"start_set": "uniform"}, {"outcome": "stuck"}, Word.HOLDS),
+        ("episodes", {"start_set": "box"}, {"outcome": "diverged"}, Word.HOLDS),
+        ("episodes", {"start_set": "uniform"}, {"settling_time_s": 1.2}, Word.HOLDS),
+        ("costs", {"stage": "total"}, {"flops": 81}, Word.HOLDS),
+        # noise beyond the stated angle does not count
+        ("robustness", {"level": 1.0}, {"outcome": "stuck"}, Word.FAILS),
     ],
 )
-def test_question_is_half_answered_when_every_law_misses_one_of_the_further_tests(judged, table, words, cells):
-    assert judged(table, later(**words), **cells).word == Word.CORRECTED
-
-
-@pytest.mark.parametrize(
-    ("table", "words", "cells"),
-    [
-        ("episodes", {"start_set": "uniform"}, {"outcome": "stuck"}),
-        ("episodes", {"start_set": "box"}, {"outcome": "diverged"}),
-        ("episodes", {"start_set": "uniform"}, {"settling_time_s": 1.2}),
-        ("costs", {"stage": "total"}, {"flops": 81}),
-    ],
-)
-def test_question_stays_open_when_every_law_misses_one_of_c17s_tests(judged, table, words, cells):
-    assert judged(table, later(**words), **cells).word == Word.HOLDS
-
-
-def test_noise_beyond_the_stated_angle_does_not_count(judged):
-    assert judged("robustness", later(level=1.0), outcome="stuck").word == Word.FAILS
+def test_question_is_answered_half_answered_or_open_by_what_every_law_misses(judged, table, words, cells, word):
+    assert judged(table, later(**words), **cells).word == word
 
 
 def test_law_that_no_noise_was_tried_on_is_no_answer(frames):

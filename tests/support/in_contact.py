@@ -21,8 +21,7 @@ from bench.experiments.contact import can_do
 from bench.law.contender import Gains
 from bench.law.resolved_motion import Chain
 from support.bits import EPS
-from support.on_arms import numbers
-from support.states import as_rotation
+from support.states import as_rotation, vector
 from tasks.contact import Specification, Trial, prepare
 from tasks.contact_model import model_xml
 from tasks.domains.wrench_probe import TASK
@@ -114,7 +113,7 @@ def hand(arm: str, q, qdot, mount: ScipyRotation, push) -> Hand:
     mujoco.mj_jacDot(model, data, Jdot[:3], Jdot[3:], p, body)
     mujoco.mj_fullM(model, data, D)
     R = as_rotation(data.site_xmat[site].reshape(3, 3).T)
-    chain = Chain(6, data.xaxis.copy(), data.xanchor.copy(), data.qvel.copy(), numbers(p), R)
+    chain = Chain(6, data.xaxis.copy(), data.xanchor.copy(), data.qvel.copy(), vector(p), R)
     f, m = np.array(push[:3]), np.array(push[3:])
     F = np.concatenate((f, m + np.cross(data.xipos[body] - p, f)))
     return Hand(model, data, chain, J, Jdot @ data.qvel, D, data.qfrc_bias - data.qfrc_passive, F)
@@ -141,8 +140,8 @@ def drawn(arm: str, count: int = 8, turn: float = 0.5) -> tuple:
 
 def wish_of(goal: ScipyRotation, p_d, draw) -> Setpoint:
     """A wish with that goal; velocity, force and moment drawn."""
-    v_d, f_d, m_d = (numbers(draw.normal(scale=scale, size=3)) for scale in (0.1, 15.0, 1.5))
-    return Setpoint(as_rotation(goal.as_matrix().T), numbers(p_d), v_d, f_d, m_d)
+    v_d, f_d, m_d = (vector(draw.normal(scale=scale, size=3)) for scale in (0.1, 15.0, 1.5))
+    return Setpoint(as_rotation(goal.as_matrix().T), vector(p_d), v_d, f_d, m_d)
 
 
 def felt(at: Hand):
@@ -154,7 +153,7 @@ def tick(one, at: Hand, wish: Setpoint, held) -> Tick:
     """One tick of a controller, with the wrench that MuJoCo's sensors read."""
     into, about, J, tau = rows(), room(), np.zeros((6, 6)), np.zeros(6)
     gains, touch = Gains(*map(np.float64, GAINS)), ContactParameters(*map(np.float64, TOUCH))
-    f, m = (numbers(three) for three in felt(at))
+    f, m = (vector(three) for three in felt(at))
     with np.errstate(all="ignore"):
         one.assemble(at.chain, wish, f, m, gains, touch, J, into)
         comply(int(one.form == "projected"), held, 6, at.D, at.fg, J, into, touch, about, tau)

@@ -15,6 +15,7 @@ from bench.engines.binding import command_of, memory_of
 from bench.law.contender import Gains, Goal
 from bench.law.resolved_motion import Chain
 from bench.law.so3 import Rotation, from_quaternion
+from support.states import vector
 from tasks.arm_model import model_xml
 
 ARMS = tasks.arm_names()
@@ -26,11 +27,6 @@ def named(arm: str, word: str):
     """A contender by its word, with the standard inverse of the arm if that is what it says."""
     [one] = combinations.on((word,), LAWS, tasks.arm(arm).joints)
     return one
-
-
-def numbers(three) -> tuple:
-    """Three numpy.float64."""
-    return tuple(np.float64(x) for x in three)
 
 
 class Here(NamedTuple):
@@ -76,19 +72,19 @@ def here(arm: str, q, qdot) -> Here:
     mujoco.mj_jacDot(model, data, Jdot[:3], Jdot[3:], data.site("tool").xpos, int(model.site_bodyid[tool.id]))
     mujoco.mj_fullM(model, data, D)
     s = data.sensordata
-    R = Rotation(numbers(s[0:3]), numbers(s[3:6]), numbers(s[6:9]))
-    chain = Chain(model.nv, data.xaxis.copy(), data.xanchor.copy(), data.qvel.copy(), numbers(s[16:19]), R)
+    R = Rotation(vector(s[0:3]), vector(s[3:6]), vector(s[6:9]))
+    chain = Chain(model.nv, data.xaxis.copy(), data.xanchor.copy(), data.qvel.copy(), vector(s[16:19]), R)
     return Here(model, data, chain, J, Jdot @ qdot, D, data.qfrc_bias - data.qfrc_passive, J @ qdot)
 
 
 def torques(one, at: Here, goal_wxyz, p_d, gains=GAINS):
     """tau and the commanded angular acceleration u of one tick, from the law's initial memory."""
     into = buffers(at.n)
-    R_d = Rotation(*map(numbers, from_quaternion(goal_wxyz)))
-    goal = Goal(R_d, numbers((0.0, 0.0, 0.0)), numbers((0.0, 0.0, 0.0)))
+    R_d = Rotation(*map(vector, from_quaternion(goal_wxyz)))
+    goal = Goal(R_d, vector((0.0, 0.0, 0.0)), vector((0.0, 0.0, 0.0)))
     with np.errstate(all="ignore"):
         u, _ = control(
             assembly(parts_of(one, command_of(one))), one.inverse.resolve, int(one.inverse.gives == "torque"), one.rows,
-            at.chain, at.D, at.fg, goal, numbers(p_d), Gains(*map(np.float64, gains)), memory_of(one), into,
+            at.chain, at.D, at.fg, goal, vector(p_d), Gains(*map(np.float64, gains)), memory_of(one), into,
         )  # fmt: skip
     return into.tau.copy(), np.array(u)

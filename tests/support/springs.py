@@ -7,8 +7,7 @@ from scipy.spatial.transform import Rotation as ScipyRotation
 from bench.control.impedance import law_of
 from support.exact import exact_B
 from support.in_contact import GAINS, IMPEDANCES, TOUCH
-from support.on_arms import numbers
-from support.states import as_rotation
+from support.states import as_rotation, of_scipy, vector
 
 STILL = np.zeros(3)
 
@@ -19,15 +18,10 @@ def of(word: str):
     return one
 
 
-def columns(turn: ScipyRotation):
-    """A rotation as laws take it."""
-    return as_rotation(turn.as_matrix().T)
-
-
 def called(law, turn, omega, m, goal, gains=GAINS) -> np.ndarray:
     """u of a law, of scipy's rotations and arrays."""
     with np.errstate(all="ignore"):
-        return np.array(law(columns(turn), numbers(omega), numbers(m), columns(goal), gains, np.float64(TOUCH.m_o)))
+        return np.array(law(of_scipy(turn), vector(omega), vector(m), of_scipy(goal), gains, np.float64(TOUCH.m_o)))
 
 
 def command(one, turn, omega, m, goal, gains=GAINS) -> np.ndarray:
@@ -42,14 +36,14 @@ def seen(one, turn: ScipyRotation, goal: ScipyRotation) -> ScipyRotation:
 
 def margin(one, turn: ScipyRotation, goal: ScipyRotation) -> float:
     """Of its coordinates there; 1 without."""
-    return 1.0 if one.representation is None else one.representation.margin(columns(seen(one, turn, goal)))
+    return 1.0 if one.representation is None else one.representation.margin(of_scipy(seen(one, turn, goal)))
 
 
 def B_at(one, turn: ScipyRotation, goal: ScipyRotation) -> np.ndarray:
     """B of omega = B Edot, base frame, by 80 digits; the identity without coordinates."""
     if one.representation is None:
         return np.eye(3)
-    E = one.representation.chart(columns(seen(one, turn, goal))).E
+    E = one.representation.chart(of_scipy(seen(one, turn, goal))).E
     B = np.array(exact_B(one.representation.to_matrix, E).tolist(), dtype=float)
     return goal.as_matrix() @ B if one.impedance.relative else B
 
@@ -60,7 +54,7 @@ def free_body(law, turn, omega, goal, seconds: float, moment=lambda t: STILL, co
     def slope(t, y):
         R, w, m = y[:9].reshape(3, 3), y[9:12], moment(t)
         with np.errstate(all="ignore"):
-            u = law(as_rotation(R.T), numbers(w), numbers(m), columns(goal), GAINS, np.float64(TOUCH.m_o))
+            u = law(as_rotation(R.T), vector(w), vector(m), of_scipy(goal), GAINS, np.float64(TOUCH.m_o))
         spin = np.array([[0.0, -w[2], w[1]], [w[2], 0.0, -w[0]], [-w[1], w[0], 0.0]])
         return np.concatenate(((spin @ R).ravel(), u, [m @ w]))
 

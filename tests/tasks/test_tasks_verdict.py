@@ -55,20 +55,17 @@ def test_codes_are_the_places_of_the_words():
     ]
 
 
-def test_settled_since_is_the_first_tick_inside_for_good():
-    assert watch_over([1.0, 0.5, 0.019, 0.01]).settled_since == 2
-
-
-def test_settled_since_starts_again_when_the_band_is_left():
-    watch = watch_over([1.0, 0.01, 0.03, 0.019, 0.01])
-    assert watch.settled_since == 3
-    assert watch.entered
-
-
-def test_settled_since_is_later_than_the_last_tick_when_still_outside():
-    watch = watch_over([1.0, 0.5, 0.03])
-    assert watch.settled_since == 3
-    assert not watch.entered
+@pytest.mark.parametrize(
+    ("angles", "since", "entered"),
+    [
+        ([1.0, 0.5, 0.019, 0.01], 2, True),  # the first tick inside for good
+        ([1.0, 0.01, 0.03, 0.019, 0.01], 3, True),  # again, when the band is left
+        ([1.0, 0.5, 0.03], 3, False),  # later than the last tick, when still outside
+    ],
+)
+def test_settled_since_is_the_tick_after_the_last_one_outside(angles, since, entered):
+    watch = watch_over(angles)
+    assert (watch.settled_since, watch.entered) == (since, entered)
 
 
 def test_quiet_counts_ticks_under_a_hundredth_of_the_band():
@@ -93,18 +90,15 @@ def test_state_beyond_the_limit_or_not_finite_has_diverged(squared):
     assert check_state(SPEED, SPEED) == GOING
 
 
-def test_failure_is_the_verdict_wherever_the_angle_is():
-    assert ending(SINGULAR, inside=True) == SINGULAR
-
-
-def test_inside_the_band_is_settled():
-    assert ending(inside=True, speed=1.0, command=1.0) == SETTLED
-
-
-def test_outside_and_at_rest_is_stuck():
-    assert ending() == STUCK
-
-
-@pytest.mark.parametrize("moving", [{"speed": 0.01}, {"command": 1.0}])
-def test_outside_and_moving_is_timed_out(moving):
-    assert ending(**moving) == TIMED_OUT
+@pytest.mark.parametrize(
+    ("given", "found"),
+    [
+        ({"failure": SINGULAR, "inside": True}, SINGULAR),  # wherever the angle is
+        ({"inside": True, "speed": 1.0, "command": 1.0}, SETTLED),
+        ({}, STUCK),  # outside and at rest
+        ({"speed": 0.01}, TIMED_OUT),  # outside and moving
+        ({"command": 1.0}, TIMED_OUT),
+    ],
+)
+def test_verdict_is_by_failure_then_angle_then_rest(given, found):
+    assert ending(**given) == found
