@@ -53,16 +53,16 @@ def test_outcome_of_either_side_is_kept_if_it_is_another_one(sides):
     assert judged(row(), *sides)[0][BESIDE] == "saturated"
 
 
-def test_change_is_the_largest_relative_one_of_any_number():
-    assert judged(row(), row(effort=1.0 + 1e-4), row(effort=1.0 - 1e-3))[0][CHANGE] == pytest.approx(1e-3)
-
-
-def test_number_that_is_there_on_one_side_alone_changes_without_bound():
-    assert judged(row(), row(effort=np.nan), row())[0][CHANGE] == np.inf
-
-
-def test_numbers_of_the_size_of_rounding_do_not_count():
-    assert judged(row(effort=1e-12), row(effort=5e-10), row(effort=0.0))[0][CHANGE] == 0.0
+@pytest.mark.parametrize(
+    ("first", "plus", "minus", "change"),
+    [
+        (1.0, 1.0 + 1e-4, 1.0 - 1e-3, pytest.approx(1e-3)),  # the largest relative one
+        (1.0, np.nan, 1.0, np.inf),  # a number that is there on one side alone
+        (1e-12, 5e-10, 0.0, 0.0),  # of the size of rounding
+    ],
+)
+def test_change_is_the_largest_relative_one_of_numbers_above_rounding(first, plus, minus, change):
+    assert judged(row(effort=first), row(effort=plus), row(effort=minus))[0][CHANGE] == change
 
 
 def test_nudged_start_differs_in_its_joints_alone():

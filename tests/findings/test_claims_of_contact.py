@@ -41,6 +41,12 @@ def table():
     return pd.DataFrame([*rows(), *probes])
 
 
+@pytest.fixture
+def alike(table):
+    """No pair parts."""
+    return changed(table, euler(table, 75), alignment_error_rad=0.1)
+
+
 def judged(frame):
     return tables.judged("C25", compliance=frame)
 
@@ -76,8 +82,7 @@ def test_c25_is_refused_without_all_kinds_of_rows(table, kept, says):
         judged(table[kept(table)])
 
 
-def test_c25_fails_when_no_pair_parts(table):
-    alike = changed(table, euler(table, 75), alignment_error_rad=0.1)
+def test_c25_fails_when_no_pair_parts(alike):
     assert judged(alike).word == Word.FAILS
 
 
@@ -94,24 +99,21 @@ def test_c25_is_corrected_when_they_part_with_straight_frames_too(table):
 
 @pytest.mark.parametrize(("factor", "word"), [(1.99, Word.FAILS), (2.01, Word.HOLDS), (1 / 2.01, Word.HOLDS)])
 @pytest.mark.parametrize("column", PERFORMANCE)
-def test_c25_parts_by_a_factor_of_two_in_any_number(table, column, factor, word):
-    alike = changed(table, euler(table, 75), alignment_error_rad=0.1)
+def test_c25_parts_by_a_factor_of_two_in_any_number(alike, column, factor, word):
     off = euler(alike, 45) & alike["complies"].str.contains("about")
     number = factor * alike.loc[off, column]
     assert judged(changed(alike, off, **{column: number})).word == word
 
 
 @pytest.mark.parametrize("column", PERFORMANCE)
-def test_c25_compares_nothing_with_almost_nothing(table, column):
-    alike = changed(table, euler(table, 75), alignment_error_rad=0.1)
+def test_c25_compares_nothing_with_almost_nothing(alike, column):
     touching = alike["task"] != "wrench-probe"
     tiny = changed(alike, touching, **{column: 1e-9})
     tiny = changed(tiny, touching & euler(tiny, 75), **{column: 1.9 * FLOORS[PERFORMANCE[column]]})
     assert judged(tiny).word == Word.FAILS
 
 
-def test_c25_takes_a_shallower_peg_for_the_worse(table):
-    alike = changed(table, euler(table, 75), alignment_error_rad=0.1)
+def test_c25_takes_a_shallower_peg_for_the_worse(alike):
     shallow = euler(alike, 75) & alike["complies"].str.contains("about")
     deep = changed(alike, shallow, insertion_depth_m=3 * LARGE["insertion_depth_m"])
     shallow = changed(alike, shallow, insertion_depth_m=LARGE["insertion_depth_m"] / 3)
@@ -120,16 +122,14 @@ def test_c25_takes_a_shallower_peg_for_the_worse(table):
 
 
 @pytest.mark.parametrize("column", PERFORMANCE)
-def test_c25_parts_where_only_one_has_a_number(table, column):
-    alike = changed(table, euler(table, 75), alignment_error_rad=0.1)
+def test_c25_parts_where_only_one_has_a_number(alike, column):
     missing = euler(alike, 75) & alike["complies"].str.contains("about")
     assert judged(changed(alike, missing, **{column: math.nan})).word == Word.HOLDS
     nowhere = changed(alike, alike["task"] != "force-on-plane", **{column: math.nan})
     assert judged(nowhere).word == Word.FAILS
 
 
-def test_c25_parts_by_outcome_and_says_who_failed(table):
-    alike = changed(table, euler(table, 75), alignment_error_rad=0.1)
+def test_c25_parts_by_outcome_and_says_who_failed(alike):
     turned = (alike["beta"] > 1.0) & alike["complies"].str.contains("about") & (alike["task"] != "wrench-probe")
     base = turned & (alike["controller"] == "hybrid-base")
     found = judged(changed(alike, base, outcome="diverged"))

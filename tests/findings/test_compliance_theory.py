@@ -9,6 +9,7 @@ from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation as Turn
 from support.bits import EPS
 from support.in_contact import COORDINATES
+from support.states import of_scipy
 
 import tasks
 from bench.contenders.impedances import coordinates, coordinates_relative
@@ -18,7 +19,7 @@ from bench.control.setpoint import TOUCH
 from bench.engines.run_contact import run
 from bench.findings.theory import compliance_theory as theory
 from bench.law.contender import PAPERS_GAINS, Gains
-from bench.law.so3 import IDENTITY, Rotation, from_quaternion
+from bench.law.so3 import IDENTITY, from_quaternion
 from bench.metrics.contact.held_axes import leakage
 from bench.metrics.contact.stiffness import least_yield, misalignment, stiffness_axes, stiffness_condition
 from bench.metrics.contact_metric import Pose, response
@@ -70,10 +71,6 @@ def probed(controller, complies="about x and y", alpha=0, beta=30, gamma=0, arm=
     return Pose(TASK, on, controller, tuple(response(*each) for each in zip(chosen, ended, strict=True)))
 
 
-def rotation(turn: Turn) -> Rotation:
-    return Rotation(*(tuple(column) for column in turn.as_matrix().T))
-
-
 def turned(seed: int) -> list[Turn]:
     return list(Turn.random(20, rng=np.random.default_rng(seed)))
 
@@ -83,10 +80,10 @@ def test_columns_of_B_are_what_scipys_rotation_turns_about_along_each_coordinate
     """Central differences: truncation and rounding are about STEP^2 = 4e-11, times third derivatives near poles."""
     of = SCIPYS[word]
     for turn in turned(1):
-        E = np.array(COORDINATES[word].chart(rotation(turn)).E)
+        E = np.array(COORDINATES[word].chart(of_scipy(turn)).E)
         steps = STEP * np.eye(3)
         differenced = [(of(E + h) * of(E - h).inv()).as_rotvec() / (2.0 * STEP) for h in steps]
-        found = theory.matrix_B(COORDINATES[word], rotation(turn))
+        found = theory.matrix_B(COORDINATES[word], of_scipy(turn))
         np.testing.assert_allclose(found, np.transpose(differenced), atol=1e-8)
 
 
@@ -166,7 +163,7 @@ def test_springs_of_the_matrix_have_no_axes_of_their_own():
 def test_eigenvalues_of_euler_springs_are_one_and_one_plus_minus_sine_at_any_alpha_and_gamma():
     for turn in turned(2):
         beta = turn.as_euler("ZYX")[1]
-        B = theory.matrix_B(EULER, rotation(turn))
+        B = theory.matrix_B(EULER, of_scipy(turn))
         expected = sorted((1.0 - math.sin(beta), 1.0, 1.0 + math.sin(beta)))
         np.testing.assert_allclose(np.linalg.eigvalsh(B @ B.T), expected, atol=8 * EPS)
         assert np.linalg.cond(B @ B.T) == pytest.approx(theory.stiffness_condition(beta), rel=1e-9)
@@ -191,7 +188,7 @@ def test_a_moment_about_x_is_lost_at_the_identity_with_zyz():
 def test_no_moment_is_lost_away_from_the_poles():
     for turn in turned(3):
         beta = turn.as_euler("ZYX")[1]
-        assert theory.lost_moment(EULER, rotation(turn))[1] == pytest.approx(
+        assert theory.lost_moment(EULER, of_scipy(turn))[1] == pytest.approx(
             math.sqrt(theory.least_yield(beta)), rel=1e-9
         )
 
@@ -219,15 +216,14 @@ def test_a_square_loop_leaves_what_scipys_turns_leave(angle):
     np.testing.assert_allclose(theory.square_loop(angle), left, atol=4 * EPS)
 
 
-def test_nothing_is_predicted_for_moments_that_are_not_converted():
-    controller = hybrid("hybrid-unconverted", "inverse", EULER)
-    assert np.isnan(theory.compliance(controller, SPECIFICATIONS[0], IDENTITY, 0.5)).all()
-
-
-def test_nothing_is_predicted_of_zyz_angles_seen_from_the_goal_which_is_their_pole():
-    goal = rotation(turned(4)[0])
-    assert np.isnan(theory.compliance(AT_ITS_POLE, SPECIFICATIONS[0], goal, 0.5)).all()
-
-
-def test_nothing_is_predicted_where_the_coordinates_have_no_rates():
-    assert np.isnan(theory.compliance(SPRINGS_OF_EULER, SPECIFICATIONS[0], from_quaternion(on_pole(1, 0.7)), 0.5)).all()
+@pytest.mark.parametrize(
+    ("controller", "goal"),
+    [
+        (hybrid("hybrid-unconverted", "inverse", EULER), IDENTITY),  # for moments that are not converted
+        (AT_ITS_POLE, of_scipy(turned(4)[0])),  # of Z-Y-Z angles seen from the goal, which is their pole
+        (SPRINGS_OF_EULER, from_quaternion(on_pole(1, 0.7))),  # where the coordinates have no rates
+    ],
+    ids=["unconverted", "Z-Y-Z seen from the goal", "on the pole"],
+)
+def test_nothing_is_predicted(controller, goal):
+    assert np.isnan(theory.compliance(controller, SPECIFICATIONS[0], goal, 0.5)).all()

@@ -21,6 +21,7 @@ from bench.experiments.contact import can_do
 from bench.law.contender import Gains
 from bench.law.resolved_motion import Chain
 from support.bits import EPS
+from support.on_arms import Here
 from support.states import as_rotation, vector
 from tasks.contact import Specification, Trial, prepare
 from tasks.contact_model import model_xml
@@ -69,11 +70,8 @@ class Hand(NamedTuple):
         """(pdot, omega), base frame."""
         return self.J @ self.chain.qdot
 
-    def acceleration(self, tau) -> np.ndarray:
-        """(pddot, omegadot) under these torques and the wrench, by MuJoCo's forward dynamics."""
-        self.data.ctrl[:] = tau
-        mujoco.mj_forward(self.model, self.data)
-        return self.J @ self.data.qacc + self.drift
+    acceleration = Here.acceleration
+    """Under these torques and the wrench."""
 
 
 class Tick(NamedTuple):
