@@ -236,16 +236,13 @@ def test_goals_on_a_pole_are_exact():
         assert columns(start.goal_wxyz)[0][:2] == (0.0, 0.0)
 
 
-def test_goals_beyond_a_wrap_are_near_the_short_way():
-    for start in chosen("goals", "goal-beyond-wrap"):
-        assert angle(start.quat_wxyz, start.goal_wxyz) == pytest.approx(0.4, abs=1e-14)
-
-
-def test_goals_include_a_half_turn_away_and_at_the_goal():
-    for start in chosen("goals", "start-half-turn"):
-        assert angle(start.quat_wxyz, start.goal_wxyz) == pytest.approx(math.pi, abs=1e-15)
-    there = chosen("goals", "at-goal$")[0]
-    assert angle(there.quat_wxyz, there.goal_wxyz) < 1e-15
+@pytest.mark.parametrize(
+    ("pattern", "way", "rounding"),
+    [("goal-beyond-wrap", 0.4, 1e-14), ("start-half-turn", math.pi, 1e-15), ("at-goal$", 0.0, 1e-15)],
+)
+def test_goals_are_as_far_as_said(pattern, way, rounding):
+    for start in chosen("goals", pattern):
+        assert angle(start.quat_wxyz, start.goal_wxyz) == pytest.approx(way, abs=rounding)
 
 
 def test_paper_has_one_start_per_figure_away_from_every_failure():
