@@ -4,7 +4,8 @@ Rooms, bottom up; each imports only from rooms above it in this list (pyproject.
 
 law/          what a law is: the dialect, rotations, linear algebra, records. `from bench.law import Regulator, kernel`
 contenders/   the contestants, one file each: regulators/ representations/ jacobians/ inverses/ impedances/; registry
-              finds them, law_file a user's own, combinations says what goes together
+              finds them, combinations says what goes together; a user's own: law_file runs it, law_process where,
+              described_law is what everybody else knows of it
 control/      contenders at work: resolved_acceleration (tau = D J^-1 (u - Jdot qdot) + fg), hybrid, impedance,
               contact_controller, registry
 engines/      one episode, four ways: reference, native, ideal-rk4, ideal-held; and disturbed

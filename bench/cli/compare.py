@@ -9,6 +9,7 @@ from click.exceptions import Exit
 
 from bench.cli import options
 from bench.cli.screen import console, frame_table
+from bench.tables.files import write_json
 
 EPILOG = """
 [b]python -m bench compare results/reference results/quick[/b]  two runs, row by row: any difference is exit code 1.
@@ -44,6 +45,12 @@ def COMMAND(base, head, laws, no_timing, json_file, summary):
     from bench.regression.revisions import comparison, gates
     from bench.regression.revisions import summary as words
 
+    written = [*filter(None, (summary, os.environ.get("GITHUB_STEP_SUMMARY")))]
+    before = {path: os.path.getsize(path) if os.path.exists(path) else 0 for path in written}
+    for path in written:
+        _append(path, NOT_JUDGED)
+    if json_file:
+        write_json(json_file, {"verdict": "not judged"})
     base, head, folders = _meant(base, head, laws)
     if folders:
         said = gates.of_folders(Path(base), Path(head))
@@ -61,9 +68,9 @@ def COMMAND(base, head, laws, no_timing, json_file, summary):
         console().print(frame_table(pd.DataFrame(said.gates), "\nGates"))
     if json_file:
         comparison.write(json_file, said)
-    for path in filter(None, (summary, os.environ.get("GITHUB_STEP_SUMMARY"))):
-        with open(path, "a", encoding="utf-8") as file:
-            file.write(words.markdown(said))
+    for path in written:
+        os.truncate(path, before[path])
+        _append(path, words.markdown(said))
     if folders:
         for folder in (base, head):
             console().print(f"{folder} was made on: {_machine(Path(folder))}")
@@ -73,6 +80,15 @@ def COMMAND(base, head, laws, no_timing, json_file, summary):
         console().print(f"\n{words.headline(said)}")
     if differences if folders else said.regressions:
         raise Exit(1)
+
+
+NOT_JUDGED = "### Not judged: the comparison did not come to its end\n"
+"""What stands in the summary until there is a verdict."""
+
+
+def _append(path, text: str) -> None:
+    with open(path, "a", encoding="utf-8") as file:
+        file.write(text)
 
 
 def _lines(base: Path, head: Path) -> list[str]:

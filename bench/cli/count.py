@@ -2,6 +2,7 @@
 
 import pandas as pd
 import rich_click as click
+from click.exceptions import Exit
 
 import tasks
 from bench.cli import options
@@ -9,6 +10,8 @@ from bench.cli.screen import console, frame_table
 from bench.contenders import combinations
 from bench.control.registry import find_controller
 from bench.errors import Incompatible
+from bench.experiments.experiment import Settings, Unit, rows_of
+from bench.experiments.plan import Plan
 from bench.experiments.suites import SUITES
 from bench.law.contender import Contender
 
@@ -41,8 +44,6 @@ def COMMAND(laws, regulators, representations, jacobians, inverses, controllers,
     computes. A Jacobian or inverse that is not named is every one that fits. With a controller: of it in contact, on
     six joints, told to comply about x and y.
     """
-    from bench.tables import kept_costs
-
     if controllers:
         if laws or regulators or representations or jacobians or inverses or joints or arm:
             raise click.UsageError("--controller is counted by itself (leave the other options but --stages away)")
@@ -53,13 +54,28 @@ def COMMAND(laws, regulators, representations, jacobians, inverses, controllers,
     if joints or arm or named.jacobians or named.inverses:
         n = _joints(joints, arm)
         controllers = _controllers(chosen, named, n)
-        table = pd.DataFrame([row for one in controllers for row in kept_costs.of_controller(one, n)])
+        table = _rows(controllers, arm or _arm_of(n))
         title = f"Operations per tick of a controller of {n} joints"
     else:
-        table = pd.DataFrame([row for one in chosen for row in kept_costs.of_law(one)])
+        table = _rows(chosen)
         table = table.drop(columns=["jacobian", "inverse"])
         title = "Operations per tick"
     _print(table.drop(columns="joints"), title, stages)
+
+
+def _rows(chosen: list[Contender], arm: str = "") -> pd.DataFrame:
+    """Rows of costs.parquet: of laws alone, or on an arm; a user's are counted in their sandbox."""
+    from bench.running.sandbox import Sandbox
+
+    own = tuple(dict.fromkeys(one.regulator for one in chosen if one.regulator.origin))
+    plan = Plan(Settings(own=own), tuple(Unit("costs", one.name, arm=arm) for one in chosen))
+    with Sandbox(plan) as sandbox:
+        made = [
+            sandbox.rows(unit).to_pandas() if sandbox.has(unit) else rows_of(plan.settings, unit) for unit in plan.units
+        ]
+        if sandbox.notes:
+            raise Exit(1)
+    return pd.concat(made, ignore_index=True)
 
 
 def _print(table: pd.DataFrame, title: str, stages: bool) -> None:
@@ -82,6 +98,11 @@ def _joints(joints: str | None, arm: str | None) -> int:
     if joints and int(joints) != n:
         raise click.UsageError(f"arm '{arm}' has {n} joints, not {joints} (leave --joints away)")
     return n
+
+
+def _arm_of(joints: int) -> str:
+    """An arm of so many joints: counting takes nothing else of it."""
+    return next(name for name in tasks.arm_names() if tasks.arm(name).joints == joints)
 
 
 def _controllers(laws: list[Contender], named: options.Named, joints: int) -> list[Contender]:

@@ -1,14 +1,12 @@
 """Options that several commands share."""
 
-import signal
-import threading
 from pathlib import Path
 from typing import NamedTuple
 
 import rich_click as click
 
-from bench.contenders import law_file, registry
-from bench.errors import BadLaw
+from bench.contenders import registry
+from bench.contenders.described_law import described
 from bench.law.contender import Contender, Regulator
 from bench.tables.schema import RESULTS
 
@@ -67,36 +65,9 @@ def named(regulators, jacobians, inverses) -> Named:
     return Named(tuple(word.partition("@")[0] for word in whole), (by,), (through,))
 
 
-LOAD_S = 60.0
-"""For a user's file to import, and its law to be tried once."""
-
-
-def loaded(path: Path, limit_s: float = LOAD_S) -> Regulator:
-    """The law of a file; one that does not return is interrupted, where the system has such a clock.
-
-    Errors:
-        BadLaw: it does not return, or is no law.
-    """
-    if not hasattr(signal, "setitimer") or threading.current_thread() is not threading.main_thread():
-        return law_file.load_law(path)
-
-    def too_long(*_):
-        raise TimeoutError(f"it did not return within {limit_s:g} s")
-
-    before = signal.signal(signal.SIGALRM, too_long)
-    signal.setitimer(signal.ITIMER_REAL, limit_s)
-    try:
-        return law_file.load_law(path)
-    except TimeoutError as error:
-        raise BadLaw(f"--law {path}: it does not load ({error}); mend what runs when it is imported") from error
-    finally:
-        signal.setitimer(signal.ITIMER_REAL, 0.0)
-        signal.signal(signal.SIGALRM, before)
-
-
 def own_laws(files: tuple[Path, ...]) -> tuple[Regulator, ...]:
     """The user's regulators; two of one name are refused."""
-    own = tuple(map(loaded, files))
+    own = tuple(map(described, files))
     names = [one.name for one in own]
     for name in names:
         if names.count(name) > 1:

@@ -5,6 +5,7 @@ import time
 from datetime import timedelta
 
 import rich_click as click
+from click.exceptions import Exit
 
 from bench.cli import options, planned
 from bench.cli.progress import progress
@@ -14,6 +15,7 @@ from bench.experiments.choice import Choice, check_workers
 from bench.experiments.experiment import IN_CONTACT, WITHOUT
 from bench.law.contender import Gains
 from bench.running.schedulers.words import THREADS, check_scheduler
+from bench.tables.files import read_json
 
 EPILOG = """
 [b]python -m bench run[/b]  the default suite into results/latest.
@@ -151,3 +153,5 @@ def COMMAND(
     console().print(
         f"{'wrote' if did else 'up to date:'} {shown_path(out)}{took}   (python -m bench show {shown_path(out)})"
     )
+    if read_json(out / "provenance.json")["lost"]:
+        raise Exit(1)  # a law of the user's crashed or hung: what was lost has been said

@@ -27,7 +27,7 @@ def COMMAND(laws, regulators, representations, arms, quick):
             steps.now(f"{'timing' if done.total else 'compiling'} {done.name}", done.done, done.total or None)
 
         chosen = options.chosen(laws, regulators, representations, costings=True)
-        path = timing.run(chosen, quick=quick, told=told, arms=named)
+        path = (timing.run_apart if laws else timing.run)(chosen, quick=quick, told=told, arms=named)
     console().print(frame_table(timing.table(path), "Time per tick"))
     console().print(frame_table(timing.arm_table(path), "Time per tick on arms"))
     console().print(f"wrote {path}")

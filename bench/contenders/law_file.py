@@ -4,6 +4,7 @@ import ast
 import hashlib
 import re
 import sys
+import traceback
 import types
 from pathlib import Path
 
@@ -23,8 +24,22 @@ SHORT = re.compile(rf"[\w ,.'-]{{0,{LONGEST}}}")
 """What stands beside a curve; markup and formulas would break a figure."""
 
 
+def read_law(path: Path) -> bytes:
+    """The text of a user's law file.
+
+    Errors:
+        BadLaw: there is no such file, or it cannot be read.
+    """
+    if not path.is_file():
+        raise BadLaw(f"--law {path}: there is no such file; give the path of a Python file with a constant REGULATOR")
+    try:
+        return path.read_bytes()
+    except OSError as error:
+        raise BadLaw(f"--law {path}: it cannot be read ({error.strerror}); mend its rights") from error
+
+
 def load_law(path: Path, text: bytes | None = None) -> Regulator:
-    """The REGULATOR of a file outside the package. This runs the file.
+    """The REGULATOR of a file outside the package. This runs the file: in a law's own process alone.
 
     The module's name carries a digest of the file, so that nothing of an earlier version is ever reused.
 
@@ -32,15 +47,10 @@ def load_law(path: Path, text: bytes | None = None) -> Regulator:
         text: what the file holds, if it has been read already.
 
     Errors:
-        BadLaw: the file is missing, does not import, lacks REGULATOR, or its law does not return three numbers.
+        BadLaw: the file is missing, does not import, or lacks a REGULATOR that can be used.
     """
     path = Path(path)
-    if not path.is_file():
-        raise BadLaw(f"--law {path}: there is no such file; give the path of a Python file with a constant REGULATOR")
-    try:
-        text = path.read_bytes() if text is None else text
-    except OSError as error:
-        raise BadLaw(f"--law {path}: it cannot be read ({error.strerror}); mend its rights") from error
+    text = read_law(path) if text is None else text
     name = f"user_law_{path.stem}_{hashlib.sha256(text).hexdigest()[:12]}"
     module = types.ModuleType(name)
     module.__file__ = str(path)
@@ -50,7 +60,7 @@ def load_law(path: Path, text: bytes | None = None) -> Regulator:
     except (Exception, SystemExit) as error:
         del sys.modules[name]
         cure = _new_imports(text) if isinstance(error, ImportError) else "mend the file"
-        raise BadLaw(f"--law {path}: it does not import ({type(error).__name__}: {error}); {cure}") from error
+        raise BadLaw(f"--law {path}: it does not import ({_said(error, str(path))}); {cure}") from error
     own = getattr(module, "REGULATOR", None)
     if not isinstance(own, Regulator):
         given = "no REGULATOR" if own is None else f"a REGULATOR of type {type(own).__name__}"
@@ -60,10 +70,17 @@ def load_law(path: Path, text: bytes | None = None) -> Regulator:
     _check_fields(own, path)
     if own.name in known_regulators():
         raise BadLaw(f"--law {path}: the name '{own.name}' is one of ours; give your REGULATOR another name")
-    own = own._replace(origin=str(path))
+    return own._replace(origin=str(path))
+
+
+def check_answers(own: Regulator) -> None:
+    """Call the law once in each representation that it acts on.
+
+    Errors:
+        BadLaw: it cannot be called, or does not return three numbers (and a memory).
+    """
     for one in contenders_of(own):
-        _check_shape(one, path)
-    return own
+        _check_shape(one, Path(own.origin))
 
 
 def _new_imports(text: bytes) -> str:
@@ -139,17 +156,38 @@ MISTAKES = (TypeError, NameError, AttributeError, ImportError)
 """What a law raises that was written wrongly; anything else it may raise in some state, and that is a row."""
 
 
-def _check_shape(one: Contender, path: Path) -> None:
+def _tried(one: Contender):
+    """What the law answers at TRIAL."""
     first = one.regulator.memory
-    has_memory = first is not None
     memory = () if first is None else ((*first, *NO_MEMORY[len(first) :]),)
+    return one.law(TRIAL, (0.1, 0.2, 0.3), Goal(), Gains(), *memory)
+
+
+def trial_error(one: Contender) -> str:
+    """What the law raises at TRIAL, and in which line of its file; nothing if it answers."""
     try:
-        answer = one.law(TRIAL, (0.1, 0.2, 0.3), Goal(), Gains(), *memory)
+        _tried(one)
+    except Exception as error:
+        return _said(error, one.regulator.origin)
+    return ""
+
+
+def _said(error: BaseException, origin: str) -> str:
+    """An error, and the last line of the user's file that it passed."""
+    lines = [frame.lineno for frame in traceback.extract_tb(error.__traceback__) if frame.filename == origin]
+    where = f" in line {lines[-1]}" if lines else ""
+    return f"{type(error).__name__}{where}: {error}"
+
+
+def _check_shape(one: Contender, path: Path) -> None:
+    has_memory = one.regulator.memory is not None
+    arguments = "R, omega, goal, gains, memory" if has_memory else "R, omega, goal, gains"
+    try:
+        answer = _tried(one)
     except MISTAKES as error:
-        arguments = "R, omega, goal, gains, memory" if has_memory else "R, omega, goal, gains"
         raise BadLaw(
             f"--law {path}: the law of '{one.name}' cannot be called as law({arguments}) "
-            f"({type(error).__name__}: {error}); see the example in README"
+            f"({_said(error, str(path))}); see the example in README"
         ) from error
     except Exception:
         return  # a law that raises in an episode is a row, not a mistake of the caller

@@ -47,6 +47,7 @@ class Sandbox:
         self.notes: list[str] = []
         self._own = {one.name: one for one in plan.settings.own}
         self._tried: dict[Unit, pa.Table] = {}
+        self._unready: dict[tuple[str, str, str], Lost] = {}
         self._idle: queue.LifoQueue[Process] = queue.LifoQueue()
         self._all: list[Process] = []
 
@@ -65,19 +66,13 @@ class Sandbox:
         """Compile the laws for every engine that they run on, and try them where an experiment says so.
 
         Errors:
-            BadLaw: one that cannot be compiled or counted.
+            BadLaw: one beyond the dialect.
         """
         own = [unit for unit in self.plan.units if self.has(unit)]
-        firsts = {(unit.experiment, unit.contender, unit.engine): unit for unit in reversed(own)}
+        firsts = {self._place(unit): unit for unit in reversed(own)}
         for unit in reversed(firsts.values()):
-            try:
-                with self._process(unit) as process:
-                    process.prepare(unit)
-            except Lost as lost:
-                raise BadLaw(
-                    f"--law {self._own[unit.law].origin}: it cannot be compiled for "
-                    f"{unit.engine or unit.experiment} ({lost}); mend the file"
-                ) from lost
+            with contextlib.suppress(Lost), self._process(unit):
+                pass
         for unit in own:
             if experiment_of(unit).is_tried_first and not unit.arm:
                 self._tried[unit] = self.rows(unit)
@@ -99,6 +94,8 @@ class Sandbox:
                 what = f"its {unit.episodes} episodes are {lost.outcome}"
                 self._note(f"{unit.label}: {lost}; {what if made.num_rows else 'it has no rows'}")
                 return made
+            if self._place(unit) in self._unready:
+                return self._lost(unit, lost.outcome)
             self._note(f"{unit.label}, {unit.selector} from {unit.first}: {lost}; its episodes are run singly")
         return joined(list(self._one_by_one(unit)))
 
@@ -127,8 +124,26 @@ class Sandbox:
         if self.limit_s is not None:
             limit_s = self.limit_s if some is unit else min(self.limit_s, limit_s)
         with self._process(unit) as process:
-            process.prepare(unit)
             return sandbox_process.unpacked(process.ask(unit, some, limit_s))
+
+    @staticmethod
+    def _place(unit: Unit) -> tuple[str, str, str]:
+        """What a law is compiled for."""
+        return unit.experiment, unit.contender, unit.engine
+
+    def _prepare(self, process: Process, unit: Unit) -> None:
+        """Compile, import and build what the unit needs; where that lost the law once, it is not tried again."""
+        place = self._place(unit)
+        if place not in self._unready:
+            try:
+                return process.prepare(unit)
+            except Lost as lost:
+                where = unit.engine or unit.experiment
+                self._unready[place] = Lost(lost.outcome, f"it cannot be compiled for {where} ({lost})")
+                self._note(f"{unit.law}: {self._unready[place]}; all its episodes there are {lost.outcome}")
+                if isinstance(lost, Ended):
+                    raise
+        raise self._unready[place]
 
     def _note(self, text: str) -> None:
         text = "".join(sign if sign.isprintable() else " " for sign in text)  # it may hold what a law raised
@@ -137,13 +152,14 @@ class Sandbox:
 
     @contextlib.contextmanager
     def _process(self, unit: Unit) -> Iterator["Process"]:
-        """One that is idle, or a new one; it is idle again unless it was lost."""
+        """One that is idle, or a new one, made ready for the unit; it is idle again unless it was lost."""
         try:
             process = self._idle.get_nowait()
         except queue.Empty:
             process = Process(self._chunk)
             self._all.append(process)
         try:
+            self._prepare(process, unit)
             yield process
         except Ended:
             process.end()

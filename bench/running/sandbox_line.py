@@ -1,12 +1,8 @@
 """The line from a run to a process of a user's laws (sandbox_process.py): its requests, its limits, and how it ends."""
 
 import json
-import os
-import socket
-import subprocess
-import sys
-from multiprocessing.connection import Connection
 
+from bench.contenders.law_process import LawProcess
 from bench.experiments.experiment import Unit
 from bench.running import sandbox_process
 from tasks.verdict import CRASHED, HUNG, OUTCOMES
@@ -40,19 +36,7 @@ class Process:
     """One process, and the line to it."""
 
     def __init__(self, chunk: bytes):
-        ours, theirs = socket.socketpair()
-        words = [sys.executable, "-m", sandbox_process.__name__, str(theirs.fileno())]
-        # no threads of the linear algebra, which would not be in a fork; and a terminal's Ctrl-C is the run's to answer
-        environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1"}
-        with theirs:
-            self.process = subprocess.Popen(
-                words,
-                stdin=subprocess.DEVNULL,
-                pass_fds=[theirs.fileno()],
-                env=environment,
-                start_new_session=True,
-            )
-        self.line = Connection(ours.detach())
+        self.process = LawProcess(sandbox_process.__name__)
         self.prepared: set = set()
         self._say(chunk, START_S)
 
@@ -77,10 +61,10 @@ class Process:
 
     def _say(self, said: bytes, longest_s: float) -> bytes:
         try:
-            self.line.send_bytes(said)
-            if not self.line.poll(longest_s):
-                raise Ended(OUTCOMES[HUNG], f"it did not return within {longest_s:g} s")
-            content = self.line.recv_bytes()
+            self.process.line.send_bytes(said)
+            content = self.process.hear(longest_s)
+        except TimeoutError as error:
+            raise Ended(OUTCOMES[HUNG], f"it did not return within {longest_s:g} s") from error
         except (EOFError, OSError) as error:
             raise Ended(OUTCOMES[CRASHED], "its process was ended") from error
         sign, rest = content[:1], content[1:]
@@ -91,7 +75,5 @@ class Process:
         return rest
 
     def end(self) -> None:
-        """Stop it, wherever it is."""
-        self.line.close()
-        self.process.kill()
-        self.process.wait()
+        """Stop it, wherever it is, and all that the law has started."""
+        self.process.end()

@@ -7,9 +7,7 @@ a limit of processor time, which no other load on the machine shortens, and one 
 
 import functools
 import json
-import math
 import os
-import resource
 import signal
 import sys
 import time
@@ -19,7 +17,9 @@ from typing import NoReturn
 
 import pyarrow as pa
 
-from bench.errors import BenchError
+from bench.contenders.law_file import load_law, trial_error
+from bench.contenders.law_process import LOOK_S, confine, end_with, ending, limit
+from bench.errors import BadLaw, BenchError
 from bench.experiments.experiment import Unit, experiment_of, rows_of
 from bench.experiments.plan import Plan
 from bench.running.wire_format import plan_of
@@ -28,8 +28,14 @@ from bench.tables.store import as_table
 DONE, MISTAKE, CRASHED, HUNG = b"+", b"?", b"!", b"."
 """Signs: before what was asked for; before the message of an error that is the user's; before why a law was lost."""
 
-READY_S = 300
-"""Seconds of processor time for compiling: five times what all engines take that were never compiled before."""
+COMPLETE = b"\n"
+"""The last byte of a fork's answer: without it the law has ended the fork."""
+
+ENDING_S = 0.5
+"""For a fork that has said its last to end by itself, so that its exit code is its own."""
+
+READY_S = 120
+"""Seconds of processor time for compiling: twice what all engines take that were never compiled before."""
 
 
 def answer(work: Callable[[], bytes]) -> bytes:
@@ -44,7 +50,12 @@ def answer(work: Callable[[], bytes]) -> bytes:
 
 def prepared(plan: Plan, unit: Unit) -> bytes:
     """Nothing, when all is compiled, imported and built that the unit's rows need, for all forks."""
-    experiment_of(unit).prepare(plan.settings, unit)
+    try:
+        experiment_of(unit).prepare(plan.settings, unit)
+    except BadLaw:
+        if raised := trial_error(plan.settings.contender(unit.contender)):
+            raise RuntimeError(raised) from None  # what always raises has no type, and is no mistake of the dialect
+        raise
     return b""
 
 
@@ -76,50 +87,69 @@ def answer_of_a_fork(work: Callable[[], bytes], processor_s: float, longest_s: f
     child = os.fork()
     if not child:
         _answer_and_exit(work, processor_s, writing)
+    os.setpgid(child, child)
     os.close(writing)
-    said, deadline = [b" "], time.monotonic() + longest_s
-    while said[-1] and (ready := wait([reading, run_of], max(0.0, deadline - time.monotonic()))):
-        if run_of in ready:
-            os.kill(child, signal.SIGKILL)
-            raise EOFError  # the run says nothing before it has its answer, so that this is its end
-        said.append(os.read(reading, 1 << 20))
-    os.close(reading)
-    if said[-1]:
-        os.kill(child, signal.SIGKILL)
-        os.waitpid(child, 0)
+    try:
+        content = _heard(reading, child, longest_s, run_of)
+    finally:
+        os.close(reading)
+        code = _ended(child)
+    if content is not None and content.endswith(COMPLETE):
+        return content.removesuffix(COMPLETE)
+    if content is None:
         return HUNG + f"it did not return within {longest_s:.3g} s".encode()
-    code = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
-    if code == 0:
-        return b"".join(said[1:])
     if code == -signal.SIGXCPU:
         return HUNG + f"it did not return within {processor_s:.3g} s of processor time".encode()
-    ending = f"exit code {code}" if code > 0 else signal.Signals(-code).name
-    return CRASHED + f"it ended its process ({ending})".encode()
+    return CRASHED + f"it ended its process ({ending(code)})".encode()
+
+
+def _heard(reading: int, child: int, longest_s: float, run_of: Connection) -> bytes | None:
+    """What a fork wrote until it ended, though what it forked in turn may still hold its pipe; None if it did not end.
+
+    Errors:
+        EOFError: the run has ended.
+    """
+    said, deadline = [], time.monotonic() + longest_s
+    while (left := deadline - time.monotonic()) > 0.0:
+        ready = wait([reading, run_of], min(LOOK_S, left))
+        if run_of in ready:
+            raise EOFError  # the run says nothing before it has its answer, so that this is its end
+        if reading in ready:
+            said.append(os.read(reading, 1 << 20))
+            if not said[-1]:
+                return b"".join(said)
+        elif os.waitid(os.P_PID, child, os.WEXITED | os.WNOHANG | os.WNOWAIT):
+            return b"".join(said)
+    return None
+
+
+def _ended(child: int) -> int:
+    """The exit code of a fork, which is killed if it does not end now, with what it forked in turn."""
+    deadline = time.monotonic() + ENDING_S
+    while not os.waitid(os.P_PID, child, os.WEXITED | os.WNOHANG | os.WNOWAIT) and time.monotonic() < deadline:
+        time.sleep(0.001)
+    os.killpg(child, signal.SIGKILL)
+    return os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
 
 
 def _answer_and_exit(work: Callable[[], bytes], processor_s: float, writing: int) -> NoReturn:
     try:
-        _limit(processor_s)
+        limit(processor_s)
         with open(writing, "wb") as pipe:
-            pipe.write(answer(work))
+            pipe.write(answer(work) + COMPLETE)
         os._exit(0)
     finally:
         os._exit(1)  # what is no Exception, as sys.exit: the law wants to leave
 
 
-def _limit(processor_s: float) -> None:
-    """End this process with SIGXCPU when it has used so many seconds more, rounded up."""
-    used = resource.getrusage(resource.RUSAGE_SELF)
-    _, most = resource.getrlimit(resource.RLIMIT_CPU)
-    resource.setrlimit(resource.RLIMIT_CPU, (math.ceil(used.ru_utime + used.ru_stime + processor_s), most))
-
-
 def main(descriptor: int) -> None:
     """Answer until the run lets go."""
+    end_with(descriptor)
+    confine()
     with Connection(descriptor) as run_of:
         try:
-            _limit(READY_S)
-            plan = plan_of(json.loads(run_of.recv_bytes()))
+            limit(READY_S)
+            plan = plan_of(json.loads(run_of.recv_bytes()), load_law)
         except BenchError as error:
             run_of.send_bytes(MISTAKE + str(error).encode())
             return
@@ -129,7 +159,7 @@ def main(descriptor: int) -> None:
             asked = json.loads(run_of.recv_bytes())
             unit = units[asked["key"]]
             if "processor_s" not in asked:
-                _limit(READY_S)
+                limit(READY_S)
                 run_of.send_bytes(answer(functools.partial(prepared, plan, unit)))
             else:
                 some = unit.part(asked["first"], asked["count"]) if "count" in asked else unit

@@ -8,10 +8,10 @@ import dataclasses
 import functools
 import hashlib
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from bench.contenders.law_file import load_law
+from bench.contenders import described_law
 from bench.errors import BadResults
 from bench.experiments.experiment import Settings, Unit
 from bench.experiments.plan import Plan
@@ -30,9 +30,11 @@ def described(plan: Plan, units: Sequence[Unit]) -> dict:
     }
 
 
-def plan_of(content: dict) -> Plan:
+def plan_of(content: dict, read: Callable[[Path], Regulator] = described_law.described) -> Plan:
     """A plan of these units alone.
 
+    Args:
+        read: makes a law of a user's file; in a law's own process, and there alone, `law_file.load_law`.
     Errors:
         BadResults: it was described by other sources. BadLaw: a user's law that this process cannot load.
     """
@@ -42,20 +44,17 @@ def plan_of(content: dict) -> Plan:
             "same commit and lock on every machine"
         )
     settings = Settings(**content["settings"])
-    given = settings._replace(gains=Gains(*settings.gains), own=tuple(map(_law, settings.own)))
+    given = settings._replace(gains=Gains(*settings.gains), own=tuple(read(_file(text)) for text in settings.own))
     return Plan(given, tuple(Unit(*fields) for fields in content["units"]))
 
 
 @functools.lru_cache(maxsize=32)
-def _law(text: str) -> Regulator:
-    """A user's law from its text, which lies in a file of its own as long as this process lives.
-
-    Once for all chunks, so that it is compiled once.
-    """
+def _file(text: str) -> Path:
+    """Where the text of a user's law lies as long as this process lives; once for all chunks."""
     digest = hashlib.sha256(text.encode()).hexdigest()[:16]
     path = Path(_folder().name) / f"law_{digest}.py"
     path.write_text(text, encoding="utf-8")
-    return load_law(path)
+    return path
 
 
 @functools.cache

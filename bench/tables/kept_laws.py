@@ -4,7 +4,8 @@ from pathlib import Path
 
 import pandas as pd
 
-from bench.contenders.law_file import WORD, load_law
+from bench.contenders.described_law import described
+from bench.contenders.law_file import WORD
 from bench.contenders.registry import known_regulators, known_representations
 from bench.errors import BadResults
 from bench.law.contender import ON_MATRIX, Regulator
@@ -39,7 +40,7 @@ def _word(path: Path) -> str:
 def _law(path: Path, costs: pd.DataFrame) -> Regulator:
     refuse_link(path)
     text = path.read_bytes()
-    return load_law(path, text) if trust.is_own(text) else _by_its_rows(path, costs)
+    return described(path, text) if trust.is_own(text) else _by_its_rows(path, costs)
 
 
 def _by_its_rows(path: Path, costs: pd.DataFrame) -> Regulator:

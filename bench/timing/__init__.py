@@ -16,10 +16,12 @@ dm_control_loop      and a loop in dm_control and numpy, for the speed-up
 threads            two threads against one, on the wall, after the passes
 passes, session    the samples, as pytest-benchmark runs them
 ratios             medians over passes, with intervals
+apart              the same beside a user's laws, in a process of its own
 rows, summary      from seconds to results/timings/<machine>.parquet, and to a table for the eye
 """
 
+from bench.timing.apart import run_apart
 from bench.timing.rows import about, read, run
 from bench.timing.summary import arm_table, table
 
-__all__ = ["about", "arm_table", "read", "run", "table"]
+__all__ = ["about", "arm_table", "read", "run", "run_apart", "table"]

@@ -17,9 +17,9 @@ def written(tmp_path, text: str):
     ("text", "reason"),
     [
         ("def law(:", "does not import (SyntaxError"),
-        ("import no_such_package", "does not import (ModuleNotFoundError: No module named 'no_such_package')"),
-        ("raise RuntimeError('on\\npurpose')", "does not import (RuntimeError: on purpose)"),
-        ("import sys; sys.exit(7)", "does not import (SystemExit: 7)"),
+        ("import no_such_thing", "does not import (ModuleNotFoundError in line 1: No module named 'no_such_thing')"),
+        ("raise RuntimeError('on\\npurpose')", "does not import (RuntimeError in line 1: on purpose)"),
+        ("import sys; sys.exit(7)", "does not import (SystemExit in line 1: 7)"),
         ("x = 1", "it has no REGULATOR; it needs a constant REGULATOR"),
         ("REGULATOR = 5", "it has a REGULATOR of type int"),
         ("REGULATOR = ('mine', 'Mine')", "it has a REGULATOR of type tuple"),

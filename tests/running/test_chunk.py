@@ -6,6 +6,7 @@ import pandas as pd
 import pytest
 from support.unit_kinds import plan_of_all_kinds
 
+from bench.contenders.law_file import load_law
 from bench.errors import BadResults
 from bench.experiments.experiment import known_experiments, rows_of
 from bench.running import wire_format
@@ -19,7 +20,7 @@ def made(tmp_path_factory):
 @pytest.fixture(scope="module")
 def carried(made):
     """The plan as it is on the other side."""
-    return wire_format.plan_of(json.loads(json.dumps(wire_format.described(made, made.units))))
+    return wire_format.plan_of(json.loads(json.dumps(wire_format.described(made, made.units))), load_law)
 
 
 def test_chunk_has_the_units_of_every_kind(made, carried):

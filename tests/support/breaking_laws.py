@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from bench.contenders.law_file import load_law
+from bench.contenders.described_law import described
 from bench.contenders.registry import contenders_of, find_contender
 from bench.experiments import plan
 from bench.experiments.choice import Choice
@@ -20,6 +20,6 @@ def plan_of_laws(folder: Path, bodies: dict[str, str], engine: str) -> plan.Plan
     for name, body in bodies.items():
         path = folder / f"{name}.py"
         path.write_text(spring_text(body, name=name))
-        laws += contenders_of(load_law(path))
+        laws += contenders_of(described(path))
     choice = Choice(("free-body",), ("uniform",), (engine,), experiments=("free-body",))
     return plan.make("quick", laws, choice, count=4, horizon_s=0.05)

@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import NamedTuple
 
-from bench.contenders.law_file import load_law
+from bench.contenders.described_law import described
 from bench.errors import BadResults
 from bench.provenance import ROOT
 from bench.regression.revisions.commits import WORKING_TREE, commit_of, repository, worktree
@@ -121,9 +121,10 @@ def finished_run(side: Checkout, told: Callable[[str], None]) -> Iterator[Path]:
         told(f"running the quick suite of {side.name}")
         words = ["-m", "bench", "run", "--suite", "quick", "--replace", "--out", str(folder)]
         for law in side.laws:
-            words += ["--law", str(law), "--regulator", load_law(law).name]
+            words += ["--law", str(law), "--regulator", described(law).name]
         ended = python_in(side.path, *words)
-        if ended.returncode:
+        # 1: of a user's law some rows were lost, which the folder says; nobody else's can be
+        if ended.returncode not in ((0, 1) if side.own else (0,)) or not (folder / "provenance.json").is_file():
             raise BadResults(
                 f"{side.name}: its quick suite does not run ({_last(ended.stderr).removeprefix('error: ')})"
             )

@@ -15,6 +15,7 @@ from bench.counting import OPERATIONS as OPERATION_NAMES
 from bench.counting import TOTAL
 from bench.regression.revisions.comparison import CHANGE, EXACT, IMPROVEMENT, OPERATIONS, REGRESSION, Finding
 from bench.regression.rows.difference import CHANGED, COLUMN, MISSING, NEW, Difference
+from bench.tables.files import read_json
 from bench.tables.read import with_contender
 from bench.tables.store import read
 
@@ -127,6 +128,12 @@ def _says(name: str, one: Difference, count: int) -> str:
     if one.table == "costs":
         return f"{name}: {one.column} {one.was} -> {one.now} a tick: {where}{more}"
     return f"{name or one.table}: {one.column or one.says} {one.was} -> {one.now}: {where}{more}"
+
+
+def lost(head: Path) -> list[Finding]:
+    """What head's run says of a user's law that crashed or hung."""
+    notes = read_json(head / "provenance.json").get("lost", [])
+    return [Finding(EXACT, REGRESSION, "", "lost", "", "", note) for note in notes]
 
 
 def removed(differences: Iterable[Difference], head: Path) -> list[Finding]:

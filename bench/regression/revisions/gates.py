@@ -10,6 +10,7 @@ from bench.regression.revisions.checkouts import Checkout
 from bench.regression.revisions.comparison import (
     EXACT,
     FAILED,
+    INSTRUCTIONS,
     OPERATIONS,
     PASSED,
     REGRESSION,
@@ -59,7 +60,7 @@ def _origin(folder: Path) -> dict[str, str]:
 
 def _exact(base: Path, head: Path) -> list[Finding]:
     found = differences(base, head)
-    return [*exact.removed(found, head), *exact.basins(base, head), *exact.findings(found)]
+    return [*exact.lost(head), *exact.removed(found, head), *exact.basins(base, head), *exact.findings(found)]
 
 
 def _gates(found: list[Finding], names: tuple[str, ...]) -> list[Gate]:
@@ -100,9 +101,10 @@ def _by_rows(old: Checkout, new: Checkout, told: Told, by: Means) -> tuple[list[
     """The exact gate and that of operations."""
     if old.is_new:
         with by.finished_run(new, told) as run:
-            counted = self_measure.by_law(read(run, "costs"))
+            counted, found = self_measure.by_law(read(run, "costs")), exact.lost(run)
         says = "the law is new: there is nothing to compare it with"
-        return [Gate(name, SKIPPED, says) for name in (EXACT, OPERATIONS)], [], ({}, counted)
+        gates = _gates(found, (EXACT,)) if found else [Gate(EXACT, SKIPPED, says)]
+        return [*gates, Gate(OPERATIONS, SKIPPED, says)], found, ({}, counted)
     if old.sources == new.sources and not new.own:
         says = "both sides have the same sources and versions, so a run would be the same"
         return [Gate(name, PASSED, says) for name in (EXACT, OPERATIONS)], [], ({}, {})
@@ -128,6 +130,9 @@ def _by_process(
         with by.running(both) as processes:
             return by.measured(processes, operations, wanted, told)
     except SideFailed as error:
-        if error.at == len(both) - 1:
+        if error.at < len(both) - 1:
+            return left_out(f"base is too old for it: {error}"), [], []
+        if not new.own:
             raise
-        return left_out(f"base is too old for it: {error}"), [], []
+        found = Finding(INSTRUCTIONS, REGRESSION, "", "compiled", "", "", f"the law cannot be timed: {error}")
+        return [Gate(INSTRUCTIONS, FAILED, str(error)), *left_out("")[1:]], [found], []

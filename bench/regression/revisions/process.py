@@ -6,12 +6,16 @@ import os
 import subprocess
 import sys
 import tempfile
+import threading
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from bench.errors import Incompatible
 from bench.regression.revisions.machine import environment
+
+SILENT_S = 1200.0
+"""On the wall, from line to line: a side that says nothing for so long is ended. Compiling all laws takes a tenth."""
 
 PROGRAM = Path(__file__).with_name("side.py")
 
@@ -88,7 +92,10 @@ class Process:
             SideFailed: it ended; the message has its last words.
         """
         assert self.popen.stdout is not None
+        too_long = threading.Timer(SILENT_S, self.popen.kill)
+        too_long.start()
         line = self.popen.stdout.readline()
+        too_long.cancel()
         if not line:
             raise SideFailed(self.at, f"laws of {self.checkout} cannot be compiled and timed ({self._last_words()})")
         return json.loads(line)

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
+import ast
 import html as markup
 import re
-import sys
 from pathlib import Path
-from types import ModuleType
 
 import pandas as pd
 from pygments import highlight
 from pygments.formatters import HtmlFormatter
 from pygments.lexers import PythonLexer
 
+from bench.contenders import regulators
 from bench.contenders.registry import contenders_of, known_regulators, papers_laws
 from bench.law.contender import Contender, Regulator
 from bench.tables import read
@@ -52,26 +52,17 @@ def papers_first(regulator: Regulator) -> list[Contender]:
     return sorted(contenders_of(regulator), key=lambda one: one.is_elsewhere)
 
 
-def module(regulator: Regulator) -> ModuleType:
-    """The file of a regulator."""
-    return sys.modules[(regulator.law or regulator.law_in).__module__]
-
-
-def was_run(regulator: Regulator) -> bool:
-    """Whether its file was run; one that came with results from elsewhere was not (`trust`)."""
-    return bool(regulator.law or regulator.law_in)
-
-
 def file_of(regulator: Regulator) -> Path:
     """Where its source is."""
-    return Path(module(regulator).__file__ or "") if was_run(regulator) else Path(regulator.origin)
+    ours = Path(regulators.__path__[0]) / f"{regulator.name.replace('-', '_')}.py"
+    return Path(regulator.origin) if regulator.origin else ours
 
 
 def text_of(regulator: Regulator) -> tuple[str, str]:
-    """What its docstring says: what the law is, and where it fails."""
-    if not was_run(regulator):
+    """What its docstring says: what the law is, and where it fails; nothing of a file that may not run (`trust`)."""
+    if not (regulator.law or regulator.law_in):
         return UNTRUSTED, ""
-    text = typeset(" ".join((module(regulator).__doc__ or "").split()))
+    text = typeset(" ".join((ast.get_docstring(ast.parse(file_of(regulator).read_bytes())) or "").split()))
     found = FAILS.search(text)
     fails = found[1] if found else ""
     return text[: found.start()].strip() if found else text, fails[:1].upper() + fails[1:]
