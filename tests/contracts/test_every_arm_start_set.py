@@ -309,7 +309,8 @@ def test_uniform_goal_is_reachable_at_the_starts_position(arm):
             return np.concatenate((here - p, (goal * rotation(quat).inv()).as_rotvec()))
 
         guesses = [generator.uniform(lower, upper) for _ in range(30)]
-        found = (least_squares(miss, guess, bounds=(lower, upper)).cost < 1e-16 for guess in guesses)
+        to_rounding = {"bounds": (lower, upper), "ftol": 1e-15, "xtol": 1e-15, "gtol": 1e-15}
+        found = (least_squares(miss, guess, **to_rounding).cost < 1e-16 for guess in guesses)
         assert any(found), start.id
 
 
