@@ -37,9 +37,9 @@ PUSH = 10.0
 
 
 class Progress(NamedTuple):
-    """Told after every sample: what was timed, and how many samples of how many are done.
+    """After every sample: what was timed, and how many samples of how many are done.
 
-    Before the first sample it is told of every law that is being compiled, with a total of 0.
+    Before the first sample, one for every law that is being compiled, with a total of 0.
     """
 
     name: str

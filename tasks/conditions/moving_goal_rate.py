@@ -1,10 +1,10 @@
-"""A goal that sways about two axes, at a peak rate of the level; its rate is feedforward, its acceleration is not."""
+"""A goal oscillating about two axes, at a peak rate of the level; its rate is feedforward, its acceleration is not."""
 
 from tasks.condition import RATE, Axis, Condition
 
 AXIS = Axis(
     "moving-goal-rate",
-    "Goal that moves, its rate told",
+    "Moving goal, feedforward of its rate",
     "rad/s",
     (0.0, 0.5, 1.0, 2.0, 5.0, 10.0),
     0.0,

@@ -1,10 +1,10 @@
-"""A goal that sways about two axes, at a peak rate of the level; the law is given where it is, without feedforward."""
+"""A goal oscillating about two axes, at a peak rate of the level; the law is given where it is, without feedforward."""
 
 from tasks.condition import NO_FEEDFORWARD, Axis, Condition
 
 AXIS = Axis(
     "moving-goal-untold",
-    "Goal that moves untold",
+    "Moving goal, no feedforward",
     "rad/s",
     (0.0, 0.5, 1.0, 2.0, 5.0, 10.0),
     0.0,

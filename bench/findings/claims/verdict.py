@@ -3,8 +3,9 @@
 A claim's text and its numbers were committed before any result was looked at; `git log` of its file shows it.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from enum import StrEnum
+from types import MappingProxyType
 from typing import NamedTuple
 
 from bench.errors import BenchError
@@ -37,7 +38,7 @@ class Evidence(NamedTuple):
     sentence: str
     rows: int
     tables: tuple[str, ...]
-    parts: dict[str, str] = {}  # noqa: RUF012  a tuple's default, never written to
+    parts: Mapping[str, str] = MappingProxyType({})
 
     def __str__(self) -> str:
         return self.sentence

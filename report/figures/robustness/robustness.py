@@ -47,9 +47,9 @@ WALKS: tuple[Walk, ...] = (
     Walk("inertia", "heavier body", "a heavier body"),
     Walk("uneven-inertia", "uneven body", "an uneven body"),
     Walk("spin", "spin [rad/s]", "initial spin"),
-    Walk("moving-goal", "moving goal, all told [rad/s]", "a moving goal of which all is told"),
-    Walk("moving-goal-rate", "its rate told [rad/s]", "a moving goal of which the rate is told"),
-    Walk("moving-goal-untold", "untold [rad/s]", "a moving goal of which nothing is told"),
+    Walk("moving-goal", "moving goal, full feedforward [rad/s]", "a moving goal with full feedforward"),
+    Walk("moving-goal-rate", "feedforward of rate [rad/s]", "a moving goal with feedforward of its rate"),
+    Walk("moving-goal-untold", "no feedforward [rad/s]", "a moving goal without feedforward"),
 )
 
 AXES = tuple(dict.fromkeys(walk.axis for walk in WALKS))
