@@ -47,9 +47,9 @@ WALKS: tuple[Walk, ...] = (
     Walk("inertia", "heavier body", "a heavier body"),
     Walk("uneven-inertia", "uneven body", "an uneven body"),
     Walk("spin", "spin [rad/s]", "initial spin"),
-    Walk("moving-goal", "moving goal, full feedforward [rad/s]", "a moving goal with full feedforward"),
-    Walk("moving-goal-rate", "feedforward of rate [rad/s]", "a moving goal with feedforward of its rate"),
-    Walk("moving-goal-untold", "no feedforward [rad/s]", "a moving goal without feedforward"),
+    Walk("moving-goal", "moving goal [rad/s]", "a moving goal with full feedforward"),
+    Walk("moving-goal-rate", "only rate fed [rad/s]", "a moving goal with feedforward of its rate"),
+    Walk("moving-goal-untold", "no feedforward", "a moving goal without feedforward"),
 )
 
 AXES = tuple(dict.fromkeys(walk.axis for walk in WALKS))
