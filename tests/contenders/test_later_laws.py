@@ -36,7 +36,6 @@ ADDED = {
     "late-braking": lambda theta, rate: 16.0 * math.sin(theta / 2.0) ** 2 * min(rate, 0.0),
 }
 
-UNBOUNDED = ("gibbs", "paielli-bach")
 ANGLES = (1e-9, 1e-3, 0.3, 1.0, 2.0, 2.2, 3.0, 3.14)
 
 

@@ -244,10 +244,7 @@ def test_bad_contact_is_refused_by_both_engines_and_by_dm_controls_environment(e
         assert "timeconst = -0.01" in line_of(action, BadValue)
 
 
-def test_contact_may_be_smooth():
+def test_contact_may_be_smooth_and_its_impedance_is_a_share():
     check_contact(STANDARD._replace(friction=0.0))
-
-
-def test_impedance_of_a_contact_is_a_share():
     for value in (1.0, 2.0):
         assert "dmax = " in line_of(lambda value=value: check_contact(STANDARD._replace(dmax=value)), BadValue)

@@ -149,9 +149,7 @@ def test_springs_along_euler_angles_are_conditioned_as_predicted(beta):
     pose, angle = probed(SPRINGS_OF_EULER, "about x", beta=beta), math.radians(beta)
     assert stiffness_condition(pose) == pytest.approx(theory.stiffness_condition(angle), rel=1e-3)
     assert stiffness_axes(pose) == pytest.approx(theory.stiffness_axes(angle), abs=1e-4)
-    assert least_yield(pose) == pytest.approx(
-        theory.least_yield(angle) * theory.sprung(TASK.horizon_s), rel=2e-3
-    )
+    assert least_yield(pose) == pytest.approx(theory.least_yield(angle) * theory.sprung(TASK.horizon_s), rel=2e-3)
 
 
 def test_springs_of_the_matrix_have_no_axes_of_their_own():

@@ -1,6 +1,5 @@
 """The rendered files of the report: there, small, of a start and contenders that exist and still do what is said."""
 
-
 import numpy as np
 import pytest
 

@@ -14,7 +14,7 @@ from report.figures.cost import cost, operations
 from report.figures.kit import spelling
 from report.figures.kit.page import Run, run_in
 from report.figures.method import engines, provenance
-from report.figures.problem import conditioning, problem_and_plant, representations
+from report.figures.problem import conditioning, representations
 
 
 @pytest.fixture(autouse=True)
@@ -24,13 +24,6 @@ def reference(monkeypatch):
 
 def shown():
     return run_in(RESULTS / "reference")
-
-
-@pytest.mark.parametrize("name", ["judge", "on-the-matrix", "on-the-angles"])
-def test_diagrams_are_drawn_for_page_and_phone(name):
-    picture = problem_and_plant.figures(shown())[name]
-    assert picture.wide != picture.narrow
-    assert picture.alt
 
 
 def test_condition_number_of_zyx_is_its_closed_form():

@@ -81,6 +81,7 @@ def test_kills_are_counted_by_how_far_the_run_had_come():
         ["1", "0", "1", "0", "1", "1"],
     ]
     assert "Of 7 runs killed at random moments 6 ended" in survival.lead(MADE)
+    assert "within 0.2 s" in survival.about(MADE)
 
 
 def test_disks_and_laws_that_spoiled_something_say_so():
@@ -89,10 +90,6 @@ def test_disks_and_laws_that_spoiled_something_say_so():
     assert "1 of 2 runs ended with the files of the undisturbed one" in disks
     laws = survival.laws(MADE["laws"])
     assert "the law never returns. Their own episodes: 3 hung, 1 settled. Beside 0 of the 1 all other" in laws
-
-
-def test_words_say_what_was_found():
-    assert "within 0.2 s" in survival.about(MADE)
 
 
 def test_page_without_a_study_has_nothing_to_say(tmp_path):

@@ -3,9 +3,9 @@
 import html as markup
 import json
 import re
-from html.parser import HTMLParser
 
 import pytest
+from bs4 import BeautifulSoup
 
 pytest.importorskip("myst_parser", reason="the report extra is not installed (cure: make report)")
 
@@ -43,32 +43,25 @@ PAYLOADS = (
 )
 
 
-class Tags(HTMLParser):
-    """Every element and attribute of a piece of HTML, and its text."""
-
-    def __init__(self, text: str):
-        super().__init__()
-        self.found: list[tuple[str, tuple]] = []
-        self.text = ""
-        self.feed(text)
-
-    def handle_starttag(self, tag, attributes):
-        self.found.append((tag, tuple(name for name, _ in attributes)))
-
-    def handle_data(self, data):
-        self.text += data
+def parsed(text: str) -> BeautifulSoup:
+    return BeautifulSoup(text, "html.parser")
 
 
-def rendered(markdown: str) -> Tags:
+def rendered(markdown: str) -> BeautifulSoup:
     """Markdown as the report's pages read it, as HTML."""
     settings = {"myst_enable_extensions": ENABLED, "report_level": 1, "halt_level": 2, "raw_enabled": True}
     page = publish_string(markdown, parser=Parser(), writer_name="html5", settings_overrides=settings).decode()
-    return Tags(page[page.index("<main") : page.index("</main>")])
+    return parsed(page[page.index("<main") : page.index("</main>")])
 
 
-def live(page: Tags) -> list[tuple[str, tuple]]:
+def elements(page: BeautifulSoup) -> list[tuple[str, tuple]]:
+    """Every element and the names of its attributes."""
+    return [(one.name, tuple(one.attrs)) for one in page.find_all(True)]
+
+
+def live(page: BeautifulSoup) -> list[tuple[str, tuple]]:
     """Its elements without those that only say where a line may break, of which a longer text has more."""
-    return [one for one in page.found if one not in (("wbr", ()), ("span", ("class",)))]
+    return [one for one in elements(page) if one not in (("wbr", ()), ("span", ("class",)))]
 
 
 def as_read(text: str) -> str:
@@ -81,9 +74,9 @@ def test_foreign_text_in_a_table_reads_as_it_is_and_nothing_is_live(text):
     table = html.table(pd.DataFrame({"Law": [html.law("x", text)], "B": [html.foreign(text)]}))
     plain = html.table(pd.DataFrame({"Law": [html.law("x", "word")], "B": ["word"]}))
     page = rendered(table)
-    assert page.found == rendered(plain).found
-    assert as_read(page.text).count(as_read(text)) == 2
-    assert not re.search(r"\\[(\[]|\$\$|\\begin", page.text)
+    assert elements(page) == elements(rendered(plain))
+    assert as_read(page.get_text()).count(as_read(text)) == 2
+    assert not re.search(r"\\[(\[]|\$\$|\\begin", page.get_text())
 
 
 def nasty(text: str) -> Regulator:
@@ -96,16 +89,16 @@ def nasty(text: str) -> Regulator:
 def test_card_of_a_law_shows_its_words_and_takes_none_for_its_own(text):
     regulator = nasty(text)
     shown, usual = (
-        Tags(regulators.card(contenders_of(one)[0], run_in(read.folder()))) for one in (regulator, nasty("word"))
+        parsed(regulators.card(contenders_of(one)[0], run_in(read.folder()))) for one in (regulator, nasty("word"))
     )
-    assert shown.found == usual.found
-    assert as_read(text) in as_read(shown.text)
+    assert elements(shown) == elements(usual)
+    assert as_read(text) in as_read(shown.get_text())
     assert "$$" not in shown.text
 
 
 def test_formula_ends_only_where_it_ends():
-    found = Tags(html.formula("x \\] </span><script>alert(1)</script>"))
-    assert found.found == [("span", ("class",))]
+    found = parsed(html.formula("x \\] </span><script>alert(1)</script>"))
+    assert elements(found) == [("span", ("class",))]
 
 
 @pytest.mark.parametrize("text", PAYLOADS)
@@ -118,13 +111,13 @@ def test_provenance_from_elsewhere_is_shown_as_it_is(text):
         pages.append(rendered(origin.FACTS(origin.said_of_itself(said).items())))
     word, given = pages
     assert live(given) == live(word)
-    assert as_read(markup.unescape(text)) in as_read(given.text) or as_read(text) in as_read(given.text)
+    assert as_read(markup.unescape(text)) in as_read(given.get_text()) or as_read(text) in as_read(given.get_text())
 
 
 def test_label_of_a_ball_never_ends_its_script():
     label = "</script><!--<script>alert(1)</script>"
-    found = Tags(html.ball("x", "a ball", {label: {"colour": "#000000", "dark": "#ffffff", "xyz": []}}))
-    assert [tag for tag, _ in found.found] == ["canvas", "script", "p"]
+    found = parsed(html.ball("x", "a ball", {label: {"colour": "#000000", "dark": "#ffffff", "xyz": []}}))
+    assert [tag for tag, _ in elements(found)] == ["canvas", "script", "p"]
     [data] = re.findall(r">(\{.*\})<", html.ball("x", "a ball", {label: {"xyz": []}}))
     assert "<" not in data
     assert label in json.loads(data)["groups"]

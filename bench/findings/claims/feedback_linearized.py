@@ -17,6 +17,7 @@ LINEAR_TIGHT, LINEAR_LOOSE = 1e-4, 1e-2
 
 STRAY_SHARE = 0.01
 
+
 @claim(
     id="C09",
     section="2.4",

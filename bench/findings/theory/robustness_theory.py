@@ -1,7 +1,7 @@
 """What theory says of a perturbed loop, to be drawn beside what was measured.
 
-Most is about the linear loop x'' = -c Kp x - Kv x' that every isotropic law is near the goal, and that the rotation
-vector's law is from rest at any angle; c, the stiffness, is the slope of a law's spring elsewhere.
+Most is about the linear loop x'' = -Kp x - Kv x' that every isotropic law is near the goal, and that the rotation
+vector's law is from rest at any angle.
 """
 
 from __future__ import annotations
@@ -34,29 +34,24 @@ LEAVING_TICKS = 1500
 """Ticks after which a body that has not left the half turn is held there: thirty time constants 1/Kv at 1 kHz."""
 
 
-def crossover(kp: float, kv: float, stiffness: float = 1.0) -> float:
-    """Angular frequency [rad/s] at which the open loop (Kv s + c Kp)/s^2 has unit gain."""
-    spring = stiffness * kp
-    return math.sqrt((kv * kv + math.sqrt(kv**4 + 4.0 * spring * spring)) / 2.0)
+def crossover(kp: float, kv: float) -> float:
+    """Angular frequency [rad/s] at which the open loop (Kv s + Kp)/s^2 has unit gain."""
+    return math.sqrt((kv * kv + math.sqrt(kv**4 + 4.0 * kp * kp)) / 2.0)
 
 
-def phase_margin(kp: float, kv: float, stiffness: float = 1.0) -> float:
-    """Phase [rad] that the open loop may lose at its crossover: arctan(Kv w/(c Kp))."""
-    return math.atan2(kv * crossover(kp, kv, stiffness), stiffness * kp)
+def delay_margin(kp: float, kv: float) -> float:
+    """Delay [s] from which the linear loop is unstable: phase margin arctan(Kv w/Kp) over crossover w."""
+    w = crossover(kp, kv)
+    return math.atan2(kv * w, kp) / w
 
 
-def delay_margin(kp: float, kv: float, stiffness: float = 1.0) -> float:
-    """Delay [s] from which the linear loop is unstable: phase margin over crossover."""
-    return phase_margin(kp, kv, stiffness) / crossover(kp, kv, stiffness)
-
-
-def least_rate(kp: float, kv: float, stiffness: float = 1.0) -> float:
+def least_rate(kp: float, kv: float) -> float:
     """Control rate [Hz] at and below which the sampled linear loop is unstable, its command held between ticks.
 
-    Its polynomial z^2 + (c Kp h^2/2 + Kv h - 2) z + (1 + c Kp h^2/2 - Kv h) has its roots inside the unit circle where
-    Kv h < 2 and c Kp h < 2 Kv.
+    Its polynomial z^2 + (Kp h^2/2 + Kv h - 2) z + (1 + Kp h^2/2 - Kv h) has its roots inside the unit circle where
+    Kv h < 2 and Kp h < 2 Kv.
     """
-    return max(kv / 2.0, stiffness * kp / (2.0 * kv))
+    return max(kv / 2.0, kp / (2.0 * kv))
 
 
 @functools.cache

@@ -2,34 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 import pandas as pd
 
 from report.figures.arms import arm_rows
-from report.figures.arms.arm_looks import arms
 from report.figures.kit import html
 from report.figures.kit.tables import Table
 
 CAUSES = {"representation": "Coordinates", "kinematic": "Arm", "both": "Both", "torque": "Torque", "law": "Law"}
 """What the judge saw of a failure -> its column."""
 
-LEAST_MM = 1e-3
-"""Smaller position errors are rounding, of an arm whose tool is the centre of its wrist."""
-
-
-def millimetres(value: float) -> str:
-    """A distance; one that is nothing but rounding as less than LEAST_MM."""
-    return f"< {LEAST_MM:g}" if value < LEAST_MM else html.number(value)
-
-
 SETTLED = Table({"Controller": "", **dict.fromkeys(arm_rows.SETS, ".0f")})
 FAILED = Table(" | ".join(("Controller", "Episodes", "Failed", *CAUSES.values())))
-STRAIN = Table(
-    "Arm | Strays, (2.2) [mm] | Strays, (3.7) [mm] | Torque, (2.2) | Torque, (3.7) | Within, clear [%]:.0f | "
-    "Within, all [%]:.0f",
-    dict.fromkeys(("Strays, (2.2) [mm]", "Strays, (3.7) [mm]"), millimetres),
-)
 
 
 def settling(rows: pd.DataFrame) -> html.Markdown | None:
@@ -58,21 +41,6 @@ def failing(counts: pd.DataFrame) -> html.Markdown | None:
     """The same as a table."""
     columns = ["episodes", "failed", *CAUSES]
     return FAILED((arm_rows.title(str(name)), *line[columns]) for name, line in counts.iterrows())
-
-
-def strain(rows: pd.DataFrame) -> Iterator[tuple]:
-    """An arm a line: medians over clear starts of both controllers; episodes of all within the rated torques.
-
-    Args:
-        rows: of `arm_rows.episodes`, by the standard inverse.
-    """
-    for arm in arms(rows):
-        own = rows[rows["arm"] == arm]
-        clear = own[own["start_set"] == "clear"]
-        both = [arm_rows.of(clear, controller) for controller in arm_rows.PAPERS_TWO]
-        strays = (1e3 * one["position_error_m"].median() for one in both)
-        torques = (one["peak_torque_ratio"].median() for one in both)
-        yield arm, *strays, *torques, possible(clear), possible(own)
 
 
 def possible(rows: pd.DataFrame) -> float:

@@ -10,7 +10,7 @@ import numpy as np
 import pandas as pd
 
 import tasks
-from report.figures.arms import arm_advice, arm_outcomes, arm_pole, arm_rows, free_body, linear_response
+from report.figures.arms import arm_advice, arm_outcomes, arm_pole, arm_rows
 from report.figures.arms.arm_rows import STANDARD
 from report.figures.kit import html
 from report.figures.kit.page import Run
@@ -32,24 +32,16 @@ def standard(run: Run) -> pd.DataFrame:
     return arm_rows.with_standard(arm_rows.episodes(run))
 
 
-@functools.cache
-def later(run: Run) -> pd.DataFrame:
-    """Settling times beside those of the free body."""
-    return free_body.differences(standard(run))
-
-
 def facts(run: Run) -> dict:
     """Which law and inverse to take, what the pole, the arm's own singularities and torques do."""
     rows = arm_rows.episodes(run)
     if rows.empty:
         return {}
-    both, counts, beside = arm_pole.side_by_side(standard(run)), arm_outcomes.tallied(standard(run)), later(run)
+    both, counts = arm_pole.side_by_side(standard(run)), arm_outcomes.tallied(standard(run))
     clear = rows[rows["start_set"] == "clear"]
     return {
         **arm_advice.advice(rows),
         **arm_advice.damping(rows),
-        **linear_response.facts(run),
-        "tick_ms": f"{1e3 * float(rows['dt_s'].iloc[0]):g}",
         "pole_n": len(both),
         "pole_fails": int(both["fails"].sum()),
         "pole_fails_m": int(both["fails_matrix"].sum()),
@@ -61,10 +53,6 @@ def facts(run: Run) -> dict:
         "margin": f"{NEAR_MARGIN:g}",
         "condition": f"{NEAR_CONDITION:g}",
         "both_ways": arm_advice.same_both_ways(rows),
-        "clear_n": len(beside),
-        "close": int(free_body.close(beside).sum()),
-        "close_ms": f"{1e3 * free_body.CLOSE_TICKS * float(beside['dt_s'].iloc[0]):g}",
-        "median_ms": f"{1e3 * beside['later_s'].abs().median():.1f}",
         "possible": f"{arm_outcomes.possible(standard(run)):.0f}",
         "possible_clear": f"{arm_outcomes.possible(arm_rows.of(clear, arm_rows.ON_MATRIX)):.0f}",
         "possible_clear_f": f"{arm_outcomes.possible(arm_rows.of(clear, arm_rows.ON_ANGLES)):.0f}",
@@ -84,7 +72,6 @@ def tables(run: Run) -> dict:
         "tab_causes": arm_outcomes.failing(arm_outcomes.tallied(standard(run))),
         "tab_pole": POLE(at_the_pole(standard(run))),
         "tab_wrist": WRIST(at_the_wrist(rows)),
-        "tab_strain": arm_outcomes.STRAIN(arm_outcomes.strain(standard(run))),
     }
 
 

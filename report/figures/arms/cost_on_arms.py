@@ -10,7 +10,6 @@ from bench.counting import STAGES
 from bench.findings.claims import Results, judge
 from report.figures.arms import arm_rows, arm_times, controller_costs
 from report.figures.arms.arm_rows import ON_MATRIX
-from report.figures.cost.cost import spent
 from report.figures.kit import html
 from report.figures.kit.page import Run, given
 from report.figures.kit.tables import Table
@@ -28,7 +27,6 @@ LAW = ("goal", "represent", "regulate")
 """Stages that a free body has too: the orientation law and its coordinates."""
 
 MEANT = Table("Stage | What it computes")
-STAGED = Table(" | ".join(("Controller", *STAGES, "total")))
 PRICES = Table("Inverse | Flops, six joints | Flops, seven | Tick, six joints | Times the cheapest:.1f")
 SAID = {
     "damped-least-squares": "Damping costs {times} times as much",
@@ -49,11 +47,10 @@ def facts(run: Run) -> dict:
 
 
 def tables(run: Run) -> dict:
-    """Stages, controllers by stage, inverses, times."""
+    """Stages, inverses, times."""
     counted = controller_costs.counted(run)
     return {
         "meanings": MEANT((name, MEANINGS[name]) for name in STAGES),
-        "seven": STAGED(by_stage(counted, 7)),
         "inverses": PRICES(prices(counted)),
         "times": arm_times.by_arm(arm_times.rows(run)),
     }
@@ -112,16 +109,6 @@ def differentiated(flops: pd.DataFrame, converted: int) -> str:
 def percent(value: float) -> str:
     """0.0677 as 6.8 %."""
     return f"{100.0 * value:.2g}\N{NO-BREAK SPACE}%"
-
-
-def by_stage(rows: pd.DataFrame, joints: int) -> Iterator[tuple]:
-    """Every controller: flops of its stages, and after a plus the transcendental calls."""
-    own = controller_costs.standard(rows, joints)
-    flops, calls = (controller_costs.stages(own, column) for column in ("flops", "calls"))
-    flops, calls = (table.assign(total=table.sum(axis=1)) for table in (flops, calls))
-    for name in flops.index:
-        parts = (spent(int(flops.at[name, stage]), int(calls.at[name, stage])) for stage in (*STAGES, "total"))
-        yield arm_rows.title(name), *map(html.together, parts)
 
 
 def on_square(episodes: pd.DataFrame) -> pd.DataFrame:

@@ -19,11 +19,9 @@ from report.figures.kit.tables import Table
 SHOWN = (arm_rows.ON_MATRIX, arm_rows.SAME_BOTH_WAYS, arm_rows.ON_ANGLES)
 QUANTILES = (0.05, 0.5, 0.95)
 FLOOR_DEG, FLOOR_MM = 1e-3, 1e-2
-RUBBED = "friction-"
 VARIATIONS = Table(
     "Variation | The plant | Episodes | Settled [%]:.0f | The others | Angle [deg]:.2f | Strays [mm]:.1f"
 )
-FRICTION = Table("Arm | Least inertia [kg m²]:.3f | Variation | Can hold [deg]:.2f | Measured [deg]:.2f")
 
 
 @functools.cache
@@ -59,13 +57,8 @@ def facts(run: Run) -> dict:
 
 
 def tables(run: Run) -> dict:
-    """By variation, by controller and inverse, and what friction can hold."""
-    own = compared(run)
-    return {
-        "tab_variations": VARIATIONS(by_variation(own)),
-        "tab_controllers": given(arm_rows.varied(run), by_controller),
-        "tab_friction": FRICTION(held_by_friction(own)),
-    }
+    """By variation."""
+    return {"tab_variations": VARIATIONS(by_variation(compared(run)))}
 
 
 def figures(run: Run) -> dict:
@@ -134,37 +127,3 @@ def by_variation(rows: pd.DataFrame) -> Iterator[tuple]:
         settled, others = 100.0 * arm_rows.settled(own).mean(), html.together(outcomes(own))
         left = np.degrees(own["final_angle_rad"].median()), 1e3 * own["position_error_m"].median()
         yield html.together(f"`{word}`"), tasks.variation(word).title, len(own), settled, others, *left
-
-
-def by_controller(rows: pd.DataFrame) -> html.Markdown:
-    """A controller and inverse a row: median angle at the end [deg] by kind of variation; arms of six joints or seven.
-
-    Args:
-        rows: of `arm_rows.varied`, every inverse.
-    """
-    kinds = rows["variation"].str.partition("-")[0]
-    lines = []
-    for controller in arm_rows.in_order(rows):
-        own = rows[rows["controller"] == controller]
-        for way, mine in own.groupby("way"):
-            angle = np.degrees(mine["final_angle_rad"]).groupby(kinds[mine.index]).median()
-            line = {
-                "Controller": arm_rows.title(controller),
-                "Inverse": arm_rows.title_of_inverse(str(way).partition("+")[2]),
-                "Settled [%]": 100.0 * float(arm_rows.settled(mine).mean()),
-            }
-            lines.append(line | {f"{kind} [deg]": float(angle[kind]) for kind in dict.fromkeys(kinds) if kind in angle})
-    frame = pd.DataFrame(lines)
-    forms = {column: ".2f" for column in frame if str(column).endswith("[deg]")}
-    return html.table(frame, {"Settled [%]": ".0f", **forms})
-
-
-def held_by_friction(rows: pd.DataFrame) -> Iterator[tuple]:
-    """Every arm and friction: least inertia of a joint, what friction can hold, what was measured."""
-    for arm in arm_looks.arms(rows) if len(rows) else ():
-        for word in (one for one in in_order(rows) if one.startswith(RUBBED)):
-            own = rows[(rows["arm"] == arm) & (rows["variation"] == word)]
-            if len(own):
-                held = model_rest.held_deg(arm, float(word.removeprefix(RUBBED)), float(own["kp"].iloc[0]))
-                measured = np.degrees(own["final_angle_rad"].median())
-                yield arm, model_rest.least_inertia(arm), html.together(f"`{word}`"), held, measured

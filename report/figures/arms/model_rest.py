@@ -83,19 +83,3 @@ def ratios(found: pd.DataFrame) -> pd.Series:
     """Measured over predicted, of episodes that did not fail outright."""
     ended = found[~found["outcome"].isin(("saturated", "diverged", "singular", "crashed", "hung"))]
     return (ended["final_angle_rad"] / ended["gravity_rad"]).dropna()
-
-
-def held_deg(arm: str, percent: float, kp: float) -> float:
-    """Angle that friction of so many per cent of the rated torques can hold at home [deg].
-
-    Of |J D^-1 f| / Kp, its rows of orientation, the root of the sum over joints: as if each stuck by itself.
-    """
-    one = tasks.arm(arm)
-    D, _ = _dynamics(arm, one.home)
-    torques = percent / 100.0 * np.array(one.rated)
-    return math.degrees(float(np.linalg.norm(kinematics(one).jacobian(one.home)[3:] @ np.linalg.inv(D) * torques)) / kp)
-
-
-def least_inertia(arm: str) -> float:
-    """Of a joint, at home [kg m^2]."""
-    return float(np.diag(_dynamics(arm, tasks.arm(arm).home)[0]).min())

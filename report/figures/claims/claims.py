@@ -42,9 +42,7 @@ def tiles(verdicts: list[Verdict]) -> html.Html:
 
 def table(verdicts: list[Verdict], page: str) -> html.Markdown | None:
     """Id, sentence and verdict of each decided claim, linked to its section of the page."""
-    return VERDICTS(
-        (link(one, page), prose(one.claim.sentence), html.badge(str(one.word))) for one in verdicts
-    )
+    return VERDICTS((link(one, page), prose(one.claim.sentence), html.badge(str(one.word))) for one in verdicts)
 
 
 def link(one: Verdict, page: str) -> str:

@@ -1,4 +1,4 @@
-"""What the page on the plant shows: block diagrams, and what a run held fixed."""
+"""What the page on the plant shows: what a run held fixed."""
 
 from __future__ import annotations
 
@@ -8,7 +8,6 @@ from report.figures.kit import html
 from report.figures.kit.page import Run
 from report.figures.kit.rows import small_error_settling_s
 from report.figures.kit.tables import Table
-from report.figures.problem import diagrams
 
 YES, NO = "yes", "no: ours"
 HELD = Table("What | Value | Paper")
@@ -34,15 +33,6 @@ def tables(run: Run) -> dict:
         ("Orientations", f"{html.number(starts(episodes))} starts a law", NO),
     ]
     return {"held": HELD(held)}
-
-
-def figures(_: Run) -> dict:
-    """The loop of one tick, and the paper's figures 2.1 and 2.2."""
-    return {
-        "judge": diagrams.judge_and_contestants(),
-        "on-the-matrix": diagrams.on_the_matrix(),
-        "on-the-angles": diagrams.on_the_angles(),
-    }
 
 
 def values(episodes: pd.DataFrame, column: str, unit: str) -> str:
