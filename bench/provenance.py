@@ -17,6 +17,8 @@ DECIDING = (
     *("bench/tables/schema.py", "bench/tables/files.py", "bench/tables/store.py", "bench/tables/kept_costs.py"),
 )
 """What numbers of a run depend on; everything else only reads results, or is measured and kept apart from them."""
+JUDGE = ("tasks/rules.py", "tasks/verdict.py", "tasks/truth.py", "tasks/cause.py")
+"""What decides how a given motion is judged."""
 VERSIONED = ("mujoco", "dm-control", "numpy", "scipy", "numba", "llvmlite", "pandas", "pyarrow")
 
 
@@ -26,13 +28,23 @@ def source_digest() -> str:
 
     Of the sources as they were when first asked for, which is when the engines are imported.
     """
+    return _digest(DECIDING, repr(sorted(versions().items())))
+
+
+@functools.cache
+def judge_digest() -> str:
+    """Sixteen hex digits over the judge."""
+    return _digest(JUDGE)
+
+
+def _digest(names: tuple[str, ...], more: str = "") -> str:
     digest = hashlib.sha256()
-    for name in DECIDING:
+    for name in names:
         found = ROOT / name
         for path in sorted(found.rglob("*")) if found.is_dir() else [found]:
             if path.suffix in (".py", ".xml"):
                 digest.update(path.relative_to(ROOT).as_posix().encode() + b"\0" + path.read_bytes() + b"\0")
-    digest.update(repr(sorted(versions().items())).encode())
+    digest.update(more.encode())
     return digest.hexdigest()[:16]
 
 
@@ -111,6 +123,7 @@ def describe() -> dict:
     return {
         **commit(),
         "sources": source_digest(),
+        "judge": judge_digest(),
         "versions": versions(),
         "lock": lock_digest(),
         "platform": " ".join((platform.system(), platform.machine(), *platform.libc_ver())).strip(),

@@ -1,7 +1,9 @@
 """The numbers of the rules, each with its derivation; verdict.py applies them.
 
 Settling time: the first time after which the angle stays inside the band to the horizon. The band is
-`tolerance` times the initial angle, or `floor_rad` where the start is at the goal.
+`tolerance` times the initial angle, or `floor_rad` where the start is at the goal. Settled is at rest: for the last
+`hold_s` the angle has been inside the band, and |omega| at most what crosses half the band in `hold_s`. A swing through
+the goal at the horizon is no settling, and a body that shakes inside the band is not at rest.
 """
 
 from __future__ import annotations
@@ -20,7 +22,8 @@ class Rules(NamedTuple):
     # A start nearer than this is at the goal. 2 % of it, 2e-8 rad, is just above sqrt(2^-53) = 1.1e-8 rad,
     # the rotation below which 1 - theta^2/2 rounds to 1 and the diagonal of R no longer changes.
     at_goal_rad: float = 1e-6
-    # An engine may stop early once the angle has stayed under a hundredth of the band for hold_s. The gains
+    # How long a body must be at rest to be settled; an engine may stop early once the angle has stayed under a
+    # hundredth of the band for as long. The gains
     # (100, 20) put a double pole at -10/s: 0.25 s is 2.5 of its time constants, too long for a response that
     # only crosses the goal on its way, and short beside its settling time of 0.58 s.
     hold_s: float = 0.25
@@ -48,6 +51,11 @@ class Rules(NamedTuple):
     def band_haversine(self, angle0: float) -> float:
         """The same band as sin^2(band/2), to compare with `truth.haversine`."""
         return math.sin(self.band_rad(angle0) / 2.0) ** 2
+
+    @property
+    def slow_squared(self) -> float:
+        """|omega|^2 over the band's haversine up to which a body is slow [1/s^2]: (2 sin(band/2)/hold_s)^2 over it."""
+        return 4.0 / self.hold_s**2
 
     def hold_ticks(self, dt: float) -> int:
         """The hold window in control periods."""

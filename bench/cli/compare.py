@@ -39,8 +39,10 @@ def COMMAND(base, head, laws, no_timing, json_file, summary):
 
     HEAD is the files as they lie unless named. BASE is where HEAD left main (on main the commit before; outside git
     results/reference, with results/quick for HEAD). A regression is an outcome that got worse, a new dead point, a
-    smaller basin, a row or a law that is gone, more of any operation, more than 1 % more instructions, or a slower
-    tick. A law of your own is judged against its file at BASE; in $GITHUB_STEP_SUMMARY the summary is left by itself.
+    smaller basin, a row or a law that is gone, a later settling time, a quarter more effort or peak command, twice the
+    change of the command at rest, more of any operation, more than 1 % more instructions, or a slower tick. If the
+    judge changed, only that is said, by column. A law of your own is judged against its file at BASE; in
+    $GITHUB_STEP_SUMMARY the summary is left by itself.
     """
     from bench.regression.revisions import comparison, gates
     from bench.regression.revisions import summary as words

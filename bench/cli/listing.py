@@ -109,11 +109,11 @@ def _impedances(_):
     return ((one.name, "coordinates" if one.law_in else "R", one.title, one.source) for one in every)
 
 
-@kind("metrics", "Metrics", "name", "column", "unit", "of", "meaning")
+@kind("metrics", "Metrics", "column", "unit", "of", "meaning")
 def _metrics(_):
     alone = ((one, "arms" if one.arm_only else "all") for one in known_metrics().values())
     contact = ((one, "contact") for one in known_contact_metrics().values())
-    return ((one.name, one.column, one.unit, of, one.title) for one, of in (*alone, *contact))
+    return ((one.column, one.unit, of, one.title) for one, of in (*alone, *contact))
 
 
 @kind("tasks", "Tasks", "name", "of", "title", "source")

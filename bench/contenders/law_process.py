@@ -1,7 +1,7 @@
 """A process of its own for a user's law: started, limited, and ended with all that it started.
 
-Nothing of the file runs in the process that asks. What a law prints goes nowhere, its memory has a limit, and whatever
-it forks is found again by a token in its environment, if the system shows it (Linux).
+Nothing of the file runs in the process that asks. What a law prints goes nowhere, its memory has a limit, its temporary
+files go with it, and whatever it forks is found again by a token in its environment, if the system shows it (Linux).
 """
 
 import contextlib
@@ -9,10 +9,12 @@ import os
 import resource
 import secrets
 import select
+import shutil
 import signal
 import socket
 import subprocess
 import sys
+import tempfile
 import threading
 import time
 from math import ceil
@@ -20,7 +22,7 @@ from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import NoReturn
 
-TOKEN = "ORIENTATION_BENCH_LAW_PROCESS"
+TOKEN, FOLDER = "ORIENTATION_BENCH_LAW_PROCESS", "orientation-bench-law-"
 PROCESSES = Path("/proc")
 MEMORY = 4 << 30
 """Bytes of data that a law's process may have: compiling all engines takes 1.6e9, most of which is never touched."""
@@ -36,7 +38,8 @@ class LawProcess:
         ours, theirs = socket.socketpair()
         self.token = secrets.token_hex(8)
         # no threads of the linear algebra, which would not be in a fork; and a terminal's Ctrl-C is the run's to answer
-        environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1", TOKEN: self.token}
+        self.folder = tempfile.TemporaryDirectory(prefix=FOLDER, ignore_cleanup_errors=True)
+        environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1", TOKEN: self.token, "TMPDIR": self.folder.name}
         nowhere = subprocess.DEVNULL
         with theirs:
             self.process = subprocess.Popen(
@@ -72,6 +75,7 @@ class LawProcess:
                 os.killpg(self.process.pid, signal.SIGKILL)  # of one that is on its way out, the exit code stays
         code = self.process.wait()
         end_all(self.token)
+        self.folder.cleanup()
         return code
 
 
@@ -108,14 +112,17 @@ def limit(processor_s: float) -> None:
 
 def end_with(descriptor: int) -> None:
     """From now on, when the other end of this line is gone, this process and all that it started are ended."""
-    threading.Thread(target=_watch, args=(descriptor,), daemon=True).start()
+    folder = Path(os.environ.get("TMPDIR", ""))
+    threading.Thread(target=_watch, args=(descriptor, folder), daemon=True).start()
 
 
-def _watch(descriptor: int) -> NoReturn:
+def _watch(descriptor: int, folder: Path) -> NoReturn:
     poll = select.poll()
     poll.register(descriptor, 0)  # a line that hangs up is always reported
     poll.poll()
     end_all(os.environ.get(TOKEN, ""))
+    if folder.name.startswith(FOLDER):
+        shutil.rmtree(folder, ignore_errors=True)
     os._exit(1)
 
 

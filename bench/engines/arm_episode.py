@@ -41,8 +41,10 @@ class ArmSample(NamedTuple):
     R: Rotation
     haversine: float
     entered: bool
+    at_rest: bool
     omega: tuple
     u: tuple
+    before: tuple
     margin: float
     p: tuple
     p_d: tuple

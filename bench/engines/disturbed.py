@@ -131,9 +131,10 @@ def episodes_of(observe):
             R_d, omega_d, alpha_d = goal_at(R_0, 0.0, condition.reference_amplitude)
             band = start[11]
             memory, margin = memory0, math.nan
-            u = given = AT_REST
+            u = given = applied = AT_REST
             hav = haversine(R, R_d)
-            watch = first_watch(hav, band)
+            speed = minus(omega, omega_d)
+            watch = first_watch(hav, band, dot(speed, speed), numbers.slow_squared)
             tick, period = 0, 0
             failure = GOING
             while tick < numbers.ticks and watch.quiet < numbers.hold_ticks:
@@ -154,13 +155,14 @@ def episodes_of(observe):
                         extra[VARIATION] += sqrt(dot(jump, jump))
                     sent[period % slots, 0], sent[period % slots, 1], sent[period % slots, 2] = u
                     period += 1
-                applied = u
+                last, applied = applied, u
                 if not is_prompt:
                     applied = AT_REST
                     if tick >= timing.late:
                         slot = ((tick - timing.late) // timing.steps) % slots
                         applied = (sent[slot, 0], sent[slot, 1], sent[slot, 2])
-                observe(row, Sample(tick * h, h, R, hav, watch.entered, omega, applied, margin))
+                entered, at_rest = watch.entries > 0, watch.rest > 0
+                observe(row, Sample(tick * h, h, R, hav, entered, at_rest, omega, applied, last, margin))
                 if failure != GOING:
                     break
                 R, omega = step(R, omega, applied, condition.inertia, h)
@@ -170,7 +172,8 @@ def episodes_of(observe):
                     break
                 R_d, omega_d, alpha_d = goal_at(R_0, tick * h, condition.reference_amplitude)
                 hav = haversine(R, R_d)
-                watch = watched(watch, tick, hav, band)
+                speed = minus(omega, omega_d)
+                watch = watched(watch, tick, hav, band, dot(speed, speed), numbers.slow_squared)
                 if tick > numbers.ticks - timing.tail:
                     error = angle_between(R, R_d)
                     extra[TAIL_SQUARES] += error * error
@@ -179,7 +182,7 @@ def episodes_of(observe):
             speed = minus(omega, omega_d)
             final = angle_between(R, R_d)
             failure = blamed(failure, given)
-            finish(row, failure, watch, tick, final, hav <= band, dot(speed, speed), dot(u, u), numbers)
+            finish(row, failure, watch, tick, final, dot(speed, speed), dot(u, u), numbers)
 
     return episodes
 
@@ -200,5 +203,6 @@ def in_steps(numbers: Numbers, condition: Condition, hold_s: float, horizon_s: f
     """The numbers with the plant's step for a tick; no episode stops early under a perturbation that lasts."""
     step_s = condition.period_s / steps_of(condition)
     ticks = max(1, round(horizon_s / step_s))
-    hold = ticks + 1 if condition.lasts else max(1, round(hold_s / step_s))
-    return numbers._replace(dt=step_s, ticks=ticks, hold_ticks=hold)
+    rest = max(1, round(hold_s / step_s))
+    hold = ticks + 1 if condition.lasts else rest
+    return numbers._replace(dt=step_s, ticks=ticks, hold_ticks=hold, rest_ticks=rest)

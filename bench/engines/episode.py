@@ -39,6 +39,8 @@ class Numbers(NamedTuple):
     dt: float
     ticks: int
     hold_ticks: int
+    rest_ticks: int
+    slow_squared: float
     command_limit_squared: float
     speed_limit_squared: float
     rest_speed_squared: float
@@ -48,8 +50,9 @@ class Numbers(NamedTuple):
 class Sample(NamedTuple):
     """What a metric sees at one tick, before the plant moves.
 
-    time [s], dt [s], R, haversine = sin^2(angle/2), entered (whether the angle has been inside the band), omega [rad/s]
-    and u [rad/s^2] in the base frame, margin of the representation (NaN for a law on R).
+    time [s], dt [s], R, haversine = sin^2(angle/2), entered (whether the angle has been inside the band), at_rest
+    (inside the band and slow), omega [rad/s], u and the command before it [rad/s^2] in the base frame, margin of the
+    representation (NaN for a law on R).
     """
 
     time: float
@@ -57,8 +60,10 @@ class Sample(NamedTuple):
     R: Rotation
     haversine: float
     entered: bool
+    at_rest: bool
     omega: tuple
     u: tuple
+    before: tuple
     margin: float
 
 
@@ -78,6 +83,8 @@ def numbers(settings: Settings) -> Numbers:
         float(settings.dt_s),
         int(settings.ticks),
         int(settings.hold_ticks),
+        RULES.hold_ticks(settings.dt_s),
+        RULES.slow_squared,
         settings.command_limit**2,
         settings.speed_limit**2,
         settings.rest_speed**2,
@@ -108,11 +115,12 @@ def blamed(failure, u):
 
 
 @kernel
-def finish(row, failure, watch, tick, angle, inside, speed_squared, command_squared, numbers):
+def finish(row, failure, watch, tick, angle, speed_squared, command_squared, numbers):
     """Write the judge's columns of one episode."""
     outcome = verdict(
-        failure, inside, speed_squared, command_squared, numbers.rest_speed_squared, numbers.rest_command_squared
-    )
+        failure, watch, tick, numbers.rest_ticks,
+        speed_squared, command_squared, numbers.rest_speed_squared, numbers.rest_command_squared,
+    )  # fmt: skip
     row[OUTCOME] = outcome
     row[SETTLING_TICK] = watch.settled_since if outcome == SETTLED else NEVER
     row[FAILURE_TICK] = NEVER if failure == GOING else tick

@@ -156,12 +156,13 @@ def episodes_of(engine, observe):
             memory = memory0
             u = AT_REST
             hav = haversine(R, R_d)
-            watch = first_watch(hav, band)
+            watch = first_watch(hav, band, dot(omega, omega), numbers.slow_squared)
             tick = 0
             failure = GOING
             while tick < numbers.ticks and watch.quiet < numbers.hold_ticks:
+                before = u
                 u, memory, margin = evaluate(R, omega, goal, gains, memory)
-                sample = Sample(tick * dt, dt, R, hav, watch.entered, omega, u, margin)
+                sample = Sample(tick * dt, dt, R, hav, watch.entries > 0, watch.rest > 0, omega, u, before, margin)
                 observe(row, sample)
                 keep(curves, k, tick, sample)
                 failure = check_command(dot(u, u), numbers.command_limit_squared)
@@ -169,12 +170,13 @@ def episodes_of(engine, observe):
                     break
                 R, omega = step(evaluate, R, omega, u, goal, gains, memory, dt)
                 tick += 1
-                failure = check_state(dot(omega, omega), numbers.speed_limit_squared)
+                speed = dot(omega, omega)
+                failure = check_state(speed, numbers.speed_limit_squared)
                 if failure != GOING:
                     break
                 hav = haversine(R, R_d)
-                watch = watched(watch, tick, hav, band)
+                watch = watched(watch, tick, hav, band, speed, numbers.slow_squared)
             final, speed = angle_between(R, R_d), dot(omega, omega)
-            finish(row, blamed(failure, u), watch, tick, final, hav <= band, speed, dot(u, u), numbers)
+            finish(row, blamed(failure, u), watch, tick, final, speed, dot(u, u), numbers)
 
     return compile_function(episodes, EPISODES)

@@ -53,7 +53,6 @@ class ContactMetric(NamedTuple):
     there is anything to measure).
     """
 
-    name: str
     column: str
     unit: str
     title: str

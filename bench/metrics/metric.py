@@ -15,14 +15,13 @@ class Ending(NamedTuple):
 
 
 class Metric(NamedTuple):
-    """One column of the results.
+    """One column of the results, by which it is called.
 
     start: the number before the first tick. update(value, sample) -> value, in the law dialect; `sample` is an
     `engines.episode.Sample`. finish(value, ending) -> the column, plain Python.
     arm_only: whether it needs an `engines.arm_episode.ArmSample`; empty on the free body.
     """
 
-    name: str
     column: str
     unit: str
     title: str

@@ -12,13 +12,13 @@ from bench.metrics.metric import Metric
 
 @functools.cache
 def known_metrics() -> dict:
-    """Word -> Metric, from bench/metrics/motion, in alphabetical order: the order of their columns."""
+    """Column -> Metric, from bench/metrics/motion, in alphabetical order."""
     return collect(motion, Metric)
 
 
 @functools.cache
 def known_contact_metrics() -> dict:
-    """Word -> ContactMetric, from bench/metrics/contact, in alphabetical order: the order of their columns."""
+    """Column -> ContactMetric, from bench/metrics/contact, in alphabetical order."""
     # MuJoCo takes a moment to import; naming other things must not
     from bench.metrics.contact_metric import ContactMetric
 
@@ -31,10 +31,10 @@ def metrics_of(on_arm: bool) -> tuple[Metric, ...]:
 
 
 def collect(package, kind: type[Any]) -> dict[str, Any]:
-    """Word -> metric, from METRIC or METRICS of every module of a package, in alphabetical order.
+    """Column -> metric, from METRIC or METRICS of every module of a package, in alphabetical order.
 
     Errors:
-        BadMetric: a module has neither, or a name or column stands twice.
+        BadMetric: a module has neither, or a column stands twice.
     """
     found: dict[str, Any] = {}
     for info in pkgutil.iter_modules(package.__path__):
@@ -43,10 +43,7 @@ def collect(package, kind: type[Any]) -> dict[str, Any]:
         for one in metrics:
             if not isinstance(one, kind):
                 raise BadMetric(f"{module.__file__} has no METRIC that is a {kind.__name__}, and no METRICS of them")
-            if one.name in found or one.column in {other.column for other in found.values()}:
-                raise BadMetric(
-                    f"{module.__file__}: there is a metric '{one.name}' or a column '{one.column}' already; "
-                    "give it a name and a column of its own"
-                )
-            found[one.name] = one
+            if one.column in found:
+                raise BadMetric(f"{module.__file__}: there is a column '{one.column}' already; give it one of its own")
+            found[one.column] = one
     return dict(sorted(found.items()))

@@ -2,6 +2,7 @@
 
 from bench.metrics.registry import known_metrics, metrics_of
 from bench.tables.column import COUNT, NUMBER, SINGLE, Column, numbers, words
+from tasks.verdict import CRASHED, OUTCOMES
 
 CONTENDER = words(
     regulator="the law",
@@ -30,10 +31,14 @@ SET = [
     *words(integrator="how the plant is integrated"),
     *numbers("s", "longest time simulated", "horizon_s"),
     *numbers("1", "settling band over initial angle", "tolerance"),
-    *numbers("s", "time under a hundredth of the band after which an engine stops early", "hold_s"),
+    *numbers(
+        "s",
+        "how long a settled body is at rest, or an early stop under a hundredth of the band",
+        "hold_s",
+    ),
 ]
 JUDGED = [
-    *words(outcome="settled, stuck, timed-out, diverged, singular, saturated; of a user's law also crashed or hung"),
+    *words(outcome=f"{', '.join(OUTCOMES[:CRASHED])}; of a user's law also {' or '.join(OUTCOMES[CRASHED:])}"),
     *numbers("s", "first time after which the angle stays in the band; null if it does not", "settling_time_s"),
     *numbers("s", "time at which the episode failed; null if it did not", "failure_time_s"),
     *numbers("rad", "angle to the goal at the end, by the judge", "final_angle_rad"),

@@ -34,7 +34,7 @@ SUFFIXES = {
 }
 
 
-@pytest.fixture(params=METRICS, ids=lambda metric: metric.name)
+@pytest.fixture(params=METRICS, ids=lambda metric: metric.column)
 def metric(request):
     return request.param
 
@@ -69,8 +69,7 @@ def broken_poses() -> list[Pose]:
     ]
 
 
-def test_metric_is_named_as_its_column_and_the_column_ends_in_its_unit(metric):
-    assert metric.column.startswith(metric.name.replace("-", "_"))
+def test_column_of_a_metric_ends_in_its_unit(metric):
     assert metric.column.endswith(SUFFIXES[metric.unit])
     assert metric.title
     assert metric.title[0].islower()

@@ -86,7 +86,7 @@ def finish(value, ending):
     return value
 
 
-METRIC = Metric("dropped-metric", "dropped_column", "1", "ticks with a command", 0.0, update, finish)
+METRIC = Metric("dropped_column", "1", "ticks with a command", 0.0, update, finish)
 ''',
     "bench/metrics/contact/dropped_touch.py": '''
 """Ticks recorded: all of them."""
@@ -99,7 +99,7 @@ def measure(pose):
     return float(sum(len(one.time) for one in pose.responses))
 
 
-METRIC = ContactMetric("dropped-touch", "dropped_touch", "1", "ticks recorded", measure)
+METRIC = ContactMetric("dropped_touch", "1", "ticks recorded", measure)
 ''',
     "tasks/domains/dropped_probe.py": '''
 """Known moments by another name, at two frames of the hand."""
@@ -273,7 +273,7 @@ EXPERIMENT = Experiment(
 LISTED = {
     "regulators": "dropped-regulator",
     "representations": "dropped-coordinates",
-    "metrics": "dropped-metric",
+    "metrics": "dropped_column",
     "tasks": "dropped-task",
     "tasks of arms": "dropped-arm-task",
     "starts": "dropped-starts",
@@ -281,7 +281,7 @@ LISTED = {
     "jacobians": "dropped-jacobian",
     "inverses": "dropped-inverse",
     "impedances": "dropped-impedance",
-    "metrics of contact": "dropped-touch",
+    "metrics of contact": "dropped_touch",
     "tasks in contact": "dropped-probe",
     "arms": "dropped-arm",
     "axes": "dropped-axis",

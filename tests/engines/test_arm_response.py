@@ -26,7 +26,7 @@ from tasks.kinematics import kinematics
 from tasks.verdict import SETTLED
 
 ON_BODY, ON_ARM = metrics_of(on_arm=False), metrics_of(on_arm=True)
-MIN_MARGIN = FIRST_METRIC + [metric.name for metric in ON_BODY].index("min-margin")
+MIN_MARGIN = FIRST_METRIC + [metric.column for metric in ON_BODY].index("min_margin")
 
 DT = 1e-3
 LONG = 3.0

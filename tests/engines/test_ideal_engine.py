@@ -213,7 +213,7 @@ def both_plants(word, dt_s):
     return here, there
 
 
-EFFORT = FIRST_METRIC + [metric.name for metric in METRICS].index("effort")
+EFFORT = FIRST_METRIC + [metric.column for metric in METRICS].index("effort")
 
 
 @pytest.mark.parametrize("word", PAPERS_LAWS)

@@ -47,7 +47,7 @@ def test_at_rest_no_start_asks_for_more_and_one_asks_for_nearly_as_much(one):
     """Of the first commands of episodes: of one tick each."""
     starts = [*tasks.start_set("uniform", 1000, seed=5), *tasks.start_set("half-turn"), *tasks.start_set("wraps")]
     rows = run("ideal-held", one, "free-body", starts, settings(horizon_s=1e-3, gains=gains_at(one, 300.0)), METRICS)
-    peaks = np.sqrt(rows[:, FIRST_METRIC + [metric.name for metric in METRICS].index("peak-u")])
+    peaks = np.sqrt(rows[:, FIRST_METRIC + [metric.column for metric in METRICS].index("peak_u")])
     room = 1.0 + 1e-4 if one.representation is None else 1.1  # of coordinates it is that of the starts looked at
     assert np.nanmax(peaks) <= 300.0 * room
     assert np.nanmax(peaks) >= 300.0 * 0.9

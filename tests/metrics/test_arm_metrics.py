@@ -37,7 +37,7 @@ def episode(arm, word, start_set):
     row = run("reference", named(arm, word), *given)[0]
     ending = Ending(1.0, row[FINAL_ANGLE], 0.02, OUTCOMES[int(row[OUTCOME])])
     values = row[FIRST_METRIC : FIRST_METRIC + len(METRICS)]
-    return kept, {one.name: one.finish(float(value), ending) for one, value in zip(METRICS, values, strict=True)}
+    return kept, {one.column: one.finish(float(value), ending) for one, value in zip(METRICS, values, strict=True)}
 
 
 @pytest.fixture(params=CASES, ids=lambda case: "-".join(case))
@@ -63,38 +63,38 @@ def test_samples_are_the_arms_states(seen):
 def test_position_error_is_the_largest_distance_of_the_tool_from_its_place(seen):
     _, kept, found = seen
     away = np.linalg.norm([np.subtract(sample.p, sample.p_d) for sample in kept], axis=1)
-    assert found["position-error"] == pytest.approx(away.max(), rel=8 * EPS, abs=1e-300)
+    assert found["position_error_m"] == pytest.approx(away.max(), rel=8 * EPS, abs=1e-300)
 
 
 def test_peak_tau_is_the_largest_torque_of_any_joint(seen):
     arm, kept, found = seen
     tau = np.array([sample.tau for sample in kept])
-    assert found["peak-tau"] == pytest.approx(np.abs(tau).max(), rel=4 * EPS)
+    assert found["peak_tau_nm"] == pytest.approx(np.abs(tau).max(), rel=4 * EPS)
     assert np.abs(tau[:, : arm.joints]).min(axis=1).max() > 0.0
 
 
 def test_peak_torque_ratio_is_over_what_each_motor_is_rated_for(seen):
     arm, kept, found = seen
     ratios = [np.abs(sample.tau[: arm.joints]) / arm.rated for sample in kept]
-    assert found["peak-torque-ratio"] == pytest.approx(np.max(ratios), rel=4 * EPS)
+    assert found["peak_torque_ratio"] == pytest.approx(np.max(ratios), rel=4 * EPS)
 
 
 def test_range_excess_is_how_far_a_joint_went_beyond_its_range(seen):
     arm, kept, found = seen
     q = np.array([sample.q[: arm.joints] for sample in kept])
     excess = np.maximum(q - np.array(arm.upper), np.array(arm.lower) - q).max()
-    assert found["range-excess"] == pytest.approx(max(excess, 0.0), rel=4 * EPS)
+    assert found["range_excess_rad"] == pytest.approx(max(excess, 0.0), rel=4 * EPS)
 
 
 SAMPLE = episode(*CASES[0])[0][0]
 
 
 def update(name):
-    return next(one for one in METRICS if one.name == name)
+    return next(one for one in METRICS if one.column == name)
 
 
 def test_range_excess_is_seen_below_and_above_and_not_where_there_is_no_range():
-    metric = update("range-excess")
+    metric = update("range_excess_rad")
     inside = SAMPLE._replace(q=(0.0,) * 7, lower=(-1.0, -math.inf, *[-2.0] * 5), upper=(1.0, math.inf, *[2.0] * 5))
     assert metric.update(metric.start, inside) == 0.0
     assert metric.update(metric.start, inside._replace(q=(1.25, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0))) == 0.25
@@ -102,7 +102,7 @@ def test_range_excess_is_seen_below_and_above_and_not_where_there_is_no_range():
     assert metric.update(metric.start, inside._replace(q=(0.0, 1e6, 0.0, 0.0, 0.0, 0.0, 0.0))) == 0.0
 
 
-@pytest.mark.parametrize("name", ["peak-tau", "peak-torque-ratio", "range-excess", "position-error"])
+@pytest.mark.parametrize("name", ["peak_tau_nm", "peak_torque_ratio", "range_excess_rad", "position_error_m"])
 def test_extreme_passes_over_a_tick_that_is_not_a_number(name):
     """The tick at which a controller fails has torques and states that are none."""
     metric = update(name)

@@ -1,4 +1,4 @@
-"""What a file of bench/metrics must hold: METRIC or METRICS, each with a name and a column of its own."""
+"""What a file of bench/metrics must hold: METRIC or METRICS, each with a column of its own."""
 
 import importlib
 import sys
@@ -16,10 +16,10 @@ def update(value, sample):
     return value
 
 """
-FIRST = 'METRIC = Metric("zeta", "zeta", "1", "first", 0.0, update, as_it_is)'
+FIRST = 'METRIC = Metric("zeta", "1", "first", 0.0, update, as_it_is)'
 PAIR = """METRICS = (
-    Metric("{name}", "{column}", "1", "second", 0.0, update, as_it_is),
-    Metric("beta", "beta", "1", "third", 0.0, update, as_it_is),
+    Metric("{column}", "1", "second", 0.0, update, as_it_is),
+    Metric("beta", "1", "third", 0.0, update, as_it_is),
 )"""
 
 
@@ -41,16 +41,13 @@ def package(tmp_path, monkeypatch):
 
 
 def test_metrics_of_several_files_stand_in_alphabetical_order(package):
-    found = registry.collect(package(a=ONE + FIRST, b=ONE + PAIR.format(name="alpha", column="alpha")), Metric)
-    assert list(found) == ["alpha", "beta", "zeta"]
-    assert {name: one.name for name, one in found.items()} == {name: name for name in found}
+    found = registry.collect(package(a=ONE + FIRST, b=ONE + PAIR.format(column="alpha")), Metric)
+    assert list(found) == [one.column for one in found.values()] == ["alpha", "beta", "zeta"]
 
 
-@pytest.mark.parametrize("taken", [("zeta", "other"), ("other", "zeta")])
-def test_a_name_or_column_that_stands_twice_is_refused_with_both(package, taken):
-    name, column = taken
-    with pytest.raises(BadMetric, match=f"b.py: there is a metric '{name}' or a column '{column}' already"):
-        registry.collect(package(a=ONE + FIRST, b=ONE + PAIR.format(name=name, column=column)), Metric)
+def test_a_column_that_stands_twice_is_refused(package):
+    with pytest.raises(BadMetric, match=r"b\.py: there is a column 'zeta' already"):
+        registry.collect(package(a=ONE + FIRST, b=ONE + PAIR.format(column="zeta")), Metric)
 
 
 def test_a_file_without_a_metric_is_refused(package):

@@ -45,7 +45,7 @@ def episode(word, start):
     angle0 = angle(start.quat_wxyz, start.goal_wxyz)
     ending = Ending(angle0, row[FINAL_ANGLE], RULES.band_rad(angle0), OUTCOMES[int(row[OUTCOME])])
     finished = {
-        metric.name: metric.finish(float(value), ending)
+        metric.column: metric.finish(float(value), ending)
         for metric, value in zip(METRICS, row[FIRST_METRIC:-1], strict=True)
     }
     return kept, finished, ending
@@ -84,14 +84,24 @@ def test_effort_is_the_integral_of_the_squared_command(word, start):
 
 def test_peak_u_is_the_largest_command(word, start):
     kept, found, _ = episode(word, start)
-    assert found["peak-u"] == pytest.approx(max(np.linalg.norm(s.u) for s in kept), rel=4 * EPS)
+    assert found["peak_u"] == pytest.approx(max(np.linalg.norm(s.u) for s in kept), rel=4 * EPS)
+
+
+def test_rest_change_is_the_largest_from_tick_to_tick_since_the_body_is_at_rest(word, start):
+    kept, found, ending = episode(word, start)
+    slow = [np.linalg.norm(s.omega) * RULES.hold_s <= 2.0 * math.sin(ending.band / 2.0) for s in kept]
+    inside = [s.haversine <= math.sin(ending.band / 2.0) ** 2 for s in kept]
+    busy = np.flatnonzero(~(np.array(slow) & np.array(inside)))[-1]
+    changes = np.linalg.norm(np.diff([s.u for s in kept[busy:]], axis=0), axis=1)
+    expected = changes.max() if ending.outcome == "settled" else math.nan
+    assert found["rest_change"] == pytest.approx(expected, rel=TOLERANCE, nan_ok=True)
 
 
 def test_path_ratio_is_the_travelled_over_the_initial_angle(word, start):
     kept, found, _ = episode(word, start)
     travelled = np.linalg.norm([s.omega for s in kept], axis=1).sum() * DT
     first = angle(start.quat_wxyz, start.goal_wxyz)
-    assert found["path-ratio"] == pytest.approx(travelled / first, rel=TOLERANCE)
+    assert found["path_ratio"] == pytest.approx(travelled / first, rel=TOLERANCE)
 
 
 def test_overshoot_is_the_largest_angle_outside_the_band_after_it_was_entered(word, start):
@@ -99,11 +109,11 @@ def test_overshoot_is_the_largest_angle_outside_the_band_after_it_was_entered(wo
     angles = 2.0 * np.arcsin(np.sqrt([s.haversine for s in kept]))
     inside = np.flatnonzero(angles <= ending.band)
     after = angles[inside[0] :].max() if len(inside) else 0.0
-    assert found["overshoot"] == pytest.approx(after if after > ending.band else 0.0, rel=1e-12)
+    assert found["overshoot_rad"] == pytest.approx(after if after > ending.band else 0.0, rel=1e-12)
 
 
 def test_some_episode_overshoots_and_some_does_not():
-    found = [episode(word, start)[1]["overshoot"] for word in LAWS for start in STARTS]
+    found = [episode(word, start)[1]["overshoot_rad"] for word in LAWS for start in STARTS]
     assert min(found) == 0.0
     assert max(found) > 0.05
 
@@ -111,7 +121,7 @@ def test_some_episode_overshoots_and_some_does_not():
 def test_min_margin_is_the_smallest_cosine_of_beta(start):
     kept, found, _ = episode("linearized-euler/zyx-euler", start)
     smallest = min(math.hypot(s.R.n[0], s.R.n[1]) for s in kept)
-    assert found["min-margin"] == pytest.approx(smallest, rel=4 * EPS)
+    assert found["min_margin"] == pytest.approx(smallest, rel=4 * EPS)
 
 
 def test_min_margin_is_measured_from_the_goal_where_the_law_is(start):
@@ -126,21 +136,21 @@ def test_min_margin_is_measured_from_the_goal_where_the_law_is(start):
         ]
     )
     margins = [math.hypot(*(goal.T @ np.array(s.R.n))[:2]) for s in kept]
-    assert found["min-margin"] == pytest.approx(min(margins), abs=10 * EPS)
+    assert found["min_margin"] == pytest.approx(min(margins), abs=10 * EPS)
 
 
 def test_min_margin_is_no_number_for_a_law_without_coordinates(start):
-    assert math.isnan(episode("rotation-matrix", start)[1]["min-margin"])
+    assert math.isnan(episode("rotation-matrix", start)[1]["min_margin"])
 
 
 def test_path_ratio_is_no_number_for_a_start_at_its_goal():
-    assert math.isnan(episode("rotation-matrix", Start("at the goal", (1.0, 0.0, 0.0, 0.0)))[1]["path-ratio"])
+    assert math.isnan(episode("rotation-matrix", Start("at the goal", (1.0, 0.0, 0.0, 0.0)))[1]["path_ratio"])
 
 
-@pytest.mark.parametrize("name", ["peak-u", "min-margin"])
+@pytest.mark.parametrize("name", ["peak_u", "min_margin"])
 def test_extreme_passes_over_a_tick_that_is_not_a_number(name):
     """The tick at which a law fails has no command, and one at which no margin exists has no margin."""
-    update = next(one for one in METRICS if one.name == name).update
+    update = next(one for one in METRICS if one.column == name).update
     sample = episode("linearized-euler/zyx-euler", STARTS[0])[0][0]
     missing = sample._replace(u=(math.nan, 0.0, 0.0), margin=math.nan)
     assert update(update(0.5, sample), missing) == update(0.5, sample)

@@ -4,8 +4,11 @@ import shutil
 
 import pytest
 
+from bench.regression.revisions import gates
 from bench.regression.revisions.exact import basins, findings, removed
+from bench.regression.rows import differences
 from bench.regression.rows.difference import CHANGED, COLUMN, MISSING, NEW, Difference
+from bench.tables.files import read_json, write_json
 from bench.tables.schema import TABLES
 from bench.tables.store import read, write_table
 
@@ -41,7 +44,8 @@ def test_outcome_is_a_regression_if_it_got_worse(was, now, verdict):
 
 def test_rows_that_say_the_same_are_one_finding_and_regressions_come_first():
     several = [episode("outcome", "settled", "diverged", start=f"start-{k}") for k in range(3)]
-    found = findings([episode("effort", "1.0", "2.0"), *several, episode("outcome", "settled", "diverged", law="mrp")])
+    other = episode("outcome", "settled", "diverged", law="mrp")
+    found = findings([episode("path_ratio", "1.0", "2.0"), *several, other])
     assert [(one.name, one.verdict, one.rows) for one in found] == [
         ("rotation-matrix", "regression", 3),
         ("mrp", "regression", 1),
@@ -63,10 +67,22 @@ def test_operation_is_said_once_for_all_stages_without_their_sum(now, verdict):
     assert found.says.startswith(f"rotation-matrix: mul 25 -> {now} a tick")
 
 
-@pytest.mark.parametrize(("now", "verdict"), [("0.75", "regression"), ("0.71", "improvement")])
-def test_settling_time_beyond_the_tolerance_counts_by_its_sign(now, verdict):
-    [found] = findings([episode("settling_time_s", "0.73", now)])
-    assert found.verdict == verdict
+@pytest.mark.parametrize(
+    ("column", "was", "now", "verdict"),
+    [
+        ("settling_time_s", "0.73", "0.75", "regression"),
+        ("settling_time_s", "0.73", "0.71", "improvement"),
+        ("effort", "908", "1136", "regression"),
+        ("effort", "908", "1134", "change"),
+        ("peak_u", "100", "79", "improvement"),
+        ("rest_change", "0.05", "0.9", "change"),  # too little to count
+        ("rest_change", "0.05", "160", "regression"),
+        ("rest_change", "160", "0.05", "improvement"),
+        ("path_ratio", "1", "9", "change"),
+    ],
+)
+def test_number_counts_by_its_sign_beyond_what_is_allowed(column, was, now, verdict):
+    assert [one.verdict for one in findings([episode(column, was, now)])] == [verdict]
 
 
 @pytest.mark.parametrize(("was", "now", "verdict"), [("nan", "1.2", "regression"), ("1.2", "nan", "improvement")])
@@ -80,6 +96,17 @@ def test_row_that_is_gone_is_a_regression_and_a_new_one_is_not():
     row = episode("", "", "").row
     gone, new = (Difference("episodes", kind, "", "", row) for kind in (MISSING, NEW))
     assert [one.verdict for one in findings([new, gone])] == ["regression", "change"]
+
+
+def test_changed_judge_is_said_first_by_column_and_no_law_is_named(finished, tmp_path):
+    head = shutil.copytree(finished, tmp_path / "head")
+    rows = read(finished, "episodes")
+    write_table(head / "episodes.parquet", rows.assign(outcome="stuck"), "episodes")
+    assert {one.kind for one in differences(finished, head)} == {CHANGED}
+    write_json(head / "provenance.json", read_json(head / "provenance.json") | {"judge": "another"})
+    first, *others = gates.of_folders(finished, head).findings
+    assert (first.verdict, first.says[:17]) == ("regression", "the judge changed")
+    assert [one.says for one in others] == [f"episodes: outcome: {len(rows)}"]
 
 
 def test_changed_column_is_a_regression_in_its_own_words():

@@ -118,16 +118,20 @@ def test_process_of_a_law_ends_with_the_run(tmp_path):
         Sandbox(plan).rows(plan.units[-1])
     """
     words = [sys.executable, "-c", textwrap.dedent(script), str(tmp_path)]
-    path = os.pathsep.join(map(str, (ROOT / "tests", ROOT)))
-    environment = {**os.environ, "PYTHONPATH": path}
+    path, temporary = os.pathsep.join(map(str, (ROOT / "tests", ROOT))), tmp_path / "temporary"
+    temporary.mkdir()
+    environment = {**os.environ, "PYTHONPATH": path, "TMPDIR": str(temporary)}
     with subprocess.Popen(words, env=environment) as process:
-        own, begun = psutil.Process(process.pid), time.monotonic()
-        while not (forks := [one for one in own.children(recursive=True) if one not in own.children()]):
+        own, started, begun = psutil.Process(process.pid), [], time.monotonic()
+        while len(started) < 2:  # the law's process, and the fork in which it hangs
             assert time.monotonic() - begun < 120.0
             time.sleep(0.05)
+            started = own.children(recursive=True)
+        [of_the_law] = temporary.glob("orientation-bench-law-*")
         process.kill()
-    _, alive = psutil.wait_procs(forks, timeout=60)
+    _, alive = psutil.wait_procs(started, timeout=60)
     assert alive == []
+    assert not of_the_law.exists()
 
 
 def test_limit_must_be_positive(capsys, tmp_path):

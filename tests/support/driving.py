@@ -30,4 +30,4 @@ def recorder(kept):
         kept.append(sample)
         return value
 
-    return Metric("kept", "kept", "1", "kept", 0.0, update, lambda value, ending: value)
+    return Metric("kept", "1", "kept", 0.0, update, lambda value, ending: value)

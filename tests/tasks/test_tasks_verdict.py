@@ -4,12 +4,13 @@ import math
 
 import pytest
 
+from tasks import verdict as judge
 from tasks.rules import RULES
 from tasks.verdict import (
-    CRASHED,
+    CREEPING,
     DIVERGED,
     GOING,
-    HUNG,
+    OSCILLATING,
     OUTCOMES,
     SATURATED,
     SETTLED,
@@ -19,40 +20,33 @@ from tasks.verdict import (
     check_command,
     check_state,
     first_watch,
-    verdict,
     watched,
 )
 
 BAND = RULES.band_haversine(1.0)
 COMMAND = RULES.command_limit**2
 SPEED = RULES.speed_limit**2
+REST = RULES.hold_ticks(1e-3)
+SLOW = RULES.band_rad(1.0) / RULES.hold_s
 
 
-def watch_over(angles):
-    """The watch after a list of angles [rad], the first at tick 0."""
-    haversines = [math.sin(angle / 2) ** 2 for angle in angles]
-    watch = first_watch(haversines[0], BAND)
-    for tick, haversine in enumerate(haversines[1:], start=1):
-        watch = watched(watch, tick, haversine, BAND)
+def watch_over(angles, speeds=None):
+    """The watch after lists of angles [rad] and speeds [rad/s], the first at tick 0; at rest if none are given."""
+    watch = None
+    for tick, (angle, speed) in enumerate(zip(angles, speeds or [0.0] * len(angles), strict=True)):
+        seen = (math.sin(angle / 2) ** 2, BAND, speed**2, RULES.slow_squared)
+        watch = watched(watch, tick, *seen) if watch else first_watch(*seen)
     return watch
 
 
-def ending(failure=GOING, inside=False, speed=0.0, command=0.0):
-    return verdict(failure, inside, speed**2, command**2, RULES.rest_speed**2, RULES.rest_command**2)
+def verdict(angles, speeds=None, failure=GOING, speed=0.0, command=0.0):
+    """The word after these; speed and command are those at the end that tell a stuck body."""
+    watch, rest = watch_over(angles, speeds), (RULES.rest_speed**2, RULES.rest_command**2)
+    return judge.verdict(failure, watch, len(angles) - 1, REST, speed**2, command**2, *rest)
 
 
-def test_codes_are_the_places_of_the_words():
-    codes = (SETTLED, STUCK, TIMED_OUT, DIVERGED, SINGULAR, SATURATED, CRASHED, HUNG)
-    assert [OUTCOMES[code] for code in codes] == [
-        "settled",
-        "stuck",
-        "timed-out",
-        "diverged",
-        "singular",
-        "saturated",
-        "crashed",
-        "hung",
-    ]
+def test_every_word_has_its_code():
+    assert [getattr(judge, word.upper().replace("-", "_")) for word in OUTCOMES] == list(range(len(OUTCOMES)))
 
 
 @pytest.mark.parametrize(
@@ -65,7 +59,7 @@ def test_codes_are_the_places_of_the_words():
 )
 def test_settled_since_is_the_tick_after_the_last_one_outside(angles, since, entered):
     watch = watch_over(angles)
-    assert (watch.settled_since, watch.entered) == (since, entered)
+    assert (watch.settled_since, watch.entries > 0) == (since, entered)
 
 
 def test_quiet_counts_ticks_under_a_hundredth_of_the_band():
@@ -90,15 +84,41 @@ def test_state_beyond_the_limit_or_not_finite_has_diverged(squared):
     assert check_state(SPEED, SPEED) == GOING
 
 
+def test_slow_is_what_crosses_half_the_band_in_the_hold_window_or_longer():
+    inside = [0.01] * 3
+    assert watch_over(inside, [0.0, 0.999 * SLOW, 0.0]).rest == 3
+    assert watch_over(inside, [0.0, 1.001 * SLOW, 0.0]).rest == 1
+
+
+INSIDE, OUTSIDE, FAST = [0.01] * REST, [1.0] * REST, [1.0] * REST
+
+
 @pytest.mark.parametrize(
-    ("given", "found"),
+    ("found", "given"),
     [
-        ({"failure": SINGULAR, "inside": True}, SINGULAR),  # wherever the angle is
-        ({"inside": True, "speed": 1.0, "command": 1.0}, SETTLED),
-        ({}, STUCK),  # outside and at rest
-        ({"speed": 0.01}, TIMED_OUT),  # outside and moving
-        ({"command": 1.0}, TIMED_OUT),
+        (SINGULAR, {"angles": INSIDE, "failure": SINGULAR}),  # wherever the angle is
+        (SETTLED, {"angles": [1.0, *INSIDE], "speed": 1.0, "command": 1.0}),
+        (SETTLED, {"angles": [1.0, 0.01, 1.0, *INSIDE]}),  # an overshoot is none of it
+        (CREEPING, {"angles": [1.0, *INSIDE[1:]]}),  # only just inside
+        (STUCK, {"angles": OUTSIDE}),
+        (CREEPING, {"angles": OUTSIDE, "speed": 0.01}),
+        (CREEPING, {"angles": OUTSIDE, "command": 1.0}),
+        (TIMED_OUT, {"angles": OUTSIDE, "speeds": FAST, "speed": 1.0}),
+        (TIMED_OUT, {"angles": [1.0, 0.01, 1.0], "speeds": [1.0] * 3, "speed": 1.0}),  # through the goal, once
+        (OSCILLATING, {"angles": [1.0, 0.01, 1.0, 0.01], "speeds": [1.0] * 4}),
+        (OSCILLATING, {"angles": [1.0, 0.01, 1.0, 0.01, 1.0], "command": 1.0}),  # at a turning point
+        (OSCILLATING, {"angles": INSIDE, "speeds": FAST}),  # shakes inside the band
     ],
 )
-def test_verdict_is_by_failure_then_angle_then_rest(given, found):
-    assert ending(**given) == found
+def test_verdict_is_by_failure_then_rest_then_what_else_it_does(found, given):
+    assert OUTCOMES[verdict(**given)] == OUTCOMES[found]
+
+
+@pytest.mark.parametrize("frequency", [3.0, 10.0, 100.0])
+@pytest.mark.parametrize("phase", [0.0, 0.5, 1.0, 1.5])
+def test_undamped_oscillator_never_settles_wherever_the_horizon_cuts_it(frequency, phase):
+    times = [1e-3 * k for k in range(round((20.0 + phase / frequency) * 1e3))]
+    angles = [abs(math.cos(frequency * t)) for t in times]
+    speeds = [frequency * math.sin(frequency * t) for t in times]
+    ending = {"speed": speeds[-1], "command": frequency**2 * angles[-1]}
+    assert verdict(angles, speeds, **ending) == OSCILLATING

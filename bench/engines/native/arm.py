@@ -151,7 +151,8 @@ def episodes_of(observe):
             mj_step1(plant.model, plant.data)
             p_d = (s[16], s[17], s[18])
             hav = haversine((s[12], s[13], s[14], s[15]), quat_d)
-            watch = first_watch(hav, band)
+            turning = s[9] * s[9] + s[10] * s[10] + s[11] * s[11]
+            watch = first_watch(hav, band, turning, numbers.slow_squared)
             tick = 0
             failure = GOING
             while tick < numbers.ticks and watch.quiet < numbers.hold_ticks:
@@ -165,14 +166,15 @@ def episodes_of(observe):
                 mj_fullM(model.model, model.data, work.D)
                 for i in range(n):
                     fg[i] = bias[i] - passive[i]
+                before = u
                 u, memory = control(
                     assemble, resolve, controls.gives_torque, controls.rows,
                     chain, D, fg, goal, p_d, gains, memory, buffers,
                 )  # fmt: skip
                 omega, torques = (s[9], s[10], s[11]), seven(tau, n)
                 sample = ArmSample(
-                    tick * dt, dt, R, hav, watch.entered, omega, u, margin(R, R_d), p, p_d, seven(qpos, n),
-                    seven(qvel, n), torques, joints.lower, joints.upper, joints.rated,
+                    tick * dt, dt, R, hav, watch.entries > 0, watch.rest > 0, omega, u, before, margin(R, R_d), p, p_d,
+                    seven(qpos, n), seven(qvel, n), torques, joints.lower, joints.upper, joints.rated,
                 )  # fmt: skip
                 observe(row, sample)
                 keep_on_arm(curves, k, tick, sample)
@@ -193,9 +195,10 @@ def episodes_of(observe):
                 if failure != GOING:
                     break
                 hav = haversine((s[12], s[13], s[14], s[15]), quat_d)
-                watch = watched(watch, tick, hav, band)
+                turning = s[9] * s[9] + s[10] * s[10] + s[11] * s[11]
+                watch = watched(watch, tick, hav, band, turning, numbers.slow_squared)
             final = angle((s[12], s[13], s[14], s[15]), quat_d)
             speed, command = squared(qvel, n), u[0] * u[0] + u[1] * u[1] + u[2] * u[2]
-            finish(row, blamed(failure, u), watch, tick, final, hav <= band, speed, command, numbers)
+            finish(row, blamed(failure, u), watch, tick, final, speed, command, numbers)
 
     return compile_function(episodes, EPISODES)

@@ -83,12 +83,13 @@ def episodes_of(observe):
                 sim.qvel[i] = states[k, nq + i]
             mj_step1(sim.model, sim.data)
             hav = haversine((s[12], s[13], s[14], s[15]), quat_d)
-            watch = first_watch(hav, band)
+            speed = s[9] * s[9] + s[10] * s[10] + s[11] * s[11]
+            watch = first_watch(hav, band, speed, numbers.slow_squared)
             tick = 0
             failure = GOING
             while tick < numbers.ticks and watch.quiet < numbers.hold_ticks:
                 R = Rotation((s[0], s[1], s[2]), (s[3], s[4], s[5]), (s[6], s[7], s[8]))
-                omega = (s[9], s[10], s[11])
+                omega, before = (s[9], s[10], s[11]), u
                 if sim.has_servo:
                     sim.ctrl[0], sim.ctrl[1], sim.ctrl[2], sim.ctrl[3] = quat_d
                     mj_fwdActuation(sim.model, sim.data)
@@ -96,7 +97,7 @@ def episodes_of(observe):
                     u, margin = rotate(R, (f[0], f[1], f[2])), math.nan
                 else:
                     u, memory, margin = evaluate(R, omega, goal, gains, memory)
-                sample = Sample(tick * dt, dt, R, hav, watch.entered, omega, u, margin)
+                sample = Sample(tick * dt, dt, R, hav, watch.entries > 0, watch.rest > 0, omega, u, before, margin)
                 observe(row, sample)
                 keep(curves, k, tick, sample)
                 failure = check_command(dot(u, u), numbers.command_limit_squared)
@@ -110,13 +111,13 @@ def episodes_of(observe):
                     mj_step2(sim.model, sim.data)
                 mj_step1(sim.model, sim.data)
                 tick += 1
-                failure = check_state(s[9] * s[9] + s[10] * s[10] + s[11] * s[11], numbers.speed_limit_squared)
+                speed = s[9] * s[9] + s[10] * s[10] + s[11] * s[11]
+                failure = check_state(speed, numbers.speed_limit_squared)
                 if failure != GOING:
                     break
                 hav = haversine((s[12], s[13], s[14], s[15]), quat_d)
-                watch = watched(watch, tick, hav, band)
+                watch = watched(watch, tick, hav, band, speed, numbers.slow_squared)
             final = angle((s[12], s[13], s[14], s[15]), quat_d)
-            speed = s[9] * s[9] + s[10] * s[10] + s[11] * s[11]
-            finish(row, blamed(failure, u), watch, tick, final, hav <= band, speed, dot(u, u), numbers)
+            finish(row, blamed(failure, u), watch, tick, final, speed, dot(u, u), numbers)
 
     return compile_function(episodes, EPISODES)

@@ -62,7 +62,8 @@ def _episode(contender, task, arm_name, start, band, settings, metrics, row, int
     goal, p_d = Goal(R_d, STILL, STILL), vector(s[16:19])
     gains, memory = Gains(*map(np.float64, settings.gains)), tuple(map(np.float64, memory_of(contender)))
     hav = haversine(s[12:16], start.goal_wxyz)
-    watch = first_watch(hav, band)
+    omega = vector(s[9:12])
+    watch = first_watch(hav, band, dot(omega, omega), limits.slow_squared)
     u, tick, failure = (0.0, 0.0, 0.0), 0, GOING
     while tick < limits.ticks and watch.quiet < limits.hold_ticks:
         R = Rotation(vector(s[0:3]), vector(s[3:6]), vector(s[6:9]))
@@ -73,13 +74,14 @@ def _episode(contender, task, arm_name, start, band, settings, metrics, row, int
             mujoco.mj_step1(model, believed)
         mujoco.mj_fullM(model, believed, D)
         fg = believed.qfrc_bias - believed.qfrc_passive
+        before = u
         u, memory = control(
             assemble, resolve, shape.gives_torque, shape.rows, chain, D, fg, goal, p_d, gains, memory, into
         )
         torques = seven(into.tau, n)
         sample = ArmSample(
-            tick * dt, dt, R, hav, watch.entered, vector(s[9:12]), u, margin(R, R_d), p, p_d, seven(plant.qpos, n),
-            seven(plant.qvel, n), torques, *of_joints,
+            tick * dt, dt, R, hav, watch.entries > 0, watch.rest > 0, omega, u, before, margin(R, R_d), p, p_d,
+            seven(plant.qpos, n), seven(plant.qvel, n), torques, *of_joints,
         )  # fmt: skip
         observe(row, sample)
         failure = check_command(load(torques, of_joints.rated), shape.torque_limit_squared)
@@ -93,6 +95,7 @@ def _episode(contender, task, arm_name, start, band, settings, metrics, row, int
         if failure != GOING:
             break
         hav = haversine(s[12:16], start.goal_wxyz)
-        watch = watched(watch, tick, hav, band)
+        omega = vector(s[9:12])
+        watch = watched(watch, tick, hav, band, dot(omega, omega), limits.slow_squared)
     final = angle(s[12:16], start.goal_wxyz)
-    finish(row, blamed(failure, u), watch, tick, final, hav <= band, squared(plant.qvel, n), dot(u, u), limits)
+    finish(row, blamed(failure, u), watch, tick, final, squared(plant.qvel, n), dot(u, u), limits)

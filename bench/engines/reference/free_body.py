@@ -41,12 +41,14 @@ def _episode(contender, margin, observe, task, start, band, settings, row, integ
     goal = Goal(R_d, STILL, STILL)
     gains, memory = Gains(*map(np.float64, settings.gains)), tuple(map(np.float64, memory_of(contender)))
     hav = haversine(sensors[12:16], start.goal_wxyz)
-    watch = first_watch(hav, band)
     u, omega, tick, failure = (0.0, 0.0, 0.0), vector(sensors[9:12]), 0, GOING
+    watch = first_watch(hav, band, dot(omega, omega), limits.slow_squared)
     while tick < limits.ticks and watch.quiet < limits.hold_ticks:
         R = Rotation(vector(sensors[0:3]), vector(sensors[3:6]), vector(sensors[6:9]))
+        before = u
         u, memory = command(R, omega, goal, gains, memory)
-        observe(row, Sample(tick * dt, dt, R, hav, watch.entered, omega, u, margin(R, R_d)))
+        at_rest = watch.rest > 0
+        observe(row, Sample(tick * dt, dt, R, hav, watch.entries > 0, at_rest, omega, u, before, margin(R, R_d)))
         failure = check_command(dot(u, u), limits.command_limit_squared)
         if failure != GOING:
             break
@@ -57,9 +59,9 @@ def _episode(contender, margin, observe, task, start, band, settings, row, integ
         if failure != GOING:
             break
         hav = haversine(sensors[12:16], start.goal_wxyz)
-        watch = watched(watch, tick, hav, band)
+        watch = watched(watch, tick, hav, band, dot(omega, omega), limits.slow_squared)
     final = angle(sensors[12:16], start.goal_wxyz)
-    finish(row, blamed(failure, u), watch, tick, final, hav <= band, dot(omega, omega), dot(u, u), limits)
+    finish(row, blamed(failure, u), watch, tick, final, dot(omega, omega), dot(u, u), limits)
 
 
 def _servo(physics, goal_wxyz):

@@ -46,8 +46,8 @@ def loop_rest(pose: Pose) -> float:
 
 
 METRICS = (
-    ContactMetric("leakage", "leakage_ratio", "1", "rotation about held axes over that about complying ones", leakage),
-    ContactMetric("held-turn", "held_turn_rad", "rad", "rotation about held axes at the end", held_turn),
-    ContactMetric("loop-drift", "loop_drift_rad", "rad", "rotation about held axes left by a closed loop", loop_drift),
-    ContactMetric("loop-rest", "loop_rest_rad", "rad", "rotation left by a closed loop", loop_rest),
+    ContactMetric("leakage_ratio", "1", "rotation about held axes over that about complying ones", leakage),
+    ContactMetric("held_turn_rad", "rad", "rotation about held axes at the end", held_turn),
+    ContactMetric("loop_drift_rad", "rad", "rotation about held axes left by a closed loop", loop_drift),
+    ContactMetric("loop_rest_rad", "rad", "rotation left by a closed loop", loop_rest),
 )

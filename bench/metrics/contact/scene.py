@@ -56,13 +56,9 @@ def penetration(pose: Pose) -> float:
 
 
 METRICS = (
-    ContactMetric(
-        "alignment-error", "alignment_error_rad", "rad", "angle between tool and plate at the end", alignment_error
-    ),
-    ContactMetric("crank-angle", "crank_angle_rad", "rad", "angle that the scene's joint was turned by", crank_angle),
-    ContactMetric(
-        "insertion-depth", "insertion_depth_m", "m", "depth of the peg in the hole at the end", insertion_depth
-    ),
-    ContactMetric("jam", "jam", "1", "share of pegs that are stuck", jam),
-    ContactMetric("penetration", "penetration_m", "m", "deepest penetration of hand and scene", penetration),
+    ContactMetric("alignment_error_rad", "rad", "angle between tool and plate at the end", alignment_error),
+    ContactMetric("crank_angle_rad", "rad", "angle that the scene's joint was turned by", crank_angle),
+    ContactMetric("insertion_depth_m", "m", "depth of the peg in the hole at the end", insertion_depth),
+    ContactMetric("jam", "1", "share of pegs that are stuck", jam),
+    ContactMetric("penetration_m", "m", "deepest penetration of hand and scene", penetration),
 )

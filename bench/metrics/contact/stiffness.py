@@ -65,46 +65,14 @@ def stiffness_condition(pose: Pose) -> float:
 
 
 METRICS = (
+    ContactMetric("misalignment_rad", "rad", "largest angle between a moment and the rotation it causes", misalignment),
     ContactMetric(
-        "misalignment",
-        "misalignment_rad",
-        "rad",
-        "largest angle between a moment and the rotation it causes",
-        misalignment,
+        "mean_misalignment_rad", "rad", "mean angle between a moment and the rotation it causes", mean_misalignment
     ),
+    ContactMetric("least_yield_rad_per_nm", "rad/(N m)", "least rotation per moment about complying axes", least_yield),
     ContactMetric(
-        "mean-misalignment",
-        "mean_misalignment_rad",
-        "rad",
-        "mean angle between a moment and the rotation it causes",
-        mean_misalignment,
+        "stiffness_asymmetry", "1", "skew over symmetric part of the rotational stiffness", stiffness_asymmetry
     ),
-    ContactMetric(
-        "least-yield",
-        "least_yield_rad_per_nm",
-        "rad/(N m)",
-        "least rotation per moment about complying axes",
-        least_yield,
-    ),
-    ContactMetric(
-        "stiffness-asymmetry",
-        "stiffness_asymmetry",
-        "1",
-        "skew over symmetric part of the rotational stiffness",
-        stiffness_asymmetry,
-    ),
-    ContactMetric(
-        "stiffness-axes",
-        "stiffness_axes_rad",
-        "rad",
-        "largest angle of an axis asked for to a principal one",
-        stiffness_axes,
-    ),
-    ContactMetric(
-        "stiffness-condition",
-        "stiffness_condition",
-        "1",
-        "condition number of the rotational stiffness",
-        stiffness_condition,
-    ),
+    ContactMetric("stiffness_axes_rad", "rad", "largest angle of an axis asked for to a principal one", stiffness_axes),
+    ContactMetric("stiffness_condition", "1", "condition number of the rotational stiffness", stiffness_condition),
 )

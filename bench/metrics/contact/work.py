@@ -43,6 +43,4 @@ def _length(v) -> float:
     return float(np.linalg.norm(v))
 
 
-METRIC = ContactMetric(
-    "work-residual", "work_residual", "1", "work lost between Cartesian and generalized forces", work_residual
-)
+METRIC = ContactMetric("work_residual", "1", "work lost between Cartesian and generalized forces", work_residual)

@@ -77,32 +77,14 @@ def _largest(sizes: list[np.ndarray]) -> float:
 
 METRICS = (
     ContactMetric(
-        "contact-settling-time",
-        "contact_settling_time_s",
-        "s",
-        "settling time of the force, from the first touch",
-        contact_settling_time,
+        "contact_settling_time_s", "s", "settling time of the force, from the first touch", contact_settling_time
     ),
-    ContactMetric(
-        "normal-force-error",
-        "normal_force_error_n",
-        "N",
-        "error of the force normal to the plane, rms",
-        normal_force_error,
-    ),
-    ContactMetric(
-        "force-error-peak", "force_error_peak_n", "N", "error of the force exerted, largest", force_error_peak
-    ),
-    ContactMetric("force-error-rms", "force_error_rms_n", "N", "error of the force exerted, rms", force_error_rms),
-    ContactMetric(
-        "moment-error-peak", "moment_error_peak_nm", "N m", "error of the moment exerted, largest", moment_error_peak
-    ),
-    ContactMetric(
-        "moment-error-rms", "moment_error_rms_nm", "N m", "error of the moment exerted, rms", moment_error_rms
-    ),
-    ContactMetric("peak-force", "peak_force_n", "N", "largest force on the hand", peak_force),
-    ContactMetric("peak-moment", "peak_moment_nm", "N m", "largest moment on the hand", peak_moment),
-    ContactMetric(
-        "peak-torque-ratio", "peak_torque_ratio", "1", "largest torque over the motor's rated one", peak_torque_ratio
-    ),
+    ContactMetric("normal_force_error_n", "N", "error of the force normal to the plane, rms", normal_force_error),
+    ContactMetric("force_error_peak_n", "N", "error of the force exerted, largest", force_error_peak),
+    ContactMetric("force_error_rms_n", "N", "error of the force exerted, rms", force_error_rms),
+    ContactMetric("moment_error_peak_nm", "N m", "error of the moment exerted, largest", moment_error_peak),
+    ContactMetric("moment_error_rms_nm", "N m", "error of the moment exerted, rms", moment_error_rms),
+    ContactMetric("peak_force_n", "N", "largest force on the hand", peak_force),
+    ContactMetric("peak_moment_nm", "N m", "largest moment on the hand", peak_moment),
+    ContactMetric("peak_torque_ratio", "1", "largest torque over the motor's rated one", peak_torque_ratio),
 )

@@ -40,17 +40,9 @@ def over_initial(value, ending):
 
 
 METRICS = (
+    Metric("min_margin", "1", "smallest distance to the singular set", math.inf, smallest_margin, if_finite),
     Metric(
-        "min-margin", "min_margin", "1", "smallest distance to the singular set", math.inf, smallest_margin, if_finite
+        "overshoot_rad", "rad", "largest angle after the band was first entered", 0.0, largest_haversine, angle_outside
     ),
-    Metric(
-        "overshoot",
-        "overshoot_rad",
-        "rad",
-        "largest angle after the band was first entered",
-        0.0,
-        largest_haversine,
-        angle_outside,
-    ),
-    Metric("path-ratio", "path_ratio", "1", "travelled angle over initial angle", 0.0, travel, over_initial),
+    Metric("path_ratio", "1", "travelled angle over initial angle", 0.0, travel, over_initial),
 )

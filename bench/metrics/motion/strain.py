@@ -47,36 +47,9 @@ def largest_excess(value, sample):
 
 
 METRICS = (
-    Metric("peak-tau", "peak_tau_nm", "N m", "largest torque of any joint", 0.0, largest_torque, root, True),
+    Metric("peak_tau_nm", "N m", "largest torque of any joint", 0.0, largest_torque, root, True),
     # above 1, a real arm could not have done it
-    Metric(
-        "peak-torque-ratio",
-        "peak_torque_ratio",
-        "1",
-        "largest torque over the motor's rated one",
-        0.0,
-        largest_ratio,
-        root,
-        True,
-    ),
-    Metric(
-        "position-error",
-        "position_error_m",
-        "m",
-        "largest distance of the tool from its place",
-        0.0,
-        farthest,
-        root,
-        True,
-    ),
-    Metric(
-        "range-excess",
-        "range_excess_rad",
-        "rad",
-        "largest excess of a joint over its range",
-        0.0,
-        largest_excess,
-        if_finite,
-        True,
-    ),
+    Metric("peak_torque_ratio", "1", "largest torque over the motor's rated one", 0.0, largest_ratio, root, True),
+    Metric("position_error_m", "m", "largest distance of the tool from its place", 0.0, farthest, root, True),
+    Metric("range_excess_rad", "rad", "largest excess of a joint over its range", 0.0, largest_excess, if_finite, True),
 )

@@ -1,9 +1,10 @@
 """Two runs, row by row, in words: what differs, of which law, and whether that is a regression.
 
 A regression is an outcome that got worse (settled or done, and no longer so; or stuck, which is a new dead point), a
-basin that shrank, a row, contender or column that is gone, more of any operation, or a settling time beyond the
-tolerance of bench/regression/rows. Everything else that differs is a change, or an improvement if it is one of these
-undone.
+basin that shrank, a row, contender or column that is gone, more of any operation, a settling time beyond the
+tolerance of bench/regression/rows, or effort, peak or change at rest of the command beyond LARGER_IS_WORSE. Everything
+else that differs is a change, or an improvement if it is one of these undone. Where the judge changed that is all that
+is said.
 """
 
 from collections.abc import Iterable
@@ -14,7 +15,7 @@ import pandas as pd
 from bench.counting import OPERATIONS as OPERATION_NAMES
 from bench.counting import TOTAL
 from bench.regression.revisions.comparison import CHANGE, EXACT, IMPROVEMENT, OPERATIONS, REGRESSION, Finding
-from bench.regression.rows.difference import CHANGED, COLUMN, MISSING, NEW, Difference
+from bench.regression.rows.difference import CHANGED, COLUMN, JUDGE, MISSING, NEW, Difference
 from bench.tables.files import read_json
 from bench.tables.read import with_contender
 from bench.tables.store import read
@@ -23,6 +24,9 @@ GOOD = ("settled", "done")
 STUCK = "stuck"
 SMALLER_IS_WORSE = ("fails_from_rad", "settled_to_rad")
 """Of boundaries: nothing fails up to there."""
+LARGER_IS_WORSE = {"effort": (1.25, 0.0), "peak_u": (1.25, 0.0), "rest_change": (2.0, 1.0)}
+"""Of episodes: how many times as much is a regression, and what is too little to count: in rad/s^2 a change at rest of
+a hundredth of Kp times a radian."""
 
 
 def findings(differences: Iterable[Difference]) -> list[Finding]:
@@ -97,7 +101,16 @@ def _verdict(one: Difference) -> str:
         return REGRESSION if _number(one.now) < _number(one.was) else IMPROVEMENT
     if _is_total(one) or one.column == "settling_time_s":
         return REGRESSION if _number(one.now) > _number(one.was) else IMPROVEMENT
+    if one.table == "episodes" and one.column in LARGER_IS_WORSE:
+        return _grown(_number(one.was), _number(one.now), *LARGER_IS_WORSE[one.column])
     return CHANGE
+
+
+def _grown(was: float, now: float, times: float, least: float) -> str:
+    """Whether a number has grown or shrunk beyond a factor, to or from more than what counts."""
+    if now > times * max(was, least):
+        return REGRESSION
+    return IMPROVEMENT if was > times * max(now, least) else CHANGE
 
 
 def _number(word: str) -> float:
@@ -114,7 +127,7 @@ def _finding(name: str, what: str, verdict: str, group: list[Difference]) -> Fin
 def _says(name: str, one: Difference, count: int) -> str:
     """All of it in words; of several rows the first is named."""
     more = f", and {count - 1} rows more" if count > 1 else ""
-    if one.kind == COLUMN:
+    if one.kind in (COLUMN, JUDGE):
         return one.says
     where = " ".join(word for key, word in one.row.items() if word and key not in ("regulator", "representation"))
     if one.kind == MISSING:

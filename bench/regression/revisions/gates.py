@@ -24,6 +24,7 @@ from bench.regression.revisions.comparison import (
 from bench.regression.revisions.measured import Operations, Wanted, left_out, measured
 from bench.regression.revisions.process import SideFailed, running
 from bench.regression.rows import differences
+from bench.regression.rows.difference import JUDGE
 from bench.tables.files import read_json
 from bench.tables.store import read
 
@@ -60,6 +61,8 @@ def _origin(folder: Path) -> dict[str, str]:
 
 def _exact(base: Path, head: Path) -> list[Finding]:
     found = differences(base, head)
+    if any(one.kind == JUDGE for one in found):
+        return [*exact.lost(head), *exact.findings(found)]
     return [*exact.lost(head), *exact.removed(found, head), *exact.basins(base, head), *exact.findings(found)]
 
 

@@ -19,9 +19,10 @@ from pathlib import Path
 from bench.errors import BadResults
 from bench.experiments.experiment import known_tables
 from bench.regression.rows.contact import compliance, robustness
-from bench.regression.rows.difference import COLUMN, Difference, lines
+from bench.regression.rows.difference import COLUMN, Difference, by_column, lines
 from bench.regression.rows.tables import boundaries, costs, episodes, of_key, poses, traces
 from bench.tables.column import Table
+from bench.tables.files import read_json
 from bench.tables.store import read, read_arrow
 
 __all__ = ["TABLES", "Difference", "compare", "differences", "lines"]
@@ -50,6 +51,8 @@ def compare(base: Path, head: Path) -> list[str]:
 def differences(base: Path, head: Path) -> list[Difference]:
     """What differs between two runs' folders, row by row; of a table whose columns differ, only those.
 
+    Of runs that different judges judged, how many rows by column.
+
     Errors:
         BadResults: a folder holds no finished run.
     """
@@ -62,7 +65,8 @@ def differences(base: Path, head: Path) -> list[Difference]:
         except BadResults as error:
             raise BadResults(f"nothing to compare: {error}") from error
         found += _schema(tables[name], base, head) or rows(old, new)
-    return found
+    was, now = (read_json(Path(folder) / "provenance.json").get("judge") for folder in (base, head))
+    return by_column(found) if found and was and now and was != now else found
 
 
 def _schema(table: Table, base: Path, head: Path) -> list[Difference]:

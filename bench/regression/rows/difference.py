@@ -1,5 +1,6 @@
 """What differs between two runs: one row or column, and how a list of them is said."""
 
+from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from itertools import groupby
 from typing import NamedTuple
@@ -9,7 +10,7 @@ import pandas as pd
 
 from bench.tables.column import Table
 
-MISSING, NEW, TWICE, COLUMN, CHANGED = "missing", "new", "twice", "column", "changed"
+MISSING, NEW, TWICE, COLUMN, CHANGED, JUDGE = "missing", "new", "twice", "column", "changed", "judge"
 
 SHOWN = 10
 """Lines of one kind."""
@@ -36,10 +37,18 @@ def lines(differences: Iterable[Difference]) -> list[str]:
     said = []
     for (table, kind, column), group in groupby(differences, lambda one: (one.table, one.kind, one.column)):
         same = [one.says for one in group]
-        said += same if kind == COLUMN else same[:SHOWN]
-        if kind != COLUMN and len(same) > SHOWN:
+        said += same if kind in (COLUMN, JUDGE) else same[:SHOWN]
+        if kind not in (COLUMN, JUDGE) and len(same) > SHOWN:
             said.append(f"{column or f'{table}: row is {kind}'}: ... and {len(same) - SHOWN} more")
     return said
+
+
+def by_column(differences: Sequence[Difference]) -> list[Difference]:
+    """What a judge that changed made differ: how many rows, by table and column."""
+    counts = Counter((one.table, one.column or f"rows {one.kind}") for one in differences)
+    first = f"the judge changed: {len(differences)} differences, by column; laws are not compared"
+    said = [(table, column, f"{table}: {column}: {count}") for (table, column), count in counts.items()]
+    return [Difference(table, JUDGE, column, says, {}) for table, column, says in [("", "", first), *said]]
 
 
 def aligned(table: Table, old: pd.DataFrame, new: pd.DataFrame) -> tuple[pd.DataFrame, pd.DataFrame, list[Difference]]:

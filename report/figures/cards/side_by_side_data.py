@@ -182,6 +182,8 @@ def ending(end: pd.Series) -> str:
     return {
         "settled": f"settles in {end['settling_time_s']:.2f}{NO_BREAK}s",
         "stuck": f"is stuck {away} from the goal",
+        "creeping": f"creeps, {away} from the goal at the end",
+        "oscillating": f"oscillates, {away} from the goal at the end",
         "timed-out": f"does not settle and ends {away} from the goal",
         "diverged": f"diverges {when}",
         "singular": f"is singular {when} and has no command",

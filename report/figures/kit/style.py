@@ -85,6 +85,8 @@ SPARE_LINES = (SOLID, DASHED, DASH_DOT)
 OUTCOMES = {
     "settled": ("#b9c3cf", "."),
     "stuck": ("#000001", "X"),
+    "creeping": ("#a39400", "*"),
+    "oscillating": ("#009e73", "h"),
     "timed-out": ("#e69f00", "o"),
     "diverged": ("#d55e00", "^"),
     "singular": ("#cc79a7", "s"),

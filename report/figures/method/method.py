@@ -69,6 +69,7 @@ def facts(run: Run) -> dict:
         "through_coarse": through[1e-3],
         "through_fine": through[2.5e-4],
         "most_ms": f"{engines.later_ms(episodes(run), 'native').max():.1f}",
+        "hold_s": f"{RULES.hold_s:g}",
         "count_rules": "\n".join(f"1. {prose(rule)}" for rule in COUNT_RULES),
     }
 
