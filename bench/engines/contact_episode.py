@@ -11,12 +11,13 @@ from bench.law.contender import PAPERS_GAINS, Gains
 from bench.law.resolved_motion import Scratch
 from bench.law.scalar import kernel
 from bench.law.so3 import rotate
+from tasks import verdict
 from tasks.contact import Trial
 from tasks.rules import RULES, ticks
 from tasks.verdict import DIVERGED, GOING, SATURATED, SINGULAR
 
-BROKEN = 6
-"""MuJoCo gave up in the middle of a step (tasks.verdict has the codes before it)."""
+BROKEN = len(verdict.OUTCOMES)
+"""MuJoCo gave up in the middle of a step: the code after the judge's."""
 
 DONE = "done"
 OUTCOMES = {GOING: DONE, DIVERGED: "diverged", SINGULAR: "singular", SATURATED: "saturated", BROKEN: "broken"}

@@ -15,10 +15,17 @@ from bench.findings.claims.adequacy import DETOUR, SETTLED_SHARE
 from bench.findings.claims.later import HELD_RAD
 from bench.findings.selection import criteria
 from bench.findings.selection.measured import Measured, measured
+from bench.findings.selection.measures import worst_of_uniform
 from bench.tables.statistics import Estimate
 
 CONTINUOUS = 1e-3
 """Jump of the command over kp [rad] below which it is the slope's: f'(pi) 2e-6 of any law here."""
+
+
+CHATTER = 1.0
+"""Largest change of the command from tick to tick at rest [rad/s^2]: a hundredth of Kp times a radian. A linear loop
+that has just come to rest from 180 degrees changes by (Kp w + Kv (Kp b + Kv w)) dt = 0.25 at most, b = 0.063 rad being
+the band and w = b/0.25 s."""
 
 
 class Fact(NamedTuple):
@@ -57,6 +64,10 @@ def _settles(found: Measured, law: str) -> bool:
 
 
 EVERYWHERE = Fact("settles from every start of the run, none the long way round", _settles)
+QUIET = Fact(
+    "its command is quiet at rest",
+    lambda found, law: worst_of_uniform("rest_change")(found.tables)[law][0] <= CHATTER,
+)
 UNHELD = Fact(
     f"no worst-case noise up to {HELD_RAD:g} rad holds it at a half turn",
     lambda found, law: found.number("held", law) > HELD_RAD,
@@ -73,7 +84,7 @@ ON_ANGLES = Fact(
 )
 TRIED = Fact("was perturbed in this run", lambda found, law: law in found.values["variation"])
 
-SURE = (TRIED, EVERYWHERE)
+SURE = (TRIED, EVERYWHERE, QUIET)
 ANYWHERE, COMMAND, PERTURBED, GIVEN = (
     "From every start",
     "The command",

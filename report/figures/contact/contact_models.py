@@ -18,8 +18,8 @@ from tasks.contact_model import STANDARD, ContactModel
 
 TASK, ARM, TRIAL = "surface-alignment", "puma560", "tilt 20 about 0, beta+75"
 CONTROLLERS = ("hybrid-base+inverse", "hybrid/zyx-euler+inverse")
-METRICS = {"alignment-error": 180.0 / math.pi, "force-error-rms": 1.0, "peak-force": 1.0, "penetration": 1e3}
-"""Metric -> factor to its unit in the table."""
+METRICS = {"alignment_error_rad": 180.0 / math.pi, "force_error_rms_n": 1.0, "peak_force_n": 1.0, "penetration_m": 1e3}
+"""Column -> factor to its unit in the table."""
 
 MODELS = Table(
     "Contact | Outcomes | Tool to plate [deg]:.2f | the same, Euler [deg]:.2f | Force error, rms [N]:.2f | "
