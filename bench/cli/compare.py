@@ -9,7 +9,9 @@ from click.exceptions import Exit
 
 from bench.cli import options
 from bench.cli.screen import console, frame_table
+from bench.errors import BenchError
 from bench.tables.files import write_json
+from tasks.base import TaskError
 
 EPILOG = """
 [b]python -m bench compare results/reference results/quick[/b]  two runs, row by row: any difference is exit code 1.
@@ -44,15 +46,35 @@ def COMMAND(base, head, laws, no_timing, json_file, summary):
     judge changed, only that is said, by column. A law of your own is judged against its file at BASE; in
     $GITHUB_STEP_SUMMARY the summary is left by itself.
     """
+    from bench.regression.revisions.summary import plain
+
+    written = filter(None, (summary, os.environ.get("GITHUB_STEP_SUMMARY")))
+    before = {path: os.path.getsize(path) if os.path.exists(path) else 0 for path in written}
+
+    def leave(text):
+        for path, size in before.items():
+            with open(path, "a", encoding="utf-8") as file:
+                file.truncate(size)
+                file.write(text)
+
+    leave(f"{NOT_JUDGED}the comparison did not come to its end\n")
+    if json_file:
+        write_json(json_file, {"verdict": "not judged"})
+    try:
+        _compare(base, head, laws, no_timing, json_file, leave)
+    except (BenchError, TaskError, click.UsageError) as error:
+        leave(f"{NOT_JUDGED}{plain(str(error))}\n")
+        raise
+
+
+NOT_JUDGED = "### Not judged: "
+"""What stands in the summary until there is a verdict, and why there is none."""
+
+
+def _compare(base, head, laws, no_timing, json_file, leave) -> None:
     from bench.regression.revisions import comparison, gates
     from bench.regression.revisions import summary as words
 
-    written = [*filter(None, (summary, os.environ.get("GITHUB_STEP_SUMMARY")))]
-    before = {path: os.path.getsize(path) if os.path.exists(path) else 0 for path in written}
-    for path in written:
-        _append(path, NOT_JUDGED)
-    if json_file:
-        write_json(json_file, {"verdict": "not judged"})
     base, head, folders = _meant(base, head, laws)
     if folders:
         said = gates.of_folders(Path(base), Path(head))
@@ -70,9 +92,7 @@ def COMMAND(base, head, laws, no_timing, json_file, summary):
         console().print(frame_table(pd.DataFrame(said.gates), "\nGates"))
     if json_file:
         comparison.write(json_file, said)
-    for path in written:
-        os.truncate(path, before[path])
-        _append(path, words.markdown(said))
+    leave(words.markdown(said))
     if folders:
         for folder in (base, head):
             console().print(f"{folder} was made on: {_machine(Path(folder))}")
@@ -82,15 +102,6 @@ def COMMAND(base, head, laws, no_timing, json_file, summary):
         console().print(f"\n{words.headline(said)}")
     if differences if folders else said.regressions:
         raise Exit(1)
-
-
-NOT_JUDGED = "### Not judged: the comparison did not come to its end\n"
-"""What stands in the summary until there is a verdict."""
-
-
-def _append(path, text: str) -> None:
-    with open(path, "a", encoding="utf-8") as file:
-        file.write(text)
 
 
 def _lines(base: Path, head: Path) -> list[str]:

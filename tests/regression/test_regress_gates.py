@@ -95,6 +95,13 @@ def test_command_writes_json_and_adds_to_the_summaries(finished, tmp_path, monke
     assert [one.state for one in said.gates] == ["passed", "passed"]
 
 
+def test_summary_says_why_nothing_was_judged(tmp_path, capsys):
+    words = ["compare", str(tmp_path), str(tmp_path), "--summary", str(tmp_path / "own.md")]
+    assert main(words) == 2
+    said = capsys.readouterr().err.removeprefix("error: ")
+    assert (tmp_path / "own.md").read_text().replace("\\`", "`") == f"### Not judged: {said}"
+
+
 def test_markdown_leaves_no_markup_of_what_it_quotes(finished):
     said = gates.of_folders(finished, finished)
     found = comparison.Finding("exact", "regression", "a", "b", "1", "2", "a|b <img src=x> `c` *d*")

@@ -71,23 +71,23 @@ def _verdict(one: Benchmark) -> str:
 def markdown(comparison: Comparison) -> str:
     """The whole comparison, as a job summary or a comment shows it."""
     found = ordered(comparison)
-    lines = [f"### {_plain(headline(comparison))}", ""]
-    lines += [f"- **{one.verdict}**: {_plain(one.says)}" for one in found[:SHOWN]]
+    lines = [f"### {plain(headline(comparison))}", ""]
+    lines += [f"- **{one.verdict}**: {plain(one.says)}" for one in found[:SHOWN]]
     lines += [f"- ... and {len(found) - SHOWN} more"] * (len(found) > SHOWN)
     lines += ["", "| gate | | |", "| --- | --- | --- |"]
-    lines += [f"| {one.gate} | {one.state} | {_plain(one.says)} |" for one in comparison.gates]
+    lines += [f"| {one.gate} | {one.state} | {plain(one.says)} |" for one in comparison.gates]
     table = rows(comparison)
     if table:
         lines += ["", "<details><summary>All benchmarks</summary>", "", f"| {' | '.join(table[0])} |"]
         lines += [f"| {' | '.join('---' for _ in table[0])} |"]
-        lines += [f"| {' | '.join(_plain(word) for word in row.values())} |" for row in table]
+        lines += [f"| {' | '.join(plain(word) for word in row.values())} |" for row in table]
         lines += ["", "</details>"]
     machine = comparison.machine
-    lines += ["", f"{_plain(machine['cpu'])}, {machine['cores']} cores; compiled for {machine['target']}.", ""]
+    lines += ["", f"{plain(machine['cpu'])}, {machine['cores']} cores; compiled for {machine['target']}.", ""]
     return "\n".join(lines)
 
 
-def _plain(text: str) -> str:
+def plain(text: str) -> str:
     """Text that Markdown and HTML leave as it is."""
     escaped = html.escape(" ".join(text.split()), quote=False)
     return "".join(f"\\{c}" if c in "|`*[]\\" else c for c in escaped)
