@@ -96,6 +96,7 @@ lint: $(DEV)
 	@$(PY) -m mypy
 	@$(VENV)/bin/lint-imports --no-logo
 	@$(VENV)/bin/check-jsonschema --quiet --builtin-schema vendor.github-workflows .github/workflows/*.yml
+	@$(VENV)/bin/check-jsonschema --quiet --builtin-schema vendor.dependabot .github/dependabot.yml
 
 audit:  ## known vulnerabilities of what the locks name (pip-audit); without a network it says so
 audit:
