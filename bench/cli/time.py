@@ -7,13 +7,20 @@ from bench.cli.progress import progress
 from bench.cli.screen import console, frame_table
 
 
-@click.command("time")
+EPILOG = """
+[b]python -m bench time --regulator rotation-matrix --quick --benchmark-json now.json[/b]  then, with one of before:
+[b]pytest-benchmark compare before.json now.json[/b]  (times are of a tick; the folder .benchmarks is that program's).
+"""
+
+
+@click.command("time", epilog=EPILOG)
 @options.law
 @options.regulator
 @options.representation
 @options.arm
 @click.option("--quick", is_flag=True, help="Fewer passes: rougher numbers in a fraction of the time.")
-def COMMAND(laws, regulators, representations, arms, quick):
+@click.option("--benchmark-json", type=options.PATH, metavar="FILE", help="All samples in pytest-benchmark's format, too.")
+def COMMAND(laws, regulators, representations, arms, quick, benchmark_json):
     """Time every law, engine and arm per tick, interleaved with a fixed reference kernel; into results/timings."""
     import tasks
     from bench import timing
@@ -27,7 +34,8 @@ def COMMAND(laws, regulators, representations, arms, quick):
             steps.now(f"{'timing' if done.total else 'compiling'} {done.name}", done.done, done.total or None)
 
         chosen = options.chosen(laws, regulators, representations, costings=True)
-        path = (timing.run_apart if laws else timing.run)(chosen, quick=quick, told=told, arms=named)
+        run = timing.run_apart if laws else timing.run
+        path = run(chosen, quick=quick, told=told, arms=named, json_file=benchmark_json)
     console().print(frame_table(timing.table(path), "Time per tick"))
     console().print(frame_table(timing.arm_table(path), "Time per tick on arms"))
-    console().print(f"wrote {path}")
+    console().print(f"wrote {' and '.join(map(str, filter(None, (path, benchmark_json))))}")

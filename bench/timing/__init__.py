@@ -18,6 +18,7 @@ passes, session    the samples, as pytest-benchmark runs them
 ratios             medians over passes, with intervals
 apart              the same beside a user's laws, in a process of its own
 rows, summary      from seconds to results/timings/<machine>.parquet, and to a table for the eye
+benchmark_json     from seconds to pytest-benchmark's own format
 """
 
 from bench.timing.apart import run_apart

@@ -28,6 +28,7 @@ def run_apart(
     quick: bool = False,
     told: Callable = lambda _: None,
     arms: tuple[str, ...] = (),
+    json_file: Path | None = None,
     silent_s: float = SILENT_S,
 ) -> Path:
     """The same as `run`, for contenders of which some are a user's.
@@ -43,6 +44,7 @@ def run_apart(
         "folder": str(folder),
         "quick": quick,
         "arms": arms,
+        "json_file": str(json_file or ""),
     }
     process = LawProcess(__name__)
     try:
@@ -76,7 +78,8 @@ def main(descriptor: int) -> None:
         try:
             own = tuple(load_law(Path(path)) for path in asked["files"])
             contenders = [find_contender(name, own) for name in asked["names"]]
-            path = run(contenders, Path(asked["folder"]), asked["quick"], told, tuple(asked["arms"]))
+            json_file = Path(asked["json_file"]) if asked["json_file"] else None
+            path = run(contenders, Path(asked["folder"]), asked["quick"], told, tuple(asked["arms"]), json_file)
             said = {"path": str(path)}
         except BenchError as error:
             said = {"mistake": str(error)}

@@ -13,7 +13,7 @@ from bench.law.contender import Contender
 from bench.provenance import describe, machine_key
 from bench.tables.schema import RESULTS
 from bench.tables.store import read_arrow, write_table
-from bench.timing import threads
+from bench.timing import benchmark_json, threads
 from bench.timing.benchmark import DM_CONTROL, KERNEL, ROLLOUT, THREADS, Benchmark
 from bench.timing.benchmarks import benchmarks
 from bench.timing.ratios import Ratio, ratio
@@ -30,14 +30,16 @@ def run(
     quick: bool = False,
     told: Callable = lambda _: None,
     arms: tuple[str, ...] = (),
+    json_file: Path | None = None,
 ) -> Path:
     """Time everything and write the machine's file.
 
     Args:
         arms: names of those that are timed too; and if there are any, two threads against one.
         told: called with a `benchmarks.Progress` for every law compiled and after every sample.
+        json_file: gets the samples too, in pytest-benchmark's format.
     Errors:
-        BadLaw: a user's law that cannot be compiled. BadResults: the folder cannot be written.
+        BadLaw: a user's law that cannot be compiled. BadResults: the folder or the file cannot be written.
     """
     measured = benchmarks(contenders, told, arms)
     seconds = measure(measured, QUICK_PASSES if quick else PASSES, told=told)
@@ -48,6 +50,8 @@ def run(
     path = Path(folder) / f"{machine_key()}.parquet"
     about = {**describe(), "date": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime()), "quick": quick}
     write_table(path, rows, "timings", about)
+    if json_file:
+        benchmark_json.write(json_file, measured, seconds)
     return path
 
 

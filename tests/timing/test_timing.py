@@ -1,8 +1,11 @@
 """Timing: the order of the passes, the reference kernel's value, the ratios, and the rows. No time is asserted."""
 
 import os
+import subprocess
+import sys
 
 import numpy as np
+import pandas as pd
 import pytest
 from scipy.stats import binom
 
@@ -25,7 +28,8 @@ def quick(tmp_path_factory):
     """A quick run of two laws: its file, and what it told of its samples."""
     told = []
     contenders = [find_contender(word) for word in LAWS]
-    path = timing.run(contenders, tmp_path_factory.mktemp("timings"), quick=True, told=told.append)
+    folder = tmp_path_factory.mktemp("timings")
+    path = timing.run(contenders, folder, quick=True, told=told.append, json_file=folder / "samples.json")
     assert [one.name for one in told if one.total == 0] == list(LAWS)
     return path, [one for one in told if one.total]
 
@@ -97,6 +101,16 @@ def test_numbers_of_the_file_are_those_of_times(quick):
     assert (rows.passes == QUICK_PASSES).all()
     assert (rows.ticks > 0).all()
     assert rows.ns_reference_kernel.nunique() == 1
+
+
+def test_pytest_benchmark_reads_the_samples_and_finds_the_same_medians(quick, tmp_path):
+    given = ["compare", quick[0].with_name("samples.json"), "--columns=median,rounds,iterations", "--csv=read"]
+    subprocess.run([sys.executable, "-m", "pytest_benchmark", *given], cwd=tmp_path, check=True, capture_output=True)
+    rows, read = timing.read(quick[0]), pd.read_csv(tmp_path / "read.csv")
+    expected = {*rows.ns_per_tick.round(6), round(rows.ns_reference_kernel[0], 6)}
+    assert {*(read["median"] * 1e9).round(6)} == expected
+    assert (read.rounds == QUICK_PASSES).all()
+    assert {*rows.ticks} <= {*read.iterations}
 
 
 def test_table_has_a_line_for_each_law_and_two_for_comparison(quick):

@@ -18,7 +18,9 @@ def contenders(tmp_path, *lines):
 
 def test_law_of_a_user_is_timed_beside_ours(tmp_path):
     told = []
-    path = timing.run_apart(contenders(tmp_path), tmp_path / "timings", quick=True, told=told.append)
+    given = {"quick": True, "told": told.append, "json_file": tmp_path / "samples.json"}
+    path = timing.run_apart(contenders(tmp_path), tmp_path / "timings", **given)
+    assert '"name": "law mine"' in given["json_file"].read_text()
     rows = timing.read(path)
     assert {"mine", "rotation-matrix"} <= set(rows["regulator"].astype(str))
     assert {one.name for one in told if one.total == 0} == {"mine", "rotation-matrix"}

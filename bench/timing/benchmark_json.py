@@ -1,0 +1,44 @@
+"""The samples of a run in pytest-benchmark's own JSON, for `pytest-benchmark compare` and whatever else reads it.
+
+pytest-benchmark itself saw each pass of each benchmark as a test of its own. Here a benchmark is one, its rounds are the
+passes, and its iterations are ticks, so that every time is seconds a tick. Compare within a machine, and with an eye on
+the reference kernel: a file has no ratios.
+"""
+
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+
+from bench.tables.files import write_json
+from bench.timing.benchmark import Benchmark
+from bench.timing.session import TIMER
+
+OPTIONS = {"timer": TIMER, "disable_gc": True}
+
+
+def write(path: Path, measured: list[Benchmark], seconds: np.ndarray) -> None:
+    """The file of one run, without what cannot be timed.
+
+    Args:
+        seconds: one row a pass, one column a benchmark.
+    Errors:
+        BadResults: the file cannot be written.
+    """
+    from pytest_benchmark import plugin, stats, utils
+
+    kept = []
+    for one, times in zip(measured, seconds.T, strict=True):
+        if one.ticks:
+            group = " ".join(filter(None, (one.what, one.arm, one.engine)))
+            named = SimpleNamespace(name=one.name, fullname=one.name, group=group, **NOTHING_MORE)
+            made = stats.Metadata(named, one.ticks, OPTIONS)
+            for time in times:
+                made.update(float(time))
+            kept.append(made)
+    about = plugin.pytest_benchmark_generate_machine_info(), utils.get_commit_info()
+    write_json(path, plugin.pytest_benchmark_generate_json(None, kept, True, *about))
+
+
+NOTHING_MORE = {"param": None, "params": None, "extra_info": {}, "cprofile_stats": None, "has_error": False}
+"""What pytest-benchmark asks of a test besides."""
