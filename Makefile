@@ -18,6 +18,9 @@ DEV := $(VENV)/.dev
 LIBRARIES := .venv-libraries
 AUDIT := .venv-audit
 
+# A target that fails ends with 2, which is make's own exit code, whatever its command said; those of commands:
+# python -m bench --help
+#
 # More words for the command behind a target: make bench ARGS="--workers 4", make test ARGS="-k so3"
 ARGS ?=
 # The revision that `make regress` compares with: make regress BASE=v0.1.0

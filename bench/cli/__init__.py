@@ -1,6 +1,6 @@
 """The command line: `python -m bench COMMAND`. One file a command, collected from this folder.
 
-Every mistake of the caller ends in one line on stderr and exit code 2, and touches no result.
+Every mistake of the caller ends in one line on stderr and exit code 2, and touches no result. EPILOG has all exit codes.
 """
 
 import importlib
@@ -26,6 +26,10 @@ EPILOG = """
 First steps:  [b]python -m bench list[/b]  what there is.  [b]python -m bench run --suite quick --out /tmp/quick[/b]
 a run of a minute.  [b]python -m bench show[/b]  its summary.  [b]python -m bench claims[/b]  the paper's claims.
 Your own law:  [b]python -m bench run --law my_law.py --suite quick --out /tmp/mine[/b]  (README has an example).
+
+Exit code 0: done. 1: done, and something is wrong: a law crashed or hung (run, count), a regression or a difference
+(compare), a machine that is not ready (doctor). 2: it could not be done, and a line on stderr says what to mend. 130:
+stopped by Ctrl-C. A target of make that fails ends with 2, which is make's own, whatever the command said.
 """
 
 

@@ -14,7 +14,7 @@ from bench.tables.files import write_json
 from tasks.base import TaskError
 
 EPILOG = """
-[b]python -m bench compare results/reference results/quick[/b]  two runs, row by row: any difference is exit code 1.
+[b]python -m bench compare results/reference results/quick[/b]  two runs, row by row.
 
 [b]python -m bench compare[/b]  your files against the commit where you left main: outcomes and operations of the quick
 suite, then instructions under valgrind, then time.
@@ -25,7 +25,10 @@ suite, then instructions under valgrind, then time.
 now against what it did on main.
 
 A law is called slower only if a Mann-Whitney test of interleaved rounds has p < 0.002, the median ratio is above 1.10,
-and a second run agrees. Exit code 1: a regression. 2: a mistake in what was asked.
+and a second run agrees.
+
+Exit code 1: a regression, a law that crashed or hung; of two folders, any difference. 2: no verdict, as of a law that
+does not load.
 """
 
 

@@ -24,6 +24,8 @@ EPILOG = """
 
 [b]python -m bench count --controller hybrid-base+inverse --controller hybrid/zyx-euler+inverse --stages[/b]  two in
 contact.
+
+Exit code 1: a law of yours crashed or hung.
 """
 
 

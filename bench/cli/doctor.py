@@ -21,7 +21,10 @@ CURE_INSTALL = "make setup (or: pip install --require-hashes -r requirements/bas
 
 @click.command("doctor")
 def COMMAND():
-    """Check versions, the compiler and its cache, engines, arms, rendering and the results folder; say the cure."""
+    """Check versions, the compiler and its cache, engines, arms, rendering and the results folder; say the cure.
+
+    Exit code 1: something that is needed is not ready.
+    """
     failed = 0
     for name, check in CHECKS.items():
         is_needed = name != "rendering"

@@ -44,6 +44,8 @@ workers of a Dask cluster. The rows are the same.
 
 [b]python -m bench run --axis delay --axis half-turn-noise --regulator hybrid --count 200 --out /tmp/late[/b]
 robustness: one law under two perturbations.
+
+Exit code 1: a law of yours crashed or hung, as its rows say; all others are there.
 """
 
 

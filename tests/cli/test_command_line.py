@@ -1,5 +1,6 @@
 """The command line where nothing is wrong: what each command prints of a small run, and what its help explains."""
 
+import inspect
 import re
 from pathlib import Path
 
@@ -74,6 +75,12 @@ def test_help_of_a_command_explains_every_option(capsys, name):
             assert " ".join(option.help.split()[:2]).strip("[]:;,.") in shown
         else:
             assert option.name.upper() in said.out
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_help_of_a_command_that_may_end_with_1_says_when(capsys, name):
+    may = "raise Exit(1)" in inspect.getsource(inspect.getmodule(COMMANDS[name].callback))
+    assert ("Exit code 1: " in bench(capsys, name, "--help").out) == may
 
 
 def test_version_is_the_one_installed(capsys):
