@@ -1,6 +1,6 @@
 """The command line: `python -m bench COMMAND`. One file a command, collected from this folder.
 
-Every mistake of the caller ends in one line on stderr and exit code 2, and touches no result. EPILOG has all exit codes.
+Every mistake of the caller ends in one line on stderr and exit code 2, and touches no result; EPILOG has all codes.
 """
 
 import importlib

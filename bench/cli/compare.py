@@ -10,7 +10,10 @@ from click.exceptions import Exit
 from bench.cli import options
 from bench.cli.screen import console, frame_table
 from bench.errors import BenchError
-from bench.tables.files import write_json
+from bench.provenance import rounded_on
+from bench.regression.revisions import comparison
+from bench.regression.revisions import summary as words
+from bench.tables.files import read_json, write_json
 from tasks.base import TaskError
 
 EPILOG = """
@@ -49,39 +52,31 @@ def COMMAND(base, head, laws, no_timing, json_file, summary):
     judge changed, only that is said, by column. A law of your own is judged against its file at BASE; in
     $GITHUB_STEP_SUMMARY the summary is left by itself.
     """
-    from bench.regression.revisions.summary import plain
-
-    written = filter(None, (summary, os.environ.get("GITHUB_STEP_SUMMARY")))
-    before = {path: os.path.getsize(path) if os.path.exists(path) else 0 for path in written}
+    written = map(Path, filter(None, (summary, os.environ.get("GITHUB_STEP_SUMMARY"))))
+    before = {path: path.read_text(encoding="utf-8") if path.exists() else "" for path in written}
 
     def leave(text):
-        for path, size in before.items():
-            with open(path, "a", encoding="utf-8") as file:
-                file.truncate(size)
-                file.write(text)
+        for path, said in before.items():
+            path.write_text(said + text, encoding="utf-8")
 
-    leave(f"{NOT_JUDGED}the comparison did not come to its end\n")
+    leave("### Not judged: the comparison did not come to its end\n")
     if json_file:
         write_json(json_file, {"verdict": "not judged"})
     try:
         _compare(base, head, laws, no_timing, json_file, leave)
     except (BenchError, TaskError, click.UsageError) as error:
-        leave(f"{NOT_JUDGED}{plain(str(error))}\n")
+        leave(f"### Not judged: {words.plain(str(error))}\n")
         raise
 
 
-NOT_JUDGED = "### Not judged: "
-"""What stands in the summary until there is a verdict, and why there is none."""
-
-
 def _compare(base, head, laws, no_timing, json_file, leave) -> None:
-    from bench.regression.revisions import comparison, gates
-    from bench.regression.revisions import summary as words
+    from bench.regression import rows
+    from bench.regression.revisions import gates
 
     base, head, folders = _meant(base, head, laws)
     if folders:
         said = gates.of_folders(Path(base), Path(head))
-        differences = _lines(Path(base), Path(head))
+        differences = rows.compare(Path(base), Path(head))
     else:
         wanted = gates.Wanted(timing=not no_timing)
         with console(stderr=True).status("") as status:
@@ -98,26 +93,14 @@ def _compare(base, head, laws, no_timing, json_file, leave) -> None:
     leave(words.markdown(said))
     if folders:
         for folder in (base, head):
-            console().print(f"{folder} was made on: {_machine(Path(folder))}")
+            made_on = rounded_on(read_json(Path(folder, "provenance.json"))) or "an unknown machine"
+            console().print(f"{folder} was made on: {made_on}")
         agree = f"{len(differences)} differences between {base} and {head}"
         console().print(agree if differences else f"{head} agrees with {base}")
     else:
         console().print(f"\n{words.headline(said)}")
     if differences if folders else said.regressions:
         raise Exit(1)
-
-
-def _lines(base: Path, head: Path) -> list[str]:
-    from bench.regression.rows import compare
-
-    return compare(base, head)
-
-
-def _machine(folder: Path) -> str:
-    from bench.provenance import rounded_on
-    from bench.tables.files import read_json
-
-    return rounded_on(read_json(folder / "provenance.json")) or "an unknown machine"
 
 
 def _meant(base: str | None, head: str | None, laws) -> tuple[str, str | None, bool]:

@@ -21,10 +21,7 @@ CURE_INSTALL = "make setup (or: pip install --require-hashes -r requirements/bas
 
 @click.command("doctor")
 def COMMAND():
-    """Check versions, the compiler and its cache, engines, arms, rendering and the results folder; say the cure.
-
-    Exit code 1: something that is needed is not ready.
-    """
+    """Check versions, compiler, engines, arms, rendering, results; say the cure. Exit code 1: a needed one is bad."""
     failed = 0
     for name, check in CHECKS.items():
         is_needed = name != "rendering"

@@ -7,19 +7,15 @@ from bench.cli.progress import progress
 from bench.cli.screen import console, frame_table
 
 
-EPILOG = """
-[b]python -m bench time --regulator rotation-matrix --quick --benchmark-json now.json[/b]  then, with one of before:
-[b]pytest-benchmark compare before.json now.json[/b]  (times are of a tick; the folder .benchmarks is that program's).
-"""
-
-
-@click.command("time", epilog=EPILOG)
+@click.command("time")
 @options.law
 @options.regulator
 @options.representation
 @options.arm
 @click.option("--quick", is_flag=True, help="Fewer passes: rougher numbers in a fraction of the time.")
-@click.option("--benchmark-json", type=options.PATH, metavar="FILE", help="All samples in pytest-benchmark's format, too.")
+@click.option(
+    "--benchmark-json", default="", metavar="FILE", help="The samples, as pytest-benchmark compare reads them."
+)
 def COMMAND(laws, regulators, representations, arms, quick, benchmark_json):
     """Time every law, engine and arm per tick, interleaved with a fixed reference kernel; into results/timings."""
     import tasks
@@ -38,4 +34,4 @@ def COMMAND(laws, regulators, representations, arms, quick, benchmark_json):
         path = run(chosen, quick=quick, told=told, arms=named, json_file=benchmark_json)
     console().print(frame_table(timing.table(path), "Time per tick"))
     console().print(frame_table(timing.arm_table(path), "Time per tick on arms"))
-    console().print(f"wrote {' and '.join(map(str, filter(None, (path, benchmark_json))))}")
+    console().print(f"wrote {path}" + (f" and {benchmark_json}" if benchmark_json else ""))

@@ -28,7 +28,7 @@ def run_apart(
     quick: bool = False,
     told: Callable = lambda _: None,
     arms: tuple[str, ...] = (),
-    json_file: Path | None = None,
+    json_file: str = "",
     silent_s: float = SILENT_S,
 ) -> Path:
     """The same as `run`, for contenders of which some are a user's.
@@ -38,14 +38,8 @@ def run_apart(
     """
     contenders = list(contenders)
     files = sorted({one.regulator.origin for one in contenders if one.regulator.origin})
-    asked = {
-        "files": files,
-        "names": [one.name for one in contenders],
-        "folder": str(folder),
-        "quick": quick,
-        "arms": arms,
-        "json_file": str(json_file or ""),
-    }
+    how = {"folder": str(folder), "quick": quick, "arms": arms, "json_file": str(json_file)}
+    asked = {"files": files, "names": [one.name for one in contenders], "how": how}
     process = LawProcess(__name__)
     try:
         process.line.send_bytes(json.dumps(asked).encode())
@@ -78,9 +72,7 @@ def main(descriptor: int) -> None:
         try:
             own = tuple(load_law(Path(path)) for path in asked["files"])
             contenders = [find_contender(name, own) for name in asked["names"]]
-            json_file = Path(asked["json_file"]) if asked["json_file"] else None
-            path = run(contenders, Path(asked["folder"]), asked["quick"], told, tuple(asked["arms"]), json_file)
-            said = {"path": str(path)}
+            said = {"path": str(run(contenders, told=told, **asked["how"]))}
         except BenchError as error:
             said = {"mistake": str(error)}
         line.send_bytes(json.dumps(said).encode())

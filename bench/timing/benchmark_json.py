@@ -1,8 +1,8 @@
 """The samples of a run in pytest-benchmark's own JSON, for `pytest-benchmark compare` and whatever else reads it.
 
-pytest-benchmark itself saw each pass of each benchmark as a test of its own. Here a benchmark is one, its rounds are the
-passes, and its iterations are ticks, so that every time is seconds a tick. Compare within a machine, and with an eye on
-the reference kernel: a file has no ratios.
+pytest-benchmark itself saw each pass of each benchmark as a test of its own. Here a benchmark is one, its rounds are
+the passes, and its iterations are ticks, so that every time is seconds a tick. Compare files of one machine, and with
+an eye on the reference kernel: they have no ratios.
 """
 
 from pathlib import Path
@@ -27,18 +27,14 @@ def write(path: Path, measured: list[Benchmark], seconds: np.ndarray) -> None:
     """
     from pytest_benchmark import plugin, stats, utils
 
+    nothing: dict = dict.fromkeys(("param", "params", "cprofile_stats", "has_error"))
     kept = []
-    for one, times in zip(measured, seconds.T, strict=True):
+    for one, times in zip(measured, seconds.T.tolist(), strict=True):
         if one.ticks:
-            group = " ".join(filter(None, (one.what, one.arm, one.engine)))
-            named = SimpleNamespace(name=one.name, fullname=one.name, group=group, **NOTHING_MORE)
-            made = stats.Metadata(named, one.ticks, OPTIONS)
+            group = one._replace(contender=None).name
+            named = SimpleNamespace(name=one.name, fullname=one.name, group=group, extra_info={}, **nothing)
+            kept.append(stats.Metadata(named, one.ticks, OPTIONS))
             for time in times:
-                made.update(float(time))
-            kept.append(made)
+                kept[-1].update(time)
     about = plugin.pytest_benchmark_generate_machine_info(), utils.get_commit_info()
     write_json(path, plugin.pytest_benchmark_generate_json(None, kept, True, *about))
-
-
-NOTHING_MORE = {"param": None, "params": None, "extra_info": {}, "cprofile_stats": None, "has_error": False}
-"""What pytest-benchmark asks of a test besides."""

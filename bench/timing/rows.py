@@ -30,7 +30,7 @@ def run(
     quick: bool = False,
     told: Callable = lambda _: None,
     arms: tuple[str, ...] = (),
-    json_file: Path | None = None,
+    json_file: str = "",
 ) -> Path:
     """Time everything and write the machine's file.
 
@@ -51,7 +51,7 @@ def run(
     about = {**describe(), "date": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime()), "quick": quick}
     write_table(path, rows, "timings", about)
     if json_file:
-        benchmark_json.write(json_file, measured, seconds)
+        benchmark_json.write(Path(json_file), measured, seconds)
     return path
 
 

@@ -23,15 +23,7 @@ CONTROLLERS = [
     impedance_controller(coordinates.IMPEDANCE, EULER),
     hybrid("hybrid-base", "inverse"),
 ]
-SUFFIXES = {
-    "1": "",
-    "rad": "_rad",
-    "m": "_m",
-    "s": "_s",
-    "N": "_n",
-    "N m": "_nm",
-    "rad/(N m)": "_rad_per_nm",
-}
+SUFFIXES = {"1": "", "rad": "_rad", "m": "_m", "s": "_s", "N": "_n", "N m": "_nm", "rad/(N m)": "_rad_per_nm"}
 
 
 @pytest.fixture(params=METRICS, ids=lambda metric: metric.column)

@@ -12,22 +12,7 @@ from bench.engines.compiled import compile_function, float64
 from bench.law.scalar import PRIMITIVES, acos, atan2, copysign, cos, sin, sqrt
 
 TINY = 5e-324  # the smallest double above zero
-SPECIAL = (
-    0.0,
-    TINY,
-    1e-308,
-    1e-8,
-    0.5,
-    1.0,
-    1.0 + EPS,
-    2.0,
-    math.pi / 2,
-    math.pi,
-    1e17,
-    1e308,
-    math.inf,
-    math.nan,
-)
+SPECIAL = (0.0, TINY, 1e-308, 1e-8, 0.5, 1.0, 1.0 + EPS, 2.0, math.pi / 2, math.pi, 1e17, 1e308, math.inf, math.nan)
 SIGNED = [np.float64(sign * x) for x in SPECIAL for sign in (1.0, -1.0)]
 DRAWN = [np.float64(x) for x in np.random.default_rng(3).normal(scale=2.0, size=400)]
 

@@ -84,14 +84,7 @@ def test_half_turn_has_a_symmetric_matrix_about_any_axis():
 
 @pytest.mark.parametrize("sign", [1, -1])
 def test_pole_has_n_exactly_along_z_for_any_twist(sign):
-    for twist in (
-        0.0,
-        math.pi / 2,
-        math.pi,
-        -math.pi,
-        *np.linspace(0.2, 2.9, 28),
-        *np.linspace(-2.9, -0.2, 28),
-    ):
+    for twist in (0.0, math.pi / 2, math.pi, -math.pi, *np.linspace(0.2, 2.9, 28), *np.linspace(-2.9, -0.2, 28)):
         n = columns(on_pole(sign, twist))[0]
         assert n[:2] == (0.0, 0.0)
         assert abs(n[2] + sign) <= 2**-52
