@@ -84,8 +84,10 @@ def walk(commits, path):
 
 @COMMAND.command("show")
 @book
-def show(path):
+@click.option("--asv", type=click.Path(path_type=Path), metavar="FOLDER", help="Write it as results of asv, too.")
+def show(path, asv):
     """The builds, and every step: what changed, from which commit on, by how much."""
+    from bench.regression.history import asv as as_asv
     from bench.regression.history import log
     from bench.regression.history.series import series
     from bench.regression.history.steps import steps
@@ -93,6 +95,8 @@ def show(path):
     lines = log.read(path or log.LOG)
     if not lines:
         raise BadResults("the history is empty; add a build to it (try: python -m bench history add --help)")
+    if asv:
+        as_asv.write(lines, asv)
     builds = pd.DataFrame(
         [(record.date, record.commit[:10], record.machine, record.benchmark.name) for record in lines],
         columns=["date", "commit", "machine", "benchmarks"],

@@ -116,11 +116,7 @@ def in_hand(chain, wish, f, m, gains, touch, J, rows):
 
 @kernel
 def _carry_back(R, R_d, row):
-    write(
-        row,
-        carried_back(R, R_d, (row[0], row[1], row[2])),
-        carried_back(R, R_d, (row[3], row[4], row[5])),
-    )
+    write(row, carried_back(R, R_d, (row[0], row[1], row[2])), carried_back(R, R_d, (row[3], row[4], row[5])))
 
 
 def in_coordinates(representation: Representation, converts: bool = True) -> Callable:

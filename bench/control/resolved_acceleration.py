@@ -85,14 +85,7 @@ def _on_geometric(parts: Parts) -> Callable:
         fill(J, chain)
         wanted = express(
             chain,
-            (
-                u_p[0] - bias[0],
-                u_p[1] - bias[1],
-                u_p[2] - bias[2],
-                u[0] - bias[3],
-                u[1] - bias[4],
-                u[2] - bias[5],
-            ),
+            (u_p[0] - bias[0], u_p[1] - bias[1], u_p[2] - bias[2], u[0] - bias[3], u[1] - bias[4], u[2] - bias[5]),
         )
         for i in range(6):
             a[i] = wanted[i]

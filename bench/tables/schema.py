@@ -16,11 +16,7 @@ TABLES = {
             ("suite", "task", "arm", "variation", *CONTENDER, "engine", "start_set", "start_id"),
         ),
         Table("costs", other.cost_columns, (*CONTENDER, "joints", "branch", "stage")),
-        Table(
-            "traces",
-            motion.trace_columns,
-            ("task", "arm", *CONTENDER, "engine", "start_set", "start_id", "time_s"),
-        ),
+        Table("traces", motion.trace_columns, ("task", "arm", *CONTENDER, "engine", "start_set", "start_id", "time_s")),
         Table("boundaries", motion.boundary_columns, (*CONTENDER, "axis_x", "axis_y", "axis_z")),
         Table("poses", other.pose_columns, ("arm", "pose_set", "pose_id", "representation")),
         Table(

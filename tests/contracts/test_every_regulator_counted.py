@@ -75,10 +75,7 @@ def test_counted_representation_is_the_float_one_bit_for_bit(word):
                         counting.differentiate(counted(R, tally), counted(along[0], tally)),
                         plain.differentiate(R, along[0]),
                     ),
-                    (
-                        counting.differentiate_twice(*counted((R, *along), tally)),
-                        plain.differentiate_twice(R, *along),
-                    ),
+                    (counting.differentiate_twice(*counted((R, *along), tally)), plain.differentiate_twice(R, *along)),
                 ]
             for ours, floats in pairs:
                 assert bits(ours) == bits(floats)

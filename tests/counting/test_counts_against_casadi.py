@@ -181,11 +181,7 @@ def feedback_linearized_printed(n, o, a, w, nd, od, ad, kp, kv, is_named=False):
     else:
         first = (-sa * da * sb / cb + ca * db / (cb * cb), ca * da * sb / cb + sa * db / (cb * cb))
         third = (-sa * da / cb + ca * sb * db / (cb * cb), ca * da / cb + sa * sb * db / (cb * cb))
-    drift = (
-        first[0] * w[0] + first[1] * w[1],
-        -ca * da * w[0] - sa * da * w[1],
-        third[0] * w[0] + third[1] * w[1],
-    )
+    drift = (first[0] * w[0] + first[1] * w[1], -ca * da * w[0] - sa * da * w[1], third[0] * w[0] + third[1] * w[1])
     u_e = pd(E, E_d, dE, kp, kv)
     return B_times(trig, [u - d for u, d in zip(u_e, drift, strict=True)])
 

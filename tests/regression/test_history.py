@@ -20,6 +20,11 @@ from bench.regression.revisions import comparison
 GOOD = line(1, time=2.5, instructions=100.0, flops=45, mul=20)
 
 
+@pytest.fixture
+def path(tmp_path):
+    return tmp_path / "history.jsonl"
+
+
 def test_line_reads_back_as_it_was():
     assert from_json(to_json(GOOD)) == GOOD
     assert "\n" not in to_json(GOOD)
@@ -61,16 +66,14 @@ def measured(**fields) -> str:
         (measured(operations={"<b>": {"flops": 45}}), "an operation is '<b>'"),
     ],
 )
-def test_foreign_line_is_refused_by_its_number(tmp_path, text, problem):
-    path = tmp_path / "history.jsonl"
+def test_foreign_line_is_refused_by_its_number(path, text, problem):
     path.write_text(f"{to_json(GOOD)}\n{text}\n")
     with pytest.raises(BadResults, match="line 2: ") as found:
         log.read(path)
     assert problem in str(found.value)
 
 
-def test_line_that_is_there_twice_is_refused_with_both_numbers(tmp_path):
-    path = tmp_path / "history.jsonl"
+def test_line_that_is_there_twice_is_refused_with_both_numbers(path):
     path.write_text(f"{to_json(GOOD)}\n{to_json(line(2))}\n{to_json(GOOD)}\n")
     with pytest.raises(BadResults, match="line 3: line 1 is about the same"):
         log.read(path)
@@ -85,16 +88,14 @@ def test_lines_come_in_the_order_of_their_commits(tmp_path):
     assert [one.name for one in path.parent.iterdir()] == ["history.jsonl"]
 
 
-def test_append_to_a_broken_history_leaves_it_as_it_is(tmp_path):
-    path = tmp_path / "history.jsonl"
+def test_append_to_a_broken_history_leaves_it_as_it_is(path):
     path.write_text(to_json(GOOD)[:-9])
     with pytest.raises(BadResults, match="line 1: no JSON"):
         log.append([line(2)], path)
     assert path.read_text() == to_json(GOOD)[:-9]
 
 
-def test_line_that_could_not_be_read_again_is_not_written(tmp_path):
-    path = tmp_path / "history.jsonl"
+def test_line_that_could_not_be_read_again_is_not_written(path):
     odd = GOOD._replace(benchmark=GOOD.benchmark._replace(name="<script>"))
     with pytest.raises(BadResults, match="name is '<script>'"):
         log.append([GOOD, odd], path)
@@ -106,8 +107,7 @@ def write_some(path, first):
         log.append([line(build)], path)
 
 
-def test_two_writers_lose_no_line(tmp_path):
-    path = tmp_path / "history.jsonl"
+def test_two_writers_lose_no_line(path):
     with ThreadPoolExecutor(2) as writers:  # the lock is of an open folder, not of a process
         list(writers.map(write_some, (path, path), (0, 100)))
     assert len(log.read(path)) == 40
@@ -189,8 +189,7 @@ def compared(tmp_path):
     return path
 
 
-def test_builds_of_a_comparison_are_added_once_and_shown_with_their_steps(capsys, tmp_path, compared):
-    path = tmp_path / "history.jsonl"
+def test_builds_of_a_comparison_are_added_once_and_shown_with_their_steps(capsys, path, compared):
     assert "1 of 1 lines are new" in bench(capsys, "history", "add", compared, "--file", path).out
     both = ("--side", "base", "--side", "head")
     assert "2 of 3 lines" in bench(capsys, "history", "add", compared, "--file", path, *both).out
@@ -198,6 +197,17 @@ def test_builds_of_a_comparison_are_added_once_and_shown_with_their_steps(capsys
     assert said.code == 0
     assert "Steps: 1 in 2 series" in said.out
     assert "typical flops 45 to 46" in said.out
+
+
+def test_asv_gets_every_value_of_a_build_and_none_where_none_was_measured(capsys, tmp_path, path):
+    other = GOOD.benchmark._replace(name="other", instructions=None)
+    log.append([GOOD, GOOD._replace(benchmark=other)], path)
+    assert bench(capsys, "history", "show", "--file", path, "--asv", tmp_path / "asv").code == 0
+    assert {"time", "version"} < {*json.loads((tmp_path / "asv" / "benchmarks.json").read_text())}
+    made = json.loads((tmp_path / "asv" / GOOD.machine / f"{GOOD.commit[:8]}-locked.json").read_text())
+    assert (made["commit_hash"], made["date"]) == (GOOD.commit, 1767225600000)  # date -d 2026-01-01Z +%s
+    assert made["results"]["time"] == [[2.5, 2.5], [["'my-law'", "'other'"]], "1"]
+    assert str(made["results"]["instructions"][0]) == "[100.0, nan]"
 
 
 def test_comparison_of_what_is_no_commit_is_refused(compared):

@@ -45,14 +45,15 @@ def series(lines: Iterable[Record]) -> list[Series]:
     """All series of these lines, which come in the order of their commits."""
     found: dict[tuple[str, str, str, str], dict[str, Point]] = {}
     for line in lines:
-        for measure, point in _points(line).items():
+        for measure, point in points(line).items():
             machine = line.machine if measure == TIME else ""
             of_build = found.setdefault((line.benchmark.what, line.benchmark.name, measure, machine), {})
             of_build.setdefault(line.commit, point)
     return [Series(*key, tuple(points.values())) for key, points in found.items()]
 
 
-def _points(line: Record) -> dict[str, Point]:
+def points(line: Record) -> dict[str, Point]:
+    """What a line measured: a point of each measure."""
     one, about = line.benchmark, (line.commit, line.date)
     found = {}
     if "typical" in one.operations:

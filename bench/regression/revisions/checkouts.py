@@ -56,10 +56,7 @@ def checkouts(base: str, head: str | None, laws: tuple[Path, ...]) -> Iterator[t
     """
     folder = repository(laws)
     with contextlib.ExitStack() as stack:
-        yield (
-            _checkout(stack, folder, base, laws),
-            _checkout(stack, folder, head, laws),
-        )
+        yield (_checkout(stack, folder, base, laws), _checkout(stack, folder, head, laws))
 
 
 def _checkout(stack: contextlib.ExitStack, folder: Path, revision: str | None, laws: tuple[Path, ...]) -> Checkout:

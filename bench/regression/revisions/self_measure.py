@@ -85,10 +85,7 @@ def timed_laws(side: Process) -> list[str]:
 
 
 def measurements(
-    side: Process,
-    counted: dict[str, float],
-    rounds_of: dict[str, alternating.Rounds],
-    operations_of: Operations,
+    side: Process, counted: dict[str, float], rounds_of: dict[str, alternating.Rounds], operations_of: Operations
 ) -> dict[str, Measurement]:
     """A side's measurements by name, of as much as was measured."""
     found = {}
