@@ -13,9 +13,7 @@ from bench.cli.screen import console, frame_table
 @options.representation
 @options.arm
 @click.option("--quick", is_flag=True, help="Fewer passes: rougher numbers in a fraction of the time.")
-@click.option(
-    "--benchmark-json", default="", metavar="FILE", help="The samples, as pytest-benchmark compare reads them."
-)
+@click.option("--benchmark-json", default="", metavar="FILE", help="The samples, as pytest-benchmark reads them.")
 def COMMAND(laws, regulators, representations, arms, quick, benchmark_json):
     """Time every law, engine and arm per tick, interleaved with a fixed reference kernel; into results/timings."""
     import tasks

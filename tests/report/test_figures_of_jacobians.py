@@ -17,14 +17,7 @@ from bench.experiments.rows import poses
 from bench.findings.claims.arm_probes import controller
 from bench.findings.claims.euler_jacobian import ROUNDINGS
 from bench.tables.read import with_contender
-from report.figures.arms import (
-    arm_times,
-    condition_growth,
-    condition_maps,
-    controller_costs,
-    cost_on_arms,
-    jacobians,
-)
+from report.figures.arms import arm_times, condition_growth, condition_maps, controller_costs, cost_on_arms, jacobians
 from report.figures.kit.page import Run
 
 ARMS = ("puma560", "panda")

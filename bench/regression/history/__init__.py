@@ -5,4 +5,5 @@ log        the file of all lines: read with line numbers in its errors, appended
 series     lines as series: what is counted across machines, what is timed on each
 steps      where a series changes, by a stated rule
 backfill   older commits measured today
+asv        the same as results of asv
 """
