@@ -17,7 +17,7 @@ from bench.experiments.rows import poses
 from bench.findings.claims.arm_probes import controller
 from bench.findings.claims.euler_jacobian import ROUNDINGS
 from bench.tables.read import with_contender
-from report.figures.arms import arm_times, condition_growth, condition_maps, controller_costs, cost_on_arms, jacobians
+from report.figures.arms import arm_times, condition_maps, controller_costs, cost_on_arms, jacobians
 from report.figures.kit.page import Run
 
 ARMS = ("puma560", "panda")
@@ -56,7 +56,6 @@ def of(seen, pose_set="", representation=""):
 
 DRAWN = {
     "maps": lambda seen, _: condition_maps.maps(of(seen, "slice", "zyx-euler")),
-    "growth": lambda seen, _: condition_growth.growth(of(seen, "pole")),
     "stages": lambda _, counted: controller_costs.bars(counted),
 }
 

@@ -7,13 +7,16 @@ import math
 import numpy as np
 import pandas as pd
 
-from bench.contenders.registry import known_representations
+from bench.contenders.registry import known_representations, papers_coordinates
 from bench.findings.claims.euler_jacobian import DIFFERENCED, EPS, NEAR, WELL_CONDITIONED
-from report.figures.arms import arm_looks, condition_growth, condition_maps
+from report.figures.arms import arm_looks, condition_maps
 from report.figures.kit import html, media
 from report.figures.kit.page import Run, given
 from report.figures.kit.spelling import power
 
+PAPERS = papers_coordinates().name
+ON_THE_WAY = r"^(?P<family>.+)-1e-(?P<k>\d+)$"
+"""Id of a pose at 10^-k from the pole."""
 LOST = 1e12
 """A condition number beyond which the rest is rounding: what a double holds, less four digits."""
 FIRST_EXAMPLE = {"pose_set": "named", "arm": "puma560", "pose_id": "qn"}
@@ -33,7 +36,7 @@ COORDINATES = {name: arm_looks.short_title(name) for name in known_representatio
 
 def papers(run: Run, **words: str) -> pd.DataFrame:
     """Poses seen in the paper's coordinates."""
-    return run.rows("poses", representation=condition_growth.PAPERS, **words)
+    return run.rows("poses", representation=PAPERS, **words)
 
 
 def facts(run: Run) -> dict:
@@ -61,10 +64,9 @@ def tables(run: Run) -> dict:
 
 
 def figures(run: Run) -> dict:
-    """Maps of two joints, growth towards the pole, and the film."""
+    """Maps of two joints, and the film."""
     return {
         "condition-maps": given(papers(run, pose_set="slice"), condition_maps.maps),
-        "condition-growth": given(run.rows("poses", pose_set="pole"), condition_growth.growth),
         "pole-loop": media.loop(FILM),
     }
 
@@ -124,10 +126,10 @@ def slopes(rows: pd.DataFrame) -> dict[str, str]:
 
     In Z-Y-X angles the least and the most of any way; in all other coordinates the most.
     """
-    at = condition_growth.ways(rows).set_index(["representation", "arm", "family", "k"])["condition_analytic"]
-    at = at.unstack("k")
+    ways = rows.join(rows["pose_id"].astype(str).str.extract(ON_THE_WAY)).dropna(subset="k")  # but those on the pole
+    at = ways.set_index(["representation", "arm", "family", ways["k"].astype(int)])["condition_analytic"].unstack("k")
     powers = np.log10(at[8] / at[1]) / 7.0
-    papers = powers.index.get_level_values("representation") == condition_growth.PAPERS
+    papers = powers.index.get_level_values("representation") == PAPERS
     least, most, others = powers[papers].min(), powers[papers].max(), powers[~papers].max()
     return {"slope_least": f"{least:.3f}", "slope_most": f"{most:.3f}", "slope_others": f"{others:.3f}"}
 

@@ -11,14 +11,11 @@ import pandas as pd
 import tasks
 from report.figures.arms import arm_looks, arm_rows, model_rest
 from report.figures.failures.failure_map import outcomes
-from report.figures.kit import html, style
-from report.figures.kit.inline import responsive_picture
-from report.figures.kit.page import ABSENT, Run, given
+from report.figures.kit import html
+from report.figures.kit.page import ABSENT, Run
 from report.figures.kit.tables import Table
 
 SHOWN = (arm_rows.ON_MATRIX, arm_rows.SAME_BOTH_WAYS, arm_rows.ON_ANGLES)
-QUANTILES = (0.05, 0.5, 0.95)
-FLOOR_DEG, FLOOR_MM = 1e-3, 1e-2
 VARIATIONS = Table(
     "Variation | The plant | Episodes | Settled [%]:.0f | The others | Angle [deg]:.2f | Strays [mm]:.1f"
 )
@@ -61,50 +58,9 @@ def tables(run: Run) -> dict:
     return {"tab_variations": VARIATIONS(by_variation(compared(run)))}
 
 
-def figures(run: Run) -> dict:
-    """Where the tool ends."""
-    return {"model-error": given(compared(run), spread)}
-
-
 def in_order(rows: pd.DataFrame) -> list[str]:
     """The variations that the rows hold, in the order of tasks/variations.py."""
     return [name for name in tasks.variation_names() if len(rows) and name in set(rows["variation"])]
-
-
-@responsive_picture
-def spread(rows: pd.DataFrame, narrow: bool):
-    """Angle and distance to the goal at the end, a row a variation, a mark an arm: median and 5 to 95 %.
-
-    Args:
-        rows: of `compared`.
-    """
-    words, names = in_order(rows), arm_looks.arms(rows)
-    height = 0.46 * len(words)
-    figure, (left, right) = style.beside(2, height + 1.2, 2 * height + 1.2, narrow, sharey=True)
-    said = []
-    for i, word in enumerate(words):
-        told = []
-        for k, arm in enumerate(names):
-            own = rows[(rows["variation"] == word) & (rows["arm"] == arm)]
-            angle = np.degrees(own["final_angle_rad"]).clip(lower=FLOOR_DEG).quantile(QUANTILES)
-            strays = (1e3 * own["position_error_m"]).clip(lower=FLOOR_MM).quantile(QUANTILES)
-            place = i + 0.17 * (k - 0.5 * (len(names) - 1))
-            drawn = arm_looks.look(arm)
-            for axes, (low, middle, high) in ((left, angle), (right, strays)):
-                axes.plot([low, high], [place, place], color=drawn.colour, linewidth=2.2, alpha=0.5)
-                axes.plot(middle, place, drawn.marker, color=drawn.colour, markersize=4.5)
-            told.append(f"{arm} {angle[0.5]:.2g}")
-        said.append(f"{word}: {', '.join(told)}")
-    for arm in names:
-        left.plot([], [], arm_looks.look(arm).marker, color=arm_looks.look(arm).colour, label=arm)
-    left.set(xscale="log", xlabel="angle to the goal at the end [deg]", ylim=(len(words) - 0.4, -0.6))
-    right.set(xscale="log", xlabel="tool strays by [mm]")
-    left.set_yticks(range(len(words)), words)
-    style.listed(left, right)
-    for axes in (left, right):
-        axes.minorticks_off()
-    figure.legend(loc="outside lower center", ncols=2 if narrow else 4)
-    return figure, f"Median angle to the goal at the end in degrees. {'; '.join(said)}."
 
 
 def by_gravity(own: pd.DataFrame) -> str:
