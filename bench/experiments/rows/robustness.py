@@ -15,19 +15,19 @@ from tasks.condition import Condition
 from tasks.truth import angle
 
 
-def frame(settings: Settings, unit: Unit, simulate) -> pd.DataFrame:
+def frame(settings: Settings, unit: Unit, simulate, gains=gains_at) -> pd.DataFrame:
     """One row a level and start; none at a level whose command the law has no gains for.
 
     The starts and the noise are the same for every law.
 
     Args:
-        simulate: makes the numbers of the rows, as `run_disturbed.run`.
+        simulate: makes the numbers of the rows, as `run_disturbed.run`. gains(law, peak): those that give the peak.
     """
     one, axis, seed = settings.contender(unit.contender), tasks.axis(unit.selector), settings.seed
     parts = []
     for level in axis.levels:
         condition = axis.at(level)
-        chosen = gains_at(one, condition.peak) if condition.peak else settings.gains
+        chosen = gains(one, condition.peak) if condition.peak else settings.gains
         if chosen is not None:
             some = axis.starts(unit.count, seed, level)
             rows = _rows(one, some, condition, _limits(chosen, unit.horizon_s), seed, simulate)
@@ -40,13 +40,16 @@ def frame(settings: Settings, unit: Unit, simulate) -> pd.DataFrame:
 
 
 def lost_frame(settings: Settings, unit: Unit, outcome: str) -> pd.DataFrame:
-    """The rows of a unit that a user's law never came back from: what was asked, the outcome, no measure."""
+    """The rows of a unit that a user's law never came back from: what was asked, the outcome, no measure.
+
+    Gains that give a peak are the law's to say; the row has the run's.
+    """
 
     def simulate(_one, starts, _condition, _limits, metrics, _seed):
         return lost(disturbed.blank_rows(len(starts), metrics), outcome)
 
     nothing = dict.fromkeys((metric.column for metric in metrics_of(on_arm=False)), np.nan)
-    return frame(settings, unit, simulate).assign(**nothing, variation=np.nan)
+    return frame(settings, unit, simulate, lambda _one, _peak: settings.gains).assign(**nothing, variation=np.nan)
 
 
 def _limits(gains: Gains, horizon_s: float) -> Limits:
