@@ -4,8 +4,10 @@ import math
 
 import numpy as np
 import pytest
+from support.user_law import spring_text
 
-from bench.contenders.registry import find_contender
+from bench.contenders.described_law import described
+from bench.contenders.registry import contenders_of, find_contender
 from bench.findings.selection.criteria import BY_NAME, CRITERIA, jump
 from bench.findings.selection.front import front
 from bench.findings.selection.measured import Measured
@@ -120,5 +122,7 @@ def test_jump_at_a_half_turn_is_twice_the_spring_there(law, least, most):
     assert least <= jump(find_contender(law)) <= most
 
 
-def test_jump_of_a_law_on_coordinates_is_not_judged_by_half_turns():
+def test_jump_of_a_law_on_coordinates_or_of_a_users_is_not_judged_by_half_turns(tmp_path):
     assert math.isnan(jump(find_contender("feedback-linearized/zyx-euler")))
+    (tmp_path / "mine.py").write_text(spring_text("return (-x, -y, -z)"))
+    assert math.isnan(jump(contenders_of(described(tmp_path / "mine.py"))[0]))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pandas as pd
 
-from bench.cli.details.robustness import WITHSTOOD, least_shares
+from bench.cli.details.robustness import IS_WITHSTOOD, WITHSTOOD, least_shares
 from bench.cli.paragraphs import Paragraph, listed
 from bench.cli.screen import counted
 from bench.experiments.suites import NOMINAL
@@ -99,7 +99,7 @@ def _robustness(rows: pd.DataFrame) -> list[str]:
     none = f"; no law withstands {listed(nobody, 'or')}" if nobody else ""
     return [
         f"Robustness: {of(rows)} episodes. {named} {'withstands' if len(best) == 1 else 'withstand'} {most.max()} of "
-        f"{counted(least.shape[1], 'perturbation')} (at least {WITHSTOOD} % settle at every level)"
+        f"{counted(least.shape[1], 'perturbation')} ({IS_WITHSTOOD})"
         f"{', the most' if len(most) > len(best) else ''}{none}."
     ]
 

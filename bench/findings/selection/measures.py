@@ -83,9 +83,10 @@ BESIDE_RAD, DIRECTIONS = 1e-6, 16
 def jump(one: Contender) -> float:
     """How far the command jumps where a body at rest is pushed through a half turn, over kp [rad].
 
-    On coordinates: not a number, for a chart of SO(3) jumps somewhere else as well. What a law remembers goes with it.
+    On coordinates: not a number, for a chart of SO(3) jumps somewhere else as well; nor of a user's law, which must not
+    be called here. What a law remembers goes with it.
     """
-    if one.representation is not None:
+    if one.representation is not None or one.regulator.origin:
         return math.nan
     return max(_across(one, axis) for axis in axes(DIRECTIONS))
 

@@ -12,13 +12,13 @@ import numpy as np
 import pandas as pd
 
 import tasks
+from bench.findings.perturbed import FOLLOWED_RAD
 from bench.findings.theory import robustness_theory
 from report.figures.kit import families, html
 from report.figures.kit.page import Run
 from report.figures.kit.tables import Table
 from report.figures.robustness.rows import (
     DEG,
-    HELD_RAD,
     along,
     by_level,
     gains,
@@ -184,7 +184,7 @@ def moving_goals(full: pd.DataFrame, part: pd.DataFrame, none: pd.DataFrame) -> 
         "top": with_unit(worst(full, MOVING[0]), MOVING[0]),
         "losses_m": losses(full, MOVING[0]),
         "laws": ratios.shape[1],
-        "behind": int((medians(none, "tail_rms_rad").loc[slow] > HELD_RAD).sum()),
+        "behind": int((medians(none, "tail_rms_rad").loc[slow] > FOLLOWED_RAD).sum()),
     }
 
 

@@ -14,13 +14,14 @@ import numpy as np
 import pandas as pd
 from matplotlib.patches import Rectangle
 
+from bench.findings.perturbed import FOLLOWED_RAD, lasting
 from report.figures.kit import families, style
 from report.figures.kit.inline import responsive_picture
 from report.figures.kit.page import Run, given
-from report.figures.robustness.rows import HELD_RAD, LASTING, along, laws, levels, listed, median, nominal, of, starts
+from report.figures.robustness.rows import along, laws, levels, listed, median, nominal, of, starts
 
 LOST, SLOWED = 0.05, 1.5
-TIMELESS = (*LASTING, "half-turn-noise")
+TIMELESS = (*lasting(), "half-turn-noise")
 """Perturbations under which only the share counts: that never end, or that wait at the half turn."""
 
 
@@ -120,7 +121,7 @@ def facts(run: Run) -> dict:
         "axes": len(AXES),
         "lost": f"{100 * LOST:g}",
         "slowed": f"{SLOWED:g}",
-        "held_deg": f"{np.degrees(HELD_RAD):g}",
+        "held_deg": f"{np.degrees(FOLLOWED_RAD):g}",
         "starts": starts(along(run, "delay")),
         "episodes": sum(len(along(run, name)) for name in AXES),
         "harmless": listed(harmless) if harmless else "nothing",

@@ -1,8 +1,4 @@
-"""Episodes under perturbations as the pages read them, and what every page says of them.
-
-An episode went well if it settled. Where the perturbation lasts after the goal is reached, and the angle's own 2 % say
-nothing, it went well if over the last second the root mean square angle to the goal is at most HELD_RAD.
-"""
+"""Episodes under perturbations as the pages read them, and what every page says of them."""
 
 from __future__ import annotations
 
@@ -14,6 +10,7 @@ import numpy as np
 import pandas as pd
 
 import tasks
+from bench.findings.perturbed import went_well
 from bench.tables.statistics import quantile
 from report.figures.comparison.cells import by_family
 from report.figures.kit import families, html
@@ -21,9 +18,6 @@ from report.figures.kit.page import Run
 from report.figures.kit.share import share
 
 DEG = 180.0 / math.pi
-HELD_RAD = math.radians(3.0)
-LASTING = ("attitude-noise", "rate-noise", "moving-goal", "moving-goal-rate", "moving-goal-untold")
-"""Perturbations that last."""
 
 
 @functools.cache
@@ -32,13 +26,11 @@ def along(run: Run, name: str) -> pd.DataFrame:
     rows = run.rows("robustness", axis=name)
     if rows.empty:
         return rows
-    settled = rows["outcome"] == "settled"
-    good = rows["tail_rms_rad"] <= HELD_RAD if name in LASTING else settled
     names = families.in_order(rows["contender"].unique())
     return rows.assign(
         contender=pd.Categorical(rows["contender"].astype(str), names, ordered=True),
-        good=good,
-        time_s=rows["settling_time_s"].where(settled, np.inf),
+        good=went_well(rows),
+        time_s=rows["settling_time_s"].where(rows["outcome"] == "settled", np.inf),
     )
 
 

@@ -1,0 +1,27 @@
+"""How an episode under a perturbation went, wherever it is told.
+
+It went well if it settled. Where the perturbation lasts after the goal is reached no body comes to rest; there it went
+well if over the last second the root mean square angle to the goal is at most FOLLOWED_RAD.
+"""
+
+import functools
+import math
+
+import pandas as pd
+
+import tasks
+
+FOLLOWED_RAD = math.radians(3.0)
+
+
+@functools.cache
+def lasting() -> tuple[str, ...]:
+    """Perturbations that last."""
+    every = map(tasks.axis, tasks.axis_names())
+    return tuple(axis.name for axis in every if axis.at(max(axis.levels)).lasts)
+
+
+def went_well(rows: pd.DataFrame) -> pd.Series:
+    """Whether each row of robustness.parquet did."""
+    follows = rows["tail_rms_rad"] <= FOLLOWED_RAD
+    return follows.where(rows["axis"].isin(lasting()), rows["outcome"] == "settled").astype(bool)
