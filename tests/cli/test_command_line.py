@@ -147,11 +147,6 @@ def test_list_says_of_each_what_it_has_or_takes(capsys, kind, line):
     assert re.search(rf"^{line}", bench(capsys, "list", kind).out, re.MULTILINE)
 
 
-def test_list_shows_units_in_brackets_and_formulas_as_they_are(capsys):
-    said = bench(capsys, "list", "metrics")
-    assert all(one.unit in said.out for one in (*known_metrics().values(), *known_contact_metrics().values()))
-
-
 def test_list_without_a_kind_lists_every_kind(capsys):
     said = bench(capsys, "list")
     assert said.code == 0
@@ -247,11 +242,6 @@ def test_show_of_one_controller_shows_it_alone(capsys, arm_run):
     assert bench(capsys, "show", arm_run, "--regulator", "rotation-matrix") == whole
 
 
-def test_show_counts_outcomes_of_each_variation(capsys, arm_run):
-    said = bench(capsys, "show", arm_run, "--outcomes")
-    assert len(re.findall(r"^clear +(?:nominal|friction-5) +rotation-matrix@", said.out, re.MULTILINE)) == 4
-
-
 @pytest.fixture(scope="module")
 def contact_run(ran):
     """Two controllers, three poses of one task in contact on one arm, 20 ticks a trial."""
@@ -278,12 +268,6 @@ def test_show_of_a_run_in_contact_has_a_line_for_each_controller(capsys, contact
     assert re.search(r"\nimpedance-geometric +\d/\d ", said.out)
 
 
-def test_run_compared_with_itself_agrees(capsys, tiny_run):
-    said = bench(capsys, "compare", tiny_run, tiny_run)
-    assert said.code == 0
-    assert "agrees with" in said.out
-
-
 # --------------------------------------------------------------------------------------- count, doctor
 
 
@@ -292,12 +276,6 @@ def test_count_has_a_line_for_each_law_and_branch(capsys):
     rows = [line.split()[:2] for line in said.out.splitlines() if " typical " in line]
     assert said.code == 0
     assert [row[0] for row in rows] == [one.regulator.name for one in all_contenders()]
-
-
-def test_count_of_one_law_by_stage_adds_up(capsys):
-    said = bench(capsys, "count", "--regulator", "rotation-matrix", "--stages")
-    assert "regulate" in said.out
-    assert "linearized-euler" not in said.out
 
 
 def stages(said) -> dict:

@@ -91,10 +91,6 @@ def test_metric_says_its_unit_and_what_it_is(any_metric):
     assert any_metric.title
 
 
-def test_metrics_of_the_free_body_need_no_arm():
-    assert set(METRICS) == {metric for metric in ON_ARM if not metric.arm_only}
-
-
 def test_compiled_update_is_the_plain_update_bit_for_bit_on_an_arm(any_metric):
     given = arm_samples()
     plain, compiled = np.full((2, len(given), 1), any_metric.start)

@@ -206,16 +206,6 @@ def test_unconverted_moments_are_their_components_about_the_axes_that_the_coordi
             assert tuple(row[3 + k] for k in axes_of(one.representation)) == tuple(moment)
 
 
-@over_arms
-@pytest.mark.parametrize("one", UNCONVERTED, ids=named)
-def test_wrench_does_other_work_when_moments_are_left_unconverted(arm, one):
-    for state, wish in drawn(arm):
-        at = hand(*state)
-        if regular(one, at):
-            into = tick(one, at, wish, SELECTIONS[0]).rows
-            assert abs(into.F @ into.v - at.F @ at.velocity) > 1e-3
-
-
 def test_generalized_forces_along_zyx_angles_are_the_moments_about_their_axes():
     """About z, about the level axis, about the hand's own x: (alpha, beta, gamma) turn the hand about these."""
     one = hybrid("hybrid", "inverse", COORDINATES["zyx-euler"])

@@ -174,6 +174,7 @@ def rounding(rows, sweeps) -> float:
 def test_lengths_of_orthogonalized_rows_are_numpys_singular_values(rows, n):
     for word, A in usable(rows, n):
         found, _, sweeps = turned(A, B[:rows])
+        assert sweeps < SWEEPS, word
         lengths = np.sort(np.linalg.norm(found, axis=1))[::-1]
         theirs = np.zeros(rows)
         theirs[: min(rows, n)] = np.linalg.svd(A, compute_uv=False)
@@ -193,11 +194,6 @@ def test_orthogonalized_rows_are_orthogonal_and_turned_from_the_given_ones(rows,
         # U is orthogonal: A^T b is (U^T A)^T (U^T b)
         within = 2 * rounding(rows, sweeps) * norm(A) * norm(B)
         np.testing.assert_allclose(found.T @ beside, A.T @ B[:rows], rtol=0.0, atol=within, err_msg=word)
-
-
-@pytest.mark.parametrize(("rows", "n"), SHAPES)
-def test_rotations_end_before_their_bound_at_any_rank(rows, n):
-    assert max(turned(A, B[:rows])[2] for _, A in usable(rows, n)) < SWEEPS
 
 
 # -------------------------------------------------------------------------------- floats, counted, compiled

@@ -146,15 +146,3 @@ def test_labels_beside_curves_do_not_touch_and_keep_their_order():
     assert style.apart([30.0, 0.0, 10.0], 5.0) == [30.0, 0.0, 10.0]
     moved = style.apart([-80.0, 4.0, 0.0], 10.0)
     assert moved == pytest.approx([-80.0, 7.0, -3.0])
-
-
-def test_label_of_all_rows_is_at_the_middle_of_the_axes_above_a_legend():
-    with style.paper_style():
-        figure, axes = style.panels(2, 1, height=4.0)
-        axes[0].plot([], [], label="one")
-        figure.legend(loc="outside lower center")
-        style.label_rows(figure, "both")
-        figure.draw_without_rendering()
-    middle = (axes[0].get_position().y1 + axes[1].get_position().y0) / 2
-    assert figure._supylabel.get_position()[1] == pytest.approx(middle, abs=1e-3)
-    assert middle > 0.51
