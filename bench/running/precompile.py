@@ -9,8 +9,11 @@ import functools
 import os
 import subprocess
 import sys
+import threading
+import time
 from collections.abc import Callable, Iterable, Iterator
 
+LOOK_S = 0.2
 WORTH = 8
 """Contenders from which on a process more is worth its start of some seconds."""
 
@@ -29,7 +32,7 @@ def compiling_ahead(contenders: Iterable[str]) -> Iterator[subprocess.Popen | No
         yield None
         return
     quiet = subprocess.DEVNULL
-    words = [sys.executable, "-m", __name__, *reversed(names)]
+    words = [sys.executable, "-m", __name__, str(os.getpid()), *reversed(names)]
     with subprocess.Popen(words, stdin=quiet, stdout=quiet, stderr=quiet, start_new_session=True) as process:
         try:
             yield process
@@ -53,19 +56,24 @@ def compile_one(name: str) -> None:
         evaluation(find_contender(name))
 
 
-def main(names: list[str]) -> None:
+def main(parent: int, names: list[str]) -> None:
     """Compile one after the other, then count the laws among them, as long as the process that asked for it lives."""
     from bench.contenders.registry import all_contenders
     from bench.tables.kept_costs import of_law
 
-    asked_by, laws = os.getppid(), {one.name: one for one in all_contenders()}
+    threading.Thread(target=_end_without, args=(parent,), daemon=True).start()
+    laws = {one.name: one for one in all_contenders()}
     todo: list[Callable[[], object]] = [functools.partial(compile_one, name) for name in names]
     todo += [functools.partial(of_law, laws[name]) for name in names if name in laws]
     for work in todo:
-        if os.getppid() != asked_by:
-            return
         work()
 
 
+def _end_without(parent: int) -> None:
+    while os.getppid() == parent:
+        time.sleep(LOOK_S)
+    os._exit(1)  # in the middle of a compilation; a file of the cache is there whole or not at all
+
+
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    main(int(sys.argv[1]), sys.argv[2:])

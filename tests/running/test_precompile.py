@@ -5,8 +5,10 @@ import subprocess
 import sys
 from pathlib import Path
 
+import psutil
 import pytest
 
+from bench.provenance import ROOT
 from bench.running import precompile
 
 
@@ -18,7 +20,7 @@ def cached(folder: Path) -> int:
 def test_it_leaves_laws_controllers_of_arms_and_of_contact_in_the_cache(tmp_path):
     names = ["rotation-matrix", "rotation-matrix@geometric+solve", "impedance-geometric"]
     environment = {**os.environ, "NUMBA_CACHE_DIR": str(tmp_path)}
-    words = [sys.executable, "-m", "bench.running.precompile", *names]
+    words = [sys.executable, "-m", "bench.running.precompile", str(os.getpid()), *names]
     subprocess.run(words, env=environment, check=True, capture_output=True)
     kept = {path.name.split(".")[0] for path in tmp_path.rglob("*.nbi")}
     assert {"binding", "resolved_acceleration"} <= kept
@@ -43,3 +45,16 @@ def test_the_process_ends_with_the_run_even_if_that_fails():
     with pytest.raises(KeyboardInterrupt):
         interrupted(begun)
     assert begun[0].poll() is not None
+
+
+def test_the_process_ends_with_a_run_that_is_killed(tmp_path):
+    script = (
+        "import time; from bench.contenders.registry import all_contenders; from bench.running import precompile\n"
+        "with precompile.compiling_ahead(one.name for one in all_contenders()) as process:\n"
+        "    print(process.pid, flush=True); time.sleep(60)"
+    )
+    environment = {**os.environ, "NUMBA_CACHE_DIR": str(tmp_path)}
+    with subprocess.Popen([sys.executable, "-c", script], env=environment, stdout=subprocess.PIPE, cwd=ROOT) as run:
+        compiling = psutil.Process(int(run.stdout.readline()))
+        run.kill()
+    compiling.wait(timeout=10)
