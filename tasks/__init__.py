@@ -28,15 +28,15 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from tasks import arm_starts, conditions, domains, starts
 from tasks.arm import arm as arm
 from tasks.arm import arm_names as arm_names
 from tasks.arm_model import Arm
-from tasks.base import ArmStartSet, ArmTask, BadValue, Start, StartSet, Task
+from tasks.base import ArmStartSet, ArmTask, BadValue, Start, StartSet, Task, UnknownName
 from tasks.condition import Axis
-from tasks.contact import ContactTask
+from tasks.contact import ContactTask, Trial, refuse
 from tasks.discovery import constants, pick
 from tasks.variations import VARIATIONS, Variation
 
@@ -64,7 +64,10 @@ def pairs() -> list[tuple[str, str]]:
 
 def described(name: str) -> Task | ArmTask:
     """What the file of a task says of it, whether or not it needs an arm; UnknownName lists the known ones."""
-    return pick("task", name, _tasks(), "tasks/domains")
+    found = pick("task", name, constants(domains, "TASK"), "tasks/domains")
+    if isinstance(found, ContactTask):
+        raise UnknownName(f"task '{name}' is one in contact (try: tasks.load('{name}', arm='ur5e'))")
+    return found
 
 
 def task(name: str, arm: str = "") -> Task:
@@ -94,31 +97,50 @@ _find_task = task
 
 def load(
     task: str | Task = "free-body",
-    start: Start | None = None,
+    start: Start | Trial | None = None,
     dt: float = 1e-3,
-    horizon: float = 20.0,
-    integrator: str = "euler",
+    horizon: float | None = None,
+    integrator: str = "",
     arm: str = "",
     vary: Callable[[mujoco.MjModel], None] | None = None,
 ) -> Environment:
     """A dm_control Environment that begins every episode at `start` and lasts `horizon` seconds.
 
     Args:
-        task: name of a task, or a Task of the caller's own.
+        task: name of a task, in contact too, or a Task of the caller's own.
         start: orientation, angular velocity and goal (and on an arm the joints' state); if none is given, the first
-            start of `paper`, or on an arm of the first start set of its task.
+            start of `paper`, or on an arm of the first start set of its task. In contact a trial; if none, the first.
         dt: control period and integration step [s].
-        horizon: length of an episode [s], a whole number of ticks after rounding.
-        integrator: "euler", "rk4", "implicit" or "implicitfast".
+        horizon: length of an episode [s], a whole number of ticks after rounding; 20, or in contact the task's own.
+        integrator: "euler" (if none is named), "rk4", "implicit" or "implicitfast" (if none is named in contact).
         arm: name of the arm, if the task is for arms.
         vary: changes the compiled model before the first episode, so that the plant is not what a contestant believes.
     """
+    if touching := _contact_tasks().get(task if isinstance(task, str) else ""):
+        seconds = touching.horizon_s if horizon is None else horizon
+        made = _in_contact(touching, start, arm, dt, seconds, integrator or "implicitfast")
+        if vary:
+            vary(made.physics.model.ptr)
+        return made
     from tasks.episode import environment  # dm_control takes a second to import; listing names must not
 
     chosen = task if isinstance(task, Task) else _find_task(task, arm)
     if start is None:
         start = start_set(chosen.start_sets[0], 1, arm=chosen.arm)[0] if chosen.arm else start_set("paper")[0]
-    return environment(chosen, start, dt, horizon, integrator, vary)
+    return environment(chosen, start, dt, 20.0 if horizon is None else horizon, integrator or "euler", vary)
+
+
+def _in_contact(task: ContactTask, trial: Any, arm: str, dt: float, horizon: float, integrator: str) -> Environment:
+    from tasks.contact_episode import environment
+
+    if not arm:
+        raise BadValue(f"task '{task.name}' needs an arm of six joints with a site 'wrist' (try: arm='ur5e')")
+    found = _find_arm(arm)
+    refuse(task, found)
+    if not isinstance(trial, Trial | None):
+        raise BadValue(f"task '{task.name}' begins at a trial, not at {trial} (try: contact_task('{task.name}').trials)")
+    chosen = task.trials(found)[0] if trial is None else trial
+    return environment(task._replace(horizon_s=horizon), found, chosen, dt, integrator)
 
 
 def start_set_names(arm: bool = False) -> list[str]:

@@ -18,7 +18,7 @@ from tasks.contact import ContactTask, Trial, leg, prepare
 from tasks.contact_checks import check_contact, check_trial
 from tasks.contact_model import STANDARD, ContactModel, model_xml
 from tasks.discovery import pick
-from tasks.episode import INTEGRATORS, Physics, control, engine
+from tasks.episode import INTEGRATORS, Physics, check_clock, control, motors
 from tasks.rules import ticks
 
 
@@ -43,8 +43,8 @@ class InContact(control.Task):
         self.tick += 1
 
     def action_spec(self, physics: Physics) -> Any:
-        """One unlimited number a motor [N m]."""
-        return engine.action_spec(physics)
+        """See `motors` [N m]."""
+        return motors(physics)
 
     def get_observation(self, physics: Physics) -> dict[str, np.ndarray]:
         """R (n, o, a), omega [rad/s] and p [m] of the hand, q and qdot of the arm, F = (f, m) [N, N m], base frame."""
@@ -78,6 +78,7 @@ def environment(
     Errors:
         BadValue: the arm cannot be set the task, or the trial or the contact model is none.
     """
+    check_clock(dt, task.horizon_s)
     check_trial(trial, arm)
     check_contact(contact)
     physics = Physics.from_xml_string(model_xml(task, arm, dt, contact))

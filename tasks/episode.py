@@ -67,6 +67,20 @@ class Physics(engine.Physics):
         return np.array(self.data.sensordata[16:19])
 
 
+def motors(physics: Physics) -> Any:
+    """One number a motor, between the ends of its ctrlrange: for an agent to draw from. The plant cuts nothing there.
+
+    On an arm these are the rated torques; a motor without a ctrlrange is unlimited, as MuJoCo says it.
+
+    Fails: without joint limits a light arm that is driven at random for seconds, or at full torque for half a second
+    (Panda), turns so fast that a step of 1 ms is too long: PhysicsError.
+    """
+    spec = engine.action_spec(physics)
+    low, high = physics.model.actuator_ctrlrange.T
+    minimum, maximum = (np.where(low < high, ends, own) for ends, own in ((low, spec.minimum), (high, spec.maximum)))
+    return spec.replace(minimum=minimum, maximum=maximum)
+
+
 class Regulation(control.Task):
     """Bring the body from a Start to its goal and keep it there; episodes end at the horizon only."""
 
@@ -85,8 +99,8 @@ class Regulation(control.Task):
         physics.set_control(action)
 
     def action_spec(self, physics: Physics) -> Any:
-        """One unlimited number a motor ([N m] on an arm); limits are the rules' business."""
-        return engine.action_spec(physics)
+        """See `motors`; [N m] on an arm."""
+        return motors(physics)
 
     def get_observation(self, physics: Physics) -> dict[str, np.ndarray]:
         """All that a contestant sees: R (n, o, a), omega [rad/s], goal_quat (w, x, y, z); on an arm also q, qdot, p."""
@@ -109,7 +123,8 @@ def environment(
     vary: Callable[[mujoco.MjModel], None] | None = None,
 ) -> control.Environment:
     """See `tasks.load`, which takes names."""
-    _check(start, dt, horizon)
+    check_clock(dt, horizon)
+    _check(start)
     physics = Physics.from_xml_string(task.xml(dt))
     physics.model.opt.integrator = pick("integrator", integrator, INTEGRATORS, "tasks/episode.py")
     _check_sensors(task, physics)
@@ -124,11 +139,15 @@ def environment(
     )
 
 
-def _check(start: Start, dt: float, horizon: float) -> None:
+def check_clock(dt: float, horizon: float) -> None:
+    """BadValue if they are no control period and no length of an episode [s]."""
     if not (math.isfinite(dt) and dt > 0.0):
         raise BadValue(f"dt = {dt} s is not a control period: give a finite number above 0 (try: dt=1e-3)")
     if not (math.isfinite(horizon) and horizon >= dt):
         raise BadValue(f"horizon = {horizon} s is not finite or shorter than dt = {dt} s (try: horizon=20.0)")
+
+
+def _check(start: Start) -> None:
     for what, quat in (("quat_wxyz", start.quat_wxyz), ("goal_wxyz", start.goal_wxyz)):
         if len(quat) != 4 or not abs(math.hypot(*quat) - 1.0) <= UNIT_NORM_TOLERANCE:
             raise BadValue(

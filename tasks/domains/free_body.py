@@ -19,9 +19,13 @@ from __future__ import annotations
 from tasks.base import Start, Task, sensor_xml
 from tasks.rotations import to_body
 
-MOTORS = """<motor name="u_x" jointinparent="ball" gear="1 0 0 0 0 0"/>
-    <motor name="u_y" jointinparent="ball" gear="0 1 0 0 0 0"/>
-    <motor name="u_z" jointinparent="ball" gear="0 0 1 0 0 0"/>"""
+# The ends of a motor's ctrlrange [rad/s^2], for an agent to draw from; nothing is cut there. Spring and damping of the
+# paper's gains stay within them (944, tasks/rules.py), and they are the mildest bound of the axis `saturation`.
+REACH = 1000.0
+MOTORS = "\n    ".join(
+    f'<motor name="u_{name}" jointinparent="ball" gear="{axis} 0 0 0" ctrlrange="-{REACH} {REACH}" ctrllimited="false"/>'
+    for name, axis in (("x", "1 0 0"), ("y", "0 1 0"), ("z", "0 0 1"))
+)
 
 
 def xml(dt: float) -> str:
