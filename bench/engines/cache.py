@@ -10,6 +10,8 @@ import shutil
 from pathlib import Path
 from typing import Any
 
+from bench.errors import MissingTool
+from bench.home import folder as kept_in
 from bench.provenance import source_digest
 
 fcntl: Any
@@ -24,8 +26,7 @@ KEPT = 8
 
 def home() -> Path:
     """The folder that holds one cache for each state of the sources."""
-    base = os.environ.get("XDG_CACHE_HOME") or str(Path.home() / ".cache")
-    return Path(base) / "orientation-bench" / "numba"
+    return kept_in("XDG_CACHE_HOME") / "numba"
 
 
 def _chosen() -> Path:
@@ -51,7 +52,13 @@ def to_itself():
     if fcntl is None:
         yield
         return
-    FOLDER.mkdir(parents=True, exist_ok=True)
-    with open(FOLDER / "lock", "w", encoding="utf-8") as lock:
+    try:
+        FOLDER.mkdir(parents=True, exist_ok=True)
+        lock = open(FOLDER / "lock", "w", encoding="utf-8")
+    except OSError as error:
+        raise MissingTool(
+            f"compiled code cannot be kept in {FOLDER} ({error.strerror}); name another folder in NUMBA_CACHE_DIR"
+        ) from error
+    with lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
         yield

@@ -5,14 +5,14 @@ is found in one runs only if this user gave the same text to `bench run --law`, 
 """
 
 import hashlib
-import os
 from pathlib import Path
+
+from bench.home import folder
 
 
 def home() -> Path:
     """The folder that holds an empty file for each text, named by its SHA-256."""
-    base = os.environ.get("XDG_STATE_HOME") or str(Path.home() / ".local" / "state")
-    return Path(base) / "orientation-bench" / "laws"
+    return folder("XDG_STATE_HOME") / "laws"
 
 
 def mark(text: bytes) -> Path:
