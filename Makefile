@@ -18,6 +18,11 @@ DEV := $(VENV)/.dev
 LIBRARIES := .venv-libraries
 AUDIT := .venv-audit
 
+# Where HOME cannot be written, as in a container under another user's number, tools keep here what they keep at home.
+ifneq ($(shell test -d "$$HOME" && test -w "$$HOME" && echo ok),ok)
+export HOME := $(CURDIR)/.home
+endif
+
 # A target that fails ends with 2, which is make's own exit code, whatever its command said; those of commands:
 # python -m bench --help
 #
@@ -156,7 +161,7 @@ lock: $(DEV)
 
 clean:  ## remove .venv, the built report, caches and results/quick; other results stay
 	@rm -rf $(VENV) $(LIBRARIES) $(AUDIT) build report/_build report/.jupyter_cache results/quick
-	@rm -rf .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .benchmarks *.egg-info
+	@rm -rf .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .benchmarks .home *.egg-info
 	@find bench tasks report tests -name __pycache__ -prune -exec rm -rf {} + 2>/dev/null || true
 
 help:

@@ -61,11 +61,10 @@ def _versions() -> str:
 
 
 def _compiler() -> str:
-    from bench.engines.cache import FOLDER
+    from bench.engines.cache import FOLDER, to_itself
     from bench.engines.compiled import compile_function, float64
 
-    FOLDER.mkdir(parents=True, exist_ok=True)
-    with tempfile.TemporaryFile(dir=FOLDER):
+    with to_itself():
         pass
     if compile_function(lambda x: 2.0 * x, float64(float64), cache=False)(21.0) != 42.0:
         raise RuntimeError(f"numba computes wrongly. Cure: {CURE_INSTALL}")
@@ -155,9 +154,13 @@ def _rendering() -> str:
 
 
 def _results() -> str:
-    RESULTS.mkdir(exist_ok=True)
-    with tempfile.TemporaryFile(dir=RESULTS):
-        pass
+    try:
+        RESULTS.mkdir(exist_ok=True)
+        with tempfile.TemporaryFile(dir=RESULTS):
+            pass
+    except OSError as error:
+        cure = "give yourself the right to write there, or name another folder with --out"
+        raise RuntimeError(f"{_short(RESULTS)} cannot be written ({error.strerror}). Cure: {cure}") from error
     runs = [path.parent for path in sorted(RESULTS.glob("*/plan.json"))]
     found = [run.name for run in runs if (run / "provenance.json").is_file()]
     return f"{_short(RESULTS)} is writable; finished runs: {', '.join(found) or 'none'}"
