@@ -218,6 +218,8 @@ $(PY):
 		"Name one that is: make setup PYTHON=/path/to/python3.12" >&2; exit 1; }
 	@$(PYTHON) -c 'import ensurepip' 2>/dev/null || { echo "$(PYTHON) cannot make virtual environments." \
 		"On Debian or Ubuntu: apt install python3-venv" >&2; exit 1; }
+	@test -w . || { echo "$(CURDIR) cannot be written, and $(VENV) goes into it." \
+		"Give yourself the right to, or clone it where you have it" >&2; exit 1; }
 	@$(PYTHON) -m venv --clear $(VENV)
 
 # Names, versions and hashes only. Pins already in the files are kept; to move one, pin it in pyproject.toml.
