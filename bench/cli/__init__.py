@@ -11,6 +11,7 @@ import tomllib
 import rich_click as click
 from click.exceptions import Exit
 
+from bench.cli.screen import examples
 from bench.errors import BenchError
 from bench.provenance import ROOT
 from tasks.base import TaskError
@@ -22,15 +23,17 @@ click.rich_click.STYLE_OPTIONS_TABLE_PAD_EDGE = False
 VERSION = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["version"]
 """Of the checkout that runs, installed or not."""
 
-EPILOG = """
-First steps:  [b]python -m bench list[/b]  what there is.  [b]python -m bench run --suite quick --out /tmp/quick[/b]
-a run of a minute.  [b]python -m bench show[/b]  its summary.  [b]python -m bench claims[/b]  the paper's claims.
-Your own law:  [b]python -m bench run --law my_law.py --suite quick --out /tmp/mine[/b]  (README has an example).
-
-Exit code 0: done. 1: done, and something is wrong: a law crashed or hung (run, count), a regression or a difference
-(compare), a machine that is not ready (doctor). 2: it could not be done, and a line on stderr says what to mend. 130:
-stopped by Ctrl-C. A target of make that fails ends with 2, which is make's own, whatever the command said.
-"""
+EPILOG = examples(
+    ("What there is", "list"),
+    ("A run of some minutes", "run --suite quick --out results/quick"),
+    ("The summary of the last run", "show"),
+    ("The paper's claims", "claims"),
+    ("A law of your own (README has an example)", "run --law my_law.py --suite quick --out results/mine"),
+    after="Exit code 0: done. 1: done, and something is wrong: a law crashed or hung (run, count), a regression or a "
+    "difference (compare), a machine that is not ready (doctor). 2: it could not be done, and a line on stderr says what "
+    "to mend. 130: stopped by Ctrl-C. A target of make that fails ends with 2, which is make's own, whatever the command "
+    "said.",
+)
 
 
 @click.group(epilog=EPILOG, context_settings={"help_option_names": ["-h", "--help"]})

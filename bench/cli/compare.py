@@ -8,7 +8,7 @@ import rich_click as click
 from click.exceptions import Exit
 
 from bench.cli import options
-from bench.cli.screen import console, frame_table
+from bench.cli.screen import console, examples, frame_table
 from bench.errors import BenchError
 from bench.provenance import rounded_on
 from bench.regression.revisions import comparison
@@ -16,23 +16,20 @@ from bench.regression.revisions import summary as words
 from bench.tables.files import read_json, write_json
 from tasks.base import TaskError
 
-EPILOG = """
-[b]python -m bench compare results/reference results/quick[/b]  two runs, row by row.
-
-[b]python -m bench compare[/b]  your files against the commit where you left main: outcomes and operations of the quick
-suite, then instructions under valgrind, then time.
-
-[b]python -m bench compare HEAD~3 HEAD --no-timing[/b]  two commits, each checked out for as long as it takes.
-
-[b]python -m bench compare main --law my_law.py --summary law.md[/b]  your own law, in your own repository: what it does
-now against what it did on main.
-
-A law is called slower only if a Mann-Whitney test of interleaved rounds has p < 0.002, the median ratio is above 1.10,
-and a second run agrees.
-
-Exit code 1: a regression, a law that crashed or hung; of two folders, any difference. 2: no verdict, as of a law that
-does not load.
-"""
+EPILOG = examples(
+    ("Two runs, row by row", "compare results/reference results/quick"),
+    (
+        "Your files against the commit where you left main: outcomes and operations of the quick suite, then "
+        "instructions under valgrind, then time",
+        "compare",
+    ),
+    ("Two commits, each checked out for as long as it takes", "compare HEAD~3 HEAD --no-timing"),
+    ("Your own law, in your own repository, against it on main", "compare main --law my_law.py --summary law.md"),
+    after="A law is called slower only if a Mann-Whitney test of interleaved rounds has p < 0.002, the median ratio is "
+    "above 1.10, and a second run agrees.\n"
+    "Exit code 1: a regression, a law that crashed or hung; of two folders, any difference. 2: no verdict, as of a law "
+    "that does not load.",
+)
 
 
 @click.command("compare", epilog=EPILOG)

@@ -6,7 +6,7 @@ from click.exceptions import Exit
 
 import tasks
 from bench.cli import options
-from bench.cli.screen import console, frame_table
+from bench.cli.screen import console, examples, frame_table
 from bench.contenders import combinations
 from bench.control.registry import find_controller
 from bench.errors import Incompatible
@@ -15,18 +15,14 @@ from bench.experiments.plan import Plan
 from bench.experiments.suites import SUITES
 from bench.law.contender import Contender
 
-EPILOG = """
-[b]python -m bench count --stages[/b]  the laws alone.
-
-[b]python -m bench count --regulator rotation-matrix --jacobian geometric --inverse solve --stages[/b]  a controller.
-
-[b]python -m bench count --joints 7[/b]  the quick suite's controllers on seven joints.
-
-[b]python -m bench count --controller hybrid-base+inverse --controller hybrid/zyx-euler+inverse --stages[/b]  two in
-contact.
-
-Exit code 1: a law of yours crashed or hung.
-"""
+EPILOG = examples(
+    ("The laws alone", "count --stages"),
+    ("Your own law", "count --law my_law.py"),
+    ("A controller", "count --regulator rotation-matrix --jacobian geometric --inverse solve --stages"),
+    ("The quick suite's controllers on seven joints", "count --joints 7"),
+    ("Two in contact", "count --controller hybrid-base+inverse --controller hybrid/zyx-euler+inverse --stages"),
+    after="Exit code 1: a law of yours crashed or hung.",
+)
 
 
 @click.command("count", epilog=EPILOG)

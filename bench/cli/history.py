@@ -7,10 +7,11 @@ from pathlib import Path
 import pandas as pd
 import rich_click as click
 
-from bench.cli.screen import console, frame_table
+from bench.cli.screen import console, examples, frame_table
 from bench.errors import BadResults
 from bench.provenance import ROOT
 
+EPILOG = examples(("What writes a comparison", "compare main --json comparison.json"))
 SIDES = ("head", "base")
 book = click.option(
     "--file",
@@ -23,7 +24,7 @@ book = click.option(
 )
 
 
-@click.group("history", epilog="A comparison is what [b]python -m bench compare BASE HEAD --json FILE[/b] writes.")
+@click.group("history", epilog=EPILOG)
 def COMMAND():
     """What every build measured, a line a benchmark, and where it changed."""
 

@@ -9,7 +9,7 @@ from click.exceptions import Exit
 
 from bench.cli import options, planned
 from bench.cli.progress import progress
-from bench.cli.screen import console, counted, shown_path
+from bench.cli.screen import console, counted, examples, shown_path
 from bench.experiments import plan as planning
 from bench.experiments.choice import Choice, check_workers
 from bench.experiments.experiment import IN_CONTACT, WITHOUT
@@ -17,36 +17,35 @@ from bench.law.contender import Gains
 from bench.running.schedulers.words import THREADS, check_scheduler
 from bench.tables.files import read_json
 
-EPILOG = """
-[b]python -m bench run[/b]  the default suite into results/latest.
-
-[b]python -m bench run --regulator rotation-matrix --starts half-turn --engine native --out /tmp/half[/b]
-
-[b]python -m bench run --law my_law.py --suite quick --out /tmp/mine[/b]  a law of your own, on the free body and arms.
-
-[b]python -m bench run --task arm-regulation --arm ur5e --regulator feedback-linearized/zyx-euler --jacobian analytic
---inverse solve --out /tmp/arm[/b]  one controller on one arm.
-
-[b]python -m bench run --arm ur5e --regulator feedback-linearized/zyx-euler@analytic+solve --out /tmp/arm[/b]  the
-same, as rows name it.
-
-[b]python -m bench run --arm panda --starts clear --variation mass-1.30 --out /tmp/heavy[/b]  a plant that is not the
-controller's model.
-
-[b]python -m bench run --task surface-alignment --arm ur5e --controller hybrid/zyx-euler+inverse --controller
-hybrid-base+inverse --out /tmp/plate[/b]  a hand pressed onto a tilted plate: compliance.parquet.
-
-[b]python -m bench run --suite full --controller impedance-geometric --out /tmp/spring[/b]  one controller in every task
-in contact, on dense grids of poses.
-
-[b]python -m bench run --suite full --scheduler local:8 --out /tmp/full[/b]  by eight processes; with an address, by the
-workers of a Dask cluster. The rows are the same.
-
-[b]python -m bench run --axis delay --axis half-turn-noise --regulator hybrid --count 200 --out /tmp/late[/b]
-robustness: one law under two perturbations.
-
-Exit code 1: a law of yours crashed or hung, as its rows say; all others are there.
-"""
+CONTROLLER = "feedback-linearized/zyx-euler@analytic+solve"
+EPILOG = examples(
+    ("The default suite into results/latest", "run"),
+    ("One law on one engine", "run --regulator rotation-matrix --starts half-turn --engine native --out results/half"),
+    ("A law of your own beside ours, on free body and arms", "run --law my_law.py --suite quick --out results/mine"),
+    ("The same alone, on the free body", "run --law my_law.py --regulator my-law --task free-body --out results/mine"),
+    ("One controller on one arm", f"run --arm ur5e --regulator {CONTROLLER} --out results/arm"),
+    (
+        "A plant that is not the controller's model",
+        "run --arm panda --starts clear --variation mass-1.30 --out results/heavy",
+    ),
+    (
+        "A hand pressed onto a tilted plate: compliance.parquet",
+        "run --task surface-alignment --arm ur5e --controller hybrid/zyx-euler+inverse --out results/plate",
+    ),
+    (
+        "One controller in every task in contact, on dense grids of poses",
+        "run --suite full --controller impedance-geometric --out results/spring",
+    ),
+    (
+        "By eight processes, or with an address by the workers of a Dask cluster, with the same rows",
+        "run --suite full --scheduler local:8 --out results/full",
+    ),
+    (
+        "Robustness: one law under two perturbations",
+        "run --axis delay --axis half-turn-noise --regulator hybrid --count 200 --out results/late",
+    ),
+    after="Exit code 1: a law of yours crashed or hung, as its rows say; all others are there.",
+)
 
 
 @click.command("run", epilog=EPILOG)

@@ -1,6 +1,7 @@
 """Printing: one console, the same width rules everywhere, plain text when the output is not a terminal."""
 
 import os
+import textwrap
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -29,6 +30,15 @@ def shown_path(path: Path) -> str:
 def counted(number: int, word: str) -> str:
     """A number and its noun: 1 law, 1,200 laws."""
     return f"{number:,} {word}{'' if number == 1 else 's'}"
+
+
+def examples(*every: tuple[str, str], after: str = "") -> Text:
+    """What a command's help ends with: what each does, then its words below, broken where a shell goes on."""
+    said = Text()
+    for what, words in every:
+        lines = textwrap.wrap(f"python -m bench {words}", 74, break_long_words=False, break_on_hyphens=False)
+        said.append(f"{what}:\n").append(" \\\n".join(f"  {line}" for line in lines) + "\n", "bold")
+    return said.append(after) if after else said
 
 
 SENTENCE = 30

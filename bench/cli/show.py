@@ -8,21 +8,18 @@ from bench.cli import options
 from bench.cli.details import arms, contact, free_body, parts, robustness
 from bench.cli.details.episodes import of_laws, only, outcome_table, places
 from bench.cli.origin import origin
-from bench.cli.screen import console, frame_table, shown_path
+from bench.cli.screen import console, examples, frame_table, shown_path
 from bench.errors import BadResults
 from bench.experiments.experiment import known_experiments
 from bench.tables import read as results
 from bench.tables.store import read
 
-EPILOG = """
-[b]python -m bench show[/b]  the summary of results/latest.
-
-[b]python -m bench show arms[/b]  one part of it in full.
-
-[b]python -m bench show results/mine --details[/b]  every table of another run.
-
-[b]python -m bench show --starts half-turn --regulator gibbs[/b]  the count of each outcome.
-"""
+EPILOG = examples(
+    ("The summary of results/latest", "show"),
+    ("One part of it in full", "show arms"),
+    ("Every table of another run", "show results/mine --details"),
+    ("The count of each outcome", "show --starts half-turn --regulator gibbs"),
+)
 
 
 @click.command("show", epilog=EPILOG)
