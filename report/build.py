@@ -24,6 +24,7 @@ from pathlib import Path
 
 import check_site
 
+from bench.cli.progress import progress
 from bench.tables import trust
 
 REPORT = Path(__file__).resolve().parent
@@ -158,10 +159,14 @@ def build(results: Path, cell_key: str) -> None:
         shutil.rmtree(stale, ignore_errors=True)
     CELL_KEY.write_text(cell_key, encoding="utf-8")
     strict = ["-W", "-n", "--keep-going", "-q"]
-    commands = ([sys.executable, "cells.py"], [sys.executable, "-c", JUPYTER_BOOK, "build", ".", *strict])
+    commands = {
+        "running the pages' cells": [sys.executable, "cells.py"],
+        "writing the pages": [sys.executable, "-c", JUPYTER_BOOK, "build", ".", *strict],
+    }
     log = BUILD / "build.log"
-    with log.open("w", encoding="utf-8") as output:
-        for command in commands:
+    with log.open("w", encoding="utf-8") as output, progress("pages") as steps:
+        for doing, command in commands.items():
+            steps.now(doing)
             done = subprocess.run(
                 command,
                 cwd=REPORT,

@@ -8,6 +8,7 @@ import rich_click as click
 from click.exceptions import Exit
 
 from bench.cli import options
+from bench.cli.progress import progress
 from bench.cli.screen import console, examples, frame_table
 from bench.errors import BenchError
 from bench.provenance import rounded_on
@@ -76,8 +77,8 @@ def _compare(base, head, laws, no_timing, json_file, leave) -> None:
         differences = rows.compare(Path(base), Path(head))
     else:
         wanted = gates.Wanted(timing=not no_timing)
-        with console(stderr=True).status("") as status:
-            said = gates.of_revisions(base, head, laws, wanted, lambda step: status.update(step))
+        with progress("steps", "checking out") as steps:
+            said = gates.of_revisions(base, head, laws, wanted, steps.now)
         differences = [f"{one.verdict}: {one.says}" for one in words.ordered(said)]
     for line in differences:
         console().print(line)

@@ -6,6 +6,7 @@ from click.exceptions import Exit
 
 import tasks
 from bench.cli import options
+from bench.cli.progress import progress
 from bench.cli.screen import console, examples, frame_table
 from bench.contenders import combinations
 from bench.control.registry import find_controller
@@ -38,6 +39,8 @@ EPILOG = examples(
 def COMMAND(laws, regulators, representations, jacobians, inverses, controllers, joints, arm, stages):
     """Count the operations of each law per tick: typical and worst branch, transcendental functions apart.
 
+    With --law: of that law, and of those that --regulator names.
+
     With a Jacobian, an inverse, a number of joints or an arm: of the whole controller of an arm, without what MuJoCo
     computes. A Jacobian or inverse that is not named is every one that fits. With a controller: of it in contact, on
     six joints, told to comply about x and y.
@@ -48,7 +51,8 @@ def COMMAND(laws, regulators, representations, jacobians, inverses, controllers,
         _print(_in_contact(controllers), "Operations per tick of a controller in contact", stages)
         return
     named = options.named(regulators, jacobians, inverses)
-    chosen = options.chosen(laws, named.regulators, representations, costings=True)
+    alone = named.regulators or tuple(one.name for one in options.own_laws(laws))
+    chosen = options.chosen(laws, alone, representations, costings=True)
     if joints or arm or named.jacobians or named.inverses:
         n = _joints(joints, arm)
         controllers = _controllers(chosen, named, n)
@@ -67,7 +71,7 @@ def _rows(chosen: list[Contender], arm: str = "") -> pd.DataFrame:
 
     own = tuple(dict.fromkeys(one.regulator for one in chosen if one.regulator.origin))
     plan = Plan(Settings(own=own), tuple(Unit("costs", one.name, arm=arm) for one in chosen))
-    with Sandbox(plan) as sandbox:
+    with Sandbox(plan) as sandbox, progress("laws", "counting"):
         made = [
             sandbox.rows(unit).to_pandas() if sandbox.has(unit) else rows_of(plan.settings, unit) for unit in plan.units
         ]

@@ -7,6 +7,7 @@ from pathlib import Path
 import pandas as pd
 import rich_click as click
 
+from bench.cli.progress import progress
 from bench.cli.screen import console, examples, frame_table
 from bench.errors import BadResults
 from bench.provenance import ROOT
@@ -46,7 +47,8 @@ def add(comparisons, sides, path):
         lines = [new for one, side in given for new in record.of_comparison(one, side, commit_of)]
     else:
         commit_of("HEAD")  # a clone that cannot say is refused before the minutes that measuring takes
-        measured = self_measure.measure(lambda words: console(stderr=True).print(words))
+        with progress("steps") as steps:
+            measured = self_measure.measure(steps.now)
         lines = record.of_self_measure(measured, commit_of)
         if measured.uncounted:
             console().print(measured.uncounted)
@@ -79,7 +81,8 @@ def walk(commits, path):
 
     path = path or log.LOG
     for commit in commits:
-        lines = record.of_self_measure(measure(commit, lambda words: console(stderr=True).print(words)), commit_of)
+        with progress("steps") as steps:
+            lines = record.of_self_measure(measure(commit, steps.now), commit_of)
         console().print(f"{commit}: {log.append(lines, path)} of {len(lines)} lines are new: {path}")
 
 

@@ -25,8 +25,8 @@ WORDS = 30
 class Steps:
     """What is being done, how many of how many are, and since when; the number is None while nobody can know it."""
 
-    def __init__(self, unit: str, clock: Callable[[], float] = time.monotonic):
-        self.unit, self.clock, self.doing = unit, clock, ""
+    def __init__(self, unit: str, doing: str = "", clock: Callable[[], float] = time.monotonic):
+        self.unit, self.clock, self.doing = unit, clock, doing
         self.done, self.before = 0, 0
         self.total: int | None = None
         self.began = self.counting = clock()
@@ -66,9 +66,11 @@ def _clock(seconds: float) -> str:
 
 
 @contextmanager
-def progress(unit: str, screen: Console | None = None, line_s: float = LINE_S) -> Iterator[Steps]:
+def progress(
+    unit: str, doing: str = "", screen: Console | None = None, line_s: float = LINE_S
+) -> Iterator[Steps]:
     """Shown on stderr, or another screen, until the block ends; `unit` is what is counted, as episodes."""
-    steps, screen = Steps(unit), screen or console(stderr=True)
+    steps, screen = Steps(unit, doing), screen or console(stderr=True)
     with _bar(steps, screen) if screen.is_terminal else _lines(steps, screen, line_s):
         yield steps
 
@@ -90,7 +92,7 @@ def _bar(steps: Steps, screen: Console) -> Iterator[None]:
     """A bar; while no number is known, one that moves to and fro."""
     words = TextColumn(f"{{task.description:{WORDS}}}", markup=False)
     with Progress(words, BarColumn(bar_width=16), Numbers(steps), console=screen, transient=True) as bar:
-        task = bar.add_task("", total=None)
+        task = bar.add_task(steps.doing[:WORDS], total=None)
         steps.changed = lambda: bar.update(
             task, description=steps.doing[:WORDS], completed=steps.done, total=steps.total
         )

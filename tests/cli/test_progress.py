@@ -16,7 +16,7 @@ def clock():
 
 @pytest.fixture
 def steps(clock):
-    return progress.Steps("episodes", lambda: clock[0])
+    return progress.Steps("episodes", clock=lambda: clock[0])
 
 
 def test_nothing_is_counted_before_something_is_done(clock, steps):
@@ -61,7 +61,7 @@ def test_log_never_waits_half_a_minute():
 
 
 def test_terminal_sees_the_step_and_no_number_before_there_is_one(capsys):
-    with progress.progress("episodes", Console(stderr=True, force_terminal=True, width=80)) as steps:
+    with progress.progress("episodes", screen=Console(stderr=True, force_terminal=True, width=80)) as steps:
         steps.now("compiling the laws")
     said = capsys.readouterr().err
     assert "compiling the laws" in said

@@ -9,6 +9,7 @@ from bench.cli.details import parts
 from bench.cli.options import REFERENCE
 from bench.cli.origin import origin
 from bench.cli.paragraphs import Paragraph, listed, print_paragraphs
+from bench.cli.progress import progress
 from bench.cli.screen import console, shown_path
 from bench.cli.summary import absent, answer, failures, verdicts
 from bench.findings.claims import Results
@@ -27,7 +28,7 @@ def print_summary(folder: Path, is_named: bool) -> None:
     except NoEvidence:
         print_paragraphs(absent.undecided(found))
     console().print()
-    with console(stderr=True).status("judging the paper's claims"):
+    with progress("claims", "judging the paper's claims"):
         judged = verdicts.paragraph(found)
     print_paragraphs(judged, failures.paragraph(found), *absent.paragraphs(found))
     console().print()
