@@ -138,7 +138,7 @@ def _in_contact(task: ContactTask, trial: Any, arm: str, dt: float, horizon: flo
     found = _find_arm(arm)
     refuse(task, found)
     if not isinstance(trial, Trial | None):
-        raise BadValue(f"task '{task.name}' begins at a trial, not at {trial} (try: contact_task('{task.name}').trials)")
+        raise BadValue(f"'{task.name}' begins at a trial, not at {trial} (try: contact_task('{task.name}').trials)")
     chosen = task.trials(found)[0] if trial is None else trial
     return environment(task._replace(horizon_s=horizon), found, chosen, dt, integrator)
 

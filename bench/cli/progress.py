@@ -66,9 +66,7 @@ def _clock(seconds: float) -> str:
 
 
 @contextmanager
-def progress(
-    unit: str, doing: str = "", screen: Console | None = None, line_s: float = LINE_S
-) -> Iterator[Steps]:
+def progress(unit: str, doing: str = "", screen: Console | None = None, line_s: float = LINE_S) -> Iterator[Steps]:
     """Shown on stderr, or another screen, until the block ends; `unit` is what is counted, as episodes."""
     steps, screen = Steps(unit, doing), screen or console(stderr=True)
     with _bar(steps, screen) if screen.is_terminal else _lines(steps, screen, line_s):

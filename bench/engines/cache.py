@@ -54,11 +54,11 @@ def to_itself():
         return
     try:
         FOLDER.mkdir(parents=True, exist_ok=True)
-        lock = open(FOLDER / "lock", "w", encoding="utf-8")
+        (FOLDER / "lock").touch()
     except OSError as error:
         raise MissingTool(
             f"compiled code cannot be kept in {FOLDER} ({error.strerror}); name another folder in NUMBA_CACHE_DIR"
         ) from error
-    with lock:
+    with open(FOLDER / "lock", "w", encoding="utf-8") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
         yield

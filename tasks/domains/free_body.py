@@ -23,8 +23,8 @@ from tasks.rotations import to_body
 # paper's gains stay within them (944, tasks/rules.py), and they are the mildest bound of the axis `saturation`.
 REACH = 1000.0
 MOTORS = "\n    ".join(
-    f'<motor name="u_{name}" jointinparent="ball" gear="{axis} 0 0 0" ctrlrange="-{REACH} {REACH}" ctrllimited="false"/>'
-    for name, axis in (("x", "1 0 0"), ("y", "0 1 0"), ("z", "0 0 1"))
+    f'<motor name="u_{name}" jointinparent="ball" gear="{gear}" ctrlrange="-{REACH} {REACH}" ctrllimited="false"/>'
+    for name, gear in (("x", "1 0 0 0 0 0"), ("y", "0 1 0 0 0 0"), ("z", "0 0 1 0 0 0"))
 )
 
 

@@ -4,6 +4,7 @@ import math
 
 import pandas as pd
 
+import tasks
 from bench.cli.details.episodes import OF_STARTS, settled
 from bench.findings.perturbed import FOLLOWED_RAD, went_well
 from bench.tables import read as results
@@ -17,8 +18,12 @@ IS_WITHSTOOD = (
 )
 
 
+FEW = 3
+"""Perturbations up to which each has a table of its own."""
+
+
 def tables(rows):
-    """One table."""
+    """One table; of few perturbations one more for each."""
     least = least_shares(rows)
     nobody = [axis for axis in least if not (least[axis] >= WITHSTOOD).any()]
     title = f"robustness ({OF_STARTS}; withstood: {IS_WITHSTOOD})"
@@ -26,6 +31,9 @@ def tables(rows):
     if nobody and len(nobody) < least.shape[1]:
         title += f"\nwithstood by no law, and left out on the right: {', '.join(nobody)}"
     yield title, table
+    for axis in least if least.shape[1] <= FEW else ():
+        one = tasks.axis(axis)
+        yield f"{axis} [{one.unit}], level by level ({OF_STARTS})", by_level(rows[rows["axis"] == axis])
 
 
 def summary(rows):
@@ -45,6 +53,16 @@ def summary(rows):
                 "settled least [%]": short,
             }
         )
+    return pd.DataFrame(lines)
+
+
+def by_level(rows):
+    """One line for each law, one column for each level."""
+    named = results.with_contender(rows)
+    lines = []
+    for name, own in named.groupby("contender", observed=True, sort=False):
+        shares = {f"{level:g}": settled(part) for level, part in own.groupby("level")}
+        lines.append({"law": str(name), **shares})
     return pd.DataFrame(lines)
 
 
