@@ -159,14 +159,10 @@ def build(results: Path, cell_key: str) -> None:
         shutil.rmtree(stale, ignore_errors=True)
     CELL_KEY.write_text(cell_key, encoding="utf-8")
     strict = ["-W", "-n", "--keep-going", "-q"]
-    commands = {
-        "running the pages' cells": [sys.executable, "cells.py"],
-        "writing the pages": [sys.executable, "-c", JUPYTER_BOOK, "build", ".", *strict],
-    }
+    commands = ([sys.executable, "cells.py"], [sys.executable, "-c", JUPYTER_BOOK, "build", ".", *strict])
     log = BUILD / "build.log"
-    with log.open("w", encoding="utf-8") as output, progress("pages") as steps:
-        for doing, command in commands.items():
-            steps.now(doing)
+    with log.open("w", encoding="utf-8") as output, progress("pages", "building the pages"):
+        for command in commands:
             done = subprocess.run(
                 command,
                 cwd=REPORT,

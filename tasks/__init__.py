@@ -5,7 +5,7 @@
     tasks.described(name)               what a task's file says, with no arm named
     tasks.start_set(name, count, seed)  the starts: one file each in tasks/starts
     tasks.starts_between(name, 5000, 6000, seed), tasks.start_set_length(name, count)    a stretch of many; how many
-    tasks.load("arm-regulation", start, arm="ur5e"), tasks.task("arm-regulation", "ur5e")
+    tasks.load("arm-regulation", start, arm="ur5e"), tasks.task("arm-regulation", "ur5e"); in contact tasks.load too
     tasks.start_set(name, count, seed, arm="ur5e")    one file each in tasks/arm_starts
     tasks.pairs()                       every (task, arm) there is; the arm is "" on the free body
     tasks.arm(name), tasks.arm_names()  the manipulators: one file each in tasks/arms
@@ -36,7 +36,7 @@ from tasks.arm import arm_names as arm_names
 from tasks.arm_model import Arm
 from tasks.base import ArmStartSet, ArmTask, BadValue, Start, StartSet, Task, UnknownName
 from tasks.condition import Axis
-from tasks.contact import ContactTask, Trial, refuse
+from tasks.contact import ContactTask
 from tasks.discovery import constants, pick
 from tasks.variations import VARIATIONS, Variation
 
@@ -64,10 +64,9 @@ def pairs() -> list[tuple[str, str]]:
 
 def described(name: str) -> Task | ArmTask:
     """What the file of a task says of it, whether or not it needs an arm; UnknownName lists the known ones."""
-    found = pick("task", name, constants(domains, "TASK"), "tasks/domains")
-    if isinstance(found, ContactTask):
+    if name in _contact_tasks():
         raise UnknownName(f"task '{name}' is one in contact (try: tasks.load('{name}', arm='ur5e'))")
-    return found
+    return pick("task", name, constants(domains, "TASK"), "tasks/domains")
 
 
 def task(name: str, arm: str = "") -> Task:
@@ -78,12 +77,7 @@ def task(name: str, arm: str = "") -> Task:
     """
     found = described(name)
     if isinstance(found, ArmTask):
-        if not arm:
-            listed = arm_names()
-            raise BadValue(
-                f"task '{name}' needs an arm; known: {', '.join(listed)} (try: arm='{(listed or ['ur5e'])[0]}')"
-            )
-        return found.on(_find_arm(arm))
+        return found.on(_needed(arm, name))
     if arm:
         with_arms = ", ".join(word for word, one in _tasks().items() if isinstance(one, ArmTask))
         raise BadValue(
@@ -95,52 +89,45 @@ def task(name: str, arm: str = "") -> Task:
 _find_task = task
 
 
+def _needed(arm: str, task: str) -> Arm:
+    if not arm:
+        known = arm_names()
+        raise BadValue(f"task '{task}' needs an arm; known: {', '.join(known)} (try: arm='{(known or ['ur5e'])[-1]}')")
+    return _find_arm(arm)
+
+
 def load(
     task: str | Task = "free-body",
-    start: Start | Trial | None = None,
+    start: Any = None,
     dt: float = 1e-3,
     horizon: float | None = None,
-    integrator: str = "",
+    integrator: str | None = None,
     arm: str = "",
     vary: Callable[[mujoco.MjModel], None] | None = None,
 ) -> Environment:
     """A dm_control Environment that begins every episode at `start` and lasts `horizon` seconds.
 
     Args:
-        task: name of a task, in contact too, or a Task of the caller's own.
-        start: orientation, angular velocity and goal (and on an arm the joints' state); if none is given, the first
-            start of `paper`, or on an arm of the first start set of its task. In contact a trial; if none, the first.
+        task: name of a task, also of one in contact, or a Task of the caller's own.
+        start: a Start: orientation, angular velocity and goal (and on an arm the joints' state); if none is given, the
+            first of `paper`, or on an arm of the first start set of its task. In contact a Trial, or the task's first.
         dt: control period and integration step [s].
-        horizon: length of an episode [s], a whole number of ticks after rounding; 20, or in contact the task's own.
-        integrator: "euler" (if none is named), "rk4", "implicit" or "implicitfast" (if none is named in contact).
+        horizon: length of an episode [s], a whole number of ticks after rounding: 20, or in contact the task's own.
+        integrator: "euler" (the usual one), "rk4", "implicit" or "implicitfast" (the usual one in contact).
         arm: name of the arm, if the task is for arms.
         vary: changes the compiled model before the first episode, so that the plant is not what a contestant believes.
     """
-    if touching := _contact_tasks().get(task if isinstance(task, str) else ""):
-        seconds = touching.horizon_s if horizon is None else horizon
-        made = _in_contact(touching, start, arm, dt, seconds, integrator or "implicitfast")
-        if vary:
-            vary(made.physics.model.ptr)
-        return made
-    from tasks.episode import environment  # dm_control takes a second to import; listing names must not
+    from tasks import contact_episode  # dm_control takes a second to import; listing names must not
+    from tasks.episode import environment
 
+    if isinstance(task, str) and task in _contact_tasks():
+        one = contact_task(task)
+        one = one._replace(horizon_s=one.horizon_s if horizon is None else horizon)
+        return contact_episode.environment(one, _needed(arm, task), start, dt, integrator or "implicitfast", vary=vary)
     chosen = task if isinstance(task, Task) else _find_task(task, arm)
     if start is None:
         start = start_set(chosen.start_sets[0], 1, arm=chosen.arm)[0] if chosen.arm else start_set("paper")[0]
     return environment(chosen, start, dt, 20.0 if horizon is None else horizon, integrator or "euler", vary)
-
-
-def _in_contact(task: ContactTask, trial: Any, arm: str, dt: float, horizon: float, integrator: str) -> Environment:
-    from tasks.contact_episode import environment
-
-    if not arm:
-        raise BadValue(f"task '{task.name}' needs an arm of six joints with a site 'wrist' (try: arm='ur5e')")
-    found = _find_arm(arm)
-    refuse(task, found)
-    if not isinstance(trial, Trial | None):
-        raise BadValue(f"'{task.name}' begins at a trial, not at {trial} (try: contact_task('{task.name}').trials)")
-    chosen = task.trials(found)[0] if trial is None else trial
-    return environment(task._replace(horizon_s=horizon), found, chosen, dt, integrator)
 
 
 def start_set_names(arm: bool = False) -> list[str]:

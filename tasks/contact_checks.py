@@ -34,6 +34,8 @@ def check_specification(specification: Specification) -> None:
 
 def check_trial(trial: Trial, arm: Arm) -> None:
     """BadValue if no episode of this arm can be made of a trial."""
+    if not isinstance(trial, Trial):
+        raise BadValue(f"{trial} is no trial of a task in contact (try: tasks.contact_task(name).trials(arm))")
     check_specification(trial.specification)
     what = f"trial '{trial.id}'"
     _check_numbers(f"{what}: q", trial.q, arm.joints, "rad", f", one for each joint of arm '{arm.name}'")

@@ -9,16 +9,17 @@ catches the second.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
 from tasks.arm_model import Arm
-from tasks.contact import ContactTask, Trial, leg, prepare
+from tasks.contact import ContactTask, Trial, leg, prepare, refuse
 from tasks.contact_checks import check_contact, check_trial
 from tasks.contact_model import STANDARD, ContactModel, model_xml
 from tasks.discovery import pick
-from tasks.episode import INTEGRATORS, Physics, check_clock, control, motors
+from tasks.episode import INTEGRATORS, Physics, check, control, motors
 from tasks.rules import ticks
 
 
@@ -68,21 +69,26 @@ class InContact(control.Task):
 def environment(
     task: ContactTask,
     arm: Arm,
-    trial: Trial,
+    trial: Trial | None = None,
     dt: float = 1e-3,
     integrator: str = "implicitfast",
     contact: ContactModel = STANDARD,
+    vary: Callable[[Any], None] | None = None,
 ) -> control.Environment:
-    """A dm_control Environment of one trial.
+    """A dm_control Environment of one trial, the first if none is given; `vary` as in `tasks.load`.
 
     Errors:
         BadValue: the arm cannot be set the task, or the trial or the contact model is none.
     """
-    check_clock(dt, task.horizon_s)
+    refuse(task, arm)
+    trial = task.trials(arm)[0] if trial is None else trial
+    check(dt, task.horizon_s)
     check_trial(trial, arm)
     check_contact(contact)
     physics = Physics.from_xml_string(model_xml(task, arm, dt, contact))
     physics.model.opt.integrator = pick("integrator", integrator, INTEGRATORS, "tasks/episode.py")
+    if vary:
+        vary(physics.model.ptr)
     horizon = ticks(task.horizon_s, dt)
     doing, limit = InContact(trial, horizon), (horizon - 0.5) * dt
     return control.Environment(physics, doing, time_limit=limit, control_timestep=dt, legacy_step=True)

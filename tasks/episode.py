@@ -68,17 +68,15 @@ class Physics(engine.Physics):
 
 
 def motors(physics: Physics) -> Any:
-    """One number a motor, between the ends of its ctrlrange: for an agent to draw from. The plant cuts nothing there.
+    """One number a motor within its ctrlrange, on an arm the rated torque: for agents to draw from, nothing cuts there.
 
-    On an arm these are the rated torques; a motor without a ctrlrange is unlimited, as MuJoCo says it.
-
-    Fails: without joint limits a light arm that is driven at random for seconds, or at full torque for half a second
-    (Panda), turns so fast that a step of 1 ms is too long: PhysicsError.
+    Fails: arms have no joint limits. At full torque for half a second, or at random for some, a Panda turns too fast
+    for a step of 1 ms: PhysicsError.
     """
     spec = engine.action_spec(physics)
     low, high = physics.model.actuator_ctrlrange.T
-    minimum, maximum = (np.where(low < high, ends, own) for ends, own in ((low, spec.minimum), (high, spec.maximum)))
-    return spec.replace(minimum=minimum, maximum=maximum)
+    stated = low < high
+    return spec.replace(minimum=np.where(stated, low, spec.minimum), maximum=np.where(stated, high, spec.maximum))
 
 
 class Regulation(control.Task):
@@ -123,8 +121,7 @@ def environment(
     vary: Callable[[mujoco.MjModel], None] | None = None,
 ) -> control.Environment:
     """See `tasks.load`, which takes names."""
-    check_clock(dt, horizon)
-    _check(start)
+    check(dt, horizon, start)
     physics = Physics.from_xml_string(task.xml(dt))
     physics.model.opt.integrator = pick("integrator", integrator, INTEGRATORS, "tasks/episode.py")
     _check_sensors(task, physics)
@@ -139,22 +136,20 @@ def environment(
     )
 
 
-def check_clock(dt: float, horizon: float) -> None:
-    """BadValue if they are no control period and no length of an episode [s]."""
+def check(dt: float, horizon: float, *starts: Start) -> None:
+    """BadValue if they are no control period, no length of an episode [s], or no start on a free body."""
     if not (math.isfinite(dt) and dt > 0.0):
         raise BadValue(f"dt = {dt} s is not a control period: give a finite number above 0 (try: dt=1e-3)")
     if not (math.isfinite(horizon) and horizon >= dt):
         raise BadValue(f"horizon = {horizon} s is not finite or shorter than dt = {dt} s (try: horizon=20.0)")
-
-
-def _check(start: Start) -> None:
-    for what, quat in (("quat_wxyz", start.quat_wxyz), ("goal_wxyz", start.goal_wxyz)):
-        if len(quat) != 4 or not abs(math.hypot(*quat) - 1.0) <= UNIT_NORM_TOLERANCE:
-            raise BadValue(
-                f"start '{start.id}': {what} = {tuple(quat)} is no unit quaternion wxyz (divide it by its norm)"
-            )
-    if len(start.omega) != 3 or not all(map(math.isfinite, start.omega)):
-        raise BadValue(f"start '{start.id}': omega = {tuple(start.omega)} must be three finite numbers [rad/s]")
+    for start in starts:
+        for what, quat in (("quat_wxyz", start.quat_wxyz), ("goal_wxyz", start.goal_wxyz)):
+            if len(quat) != 4 or not abs(math.hypot(*quat) - 1.0) <= UNIT_NORM_TOLERANCE:
+                raise BadValue(
+                    f"start '{start.id}': {what} = {tuple(quat)} is no unit quaternion wxyz (divide it by its norm)"
+                )
+        if len(start.omega) != 3 or not all(map(math.isfinite, start.omega)):
+            raise BadValue(f"start '{start.id}': omega = {tuple(start.omega)} must be three finite numbers [rad/s]")
 
 
 def _check_sensors(task: Task, physics: Physics) -> None:

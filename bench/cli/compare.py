@@ -19,11 +19,7 @@ from tasks.base import TaskError
 
 EPILOG = examples(
     ("Two runs, row by row", "compare results/reference results/quick"),
-    (
-        "Your files against the commit where you left main: outcomes and operations of the quick suite, then "
-        "instructions under valgrind, then time",
-        "compare",
-    ),
+    ("Your files against the commit where you left main, gate by gate", "compare"),
     ("Two commits, each checked out for as long as it takes", "compare HEAD~3 HEAD --no-timing"),
     ("Your own law, in your own repository, against it on main", "compare main --law my_law.py --summary law.md"),
     after="A law is called slower only if a Mann-Whitney test of interleaved rounds has p < 0.002, the median ratio is "

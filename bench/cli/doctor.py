@@ -6,13 +6,12 @@ import subprocess
 import sys
 import tempfile
 import tomllib
-from pathlib import Path
 
 import rich_click as click
 from click.exceptions import Exit
 from rich.text import Text
 
-from bench.cli.screen import console
+from bench.cli.screen import console, shown_path
 from bench.provenance import ROOT
 from bench.tables.schema import RESULTS
 
@@ -159,15 +158,11 @@ def _results() -> str:
         with tempfile.TemporaryFile(dir=RESULTS):
             pass
     except OSError as error:
-        cure = "give yourself the right to write there, or name another folder with --out"
-        raise RuntimeError(f"{_short(RESULTS)} cannot be written ({error.strerror}). Cure: {cure}") from error
+        cure = "give yourself the right to, or name another folder with --out"
+        raise RuntimeError(f"{RESULTS} cannot be written ({error.strerror}). Cure: {cure}") from error
     runs = [path.parent for path in sorted(RESULTS.glob("*/plan.json"))]
     found = [run.name for run in runs if (run / "provenance.json").is_file()]
-    return f"{_short(RESULTS)} is writable; finished runs: {', '.join(found) or 'none'}"
-
-
-def _short(path: Path) -> str:
-    return os.path.relpath(path)
+    return f"{shown_path(RESULTS)} is writable; finished runs: {', '.join(found) or 'none'}"
 
 
 CHECKS = {

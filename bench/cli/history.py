@@ -11,6 +11,7 @@ from bench.cli.progress import progress
 from bench.cli.screen import console, examples, frame_table
 from bench.errors import BadResults
 from bench.provenance import ROOT
+from bench.tables.schema import RESULTS
 
 EPILOG = examples(("What writes a comparison", "compare main --json comparison.json"))
 SIDES = ("head", "base")
@@ -18,7 +19,7 @@ book = click.option(
     "--file",
     "path",
     type=click.Path(path_type=Path),
-    default=None,
+    default=RESULTS / "history" / "history.jsonl",
     show_default="results/history/history.jsonl",
     metavar="FILE",
     help="The history.",
@@ -52,7 +53,6 @@ def add(comparisons, sides, path):
         lines = record.of_self_measure(measured, commit_of)
         if measured.uncounted:
             console().print(measured.uncounted)
-    path = path or log.LOG
     console().print(f"{log.append(lines, path)} of {len(lines)} lines are new: {path}")
 
 
@@ -63,7 +63,6 @@ def merge(histories, path):
     """Append the lines of other histories: of another machine, or of a branch that keeps them."""
     from bench.regression.history import log
 
-    path = path or log.LOG
     for one in histories:
         if not one.is_file():
             raise BadResults(f"{one}: there is no such file; give a history, as results/history/history.jsonl")
@@ -79,7 +78,6 @@ def walk(commits, path):
     from bench.regression.history import log, record
     from bench.regression.history.backfill import measure
 
-    path = path or log.LOG
     for commit in commits:
         with progress("steps") as steps:
             lines = record.of_self_measure(measure(commit, steps.now), commit_of)
@@ -96,7 +94,7 @@ def show(path, asv):
     from bench.regression.history.series import series
     from bench.regression.history.steps import steps
 
-    lines = log.read(path or log.LOG)
+    lines = log.read(path)
     if not lines:
         raise BadResults("the history is empty; add a build to it (try: python -m bench history add --help)")
     if asv:

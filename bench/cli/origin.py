@@ -6,9 +6,6 @@ from bench.cli.screen import counted, shown_path
 from bench.errors import BadResults
 from bench.tables.files import read_json
 
-COUNTED = ("episodes", "trials", "troubled")
-"""What ran alone, in contact and under perturbations."""
-
 NEEDED = ("suite", "episodes", "commit", "dirty", "cpu", "wall_s")
 
 
@@ -23,7 +20,7 @@ def origin(folder: Path) -> str:
     lacking = [name for name in NEEDED if name not in found]
     if lacking:
         raise BadResults(f"{path}: it lacks {', '.join(lacking)}; delete the folder and run again")
-    episodes = sum(found.get(name, 0) for name in COUNTED)
+    episodes = sum(found.get(name, 0) for name in ("episodes", "trials", "troubled"))
     changed = " with changes" if found["dirty"] else ""
     return (
         f"{shown_path(folder)}: suite {found['suite']}, {counted(episodes, 'episode')}, commit "

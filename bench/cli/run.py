@@ -24,26 +24,11 @@ EPILOG = examples(
     ("A law of your own beside ours, on free body and arms", "run --law my_law.py --suite quick --out results/mine"),
     ("The same alone, on the free body", "run --law my_law.py --regulator my-law --task free-body --out results/mine"),
     ("One controller on one arm", f"run --arm ur5e --regulator {CONTROLLER} --out results/arm"),
-    (
-        "A plant that is not the controller's model",
-        "run --arm panda --starts clear --variation mass-1.30 --out results/heavy",
-    ),
-    (
-        "A hand pressed onto a tilted plate: compliance.parquet",
-        "run --task surface-alignment --arm ur5e --controller hybrid/zyx-euler+inverse --out results/plate",
-    ),
-    (
-        "One controller in every task in contact, on dense grids of poses",
-        "run --suite full --controller impedance-geometric --out results/spring",
-    ),
-    (
-        "By eight processes, or with an address by the workers of a Dask cluster, with the same rows",
-        "run --suite full --scheduler local:8 --out results/full",
-    ),
-    (
-        "Robustness: one law under two perturbations",
-        "run --axis delay --axis half-turn-noise --regulator hybrid --count 200 --out results/late",
-    ),
+    ("A plant unlike the model", "run --arm panda --starts clear --variation mass-1.30 --out results/heavy"),
+    ("A tilted plate", "run --task surface-alignment --controller hybrid/zyx-euler+inverse --out results/plate"),
+    ("One in contact, on dense grids", "run --suite full --controller impedance-geometric --out results/spring"),
+    ("By eight processes, or by a Dask cluster", "run --suite full --scheduler local:8 --out results/full"),
+    ("Robustness", "run --axis delay --axis half-turn-noise --regulator hybrid --count 200 --out results/late"),
     after="Exit code 1: a law of yours crashed or hung, as its rows say; all others are there.",
 )
 

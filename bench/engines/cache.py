@@ -10,7 +10,6 @@ import shutil
 from pathlib import Path
 from typing import Any
 
-from bench.errors import MissingTool
 from bench.home import folder as kept_in
 from bench.provenance import source_digest
 
@@ -26,7 +25,7 @@ KEPT = 8
 
 def home() -> Path:
     """The folder that holds one cache for each state of the sources."""
-    return kept_in("XDG_CACHE_HOME") / "numba"
+    return kept_in("XDG_CACHE_HOME", ".cache") / "numba"
 
 
 def _chosen() -> Path:
@@ -52,13 +51,7 @@ def to_itself():
     if fcntl is None:
         yield
         return
-    try:
-        FOLDER.mkdir(parents=True, exist_ok=True)
-        (FOLDER / "lock").touch()
-    except OSError as error:
-        raise MissingTool(
-            f"compiled code cannot be kept in {FOLDER} ({error.strerror}); name another folder in NUMBA_CACHE_DIR"
-        ) from error
+    FOLDER.mkdir(parents=True, exist_ok=True)
     with open(FOLDER / "lock", "w", encoding="utf-8") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
         yield

@@ -12,7 +12,7 @@ from bench.home import folder
 
 def home() -> Path:
     """The folder that holds an empty file for each text, named by its SHA-256."""
-    return folder("XDG_STATE_HOME") / "laws"
+    return folder("XDG_STATE_HOME", ".local/state") / "laws"
 
 
 def mark(text: bytes) -> Path:

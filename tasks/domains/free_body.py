@@ -19,13 +19,9 @@ from __future__ import annotations
 from tasks.base import Start, Task, sensor_xml
 from tasks.rotations import to_body
 
-# The ends of a motor's ctrlrange [rad/s^2], for an agent to draw from; nothing is cut there. Spring and damping of the
-# paper's gains stay within them (944, tasks/rules.py), and they are the mildest bound of the axis `saturation`.
-REACH = 1000.0
-MOTORS = "\n    ".join(
-    f'<motor name="u_{name}" jointinparent="ball" gear="{gear}" ctrlrange="-{REACH} {REACH}" ctrllimited="false"/>'
-    for name, gear in (("x", "1 0 0 0 0 0"), ("y", "0 1 0 0 0 0"), ("z", "0 0 1 0 0 0"))
-)
+MOTORS = """<motor name="u_x" jointinparent="ball" gear="1 0 0 0 0 0"/>
+    <motor name="u_y" jointinparent="ball" gear="0 1 0 0 0 0"/>
+    <motor name="u_z" jointinparent="ball" gear="0 0 1 0 0 0"/>"""
 
 
 def xml(dt: float) -> str:
@@ -44,8 +40,9 @@ def servo_xml(dt: float, kp: float, kv: float) -> str:
 def _xml(dt: float, actuators: str) -> str:
     """The model with these elements in <actuator>.
 
-    The look: a hand with two fingers along a and coloured base axes (red x, green y, blue z), of no mass and
-    touching nothing.
+    The motors' ctrlrange [rad/s^2] is for agents to draw from, and cuts nothing: commands of the paper's gains stay
+    within it (944, tasks/rules.py). The look: a hand with two fingers along a and coloured base axes (red x, green y,
+    blue z), of no mass and touching nothing.
     """
     return f"""<mujoco model="free-body">
   <option timestep="{dt!r}">
@@ -62,6 +59,7 @@ def _xml(dt: float, actuators: str) -> str:
   </asset>
   <default>
     <geom contype="0" conaffinity="0" mass="0"/>
+    <motor ctrlrange="-1000 1000" ctrllimited="false"/>
     <default class="steel"><geom rgba=".32 .35 .40 1"/></default>
     <default class="base axis"><geom type="capsule" size=".004"/></default>
     <default class="body axis"><geom type="capsule" size=".010"/></default>

@@ -32,8 +32,12 @@ def tables(rows):
         title += f"\nwithstood by no law, and left out on the right: {', '.join(nobody)}"
     yield title, table
     for axis in least if least.shape[1] <= FEW else ():
-        one = tasks.axis(axis)
-        yield f"{axis} [{one.unit}], level by level ({OF_STARTS})", by_level(rows[rows["axis"] == axis])
+        own = results.with_contender(rows[rows["axis"] == axis]).astype({"contender": str})
+        levels = (
+            own.groupby(["contender", "level"], sort=False)[["outcome"]].apply(settled).unstack().sort_index(axis=1)
+        )
+        shown = levels.rename(columns="{:g}".format).rename_axis("law").reset_index()
+        yield f"{axis} [{tasks.axis(axis).unit}], level by level ({OF_STARTS})", shown
 
 
 def summary(rows):
@@ -53,16 +57,6 @@ def summary(rows):
                 "settled least [%]": short,
             }
         )
-    return pd.DataFrame(lines)
-
-
-def by_level(rows):
-    """One line for each law, one column for each level."""
-    named = results.with_contender(rows)
-    lines = []
-    for name, own in named.groupby("contender", observed=True, sort=False):
-        shares = {f"{level:g}": settled(part) for level, part in own.groupby("level")}
-        lines.append({"law": str(name), **shares})
     return pd.DataFrame(lines)
 
 

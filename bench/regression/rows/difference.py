@@ -89,16 +89,12 @@ def changed(table: Table, column: str, old: pd.DataFrame, new: pd.DataFrame, row
     if not picked.any():
         return []
     old, new = old[picked], new[picked]
-    was, now = ([_written(cell) for cell in frame[column]] for frame in (old, new))
+    # ten digits: 3.627, where so many ticks add up to 3.6270000000000002
+    cells = ([f"{cell:.10g}" if isinstance(cell, float) else str(cell) for cell in one[column]] for one in (old, new))
     return [
-        Difference(table.name, CHANGED, column, f"{column}: {before} -> {after}: {name}", row, before, after)
-        for name, row, before, after in zip(old.index, _words(old, table.key), was, now, strict=True)
+        Difference(table.name, CHANGED, column, f"{column}: {was} -> {now}: {name}", row, was, now)
+        for name, row, was, now in zip(old.index, _words(old, table.key), *cells, strict=True)
     ]
-
-
-def _written(cell) -> str:
-    """Of a number ten digits, more than any tolerance here: 3.627, where adding up ticks gave 3.6270000000000002."""
-    return f"{cell:.10g}" if isinstance(cell, float) else str(cell)
 
 
 Close = Callable[[str, np.ndarray, np.ndarray], np.ndarray]
