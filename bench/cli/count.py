@@ -19,9 +19,9 @@ from bench.law.contender import Contender
 EPILOG = examples(
     ("The laws alone", "count --stages"),
     ("Your own law", "count --law my_law.py"),
-    ("A controller", "count --regulator rotation-matrix --jacobian geometric --inverse solve --stages"),
+    ("A controller", "count --regulator rotation-matrix@geometric+solve --stages"),
     ("The quick suite's controllers on seven joints", "count --joints 7"),
-    ("Two in contact", "count --controller hybrid-base+inverse --controller hybrid/zyx-euler+inverse --stages"),
+    ("One in contact", "count --controller hybrid/zyx-euler+inverse --stages"),
     after="Exit code 1: a law of yours crashed or hung.",
 )
 

@@ -17,18 +17,17 @@ from bench.law.contender import Gains
 from bench.running.schedulers.words import THREADS, check_scheduler
 from bench.tables.files import read_json
 
-CONTROLLER = "feedback-linearized/zyx-euler@analytic+solve"
 EPILOG = examples(
     ("The default suite into results/latest", "run"),
-    ("One law on one engine", "run --regulator rotation-matrix --starts half-turn --engine native --out results/half"),
+    ("One law from one start set", "run --regulator gibbs --starts half-turn --out results/half"),
     ("A law of your own beside ours, on free body and arms", "run --law my_law.py --suite quick --out results/mine"),
-    ("The same alone, on the free body", "run --law my_law.py --regulator my-law --task free-body --out results/mine"),
-    ("One controller on one arm", f"run --arm ur5e --regulator {CONTROLLER} --out results/arm"),
-    ("A plant unlike the model", "run --arm panda --starts clear --variation mass-1.30 --out results/heavy"),
-    ("A tilted plate", "run --task surface-alignment --controller hybrid/zyx-euler+inverse --out results/plate"),
-    ("One in contact, on dense grids", "run --suite full --controller impedance-geometric --out results/spring"),
-    ("By eight processes, or by a Dask cluster", "run --suite full --scheduler local:8 --out results/full"),
-    ("Robustness", "run --axis delay --axis half-turn-noise --regulator hybrid --count 200 --out results/late"),
+    ("The same alone", "run --law my_law.py --regulator my-law --out results/mine"),
+    ("One controller on one arm", "run --arm ur5e --regulator rotation-matrix@geometric+solve"),
+    ("A plant that is not the controller's model", "run --arm panda --variation mass-1.30 --out results/heavy"),
+    ("A hand pressed onto a tilted plate", "run --task surface-alignment --out results/plate"),
+    ("One controller in every task in contact", "run --controller impedance-geometric --out results/spring"),
+    ("By eight processes, or with an address by a Dask cluster", "run --scheduler local:8 --suite full"),
+    ("Robustness: one law under a perturbation", "run --axis delay --regulator hybrid --out results/late"),
     after="Exit code 1: a law of yours crashed or hung, as its rows say; all others are there.",
 )
 

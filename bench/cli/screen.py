@@ -1,7 +1,6 @@
 """Printing: one console, the same width rules everywhere, plain text when the output is not a terminal."""
 
 import os
-import textwrap
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -33,12 +32,11 @@ def counted(number: int, word: str) -> str:
 
 
 def examples(*every: tuple[str, str], after: str = "") -> Text:
-    """What a command's help ends with: what each does, then its words below, broken where a shell goes on."""
+    """What a command's help ends with: what each does, and its words on a line of their own: up to 60 characters."""
     said = Text()
     for what, words in every:
-        lines = textwrap.wrap(f"python -m bench {words}", 74, break_long_words=False, break_on_hyphens=False)
-        said.append(f"{what}:\n").append(" \\\n".join(f"  {line}" for line in lines) + "\n", "bold")
-    return said.append(after) if after else said
+        said.append(f"{what}:\n").append(f"  python -m bench {words}\n", "bold")
+    return said.append(after)
 
 
 SENTENCE = 30

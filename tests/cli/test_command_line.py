@@ -83,6 +83,15 @@ def test_help_of_a_command_that_may_end_with_1_says_when(capsys, name):
     assert ("Exit code 1: " in bench(capsys, name, "--help").out) == may
 
 
+def test_examples_of_the_help_are_words_that_the_commands_take(capsys):
+    helps = [bench(capsys, *words, "--help").out for words in ((), *((name,) for name in COMMANDS))]
+    lines = [line.split()[3:] for said in helps for line in said.splitlines() if line.startswith("   python -m bench ")]
+    assert len(lines) > 20
+    for name, *words in lines:
+        assert COMMANDS[name].make_context(name, words)
+        assert len(" ".join((name, *words))) <= 60
+
+
 def test_version_is_the_one_installed(capsys):
     assert re.search(r"\d+\.\d+\.\d+", bench(capsys, "--version").out)
 

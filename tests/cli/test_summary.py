@@ -8,7 +8,7 @@ from rich.console import Console
 from support.command_line import TINY, bench, refused
 
 from bench.cli import paragraphs
-from bench.cli.details import arms, parts
+from bench.cli.details import arms, parts, robustness
 from bench.cli.options import REFERENCE
 from bench.cli.screen import frame_table
 from bench.cli.summary import absent, answer, failures, verdicts
@@ -170,6 +170,14 @@ def test_details_are_all_parts(capsys):
 def test_part_without_a_folder_is_of_the_usual_run(capsys, monkeypatch):
     monkeypatch.setenv(results.VARIABLE, str(REFERENCE))
     assert bench(capsys, "show", "contact") == bench(capsys, "show", REFERENCE, "contact")
+
+
+def test_few_perturbations_are_shown_level_by_level(tables):
+    rows = tables["robustness"]
+    (_, whole), (head, levels) = robustness.tables(rows[rows["axis"] == "half-turn-noise"])
+    assert head == "half-turn-noise [rad], level by level (a/b: a of b starts settled)"
+    assert list(levels) == ["law", "0", "0.001", "0.01", "0.03", "0.1", "0.3", "1"]
+    assert list(levels["law"]) == list(whole["law"])
 
 
 def test_part_that_a_run_lacks_is_said(capsys, finished):

@@ -107,7 +107,7 @@ def test_own_law_is_listed_with_its_file(example, capsys):
 
 
 def test_own_law_is_counted(example, capsys):
-    said = bench(capsys, "count", "--law", example, "--regulator", "my-law", "--stages")
+    said = bench(capsys, "count", "--law", example, "--stages")
     assert said.code == 0
     assert "regulate" in said.out
     assert "rotation-matrix" not in said.out

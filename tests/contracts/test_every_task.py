@@ -1,10 +1,12 @@
 """Contracts that every task in tasks/domains keeps, on every arm of tasks/arms; new files are under them unnamed."""
 
+import itertools
 import math
 
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
+from support.in_contact import ARMS
 
 import tasks
 from tasks.base import SENSORS, Start, Task
@@ -89,6 +91,20 @@ def test_reward_is_minus_the_angle_to_the_goal(task):
             Rotation.from_quat(q, scalar_first=True) for q in (environment.physics.quat_wxyz(), start.goal_wxyz)
         )
         assert reward == pytest.approx(-(goal.inv() * quat).magnitude(), abs=1e-14)
+
+
+@pytest.mark.parametrize(("name", "arm"), [*tasks.pairs(), *itertools.product(tasks.contact_names(), ARMS)])
+def test_agent_that_acts_at_random_within_the_motors_bounds_runs_on(name, arm):
+    environment = tasks.load(name, arm=arm)
+    most, random, step = environment.action_spec().maximum, np.random.default_rng(0), environment.reset()
+    assert most.tolist() == list(tasks.arm(arm).rated if arm else (1000.0,) * 3)
+    assert (environment.action_spec().minimum == -most).all()
+    for _ in range(1000):
+        step = environment.reset() if step.last() else environment.step(random.uniform(-most, most))
+        assert all(np.isfinite(seen).all() for seen in step.observation.values())
+    environment.reset()
+    environment.step(2.0 * most)
+    assert environment.physics.data.actuator_force.tolist() == (2.0 * most).tolist()  # nothing is cut
 
 
 @pytest.mark.parametrize(("dt", "horizon"), [(1e-3, 0.05), (0.1, 0.3), (0.1, 1.1), (0.1 / 3, 0.2)])
