@@ -111,11 +111,6 @@ def test_impossible_number_is_refused_in_a_dry_run_too(capsys, finished):
     refused_run(capsys, finished, "--dry-run", "--workers", "0")
 
 
-def test_law_on_the_matrix_takes_no_representation(capsys, finished):
-    line = refused_run(capsys, finished, "--regulator", "rotation-matrix/zyx-euler")
-    assert "acts on the rotation matrix and takes no representation" in line
-
-
 @pytest.mark.parametrize(
     ("words", "reason"),
     [
@@ -130,6 +125,9 @@ def test_law_on_the_matrix_takes_no_representation(capsys, finished):
             ("--regulator", "feedback-linearized/mrp@analytic-differentiated+solve"),
             "which 'mrp' does not give (try: the Jacobian analytic",
         ),
+        (("--regulator", "rotation-matrix/zyx-euler"), "acts on the rotation matrix and takes no representation"),
+        (("--regulator", "rotation-matrix", "--representation", "zyx-euler"), "no chosen law acts on zyx-euler"),
+        (("--task", "free-body", "--starts", "clear"), "takes the starts paper"),
         (("--arm", "ur5e", "--starts", "paper"), "takes the starts clear, half-turn, pole"),
         (("--arm", "ur5e", "--engine", "ideal-rk4"), "ideal-rk4 simulates free-body alone, not 'arm-regulation'"),
         (
@@ -175,11 +173,6 @@ def test_law_in_several_coordinates_is_refused_where_one_is_needed():
         find_contender("feedback-linearized")
 
 
-def test_representation_without_a_law_is_refused(capsys, finished):
-    line = refused_run(capsys, finished, "--regulator", "rotation-matrix", "--representation", "zyx-euler")
-    assert "no chosen law acts on zyx-euler" in line
-
-
 def test_same_word_twice_is_the_word_once():
     laws = [next(iter(planning.make("quick", [_rotation_matrix()]).contenders))]
     once = planning.make("quick", laws, Choice(("free-body",), ("paper",), ("native",)))
@@ -189,10 +182,3 @@ def test_same_word_twice_is_the_word_once():
 
 def _rotation_matrix():
     return find_contender("rotation-matrix")
-
-
-def test_nothing_to_run_says_which_starts_and_engines_a_task_takes():
-    with pytest.raises(Incompatible, match=r"ideal-rk4 simulates free-body alone, not 'arm-regulation'"):
-        planning.make("quick", [_rotation_matrix()], Choice(("arm-regulation",), engines=("ideal-rk4",)))
-    with pytest.raises(Incompatible, match=r"task 'free-body' takes the starts paper, .*, not clear"):
-        planning.make("quick", [_rotation_matrix()], Choice(("free-body",), ("clear",), ("native",)))

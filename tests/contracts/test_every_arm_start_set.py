@@ -117,14 +117,10 @@ def test_start_is_what_the_plant_shows_after_reset_bit_for_bit(arm, name):
 
 
 @every_set_on_every_arm
-def test_joints_begin_inside_their_ranges(arm, name):
+def test_joints_begin_inside_their_ranges_and_all_but_tumbling_at_rest(arm, name):
     starts = tasks.start_set(name, arm=arm)
     assert in_range(arm, np.array([start.q for start in starts]), 0.0 if name == "uniform" else RANGE)
-
-
-@every_set_on_every_arm
-def test_all_but_tumbling_begin_at_rest(arm, name):
-    for start in tasks.start_set(name, arm=arm):
+    for start in starts:
         assert (start.omega == AT_REST and not any(start.qdot)) == (name != "tumbling")
 
 

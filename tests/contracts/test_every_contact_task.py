@@ -90,11 +90,8 @@ def pushed(case) -> np.ndarray:
     return np.concatenate((push[:3], push[3:] + np.cross(arm, push[:3])))
 
 
-def test_name_is_the_word_of_its_file(case):
+def test_name_is_the_word_of_its_file_title_is_short_and_source_is_named(case):
     assert case.task.name == case.word
-
-
-def test_title_is_short_and_source_is_named(case):
     assert len(case.task.title) <= 60
     assert case.task.source
 

@@ -5,6 +5,7 @@ import math
 
 import numpy as np
 import pytest
+from mujoco import mjtDisableBit
 from scipy.spatial.transform import Rotation
 from support.in_contact import ARMS
 
@@ -29,14 +30,11 @@ def test_task_is_named_as_its_file(task):
     assert tasks.task(task.name, task.arm) is task
 
 
-def test_task_names_known_start_sets(task):
-    assert task.start_sets
-    assert set(task.start_sets) <= set(tasks.start_set_names(arm=bool(task.arm)))
-
-
-def test_task_says_title_and_source(task):
+def test_task_says_title_and_source_and_names_known_start_sets(task):
     assert task.title
     assert task.source
+    assert task.start_sets
+    assert set(task.start_sets) <= set(tasks.start_set_names(arm=bool(task.arm)))
 
 
 def test_task_carries_the_sensors_in_order(task):
@@ -50,16 +48,11 @@ def test_task_carries_the_sensors_in_order(task):
 
 
 @pytest.mark.parametrize("dt", [1e-3, 2e-3, 0.1 / 3.0])
-def test_task_steps_by_dt(task, dt):
+def test_task_steps_by_dt_and_never_resets_by_itself(task, dt):
     environment = tasks.load(task, dt=dt, horizon=1.0)
     assert environment.physics.timestep() == dt
     assert environment.control_timestep() == dt
-
-
-def test_task_never_resets_by_itself(task):
-    from mujoco import mjtDisableBit
-
-    assert tasks.load(task).physics.model.opt.disableflags & mjtDisableBit.mjDSBL_AUTORESET
+    assert environment.physics.model.opt.disableflags & mjtDisableBit.mjDSBL_AUTORESET
 
 
 def test_first_observation_is_the_start_and_the_ground_truth(task):
@@ -138,25 +131,17 @@ def test_same_start_gives_the_same_bits(task, integrator):
     assert np.array_equal(first[0], first[1])
 
 
-@pytest.mark.parametrize("dt", [0.0, -1e-3, math.nan, math.inf])
-def test_impossible_dt_is_refused(task, dt):
-    with pytest.raises(ValueError, match=r"dt = .* \(try: dt=1e-3\)"):
-        tasks.load(task, dt=dt)
-
-
-@pytest.mark.parametrize("horizon", [0.0, -1.0, math.nan, math.inf])
-def test_impossible_horizon_is_refused(task, horizon):
-    with pytest.raises(ValueError, match=r"horizon = .* \(try: horizon=20.0\)"):
-        tasks.load(task, horizon=horizon)
+@pytest.mark.parametrize("number", [0.0, -1e-3, math.nan, math.inf])
+@pytest.mark.parametrize(("name", "usual"), [("dt", "1e-3"), ("horizon", "20.0")])
+def test_impossible_dt_or_horizon_is_refused(task, name, usual, number):
+    with pytest.raises(ValueError, match=rf"{name} = .* \(try: {name}={usual}\)"):
+        tasks.load(task, **{name: number})
 
 
 @pytest.mark.parametrize("quat", [(2.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0), (math.nan, 0.0, 0.0, 0.0), (1.0, 0.0)])
-def test_quaternion_that_is_not_unit_is_refused(task, quat):
+def test_start_without_a_unit_quaternion_or_a_finite_velocity_is_refused(task, quat):
     for start in (Start("odd", quat), Start("odd", (1.0, 0.0, 0.0, 0.0), goal_wxyz=quat)):
         with pytest.raises(ValueError, match=r"start 'odd': .*unit quaternion"):
             tasks.load(task, start)
-
-
-def test_angular_velocity_that_is_not_finite_is_refused(task):
     with pytest.raises(ValueError, match=r"start 'odd': omega = .*finite"):
         tasks.load(task, Start("odd", (1.0, 0.0, 0.0, 0.0), omega=(0.0, math.nan, 0.0)))

@@ -5,7 +5,6 @@ import numpy as np
 import pytest
 from support.own_arm import xml
 
-import tasks
 from tasks.arm import arm, arm_names
 from tasks.arm_model import model_xml
 from tasks.base import UnknownName
@@ -18,10 +17,6 @@ def xml() -> str:
 '''
 
 
-def test_arms_of_the_issue_are_there():
-    assert {"puma560", "ur5e", "panda", "jaco"} <= set(tasks.arm_names())
-
-
 def test_names_are_file_names_with_dashes(tmp_path):
     (tmp_path / "my_arm.xml").write_text(xml())
     (tmp_path / "__init__.py").write_text("")
@@ -30,13 +25,9 @@ def test_names_are_file_names_with_dashes(tmp_path):
     assert arm("my-arm", tmp_path).name == "my-arm"
 
 
-def test_text_is_kept_as_the_file_has_it(tmp_path):
-    (tmp_path / "own.xml").write_text(xml())
-    assert arm("own", tmp_path).xml == xml()
-
-
-def test_python_file_writes_its_arm(tmp_path):
-    (tmp_path / "own.py").write_text(PYTHON_ARM.format(xml()))
+@pytest.mark.parametrize(("suffix", "text"), [("xml", xml()), ("py", PYTHON_ARM.format(xml()))])
+def test_text_is_kept_as_the_file_has_or_writes_it(tmp_path, suffix, text):
+    (tmp_path / f"own.{suffix}").write_text(text)
     assert arm("own", tmp_path).xml == xml()
 
 

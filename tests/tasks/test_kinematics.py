@@ -28,30 +28,6 @@ def rotation(quat):
     return Rotation.from_quat(quat, scalar_first=True)
 
 
-# The chain of the UR5e as in its maker's table: (offset [m], orientation wxyz, joint axis).
-UR5E = (
-    ((0, 0, 0.163), (1, 0, 0, 0), "z"),
-    ((0, 0.138, 0), (1, 0, 1, 0), "y"),
-    ((0, -0.131, 0.425), (1, 0, 0, 0), "y"),
-    ((0, 0, 0.392), (1, 0, 1, 0), "y"),
-    ((0, 0.127, 0), (1, 0, 0, 0), "z"),
-    ((0, 0, 0.1), (1, 0, 0, 0), "y"),
-)
-UR5E_TOOL = ((0, 0.1, 0), (-1, 1, 0, 0))
-
-
-def test_pose_of_ur5e_is_the_product_of_its_transformations():
-    model = kinematics(tasks.arm("ur5e"))
-    for q in poses(model, width=3.0):
-        p, R = np.zeros(3), Rotation.identity()
-        for (offset, quat, axis), angle in zip(UR5E, q, strict=True):
-            p, R = p + R.apply(offset), R * rotation(quat) * Rotation.from_euler(axis, angle)
-        p, R = p + R.apply(UR5E_TOOL[0]), R * rotation(UR5E_TOOL[1])
-        here, quat = model.pose(q)
-        np.testing.assert_allclose(here, p, rtol=0, atol=1e-14)
-        assert (R.inv() * rotation(quat)).magnitude() < 1e-14
-
-
 def test_pose_is_that_of_the_sensors_bit_for_bit(model):
     plant = mujoco.MjModel.from_xml_string(tasks.task("arm-regulation", model.arm.name).xml(1e-3))
     data = mujoco.MjData(plant)

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import tasks
 from tasks import starts
-from tasks.base import StartSet, Task
+from tasks.base import StartSet
 from tasks.discovery import constants
 
 TASK_FILE = """
@@ -54,21 +54,6 @@ def test_dropped_files_are_found_without_a_simulator_and_run(tmp_path):
     assert R == "[1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]"
     assert counts == str([8] * len(tasks.start_set_names(arm=True)))
     assert q == "(6,)"
-
-
-def test_names_are_file_names_with_dashes():
-    assert "free-body" in tasks.names()
-    assert isinstance(tasks.task("free-body"), Task)
-
-
-def test_start_sets_of_the_design_are_there():
-    known = {"paper", "uniform", "half-turn", "poles", "wraps", "box", "tumbling", "goals"}
-    assert known <= set(tasks.start_set_names())
-
-
-def test_task_of_the_callers_own_is_loaded():
-    own = tasks.task("free-body")._replace(name="own")
-    assert tasks.load(own).task.task.name == "own"
 
 
 def test_start_set_types_are_named_as_their_files():
