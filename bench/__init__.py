@@ -23,7 +23,7 @@ regression/   rows/ (two runs), revisions/ (two revisions), history/ (every buil
 studies/      scale (what many episodes cost), settings (other processors), libraries/ (other robot libraries), gates/
 cli/          the command line, one file a command
 
-Beside them errors (each says its cure), provenance (where numbers come from) and home (where caches are kept). The
-judge (plants, arms, starts, rules, truth) is the package `tasks`, which imports nothing from here; the book is
-`report`, which nothing here imports.
+Beside them errors (each says its cure) and provenance (where numbers come from, and where caches are kept). The judge
+(plants, arms, starts, rules, truth) is the package `tasks`, which imports nothing from here; the book is `report`,
+which nothing here imports.
 """

@@ -1,5 +1,6 @@
-"""Where numbers come from: sources, versions, machine, command."""
+"""Where numbers come from: sources, versions, machine, command; and where caches are kept."""
 
+import contextlib
 import functools
 import hashlib
 import importlib.metadata
@@ -7,6 +8,7 @@ import os
 import platform
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -46,6 +48,23 @@ def _digest(names: tuple[str, ...], more: str = "") -> str:
                 digest.update(path.relative_to(ROOT).as_posix().encode() + b"\0" + path.read_bytes() + b"\0")
     digest.update(more.encode())
     return digest.hexdigest()[:16]
+
+
+def kept_in(variable: str, usual: str, instead: Path = ROOT / ".home") -> Path:
+    """Our folder where a variable says, or at the usual place in HOME; else in .home of the checkout, as `make` does.
+
+    Where none of them can be written, as under `docker run --user`, a new one, for this process and those it starts.
+    """
+    named = os.environ.get(variable) or os.path.join(os.path.expanduser("~"), usual)
+    for path in (Path(named), instead / usual):
+        ours = path / "orientation-bench"
+        with contextlib.suppress(OSError):
+            if path.is_absolute():  # of a user without a name home is "~"
+                ours.mkdir(parents=True, exist_ok=True)
+            if os.access(ours, os.W_OK | os.X_OK):
+                return ours
+    os.environ[variable] = tempfile.mkdtemp(prefix="orientation-bench-")
+    return kept_in(variable, usual, instead)
 
 
 def versions() -> dict[str, str]:

@@ -10,8 +10,7 @@ import shutil
 from pathlib import Path
 from typing import Any
 
-from bench.home import folder as kept_in
-from bench.provenance import source_digest
+from bench.provenance import kept_in, source_digest
 
 fcntl: Any
 try:

@@ -7,12 +7,12 @@ is found in one runs only if this user gave the same text to `bench run --law`, 
 import hashlib
 from pathlib import Path
 
-from bench.home import folder
+from bench.provenance import kept_in
 
 
 def home() -> Path:
     """The folder that holds an empty file for each text, named by its SHA-256."""
-    return folder("XDG_STATE_HOME", ".local/state") / "laws"
+    return kept_in("XDG_STATE_HOME", ".local/state") / "laws"
 
 
 def mark(text: bytes) -> Path:

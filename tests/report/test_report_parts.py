@@ -1,12 +1,16 @@
 """What pages are made of besides the figures of results: diagrams, coordinates, cards, prices, origins, spelling."""
 
+import fnmatch
 import hashlib
+import re
 
 import build
 import numpy as np
+import pandas as pd
 import pytest
 
-from bench.contenders.registry import known_regulators
+from bench.contenders.registry import known_regulators, papers_laws
+from bench.provenance import ROOT
 from bench.tables import read
 from bench.tables.schema import RESULTS
 from report.figures.cards import regulators
@@ -112,3 +116,28 @@ def test_spelling_in_html_sets_indices_and_fractions_and_escapes_the_rest():
 @pytest.mark.parametrize(("value", "text"), [(2.3e-7, "2·10⁻⁷"), (1e6, "10⁶"), (0.034, "0.03"), (0.0, "0")])
 def test_powers_are_spelled_as_powers(value, text):
     assert spelling.power(value) == text
+
+
+def test_cards_begin_with_the_papers_laws_and_end_with_later_ones():
+    order = [one.name for one in regulators.in_order()]
+    assert order[:3] == [one.regulator.name for one in papers_laws()]
+    assert {one.later for one in known_regulators().values() if one.name == order[-1]} == {True}
+    assert len(order) == len(set(order)) >= len(known_regulators())
+
+
+def test_card_says_of_a_law_without_rows_whether_it_is_costed_only():
+    known, none = known_regulators(), pd.DataFrame({"start_set": [], "outcome": []})
+    assert regulators.measured(none, known["hybrid"]) == "Not in this run."
+    assert regulators.measured(none, known["feedback-linearized-literal"]).startswith("Its price only")
+
+
+def test_every_page_there_may_be_is_in_one_part_of_the_contents():
+    globs = re.findall(r"glob: (\S+)", (ROOT / "report" / "_toc.yml").read_text())
+    for number in range(1, 100):
+        assert sum(fnmatch.fnmatchcase(f"pages/{number:02d}-any-title", one) for one in globs) == 1, number
+
+
+def test_every_page_has_a_number_of_its_own():
+    numbers = [path.name[:3] for path in (ROOT / "report" / "pages").glob("*.md")]
+    assert all(re.fullmatch(r"\d\d-", number) for number in numbers)
+    assert len(set(numbers)) == len(numbers)

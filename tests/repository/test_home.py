@@ -7,8 +7,7 @@ import sys
 import pytest
 from support.command_line import TINY
 
-from bench.home import folder
-from bench.provenance import ROOT
+from bench.provenance import ROOT, kept_in
 
 
 @pytest.fixture
@@ -22,10 +21,10 @@ def homeless(tmp_path, monkeypatch):
 
 
 def test_folder_is_in_the_checkout_or_a_new_one_that_stays(homeless):
-    assert folder("XDG_CACHE_HOME", "cache", homeless / "there") == homeless / "there" / "cache" / "orientation-bench"
-    new = folder("XDG_STATE_HOME", "state", homeless / "home")
+    assert kept_in("XDG_CACHE_HOME", "cache", homeless / "there") == homeless / "there" / "cache" / "orientation-bench"
+    new = kept_in("XDG_STATE_HOME", "state", homeless / "home")
     assert str(new.parent) == os.environ["XDG_STATE_HOME"]  # for processes that this one starts
-    assert new == folder("XDG_STATE_HOME", "state", homeless / "home")
+    assert new == kept_in("XDG_STATE_HOME", "state", homeless / "home")
 
 
 def test_run_needs_no_home_and_makes_tools_have_one(homeless):

@@ -8,7 +8,7 @@ import pytest
 
 from bench.provenance import DECIDING, ROOT
 
-READ_ONLY = {"bench/__init__.py", "bench/home.py", "bench/provenance.py", "bench/tables/__init__.py"}
+READ_ONLY = {"bench/__init__.py", "bench/provenance.py", "bench/tables/__init__.py"}
 MODULES = """
 import sys
 from bench.experiments.experiment import known_experiments

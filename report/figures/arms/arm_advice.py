@@ -9,7 +9,6 @@ from report.figures.kit import html
 from report.figures.kit.page import ABSENT
 from report.figures.kit.share import share
 
-DAMPED = "damped-least-squares"
 FEWEST = 2
 """Ways to choose between: with fewer there is no choice to advise on."""
 
@@ -60,20 +59,3 @@ def advice(rows: pd.DataFrame) -> dict:
         "inverse_advice": f"With the inverse “{in_words(inverse)}” {whose} settles "
         f"{told(own[own['way'] == best])} and strays {html.number(1e3 * table.loc[best, 'strays'])} mm in the median."
     }
-
-
-def damping(rows: pd.DataFrame) -> dict:
-    """What damping does to turns through and past singularities, of each controller a clause."""
-    said: dict[str, str | None] = {}
-    for key, controller in (("damped_m", arm_rows.ON_MATRIX), ("damped_f", arm_rows.ON_ANGLES)):
-        ways = [arm_rows.of(rows, controller, name, "wrist") for name in (arm_rows.STANDARD, DAMPED)]
-        said[key] = None
-        if any(own.empty for own in ways):
-            continue
-        plain, damped = (100.0 * float(arm_rows.settled(own).mean()) for own in ways)
-        before, after = (html.number(1e3 * float(own["position_error_m"].median())) for own in ways)
-        said[key] = (
-            f"{plain:.0f} % settle with the plain inverse and {damped:.0f} % with damped least squares, the tool "
-            f"straying by {before} and {after} mm in the median"
-        )
-    return said

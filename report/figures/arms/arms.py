@@ -41,7 +41,6 @@ def facts(run: Run) -> dict:
     clear = rows[rows["start_set"] == "clear"]
     return {
         **arm_advice.advice(rows),
-        **arm_advice.damping(rows),
         "pole_n": len(both),
         "pole_fails": int(both["fails"].sum()),
         "pole_fails_m": int(both["fails_matrix"].sum()),
