@@ -53,7 +53,8 @@ def _digest(names: tuple[str, ...], more: str = "") -> str:
 def kept_in(variable: str, usual: str, instead: Path = ROOT / ".home") -> Path:
     """Our folder where a variable says, or at the usual place in HOME; else in .home of the checkout, as `make` does.
 
-    Where none of them can be written, as under `docker run --user`, a new one, for this process and those it starts.
+    Where none of them can be written, as under `docker run --user`, one in the temporary folder that is this user's
+    alone, for compiled code lies in it.
     """
     named = os.environ.get(variable) or os.path.join(os.path.expanduser("~"), usual)
     for path in (Path(named), instead / usual):
@@ -63,7 +64,11 @@ def kept_in(variable: str, usual: str, instead: Path = ROOT / ".home") -> Path:
                 ours.mkdir(parents=True, exist_ok=True)
             if os.access(ours, os.W_OK | os.X_OK):
                 return ours
-    os.environ[variable] = tempfile.mkdtemp(prefix="orientation-bench-")
+    own = Path(tempfile.gettempdir(), f"orientation-bench-{os.getuid()}")
+    with contextlib.suppress(FileExistsError):
+        own.mkdir(mode=0o700)
+    is_ours = own.lstat().st_uid == os.getuid() and os.access(own, os.W_OK)
+    os.environ[variable] = str(own) if is_ours else tempfile.mkdtemp(prefix="orientation-bench-")
     return kept_in(variable, usual, instead)
 
 

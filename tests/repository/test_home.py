@@ -24,6 +24,7 @@ def test_folder_is_in_the_checkout_or_a_new_one_that_stays(homeless):
     assert kept_in("XDG_CACHE_HOME", "cache", homeless / "there") == homeless / "there" / "cache" / "orientation-bench"
     new = kept_in("XDG_STATE_HOME", "state", homeless / "home")
     assert str(new.parent) == os.environ["XDG_STATE_HOME"]  # for processes that this one starts
+    assert (new.parent.stat().st_uid, new.parent.stat().st_mode & 0o777) == (os.getuid(), 0o700)
     assert new == kept_in("XDG_STATE_HOME", "state", homeless / "home")
 
 
