@@ -13,7 +13,6 @@ import threading
 import time
 from collections.abc import Callable, Iterable, Iterator
 
-LOOK_S = 0.2
 WORTH = 8
 """Contenders from which on a process more is worth its start of some seconds."""
 
@@ -71,7 +70,7 @@ def main(parent: int, names: list[str]) -> None:
 
 def _end_without(parent: int) -> None:
     while os.getppid() == parent:
-        time.sleep(LOOK_S)
+        time.sleep(0.2)
     os._exit(1)  # in the middle of a compilation; a file of the cache is there whole or not at all
 
 

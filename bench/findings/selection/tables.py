@@ -10,6 +10,7 @@ import pandas as pd
 from bench.contenders.registry import all_contenders, contenders_of
 from bench.findings.claims.adequacy import CALL_PRICE, DIRECTED, tallied
 from bench.findings.claims.tables import MAIN_ENGINE, Results, settled, some
+from bench.findings.claims.verdict import NoEvidence
 from bench.law.contender import Contender
 from bench.tables import read as published
 
@@ -75,7 +76,9 @@ def common(runs: pd.DataFrame) -> pd.DataFrame:
 
 
 def by_law(rows: pd.DataFrame, column: str, failed: float | None = None) -> dict[str, np.ndarray]:
-    """A column by law, in the order of the starts; where a law does not settle, `failed` if that is given."""
+    """A column by law in the order of starts; `failed`, if given, where none settles. NoEvidence: no such column."""
+    if column not in rows:
+        raise NoEvidence(f"the run is older than the column {column}, and says nothing of it")
     values = rows[column].astype(float) if failed is None else rows[column].where(~rows["lost"], failed)
     return {str(name): own.to_numpy() for name, own in values.groupby(rows["contender"], observed=True)}
 

@@ -17,7 +17,6 @@ from matplotlib import font_manager, rc_context
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from bench.contenders.registry import known_representations
 from bench.law import look as law_look
 from report.figures.kit import laws
 
@@ -144,12 +143,6 @@ def look(name: str) -> Look:
     word = laws.regulator_of(name)
     own = laws.regulator(word)
     return drawn(own.look) if own and own.look else spare(word)
-
-
-def look_of_coordinates(name: str) -> Look:
-    """How to draw coordinates, unknown ones included."""
-    own = known_representations().get(name)
-    return drawn(own.look) if own and own.look else spare(name)
 
 
 def drawn(words: law_look.Look) -> Look:
