@@ -114,7 +114,7 @@ def test_about_one_axis_it_is_a_recursion_of_two_numbers(condition):
 
 def test_a_bound_is_never_exceeded_and_keeps_the_direction():
     rows = ended("rotation-matrix", tasks.start_set("tumbling", 20), Condition(bound=30.0))
-    peak = FIRST_METRIC + [one.name for one in METRICS].index("peak-u")
+    peak = FIRST_METRIC + [one.column for one in METRICS].index("peak_u")
     np.testing.assert_allclose(rows[:, peak], 30.0**2, rtol=1e-14)  # all of them reach it; kept squared
     assert rigid_body.bounded((3.0, 0.0, 4.0), 1.0) == pytest.approx((0.6, 0.0, 0.8), rel=1e-15)
 
