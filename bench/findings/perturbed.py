@@ -1,4 +1,4 @@
-"""How an episode under a perturbation went, wherever it is told.
+"""Which episodes under a perturbation went well: one criterion for the summary, its tables and the book.
 
 It went well if it settled. Where the perturbation lasts after the goal is reached no body comes to rest; there it went
 well if over the last second the root mean square angle to the goal is at most FOLLOWED_RAD.
