@@ -18,6 +18,7 @@ TABLES = {
         Table("costs", other.cost_columns, (*CONTENDER, "joints", "branch", "stage")),
         Table("traces", motion.trace_columns, ("task", "arm", *CONTENDER, "engine", "start_set", "start_id", "time_s")),
         Table("boundaries", motion.boundary_columns, (*CONTENDER, "axis_x", "axis_y", "axis_z")),
+        Table("command-field", motion.field_columns, (*CONTENDER, "finding")),
         Table("poses", other.pose_columns, ("arm", "pose_set", "pose_id", "representation")),
         Table(
             "compliance",

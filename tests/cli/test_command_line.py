@@ -185,7 +185,7 @@ def test_plan_of_a_suite_takes_twelve_lines_at_most(suite):
 
 def test_plan_names_what_is_made_beside_episodes(capsys):
     said = bench(capsys, "run", "--suite", "quick", "--dry-run").out
-    assert re.search(r"^also +boundaries, costs, jacobians and traces$", said, re.MULTILINE)
+    assert re.search(r"^also +boundaries, command-field, costs, jacobians and traces$", said, re.MULTILINE)
 
 
 def test_dry_run_counts_what_a_run_then_writes(capsys, tiny_run):

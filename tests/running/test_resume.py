@@ -16,8 +16,8 @@ from bench.provenance import ROOT
 from bench.running import run as running
 
 TABLES = [
-    *("boundaries.parquet", "compliance.parquet", "costs.parquet", "episodes.parquet", "plan.json"),
-    *("poses.parquet", "provenance.json", "robustness.parquet", "traces.parquet"),
+    *("boundaries.parquet", "command-field.parquet", "compliance.parquet", "costs.parquet", "episodes.parquet"),
+    *("plan.json", "poses.parquet", "provenance.json", "robustness.parquet", "traces.parquet"),
 ]
 
 

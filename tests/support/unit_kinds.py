@@ -28,6 +28,7 @@ def plan_of_all_kinds(folder: Path) -> plan.Plan:
     made = (
         Unit("traces", "mine", "free-body", engine="ideal-rk4", count=1, horizon_s=20.0),
         Unit("boundaries", "mine", "free-body", engine="ideal-rk4", count=1, total=1, horizon_s=10.0),
+        Unit("command-field", "mine", "free-body", engine="ideal-held", count=1, total=1),
         Unit("costs", "rotation-matrix"),
         Unit("costs", "mine"),
         Unit("jacobians", arm="ur5e", count=1, total=1),

@@ -20,7 +20,7 @@ from bench.errors import BadResults
 from bench.experiments.experiment import known_tables
 from bench.regression.rows.contact import compliance, robustness
 from bench.regression.rows.difference import COLUMN, Difference, by_column, lines
-from bench.regression.rows.tables import boundaries, costs, episodes, of_key, poses, traces
+from bench.regression.rows.tables import boundaries, command_field, costs, episodes, of_key, poses, traces
 from bench.tables.column import Table
 from bench.tables.files import read_json
 from bench.tables.store import read, read_arrow
@@ -31,6 +31,7 @@ TABLES = {
     "episodes": episodes,
     "costs": costs,
     "boundaries": boundaries,
+    "command-field": command_field,
     "poses": poses,
     "compliance": compliance,
     "robustness": robustness,
