@@ -62,7 +62,7 @@ libraries: ## ask other robot libraries for orientation errors (2 GB of their ow
 libraries: $(LIBRARIES)/.made
 	@$(LIBRARIES)/bin/python -m bench.studies.libraries $(ARGS)
 
-judge:  ## judge your law against an older one of it: make judge LAW=my_law.py BASE=main (writes judge.md)
+judge:  ## your law against an older one of it: make judge LAW=my_law.py BASE=main (alone: python -m bench judge FILE)
 judge: $(READY)
 	@test -n "$$LAW" || { echo "Name your law's file: make judge LAW=my_law.py BASE=main" >&2; exit 2; }
 	@rm -f judge.md

@@ -13,12 +13,12 @@ metrics/      what is measured: motion/ along an episode, contact/ of a hand in 
               measured_compliance
 counting/     operations of the code that runs
 tables/       schema, store, files, read, statistics, lock; trust and kept_laws (laws of a results folder that may run)
-experiments/  one file an experiment: free_body, arm, contact, robustness, traces, boundaries, jacobians, costs; what
-              plans them (experiment, plan, suites, choice); rows/ (from what engines give back)
+experiments/  one file an experiment: free_body, arm, contact, robustness, traces, boundaries, command_field, jacobians,
+              costs; what plans them (experiment, plan, suites, choice); rows/ (from what engines give back)
 running/      run, run_folder (until it is finished), order, precompile, sandbox (a user's laws), wire_format,
               schedulers/ (threads, and a Dask cluster), finish (the tables)
 timing/       time per tick (pytest-benchmark)
-findings/     claims/ (the paper's sentences), selection/ (which law), theory/ (closed forms)
+findings/     claims/ (the paper's sentences), selection/ (which law), why/ (what a law does), theory/ (closed forms)
 regression/   rows/ (two runs), revisions/ (two revisions), history/ (every build)
 studies/      scale (what many episodes cost), settings (other processors), libraries/ (other robot libraries), gates/
 cli/          the command line, one file a command
