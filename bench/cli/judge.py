@@ -25,8 +25,8 @@ Against an older version of the same law: [b]make judge LAW=my_law.py BASE=main[
 ENGINE = "ideal-rk4"
 START_SETS = ("uniform", "half-turn", "tumbling", "goals")
 LIMIT_S, TRIED = 5.0, 3
-"""Seconds of processor time for a unit, ten times what a law of ours takes; and of a unit that is lost, episodes that are
-tried one by one before the rest counts as lost too."""
+"""Seconds of processor time for a unit, ten times what a law of ours takes; and episodes of a lost one that are tried
+singly before the rest counts as lost too."""
 
 
 @click.command("judge", epilog=EPILOG)

@@ -18,17 +18,7 @@ LAW_S = 0.4
 CALLS = 300_000
 """Of a law, at most."""
 
-SHOWN = {
-    "stiffness": "stiffness",
-    "damping": "damping",
-    "dead-half-turns": "dead half turns",
-    "no-number-half-turns": "no number at half turns",
-    "dead-elsewhere": "dead elsewhere",
-    "jump-half-turns": "jump at half turns",
-    "jump-elsewhere": "jump elsewhere",
-    "rest": "at rest",
-}
-"""Findings that `show` prints, and their heads."""
+SHOWN = ("stiffness", "damping", "dead-half-turns", "no-number-half-turns", "jump-half-turns", "jump-elsewhere", "rest")
 
 
 def units(asked: Asked) -> tuple[Unit, ...]:
@@ -57,14 +47,13 @@ def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
 
 
 def summary(frame: pd.DataFrame) -> pd.DataFrame:
-    """One line a law: the words of SHOWN."""
+    """One line a law: what is found of SHOWN."""
     from bench.tables.read import with_contender
 
-    counted = frame["found"].astype(str) + "/" + frame["of"].astype(str)
-    cells = frame["what"].astype(str) + (" " + counted).where(frame["found"] > 0, "")
+    counted = " " + frame["found"].astype(str) + "/" + frame["of"].astype(str)
+    cells = frame["what"].astype(str) + counted.where(frame["found"] > 0, "")
     words = with_contender(frame).assign(cell=cells).pivot(index="contender", columns="finding", values="cell")
-    words = words[list(SHOWN)].rename(columns=SHOWN).rename_axis(index="law", columns=None)
-    return words.reset_index().astype({"law": str})
+    return words[list(SHOWN)].rename_axis(index="law", columns=None).reset_index().astype({"law": str})
 
 
 EXPERIMENT = Experiment(

@@ -47,7 +47,7 @@ FAULTY = {
     "transposed": (of_product("R[i]", "goal.R[j]"), DAMPED, {"body frame", "no decay"}),
     "wrong-sign": (pulled(-0.5), DAMPED, {"wrong sign", "no decay", "pulls away"}),
     "sign-of-zero": (SIGN_OF_ZERO, DAMPED, {"sign(0)"}),
-    "off-goal": ((*pulled(0.5), "z = z + 1e-3 * gains.kp"), DAMPED, {"goal"}),
+    "off-goal": ((*pulled(0.5), "z = z + 1e-3 * gains.kp"), DAMPED, {"no rest at the goal"}),
 }
 """Law -> its spring, what it returns, and its faults, dead points apart: all but one are springs as sin(theta)."""
 
@@ -74,7 +74,7 @@ def found(tmp_path_factory):
 
 @pytest.mark.parametrize("name", FAULTY)
 def test_faulty_law_is_named_for_what_it_is(found, name):
-    assert found[name][1] - {"dead"} == FAULTY[name][2]
+    assert found[name][1] - {"dead points"} == FAULTY[name][2]
 
 
 def test_sizes_of_faults_are_those_of_the_law(found):
@@ -101,7 +101,11 @@ def test_our_own_laws_raise_no_false_alarm():
     laws = [one for one in all_contenders() if not (one.regulator.costing_only or one.regulator.control)]
     rows = {one: table[table["contender"] == one.name] for one in laws}
     faults = {one.name: {s.fault for s in sentences(rows[one], 100.0, one.regulator.property)} - {""} for one in laws}
-    singular = {"zyx-euler": {"dead"}, "xyz-euler": {"dead"}, "zyz-euler": {"dead", "singular goal"}}
+    singular = {
+        "zyx-euler": {"dead points"},
+        "xyz-euler": {"dead points"},
+        "zyz-euler": {"dead points", "singular goal"},
+    }
     assert len(laws) == 22
     assert all(len(own) == 16 for own in rows.values())
     for one in laws:

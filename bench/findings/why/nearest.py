@@ -45,7 +45,7 @@ def _line(field: pd.DataFrame, rows: pd.DataFrame) -> dict:
         DIRECTED: f"{(settles & is_half).sum()}/{is_half.sum()}",
         "median s": round(float(quantile(times, 0.5)), 3) if len(times) else np.nan,
         "peak u": round(float(rows.loc[is_uniform, "peak_u"].median()), 1),
-        "effort": round(float(rows.loc[is_uniform, "effort"].median())),
+        "effort": round(float(rows.loc[is_uniform, "effort"].median()), 1),
         **{f"{name} deg": round(float(pull.get(name, np.nan)), 3) for name in PULLS},
     }
 

@@ -21,8 +21,8 @@ def settled(rows: pd.DataFrame, declared: str) -> list[Said]:
         rows: of one law and engine. declared: its `property`; one that is "almost global" may lose half turns.
     """
     is_settled = rows["outcome"] == "settled"
-    times = rows.loc[is_settled, "settling_time_s"].to_numpy()
-    took = f"; median {quantile(times, 0.5):.3f} s" if len(times) else ""
+    times = rows.loc[is_settled & (rows["start_set"] == "uniform"), "settling_time_s"].to_numpy()
+    took = f"; median from uniform starts {quantile(times, 0.5):.3f} s" if len(times) else ""
     groups = is_settled.groupby(rows["start_set"].astype(str), sort=False)
     each = ", ".join(f"{name} {own.sum():,} of {len(own):,}" for name, own in groups)
     said = [Said(f"Settled: {each}{took}.", ENDS)]

@@ -33,7 +33,7 @@ FAILURES, JUMPS, SIGNS, SIDE, ENDS = (
 BETWEEN, WITH_MEMORY = "between", "with-memory"
 WRONG = "Near the goal its stiffness is {value} kp"
 SENTENCES = {
-    ("goal", "pushes"): ("At the goal it does not rest: |u| is {value} kp {at_goal}.", FRAMES, "goal"),
+    ("goal", "pushes"): ("At the goal it does not rest: |u| is {value} kp {at_goal}.", FRAMES, "no rest at the goal"),
     ("goal", "no-number"): ("At the goal its command is no number, {at_goal}.", FAILURES, "singular goal"),
     ("stiffness", "as-set"): ("Near the goal its stiffness is {value} kp, as the gains say.", GAINS),
     ("stiffness", "half"): (f"Half gain. {WRONG}: a factor 2 is missing, as in 2 sin(theta/2).", GAINS, "half gain"),
@@ -62,17 +62,17 @@ SENTENCES = {
     ("small-error", "does-not-decay"): ("A small error decays at {value} 1/s at the least.", GAINS, "no decay"),
     ("dead-half-turns", "*"): (
         "Dead points: {set}; |u| is at most {value} kp. Shown by {state}, where u = {u}.",
-        *(FAILURES, "dead"),
+        *(FAILURES, "dead points"),
     ),
     ("dead-half-turns", BETWEEN): (
         "Dead points between its two sides: {set}; |u| is at most {value} kp. Shown by {state}, where u = {u}. A "
         "sign(0) that is 0 does this; take 1.",
         *(SIGNS, "sign(0)"),
     ),
-    ("no-number-half-turns", "*"): ("Its command is no number at {set}. Shown by {state}.", FAILURES, "dead"),
+    ("no-number-half-turns", "*"): ("Its command is no number at {set}. Shown by {state}.", FAILURES, "dead points"),
     ("dead-elsewhere", "some"): (
         "Dead points off the half turns: {found} of {of} searches end at one. Shown by {state}, where u = {u}.",
-        *(FAILURES, "dead"),
+        *(FAILURES, "dead points"),
     ),
     ("jump-goal", "*"): ("It jumps by {value} kp at the goal itself.", SIGNS, "jump at the goal"),
     ("jump-half-turns", "jump"): (
@@ -126,7 +126,7 @@ def sentences(rows: pd.DataFrame, kp: float, declared: str) -> list[Said]:
         known = SENTENCES.get((finding, what)) or SENTENCES.get((finding, "*" if what != "none" else ""))
         if known is not None:
             text, page, *fault = known
-            is_declared = fault == ["dead"] and declared == "almost global"
+            is_declared = fault == ["dead points"] and declared == "almost global"
             said.append(Said(text.format(**_words(row, kp)), page, *([] if is_declared else fault)))
     return said
 
