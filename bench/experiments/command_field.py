@@ -53,7 +53,7 @@ def summary(frame: pd.DataFrame) -> pd.DataFrame:
     counted = " " + frame["found"].astype(str) + "/" + frame["of"].astype(str)
     cells = frame["what"].astype(str) + counted.where(frame["found"] > 0, "")
     words = with_contender(frame).assign(cell=cells).pivot(index="contender", columns="finding", values="cell")
-    return words[list(SHOWN)].rename_axis(index="law", columns=None).reset_index().astype({"law": str})
+    return words.reindex(columns=list(SHOWN)).rename_axis(index="law", columns=None).reset_index().astype({"law": str})
 
 
 EXPERIMENT = Experiment(

@@ -54,7 +54,8 @@ def tiny_run(ran):
 
 
 def test_commands_are_those_of_the_design():
-    assert set(COMMANDS) == {"list", "run", "show", "count", "time", "compare", "claims", "doctor", "trust", "history"}
+    others = {"count", "time", "compare", "judge", "claims", "doctor", "trust", "history"}
+    assert set(COMMANDS) == {"list", "run", "show"} | others
 
 
 def test_help_names_every_command(capsys):
