@@ -85,8 +85,9 @@ SENTENCES = {
         JUMPS,
     ),
     ("jump-half-turns", "unbounded"): ("Towards half turns its command grows without bound, as at {state}.", FAILURES),
+    ("jump-elsewhere", "unbounded"): ("Its command is no number, or unbounded, as at {state}.", FAILURES, "no number"),
     ("jump-elsewhere", "*"): ("It jumps by {value} kp off the half turns too, as at {state}.", COORDINATES),
-    ("away", "none"): ("At rest it pulls the short way round from all {of} states tried.", SIDE),
+    ("away", "none"): ("At rest it never pulls away from the goal ({of} states tried).", SIDE),
     ("away", "some"): ("At rest it pulls away from {found} of {of} states, most ({most} kp) from {state}.", SIDE),
     ("away", "everywhere"): ("At rest it pulls away from all {of} states tried, as {state}.", FRAMES, "pulls away"),
     ("away", "the-long-way"): ("The long way round: at rest it pulls away from all {of} states.", SIDE, "unwinding"),
@@ -96,7 +97,7 @@ SENTENCES = {
     ),
     ("carried", "turns-back"): ("Turned past a half turn it keeps its side for {value_deg} deg.", SIDE),
     ("carried", "unwinds"): ("Unwinding: turned past a half turn it pulls back all the way.", SIDE, "unwinding"),
-    ("rest", "quiet"): ("It comes to rest: there its command changes by {value} kp a tick.", ENDS),
+    ("rest", "quiet"): ("It ends quietly: its command changes by {value} kp a tick.", ENDS),
     ("rest", "chatters"): (
         "It chatters: within {least} rad of the goal its command changes by {value} kp a tick, in {found} of {of} "
         "episodes, as from {state}.",
@@ -146,7 +147,7 @@ def _words(row: dict, kp: float) -> dict[str, str]:
     """What a sentence may name."""
     found, of, what = row["found"], row["of"], str(row["what"])
     goal = tuple(row[f"goal_quat_{part}"] for part in "wxyz")
-    numbers = {name: f"{row[name]:.3g}" for name in ("value", "least", "most")}
+    numbers = {name: f"{row[name] + 0.0:.3g}" for name in ("value", "least", "most")}
     return {
         **numbers,
         "what": what,

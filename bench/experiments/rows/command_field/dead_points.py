@@ -64,14 +64,17 @@ def _searched(field: Field, seed: int) -> np.ndarray:
     f, damping, step_rad = field(q), np.full(len(q), 1e-3), 1e-7
     for _ in range(STEPS):
         aside = field(after(about(base, step_rad)[:, None], q).reshape(-1, 4)).reshape(3, -1, 3)
-        J = np.nan_to_num((aside - f) / step_rad).transpose(1, 2, 0)
-        square = np.einsum("nki,nkj->nij", J, J) + damping[:, None, None] * base
-        step = -np.linalg.solve(square, np.einsum("nki,nk->ni", J, np.nan_to_num(f))[..., None])[..., 0]
+        J = np.nan_to_num((aside - f) / step_rad, posinf=0.0, neginf=0.0).transpose(1, 2, 0)
+        square = np.einsum("nki,nkj->nij", J, J)
+        square += (damping * (np.trace(square, axis1=1, axis2=2) + 1e-12))[:, None, None] * base
+        step = -np.linalg.solve(
+            square, np.einsum("nki,nk->ni", J, np.nan_to_num(f, posinf=0.0, neginf=0.0))[..., None]
+        )[..., 0]
         length = np.linalg.norm(step, axis=1)
         there = after(about(step / np.fmax(length, 1e-300)[:, None], np.fmin(length, 0.5)), q)
         there /= np.linalg.norm(there, axis=1)[:, None]
         g = field(there)
         better = size(g) < size(f)
         q, f = np.where(better[:, None], there, q), np.where(better[:, None], g, f)
-        damping = np.clip(np.where(better, 0.1, 10.0) * damping, 1e-15, 1e6)
+        damping = np.clip(np.where(better, 0.1, 10.0) * damping, 1e-9, 1e6)
     return q

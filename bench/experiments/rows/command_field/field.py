@@ -25,7 +25,8 @@ SAME = 1e-3
 NOUGHT = 1e-9
 """|u|/kp below which a command is none: it moves a body 2e-5 rad in the longest horizon, 20 s."""
 
-COMMAND, SPEED = NUMBERS.index("u_x"), NUMBERS.index("omega_x")
+U, OMEGA = (slice(first := NUMBERS.index(name), first + 3) for name in ("u_x", "omega_x"))
+"""Of a sample."""
 
 
 class Finding(NamedTuple):
@@ -52,7 +53,7 @@ class Field:
 
     def __call__(self, quats: np.ndarray, goal: Quat = IDENTITY, omegas: np.ndarray | float = 0.0) -> np.ndarray:
         """u/kp of n quaternions (n, 4) and angular velocities (n, 3)."""
-        return self.simulated(quats, 1, goal, omegas)[:, 0, COMMAND : COMMAND + 3] / self.gains.kp
+        return self.simulated(quats, 1, goal, omegas)[:, 0, U] / self.gains.kp
 
     def simulated(self, quats, ticks: int, goal: Quat = IDENTITY, omegas: np.ndarray | float = 0.0) -> np.ndarray:
         """Samples of every tick, as `engines.curve` has them; NaN from where an episode has broken off."""
@@ -79,7 +80,8 @@ def after(p: np.ndarray, q: np.ndarray) -> np.ndarray:
 
 def size(u: np.ndarray) -> np.ndarray:
     """Lengths of commands; infinite where one is no number."""
-    return np.nan_to_num(np.linalg.norm(u, axis=-1), nan=np.inf)
+    lengths = np.linalg.norm(u, axis=-1)
+    return np.where(np.isfinite(lengths), lengths, np.inf)
 
 
 def uniform(count: int, seed: int) -> np.ndarray:

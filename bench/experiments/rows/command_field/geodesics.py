@@ -31,9 +31,9 @@ def along_geodesics(field: Field) -> Iterator[Finding]:
     axis = np.repeat(k, SAMPLES, axis=0)
     low = np.tile((np.arange(SAMPLES) + 0.5) * 2.0 * math.pi / SAMPLES, GEODESICS)
     u, home = field(about(axis, low)), np.where(low < math.pi, -1.0, 1.0)[:, None] * axis
-    pull = np.sum(u * home, axis=1)
+    pull = np.where(np.isfinite(size(u)), np.sum(u * home, axis=1), np.nan)
     found = int(np.sum(pull < -NOUGHT))
-    worst = int(np.argmin(np.where(np.isfinite(pull), pull, np.inf)))
+    worst = int(np.argmin(np.nan_to_num(pull, nan=np.inf)))
     told = {"quat": about(axis, low)[worst], "u": u[worst] * field.gains.kp, "most": -pull[worst]} if found else {}
     whole = "everywhere" if memory is None else "the-long-way"
     what = whole if found == len(pull) else "some" if found else "none"

@@ -10,12 +10,12 @@ from collections.abc import Iterator
 import numpy as np
 
 from bench.experiments.rows.command_field.field import (
-    COMMAND,
     NOUGHT,
+    OMEGA,
     SAME,
-    SPEED,
     Field,
     Finding,
+    U,
     about,
     after,
     size,
@@ -106,9 +106,8 @@ def rest(field: Field, seed: int) -> Finding:
     """How it ends from STARTS spread over SO(3): quiet, chattering at the goal, or on the move, few of them or most."""
     quats, root = uniform(STARTS, seed), math.sqrt(field.gains.kp)
     tail = field.simulated(quats, TICKS)[:, -TAIL:]
-    u, omega = (tail[:, :, first : first + 3] for first in (COMMAND, SPEED))
-    change = np.linalg.norm(np.diff(u, axis=1), axis=2).mean(axis=1) / field.gains.kp
-    speed = np.linalg.norm(omega, axis=2).max(axis=1) / root
+    change = np.linalg.norm(np.diff(tail[:, :, U], axis=1), axis=2).mean(axis=1) / field.gains.kp
+    speed = np.linalg.norm(tail[:, :, OMEGA], axis=2).max(axis=1) / root
     angle = 2.0 * np.arcsin(np.sqrt(np.clip(tail[:, :, -1].max(axis=1), 0.0, 1.0)))
     ends = {"chatters": (change > QUIET) & (angle < CLOSE_RAD), "moves": speed > STILL, "breaks-off": np.isnan(change)}
     for what, is_one in ends.items():
