@@ -9,7 +9,7 @@ from click.exceptions import Exit
 
 from bench.cli import options
 from bench.cli.paragraphs import Paragraph, print_paragraphs
-from bench.cli.screen import console, frame_table
+from bench.cli.screen import console, counted, frame_table
 
 EPILOG = """
 [b]python -m bench judge my_law.py[/b]
@@ -89,12 +89,10 @@ def told(one, tables: dict[str, pd.DataFrame], kp: float) -> list[str]:
     said = sentences.sentences(field, kp, declared) + outcomes.settled(episodes, declared)
     said += outcomes.perturbed(perturbed)
     if field.empty:
-        said.append(
-            sentences.Said("What it commands cannot be said: it crashed or hung.", sentences.FAILURES, "broken")
-        )
+        said.append(sentences.Said("Its command was not looked at: it crashed or hung.", sentences.FAILURES, "broken"))
     faults = list(dict.fromkeys(one.fault for one in said if one.fault))
     lines = {"Faults": [one for one in said if one.fault], "Otherwise": [one for one in said if not one.fault]}
-    verdict = f"{len(faults)} found: {', '.join(faults)}." if faults else "none found."
+    verdict = f"{counted(len(faults), 'fault')}: {', '.join(faults)}." if faults else "no fault found."
     console().print(f"{one.name}: {verdict}\n")
     print_paragraphs(*(Paragraph(head, tuple(f"{s.text} [{s.page}]" for s in some)) for head, some in lines.items()))
     run = table(options.REFERENCE, "episodes")

@@ -129,4 +129,4 @@ def test_bench_judge_finds_no_fault_in_a_law_that_has_none(capsys, tmp_path):
     path.write_text(text)
     said = bench(capsys, "judge", path)
     assert said.code == 0, said
-    assert said.out.startswith("mine: none found.")
+    assert said.out.startswith("mine: no fault found.")
