@@ -14,7 +14,7 @@ from bench.cli.screen import console, counted, frame_table
 EPILOG = """
 [b]python -m bench judge my_law.py[/b]
 
-Exit code 0: no fault was found. 1: a fault. 2: a mistake in what was asked, as a file that holds no law.
+Exit code 1: a fault. 2: a mistake in what was asked, as a file that holds no law.
 
 A fault is a start that is lost, a dead point, chatter or oscillation at the goal, or a stiffness or damping that is not
 what the gains say. A law whose property is "almost global" may be dead at half turns and lose starts there.
