@@ -18,7 +18,7 @@ experiments/  one file an experiment: free_body, arm, contact, robustness, trace
 running/      run, run_folder (until it is finished), order, precompile, sandbox (a user's laws), wire_format,
               schedulers/ (threads, and a Dask cluster), finish (the tables)
 timing/       time per tick (pytest-benchmark)
-findings/     claims/ (the paper's sentences), selection/ (which law), why/ (what a law does), theory/ (closed forms)
+findings/     claims/ (the paper's sentences), selection/ (which law), why (what a law does), theory/ (closed forms)
 regression/   rows/ (two runs), revisions/ (two revisions), history/ (every build)
 studies/      scale (what many episodes cost), settings (other processors), libraries/ (other robot libraries), gates/
 cli/          the command line, one file a command

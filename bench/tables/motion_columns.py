@@ -99,19 +99,12 @@ def boundary_columns() -> list[Column]:
 
 
 def field_columns() -> list[Column]:
-    """command-field.parquet: a law as a function of state, a row a finding (bench/experiments/rows/command_field.py).
-
-    Stiffness, damping and commands are shares of the gains that are set. Null where a finding has no such number, or no
-    state shows it.
-    """
+    """command-field.parquet: a law as a function of state, a row a finding (bench/experiments/command_field.py)."""
     return [
         *CONTENDER,
-        *words(
-            finding="what was looked at: the goal, stiffness, damping, dead points, jumps, pull, rest",
-            what="what it is, in a word; none if there is nothing of it",
-        ),
-        *numbers("1", "its size: share of kp or kv; of small-error 1/s, of carried rad", "value"),
-        *numbers("1", "least and most of it; of rest the angle [rad] and the speed over sqrt(kp)", "least", "most"),
+        *words(finding="what was looked at, as stiffness", what="what it is; none if there is nothing of it"),
+        *numbers("1", "its size: share of kp or kv; null if there is none", "value"),
+        *numbers("1", "least and most of it, over axes", "least", "most"),
         Column("found", COUNT, "1", "in how many states, or on how many geodesics"),
         Column("of", COUNT, "1", "of so many that were looked at"),
         *numbers("1", "orientation that shows it, unit quaternion", "quat_w", "quat_x", "quat_y", "quat_z"),

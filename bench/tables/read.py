@@ -42,9 +42,9 @@ def rows(name: str, **words: str) -> pd.DataFrame:
     return chosen(table(folder(), name), words)
 
 
-episodes, traces, costs, boundaries, command_field, poses, compliance, robustness = (
+episodes, traces, costs, boundaries, poses, compliance, robustness = (
     functools.partial(rows, name)
-    for name in ("episodes", "traces", "costs", "boundaries", "command-field", "poses", "compliance", "robustness")
+    for name in ("episodes", "traces", "costs", "boundaries", "poses", "compliance", "robustness")
 )
 
 

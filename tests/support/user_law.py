@@ -2,7 +2,7 @@
 
 LAW = """
 import math, os, sys, time
-from bench.law import Regulator, kernel, sqrt
+from bench.law import Regulator, atan2, dot, double_sine, kernel, sqrt, turn_quaternion
 
 @kernel
 def law(R, omega, goal, gains):

@@ -31,9 +31,6 @@ CURVE_KEY = TABLES["traces"].key[:-1]
 ARRIVED = 0.02
 """A curve whose angle ends below the settling band's share of where it began came to the goal."""
 
-FIELD_RELATIVE = 1e-5
-"""Central differences and bisection leave 1e-7."""
-
 POSE_RELATIVE = 1e-5
 """Single precision is 6e-8; condition numbers up to STEADY lose half the digits of the doubles they are made of."""
 
@@ -111,9 +108,8 @@ def command_field(old: pd.DataFrame, new: pd.DataFrame) -> list[Difference]:
     """Every finding's word, and its numbers where they are bounded; not the state that shows it, one of many alike."""
     table = TABLES["command-field"]
     old, new, found = aligned(table, old, new)
-    is_bounded = ~old["what"].isin(["unbounded"]) & ~old["finding"].isin(["dead-elsewhere", "small-error", "rest"])
-    kept = [*table.key, "what", "value", "least", "most"]
-    return found + compared(table, old[kept], new[kept], near(FIELD_RELATIVE, ABSOLUTE), is_bounded.to_numpy())
+    kept, is_bounded = [*table.key, "what", "value", "least", "most"], (old["what"] != "unbounded").to_numpy()
+    return found + compared(table, old[kept], new[kept], near(POSE_RELATIVE, ABSOLUTE), is_bounded)
 
 
 def traces(old: pd.DataFrame, new: pd.DataFrame) -> list[Difference]:

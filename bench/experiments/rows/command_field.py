@@ -1,0 +1,209 @@
+"""A law as a field u(R, omega), a row a finding, with the state that shows it; all laws have the same rows.
+
+Stiffness and damping are shares of the gains that are set, and so are commands: |u|/kp. They are also taken at two
+goals whose matrices are not symmetric: there a command in another frame, or a matrix read row first, differs from what
+is meant.
+
+Fails: a dead point off the half turns, and a jump that no geodesic crosses, are not seen; episodes that end at the
+first are stuck.
+"""
+
+import itertools
+import math
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import numpy as np
+
+from bench.engines.binding import memory_of
+from bench.engines.curve import NUMBERS, blank_curves
+from bench.engines.episode import Settings, blank, numbers
+from bench.engines.run import compiled_loop, evaluation
+from bench.law.contender import Contender, Gains
+from bench.law.so3 import from_quaternion
+from bench.metrics.registry import metrics_of
+from tasks.base import IDENTITY, Quat
+from tasks.rotations import multiply
+from tasks.sphere import axes
+
+ENGINE, U = "ideal-held", NUMBERS.index("u_x")
+
+NOUGHT = 1e-9
+"""|u|/kp below which a command is none: it moves a body 2e-5 rad in the longest horizon, 20 s."""
+
+GOALS = (IDENTITY, (0.8, 0.2, 0.4, 0.4), (0.4, -0.8, 0.4, 0.2))
+"""The last two lie off the singular sets of all our coordinates."""
+
+TURN_RAD, RATE = 1e-4, 1e-3
+"""Of central differences: their error is under 1e-8, rounding leaves 1e-12."""
+
+SAME, BOUNDED = 1e-3, 1e3
+"""Shares: by the first a stiffness may differ from what it is taken for; above the second it is a jump or a pole."""
+
+AXES, GEODESICS, SAMPLES, HALVINGS, PULLED = 200, 60, 48, 40, np.radians((30.0, 90.0))
+
+LEFT, POLE, BESIDE_RAD = 1e-3, 1e3, 1e-6
+"""|u|/kp that is left of a jump when its interval is 1e-13 rad long: no slope under 1e10 is taken for one; from which
+on a jump is one to infinity, of which 1e6 is seen: 8 is the most of other laws. How near to a place a jump is at it."""
+
+
+class Finding(NamedTuple):
+    """One row: what was found of what, its size, in how many states of how many, and the state that shows it."""
+
+    finding: str
+    what: str
+    value: float = math.nan
+    least: float = math.nan
+    most: float = math.nan
+    found: int = 0
+    of: int = 0
+    quat: np.ndarray | tuple = (math.nan,) * 4
+    goal: Quat = IDENTITY
+    u: np.ndarray | tuple = (math.nan,) * 3
+
+
+class Field:
+    """u(R, omega) of a law with its initial memory, by the compiled loop: its first sample of an episode."""
+
+    def __init__(self, one: Contender, gains: Gains):
+        self.one, self.gains, self.metrics = one, gains, tuple(metrics_of(on_arm=False))
+        self.law = evaluation(one), memory_of(one)
+
+    def __call__(self, quats: np.ndarray, goal: Quat = IDENTITY, omegas: np.ndarray | float = 0.0) -> np.ndarray:
+        """u/kp of n quaternions (n, 4) and angular velocities (n, 3)."""
+        starts, curves = np.ones((len(quats), 12)), blank_curves(len(quats), 1)
+        starts[:, :4], starts[:, 4:7], starts[:, 7:11] = quats, omegas, goal
+        given = numbers(Settings(self.gains, 0.001, 1, 2))
+        compiled_loop(ENGINE, self.metrics)(*self.law, starts, given, blank(len(quats), self.metrics), curves)
+        return curves.samples[:, 0, U : U + 3] / self.gains.kp
+
+
+def about(axis: np.ndarray, angle: np.ndarray | float) -> np.ndarray:
+    """Quaternions of turns about unit axes (..., 3)."""
+    half = 0.5 * np.broadcast_to(angle, axis.shape[:-1])[..., None]
+    return np.concatenate((np.cos(half), np.sin(half) * axis), axis=-1)
+
+
+def size(u: np.ndarray) -> np.ndarray:
+    """Lengths of commands; infinite where one is no number."""
+    lengths = np.linalg.norm(u, axis=-1)
+    return np.where(np.isfinite(lengths), lengths, np.inf)
+
+
+def findings(one: Contender, gains: Gains) -> Iterator[Finding]:
+    """All that is found of a law."""
+    field = Field(one, gains)
+    with np.errstate(all="ignore"):
+        yield from _near_goal(field)
+        yield from _half_turns(field)
+        yield from _along_geodesics(field)
+
+
+def _near_goal(field: Field) -> Iterator[Finding]:
+    """Whether it rests at the goal; stiffness and damping there."""
+    base, gains = np.eye(3), field.gains
+    at = np.array([field(np.array([goal]), goal)[0] for goal in GOALS])
+    worst = int(np.argmax(size(at)))
+    largest, goal = size(at)[worst], GOALS[worst]
+    what = "rests" if largest <= NOUGHT else "pushes" if np.isfinite(largest) else "no-number"
+    yield Finding("goal", what, largest, quat=goal, goal=goal, u=at[worst] * gains.kp)
+    K, D = [], []
+    for goal in GOALS:
+        sides = ([multiply(tuple(about(axis, sign * TURN_RAD)), goal) for axis in base] for sign in (1.0, -1.0))
+        up, down = (field(np.array(side), goal) for side in sides)
+        K.append((down - up).T / (2.0 * TURN_RAD))
+        beside = np.array([multiply(tuple(about(np.array((0.6, 0.0, 0.8)), TURN_RAD)), goal)] * 3)
+        up, down = (field(beside, goal, sign * RATE * base) for sign in (1.0, -1.0))
+        D.append((down - up).T * gains.kp / (2.0 * RATE * gains.kv))
+    yield _compared("stiffness", np.array(K), field.one.regulator.stiffness)
+    yield _compared("damping", np.array(D), (1.0, 1.0, 1.0))
+
+
+def _compared(finding: str, matrices: np.ndarray, declared: tuple) -> Finding:
+    """What the matrices found at GOALS are of what they should be, R_d diag(declared) R_d^T."""
+    turns = np.array([from_quaternion(goal) for goal in GOALS]).transpose(0, 2, 1)
+    wanted = turns @ np.diag(declared) @ turns.transpose(0, 2, 1)
+    off = np.nan_to_num(np.abs(matrices - wanted).max(axis=(1, 2)), nan=np.inf)
+    worst = int(np.argmax(off))
+    most, _, least = np.linalg.svd(np.nan_to_num(matrices[worst], posinf=0.0, neginf=0.0), compute_uv=False)
+    shown = {"least": least, "most": most, "goal": GOALS[worst]}
+    if off[worst] > BOUNDED:
+        return Finding(finding, "unbounded", **shown)
+    if np.abs(matrices).max() < SAME:
+        return Finding(finding, "none", 0.0, **shown)
+    for word, turned in {"": np.eye(3), "body-frame": turns.transpose(0, 2, 1), "turned-by-goal": turns}.items():
+        expected = turned @ wanted
+        share = float(np.sum(expected * matrices) / np.sum(expected * expected))
+        if np.abs(matrices - share * expected).max() >= SAME * abs(share):
+            continue
+        if word:  # at I all frames are one
+            called = "row-first" if word == "body-frame" and share < 0.0 else word
+            return Finding(finding, called, share, **shown | {"goal": GOALS[-1]})
+        near = (known for known, of in {"as-set": 1.0, "half": 0.5}.items() if abs(share - of) < 0.01)
+        return Finding(finding, next(near, "scaled" if share > 0.0 else "wrong-sign"), share, **shown)
+    return Finding(finding, "uneven" if off[0] > SAME else "uneven-elsewhere", **shown)
+
+
+def _half_turns(field: Field) -> Iterator[Finding]:
+    """Half turns where the command is none, or no number.
+
+    Their axes are those of small whole numbers, so that many lie in each base plane, and others spread over the sphere.
+    """
+    whole = [v for v in itertools.product(range(-3, 4), repeat=3) if v > (0, 0, 0) and math.gcd(*v) == 1]
+    k = np.concatenate((np.array(whole) / np.linalg.norm(whole, axis=1)[:, None], axes(AXES - len(whole))))
+    quats = about(k, math.pi) * (0.0, 1.0, 1.0, 1.0)
+    sizes = size(field(quats))
+    for finding, is_one in (("dead-half-turns", sizes <= NOUGHT), ("no-number-half-turns", ~np.isfinite(sizes))):
+        yield _largest(field, finding, _set_of(k, is_one), sizes, is_one, quats)
+
+
+def _largest(field: Field, finding: str, what: str, sizes: np.ndarray, is_one: np.ndarray, quats) -> Finding:
+    """Those states in which something is so; the one where its size is largest shows it."""
+    if not is_one.any():
+        return Finding(finding, "none", of=len(quats))
+    worst = int(np.argmax(np.where(is_one, sizes, -np.inf)))
+    shown = {"quat": quats[worst], "u": field(quats[[worst]])[0] * field.gains.kp}
+    return Finding(finding, what, sizes[worst], found=int(is_one.sum()), of=len(quats), **shown)
+
+
+def _set_of(directions: np.ndarray, is_one: np.ndarray) -> str:
+    """The word for the set that these of the axes form."""
+    if is_one.all() or not is_one.any():
+        return "every"
+    normal = np.linalg.svd(directions[is_one])[2][-1]
+    if is_one.sum() > 3 and (is_one == (np.abs(directions @ normal) < NOUGHT)).all():
+        axis = int(np.argmax(np.abs(normal)))
+        return "plane-" + "xyz"[axis] if abs(normal[axis]) > 1.0 - NOUGHT else "plane"
+    return "some"
+
+
+def _along_geodesics(field: Field) -> Iterator[Finding]:
+    """Closed ones through the goal: where it pulls away, and jumps (by halving intervals); how hard at PULLED."""
+    k, step = axes(GEODESICS), 2.0 * math.pi / SAMPLES
+    axis, low = np.repeat(k, SAMPLES, axis=0), np.tile((np.arange(SAMPLES) + 0.5) * step, GEODESICS)
+    high = low + step
+    at_low, at_high = field(about(axis, low)), field(about(axis, high))
+    pull = np.nan_to_num(np.sum(at_low * axis, axis=1) * np.where(low < math.pi, -1.0, 1.0))
+    yield _largest(field, "away", "some", -pull, pull < -NOUGHT, about(axis, low))
+    for _ in range(HALVINGS):
+        middle = 0.5 * (low + high)
+        at = field(about(axis, middle))
+        first = size(at - at_low) >= size(at_high - at)
+        low, high = np.where(first, low, middle), np.where(first, middle, high)
+        at_low, at_high = np.where(first[:, None], at_low, at), np.where(first[:, None], at, at_high)
+    angle = np.remainder(low, 2.0 * math.pi)
+    before, behind = (field(about(axis, angle + sign * BESIDE_RAD)) for sign in (-1.0, 1.0))
+    change = size(at_high - at_low)
+    change = np.where(np.isfinite(change), change, size(behind - before))  # no number right there
+    from_goal = np.minimum(angle, 2.0 * math.pi - angle)
+    places = {"goal": from_goal < BESIDE_RAD, "half-turns": from_goal > math.pi - BESIDE_RAD}
+    places["elsewhere"] = ~(places["goal"] | places["half-turns"])
+    for place, is_there in places.items():
+        there = np.where(is_there, change, 0.0).reshape(GEODESICS, SAMPLES)
+        at, sizes = there.argmax(axis=1) + SAMPLES * np.arange(GEODESICS), there.max(axis=1)
+        what = "unbounded" if sizes.max() > POLE else "jump"
+        yield _largest(field, f"jump-{place}", what, sizes, sizes > LEFT, about(axis[at], angle[at]))
+    pulls = np.array([np.sum(field(about(k, angle)) * -k, axis=1) for angle in PULLED])
+    # theta is 2 atan2(|eps|, eta), or atan2(sin, cos): with exchanged arguments it is one of these less theta
+    is_swapped = any(np.abs(pulls - (wrong - PULLED)[:, None]).max() < 0.01 for wrong in (math.pi, 0.5 * math.pi))
+    yield Finding("pull", "swapped" if is_swapped else "some", pulls[-1].mean(), pulls[-1].min(), pulls[-1].max())

@@ -1,0 +1,209 @@
+"""Why a law does what it does: a sentence for each thing found of it, with the state that shows it and its page.
+
+A fault is a sentence that names one. Dead points, and places where the command is no number, are none of a law whose
+`property` is "almost global", which says as much: they are told.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+import pandas as pd
+
+import tasks
+from bench.contenders.registry import known_regulators
+from bench.findings.selection.needs import CHATTER
+from bench.tables.statistics import quantile
+
+
+class Said(NamedTuple):
+    """A sentence, the page that explains it, and the word of the fault that it names; empty if it names none."""
+
+    text: str
+    page: str
+    fault: str = ""
+
+
+GAINS, FRAMES, COORDINATES = "03-regulators", "01-problem-and-plant", "02-representations"
+FAILURES, JUMPS, SIGNS, SIDE = "06-failure-map", "20-half-turn-noise", "25-libraries", "15-comparison"
+ENDS, ROBUSTNESS = "30-method", "16-robustness"
+
+WRONG = "Near the goal its stiffness is {value} kp"
+BASE = "as {at_goal}; R_d^T R and R^T R_d give a vector in the body's axes, u is wanted in the base frame"
+COLUMNS = "as {at_goal}, that of the transposed matrices; R has columns n, o, a"
+SHOWN = "Shown by {state}, where u = {u}."
+SWAPPED = "it pulls as pi - theta or pi/2 - theta does, {value} kp at 90 deg"
+SENTENCES = {
+    "goal": {
+        "pushes": ("At the goal it does not rest: |u| is {value} kp {at_goal}.", FRAMES, "no rest at the goal"),
+        "no-number": ("At the goal its command is no number, {at_goal}.", FAILURES, "singular goal"),
+    },
+    "stiffness": {
+        "as-set": (f"{WRONG}, as the gains say.", GAINS),
+        "half": (f"Half gain. {WRONG}: a factor 2 is missing, as in 2 sin(theta/2).", GAINS, "half gain"),
+        "scaled": (f"Wrong gain. {WRONG}.", GAINS, "wrong gain"),
+        "wrong-sign": (f"Wrong sign. {WRONG}; R R_d^T in place of R_d R^T has it.", FRAMES, "wrong sign"),
+        "body-frame": (f"Transposed, or in body axes. {WRONG} R_d^T, {BASE}: multiply by R.", FRAMES, "body frame"),
+        "row-first": (f"Row first. {WRONG} R_d^T, {COLUMNS}: R[i][j] is row j of column i.", FRAMES, "row first"),
+        "turned-by-goal": (f"Wrong frame. {WRONG} R_d, as {{at_goal}}.", FRAMES, "wrong frame"),
+        "none": ("No stiffness: near the goal it does not pull.", GAINS, "no stiffness"),
+        "unbounded": ("Near the goal its stiffness has no bound, {at_goal}.", COORDINATES, "singular goal"),
+        "uneven": ("Stiffness differs by axis: {least} to {most} kp, {at_goal}.", GAINS, "uneven stiffness"),
+        "uneven-elsewhere": ("Its stiffness is kp at R_d = I, {least} to {most} kp {at_goal}.", COORDINATES),
+    },
+    "damping": {
+        "as-set": ("Its damping is {value} kv.", GAINS),
+        "none": ("Undamped: its command does not depend on omega.", GAINS, "undamped"),
+        "wrong-sign": ("Its damping has the wrong sign, {value} kv: it drives.", GAINS, "wrong damping"),
+        "uneven-elsewhere": ("Its damping is kv at R_d = I, {least} to {most} kv {at_goal}.", COORDINATES),
+        "*": ("Wrong damping, {what}: {least} to {most} kv, {at_goal}.", GAINS, "wrong damping"),
+    },
+    "dead-half-turns": {
+        "*": (f"Dead points: {{set}}; |u| is at most {{value}} kp. {SHOWN}", FAILURES, "dead points"),
+        "between": (f"Dead points at {{set}}, between two sides: take 1 for sign(0), not 0. {SHOWN}", SIGNS, "sign(0)"),
+    },
+    "no-number-half-turns": {"*": (f"Its command is no number at {{set}}. {SHOWN}", FAILURES, "dead points")},
+    "jump-goal": {"*": ("It jumps by {value} kp at the goal itself.", SIGNS, "jump at the goal")},
+    "jump-half-turns": {
+        "jump": ("At half turns it jumps by {value} kp, as {state}: noise can hold it there.", JUMPS),
+        "unbounded": ("Towards half turns its command grows without bound, as at {state}.", FAILURES),
+    },
+    "jump-elsewhere": {
+        "unbounded": ("Its command is no number, or unbounded, as at {state}.", FAILURES, "no number"),
+        "*": ("It jumps by {value} kp off the half turns too, as at {state}.", COORDINATES),
+    },
+    "away": {"some": ("At rest it pulls away from {found} of {of} states, as from {state}, where u = {u}.", SIDE)},
+    "pull": {"swapped": (f"Exchanged arguments of atan2: {SWAPPED}.", SIGNS, "swapped atan2")},
+}
+"""Finding -> what -> sentence, page, and the fault if it is one; * is any other word that says there is something."""
+
+SETS = {"every": "every half turn ({found} of {of} axes tried)", "plane": "half turns about axes in one plane"}
+SETS |= {f"plane-{axis}": f"half turns about axes normal to {axis}" for axis in "xyz"}
+
+WITHSTOOD, MOST, NEAR_RAD = 0.95, 3, 0.01
+"""Share of its starts that a law settles at every level of a perturbation that it withstands. Laws shown beside it.
+From a half turn: what lies nearer, a law that is "almost global" may lose. Paielli and Bach's does, to 0.005 rad."""
+
+FAULTS = {"oscillating": "oscillation", "creeping": "creeping", "stuck": "dead points"}
+"""Of an outcome; of any other the starts are lost."""
+
+
+def sentences(rows: pd.DataFrame, declared: str) -> list[Said]:
+    """What its rows of command-field.parquet say of a law; declared: its `property`."""
+    if rows.empty:
+        return [Said("Its command was not looked at: it crashed or hung.", FAILURES, "broken")]
+    whats, said = dict(zip(rows["finding"].astype(str), rows["what"].astype(str), strict=True)), []
+    if whats["dead-half-turns"] != "none" == whats["no-number-half-turns"] and whats["jump-half-turns"] == "jump":
+        whats["dead-half-turns"] = "between"
+    for row, (finding, what) in zip(rows.to_dict("records"), whats.items(), strict=True):
+        known = SENTENCES[finding].get(what) or SENTENCES[finding].get("*" if what != "none" else "")
+        if known is not None:
+            text, page, *fault = known
+            is_declared = fault == ["dead points"] and declared == "almost global"
+            said.append(Said(text.format(**_words(row)), page, *([] if is_declared else fault)))
+    return said
+
+
+def ends(rows: pd.DataFrame, declared: str) -> list[Said]:
+    """How its episodes by one engine end: settled a of b, the first start of each other outcome, and how it rests."""
+    is_settled, sets = rows["outcome"] == "settled", rows["start_set"].astype(str)
+    each = (f"{name} {own.sum():,} of {len(own):,}" for name, own in is_settled.groupby(sets, sort=False))
+    said = [Said(f"Settled: {', '.join(each)}.", ENDS)]
+    is_known = (rows["angle0_rad"] > math.pi - NEAR_RAD) & (declared == "almost global")
+    lost = rows[~is_settled]
+    for (known, outcome), own in lost.groupby([is_known, lost["outcome"].astype(str)], sort=False):
+        text = f"Not settled, {outcome}: {_counts(own)}."
+        said.append(Said(text, FAILURES, "" if known else FAULTS.get(outcome, "lost starts")))
+    settled = rows[is_settled]
+    chatters, quiet = (
+        settled[is_one] for is_one in (settled["rest_change"] > CHATTER, settled["rest_change"] <= CHATTER)
+    )
+    change = f"at rest its command changes by {settled['rest_change'].max():.3g} rad/s² from tick to tick"
+    if len(chatters):
+        said.append(Said(f"Chatter: {change}, a quiet one's by {CHATTER:g}: {_counts(chatters)}.", ENDS, "chatter"))
+    elif len(quiet):
+        said.append(Said(f"Quiet: {change}.", ENDS))
+    uniform = quiet[quiet["start_set"] == "uniform"]
+    long_way = uniform[uniform["path_ratio"] * uniform["angle0_rad"] > math.pi]
+    if 2 * len(long_way) > len(uniform):
+        text = f"Unwinding: it turns by more than 180 deg from {_counts(long_way)}; {len(uniform)} settle."
+        said.append(Said(text, SIDE, "unwinding"))
+    return said
+
+
+def perturbed(rows: pd.DataFrame) -> list[Said]:
+    """Which perturbation breaks it first: the fewest levels from the nominal one, or the first."""
+    if rows.empty:
+        return []
+    shares = (rows["outcome"] == "settled").groupby([rows["axis"].astype(str), rows["level"]], sort=False).mean()
+    names, broken = {name for name, _ in shares.index}, []
+    for (name, level), share in shares[shares < WITHSTOOD].items():
+        one = tasks.axis(name)
+        nominal = one.levels.index(one.nominal) if one.nominal in one.levels else -1
+        broken.append((abs(one.levels.index(level) - nominal), share, name, f"{level:g} {one.unit}"))
+    text = f"Of {len(names)} perturbations it withstands {len(names - {name for _, _, name, _ in broken})}."
+    if broken:
+        _, share, name, level = min(broken)
+        text += f" What breaks it first is {name}: at {level} it settles {share:.0%} of its starts."
+    return [Said(text, ROBUSTNESS)]
+
+
+def beside(field: pd.DataFrame, episodes: pd.DataFrame, run_field: pd.DataFrame, run: pd.DataFrame) -> pd.DataFrame:
+    """A law and the MOST laws of a run nearest to it, a line each, from the starts that both were asked.
+
+    Near is the pull at 90 degrees [kp], and the median settling time as a logarithm; run: by the law's own engine.
+    """
+    lines, pulls = [_line(field, episodes)], dict(iter(run_field.groupby("contender")))
+    for name, own in run[run["start_id"].isin(episodes["start_id"])].groupby(run["contender"].astype(str), sort=False):
+        regulator = known_regulators().get(str(name).partition("/")[0])
+        if regulator is not None and not regulator.control and name in pulls:
+            lines.append(_line(pulls[name], own))
+    laws = pd.DataFrame(lines)
+    apart = [(x - x[0]).pow(2).fillna(100.0) for x in (laws["pull at 90 deg"], np.log(laws["median s"]))]
+    return laws.iloc[np.argsort(sum(apart), kind="stable")[: MOST + 1]]
+
+
+def _line(field: pd.DataFrame, rows: pd.DataFrame) -> dict:
+    """What is shown of a law."""
+    settles, sets = rows["outcome"] == "settled", rows["start_set"]
+    uniform, times = rows[sets == "uniform"], rows.loc[settles & (sets == "uniform"), "settling_time_s"].to_numpy()
+    return {
+        "law": str(rows["contender"].iloc[0]),
+        **{name: f"{settles[sets == name].sum()}/{(sets == name).sum()}" for name in ("uniform", "half-turn")},
+        "median s": round(float(quantile(times, 0.5)), 3) if len(times) else np.nan,
+        **{name.replace("_", " "): round(float(uniform[name].median()), 1) for name in ("peak_u", "effort")},
+        "pull at 90 deg": round(float(field.loc[field["finding"] == "pull", "value"].iloc[0]), 3),
+    }
+
+
+def _counts(rows: pd.DataFrame) -> str:
+    """How many starts of each set, and the first."""
+    counts, first = rows["start_set"].astype(str).value_counts(), rows.iloc[0]
+    each = ", ".join(f"{count:,} {name}" for name, count in counts.items())
+    return f"{each}, as {first['start_id']} (w x y z = {vector(first[f'quat_{part}'] for part in 'wxyz')})"
+
+
+def _words(row: dict) -> dict[str, str]:
+    """What a sentence may name."""
+    found, of, what = row["found"], row["of"], str(row["what"])
+    goal = tuple(row[f"goal_quat_{part}"] for part in "wxyz")
+    return {
+        **{name: f"{row[name] + 0.0:.3g}" for name in ("value", "least", "most")},
+        **{"what": what, "found": f"{found:,}", "of": f"{of:,}"},
+        "set": SETS.get(what, "{found} of {of} half turns tried").format(found=found, of=of),
+        "at_goal": "at R_d = I" if goal[0] == 1.0 else f"at R_d = {vector(goal)} (w x y z)",
+        "state": _state([row[f"quat_{part}"] for part in "wxyz"]),
+        "u": f"{vector([row[f'u_{axis}'] for axis in 'xyz'])} rad/s²",
+    }
+
+
+def _state(quat_wxyz: list[float]) -> str:
+    """An orientation as a turn from the goal I: its angle and axis."""
+    w, *v = (math.copysign(1.0, quat_wxyz[0]) * part for part in quat_wxyz)
+    size = math.hypot(*v)
+    return f"{math.degrees(2.0 * math.atan2(size, w)):.7g} deg about {vector(part / (size or 1.0) for part in v)}"
+
+
+def vector(numbers) -> str:
+    """Some numbers in brackets."""
+    return f"({', '.join(f'{number + 0.0:.4g}' for number in numbers)})"
