@@ -33,7 +33,7 @@ BASE = "as {at_goal}; R_d^T R and R^T R_d give a vector in the body's axes, u is
 COLUMNS = "as {at_goal}, that of the transposed matrices; R has columns n, o, a"
 SHOWN = "Shown by {state}, where u = {u}."
 SWAPPED = "it pulls as pi - theta or pi/2 - theta does, {value} kp at 90 deg"
-SENTENCES = {
+SENTENCES: dict[str, dict[str, tuple[str, ...]]] = {
     "goal": {
         "pushes": ("At the goal it does not rest: |u| is {value} kp {at_goal}.", FRAMES, "no rest at the goal"),
         "no-number": ("At the goal its command is no number, {at_goal}.", FAILURES, "singular goal"),
