@@ -143,8 +143,9 @@ def perturbed(rows: pd.DataFrame) -> list[Said]:
         broken.append((abs(one.levels.index(level) - nominal), share, name, f"{level:g} {one.unit}"))
     text = f"Of {len(names)} perturbations it withstands {len(names - {name for _, _, name, _ in broken})}."
     if broken:
-        _, share, name, level = min(broken)
-        text += f" What breaks it first is {name}: at {level} it settles {share:.0%} of its starts."
+        off, share, name, level = min(broken)
+        where = f"at {level}" if off else f"without it already ({level})"
+        text += f" What breaks it first is {name}: {where} it settles {share:.0%} of its starts."
     return [Said(text, ROBUSTNESS)]
 
 

@@ -73,6 +73,19 @@ def test_law_that_base_lacks_is_new_and_one_that_head_lacks_a_mistake(user, fail
         gates.of_revisions("HEAD", "HEAD~1", (user,), by=by)
 
 
+def test_law_that_base_cannot_load_is_judged_as_new(user, failing):
+    user.write_text("REGULATOR = None\n")
+    subprocess.run(["git", *AS_NOBODY, "-C", user.parent, "commit", "-qam", "broken"], check=True)
+    user.write_text(LAW)
+    by = failing(0)._replace(
+        running=lambda asked: contextlib.nullcontext(list(asked)),
+        measured=lambda processes, *rest: ([], [], [len(processes)]),
+    )
+    said = gates.of_revisions("HEAD", None, (user,), by=by)
+    assert said.gates[0].says.startswith("base's does not load (--law law.py: it has no REGULATOR;")
+    assert said.benchmarks == (1,)
+
+
 def test_runs_of_two_schemas_are_a_regression_and_no_mistake(user, failing, finished):
     (finished / "robustness.parquet").unlink()
     said = gates.of_revisions("HEAD", None, (user,), by=failing(0))

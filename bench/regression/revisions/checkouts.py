@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from bench.contenders.described_law import described
-from bench.errors import BadResults
+from bench.errors import BadLaw, BadResults
 from bench.provenance import ROOT
 from bench.regression.revisions.commits import WORKING_TREE, commit_of, repository, worktree
 from bench.regression.revisions.process import Laws
@@ -24,7 +24,8 @@ DIGEST = "from bench.provenance import source_digest; print(source_digest())"
 class Checkout(NamedTuple):
     """A side: what it is called, the benchmark's sources, and the user's law files that are there.
 
-    own: whether only the user's laws are judged, by one and the same benchmark.
+    own: whether only the user's laws are judged, by one and the same benchmark. broken: why a law file of base counts
+    as not being there.
     """
 
     name: str
@@ -33,6 +34,7 @@ class Checkout(NamedTuple):
     laws: tuple[Path, ...]
     own: bool
     sources: str
+    broken: str = ""
 
     @property
     def is_new(self) -> bool:
@@ -56,7 +58,19 @@ def checkouts(base: str, head: str | None, laws: tuple[Path, ...]) -> Iterator[t
     """
     folder = repository(laws)
     with contextlib.ExitStack() as stack:
-        yield (_checkout(stack, folder, base, laws), _checkout(stack, folder, head, laws))
+        yield (_that_load(_checkout(stack, folder, base, laws)), _checkout(stack, folder, head, laws))
+
+
+def _that_load(base: Checkout) -> Checkout:
+    """Base without the law files that do not load there: head mends them, and its laws are judged as new ones."""
+    loading, broken = [], ""
+    for law in base.laws:
+        try:
+            described(law)
+            loading.append(law)
+        except BadLaw as error:
+            broken = str(error).replace(f"{law}", law.name)
+    return base._replace(laws=tuple(loading), broken=broken)
 
 
 def _checkout(stack: contextlib.ExitStack, folder: Path, revision: str | None, laws: tuple[Path, ...]) -> Checkout:

@@ -105,7 +105,8 @@ def _by_rows(old: Checkout, new: Checkout, told: Told, by: Means) -> tuple[list[
     if old.is_new:
         with by.finished_run(new, told) as run:
             counted, found = self_measure.by_law(read(run, "costs")), exact.lost(run)
-        says = "the law is new: there is nothing to compare it with"
+        says = f"base's does not load ({old.broken})" if old.broken else "the law is new"
+        says += ": there is nothing to compare it with"
         gates = _gates(found, (EXACT,)) if found else [Gate(EXACT, SKIPPED, says)]
         return [*gates, Gate(OPERATIONS, SKIPPED, says)], found, ({}, counted)
     if old.sources == new.sources and not new.own:

@@ -14,6 +14,7 @@ from pygments.lexers import PythonLexer
 
 from bench.contenders import regulators
 from bench.contenders.registry import contenders_of, known_regulators, papers_laws
+from bench.findings import why
 from bench.law.contender import Contender, Regulator
 from bench.tables import read
 from report.figures.cards.card_map import MOST_SETTLED, card_map
@@ -94,6 +95,13 @@ def measured(episodes: pd.DataFrame, regulator: Regulator) -> str:
     return f"{found} of {html.number(len(uniform))} uniform starts settle{pace}."
 
 
+def found_of(one: Contender, run: Run) -> str:
+    """What its command is as a function of state."""
+    rows = run.rows("command-field", contender=one.name)
+    said = why.sentences(rows, one.regulator.property) if len(rows) else []
+    return " ".join(each.text for each in said)
+
+
 def card(one: Contender, run: Run) -> str:
     """Heading and card of one law: source, formula, words, costs, and the map of its failures."""
     regulator, title = one.regulator, laws.title_of(one)
@@ -105,13 +113,13 @@ def card(one: Contender, run: Run) -> str:
         f'<section class="law-card{alone}" style="--law: {look}" aria-label="{markup.escape(title, quote=True)}">'
         f'<header><h2 id="{anchor(one.name)}">{html.foreign(title)}</h2>'
         f'<span class="card-source">{html.foreign(regulator.source)}</span></header>{formula}'
-        f'<div class="card-body"><div class="card-text">{said_of(one, episodes)}'
+        f'<div class="card-body"><div class="card-text">{said_of(one, episodes, run)}'
         f'<div class="card-costs" tabindex="0">{html.plain_table(costs_of(one, run))}</div></div>{drawn}</div>'
         "</section>"
     )
 
 
-def said_of(one: Contender, episodes: pd.DataFrame) -> str:
+def said_of(one: Contender, episodes: pd.DataFrame, run: Run) -> str:
     """What a law is, where it fails, what it acts on, what is proved, and what was measured."""
     what, fails = text_of(one.regulator)
     acts = one.representation.title if one.representation else "the rotation matrix"
@@ -120,6 +128,7 @@ def said_of(one: Contender, episodes: pd.DataFrame) -> str:
         "Acts on": f"{acts[:1].upper()}{acts[1:]}.",
         "Proved": PROPERTIES.get(one.regulator.property, f"{one.regulator.property}."),
         "Measured": measured(episodes, one.regulator),
+        "Its command": found_of(one, run),
     }
     lines = [f'<p class="card-fact"><b>{head}.</b> {html.foreign(text)}</p>' for head, text in words.items() if text]
     return f"<p>{html.foreign(what)}</p>{''.join(lines)}"
@@ -151,7 +160,14 @@ def parts(regulator: Regulator, run: Run) -> list[str]:
 def facts(run: Run) -> dict:
     """What a card's drawings hold."""
     uniform = run.rows("episodes", **read.FREE_BODY, engine="ideal-rk4", start_set="uniform")
-    return {"uniform": int(uniform["contender"].value_counts().max()), "drawn": MOST_SETTLED}
+    looked_at = run.rows("command-field")
+    tried = dict(zip(looked_at["finding"], looked_at["of"], strict=True)) if len(looked_at) else {}
+    return {
+        "uniform": int(uniform["contender"].value_counts().max()),
+        "drawn": MOST_SETTLED,
+        "half_turns": tried.get("dead-half-turns"),
+        "geodesics": tried.get("jump-goal"),
+    }
 
 
 def tables(run: Run) -> dict:

@@ -13,6 +13,7 @@ import bench.engines
 import tasks
 from bench.contenders.registry import known_inverses, known_jacobians
 from bench.counting import RULES as COUNT_RULES
+from bench.findings.selection.needs import CHATTER
 from bench.law.resolved_motion import Inverse, Jacobian
 from bench.metrics.registry import known_metrics
 from report.figures.kit import html, laws
@@ -70,6 +71,7 @@ def facts(run: Run) -> dict:
         "through_fine": through[2.5e-4],
         "most_ms": f"{engines.later_ms(episodes(run), 'native').max():.1f}",
         "hold_s": f"{RULES.hold_s:g}",
+        "chatter": f"{CHATTER:g}",
         "count_rules": "\n".join(f"1. {prose(rule)}" for rule in COUNT_RULES),
     }
 
