@@ -23,6 +23,7 @@ from bench.law.equation import ANGLE, CHORD, LINEAR_MRP, LINEAR_SINE, QUARTER, S
 from bench.law.impedance import Impedance, driven
 from bench.law.linalg import (
     determinant,
+    exceeds,
     factor,
     gram,
     gram_transposed,

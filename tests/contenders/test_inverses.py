@@ -3,16 +3,21 @@
 import mujoco
 import numpy as np
 import pytest
-from support.bits import EPS
+from support.bits import EPS, same_bits
 from support.inverting import FACTORED, A, accepted, anything, inertia, resolved, well_conditioned
 
 import tasks
 from bench.contenders.inverses.damped_least_squares import DAMPING
-from bench.contenders.inverses.damped_least_squares_variable import EPSILON, MAX_DAMPING_SQUARED, least_eigenvalue
+from bench.contenders.inverses.damped_least_squares_variable import (
+    EPSILON,
+    MAX_DAMPING_SQUARED,
+    damp,
+    least_eigenvalue,
+)
 from bench.contenders.inverses.truncated_svd import TOLERANCE
 from bench.contenders.registry import inverse
 from bench.law import linalg
-from bench.law.weighting import GREATEST_GAIN, LENGTH
+from bench.law.weighting import GREATEST_GAIN, LENGTH, smaller_gram, solve_gram, weigh
 
 
 def weighed(J):
@@ -78,6 +83,48 @@ def test_answer_is_the_formulas_at_any_rank(word):
             assert np.linalg.norm(found - FORMULAS[word](J)) <= allowed, name
 
 
+def with_least(least, rows, n, draw):
+    """A Jacobian whose weighed form has these singular values: five of order 1, and the least."""
+    U, V = (np.linalg.qr(draw.normal(size=(k, k)))[0] for k in (rows, n))
+    J = (U[:, :6] * np.array([1.6, 1.3, 1.0, 0.8, 0.7, least])) @ V[:6]
+    J[:3] *= LENGTH
+    return J
+
+
+GATED = np.sqrt(TOLERANCE**2 + linalg.cholesky.MARGIN * (1.6**2 + 1.3**2 + 1.0 + 0.8**2 + 0.7**2))
+"""The least singular value beside those of `with_least` from which on nothing is looked for that is below TOLERANCE."""
+
+AROUND = [0.0, 1e-6, *(TOLERANCE * x for x in (0.5, 0.999, 1 - 1e-9, 1 + 1e-9, 1.001))]
+AROUND += [GATED * x for x in (0.999, 1 - 1e-9, 1 + 1e-9, 1.001, 1.5, 10.0)]
+
+
+@pytest.mark.parametrize(("rows", "n"), [(6, 6), (6, 7), (7, 6)])
+def test_truncated_answer_is_numpys_on_both_sides_of_the_tolerance_and_of_the_gate(rows, n):
+    one, draw = inverse("truncated-svd"), np.random.default_rng(13)
+    for least in AROUND:
+        for _ in range(20):
+            J = with_least(least, rows, n, draw)
+            J_W, a_W = weighed(J)
+            expected = np.linalg.pinv(J_W, rcond=TOLERANCE / np.linalg.norm(J_W, 2)) @ a_W
+            x, _ = resolved(one, J, A[:rows], inertia(n))
+            # by the rotations EPS times the condition of what is kept; by normal equations times its square
+            condition = 1.6 / (least if least > TOLERANCE else 0.7)
+            assert np.linalg.norm(x - expected) <= FACTORED * condition**2 * np.linalg.norm(expected), least
+
+
+@pytest.mark.parametrize(("rows", "n"), [(6, 6), (6, 7), (7, 6)])
+def test_variable_damping_has_the_bits_of_the_estimate_wherever_none_is_made(rows, n):
+    one, draw = inverse("damped-least-squares-variable"), np.random.default_rng(14)
+    found = [with_least(least, rows, n, draw) for least in AROUND for _ in range(20)]
+    for J in [*found, *well_conditioned(rows, n)]:
+        J_W, a_W, S, V, y = (np.zeros((7, 7)), np.zeros(7), np.zeros((7, 7)), np.zeros((7, 7)), np.zeros(7))
+        weigh(J, A, J_W, a_W, rows, n)
+        x, size = np.zeros(7), smaller_gram(J_W, S, rows, n)
+        damp(S, V, y, x, size)
+        solve_gram(J_W, a_W, S, x, rows, n)
+        assert same_bits(resolved(one, J, A[:rows], inertia(n))[0], x[:n])
+
+
 @pytest.mark.parametrize("word", ["damped-least-squares", "truncated-svd"])
 def test_answer_stays_below_the_greatest_gain_at_any_rank(word):
     one = inverse(word)
@@ -107,9 +154,7 @@ def test_variable_damping_follows_its_formula_where_one_singular_value_is_small(
     one, draw = inverse("damped-least-squares-variable"), np.random.default_rng(9)
     for least in (2.0 * EPSILON, 0.9 * EPSILON, 0.5 * EPSILON, 0.1 * EPSILON, 1e-6, 0.0):
         for _ in range(10):
-            U, V = (np.linalg.qr(draw.normal(size=(k, k)))[0] for k in (6, n))
-            J = (U * np.array([1.6, 1.3, 1.0, 0.8, 0.7, least])) @ V[:6]
-            J[:3] *= LENGTH
+            J = with_least(least, 6, n, draw)
             squared = MAX_DAMPING_SQUARED * max(0.0, 1.0 - (least / EPSILON) ** 2)
             x, _ = resolved(one, J, A[:6], inertia(n))
             expected = damped(J, squared)

@@ -10,6 +10,7 @@ from sympy.combinatorics import Permutation
 
 from bench.engines.compiled import JIT, register_kernels
 from bench.law import linalg
+from bench.law.linalg.cholesky import MARGIN
 from bench.law.linalg.rotations import SWEEPS
 
 SHAPES = [(6, 6), (6, 7), (7, 6), (7, 7), (3, 5), (2, 2), (1, 1)]
@@ -157,6 +158,30 @@ def test_factor_of_an_indefinite_matrix_is_not_a_number(n):
     assert np.isnan(L[n - 1, n - 1])
 
 
+@pytest.mark.parametrize("n", SQUARES)
+def test_least_eigenvalue_exceeds_a_bound_only_if_it_is_surely_above(n):
+    draw = np.random.default_rng(n)
+    told = []
+    for largest in (1.0, 10.0, 1e6):
+        for least in (0.0, 1e-9, 1e-3):
+            for beyond in (-1.0, -1e-3, -1e-9, 0.0, 0.5, 0.999, 1.001, 2.0, 10.0):
+                Q, _ = np.linalg.qr(draw.normal(size=(n, n)))
+                others = np.geomspace(0.1 * largest, largest, n - 1)
+                # `beyond` margins above the bound, whose own part of the sum is worked in
+                smallest = (least + beyond * MARGIN * others.sum()) / (1.0 - beyond * MARGIN)
+                S = buffer((Q * [smallest, *others]) @ Q.T)
+                found = linalg.exceeds(S, least, np.zeros((7, 7)), n)
+                assert found == (beyond > 1.0), (largest, least, beyond)
+                told.append(found)
+    assert any(told)
+
+
+@pytest.mark.parametrize("word", UNUSABLE)
+def test_no_bound_is_exceeded_by_what_is_not_finite(word):
+    with np.errstate(all="ignore"):
+        assert not linalg.exceeds(buffer(symmetric(6)[word]), 0.0, np.zeros((7, 7)), 6)
+
+
 # ------------------------------------------------------------------------------------------------ rotations
 def turned(A, b):
     rows, n = A.shape
@@ -203,6 +228,7 @@ def calls(rows, n):
         linalg.solve: lambda A: (A, buffer(B), n),
         linalg.determinant: lambda A: (A, buffer(B), n),
         linalg.factor: lambda A: (A, n),
+        linalg.exceeds: lambda A: (A, 1e-3, buffer(np.eye(7)), n),
         linalg.solve_factored: lambda A: (A, buffer(B), n),
     }
     any_shape = {

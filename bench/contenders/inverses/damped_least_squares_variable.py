@@ -2,10 +2,11 @@
 
 lambda^2 = (1 - sigma^2 / epsilon^2) lambda_max^2 where the least singular value sigma of W J is below epsilon, else 0.
 
-sigma is estimated afresh in each tick, from S = J_W J_W^T (or J_W^T J_W, if smaller) and A = S + lambda_max^2 I. A step
-y := A^-1 y turns y towards the vector of sigma by (sigma^2 + lambda_max^2) / (sigma_2^2 + lambda_max^2). The first y is
-LINPACK's, A^-1 of a vector of signs that makes it grow. The Rayleigh quotient of the last one, (y . A y) / (y . y), is
-never below the least eigenvalue of A, so that sigma is never taken for too small.
+Unless it is surely above epsilon, sigma is estimated afresh in each tick, from S = J_W J_W^T (or J_W^T J_W, if smaller)
+and A = S + lambda_max^2 I. A step y := A^-1 y turns y towards the vector of sigma by (sigma^2 + lambda_max^2) /
+(sigma_2^2 + lambda_max^2). The first y is LINPACK's, A^-1 of a vector of signs that makes it grow. The Rayleigh
+quotient of the last one, (y . A y) / (y . y), is never below the least eigenvalue of A, so that sigma is never taken
+for too small.
 
 Fails: as damped-least-squares does, but only within epsilon of a singularity; and where two singular values are near
 epsilon the estimate may lie between them.
@@ -15,6 +16,7 @@ from bench.law import (
     GREATEST_GAIN,
     Inverse,
     copysign,
+    exceeds,
     factor,
     kernel,
     smaller_gram,
@@ -67,17 +69,24 @@ def resolve(J, a, D, x, rows, n, scratch):
     J_W, a_W, S, A = scratch.B, scratch.s, scratch.A, scratch.V
     weigh(J, a, J_W, a_W, rows, n)
     size = smaller_gram(J_W, S, rows, n)
-    for i in range(size):
+    if not exceeds(S, EPSILON * EPSILON, A, size):
+        damp(S, A, scratch.t, x, size)
+    solve_gram(J_W, a_W, S, x, rows, n)
+
+
+@kernel
+def damp(S, A, y, before, n):
+    """S := S + lambda^2 I, lambda by the estimate of sigma; A, y and before are overwritten."""
+    for i in range(n):
         for j in range(i):
             A[i, j] = S[i, j]
         A[i, i] = S[i, i] + MAX_DAMPING_SQUARED
-    factor(A, size)
-    short = EPSILON * EPSILON + MAX_DAMPING_SQUARED - least_eigenvalue(A, scratch.t, x, size)
+    factor(A, n)
+    short = EPSILON * EPSILON + MAX_DAMPING_SQUARED - least_eigenvalue(A, y, before, n)
     if short > 0.0:
         damping = MAX_DAMPING_SQUARED / (EPSILON * EPSILON) * short
-        for i in range(size):
+        for i in range(n):
             S[i, i] += damping
-    solve_gram(J_W, a_W, S, x, rows, n)
 
 
 def refuses(rows: int, n: int) -> str:

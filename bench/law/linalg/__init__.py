@@ -2,7 +2,7 @@
 
     products.py     J x, J^T y, and the symmetric J J^T, J^T J
     elimination.py  solve, determinant: Gauss with partial pivoting
-    cholesky.py     factor, solve_factored, and the parts of them
+    cholesky.py     factor, solve_factored, and the parts of them; exceeds: how small its eigenvalues are
     rotations.py    orthogonalize: one-sided Jacobi, the singular value decomposition
 
 A buffer may be larger than what is used of it; sizes are passed. Nothing is allocated. A singular matrix ends in
@@ -10,7 +10,7 @@ numbers that are not finite, and those that are not finite in any number, but ne
 """
 # ruff: noqa: F401  the face of the folder
 
-from bench.law.linalg.cholesky import factor, solve_factored, solve_lower, solve_upper
+from bench.law.linalg.cholesky import exceeds, factor, solve_factored, solve_lower, solve_upper
 from bench.law.linalg.elimination import determinant, solve
 from bench.law.linalg.products import gram, gram_transposed, multiply, multiply_transposed
 from bench.law.linalg.rotations import orthogonalize
