@@ -89,15 +89,20 @@ def register_kernels() -> None:
 def register(function):
     """Make one plain function callable from compiled code."""
     if function not in _registered:
-        register_jitable(error_model="numpy", forceinline=function.__module__.startswith(INLINED))(function)
+        inlined = {"forceinline": True} if function.__module__.startswith(INLINED) else {}
+        register_jitable(error_model="numpy", **inlined)(function)
         _registered.add(function)
     return function
 
 
-def compile_function(function, signature, cache: bool = True):
-    """The function compiled for one signature with our options; cached on disk unless the law is a user's."""
+def compile_function(function, signature, cache: bool = True, **options):
+    """The function compiled for one signature with our options; cached on disk unless the law is a user's.
+
+    Args:
+        options: of numba's; what a function calls inherits forceinline.
+    """
     register_kernels()
-    return numba.njit(signature, cache=cache, **JIT)(function)
+    return numba.njit(signature, cache=cache, **JIT, **options)(function)
 
 
 def compile_callback(function, signature):

@@ -23,14 +23,28 @@ SMALL_TURN_SQUARED = 1e-2
 def turned(R, turn):
     """exp([turn]x) R: R after a rotation by the base-frame vector `turn`."""
     squared = dot(turn, turn)
-    if squared < SMALL_TURN_SQUARED:
-        x = squared
-        first = 1.0 - x / 6.0 * (1.0 - x / 20.0 * (1.0 - x / 42.0 * (1.0 - x / 72.0)))
-        second = 0.5 - x / 24.0 * (1.0 - x / 30.0 * (1.0 - x / 56.0 * (1.0 - x / 90.0)))
-    else:
-        angle = sqrt(squared)
-        first = sin(angle) / angle
-        second = (1.0 - cos(angle)) / squared
+    first, second = small_turn(squared) if squared < SMALL_TURN_SQUARED else large_turn(squared)
+    return turned_by(R, turn, first, second)
+
+
+@kernel
+def small_turn(x):
+    """sin(angle)/angle and (1 - cos(angle))/angle^2 by their series in x = angle^2."""
+    first = 1.0 - x / 6.0 * (1.0 - x / 20.0 * (1.0 - x / 42.0 * (1.0 - x / 72.0)))
+    second = 0.5 - x / 24.0 * (1.0 - x / 30.0 * (1.0 - x / 56.0 * (1.0 - x / 90.0)))
+    return first, second
+
+
+@kernel
+def large_turn(squared):
+    """The same two of an angle that is not small."""
+    angle = sqrt(squared)
+    return sin(angle) / angle, (1.0 - cos(angle)) / squared
+
+
+@kernel
+def turned_by(R, turn, first, second):
+    """R + first [turn]x R + second [turn]x^2 R."""
     return Rotation(
         _turned_column(R.n, turn, first, second),
         _turned_column(R.o, turn, first, second),
@@ -78,16 +92,21 @@ def weighted(a, b, c, d):
 
 
 @kernel
-def held_step(R, omega, u, dt):
-    """The plant one tick on with u held: R moved by the Magnus vector, omega by u dt."""
+def held_turn(omega, u, dt):
+    """The rotation of one tick with u held: Magnus to fourth order in dt."""
     drift = cross(u, omega)
     half, twelfth = 0.5 * dt * dt, dt * dt * dt / 12.0
-    turn = (
+    return (
         omega[0] * dt + u[0] * half + drift[0] * twelfth,
         omega[1] * dt + u[1] * half + drift[1] * twelfth,
         omega[2] * dt + u[2] * half + drift[2] * twelfth,
     )
-    return turned(R, turn), plus(omega, dt, u)
+
+
+@kernel
+def held_step(R, omega, u, dt):
+    """The plant one tick on with u held: R moved by the Magnus vector, omega by u dt."""
+    return turned(R, held_turn(omega, u, dt)), plus(omega, dt, u)
 
 
 @kernel
