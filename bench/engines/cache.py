@@ -43,6 +43,9 @@ def _chosen() -> Path:
 
 FOLDER = _chosen()
 
+os.environ["NUMBA_DISABLE_INTEL_SVML"] = "1"
+"""Where Intel's vector library is installed, numba would take sines of several lanes from it; they are not libm's."""
+
 
 @contextlib.contextmanager
 def to_itself():

@@ -1,8 +1,11 @@
-"""The ideal plant on many starts at once: the same episodes, bit for bit, as the loop of `ideal`, in a sixth of the time.
+"""The ideal plant on many starts at once: the episodes of `ideal`, bit for bit, in a fraction of its time.
 
 LANES episodes are in work side by side, each number of theirs a row of a buffer, so that the compiler makes one vector
 instruction of as many lanes as the processor takes. For that a law is compiled into the loop, with all that it calls:
 seconds a law and an engine, which some 10^5 episodes are worth. What a law asks of libm is asked lane by lane.
+
+CPU time of a tick over that of `ideal`, medians of 2026 on AVX-512: laws without libm 0.13 to 0.17 (held) and 0.11 to
+0.15 (RK4), with AVX2 0.24; with an arc 0.3; Euler angles 0.45 to 0.8.
 
 An episode that ends gives its lane to the next start; when there is none, to the last lane in work.
 """

@@ -142,8 +142,7 @@ def prepare(settings: Settings, unit: Unit) -> None:
     else:
         from bench.engines import run
 
-        run.compiled_loop(unit.engine, metrics)
-        run.evaluation(one)
+        run.prepare(unit.engine, one, metrics, unit.total)
 
 
 def lost(settings: Settings, unit: Unit, outcome: str) -> pd.DataFrame:

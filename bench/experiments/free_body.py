@@ -57,7 +57,7 @@ def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
 
     starts, one, metrics = starts_of(settings, unit), settings.contender(unit.contender), metrics_of(on_arm=False)
     limits = settings.limits(unit.horizon_s)
-    numbers = run(unit.engine, one, unit.task, starts, limits, metrics, settings.integrator)
+    numbers = run(unit.engine, one, unit.task, starts, limits, metrics, settings.integrator, total=unit.total)
     return frame(settings, unit, one, starts, numbers, metrics)
 
 
