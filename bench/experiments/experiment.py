@@ -141,7 +141,9 @@ class Experiment(NamedTuple):
     periods that it takes at most, which a user's law has its time by. is_divisible: whether `Unit.part` of it is a unit
     too. is_tried_first: whether a user's law goes through it before a run begins, so that a mistake leaves no folder.
     compiles: whether its contender is compiled. summary(frame) -> what `show` prints of the table.
-    rank: place among all experiments, then by name.
+    fold(before, after) -> the rows of two units as those of both, where the table is not all of them one after the
+    other. in_suites: whether suites have it; what they have not makes runs of its own. rank: place among all
+    experiments, then by name.
     """
 
     name: str
@@ -157,6 +159,8 @@ class Experiment(NamedTuple):
     is_tried_first: bool = False
     compiles: bool = True
     summary: Callable[[pd.DataFrame], pd.DataFrame] | None = None
+    fold: Callable[[pd.DataFrame, pd.DataFrame], pd.DataFrame] | None = None
+    in_suites: bool = True
     rank: int = 9
 
 
@@ -177,8 +181,8 @@ def known_experiments() -> dict[str, Experiment]:
 
 
 def known_tables() -> dict[str, Table]:
-    """Word -> Table of every experiment."""
-    return {one.table.name: one.table for one in known_experiments().values()}
+    """Word -> Table of every experiment that suites have."""
+    return {one.table.name: one.table for one in known_experiments().values() if one.in_suites}
 
 
 def experiment_of(unit: Unit) -> Experiment:

@@ -8,10 +8,11 @@ from dataclasses import dataclass
 import tasks
 from bench.errors import Incompatible
 from bench.experiments.choice import EVERYTHING, INTEGRATORS, Choice, check_numbers, check_word
-from bench.experiments.experiment import IN_CONTACT, WITHOUT, Asked, Settings, Unit, known_experiments
+from bench.experiments.experiment import IN_CONTACT, WITHOUT, Asked, Settings, Unit, known_experiments, known_tables
 from bench.experiments.suites import suite
 from bench.law.contender import PAPERS_GAINS, Contender, Gains
 from bench.provenance import source_digest
+from bench.tables.column import Table
 from tasks.rules import RULES
 
 
@@ -25,6 +26,13 @@ class Plan:
     def of(self, *experiments: str) -> tuple[Unit, ...]:
         """The units of these experiments."""
         return tuple(unit for unit in self.units if unit.experiment in experiments)
+
+    @property
+    def tables(self) -> dict[str, Table]:
+        """Those that a run of it has: all that suites have if one of them is run, and those of what is in no suite."""
+        own = [known_experiments()[name] for name in dict.fromkeys(unit.experiment for unit in self.units)]
+        of_suites = known_tables() if any(one.in_suites for one in own) else {}
+        return of_suites | {one.table.name: one.table for one in own if not one.in_suites}
 
     def episodes(self, *experiments: str) -> int:
         """How many episodes these experiments run; all of them if none is named."""

@@ -1,14 +1,15 @@
 """The end of a run: its tables from the parts, in the order of the units; then where they come from."""
 
+import functools
 import time
 from pathlib import Path
 
-from bench.experiments.experiment import experiment_of, known_tables
+from bench.experiments.experiment import experiment_of, known_experiments
 from bench.experiments.plan import Plan
 from bench.provenance import describe
 from bench.running.run_folder import part, tidy
 from bench.tables.files import write_json
-from bench.tables.store import merge
+from bench.tables.store import frame, merge, write_table
 
 
 def finish(plan: Plan, out: Path, lost: list[str], by: dict, began: float, resumed: bool) -> None:
@@ -17,11 +18,16 @@ def finish(plan: Plan, out: Path, lost: list[str], by: dict, began: float, resum
     Args:
         lost: what is to be said of a user's laws. by: who carried out the units, for provenance.json.
     """
-    parts: dict[str, list[Path]] = {name: [] for name in known_tables()}
+    parts: dict[str, list[Path]] = {name: [] for name in plan.tables}
     for unit in plan.units:
         parts[experiment_of(unit).table.name].append(part(out, unit))
-    for name, table in known_tables().items():
-        merge(out / f"{name}.parquet", parts[name], table)
+    folds = {one.table.name: one.fold for one in known_experiments().values() if one.fold}
+    for name, table in plan.tables.items():
+        path, fold = out / f"{name}.parquet", folds.get(name)
+        if fold is None:
+            merge(path, parts[name], table)
+        else:
+            write_table(path, functools.reduce(fold, (frame(each, table) for each in parts[name])), table)
     write_json(
         out / "provenance.json",
         {

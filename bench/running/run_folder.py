@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from bench.errors import BadResults
-from bench.experiments.experiment import Unit, experiment_of, known_tables
+from bench.experiments.experiment import Unit, experiment_of, known_experiments
 from bench.experiments.plan import Plan
 from bench.tables import lock, trust
 from bench.tables.files import is_leftover, make_folder, read_json, refuse_link, refused, write_atomically, write_json
@@ -70,7 +70,7 @@ def inspect(plan: Plan, out: Path, replace: bool = False) -> State:
             f"{out}: it holds another plan (other suite, options, rules or sources); add --replace to start over, or "
             "choose another folder with --out"
         )
-    tables = {out / f"{name}.parquet": table for name, table in known_tables().items()}
+    tables = {out / f"{name}.parquet": table for name, table in plan.tables.items()}
     finished = (out / "provenance.json").is_file() and all(path.is_file() for path in tables)
     for path, table in tables.items() if finished else ():
         check(path, table)
@@ -117,8 +117,8 @@ def _clear(out: Path) -> None:
         return
     with _removing(out):
         (out / "provenance.json").unlink(missing_ok=True)
-        for name in known_tables():
-            (out / f"{name}.parquet").unlink(missing_ok=True)
+        for one in known_experiments().values():
+            (out / f"{one.table.name}.parquet").unlink(missing_ok=True)
         if (out / "laws").is_dir():
             shutil.rmtree(out / "laws")
         tidy(out)

@@ -113,6 +113,33 @@ def field_columns() -> list[Column]:
     ]
 
 
+def map_columns() -> list[Column]:
+    """map.parquet: millions of random starts of a law, counted in cells of SO(3) (`python -m bench map`).
+
+    A row a cell; one for the slowest start of each ring of 5 degrees; one for each start that is lost, the first
+    thousand of a law. Starts are numbers of a sequence that the seed names.
+    """
+    return [
+        *CONTENDER,
+        *words(engine="what simulated the episodes"),
+        Column("seed", COUNT, "1", "of the starts"),
+        *numbers("rad/s", "initial speeds are uniform up to this", "most_speed"),
+        *words(row="cell, slowest or lost"),
+        Column("ring_deg", COUNT, "deg", "initial angle to the goal: from this to 5 degrees more"),
+        Column("band", COUNT, "1", "z of the axis of the initial turn: 0 to 7, eighths of [-1, 1]"),
+        Column("azimuth", COUNT, "1", "its azimuth: 0 to 15, sixteenths of [-pi, pi]"),
+        Column("start", COUNT, "1", "number of the start; -1 for a cell"),
+        Column("starts", COUNT, "1", "how many"),
+        Column("settled", COUNT, "1", "how many of them settled"),
+        *numbers("s", "largest settling time of those that settled; null if none did", "settling_time_s"),
+        *words(outcome="of a start; empty for a cell"),
+        *numbers(
+            "1", "orientation of the start, unit quaternion; null for a cell", *(f"quat_{part}" for part in "wxyz")
+        ),
+        *numbers("rad/s", "its angular velocity, base frame; null for a cell", *(f"omega0_{axis}" for axis in "xyz")),
+    ]
+
+
 def robustness_columns() -> list[Column]:
     """robustness.parquet: the perturbed free body, an episode a row; starts and noise are the same for every law.
 

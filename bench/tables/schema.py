@@ -19,6 +19,11 @@ TABLES = {
         Table("traces", motion.trace_columns, ("task", "arm", *CONTENDER, "engine", "start_set", "start_id", "time_s")),
         Table("boundaries", motion.boundary_columns, (*CONTENDER, "axis_x", "axis_y", "axis_z")),
         Table("command-field", motion.field_columns, (*CONTENDER, "finding")),
+        Table(
+            "map",
+            motion.map_columns,
+            (*CONTENDER, "engine", "seed", "most_speed", "row", "ring_deg", "band", "azimuth", "start"),
+        ),
         Table("poses", other.pose_columns, ("arm", "pose_set", "pose_id", "representation")),
         Table(
             "compliance",

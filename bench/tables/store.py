@@ -148,6 +148,15 @@ def _refuse_words(path: Path, arrow: pa.Table) -> None:
                 raise BadResults(f"{path}: {word!r} in column {name!r} is no word of ours; delete the file")
 
 
+def frame(path: Path, table: str | Table) -> pd.DataFrame:
+    """A file of a table as a data frame.
+
+    Errors:
+        BadResults: see `read_arrow`.
+    """
+    return read_arrow(path, table).to_pandas(ignore_metadata=True)
+
+
 def read(folder: Path, table: str | Table) -> pd.DataFrame:
     """One table of a finished run as a data frame.
 
@@ -159,4 +168,4 @@ def read(folder: Path, table: str | Table) -> pd.DataFrame:
         raise BadResults(f"{folder}: there is no such folder; run `make bench` (or python -m bench run) first")
     if not (folder / "provenance.json").is_file():
         raise BadResults(f"{folder}: the run there has not finished; the same `python -m bench run` command resumes it")
-    return read_arrow(folder / f"{table.name}.parquet", table).to_pandas(ignore_metadata=True)
+    return frame(folder / f"{table.name}.parquet", table)

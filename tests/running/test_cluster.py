@@ -100,7 +100,7 @@ def test_cluster_makes_the_bytes_that_threads_make_though_a_worker_is_killed(pla
         told.append(unit)
 
     run.run(plan, tmp_path, scheduler=address(client), told=kill_one)
-    assert len(by_threads) == 8
+    assert len(by_threads) == 9
     assert tables(tmp_path) == by_threads
     assert sorted(unit.key for unit in told) == sorted(unit.key for unit in plan.units)
     assert set(client.run(os.getpid).values()) != set(pids.values())

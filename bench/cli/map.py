@@ -1,0 +1,82 @@
+"""`map`: millions of random starts of a law, counted in cells of SO(3)."""
+
+import os
+from pathlib import Path
+
+import rich_click as click
+
+from bench.cli import options
+from bench.cli.progress import progress
+from bench.cli.screen import console, counted, examples, frame_table, shown_path
+from bench.experiments.choice import check_numbers, check_workers
+from bench.law.contender import Gains
+from bench.running.schedulers.words import THREADS, check_scheduler
+from bench.tables.schema import RESULTS
+
+EPILOG = examples(
+    ("Where the rotation matrix alone loses starts, of ten million", "map --regulator rotation-matrix"),
+    ("The same of starts that spin at up to 20 rad/s", "map --regulator hybrid --spin 20 --out results/spinning"),
+    ("A law of your own", "map --law my_law.py --regulator my-law --starts 1000000 --out results/mine-map"),
+)
+MOST = 10**10
+
+
+@click.command("map", epilog=EPILOG)
+@options.law
+@options.regulator
+@click.option("--starts", type=click.IntRange(1, MOST), default=10**7, show_default=True, help="Of each law.")
+@click.option("--seed", type=int, default=0, show_default=True, help="Of the starts.")
+@click.option(
+    "--spin",
+    type=click.FloatRange(0.0, 100.0),
+    default=0.0,
+    show_default=True,
+    help="Initial speeds are uniform up to this [rad/s], directions uniform on the sphere.",
+)
+@click.option("--engine", type=click.Choice(["ideal-rk4", "ideal-held"]), default="ideal-rk4", show_default=True)
+@click.option("--dt", "dt_s", type=float, default=1e-3, show_default=True, help="Control period in seconds.")
+@click.option("--horizon", "horizon_s", type=float, default=10.0, show_default=True, help="Longest simulated time [s].")
+@click.option("--kp", type=float, default=100.0, show_default=True, help="Position gain [1/s^2].")
+@click.option("--kv", type=float, default=20.0, show_default=True, help="Velocity gain [1/s].")
+@click.option("--workers", type=int, default=os.cpu_count() or 1, show_default="cores", help="Threads.")
+@click.option("--scheduler", default=THREADS, show_default="threads of this process", metavar="WORD", help="As of run.")
+@click.option("--out", type=options.PATH, default=RESULTS / "maps", show_default="results/maps", help="Folder.")
+@click.option("--replace", is_flag=True, help="Start over if the folder holds another plan.")
+def COMMAND(laws, regulators, starts, seed, spin, engine, dt_s, horizon_s, kp, kv, workers, scheduler, out, replace):
+    """Simulate millions of uniformly random starts of a law on the ideal plant and count those that do not settle.
+
+    Kept are counts by cell of SO(3), the slowest start of each 5 degrees of initial angle, and the first thousand
+    starts that are lost, never a row for each. A map that was stopped goes on where it was; threads and a cluster write
+    the same bytes.
+    """
+    check_numbers(dt_s, horizon_s, Gains(kp, kv), None, seed)
+    check_workers(workers)
+    check_scheduler(scheduler)
+    from bench.experiments.map import plan_of
+    from bench.running import run as running
+
+    chosen = [one for one in options.chosen(laws, regulators, ()) if not one.regulator.in_engine]
+    numbers = {"dt_s": dt_s, "horizon_s": horizon_s, "gains": Gains(kp, kv)}
+    plan = plan_of(chosen, starts, seed=seed, most_speed=spin, engine=engine, **numbers)
+    console().print(f"{counted(len(chosen), 'law')} from {starts:,} starts, into {shown_path(out)}")
+    done = 0
+    with progress("starts") as steps:
+
+        def told(unit):
+            nonlocal done
+            done += unit.episodes
+            steps.now(unit.label, done, plan.episodes())
+
+        steps.now("compiling the laws")
+        running.run(plan, out, workers=workers, scheduler=scheduler, replace=replace, told=told)
+    _print(out)
+
+
+def _print(out: Path) -> None:
+    from bench.findings.maps import by_law
+    from bench.tables.store import read
+
+    console().print(
+        frame_table(by_law(read(out, "map")), "\nStarts that are lost; 95 % intervals are exact (Clopper-Pearson)")
+    )
+    console().print(f"wrote {shown_path(out)}")

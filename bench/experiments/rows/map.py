@@ -1,0 +1,103 @@
+"""Rows of map.parquet: starts counted in cells of SO(3), the slowest of each ring, and those that are lost.
+
+A ring is 5 degrees of the angle to the goal. A cell is a ring in one of 128 equal parts of the sphere of axes, 8 bands
+of z by 16 of the azimuth; the axis is that of the turn from the goal to the start, which is below 180 degrees.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pandas as pd
+
+from bench.engines.episode import OUTCOME, SETTLING_TICK, START_WIDTH
+from bench.engines.run import on_ideal
+from bench.experiments.experiment import Settings, Unit
+from bench.experiments.map import most_speed_of
+from bench.experiments.rows.episodes import contender_columns
+from tasks.base import IDENTITY
+from tasks.random_starts import BLOCK, block
+from tasks.rules import RULES
+from tasks.truth import angle
+from tasks.verdict import OUTCOMES, SETTLED
+
+RINGS, BANDS, AZIMUTHS = 36, 8, 16
+EDGES = np.array([math.cos(math.radians(5.0 * ring) / 2.0) for ring in range(1, RINGS)])
+"""|w| of the quaternion at the rings' edges, falling."""
+
+MOST_LOST = 1000
+"""Lost starts that are kept of a law."""
+
+CELL, SLOWEST, LOST = "cell", "slowest", "lost"
+PLACE = ["ring_deg", "band", "azimuth"]
+STATE = [*(f"quat_{part}" for part in "wxyz"), *(f"omega0_{axis}" for axis in "xyz")]
+
+
+def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
+    """The rows of one unit, block by block."""
+    found = pd.DataFrame()
+    for number in range(unit.first // BLOCK, -(-(unit.first + unit.count) // BLOCK)):
+        made = _of_block(settings, unit, number)
+        found = made if found.empty else folded(found, made)
+    return found
+
+
+def _of_block(settings: Settings, unit: Unit, number: int) -> pd.DataFrame:
+    one, speed, first = settings.contender(unit.contender), most_speed_of(unit), number * BLOCK
+    quats, omegas = (part[: unit.first + unit.count - first] for part in block(number, settings.seed, speed))
+    ended = on_ideal(unit.engine, one, start_rows(quats, omegas), settings.limits(unit.horizon_s), total=unit.total)
+    codes, is_settled = ended[:, OUTCOME].astype(int), ended[:, OUTCOME] == SETTLED
+    starts = pd.DataFrame(
+        {
+            **dict(zip(PLACE, cells(quats), strict=True)),
+            "starts": 1,
+            "settled": is_settled.astype(np.int64),
+            "settling_time_s": np.where(is_settled, ended[:, SETTLING_TICK] * settings.dt_s, np.nan),
+            "start": first + np.arange(len(quats)),
+            **dict(zip(STATE, np.column_stack((quats, omegas)).T, strict=True)),
+            "outcome": np.array(OUTCOMES)[codes],
+        }
+    )
+    every = pd.concat([starts.assign(row=row) for row in (CELL, SLOWEST, LOST)], ignore_index=True)
+    law = {**contender_columns(one), "engine": unit.engine, "seed": settings.seed, "most_speed": speed}
+    return _reduced(every[~((every["row"] == LOST) & (every["settled"] == 1))].assign(**law))
+
+
+def start_rows(quats: np.ndarray, omegas: np.ndarray) -> np.ndarray:
+    """Starts of an engine, with the goal I: quaternion, omega, goal, haversine of the settling band."""
+    made = np.empty((len(quats), START_WIDTH))
+    made[:, :4], made[:, 4:7], made[:, 7:11] = quats, omegas, IDENTITY
+    made[:, 11] = [RULES.band_haversine(angle(quat, IDENTITY)) for quat in quats.tolist()]
+    return made
+
+
+def cells(quats: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Ring [deg], band and azimuth of quaternions (n, 4)."""
+    w, x, y, z = np.where(quats[:, :1] < 0.0, -quats, quats).T
+    ring = RINGS - 1 - np.searchsorted(EDGES[::-1], w)
+    along = z / np.sqrt(x * x + y * y + z * z)
+    band = np.clip(np.floor(0.5 * BANDS * (along + 1.0)), 0, BANDS - 1)
+    azimuth = np.floor(AZIMUTHS * (np.arctan2(y, x) / math.tau + 0.5)) % AZIMUTHS
+    return 5 * ring, band.astype(np.int64), azimuth.astype(np.int64)
+
+
+def folded(before: pd.DataFrame, after: pd.DataFrame) -> pd.DataFrame:
+    """The rows of two stretches of starts, the first before the second, as those of both."""
+    return _reduced(pd.concat([before, after], ignore_index=True))
+
+
+LAW = ["regulator", "representation", "jacobian", "inverse", "engine", "seed", "most_speed"]
+
+
+def _reduced(every: pd.DataFrame) -> pd.DataFrame:
+    """Cells summed; of each ring's slowest starts the slowest, the first of equals; the first MOST_LOST lost ones."""
+    cells = every[every["row"] == CELL].assign(start=-1, outcome="", **dict.fromkeys(STATE, np.nan))
+    how = {"starts": "sum", "settled": "sum", "settling_time_s": "max"} | dict.fromkeys(("start", *STATE), "first")
+    cells = cells.groupby([*LAW, *PLACE, "row", "outcome"], sort=False, as_index=False).agg(how)
+    slowest = every[(every["row"] == SLOWEST) & (every["settled"] == 1)]
+    slowest = slowest.sort_values("settling_time_s", ascending=False, kind="stable")
+    slowest = slowest.drop_duplicates([*LAW, "ring_deg"])
+    lost = every[every["row"] == LOST].groupby(LAW, sort=False).head(MOST_LOST)
+    order = [*LAW, "row", *PLACE, "start"]
+    return pd.concat([cells, slowest, lost], ignore_index=True).sort_values(order, ignore_index=True)

@@ -1,0 +1,85 @@
+"""Maps: every start is counted once, in its cell; lost ones are lost when run by themselves; stretches add up."""
+
+import dataclasses
+import math
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from bench.cli import main
+from bench.contenders.registry import find_contender
+from bench.experiments.experiment import rows_of
+from bench.experiments.map import folded, plan_of
+from bench.experiments.rows.map import MOST_LOST, cells
+from bench.findings.maps import by_law, lost_share
+from bench.running import run
+from bench.tables.schema import TABLES
+from bench.tables.store import as_table, read
+from tasks.random_starts import BLOCK, block
+from tasks.truth import angle
+
+LAW = find_contender("rotation-matrix")
+
+
+def part_of(plan, first, count):
+    [unit] = plan.units
+    return rows_of(plan.settings, dataclasses.replace(unit, first=first, count=count))
+
+
+@pytest.fixture(scope="module")
+def plan():
+    """Two blocks and a bit, so short that most starts are lost."""
+    return plan_of([LAW], 2 * BLOCK + 500, seed=11, horizon_s=1.2, dt_s=5e-3)
+
+
+@pytest.fixture(scope="module")
+def whole(plan):
+    return rows_of(plan.settings, plan.units[0])
+
+
+def test_every_start_is_in_one_cell(plan, whole):
+    found = whole[whole["row"] == "cell"]
+    assert found["starts"].sum() == plan.units[0].total
+    assert not found.duplicated(["ring_deg", "band", "azimuth"]).any()
+    assert 0 < found["settled"].sum() < plan.units[0].total
+    quats = block(0, seed=11)[0][:50]
+    for quat, ring in zip(quats.tolist(), cells(quats)[0], strict=True):
+        assert ring <= math.degrees(angle(quat, (1.0, 0.0, 0.0, 0.0))) < ring + 5
+
+
+def test_stretches_add_up_to_the_whole(plan, whole):
+    parts = [part_of(plan, *stretch) for stretch in ((0, BLOCK), (BLOCK, BLOCK), (2 * BLOCK, 500))]
+    for made in (folded(folded(*parts[:2]), parts[2]), folded(parts[0], folded(*parts[1:]))):
+        assert as_table(made, TABLES["map"]).equals(as_table(whole, TABLES["map"]))
+
+
+def test_first_lost_starts_are_kept_and_the_slowest_of_each_ring(plan, whole):
+    lost, slowest = (whole[whole["row"] == row] for row in ("lost", "slowest"))
+    assert len(lost) == MOST_LOST
+    assert (lost["outcome"] != "settled").all()
+    first = part_of(plan, 0, int(lost["start"].max()) + 1)
+    counted = first[first["row"] == "cell"]
+    assert counted["starts"].sum() - counted["settled"].sum() == MOST_LOST
+    latest = whole[whole["row"] == "cell"].groupby("ring_deg")["settling_time_s"].max().dropna()
+    pd.testing.assert_series_equal(slowest.set_index("ring_deg")["settling_time_s"].sort_index(), latest)
+
+
+def test_share_is_exact():
+    """Clopper-Pearson of none of n: the upper end is 1 - 0.025^(1/n)."""
+    share = lost_share(0, 1000)
+    np.testing.assert_allclose(share, (0.0, 0.0, 1.0 - 0.025 ** (1.0 / 1000)), rtol=1e-9)
+
+
+def test_command_goes_on_and_says_the_share(tmp_path, capsys):
+    words = ["map", "--regulator", "gibbs", "--starts", "300", "--horizon", "2", "--dt", "0.005", "--spin", "20"]
+    assert main([*words, "--out", str(tmp_path / "map")]) == 0
+    first = capsys.readouterr().out
+    assert "gibbs" in first
+    assert [path.name for path in (tmp_path / "map").glob("*.parquet")] == ["map.parquet"]
+    [line] = by_law(read(tmp_path / "map", "map")).to_dict("records")
+    assert (line["law"], line["starts"], line["speed to [rad/s]"]) == ("gibbs", 300, 20.0)
+    assert main([*words, "--out", str(tmp_path / "map")]) == 0
+    assert not run.run(
+        plan_of([find_contender("gibbs")], 300, most_speed=20.0, horizon_s=2.0, dt_s=5e-3), tmp_path / "map"
+    )
