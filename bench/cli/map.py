@@ -76,7 +76,6 @@ def _print(out: Path) -> None:
     from bench.findings.maps import by_law
     from bench.tables.store import read
 
-    console().print(
-        frame_table(by_law(read(out, "map")), "\nStarts that are lost; 95 % intervals are exact (Clopper-Pearson)")
-    )
-    console().print(f"wrote {shown_path(out)}")
+    lines = by_law(read(out, "map")).round({"lost [ppm]": 2, "least [ppm]": 2, "most [ppm]": 2, "slowest [s]": 3})
+    console().print(frame_table(lines, "\nStarts that are lost; least and most: exact 95 % interval (Clopper-Pearson)"))
+    console().print(f"in {shown_path(out)}")

@@ -1,5 +1,7 @@
 """What a map says of laws: the share of starts that are lost, with its interval, and the slowest."""
 
+import math
+
 import pandas as pd
 
 from bench.tables.read import with_contender
@@ -15,7 +17,7 @@ def lost_share(lost: int, of: int) -> Estimate:
 
 
 def by_law(rows: pd.DataFrame) -> pd.DataFrame:
-    """A line for each law and largest initial speed: starts, lost, their share, the slowest that settles, and where."""
+    """A line a law and largest initial speed: how many are lost, in ppm with interval, and the slowest."""
     lines = []
     for (law, speed), own in with_contender(rows).groupby(["contender", "most_speed"], sort=False, observed=True):
         cells, slowest = own[own["row"] == "cell"], own[own["row"] == "slowest"]
@@ -27,9 +29,11 @@ def by_law(rows: pd.DataFrame) -> pd.DataFrame:
                 "speed to [rad/s]": speed,
                 "starts": starts,
                 "lost": starts - settled,
-                "share lost": f"{share.value:.3g} ({share.low:.2g} to {share.high:.2g})",
-                "slowest [s]": round(float(last["settling_time_s"].iloc[0]), 3) if len(last) else None,
-                "from [deg]": int(last["ring_deg"].iloc[0]) if len(last) else None,
+                **{
+                    f"{head} [ppm]": 1e6 * number for head, number in zip(("lost", "least", "most"), share, strict=True)
+                },
+                "slowest [s]": float(last["settling_time_s"].iloc[0]) if len(last) else math.nan,
+                "from [deg]": int(last["ring_deg"].iloc[0]) if len(last) else -1,
             }
         )
     return pd.DataFrame(lines)

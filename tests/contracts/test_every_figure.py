@@ -104,8 +104,8 @@ def test_tables_have_a_row_for_each_law():
     shown = {
         key: text for one in (failure_map, settling_time) for key, text in one.tables(run_in(read.folder())).items()
     }
-    rows = {key: text.splitlines()[2:] for key, text in shown.items()}
-    assert (len(rows["tab_shares"]), len(rows["tab_nearest"]), len(rows["tab_slopes"])) == (6, 3, 2)
+    rows = {key: text.splitlines()[2:] for key, text in shown.items() if text}
+    assert (len(rows["tab_shares"]), len(rows["tab_nearest"]), len(rows["tab_slopes"])) == (3, 3, 2)
 
 
 def test_response_bends_are_nothing_under_feedback_linearization():

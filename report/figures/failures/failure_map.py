@@ -1,4 +1,4 @@
-"""What the page on failures shows: shares of SO(3), the exact points at which a law fails, how far its failures are."""
+"""What the page on failures shows: shares of SO(3), maps, the exact points at which a law fails, how far they are."""
 
 import functools
 import math
@@ -7,6 +7,9 @@ from collections.abc import Iterable, Iterator
 import numpy as np
 import pandas as pd
 
+from bench.findings.maps import by_law
+from bench.tables import read
+from bench.tables.schema import RESULTS
 from report.figures.failures import ball, world_map
 from report.figures.failures.world_map import SETS
 from report.figures.kit import html, laws
@@ -21,8 +24,9 @@ EXACT_RAD = 1e-13
 NEAR_RAD = 0.1 + EXACT_RAD
 """Of a pole: the first decade of the set poles, 0.1 rad with its rounding."""
 
-ENGINES = ("ideal-rk4", "ideal-held", "native", "reference")
-SHARES = Table("Law | Engine | Starts | Settled [%]:.2f | 95 % interval | The others")
+MAPS = RESULTS / "maps"
+SHARES = Table("Law | Starts | Settled [%]:.2f | 95 % interval | The others")
+MAPPED = Table("Law | Starts | Lost | [ppm]:.2f | 95 % interval [ppm] | Slowest [s]:.2f | From [°]")
 EXACT = Table("Law | Start on | Tried | Failing | How | One of them (w, x, y, z)")
 NEAREST = Table("Law | Axes | Failing | Smallest:.1f | About | Median:.1f | Nearest start:.1f")
 
@@ -73,7 +77,8 @@ def tables(run: Run) -> dict:
     """Shares by law and engine; exact points; nearest failures in degrees."""
     episodes = continuous(run)
     return {
-        "tab_shares": SHARES(shares(every(run))),
+        "tab_shares": SHARES(shares(episodes)),
+        "tab_mapped": kept_maps(),
         "tab_exact": EXACT(exact_points(episodes)),
         "tab_nearest": NEAREST(nearest(run.rows("boundaries"), episodes)),
     }
@@ -91,15 +96,30 @@ def outcomes(rows: pd.DataFrame) -> str:
 
 
 def shares(episodes: pd.DataFrame) -> Iterator[tuple]:
-    """Law and engine: uniform starts, share that settles with its interval, how the others end."""
+    """Law: uniform starts, share that settles with its interval, how the others end."""
     for name, title, own in laws.each(episodes[episodes["start_set"] == "uniform"]):
-        for engine in ENGINES:
-            part = own[own["engine"] == engine]
-            if len(part):
-                settled = share(int((part["outcome"] == "settled").sum()), len(part))
-                interval = html.together(f"{100.0 * settled.low:.2f} to {100.0 * settled.high:.2f}")
-                law, percent = html.law(name, title), 100.0 * settled.value
-                yield law, html.together(engine), settled.n, percent, interval, outcomes(part)
+        settled = share(int((own["outcome"] == "settled").sum()), len(own))
+        interval = html.together(f"{100.0 * settled.low:.2f} to {100.0 * settled.high:.2f}")
+        yield html.law(name, title), settled.n, 100.0 * settled.value, interval, outcomes(own)
+
+
+def kept_maps() -> html.Markdown | None:
+    """What the maps that came with the benchmark say of starts at rest, a law a line; None if there are none."""
+    if not (MAPS / "provenance.json").is_file():
+        return None
+    lines = by_law(read.table(MAPS, "map")).to_dict("records")
+    return MAPPED(
+        (
+            html.law(line["law"], laws.title(line["law"])),
+            line["starts"],
+            line["lost"],
+            line["lost [ppm]"],
+            html.together(f"{line['least [ppm]']:.2f} to {line['most [ppm]']:.2f}"),
+            line["slowest [s]"],
+            line["from [deg]"],
+        )
+        for line in lines
+    )
 
 
 def places(rows: pd.DataFrame) -> pd.Series:
