@@ -7,7 +7,6 @@ import rich_click as click
 from bench.cli.paragraphs import Paragraph, print_paragraphs
 from bench.cli.progress import progress
 from bench.cli.screen import console
-from bench.tables import read
 
 
 @click.command("claims")
@@ -16,6 +15,7 @@ from bench.tables import read
 def COMMAND(folder, criteria):
     """The claims of Murphy (1988): id, verdict, what is claimed, then the evidence (default: results/latest)."""
     from bench.findings.claims import judge_all
+    from bench.tables import read
 
     with progress("claims", "judging the paper's claims"):
         verdicts = judge_all(folder or read.folder())

@@ -3,7 +3,6 @@
 import os
 from pathlib import Path
 
-import pandas as pd
 import rich_click as click
 from click.exceptions import Exit
 
@@ -64,6 +63,8 @@ def COMMAND(base, head, laws, no_timing, json_file, summary):
 
 
 def _compare(base, head, laws, no_timing, json_file, leave) -> None:
+    import pandas as pd
+
     from bench.regression import rows
     from bench.regression.revisions import gates
 

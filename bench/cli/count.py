@@ -1,6 +1,9 @@
 """`count`: operations a tick, from the code that runs."""
 
-import pandas as pd
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
 import rich_click as click
 from click.exceptions import Exit
 
@@ -15,6 +18,9 @@ from bench.experiments.experiment import Settings, Unit, rows_of
 from bench.experiments.plan import Plan
 from bench.experiments.suites import SUITES
 from bench.law.contender import Contender
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 EPILOG = examples(
     ("The laws alone", "count --stages"),
@@ -67,6 +73,8 @@ def COMMAND(laws, regulators, representations, jacobians, inverses, controllers,
 
 def _rows(chosen: list[Contender], arm: str = "") -> pd.DataFrame:
     """Rows of costs.parquet: of laws alone, or on an arm; a user's are counted in their sandbox."""
+    import pandas as pd
+
     from bench.running.sandbox import Sandbox
 
     own = tuple(dict.fromkeys(one.regulator for one in chosen if one.regulator.origin))
@@ -88,6 +96,8 @@ def _print(table: pd.DataFrame, title: str, stages: bool) -> None:
 
 def _in_contact(words: tuple[str, ...]) -> pd.DataFrame:
     """The costs of the controllers of these names."""
+    import pandas as pd
+
     from bench.counting.in_contact import rows_in_contact
 
     controllers = [find_controller(word) for word in dict.fromkeys(words)]

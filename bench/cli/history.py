@@ -4,7 +4,6 @@ import os
 import subprocess
 from pathlib import Path
 
-import pandas as pd
 import rich_click as click
 
 from bench.cli.progress import progress
@@ -89,6 +88,8 @@ def walk(commits, path):
 @click.option("--asv", type=click.Path(path_type=Path), metavar="FOLDER", help="Write it as results of asv, too.")
 def show(path, asv):
     """The builds, and every step: what changed, from which commit on, by how much."""
+    import pandas as pd
+
     from bench.regression.history import asv as as_asv
     from bench.regression.history import log
     from bench.regression.history.series import series

@@ -1,16 +1,21 @@
 """`judge`: one law, alone: what it does, and why."""
 
+from __future__ import annotations
+
 import dataclasses
 from collections import defaultdict
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-import pandas as pd
 import rich_click as click
 from click.exceptions import Exit
 
 from bench.cli import options
 from bench.cli.paragraphs import Paragraph, print_paragraphs
 from bench.cli.screen import console, counted, examples, frame_table
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 EPILOG = examples(
     ("A law of your own (README has an example)", "judge my_law.py"),
@@ -68,6 +73,8 @@ def plan_of(laws):
 
 def said_of(one, parts) -> tuple[list, pd.DataFrame, pd.DataFrame]:
     """All that there is to say of a law; its command field and its episodes. parts: rows by law and experiment."""
+    import pandas as pd
+
     from bench.findings import why
     from bench.tables.read import with_contender
 

@@ -3,12 +3,11 @@
 import itertools
 from collections.abc import Callable
 
-import pandas as pd
 import rich_click as click
 
 import tasks
 from bench.cli import options
-from bench.cli.screen import Frame, console, frame_table
+from bench.cli.screen import Frame, console, word_table
 from bench.contenders.registry import (
     known_impedances,
     known_inverses,
@@ -36,7 +35,7 @@ def kind(word: str, title: str, *columns: str):
 
     def listed(rows):
         def table(own):
-            return frame_table(pd.DataFrame([[*map(str, row)] for row in rows(own)], columns=list(columns)), title)
+            return word_table(columns, rows(own), title)
 
         KINDS[word] = table
         return rows

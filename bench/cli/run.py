@@ -7,12 +7,10 @@ from datetime import timedelta
 import rich_click as click
 from click.exceptions import Exit
 
-from bench.cli import options, planned
+from bench.cli import options
 from bench.cli.progress import progress
 from bench.cli.screen import console, counted, examples, shown_path
-from bench.experiments import plan as planning
-from bench.experiments.choice import Choice, check_workers
-from bench.experiments.experiment import IN_CONTACT, WITHOUT
+from bench.experiments.choice import IN_CONTACT, WITHOUT, Choice, check_workers
 from bench.law.contender import Gains
 from bench.running.schedulers.words import THREADS, check_scheduler
 from bench.tables.files import read_json
@@ -94,6 +92,9 @@ def COMMAND(
     Robustness is of the free body: under a perturbation (python -m bench list axes), from initial conditions of its
     own, as a low control rate, delay, noise, saturation or a moving goal. Name one, and nothing else is run.
     """
+    from bench.cli import planned
+    from bench.experiments import plan as planning
+
     choice = Choice(**{**words, **options.named(*map(words.get, options.Named._fields))._asdict()})
     plan = planning.make(
         suite,

@@ -1,7 +1,7 @@
 """Printing: one console, the same width rules everywhere, plain text when the output is not a terminal."""
 
 import os
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
 from rich.console import Console, ConsoleOptions, JustifyMethod, RenderableType
@@ -71,6 +71,12 @@ class Frame:
             if place:
                 yield Text()
             yield _table(block)
+
+
+def word_table(names: Sequence[str], rows: Iterable[Sequence], title: str = "") -> Frame:
+    """Rows of words, for a console to print; as a data frame of them is, and without pandas."""
+    cells = [*zip(*rows, strict=True)] or [()] * len(names)
+    return Frame([Column(name, [*map(str, own)], False) for name, own in zip(names, cells, strict=True)], title)
 
 
 def frame_table(frame, title: str = "") -> Frame:

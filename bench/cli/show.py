@@ -5,14 +5,9 @@ from pathlib import Path
 import rich_click as click
 
 from bench.cli import options
-from bench.cli.details import arms, contact, free_body, parts, robustness
-from bench.cli.details.episodes import of_laws, only, outcome_table, places
 from bench.cli.origin import origin
 from bench.cli.screen import console, examples, frame_table, shown_path
 from bench.errors import BadResults
-from bench.experiments.experiment import known_experiments
-from bench.tables import read as results
-from bench.tables.store import read
 
 EPILOG = examples(
     ("The summary of results/latest", "show"),
@@ -61,6 +56,9 @@ def _meant(folder: str | None, part: str | None) -> tuple[Path, str | None]:
     Errors:
         UsageError: the second word is no part. BadResults: the first is neither a part nor a folder.
     """
+    from bench.cli.details import parts
+    from bench.tables import read as results
+
     if part is None and folder in parts():
         return results.folder(), folder
     if part is not None and part not in parts():
@@ -76,6 +74,11 @@ def _meant(folder: str | None, part: str | None) -> tuple[Path, str | None]:
 
 def _tables(folder: Path, part, engine, starts, outcomes, regulators) -> list:
     """Titles and tables of a part, or of all."""
+    from bench.cli.details import arms, contact, free_body, robustness
+    from bench.cli.details.episodes import of_laws, only, outcome_table, places
+    from bench.experiments.experiment import known_experiments
+    from bench.tables.store import read
+
     episodes = read(folder, "episodes")
     if part in ("free-body", "arms"):
         episodes = episodes[(episodes["arm"] != "") == (part == "arms")]

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Iterator
-
-import pandas as pd
+from typing import TYPE_CHECKING
 
 import tasks
 from bench.contenders import combinations
@@ -17,6 +16,9 @@ from bench.experiments.suites import NOMINAL, OnArms, Slice
 from bench.law.contender import Contender
 from bench.tables.schema import TABLES
 from tasks.base import Start
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 MOST = {"native": 100, "reference": 2}
 """Episodes a unit at most, as on the free body."""

@@ -7,9 +7,9 @@ sets hit those exactly.
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING
 
 import numpy as np
-import pandas as pd
 
 from bench.experiments.episodes import prepare
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit, own_last
@@ -20,6 +20,9 @@ from bench.tables.schema import TABLES
 from tasks.base import Start
 from tasks.sphere import axes
 from tasks.verdict import OUTCOMES, SETTLED
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 SCAN = np.radians(np.arange(2.5, 178.0, 2.5))
 BISECTIONS = 16
@@ -44,6 +47,8 @@ def of_law(one: Contender, count: int) -> Unit:
 
 def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
     """One row an axis."""
+    import pandas as pd
+
     from bench.experiments.rows.episodes import contender_columns
 
     one, directions = settings.contender(unit.contender), axes(unit.count)

@@ -11,6 +11,8 @@ from bench.experiments.suites import ENGINES
 from bench.law.contender import Gains
 
 INTEGRATORS = ("euler", "implicit", "implicitfast", "rk4")
+WITHOUT, IN_CONTACT = "euler", "implicitfast"
+"""Integrators if none is named: the default of MuJoCo, and what it recommends for contacts."""
 
 MOST_STARTS = 1_000_000
 """Of each set, in one run."""

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-import pandas as pd
+from typing import TYPE_CHECKING
 
 from bench.experiments.episodes import prepare
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit, own_last
 from bench.experiments.traces import laws
 from bench.tables.schema import TABLES
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 NAME = "command-field"
 
@@ -25,6 +28,8 @@ def units(asked: Asked) -> tuple[Unit, ...]:
 
 def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
     """One row a finding."""
+    import pandas as pd
+
     from bench.experiments.rows.command_field import findings
     from bench.experiments.rows.episodes import contender_columns
 

@@ -9,8 +9,6 @@ import functools
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-import pandas as pd
-
 import tasks
 from bench.control.contact_controller import ContactController
 from bench.control.registry import all_controllers, find_controller
@@ -22,6 +20,8 @@ from bench.tables.schema import TABLES
 from tasks.base import BadValue
 
 if TYPE_CHECKING:
+    import pandas as pd
+
     from tasks.arm_model import Arm
     from tasks.contact import ContactTask, Trial
 

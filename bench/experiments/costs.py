@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import pandas as pd
+from typing import TYPE_CHECKING
 
 import tasks
 from bench.contenders.registry import all_contenders
@@ -11,6 +11,9 @@ from bench.experiments import arm, free_body
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit, own_last
 from bench.experiments.traces import laws
 from bench.tables.schema import TABLES
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 LAW_S, CONTROLLER_S = 0.2, 1.0
 """CPU seconds of counting; none where it has been counted before."""
@@ -37,6 +40,8 @@ def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
     Errors:
         BadLaw: a law that cannot be counted.
     """
+    import pandas as pd
+
     from bench.tables.kept_costs import of_controller, of_law
 
     one = settings.contender(unit.contender)

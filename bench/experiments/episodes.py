@@ -8,9 +8,7 @@ from __future__ import annotations
 import functools
 import importlib
 from collections.abc import Iterator
-from typing import NamedTuple
-
-import pandas as pd
+from typing import TYPE_CHECKING, NamedTuple
 
 import tasks
 from bench.errors import Incompatible
@@ -19,6 +17,9 @@ from bench.experiments.experiment import Asked, Settings, Unit
 from bench.experiments.suites import HORIZON, NOMINAL, ON_ARM, SHORT, Slice
 from bench.law.contender import Contender
 from tasks.base import Start
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 
 class Place(NamedTuple):

@@ -3,7 +3,8 @@
 An experiment is one file of this folder with a constant EXPERIMENT. Its units are planned from what was asked, carried
 out one by one, each by whatever process, and their rows, in the order of the units, are the table.
 
-Fails: an experiment whose file imports an engine outside its functions makes every plan wait for the compiler.
+Fails: an experiment whose file imports an engine or pandas outside its functions makes every plan, and `list`, wait for
+it.
 """
 
 from __future__ import annotations
@@ -12,23 +13,22 @@ import dataclasses
 import functools
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import NamedTuple
-
-import pandas as pd
+from typing import TYPE_CHECKING, NamedTuple
 
 from bench import experiments
 from bench.contenders.registry import find_contender
-from bench.engines.episode import Settings as Limits
 from bench.errors import BadLaw
-from bench.experiments.choice import Choice
+from bench.experiments.choice import IN_CONTACT, WITHOUT, Choice
 from bench.experiments.suites import Suite
 from bench.law.contender import PAPERS_GAINS, Contender, Gains, Regulator
 from bench.tables.schema import Table
 from tasks.discovery import constants
 from tasks.rules import RULES, ticks
 
-WITHOUT, IN_CONTACT = "euler", "implicitfast"
-"""Integrators if none is named: the default of MuJoCo, and what it recommends for contacts."""
+if TYPE_CHECKING:
+    import pandas as pd
+
+    from bench.engines.episode import Settings as Limits
 
 
 class Settings(NamedTuple):
@@ -51,6 +51,8 @@ class Settings(NamedTuple):
 
     def limits(self, horizon_s: float) -> Limits:
         """These numbers and the judge's rules, as engines take them."""
+        from bench.engines.episode import Settings as Limits
+
         return Limits(self.gains, self.dt_s, ticks(horizon_s, self.dt_s), RULES.hold_ticks(self.dt_s))
 
 
@@ -122,6 +124,8 @@ class Asked:
 
 def nothing(settings: Settings, unit: Unit, outcome: str = "") -> pd.DataFrame:
     """No rows: of a unit that tells of a law what cannot be told of one that crashed or hung."""
+    import pandas as pd  # as engines: planning needs neither
+
     return pd.DataFrame()
 
 

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import functools
-
-import pandas as pd
+from typing import TYPE_CHECKING
 
 import tasks
 from bench.experiments import arm
@@ -13,6 +12,9 @@ from bench.experiments.experiment import Asked, Experiment, Settings, Unit
 from bench.experiments.suites import Slice, Suite
 from bench.law.contender import Contender
 from bench.tables.schema import TABLES
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 MOST = {"ideal-rk4": 1000, "ideal-held": 1000, "native": 250, "reference": 4}
 """Episodes a unit at most: a few seconds each even if none of them settles, so that Ctrl-C answers soon."""

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-import pandas as pd
+from typing import TYPE_CHECKING
 
 import tasks
 from bench.experiments import arm
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit
 from bench.tables.schema import TABLES
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 ARM_S, POSE_S = 5.0, 5e-3
 """CPU seconds of an arm's directed poses, and of each random one."""

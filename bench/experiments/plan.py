@@ -7,8 +7,16 @@ from dataclasses import dataclass
 
 import tasks
 from bench.errors import Incompatible
-from bench.experiments.choice import EVERYTHING, INTEGRATORS, Choice, check_numbers, check_word
-from bench.experiments.experiment import IN_CONTACT, WITHOUT, Asked, Settings, Unit, known_experiments, known_tables
+from bench.experiments.choice import (
+    EVERYTHING,
+    IN_CONTACT,
+    INTEGRATORS,
+    WITHOUT,
+    Choice,
+    check_numbers,
+    check_word,
+)
+from bench.experiments.experiment import Asked, Settings, Unit, known_experiments, known_tables
 from bench.experiments.suites import suite
 from bench.law.contender import PAPERS_GAINS, Contender, Gains
 from bench.provenance import source_digest

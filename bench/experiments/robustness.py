@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import functools
-
-import pandas as pd
+from typing import TYPE_CHECKING
 
 import tasks
 from bench.contenders.registry import papers_laws
@@ -14,6 +13,9 @@ from bench.experiments.experiment import Asked, Experiment, Settings, Unit
 from bench.experiments.suites import Robustness
 from bench.law.contender import Contender
 from bench.tables.schema import TABLES
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 HORIZON_S = 5.0
 """Longest simulated time [s]: eight settling times of a small error, and a tail to average over."""

@@ -7,9 +7,9 @@ laws on the first two, to the last digit; every other curve is there to be drawn
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 import numpy as np
-import pandas as pd
 
 import tasks
 from bench.experiments import arm, free_body, robustness
@@ -18,6 +18,9 @@ from bench.experiments.experiment import Asked, Experiment, Settings, Unit, own_
 from bench.experiments.suites import HORIZON, LONG, SHORT
 from bench.law.contender import Contender
 from bench.tables.schema import TABLES
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 EVERY_S = 0.02
 """Five samples in each time constant of 0.1 s."""
@@ -85,6 +88,8 @@ def of_arm(contender: str, task: str, arm: str, count: int) -> Unit:
 
 def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
     """The samples of all curves of a unit."""
+    import pandas as pd
+
     every = max(1, round(EVERY_S / settings.dt_s))
     frames = (_on_arm if unit.arm else _on_free_body)(settings, unit, settings.contender(unit.contender), every)
     return pd.concat(list(frames), ignore_index=True).reindex(columns=TABLES["traces"].names)
@@ -134,6 +139,8 @@ def _on_arm(settings: Settings, unit: Unit, one: Contender, every: int) -> Itera
 
 def _frame(place: dict, starts, samples: np.ndarray, names, endings: dict) -> pd.DataFrame:
     """The curves of all starts, one below the other; what the judge says of an episode stands at all its samples."""
+    import pandas as pd
+
     is_kept = ~np.isnan(samples[:, :, 0])
     lengths = is_kept.sum(axis=1)
     columns = dict(zip(names, samples[is_kept].T, strict=True))

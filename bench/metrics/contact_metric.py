@@ -1,14 +1,18 @@
 """What a metric of contact is: a number from the records of the trials that share a pose, in plain numpy."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from bench.control.contact_controller import ContactController
-from bench.engines.contact_episode import FORCE, GAP, LOAD, MOMENT, OMEGA, TIME, TURNED, Ended, P, R
 from tasks.arm_model import Arm
 from tasks.contact import ContactTask, Trial
+
+if TYPE_CHECKING:
+    from bench.engines.contact_episode import Ended
 
 
 class Response(NamedTuple):
@@ -61,6 +65,8 @@ class ContactMetric(NamedTuple):
 
 def response(trial: Trial, ended: Ended) -> Response:
     """The arrays of an episode's record; ticks at which it holds nothing finite stay as they are."""
+    from bench.engines.contact_episode import FORCE, GAP, LOAD, MOMENT, OMEGA, TIME, TURNED, P, R
+
     record = ended.record
     return Response(
         trial,

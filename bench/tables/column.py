@@ -1,21 +1,24 @@
 """A column and a table: names, types, units and meanings, and what names a row."""
 
-from collections.abc import Callable
-from typing import NamedTuple
+from __future__ import annotations
 
-import pyarrow as pa
+from collections.abc import Callable
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    import pyarrow as pa
 
 VERSION = "2"
-WORD, NUMBER, COUNT = pa.dictionary(pa.int32(), pa.string()), pa.float64(), pa.int64()
-SINGLE = pa.float32()
-"""Where seven digits are enough: sizes of what is nearly zero, condition numbers, measures of robustness."""
+WORD, NUMBER, COUNT, SINGLE = "word", "double", "int64", "float"
+"""Types of columns: of a word, as parquet's dictionary; of others, their names in Arrow. SINGLE is where seven digits
+are enough: sizes of what is nearly zero, condition numbers, measures of robustness."""
 
 
 class Column(NamedTuple):
     """One column of a table."""
 
     name: str
-    type: pa.DataType
+    type: str
     unit: str
     meaning: str
 
@@ -47,7 +50,12 @@ class Table(NamedTuple):
 
     def schema(self) -> pa.Schema:
         """As parquet keeps it, units and meanings as the columns' metadata."""
+        import pyarrow as pa  # names of tables and columns need it not
+
+        types = {WORD: pa.dictionary(pa.int32(), pa.string())}
+        types |= {name: pa.type_for_alias(name) for name in (NUMBER, COUNT, SINGLE)}
         fields = [
-            pa.field(one.name, one.type, metadata={"unit": one.unit, "meaning": one.meaning}) for one in self.columns()
+            pa.field(one.name, types[one.type], metadata={"unit": one.unit, "meaning": one.meaning})
+            for one in self.columns()
         ]
         return pa.schema(fields, metadata={"orientation-bench table": self.name, "orientation-bench schema": VERSION})

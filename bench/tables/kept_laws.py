@@ -1,8 +1,9 @@
 """The laws in a results folder that are none of ours: run if they are this user's, else known by their rows."""
 
-from pathlib import Path
+from __future__ import annotations
 
-import pandas as pd
+from pathlib import Path
+from typing import TYPE_CHECKING
 
 from bench.contenders.described_law import described
 from bench.contenders.law_file import WORD
@@ -11,6 +12,9 @@ from bench.errors import BadResults
 from bench.law.contender import ON_MATRIX, Regulator
 from bench.tables import trust
 from bench.tables.files import refuse_link
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 UNTRUSTED = "a file that came with the results; it was not run"
 """The source of a law that is known by its rows alone."""

@@ -9,18 +9,21 @@ Every frame about contenders has a column `contender`: "regulator" or "regulator
 the words FREE_BODY.
 """
 
+from __future__ import annotations
+
 import functools
 import os
 from pathlib import Path
-
-import pandas as pd
+from typing import TYPE_CHECKING
 
 from bench.errors import BadResults
 from bench.law.contender import Regulator
 from bench.tables.files import read_json
 from bench.tables.kept_laws import kept_laws
 from bench.tables.schema import RESULTS
-from bench.tables.store import read
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 VARIABLE = "ORIENTATION_BENCH_RESULTS"
 
@@ -62,6 +65,8 @@ def own_laws(run: Path | None = None) -> tuple[Regulator, ...]:
 @functools.cache
 def table(path: Path, name: str) -> pd.DataFrame:
     """A whole table with `contender` added where it has some; shared, so copy it before you change it."""
+    from bench.tables.store import read
+
     frame = read(path, name)
     if "controller" in frame:
         return with_controller(frame)

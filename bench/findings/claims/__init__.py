@@ -25,16 +25,20 @@ One file for each part of the paper; a claim is found by being in one of them.
     errata.py                what is printed wrongly in the paper, each with a check
 """
 
+from __future__ import annotations
+
 import functools
 import importlib
 import pkgutil
 from pathlib import Path
-
-import pandas as pd
+from typing import TYPE_CHECKING
 
 from bench.findings.claims.tables import CHECK_ENGINES, MAIN_ENGINE, Results
 from bench.findings.claims.verdict import Claim, Evidence, NoEvidence, Verdict, Word, decide
 from bench.tables import read as published
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 __all__ = [
     "RULE",
@@ -90,6 +94,8 @@ def _judged(folder: Path) -> tuple[Verdict, ...]:
 
 def table(verdicts: list[Verdict]) -> pd.DataFrame:
     """One line a verdict."""
+    import pandas as pd
+
     return pd.DataFrame(
         {
             "claim": [one.id for one in verdicts],

@@ -1,14 +1,18 @@
 """Every law of a run by the tests of C17 and C27, a row a law: what settles, how fast, by what way, at what cost."""
 
-from typing import NamedTuple
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-import pandas as pd
 
 from bench.findings.claims import probes
 from bench.findings.claims.probes import EXACT_RAD
 from bench.findings.claims.tables import Results, settled, some
 from bench.tables.read import FREE_BODY
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 CALLS = ("sin", "cos", "atan2", "acos")
 DIRECTED = ("half-turn", "poles", "wraps", "box", "tumbling", "goals")

@@ -1,9 +1,11 @@
 """Small experiments that claims make on arms: curves at another step, episodes from poses of a table."""
 
+from __future__ import annotations
+
 import math
+from typing import TYPE_CHECKING
 
 import numpy as np
-import pandas as pd
 
 import tasks
 from bench.contenders.registry import find_contender, inverse, jacobian
@@ -14,6 +16,9 @@ from bench.law.contender import Contender, Gains
 from bench.law.so3 import from_quaternion
 from bench.metrics.registry import metrics_of
 from tasks.kinematics import kinematics
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 TASK = "arm-regulation"
 BENDS = ("bend_0", "bend_1", "bend_2")
@@ -33,6 +38,8 @@ def curves(word: str, arm: str, gains: Gains, dt_s: float, count: int) -> pd.Dat
         a row a sample: start_id, time_s, bend_0 to bend_2 (E less E_d + (E_0 - E_d) linear(t)) [rad],
         position_error_m.
     """
+    import pandas as pd
+
     from bench.experiments import traces
     from bench.experiments.experiment import Settings
 

@@ -1,15 +1,19 @@
 """C22 to C24: about which axes Euler angles comply, measured in free space (Murphy 1988, 3.3)."""
 
+from __future__ import annotations
+
 import math
+from typing import TYPE_CHECKING
 
 import numpy as np
-import pandas as pd
-from scipy.spatial.transform import Rotation as Turn
 
 from bench.findings.claims import side_by_side
 from bench.findings.claims.euler_jacobian import COORDINATES
 from bench.findings.claims.tables import evidence, some
 from bench.findings.claims.verdict import claim, word_of
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 ONE_AXIS = ("about x", "about y", "about z")
 TWO_AXES = ("about x and y", "about y and z", "about z and x")
@@ -99,6 +103,8 @@ def c22(results):
 
 
 def _turns(angles: np.ndarray) -> np.ndarray:
+    from scipy.spatial.transform import Rotation as Turn
+
     return Turn.from_euler("ZYX", angles).as_matrix()
 
 

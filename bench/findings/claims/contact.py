@@ -1,13 +1,19 @@
 """C25: complex compliant motions by both Jacobians (Murphy 1988, 3.3)."""
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
 import numpy as np
-import pandas as pd
 
 from bench.control.contact_controller import FORMS
 from bench.findings.claims.euler_jacobian import COORDINATES
 from bench.findings.claims.side_by_side import BASE, paired
 from bench.findings.claims.tables import evidence, some
 from bench.findings.claims.verdict import NoEvidence, claim, word_of
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 TURNED_DEG = 45.0
 """|beta| of the hand's frame from which on the two shall part: its x then leans to z as much as it lies level."""

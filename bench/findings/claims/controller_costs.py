@@ -1,14 +1,19 @@
 """C26: what whole controllers cost on either Jacobian (Murphy 1988, 3.2 and 4)."""
 
+from __future__ import annotations
+
 import itertools
+from typing import TYPE_CHECKING
 
 import numpy as np
-import pandas as pd
 
 from bench.findings.claims.adequacy import CALL_PRICE, tallied
 from bench.findings.claims.costs import AGREES, MIXED, compared
 from bench.findings.claims.tables import evidence, some
 from bench.findings.claims.verdict import claim, word_of
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 LAW, COORDINATES = "feedback-linearized", "zyx-euler"
 
@@ -85,6 +90,8 @@ def c26(results):
 
 def _timed(results) -> tuple[str, bool, int]:
     """What the timings say, whether none contradicts the order, and how many rows say it."""
+    import pandas as pd
+
     frame = results.controller_timings()
     columns = []
     for controller in (BY_COMMON, ON_MATRIX, BY_EULER):

@@ -1,11 +1,12 @@
 """C20: the controller on the Euler Jacobian (Murphy 1988, 3.6-3.8)."""
 
+from __future__ import annotations
+
 import functools
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-import pandas as pd
 
 import tasks
 from bench.findings.claims import arm_probes
@@ -23,6 +24,9 @@ from bench.findings.claims.controller_costs import (
 from bench.findings.claims.tables import evidence, some
 from bench.findings.claims.verdict import claim, word_of
 from bench.law.contender import Gains
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 CURVES = 8
 """Clear starts whose curves are computed at both steps."""
@@ -83,6 +87,8 @@ class Bend(NamedTuple):
 )
 def c20(results):
     """Curves at two steps; outcomes at the poles against the law on R; stages and totals."""
+    import pandas as pd
+
     found = some(
         results.table("episodes", task=arm_probes.TASK, engine="native", variation="nominal"),
         "nominal episode of an arm",
@@ -139,6 +145,8 @@ def _pairs(found: pd.DataFrame, arm: str, start_set: str, controller: str = BY_E
 
 def _against(own: pd.DataFrame, other: pd.DataFrame) -> pd.DataFrame:
     """Both controllers' episodes side by side: whether the first fails where the other settles."""
+    import pandas as pd
+
     both = own.merge(other, on="start_id", suffixes=("", "_other"))
     hammered = ~(both["peak_tau_nm"] <= HAMMERED * both["peak_tau_nm_other"])
     fails = (both["outcome_other"] == "settled") & ((both["outcome"] != "settled") | hammered)
@@ -146,6 +154,8 @@ def _against(own: pd.DataFrame, other: pd.DataFrame) -> pd.DataFrame:
 
 
 def _at_poles(results, found: pd.DataFrame, poses: pd.DataFrame, arm: str, gains: Gains) -> pd.DataFrame:
+    import pandas as pd
+
     controllers = [f"{one}+{INVERSES[tasks.arm(arm).joints]}" for one in (BY_EULER, ON_MATRIX)]
     beside = [results.found_by(arm_probes.beside_poles, one, arm, poses, gains) for one in controllers]
     return pd.concat([_pairs(found, arm, "pole"), _against(*beside)], ignore_index=True)

@@ -1,10 +1,16 @@
 """C18, C19: the Euler Jacobian J_E, its singularities and its two derivations (Murphy 1988, 3.1-3.5)."""
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
 import numpy as np
-import pandas as pd
 
 from bench.findings.claims.tables import evidence, share, some
 from bench.findings.claims.verdict import NoEvidence, claim, word_of
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 COORDINATES = "zyx-euler"
 
@@ -94,6 +100,8 @@ def c18(results):
 
 def _families(rows: pd.DataFrame) -> pd.DataFrame:
     """Each family that speaks: slopes over the first decades, the largest element at the last, J's worst condition."""
+    import pandas as pd
+
     pole = rows[rows["pose_set"] == "pole"]
     ids = pole["pose_id"].astype(str).str.extract(r"^(?P<family>.+)-1e-(?P<k>\d+)$")
     found = []

@@ -1,14 +1,19 @@
 """C09: the linear response of feedback linearization in Z-Y-X angles (Murphy 1988, 2.15-2.16 and 2.4)."""
 
+from __future__ import annotations
+
 import math
+from typing import TYPE_CHECKING
 
 import numpy as np
-import pandas as pd
 
 from bench.findings.claims import probes
 from bench.findings.claims.tables import MAIN_ENGINE, evidence, settled, share, some
 from bench.findings.claims.verdict import Word, claim
 from bench.findings.theory import closed_form
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 LAW = "feedback-linearized"
 

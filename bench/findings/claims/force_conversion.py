@@ -1,11 +1,12 @@
 """C21: measured moments in Euler coordinates, F_e = diag(I, B)^T F_c, and their work (Murphy 1988, 3.10-3.12)."""
 
+from __future__ import annotations
+
 import functools
 import math
+from typing import TYPE_CHECKING
 
 import numpy as np
-import pandas as pd
-from scipy.spatial.transform import Rotation as Turn
 
 from bench.contenders.registry import known_representations, representation
 from bench.findings.claims.euler_jacobian import COORDINATES, DIFFERENCED, EPS, ROUNDINGS
@@ -14,6 +15,9 @@ from bench.findings.claims.tables import evidence, some
 from bench.findings.claims.verdict import claim, word_of
 from bench.law.contender import Representation
 from bench.law.so3 import Rotation, from_quaternion
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 TURNS, TURNS_ELSEWHERE, SEED = 2000, 200, 0
 """Haar-random orientations of Z-Y-X, and of every other representation."""
@@ -120,6 +124,8 @@ def balance(along: Representation, R: Rotation, moment: np.ndarray, rates: np.nd
         R(E), differenced along Edot. raw_gap: the same with the moment not converted (of three coordinates). least:
         smallest singular value of B; lost: |B^T e| of the moment e of length 1 that it belongs to.
     """
+    from scipy.spatial.transform import Rotation as Turn
+
     at = along.chart(R)
     B = np.array([along.angular_velocity(at, tuple(one)) for one in np.eye(len(rates)).tolist()]).T
     F_E = np.array(along.generalized(at, tuple(moment.tolist())))
@@ -140,6 +146,8 @@ def balance(along: Representation, R: Rotation, moment: np.ndarray, rates: np.nd
 
 def balances(along: Representation, places: list[tuple[str, Rotation]], seed: int) -> pd.DataFrame:
     """A row an orientation: `place` and what `balance` finds for random directions of moment and rates."""
+    import pandas as pd
+
     rng, rows = np.random.default_rng(seed), []
     for place, R in places:
         moment, rates = rng.normal(size=3), rng.normal(size=len(along.chart(R).E))

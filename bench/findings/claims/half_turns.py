@@ -1,7 +1,6 @@
 """C04 and C05: where the rotation-matrix law's error is zero away from the goal (Murphy 1988, 2.12 and 2.4)."""
 
 import numpy as np
-from scipy.optimize import minimize
 
 from bench.findings.claims import probes
 from bench.findings.claims.rotation_matrix import LAW
@@ -87,6 +86,8 @@ def c04(results, engine):
 )
 def c05(results):
     """|e| over sin(angle): at every start of the run, and as low as a search gets."""
+    from scipy.optimize import minimize
+
     frame = results.episodes(LAW, MAIN_ENGINE).drop_duplicates(["start_set", "start_id"])
     frame = some(frame[frame["angle0_rad"].between(AWAY_RAD, np.pi - AWAY_RAD)], "start away from zero and half turn")
     pairs = zip(probes.rotations(frame), probes.rotations(frame, probes.GOAL_QUAT), strict=True)

@@ -1,11 +1,12 @@
 """Small experiments that claims make themselves: a law at one state, a few episodes, distances from the boundary."""
 
+from __future__ import annotations
+
 import functools
 import math
+from typing import TYPE_CHECKING
 
 import numpy as np
-import pandas as pd
-from scipy.spatial.transform import Rotation as Turn
 
 from bench.contenders.registry import find_contender, representation
 from bench.law.contender import AT_REST, Gains, Goal
@@ -14,6 +15,9 @@ from bench.metrics.registry import metrics_of
 from tasks.base import Start
 from tasks.sphere import axes
 from tasks.verdict import OUTCOMES
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 PAPER = Gains()
 QUAT = ("quat_w", "quat_x", "quat_y", "quat_z")
@@ -69,6 +73,8 @@ def about(axis, angle: float) -> tuple:
 
 def episodes(contender: str, starts: list[Start], gains: Gains, dt_s: float, horizon_s: float) -> pd.DataFrame:
     """Outcome and settling time of a few starts on the continuous plant."""
+    import pandas as pd
+
     from bench.engines.episode import FIRST_METRIC, NEVER, OUTCOME, SETTLING_TICK
     from bench.engines.run import run as run_engine  # imports the compiler: listing claims must not
     from bench.experiments.experiment import Settings
@@ -88,6 +94,8 @@ def episodes(contender: str, starts: list[Start], gains: Gains, dt_s: float, hor
 
 def finer(contender: str, frame: pd.DataFrame, gains: Gains, factor: int = 10) -> pd.DataFrame:
     """Episodes of a table again, with a tick that many times shorter: is it the law, or its integration?"""
+    import pandas as pd
+
     if frame.empty:
         return pd.DataFrame({"outcome": [], "peak_u": []})
     columns = [list(QUAT), list(OMEGA), list(GOAL_QUAT)]
@@ -105,6 +113,8 @@ SPEED, BESIDE = 20.0, 64
 @functools.cache
 def beside_pole(margin: float, contender: str, gains: Gains) -> pd.DataFrame:
     """Bodies that spin at 20 rad/s, in directions all over the sphere, a thousandth of a radian outside a margin."""
+    from scipy.spatial.transform import Rotation as Turn
+
     zyx = representation("zyx-euler")
     starts = []
     for i, direction in enumerate(axes(BESIDE)):
@@ -117,6 +127,8 @@ def beside_pole(margin: float, contender: str, gains: Gains) -> pd.DataFrame:
 
 def boundary_distance(frame: pd.DataFrame) -> pd.DataFrame:
     """How far each start is from the poles, the jumps of alpha and gamma, and the half turn [rad]."""
+    import pandas as pd
+
     return pd.DataFrame(
         {
             "pole": math.pi / 2 - frame["beta0"].abs(),
@@ -128,5 +140,7 @@ def boundary_distance(frame: pd.DataFrame) -> pd.DataFrame:
 
 def goal_to_pole(frame: pd.DataFrame) -> pd.Series:
     """How far each goal is from the poles [rad]."""
+    import pandas as pd
+
     betas = [abs(euler_angles(R)[1]) for R in rotations(frame, GOAL_QUAT)]
     return math.pi / 2 - pd.Series(betas, index=frame.index)

@@ -1,10 +1,15 @@
 """Rows of compliance.parquet by two controllers side by side, and how far measured compliances are apart."""
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
 import numpy as np
-import pandas as pd
-from scipy.spatial.transform import Rotation as Turn
 
 from bench.findings.claims.tables import some
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 PROBE, BASE = "wrench-probe", "hybrid-base"
 MEASURED = tuple(f"c_{i}{j}" for i in "xyz" for j in "xyz")
@@ -20,6 +25,8 @@ def beside_base(results, representation: str, orders: tuple[str, ...]) -> pd.Dat
     Errors:
         NoEvidence: there is none of one of the orders.
     """
+    from scipy.spatial.transform import Rotation as Turn
+
     both = paired(results, representation, task=PROBE)
     for order in orders:
         some(both[both["complies"] == order], f"pose of {PROBE} by hybrid/{representation} and {BASE}, {order}")

@@ -1,18 +1,19 @@
 """What judging functions read: a run's tables, the engines that are asked, shares with their intervals."""
 
+from __future__ import annotations
+
 import functools
 from collections.abc import Callable, Sized
 from pathlib import Path
-from typing import NamedTuple, TypeVar
-
-import pandas as pd
-from scipy.stats import binomtest
+from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 from bench.findings.claims.verdict import Evidence, NoEvidence, Word
 from bench.law.contender import Gains
 from bench.tables import read
 from bench.tables.schema import RESULTS
-from bench.tables.store import read_arrow
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 MAIN_ENGINE = "ideal-rk4"
 CHECK_ENGINES = ("ideal-held", "native")
@@ -91,6 +92,8 @@ class Results:
 
     def controller_timings(self) -> pd.DataFrame:
         """Time per tick of whole controllers of arms, on every machine that was timed; maybe empty."""
+        import pandas as pd
+
         every = self._all_timings()
         if not set(TIMED) <= set(every):
             return pd.DataFrame(columns=[*TIMED, "contender"])
@@ -98,6 +101,10 @@ class Results:
         return every[compiled & (every["ticks"] > 0)]
 
     def _all_timings(self) -> pd.DataFrame:
+        import pandas as pd
+
+        from bench.tables.store import read_arrow
+
         paths = sorted(self.timings_folder.glob("*.parquet"))
         frames = [read_arrow(path, "timings").to_pandas().assign(machine=path.stem) for path in paths]
         frames += [self.frames["timings"]] if "timings" in self.frames else []
@@ -138,6 +145,8 @@ def share(facts: pd.Series) -> Share:
     Errors:
         NoEvidence: there are no rows.
     """
+    from scipy.stats import binomtest
+
     k, n = int(facts.sum()), len(facts)
     if n == 0:
         raise NoEvidence("a share of no rows at all")

@@ -14,9 +14,6 @@ import math
 from collections.abc import Callable
 
 import numpy as np
-from scipy.integrate import solve_ivp
-from scipy.interpolate import CubicSpline
-from scipy.optimize import brentq
 
 from tasks.rules import RULES
 
@@ -39,6 +36,8 @@ def linear(times, kp: float, kv: float) -> np.ndarray:
 
 def linear_settling(kp: float, kv: float, tolerance: float = RULES.tolerance) -> float:
     """Last time [s] at which the linear response is `tolerance` of its beginning."""
+    from scipy.optimize import brentq
+
     t = np.linspace(0.0, 20.0 / _slowest(kp, kv), 20_001)  # exp(-20) = 2e-9, far below any tolerance
     last = np.flatnonzero(np.abs(linear(t, kp, kv)) > tolerance)[-1]
     return brentq(lambda x: abs(linear(x, kp, kv)) - tolerance, t[last], t[last + 1])
@@ -55,6 +54,8 @@ def settling(angle: float, kp: float, kv: float, tolerance: float, short: float 
     Args:
         short: pi - angle, where the angle itself has lost it to rounding.
     """
+    from scipy.integrate import solve_ivp
+
     short = math.pi - angle if short is None else short
     if short == 0.0:
         return math.inf
@@ -77,6 +78,8 @@ def settling_curve(kp: float, kv: float, tolerance: float) -> Callable[[np.ndarr
     Its variable, log(tan((pi - angle)/4)), is the logarithm near the half turn and linear in the angle near zero.
     Within 1e-6 s of `settling`, a thousandth of a tick (tests/findings/test_closed_form.py).
     """
+    from scipy.interpolate import CubicSpline
+
     low, middle, high = (math.log(math.tan(short / 4.0)) for short in (CLOSEST, LINEAR_TO, math.pi - FURTHEST))
     nodes = np.concatenate((np.linspace(low, middle, 40)[:-1], np.linspace(middle, high, 120)))
     shorts = 4.0 * np.arctan(np.exp(nodes))
