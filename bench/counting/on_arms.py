@@ -9,7 +9,6 @@ import functools
 from collections import Counter
 from typing import Any, NamedTuple
 
-import mujoco
 import numpy as np
 
 import tasks
@@ -51,6 +50,8 @@ class ArmState(NamedTuple):
 @functools.cache
 def arm_states(arm: str) -> tuple[ArmState, ...]:
     """All of them, always the same, the sampled ones first."""
+    import mujoco  # takes a moment to import; naming operations must not
+
     model = mujoco.MjModel.from_xml_string(tasks.task(TASK, arm).xml(1e-3))
     data = mujoco.MjData(model)
     return tuple(
@@ -62,6 +63,8 @@ def arm_states(arm: str) -> tuple[ArmState, ...]:
 
 
 def _state(model, data, start: Start, is_sampled: bool) -> ArmState:
+    import mujoco
+
     data.qpos[:], data.qvel[:] = start.q, start.qdot
     mujoco.mj_forward(model, data)
     D = np.zeros((model.nv, model.nv))

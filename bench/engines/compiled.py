@@ -2,6 +2,7 @@
 
 import contextlib
 import functools
+import importlib
 import itertools
 import math
 import secrets
@@ -12,6 +13,7 @@ from numba import float64, int64, types
 from numba.core.bytecode import FunctionIdentity
 from numba.core.caching import IndexDataCacheFile
 from numba.extending import overload, register_jitable
+from numba.np import linalg
 
 from bench.engines.cache import to_itself
 from bench.engines.curve import Curves
@@ -41,6 +43,12 @@ def _one_at_a_time(method):
 for _access in ("load", "save"):
     setattr(IndexDataCacheFile, _access, _one_at_a_time(getattr(IndexDataCacheFile, _access)))
 """Only the files wait for one another: processes compile at the same time."""
+
+_look_for_blas, linalg.ensure_blas = linalg.ensure_blas, lambda: None
+importlib.import_module("numba.np.arraymath")
+linalg.ensure_blas = _look_for_blas
+"""numba imports it with the first signature, and it imports scipy.linalg to see whether there is BLAS: a third of a
+second, and no kernel of ours calls BLAS. One that did would look for it then."""
 
 JIT = {"nogil": True, "error_model": "numpy"}
 """Never fastmath: results must be the plain Python call's, bit for bit."""

@@ -1,6 +1,5 @@
 """One call for every engine: a contender on starts of a task, rows of numbers back."""
 
-import mujoco
 import numpy as np
 
 from bench.engines import ideal, lanes
@@ -8,16 +7,7 @@ from bench.engines.binding import evaluation_of, memory_of, observer, plant_of
 from bench.engines.compiled import EVALUATE, compile_function, made_once, own_law
 from bench.engines.curve import Curves, blank_curves
 from bench.engines.episode import Settings, blank, numbers, start_rows
-from bench.engines.native import free_body as native
-from bench.engines.reference import free_body as reference
 from bench.law.contender import Contender
-
-MUJOCO_INTEGRATORS = {
-    "euler": mujoco.mjtIntegrator.mjINT_EULER,
-    "implicit": mujoco.mjtIntegrator.mjINT_IMPLICIT,
-    "implicitfast": mujoco.mjtIntegrator.mjINT_IMPLICITFAST,
-    "rk4": mujoco.mjtIntegrator.mjINT_RK4,
-}
 
 WORTH_LANES = 100_000
 """Episodes of a law from which on lanes save more than the 3 to 8 s that they take to compile: 50 ns of each of some
@@ -43,17 +33,23 @@ def run(
         total: episodes of which these are some; see `on_ideal`.
     """
     if engine == "reference":
+        from bench.engines.reference import free_body as reference
+
         return reference.run(contender, task, starts, start_rows(starts)[:, 11], settings, metrics, integrator)
     begun = start_rows(starts)
     if engine != "native":
         return on_ideal(engine, contender, begun, settings, metrics, total, curves)
-    rows = blank(len(starts), metrics)
+    import mujoco  # takes a moment; the ideal plant needs none
+
+    from bench.engines.native import free_body as native
+    from bench.engines.native.libmujoco import MUJOCO_INTEGRATORS
+
     plant = plant_of(contender, task, settings.gains)
     model = mujoco.MjModel.from_xml_string(plant.xml(settings.dt_s))
     model.opt.integrator = MUJOCO_INTEGRATORS[integrator]
     data = mujoco.MjData(model)
     states = np.array([[*qpos, *qvel] for qpos, qvel in map(plant.state, starts)], dtype=float)
-    law = evaluation(contender), memory_of(contender)
+    law, rows = (evaluation(contender), memory_of(contender)), blank(len(starts), metrics)
     given = begun, numbers(settings), rows, curves or blank_curves(len(starts))
     compiled_loop(engine, tuple(metrics))(*law, native.view(model, data), states, *given)
     return rows
@@ -109,7 +105,11 @@ def loop_in_lanes(engine: str, contender: Contender, metrics: tuple):
 def compiled_loop(engine: str, metrics: tuple):
     """The loop of an engine, for all laws, compiled or taken from the disk cache."""
     observe = observer(metrics)
-    return native.episodes_of(observe) if engine == "native" else ideal.episodes_of(engine, observe)
+    if engine == "native":
+        from bench.engines.native import free_body as native
+
+        return native.episodes_of(observe)
+    return ideal.episodes_of(engine, observe)
 
 
 @made_once

@@ -14,8 +14,8 @@ from bench.engines.compiled import compile_function, made_once, own_law
 from bench.engines.curve import Curves, blank_curves
 from bench.engines.episode import Settings, numbers, start_rows
 from bench.engines.native import arm as native
+from bench.engines.native.libmujoco import MUJOCO_INTEGRATORS
 from bench.engines.reference import arm as reference
-from bench.engines.run import MUJOCO_INTEGRATORS
 from bench.law.contender import Contender
 from tasks.arm_model import Arm
 

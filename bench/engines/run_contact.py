@@ -12,8 +12,8 @@ from bench.engines.compiled import compile_function, made_once
 from bench.engines.contact_episode import USUAL, Conditions, Ended, blank, made, numbers
 from bench.engines.native import contact as native
 from bench.engines.native import trapped
+from bench.engines.native.libmujoco import MUJOCO_INTEGRATORS
 from bench.engines.reference import contact as reference
-from bench.engines.run import MUJOCO_INTEGRATORS
 from bench.errors import BadNumber, UnknownWord
 from tasks.arm_model import Arm
 from tasks.contact import ContactTask, Trial, prepare, refuse

@@ -36,9 +36,11 @@ def units(asked: Asked) -> tuple[Unit, ...]:
         Incompatible: no law, Jacobian and inverse that were named go together on any arm that was named.
     """
     places, every_task = [], tasks_of(asked)
+    slices = narrowed(asked.suite.on_arms.slices, asked.choice)
     for task in filter(tasks.is_for_arms, every_task):
-        for arm in asked.choice.arms or tasks.arm_names():
-            fitting = tasks.task(task, arm).start_sets
+        fitting = tasks.described(task).start_sets
+        is_meant = any(part.start_set in fitting for part in slices)
+        for arm in (asked.choice.arms or tasks.arm_names()) if is_meant else ():  # one is read by MuJoCo
             for part, one, variation in _on_arm(asked.suite.on_arms, asked.laws, tasks.arm(arm).joints, asked.choice):
                 if part.start_set in fitting and runs_on(part.engine, task, one):
                     places.append(Place(part, one, task, arm, variation))

@@ -38,10 +38,12 @@ class Choice:
     def checked(self) -> "Choice":
         """Each word once; UnknownWord for one in no list, Incompatible for words that exclude each other."""
         once = Choice(**{name: tuple(dict.fromkeys(words)) for name, words in vars(self).items()})
-        every_set = dict.fromkeys((*tasks.start_set_names(), *tasks.start_set_names(arm=True)))
+        sets = dict.fromkeys(tasks.start_set_names())
+        if not sets.keys() >= set(once.start_sets):
+            sets |= dict.fromkeys(tasks.start_set_names(arm=True))  # imports MuJoCo
         known: dict[str, tuple] = {
             "task": (once.tasks, sorted((*tasks.names(), *tasks.contact_names()))),
-            "start": (once.start_sets, every_set),
+            "start": (once.start_sets, sets),
             "engine": (once.engines, ENGINES),
             "arm": (once.arms, tasks.arm_names()),
             "jacobian": (once.jacobians, known_jacobians()),
@@ -100,6 +102,11 @@ class Choice:
             "inverse": self.inverses,
             "variation": self.variations,
         }
+
+    @property
+    def is_of_some_laws(self) -> bool:
+        """Whether it names laws, or coordinates that they act on."""
+        return bool(self.regulators or self.representations)
 
     @property
     def is_about_contact(self) -> bool:

@@ -1,4 +1,4 @@
-"""Operations a tick: of every law of ours, run or not, and of every controller on an arm; a unit each."""
+"""Operations a tick: of every law of ours, run or not, unless some are named; and of every controller on an arm."""
 
 from __future__ import annotations
 
@@ -27,7 +27,8 @@ def units(asked: Asked) -> tuple[Unit, ...]:
     on_arms: dict = {}
     for unit in arm.units(asked):
         on_arms.setdefault((unit.contender, tasks.arm(unit.arm).joints), unit.arm)
-    names = dict.fromkeys(one.name for one in (*all_contenders(), *laws(asked)))
+    ours = () if asked.choice.is_of_some_laws else all_contenders()
+    names = dict.fromkeys(one.name for one in (*ours, *laws(asked)))
     places = [*((name, "") for name in names), *((name, on) for (name, _), on in on_arms.items())]
     is_beyond = all(unit.engine == BEYOND for unit in (*free_body.units(asked), *arm.units(asked)))
     engine = BEYOND if is_beyond else ""

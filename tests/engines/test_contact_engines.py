@@ -10,7 +10,7 @@ from support.in_contact import ARMS
 import tasks
 from bench.control.registry import all_controllers, find_controller
 from bench.engines.contact_episode import FORCE, USUAL, P, R
-from bench.engines.run import MUJOCO_INTEGRATORS
+from bench.engines.native.libmujoco import MUJOCO_INTEGRATORS
 from bench.engines.run_contact import run
 from tasks.contact_model import STANDARD
 

@@ -11,6 +11,13 @@ from numba import types
 
 llvm.load_library_permanently(str(next(Path(mujoco.__file__).parent.glob("libmujoco.so*"))))
 
+MUJOCO_INTEGRATORS = {
+    "euler": mujoco.mjtIntegrator.mjINT_EULER,
+    "implicit": mujoco.mjtIntegrator.mjINT_IMPLICIT,
+    "implicitfast": mujoco.mjtIntegrator.mjINT_IMPLICITFAST,
+    "rk4": mujoco.mjtIntegrator.mjINT_RK4,
+}
+
 
 def _c_function(name: str, pointers: int):
     return types.ExternalFunction(name, types.void(*[types.intp] * pointers))

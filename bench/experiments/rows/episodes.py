@@ -16,7 +16,6 @@ from bench.law.so3 import from_quaternion
 from bench.metrics.metric import Ending
 from bench.metrics.registry import known_metrics, metrics_of
 from tasks.cause import cause
-from tasks.kinematics import Kinematics
 from tasks.rules import RULES
 from tasks.truth import angle
 from tasks.verdict import OUTCOMES
@@ -122,6 +121,8 @@ def measured_columns(numbers: np.ndarray, metrics, angle0: list[float], judged: 
 
 def _seen_on_arm(arm: str, numbers: np.ndarray) -> list[float]:
     """The judge's condition number where each episode was worst conditioned; infinite if the angles are no numbers."""
+    from tasks.kinematics import Kinematics  # MuJoCo takes a moment to import; the ideal plant needs none
+
     judge = Kinematics(tasks.arm(arm))
     poses = numbers[:, POSE + 1 :][:, : tasks.arm(arm).joints]
     return [judge.condition(q) if np.isfinite(q).all() else math.inf for q in poses]

@@ -15,7 +15,6 @@ from bench.findings.theory.closed_form import linear
 from bench.law.contender import Contender, Gains
 from bench.law.so3 import from_quaternion
 from bench.metrics.registry import metrics_of
-from tasks.kinematics import kinematics
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -69,6 +68,7 @@ def beside_poles(word: str, arm: str, poses: pd.DataFrame, gains: Gains) -> pd.D
     from bench.experiments.experiment import Settings, Unit
     from bench.experiments.rows.episodes import frame
     from bench.experiments.suites import NOMINAL, ON_ARM
+    from tasks.kinematics import kinematics
 
     judge = kinematics(tasks.arm(arm))
     own = poses[(poses["arm"] == arm) & (poses["pose_set"] == "pole")].drop_duplicates("pose_id")
