@@ -9,6 +9,7 @@ from bench.cli import options
 from bench.cli.progress import progress
 from bench.cli.screen import console, counted, examples, frame_table, shown_path
 from bench.experiments.choice import check_numbers, check_workers
+from bench.experiments.map import plan_of
 from bench.law.contender import Gains
 from bench.running.schedulers.words import THREADS, check_scheduler
 from bench.tables.schema import RESULTS
@@ -52,8 +53,7 @@ def COMMAND(laws, regulators, starts, seed, spin, engine, dt_s, horizon_s, kp, k
     check_numbers(dt_s, horizon_s, Gains(kp, kv), None, seed)
     check_workers(workers)
     check_scheduler(scheduler)
-    from bench.experiments.map import plan_of
-    from bench.running import run as running
+    from bench.running import run as running  # numba takes seconds; mistakes should not
 
     chosen = [one for one in options.chosen(laws, regulators, ()) if not one.regulator.in_engine]
     numbers = {"dt_s": dt_s, "horizon_s": horizon_s, "gains": Gains(kp, kv)}

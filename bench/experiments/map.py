@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import pandas as pd
+from typing import TYPE_CHECKING
 
 from bench.experiments.experiment import Experiment, Settings, Unit
 from bench.experiments.plan import Plan
@@ -10,6 +10,9 @@ from bench.experiments.suites import SHORT
 from bench.law.contender import PAPERS_GAINS, Contender, Gains
 from bench.tables.schema import TABLES
 from tasks.random_starts import BLOCK
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 UNIT = 8 * BLOCK
 """Starts of a unit: 131,072, some four seconds on one thread."""
