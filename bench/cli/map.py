@@ -4,6 +4,7 @@ import os
 from pathlib import Path
 
 import rich_click as click
+from click.exceptions import Exit
 
 from bench.cli import options
 from bench.cli.progress import progress
@@ -12,12 +13,14 @@ from bench.experiments.choice import check_numbers, check_workers
 from bench.experiments.map import plan_of
 from bench.law.contender import Gains
 from bench.running.schedulers.words import THREADS, check_scheduler
+from bench.tables.files import read_json
 from bench.tables.schema import RESULTS
 
 EPILOG = examples(
     ("Where the rotation matrix alone loses starts, of ten million", "map --regulator rotation-matrix"),
-    ("The same of starts that spin at up to 20 rad/s", "map --regulator hybrid --spin 20 --out results/spinning"),
-    ("A law of your own", "map --law my_law.py --regulator my-law --starts 1000000 --out results/mine-map"),
+    ("The same of starts that spin at up to 20 rad/s", "map --regulator hybrid --spin 20 --replace"),
+    ("A law of your own", "map --law my_law.py --regulator my-law --starts 1000000 --out results/mine"),
+    after="Exit code 1: a law of yours crashed or hung.",
 )
 MOST = 10**10
 
@@ -32,16 +35,20 @@ MOST = 10**10
     type=click.FloatRange(0.0, 100.0),
     default=0.0,
     show_default=True,
-    help="Initial speeds are uniform up to this [rad/s], directions uniform on the sphere.",
+    help="Initial speeds in rad/s are uniform up to this, directions uniform on the sphere.",
 )
 @click.option("--engine", type=click.Choice(["ideal-rk4", "ideal-held"]), default="ideal-rk4", show_default=True)
 @click.option("--dt", "dt_s", type=float, default=1e-3, show_default=True, help="Control period in seconds.")
-@click.option("--horizon", "horizon_s", type=float, default=10.0, show_default=True, help="Longest simulated time [s].")
+@click.option(
+    "--horizon", "horizon_s", type=float, default=10.0, show_default=True, help="Longest simulated time in seconds."
+)
 @click.option("--kp", type=float, default=100.0, show_default=True, help="Position gain [1/s^2].")
 @click.option("--kv", type=float, default=20.0, show_default=True, help="Velocity gain [1/s].")
 @click.option("--workers", type=int, default=os.cpu_count() or 1, show_default="cores", help="Threads.")
 @click.option("--scheduler", default=THREADS, show_default="threads of this process", metavar="WORD", help="As of run.")
-@click.option("--out", type=options.PATH, default=RESULTS / "maps", show_default="results/maps", help="Folder.")
+@click.option(
+    "--out", type=options.PATH, default=RESULTS / "latest-map", show_default="results/latest-map", help="Folder."
+)
 @click.option("--replace", is_flag=True, help="Start over if the folder holds another plan.")
 def COMMAND(laws, regulators, starts, seed, spin, engine, dt_s, horizon_s, kp, kv, workers, scheduler, out, replace):
     """Simulate millions of uniformly random starts of a law on the ideal plant and count those that do not settle.
@@ -56,6 +63,8 @@ def COMMAND(laws, regulators, starts, seed, spin, engine, dt_s, horizon_s, kp, k
     from bench.running import run as running  # numba takes seconds; mistakes should not
 
     chosen = [one for one in options.chosen(laws, regulators, ()) if not one.regulator.in_engine]
+    if not chosen:
+        raise click.UsageError("the ideal plant has no actuator of MuJoCo; name another --regulator")
     numbers = {"dt_s": dt_s, "horizon_s": horizon_s, "gains": Gains(kp, kv)}
     plan = plan_of(chosen, starts, seed=seed, most_speed=spin, engine=engine, **numbers)
     console().print(f"{counted(len(chosen), 'law')} from {starts:,} starts, into {shown_path(out)}")
@@ -70,6 +79,8 @@ def COMMAND(laws, regulators, starts, seed, spin, engine, dt_s, horizon_s, kp, k
         steps.now("compiling the laws")
         running.run(plan, out, workers=workers, scheduler=scheduler, replace=replace, told=told)
     _print(out)
+    if read_json(out / "provenance.json")["lost"]:
+        raise Exit(1)  # a law of the user's crashed or hung: what was lost has been said
 
 
 def _print(out: Path) -> None:

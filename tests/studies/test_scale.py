@@ -82,7 +82,7 @@ def test_page_says_that_what_was_asked_for_is_not_met(found):
             one["peak_bytes"] *= 1.25
     worse["killed"]["tables"]["local:2"]["traces.parquet"] = "c"
     text = clusters.text(worse)
-    assert "**not** within a tenth" in text["cost"]
+    assert "**over** a tenth more" in text["cost"]
     assert "Memory is **not** flat" in text["memory"]
     assert "These tables differ: traces.parquet." in text["same"]
 

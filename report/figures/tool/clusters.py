@@ -111,7 +111,7 @@ def cost(found: dict[str, Any], size: pd.DataFrame) -> str:
         f"`{found['sizes'][0]['law']}` on uniform starts on the ideal plant, by one thread ({about['cpu']}, "
         f"{about['cores']} cores). In a run of {power(MANY)} an episode costs {many['each_us']:.0f} µs, in one of "
         f"{power(FEW)} {few['each_us']:.0f} µs: {_signed(change)}, "
-        f"{'within' if abs(change) <= TENTH else '**not** within'} a tenth. The {few['runs']:.0f} runs of "
+        f"{'at most' if change <= TENTH else '**over**'} a tenth more. The {few['runs']:.0f} runs of "
         f"{power(FEW)}, before the largest and after it, lie between {few['least_us']:.0f} and {few['most_us']:.0f} µs."
     )
 
