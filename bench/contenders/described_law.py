@@ -15,21 +15,21 @@ from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import Any
 
-from bench.contenders.law_file import check_answers, load_law, read_law
-from bench.contenders.law_process import LawProcess, confine, end_with, ending, limit
+from bench.contenders.law_file import check_answers, check_fields, load_law, read_law
+from bench.contenders.law_process import LawProcess, ending, limit
 from bench.errors import BadLaw, BenchError
 from bench.law.contender import Regulator
 from bench.law.look import Look
 
-LOAD_S, TRIAL_S = 60.0, 5.0
+LOAD_S, TRIAL_S = 20.0, 5.0
 """Seconds of processor time for a user's file to import, and for its law to be called once."""
 
 ANSWERS = ("fields", "answers")
 """What is said of a file, in this order: what it says of its law, and that the law answers when it is called. One that
 crashes or hangs then is known all the same: its rows will say so."""
 
-WAITS_S = 200.0
-"""On the wall: for a law that waits, or is kept waiting by a busy machine."""
+WAITS_S, TRIAL_WAITS_S = 60.0, 10.0
+"""The same on the wall: for a law that waits, or is kept waiting by a busy machine."""
 
 FUNCTIONS = ("law", "law_in", "margin", "coordinate_law_in")
 ELSEWHERE = ("origin", "in_engine", "equation", "equation_in")
@@ -49,24 +49,29 @@ def described(path: Path, text: bytes | None = None, limit_s: float = LOAD_S, wa
     path = Path(path)
     if text is None:
         text = read_law(path)
-    return stand_in(_described(path, text, limit_s, waits_s), path)
+    try:
+        own = stand_in(_described(path, text, limit_s, waits_s), path)
+        check_fields(own, path)
+    except (LookupError, TypeError, AttributeError) as error:
+        raise BadLaw(f"--law {path}: its process did not say what it is; mend what runs when it is imported") from error
+    return own
 
 
 @functools.lru_cache(maxsize=32)
 def _described(path: Path, text: bytes, limit_s: float, waits_s: float) -> str:
     """The fields as JSON; once for the same text."""
-    process = LawProcess(__name__)
+    process = LawProcess(__name__, waits_s)
     said: list[dict] = []
     is_late = False
     try:
         asked = {"path": str(path), "text": base64.b64encode(text).decode(), "limit_s": limit_s}
         process.line.send_bytes(json.dumps(asked).encode())
         while len(said) < len(ANSWERS):
-            said.append(json.loads(process.hear(waits_s)))
+            said.append(dict(json.loads(process.hear(min(waits_s, TRIAL_WAITS_S) if said else waits_s))))
     except TimeoutError:
         is_late = True
-    except (EOFError, OSError):
-        pass  # its exit code says why
+    except (EOFError, OSError, TypeError, ValueError):
+        pass  # its exit code says why, or it wrote to the line itself
     finally:
         code = process.end()
     for one in said:
@@ -104,8 +109,6 @@ def not_here(*_):
 
 def main(descriptor: int) -> None:
     """Read the law that is asked for, and say what it is."""
-    end_with(descriptor)
-    confine()
     with Connection(descriptor) as line:
         asked = json.loads(line.recv_bytes())
         try:

@@ -33,9 +33,15 @@ def read_law(path: Path) -> bytes:
     if not path.is_file():
         raise BadLaw(f"--law {path}: there is no such file; give the path of a Python file with a constant REGULATOR")
     try:
-        return path.read_bytes()
+        text = path.read_bytes()
+        text.decode()
     except OSError as error:
         raise BadLaw(f"--law {path}: it cannot be read ({error.strerror}); mend its rights") from error
+    except UnicodeDecodeError as error:
+        raise BadLaw(
+            f"--law {path}: it is not UTF-8 ({error.reason} at byte {error.start}); save it as UTF-8"
+        ) from error
+    return text
 
 
 def load_law(path: Path, text: bytes | None = None) -> Regulator:
@@ -67,7 +73,7 @@ def load_law(path: Path, text: bytes | None = None) -> Regulator:
         raise BadLaw(
             f"--law {path}: it has {given}; it needs a constant REGULATOR = bench.law.Regulator(...) (see README)"
         )
-    _check_fields(own, path)
+    check_fields(own, path)
     if own.name in known_regulators():
         raise BadLaw(f"--law {path}: the name '{own.name}' is one of ours; give your REGULATOR another name")
     return own._replace(origin=str(path))
@@ -98,7 +104,7 @@ TRIAL = Rotation((0.36, 0.48, -0.8), (-0.8, 0.6, 0.0), (0.48, 0.64, 0.6))
 """A rotation with short decimals, away from every singular set we know: where a law is tried once."""
 
 
-def _check_fields(own: Regulator, path: Path) -> None:
+def check_fields(own: Regulator, path: Path) -> None:
     """What the fields of a user's REGULATOR must be, before anything is made of them."""
     on_matrix = own.coordinates == ON_MATRIX
     needed = "law" if on_matrix else "law_in"

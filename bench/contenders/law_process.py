@@ -2,16 +2,20 @@
 
 Nothing of the file runs in the process that asks. What a law prints goes nowhere, its memory has a limit, its temporary
 files go with it, and whatever it forks is found again by a token in its environment, if the system shows it (Linux).
+Between the two stands a guard, which is the parent that a law sees: `python -m bench.contenders.law_process MODULE
+DESCRIPTOR` runs MODULE in a fork, ends as that does, and ends it when the line of this descriptor hangs up.
 """
 
 import contextlib
 import os
 import resource
+import runpy
 import secrets
 import select
 import shutil
 import signal
 import socket
+import struct
 import subprocess
 import sys
 import tempfile
@@ -30,12 +34,16 @@ MEMORY = 4 << 30
 LOOK_S = 0.2
 """How often it is asked whether a silent process is there still."""
 
+HALTS_S, MOST = 60, 1 << 28
+"""Seconds on the wall that a message may halt midway, and its bytes: a law may write to the line itself."""
+
 
 class LawProcess:
-    """One process that runs a module of ours, and the line to it."""
+    """One process that runs a module of ours, and the line to it. halts_s: see HALTS_S."""
 
-    def __init__(self, module: str):
+    def __init__(self, module: str, halts_s: float = HALTS_S):
         ours, theirs = socket.socketpair()
+        ours.setsockopt(socket.SOL_SOCKET, socket.SO_RCVTIMEO, struct.pack("@ll", ceil(halts_s), 0))
         self.token = secrets.token_hex(8)
         # no threads of the linear algebra, which would not be in a fork; and a terminal's Ctrl-C is the run's to answer
         self.folder = tempfile.TemporaryDirectory(prefix=FOLDER, ignore_cleanup_errors=True)
@@ -43,7 +51,7 @@ class LawProcess:
         nowhere = subprocess.DEVNULL
         with theirs:
             self.process = subprocess.Popen(
-                [sys.executable, "-m", module, str(theirs.fileno())],
+                [sys.executable, "-m", __name__, module, str(theirs.fileno())],
                 stdin=nowhere,
                 stdout=nowhere,
                 stderr=nowhere,
@@ -57,7 +65,7 @@ class LawProcess:
         """The next thing that it says.
 
         Errors:
-            TimeoutError: it said nothing for so long. EOFError, OSError: it has ended.
+            TimeoutError: it said nothing for so long, or halted midway. EOFError, OSError: it has ended.
         """
         deadline = time.monotonic() + longest_s
         while not self.line.poll(max(0.0, min(LOOK_S, deadline - time.monotonic()))):
@@ -65,7 +73,10 @@ class LawProcess:
                 raise EOFError  # what it forked may hold the line still
             if time.monotonic() > deadline:
                 raise TimeoutError
-        return self.line.recv_bytes()
+        try:
+            return self.line.recv_bytes(MOST)
+        except BlockingIOError as error:
+            raise TimeoutError from error
 
     def end(self) -> int:
         """Stop it, and all that it started; its exit code, if it had ended by itself."""
@@ -97,27 +108,35 @@ def _carriers(entry: bytes) -> list[int]:
     return found
 
 
-def confine() -> None:
-    """Limit this process's memory."""
-    _, most = resource.getrlimit(resource.RLIMIT_DATA)
-    resource.setrlimit(resource.RLIMIT_DATA, (MEMORY, most))
+def limit(processor_s: float, is_last: bool = False) -> None:
+    """End this process with SIGXCPU when it has used so many seconds more, rounded up.
 
-
-def limit(processor_s: float) -> None:
-    """End this process with SIGXCPU when it has used so many seconds more, rounded up."""
+    Args:
+        is_last: no other limit follows, so that SIGKILL comes a second later, which nothing ignores.
+    """
     used = resource.getrusage(resource.RUSAGE_SELF)
     _, most = resource.getrlimit(resource.RLIMIT_CPU)
-    resource.setrlimit(resource.RLIMIT_CPU, (ceil(used.ru_utime + used.ru_stime + processor_s), most))
+    ends = ceil(used.ru_utime + used.ru_stime + processor_s)
+    resource.setrlimit(resource.RLIMIT_CPU, (ends, ends + 1 if is_last else most))
 
 
-def end_with(descriptor: int) -> None:
-    """From now on, when the other end of this line is gone, this process and all that it started are ended."""
-    folder = Path(os.environ.get("TMPDIR", ""))
-    threading.Thread(target=_watch, args=(descriptor, folder), daemon=True).start()
+def guard(module: str, descriptor: int) -> NoReturn:
+    """Run the module in a fork, its memory limited, and end as it ends, or with the run and all that was started."""
+    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+    if not (child := os.fork()):
+        resource.setrlimit(resource.RLIMIT_DATA, (MEMORY, MEMORY))
+        sys.argv = [module, str(descriptor)]
+        runpy.run_module(module, run_name="__main__", alter_sys=True)
+        sys.exit()
+    threading.Thread(target=_watch, args=(descriptor,), daemon=True).start()
+    code = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
+    if code < 0:
+        os.kill(os.getpid(), -code)
+    os._exit(abs(code))
 
 
-def _watch(descriptor: int, folder: Path) -> NoReturn:
-    poll = select.poll()
+def _watch(descriptor: int) -> NoReturn:
+    folder, poll = Path(os.environ.get("TMPDIR", "")), select.poll()
     poll.register(descriptor, 0)  # a line that hangs up is always reported
     poll.poll()
     end_all(os.environ.get(TOKEN, ""))
@@ -129,3 +148,7 @@ def _watch(descriptor: int, folder: Path) -> NoReturn:
 def ending(code: int) -> str:
     """How a process ended, in a word or two."""
     return f"exit code {code}" if code >= 0 else signal.Signals(-code).name
+
+
+if __name__ == "__main__":
+    guard(sys.argv[1], int(sys.argv[2]))

@@ -11,7 +11,7 @@ from multiprocessing.connection import Connection
 from pathlib import Path
 
 from bench.contenders.law_file import load_law
-from bench.contenders.law_process import LawProcess, confine, end_with, ending
+from bench.contenders.law_process import LawProcess, ending
 from bench.contenders.registry import find_contender
 from bench.errors import BadLaw, BenchError
 from bench.law.contender import Contender
@@ -61,8 +61,6 @@ def run_apart(
 
 def main(descriptor: int) -> None:
     """Time what is asked for."""
-    end_with(descriptor)
-    confine()
     with Connection(descriptor) as line:
         asked = json.loads(line.recv_bytes())
 
