@@ -45,15 +45,20 @@ def COMMAND(law: Path, law_limit: float):
     laws of results/reference that are most like it.
     """
     from bench.contenders.registry import contenders_of
-    from bench.running.sandbox import Sandbox
+    from bench.running.sandbox import LOST, Sandbox
 
     laws = contenders_of(*options.own_laws((law,)))
     plan, parts = plan_of(laws), defaultdict(list)
     with console(stderr=True).status("compiling and judging"), Sandbox(plan, law_limit, TRIED) as sandbox:
         sandbox.check()
+        given_up = set()  # of a law that hangs the rest would take minutes more
         for unit in plan.units:
-            if unit.experiment != "robustness" or not sandbox.notes:  # a law that hangs would take minutes more
-                parts[unit.contender, unit.experiment].append(sandbox.rows(unit).to_pandas())
+            if unit.contender in given_up or (unit.experiment == "robustness" and sandbox.notes):
+                continue
+            made = sandbox.rows(unit).to_pandas()
+            parts[unit.contender, unit.experiment].append(made)
+            if sandbox.notes and unit.experiment == "free-body" and made["outcome"].isin(LOST).all():
+                given_up.add(unit.contender)
         is_lost = bool(sandbox.notes)
     faults = [fault for one in laws for fault in _told(one, parts)]
     if faults or is_lost:

@@ -1,15 +1,16 @@
 """A user's laws kept apart (sandbox_process.py), so that one that hangs or dies costs its own rows and never the run.
 
+Each law has processes of its own, so that none disturbs another.
+
 Every request has a limit. A unit that was lost is run again one episode after the other, and only those that do not
 come back are rows with the outcome `hung` or `crashed`; after MOST_LOST of them the rest of the unit counts as lost
 without being tried, and so does a whole unit of which no part can be asked for.
 """
 
 import contextlib
-import functools
 import json
-import queue
 import sys
+import threading
 from collections.abc import Iterator
 
 import pyarrow as pa
@@ -17,10 +18,10 @@ import pyarrow as pa
 from bench.errors import BadLaw
 from bench.experiments.experiment import Unit, experiment_of
 from bench.experiments.plan import Plan
-from bench.running import sandbox_process
 from bench.running.sandbox_line import Ended, Lost, Mistake, Process
 from bench.running.wire_format import described
 from bench.tables.store import as_table, joined
+from tasks.verdict import CRASHED, HUNG, OUTCOMES
 
 PATIENCE_S, SINGLE_S = 30.0, 1.0
 """A unit's limit, and that of an episode by itself, beside TICK_S for each of their ticks."""
@@ -31,6 +32,15 @@ ideal-held is."""
 
 MOST_LOST = 100
 """Episodes of a unit that may be lost one by one, each for SINGLE_S."""
+
+STARTS_ANEW = 30
+"""What an episode counts that ended the process, which takes seconds to start and to compile again."""
+
+MOST_KEPT = 8
+"""Processes that are kept, compiled code and all, until another law needs one: each takes 0.2 GB."""
+
+LOST = tuple(OUTCOMES[one] for one in (CRASHED, HUNG))
+"""The outcomes of episodes that did not come back."""
 
 
 class Sandbox:
@@ -47,9 +57,10 @@ class Sandbox:
         self.notes: list[str] = []
         self._own = {one.name: one for one in plan.settings.own}
         self._tried: dict[Unit, pa.Table] = {}
-        self._unready: dict[tuple[str, str, str], Lost] = {}
-        self._idle: queue.LifoQueue[Process] = queue.LifoQueue()
+        self._unready: dict[str | tuple[str, ...], Lost] = {}
+        self._idle: list[Process] = []
         self._all: list[Process] = []
+        self._taking = threading.Lock()
 
     def __enter__(self) -> "Sandbox":
         return self
@@ -94,7 +105,7 @@ class Sandbox:
                 what = f"its {unit.episodes} episodes are {lost.outcome}"
                 self._note(f"{unit.label}: {lost}; {what if made.num_rows else 'it has no rows'}")
                 return made
-            if self._place(unit) in self._unready:
+            if self._unready_for(unit):
                 return self._lost(unit, lost.outcome)
             self._note(f"{unit.label}, {unit.selector} from {unit.first}: {lost}; its episodes are run singly")
         return joined(list(self._one_by_one(unit)))
@@ -108,8 +119,8 @@ class Sandbox:
             try:
                 yield self._rows(unit, single, SINGLE_S)
             except Lost as lost:
-                lost_before += 1
-                gives_up = lost_before == self.most_lost
+                lost_before += STARTS_ANEW if isinstance(lost, Ended) else 1
+                gives_up = lost_before >= self.most_lost
                 yield self._lost(unit.part(first, end - first) if gives_up else single, lost.outcome)
                 if gives_up:
                     return
@@ -124,7 +135,11 @@ class Sandbox:
         if self.limit_s is not None:
             limit_s = self.limit_s if some is unit else min(self.limit_s, limit_s)
         with self._process(unit) as process:
-            return sandbox_process.unpacked(process.ask(unit, some, limit_s))
+            return process.ask(unit, some, limit_s)
+
+    def _unready_for(self, unit: Unit) -> Lost | None:
+        """Why a law is not compiled for the unit, nor tried again."""
+        return self._unready.get(unit.law) or self._unready.get(self._place(unit))
 
     @staticmethod
     def _place(unit: Unit) -> tuple[str, str, str]:
@@ -132,50 +147,57 @@ class Sandbox:
         return unit.experiment, unit.contender, unit.engine
 
     def _prepare(self, process: Process, unit: Unit) -> None:
-        """Compile, import and build what the unit needs; where that lost the law once, it is not tried again."""
-        place = self._place(unit)
-        if place not in self._unready:
-            try:
-                return process.prepare(unit)
-            except Lost as lost:
-                where = unit.engine or unit.experiment
-                self._unready[place] = Lost(lost.outcome, f"it cannot be compiled for {where} ({lost})")
-                self._note(f"{unit.law}: {self._unready[place]}; all its episodes there are {lost.outcome}")
-                if isinstance(lost, Ended):
-                    raise
-        raise self._unready[place]
+        """Compile, import and build what the unit needs; a law that hangs or ends its process is lost everywhere."""
+        try:
+            process.prepare(unit)
+        except Lost as lost:
+            is_everywhere = isinstance(lost, Ended) or lost.outcome == OUTCOMES[HUNG]
+            where = f"for {unit.engine or unit.experiment} "
+            known = type(lost)(lost.outcome, f"it cannot be compiled {'' if is_everywhere else where}({lost})")
+            self._unready[unit.law if is_everywhere else self._place(unit)] = known
+            which = "all its episodes" if is_everywhere else "all its episodes there"
+            self._note(f"{unit.law}: {known}; {which} are {lost.outcome}")
+            raise known from lost
 
     def _note(self, text: str) -> None:
         text = "".join(sign if sign.isprintable() else " " for sign in text)  # it may hold what a law raised
         self.notes.append(text)
         print(text, file=sys.stderr)
 
+    def _taken(self, unit: Unit) -> Process:
+        """An idle process of the law, or a new one."""
+        with self._taking:
+            found = next((one for one in reversed(self._idle) if one.law == unit.law), None)
+            if found is None and len(self._all) >= MOST_KEPT and self._idle:
+                self._end(self._idle.pop())  # the oldest comes first when all are gone through again
+            if found is None:
+                mine = [one for one in self.plan.units if one.law == unit.law]
+                found = Process(unit.law, json.dumps(described(self.plan, mine)).encode())
+                self._all.append(found)
+            else:
+                self._idle.remove(found)
+            return found
+
+    def _end(self, process: Process) -> None:
+        process.end()
+        self._all.remove(process)
+
     @contextlib.contextmanager
-    def _process(self, unit: Unit) -> Iterator["Process"]:
-        """One that is idle, or a new one, made ready for the unit; it is idle again unless it was lost."""
-        try:
-            process = self._idle.get_nowait()
-        except queue.Empty:
-            process = Process(self._chunk)
-            self._all.append(process)
+    def _process(self, unit: Unit) -> Iterator[Process]:
+        """One that is made ready for the unit; it is idle again unless it was lost."""
+        if known := self._unready_for(unit):
+            raise known
+        process = self._taken(unit)
         try:
             self._prepare(process, unit)
             yield process
-        except Ended:
-            process.end()
-            self._all.remove(process)
-            raise
-        except Lost:
-            self._idle.put(process)
-            raise
         except Mistake as mistake:
-            self._idle.put(process)
             # the process has the law in a file of another name
-            reason = str(mistake).partition(": ")[2]
+            reason = str(mistake).partition(": ")[2] or str(mistake)
             raise BadLaw(f"--law {self._own[unit.law].origin}: {reason}") from mistake
-        else:
-            self._idle.put(process)
-
-    @functools.cached_property
-    def _chunk(self) -> bytes:
-        return json.dumps(described(self.plan, [unit for unit in self.plan.units if self.has(unit)])).encode()
+        except Ended:
+            self._end(process)
+            raise
+        finally:
+            if process in self._all:
+                self._idle.append(process)

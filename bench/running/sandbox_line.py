@@ -2,15 +2,17 @@
 
 import json
 
+import pyarrow as pa
+
 from bench.contenders.law_process import LawProcess
-from bench.experiments.experiment import Unit
+from bench.experiments.experiment import Unit, experiment_of
 from bench.running import sandbox_process
 from tasks.verdict import CRASHED, HUNG, OUTCOMES
 
 WAITING, AND_S = 10.0, 20.0
 """Times the limit, and seconds more, on the wall: for a law that waits, or is kept waiting by a busy machine."""
 
-START_S = 1800.0
+START_S = 600.0
 """On the wall: for the process to start, and to compile, which has a limit of its own."""
 
 SIGNS = {sandbox_process.CRASHED: OUTCOMES[CRASHED], sandbox_process.HUNG: OUTCOMES[HUNG]}
@@ -33,21 +35,24 @@ class Mistake(Exception):
 
 
 class Process:
-    """One process, and the line to it."""
+    """One process, and the line to it. chunk: what it is told first, of one law."""
 
-    def __init__(self, chunk: bytes):
+    def __init__(self, law: str, chunk: bytes):
+        self.law, self.chunk = law, chunk
         self.process = LawProcess(sandbox_process.__name__)
         self.prepared: set = set()
-        self._say(chunk, START_S)
 
     def prepare(self, unit: Unit) -> None:
-        """Compile, import and build what the unit needs."""
+        """Load the law; compile, import and build what the unit needs."""
+        if self.chunk:
+            self._say(self.chunk, START_S)
+            self.chunk = b""
         place = (unit.experiment, unit.contender, unit.engine, unit.selector, unit.arm)
         if place not in self.prepared:
             self._say(json.dumps({"key": unit.key}).encode(), START_S)
             self.prepared.add(place)
 
-    def ask(self, unit: Unit, some: Unit, limit_s: float) -> bytes:
+    def ask(self, unit: Unit, some: Unit, limit_s: float) -> pa.Table:
         """The rows of a unit, or of some of its starts.
 
         Errors:
@@ -57,7 +62,11 @@ class Process:
         asked = {"key": unit.key, "processor_s": limit_s, "longest_s": longest_s}
         if some is not unit:
             asked |= {"first": some.first, "count": some.count}
-        return self._say(json.dumps(asked).encode(), longest_s + START_S)
+        content = self._say(json.dumps(asked).encode(), longest_s + START_S)
+        try:
+            return sandbox_process.unpacked(content).cast(experiment_of(unit).table.schema())
+        except (pa.ArrowException, ValueError) as error:
+            raise Ended(OUTCOMES[CRASHED], "its process gave back no rows") from error
 
     def _say(self, said: bytes, longest_s: float) -> bytes:
         try:
@@ -72,6 +81,8 @@ class Process:
             raise Mistake(rest.decode())
         if sign in SIGNS:
             raise Lost(SIGNS[sign], rest.decode())
+        if sign != sandbox_process.DONE:
+            raise Ended(OUTCOMES[CRASHED], "its process gave back no answer")
         return rest
 
     def end(self) -> None:

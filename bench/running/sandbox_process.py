@@ -17,9 +17,10 @@ from typing import NoReturn
 
 import pyarrow as pa
 
+from bench.contenders.described_law import TRIAL_S, TRIAL_WAITS_S
 from bench.contenders.law_file import load_law, trial_error
-from bench.contenders.law_process import LOOK_S, confine, end_with, ending, limit
-from bench.errors import BadLaw, BenchError
+from bench.contenders.law_process import LOOK_S, ending, limit
+from bench.errors import BenchError
 from bench.experiments.experiment import Unit, experiment_of, rows_of
 from bench.experiments.plan import Plan
 from bench.running.wire_format import plan_of
@@ -48,15 +49,26 @@ def answer(work: Callable[[], bytes]) -> bytes:
         return CRASHED + f"{type(error).__name__}: {error}".encode()
 
 
-def prepared(plan: Plan, unit: Unit) -> bytes:
-    """Nothing, when all is compiled, imported and built that the unit's rows need, for all forks."""
-    try:
+def prepared(plan: Plan, unit: Unit, run_of: Connection) -> bytes:
+    """The answer when all is compiled, imported and built that the unit's rows need, for all forks.
+
+    A law beyond the dialect is tried: what always raises, or never returns, has no type, and is lost, no mistake.
+    """
+
+    def ready() -> bytes:
         experiment_of(unit).prepare(plan.settings, unit)
-    except BadLaw:
+        return b""
+
+    def tried() -> bytes:
         if raised := trial_error(plan.settings.contender(unit.contender)):
-            raise RuntimeError(raised) from None  # what always raises has no type, and is no mistake of the dialect
-        raise
-    return b""
+            raise RuntimeError(raised)
+        return b""
+
+    said = answer(ready)
+    if said.startswith(MISTAKE):
+        of_trial = answer_of_a_fork(tried, TRIAL_S, TRIAL_WAITS_S, run_of)
+        return said if of_trial.startswith(DONE) else of_trial
+    return said
 
 
 def made(plan: Plan, unit: Unit) -> bytes:
@@ -86,6 +98,7 @@ def answer_of_a_fork(work: Callable[[], bytes], processor_s: float, longest_s: f
     reading, writing = os.pipe()
     child = os.fork()
     if not child:
+        run_of.close()
         _answer_and_exit(work, processor_s, writing)
     os.setpgid(child, child)
     os.close(writing)
@@ -93,12 +106,12 @@ def answer_of_a_fork(work: Callable[[], bytes], processor_s: float, longest_s: f
         content = _heard(reading, child, longest_s, run_of)
     finally:
         os.close(reading)
-        code = _ended(child)
+        code, used_s = _ended(child)
     if content is not None and content.endswith(COMPLETE):
         return content.removesuffix(COMPLETE)
     if content is None:
         return HUNG + f"it did not return within {longest_s:.3g} s".encode()
-    if code == -signal.SIGXCPU:
+    if code in (-signal.SIGXCPU, -signal.SIGKILL) and used_s >= processor_s:
         return HUNG + f"it did not return within {processor_s:.3g} s of processor time".encode()
     return CRASHED + f"it ended its process ({ending(code)})".encode()
 
@@ -123,18 +136,19 @@ def _heard(reading: int, child: int, longest_s: float, run_of: Connection) -> by
     return None
 
 
-def _ended(child: int) -> int:
-    """The exit code of a fork, which is killed if it does not end now, with what it forked in turn."""
+def _ended(child: int) -> tuple[int, float]:
+    """The exit code of a fork, and its processor time; it is killed if it does not end now, with what it forked."""
     deadline = time.monotonic() + ENDING_S
     while not os.waitid(os.P_PID, child, os.WEXITED | os.WNOHANG | os.WNOWAIT) and time.monotonic() < deadline:
         time.sleep(0.001)
     os.killpg(child, signal.SIGKILL)
-    return os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
+    _, status, used = os.wait4(child, 0)
+    return os.waitstatus_to_exitcode(status), used.ru_utime + used.ru_stime
 
 
 def _answer_and_exit(work: Callable[[], bytes], processor_s: float, writing: int) -> NoReturn:
     try:
-        limit(processor_s)
+        limit(processor_s, is_last=True)
         with open(writing, "wb") as pipe:
             pipe.write(answer(work) + COMPLETE)
         os._exit(0)
@@ -144,8 +158,6 @@ def _answer_and_exit(work: Callable[[], bytes], processor_s: float, writing: int
 
 def main(descriptor: int) -> None:
     """Answer until the run lets go."""
-    end_with(descriptor)
-    confine()
     with Connection(descriptor) as run_of:
         try:
             limit(READY_S)
@@ -160,7 +172,7 @@ def main(descriptor: int) -> None:
             unit = units[asked["key"]]
             if "processor_s" not in asked:
                 limit(READY_S)
-                run_of.send_bytes(answer(functools.partial(prepared, plan, unit)))
+                run_of.send_bytes(prepared(plan, unit, run_of))
             else:
                 some = unit.part(asked["first"], asked["count"]) if "count" in asked else unit
                 limits = asked["processor_s"], asked["longest_s"]
