@@ -1,0 +1,153 @@
+"""No law fools the judge: whatever its file does, it is refused or its rows say it, and all else is as without it."""
+
+import os
+
+import pandas as pd
+import pytest
+from support.command_line import TINY, bench, refused, refused_run
+from support.hostile_laws import AT_IMPORT, COMPILED, IN_A_TICK, LOOPS, WAITS, in_turn, left_behind
+from support.user_law import spring_text
+
+import tasks
+from bench.cli import main
+from bench.contenders.described_law import described
+from bench.errors import BadLaw
+from bench.tables import store
+from tasks.rotations import columns
+
+ASKED = ("--starts", "uniform", "--horizon", "0.02", "--law-limit", "1", "--experiment", "free-body")
+OURS, SOUND = "rotation-matrix", "sound"
+
+
+def written(folder, name: str, text):
+    """The file of a case."""
+    path = folder / f"{name}.py"
+    if text is None:
+        path.mkdir()
+    else:
+        path.write_bytes(text if isinstance(text, bytes) else text.replace("NAME", name).encode())
+    return path
+
+
+@pytest.fixture(autouse=True, scope="module")
+def nothing_is_left_behind():
+    """No process outlives its run."""
+    marker = f"HOSTILE_{os.getpid()}"
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv(marker, "")
+        yield
+        assert left_behind(marker) == []
+
+
+@pytest.mark.parametrize("name", AT_IMPORT)
+def test_file_that_misbehaves_is_refused(capsys, finished, tmp_path, name):
+    """By a run and by the judge alike; one that does not return is only read, with less patience."""
+    text, reason = AT_IMPORT[name]
+    path = written(tmp_path, name, text)
+    if reason in (WAITS, LOOPS):
+        with pytest.raises(BadLaw) as said:
+            described(path, limit_s=1.0, waits_s=3.0 if reason == WAITS else 60.0)
+        lines = [str(said.value)]
+    else:
+        lines = [refused_run(capsys, finished, "--law", path, *TINY), refused(capsys, "judge", path)]
+    assert all(str(path) in line and reason in line for line in lines), lines
+
+
+@pytest.mark.slow
+def test_file_that_does_not_return_is_refused_by_the_judge(capsys, tmp_path):
+    assert WAITS in refused(capsys, "judge", written(tmp_path, "loops", AT_IMPORT["loops"][0]))
+
+
+def run(folder, engine, laws, *words) -> int:
+    """The exit code of a run of one of our laws beside these of a user's."""
+    files = [word for name, text in laws.items() for word in ("--law", written(folder, name, text))]
+    count = len(IN_A_TICK) if engine == "reference" else 4
+    out = ("--regulator", OURS, "--engine", engine, "--count", count, "--out", folder / "run")
+    return main([str(word) for word in ("run", *files, *ASKED, *out, *words)])
+
+
+def rows(folder, name):
+    """The episodes of a law, but for its name."""
+    found = store.read(folder / "run", "episodes").astype({"outcome": str})
+    return found[found["regulator"] == name].drop(columns="regulator").reset_index(drop=True)
+
+
+def same(one, other):
+    """Which episodes are the same to the last bit."""
+    return ((one == other) | (one.isna() & other.isna())).all(axis=1)
+
+
+BEGINNINGS = [columns(start.quat_wxyz)[0][0] for start in tasks.start_set("uniform", len(IN_A_TICK))]
+LAWS = {
+    "ideal-rk4": {name: text for name, (text, _) in COMPILED.items()},
+    "reference": {"in-turn": in_turn(BEGINNINGS)},
+}
+
+
+@pytest.fixture(scope="module", params=LAWS)
+def engine(request):
+    return request.param
+
+
+@pytest.fixture(scope="module")
+def beside(engine, tmp_path_factory):
+    """All of them in one run."""
+    folder = tmp_path_factory.mktemp("beside")
+    assert run(folder, engine, LAWS[engine]) == 1
+    return folder
+
+
+@pytest.fixture(scope="module")
+def alone(engine, tmp_path_factory):
+    """Our law, and one of a user's that is sound."""
+    folder = tmp_path_factory.mktemp("alone")
+    assert run(folder, engine, {SOUND: spring_text(name="NAME")}) == 0
+    return folder
+
+
+def test_laws_that_misbehave_leave_ours_as_it_is(beside, alone):
+    assert same(rows(beside, OURS), rows(alone, OURS)).all()
+
+
+def test_rows_of_a_law_that_misbehaves_say_so(engine, beside, alone):
+    sound = rows(alone, SOUND)
+    made = {name: rows(beside, name) for name in LAWS[engine]}
+    becomes = {name: one["outcome"].where(~same(one, sound), "") for name, one in made.items()}
+    expected: dict = COMPILED
+    if engine == "reference":
+        becomes, expected = {name: [word] for name, word in zip(IN_A_TICK, becomes["in-turn"], strict=True)}, IN_A_TICK
+    found = {name: "".join(set(words) - {""}) for name, words in becomes.items()}
+    assert found == {name: word for name, (_, word) in expected.items()}
+    lost = pd.concat(one[one["outcome"] == "hung"] for one in made.values())
+    assert lost[["quat_w", "angle0_rad", "kp", "horizon_s"]].notna().all(axis=None)
+    assert lost[["settling_time_s", "failure_time_s", "peak_u", "effort"]].isna().all(axis=None)
+
+
+def test_bench_shows_crashed_and_hung(capsys, beside):
+    said = bench(capsys, "show", beside / "run", "--outcomes").out
+    assert "crashed" in said
+    assert "hung" in said
+
+
+@pytest.mark.slow
+def test_cluster_makes_the_same_tables(engine, beside, tmp_path):
+    assert run(tmp_path, engine, LAWS[engine], "--scheduler", "local:2") == 1
+    made, wanted = ({path.name: path.read_bytes() for path in at.glob("run/*.parquet")} for at in (tmp_path, beside))
+    assert made == wanted
+
+
+FAST = ("without-end", "late-fratricide")
+
+
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=() if name in FAST else pytest.mark.slow) for name in COMPILED]
+)
+def test_law_that_misbehaves_does_not_pass_the_judge(capsys, tmp_path, name):
+    said = bench(capsys, "judge", written(tmp_path, name, COMPILED[name][0]), "--law-limit", "1")
+    assert said.code == 1
+    assert "Traceback" not in said.err
+    assert f"{name}: no fault" not in said.out
+
+
+def test_law_of_python_alone_is_not_judged(capsys, tmp_path):
+    assert "cannot be compiled" in refused(capsys, "judge", written(tmp_path, "in-turn", in_turn(BEGINNINGS)))
