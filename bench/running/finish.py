@@ -34,7 +34,7 @@ def finish(plan: Plan, out: Path, lost: list[str], by: dict, began: float, resum
             **describe(),
             "suite": plan.settings.suite,
             "plan": plan.digest(),
-            "episodes": plan.episodes("free-body", "arm"),
+            "episodes": plan.episodes("free-body", "arm", "map"),
             "trials": plan.episodes("contact"),
             "troubled": plan.episodes("robustness"),
             "seed": plan.settings.seed,

@@ -38,6 +38,7 @@ UNTRUSTED = (
 )
 LAWS = Table("Law | Proved | Settles | On the command line", {"Settles": lambda share: f"{100 * share:.1f} %"})
 COUNTED = ("flops", "sin", "cos", "atan2", "acos", "compare")
+EXAMPLE = re.compile(r" Shown by |, as from |, as at ")
 FAILS = re.compile(r"\bFails:\s*(.*)", re.DOTALL)
 
 
@@ -96,10 +97,10 @@ def measured(episodes: pd.DataFrame, regulator: Regulator) -> str:
 
 
 def found_of(one: Contender, run: Run) -> str:
-    """What its command is as a function of state."""
+    """What its command is as a function of state, without the states that show it, which `judge` prints."""
     rows = run.rows("command-field", contender=one.name)
     said = why.sentences(rows, one.regulator.property) if len(rows) else []
-    return " ".join(each.text for each in said)
+    return " ".join(EXAMPLE.split(each.text)[0].rstrip(".") + "." for each in said)
 
 
 def card(one: Contender, run: Run) -> str:

@@ -26,7 +26,7 @@ NEAR_RAD = 0.1 + EXACT_RAD
 
 MAPS = RESULTS / "maps"
 SHARES = Table("Law | Starts | Settled [%]:.2f | 95 % interval | The others")
-MAPPED = Table("Law | Starts | Lost | [ppm]:.2f | 95 % interval [ppm] | Slowest [s]:.2f | From [°]")
+MAPPED = Table("Law | Lost [ppm]:.1f | 95 % interval | Slowest [s]:.2f | From [°]")
 EXACT = Table("Law | Start on | Tried | Failing | How | One of them (w, x, y, z)")
 NEAREST = Table("Law | Axes | Failing | Smallest:.1f | About | Median:.1f | Nearest start:.1f")
 
@@ -50,6 +50,7 @@ def facts(run: Run) -> dict:
     outside = linearized[linearized["alpha0"].abs() > np.pi / 2.0]
     along = {key: boundaries.loc[boundaries["contender"] == name, "fails_from_rad"] for key, name in SHORT.items()}
     return {
+        "mapped": html.number(mapped()),
         "n": len(linearized),
         "failed_l": len(failed),
         "failed_others": counted(len(lost(of(episodes, SHORT[letter]))) for letter in "mf"),
@@ -103,18 +104,20 @@ def shares(episodes: pd.DataFrame) -> Iterator[tuple]:
         yield html.law(name, title), settled.n, 100.0 * settled.value, interval, outcomes(own)
 
 
+def mapped() -> int:
+    """How many starts of each law the kept maps count."""
+    rows = read.table(MAPS, "map")
+    return int(rows[rows["row"] == "cell"].groupby("contender", observed=True)["starts"].sum().min())
+
+
 def kept_maps() -> html.Markdown | None:
-    """What the maps that came with the benchmark say of starts at rest, a law a line; None if there are none."""
-    if not (MAPS / "provenance.json").is_file():
-        return None
-    lines = by_law(read.table(MAPS, "map")).to_dict("records")
+    """What the maps that came with the benchmark say of starts at rest, a law a line."""
+    lines = by_law(read.table(MAPS, "map")).sort_values(["lost", "slowest [s]"]).to_dict("records")
     return MAPPED(
         (
             html.law(line["law"], laws.title(line["law"])),
-            line["starts"],
-            line["lost"],
             line["lost [ppm]"],
-            html.together(f"{line['least [ppm]']:.2f} to {line['most [ppm]']:.2f}"),
+            html.together(f"{line['least [ppm]']:.1f} to {line['most [ppm]']:.1f}"),
             line["slowest [s]"],
             line["from [deg]"],
         )
