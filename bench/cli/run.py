@@ -140,4 +140,4 @@ def COMMAND(
         f"{'wrote' if did else 'up to date:'} {shown_path(out)}{took}   (python -m bench show {shown_path(out)})"
     )
     if read_json(out / "provenance.json")["lost"]:
-        raise Exit(1)  # a law of the user's crashed or hung: what was lost has been said
+        raise Exit(1)  # a law of the user's crashed or hung

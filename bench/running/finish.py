@@ -2,14 +2,16 @@
 
 import functools
 import time
+from collections.abc import Iterator
 from pathlib import Path
 
 from bench.experiments.experiment import experiment_of, known_experiments
 from bench.experiments.plan import Plan
 from bench.provenance import describe
 from bench.running.run_folder import part, tidy
+from bench.running.sandbox import LOST
 from bench.tables.files import write_json
-from bench.tables.store import frame, merge, write_table
+from bench.tables.store import frame, merge, read_arrow, write_table
 
 
 def finish(plan: Plan, out: Path, lost: list[str], by: dict, began: float, resumed: bool) -> None:
@@ -42,7 +44,17 @@ def finish(plan: Plan, out: Path, lost: list[str], by: dict, began: float, resum
             "finished": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime()),
             "wall_s": round(time.time() - began, 1),
             "resumed": resumed,
-            "lost": lost,
+            "lost": [*lost, *_lost_rows(plan, out)],
         },
     )
     tidy(out)
+
+
+def _lost_rows(plan: Plan, out: Path) -> Iterator[str]:
+    """How many rows say that a user's law crashed or hung, whoever made them, and when."""
+    own = [one.name for one in plan.settings.own]
+    for name, table in plan.tables.items() if own else ():
+        if {"regulator", "outcome"} <= set(table.names):
+            made = read_arrow(out / f"{name}.parquet", table).select(["regulator", "outcome"]).to_pandas().astype(str)
+            counts = made[made["regulator"].isin(own) & made["outcome"].isin(LOST)].value_counts(sort=False)
+            yield from (f"{law}: {count} of its {name} {outcome}" for (law, outcome), count in counts.items())

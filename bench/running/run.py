@@ -81,7 +81,7 @@ def _team(
     from bench.running.schedulers import cluster  # Dask is an extra, and takes a second to import
 
     with cluster.client_of(scheduler) as client:
-        yield functools.partial(cluster.run, client, plan, todo, out, law_limit_s=sandbox.limit_s)
+        yield functools.partial(cluster.run, client, plan, todo, out, sandbox=sandbox)
 
 
 def _ours(todo: list[Unit], sandbox: Sandbox) -> Iterator[str]:

@@ -19,6 +19,7 @@ from bench.errors import LostWorkers, MissingTool
 from bench.experiments.experiment import Unit
 from bench.experiments.plan import Plan
 from bench.running.run_folder import part
+from bench.running.sandbox import Sandbox
 from bench.running.schedulers import worker
 from bench.running.schedulers.batches import in_batches
 from bench.running.schedulers.words import LOCAL
@@ -48,17 +49,18 @@ def run(
     todo: Sequence[Unit],
     out: Path,
     done: Callable[[Unit], None],
-    law_limit_s: float | None = None,
+    sandbox: Sandbox,
 ) -> int:
     """Carry out units and write each when its chunk has come back; the most threads of workers that were there.
 
     Args:
-        done: told of each unit, when it is written. law_limit_s: of a user's law, as `bench.running.sandbox` takes it.
+        done: told of each unit, when it is written. sandbox: of the user's laws: its limit holds for the workers', and
+            it is given their notes.
     Errors:
         MissingTool: a worker without this package. BadResults: a worker has other sources. LostWorkers: a unit ended
         all that took it, or the scheduler is gone. KeyboardInterrupt: what has come back is written.
     """
-    chunks = Chunks(client, plan, out, done, law_limit_s)
+    chunks = Chunks(client, plan, out, done, sandbox.limit_s, notes=sandbox.notes)
     chunks.carry_out(todo)
     return chunks.threads
 
@@ -98,7 +100,8 @@ def client_of(word: str) -> Iterator[distributed.Client]:
 class Chunks:
     """Chunks on their way to workers and back: as many as keep them busy, and no more.
 
-    ahead: how many each thread of a worker is given. threads: the most that were there. waiting: not given yet.
+    ahead: how many each thread of a worker is given. threads: the most that were there. notes: what workers say of a
+    user's laws. waiting: not given yet.
     """
 
     client: distributed.Client
@@ -108,6 +111,7 @@ class Chunks:
     law_limit_s: float | None = None
     ahead: int = AHEAD
     threads: int = 0
+    notes: list[str] = field(default_factory=list)
     waiting: deque[tuple[Unit, ...]] = field(default_factory=deque)
     given: dict[distributed.Future, tuple[Unit, ...]] = field(default_factory=dict)
 
@@ -150,7 +154,7 @@ class Chunks:
         """Write what a chunk has brought; one that lost all its workers is given anew, each unit by itself."""
         units = self.given[future]
         try:
-            files = dict(future.result())
+            files, notes = future.result()
         except distributed.KilledWorker as error:
             if len(units) == 1:
                 raise LostWorkers(
@@ -166,6 +170,7 @@ class Chunks:
             ) from error
         except distributed.CancelledError as error:
             raise LostWorkers(GONE) from error
+        self.notes += [text for text in notes if text not in self.notes]
         for unit in units:
             path, file = part(self.out, unit), files[unit.key]
             if not path.is_file():  # it is there if Ctrl-C came while the chunk was written

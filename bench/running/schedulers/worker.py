@@ -14,8 +14,8 @@ from bench.running.wire_format import plan_of
 from bench.tables.store import as_table, encoding
 
 
-def carry_out(text: str, law_limit_s: float | None = None) -> list[tuple[str, bytes]]:
-    """(key, file of its rows) of every unit of a chunk.
+def carry_out(text: str, law_limit_s: float | None = None) -> tuple[dict[str, bytes], list[str]]:
+    """Key -> file of its rows of every unit of a chunk, and what is to be said of a user's laws.
 
     Args:
         text: what `wire_format.described` says of it, as JSON. law_limit_s: of a user's law, as `bench.running.sandbox`
@@ -25,7 +25,7 @@ def carry_out(text: str, law_limit_s: float | None = None) -> list[tuple[str, by
     """
     plan = plan_of(json.loads(text))
     with Sandbox(plan, law_limit_s) as sandbox:
-        return [(unit.key, _file(_rows(plan, unit, sandbox))) for unit in plan.units]
+        return {unit.key: _file(_rows(plan, unit, sandbox)) for unit in plan.units}, sandbox.notes
 
 
 def _rows(plan: Plan, unit: Unit, sandbox: Sandbox) -> pa.Table:
