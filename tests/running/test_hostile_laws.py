@@ -129,6 +129,10 @@ def test_bench_shows_crashed_and_hung(capsys, beside):
     assert "hung" in said
 
 
+def test_run_of_a_law_that_only_raises_in_some_states_does_not_end_with_0(tmp_path):
+    assert run(tmp_path, "ideal-rk4", {"raises": COMPILED["raises"][0]}) == 1
+
+
 @pytest.mark.slow
 def test_cluster_makes_the_same_tables(engine, beside, tmp_path):
     assert run(tmp_path, engine, LAWS[engine], "--scheduler", "local:2") == 1

@@ -1,9 +1,8 @@
 """Laws that misbehave: name -> the text of a file, which is sound but for some lines, and what must become of it."""
 
-import os
-
 import psutil
 
+from bench.contenders.law_process import TOKEN
 from support.user_law import law_text, spring_text
 
 WAITS, LOOPS, MISREAD = "it did not return", "it did not return within 1 s", "its process did not say what it is"
@@ -112,7 +111,7 @@ COMPILED = {
 IN_A_TICK = {
     "exits": ("os._exit(0)", "crashed"),
     "leaves": ("sys.exit(3)", "crashed"),
-    "interrupts": ("signal.raise_signal(signal.SIGINT)", "crashed"),
+    "interrupts": ("(_ for _ in ()).throw(KeyboardInterrupt)", "crashed"),
     "segfault": ("ctypes.string_at(0)", "crashed"),
     "two-numbers": ("(1.0, 2.0)", "crashed"),
     "words": ("('a', 'b', 'c')", "crashed"),
@@ -156,11 +155,11 @@ def in_turn(beginnings: list[float]) -> str:
 
 
 def left_behind(marker: str) -> list[psutil.Process]:
-    """Processes that run still, of those that have this in their environment."""
+    """Processes of laws that run still, of those that have this in their environment."""
     found = []
     for process in psutil.process_iter():
         try:
-            if marker in process.environ() and process.pid != os.getpid() and process.status() != psutil.STATUS_ZOMBIE:
+            if {TOKEN, marker} <= process.environ().keys() and process.status() != psutil.STATUS_ZOMBIE:
                 found.append(process)
         except psutil.Error:
             continue
