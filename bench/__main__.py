@@ -9,6 +9,11 @@ def main() -> int:
         from bench.cli import main as command_line
     except KeyboardInterrupt:
         return 130
+    except ModuleNotFoundError as error:
+        if (error.name or "bench").partition(".")[0] in ("bench", "tasks"):
+            raise
+        print(f"error: the package {error.name} is not installed (try: make setup)", file=sys.stderr)
+        return 2
 
     return command_line()
 

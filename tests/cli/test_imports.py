@@ -5,6 +5,8 @@ import sys
 
 import pytest
 
+from bench.provenance import ROOT
+
 SLOW = {"dm_control.mujoco", "matplotlib", "mujoco", "numba", "pandas", "pyarrow", "scipy"}
 COMMAND = "from bench.cli import main; code = main({words})"
 LAW = """
@@ -42,3 +44,9 @@ def test_run_on_the_ideal_plant_imports_no_mujoco(tmp_path):
 
 def test_law_is_compiled_without_linear_algebra():
     assert {"numba", "scipy.linalg"} & imported(LAW) == {"numba"}
+
+
+def test_python_without_our_packages_says_the_cure():
+    ended = subprocess.run([sys.executable, "-S", "-m", "bench"], capture_output=True, text=True, cwd=ROOT)
+    assert ended.returncode == 2
+    assert ended.stderr == "error: the package rich_click is not installed (try: make setup)\n"
