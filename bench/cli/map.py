@@ -37,7 +37,13 @@ MOST = 10**10
     show_default=True,
     help="Initial speeds in rad/s are uniform up to this, directions uniform on the sphere.",
 )
-@click.option("--engine", type=click.Choice(["ideal-rk4", "ideal-held"]), default="ideal-rk4", show_default=True)
+@click.option(
+    "--engine",
+    type=click.Choice(["ideal-rk4", "ideal-held"]),
+    default="ideal-rk4",
+    show_default=True,
+    help="Continuous plant, or one sampled with a held command.",
+)
 @click.option("--dt", "dt_s", type=float, default=1e-3, show_default=True, help="Control period in seconds.")
 @click.option(
     "--horizon", "horizon_s", type=float, default=10.0, show_default=True, help="Longest simulated time in seconds."
