@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 EPILOG = examples(
     ("A law of your own (README has an example)", "judge my_law.py"),
     after="A fault is a start that is lost, a dead point, chatter, or a stiffness or damping other than the gains say. "
-    'A law whose property is "almost global" may be dead at half turns and lose starts there.\n'
+    'A law whose property is "almost global" may have dead points at rotations of 180 degrees and lose starts there.\n'
     "Exit code 1: a fault. 2: no verdict, as of a file that holds no law. Against an older version of the same law: "
     "make judge LAW=my_law.py BASE=main.",
 )

@@ -28,8 +28,8 @@ from tasks.sphere import axes
 
 ENGINE, U = "ideal-held", NUMBERS.index("u_x")
 
-NOUGHT = 1e-9
-"""|u|/kp below which a command is none: it moves a body 2e-5 rad in the longest horizon, 20 s."""
+ZERO = 1e-9
+"""|u|/kp below which a command counts as zero: it moves a body 2e-5 rad in the longest horizon, 20 s."""
 
 GOALS = (IDENTITY, (0.8, 0.2, 0.4, 0.4), (0.4, -0.8, 0.4, 0.2))
 """The last two lie off the singular sets of all our coordinates."""
@@ -105,7 +105,7 @@ def _near_goal(field: Field) -> Iterator[Finding]:
     at = np.array([field(np.array([goal]), goal)[0] for goal in GOALS])
     worst = int(np.argmax(size(at)))
     largest, goal = size(at)[worst], GOALS[worst]
-    what = "rests" if largest <= NOUGHT else "pushes" if np.isfinite(largest) else "no-number"
+    what = "rests" if largest <= ZERO else "pushes" if np.isfinite(largest) else "no-number"
     yield Finding("goal", what, largest, quat=goal, goal=goal, u=at[worst] * gains.kp)
     K, D = [], []
     for goal in GOALS:
@@ -145,7 +145,7 @@ def _compared(finding: str, matrices: np.ndarray, declared: tuple) -> Finding:
 
 
 def _half_turns(field: Field) -> Iterator[Finding]:
-    """Half turns where the command is none, or no number.
+    """Rotations of 180 degrees where the command is zero, or no number.
 
     Their axes are those of small whole numbers, so that many lie in each base plane, and others spread over the sphere.
     """
@@ -153,7 +153,7 @@ def _half_turns(field: Field) -> Iterator[Finding]:
     k = np.concatenate((np.array(whole) / np.linalg.norm(whole, axis=1)[:, None], axes(AXES - len(whole))))
     quats = about(k, math.pi) * (0.0, 1.0, 1.0, 1.0)
     sizes = size(field(quats))
-    for finding, is_one in (("dead-half-turns", sizes <= NOUGHT), ("no-number-half-turns", ~np.isfinite(sizes))):
+    for finding, is_one in (("dead-half-turns", sizes <= ZERO), ("no-number-half-turns", ~np.isfinite(sizes))):
         yield _largest(field, finding, _set_of(k, is_one), sizes, is_one, quats)
 
 
@@ -171,9 +171,9 @@ def _set_of(directions: np.ndarray, is_one: np.ndarray) -> str:
     if is_one.all() or not is_one.any():
         return "every"
     normal = np.linalg.svd(directions[is_one])[2][-1]
-    if is_one.sum() > 3 and (is_one == (np.abs(directions @ normal) < NOUGHT)).all():
+    if is_one.sum() > 3 and (is_one == (np.abs(directions @ normal) < ZERO)).all():
         axis = int(np.argmax(np.abs(normal)))
-        return "plane-" + "xyz"[axis] if abs(normal[axis]) > 1.0 - NOUGHT else "plane"
+        return "plane-" + "xyz"[axis] if abs(normal[axis]) > 1.0 - ZERO else "plane"
     return "some"
 
 
@@ -184,7 +184,7 @@ def _along_geodesics(field: Field) -> Iterator[Finding]:
     high = low + step
     at_low, at_high = field(about(axis, low)), field(about(axis, high))
     pull = np.nan_to_num(np.sum(at_low * axis, axis=1) * np.where(low < math.pi, -1.0, 1.0))
-    yield _largest(field, "away", "some", -pull, pull < -NOUGHT, about(axis, low))
+    yield _largest(field, "away", "some", -pull, pull < -ZERO, about(axis, low))
     for _ in range(HALVINGS):
         middle = 0.5 * (low + high)
         at = field(about(axis, middle))
