@@ -7,6 +7,7 @@ import rich_click as click
 from click.exceptions import Exit
 
 from bench.cli import options
+from bench.cli.judge import print_judgement
 from bench.cli.progress import progress
 from bench.cli.screen import console, examples, frame_table
 from bench.errors import BenchError
@@ -42,8 +43,8 @@ def COMMAND(base, head, laws, no_timing, json_file, summary):
     results/reference, with results/quick for HEAD). A regression is an outcome that got worse, a new dead point, a
     smaller basin, a row or a law that is gone, a later settling time, a quarter more effort or peak command, twice the
     change of the command at rest, more of any operation, more than 1 % more instructions, or a slower tick. If the
-    judge changed, only that is said, by column. A law of your own is judged against its file at BASE; in
-    $GITHUB_STEP_SUMMARY the summary is left by itself.
+    judge changed, only that is said, by column. A law of your own is judged against its file at BASE, and `bench judge`
+    says of both why: a fault that BASE has not is a regression. In $GITHUB_STEP_SUMMARY the summary is left by itself.
     """
     written = map(Path, filter(None, (summary, os.environ.get("GITHUB_STEP_SUMMARY"))))
     before = {path: path.read_text(encoding="utf-8") if path.exists() else "" for path in written}
@@ -79,6 +80,9 @@ def _compare(base, head, laws, no_timing, json_file, leave) -> None:
         differences = [f"{one.verdict}: {one.says}" for one in words.ordered(said)]
     for line in differences:
         console().print(line)
+    for one in said.judgements:
+        console().print()
+        print_judgement(one)
     if said.benchmarks:
         console().print(frame_table(pd.DataFrame(words.rows(said)), "\nBenchmarks"))
     if not folders:

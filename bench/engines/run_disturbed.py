@@ -6,6 +6,7 @@ import numpy as np
 
 from bench.engines import disturbed
 from bench.engines.binding import memory_of, observer
+from bench.engines.compiled import made_once
 from bench.engines.episode import Settings, numbers, start_rows
 from bench.engines.run import evaluation
 from bench.law.contender import Contender
@@ -38,7 +39,7 @@ def run(
     periods = given.ticks // disturbed.steps_of(condition) + 1
     block = max(1, int(noise_bytes // (8 * 6 * periods))) if condition.is_noisy else len(starts)
     law = evaluation(contender), memory_of(contender)
-    loop, timing, begun = _loop(tuple(metrics)), disturbed.timing(condition), start_rows(starts)
+    loop, timing, begun = compiled_loop(tuple(metrics)), disturbed.timing(condition), start_rows(starts)
     for first in range(0, len(starts), block):
         some = slice(first, first + block)
         noise = drawn(len(begun[some]), periods, seed, condition.is_noisy, first)
@@ -65,6 +66,7 @@ def _normal(first: int, count: int, periods: int, seed: int) -> np.ndarray:
     return noise
 
 
-@functools.cache
-def _loop(metrics: tuple):
+@made_once
+def compiled_loop(metrics: tuple):
+    """The loop of the perturbed body, for all laws, compiled or taken from the disk cache."""
     return disturbed.compiled(observer(metrics))

@@ -74,9 +74,12 @@ def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
 
 
 def prepare(settings: Settings, unit: Unit) -> None:
-    """Compile the law."""
+    """Compile the loop and the law."""
     from bench.engines.run import evaluation
+    from bench.engines.run_disturbed import compiled_loop
+    from bench.metrics.registry import metrics_of
 
+    compiled_loop(tuple(metrics_of(on_arm=False)))
     evaluation(settings.contender(unit.contender))
 
 

@@ -5,24 +5,15 @@ A fault is a sentence that names one. Dead points, and places where the command 
 """
 
 import math
-from typing import NamedTuple
 
 import numpy as np
 import pandas as pd
 
 import tasks
 from bench.contenders.registry import known_regulators
+from bench.findings.judgement import Said
 from bench.findings.selection.needs import CHATTER
 from bench.tables.statistics import quantile
-
-
-class Said(NamedTuple):
-    """A sentence, the page that explains it, and the word of the fault that it names; empty if it names none."""
-
-    text: str
-    page: str
-    fault: str = ""
-
 
 GAINS, FRAMES, COORDINATES = "03-regulators", "01-problem-and-plant", "02-representations"
 FAILURES, JUMPS, SIGNS, SIDE = "06-failure-map", "20-half-turn-noise", "25-libraries", "15-comparison"

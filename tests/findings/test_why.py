@@ -6,10 +6,10 @@ import pytest
 from support.command_line import bench
 from support.user_law import law_text
 
-from bench.cli.judge import ENGINE, START_SETS, plan_of, said_of
 from bench.contenders.law_file import load_law
 from bench.contenders.registry import all_contenders, contenders_of
 from bench.experiments.experiment import experiment_of
+from bench.findings.judged import ENGINE, START_SETS, judgement, plan_of
 from bench.findings.why import ends, sentences
 from bench.tables import read
 from bench.tables.schema import RESULTS
@@ -73,8 +73,9 @@ def found(tmp_path_factory):
         for unit in plan.units:
             if unit.experiment != "robustness":
                 parts[one.name, unit.experiment].append(experiment_of(unit).rows(plan.settings, unit))
-        said, field, _ = said_of(one, parts)
-        return {each.fault: each.text for each in said}, field.set_index("finding")
+        said = {each.fault: each.text for each in judgement(one, parts).said}
+        [field] = parts[one.name, "command-field"]
+        return said, field.set_index("finding")
 
     return {name: look(name) for name in FAULTY}
 

@@ -5,6 +5,7 @@ import json
 import pytest
 
 from bench.errors import BadResults
+from bench.findings.judgement import Judgement, Said
 from bench.regression.revisions import comparison
 from bench.regression.revisions.comparison import Benchmark, Comparison, Finding, Gate, Side, Timed
 from bench.regression.revisions.measurement import Measurement, Spread
@@ -22,7 +23,9 @@ def of(*findings):
     )
     gates = (Gate("exact", "skipped", "same sources"), Gate("time", "failed", "1 of 2"))
     sides = Side("main", "abc", "123"), Side("working tree")
-    return Comparison(*sides, {"key": "cpu-2-cores"}, gates, findings, benchmarks)
+    said = (Said("Half gain.", "03-regulators", "half gain"), Said("Its damping is 1 kv.", "03-regulators"))
+    judgement = Judgement("mine", said, ({"law": "mine", "median s": None},), False)
+    return Comparison(*sides, {"key": "cpu-2-cores"}, gates, findings, benchmarks, (judgement,))
 
 
 @pytest.mark.parametrize("findings", [(), (FINDING,)])
@@ -37,13 +40,16 @@ def test_comparison_is_the_same_after_a_file(findings, tmp_path):
 )
 def test_json_names_its_schema_and_the_verdict(findings, verdict):
     said = of(*findings).as_json()
-    assert said["schema"] == "orientation-bench comparison 1"
+    assert said["schema"] == comparison.SCHEMA
     assert said["verdict"] == verdict
 
 
 def test_json_holds_what_the_module_says_it_does():
     said = json.loads(json.dumps(of(FINDING).as_json()))
-    assert set(said) == {"schema", "verdict", "base", "head", "machine", "gates", "findings", "benchmarks"}
+    fields = ("schema", "verdict", "base", "head", "machine", "gates", "findings", "benchmarks", "judgements")
+    assert set(said) == set(fields)
+    assert set(said["judgements"][0]) == {"name", "said", "beside", "is_lost"}
+    assert set(said["judgements"][0]["said"][0]) == {"text", "page", "fault"}
     assert set(said["findings"][0]) == {"gate", "verdict", "name", "what", "was", "now", "says", "rows"}
     assert set(said["benchmarks"][0]) == {"name", "what", "base", "head", "time", "same_code"}
     assert set(said["benchmarks"][0]["time"]) == {"ratio", "low", "high", "p", "rounds", "verdict", "confirmed"}

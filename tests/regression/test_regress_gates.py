@@ -7,7 +7,8 @@ import pytest
 from support.user_law import DAMPER, law_text
 
 from bench.cli import main
-from bench.errors import BadResults
+from bench.errors import BadLaw, BadResults
+from bench.findings.judgement import Judgement, Said
 from bench.regression.revisions import comparison, gates, summary
 from bench.regression.revisions.process import SideFailed
 
@@ -37,7 +38,7 @@ def failing(finished):
             raise SideFailed(place, "no bench.timing yet")
             yield
 
-        return gates.Means(lambda side, told: contextlib.nullcontext(finished), running)
+        return gates.Means(lambda side, told: contextlib.nullcontext(finished), running, judged=lambda laws: [])
 
     return at
 
@@ -47,6 +48,7 @@ def test_base_that_is_too_old_leaves_the_last_gates_out_and_says_why(user, faili
     assert [(one.gate, one.state) for one in said.gates] == [
         ("exact", "passed"),
         ("operations", "passed"),
+        ("faults", "passed"),
         ("instructions", "skipped"),
         ("time", "skipped"),
     ]
@@ -57,7 +59,7 @@ def test_base_that_is_too_old_leaves_the_last_gates_out_and_says_why(user, faili
 
 def test_law_that_cannot_be_compiled_is_a_regression(user, failing):
     said = gates.of_revisions("HEAD", None, (user,), by=failing(1))
-    assert [(one.gate, one.state) for one in said.gates][2:] == [("instructions", "failed"), ("time", "skipped")]
+    assert [(one.gate, one.state) for one in said.gates][3:] == [("instructions", "failed"), ("time", "skipped")]
     assert [one.says for one in said.regressions] == ["the law cannot be timed: no bench.timing yet"]
 
 
@@ -84,6 +86,35 @@ def test_law_that_base_cannot_load_is_judged_as_new(user, failing):
     said = gates.of_revisions("HEAD", None, (user,), by=by)
     assert said.gates[0].says.startswith("base's does not load (--law law.py: it has no REGULATOR;")
     assert said.benchmarks == (1,)
+
+
+@pytest.mark.parametrize(
+    ("faults", "verdicts", "state"),
+    [
+        ({"HEAD": (), "head": ("chatter",)}, ["regression"], "failed"),
+        ({"HEAD": ("chatter",), "head": ("chatter",)}, [], "passed"),
+        ({"HEAD": ("chatter",), "head": ()}, ["improvement"], "passed"),
+    ],
+)
+def test_fault_that_base_has_not_is_a_regression(user, failing, faults, verdicts, state):
+    user.write_text(LAW + "# another\n")
+
+    def judged(laws):
+        said = faults["head" if str(laws[0].origin) == str(user) else "HEAD"]
+        return [Judgement("braking", tuple(Said("It shakes.", "30-method", fault) for fault in said), (), False)]
+
+    comparison = gates.of_revisions("HEAD", None, (user,), by=failing(0)._replace(judged=judged))
+    assert [one.verdict for one in comparison.findings if one.gate == "faults"] == verdicts
+    assert [one.state for one in comparison.gates if one.gate == "faults"] == [state]
+    assert ("- It shakes. (30-method)" in summary.markdown(comparison)) == bool(faults["head"])
+
+
+def test_law_that_cannot_be_judged_is_a_regression(user, failing):
+    def judged(laws):
+        raise BadLaw("it cannot be compiled")
+
+    said = gates.of_revisions("HEAD", None, (user,), by=failing(0)._replace(judged=judged))
+    assert [(one.gate, one.says) for one in said.regressions] == [("faults", "it cannot be compiled")]
 
 
 def test_runs_of_two_schemas_are_a_regression_and_no_mistake(user, failing, finished):

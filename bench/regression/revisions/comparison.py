@@ -2,13 +2,15 @@
 
 The JSON is one object; `schema` names its version, which changes whenever a field is renamed or gets another meaning:
 
-    schema      "orientation-bench comparison 1"
+    schema      "orientation-bench comparison 2"
     verdict     "regression" or "clean"
     base, head  {name, commit, sources}: what was compared
     machine     {key, cpu, cores, platform, lock, versions, target}: where, and by which packages
     gates       [{gate, state, says}]: state is "passed", "failed" or "skipped"
     findings    [{gate, verdict, name, what, was, now, says, rows}]: verdict is "regression", "change" or "improvement"
     benchmarks  [{name, what, base, head, time, same_code}]: base and head as in measurement.py, or null
+
+    judgements  [{name, said: [{text, page, fault}], beside, is_lost}]: of a user's laws, as `bench judge` says it
 
 and of a benchmark that was timed `time` holds {ratio, low, high, p, rounds, verdict, confirmed}.
 """
@@ -17,13 +19,14 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from bench.errors import BadResults
+from bench.findings.judgement import Judgement, Said
 from bench.regression.revisions import measurement
 from bench.regression.revisions.measurement import Measurement
 from bench.tables.files import read_json, write_json
 
-SCHEMA = "orientation-bench comparison 1"
+SCHEMA = "orientation-bench comparison 2"
 
-EXACT, OPERATIONS, INSTRUCTIONS, TIME = "exact", "operations", "instructions", "time"
+EXACT, OPERATIONS, INSTRUCTIONS, TIME, FAULTS = "exact", "operations", "instructions", "time", "faults"
 
 REGRESSION, CHANGE, IMPROVEMENT = "regression", "change", "improvement"
 PASSED, FAILED, SKIPPED = "passed", "failed", "skipped"
@@ -101,6 +104,7 @@ class Comparison(NamedTuple):
     gates: tuple[Gate, ...]
     findings: tuple[Finding, ...]
     benchmarks: tuple[Benchmark, ...]
+    judgements: tuple[Judgement, ...] = ()
 
     @property
     def regressions(self) -> list[Finding]:
@@ -152,6 +156,10 @@ def from_json(given: dict[str, Any]) -> Comparison:
                 one["same_code"],
             )
             for one in given["benchmarks"]
+        ),
+        tuple(
+            Judgement(one["name"], tuple(Said(**each) for each in one["said"]), tuple(one["beside"]), one["is_lost"])
+            for one in given["judgements"]
         ),
     )
 

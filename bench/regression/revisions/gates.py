@@ -5,7 +5,9 @@ from pathlib import Path
 from typing import NamedTuple
 
 from bench.errors import BadResults
-from bench.regression.revisions import checkouts, exact, self_measure
+from bench.findings.judged import judged
+from bench.findings.judgement import Judgement
+from bench.regression.revisions import checkouts, exact, faults, self_measure
 from bench.regression.revisions.checkouts import Checkout
 from bench.regression.revisions.comparison import (
     EXACT,
@@ -33,11 +35,12 @@ ALL = Wanted()
 
 
 class Means(NamedTuple):
-    """What the gates are carried out by: a finished run of a side, the processes of both, and what they measure."""
+    """What the gates are carried out by: a finished run of a side, both's processes, what they measure, the judge."""
 
     finished_run: Callable = checkouts.finished_run
     running: Callable = running
     measured: Callable = measured
+    judged: faults.Judge = judged
 
 
 USUAL = Means()
@@ -95,9 +98,14 @@ def of_revisions(
             raise BadResults(f"{new.name}: none of the --law files is there")
         gates, found, operations = _by_rows(old, new, told, by)
         more_gates, more, benchmarks = _by_process(old, new, operations, wanted, told, by)
+        judgements: tuple[Judgement, ...] = ()
+        if new.own:
+            told("judging")
+            gate, of_laws, judgements = faults.compared(old, new, by.judged)
+            more_gates, more = [gate, *more_gates], [*of_laws, *more]
         machine = self_measure.machine()
     was, now = (Side(one.name, one.commit, one.sources) for one in (old, new))
-    return Comparison(was, now, machine, (*gates, *more_gates), (*found, *more), tuple(benchmarks))
+    return Comparison(was, now, machine, (*gates, *more_gates), (*found, *more), tuple(benchmarks), judgements)
 
 
 def _by_rows(old: Checkout, new: Checkout, told: Told, by: Means) -> tuple[list[Gate], list[Finding], Operations]:

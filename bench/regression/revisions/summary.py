@@ -1,7 +1,10 @@
 """A comparison in words: a headline, a table of benchmarks, and Markdown for a pull request."""
 
 import html
+from collections.abc import Sequence
+from typing import Any
 
+from bench.findings.judgement import Judgement
 from bench.regression.revisions.comparison import FASTER, REGRESSION, SAME, SLOWER, Benchmark, Comparison, Finding
 
 SHOWN = 40
@@ -74,17 +77,29 @@ def markdown(comparison: Comparison) -> str:
     lines = [f"### {plain(headline(comparison))}", ""]
     lines += [f"- **{one.verdict}**: {plain(one.says)}" for one in found[:SHOWN]]
     lines += [f"- ... and {len(found) - SHOWN} more"] * (len(found) > SHOWN)
+    lines += [line for one in comparison.judgements for line in _judgement(one)]
     lines += ["", "| gate | | |", "| --- | --- | --- |"]
     lines += [f"| {one.gate} | {one.state} | {plain(one.says)} |" for one in comparison.gates]
-    table = rows(comparison)
-    if table:
-        lines += ["", "<details><summary>All benchmarks</summary>", "", f"| {' | '.join(table[0])} |"]
-        lines += [f"| {' | '.join('---' for _ in table[0])} |"]
-        lines += [f"| {' | '.join(plain(word) for word in row.values())} |" for row in table]
-        lines += ["", "</details>"]
+    if table := rows(comparison):
+        lines += ["", "<details><summary>All benchmarks</summary>", "", *_table(table), "", "</details>"]
     machine = comparison.machine
     lines += ["", f"{plain(machine['cpu'])}, {machine['cores']} cores; compiled for {machine['target']}.", ""]
     return "\n".join(lines)
+
+
+def _judgement(one: Judgement) -> list[str]:
+    """Why a law does what it does, faults first, and the laws most like it."""
+    said = sorted(one.said, key=lambda each: not each.fault)
+    lines = ["", f"**{plain(one.name)}: {', '.join(one.faults) or 'no fault found'}**", ""]
+    lines += [f"- {plain(each.text)} ({each.page})" for each in said]
+    return lines + (["", "Beside the laws most like it:", "", *_table(one.beside)] if one.beside else [])
+
+
+def _table(table: Sequence[dict[str, Any]]) -> list[str]:
+    """Records of the same names."""
+    lines = [f"| {' | '.join(table[0])} |", f"| {' | '.join('---' for _ in table[0])} |"]
+    words = (["" if value is None else plain(str(value)) for value in row.values()] for row in table)
+    return lines + [f"| {' | '.join(row)} |" for row in words]
 
 
 def plain(text: str) -> str:

@@ -1,0 +1,81 @@
+"""A user's laws on the free body, in processes of their own: all there is to say of them, and the laws like them."""
+
+import dataclasses
+from collections import defaultdict
+from collections.abc import Iterable
+from typing import Any
+
+import pandas as pd
+
+from bench.contenders.registry import contenders_of
+from bench.experiments import plan as planning
+from bench.experiments.choice import Choice
+from bench.experiments.plan import Plan
+from bench.findings import why
+from bench.findings.judgement import Judgement
+from bench.law.contender import Contender, Regulator
+from bench.running.sandbox import LOST, Sandbox
+from bench.tables.read import table, with_contender
+from bench.tables.schema import RESULTS
+
+ENGINE = "ideal-rk4"
+START_SETS = ("uniform", "half-turn", "tumbling", "goals")
+LIMIT_S, TRIED = 5.0, 3
+"""Seconds of processor time for a unit, ten times what a law of ours takes; and episodes of a lost one that are tried
+singly before the rest counts as lost too."""
+
+Parts = dict[tuple[str, str], list[pd.DataFrame]]
+"""Rows by law and experiment."""
+
+
+def judged(regulators: Iterable[Regulator], limit_s: float = LIMIT_S) -> list[Judgement]:
+    """The judgement of every law of these.
+
+    Args:
+        limit_s: seconds of processor time until a unit counts as hung.
+    Errors:
+        BadLaw: a file cannot be compiled, or its process ends before it is asked anything.
+    """
+    laws = contenders_of(*regulators)
+    plan, parts = plan_of(laws), defaultdict(list)
+    with Sandbox(plan, limit_s, TRIED) as sandbox:
+        sandbox.check()
+        given_up = set()  # of a law that hangs the rest would take minutes more
+        for unit in plan.units:
+            if unit.contender in given_up or (unit.experiment == "robustness" and sandbox.notes):
+                continue
+            made = sandbox.rows(unit).to_pandas()
+            parts[unit.contender, unit.experiment].append(made)
+            if sandbox.notes and unit.experiment == "free-body" and made["outcome"].isin(LOST).all():
+                given_up.add(unit.contender)
+        is_lost = bool(sandbox.notes)
+    return [judgement(one, parts, is_lost) for one in laws]
+
+
+def plan_of(laws: list[Contender]) -> Plan:
+    """The command field, the episodes and the perturbations of some laws."""
+    episodes = Choice(("free-body",), START_SETS, (ENGINE,), experiments=("free-body", "command-field"))
+    first = planning.make("quick", laws, episodes)
+    second = planning.make("quick", laws, Choice(experiments=("robustness",)))
+    return dataclasses.replace(first, units=first.units + second.units)
+
+
+def judgement(one: Contender, parts: Parts, is_lost: bool = False) -> Judgement:
+    """What its rows say of a law."""
+    field, episodes, perturbed = (
+        pd.concat([pd.DataFrame(), *parts[one.name, name]], ignore_index=True)
+        for name in ("command-field", "free-body", "robustness")
+    )
+    declared = one.regulator.property
+    said = (*why.sentences(field, declared), *why.ends(episodes, declared), *why.perturbed(perturbed))
+    return Judgement(one.name, said, _beside(field, with_contender(episodes)), is_lost)
+
+
+def _beside(field: pd.DataFrame, episodes: pd.DataFrame) -> tuple[dict[str, Any], ...]:
+    if field.empty:
+        return ()
+    reference = RESULTS / "reference"
+    run = table(reference, "episodes")
+    run = run[(run["arm"] == "") & (run["engine"] == ENGINE) & run["start_set"].isin(START_SETS)]
+    lines = why.beside(field, episodes, table(reference, "command-field"), run).to_dict("records")
+    return tuple({key: None if value != value else value for key, value in line.items()} for line in lines)

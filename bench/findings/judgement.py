@@ -1,0 +1,28 @@
+"""What is said of a law: sentences, and all of them together with the laws beside it."""
+
+from typing import Any, NamedTuple
+
+
+class Said(NamedTuple):
+    """A sentence, the page that explains it, and the word of the fault that it names; empty if it names none."""
+
+    text: str
+    page: str
+    fault: str = ""
+
+
+class Judgement(NamedTuple):
+    """What is said of a law, and a line for it and for each law of results/reference that is most like it.
+
+    is_lost: it crashed or hung; its rows say where.
+    """
+
+    name: str
+    said: tuple[Said, ...]
+    beside: tuple[dict[str, Any], ...]
+    is_lost: bool
+
+    @property
+    def faults(self) -> list[str]:
+        """The word of each, once."""
+        return list(dict.fromkeys(one.fault for one in self.said if one.fault))
