@@ -81,9 +81,9 @@ def of_law(one: Contender, count: int) -> Unit:
     return Unit("traces", one.name, "free-body", engine=engine, count=count, horizon_s=LONG)
 
 
-def of_arm(contender: str, task: str, arm: str, count: int) -> Unit:
-    """The unit of a controller on an arm, from the first so many of each of ARM_SETS."""
-    return Unit("traces", contender, task, arm, "native", count=count, horizon_s=LONGEST_S)
+def of_arm(contender: str, task: str, arm: str, count: int, start_set: str = "") -> Unit:
+    """The unit of a controller on an arm, from the first so many of one start set, or of each of ARM_SETS."""
+    return Unit("traces", contender, task, arm, "native", start_set, count=count, horizon_s=LONGEST_S)
 
 
 def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
@@ -129,7 +129,7 @@ def _on_arm(settings: Settings, unit: Unit, one: Contender, every: int) -> Itera
 
     metrics, limits = metrics_of(on_arm=True), settings.limits(unit.horizon_s)
     place = {"task": unit.task, "arm": unit.arm, **contender_columns(one), "engine": unit.engine}
-    for start_set in ARM_SETS:
+    for start_set in [unit.selector] if unit.selector else ARM_SETS:
         starts = tasks.start_set(start_set, unit.count, settings.seed, arm=unit.arm)
         curves = blank_curves(len(starts), SAMPLES, every, ARM_NUMBERS)
         run(unit.engine, one, unit.task, unit.arm, starts, limits, metrics, settings.integrator, curves=curves)

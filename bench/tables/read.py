@@ -12,7 +12,9 @@ the words FREE_BODY.
 from __future__ import annotations
 
 import functools
+import operator
 import os
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -75,21 +77,35 @@ def table(path: Path, name: str) -> pd.DataFrame:
 
 def with_contender(frame: pd.DataFrame) -> pd.DataFrame:
     """The frame with `contender` added, as the command line writes it."""
-    regulator, representation = frame["regulator"].astype(str), frame["representation"].astype(str)
-    names = regulator.where(representation == "", regulator + "/" + representation)
-    if "jacobian" in frame:  # not in a table of times
-        jacobian, inverse = frame["jacobian"].astype(str), frame["inverse"].astype(str)
-        names = names.where(jacobian == "", names + "@" + jacobian + "+" + inverse)
-    return frame.assign(contender=names.astype("category"))
+    columns = ["regulator", "representation", *(("jacobian", "inverse") if "jacobian" in frame else ())]
+
+    def named(few: pd.DataFrame) -> pd.Series:
+        names = few["regulator"].where(few["representation"] == "", few["regulator"] + "/" + few["representation"])
+        if "jacobian" not in few:  # in a table of times
+            return names
+        return names.where(few["jacobian"] == "", names + "@" + few["jacobian"] + "+" + few["inverse"])
+
+    return _with_names(frame, columns, named)
 
 
 def with_controller(frame: pd.DataFrame) -> pd.DataFrame:
     """Rows of compliance.parquet with `contender` added, as the command line writes it."""
-    names = frame["controller"].astype(str)
-    for mark, column in (("/", "representation"), ("+", "form")):
-        word = frame[column].astype(str)
-        names = names.where(word == "", names + mark + word)
-    return frame.assign(contender=names.astype("category"))
+
+    def named(few: pd.DataFrame) -> pd.Series:
+        names = few["controller"]
+        for mark, column in (("/", "representation"), ("+", "form")):
+            names = names.where(few[column] == "", names + mark + few[column])
+        return names
+
+    return _with_names(frame, ["controller", "representation", "form"], named)
+
+
+def _with_names(frame: pd.DataFrame, columns: list[str], named: Callable[[pd.DataFrame], pd.Series]) -> pd.DataFrame:
+    """`contender` from some columns of words, each combination of them named once however many rows have it."""
+    words = frame[columns]
+    names = named(words.drop_duplicates().astype(str)).astype("category")
+    number = words.groupby(columns, observed=True, sort=False).ngroup()
+    return frame.assign(contender=names.array.take(number.to_numpy()))
 
 
 def chosen(frame: pd.DataFrame, words: dict[str, str]) -> pd.DataFrame:
@@ -98,10 +114,11 @@ def chosen(frame: pd.DataFrame, words: dict[str, str]) -> pd.DataFrame:
     Errors:
         BadResults: the table has no such column.
     """
-    for column, word in words.items():
-        if column not in frame:
-            raise BadResults(f"no column '{column}' in this table; it has: {', '.join(map(str, frame.columns))}")
-        frame = frame[frame[column] == word]
+    unknown = next((column for column in words if column not in frame), None)
+    if unknown is not None:
+        raise BadResults(f"no column '{unknown}' in this table; it has: {', '.join(map(str, frame.columns))}")
+    if words:  # all columns are taken once, not once a word
+        frame = frame[functools.reduce(operator.and_, (frame[column] == word for column, word in words.items()))]
     frame = frame.reset_index(drop=True)
     for column in frame.select_dtypes("category"):
         frame[column] = frame[column].cat.remove_unused_categories()

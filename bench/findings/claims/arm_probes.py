@@ -42,8 +42,8 @@ def curves(word: str, arm: str, gains: Gains, dt_s: float, count: int) -> pd.Dat
     from bench.experiments import traces
     from bench.experiments.experiment import Settings
 
-    frame = traces.rows(Settings(gains=gains, dt_s=dt_s), traces.of_arm(controller(word).name, TASK, arm, count))
-    frame = frame[frame["start_set"] == "clear"]
+    unit = traces.of_arm(controller(word).name, TASK, arm, count, "clear")
+    frame = traces.rows(Settings(gains=gains, dt_s=dt_s), unit)
     goals = {start.id: start.goal_wxyz for start in tasks.start_set("clear", count, 0, arm=arm)}
     parts = []
     for id, curve in frame.groupby("start_id", sort=False):

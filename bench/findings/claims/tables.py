@@ -46,19 +46,26 @@ class Results:
         self.frames = dict(frames or {})
         self.timings_folder = timings
         self.experiments = experiments or {}
+        self._chosen: dict[tuple, pd.DataFrame] = {}
 
     def found_by(self, experiment: Callable, *given):
         """What an experiment finds, or what stands in its place."""
         return self.experiments.get(experiment.__name__, experiment)(*given)
 
     def table(self, name: str, **words: str) -> pd.DataFrame:
-        """Rows of one table that have these words; there may be none."""
+        """Rows of one table that have these words, chosen once and shared; there may be none."""
+        asked = (name, *sorted(words.items()))
+        if asked not in self._chosen:
+            self._chosen[asked] = read.chosen(self._whole(name), words)
+        return self._chosen[asked]
+
+    def _whole(self, name: str) -> pd.DataFrame:
         frame = self.frames.get(name)
         if frame is None:
             if self.folder is None:
                 raise NoEvidence(f"table '{name}': there is no folder to read it from; give one, or its frame")
             frame = self.frames[name] = read.table(self.folder, name)
-        return read.chosen(frame, words)
+        return frame
 
     def free_body(self, name: str, **words: str) -> pd.DataFrame:
         """Rows of one table that have these words and are about the free body, in the paper's coordinates."""
@@ -78,7 +85,7 @@ class Results:
 
     def gains(self) -> Gains:
         """The run's gains."""
-        row = some(self.free_body("episodes", engine=MAIN_ENGINE), f"episode by {MAIN_ENGINE}").iloc[0]
+        row = some(self.table("episodes", **read.FREE_BODY, engine=MAIN_ENGINE), f"episode by {MAIN_ENGINE}").iloc[0]
         return Gains(float(row["kp"]), float(row["kv"]))
 
     def timings(self) -> pd.DataFrame:
