@@ -4,6 +4,7 @@ A start that a law never settles has no time. It counts as infinite here, not as
 from the hard starts would look fast. Quantiles are therefore order statistics, never interpolated.
 """
 
+import functools
 import math
 from collections.abc import Callable
 from typing import NamedTuple
@@ -48,10 +49,15 @@ def bootstrap(values: np.ndarray, statistic: Callable[..., np.ndarray], seed: in
     """
     if not len(values):
         raise ValueError("no values to resample (allowed: at least one)")
-    drawn = np.random.default_rng(seed).integers(len(values), size=(RESAMPLES, len(values)), dtype=np.int32)
-    found = statistic(np.asarray(values)[drawn], axis=-1)
+    found = statistic(np.asarray(values)[_resamples(len(values), seed)], axis=-1)
     low, high = quantile(found, TAIL), quantile(found, 1.0 - TAIL)
     return Estimate(float(statistic(values, axis=-1)), float(low), float(high))
+
+
+@functools.lru_cache(maxsize=4)
+def _resamples(count: int, seed: int) -> np.ndarray:
+    """Numbers of the values in each resample, shape (RESAMPLES, count): the same for every law and criterion."""
+    return np.random.default_rng(seed).integers(count, size=(RESAMPLES, count), dtype=np.int32)
 
 
 def quantile_estimate(values: np.ndarray, level: float, seed: int = SEED) -> Estimate:

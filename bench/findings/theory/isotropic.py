@@ -22,6 +22,10 @@ LEAST_RAD, NEAREST_RAD = math.radians(2.0), math.radians(0.2)
 LONGEST_S = 6.0
 """Three times what the slowest of them takes that near a half turn."""
 
+REST = 10.0
+"""Angle, and the way that the speed still goes against damping alone, within this part of the band: no spring of these
+leaves the band from there, and the integration ends."""
+
 EQUATIONS = {one.name: one.equation for one in all_contenders() if one.equation}
 """contender -> its equation, from its own file; a law that prefers some axes to others has none."""
 
@@ -37,6 +41,10 @@ def settling(equation: Equation, angle: float, kp: float, kv: float, tolerance: 
     def edge(_, state):
         return abs(state[0]) - tolerance * angle
 
+    def rest(_, state):
+        return abs(state[0]) + abs(state[1]) / kv - tolerance * angle / REST
+
+    rest.terminal = True  # type: ignore[attr-defined]  # how solve_ivp is asked to stop
     first = 2.0 * math.pi - angle if equation.the_long_way else angle
-    found = solve_ivp(rate, (0.0, LONGEST_S), (first, 0.0), events=edge, **TIGHT)
+    found = solve_ivp(rate, (0.0, LONGEST_S), (first, 0.0), events=(edge, rest), **TIGHT)
     return float(found.t_events[0][-1])

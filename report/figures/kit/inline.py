@@ -14,6 +14,7 @@ import re
 from collections.abc import Callable
 from typing import NamedTuple
 
+from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 
 from report.figures.kit import style
@@ -26,6 +27,9 @@ DOT = re.compile(r"M (\S+ \S+)\s+L \1(?=\s)")  # of `dots`: a segment of no leng
 LONG_NUMBER = re.compile(r"(\d\.\d{2})\d+")  # of a path, in points: a hundredth is invisible
 # What matplotlib says in a <style> element, which inline would hold for the whole page:
 STROKES = "stroke-linejoin: round; stroke-linecap: butt"
+
+
+POINTS_PER_INCH = 72  # the unit of an SVG, in which text is measured
 
 
 class Picture(NamedTuple):
@@ -73,6 +77,7 @@ def svg(figure: Figure, alt: str, name: str) -> str:
         raise ValueError(
             f"figure {name} has no alternative text (cure: return (figure, 'what it shows, in a sentence'))"
         )
+    lay_out(figure)
     raw = io.StringIO()
     figure.savefig(raw, format="svg", transparent=True, metadata={"Date": None, "Creator": None})
     text = raw.getvalue()
@@ -93,6 +98,16 @@ def svg(figure: Figure, alt: str, name: str) -> str:
     text = re.sub(r'(<svg[^>]*?)\s+height="[^"]*"', r"\1", text, count=1)
     opening = f'<svg role="img" aria-label="{words}" style="max-width: {width}; {STROKES}; {colours}"'
     return " ".join(text.replace("<svg", opening, 1).split())
+
+
+def lay_out(figure: Figure) -> None:
+    """Place the axes as `savefig` would, which draws all twice for it, and hold them there."""
+    FigureCanvasSVG(figure)
+    figure.set_dpi(POINTS_PER_INCH)
+    layout = figure.get_layout_engine()
+    if layout is not None:
+        layout.execute(figure)
+        figure.set_layout_engine("none")
 
 
 def own_ids(text: str, name: str, alt: str = "") -> str:

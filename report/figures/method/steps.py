@@ -13,6 +13,7 @@ from bench.contenders.registry import find_contender
 from bench.engines.episode import FINAL_ANGLE, Settings
 from bench.engines.run import run
 from bench.law.contender import Gains
+from bench.metrics.registry import metrics_of
 from report.figures.kit.laws import TITLES
 from report.figures.kit.rows import LINEARIZED
 from tasks import start_set
@@ -37,7 +38,8 @@ def settings(dt_s: float) -> Settings:
 def angle_at(engine: str, name: str, start_id: str, dt_s: float) -> float:
     """Angle to the goal at AT_S from one of the `paper` starts [rad]."""
     starts = [start for start in start_set("paper") if start.id == start_id]
-    return float(run(engine, find_contender(name), "free-body", starts, settings(dt_s), ())[0, FINAL_ANGLE])
+    as_in_a_run = metrics_of(on_arm=False)  # with which the loops are compiled already
+    return float(run(engine, find_contender(name), "free-body", starts, settings(dt_s), as_in_a_run)[0, FINAL_ANGLE])
 
 
 def errors() -> pd.DataFrame:
