@@ -36,7 +36,7 @@ def test_quaternions_are_unit(name, arm):
 
 @every_set
 def test_elements_are_plain_floats(name, arm):
-    for start in tasks.start_set(name, 40, arm=arm):
+    for start in tasks.start_set(name, arm=arm)[:40]:
         numbers = (*start.quat_wxyz, *start.omega, *start.goal_wxyz, *start.q, *start.qdot)
         assert len(numbers) == 11 + (2 * tasks.arm(arm).joints if arm else 0)
         assert {type(x) for x in numbers} == {float}
@@ -53,8 +53,8 @@ def test_shorter_set_begins_the_longer_one(name, arm):
 @pytest.mark.parametrize(("name", "arm"), SAMPLED)
 def test_sampled_set_has_as_many_as_asked_for_and_begins_the_same(name, arm):
     usual = tasks.start_set(name, arm=arm)
-    longer = tasks.start_set(name, len(usual) + 15, arm=arm)
-    assert len(longer) == len(usual) + 15
+    longer = tasks.start_set(name, len(usual) + 5, arm=arm)
+    assert len(longer) == len(usual) + 5
     assert longer[: len(usual)] == usual
 
 

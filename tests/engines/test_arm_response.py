@@ -84,6 +84,7 @@ def angles_on_body(arm: str, law, engine: str, dt: float, ticks: int = 0) -> np.
     return np.array([on_body(arm, law, engine, dt, at + ticks * dt)[:, FINAL_ANGLE] for at in TIMES])
 
 
+@functools.cache
 def on_arm(arm: str, one, dt: float, at: float) -> np.ndarray:
     """Rows of the arm at that time, by motors without a limit: the Jaco's are too weak for some of its turns."""
     chosen = settings(dt_s=dt, horizon_s=at, torque_limit=math.inf)

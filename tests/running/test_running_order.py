@@ -2,12 +2,13 @@
 
 from bench.contenders.registry import find_contender
 from bench.experiments import plan as planning
+from bench.experiments.choice import Choice
 from bench.running.run import in_running_order
 
 
 def test_first_unit_of_each_contender_runs_before_the_rest_of_the_one_before_it():
     laws = [find_contender(word) for word in ("rotation-matrix", "linearized-euler/zyx-euler")]
-    plan = planning.make("quick", laws, count=4)
+    plan = planning.make("quick", laws, Choice(arms=("ur5e",)), count=4)
     units = plan.of("free-body", "arm", "contact", "robustness")
     each = {name: [unit for unit in units if unit.contender == name] for name in [unit.contender for unit in units]}
     assert len(each) > 4

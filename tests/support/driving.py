@@ -1,9 +1,12 @@
 """How the tests run episodes: the settings, one start of each kind, a metric that keeps what it sees."""
 
 import tasks
+from bench.contenders.registry import find_contender
 from bench.engines.episode import Settings
+from bench.engines.run import WORTH_LANES, prepare
 from bench.law.contender import Gains
 from bench.metrics.metric import Metric
+from bench.metrics.registry import metrics_of
 from tasks.rules import ticks
 
 NO_EARLY_STOP = 10**9
@@ -21,6 +24,12 @@ def spread(each: int, task: str = "free-body") -> list:
         every = tasks.start_set(word)
         chosen += every[:: max(1, len(every) // each)][:each]
     return chosen
+
+
+def compile_into_cache(engine: str, law: str) -> None:
+    """Loops of an ideal plant with a law, one start at a time and in lanes, as a run of all metrics has them."""
+    for total in (0, WORTH_LANES):
+        prepare(engine, find_contender(law), metrics_of(on_arm=False), total)
 
 
 def recorder(kept):
