@@ -95,6 +95,8 @@ def COMMAND(
     from bench.cli import planned
     from bench.experiments import plan as planning
 
+    check_workers(workers)  # at once: a plan of arms' starts takes seconds
+    check_scheduler(scheduler)
     choice = Choice(**{**words, **options.named(*map(words.get, options.Named._fields))._asdict()})
     plan = planning.make(
         suite,
@@ -107,8 +109,6 @@ def COMMAND(
         integrator=integrator,
         seed=seed,
     )
-    check_workers(workers)
-    check_scheduler(scheduler)
     planned.print_size(plan, out, workers, scheduler)
     if dry_run:
         planned.print_all(plan)
