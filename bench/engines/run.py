@@ -42,11 +42,10 @@ def run(
     import mujoco  # takes a moment; the ideal plant needs none
 
     from bench.engines.native import free_body as native
-    from bench.engines.native.libmujoco import MUJOCO_INTEGRATORS
+    from bench.engines.native.libmujoco import model_of
 
     plant = plant_of(contender, task, settings.gains)
-    model = mujoco.MjModel.from_xml_string(plant.xml(settings.dt_s))
-    model.opt.integrator = MUJOCO_INTEGRATORS[integrator]
+    model = model_of(plant.xml(settings.dt_s), integrator)
     data = mujoco.MjData(model)
     states = np.array([[*qpos, *qvel] for qpos, qvel in map(plant.state, starts)], dtype=float)
     law, rows = (evaluation(contender), memory_of(contender)), blank(len(starts), metrics)

@@ -14,7 +14,7 @@ from bench.engines.compiled import compile_function, made_once, own_law
 from bench.engines.curve import Curves, blank_curves
 from bench.engines.episode import Settings, numbers, start_rows
 from bench.engines.native import arm as native
-from bench.engines.native.libmujoco import MUJOCO_INTEGRATORS
+from bench.engines.native.libmujoco import model_of
 from bench.engines.reference import arm as reference
 from bench.law.contender import Contender
 from tasks.arm_model import Arm
@@ -94,8 +94,7 @@ def simulation(task: str, arm: str, dt_s: float, integrator: str, variation: str
 @functools.lru_cache(maxsize=64)
 def _model(task: str, arm: Arm, dt_s: float, integrator: str, variation: str) -> mujoco.MjModel:
     """A model that many simulations may share: stepping does not change it."""
-    model = mujoco.MjModel.from_xml_string(tasks.task(task, arm.name).xml(dt_s))
-    model.opt.integrator = MUJOCO_INTEGRATORS[integrator]
+    model = model_of(tasks.task(task, arm.name).xml(dt_s), integrator)
     if variation != NOMINAL:
         tasks.variation(variation).apply(model, arm.rated)
     return model

@@ -12,7 +12,7 @@ from bench.engines.compiled import compile_function, made_once
 from bench.engines.contact_episode import USUAL, Conditions, Ended, blank, made, numbers
 from bench.engines.native import contact as native
 from bench.engines.native import trapped
-from bench.engines.native.libmujoco import MUJOCO_INTEGRATORS
+from bench.engines.native.libmujoco import MUJOCO_INTEGRATORS, model_of
 from bench.engines.reference import contact as reference
 from bench.errors import BadNumber, UnknownWord
 from tasks.arm_model import Arm
@@ -77,8 +77,7 @@ def _check(
 
 def simulation(task: ContactTask, arm: Arm, conditions: Conditions, contact: ContactModel = STANDARD) -> Simulation:
     """A fresh model of a task on an arm."""
-    model = mujoco.MjModel.from_xml_string(model_xml(task, arm, conditions.dt_s, contact))
-    model.opt.integrator = MUJOCO_INTEGRATORS[conditions.integrator]
+    model = model_of(model_xml(task, arm, conditions.dt_s, contact), conditions.integrator)
     data = mujoco.MjData(model)
     batch, asked = trapped.batch(), np.zeros(3, np.int64)
     work, arrays = native.workspace(contact_episode.rows(), contact_episode.room(), model.nv, arm.joints)

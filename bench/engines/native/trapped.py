@@ -8,14 +8,13 @@ that is never stepped: what our function steps is whatever its argument says.
 import ctypes
 import threading
 import weakref
-from pathlib import Path
 
 import mujoco
 import numba
 from numba import carray, int32, int64, types
 
 from bench.engines.compiled import compile_callback
-from bench.engines.native.libmujoco import mj_forward, mj_step, mj_step1, mj_step2
+from bench.engines.native.libmujoco import library, mj_forward, mj_step, mj_step1, mj_step2
 
 BEGIN, STEP, RUNGE_KUTTA = 0, 1, 2
 
@@ -53,12 +52,11 @@ class _Config(ctypes.Structure):
     _fields_ = (("nthread", ctypes.c_int), ("persistent", ctypes.c_bool))
 
 
-_library = ctypes.CDLL(str(next(Path(mujoco.__file__).parent.glob("libmujoco.so*"))))
-_library.mjb_makeBatch.restype = ctypes.c_void_p
-_library.mjb_makeBatch.argtypes = (ctypes.c_void_p, ctypes.c_int, ctypes.c_void_p, ctypes.c_char_p, ctypes.c_int)
-_library.mjb_deleteBatch.argtypes = (ctypes.c_void_p,)
-_library.mjb_error.restype = ctypes.c_char_p
-_library.mjb_error.argtypes = (ctypes.c_void_p, ctypes.c_int)
+library.mjb_makeBatch.restype = ctypes.c_void_p
+library.mjb_makeBatch.argtypes = (ctypes.c_void_p, ctypes.c_int, ctypes.c_void_p, ctypes.c_char_p, ctypes.c_int)
+library.mjb_deleteBatch.argtypes = (ctypes.c_void_p,)
+library.mjb_error.restype = ctypes.c_char_p
+library.mjb_error.argtypes = (ctypes.c_void_p, ctypes.c_int)
 
 
 class Batch:
@@ -66,8 +64,8 @@ class Batch:
 
     def __init__(self) -> None:
         self._model = mujoco.MjModel.from_xml_string("<mujoco/>")
-        self._made = _library.mjb_makeBatch(self._model._address, 1, ctypes.byref(_Config(1, False)), None, 0)
-        weakref.finalize(self, _library.mjb_deleteBatch, self._made)
+        self._made = library.mjb_makeBatch(self._model._address, 1, ctypes.byref(_Config(1, False)), None, 0)
+        weakref.finalize(self, library.mjb_deleteBatch, self._made)
 
     @property
     def address(self) -> int:
@@ -76,7 +74,7 @@ class Batch:
 
     def error(self) -> str:
         """What MuJoCo said in the last step that failed."""
-        return _library.mjb_error(self._made, 0).decode()
+        return library.mjb_error(self._made, 0).decode()
 
 
 _of_thread = threading.local()
