@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import tasks
 from bench.errors import Incompatible
+from bench.experiments import starts
 from bench.experiments.choice import Choice
 from bench.experiments.experiment import Asked, Settings, Unit
 from bench.experiments.suites import HORIZON, NOMINAL, ON_ARM, SHORT, Slice
@@ -71,7 +72,7 @@ def narrowed(slices: tuple[Slice, ...], choice: Choice) -> tuple[Slice, ...]:
 
 def cut(experiment: str, places: list[Place], asked: Asked, most: dict[str, int]) -> Iterator[Unit]:
     """The units of places, of at most so many episodes each by engine."""
-    number = functools.cache(lambda word, size, arm: tasks.start_set_length(word, size, asked.seed, arm))
+    number = functools.cache(lambda word, size, arm: starts.count_of(word, size, asked.seed, arm))
     for part, one, task, arm, variation in places:
         total, step = number(part.start_set, asked.count or part.size, arm), most[part.engine]
         for first in range(0, total, step):
@@ -118,12 +119,8 @@ def starts_of(settings: Settings, unit: Unit) -> list[Start]:
     """A unit's stretch of its start set."""
     end = unit.first + unit.count
     if unit.arm:
-        return _on_arm(unit.selector, unit.total, settings.seed, unit.arm)[unit.first : end]
+        return starts.on_arm(unit.selector, unit.total, settings.seed, unit.arm)[unit.first : end]
     return tasks.starts_between(unit.selector, unit.first, end, settings.seed)
-
-
-_on_arm = functools.lru_cache(maxsize=16)(tasks.start_set)
-"""A start set of an arm is searched for, so it is built once for all its units."""
 
 
 def prepare(settings: Settings, unit: Unit) -> None:

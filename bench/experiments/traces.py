@@ -15,6 +15,7 @@ import tasks
 from bench.experiments import arm, free_body, robustness
 from bench.experiments.episodes import prepare
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit, own_last
+from bench.experiments.starts import on_arm
 from bench.experiments.suites import HORIZON, LONG, SHORT
 from bench.law.contender import Contender
 from bench.tables.schema import TABLES
@@ -130,7 +131,7 @@ def _on_arm(settings: Settings, unit: Unit, one: Contender, every: int) -> Itera
     metrics, limits = metrics_of(on_arm=True), settings.limits(unit.horizon_s)
     place = {"task": unit.task, "arm": unit.arm, **contender_columns(one), "engine": unit.engine}
     for start_set in [unit.selector] if unit.selector else ARM_SETS:
-        starts = tasks.start_set(start_set, unit.count, settings.seed, arm=unit.arm)
+        starts = on_arm(start_set, unit.count, settings.seed, unit.arm)
         curves = blank_curves(len(starts), SAMPLES, every, ARM_NUMBERS)
         run(unit.engine, one, unit.task, unit.arm, starts, limits, metrics, settings.integrator, curves=curves)
         endings = {"outcome": [""] * len(starts)}

@@ -121,9 +121,9 @@ def measured_columns(numbers: np.ndarray, metrics, angle0: list[float], judged: 
 
 def _seen_on_arm(arm: str, numbers: np.ndarray) -> list[float]:
     """The judge's condition number where each episode was worst conditioned; infinite if the angles are no numbers."""
-    from tasks.kinematics import Kinematics  # MuJoCo takes a moment to import; the ideal plant needs none
+    from tasks.kinematics import kinematics  # MuJoCo takes a moment to import; the ideal plant needs none
 
-    judge = Kinematics(tasks.arm(arm))
+    judge = kinematics(tasks.arm(arm))
     poses = numbers[:, POSE + 1 :][:, : tasks.arm(arm).joints]
     return [judge.condition(q) if np.isfinite(q).all() else math.inf for q in poses]
 

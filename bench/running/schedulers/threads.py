@@ -32,7 +32,7 @@ def run(
         if stop.is_set():
             return None
         made = sandbox.rows(unit) if sandbox.has(unit) else rows_of(plan.settings, unit)
-        write_table(part(out, unit), made, experiment_of(unit).table)
+        write_table(part(out, unit), made, experiment_of(unit).table, is_part=True)
         return unit
 
     ours, own = [unit for unit in todo if not sandbox.has(unit)], [unit for unit in todo if sandbox.has(unit)]

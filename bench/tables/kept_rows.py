@@ -1,0 +1,30 @@
+"""Rows that the sources alone decide, kept beside compiled code (bench/engines/cache.py): made once for all runs."""
+
+import contextlib
+from collections.abc import Callable
+from pathlib import Path
+
+from bench.engines import cache
+from bench.errors import BadResults
+from bench.provenance import source_digest
+from bench.tables.files import read_json, write_json
+
+Rows = list[dict]
+
+
+def kept(name: str, make: Callable[[], Rows], folder: Path = cache.FOLDER, sources: str = "") -> Rows:
+    """What `make` gave when it was first called by that name for these sources; none named: this checkout's.
+
+    Args:
+        name: kind/name. make: all its rows have the same columns, of numbers, words, or lists of them.
+    """
+    kind, _, one = name.partition("/")
+    path = folder / kind / f"{sources or source_digest()}-{one.replace('/', '_')}.json"
+    if path.is_file():
+        content = read_json(path)
+        return [dict(zip(content["columns"], row, strict=True)) for row in content["rows"]]
+    rows = make()
+    with contextlib.suppress(BadResults):  # without room for it the next run makes them again
+        if rows:
+            write_json(path, {"columns": list(rows[0]), "rows": [list(row.values()) for row in rows]})
+    return rows
