@@ -16,6 +16,7 @@ from bench.engines.binding import command_of, memory_of
 from bench.engines.curve import blank_curves
 from bench.engines.episode import TICKS, blank, numbers, start_rows
 from bench.engines.native import free_body as native
+from bench.engines.native.libmujoco import model_of
 from bench.engines.run import compiled_loop, evaluation
 from bench.experiments.experiment import Settings
 from bench.law.contender import Contender, Gains
@@ -121,7 +122,7 @@ def _engine(engine: str, one: Contender) -> Benchmark:
 
 def _simulation(starts):
     task = tasks.task(TASK)
-    model = mujoco.MjModel.from_xml_string(task.xml(_settings().dt_s))
+    model = model_of(task.xml(_settings().dt_s), "euler")
     return model, mujoco.MjData(model), np.array([[*qpos, *qvel] for qpos, qvel in map(task.state, starts)])
 
 

@@ -14,6 +14,7 @@ from bench.engines.arm_episode import blank_arm, controls, joints
 from bench.engines.binding import memory_of
 from bench.engines.curve import blank_curves
 from bench.engines.episode import TICKS, numbers, start_rows
+from bench.engines.native.libmujoco import model_of
 from bench.experiments.experiment import Settings
 from bench.experiments.suites import suite
 from bench.law.contender import PAPERS_GAINS, Contender
@@ -107,7 +108,7 @@ def _native(arm: str, one: Contender, start: Start, horizon_s: float, fewest: in
 def rollout(arm: str) -> Benchmark:
     """mujoco.rollout on the arm's model, its torques drawn beforehand."""
     settings, start, rated = _settings(HORIZON_S), _start(arm), np.array(tasks.arm(arm).rated)
-    model = mujoco.MjModel.from_xml_string(tasks.task(TASK, arm).xml(settings.dt_s))
+    model = model_of(tasks.task(TASK, arm).xml(settings.dt_s), "euler")
     control = np.random.default_rng(0).normal(size=(1, settings.ticks, model.nu)) * (PUSH * rated)
     return open_loop(model, mujoco.MjData(model), np.array([[*start.q, *start.qdot]]), control, arm)
 

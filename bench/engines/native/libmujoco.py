@@ -42,7 +42,7 @@ mj_fullM = _c_function("mj_fullM", 3)
 
 
 def model_of(xml: str, integrator: str) -> mujoco.MjModel:
-    """The model of an MJCF text without geoms that neither touch nor weigh: up to a sixth of a step, and no bit of it."""
+    """The model of an MJCF text without geoms that cameras alone see: a sixth of a step at most, and no bit of it."""
     text = mujoco.MjSpec.from_string(xml)
     text.compiler.discardvisual = True
     model = text.compile()
