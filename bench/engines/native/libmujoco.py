@@ -18,7 +18,7 @@ library = ctypes.CDLL(_LIBRARY)
 """For what the Python bindings have not."""
 
 ctypes.c_void_p.in_dll(library, "mjcb_time").value = None
-"""The bindings' clock, which MuJoCo asks some twenty times a step for timers that nobody reads: 14 to 34 % of it."""
+"""The bindings' clock, which MuJoCo asks again and again in a step for timers that nobody reads: 14 to 34 % of it."""
 
 MUJOCO_INTEGRATORS = {
     "euler": mujoco.mjtIntegrator.mjINT_EULER,
