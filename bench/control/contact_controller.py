@@ -1,9 +1,11 @@
 """Contact controllers: what takes part in the tasks of contact.
 
-hybrid-base+inverse               along the axes of the base frame
+hybrid-base+transpose             along the axes of the base frame, forces by the Jacobian transpose (Murphy 1988, 3.3)
+hybrid-base+inverse               the same by accelerations: an impedance
 hybrid-rate+inverse               the same; turns that are held are held by their rate alone
 hybrid-hand+projected             along axes that the hand carries along
-hybrid/zyx-euler+inverse          along x, y, z and the Euler angles, on the Euler Jacobian (Murphy 1988, 3.3)
+hybrid/zyx-euler+transpose        along x, y, z and the Euler angles, on the Euler Jacobian (Murphy 1988, 3.3)
+hybrid/zyx-euler+inverse          the same by accelerations
 hybrid-unconverted/zyx-euler+...  the same with moments taken for generalized forces: a negative control
 impedance-geometric               six-axis impedance on one error of orientation (bench/contenders/impedances)
 impedance-coordinates/zyx-euler   in coordinates
@@ -20,7 +22,13 @@ from bench.errors import BadNumber, Incompatible
 from bench.law.contender import PAPERS_GAINS, Gains, Representation
 from bench.law.impedance import Impedance
 
-FORMS = ("inverse", "projected")
+FORMS = ("inverse", "projected", "transpose")
+"""Of `hybrid.comply`, in its numbers."""
+
+PAPERS_FORM = FORMS[hybrid_control.TRANSPOSE]
+ACCELERATION_FORMS = FORMS[:2]
+"""The paper's force control, and the two that command what complies an acceleration."""
+
 ALONG_AXES = {
     "hybrid-base": hybrid_control.in_base,
     "hybrid-rate": hybrid_control.in_base_by_rate,
@@ -39,8 +47,8 @@ HYBRIDS = {
 class ContactController(NamedTuple):
     """A controller in contact.
 
-    law: one of HYBRIDS, or "impedance-" and the name of an impedance. form: how a hybrid's rows become motion of the
-    joints, one of FORMS; empty for an impedance.
+    law: one of HYBRIDS, or "impedance-" and the name of an impedance. form: how a hybrid's rows become torques, one of
+    FORMS; empty for an impedance.
     """
 
     law: str
@@ -88,7 +96,7 @@ def hybrid(law: str, form: str, representation: Representation | None = None) ->
     if law not in HYBRIDS:
         raise Incompatible(f"'{law}' is no hybrid controller; known: {', '.join(HYBRIDS)}")
     if form not in FORMS:
-        raise Incompatible(f"'{form}' is no way to the joints; known: {', '.join(FORMS)}")
+        raise Incompatible(f"'{form}' is no form of hybrid control; known: {', '.join(FORMS)}")
     takes = law in ("hybrid", "hybrid-unconverted")
     if takes and representation is None:
         usual = papers_coordinates().name
@@ -119,7 +127,7 @@ def impedance_controller(one: Impedance, representation: Representation | None =
 def check_constants(gains: Gains, touch: ContactParameters) -> None:
     """BadNumber if a gain, an apparent inertia or a damping is none."""
     usual = PAPERS_GAINS._asdict() | TOUCH._asdict()
-    units = {"kp": "1/s^2", "kv": "1/s", "m_p": "kg", "m_o": "kg m^2", "kc": "1/s"}
+    units = {"kp": "1/s^2", "kv": "1/s", "m_p": "kg", "m_o": "kg m^2", "kc": "1/s", "kf": "1"}
     for name, value in (gains._asdict() | touch._asdict()).items():
         if not 0.0 < value < float("inf"):
             raise BadNumber(f"{name} = {value} {units[name]}: give a finite number above 0 (try: {usual[name]})")

@@ -1,19 +1,21 @@
 """Control of position and force together: hybrid control, on the geometric Jacobian and on the Euler Jacobian.
 
-With the measured wrench F on the hand cancelled, tau = D y + fg - J^T F, the tool's acceleration is J y + Jdot qdot in
-whatever frame J is of. A controller commands, row by row of that frame,
+tau = D y + fg + J^T w, row by row of J's frame either held or complying: the selection matrix S = diag(held) of Raibert
+and Craig. What is held is commanded the acceleration a of a position law. F is the measured wrench on the hand, h what
+the hand shall exert, v = J qdot; where the hand complies it comes to rest with F = -h. Three forms:
 
-    held       a_i = the position law
-    complies   a_i = (F_i + h_i) / m_i - kc v_i        h: what the hand shall exert, m: apparent inertia, v = J qdot
+    transpose    y = J^-1 (S a - (I - S) kc v - Jdot qdot)                                  w = (I - S)(h + kf (h + F))
+    inverse      y = J^-1 (S a + (I - S) c - Jdot qdot)                                     w = -F
+    projected    y = (S J)^+ S (a - Jdot qdot) + J^-1 (I - S)(c - Jdot qdot)                w = -F
 
-so that where it complies it comes to rest with F = -h, and in free space moves at (F + h)/(m kc). What is held or
-complies is the selection matrix S of Raibert and Craig: diag(held). Two ways to the joints:
+The first is the paper's: the error of force is selected and "converted to joint torques by the Jacobian transpose"
+(Murphy 1988, 3.3). Since D J^-1 = J^T Lambda with Lambda = J^-T D J^-1, it is also that of operational space for six
+joints, tau = J^T (Lambda (S a - (I - S) kc v - Jdot qdot) + w) + fg (Khatib 1987). F acts on the hand as it does on the
+arm: through Lambda, and on what is held too.
 
-    inverse      y = J^-1 (S a + (I - S) a - Jdot qdot)
-    projected    y = (S J)^+ S (a - Jdot qdot) + J^-1 (I - S)(a - Jdot qdot)
-
-The first uses J^-1 S, the second the pseudo-inverse of what is held, S J: of all joint motions that do what is held,
-the least (Fisher and Mujtaba 1991). In the second what complies is dragged along by what is held.
+The others command what complies an acceleration, c_i = (F_i + h_i)/m_i - kc v_i with an apparent inertia m, and cancel
+F: impedances. `inverse` uses J^-1 S, `projected` the pseudo-inverse of what is held, S J: of all joint motions that do
+what is held, the least (Fisher and Mujtaba 1991); what complies is dragged along by it.
 
 Three frames, and with each the wrench converted to it:
 
@@ -25,7 +27,7 @@ Three frames, and with each the wrench converted to it:
 `unconverted` is a negative control: the moment's components taken for generalized forces as they are.
 
 Fails: where J is singular, and on coordinates where B^-1 does not exist; what complies there is then lost with it.
-Source: Raibert and Craig 1981; Murphy 1988, 3.3; Fisher and Mujtaba 1991.
+Source: Raibert and Craig 1981; Murphy 1988, 3.3; Khatib 1987; Fisher and Mujtaba 1991.
 """
 
 from collections.abc import Callable
@@ -177,13 +179,23 @@ def axes_of(representation: Representation) -> tuple[int, int, int]:
     return representation.about
 
 
-INVERSE, PROJECTED = 0, 1
-"""The two ways to the joints, as a compiled loop takes them."""
+INVERSE, PROJECTED, TRANSPOSE = 0, 1, 2
+"""The forms, as a compiled loop takes them."""
+
+
+@kernel
+def exerted(form, held, rows, touch, i):
+    """w_i: what the joints add to a wrench on the hand by J^T."""
+    if form != TRANSPOSE:
+        return -rows.F[i]
+    if held[i] > 0.0:
+        return 0.0
+    return rows.h[i] + touch.kf * (rows.h[i] + rows.F[i])
 
 
 @kernel
 def comply(form, held, n, D, fg, J, rows, touch, room, tau):
-    """tau = D y + fg - J^T F, with y by the rows that are held (held[i] > 0) or comply; J is 6 x n, n = 6."""
+    """tau = D y + fg + J^T w, with y and w by the rows that are held (held[i] > 0) or comply; J is 6 x n, n = 6."""
     y, b, scratch = room.y, room.b, room.scratch
     count = 0
     for i in range(6):
@@ -191,12 +203,14 @@ def comply(form, held, n, D, fg, J, rows, touch, room, tau):
             scratch.A[i, j] = J[i, j]
         if held[i] > 0.0:
             y[i] = rows.a[i] - rows.drift[i]
-            if form > 0:
+            if form == PROJECTED:
                 b[count] = y[i]
                 y[i] = 0.0
                 for j in range(n):
                     room.held[count, j] = J[i, j]
                 count = count + 1
+        elif form == TRANSPOSE:
+            y[i] = -touch.kc * rows.v[i] - rows.drift[i]
         else:
             inertia = touch.m_p
             if i > 2:
@@ -208,7 +222,9 @@ def comply(form, held, n, D, fg, J, rows, touch, room, tau):
         solve_gram(room.held, b, scratch.A, scratch.t, count, n)
         for i in range(n):
             y[i] = y[i] + scratch.t[i]
-    multiply_transposed(J, rows.F, scratch.t, 6, n)
+    for i in range(6):
+        b[i] = exerted(form, held, rows, touch, i)
+    multiply_transposed(J, b, scratch.t, 6, n)
     multiply(D, y, tau, n, n)
     for i in range(n):
-        tau[i] = tau[i] + fg[i] - scratch.t[i]
+        tau[i] = tau[i] + fg[i] + scratch.t[i]

@@ -1,4 +1,4 @@
-"""Every controller in contact there is: hybrids in both forms, and the impedances that were found."""
+"""Every controller in contact there is: hybrids in every form, and the impedances that were found."""
 
 from bench.contenders.registry import known_impedances, known_representations, representation
 from bench.control.contact_controller import ALONG_AXES, FORMS, HYBRIDS, ContactController, hybrid, impedance_controller
@@ -6,7 +6,7 @@ from bench.errors import Incompatible, UnknownWord
 
 
 def all_controllers() -> list[ContactController]:
-    """Every hybrid controller in both forms, then every impedance; each in every representation that it takes."""
+    """Every hybrid controller in every form, then every impedance; each in every representation that it takes."""
     along = [one for one in known_representations().values() if one.about is not None]
     found = []
     for law in HYBRIDS:
@@ -32,7 +32,7 @@ def find_controller(word: str) -> ContactController:
     if law in HYBRIDS:
         one = hybrid(law, form or FORMS[0], along)
         if not form:
-            raise Incompatible(f"'{word}' lacks its way to the joints (try: {rest}+inverse, or {rest}+projected)")
+            raise Incompatible(f"'{word}' lacks its form (try: {', or '.join(f'{rest}+{one}' for one in FORMS)})")
         return one
     if plus:
         raise Incompatible(f"'{word}': an impedance has one way to the joints (omit '+{form}')")

@@ -10,17 +10,20 @@ class ContactParameters(NamedTuple):
 
     m_p [kg] and m_o [kg m^2]: apparent inertia. kc [1/s]: damping of what complies. The stiffness of an impedance is
     kp m_p and kp m_o. Along coordinates they are those of a coordinate: at E = 0 of mrp, where B = 4 I, a moment turns
-    the hand 16 times as far as about axes.
+    the hand 16 times as far as about axes. kf [1]: gain on the error of force, of the form `transpose` alone, which
+    leaves the hand its own inertia over 1 + kf.
     """
 
     m_p: float = 20.0
     m_o: float = 0.5
     kc: float = 10.0
+    kf: float = 0.5
 
 
 TOUCH = ContactParameters()
 """Apparent inertias like those of the arms' hands at home (at most 18 kg and 0.64 kg m^2): a cancelled force comes a
-tick late, and below half of those that tick would destabilize a contact."""
+tick late, and below half of those that tick would destabilize a contact. For the same reason kf is half of 1: against
+something rigid F_k = -(h + kf (h + F_{k-1})), which converges for kf < 1."""
 
 
 class Setpoint(NamedTuple):

@@ -8,8 +8,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from bench.control.contact_controller import ContactController
-from bench.control.hybrid import INVERSE, PROJECTED, comply
+from bench.control.contact_controller import FORMS, ContactController
+from bench.control.hybrid import INVERSE, comply
 from bench.control.setpoint import TOUCH, Setpoint
 from bench.counting.costs import BRANCHES, Call, Cost, flops
 from bench.counting.counted import TOTAL, Tally
@@ -58,7 +58,7 @@ def _call(controller: ContactController, held, state: ArmState, draw) -> Call:
         tally.stage = "regulate"
         controller.assemble(chain, wish, f, m, gains, touch, J, into)
         tally.stage = "invert"
-        form = PROJECTED if controller.form == "projected" else INVERSE
+        form = FORMS.index(controller.form) if controller.form else INVERSE
         comply(form, held, chain.n, D, fg, J, into, touch, room(dtype), tau)
         return tuple(tau)
 

@@ -123,6 +123,10 @@ HORIZON = {"half-turn": LONG, "poles": LONG, "wraps": LONG}
 
 
 COMPLIANT = (
+    "hybrid-base+transpose",
+    "hybrid/zyx-euler+transpose",
+    "hybrid/zyz-euler+transpose",
+    "hybrid-unconverted/zyx-euler+transpose",
     "hybrid-base+inverse",
     "hybrid-base+projected",
     "hybrid-rate+inverse",
@@ -135,7 +139,8 @@ COMPLIANT = (
     "impedance-coordinates/zyx-euler",
     "impedance-coordinates-relative/zyx-euler",
 )
-"""Controllers in contact that tell the coordinates apart, and the control and the form that must not be blamed."""
+"""Controllers in contact that tell the coordinates apart, the paper's form first, and the control and the form that
+must not be blamed."""
 
 MORE_COMPLIANT = (
     "hybrid-hand+projected",

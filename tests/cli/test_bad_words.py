@@ -135,7 +135,7 @@ def test_impossible_number_is_refused_in_a_dry_run_too(capsys, finished):
             "task 'wrench-probe' needs an arm of six joints, and 'panda' has",
         ),
         (("--controller", "hybrid-base+inverse", "--arm", "jaco"), "arm 'jaco' has no site 'wrist'"),
-        (("--controller", "hybrid-base"), "lacks its way to the joints (try: hybrid-base+inverse"),
+        (("--controller", "hybrid-base"), "lacks its form (try: hybrid-base+inverse"),
         (
             ("--controller", "hybrid/quaternion+inverse"),
             "'quaternion' has no coordinate for each of the axes x, y and z",

@@ -149,7 +149,7 @@ def test_list_names_a_broken_arm_with_the_reason():
         ("inverses", r"pseudo-inverse +acceleration +6 x 6, 6 x 7, 7 x 6  "),
         ("tasks", r"wrench-probe +contact: puma560, ur5e  "),
         ("controllers", r"name +/coordinates +\+form "),
-        ("controllers", r"hybrid +mrp, rotation-vector, .*inverse, projected "),
+        ("controllers", r"hybrid +mrp, rotation-vector, .*inverse, projected, transpose "),
         ("controllers", r"impedance-geometric +impedance: "),
     ],
 )

@@ -47,7 +47,7 @@ def line_of(action, kind) -> str:
     ("action", "says"),
     [
         (lambda: hybrid("hybrid-tool", "inverse"), ["'hybrid-tool' is no hybrid controller", *HYBRIDS]),
-        (lambda: hybrid("hybrid-base", "transpose"), ["'transpose' is no way to the joints", *FORMS]),
+        (lambda: hybrid("hybrid-base", "solve"), ["'solve' is no form of hybrid control", *FORMS]),
         (lambda: hybrid("hybrid", "inverse"), ["needs some", "try: hybrid/zyx-euler+inverse"]),
         (lambda: hybrid("hybrid-unconverted", "projected"), ["try: hybrid-unconverted/zyx-euler+projected"]),
         (lambda: hybrid("hybrid-base", "inverse", ZYX), ["takes no representation", "try: hybrid-base+inverse"]),
@@ -64,7 +64,7 @@ def line_of(action, kind) -> str:
         (lambda: impedance_controller(GEOMETRIC, ZYX), ["takes no representation", "omit 'zyx-euler'"]),
         (lambda: find_controller("hybrid-bse+inverse"), ["'hybrid-bse' is unknown", "did you mean 'hybrid-base'"]),
         (lambda: find_controller("hybrid/zyx+inverse"), ["representation 'zyx' is unknown", *known_representations()]),
-        (lambda: find_controller("hybrid-base"), ["try: hybrid-base+inverse, or hybrid-base+projected"]),
+        (lambda: find_controller("hybrid-base"), ["try: hybrid-base+inverse, or hybrid-base+projected, or"]),
         (lambda: find_controller("impedance-geometric+inverse"), ["omit '+inverse'"]),
         (lambda: find_controller("impedance-coordinates/quaternion"), ["'quaternion' has no coordinate for each"]),
     ],

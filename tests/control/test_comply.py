@@ -7,7 +7,7 @@ import pytest
 from support.bits import EPS
 from support.in_contact import LONGEST, SELECTIONS, TOUCH, backward
 
-from bench.control.contact_controller import FORMS
+from bench.control.contact_controller import ACCELERATION_FORMS, FORMS, PAPERS_FORM
 from bench.control.hybrid import comply
 from bench.engines.contact_episode import room, rows
 
@@ -37,35 +37,43 @@ def complied(form: str, held, J, D, fg, into):
     return about.y, tau
 
 
-def answer(into) -> np.ndarray:
+def answer(form, into) -> np.ndarray:
     """What is commanded where the hand complies: m_p is of x, y, z, m_o of the turns, kc of all."""
-    return (into.F + into.h) / np.repeat((TOUCH.m_p, TOUCH.m_o), 3) - TOUCH.kc * into.v
+    driven = 0.0 if form == PAPERS_FORM else (into.F + into.h) / np.repeat((TOUCH.m_p, TOUCH.m_o), 3)
+    return driven - TOUCH.kc * into.v
+
+
+def exerted(form, held, into) -> np.ndarray:
+    """w: the measured wrench cancelled, or what is to be exerted and its error where the hand complies."""
+    if form == PAPERS_FORM:
+        return (1.0 - np.array(held)) * (into.h + TOUCH.kf * (into.h + into.F))
+    return -into.F
 
 
 def by_formula(form: str, held, J, into) -> np.ndarray:
     """y: see the docstring of bench.control.hybrid."""
     S, left = np.diag(held), np.eye(6) - np.diag(held)
-    complies = np.linalg.solve(J, left @ (answer(into) - into.drift))
-    if form == "inverse":
-        return complies + np.linalg.solve(J, S @ (into.a - into.drift))
-    return complies + np.linalg.pinv(S @ J) @ (into.a - into.drift)
+    complies = np.linalg.solve(J, left @ (answer(form, into) - into.drift))
+    if form == "projected":
+        return complies + np.linalg.pinv(S @ J) @ (into.a - into.drift)
+    return complies + np.linalg.solve(J, S @ (into.a - into.drift))
 
 
 @IN_FORMS
 def test_torques_are_the_formula_for_every_selection(form):
     for (J, D, fg, into), held in itertools.product(given(), SELECTIONS):
         y, tau = complied(form, held, J, D, fg, into)
-        wanted = by_formula(form, held, J, into)
-        size = np.linalg.norm(np.linalg.inv(J), 2) * np.linalg.norm([answer(into), into.a, into.drift])
+        wanted, w = by_formula(form, held, J, into), exerted(form, held, into)
+        size = np.linalg.norm(np.linalg.inv(J), 2) * np.linalg.norm([answer(form, into), into.a, into.drift])
         np.testing.assert_allclose(y, wanted, rtol=0.0, atol=backward(J) * size, err_msg=held)
-        allowed = backward(J) * (np.linalg.norm(D, 2) * size + np.linalg.norm(J, 2) * np.linalg.norm(into.F))
-        np.testing.assert_allclose(tau, D @ wanted + fg - J.T @ into.F, rtol=0.0, atol=allowed, err_msg=held)
+        allowed = backward(J) * (np.linalg.norm(D, 2) * size + np.linalg.norm(J, 2) * np.linalg.norm(w))
+        np.testing.assert_allclose(tau, D @ wanted + fg + J.T @ w, rtol=0.0, atol=allowed, err_msg=held)
 
 
-def test_forms_are_one_where_all_is_held_or_all_complies_and_two_elsewhere():
+def test_forms_of_acceleration_are_one_where_all_is_held_or_all_complies_and_two_elsewhere():
     for J, D, fg, into in given():
         for held in SELECTIONS:
-            one, other = (complied(form, held, J, D, fg, into)[0] for form in FORMS)
+            one, other = (complied(form, held, J, D, fg, into)[0] for form in ACCELERATION_FORMS)
             size = np.linalg.norm(np.linalg.inv(J), 2) * LONGEST
             apart = np.linalg.norm(one - other)
             assert apart <= backward(J) * size if len(set(held)) == 1 else apart > 1e-3, held

@@ -27,7 +27,7 @@ from support.in_contact import (
 from support.states import as_rotation, rotations, vector
 
 import tasks
-from bench.control.contact_controller import FORMS, hybrid
+from bench.control.contact_controller import FORMS, PAPERS_FORM, hybrid
 from bench.control.hybrid import axes_of
 from bench.control.impedance import law_of
 from bench.control.setpoint import TOUCH as TOUCHING
@@ -74,7 +74,7 @@ def frame(one, at, wish) -> tuple[np.ndarray, np.ndarray]:
 
 
 def commanded(one, at, wish, held) -> np.ndarray:
-    """The acceleration along its rows."""
+    """The acceleration along its rows; of `transpose` that and what the wrenches make of the hand."""
     M, _ = frame(one, at, wish)
     velocity, into_frame = M @ at.velocity, np.linalg.inv(M).T
     spring = GAINS.kp * (np.array(wish.p_d) - at.chain.p) + GAINS.kv * (np.array(wish.v_d) - at.velocity[:3])
@@ -88,7 +88,16 @@ def commanded(one, at, wish, held) -> np.ndarray:
         stiff = 0.0 if one.law == "hybrid-rate" else GAINS.kp * np.sinc(np.linalg.norm(turn) / np.pi)
         a = M @ np.concatenate((spring, stiff * turn - GAINS.kv * at.velocity[3:]))
         h = np.concatenate((f_d, m_d))
-    return np.where(held, a, (into_frame @ at.F + h) / INERTIA - TOUCH.kc * velocity)
+    F = into_frame @ at.F
+    if one.form == PAPERS_FORM:
+        exerted = np.where(held, 0.0, h + TOUCH.kf * (h + F))
+        return np.where(held, a, -TOUCH.kc * velocity) + mobility(at, M) @ (F + exerted)
+    return np.where(held, a, (F + h) / INERTIA - TOUCH.kc * velocity)
+
+
+def mobility(at, M) -> np.ndarray:
+    """Acceleration along rows per force along them: M J D^-1 J^T M^T."""
+    return M @ at.J @ np.linalg.solve(at.D, (M @ at.J).T)
 
 
 def regular(one, at) -> bool:

@@ -7,6 +7,7 @@ from support.command_line import bench, refused
 
 import tasks
 from bench.contenders.registry import find_contender
+from bench.control.contact_controller import FORMS
 from bench.control.registry import all_controllers, find_controller
 from bench.errors import Incompatible, UnknownWord
 from bench.experiments import plan as planning
@@ -184,20 +185,18 @@ def test_every_controller_is_found_by_its_name():
     assert [find_controller(one.name) for one in all_controllers()] == all_controllers()
 
 
-def test_hybrids_come_in_both_forms_and_impedances_in_one():
+def test_hybrids_come_in_every_form_and_impedances_in_one():
     forms = {one.law: {other.form for other in all_controllers() if other.law == one.law} for one in all_controllers()}
-    assert all(
-        found == ({""} if law.startswith("impedance-") else {"inverse", "projected"}) for law, found in forms.items()
-    )
+    assert all(found == ({""} if law.startswith("impedance-") else set(FORMS)) for law, found in forms.items())
 
 
 @pytest.mark.parametrize(
     ("word", "reason"),
     [
-        ("hybrid-base", r"lacks its way to the joints \(try: hybrid-base\+inverse"),
+        ("hybrid-base", r"lacks its form \(try: hybrid-base\+inverse"),
         ("hybrid", r"needs some \(try: hybrid/zyx-euler\+inverse\)"),
         ("hybrid-base/zyx-euler+inverse", r"takes no representation \(try: hybrid-base\+inverse\)"),
-        ("hybrid/zyx-euler+solve", "known: inverse, projected"),
+        ("hybrid/zyx-euler+solve", "known: inverse, projected, transpose"),
         ("hybrid/quaternion+inverse", r"no coordinate for each of the axes x, y and z"),
         ("impedance-coordinates", r"needs some \(try: impedance-coordinates/zyx-euler\)"),
         ("impedance-geometric/mrp", r"omit 'mrp'"),

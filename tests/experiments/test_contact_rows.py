@@ -65,7 +65,7 @@ def test_one_row_a_pose_says_whose_it_is_and_of_what(rows):
     assert list(rows["trials"]) == [6, 6, 6]
     whose = rows[["suite", "task", "arm", "controller", "representation", "form"]].drop_duplicates()
     assert whose.to_numpy().tolist() == [["mine", "wrench-probe", "ur5e", "hybrid", "zyx-euler", "inverse"]]
-    assert rows.loc[0, ["m_p", "m_o", "kc"]].tolist() == list(TOUCH)
+    assert rows.loc[0, ["m_p", "m_o", "kc", "kf"]].tolist() == list(TOUCH)
     assert rows.loc[0, ["kp", "kv", "dt_s", "horizon_s"]].tolist() == [100.0, 20.0, 1e-3, 0.05]
     assert set(rows["integrator"]) == {"implicitfast"}
 

@@ -8,13 +8,13 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation as Turn
 from support.bits import EPS
-from support.in_contact import COORDINATES
+from support.in_contact import ARMS, COORDINATES, hand
 from support.states import of_scipy
 
 import tasks
 from bench.contenders.impedances import coordinates, coordinates_relative
 from bench.contenders.registry import known_impedances
-from bench.control.contact_controller import hybrid, impedance_controller
+from bench.control.contact_controller import PAPERS_FORM, hybrid, impedance_controller
 from bench.control.setpoint import TOUCH
 from bench.engines.run_contact import run
 from bench.findings.theory import compliance_theory as theory
@@ -25,7 +25,7 @@ from bench.metrics.contact.stiffness import least_yield, misalignment, stiffness
 from bench.metrics.contact_metric import Pose, response
 from bench.metrics.measured_compliance import compliance
 from tasks.domains.wrench_probe import SPECIFICATIONS, TASK
-from tasks.rotations import on_pole
+from tasks.rotations import on_pole, zyx
 
 SCIPYS = {
     "zyx-euler": lambda E: Turn.from_euler("ZYX", E),
@@ -120,12 +120,76 @@ def test_another_arm_complies_alike(controller):
 def compare(controller, pose, tolerance):
     """The measured C against the predicted, Frobenius; where nothing is predicted, nothing was measured."""
     goal = from_quaternion(pose.first.trial.goal_wxyz)
-    predicted = theory.compliance(controller, pose.first.trial.specification, goal, TASK.horizon_s)
+    predicted = theory.compliance(controller, pose.first.trial.specification, goal, TASK.horizon_s, arm=pose.arm)
     measured = compliance(pose)
     if np.isnan(predicted).any():
         assert np.isnan(measured).all()
     else:
         assert np.linalg.norm(measured - predicted) <= tolerance * np.linalg.norm(predicted)
+
+
+BY_TRANSPOSE = [
+    *(hybrid(law, PAPERS_FORM) for law in ("hybrid-base", "hybrid-rate", "hybrid-hand")),
+    *(hybrid("hybrid", PAPERS_FORM, COORDINATES[word]) for word in ("zyx-euler", "mrp")),
+    hybrid("hybrid-unconverted", PAPERS_FORM, EULER),
+]
+LEANING = [(0, 0, 0), (0, 45, 0), (35, 45, -20), (0, 75, 0)]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("controller", "complies", "angles"),
+    [
+        pytest.param(one, COMPLIES[(k + p) % 3], angles, id=f"{one.name}-{angles}")
+        for k, one in enumerate(BY_TRANSPOSE)
+        for p, angles in enumerate(LEANING)
+    ],
+)
+def test_compliance_by_the_jacobian_transpose_is_as_predicted(controller, complies, angles):
+    """To what a sampled spring leaves; to 75 degrees, for with an inertia of its own the hand turns by some 10 mrad."""
+    compare(controller, probed(controller, complies, *angles), SPRUNG)
+
+
+@pytest.mark.parametrize("beta", [0, 45, 75])
+@pytest.mark.parametrize("controller", [BY_TRANSPOSE[0], BY_TRANSPOSE[3]], ids=lambda one: one.name)
+def test_by_the_jacobian_transpose_two_axes_leak_as_predicted_and_comply_alike_at_any_beta(controller, beta):
+    A, angle = theory.mobility(tasks.arm("ur5e")), math.radians(beta) if controller.representation else 0.0
+    C = compliance(probed(controller, beta=beta))
+    assert C[0, 0] == pytest.approx((1.0 + TOUCH.kf) * theory.free(TASK.horizon_s) * TOUCH.m_o * A[0, 0], rel=FREE)
+    leaks = theory.leakage_by_transpose(angle, A, TASK.horizon_s)
+    assert abs(C[2, 0] / C[0, 0]) == pytest.approx(leaks, rel=1e-3)
+
+
+@pytest.mark.parametrize(("beta", "leaks"), [(45, 0.76), (75, 2.84)])
+def test_without_force_feedback_the_closed_form_is_a_referees_measurement_with_code_of_their_own(beta, leaks):
+    """UR5e, kf = 0, 0.5 s: c_xx = 0.341 rad/(N m) at any beta, and what leaks."""
+    goal = from_quaternion(zyx(0.0, math.radians(beta), 0.0))
+    C = theory.compliance(
+        BY_TRANSPOSE[3], SPECIFICATIONS[3], goal, 0.5, touch=TOUCH._replace(kf=0.0), arm=tasks.arm("ur5e")
+    )
+    assert C[0, 0] == pytest.approx(0.341, abs=5e-4)
+    assert abs(C[2, 0] / C[0, 0]) == pytest.approx(leaks, abs=5e-3)
+
+
+@pytest.mark.parametrize("arm", ARMS)
+def test_mobility_is_what_mujocos_dynamics_make_of_moments(arm):
+    pushed = [
+        hand(arm, tasks.arm(arm).home, np.zeros(6), Turn.identity(), (0.0, 0.0, 0.0, *unit)) for unit in np.eye(3)
+    ]
+    found = np.transpose([at.acceleration(at.fg)[3:] for at in pushed])
+    A = theory.mobility(tasks.arm(arm))
+    np.testing.assert_allclose(found, A, rtol=0.0, atol=1e-9 * np.linalg.norm(A))
+
+
+def test_what_leaks_by_the_jacobian_transpose_is_the_tangent_at_last_whatever_the_arm():
+    for arm in ARMS:
+        leaks = theory.leakage_by_transpose(math.radians(60), theory.mobility(tasks.arm(arm)), 1e4)
+        assert leaks == pytest.approx(math.tan(math.radians(60)), rel=1e-4)
+
+
+def test_an_arm_is_asked_for_where_its_inertia_matters():
+    with pytest.raises(TypeError, match="try: arm="):
+        theory.compliance(BY_TRANSPOSE[0], SPECIFICATIONS[0], IDENTITY, 0.5)
 
 
 @pytest.mark.parametrize("form", ["inverse", "projected"])

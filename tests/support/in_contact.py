@@ -13,6 +13,7 @@ from scipy.spatial.transform import Rotation as ScipyRotation
 
 import tasks
 from bench.contenders.registry import known_representations
+from bench.control.contact_controller import FORMS
 from bench.control.hybrid import comply
 from bench.control.registry import all_controllers
 from bench.control.setpoint import ContactParameters, Rows, Setpoint
@@ -35,7 +36,7 @@ COORDINATES = {word: one for word, one in known_representations().items() if one
 
 # Not the defaults: what has those built in is found out.
 GAINS = Gains(kp=37.0, kv=9.0)
-TOUCH = ContactParameters(m_p=7.0, m_o=0.3, kc=4.0)
+TOUCH = ContactParameters(m_p=7.0, m_o=0.3, kc=4.0, kf=0.8)
 SELECTIONS = [tuple(map(float, held)) for held in itertools.product((0, 1), repeat=6)]
 """All of them; the first holds nothing, the last everything."""
 
@@ -154,5 +155,5 @@ def tick(one, at: Hand, wish: Setpoint, held) -> Tick:
     f, m = (vector(three) for three in felt(at))
     with np.errstate(all="ignore"):
         one.assemble(at.chain, wish, f, m, gains, touch, J, into)
-        comply(int(one.form == "projected"), held, 6, at.D, at.fg, J, into, touch, about, tau)
+        comply(FORMS.index(one.form) if one.form else 0, held, 6, at.D, at.fg, J, into, touch, about, tau)
     return Tick(tau, J, into, about.y.copy())

@@ -1,6 +1,7 @@
 """What theory predicts of a hand in free space that complies with small moments: C, the rotation per moment, 3 x 3.
 
-    hybrid                  C = B_C B_C^T  free(t)       B_C: the columns of B whose coordinates comply
+    hybrid, accelerations   C = B_C B_C^T  free(t)       B_C: the columns of B whose coordinates comply
+    hybrid, transpose       C = B R(t) B^-1 A (I + kf B^-T (I - S) B^T)
     impedance-coordinates   C = B B^T      sprung(t)
     other impedances        C = I          sprung(t)
 
@@ -8,23 +9,33 @@ from Edot = B^-1 omega (Murphy 1988, 3.2) and F_E = B^T m (3.12): coordinates th
 B, and are turned by what B^T takes of a moment. On axes of the base or the hand B = I. All is to first order in the
 moment, and B is that of the goal.
 
+By the Jacobian transpose nothing is cancelled: the moment acts through A, the rotational block of J D^-1 J^T, and what
+J^T adds to it is kf B^-T (I - S) B^T m; then each coordinate answers for itself, R(t) = diag of free(t) where it
+complies, sprung(t) where it is held, of inertia 1. A moment that is not converted has its components for B^T m.
+
 With Z-Y-X angles B B^T has the eigenvalues 1 and 1 -+ sin beta, at any alpha and gamma: the closed forms below.
 
-Fails: no prediction (NaN) for moments that are not converted, since what is not cancelled then acts on the whole arm;
-nor where B^-1 does not exist. Radians, N m.
+Fails: no prediction (NaN) for moments that are not converted and yet cancelled, since what is not cancelled then acts
+on the whole arm; nor where B^-1 does not exist. Radians, N m.
 Source: Murphy 1988, 3.1 and 3.3; Hogan 1985 for stiffness in other coordinates, K -> B^-T K B^-1.
 """
 
 import cmath
+import functools
 import math
 
+import mujoco
 import numpy as np
 
-from bench.control.contact_controller import ContactController
+from bench.control.contact_controller import PAPERS_FORM, ContactController
+from bench.control.hybrid import conversion
 from bench.control.setpoint import TOUCH, ContactParameters
 from bench.law.contender import PAPERS_GAINS, Gains, Representation
 from bench.law.so3 import IDENTITY, Rotation
+from tasks.arm_model import Arm, model_xml
 from tasks.contact import Specification
+from tasks.hand_frames import posture
+from tasks.kinematics import kinematics
 
 UNITS = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 NOWHERE = 1e-12
@@ -44,14 +55,21 @@ def compliance(
     time_s: float,
     gains: Gains = PAPERS_GAINS,
     touch: ContactParameters = TOUCH,
+    arm: Arm | None = None,
 ) -> np.ndarray:
     """C [rad/(N m)], 3 x 3: what a controller makes of a constant moment in some time, from rest at its goal.
 
-    specification: ignored by an impedance, as by the controller.
+    specification: ignored by an impedance, as by the controller. arm: in the posture of the tasks; needed where the
+    moment acts through its inertia, by the Jacobian transpose.
     """
+    B = directions(controller, goal)
+    if controller.form == PAPERS_FORM:
+        if arm is None:
+            raise TypeError(f"'{controller.name}' lets moments act through the inertia of an arm (try: arm=)")
+        held = np.array(controller.selection(specification)[3:])
+        return B @ through_inertia(controller, B, goal, held, mobility(arm), time_s, gains, touch)
     if not controller.converts:
         return np.full((3, 3), np.nan)
-    B = directions(controller, goal)
     if controller.impedance is not None:
         return B @ B.T * sprung(time_s, gains, touch.m_o)
     own = B[:, np.array(controller.selection(specification)[3:]) == 0.0]
@@ -68,6 +86,40 @@ def directions(controller: ContactController, goal: Rotation) -> np.ndarray:
     if size[-1] <= NOWHERE * size[0]:
         return np.full((3, 3), np.nan)
     return np.array(goal).T @ B if seen_from_goal else B
+
+
+def through_inertia(
+    controller: ContactController, B: np.ndarray, goal: Rotation, held: np.ndarray, A: np.ndarray, time_s, gains, touch
+) -> np.ndarray:
+    """R(t) B^-1 A (I + kf B^-T (I - S) K), K what the controller takes of a moment: rates per moment, 3 x 3."""
+    if not np.isfinite(B).all():
+        return B
+    K = np.eye(3)
+    if controller.representation is not None:
+        convert, at = conversion(controller.representation, controller.converts), controller.representation.chart(goal)
+        K = np.array([convert(at, unit) for unit in UNITS]).T
+    as_unit = touch._replace(m_o=1.0)
+    kept = (
+        free(time_s, as_unit._replace(kc=gains.kv)) if controller.law == "hybrid-rate" else sprung(time_s, gains, 1.0)
+    )
+    answers = np.where(held > 0.0, kept, free(time_s, as_unit))
+    exerted = np.linalg.solve(B.T, (1.0 - held)[:, None] * K)
+    return answers[:, None] * np.linalg.solve(B, A @ (np.eye(3) + touch.kf * exerted))
+
+
+@functools.cache
+def mobility(arm: Arm) -> np.ndarray:
+    """A [1/(kg m^2)], 3 x 3, base frame: angular acceleration of the hand per moment, in the posture of the tasks.
+
+    The rotational block of J D^-1 J^T; the hand adds no mass, and its frame changes nothing.
+    """
+    model = mujoco.MjModel.from_xml_string(model_xml(arm, 1e-3))
+    data, D, q = mujoco.MjData(model), np.zeros((arm.joints, arm.joints)), posture(arm)
+    data.qpos[:] = q
+    mujoco.mj_forward(model, data)
+    mujoco.mj_fullM(model, data, D)
+    J = kinematics(arm).jacobian(np.array(q))[3:]
+    return J @ np.linalg.solve(D, J.T)
 
 
 def free(time_s: float, touch: ContactParameters = TOUCH) -> float:
@@ -91,6 +143,17 @@ def leakage(beta: float) -> float:
     C e_x is along the column (cos beta, 0, -sin beta) of gamma: tan |beta|.
     """
     return math.tan(abs(beta))
+
+
+def leakage_by_transpose(
+    beta: float, A: np.ndarray, time_s: float, gains: Gains = PAPERS_GAINS, touch: ContactParameters = TOUCH
+) -> float:
+    """The same by the Jacobian transpose, A as of `mobility`: |(1 - r) tan beta - r A_zx/A_xx|, r = sprung(t)/free(t).
+
+    c_xx = (1 + kf) free(t) A_xx at any beta. r fades as 1/t, and at last this too is tan |beta|, whatever the arm.
+    """
+    r = sprung(time_s, gains, 1.0) / free(time_s, touch._replace(m_o=1.0))
+    return abs((1.0 - r) * math.tan(beta) - r * float(A[2, 0] / A[0, 0]))
 
 
 def least_yield(beta: float) -> float:

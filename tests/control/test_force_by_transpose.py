@@ -1,0 +1,96 @@
+"""The paper's force control: operational space's torques, its power, and rest, where the hand exerts what it shall."""
+
+import numpy as np
+import pytest
+from support.bits import EPS
+from support.in_contact import ARMS, HYBRIDS, SELECTIONS, TOUCH, backward, drawn, hand, tick
+from support.states import vector
+
+from bench.control.contact_controller import PAPERS_FORM
+
+FRAMES = [one for one in HYBRIDS if one.form == PAPERS_FORM]
+CONVERTED = [one for one in FRAMES if one.converts]
+UNCONVERTED = [one for one in FRAMES if not one.converts]
+
+over_arms = pytest.mark.parametrize("arm", ARMS)
+
+
+def named(one) -> str:
+    return one.name
+
+
+def regular(one, at) -> bool:
+    return one.representation is None or one.representation.margin(at.chain.R) > 0.2
+
+
+def ticks(one, arm):
+    """(hand, wish, held, tick) in the drawn states where its coordinates are regular, selections taking turns."""
+    found = 0
+    for k, (state, wish) in enumerate(drawn(arm)):
+        at = hand(*state)
+        if regular(one, at):
+            found += 1
+            for held in SELECTIONS[k::8]:
+                yield at, wish, held, tick(one, at, wish, held)
+    assert found >= 3
+
+
+@over_arms
+@pytest.mark.parametrize("one", FRAMES, ids=named)
+def test_torques_are_those_of_operational_space(arm, one):
+    """tau = J^T (Lambda (S a - (I - S) kc v - Jdot qdot) + (I - S) F_a) + fg, by Lambda = (J D^-1 J^T)^-1."""
+    for at, _, held, made in ticks(one, arm):
+        J, row, S = made.J, made.rows, np.diag(held)
+        inertia = np.linalg.inv(J @ np.linalg.solve(at.D, J.T))
+        motion = S @ row.a - (np.eye(6) - S) @ (TOUCH.kc * row.v) - row.drift
+        active = (np.eye(6) - S) @ (row.h + TOUCH.kf * (row.h + row.F))
+        wanted = J.T @ (inertia @ motion + active) + at.fg
+        size = np.linalg.norm(inertia, 2) * np.linalg.norm(motion) + np.linalg.norm(active)
+        allowed = backward(J) * np.linalg.cond(at.D) * np.linalg.norm(J, 2) * size
+        np.testing.assert_allclose(made.tau, wanted, rtol=0.0, atol=allowed, err_msg=held)
+
+
+@over_arms
+@pytest.mark.parametrize("one", CONVERTED, ids=named)
+def test_what_is_exerted_has_the_power_of_its_wrench_in_every_frame(arm, one):
+    """With nothing held (tau - D y - fg) . qdot = w . (pdot, omega): (3.10), by the velocity that MuJoCo's J gives."""
+    for at, wish, held, made in ticks(one, arm):
+        if any(held):
+            continue
+        h = np.concatenate((wish.f_d, wish.m_d))
+        if one.law == "hybrid-hand":  # exerts along axes that it carries along
+            h = np.kron(np.eye(2), at.R @ np.array(wish.R_d)) @ h
+        w = h + TOUCH.kf * (h + at.F)
+        power = (made.tau - at.D @ made.y - at.fg) @ at.chain.qdot
+        size = np.linalg.norm(at.D @ made.y) + np.linalg.norm(at.fg) + np.linalg.norm(at.J, 2) * np.linalg.norm(w)
+        assert abs(power - w @ at.velocity) <= backward(made.J) * size * np.linalg.norm(at.chain.qdot)
+
+
+def at_rest(one, arm):
+    """(acceleration [m/s^2, rad/s^2] by MuJoCo, the size of what cancels in it) of hands at rest, pushed by F = -h."""
+    for (_, q, _, mount, push), wish in drawn(arm):
+        at = hand(arm, q, np.zeros(6), mount, push)
+        if not regular(one, at):
+            continue
+        h = -at.F
+        if one.law == "hybrid-hand":
+            h = np.kron(np.eye(2), (at.R @ np.array(wish.R_d)).T) @ h
+        pressing = wish._replace(f_d=vector(h[:3]), m_d=vector(h[3:]))
+        made = tick(one, at, pressing, SELECTIONS[0])
+        joints = np.linalg.norm(np.linalg.inv(at.D), 2) * (np.linalg.norm(at.J.T @ h) + np.linalg.norm(at.fg))
+        size = np.linalg.norm(at.J, 2) * joints * np.linalg.cond(made.J)
+        yield at.acceleration(made.tau), size * np.linalg.cond(at.D)
+
+
+@over_arms
+@pytest.mark.parametrize("one", CONVERTED, ids=named)
+def test_hand_stays_at_rest_in_mujoco_where_it_exerts_what_it_shall(arm, one):
+    """F = -h: tau = fg + J^T h, and nothing moves."""
+    for acceleration, size in at_rest(one, arm):
+        assert np.abs(acceleration).max() <= 200 * EPS * size
+
+
+@over_arms
+@pytest.mark.parametrize("one", UNCONVERTED, ids=named)
+def test_hand_does_not_stay_at_rest_when_moments_are_left_unconverted(arm, one):
+    assert min(np.abs(acceleration).max() for acceleration, _ in at_rest(one, arm)) > 1e-2
