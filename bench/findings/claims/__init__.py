@@ -14,7 +14,8 @@ One file for each part of the paper; a claim is found by being in one of them.
     euler_controller.py      C20
     controller_costs.py      C26
     force_conversion.py      C21
-    compliance.py            C22 to C24
+    compliance.py            C22, C23
+    zyz_compliance.py        C24
     contact.py               C25
     later.py                 C27
     adequacy.py              every law by the tests of C17 and C27

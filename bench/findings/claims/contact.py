@@ -6,9 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from bench.control.contact_controller import FORMS
 from bench.findings.claims.euler_jacobian import COORDINATES
-from bench.findings.claims.side_by_side import BASE, paired
+from bench.findings.claims.side_by_side import BASE, DECIDES, by_papers_form, paired
 from bench.findings.claims.tables import evidence, some
 from bench.findings.claims.verdict import NoEvidence, claim, word_of
 
@@ -54,12 +53,12 @@ ZERO_RAD, SLACK_DEG = 1e-9, 1e-6
         form. Compared: outcomes, and if both are done each number of performance that the task has: alignment error,
         rms error and peak of force and of moment, insertion depth. A pair parts if the outcomes differ or one number
         does by a factor of {PARTS:g} or more, numbers below {", ".join(f"{x:g} {unit}" for unit, x in FLOORS.items())}
-        being taken for that. A task depends on the Jacobian if on every arm and in both forms some pair with |beta| >=
-        {TURNED_DEG:g} degrees parts, and none with beta = 0: then the coordinates are to blame, and not the way to the
-        joints. It holds if every such task depends on it; with a correction if on some task some pair with |beta| >=
-        {TURNED_DEG:g} degrees parts; otherwise it does not hold. A task without both kinds of frames is no evidence.
-        Reported: how often Euler is the worse of a pair that parts, and how many pairs part on tasks where fewer turns
-        comply.
+        being taken for that. A task depends on the Jacobian if on every arm and in every form that is judged some pair
+        with |beta| >= {TURNED_DEG:g} degrees parts. It holds if every such task depends on it; with a correction if on
+        some task some pair with |beta| >= {TURNED_DEG:g} degrees parts; otherwise it does not hold. As first written,
+        no pair with beta = 0 was to part besides; but a difference there is one that the Jacobian makes, too. A task
+        without both kinds of frames is no evidence. Reported: how often Euler is the worse of a pair that parts, how
+        many pairs part on tasks where fewer turns comply, and the verdict as first written. {DECIDES}
     """,
     open="""
         "The performance of complex compliant robot motions will depend upon which form of Jacobian is used in the
@@ -68,44 +67,51 @@ ZERO_RAD, SLACK_DEG = 1e-9, 1e-6
     """,
 )
 def c25(results):
+    """Both Jacobians in contact, by both ways to control forces."""
+    return by_papers_form(_in_contact, results)
+
+
+def _in_contact(results, forms):
     """Pairs of episodes in contact that differ in the Jacobian alone, by task."""
-    rows = some(paired(results, COORDINATES), f"pose of a task by hybrid/{COORDINATES} and {BASE}")
+    what = f"pose of a task by hybrid/{COORDINATES} and {BASE}, +{' or +'.join(forms)}"
+    rows = some(paired(results, COORDINATES, forms), what)
     touching = rows[TOUCHED].notna().groupby(rows["task"]).transform("any").any(axis=1)
     rows = some(_compared(rows[touching].reset_index(drop=True)), "pose of a task with contact")
     complex_ones = some(rows[rows["turns"] >= 2], "pose of a task with contact where two turns comply")
-    depends = {task: _depends(task, own) for task, own in complex_ones.groupby("task")}
+    depends, only_turned = np.transpose([_depends(*own, forms) for own in complex_ones.groupby("task")])
     turned = complex_ones[complex_ones["is_turned"]]
-    word = word_of(all(depends.values()), turned["parts"].any())
+    word, first = (word_of(all(facts), turned["parts"].any()) for facts in (depends, only_turned))
     parted = complex_ones[complex_ones["parts"]]
     agree = complex_ones.groupby(["task", "arm", "pose"])["parts"].nunique() == 1
+    agreed = f"; both forms agree at {int(agree.sum())} of {len(agree)} frames and scenes" if len(forms) > 1 else ""
     simple = rows[rows["turns"] < 2]
     listed = "; ".join(_told(task, own) for task, own in complex_ones.groupby("task"))
     return word, evidence(
-        f"""{sum(depends.values())} of {len(depends)} tasks in which two turns comply depend on the Jacobian, by
+        f"""{sum(depends)} of {len(depends)} tasks in which two turns comply depend on the Jacobian, by
         {len(complex_ones)} pairs on {complex_ones["arm"].nunique()} arms: {listed}. Of the pairs that part Euler is the
-        worse in {int(parted["euler_is_worse"].sum())} of {len(parted)}; both ways to the joints agree at
-        {int(agree.sum())} of {len(agree)} frames and scenes. Where fewer turns comply {int(simple["parts"].sum())} of
-        {len(simple)} pairs part.""",
+        worse in {int(parted["euler_is_worse"].sum())} of {len(parted)}{agreed}. Where fewer turns comply
+        {int(simple["parts"].sum())} of {len(simple)} pairs part. As first written: {first}.""",
         len(rows),
         ("compliance",),
     )
 
 
-def _depends(task: str, rows: pd.DataFrame) -> bool:
-    """Whether on every arm and in both forms some pair with a turned frame parts, and none with beta = 0.
+def _depends(task: str, rows: pd.DataFrame, forms: tuple[str, ...]) -> tuple[bool, bool]:
+    """Whether on every arm and in every form some pair with a turned frame parts; whether besides none with beta = 0.
 
     Errors:
         NoEvidence: an arm lacks a form, or a form such frames.
     """
     found = []
     for arm, on_arm in rows.groupby("arm"):
-        for form in FORMS:
+        for form in forms:
             own = on_arm[on_arm["form"] == form]
             turned, straight = own[own["is_turned"]], own[own["beta"].abs() <= ZERO_RAD]
             if turned.empty or straight.empty:
                 raise NoEvidence(f"{task} on {arm}, {form}: no frames both at beta = 0 and from {TURNED_DEG:g} degrees")
-            found.append(turned["parts"].any() and not straight["parts"].any())
-    return all(found)
+            found.append((turned["parts"].any(), not straight["parts"].any()))
+    parts, only_turned = zip(*found, strict=True)
+    return all(parts), all(parts) and all(only_turned)
 
 
 def _compared(rows: pd.DataFrame) -> pd.DataFrame:

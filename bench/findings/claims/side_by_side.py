@@ -1,12 +1,19 @@
-"""Rows of compliance.parquet by two controllers side by side, and how far measured compliances are apart."""
+"""Rows of compliance.parquet by two controllers side by side, and how far measured compliances are apart.
+
+The paper's force control, by the Jacobian transpose, decides; what comes of the two forms that command accelerations
+is said beside it, by the same criterion.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from bench.findings.claims.tables import some
+from bench.control.contact_controller import ACCELERATION_FORMS, PAPERS_FORM
+from bench.findings.claims.tables import evidence, some
+from bench.findings.claims.verdict import Evidence, Word
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -14,10 +21,27 @@ if TYPE_CHECKING:
 PROBE, BASE = "wrench-probe", "hybrid-base"
 MEASURED = tuple(f"c_{i}{j}" for i in "xyz" for j in "xyz")
 PAIRED = ("task", "arm", "form", "pose", "complies")
-"""What two controllers' rows have in common: the same arm, scene, frame of the hand, order and way to the joints."""
+"""What two controllers' rows have in common: the same arm, scene, frame of the hand, order and form."""
+
+DECIDES = f"""
+    Rows of the form '{PAPERS_FORM}' decide, the paper's force control ("converted to joint torques by the Jacobian
+    transpose", 3.3); {" and ".join(f"'{form}'" for form in ACCELERATION_FORMS)}, which had been judged before it was
+    there, are said beside it by the same criterion.
+    """
 
 
-def beside_base(results, representation: str, orders: tuple[str, ...]) -> pd.DataFrame:
+def by_papers_form(judge: Callable[..., tuple[Word, Evidence]], results) -> tuple[Word, Evidence]:
+    """judge(results, forms) of the paper's force control, with what it says of commanded accelerations beside it."""
+    word, papers = judge(results, (PAPERS_FORM,))
+    other, ours = judge(results, ACCELERATION_FORMS)
+    return word, evidence(
+        f"""Forces by the Jacobian transpose, {word}: {papers} By commanded accelerations, {other}: {ours}""",
+        papers.rows + ours.rows,
+        papers.tables,
+    )
+
+
+def beside_base(results, representation: str, orders: tuple[str, ...], forms: tuple[str, ...]) -> pd.DataFrame:
     """Rows of wrench-probe of a hybrid controller in coordinates, with those of hybrid-base (suffix `_base`).
 
     Returns:
@@ -27,20 +51,24 @@ def beside_base(results, representation: str, orders: tuple[str, ...]) -> pd.Dat
     """
     from scipy.spatial.transform import Rotation as Turn
 
-    both = paired(results, representation, task=PROBE)
+    both = paired(results, representation, forms, task=PROBE)
     for order in orders:
-        some(both[both["complies"] == order], f"pose of {PROBE} by hybrid/{representation} and {BASE}, {order}")
+        some(
+            both[both["complies"] == order],
+            f"pose of {PROBE} by hybrid/{representation} and {BASE}, +{' or +'.join(forms)}, {order}",
+        )
     both = both[both["complies"].isin(orders)].reset_index(drop=True)
     angles = both[["alpha", "beta", "gamma"]].to_numpy()
     from_zero = Turn.from_euler("ZYX", angles).magnitude()
     return both.assign(cos_beta=np.cos(both["beta"]), from_zero=from_zero)
 
 
-def paired(results, representation: str, **words: str) -> pd.DataFrame:
-    """Rows of a hybrid controller in coordinates, with those of hybrid-base (suffix `_base`)."""
+def paired(results, representation: str, forms: tuple[str, ...], **words: str) -> pd.DataFrame:
+    """Rows of a hybrid controller in coordinates, with those of hybrid-base (suffix `_base`), of some forms."""
     own = results.table("compliance", controller="hybrid", representation=representation, **words)
     base = results.table("compliance", controller=BASE, **words)
-    return _in_words(own).merge(_in_words(base), on=list(PAIRED), suffixes=("", "_base"))
+    own, base = (_in_words(one[one["form"].isin(forms)]) for one in (own, base))
+    return own.merge(base, on=list(PAIRED), suffixes=("", "_base"))
 
 
 def _in_words(frame: pd.DataFrame) -> pd.DataFrame:
@@ -51,6 +79,30 @@ def compliances(rows: pd.DataFrame, suffix: str = "") -> np.ndarray:
     """C, n x 3 x 3 [rad/(N m)]: measured rotation (row) per moment (column); NaN of a row that is not done."""
     C = rows[[name + suffix for name in MEASURED]].to_numpy(float).reshape(-1, 3, 3)
     return np.where((rows[f"outcome{suffix}"] == "done").to_numpy()[:, None, None], C, np.nan)
+
+
+def predicted(rows: pd.DataFrame, representation: str = "") -> np.ndarray:
+    """C in closed form, n x 3 x 3: of hybrid control in coordinates, or of hybrid-base, in the form of each row."""
+    import tasks
+    from bench.contenders.registry import known_representations
+    from bench.control.contact_controller import hybrid
+    from bench.control.setpoint import ContactParameters
+    from bench.findings.theory.compliance_theory import compliance
+    from bench.law.contender import Gains
+    from bench.law.so3 import from_quaternion
+    from tasks.domains.wrench_probe import SPECIFICATIONS
+    from tasks.rotations import zyx
+
+    along, law = known_representations().get(representation), "hybrid" if representation else BASE
+    told = {one.name: one for one in SPECIFICATIONS}
+    found = np.empty((len(rows), 3, 3))
+    for k, row in enumerate(rows.to_dict("records")):
+        gains = Gains(*(row[name] for name in Gains._fields))
+        touch = ContactParameters(*(row[name] for name in ContactParameters._fields))
+        goal = from_quaternion(zyx(row["alpha"], row["beta"], row["gamma"]))
+        one = hybrid(law, row["form"], along)
+        found[k] = compliance(one, told[row["complies"]], goal, row["horizon_s"], gains, touch, tasks.arm(row["arm"]))
+    return found
 
 
 def apart(C: np.ndarray, reference: np.ndarray) -> np.ndarray:
