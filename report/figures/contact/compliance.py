@@ -14,7 +14,7 @@ from bench.contenders.registry import known_representations
 from bench.findings.theory import compliance_theory as theory
 from bench.findings.theory import hybrid_stability as stability
 from bench.law.so3 import from_quaternion
-from report.figures.contact import loops
+from report.figures.contact import by_transpose, loops
 from report.figures.contact import rows as controllers
 from report.figures.contact.against_theory import COMPARED_TO, gaps
 from report.figures.contact.hand_axes import axes_of_turning
@@ -84,6 +84,7 @@ def probed(rows: pd.DataFrame) -> dict:
         "forms": forms(rows),
         "work_n": str(len(work)),
         "work_eps": f"{work.max() / EPS:.1f}",
+        **by_transpose.facts(rows),
         "lost_axis": "xyz"[int(np.argmax(np.abs(axis)))],
         "lost_kept": f"{kept:.0e}" if kept else "0",
     }
@@ -139,6 +140,7 @@ def tables(run: Run) -> dict:
     """Stability, springs, conversion of moments, verdicts."""
     return {
         "tab_forms": UNSTABLE(unstable()),
+        "tab_transpose": given(controllers.of_task(run, PROBE), by_transpose.table),
         "tab_springs": given(controllers.of_task(run, PROBE), springs),
         "tab_conversion": given(controllers.of_task(run, PROBE), conversion),
         "verdicts": controllers.verdicts(run, "C21", "C22", "C23", "C24"),

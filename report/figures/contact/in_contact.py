@@ -10,15 +10,18 @@ import pandas as pd
 import tasks
 from report.figures.contact import contact_models
 from report.figures.contact.by_frame import MEASURES, Measure, by_frame
-from report.figures.contact.rows import CARTESIAN, EULER, of, of_task, title, verdicts, ways
+from report.figures.contact.rows import CARTESIAN, EULER, PAPERS, PAPERS_EULER, of, of_task, title, verdicts, ways
 from report.figures.kit import html, media
 from report.figures.kit.page import ABSENT, Run, given
 from report.figures.kit.spelling import power
 from report.figures.kit.tables import Table
 from tasks.contact_model import STANDARD
 
-CONTROLS = ("hybrid-unconverted/zyx-euler",)
+CONTROLS = ("hybrid-unconverted/zyx-euler", "hybrid-unconverted/zyx-euler+transpose")
 """Controllers that are there to fail."""
+
+MARKS = {"projected": "(S J)⁺", "transpose": "Jᵀ"}
+"""Form -> how it is told from J^-1."""
 
 QUANTILE = 0.95
 
@@ -40,8 +43,10 @@ def facts(run: Run) -> dict:
         "models_trial": f"{tasks.arm(contact_models.ARM).title}, {named(contact_models.TRIAL)}",
         "betas": given(rows, lambda _: ", ".join(f"{beta:.0f}°" for beta in sorted(set(rows["beta_deg"])))),
         "penetration": penetration(rows),
-        "worst": worst(rows),
-        "stuck": stuck(rows),
+        "worst": worst(rows, CARTESIAN, EULER),
+        "stuck": stuck(rows, CARTESIAN, EULER),
+        "papers_worst": worst(rows, PAPERS, PAPERS_EULER),
+        "papers_stuck": stuck(rows, PAPERS, PAPERS_EULER),
     }
 
 
@@ -83,30 +88,30 @@ def penetration(rows: pd.DataFrame) -> str:
     )
 
 
-def worst(rows: pd.DataFrame) -> str:
+def worst(rows: pd.DataFrame, cartesian: str, euler: str) -> str:
     """Where the Euler Jacobian is furthest from the Cartesian one, on the plate."""
-    own = rows[rows["task"] == "surface-alignment"]
-    if own.empty:
+    own = rows[(rows["task"] == "surface-alignment") & (rows["outcome"] == "done")]
+    pair = of(own, cartesian).merge(of(own, euler), on=["arm", "pose"])
+    if pair.empty:
         return f"How tools end on the plate is {ABSENT}."
-    both = (of(own, name) for name in (CARTESIAN, EULER))
-    pair = next(both).merge(next(both), on=["arm", "pose"])
     turned = pair.loc[pair["held_turn_rad_y"].idxmax()]
     tilted = pair.loc[pair["alignment_error_rad_y"].idxmax()]
     flat = np.degrees(pair["alignment_error_rad_x"].max())
     return (
-        f"On the plate the Cartesian tool lies flat to {power(flat)} degrees in all {len(pair)} episodes. By the Euler "
-        f"one it ends {np.degrees(tilted['alignment_error_rad_y']):.0f}° off ({of_pose(tilted)}), and has turned by "
-        f"{np.degrees(turned['held_turn_rad_y']):.0f}° about the axis that it was told to hold ({of_pose(turned)})."
+        f"On the plate the Cartesian tool lies flat to {power(flat)} degrees in all {len(pair)} episodes that both "
+        f"end. By the Euler one it ends {np.degrees(tilted['alignment_error_rad_y']):.0f}° off ({of_pose(tilted)}), "
+        f"and has turned by {np.degrees(turned['held_turn_rad_y']):.0f}° about the axis that it was told to hold "
+        f"({of_pose(turned)})."
     )
 
 
-def stuck(rows: pd.DataFrame) -> str:
+def stuck(rows: pd.DataFrame, cartesian: str, euler: str) -> str:
     """How many pegs end stuck, by both Jacobians, where the hand's frame leans and where it does not."""
-    own = rows[rows["task"] == "peg-in-hole"]
+    own = rows[(rows["task"] == "peg-in-hole") & rows["contender"].isin((cartesian, euler))]
     if own.empty:
         return f"How pegs end is {ABSENT}."
     counts = []
-    for contender, who in ((CARTESIAN, "Cartesian"), (EULER, "on the Euler Jacobian")):
+    for contender, who in ((cartesian, "Cartesian"), (euler, "on the Euler Jacobian")):
         mine = of(own, contender)
         level, leaning = mine[mine["beta_deg"] == 0.0]["jam"], mine[mine["beta_deg"] != 0.0]["jam"]
         counts.append(
@@ -160,12 +165,12 @@ def controller(contender: str) -> str:
     way, _, form = contender.partition("+")
     name, comma, coordinates = title(way).rpartition(", ")
     whole = f"{name}, {html.together(coordinates)}" if "/" in way else f"{name}{comma}{coordinates}"
-    return f"{whole}, {html.together('(S J)⁺')}" if form == "projected" else whole
+    return f"{whole}, {html.together(MARKS[form])}" if form in MARKS else whole
 
 
 def in_order(rows: pd.DataFrame) -> list[str]:
-    """The controllers of the rows: hybrid ones first, each with its two forms side by side."""
-    ranks = {way: place for place, way in enumerate(ways(rows))}
+    """The controllers of the rows: hybrid ones first, each with its forms side by side."""
+    ranks = {way.partition("+")[0]: place for place, way in enumerate(ways(rows))}
     return sorted(
         set(rows["contender"]), key=lambda name: (name.startswith("impedance"), ranks[name.partition("+")[0]], name)
     )

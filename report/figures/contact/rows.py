@@ -11,6 +11,7 @@ import numpy as np
 import pandas as pd
 
 from bench.contenders.registry import known_impedances
+from bench.control.contact_controller import PAPERS_FORM
 from bench.findings import claims
 from report.figures.claims import claims as shown
 from report.figures.kit import html, style
@@ -18,6 +19,7 @@ from report.figures.kit.page import Run
 
 CARTESIAN, EULER = "hybrid-base+inverse", "hybrid/zyx-euler+inverse"
 HAND, BY_RATE = "hybrid-hand+inverse", "hybrid-rate+inverse"
+PAPERS, PAPERS_EULER = "hybrid-base+transpose", "hybrid/zyx-euler+transpose"
 ZYZ, UNCONVERTED = "hybrid/zyz-euler+inverse", "hybrid-unconverted/zyx-euler+inverse"
 SPRINGS_OF_EULER = "impedance-coordinates/zyx-euler"
 
@@ -53,13 +55,17 @@ ORDERS = ("about x", "about y", "about z", "about x and y", "about y and z", "ab
 
 @functools.cache
 def of_task(run: Run, task: str) -> pd.DataFrame:
-    """Rows of one task, maybe none: with plain words, `way` (controller without its form), the goal's angles [deg]."""
+    """Rows of one task, maybe none: with plain words, `way`, and the goal's angles [deg].
+
+    way: the controller without its form, for the forms that command accelerations; the paper's keeps its name.
+    """
     found = run.rows("compliance", task=task)
     if found.empty:
         return pd.DataFrame(columns=COLUMNS)
     found = found.assign(**{word: found[word].astype(str) for word in WORDS})
     degrees = {f"{name}_deg": np.degrees(found[name]).round(6) + 0.0 for name in ("alpha", "beta", "gamma", "tilt")}
-    return found.assign(way=found["contender"].str.partition("+")[0], **degrees)
+    way = found["contender"].where(found["form"] == PAPERS_FORM, found["contender"].str.partition("+")[0])
+    return found.assign(way=way, **degrees)
 
 
 def verdicts(run: Run, *ids: str) -> html.Markdown | None:
@@ -111,7 +117,7 @@ def ways(rows: pd.DataFrame) -> list[str]:
 
 def title(way: str) -> str:
     """How a controller is called in a figure: its frame, or its coordinates."""
-    law, _, coordinates = way.partition("/")
+    law, _, coordinates = way.partition("+")[0].partition("/")
     if law.startswith("impedance-"):
         name = f"{SPRINGS}{known_impedances()[law.removeprefix('impedance-')].title}"
     else:
