@@ -16,20 +16,40 @@ from bench.experiments.contact import poses_of
 from bench.experiments.rows import contact as contact_rows
 from bench.tables import read
 from bench.tables.schema import RESULTS
-from report.figures.contact import against_theory, compliance, contact_models, hand_axes, in_contact, loops
+from report.figures.contact import (
+    against_theory,
+    by_transpose,
+    compliance,
+    contact_models,
+    hand_axes,
+    in_contact,
+    loops,
+)
 from report.figures.contact import misalignment_map as frames
 from report.figures.contact import rows as controllers
 from report.figures.contact.by_frame import MEASURES
-from report.figures.contact.rows import BY_RATE, CARTESIAN, EULER, HAND, SPRINGS_OF_EULER, UNCONVERTED, ZYZ, level, of
+from report.figures.contact.rows import (
+    BY_RATE,
+    CARTESIAN,
+    EULER,
+    HAND,
+    PAPERS,
+    PAPERS_EULER,
+    SPRINGS_OF_EULER,
+    UNCONVERTED,
+    ZYZ,
+    level,
+    of,
+)
 from report.figures.kit.page import Run
 
 ARM = "puma560"
 PROJECTED = "hybrid/zyx-euler+projected"
-HYBRIDS = (CARTESIAN, HAND, EULER)
+HYBRIDS = (CARTESIAN, HAND, EULER, PAPERS, PAPERS_EULER)
 SPRINGS = ("impedance-geometric", SPRINGS_OF_EULER)
 WANTED = {
     compliance.PROBE: (*HYBRIDS, PROJECTED, ZYZ, UNCONVERTED, *SPRINGS),
-    compliance.LOOP: (*HYBRIDS, BY_RATE),
+    compliance.LOOP: (CARTESIAN, HAND, EULER, BY_RATE),
     **dict.fromkeys(MEASURES, (*HYBRIDS, *SPRINGS)),
 }
 PROBED = re.compile(r"alpha\+0 beta\+(0|5|30|60|85) gamma\+0, about x( and y)?|alpha\+35 .*, about x and y")
@@ -109,6 +129,15 @@ def test_measurements_lie_on_the_lines_of_theory(probe):
     gaps = against_theory.gaps(probe)
     assert set(gaps) == set(against_theory.LAWS)
     assert max(gaps.values()) < 1e-3
+
+
+def test_forces_by_the_jacobian_transpose_turn_the_hand_as_much_at_every_beta_and_leak_as_the_closed_form(probe):
+    found = [one for one in by_transpose.levels(probe) if one.beta <= by_transpose.COMPARED_TO]
+    assert [one.beta for one in found] == [0.0, 5.0, 30.0, 60.0]
+    assert [one.turn for one in found] == pytest.approx([found[0].turn] * 4, rel=1e-4)
+    assert [one.leak for one in found] == pytest.approx([one.theory for one in found], abs=1e-3)
+    assert [one.other_leak for one in found] == pytest.approx([one.tan for one in found], abs=1e-3)
+    assert len(by_transpose.table(probe).splitlines()) == 2 + 5
 
 
 def test_map_holds_beta_where_the_frame_is_level_and_a_cross_where_nothing_is_left(probe):
