@@ -7,6 +7,7 @@ from bench.tables import read
 from report.figures.answer import which_law
 from report.figures.claims import claims as judged
 from report.figures.contact import in_contact
+from report.figures.contact.rows import PAPERS, PAPERS_EULER
 from report.figures.cost.cost import totals
 from report.figures.cost.operations import CALLS
 from report.figures.failures.failure_map import EXACT_RAD
@@ -25,7 +26,7 @@ def facts(run: Run) -> dict:
     """The answer, the laws, and which edition this is."""
     return {
         "which_law": which_law.front_page(run),
-        "pegs": in_contact.stuck(in_contact.all_rows(run)),
+        "pegs": in_contact.stuck(in_contact.all_rows(run), PAPERS, PAPERS_EULER),
         **of_the_paper(run),
         **edition(read.provenance()),
     }

@@ -78,7 +78,7 @@ def _in_contact(results, forms):
     touching = rows[TOUCHED].notna().groupby(rows["task"]).transform("any").any(axis=1)
     rows = some(_compared(rows[touching].reset_index(drop=True)), "pose of a task with contact")
     complex_ones = some(rows[rows["turns"] >= 2], "pose of a task with contact where two turns comply")
-    depends, only_turned = np.transpose([_depends(*own, forms) for own in complex_ones.groupby("task")])
+    depends, only_turned = np.transpose([_depends(task, own, forms) for task, own in complex_ones.groupby("task")])
     turned = complex_ones[complex_ones["is_turned"]]
     word, first = (word_of(all(facts), turned["parts"].any()) for facts in (depends, only_turned))
     parted = complex_ones[complex_ones["parts"]]

@@ -74,11 +74,12 @@ def levels(rows: pd.DataFrame) -> list[Level]:
 
 def predicted(row: pd.Series, beta: float) -> float:
     """The closed form of what leaks by the Jacobian transpose, with the constants of a row."""
-    gains, touch = (kind(*(row[name] for name in kind._fields)) for kind in (Gains, ContactParameters))
+    gains = Gains(*(row[name] for name in Gains._fields))
+    touch = ContactParameters(*(row[name] for name in ContactParameters._fields))
     return theory.leakage_by_transpose(beta, theory.mobility(tasks.arm(row["arm"])), row["horizon_s"], gains, touch)
 
 
-def table(rows: pd.DataFrame) -> html.Markdown:
+def table(rows: pd.DataFrame) -> html.Markdown | None:
     """A line an arm and beta."""
     return TABLE([(one.arm, f"{one.beta:.0f}", *one[2:]) for one in levels(rows)])
 
