@@ -186,7 +186,7 @@ INVERSE, PROJECTED, TRANSPOSE = 0, 1, 2
 @kernel
 def exerted(form, held, rows, touch, i):
     """w_i: what the joints add to a wrench on the hand by J^T."""
-    if form != TRANSPOSE:
+    if form < TRANSPOSE:
         return -rows.F[i]
     if held[i] > 0.0:
         return 0.0
@@ -203,13 +203,13 @@ def comply(form, held, n, D, fg, J, rows, touch, room, tau):
             scratch.A[i, j] = J[i, j]
         if held[i] > 0.0:
             y[i] = rows.a[i] - rows.drift[i]
-            if form == PROJECTED:
+            if form > INVERSE and form < TRANSPOSE:
                 b[count] = y[i]
                 y[i] = 0.0
                 for j in range(n):
                     room.held[count, j] = J[i, j]
                 count = count + 1
-        elif form == TRANSPOSE:
+        elif form >= TRANSPOSE:
             y[i] = -touch.kc * rows.v[i] - rows.drift[i]
         else:
             inertia = touch.m_p

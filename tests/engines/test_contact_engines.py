@@ -17,7 +17,7 @@ from tasks.contact_model import STANDARD
 TASKS = tasks.contact_names()
 THREE = ("hybrid-base+inverse", "hybrid/zyx-euler+projected", "impedance-coordinates/zyx-euler")
 # What J and the frame decide is the base's alone: these do not know how the hand's frame is drawn.
-FRAMELESS = ("hybrid-base+inverse", "hybrid-hand+projected", "impedance-geometric")
+FRAMELESS = ("hybrid-base+inverse", "hybrid-base+transpose", "hybrid-hand+projected", "impedance-geometric")
 ENGINES = ("native", "reference")
 
 
