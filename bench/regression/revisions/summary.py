@@ -75,9 +75,9 @@ def markdown(comparison: Comparison) -> str:
     """The whole comparison, as a job summary or a comment shows it."""
     found = ordered(comparison)
     lines = [f"### {plain(headline(comparison))}", ""]
+    lines += [line for one in comparison.judgements for line in (*_judgement(one), "")]
     lines += [f"- **{one.verdict}**: {plain(one.says)}" for one in found[:SHOWN]]
     lines += [f"- ... and {len(found) - SHOWN} more"] * (len(found) > SHOWN)
-    lines += [line for one in comparison.judgements for line in _judgement(one)]
     lines += ["", "| gate | | |", "| --- | --- | --- |"]
     lines += [f"| {one.gate} | {one.state} | {plain(one.says)} |" for one in comparison.gates]
     if table := rows(comparison):
@@ -90,7 +90,7 @@ def markdown(comparison: Comparison) -> str:
 def _judgement(one: Judgement) -> list[str]:
     """Why a law does what it does, faults first, and the laws most like it."""
     said = sorted(one.said, key=lambda each: not each.fault)
-    lines = ["", f"**{plain(one.name)}: {', '.join(one.faults) or 'no fault found'}**", ""]
+    lines = [f"**{plain(one.name)}: {', '.join(one.faults) or 'no fault found'}**", ""]
     lines += [f"- {plain(each.text)} ({each.page})" for each in said]
     return lines + (["", "Beside the laws most like it:", "", *_table(one.beside)] if one.beside else [])
 

@@ -101,8 +101,8 @@ Close = Callable[[str, np.ndarray, np.ndarray], np.ndarray]
 """(column, head's numbers, base's) -> which of them count as the same."""
 
 
-def near(relative: float, absolute: float) -> Close:
-    """The same to a tolerance, whatever the column."""
+def near(relative: np.ndarray | float, absolute: np.ndarray | float) -> Close:
+    """The same to a tolerance, whatever the column; of each row its own, if they are arrays."""
     return lambda _, a, b: np.isclose(a, b, rtol=relative, atol=absolute, equal_nan=True)
 
 
