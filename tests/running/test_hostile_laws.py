@@ -41,7 +41,7 @@ def nothing_is_left_behind():
 
 @pytest.mark.parametrize("name", AT_IMPORT)
 def test_file_that_misbehaves_is_refused(capsys, finished, tmp_path, name):
-    """By a run and by the judge alike; one that does not return is only read, with less patience."""
+    """By a run, on a cluster too, and by the judge; one that does not return is only read, with less patience."""
     text, reason = AT_IMPORT[name]
     path = written(tmp_path, name, text)
     if reason in (WAITS, LOOPS):
@@ -49,7 +49,9 @@ def test_file_that_misbehaves_is_refused(capsys, finished, tmp_path, name):
             described(path, limit_s=1.0, waits_s=3.0 if reason == WAITS else 60.0)
         lines = [str(said.value)]
     else:
-        lines = [refused_run(capsys, finished, "--law", path, *TINY), refused(capsys, "judge", path)]
+        ways = ((), ("--scheduler", "local:2"))
+        lines = [refused_run(capsys, finished, "--law", path, *TINY, *way) for way in ways]
+        lines.append(refused(capsys, "judge", path))
     assert all(str(path) in line and reason in line for line in lines), lines
 
 
