@@ -179,8 +179,8 @@ def test_c23_takes_the_leak_of_another_arm_for_no_leak_as_predicted(judged, theo
 
 
 def test_c24_takes_a_turn_about_z_greater_than_about_x_for_a_problem(judged, theory):
-    astray = at(theory, 0, 1, 0) & euler(theory, "about x") & (theory["form"] == PAPERS_FORM)
-    less, more = (changed(theory, astray, c_xx=0.5, c_zx=0.5 * ratio) for ratio in (0.99, 1.01))
+    leaking = at(theory, 0, 1, 0) & euler(theory, "about x") & (theory["form"] == PAPERS_FORM)
+    less, more = (changed(theory, leaking, c_xx=0.5, c_zx=0.5 * ratio) for ratio in (0.99, 1.01))
     assert judged("C24", less).word == Word.HOLDS
     assert judged("C24", more).word == Word.CORRECTED
 

@@ -22,7 +22,7 @@ ZERO_RAD, SLACK_DEG = 1e-9, 1e-6
 NEAR_DEG, LITTLE = 15.0, 0.5
 """What 'near zero' is; and the share of the wanted compliance under which something is a problem."""
 
-ASTRAY = 1.0
+LEAK = 1.0
 """Rotation about z over that about x from which on a hand turns about another axis than the one it was told."""
 
 
@@ -68,7 +68,7 @@ def _near_zero(results, forms):
         f"""Z-Y-Z is a problem at {int(at_zero["problem"].sum())} of {len(at_zero)} poses at zero ({ends}) and at
         {int(near["problem"].sum())} of {len(near)} within {NEAR_DEG:g} degrees: about x it yields
         {done["yields"].min():.1e} to {done["yields"].max():.1e} of what is wanted, and about z
-        {done["astray"].min():.1f} to {done["astray"].max():.1f} times as much as about x. Z-Y-X is one at
+        {done["leak"].min():.1f} to {done["leak"].max():.1f} times as much as about x. Z-Y-X is one at
         {int(zyx["problem"].sum())} of {len(zyx)}, where it yields {zyx["yields"].min():.3f} or more. As first written:
         {first}.""",
         len(zyz) + len(zyx),
@@ -81,6 +81,6 @@ def _about_x(results, coordinates: str, forms: tuple[str, ...]) -> pd.DataFrame:
     rows = side_by_side.beside_base(results, coordinates, (ORDER,), forms)
     rows = rows[np.degrees(rows["from_zero"]) <= NEAR_DEG + SLACK_DEG].reset_index(drop=True)
     C, base = side_by_side.compliances(rows), side_by_side.compliances(rows, "_base")
-    yields, astray = C[:, 0, 0] / base[:, 0, 0], np.abs(C[:, 2, 0] / C[:, 0, 0])
+    yields, leak = C[:, 0, 0] / base[:, 0, 0], np.abs(C[:, 2, 0] / C[:, 0, 0])
     little = ~(yields >= LITTLE)
-    return rows.assign(yields=yields, astray=astray, yields_little=little, problem=little | (astray > ASTRAY))
+    return rows.assign(yields=yields, leak=leak, yields_little=little, problem=little | (leak > LEAK))

@@ -21,7 +21,7 @@ CONTROLS = ("hybrid-unconverted/zyx-euler", "hybrid-unconverted/zyx-euler+transp
 """Controllers that are there to fail."""
 
 MARKS = {"projected": "(S J)⁺", "transpose": "Jᵀ"}
-"""Form -> how it is told from J^-1."""
+"""Form -> its mark in a table; J^-1, the usual one, has none."""
 
 QUANTILE = 0.95
 
