@@ -12,7 +12,7 @@ from bench.errors import Incompatible
 from bench.experiments.choice import Choice
 from bench.experiments.episodes import Place, cut, lost, narrowed, prepare, runs_on, starts_of, tasks_of
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit
-from bench.experiments.suites import NOMINAL, OnArms, Slice
+from bench.experiments.suites import AT_INVERSES, NOMINAL, OnArms, Slice
 from bench.law.contender import Contender
 from bench.tables.schema import TABLES
 from tasks.base import Start
@@ -54,10 +54,13 @@ def _on_arm(on_arms: OnArms, laws, joints: int, choice: Choice) -> Iterator[tupl
     by_name = {one.name: one for one in laws}
     slices = narrowed(on_arms.slices, choice)
     variations = choice.variations or (NOMINAL,)
+    several = combinations.on(tuple(word for word in on_arms.words if word not in on_arms.few), by_name, joints)
+    few = () if choice.start_sets else set(combinations.on(on_arms.few, by_name, joints)) - set(several)
     for one in combinations.chosen(on_arms.words, by_name, joints, choice.jacobians, choice.inverses):
         for part in slices:
-            for variation in variations:
-                yield part, one, variation
+            if one not in few or part.start_set in AT_INVERSES:
+                for variation in variations:
+                    yield part, one, variation
     if on_arms.varied and not (choice.narrows or choice.variations or choice.jacobians or choice.inverses):
         for one in combinations.on(on_arms.varied, by_name, joints):
             for part in on_arms.varied_slices:
