@@ -130,7 +130,7 @@ def test_law_is_compiled_into_vector_instructions():
 
 
 def test_law_is_compiled_into_lanes_for_many_episodes_without_curves():
-    word = "feedback-linearized/mrp"
+    word = "linearized-euler/zyx-euler"
     one, made = find_contender(word), []
 
     def law_in(representation):
