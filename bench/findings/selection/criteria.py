@@ -9,7 +9,6 @@ from typing import NamedTuple
 import numpy as np
 
 from bench.findings.selection.measures import (
-    beyond_rated,
     held_by_noise_from,
     jump,
     later_than_fastest,
@@ -18,6 +17,7 @@ from bench.findings.selection.measures import (
     on_arms,
     over_uniform,
     perturbed,
+    within_rated,
 )
 from bench.findings.selection.tables import Tables, by_law
 from bench.findings.selection.timed import MEASURABLE
@@ -33,8 +33,8 @@ class Criterion(NamedTuple):
     """One number of a law, from one value a start (or from one value alone).
 
     measure(tables) -> law: values, all laws' in the order of the same starts; a law that was not asked is missing.
-    level: the quantile that is taken of the values, 1 the largest; None: their mean. sense: LEAST or GREATEST is better.
-    notable, least: relative and absolute difference up to which two laws tie. form: how the number is written.
+    level: the quantile that is taken of the values, 1 the largest; None: their mean. sense: LEAST or GREATEST is
+    better. notable, least: relative and absolute difference up to which two laws tie. form: how the number is written.
     """
 
     name: str
@@ -179,20 +179,22 @@ CRITERIA = (
     ),
     Criterion(
         "arms",
-        "Lost on arms",
+        "Settle on arms",
         "%",
-        "uniform starts on arms that do not settle",
-        on_arms(lambda rows: rows["lost"]),
+        "uniform starts on arms that settle",
+        on_arms(lambda rows: ~rows["lost"]),
         None,
+        GREATEST,
         form="{:.1f}",
     ),
     Criterion(
         "rated",
-        "Lost or beyond rated torque",
+        "Settle within rated torque",
         "%",
-        "uniform starts on arms that do not settle within the motors' rated torques",
-        on_arms(beyond_rated),
+        "uniform starts on arms that settle within the motors' rated torques",
+        on_arms(within_rated),
         None,
+        GREATEST,
         form="{:.1f}",
     ),
 )

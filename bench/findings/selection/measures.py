@@ -90,16 +90,16 @@ def _across(one: Contender, axis: np.ndarray) -> float:
     return float(np.linalg.norm(commands[1] - commands[0]))
 
 
-def on_arms(is_lost: Callable[[pd.DataFrame], pd.Series]) -> Callable[[Tables], dict[str, np.ndarray]]:
-    """100 for each episode on arms from uniform starts that is lost by some measure, 0 for the others [%]."""
+def on_arms(is_good: Callable[[pd.DataFrame], pd.Series]) -> Callable[[Tables], dict[str, np.ndarray]]:
+    """100 for each episode on arms from uniform starts that is good by some measure, 0 for the others [%]."""
 
     def measure(tables):
         rows = tables.arms[tables.arms["contender"].isin(tables.contenders)]
-        return by_law(rows.assign(lost_percent=100.0 * is_lost(rows)), "lost_percent")
+        return by_law(rows.assign(good_percent=100.0 * is_good(rows)), "good_percent")
 
     return measure
 
 
-def beyond_rated(rows: pd.DataFrame) -> pd.Series:
-    """Whether an episode does not settle, or a motor is asked for more than its rated torque."""
-    return rows["lost"] | ~(rows["peak_torque_ratio"] <= 1.0)
+def within_rated(rows: pd.DataFrame) -> pd.Series:
+    """Whether an episode settles, and no motor is asked for more than its rated torque."""
+    return ~rows["lost"] & (rows["peak_torque_ratio"] <= 1.0)

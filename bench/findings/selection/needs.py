@@ -7,7 +7,7 @@ What any page, card or command says of which law to use comes of `advice`, and w
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
@@ -88,33 +88,53 @@ SURE = (TRIED, EVERYWHERE, QUIET)
 DEFAULT = Need("nothing else is known", (*SURE, UNHELD))
 """What a law must have to be advised where nothing else is said."""
 
+ARM = Need("a robot's arm, exact half turns aside", (TRIED, NEARLY), ("arms", "rated"))
+FORGETS = Need("no memory in the controller", (*SURE, FORGETFUL))
+BOUNDED = Need(f"motors that end at {criteria.BOUND:g} rad/s²", SURE, ("bounded",))
+
 NEEDS = (
     Need("the fastest, at equal stiffness near the goal", SURE, ("time",)),
-    Need("the same settling time from everywhere: a linear response", SURE, ("spread",)),
+    Need("the same settling time from everywhere", SURE, ("spread",)),
     Need("least effort", SURE, ("effort",)),
     Need("the smoothest command", SURE, ("variation",)),
     Need("the smallest peak of the command", SURE, ("peak",)),
-    Need(f"gains to suit a peak of {criteria.PEAK:g} rad/s²", SURE, ("matched",)),
-    Need(f"motors that end at {criteria.BOUND:g} rad/s²", SURE, ("bounded",)),
+    Need(f"gains that make the peak {criteria.PEAK:g} rad/s²", SURE, ("matched",)),
+    BOUNDED,
     Need(f"a computer that answers {criteria.SLOW_HZ:g} times a second", SURE, ("slow",)),
     Need(f"{1e3 * criteria.LATE_S:g} ms of delay", SURE, ("late",)),
     Need(f"inertia {criteria.HEAVY:g} times what the model says", SURE, ("heavy",)),
     Need(f"a body that spins at {criteria.SPIN:g} rad/s", SURE, ("spinning",)),
     Need(f"a goal that moves at {criteria.MOVING:g} rad/s, with feedforward", SURE, ("follows",)),
     Need(f"orientation known to {criteria.NOISY_RAD:g} rad", SURE, ("noisy",)),
-    Need("no memory in the controller", (*SURE, FORGETFUL)),
+    FORGETS,
     Need("a command that never jumps", (TRIED, NEARLY, FORGETFUL, SMOOTH)),
-    Need("a robot's arm, exact half turns aside", (TRIED, NEARLY), ("arms", "rated")),
+    ARM,
 )
 
 
 class Advice(NamedTuple):
-    """default: where nothing else is known. exceptions: the situations in which another law is better than its law, or
-    it lacks a fact. others: those that decide nothing, for no law is better there."""
+    """What is advised in every situation.
+
+    default: where nothing else is known. exceptions: the situations in which another law is better than its law, or it
+    lacks a fact. others: those that decide nothing, for no law is better there.
+    """
 
     default: Decision
     exceptions: tuple[Decision, ...]
     others: tuple[Decision, ...]
+
+    def of(self, need: Need) -> Decision:
+        """What is advised in a situation: where it decides nothing the default's law, which ties with its best."""
+        one = next(each for each in (self.default, *self.exceptions, *self.others) if each.need is need)
+        law = self.default.law
+        return (
+            one._replace(law=law, tied=tuple(each for each in one.best if each != law)) if one in self.others else one
+        )
+
+    def uses(self, law: str) -> tuple[list[Need], list[Need]]:
+        """The situations in which a law is advised, and those in which it ties with what is advised."""
+        every = [self.default, *self.exceptions]
+        return [one.need for one in every if one.law == law], [one.need for one in every if law in one.tied]
 
 
 def has_all(found: Measured, law: str, facts: tuple[Fact, ...]) -> bool:
@@ -154,11 +174,7 @@ def advice(folder: Path) -> Advice:
     return advise(measured(folder))
 
 
-def best_by(found: Measured, criterion: str, laws: tuple[str, ...] = ()) -> tuple[str, ...]:
-    """The laws that no other is better than by a criterion: one is the best, several tie.
-
-    Args:
-        laws: to choose from; none: all that were measured by it.
-    """
-    asked = [law for law in laws or found.laws if len(found.values[criterion].get(law, ()))]
+def best_by(found: Measured, criterion: str, laws: Sequence[str]) -> tuple[str, ...]:
+    """Of some laws those that were measured by a criterion and that no other is better than: several tie."""
+    asked = [law for law in laws if len(found.values[criterion].get(law, ()))]
     return tuple(front(found, asked, (criterion,)))

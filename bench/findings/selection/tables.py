@@ -22,8 +22,8 @@ SAMPLED = "native"
 class Tables(NamedTuple):
     """uniform, directed: starts that every law ran; arms: episodes on arms by the geometric Jacobian, nominal plant.
 
-    ticks: law -> its time over a whole controller's tick [%], of the laws that were timed. contenders: the laws compared,
-    by name, the simplest first.
+    ticks: law -> its time over a whole controller's tick [%], of the laws that were timed. contenders: the laws
+    compared, by name, the simplest first.
     """
 
     uniform: pd.DataFrame
