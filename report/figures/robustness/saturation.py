@@ -56,12 +56,12 @@ def facts(run: Run) -> dict:
     }
 
 
-def fastest(run: Run) -> str | None:
-    """The laws that none beats behind the tightest bound; None where laws cannot be compared."""
+def fastest(run: Run) -> str:
+    """The laws that none beats behind the tightest bound."""
     try:
         return leaders(measured(run.folder), "bounded", families.word)
     except NoEvidence:
-        return None
+        return "none, for this run does not compare laws"
 
 
 def _settled(rows: pd.DataFrame, law: str, level: float) -> str:
