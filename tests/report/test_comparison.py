@@ -14,6 +14,7 @@ from bench.tables import read
 from bench.tables.schema import RESULTS
 from report.figures.comparison import cells, comparison, directed
 from report.figures.comparison.angle import lateness
+from report.figures.failures import failure_map
 from report.figures.kit import families
 from report.figures.kit.page import Run, run_in
 
@@ -131,7 +132,7 @@ def test_dead_points_are_where_the_laws_are_known_to_fail():
 
 def test_an_orientation_counts_once_whatever_the_sign_of_its_quaternion():
     turns = pd.DataFrame([(0.6, 0.8, 0.0, 0.0), (-0.6, -0.8, 0.0, 0.0)], columns=[f"quat_{one}" for one in "wxyz"])
-    assert len(directed.orientation(turns).drop_duplicates()) == 1
+    assert len(failure_map.orientation(turns).drop_duplicates()) == 1
 
 
 def test_negative_controls_fail_as_they_must():

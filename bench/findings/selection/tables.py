@@ -8,9 +8,10 @@ import numpy as np
 import pandas as pd
 
 from bench.contenders.registry import all_contenders, contenders_of
-from bench.findings.claims.adequacy import DIRECTED, tallied
+from bench.findings.claims.adequacy import tallied
 from bench.findings.claims.tables import MAIN_ENGINE, Results, settled, some
 from bench.findings.claims.verdict import NoEvidence
+from bench.findings.counts import DIRECTED
 from bench.findings.selection.timed import ticks
 from bench.law.contender import Contender
 from bench.tables import read as published
@@ -35,9 +36,9 @@ class Tables(NamedTuple):
     contenders: dict[str, Contender]
 
     def spent(self, name: str, branch: str = "typical") -> tuple[int, int]:
-        """Flops and calls a tick, without the goal's own stage."""
+        """Flops and calls a tick, the goal given as a rotation matrix."""
         rows = self.costs[name]
-        return tallied(rows[rows["branch"] == branch], with_goal=False)
+        return tallied(rows[rows["branch"] == branch], with_goal=True)
 
     def memory(self, name: str) -> int:
         """Numbers that a law keeps from tick to tick."""

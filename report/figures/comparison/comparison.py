@@ -93,7 +93,7 @@ def of_all(rows: pd.DataFrame, tried: pd.DataFrame) -> dict:
         "dearer": f"{spent.max() / spent.min():.0f}",
         "left": len(left),
         "left_laws": ", ".join(map(families.word, left)),
-        "directed": len(tried) // tried["contender"].nunique(),
+        "directed": int(tried.groupby("contender", observed=True).size().max()),
     }
 
 
