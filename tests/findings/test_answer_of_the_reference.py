@@ -15,6 +15,7 @@ from bench.findings.claims.tables import Results
 from bench.findings.selection.criteria import BY_NAME
 from bench.findings.selection.measured import measured, statistic
 from bench.findings.selection.needs import ARM, DEFAULT, EVERYWHERE, FORGETS, NEEDS, UNHELD, advice, advise, has_all
+from bench.findings.selection.rule import GENERAL, dominates
 from bench.findings.selection.timed import MEASURABLE
 from bench.findings.selection.words import leaders
 from bench.tables.read import with_contender
@@ -93,6 +94,11 @@ def test_default_is_another_law_when_this_one_loses_what_is_asked(found, criteri
     other = advise(changed(found, criterion, law, value)).default.law
     assert other in decided().default.asked
     assert other != law
+
+
+def test_others_that_have_what_the_default_has_are_worse_by_something_and_better_by_nothing(found):
+    one = decided().default
+    assert one.tied or all(dominates(found, one.law, other, GENERAL) for other in one.asked if other != one.law)
 
 
 def test_no_law_without_memory_settles_everywhere_and_is_not_held(found):
@@ -216,6 +222,14 @@ def test_plane_marks_what_settles_everywhere(found):
     assert plane.coverage(found, decided().default.law) == 2
     assert plane.coverage(found, decided().of(FORGETS).law) == 1
     assert plane.coverage(found, "rotation-matrix") == 0
+
+
+def test_plane_has_time_across_where_all_are_timed_and_operations_elsewhere(found):
+    costs, label, alike = plane.across(found._replace(values=found.values | {"tick": {}}))
+    assert ("operations" in label, alike) == (True, None)
+    timed = {law: np.array([1.0]) for law in costs}
+    shares, label, alike = plane.across(found._replace(values=found.values | {"tick": timed}))
+    assert ("time" in label, alike, set(shares.values())) == (True, 100 * MEASURABLE, {1.0})
 
 
 def test_page_names_every_law_and_every_situation(found):

@@ -21,7 +21,7 @@ def standing(one: Decision, called: Called) -> str:
         return "No other law has all this."
     if not one.tied:
         return (
-            f"Each other of the {len(one.asked)} laws that have all this is worse by something and better by nothing."
+            f"Of the {len(one.asked)} laws that have all this each other is worse by something and better by nothing."
         )
     return (
         f"{together([called(law) for law in (one.law or '', *one.tied)])} tie: none is better by all that counts. Of "

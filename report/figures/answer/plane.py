@@ -50,9 +50,10 @@ def shown(found: Measured) -> list[str]:
 def across(found: Measured) -> tuple[dict[str, float], str, float | None]:
     """What a law costs: its share of a whole controller's tick [%], and how far shares are alike on an arm.
 
-    In a run with laws that were not timed: operations, each counted once.
+    MuJoCo's actuator, which is not timed apart from its step, is left out. Where others were not timed: operations,
+    each counted once.
     """
-    laws = shown(found)
+    laws = [law for law in shown(found) if not found.tables.contenders[law].regulator.in_engine]
     shares = {law: found.number("tick", law) for law in laws}
     if all(map(math.isfinite, shares.values())):
         return shares, "time of the law, % of a whole controller's tick", BY_NAME["tick"].least

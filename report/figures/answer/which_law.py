@@ -35,7 +35,7 @@ def facts(run: Run) -> dict:
     forgetful = [law for law in shown(found) if not found.number("memory", law) and law in found.values["held"]]
     return {
         "lead": lead(run),
-        "same": ", ".join(one.need.words for one in needs.advice(run.folder).others) or "none",
+        "same": "; ".join(one.need.words for one in needs.advice(run.folder).others) or "none",
         "laws": len(shown(found)),
         "tried": sum(needs.TRIED.has(found, law) for law in shown(found)),
         "whole": len(whole),
