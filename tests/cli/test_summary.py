@@ -133,6 +133,13 @@ def test_settled_counts_are_those_of_the_tables(tables, reference):
     assert f"Free body: settled {settled:,} of {len(free_body):,} episodes" in text(failures.paragraph(reference))
 
 
+def test_law_that_withstands_most_is_no_negative_control(tables):
+    said = text(failures.paragraph(Results(REFERENCE, dict(tables))))
+    assert "withstand" in said
+    assert "quaternion-unwinding" not in said
+    assert "of 12 perturbations" in said
+
+
 def test_law_that_broke_is_named(tables):
     lost = tables["episodes"].head(3).assign(outcome=pd.Categorical(["crashed", "hung", "crashed"]))
     law = str(lost["contender"].iloc[0]).partition("@")[0]
