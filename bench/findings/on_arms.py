@@ -37,7 +37,7 @@ def told_apart(one: pd.Series, other: pd.Series) -> bool:
     """Whether two controllers differ by more than chance; whether each passes, by start."""
     both = pd.concat([one, other], axis=1, join="inner").to_numpy(bool)
     ones, others = int((both[:, 0] & ~both[:, 1]).sum()), int((~both[:, 0] & both[:, 1]).sum())
-    return ones + others > 0 and binomtest(ones, ones + others).pvalue < P_VALUE
+    return ones + others > 0 and bool(binomtest(ones, ones + others).pvalue < P_VALUE)
 
 
 def best(rows: pd.DataFrame, measure: str, by: str) -> list[str]:

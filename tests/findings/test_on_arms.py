@@ -10,9 +10,9 @@ def rows(controller, outcomes, **columns):
     """Episodes of a controller from starts 0, 1, ..., at which all is well but for what is given."""
     n = len(outcomes)
     usual = {"peak_torque_ratio": 0.5, "range_excess_rad": 0.0, "position_left_m": 0.0, "start_set": "uniform"}
-    return pd.DataFrame({"controller": controller, "arm": "a", "start_id": range(n), "outcome": outcomes, **usual}).assign(
-        **columns
-    )
+    return pd.DataFrame(
+        {"controller": controller, "arm": "a", "start_id": range(n), "outcome": outcomes, **usual}
+    ).assign(**columns)
 
 
 SETTLED, LOST = "settled", "timed-out"
