@@ -149,8 +149,9 @@ class Kinematics:
         q: Sequence[float] | np.ndarray,
         goal: Quat,
         qdot: Sequence[float] | np.ndarray | None = None,
+        **more: tuple[float, ...],
     ) -> Start:
-        """A start at these joint angles, its orientation and angular velocity being MuJoCo's."""
+        """A start at these joint angles, its orientation and angular velocity being MuJoCo's; more: of its fields."""
         angles = tuple(map(float, q))
         rates = tuple(map(float, qdot)) if qdot is not None else (0.0,) * len(angles)
         _, quat = self.pose(angles)
@@ -160,7 +161,7 @@ class Kinematics:
             mujoco.mj_forward(self.model, self._data)
             x, y, z = self._data.sensordata[9:12].tolist()
             omega = (x, y, z)
-        return Start(name, quat, omega, goal, angles, rates)
+        return Start(name, quat, omega, goal, angles, rates, **more)
 
     def _error(self, q: np.ndarray, p: np.ndarray, quat: Quat) -> np.ndarray:
         """(p_d - p, log(R_d R^T)) [m, rad]."""

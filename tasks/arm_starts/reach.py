@@ -1,0 +1,73 @@
+"""Moves of the tool to another pose in good condition: by 10 cm at least, and turned by 10 to 150 degrees.
+
+Start and goal are drawn around home. A pair is kept if the tool can go straight from one position to the other while
+it turns along the geodesic, evenly both, and all of that is clear (clearance.py): condition number of J at most
+CONDITION, joints RANGE inside their ranges, |cos beta| at least COS_BETA, alpha and gamma WRAP away from +-pi. Where
+such a path ends the goal's joint angles are (they need not be those that were drawn), and the goal is MuJoCo's pose of
+them, bit for bit.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from tasks.arm_model import Arm
+from tasks.arm_starts.clear import around_home
+from tasks.base import ArmStartSet, Vector
+from tasks.clearance import CONDITION, RANGE, is_clear_of_pole, is_clear_of_wraps, steps_for
+from tasks.kinematics import Kinematics, kinematics, rotation_vector
+from tasks.linear_algebra import length
+from tasks.paths import geodesic
+
+SIZE = 24
+LEAST_WAY, LEAST_TURN, MOST_TURN = 0.1, math.radians(10.0), math.radians(150.0)  # [m], [rad]
+# Points of the way at most so far apart [m]: a joint turns by some 10 degrees in between, at a condition of 10.
+STEP = 0.05
+# Pairs that are refused for each start at most; our arms refuse up to sixty.
+TRIES = 1000
+# Moves the seed away from those of `clear` and `tumbling`.
+OTHER_SEED = 2000
+
+
+def build(arm: Arm, count: int, seed: int) -> list:
+    """The first `count` of the sequence of this seed."""
+    model, starts = kinematics(arm), []
+    candidates = (q for q, _ in around_home(arm, seed + OTHER_SEED))
+    for i in range(count):
+        pairs = ((next(candidates), next(candidates)) for _ in range(TRIES))
+        ends = next(((q, there) for q, aim in pairs if (there := _moved(model, q, aim)) is not None), None)
+        if ends is None:
+            break
+        p, goal = model.pose(ends[1])
+        joints = {"goal_p": tuple(p.tolist()), "goal_q": tuple(ends[1].tolist())}
+        starts.append(model.start(f"reach-{i:03d}", ends[0], goal, **joints))
+    return starts
+
+
+def _moved(model: Kinematics, q: np.ndarray, aim: np.ndarray) -> np.ndarray | None:
+    """The joint angles at the end of the way from q to the pose of aim; None if there are none, or it is not clear."""
+    (p, quat), (p_d, quat_d) = model.pose(q), model.pose(aim)
+    x, y, z = rotation_vector(quat_d, quat)
+    way, angle = p_d - p, math.sqrt(x * x + y * y + z * z)
+    if length(way) < LEAST_WAY or not LEAST_TURN <= angle <= MOST_TURN or not _is_clear(model, q):
+        return None
+    axis: Vector = (x / angle, y / angle, z / angle)
+    steps = max(steps_for(angle), math.ceil(length(way) / STEP))
+    turn = geodesic(quat, axis, angle, steps)
+    if not (is_clear_of_pole(turn) and is_clear_of_wraps(turn)):
+        return None
+    now: np.ndarray | None = q
+    for i in range(1, steps + 1):
+        now = model.reach(now, p + (i / steps) * way, turn[i])
+        if now is None or not _is_clear(model, now):
+            return None
+    return now
+
+
+def _is_clear(model: Kinematics, q: np.ndarray) -> bool:
+    return model.within_range(q, RANGE) and model.condition(q) <= CONDITION
+
+
+STARTS = ArmStartSet("reach", "Moves to another pose that keep clear of all that `clear` does", SIZE, build, True)
