@@ -72,6 +72,14 @@ class Kinematics:
         s = np.linalg.svd(self.jacobian(q), compute_uv=False)
         return float(s[0] / s[-1]) if s[-1] > 0.0 else math.inf
 
+    def inertia_matrix(self, q: Sequence[float] | np.ndarray) -> np.ndarray:
+        """D, n x n [kg m^2]."""
+        self._data.qpos[:], self._data.qvel[:] = q, 0.0
+        mujoco.mj_forward(self.model, self._data)
+        D = np.zeros((self.model.nv, self.model.nv))
+        mujoco.mj_fullM(self.model, self._data, D)
+        return D
+
     def into_range(self, q: Sequence[float] | np.ndarray) -> np.ndarray:
         """The same pose with every joint, by whole turns, as near as can be to the middle of its range, or to 0."""
         ranges = zip(self.arm.lower, self.arm.upper, strict=True)

@@ -20,7 +20,8 @@ def on(words: tuple[str, ...], laws: dict[str, Contender], joints: int) -> list[
     """The contenders of the words that fit on so many joints, each once.
 
     Args:
-        laws: by name, the laws there are; a word of another one is left out.
+        laws: by name, the laws there are; a word of another one is left out. Of a baseline on the joints the word is
+            its name.
     """
     found = (_of_word(word, laws, joints) for word in words)
     return list(dict.fromkeys(one for one in found if one is not None))
@@ -36,6 +37,8 @@ def _of_word(word: str, laws: dict[str, Contender], joints: int) -> Contender | 
     jacobian_word, _, inverse_word = way.partition("+")
     if law not in laws:
         return None
+    if not way:
+        return laws[law]
     by = laws[law]._replace(jacobian=jacobian(jacobian_word))
     inverses = STANDARD if inverse_word == "standard" else (inverse_word,)
     fitting = (by._replace(inverse=inverse(word)) for word in inverses)

@@ -9,14 +9,17 @@ them, bit for bit.
 
 from __future__ import annotations
 
+import itertools
 import math
+from collections.abc import Iterator
 
 import numpy as np
 
 from tasks.arm_model import Arm
-from tasks.arm_starts.clear import around_home
+from tasks.arm_starts.clear import AROUND_HOME
 from tasks.base import ArmStartSet, Vector
 from tasks.clearance import CONDITION, RANGE, is_clear_of_pole, is_clear_of_wraps, steps_for
+from tasks.haar import halton
 from tasks.kinematics import Kinematics, kinematics, rotation_vector
 from tasks.linear_algebra import length
 from tasks.paths import geodesic
@@ -25,18 +28,17 @@ SIZE = 24
 LEAST_WAY, LEAST_TURN, MOST_TURN = 0.1, math.radians(10.0), math.radians(150.0)  # [m], [rad]
 # Points of the way at most so far apart [m]: a joint turns by some 10 degrees in between, at a condition of 10.
 STEP = 0.05
-# Pairs that are refused for each start at most; our arms refuse up to sixty.
+# Pairs for each start at most.
 TRIES = 1000
-# Moves the seed away from those of `clear` and `tumbling`.
 OTHER_SEED = 2000
 
 
 def build(arm: Arm, count: int, seed: int) -> list:
     """The first `count` of the sequence of this seed."""
     model, starts = kinematics(arm), []
-    candidates = (q for q, _ in around_home(arm, seed + OTHER_SEED))
+    candidates = _pairs(arm, seed + OTHER_SEED)
     for i in range(count):
-        pairs = ((next(candidates), next(candidates)) for _ in range(TRIES))
+        pairs = itertools.islice(candidates, TRIES)
         ends = next(((q, there) for q, aim in pairs if (there := _moved(model, q, aim)) is not None), None)
         if ends is None:
             break
@@ -44,6 +46,17 @@ def build(arm: Arm, count: int, seed: int) -> list:
         joints = {"goal_p": tuple(p.tolist()), "goal_q": tuple(ends[1].tolist())}
         starts.append(model.start(f"reach-{i:03d}", ends[0], goal, **joints))
     return starts
+
+
+def _pairs(arm: Arm, seed: int) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+    """Two sets of joint angles around home, evenly spread together, without end."""
+    home, drawn = np.array(arm.home), 0
+    while True:
+        points = np.array(halton(2 * drawn or 256, 2 * arm.joints, seed))
+        for point in points[drawn:]:
+            q, aim = (home + AROUND_HOME * (2.0 * half - 1.0) for half in np.split(point, 2))
+            yield q, aim
+        drawn = len(points)
 
 
 def _moved(model: Kinematics, q: np.ndarray, aim: np.ndarray) -> np.ndarray | None:
