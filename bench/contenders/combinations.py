@@ -5,7 +5,7 @@ A combination is written `law@jacobian+inverse`; the inverse "standard" is the f
 
 from collections.abc import Iterable
 
-from bench.contenders.registry import inverse, jacobian, known_inverses, known_jacobians
+from bench.contenders.registry import baselines_of_arms, inverse, jacobian, known_inverses, known_jacobians
 from bench.law.contender import Contender, refusal
 
 STANDARD = ("solve", "pseudo-inverse", "truncated-svd")
@@ -25,6 +25,13 @@ def on(words: tuple[str, ...], laws: dict[str, Contender], joints: int) -> list[
     """
     found = (_of_word(word, laws, joints) for word in words)
     return list(dict.fromkeys(one for one in found if one is not None))
+
+
+def baselines(joints: int) -> list[Contender]:
+    """Every baseline on so many joints, by the geometric Jacobian and the standard inverse unless it brings its own."""
+    found = baselines_of_arms()
+    words = (name if one.jacobian else f"{name}@geometric+standard" for name, one in found.items())
+    return on(tuple(words), found, joints)
 
 
 def _of_word(word: str, laws: dict[str, Contender], joints: int) -> Contender | None:

@@ -65,8 +65,8 @@ class Controls(NamedTuple):
     """A contender and the judge's rule, as numbers for a loop.
 
     rows of the Jacobian; gives_torque by the inverse (`resolved_acceleration.BY_JOINT`); has_own_model: 0 if the
-    controller's model is the plant, 1 if it is another in the plant's state, STANDING if its joints stand still there, so
-    that its torques are gravity's alone.
+    controller's model is the plant, 1 if it is another in the plant's state, STANDING if its joints stand still there,
+    so that its torques are gravity's alone.
     """
 
     rows: int
@@ -76,8 +76,10 @@ class Controls(NamedTuple):
 
 
 class Joints(NamedTuple):
-    """Of each joint its range [rad] and its motor's rated torque [N m], as `ArmSample` has them; inertia [kg m^2]: its
-    element on D's diagonal at home, and zeros."""
+    """Of each joint its range [rad] and its motor's rated torque [N m], as `ArmSample` has them, and its inertia.
+
+    inertia: the joint's element on D's diagonal at home [kg m^2], filled up with zeros.
+    """
 
     lower: tuple
     upper: tuple

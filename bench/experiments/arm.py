@@ -8,12 +8,11 @@ from typing import TYPE_CHECKING
 
 import tasks
 from bench.contenders import combinations
-from bench.contenders.registry import baselines_of_arms
 from bench.errors import Incompatible
 from bench.experiments.choice import Choice
 from bench.experiments.episodes import Place, cut, lost, narrowed, prepare, runs_on, starts_of, tasks_of
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit
-from bench.experiments.suites import BASELINES, DIRECTED_AT_INVERSES, NOMINAL, OnArms, Slice
+from bench.experiments.suites import DIRECTED_AT_INVERSES, NOMINAL, OnArms, Slice
 from bench.law.contender import Contender
 from bench.tables.schema import TABLES
 from tasks.base import Start
@@ -59,7 +58,7 @@ def _on_arm(on_arms: OnArms, laws, joints: int, choice: Choice) -> Iterator[tupl
     few = combinations.on(on_arms.few, by_name, joints) if is_by_suite and not choice.narrows else ()
     every = combinations.chosen(on_arms.words, by_name, joints, choice.jacobians, choice.inverses)
     if is_by_suite and not choice.is_of_some_laws:
-        every += combinations.on(BASELINES, baselines_of_arms(), joints)
+        every += combinations.baselines(joints)
     for one in every:
         for part in slices:
             knows = one.regulator.assemble is None or tasks.knows_joints(part.start_set)

@@ -47,9 +47,6 @@ TWINS = (
 )
 """What ought to equal another contender: the same command by another Jacobian."""
 
-BASELINES = ("joint-pd", "resolved-rate@geometric+standard")
-"""Controllers that are no laws (bench/contenders/baselines), from the start sets that know the goal's joint angles."""
-
 DIRECTED_AT_INVERSES = ("wrist", "uniform")  # elsewhere every inverse gives the same motion
 
 VARIED = (LAWS[0], LAWS[3], ANALYTIC[0])  # they settle every clear start of a perfect model

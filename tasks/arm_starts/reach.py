@@ -71,12 +71,12 @@ def _moved(model: Kinematics, q: np.ndarray, aim: np.ndarray) -> np.ndarray | No
     turn = geodesic(quat, axis, angle, steps)
     if not (is_clear_of_pole(turn) and is_clear_of_wraps(turn)):
         return None
-    now: np.ndarray | None = q
     for i in range(1, steps + 1):
-        now = model.reach(now, p + (i / steps) * way, turn[i])
-        if now is None or not _is_clear(model, now):
+        reached = model.reach(q, p + (i / steps) * way, turn[i])
+        if reached is None or not _is_clear(model, reached):
             return None
-    return now
+        q = reached
+    return q
 
 
 def _is_clear(model: Kinematics, q: np.ndarray) -> bool:

@@ -143,7 +143,7 @@ def test_baselines_are_ranked_beside_the_laws_and_win_nothing():
     baseline = {"regulator": "resolved-rate", "jacobian": "geometric", "way": "resolved-rate@geometric+standard"}
     law = {"regulator": "mrp", "jacobian": "geometric", "way": "mrp@geometric+standard"}
     rows = pd.concat([rows_of({"resolved-rate": 20}, **baseline), rows_of({"mrp": 5}, **law)])
-    found = [cells for cells in arm_ranking.ranked(rows)]
+    found = list(arm_ranking.ranked(rows))
     assert [cells[0] for cells in found] == ["Resolved rate", "(2.2) MRP"]
     assert not any("**" in cell for cell in found[0])
     assert found[1][3] == "**25 (11 to 47)**"

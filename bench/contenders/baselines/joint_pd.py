@@ -2,8 +2,8 @@
 
 M is constant: D's diagonal at the arm's home, so that the gains mean what they mean elsewhere as nearly as constants
 can. It needs the goal's joint angles q_d, which are the start's (`goal_q`), gravity, and nothing else of the model: no
-Jacobian, no coordinates, no inertia matrix. With V = (qdot' D qdot + Kp (q_d - q)' M (q_d - q))/2, Vdot = -Kv qdot' M qdot,
-whatever the arm: it comes to rest at q_d from everywhere (Takegaki and Arimoto 1981).
+Jacobian, no coordinates, no inertia matrix. With V = (qdot' D qdot + Kp (q_d - q)' M (q_d - q))/2 it has
+Vdot = -Kv qdot' M qdot, whatever the arm: it comes to rest at q_d from everywhere (Takegaki and Arimoto 1981).
 
 Fails: nowhere; but the tool goes where the joints take it, and its response hangs on the pose.
 """
