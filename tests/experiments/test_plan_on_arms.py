@@ -78,7 +78,8 @@ def test_arm_alone_is_the_suite_on_that_arm():
     plan = planning.make("default", laws, Choice(arms=("puma560",)))
     assert {unit.arm for unit in plan.units if unit.arm} == {"puma560"}
     nominal = {unit.contender for unit in plan.of("arm") if unit.variation == NOMINAL}
-    assert nominal == {one.name for one in combinations.on(SUITES["default"].on_arms.words, LAWS, 6)}
+    beside = combinations.baselines(6)
+    assert nominal == {one.name for one in (*combinations.on(SUITES["default"].on_arms.words, LAWS, 6), *beside)}
     assert {unit.selector for unit in plan.of("arm") if unit.variation == NOMINAL} == set(
         tasks.task("arm-regulation", "puma560").start_sets
     )
@@ -94,7 +95,27 @@ def test_full_suite_runs_every_compatible_combination():
     plan = planning.make("full", list(LAWS.values()), Choice(arms=ON_BOTH), count=1)
     for arm in ON_BOTH:
         planned = {unit.contender for unit in plan.of("arm") if unit.arm == arm and unit.variation == NOMINAL}
-        assert planned == {one.name for one in combinations.every(LAWS, tasks.arm(arm).joints)}
+        beside = combinations.baselines(tasks.arm(arm).joints)
+        assert planned == {one.name for one in (*combinations.every(LAWS, tasks.arm(arm).joints), *beside)}
+
+
+def test_baselines_are_run_where_the_goals_joints_are_known_and_no_law_is_named():
+    laws = list(LAWS.values())
+    plan = planning.make("default", laws, Choice(arms=("ur5e",)))
+    names = {one.name for one in combinations.baselines(6)}
+    assert {unit.selector for unit in plan.of("arm") if unit.contender in names} == {"reach", "uniform"}
+    for choice in (Choice(regulators=("hybrid",)), Choice(inverses=("solve",)), Choice(variations=("mass-1.30",))):
+        found = planning.make("default", [LAWS["hybrid"]], dataclasses.replace(choice, arms=("ur5e",))).of("arm")
+        assert found
+        assert names.isdisjoint(unit.contender for unit in found)
+
+
+def test_inverses_and_twins_are_run_where_they_differ_and_from_every_set_that_is_named():
+    laws = list(LAWS.values())
+    few = {one.name for one in combinations.on(SUITES["default"].on_arms.few, LAWS, 6)}
+    for sets, expected in (((), {"wrist", "uniform"}), (("clear",), {"clear"})):
+        units = planning.make("default", laws, Choice(arms=("ur5e",), start_sets=sets)).of("arm")
+        assert {unit.selector for unit in units if unit.contender in few and unit.variation == NOMINAL} == expected
 
 
 def test_named_variations_are_run_and_no_others():

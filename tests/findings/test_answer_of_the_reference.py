@@ -12,6 +12,7 @@ from bench.contenders.registry import find_contender
 from bench.experiments import suites
 from bench.findings import claims
 from bench.findings.claims.tables import Results
+from bench.findings.on_arms import best
 from bench.findings.selection.criteria import BY_NAME
 from bench.findings.selection.measured import measured, statistic
 from bench.findings.selection.needs import ARM, DEFAULT, EVERYWHERE, FORGETS, NEEDS, UNHELD, advice, advise, has_all
@@ -23,7 +24,7 @@ from bench.tables.schema import RESULTS
 from bench.tables.store import read_arrow
 from report.figures import index
 from report.figures.answer import plane, which_law
-from report.figures.arms import arms
+from report.figures.arms import arm_ranking, arm_rows, arms
 from report.figures.cards import regulators
 from report.figures.comparison import comparison
 from report.figures.cost import cost
@@ -40,7 +41,7 @@ BY_CRITERION = {
 }
 """Page -> facts that name what is best by a criterion."""
 
-ADVICE = {which_law: ("lead",), index: ("which_law",), arms: ("best",)}
+ADVICE = {which_law: ("lead",), index: ("which_law",), arms: ("advised",)}
 """Page -> facts that advise a law."""
 
 DESCRIBED = {
@@ -48,7 +49,7 @@ DESCRIBED = {
     saturation: ("over_law", "record_law", "losses", "tamed", "untamed"),
     cost: ("against_time",),
     robustness: ("harmless", "hardest"),
-    arms: ("inverse_advice",),
+    arms: ("inverse_advice", "lead"),
 }
 """Page -> facts that name a law for what it does, and call none better."""
 
@@ -177,7 +178,13 @@ def test_front_page_lead_and_table_name_the_advised_law():
 
 
 def test_page_on_arms_names_the_law_that_is_advised_there():
-    assert arms.facts(RUN)["best"] == families.word(decided().of(ARM).law)
+    assert arms.facts(RUN)["advised"] == families.word(decided().of(ARM).law)
+
+
+@pytest.mark.parametrize("measure", ["settled", "range"])
+def test_law_that_is_advised_for_an_arm_is_among_the_best_of_its_page(measure):
+    uniform = arm_ranking.of_laws(arm_rows.episodes(RUN), "uniform")
+    assert f"{decided().of(ARM).law}@geometric" in best(uniform, measure, "controller")
 
 
 def test_cards_name_each_situation_once_and_of_ties_all_laws(found):

@@ -17,7 +17,6 @@ from bench.findings.selection.measures import (
     on_arms,
     over_uniform,
     perturbed,
-    within_rated,
 )
 from bench.findings.selection.tables import Tables, by_law
 from bench.findings.selection.timed import MEASURABLE
@@ -182,17 +181,17 @@ CRITERIA = (
         "Settle on arms",
         "%",
         "uniform starts on arms that settle",
-        on_arms(lambda rows: ~rows["lost"]),
+        on_arms("settled"),
         None,
         GREATEST,
         form="{:.1f}",
     ),
     Criterion(
-        "rated",
-        "Settle within rated torque",
+        "within",
+        "Settle within torque and range",
         "%",
-        "uniform starts on arms that settle within the motors' rated torques",
-        on_arms(within_rated),
+        "uniform starts on arms that settle within the motors' rated torques and the joints' ranges",
+        on_arms("range"),
         None,
         GREATEST,
         form="{:.1f}",

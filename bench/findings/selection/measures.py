@@ -7,8 +7,8 @@ import math
 from collections.abc import Callable
 
 import numpy as np
-import pandas as pd
 
+from bench.findings.on_arms import passed
 from bench.findings.selection.tables import Tables, by_law
 from bench.law.contender import AT_REST, Contender, Gains, Goal
 from bench.law.so3 import from_quaternion
@@ -90,16 +90,11 @@ def _across(one: Contender, axis: np.ndarray) -> float:
     return float(np.linalg.norm(commands[1] - commands[0]))
 
 
-def on_arms(is_good: Callable[[pd.DataFrame], pd.Series]) -> Callable[[Tables], dict[str, np.ndarray]]:
-    """100 for each episode on arms from uniform starts that is good by some measure, 0 for the others [%]."""
+def on_arms(measure: str) -> Callable[[Tables], dict[str, np.ndarray]]:
+    """100 for each episode on arms from uniform starts that passes one of `on_arms.MEASURES`, 0 for the others [%]."""
 
-    def measure(tables):
+    def measured(tables):
         rows = tables.arms[tables.arms["contender"].isin(tables.contenders)]
-        return by_law(rows.assign(good_percent=100.0 * is_good(rows)), "good_percent")
+        return by_law(rows.assign(passed_percent=100.0 * passed(rows)[measure]), "passed_percent")
 
-    return measure
-
-
-def within_rated(rows: pd.DataFrame) -> pd.Series:
-    """Whether an episode settles, and no motor is asked for more than its rated torque."""
-    return ~rows["lost"] & (rows["peak_torque_ratio"] <= 1.0)
+    return measured

@@ -88,7 +88,7 @@ SURE = (TRIED, EVERYWHERE, QUIET)
 DEFAULT = Need("nothing else is known", (*SURE, UNHELD))
 """What a law must have to be advised where nothing else is said."""
 
-ARM = Need("a robot's arm, exact half turns aside", (TRIED, NEARLY), ("arms", "rated"))
+ARM = Need("a robot's arm, exact half turns aside", (TRIED, NEARLY), ("arms", "within"))
 FORGETS = Need("no memory in the controller", (*SURE, FORGETFUL))
 BOUNDED = Need(f"motors that end at {criteria.BOUND:g} rad/s²", SURE, ("bounded",))
 
