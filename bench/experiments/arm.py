@@ -55,7 +55,10 @@ def _on_arm(on_arms: OnArms, laws, joints: int, choice: Choice) -> Iterator[tupl
     slices = narrowed(on_arms.slices, choice)
     variations = choice.variations or (NOMINAL,)
     is_by_suite = not (choice.variations or choice.jacobians or choice.inverses)
-    few = combinations.on(on_arms.few, by_name, joints) if is_by_suite and not choice.narrows else ()
+    few: set[Contender] = set()
+    if is_by_suite and not choice.narrows:
+        usual = tuple(word for word in on_arms.words if word not in on_arms.few)  # on seven joints some are the same
+        few = {*combinations.on(on_arms.few, by_name, joints)} - {*combinations.on(usual, by_name, joints)}
     every = combinations.chosen(on_arms.words, by_name, joints, choice.jacobians, choice.inverses)
     if is_by_suite and not choice.is_of_some_laws:
         every += combinations.baselines(joints)

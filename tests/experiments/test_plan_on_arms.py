@@ -110,12 +110,26 @@ def test_baselines_are_run_where_the_goals_joints_are_known_and_no_law_is_named(
         assert names.isdisjoint(unit.contender for unit in found)
 
 
-def test_inverses_and_twins_are_run_where_they_differ_and_from_every_set_that_is_named():
-    laws = list(LAWS.values())
-    few = {one.name for one in combinations.on(SUITES["default"].on_arms.few, LAWS, 6)}
+@pytest.mark.parametrize("arm", ON_BOTH)
+def test_inverses_and_twins_are_run_where_they_differ_and_all_else_from_every_set(arm):
+    """On seven joints the pseudo-inverse is both the standard and one of the inverses."""
+    part, joints = SUITES["default"].on_arms, tasks.arm(arm).joints
+    usual = {
+        one.name for one in combinations.on(tuple(word for word in part.words if word not in part.few), LAWS, joints)
+    }
+    few = {one.name for one in combinations.on(part.few, LAWS, joints)} - usual
     for sets, expected in (((), {"wrist", "uniform"}), (("clear",), {"clear"})):
-        units = planning.make("default", laws, Choice(arms=("ur5e",), start_sets=sets)).of("arm")
-        assert {unit.selector for unit in units if unit.contender in few and unit.variation == NOMINAL} == expected
+        plan = planning.make("default", list(LAWS.values()), Choice(arms=(arm,), start_sets=sets))
+        nominal = [unit for unit in plan.of("arm") if unit.variation == NOMINAL]
+        for name in few:
+            assert {unit.selector for unit in nominal if unit.contender == name} == expected
+        for name in usual:
+            assert {unit.selector for unit in nominal if unit.contender == name} == set(sets or known_sets())
+
+
+def known_sets() -> list[str]:
+    """Those of arms."""
+    return tasks.start_set_names(arm=True)
 
 
 def test_named_variations_are_run_and_no_others():
