@@ -1,5 +1,5 @@
-"""The promise of growing: one file adds a regulator, representation, Jacobian, inverse, impedance, baseline, metric, task,
-arm, start set of the free body or of arms, perturbation, experiment, claim, or page; a metric or task of contact too."""
+"""The promise of growing: one file adds a regulator, representation, Jacobian, inverse, impedance, baseline, metric,
+task, arm, start set, perturbation, experiment, claim, or page; a metric or task of contact too, and starts of arms."""
 
 import json
 import os

@@ -18,6 +18,7 @@ from bench.running import run
 from bench.tables import read, store
 from bench.tables.schema import RESULTS
 from report.figures.arms import (
+    arm_advice,
     arm_outcomes,
     arm_pole,
     arm_ranking,
@@ -147,3 +148,13 @@ def test_baselines_are_ranked_beside_the_laws_and_win_nothing():
     assert [cells[0] for cells in found] == ["Resolved rate", "(2.2) MRP"]
     assert not any("**" in cell for cell in found[0])
     assert found[1][3] == "**25 (11 to 47)**"
+
+
+def test_inverses_that_are_not_told_apart_tie():
+    rows = pd.concat(
+        rows_of({"rotation-matrix": count}, way=f"rotation-matrix@geometric+{inverse}")
+        for inverse, count in (("standard", 10), ("damped-least-squares", 12), ("transpose", 1))
+    )
+    said = arm_advice.inverses(rows)
+    assert "“damped least squares”, “inverse, or pseudo-inverse” tie, at up to 60 % (" in said
+    assert "leads: 50 % (" in arm_advice.inverses(rows[~rows["way"].str.endswith("squares")])

@@ -47,7 +47,8 @@ def inverses(rows: pd.DataFrame) -> str:
     own = rows[(rows["start_set"] == "uniform") & (rows["controller"] == arm_rows.ON_MATRIX)]
     if own["way"].nunique() < FEWEST:
         return f"Which inverse is best is {ABSENT}."
-    first, *tied = best(own, "range", "way")
-    share = arm_ranking.told(own.assign(controller=own["way"]), first, "range")
-    others = f"; {', '.join(map(in_words, tied))} not told apart from it" if tied else ""
-    return f"Of the inverses, all with the rotation matrix, “{in_words(first)}” passes most: {share}{others}."
+    names = best(own, "range", "way")
+    share = arm_ranking.told(own.assign(controller=own["way"]), names[0], "range")
+    led = ", ".join(f"“{in_words(name)}”" for name in names)
+    how = f"tie, at up to {share}" if len(names) > 1 else f"leads: {share}"
+    return f"Of the inverses, all with the rotation matrix, {led} {how}."
