@@ -145,6 +145,12 @@ def start_set_size(name: str, arm: bool = False) -> int:
     return _find_set(name, arm).size
 
 
+def knows_joints(name: str) -> bool:
+    """Whether the starts of a set of arms say at which joint angles the tool is at its goal."""
+    chosen = _find_set(name, True)
+    return isinstance(chosen, ArmStartSet) and chosen.knows_joints
+
+
 def start_set(name: str, count: int | None = None, seed: int = 0, arm: str = "") -> list[Start]:
     """The starts of a set, always the same ones in the same order.
 

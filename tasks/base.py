@@ -34,6 +34,8 @@ class Start(NamedTuple):
     goal_wxyz: Quat = IDENTITY  # desired orientation: unit quaternion, desired body to base
     q: tuple[float, ...] = ()  # joint angles [rad]
     qdot: tuple[float, ...] = ()  # joint rates [rad/s]
+    goal_p: tuple[float, ...] = ()  # where the tool shall be [m]; empty: where it starts
+    goal_q: tuple[float, ...] = ()  # joint angles at which it is at its goal [rad]; empty: none that the set knows
 
 
 class StartSet(NamedTuple):
@@ -54,6 +56,7 @@ class ArmStartSet(NamedTuple):
     title: str
     size: int  # number of starts by default; an arm that cannot do so many has fewer
     build: Callable[[Arm, int, int], list[Start]]  # build(arm, count, seed); may return more than count
+    knows_joints: bool = False  # whether its starts have a goal_q
 
 
 class Task(NamedTuple):

@@ -72,6 +72,14 @@ class Kinematics:
         s = np.linalg.svd(self.jacobian(q), compute_uv=False)
         return float(s[0] / s[-1]) if s[-1] > 0.0 else math.inf
 
+    def inertia_matrix(self, q: Sequence[float] | np.ndarray) -> np.ndarray:
+        """D, n x n [kg m^2]."""
+        self._data.qpos[:], self._data.qvel[:] = q, 0.0
+        mujoco.mj_forward(self.model, self._data)
+        D = np.zeros((self.model.nv, self.model.nv))
+        mujoco.mj_fullM(self.model, self._data, D)
+        return D
+
     def into_range(self, q: Sequence[float] | np.ndarray) -> np.ndarray:
         """The same pose with every joint, by whole turns, as near as can be to the middle of its range, or to 0."""
         ranges = zip(self.arm.lower, self.arm.upper, strict=True)
@@ -149,8 +157,9 @@ class Kinematics:
         q: Sequence[float] | np.ndarray,
         goal: Quat,
         qdot: Sequence[float] | np.ndarray | None = None,
+        **more: tuple[float, ...],
     ) -> Start:
-        """A start at these joint angles, its orientation and angular velocity being MuJoCo's."""
+        """A start at these joint angles, its orientation and angular velocity being MuJoCo's; more: of its fields."""
         angles = tuple(map(float, q))
         rates = tuple(map(float, qdot)) if qdot is not None else (0.0,) * len(angles)
         _, quat = self.pose(angles)
@@ -160,7 +169,7 @@ class Kinematics:
             mujoco.mj_forward(self.model, self._data)
             x, y, z = self._data.sensordata[9:12].tolist()
             omega = (x, y, z)
-        return Start(name, quat, omega, goal, angles, rates)
+        return Start(name, quat, omega, goal, angles, rates, **more)
 
     def _error(self, q: np.ndarray, p: np.ndarray, quat: Quat) -> np.ndarray:
         """(p_d - p, log(R_d R^T)) [m, rad]."""

@@ -9,6 +9,7 @@ import tasks
 from bench.cli import options
 from bench.cli.screen import Frame, console, word_table
 from bench.contenders.registry import (
+    baselines_of_arms,
     known_impedances,
     known_inverses,
     known_jacobians,
@@ -77,6 +78,11 @@ def _representations(_):
 @kind("jacobians", "Jacobians", "name", "takes", "title", "source")
 def _jacobians(_):
     return ((one.name, one.takes.replace("-", " "), one.title, one.source) for one in known_jacobians().values())
+
+
+@kind("baselines", "Baselines of arms, which are no laws", "name", "title", "source")
+def _baselines(_):
+    return ((name, one.regulator.title, one.regulator.source) for name, one in baselines_of_arms().items())
 
 
 SHAPES = ((6, 6), (6, 7), (7, 6), (7, 7))

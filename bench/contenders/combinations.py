@@ -5,7 +5,7 @@ A combination is written `law@jacobian+inverse`; the inverse "standard" is the f
 
 from collections.abc import Iterable
 
-from bench.contenders.registry import inverse, jacobian, known_inverses, known_jacobians
+from bench.contenders.registry import baselines_of_arms, inverse, jacobian, known_inverses, known_jacobians
 from bench.law.contender import Contender, refusal
 
 STANDARD = ("solve", "pseudo-inverse", "truncated-svd")
@@ -20,10 +20,18 @@ def on(words: tuple[str, ...], laws: dict[str, Contender], joints: int) -> list[
     """The contenders of the words that fit on so many joints, each once.
 
     Args:
-        laws: by name, the laws there are; a word of another one is left out.
+        laws: by name, the laws there are; a word of another one is left out. Of a baseline on the joints the word is
+            its name.
     """
     found = (_of_word(word, laws, joints) for word in words)
     return list(dict.fromkeys(one for one in found if one is not None))
+
+
+def baselines(joints: int) -> list[Contender]:
+    """Every baseline on so many joints, by the geometric Jacobian and the standard inverse unless it brings its own."""
+    found = baselines_of_arms()
+    words = (name if one.jacobian else f"{name}@geometric+standard" for name, one in found.items())
+    return on(tuple(words), found, joints)
 
 
 def _of_word(word: str, laws: dict[str, Contender], joints: int) -> Contender | None:
@@ -36,6 +44,8 @@ def _of_word(word: str, laws: dict[str, Contender], joints: int) -> Contender | 
     jacobian_word, _, inverse_word = way.partition("+")
     if law not in laws:
         return None
+    if not way:
+        return laws[law]
     by = laws[law]._replace(jacobian=jacobian(jacobian_word))
     inverses = STANDARD if inverse_word == "standard" else (inverse_word,)
     fitting = (by._replace(inverse=inverse(word)) for word in inverses)

@@ -9,7 +9,7 @@ import importlib
 import pkgutil
 from typing import Any
 
-from bench.contenders import impedances, inverses, jacobians, regulators, representations
+from bench.contenders import baselines, impedances, inverses, jacobians, regulators, representations
 from bench.errors import BadLaw, Incompatible, UnknownWord
 from bench.law.contender import ON_MATRIX, Contender, Regulator, Representation, contender
 from bench.law.impedance import Impedance
@@ -41,6 +41,7 @@ FOLDERS = {
     "Jacobian": (jacobians, Jacobian),
     "inverse": (inverses, Inverse),
     "impedance": (impedances, Impedance),
+    "baseline": (baselines, Regulator),
 }
 """What is found in a folder of bench/contenders: constants of one type, named as their kind."""
 
@@ -57,6 +58,11 @@ known_representations = functools.partial(known, "representation")
 known_jacobians = functools.partial(known, "Jacobian")
 known_inverses = functools.partial(known, "inverse")
 known_impedances = functools.partial(known, "impedance")
+
+
+def baselines_of_arms() -> dict[str, Contender]:
+    """Word -> the controllers of arms that laws are compared with; an orientation alone they do not regulate."""
+    return {name: Contender(one, None, *one.through) for name, one in known("baseline").items()}
 
 
 def contenders_of(regulator: Regulator) -> list[Contender]:
@@ -122,6 +128,8 @@ def find_contender(word: str, extra: tuple[Regulator, ...] = ()) -> Contender:
     """
     law, _, way = word.partition("@")
     name, _, coordinates = law.partition("/")
+    if name in baselines_of_arms():
+        return _by_way(baselines_of_arms()[name], way)
     chosen = regulator(name, extra)
     several = contenders_of(chosen)
     if coordinates:
@@ -131,7 +139,11 @@ def find_contender(word: str, extra: tuple[Regulator, ...] = ()) -> Contender:
     else:
         choices = ", ".join(each.name for each in several)
         raise Incompatible(f"regulator '{name}' acts on several coordinates; name one: {choices}")
-    if not way:
+    return _by_way(one, way)
+
+
+def _by_way(one: Contender, way: str) -> Contender:
+    if one.regulator.through or not way:
         return one
     by, _, through = way.partition("+")
     return one._replace(jacobian=jacobian(by), inverse=inverse(through))

@@ -32,12 +32,18 @@ def hold(p, p_d, pdot, gains):
     return spring_damper(gains.kp, minus(p_d, p), gains.kv, pdot)
 
 
+BY_JOINT = 2
+"""What an inverse gives, as a number for a compiled loop: accelerations are 0, torques 1, torques of a baseline on the
+joints 2. That one finds in `a` what the joints are off their goal, and on J's diagonal their inertia."""
+
+
 class Parts(NamedTuple):
     """The functions a controller is made of; counting puts its own in their place, which know their stage.
 
     command: law(R, omega, goal, gains, memory) -> (u, memory), or on an analytic Jacobian the coordinate law.
     fill: the Jacobian's. convert: its `express` (2.2) or its `drift` (3.7).
     coordinates: those that an analytic Jacobian is of; report: their `accelerate`, called for the record only.
+    assemble: of a baseline, in place of all of them.
     """
 
     command: Callable
@@ -48,6 +54,7 @@ class Parts(NamedTuple):
     twist: Callable = twist
     bias_acceleration: Callable = bias_acceleration
     hold: Callable = hold
+    assemble: Callable | None = None
 
 
 def parts_of(contender: Contender, command: Callable) -> Parts:
@@ -57,17 +64,20 @@ def parts_of(contender: Contender, command: Callable) -> Parts:
         command: its law in the form `Parts.command` says.
     """
     jacobian, representation = contender.jacobian, contender.representation
+    baseline = contender.regulator.assemble
     if jacobian is None:
         raise Incompatible(f"'{contender.name}' names no Jacobian; on an arm it is {contender.name}@geometric+solve")
     if jacobian.takes == "coordinates" and representation is not None:
         fill, drift = jacobian.kernels_in(representation)
         return Parts(command, fill, drift, representation, representation.accelerate)
     fill, express = jacobian.kernels_in(None)
-    return Parts(command, fill, express)
+    return Parts(command, fill, express, assemble=baseline)
 
 
 def assembly(parts: Parts) -> Callable:
     """The first half of the controller; with coordinates among its parts that of (3.7), else that of (2.2)."""
+    if parts.assemble is not None:
+        return parts.assemble
     return _on_geometric(parts) if parts.coordinates is None else _on_analytic(parts, parts.coordinates)
 
 
@@ -174,14 +184,17 @@ def control(assemble, resolve, gives_torque, rows, chain, D, fg, goal, p_d, gain
     """One tick of a controller: tau into the buffers; returns u, the commanded angular acceleration, and the memory.
 
     D (n x n) is the inertia matrix [kg m^2]; fg (n) the torques of gravity, Coriolis and friction [N m]. rows and
-    gives_torque (0 or 1) are those of the Jacobian and the inverse.
+    gives_torque (0, 1, or BY_JOINT) are those of the Jacobian and the inverse.
     """
     J, a, x = buffers.J, buffers.a, buffers.x
     u, memory = assemble(chain, goal, p_d, gains, memory, J, a)
-    if chain.n > 6:
+    if chain.n > 6 and gives_torque < BY_JOINT:
         relax(J, a, chain, gains, rows, x)
     resolve(J, a, D, x, rows, chain.n, buffers.scratch)
-    if gives_torque > 0:
+    if gives_torque == BY_JOINT:
+        for i in range(chain.n):
+            buffers.tau[i] = x[i] + fg[i]
+    elif gives_torque > 0:
         push_joints(D, x, chain, gains, fg, buffers.tau)
     else:
         if chain.n > 6:

@@ -110,6 +110,8 @@ def _command(contender: Contender, tally: Tally | None):
     """The law as `resolved_acceleration.Parts` takes it; staged if there is a tally."""
     if contender.jacobian is not None and contender.jacobian.takes == "coordinates":
         return contender.coordinate_law
+    if contender.regulator.through:
+        return None
     law = contender.law if tally is None else law_of(contender, tally)
     if contender.regulator.memory is not None:
         return law
@@ -126,6 +128,7 @@ def _staged_parts(contender: Contender, tally: Tally) -> Parts:
         "bias_acceleration": "linearize",
         "hold": "regulate",
         "report": UNSEEN,
+        "assemble": "regulate",
     }
     fields = {
         name: in_stage(tally, stage, function) for name, stage in stages.items() if (function := getattr(parts, name))

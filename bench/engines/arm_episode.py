@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from bench.contenders.jacobians.geometric import fill
-from bench.control.resolved_acceleration import Buffers
+from bench.control.resolved_acceleration import BY_JOINT, Buffers
 from bench.engines.episode import blank
 from bench.law.contender import Contender
 from bench.law.linalg import determinant, gram
@@ -17,6 +17,7 @@ from bench.law.resolved_motion import Scratch
 from bench.law.scalar import kernel
 from bench.law.so3 import Rotation
 from tasks.arm_model import Arm
+from tasks.kinematics import kinematics
 
 MOST = 7
 """The most joints an arm may have: the size of buffers and of a row's pose."""
@@ -56,11 +57,16 @@ class ArmSample(NamedTuple):
     rated: tuple
 
 
+GIVES = {"acceleration": 0, "torque": 1, "joint-torque": BY_JOINT}
+STANDING = 2
+
+
 class Controls(NamedTuple):
     """A contender and the judge's rule, as numbers for a loop.
 
-    rows of the Jacobian; gives_torque (0 or 1) by the inverse; has_own_model (0 or 1): the controller's model is not
-    the plant.
+    rows of the Jacobian; gives_torque by the inverse (`resolved_acceleration.BY_JOINT`); has_own_model: 0 if the
+    controller's model is the plant, 1 if it is another in the plant's state, STANDING if its joints stand still there,
+    so that its torques are gravity's alone.
     """
 
     rows: int
@@ -70,17 +76,28 @@ class Controls(NamedTuple):
 
 
 class Joints(NamedTuple):
-    """Of each joint its range [rad] and its motor's rated torque [N m], as `ArmSample` has them."""
+    """Of each joint its range [rad] and its motor's rated torque [N m], as `ArmSample` has them, and its inertia.
+
+    inertia: the joint's element on D's diagonal at home [kg m^2], filled up with zeros.
+    """
 
     lower: tuple
     upper: tuple
     rated: tuple
+    inertia: tuple
 
 
 def controls(contender: Contender, has_own_model: bool, torque_limit: float) -> Controls:
     """The numbers of a contender on an arm."""
-    gives_torque = contender.inverse is not None and contender.inverse.gives == "torque"
-    return Controls(contender.rows, int(gives_torque), int(has_own_model), torque_limit**2)
+    gives = GIVES[contender.inverse.gives] if contender.inverse else 0
+    return Controls(contender.rows, gives, STANDING if gives == BY_JOINT else int(has_own_model), torque_limit**2)
+
+
+def states(starts, n: int) -> np.ndarray:
+    """Of each start q and qdot, then where the joints and the tool shall be: no numbers where it does not say."""
+    unknown = (math.nan,) * n
+    rows = [(*one.q, *one.qdot, *(one.goal_q or unknown), *(one.goal_p or unknown[:3])) for one in starts]
+    return np.array(rows, dtype=float).reshape(len(rows), 3 * n + 3)
 
 
 def joints(arm: Arm) -> Joints:
@@ -90,6 +107,7 @@ def joints(arm: Arm) -> Joints:
         (*map(float, arm.lower), *[-math.inf] * missing),
         (*map(float, arm.upper), *[math.inf] * missing),
         (*map(float, arm.rated), *[1.0] * missing),
+        (*kinematics(arm).inertia_matrix(arm.home).diagonal().tolist(), *[0.0] * missing),
     )
 
 
@@ -105,6 +123,16 @@ def blank_arm(count: int, metrics) -> np.ndarray:
     poses = np.full((count, -POSE), np.nan)
     poses[:, 0] = np.inf
     return np.hstack((blank(count, metrics), poses))
+
+
+@kernel
+def face_joints(J, a, q, q_d, inertia, n):
+    """What a baseline on the joints finds: a = q_d - q, and J = diag(inertia)."""
+    for i in range(n):
+        a[i] = q_d[i] - q[i]
+        for j in range(n):
+            J[i, j] = 0.0
+        J[i, i] = inertia[i]
 
 
 @kernel

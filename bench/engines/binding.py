@@ -24,6 +24,8 @@ def command_of(contender: Contender):
     """
     if _takes_coordinates(contender):
         return _coordinate_command_of(contender)
+    if contender.regulator.through:
+        return None  # a baseline on the joints has no law of an orientation
     law = contender.law
     if contender.regulator.memory is not None:
         return _guarded_memory(law) if contender.regulator.origin else law

@@ -8,7 +8,7 @@ import numpy as np
 
 import tasks
 from bench.control.resolved_acceleration import assembly
-from bench.engines.arm_episode import blank_arm, controls, joints
+from bench.engines.arm_episode import STANDING, blank_arm, controls, joints, states
 from bench.engines.binding import margin_of, memory_of, observer, parts_for
 from bench.engines.compiled import compile_function, made_once, own_law
 from bench.engines.curve import Curves, blank_curves
@@ -63,7 +63,8 @@ def run(
         bands = start_rows(starts)[:, 11]
         return reference.run(contender, task, arm, starts, bands, settings, metrics, integrator, variation)
     rows = blank_arm(len(starts), metrics)
-    ready = simulation(task, arm, settings.dt_s, integrator, variation)
+    has_one_at_rest = controls(contender, False, 1.0).has_own_model == STANDING
+    ready = simulation(task, arm, settings.dt_s, integrator, variation, has_one_at_rest)
     compiled_loop(tuple(metrics))(
         *pointers(contender),
         ready.plant,
@@ -72,7 +73,7 @@ def run(
         controls(contender, ready.has_own_model, settings.torque_limit),
         joints(tasks.arm(arm)),
         memory_of(contender),
-        np.array([[*start.q, *start.qdot] for start in starts], dtype=float),
+        states(starts, tasks.arm(arm).joints),
         start_rows(starts),
         numbers(settings),
         rows,
@@ -81,9 +82,11 @@ def run(
     return rows
 
 
-def simulation(task: str, arm: str, dt_s: float, integrator: str, variation: str = NOMINAL) -> Simulation:
-    """The models of one arm."""
-    names = dict.fromkeys((variation, NOMINAL))
+def simulation(
+    task: str, arm: str, dt_s: float, integrator: str, variation: str = NOMINAL, has_own_model: bool = False
+) -> Simulation:
+    """The models of one arm: the plant, and the controller's if it is another one or has_own_model."""
+    names = (variation, NOMINAL) if has_own_model or variation != NOMINAL else (NOMINAL,)
     models = [_model(task, tasks.arm(arm), dt_s, integrator, name) for name in names]
     datas = [mujoco.MjData(model) for model in models]
     views = [native.view(model, data) for model, data in zip(models, datas, strict=True)]

@@ -12,7 +12,7 @@ from bench.errors import Incompatible
 from bench.experiments.choice import Choice
 from bench.experiments.episodes import Place, cut, lost, narrowed, prepare, runs_on, starts_of, tasks_of
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit
-from bench.experiments.suites import AT_INVERSES, NOMINAL, OnArms, Slice
+from bench.experiments.suites import DIRECTED_AT_INVERSES, NOMINAL, OnArms, Slice
 from bench.law.contender import Contender
 from bench.tables.schema import TABLES
 from tasks.base import Start
@@ -54,14 +54,20 @@ def _on_arm(on_arms: OnArms, laws, joints: int, choice: Choice) -> Iterator[tupl
     by_name = {one.name: one for one in laws}
     slices = narrowed(on_arms.slices, choice)
     variations = choice.variations or (NOMINAL,)
-    several = combinations.on(tuple(word for word in on_arms.words if word not in on_arms.few), by_name, joints)
-    few = () if choice.start_sets else set(combinations.on(on_arms.few, by_name, joints)) - set(several)
-    for one in combinations.chosen(on_arms.words, by_name, joints, choice.jacobians, choice.inverses):
+    is_by_suite = not (choice.variations or choice.jacobians or choice.inverses)
+    few: set[Contender] = set()
+    if is_by_suite and not choice.narrows:
+        usual = tuple(word for word in on_arms.words if word not in on_arms.few)  # on seven joints some are the same
+        few = {*combinations.on(on_arms.few, by_name, joints)} - {*combinations.on(usual, by_name, joints)}
+    every = combinations.chosen(on_arms.words, by_name, joints, choice.jacobians, choice.inverses)
+    if is_by_suite and not choice.is_of_some_laws:
+        every += combinations.baselines(joints)
+    for one in every:
         for part in slices:
-            if one not in few or part.start_set in AT_INVERSES:
-                for variation in variations:
-                    yield part, one, variation
-    if on_arms.varied and not (choice.narrows or choice.variations or choice.jacobians or choice.inverses):
+            knows = one.regulator.assemble is None or tasks.knows_joints(part.start_set)
+            for variation in variations if knows and (one not in few or part.start_set in DIRECTED_AT_INVERSES) else ():
+                yield part, one, variation
+    if on_arms.varied and is_by_suite and not choice.narrows:
         for one in combinations.on(on_arms.varied, by_name, joints):
             for part in on_arms.varied_slices:
                 for variation in tasks.variation_names():

@@ -33,7 +33,8 @@ BEST = tuple(
     f"{law}@geometric+standard"
     for law in ("hybrid", "late-braking", "mrp-linearized", "quaternion-shortest", "mrp", "rotation-vector")
 )
-"""The six best of the later laws, the best first, as `selection.best` finds them in the results on the free body."""
+"""The later laws that run on arms: those that no noise holds at a half turn, and of the simplest others three whose
+springs differ. Whatever law is advised is among them (a test)."""
 ANALYTIC = tuple(f"feedback-linearized/{word}@analytic+standard" for word in IN_COORDINATES)
 RESOLVED = "rotation-matrix@geometric"
 BOUNDED = ("damped-least-squares", "damped-least-squares-variable", "truncated-svd", "dynamically-consistent")
@@ -45,14 +46,11 @@ TWINS = (
     "rotation-matrix@geometric-body+standard",
     "feedback-linearized/zyx-euler@analytic-differentiated+standard",
 )
-"""What ought to equal another contender: the same command by another Jacobian. So would each feedback-linearized law
-by the geometric Jacobian, whose equality is tested and which `full` runs."""
+"""What ought to equal another contender: the same command by another Jacobian."""
 
-AT_INVERSES = ("wrist", "uniform")
-"""Start sets on which inverses are told apart, and twins looked at: beside the arm's own singularities and anywhere."""
+DIRECTED_AT_INVERSES = ("wrist", "uniform")  # elsewhere every inverse gives the same motion
 
-VARIED = (LAWS[0], LAWS[3], ANALYTIC[0])
-"""The law on R, and feedback linearization by both Jacobians: the error that a wrong model leaves is the model's."""
+VARIED = (LAWS[0], LAWS[3], ANALYTIC[0])  # they settle every clear start of a perfect model
 
 
 class Slice(NamedTuple):
@@ -68,16 +66,16 @@ class OnArms(NamedTuple):
     """The part of a suite that runs on every arm.
 
     words: contenders as `combinations` writes them; none at all: every compatible combination. few: those of them that
-    run from AT_INVERSES alone, unless start sets are named. varied: the contenders of the study of model errors, which
-    runs over all variations of the plant. traced: starts of `clear` and `pole`
-    whose episodes are kept as curves. poses: how many an arm's Jacobians are looked at, beside the directed ones.
+    run from DIRECTED_AT_INVERSES alone. varied: the contenders of the study of model errors, which runs over all
+    variations of the plant. traced: starts of `clear` and `pole` whose episodes are kept as curves. poses: how many an
+    arm's Jacobians are looked at, beside the directed ones.
     """
 
     words: tuple[str, ...]
     slices: tuple[Slice, ...]
-    few: tuple[str, ...] = ()
     varied: tuple[str, ...] = ()
     varied_slices: tuple[Slice, ...] = ()
+    few: tuple[str, ...] = ()
     traced: int = 0
     poses: int = 0
 
@@ -126,7 +124,6 @@ class Suite(NamedTuple):
 
 DIRECTED = ("box", "goals", "half-turn", "paper", "poles", "tumbling", "wraps")
 HORIZON = {"half-turn": LONG, "poles": LONG, "wraps": LONG}
-
 
 COMPLIANT = (
     "hybrid-base+transpose",
@@ -185,9 +182,9 @@ SUITES = {
             boundary_axes=64,
             on_arms=OnArms(
                 (*LAWS, *ANALYTIC, *BEST[:2]),
-                _on_arms(clear=4, wrist=4, pole=4, half_turn=4, uniform=4, tumbling=4),
-                varied=(LAWS[0], ANALYTIC[0]),
-                varied_slices=(Slice("native", "clear", 2, VARIED_S),),
+                _on_arms(clear=4, wrist=4, pole=4, half_turn=4, uniform=4, tumbling=4, reach=4),
+                (LAWS[0], ANALYTIC[0]),
+                (Slice("native", "clear", 2, VARIED_S),),
                 traced=1,
                 poses=200,
             ),
@@ -207,10 +204,10 @@ SUITES = {
             boundary_axes=128,
             on_arms=OnArms(
                 (*LAWS, *ANALYTIC, *TWINS, *INVERSES, *BEST),
-                _on_arms(clear=12, wrist=20, pole=32, half_turn=12, uniform=32, tumbling=12),
-                few=(*TWINS, *INVERSES),
-                varied=VARIED,
-                varied_slices=(Slice("native", "clear", 4, VARIED_S),),
+                _on_arms(clear=12, wrist=20, pole=32, half_turn=12, uniform=32, tumbling=12, reach=12),
+                VARIED,
+                (Slice("native", "clear", 4, VARIED_S),),
+                (*TWINS, *INVERSES),
                 traced=1,
                 poses=1000,
             ),
@@ -230,9 +227,9 @@ SUITES = {
             boundary_axes=1024,
             on_arms=OnArms(
                 (),
-                _on_arms(clear=None, wrist=None, pole=None, half_turn=None, uniform=None, tumbling=None),
-                varied=VARIED,
-                varied_slices=(Slice("native", "clear", None, ON_ARM),),
+                _on_arms(clear=None, wrist=None, pole=None, half_turn=None, uniform=None, tumbling=None, reach=None),
+                VARIED,
+                (Slice("native", "clear", None, ON_ARM),),
                 traced=4,
                 poses=1000,
             ),

@@ -70,7 +70,9 @@ def units(asked: Asked) -> tuple[Unit, ...]:
     """
     if asked.choice.narrows:
         return ()
-    on_arms = dict.fromkeys((unit.contender, unit.task, unit.arm) for unit in arm.units(asked))
+    on_arms = dict.fromkeys(
+        (unit.contender, unit.task, unit.arm) for unit in arm.units(asked) if unit.selector in ARM_SETS
+    )
     several, few = asked.suite.traces, asked.suite.on_arms.traced
     found = [of_law(one, several) for one in laws(asked) if several] + [of_arm(*one, few) for one in on_arms if few]
     return own_last(found, asked.own)

@@ -15,6 +15,12 @@ FOLLOWED_RAD = math.radians(3.0)
 
 
 @functools.cache
+def perturbations() -> tuple[str, ...]:
+    """Axes that perturb; one that sets the gains alone, so that peak commands are equal, does not."""
+    return tuple(name for name in tasks.axis_names() if not tasks.axis(name).at(1.0).peak)
+
+
+@functools.cache
 def lasting() -> tuple[str, ...]:
     """Perturbations that last."""
     every = map(tasks.axis, tasks.axis_names())

@@ -12,6 +12,7 @@ import pandas as pd
 import tasks
 from bench.contenders.registry import known_regulators
 from bench.findings.judgement import Said
+from bench.findings.perturbed import perturbations
 from bench.findings.selection.needs import CHATTER
 from bench.tables.statistics import quantile
 
@@ -126,6 +127,7 @@ def perturbed(rows: pd.DataFrame) -> list[Said]:
     """Which perturbation breaks it first: the fewest levels from the nominal one, or the first."""
     if rows.empty:
         return []
+    rows = rows[rows["axis"].isin(perturbations())]
     shares = (rows["outcome"] == "settled").groupby([rows["axis"].astype(str), rows["level"]], sort=False).mean()
     names, broken = {name for name, _ in shares.index}, []
     for (name, level), share in shares[shares < WITHSTOOD].items():

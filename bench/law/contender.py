@@ -60,6 +60,8 @@ class Regulator(NamedTuple):
     margin: of a law on R that is singular somewhere: margin(R, R_d) in [0, 1], 0 exactly there; else None.
     coordinate_law_in: of a law that commands Eddot itself: coordinate_law_in(representation) returns
     law(chart, E_d, Edot, gains) -> u_E, what the controller on an analytic Jacobian needs (Murphy 1988, 3.7).
+    assemble: of a baseline (bench/contenders/baselines), assemble(chain, goal, p_d, gains, memory, J, a) -> (u, memory)
+    in place of (2.2) and (3.7). through: the Jacobian and the inverse of one that acts on the joints; else empty.
 
     What the book shows, all of it optional:
     short: what it is called beside a curve. look: how it is drawn. family: the title of those it is drawn with.
@@ -85,6 +87,8 @@ class Regulator(NamedTuple):
     stiffness: tuple[float, float, float] = (1.0, 1.0, 1.0)
     margin: Callable | None = None
     coordinate_law_in: Callable | None = None
+    assemble: Callable | None = None
+    through: tuple[Jacobian, Inverse] | tuple[()] = ()
     short: str = ""
     look: Look | None = None
     family: str = ""

@@ -56,7 +56,8 @@ class Inverse(NamedTuple):
 
     resolve(J, a, D, x, rows, n, scratch): from J (rows x n), a (rows) and the inertia matrix D (n x n) writes x (n).
     J, a and D are left as they are.
-    gives: "acceleration" if J x = a, up to the inverse's own error; "torque" if x is the torque for it.
+    gives: "acceleration" if J x = a, up to the inverse's own error; "torque" if x is the torque for it; "joint-torque"
+    of a baseline on the joints, if it is what gravity leaves to be added.
     refuses(rows, n) -> why it cannot be used with a Jacobian of that shape; empty if it can, as any can by default.
     """
 

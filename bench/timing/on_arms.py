@@ -10,7 +10,7 @@ import numpy as np
 import tasks
 from bench.contenders import combinations
 from bench.engines import run_arm
-from bench.engines.arm_episode import blank_arm, controls, joints
+from bench.engines.arm_episode import blank_arm, controls, joints, states
 from bench.engines.binding import memory_of
 from bench.engines.curve import blank_curves
 from bench.engines.episode import TICKS, numbers, start_rows
@@ -88,7 +88,7 @@ def _native(arm: str, one: Contender, start: Start, horizon_s: float, fewest: in
         controls(one, ready.has_own_model, settings.torque_limit),
         joints(tasks.arm(arm)),
         memory_of(one),
-        np.array([[*start.q, *start.qdot]]),
+        states([start], tasks.arm(arm).joints),
         start_rows([start]),
         numbers(settings),
         rows,

@@ -3,8 +3,8 @@
 Neither start nor goal nor the way between them keeps clear of anything: fractions that are counted here are of what
 an arm can be asked, not of what it does well. A joint's range is the file's, or one turn about its middle if it is
 wider or there is none. A goal is kept if the search finds joint angles, in range, at which the tool has the goal's
-orientation at the start's position; it starts from the start's own joints, from home, and from SEEDS more. A goal
-that no search found may still be reachable.
+orientation at the start's position; it starts from the start's own joints, from home, and from SEEDS more. The first
+that it finds are the goal's. A goal that no search found may still be reachable.
 """
 
 from __future__ import annotations
@@ -35,8 +35,9 @@ def build(arm: Arm, count: int, seed: int) -> list[Start]:
         points = halton(2 * (drawn + count), n + 3, seed)
         for point in points[drawn:]:
             q, goal = spread(arm, point[:n]), orientation(*point[n:])
-            if _is_reachable(model, q, goal, [q, np.array(arm.home), *seeds]):
-                starts.append(model.start(f"uniform-{len(starts):04d}", q, goal))
+            there = _reached(model, q, goal, [q, np.array(arm.home), *seeds])
+            if there:
+                starts.append(model.start(f"uniform-{len(starts):04d}", q, goal, goal_q=there))
                 if len(starts) == count:
                     break
         drawn = len(points)
@@ -52,10 +53,12 @@ def spread(arm: Arm, point: list[float]) -> np.ndarray:
     return np.array(q)
 
 
-def _is_reachable(model: Kinematics, q: np.ndarray, goal: Quat, seeds: list[np.ndarray]) -> bool:
+def _reached(model: Kinematics, q: np.ndarray, goal: Quat, seeds: list[np.ndarray]) -> tuple[float, ...]:
+    """Joint angles of the goal, in range, by the first guess that leads to some; empty if none does."""
     p, _ = model.pose(q)
     found = (model.find(guess, p, goal) for guess in seeds)
-    return any(there is not None and model.within_range(model.into_range(there)) for there in found)
+    ends = (model.into_range(there) for there in found if there is not None)
+    return next((tuple(there.tolist()) for there in ends if model.within_range(there)), ())
 
 
-STARTS = ArmStartSet("uniform", "Joint angles and goals spread evenly, if the goal can be reached", SIZE, build)
+STARTS = ArmStartSet("uniform", "Joint angles and goals spread evenly, if the goal can be reached", SIZE, build, True)

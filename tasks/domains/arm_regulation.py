@@ -1,10 +1,11 @@
-"""An arm that shall hold its tool's position and turn it to the goal (Murphy 1988, 2.1 to 2.3 and 3.7).
+"""An arm that shall turn its tool to the goal and hold its position, or move it (Murphy 1988, 2.1 to 2.3 and 3.7).
 
     D(q) qddot + fg(q, qdot) = tau,   xdot = J(q) qdot
 
 The command is the motors' torques tau [N m], in joint order. The plant has gravity; it has no contact, no joint
 limits and no torque limits, so that an arm that is driven out of its range shows it in the results and nowhere
-else. The tool is the site `tool` of the arm's file; the position to hold is the one at the start.
+else. The tool is the site `tool` of the arm's file; its position shall stay the one at the start unless the start says
+another.
 
 The state: qpos are the joint angles [rad], qvel the joint rates [rad/s].
 """
@@ -18,7 +19,7 @@ from tasks.base import ArmTask, Start, Task
 
 NAME = "arm-regulation"
 TITLE = "Hold the tool's position, turn it to the goal"
-START_SETS = ("clear", "wrist", "pole", "half-turn", "uniform", "tumbling")
+START_SETS = ("clear", "wrist", "pole", "half-turn", "uniform", "tumbling", "reach")
 
 
 def state(start: Start) -> tuple[tuple[float, ...], tuple[float, ...]]:

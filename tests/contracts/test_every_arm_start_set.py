@@ -81,12 +81,12 @@ def in_range(arm, path, margin=0.0):
 def test_sets_are_those_of_the_task():
     for arm in ARMS:
         assert set(tasks.task("arm-regulation", arm).start_sets) == set(SETS)
-    assert set(SETS) == {"clear", "wrist", "pole", "half-turn", "uniform", "tumbling"}
+    assert set(SETS) == {"clear", "wrist", "pole", "half-turn", "uniform", "tumbling", "reach"}
 
 
 @every_set_on_every_arm
 def test_set_has_its_number_of_starts_on_the_arms_we_ship(arm, name):
-    sizes = {"clear": 32, "wrist": 24, "pole": 32, "half-turn": 24, "uniform": 200, "tumbling": 24}
+    sizes = {"clear": 32, "wrist": 24, "pole": 32, "half-turn": 24, "uniform": 200, "tumbling": 24, "reach": 24}
     assert len(tasks.start_set(name, arm=arm)) == sizes[name]
 
 

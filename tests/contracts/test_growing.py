@@ -1,5 +1,5 @@
-"""The promise of growing: one file adds a regulator, representation, Jacobian, inverse, impedance, metric, task, arm,
-start set of the free body or of arms, perturbation, experiment, claim, or page; a metric or task of contact too."""
+"""The promise of growing: one file adds a regulator, representation, Jacobian, inverse, impedance, baseline, metric,
+task, arm, start set, perturbation, experiment, claim, or page; a metric or task of contact too, and starts of arms."""
 
 import json
 import os
@@ -76,6 +76,7 @@ LISTED = {
     "jacobians": "dropped-jacobian",
     "inverses": "dropped-inverse",
     "impedances": "dropped-impedance",
+    "baselines": "dropped-baseline",
     "metrics of contact": "dropped_touch",
     "tasks in contact": "dropped-probe",
     "arms": "dropped-arm",
@@ -92,7 +93,7 @@ def tree(tmp_path_factory):
     ignored = shutil.ignore_patterns("__pycache__", "_build", "pages", "index.md")
     for room in ("bench", "tasks", "report"):
         shutil.copytree(ROOT / room, tree / room, ignore=ignored)
-    for name in known_regulators().keys() - {"rotation-matrix", "feedback-linearized"}:
+    for name in known_regulators().keys() - {"rotation-matrix", "feedback-linearized", "rotation-vector"}:
         (tree / "bench" / "contenders" / "regulators" / f"{name.replace('-', '_')}.py").unlink()
     (tree / "report" / "pages").mkdir()
     for name in ("pyproject.toml", "CITATION.cff", "report/pages/99-references.md"):

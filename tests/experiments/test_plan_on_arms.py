@@ -78,7 +78,8 @@ def test_arm_alone_is_the_suite_on_that_arm():
     plan = planning.make("default", laws, Choice(arms=("puma560",)))
     assert {unit.arm for unit in plan.units if unit.arm} == {"puma560"}
     nominal = {unit.contender for unit in plan.of("arm") if unit.variation == NOMINAL}
-    assert nominal == {one.name for one in combinations.on(SUITES["default"].on_arms.words, LAWS, 6)}
+    beside = combinations.baselines(6)
+    assert nominal == {one.name for one in (*combinations.on(SUITES["default"].on_arms.words, LAWS, 6), *beside)}
     assert {unit.selector for unit in plan.of("arm") if unit.variation == NOMINAL} == set(
         tasks.task("arm-regulation", "puma560").start_sets
     )
@@ -94,7 +95,41 @@ def test_full_suite_runs_every_compatible_combination():
     plan = planning.make("full", list(LAWS.values()), Choice(arms=ON_BOTH), count=1)
     for arm in ON_BOTH:
         planned = {unit.contender for unit in plan.of("arm") if unit.arm == arm and unit.variation == NOMINAL}
-        assert planned == {one.name for one in combinations.every(LAWS, tasks.arm(arm).joints)}
+        beside = combinations.baselines(tasks.arm(arm).joints)
+        assert planned == {one.name for one in (*combinations.every(LAWS, tasks.arm(arm).joints), *beside)}
+
+
+def test_baselines_are_run_where_the_goals_joints_are_known_and_no_law_is_named():
+    laws = list(LAWS.values())
+    plan = planning.make("default", laws, Choice(arms=("ur5e",)))
+    names = {one.name for one in combinations.baselines(6)}
+    assert {unit.selector for unit in plan.of("arm") if unit.contender in names} == {"reach", "uniform"}
+    for choice in (Choice(regulators=("hybrid",)), Choice(inverses=("solve",)), Choice(variations=("mass-1.30",))):
+        found = planning.make("default", [LAWS["hybrid"]], dataclasses.replace(choice, arms=("ur5e",))).of("arm")
+        assert found
+        assert names.isdisjoint(unit.contender for unit in found)
+
+
+@pytest.mark.parametrize("arm", ON_BOTH)
+def test_inverses_and_twins_are_run_where_they_differ_and_all_else_from_every_set(arm):
+    """On seven joints the pseudo-inverse is both the standard and one of the inverses."""
+    part, joints = SUITES["default"].on_arms, tasks.arm(arm).joints
+    usual = {
+        one.name for one in combinations.on(tuple(word for word in part.words if word not in part.few), LAWS, joints)
+    }
+    few = {one.name for one in combinations.on(part.few, LAWS, joints)} - usual
+    for sets, expected in (((), {"wrist", "uniform"}), (("clear",), {"clear"})):
+        plan = planning.make("default", list(LAWS.values()), Choice(arms=(arm,), start_sets=sets))
+        nominal = [unit for unit in plan.of("arm") if unit.variation == NOMINAL]
+        for name in few:
+            assert {unit.selector for unit in nominal if unit.contender == name} == expected
+        for name in usual:
+            assert {unit.selector for unit in nominal if unit.contender == name} == set(sets or known_sets())
+
+
+def known_sets() -> list[str]:
+    """Those of arms."""
+    return tasks.start_set_names(arm=True)
 
 
 def test_named_variations_are_run_and_no_others():

@@ -18,8 +18,10 @@ from bench.running import run
 from bench.tables import read, store
 from bench.tables.schema import RESULTS
 from report.figures.arms import (
+    arm_advice,
     arm_outcomes,
     arm_pole,
+    arm_ranking,
     arm_rows,
     arms,
     model_error,
@@ -111,7 +113,48 @@ def test_tables_of_what_there_is_have_a_row_each():
     tables, there = arms.tables(shown()), method.tables(run_in(RESULTS / "reference"))
     assert len(there["jacobians"].splitlines()) == 2 + 4
     assert all(f"`{name}`" in tables["tab_arms"] for name in ("jaco", "panda", "puma560", "ur5e"))
-    assert tables["tab_starts"].count("none") == 2
+    assert tables["tab_starts"].count("none") == 3
     assert "damped-least-squares" in there["inverses"]
-    lines = {key: len(tables[f"tab_{key}"].splitlines()) - 2 for key in ("settled", "causes", "wrist")}
-    assert lines == {"settled": CONTROLLERS, "causes": CONTROLLERS, "wrist": 2 * 2}
+    lines = {key: len(tables[f"tab_{key}"].splitlines()) - 2 for key in ("ranked", "settled", "causes", "wrist")}
+    assert lines == {"ranked": CONTROLLERS, "settled": CONTROLLERS, "causes": CONTROLLERS, "wrist": 2 * 2}
+
+
+def rows_of(passing: dict[str, int], of: int = 20, **columns) -> pd.DataFrame:
+    """Episodes from uniform starts of controllers, so many of which pass everything."""
+    usual = {"arm": ARM, "start_set": "uniform", "range_excess_rad": 0.0, "outcome": "settled"}
+    return pd.concat(
+        pd.DataFrame({"controller": f"{law}@geometric", "start_id": range(of), **usual}).assign(
+            peak_torque_ratio=[0.5 if i < count else 2.0 for i in range(of)], **columns
+        )
+        for law, count in passing.items()
+    )
+
+
+def test_lead_names_a_winner_only_where_one_is_told_apart():
+    winner = arm_ranking.leading(rows_of({"rotation-matrix": 15, "mrp": 8, "hybrid": 4}), "range")
+    assert winner.startswith("(2.2) Rotation matrix settles most: 75 % (")
+    assert winner.endswith("n = 20)")
+    tie = arm_ranking.leading(rows_of({"rotation-matrix": 15, "mrp": 12, "hybrid": 4}), "range")
+    assert tie.startswith("(2.2) Rotation matrix and (2.2) MRP tie, at up to 75 % (")
+    every = rows_of(dict.fromkeys(("rotation-matrix", "mrp", "hybrid", "late-braking", "rotation-vector"), 20))
+    assert arm_ranking.leading(every, "settled").startswith("5 laws tie, at up to 100 % (")
+
+
+def test_baselines_are_ranked_beside_the_laws_and_win_nothing():
+    baseline = {"regulator": "resolved-rate", "jacobian": "geometric", "way": "resolved-rate@geometric+standard"}
+    law = {"regulator": "mrp", "jacobian": "geometric", "way": "mrp@geometric+standard"}
+    rows = pd.concat([rows_of({"resolved-rate": 20}, **baseline), rows_of({"mrp": 5}, **law)])
+    found = list(arm_ranking.ranked(rows))
+    assert [cells[0] for cells in found] == ["Resolved rate", "(2.2) MRP"]
+    assert not any("**" in cell for cell in found[0])
+    assert found[1][3] == "**25 (11 to 47)**"
+
+
+def test_inverses_that_are_not_told_apart_tie():
+    rows = pd.concat(
+        rows_of({"rotation-matrix": count}, way=f"rotation-matrix@geometric+{inverse}")
+        for inverse, count in (("standard", 10), ("damped-least-squares", 12), ("transpose", 1))
+    )
+    said = arm_advice.inverses(rows)
+    assert "“damped least squares”, “inverse, or pseudo-inverse” tie, at up to 60 % (" in said
+    assert "leads: 50 % (" in arm_advice.inverses(rows[~rows["way"].str.endswith("squares")])

@@ -14,6 +14,7 @@ from bench.tables import read
 from bench.tables.schema import RESULTS
 from report.figures.comparison import cells, comparison, directed
 from report.figures.comparison.angle import lateness
+from report.figures.failures import failure_map
 from report.figures.kit import families
 from report.figures.kit.page import Run, run_in
 
@@ -110,15 +111,6 @@ def test_measured_times_are_within_a_tick_after_the_equations():
         assert late.max() < tick + 1e-3
 
 
-def test_law_that_is_first_most_often_is_first_where_it_is_alone():
-    made = [episode(law, start, time=time) for law, time in (("gibbs", 1.0), ("mrp", 2.0)) for start in "abc"]
-    made += [episode("gibbs", "d", "stuck"), episode("mrp", "d")]
-    usual = {"effort": 1.0, "tolerance": 0.02, "dt_s": 0.001}
-    one = cells.common(pd.DataFrame([row | usual for row in made]))
-    found = comparison.of_all(one, one)
-    assert (found["first"], found["first_share"]) == (families.word("gibbs"), "75.0")
-
-
 def test_page_is_whole():
     assert_is_whole(comparison, RUN)
 
@@ -140,7 +132,7 @@ def test_dead_points_are_where_the_laws_are_known_to_fail():
 
 def test_an_orientation_counts_once_whatever_the_sign_of_its_quaternion():
     turns = pd.DataFrame([(0.6, 0.8, 0.0, 0.0), (-0.6, -0.8, 0.0, 0.0)], columns=[f"quat_{one}" for one in "wxyz"])
-    assert len(directed.orientation(turns).drop_duplicates()) == 1
+    assert len(failure_map.orientation(turns).drop_duplicates()) == 1
 
 
 def test_negative_controls_fail_as_they_must():
@@ -163,4 +155,4 @@ class Unperturbed(Run):
 def test_page_says_so_where_there_are_no_rows_at_equal_peak():
     run = Unperturbed(RESULTS / "reference")
     assert comparison.tables(run)["at_peak"] is None
-    assert "peak_fastest" not in comparison.facts(run)
+    assert "peak_matrix" not in comparison.facts(run)

@@ -16,6 +16,7 @@ from bench.findings.theory import closed_form, robustness_theory
 from bench.law.equation import Equation
 from bench.running import run
 from bench.tables import read
+from report.figures.cards import regulators
 from report.figures.kit.page import run_in
 from report.figures.robustness import half_turn_noise, other_perturbations, robustness, rows, saturation
 from tasks.condition import NO_FEEDFORWARD, RATE, RATE_AND_ACCELERATION
@@ -124,6 +125,12 @@ def test_memory_ends_where_its_hysteresis_does():
     assert math.cos((math.pi + half_turn_noise.KEEPS["hybrid"]) / 2.0) == pytest.approx(-0.4)
     assert 1.0 + 2.0 * math.cos(math.pi + half_turn_noise.KEEPS["late-braking"]) == pytest.approx(0.0)
     assert math.tan((math.pi + half_turn_noise.KEEPS["mrp-linearized"]) / 4.0) ** 2 == pytest.approx(1.5)
+
+
+@pytest.mark.parametrize("law", ["hybrid", "late-braking"])
+def test_cards_of_laws_with_memory_say_how_far_they_keep_to_their_way(law):
+    _, fails = regulators.text_of(half_turn_noise.regulator_of(law))
+    assert f"{math.degrees(half_turn_noise.KEEPS[law]):.0f} degrees" in fails
 
 
 # ---------------------------------------------------------------------------------------------- pages, from a small run

@@ -166,7 +166,7 @@ def test_singularities_of_a_ur5e_are_where_one_of_three_factors_of_its_determina
         at = singularity_near(model, q)
         if at is not None:
             axes = model.jacobian(at.q)[3:].T
-            wrist = model.pose(at.q)[0] - 0.1 * axes[5]
+            wrist = model.pose(at.q)[0] - 0.0996 * axes[5]
             factors = abs(np.array((math.sin(at.q[2]), math.sin(at.q[4]), wrist @ np.cross(axes[1], axes[0]))))
             assert factors.min() < 1e-11
             seen.add(int(factors.argmin()))

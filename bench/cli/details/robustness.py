@@ -6,7 +6,7 @@ import pandas as pd
 
 import tasks
 from bench.cli.details.episodes import OF_STARTS, settled
-from bench.findings.perturbed import FOLLOWED_RAD, went_well
+from bench.findings.perturbed import FOLLOWED_RAD, perturbations, went_well
 from bench.tables import read as results
 
 WITHSTOOD = 95
@@ -62,7 +62,8 @@ def summary(rows):
 
 def least_shares(rows):
     """A row a law, a column a perturbation: the share [%] that went well at its worst level."""
-    named = results.with_contender(rows)
+    is_perturbed = rows["axis"].isin(perturbations())
+    named = results.with_contender(rows[is_perturbed] if is_perturbed.any() else rows)
     well, by = 100.0 * went_well(named), [named["contender"], named["axis"], named["level"]]
     shares = well.groupby(by, observed=True, sort=False).mean()
     return shares.groupby(level=[0, 1], observed=True, sort=False).min().unstack()

@@ -7,6 +7,7 @@ import pandas as pd
 from bench.cli.details.robustness import IS_WITHSTOOD, WITHSTOOD, least_shares
 from bench.cli.paragraphs import Paragraph, listed
 from bench.cli.screen import counted
+from bench.contenders.registry import known_regulators
 from bench.experiments.suites import NOMINAL
 from bench.findings.claims import Results
 
@@ -90,6 +91,8 @@ def _robustness(rows: pd.DataFrame) -> list[str]:
     if rows.empty:
         return []
     least = least_shares(rows) >= WITHSTOOD
+    meant = [law for law in least.index if not is_control(str(law))]  # a negative control withstands what it ignores
+    least = least.loc[meant or least.index]
     nobody = list(least.columns[~least.any()])
     most = least.sum(axis=1)
     if not most.any():
@@ -102,6 +105,12 @@ def _robustness(rows: pd.DataFrame) -> list[str]:
         f"{counted(least.shape[1], 'perturbation')} ({IS_WITHSTOOD})"
         f"{', the most' if len(most) > len(best) else ''}{none}."
     ]
+
+
+def is_control(law: str) -> bool:
+    """Whether it is a negative control of ours."""
+    one = known_regulators().get(law.partition("/")[0])
+    return one is not None and one.control
 
 
 def _lost(*tables: pd.DataFrame) -> list[str]:

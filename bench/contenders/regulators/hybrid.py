@@ -4,13 +4,13 @@ The error quaternion is followed from tick to tick, and its sign changed only wh
 -DELTA: near a half turn the law keeps to the way it has begun, so that no noise holds it there. No continuous law
 without memory can do it (Bhat & Bernstein 2000).
 
-Fails: nowhere known; within asin(DELTA) beyond a half turn it goes the longer way on.
+Fails: nowhere known; up to 2 asin(DELTA), 47 degrees, beyond a half turn it goes the longer way on.
 """
 
 from bench.law import CHORD, Look, Regulator, kernel, spring_damper, sqrt, turn_quaternion
 
 DELTA = 0.4
-"""Half the width of the hysteresis, in eta = cos(theta/2): 47 degrees beyond a half turn."""
+"""Half the width of the hysteresis, in eta = cos(theta/2)."""
 
 
 @kernel

@@ -11,14 +11,16 @@ import mujoco
 import numpy as np
 from numba import float64, int64, types
 
-from bench.control.resolved_acceleration import Buffers, control
+from bench.control.resolved_acceleration import BY_JOINT, Buffers, control
 from bench.engines.arm_episode import (
     MOST,
     PROBE_TICKS,
+    STANDING,
     ArmSample,
     Controls,
     Joints,
     buffers,
+    face_joints,
     load,
     probe,
     seven,
@@ -77,7 +79,7 @@ SCRATCH = types.NamedTuple((MATRIX, MATRIX, MATRIX, VECTOR, VECTOR), Scratch)
 ARM_VIEW = types.NamedUniTuple(int64, len(ArmView._fields), ArmView)
 WORKSPACE = types.NamedUniTuple(int64, len(Workspace._fields), Workspace)
 CONTROLS = types.NamedTuple((int64, int64, int64, float64), Controls)
-JOINTS = types.NamedUniTuple(types.UniTuple(float64, MOST), 3, Joints)
+JOINTS = types.NamedUniTuple(types.UniTuple(float64, MOST), len(Joints._fields), Joints)
 
 ASSEMBLE = types.Tuple((THREE, FOUR))(CHAIN, GOAL, THREE, GAINS, FOUR, MATRIX, VECTOR)
 RESOLVE = types.void(MATRIX, VECTOR, MATRIX, VECTOR, int64, int64, SCRATCH)
@@ -150,6 +152,9 @@ def episodes_of(observe):
                 qpos[i], qvel[i] = states[k, i], states[k, n + i]
             mj_step1(plant.model, plant.data)
             p_d = (s[16], s[17], s[18])
+            q_d, to = states[k, 2 * n : 3 * n], 3 * n
+            if states[k, to] == states[k, to]:
+                p_d = (states[k, to], states[k, to + 1], states[k, to + 2])
             hav = haversine((s[12], s[13], s[14], s[15]), quat_d)
             turning = s[9] * s[9] + s[10] * s[10] + s[11] * s[11]
             watch = first_watch(hav, band, turning, numbers.slow_squared)
@@ -161,11 +166,14 @@ def episodes_of(observe):
                 chain = Chain(n, axes, anchors, qvel, p, R)
                 if controls.has_own_model > 0:
                     for i in range(n):
-                        model_qpos[i], model_qvel[i] = qpos[i], qvel[i]
+                        model_qpos[i] = qpos[i]
+                        model_qvel[i] = qvel[i] if controls.has_own_model != STANDING else 0.0
                     mj_step1(model.model, model.data)
                 mj_fullM(model.model, model.data, work.D)
                 for i in range(n):
                     fg[i] = bias[i] - passive[i]
+                if controls.gives_torque == BY_JOINT:
+                    face_joints(buffers.J, buffers.a, qpos, q_d, joints.inertia, n)
                 before = u
                 u, memory = control(
                     assemble, resolve, controls.gives_torque, controls.rows,

@@ -7,13 +7,15 @@ import mujoco
 import numpy as np
 
 import tasks
-from bench.control.resolved_acceleration import assembly, control
+from bench.control.resolved_acceleration import BY_JOINT, assembly, control
 from bench.engines.arm_episode import (
     PROBE_TICKS,
+    STANDING,
     ArmSample,
     blank_arm,
     buffers,
     controls,
+    face_joints,
     joints,
     load,
     probe,
@@ -46,10 +48,10 @@ def _episode(contender, task, arm_name, start, band, settings, metrics, row, int
     dt, n = limits.dt, arm.joints
     margin, observe = margin_of(contender), observer(metrics)
     assemble, resolve = assembly(parts_for(contender)), contender.inverse.resolve
-    own = variation != "nominal"
+    own = variation != "nominal" or contender.inverse.gives == "joint-torque"
     environment = tasks.load(
         task, start=start, dt=dt, horizon=(limits.ticks + 1) * dt, integrator=integrator, arm=arm_name,
-        vary=(lambda model: tasks.variation(variation).apply(model, arm.rated)) if own else None,
+        vary=(lambda model: tasks.variation(variation).apply(model, arm.rated)) if variation != "nominal" else None,
     )  # fmt: skip
     environment.reset()
     plant = environment.physics.data
@@ -60,6 +62,8 @@ def _episode(contender, task, arm_name, start, band, settings, metrics, row, int
     s = plant.sensordata
     R_d = from_quaternion(tuple(map(np.float64, start.goal_wxyz)))
     goal, p_d = Goal(R_d, STILL, STILL), vector(s[16:19])
+    if start.goal_p:
+        p_d = tuple(map(np.float64, start.goal_p))
     gains, memory = Gains(*map(np.float64, settings.gains)), tuple(map(np.float64, memory_of(contender)))
     hav = haversine(s[12:16], start.goal_wxyz)
     omega = vector(s[9:12])
@@ -70,10 +74,13 @@ def _episode(contender, task, arm_name, start, band, settings, metrics, row, int
         p = vector(s[16:19])
         chain = Chain(n, plant.xaxis, plant.xanchor, plant.qvel, p, R)
         if own:
-            believed.qpos[:], believed.qvel[:] = plant.qpos, plant.qvel
+            believed.qpos[:] = plant.qpos
+            believed.qvel[:] = plant.qvel if shape.has_own_model != STANDING else 0.0
             mujoco.mj_step1(model, believed)
         mujoco.mj_fullM(model, believed, D)
         fg = believed.qfrc_bias - believed.qfrc_passive
+        if shape.gives_torque == BY_JOINT:
+            face_joints(into.J, into.a, plant.qpos, start.goal_q or (np.nan,) * n, of_joints.inertia, n)
         before = u
         u, memory = control(
             assemble, resolve, shape.gives_torque, shape.rows, chain, D, fg, goal, p_d, gains, memory, into
@@ -81,7 +88,7 @@ def _episode(contender, task, arm_name, start, band, settings, metrics, row, int
         torques = seven(into.tau, n)
         sample = ArmSample(
             tick * dt, dt, R, hav, watch.entries > 0, watch.rest > 0, omega, u, before, margin(R, R_d), p, p_d,
-            seven(plant.qpos, n), seven(plant.qvel, n), torques, *of_joints,
+            seven(plant.qpos, n), seven(plant.qvel, n), torques, *of_joints[:3],
         )  # fmt: skip
         observe(row, sample)
         failure = check_command(load(torques, of_joints.rated), shape.torque_limit_squared)

@@ -35,6 +35,13 @@ def farthest(value, sample):
 
 
 @kernel
+def last_distance(value, sample):
+    """|p - p_d|^2 now."""
+    x, y, z = sample.p[0] - sample.p_d[0], sample.p[1] - sample.p_d[1], sample.p[2] - sample.p_d[2]
+    return x * x + y * y + z * z
+
+
+@kernel
 def largest_excess(value, sample):
     """max over joints of q - upper or lower - q [rad], if positive; the plant enforces no range."""
     for i in range(7):
@@ -51,5 +58,6 @@ METRICS = (
     # above 1, a real arm could not have done it
     Metric("peak_torque_ratio", "1", "largest torque over the motor's rated one", 0.0, largest_ratio, root, True),
     Metric("position_error_m", "m", "largest distance of the tool from its place", 0.0, farthest, root, True),
+    Metric("position_left_m", "m", "distance of the tool from its place at the end", 0.0, last_distance, root, True),
     Metric("range_excess_rad", "rad", "largest excess of a joint over its range", 0.0, largest_excess, if_finite, True),
 )

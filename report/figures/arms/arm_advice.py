@@ -1,22 +1,29 @@
-"""What the run advises: which controller for evenly spread starts, which inverse for it, and what damping does."""
+"""What the run advises: which law, which inverse; and how often the paper's two ways to command angles end alike."""
 
 from __future__ import annotations
 
 import pandas as pd
 
-from report.figures.arms import arm_rows
-from report.figures.kit import html
-from report.figures.kit.page import ABSENT
-from report.figures.kit.share import share
+from bench.findings.claims.verdict import NoEvidence
+from bench.findings.on_arms import best
+from bench.findings.selection import needs
+from report.figures.arms import arm_ranking, arm_rows
+from report.figures.kit import families
+from report.figures.kit.page import ABSENT, Run
+
+NOT_TOLD = "none, for this run does not tell"
 
 FEWEST = 2
 """Ways to choose between: with fewer there is no choice to advise on."""
 
 
-def told(rows: pd.DataFrame) -> str:
-    """Share that settles with its interval and n, in words."""
-    found = share(int(arm_rows.settled(rows).sum()), len(rows))
-    return f"{100 * found.value:.1f} % ({100 * found.low:.1f} to {100 * found.high:.1f} %, n = {found.n})"
+def advised(run: Run) -> str:
+    """The law that is advised for an arm (`selection.needs`)."""
+    try:
+        law = needs.advice(run.folder).of(needs.ARM).law
+    except NoEvidence:
+        return NOT_TOLD
+    return families.word(law) if law else NOT_TOLD
 
 
 def same_both_ways(rows: pd.DataFrame) -> str | None:
@@ -29,33 +36,19 @@ def same_both_ways(rows: pd.DataFrame) -> str | None:
     return f"{alike} of {len(both)}"
 
 
-def in_words(inverse: str) -> str:
-    """An inverse's title inside a sentence."""
-    title = arm_rows.title_of_inverse(inverse)
+def in_words(way: str) -> str:
+    """The title of a way's inverse inside a sentence."""
+    title = arm_rows.title_of_inverse(way.partition("+")[2])
     return title[:1].lower() + title[1:]
 
 
-def advice(rows: pd.DataFrame) -> dict:
-    """What the evenly spread starts say: which law by the standard inverse, and which inverse for that law."""
-    uniform = rows[rows["start_set"] == "uniform"]
-    standard = arm_rows.with_standard(uniform)
-    shares = standard.assign(good=arm_rows.settled(standard)).groupby("controller")["good"].mean()
-    law = str(shares.idxmax())
-    values = {
-        "best": arm_rows.title(law),
-        "best_share": told(arm_rows.of(uniform, law)),
-        "euler_share": told(arm_rows.of(uniform, arm_rows.ON_ANGLES)),
-    }
-    whose, own = "it", uniform[uniform["controller"] == law]
+def inverses(rows: pd.DataFrame) -> str:
+    """Which inverse is best within torque and range from evenly spread starts, by the law that is run with most."""
+    own = rows[(rows["start_set"] == "uniform") & (rows["controller"] == arm_rows.ON_MATRIX)]
     if own["way"].nunique() < FEWEST:
-        whose, own = "the rotation matrix by (2.2)", uniform[uniform["controller"] == arm_rows.ON_MATRIX]
-    ways = own.assign(good=arm_rows.settled(own), strays=own["position_error_m"]).groupby("way")
-    table = pd.DataFrame({"good": ways["good"].mean(), "strays": ways["strays"].median(), "n": ways.size()})
-    if len(table) < FEWEST:
-        return values | {"inverse_advice": f"Which inverse is best is {ABSENT}."}
-    best = table.sort_values(["good", "strays"], ascending=[False, True]).index[0]
-    inverse = best.partition("+")[2]
-    return values | {
-        "inverse_advice": f"With the inverse “{in_words(inverse)}” {whose} settles "
-        f"{told(own[own['way'] == best])} and strays {html.number(1e3 * table.loc[best, 'strays'])} mm in the median."
-    }
+        return f"Which inverse is best is {ABSENT}."
+    names = best(own, "range", "way")
+    share = arm_ranking.told(own.assign(controller=own["way"]), names[0], "range")
+    led = ", ".join(f"“{in_words(name)}”" for name in names)
+    how = f"tie, at up to {share}" if len(names) > 1 else f"leads: {share}"
+    return f"Of the inverses, all with the rotation matrix, {led} {how}."

@@ -15,6 +15,7 @@ import tasks
 from bench.contenders import combinations
 from bench.contenders.registry import (
     all_contenders,
+    baselines_of_arms,
     contenders_of,
     known_inverses,
     known_jacobians,
@@ -35,7 +36,7 @@ PAPERS_TWO = ON_MATRIX, ON_ANGLES
 SAME_BOTH_WAYS = "feedback-linearized/zyx-euler@geometric"
 """(2.2) with (2.15): the law of (3.7), by the geometric Jacobian."""
 PAPERS_JACOBIANS = ("geometric", "analytic")
-SETS = ("clear", "pole", "wrist", "half-turn", "uniform", "tumbling")
+SETS = ("clear", "pole", "wrist", "half-turn", "uniform", "tumbling", "reach")
 """Nothing in the way, then what the paper warns of, then the rest."""
 
 
@@ -70,6 +71,8 @@ def named(frame: pd.DataFrame) -> pd.DataFrame:
 @functools.cache
 def standard(arm: str, law: str, jacobian: str) -> str:
     """The inverse that this law and Jacobian take on that arm if none is named; empty if nothing fits."""
+    if law in baselines_of_arms() and baselines_of_arms()[law].inverse:
+        return baselines_of_arms()[law].way[1]
     fitting = combinations.on((f"{law}@{jacobian}+{STANDARD}",), contenders(), tasks.arm(arm).joints)
     return fitting[0].way[1] if fitting else ""
 
@@ -78,12 +81,18 @@ def standard(arm: str, law: str, jacobian: str) -> str:
 def contenders() -> dict[str, Contender]:
     """Every law in its coordinates by name, the user's own of the run among them."""
     own = [one for law in read.own_laws() for one in contenders_of(law)]
-    return {one.name: one for one in (*all_contenders(), *own)}
+    return {one.name: one for one in (*all_contenders(), *own)} | baselines_of_arms()
 
 
 def with_standard(rows: pd.DataFrame) -> pd.DataFrame:
-    """Those by the paper's two Jacobians and the standard inverse."""
-    return rows[rows["way"].str.endswith(f"+{STANDARD}") & rows["jacobian"].isin(PAPERS_JACOBIANS)]
+    """Laws by the paper's two Jacobians and the standard inverse."""
+    is_law = ~rows["regulator"].isin(baselines_of_arms())
+    return rows[is_law & rows["way"].str.endswith(f"+{STANDARD}") & rows["jacobian"].isin(PAPERS_JACOBIANS)]
+
+
+def of_baselines(rows: pd.DataFrame) -> pd.DataFrame:
+    """Controllers that are no laws."""
+    return rows[rows["regulator"].isin(baselines_of_arms())]
 
 
 def of(rows: pd.DataFrame, controller: str, inverse: str = STANDARD, start_set: str = "") -> pd.DataFrame:
@@ -100,7 +109,9 @@ def in_order(rows: pd.DataFrame) -> list[str]:
 
 
 def equation(controller: str) -> str:
-    """Which of the paper's two controllers it is."""
+    """Which of the paper's two controllers it is; of a baseline none."""
+    if controller.partition("@")[0] in baselines_of_arms():
+        return "none"
     jacobian = known_jacobians()[controller.partition("@")[2]]
     return "(2.2)" if jacobian.takes == "angular-acceleration" else "(3.7)"
 
@@ -108,6 +119,8 @@ def equation(controller: str) -> str:
 def title(controller: str) -> str:
     """How a controller is called in a figure: its equation, and the law or the coordinates."""
     law, _, jacobian = controller.partition("@")
+    if law in baselines_of_arms():
+        return baselines_of_arms()[law].regulator.title
     regulator, _, coordinates = law.partition("/")
     which = short_title(coordinates) if coordinates else ""
     known = known_regulators()

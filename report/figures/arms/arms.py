@@ -10,7 +10,7 @@ import numpy as np
 import pandas as pd
 
 import tasks
-from report.figures.arms import arm_advice, arm_outcomes, arm_pole, arm_rows
+from report.figures.arms import arm_advice, arm_outcomes, arm_pole, arm_ranking, arm_rows
 from report.figures.arms.arm_rows import STANDARD
 from report.figures.kit import html
 from report.figures.kit.page import Run
@@ -38,9 +38,10 @@ def facts(run: Run) -> dict:
     if rows.empty:
         return {}
     both, counts = arm_pole.side_by_side(standard(run)), arm_outcomes.tallied(standard(run))
-    clear = rows[rows["start_set"] == "clear"]
     return {
-        **arm_advice.advice(rows),
+        **arm_ranking.facts(rows),
+        "advised": arm_advice.advised(run),
+        "inverse_advice": arm_advice.inverses(rows),
         "pole_n": len(both),
         "pole_fails": int(both["fails"].sum()),
         "pole_fails_m": int(both["fails_matrix"].sum()),
@@ -53,8 +54,6 @@ def facts(run: Run) -> dict:
         "condition": f"{NEAR_CONDITION:g}",
         "both_ways": arm_advice.same_both_ways(rows),
         "possible": f"{arm_outcomes.possible(standard(run)):.0f}",
-        "possible_clear": f"{arm_outcomes.possible(arm_rows.of(clear, arm_rows.ON_MATRIX)):.0f}",
-        "possible_clear_f": f"{arm_outcomes.possible(arm_rows.of(clear, arm_rows.ON_ANGLES)):.0f}",
         "kinematic": int(counts["kinematic"].sum()),
         "failures": int(counts["failed"].sum()),
     }
@@ -67,6 +66,7 @@ def tables(run: Run) -> dict:
         "tab_arms": ARMS(map(arm_row, tasks.arm_names())),
         "sources": "\n".join(f"- `{name}`: {prose(tasks.arm(name).source)}" for name in tasks.arm_names()),
         "tab_starts": STARTS(start_sets(rows)),
+        "tab_ranked": arm_ranking.table(rows),
         "tab_settled": arm_outcomes.settling(standard(run)),
         "tab_causes": arm_outcomes.failing(arm_outcomes.tallied(standard(run))),
         "tab_pole": POLE(at_the_pole(standard(run))),

@@ -87,7 +87,7 @@ def shares(flops: pd.DataFrame) -> dict[str, str]:
 def in_full(flops: pd.DataFrame, calls: pd.DataFrame) -> dict[str, str]:
     """Flops of both controllers and of the stages of one, and between the cheapest law by (2.2) and the dearest."""
     total, matrix = flops.sum(axis=1), flops.loc[ON_MATRIX]
-    laws = [name for name in flops.index if name.endswith("@geometric")]
+    laws = [name for name in flops.index if arm_rows.equation(name) == "(2.2)"]
     return {
         "matrix": str(total[ON_MATRIX]),
         "law": str(matrix[list(LAW)].sum()),

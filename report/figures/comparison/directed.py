@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import pandas as pd
-from scipy.spatial.transform import Rotation
 
+from bench.findings.counts import AT_REST
 from report.figures.comparison.cells import by_family
-from report.figures.failures.failure_map import places
-from report.figures.failures.world_map import SETS
+from report.figures.failures.failure_map import once, places
 from report.figures.kit import families, html
 
 EXACT = ("half turn", "half turn and pole", "pole", "jump of atan2")
@@ -18,16 +17,10 @@ ELSEWHERE = "beside them"
 
 def directed(episodes: pd.DataFrame) -> pd.DataFrame:
     """Directed starts at rest, with the special place of each, and each orientation once; rows of one engine."""
-    rows = episodes[episodes["start_set"].isin(SETS) & (episodes["arm"] == "")]
+    rows = episodes[episodes["start_set"].isin(AT_REST) & (episodes["arm"] == "")]
     place = places(rows)
     rows = rows.assign(place=place.where(place.isin(EXACT), ELSEWHERE))
-    return rows[~orientation(rows).assign(contender=rows["contender"]).duplicated()]
-
-
-def orientation(rows: pd.DataFrame) -> pd.DataFrame:
-    """R, which both quaternions of an orientation share, to the last digit but three."""
-    turns = Rotation.from_quat(rows[["quat_w", "quat_x", "quat_y", "quat_z"]].to_numpy(), scalar_first=True)
-    return pd.DataFrame(turns.as_matrix().reshape(-1, 9).round(13), rows.index)
+    return once(rows)
 
 
 def table(rows: pd.DataFrame) -> html.Markdown | None:

@@ -9,7 +9,7 @@ import math
 import numpy as np
 import pandas as pd
 
-from report.figures.failures.world_map import SETS
+from bench.findings.counts import AT_REST
 from report.figures.kit import html, laws, style
 
 ON_SURFACE = 1e-9
@@ -20,7 +20,7 @@ DIGITS = 3
 
 def ball(episodes: pd.DataFrame, name: str = "failures") -> html.Html:
     """The ball of one engine's failing starts, a colour for each law, whatever its outcome."""
-    at_rest = episodes[episodes["start_set"].isin(("uniform", *SETS))]
+    at_rest = episodes[episodes["start_set"].isin(("uniform", *AT_REST))]
     groups, said = {}, []
     for contender, title, rows in laws.each(at_rest):
         failed = rows[rows["outcome"] != "settled"]

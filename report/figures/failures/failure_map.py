@@ -6,12 +6,13 @@ from collections.abc import Iterable, Iterator
 
 import numpy as np
 import pandas as pd
+from scipy.spatial.transform import Rotation
 
+from bench.findings.counts import AT_REST
 from bench.findings.maps import by_law
 from bench.tables import read
 from bench.tables.schema import RESULTS
 from report.figures.failures import ball, world_map
-from report.figures.failures.world_map import SETS
 from report.figures.kit import html, laws
 from report.figures.kit.page import Run
 from report.figures.kit.rows import LINEARIZED, SHORT, lost, of
@@ -139,9 +140,20 @@ def places(rows: pd.DataFrame) -> pd.Series:
     return pd.Series(words, rows.index)
 
 
+def once(rows: pd.DataFrame) -> pd.DataFrame:
+    """Each orientation once a law, though several sets have it."""
+    return rows[~orientation(rows).assign(contender=rows["contender"]).duplicated()]
+
+
+def orientation(rows: pd.DataFrame) -> pd.DataFrame:
+    """R, which both quaternions of an orientation share, to the last digit but three."""
+    turns = Rotation.from_quat(rows[["quat_w", "quat_x", "quat_y", "quat_z"]].to_numpy(), scalar_first=True)
+    return pd.DataFrame(turns.as_matrix().reshape(-1, 9).round(13), rows.index)
+
+
 def exact_points(episodes: pd.DataFrame) -> Iterator[tuple]:
     """Law and special place: directed starts exactly there, how many fail and how, and one of them."""
-    directed = episodes[episodes["start_set"].isin(SETS)]
+    directed = once(episodes[episodes["start_set"].isin(AT_REST)])
     for name, title, own in laws.each(directed.assign(place=places(directed))):
         for place, part in own.groupby("place", sort=True):
             failed = lost(part)
@@ -154,7 +166,7 @@ def exact_points(episodes: pd.DataFrame) -> Iterator[tuple]:
 
 def nearest(boundaries: pd.DataFrame, episodes: pd.DataFrame) -> Iterator[tuple]:
     """Law: axes with a failing angle, its smallest and median, the axis of the smallest; smallest failing start."""
-    at_rest = lost(episodes[episodes["start_set"].isin(("uniform", *SETS))])
+    at_rest = lost(episodes[episodes["start_set"].isin(("uniform", *AT_REST))])
     for name, title, own in laws.each(boundaries):
         fails = own["fails_from_rad"].dropna()
         starts = at_rest.loc[at_rest["contender"] == name, "angle0_rad"]

@@ -10,15 +10,13 @@ import pandas as pd
 from matplotlib.lines import Line2D
 from matplotlib.patheffects import withStroke
 
+from bench.findings.counts import AT_REST
 from report.figures.kit import html, laws, style
 from report.figures.kit.dots import dots
 from report.figures.kit.inline import responsive_picture
 
 DRAWN = 1200
 """Settled dots a map; every failing start is drawn."""
-
-SETS = ("half-turn", "poles", "wraps", "box")
-"""Directed sets at rest whose goal is zero; tumbling starts and far goals are not points of SO(3) alone."""
 
 HALO = [withStroke(linewidth=2.5, foreground=style.PAPER)]
 FINE = np.linspace(-0.5, 0.5, 61) * np.pi
@@ -37,7 +35,7 @@ def world(episodes: pd.DataFrame, narrow: bool):
     Args:
         episodes: rows of one engine.
     """
-    parts = laws.each(episodes[episodes["start_set"].isin(("uniform", *SETS))])
+    parts = laws.each(episodes[episodes["start_set"].isin(("uniform", *AT_REST))])
     figure, places = _places(parts, narrow)
     said: list[str] = []
     met: dict[str, Line2D] = {}

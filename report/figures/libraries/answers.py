@@ -17,7 +17,6 @@ from bench.tables.store import read
 from report.figures.kit.spelling import power
 
 FOLDER = RESULTS / "libraries"
-OURS = "orientation-bench"
 VECTOR, SINE, ANGLES = "rotation-vector", "sine", "z-y-x"
 
 COUNT_RAD = 2.0 * math.pi / 2**24
@@ -112,7 +111,7 @@ def wrong(clear: pd.DataFrame) -> dict[str, str]:
     worst = usable.loc[usable["form_error_rad"].idxmax()]
     if worst["form_error_rad"] <= COUNT_RAD:
         return {}
-    return {DIGITS: f"off by {power(worst['form_error_rad'])} rad {where(worst)}"}
+    return {DIGITS: f"off by {power(worst['form_error_rad'])} rad or more {where(worst)}"}
 
 
 def where(row: pd.Series) -> str:

@@ -6,6 +6,7 @@ import functools
 
 import pandas as pd
 
+from bench.findings.counts import OURS
 from bench.studies.libraries.forms import FORMS
 from report.figures.kit import html
 from report.figures.kit.page import Run
@@ -44,7 +45,7 @@ def faulty(every: pd.DataFrame) -> pd.DataFrame:
 def facts(_: Run) -> dict:
     """Every number and list of names that the text takes; ours are not counted among other libraries'."""
     rows, every = answers.table(), lines()
-    others = every[(every["library"] != answers.OURS) & (every["form"] != answers.ANGLES)]
+    others = every[(every["library"] != OURS) & (every["form"] != answers.ANGLES)]
     kinds = others["objections"].map(set)
     dead = others[kinds.map(lambda found: answers.ZERO in found) & (others["form"] != answers.SINE)]
     sheets = others[kinds.map(lambda found: answers.SHEET in found)]
@@ -104,7 +105,7 @@ def tables(_: Run) -> dict:
         "tab_versions": VERSIONS(
             (f"`{name}`", one["version"], one["python"], one["numpy"])
             for name, one in sorted(answers.origins().items())
-            if name != answers.OURS
+            if name != OURS
         ),
     }
 
@@ -116,7 +117,7 @@ def to_use(every: pd.DataFrame) -> list[tuple]:
     return [
         (f"`{library}`", *(_named(kept[(kept["library"] == library) & (kept["takes"] == what)]) for what in TAKES))
         for library in dict.fromkeys(every["library"])
-        if library != answers.OURS
+        if library != OURS
     ]
 
 

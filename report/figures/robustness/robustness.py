@@ -150,7 +150,8 @@ def reach_map(found: dict[str, list[Reach]], narrow: bool):
         for family in groups
         for law in family.laws
     )
-    return figure, f"How far {len(found)} laws go along {len(WALKS)} perturbations: {'; '.join(words)}."
+    told = f"How far {len(found)} laws go along {len(AXES)} perturbations, inertia both ways"
+    return figure, f"{told}: {'; '.join(words)}."
 
 
 def _cells(axes, groups, found: dict[str, list[Reach]], part: slice) -> None:

@@ -1,0 +1,110 @@
+"""Which controllers settle within rated torque and joint range, from evenly spread starts and from `reach`."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import pandas as pd
+
+from bench.findings.on_arms import MEASURES, best, passed
+from report.figures.arms import arm_rows
+from report.figures.kit import html
+from report.figures.kit.share import Share, share
+from report.figures.kit.tables import Table
+
+RANKED = Table("Controller | Settled [%] | Within torque | and range | Reach, settled | within torque and range")
+SETS = ("uniform", "reach")
+COLUMNS = (*(("uniform", measure) for measure in MEASURES), ("reach", "settled"), ("reach", "range"))
+RANGE_RAD = 0.1
+"""[rad]: 6 degrees beyond the end of a joint's range is beyond its bumper."""
+
+FEW = 4
+"""Names up to this number are said, more are counted; the table has them."""
+
+
+def of_laws(rows: pd.DataFrame, start_set: str) -> pd.DataFrame:
+    """Episodes of the laws by the paper's two Jacobians and the standard inverse, from one set."""
+    return arm_rows.with_standard(rows[rows["start_set"] == start_set])
+
+
+def ranked(rows: pd.DataFrame) -> Iterator[tuple]:
+    """A row a controller, best within torque and range first: shares with intervals, those that nobody beats in bold.
+
+    Args:
+        rows: of `arm_rows.episodes`.
+    """
+    own = pd.concat([arm_rows.with_standard(rows), arm_rows.of_baselines(rows)])
+    own = own[own["start_set"].isin(SETS)]
+    own = own.assign(**passed(own))
+    top = {
+        (name, measure): best(of_laws(rows, name), measure, "controller") if (own["start_set"] == name).any() else []
+        for name, measure in COLUMNS
+    }
+    means = own[own["start_set"] == SETS[0]].groupby("controller")["range"].mean()
+    for controller in means.sort_values(ascending=False, kind="stable").index:
+        cells = []
+        for name, measure in COLUMNS:
+            mine = own.loc[(own["controller"] == controller) & (own["start_set"] == name), measure]
+            text = in_short(share(int(mine.sum()), len(mine))) if len(mine) else html.MISSING
+            cells.append(f"**{text}**" if controller in top[name, measure] else text)
+        yield arm_rows.title(controller), *cells
+
+
+def in_short(found: Share) -> str:
+    """55 (46 to 63)."""
+    return f"{100 * found.value:.0f} ({100 * found.low:.0f} to {100 * found.high:.0f})"
+
+
+def table(rows: pd.DataFrame) -> html.Markdown | None:
+    """The same as a table."""
+    return RANKED(ranked(rows))
+
+
+def told(rows: pd.DataFrame, controller: str, measure: str) -> str:
+    """Share of a controller's episodes that pass, with its interval and n, in words."""
+    own = passed(rows[rows["controller"] == controller])[measure]
+    found = share(int(own.sum()), len(own))
+    return f"{100 * found.value:.0f} % ({100 * found.low:.0f} to {100 * found.high:.0f} %, n = {found.n})"
+
+
+def facts(rows: pd.DataFrame) -> dict[str, str]:
+    """Who is best, in a sentence; by arm, what settles within torque; how far joints leave their range."""
+    uniform = of_laws(rows, SETS[0])
+    if uniform.empty:
+        return {}
+    settled = uniform[passed(uniform)["settled"]]
+    shares = passed(uniform)["torque"].groupby(uniform["arm"]).mean()
+    return {
+        "lead": lead(uniform),
+        "by_arm": ", ".join(f"{100 * value:.0f} % on {name}" for name, value in shares.items()),
+        "beyond": f"{100 * float((settled['range_excess_rad'] > RANGE_RAD).mean()):.0f}",
+        "beyond_rad": f"{RANGE_RAD:g}",
+    }
+
+
+def lead(uniform: pd.DataFrame) -> str:
+    """Who is best within torque and range, what the Euler controller does, and who settles most.
+
+    Args:
+        uniform: of `of_laws`, evenly spread starts.
+    """
+    return (
+        "Of evenly spread poses and goals, with no motor above its rated torque and no joint out of its range, "
+        f"{leading(uniform, 'range')}; the paper's Euler controller (3.7) settles "
+        f"{told(uniform, arm_rows.ON_ANGLES, 'range')}. Counting settling alone, {leading(uniform, 'settled')}."
+    )
+
+
+def leading(rows: pd.DataFrame, measure: str) -> str:
+    """Who passes most, or who ties at that, in words."""
+    names = best(rows, measure, "controller")
+    share_of_first = told(rows, names[0], measure)
+    if len(names) == 1:
+        return f"{arm_rows.title(names[0])} settles most: {share_of_first}"
+    return f"{listed(names)} tie, at up to {share_of_first}"
+
+
+def listed(controllers: list[str]) -> str:
+    """Their titles, the last after "and"; of more than FEW their number."""
+    names = [arm_rows.title(one) for one in controllers]
+    return f"{', '.join(names[:-1])} and {names[-1]}" if len(names) <= FEW else f"{len(names)} laws"
