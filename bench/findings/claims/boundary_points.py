@@ -29,6 +29,14 @@ MARGINS = ", ".join(f"{margin:g}" for margin in MARGINS_RAD)
 @claim(
     id="C10",
     section="2.4",
+    equation="(2.8), (2.9)",
+    quote="""
+        The point beta = +-pi/2 created numerical problems due to divide by zero in elements of the B matrix.
+        Passing through the points alpha = +-pi, and gamma = +-pi caused problems due to discontinuities in the
+        values produced by the atan2 function.
+    """,
+    correction="Elements of B^-1 are divided by zero; those of B are finite everywhere.",
+    written="2026-11-21 9072535",
     sentence="beta = +-pi/2 divides by zero in elements of B; passing alpha, gamma = +-pi jumps through atan2.",
     question="What does the law command at and near the pole, and across the jump?",
     criterion=f"""
@@ -101,6 +109,13 @@ def _jumps(gains: Gains) -> np.ndarray:
 @claim(
     id="C11",
     section="2.4",
+    quote="""
+        In practical situations, the active range of the feedback linear regulator would exclude a small region
+        of points around the boundary points. This would assure that the regulator could not be driven through
+        any of the boundary points
+    """,
+    correction="It assures that of bodies at rest; where a body spins, its velocity counts too.",
+    written="2026-11-21 9f269f3",
     sentence="""
         Excluding a small region about the boundary points keeps the regulator from passing them
         erratically.

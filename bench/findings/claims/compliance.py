@@ -43,6 +43,13 @@ PLANE_RAD = 0.005
 @claim(
     id="C22",
     section="3.3",
+    quote="""
+        When only one rotational axis is in compliance, the effect is the same as compliance in the normal
+        Cartesian space because, with Z-Y-X Euler angles, single Euler angle rotation corresponds to rotation
+        about one of the x, y, z axes.
+    """,
+    correction="One angle is one axis, but of the base only where the angles before it are zero.",
+    written="2026-11-23 4af5940",
     sentence="With one compliant rotational axis, Euler and Cartesian compliance are the same.",
     question="Does a wrench probe, one axis at a time, see any difference, at zero angles and away from them?",
     criterion=f"""
@@ -118,6 +125,12 @@ def _greatest(numbers: np.ndarray) -> float:
 @claim(
     id="C23",
     section="3.3",
+    quote="""
+        However, when two rotational axes are to comply to external forces, Euler angle rotations and rotations
+        about two of the x, y, z axes do not correspond.
+    """,
+    correction="They part, but not everywhere, or not as the closed form has it.",
+    written="2026-11-23 4af5940",
     sentence="With two compliant rotational axes they do not correspond.",
     question="How far are the compliant planes apart, and how much leaks into the stiff axis?",
     criterion=f"""

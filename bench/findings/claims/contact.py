@@ -45,6 +45,12 @@ ZERO_RAD, SLACK_DEG = 1e-9, 1e-6
 @claim(
     id="C25",
     section="3.3",
+    quote="""
+        The performance of complex compliant robot motions will depend upon which form of Jacobian is used in
+        the controller.
+    """,
+    correction="On some tasks, arms and forms it does not.",
+    written="2026-11-23 4af5940",
     sentence="How well complex compliant motions go depends on the Jacobian used.",
     question="Do contact tasks end differently with the two Jacobians?",
     criterion=f"""

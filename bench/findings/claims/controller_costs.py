@@ -44,6 +44,12 @@ def controller_costs(results, controller: str, joints: int) -> pd.DataFrame:
 @claim(
     id="C26",
     section="4",
+    equation="(3.7)",
+    quote="""
+        This Jacobian is commonly used in the literature without statement to the fact that it must exclude
+        certain orientations and has a higher calculation cost.
+    """,
+    written="2026-11-21 f52a15d",
     sentence="The Euler Jacobian costs more to calculate.",
     question="What do the tallies of both say?",
     criterion=f"""

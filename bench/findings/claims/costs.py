@@ -37,6 +37,12 @@ def compared(cheap: tuple, dear: tuple) -> tuple[str, float]:
 @claim(
     id="C12",
     section="2.5",
+    quote="""
+        The regulator was remarkably simple to calculate ... the calculations involved are more involved than
+        for the previous regulator ... This regulator had the highest calculation requirements.
+    """,
+    value="an order",
+    written="2026-11-21 9072535",
     sentence="Cost rises from the rotation-matrix law over the linearized to the feedback-linearized law.",
     question="Do operations per tick, and time per tick, come in that order?",
     criterion=f"""
@@ -93,6 +99,8 @@ def _timed(timings) -> tuple[str, bool]:
 @claim(
     id="C17",
     section="2.5, 4",
+    quote="Overall, no regulator performed adequately in terms of both calculation cost and performance.",
+    written="2026-11-21 9072535",
     sentence="No regulator performs adequately in both calculation cost and performance.",
     question="Which of the three is adequate in which, on one plane of cost and performance?",
     criterion=f"""

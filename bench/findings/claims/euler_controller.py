@@ -59,6 +59,13 @@ class Bend(NamedTuple):
 @claim(
     id="C20",
     section="3.2",
+    equation="(3.6)-(3.8)",
+    quote="""
+        The result is truly a system of decoupled double integrators. ... However, this linearization fails to
+        exist for certain orientations mentioned above and it hides the expense of calculating the Euler angles.
+    """,
+    correction="The plant is linear, and one of the two reservations fails.",
+    written="2026-11-21 9b9e874",
     sentence="With it the plant is decoupled double integrators; this fails at places and hides a cost.",
     question="Is the arm's answer linear, how does it end near the pole, and what do (2.2), (3.7) cost?",
     criterion=f"""

@@ -45,6 +45,13 @@ rounding eps/step are both about eps^(2/3), over the margin."""
 @claim(
     id="C18",
     section="3.1",
+    equation="(3.3)",
+    quote="""
+        it has the property of being zero at points in the workspace as well as being undefined, or having
+        elements values approaching infinity, at other points in the workspace.
+    """,
+    correction="Near the pole elements grow, but not as 1 / cos(beta).",
+    written="2026-11-21 9b9e874",
     sentence="The Euler Jacobian adds singularities of its own, with unbounded elements, to those of the manipulator.",
     question="Does J_E grow without bound where J is well conditioned, and is it singular wherever J is?",
     criterion=f"""
@@ -120,6 +127,14 @@ def _families(rows: pd.DataFrame) -> pd.DataFrame:
 @claim(
     id="C19",
     section="3.1",
+    equation="(3.3), (3.5)",
+    quote="""
+        The function is differentiated with respect to the joint angles and the resultant matrix is the
+        manipulator Jacobian with respect to Euler angles. ... This Jacobian has the same properties as that
+        presented in the previous section
+    """,
+    correction="The two part near the pole.",
+    written="2026-11-21 f52a15d",
     sentence="Its two derivations agree: diag(I, B^-1) J, and the derivative of the forward kinematics.",
     question="Are (3.3) and (3.5) the same matrix, and that of the differentiated forward kinematics?",
     criterion=f"""

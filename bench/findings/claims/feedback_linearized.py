@@ -26,6 +26,12 @@ STRAY_SHARE = 0.01
 @claim(
     id="C09",
     section="2.4",
+    equation="(2.16)",
+    quote="""
+        The regulator produced a linear response for the entire range of Euler angles excluding the boundary
+        points: alpha = +-pi, beta = +-pi/2, gamma = +-pi.
+    """,
+    written="2026-11-21 9072535",
     sentence="""
         The response is linear over the whole range of Euler angles but alpha, gamma = +-pi and beta =
         +-pi/2.

@@ -20,6 +20,17 @@ NO_ZERO, NEAR_ZERO = 0.999, 1e-9
 @claim(
     id="C04",
     section="2.4",
+    equation="(2.12)",
+    quote="""
+        These orientations exist due to the use of the cross product in calculating the position error:
+        anti-parallel vectors also have a zero cross product. An example is a 180° rotation about any axis.
+    """,
+    value="180°",
+    correction="""
+        Columns are anti-parallel at half turns about x, y and z only; about other axes the three cross products
+        cancel in their sum.
+    """,
+    written="2026-11-21 9072535",
     sentence="""
         Example: a rotation of 180 degrees about any axis, because anti-parallel vectors have no cross
         product.
@@ -64,6 +75,12 @@ def c04(results, engine):
 @claim(
     id="C05",
     section="2.4",
+    equation="(2.12)",
+    quote="""
+        It was also possible for the cross product elements to cancel in a series of points about the 180°
+        rotation.
+    """,
+    written="2026-11-21 9072535",
     sentence="""
         The elements of the cross product may also cancel in a series of points about the 180 degree
         rotation.

@@ -29,6 +29,12 @@ FEW_GOALS, MANY_GOALS, CURE_SLACK = 0.05, 0.5, 0.05
 @claim(
     id="C06",
     section="2.4",
+    quote="""
+        An approximate range of Euler angles for which the system was stable was found to be -pi/2 < alpha <
+        pi/2, -pi/2 < beta < pi/2, -pi < gamma < pi.
+    """,
+    value="|alpha|, |beta| < pi/2, |gamma| < pi",
+    written="2026-11-21 9072535",
     sentence="The linearized regulator is stable for about |alpha| < pi/2, |beta| < pi/2, |gamma| < pi.",
     question="How much of SO(3) settles, and is the box the region that does?",
     criterion=f"""
@@ -77,6 +83,11 @@ def c06(results, engine):
 @claim(
     id="C07",
     section="2.4",
+    quote="""
+        Because of the calculation methods for E and Edot, the regulator had extreme difficulties whenever beta
+        passed through +-pi/2.
+    """,
+    written="2026-11-21 9072535",
     sentence="It has extreme difficulties whenever beta passes through +-pi/2.",
     question="How do episodes that come near the pole end, and what do they command, against the rest?",
     criterion=f"""
@@ -124,6 +135,12 @@ def c07(results, engine):
 @claim(
     id="C08",
     section="2.4",
+    quote="""
+        this regulator was not sufficient to drive the end effector rotation to any other coordinate other than
+        [0 0 0]^T. This problem may be avoided by defining the desired rotation as the zero point
+    """,
+    correction="With E_d subtracted it reaches goals near zero, and some far from it.",
+    written="2026-11-21 9072535",
     sentence="It cannot drive to any coordinates but zero; angles taken from the desired orientation avoid that.",
     question="""
         What share of far goals does it reach with E_d subtracted, and what share with angles from the

@@ -30,6 +30,16 @@ ANGLE_AND_AXIS = "angle and axis"
 @claim(
     id="C13",
     section="2.2",
+    quote="""
+        With the Equivalent angle-axis, and the Z-Y-Z Euler angle representations infinite sets of Euler angles
+        for a given orientation occurs at zero rotation from the initial reference orientation. ... were not
+        appropriate for investigation into orientation control.
+    """,
+    correction="""
+        Angle and axis kept apart are degenerate at zero; their product, the rotation vector, is regular there
+        and fit.
+    """,
+    written="2026-11-21 9072535",
     sentence="""
         Z-Y-Z Euler angles and equivalent angle-axis are degenerate at zero rotation: unfit to regulate
         about it.
@@ -80,6 +90,9 @@ def _least(R) -> float:
 @claim(
     id="C14",
     section="2.2 against 2.3",
+    quote="With Z-Y-X Euler angles and Roll-Pitch-Yaw angles this occurs at 180° rotation about the Y, or Pitch axis.",
+    value="180°",
+    written="2026-11-21 9072535",
     sentence="With Z-Y-X angles the degeneracy is at a rotation of 180 degrees about Y.",
     question="Is the degenerate rotation about Y one of 180 degrees, or of 90 as the equations have it?",
     criterion=f"""
@@ -125,6 +138,13 @@ def _change(to_matrix, E, other) -> float:
 @claim(
     id="C15",
     section="2.2",
+    equation="(2.8)",
+    quote="""
+        It is important to note that when beta = +-pi/2 only the sum of alpha and gamma may be determined from
+        the rotation matrix.
+    """,
+    correction="At beta = +pi/2 it is the difference, at -pi/2 the sum.",
+    written="2026-11-21 9072535",
     sentence="At beta = +-pi/2 only the sum of alpha and gamma is determined.",
     question="Is it the sum at both poles?",
     criterion=f"""
@@ -161,6 +181,9 @@ def c15(results):
 @claim(
     id="C16",
     section="2.2 against 3.3",
+    equation="(2.8), (2.9)",
+    quote="The matrix B does not exist whenever beta = +-pi/2 and no model is available at that point.",
+    written="2026-11-21 9072535",
     sentence="B does not exist at beta = +-pi/2 (2.2); B always exists (3.3).",
     question="Which of the two sentences do B and its inverse support?",
     criterion=f"""

@@ -32,6 +32,12 @@ SLOPE_TIGHT, SLOPE_LOOSE = 0.01, 0.1
 @claim(
     id="C01",
     section="2.4",
+    equation="(2.12), (2.13)",
+    quote="""
+        The results of the simulation show that this regulator was stable over the entire range of rotations but
+        had varying settling times for different initial orientations.
+    """,
+    written="2026-11-21 9072535",
     sentence="The rotation-matrix regulator is stable over the entire range of rotations.",
     question="Does any start diverge; and does every start reach the goal?",
     criterion=f"""
@@ -77,6 +83,11 @@ def c01(results, engine):
 @claim(
     id="C02",
     section="2.4",
+    quote="""
+        In the linear region of small rotations about zero, the settling times could be chosen from the feedback
+        gains.
+    """,
+    written="2026-11-21 9072535",
     sentence="Near zero its settling time can be chosen by the gains.",
     question="""
         Is the settling time of small rotations the closed form of the linear system, at every pair of
@@ -126,6 +137,8 @@ def c02(results):
 @claim(
     id="C03",
     section="2.4",
+    quote="For large rotations the settling times would increase and could become infinity at certain orientations.",
+    written="2026-11-21 9072535",
     sentence="For large rotations the settling time grows, and it can become infinite.",
     question="Does it grow with the angle, at which rate towards the half turn, and is it ever infinite?",
     criterion=f"""

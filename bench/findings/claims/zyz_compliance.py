@@ -29,6 +29,12 @@ LEAK = 1.0
 @claim(
     id="C24",
     section="3.3",
+    quote="""
+        Clearly compliance will be a problem if, for example, Z-Y-Z Euler angles are used and rotational
+        compliance is desired about the x axis.
+    """,
+    correction="At some orientations near zero it is none, or Z-Y-X has it too.",
+    written="2026-11-23 4af5940",
     sentence="Z-Y-Z angles are a problem where compliance about x is wanted.",
     question="What does a wrench probe about x see with Z-Y-Z angles at and near zero?",
     criterion=f"""
