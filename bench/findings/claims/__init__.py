@@ -9,7 +9,8 @@ One file for each part of the paper; a claim is found by being in one of them.
     feedback_linearized.py   C09
     boundary_points.py       C10, C11
     costs.py                 C12, C17
-    representations.py       C13 to C16
+    representations.py       C13
+    degeneracy.py            C14 to C16
     euler_jacobian.py        C18, C19
     euler_controller.py      C20
     controller_costs.py      C26
@@ -19,6 +20,7 @@ One file for each part of the paper; a claim is found by being in one of them.
     contact.py               C25
     later.py                 C27
     adequacy.py              every law by the tests of C17 and C27
+    standing.py              how two laws stand in cost, by time and by operations
     tables.py                what a judging function reads
     probes.py                the small experiments of claims that no table answers
     arm_probes.py            the same on arms

@@ -8,6 +8,7 @@ import numpy as np
 
 from bench.findings.claims import probes
 from bench.findings.claims.probes import EXACT_RAD
+from bench.findings.claims.standing import ORDERED, Ledger, Operations, price_of_a_call, times_of
 from bench.findings.claims.tables import Results, settled, some
 from bench.tables.read import FREE_BODY
 
@@ -26,10 +27,10 @@ PAPERS = (
 )
 """The paper's laws as contenders, with its reading of 2.4 and its equation to the letter; all others are later."""
 
-CALL_PRICE, CALL_PRICES = 10.0, (1.0, 20.0)
-"""Flops that one sin, cos, atan2 or acos stands for where two columns must become one; the range tried."""
+THREE = ("rotation-matrix", "linearized-euler/zyx-euler", "feedback-linearized/zyx-euler")
+"""Those that it compares, in its order of cost: the first is 'remarkably simple', the others are 'more involved'."""
 
-SETTLED_SHARE, SLOW, DEAR = 0.999, 2.0, 2.0
+SETTLED_SHARE, SLOW = 0.999, 2.0
 DETOUR = 1.5
 """Path over shortest path from which a start at rest counts as unwinding: halfway to a full turn from a half turn is
 3/2, and no spring that pulls towards the goal goes so far."""
@@ -51,17 +52,12 @@ class Adequacy(NamedTuple):
     lost: int
     lost_exact: int
     detour: float
-    flops: int
-    calls: int
+    cost: Operations
     rows: int
-
-    def cost(self, price: float = CALL_PRICE) -> float:
-        """Flops with a call counted as so many."""
-        return self.flops + price * self.calls
 
 
 def every(results: Results, engine: str) -> list[Adequacy]:
-    """All laws that have uniform starts, half turns and a cost; the cheapest first.
+    """All laws that have uniform starts, half turns and a cost; the one with the fewest operations first.
 
     Errors:
         NoEvidence: no episode on the free body by this engine.
@@ -76,7 +72,7 @@ def every(results: Results, engine: str) -> list[Adequacy]:
         for name, own in runs.groupby("contender", observed=True)
         if name in priced and {"uniform", "half-turn"} <= set(own["start_set"])
     ]
-    return sorted(found, key=Adequacy.cost)
+    return sorted(found, key=lambda one: sum(one.cost))
 
 
 def held(results: Results, noise_rad: float) -> dict[str, tuple[int, int]]:
@@ -95,7 +91,6 @@ def _row(name: str, own: pd.DataFrame, costs: pd.DataFrame) -> Adequacy:
     is_uniform = own["start_set"] == "uniform"
     uniform, directed = own[is_uniform], own[~is_uniform]
     plain = own[is_uniform | (own["start_set"] == "half-turn")]
-    flops, calls = tallied(costs, with_goal=False)
     return Adequacy(
         name,
         len(uniform),
@@ -104,8 +99,7 @@ def _row(name: str, own: pd.DataFrame, costs: pd.DataFrame) -> Adequacy:
         int((directed["lost"] & ~directed["exact"]).sum()),
         int((directed["lost"] & directed["exact"]).sum()),
         float(plain["path_ratio"].max()),
-        flops,
-        calls,
+        tallied(costs, with_goal=False),
         len(own),
     )
 
@@ -121,13 +115,22 @@ def exact(runs: pd.DataFrame) -> pd.Series:
     return found | (far.to_numpy() <= EXACT_RAD)
 
 
-def tallied(rows: pd.DataFrame, with_goal: bool) -> tuple[int, int]:
+def tallied(rows: pd.DataFrame, with_goal: bool) -> Operations:
     """Flops and transcendental calls of one contender's rows, a row a stage."""
     total, goal = (rows[rows["stage"] == stage].iloc[0] for stage in ("total", "goal"))
     flops, calls = int(total["flops"]), int(sum(total[name] for name in CALLS))
     if with_goal:
-        return flops, calls
-    return flops - int(goal["flops"]), calls - int(sum(goal[name] for name in CALLS))
+        return Operations(flops, calls)
+    return Operations(flops - int(goal["flops"]), calls - int(sum(goal[name] for name in CALLS)))
+
+
+def ledger(results: Results) -> Ledger:
+    """What is known of the cost of laws of the free body, typical branch: without the goal's stage and with it."""
+    rows = results.table("costs", **FREE_BODY, branch="typical")
+    by_law = {str(name): own for name, own in rows.groupby("contender", observed=True)}
+    alone, whole = ({name: tallied(own, goal) for name, own in by_law.items()} for goal in (False, True))
+    times = times_of(results.timings())
+    return Ledger(times, (alone, whole), price_of_a_call(times, whole))
 
 
 TESTS = "abcdefgh"
@@ -137,21 +140,21 @@ BOTH = "abcd"
 """What C17 asks."""
 
 
-def missed(one: Adequacy, cheapest: dict[float, float], small_s: float, held: dict[str, tuple[int, int]]) -> str:
+def missed(one: Adequacy, known: Ledger, small_s: float, held: dict[str, tuple[int, int]]) -> str:
     """The tests of C27's criterion that a law does not pass; (f) is among them if it was not tried.
 
     Args:
-        cheapest: price of a call -> cost of the cheapest of the paper's three. held: of `adequacy.held`.
+        held: of `adequacy.held`.
     """
-    within = {price: one.cost(price) <= DEAR * least for price, least in cheapest.items()}
+    cost = [known.stand(one.name, other) for other in THREE[1:]]
     passed = {
         "a": one.settled >= SETTLED_SHARE,
         "b": not one.lost,
         "c": one.slowest_s <= SLOW * small_s,
-        "d": within[CALL_PRICE],
+        "d": all(stands.sign == ORDERED for stands in cost),
         "e": not one.lost_exact,
         "f": held.get(one.name, (1, 0))[0] == 0,
         "g": one.detour < DETOUR,
-        "h": all(within.values()),
+        "h": all(stands.by_operations == ORDERED for stands in cost),
     }
     return "".join(test for test in TESTS if not passed[test])

@@ -8,7 +8,7 @@ from bench.contenders.registry import representation
 from bench.findings.claims import probes
 from bench.findings.claims.feedback_linearized import LAW
 from bench.findings.claims.tables import MAIN_ENGINE, evidence, on_every_engine, settled, some
-from bench.findings.claims.verdict import claim, word_of
+from bench.findings.claims.verdict import Earlier, claim, word_of
 from bench.law.contender import AT_REST, Gains
 
 CONTENDER = f"{LAW}/zyx-euler"
@@ -140,6 +140,7 @@ def _jumps(gains: Gains) -> np.ndarray:
         "the region is kept free of initial orientations (the one judged)",
         "the region is never entered on the way: reported from the smallest cos(beta) of each episode",
     ),
+    earlier=(Earlier("2026-11-21 9072535", "Without the bodies that spin beside a margin."),),
 )
 @on_every_engine
 def c11(results, engine):
@@ -174,7 +175,7 @@ def c11(results, engine):
         {turning} tumbling (of {int(spins.sum())}), and {near} of {probes.BESIDE} that spin at {probes.SPEED:g} rad/s
         beside each margin; peak commands at rest up to {peak_rest:,.0f}, tumbling up to {peak_spin:,.0f} rad/s^2. Of
         {len(clear)} tumbling ones that never come within {widest} rad of a pole, {int(erratic[clear.index].sum())} are
-        erratic. By the criterion as first fixed, without the spinning ones beside a margin: {as_first_fixed.value}.""",
+        erratic.""",
         len(frame) + sum(len(one) for one in beside.values()),
         ("episodes", "experiment"),
-    )
+    )._replace(earlier=(as_first_fixed,))

@@ -31,6 +31,9 @@ STRAY_SHARE = 0.01
         The regulator produced a linear response for the entire range of Euler angles excluding the boundary
         points: alpha = +-pi, beta = +-pi/2, gamma = +-pi.
     """,
+    correction="""
+        The exception is another: starts exactly at alpha, gamma = +-pi settle, and bodies that spin near a pole may not.
+    """,
     written="2026-11-21 9072535",
     sentence="""
         The response is linear over the whole range of Euler angles but alpha, gamma = +-pi and beta =

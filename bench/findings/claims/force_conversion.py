@@ -59,8 +59,7 @@ STEP = 2.0 ** (-52 / 3)
         converted.
     """,
     open="""
-        "Since the matrix B always exists ... Forces measured by the force wrist may always be converted to forces
-        usable by the Euler Jacobian controller for every manipulator orientation." At a pole F_E exists, and one moment
+        At a pole F_E exists, and one moment
         does not reach it: that it exists and balances the work of every motion of the angles is the reading judged. A
         turn about the lost moment's axis is no motion of the angles.
     """,

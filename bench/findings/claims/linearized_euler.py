@@ -7,7 +7,7 @@ import numpy as np
 from bench.experiments.suites import SHORT
 from bench.findings.claims import probes
 from bench.findings.claims.tables import evidence, on_every_engine, settled, share, some
-from bench.findings.claims.verdict import claim, word_of
+from bench.findings.claims.verdict import Earlier, Word, claim, word_of
 from tasks.base import IDENTITY, Start
 from tasks.sphere import axes
 
@@ -34,6 +34,7 @@ FEW_GOALS, MANY_GOALS, CURE_SLACK = 0.05, 0.5, 0.05
         pi/2, -pi/2 < beta < pi/2, -pi < gamma < pi.
     """,
     value="|alpha|, |beta| < pi/2, |gamma| < pi",
+    correction="The box is a part of the range: most of what lies outside it is stable too.",
     written="2026-11-21 9072535",
     sentence="The linearized regulator is stable for about |alpha| < pi/2, |beta| < pi/2, |gamma| < pi.",
     question="How much of SO(3) settles, and is the box the region that does?",
@@ -87,6 +88,7 @@ def c06(results, engine):
         Because of the calculation methods for E and Edot, the regulator had extreme difficulties whenever beta
         passed through +-pi/2.
     """,
+    correction="At the pole commands and losses rise, but not to extremes.",
     written="2026-11-21 9072535",
     sentence="It has extreme difficulties whenever beta passes through +-pi/2.",
     question="How do episodes that come near the pole end, and what do they command, against the rest?",
@@ -140,7 +142,7 @@ def c07(results, engine):
         [0 0 0]^T. This problem may be avoided by defining the desired rotation as the zero point
     """,
     correction="With E_d subtracted it reaches goals near zero, and some far from it.",
-    written="2026-11-21 9072535",
+    written="2026-11-23 NEWHASH",
     sentence="It cannot drive to any coordinates but zero; angles taken from the desired orientation avoid that.",
     question="""
         What share of far goals does it reach with E_d subtracted, and what share with angles from the
@@ -148,12 +150,19 @@ def c07(results, engine):
     """,
     criterion=f"""
         Set goals, laws linearized-euler (E_d subtracted) and linearized-euler-relative (angles of R_d^T
-        R). The cure works if the relative law settles on goals at no less than its own share on uniform
-        (goal zero) minus {CURE_SLACK:.0%}, and at more than the base law does. It holds if the cure works
-        and the base law settles on at most {FEW_GOALS:.0%} of the goals, none of them a goal within 0.3
+        R); shares with 95 % intervals. The cure works if the relative law's interval on goals reaches to within
+        {CURE_SLACK:.0%} of its interval on uniform (goal zero), and lies above the base law's. It holds if the cure
+        works and the base law settles on at most {FEW_GOALS:.0%} of the goals, none of them a goal within 0.3
         rad of zero (16 directions, from zero); with a correction if the cure works and it settles on less
-        than {MANY_GOALS:.0%}; otherwise it does not hold.
+        than {MANY_GOALS:.0%}, by the whole interval; otherwise it does not hold.
     """,
+    earlier=(
+        Earlier(
+            "2026-11-21 9072535",
+            "The same of the shares themselves, which another sample of goals can turn.",
+            Word.CORRECTED,
+        ),
+    ),
     open="""
         Which goals the paper tried is not said; ours are more than a quarter turn from zero. Gains as in
         the paper.
@@ -177,8 +186,8 @@ def c08(results, engine):
     zero = share(settled(results.episodes(CURE, engine, "uniform")))
     starts = [Start("", IDENTITY, goal_wxyz=probes.about(axis, NEAR_GOAL_RAD)) for axis in axes(NEAR_GOALS)]
     near = share(probes.episodes(LAW, starts, results.gains(), 1e-3, SHORT)["outcome"] == "settled")
-    works = cure.value >= zero.value - CURE_SLACK and cure.value > base.value
-    word = word_of(works and base.value <= FEW_GOALS and not near.k, works and base.value < MANY_GOALS)
+    works = cure.high >= zero.low - CURE_SLACK and cure.low > base.high
+    word = word_of(works and base.high <= FEW_GOALS and not near.k, works and base.high < MANY_GOALS)
     return word, evidence(
         f"""With E_d subtracted it reaches {base} of the goals, and {near.k} of {near.n} goals {NEAR_GOAL_RAD} rad from
         zero; with angles from the goal {cure} of the goals, against {zero} of uniform starts with goal zero. As
