@@ -1,4 +1,4 @@
-"""The paper's claims, C01 to C27: each sentence with a criterion fixed before the results, and its verdict.
+"""The paper's claims, C01 to C35: each sentence with a criterion fixed before the results, and its verdict.
 
 One file for each part of the paper; a claim is found by being in one of them.
 
@@ -19,6 +19,13 @@ One file for each part of the paper; a claim is found by being in one of them.
     zyz_compliance.py        C24
     contact.py               C25
     later.py                 C27
+    angular_velocity.py      C28
+    expected_settling.py     C29
+    model_accuracy.py        C30
+    performance.py           C31, C35
+    numerics.py              C32
+    force_costs.py           C33
+    angle_forms.py           C34
     adequacy.py              every law by the tests of C17 and C27
     standing.py              how two laws stand in cost, by time and by operations
     tables.py                what a judging function reads

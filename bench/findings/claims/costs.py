@@ -79,7 +79,7 @@ def _priced(known: Ledger) -> str:
 
 def _flops_alone(known: Ledger) -> str:
     """Where flops, calls left out, come in another order."""
-    orders = [sorted(THREE, key=lambda name, one=one: one[name].flops) for one in known.accountings]
+    orders = [[name for _, name in sorted((one[name].flops, name) for name in THREE)] for one in known.accountings]
     others = [" < ".join(map(_law, order)) for order in orders if tuple(order) != THREE]
     return f"By flops alone, calls left out: {'; '.join(others) or 'the same order'}."
 

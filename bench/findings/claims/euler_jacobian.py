@@ -80,7 +80,7 @@ rounding eps/step are both about eps^(2/3), over the margin."""
 def c18(results):
     """Slopes towards the pole by family, the largest element on arrival, and the determinants' identity."""
     rows = some(results.table("poses", representation=COORDINATES), "pose of an arm")
-    families = _families(rows)
+    families = families(rows)
     silent = sorted(set(rows["arm"]) - set(families["arm"]))
     if silent:
         raise NoEvidence(f"no well-conditioned family of poses towards the pole on {', '.join(silent)}")
@@ -105,7 +105,7 @@ def c18(results):
     )
 
 
-def _families(rows: pd.DataFrame) -> pd.DataFrame:
+def families(rows: pd.DataFrame) -> pd.DataFrame:
     """Each family that speaks: slopes over the first decades, the largest element at the last, J's worst condition."""
     import pandas as pd
 

@@ -32,7 +32,7 @@ STRAY_SHARE = 0.01
         points: alpha = +-pi, beta = +-pi/2, gamma = +-pi.
     """,
     correction="""
-        The exception is another: starts exactly at alpha, gamma = +-pi settle, and bodies that spin near a pole may not.
+        The exception is another: starts exactly at alpha, gamma = +-pi settle, bodies that spin near a pole may not.
     """,
     written="2026-11-21 9072535",
     sentence="""

@@ -123,7 +123,7 @@ def c05(results):
     least = min(float((ratios * np.sin(frame["angle0_rad"])).min()), *(_length(one.x) for one in found))
     turns = results.episodes(LAW, MAIN_ENGINE, "half-turn")
     exact = some(turns[probes.boundary_distance(turns)["half_turn"] <= probes.EXACT_RAD], "exact half turn")
-    cancel = sum(np.linalg.norm(error(R)) <= ZERO_ERROR < _largest_product(R) for R in probes.rotations(exact))
+    cancel = sum(float(np.linalg.norm(error(R))) <= ZERO_ERROR < _largest_product(R) for R in probes.rotations(exact))
     readings = (least < NEAR_ZERO, cancel > 0)
     return word_of(all(readings), any(readings)), evidence(
         f"""Ambiguous. (a) Off the half turn |e| / sin(angle) is never below {lowest:.9f} at {len(frame):,} starts and

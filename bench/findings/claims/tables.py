@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeVar
 from bench.findings.claims.verdict import Evidence, NoEvidence, Word
 from bench.law.contender import Gains
 from bench.tables import read
+from bench.tables.files import read_json
 from bench.tables.schema import RESULTS
 
 if TYPE_CHECKING:
@@ -87,6 +88,12 @@ class Results:
         """The run's gains."""
         row = some(self.table("episodes", **read.FREE_BODY, engine=MAIN_ENGINE), f"episode by {MAIN_ENGINE}").iloc[0]
         return Gains(float(row["kp"]), float(row["kv"]))
+
+    @property
+    def seed(self) -> int:
+        """The run's; 0 of tables alone."""
+        path = self.folder and self.folder / "plan.json"
+        return int(read_json(path)["seed"]) if path and path.is_file() else 0
 
     def timings(self) -> pd.DataFrame:
         """Time per tick of laws alone, on every machine that was timed, a column `machine` added; maybe empty."""
