@@ -33,7 +33,8 @@ BEST = tuple(
     f"{law}@geometric+standard"
     for law in ("hybrid", "late-braking", "mrp-linearized", "quaternion-shortest", "mrp", "rotation-vector")
 )
-"""The six best of the later laws, the best first, as `selection.best` finds them in the results on the free body."""
+"""The later laws that run on arms: those that no noise holds at a half turn, and of the simplest others three whose
+springs differ. Whatever law is advised is among them (a test)."""
 ANALYTIC = tuple(f"feedback-linearized/{word}@analytic+standard" for word in IN_COORDINATES)
 RESOLVED = "rotation-matrix@geometric"
 BOUNDED = ("damped-least-squares", "damped-least-squares-variable", "truncated-svd", "dynamically-consistent")

@@ -47,11 +47,22 @@ def bootstrap(values: np.ndarray, statistic: Callable[..., np.ndarray], seed: in
     Errors:
         ValueError: there are no values.
     """
-    if not len(values):
-        raise ValueError("no values to resample (allowed: at least one)")
-    found = statistic(np.asarray(values)[_resamples(len(values), seed)], axis=-1)
+    found = resampled(values, statistic, seed)
     low, high = quantile(found, TAIL), quantile(found, 1.0 - TAIL)
     return Estimate(float(statistic(values, axis=-1)), float(low), float(high))
+
+
+def resampled(values: np.ndarray, statistic: Callable[..., np.ndarray], seed: int = SEED) -> np.ndarray:
+    """A statistic of each resample, shape (RESAMPLES,); resample by resample of the same starts for every law.
+
+    So the difference of two laws' is the paired bootstrap of their difference.
+
+    Errors:
+        ValueError: there are no values.
+    """
+    if not len(values):
+        raise ValueError("no values to resample (allowed: at least one)")
+    return statistic(np.asarray(values)[_resamples(len(values), seed)], axis=-1)
 
 
 @functools.lru_cache(maxsize=4)

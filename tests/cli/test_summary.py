@@ -14,7 +14,7 @@ from bench.cli.screen import frame_table
 from bench.cli.summary import absent, answer, failures, verdicts
 from bench.findings.claims import Results, all_claims
 from bench.findings.selection.measured import measure
-from bench.findings.selection.needs import ANSWER, decide
+from bench.findings.selection.needs import advise
 from bench.tables import read as results
 
 LINES, COLUMNS = 40, 100
@@ -47,7 +47,7 @@ def text(*found) -> str:
 def test_summary_of_the_reference_fits_the_screen_and_begins_with_the_law(capsys, monkeypatch, reference):
     said = bench(capsys, "show", REFERENCE)
     lines = said.out.splitlines()
-    law = decide(ANSWER, measure(reference)).law
+    law = advise(measure(reference)).default.law
     assert said.code == 0
     assert (len(lines) <= LINES, max(map(len, lines)) <= COLUMNS) == (True, True)
     assert lines[0].startswith("Which law ")
@@ -77,13 +77,14 @@ def test_no_line_of_a_paragraph_is_broken_inside_a_name():
 # ----------------------------------------------------------------------------------------- its words
 
 
-def test_exceptions_are_what_the_decisions_name(reference):
+def test_exceptions_are_those_of_the_advice(reference):
     found = measure(reference)
-    said = answer.paragraphs(found)[1].sentences
-    law = decide(ANSWER, found).law
-    for (need, _), sentence in zip(answer.EXCEPTIONS.values(), said, strict=True):
-        decision = decide(need, found)
-        assert (law if law in (decision.law, *decision.alike) else decision.law) in sentence
+    every, said = advise(found).exceptions, answer.paragraphs(found)[1].sentences
+    for one, sentence in zip(every, said, strict=True):
+        words, _, law = sentence.partition(": ")
+        assert words.lower() == one.need.words.lower()
+        assert re.match(rf"{re.escape(one.law)}[,. ]", law)
+        assert all(other in law for other in one.tied[:3])
 
 
 @pytest.mark.parametrize(

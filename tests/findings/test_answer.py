@@ -1,21 +1,46 @@
-"""The answer: the front by brute force, and decisions on laws made up for them."""
+"""The rule: fronts by brute force, ties, and decisions on laws made up for them."""
 
 import math
 
 import numpy as np
+import pandas as pd
 import pytest
 from support.user_law import spring_text
 
 from bench.contenders.described_law import described
 from bench.contenders.registry import contenders_of, find_contender
+from bench.findings.claims.tables import Results
 from bench.findings.selection.criteria import BY_NAME, CRITERIA, jump
-from bench.findings.selection.front import front
 from bench.findings.selection.measured import Measured
-from bench.findings.selection.needs import NEEDS, Fact, Need, decide
+from bench.findings.selection.needs import DEFAULT, NEEDS, Fact, Need, best_by, decide
+from bench.findings.selection.rule import GENERAL, dominates, front
 from bench.findings.selection.tables import Tables
+from bench.findings.selection.timed import MEASURABLE, ticks
+from bench.findings.selection.words import together
 
 CHEAP, MIDDLE, DEAR = "quaternion-shortest", "mrp", "hybrid"
+"""The simplest first: the last has memory."""
+
 ANY = Fact("is a law", lambda found, law: True)
+FLOPS = {CHEAP: 60, MIDDLE: 70, DEAR: 50}
+
+
+def made_up(**values):
+    """Laws with these values of criteria: criterion -> law -> values."""
+    contenders = {name: find_contender(name) for name in (CHEAP, MIDDLE, DEAR)}
+    counted = {name: counts(flops) for name, flops in FLOPS.items()}
+    tables = Tables(None, None, counted, None, None, {}, contenders)
+    return Measured(tables, {one.name: {} for one in CRITERIA} | values)
+
+
+def counts(flops):
+    """A law's rows of costs.parquet, without a call."""
+    rows = [("total", flops), ("goal", 0)]
+    return pd.DataFrame(rows, columns=["stage", "flops"]).assign(branch="typical", sin=0, cos=0, atan2=0, acos=0)
+
+
+def alone(cheap, middle, dear):
+    return {name: np.array([value]) for name, value in ((CHEAP, cheap), (MIDDLE, middle), (DEAR, dear))}
 
 
 def beaten(point, points):
@@ -24,56 +49,82 @@ def beaten(point, points):
     )
 
 
-@pytest.mark.parametrize(("count", "columns"), [(1, 2), (40, 2), (40, 3), (60, 4)])
-def test_front_is_what_brute_force_finds(count, columns):
-    # few different numbers, so that ties and equal points occur
-    points = np.random.default_rng(count + columns).integers(0, 6, size=(count, columns)).astype(float)
-    assert list(front(points)) == [not beaten(point, points) for point in points]
+@pytest.mark.parametrize("seed", range(20))
+def test_front_is_what_brute_force_finds_where_no_difference_is_small(seed):
+    # few different numbers, so that ties and equal points occur; of whole ones none differ by a hundredth only
+    points = np.random.default_rng(seed).integers(1, 4, size=(3, 2)).astype(float)
+    found = made_up(time=alone(*points[:, 0]), effort=alone(*points[:, 1]))
+    laws = [CHEAP, MIDDLE, DEAR]
+    expected = [law for law, point in zip(laws, points, strict=True) if not beaten(point, points)]
+    assert front(found, laws, ("time", "effort")) == expected
 
 
-def test_front_leaves_out_what_is_not_a_number_and_keeps_what_is_infinite():
-    points = np.array([[1.0, np.inf], [2.0, 3.0], [np.nan, 0.0], [2.0, 4.0]])
-    assert list(front(points)) == [True, True, False, False]
-
-
-def made_up(**values):
-    """Laws with these values of criteria: criterion -> law -> values."""
-    contenders = {name: find_contender(name) for name in (CHEAP, MIDDLE, DEAR)}
-    tables = Tables(None, None, {}, None, None, contenders)
-    return Measured(tables, {one.name: {} for one in CRITERIA} | values)
-
-
-def alone(cheap, middle, dear):
-    return {name: np.array([value]) for name, value in ((CHEAP, cheap), (MIDDLE, middle), (DEAR, dear))}
+def test_circle_of_laws_of_which_each_dominates_the_next_is_kept_whole():
+    near, between, far = 1.0, 1.0075, 1.015
+    found = made_up(time=alone(near, far, between), effort=alone(between, near, far), peak=alone(far, between, near))
+    laws, by = [CHEAP, MIDDLE, DEAR], ("time", "effort", "peak")
+    assert all(dominates(found, laws[i], laws[(i + 1) % 3], by) for i in range(3))
+    assert front(found, laws, by) == laws
 
 
 @pytest.mark.parametrize(
-    ("by", "values", "law", "alike", "second"),
+    ("by", "values", "law", "tied", "best"),
     [
-        ("peak", alone(3.0, 1.0, 2.0), MIDDLE, (), DEAR),
-        ("peak", {CHEAP: np.array([3.0]), DEAR: np.array([2.0])}, DEAR, (), CHEAP),  # the other was not asked
-        ("peak", alone(1.005, 1.0, 2.0), CHEAP, (MIDDLE,), DEAR),  # of equals the cheapest, the others beside it
-        ("cost", alone(77.0, 76.9, 90.0), MIDDLE, (), CHEAP),  # of costs none are equal but equal ones
-        ("held", alone(0.01, 0.03, math.inf), DEAR, (), MIDDLE),  # more is better
+        ("peak", alone(3.0, 1.0, 2.0), MIDDLE, (), (MIDDLE,)),
+        ("peak", {CHEAP: np.array([3.0]), DEAR: np.array([2.0])}, DEAR, (), (DEAR,)),  # the other was not asked
+        ("peak", alone(1.005, 1.0, 2.0), CHEAP, (MIDDLE,), (CHEAP, MIDDLE)),  # of equals the simplest
+        ("peak", alone(3.0, 1.0, 1.0), MIDDLE, (DEAR,), (MIDDLE, DEAR)),  # no memory before fewer operations
+        ("held", alone(0.01, 0.03, math.inf), DEAR, (), (DEAR,)),  # more is better
     ],
 )
-def test_need_names_the_best_its_equals_and_the_next(by, values, law, alike, second):
-    decision = decide(Need("", "", (ANY,), by), made_up(**{by: values}))
-    assert (decision.law, decision.alike, decision.next) == (law, alike, second)
-    value = values[law][0]
-    assert decision.number == (value, value, value)
+def test_situation_names_the_best_and_its_equals(by, values, law, tied, best):
+    found = decide(Need("", (ANY,), (by,)), made_up(**{by: values}))
+    assert (found.law, found.tied, found.best) == (law, tied, best)
 
 
-def test_need_asks_its_facts_first():
+def test_law_that_is_dominated_in_general_is_not_advised_though_it_is_as_good_here():
+    found = made_up(late=alone(1.0, 1.0, 1.0), effort=alone(2.0, 1.0, 1.0))
+    one = decide(Need("", (ANY,), ("late",)), found)
+    assert (one.law, one.tied, one.best) == (MIDDLE, (DEAR,), (CHEAP, MIDDLE, DEAR))
+
+
+def test_situation_of_two_criteria_keeps_what_is_better_by_either():
+    found = made_up(late=alone(1.0, 2.0, 3.0), heavy=alone(2.0, 1.0, 3.0))
+    one = decide(Need("", (ANY,), ("late", "heavy")), found)
+    assert (one.law, one.tied) == (CHEAP, (MIDDLE,))
+
+
+def test_situation_asks_its_facts_first():
     found = made_up(peak=alone(3.0, 1.0, 2.0), memory=alone(0.0, 4.0, 4.0))
     forgets = Fact("", lambda found, law: not found.number("memory", law))
-    decision = decide(Need("", "", (forgets,), "peak"), found)
-    assert (decision.law, decision.next, decision.asked) == (CHEAP, None, 1)
+    one = decide(Need("", (forgets,), ("peak",)), found)
+    assert (one.law, one.asked) == (CHEAP, (CHEAP,))
 
 
-def test_need_that_no_law_meets_names_none():
+def test_situation_that_no_law_meets_names_none():
     never = Fact("", lambda found, law: False)
-    assert decide(Need("", "", (never,), "peak"), made_up(peak=alone(3.0, 1.0, 2.0))).law is None
+    assert decide(Need("", (never,), ("peak",)), made_up(peak=alone(3.0, 1.0, 2.0))).law is None
+
+
+@pytest.mark.parametrize(("times", "is_better"), [((1.0, 3.9), False), ((1.0, 4.1), True), ((1.0, math.nan), False)])
+def test_time_a_tick_counts_from_what_is_measurable_on_a_whole_controller(times, is_better):
+    found = made_up(tick=alone(*times, 10.0))
+    assert 100 * MEASURABLE == 3.0
+    assert dominates(found, CHEAP, MIDDLE, ("tick",)) is is_better
+    assert not found.beats("tick", MIDDLE, CHEAP)
+
+
+def test_time_a_tick_is_the_law_over_the_shortest_loop_on_an_arm():
+    usual = {"representation": "", "jacobian": "", "inverse": "", "arm": "", "engine": "", "ticks": 10}
+    loop = usual | {"what": "engine", "engine": "native", "arm": "a", "regulator": "mrp", "jacobian": "geometric"}
+    rows = [
+        usual | {"what": "law", "regulator": "mrp", "ns_per_tick": 20.0},
+        usual | {"what": "law", "regulator": "gibbs", "ns_per_tick": 90.0, "ticks": 0},
+        loop | {"ns_per_tick": 2000.0},
+        loop | {"ns_per_tick": 4000.0},
+    ]
+    assert ticks(Results(None, {"timings": pd.DataFrame(rows)})) == {"mrp": 1.0}
+    assert ticks(Results(None, {"timings": pd.DataFrame(rows[:2])})) == {}
 
 
 def starts(offset, noise, seed):
@@ -82,16 +133,15 @@ def starts(offset, noise, seed):
 
 def test_difference_within_the_chance_of_the_starts_is_none():
     values = {CHEAP: starts(0.02, 0.3, 1), MIDDLE: starts(0.0, 0.3, 2), DEAR: starts(5.0, 0.3, 3)}
-    decision = decide(Need("", "", (ANY,), "late"), made_up(late=values))
-    assert {decision.law, *decision.alike} == {CHEAP, MIDDLE}
-    assert decision.next == DEAR
-    assert decision.number.low < decision.number.value < decision.number.high
+    found = made_up(late=values)
+    assert decide(Need("", (ANY,), ("late",)), found).best == best_by(found, "late", [CHEAP, MIDDLE, DEAR])
+    assert best_by(found, "late", [CHEAP, MIDDLE, DEAR]) == (CHEAP, MIDDLE)
 
 
 def test_difference_at_every_start_is_one_however_starts_differ():
     hard = starts(0.0, 0.3, 1)
     values = {CHEAP: hard + 0.02, MIDDLE: hard, DEAR: hard + 5.0}
-    assert decide(Need("", "", (ANY,), "late"), made_up(late=values)).law == MIDDLE
+    assert decide(Need("", (ANY,), ("late",)), made_up(late=values)).law == MIDDLE
 
 
 def test_law_that_settles_beats_one_that_does_not():
@@ -101,11 +151,21 @@ def test_law_that_settles_beats_one_that_does_not():
     assert not found.beats("late", CHEAP, MIDDLE)
 
 
-def test_every_need_ranks_by_a_criterion_and_every_criterion_says_what_it_means():
-    assert {need.by for need in NEEDS} <= set(BY_NAME)
+def test_every_situation_decides_by_criteria_and_every_criterion_says_what_it_means():
+    assert {by for need in NEEDS for by in need.by} | set(GENERAL) <= set(BY_NAME)
     assert len({one.name for one in CRITERIA}) == len(CRITERIA)
     assert all(one.meaning for one in CRITERIA)
-    assert len({need.words for need in NEEDS}) == len(NEEDS)
+    assert len({need.words for need in (DEFAULT, *NEEDS)}) == len(NEEDS) + 1
+
+
+def test_names_that_are_many_are_counted():
+    assert [together(list("abcde"[:count])) for count in range(1, 6)] == [
+        "a",
+        "a and b",
+        "a, b and c",
+        "a, b, c and d",
+        "a, b, c and 2 more",
+    ]
 
 
 @pytest.mark.parametrize(

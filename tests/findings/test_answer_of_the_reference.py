@@ -1,26 +1,58 @@
-"""The answer that the committed run gives: its verdicts, and that suites run on arms what it finds best."""
+"""The advice that the committed run gives: one in each situation wherever it is read, and no winner of a tie."""
 
-import math
+import functools
+import re
 
 import numpy as np
 import pytest
+from scipy.stats import bootstrap
 from support.pages import assert_is_whole
 
 from bench.contenders.registry import find_contender
 from bench.experiments import suites
 from bench.findings import claims
 from bench.findings.claims.tables import Results
-from bench.findings.claims.verdict import Word
-from bench.findings.selection.best import best
-from bench.findings.selection.measured import measured
-from bench.findings.selection.needs import ANSWER, EVERYWHERE, NEEDS, UNHELD, decide, decisions, has_all
+from bench.findings.selection.criteria import BY_NAME
+from bench.findings.selection.measured import measured, statistic
+from bench.findings.selection.needs import ARM, DEFAULT, EVERYWHERE, FORGETS, NEEDS, UNHELD, advice, advise, has_all
+from bench.findings.selection.timed import MEASURABLE
+from bench.findings.selection.words import leaders
+from bench.tables.read import with_contender
 from bench.tables.schema import RESULTS
+from bench.tables.store import read_arrow
+from report.figures import index
 from report.figures.answer import plane, which_law
+from report.figures.arms import arms
+from report.figures.cards import regulators
+from report.figures.comparison import comparison
+from report.figures.cost import cost
 from report.figures.kit import families, html
 from report.figures.kit.page import run_in
+from report.figures.robustness import half_turn_noise, other_perturbations, robustness, saturation
 
 FOLDER = RESULTS / "reference"
-LAW = "hybrid"
+RUN = run_in(FOLDER)
+
+BY_CRITERION = {
+    comparison: {"fastest": "time", "surest": "worst", "sparest": "effort", "peak_fastest": "matched"},
+    saturation: {"tight_law": "bounded"},
+}
+"""Page -> facts that name what is best by a criterion."""
+
+ADVICE = {which_law: ("lead",), index: ("which_law",), arms: ("best",)}
+"""Page -> facts that advise a law."""
+
+DESCRIBED = {
+    comparison: ("left_laws",),
+    saturation: ("over_law", "record_law", "losses", "tamed", "untamed"),
+    cost: ("against_time",),
+    robustness: ("harmless", "hardest"),
+    arms: ("inverse_advice",),
+}
+"""Page -> facts that name a law for what it does, and call none better."""
+
+CHANGES = re.compile(r".*_(law|losses)|losses_[amr]")
+"""Of perturbations: the law whose time changes most, and those that lose starts."""
 
 
 @pytest.fixture(scope="module")
@@ -28,9 +60,13 @@ def found():
     return measured(FOLDER)
 
 
-@pytest.fixture(scope="module")
+@functools.cache
 def decided():
-    return {one.need.words: one for one in decisions(FOLDER)}
+    return advice(FOLDER)
+
+
+def every():
+    return [decided().default, *decided().exceptions, *decided().others]
 
 
 def changed(found, criterion, law, value):
@@ -39,21 +75,24 @@ def changed(found, criterion, law, value):
     return found._replace(values=found.values | {criterion: own})
 
 
-def test_suites_run_on_arms_the_six_that_are_best(found):
-    assert tuple(f"{law}@geometric+standard" for law in best(found)) == suites.BEST
+# ------------------------------------------------------------------------------------------- the advice
 
 
-def test_answer_is_a_law_with_memory(found):
-    answer = decide(ANSWER, found)
-    assert answer.law == LAW
-    assert find_contender(answer.law).regulator.memory is not None
+def test_laws_that_are_advised_and_run_on_arms_are_in_the_suite():
+    on_arms = {word.partition("@")[0] for word in (*suites.LAWS, *suites.BEST)}
+    assert {one.law for one in every() if one.law} <= on_arms
+
+
+def test_default_is_a_law_with_memory():
+    assert find_contender(decided().default.law).regulator.memory is not None
 
 
 @pytest.mark.parametrize(("criterion", "value"), [("held", 0.01), ("lost", 1.0), ("detour", 2.0), ("unsettled", 1.0)])
-def test_answer_is_another_law_when_this_one_loses_what_is_asked(found, criterion, value):
-    other = decide(ANSWER, changed(found, criterion, LAW, value)).law
-    assert other == decide(ANSWER, found).next
-    assert other != LAW
+def test_default_is_another_law_when_this_one_loses_what_is_asked(found, criterion, value):
+    law = decided().default.law
+    other = advise(changed(found, criterion, law, value)).default.law
+    assert other in decided().default.asked
+    assert other != law
 
 
 def test_no_law_without_memory_settles_everywhere_and_is_not_held(found):
@@ -63,56 +102,127 @@ def test_no_law_without_memory_settles_everywhere_and_is_not_held(found):
     assert not [law for law in forgetful if has_all(found, law, (EVERYWHERE, UNHELD))]
 
 
-def test_law_that_never_jumps_loses_half_turns(found):
-    law = next(decide(need, found).law for need in NEEDS if need.words == "a command that never jumps")
-    assert found.number("lost", law) > 0
-    assert math.isclose(found.number("jump", law), 0.0, abs_tol=1e-5)
+def test_every_law_that_is_advised_has_what_the_situation_asks(found):
+    for one in every():
+        assert one.law is not None, one.need.words
+        assert all(has_all(found, law, one.need.facts) for law in (one.law, *one.tied, *one.best))
 
 
-def test_every_need_leads_to_a_law_that_has_what_it_asks(found, decided):
-    for need in NEEDS:
-        one = decided[need.words]
-        assert one.law is not None, need.words
-        assert all(has_all(found, law, need.facts) for law in (one.law, *one.alike))
-        assert one.next is None or not found.beats(need.by, one.next, one.law)
+def test_situation_that_decides_nothing_is_one_in_which_the_default_is_not_beaten(found):
+    assert {one.need.words for one in every()[1:]} == {need.words for need in NEEDS}
+    law = decided().default.law
+    for one in decided().others:
+        assert decided().of(one.need).law == law
+        assert not any(found.beats(by, other, law) for by in one.need.by[:1] for other in one.asked)
+    for one in decided().exceptions:
+        is_beaten = any(found.beats(by, other, law) for by in one.need.by for other in one.best)
+        assert is_beaten or not has_all(found, law, one.need.facts), one.need.words
 
 
-def test_cheapest_law_of_all_is_the_papers(decided):
-    assert decided["the fewest operations, where half turns never occur"].law == "rotation-matrix"
+def test_single_best_is_better_by_scipys_paired_bootstrap_too(found):
+    tried = 0
+    for one in every():
+        for by in one.need.by if len(one.best) == 1 and len(one.need.by) == 1 else ():
+            taken = statistic(BY_NAME[by])
+            values = [found.values[by][law] for law in one.asked if found.beats(by, one.law, law)]
+            for beside in values if len(found.values[by][one.law]) > 1 else ():
+                assert beaten(taken, found.values[by][one.law], beside).high < 0.0, by
+                tried += 1
+    assert tried > 5
 
 
-def test_open_question_is_answered():
-    verdict = claims.judge("C27", Results(FOLDER))
-    assert verdict.word == Word.FAILS
-    assert verdict.evidence.parts["answers"].startswith(LAW)
-    assert verdict.evidence.parts["nearly"].startswith("late-braking")
+def beaten(taken, own, others):
+    """95 % interval of the difference of two laws' numbers, by scipy."""
+
+    def difference(one, other, axis):
+        return taken(one, axis=axis) - taken(other, axis=axis)
+
+    kind = {"paired": True, "method": "percentile", "n_resamples": 999, "rng": np.random.default_rng(0)}
+    return bootstrap((own, others), difference, **kind).confidence_interval
 
 
-def test_papers_verdict_has_later_laws_beside_it():
-    assert f"{LAW} 100.00%" in str(claims.judge("C17", Results(FOLDER)).evidence)
+def test_time_of_laws_alone_is_what_tells_whole_controllers_apart():
+    for path in (RESULTS / "timings").glob("*.parquet"):
+        frame = with_contender(read_arrow(path, "timings").to_pandas())
+        alone = frame[frame["what"] == "law"].set_index("contender")["ns_per_tick"]
+        loops = frame[(frame["what"] == "engine") & (frame["engine"] == "native") & (frame["jacobian"] == "geometric")]
+        loops = loops[loops["inverse"] == loops["arm"].map(lambda arm: "pseudo-inverse" if arm == "panda" else "solve")]
+        for _, own in loops.groupby("arm", observed=True):
+            whole = own.assign(law=own["contender"].astype(str).str.split("@").str[0]).set_index("law")["ns_per_tick"]
+            difference = (whole - whole["rotation-matrix"]) - (alone[whole.index] - alone["rotation-matrix"])
+            assert len(whole) > 3
+            assert (difference.abs() <= MEASURABLE * whole).all(), difference
 
 
-def test_three_fronts_are_nested_by_what_they_ask_and_each_gets_dearer_and_faster(found):
-    for least, members in enumerate(plane.fronts(found)):
-        assert members
-        assert all(plane.coverage(found, law) >= least for law in members)
-        times = [found.number("time", law) for law in members]
-        assert times == sorted(times, reverse=True)
+# --------------------------------------------------------------------------------- wherever it is read
 
 
-def test_page_names_every_law_and_every_need(found, decided):
-    every, needs = which_law.every_law(found), which_law.decided(decisions(FOLDER))
-    assert all(f">{html.foreign(families.present([law])[0].laws[law])}<" in every for law in found.laws)
-    assert all(words in needs for words in decided)
+def test_front_page_lead_and_table_name_the_advised_law():
+    law = decided().default.law
+    word = families.word(law)
+    for text in (which_law.front_page(RUN), which_law.lead(RUN), index.facts(RUN)["which_law"]):
+        assert text.startswith(word[0].upper() + word[1:])
+    lines = which_law.decided(decided(), measured(FOLDER)).splitlines()[2:]
+    for one, line in zip((decided().default, *decided().exceptions), lines, strict=True):
+        cells = line.split(" | ")
+        assert cells[0].removeprefix("| ") == one.need.words
+        assert f"#{families.anchor(one.law)}" in cells[1]
+        assert not one.tied or all(families.word(law) in line for law in one.tied[:2])
 
 
-def test_cheapest_at_the_usual_price_is_the_answer(found):
-    assert which_law.cheapest(found, which_law.CALL_PRICE) == families.word(LAW)
+def test_page_on_arms_names_the_law_that_is_advised_there():
+    assert arms.facts(RUN)["best"] == families.word(decided().of(ARM).law)
+
+
+def test_cards_name_each_situation_once_and_of_ties_all_laws(found):
+    said = {law: regulators.advised(law, RUN) for law in found.laws}
+    for one in (decided().default, *decided().exceptions):
+        holders = [law for law, text in said.items() if one.need.words in text.partition("No worse")[0]]
+        assert holders == [one.law]
+        assert {law for law, text in said.items() if one.need.words in text.partition("No worse")[2]} == set(one.tied)
+
+
+@pytest.mark.parametrize("page", BY_CRITERION, ids=lambda page: page.__name__)
+def test_page_calls_best_what_the_rule_does(found, page):
+    facts = page.facts(RUN)
+    for key, criterion in BY_CRITERION[page].items():
+        assert facts[key] == leaders(found, criterion, families.word)
+        if "(a tie)" in facts[key]:
+            assert "," in facts[key] or " and " in facts[key]
+
+
+@pytest.mark.parametrize(
+    "page",
+    [which_law, index, arms, comparison, cost, robustness, half_turn_noise, saturation, other_perturbations],
+    ids=lambda page: page.__name__,
+)
+def test_fact_that_names_a_law_is_one_of_those_known_to(found, page):
+    known = (*BY_CRITERION.get(page, ()), *ADVICE.get(page, ()), *DESCRIBED.get(page, ()))
+    words = [families.word(law) for law in found.laws]
+    for key, value in page.facts(RUN).items():
+        names = any(re.search(rf"\b{re.escape(word)}\b", str(value), re.IGNORECASE) for word in words if len(word) > 3)
+        is_change = page is other_perturbations and CHANGES.fullmatch(key)
+        assert not names or key in known or is_change, (key, value)
+
+
+def test_open_question_has_the_advised_law_among_the_later_laws_that_were_judged():
+    assert decided().default.law in str(claims.judge("C17", Results(FOLDER)).evidence)
+
+
+# ---------------------------------------------------------------------------------------------- the page
+
+
+def test_plane_marks_what_settles_everywhere(found):
+    assert plane.coverage(found, decided().default.law) == 2
+    assert plane.coverage(found, decided().of(FORGETS).law) == 1
+    assert plane.coverage(found, "rotation-matrix") == 0
+
+
+def test_page_names_every_law_and_every_situation(found):
+    laws, words = which_law.every_law(found), which_law.decided(decided(), found) + which_law.facts(RUN)["same"]
+    assert all(f">{html.foreign(families.present([law])[0].laws[law])}<" in laws for law in found.laws)
+    assert all(need.words in words for need in (DEFAULT, *NEEDS))
 
 
 def test_page_is_whole():
-    assert_is_whole(which_law, run_in(FOLDER))
-
-
-def test_front_page_names_the_answer():
-    assert families.word(LAW) in which_law.front_page(run_in(FOLDER))
+    assert_is_whole(which_law, RUN)

@@ -110,15 +110,6 @@ def test_measured_times_are_within_a_tick_after_the_equations():
         assert late.max() < tick + 1e-3
 
 
-def test_law_that_is_first_most_often_is_first_where_it_is_alone():
-    made = [episode(law, start, time=time) for law, time in (("gibbs", 1.0), ("mrp", 2.0)) for start in "abc"]
-    made += [episode("gibbs", "d", "stuck"), episode("mrp", "d")]
-    usual = {"effort": 1.0, "tolerance": 0.02, "dt_s": 0.001}
-    one = cells.common(pd.DataFrame([row | usual for row in made]))
-    found = comparison.of_all(one, one)
-    assert (found["first"], found["first_share"]) == (families.word("gibbs"), "75.0")
-
-
 def test_page_is_whole():
     assert_is_whole(comparison, RUN)
 
@@ -163,4 +154,4 @@ class Unperturbed(Run):
 def test_page_says_so_where_there_are_no_rows_at_equal_peak():
     run = Unperturbed(RESULTS / "reference")
     assert comparison.tables(run)["at_peak"] is None
-    assert "peak_fastest" not in comparison.facts(run)
+    assert "peak_matrix" not in comparison.facts(run)

@@ -20,7 +20,6 @@ ALLOWED = {
     "bench/control/hybrid.py": "the cure in a refusal; a law's file asks no registry",
     "bench/experiments/suites.py": "what a suite runs",
     "bench/findings/claims/": "sentences about them",
-    "bench/findings/selection/": "what is asked of them",
     "bench/studies/": "what a study was designed for",
     "bench/regression/revisions/side.py": "what is timed on every revision",
     "bench/timing/": "what the loop in numpy computes",

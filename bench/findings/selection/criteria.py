@@ -2,25 +2,25 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
 
-from bench.findings.claims.adequacy import CALL_PRICE
 from bench.findings.selection.measures import (
     held_by_noise_from,
     jump,
+    later_than_fastest,
     longest_path,
-    lost_on_arms,
-    memory,
     of_one_law,
+    on_arms,
     over_uniform,
     perturbed,
-    spread,
-    worst_of_uniform,
+    within_rated,
 )
 from bench.findings.selection.tables import Tables, by_law
+from bench.findings.selection.timed import MEASURABLE
 
 LEAST, GREATEST = 1.0, -1.0
 """Which is better."""
@@ -33,8 +33,8 @@ class Criterion(NamedTuple):
     """One number of a law, from one value a start (or from one value alone).
 
     measure(tables) -> law: values, all laws' in the order of the same starts; a law that was not asked is missing.
-    level: the quantile that is taken of the values; None: their mean. sense: LEAST or GREATEST is better.
-    notable: relative difference below which two laws are alike. form: how the number is written.
+    level: the quantile that is taken of the values, 1 the largest; None: their mean. sense: LEAST or GREATEST is
+    better. notable, least: relative and absolute difference up to which two laws tie. form: how the number is written.
     """
 
     name: str
@@ -45,6 +45,7 @@ class Criterion(NamedTuple):
     level: float | None = 0.5
     sense: float = LEAST
     notable: float = NOTABLE
+    least: float = 0.0
     form: str = "{:.3g}"
 
 
@@ -92,7 +93,8 @@ CRITERIA = (
         "Slowest start",
         "s",
         "settling time of the slowest uniform start",
-        worst_of_uniform("settling_time_s"),
+        over_uniform("settling_time_s"),
+        1.0,
         form="{:.3f}",
     ),
     Criterion(
@@ -100,28 +102,23 @@ CRITERIA = (
         "Slowest less fastest",
         "s",
         "slowest less fastest settling time, uniform starts",
-        spread,
+        later_than_fastest,
+        1.0,
         form="{:.3f}",
     ),
     Criterion(
-        "cost",
-        "Cost",
-        "flops",
-        f"operations a tick, a call counted as {CALL_PRICE:g}",
-        of_one_law(Tables.costing),
+        "tick",
+        "Of a controller's tick",
+        "%",
+        "time of the law alone over a tick of a whole controller on an arm",
+        lambda tables: {name: np.array([tables.ticks.get(name, math.nan)]) for name in tables.contenders},
         notable=0.0,
-        form="{:.0f}",
+        least=100.0 * MEASURABLE,
+        form="{:.1f}",
     ),
     Criterion(
-        "dearest",
-        "Cost of the worst branch",
-        "flops",
-        "the same on the dearest branch",
-        of_one_law(lambda tables, name: tables.costing(name, "worst")),
-        notable=0.0,
-        form="{:.0f}",
+        "memory", "Memory", "numbers", "numbers kept from tick to tick", of_one_law(Tables.memory), form="{:.0f}"
     ),
-    Criterion("memory", "Memory", "numbers", "numbers kept from tick to tick", of_one_law(memory), form="{:.0f}"),
     Criterion(
         "jump",
         "Jump at a half turn",
@@ -141,7 +138,15 @@ CRITERIA = (
     Criterion(
         "effort", "Effort", "rad²/s³", "integral of the squared command, median uniform start", over_uniform("effort")
     ),
-    Criterion("peak", "Peak command", "rad/s²", "greatest command of any uniform start", worst_of_uniform("peak_u")),
+    Criterion("peak", "Peak command", "rad/s²", "greatest command of any uniform start", over_uniform("peak_u"), 1.0),
+    Criterion(
+        "chatter",
+        "Change at rest",
+        "rad/s²",
+        "largest change of the command from tick to tick at rest",
+        over_uniform("rest_change"),
+        1.0,
+    ),
     Criterion(
         "variation",
         "Variation",
@@ -173,7 +178,24 @@ CRITERIA = (
         perturbed("attitude-noise", NOISY_RAD, "variation"),
     ),
     Criterion(
-        "arms", "Arm episodes lost", "%", "uniform starts on arms that do not settle", lost_on_arms, None, form="{:.1f}"
+        "arms",
+        "Settle on arms",
+        "%",
+        "uniform starts on arms that settle",
+        on_arms(lambda rows: ~rows["lost"]),
+        None,
+        GREATEST,
+        form="{:.1f}",
+    ),
+    Criterion(
+        "rated",
+        "Settle within rated torque",
+        "%",
+        "uniform starts on arms that settle within the motors' rated torques",
+        on_arms(within_rated),
+        None,
+        GREATEST,
+        form="{:.1f}",
     ),
 )
 

@@ -7,12 +7,14 @@ import math
 from collections.abc import Callable
 
 import numpy as np
+import pandas as pd
 
-from bench.findings.claims.adequacy import NOISE
 from bench.findings.selection.tables import Tables, by_law
 from bench.law.contender import AT_REST, Contender, Gains, Goal
 from bench.law.so3 import from_quaternion
 from tasks.sphere import axes
+
+NOISE = "half-turn-noise"
 
 
 def of_one_law(measure: Callable[[Tables, str], float]) -> Callable[[Tables], dict[str, np.ndarray]]:
@@ -23,15 +25,6 @@ def of_one_law(measure: Callable[[Tables, str], float]) -> Callable[[Tables], di
 def over_uniform(column: str) -> Callable[[Tables], dict[str, np.ndarray]]:
     """A column of all uniform starts; infinite where the law does not settle."""
     return lambda tables: by_law(tables.uniform, column, math.inf)
-
-
-def worst_of_uniform(column: str) -> Callable[[Tables], dict[str, np.ndarray]]:
-    """Its largest value."""
-
-    def measure(tables):
-        return {name: np.array([values.max()]) for name, values in by_law(tables.uniform, column, math.inf).items()}
-
-    return measure
 
 
 def perturbed(axis: str, level: float, column: str) -> Callable[[Tables], dict[str, np.ndarray]]:
@@ -45,13 +38,10 @@ def perturbed(axis: str, level: float, column: str) -> Callable[[Tables], dict[s
     return measure
 
 
-def spread(tables: Tables) -> dict[str, np.ndarray]:
-    """Slowest less fastest settling time of uniform starts [s]; infinite if one does not settle."""
+def later_than_fastest(tables: Tables) -> dict[str, np.ndarray]:
+    """How much later each uniform start settles than the law's fastest [s]; infinite where it does not settle."""
     times = by_law(tables.uniform, "settling_time_s", math.inf)
-    return {
-        name: np.array([values.max() - values.min() if np.isfinite(values).all() else math.inf])
-        for name, values in times.items()
-    }
+    return {name: values - min(values[np.isfinite(values)], default=0.0) for name, values in times.items()}
 
 
 def longest_path(tables: Tables) -> dict[str, np.ndarray]:
@@ -69,11 +59,6 @@ def held_by_noise_from(tables: Tables) -> dict[str, np.ndarray]:
         holding = own.loc[own["lost"], "level"]
         found[str(name)] = np.array([holding.min() if len(holding) else math.inf])
     return found
-
-
-def memory(tables: Tables, name: str) -> float:
-    """Numbers that a law keeps from tick to tick."""
-    return float(sum(1 for _ in tables.contenders[name].regulator.memory or ()))
 
 
 BESIDE_RAD, DIRECTIONS = 1e-6, 16
@@ -105,7 +90,16 @@ def _across(one: Contender, axis: np.ndarray) -> float:
     return float(np.linalg.norm(commands[1] - commands[0]))
 
 
-def lost_on_arms(tables: Tables) -> dict[str, np.ndarray]:
-    """Episodes on arms from uniform starts that do not settle [%]."""
-    lost = by_law(tables.arms[tables.arms["contender"].isin(tables.contenders)], "lost")
-    return {name: 100.0 * values for name, values in lost.items()}
+def on_arms(is_good: Callable[[pd.DataFrame], pd.Series]) -> Callable[[Tables], dict[str, np.ndarray]]:
+    """100 for each episode on arms from uniform starts that is good by some measure, 0 for the others [%]."""
+
+    def measure(tables):
+        rows = tables.arms[tables.arms["contender"].isin(tables.contenders)]
+        return by_law(rows.assign(good_percent=100.0 * is_good(rows)), "good_percent")
+
+    return measure
+
+
+def within_rated(rows: pd.DataFrame) -> pd.Series:
+    """Whether an episode settles, and no motor is asked for more than its rated torque."""
+    return ~rows["lost"] & (rows["peak_torque_ratio"] <= 1.0)

@@ -1,26 +1,33 @@
-"""What a user may need of a law, as data, and the law that a run's numbers name for it.
+"""Situations as data, and the law that the rule (`rule`) advises in each, by the numbers of a run.
 
-A need asks some facts of a law and then ranks by one criterion. Of the laws that no other notably beats by it
-(`Measured.beats`), the cheapest is named, and the others are named beside it.
+What any page, card or command says of which law to use comes of `advice`, and what it calls the best by a criterion of
+`best_by`.
 """
 
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
-from bench.findings.claims.adequacy import DETOUR, SETTLED_SHARE
-from bench.findings.claims.later import HELD_RAD
 from bench.findings.selection import criteria
 from bench.findings.selection.measured import Measured, measured
-from bench.findings.selection.measures import worst_of_uniform
-from bench.tables.statistics import Estimate
+from bench.findings.selection.rule import GENERAL, front, simplest
+
+DETOUR = 1.5
+"""Way over the shortest way from which a start unwinds: halfway to a full turn from a half turn is 3/2, and no spring
+that pulls towards the goal goes so far."""
+
+HELD_RAD = 0.1
+"""Greatest worst-case noise near the half turn that must not hold a law there: six degrees, which no sensor of
+orientation in use exceeds by much, and far less than any law's memory could bridge."""
+
+SETTLED_SHARE = 0.999
+"""Of evenly spread starts, where a law may lose what chance does not hit."""
 
 CONTINUOUS = 1e-3
 """Jump of the command over kp [rad] below which it is the slope's: f'(pi) 2e-6 of any law here."""
-
 
 CHATTER = 1.0
 """Largest change of the command from tick to tick at rest [rad/s^2]: a hundredth of Kp times a radian. A linear loop
@@ -36,27 +43,26 @@ class Fact(NamedTuple):
 
 
 class Need(NamedTuple):
-    """What a user needs, under a head; the facts it asks; the criterion it ranks by."""
+    """A situation: the facts it asks of a law, and the criteria it decides by; none: by what counts everywhere."""
 
-    head: str
     words: str
     facts: tuple[Fact, ...]
-    by: str
+    by: tuple[str, ...] = ()
 
 
 class Decision(NamedTuple):
-    """law: the one to use, None if none has the facts; alike: those that no law notably beats either, by cost.
+    """What the rule makes of a situation.
 
-    next: the best of the others, None if there is none. asked: how many laws have the facts.
+    law: the one that is advised, None if none has the facts. tied: the others that are kept, the simplest first.
+    best: what no law dominates by the situation's own criteria, `law` and `tied` among them. asked: all that have the
+    facts and were measured.
     """
 
     need: Need
     law: str | None
-    alike: tuple[str, ...]
-    next: str | None
-    asked: int
-    number: Estimate | None
-    next_number: Estimate | None
+    tied: tuple[str, ...]
+    best: tuple[str, ...]
+    asked: tuple[str, ...]
 
 
 def _settles(found: Measured, law: str) -> bool:
@@ -64,10 +70,7 @@ def _settles(found: Measured, law: str) -> bool:
 
 
 EVERYWHERE = Fact("settles from every start of the run, none the long way round", _settles)
-QUIET = Fact(
-    "its command is quiet at rest",
-    lambda found, law: worst_of_uniform("rest_change")(found.tables)[law][0] <= CHATTER,
-)
+QUIET = Fact("its command is quiet at rest", lambda found, law: found.number("chatter", law) <= CHATTER)
 UNHELD = Fact(
     f"no worst-case noise up to {HELD_RAD:g} rad holds it at a half turn",
     lambda found, law: found.number("held", law) > HELD_RAD,
@@ -78,45 +81,60 @@ NEARLY = Fact(
     f"settles from {SETTLED_SHARE:.1%} of evenly spread starts",
     lambda found, law: found.number("unsettled", law) <= 100.0 * (1.0 - SETTLED_SHARE) + 1e-9,
 )
-ON_ANGLES = Fact(
-    "is computed from Z-Y-X angles",
-    lambda found, law: getattr(found.tables.contenders[law].representation, "name", "") == "zyx-euler",
-)
 TRIED = Fact("was perturbed in this run", lambda found, law: law in found.values["variation"])
 
 SURE = (TRIED, EVERYWHERE, QUIET)
-ANYWHERE, COMMAND, PERTURBED, GIVEN = (
-    "From every start",
-    "The command",
-    "Under perturbation",
-    "With less at hand",
-)
 
-ANSWER = Need(ANYWHERE, "the same, and no noise may hold it at a half turn", (*SURE, UNHELD), "cost")
-"""What C27 asks for: the cheapest law that nothing stops."""
+DEFAULT = Need("nothing else is known", (*SURE, UNHELD))
+"""What a law must have to be advised where nothing else is said."""
+
+ARM = Need("a robot's arm, exact half turns aside", (TRIED, NEARLY), ("arms", "rated"))
+FORGETS = Need("no memory in the controller", (*SURE, FORGETFUL))
+BOUNDED = Need(f"motors that end at {criteria.BOUND:g} rad/s²", SURE, ("bounded",))
 
 NEEDS = (
-    Need(ANYWHERE, "every start settled, at the least cost", SURE, "cost"),
-    ANSWER,
-    Need(ANYWHERE, "the fastest, at equal stiffness near the goal", SURE, "time"),
-    Need(ANYWHERE, "the same settling time from everywhere: a linear response", SURE, "spread"),
-    Need(COMMAND, "least effort", SURE, "effort"),
-    Need(COMMAND, "the smoothest command", SURE, "variation"),
-    Need(COMMAND, "the smallest peak", SURE, "peak"),
-    Need(COMMAND, f"the fastest whose peak is {criteria.PEAK:g} rad/s²: gains to suit", SURE, "matched"),
-    Need(COMMAND, f"the fastest behind motors that end at {criteria.BOUND:g} rad/s²", SURE, "bounded"),
-    Need(PERTURBED, f"a computer that answers {criteria.SLOW_HZ:g} times a second", SURE, "slow"),
-    Need(PERTURBED, f"{1e3 * criteria.LATE_S:g} ms of delay", SURE, "late"),
-    Need(PERTURBED, f"inertia {criteria.HEAVY:g} times what the model says", SURE, "heavy"),
-    Need(PERTURBED, f"a body that spins at {criteria.SPIN:g} rad/s", SURE, "spinning"),
-    Need(PERTURBED, f"a goal that moves at {criteria.MOVING:g} rad/s, with feedforward", SURE, "follows"),
-    Need(PERTURBED, f"orientation known to {criteria.NOISY_RAD:g} rad, and a calm command", SURE, "noisy"),
-    Need(GIVEN, "no memory in the controller", (*SURE, FORGETFUL), "cost"),
-    Need(GIVEN, "a command that never jumps", (TRIED, NEARLY, FORGETFUL, SMOOTH), "time"),
-    Need(GIVEN, "the fewest operations, where half turns never occur", (TRIED, NEARLY), "cost"),
-    Need(GIVEN, "Z-Y-X angles and no matrix", (TRIED, NEARLY, ON_ANGLES), "lost"),
-    Need(GIVEN, "a robot's arm", SURE, "arms"),
+    Need("the fastest, at equal stiffness near the goal", SURE, ("time",)),
+    Need("the same settling time from everywhere", SURE, ("spread",)),
+    Need("least effort", SURE, ("effort",)),
+    Need("the smoothest command", SURE, ("variation",)),
+    Need("the smallest peak of the command", SURE, ("peak",)),
+    Need(f"gains that make the peak {criteria.PEAK:g} rad/s²", SURE, ("matched",)),
+    BOUNDED,
+    Need(f"a computer that answers {criteria.SLOW_HZ:g} times a second", SURE, ("slow",)),
+    Need(f"{1e3 * criteria.LATE_S:g} ms of delay", SURE, ("late",)),
+    Need(f"inertia {criteria.HEAVY:g} times what the model says", SURE, ("heavy",)),
+    Need(f"a body that spins at {criteria.SPIN:g} rad/s", SURE, ("spinning",)),
+    Need(f"a goal that moves at {criteria.MOVING:g} rad/s, with feedforward", SURE, ("follows",)),
+    Need(f"orientation known to {criteria.NOISY_RAD:g} rad", SURE, ("noisy",)),
+    FORGETS,
+    Need("a command that never jumps", (TRIED, NEARLY, FORGETFUL, SMOOTH)),
+    ARM,
 )
+
+
+class Advice(NamedTuple):
+    """What is advised in every situation.
+
+    default: where nothing else is known. exceptions: the situations in which another law is better than its law, or it
+    lacks a fact. others: those that decide nothing, for no law is better there.
+    """
+
+    default: Decision
+    exceptions: tuple[Decision, ...]
+    others: tuple[Decision, ...]
+
+    def of(self, need: Need) -> Decision:
+        """What is advised in a situation: where it decides nothing the default's law, which ties with its best."""
+        one = next(each for each in (self.default, *self.exceptions, *self.others) if each.need is need)
+        law = self.default.law
+        return (
+            one._replace(law=law, tied=tuple(each for each in one.best if each != law)) if one in self.others else one
+        )
+
+    def uses(self, law: str) -> tuple[list[Need], list[Need]]:
+        """The situations in which a law is advised, and those in which it ties with what is advised."""
+        every = [self.default, *self.exceptions]
+        return [one.need for one in every if one.law == law], [one.need for one in every if law in one.tied]
 
 
 def has_all(found: Measured, law: str, facts: tuple[Fact, ...]) -> bool:
@@ -125,22 +143,38 @@ def has_all(found: Measured, law: str, facts: tuple[Fact, ...]) -> bool:
 
 
 def decide(need: Need, found: Measured) -> Decision:
-    """The law that a need leads to."""
-    able = [law for law in found.laws if has_all(found, law, need.facts)]
-    asked = [law for law in able if law in found.values[need.by]]
+    """What the rule makes of a situation on its own, the default's law not looked at."""
+    asked = tuple(
+        law
+        for law in found.laws
+        if has_all(found, law, need.facts) and all(len(found.values[one].get(law, ())) for one in need.by)
+    )
     if not asked:
-        return Decision(need, None, (), None, 0, None, None)
-    sense = criteria.BY_NAME[need.by].sense
-    ranked = sorted(asked, key=lambda law: sense * found.number(need.by, law))
-    alike = [law for law in ranked if law == ranked[0] or not found.beats(need.by, ranked[0], law)]
-    others = [law for law in ranked if law not in alike]
-    first, *rest = sorted(alike, key=found.laws.index)
-    next_ = others[0] if others else None
-    told = found.estimate(need.by, next_) if next_ else None
-    return Decision(need, first, tuple(rest), next_, len(asked), found.estimate(need.by, first), told)
+        return Decision(need, None, (), (), ())
+    best = front(found, asked, need.by)
+    kept = front(found, best, GENERAL)
+    law = simplest(found, kept)
+    return Decision(need, law, tuple(one for one in kept if one != law), tuple(best), asked)
+
+
+def advise(found: Measured) -> Advice:
+    """All situations, decided."""
+    default, every = decide(DEFAULT, found), [decide(need, found) for need in NEEDS]
+    is_decisive = [default.law not in one.best for one in every]
+    return Advice(
+        default,
+        tuple(one for one, is_other in zip(every, is_decisive, strict=True) if is_other),
+        tuple(one for one, is_other in zip(every, is_decisive, strict=True) if not is_other),
+    )
 
 
 @functools.cache
-def decisions(folder: Path) -> tuple[Decision, ...]:
-    """All needs, decided by the run in a folder."""
-    return tuple(decide(need, measured(folder)) for need in NEEDS)
+def advice(folder: Path) -> Advice:
+    """That of the run in a folder."""
+    return advise(measured(folder))
+
+
+def best_by(found: Measured, criterion: str, laws: Sequence[str]) -> tuple[str, ...]:
+    """Of some laws those that were measured by a criterion and that no other is better than: several tie."""
+    asked = [law for law in laws if len(found.values[criterion].get(law, ()))]
+    return tuple(front(found, asked, (criterion,)))

@@ -8,9 +8,10 @@ import numpy as np
 import pandas as pd
 
 from bench.contenders.registry import all_contenders, contenders_of
-from bench.findings.claims.adequacy import CALL_PRICE, DIRECTED, tallied
+from bench.findings.claims.adequacy import DIRECTED, tallied
 from bench.findings.claims.tables import MAIN_ENGINE, Results, settled, some
 from bench.findings.claims.verdict import NoEvidence
+from bench.findings.selection.timed import ticks
 from bench.law.contender import Contender
 from bench.tables import read as published
 
@@ -21,7 +22,8 @@ SAMPLED = "native"
 class Tables(NamedTuple):
     """uniform, directed: starts that every law ran; arms: episodes on arms by the geometric Jacobian, nominal plant.
 
-    contenders: the laws compared, by name, in the order of cost.
+    ticks: law -> its time over a whole controller's tick [%], of the laws that were timed. contenders: the laws
+    compared, by name, the simplest first.
     """
 
     uniform: pd.DataFrame
@@ -29,13 +31,21 @@ class Tables(NamedTuple):
     costs: dict[str, pd.DataFrame]
     robustness: pd.DataFrame
     arms: pd.DataFrame
+    ticks: dict[str, float]
     contenders: dict[str, Contender]
 
-    def costing(self, name: str, branch: str = "typical", price: float = CALL_PRICE) -> float:
-        """Flops a tick without the goal's own stage, a call counted as so many."""
+    def spent(self, name: str, branch: str = "typical") -> tuple[int, int]:
+        """Flops and calls a tick, without the goal's own stage."""
         rows = self.costs[name]
-        flops, calls = tallied(rows[rows["branch"] == branch], with_goal=False)
-        return flops + price * calls
+        return tallied(rows[rows["branch"] == branch], with_goal=False)
+
+    def memory(self, name: str) -> int:
+        """Numbers that a law keeps from tick to tick."""
+        return len(self.contenders[name].regulator.memory or ())
+
+    def simplicity(self, name: str) -> tuple[int, int]:
+        """Numbers kept, and operations of a typical tick, a call counted as one: less is simpler."""
+        return self.memory(name), sum(self.spent(name))
 
 
 def tables_of(results: Results) -> Tables:
@@ -63,9 +73,11 @@ def tables_of(results: Results) -> Tables:
         priced,
         robustness.assign(contender=robustness["contender"].astype(str), lost=~settled(robustness)),
         _on_arms(every),
+        ticks(results),
         named,
     )
-    return found._replace(contenders=dict(sorted(named.items(), key=lambda item: found.costing(item[0]))))
+    order = sorted(named, key=lambda name: (*found.simplicity(name), name))
+    return found._replace(contenders={name: named[name] for name in order})
 
 
 def common(runs: pd.DataFrame) -> pd.DataFrame:

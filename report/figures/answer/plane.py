@@ -1,16 +1,15 @@
-"""All laws on one plane of cost and speed, with three fronts: all, what settles everywhere, what no noise holds."""
+"""All laws on one plane of cost and speed, marked by what settles everywhere and what no noise holds."""
 
 from __future__ import annotations
 
 import itertools
 import math
 
-import numpy as np
-
-from bench.findings.claims.adequacy import CALL_PRICE, DEAR, PAPERS, SLOW
-from bench.findings.selection.front import front
+from bench.findings.claims.adequacy import PAPERS
+from bench.findings.selection.criteria import BY_NAME
 from bench.findings.selection.measured import Measured
 from bench.findings.selection.needs import EVERYWHERE, UNHELD
+from bench.findings.selection.words import cost
 from report.figures.kit import families, style
 from report.figures.kit.inline import responsive_picture
 from report.figures.kit.rows import FEEDBACK
@@ -18,7 +17,6 @@ from report.figures.kit.rows import FEEDBACK
 COVERAGE = ("loses starts", "settles everywhere, held by noise", "settles everywhere, not held")
 MARKERS = ("X", "o", "*")
 SIZES = (5.5, 6.0, 11.0)
-LINES = ((0, (1.5, 1.5)), (0, (5, 2)), "-")
 COLOURS = (style.MUTED, "#0072b2", "#d55e00")
 
 SECONDS = (0.5, 0.6, 0.7, 0.8, 1.0, 1.5, 2.0, 3.0)
@@ -49,64 +47,49 @@ def shown(found: Measured) -> list[str]:
     return [law for law in found.laws if law not in families.CONTROLS]
 
 
-def fronts(found: Measured) -> list[list[str]]:
-    """Of each coverage and what is better covered, the laws that none beats in cost and time; the cheapest first."""
-    parts = []
-    for least in range(len(COVERAGE)):
-        laws = [law for law in shown(found) if coverage(found, law) >= least]
-        points = np.array([[found.number("cost", law), found.number("time", law)] for law in laws]).reshape(-1, 2)
-        is_there = front(points) & np.all(np.isfinite(points), axis=1)
-        parts.append([law for law, ahead in zip(laws, is_there, strict=True) if ahead])
-    return parts
+def across(found: Measured) -> tuple[dict[str, float], str, float | None]:
+    """What a law costs: its share of a whole controller's tick [%], and how far shares are alike on an arm.
+
+    In a run with laws that were not timed: operations, each counted once.
+    """
+    laws = shown(found)
+    shares = {law: found.number("tick", law) for law in laws}
+    if all(map(math.isfinite, shares.values())):
+        return shares, "time of the law, % of a whole controller's tick", BY_NAME["tick"].least
+    return {law: float(sum(found.tables.spent(law))) for law in laws}, "operations a tick, each counted once", None
 
 
 @responsive_picture
-def plane(found: Measured, small_s: float, *, narrow: bool = False):
-    """Cost a tick and the time in which 99 % of the uniform starts settle; steps join each front.
-
-    Args:
-        small_s: settling time of a small error.
-    """
+def plane(found: Measured, *, narrow: bool = False):
+    """What a tick costs, and the time in which 99 % of the uniform starts settle."""
     figure, axes = style.panels(height=6.2 if narrow else 5.6, narrow=narrow)
-    laws, ahead = shown(found), fronts(found)
-    places = {law: (found.number("cost", law), 1.0 / found.number("time", law)) for law in laws}
-    edge = 1.06 * max(cost for cost, _ in places.values())
-    lines = [_steps([places[law] for law in members], edge) for members in ahead]
-    for kind, points in enumerate(lines):
-        drawn = {"color": COLOURS[kind], "linestyle": LINES[kind], "linewidth": 1.1, "zorder": 1}
-        axes.plot([x for x, _ in points], [y for _, y in points], **drawn)
+    costs, label, alike = across(found)
+    places = {law: (cost, 1.0 / found.number("time", law)) for law, cost in costs.items()}
+    edge = 1.06 * max(costs.values())
+    fastest = max(rate for _, rate in places.values())
+    lines = []
+    if alike is not None:
+        bound = min(costs.values()) + alike
+        lines = [[(bound, 0.0), (bound, fastest)]]
+        axes.plot([bound, bound], [0.0, fastest], color=style.MUTED, linewidth=0.8, linestyle=(0, (8, 3)), zorder=0)
     for law, place in places.items():
         kind = coverage(found, law)
         marks = {"linestyle": "none", "marker": MARKERS[kind], "markersize": SIZES[kind], "color": COLOURS[kind]}
         axes.plot(*place, zorder=3 + kind, clip_on=False, **marks)
     for kind, word in enumerate(COVERAGE):
-        marks = {"linestyle": LINES[kind], "marker": MARKERS[kind], "markersize": SIZES[kind], "linewidth": 1.1}
-        axes.plot([], [], color=COLOURS[kind], label=word, **marks)
-    dearest = DEAR * min(places[law][0] for law in laws if law in PAPERS)
-    bounds = [[(dearest, 0.0), (dearest, 3.0)], [(0.0, 1.0 / (SLOW * small_s)), (edge, 1.0 / (SLOW * small_s))]]
-    for (x0, y0), (x1, y1) in bounds:
-        axes.plot([x0, x1], [y0, y1], color=style.MUTED, linewidth=0.8, linestyle=(0, (8, 3)), zorder=0)
-    fastest = max(rate for _, rate in places.values())
-    axes.set(xlim=(0.85 * min(cost for cost, _ in places.values()), edge), ylim=(1.12 * fastest, -0.06 * fastest))
+        axes.plot(
+            [], [], linestyle="none", color=COLOURS[kind], label=word, marker=MARKERS[kind], markersize=SIZES[kind]
+        )
+    axes.set(xlim=(0.0, edge), ylim=(1.12 * fastest, -0.06 * fastest), xlabel=label)
     ticks = [tick for tick in SECONDS if 1.0 / tick < 1.12 * fastest]
     axes.set_yticks([*(1.0 / tick for tick in ticks), 0.0], [*(f"{tick:g}" for tick in ticks), "never"])
-    axes.set(xlabel=f"flops a tick, a call counted as {CALL_PRICE:g}", ylabel="99 % of all starts settled in [s]")
-    named = laws
+    axes.set(ylabel="99 % of all starts settled in [s]")
+    named = list(places)
     if narrow:
-        first = {law for members in ahead for law in members}
-        named = [law for law in laws if law in first or law in PAPERS or coverage(found, law) == len(COVERAGE) - 1]
+        named = [law for law in named if law in PAPERS or coverage(found, law) == len(COVERAGE) - 1]
     figure.legend(loc="outside upper left", ncols=1 if narrow else 3, columnspacing=1.4)
-    _label(axes, places, {law: COLOURS[coverage(found, law)] for law in reversed(named)}, [*lines, *bounds])
+    _label(axes, places, {law: COLOURS[coverage(found, law)] for law in reversed(named)}, lines)
     return figure, sentence(found)
-
-
-def _steps(points: list[tuple[float, float]], edge: float) -> list[tuple[float, float]]:
-    """Corners of a front's steps: at more cost the time of the last point, up to the edge."""
-    corners: list[tuple[float, float]] = []
-    for x, y in points:
-        corners += [(x, corners[-1][1])] if corners else []
-        corners.append((x, y))
-    return [*corners, (edge, corners[-1][1])] if corners else []
 
 
 def _label(axes, places: dict[str, tuple[float, float]], colours: dict[str, str], lines: list) -> None:
@@ -148,13 +131,13 @@ def _meet(one: tuple, other: tuple) -> bool:
 
 
 def sentence(found: Measured) -> str:
-    """The fronts in words."""
-    said = []
-    for kind, members in enumerate(fronts(found)):
+    """The laws that settle everywhere, in words."""
+    told = []
+    for kind in (2, 1):
         named = ", ".join(
-            f"{families.word(law)} ({found.number('cost', law):.0f} flops, {found.number('time', law):.2f} s)"
-            for law in members
+            f"{families.word(law)} ({cost(found, law)}; {found.number('time', law):.2f} s)"
+            for law in shown(found)
+            if coverage(found, law) == kind
         )
-        whom = ("all laws", "laws that settle everywhere", "those of them that no noise holds")[kind]
-        said.append(f"Front of {whom}: {named or 'none'}.")
-    return f"Cost against settling time, a mark a law. {' '.join(said)}"
+        told.append(f"{COVERAGE[kind].capitalize()}: {named or 'none'}.")
+    return f"Cost of a tick against settling time, a mark a law. {' '.join(told)}"

@@ -1,48 +1,41 @@
-"""The page that says which law to use: for what, by which criteria, and on arms."""
+"""The page that says which law to use: in which situation, by which criteria."""
 
 from __future__ import annotations
 
 import math
 
-import numpy as np
 import pandas as pd
 
-from bench.experiments.suites import BEST
 from bench.findings.claims import Results, judge
-from bench.findings.claims.adequacy import CALL_PRICE, CALL_PRICES
-from bench.findings.claims.later import HELD_RAD
 from bench.findings.selection import needs
 from bench.findings.selection.criteria import BY_NAME, Criterion
-from bench.findings.selection.front import front
 from bench.findings.selection.measured import Measured, measured
-from bench.tables import read
+from bench.findings.selection.needs import HELD_RAD
+from bench.findings.selection.rule import GENERAL, front
+from bench.findings.selection.timed import MEASURABLE
+from bench.findings.selection.words import cost, standing, together
 from bench.tables.statistics import Estimate
 from report.figures.answer.plane import plane, shown
-from report.figures.arms import arm_rows
 from report.figures.comparison.cells import by_family
+from report.figures.cost.cost import spent
 from report.figures.kit import families, html
-from report.figures.kit.laws import TITLES
 from report.figures.kit.page import Run
-from report.figures.kit.rows import small_error_settling_s
 
-NAMED = 3
-"""Laws named beside the one to use; the others are counted."""
+FRONT = ("unsettled", "lost", *GENERAL)
+"""Criteria whose front the table of all laws marks."""
 
-FRONT = ("unsettled", "lost", "time", "cost")
-"""Criteria whose front the table marks: coverage, speed, cost."""
-
-SHOWN = ("lost", "time", "worst", "cost", "memory", "held", "effort", "peak", "variation")
-"""Criteria of the table of all laws, beside the share that settles; with the cost, that of the dearest branch."""
+SHOWN = ("lost", "time", "worst", "tick", "memory", "held", "effort", "peak", "variation")
+"""Criteria of the table of all laws, beside the share that settles and the operations."""
 
 
 def facts(run: Run) -> dict:
-    """The answer in a few sentences, and the numbers about it."""
+    """The advice in a few sentences, and the numbers about it."""
     found = measured(run.folder)
     whole = [law for law in shown(found) if needs.EVERYWHERE.has(found, law)]
     forgetful = [law for law in shown(found) if not found.number("memory", law) and law in found.values["held"]]
-    verdict = judge("C27", Results(run.folder))
     return {
         "lead": lead(run),
+        "same": ", ".join(one.need.words for one in needs.advice(run.folder).others) or "none",
         "laws": len(shown(found)),
         "tried": sum(needs.TRIED.has(found, law) for law in shown(found)),
         "whole": len(whole),
@@ -50,110 +43,68 @@ def facts(run: Run) -> dict:
         "uniform": len(found.values["time"][found.laws[0]]),
         "directed": len(found.tables.directed) // len(found.laws),
         "noise": f"{HELD_RAD:g}",
-        "price": CALL_PRICE,
-        "low": CALL_PRICES[0],
-        "high": CALL_PRICES[1],
-        "cheapest_low": cheapest(found, CALL_PRICES[0]),
-        "cheapest_high": cheapest(found, CALL_PRICES[1]),
+        "measurable": f"{100 * MEASURABLE:g}",
         "band": f"{100 * float(found.tables.uniform['tolerance'].iloc[0]):g}",
-        "rate": f"{1 / float(found.tables.uniform['dt_s'].iloc[0]):g}",
         "forgetful": len(forgetful),
         "forgetful_both": sum(needs.has_all(found, law, (needs.EVERYWHERE, needs.UNHELD)) for law in forgetful)
         or "none",
-        "verdict": str(verdict.word),
-        **{key: verdict.evidence.parts[key] for key in ("nearly", "adequate", "answers")},
-        **on_arms(run),
-    }
-
-
-def on_arms(run: Run) -> dict:
-    """How many later laws ran on arms, and of all laws the one that settles most and the one that settles least.
-
-    Over episodes of the paper's three and of the best later laws by the geometric Jacobian and the standard inverse.
-    """
-    every = arm_rows.episodes(run)
-    laws = [*TITLES, *(word.partition("@")[0] for word in BEST)]
-    by_standard = every["way"] == every["law"] + f"@geometric+{arm_rows.STANDARD}"
-    found = every[by_standard & every["law"].isin(laws)]
-    shares = arm_rows.settled(found).groupby(found["law"]).mean()
-    later = shares[[law for law in shares.index if law not in TITLES]]
-    return {
-        "arms": found["arm"].nunique(),
-        "arm_laws": len(later),
-        "arm_starts": len(found) // max(1, len(shares)),
-        "arm_most": families.word(str(shares.idxmax())),
-        "arm_most_share": f"{100 * shares.max():.0f}",
-        "arm_least": families.word(str(shares.idxmin())),
-        "arm_least_share": f"{100 * shares.min():.0f}",
-        "arm_alike": "all alike"
-        if later.nunique() <= 1
-        else f"from {100 * later.min():.0f} to {100 * later.max():.0f} %",
+        "verdict": str(judge("C27", Results(run.folder)).word),
     }
 
 
 def front_page(run: Run) -> str:
-    """The answer in one sentence."""
-    found, law = measured(run.folder), the_answer(run).law
-    if law is None:
+    """The advice in a few words."""
+    found, one = measured(run.folder), needs.advice(run.folder).default
+    if one.law is None:
         return f"No law of this run settles from every start tried and is held by no noise up to {HELD_RAD:g} rad."
-    settled = told(BY_NAME["time"], found.estimate("time", law))
+    word = families.word(one.law)
     return (
-        f"Of {len(shown(found))} laws {families.word(law)} is the cheapest that settles from every start tried and "
-        f"that no noise up to {HELD_RAD:g} rad holds at a half turn: {found.number('cost', law):.0f} operations a "
-        f"tick, and 99 % of all starts settled in {settled}."
+        f"{word[0].upper()}{word[1:]}: it settles from every start tried, no noise up to {HELD_RAD:g} rad holds it at "
+        f"a half turn, and 99 % of all starts are settled in {told(BY_NAME['time'], found.estimate('time', one.law))}. "
+        f"{standing(one, families.word)}"
     )
 
 
 def lead(run: Run) -> str:
-    """The same; what the next costs, and how many needs it answers."""
-    every, answer = needs.decisions(run.folder), the_answer(run)
-    if answer.law is None:
-        least = families.word(every[0].law) if every[0].law else "no law of this run"
-        return f"{front_page(run)} The cheapest that settles from every start is {least}."
-    beside = f" The next costs {answer.next_number.value:.0f}." if answer.next_number else ""
-    wins = sum(answer.law == one.law or answer.law in one.alike for one in every)
-    return f"{front_page(run)}{beside} In {wins} of {len(every)} needs below it is the best or among equals."
-
-
-def the_answer(run: Run) -> needs.Decision:
-    """The law to use where nothing else is said."""
-    return next(one for one in needs.decisions(run.folder) if one.need is needs.ANSWER)
-
-
-def cheapest(found: Measured, price: float) -> str:
-    """The cheapest law that settles everywhere and is not held, where a call counts as so many flops."""
-    asked = [law for law in found.laws if needs.has_all(found, law, (*needs.SURE, needs.UNHELD))]
-    return families.word(min(asked, key=lambda law: found.tables.costing(law, price=price))) if asked else "none"
+    """The same, what a tick costs, and in how many situations another is better."""
+    advice = needs.advice(run.folder)
+    if advice.default.law is None:
+        return front_page(run)
+    return (
+        f"{front_page(run)} A tick takes {cost(measured(run.folder), advice.default.law)}. In {len(advice.others)} of "
+        f"{len(advice.exceptions) + len(advice.others)} situations that were asked no law is better."
+    )
 
 
 def tables(run: Run) -> dict:
-    """Needs, and all laws."""
-    return {"decided": decided(needs.decisions(run.folder)), "laws_table": every_law(measured(run.folder))}
+    """Situations, and all laws."""
+    found = measured(run.folder)
+    return {"decided": decided(needs.advice(run.folder), found), "laws_table": every_law(found)}
 
 
-def decided(every: tuple[needs.Decision, ...]) -> html.Markdown:
-    """A line a need: the law to use, the number that decides, laws as good, and the next best."""
-    lines: list[dict] = []
-    heads: list[str] = []
-    for one in every:
-        if one.need.head not in heads:
-            heads.append(one.need.head)
-            lines.append({"If you need": f"*{one.need.head}*"})
-        lines.append({"If you need": one.need.words, **_answer(one)})
+def decided(advice: needs.Advice, found: Measured) -> html.Markdown:
+    """A line a situation: the law to use, its numbers and the default's, and with what it ties."""
+    usual = advice.default.law
+    lines = [_line(one, usual, found) for one in (advice.default, *advice.exceptions)]
     return html.table(pd.DataFrame(lines).fillna(""))
 
 
-def _answer(one: needs.Decision) -> dict:
-    if one.law is None or one.number is None:
-        return {"use": "no law of this run"}
-    criterion = BY_NAME[one.need.by]
-    cells = {"use": families.link(one.law, families.word(one.law)), "It has": told(criterion, one.number)}
-    more = len(one.alike) - NAMED
-    cells["As good"] = ", ".join(map(families.word, one.alike[:NAMED])) + (f" and {more} more" if more > 0 else "")
-    if one.next is not None and one.next_number is not None:
-        cells["Next best"] = f"{families.word(one.next)}, {told(criterion, one.next_number)}"
-    cells["Judged by"] = criterion.title[:1].lower() + criterion.title[1:]
-    return cells
+def _line(one: needs.Decision, usual: str | None, found: Measured) -> dict:
+    words = {"If": one.need.words}
+    if one.law is None:
+        return {**words, "use": "no law of this run"}
+    cells = {**words, "use": families.link(one.law, families.word(one.law)), "It has": _has(one, one.law, found)}
+    if usual and one.need is not needs.DEFAULT:
+        has = _has(one, usual, found) if usual in one.asked else "not this"
+        cells[f"{families.word(usual)} has".capitalize()] = has
+    return cells | {"Tied with": together([families.word(law) for law in one.tied]) if one.tied else ""}
+
+
+def _has(one: needs.Decision, law: str, found: Measured) -> str:
+    """By each of a situation's criteria, named where they are several."""
+    parts = [(BY_NAME[name], found.estimate(name, law)) for name in one.need.by]
+    named = [f"{criterion.title.lower()}: " if len(parts) > 1 else "" for criterion, _ in parts]
+    return "; ".join(name + told(*part) for name, part in zip(named, parts, strict=True))
 
 
 def told(criterion: Criterion, number: Estimate) -> str:
@@ -175,15 +126,13 @@ def written(criterion: Criterion, value: float) -> str:
 
 def every_law(found: Measured) -> html.Markdown | None:
     """A row a law, a column a criterion; a dot marks the front of FRONT."""
-    points = np.array([[found.number(name, law) for name in FRONT] for law in found.laws])
-    ahead = dict(zip(found.laws, front(points), strict=True))
+    ahead = front(found, shown(found), FRONT)
 
     def line(law: str) -> dict:
         cells = {head(BY_NAME[name]): written(BY_NAME[name], found.number(name, law)) for name in SHOWN}
-        cost, dearest = found.number("cost", law), found.number("dearest", law)
-        cells[head(BY_NAME["cost"])] += f" to {dearest:.0f}" if dearest != cost else ""
         settled = f"{100.0 - found.number('unsettled', law):.4g}"
-        return {"Front": "●" if ahead[law] else "", "Settles [%]": settled, **cells}
+        operations = spent(*found.tables.spent(law))
+        return {"Front": "●" if law in ahead else "", "Settles [%]": settled, "Operations": operations, **cells}
 
     return by_family(found.laws, line)
 
@@ -195,5 +144,4 @@ def head(criterion: Criterion) -> str:
 
 def figures(run: Run) -> dict:
     """Cost against settling time."""
-    small = small_error_settling_s(run.rows("episodes", engine="ideal-rk4", **read.FREE_BODY))
-    return {"answer-plane": plane(measured(run.folder), small)}
+    return {"answer-plane": plane(measured(run.folder))}

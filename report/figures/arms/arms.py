@@ -40,7 +40,7 @@ def facts(run: Run) -> dict:
     both, counts = arm_pole.side_by_side(standard(run)), arm_outcomes.tallied(standard(run))
     clear = rows[rows["start_set"] == "clear"]
     return {
-        **arm_advice.advice(rows),
+        **arm_advice.advice(rows, run),
         "pole_n": len(both),
         "pole_fails": int(both["fails"].sum()),
         "pole_fails_m": int(both["fails_matrix"].sum()),

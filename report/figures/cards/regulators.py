@@ -15,6 +15,8 @@ from pygments.lexers import PythonLexer
 from bench.contenders import regulators
 from bench.contenders.registry import contenders_of, known_regulators, papers_laws
 from bench.findings import why
+from bench.findings.claims.verdict import NoEvidence
+from bench.findings.selection import needs
 from bench.law.contender import Contender, Regulator
 from bench.tables import read
 from report.figures.cards.card_map import MOST_SETTLED, card_map
@@ -103,6 +105,16 @@ def found_of(one: Contender, run: Run) -> str:
     return " ".join(EXAMPLE.split(each.text)[0].rstrip(".") + "." for each in said)
 
 
+def advised(law: str, run: Run) -> str:
+    """The situations in which a law is advised (`selection.needs`), and those in which it ties with what is."""
+    try:
+        here, tied = needs.advice(run.folder).uses(law)
+    except NoEvidence:
+        return ""
+    said = {"If ": here, "No worse, and less simple, if ": tied}
+    return " ".join(f"{start}{'; '.join(one.words for one in found)}." for start, found in said.items() if found)
+
+
 def card(one: Contender, run: Run) -> str:
     """Heading and card of one law: source, formula, words, costs, and the map of its failures."""
     regulator, title = one.regulator, laws.title_of(one)
@@ -130,6 +142,7 @@ def said_of(one: Contender, episodes: pd.DataFrame, run: Run) -> str:
         "Proved": PROPERTIES.get(one.regulator.property, f"{one.regulator.property}."),
         "Measured": measured(episodes, one.regulator),
         "Its command": found_of(one, run),
+        "Advised": advised(one.name, run),
     }
     lines = [f'<p class="card-fact"><b>{head}.</b> {html.foreign(text)}</p>' for head, text in words.items() if text]
     return f"<p>{html.foreign(what)}</p>{''.join(lines)}"

@@ -8,6 +8,9 @@ import numpy as np
 import pandas as pd
 
 from bench.contenders.registry import all_contenders
+from bench.findings.claims.verdict import NoEvidence
+from bench.findings.selection.measured import measured
+from bench.findings.selection.words import leaders
 from bench.findings.theory import closed_form
 from bench.tables import read
 from report.figures.comparison import cells, directed
@@ -56,6 +59,7 @@ def facts(run: Run) -> dict:
     late = np.concatenate(list(lateness(uniform(run)).values()))
     return {
         **of_all(uniform(run), directed.directed(ideal(run))),
+        **best(run),
         **of_controls(uniform(run)),
         "least_late": f"{late.min():.2f}",
         "most_late": f"{late.max():.2f}",
@@ -74,8 +78,6 @@ def of_all(rows: pd.DataFrame, tried: pd.DataFrame) -> dict:
     times, efforts = cells.costs(rows, "settling_time_s"), cells.costs(rows, "effort")
     laws = [name for name in times if name not in families.CONTROLS]
     middle, spent = cells.medians(times[laws]), cells.medians(efforts[laws])
-    whole = times[[name for name in laws if np.isfinite(times[name]).all()]].max()
-    is_first = times[laws].le(times[laws].min(axis=1), axis=0).mean()
     left = [name for name in directed.left(tried) if name not in families.CONTROLS]
     return {
         "laws": len(laws),
@@ -85,21 +87,24 @@ def of_all(rows: pd.DataFrame, tried: pd.DataFrame) -> dict:
         "band": f"{100 * float(rows['tolerance'].iloc[0]):g}",
         "tick": f"{1000 * float(rows['dt_s'].iloc[0]):g}",
         "detour": DETOUR,
-        "fastest": families.word(middle.idxmin()),
         "fastest_s": f"{middle.min():.2f}",
         "slowest_s": f"{middle.max():.2f}",
-        "first": families.word(is_first.idxmax()),
-        "first_share": cells.percent(float(is_first.max())),
-        "whole": len(whole),
-        "surest": families.word(whole.idxmin()),
-        "surest_s": f"{whole.min():.2f}",
-        "sparest": families.word(spent.idxmin()),
-        "dearest": families.word(spent.idxmax()),
+        "whole": int(sum(np.isfinite(times[name]).all() for name in laws)),
         "dearer": f"{spent.max() / spent.min():.0f}",
         "left": len(left),
         "left_laws": ", ".join(map(families.word, left)),
         "directed": len(tried) // tried["contender"].nunique(),
     }
+
+
+def best(run: Run) -> dict:
+    """What no law beats by the criteria of `selection`, ties named as ties; nothing where none was perturbed."""
+    try:
+        found = measured(run.folder)
+    except NoEvidence:
+        return {}
+    names = {"fastest": "time", "surest": "worst", "sparest": "effort", "peak_fastest": "matched"}
+    return {key: leaders(found, criterion, families.word) for key, criterion in names.items()}
 
 
 def of_controls(rows: pd.DataFrame) -> dict:
@@ -119,20 +124,11 @@ def of_controls(rows: pd.DataFrame) -> dict:
 
 
 def of_peak(rows: pd.DataFrame) -> dict:
-    """At equal peak command: the fastest laws, and the rotation matrix."""
+    """At equal peak command: from how many starts, and the rotation matrix."""
     times = cells.costs(rows, "settling_time_s")
-    middle, longest = cells.medians(times), times.max()
-    fastest, surest = middle.idxmin(), longest.idxmin()
-    best = f"Now the fastest in the median is {families.word(fastest)}, {middle[fastest]:.2f} s"
-    if fastest == surest:
-        best += f", and from its slowest start too, {longest[fastest]:.2f} s."
-    else:
-        best += (
-            f", but its slowest start takes {longest[fastest]:.2f} s. The slowest start is the fastest with "
-            f"{families.word(surest)}, {longest[surest]:.2f} s."
-        )
-    matrix = f"{middle[MATRIX]:.2f} s in the median, and {longest[MATRIX]:.2f} s from its slowest start"
-    return {"peak": html.number(cells.LEVEL), "peak_starts": len(times), "peak_fastest": best, "peak_matrix": matrix}
+    middle, longest = cells.medians(times)[MATRIX], times[MATRIX].max()
+    matrix = f"{middle:.2f} s in the median, and {longest:.2f} s from its slowest start"
+    return {"peak": html.number(cells.LEVEL), "peak_starts": len(times), "peak_matrix": matrix}
 
 
 def of_actuator(episodes: pd.DataFrame) -> dict:

@@ -8,7 +8,6 @@ import pandas as pd
 
 from bench.contenders.registry import all_contenders
 from bench.counting import OPERATIONS
-from bench.findings.claims.costs import CALL_PRICE, CALL_PRICES
 from bench.tables import read
 from report.figures.cost import operations, times
 from report.figures.cost.operations import CALLS
@@ -38,7 +37,7 @@ def timed(run: Run) -> pd.DataFrame:
 
 
 def facts(run: Run) -> dict:
-    """The literal form against the lean one; what a call is taken for; time against flops."""
+    """The literal form against the lean one; time against flops."""
     counted = costs(run)
     spent_by_form = {key: totals(counted).loc[name] for key, name in LEAN.items()}
     values: dict = {}
@@ -50,9 +49,6 @@ def facts(run: Run) -> dict:
         "branches": f"{len(branches_differ(counted))} of {counted['contender'].nunique()}",
         "timed_on": times.said(run),
         "against_time": against_time(times.alone(timed(run)), counted),
-        "price": f"{CALL_PRICE:.0f}",
-        "low": f"{CALL_PRICES[0]:.0f}",
-        "high": f"{CALL_PRICES[1]:.0f}",
     }
 
 

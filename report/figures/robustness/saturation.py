@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import pandas as pd
 
+from bench.findings.claims.verdict import NoEvidence
+from bench.findings.selection.measured import measured
+from bench.findings.selection.words import leaders
 from bench.findings.theory import robustness_theory
 from report.figures.kit import families
 from report.figures.kit.page import Run
@@ -42,11 +45,8 @@ def facts(run: Run) -> dict:
         "record_law": families.word(str(best["contender"])),
         "record_bound": with_unit(float(best["level"]), NAME),
         "tight": f"{table.loc[tight].min():.2f}",
-        "tight_law": families.word(table.loc[tight].idxmin()),
-        "place": int(table.loc[mild].rank()[table.loc[tight].idxmin()]),
-        "of": table.shape[1],
+        "tight_law": fastest(run),
         "slack": f"{table.loc[tight].max():.2f}",
-        "slack_law": families.word(table.loc[tight].idxmax()),
         "mild": f"{table.loc[mild].min():.0f}",
         "mild_bound": with_unit(mild, NAME),
         "over_law": families.word(overshoot.idxmax()),
@@ -54,6 +54,14 @@ def facts(run: Run) -> dict:
         "tamed": listed(_settled(rows, law, tight) for law in UNBOUNDED if law in table),
         "untamed": listed(_settled(free, law, 0.0) for law in UNBOUNDED if law in table),
     }
+
+
+def fastest(run: Run) -> str:
+    """The laws that none beats behind the tightest bound."""
+    try:
+        return leaders(measured(run.folder), "bounded", families.word)
+    except NoEvidence:
+        return "none, for this run does not compare laws"
 
 
 def _settled(rows: pd.DataFrame, law: str, level: float) -> str:

@@ -1,0 +1,70 @@
+"""An advised law in words, for pages, cards and commands alike; `called` names a law as they do."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+
+from bench.findings.selection.criteria import BY_NAME, Criterion
+from bench.findings.selection.measured import Measured
+from bench.findings.selection.needs import SURE, Decision, best_by, has_all
+
+NAMED = 3
+"""Laws named where several tie; the others are counted."""
+
+Called = Callable[[str], str]
+
+
+def standing(one: Decision, called: Called) -> str:
+    """That the advised law is alone on the front, or with whom it ties."""
+    if len(one.asked) == 1:
+        return "No other law has all this."
+    if not one.tied:
+        return (
+            f"Each other of the {len(one.asked)} laws that have all this is worse by something and better by nothing."
+        )
+    return (
+        f"{together([called(law) for law in (one.law or '', *one.tied)])} tie: none is better by all that counts. Of "
+        "these it is the simplest."
+    )
+
+
+def together(words: Sequence[str]) -> str:
+    """ "a, b and c"; of many the first NAMED, and how many more."""
+    more = len(words) - NAMED
+    if more > 1:
+        return f"{', '.join(words[:NAMED])} and {more} more"
+    *first, last = words or ("",)
+    return f"{', '.join(first)} and {last}" if first else last
+
+
+def leaders(found: Measured, criterion: str, called: Called) -> str:
+    """What is best by a criterion, of all laws and of those that settle from every start: one law, or a tie."""
+    every = best_by(found, criterion, found.laws)
+    sure = best_by(found, criterion, [law for law in found.laws if has_all(found, law, SURE)])
+    if not sure or set(every) <= set(sure):
+        return _tie(every, called)
+    return f"{_tie(every, called)}; of laws that settle from every start {_tie(sure, called)}"
+
+
+def _tie(laws: Sequence[str], called: Called) -> str:
+    named = together([called(law) for law in laws]) or "none"
+    return f"{named} (a tie)" if len(laws) > 1 else named
+
+
+def cost(found: Measured, law: str) -> str:
+    """Flops and calls a tick, and of a law that was timed its share of a whole controller's tick."""
+    flops, calls = found.tables.spent(law)
+    share = found.number("tick", law)
+    timed = "" if math.isnan(share) else f", {share:.1f} % of a whole controller's tick"
+    return f"{flops} + {calls} operations{timed}" if calls else f"{flops} operations{timed}"
+
+
+def number(criterion: Criterion | str, value: float) -> str:
+    """A number with its unit, as its criterion writes it."""
+    one = BY_NAME[criterion] if isinstance(criterion, str) else criterion
+    if math.isnan(value):
+        return "not measured"
+    if math.isinf(value):
+        return "none" if one.sense < 0 else "never"
+    return f"{one.form.format(value)} {one.unit}".strip()
