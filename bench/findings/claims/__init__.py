@@ -66,9 +66,8 @@ __all__ = [
 
 RULE = (
     f"Engine {MAIN_ENGINE}, the paper's continuous system (2.6)-(2.7), decides. A claim about episodes is asked of "
-    f"{' and '.join(CHECK_ENGINES)} too where they have rows: if one of them decides otherwise, 'holds' becomes "
-    "'holds with a correction' and the evidence says so; other verdicts stay. No verdict is given on an empty table: "
-    "that is an error."
+    f"{' and '.join(CHECK_ENGINES)} too where they have rows, and what they say is reported: a sampled clock is ours, "
+    "not the paper's, and changes no verdict. No verdict is given on an empty table: that is an error."
 )
 """What is common to all criteria."""
 

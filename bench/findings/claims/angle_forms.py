@@ -6,10 +6,12 @@ import itertools
 
 import numpy as np
 
-from bench.findings.claims.euler_jacobian import SLOPE, SLOPE_TIGHT, UNBOUNDED, families
+from bench.contenders.registry import representation
+from bench.findings.claims.euler_jacobian import SLOPE, SLOPE_TIGHT
 from bench.findings.claims.feedback_linearized import LAW
+from bench.findings.claims.representations import condition_in
 from bench.findings.claims.tables import MAIN_ENGINE, Share, evidence, settled, share, some
-from bench.findings.claims.verdict import claim, word_of
+from bench.findings.claims.verdict import Earlier, Word, claim, word_of
 from bench.tables.read import FREE_BODY
 from bench.tables.statistics import Estimate, quantile_estimate
 
@@ -19,6 +21,7 @@ REGULAR, AT_ZERO = ("zyx-euler", "xyz-euler"), "zyz-euler"
 SHARES, TIMES = 0.05, 0.05
 """Points of a share, and relative difference of a median time, up to which results are the same 'for the most part'."""
 
+DECADES, PAIRS = 6, 12
 SETS = ("uniform", "half-turn")
 """Starts that no form of angles was asked for."""
 
@@ -31,14 +34,22 @@ SETS = ("uniform", "half-turn")
         of compliance.
     """,
     correction="They are the same of forms that are regular at the goal; Z-Y-Z, degenerate at zero, gives others.",
-    written="2026-11-23 NEWHASH",
+    written="2026-11-23 NEWHASH2",
+    earlier=(
+        Earlier(
+            "2026-11-23 bc126c2",
+            "Poles of each form were sought among poses of arms that are at those of Z-Y-X alone.",
+            Word.FAILS,
+        ),
+    ),
     sentence="Results do not depend on the form of Euler angles, compliance excepted.",
     question="Do Z-Y-X, X-Y-Z and Z-Y-Z settle alike, and do their Jacobians degenerate alike?",
     criterion=f"""
         Feedback linearization in each form, the same starts of {" and ".join(SETS)}, goal zero. Two forms are alike if
         in each set the shares that settle differ by at most {SHARES:.0%} and the median settling times by at most
-        {TIMES:.0%} (or their 95 % intervals meet), and if J_E of each has C18's slopes towards its own pole
-        (poses.parquet): {SLOPE:g} +- {SLOPE_TIGHT:.0%} decades a decade, to {UNBOUNDED:g} at 1e-12. It holds if all
+        {TIMES:.0%} (or their 95 % intervals meet), and if the condition number of B of each, which is what J_E adds to
+        J, rises towards its own pole by {SLOPE:g} +- {SLOPE_TIGHT:.0%} decades a decade, as in C18: 10^-k rad from
+        it, k = 1 to {DECADES}, {PAIRS} pairs of the other angles. It holds if all
         three are alike; with a correction if {" and ".join(REGULAR)} are, and {AT_ZERO} is not; otherwise it does not
         hold. Reported: how many starts of each set every form loses.
     """,
@@ -53,15 +64,14 @@ def c34(results):
     episodes = results.table("episodes", **FREE_BODY, task="free-body", regulator=LAW, engine=MAIN_ENGINE)
     for form in forms:
         own = episodes[episodes["representation"] == form]
-        rows[form] = {
-            name: some(own[own["start_set"] == name], f"episode of {LAW}/{form} from {name}") for name in SETS
-        }
+        sets = {name: own[own["start_set"] == name] for name in SETS}
+        rows[form] = {name: some(one, f"episode of {LAW}/{form} from {name}") for name, one in sets.items()}
     for name in SETS:
         common = set.intersection(*(set(rows[form][name]["start_id"]) for form in forms))
         for form in forms:
             rows[form][name] = rows[form][name][rows[form][name]["start_id"].isin(common)]
     found = {form: {name: _settles(rows[form][name]) for name in SETS} for form in forms}
-    degenerate = {form: _degenerates(results, form) for form in forms}
+    degenerate = {form: _degenerates(form) for form in forms}
     alike = {
         (one, two): degenerate[one][0]
         and degenerate[two][0]
@@ -72,8 +82,8 @@ def c34(results):
     told = "; ".join(f"{form} {_told(found[form])}, {degenerate[form][1]}" for form in forms)
     return word, evidence(
         f"""{told}. Alike: {", ".join(" and ".join(pair) for pair, facts in alike.items() if facts) or "none"}.""",
-        sum(len(one) for own in rows.values() for one in own.values()) + sum(one[2] for one in degenerate.values()),
-        ("episodes", "poses"),
+        sum(len(one) for own in rows.values() for one in own.values()) + len(forms) * PAIRS * DECADES,
+        ("episodes", "experiment"),
     )
 
 
@@ -90,13 +100,17 @@ def _alike(one: tuple[Share, Estimate], two: tuple[Share, Estimate]) -> bool:
     return abs(kept.value - other_kept.value) <= SHARES and same
 
 
-def _degenerates(results, form: str) -> tuple[bool, str, int]:
-    """Whether J_E of a form has C18's slopes at its pole, what they are, and of how many poses."""
-    rows = some(results.table("poses", representation=form), f"pose of an arm in {form}")
-    found = some(families(rows), f"family of poses towards the pole of {form}")
-    slopes = found[["condition_analytic", "largest"]].to_numpy()
-    tight = abs(slopes - SLOPE).max() <= SLOPE_TIGHT * SLOPE and (found["nearest"] >= UNBOUNDED).all()
-    return bool(tight), f"J_E {slopes.min():.3f} to {slopes.max():.3f} decades a decade", len(rows)
+def _degenerates(form: str) -> tuple[bool, str]:
+    """Whether a form's B has C18's slope at its pole, and what it is."""
+    along, at_pole = representation(form), 0.0 if form == AT_ZERO else np.pi / 2
+    outer = np.random.default_rng(0).uniform(-3.0, 3.0, (PAIRS, 2)).tolist()
+    logs = [
+        [np.log10(condition_in(form, along.to_matrix((one, at_pole + 10.0**-k, two)))) for k in range(1, DECADES + 1)]
+        for one, two in outer
+    ]
+    slopes = np.diff(logs, axis=1)
+    tight = np.abs(slopes - SLOPE).max() <= SLOPE_TIGHT * SLOPE
+    return bool(tight), f"B {slopes.min():.3f} to {slopes.max():.3f} decades a decade"
 
 
 def _told(found: dict[str, tuple[Share, Estimate]]) -> str:

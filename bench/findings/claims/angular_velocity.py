@@ -29,8 +29,8 @@ they miss by angle^2 about z, less terms of third order."""
     id="C28",
     section="2, 2.1",
     quote="""
-        However, in rotation, it is not meaningful to integrate the angular velocities (Goldstein 1980). The exception is
-        when rotation occurs in a plane, whereupon the rotational angle is equivalent to the integral of the angular
+        However, in rotation, it is not meaningful to integrate the angular velocities (Goldstein 1980). The exception
+        is when rotation occurs in a plane, whereupon the rotational angle is equivalent to the integral of the angular
         velocity.
     """,
     correction="The exception of a plane is none.",

@@ -99,7 +99,7 @@ def _flops_alone(known: Ledger) -> str:
         laws on Euler angles, whose cost is what the paper objects to (2.5), as C12 compares them. It holds if none of
         rotation-matrix, linearized-euler and feedback-linearized is adequate in both; with a correction if one is, but
         fails on starts that (b) leaves out, or is cheaper by time and not by operations; otherwise it does not hold.
-        Later laws are put on the same plane; they do not change this verdict, they answer C27.
+        Later laws do not change this verdict, they answer C27.
     """,
     open="""
         'Adequate' is the paper's word without a number; (a) to (c) are ours. (c) is what the paper calls uncertain
@@ -121,8 +121,7 @@ def _flops_alone(known: Ledger) -> str:
 def c17(results, engine):
     """The three laws against the three tests of performance and the test of cost."""
     linear = closed_form.linear_settling(*results.gains())
-    every = adequacy.every(results, engine)
-    three = [one for one in every if one.name in THREE]
+    three = [one for one in adequacy.every(results, engine) if one.name in THREE]
     if len(three) < len(THREE):
         raise NoEvidence(f"not all of {', '.join(THREE)} ran by {engine}: run a suite without narrowing it")
     known = adequacy.ledger(results)
@@ -130,21 +129,19 @@ def c17(results, engine):
     both = [one.name for one in three if not lacks[one.name] & set(adequacy.BOTH)]
     word = word_of(not both, all(lacks[name] & {"e", "h"} for name in both))
     beside = probes.beside_pole(0.1, THREE[-1], results.gains())
-    later = [one for one in every if one.name not in adequacy.PAPERS]
     laws = "; ".join(_placed(one, known) for one in sorted(three, key=lambda one: THREE.index(one.name)))
     adequate = ", ".join(_law(name) for name in THREE if name in both) or "none"
-    others = "; ".join(_placed(one, known) for one in later) or "none in this run"
     return word, evidence(
         f"""{laws}. Adequate in both: {adequate}. Settling time of a small error: {linear:.3f} s. Not counted:
         feedback-linearized fails from {int((~settled(beside)).sum())} of {len(beside)} starts spinning at
-        {probes.SPEED:g} rad/s beside a pole. Later laws on the same plane: {others}.""",
-        len(THREE) + sum(one.rows for one in (*three, *later)),
+        {probes.SPEED:g} rad/s beside a pole.""",
+        len(THREE) + sum(one.rows for one in three),
         ("episodes", "costs", "timings") if known.times else ("episodes", "costs"),
     )
 
 
 def _law(name: str) -> str:
-    return name.partition("/")[0] if name in THREE else name
+    return name.partition("/")[0]
 
 
 def _placed(one: adequacy.Adequacy, known: Ledger) -> str:

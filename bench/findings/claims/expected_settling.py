@@ -48,8 +48,8 @@ def c29(results):
     by_angle = ", ".join(f"{off.reshape(-1, whole)[:, k].max():.2%} at {a:g} rad" for k, a in enumerate(SMALL_ANGLES))
     return word, evidence(
         f"""{DIRECTIONS} axes at {len(GAINS)} pairs of gains: at most {by_angle} from the closed form
-        ({closed_form.linear_settling(*gains):.4f} s at the run's gains). Every time is within {LOOSE_SETTLING:.0%} up to
-        {within:g} rad of {", ".join(f"{angle:g}" for angle in LARGER_RAD)} tried.""",
+        ({closed_form.linear_settling(*gains):.4f} s at the run's gains). Every time is within {LOOSE_SETTLING:.0%}
+        up to {within:g} rad of {", ".join(f"{angle:g}" for angle in LARGER_RAD)} tried.""",
         DIRECTIONS * (len(off) + len(larger)),
         ("experiment",),
     )

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import functools
+import math
 
 from bench.control.contact_controller import PAPERS_FORM
+from bench.findings.claims import adequacy
 from bench.findings.claims.adequacy import CALLS
 from bench.findings.claims.euler_jacobian import COORDINATES
 from bench.findings.claims.side_by_side import BASE
@@ -35,17 +37,21 @@ EULER = f"hybrid/{COORDINATES}"
         Counted from the code that runs, arm of six joints, two compliant turns, typical branch: {EULER} and {BASE}, the
         same law but for the Jacobian, form '{PAPERS_FORM}', the paper's. More: no fewer flops and calls, and more of
         one. A few: at most {FEW:.0%} more flops. It holds if both are so; with a correction if only the first is;
-        otherwise it does not hold. Calls are in a column of their own.
+        otherwise it does not hold.
     """,
     open="The paper counts nothing. What MuJoCo computes for both is left out.",
 )
 def c33(results):
     """Flops and calls of both in contact."""
     base, euler = (results.found_by(in_contact, f"{one}+{PAPERS_FORM}") for one in (BASE, EULER))
+    price = adequacy.ledger(results).price
+    weighed = (
+        f", {euler.weighed(price) / base.weighed(price) - 1:.0%} more with a call at its price in the times of C12"
+    )
     is_more, more = by_columns(base, euler) == ORDERED, euler.flops / base.flops - 1
     return word_of(is_more and more <= FEW, is_more), evidence(
         f"""Flops and calls a tick: {base} on the common Jacobian, {euler} on Euler's: {more:.1%} more flops and
-        {euler.calls - base.calls} calls.""",
+        {euler.calls - base.calls} calls{weighed if math.isfinite(price) else ""}.""",
         2,
         ("experiment",),
     )

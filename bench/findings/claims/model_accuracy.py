@@ -1,4 +1,4 @@
-"""C30: what an error of the model does to feedback linearization, against a law that cancels nothing (Murphy 1988, 2.4)."""
+"""C30: what an error of the model does to feedback linearization (Murphy 1988, 2.4)."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from bench.findings.claims.adequacy import THREE
 from bench.findings.claims.tables import evidence, settled, share
 from bench.findings.claims.verdict import claim, word_of
+from bench.findings.theory import closed_form
 from bench.law.contender import Gains
 
 if TYPE_CHECKING:
@@ -24,7 +25,10 @@ SLACK = 0.1
     id="C30",
     section="2.4",
     equation="(2.15)",
-    quote="There are no problems with model accuracy because the matrices B and Bdot are all calculated within the regulator.",
+    quote="""
+        There are no problems with model accuracy because the matrices B and Bdot are all calculated within the
+        regulator.
+    """,
     correction="It loses no more starts than a law without a model, but is slowed by more.",
     written="2026-11-23 NEWHASH",
     sentence="Feedback linearization has no problem of model accuracy.",
@@ -57,7 +61,8 @@ def c30(results):
     )
     return word, evidence(
         f"""Slowed by an inertia of so many times the model's, feedback linearization against the rotation matrix, of
-        {STARTS} starts each: {told}.""",
+        {STARTS} starts each: {told}. A linear system of twice the inertia is slowed by
+        {closed_form.linear_settling(gains.kp / 2, gains.kv / 2) / closed_form.linear_settling(*gains):.2f}.""",
         len(plain) + len(linearizing),
         ("experiment",),
     )

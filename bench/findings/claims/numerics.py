@@ -53,10 +53,7 @@ def c32(results):
     pairs = list(zip(probes.rotations(frame), probes.rotations(frame, probes.GOAL_QUAT), strict=True))
     ours = np.array([error(R, R_d) for R, R_d in pairs])
     exact = [_exact(R, R_d) for R, R_d in pairs]
-    off = np.array(
-        [[abs(Fraction(x) - y) for x, y in zip(*both, strict=True)] for both in zip(ours, exact, strict=True)]
-    )
-    off = off.astype(float).max(axis=1)
+    off = np.array([_off(*both) for both in zip(ours, exact, strict=True)])
     angle = frame["angle0_rad"].to_numpy()
     inner = np.minimum(angle, np.pi - angle) >= CLOSEST_RAD * (1 - DIGITS)
     relative = (off / np.linalg.norm(ours, axis=1).clip(min=EPS))[inner]
@@ -65,12 +62,16 @@ def c32(results):
     sound = bool(np.isfinite(ours).all() and off.max() <= ROUNDINGS * EPS and not asked and not len(ended))
     word = word_of(sound and relative.max() <= DIGITS, sound)
     return word, evidence(
-        f"""At {len(frame):,} starts e is off by at most {off.max() / EPS:.1f} eps, and by {relative.max():.1e} of its length,
-        closest to a half turn. It takes {asked} divisions and calls; {len(ended)} of {len(every):,} episodes end
+        f"""At {len(frame):,} starts e is off by at most {off.max() / EPS:.1f} eps, and by {relative.max():.1e} of its
+        length, closest to a half turn. It takes {asked} divisions and calls; {len(ended)} of {len(every):,} episodes end
         {" or ".join(BROKEN)}.""",
         len(every) + len(costs),
         ("episodes", "costs", "experiment"),
     )
+
+
+def _off(ours: np.ndarray, exact: list[Fraction]) -> float:
+    return float(max(abs(Fraction(x) - y) for x, y in zip(ours, exact, strict=True)))
 
 
 def _exact(R: Rotation, R_d: Rotation) -> list[Fraction]:

@@ -97,7 +97,7 @@ class Ledger(NamedTuple):
     def over(self, name: str, other: str) -> str:
         """'10.3', the ratio of their times on each machine that has both; 'not timed'."""
         found = [one[name].value / one[other].value for one in self.times if name in one and other in one]
-        return " and ".join(f"{ratio:.1f}" for ratio in found) or "not timed"
+        return " and ".join(f"{ratio:.3g}" for ratio in found) or "not timed"
 
 
 def agreed(signs: Iterable[int]) -> int:

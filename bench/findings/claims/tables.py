@@ -7,7 +7,7 @@ from collections.abc import Callable, Sized
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
-from bench.findings.claims.verdict import Evidence, NoEvidence, Word
+from bench.findings.claims.verdict import Evidence, NoEvidence
 from bench.law.contender import Gains
 from bench.tables import read
 from bench.tables.files import read_json
@@ -188,8 +188,6 @@ def on_every_engine(decide: Callable) -> Callable:
                 continue
             rows += also.rows
         differing = {engine: other for engine, other in others.items() if other != word}
-        if differing and word == Word.HOLDS:
-            word = Word.CORRECTED
         return word, found._replace(sentence=f"{found.sentence} {_said_by(others, differing)}", rows=rows)
 
     return judge
