@@ -38,7 +38,7 @@ SETS = ("uniform", "half-turn")
     earlier=(
         Earlier(
             "2026-11-23 bc126c2",
-            "Poles of each form were sought among poses of arms that are at those of Z-Y-X alone.",
+            "Each form's poles were sought among poses of arms, which are at Z-Y-X's alone: mended after that result.",
             Word.FAILS,
         ),
     ),

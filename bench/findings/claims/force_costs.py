@@ -45,9 +45,7 @@ def c33(results):
     """Flops and calls of both in contact."""
     base, euler = (results.found_by(in_contact, f"{one}+{PAPERS_FORM}") for one in (BASE, EULER))
     price = adequacy.ledger(results).price
-    weighed = (
-        f", {euler.weighed(price) / base.weighed(price) - 1:.0%} more with a call at its price in the times of C12"
-    )
+    weighed = f", {euler.weighed(price) / base.weighed(price) - 1:.0%} more with a call at its price in C12's times"
     is_more, more = by_columns(base, euler) == ORDERED, euler.flops / base.flops - 1
     return word_of(is_more and more <= FEW, is_more), evidence(
         f"""Flops and calls a tick: {base} on the common Jacobian, {euler} on Euler's: {more:.1%} more flops and

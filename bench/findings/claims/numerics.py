@@ -63,8 +63,8 @@ def c32(results):
     word = word_of(sound and relative.max() <= DIGITS, sound)
     return word, evidence(
         f"""At {len(frame):,} starts e is off by at most {off.max() / EPS:.1f} eps, and by {relative.max():.1e} of its
-        length, closest to a half turn. It takes {asked} divisions and calls; {len(ended)} of {len(every):,} episodes end
-        {" or ".join(BROKEN)}.""",
+        length, closest to a half turn. It takes {asked} divisions and calls; {len(ended)} of {len(every):,}
+        episodes end {" or ".join(BROKEN)}.""",
         len(every) + len(costs),
         ("episodes", "costs", "experiment"),
     )
