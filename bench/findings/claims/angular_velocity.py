@@ -34,7 +34,7 @@ they miss by angle^2 about z, less terms of third order."""
         velocity.
     """,
     correction="The exception of a plane is none.",
-    written="2026-11-23 NEWHASH",
+    written="2026-11-23 bc126c2",
     sentence="The integral of angular velocity has no meaning as an orientation, but in a plane.",
     question="Do ways with the same ends have the same integral, and do those about one axis?",
     criterion=f"""

@@ -20,7 +20,7 @@ from bench.findings.theory import closed_form
         for the previous regulator ... This regulator had the highest calculation requirements.
     """,
     value="an order",
-    written="2026-11-23 NEWHASH",
+    written="2026-11-23 953f62a",
     sentence="Cost rises from the rotation-matrix law over the linearized to the feedback-linearized law.",
     question="Do time and operations per tick come in that order?",
     criterion=f"""
@@ -88,7 +88,7 @@ def _flops_alone(known: Ledger) -> str:
     id="C17",
     section="2.5, 4",
     quote="Overall, no regulator performed adequately in terms of both calculation cost and performance.",
-    written="2026-11-23 NEWHASH",
+    written="2026-11-23 953f62a",
     sentence="No regulator performs adequately in both calculation cost and performance.",
     question="Which of the three is adequate in which, on one plane of cost and performance?",
     criterion=f"""

@@ -117,7 +117,7 @@ def c15(results):
     section="2.2 against 3.3",
     equation="(2.8), (2.9)",
     quote="The matrix B does not exist whenever beta = +-pi/2 and no model is available at that point.",
-    written="2026-11-23 NEWHASH",
+    written="2026-11-23 953f62a",
     sentence="B does not exist at beta = +-pi/2 (2.2); B always exists (3.3).",
     question="Which of the two sentences do B and its inverse support?",
     criterion=f"""

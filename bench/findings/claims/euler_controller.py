@@ -66,7 +66,7 @@ class Bend(NamedTuple):
         exist for certain orientations mentioned above and it hides the expense of calculating the Euler angles.
     """,
     correction="The plant is linear, and one of the two reservations fails.",
-    written="2026-11-23 NEWHASH",
+    written="2026-11-23 953f62a",
     sentence="With it the plant is decoupled double integrators; this fails at places and hides a cost.",
     question="Is the arm's answer linear, how does it end near the pole, and what do (2.2), (3.7) cost?",
     criterion=f"""

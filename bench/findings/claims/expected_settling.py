@@ -24,7 +24,7 @@ TICK_S = 1e-3
         In small regions about the zero Euler angle point, the system was stable with the expected settling times.
     """,
     correction="Settling times are those expected only to a few per cent, however small the region.",
-    written="2026-11-23 NEWHASH",
+    written="2026-11-23 bc126c2",
     sentence="Near zero the linearized law is stable with the settling times of its linear model.",
     question="Is the settling time of small rotations the closed form of the linear system, at every pair of gains?",
     criterion=f"""

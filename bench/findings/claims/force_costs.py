@@ -30,7 +30,7 @@ EULER = f"hybrid/{COORDINATES}"
     """,
     value="a few more",
     correction="It requires more, and not a few.",
-    written="2026-11-23 NEWHASH",
+    written="2026-11-23 bc126c2",
     sentence="Force control on the Euler Jacobian needs a few more calculations.",
     question="What do both controllers in contact take a tick, and is the difference a few?",
     criterion=f"""

@@ -30,7 +30,7 @@ NEAR_ZERO = 1e-9
         Columns are anti-parallel at half turns about x, y and z only; about other axes the three cross products
         cancel in their sum.
     """,
-    written="2026-11-23 NEWHASH",
+    written="2026-11-23 953f62a",
     sentence="""
         Example: a rotation of 180 degrees about any axis, because anti-parallel vectors have no cross
         product.
@@ -87,7 +87,7 @@ def c04(results, engine):
         It was also possible for the cross product elements to cancel in a series of points about the 180°
         rotation.
     """,
-    written="2026-11-23 NEWHASH",
+    written="2026-11-23 953f62a",
     sentence="""
         The elements of the cross product may also cancel in a series of points about the 180 degree
         rotation.

@@ -142,7 +142,7 @@ def c07(results, engine):
         [0 0 0]^T. This problem may be avoided by defining the desired rotation as the zero point
     """,
     correction="With E_d subtracted it reaches goals near zero, and some far from it.",
-    written="2026-11-23 NEWHASH",
+    written="2026-11-23 953f62a",
     sentence="It cannot drive to any coordinates but zero; angles taken from the desired orientation avoid that.",
     question="""
         What share of far goals does it reach with E_d subtracted, and what share with angles from the

@@ -30,7 +30,7 @@ SLACK = 0.1
         regulator.
     """,
     correction="It loses no more starts than a law without a model, but is slowed by more.",
-    written="2026-11-23 NEWHASH",
+    written="2026-11-23 bc126c2",
     sentence="Feedback linearization has no problem of model accuracy.",
     question="Does an inertia that is not the model's harm it more than the law on R, which cancels nothing?",
     criterion=f"""

@@ -42,7 +42,7 @@ def _times(rows: pd.DataFrame) -> np.ndarray:
         range of initial orientations.
     """,
     correction="It is faster over the same range as the rotation-matrix law; its range is not larger than that.",
-    written="2026-11-23 NEWHASH",
+    written="2026-11-23 bc126c2",
     sentence="Feedback linearization dramatically improved the performance, over the largest range of orientations.",
     question="Does it settle from more starts than the other two, and how much sooner?",
     criterion=f"""
@@ -93,7 +93,7 @@ def _gain(own: np.ndarray, other: np.ndarray):
     quote="Reasonable performance was achieved with two of the regulators",
     value="two",
     correction="It was achieved with all three.",
-    written="2026-11-23 NEWHASH",
+    written="2026-11-23 bc126c2",
     sentence="Two of the three regulators perform reasonably.",
     question="How many of the three settle from nearly everywhere, and in what time?",
     criterion=f"""

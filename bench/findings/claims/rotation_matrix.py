@@ -37,7 +37,7 @@ SLOPE_TIGHT, SLOPE_LOOSE = 0.01, 0.1
         The results of the simulation show that this regulator was stable over the entire range of rotations but
         had varying settling times for different initial orientations.
     """,
-    written="2026-11-23 NEWHASH",
+    written="2026-11-23 953f62a",
     sentence="The rotation-matrix regulator is stable over the entire range of rotations.",
     question="Does any start diverge; and does every start reach the goal?",
     criterion=f"""
