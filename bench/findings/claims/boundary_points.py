@@ -157,7 +157,7 @@ def c11(results, engine):
         for margin in MARGINS_RAD
     }
     at_rest = [margin for margin, (rest, _) in counts.items() if not rest]
-    beside = {margin: probes.beside_pole(margin, CONTENDER, gains) for margin in MARGINS_RAD}
+    beside = {margin: probes.beside_pole(margin, CONTENDER, gains, results.dt_s) for margin in MARGINS_RAD}
     passed = {margin: int((~settled(one) | (one["peak_u"] > limit)).sum()) for margin, one in beside.items()}
     tumbling_too = [margin for margin in at_rest if not counts[margin][1]]
     all_three = [margin for margin in tumbling_too if not passed[margin]]

@@ -128,7 +128,7 @@ def c17(results, engine):
     lacks = {one.name: set(adequacy.missed(one, known, linear, {})) for one in three}
     both = [one.name for one in three if not lacks[one.name] & set(adequacy.BOTH)]
     word = word_of(not both, all(lacks[name] & {"e", "h"} for name in both))
-    beside = probes.beside_pole(0.1, THREE[-1], results.gains())
+    beside = probes.beside_pole(0.1, THREE[-1], results.gains(), results.dt_s)
     laws = "; ".join(_placed(one, known) for one in sorted(three, key=lambda one: THREE.index(one.name)))
     adequate = ", ".join(_law(name) for name in THREE if name in both) or "none"
     return word, evidence(

@@ -14,7 +14,6 @@ from tasks.sphere import axes
 LAW = "linearized-euler/zyx-euler"
 DIRECTIONS = 16
 LARGER_RAD = (0.2, 0.4, 0.6, 0.8, 1.0, 1.2)
-TICK_S = 1e-3
 
 
 @claim(
@@ -38,12 +37,15 @@ TICK_S = 1e-3
 )
 def c29(results):
     """Small rotations at several gains, then larger ones at the run's."""
-    off, whole = np.array([_off(angle, Gains(*pair)) for pair in GAINS for angle in SMALL_ANGLES]), len(SMALL_ANGLES)
+    off, whole = (
+        np.array([_off(angle, Gains(*pair), results.dt_s) for pair in GAINS for angle in SMALL_ANGLES]),
+        len(SMALL_ANGLES),
+    )
     allowed = np.tile(SMALL_ANGLES, len(GAINS))
-    ticks = np.repeat([TICK_S / closed_form.linear_settling(*pair) for pair in GAINS], whole)
+    ticks = np.repeat([results.dt_s / closed_form.linear_settling(*pair) for pair in GAINS], whole)
     word = word_of((off <= allowed + ticks).all(), (off <= LOOSE_SETTLING + ticks).all())
     gains = results.gains()
-    larger = {angle: _off(angle, gains) for angle in LARGER_RAD}
+    larger = {angle: _off(angle, gains, results.dt_s) for angle in LARGER_RAD}
     within = max((angle for angle, one in larger.items() if one <= LOOSE_SETTLING), default=0.0)
     by_angle = ", ".join(f"{off.reshape(-1, whole)[:, k].max():.2%} at {a:g} rad" for k, a in enumerate(SMALL_ANGLES))
     return word, evidence(
@@ -55,9 +57,9 @@ def c29(results):
     )
 
 
-def _off(angle: float, gains: Gains) -> float:
+def _off(angle: float, gains: Gains, dt_s: float) -> float:
     """The farthest settling time of rotations by an angle from the closed form, relatively; infinite if one fails."""
     starts = [Start("", probes.about(axis, angle)) for axis in axes(DIRECTIONS)]
     closed = closed_form.linear_settling(*gains)
-    times = probes.episodes(LAW, starts, gains, TICK_S, 20.0)["settling_time_s"]
+    times = probes.episodes(LAW, starts, gains, dt_s, 20.0)["settling_time_s"]
     return float(np.nan_to_num(np.abs(times / closed - 1), nan=np.inf).max())

@@ -185,7 +185,7 @@ def c08(results, engine):
     cure = share(settled(results.episodes(CURE, engine, "goals")))
     zero = share(settled(results.episodes(CURE, engine, "uniform")))
     starts = [Start("", IDENTITY, goal_wxyz=probes.about(axis, NEAR_GOAL_RAD)) for axis in axes(NEAR_GOALS)]
-    near = share(probes.episodes(LAW, starts, results.gains(), 1e-3, SHORT)["outcome"] == "settled")
+    near = share(probes.episodes(LAW, starts, results.gains(), results.dt_s, SHORT)["outcome"] == "settled")
     works = cure.high >= zero.low - CURE_SLACK and cure.low > base.high
     word = word_of(works and base.high <= FEW_GOALS and not near.k, works and base.high < MANY_GOALS)
     return word, evidence(

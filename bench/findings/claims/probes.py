@@ -111,7 +111,7 @@ SPEED, BESIDE = 20.0, 64
 
 
 @functools.cache
-def beside_pole(margin: float, contender: str, gains: Gains) -> pd.DataFrame:
+def beside_pole(margin: float, contender: str, gains: Gains, dt_s: float = 1e-3) -> pd.DataFrame:
     """Bodies that spin at 20 rad/s, in directions all over the sphere, a thousandth of a radian outside a margin."""
     from scipy.spatial.transform import Rotation as Turn
 
@@ -122,7 +122,7 @@ def beside_pole(margin: float, contender: str, gains: Gains) -> pd.DataFrame:
         R = zyx.to_matrix((alpha, (-1) ** i * (math.pi / 2 - margin - 1e-3), gamma))
         quat = Turn.from_matrix(np.array(R).T).as_quat(scalar_first=True)
         starts.append(Start("", tuple(quat.tolist()), tuple((SPEED * direction).tolist())))
-    return episodes(contender, starts, gains, 1e-3, 10.0)
+    return episodes(contender, starts, gains, dt_s, 10.0)
 
 
 def boundary_distance(frame: pd.DataFrame) -> pd.DataFrame:

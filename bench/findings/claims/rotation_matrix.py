@@ -124,7 +124,7 @@ def c02(results):
     pairs = [(angle, axis) for angle in SMALL_ANGLES for axis in axes.values()]
     starts = [Start("", probes.about(axis, angle)) for angle, axis in pairs]
     angles = np.array([angle for angle, _ in pairs])
-    dt, off, share_off, longest = 1e-3, [], [], {}
+    dt, off, share_off, longest = results.dt_s, [], [], {}
     for gains in (Gains(*pair) for pair in GAINS):
         closed = closed_form.linear_settling(*gains)
         found = probes.episodes(LAW, starts, gains, dt, 20.0)["settling_time_s"].to_numpy()

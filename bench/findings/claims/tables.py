@@ -89,11 +89,20 @@ class Results:
         row = some(self.table("episodes", **read.FREE_BODY, engine=MAIN_ENGINE), f"episode by {MAIN_ENGINE}").iloc[0]
         return Gains(float(row["kp"]), float(row["kv"]))
 
+    @functools.cached_property
+    def _plan(self) -> dict:
+        path = self.folder and self.folder / "plan.json"
+        return read_json(path) if path and path.is_file() else {"seed": 0, "dt_s": 1e-3}
+
     @property
     def seed(self) -> int:
-        """The run's; 0 of tables alone."""
-        path = self.folder and self.folder / "plan.json"
-        return int(read_json(path)["seed"]) if path and path.is_file() else 0
+        """The run's, for experiments that claims make; 0 of tables alone."""
+        return int(self._plan["seed"])
+
+    @property
+    def dt_s(self) -> float:
+        """The run's control period; 1 ms of tables alone."""
+        return float(self._plan["dt_s"])
 
     def timings(self) -> pd.DataFrame:
         """Time per tick of laws alone, on every machine that was timed, a column `machine` added; maybe empty."""
