@@ -12,12 +12,14 @@ import argparse
 import dataclasses
 import tempfile
 import time
+from collections.abc import Callable
 from pathlib import Path
 
 from bench.contenders.registry import all_contenders
 from bench.experiments import plan as planning
 from bench.experiments.experiment import Unit, known_experiments
 from bench.experiments.plan import Plan
+from bench.experiments.suites import NOMINAL
 from bench.findings import claims
 from bench.findings.claims.adequacy import NOISE
 from bench.findings.claims.controller_costs import BY_COMMON, BY_EULER, ON_MATRIX
@@ -47,29 +49,31 @@ DRAWN = {
 }
 """By experiment, the units of a suite that hang on the seed and that claims look at."""
 
-STEPPED = {**DRAWN, "boundaries": lambda unit: True, "contact": lambda unit: True}
-"""Those that hang on the step: operations do not, and Jacobians are of poses."""
-del STEPPED["jacobians"]
+STEPPED = {
+    **{name: wanted for name, wanted in DRAWN.items() if name != "jacobians"},
+    "boundaries": lambda unit: True,
+    "contact": lambda unit: True,
+}
+"""Those that hang on the step: Jacobians are of poses."""
 
 
 def _is_judged(unit: Unit) -> bool:
     """Whether C20 looks at the episodes of a unit on an arm."""
-    law = unit.contender.partition("+")[0]
-    return (
-        law in (BY_EULER, BY_COMMON, ON_MATRIX) and unit.selector in ("clear", "pole") and unit.variation == "nominal"
-    )
+    is_there = unit.selector in ("clear", "pole") and unit.variation == NOMINAL
+    return is_there and unit.contender.partition("+")[0] in (BY_EULER, BY_COMMON, ON_MATRIX)
 
 
 def plan_of(name: str) -> Plan:
     """What is run anew of the suite of the reference."""
     at_half = name == HALF_STEP
-    laws = list(all_contenders())
-    suite = read_json(REFERENCE / "plan.json")["suite"]
-    whole = planning.make(suite, laws, seed=0 if at_half else int(name), dt_s=STEP_S / 2 if at_half else STEP_S)
+    drawn = {"dt_s": STEP_S / 2} if at_half else {"seed": int(name)}
+    whole = planning.make(read_json(REFERENCE / "plan.json")["suite"], list(all_contenders()), **drawn)
     wanted = STEPPED if at_half else DRAWN
-    return dataclasses.replace(
-        whole, units=tuple(u for u in whole.units if u.experiment in wanted and wanted[u.experiment](u))
-    )
+    return dataclasses.replace(whole, units=tuple(one for one in whole.units if _is_in(wanted, one)))
+
+
+def _is_in(wanted: dict[str, Callable[[Unit], bool]], unit: Unit) -> bool:
+    return unit.experiment in wanted and wanted[unit.experiment](unit)
 
 
 def judged(name: str, workers: int) -> dict:

@@ -82,7 +82,7 @@ def c01(results, engine):
     away = probes.boundary_distance(left)["half_turn"].abs() if len(left) else np.zeros(0)
     elsewhere = int((away > probes.EXACT_RAD).sum())
     is_stable = not unstable.any()
-    word = word_of(is_stable and not elsewhere, is_stable and 1 - uniform.value <= STRAY_SHARE)
+    word = word_of(is_stable and not elsewhere, is_stable and uniform.n - uniform.k <= STRAY_SHARE * uniform.n)
     return word, evidence(
         f"""{int(unstable.sum())} of {len(frame):,} starts diverge or gain energy. {len(left)} do not settle,
         {len(left) - elsewhere} of them exactly a half turn from the goal; of uniform starts {uniform}
