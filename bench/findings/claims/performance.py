@@ -82,7 +82,9 @@ def _gain(own: np.ndarray, other: np.ndarray):
 
     def ratio(drawn, axis):
         quantiles = quantile(drawn, NEARLY_ALL, axis=-2)
-        return quantiles[..., 1] / quantiles[..., 0]
+        with np.errstate(invalid="ignore"):
+            ratios = quantiles[..., 1] / quantiles[..., 0]
+        return np.where(np.isnan(ratios), 1.0, ratios)  # neither settles
 
     return bootstrap(np.stack([own, other], axis=1), ratio)
 
