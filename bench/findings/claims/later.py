@@ -31,7 +31,7 @@ orientation in use exceeds by much, and far less than any law's memory could bri
         turn, pole and wrap; (f) leave every half turn under worst-case noise of up to {HELD_RAD:g} rad
         (robustness.parquet, half-turn-noise: no start that fails to settle); (g) not unwind: from uniform starts and
         half turns it travels less than {DETOUR:g} times the shortest way; (h) be cheaper than both by operations too,
-        a call at the price that it has in the times. It is open in 1988 and answered since if a law has all eight; if
+        a call at the price that it has in the times. It was open in 1988 and is answered since if a law has all eight; if
         none has, it holds, for the question is open still. A question does not fail to hold. What each law lacks is
         reported.
     """,
