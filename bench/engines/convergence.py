@@ -7,9 +7,9 @@ path asks for it, and a 32nd as long where it must stop; until two that follow e
 row, and its step is the shortest that was taken. If none agree, the episode has not converged, which the row says.
 
 Alike: the same outcome; a settling time that moved by no more than one control period (of two runs with different
-periods, beyond the coarser one's sampling); an unsettled body at the same angle to SAME_RAD. A body that failed
-(diverged, saturated or singular) must have failed in the same control period too, at its first command or by steps that
-were all good enough: one that is integrated too coarsely beside a pole fails likewise at any step.
+periods, beyond the coarser one's sampling); an unsettled body at the same angle to SAME_RAD. A failure (diverged,
+saturated or singular) counts if it came with the first command or by steps that were good enough all along: what is
+integrated too coarsely beside a pole fails at any step. Which of the three it is, the finer of the two runs says.
 
 Does not converge: what hangs on rounding (an exact half turn that is left at all), and what passes a place where the
 command has no limit in a way that hangs on the step.
@@ -22,7 +22,7 @@ import numpy as np
 
 from bench.engines.episode import FAILURE_TICK, FINAL_ANGLE, OUTCOME, SETTLING_TICK, STEP, Numbers, Settings
 from tasks.rules import RULES
-from tasks.verdict import CRASHED, DIVERGED, SATURATED, SETTLED, SINGULAR
+from tasks.verdict import DIVERGED, SATURATED, SETTLED, SINGULAR
 
 SAME_RAD = RULES.floor_rad
 FAILED = (DIVERGED, SATURATED, SINGULAR)
@@ -38,11 +38,11 @@ class Level(NamedTuple):
     divisions: int
 
 
-LEVELS = (Level(2.0**-30, 2**8), Level(2.0**-35, 2**13), Level(2.0**-40, 2**18), Level(2.0**-45, 2**23))
-"""From 1e-9 and 4 us to 3e-14, near the rounding of a step, and 0.1 ns, at a control period of 1 ms."""
+LEVELS = tuple(Level(2.0 ** -(15 + 5 * n), 2 ** (8 + 5 * n)) for n in range(6))
+"""From 3e-5 and 4 us to 1e-12 and 0.1 ps, at a control period of 1 ms."""
 
-STEPS_A_TICK = 8
-"""After so many steps for each control period of the horizon an episode is given up: it has not converged."""
+MORE_STEPS = 2**14
+"""After so many steps beside one for each control period of the horizon an episode is given up: 10 ms of computing."""
 
 
 def coarser(settings: Settings) -> Settings:
@@ -54,7 +54,7 @@ def coarser(settings: Settings) -> Settings:
 
 def at_level(numbers: Numbers, level: Level) -> Numbers:
     """The numbers for `refined`."""
-    most = STEPS_A_TICK * numbers.ticks
+    most = numbers.ticks + MORE_STEPS
     return numbers._replace(tolerance_squared=level.tolerance**2, divisions=level.divisions, most_steps=most)
 
 
@@ -90,11 +90,7 @@ def alike(coarse: np.ndarray, fine: np.ndarray, ticks: int) -> np.ndarray:
     outcome = fine[:, OUTCOME]
     later = ticks * coarse[:, SETTLING_TICK] - fine[:, SETTLING_TICK]
     turned = np.abs(coarse[:, FINAL_ANGLE] - fine[:, FINAL_ANGLE])
-    apart = np.abs(ticks * coarse[:, FAILURE_TICK] - fine[:, FAILURE_TICK])
-    is_resolved = (fine[:, FAILURE_TICK] == 0) | (fine[:, STEP] > 0.0)
-    is_same = np.where(
-        outcome == SETTLED,
-        (-1 <= later) & (later <= ticks),
-        np.where(np.isin(outcome, FAILED), is_resolved & (apart <= 1), turned <= SAME_RAD) | (outcome == CRASHED),
-    )
-    return is_same & (coarse[:, OUTCOME] == outcome)
+    is_sure = (fine[:, STEP] > 0.0) | ((coarse[:, FAILURE_TICK] == 0) & (fine[:, FAILURE_TICK] == 0))
+    is_failure = np.isin(coarse[:, OUTCOME], FAILED) & np.isin(outcome, FAILED) & is_sure
+    is_end = np.where(outcome == SETTLED, (-1 <= later) & (later <= ticks), turned <= SAME_RAD)
+    return is_failure | ((coarse[:, OUTCOME] == outcome) & ~np.isin(outcome, FAILED) & is_end)

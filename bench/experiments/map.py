@@ -42,7 +42,7 @@ def plan_of(
             selector=f"speed-{least:g}to{most:g}",
             first=first,
             count=min(UNIT, starts - first),
-            total=starts,
+            total=starts * len(speeds),
             episodes=min(UNIT, starts - first),
             horizon_s=horizon_s,
         )
