@@ -9,14 +9,16 @@ import numpy as np
 from bench.findings.claims import probes
 from bench.findings.claims.probes import EXACT_RAD
 from bench.findings.claims.standing import ORDERED, Ledger, Operations, price_of_a_call, times_of
-from bench.findings.claims.tables import Results, settled, some
+from bench.findings.claims.tables import Results, converged, settled, some
 from bench.tables.read import FREE_BODY
 
 if TYPE_CHECKING:
     import pandas as pd
 
+    from bench.findings.maps import Spun
+
 CALLS = ("sin", "cos", "atan2", "acos")
-DIRECTED = ("half-turn", "poles", "wraps", "box", "tumbling", "goals")
+DIRECTED = ("half-turn", "poles", "wraps", "box", "goals")
 
 PAPERS = (
     "rotation-matrix",
@@ -31,6 +33,9 @@ THREE = ("rotation-matrix", "linearized-euler/zyx-euler", "feedback-linearized/z
 """Those that it compares, in its order of cost: the first is 'remarkably simple', the others are 'more involved'."""
 
 SETTLED_SHARE, SLOW = 0.999, 2.0
+DIRECTED_SHARE = 0.99
+"""Of the directed starts at rest, a few of which may be as near to a singular place as doubles can be."""
+
 DETOUR = 1.5
 """Path over shortest path from which a start at rest counts as unwinding: halfway to a full turn from a half turn is
 3/2, and no spring that pulls towards the goal goes so far."""
@@ -41,7 +46,8 @@ NOISE = "half-turn-noise"
 class Adequacy(NamedTuple):
     """One law: n uniform starts of which a share settles, the slowest of them, and directed starts that do not.
 
-    lost_exact: directed starts that do not settle and are on a half turn, a pole or a wrap themselves; lost: others.
+    lost_exact: directed starts that do not settle and are on a half turn, a pole or a wrap themselves; lost: of others,
+    the number directed. spun: random starts at stated speeds; none of a law that is in no map.
     detour: greatest way over the shortest, from uniform starts and half turns. rows: looked at.
     """
 
@@ -49,8 +55,10 @@ class Adequacy(NamedTuple):
     n: int
     settled: float
     slowest_s: float
+    directed: int
     lost: int
     lost_exact: int
+    spun: tuple[Spun, ...]
     detour: float
     cost: Operations
     rows: int
@@ -63,12 +71,13 @@ def every(results: Results, engine: str) -> list[Adequacy]:
         NoEvidence: no episode on the free body by this engine.
     """
     runs = results.table("episodes", **FREE_BODY, task="free-body", engine=engine)
-    runs = some(runs[runs["start_set"].isin(("uniform", *DIRECTED))], f"episode by {engine}")
+    runs = runs[runs["start_set"].isin(("uniform", *DIRECTED))]
+    runs = some(converged(runs), f"episode by {engine}").reset_index(drop=True)
     runs = runs.assign(lost=~settled(runs), exact=exact(runs))
     costs = results.table("costs", **FREE_BODY, branch="typical")
     priced = {str(name): rows for name, rows in costs.groupby("contender", observed=True)}
     found = [
-        _row(str(name), own, priced[str(name)])
+        _row(str(name), own, priced[str(name)], tuple(results.spun(str(name))))
         for name, own in runs.groupby("contender", observed=True)
         if name in priced and {"uniform", "half-turn"} <= set(own["start_set"])
     ]
@@ -87,7 +96,7 @@ def held(results: Results, noise_rad: float) -> dict[str, tuple[int, int]]:
     return {str(name): (int(lost), int(of)) for name, lost, of in counts.itertuples()}
 
 
-def _row(name: str, own: pd.DataFrame, costs: pd.DataFrame) -> Adequacy:
+def _row(name: str, own: pd.DataFrame, costs: pd.DataFrame, spun: tuple[Spun, ...]) -> Adequacy:
     is_uniform = own["start_set"] == "uniform"
     uniform, directed = own[is_uniform], own[~is_uniform]
     plain = own[is_uniform | (own["start_set"] == "half-turn")]
@@ -96,8 +105,10 @@ def _row(name: str, own: pd.DataFrame, costs: pd.DataFrame) -> Adequacy:
         len(uniform),
         float(1.0 - uniform["lost"].mean()),
         float(uniform["settling_time_s"].max()),
+        int((~directed["exact"]).sum()),
         int((directed["lost"] & ~directed["exact"]).sum()),
         int((directed["lost"] & directed["exact"]).sum()),
+        spun,
         float(plain["path_ratio"].max()),
         tallied(costs, with_goal=False),
         len(own),
@@ -140,6 +151,12 @@ BOTH = "abcd"
 """What C17 asks."""
 
 
+def is_kept_spinning(one: Adequacy) -> bool:
+    """Whether random starts at every stated speed settle but for 1 - SETTLED_SHARE of them; not, if none were run."""
+    spinning = [spun.share.high <= 1.0 - SETTLED_SHARE for spun in one.spun if spun.speed > 0.0]
+    return bool(spinning) and all(spinning)
+
+
 def missed(one: Adequacy, known: Ledger, small_s: float, held: dict[str, tuple[int, int]]) -> str:
     """The tests of C27's criterion that a law does not pass; (f) is among them if it was not tried.
 
@@ -149,7 +166,7 @@ def missed(one: Adequacy, known: Ledger, small_s: float, held: dict[str, tuple[i
     cost = [known.stand(one.name, other) for other in THREE[1:]]
     passed = {
         "a": one.settled >= SETTLED_SHARE,
-        "b": not one.lost,
+        "b": one.lost <= (1.0 - DIRECTED_SHARE) * one.directed and is_kept_spinning(one),
         "c": one.slowest_s <= SLOW * small_s,
         "d": all(stands.sign == ORDERED for stands in cost),
         "e": not one.lost_exact,

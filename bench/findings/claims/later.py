@@ -24,15 +24,15 @@ orientation in use exceeds by much, and far less than any law's memory could bri
     question="Which later law is adequate in both cost and performance by the criterion of C17?",
     criterion=f"""
         Asked of every law of the run that is none of the paper's, in any coordinates. Adequate as in C17: (a) at least
-        {SETTLED_SHARE:.1%} of the uniform starts settle; (b) every directed start settles that C17 counts; (c) no
+        {SETTLED_SHARE:.1%} of the uniform starts settle; (b) so do the directed and the spinning starts of C17; (c) no
         uniform start takes longer than {SLOW:g} times the settling time of a small error; (d) it costs less than both
         of the paper's laws on Euler angles, whose cost it objects to, as C12 compares them: by time, interleaved, where
         intervals part. An answer must also (e) settle from the directed starts that C17 leaves out, every exact half
         turn, pole and wrap; (f) leave every half turn under worst-case noise of up to {HELD_RAD:g} rad
         (robustness.parquet, half-turn-noise: no start that fails to settle); (g) not unwind: from uniform starts and
         half turns it travels less than {DETOUR:g} times the shortest way; (h) be cheaper than both by operations too,
-        a call at the price that it has in the times. It was open in 1988 and is answered since if a law has all eight; if
-        none has, it holds, for the question is open still. A question does not fail to hold. What each law lacks is
+        a call at the price that it has in the times. It was open in 1988 and is answered since if a law has all eight;
+        if none has, it holds, for the question is open still. A question does not fail to hold. What each law lacks is
         reported.
     """,
     open="""

@@ -23,8 +23,9 @@ REASONABLE, PACE = 0.99, 2.0
 
 
 def _of_the_three(results) -> list[pd.DataFrame]:
-    """Uniform starts from rest of each law, the same in the same order."""
+    """Uniform starts from rest of each law, the same in the same order; one that does not converge settles nowhere."""
     found = [results.episodes(name.partition("/")[0], MAIN_ENGINE, "uniform") for name in THREE]
+    found = [one.assign(outcome=one["outcome"].astype(str).where(one["converged"] != "no", "unknown")) for one in found]
     common = set.intersection(*(set(one["start_id"]) for one in found))
     return [one[one["start_id"].isin(common)].sort_values("start_id", kind="stable") for one in found]
 

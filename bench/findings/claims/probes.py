@@ -92,20 +92,6 @@ def episodes(contender: str, starts: list[Start], gains: Gains, dt_s: float, hor
     )
 
 
-def finer(contender: str, frame: pd.DataFrame, gains: Gains, factor: int = 10) -> pd.DataFrame:
-    """Episodes of a table again, with a tick that many times shorter: is it the law, or its integration?"""
-    import pandas as pd
-
-    if frame.empty:
-        return pd.DataFrame({"outcome": [], "peak_u": []})
-    columns = [list(QUAT), list(OMEGA), list(GOAL_QUAT)]
-    starts = [
-        Start("", *(tuple(part) for part in parts))
-        for parts in zip(*(frame[names].to_numpy().tolist() for names in columns), strict=True)
-    ]
-    return episodes(contender, starts, gains, frame["dt_s"].iloc[0] / factor, frame["horizon_s"].iloc[0])
-
-
 SPEED, BESIDE = 20.0, 64
 """rad/s, as fast as the fastest tumbling start; starts at each margin."""
 

@@ -16,6 +16,9 @@ from bench.tables.schema import RESULTS
 if TYPE_CHECKING:
     import pandas as pd
 
+    from bench.findings.maps import Spun
+    from bench.tables.statistics import Estimate
+
 MAIN_ENGINE = "ideal-rk4"
 CHECK_ENGINES = ("ideal-held", "native")
 SETTLED = "settled"
@@ -41,11 +44,12 @@ class Results:
         folder: Path | None,
         frames: dict | None = None,
         timings: Path = RESULTS / "timings",
+        maps: Path = RESULTS / "maps",
         experiments: dict[str, Callable] | None = None,
     ):
         self.folder = folder
         self.frames = dict(frames or {})
-        self.timings_folder = timings
+        self.timings_folder, self.maps_folder = timings, maps
         self.experiments = experiments or {}
         self._chosen: dict[tuple, pd.DataFrame] = {}
 
@@ -88,6 +92,17 @@ class Results:
         """The run's gains."""
         row = some(self.table("episodes", **read.FREE_BODY, engine=MAIN_ENGINE), f"episode by {MAIN_ENGINE}").iloc[0]
         return Gains(float(row["kp"]), float(row["kv"]))
+
+    def spun(self, law: str) -> list[Spun]:
+        """Starts of a law at stated speeds, from the maps that came with the benchmark; maybe none."""
+        from bench.findings.maps import counted, spun
+        from bench.tables.store import read as read_table
+
+        if "map" not in self.frames:
+            self.frames["map"] = read_table(self.maps_folder, "map")
+        if "counted" not in self.frames:
+            self.frames["counted"] = counted(self.frames["map"])
+        return spun(self.frames["counted"], law)
 
     @functools.cached_property
     def _plan(self) -> dict:
@@ -171,6 +186,27 @@ def share(facts: pd.Series) -> Share:
         raise NoEvidence("a share of no rows at all")
     interval = binomtest(k, n).proportion_ci(method="wilson")
     return Share(k, n, k / n, float(interval.low), float(interval.high))
+
+
+def converged(frame: pd.DataFrame) -> pd.DataFrame:
+    """The episodes whose end no shorter step moves; all of an engine that is not continuous."""
+    return frame[frame["converged"] != "no"]
+
+
+def lost(frame: pd.DataFrame) -> Estimate:
+    """The share of episodes that do not settle, of those that converge; the interval is that of `maps.lost_between`."""
+    from bench.findings.maps import lost_between
+
+    sure = converged(frame)
+    return lost_between(int((~settled(sure)).sum()), len(frame) - len(sure), len(frame))
+
+
+def lost_text(one: Spun) -> str:
+    """The share lost of starts at a stated speed, with its interval, and how many do not converge."""
+    apart = f", {one.unconverged} not converged" if one.unconverged else ""
+    at = f"at {one.speed:g} rad/s" if one.speed else "at rest"
+    low, high = one.share.low, one.share.high
+    return f"{at} {one.share.value:.3%} ({low:.3%} to {high:.3%}, n = {one.starts:,}{apart})"
 
 
 def settled(frame: pd.DataFrame) -> pd.Series:
