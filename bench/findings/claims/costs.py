@@ -99,9 +99,9 @@ def _flops_alone(known: Ledger) -> str:
         ends at {1 - SETTLED_SHARE:.1%} or below, those that do not converge counted as lost; (c) no uniform
         start takes longer than {SLOW:g} times the settling time of a small error. Adequate cost: (d) the law costs
         less than both laws on Euler angles, whose cost is what the paper objects to (2.5), as C12 compares them. It
-        holds if none of rotation-matrix, linearized-euler and feedback-linearized is adequate in both; with a correction if one is,
-        but fails on starts that (b) leaves out, or is cheaper by time and not by operations; otherwise it does not
-        hold. Later laws do not change this verdict, they answer C27.
+        holds if none of rotation-matrix, linearized-euler and feedback-linearized is adequate in both; with a
+        correction if one is, but fails on starts that (b) leaves out, or is cheaper by time and not by operations;
+        otherwise it does not hold. Later laws do not change this verdict, they answer C27.
     """,
     open="""
         'Adequate' is the paper's word without a number; (a) to (c) are ours. (c) is what the paper calls uncertain
