@@ -14,6 +14,9 @@ from bench.law.contender import Contender
 CONTINUOUS = "ideal-rk4"
 """The paper's continuous plant."""
 
+NOTHING_IS_GOOD_ENOUGH = -1.0
+"""A squared tolerance that no step keeps."""
+
 WORTH_LANES = 100_000
 """Episodes of a law from which on lanes save more than the 3 to 8 s that they take to compile: 50 ns of each of some
 1,000 ticks."""
@@ -105,6 +108,20 @@ def _once(engine, contender, begun, settings, metrics, total, curves) -> np.ndar
     else:
         given = begun, numbers(settings), rows, curves
         compiled_loop(engine, metrics)(evaluation(contender), memory_of(contender), *given)
+    return rows
+
+
+def by_equal_steps(contender: Contender, begun: np.ndarray, settings: Settings, divisions: int) -> np.ndarray:
+    """Rows on the continuous plant by Runge-Kutta steps of a control period over `divisions`, an even number or 1.
+
+    The judge sees the body once a control period, whatever the step.
+    """
+    if divisions == 1:
+        return on_ideal(CONTINUOUS, contender, begun, settings, converge=False)
+    rows, limits = blank(len(begun), ()), at_level(numbers(settings), Level(0.0, divisions))
+    limits = limits._replace(tolerance_squared=NOTHING_IS_GOOD_ENOUGH, most_steps=divisions * settings.ticks)
+    law = evaluation(contender), memory_of(contender)
+    compiled_loop(REFINED, ())(*law, begun, limits, rows, blank_curves(len(begun)))
     return rows
 
 

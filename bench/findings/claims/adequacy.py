@@ -9,8 +9,8 @@ import numpy as np
 from bench.findings.claims import probes
 from bench.findings.claims.probes import EXACT_RAD
 from bench.findings.claims.standing import ORDERED, Ledger, Operations, price_of_a_call, times_of
-from bench.findings.claims.tables import Results, converged, settled, some
-from bench.tables.read import FREE_BODY
+from bench.findings.claims.tables import Results, settled, some
+from bench.tables.read import FREE_BODY, converged
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from bench.findings.claims import probes
-from bench.findings.claims.tables import MAIN_ENGINE, converged, evidence, lost, lost_text, settled, share, some
+from bench.findings.claims.tables import MAIN_ENGINE, evidence, lost, lost_text, settled, share, some
 from bench.findings.claims.verdict import Earlier, Word, claim
 from bench.findings.theory import closed_form
+from bench.tables.read import converged
 
 if TYPE_CHECKING:
     import pandas as pd

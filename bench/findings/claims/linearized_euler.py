@@ -7,8 +7,9 @@ import numpy as np
 
 from bench.experiments.suites import SHORT
 from bench.findings.claims import probes
-from bench.findings.claims.tables import converged, evidence, lost, on_every_engine, settled, share, some
+from bench.findings.claims.tables import evidence, lost, on_every_engine, settled, share, some
 from bench.findings.claims.verdict import Earlier, Word, claim, word_of
+from bench.tables.read import converged
 from bench.tables.statistics import bootstrap, quantile
 from tasks.base import IDENTITY, Start
 from tasks.sphere import axes

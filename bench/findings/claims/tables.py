@@ -188,16 +188,11 @@ def share(facts: pd.Series) -> Share:
     return Share(k, n, k / n, float(interval.low), float(interval.high))
 
 
-def converged(frame: pd.DataFrame) -> pd.DataFrame:
-    """The episodes whose end no shorter step moves; all of an engine that is not continuous."""
-    return frame[frame["converged"] != "no"]
-
-
 def lost(frame: pd.DataFrame) -> Estimate:
     """The share of episodes that do not settle, of those that converge; the interval is that of `maps.lost_between`."""
     from bench.findings.maps import lost_between
 
-    sure = converged(frame)
+    sure = read.converged(frame)
     return lost_between(int((~settled(sure)).sum()), len(frame) - len(sure), len(frame))
 
 
