@@ -39,7 +39,7 @@ def start(name, i):
 @pytest.fixture
 def frames():
     laws = PAPERS | LATER
-    ending = {"outcome": "settled", "settling_time_s": 0.6, "path_ratio": 1.0}
+    ending = {"outcome": "settled", "settling_time_s": 0.6, "path_ratio": 1.0, "converged": "yes"}
     episodes = [{**WORDS, **named(law), **start(name, i), **ending} for law in laws for name in ANGLES for i in (0, 1)]
     costs = [
         {**WORDS, **named(law), "branch": "typical", "stage": stage, "flops": flops, "sin": calls}
@@ -56,7 +56,12 @@ def frames():
         {**named(law), **WORDS, "what": "law", "machine": "m", "ticks": 1, **timed(1.0 + FLOP * flops + CALL * calls)}
         for law, (flops, calls) in (laws | COUNTED).items()
     ]
-    tables = {"episodes": episodes, "costs": costs, "robustness": noise, "timings": times}
+    spun = [
+        {"contender": "/".join(filter(None, law)), "least_speed": 20.0, "most_speed": 20.0, "starts": 10_000}
+        | {"settled": 10_000, "unconverged": 0, "lost": 0}
+        for law in laws
+    ]
+    tables = {"episodes": episodes, "costs": costs, "robustness": noise, "timings": times, "counted": spun, "map": []}
     return {name: pd.DataFrame(rows) for name, rows in tables.items()}
 
 
@@ -66,7 +71,7 @@ def timed(ratio):
 
 def of(law, **words):
     def rows(frame):
-        chosen = frame["regulator"] == law[0]
+        chosen = (frame["regulator"] if "regulator" in frame else frame["contender"]) == law[0]
         for column, word in words.items():
             chosen &= frame[column] == word
         return chosen
@@ -107,6 +112,7 @@ SLOW = {"ratio": 4.0, "ratio_low": 3.9, "ratio_high": 4.1}
     [
         ("episodes", {"start_set": "uniform"}, {"outcome": "stuck"}, "(a)"),
         ("episodes", {"start_set": "box"}, {"outcome": "diverged"}, "(b)"),
+        ("counted", {}, {"lost": 20}, "(b)"),
         ("episodes", {"start_set": "uniform"}, {"settling_time_s": 1.2}, "(c)"),
         ("timings", {}, SLOW, "(d)"),  # the linearized law takes 1 + 0.33 + 1.8
         ("costs", {"stage": "total"}, {"sin": 9}, "(h)"),

@@ -8,6 +8,8 @@ from collections.abc import Iterable
 
 from bench.findings import claims
 from bench.findings.claims import Verdict
+from bench.studies import verdicts
+from bench.tables.files import read_json
 from report.figures.kit import html
 from report.figures.kit.page import Run
 from report.figures.kit.spelling import marked_up, prose, typeset
@@ -26,7 +28,19 @@ def facts(_: Run) -> dict:
         "decided": len(every),
         "changed": len(changed),
         "turned": sum(one.word != one.earlier[-1][1] for one in changed),
+        "steady": steady(read_json(verdicts.STORED)),
     }
+
+
+def steady(study: dict) -> str:
+    """What the study of seeds and of half the step found, in a sentence."""
+    runs = study["runs"]
+    seeds = sum(name != verdicts.HALF_STEP for name in runs)
+    other = verdicts.turned(runs, study["reference"])
+    found = "no claim gets another word" if not other else f"{', '.join(other)} get another word somewhere"
+    return (
+        f"On {seeds} other seeds of the starts{' and at half the step' if verdicts.HALF_STEP in runs else ''} {found}"
+    )
 
 
 def tables(_: Run) -> dict:
@@ -34,9 +48,9 @@ def tables(_: Run) -> dict:
     return {anchor(one): section(one) for one in claims.judge_all()}
 
 
-def tiles(verdicts: list[Verdict]) -> html.Html:
+def tiles(every: list[Verdict]) -> html.Html:
     """How many statements were decided, and how many got each word."""
-    counts = Counter(str(one.word) for one in verdicts)
+    counts = Counter(str(one.word) for one in every)
     labels = {
         "holds": "hold",
         "holds with a correction": "hold with a correction",
@@ -44,15 +58,15 @@ def tiles(verdicts: list[Verdict]) -> html.Html:
         "open in 1988; answered since": "was open in 1988 and is answered since",
         "not testable": "cannot be tested",
     }
-    entries = [("plain", len(verdicts), "statements of the paper decided")]
+    entries = [("plain", len(every), "statements of the paper decided")]
     entries += [(html.VERDICTS[word], counts[word], label) for word, label in labels.items() if counts[word]]
     tile = '<div class="tile {}"><b>{}</b><span>{}</span></div>'
     return html.Html(f'<div class="tiles">{"".join(tile.format(*entry) for entry in entries)}</div>')
 
 
-def table(verdicts: list[Verdict], page: str) -> html.Markdown | None:
+def table(every: list[Verdict], page: str) -> html.Markdown | None:
     """Id, sentence and verdict of each decided claim, linked to its section of the page."""
-    return VERDICTS((link(one, page), prose(one.claim.sentence), html.badge(str(one.word))) for one in verdicts)
+    return VERDICTS((link(one, page), prose(one.claim.sentence), html.badge(str(one.word))) for one in every)
 
 
 def link(one: Verdict, page: str) -> str:
