@@ -63,9 +63,7 @@ BESIDE = ("pole-plus-k03-a0.1-g0.2", "pole-minus-k04-a1.0-g-0.5", "pole-plus-k05
 def beside_the_pole():
     starts = starts_of("poles", *BESIDE)
     chosen = settings(horizon_s=3.0, hold_ticks=HOLD)
-    return starts, *(
-        engines.on_ideal("ideal-rk4", LINEARIZED, start_rows(starts), chosen, converge=one) for one in (0, 1)
-    )
+    return starts, *(engines.on_ideal("ideal-rk4", LINEARIZED, start_rows(starts), chosen, converge=one) for one in (0, 1))
 
 
 def test_stiff_start_beside_the_pole_settles_when_an_implicit_integrator_says_so():
@@ -117,9 +115,7 @@ def test_steps_of_one_length_are_those_of_a_shorter_control_period():
 
 @pytest.mark.parametrize("name", ["hybrid", "linearized-euler/zyx-euler"])
 def test_rows_are_the_same_in_lanes(name):
-    begun = start_rows(
-        [*tasks.start_set("uniform", 30), *tasks.start_set("half-turn")[::8], *starts_of("poles", *BESIDE)]
-    )
+    begun = start_rows([*tasks.start_set("uniform", 30), *tasks.start_set("half-turn")[::8], *starts_of("poles", *BESIDE)])
     chosen = settings(horizon_s=2.0, hold_ticks=HOLD)
     law = find_contender(name)
     one, many = (engines.on_ideal("ideal-rk4", law, begun, chosen, total=total) for total in (0, 10**9))
