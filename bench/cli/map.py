@@ -64,12 +64,14 @@ MOST = 10**10
     "--out", type=options.PATH, default=RESULTS / "latest-map", show_default="results/latest-map", help="Folder."
 )
 @click.option("--replace", is_flag=True, help="Start over if the folder holds another plan.")
-def COMMAND(laws, regulators, starts, seed, spin, stated, engine, dt_s, horizon_s, kp, kv, workers, scheduler, out, replace):
+def COMMAND(
+    laws, regulators, starts, seed, spin, stated, engine, dt_s, horizon_s, kp, kv, workers, scheduler, out, replace
+):
     """Simulate millions of uniformly random starts of a law on the ideal plant and count those that do not settle.
 
     Kept are counts by cell of SO(3), the slowest start of each 5 degrees of initial angle, and the first thousand
-    starts that are lost or do not converge, never a row for each. A map that was stopped goes on where it was; threads and a cluster write
-    the same bytes.
+    starts that are lost or do not converge, never a row for each. A map that was stopped goes on where it was; threads
+    and a cluster write the same bytes.
     """
     check_numbers(dt_s, horizon_s, Gains(kp, kv), None, seed)
     check_workers(workers)
@@ -106,5 +108,10 @@ def _print(out: Path) -> None:
 
     digits = {**dict.fromkeys(("lost [ppm]", "least [ppm]", "most [ppm]"), 2), "slowest [s]": 3}
     lines = by_law(read(out, "map")).round(digits)
-    console().print(frame_table(lines, "\nStarts that are lost, of those that converge; least and most: exact 95 % interval (Clopper-Pearson)"))
+    console().print(
+        frame_table(
+            lines,
+            "\nStarts that are lost, of those that converge; least and most: exact 95 % interval (Clopper-Pearson)",
+        )
+    )
     console().print(f"in {shown_path(out)}")

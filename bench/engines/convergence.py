@@ -92,5 +92,5 @@ def alike(coarse: np.ndarray, fine: np.ndarray, ticks: int) -> np.ndarray:
     turned = np.abs(coarse[:, FINAL_ANGLE] - fine[:, FINAL_ANGLE])
     is_sure = (fine[:, STEP] > 0.0) | ((coarse[:, FAILURE_TICK] == 0) & (fine[:, FAILURE_TICK] == 0))
     is_failure = np.isin(coarse[:, OUTCOME], FAILED) & np.isin(outcome, FAILED) & is_sure
-    is_end = np.where(outcome == SETTLED, (-1 <= later) & (later <= ticks), turned <= SAME_RAD)
+    is_end = np.where(outcome == SETTLED, (later >= -1) & (later <= ticks), turned <= SAME_RAD)
     return is_failure | ((coarse[:, OUTCOME] == outcome) & ~np.isin(outcome, FAILED) & is_end)

@@ -1,8 +1,8 @@
 """The paper's plant without MuJoCo (Murphy 1988, 2.6-2.7): continuous, or sampled with a held command.
 
 rk4: Runge-Kutta of order 4 on omega and on the columns of R, the law evaluated at every stage, as a continuous-time
-simulation (the paper's Simnon) would; `refined` divides its steps, `convergence` says how far. held: the command stays over the tick, omega is then linear in time and R moves
-by exp([Omega]x), Omega by Magnus to fourth order in the tick.
+simulation (the paper's Simnon) would; `refined` divides its steps, `convergence` says how far. held: the command stays
+over the tick, omega is then linear in time and R moves by exp([Omega]x), Omega by Magnus to fourth order in the tick.
 """
 
 from bench.law.scalar import atan2, cos, kernel, sin, sqrt

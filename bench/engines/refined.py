@@ -29,10 +29,10 @@ dozens, and a law that is too stiff for the step leaves more than the body's own
 
 
 class Effort(NamedTuple):
-    """Steps of an episode: the present one and the shortest, in divisions; how many; of those not good enough how many
-    in a row, now and at most, and what they differed by.
+    """Steps of an episode; those of a plant with one step a tick stay zero.
 
-    Those of a plant with one step a tick stay zero.
+    size, shortest: the present one and the shortest, in divisions; steps: how many. row, longest: not good enough in a
+    row, now and at most; rough: what all such differed by.
     """
 
     size: int = 0

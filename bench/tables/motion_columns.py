@@ -29,8 +29,11 @@ SET = [
     *numbers("1/s", "velocity gain", "kv"),
     *numbers("s", "control period and integration step", "dt_s"),
     *words(integrator="how the plant is integrated"),
-    *numbers("s", "shortest step of integration: on ideal-rk4 where it moved the end no more, or as tried", "step_s"),
-    *words(converged="on ideal-rk4: yes or no, whether half the step neither changes the outcome nor moves the settling time by more than a control period; empty on others"),
+    *numbers("s", "shortest step of integration", "step_s"),
+    *words(
+        converged="on ideal-rk4 yes or no: whether half the step changes no outcome and moves no settling time by more "
+        "than a control period; empty on others"
+    ),
     *numbers("s", "longest time simulated", "horizon_s"),
     *numbers("1", "settling band over initial angle", "tolerance"),
     *numbers(

@@ -1,6 +1,7 @@
 """The continuous plant by ever shorter steps: against integrators and a closed form that are not ours."""
 
 import functools
+import itertools
 import math
 
 import numpy as np
@@ -24,8 +25,8 @@ from bench.engines.episode import (
     STEP,
     start_rows,
 )
-from bench.experiments.rows.episodes import frame
 from bench.experiments.experiment import Settings, Unit
+from bench.experiments.rows.episodes import frame
 from bench.experiments.rows.map import start_rows as random_rows
 from bench.findings.theory.closed_form import pole_crossings
 from bench.metrics.registry import metrics_of
@@ -63,7 +64,9 @@ BESIDE = ("pole-plus-k03-a0.1-g0.2", "pole-minus-k04-a1.0-g-0.5", "pole-plus-k05
 def beside_the_pole():
     starts = starts_of("poles", *BESIDE)
     chosen = settings(horizon_s=3.0, hold_ticks=HOLD)
-    return starts, *(engines.on_ideal("ideal-rk4", LINEARIZED, start_rows(starts), chosen, converge=one) for one in (0, 1))
+    return starts, *(
+        engines.on_ideal("ideal-rk4", LINEARIZED, start_rows(starts), chosen, converge=one) for one in (0, 1)
+    )
 
 
 def test_stiff_start_beside_the_pole_settles_when_an_implicit_integrator_says_so():
@@ -115,7 +118,9 @@ def test_steps_of_one_length_are_those_of_a_shorter_control_period():
 
 @pytest.mark.parametrize("name", ["hybrid", "linearized-euler/zyx-euler"])
 def test_rows_are_the_same_in_lanes(name):
-    begun = start_rows([*tasks.start_set("uniform", 30), *tasks.start_set("half-turn")[::8], *starts_of("poles", *BESIDE)])
+    begun = start_rows(
+        [*tasks.start_set("uniform", 30), *tasks.start_set("half-turn")[::8], *starts_of("poles", *BESIDE)]
+    )
     chosen = settings(horizon_s=2.0, hold_ticks=HOLD)
     law = find_contender(name)
     one, many = (engines.on_ideal("ideal-rk4", law, begun, chosen, total=total) for total in (0, 10**9))
@@ -162,7 +167,7 @@ def test_row_says_its_step_and_whether_it_converged():
 
 def test_levels_halve_the_step_and_end_ever_later():
     """A tolerance a 32nd as large is half the step at order 4, whose local error has order 5."""
-    for one, next_ in zip(LEVELS, LEVELS[1:], strict=False):
+    for one, next_ in itertools.pairwise(LEVELS):
         assert (one.tolerance / next_.tolerance) ** (1 / 5) == pytest.approx(2.0)
         assert next_.divisions == 32 * one.divisions
     assert LEVELS[0].divisions == 2 ** round(math.log2(LEVELS[0].divisions))

@@ -64,7 +64,13 @@ def _of_block(settings: Settings, unit: Unit, number: int) -> pd.DataFrame:
         }
     )
     every = pd.concat([starts.assign(row=row) for row in (CELL, SLOWEST, LOST)], ignore_index=True)
-    law = {**contender_columns(one), "engine": unit.engine, "seed": settings.seed, "least_speed": least, "most_speed": most}
+    law = {
+        **contender_columns(one),
+        "engine": unit.engine,
+        "seed": settings.seed,
+        "least_speed": least,
+        "most_speed": most,
+    }
     return _reduced(every[~((every["row"] == LOST) & (every["settled"] == 1))].assign(**law))
 
 
@@ -97,7 +103,9 @@ LAW = ["regulator", "representation", "jacobian", "inverse", "engine", "seed", "
 def _reduced(every: pd.DataFrame) -> pd.DataFrame:
     """Cells summed; of each ring's slowest starts the slowest, the first of equals; the first MOST_LOST lost ones."""
     cells = every[every["row"] == CELL].assign(start=-1, outcome="", **dict.fromkeys(STATE, np.nan))
-    how = {"starts": "sum", "settled": "sum", "unconverged": "sum", "settling_time_s": "max"} | dict.fromkeys(("start", *STATE), "first")
+    how = {"starts": "sum", "settled": "sum", "unconverged": "sum", "settling_time_s": "max"} | dict.fromkeys(
+        ("start", *STATE), "first"
+    )
     cells = cells.groupby([*LAW, *PLACE, "row", "outcome"], sort=False, as_index=False).agg(how)
     slowest = every[(every["row"] == SLOWEST) & (every["settled"] == 1)]
     slowest = slowest.sort_values("settling_time_s", ascending=False, kind="stable")

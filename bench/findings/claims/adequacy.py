@@ -152,7 +152,7 @@ BOTH = "abcd"
 
 
 def is_kept_spinning(one: Adequacy) -> bool:
-    """Whether random starts at every stated speed settle but for 1 - SETTLED_SHARE of them; not, if none were run."""
+    """Whether random starts at every stated speed settle but for 1 - SETTLED_SHARE; not, if none were run."""
     spinning = [spun.share.high <= 1.0 - SETTLED_SHARE for spun in one.spun if spun.speed > 0.0]
     return bool(spinning) and all(spinning)
 

@@ -95,8 +95,8 @@ def decade_slope(kp: float, kv: float) -> float:
 def pole_crossings(speed: float, rate: float = 10.0, points: int = 2000) -> float:
     """Share of random starts that spin at a speed [rad/s] whose linear beta(t) crosses a pole of Z-Y-X angles.
 
-    beta(t) = exp(-w t) (beta_0 + v t), v = betadot_0 + w beta_0, goes to exp(-betadot_0/v) v/w where betadot_0 and v are
-    positive. Of random orientations sin(beta_0) is uniform, of random directions betadot_0/speed is.
+    beta(t) = exp(-w t) (beta_0 + v t), v = betadot_0 + w beta_0, goes to exp(-betadot_0/v) v/w where betadot_0 and v
+    are positive. Of random orientations sin(beta_0) is uniform, of random directions betadot_0/speed is.
 
     Args:
         rate: w = Kd/2 of critically damped gains [1/s]. points: of the midpoint rule in each of the two.

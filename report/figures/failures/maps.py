@@ -1,9 +1,7 @@
 """Random starts of the maps that came with the benchmark: at rest, and at stated speeds, a law a line."""
 
 import functools
-import math
 
-import numpy as np
 import pandas as pd
 
 from bench.findings.maps import by_law, counted, spun
@@ -74,7 +72,7 @@ def at_rest() -> html.Markdown | None:
 
 
 def spinning() -> html.Markdown | None:
-    """Spinning starts: of each law and speed the share lost, with its interval, and the share that does not converge."""
+    """Spinning starts: by law and speed the share lost, with its interval, and the share that does not converge."""
     table = Table("Law | " + " | ".join(f"{speed:g} rad/s" for speed in speeds()))
     found = {law: [one for one in spun(numbers(), law) if one.speed > 0.0] for law in set(numbers()["contender"])}
     order = sorted(found, key=lambda law: (sum(one.lost + one.unconverged for one in found[law]), law))
