@@ -6,7 +6,7 @@
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
 .PHONY: help setup setup-cluster bench bench-quick time libraries report test check lint gate regress regress-study
-.PHONY: scale-study settings-study kill-study reference media lock clean audit judge history
+.PHONY: scale-study settings-study verdicts-study kill-study reference media lock clean audit judge history
 
 SHELL := /bin/sh
 VENV := .venv
@@ -128,6 +128,10 @@ regress-study: $(READY)
 settings-study: ## is a run the same on every processor? quick suites under other settings (15 minutes): results/settings
 settings-study: $(READY)
 	@$(PY) -m bench.studies.settings $(ARGS)
+
+verdicts-study: ## does a verdict hang on the draw or the step? 20 seeds, half the step (20 minutes): results/verdicts
+verdicts-study: $(READY)
+	@$(PY) -m bench.studies.verdicts $(ARGS)
 
 kill-study: ## kill 100 runs, fill disks, break laws: does each end the same? (minutes): results/survival
 kill-study: $(CLUSTER)

@@ -14,19 +14,20 @@ BLOCK = 16_384
 """Starts of a block."""
 
 
-def block(number: int, seed: int, most_speed: float = 0.0) -> tuple[np.ndarray, np.ndarray]:
+def block(number: int, seed: int, most_speed: float = 0.0, least_speed: float = 0.0) -> tuple[np.ndarray, np.ndarray]:
     """Orientations (w, x, y, z), shape (BLOCK, 4), and angular velocities [rad/s], shape (BLOCK, 3).
 
     Args:
-        number: of the block, from 0. seed: of all blocks. most_speed: speeds are uniform up to it [rad/s], directions
-            uniform on the sphere.
+        number: of the block, from 0. seed: of all blocks. least_speed, most_speed: speeds are uniform between them
+            [rad/s], directions uniform on the sphere.
     """
     random = np.random.Generator(np.random.Philox(key=np.array([seed, number], dtype=np.uint64)))
     (a, a_squared), (b, b_squared), (c, c_squared) = (_in_disc(random) for _ in range(3))
     quats = np.column_stack((a, b * np.sqrt((1.0 - a_squared) / b_squared)[:, None]))
     radius = 2.0 * np.sqrt(1.0 - c_squared)
     directions = np.column_stack((c * radius[:, None], 1.0 - 2.0 * c_squared))
-    return quats, most_speed * random.random((BLOCK, 1)) * directions
+    speeds = least_speed + (most_speed - least_speed) * random.random((BLOCK, 1))
+    return quats, speeds * directions
 
 
 def _in_disc(random: np.random.Generator) -> tuple[np.ndarray, np.ndarray]:

@@ -11,7 +11,7 @@ from bench.cli.screen import console
 
 @click.command("claims")
 @click.argument("folder", required=False, type=click.Path(path_type=Path))
-@click.option("--criteria", is_flag=True, help="Print each claim's criterion too.")
+@click.option("--criteria", is_flag=True, help="Print each claim's quote and criteria too.")
 def COMMAND(folder, criteria):
     """The claims of Murphy (1988): id, verdict, what is claimed, then the evidence (default: results/latest)."""
     from bench.findings.claims import judge_all
@@ -21,6 +21,14 @@ def COMMAND(folder, criteria):
         verdicts = judge_all(folder or read.folder())
     for one in verdicts:
         claimed = f"{str(one.word).capitalize()} ({one.rows:,} rows): {one.claim.sentence}"
-        criterion = (f"Criterion: {one.claim.criterion}",) if criteria else ()
-        print_paragraphs(Paragraph(one.id, (claimed, f"Evidence: {one.evidence}", *criterion)))
+        correction = (f"Correction of the paper: {one.correction}",) if one.correction else ()
+        record = _record(one) if criteria else ()
+        print_paragraphs(Paragraph(one.id, (claimed, *correction, f"Evidence: {one.evidence}", *record)))
         console().print()
+
+
+def _record(one) -> tuple[str, ...]:
+    """The paper's words, the criterion, and those before it."""
+    claim = one.claim
+    before = (f"Before ({old.written}): {old.criterion} By it: {word}." for old, word in one.earlier)
+    return f"Paper, {claim.place}: {claim.quote}", f"Criterion ({claim.written}): {claim.criterion}", *before

@@ -19,6 +19,7 @@ from bench.tables.schema import RESULTS
 EPILOG = examples(
     ("Where the rotation matrix alone loses starts, of ten million", "map --regulator rotation-matrix"),
     ("The same of starts that spin at up to 20 rad/s", "map --regulator hybrid --spin 20 --replace"),
+    ("At 10 rad/s and at 20 rad/s", "map --regulator hybrid --starts 100000 --speed 10 --speed 20 --replace"),
     ("A law of your own", "map --law my_law.py --regulator my-law --starts 1000000 --out results/mine"),
     after="Exit code 1: a law of yours crashed or hung.",
 )
@@ -36,6 +37,13 @@ MOST = 10**10
     default=0.0,
     show_default=True,
     help="Initial speeds in rad/s are uniform up to this, directions uniform on the sphere.",
+)
+@click.option(
+    "--speed",
+    "stated",
+    type=click.FloatRange(0.0, 100.0),
+    multiple=True,
+    help="Initial speed in rad/s of every start, in place of --spin; repeat it for a map of each.",
 )
 @click.option(
     "--engine",
@@ -56,12 +64,14 @@ MOST = 10**10
     "--out", type=options.PATH, default=RESULTS / "latest-map", show_default="results/latest-map", help="Folder."
 )
 @click.option("--replace", is_flag=True, help="Start over if the folder holds another plan.")
-def COMMAND(laws, regulators, starts, seed, spin, engine, dt_s, horizon_s, kp, kv, workers, scheduler, out, replace):
+def COMMAND(
+    laws, regulators, starts, seed, spin, stated, engine, dt_s, horizon_s, kp, kv, workers, scheduler, out, replace
+):
     """Simulate millions of uniformly random starts of a law on the ideal plant and count those that do not settle.
 
     Kept are counts by cell of SO(3), the slowest start of each 5 degrees of initial angle, and the first thousand
-    starts that are lost, never a row for each. A map that was stopped goes on where it was; threads and a cluster write
-    the same bytes.
+    starts that are lost or do not converge, never a row for each. A map that was stopped goes on where it was; threads
+    and a cluster write the same bytes.
     """
     check_numbers(dt_s, horizon_s, Gains(kp, kv), None, seed)
     check_workers(workers)
@@ -71,8 +81,11 @@ def COMMAND(laws, regulators, starts, seed, spin, engine, dt_s, horizon_s, kp, k
     chosen = [one for one in options.chosen(laws, regulators, ()) if not one.regulator.in_engine]
     if not chosen:
         raise click.UsageError("the ideal plant has no actuator of MuJoCo; name another --regulator")
+    if spin and stated:
+        raise click.UsageError("--spin draws speeds and --speed states them (give one of the two)")
+    speeds = tuple((speed, speed) for speed in dict.fromkeys(stated)) or ((0.0, spin),)
     numbers = {"dt_s": dt_s, "horizon_s": horizon_s, "gains": Gains(kp, kv)}
-    plan = plan_of(chosen, starts, seed=seed, most_speed=spin, engine=engine, **numbers)
+    plan = plan_of(chosen, starts, seed=seed, speeds=speeds, engine=engine, **numbers)
     console().print(f"{counted(len(chosen), 'law')} from {starts:,} starts, into {shown_path(out)}")
     done = 0
     with progress("starts") as steps:
@@ -93,6 +106,12 @@ def _print(out: Path) -> None:
     from bench.findings.maps import by_law
     from bench.tables.store import read
 
-    lines = by_law(read(out, "map")).round({"lost [ppm]": 2, "least [ppm]": 2, "most [ppm]": 2, "slowest [s]": 3})
-    console().print(frame_table(lines, "\nStarts that are lost; least and most: exact 95 % interval (Clopper-Pearson)"))
+    digits = {**dict.fromkeys(("lost [ppm]", "least [ppm]", "most [ppm]"), 2), "slowest [s]": 3}
+    lines = by_law(read(out, "map")).round(digits)
+    console().print(
+        frame_table(
+            lines,
+            "\nStarts that are lost, of those that converge; least and most: exact 95 % interval (Clopper-Pearson)",
+        )
+    )
     console().print(f"in {shown_path(out)}")

@@ -54,7 +54,7 @@ JIT = {"nogil": True, "error_model": "numpy"}
 """Never fastmath: results must be the plain Python call's, bit for bit."""
 
 MATRIX = float64[:, ::1]
-NUMBERS = types.NamedTuple((*[float64] * 3, *[int64] * 3, *[float64] * 5), Numbers)
+NUMBERS = types.NamedTuple((*[float64] * 3, *[int64] * 3, *[float64] * 6, int64, int64), Numbers)
 CURVES = types.NamedTuple((int64, float64[:, :, ::1]), Curves)
 THREE, FOUR = types.UniTuple(float64, 3), types.UniTuple(float64, 4)
 ROTATION = types.NamedUniTuple(THREE, 3, Rotation)

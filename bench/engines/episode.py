@@ -32,7 +32,7 @@ class Settings(NamedTuple):
 
 
 class Numbers(NamedTuple):
-    """Settings as a compiled loop takes them: floats and integers only."""
+    """Settings as a compiled loop takes them: floats and integers only; the last three are those of `refined`."""
 
     kp: float
     kv: float
@@ -45,6 +45,9 @@ class Numbers(NamedTuple):
     speed_limit_squared: float
     rest_speed_squared: float
     rest_command_squared: float
+    tolerance_squared: float = 0.0
+    divisions: int = 1
+    most_steps: int = 0
 
 
 class Sample(NamedTuple):
@@ -71,8 +74,9 @@ START_WIDTH = 12
 """Columns of a start: quaternion 0-3, omega 4-6, goal quaternion 7-10, haversine of the settling band 11."""
 
 NEVER = -1
-OUTCOME, SETTLING_TICK, FAILURE_TICK, TICKS, FINAL_ANGLE = range(5)
-FIRST_METRIC = 5
+OUTCOME, SETTLING_TICK, FAILURE_TICK, TICKS, FINAL_ANGLE, STEP = range(6)
+FIRST_METRIC = 6
+"""STEP: of the continuous plant, the step at which an episode has converged, see `convergence`; of others zero."""
 
 
 def numbers(settings: Settings) -> Numbers:

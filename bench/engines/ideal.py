@@ -1,19 +1,12 @@
 """The paper's plant without MuJoCo (Murphy 1988, 2.6-2.7): continuous, or sampled with a held command.
 
 rk4: Runge-Kutta of order 4 on omega and on the columns of R, the law evaluated at every stage, as a continuous-time
-simulation (the paper's Simnon) would. held: the command stays over the tick, omega is then linear in time and R moves
-by exp([Omega]x), Omega by Magnus to fourth order in the tick.
+simulation (the paper's Simnon) would; `refined` divides its steps, `convergence` says how far. held: the command stays
+over the tick, omega is then linear in time and R moves by exp([Omega]x), Omega by Magnus to fourth order in the tick.
 """
 
-from numba import types
-
-from bench.engines.compiled import CURVES, EVALUATE, FOUR, MATRIX, NUMBERS, compile_function
-from bench.engines.curve import keep
-from bench.engines.episode import Sample, blamed, finish
-from bench.law.contender import AT_REST, Gains, Goal
 from bench.law.scalar import atan2, cos, kernel, sin, sqrt
-from bench.law.so3 import Rotation, cross, dot, from_quaternion
-from tasks.verdict import GOING, check_command, check_state, first_watch, watched
+from bench.law.so3 import Rotation, cross, dot
 
 SMALL_TURN_SQUARED = 1e-2
 """Below 0.1 rad a tick the series of sin(x)/x and (1 - cos x)/x^2 to x^8 err by under 3e-18."""
@@ -143,59 +136,3 @@ def rk4_step(evaluate, R, omega, u, goal, gains, memory, dt):
     a = weighted(R1.a, R2.a, R3.a, R4.a)
     sixth = dt / 6.0
     return moved(R, sixth, Rotation(n, o, a)), plus(omega, sixth, weighted(u, u2, u3, u4))
-
-
-@kernel
-def _sampled_step(evaluate, R, omega, u, goal, gains, memory, dt):
-    """The sampled plant one tick on: the tick's command holds, and no law is asked."""
-    return held_step(R, omega, u, dt)
-
-
-STEPS = {"ideal-rk4": rk4_step, "ideal-held": _sampled_step}
-"""A law is called by pointer, 10 ns each time, once a tick or four times. With the law compiled into a loop of its own
-a Runge-Kutta tick was a sixth to a third shorter, and each law took 2 s and 16 MB an engine to compile."""
-
-EPISODES = types.void(types.FunctionType(EVALUATE), FOUR, MATRIX, NUMBERS, MATRIX, CURVES)
-
-
-def episodes_of(engine, observe):
-    """The loop over episodes, for all laws: `episodes(evaluate, memory0, ..., rows, curves)` fills the last two."""
-    step = STEPS[engine]
-
-    def episodes(evaluate, memory0, starts, numbers, rows, curves):
-        gains = Gains(numbers.kp, numbers.kv)
-        dt = numbers.dt
-        for k in range(starts.shape[0]):
-            start, row = starts[k], rows[k]
-            R = from_quaternion((start[0], start[1], start[2], start[3]))
-            omega = (start[4], start[5], start[6])
-            R_d = from_quaternion((start[7], start[8], start[9], start[10]))
-            goal = Goal(R_d, AT_REST, AT_REST)
-            band = start[11]
-            memory = memory0
-            u = AT_REST
-            hav = haversine(R, R_d)
-            watch = first_watch(hav, band, dot(omega, omega), numbers.slow_squared)
-            tick = 0
-            failure = GOING
-            while tick < numbers.ticks and watch.quiet < numbers.hold_ticks:
-                before = u
-                u, memory, margin = evaluate(R, omega, goal, gains, memory)
-                sample = Sample(tick * dt, dt, R, hav, watch.entries > 0, watch.rest > 0, omega, u, before, margin)
-                observe(row, sample)
-                keep(curves, k, tick, sample)
-                failure = check_command(dot(u, u), numbers.command_limit_squared)
-                if failure != GOING:
-                    break
-                R, omega = step(evaluate, R, omega, u, goal, gains, memory, dt)
-                tick += 1
-                speed = dot(omega, omega)
-                failure = check_state(speed, numbers.speed_limit_squared)
-                if failure != GOING:
-                    break
-                hav = haversine(R, R_d)
-                watch = watched(watch, tick, hav, band, speed, numbers.slow_squared)
-            final, speed = angle_between(R, R_d), dot(omega, omega)
-            finish(row, blamed(failure, u), watch, tick, final, speed, dot(u, u), numbers)
-
-    return compile_function(episodes, EPISODES)

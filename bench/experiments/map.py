@@ -26,36 +26,38 @@ def plan_of(
     starts: int,
     *,
     seed: int = 0,
-    most_speed: float = 0.0,
+    speeds: tuple[tuple[float, float], ...] = ((0.0, 0.0),),
     engine: str = "ideal-rk4",
     dt_s: float = 1e-3,
     horizon_s: float = SHORT,
     gains: Gains = PAPERS_GAINS,
 ) -> Plan:
-    """A map of each law from the same starts, at up to `most_speed` [rad/s]."""
+    """A map of each law from the same orientations, at speeds between the least and the most of each pair [rad/s]."""
     units = (
         Unit(
             "map",
             one.name,
             "free-body",
             engine=engine,
-            selector=f"speed-{most_speed:g}",
+            selector=f"speed-{least:g}to{most:g}",
             first=first,
             count=min(UNIT, starts - first),
-            total=starts,
+            total=starts * len(speeds),
             episodes=min(UNIT, starts - first),
             horizon_s=horizon_s,
         )
         for one in laws
+        for least, most in speeds
         for first in range(0, starts, UNIT)
     )
     own = tuple(dict.fromkeys(one.regulator for one in laws if one.regulator.origin))
     return Plan(Settings("map", gains, dt_s, seed=seed, own=own), tuple(units))
 
 
-def most_speed_of(unit: Unit) -> float:
-    """The largest initial speed of a unit's starts [rad/s]."""
-    return float(unit.selector.removeprefix("speed-"))
+def speeds_of(unit: Unit) -> tuple[float, float]:
+    """The least and the most initial speed of a unit's starts [rad/s]."""
+    least, _, most = unit.selector.removeprefix("speed-").partition("to")
+    return float(least), float(most)
 
 
 def rows(settings: Settings, unit: Unit) -> pd.DataFrame:

@@ -1,11 +1,14 @@
 """What a map says of laws: the share of starts that are lost, with its interval, and the slowest."""
 
 import math
+from typing import NamedTuple
 
 import pandas as pd
 
 from bench.tables.read import with_contender
 from bench.tables.statistics import Estimate
+
+SPEEDS = ["least_speed", "most_speed"]
 
 
 def lost_share(lost: int, of: int) -> Estimate:
@@ -16,24 +19,81 @@ def lost_share(lost: int, of: int) -> Estimate:
     return Estimate(lost / of, float(interval.low), float(interval.high))
 
 
+def counted(rows: pd.DataFrame) -> pd.DataFrame:
+    """How many starts a law and speed has, and how many of them are lost or do not converge.
+
+    Columns: contender, least_speed, most_speed [rad/s], starts, settled, unconverged, lost.
+    """
+    cells = with_contender(rows[rows["row"] == "cell"])
+    numbers = ["starts", "settled", "unconverged"]
+    found = cells.groupby(["contender", *SPEEDS], sort=False, observed=True)[numbers].sum().reset_index()
+    return found.assign(lost=found["starts"] - found["settled"] - found["unconverged"])
+
+
+def lost_between(lost: int, unconverged: int, of: int) -> Estimate:
+    """The share lost of those that converge; its exact 95 % interval if those that do not settle, and if they are lost.
+
+    The lower end is of the first, the upper end of the second.
+    """
+    value = lost / (of - unconverged) if of > unconverged else math.nan
+    return Estimate(value, lost_share(lost, of).low, lost_share(lost + unconverged, of).high)
+
+
 def by_law(rows: pd.DataFrame) -> pd.DataFrame:
-    """A line a law and largest initial speed: how many are lost, in ppm with interval, and the slowest."""
+    """A line a law and speed: how many of the starts that converge are lost, in ppm with interval, and the slowest."""
+    slowest = with_contender(rows[rows["row"] == "slowest"]).sort_values("settling_time_s")
+    last = slowest.drop_duplicates(["contender", *SPEEDS], keep="last").set_index(["contender", *SPEEDS])
     lines = []
-    for (law, speed), own in with_contender(rows).groupby(["contender", "most_speed"], sort=False, observed=True):
-        cells, slowest = own[own["row"] == "cell"], own[own["row"] == "slowest"]
-        starts, settled = int(cells["starts"].sum()), int(cells["settled"].sum())
-        share, last = lost_share(starts - settled, starts), slowest.sort_values("settling_time_s").tail(1)
+    for one in counted(rows).to_dict("records"):
+        place = (one["contender"], *(one[name] for name in SPEEDS))
+        share = lost_share(one["lost"], one["starts"] - one["unconverged"])
+        has_slowest = place in last.index
         lines.append(
             {
-                "law": law,
-                "speed to [rad/s]": speed,
-                "starts": starts,
-                "lost": starts - settled,
+                "law": one["contender"],
+                "speed [rad/s]": speed_text(one["least_speed"], one["most_speed"]),
+                "starts": one["starts"],
+                "unconverged": one["unconverged"],
+                "lost": one["lost"],
                 **{
                     f"{head} [ppm]": 1e6 * number for head, number in zip(("lost", "least", "most"), share, strict=True)
                 },
-                "slowest [s]": float(last["settling_time_s"].iloc[0]) if len(last) else math.nan,
-                "from [deg]": int(last["ring_deg"].iloc[0]) if len(last) else -1,
+                "slowest [s]": float(last.loc[place, "settling_time_s"]) if has_slowest else math.nan,
+                "from [deg]": int(last.loc[place, "ring_deg"]) if has_slowest else -1,
             }
         )
     return pd.DataFrame(lines)
+
+
+def speed_text(least: float, most: float) -> str:
+    """The speed of all starts, or that up to which they are uniform."""
+    return f"{most:g}" if least == most else f"{least:g} to {most:g}"
+
+
+class Spun(NamedTuple):
+    """Starts of one law at one stated speed [rad/s]: how many, lost, not converged, and the share of `lost_between`."""
+
+    speed: float
+    starts: int
+    lost: int
+    unconverged: int
+    share: Estimate
+
+
+def spun(numbers: pd.DataFrame, law: str) -> list[Spun]:
+    """A law's starts at stated speeds, the slowest first; none if it is in no map.
+
+    Args:
+        numbers: of `counted`.
+    """
+    own = numbers[(numbers["contender"] == law) & (numbers["least_speed"] == numbers["most_speed"])]
+    return [
+        Spun(
+            one["most_speed"],
+            one["starts"],
+            one["lost"],
+            one["unconverged"],
+            lost_between(one["lost"], one["unconverged"], one["starts"]),
+        )
+        for one in own.sort_values("most_speed").to_dict("records")
+    ]

@@ -29,6 +29,11 @@ SET = [
     *numbers("1/s", "velocity gain", "kv"),
     *numbers("s", "control period and integration step", "dt_s"),
     *words(integrator="how the plant is integrated"),
+    *numbers("s", "shortest step of integration", "step_s"),
+    *words(
+        converged="on ideal-rk4 yes or no: whether half the step changes no outcome and moves no settling time by more "
+        "than a control period; empty on others"
+    ),
     *numbers("s", "longest time simulated", "horizon_s"),
     *numbers("1", "settling band over initial angle", "tolerance"),
     *numbers(
@@ -116,21 +121,22 @@ def field_columns() -> list[Column]:
 def map_columns() -> list[Column]:
     """map.parquet: millions of random starts of a law, counted in cells of SO(3) (`python -m bench map`).
 
-    A row a cell; one for the slowest start of each ring of 5 degrees; one for each start that is lost, the first
-    thousand of a law. Starts are numbers of a sequence that the seed names.
+    A row a cell; one for the slowest start of each ring of 5 degrees; one for each start that is lost or does not
+    converge, the first thousand of a law and speed. Starts are numbers of a sequence that the seed names.
     """
     return [
         *CONTENDER,
         *words(engine="what simulated the episodes"),
         Column("seed", COUNT, "1", "of the starts"),
-        *numbers("rad/s", "initial speeds are uniform up to this", "most_speed"),
+        *numbers("rad/s", "initial speeds are uniform between these two", "least_speed", "most_speed"),
         *words(row="cell, slowest or lost"),
         Column("ring_deg", COUNT, "deg", "initial angle to the goal: from this to 5 degrees more"),
         Column("band", COUNT, "1", "z of the axis of the initial turn: 0 to 7, eighths of [-1, 1]"),
         Column("azimuth", COUNT, "1", "its azimuth: 0 to 15, sixteenths of [-pi, pi]"),
         Column("start", COUNT, "1", "number of the start; -1 for a cell"),
         Column("starts", COUNT, "1", "how many"),
-        Column("settled", COUNT, "1", "how many of them settled"),
+        Column("settled", COUNT, "1", "how many of them converged and settled"),
+        Column("unconverged", COUNT, "1", "how many did not converge; the others are lost"),
         *numbers("s", "largest settling time of those that settled; null if none did", "settling_time_s"),
         *words(outcome="of a start; empty for a cell"),
         *numbers(

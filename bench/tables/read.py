@@ -53,6 +53,11 @@ episodes, traces, costs, boundaries, poses, compliance, robustness = (
 )
 
 
+def converged(frame: pd.DataFrame) -> pd.DataFrame:
+    """The episodes whose end no shorter step moves (`engines.convergence`), and all of engines that are not asked."""
+    return frame[frame["converged"] != "no"]
+
+
 def provenance() -> dict:
     """Where the run comes from: provenance.json."""
     return read_json(folder() / "provenance.json")

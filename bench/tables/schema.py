@@ -22,7 +22,7 @@ TABLES = {
         Table(
             "map",
             motion.map_columns,
-            (*CONTENDER, "engine", "seed", "most_speed", "row", "ring_deg", "band", "azimuth", "start"),
+            (*CONTENDER, "engine", "seed", "least_speed", "most_speed", "row", "ring_deg", "band", "azimuth", "start"),
         ),
         Table("poses", other.pose_columns, ("arm", "pose_set", "pose_id", "representation")),
         Table(

@@ -54,7 +54,7 @@ def begun() -> np.ndarray:
 
 def rows(engine, contender, condition, given, metrics=METRICS, total=MANY):
     """In lanes, or with a total of none one at a time."""
-    return engines.on_ideal(engine, contender, given, CONDITIONS[condition], metrics, total)
+    return engines.on_ideal(engine, contender, given, CONDITIONS[condition], metrics, total, converge=False)
 
 
 @pytest.fixture(scope="module")

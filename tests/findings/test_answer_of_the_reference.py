@@ -219,7 +219,7 @@ def test_fact_that_names_a_law_is_one_of_those_known_to(found, page):
 
 
 def test_open_question_has_the_advised_law_among_the_later_laws_that_were_judged():
-    assert decided().default.law in str(claims.judge("C17", Results(FOLDER)).evidence)
+    assert decided().default.law in claims.judge("C27", Results(FOLDER)).evidence.parts["answers"]
 
 
 # ---------------------------------------------------------------------------------------------- the page

@@ -183,9 +183,8 @@ def test_c20_fails_when_it_neither_fails_nor_hides(judged, frames):
         # calls are the same in both: one flop less contradicts
         ("C26", BY_EULER, "total", 829, Word.FAILS),
         ("C26", BY_EULER, "total", 831, Word.HOLDS),
-        # 3 calls more and 10 flops less: in order once a call costs 3.3 flops; 100 less: not before 33
-        ("C26", ON_MATRIX, "total", 910, Word.CORRECTED),
-        ("C26", ON_MATRIX, "total", 1000, Word.FAILS),
+        # 3 calls more and 10 flops less: columns differ, and nothing was timed
+        ("C26", ON_MATRIX, "total", 910, Word.FAILS),
     ],
 )
 def test_verdict_follows_the_costs(judged, frames, id, controller, stage, flops, word):
@@ -194,20 +193,30 @@ def test_verdict_follows_the_costs(judged, frames, id, controller, stage, flops,
     assert judged(id, costs=changed(costs, rows, flops=flops)).word == word
 
 
-def test_c26_counts_pairs_in_both_accountings_on_both_numbers_of_joints(judged):
-    assert "dearer in both columns in 8 of 8 pairs" in str(judged("C26").evidence)
+def test_c26_counts_pairs_on_both_numbers_of_joints(judged):
+    assert "dearer in both columns in 4 of 4 pairs" in str(judged("C26").evidence)
 
 
-@pytest.mark.parametrize(("euler", "word"), [(3000.0, Word.HOLDS), (1900.0, Word.CORRECTED)])
-def test_c26_is_corrected_when_times_contradict(judged, euler, word):
+@pytest.mark.parametrize(
+    ("euler", "half_width", "word"),
+    [
+        (3000.0, 50.0, Word.HOLDS),
+        (1890.0, 50.0, Word.CORRECTED),  # faster than the same law on the common Jacobian, as sure as that is
+        (1990.0, 50.0, Word.HOLDS),  # noise: the intervals do not part
+    ],
+)
+def test_c26_is_corrected_where_intervals_of_time_part_the_other_way(judged, euler, half_width, word):
     times = {BY_COMMON: 2000.0, ON_MATRIX: 1800.0, BY_EULER: euler}
     where = {"what": "engine", "engine": "native", "arm": "ur5e", "machine": "m", "ticks": 1}
-    rows = [{**words(one, 6), **where, "ns_per_tick": time} for one, time in times.items()]
-    assert judged("C26", timings=pd.DataFrame(rows)).word == word
+    rows = [
+        {**words(one, 6), **where, "ratio": time, "ratio_low": time - half_width, "ratio_high": time + half_width}
+        for one, time in times.items()
+    ]
+    assert judged("C26", timings=pd.DataFrame(rows).assign(ns_per_tick=1.0)).word == word
 
 
 def test_c26_says_that_nothing_was_timed(judged):
-    assert "No timings" in str(judged("C26").evidence)
+    assert "not timed" in str(judged("C26").evidence)
 
 
 @pytest.mark.slow

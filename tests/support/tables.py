@@ -12,7 +12,7 @@ NO_TIMINGS = Path("no-such-folder")
 
 def judged(id: str, experiments=None, **tables: pd.DataFrame):
     """The verdict on these tables, and experiments if they are given; nothing was timed but what is among them."""
-    return claims.judge(id, Results(None, tables, NO_TIMINGS, experiments))
+    return claims.judge(id, Results(None, tables, NO_TIMINGS, experiments=experiments))
 
 
 def decided(verdict, word) -> bool:

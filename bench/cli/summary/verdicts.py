@@ -6,7 +6,12 @@ from bench.cli.paragraphs import Paragraph
 from bench.findings.claims import Results, all_claims
 from bench.findings.claims.verdict import NoEvidence, Word, decide
 
-PLURAL = {Word.HOLDS: "hold", Word.CORRECTED: "hold with a correction", Word.FAILS: "do not"}
+PLURAL = {
+    Word.HOLDS: "hold",
+    Word.CORRECTED: "hold with a correction",
+    Word.FAILS: "do not",
+    Word.ANSWERED: "open in 1988 and answered since",
+}
 
 
 def paragraph(results: Results) -> Paragraph:

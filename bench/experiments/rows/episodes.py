@@ -8,7 +8,17 @@ import pandas as pd
 import tasks
 from bench.contenders.representations.zyx_euler import chart
 from bench.engines.arm_episode import POSE, blank_arm
-from bench.engines.episode import FAILURE_TICK, FINAL_ANGLE, FIRST_METRIC, NEVER, OUTCOME, SETTLING_TICK, TICKS, blank
+from bench.engines.episode import (
+    FAILURE_TICK,
+    FINAL_ANGLE,
+    FIRST_METRIC,
+    NEVER,
+    OUTCOME,
+    SETTLING_TICK,
+    STEP,
+    TICKS,
+    blank,
+)
 from bench.experiments.experiment import Settings, Unit
 from bench.experiments.rows.rounding import BESIDE, CHANGE
 from bench.law.contender import Contender
@@ -61,6 +71,7 @@ def frame(settings: Settings, unit: Unit, contender: Contender, starts, numbers:
         "kv": settings.gains.kv,
         "dt_s": settings.dt_s,
         "integrator": INTEGRATORS.get(unit.engine, settings.integrator),
+        **_steps(numbers, settings.dt_s),
         "horizon_s": unit.horizon_s,
         "tolerance": RULES.tolerance,
         "hold_s": RULES.hold_s,
@@ -116,6 +127,15 @@ def measured_columns(numbers: np.ndarray, metrics, angle0: list[float], judged: 
     return {
         metric.column: [metric.finish(value, ending) for value, ending in zip(column.tolist(), endings, strict=True)]
         for metric, column in zip(metrics, numbers[:, FIRST_METRIC:].T, strict=False)
+    }
+
+
+def _steps(numbers: np.ndarray, dt_s: float) -> dict:
+    """The step of integration, and whether it was short enough where that was asked (`engines.convergence`)."""
+    step_s = numbers[:, STEP]
+    return {
+        "step_s": np.where(step_s == 0.0, dt_s, np.abs(step_s)),
+        "converged": np.select([step_s > 0.0, step_s < 0.0], ["yes", "no"], ""),
     }
 
 

@@ -1,5 +1,7 @@
 """Rows of map.parquet: starts counted in cells of SO(3), the slowest of each ring, and those that are lost.
 
+A start is settled, lost or unconverged: what becomes of it hangs on the step (`engines.convergence`).
+
 A ring is 5 degrees of the angle to the goal. A cell is a ring in one of 128 equal parts of the sphere of axes, 8 bands
 of z by 16 of the azimuth; the axis is that of the turn from the goal to the start, which is below 180 degrees.
 """
@@ -11,10 +13,10 @@ import math
 import numpy as np
 import pandas as pd
 
-from bench.engines.episode import OUTCOME, SETTLING_TICK, START_WIDTH
+from bench.engines.episode import OUTCOME, SETTLING_TICK, START_WIDTH, STEP
 from bench.engines.run import on_ideal
 from bench.experiments.experiment import Settings, Unit
-from bench.experiments.map import most_speed_of
+from bench.experiments.map import speeds_of
 from bench.experiments.rows.episodes import contender_columns
 from tasks.base import IDENTITY
 from tasks.random_starts import BLOCK, block
@@ -27,7 +29,7 @@ EDGES = np.array([math.cos(math.radians(5.0 * ring) / 2.0) for ring in range(1, 
 """|w| of the quaternion at the rings' edges, falling."""
 
 MOST_LOST = 1000
-"""Lost starts that are kept of a law."""
+"""Lost and unconverged starts that are kept of a law and speed."""
 
 CELL, SLOWEST, LOST = "cell", "slowest", "lost"
 PLACE = ["ring_deg", "band", "azimuth"]
@@ -44,15 +46,17 @@ def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
 
 
 def _of_block(settings: Settings, unit: Unit, number: int) -> pd.DataFrame:
-    one, speed, first = settings.contender(unit.contender), most_speed_of(unit), number * BLOCK
-    quats, omegas = (part[: unit.first + unit.count - first] for part in block(number, settings.seed, speed))
+    one, (least, most), first = settings.contender(unit.contender), speeds_of(unit), number * BLOCK
+    quats, omegas = (part[: unit.first + unit.count - first] for part in block(number, settings.seed, most, least))
     ended = on_ideal(unit.engine, one, start_rows(quats, omegas), settings.limits(unit.horizon_s), total=unit.total)
-    codes, is_settled = ended[:, OUTCOME].astype(int), ended[:, OUTCOME] == SETTLED
+    codes, has_converged = ended[:, OUTCOME].astype(int), ended[:, STEP] >= 0.0
+    is_settled = (ended[:, OUTCOME] == SETTLED) & has_converged
     starts = pd.DataFrame(
         {
             **dict(zip(PLACE, cells(quats), strict=True)),
             "starts": 1,
             "settled": is_settled.astype(np.int64),
+            "unconverged": (~has_converged).astype(np.int64),
             "settling_time_s": np.where(is_settled, ended[:, SETTLING_TICK] * settings.dt_s, np.nan),
             "start": first + np.arange(len(quats)),
             **dict(zip(STATE, np.column_stack((quats, omegas)).T, strict=True)),
@@ -60,7 +64,13 @@ def _of_block(settings: Settings, unit: Unit, number: int) -> pd.DataFrame:
         }
     )
     every = pd.concat([starts.assign(row=row) for row in (CELL, SLOWEST, LOST)], ignore_index=True)
-    law = {**contender_columns(one), "engine": unit.engine, "seed": settings.seed, "most_speed": speed}
+    law = {
+        **contender_columns(one),
+        "engine": unit.engine,
+        "seed": settings.seed,
+        "least_speed": least,
+        "most_speed": most,
+    }
     return _reduced(every[~((every["row"] == LOST) & (every["settled"] == 1))].assign(**law))
 
 
@@ -87,13 +97,15 @@ def folded(before: pd.DataFrame, after: pd.DataFrame) -> pd.DataFrame:
     return _reduced(pd.concat([before, after], ignore_index=True))
 
 
-LAW = ["regulator", "representation", "jacobian", "inverse", "engine", "seed", "most_speed"]
+LAW = ["regulator", "representation", "jacobian", "inverse", "engine", "seed", "least_speed", "most_speed"]
 
 
 def _reduced(every: pd.DataFrame) -> pd.DataFrame:
     """Cells summed; of each ring's slowest starts the slowest, the first of equals; the first MOST_LOST lost ones."""
     cells = every[every["row"] == CELL].assign(start=-1, outcome="", **dict.fromkeys(STATE, np.nan))
-    how = {"starts": "sum", "settled": "sum", "settling_time_s": "max"} | dict.fromkeys(("start", *STATE), "first")
+    how = {"starts": "sum", "settled": "sum", "unconverged": "sum", "settling_time_s": "max"} | dict.fromkeys(
+        ("start", *STATE), "first"
+    )
     cells = cells.groupby([*LAW, *PLACE, "row", "outcome"], sort=False, as_index=False).agg(how)
     slowest = every[(every["row"] == SLOWEST) & (every["settled"] == 1)]
     slowest = slowest.sort_values("settling_time_s", ascending=False, kind="stable")

@@ -1,4 +1,4 @@
-"""The paper's claims, C01 to C27: each sentence with a criterion fixed before the results, and its verdict.
+"""The paper's claims, C01 to C35: each sentence with a criterion fixed before the results, and its verdict.
 
 One file for each part of the paper; a claim is found by being in one of them.
 
@@ -9,7 +9,8 @@ One file for each part of the paper; a claim is found by being in one of them.
     feedback_linearized.py   C09
     boundary_points.py       C10, C11
     costs.py                 C12, C17
-    representations.py       C13 to C16
+    representations.py       C13
+    degeneracy.py            C14 to C16
     euler_jacobian.py        C18, C19
     euler_controller.py      C20
     controller_costs.py      C26
@@ -18,7 +19,15 @@ One file for each part of the paper; a claim is found by being in one of them.
     zyz_compliance.py        C24
     contact.py               C25
     later.py                 C27
+    angular_velocity.py      C28
+    expected_settling.py     C29
+    model_accuracy.py        C30
+    performance.py           C31, C35
+    numerics.py              C32
+    force_costs.py           C33
+    angle_forms.py           C34
     adequacy.py              every law by the tests of C17 and C27
+    standing.py              how two laws stand in cost, by time and by operations
     tables.py                what a judging function reads
     probes.py                the small experiments of claims that no table answers
     arm_probes.py            the same on arms
@@ -57,9 +66,8 @@ __all__ = [
 
 RULE = (
     f"Engine {MAIN_ENGINE}, the paper's continuous system (2.6)-(2.7), decides. A claim about episodes is asked of "
-    f"{' and '.join(CHECK_ENGINES)} too where they have rows: if one of them decides otherwise, 'holds' becomes "
-    "'holds with a correction' and the evidence says so; other verdicts stay. No verdict is given on an empty table: "
-    "that is an error."
+    f"{' and '.join(CHECK_ENGINES)} too where they have rows, and what they say is reported: a sampled clock is ours, "
+    "not the paper's, and changes no verdict. No verdict is given on an empty table: that is an error."
 )
 """What is common to all criteria."""
 

@@ -10,7 +10,7 @@ import numpy as np
 from bench.findings.claims import side_by_side
 from bench.findings.claims.euler_jacobian import COORDINATES
 from bench.findings.claims.tables import evidence, some
-from bench.findings.claims.verdict import claim, word_of
+from bench.findings.claims.verdict import Earlier, Word, claim, word_of
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -43,6 +43,20 @@ PLANE_RAD = 0.005
 @claim(
     id="C22",
     section="3.3",
+    quote="""
+        When only one rotational axis is in compliance, the effect is the same as compliance in the normal
+        Cartesian space because, with Z-Y-X Euler angles, single Euler angle rotation corresponds to rotation
+        about one of the x, y, z axes.
+    """,
+    correction="One angle is one axis, but of the base only where the angles before it are zero.",
+    written="2026-11-23 4af5940",
+    earlier=(
+        Earlier(
+            "2026-11-21 5b25b22",
+            "Asked of commanded accelerations, for the paper's force control was not there.",
+            Word.CORRECTED,
+        ),
+    ),
     sentence="With one compliant rotational axis, Euler and Cartesian compliance are the same.",
     question="Does a wrench probe, one axis at a time, see any difference, at zero angles and away from them?",
     criterion=f"""
@@ -57,9 +71,7 @@ PLANE_RAD = 0.005
         rows closer to the pole end. {side_by_side.DECIDES}
     """,
     open="""
-        "When only one rotational axis is in compliance, the effect is the same as compliance in the normal Cartesian
-        space because, with Z-Y-X Euler angles, single Euler angle rotation corresponds to rotation about one of the x,
-        y, z axes." Whose axes is not said: the base's are those of (2.1), in which the controller without the Euler
+        Whose axes is not said: the base's are those of (2.1), in which the controller without the Euler
         Jacobian complies.
     """,
     readings=(
@@ -118,6 +130,19 @@ def _greatest(numbers: np.ndarray) -> float:
 @claim(
     id="C23",
     section="3.3",
+    quote="""
+        However, when two rotational axes are to comply to external forces, Euler angle rotations and rotations
+        about two of the x, y, z axes do not correspond.
+    """,
+    correction="They part, but not everywhere, or not as the closed form has it.",
+    written="2026-11-23 4af5940",
+    earlier=(
+        Earlier(
+            "2026-11-21 5b25b22",
+            "Asked of commanded accelerations, by their closed form: planes |beta| apart, a leak of tan |beta|.",
+            Word.HOLDS,
+        ),
+    ),
     sentence="With two compliant rotational axes they do not correspond.",
     question="How far are the compliant planes apart, and how much leaks into the stiff axis?",
     criterion=f"""
@@ -135,8 +160,7 @@ def _greatest(numbers: np.ndarray) -> float:
         are not general they correspond after all, and the verdict as first written. {side_by_side.DECIDES}
     """,
     open="""
-        "However, when two rotational axes are to comply to external forces, Euler angle rotations and rotations about
-        two of the x, y, z axes do not correspond." Where all angles are zero they do to first order, whatever the
+        Where all angles are zero they do to first order, whatever the
         coordinates, and two axes are then told apart by finite rotations only: a general pose is what is judged.
     """,
 )

@@ -9,7 +9,7 @@ import numpy as np
 from bench.findings.claims.euler_jacobian import COORDINATES
 from bench.findings.claims.side_by_side import BASE, DECIDES, by_papers_form, paired
 from bench.findings.claims.tables import evidence, some
-from bench.findings.claims.verdict import NoEvidence, claim, word_of
+from bench.findings.claims.verdict import Earlier, NoEvidence, Word, claim, word_of
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -45,6 +45,22 @@ ZERO_RAD, SLACK_DEG = 1e-9, 1e-6
 @claim(
     id="C25",
     section="3.3",
+    quote="""
+        The performance of complex compliant robot motions will depend upon which form of Jacobian is used in
+        the controller.
+    """,
+    correction="On some tasks, arms and forms it does not.",
+    written="2026-11-23 4af5940",
+    earlier=(
+        Earlier(
+            "2026-11-21 5b25b22",
+            """
+            Asked of commanded accelerations, and no pair with beta = 0 was to part; but a difference there is
+            dependence too.
+            """,
+            Word.CORRECTED,
+        ),
+    ),
     sentence="How well complex compliant motions go depends on the Jacobian used.",
     question="Do contact tasks end differently with the two Jacobians?",
     criterion=f"""
@@ -61,8 +77,7 @@ ZERO_RAD, SLACK_DEG = 1e-9, 1e-6
         many pairs part on tasks where fewer turns comply, and the verdict as first written. {DECIDES}
     """,
     open="""
-        "The performance of complex compliant robot motions will depend upon which form of Jacobian is used in the
-        controller." Neither motions nor performance are named. Complex is read from the sentence before it: two
+        Neither motions nor performance are named. Complex is read from the sentence before it: two
         rotational axes comply. Tasks and frames are ours.
     """,
 )

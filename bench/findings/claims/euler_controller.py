@@ -10,7 +10,7 @@ import numpy as np
 
 import tasks
 from bench.findings.claims import arm_probes
-from bench.findings.claims.adequacy import CALL_PRICES, CALLS, tallied
+from bench.findings.claims.adequacy import CALLS, tallied
 from bench.findings.claims.controller_costs import (
     BY_COMMON,
     BY_EULER,
@@ -21,8 +21,9 @@ from bench.findings.claims.controller_costs import (
     controller_costs,
     words,
 )
+from bench.findings.claims.standing import ORDERED, by_columns
 from bench.findings.claims.tables import evidence, some
-from bench.findings.claims.verdict import claim, word_of
+from bench.findings.claims.verdict import Earlier, Word, claim, word_of
 from bench.law.contender import Gains
 
 if TYPE_CHECKING:
@@ -59,6 +60,13 @@ class Bend(NamedTuple):
 @claim(
     id="C20",
     section="3.2",
+    equation="(3.6)-(3.8)",
+    quote="""
+        The result is truly a system of decoupled double integrators. ... However, this linearization fails to
+        exist for certain orientations mentioned above and it hides the expense of calculating the Euler angles.
+    """,
+    correction="The plant is linear, and one of the two reservations fails.",
+    written="2026-11-23 953f62a",
     sentence="With it the plant is decoupled double integrators; this fails at places and hides a cost.",
     question="Is the arm's answer linear, how does it end near the pole, and what do (2.2), (3.7) cost?",
     criterion=f"""
@@ -72,18 +80,19 @@ class Bend(NamedTuple):
         not settling, or a peak torque {HAMMERED:g} times the other's; no clear start fails. Starts at a pole are those
         of the set pole, and the poses of C18's families at 10^-2 or nearer, at rest, with the pose at 10^-1 for a goal.
         (c) Hidden expense: by costs.parquet, typical branch, its stage 'regulate' has fewer flops and no more calls
-        than the other's, and yet its total without the goal's angles costs more, flops and calls at {CALL_PRICES[0]:g}
-        to {CALL_PRICES[1]:g} flops each, on six and on seven joints. It holds if all three pass; with a correction if
+        than the other's, and yet its total without the goal's angles has no fewer of either and more of one, on six and
+        on seven joints. It holds if all three pass; with a correction if
         (a) extrapolates to {BEND_LOOSE:g} rad or less and (b) or (c) passes; otherwise it does not hold. Also reported:
         (2.2) with (2.15), the same law on the geometric Jacobian.
     """,
     open="""
-        "The result is truly a system of decoupled double integrators." "However, this linearization fails to exist for
-        certain orientations mentioned above and it hides the expense of calculating the Euler angles." The paper
-        computes no arm. The halved step is an experiment of the judge's, and so are the episodes from C18's poses: a
-        response in E is straight in E, so it nears a pole only from there or to there, while the starts of the set pole
-        begin and end 40 degrees away from one, and only the tool of a law on R passes it.
+        The paper computes no arm. The halved step is an experiment of the judge's, and so are the episodes from C18's
+        poses: a response in E is straight in E, so it nears a pole only from there or to there, while the starts of the
+        set pole begin and end 40 degrees away from one, and only the tool of a law on R passes it.
     """,
+    earlier=(
+        Earlier("2026-11-21 9b9e874", "In (c) a call was counted as 1 to 20 flops; columns need no price.", Word.HOLDS),
+    ),
 )
 def c20(results):
     """Curves at two steps; outcomes at the poles against the law on R; stages and totals."""
@@ -168,10 +177,9 @@ def _hidden(results, joints: int) -> tuple[bool, str]:
     seen = {one: (int(law["flops"]), int(sum(law[name] for name in CALLS))) for one, law in laws.items()}
     total = {one: tallied(own, with_goal=False) for one, own in rows.items()}
     seems_cheaper = seen[BY_EULER][0] < seen[ON_MATRIX][0] and seen[BY_EULER][1] <= seen[ON_MATRIX][1]
-    weighed = {one: [flops + price * calls for price in CALL_PRICES] for one, (flops, calls) in total.items()}
-    is_dearer = all(dear > cheap for dear, cheap in zip(weighed[BY_EULER], weighed[ON_MATRIX], strict=True))
+    is_dearer = by_columns(total[ON_MATRIX], total[BY_EULER]) == ORDERED
     told = "; ".join(
-        f"{name} {seen[one][0]} flops of {total[one][0]} and {total[one][1]} calls"
+        f"{name} {seen[one][0]} flops of {total[one]} calls"
         for name, one in (("(3.7)", BY_EULER), ("(2.2) with the law on R", ON_MATRIX), ("(2.2) with (2.15)", BY_COMMON))
     )
     return seems_cheaper and is_dearer, f"On {joints} joints the law itself is {told}."

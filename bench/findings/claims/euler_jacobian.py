@@ -45,6 +45,13 @@ rounding eps/step are both about eps^(2/3), over the margin."""
 @claim(
     id="C18",
     section="3.1",
+    equation="(3.3)",
+    quote="""
+        it has the property of being zero at points in the workspace as well as being undefined, or having
+        elements values approaching infinity, at other points in the workspace.
+    """,
+    correction="Near the pole elements grow, but not as 1 / cos(beta).",
+    written="2026-11-21 9b9e874",
     sentence="The Euler Jacobian adds singularities of its own, with unbounded elements, to those of the manipulator.",
     question="Does J_E grow without bound where J is well conditioned, and is it singular wherever J is?",
     criterion=f"""
@@ -73,23 +80,23 @@ rounding eps/step are both about eps^(2/3), over the margin."""
 def c18(results):
     """Slopes towards the pole by family, the largest element on arrival, and the determinants' identity."""
     rows = some(results.table("poses", representation=COORDINATES), "pose of an arm")
-    families = _families(rows)
-    silent = sorted(set(rows["arm"]) - set(families["arm"]))
+    ways = _families(rows)
+    silent = sorted(set(rows["arm"]) - set(ways["arm"]))
     if silent:
         raise NoEvidence(f"no well-conditioned family of poses towards the pole on {', '.join(silent)}")
     square = some(rows[rows["det_gap"].notna() & (rows["margin"] >= NEAR)], "pose of an arm with six joints")
-    slopes = families[["condition_analytic", "largest"]].to_numpy()
+    slopes = ways[["condition_analytic", "largest"]].to_numpy()
     errors = square["det_gap"] * square["margin"] / EPS
-    tight = abs(slopes - SLOPE).max() <= SLOPE_TIGHT * SLOPE and (families["nearest"] >= UNBOUNDED).all()
+    tight = abs(slopes - SLOPE).max() <= SLOPE_TIGHT * SLOPE and (ways["nearest"] >= UNBOUNDED).all()
     loose = slopes.min() >= SLOPE_LOOSE and (square["det_gap"] <= DETERMINANT_LOOSE).all()
     word = word_of(tight and (errors <= ROUNDINGS).all(), loose)
     well = some(rows[(rows["pose_set"] == "random") & (rows["condition"] <= WELL_CONDITIONED)], "random pose")
     worse = share(well["condition_analytic"] > 10 * well["condition"])
     return word, evidence(
-        f"""{len(families)} families on {rows["arm"].nunique()} arms, J's condition number at most
-        {families["condition"].max():.0f}: towards the pole J_E's grows by {slopes[:, 0].min():.3f} to
+        f"""{len(ways)} families on {rows["arm"].nunique()} arms, J's condition number at most
+        {ways["condition"].max():.0f}: towards the pole J_E's grows by {slopes[:, 0].min():.3f} to
         {slopes[:, 0].max():.3f} decades a decade, its largest element by {slopes[:, 1].min():.3f} to
-        {slopes[:, 1].max():.3f}, to {families["nearest"].min():.1e} or more at 1e-{NEAREST}. det J_E = -det J /
+        {slopes[:, 1].max():.3f}, to {ways["nearest"].min():.1e} or more at 1e-{NEAREST}. det J_E = -det J /
         cos(beta) at {len(square):,} poses, to {errors.max():.1f} eps / cos(beta). Of the random poses with J well
         conditioned, J_E has ten times its condition number at {worse}. Its largest element is nowhere below
         {rows["largest"].min():.2f}: only its determinant is ever zero.""",
@@ -120,6 +127,14 @@ def _families(rows: pd.DataFrame) -> pd.DataFrame:
 @claim(
     id="C19",
     section="3.1",
+    equation="(3.3), (3.5)",
+    quote="""
+        The function is differentiated with respect to the joint angles and the resultant matrix is the
+        manipulator Jacobian with respect to Euler angles. ... This Jacobian has the same properties as that
+        presented in the previous section
+    """,
+    correction="The two part near the pole.",
+    written="2026-11-21 f52a15d",
     sentence="Its two derivations agree: diag(I, B^-1) J, and the derivative of the forward kinematics.",
     question="Are (3.3) and (3.5) the same matrix, and that of the differentiated forward kinematics?",
     criterion=f"""

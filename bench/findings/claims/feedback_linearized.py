@@ -8,24 +8,38 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from bench.findings.claims import probes
-from bench.findings.claims.tables import MAIN_ENGINE, evidence, settled, share, some
-from bench.findings.claims.verdict import Word, claim
+from bench.findings.claims.tables import MAIN_ENGINE, evidence, lost, lost_text, settled, share, some
+from bench.findings.claims.verdict import Earlier, Word, claim
 from bench.findings.theory import closed_form
+from bench.tables.read import converged
 
 if TYPE_CHECKING:
     import pandas as pd
 
-LAW = "feedback-linearized"
+LAW, CONTENDER = "feedback-linearized", "feedback-linearized/zyx-euler"
 
 LINEAR_TIGHT, LINEAR_LOOSE = 1e-4, 1e-2
 """rad: Runge-Kutta of order 4 at 1 ms errs by far less on a time constant of 0.1 s; a visible bend is a hundredth."""
 
-STRAY_SHARE = 0.01
+LOST_SHARE, STRAY_SHARE = 1e-3, 0.01
+"""Of random starts: as C01 has it, isolated orientations are no more than one in 1,000; and one that is no exception
+any more."""
+
+REACHED_SHARE = 0.9
 
 
 @claim(
     id="C09",
     section="2.4",
+    equation="(2.16)",
+    quote="""
+        The regulator produced a linear response for the entire range of Euler angles excluding the boundary
+        points: alpha = +-pi, beta = +-pi/2, gamma = +-pi.
+    """,
+    correction="""
+        The exception is another: starts exactly at alpha, gamma = +-pi settle, bodies that spin near a pole may not.
+    """,
+    written="2026-11-23 2749c2a",
     sentence="""
         The response is linear over the whole range of Euler angles but alpha, gamma = +-pi and beta =
         +-pi/2.
@@ -33,56 +47,70 @@ STRAY_SHARE = 0.01
     question="Does every coordinate follow its linear closed form, and where does that end?",
     criterion=f"""
         From rest, goal zero. Linear: in every trace, each angle stays within {LINEAR_TIGHT:g} rad of E_0
-        (1 + 10 t) exp(-10 t) (in general the solution of E'' = -Kp E - Kd E'). Off the boundary: every
-        uniform start and every inexact start of poles and wraps settles. On it: every exact start of
-        poles and wraps fails to settle. Spinning: every tumbling start settles. Goals: every goal off the
-        pole is reached. It holds if all five pass; with a correction if the traces stay within
-        {LINEAR_LOOSE:g} rad and at most {STRAY_SHARE:.0%} of the uniform starts do not settle, but any of
-        the rest fails: the exception is then smaller or larger than stated; otherwise it does not hold.
-        Also reported: the share of goals turned the long way round (more than pi travelled, which no
-        shortest way is).
+        (1 + 10 t) exp(-10 t) (in general the solution of E'' = -Kp E - Kd E'). At rest: of the random
+        starts of results/maps the share lost is at most {LOST_SHARE:.1%}, and every inexact start of poles
+        and wraps settles. On the boundary: every exact start of poles and wraps fails to settle.
+        Spinning: at each speed of results/maps, of starts that turn at it in directions all over the
+        sphere, the share lost is at most {LOST_SHARE:.1%}. Goals: at least {REACHED_SHARE:.0%} of the goals
+        off the pole are reached. Shares of maps by the upper end, that of goals by the lower end, of the
+        exact 95 % interval; starts that do not converge count as lost there, and are left out elsewhere. It
+        holds if all five pass; with a correction if the traces stay within {LINEAR_LOOSE:g} rad and at
+        most {STRAY_SHARE:.0%} of the random starts at rest are lost, but any of the rest fails: the
+        exception is then smaller or larger than stated; otherwise it does not hold. Also reported: the
+        share of goals turned the long way round (more than pi travelled, which no shortest way is).
     """,
     open="""
         The paper starts at rest and regulates to zero; initial velocities, and goals across a jump, are
         ours. The gains (100, 20) are the paper's. Linear in E is not the shortest way, and not linear in
         the angle.
     """,
+    earlier=(
+        Earlier(
+            "2026-11-21 9072535",
+            """
+            Every one of the run's uniform starts, of 200 tumbling ones and of the goals was to settle, which hangs on
+            the draw.
+            """,
+            Word.CORRECTED,
+        ),
+    ),
 )
 def c09(results):
     """Traces against the linear closed form; outcomes off and on the boundary, spinning, and to far goals."""
     worst, traced = _bend(results)
-    uniform = results.episodes(LAW, MAIN_ENGINE, "uniform")
-    near = results.episodes(LAW, MAIN_ENGINE, "poles", "wraps")
+    near = converged(results.episodes(LAW, MAIN_ENGINE, "poles", "wraps"))
     distance = probes.boundary_distance(near)
     on = (distance["pole"] <= probes.EXACT_RAD) | (distance["wrap"] <= probes.EXACT_RAD)
     pole = near[distance["pole"] <= probes.EXACT_RAD]
     wrap = near[on & (distance["pole"] > probes.EXACT_RAD)]
     off = some(near[~on], "inexact start of poles and wraps")
-    tumbling = results.episodes(LAW, MAIN_ENGINE, "tumbling")
+    spun = some(results.spun(CONTENDER), f"random start of {CONTENDER} at a stated speed")
+    at_rest = [one for one in spun if one.speed == 0.0]
+    spinning = [one for one in spun if one.speed > 0.0]
     goals = results.episodes(LAW, MAIN_ENGINE, "goals")
     goals = some(goals[probes.goal_to_pole(goals) > probes.EXACT_RAD], "goal off the pole")
     long_way = share(goals["path_ratio"] * goals["angle0_rad"] > math.pi)
     passed = (
         worst <= LINEAR_TIGHT,
-        settled(uniform).all() and settled(off).all(),
+        all(one.share.high <= LOST_SHARE for one in at_rest) and settled(off).all(),
         not settled(near[on]).any() and on.any(),
-        settled(tumbling).all(),
-        settled(goals).all(),
+        all(one.share.high <= LOST_SHARE for one in spinning),
+        lost(goals).high <= 1.0 - REACHED_SHARE,
     )
     if all(passed):
         word = Word.HOLDS
     else:
-        good = worst <= LINEAR_LOOSE and 1 - settled(uniform).mean() <= STRAY_SHARE
+        good = worst <= LINEAR_LOOSE and all(one.share.high <= STRAY_SHARE for one in at_rest)
         word = Word.CORRECTED if good else Word.FAILS
     traces = _traced(results).groupby(["start_set", "start_id"], observed=True).ngroups
     return word, evidence(
-        f"""{traces} traces bend from the closed form by at most {worst:.1e} rad; settled: uniform
-        {share(settled(uniform))}, {int(settled(off).sum())} of {len(off)} starts off the boundary by 1e-12 rad or more,
-        {int(settled(wrap).sum())} of {len(wrap)} exactly at +-pi, {int(settled(pole).sum())} of {len(pole)} exactly on
-        a pole, {share(settled(tumbling))} tumbling, {int(settled(goals).sum())} of {len(goals)} goals, {long_way.k} of
-        them the long way round.""",
-        traced + len(uniform) + len(near) + len(tumbling) + len(goals),
-        ("traces", "episodes"),
+        f"""{traces} traces bend from the closed form by at most {worst:.1e} rad. Lost of random starts
+        {"; ".join(map(lost_text, spun))}. Settled: {int(settled(off).sum())} of {len(off)} starts off the boundary by
+        1e-12 rad or more, {int(settled(wrap).sum())} of {len(wrap)} exactly at +-pi, {int(settled(pole).sum())} of
+        {len(pole)} exactly on a pole, {int(settled(goals).sum())} of {len(goals)} goals, {long_way.k} of them the long
+        way round.""",
+        traced + sum(one.starts for one in spun) + len(near) + len(goals),
+        ("traces", "episodes", "maps"),
     )
 
 

@@ -37,6 +37,13 @@ STEP = 2.0 ** (-52 / 3)
 @claim(
     id="C21",
     section="3.3",
+    equation="(3.10)-(3.12)",
+    quote="""
+        Since the matrix B always exists ... Forces measured by the force wrist may always be converted to
+        forces usable by the Euler Jacobian controller for every manipulator orientation.
+    """,
+    correction="At the poles themselves they cannot.",
+    written="2026-11-21 6e6672b",
     sentence="Measured forces can be converted by B transposed at every orientation, and work is conserved.",
     question="Does the power balance close over all poses, the poles included?",
     criterion=f"""
@@ -52,8 +59,7 @@ STEP = 2.0 ** (-52 / 3)
         converted.
     """,
     open="""
-        "Since the matrix B always exists ... Forces measured by the force wrist may always be converted to forces
-        usable by the Euler Jacobian controller for every manipulator orientation." At a pole F_E exists, and one moment
+        At a pole F_E exists, and one moment
         does not reach it: that it exists and balances the work of every motion of the angles is the reading judged. A
         turn about the lost moment's axis is no motion of the angles.
     """,

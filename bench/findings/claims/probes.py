@@ -92,26 +92,12 @@ def episodes(contender: str, starts: list[Start], gains: Gains, dt_s: float, hor
     )
 
 
-def finer(contender: str, frame: pd.DataFrame, gains: Gains, factor: int = 10) -> pd.DataFrame:
-    """Episodes of a table again, with a tick that many times shorter: is it the law, or its integration?"""
-    import pandas as pd
-
-    if frame.empty:
-        return pd.DataFrame({"outcome": [], "peak_u": []})
-    columns = [list(QUAT), list(OMEGA), list(GOAL_QUAT)]
-    starts = [
-        Start("", *(tuple(part) for part in parts))
-        for parts in zip(*(frame[names].to_numpy().tolist() for names in columns), strict=True)
-    ]
-    return episodes(contender, starts, gains, frame["dt_s"].iloc[0] / factor, frame["horizon_s"].iloc[0])
-
-
 SPEED, BESIDE = 20.0, 64
 """rad/s, as fast as the fastest tumbling start; starts at each margin."""
 
 
 @functools.cache
-def beside_pole(margin: float, contender: str, gains: Gains) -> pd.DataFrame:
+def beside_pole(margin: float, contender: str, gains: Gains, dt_s: float = 1e-3) -> pd.DataFrame:
     """Bodies that spin at 20 rad/s, in directions all over the sphere, a thousandth of a radian outside a margin."""
     from scipy.spatial.transform import Rotation as Turn
 
@@ -122,7 +108,7 @@ def beside_pole(margin: float, contender: str, gains: Gains) -> pd.DataFrame:
         R = zyx.to_matrix((alpha, (-1) ** i * (math.pi / 2 - margin - 1e-3), gamma))
         quat = Turn.from_matrix(np.array(R).T).as_quat(scalar_first=True)
         starts.append(Start("", tuple(quat.tolist()), tuple((SPEED * direction).tolist())))
-    return episodes(contender, starts, gains, 1e-3, 10.0)
+    return episodes(contender, starts, gains, dt_s, 10.0)
 
 
 def boundary_distance(frame: pd.DataFrame) -> pd.DataFrame:

@@ -7,13 +7,17 @@ from collections.abc import Callable, Sized
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
-from bench.findings.claims.verdict import Evidence, NoEvidence, Word
+from bench.findings.claims.verdict import Evidence, NoEvidence
 from bench.law.contender import Gains
 from bench.tables import read
+from bench.tables.files import read_json
 from bench.tables.schema import RESULTS
 
 if TYPE_CHECKING:
     import pandas as pd
+
+    from bench.findings.maps import Spun
+    from bench.tables.statistics import Estimate
 
 MAIN_ENGINE = "ideal-rk4"
 CHECK_ENGINES = ("ideal-held", "native")
@@ -25,7 +29,7 @@ PAPERS_COORDINATES = ("", "zyx-euler")
 
 TIMED = (
     *("what", "engine", "arm", "regulator", "representation", "jacobian", "inverse"),
-    *("ns_per_tick", "ticks", "machine"),
+    *("ns_per_tick", "ratio", "ratio_low", "ratio_high", "ticks", "machine"),
 )
 
 
@@ -40,11 +44,12 @@ class Results:
         folder: Path | None,
         frames: dict | None = None,
         timings: Path = RESULTS / "timings",
+        maps: Path = RESULTS / "maps",
         experiments: dict[str, Callable] | None = None,
     ):
         self.folder = folder
         self.frames = dict(frames or {})
-        self.timings_folder = timings
+        self.timings_folder, self.maps_folder = timings, maps
         self.experiments = experiments or {}
         self._chosen: dict[tuple, pd.DataFrame] = {}
 
@@ -88,14 +93,36 @@ class Results:
         row = some(self.table("episodes", **read.FREE_BODY, engine=MAIN_ENGINE), f"episode by {MAIN_ENGINE}").iloc[0]
         return Gains(float(row["kp"]), float(row["kv"]))
 
-    def timings(self) -> pd.DataFrame:
-        """Time per tick of laws alone, on every machine that was timed, a column `machine` added; maybe empty.
+    def spun(self, law: str) -> list[Spun]:
+        """Starts of a law at stated speeds, from the maps that came with the benchmark; maybe none."""
+        from bench.findings.maps import counted, spun
+        from bench.tables.store import read as read_table
 
-        The paper's coordinates only, as everywhere in chapter 2.
-        """
+        if "map" not in self.frames:
+            self.frames["map"] = read_table(self.maps_folder, "map")
+        if "counted" not in self.frames:
+            self.frames["counted"] = counted(self.frames["map"])
+        return spun(self.frames["counted"], law)
+
+    @functools.cached_property
+    def _plan(self) -> dict:
+        path = self.folder and self.folder / "plan.json"
+        return read_json(path) if path and path.is_file() else {"seed": 0, "dt_s": 1e-3}
+
+    @property
+    def seed(self) -> int:
+        """The run's, for experiments that claims make; 0 of tables alone."""
+        return int(self._plan["seed"])
+
+    @property
+    def dt_s(self) -> float:
+        """The run's control period; 1 ms of tables alone."""
+        return float(self._plan["dt_s"])
+
+    def timings(self) -> pd.DataFrame:
+        """Time per tick of laws alone, on every machine that was timed, a column `machine` added; maybe empty."""
         every = self._all_timings()
-        timed = (every["what"] == "law") & (every["ticks"] > 0)
-        return every[timed & every["representation"].isin(PAPERS_COORDINATES)]
+        return every[(every["what"] == "law") & (every["ticks"] > 0)]
 
     def controller_timings(self) -> pd.DataFrame:
         """Time per tick of whole controllers of arms, on every machine that was timed; maybe empty."""
@@ -161,6 +188,22 @@ def share(facts: pd.Series) -> Share:
     return Share(k, n, k / n, float(interval.low), float(interval.high))
 
 
+def lost(frame: pd.DataFrame) -> Estimate:
+    """The share of episodes that do not settle, of those that converge; the interval is that of `maps.lost_between`."""
+    from bench.findings.maps import lost_between
+
+    sure = read.converged(frame)
+    return lost_between(int((~settled(sure)).sum()), len(frame) - len(sure), len(frame))
+
+
+def lost_text(one: Spun) -> str:
+    """The share lost of starts at a stated speed, with its interval, and how many do not converge."""
+    apart = f", {one.unconverged} not converged" if one.unconverged else ""
+    at = f"at {one.speed:g} rad/s" if one.speed else "at rest"
+    low, high = one.share.low, one.share.high
+    return f"{at} {one.share.value:.3%} ({low:.3%} to {high:.3%}, n = {one.starts:,}{apart})"
+
+
 def settled(frame: pd.DataFrame) -> pd.Series:
     """Whether each episode settled."""
     return frame["outcome"] == SETTLED
@@ -185,8 +228,6 @@ def on_every_engine(decide: Callable) -> Callable:
                 continue
             rows += also.rows
         differing = {engine: other for engine, other in others.items() if other != word}
-        if differing and word == Word.HOLDS:
-            word = Word.CORRECTED
         return word, found._replace(sentence=f"{found.sentence} {_said_by(others, differing)}", rows=rows)
 
     return judge

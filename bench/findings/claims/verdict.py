@@ -1,6 +1,6 @@
 """What a claim is, what can be said of it, and on what evidence.
 
-A claim's text and its numbers were committed before any result was looked at; `git log` of its file shows it.
+A claim says when its criterion was written, and what stood before; `git log` of its file shows it.
 """
 
 from collections.abc import Callable, Mapping
@@ -12,11 +12,13 @@ from bench.errors import BenchError
 
 
 class Word(StrEnum):
-    """The three things that can be said of a claim."""
+    """What can be said of a claim. A correction is of the paper, and the claim names it."""
 
     HOLDS = "holds"
     CORRECTED = "holds with a correction"
     FAILS = "does not hold"
+    ANSWERED = "open in 1988; answered since"
+    UNTESTABLE = "not testable"
 
 
 def word_of(holds: object, corrected: object) -> Word:
@@ -33,23 +35,38 @@ class Evidence(NamedTuple):
 
     sentence: plain prose, every number in it computed. rows: table rows, states and episodes looked at. tables: where
     they come from; "experiment" for what the claim computes itself. parts: of the sentence, by name, for the book.
+    earlier: the words by those of the claim's earlier criteria that are still computed, in their order.
     """
 
     sentence: str
     rows: int
     tables: tuple[str, ...]
     parts: Mapping[str, str] = MappingProxyType({})
+    earlier: tuple[Word, ...] = ()
 
     def __str__(self) -> str:
         return self.sentence
 
 
+class Earlier(NamedTuple):
+    """A criterion that stood before.
+
+    written: date and commit. criterion: in short, and why it was given up. word: what it gave when it was given up;
+    None where it is still computed.
+    """
+
+    written: str
+    criterion: str
+    word: Word | None = None
+
+
 class Claim(NamedTuple):
     """One sentence of the paper and how it is decided.
 
-    sentence: our paraphrase. criterion: what makes it hold, hold with a correction, or not hold, in numbers.
-    open: what the paper leaves open and how the verdict hangs on it. readings: where there are several.
-    judge: results -> (word, evidence).
+    sentence: our paraphrase. criterion: what each word takes, in numbers. open: what the paper leaves open and how the
+    verdict hangs on it. readings: where there are several. judge: results -> (word, evidence). quote: the paper's own
+    words; section and equation: where they stand; value: the paper's number. correction: of the paper, what is said
+    when the claim holds with one; empty: no criterion of it leads there. written: date and commit of the criterion.
     """
 
     id: str
@@ -60,18 +77,39 @@ class Claim(NamedTuple):
     judge: Callable
     open: str = ""
     readings: tuple[str, ...] = ()
+    quote: str = ""
+    equation: str = ""
+    value: str = "none given"
+    correction: str = ""
+    written: str = ""
+    earlier: tuple[Earlier, ...] = ()
+
+    @property
+    def place(self) -> str:
+        """Section and equation."""
+        return f"section {self.section}{', ' * bool(self.equation)}{self.equation}"
 
 
 def claim(
-    *, id: str, section: str, sentence: str, question: str, criterion: str, open: str = "", readings: tuple = ()
+    *,
+    id: str,
+    section: str,
+    sentence: str,
+    question: str,
+    criterion: str,
+    readings: tuple[str, ...] = (),
+    earlier: tuple[Earlier, ...] = (),
+    **texts: str,
 ) -> Callable[[Callable], Claim]:
     """Makes the function below, which judges it, a Claim; its texts may be broken into lines as the file likes."""
 
     def joined(text: str) -> str:
         return " ".join(text.split())
 
-    texts = (id, section, joined(sentence), joined(question), joined(criterion))
-    return lambda judge: Claim(*texts, judge, joined(open), tuple(map(joined, readings)))
+    first = (id, section, joined(sentence), joined(question), joined(criterion))
+    before = tuple(one._replace(criterion=joined(one.criterion)) for one in earlier)
+    others = {name: joined(text) for name, text in texts.items()}
+    return lambda judge: Claim(*first, judge, readings=tuple(map(joined, readings)), earlier=before, **others)
 
 
 class Verdict(NamedTuple):
@@ -90,6 +128,17 @@ class Verdict(NamedTuple):
     def rows(self) -> int:
         """The evidence's."""
         return self.evidence.rows
+
+    @property
+    def correction(self) -> str:
+        """What of the paper is corrected; nothing where the word is no correction."""
+        return self.claim.correction if self.word == Word.CORRECTED else ""
+
+    @property
+    def earlier(self) -> list[tuple[Earlier, Word]]:
+        """The criteria that stood before, each with its word."""
+        computed = iter(self.evidence.earlier)
+        return [(one, one.word or next(computed)) for one in self.claim.earlier]
 
 
 def decide(claim: Claim, results) -> Verdict:

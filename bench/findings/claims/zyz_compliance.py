@@ -9,7 +9,7 @@ import numpy as np
 from bench.findings.claims import side_by_side
 from bench.findings.claims.euler_jacobian import COORDINATES
 from bench.findings.claims.tables import evidence, some
-from bench.findings.claims.verdict import claim, word_of
+from bench.findings.claims.verdict import Earlier, Word, claim, word_of
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -29,6 +29,13 @@ LEAK = 1.0
 @claim(
     id="C24",
     section="3.3",
+    quote="""
+        Clearly compliance will be a problem if, for example, Z-Y-Z Euler angles are used and rotational
+        compliance is desired about the x axis.
+    """,
+    correction="At some orientations near zero it is none, or Z-Y-X has it too.",
+    written="2026-11-23 4af5940",
+    earlier=(Earlier("2026-11-21 5b25b22", "Asked of commanded accelerations, and of c_xx alone.", Word.HOLDS),),
     sentence="Z-Y-Z angles are a problem where compliance about x is wanted.",
     question="What does a wrench probe about x see with Z-Y-Z angles at and near zero?",
     criterion=f"""
@@ -44,8 +51,7 @@ LEAK = 1.0
         {side_by_side.DECIDES}
     """,
     open="""
-        "Clearly compliance will be a problem if, for example, Z-Y-Z Euler angles are used and rotational compliance is
-        desired about the x axis." Where is not said; zero is where 2.2 has the degeneracy. No Z-Y-Z angle is one about
+        Where is not said; zero is where 2.2 has the degeneracy. No Z-Y-Z angle is one about
         x: that the third stands for it is our choice, and with the first it would be the base's z at every orientation.
     """,
 )

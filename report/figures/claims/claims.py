@@ -4,21 +4,43 @@ from __future__ import annotations
 
 import html as escape
 from collections import Counter
+from collections.abc import Iterable
 
 from bench.findings import claims
 from bench.findings.claims import Verdict
+from bench.studies import verdicts
+from bench.tables.files import read_json
 from report.figures.kit import html
 from report.figures.kit.page import Run
 from report.figures.kit.spelling import marked_up, prose, typeset
 from report.figures.kit.tables import Table
 
-SMALL = ("Criterion", "Left open")
+SMALL = ("Criterion", "Before", "Left open", "Readings")
 VERDICTS = Table(" | What the paper says, in our words | Verdict")
 
 
 def facts(_: Run) -> dict:
-    """How many are decided, and by what rule."""
-    return {"rule": typeset(claims.RULE), "decided": len(claims.judge_all())}
+    """How many are decided, by what rule, and how many by a criterion that is not the first."""
+    every = claims.judge_all()
+    changed = [one for one in every if one.earlier]
+    return {
+        "rule": typeset(claims.RULE),
+        "decided": len(every),
+        "changed": len(changed),
+        "turned": sum(one.word != one.earlier[-1][1] for one in changed),
+        "steady": steady(read_json(verdicts.STORED)),
+    }
+
+
+def steady(study: dict) -> str:
+    """What the study of seeds and of half the step found, in a sentence."""
+    runs = study["runs"]
+    seeds = sum(name != verdicts.HALF_STEP for name in runs)
+    other = verdicts.turned(runs, study["reference"])
+    found = "no claim gets another word" if not other else f"{', '.join(other)} get another word somewhere"
+    return (
+        f"On {seeds} other seeds of the starts{' and at half the step' if verdicts.HALF_STEP in runs else ''} {found}"
+    )
 
 
 def tables(_: Run) -> dict:
@@ -26,23 +48,25 @@ def tables(_: Run) -> dict:
     return {anchor(one): section(one) for one in claims.judge_all()}
 
 
-def tiles(verdicts: list[Verdict]) -> html.Html:
+def tiles(every: list[Verdict]) -> html.Html:
     """How many statements were decided, and how many got each word."""
-    counts = Counter(str(one.word) for one in verdicts)
+    counts = Counter(str(one.word) for one in every)
     labels = {
         "holds": "hold",
         "holds with a correction": "hold with a correction",
         "does not hold": "do not hold",
+        "open in 1988; answered since": "was open in 1988 and is answered since",
+        "not testable": "cannot be tested",
     }
-    entries = [("plain", len(verdicts), "statements of the paper decided")]
+    entries = [("plain", len(every), "statements of the paper decided")]
     entries += [(html.VERDICTS[word], counts[word], label) for word, label in labels.items() if counts[word]]
     tile = '<div class="tile {}"><b>{}</b><span>{}</span></div>'
     return html.Html(f'<div class="tiles">{"".join(tile.format(*entry) for entry in entries)}</div>')
 
 
-def table(verdicts: list[Verdict], page: str) -> html.Markdown | None:
+def table(every: list[Verdict], page: str) -> html.Markdown | None:
     """Id, sentence and verdict of each decided claim, linked to its section of the page."""
-    return VERDICTS((link(one, page), prose(one.claim.sentence), html.badge(str(one.word))) for one in verdicts)
+    return VERDICTS((link(one, page), prose(one.claim.sentence), html.badge(str(one.word))) for one in every)
 
 
 def link(one: Verdict, page: str) -> str:
@@ -58,25 +82,32 @@ def anchor(one: Verdict) -> str:
 def section(one: Verdict) -> html.Html:
     """All that is said of one claim: verdict and evidence first, then how it was decided and what is left open."""
     claim = one.claim
+    value = "" if claim.value == "none given" else f" (Its value: {claim.value}.)"
     rows = {
-        "In our words": claim.sentence,
-        "Question": claim.question,
-        "Evidence": str(one.evidence),
-        "Criterion": claim.criterion,
-        "Left open": claim.open,
+        "The paper": marked_up(f"“{claim.quote}”{value}" if claim.quote else claim.sentence),
+        "Correction": marked_up(one.correction),
+        "Evidence": marked_up(str(one.evidence)),
+        "Criterion": marked_up(f"{claim.criterion} ({written(claim.written)})" if claim.written else claim.criterion),
+        "Before": _listed(f"{written(old.written)}: {old.criterion} By it: {word}." for old, word in one.earlier),
+        "Left open": marked_up(claim.open),
+        "Readings": _listed(claim.readings),
     }
     small = ' class="small"'
-    parts = [
-        f"<dt{small if name in SMALL else ''}>{name}</dt><dd>{marked_up(text)}</dd>"
-        for name, text in rows.items()
-        if text
-    ]
-    if claim.readings:
-        items = "".join(f"<li>{marked_up(text)}</li>" for text in claim.readings)
-        parts.append(f'<dt class="small">Readings</dt><dd><ul>{items}</ul></dd>')
+    parts = [f"<dt{small if name in SMALL else ''}>{name}</dt><dd>{text}</dd>" for name, text in rows.items() if text]
     tables = ", ".join(one.evidence.tables)
     head = (
-        f'<p class="claim-head">{html.badge(str(one.word))}<span>section {escape.escape(claim.section)}</span>'
+        f'<p class="claim-head">{html.badge(str(one.word))}<span>{escape.escape(claim.place)}</span>'
         f"<span>n = {html.number(one.evidence.rows)} from {escape.escape(tables)}</span></p>"
     )
     return html.Html(f'{head}<dl class="claim">{"".join(parts)}</dl>')
+
+
+def written(when: str) -> str:
+    """'2026-11-21 9072535' for a reader."""
+    date, _, commit = when.partition(" ")
+    return f"written {date}, commit {commit}"
+
+
+def _listed(texts: Iterable[str]) -> str:
+    items = "".join(f"<li>{marked_up(text)}</li>" for text in texts)
+    return f"<ul>{items}</ul>" if items else ""

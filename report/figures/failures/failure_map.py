@@ -9,10 +9,8 @@ import pandas as pd
 from scipy.spatial.transform import Rotation
 
 from bench.findings.counts import AT_REST
-from bench.findings.maps import by_law
 from bench.tables import read
-from bench.tables.schema import RESULTS
-from report.figures.failures import ball, world_map
+from report.figures.failures import ball, maps, pole_steps, world_map
 from report.figures.kit import html, laws
 from report.figures.kit.page import Run
 from report.figures.kit.rows import LINEARIZED, SHORT, lost, of
@@ -25,9 +23,8 @@ EXACT_RAD = 1e-13
 NEAR_RAD = 0.1 + EXACT_RAD
 """Of a pole: the first decade of the set poles, 0.1 rad with its rounding."""
 
-MAPS = RESULTS / "maps"
 SHARES = Table("Law | Starts | Settled [%]:.2f | 95 % interval | The others")
-MAPPED = Table("Law | Lost [ppm]:.1f | 95 % interval | Slowest [s]:.2f | From [°]")
+STEPS = Table("Step [µs] | Lost [%]:.2f | 95 % interval | Starts | of them before too")
 EXACT = Table("Law | Start on | Tried | Failing | How | One of them (w, x, y, z)")
 NEAREST = Table("Law | Axes | Failing | Smallest:.1f | About | Median:.1f | Nearest start:.1f")
 
@@ -39,8 +36,8 @@ def every(run: Run) -> pd.DataFrame:
 
 
 def continuous(run: Run) -> pd.DataFrame:
-    """Those on the continuous plant."""
-    return every(run)[every(run)["engine"] == "ideal-rk4"]
+    """Those on the continuous plant, whose end no shorter step moves."""
+    return read.converged(every(run)[every(run)["engine"] == "ideal-rk4"])
 
 
 def facts(run: Run) -> dict:
@@ -51,7 +48,9 @@ def facts(run: Run) -> dict:
     outside = linearized[linearized["alpha0"].abs() > np.pi / 2.0]
     along = {key: boundaries.loc[boundaries["contender"] == name, "fails_from_rad"] for key, name in SHORT.items()}
     return {
-        "mapped": html.number(mapped()),
+        "unconverged": int((every(run)["converged"] == "no").sum()),
+        **maps.facts(),
+        "stepped": html.number(pole_steps.STARTS),
         "n": len(linearized),
         "failed_l": len(failed),
         "failed_others": counted(len(lost(of(episodes, SHORT[letter]))) for letter in "mf"),
@@ -80,7 +79,9 @@ def tables(run: Run) -> dict:
     episodes = continuous(run)
     return {
         "tab_shares": SHARES(shares(episodes)),
-        "tab_mapped": kept_maps(),
+        "tab_mapped": maps.at_rest(),
+        "tab_spun": maps.spinning(),
+        "tab_steps": STEPS(pole_steps.rows()),
         "tab_exact": EXACT(exact_points(episodes)),
         "tab_nearest": NEAREST(nearest(run.rows("boundaries"), episodes)),
     }
@@ -103,27 +104,6 @@ def shares(episodes: pd.DataFrame) -> Iterator[tuple]:
         settled = share(int((own["outcome"] == "settled").sum()), len(own))
         interval = html.together(f"{100.0 * settled.low:.2f} to {100.0 * settled.high:.2f}")
         yield html.law(name, title), settled.n, 100.0 * settled.value, interval, outcomes(own)
-
-
-def mapped() -> int:
-    """How many starts of each law the kept maps count."""
-    rows = read.table(MAPS, "map")
-    return int(rows[rows["row"] == "cell"].groupby("contender", observed=True)["starts"].sum().min())
-
-
-def kept_maps() -> html.Markdown | None:
-    """What the maps that came with the benchmark say of starts at rest, a law a line."""
-    lines = by_law(read.table(MAPS, "map")).sort_values(["lost", "slowest [s]"]).to_dict("records")
-    return MAPPED(
-        (
-            html.law(line["law"], laws.title(line["law"])),
-            line["lost [ppm]"],
-            html.together(f"{line['least [ppm]']:.1f} to {line['most [ppm]']:.1f}"),
-            line["slowest [s]"],
-            line["from [deg]"],
-        )
-        for line in lines
-    )
 
 
 def places(rows: pd.DataFrame) -> pd.Series:

@@ -22,6 +22,8 @@ VERDICTS = {
     "holds": "holds",
     "holds with a correction": "corrected",
     "does not hold": "fails",
+    "open in 1988; answered since": "answered",
+    "not testable": "untestable",
 }
 MISSING = "–"
 ROUNDED_FROM, SCIENTIFIC_FROM = 1e3, 1e9  # three figures of a number in between would read 1.23e+03

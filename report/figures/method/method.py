@@ -41,6 +41,7 @@ JACOBIANS = Table("Jacobian | Formula | For | Source")
 INVERSES = Table("Inverse | Formula | Source")
 STARTS = Table("Set | What it holds | Starts | Horizon [s]")
 ENGINES = Table("Engine | What it is | Episodes")
+CONVERGED = Table("Law | Episodes | Shorter steps | Shortest that decides [µs] | Not converged")
 ALIKE = Table("Law | n | same outcome | both or neither settle | later by [ms]:+.2f")
 halved = functools.cache(steps.errors)
 
@@ -56,8 +57,7 @@ def facts(run: Run) -> dict:
     both, equal = engines.agreement(episodes(run), "reference", "native")
     orders = steps.orders(halved())
     rk4 = halved()[halved()["engine"] == "ideal-rk4"]
-    pole = [row for row in steps.errors_of(*steps.THROUGH_THE_POLE) if row["engine"] == "ideal-rk4"]
-    through = {row["dt_s"]: power(row["error_rad"]) for row in pole}
+    through, asked = steps.through_the_pole(), convergence(run)
     return {
         "both": both,
         "equal": equal,
@@ -67,8 +67,13 @@ def facts(run: Run) -> dict:
         "rk4_error": power(float(rk4.loc[rk4["dt_s"] == 1e-3, "error_rad"].max())),
         "at_s": steps.AT_S,
         "finest_ms": 1e3 * steps.FINEST_S,
-        "through_coarse": through[1e-3],
-        "through_fine": through[2.5e-4],
+        "through_coarse": f"{through[1e-3]:.4f}",
+        "through_fine": f"{through[2e-5]:.4f}",
+        "through_finer": f"{through[5e-6]:.4f}",
+        "through_finest": f"{through[1e-6]:.4f}",
+        "asked": len(asked),
+        "shorter": int((asked["step_s"] < asked["dt_s"]).sum()),
+        "unconverged": int((asked["converged"] == "no").sum()),
         "most_ms": f"{engines.later_ms(episodes(run), 'native').max():.1f}",
         "hold_s": f"{RULES.hold_s:g}",
         "chatter": f"{CHATTER:g}",
@@ -91,7 +96,23 @@ def tables(run: Run) -> dict:
         "starts": STARTS(start_sets(runs)),
         "tab_engines": ENGINES((f"`{name}`", prose(text), int(counts.get(name, 0)) or None) for name, text in listed),
         "alike": ALIKE(alike(runs)),
+        "tab_converged": CONVERGED(unconverged(run)),
     }
+
+
+def convergence(run: Run) -> pd.DataFrame:
+    """The episodes that are run until half the step moves their end no more."""
+    runs = episodes(run)
+    return runs[runs["converged"] != ""]
+
+
+def unconverged(run: Run) -> Iterator[tuple]:
+    """A row a law with episodes that asked for shorter steps: how many did, and how many did not converge even so."""
+    for name, own in convergence(run).groupby("contender", observed=True):
+        shorter, apart = own["step_s"] < own["dt_s"], own["converged"] == "no"
+        if (shorter | apart).any():
+            moved = f"{1e6 * own.loc[shorter & ~apart, 'step_s'].min():.2g}" if (shorter & ~apart).any() else None
+            yield html.law(name, laws.title(name)), len(own), int(shorter.sum()), moved, int(apart.sum())
 
 
 def alike(runs: pd.DataFrame) -> Iterator[tuple]:

@@ -26,11 +26,12 @@ ENGINES = ("ideal-rk4", "ideal-held", "native")
 STARTS = dict(zip(TITLES, ("figure-2.3", "figure-2.4", "figure-2.5"), strict=True))
 """Each law from the start of its own figure of the paper."""
 THROUGH_THE_POLE = LINEARIZED, "figure-2.5"
-"""A law and a start whose response has no limit as the step goes to zero."""
+POLE_STEPS_S = (1e-3, 2e-5, 5e-6, 1e-6)
+"""A law and a start that ask for shorter steps than the control period, and steps down to where it has its limit."""
 
 
 def settings(dt_s: float) -> Settings:
-    """The paper's gains to AT_S, without an early stop."""
+    """The paper's gains to AT_S, without an early stop, by steps of one length."""
     ticks = round(AT_S / dt_s)
     return Settings(Gains(), dt_s, ticks, ticks + 1)
 
@@ -39,16 +40,21 @@ def angle_at(engine: str, name: str, start_id: str, dt_s: float) -> float:
     """Angle to the goal at AT_S from one of the `paper` starts [rad]."""
     starts = [start for start in start_set("paper") if start.id == start_id]
     as_in_a_run = metrics_of(on_arm=False)  # with which the loops are compiled already
-    return float(run(engine, find_contender(name), "free-body", starts, settings(dt_s), as_in_a_run)[0, FINAL_ANGLE])
+    given = find_contender(name), "free-body", starts, settings(dt_s), as_in_a_run
+    return float(run(engine, *given, converge=False)[0, FINAL_ANGLE])
+
+
+def through_the_pole() -> dict[float, float]:
+    """Step -> angle at AT_S on the continuous plant, by steps of that length."""
+    return {dt_s: angle_at("ideal-rk4", *THROUGH_THE_POLE, dt_s) for dt_s in POLE_STEPS_S}
 
 
 def errors() -> pd.DataFrame:
     """Deviation from the finest continuous run: a row an engine, law and step."""
-    return pd.DataFrame([row for name, start_id in STARTS.items() for row in errors_of(name, start_id)])
+    return pd.DataFrame([row for name, start_id in STARTS.items() for row in _errors_of(name, start_id)])
 
 
-def errors_of(name: str, start_id: str) -> list[dict]:
-    """The same for one law from one start."""
+def _errors_of(name: str, start_id: str) -> list[dict]:
     truth = angle_at("ideal-rk4", name, start_id, FINEST_S)
     return [
         {

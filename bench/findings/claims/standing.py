@@ -1,0 +1,151 @@
+"""How two laws, or two controllers, stand in cost: by time where intervals part, by operations where they do not.
+
+Times are ratios to a kernel timed in the same passes, of every machine that results/timings knows. Operations are flops
+and calls of sin, cos, atan2 and acos, in columns of their own; where the columns differ, they are put together by what
+a call takes in those times, never by a price of ours.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+ORDERED, UNDECIDED, REVERSED = 1, 0, -1
+
+RULE = """
+    A pair is in order by time if the 95 % intervals of both, interleaved on one machine (results/timings), part that
+    way wherever both are timed; by columns if the dearer has no fewer flops, no fewer calls and more of one. Time
+    decides; where it does not part the two, or has not both, the columns decide; where these differ, flops and calls at
+    the price of a call that the times of all laws give.
+    """
+
+FEWEST = 6
+"""Timed laws from which on a call has a price: twice the numbers that are fitted."""
+
+
+class Operations(NamedTuple):
+    """Of a tick."""
+
+    flops: int
+    calls: int
+
+    def __str__(self) -> str:
+        return f"{self.flops} and {self.calls}"
+
+    def weighed(self, price: float) -> float:
+        """Flops with a call counted as so many."""
+        return self.flops + price * self.calls
+
+
+class Ratio(NamedTuple):
+    """Time a tick over that of the kernel, with its 95 % interval."""
+
+    value: float
+    low: float
+    high: float
+
+
+Times = list[dict[str, Ratio]]
+"""By contender, of each machine and arm."""
+
+
+class Standing(NamedTuple):
+    """Whether a pair is in the stated order: by time, by columns in each accounting, and at the price of a call."""
+
+    by_time: int
+    by_columns: tuple[int, ...]
+    priced: tuple[int, ...]
+
+    @property
+    def sign(self) -> int:
+        """What decides: time, else operations."""
+        return self.by_time or self.by_operations
+
+    @property
+    def by_operations(self) -> int:
+        """What columns say in every accounting; where they differ, flops and calls at the price of a call."""
+        signs = {columns or priced for columns, priced in zip(self.by_columns, self.priced, strict=True)}
+        return signs.pop() if len(signs) == 1 else UNDECIDED
+
+    @property
+    def is_disputed(self) -> bool:
+        """Whether columns, in some accounting, say the opposite of time."""
+        return bool(self.by_time) and -self.by_time in self.by_columns
+
+
+class Ledger(NamedTuple):
+    """What is known of cost: times of everything timed, operations by contender in each accounting, a call's price."""
+
+    times: Times
+    accountings: tuple[dict[str, Operations], ...]
+    price: float
+
+    def stand(self, cheap: str, dear: str) -> Standing:
+        """How a pair stands, the cheaper by the claim first."""
+        pairs = [(one[cheap], one[dear]) for one in self.accountings]
+        return Standing(
+            agreed(by_intervals(one[cheap], one[dear]) for one in self.times if cheap in one and dear in one),
+            tuple(by_columns(*pair) for pair in pairs),
+            tuple(by_price(*pair, self.price) for pair in pairs),
+        )
+
+    def over(self, name: str, other: str) -> str:
+        """'10.3', the ratio of their times on each machine that has both; 'not timed'."""
+        found = [one[name].value / one[other].value for one in self.times if name in one and other in one]
+        return " and ".join(f"{ratio:.3g}" for ratio in found) or "not timed"
+
+
+def agreed(signs: Iterable[int]) -> int:
+    """What all that decide say; undecided if two of them differ, or none decides."""
+    found = set(signs) - {UNDECIDED}
+    return found.pop() if len(found) == 1 else UNDECIDED
+
+
+def by_intervals(cheap: Ratio, dear: Ratio) -> int:
+    """Which side of the one the other's interval lies on."""
+    return ORDERED if cheap.high < dear.low else REVERSED if dear.high < cheap.low else UNDECIDED
+
+
+def by_columns(cheap: Operations, dear: Operations) -> int:
+    """In order where no column falls and one rises; reversed the other way round; undecided where they differ."""
+    signs = set(np.sign(np.subtract(dear, cheap)).astype(int).tolist()) - {0}
+    return signs.pop() if len(signs) == 1 else UNDECIDED
+
+
+def by_price(cheap: Operations, dear: Operations, price: float) -> int:
+    """The order of both sums; undecided where the price is not known."""
+    return int(np.nan_to_num(np.sign(dear.weighed(price) - cheap.weighed(price))))
+
+
+def times_of(rows: pd.DataFrame) -> Times:
+    """Ratios from rows of results/timings with `machine` and `contender`, by machine and arm."""
+    found: dict[tuple, dict[str, Ratio]] = {}
+    columns = ["machine", "arm", "contender", "ratio", "ratio_low", "ratio_high"]
+    for machine, arm, name, *ratio in rows[columns].astype({"arm": str, "contender": str}).itertuples(index=False):
+        found.setdefault((machine, arm), {})[name] = Ratio(*ratio)
+    return list(found.values())
+
+
+def price_of_a_call(times: Times, operations: dict[str, Operations]) -> float:
+    """Flops that a call takes, the median over machines: least squares of time on 1, flops and calls, none negative.
+
+    Returns:
+        not a number where fewer than FEWEST laws that are counted were timed, or a flop takes no time in the fit.
+    """
+    from scipy.optimize import nnls
+
+    prices = []
+    for one in times:
+        known = [name for name in one if name in operations]
+        if len(known) < FEWEST:
+            continue
+        amounts = np.array([(1.0, *operations[name]) for name in known])
+        _, flop, call = nnls(amounts, np.array([one[name].value for name in known]))[0]
+        if flop > 0.0:
+            prices.append(call / flop)
+    return float(np.median(prices)) if prices else float("nan")

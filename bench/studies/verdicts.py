@@ -1,0 +1,144 @@
+"""Does a verdict hang on the draw or on the step? Every claim on 20 seeds and at half the step: results/verdicts.
+
+    python -m bench.studies.verdicts                     what results/verdicts lacks: about a minute of CPU a seed
+    python -m bench.studies.verdicts --only 3 half-step  these anew
+
+A seed draws other starts and poses; what follows from no draw (operations, contact, boundaries) is the reference's. At
+half the step all that steps is run again, contact too. Each run is judged in this process, by the tables that it made
+and the reference's for the rest, and written when it is done: another call goes on where one was stopped.
+"""
+
+import argparse
+import dataclasses
+import tempfile
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+from bench.contenders.registry import all_contenders
+from bench.experiments import plan as planning
+from bench.experiments.experiment import Unit, known_experiments
+from bench.experiments.plan import Plan
+from bench.experiments.suites import NOMINAL
+from bench.findings import claims
+from bench.findings.claims.adequacy import NOISE
+from bench.findings.claims.controller_costs import BY_COMMON, BY_EULER, ON_MATRIX
+from bench.findings.claims.tables import MAIN_ENGINE, Results
+from bench.findings.claims.verdict import NoEvidence, decide
+from bench.provenance import ROOT, describe, source_digest
+from bench.running import run
+from bench.tables import read
+from bench.tables.files import read_json, write_json
+
+REFERENCE = ROOT / "results" / "reference"
+STORED = ROOT / "results" / "verdicts" / "verdicts.json"
+
+SEEDS = tuple(range(1, 21))
+HALF_STEP = "half-step"
+"""The reference's seed, at half its control period."""
+
+STEP_S = 1e-3
+RUNS = (*map(str, SEEDS), HALF_STEP)
+
+UNJUDGED = ("linearized-euler-literal",)
+"""Laws on the free body of which no claim speaks."""
+
+DRAWN = {
+    "free-body": lambda unit: unit.engine == MAIN_ENGINE and unit.law not in UNJUDGED,
+    "traces": lambda unit: not unit.arm and unit.law == "feedback-linearized",
+    "robustness": lambda unit: unit.selector == NOISE,
+    "arm": lambda unit: _is_judged(unit),
+    "jacobians": lambda unit: True,
+}
+"""By experiment, the units of a suite that hang on the seed and that claims look at."""
+
+STEPPED = {
+    **{name: wanted for name, wanted in DRAWN.items() if name != "jacobians"},
+    "boundaries": lambda unit: True,
+    "contact": lambda unit: True,
+}
+"""Those that hang on the step: Jacobians are of poses."""
+
+
+def _is_judged(unit: Unit) -> bool:
+    """Whether C20 looks at the episodes of a unit on an arm."""
+    is_there = unit.selector in ("clear", "pole") and unit.variation == NOMINAL
+    return is_there and unit.contender.partition("+")[0] in (BY_EULER, BY_COMMON, ON_MATRIX)
+
+
+def plan_of(name: str) -> Plan:
+    """What is run anew of the suite of the reference."""
+    at_half = name == HALF_STEP
+    laws = [one for one in all_contenders() if not one.regulator.costing_only]
+    drawn = {"dt_s": STEP_S / 2} if at_half else {"seed": int(name)}
+    whole = planning.make(read_json(REFERENCE / "plan.json")["suite"], laws, **drawn)
+    wanted = STEPPED if at_half else DRAWN
+    return dataclasses.replace(whole, units=tuple(one for one in whole.units if _is_in(wanted, one)))
+
+
+def _is_in(wanted: dict[str, Callable[[Unit], bool]], unit: Unit) -> bool:
+    return unit.experiment in wanted and wanted[unit.experiment](unit)
+
+
+def judged(name: str, workers: int) -> dict:
+    """The word of every claim on a run, and what it took."""
+    plan, began = plan_of(name), time.process_time()
+    with tempfile.TemporaryDirectory(prefix="orientation-bench-") as folder:
+        out = Path(folder) / "run"
+        run.run(plan, out, workers=workers)
+        made = {known_experiments()[unit.experiment].table.name for unit in plan.units}
+        shared = {table: read.table(REFERENCE, table) for table in plan.tables if table not in made}
+        results = Results(out, shared)
+        words = {one.id: _word(one, results) for one in claims.all_claims()}
+    return {"words": words, "cpu_s": time.process_time() - began, "sources": source_digest()}
+
+
+def _word(claim: claims.Claim, results: Results) -> str:
+    try:
+        return str(decide(claim, results).word)
+    except NoEvidence as error:
+        return f"no evidence: {error}"
+
+
+def turned(runs: dict[str, dict], reference: dict[str, str]) -> dict[str, dict[str, str]]:
+    """Claim -> run -> its word, of the claims that get another word somewhere than on the reference."""
+    found: dict[str, dict[str, str]] = {}
+    for name, one in runs.items():
+        for id in {*reference, *one["words"]}:
+            word = one["words"].get(id, "not judged")
+            if word != reference.get(id):
+                found.setdefault(id, {})[name] = word
+    return dict(sorted(found.items()))
+
+
+def study(names: tuple[str, ...], workers: int, out: Path, again: bool) -> dict:
+    """Judge the runs that the file lacks, or that other sources made; the file's content."""
+    content = read_json(out) if out.is_file() else {"runs": {}}
+    digest = source_digest()
+    content["reference"] = {one.id: str(one.word) for one in claims.judge_all(REFERENCE)}
+    for name in names:
+        if not again and content["runs"].get(name, {}).get("sources") == digest:
+            continue
+        content["runs"][name] = judged(name, workers)
+        content["runs"] = {one: content["runs"][one] for one in RUNS if one in content["runs"]}
+        content["provenance"] = {**describe(), "command": "python -m bench.studies.verdicts"}
+        write_json(out, content)
+        other = turned({name: content["runs"][name]}, content["reference"])
+        said = ", ".join(f"{id} {words[name]}" for id, words in other.items()) or "every word the reference's"
+        print(f"{name}: {said} ({content['runs'][name]['cpu_s']:.0f} s of CPU)", flush=True)
+    return content
+
+
+def main() -> None:
+    """The study's command; exit code 1 if a word changes."""
+    parser = argparse.ArgumentParser(prog="python -m bench.studies.verdicts", description=__doc__.splitlines()[0])
+    parser.add_argument("--only", nargs="+", choices=RUNS, metavar="RUN", help=f"seeds, or {HALF_STEP}: these anew")
+    parser.add_argument("--workers", type=int, default=2, help="threads (default: 2)")
+    parser.add_argument("--out", type=Path, default=STORED, help="where to write (default: results/verdicts)")
+    words = parser.parse_args()
+    content = study(tuple(words.only or RUNS), words.workers, words.out, again=bool(words.only))
+    raise SystemExit(1 if turned(content["runs"], content["reference"]) else 0)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,177 @@
+"""The continuous plant by ever shorter steps: against integrators and a closed form that are not ours."""
+
+import functools
+import itertools
+import math
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+from scipy.spatial.transform import Rotation as ScipyRotation
+from support import own_loop
+from support.bits import different_rows
+from support.driving import settings
+
+import tasks
+from bench.contenders.registry import find_contender
+from bench.engines import run as engines
+from bench.engines.convergence import FAILED, LEVELS, alike
+from bench.engines.episode import (
+    FAILURE_TICK,
+    FINAL_ANGLE,
+    FIRST_METRIC,
+    OUTCOME,
+    SETTLING_TICK,
+    STEP,
+    start_rows,
+)
+from bench.experiments.experiment import Settings, Unit
+from bench.experiments.rows.episodes import frame
+from bench.experiments.rows.map import start_rows as random_rows
+from bench.findings.theory.closed_form import pole_crossings
+from bench.metrics.registry import metrics_of
+from report.figures.failures.pole_steps import crossing
+from tasks.random_starts import block
+from tasks.rules import RULES
+from tasks.verdict import CREEPING, DIVERGED, SATURATED, SETTLED
+
+HOLD = RULES.hold_ticks(1e-3)
+LINEARIZED, LINEAR = find_contender("linearized-euler/zyx-euler"), find_contender("feedback-linearized/zyx-euler")
+
+
+def starts_of(name, *ids):
+    return [start for start in tasks.start_set(name) if start.id in ids]
+
+
+def test_response_through_the_pole_has_the_limit_that_an_adaptive_integrator_finds():
+    """Figure 2.5 at 0.4 s: 1.1420 rad, and 1.1358 by steps of 1 ms, as independent code had it."""
+    [start] = starts_of("paper", "figure-2.5")
+    R_d = ScipyRotation.from_quat([start.goal_wxyz], scalar_first=True).as_matrix()
+    [[angle]] = own_loop.angles_to(R_d, own_loop.paths(LINEARIZED.name, [start], np.array([0.4])))
+    found = [
+        engines.by_equal_steps(LINEARIZED, start_rows([start]), settings(horizon_s=0.4), divisions)[0, FINAL_ANGLE]
+        for divisions in (1, 2048)
+    ]
+    assert found[0] == pytest.approx(1.1358, abs=1e-4)
+    assert found[1] == pytest.approx(angle, abs=1e-4)
+    assert angle == pytest.approx(1.1420, abs=1e-4)
+
+
+BESIDE = ("pole-plus-k03-a0.1-g0.2", "pole-minus-k04-a1.0-g-0.5", "pole-plus-k05-a-2.0-g1.0")
+
+
+@functools.cache
+def beside_the_pole():
+    starts = starts_of("poles", *BESIDE)
+    chosen = settings(horizon_s=3.0, hold_ticks=HOLD)
+    return starts, *(
+        engines.on_ideal("ideal-rk4", LINEARIZED, start_rows(starts), chosen, converge=one) for one in (0, 1)
+    )
+
+
+def test_stiff_start_beside_the_pole_settles_when_an_implicit_integrator_says_so():
+    """BDF of scipy, whose step no stiffness bounds, on loops written out by hand."""
+    starts, coarse, fine = beside_the_pole()
+    assert len(starts) == len(BESIDE)
+    assert (coarse[:, OUTCOME] != SETTLED).any()
+    assert (fine[:, OUTCOME] == SETTLED).all()
+    assert (fine[:, STEP] > 0.0).all()
+    times = np.arange(0.0, 3.0, 1e-3)
+    for start, row in zip(starts, fine, strict=True):
+        R, R_d = (
+            ScipyRotation.from_quat([one], scalar_first=True).as_matrix() for one in (start.quat_wxyz, start.goal_wxyz)
+        )
+
+        def rate(_, flat, R_d=R_d):
+            omega, n, o, a = np.split(flat.reshape(1, 12), 4, axis=1)
+            u = own_loop.linearized_euler_command(omega, n, o, a, R_d)
+            return np.concatenate([u, *(np.cross(omega, column) for column in (n, o, a))], axis=1).ravel()
+
+        first = np.concatenate([np.zeros(3), *(R[0, :, j] for j in range(3))])
+        path = solve_ivp(rate, (0.0, 3.0), first, method="BDF", t_eval=times, rtol=1e-9, atol=1e-12)
+        [angles] = own_loop.angles_to(R_d, path.y.T[None])
+        since = len(times) - np.argmax((angles > 0.02 * angles[0])[::-1])
+        assert abs(row[SETTLING_TICK] - since) <= 1
+
+
+def test_starts_without_a_limit_are_those_whose_linear_response_crosses_a_pole():
+    """Feedback linearization at 20 rad/s: beta(t) in closed form knows which, and how many of all."""
+    quats, omegas = (part[:4000] for part in block(0, 5, 20.0, 20.0))
+    rows = engines.on_ideal("ideal-rk4", LINEAR, random_rows(quats, omegas), settings(horizon_s=5.0, hold_ticks=HOLD))
+    crosses, apart, lost = crossing(quats, omegas), rows[:, STEP] < 0.0, rows[:, OUTCOME] != SETTLED
+    assert not (apart & ~crosses).any()
+    assert not (lost & ~crosses).any()
+    assert apart.sum() >= 0.8 * crosses.sum() > 40
+    # three standard errors of a share of 1.7 % of 4,000
+    assert crosses.mean() == pytest.approx(pole_crossings(20.0), abs=6e-3)
+
+
+def test_steps_of_one_length_are_those_of_a_shorter_control_period():
+    starts = tasks.start_set("uniform", 5, seed=2)
+    for name in ("rotation-matrix", "linearized-euler/zyx-euler"):
+        law = find_contender(name)
+        divided = engines.by_equal_steps(law, start_rows(starts), settings(horizon_s=0.4), 8)
+        shorter = settings(dt_s=1.25e-4, horizon_s=0.4)
+        whole = engines.on_ideal("ideal-rk4", law, start_rows(starts), shorter, converge=False)
+        np.testing.assert_allclose(divided[:, FINAL_ANGLE], whole[:, FINAL_ANGLE], rtol=0.0, atol=1e-11)
+
+
+@pytest.mark.parametrize("name", ["hybrid", "linearized-euler/zyx-euler"])
+def test_rows_are_the_same_in_lanes(name):
+    begun = start_rows(
+        [*tasks.start_set("uniform", 30), *tasks.start_set("half-turn")[::8], *starts_of("poles", *BESIDE)]
+    )
+    chosen = settings(horizon_s=2.0, hold_ticks=HOLD)
+    law = find_contender(name)
+    one, many = (engines.on_ideal("ideal-rk4", law, begun, chosen, total=total) for total in (0, 10**9))
+    assert different_rows(many, one) == []
+
+
+def row(outcome, settling=-1.0, failure=-1.0, angle=0.0, step=0.0):
+    made = np.zeros((1, FIRST_METRIC))
+    made[0, [OUTCOME, SETTLING_TICK, FAILURE_TICK, FINAL_ANGLE, STEP]] = outcome, settling, failure, angle, step
+    return made
+
+
+@pytest.mark.parametrize(
+    ("coarse", "fine", "ticks", "expected"),
+    [
+        (row(SETTLED, 300), row(SETTLED, 301), 1, True),
+        (row(SETTLED, 300), row(SETTLED, 302), 1, False),
+        (row(SETTLED, 300), row(SETTLED, 598), 2, True),
+        (row(SETTLED, 300), row(SETTLED, 602), 2, False),
+        (row(SETTLED, 300), row(CREEPING), 1, False),
+        (row(CREEPING, angle=1.0), row(CREEPING, angle=1.01), 1, True),
+        (row(CREEPING, angle=1.0), row(CREEPING, angle=1.1), 1, False),
+        (row(SATURATED, failure=0), row(SATURATED, failure=0), 2, True),
+        (row(SATURATED, failure=3), row(SATURATED, failure=3), 2, False),
+        (row(SATURATED, failure=3), row(DIVERGED, failure=9, step=1e-6), 1, True),
+        (row(SATURATED, failure=3), row(SATURATED, failure=3, step=-1e-6), 1, False),
+    ],
+)
+def test_episodes_are_alike_that_end_alike(coarse, fine, ticks, expected):
+    assert alike(coarse, fine, ticks).tolist() == [expected]
+
+
+def test_row_says_its_step_and_whether_it_converged():
+    starts, _, fine = beside_the_pole()
+    metrics = metrics_of(on_arm=False)
+    unit = Unit("free-body", LINEARIZED.name, "free-body", engine="ideal-rk4", selector="poles", horizon_s=3.0)
+    numbers = np.hstack((fine, np.zeros((len(fine), len(metrics)))))
+    numbers[0, STEP] *= -1.0
+    made = frame(Settings(), unit, LINEARIZED, starts, numbers, metrics)
+    assert made["converged"].tolist() == ["no", "yes", "yes"]
+    assert (made["step_s"] == np.abs(fine[:, STEP])).all()
+    assert (made["step_s"] < 1e-3).all()
+
+
+def test_levels_halve_the_step_and_end_ever_later():
+    """A tolerance a 32nd as large is half the step at order 4, whose local error has order 5."""
+    for one, next_ in itertools.pairwise(LEVELS):
+        assert (one.tolerance / next_.tolerance) ** (1 / 5) == pytest.approx(2.0)
+        assert next_.divisions == 32 * one.divisions
+    assert LEVELS[0].divisions == 2 ** round(math.log2(LEVELS[0].divisions))
+
+
+def test_failures_are_the_outcomes_that_end_an_episode():
+    assert {DIVERGED, SATURATED} < set(FAILED)

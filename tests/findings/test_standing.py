@@ -1,0 +1,81 @@
+"""How two laws stand in cost: by intervals of time, by columns, at the price of a call."""
+
+import math
+
+import pandas as pd
+import pytest
+
+from bench.findings.claims.standing import (
+    ORDERED,
+    REVERSED,
+    UNDECIDED,
+    Ledger,
+    Operations,
+    Ratio,
+    by_columns,
+    price_of_a_call,
+    times_of,
+)
+
+FLOP, CALL = 0.02, 1.2
+COUNTS = {"a": (10, 0), "b": (40, 0), "c": (30, 3), "d": (60, 6), "e": (70, 1), "f": (90, 2)}
+
+
+def near(value, half_width=0.05):
+    return Ratio(value, value - half_width, value + half_width)
+
+
+def ledger(times, cheap, dear, price=math.nan):
+    return Ledger(times, ({"x": Operations(*cheap), "y": Operations(*dear)},), price).stand("x", "y")
+
+
+@pytest.mark.parametrize(
+    ("cheap", "dear", "sign"),
+    [
+        ((10, 1), (10, 2), ORDERED),
+        ((10, 1), (9, 1), REVERSED),
+        ((10, 1), (9, 2), UNDECIDED),
+        ((10, 1), (10, 1), UNDECIDED),
+    ],
+)
+def test_columns_order_two_laws_where_none_contradicts(cheap, dear, sign):
+    assert by_columns(Operations(*cheap), Operations(*dear)) == sign
+
+
+@pytest.mark.parametrize(
+    ("times", "sign"),
+    [
+        ([{"x": near(1.0), "y": near(1.2)}], ORDERED),
+        ([{"x": near(1.2), "y": near(1.0)}], REVERSED),
+        ([{"x": near(1.0), "y": near(1.05)}], UNDECIDED),
+        ([{"x": near(1.0)}], UNDECIDED),
+        ([{"x": near(1.0), "y": near(1.2)}, {"x": near(1.0), "y": near(1.01)}], ORDERED),  # one machine does not tell
+        ([{"x": near(1.0), "y": near(1.2)}, {"x": near(1.2), "y": near(1.0)}], UNDECIDED),
+    ],
+)
+def test_time_decides_only_where_intervals_part_on_every_machine_that_tells(times, sign):
+    assert ledger(times, (1, 1), (1, 1)).by_time == sign
+
+
+def test_time_decides_before_operations_and_the_two_are_said_to_disagree():
+    stands = ledger([{"x": near(2.0), "y": near(1.0)}], (10, 0), (20, 0))
+    assert (stands.sign, stands.by_operations, stands.is_disputed) == (REVERSED, ORDERED, True)
+
+
+def test_columns_that_differ_are_put_together_by_the_price_alone():
+    assert [ledger([], (40, 0), (30, 3), price).sign for price in (3.0, 4.0, math.nan)] == [
+        REVERSED,
+        ORDERED,
+        UNDECIDED,
+    ]
+
+
+def test_price_of_a_call_is_what_times_were_made_with():
+    counted = {name: Operations(*pair) for name, pair in COUNTS.items()}
+    rows = [
+        {"machine": "m", "arm": "", "contender": name, "ratio": 0.3 + FLOP * flops + CALL * calls}
+        for name, (flops, calls) in COUNTS.items()
+    ]
+    frame = pd.DataFrame(rows).assign(ratio_low=0.0, ratio_high=0.0)
+    assert price_of_a_call(times_of(frame), counted) == pytest.approx(CALL / FLOP)
+    assert math.isnan(price_of_a_call(times_of(frame.iloc[1:]), counted))
