@@ -9,6 +9,7 @@ from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation as Turn
 from support.bits import EPS
 from support.in_contact import ARMS, COORDINATES, hand
+from support.older_ur5e import older_ur5e
 from support.states import of_scipy
 
 import tasks
@@ -162,11 +163,9 @@ def test_by_the_jacobian_transpose_two_axes_leak_as_predicted_and_comply_alike_a
 
 @pytest.mark.parametrize(("beta", "leaks"), [(45, 0.76), (75, 2.84)])
 def test_without_force_feedback_the_closed_form_is_a_referees_measurement_with_code_of_their_own(beta, leaks):
-    """UR5e, kf = 0, 0.5 s: c_xx = 0.341 rad/(N m) at any beta, and what leaks."""
+    """UR5e with the masses of that time, kf = 0, 0.5 s: c_xx = 0.341 rad/(N m) at any beta, and what leaks."""
     goal = from_quaternion(zyx(0.0, math.radians(beta), 0.0))
-    C = theory.compliance(
-        BY_TRANSPOSE[3], SPECIFICATIONS[3], goal, 0.5, touch=TOUCH._replace(kf=0.0), arm=tasks.arm("ur5e")
-    )
+    C = theory.compliance(BY_TRANSPOSE[3], SPECIFICATIONS[3], goal, 0.5, touch=TOUCH._replace(kf=0.0), arm=older_ur5e())
     assert C[0, 0] == pytest.approx(0.341, abs=5e-4)
     assert abs(C[2, 0] / C[0, 0]) == pytest.approx(leaks, abs=5e-3)
 
