@@ -225,7 +225,7 @@ def test_dropped_experiment_is_planned_run_resumed_stored_shown_and_compared_wit
     before = sources(tree)
     (tree / EXPERIMENT).write_text(DROPPED_EXPERIMENT.lstrip("\n"))
     words = ("run", "--experiment", "dropped-experiment", "--workers", "1", "--out")
-    ran(tree, "-m", "bench", *words, "results/killed", code=-signal.SIGKILL, KILLED_AT="rotation-matrix")
+    ran(tree, "-m", "bench", *words, "results/killed", code=-signal.SIGKILL, KILLED_AT="rotation-vector")
     listed, planned, resumed, whole, shown, compared = said(
         tree,
         ("list", "experiments"),
