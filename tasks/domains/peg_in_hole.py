@@ -21,6 +21,7 @@ import math
 from tasks.arm_model import Arm
 from tasks.base import Vector
 from tasks.contact import ContactTask, Specification, Surroundings, Trial, attribute
+from tasks.contact_rest import HORIZON_S
 from tasks.hand_frames import at, leaning, mounts, plus, posture, wrist
 from tasks.rotations import about, multiply, to_base, zyx
 
@@ -36,7 +37,8 @@ SPECIFICATION = Specification(
     "x, y, z, about x and y",
     (0, 0, 0, 0, 0, 1),
     desired_wrench=(0.0, 0.0, -30.0, 0.0, 0.0, 0.0),
-    velocity=(0.0, 0.0, -0.016),  # for springs: through the bottom by the end
+    velocity=(0.0, 0.0, -0.016),  # for springs, which heed it: to 4 mm below the bottom
+    moves_s=2.5,
 )
 # degrees: by how much the hole leans, and the azimuth of the axis it is turned about
 HOLES = ((2, 90), (4, 30), (8, 0), (8, 120))
@@ -100,7 +102,8 @@ TASK = ContactTask(
     name="peg-in-hole",
     title="A peg pushed into a leaning, chamfered hole",
     source="Mason 1981; Whitney 1982",
-    horizon_s=2.5,
+    horizon_s=HORIZON_S,
     surroundings=surroundings,
     trials=trials,
+    rests=True,
 )
