@@ -151,9 +151,9 @@ MORE_COMPLIANT = (
     "impedance-quaternion",
 )
 
-FIRST_FRAMES = 72
-"""Poses of `quick`: of wrench-probe its first series over beta and one frame that leans every way, in every order; of
-the other tasks all."""
+FIRST_FRAMES = 90
+"""Poses of `quick`: of wrench-probe its first series over beta and the frames that lean every way; of the other tasks
+all."""
 
 
 def _slices(engine: str, uniform: int, directed=DIRECTED) -> tuple[Slice, ...]:

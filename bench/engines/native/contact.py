@@ -65,8 +65,10 @@ class ContactView(NamedTuple):
 
 
 class Workspace(NamedTuple):
-    """Addresses of the buffers of `Rows` and `ContactBuffers`, of J, D (nv x nv), fg, tau, the trial's pushes, and the
-    sensor's noise (ticks x 6)."""
+    """Addresses of the buffers of `Rows` and `ContactBuffers`, and of J, D (nv x nv), fg, tau, legs, noise.
+
+    legs: the trial's pushes. noise: the sensor's, ticks x 6.
+    """
 
     a: int
     drift: int

@@ -6,7 +6,7 @@ A passive hand gives no more than it has stored, whatever it is pressed on or pu
 1988). What is ordered to exert a force, or to move, has that to give besides; where nothing is ordered and the hand
 begins at rest and without a load the bound is 0.
 
-By the trapezoidal rule, F as MuJoCo had it at each tick.
+The F that a tick records acted from the tick before to it.
 Source: Colgate and Hogan 1988, "Robust control of dynamically interacting systems"; Hogan 1985.
 """
 
@@ -17,10 +17,9 @@ from bench.metrics.contact_metric import ContactMetric, Pose, Response
 
 def given(one: Response) -> np.ndarray:
     """E [J] after each tick but the first, N - 1."""
-    force, moment = ((each[1:] + each[:-1]) / 2.0 for each in (one.force, one.moment))
     rate = (one.omega[1:] + one.omega[:-1]) / 2.0
-    along = (force * np.diff(one.p, axis=0)).sum(axis=1)
-    about = (moment * rate).sum(axis=1) * np.diff(one.time)
+    along = (one.force[1:] * np.diff(one.p, axis=0)).sum(axis=1)
+    about = (one.moment[1:] * rate).sum(axis=1) * np.diff(one.time)
     return -np.cumsum(along + about)
 
 

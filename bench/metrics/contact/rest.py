@@ -20,7 +20,7 @@ def time_to_rest(pose: Pose) -> float:
 
 
 def time_to_align(pose: Pose) -> float:
-    """Time [s] from the first touch until the angle to the plate stays within 2 % of what it was; NaN if it does not."""
+    """Time [s] from the first touch until the angle to the plate stays within 2 % of what it was; NaN if never."""
     one, touched = last(pose), from_first_touch(pose)
     if one is None or touched is None or pose.task.name != FLAT:
         return np.nan
