@@ -111,6 +111,11 @@ class ContactTask(NamedTuple):
     trials: Callable[..., tuple[Trial, ...]]
     rests: bool = False
 
+    def touches(self, arm: Arm) -> bool:
+        """Whether there is something for the hand to touch."""
+        around = self.surroundings(arm)
+        return bool(around.scene or around.others)
+
 
 def refuse(task: ContactTask, arm: Arm) -> None:
     """BadValue if the arm cannot be set the task."""

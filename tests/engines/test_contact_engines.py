@@ -39,12 +39,6 @@ def assert_same(fast, slow) -> None:
     assert different_rows(fast.record, slow.record) == []
 
 
-def touches(task, arm) -> bool:
-    """Whether the hand can feel the scene of a task."""
-    around = task.surroundings(arm)
-    return bool(around.scene or around.others)
-
-
 # Every task with the first of the three, which presses as long as it lasts, and the other two in turns.
 @pytest.mark.parametrize(
     ("k", "word", "arm", "controller"),
@@ -55,7 +49,7 @@ def test_native_record_is_the_reference_record_bit_for_bit_to_the_horizon(k, wor
     fast, slow = both(controller, task, on, trial)
     assert_same(fast, slow)
     assert np.isfinite(slow.record).all()
-    if touches(task, on) and controller == THREE[0]:
+    if task.touches(on) and controller == THREE[0]:
         felt = np.abs(slow.record[:, FORCE : FORCE + 3]).max(axis=1) > 0.0
         assert felt.sum() * USUAL.dt_s >= 2.0
 
