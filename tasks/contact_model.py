@@ -74,7 +74,7 @@ def model_xml(task: ContactTask, arm: Arm, dt: float, contact: ContactModel = ST
     """
     refuse(task, arm)
     root = _model(task, arm, dt, contact)
-    mobile = _mobilities(task, arm)
+    mobile = mobilities(task, arm)
     for pair in root.iter("pair"):
         pair.attrib.update(softness(contact, mobile["hand"]))  # the scene stands still
     for weld in root.iter("weld"):
@@ -83,7 +83,7 @@ def model_xml(task: ContactTask, arm: Arm, dt: float, contact: ContactModel = ST
 
 
 @functools.lru_cache(maxsize=64)
-def _mobilities(task: ContactTask, arm: Arm) -> dict[str, float]:
+def mobilities(task: ContactTask, arm: Arm) -> dict[str, float]:
     """body_invweight0 [1/kg] of translation, by body: the mean over directions of J D^-1 J^T at the joints' zero."""
     import mujoco  # takes a moment, and listing names must not
 
