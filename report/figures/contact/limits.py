@@ -60,6 +60,7 @@ def _jammed() -> dict[str, str]:
         "jam_n": str(len(own)),
         "jam_still": f"{int((still['margin'] > 1.0).sum())} of {len(still)}",
         "jam_moving": f"{int((moving['margin'] <= 1.0).sum())} of {len(moving)}",
+        "jam_slow": f"{1e3 * moving.loc[moving['margin'] > 1.0, 'speed_m_per_s'].max():.2g}",
         "peg_offset": f"{1e3 * np.hypot(*OFFSET):.1f}",
     }
 
