@@ -146,7 +146,8 @@ def jamming(rows: pd.DataFrame, narrow: bool):
     for rested, colour, name in ((True, "#0072b2", "at rest"), (False, "#d55e00", "still moves")):
         own = rows[rows["rested"] == rested]
         axes.plot(own["u"], own["v"], "o", color=colour, markersize=6, label=name)
-    axes.set(xlabel="μ Fx/Fz", ylabel="(M/(r Fz) − μ (1 + λ) Fx/Fz)/λ", xlim=(-1.3, 1.3))
+    widest = 1.5 * float(rows["u"].abs().max())
+    axes.set(xlabel="μ Fx/Fz (slides up to 1)", ylabel="(M/(r Fz) − μ (1 + λ) Fx/Fz)/λ", xlim=(-widest, widest))
     figure.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=2)
     inside = sum(margin(one.across, one.turning, one["lambda"], STANDARD.friction) <= 1.0 for _, one in rows.iterrows())
     return figure, f"Jamming diagram: of {len(rows)} pegs that are held between the walls {inside} lie in its square."
