@@ -6,7 +6,7 @@
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
 .PHONY: help setup setup-cluster bench bench-quick time libraries report test check lint gate regress regress-study
-.PHONY: scale-study settings-study verdicts-study kill-study reference media lock clean audit judge history
+.PHONY: scale-study contact-study settings-study verdicts-study kill-study reference media lock clean audit judge history
 
 SHELL := /bin/sh
 VENV := .venv
@@ -124,6 +124,10 @@ regress: $(READY)
 regress-study: ## does that gate cry wolf, and does it bite? (half an hour): results/regress
 regress-study: $(READY)
 	@$(PY) -m bench.studies.gates $(ARGS)
+
+contact-study: ## in contact: stiffness, delay, noise, fits of pegs, springs (two minutes): results/contact
+contact-study: $(READY)
+	@$(PY) -m bench.studies.contact $(ARGS)
 
 settings-study: ## is a run the same on every processor? quick suites under other settings (15 minutes): results/settings
 settings-study: $(READY)

@@ -14,6 +14,7 @@ An arm takes part if it has six joints and a site "wrist" that moves with the la
 
 from __future__ import annotations
 
+import math
 import xml.etree.ElementTree as ElementTree
 from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -39,12 +40,14 @@ class Specification(NamedTuple):
     selection: of x, y, z and the turns about x, y, z, 1 if it is held at its place and 0 if it complies.
     desired_wrench: the force [N] and moment [N m] that the hand shall exert where it complies; 0 where it is held.
     velocity: of the place at which the hand is held [m/s]; where it complies only an impedance's springs heed it.
+    moves_s: until when it moves [s]; then it stands.
     """
 
     name: str  # what complies, in words for a table: "z, about x and y"
     selection: tuple[int, int, int, int, int, int]
     desired_wrench: tuple[float, ...] = (0.0,) * 6
     velocity: Vector = AT_REST
+    moves_s: float = math.inf
 
 
 class Trial(NamedTuple):
@@ -97,6 +100,7 @@ class ContactTask(NamedTuple):
     """A task in contact: the constant TASK of a tasks/domains/<name>.py.
 
     trials(arm, dense): all of them, the same for the same arm; dense: those of the suite `full`.
+    rests: whether an episode has an end, and is over once the hand is at rest (contact_rest.py).
     """
 
     name: str
@@ -105,6 +109,12 @@ class ContactTask(NamedTuple):
     horizon_s: float
     surroundings: Callable[[Arm], Surroundings]
     trials: Callable[..., tuple[Trial, ...]]
+    rests: bool = False
+
+    def touches(self, arm: Arm) -> bool:
+        """Whether there is something for the hand to touch."""
+        around = self.surroundings(arm)
+        return bool(around.scene or around.others)
 
 
 def refuse(task: ContactTask, arm: Arm) -> None:

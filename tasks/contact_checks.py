@@ -62,7 +62,7 @@ def check_contact(contact: ContactModel) -> None:
     """BadValue for numbers that MuJoCo would replace by its defaults without a word."""
     for name, value in contact._asdict().items():
         least, most = (0.0, 1.0) if name in ("dmin", "dmax") else (0.0, math.inf)
-        if not (least < value < most or (name == "friction" and value == 0.0)):
+        if not (least < value < most or (name in ("friction", "noslip") and value == 0)):
             bounds = "between 0 and 1" if most == 1.0 else "finite and above 0"
             raise BadValue(f"contact model: {name} = {value} must be {bounds} (try: {getattr(ContactModel(), name)})")
 

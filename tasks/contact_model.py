@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import xml.etree.ElementTree as ElementTree
 from typing import NamedTuple
 
@@ -15,28 +16,50 @@ class ContactModel(NamedTuple):
 
     The constants are stable at a control period of 1 ms.
 
-    timeconst [s], dampratio: of solref. Ten periods, critically damped: what strikes at 5 cm/s goes 0.2 mm deep.
-    dmin, dmax, width [m]: of solimp. Constant, so that at rest force and depth are in proportion. What
+    stiffness [N/m], damping [N s/m]: of each point that touches, the same on every arm: a force-controlled hand and a
+    steel plate, with 20 ms between force and damped force. At rest force = stiffness * depth where dmin = dmax.
+    dmin, dmax, width [m]: of solimp. Constant, so that at rest force and depth are in proportion. While it touches, a
+    point resists acceleration too, like a mass dmax/((1 - dmax) A), A the hand's mobility (`softness`). What
     controllers cancel is the force of the tick before, and this share of the mistake returns in the next tick's force.
     friction: its coefficient; machined steel.
     slip [s]: time constant in which friction ends a slip it can hold. MuJoCo's convex friction pushes what slips at a
     speed v off a surface with the acceleration 2 friction v/(dmax slip); with a time constant as short as that of the
     normal force a tip that slides at 5 cm/s under 15 N would be thrown off and hop.
-    impratio: how much harder friction is than the normal force. At 1 a jammed peg creeps on into its hole; at 100 peg
-    and hole blow rounding errors up to micrometres.
+    impratio: how much harder friction is than the normal force.
+    noslip: iterations of MuJoCo's second solver, which makes friction dry. Without it friction is a damper below its
+    bound, and a jammed peg creeps on into its hole at 0.1 to 0.9 mm/s, at any impratio.
     """
 
-    timeconst: float = 0.01
-    dampratio: float = 1.0
+    stiffness: float = 2e5
+    damping: float = 4e3
     dmin: float = 0.8
     dmax: float = 0.8
     width: float = 0.001
     friction: float = 0.2
     slip: float = 0.1
     impratio: float = 10.0
+    noslip: int = 5
 
 
 STANDARD = ContactModel()
+
+
+def softness(contact: ContactModel, mobility: float) -> dict[str, str]:
+    """solref and solimp of a contact, or weld, of this stiffness and damping.
+
+    MuJoCo's constraint force is (aref - a)/R with R = (1 - d)/d A and, of a negative solref, aref = -(b/dmax) v -
+    (k d/dmax^2) r: at d = dmax the stiffness is k/((1 - d) A). A is MuJoCo's estimate of an arm's mobility, so that the
+    same solref is another stiffness on another arm; here it is divided out.
+
+    Args:
+        mobility: A [1/kg], the sum of both bodies' body_invweight0.
+    Source: MuJoCo's documentation, "Computation: constraint model", and "Modeling: solver parameters".
+    """
+    scale = -(1.0 - contact.dmax) * mobility
+    return {
+        "solref": f"{scale * contact.stiffness!r} {scale * contact.damping!r}",
+        "solimp": f"{contact.dmin!r} {contact.dmax!r} {contact.width!r}",
+    }
 
 
 def model_xml(task: ContactTask, arm: Arm, dt: float, contact: ContactModel = STANDARD) -> str:
@@ -50,10 +73,33 @@ def model_xml(task: ContactTask, arm: Arm, dt: float, contact: ContactModel = ST
         BadValue: the arm has no six joints, or no site "wrist".
     """
     refuse(task, arm)
+    root = _model(task, arm, dt, contact)
+    mobile = mobilities(task, arm)
+    for pair in root.iter("pair"):
+        pair.attrib.update(softness(contact, mobile["hand"]))  # the scene stands still
+    for weld in root.iter("weld"):
+        weld.attrib.update(softness(contact, mobile[weld.attrib["body1"]] + mobile[weld.attrib["body2"]]))
+    return ElementTree.tostring(root, encoding="unicode")
+
+
+@functools.lru_cache(maxsize=64)
+def mobilities(task: ContactTask, arm: Arm) -> dict[str, float]:
+    """body_invweight0 [1/kg] of translation, by body: the mean over directions of J D^-1 J^T at the joints' zero."""
+    import mujoco  # takes a moment, and listing names must not
+
+    model = mujoco.MjModel.from_xml_string(
+        ElementTree.tostring(_model(task, arm, 1e-3, STANDARD), encoding="unicode")
+    )
+    return {model.body(i).name: float(model.body_invweight0[i, 0]) for i in range(model.nbody)}
+
+
+def _model(task: ContactTask, arm: Arm, dt: float, contact: ContactModel) -> ElementTree.Element:
+    """The model, its contacts as soft as MuJoCo's own."""
     around = task.surroundings(arm)
     root = ElementTree.fromstring(arm.xml)
     option = ElementTree.SubElement(root, "option", timestep=repr(dt), gravity="0 0 -9.81", cone="elliptic")
     option.set("impratio", repr(contact.impratio))
+    option.set("noslip_iterations", repr(contact.noslip))
     ElementTree.SubElement(option, "flag", contact="enable", limit="disable", autoreset="disable", gravity="enable")
     link, wrist = wrist_of(root)
     for axis in link.findall("geom[@class='axis']"):
@@ -70,9 +116,7 @@ def model_xml(task: ContactTask, arm: Arm, dt: float, contact: ContactModel = ST
     root.extend([*_elements(around.others), pairs, *ElementTree.fromstring(LOOK), _sensors(around, len(pairs) > 0)])
     for geom in root.iter("geom"):
         geom.attrib.update(contype="0", conaffinity="0")  # pairs are what touches
-    for weld in root.iter("weld"):
-        weld.attrib.update(_softness(contact))
-    return ElementTree.tostring(root, encoding="unicode")
+    return root
 
 
 def _elements(xml: str) -> list[ElementTree.Element]:
@@ -91,15 +135,8 @@ def _pairs(hand: ElementTree.Element, scene: ElementTree.Element, contact: Conta
                 condim="3",
                 friction=f"{contact.friction!r} {contact.friction!r} 0 0 0",
                 solreffriction=f"{contact.slip!r} 1",
-            ).attrib.update(_softness(contact))
+            )
     return pairs
-
-
-def _softness(contact: ContactModel) -> dict[str, str]:
-    return {
-        "solref": f"{contact.timeconst!r} {contact.dampratio!r}",
-        "solimp": f"{contact.dmin!r} {contact.dmax!r} {contact.width!r}",
-    }
 
 
 def _sensors(around: Surroundings, touches: bool) -> ElementTree.Element:

@@ -1,27 +1,32 @@
 """What the engines of contact share: the settings of an episode, what is recorded at each tick, and how it ends."""
 
+import math
 from typing import Any, NamedTuple
 
 import mujoco
 import numpy as np
 
 from bench.control.contact_controller import FORMS, ContactController
-from bench.control.setpoint import TOUCH, ContactBuffers, ContactParameters, Rows
+from bench.control.setpoint import TOUCH, ContactBuffers, ContactParameters, Rows, Setpoint
 from bench.law.contender import PAPERS_GAINS, Gains
 from bench.law.resolved_motion import Scratch
 from bench.law.scalar import kernel
 from bench.law.so3 import rotate
 from tasks import verdict
-from tasks.contact import Trial
+from tasks.contact import ContactTask, Trial
+from tasks.contact_rest import RestNumbers, rest_numbers
 from tasks.rules import RULES, ticks
 from tasks.verdict import DIVERGED, GOING, SATURATED, SINGULAR
 
 BROKEN = len(verdict.OUTCOMES)
 """MuJoCo gave up in the middle of a step: the code after the judge's."""
 
+RESTED = BROKEN + 1
+"""The hand came to rest, and the episode ended there."""
+
 DONE = "done"
 OUTCOMES = {GOING: DONE, DIVERGED: "diverged", SINGULAR: "singular", SATURATED: "saturated", BROKEN: "broken"}
-"""How an episode ended: at its horizon, or by the judge's rules before it."""
+"""How an episode ended: at rest or at its horizon, or by the judge's rules before it."""
 
 TIME, R, OMEGA, P, FORCE, MOMENT, GAP, TURNED, LOAD = 0, 1, 10, 13, 16, 19, 22, 23, 24
 WIDTH = 25
@@ -30,7 +35,11 @@ scene [m], angle of the scene's joint [rad], largest torque over its rated one. 
 
 
 class Numbers(NamedTuple):
-    """What a loop needs of an episode besides the models; see `Specification`, `ContactParameters`. legs: pushes."""
+    """What a loop needs of an episode besides the models; see `Specification`, `ContactParameters`.
+
+    moves_s: until when the place moves [s]. legs: pushes. delay: ticks by which the sensor of forces lags. rest: when
+    it is over.
+    """
 
     dt: float
     ticks: int
@@ -44,14 +53,38 @@ class Numbers(NamedTuple):
     m_d: tuple
     rated: tuple
     legs: int
+    moves_s: float
+    delay: int
+    rest: RestNumbers
 
 
 class Ended(NamedTuple):
-    """An episode: its outcome (one of OUTCOMES' words), its record (ticks x WIDTH), and MuJoCo's words if it broke."""
+    """An episode: its outcome (one of OUTCOMES' words), its record (ticks x WIDTH), and MuJoCo's words if it broke.
+
+    rested: whether it ended because the hand was at rest.
+    """
 
     outcome: str
     record: np.ndarray
     message: str = ""
+    rested: bool = False
+
+
+class Sensor(NamedTuple):
+    """What a controller is given of the wrench, beside the wrench itself: the record keeps the true one.
+
+    delay_s: how late [s]. force, moment: standard deviation of white noise a tick [N], [N m]; seed: of its draw.
+    """
+
+    delay_s: float = 0.0
+    force: float = 0.0
+    moment: float = 0.0
+    seed: int = 0
+
+    def noise(self, count: int) -> np.ndarray:
+        """So many ticks' noise, count x 6 [N, N m]."""
+        drawn = np.random.default_rng(self.seed).standard_normal((count, 6))
+        return drawn * ((self.force,) * 3 + (self.moment,) * 3)
 
 
 class Conditions(NamedTuple):
@@ -61,19 +94,20 @@ class Conditions(NamedTuple):
     touch: ContactParameters = TOUCH
     dt_s: float = 1e-3
     integrator: str = "implicitfast"
+    sensor: Sensor = Sensor()
 
 
 USUAL = Conditions()
 """Implicit in the joints' own damping, as MuJoCo recommends for contacts."""
 
 
-def numbers(controller: ContactController, trial: Trial, rated, horizon_s: float, conditions: Conditions) -> Numbers:
+def numbers(controller: ContactController, task: ContactTask, trial: Trial, rated, conditions: Conditions) -> Numbers:
     """The numbers of one trial for one controller."""
     specification = trial.specification
     f_d, m_d = tuple(map(float, specification.desired_wrench[:3])), tuple(map(float, specification.desired_wrench[3:]))
     return Numbers(
         conditions.dt_s,
-        ticks(horizon_s, conditions.dt_s),
+        ticks(task.horizon_s, conditions.dt_s),
         FORMS.index(controller.form) if controller.form else 0,
         RULES.speed_limit**2,
         RULES.torque_limit**2,
@@ -84,6 +118,9 @@ def numbers(controller: ContactController, trial: Trial, rated, horizon_s: float
         m_d,
         tuple(map(float, rated)),
         len(trial.pushes),
+        float(specification.moves_s),
+        math.floor(conditions.sensor.delay_s / conditions.dt_s + 0.5),
+        rest_numbers(task.rests, min(specification.moves_s, task.horizon_s), conditions.dt_s),
     )
 
 
@@ -109,9 +146,26 @@ def wrench(R, s):
 
 
 @kernel
-def moved(p, v, time):
-    """p + v t."""
-    return (p[0] + time * v[0], p[1] + time * v[1], p[2] + time * v[2])
+def sensed(f, m, record, tick, delay, noise):
+    """The wrench as the controller is given it: that of `delay` ticks ago, and noise."""
+    if tick < delay:
+        f, m = (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
+    elif delay > 0:
+        past = record[tick - delay]
+        f, m = (past[16], past[17], past[18]), (past[19], past[20], past[21])
+    e = noise[tick]
+    return (f[0] + e[0], f[1] + e[1], f[2] + e[2]), (m[0] + e[3], m[1] + e[4], m[2] + e[5])
+
+
+@kernel
+def setpoint(R_d, p_0, numbers, time):
+    """What is wanted at a time [s]: the place moves at v_d until moves_s."""
+    v, moved = numbers.v_d, time
+    if time >= numbers.moves_s:
+        v, moved = (0.0, 0.0, 0.0), numbers.moves_s
+    v_d = numbers.v_d
+    p_d = (p_0[0] + moved * v_d[0], p_0[1] + moved * v_d[1], p_0[2] + moved * v_d[2])
+    return Setpoint(R_d, p_d, v, numbers.f_d, numbers.m_d)
 
 
 @kernel
@@ -150,7 +204,7 @@ def made(record: np.ndarray, failure: int, ticks: int, message: str, data: Any) 
     left_out = [kind.name for kind in kinds if data.warning[kind].number]
     if failure != BROKEN and left_out:
         failure, message = BROKEN, ", ".join(left_out)
-    return Ended(OUTCOMES[failure], record[:ticks], message)
+    return Ended(OUTCOMES[GOING if failure == RESTED else failure], record[:ticks], message, failure == RESTED)
 
 
 def blank(shape: Numbers) -> np.ndarray:

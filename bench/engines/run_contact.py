@@ -19,6 +19,7 @@ from tasks.arm_model import Arm
 from tasks.contact import ContactTask, Trial, prepare, refuse
 from tasks.contact_checks import check_contact, check_trial
 from tasks.contact_model import STANDARD, ContactModel, model_xml
+from tasks.rules import ticks
 
 ENGINES = ("native", "reference")
 
@@ -71,6 +72,9 @@ def _check(
         raise BadNumber(f"dt_s = {conditions.dt_s} s: give a finite number above 0 (try: {USUAL.dt_s})")
     check_constants(conditions.gains, conditions.touch)
     check_contact(contact)
+    for name, value in conditions.sensor._asdict().items():
+        if not 0.0 <= value < np.inf:
+            raise BadNumber(f"sensor: {name} = {value}: give a finite number of 0 or more")
     for trial in trials:
         check_trial(trial, arm)
 
@@ -80,9 +84,10 @@ def simulation(task: ContactTask, arm: Arm, conditions: Conditions, contact: Con
     model = model_of(model_xml(task, arm, conditions.dt_s, contact), conditions.integrator)
     data = mujoco.MjData(model)
     batch, asked = trapped.batch(), np.zeros(3, np.int64)
-    work, arrays = native.workspace(contact_episode.rows(), contact_episode.room(), model.nv, arm.joints)
+    noise = conditions.sensor.noise(ticks(task.horizon_s, conditions.dt_s))
+    work, arrays = native.workspace(contact_episode.rows(), contact_episode.room(), model.nv, arm.joints, noise)
     seen = native.view(model, data, batch, trapped.CALLBACK, asked, arm.joints)
-    return Simulation(model, data, seen, work, arrays[-1], (batch, asked, arrays))
+    return Simulation(model, data, seen, work, arrays[-2], (batch, asked, arrays))
 
 
 def _episode(
@@ -91,7 +96,7 @@ def _episode(
     mujoco.mj_resetData(ready.model, ready.data)
     prepare(ready.model, ready.data, trial)
     ready.legs[: len(trial.pushes)] = trial.pushes
-    shape = numbers(controller, trial, arm.rated, task.horizon_s, conditions)
+    shape = numbers(controller, task, trial, arm.rated, conditions)
     record = blank(shape)
     failure, ticks = _loop()(
         pointer(controller), ready.view, ready.work, shape, conditions.gains, conditions.touch, record

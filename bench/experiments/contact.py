@@ -55,6 +55,8 @@ def units(asked: Asked) -> tuple[Unit, ...]:
     for task in _tasks(choice):
         for arm in _arms(task, choice):
             for one in chosen:
+                if one.law in part.in_free_space and task.touches(arm) and not choice.controllers:
+                    continue
                 found += cut(one, task, arm, asked.count or part.poses, part.dense, asked.horizon_s or task.horizon_s)
     if not found and choice.is_about_contact:
         raise Incompatible("nothing to run: no arm has six joints and a site 'wrist' (add one to a file of tasks/arms)")

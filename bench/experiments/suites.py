@@ -84,12 +84,13 @@ class InContact(NamedTuple):
     """The part of a suite that runs tasks in contact, on every arm that can do them.
 
     controllers: their names; none at all: every one. poses: the first so many of each task; None: all. dense: the
-    task's dense set of trials instead.
+    task's dense set of trials instead. in_free_space: laws that take part only where there is nothing to touch.
     """
 
     controllers: tuple[str, ...]
     poses: int | None = None
     dense: bool = False
+    in_free_space: tuple[str, ...] = ("hybrid-rate", "hybrid-unconverted")
 
 
 class Robustness(NamedTuple):
@@ -154,9 +155,9 @@ MORE_COMPLIANT = (
     "impedance-quaternion",
 )
 
-FIRST_FRAMES = 72
-"""Poses of `quick`: of wrench-probe its first series over beta and one frame that leans every way, in every order; of
-the other tasks all."""
+FIRST_FRAMES = 90
+"""Poses of `quick`: of wrench-probe its first series over beta and the frames that lean every way; of the other tasks
+all."""
 
 
 def _slices(engine: str, uniform: int, directed=DIRECTED) -> tuple[Slice, ...]:
@@ -233,7 +234,7 @@ SUITES = {
                 traced=4,
                 poses=1000,
             ),
-            in_contact=InContact((), dense=True),
+            in_contact=InContact((), dense=True, in_free_space=()),
             robustness=Robustness(1024, None),
             in_engine=_slices("native", 50_000) + _slices("reference", 0, ("paper",)),
         ),

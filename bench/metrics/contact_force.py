@@ -12,8 +12,12 @@ from bench.metrics.measured_compliance import in_free_space
 from tasks.contact import Trial
 from tasks.domains import peg_in_hole
 from tasks.rotations import columns
+from tasks.rules import ticks
 
 NOTHING = np.empty((0, 3))
+WINDOW_S = 2.5
+"""From the first touch on, over which errors are averaged [s]: an average that went on as long as an episode does would
+say when it ended."""
 
 
 def from_first_touch(pose: Pose) -> slice | None:
@@ -43,9 +47,18 @@ def _error(pose: Pose, felt: np.ndarray, kind: slice) -> np.ndarray:
     return (felt[touched] + np.array(specification.desired_wrench[kind])) * complies
 
 
-def rms(error: np.ndarray) -> float:
-    """Root of the mean square of the lengths of N vectors, N x 3; NaN if there is none."""
-    return float(np.sqrt((error**2).sum(axis=1).mean())) if len(error) else np.nan
+def rms(pose: Pose, error: np.ndarray) -> float:
+    """Root of the mean square of the lengths of N vectors, N x 3, over WINDOW_S; NaN if there is none.
+
+    What ended at rest before is taken to stay as it was.
+    """
+    if not len(error):
+        return np.nan
+    squares, one = (error**2).sum(axis=1), pose.first
+    count = ticks(WINDOW_S, float(one.time[1])) if len(one.time) > 1 and one.time[1] > 0.0 else len(squares)
+    missing = max(0, count - len(squares)) if one.rested else 0
+    total = squares[:count].sum() + missing * squares[-1]
+    return float(np.sqrt(total / (min(count, len(squares)) + missing)))
 
 
 def peak(error: np.ndarray) -> float:
@@ -54,7 +67,7 @@ def peak(error: np.ndarray) -> float:
 
 
 def last(pose: Pose) -> Response | None:
-    """The one response of a pose if it ran to its horizon, else None: how a hand ends is then no matter of when."""
+    """The one response of a pose if it ran to its end, at rest or at the horizon; else None."""
     return pose.first if pose.first.outcome == "done" else None
 
 

@@ -20,7 +20,7 @@ class Response(NamedTuple):
 
     time (N) [s]; R (N x 3 x 3), hand to base; omega (N x 3) [rad/s]; p (N x 3) [m]; force, moment (N x 3) on the hand
     [N], [N m]; gap (N) to the scene [m], negative where they penetrate; turned (N), angle of the scene's joint [rad];
-    load (N), the largest torque over its rated one.
+    load (N), the largest torque over its rated one. rested: whether it ended at rest, before its horizon.
     """
 
     trial: Trial
@@ -34,6 +34,7 @@ class Response(NamedTuple):
     gap: np.ndarray
     turned: np.ndarray
     load: np.ndarray
+    rested: bool = False
 
 
 class Pose(NamedTuple):
@@ -80,4 +81,5 @@ def response(trial: Trial, ended: Ended) -> Response:
         record[:, GAP],
         record[:, TURNED],
         record[:, LOAD],
+        ended.rested,
     )

@@ -45,8 +45,7 @@ def is_moment(trial: Trial) -> bool:
 
 def in_free_space(pose: Pose) -> bool:
     """Whether nothing is there for the hand to touch."""
-    around = pose.task.surroundings(pose.arm)
-    return not (around.scene or around.others)
+    return not pose.task.touches(pose.arm)
 
 
 def compliance(pose: Pose) -> np.ndarray:

@@ -36,6 +36,7 @@ def compliance_columns() -> list[Column]:
         *numbers("s", "time simulated", "horizon_s"),
         Column("trials", COUNT, "1", "episodes of the pose"),
         *words(outcome="the worst of its episodes: done, singular, saturated, diverged or broken (MuJoCo gave up)"),
+        *words(rest="at-rest or creeping (not at rest by the horizon); empty of tasks without an end, and failures"),
         *numbers("s", "time at which the first of the worst episodes failed; null if all are done", "failure_time_s"),
         *measured,
         *(Column(f"c_{i}{j}", NUMBER, "rad/(N m)", about.format(i, j)) for i in "xyz" for j in "xyz"),

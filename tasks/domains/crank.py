@@ -20,6 +20,7 @@ import math
 
 from tasks.arm_model import Arm
 from tasks.contact import ContactTask, Specification, Surroundings, Trial, attribute
+from tasks.contact_rest import HORIZON_S
 from tasks.hand_frames import at, mounts, posture, wrist
 from tasks.rotations import columns, multiply, zyx
 
@@ -28,6 +29,7 @@ START = math.radians(20.0)  # from upright
 ASIDE, ABOVE = RADIUS * math.sin(START), RADIUS * math.cos(START)  # the handle from the hinge, at the start [m]
 TIP = (0.0, 0.0, 0.12)  # the handle, in the wrist's frame [m]
 SPEED = 0.03  # along the base's x [m/s]
+MOVES_S = 2.5  # until when
 UP = (0.0, 1.0, 0.0, 0.0)  # turns the wrist's frame, which points down, to the scene's, whose z points up
 AZIMUTHS = (60, 105, -75)  # of the hinge [deg]; where it is negative the crank is turned towards -x
 DENSE_AZIMUTHS = (50, 60, 75, 105, 120, 130, -50, -60, -75, -105, -120, -130)
@@ -62,7 +64,9 @@ def trials(arm: Arm, dense: bool = False) -> tuple[Trial, ...]:
         goal = zyx(0.0, math.radians(beta), 0.0)
         hub = at(arm, q, (TIP[0], TIP[1] + ASIDE, TIP[2] + ABOVE))
         speed = math.copysign(SPEED, azimuth)
-        specification = Specification("y, z, about x and y", (1, 0, 0, 0, 0, 1), velocity=(speed, 0.0, 0.0))
+        specification = Specification(
+            "y, z, about x and y", (1, 0, 0, 0, 0, 1), velocity=(speed, 0.0, 0.0), moves_s=MOVES_S
+        )
         pose = f"azimuth {azimuth}, beta{beta:+d}"
         found.append(
             Trial(pose, pose, specification, q, goal, mounts(arm, q, goal), hub, multiply(wrist(arm, q)[1], UP))
@@ -81,7 +85,8 @@ TASK = ContactTask(
     name="crank",
     title="A crank turned on its hinge",
     source="Mason 1981",
-    horizon_s=2.5,
+    horizon_s=HORIZON_S,
     surroundings=surroundings,
     trials=trials,
+    rests=True,
 )

@@ -21,11 +21,13 @@ import math
 from tasks.arm_model import Arm
 from tasks.base import Vector
 from tasks.contact import ContactTask, Specification, Surroundings, Trial, attribute
+from tasks.contact_rest import HORIZON_S
 from tasks.hand_frames import at, leaning, mounts, plus, posture, wrist
 from tasks.rotations import about, multiply, to_base, zyx
 
 PEG = 0.0125  # half its side [m]
-HOLE = 0.01275  # half its side [m]: a clearance of 1 part in 50
+CLEARANCE_SHARE = 0.02  # by which the hole is wider than the peg, of the peg's side
+HOLE = PEG * (1.0 + CLEARANCE_SHARE)  # half its side [m]
 DEPTH = 0.03  # m
 CHAMFER = 0.004  # wide and deep [m]
 WALL = 0.01  # thick [m]
@@ -36,7 +38,8 @@ SPECIFICATION = Specification(
     "x, y, z, about x and y",
     (0, 0, 0, 0, 0, 1),
     desired_wrench=(0.0, 0.0, -30.0, 0.0, 0.0, 0.0),
-    velocity=(0.0, 0.0, -0.016),  # for springs: through the bottom by the end
+    velocity=(0.0, 0.0, -0.016),  # for springs, which heed it: to 4 mm below the bottom
+    moves_s=2.5,
 )
 # degrees: by how much the hole leans, and the azimuth of the axis it is turned about
 HOLES = ((2, 90), (4, 30), (8, 0), (8, 120))
@@ -46,8 +49,8 @@ DENSE_BETAS = (-60, 0, 30, 45, 60, 75)
 UP = (0.0, 1.0, 0.0, 0.0)  # turns the wrist's frame, which points down, so that z points up
 
 
-def surroundings(arm: Arm) -> Surroundings:
-    """A peg on a stem, and four walls with their chamfers and a bottom."""
+def surroundings(arm: Arm, hole: float = HOLE) -> Surroundings:
+    """A peg on a stem, and four walls with their chamfers and a bottom; half the side of the hole [m]."""
     length = TIP[2]
     hand = (
         f'<geom type="cylinder" size=".008 {length / 2 - DEPTH}" pos="0 0 {length / 2 - DEPTH}" mass="0" '
@@ -56,18 +59,23 @@ def surroundings(arm: Arm) -> Surroundings:
         'rgba=".3 .5 .8 1"/>'
     )
     half = WALL / 2
-    bottom = _box("bottom", (HOLE, HOLE, half), (0.0, 0.0, -DEPTH - half), 0)
-    return Surroundings(hand, TIP, bottom + "".join(map(_side, range(4))))
+    bottom = _box("bottom", (hole, hole, half), (0.0, 0.0, -DEPTH - half), 0)
+    return Surroundings(hand, TIP, bottom + "".join(_side(k, hole) for k in range(4)))
 
 
-def _side(k: int) -> str:
+def with_clearance(share: float) -> ContactTask:
+    """The task with a hole that is wider than the peg by this share of the peg's side."""
+    return TASK._replace(surroundings=functools.partial(surroundings, hole=PEG * (1.0 + share)))
+
+
+def _side(k: int, hole: float) -> str:
     """The wall and the chamfer in the direction of +x, turned by k quarters about z."""
     half, slope = WALL / 2, CHAMFER / math.sqrt(2)
     deep = (DEPTH - CHAMFER) / 2
-    wall = _box(f"wall {k}", (half, HOLE + WALL, deep), (HOLE + half, 0.0, -CHAMFER - deep), k)
+    wall = _box(f"wall {k}", (half, hole + WALL, deep), (hole + half, 0.0, -CHAMFER - deep), k)
     sunk = half / math.sqrt(2)
-    middle = (HOLE + CHAMFER / 2 + sunk, 0.0, -CHAMFER / 2 - sunk)
-    return wall + _box(f"chamfer {k}", (half, HOLE + CHAMFER, slope), middle, k, math.pi / 4)
+    middle = (hole + CHAMFER / 2 + sunk, 0.0, -CHAMFER / 2 - sunk)
+    return wall + _box(f"chamfer {k}", (half, hole + CHAMFER, slope), middle, k, math.pi / 4)
 
 
 def _box(name: str, size: Vector, pos: Vector, quarters: int, lean: float = 0.0) -> str:
@@ -100,7 +108,8 @@ TASK = ContactTask(
     name="peg-in-hole",
     title="A peg pushed into a leaning, chamfered hole",
     source="Mason 1981; Whitney 1982",
-    horizon_s=2.5,
+    horizon_s=HORIZON_S,
     surroundings=surroundings,
     trials=trials,
+    rests=True,
 )

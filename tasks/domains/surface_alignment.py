@@ -20,13 +20,22 @@ import math
 
 from tasks.arm_model import Arm
 from tasks.contact import ContactTask, Specification, Surroundings, Trial
+from tasks.contact_rest import HORIZON_S
 from tasks.hand_frames import at, leaning, mounts, posture, wrist
 from tasks.rotations import columns, zyx
 
 SIDE = 0.1  # of the face [m]
 TIP = (0.0, 0.0, 0.12)  # middle of the face, in the wrist's frame [m]
 CLEARANCE = 0.001  # of the lowest corner at the start [m]
-SPECIFICATION = Specification("z, about x and y", (1, 1, 0, 0, 0, 1), desired_wrench=(0.0, 0.0, -20.0, 0.0, 0.0, 0.0))
+# Springs alone heed where the hand is held. It is lowered so fast [m/s], to so far [m] below the place where the tool
+# lies flat: a spring that shall turn the tool has to follow it down.
+LOWERING, BELOW = 0.02, 0.005
+SPECIFICATION = Specification(
+    "z, about x and y",
+    (1, 1, 0, 0, 0, 1),
+    desired_wrench=(0.0, 0.0, -20.0, 0.0, 0.0, 0.0),
+    velocity=(0.0, 0.0, -LOWERING),
+)
 # degrees: by how much the plate is tilted, and the azimuth of the axis it is tilted about
 PLATES = ((5, 90), (10, 30), (20, 0), (20, 120))
 DENSE_PLATES = tuple(itertools.product((5, 10, 15, 20), range(0, 360, 45)))
@@ -55,8 +64,9 @@ def trials(arm: Arm, dense: bool = False) -> tuple[Trial, ...]:
         plate, goal = leaning(tilt, azimuth), zyx(0.0, math.radians(beta), 0.0)
         pose = f"tilt {tilt} about {azimuth}, beta{beta:+d}"
         place = _below(arm, q, columns(plate)[2])
+        told = SPECIFICATION._replace(moves_s=(at(arm, q, TIP)[2] - place[2] + BELOW) / LOWERING)
         found.append(
-            Trial(pose, pose, SPECIFICATION, q, goal, mounts(arm, q, goal), place, plate, tilt=math.radians(tilt))
+            Trial(pose, pose, told, q, goal, mounts(arm, q, goal), place, plate, tilt=math.radians(tilt))
         )
     return tuple(found)
 
@@ -73,7 +83,8 @@ TASK = ContactTask(
     name="surface-alignment",
     title="A flat tool pressed onto a tilted plate",
     source="Raibert and Craig 1981; Murphy 1988, 3.3",
-    horizon_s=3.0,
+    horizon_s=HORIZON_S,
     surroundings=surroundings,
     trials=trials,
+    rests=True,
 )

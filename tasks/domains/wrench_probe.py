@@ -47,6 +47,7 @@ SPECIFICATIONS = tuple(
     )
 )
 FEWER_SPECIFICATIONS = (SPECIFICATIONS[0], SPECIFICATIONS[3])
+ONE_AXIS, ABOUT_X = SPECIFICATIONS[:3], SPECIFICATIONS[:1]
 
 
 class Grid(NamedTuple):
@@ -57,10 +58,13 @@ class Grid(NamedTuple):
     specifications: tuple[Specification, ...]
 
 
-# evenly, and then towards the poles of Z-Y-X and of Z-Y-Z; elsewhere to see that alpha and gamma matter
+# evenly, and then towards the poles of Z-Y-X and of Z-Y-Z; elsewhere to see that alpha and gamma matter, for one axis
+# at frames that lean every way; and about x near zero, where Z-Y-Z angles have none
 GRIDS = (
     Grid(((0, 0),), (0, 1, 5, 15, 30, 45, 60, 75, 85, 89, 90), SPECIFICATIONS),
     Grid(((35, -20),), (45,), SPECIFICATIONS),
+    Grid(((-50, 15), (110, 40)), (-60, 20), ONE_AXIS),
+    Grid(((4, -3), (-6, 8)), (-8, 3, 10), ABOUT_X),
     Grid(((35, -20),), (15, 75), FEWER_SPECIFICATIONS),
 )
 DENSE_GRIDS = (

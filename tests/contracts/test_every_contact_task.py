@@ -189,12 +189,14 @@ def test_only_the_hand_and_the_scene_touch(case):
 
 
 def test_contacts_are_as_the_contact_model_says(case):
-    other = STANDARD._replace(timeconst=0.03, dampratio=0.7, dmin=0.6, dmax=0.9, width=0.002, friction=0.3, slip=0.05)
-    model = mujoco.MjModel.from_xml_string(model_xml(case.task, case.arm, DT, other._replace(impratio=7.0)))
-    assert model.opt.impratio == 7.0
+    """How stiff and how damped is asked of what presses (test_contact_model)."""
+    other = STANDARD._replace(stiffness=1e5, damping=700.0, dmin=0.6, dmax=0.75, width=0.002, friction=0.3, slip=0.05)
+    model = mujoco.MjModel.from_xml_string(model_xml(case.task, case.arm, DT, other._replace(impratio=7.0, noslip=3)))
+    assert (model.opt.impratio, model.opt.noslip_iterations) == (7.0, 3)
     for solref, solimp in ((model.pair_solref, model.pair_solimp), (model.eq_solref, model.eq_solimp)):
-        assert (solref == (0.03, 0.7)).all()
-        assert (solimp[:, :3] == (0.6, 0.9, 0.002)).all()
+        assert (solref < 0.0).all()
+        assert np.allclose(solref[:, 0] / solref[:, 1], 1e5 / 700.0, rtol=1e-15)
+        assert (solimp[:, :3] == (0.6, 0.75, 0.002)).all()
     assert (model.pair_friction[:, :2] == 0.3).all()
     assert (model.pair_solreffriction[:, 0] == 0.05).all()
 

@@ -45,8 +45,16 @@ def test_suite_sets_every_task_to_every_arm_that_can_do_it(suite):
     assert named(units, "task") == TASKS
     assert named(units, "arm") == ABLE
     assert named(units, "contender") == list(words)
-    assert len({(unit.task, unit.arm, unit.contender) for unit in units}) == len(TASKS) * len(ABLE) * len(words)
+    free = sum(not tasks.contact_task(name).touches(tasks.arm(ABLE[0])) for name in TASKS)
+    left_out = sum(find_controller(word).law in SUITES[suite].in_contact.in_free_space for word in words)
+    expected = len(TASKS) * len(words) - (len(TASKS) - free) * left_out
+    assert len({(unit.task, unit.arm, unit.contender) for unit in units}) == len(ABLE) * expected
     assert episodes > 0
+
+
+def test_controller_that_takes_part_in_free_space_alone_is_run_where_it_is_named():
+    units, _ = contacts(controllers=("hybrid-rate+inverse",))
+    assert named(units, "task") == TASKS
 
 
 def test_arms_that_cannot_are_seven_jointed_or_have_no_wrist():

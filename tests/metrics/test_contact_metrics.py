@@ -292,10 +292,10 @@ def inserted(depths, beside=0.0) -> Pose:
     [
         (np.linspace(-0.002, peg_in_hole.DEPTH, TICKS), 0.0, peg_in_hole.DEPTH, 0.0),
         (np.minimum(np.linspace(0.0, 0.03, TICKS), 0.015), 0.0, 0.015, 1.0),
-        (np.linspace(0.0, 0.02, TICKS), 0.0, 0.02, 0.0),
+        (np.linspace(0.0, 0.02, TICKS), 0.0, 0.02, 1.0),
         (np.full(TICKS, 0.03), 2.0 * peg_in_hole.HOLE, 0.0, 1.0),
     ],
-    ids=["at the bottom", "stands halfway", "on its way", "beside the hole"],
+    ids=["at the bottom", "stands halfway", "creeps", "beside the hole"],
 )
 def test_depth_of_a_peg_and_whether_it_is_stuck(depths, beside, depth, is_stuck):
     measured = inserted(depths, beside)

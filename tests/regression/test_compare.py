@@ -327,6 +327,30 @@ def test_gate_catches_a_number_in_contact_that_changed_or_is_gone(contact_refere
     assert line.startswith(f"{column}: ")
 
 
+def test_gate_catches_a_hand_that_no_longer_comes_to_rest(contact_reference, contact_candidate):
+    in_compliance(contact_candidate, "rest", "creeping")
+    [line] = compare(contact_reference, contact_candidate)
+    assert line.startswith("rest:  -> creeping: ")
+
+
+@pytest.mark.parametrize(
+    ("column", "was", "now", "lines"),
+    [
+        ("remaining_speed_m_per_s", 1e-6, 9e-6, 0),  # at rest, both
+        ("remaining_speed_m_per_s", 1e-3, 1.2e-3, 1),
+        ("time_to_rest_s", 3.4, 3.6, 0),
+        ("time_to_rest_s", 3.4, 3.7, 1),
+    ],
+)
+def test_gate_compares_how_a_hand_ends_as_far_as_a_last_slip_leaves_it(
+    contact_candidate, tmp_path, column, was, now, lines
+):
+    before = shutil.copytree(contact_candidate, tmp_path / "before")
+    for folder, value in ((before, was), (contact_candidate, now)):
+        in_compliance(folder, column, value)
+    assert len(compare(before, contact_candidate)) == lines
+
+
 def test_gate_catches_a_pose_that_is_gone(contact_reference, contact_candidate):
     change(contact_candidate, "compliance", lambda frame: frame[frame["complies"] != "about z"])
     lines = compare(contact_reference, contact_candidate)

@@ -49,6 +49,7 @@ IN_CONTACT = pd.DataFrame(
         "representation": ["", "zyx-euler", "zyx-euler", "zyx-euler", ""],
         "form": ["inverse", "projected", "projected", "projected", ""],
         "outcome": ["done", "done", "done", "singular", "done"],
+        "rest": ["", "at-rest", "creeping", "", ""],
         "leakage_ratio": [0.0, 1.0, 3.0, 50.0, float("nan")],
         "misalignment_rad": [0.0, 0.5, 1.0, float("nan"), 0.0],
         "alignment_error_rad": float("nan"),
@@ -67,6 +68,8 @@ def test_summary_in_contact_is_of_the_poses_that_are_done():
     table = contact.summary(IN_CONTACT).set_index("controller")
     assert list(table.index) == CONTROLLERS
     assert list(table["done"]) == ["1/1", "2/3", "1/1"]
+    assert table["at rest"].str.endswith(("0/0", "1/2")).all()
+    assert (table["at rest"] == "1/2").sum() == 1
     assert list(table["leakage"]) == ["0.000  0.000", "2.000  3.000", ""]
     assert table.at[CONTROLLERS[1], "misaligned deg"] == "42.972  57.296"
     assert set(table["off the plate deg"]) == {""}

@@ -21,11 +21,16 @@ def tables(rows):
 
 
 def summary(rows):
-    """One line for each controller: poses whose trials are all done, then median and worst of COLUMNS over them."""
+    """One line for each controller: poses whose trials are all done, and median and worst of COLUMNS over them.
+
+    at rest: of the poses that have an end.
+    """
     lines = []
     for name, part in results.with_controller(rows).groupby("contender", observed=True, sort=False):
         done = part[part["outcome"] == "done"]
-        line = {"controller": str(name), "done": f"{len(done)}/{len(part)}"}
+        ends = done["rest"].astype(str)
+        rests = f"{(ends == 'at-rest').sum()}/{(ends != '').sum()}"
+        line = {"controller": str(name), "done": f"{len(done)}/{len(part)}", "at rest": rests}
         for column, (title, scale) in COLUMNS.items():
             some = scale * done[column].dropna()
             line[title] = f"{some.median():.3f}  {some.max():.3f}" if len(some) else ""

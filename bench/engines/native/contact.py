@@ -13,7 +13,17 @@ from numba import float64, int64, types
 from bench.control.hybrid import comply
 from bench.control.setpoint import ContactBuffers, ContactParameters, Rows, Setpoint
 from bench.engines.compiled import MATRIX, compile_function, register
-from bench.engines.contact_episode import BROKEN, Numbers, moved, overload, sensors_of, wrench, write_record
+from bench.engines.contact_episode import (
+    BROKEN,
+    RESTED,
+    Numbers,
+    overload,
+    sensed,
+    sensors_of,
+    setpoint,
+    wrench,
+    write_record,
+)
 from bench.engines.native.arm import CHAIN, GAINS, ROTATION, THREE, VECTOR
 from bench.engines.native.libmujoco import mj_fullM
 from bench.engines.native.pointers import address_of, integers, matrix, vector
@@ -22,6 +32,7 @@ from bench.law.resolved_motion import Chain, Scratch
 from bench.law.scalar import sqrt
 from bench.law.so3 import Rotation, from_quaternion
 from tasks.contact import MOST_LEGS, leg
+from tasks.contact_rest import RestNumbers, has_left
 from tasks.verdict import GOING, check_command, check_state
 
 
@@ -54,7 +65,10 @@ class ContactView(NamedTuple):
 
 
 class Workspace(NamedTuple):
-    """Addresses of the buffers of `Rows` and `ContactBuffers`, of J, D (nv x nv), fg, tau, and the trial's pushes."""
+    """Addresses of the buffers of `Rows` and `ContactBuffers`, and of J, D (nv x nv), fg, tau, legs, noise.
+
+    legs: the trial's pushes. noise: the sensor's, ticks x 6.
+    """
 
     a: int
     drift: int
@@ -74,6 +88,7 @@ class Workspace(NamedTuple):
     fg: int
     tau: int
     legs: int
+    noise: int
 
 
 SIX = types.UniTuple(float64, 6)
@@ -81,8 +96,9 @@ WISH = types.NamedTuple((ROTATION, THREE, THREE, THREE, THREE), Setpoint)
 TOUCH = types.NamedUniTuple(float64, len(ContactParameters._fields), ContactParameters)
 ROWS = types.NamedUniTuple(VECTOR, len(Rows._fields), Rows)
 FOUR = types.UniTuple(float64, 4)
+REST = types.NamedTuple((int64, int64, float64, float64), RestNumbers)
 NUMBERS = types.NamedTuple(
-    (float64, int64, int64, float64, float64, SIX, FOUR, THREE, THREE, THREE, SIX, int64), Numbers
+    (float64, int64, int64, float64, float64, SIX, FOUR, THREE, THREE, THREE, SIX, int64, float64, int64, REST), Numbers
 )
 VIEW = types.NamedUniTuple(int64, len(ContactView._fields), ContactView)
 WORKSPACE = types.NamedUniTuple(int64, len(Workspace._fields), Workspace)
@@ -113,11 +129,11 @@ def view(model, data, batch, callback: int, asked: np.ndarray, n: int) -> Contac
     )
 
 
-def workspace(rows: Rows, room: ContactBuffers, nv: int, n: int) -> tuple[Workspace, tuple]:
+def workspace(rows: Rows, room: ContactBuffers, nv: int, n: int, noise: np.ndarray) -> tuple[Workspace, tuple]:
     """The addresses of a controller's buffers, and the arrays, to be kept."""
     arrays = (
         *rows, room.y, room.b, room.held, *room.scratch,
-        np.zeros((6, 6)), np.zeros((nv, nv)), np.zeros(n), np.zeros(n), np.zeros((MOST_LEGS, 6)),
+        np.zeros((6, 6)), np.zeros((nv, nv)), np.zeros(n), np.zeros(n), np.zeros((MOST_LEGS, 6)), noise,
     )  # fmt: skip
     return Workspace(*map(address_of, arrays)), arrays
 
@@ -132,6 +148,7 @@ def episode_loop(cache: bool = True):
         bias, passive = vector(sim.bias, nv), vector(sim.passive, nv)
         J, D, fg, tau = matrix(work.J, 6, 6), matrix(work.D, nv, nv), vector(work.fg, n), vector(work.tau, n)
         push, legs = vector(sim.push, 6), matrix(work.legs, MOST_LEGS, 6)
+        noise = matrix(work.noise, numbers.ticks, 6)
         rows = Rows(vector(work.a, 6), vector(work.drift, 6), vector(work.F, 6), vector(work.h, 6), vector(work.v, 6))
         scratch = Scratch(
             matrix(work.A, 6, 6), matrix(work.B, 6, 6), matrix(work.V, 6, 6), vector(work.s, 6), vector(work.t, 6)
@@ -143,16 +160,18 @@ def episode_loop(cache: bool = True):
             return BROKEN, 0
         asked[2] = RUNGE_KUTTA if sim.is_runge_kutta else STEP
         R_d, p_0 = from_quaternion(numbers.quat_d), (s[16], s[17], s[18])
+        place, frame, since = p_0, R_d, 0
         for tick in range(numbers.ticks):
             time = tick * dt
             R = Rotation((s[0], s[1], s[2]), (s[3], s[4], s[5]), (s[6], s[7], s[8]))
             p, omega = (s[16], s[17], s[18]), (s[9], s[10], s[11])
             f, m = wrench(R, s)
-            wish = Setpoint(R_d, moved(p_0, numbers.v_d, time), numbers.v_d, numbers.f_d, numbers.m_d)
+            f_seen, m_seen = sensed(f, m, record, tick, numbers.delay, noise)
+            wish = setpoint(R_d, p_0, numbers, time)
             mj_fullM(sim.model, sim.data, work.D)
             for i in range(n):
                 fg[i] = bias[i] - passive[i]
-            assemble(Chain(n, axes, anchors, qvel, p, R), wish, f, m, gains, touch, J, rows)
+            assemble(Chain(n, axes, anchors, qvel, p, R), wish, f_seen, m_seen, gains, touch, J, rows)
             comply(numbers.form, numbers.held, n, D, fg, J, rows, touch, room, tau)
             total, largest = overload(tau, numbers.rated, n)
             gap = s[sim.gap] if sim.gap >= 0 else 0.0
@@ -161,6 +180,10 @@ def episode_loop(cache: bool = True):
             failure = check_command(total, numbers.torque_limit_squared)
             if failure != GOING:
                 return failure, tick + 1
+            if has_left(numbers.rest, tick, p, R, place, frame):
+                place, frame, since = p, R, tick
+            elif numbers.rest.ticks > 0 and tick - since >= numbers.rest.ticks:
+                return RESTED, tick + 1
             for i in range(n):
                 ctrl[i] = tau[i]
             now = leg(numbers.legs, tick, numbers.ticks)
@@ -177,4 +200,5 @@ def episode_loop(cache: bool = True):
         return GOING, numbers.ticks
 
     register(leg)
+    register(has_left)
     return compile_function(episode, EPISODE, cache)

@@ -10,19 +10,21 @@ import numpy as np
 
 from bench.control.contact_controller import ContactController
 from bench.control.hybrid import comply
-from bench.control.setpoint import ContactParameters, Setpoint
+from bench.control.setpoint import ContactParameters
 from bench.engines.contact_episode import (
     BROKEN,
+    RESTED,
     Conditions,
     Ended,
     blank,
     made,
-    moved,
     numbers,
     overload,
     room,
     rows,
+    sensed,
     sensors_of,
+    setpoint,
     wrench,
     write_record,
 )
@@ -35,6 +37,7 @@ from tasks.arm_model import Arm
 from tasks.contact import ContactTask, Trial
 from tasks.contact_episode import environment
 from tasks.contact_model import ContactModel
+from tasks.contact_rest import has_left
 from tasks.verdict import GOING, check_command, check_state
 
 
@@ -47,7 +50,7 @@ def run(
     contact: ContactModel,
 ) -> Ended:
     """One trial; see `contact_episode` for what is recorded."""
-    shape = numbers(controller, trial, arm.rated, task.horizon_s, conditions)
+    shape = numbers(controller, task, trial, arm.rated, conditions)
     record = blank(shape)
     with np.errstate(all="ignore"):
         loop = environment(task, arm, trial, conditions.dt_s, conditions.integrator, contact)
@@ -69,15 +72,17 @@ def _episode(controller, arm, trial, loop, conditions, shape, record):
     D, tau = np.zeros((model.nv, model.nv)), np.zeros(n)
     at_gap, at_turned = sensors_of(model)
     R_d, p_0 = from_quaternion(tuple(map(np.float64, shape.quat_d))), vector(s[16:19])
+    place, frame, since, noise = p_0, R_d, 0, conditions.sensor.noise(shape.ticks)
     for tick in range(shape.ticks):
         time = tick * shape.dt
         R = Rotation(vector(s[0:3]), vector(s[3:6]), vector(s[6:9]))
         p, omega = vector(s[16:19]), vector(s[9:12])
         f, m = wrench(R, s)
-        wish = Setpoint(R_d, moved(p_0, shape.v_d, time), shape.v_d, shape.f_d, shape.m_d)
+        f_seen, m_seen = sensed(f, m, record, tick, shape.delay, noise)
+        wish = setpoint(R_d, p_0, shape, time)
         mujoco.mj_fullM(model, plant.ptr, D)
         fg = (plant.qfrc_bias - plant.qfrc_passive)[:n]
-        assemble(Chain(n, plant.xaxis, plant.xanchor, plant.qvel, p, R), wish, f, m, gains, touch, J, into)
+        assemble(Chain(n, plant.xaxis, plant.xanchor, plant.qvel, p, R), wish, f_seen, m_seen, gains, touch, J, into)
         comply(shape.form, shape.held, n, D, fg, J, into, touch, about, tau)
         total, largest = overload(tau, shape.rated, n)
         gap = s[at_gap] if at_gap >= 0 else 0.0
@@ -86,6 +91,10 @@ def _episode(controller, arm, trial, loop, conditions, shape, record):
         failure = check_command(total, shape.torque_limit_squared)
         if failure != GOING:
             return failure, tick + 1, ""
+        if has_left(shape.rest, tick, p, R, place, frame):
+            place, frame, since = p, R, tick
+        elif shape.rest.ticks > 0 and tick - since >= shape.rest.ticks:
+            return RESTED, tick + 1, ""
         try:
             loop.step(tau.copy())
         except mujoco.FatalError as error:

@@ -22,6 +22,8 @@ from tasks.contact import ContactTask, Trial
 WORST_LAST = (DONE, "singular", "saturated", "diverged", "broken")
 """Outcomes; a pose has the worst of its trials'."""
 
+AT_REST, CREEPING = "at-rest", "creeping"
+
 MEASURED = tuple(f"c_{i}{j}" for i in "xyz" for j in "xyz")
 
 
@@ -66,7 +68,15 @@ def _row(
         "horizon_s": task.horizon_s,
         "trials": len(ended),
         "outcome": outcome,
+        "rest": _rest(task, outcome, [one for _, one in ended]),
         "failure_time_s": np.nan if outcome == DONE else ticks * conditions.dt_s,
         **measured,
         **dict(zip(MEASURED, compliance(pose).ravel(), strict=True)),
     }
+
+
+def _rest(task: ContactTask, outcome: str, ended: list[Ended]) -> str:
+    """How episodes that have an end stand at it; empty of those that have none, or failed."""
+    if not task.rests or outcome != DONE:
+        return ""
+    return AT_REST if all(one.rested for one in ended) else CREEPING

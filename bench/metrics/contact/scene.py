@@ -6,24 +6,24 @@ All but the penetration are NaN on other tasks, and where an episode broke off.
 import numpy as np
 
 from bench.metrics.contact_force import insertion, last, scene_normal, wrist_axis
-from bench.metrics.contact_metric import ContactMetric, Pose
+from bench.metrics.contact_metric import ContactMetric, Pose, Response
 from tasks.domains.peg_in_hole import DEPTH
 
 FLAT = "surface-alignment"
 # A peg this near to the bottom is in: a tenth of the way is the chamfer's, and its lower face may stand askew.
 IN = 0.9 * DEPTH
-# A peg stands if it has moved by less [m] in the last tenth of the episode: at that rate it takes ten times the episode
-# to go all the way. Soft contacts creep under friction.
-STILL = 0.01 * DEPTH
 
 
 def alignment_error(pose: Pose) -> float:
     """Angle [rad] between the wrist's axis and the plate's normal at the end, pointing at each other."""
     one = last(pose)
-    if one is None or pose.task.name != FLAT:
-        return np.nan
-    out, normal = wrist_axis(one)[-1], scene_normal(one.trial)
-    return float(np.arctan2(np.linalg.norm(np.cross(out, normal)), -out @ normal))
+    return float(angle_to_plate(one)[-1]) if one is not None and pose.task.name == FLAT else np.nan
+
+
+def angle_to_plate(one: Response) -> np.ndarray:
+    """That angle [rad] at every tick, N."""
+    out, normal = wrist_axis(one), scene_normal(one.trial)
+    return np.arctan2(np.linalg.norm(np.cross(out, normal), axis=1), -out @ normal)
 
 
 def crank_angle(pose: Pose) -> float:
@@ -41,12 +41,9 @@ def insertion_depth(pose: Pose) -> float:
 
 
 def jam(pose: Pose) -> float:
-    """1 if the peg is stuck at the end (not in, and goes no further), 0 if it is in or still on its way."""
+    """1 if the peg is not in at the end, 0 if it is: stuck, at rest or creeping."""
     depth = insertion(pose)
-    if depth is None:
-        return np.nan
-    late = depth[-max(2, len(depth) // 10) :]
-    return float(depth[-1] < IN and late.max() - late.min() < STILL)
+    return np.nan if depth is None else float(depth[-1] < IN)
 
 
 def penetration(pose: Pose) -> float:
@@ -59,6 +56,6 @@ METRICS = (
     ContactMetric("alignment_error_rad", "rad", "angle between tool and plate at the end", alignment_error),
     ContactMetric("crank_angle_rad", "rad", "angle that the scene's joint was turned by", crank_angle),
     ContactMetric("insertion_depth_m", "m", "depth of the peg in the hole at the end", insertion_depth),
-    ContactMetric("jam", "1", "share of pegs that are stuck", jam),
+    ContactMetric("jam", "1", "share of pegs that are not in at the end", jam),
     ContactMetric("penetration_m", "m", "deepest penetration of hand and scene", penetration),
 )

@@ -33,7 +33,7 @@ def normal_force_error(pose: Pose) -> float:
     if touched is None or pose.task.name != SLIDING:
         return np.nan
     error = (one.force[touched] + np.array(one.trial.specification.desired_wrench[:3])) @ scene_normal(one.trial)
-    return rms(error[:, None])
+    return rms(pose, error[:, None])
 
 
 def force_error_peak(pose: Pose) -> float:
@@ -43,7 +43,7 @@ def force_error_peak(pose: Pose) -> float:
 
 def force_error_rms(pose: Pose) -> float:
     """Root mean square of |f + h| [N]; NaN without touch, or if no axis complies."""
-    return rms(force_error(pose))
+    return rms(pose, force_error(pose))
 
 
 def moment_error_peak(pose: Pose) -> float:
@@ -53,7 +53,18 @@ def moment_error_peak(pose: Pose) -> float:
 
 def moment_error_rms(pose: Pose) -> float:
     """Root mean square of |m + h| [N m]; NaN without touch, or if no axis complies."""
-    return rms(moment_error(pose))
+    return rms(pose, moment_error(pose))
+
+
+def force_overshoot(pose: Pose) -> float:
+    """max -f . h / |h|^2 - 1: by how much of the force h ordered the hand presses harder at the worst.
+
+    NaN if no force was ordered, or if nothing was touched.
+    """
+    ordered, touched = np.array(pose.first.trial.specification.desired_wrench[:3]), from_first_touch(pose)
+    if touched is None or not ordered.any():
+        return np.nan
+    return float((-pose.first.force[touched] @ ordered).max() / (ordered @ ordered) - 1.0)
 
 
 def peak_force(pose: Pose) -> float:
@@ -84,6 +95,7 @@ METRICS = (
     ContactMetric("force_error_rms_n", "N", "error of the force exerted, rms", force_error_rms),
     ContactMetric("moment_error_peak_nm", "N m", "error of the moment exerted, largest", moment_error_peak),
     ContactMetric("moment_error_rms_nm", "N m", "error of the moment exerted, rms", moment_error_rms),
+    ContactMetric("force_overshoot", "1", "largest force over the one ordered, less 1", force_overshoot),
     ContactMetric("peak_force_n", "N", "largest force on the hand", peak_force),
     ContactMetric("peak_moment_nm", "N m", "largest moment on the hand", peak_moment),
     ContactMetric("peak_torque_ratio", "1", "largest torque over the motor's rated one", peak_torque_ratio),

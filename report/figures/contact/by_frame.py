@@ -40,7 +40,7 @@ MEASURES = {
     ),
     "peg-in-hole": (
         Measure("insertion_depth_m", "Depth of insertion", "Depth", "mm", MILLI, ".1f"),
-        Measure("jam", "Stuck", "Stuck", "%", 100.0, ".0f", "mean"),
+        Measure("jam", "Not in at the end", "Not in", "%", 100.0, ".0f", "mean"),
     ),
     "crank": (
         Measure("crank_angle_rad", "Turned by", "Turned", "deg", DEGREES, ".1f"),
@@ -53,7 +53,13 @@ MEASURES = {
 }
 """Of each task the two numbers that say how it went, the tasks whose orders free turns first."""
 
-DRAWN = ("hybrid-base+inverse", "hybrid/zyx-euler+inverse", "impedance-geometric", "impedance-coordinates/zyx-euler")
+DRAWN = (
+    "hybrid-base+transpose",
+    "hybrid/zyx-euler+transpose",
+    "impedance-geometric",
+    "impedance-coordinates/zyx-euler",
+)
+"""The paper's force control on both Jacobians, and springs."""
 
 SHIFT = 0.022  # of the axis, between controllers that would hide each other
 

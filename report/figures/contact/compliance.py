@@ -17,7 +17,7 @@ from bench.law.so3 import from_quaternion
 from report.figures.contact import by_transpose, loops
 from report.figures.contact import rows as controllers
 from report.figures.contact.against_theory import COMPARED_TO, gaps
-from report.figures.contact.hand_axes import axes_of_turning
+from report.figures.contact.hand_axes import axes_of_turning, shown_arm
 from report.figures.contact.misalignment_map import misalignment
 from report.figures.kit import html
 from report.figures.kit.page import ABSENT, Run, given
@@ -31,6 +31,8 @@ LISTED = (0.0, 1.0, 5.0, 15.0, 30.0, 45.0, 60.0, 75.0, 85.0, 89.0, 90.0)
 NEAR_ZERO_DEG, OFF_AT = 15.0, 30.0
 ORDER = "about x"
 EPS = sys.float_info.epsilon
+GIVEN_J = 1e-9
+"""Energy from which on a row gives any: a millionth of what the probe's moment does on a hand that yields."""
 
 POSES, SEED = 400, 0
 SELECTIONS = {
@@ -75,7 +77,8 @@ def probed(rows: pd.DataFrame) -> dict:
     axis, kept = theory.lost_moment(known_representations()["zyx-euler"], from_quaternion(zyx(0.0, math.pi / 2.0, 0.0)))
     work = rows.loc[rows["way"].isin(("hybrid/zyx-euler", controllers.SPRINGS_OF_EULER)), "work_residual"].dropna()
     return {
-        "axes_arm": controllers.arms(rows)[0],
+        "axes_arm": shown_arm(rows),
+        "passive": passive(rows),
         "probe_arms": " and ".join(controllers.arms(rows)),
         "probe_rows": len(rows),
         "gap": f"{power(max(gaps(rows).values()))} of the value (up to {COMPARED_TO:g}°)",
@@ -121,6 +124,25 @@ def zyz(rows: pd.DataFrame) -> str:
     if not ends:
         return words
     return f"{words} At zero itself, on their singularity, rounding decides: {'; '.join(ends)}."
+
+
+def passive(rows: pd.DataFrame) -> str:
+    """Which controllers give energy to what pushes a hand that begins at rest and without an order to exert any."""
+    done = rows[rows["outcome"] == "done"]
+    gives = done[done["port_energy_peak_j"] > GIVEN_J]
+    plain, unconverted = (gives[gives["way"].str.contains("unconverted") == word] for word in (False, True))
+    of_these = int(done["way"].str.contains("unconverted").sum())
+    words = (
+        f"A passive hand cannot give energy to what pushes it from rest. Unconverted it does in {len(unconverted)} of "
+        f"{of_these} rows"
+    )
+    if plain.empty:
+        return f"{words}; no other controller does in any of {len(done) - of_these}."
+    near = ", ".join(sorted({controllers.title(way) for way in plain["way"]}))
+    return (
+        f"{words}; of the others {near} in {len(plain)} of {len(done) - of_these} rows, by at most "
+        f"{power(plain['port_energy_peak_j'].max())} J."
+    )
 
 
 def forms(rows: pd.DataFrame) -> str:

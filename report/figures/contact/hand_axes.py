@@ -12,7 +12,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.patches import FancyArrowPatch, Polygon
 
-from report.figures.contact.rows import CARTESIAN, EULER, LOOKS, arms, compliance, level, nearest, of, wanted
+from report.figures.contact.rows import LOOKS, PAPERS, PAPERS_EULER, arms, compliance, level, nearest, of
 from report.figures.kit import style
 from report.figures.kit.inline import responsive_picture
 
@@ -116,16 +116,22 @@ def draw_frame(axes) -> None:
         axes.text(*(corner + 1.35 * (tip - corner)), name, color=style.MUTED, fontsize=8.5, ha="center", va="center")
 
 
+def shown_arm(rows: pd.DataFrame) -> str:
+    """The UR5e if it is there: its inertia, through which moments act, hardly couples x and z at home."""
+    return arms(rows)[-1]
+
+
 def turns(rows: pd.DataFrame) -> list[dict]:
     """What is drawn, from the rows of one arm: one Cartesian panel and one of Euler angles for each beta, by moment.
 
     A dictionary: contender, beta [deg], pushed ("x" or "z"), axis (3) that it turns about, share of the wanted
     rotation, off [deg] from the moment (NaN if it does not turn).
     """
-    found, arm = [], arms(rows)[0]
-    own, full = level(rows[rows["arm"] == arm]), wanted(rows)[arm]
-    betas = nearest(of(own, EULER, ORDER), BETAS)
-    for contender, beta in [(CARTESIAN, betas[-2]), *((EULER, beta) for beta in betas)]:
+    found = []
+    own = level(rows[rows["arm"] == shown_arm(rows)])
+    full = float(of(own, PAPERS, ORDER)["c_xx"].median())
+    betas = nearest(of(own, PAPERS_EULER, ORDER), BETAS)
+    for contender, beta in [(PAPERS, betas[-2]), *((PAPERS_EULER, beta) for beta in betas)]:
         at = of(own, contender, ORDER)
         C = compliance(at[at["beta_deg"] == beta].iloc[0])
         for pushed, _ in PUSHED:
@@ -159,7 +165,7 @@ def axes_of_turning(rows: pd.DataFrame, narrow: bool):
                 each for each in found if (each["contender"], each["beta"], each["pushed"]) == (contender, beta, pushed)
             )
             does = _panel(axes, one)
-            who = "Cartesian" if contender == CARTESIAN else "Euler"
+            who = "Cartesian" if contender == PAPERS else "Euler"
             if i == 0:
                 heading = "Cartesian, any β" if who == "Cartesian" else f"Euler, β = {beta:.0f}°"
                 axes.set_title(heading, color=LOOKS[contender.partition("+")[0]].colour)

@@ -8,8 +8,9 @@ import numpy as np
 import pandas as pd
 
 import tasks
-from report.figures.contact import contact_models
+from report.figures.contact import contact_models, limits
 from report.figures.contact.by_frame import MEASURES, Measure, by_frame
+from report.figures.contact.ends import ends
 from report.figures.contact.rows import CARTESIAN, EULER, PAPERS, PAPERS_EULER, of, of_task, title, verdicts, ways
 from report.figures.kit import html, media
 from report.figures.kit.page import ABSENT, Run, given
@@ -38,15 +39,18 @@ def facts(run: Run) -> dict:
     return {
         **plate(rows),
         "orders": orders(),
-        "timeconst": f"{1e3 * STANDARD.timeconst:g}",
+        "stiffness": f"{STANDARD.stiffness:,.0f}",
+        "damping": f"{STANDARD.damping:,.0f}",
+        **ends(rows),
+        **limits.facts(),
         "friction": f"{STANDARD.friction:g}",
         "models_trial": f"{tasks.arm(contact_models.ARM).title}, {named(contact_models.TRIAL)}",
         "betas": given(rows, lambda _: ", ".join(f"{beta:.0f}°" for beta in sorted(set(rows["beta_deg"])))),
         "penetration": penetration(rows),
-        "worst": worst(rows, CARTESIAN, EULER),
-        "stuck": stuck(rows, CARTESIAN, EULER),
-        "papers_worst": worst(rows, PAPERS, PAPERS_EULER),
-        "papers_stuck": stuck(rows, PAPERS, PAPERS_EULER),
+        "worst": worst(rows, PAPERS, PAPERS_EULER),
+        "stuck": stuck(rows, PAPERS, PAPERS_EULER),
+        "other_worst": worst(rows, CARTESIAN, EULER),
+        "other_stuck": stuck(rows, CARTESIAN, EULER),
     }
 
 
@@ -99,14 +103,15 @@ def worst(rows: pd.DataFrame, cartesian: str, euler: str) -> str:
     flat = np.degrees(pair["alignment_error_rad_x"].max())
     return (
         f"On the plate the Cartesian tool lies flat to {power(flat)} degrees in all {len(pair)} episodes that both "
-        f"end. By the Euler one it ends {np.degrees(tilted['alignment_error_rad_y']):.0f}° off ({of_pose(tilted)}), "
-        f"and has turned by {np.degrees(turned['held_turn_rad_y']):.0f}° about the axis that it was told to hold "
-        f"({of_pose(turned)})."
+        f"end. By the Euler one it ends up to {np.degrees(tilted['alignment_error_rad_y']):.0f}° off "
+        f"({of_pose(tilted)}; {word_of_rest(tilted, 'y')}), and has turned by up to "
+        f"{np.degrees(turned['held_turn_rad_y']):.0f}° about the axis that it was told to hold ({of_pose(turned)}; "
+        f"{word_of_rest(turned, 'y')})."
     )
 
 
 def stuck(rows: pd.DataFrame, cartesian: str, euler: str) -> str:
-    """How many pegs end stuck, by both Jacobians, where the hand's frame leans and where it does not."""
+    """How many pegs are not in at the end, by both Jacobians, where the hand's frame leans and where it does not."""
     own = rows[(rows["task"] == "peg-in-hole") & rows["contender"].isin((cartesian, euler))]
     if own.empty:
         return f"How pegs end is {ABSENT}."
@@ -118,7 +123,15 @@ def stuck(rows: pd.DataFrame, cartesian: str, euler: str) -> str:
             f"{who} {level.sum():.0f} of {level.count()} where the frame is level and {leaning.sum():.0f} of "
             f"{leaning.count()} where it leans"
         )
-    return f"Pegs that end stuck: {'; '.join(counts)}."
+    return f"Pegs that are not in at the end, at rest or creeping: {'; '.join(counts)}."
+
+
+def word_of_rest(row: pd.Series, side: str) -> str:
+    """At rest, or creeping and how fast."""
+    if row[f"rest_{side}"] == "at-rest":
+        return "at rest"
+    rate, speed = row[f"remaining_rate_rad_per_s_{side}"], 1e3 * row[f"remaining_speed_m_per_s_{side}"]
+    return f"creeping at {power(np.degrees(rate))} °/s and {power(speed)} mm/s"
 
 
 def of_pose(row: pd.Series) -> str:
@@ -137,6 +150,7 @@ def tables(run: Run) -> dict:
     return {
         "tab_models": contact_models.MODELS(contact_models.models()),
         "verdicts": verdicts(run, "C25"),
+        **limits.tables(),
         **{f"tab_{name}": given(rows[rows["task"] == name], of_controllers) for name in MEASURES},
     }
 
@@ -151,9 +165,12 @@ def of_controllers(own: pd.DataFrame) -> html.Markdown | None:
         mine = own[own["contender"] == contender]
         count = html.together(f"{(mine['outcome'] == 'done').sum()} of {len(mine)}")
         middles = [measure.over_beta(mine) for measure in measures]
-        lines.append((controller(contender), count, *(middle.get(b, np.nan) for middle in middles for b in shown)))
+        done = mine[mine["outcome"] == "done"]
+        still = html.together(f"{(done['rest'] == 'at-rest').sum()} of {len(done)}") if done["rest"].any() else ""
+        values = (middle.get(beta, np.nan) for middle in middles for beta in shown)
+        lines.append((controller(contender), count, still, *values))
     forms = {_head(measure, b): measure.form for measure in measures for b in shown}
-    return Table({"Controller": "", "Reach the end": "", **forms})(lines)
+    return Table({"Controller": "", "Reach the end": "", "At rest": "", **forms})(lines)
 
 
 def _head(measure: Measure, beta: float) -> str:
@@ -184,4 +201,5 @@ LOOP = (
 
 def figures(run: Run) -> dict:
     """The loop of two arms at a plate; tasks by frame of the hand."""
-    return {"plate-loop": media.loop(LOOP, "plate-loop"), "in-contact": given(all_rows(run), by_frame)}
+    found = {"plate-loop": media.loop(LOOP, "plate-loop"), "in-contact": given(all_rows(run), by_frame)}
+    return {**found, **limits.figures()}

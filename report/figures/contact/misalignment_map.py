@@ -30,10 +30,14 @@ def cells(rows: pd.DataFrame) -> tuple[pd.DataFrame, pd.DataFrame]:
 
 
 def frames(rows: pd.DataFrame) -> dict[tuple[float, float], pd.DataFrame]:
-    """Rows by the goal's (alpha, gamma) [deg]: the level ones, and of the others those that have most rows."""
+    """Rows by the goal's (alpha, gamma) [deg]: the level ones, and of the others those with most orders, then rows."""
     groups = dict(list(rows.groupby(["alpha_deg", "gamma_deg"])))
-    ranked = sorted(groups.items(), key=lambda one: (one[0] != (0.0, 0.0), -len(one[1]), one[0]))
-    return dict(ranked[:2])
+
+    def rank(at: tuple[float, float]) -> tuple:
+        own = groups[at]
+        return at != (0.0, 0.0), -own["complies"].nunique(), -len(own), at
+
+    return {at: groups[at] for at in sorted(groups, key=rank)[:2]}
 
 
 @responsive_picture

@@ -46,7 +46,7 @@ COORDINATES = {
     "rotation-vector": "rotation vector",
     "mrp": "Rodrigues",
 }
-WORDS = ("task", "arm", "contender", "complies", "pose", "outcome", "form")
+WORDS = ("task", "arm", "contender", "complies", "pose", "outcome", "rest", "form")
 COLUMNS = (*WORDS, "way", "alpha_deg", "beta_deg", "gamma_deg", "tilt_deg")
 """Those that a table without rows has too."""
 
