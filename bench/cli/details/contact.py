@@ -28,9 +28,10 @@ def summary(rows):
     lines = []
     for name, part in results.with_controller(rows).groupby("contender", observed=True, sort=False):
         done = part[part["outcome"] == "done"]
-        ends = done["rest"].astype(str)
-        rests = f"{(ends == 'at-rest').sum()}/{(ends != '').sum()}"
-        line = {"controller": str(name), "done": f"{len(done)}/{len(part)}", "at rest": rests}
+        line = {"controller": str(name), "done": f"{len(done)}/{len(part)}"}
+        if "rest" in done:  # not in a run of before there was an end
+            ends = done["rest"].astype(str)
+            line["at rest"] = f"{(ends == 'at-rest').sum()}/{(ends != '').sum()}"
         for column, (title, scale) in COLUMNS.items():
             some = scale * done[column].dropna()
             line[title] = f"{some.median():.3f}  {some.max():.3f}" if len(some) else ""
