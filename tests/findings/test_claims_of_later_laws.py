@@ -33,7 +33,7 @@ def start(name, i):
 @pytest.fixture
 def frames():
     laws = PAPERS | LATER
-    ending = {"outcome": "settled", "settling_time_s": 0.6, "path_ratio": 1.0}
+    ending = {"outcome": "settled", "converged": "yes", "settling_time_s": 0.6, "path_ratio": 1.0}
     episodes = [{**WORDS, **named(law), **start(name, i), **ending} for law in laws for name in ANGLES for i in (0, 1)]
     costs = [
         {**WORDS, **named(law), "branch": "typical", "stage": stage, "flops": flops, "sin": calls}
@@ -46,9 +46,14 @@ def frames():
         for law in LATER
         for level in (0.0, 0.1, 1.0)
     ]
-    return {
-        name: pd.DataFrame(rows) for name, rows in (("episodes", episodes), ("costs", costs), ("robustness", noise))
-    }
+    spinning = [
+        {**dict.fromkeys(("jacobian", "inverse"), ""), **named(law), "row": "cell", "least_speed": speed}
+        | {"most_speed": speed, "starts": 10_000, "settled": 10_000, "unconverged": 0}
+        for law in laws
+        for speed in (0.0, 20.0)
+    ]
+    tables = (("episodes", episodes), ("costs", costs), ("robustness", noise), ("map", spinning))
+    return {name: pd.DataFrame(rows) for name, rows in tables}
 
 
 def of(law, **words):
@@ -97,6 +102,8 @@ def test_one_law_is_enough(judged):
         # open: every law misses one of C17's tests
         ("episodes", {"start_set": "uniform"}, {"outcome": "stuck"}, Word.HOLDS),
         ("episodes", {"start_set": "box"}, {"outcome": "diverged"}, Word.HOLDS),
+        ("map", {"most_speed": 20.0}, {"settled": 9_980}, Word.HOLDS),
+        ("map", {"most_speed": 20.0}, {"settled": 9_980, "unconverged": 20}, Word.HOLDS),
         ("episodes", {"start_set": "uniform"}, {"settling_time_s": 1.2}, Word.HOLDS),
         ("costs", {"stage": "total"}, {"flops": 81}, Word.HOLDS),
         # noise beyond the stated angle does not count

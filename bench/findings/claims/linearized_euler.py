@@ -93,8 +93,8 @@ def c06(results, engine):
     """,
     open="""
         Until November 2026 the criterion was the same of every episode at a step of 1 ms, converged or not,
-        and by the numbers themselves instead of their intervals' ends; by it the claim held with a
-        correction. Sampled engines are compared: a sampled law can step over the pole.
+        and by the numbers themselves instead of their intervals' ends; by it the claim held.
+        Sampled engines are compared: a sampled law can step over the pole.
     """,
 )
 @on_every_engine
