@@ -22,9 +22,10 @@ orientation in use exceeds by much, and far less than any law's memory could bri
         Asked of every law of the run that is none of the paper's, in any coordinates. Adequate as in C17:
         (a) at least {SETTLED_SHARE:.1%} of the uniform starts settle; (b) no more of the
         directed and of the spinning starts are lost than C17 allows; (c) no uniform start takes longer than
-        {SLOW:g} times the settling time of a small error; (d) flops plus {CALL_PRICE:g} for
-        each call (typical branch, without the goal's own stage) at most {DEAR:g} times the cheapest of the paper's three. An answer must also (e) settle from the
-        directed starts that C17 leaves out, every exact half turn, pole and wrap; (f) leave every half turn
+        {SLOW:g} times the settling time of a small error; (d) flops plus
+        {CALL_PRICE:g} for each call (typical branch, without the goal's own stage) at most {DEAR:g} times the
+        cheapest of the paper's three. An answer must also (e) settle from the directed starts that
+        C17 leaves out, every exact half turn, pole and wrap; (f) leave every half turn
         under worst-case noise of up to {HELD_RAD:g} rad (robustness.parquet, half-turn-noise: no start that
         fails to settle); (g) not unwind: from uniform starts and half turns it travels less than {DETOUR:g}
         times the shortest way; (h) keep (d) at every price of a call from {CALL_PRICES[0]:g} to
