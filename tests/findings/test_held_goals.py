@@ -34,7 +34,7 @@ def test_bisected_goals_lie_on_the_closed_forms_boundary(gains):
         assert (np.cos(alphas) > least_cosine(betas, gains)).all()
 
 
-def test_about_z_the_law_holds_goals_to_the_golden_angle():
+def test_about_z_the_law_holds_goals_to_76_degrees():
     """At beta = 0, s = 1 and critical damping: cos(alpha_d) = sqrt(5) - 2, 76.35 degrees."""
     assert held_to(LAW.law, np.array((0.0, 0.0, 1.0)), PAPER) == pytest.approx(
         math.acos(math.sqrt(5.0) - 2.0), abs=1e-8

@@ -55,7 +55,9 @@ def _free_body(rows: pd.DataFrame) -> list[str]:
     of_them = f"{counted(len(stuck), 'episode')} of {counted(stuck['contender'].nunique(), 'law')}"
     dead = f" {of_them} ended at a dead point, {at:,} of them at or near a 180° rotation."
     dead = dead if len(stuck) else ""
-    return [f"Free body: {of(rows)} episodes.{worst(rows, 'law')}{dead}"]
+    apart = int((rows["converged"] == "no").sum())
+    unsure = f" {counted(apart, 'episode')} did not converge: their end hangs on the step." if apart else ""
+    return [f"Free body: {of(rows)} episodes.{worst(rows, 'law')}{dead}{unsure}"]
 
 
 def _arms(every: pd.DataFrame) -> list[str]:
