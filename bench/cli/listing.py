@@ -80,11 +80,6 @@ def _jacobians(_):
     return ((one.name, one.takes.replace("-", " "), one.title, one.source) for one in known_jacobians().values())
 
 
-@kind("baselines", "Baselines of arms, which are no laws", "name", "title", "source")
-def _baselines(_):
-    return ((name, one.regulator.title, one.regulator.source) for name, one in baselines_of_arms().items())
-
-
 SHAPES = ((6, 6), (6, 7), (7, 6), (7, 7))
 """Rows and columns of a Jacobian: three of position, with three coordinates of orientation or four; six joints or
 seven."""
@@ -112,6 +107,11 @@ def _controllers(_):
 def _impedances(_):
     every = known_impedances().values()
     return ((one.name, "coordinates" if one.law_in else "R", one.title, one.source) for one in every)
+
+
+@kind("baselines", "Baselines of arms, which are no laws", "name", "title", "source")
+def _baselines(_):
+    return ((name, one.regulator.title, one.regulator.source) for name, one in baselines_of_arms().items())
 
 
 @kind("metrics", "Metrics", "column", "unit", "of", "meaning")

@@ -17,7 +17,6 @@ from bench.law.resolved_motion import Scratch
 from bench.law.scalar import kernel
 from bench.law.so3 import Rotation
 from tasks.arm_model import Arm
-from tasks.kinematics import kinematics
 
 MOST = 7
 """The most joints an arm may have: the size of buffers and of a row's pose."""
@@ -102,6 +101,8 @@ def states(starts, n: int) -> np.ndarray:
 
 def joints(arm: Arm) -> Joints:
     """The numbers of an arm's joints."""
+    from tasks.kinematics import kinematics  # MuJoCo takes a moment to import; the ideal plant needs none
+
     missing = MOST - arm.joints
     return Joints(
         (*map(float, arm.lower), *[-math.inf] * missing),

@@ -42,7 +42,7 @@ def units(asked: Asked) -> tuple[Unit, ...]:
         is_meant = any(part.start_set in fitting for part in slices)
         for arm in (asked.choice.arms or tasks.arm_names()) if is_meant else ():  # one is read by MuJoCo
             for part, one, variation in _on_arm(asked.suite.on_arms, asked.laws, tasks.arm(arm).joints, asked.choice):
-                if part.start_set in fitting and runs_on(part.engine, task, one):
+                if part.start_set in fitting and runs_on(part.engine, task, one) and _knows(one, part.start_set):
                     places.append(Place(part, one, task, arm, variation))
     if every_task and not places and asked.choice.is_about_arms:
         _check_combinations(asked)
@@ -60,12 +60,11 @@ def _on_arm(on_arms: OnArms, laws, joints: int, choice: Choice) -> Iterator[tupl
         usual = tuple(word for word in on_arms.words if word not in on_arms.few)  # on seven joints some are the same
         few = {*combinations.on(on_arms.few, by_name, joints)} - {*combinations.on(usual, by_name, joints)}
     every = combinations.chosen(on_arms.words, by_name, joints, choice.jacobians, choice.inverses)
-    if is_by_suite and not choice.is_of_some_laws:
+    if every and is_by_suite and not choice.is_of_some_laws:
         every += combinations.baselines(joints)
     for one in every:
         for part in slices:
-            knows = one.regulator.assemble is None or tasks.knows_joints(part.start_set)
-            for variation in variations if knows and (one not in few or part.start_set in DIRECTED_AT_INVERSES) else ():
+            for variation in variations if one not in few or part.start_set in DIRECTED_AT_INVERSES else ():
                 yield part, one, variation
     if on_arms.varied and is_by_suite and not choice.narrows:
         for one in combinations.on(on_arms.varied, by_name, joints):
@@ -73,6 +72,11 @@ def _on_arm(on_arms: OnArms, laws, joints: int, choice: Choice) -> Iterator[tupl
                 for variation in tasks.variation_names():
                     if variation != NOMINAL:
                         yield part, one, variation
+
+
+def _knows(one: Contender, start_set: str) -> bool:
+    """Whether a set says all that a controller asks: of the goal's joint angles no law does."""
+    return one.regulator.assemble is None or tasks.knows_joints(start_set)
 
 
 def _check_combinations(asked: Asked) -> None:

@@ -22,7 +22,6 @@ INDEX = "# A book of one page\n\nIt cites {cite}`murphy1988`.\n"
 
 CONTENTS = "format: jb-book\nroot: index\nchapters:\n- glob: pages/*\n"
 
-
 EXPERIMENT = "bench/experiments/dropped_experiment.py"
 DROPPED_EXPERIMENT = '''
 """Position gains: a unit a law; killed at the one that the environment names."""
