@@ -12,7 +12,7 @@ from bench.contenders.registry import find_contender
 from bench.experiments.experiment import rows_of
 from bench.experiments.map import folded, plan_of
 from bench.experiments.rows.map import MOST_LOST, cells
-from bench.findings.maps import by_law, lost_share
+from bench.findings.maps import by_law, counted, lost_between, lost_share
 from bench.running import run
 from bench.tables.schema import TABLES
 from bench.tables.store import as_table, read
@@ -78,8 +78,34 @@ def test_command_goes_on_and_says_the_share(tmp_path, capsys):
     assert "gibbs" in first
     assert [path.name for path in (tmp_path / "map").glob("*.parquet")] == ["map.parquet"]
     [line] = by_law(read(tmp_path / "map", "map")).to_dict("records")
-    assert (line["law"], line["starts"], line["speed to [rad/s]"]) == ("gibbs", 300, 20.0)
+    assert (line["law"], line["starts"], line["speed [rad/s]"]) == ("gibbs", 300, "0 to 20")
     assert main([*words, "--out", str(tmp_path / "map")]) == 0
     assert not run.run(
-        plan_of([find_contender("gibbs")], 300, most_speed=20.0, horizon_s=2.0, dt_s=5e-3), tmp_path / "map"
+        plan_of([find_contender("gibbs")], 300, speeds=((0.0, 20.0),), horizon_s=2.0, dt_s=5e-3), tmp_path / "map"
     )
+
+
+def test_stated_speed_is_the_speed_of_every_start(tmp_path, capsys):
+    """As they are kept; half a time constant is too short for any to settle, and no coarser run agrees by chance."""
+    words = ["map", "--regulator", "gibbs", "--starts", "50", "--horizon", "0.05", "--speed", "5", "--speed", "20"]
+    assert main([*words, "--out", str(tmp_path / "map")]) == 0
+    capsys.readouterr()
+    kept = read(tmp_path / "map", "map")
+    found = kept[kept["row"] == "lost"].groupby("most_speed")[["omega0_x", "omega0_y", "omega0_z"]]
+    speeds = {speed: np.linalg.norm(own, axis=1) for speed, own in found}
+    assert {speed: len(own) for speed, own in speeds.items()} == {5.0: 50, 20.0: 50}
+    for speed, own in speeds.items():
+        np.testing.assert_allclose(own, speed, rtol=1e-14)
+    assert set(counted(kept)["lost"] + counted(kept)["unconverged"]) == {50}
+
+
+def test_stated_speeds_and_a_range_exclude_each_other(capsys):
+    assert main(["map", "--regulator", "gibbs", "--spin", "3", "--speed", "5"]) == 2
+    assert "give one of the two" in capsys.readouterr().err
+
+
+def test_starts_that_do_not_converge_widen_the_interval_of_what_is_lost():
+    """3 lost and 2 that may be: the lower end is that of 3 of 1,000, the upper one that of 5."""
+    found = lost_between(3, 2, 1000)
+    assert found.value == pytest.approx(3 / 998)
+    assert (found.low, found.high) == (lost_share(3, 1000).low, lost_share(5, 1000).high)

@@ -33,7 +33,7 @@ def plan_of_all_kinds(folder: Path) -> plan.Plan:
         Unit("costs", "rotation-matrix"),
         Unit("costs", "mine"),
         Unit("jacobians", arm="ur5e", count=1, total=1),
-        *plan_of([ours], 200, most_speed=20.0, horizon_s=1.0).units,
+        *plan_of([ours], 200, speeds=((0.0, 20.0),), horizon_s=1.0).units,
     )
     runs = (*alone.units, *(unit for unit in on_arm if unit.experiment == "arm"), *contact[:1], *perturbed)
     return dataclasses.replace(alone, units=(*runs, *made))

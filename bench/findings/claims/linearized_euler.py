@@ -9,6 +9,7 @@ from bench.experiments.suites import SHORT
 from bench.findings.claims import probes
 from bench.findings.claims.tables import evidence, lost, on_every_engine, settled, share, some
 from bench.findings.claims.verdict import Earlier, Word, claim, word_of
+from bench.findings.theory import held_goals
 from bench.tables.read import converged
 from bench.tables.statistics import bootstrap, quantile
 from tasks.base import IDENTITY, Start
@@ -215,8 +216,10 @@ def c08(results, engine):
     word = word_of(works and base.high <= FEW_GOALS and not near.k, works and base.high < MANY_GOALS)
     return word, evidence(
         f"""With E_d subtracted it reaches {base} of the goals, and {near.k} of {near.n} goals {NEAR_GOAL_RAD} rad from
-        zero; with angles from the goal {cure} of the goals, against {zero} of uniform starts with goal zero. As
-        printed, u contains no goal.""",
+        zero; with angles from the goal {cure} of the goals, against {zero} of uniform starts with goal zero. By its
+        eigenvalues it holds {held_goals.held_share(results.gains()):.1%} of all goals: those with alpha_d under
+        {math.degrees(math.acos(held_goals.least_cosine(0.0, results.gains()))):.1f} degrees at beta_d = 0 and under 90
+        at the poles, whatever gamma_d. As printed, u contains no goal.""",
         base.n + cure.n + zero.n + near.n,
         ("episodes", "experiment"),
     )

@@ -7,6 +7,10 @@ from collections.abc import Iterable, Iterator
 import numpy as np
 import pandas as pd
 
+from bench.contenders.registry import find_contender, representation
+from bench.findings.theory import held_goals
+from bench.law.contender import PAPERS_GAINS
+from bench.law.so3 import from_quaternion
 from bench.tables import read
 from report.figures.failures import ball, maps, pole_steps, world_map
 from report.figures.failures.world_map import SETS
@@ -23,6 +27,10 @@ NEAR_RAD = 0.1 + EXACT_RAD
 """Of a pole: the first decade of the set poles, 0.1 rad with its rounding."""
 
 SHARES = Table("Law | Starts | Settled [%]:.2f | 95 % interval | The others")
+HELD = Table("Axis | Angle [°]:.2f | alpha [°]:.2f | beta [°]:.2f | Bound on alpha [°]:.2f")
+ALONG = ((0, 0, 1), (0, 1, 1), (1, 0, 1), (1, 1, 1), (-1, 1, 1), (1, 0, 0))
+"""Axes of goals."""
+
 STEPS = Table("Step [µs] | Lost [%]:.2f | 95 % interval | Starts | of them before too")
 EXACT = Table("Law | Start on | Tried | Failing | How | One of them (w, x, y, z)")
 NEAREST = Table("Law | Axes | Failing | Smallest:.1f | About | Median:.1f | Nearest start:.1f")
@@ -49,6 +57,8 @@ def facts(run: Run) -> dict:
     return {
         "unconverged": int((every(run)["converged"] == "no").sum()),
         **maps.facts(),
+        "held_level": f"{math.degrees(math.acos(held_goals.least_cosine(0.0, PAPERS_GAINS))):.1f}",
+        "held_share": f"{100.0 * held_goals.held_share(PAPERS_GAINS):.1f}",
         "stepped": html.number(pole_steps.STARTS),
         "n": len(linearized),
         "failed_l": len(failed),
@@ -80,6 +90,7 @@ def tables(run: Run) -> dict:
         "tab_shares": SHARES(shares(episodes)),
         "tab_mapped": maps.at_rest(),
         "tab_spun": maps.spinning(),
+        "tab_held": HELD(held()),
         "tab_steps": STEPS(pole_steps.rows()),
         "tab_exact": EXACT(exact_points(episodes)),
         "tab_nearest": NEAREST(nearest(run.rows("boundaries"), episodes)),
@@ -89,6 +100,20 @@ def tables(run: Run) -> dict:
 def figures(run: Run) -> dict:
     """Map of the world, and ball."""
     return {"failure-map": world_map.world(continuous(run)), "ball": ball.ball(continuous(run))}
+
+
+def held() -> Iterator[tuple]:
+    """Axis: the first goal that the linearized law does not hold, its angles, and the closed form's bound there."""
+    law, chart = find_contender(LINEARIZED).law, representation("zyx-euler").chart
+    for axis in ALONG:
+        unit = np.array(axis) / np.linalg.norm(axis)
+        angle, name = held_goals.held_to(law, unit, PAPERS_GAINS), html.together(str(axis))
+        if angle < math.pi:
+            alpha, beta, _ = chart(from_quaternion((math.cos(angle / 2.0), *(math.sin(angle / 2.0) * unit)))).E
+            bound = math.acos(held_goals.least_cosine(beta, PAPERS_GAINS))
+            yield name, *map(math.degrees, (angle, alpha, beta, bound))
+        else:
+            yield name, None, None, None, None
 
 
 def outcomes(rows: pd.DataFrame) -> str:
