@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 from scipy.spatial.transform import Rotation
 
-from bench.contenders.registry import find_contender, representation
+from bench.contenders.registry import find_contender, papers_coordinates
 from bench.findings.counts import AT_REST
 from bench.findings.theory import held_goals
 from bench.law.contender import PAPERS_GAINS
@@ -105,7 +105,7 @@ def figures(run: Run) -> dict:
 
 def held() -> Iterator[tuple]:
     """Axis: the first goal that the linearized law does not hold, its angles, and the closed form's bound there."""
-    law, chart = find_contender(LINEARIZED).law, representation("zyx-euler").chart
+    law, chart = find_contender(LINEARIZED).law, papers_coordinates().chart
     for axis in ALONG:
         unit = np.array(axis) / np.linalg.norm(axis)
         angle, name = held_goals.held_to(law, unit, PAPERS_GAINS), html.together(str(axis))
