@@ -70,9 +70,12 @@ def _settings(plan: Plan, workers: int, scheduler: str) -> Paragraph:
 
 def print_all(plan: Plan) -> None:
     """Every law, engine, arm, start set, perturbation, controller and task of a plan."""
-    laws = ", ".join(dict.fromkeys(one.on_free_body for one in plan.contenders))
-    if laws:
-        console().print(f"\nlaws: {laws}")
+    ours = [one for one in plan.contenders if one.regulator.assemble is None]
+    baselines = [one for one in plan.contenders if one.regulator.assemble is not None]
+    if ours:
+        console().print(f"\nlaws: {', '.join(dict.fromkeys(one.on_free_body for one in ours))}")
+    if baselines:
+        console().print(f"baselines: {', '.join(dict.fromkeys(one.on_free_body for one in baselines))}")
     alone, contacts, perturbed = plan.of("free-body", "arm"), plan.of("contact"), plan.of("robustness")
     sizes: dict = {}
     for unit in alone:
