@@ -34,7 +34,7 @@ SETS = ("uniform", "half-turn")
         of compliance.
     """,
     correction="They are the same of forms that are regular at the goal; Z-Y-Z, degenerate at zero, gives others.",
-    written="2026-11-23 11a3950",
+    written="2026-11-23 a2b9306",
     earlier=(
         Earlier(
             "2026-11-23 bc126c2",
