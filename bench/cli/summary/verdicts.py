@@ -10,7 +10,7 @@ PLURAL = {
     Word.HOLDS: "hold",
     Word.CORRECTED: "hold with a correction",
     Word.FAILS: "do not",
-    Word.ANSWERED: "open in 1988 and answered since",
+    Word.ANSWERED: "open in 1988 and answered since then",
 }
 
 
@@ -23,17 +23,18 @@ def paragraph(results: Results) -> Paragraph:
     if not words:
         return Paragraph("Claims", (f"This run decides none of the paper's {len(all_claims())} claims.",))
     of_all = f" of the paper's {len(all_claims())} claims"
+    named = {Word.FAILS: f" ({', '.join(ids.get(Word.FAILS, ()))})"}
     counts = ", ".join(
-        f"{len(ids[word])}{'' if place else of_all} {_verb(word, len(ids[word]))}" for place, word in enumerate(words)
+        f"{len(ids[word])}{'' if place else of_all} {_verb(word, len(ids[word]))}{named.get(word, '')}"
+        for place, word in enumerate(words)
     )
-    failing = f" ({', '.join(ids[Word.FAILS])})" if Word.FAILS in ids else ""
     unknown = len(ids.get(None, ()))
     rest = f"; {unknown} cannot be judged from this run" if unknown else ""
-    return Paragraph("Claims", (f"{counts}{failing}{rest}.",))
+    return Paragraph("Claims", (f"{counts}{rest}.",))
 
 
 def _verb(word: Word, number: int) -> str:
-    return str(word if number == 1 else PLURAL.get(word, word))
+    return str(word) if number == 1 and word != Word.ANSWERED else PLURAL.get(word, word)
 
 
 def _word(claim, results: Results) -> Word | None:
