@@ -49,6 +49,7 @@ def test_every_regulator_has_a_card_with_its_source():
 
 def test_costs_are_drawn_for_every_law():
     costs = read.costs()
+    costs = costs[costs["jacobian"] == ""]
     assert operations.operations(costs).alt.partition(": ")[2].count(" + ") == costs["contender"].nunique()
 
 
