@@ -144,6 +144,18 @@ def ledger(results: Results) -> Ledger:
     return Ledger(times, (alone, whole), price_of_a_call(times, whole))
 
 
+def of_three(results: Results) -> Ledger:
+    """The same where the paper's three laws are counted.
+
+    Errors:
+        NoEvidence: one of them is not.
+    """
+    known = ledger(results)
+    for name in THREE:
+        some([one[name] for one in known.accountings if name in one], f"cost of {name}")
+    return known
+
+
 TESTS = "abcdefgh"
 """Of C27's criterion, in its order."""
 

@@ -7,7 +7,7 @@ import numpy as np
 from bench.findings.claims import adequacy, probes, standing
 from bench.findings.claims.adequacy import DIRECTED_SHARE, SETTLED_SHARE, SLOW, THREE
 from bench.findings.claims.standing import ORDERED, Ledger
-from bench.findings.claims.tables import evidence, lost_text, on_every_engine, settled, some
+from bench.findings.claims.tables import evidence, lost_text, on_every_engine, settled
 from bench.findings.claims.verdict import Earlier, NoEvidence, Word, claim, word_of
 from bench.findings.theory import closed_form
 
@@ -48,9 +48,7 @@ from bench.findings.theory import closed_form
 )
 def c12(results):
     """Neighbours by time, and by flops and calls in both accountings."""
-    known = adequacy.ledger(results)
-    for name in THREE:
-        some([one[name] for one in known.accountings if name in one], f"cost of {name}")
+    known = adequacy.of_three(results)
     pairs = [known.stand(*pair) for pair in itertools.pairwise(THREE)]
     if not all(one.sign for one in pairs):
         raise NoEvidence("flops and calls say different things, and no time decides: run python -m bench time")
@@ -127,7 +125,7 @@ def c17(results, engine):
     three = [one for one in adequacy.every(results, engine) if one.name in THREE]
     if len(three) < len(THREE):
         raise NoEvidence(f"not all of {', '.join(THREE)} ran by {engine}: run a suite without narrowing it")
-    known = adequacy.ledger(results)
+    known = adequacy.of_three(results)
     lacks = {one.name: set(adequacy.missed(one, known, linear, {})) for one in three}
     both = [one.name for one in three if not lacks[one.name] & set(adequacy.BOTH)]
     word = word_of(not both, all(lacks[name] & {"e", "h"} for name in both))

@@ -71,7 +71,7 @@ def c27(results, engine):
             f"no later law by {engine} on which noise was tried: run the suite 'quick', 'default' or 'full' without "
             "narrowing it"
         )
-    known, small = adequacy.ledger(results), closed_form.linear_settling(*results.gains())
+    known, small = adequacy.of_three(results), closed_form.linear_settling(*results.gains())
     if not known.times:
         raise NoEvidence("no law was timed, and flops and calls alone tell no cost: run python -m bench time")
     lacks = {one.name: adequacy.missed(one, known, small, held) for one in later}
