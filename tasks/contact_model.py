@@ -87,9 +87,7 @@ def mobilities(task: ContactTask, arm: Arm) -> dict[str, float]:
     """body_invweight0 [1/kg] of translation, by body: the mean over directions of J D^-1 J^T at the joints' zero."""
     import mujoco  # takes a moment, and listing names must not
 
-    model = mujoco.MjModel.from_xml_string(
-        ElementTree.tostring(_model(task, arm, 1e-3, STANDARD), encoding="unicode")
-    )
+    model = mujoco.MjModel.from_xml_string(ElementTree.tostring(_model(task, arm, 1e-3, STANDARD), encoding="unicode"))
     return {model.body(i).name: float(model.body_invweight0[i, 0]) for i in range(model.nbody)}
 
 

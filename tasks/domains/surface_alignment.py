@@ -65,9 +65,7 @@ def trials(arm: Arm, dense: bool = False) -> tuple[Trial, ...]:
         pose = f"tilt {tilt} about {azimuth}, beta{beta:+d}"
         place = _below(arm, q, columns(plate)[2])
         told = SPECIFICATION._replace(moves_s=(at(arm, q, TIP)[2] - place[2] + BELOW) / LOWERING)
-        found.append(
-            Trial(pose, pose, told, q, goal, mounts(arm, q, goal), place, plate, tilt=math.radians(tilt))
-        )
+        found.append(Trial(pose, pose, told, q, goal, mounts(arm, q, goal), place, plate, tilt=math.radians(tilt)))
     return tuple(found)
 
 
