@@ -11,8 +11,8 @@ periods, beyond the coarser one's sampling); an unsettled body at the same angle
 saturated or singular) counts if it came with the first command or by steps that were good enough all along: what is
 integrated too coarsely beside a pole fails at any step. Which of the three it is, the finer of the two runs says.
 
-Does not converge: what hangs on rounding (an exact half turn that is left at all), and what passes a place where the
-command has no limit in a way that hangs on the step.
+Does not converge: what depends on rounding (an exact 180° rotation that is left at all), and what passes a place where
+the command has no limit in a way that depends on the step.
 """
 
 from collections.abc import Callable

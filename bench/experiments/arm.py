@@ -12,7 +12,7 @@ from bench.errors import Incompatible
 from bench.experiments.choice import Choice
 from bench.experiments.episodes import Place, cut, lost, narrowed, prepare, runs_on, starts_of, tasks_of
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit
-from bench.experiments.suites import DIRECTED_AT_INVERSES, NOMINAL, OnArms, Slice
+from bench.experiments.suites import AT_INVERSES, NOMINAL, OnArms, Slice
 from bench.law.contender import Contender
 from bench.tables.schema import TABLES
 from tasks.base import Start
@@ -64,7 +64,7 @@ def _on_arm(on_arms: OnArms, laws, joints: int, choice: Choice) -> Iterator[tupl
         every += combinations.baselines(joints)
     for one in every:
         for part in slices:
-            for variation in variations if one not in few or part.start_set in DIRECTED_AT_INVERSES else ():
+            for variation in variations if one not in few or part.start_set in AT_INVERSES else ():
                 yield part, one, variation
     if on_arms.varied and is_by_suite and not choice.narrows:
         for one in combinations.on(on_arms.varied, by_name, joints):

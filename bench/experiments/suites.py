@@ -33,7 +33,7 @@ BEST = tuple(
     f"{law}@geometric+standard"
     for law in ("hybrid", "late-braking", "mrp-linearized", "quaternion-shortest", "mrp", "rotation-vector")
 )
-"""The later laws that run on arms: those that no noise holds at a half turn, and of the simplest others three whose
+"""The later laws that run on arms: those that no noise holds at a 180° rotation, and of the simplest others three whose
 springs differ. Whatever law is advised is among them (a test)."""
 ANALYTIC = tuple(f"feedback-linearized/{word}@analytic+standard" for word in IN_COORDINATES)
 RESOLVED = "rotation-matrix@geometric"
@@ -48,7 +48,8 @@ TWINS = (
 )
 """What ought to equal another contender: the same command by another Jacobian."""
 
-DIRECTED_AT_INVERSES = ("wrist", "uniform")  # elsewhere every inverse gives the same motion
+AT_INVERSES = ("wrist", "uniform")
+"""Start sets on which inverses are told apart, and twins looked at: beside the arm's singularities, and anywhere."""
 
 VARIED = (LAWS[0], LAWS[3], ANALYTIC[0])  # they settle every clear start of a perfect model
 
@@ -66,7 +67,7 @@ class OnArms(NamedTuple):
     """The part of a suite that runs on every arm.
 
     words: contenders as `combinations` writes them; none at all: every compatible combination. few: those of them that
-    run from DIRECTED_AT_INVERSES alone. varied: the contenders of the study of model errors, which runs over all
+    run from AT_INVERSES alone. varied: the contenders of the study of model errors, which runs over all
     variations of the plant. traced: starts of `clear` and `pole` whose episodes are kept as curves. poses: how many an
     arm's Jacobians are looked at, beside the directed ones.
     """

@@ -1,4 +1,4 @@
-"""Does a verdict hang on the draw or on the step? Every claim on 20 seeds and at half the step: results/verdicts.
+"""Does a verdict depend on the draw or on the step? Every claim on 20 seeds and at half the step: results/verdicts.
 
     python -m bench.studies.verdicts                     what results/verdicts lacks: about a minute of CPU a seed
     python -m bench.studies.verdicts --only 3 half-step  these anew
@@ -50,14 +50,14 @@ DRAWN = {
     "arm": lambda unit: _is_judged(unit),
     "jacobians": lambda unit: True,
 }
-"""By experiment, the units of a suite that hang on the seed and that claims look at."""
+"""By experiment, the units of a suite that depend on the seed and that claims look at."""
 
 STEPPED = {
     **{name: wanted for name, wanted in DRAWN.items() if name != "jacobians"},
     "boundaries": lambda unit: True,
     "contact": lambda unit: True,
 }
-"""Those that hang on the step: Jacobians are of poses."""
+"""Those that depend on the step: Jacobians are of poses."""
 
 
 def _is_judged(unit: Unit) -> bool:

@@ -161,6 +161,13 @@ def test_time_of_laws_alone_is_what_tells_whole_controllers_apart():
             assert (difference.abs() <= MEASURABLE * whole).all(), difference
 
 
+def test_no_advice_depends_on_the_bound_of_time_that_stood_before(monkeypatch):
+    """3 % of a tick, when the rule was fixed."""
+    assert BY_NAME["tick"].least > 3.0
+    monkeypatch.setitem(BY_NAME, "tick", BY_NAME["tick"]._replace(least=3.0))
+    assert advise(measured(FOLDER)) == decided()
+
+
 # --------------------------------------------------------------------------------- wherever it is read
 
 

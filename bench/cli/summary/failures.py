@@ -56,7 +56,7 @@ def _free_body(rows: pd.DataFrame) -> list[str]:
     dead = f" {of_them} ended at a dead point, {at:,} of them at or near a 180° rotation."
     dead = dead if len(stuck) else ""
     apart = int((rows["converged"] == "no").sum())
-    unsure = f" {counted(apart, 'episode')} did not converge: their end hangs on the step." if apart else ""
+    unsure = f" {counted(apart, 'episode')} did not converge: their end depends on the step." if apart else ""
     return [f"Free body: {of(rows)} episodes.{worst(rows, 'law')}{dead}{unsure}"]
 
 

@@ -5,7 +5,7 @@ can. It needs the goal's joint angles q_d, which are the start's (`goal_q`), gra
 Jacobian, no coordinates, no inertia matrix. With V = (qdot' D qdot + Kp (q_d - q)' M (q_d - q))/2 it has
 Vdot = -Kv qdot' M qdot, whatever the arm: it comes to rest at q_d from everywhere (Takegaki and Arimoto 1981).
 
-Fails: nowhere; but the tool goes where the joints take it, and its response hangs on the pose.
+Fails: nowhere; but the tool goes where the joints take it, and its response depends on the pose.
 """
 
 from bench.law import Inverse, Jacobian, Regulator, kernel

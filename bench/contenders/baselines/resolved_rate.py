@@ -4,7 +4,7 @@ What industrial arms offer (Whitney 1969), with an ideal inner loop: tau = D qdd
 vector but for Jdot qdot, which nobody compensates; near the goal both are the same double pole. With Kv far above
 Kp/Kv the tool follows v, and errors fall as exp(-Kp/Kv t).
 
-Fails: where J has no inverse, and at a half turn, where the logarithm jumps.
+Fails: where J has no inverse, and at a 180° rotation, where the logarithm jumps.
 """
 
 from bench.contenders.jacobians.geometric import fill

@@ -4,7 +4,7 @@ The error quaternion is followed from tick to tick, and its sign changed only wh
 -DELTA: near a half turn the law keeps to the way it has begun, so that no noise holds it there. No continuous law
 without memory can do it (Bhat & Bernstein 2000).
 
-Fails: nowhere known; up to 2 asin(DELTA), 47 degrees, beyond a half turn it goes the longer way on.
+Fails: nowhere known; up to 2 asin(DELTA), 47 degrees, beyond a 180° rotation it goes the longer way on.
 """
 
 from bench.law import CHORD, Look, Regulator, kernel, spring_damper, sqrt, turn_quaternion

@@ -167,11 +167,11 @@ def episode_loop(cache: bool = True):
             p, omega = (s[16], s[17], s[18]), (s[9], s[10], s[11])
             f, m = wrench(R, s)
             f_seen, m_seen = sensed(f, m, record, tick, numbers.delay, noise)
-            wish = setpoint(R_d, p_0, numbers, time)
+            wanted = setpoint(R_d, p_0, numbers, time)
             mj_fullM(sim.model, sim.data, work.D)
             for i in range(n):
                 fg[i] = bias[i] - passive[i]
-            assemble(Chain(n, axes, anchors, qvel, p, R), wish, f_seen, m_seen, gains, touch, J, rows)
+            assemble(Chain(n, axes, anchors, qvel, p, R), wanted, f_seen, m_seen, gains, touch, J, rows)
             comply(numbers.form, numbers.held, n, D, fg, J, rows, touch, room, tau)
             total, largest = overload(tau, numbers.rated, n)
             gap = s[sim.gap] if sim.gap >= 0 else 0.0

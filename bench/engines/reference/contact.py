@@ -79,10 +79,10 @@ def _episode(controller, arm, trial, loop, conditions, shape, record):
         p, omega = vector(s[16:19]), vector(s[9:12])
         f, m = wrench(R, s)
         f_seen, m_seen = sensed(f, m, record, tick, shape.delay, noise)
-        wish = setpoint(R_d, p_0, shape, time)
+        wanted = setpoint(R_d, p_0, shape, time)
         mujoco.mj_fullM(model, plant.ptr, D)
         fg = (plant.qfrc_bias - plant.qfrc_passive)[:n]
-        assemble(Chain(n, plant.xaxis, plant.xanchor, plant.qvel, p, R), wish, f_seen, m_seen, gains, touch, J, into)
+        assemble(Chain(n, plant.xaxis, plant.xanchor, plant.qvel, p, R), wanted, f_seen, m_seen, gains, touch, J, into)
         comply(shape.form, shape.held, n, D, fg, J, into, touch, about, tau)
         total, largest = overload(tau, shape.rated, n)
         gap = s[at_gap] if at_gap >= 0 else 0.0

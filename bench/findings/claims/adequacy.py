@@ -46,9 +46,9 @@ NOISE = "half-turn-noise"
 class Adequacy(NamedTuple):
     """One law: n uniform starts of which a share settles, the slowest of them, and directed starts that do not.
 
-    lost_exact: directed starts that do not settle and are on a half turn, a pole or a wrap themselves; lost: of others,
-    the number directed. spun: random starts at stated speeds; none of a law that is in no map.
-    detour: greatest way over the shortest, from uniform starts and half turns. rows: looked at.
+    lost_exact: directed starts that do not settle and are on a 180° rotation, a pole or a wrap themselves; lost: of
+    others, the number directed. spun: random starts at stated speeds; none of a law that is in no map. detour: greatest
+    way over the shortest, from uniform starts and half turns. rows: looked at.
     """
 
     name: str
@@ -65,7 +65,7 @@ class Adequacy(NamedTuple):
 
 
 def every(results: Results, engine: str) -> list[Adequacy]:
-    """All laws that have uniform starts, half turns and a cost; the one with the fewest operations first.
+    """All laws that have uniform starts, 180° rotations and a cost; the one with the fewest operations first.
 
     Errors:
         NoEvidence: no episode on the free body by this engine.

@@ -1,4 +1,4 @@
-"""C34: whether results hang on the form of Euler angles (Murphy 1988, 3.3)."""
+"""C34: whether results depend on the form of Euler angles (Murphy 1988, 3.3)."""
 
 from __future__ import annotations
 

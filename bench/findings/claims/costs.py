@@ -92,7 +92,7 @@ def _flops_alone(known: Ledger) -> str:
     criterion=f"""
         Adequate performance: (a) at least {SETTLED_SHARE:.1%} of the uniform starts settle; (b) so do at
         least {DIRECTED_SHARE:.0%} of the directed starts at rest (half-turn, poles, wraps, box, goals) that
-        are not themselves on a half turn, a pole or a wrap to 1e-13 rad, nor their goals on a pole, and of
+        are not themselves on a 180° rotation, a pole or a wrap to 1e-13 rad, nor their goals on a pole, and of
         random starts that spin, at each speed of results/maps, all but a share whose exact 95 % interval
         ends at {1 - SETTLED_SHARE:.1%} or below, those that do not converge counted as lost; (c) no uniform
         start takes longer than {SLOW:g} times the settling time of a small error. Adequate cost: (d) the law costs
@@ -112,7 +112,7 @@ def _flops_alone(known: Ledger) -> str:
             """
             Adequate cost was twice the cheapest at most, a call counted as 10 flops (1 to 20 tried): of two numbers of
             ours the first let the feedback-linearized law in, which takes ten times the time. (b) asked that every
-            directed start settle, 200 tumbling ones among them: whether one of these is lost hangs on the draw.
+            directed start settle, 200 tumbling ones among them: whether one of these is lost depends on the draw.
             """,
             Word.CORRECTED,
         ),

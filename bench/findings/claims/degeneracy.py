@@ -32,7 +32,7 @@ def _least(R) -> float:
     criterion=f"""
         Smallest singular value of B (2.8) at rotations of 180, 90 and -90 degrees about Y. It holds if it
         is below {ON_POLE:g} at 180 degrees; it does not hold if it is below that at both +-90 degrees and
-        above {OFF_POLE} at 180; in any other case it holds with a correction. The exact half turn about y
+        above {OFF_POLE} at 180; in any other case it holds with a correction. The exact 180° rotation about y
         of the set half-turn and the exact poles say the same from simulation: whether the
         feedback-linearized law settles from them is reported.
     """,
@@ -47,7 +47,7 @@ def c14(results):
         for degrees, quat in quats.items()
     }
     turns = results.free_body("episodes", task="free-body", regulator="feedback-linearized", engine=MAIN_ENGINE)
-    about_y = some(turns[turns["start_id"] == "half-turn-y-exact"], "exact half turn about y")
+    about_y = some(turns[turns["start_id"] == "half-turn-y-exact"], "exact 180° rotation about y")
     poles = turns[turns["start_set"] == "poles"]
     poles = some(poles[probes.boundary_distance(poles)["pole"] <= probes.EXACT_RAD], "exact pole")
     at_quarter = least[90] < ON_POLE and least[-90] < ON_POLE

@@ -68,7 +68,7 @@ REACHED_SHARE = 0.9
         Earlier(
             "2026-11-21 9072535",
             """
-            Every one of the run's uniform starts, of 200 tumbling ones and of the goals was to settle, which hangs on
+            Every one of the run's uniform starts, of 200 tumbling ones and of the goals was to settle, which depends on
             the draw.
             """,
             Word.CORRECTED,

@@ -27,7 +27,7 @@ NEAR_ZERO = 1e-9
     """,
     value="180°",
     correction="""
-        Columns are anti-parallel at half turns about x, y and z only; about other axes the three cross products
+        Columns are anti-parallel at 180° rotations about x, y and z only; about other axes the three cross products
         cancel in their sum.
     """,
     written="2026-11-23 953f62a",
@@ -92,25 +92,25 @@ def c04(results, engine):
         The elements of the cross product may also cancel in a series of points about the 180 degree
         rotation.
     """,
-    question="Does the error vanish off the half turns, or do elements cancel on them?",
+    question="Does the error vanish off the 180° rotations, or do elements cancel on them?",
     criterion=f"""
-        The sentence is ambiguous, and both readings are judged. (a) Off the half turn: |e| of (2.12) against
+        The sentence is ambiguous, and both readings are judged. (a) Off the 180° rotation: |e| of (2.12) against
         sin(angle), the angle by the judge, at every start of the run's tables with angle and pi - angle above
         {AWAY_RAD:g} rad, and by a search (downhill simplex on |e| / sin(angle) over rotation vectors, from 16
-        directions): some |e| is below {NEAR_ZERO:g}. (b) On it: at exact half turns of the set half-turn the sum of
+        directions): some |e| is below {NEAR_ZERO:g}. (b) On it: at exact 180° rotations of the set half-turn the sum of
         the three cross products vanishes (to one rounding) while one of them does not. It holds if both readings are
         true, with a correction if one is, and does not hold if neither is.
     """,
     open="Nothing: the error is a function of the orientation alone.",
     readings=(
-        "(a) zeros near, but not at, the half turn",
-        "(b) half turns about axes other than x, y, z, where no cross product is zero but their sum is",
+        "(a) zeros near, but not at, the 180° rotation",
+        "(b) 180° rotations about axes other than x, y, z, where no cross product is zero but their sum is",
     ),
-    correction="The points are half turns themselves, about axes other than x, y, z: none lies off 180 degrees.",
+    correction="The points are 180° rotations themselves, about axes other than x, y, z: none lies off 180 degrees.",
     earlier=(Earlier("2026-11-21 9072535", "Only reading (a) was judged; the sentence has another one.", Word.FAILS),),
 )
 def c05(results):
-    """|e| over sin(angle): at every start of the run, and as low as a search gets; and what cancels at half turns."""
+    """|e| over sin(angle), at every start of the run and as low as a search gets; what cancels at 180° rotations."""
     from scipy.optimize import minimize
 
     frame = results.episodes(LAW, MAIN_ENGINE).drop_duplicates(["start_set", "start_id"])
@@ -122,13 +122,13 @@ def c05(results):
     lowest = min(float(ratios.min()), *(one.fun for one in found))
     least = min(float((ratios * np.sin(frame["angle0_rad"])).min()), *(_length(one.x) for one in found))
     turns = results.episodes(LAW, MAIN_ENGINE, "half-turn")
-    exact = some(turns[probes.boundary_distance(turns)["half_turn"] <= probes.EXACT_RAD], "exact half turn")
+    exact = some(turns[probes.boundary_distance(turns)["half_turn"] <= probes.EXACT_RAD], "exact 180° rotation")
     cancel = sum(float(np.linalg.norm(error(R))) <= ZERO_ERROR < _largest_product(R) for R in probes.rotations(exact))
     readings = (least < NEAR_ZERO, cancel > 0)
     return word_of(all(readings), any(readings)), evidence(
-        f"""Ambiguous. (a) Off the half turn |e| / sin(angle) is never below {lowest:.9f} at {len(frame):,} starts and
-        {states:,} states of a search, and |e| never below {least:.1e}. (b) At {cancel} of {len(exact)} exact half turns
-        the cross products are not zero and their sum is.""",
+        f"""Ambiguous. (a) Off the 180° rotation |e| / sin(angle) is never below {lowest:.9f} at {len(frame):,} starts
+        and {states:,} states of a search, and |e| never below {least:.1e}. (b) At {cancel} of {len(exact)} exact 180°
+        rotations the cross products are not zero and their sum is.""",
         len(frame) + states + len(exact),
         ("episodes", "experiment"),
     )

@@ -27,13 +27,13 @@ orientation in use exceeds by much, and far less than any law's memory could bri
         {SETTLED_SHARE:.1%} of the uniform starts settle; (b) so do the directed and the spinning starts of C17; (c) no
         uniform start takes longer than {SLOW:g} times the settling time of a small error; (d) it costs less than both
         of the paper's laws on Euler angles, whose cost it objects to, as C12 compares them: by time, interleaved, where
-        intervals part. An answer must also (e) settle from the directed starts that C17 leaves out, every exact half
-        turn, pole and wrap; (f) leave every half turn under worst-case noise of up to {HELD_RAD:g} rad
+        intervals part. An answer must also (e) settle from the directed starts that C17 leaves out, every exact
+        180° rotation, pole and wrap; (f) leave every 180° rotation under worst-case noise of up to {HELD_RAD:g} rad
         (robustness.parquet, half-turn-noise: no start that fails to settle); (g) not unwind: from uniform starts and
-        half turns it travels less than {DETOUR:g} times the shortest way; (h) be cheaper than both by operations too,
-        a call at the price that it has in the times. It was open in 1988 and is answered since if a law has all eight;
-        if none has, it holds, for the question is open still. A question does not fail to hold. What each law lacks is
-        reported.
+        180° rotations it travels less than {DETOUR:g} times the shortest way; (h) be cheaper than both by operations
+        too, a call at the price that it has in the times. It was open in 1988 and is answered since if a law has all
+        eight; if none has, it holds, for the question is open still. A question does not fail to hold. What each law
+        lacks is reported.
     """,
     open="""
         The paper asks for 'better' and 'a reasonable calculation cost' without a number. Memory is the price of (f):
@@ -54,7 +54,7 @@ orientation in use exceeds by much, and far less than any law's memory could bri
             "2026-11-21 28e58d1",
             """
             The same after hybrid had been rewritten with 69 flops for the same command, in 7f33542, when the first
-            verdict was known. An answer that hangs on 3 flops and a price list is none.
+            verdict was known. An answer that depends on 3 flops and a price list is none.
             """,
             Word.FAILS,
         ),

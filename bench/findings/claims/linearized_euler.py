@@ -59,7 +59,7 @@ FEW_GOALS, MANY_GOALS, CURE_SLACK = 0.05, 0.5, 0.05
     earlier=(
         Earlier(
             "2026-11-21 9072535",
-            "Starts whose end hangs on the step counted as failures.",
+            "Starts whose end depends on the step counted as failures.",
             Word.CORRECTED,
         ),
     ),

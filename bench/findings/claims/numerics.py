@@ -19,7 +19,7 @@ ROUNDINGS = 10.0
 """Each element of e sums six products of numbers up to 1: eleven roundings of half an eps, of partial sums up to 3."""
 
 CLOSEST_RAD, DIGITS = 1e-12, 1e-2
-"""To the goal and to a half turn; and what rounding may make of the error's length there."""
+"""To the goal and to a 180° rotation; and what rounding may make of the error's length there."""
 
 BROKEN = ("diverged", "singular", "saturated", "crashed")
 
@@ -29,7 +29,7 @@ BROKEN = ("diverged", "singular", "saturated", "crashed")
     section="2.5",
     equation="(2.12)",
     quote="The regulator was remarkably simple to calculate with no numeric difficulties.",
-    correction="Close to a half turn rounding takes the digits of its error.",
+    correction="Close to a 180° rotation rounding takes the digits of its error.",
     written="2026-11-23 bc126c2",
     sentence="The rotation-matrix law has no numeric difficulties.",
     question="Is its error as exact as the numbers it is given, everywhere, and its command finite?",
@@ -37,12 +37,12 @@ BROKEN = ("diverged", "singular", "saturated", "crashed")
         e of (2.12) as the law computes it, against the same in exact fractions, at every start of the run's tables: (a)
         it is finite and off by at most {ROUNDINGS:g} eps; (b) it divides by nothing and calls no function
         (costs.parquet, both branches); (c) no episode of it, by any engine, ends {", ".join(BROKEN)}; (d) at every
-        start farther than {CLOSEST_RAD:g} rad from the goal and from a half turn it is off by at most {DIGITS:.0%} of
-        its own length. It holds if all four pass; with a correction if (a) to (c) do; otherwise it does not hold.
+        start farther than {CLOSEST_RAD:g} rad from the goal and from a 180° rotation it is off by at most {DIGITS:.0%}
+        of its own length. It holds if all four pass; with a correction if (a) to (c) do; otherwise it does not hold.
     """,
     open="""
-        That the error is zero at a half turn is no matter of arithmetic; the paper says it before ('points at which the
-        orientation error would be erroneously zero').
+        That the error is zero at a 180° rotation is no matter of arithmetic; the paper says it before ('points at which
+        the orientation error would be erroneously zero').
     """,
 )
 def c32(results):
@@ -63,7 +63,7 @@ def c32(results):
     word = word_of(sound and relative.max() <= DIGITS, sound)
     return word, evidence(
         f"""At {len(frame):,} starts e is off by at most {off.max() / EPS:.1f} eps, and by {relative.max():.1e} of its
-        length, closest to a half turn. It takes {asked} divisions and calls; {len(ended)} of {len(every):,}
+        length, closest to a 180° rotation. It takes {asked} divisions and calls; {len(ended)} of {len(every):,}
         episodes end {" or ".join(BROKEN)}.""",
         len(every) + len(costs),
         ("episodes", "costs", "experiment"),

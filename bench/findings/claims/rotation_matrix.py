@@ -41,12 +41,12 @@ SLOPE_TIGHT, SLOPE_LOOSE = 0.01, 0.1
     sentence="The rotation-matrix regulator is stable over the entire range of rotations.",
     question="Does any start diverge; and does every start reach the goal?",
     criterion=f"""
-        Start sets uniform, half-turn and tumbling. Stable (Lyapunov) means: no episode ends diverged,
-        singular or saturated, and none ends beyond its initial energy, 1 - cos(angle_end) <= 1 -
-        cos(angle_0) + |omega_0|^2 / (2 Kp) + {ENERGY_SLACK:g}. It holds if that is so and every start that
-        does not settle is on a half turn to {probes.EXACT_RAD:g} rad, where the paper itself lets the settling time be
-        infinite; with a correction if it is stable but other starts do not settle, at most {STRAY_SHARE:.1%} of the
-        uniform ones; otherwise it does not hold.
+        Start sets uniform, half-turn and tumbling. Stable (Lyapunov) means: no episode ends diverged, singular or
+        saturated, and none ends beyond its initial energy, 1 - cos(angle_end) <= 1 - cos(angle_0) + |omega_0|^2 / (2
+        Kp) + {ENERGY_SLACK:g}. It holds if that is so and every start that does not settle is on a 180° rotation to
+        {probes.EXACT_RAD:g} rad, where the paper itself lets the settling time be infinite; with a correction if it is
+        stable but other starts do not settle, at most {STRAY_SHARE:.1%} of the uniform ones; otherwise it does not
+        hold.
     """,
     open="""
         The paper gives no gains for this law (ours are those of the other two), no starts and no horizon;
@@ -57,7 +57,7 @@ SLOPE_TIGHT, SLOPE_LOOSE = 0.01, 0.1
         "stable: nothing diverges (the one judged)",
         "attracted: every start reaches the goal, but those of which the paper's next sentences say that they do not",
     ),
-    correction="It is stable, but other starts than half turns are not attracted.",
+    correction="It is stable, but other starts than 180° rotations are not attracted.",
     earlier=(
         Earlier(
             "2026-11-21 9072535",
@@ -85,7 +85,7 @@ def c01(results, engine):
     word = word_of(is_stable and not elsewhere, is_stable and uniform.n - uniform.k <= STRAY_SHARE * uniform.n)
     return word, evidence(
         f"""{int(unstable.sum())} of {len(frame):,} starts diverge or gain energy. {len(left)} do not settle,
-        {len(left) - elsewhere} of them exactly a half turn from the goal; of uniform starts {uniform}
+        {len(left) - elsewhere} of them exactly a 180° rotation from the goal; of uniform starts {uniform}
         settle.""",
         len(frame),
         ("episodes",),

@@ -64,7 +64,7 @@ class Claim(NamedTuple):
     """One sentence of the paper and how it is decided.
 
     sentence: our paraphrase. criterion: what each word takes, in numbers. open: what the paper leaves open and how the
-    verdict hangs on it. readings: where there are several. judge: results -> (word, evidence). quote: the paper's own
+    verdict depends on it. readings: where there are several. judge: results -> (word, evidence). quote: the paper's own
     words; section and equation: where they stand; value: the paper's number. correction: of the paper, what is said
     when the claim holds with one; empty: no criterion of it leads there. written: date and commit of the criterion.
     """

@@ -16,11 +16,11 @@ from bench.findings.selection.measured import Measured, measured
 from bench.findings.selection.rule import GENERAL, front, simplest
 
 DETOUR = 1.5
-"""Way over the shortest way from which a start unwinds: halfway to a full turn from a half turn is 3/2, and no spring
-that pulls towards the goal goes so far."""
+"""Way over the shortest way from which a start unwinds: halfway to a full turn from a 180° rotation is 3/2, and no
+spring that pulls towards the goal goes so far."""
 
 HELD_RAD = 0.1
-"""Greatest worst-case noise near the half turn that must not hold a law there: six degrees, which no sensor of
+"""Greatest worst-case noise near the 180° rotation that must not hold a law there: six degrees, which no sensor of
 orientation in use exceeds by much, and far less than any law's memory could bridge."""
 
 SETTLED_SHARE = 0.999
@@ -88,7 +88,7 @@ SURE = (TRIED, EVERYWHERE, QUIET)
 DEFAULT = Need("nothing else is known", (*SURE, UNHELD))
 """What a law must have to be advised where nothing else is said."""
 
-ARM = Need("a robot's arm, exact half turns aside", (TRIED, NEARLY), ("arms", "within"))
+ARM = Need("a robot's arm, exact 180° rotations aside", (TRIED, NEARLY), ("arms", "within"))
 FORGETS = Need("no memory in the controller", (*SURE, FORGETFUL))
 BOUNDED = Need(f"motors that end at {criteria.BOUND:g} rad/s²", SURE, ("bounded",))
 

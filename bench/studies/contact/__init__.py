@@ -1,1 +1,1 @@
-"""What tasks in contact hang on: stiffness, delay and noise; the fit of a peg; the stiffness of springs."""
+"""What tasks in contact depend on: stiffness, delay and noise; the fit of a peg; the stiffness of springs."""

@@ -1,4 +1,4 @@
-"""What tasks in contact hang on: results/contact/contact.json.
+"""What tasks in contact depend on: results/contact/contact.json.
 
 python -m bench.studies.contact                    all of it, some three minutes
 python -m bench.studies.contact --only boundary    one part anew; the others stay as they are
