@@ -1,7 +1,7 @@
 """When a hand in contact is at rest: the rule by which episodes that have an end end early.
 
-At rest is who has stayed, for REST.hold_s and after the place it is held at has stopped, as near to where it then was
-as the speeds below would take it in that time. What has not come to that by the horizon creeps, and a row says how
+A hand is at rest if for REST.hold_s, and after the place it is held at has stopped, it has stayed as near to where it
+then was as the speeds below would take it in that time. One that is not by the horizon creeps, and a row says how
 fast.
 """
 
