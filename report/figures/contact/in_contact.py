@@ -55,7 +55,7 @@ def facts(run: Run) -> dict:
 
 
 def plate(rows: pd.DataFrame) -> dict[str, str]:
-    """What the loop shows: the angles [deg] at the end of its two episodes, in this run."""
+    """What the loop shows: the angles [deg] at the end of its two episodes, in this run, and whether that is rest."""
     about = media.facts()["contact"]
     shown, values = about["plate"], {"plate_arm": tasks.arm(about["arm"]).title}
     trials = tasks.contact_task(shown["task"]).trials(tasks.arm(about["arm"]))
@@ -67,6 +67,7 @@ def plate(rows: pd.DataFrame) -> dict[str, str]:
     for word, contender in zip(("plate_cartesian", "plate_euler"), shown["controllers"], strict=True):
         one = own[own["contender"] == contender]
         values[word] = f"{np.degrees(one['alignment_error_rad'].iloc[0]):.1f}" if len(one) else ABSENT
+        values[f"{word}_rest"] = word_of_rest(one.iloc[0]) if len(one) else ABSENT
     return values
 
 
@@ -104,9 +105,9 @@ def worst(rows: pd.DataFrame, cartesian: str, euler: str) -> str:
     return (
         f"On the plate the Cartesian tool lies flat to {power(flat)} degrees in all {len(pair)} episodes that both "
         f"end. By the Euler one it ends up to {np.degrees(tilted['alignment_error_rad_y']):.0f}° off "
-        f"({of_pose(tilted)}; {word_of_rest(tilted, 'y')}), and has turned by up to "
+        f"({of_pose(tilted)}; {word_of_rest(tilted, '_y')}), and has turned by up to "
         f"{np.degrees(turned['held_turn_rad_y']):.0f}° about the axis that it was told to hold ({of_pose(turned)}; "
-        f"{word_of_rest(turned, 'y')})."
+        f"{word_of_rest(turned, '_y')})."
     )
 
 
@@ -126,11 +127,11 @@ def stuck(rows: pd.DataFrame, cartesian: str, euler: str) -> str:
     return f"Pegs that are not in at the end, at rest or creeping: {'; '.join(counts)}."
 
 
-def word_of_rest(row: pd.Series, side: str) -> str:
-    """At rest, or creeping and how fast."""
-    if row[f"rest_{side}"] == "at-rest":
+def word_of_rest(row: pd.Series, side: str = "") -> str:
+    """At rest, or creeping and how fast; of one side of a pair, `_x` or `_y`."""
+    if row[f"rest{side}"] == "at-rest":
         return "at rest"
-    rate, speed = row[f"remaining_rate_rad_per_s_{side}"], 1e3 * row[f"remaining_speed_m_per_s_{side}"]
+    rate, speed = row[f"remaining_rate_rad_per_s{side}"], 1e3 * row[f"remaining_speed_m_per_s{side}"]
     return f"creeping at {power(np.degrees(rate))} °/s and {power(speed)} mm/s"
 
 
