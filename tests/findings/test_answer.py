@@ -9,13 +9,14 @@ from support.user_law import spring_text
 
 from bench.contenders.described_law import described
 from bench.contenders.registry import contenders_of, find_contender
+from bench.findings.claims.standing import MEASURABLE
 from bench.findings.claims.tables import Results
 from bench.findings.selection.criteria import BY_NAME, CRITERIA, jump
 from bench.findings.selection.measured import Measured
 from bench.findings.selection.needs import DEFAULT, NEEDS, Fact, Need, best_by, decide
 from bench.findings.selection.rule import GENERAL, dominates, front
 from bench.findings.selection.tables import Tables
-from bench.findings.selection.timed import MEASURABLE, ticks
+from bench.findings.selection.timed import ticks
 from bench.findings.selection.words import together
 
 CHEAP, MIDDLE, DEAR = "quaternion-shortest", "mrp", "hybrid"

@@ -11,13 +11,13 @@ from support.pages import assert_is_whole
 from bench.contenders.registry import find_contender
 from bench.experiments import suites
 from bench.findings import claims
+from bench.findings.claims.standing import MEASURABLE
 from bench.findings.claims.tables import Results
 from bench.findings.on_arms import best
 from bench.findings.selection.criteria import BY_NAME
 from bench.findings.selection.measured import measured, statistic
 from bench.findings.selection.needs import ARM, DEFAULT, EVERYWHERE, FORGETS, NEEDS, UNHELD, advice, advise, has_all
 from bench.findings.selection.rule import GENERAL, dominates
-from bench.findings.selection.timed import MEASURABLE
 from bench.findings.selection.words import leaders
 from bench.tables.read import with_contender
 from bench.tables.schema import RESULTS

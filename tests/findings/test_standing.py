@@ -6,6 +6,7 @@ import pandas as pd
 import pytest
 
 from bench.findings.claims.standing import (
+    MEASURABLE,
     ORDERED,
     REVERSED,
     UNDECIDED,
@@ -55,6 +56,13 @@ def test_columns_order_two_laws_where_none_contradicts(cheap, dear, sign):
 )
 def test_time_decides_only_where_intervals_part_on_every_machine_that_tells(times, sign):
     assert ledger(times, (1, 1), (1, 1)).by_time == sign
+
+
+@pytest.mark.parametrize(("dear", "sign"), [(1.03, UNDECIDED), (1.05, ORDERED), (0.97, UNDECIDED), (0.9, REVERSED)])
+def test_time_of_loops_compiled_apart_decides_beyond_what_builds_differ_by(dear, sign):
+    times = [{"x": near(1.0, 1e-4), "y": near(dear, 1e-4)}]
+    counts = ({"x": Operations(1, 1), "y": Operations(1, 1)},)
+    assert Ledger(times, counts, math.nan, MEASURABLE).stand("x", "y").by_time == sign
 
 
 def test_time_decides_before_operations_and_the_two_are_said_to_disagree():

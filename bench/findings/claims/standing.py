@@ -24,6 +24,10 @@ RULE = """
     the price of a call that the times of all laws give.
     """
 
+MEASURABLE = 0.04
+"""Share by which two loops' times must differ, beyond their intervals, to be told apart. An interval is of one build:
+compiled apart, the difference of two closed loops is that of their laws alone to 3.6 % of the tick."""
+
 FEWEST = 6
 """Timed laws from which on a call has a price: twice the numbers that are fitted."""
 
@@ -79,17 +83,21 @@ class Standing(NamedTuple):
 
 
 class Ledger(NamedTuple):
-    """What is known of cost: times of everything timed, operations by contender in each accounting, a call's price."""
+    """What is known of cost: times of everything timed, operations by contender in each accounting, a call's price.
+
+    least: share by which times must differ beyond their intervals.
+    """
 
     times: Times
     accountings: tuple[dict[str, Operations], ...]
     price: float
+    least: float = 0.0
 
     def stand(self, cheap: str, dear: str) -> Standing:
         """How a pair stands, the cheaper by the claim first."""
         pairs = [(one[cheap], one[dear]) for one in self.accountings]
         return Standing(
-            agreed(by_intervals(one[cheap], one[dear]) for one in self.times if cheap in one and dear in one),
+            agreed(by_times(one[cheap], one[dear], self.least) for one in self.times if cheap in one and dear in one),
             tuple(by_columns(*pair) for pair in pairs),
             tuple(by_price(*pair, self.price) for pair in pairs),
         )
@@ -106,8 +114,10 @@ def agreed(signs: Iterable[int]) -> int:
     return found.pop() if len(found) == 1 else UNDECIDED
 
 
-def by_intervals(cheap: Ratio, dear: Ratio) -> int:
-    """Which side of the one the other's interval lies on."""
+def by_times(cheap: Ratio, dear: Ratio, least: float = 0.0) -> int:
+    """Which side of the one the other's interval lies on; undecided if they differ by the share `least` or less."""
+    if abs(dear.value - cheap.value) <= least * min(cheap.value, dear.value):
+        return UNDECIDED
     return ORDERED if cheap.high < dear.low else REVERSED if dear.high < cheap.low else UNDECIDED
 
 

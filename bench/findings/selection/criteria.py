@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from bench.findings.claims.standing import MEASURABLE
 from bench.findings.selection.measures import (
     held_by_noise_from,
     jump,
@@ -19,7 +20,6 @@ from bench.findings.selection.measures import (
     perturbed,
 )
 from bench.findings.selection.tables import Tables, by_law
-from bench.findings.selection.timed import MEASURABLE
 
 LEAST, GREATEST = 1.0, -1.0
 """Which is better."""
