@@ -18,10 +18,10 @@ SHOWN = {
     "force-on-plane": ("tilt 10 about 35, beta+0", 0.55),
 }
 """Task -> the trial of its still, the first one where none is named, and from how far [m] it is seen."""
-BY = "hybrid-base+inverse"
+BY = "hybrid-base+transpose"
 STILL_AT_S = 1.5  # the hand is busy then, on every task
 PLATE, TILTED = "surface-alignment", "tilt 20 about 0, beta+75"
-CONTROLLERS = {"hybrid-base+inverse": "Cartesian", "hybrid/zyx-euler+inverse": "Euler, β = 75°"}
+CONTROLLERS = {"hybrid-base+transpose": "Cartesian", "hybrid/zyx-euler+transpose": "Euler, β = 75°"}
 LOOP_S, SLOWER = 2.4, 1.2
 NEWTON_STEPS = 6  # from one frame to the next the hand moves by centimetres at most, and each step squares what is left
 

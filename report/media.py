@@ -25,7 +25,7 @@ BACKENDS = ("egl", "osmesa")
 DRAW = "--draw"
 NO_GL = 3  # exit status of a process that cannot draw
 
-ARM, START_SET, START, SEED = "ur5e", "pole", "pole-minus-1-k3", 0
+ARM, START_SET, START, SEED = "ur5e", "pole", "pole-minus-1-k2", 0
 TASK = "arm-regulation"
 CONTENDERS = {
     "feedback-linearized/zyx-euler@analytic+solve": "Euler Jacobian",
