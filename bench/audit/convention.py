@@ -18,10 +18,14 @@ ALONG_RAD = 0.1
 ENOUGH = 0.7
 """Share of pairs that a convention must explain: a fault on a part of them must not hide what is meant."""
 
-FIT = {WIDE: 1e-5, CLOSE: 1e-5, FINE: 1e-7}
+FEWEST = 0.2
+"""Share of answers the right way that is enough to tell a form by."""
+
+FIT = {WIDE: 1e-5, CLOSE: 1e-6, FINE: 1e-9}
 """Places where forms are told apart, and how well the right one fits there, of its size.
 
-At 0.05 rad two forms differ by a twenty-fourth of the square, 1e-4; at 0.005 rad by 1e-6. Single precision has 6e-8.
+Two forms differ by a twenty-fourth of the square at least, 1e-4 at 0.05 rad and 1e-6 at 0.005 rad; forms of no name may
+differ from one by the fourth power, 1e-8 and less. Single precision has 6e-8, so that it is told where pairs are wide.
 """
 
 
@@ -82,11 +86,20 @@ def way(angle: np.ndarray, size: np.ndarray) -> int:
 def form_of(pairs: Pairs, size: np.ndarray) -> tuple[str, float]:
     """The form that sizes along the axis have, where it can be told, and the slope at the goal."""
     for place, tolerance in FIT.items():
-        here = pairs.place == place
+        here = (pairs.place == place) & (size > 0.0)
+        if here.sum() < FEWEST * (pairs.place == place).sum():
+            continue
         for form, one in FORMS.items():
             ratio = size[here] / one.size(pairs.angle[here])
             slope = float(np.nanmedian(ratio))
             if slope > 0.0 and np.mean(np.abs(ratio / slope - 1.0) < tolerance) >= ENOUGH:
                 return form, slope
-    here = (pairs.place == FINE) & (size > 0.0)
-    return "", float(np.median(size[here] / pairs.angle[here])) if here.any() else 0.0
+    return "", limit_at_0(pairs.angle[pairs.place == FINE], size[pairs.place == FINE])
+
+
+def limit_at_0(angle: np.ndarray, size: np.ndarray) -> float:
+    """size/angle at 0, by a line in the square of the angle through those that are positive."""
+    there = size > 0.0
+    if there.sum() < FEWEST * len(angle):
+        return 0.0
+    return float(np.polyfit(angle[there] ** 2, size[there] / angle[there], 1)[1])

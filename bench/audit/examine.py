@@ -10,6 +10,7 @@ import numpy as np
 from bench.audit import convention, pairs
 from bench.audit.asked import NO_THREE_NUMBERS, Answers, ask, inputs
 from bench.audit.convention import Convention
+from bench.audit.euler import Angles, find_angles
 from bench.audit.fault import Evidence, Finding
 from bench.audit.faults import every_fault
 from bench.audit.forms import FORMS
@@ -72,6 +73,11 @@ class Examined:
         straight = np.linalg.norm(self.e - self.truth, axis=1)
         either = self.pairs.distance < UNDECIDED_RAD
         return np.where(either, np.minimum(straight, np.linalg.norm(self.e + self.truth, axis=1)), straight)
+
+    @functools.cached_property
+    def euler(self) -> Angles | None:
+        """The Euler angles that e is, if it is any."""
+        return find_angles(self)
 
     @functools.cached_property
     def apart(self) -> np.ndarray:

@@ -13,6 +13,8 @@ BEFORE_RAD = 0.01
 
 def find(examined) -> Found | None:
     """|e| is zero at 180°; a property of its form if e dies away before, as sin(theta) does."""
+    if not examined.convention:
+        return None
     here = examined.at(AT_180)
     dead = here & (examined.size <= ZERO * examined.slope * np.pi)
     if not dead.any():
