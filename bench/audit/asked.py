@@ -47,13 +47,13 @@ def ask_of(function: Callable, now: np.ndarray, goal: np.ndarray) -> Answers:
 def _answer(function: Callable, now: np.ndarray, goal: np.ndarray):
     """Three numbers, or NaN and the reason."""
     try:
-        said = np.asarray(function(now, goal))
+        said = function(now, goal)
     except Exception as error:  # whatever it raises is its answer
         return np.nan, f"{type(error).__name__}: {error}"
     try:
-        numbers = said.astype(float)
+        numbers = np.asarray(said).astype(float)
     except (TypeError, ValueError):
-        return np.nan, f"{NO_THREE_NUMBERS}{type(said).__name__} of {said.dtype}"
+        return np.nan, f"{NO_THREE_NUMBERS}{type(said).__name__}"
     if numbers.size != 3:
         return np.nan, f"{NO_THREE_NUMBERS}an array of shape {numbers.shape}"
     return numbers.reshape(3), ""

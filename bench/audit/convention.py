@@ -43,7 +43,10 @@ class Convention(NamedTuple):
         given = "matrices (R, R_d)" if self.takes == "matrix" else f"quaternions (q, q_d), {self.takes}"
         way = "from R to R_d" if self.sign == "to-goal" else "from R_d to R"
         form = f"{FORMS[self.form].title} k" if self.form else "along k, with a size of its own"
-        return f"takes {given}; {self.frame} frame; points {way}; {form}; slope at the goal {self.slope:.6g}"
+        said = f"takes {given}; {self.frame} frame; points {way}; {form}; slope at the goal {self.slope:.6g}"
+        if (self.takes, self.frame, self.sign) != ("matrix", "body", "from-goal"):
+            return said
+        return f"{said}. Of matrices stored by columns the same function is in base and points to R_d"
 
 
 def directions(pairs: Pairs, frame: str) -> np.ndarray:

@@ -102,7 +102,8 @@ def examine(function: Callable, stated: Stated, name: str) -> Report:
         for one, what in found.values()
         if what and not names & set(one.unless)
     )
-    return Report(name, len(examined.e), examined.takes, examined.convention, findings)
+    ordered = tuple(sorted(findings, key=lambda one: not one.is_fault))
+    return Report(name, len(examined.e), examined.takes, examined.convention, ordered)
 
 
 def understood(function: Callable, stated: Stated, name: str) -> tuple[str, Convention | None]:

@@ -73,5 +73,5 @@ FAULT = Fault(
     "let the two sides meet; only at 180° no error can be continuous",
     "rotation-vector",
     find,
-    unless=("long-way", "deadband", "misaligned", "euler-angles"),
+    unless=("long-way", "deadband", "euler-angles"),
 )

@@ -1,10 +1,15 @@
 """Another slope at the goal than the gains reckon with."""
 
-from bench.audit.convention import CLOSE
+import numpy as np
+
 from bench.audit.fault import Fault, Found
+from bench.audit.pairs import NEAR_IDENTITY
 
 DEVIATION = 1e-3
 """Of the slope: no gain is set better than to a thousandth."""
+
+LARGEST_RAD = 0.09
+"""What is shown to reproduce is larger: no dead band reaches so far."""
 
 
 def find(examined) -> Found | None:
@@ -12,8 +17,9 @@ def find(examined) -> Found | None:
     if not examined.convention or abs(examined.slope / examined.stated.stiffness - 1.0) <= DEVIATION:
         return None
     ratio = examined.slope / examined.stated.stiffness
-    i = int(examined.at(CLOSE).argmax())
-    return Found(f"the stiffness felt is {ratio:.4g} of the stiffness set", examined.evidence(i, False))
+    i = int(np.flatnonzero(examined.at(NEAR_IDENTITY) & (examined.pairs.angle > LARGEST_RAD))[0])
+    evidence = examined.evidence(i, False)._replace(right=examined.e[i] / ratio)
+    return Found(f"the stiffness felt is {ratio:.4g} of the stiffness set", evidence)
 
 
 FAULT = Fault(
