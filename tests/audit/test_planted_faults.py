@@ -3,7 +3,17 @@
 import mink
 import numpy as np
 import pytest
-from support.planted import PLANTED, audited, axis_clip, half_stiff, log, norm_clip, sign_of_zero
+from scipy.spatial.transform import Rotation
+from support.planted import (
+    PLANTED,
+    audited,
+    axis_clip,
+    deadband_of_components,
+    half_stiff,
+    log,
+    norm_clip,
+    sign_of_zero,
+)
 from support.right_errors import numpy_chord, scipy_in_base, scipy_in_body_from_goal
 
 from bench.audit import audit
@@ -75,6 +85,61 @@ def arc_cosine_unclipped(q, q_d):
     return 2.0 * np.arccos(abs(q @ q_d)) * e / np.linalg.norm(e) if e.any() else e
 
 
+def deadband_of_a_vector_part(q, q_d):
+    return 0.5 * deadband_of_components(q, q_d)
+
+
+def constant_in_the_denominator(R, R_d):
+    """Zero below a thousandth, and a millionth too small elsewhere: digits of single precision, which it is not."""
+    X = R_d @ R.T
+    theta = np.arccos(np.clip(0.5 * (np.trace(X) - 1.0), -1.0, 1.0))
+    sine = 0.5 * np.array((X[2, 1] - X[1, 2], X[0, 2] - X[2, 0], X[1, 0] - X[0, 1]))
+    return theta / (np.sin(theta) + 1e-6) * sine if theta > 1e-3 else np.zeros(3)
+
+
+def whole_turn_too_much(R, R_d):
+    """An angle from 0 to 360°, of a quaternion of any sign."""
+    q = np.roll(Rotation.from_matrix(R_d @ R.T).as_quat(), 1)
+    length = np.linalg.norm(q[1:])
+    return 2.0 * np.arctan2(length, q[0]) * q[1:] / length if length else np.zeros(3)
+
+
+def unit_vector(R, R_d):
+    """Of length 1 at every angle: bang-bang."""
+    e = scipy_in_base(R, R_d)
+    return e / np.linalg.norm(e) if e.any() else e
+
+
+def stiffer_with_the_angle(R, R_d):
+    e = scipy_in_base(R, R_d)
+    return e * np.sqrt(np.linalg.norm(e))
+
+
+def saturated(R, R_d):
+    """Smoothly, of the whole vector."""
+    e = scipy_in_base(R, R_d)
+    theta = np.linalg.norm(e)
+    return np.tanh(theta) / theta * e if theta else e
+
+
+RNG = np.random.default_rng(3)
+
+
+def noisy(R, R_d):
+    return scipy_in_base(R, R_d) * (1.0 + 1e-3 * RNG.random())
+
+
+def filtered():
+    """A first-order filter of the error."""
+    kept = np.zeros(3)
+
+    def error(R, R_d):
+        kept[:] = 0.9 * kept + 0.1 * scipy_in_base(R, R_d)
+        return kept
+
+    return error
+
+
 def refuses(R, R_d):
     if abs(np.linalg.det(R) - 1.0) > 1e-9:
         raise ValueError("no rotation")
@@ -98,6 +163,14 @@ def tangent(R, R_d):
         (raises_at_identity, {"raises"}),
         (four_numbers_far_away, {"raises"}),
         (weighted, {"misaligned"}),
+        (deadband_of_a_vector_part, {"deadband", "stiffness"}),
+        (constant_in_the_denominator, {"dead-at-180", "deadband"}),
+        (whole_turn_too_much, {"long-way"}),
+        (unit_vector, {"stiffness"}),
+        (stiffer_with_the_angle, {"stiffness"}),
+        (saturated, set()),
+        (noisy, {"memory"}),
+        (filtered(), {"memory"}),
     ],
 )
 def test_other_fault_is_named_and_no_other(function, names):

@@ -19,12 +19,13 @@ def find(examined) -> Found | None:
     largest = np.abs(examined.e[here]).max(axis=1)
     limit = float(largest.max(initial=0.0))
     at_limit = here[np.abs(largest - limit) <= SAME * limit]
-    bent = at_limit[examined.apart[at_limit] > BENT_RAD]
+    astray = np.minimum(examined.apart, np.pi - examined.apart)  # against the axis is another fault
+    bent = at_limit[astray[at_limit] > BENT_RAD]
     if len(at_limit) < FEWEST or len(bent) < len(at_limit) / 2:
         return None
-    worst = int(bent[np.argmax(examined.apart[bent])])
+    worst = int(bent[np.argmax(astray[bent])])
     return Found(
-        f"no component exceeds {limit:.6g}; the direction is bent by up to {np.degrees(examined.apart[worst]):.3g}°",
+        f"no component exceeds {limit:.6g}; the direction is bent by up to {np.degrees(astray[worst]):.3g}°",
         examined.evidence(worst),
     )
 

@@ -14,18 +14,15 @@ COUNT_RAD = 2.0 * np.pi / 2**24
 
 
 def find(examined) -> Found | None:
-    """|e - slope theta k| of the smallest rotations; a note if no encoder shows it."""
+    """|e - truth| of the smallest rotations; a note if no encoder shows it."""
     if not examined.convention:
         return None
     angle = examined.pairs.angle
     here = examined.at(NEAR_IDENTITY, IDENTITY) & (angle <= LARGEST_RAD)
-    expected = examined.slope * angle[:, None] * examined.direction
-    # Forms leave the rotation vector with the cube of the angle, those of a size of their own perhaps with its square.
-    bound = LOST + (0.0 if examined.convention.form else 1.0) * angle**2
-    truth = examined.truth if examined.convention.form else expected
-    error = np.where(here, np.linalg.norm(examined.e - truth, axis=1), 0.0) / examined.slope
-    with np.errstate(invalid="ignore"):
-        lost = error > bound
+    # Of a size of its own nothing can be said along the axis.
+    off = examined.error if examined.convention.form else examined.size * np.sin(examined.apart)
+    error = np.where(here, np.nan_to_num(off), 0.0) / examined.slope
+    lost = error > LOST
     if not lost.any():
         return None
     worst = int(np.argmax(np.where(lost, error, 0.0)))

@@ -34,6 +34,6 @@ FAULT = Fault(
     find,
     unless=(
         *("quaternion-order", "transpose", "frame", "euler-angles", "raises", "not-a-number"),
-        *("axis-clip", "long-way", "deadband", "jump"),
+        *("axis-clip", "long-way", "deadband", "jump", "memory"),
     ),
 )

@@ -11,11 +11,23 @@ DEVIATION = 1e-3
 LARGEST_RAD = 0.09
 """What is shown to reproduce is larger: no dead band reaches so far."""
 
+LEAST_RAD, MOST_RAD = 1e-6, 1e-2
+TIMES = 1.5
+"""Between them; a form of one slope changes by 1e-4, and digits lost by less than a tenth."""
+
 
 def find(examined) -> Found | None:
     """|e|/theta at the goal is not what was stated."""
     if not examined.convention or abs(examined.slope / examined.stated.stiffness - 1.0) <= DEVIATION:
         return None
+    if not examined.convention.form:
+        here = examined.at(NEAR_IDENTITY) & (examined.pairs.angle >= LEAST_RAD) & (examined.pairs.angle <= MOST_RAD)
+        felt = examined.size[here] / examined.pairs.angle[here]
+        if not felt.all():
+            return None  # a dead band: there is no slope to speak of
+        if felt.max() > TIMES * felt.min():
+            text = f"|e|/theta is between {felt.min():.4g} and {felt.max():.4g} near the goal: no gain is set by it"
+            return Found(text, examined.evidence(int(np.flatnonzero(here)[np.argmax(felt)]), False))
     ratio = examined.slope / examined.stated.stiffness
     i = int(np.flatnonzero(examined.at(NEAR_IDENTITY) & (examined.pairs.angle > LARGEST_RAD))[0])
     evidence = examined.evidence(i, False)._replace(right=examined.e[i] / ratio)
@@ -29,5 +41,5 @@ FAULT = Fault(
     "a vector part needs the factor 2, modified Rodrigues parameters 4; or reckon with it in the gain",
     "quaternion-shortest",
     find,
-    unless=("euler-angles", "deadband"),
+    unless=("euler-angles",),
 )

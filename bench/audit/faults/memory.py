@@ -1,0 +1,33 @@
+"""Another answer to the same question."""
+
+import numpy as np
+
+from bench.audit.fault import Fault, Found
+from bench.audit.pairs import WIDE
+
+DIFFERENCE = 1e-12
+"""Of slope times a radian; one function of the same numbers has none."""
+
+
+def find(examined) -> Found | None:
+    """Some pairs are asked once more, in reverse order."""
+    here = np.flatnonzero(examined.at(WIDE))[::-10]
+    first, again = examined.e[here], examined.ask(examined.pairs.chosen(here)).e
+    with np.errstate(invalid="ignore"):
+        differs = np.linalg.norm(again - first, axis=1) > DIFFERENCE * examined.slope
+    if not differs.any():
+        return None
+    return Found(
+        f"{differs.sum()} of {len(here)} pairs have another answer when they are asked again, in reverse order",
+        examined.evidence(int(here[np.argmax(differs)])),
+    )
+
+
+FAULT = Fault(
+    "memory",
+    "state, or noise: the same pair has two answers",
+    "the error depends on what came before; this audit asks each pair for itself, and is void",
+    "audit the function without its filter; hysteresis between the two signs of q may be meant, and accepted",
+    "quaternion-shortest",
+    find,
+)
