@@ -1,6 +1,6 @@
 """The test that goes with an export to C or C++: the vectors as rows of numbers, and a program that asks each."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from typing import NamedTuple
 
 from bench.export.braces import INDENT, wrapped
@@ -32,7 +32,7 @@ class Asking(NamedTuple):
     remembered: str = "state.memory"
 
 
-def program(subject: Subject, found: list[Vector], asking: Asking) -> str:
+def program(subject: Subject, found: Sequence[Vector], asking: Asking) -> str:
     """A program that counts the answers that are off, and ends with 1 if there are any."""
     lines = [*asking.include, "#include <stdio.h>", "", IS_WRONG]
     for entry in subject.entries:
@@ -43,7 +43,7 @@ def program(subject: Subject, found: list[Vector], asking: Asking) -> str:
     return "\n".join(lines)
 
 
-def _of_entry(subject: Subject, entry: Entry, found: list[Vector], asking: Asking) -> Iterator[str]:
+def _of_entry(subject: Subject, entry: Entry, found: Sequence[Vector], asking: Asking) -> Iterator[str]:
     """Rows of arguments, result, memory and tolerance, and a function that asks them."""
     given = sum(one.size for one in entry.parameters)
     results, kept = len(found[0].result), len(found[0].memory)

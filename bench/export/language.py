@@ -3,7 +3,7 @@
 import importlib
 import json
 import pkgutil
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 from bench.errors import UnknownWord
@@ -37,7 +37,7 @@ def find_language(word: str) -> Language:
     return importlib.import_module(f"{languages.__name__}.{word}").LANGUAGE
 
 
-def as_json(subject: Subject, found: list[Vector]) -> str:
+def as_json(subject: Subject, found: Sequence[Vector]) -> str:
     """The vectors as every language may read them, a line each; numbers read back as the same bits."""
     lines = ",\n".join(json.dumps(one._asdict(), allow_nan=False) for one in found)
     about = json.dumps({"law": subject.word, "matrices": "row-major", "frame": "base, but what ends in _body"})

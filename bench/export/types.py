@@ -29,6 +29,8 @@ class Tuple(NamedTuple):
         return not self.name and all(one == REAL for one in self.items)
 
 
+CALLS_OF_LIBM = {"sin", "cos", "acos", "atan2"}
+
 REAL, TRUTH, INDEX = "real", "truth", "index"
 Kind = str | Tuple
 
@@ -70,6 +72,12 @@ class Program:
             self._done[key] = _Reading(self, function, kinds).typed()
             self.functions.append(self._done[key])
         return self._done[key]
+
+    @property
+    def is_algebraic(self) -> bool:
+        """Whether nothing but sums, products, quotients and roots is taken: what every processor rounds alike."""
+        trees = (one for function in self.functions for one in ast.walk(function.node) if isinstance(one, ast.Call))
+        return not {one.func.id for one in trees if isinstance(one.func, ast.Name)} & CALLS_OF_LIBM
 
     def name(self, wanted: str) -> str:
         """The wanted name, or with a number after it if it is taken."""

@@ -1,6 +1,6 @@
 """C99: one header of static inline functions on plain arrays, without allocation, on nothing but <math.h>."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from bench.export.braces import INDENT, wrapped
 from bench.export.c_core import Core, comment
@@ -152,7 +152,7 @@ def called(subject: Subject, entry: Entry, given: list[str]) -> str:
     return f"{name}({', '.join((*given, 'result'))});"
 
 
-def test(subject: Subject, found: list[Vector]) -> str:
+def test(subject: Subject, found: Sequence[Vector]) -> str:
     """The program that runs the vectors."""
     include = (f'#include "{subject.identifier}.h"',)
     return program(subject, found, Asking(include, passed, called, lambda one: f"{one.identifier}_state"))

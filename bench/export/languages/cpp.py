@@ -1,6 +1,6 @@
 """C++17: one header in a namespace, on Eigen's types, around the same core as C."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from bench.export.braces import INDENT, wrapped
 from bench.export.c_core import Core, comment
@@ -169,7 +169,7 @@ def called(subject: Subject, entry: Entry, given: list[str]) -> str:
     return f"Eigen::Map<Eigen::Vector{size}d>{{result}} = {call};"
 
 
-def test(subject: Subject, found: list[Vector]) -> str:
+def test(subject: Subject, found: Sequence[Vector]) -> str:
     """The program that runs the vectors."""
     include = (f'#include "{subject.identifier}.hpp"',)
     asking = Asking(
