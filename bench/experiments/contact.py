@@ -44,21 +44,21 @@ def units(asked: Asked) -> tuple[Unit, ...]:
     part, choice = asked.suite.in_contact, asked.choice
     if not choice.takes_contact:
         return ()
-    if not _controllers(part.controllers, choice) and choice.is_about_contact:
+    found: list[Unit] = []
+    pairs = [(task, arm) for task in _tasks(choice) for arm in _arms(task, choice)]
+    for task, arm in pairs:
+        words, poses = part.on(arm.joints)
+        for one in _controllers(words, choice):
+            if one.law in part.in_free_space and task.touches(arm) and not choice.controllers:
+                continue
+            found += cut(one, task, arm, asked.count or poses, part.dense, asked.horizon_s or task.horizon_s)
+    if not found and choice.is_about_contact:
+        if not pairs:
+            raise Incompatible("nothing to run: no arm has a site 'wrist' (add one to a file of tasks/arms)")
         raise Incompatible(
             f"nothing to run: no controller of the suite's, or that was named, acts on "
             f"{', '.join(choice.representations)} (try: python -m bench list controllers, and --controller)"
         )
-    found: list[Unit] = []
-    for task in _tasks(choice):
-        for arm in _arms(task, choice):
-            words, poses = part.on(arm.joints)
-            for one in _controllers(words, choice):
-                if one.law in part.in_free_space and task.touches(arm) and not choice.controllers:
-                    continue
-                found += cut(one, task, arm, asked.count or poses, part.dense, asked.horizon_s or task.horizon_s)
-    if not found and choice.is_about_contact:
-        raise Incompatible("nothing to run: no arm has a site 'wrist' (add one to a file of tasks/arms)")
     return tuple(found)
 
 

@@ -6,6 +6,7 @@ from support.bits import EPS
 from support.in_contact import ARMS, HYBRIDS, SELECTIONS, TOUCH, backward, damping, drawn, hand, tick
 from support.states import vector
 
+import tasks
 from bench.control.contact_controller import PAPERS_FORM
 
 FRAMES = [one for one in HYBRIDS if one.form == PAPERS_FORM]
@@ -91,6 +92,28 @@ def test_hand_stays_at_rest_in_mujoco_where_it_exerts_what_it_shall(arm, one):
     """F = -h: tau = fg + J^T h, and nothing moves."""
     for acceleration, size in at_rest(one, arm):
         assert np.abs(acceleration).max() <= 200 * EPS * size
+
+
+@pytest.mark.parametrize("arm", [arm for arm in ARMS if tasks.arm(arm).joints > 6])
+@pytest.mark.parametrize("one", FRAMES, ids=named)
+def test_no_wrench_and_no_command_turns_the_elbow_of_an_arm_at_rest(arm, one):
+    """v^T D qddot = 0 by MuJoCo, J v = 0; by J^+ in its place it would not be."""
+    turned = []
+    for (_, q, _, mount, push), wish in drawn(arm):
+        at = hand(arm, q, np.zeros_like(q), mount, push)
+        if not regular(one, at):
+            continue
+        v = np.linalg.svd(at.J)[2][-1]
+        for held in SELECTIONS[9::9]:
+            made = tick(one, at, wish, held)
+            at.acceleration(made.tau)
+            joints = np.array(at.data.qacc)
+            size = np.linalg.norm(at.D, 2) * np.linalg.norm(joints) + np.linalg.norm(at.J.T @ at.F)
+            assert abs(v @ at.D @ joints) <= backward(made.J) * np.linalg.cond(at.D) * size, held
+            by_least_norm = at.D @ np.linalg.pinv(at.J) @ (at.J @ made.y)
+            at.acceleration(made.tau - at.D @ made.y + by_least_norm)
+            turned.append(abs(v @ at.D @ at.data.qacc))
+    assert np.median(turned) > 0.1
 
 
 @over_arms
