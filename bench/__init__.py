@@ -21,6 +21,7 @@ running/      run, run_folder (until it is finished), order, precompile, sandbox
 timing/       time per tick (pytest-benchmark)
 findings/     claims/ (the paper's sentences), selection/ (which law), why (what a law does), theory/ (closed forms)
 regression/   rows/ (two runs), revisions/ (two revisions), history/ (every build)
+export/       laws as code for another's controller: C, C++, Python, JavaScript, with test vectors
 studies/      scale (what many episodes cost), settings (other processors), libraries/ (other robot libraries), gates/
 cli/          the command line, one file a command
 

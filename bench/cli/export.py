@@ -1,0 +1,60 @@
+"""`export`: laws as code for your own controller."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import rich_click as click
+
+from bench.cli import options
+from bench.cli.screen import console, examples, shown_path
+from bench.errors import BadResults
+
+EPILOG = examples(
+    ("A header for a controller in C++", "export late-braking --to cpp"),
+    ("The same for a microcontroller, into a folder of yours", "export late-braking --to c --out firmware/attitude"),
+    ("A law on coordinates, for arrays", "export feedback-linearized/zyx-euler --to python"),
+    ("Coordinates", "export representation-mrp --to js"),
+    ("An impedance", "export impedance-geometric --to c"),
+    ("A law of your own", "export my-law --law my_law.py --to cpp"),
+    ("Everything", "export all --to c"),
+    after="Beside each law lie test vectors and a test in its language; its README says how to run it. Exported files "
+    "need nothing of this benchmark, and are yours to use under Apache-2.0.",
+)
+
+EVERYTHING = "all"
+FOLDER = Path("export")
+
+
+@click.command("export", epilog=EPILOG)
+@click.argument("law")
+@click.option("--to", "language", required=True, metavar="LANGUAGE", help="c, cpp, js or python.")
+@click.option("--out", type=options.PATH, help="Folder to write to (default: export/LANGUAGE/LAW).")
+@options.law
+def COMMAND(law: str, language: str, out: Path | None, laws: tuple[Path, ...]):
+    """Write a LAW as code for your controller, translated from its one source, with test vectors.
+
+    A law is named as in `list regulators`, with its coordinates where it has several; representation-NAME are the
+    functions of coordinates, impedance-NAME an impedance. A file of your own is run to be read.
+    """
+    from bench.contenders.law_file import load_law
+    from bench.export.language import find_language
+    from bench.export.subject import find_subject, subject_words
+
+    made, own = find_language(language), tuple(map(load_law, laws))
+    words = subject_words(own) if law == EVERYTHING else [law]
+    for word in words:
+        subject = find_subject(word, own)
+        name = subject.identifier
+        folder = FOLDER / language / name if out is None else out / name if law == EVERYTHING else out
+        _write(folder, made.files(subject))
+        console().print(f"wrote {shown_path(folder)}   try it there: {made.test.format(name=name)}", soft_wrap=True)
+
+
+def _write(folder: Path, files: dict[str, str]) -> None:
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        for name, text in files.items():
+            (folder / name).write_text(text, encoding="utf-8")
+    except OSError as error:
+        raise BadResults(f"--out {folder}: cannot be written ({error.strerror}); name a folder that can") from error

@@ -1,0 +1,81 @@
+"""The test that goes with an export to C or C++: the vectors as rows of numbers, and a program that asks each."""
+
+from collections.abc import Callable, Iterator, Sequence
+from typing import NamedTuple
+
+from bench.export.braces import INDENT, wrapped
+from bench.export.entries import Entry, Parameter
+from bench.export.subject import Subject
+from bench.export.vectors import Vector
+
+IS_WRONG = """static int is_wrong(const double *found, const double *expected, int count, double tolerance) {
+    int at;
+    for (at = 0; at < count; at++)
+        if (!(fabs(found[at] - expected[at]) <= tolerance)) return 1;
+    return 0;
+}
+"""
+
+
+class Asking(NamedTuple):
+    """How a language asks an entry of a row of numbers, in lines of code.
+
+    include: the lines before all. passed(parameter, place): the arguments that begin at a place of `row`.
+    called(subject, entry, arguments): what leaves the answer in `result`. state(subject): the type of the memory.
+    remembered: where the memory's numbers are.
+    """
+
+    include: tuple[str, ...]
+    passed: Callable[[Parameter, int], list[str]]
+    called: Callable[[Subject, Entry, list[str]], str]
+    state: Callable[[Subject], str]
+    remembered: str = "state.memory"
+
+
+def program(subject: Subject, found: Sequence[Vector], asking: Asking) -> str:
+    """A program that counts the answers that are off, and ends with 1 if there are any."""
+    lines = [*asking.include, "#include <stdio.h>", "", IS_WRONG]
+    for entry in subject.entries:
+        lines += _of_entry(subject, entry, [one for one in found if one.entry == entry.name], asking)
+    total = f'{INDENT}printf("{subject.identifier}: %d of {len(found)} vectors wrong\\n", wrong);'
+    calls = (f"{INDENT}wrong += test_{one.name}();" for one in subject.entries)
+    lines += ["int main(void) {", f"{INDENT}int wrong = 0;", *calls, total, f"{INDENT}return wrong != 0;", "}", ""]
+    return "\n".join(lines)
+
+
+def _of_entry(subject: Subject, entry: Entry, found: Sequence[Vector], asking: Asking) -> Iterator[str]:
+    """Rows of arguments, result, memory and tolerance, and a function that asks them."""
+    given = sum(one.size for one in entry.parameters)
+    results, kept = len(found[0].result), len(found[0].memory)
+    width, deep = given + results + kept + 1, INDENT * 2
+    yield f"static const double {entry.name}_rows[{len(found)}][{width}] = {{"
+    for each in found:
+        yield from wrapped([f"{INDENT}{{{', '.join(repr(float(value)) for value in _numbers(each))}}},"])
+    yield "};\n"
+    yield f"static int test_{entry.name}(void) {{"
+    yield f"{INDENT}int wrong = 0, at;"
+    yield f"{INDENT}for (at = 0; at < {len(found)}; at++) {{"
+    yield f"{deep}const double *row = {entry.name}_rows[at], tolerance = row[{width - 1}];"
+    yield f"{deep}double result[{results}];"
+    passed, place = [], 0
+    for one in entry.parameters:
+        if one.kind == "memory":
+            yield f"{deep}{asking.state(subject)} state;"
+            parts = (f"{asking.remembered}[{at}] = row[{place + at}];" for at in range(one.size))
+            yield f"{deep}{' '.join(parts)}"
+        passed += asking.passed(one, place)
+        place += one.size
+    yield f"{deep}{asking.called(subject, entry, passed)}"
+    checks = [f"is_wrong(result, row + {place}, {results}, tolerance)"]
+    if kept:
+        checks.append(f"is_wrong({asking.remembered}, row + {place + results}, {kept}, tolerance)")
+    yield f"{deep}wrong += {' || '.join(checks)};"
+    yield f"{INDENT}}}"
+    yield f"{INDENT}return wrong;"
+    yield "}\n"
+
+
+def _numbers(one: Vector) -> Iterator[float]:
+    for value in one.arguments.values():
+        yield from value if isinstance(value, list) else (value,)
+    yield from (*one.result, *one.memory, one.tolerance)

@@ -1,0 +1,1 @@
+"""Languages that laws are exported to, one file each."""

@@ -1,0 +1,100 @@
+"""What is exported: a regulator, coordinates or an impedance, with its entries as functions.
+
+find_subject("feedback-linearized/zyx-euler"), find_subject("representation-mrp"), find_subject("impedance-geometric")
+"""
+
+import functools
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+from bench.contenders import registry
+from bench.contenders.registry import known_impedances, known_representations
+from bench.control.registry import all_controllers
+from bench.errors import UnknownWord
+from bench.export.entries import Entry, of_impedance, of_law, of_representation
+from bench.export.program import Function, read_function
+from bench.export.types import REAL, Kind, Program, Tuple, Typed, numbers
+from bench.law.contender import Contender, Gains, Regulator
+from bench.law.so3 import Rotation
+
+COORDINATES, SPRING = "representation-", "impedance-"
+"""What the words of representations and impedances begin with; a regulator's is its name."""
+
+
+class Subject(NamedTuple):
+    """One thing to export.
+
+    record: the constant of its file. representation: what it acts on, if it is something. entries: what it offers.
+    """
+
+    word: str
+    record: Any
+    representation: Any
+    entries: tuple[Entry, ...]
+    memory: tuple | None = None
+    contender: Contender | None = None
+
+    @property
+    def identifier(self) -> str:
+        """The word as a name in every language."""
+        return self.word.replace("-", "_").replace("/", "_")
+
+
+def subject_words(extra: tuple[Regulator, ...] = ()) -> list[str]:
+    """Everything that can be exported."""
+    laws = [one.name for one in registry.all_contenders(extra)]
+    springs = [one.name for one in all_controllers() if one.impedance is not None]
+    return [*laws, *(f"{COORDINATES}{name}" for name in known_representations()), *springs]
+
+
+def find_subject(word: str, extra: tuple[Regulator, ...] = ()) -> Subject:
+    """The subject of a word.
+
+    Errors:
+        UnknownWord: no such law, coordinates or impedance. Incompatible: coordinates are missing, or do not fit.
+    """
+    first, _, second = word.partition("/")
+    if first.startswith(COORDINATES):
+        one = registry.representation(first.removeprefix(COORDINATES))
+        return Subject(word, one, None, tuple(of_representation(one)))
+    if first.startswith(SPRING) and first.removeprefix(SPRING) in known_impedances():
+        spring = known_impedances()[first.removeprefix(SPRING)]
+        along = registry.representation(second) if second else None
+        law = spring.law_in(along) if along and spring.law_in else spring.law
+        if law is None:
+            words = [one for one in subject_words() if one.startswith(f"{first}/")]
+            raise UnknownWord("impedance", word, words)
+        return Subject(word, spring, along, tuple(of_impedance(law)))
+    contender = registry.find_contender(word, extra)
+    regulator = contender.regulator
+    entries = tuple(of_law(contender.law, regulator.memory is not None))
+    return Subject(contender.on_free_body, regulator, contender.representation, entries, regulator.memory, contender)
+
+
+MATRIX = Tuple((numbers(3),) * 3, Rotation.__name__, Rotation._fields)
+GAINS = Tuple((REAL, REAL), Gains.__name__, Gains._fields)
+
+
+def kind_of(parameter) -> Kind:
+    """Of an entry's argument."""
+    fixed: dict[str, Kind] = {"matrix": MATRIX, "gains": GAINS, "number": REAL}
+    return fixed.get(parameter.kind, numbers(parameter.size))
+
+
+class Translated(NamedTuple):
+    """A subject's functions, callees first, and its entries as such."""
+
+    program: Program
+    entries: dict[str, Typed]
+
+
+@functools.lru_cache(maxsize=128)
+def translated(subject: Subject) -> Translated:
+    """All that a subject calls; once a subject."""
+    program = Program()
+    known: dict[Callable, Function] = {}
+    entries: dict[str, Typed] = {}
+    for entry in subject.entries:
+        kinds = tuple(kind_of(one) for one in entry.parameters)
+        entries[entry.name] = program.add(read_function(entry.function, known), kinds)
+    return Translated(program, entries)

@@ -1,0 +1,67 @@
+"""`export`: what it writes and says, and what it refuses."""
+
+import subprocess
+
+import pytest
+from support.command_line import bench
+from support.exported import needs
+from support.user_law import law_text
+
+from bench.export.language import language_words
+
+LOOPING = """
+WEIGHTS = (0.8, 1.0, 1.2)
+
+@kernel
+def spring(R, R_d):
+    total = 0.0
+    for k in range(1, 3):
+        total -= WEIGHTS[k] * R.n[k] - R_d.n[k]
+    x, y = R.o[2], R.a[1]
+    x, y = y, x
+    return (total, x - y, -(x - (y - total)))
+
+@kernel
+"""
+"""A constant, a loop, a difference of differences, and two names that change places."""
+
+
+@pytest.mark.parametrize("language", language_words())
+def test_export_writes_law_test_vectors_and_how_to_try_them(capsys, tmp_path, language):
+    said = bench(capsys, "export", "rotation-matrix", "--to", language, "--out", str(tmp_path / "here"))
+    assert (said.code, "try it there" in said.out) == (0, True)
+    names = sorted(path.name for path in (tmp_path / "here").iterdir())
+    assert len(names) == 4
+    assert {"README.md", "vectors.json"} < set(names)
+
+
+@needs("gcc")
+def test_export_of_a_user_s_law_is_of_its_file(capsys, tmp_path):
+    (tmp_path / "mine.py").write_text(law_text("u = spring(R, goal.R)", "return u").replace("@kernel", LOOPING, 1))
+    said = bench(
+        capsys, "export", "mine", "--law", str(tmp_path / "mine.py"), "--to", "c", "--out", str(tmp_path / "c")
+    )
+    assert said.code == 0, said.err
+    subprocess.run(["gcc", "-o", "test", "test_mine.c", "-lm"], cwd=tmp_path / "c", check=True)
+    assert subprocess.run(["./test"], cwd=tmp_path / "c").returncode == 0
+
+
+@pytest.mark.parametrize(
+    ("words", "cure"),
+    [
+        (("late-brakin", "--to", "c"), "did you mean 'late-braking'"),
+        (("late-braking", "--to", "ada"), "known: c, cpp"),
+        (("feedback-linearized", "--to", "c"), "name one: feedback-linearized/mrp"),
+        (("impedance-coordinates", "--to", "c"), "did you mean 'impedance-coordinates/mrp'"),
+        (("representation-euler", "--to", "c"), "zyx-euler"),
+    ],
+)
+def test_export_refuses_what_is_not_there_with_the_cure(capsys, words, cure):
+    said = bench(capsys, "export", *words)
+    assert (said.code, cure in said.err) == (2, True), said.err
+
+
+def test_export_into_what_is_no_folder_is_refused(capsys, tmp_path):
+    (tmp_path / "file").write_text("")
+    said = bench(capsys, "export", "rotation-matrix", "--to", "c", "--out", str(tmp_path / "file"))
+    assert (said.code, "name a folder" in said.err) == (2, True)
