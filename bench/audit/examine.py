@@ -91,46 +91,56 @@ UNDECIDED_RAD = 1e-7
 
 
 def examine(function: Callable, stated: Stated, name: str) -> Report:
-    """The report on a function."""
-    faults = every_fault()
-    stated.check([one.name for one in faults])
-    examined = Examined(function, stated, *understood(function, stated, name))
-    found = {one.name: (one, one.find(examined)) for one in faults}
-    names = {name for name, (_, what) in found.items() if what}
-    findings = tuple(
-        Finding(one, what, one.name in stated.accept)
-        for one, what in found.values()
+    """The report on a function; if it has no convention, of that input for which the mistake is known, if it is."""
+    stated.check([one.name for one in every_fault()])
+    reports = []
+    for takes, found in understood(function, stated, name):
+        examined = Examined(function, stated, takes, found)
+        reports.append(Report(name, len(examined.e), takes, found, findings(examined)))
+    return min(reports, key=lambda one: UNKNOWN in one.faults)
+
+
+UNKNOWN = "misaligned"
+
+
+def findings(examined: Examined) -> tuple[Finding, ...]:
+    """What is wrong with it, faults first, without what others explain."""
+    found = [(one, one.find(examined)) for one in every_fault()]
+    names = {one.name for one, what in found if what}
+    kept = [
+        Finding(one, what, one.name in examined.stated.accept)
+        for one, what in found
         if what and not names & set(one.unless)
-    )
-    ordered = tuple(sorted(findings, key=lambda one: not one.is_fault))
-    return Report(name, len(examined.e), examined.takes, examined.convention, ordered)
+    ]
+    return tuple(sorted(kept, key=lambda one: not one.is_fault))
 
 
-def understood(function: Callable, stated: Stated, name: str) -> tuple[str, Convention | None]:
-    """What it takes, and its convention.
+def understood(function: Callable, stated: Stated, name: str) -> list[tuple[str, Convention | None]]:
+    """What it takes and its convention; if nothing explains its answers, all that it may take.
 
     Errors:
         BadFunction: of nothing that it may take does it return three numbers.
     """
     every = pairs.every_pair()
     some = every.chosen(np.isin(every.place, (WIDE, CLOSE, FINE)))
-    best: tuple[float, str, Convention | None] = (-1.0, "", None)
-    reasons = {}
+    known: list[tuple[float, str, Convention]] = []
+    answered, reasons = [], {}
     for takes in possible(stated):
         first = ask(function, takes, some.chosen(slice(0, None, 90)))
         if sum(map(bool, first.raised)) > len(first.raised) / 2:
             reasons[takes] = next(filter(None, first.raised))
             continue
+        answered.append((takes, None))
         share, found = convention.find(takes, some, ask(function, takes, some).e)
-        if share > best[0] and (found or best[2] is None):
-            best = (share, takes, found)
-    if not best[1]:
+        if found:
+            known.append((share, takes, found))
+    if not answered:
         said = "; ".join(f"given {one}: {reason.removeprefix(NO_THREE_NUMBERS)}" for one, reason in reasons.items())
         raise BadFunction(
             f"{name} returns three numbers neither of two 3 x 3 matrices nor of two quaternions ({said}); wrap it in "
             f"a function of (R, R_d) or (q, q_d) that returns its three numbers"
         )
-    return best[1:]
+    return [max(known, key=lambda one: one[0])[1:]] if known else answered
 
 
 def possible(stated: Stated) -> tuple[str, ...]:

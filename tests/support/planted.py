@@ -85,6 +85,11 @@ def order_swapped_of_one(q, q_d):
     return chord(left(q, np.roll(q_d, 1)))
 
 
+def order_shifted_the_wrong_way(q, q_d):
+    """xyzw, made wxyz by moving the first number to the end."""
+    return chord(left(np.roll(q, -1), np.roll(q_d, -1)))
+
+
 def transposed(R, R_d):
     return log(R_d @ R)
 
@@ -139,6 +144,11 @@ def arc_cosine_of_quaternion(q, q_d):
 def euler_difference(R, R_d):
     difference = Rotation.from_matrix(R_d).as_euler("ZYX") - Rotation.from_matrix(R).as_euler("ZYX")
     return (difference + np.pi) % (2.0 * np.pi) - np.pi
+
+
+def euler_difference_of_quaternions(q, q_d):
+    """xyzw."""
+    return euler_difference(*(Rotation.from_quat(one).as_matrix() for one in (q, q_d)))
 
 
 def euler_of_difference(R, R_d):
@@ -208,6 +218,7 @@ PLANTED: dict = {
     half_stiff_of_matrices: {"stiffness"},
     order_swapped: {"quaternion-order"},
     order_swapped_of_one: {"quaternion-order"},
+    order_shifted_the_wrong_way: {"quaternion-order"},
     transposed: {"transpose"},
     transposed_columns: {"transpose"},
     body_for_base: {"frame"},
@@ -219,6 +230,7 @@ PLANTED: dict = {
     arc_cosine: {"dead-at-180", "digits-near-180", "digits-near-0", "non-unit"},
     arc_cosine_of_quaternion: {"digits-near-0", "non-unit"},
     euler_difference: {"euler-angles"},
+    euler_difference_of_quaternions: {"euler-angles"},
     euler_of_difference: {"euler-angles"},
     wrong_wrap: {"euler-angles", "long-way"},
     wrong_wrap_of_angle: {"long-way"},

@@ -10,6 +10,8 @@ from bench.audit.models import explanation
 from bench.audit.pairs import Pairs, product
 
 ORDERS = ("wxyz", "xyzw")
+READ = {"wxyz": [0, 1, 2, 3], "xyzw": [3, 0, 1, 2], "xyzw, shifted the wrong way": [1, 2, 3, 0]}
+"""Where w, x, y, z are taken from."""
 
 
 def find(examined) -> Found | None:
@@ -28,8 +30,8 @@ def find(examined) -> Found | None:
 def models(takes: str, pairs: Pairs):
     """Each step of vec(q_d q*) in either order, and of vec(q* q_d)."""
     now, goal = inputs(takes, pairs)
-    for first, second, conjugate, vector in itertools.product(ORDERS, repeat=4):
-        p, p_d = read(now, first), read(goal, second)
+    for first, second, conjugate, vector in itertools.product(READ, READ, ORDERS, ORDERS):
+        p, p_d = now[:, READ[first]], goal[:, READ[second]]
         negated = np.where(np.arange(4) > 0, -1.0, 1.0) if conjugate == "wxyz" else np.array((-1.0, -1.0, -1.0, 1.0))
         part = slice(1, 4) if vector == "wxyz" else slice(0, 3)
         words = (
@@ -37,11 +39,6 @@ def models(takes: str, pairs: Pairs):
         )
         for whole in (product(p_d, negated * p), product(negated * p, p_d)):
             yield words, whole[:, part]
-
-
-def read(given: np.ndarray, order: str) -> np.ndarray:
-    """As (w, x, y, z) of what is taken for this order."""
-    return given if order == "wxyz" else given[:, [3, 0, 1, 2]]
 
 
 FAULT = Fault(
