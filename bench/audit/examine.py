@@ -124,7 +124,8 @@ def understood(function: Callable, stated: Stated, name: str) -> list[tuple[str,
     every = pairs.every_pair()
     some = every.chosen(np.isin(every.place, (WIDE, CLOSE, FINE)))
     known: list[tuple[float, str, Convention]] = []
-    answered, reasons = [], {}
+    answered: list[tuple[str, Convention | None]] = []
+    reasons = {}
     for takes in possible(stated):
         first = ask(function, takes, some.chosen(slice(0, None, 90)))
         if sum(map(bool, first.raised)) > len(first.raised) / 2:

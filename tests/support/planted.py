@@ -80,6 +80,11 @@ def order_swapped(q, q_d):
     return 2.0 * times(q_d, np.array((-1.0, -1.0, -1.0, 1.0)) * q)[1:]
 
 
+def order_swapped_of_the_goal(q, q_d):
+    """The same with the arguments the other way round."""
+    return order_swapped(q_d, q)
+
+
 def order_swapped_of_one(q, q_d):
     """xyzw: the goal as it is, the pose read as wxyz."""
     return chord(left(q, np.roll(q_d, 1)))
@@ -217,6 +222,7 @@ PLANTED: dict = {
     half_stiff: {"stiffness"},
     half_stiff_of_matrices: {"stiffness"},
     order_swapped: {"quaternion-order"},
+    order_swapped_of_the_goal: {"quaternion-order"},
     order_swapped_of_one: {"quaternion-order"},
     order_shifted_the_wrong_way: {"quaternion-order"},
     transposed: {"transpose"},

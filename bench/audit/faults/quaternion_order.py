@@ -28,7 +28,7 @@ def find(examined) -> Found | None:
 
 
 def models(takes: str, pairs: Pairs):
-    """Each step of vec(q_d q*) in either order, and of vec(q* q_d)."""
+    """Each step of vec(q_d q*) in either order, of vec(q* q_d), and of both with swapped arguments."""
     now, goal = inputs(takes, pairs)
     for first, second, conjugate, vector in itertools.product(READ, READ, ORDERS, ORDERS):
         p, p_d = now[:, READ[first]], goal[:, READ[second]]
@@ -37,8 +37,9 @@ def models(takes: str, pairs: Pairs):
         words = (
             f"q read as {first}, q_d as {second}, conjugated as {conjugate} and the vector part taken as of {vector}"
         )
-        for whole in (product(p_d, negated * p), product(negated * p, p_d)):
-            yield words, whole[:, part]
+        for one, other in ((p_d, negated * p), (p, negated * p_d)):
+            for whole in (product(one, other), product(other, one)):
+                yield words, whole[:, part]
 
 
 FAULT = Fault(
