@@ -171,8 +171,9 @@ REDUNDANT = (
 )
 """Of COMPLIANT those that an arm of seven joints runs: the paper's form and the other, on both Jacobians."""
 
-FIRST_SERIES = 48
-"""Poses on seven joints: of wrench-probe its first series up to beta = 75 degrees; of the other tasks all."""
+FIRST_SERIES, FIRST_SCENES = 48, 9
+"""Poses on seven joints: of wrench-probe its first series up to beta = 75 degrees, of the other tasks all; of `quick`
+three scenes of each task, every frame of the hand."""
 
 FIRST_FRAMES = 90
 """Poses of `quick`: of wrench-probe its first series over beta and the frames that lean every way; of the other tasks
@@ -208,7 +209,7 @@ SUITES = {
                 traced=1,
                 poses=200,
             ),
-            in_contact=InContact(COMPLIANT, FIRST_FRAMES, redundant=REDUNDANT[:2], redundant_poses=4),
+            in_contact=InContact(COMPLIANT, FIRST_FRAMES, redundant=REDUNDANT[:2], redundant_poses=FIRST_SCENES),
             robustness=Robustness(4),
             in_engine=_slices("native", 200, ("half-turn", "paper", "poles")),
         ),

@@ -131,8 +131,8 @@ def test_impossible_number_is_refused_in_a_dry_run_too(capsys, finished):
         (("--arm", "ur5e", "--starts", "paper"), "takes the starts clear, half-turn, pole"),
         (("--arm", "ur5e", "--engine", "ideal-rk4"), "ideal-rk4 simulates free-body alone, not 'arm-regulation'"),
         (
-            ("--task", "wrench-probe", "--arm", "panda"),
-            "task 'wrench-probe' needs an arm of six joints, and 'panda' has",
+            ("--task", "wrench-probe", "--arm", "jaco"),
+            "arm 'jaco' has no site 'wrist', where task 'wrench-probe' mounts the hand",
         ),
         (("--controller", "hybrid-base+inverse", "--arm", "jaco"), "arm 'jaco' has no site 'wrist'"),
         (("--controller", "hybrid-base"), "lacks its form (try: hybrid-base+inverse"),

@@ -148,7 +148,7 @@ def test_list_names_a_broken_arm_with_the_reason():
         ("inverses", r"solve +acceleration +6 x 6  "),
         ("inverses", r"pseudo-inverse +acceleration +6 x 6, 6 x 7, 7 x 6  "),
         ("baselines", r"joint-pd +Joint PD with gravity compensation +Takegaki"),
-        ("tasks", r"wrench-probe +contact: puma560, ur5e  "),
+        ("tasks", r"wrench-probe +contact: panda, puma560, ur5e  "),
         ("controllers", r"name +/coordinates +\+form "),
         ("controllers", r"hybrid +mrp, rotation-vector, .*inverse, projected, transpose "),
         ("controllers", r"impedance-geometric +impedance: "),

@@ -25,7 +25,7 @@ from bench.metrics.contact.held_axes import leakage
 from bench.metrics.contact.stiffness import least_yield, misalignment, stiffness_axes, stiffness_condition
 from bench.metrics.contact_metric import Pose, response
 from bench.metrics.measured_compliance import compliance
-from tasks.domains.wrench_probe import SPECIFICATIONS, TASK
+from tasks.domains.wrench_probe import SPECIFICATIONS, TASK, push
 from tasks.rotations import on_pole, zyx
 
 SCIPYS = {
@@ -182,6 +182,14 @@ def test_mobility_is_what_mujocos_dynamics_make_of_moments(arm):
         found[:, k] = at.acceleration(at.fg)[3:]
     A = theory.mobility(tasks.arm(arm))
     np.testing.assert_allclose(found, A, rtol=0.0, atol=1e-9 * np.linalg.norm(A))
+
+
+@pytest.mark.parametrize("arm", ARMS)
+def test_probe_turns_a_hand_by_milliradians_about_its_lightest_axis(arm):
+    """By the paper's form, of all that take part the one that turns it furthest: B hardly changes on the way."""
+    on = tasks.arm(arm)
+    as_unit = theory.free(TASK.horizon_s) * TOUCH.m_o * np.linalg.eigvalsh(theory.mobility(on))[-1]
+    assert 1e-3 < push(on) * (1.0 + TOUCH.kf) * as_unit < 3e-2
 
 
 def test_what_leaks_by_the_jacobian_transpose_is_the_tangent_at_last_whatever_the_arm():

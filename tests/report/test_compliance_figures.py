@@ -148,6 +148,17 @@ def test_forces_by_the_jacobian_transpose_turn_the_hand_as_much_at_every_beta_an
     assert len(by_transpose.table(probe).splitlines()) == 2 + 5
 
 
+def test_arm_whose_hand_yields_most_is_named_with_the_ratio_to_the_least():
+    near = [by_transpose.Level(arm, beta, turn, *(0.0,) * 7) for arm, turn in YIELDS.items() for beta in (0.0, 45.0)]
+    words = by_transpose.most_yielding(near)
+    assert words.endswith("the Franka Emika Panda 12 times as far as that of the Unimation PUMA 560.")
+    assert "one arm" in by_transpose.most_yielding(near[:2])
+
+
+YIELDS = {"panda": 2.4, "puma560": 0.2, "ur5e": 0.5}
+"""Arm -> turn per moment [rad/(N m)]."""
+
+
 def test_map_holds_beta_where_the_frame_is_level_and_a_cross_where_nothing_is_left(probe):
     by = {name: level(of(probe, name)) for name in (EULER, ZYZ)}
     values, words = frames.cells(by[EULER])

@@ -102,7 +102,8 @@ def _in_contact(results, forms):
     turned = complex_ones[complex_ones["is_turned"]]
     word, first = (word_of(all(facts), turned["parts"].any()) for facts in (depends, only_turned))
     parted = complex_ones[complex_ones["parts"]]
-    agree = complex_ones.groupby(["task", "arm", "pose"])["parts"].nunique() == 1
+    by_frame = complex_ones.groupby(["task", "arm", "pose"])["parts"]
+    agree = by_frame.nunique()[by_frame.size() == len(forms)] == 1
     agreed = f"; both forms agree at {int(agree.sum())} of {len(agree)} frames and scenes" if len(forms) > 1 else ""
     simple = rows[rows["turns"] < 2]
     listed = "; ".join(_told(task, own) for task, own in complex_ones.groupby("task"))
@@ -119,13 +120,16 @@ def _in_contact(results, forms):
 def _depends(task: str, rows: pd.DataFrame, forms: tuple[str, ...]) -> tuple[bool, bool]:
     """Whether on every arm and in every form some pair with a turned frame parts; whether besides none with beta = 0.
 
+    An arm is judged by the forms that it has run.
+
     Errors:
-        NoEvidence: an arm lacks a form, or a form such frames.
+        NoEvidence: no arm has run a form, or a form lacks such frames.
     """
     found = []
+    for form in forms:
+        some(rows[rows["form"] == form], f"pose of {task}, +{form}")
     for arm, on_arm in rows.groupby("arm"):
-        for form in forms:
-            own = on_arm[on_arm["form"] == form]
+        for form, own in on_arm.groupby("form"):
             turned, straight = own[own["is_turned"]], own[own["beta"].abs() <= ZERO_RAD]
             if turned.empty or straight.empty:
                 raise NoEvidence(f"{task} on {arm}, {form}: no frames both at beta = 0 and from {TURNED_DEG:g} degrees")

@@ -21,6 +21,7 @@ from bench.control.contact_controller import PAPERS_FORM
 from bench.control.setpoint import ContactParameters
 from bench.findings.theory import compliance_theory as theory
 from bench.law.contender import Gains
+from report.figures.arms import arm_looks
 from report.figures.contact import rows as controllers
 from report.figures.kit import html
 from report.figures.kit.spelling import power
@@ -90,11 +91,26 @@ def facts(rows: pd.DataFrame) -> dict[str, str]:
     if not near:
         return {}
     own = rows[rows["form"] == PAPERS_FORM]
-    spread = max(np.ptp([one.turn for one in near if one.arm == arm]) / near[0].turn for arm in controllers.arms(own))
+    turns = [[one.turn for one in near if one.arm == arm] for arm in dict.fromkeys(one.arm for one in near)]
+    spread = max(np.ptp(each) / each[0] for each in turns)
     gap = max(abs(one.leak - one.theory) for one in near)
     return {
         "kf": f"{own['kf'].iloc[0]:g}",
         "transpose_spread": power(spread),
         "transpose_gap": power(gap),
         "transpose_to": f"{COMPARED_TO:g}°",
+        "yields": most_yielding(near),
     }
+
+
+def most_yielding(near: list[Level]) -> str:
+    """Which arm's hand turns furthest about x by a moment where its frame is level, and how much further than which."""
+    turns = {one.arm: one.turn for one in reversed(near)}
+    if len(turns) < 2:
+        return "These are rows of one arm."
+    most, least = (pick(turns, key=turns.__getitem__) for pick in (max, min))
+    further = turns[most] / turns[least]
+    return (
+        "Arms differ by their inertia alone, with seven joints as with six: a moment turns the hand of the "
+        f"{arm_looks.title(most)} {further:.0f} times as far as that of the {arm_looks.title(least)}."
+    )

@@ -11,6 +11,7 @@ import pandas as pd
 
 import tasks
 from bench.contenders.registry import known_representations
+from bench.findings.selection.words import together
 from bench.findings.theory import compliance_theory as theory
 from bench.findings.theory import hybrid_stability as stability
 from bench.law.so3 import from_quaternion
@@ -79,7 +80,7 @@ def probed(rows: pd.DataFrame) -> dict:
     return {
         "axes_arm": shown_arm(rows),
         "passive": passive(rows),
-        "probe_arms": " and ".join(controllers.arms(rows)),
+        "probe_arms": together(controllers.arms(rows)),
         "probe_rows": len(rows),
         "gap": f"{power(max(gaps(rows).values()))} of the value (up to {COMPARED_TO:g}°)",
         "cartesian": cartesian(rows),
@@ -173,7 +174,7 @@ def tables(run: Run) -> dict:
 def unstable() -> list[tuple]:
     """Share of poses at which the arm runs away [%]: a line an arm and selection, a column a form and kind of servo."""
     lines = []
-    for name in ("puma560", "ur5e"):
+    for name in ("puma560", "ur5e"):  # of six joints: J^-1 S is not written for more
         at = stability.poses(tasks.arm(name), POSES, SEED)
         for complies, held in SELECTIONS.items():
             shares = (

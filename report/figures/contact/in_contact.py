@@ -8,6 +8,7 @@ import numpy as np
 import pandas as pd
 
 import tasks
+from report.figures.arms import arm_looks
 from report.figures.contact import contact_models, limits
 from report.figures.contact.by_frame import MEASURES, Measure, by_frame
 from report.figures.contact.ends import ends
@@ -39,6 +40,7 @@ def facts(run: Run) -> dict:
     return {
         **plate(rows),
         "orders": orders(),
+        "fewer": given(rows, fewer),
         "stiffness": f"{STANDARD.stiffness:,.0f}",
         "damping": f"{STANDARD.damping:,.0f}",
         **ends(rows),
@@ -78,6 +80,17 @@ def orders() -> str:
         task = tasks.contact_task(name)
         lines.append(f"{task.title} (complies: {task.trials(arm)[0].specification.name})")
     return f"{'. '.join(lines)}."
+
+
+def fewer(rows: pd.DataFrame) -> str:
+    """Which arms run some of the controllers only: medians over arms are then of other arms from line to line."""
+    run = rows.groupby("arm")["contender"].nunique()
+    parts = [f"the {arm_looks.title(arm)} {count} of {run.max()}" for arm, count in run[run < run.max()].items()]
+    if not parts:
+        return "Every arm runs every controller."
+    return (
+        f"Not every arm runs every controller ({'; '.join(parts)}), and so lines with more episodes are of more arms."
+    )
 
 
 def penetration(rows: pd.DataFrame) -> str:
