@@ -6,7 +6,7 @@
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
 .PHONY: help setup setup-cluster bench bench-quick time libraries report test check lint gate regress regress-study
-.PHONY: scale-study contact-study settings-study verdicts-study kill-study reference media lock clean audit judge history
+.PHONY: scale-study contact-study settings-study verdicts-study robustness-study kill-study reference media lock clean audit judge history
 .PHONY: arrays-check
 
 SHELL := /bin/sh
@@ -138,6 +138,10 @@ contact-study: $(READY)
 settings-study: ## is a run the same on every processor? quick suites under other settings (15 minutes): results/settings
 settings-study: $(READY)
 	@$(PY) -m bench.studies.settings $(ARGS)
+
+robustness-study: ## shares lost under every perturbation, 400 starts a level (6 CPU minutes): results/robustness
+robustness-study: $(READY)
+	@$(PY) -m bench.studies.robustness $(ARGS)
 
 verdicts-study: ## does a verdict hang on the draw or the step? 20 seeds, half the step (20 minutes): results/verdicts
 verdicts-study: $(READY)

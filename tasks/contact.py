@@ -9,7 +9,7 @@ sensor in its wrist reads F and nothing else, and the controller's model of the 
 How the hand's frame is drawn on the hand changes nothing physical; it changes every Euler angle. A trial's
 `mount_wxyz` draws it.
 
-An arm takes part if it has six joints and a site "wrist" that moves with the last one.
+An arm takes part if it has a site "wrist" that moves with the last joint.
 """
 
 from __future__ import annotations
@@ -119,11 +119,6 @@ class ContactTask(NamedTuple):
 
 def refuse(task: ContactTask, arm: Arm) -> None:
     """BadValue if the arm cannot be set the task."""
-    if arm.joints != 6:
-        raise BadValue(
-            f"task '{task.name}' needs an arm of six joints, and '{arm.name}' has {arm.joints} "
-            "(choose another: what a seventh does by itself would be measured too)"
-        )
     if wrist_of(ElementTree.fromstring(arm.xml)) is None:
         raise BadValue(
             f"arm '{arm.name}' has no site 'wrist', where task '{task.name}' mounts the hand and its force sensor "

@@ -70,7 +70,7 @@ def model_xml(task: ContactTask, arm: Arm, dt: float, contact: ContactModel = ST
     there is no contact), and the joint of the scene [rad] if there is one.
 
     Errors:
-        BadValue: the arm has no six joints, or no site "wrist".
+        BadValue: the arm has no site "wrist".
     """
     refuse(task, arm)
     root = _model(task, arm, dt, contact)

@@ -80,6 +80,15 @@ class Kinematics:
         mujoco.mj_fullM(self.model, self._data, D)
         return D
 
+    def mobility(self, q: Sequence[float] | np.ndarray) -> np.ndarray:
+        """J D^-1 J^T, 6 x 6 [1/kg, 1/(kg m), 1/(kg m^2)]: acceleration of the tool per force and moment on it."""
+        J = self.jacobian(q)
+        return J @ np.linalg.solve(self.inertia_matrix(q), J.T)
+
+    def least_inertia(self, q: Sequence[float] | np.ndarray) -> float:
+        """The tool's inertia about the axis about which a moment turns it most [kg m^2]."""
+        return float(1.0 / np.linalg.eigvalsh(self.mobility(q)[3:, 3:])[-1])
+
     def into_range(self, q: Sequence[float] | np.ndarray) -> np.ndarray:
         """The same pose with every joint, by whole turns, as near as can be to the middle of its range, or to 0."""
         ranges = zip(self.arm.lower, self.arm.upper, strict=True)

@@ -130,7 +130,7 @@ def _contact() -> str:
     task, one = tasks.contact_task("surface-alignment"), find_controller("hybrid-base+inverse")
     able = [arm for arm in arms().values() if not isinstance(arm, BadArm) and can_do(task, arm)]
     if not able:
-        raise RuntimeError("no arm has six joints and a site 'wrist'. Cure: add the site to an arm in tasks/arms")
+        raise RuntimeError("no arm has a site 'wrist'. Cure: add the site to an arm in tasks/arms")
     arm, pressing = able[-1], task._replace(horizon_s=0.15)  # it touches after 0.05 s
     given = (pressing, arm, task.trials(arm)[:1])
     [fast], [slow] = ([one.record for one in run(engine, one, *given)] for engine in ("native", "reference"))

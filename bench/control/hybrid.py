@@ -9,13 +9,18 @@ the hand shall exert, v = J qdot; where the hand complies it comes to rest with 
     projected    y = (S J)^+ S (a - Jdot qdot) + J^-1 (I - S)(c - Jdot qdot)                w = -F
 
 The first is the paper's: the error of force is selected and "converted to joint torques by the Jacobian transpose"
-(Murphy 1988, 3.3). Since D J^-1 = J^T Lambda with Lambda = J^-T D J^-1, it is also that of operational space for six
-joints, tau = J^T (Lambda (S a - (I - S) kc v - Jdot qdot) + w) + fg (Khatib 1987). F acts on the hand as it does on the
-arm: through Lambda, and on what is held too.
+(Murphy 1988, 3.3). Since D J^-1 = J^T Lambda with Lambda = (J D^-1 J^T)^-1, it is also that of operational space,
+tau = J^T (Lambda (S a - (I - S) kc v - Jdot qdot) + w) + fg (Khatib 1987). F acts on the hand as it does on the arm:
+through Lambda, and on what is held too.
+
+On seven joints J^-1 becomes J^# = D^-1 J^T Lambda, the dynamically consistent inverse, and y = J^# (... - J z) + z with
+z = -Kv/2 qdot (`resolved_acceleration.relax`). It alone has D J^# = J^T Lambda: by any other, as J^+, the paper's form
+is not Khatib's. The hand moves alike; but the elbow is driven by (I - J^+ J) D^-1 J^T (F + w), which a wrench at rest
+keeps up. By J^# no wrench turns it and its own motion dies out.
 
 The others command what complies an acceleration, c_i = (F_i + h_i)/m_i - kc v_i with an apparent inertia m, and cancel
-F: impedances. `inverse` uses J^-1 S, `projected` the pseudo-inverse of what is held, S J: of all joint motions that do
-what is held, the least (Fisher and Mujtaba 1991); what complies is dragged along by it.
+F: impedances. `inverse` uses J^-1 S, `projected` the pseudo-inverse of what is held, S J, on seven joints too: of all
+joint motions that do what is held, the least (Fisher and Mujtaba 1991); what complies is dragged along by it.
 
 Three frames, and with each the wrench converted to it:
 
@@ -32,10 +37,12 @@ Source: Raibert and Craig 1981; Murphy 1988, 3.3; Khatib 1987; Fisher and Mujtab
 
 from collections.abc import Callable
 
+from bench.contenders.inverses.dynamically_consistent import resolve as by_least_energy
 from bench.contenders.jacobians import analytic
 from bench.contenders.jacobians.geometric import fill
 from bench.contenders.regulators import feedback_linearized
 from bench.contenders.regulators.rotation_matrix import law as regulate
+from bench.control.resolved_acceleration import damp, relax
 from bench.errors import Incompatible
 from bench.law.chain import bias_acceleration, twist
 from bench.law.contender import AT_REST, Goal, Representation
@@ -194,21 +201,12 @@ def exerted(form, held, rows, touch, i):
 
 
 @kernel
-def comply(form, held, n, D, fg, J, rows, touch, room, tau):
-    """tau = D y + fg + J^T w, with y and w by the rows that are held (held[i] > 0) or comply; J is 6 x n, n = 6."""
-    y, b, scratch = room.y, room.b, room.scratch
-    count = 0
+def comply(form, held, chain, D, fg, J, rows, gains, touch, room, tau):
+    """tau = D y + fg + J^T w, with y and w by the rows that are held (held[i] > 0) or comply; J is 6 x n."""
+    n, y, b, scratch = chain.n, room.y, room.b, room.scratch
     for i in range(6):
-        for j in range(n):
-            scratch.A[i, j] = J[i, j]
         if held[i] > 0.0:
             y[i] = rows.a[i] - rows.drift[i]
-            if form > INVERSE and form < TRANSPOSE:
-                b[count] = y[i]
-                y[i] = 0.0
-                for j in range(n):
-                    room.held[count, j] = J[i, j]
-                count = count + 1
         elif form >= TRANSPOSE:
             y[i] = -touch.kc * rows.v[i] - rows.drift[i]
         else:
@@ -216,7 +214,21 @@ def comply(form, held, n, D, fg, J, rows, touch, room, tau):
             if i > 2:
                 inertia = touch.m_o
             y[i] = (rows.F[i] + rows.h[i]) / inertia - touch.kc * rows.v[i] - rows.drift[i]
-    solve(scratch.A, y, n)
+    if n > 6:
+        relax(J, y, chain, gains, 6, b)
+    count = 0
+    if form > INVERSE and form < TRANSPOSE:
+        count = set_apart(held, n, J, y, room)
+    if n > 6:
+        by_least_energy(J, y, D, room.x, 6, n, scratch)
+        for i in range(n):
+            y[i] = 0.0
+        damp(y, chain, gains)
+    else:
+        for i in range(6):
+            for j in range(6):
+                scratch.A[i, j] = J[i, j]
+        solve(scratch.A, y, 6)
     if count > 0:
         smaller_gram(room.held, scratch.A, count, n)
         solve_gram(room.held, b, scratch.A, scratch.t, count, n)
@@ -228,3 +240,20 @@ def comply(form, held, n, D, fg, J, rows, touch, room, tau):
     multiply(D, y, tau, n, n)
     for i in range(n):
         tau[i] = tau[i] + fg[i] + scratch.t[i]
+    if n > 6:
+        for i in range(n):
+            tau[i] = tau[i] + room.x[i]
+
+
+@kernel
+def set_apart(held, n, J, y, room):
+    """Move what is held from y to b, and its rows of J to room.held; returns how many they are."""
+    count = 0
+    for i in range(6):
+        if held[i] > 0.0:
+            room.b[count] = y[i]
+            y[i] = 0.0
+            for j in range(n):
+                room.held[count, j] = J[i, j]
+            count = count + 1
+    return count

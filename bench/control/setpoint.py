@@ -55,9 +55,10 @@ class Rows(NamedTuple):
 
 
 class ContactBuffers(NamedTuple):
-    """Buffers of `comply`: y and b (n), what is held of J (6 x n), and the inverse's scratch."""
+    """Buffers of `comply`: y, b and x (7), what is held of J (6 x 7), and the inverse's scratch (7 x 7)."""
 
     y: Any
     b: Any
+    x: Any
     held: Any
     scratch: Scratch

@@ -54,12 +54,12 @@ def _call(controller: ContactController, held, state: ArmState, draw) -> Call:
     given, tally = (state.chain, wish, f, m, GAINS, TOUCH, state.D, state.fg), Tally()
 
     def torques(chain, wish, f, m, gains, touch, D, fg, dtype):
-        J, tau, into = np.zeros((6, 6), dtype), np.zeros(6, dtype), rows(dtype)
+        J, tau, into = np.zeros((6, chain.n), dtype), np.zeros(chain.n, dtype), rows(dtype)
         tally.stage = "regulate"
         controller.assemble(chain, wish, f, m, gains, touch, J, into)
         tally.stage = "invert"
         form = FORMS.index(controller.form) if controller.form else INVERSE
-        comply(form, held, chain.n, D, fg, J, into, touch, room(dtype), tau)
+        comply(form, held, chain, D, fg, J, into, gains, touch, room(dtype), tau)
         return tuple(tau)
 
     return checked(controller.name, state, tally, given, torques, torques)

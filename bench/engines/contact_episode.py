@@ -8,6 +8,7 @@ import numpy as np
 
 from bench.control.contact_controller import FORMS, ContactController
 from bench.control.setpoint import TOUCH, ContactBuffers, ContactParameters, Rows, Setpoint
+from bench.engines.arm_episode import MOST
 from bench.law.contender import PAPERS_GAINS, Gains
 from bench.law.resolved_motion import Scratch
 from bench.law.scalar import kernel
@@ -37,8 +38,8 @@ scene [m], angle of the scene's joint [rad], largest torque over its rated one. 
 class Numbers(NamedTuple):
     """What a loop needs of an episode besides the models; see `Specification`, `ContactParameters`.
 
-    moves_s: until when the place moves [s]. legs: pushes. delay: ticks by which the sensor of forces lags. rest: when
-    it is over.
+    rated: seven numbers, filled up with ones on fewer joints. moves_s: until when the place moves [s]. legs: pushes.
+    delay: ticks by which the sensor of forces lags. rest: when it is over.
     """
 
     dt: float
@@ -116,7 +117,7 @@ def numbers(controller: ContactController, task: ContactTask, trial: Trial, rate
         tuple(map(float, specification.velocity)),
         f_d,
         m_d,
-        tuple(map(float, rated)),
+        (*map(float, rated), *[1.0] * (MOST - len(rated))),
         len(trial.pushes),
         float(specification.moves_s),
         math.floor(conditions.sensor.delay_s / conditions.dt_s + 0.5),
@@ -131,9 +132,9 @@ def rows(dtype=float) -> Rows:
 
 def room(dtype=float) -> ContactBuffers:
     """Fresh buffers for `hybrid.comply`."""
-    A, B, V = (np.zeros((6, 6), dtype) for _ in range(3))
-    y, b, s, t = (np.zeros(6, dtype) for _ in range(4))
-    return ContactBuffers(y, b, np.zeros((6, 6), dtype), Scratch(A, B, V, s, t))
+    A, B, V = (np.zeros((MOST, MOST), dtype) for _ in range(3))
+    y, b, x, s, t = (np.zeros(MOST, dtype) for _ in range(5))
+    return ContactBuffers(y, b, x, np.zeros((6, MOST), dtype), Scratch(A, B, V, s, t))
 
 
 @kernel

@@ -15,7 +15,6 @@ from bench.control.registry import all_controllers, find_controller
 from bench.errors import Incompatible
 from bench.experiments.choice import Choice
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit
-from bench.experiments.suites import InContact
 from bench.tables.schema import TABLES
 from tasks.base import BadValue
 
@@ -45,21 +44,21 @@ def units(asked: Asked) -> tuple[Unit, ...]:
     part, choice = asked.suite.in_contact, asked.choice
     if not choice.takes_contact:
         return ()
-    chosen = _controllers(part, choice)
-    if not chosen and choice.is_about_contact:
+    found: list[Unit] = []
+    pairs = [(task, arm) for task in _tasks(choice) for arm in _arms(task, choice)]
+    for task, arm in pairs:
+        words, poses = part.on(arm.joints)
+        for one in _controllers(words, choice):
+            if one.law in part.in_free_space and task.touches(arm) and not choice.controllers:
+                continue
+            found += cut(one, task, arm, asked.count or poses, part.dense, asked.horizon_s or task.horizon_s)
+    if not found and choice.is_about_contact:
+        if not pairs:
+            raise Incompatible("nothing to run: no arm has a site 'wrist' (add one to a file of tasks/arms)")
         raise Incompatible(
             f"nothing to run: no controller of the suite's, or that was named, acts on "
             f"{', '.join(choice.representations)} (try: python -m bench list controllers, and --controller)"
         )
-    found: list[Unit] = []
-    for task in _tasks(choice):
-        for arm in _arms(task, choice):
-            for one in chosen:
-                if one.law in part.in_free_space and task.touches(arm) and not choice.controllers:
-                    continue
-                found += cut(one, task, arm, asked.count or part.poses, part.dense, asked.horizon_s or task.horizon_s)
-    if not found and choice.is_about_contact:
-        raise Incompatible("nothing to run: no arm has six joints and a site 'wrist' (add one to a file of tasks/arms)")
     return tuple(found)
 
 
@@ -68,9 +67,8 @@ def _tasks(choice: Choice) -> list[ContactTask]:
     return [tasks.contact_task(word) for word in named or tasks.contact_names()]
 
 
-def _controllers(part: InContact, choice: Choice) -> list[ContactController]:
-    words = choice.controllers or part.controllers
-    found = [find_controller(word) for word in words] or all_controllers()
+def _controllers(words: tuple[str, ...], choice: Choice) -> list[ContactController]:
+    found = [find_controller(word) for word in choice.controllers or words] or all_controllers()
     if choice.representations:
         found = [one for one in found if one.representation and one.representation.name in choice.representations]
     return found

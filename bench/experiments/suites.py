@@ -86,12 +86,19 @@ class InContact(NamedTuple):
 
     controllers: their names; none at all: every one. poses: the first so many of each task; None: all. dense: the
     task's dense set of trials instead. in_free_space: laws that take part only where there is nothing to touch.
+    redundant, redundant_poses: the first two on arms of seven joints.
     """
 
     controllers: tuple[str, ...]
     poses: int | None = None
     dense: bool = False
     in_free_space: tuple[str, ...] = ("hybrid-rate", "hybrid-unconverted")
+    redundant: tuple[str, ...] = ()
+    redundant_poses: int | None = None
+
+    def on(self, joints: int) -> tuple[tuple[str, ...], int | None]:
+        """The controllers and the number of poses of a task on an arm of so many joints."""
+        return (self.redundant, self.redundant_poses) if joints > 6 else (self.controllers, self.poses)
 
 
 class Robustness(NamedTuple):
@@ -156,6 +163,17 @@ MORE_COMPLIANT = (
     "impedance-quaternion",
 )
 
+REDUNDANT = (
+    "hybrid-base+transpose",
+    "hybrid/zyx-euler+transpose",
+    "hybrid-base+inverse",
+    "hybrid/zyx-euler+inverse",
+)
+"""Of COMPLIANT those that an arm of seven joints runs: the paper's form and the other, on both Jacobians."""
+
+FIRST_SERIES = 48
+"""Poses on seven joints: of wrench-probe its first series up to beta = 75 degrees; of the other tasks all."""
+
 FIRST_FRAMES = 90
 """Poses of `quick`: of wrench-probe its first series over beta and the frames that lean every way; of the other tasks
 all."""
@@ -190,7 +208,7 @@ SUITES = {
                 traced=1,
                 poses=200,
             ),
-            in_contact=InContact(COMPLIANT, FIRST_FRAMES),
+            in_contact=InContact(COMPLIANT, FIRST_FRAMES, redundant=REDUNDANT[:2], redundant_poses=4),
             robustness=Robustness(4),
             in_engine=_slices("native", 200, ("half-turn", "paper", "poles")),
         ),
@@ -213,7 +231,7 @@ SUITES = {
                 traced=1,
                 poses=1000,
             ),
-            in_contact=InContact((*COMPLIANT, *MORE_COMPLIANT)),
+            in_contact=InContact((*COMPLIANT, *MORE_COMPLIANT), redundant=REDUNDANT, redundant_poses=FIRST_SERIES),
             robustness=Robustness(24),
             in_engine=_slices("native", 250) + _slices("reference", 0, ("paper",)),
         ),

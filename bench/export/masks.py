@@ -120,7 +120,7 @@ class _Body:
         """An expression on lanes; the tree that is given stays as it is."""
         kind = self.function.kinds.get(node)
         if isinstance(node, ast.Constant):
-            return node if kind == INDEX or isinstance(node.value, bool) else ast.Constant(float(node.value))
+            return node if kind == INDEX else self.value(node.value)
         if isinstance(node, ast.Name):
             return self.name(node.id)
         if isinstance(node, ast.Attribute):

@@ -146,6 +146,22 @@ def map_columns() -> list[Column]:
     ]
 
 
+def perturbed_columns() -> list[Column]:
+    """robustness/perturbed.parquet: the perturbed free body from hundreds of starts, a row a law and level."""
+    return [
+        *words(
+            axis="perturbation: python -m bench list axes",
+            regulator="the law",
+            representation="coordinates the law acts on; empty for a law on R",
+        ),
+        *numbers("the axis's", "how much of it", "level"),
+        Column("starts", COUNT, "1", "how many, the same for every law"),
+        Column("good", COUNT, "1", "of them, those that settled; where it lasts, those left within 3 degrees rms"),
+        *numbers("s", "median settling time, those that never settle counted as infinite", "median_s"),
+        *numbers("s", "longest settling time of those that settled; null if none did", "longest_s"),
+    ]
+
+
 def robustness_columns() -> list[Column]:
     """robustness.parquet: the perturbed free body, an episode a row; starts and noise are the same for every law.
 

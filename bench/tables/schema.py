@@ -35,6 +35,7 @@ TABLES = {
             motion.robustness_columns,
             ("suite", "axis", "level", "regulator", "representation", "start_id"),
         ),
+        Table("perturbed", motion.perturbed_columns, ("axis", "level", "regulator", "representation")),
         Table("timings", other.timing_columns, ("what", "arm", *CONTENDER, "engine")),
         Table("libraries", other.library_columns, ("library", "function", "takes", "turn_set")),
     )
@@ -58,8 +59,8 @@ def readme() -> str:
         "last, `maps/` what millions of random starts say (`python -m bench map`). `timings/` holds one file for each",
         "kind of machine, `libraries/` what other robot libraries answered (`make libraries`), `scale/` what many",
         "episodes cost (`python -m bench.studies.scale`), `contact/` what tasks in contact depend on (`make",
-        "contact-study`). Every table is parquet, its units are in the columns' metadata, and `provenance.json` says",
-        "where a run comes from.",
+        "contact-study`), `robustness/` shares of hundreds of starts a level (`make robustness-study`). Every table is",
+        "parquet, its units are in the columns' metadata, and `provenance.json` says where a run comes from.",
     ]
     for table in TABLES.values():
         lines += ["", f"## {table.name}.parquet", "", (table.columns.__doc__ or "").strip(), ""]

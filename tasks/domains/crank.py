@@ -56,11 +56,13 @@ def surroundings(arm: Arm) -> Surroundings:
 
 @functools.cache
 def trials(arm: Arm, dense: bool = False) -> tuple[Trial, ...]:
-    """Every hinge with every frame of the hand, on a coarse grid or a dense one."""
+    """Every hinge that the last joint reaches with every frame of the hand, on a coarse grid or a dense one."""
     grid = itertools.product(DENSE_AZIMUTHS, DENSE_BETAS) if dense else itertools.product(AZIMUTHS, BETAS)
     found = []
     for azimuth, beta in grid:
         q = _turned(arm, math.radians(azimuth))
+        if not arm.lower[-1] <= q[-1] <= arm.upper[-1]:
+            continue
         goal = zyx(0.0, math.radians(beta), 0.0)
         hub = at(arm, q, (TIP[0], TIP[1] + ASIDE, TIP[2] + ABOVE))
         speed = math.copysign(SPEED, azimuth)

@@ -1,8 +1,8 @@
 """Known moments at a hand in free space: which way it turns when it is told to comply.
 
 Nothing touches the hand, and nothing moves fast, so that a controller's choice of coordinates is all there is to see.
-One of MOMENTS acts from the first tick on. About axes that comply the hand turns with it; about the others, and
-with an impedance about all, it comes to rest where the controller's stiffness balances it.
+One of MOMENTS, as large as `push` says, acts from the first tick on. About axes that comply the hand turns with it;
+about the others, and with an impedance about all, it comes to rest where the controller's stiffness balances it.
 
 The arm keeps its posture in all trials: only the hand's frame is drawn anew, R = Rz(alpha) Ry(beta) Rx(gamma).
 
@@ -24,15 +24,16 @@ from tasks.hand_frames import mounts, posture
 from tasks.rotations import zyx
 
 # N m. Small: the hand turns by some milliradians, and the coordinates' B hardly changes on the way. Each moment comes
-# with its opposite, so that what changes in proportion to the angle cancels.
-PUSH = 0.02
+# with its opposite, so that what changes in proportion to the angle cancels. LIGHT_PUSH is for a hand that has less
+# than LIGHT kg m^2 about some axis at the tasks' posture: our arms have 0.11, 0.09, and the Panda's last link 0.005.
+PUSH, LIGHT_PUSH, LIGHT = 0.02, 0.002, 0.03
 MOMENTS = {
-    "+x": (PUSH, 0.0, 0.0),
-    "-x": (-PUSH, 0.0, 0.0),
-    "+y": (0.0, PUSH, 0.0),
-    "-y": (0.0, -PUSH, 0.0),
-    "+z": (0.0, 0.0, PUSH),
-    "-z": (0.0, 0.0, -PUSH),
+    "+x": (1.0, 0.0, 0.0),
+    "-x": (-1.0, 0.0, 0.0),
+    "+y": (0.0, 1.0, 0.0),
+    "-y": (0.0, -1.0, 0.0),
+    "+z": (0.0, 0.0, 1.0),
+    "-z": (0.0, 0.0, -1.0),
 }
 # The single axes and pairs that comply, everything else being held.
 SPECIFICATIONS = tuple(
@@ -79,20 +80,31 @@ def surroundings(arm: Arm) -> Surroundings:
     return Surroundings(hand=rod, tip=(0.0, 0.0, 0.1))
 
 
+def push(arm: Arm) -> float:
+    """How large a moment is on this arm [N m]."""
+    from tasks.kinematics import kinematics  # MuJoCo takes a moment to import; listing names must not
+
+    return LIGHT_PUSH if kinematics(arm).least_inertia(posture(arm)) < LIGHT else PUSH
+
+
 @functools.cache
 def trials(arm: Arm, dense: bool = False) -> tuple[Trial, ...]:
     """Six moments, about x, y and z both ways, for every selection and frame of the hand, on coarse or dense grids."""
-    q = posture(arm)
+    q, size = posture(arm), push(arm)
     return tuple(
         trial
         for grid in (DENSE_GRIDS if dense else GRIDS)
         for (alpha, gamma), beta in itertools.product(grid.turns, grid.betas)
-        for trial in _at(arm, q, (alpha, beta, gamma), grid.specifications)
+        for trial in _at(arm, q, size, (alpha, beta, gamma), grid.specifications)
     )
 
 
 def _at(
-    arm: Arm, q: tuple[float, ...], angles: tuple[int, int, int], specifications: tuple[Specification, ...]
+    arm: Arm,
+    q: tuple[float, ...],
+    size: float,
+    angles: tuple[int, int, int],
+    specifications: tuple[Specification, ...],
 ) -> Iterator[Trial]:
     """The trials at one frame of the hand, by its Z-Y-X angles [deg]."""
     alpha, beta, gamma = angles
@@ -101,8 +113,8 @@ def _at(
     for specification in specifications:
         pose = f"alpha{alpha:+d} beta{beta:+d} gamma{gamma:+d}, {specification.name}"
         for name, moment in MOMENTS.items():
-            push = (*AT_REST, *moment)
-            yield Trial(f"{pose}, moment {name}", pose, specification, q, goal, mount, push=push)
+            wrench = (*AT_REST, *(size * share for share in moment))
+            yield Trial(f"{pose}, moment {name}", pose, specification, q, goal, mount, push=wrench)
 
 
 TASK = ContactTask(

@@ -1,40 +1,81 @@
 """`comply`: joint accelerations and torques of given rows, against formulas in numpy, for every selection."""
 
 import itertools
+from typing import NamedTuple
 
 import numpy as np
 import pytest
 from support.bits import EPS
-from support.in_contact import LONGEST, SELECTIONS, TOUCH, backward
+from support.in_contact import GAINS, SELECTIONS, TOUCH, backward, damping
 
 from bench.control.contact_controller import ACCELERATION_FORMS, FORMS, PAPERS_FORM
 from bench.control.hybrid import comply
+from bench.control.setpoint import Rows
 from bench.engines.contact_episode import room, rows
+from bench.law.resolved_motion import Chain
 
 IN_FORMS = pytest.mark.parametrize("form", FORMS)
+ON_JOINTS = pytest.mark.parametrize("n", [6, 7])
 
 
-def given(count: int = 6):
-    """J, D, fg and rows, drawn; J with a condition of some tens."""
+class Given(NamedTuple):
+    """What `comply` is given, drawn."""
+
+    J: np.ndarray
+    D: np.ndarray
+    fg: np.ndarray
+    qdot: np.ndarray
+    rows: Rows
+
+
+def given(n: int, count: int = 6):
+    """So many; J with a condition of some tens."""
     draw = np.random.default_rng(31)
     while count:
-        J, root = draw.normal(size=(2, 6, 6))
+        J, root = draw.normal(size=(6, n)), draw.normal(size=(n, n))
         if np.linalg.cond(J) > 50.0:
             continue
         count -= 1
         into = rows()
         for row in into:
             row[:] = draw.normal(scale=5.0, size=6)
-        yield J, root @ root.T + np.eye(6), draw.normal(size=6), into
+        yield Given(J, root @ root.T + np.eye(n), draw.normal(size=n), draw.normal(size=n), into)
 
 
-def complied(form: str, held, J, D, fg, into):
-    """(y, tau) of `comply`."""
-    about, tau = room(), np.full(6, np.nan)
-    for buffer in (about.y, about.b, about.held, *about.scratch):
+def complied(form: str, held, at: Given):
+    """tau of `comply`."""
+    n = len(at.fg)
+    about, tau = room(), np.full(n, np.nan)
+    for buffer in (about.y, about.b, about.x, about.held, *about.scratch):
         buffer[...] = np.nan
-    comply(FORMS.index(form), held, 6, D, fg, J, into, TOUCH, about, tau)
-    return about.y, tau
+    chain = Chain(n, None, None, at.qdot, None, None)
+    comply(FORMS.index(form), held, chain, at.D, at.fg, at.J, at.rows, GAINS, TOUCH, about, tau)
+    return tau
+
+
+def accelerations(form: str, held, at: Given) -> np.ndarray:
+    """y: what the joints are accelerated by, tau less fg and J^T w."""
+    return np.linalg.solve(at.D, complied(form, held, at) - at.fg - at.J.T @ exerted(form, held, at.rows))
+
+
+def inverse(at: Given) -> np.ndarray:
+    """J^#, n x 6: the dynamically consistent one, D^-1 J^T Lambda; on six joints J^-1."""
+    if len(at.fg) == 6:
+        return np.linalg.inv(at.J)
+    weighed = np.linalg.solve(at.D, at.J.T)
+    return weighed @ np.linalg.inv(at.J @ weighed)
+
+
+def rounding(at: Given) -> float:
+    """Relative error of y: normal equations with J and with D."""
+    return backward(at.J) * np.linalg.cond(at.D)
+
+
+def size(form: str, at: Given) -> float:
+    """No y is longer [rad/s^2]."""
+    into = at.rows
+    along = np.linalg.norm([answer(form, into), into.a, into.drift]) + np.linalg.norm(at.J @ damping(at.qdot))
+    return np.linalg.norm(inverse(at), 2) * along + np.linalg.norm(damping(at.qdot))
 
 
 def answer(form, into) -> np.ndarray:
@@ -50,52 +91,89 @@ def exerted(form, held, into) -> np.ndarray:
     return -into.F
 
 
-def by_formula(form: str, held, J, into) -> np.ndarray:
+def by_formula(form: str, held, at: Given) -> np.ndarray:
     """y: see the docstring of bench.control.hybrid."""
-    S, left = np.diag(held), np.eye(6) - np.diag(held)
-    complies = np.linalg.solve(J, left @ (answer(form, into) - into.drift))
-    if form == "projected":
-        return complies + np.linalg.pinv(S @ J) @ (into.a - into.drift)
-    return complies + np.linalg.solve(J, S @ (into.a - into.drift))
+    S, left, into, z = np.diag(held), np.eye(6) - np.diag(held), at.rows, damping(at.qdot)
+    through = inverse(at)
+    complies = through @ left @ (answer(form, into) - into.drift - at.J @ z)
+    holds = S @ (into.a - into.drift - at.J @ z)
+    return complies + (np.linalg.pinv(S @ at.J) if form == "projected" else through) @ holds + z
 
 
 @IN_FORMS
-def test_torques_are_the_formula_for_every_selection(form):
-    for (J, D, fg, into), held in itertools.product(given(), SELECTIONS):
-        y, tau = complied(form, held, J, D, fg, into)
-        wanted, w = by_formula(form, held, J, into), exerted(form, held, into)
-        size = np.linalg.norm(np.linalg.inv(J), 2) * np.linalg.norm([answer(form, into), into.a, into.drift])
-        np.testing.assert_allclose(y, wanted, rtol=0.0, atol=backward(J) * size, err_msg=held)
-        allowed = backward(J) * (np.linalg.norm(D, 2) * size + np.linalg.norm(J, 2) * np.linalg.norm(w))
-        np.testing.assert_allclose(tau, D @ wanted + fg + J.T @ w, rtol=0.0, atol=allowed, err_msg=held)
+@ON_JOINTS
+def test_torques_are_the_formula_for_every_selection(n, form):
+    for at, held in itertools.product(given(n), SELECTIONS):
+        wanted, w = by_formula(form, held, at), exerted(form, held, at.rows)
+        allowed = rounding(at) * (
+            np.linalg.norm(at.D, 2) * size(form, at) + np.linalg.norm(at.J, 2) * np.linalg.norm(w)
+        )
+        tau = complied(form, held, at)
+        np.testing.assert_allclose(tau, at.D @ wanted + at.fg + at.J.T @ w, rtol=0.0, atol=allowed, err_msg=held)
 
 
-def test_forms_of_acceleration_are_one_where_all_is_held_or_all_complies_and_two_elsewhere():
-    for J, D, fg, into in given():
+@ON_JOINTS
+def test_forms_of_acceleration_are_one_where_all_is_held_or_all_complies_and_two_elsewhere(n):
+    """Where all is held to the hand alone: on seven joints (S J)^+ moves them least, and J^# with least energy."""
+    for at in given(n):
         for held in SELECTIONS:
-            one, other = (complied(form, held, J, D, fg, into)[0] for form in ACCELERATION_FORMS)
-            size = np.linalg.norm(np.linalg.inv(J), 2) * LONGEST
-            apart = np.linalg.norm(one - other)
-            assert apart <= backward(J) * size if len(set(held)) == 1 else apart > 1e-3, held
+            one, other = (accelerations(form, held, at) for form in ACCELERATION_FORMS)
+            apart = np.linalg.norm(at.J @ (one - other) if all(held) else one - other)
+            bound = rounding(at) * np.linalg.norm(at.J, 2) * size("inverse", at)
+            assert apart <= bound if len(set(held)) == 1 else apart > 1e-3, held
 
 
-def test_projected_form_holds_with_the_least_motion_of_the_joints():
-    """Where nothing acts on what complies, y is lstsq's answer of least norm to S J y = S (a - drift)."""
-    for (J, D, fg, into), held in itertools.product(given(), SELECTIONS[1:]):
+@ON_JOINTS
+def test_projected_form_holds_with_the_least_motion_of_the_joints(n):
+    """Where nothing acts on what complies and no joint moves, y is lstsq's least answer to S J y = S (a - drift)."""
+    for at, held in itertools.product(given(n), SELECTIONS[1:]):
         kept, nothing = np.array(held) > 0.0, np.zeros(6)
-        quiet = into._replace(drift=np.where(kept, into.drift, 0.0), F=nothing, h=nothing, v=nothing)
-        y, _ = complied("projected", held, J, D, fg, quiet)
-        least = np.linalg.lstsq(J[kept], (into.a - into.drift)[kept], rcond=None)[0]
-        np.testing.assert_allclose(y, least, rtol=0.0, atol=backward(J) * np.linalg.norm(np.linalg.inv(J), 2) * LONGEST)
+        quiet = at.rows._replace(drift=np.where(kept, at.rows.drift, 0.0), F=nothing, h=nothing, v=nothing)
+        still = at._replace(rows=quiet, qdot=np.zeros(n))
+        least = np.linalg.lstsq(at.J[kept], (quiet.a - quiet.drift)[kept], rcond=None)[0]
+        y = accelerations("projected", held, still)
+        np.testing.assert_allclose(y, least, rtol=0.0, atol=rounding(at) * size("projected", still))
 
 
 @IN_FORMS
-def test_hand_stays_at_rest_where_the_wrench_is_the_wished_one(form):
-    """F = -h: y = 0, and the torques fg + J^T h are those that hold against it statically."""
-    for J, D, fg, into in given():
-        still = into._replace(F=-into.h, v=np.zeros(6), drift=np.zeros(6))
-        y, tau = complied(form, (0.0,) * 6, J, D, fg, still)
-        assert (y == 0.0).all()
+@ON_JOINTS
+def test_hand_stays_at_rest_where_the_wrench_is_the_wished_one(n, form):
+    """F = -h: the torques fg + J^T h are those that hold against it statically, and no joint moves."""
+    for at in given(n):
+        into = at.rows._replace(F=-at.rows.h, v=np.zeros(6), drift=np.zeros(6))
+        tau = complied(form, (0.0,) * 6, at._replace(rows=into, qdot=np.zeros(n)))
         # six products a torque, and the row of J no longer than all of it
-        allowed = 12 * EPS * (np.linalg.norm(J) * np.linalg.norm(into.h) + np.linalg.norm(fg))
-        np.testing.assert_allclose(tau, fg + J.T @ into.h, rtol=0.0, atol=allowed)
+        allowed = 12 * EPS * (np.linalg.norm(at.J) * np.linalg.norm(into.h) + np.linalg.norm(at.fg))
+        np.testing.assert_allclose(tau, at.fg + at.J.T @ into.h, rtol=0.0, atol=allowed)
+
+
+# ---------------------------------------------------------------------------- seven joints
+
+
+@IN_FORMS
+def test_motion_that_the_hand_does_not_see_is_damped_and_nothing_else_moves_it(form):
+    """Null space by its own vector v, J v = 0: v^T D qddot = v^T D z whatever is commanded, with the wrench acting.
+
+    Of `projected` where nothing is held: (S J)^+ knows nothing of D.
+    """
+    for at, held in itertools.product(given(7), SELECTIONS[:1] if form == "projected" else SELECTIONS):
+        v = np.linalg.svd(at.J)[2][-1]
+        qddot = np.linalg.solve(at.D, complied(form, held, at) - at.fg + at.J.T @ at.rows.F)
+        allowed = rounding(at) * np.linalg.norm(at.D, 2) * (size(form, at) + np.linalg.norm(qddot))
+        assert abs(v @ at.D @ (qddot - damping(at.qdot))) <= allowed
+
+
+def test_papers_form_is_operational_space_by_the_consistent_inverse_and_by_no_other():
+    """D J^# = J^T Lambda; by J^+ the hand moves alike, and the wrench and the command turn the elbow besides."""
+    for at, held in itertools.product(given(7), SELECTIONS):
+        still = at._replace(qdot=np.zeros(7))
+        motion = np.where(held, at.rows.a, answer(PAPERS_FORM, at.rows)) - at.rows.drift
+        w, J, D = exerted(PAPERS_FORM, held, at.rows), at.J, at.D
+        tau = complied(PAPERS_FORM, held, still)
+        khatibs = J.T @ (np.linalg.inv(J @ np.linalg.solve(D, J.T)) @ motion + w) + at.fg
+        allowed = rounding(at) * np.linalg.norm(D, 2) * size(PAPERS_FORM, still)
+        np.testing.assert_allclose(tau, khatibs, rtol=0.0, atol=allowed + rounding(at) * np.linalg.norm(J.T @ w))
+        by_least_norm = D @ np.linalg.pinv(J) @ motion + J.T @ w + at.fg
+        apart = by_least_norm - khatibs
+        assert np.linalg.norm(apart) > 1e-3
+        assert np.linalg.norm(J @ np.linalg.solve(D, apart)) <= np.linalg.norm(J, 2) / np.linalg.norm(D, -2) * allowed

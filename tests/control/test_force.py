@@ -300,7 +300,7 @@ def test_hand_and_base_are_one_while_all_is_held_and_at_the_goal_for_every_selec
     on_base, in_hand = (hybrid(law, form) for law in ("hybrid-base", "hybrid-hand"))
     for k, (state, wish) in enumerate(drawn(arm)):
         at = hand(*state)
-        size = np.linalg.norm(at.D, 2) * np.linalg.norm(np.linalg.inv(at.J), 2) * LONGEST
+        size = np.linalg.norm(at.D, 2) * np.linalg.norm(np.linalg.pinv(at.J), 2) * LONGEST
         there = wish._replace(R_d=at.chain.R)
         for wished, held in [(wish, SELECTIONS[-1]), *((there, held) for held in SELECTIONS if k < 2)]:
             base, turned = (tick(one, at, wished, held).tau for one in (on_base, in_hand))
@@ -310,7 +310,7 @@ def test_hand_and_base_are_one_while_all_is_held_and_at_the_goal_for_every_selec
 def oriented(arm: str, moving: bool):
     """A hand whose frame is the base's, at its goal: E = E_d = 0."""
     (_, q, qdot, _, push), _ = drawn(arm)[0]
-    draw, qdot = np.random.default_rng(33), qdot if moving else np.zeros(6)
+    draw, qdot = np.random.default_rng(33), qdot if moving else np.zeros_like(qdot)
     wrist = hand(arm, q, qdot, ScipyRotation.identity(), push)
     at = hand(arm, q, qdot, ScipyRotation.from_matrix(wrist.R).inv(), push)
     at = at._replace(chain=at.chain._replace(R=as_rotation(IDENTITY)))
@@ -329,7 +329,7 @@ def test_coordinates_are_the_base_frames_at_their_origin(representation, arm, fo
         taus = []
         for one in (hybrid("hybrid", form, representation), hybrid("hybrid-base", form)):
             taus.append(tick(one, at, wish, one.selection(specification)).tau)
-        size = np.linalg.norm(at.D, 2) * np.linalg.norm(np.linalg.inv(at.J), 2) * LONGEST
+        size = np.linalg.norm(at.D, 2) * np.linalg.norm(np.linalg.pinv(at.J), 2) * LONGEST
         np.testing.assert_allclose(*taus, rtol=0.0, atol=backward(at.J) * size, err_msg=held)
 
 
@@ -339,7 +339,7 @@ def test_coordinates_are_the_base_frames_at_their_origin(representation, arm, fo
 @over_arms
 def test_apparent_inertias_are_above_half_of_the_hands_own_at_home(arm):
     """Below that a cancelled force, which comes a tick late, would destabilize a contact (control.setpoint.TOUCH)."""
-    at = hand(arm, tasks.arm(arm).home, np.zeros(6), ScipyRotation.identity(), np.zeros(6))
+    at = hand(arm, tasks.arm(arm).home, np.zeros(tasks.arm(arm).joints), ScipyRotation.identity(), np.zeros(6))
     mobility = at.J @ np.linalg.solve(at.D, at.J.T)
     assert 0.5 / np.linalg.eigvalsh(mobility[:3, :3]).min() < TOUCHING.m_p
     assert 0.5 / np.linalg.eigvalsh(mobility[3:, 3:]).min() < TOUCHING.m_o

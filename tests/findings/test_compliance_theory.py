@@ -111,11 +111,14 @@ def test_an_impedances_compliance_is_as_predicted(controller, angles):
     compare(controller, probed(controller, "about x", *angles), SPRUNG)
 
 
+@pytest.mark.parametrize("arm", ARMS)
 @pytest.mark.parametrize(
-    "controller", [hybrid("hybrid", "projected", EULER), SPRINGS_OF_EULER], ids=lambda one: one.name
+    "controller",
+    [hybrid("hybrid", "projected", EULER), hybrid("hybrid", PAPERS_FORM, EULER), SPRINGS_OF_EULER],
+    ids=lambda one: one.name,
 )
-def test_another_arm_complies_alike(controller):
-    compare(controller, probed(controller, "about x and y", 35, 45, -20, arm="puma560"), SPRUNG)
+def test_every_arm_complies_alike(controller, arm):
+    compare(controller, probed(controller, "about x and y", 35, 45, -20, arm=arm), SPRUNG)
 
 
 def compare(controller, pose, tolerance):
@@ -151,11 +154,12 @@ def test_compliance_by_the_jacobian_transpose_is_as_predicted(controller, compli
     compare(controller, probed(controller, complies, *angles), SPRUNG)
 
 
+@pytest.mark.parametrize("arm", ARMS)
 @pytest.mark.parametrize("beta", [0, 45, 75])
 @pytest.mark.parametrize("controller", [BY_TRANSPOSE[0], BY_TRANSPOSE[3]], ids=lambda one: one.name)
-def test_by_the_jacobian_transpose_two_axes_leak_as_predicted_and_comply_alike_at_any_beta(controller, beta):
-    A, angle = theory.mobility(tasks.arm("ur5e")), math.radians(beta) if controller.representation else 0.0
-    C = compliance(probed(controller, beta=beta))
+def test_by_the_jacobian_transpose_two_axes_leak_as_predicted_and_comply_alike_at_any_beta(controller, beta, arm):
+    A, angle = theory.mobility(tasks.arm(arm)), math.radians(beta) if controller.representation else 0.0
+    C = compliance(probed(controller, beta=beta, arm=arm))
     assert C[0, 0] == pytest.approx((1.0 + TOUCH.kf) * theory.free(TASK.horizon_s) * TOUCH.m_o * A[0, 0], rel=FREE)
     leaks = theory.leakage_by_transpose(angle, A, TASK.horizon_s)
     assert abs(C[2, 0] / C[0, 0]) == pytest.approx(leaks, rel=1e-3)
@@ -174,7 +178,7 @@ def test_without_force_feedback_the_closed_form_is_a_referees_measurement_with_c
 def test_mobility_is_what_mujocos_dynamics_make_of_moments(arm):
     found = np.zeros((3, 3))
     for k, unit in enumerate(np.eye(3)):
-        at = hand(arm, tasks.arm(arm).home, np.zeros(6), Turn.identity(), (0.0, 0.0, 0.0, *unit))
+        at = hand(arm, tasks.arm(arm).home, np.zeros(tasks.arm(arm).joints), Turn.identity(), (0.0, 0.0, 0.0, *unit))
         found[:, k] = at.acceleration(at.fg)[3:]
     A = theory.mobility(tasks.arm(arm))
     np.testing.assert_allclose(found, A, rtol=0.0, atol=1e-9 * np.linalg.norm(A))

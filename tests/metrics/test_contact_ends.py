@@ -6,6 +6,7 @@ import mujoco
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation as Turn
+from support.in_contact import ARMS
 
 import tasks
 from bench.control.registry import find_controller
@@ -14,6 +15,7 @@ from bench.findings.theory.compliance_theory import free
 from bench.metrics.contact import port, rest, wrench
 from bench.metrics.contact_force import WINDOW_S, rms
 from bench.metrics.contact_metric import Pose, Response, response
+from tasks.arm_model import Arm
 from tasks.contact import Specification, Trial
 from tasks.contact_episode import environment
 from tasks.domains import force_on_plane, surface_alignment, wrench_probe
@@ -98,25 +100,26 @@ def test_hand_that_yields_to_a_moment_takes_energy_as_its_inertia_and_damping_do
     assert taken == pytest.approx(wrench_probe.PUSH**2 * free(task.horizon_s), rel=5e-3)
 
 
-def test_energy_through_the_port_balances_that_of_the_arm_and_its_motors():
+@pytest.mark.parametrize("arm", ARMS)
+def test_energy_through_the_port_balances_that_of_the_arm_and_its_motors(arm):
     """Kinetic and potential energy, by MuJoCo, grow by the work of motors, joints' damping and surroundings: an arm
     pushed onto a plate. What is left, of a semi-implicit step and an impact, falls with the step."""
-    gaps = [balance(dt) for dt in (2e-4, 1e-4)]
+    gaps = [balance(tasks.arm(arm), dt) for dt in (2e-4, 1e-4)]
     assert abs(gaps[1]) <= 0.03
     assert abs(gaps[1]) <= 0.7 * abs(gaps[0])
 
 
-def balance(dt: float) -> float:
+def balance(arm: Arm, dt: float) -> float:
     """(What the arm gained less the work done on it) over the energy that went through the port."""
     task = surface_alignment.TASK._replace(horizon_s=0.3)
 
     def energies(model) -> None:
         model.opt.enableflags |= mujoco.mjtEnableBit.mjENBL_ENERGY
 
-    trial = task.trials(ARM)[3]
-    loop = environment(task, ARM, trial, dt, vary=energies)
+    trial = task.trials(arm)[3]
+    loop = environment(task, arm, trial, dt, vary=energies)
     seen, physics, work, lines = loop.reset().observation, loop.physics, 0.0, []
-    data, n = physics.data, ARM.joints
+    data, n = physics.data, arm.joints
     start = data.energy.sum()
     J = np.zeros((6, physics.model.nv))
     for _ in range(round(0.3 / dt)):

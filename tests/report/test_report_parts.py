@@ -15,7 +15,7 @@ from bench.tables import read
 from bench.tables.schema import RESULTS
 from report.figures.cards import regulators
 from report.figures.cost import cost, operations
-from report.figures.kit import spelling
+from report.figures.kit import html, spelling
 from report.figures.kit.page import Run, run_in
 from report.figures.method import engines, provenance
 from report.figures.problem import conditioning, representations
@@ -60,8 +60,9 @@ def test_page_says_so_when_nothing_was_timed(tmp_path):
 
 
 def test_times_stand_in_their_order_beside_the_flops():
-    lines = cost.by_time(cost.timed(shown()), cost.costs(shown()))
-    ratios = [ratio for _, _, ratio, *_ in lines]
+    lines = cost.by_time(cost.timed(shown()), cost.costs(shown()), cost.instructions(shown()))
+    ratios = [ratio for _, _, _, ratio, *_ in lines]
+    assert all("," in took for _, _, took, *_ in lines if took != html.MISSING)
     assert ratios == sorted(ratios)
     assert all(flops > 0 for _, flops, *_ in lines)
 

@@ -6,23 +6,32 @@ import subprocess
 import pytest
 from support.command_line import bench
 
+from bench.findings.selection import needs
 from bench.provenance import ROOT
 from bench.tables import store
 
-BLOCKS = re.findall(r"^```(\w+)\n(.*?)^```", (ROOT / "README.md").read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE)
+TEXT = (ROOT / "README.md").read_text(encoding="utf-8")
+BLOCKS = re.findall(r"^```(\w+)\n(.*?)^```", TEXT, re.DOTALL | re.MULTILINE)
 PASTED = "\n".join(text for kind, text in BLOCKS if kind == "sh").replace("\\\n", " ")
 LINES = [line.partition("#")[0].split() for line in PASTED.splitlines() if line]
 OURS = [words[3:] for words in LINES if words[2:3] == ["bench"]]
 OTHERS = [words for words in LINES if words[2:3] != ["bench"]]
-LAW, PLANT = (next(text for kind, text in BLOCKS if kind == "python" and has in text) for has in ("REGULATOR", "load("))
-FEWER = {"run": ["--count", "2"], "local:2": ["--dry-run"]}
+LAW, PLANT, ERROR = (
+    next(text for kind, text in BLOCKS if kind == "python" and has in text)
+    for has in ("REGULATOR", "load(", "my_error")
+)
+FAULTY = "my_error.py:my_error"
+"""What the README has checked, and is found at fault."""
+FEWER = {"run": ["--count", "2"]}
 """What a line that has the word gets besides here: the README's own take a minute."""
+LENGTH = 150
 
 
 @pytest.fixture
 def here(tmp_path, monkeypatch):
-    """A folder with the README's law."""
+    """A folder with the README's law and its faulty error."""
     (tmp_path / "my_law.py").write_text(LAW)
+    (tmp_path / "my_error.py").write_text(ERROR)
     monkeypatch.chdir(tmp_path)
     return tmp_path
 
@@ -31,7 +40,8 @@ def here(tmp_path, monkeypatch):
 def test_commands_run_one_after_the_other_and_say_something(capsys, here):
     for words in OURS:
         said = bench(capsys, *words, *(one for word, more in FEWER.items() if word in words for one in more))
-        assert (said.code, len(said.out.splitlines()) > 2) == (0, True), (words, said)
+        lines = 0 if "export" in words else 2
+        assert (said.code, len(said.out.splitlines()) > lines) == (int(FAULTY in words), True), (words, said)
         assert not re.search(r"Traceback|\b0/0\b|nothing of|\b0 episodes", said.out), (words, said)
 
 
@@ -52,3 +62,25 @@ def test_law_is_short_and_loses_no_start(capsys, here):
     assert bench(capsys, "run", "--law", "my_law.py", *words, "--out", "own").code == 0
     found = store.read(here / "own", "episodes")
     assert (set(found["outcome"]), (found["start_set"] == "half-turn").sum()) == ({"settled"}, 238)
+
+
+def test_audit_says_what_the_readme_says_of_the_error(capsys, here):
+    said = bench(capsys, "audit", FAULTY)
+    assert "FAULTS: dead-at-180, stiffness" in said.out
+    assert "slope at the goal 0.5" in said.out
+
+
+def test_answer_is_the_one_that_the_rule_gives():
+    advice = needs.advice(ROOT / "results" / "reference")
+    [answer] = re.findall(r"\*\*The answer\.\*\* (.*?)\n\n", TEXT, re.DOTALL)
+    first, *others = re.findall(r"\[late braking\]|`([\w-]+)`", answer)
+    assert (first, advice.default.law) == ("", "late-braking")
+    assert others == [law_for(advice, "no memory in the controller"), law_for(advice, "a command that never jumps")]
+
+
+def law_for(advice, words):
+    return next(one.law for one in advice.exceptions if one.need.words == words)
+
+
+def test_readme_is_short():
+    assert TEXT.count("\n") <= LENGTH

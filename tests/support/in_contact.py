@@ -49,6 +49,11 @@ def backward(J) -> float:
     return 6**3 * EPS * np.linalg.cond(J) ** 2
 
 
+def damping(qdot) -> np.ndarray:
+    """z, n: of the joints where they are more than a hand's freedoms, 1/s of half of kv; none on six."""
+    return -GAINS.kv / 2.0 * qdot if len(qdot) > 6 else np.zeros(6)
+
+
 class Hand(NamedTuple):
     """A state: what MuJoCo says of it (J, drift = Jdot qdot, D, fg, the wrench F) and what the controller sees."""
 
@@ -76,7 +81,7 @@ class Hand(NamedTuple):
 
 
 class Tick(NamedTuple):
-    """What a controller made of a state: the torques, J in its frame, its rows, and y, what J y + drift is of."""
+    """What a controller made of a state: the torques, J in its frame, its rows, and y: tau = D y + fg + J^T w."""
 
     tau: np.ndarray
     J: np.ndarray
@@ -105,14 +110,15 @@ def hand(arm: str, q, qdot, mount: ScipyRotation, push) -> Hand:
     )
     data.qvel[:] = qdot
     mujoco.mj_forward(model, data)
-    J, Jdot, D = np.zeros((6, 6)), np.zeros((6, 6)), np.zeros((6, 6))
+    n = model.nv
+    J, Jdot, D = np.zeros((6, n)), np.zeros((6, n)), np.zeros((n, n))
     site, body = model.site("hand").id, model.body("hand").id
     p = data.site_xpos[site].copy()
     mujoco.mj_jacSite(model, data, J[:3], J[3:], site)
     mujoco.mj_jacDot(model, data, Jdot[:3], Jdot[3:], p, body)
     mujoco.mj_fullM(model, data, D)
     R = as_rotation(data.site_xmat[site].reshape(3, 3).T)
-    chain = Chain(6, data.xaxis.copy(), data.xanchor.copy(), data.qvel.copy(), vector(p), R)
+    chain = Chain(n, data.xaxis.copy(), data.xanchor.copy(), data.qvel.copy(), vector(p), R)
     f, m = np.array(push[:3]), np.array(push[3:])
     F = np.concatenate((f, m + np.cross(data.xipos[body] - p, f)))
     return Hand(model, data, chain, J, Jdot @ data.qvel, D, data.qfrc_bias - data.qfrc_passive, F)
@@ -122,8 +128,9 @@ def hand(arm: str, q, qdot, mount: ScipyRotation, push) -> Hand:
 def drawn(arm: str, count: int = 8, turn: float = 0.5) -> tuple:
     """(arguments of `hand`, wish) in states around home, moving and pushed; goals some `turn` rad away."""
     draw, home, found = np.random.default_rng(21), np.array(tasks.arm(arm).home), []
+    n = len(home)
     while len(found) < count:
-        q, qdot = home + draw.uniform(-0.7, 0.7, 6), draw.normal(scale=0.5, size=6)
+        q, qdot = home + draw.uniform(-0.7, 0.7, n), draw.normal(scale=0.5, size=n)
         at = hand(arm, q, qdot, ScipyRotation.random(rng=draw), np.zeros(6))
         if np.linalg.svd(at.J, compute_uv=False)[-1] < 0.05:
             continue
@@ -150,10 +157,12 @@ def felt(at: Hand):
 
 def tick(one, at: Hand, wish: Setpoint, held) -> Tick:
     """One tick of a controller, with the wrench that MuJoCo's sensors read."""
-    into, about, J, tau = rows(), room(), np.zeros((6, 6)), np.zeros(6)
+    n = at.chain.n
+    into, about, J, tau = rows(), room(), np.zeros((6, n)), np.zeros(n)
     gains, touch = Gains(*map(np.float64, GAINS)), ContactParameters(*map(np.float64, TOUCH))
     f, m = (vector(three) for three in felt(at))
     with np.errstate(all="ignore"):
         one.assemble(at.chain, wish, f, m, gains, touch, J, into)
-        comply(FORMS.index(one.form) if one.form else 0, held, 6, at.D, at.fg, J, into, touch, about, tau)
-    return Tick(tau, J, into, about.y.copy())
+        form = FORMS.index(one.form) if one.form else 0
+        comply(form, held, at.chain, at.D, at.fg, J, into, gains, touch, about, tau)
+    return Tick(tau, J, into, about.y[:n] + np.linalg.solve(at.D, about.x[:n]))

@@ -34,7 +34,7 @@ BAD = [
     (partial(tasks.task, "arm-regulation"), r"task 'arm-regulation' needs an arm; known: .*ur5e.* \(try: arm='"),
     (partial(tasks.load, "arm-regulation"), r"task 'arm-regulation' needs an arm; known: .*ur5e.* \(try: arm='"),
     (partial(tasks.load, "crank"), r"task 'crank' needs an arm; known: .*ur5e.* \(try: arm='ur5e'"),
-    (partial(tasks.load, "crank", arm="panda"), r"task 'crank' needs an arm of six joints"),
+    (partial(tasks.load, "crank", arm="jaco"), r"arm 'jaco' has no site 'wrist', where task 'crank' mounts the hand"),
     (partial(tasks.load, "crank", tasks.start_set("paper")[0], arm="ur5e"), r"is no trial .*\(try: tasks.contact_task"),
     (partial(tasks.load, "crank", arm="ur5e", dt=0.0), r"dt = 0.0 s is not a control period"),
     (partial(tasks.task, "free-body", "ur5e"), r"'free-body' has no arm, but 'ur5e' was named .*arm-regulation\)"),

@@ -12,6 +12,7 @@ from numba import float64, int64, types
 
 from bench.control.hybrid import comply
 from bench.control.setpoint import ContactBuffers, ContactParameters, Rows, Setpoint
+from bench.engines.arm_episode import MOST
 from bench.engines.compiled import MATRIX, compile_function, register
 from bench.engines.contact_episode import (
     BROKEN,
@@ -77,6 +78,7 @@ class Workspace(NamedTuple):
     v: int
     y: int
     b: int
+    x: int
     held: int
     A: int
     B: int
@@ -92,13 +94,15 @@ class Workspace(NamedTuple):
 
 
 SIX = types.UniTuple(float64, 6)
+SEVEN = types.UniTuple(float64, MOST)
 WISH = types.NamedTuple((ROTATION, THREE, THREE, THREE, THREE), Setpoint)
 TOUCH = types.NamedUniTuple(float64, len(ContactParameters._fields), ContactParameters)
 ROWS = types.NamedUniTuple(VECTOR, len(Rows._fields), Rows)
 FOUR = types.UniTuple(float64, 4)
 REST = types.NamedTuple((int64, int64, float64, float64), RestNumbers)
 NUMBERS = types.NamedTuple(
-    (float64, int64, int64, float64, float64, SIX, FOUR, THREE, THREE, THREE, SIX, int64, float64, int64, REST), Numbers
+    (float64, int64, int64, float64, float64, SIX, FOUR, THREE, THREE, THREE, SEVEN, int64, float64, int64, REST),
+    Numbers,
 )
 VIEW = types.NamedUniTuple(int64, len(ContactView._fields), ContactView)
 WORKSPACE = types.NamedUniTuple(int64, len(Workspace._fields), Workspace)
@@ -132,8 +136,8 @@ def view(model, data, batch, callback: int, asked: np.ndarray, n: int) -> Contac
 def workspace(rows: Rows, room: ContactBuffers, nv: int, n: int, noise: np.ndarray) -> tuple[Workspace, tuple]:
     """The addresses of a controller's buffers, and the arrays, to be kept."""
     arrays = (
-        *rows, room.y, room.b, room.held, *room.scratch,
-        np.zeros((6, 6)), np.zeros((nv, nv)), np.zeros(n), np.zeros(n), np.zeros((MOST_LEGS, 6)), noise,
+        *rows, room.y, room.b, room.x, room.held, *room.scratch,
+        np.zeros((6, MOST)), np.zeros((nv, nv)), np.zeros(n), np.zeros(n), np.zeros((MOST_LEGS, 6)), noise,
     )  # fmt: skip
     return Workspace(*map(address_of, arrays)), arrays
 
@@ -146,14 +150,17 @@ def episode_loop(cache: bool = True):
         qvel, ctrl, s = vector(sim.qvel, nv), vector(sim.ctrl, n), vector(sim.sensordata, sim.sensors)
         axes, anchors = matrix(sim.axes, nv, 3), matrix(sim.anchors, nv, 3)
         bias, passive = vector(sim.bias, nv), vector(sim.passive, nv)
-        J, D, fg, tau = matrix(work.J, 6, 6), matrix(work.D, nv, nv), vector(work.fg, n), vector(work.tau, n)
+        J, D, fg, tau = matrix(work.J, 6, MOST), matrix(work.D, nv, nv), vector(work.fg, n), vector(work.tau, n)
         push, legs = vector(sim.push, 6), matrix(work.legs, MOST_LEGS, 6)
         noise = matrix(work.noise, numbers.ticks, 6)
         rows = Rows(vector(work.a, 6), vector(work.drift, 6), vector(work.F, 6), vector(work.h, 6), vector(work.v, 6))
         scratch = Scratch(
-            matrix(work.A, 6, 6), matrix(work.B, 6, 6), matrix(work.V, 6, 6), vector(work.s, 6), vector(work.t, 6)
+            matrix(work.A, MOST, MOST), matrix(work.B, MOST, MOST), matrix(work.V, MOST, MOST),
+            vector(work.s, MOST), vector(work.t, MOST),
+        )  # fmt: skip
+        room = ContactBuffers(
+            vector(work.y, MOST), vector(work.b, MOST), vector(work.x, MOST), matrix(work.held, 6, MOST), scratch
         )
-        room = ContactBuffers(vector(work.y, 6), vector(work.b, 6), matrix(work.held, 6, 6), scratch)
         asked = integers(sim.asked, 3)
         asked[2] = BEGIN
         if step(sim.batch, sim.callback, sim.asked) > 0:
@@ -171,8 +178,9 @@ def episode_loop(cache: bool = True):
             mj_fullM(sim.model, sim.data, work.D)
             for i in range(n):
                 fg[i] = bias[i] - passive[i]
-            assemble(Chain(n, axes, anchors, qvel, p, R), wanted, f_seen, m_seen, gains, touch, J, rows)
-            comply(numbers.form, numbers.held, n, D, fg, J, rows, touch, room, tau)
+            chain = Chain(n, axes, anchors, qvel, p, R)
+            assemble(chain, wanted, f_seen, m_seen, gains, touch, J, rows)
+            comply(numbers.form, numbers.held, chain, D, fg, J, rows, gains, touch, room, tau)
             total, largest = overload(tau, numbers.rated, n)
             gap = s[sim.gap] if sim.gap >= 0 else 0.0
             turned = s[sim.turned] if sim.turned >= 0 else 0.0

@@ -68,7 +68,7 @@ def _episode(controller, arm, trial, loop, conditions, shape, record):
     plant, model, n = loop.physics.data, loop.physics.model.ptr, arm.joints
     assemble, s = controller.assemble, plant.sensordata
     gains, touch = Gains(*map(np.float64, conditions.gains)), ContactParameters(*map(np.float64, conditions.touch))
-    into, about, J = rows(), room(), np.zeros((6, 6))
+    into, about, J = rows(), room(), np.zeros((6, n))
     D, tau = np.zeros((model.nv, model.nv)), np.zeros(n)
     at_gap, at_turned = sensors_of(model)
     R_d, p_0 = from_quaternion(tuple(map(np.float64, shape.quat_d))), vector(s[16:19])
@@ -82,8 +82,9 @@ def _episode(controller, arm, trial, loop, conditions, shape, record):
         wanted = setpoint(R_d, p_0, shape, time)
         mujoco.mj_fullM(model, plant.ptr, D)
         fg = (plant.qfrc_bias - plant.qfrc_passive)[:n]
-        assemble(Chain(n, plant.xaxis, plant.xanchor, plant.qvel, p, R), wanted, f_seen, m_seen, gains, touch, J, into)
-        comply(shape.form, shape.held, n, D, fg, J, into, touch, about, tau)
+        chain = Chain(n, plant.xaxis, plant.xanchor, plant.qvel, p, R)
+        assemble(chain, wanted, f_seen, m_seen, gains, touch, J, into)
+        comply(shape.form, shape.held, chain, D, fg, J, into, gains, touch, about, tau)
         total, largest = overload(tau, shape.rated, n)
         gap = s[at_gap] if at_gap >= 0 else 0.0
         turned = s[at_turned] if at_turned >= 0 else 0.0

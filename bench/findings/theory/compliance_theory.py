@@ -24,7 +24,6 @@ import cmath
 import functools
 import math
 
-import mujoco
 import numpy as np
 
 from bench.control.contact_controller import PAPERS_FORM, ContactController
@@ -32,7 +31,7 @@ from bench.control.hybrid import conversion
 from bench.control.setpoint import TOUCH, ContactParameters
 from bench.law.contender import PAPERS_GAINS, Gains, Representation
 from bench.law.so3 import IDENTITY, Rotation
-from tasks.arm_model import Arm, model_xml
+from tasks.arm_model import Arm
 from tasks.contact import Specification
 from tasks.hand_frames import posture
 from tasks.kinematics import kinematics
@@ -113,13 +112,7 @@ def mobility(arm: Arm) -> np.ndarray:
 
     The rotational block of J D^-1 J^T; the hand adds no mass, and its frame changes nothing.
     """
-    model = mujoco.MjModel.from_xml_string(model_xml(arm, 1e-3))
-    data, D, q = mujoco.MjData(model), np.zeros((arm.joints, arm.joints)), posture(arm)
-    data.qpos[:] = q
-    mujoco.mj_forward(model, data)
-    mujoco.mj_fullM(model, data, D)
-    J = kinematics(arm).jacobian(np.array(q))[3:]
-    return J @ np.linalg.solve(D, J.T)
+    return kinematics(arm).mobility(posture(arm))[3:, 3:]
 
 
 def free(time_s: float, touch: ContactParameters = TOUCH) -> float:

@@ -7,12 +7,12 @@ import math
 import pandas as pd
 
 from bench.findings.claims import Results, judge
+from bench.findings.claims.standing import MEASURABLE
 from bench.findings.selection import needs
 from bench.findings.selection.criteria import BY_NAME, Criterion
 from bench.findings.selection.measured import Measured, measured
 from bench.findings.selection.needs import HELD_RAD
 from bench.findings.selection.rule import GENERAL, front
-from bench.findings.selection.timed import MEASURABLE
 from bench.findings.selection.words import cost, standing, together
 from bench.tables.statistics import Estimate
 from report.figures.answer.plane import plane, shown

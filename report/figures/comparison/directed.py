@@ -5,6 +5,7 @@ from __future__ import annotations
 import pandas as pd
 
 from bench.findings.counts import AT_REST
+from bench.tables.read import converged
 from report.figures.comparison.cells import by_family
 from report.figures.failures.failure_map import once, places
 from report.figures.kit import families, html
@@ -35,13 +36,15 @@ def table(rows: pd.DataFrame) -> html.Markdown | None:
 
 
 def failing(rows: pd.DataFrame) -> str:
-    """ "26 of 26 stuck": how many do not settle, and what most of them do instead."""
+    """ "26 of 26 stuck": how many do not settle, and what most of them do instead; those that do not converge apart."""
     if rows.empty:
         return html.MISSING
-    failed = rows.loc[rows["outcome"] != "settled", "outcome"].astype(str)
+    sure = converged(rows)
+    apart = f", {len(rows) - len(sure)} not converged" if len(sure) < len(rows) else ""
+    failed = sure.loc[sure["outcome"] != "settled", "outcome"].astype(str)
     if failed.empty:
-        return f"none of {len(rows)}"
-    return f"{len(failed)} of {len(rows)} {failed.value_counts().index[0]}"
+        return f"none of {len(sure)}{apart}"
+    return f"{len(failed)} of {len(sure)} {failed.value_counts().index[0]}{apart}"
 
 
 def left(rows: pd.DataFrame) -> list[str]:

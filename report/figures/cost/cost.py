@@ -9,6 +9,7 @@ import pandas as pd
 from bench.contenders.registry import all_contenders
 from bench.counting import OPERATIONS
 from bench.tables import read
+from bench.tables.files import read_json
 from report.figures.cost import operations, times
 from report.figures.cost.operations import CALLS
 from report.figures.kit import html, laws
@@ -17,7 +18,8 @@ from report.figures.kit.rows import FEEDBACK
 from report.figures.kit.tables import Table
 
 TIMES = Table(
-    "Law | Flops | Kernel steps:.2f | 95 % interval | ns:.0f | ideal-rk4, ns:.0f | ideal-held, ns:.0f | native, ns:.0f"
+    "Law | Flops | Instructions, in C | Kernel steps:.2f | 95 % interval | ns:.0f"
+    " | ideal-rk4, ns:.0f | ideal-held, ns:.0f | native, ns:.0f"
 )
 LEAN = {"lean": FEEDBACK, "literal": next(one.name for one in all_contenders() if one.regulator.costing_only)}
 """The linearizing law as we write it and as it is printed."""
@@ -48,18 +50,39 @@ def facts(run: Run) -> dict:
         "spared": f"{1 - spent_by_form['lean']['flops'] / spent_by_form['literal']['flops']:.0%}",
         "branches": f"{len(branches_differ(counted))} of {counted['contender'].nunique()}",
         "timed_on": times.said(run),
+        "in_c": in_c(instructions(run)),
         "against_time": against_time(times.alone(timed(run)), counted),
     }
 
 
 def tables(run: Run) -> dict:
     """Times."""
-    return {"tab_times": TIMES(by_time(timed(run), costs(run)))}
+    return {"tab_times": TIMES(by_time(timed(run), costs(run), instructions(run)))}
 
 
 def figures(run: Run) -> dict:
     """Operations by kind."""
     return {"operations": operations.operations(costs(run))}
+
+
+def instructions(run: Run) -> dict[str, dict[str, float]]:
+    """Law -> instructions a tick, by callgrind: "ours", compiled, and "c", exported; empty if none were counted."""
+    path = run.studies / "export" / "instructions.json"
+    return read_json(path)["laws"] if path.is_file() else {}
+
+
+def in_c(counts: dict[str, dict[str, float]]) -> str:
+    """How the two stand, in a sentence."""
+    if not counts:
+        return "None were counted (`python -m bench.studies.exported` does)."
+    ratios = [one["c"] / one["ours"] for one in counts.values()]
+    near = sum(abs(ratio - 1.0) <= 0.05 for ratio in ratios)
+    ends = (100 * (ratio - 1) for ratio in (min(ratios), max(ratios)))
+    least, most = (f"{end:+.0f}".replace("-", "\N{MINUS SIGN}") for end in ends)
+    return (
+        f"As C ([exported](29-take-it-home.md), by gcc) a law takes {least} to {most} % more instructions than "
+        f"compiled here; {near} of {len(ratios)} are within 5 %. Two compilers arrange the same operations."
+    )
 
 
 def spent(flops: int, calls: int) -> str:
@@ -79,17 +102,18 @@ def branches_differ(counted: pd.DataFrame) -> list[str]:
     return [name for name in names if (both.loc[(name, "typical")] != both.loc[(name, "worst")]).any()]
 
 
-def by_time(measured: pd.DataFrame, counted: pd.DataFrame) -> list[tuple]:
-    """A row a law, the fastest first: flops, time a tick alone, and on the free body in each engine."""
+def by_time(measured: pd.DataFrame, counted: pd.DataFrame, counts: dict) -> list[tuple]:
+    """A row a law, the fastest first: flops, instructions, time a tick alone, and on the free body in each engine."""
     lines, flops = [], totals(counted)["flops"]
     on_body = measured[(measured["contender"] != "") & (measured["jacobian"] == "")]
     for name, own in on_body.groupby("contender", sort=False):
         law = own[own["what"] == "law"].iloc[0]
         loops = own[own["what"] == "engine"].set_index("engine")["ns_per_tick"]
         interval = f"{law['ratio_low']:.2f} to {law['ratio_high']:.2f}"
-        alone = html.law(name, laws.title(name)), flops.get(name), law["ratio"], interval, law["ns_per_tick"]
+        took = "{ours:.0f}, {c:.0f}".format(**counts[name]) if name in counts else html.MISSING
+        alone = html.law(name, laws.title(name)), flops.get(name), took, law["ratio"], interval, law["ns_per_tick"]
         lines.append((*alone, *(loops.get(engine) for engine in ("ideal-rk4", "ideal-held", "native"))))
-    return sorted(lines, key=lambda line: line[2])
+    return sorted(lines, key=lambda line: line[3])
 
 
 def against_time(alone: pd.DataFrame, counted: pd.DataFrame) -> str:

@@ -14,11 +14,13 @@ import numpy as np
 import pandas as pd
 from matplotlib.patches import Rectangle
 
-from bench.findings.perturbed import FOLLOWED_RAD, lasting
+from bench.findings.maps import lost_share
+from bench.findings.perturbed import FOLLOWED_RAD, by_level, lasting, studied
+from bench.tables.read import with_contender
 from report.figures.kit import families, style
 from report.figures.kit.inline import responsive_picture
 from report.figures.kit.page import Run, given
-from report.figures.robustness.rows import along, laws, levels, listed, median, nominal, of, starts
+from report.figures.robustness.rows import along, laws, levels, listed, nominal, of, starts
 
 LOST, SLOWED = 0.05, 1.5
 TIMELESS = (*lasting(), "half-turn-noise")
@@ -72,22 +74,37 @@ class Reach(NamedTuple):
     fails: bool = False
 
 
+@functools.cache
+def counted(run: Run, axis: str) -> pd.DataFrame:
+    """`by_level` of one perturbation: of the study's starts for the laws that it has, of the run's for others."""
+    rows = along(run, axis)
+    if rows.empty:
+        return rows
+    known = studied()
+    known = known[(known["axis"] == axis) & known["contender"].isin(laws(rows))]
+    own = rows[~rows["contender"].isin(set(known["contender"]))]
+    return pd.concat([known, with_contender(by_level(own))]) if len(own) else known
+
+
 def reach(rows: pd.DataFrame, law: str, walk: Walk) -> Reach:
-    """Of one law along one way, in rows of `along`."""
+    """Of one law along one way, in rows of `counted`."""
     start = nominal(walk.axis)
     path = [x for x in levels(rows) if x > start] if walk.outwards else [x for x in levels(rows)[::-1] if x < start]
-    share, time = _at(of(rows, law, start))
+    at = {one["level"]: (one["good"] / one["starts"], one["median_s"]) for _, one in of(rows, law).iterrows()}
+    share, time = at[start]
     if share < 0.5:
         return Reach(fails=True)
     for step, level in enumerate(path):
-        good, slower = _at(of(rows, law, level))
+        good, slower = at[level]
         if good < share - LOST or (walk.axis not in TIMELESS and slower > SLOWED * time):
             return Reach(level, 1.0 - step / len(path))
     return Reach()
 
 
-def _at(rows: pd.DataFrame) -> tuple[float, float]:
-    return float(rows["good"].mean()), median(rows["time_s"])
+def widest(starts: int) -> float:
+    """The most that a share of so many starts lies off an end of its exact interval: where half of them are lost."""
+    one = lost_share(starts // 2, starts)
+    return max(one.high - one.value, one.value - one.low)
 
 
 def is_fine(one: Reach) -> bool:
@@ -100,9 +117,8 @@ def reaches(run: Run) -> dict[str, list[Reach]]:
     """law -> how far it goes along each way; laws family by family."""
     found: dict[str, list[Reach]] = {}
     for walk in WALKS:
-        rows = along(run, walk.axis)
-        for law in laws(rows):
-            found.setdefault(law, []).append(reach(rows, law, walk))
+        for law in laws(along(run, walk.axis)):
+            found.setdefault(law, []).append(reach(counted(run, walk.axis), law, walk))
     return found
 
 
@@ -122,8 +138,9 @@ def facts(run: Run) -> dict:
         "lost": f"{100 * LOST:g}",
         "slowed": f"{SLOWED:g}",
         "held_deg": f"{np.degrees(FOLLOWED_RAD):g}",
-        "starts": starts(along(run, "delay")),
-        "episodes": sum(len(along(run, name)) for name in AXES),
+        "starts": int(counted(run, "delay")["starts"].max()),
+        "width": f"{100 * widest(int(counted(run, 'delay')['starts'].max())):.0f}",
+        "run_starts": starts(along(run, "delay")),
         "harmless": listed(harmless) if harmless else "nothing",
         "hardest": listed(hardest),
         "hardest_n": max(avoidable),

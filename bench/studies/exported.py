@@ -1,0 +1,115 @@
+"""What does a law cost as exported C? Instructions a tick by callgrind, beside our own compiled loop's: results/export.
+
+    python -m bench.studies.exported        some minutes; needs gcc and valgrind
+
+The loop in C is that of bench/timing/law.py: each tick waits for the command before it. gcc and our compiler arrange
+the same operations each in its way: what goes into vectors is counted once, and what spills is counted too.
+"""
+
+import argparse
+import subprocess
+import tempfile
+from pathlib import Path
+
+from bench.errors import MissingTool
+from bench.export.language import find_language
+from bench.export.subject import Subject, find_subject
+from bench.provenance import ROOT, describe
+from bench.regression.revisions import instructions, self_measure
+from bench.regression.revisions.process import Laws, running
+from bench.tables.files import write_json
+from bench.timing import law
+
+STORED = ROOT / "results" / "export" / "instructions.json"
+FLAGS = ("-std=c99", "-O2", "-ffp-contract=off")
+SWEEPS = 2
+
+LOOP = """#include "{name}.h"
+#include <stdio.h>
+#include <stdlib.h>
+
+int main(int count, char **words) {{
+    static double states[{states}][21];
+    FILE *file = fopen("states", "rb");
+    double chain = 0.0, kp, kv;
+    long sweep, k, sweeps;
+    {state}
+    if (count < 4 || !file || fread(states, sizeof states, 1, file) != 1) return 2;
+    sweeps = atol(words[1]), kp = atof(words[2]), kv = atof(words[3]);
+    for (sweep = 0; sweep < sweeps; sweep++)
+        for (k = 0; k < {states}; k++) {{
+            const double *s = states[k];
+            const double R[9] = {{{R}}};
+            const double omega[3] = {{{omega}}}, R_d[9] = {{{R_d}}};
+            double u[3];
+            {name}_command(R, omega, R_d, kp, kv, {passed}u);
+            chain = 0.0 * (u[0] + u[1] + u[2]);
+        }}
+    printf("%g\\n", chain);
+    return 0;
+}}
+"""
+
+
+def program(subject: Subject) -> str:
+    """The loop over states in memory, by columns there as in ours."""
+    by_rows = [3 * column + row for row in range(3) for column in range(3)]
+    return LOOP.format(
+        name=subject.identifier,
+        states=law.STATES,
+        state=f"{subject.identifier}_state state;\n    {subject.identifier}_start(&state);" if subject.memory else "",
+        passed="&state, " if subject.memory else "",
+        R=", ".join(f"s[{at}] + chain" for at in by_rows),
+        omega=", ".join(f"s[{at}] + chain" for at in (9, 10, 11)),
+        R_d=", ".join(f"s[{12 + at}]" for at in by_rows),
+    )
+
+
+def in_c(subject: Subject, folder: Path) -> float:
+    """Instructions a tick of the exported law."""
+    for name, text in find_language("c").files(subject).items():
+        (folder / name).write_text(text, encoding="utf-8")
+    (folder / "loop.c").write_text(program(subject), encoding="utf-8")
+    subprocess.run(["gcc", *FLAGS, "-o", "loop", "loop.c", "-lm"], cwd=folder, check=True)
+    short, long = (_total(folder, sweeps) for sweeps in (SWEEPS, 2 * SWEEPS))
+    return (long - short) / (SWEEPS * law.STATES)
+
+
+def _total(folder: Path, sweeps: int) -> int:
+    words = ["setarch", "-R", "valgrind", "--tool=callgrind", "--callgrind-out-file=counted", "./loop", str(sweeps)]
+    environment = {"PATH": "/usr/bin:/bin"}
+    subprocess.run([*words, "100", "20"], cwd=folder, check=True, capture_output=True, env=environment)
+    [line] = [one for one in (folder / "counted").read_text(encoding="utf-8").splitlines() if one.startswith("totals:")]
+    return int(line.split()[1])
+
+
+def counted(names: tuple[str, ...] = ()) -> dict[str, dict[str, float]]:
+    """Law -> instructions a tick of ours and of the exported one; no names: every law that is timed.
+
+    Errors:
+        MissingTool: valgrind or gcc is not here.
+    """
+    if absent := instructions.missing():
+        raise MissingTool(absent)
+    with running([(ROOT, Laws(names=names, engines=False))]) as [side], tempfile.TemporaryDirectory() as folder:
+        chosen = self_measure.timed_laws(side)
+        ours = instructions.count(side, chosen)
+        states = Path(folder)
+        (states / "states").write_bytes(law.states().tobytes())
+        found = {}
+        for name in chosen:
+            found[name] = {"ours": ours[name], "c": in_c(find_subject(name), states)}
+            print(f"{name}: {found[name]['ours']:.1f}, in C {found[name]['c']:.1f}", flush=True)
+    return found
+
+
+def main() -> None:
+    """The study's command."""
+    argparse.ArgumentParser(prog="python -m bench.studies.exported", description=__doc__.splitlines()[0]).parse_args()
+    compiler = subprocess.run(["gcc", "--version"], capture_output=True, text=True, check=True).stdout.splitlines()[0]
+    content = {"laws": counted(), "gcc": compiler, "flags": " ".join(FLAGS), "provenance": describe()}
+    write_json(STORED, content)
+
+
+if __name__ == "__main__":
+    main()
