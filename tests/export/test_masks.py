@@ -138,7 +138,19 @@ def set_on_one_side(x, y):
     return z
 
 
-@pytest.mark.parametrize(("law", "word"), [(left_early, "`break`"), (set_on_one_side, "set on one side alone")])
+def returned_on_one_side(x, y):
+    if x > 0.0:
+        return y
+
+
+@pytest.mark.parametrize(
+    ("law", "word"),
+    [
+        (left_early, "`break`"),
+        (set_on_one_side, "set on one side alone"),
+        (returned_on_one_side, "one side returns nothing"),
+    ],
+)
 def test_law_that_arrays_cannot_take_is_refused(law, word):
     with pytest.raises(BadLaw, match=word):
         translated(law)
