@@ -27,6 +27,7 @@ assert not {{'bench', 'tasks', 'numba', 'mujoco'}} & set(sys.modules)
 """
 
 
+@pytest.mark.slow
 def test_vectors_pass_in_numpy_where_nothing_of_ours_is_installed(tmp_path):
     folders = [str(written(one, "python", tmp_path)) for one in subjects()]
     (tmp_path / "empty").mkdir()
