@@ -7,6 +7,7 @@
 .NOTPARALLEL:
 .PHONY: help setup setup-cluster bench bench-quick time libraries report test check lint gate regress regress-study
 .PHONY: scale-study contact-study settings-study verdicts-study robustness-study kill-study reference media lock clean audit judge history
+.PHONY: arrays-check
 
 SHELL := /bin/sh
 VENV := .venv
@@ -17,6 +18,7 @@ CLUSTER := $(VENV)/.cluster
 DEV := $(VENV)/.dev
 LIBRARIES := .venv-libraries
 AUDIT := .venv-audit
+ARRAYS := .venv-arrays
 
 # Where HOME cannot be written, as in a container under another user's number, tools keep here what they keep at home.
 ifneq ($(shell test -d "$$HOME" && test -w "$$HOME" && echo ok),ok)
@@ -111,6 +113,10 @@ audit:
 	@if $(MAKE) --no-print-directory $(AUDIT)/.made; then $(AUDIT)/bin/python .ci/audit.py requirements/*.txt; \
 		else echo "audit skipped: pip-audit cannot be installed here (no network?)"; fi
 
+arrays-check: ## exported laws on the arrays of JAX, in an environment of its own (0.6 GB)
+arrays-check: $(DEV) $(ARRAYS)/.made
+	@$(PY) -m pytest tests/export/test_python_arrays.py $(ARGS)
+
 gate:   ## rerun the quick suite and compare it with results/reference
 gate: $(READY)
 	@rm -rf results/quick  # a finished run would be resumed, not rerun
@@ -169,10 +175,11 @@ lock: $(DEV)
 	@$(call compile,libraries,--extra libraries --constraint requirements/dev.txt)
 	@$(locked) --group audit --output-file requirements/audit.txt
 	@$(locked) --group install --output-file requirements/install.txt
+	@$(locked) --group arrays --constraint requirements/base.txt --output-file requirements/arrays.txt
 	@echo "Locked. Look at the change: git diff --stat requirements"
 
 clean:  ## remove .venv, the built report, caches and results/quick; other results stay
-	@rm -rf $(VENV) $(LIBRARIES) $(AUDIT) build report/_build report/.jupyter_cache results/quick
+	@rm -rf $(VENV) $(LIBRARIES) $(AUDIT) $(ARRAYS) build report/_build report/.jupyter_cache results/quick
 	@rm -rf .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .benchmarks .home *.egg-info
 	@find bench tasks report tests -name __pycache__ -prune -exec rm -rf {} + 2>/dev/null || true
 
@@ -213,6 +220,11 @@ $(LIBRARIES)/.made: requirements/libraries.txt pyproject.toml
 	@echo "Installing robot libraries into $(LIBRARIES) ..."
 	@$(PYTHON) -m venv --clear $(LIBRARIES)
 	@$(call install,libraries) && touch $@
+
+$(ARRAYS)/.made: PY = $(ARRAYS)/bin/python
+$(ARRAYS)/.made: requirements/arrays.txt
+	@$(PYTHON) -m venv --clear $(ARRAYS)
+	@$(PIP) install $(AS_LOCKED)/arrays.txt && touch $@
 
 $(AUDIT)/.made: PY = $(AUDIT)/bin/python
 $(AUDIT)/.made: requirements/audit.txt

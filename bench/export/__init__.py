@@ -7,5 +7,7 @@ subject    a regulator, coordinates or an impedance by its word
 vectors    questions and our own answers; shaken: what another library's last bits may make of them
 heading    what a file says first
 braces     what languages with braces share; c_core: C and C++
+masks      branches as masks, for arrays; flow: which variables they change
+lanes      what an export to Python runs on: its text goes into each file
 language   the record of a language; languages/ has one file each
 """

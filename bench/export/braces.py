@@ -288,17 +288,22 @@ def _is_inside(name: str, statement: ast.stmt, users: int) -> bool:
 
 
 def wrapped(lines: Iterable[str]) -> Iterator[str]:
-    """Lines of code, those that are too long broken after commas."""
+    """Lines of code, those that are too long broken after commas in brackets."""
     for line in lines:
-        indent = " " * (len(line) - len(line.lstrip()))
-        if len(line) <= WIDTH:
-            yield line
-            continue
-        parts, current = line.split(", "), ""
-        for at, part in enumerate(parts):
-            piece = part + (", " if at + 1 < len(parts) else "")
-            if current and len(current) + len(piece.rstrip()) > WIDTH:
-                yield current.rstrip()
-                current = f"{indent}    "
-            current += piece
-        yield current
+        indent, depth = " " * (len(line) - len(line.lstrip())), 0
+        while len(line) > WIDTH and (breaks := list(_breaks(line, depth))):
+            fitting = [one for one in breaks if one[0] <= WIDTH + 1] or breaks[:1]
+            late = [one for one in fitting if one[0] > WIDTH // 2] or fitting
+            outermost = min(at for _, at in late)
+            place, depth = [one for one in late if one[1] == outermost][-1]
+            yield line[:place].rstrip()
+            line = f"{indent}{INDENT}{line[place:]}"
+        yield line
+
+
+def _breaks(line: str, depth: int) -> Iterator[tuple[int, int]]:
+    """Places after commas in brackets, with how many brackets are open there; depth: at the beginning of the line."""
+    for place, sign in enumerate(line, start=1):
+        depth += (sign in "([{") - (sign in ")]}")
+        if depth and line[place - 1 : place + 1] == ", ":
+            yield place + 1, depth

@@ -9,6 +9,7 @@ import ast
 
 from bench.errors import BadLaw
 from bench.export.braces import is_identity, names_in
+from bench.export.flow import needed, only_hands_back, returns, stored
 from bench.export.types import INDEX, Typed, arguments
 from bench.law.scalar import PRIMITIVES
 
@@ -27,7 +28,7 @@ def masked(function: Typed, taken: set[str], tuples: dict[str, str]) -> ast.Func
     Args:
         taken: names that no variable may have. tuples: by name of a NamedTuple, its name in the file.
     Errors:
-        BadLaw: a loop is left early, or a variable is set on one side of a branch alone.
+        BadLaw: a loop is left early, a variable is set on one side of a branch alone, or a path returns nothing.
     """
     body = _Body(function, taken, tuples)
     statements = body.block(function.node.body, set(function.parameters), set())
@@ -50,15 +51,15 @@ class _Body:
             rest = statements[place + 1 :]
             if isinstance(one, ast.Return) and one.value is not None:
                 return [*done, ast.Return(self.of(one.value))]
-            if isinstance(one, ast.If) and (_returns(one) or _only_hands_back(rest)):
+            if isinstance(one, ast.If) and (returns(one) or only_hands_back(rest)):
                 return [*done, *self.sides(one, rest, bound, None)]
             if isinstance(one, ast.If):
-                wanted = [name for name in _stored(one) if name in _needed(rest, after)]
+                wanted = [name for name in stored(one) if name in needed(rest, after)]
                 done += self.sides(one, [], bound, wanted) if wanted else []
                 bound = bound | set(wanted)
             else:
-                done.append(self.statement(one, bound, after | _needed(rest, after)))
-                bound = bound | set(_stored(one))
+                done.append(self.statement(one, bound, after | needed(rest, after)))
+                bound = bound | set(stored(one))
         return done
 
     def sides(self, node: ast.If, rest: list[ast.stmt], bound: set[str], wanted: list[str] | None) -> list[ast.stmt]:
@@ -71,14 +72,18 @@ class _Body:
         passed: list[ast.expr] = [self.of(node.test)]
         for name, body in ((THEN, node.body), (ELSE, node.orelse)):
             statements = [*body, *rest, *answer]
-            lost = _needed(statements, set()) & set(self.function.variables) - bound
+            lost = needed(statements, set()) & set(self.function.variables) - bound
             if lost:
                 raise BadLaw(
                     f"{self.function.name}: {', '.join(sorted(lost))}: set on one side alone of "
                     f"`if {ast.unparse(node.test)}`; set it on both, or before"
                 )
-            changed = set(_stored(*statements)) & _needed(statements, set())
+            changed = set(stored(*statements)) & needed(statements, set())
             written = self.block(statements, bound, set())
+            if not written or not isinstance(written[-1], ast.Return):
+                raise BadLaw(
+                    f"{self.function.name}: `if {ast.unparse(node.test)}`: one side returns nothing; end it so"
+                )
             if isinstance(written[0], ast.Return) and written[0].value is not None:
                 passed.append(_lambda(written[0].value))
             else:
@@ -105,8 +110,8 @@ class _Body:
         left = [one for one in ast.walk(node) if isinstance(one, ast.Return | ast.Break | ast.Continue)]
         if left:
             raise self.refused(left[0])
-        looked_at = after | _needed(node.body, set())
-        body = self.block(node.body, bound | set(_stored(node)), looked_at)
+        looked_at = after | needed(node.body, set())
+        body = self.block(node.body, bound | set(stored(node)), looked_at)
         iterated = ast.Call(times.func, [self.index(one) for one in times.args], [])
         return ast.For(self.of(node.target), iterated, body or [ast.Pass()], [])
 
@@ -120,7 +125,7 @@ class _Body:
         """An expression on lanes; the tree that is given stays as it is."""
         kind = self.function.kinds.get(node)
         if isinstance(node, ast.Constant):
-            return node if kind == INDEX or isinstance(node.value, bool) else ast.Constant(float(node.value))
+            return node if kind == INDEX else self.value(node.value)
         if isinstance(node, ast.Name):
             return self.name(node.id)
         if isinstance(node, ast.Attribute):
@@ -223,44 +228,8 @@ def _parameters(plain: list[str], changed: list[str]) -> ast.arguments:
     return ast.arguments([], named, None, [], [], None, [ast.Name(one) for one in changed])
 
 
-def _returns(node: ast.If) -> bool:
-    """Whether a side of it ends the law."""
-    return any(isinstance(one, ast.Return) for one in ast.walk(node))
-
-
-def _only_hands_back(statements: list[ast.stmt]) -> bool:
-    """Whether nothing is left but to return variables: that may stand on either side of what comes before."""
-    if len(statements) != 1 or not isinstance(statements[0], ast.Return):
-        return False
-    value = statements[0].value
-    return all(isinstance(one, ast.Name) for one in (value.elts if isinstance(value, ast.Tuple) else [value]))
-
-
 def _all(tests: list[ast.expr]) -> ast.expr:
     first, *others = tests
     for one in others:
         first = ast.BinOp(first, ast.BitAnd(), one)
     return first
-
-
-def _stored(*statements: ast.stmt) -> list[str]:
-    """Variables that are set, in order."""
-    names = [one for statement in statements for one in ast.walk(statement) if isinstance(one, ast.Name)]
-    return list(dict.fromkeys(one.id for one in names if isinstance(one.ctx, ast.Store)))
-
-
-def _needed(statements: list[ast.stmt], after: set[str]) -> set[str]:
-    """Names that are looked at before they are set, where those of `after` are looked at behind."""
-    found = set(after)
-    for one in reversed(statements):
-        if isinstance(one, ast.Assign):
-            found = found - set(_stored(one)) | names_in(one.value)
-        elif isinstance(one, ast.AugAssign):
-            found |= names_in(one)
-        elif isinstance(one, ast.Return) and one.value is not None:
-            found = names_in(one.value)
-        elif isinstance(one, ast.If):
-            found = names_in(one.test) | _needed(one.body, found) | _needed(one.orelse, found)
-        elif isinstance(one, ast.For):
-            found |= _needed(one.body, set()) - names_in(one.target)
-    return found

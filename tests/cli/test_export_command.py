@@ -1,6 +1,7 @@
 """`export`: what it writes and says, and what it refuses."""
 
 import subprocess
+import sys
 
 import pytest
 from support.command_line import bench
@@ -33,6 +34,14 @@ def test_export_writes_law_test_vectors_and_how_to_try_them(capsys, tmp_path, la
     names = sorted(path.name for path in (tmp_path / "here").iterdir())
     assert len(names) == 4
     assert {"README.md", "vectors.json"} < set(names)
+
+
+def test_export_of_a_user_s_law_to_python_is_of_its_file(capsys, tmp_path):
+    (tmp_path / "mine.py").write_text(law_text("u = spring(R, goal.R)", "return u").replace("@kernel", LOOPING, 1))
+    here = tmp_path / "python"
+    said = bench(capsys, "export", "mine", "--law", str(tmp_path / "mine.py"), "--to", "python", "--out", str(here))
+    assert said.code == 0, said.err
+    assert subprocess.run([sys.executable, "test_mine.py"], cwd=here).returncode == 0
 
 
 @needs("gcc")

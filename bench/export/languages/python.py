@@ -89,7 +89,7 @@ def _offered(entry: Entry, core: str, tuples: dict[str, str]) -> str:
     given = [each for one in entry.parameters for each in _arguments(one)]
     names = ", ".join(name for name, _ in given)
     opening = ", ".join(f"{name}={_written((name, *axes))}" for name, axes in given)
-    shapes = ", ".join(f"{name} {_written(('...', *axes))}" for name, axes in given)
+    shapes = ", ".join(f"{name} ({', '.join(map(str, ('...', *axes)))})" for name, axes in given)
     passed = ", ".join((LANES, *(_passed(one, tuples) for one in entry.parameters)))
     if entry.has_memory:
         ends = [f"answer, kept = {core}({passed})", f"return {LANES}.vector(answer), {LANES}.vector(kept)"]
