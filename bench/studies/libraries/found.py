@@ -4,6 +4,7 @@ import functools
 import importlib
 import importlib.metadata
 import pkgutil
+import subprocess
 from typing import NamedTuple
 
 from bench.studies.libraries import asked
@@ -38,5 +39,10 @@ def find() -> Found:
 
 
 def version_of(library: Library) -> str:
-    """Of its package, as installed."""
+    """Of its package, as installed; of what is restated, the commit that was read, which its `package` ends with."""
+    if library.is_restated:
+        return library.package.rpartition("@")[2]
+    if library.is_debian:
+        asked_for = ["dpkg-query", "--show", "--showformat", "${Version}", library.package]
+        return subprocess.run(asked_for, capture_output=True, text=True, check=True).stdout
     return importlib.metadata.version(library.package)
