@@ -7,6 +7,7 @@ import pkgutil
 import subprocess
 from typing import NamedTuple
 
+from bench.errors import UnknownWord
 from bench.studies.libraries import asked
 from bench.studies.libraries.library import Function, Library
 
@@ -25,16 +26,24 @@ class Found(NamedTuple):
 
 
 @functools.cache
-def find() -> Found:
-    """Import what is there."""
-    libraries, missing = [], {}
-    for module_info in pkgutil.iter_modules(asked.__path__):
+def find(*names: str) -> Found:
+    """Import what is there, or of it the files of these names alone.
+
+    Errors:
+        UnknownWord: no file of asked/ has that name.
+    """
+    libraries: list[Library] = []
+    missing, files = {}, [one.name for one in pkgutil.iter_modules(asked.__path__)]
+    for name in names:
+        if name not in files:
+            raise UnknownWord("library", name, files)
+    for name in names or files:
         try:
-            module = importlib.import_module(f"{asked.__name__}.{module_info.name}")
+            module = importlib.import_module(f"{asked.__name__}.{name}")
         except ImportError as error:
-            missing[module_info.name] = str(error)
+            missing[name] = str(error)
         else:
-            libraries.append(module.LIBRARY)
+            libraries += module.LIBRARIES if hasattr(module, "LIBRARIES") else (module.LIBRARY,)
     return Found(tuple(libraries), missing)
 
 
