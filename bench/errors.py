@@ -54,3 +54,7 @@ class Incompatible(BenchError):
 
 class MissingTool(BenchError):
     """Something this machine or environment lacks, with the cure."""
+
+
+class BadFunction(BenchError):
+    """A function that cannot be audited."""

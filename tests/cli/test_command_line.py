@@ -54,7 +54,7 @@ def tiny_run(ran):
 
 
 def test_commands_are_those_of_the_design():
-    others = {"count", "time", "compare", "judge", "claims", "doctor", "trust", "history"}
+    others = {"audit", "count", "time", "compare", "judge", "claims", "doctor", "trust", "history"}
     assert set(COMMANDS) == {"list", "run", "show", "map"} | others
 
 

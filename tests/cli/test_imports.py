@@ -33,6 +33,24 @@ def test_command_that_computes_nothing_imports_nothing_slow(words):
     assert SLOW & imported(COMMAND.format(words=words.split())) == set()
 
 
+AUDIT = """
+from bench.audit import audit
+def columns(R, R_d):
+    return [0.5 * sum(R[j, i] * R_d[k, i] - R[k, i] * R_d[j, i] for i in range(3)) for j, k in ((1, 2), (2, 0), (0, 1))]
+code = len(audit(columns).faults)
+"""
+
+
+def test_audit_imports_nothing_slow():
+    assert SLOW & imported(AUDIT) == set()
+
+
+def test_plugin_of_pytest_imports_neither_numpy_nor_the_audit():
+    found = imported("import bench.audit.plugin; code = 0")
+    assert {one for one in found if one.startswith("bench.")} == {"bench.audit", "bench.audit.plugin"}
+    assert "numpy" not in found
+
+
 def test_list_imports_mujoco_alone_for_it_reads_files_of_arms():
     assert SLOW & imported(COMMAND.format(words=["list"])) == {"mujoco"}
 

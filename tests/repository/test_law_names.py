@@ -12,6 +12,7 @@ ROOMS = ("bench", "tasks", "report")
 CHAPTERS = ("arms", "contact", "problem", "robustness")
 
 ALLOWED = {
+    "bench/audit/": "the law that cures a fault, and forms, some of which are laws' words too",
     "bench/contenders/regulators/": "its own file, and the coordinates it acts on",
     "bench/contenders/representations/": "its own file",
     "bench/contenders/impedances/": "its own file",

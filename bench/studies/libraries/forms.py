@@ -1,15 +1,12 @@
-"""What three numbers can say of a turn by theta about k, each theta k near the identity.
-
-The rotation vector is the error itself. The others are errors of their own right, and laws have been built on each;
-only `sin(theta) k` is nought at half turns, and only Euler angles have poles. A function is first judged by its own
-form, so that what it means is told apart from what it gets wrong.
-"""
+"""What three numbers of a library can say of a turn: a form of the audit, or Z-Y-X angles."""
 
 import math
 from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
+
+from bench.audit.forms import FORMS as SIZED
 
 
 class Form(NamedTuple):
@@ -34,10 +31,4 @@ def _z_y_x(e) -> np.ndarray:
     return _about(2, e[2]) @ _about(1, e[1]) @ _about(0, e[0])
 
 
-FORMS = {
-    "rotation-vector": Form("θ", size=lambda theta: theta),
-    "sine-of-half": Form("2 sin(θ/2)", size=lambda theta: 2.0 * math.sin(theta / 2.0)),
-    "sine": Form("sin θ", size=math.sin),
-    "mrp": Form("4 tan(θ/4)", size=lambda theta: 4.0 * math.tan(theta / 4.0)),
-    "z-y-x": Form("Z-Y-X angles", matrix=_z_y_x),
-}
+FORMS = {name: Form(*one) for name, one in SIZED.items()} | {"z-y-x": Form("Z-Y-X angles", matrix=_z_y_x)}

@@ -1,0 +1,108 @@
+"""What a function means: its input, the frame and direction of its three numbers, its form, its slope at the goal.
+
+Arguments the other way round are no case of their own: log(R R_d^T) = -log(R_d R^T), so that they are its direction.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from bench.audit.forms import FORMS
+from bench.audit.pairs import CLOSE, FINE, WIDE, Pairs
+from bench.audit.stated import FRAMES
+
+ALONG_RAD = 0.1
+"""An answer nearer than this to the axis, 6 degrees, lies along it: of two random directions 0.5 % are so near."""
+ENOUGH = 0.7
+"""Share of pairs that a convention must explain: a fault on a part of them must not hide what is meant."""
+
+FEWEST = 0.2
+"""Share of answers the right way that is enough to tell a form by."""
+
+FIT = {WIDE: 1e-5, CLOSE: 1e-6, FINE: 1e-9}
+"""Places where forms are told apart, and how well the right one fits there, of its size.
+
+Two forms differ by a twenty-fourth of the square at least, 1e-4 at 0.05 rad and 1e-6 at 0.005 rad; forms of no name may
+differ from one by the fourth power, 1e-8 and less. Single precision has 6e-8, so that it is told where pairs are wide.
+"""
+
+
+class Convention(NamedTuple):
+    """takes, frame and sign as in `stated`; form: a word of FORMS, or "" for a size of its own; slope: |e|/theta."""
+
+    takes: str
+    frame: str
+    sign: str
+    form: str
+    slope: float
+
+    def text(self) -> str:
+        """For people."""
+        given = "matrices (R, R_d)" if self.takes == "matrix" else f"quaternions (q, q_d), {self.takes}"
+        way = "from R to R_d" if self.sign == "to-goal" else "from R_d to R"
+        form = f"{FORMS[self.form].title} k" if self.form else "along k, with a size of its own"
+        said = f"takes {given}; {self.frame} frame; points {way}; {form}; slope at the goal {self.slope:.6g}"
+        if (self.takes, self.frame, self.sign) != ("matrix", "body", "from-goal"):
+            return said
+        return f"{said}. Of matrices stored by columns the same function is in base and points to R_d"
+
+
+def directions(pairs: Pairs, frame: str) -> np.ndarray:
+    """The axis k (n x 3) in base or in body frame."""
+    return pairs.axis if frame == "base" else np.einsum("nij,ni->nj", pairs.R, pairs.axis)
+
+
+def apart(e: np.ndarray, axis: np.ndarray) -> np.ndarray:
+    """Angle (n) between answers and an axis [rad]; NaN where an answer has no direction."""
+    along = (e * axis).sum(axis=1)
+    across = np.linalg.norm(np.cross(axis, e), axis=1)
+    return np.where((along == 0.0) & (across == 0.0), np.nan, np.arctan2(across, along))
+
+
+def find(takes: str, pairs: Pairs, e: np.ndarray) -> tuple[float, Convention | None]:
+    """The best convention for answers e (n x 3), and the share of pairs whose direction it explains."""
+    best: tuple[float, str, int] = (0.0, "", 0)
+    for frame in FRAMES:
+        angle = apart(e, directions(pairs, frame))
+        for place in FIT:
+            here = angle[pairs.place == place]
+            with np.errstate(invalid="ignore"):
+                share = float(np.mean((here < ALONG_RAD) | (here > np.pi - ALONG_RAD)))
+            if share > best[0] + 1e-9:
+                best = (share, frame, way(here, np.linalg.norm(e[pairs.place == place], axis=1)))
+    share, frame, sign = best
+    if share < ENOUGH:
+        return share, None
+    size = sign * (e * directions(pairs, frame)).sum(axis=1)
+    form, slope = form_of(pairs, size)
+    return share, Convention(takes, frame, "to-goal" if sign > 0 else "from-goal", form, slope)
+
+
+def way(angle: np.ndarray, size: np.ndarray) -> int:
+    """Whether answers point along the axis or against it: those of the shorter half, for the others may be astray."""
+    short = size <= np.nanmedian(size)
+    return 1 if np.nanmedian(angle[short]) < np.pi / 2.0 else -1
+
+
+def form_of(pairs: Pairs, size: np.ndarray) -> tuple[str, float]:
+    """The form that sizes along the axis have, where it can be told, and the slope at the goal."""
+    for place, tolerance in FIT.items():
+        here = (pairs.place == place) & (size > 0.0)
+        if here.sum() < FEWEST * (pairs.place == place).sum():
+            continue
+        for form, one in FORMS.items():
+            ratio = size[here] / one.size(pairs.angle[here])
+            slope = float(np.nanmedian(ratio))
+            if slope > 0.0 and np.mean(np.abs(ratio / slope - 1.0) < tolerance) >= ENOUGH:
+                return form, slope
+    return "", limit_at_0(pairs.angle[pairs.place == FINE], size[pairs.place == FINE])
+
+
+def limit_at_0(angle: np.ndarray, size: np.ndarray) -> float:
+    """size/angle at 0, by a line in the square of the angle through those that are positive."""
+    there = size > 0.0
+    if there.sum() < FEWEST * len(angle):
+        return 0.0
+    return float(np.polyfit(angle[there] ** 2, size[there] / angle[there], 1)[1])

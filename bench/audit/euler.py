@@ -1,0 +1,60 @@
+"""Three Euler angles taken for an error: of which axes, and what their differences would be."""
+
+from __future__ import annotations
+
+import itertools
+from typing import NamedTuple
+
+import numpy as np
+
+from bench.audit.convention import ENOUGH
+from bench.audit.pairs import WIDE, Pairs
+
+SEQUENCES = tuple("".join(axes) for axes in itertools.permutations("XYZ"))
+SAME_RAD = 1e-5
+"""Of each angle: single precision has 1e-6."""
+
+
+class Angles(NamedTuple):
+    """A match: sequence of intrinsic axes, how e is put together, and the angles (n x 3) that e is modulo 2 pi."""
+
+    sequence: str
+    how: str
+    values: np.ndarray
+
+
+def find_angles(examined) -> Angles | None:
+    """The sequence whose angles e is, or whose difference; None if it is no such thing."""
+    if examined.convention and examined.convention.form:
+        return None
+    here = examined.pairs.chosen(examined.at(WIDE))
+    e = examined.e[examined.at(WIDE)]
+    for sequence in SEQUENCES:
+        orders = dict.fromkeys(((0, 1, 2), (2, 1, 0), tuple(int(i) for i in np.argsort(list(sequence)))))
+        for how, angles in combined(here, sequence):
+            for order, sign in itertools.product(orders, (1.0, -1.0)):
+                values = sign * angles[:, order]
+                if np.mean(np.abs(wrapped(e - values)).max(axis=1) < SAME_RAD) >= ENOUGH:
+                    return Angles(sequence, how, values)
+    return None
+
+
+def combined(of: Pairs, sequence: str):
+    """(words, angles n x 3) for each way to make an error of them."""
+    R, R_d = of.R, of.R_d
+    yield "the difference of angles of R_d and R", angles_of(R_d, sequence) - angles_of(R, sequence)
+    for words, X in (("R_d R^T", R_d @ R.swapaxes(1, 2)), ("R^T R_d", R.swapaxes(1, 2) @ R_d)):
+        yield f"the angles of {words}", angles_of(X, sequence)
+        yield f"the angles of ({words})^T", angles_of(X.swapaxes(1, 2), sequence)
+
+
+def angles_of(X: np.ndarray, sequence: str) -> np.ndarray:
+    """Angles (n x 3) about intrinsic axes, each in (-pi, pi]."""
+    from scipy.spatial.transform import Rotation  # a third of a second, for a function that has no axis
+
+    return Rotation.from_matrix(X).as_euler(sequence)
+
+
+def wrapped(angle: np.ndarray) -> np.ndarray:
+    """In [-pi, pi]."""
+    return angle - 2.0 * np.pi * np.round(angle / (2.0 * np.pi))

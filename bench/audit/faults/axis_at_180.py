@@ -1,0 +1,32 @@
+"""Another axis at exactly 180°."""
+
+import numpy as np
+
+from bench.audit.fault import Fault, Found
+from bench.audit.faults.dead_at_180 import ZERO
+from bench.audit.pairs import AT_180
+
+ASTRAY_RAD = 0.01
+"""Angle to the axis: a hundred thousand times what a root of rounding leaves, 1e-8."""
+
+
+def find(examined) -> Found | None:
+    """At 180° either direction along the axis is right, and nothing else."""
+    alive = examined.size > ZERO * examined.slope * np.pi
+    here = examined.at(AT_180) & np.isfinite(examined.apart) & alive
+    bad = here & (examined.apart > ASTRAY_RAD)
+    if not examined.convention or not bad.any():
+        return None
+    text = f"{bad.sum()} of {examined.at(AT_180).sum()} rotations by 180° are answered with another axis"
+    return Found(text, examined.evidence(int(np.argmax(bad))))
+
+
+FAULT = Fault(
+    "axis-at-180",
+    "wrong axis at 180°",
+    "at 180°, and next to it, the robot starts about another axis than the shortest way has",
+    "take the axis from the column of R + R^T with the largest diagonal element: signs and all",
+    "rotation-vector",
+    find,
+    unless=("digits-near-180", "euler-angles", "misaligned", "axis-clip"),
+)

@@ -1,0 +1,39 @@
+"""Each component clipped for itself."""
+
+import numpy as np
+
+from bench.audit.fault import Fault, Found
+from bench.audit.pairs import CLOSE, POLE, WIDE
+
+FEWEST = 10
+"""Answers that share their largest component: of drawn pairs no two do."""
+SAME = 1e-6
+BENT_RAD = 1e-3
+
+
+def find(examined) -> Found | None:
+    """Many answers have the same largest component, and leave the axis."""
+    if not examined.convention:
+        return None
+    here = np.flatnonzero(examined.at(WIDE, CLOSE, POLE) & np.isfinite(examined.e).all(axis=1))
+    largest = np.abs(examined.e[here]).max(axis=1)
+    limit = float(largest.max(initial=0.0))
+    at_limit = here[np.abs(largest - limit) <= SAME * limit]
+    bent = at_limit[examined.apart[at_limit] > BENT_RAD]
+    if len(at_limit) < FEWEST or len(bent) < len(at_limit) / 2:
+        return None
+    worst = int(bent[np.argmax(examined.apart[bent])])
+    return Found(
+        f"no component exceeds {limit:.6g}; the direction is bent by up to {np.degrees(examined.apart[worst]):.3g}°",
+        examined.evidence(worst),
+    )
+
+
+FAULT = Fault(
+    "axis-clip",
+    "each component is clipped: the direction is bent",
+    "far from the goal the robot turns about another axis than the shortest way has",
+    "scale the whole vector down to the limit",
+    "rotation-vector",
+    find,
+)

@@ -1,0 +1,38 @@
+"""No error at exactly 180°."""
+
+import numpy as np
+
+from bench.audit.fault import NOTE, Fault, Found
+from bench.audit.pairs import AT_180
+
+ZERO = 1e-6
+"""Of slope times pi: six decades below what is asked for; rounding leaves 1e-15, a scalar part of it 1e-8."""
+TWENTIETH = 0.05
+BEFORE_RAD = 0.01
+
+
+def find(examined) -> Found | None:
+    """|e| is zero at 180°; a property of its form if e dies away before, as sin(theta) does."""
+    if not examined.convention:
+        return None
+    here = examined.at(AT_180)
+    dead = here & (examined.size <= ZERO * examined.slope * np.pi)
+    if not dead.any():
+        return None
+    near = examined.size[np.abs(examined.pairs.distance - BEFORE_RAD) < 1e-9]
+    is_form = bool(np.nanmedian(near) < TWENTIETH * examined.slope * np.pi)
+    text = f"e = 0 for {dead.sum()} of {here.sum()} rotations by exactly 180°"
+    if is_form:
+        text += "; its form itself vanishes there"
+    return Found(text, examined.evidence(int(np.argmax(dead)), right=not is_form), NOTE if is_form else "fault")
+
+
+FAULT = Fault(
+    "dead-at-180",
+    "zero at 180°",
+    "a robot that starts 180° from its goal stays there, and leaves slowly from nearby",
+    "take 1 for the sign of 0; a sine needs another form",
+    "quaternion-shortest",
+    find,
+    unless=("not-a-number", "raises"),
+)

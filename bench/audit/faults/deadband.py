@@ -1,0 +1,34 @@
+"""Nothing is said of small errors."""
+
+import numpy as np
+
+from bench.audit.fault import Fault, Found
+from bench.audit.pairs import CLOSE, FINE, NEAR_IDENTITY
+
+SMALLEST_RAD = 1e-7
+"""A dead band below this is none to a robot; the arc cosine's zero ends at 2e-8, and is a loss of digits."""
+FEWEST = 10
+
+
+def find(examined) -> Found | None:
+    """e is exactly zero, or a component of it, up to an angle; beyond it is not."""
+    if not examined.convention:
+        return None
+    small = examined.at(NEAR_IDENTITY, FINE, CLOSE)
+    zero = small & (examined.pairs.angle >= SMALLEST_RAD) & (examined.size == 0.0)
+    if zero.sum() < FEWEST:
+        return None
+    angle = examined.pairs.angle
+    i = int(np.flatnonzero(zero)[np.argmax(angle[zero])])
+    return Found(f"e = 0 up to {angle[i]:.3g} rad", examined.evidence(i))
+
+
+FAULT = Fault(
+    "deadband",
+    "a dead band",
+    "the robot rests beside its goal, and an integral or a force near the edge makes it chatter",
+    "leave it out; noise wants a filter",
+    "rotation-vector",
+    find,
+    unless=("single-precision",),
+)

@@ -1,0 +1,37 @@
+"""Digits lost near 180°."""
+
+import numpy as np
+
+from bench.audit.fault import Fault, Found
+from bench.audit.faults.digits_near_0 import COUNT_RAD
+from bench.audit.pairs import NEAR_180
+
+FARTHEST_RAD = 0.1
+
+
+def find(examined) -> Found | None:
+    """What is across the axis; and along it, if the size is right 0.1 rad before."""
+    if not examined.convention:
+        return None
+    here = examined.at(NEAR_180) & (examined.size > 0.0)
+    with np.errstate(invalid="ignore"):
+        error = examined.size * np.sin(examined.apart)
+        if np.nanmax(examined.error[here & (examined.pairs.distance > FARTHEST_RAD)], initial=0.0) < COUNT_RAD:
+            error = np.fmax(error, examined.error)
+        error = np.where(here, error, 0.0) / examined.slope
+        if not (error > COUNT_RAD).any():
+            return None
+    worst = int(np.nanargmax(error))
+    distance = examined.pairs.distance[worst]
+    return Found(f"off by up to {error[worst]:.2g} rad, {distance:.2g} rad before 180°", examined.evidence(worst))
+
+
+FAULT = Fault(
+    "digits-near-180",
+    "digits lost near 180°",
+    "near 180° the command has a wrong size or a wrong axis, and flickers",
+    "do not divide by sin(theta): begin with a quaternion from the largest diagonal element",
+    "rotation-vector",
+    find,
+    unless=("single-precision", "misaligned", "euler-angles", "axis-clip", "long-way"),
+)

@@ -1,0 +1,22 @@
+"""The other direction than stated."""
+
+from bench.audit.fault import Fault, Found
+
+
+def find(examined) -> Found | None:
+    """e points from R_d to R where the caller wants the opposite, or the reverse."""
+    stated, found = examined.stated, examined.convention
+    if not found or stated.sign in (None, found.sign):
+        return None
+    return Found(f"stated to point {stated.sign}, it points {found.sign}: swapped arguments, or another sign")
+
+
+FAULT = Fault(
+    "direction",
+    "points the other way",
+    "positive feedback: the robot runs away from the goal",
+    "swap the arguments, or change the sign",
+    "rotation-vector",
+    find,
+    unless=("transpose",),
+)

@@ -1,0 +1,37 @@
+"""q and -q are one orientation, and have two answers."""
+
+import numpy as np
+
+from bench.audit.asked import ask_of, inputs
+from bench.audit.fault import Evidence, Fault, Found
+from bench.audit.pairs import WIDE
+
+OTHERWISE = 1e-3
+"""Of the angle; rounding leaves 1e-16, single precision 1e-7."""
+
+
+def find(examined) -> Found | None:
+    """f(q, -q_d) and f(-q, q_d) are not f(q, q_d)."""
+    if examined.takes == "matrix" or not examined.convention:
+        return None
+    here = np.flatnonzero(examined.at(WIDE))[::4]
+    now, goal = inputs(examined.takes, examined.pairs.chosen(here))
+    for other, given in (("-q_d", (now, -goal)), ("-q", (-now, goal))):
+        said = ask_of(examined.function, *given).e
+        apart = np.linalg.norm(said - examined.e[here], axis=1)
+        bad = ~(apart <= OTHERWISE * examined.slope * examined.pairs.angle[here])
+        if bad.any():
+            i = int(np.argmax(bad))
+            text = f"{bad.sum()} of {len(here)} pairs are answered otherwise with {other}, the same orientation"
+            return Found(text, Evidence(given[0][i], given[1][i], said[i], examined.e[here[i]]))
+    return None
+
+
+FAULT = Fault(
+    "double-cover",
+    "a goal and its antipode answered differently: unwinding",
+    "the robot turns by up to 360° the long way round, or tumbles when a stream of goals changes its sign",
+    "change the sign of the error quaternion where its scalar part is negative",
+    "quaternion-shortest",
+    find,
+)

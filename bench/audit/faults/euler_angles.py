@@ -1,0 +1,30 @@
+"""Euler angles taken for an error."""
+
+import numpy as np
+
+from bench.audit.fault import Fault, Found
+from bench.audit.pairs import WIDE
+
+
+def find(examined) -> Found | None:
+    """Three angles, or differences of them, about axes that are not at right angles."""
+    angles = examined.euler
+    if angles is None:
+        return None
+    here = np.flatnonzero(examined.at(WIDE))
+    worst = int(here[np.argmax(np.abs(examined.e[here]).max(axis=1))])
+    return Found(
+        f"e is {angles.how} (intrinsic {angles.sequence}): no axis, and a pole where the middle angle is 90°",
+        examined.evidence(worst, False),
+    )
+
+
+FAULT = Fault(
+    "euler-angles",
+    "Euler angles for an axis",
+    "the robot takes a detour that depends on the orientation, and at the pole turns by any amount for none",
+    "take an error along the axis, or map the angles' rates to angular velocity, and stay off the pole",
+    "rotation-vector",
+    find,
+    unless=("quaternion-order", "transpose", "frame"),
+)

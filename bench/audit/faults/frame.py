@@ -1,0 +1,35 @@
+"""The other frame, or one that is none."""
+
+from bench.audit.fault import Fault, Found
+from bench.audit.models import explanation, rotated
+from bench.audit.pairs import Pairs
+
+
+def find(examined) -> Found | None:
+    """It lies in the other frame than stated, or is rotated into none."""
+    stated, found = examined.stated, examined.convention
+    if found and stated.frame and stated.frame != found.frame:
+        return Found(f"stated to be in the {stated.frame} frame, it is in the {found.frame} frame")
+    why = explanation(examined, models)
+    return Found(f"e = {why[0]}, which is in no frame", examined.evidence(why[1], False)) if why else None
+
+
+def models(pairs: Pairs):
+    """The axis in base or body, rotated where it must not be, or the wrong way; R_d^T k is R^T k."""
+    R, k = pairs.R, pairs.axis
+    T, k_body = R.swapaxes(1, 2), rotated(R.swapaxes(1, 2), k)
+    yield "R applied to an error that is in base already", rotated(R, k)
+    yield "R_d applied to an error that is in base already", rotated(pairs.R_d, k)
+    yield "R^T applied to an error that is in body already", rotated(T, k_body)
+    yield "R_d^T applied to an error that is in body already", rotated(pairs.R_d.swapaxes(1, 2), k_body)
+
+
+FAULT = Fault(
+    "frame",
+    "body for base, or base for body",
+    "beside R = I the torque has another axis than the error; far from there the robot leaves the goal",
+    "rotate a body-frame error by R before it meets base-frame quantities, once",
+    "rotation-matrix",
+    find,
+    unless=("transpose",),
+)

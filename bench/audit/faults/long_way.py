@@ -1,0 +1,38 @@
+"""A whole turn too much: the long way round."""
+
+import numpy as np
+
+from bench.audit.euler import SAME_RAD
+from bench.audit.fault import Fault, Found
+from bench.audit.pairs import AT_180, IDENTITY, NEAR_180, WIDE
+
+AGAINST_RAD = 0.1
+"""Between an answer and the axis the wrong way; rounding bends no answer so."""
+
+
+def find(examined) -> Found | None:
+    """e points against the axis for some pairs, or an angle is more than pi."""
+    if examined.convention:
+        here = ~examined.at(AT_180, IDENTITY, NEAR_180)
+        with np.errstate(invalid="ignore"):
+            bad = here & (examined.apart > np.pi - AGAINST_RAD)
+    elif examined.euler is not None:
+        here, bad = examined.at(WIDE), np.zeros(len(examined.e), dtype=bool)
+        off = np.abs(examined.e[here] - examined.euler.values)
+        outside = (np.abs(examined.e[here]) > np.pi + SAME_RAD) & (np.minimum(off, np.abs(off - 2 * np.pi)) < SAME_RAD)
+        bad[here] = outside.any(axis=1)
+    else:
+        return None
+    if not bad.any():
+        return None
+    return Found(f"for {bad.sum()} of {here.sum()} pairs", examined.evidence(int(np.argmax(bad))))
+
+
+FAULT = Fault(
+    "long-way",
+    "the long way round: a wrong wrap",
+    "the robot turns by up to 360° where a little would do, and jumps where the wrap changes",
+    "wrap angles to [-180°, 180°]; change the sign of the error quaternion where its scalar part is negative",
+    "quaternion-shortest",
+    find,
+)

@@ -1,0 +1,39 @@
+"""Not along the axis, for no reason that is known here."""
+
+import numpy as np
+
+from bench.audit.fault import Fault, Found
+from bench.audit.pairs import CLOSE, WIDE
+
+BENT_RAD = 1e-3
+"""Angle to the axis: half a thousandth of it is what single precision leaves nowhere in these places."""
+
+
+def find(examined) -> Found | None:
+    """Away from 0 and 180° answers leave the axis."""
+    here = np.flatnonzero(examined.at(WIDE, CLOSE))
+    if not examined.convention:
+        return Found("nothing known explains its answers: they lie along no axis", examined.evidence(int(here[0])))
+    angle = np.nan_to_num(examined.apart[here])
+    bent = int((angle > BENT_RAD).sum())
+    if not bent:
+        return None
+    worst = int(np.argmax(angle))
+    return Found(
+        f"{bent} of {len(here)} answers are off the axis, by up to {np.degrees(angle[worst]):.3g}°",
+        examined.evidence(int(here[worst])),
+    )
+
+
+FAULT = Fault(
+    "misaligned",
+    "not along the axis",
+    "the robot takes a detour, or does not come to the goal",
+    "begin with R_d R^T or q_d q*, and take its axis",
+    "rotation-vector",
+    find,
+    unless=(
+        *("quaternion-order", "transpose", "frame", "euler-angles", "raises", "not-a-number"),
+        *("axis-clip", "long-way", "deadband", "jump"),
+    ),
+)

@@ -1,0 +1,44 @@
+"""Input that is not quite of unit length, or not quite orthogonal."""
+
+import numpy as np
+
+from bench.audit.asked import ask_of, inputs
+from bench.audit.fault import NOTE, Evidence, Fault, Found
+from bench.audit.pairs import IDENTITY, NEAR_IDENTITY, WIDE
+
+OFF = 1e-6
+"""What single precision, a sensor or an hour of integration leaves."""
+AMPLIFIED = 1e-4
+"""Change of e, a hundred times that of the input, in rad times slope."""
+
+
+def find(examined) -> Found | None:
+    """Both inputs longer or shorter by a millionth: no number, or another error; a note if it refuses them."""
+    if not examined.convention:
+        return None
+    asked = (examined.at(IDENTITY), examined.at(NEAR_IDENTITY, WIDE))
+    usable = np.isfinite(examined.e).all(axis=1)
+    here = np.concatenate([np.flatnonzero(which & usable)[::step] for which, step in zip(asked, (1, 20), strict=True)])
+    now, goal = inputs(examined.takes, examined.pairs.chosen(here))
+    refused = None
+    for scale in (1.0 + OFF, 1.0 - OFF):
+        said = ask_of(examined.function, scale * now, scale * goal)
+        for i, reason in enumerate(said.raised):
+            right = examined.e[here[i]]
+            evidence = Evidence(scale * now[i], scale * goal[i], reason or said.e[i], right)
+            if reason:
+                refused = refused or Found(f"it refuses input that is off by {OFF:g}", evidence, NOTE)
+            elif not np.linalg.norm(said.e[i] - right) <= AMPLIFIED * examined.slope:
+                return Found(f"input that is off by {OFF:g} is answered otherwise", evidence)
+    return refused
+
+
+FAULT = Fault(
+    "non-unit",
+    "input that is not quite of unit length",
+    "rounding in a sensor or an integrator becomes a wrong error, or none",
+    "normalize quaternions; keep arguments of acos in their range, or take atan2",
+    "rotation-vector",
+    find,
+    unless=("raises", "not-a-number"),
+)

@@ -1,0 +1,35 @@
+"""The whole vector shortened to a limit."""
+
+import numpy as np
+
+from bench.audit.fault import Fault, Found
+from bench.audit.pairs import CLOSE, WIDE
+
+FEWEST = 10
+SAME = 1e-6
+BENT_RAD = 1e-3
+SHORTER = 0.999
+
+
+def find(examined) -> Found | None:
+    """Many answers have one length, or one largest component, and are shorter than they should be."""
+    if not examined.convention or not examined.convention.form:
+        return None
+    here = np.flatnonzero(examined.at(WIDE, CLOSE) & (examined.apart < BENT_RAD))
+    shorter = here[examined.size[here] < SHORTER * np.linalg.norm(examined.truth[here], axis=1)]
+    for what, length in (("length", examined.size), ("largest component", np.abs(examined.e).max(axis=1))):
+        limit = float(length[here].max(initial=0.0))
+        at_limit = shorter[np.abs(length[shorter] - limit) <= SAME * limit]
+        if len(at_limit) >= FEWEST:
+            return Found(f"the {what} never exceeds {limit:.6g}", examined.evidence(int(at_limit[-1])))
+    return None
+
+
+FAULT = Fault(
+    "norm-clip",
+    "clipped in length",
+    "beyond the limit the stiffness felt falls with the angle while the damping stays: a slow return",
+    "clip the command, not the error; or accept it, for it bends nothing",
+    "rotation-vector",
+    find,
+)

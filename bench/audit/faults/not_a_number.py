@@ -1,0 +1,26 @@
+"""Infinite, or not a number."""
+
+import numpy as np
+
+from bench.audit.fault import Fault, Found
+
+
+def find(examined) -> Found | None:
+    """Three numbers of which one is none."""
+    answered = np.array([not reason for reason in examined.raised])
+    bad = answered & ~np.isfinite(examined.e).all(axis=1)
+    if not bad.any():
+        return None
+    i = int(np.argmax(bad))
+    places = ", ".join(dict.fromkeys(examined.pairs.place[bad]))
+    return Found(f"no finite numbers for {bad.sum()} of {len(bad)} pairs ({places})", examined.evidence(i))
+
+
+FAULT = Fault(
+    "not-a-number",
+    "infinite, or not a number",
+    "a command that is no number passes every comparison with a limit, and then reaches the motors",
+    "divide by no length that can be zero; keep arguments of acos and sqrt in their range",
+    "rotation-vector",
+    find,
+)

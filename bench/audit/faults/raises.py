@@ -1,0 +1,25 @@
+"""No answer at all."""
+
+import numpy as np
+
+from bench.audit.fault import Fault, Found
+
+
+def find(examined) -> Found | None:
+    """It raises, or returns no three numbers."""
+    silent = np.array([bool(reason) for reason in examined.raised])
+    if not silent.any():
+        return None
+    i = int(np.argmax(silent))
+    places = ", ".join(dict.fromkeys(examined.pairs.place[silent]))
+    return Found(f"no answer for {silent.sum()} of {len(silent)} pairs ({places})", examined.evidence(i))
+
+
+FAULT = Fault(
+    "raises",
+    "no answer",
+    "the control loop stops, or keeps its last command",
+    "answer every pair of orientations: there is an error for each",
+    "rotation-vector",
+    find,
+)

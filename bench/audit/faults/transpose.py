@@ -1,0 +1,33 @@
+"""A transpose too many, or one missing."""
+
+from bench.audit.fault import Fault, Found
+from bench.audit.models import axis_of, explanation
+from bench.audit.pairs import Pairs
+
+
+def find(examined) -> Found | None:
+    """The axis of a product with one transpose less; or, if both are stated, the other frame and direction."""
+    stated, found = examined.stated, examined.convention
+    if found and None not in (stated.frame, stated.sign) and (stated.frame, stated.sign) != (found.frame, found.sign):
+        return None if stated.frame == found.frame or stated.sign == found.sign else Found(
+            "frame and direction are both the other than stated: both matrices are transposed, as those of a library "
+            "that stores columns are when they are read by rows"
+        )  # fmt: skip
+    why = explanation(examined, models)
+    return Found(f"e lies along the axis of {why[0]}", examined.evidence(why[1])) if why else None
+
+
+def models(pairs: Pairs):
+    """Products of two rotations without a transpose; with two the line is that of the other order."""
+    yield "R_d R, not of R_d R^T", axis_of(pairs.R_d @ pairs.R)
+    yield "R R_d, not of R^T R_d", axis_of(pairs.R @ pairs.R_d)
+
+
+FAULT = Fault(
+    "transpose",
+    "a matrix is transposed",
+    "unless R is near the identity the command does not lead to the goal",
+    "transpose once, R_d R^T or R^T R_d; mind libraries that store columns",
+    "rotation-matrix",
+    find,
+)

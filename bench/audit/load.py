@@ -1,0 +1,142 @@
+"""The function that a user names: in a Python file or module, of a class, or a symbol of a shared library.
+
+    my_file.py:my_error         package.module:my_error         libmine.so:my_error
+    my_file.py:MyController     a class: its instance is called, or its only method of two orientations
+
+A C function has the signature
+
+    void f(const double R[9], const double R_d[9], double e[3]);     matrices by rows, or
+    void f(const double q[4], const double q_d[4], double e[3]);     quaternions
+
+and is given buffers of 16 numbers, so that asking it for the wrong kind reads nothing that is not there.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import importlib
+import importlib.util
+import inspect
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from bench.errors import BadFunction
+
+LIBRARIES = (".so", ".dylib", ".dll")
+BUFFER = 16
+
+
+def load(target: str) -> Callable:
+    """The function that FILE:NAME or MODULE:NAME names. This runs the file.
+
+    Errors:
+        BadFunction: nothing that can be asked is there.
+    """
+    place, colon, name = target.rpartition(":")
+    if not (place and colon and name):
+        raise BadFunction(f"'{target}' names no function; give FILE.py:NAME, MODULE:NAME or LIBRARY.so:SYMBOL")
+    if place.endswith(LIBRARIES):
+        return of_library(Path(place), name)
+    module = of_file(Path(place)) if place.endswith(".py") else of_name(place)
+    try:
+        found = getattr(module, name)
+    except AttributeError:
+        public = [word for word in vars(module) if not word.startswith("_")]
+        raise BadFunction(f"{place} has no '{name}'; it has {', '.join(public) or 'nothing'}") from None
+    return of_class(found, target) if inspect.isclass(found) else callable_one(found, target)
+
+
+def existing(path: Path) -> Path:
+    """The path, if there is a file."""
+    if not path.is_file():
+        raise BadFunction(f"there is no file {path}; give the path of a Python file or of a shared library")
+    return path
+
+
+def of_file(path: Path):
+    """A Python file as a module, its folder among those that it may import from."""
+    spec: Any = importlib.util.spec_from_file_location(f"audited_{path.stem}", existing(path))
+    module = importlib.util.module_from_spec(spec)
+    sys.path.insert(0, str(path.resolve().parent))
+    try:
+        spec.loader.exec_module(module)
+    except (Exception, SystemExit) as error:
+        raise BadFunction(f"{path} does not import ({type(error).__name__}: {error}); mend the file") from error
+    finally:
+        sys.path.pop(0)
+    return module
+
+
+def of_name(name: str):
+    """A module that can be imported from here."""
+    sys.path.insert(0, str(Path.cwd()))
+    try:
+        return importlib.import_module(name)
+    except (Exception, SystemExit) as error:
+        raise BadFunction(
+            f"{name} does not import ({type(error).__name__}: {error}); give FILE.py:NAME, or install the package"
+        ) from error
+    finally:
+        sys.path.pop(0)
+
+
+def of_class(found: type, target: str) -> Callable:
+    """An instance's function: the instance itself, or its only public method that takes two things."""
+    try:
+        instance = found()
+    except Exception as error:
+        raise BadFunction(
+            f"{target}() raises {type(error).__name__}: {error}; give a class that needs no arguments, or a function"
+        ) from error
+    if callable(instance):
+        return instance
+    methods = [name for name, _ in inspect.getmembers(instance, inspect.ismethod) if takes_two(instance, name)]
+    if len(methods) != 1:
+        said = f"several ({', '.join(methods)})" if methods else "none"
+        raise BadFunction(f"{target}: of methods that take two orientations it has {said}; give it a __call__(R, R_d)")
+    return getattr(instance, methods[0])
+
+
+def takes_two(instance, name: str) -> bool:
+    """Whether a public method can be called with two arguments."""
+    if name.startswith("_"):
+        return False
+    try:
+        inspect.signature(getattr(instance, name)).bind(None, None)
+    except TypeError:
+        return False
+    return True
+
+
+def callable_one(found, target: str) -> Callable:
+    """What can be called, as it is."""
+    if not callable(found):
+        raise BadFunction(f"{target} is {type(found).__name__}, no function; give one of (R, R_d) or (q, q_d)")
+    return found
+
+
+def of_library(path: Path, symbol: str) -> Callable:
+    """A function of C."""
+    try:
+        library = ctypes.CDLL(str(existing(path).resolve()))
+    except OSError as error:
+        raise BadFunction(f"{path} does not load ({error}); build it as a shared library of this machine") from error
+    try:
+        function = getattr(library, symbol)
+    except AttributeError:
+        raise BadFunction(f"{path} has no symbol '{symbol}'; declare it extern \"C\" (try: nm -D {path})") from None
+    numbers = np.ctypeslib.ndpointer(dtype=np.float64, shape=(BUFFER,), flags="C_CONTIGUOUS")
+    function.argtypes, function.restype = (numbers, numbers, numbers), None
+
+    def ask(now, goal) -> np.ndarray:
+        given, wanted, e = (np.zeros(BUFFER) for _ in range(3))
+        given[: now.size], wanted[: goal.size] = now.ravel(), goal.ravel()
+        e[:3] = np.nan  # what it leaves unwritten is no number
+        function(given, wanted, e)
+        return e[:3]
+
+    return ask

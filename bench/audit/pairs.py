@@ -1,0 +1,169 @@
+"""The pairs of orientations at which a function is asked, with the rotation theta about k from R to R_d that is true.
+
+A pair is made from integers and from cos(theta/2), sin(theta/2): R_d = T R. Where digits or exactness matter, R is one
+of the four diagonal rotations, by which products are exact, so that T itself is what the function sees; elsewhere R is
+drawn, uniform. Quaternions have q . q_d >= 0.
+"""
+
+from __future__ import annotations
+
+import functools
+from typing import NamedTuple
+
+import numpy as np
+
+WIDE, CLOSE, FINE = "wide", "close", "fine"
+IDENTITY, NEAR_IDENTITY, NEAR_180, AT_180 = "identity", "near-identity", "near-180", "at-180"
+POLE, CUBE = "pole", "cube"
+
+SEED = 7
+LARGEST = 1000
+"""Of drawn integers: fine enough that no two axes are one."""
+
+
+class Pairs(NamedTuple):
+    """Some pairs: place (n), R and R_d (n x 3 x 3), q and q_d (n x 4, wxyz), axis in base (n x 3), angle (n).
+
+    distance (n): pi - angle, with all its digits.
+    """
+
+    place: np.ndarray
+    R: np.ndarray
+    R_d: np.ndarray
+    q: np.ndarray
+    q_d: np.ndarray
+    axis: np.ndarray
+    angle: np.ndarray
+    distance: np.ndarray
+
+    def chosen(self, which) -> Pairs:
+        """Those of a mask, of indices or of a slice."""
+        return Pairs(*(field[which] for field in self))
+
+
+def matrices(q: np.ndarray) -> np.ndarray:
+    """R (n x 3 x 3) of unit quaternions (n x 4)."""
+    w, x, y, z = q.T
+    rows = (
+        (w * w + x * x - y * y - z * z, 2.0 * (x * y - w * z), 2.0 * (x * z + w * y)),
+        (2.0 * (x * y + w * z), w * w - x * x + y * y - z * z, 2.0 * (y * z - w * x)),
+        (2.0 * (x * z - w * y), 2.0 * (y * z + w * x), w * w - x * x - y * y + z * z),
+    )
+    return np.moveaxis(np.array(rows), 2, 0)
+
+
+def product(p: np.ndarray, q: np.ndarray) -> np.ndarray:
+    """Hamilton products p q (n x 4): first q, then p."""
+    w, v, u, r = p[:, :1], p[:, 1:], q[:, :1], q[:, 1:]
+    return np.hstack((w * u - (v * r).sum(axis=1, keepdims=True), w * r + u * v + np.cross(v, r)))
+
+
+def made(place: str, q: np.ndarray, axis: np.ndarray, cosine, sine) -> Pairs:
+    """Pairs from q (n x 4), axes of any length (n x 3), and the functions of half the angle.
+
+    T = I + 2 c s K + 2 s^2 K^2 with K = [k x]: near 180° and at it every element is right to an ulp, and T symmetric.
+    """
+    count = len(q)
+    cosine, sine = np.broadcast_to(cosine, count), np.broadcast_to(sine, count)
+    square = (axis * axis).sum(axis=1)
+    k = axis / np.sqrt(square)[:, None]
+    N = np.cross(axis[:, None, :], np.eye(3)).swapaxes(1, 2)
+    first, second = 2.0 * cosine * sine / np.sqrt(square), 2.0 * sine * sine / square
+    T = np.eye(3) + first[:, None, None] * N + second[:, None, None] * (N @ N)
+    R = matrices(q)
+    return Pairs(
+        np.full(count, place),
+        R,
+        T @ R,
+        q,
+        product(np.hstack((cosine[:, None], sine[:, None] * k)), q),
+        k,
+        2.0 * np.arctan2(sine, cosine),
+        2.0 * np.arctan2(cosine, sine),
+    )
+
+
+def joined(*parts: Pairs) -> Pairs:
+    """All of them."""
+    return Pairs(*map(np.concatenate, zip(*parts, strict=True)))
+
+
+CUBE_AXES = np.array(
+    sorted(((x, y, z) for x in (1, 0, -1) for y in (1, 0, -1) for z in (1, 0, -1) if (x, y, z) != (0, 0, 0)),
+           key=lambda k: np.abs(k).sum()),
+    dtype=float,
+)  # fmt: skip
+"""To the faces, edges and corners of a cube, in this order."""
+
+
+def diagonal(count: int) -> np.ndarray:
+    """The quaternions 1, i, j, k in turn, 1 first."""
+    return np.eye(4)[np.arange(count) % 4]
+
+
+def drawn_axes(rng, count: int) -> np.ndarray:
+    """Integers in every direction."""
+    return rng.integers(1, LARGEST, size=(count, 3)) * rng.choice((-1.0, 1.0), size=(count, 3))
+
+
+def drawn_orientations(rng, count: int) -> np.ndarray:
+    """Unit quaternions of integers, uniform: those of a cube within the ball."""
+    found = rng.integers(-LARGEST, LARGEST + 1, size=(8 * count, 4)).astype(float)
+    square = (found * found).sum(axis=1)
+    kept = found[(square <= LARGEST**2) & (square > 1.0)][:count]
+    return kept / np.sqrt((kept * kept).sum(axis=1))[:, None]
+
+
+def at_angles(place: str, rng, angles: np.ndarray) -> Pairs:
+    """One pair an angle, from drawn orientations about drawn axes."""
+    count = len(angles)
+    return made(
+        place, drawn_orientations(rng, count), drawn_axes(rng, count), np.cos(angles / 2.0), np.sin(angles / 2.0)
+    )
+
+
+def at_decades(place: str, rng, is_near_180: bool) -> Pairs:
+    """1, 2 and 5 times every power of ten from 10^-12 to 10^-1 rad: of the angle, or of what lacks to 180°."""
+    lengths = np.array([times * 10.0**-decade for decade in range(12, 0, -1) for times in (1, 2, 5)])
+    axes = np.vstack((CUBE_AXES[:12], drawn_axes(rng, 4)))
+    half, axis = np.repeat(lengths / 2.0, len(axes)), np.tile(axes, (len(lengths), 1))
+    whole = (np.sin(half), np.cos(half)) if is_near_180 else (np.cos(half), np.sin(half))
+    return made(place, diagonal(len(half)), axis, *whole)
+
+
+def at_180(rng) -> Pairs:
+    """Exactly 180°: about coordinate axes, axes with zero components and drawn ones; then from drawn orientations."""
+    axes = np.vstack((CUBE_AXES, (3, 4, 0), (0, -5, 12), (8, 0, 15), drawn_axes(rng, 19)))
+    exact = [made(AT_180, np.tile(np.eye(4)[i], (len(axes), 1)), axes, 0.0, 1.0) for i in range(4)]
+    return joined(*exact, made(AT_180, drawn_orientations(rng, 48), drawn_axes(rng, 48), 0.0, 1.0))
+
+
+def at_poles(rng) -> Pairs:
+    """R with a middle Euler angle of +-90° about each axis, and rotations by +-90° about each from drawn ones."""
+    root = np.sqrt(0.5)
+    axes = np.repeat(np.vstack((np.eye(3), -np.eye(3))), 12, axis=0)
+    poles = np.hstack((np.full((len(axes), 1), root), root * axes))
+    goals = made(POLE, poles, drawn_axes(rng, len(axes)), np.cos(0.3), np.sin(0.3))
+    return joined(goals, made(POLE, drawn_orientations(rng, len(axes)), axes, root, root))
+
+
+@functools.cache
+def every_pair() -> Pairs:
+    """All of them, the simplest of a place first."""
+    rng = np.random.default_rng(SEED)
+    cube = np.vstack((np.eye(4), [(0.5, x, y, z) for x in (0.5, -0.5) for y in (0.5, -0.5) for z in (0.5, -0.5)]))
+    whole = np.vstack((cube, drawn_orientations(rng, 28)))
+    turned = np.repeat(cube[:6], len(CUBE_AXES), axis=0), np.tile(CUBE_AXES, (6, 1))
+    root = np.sqrt(0.5)
+    return joined(
+        at_angles(WIDE, rng, np.linspace(0.3, 2.8, 600)),
+        at_angles(CLOSE, rng, np.linspace(0.05, 0.3, 200)),
+        at_angles(FINE, rng, np.linspace(0.005, 0.05, 100)),
+        made(IDENTITY, whole, np.ones((len(whole), 3)), 1.0, 0.0),
+        at_decades(NEAR_IDENTITY, rng, is_near_180=False),
+        at_decades(NEAR_180, rng, is_near_180=True),
+        at_180(rng),
+        at_poles(rng),
+        made(CUBE, *turned, root, root),
+        made(CUBE, *turned, 0.5, np.sqrt(0.75)),
+    )

@@ -1,0 +1,116 @@
+"""What is said of a function: for people, and for machines."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from bench.audit.convention import Convention
+from bench.audit.fault import NOTE, Evidence, Finding
+
+PAGE = "24-check-your-error"
+
+
+class Report(NamedTuple):
+    """The convention of a function (None if no convention explains its answers), and what was found."""
+
+    name: str
+    pairs: int
+    takes: str
+    convention: Convention | None
+    findings: tuple[Finding, ...]
+
+    @property
+    def faults(self) -> tuple[str, ...]:
+        """Names of the faults that are not accepted."""
+        return tuple(one.fault.name for one in self.findings if one.is_fault)
+
+    def text(self) -> str:
+        """The whole report."""
+        return "\n\n".join((self.head(), *(paragraph(self.name, one) for one in self.findings))) + "\n"
+
+    def head(self) -> str:
+        """Verdict and convention."""
+        said = self.convention.text() if self.convention else "none that is known explains its answers"
+        verdict = f"FAULTS: {', '.join(self.faults)}" if self.faults else "no fault found"
+        return f"{self.name}: {verdict} ({self.pairs} pairs)\nConvention found: {said}"
+
+    def as_dict(self) -> dict[str, Any]:
+        """For JSON."""
+        return {
+            "function": self.name,
+            "pairs": self.pairs,
+            "faults": list(self.faults),
+            "takes": self.takes,
+            "convention": self.convention._asdict() if self.convention else None,
+            "findings": [as_dict(one) for one in self.findings],
+        }
+
+
+def page(finding: Finding) -> str:
+    """Where it is explained."""
+    return f"report/pages/{PAGE}.md#{finding.fault.name}"
+
+
+def word(finding: Finding) -> str:
+    """fault, note, or accepted."""
+    return "accepted" if finding.is_accepted and finding.found.severity != NOTE else finding.found.severity
+
+
+def paragraph(name: str, finding: Finding) -> str:
+    """One finding for people."""
+    fault, found = finding.fault, finding.found
+    lines = [
+        f"{word(finding)} {fault.name}: {fault.title}",
+        f"  {found.text}",
+        f"  Effect: {fault.effect}",
+        f"  Cure: {fault.cure} (law: {fault.law}; {page(finding)})",
+    ]
+    return "\n".join((*lines, *(f"    {line}" for line in code(name, found.evidence))))
+
+
+def code(name: str, evidence: Evidence | None) -> list[str]:
+    """The pair as lines to paste."""
+    if evidence is None:
+        return []
+    now, goal = ("R", "R_d") if evidence.now.shape == (3, 3) else ("q", "q_d")
+    right = f"; right is {numbers(evidence.right)}" if len(evidence.right) else ""
+    return [
+        f"{now} = np.array({numbers(evidence.now)})",
+        f"{goal} = np.array({numbers(evidence.goal)})",
+        f"{call(name)}({now}, {goal})  # {numbers(evidence.said)}{right}",
+    ]
+
+
+def call(name: str) -> str:
+    """How a function of this name is written in code."""
+    return name.rpartition(":")[2].rpartition(".")[2] or name
+
+
+def numbers(value: np.ndarray | str) -> str:
+    """With all digits, without negative zeros."""
+    return value if isinstance(value, str) else str((np.asarray(value) + 0.0).tolist())
+
+
+def as_dict(finding: Finding) -> dict[str, Any]:
+    """One finding for machines; numbers that are none as words, for JSON has no other."""
+    evidence = finding.found.evidence
+    return {
+        "name": finding.fault.name,
+        "severity": word(finding),
+        "title": finding.fault.title,
+        "text": finding.found.text,
+        "effect": finding.fault.effect,
+        "cure": finding.fault.cure,
+        "law": finding.fault.law,
+        "page": page(finding),
+        "evidence": {key: plain(value) for key, value in evidence._asdict().items()} if evidence else None,
+    }
+
+
+def plain(value: np.ndarray | str) -> Any:
+    """As JSON can hold it."""
+    if isinstance(value, str):
+        return value
+    return value.tolist() if np.isfinite(value).all() else [str(one) for one in value.ravel().tolist()]

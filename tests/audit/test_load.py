@@ -1,0 +1,209 @@
+"""What can be audited: functions, classes, C; every mistake has its cure."""
+
+import json
+import shutil
+import subprocess
+
+import numpy as np
+import pytest
+from support.command_line import bench, refused
+
+from bench.audit import audit
+from bench.audit.load import load
+from bench.errors import BadFunction, BadNumber, UnknownWord
+
+FILE = """
+import numpy as np
+
+def columns(R, R_d):
+    return 0.5 * sum(np.cross(R[:, i], R_d[:, i]) for i in range(3))
+
+def half(R, R_d):
+    return 0.5 * columns(R, R_d)
+
+def vector_part(q, q_d):
+    return 2.0 * (q[0] * q_d[1:] - q_d[0] * q[1:] - np.cross(q_d[1:], q[1:]))
+
+def four(R, R_d):
+    return np.zeros(4)
+
+def words(R, R_d):
+    return "abc"
+
+class Called:
+    def __call__(self, R, R_d):
+        return columns(R, R_d)
+
+class Controller:
+    gain = 100.0
+
+    def reset(self):
+        pass
+
+    def orientation_error(self, R, R_d, scale=1.0):
+        return scale * columns(R, R_d)
+
+class Two:
+    def error(self, R, R_d): pass
+    def torque(self, R, R_d): pass
+
+class None_:
+    pass
+
+class Wants:
+    def __init__(self, gain): pass
+"""
+
+C = """
+void columns(const double R[9], const double R_d[9], double e[3]) {
+    for (int k = 0; k < 3; k++) {
+        const int i = (k + 1) % 3, j = (k + 2) % 3;
+        e[k] = 0.0;
+        for (int c = 0; c < 3; c++) e[k] += 0.5 * (R[3 * i + c] * R_d[3 * j + c] - R[3 * j + c] * R_d[3 * i + c]);
+    }
+}
+
+/* xyzw; no sign */
+void vector_part(const double q[4], const double p[4], double e[3]) {
+    for (int k = 0; k < 3; k++) {
+        const int i = (k + 1) % 3, j = (k + 2) % 3;
+        e[k] = 2.0 * (q[3] * p[k] - p[3] * q[k] - (p[i] * q[j] - p[j] * q[i]));
+    }
+}
+
+void lazy(const double R[9], const double R_d[9], double e[3]) { e[0] = R[0]; }
+"""
+
+
+@pytest.fixture
+def file(tmp_path):
+    path = tmp_path / "my_file.py"
+    path.write_text(FILE)
+    return path
+
+
+@pytest.fixture(scope="module")
+def library(tmp_path_factory):
+    if shutil.which("cc") is None:
+        pytest.skip("this machine has no C compiler")
+    folder = tmp_path_factory.mktemp("c")
+    (folder / "mine.c").write_text(C)
+    subprocess.run(["cc", "-shared", "-fPIC", "-O1", "-o", "libmine.so", "mine.c"], cwd=folder, check=True)
+    return folder / "libmine.so"
+
+
+@pytest.mark.parametrize("name", ["columns", "Called", "Controller"])
+def test_function_and_class_of_a_file_are_asked(file, name):
+    report = audit(load(f"{file}:{name}"))
+    assert (report.convention.form, report.faults) == ("sine", ())
+
+
+def test_function_of_a_module_is_asked(file, monkeypatch):
+    monkeypatch.chdir(file.parent)
+    assert audit(load("my_file:half")).faults == ("stiffness",)
+
+
+def test_c_function_of_matrices_is_that_of_python(library, file):
+    rng = np.random.default_rng(1)
+    R, R_d = rng.normal(size=(2, 3, 3))
+    ours, theirs = load(f"{file}:columns"), load(f"{library}:columns")
+    np.testing.assert_allclose(theirs(R, R_d), ours(R, R_d), rtol=0.0, atol=1e-15)
+    assert audit(theirs).convention == audit(ours).convention
+
+
+def test_c_function_of_quaternions_is_known_for_one_and_its_missing_sign_found(library):
+    report = audit(load(f"{library}:vector_part"))
+    assert (report.convention.takes, report.convention.form) == ("xyzw", "sine-of-half")
+    assert report.faults == ("double-cover",)
+
+
+def test_c_function_that_leaves_numbers_unwritten_returns_no_numbers(library):
+    assert "not-a-number" in audit(load(f"{library}:lazy")).faults
+
+
+@pytest.mark.parametrize(
+    ("target", "said"),
+    [
+        ("columns", "names no function; give FILE.py:NAME"),
+        ("nowhere.py:f", "there is no file nowhere.py"),
+        ("nowhere.so:f", "there is no file nowhere.so"),
+        ("no_such_module:f", "give FILE.py:NAME, or install the package"),
+        ("{file}:colums", "has no 'colums'; it has np, columns"),
+        ("{file}:np", "is module, no function"),
+        ("{file}:Two", "several (error, torque); give it a __call__(R, R_d)"),
+        ("{file}:None_", "none; give it a __call__(R, R_d)"),
+        ("{file}:Wants", "give a class that needs no arguments"),
+        ("{broken}:f", "does not import (SyntaxError"),
+        ("{broken_library}:f", "does not load"),
+    ],
+)
+def test_mistake_in_a_name_is_refused_with_its_cure(file, target, said):
+    broken, broken_library = file.parent / "broken.py", file.parent / "broken.so"
+    broken.write_text("def f(:")
+    broken_library.write_text("no library")
+    with pytest.raises(BadFunction) as error:
+        load(target.format(file=file, broken=broken, broken_library=broken_library))
+    assert said in str(error.value)
+
+
+def test_missing_symbol_is_refused(library):
+    with pytest.raises(BadFunction, match=r"no symbol 'missing'; declare it extern"):
+        load(f"{library}:missing")
+
+
+@pytest.mark.parametrize(("name", "said"), [("four", r"an array of shape \(4,\)"), ("words", "str")])
+def test_function_of_another_shape_is_refused(file, name, said):
+    with pytest.raises(BadFunction, match=rf"{name} returns three numbers neither .*{said}.*; wrap it"):
+        audit(load(f"{file}:{name}"))
+
+
+@pytest.mark.parametrize("words", [{"takes": "quat"}, {"frame": "world"}, {"sign": "plus"}, {"accept": ("norm-clop",)}])
+def test_unknown_word_is_refused_with_the_known_ones(file, words):
+    with pytest.raises(UnknownWord, match="known: "):
+        audit(load(f"{file}:columns"), **words)
+
+
+@pytest.mark.parametrize("stiffness", [0.0, -1.0, float("nan"), float("inf")])
+def test_stiffness_that_is_not_positive_is_refused(file, stiffness):
+    with pytest.raises(BadNumber):
+        audit(load(f"{file}:columns"), stiffness=stiffness)
+
+
+# --------------------------------------------------------------------------- the command
+
+
+def test_command_ends_with_0_and_a_note(capsys, file):
+    said = bench(capsys, "audit", f"{file}:columns")
+    assert (said.code, said.err) == (0, "")
+    assert "no fault found" in said.out
+    assert "note dead-at-180" in said.out
+
+
+def test_command_ends_with_1_on_a_fault_and_0_if_it_is_accepted(capsys, file):
+    assert bench(capsys, "audit", f"{file}:half").code == 1
+    assert bench(capsys, "audit", f"{file}:half", "--accept", "stiffness").code == 0
+    assert bench(capsys, "audit", f"{file}:half", "--stiffness", "0.5").code == 0
+
+
+def test_command_refuses_a_mistake_on_one_line(capsys, file):
+    assert "has no 'colums'" in refused(capsys, "audit", f"{file}:colums")
+    assert "'world' is unknown" in refused(capsys, "audit", f"{file}:half", "--frame", "world")
+
+
+def test_command_writes_all_of_it_as_json(capsys, file, tmp_path):
+    bench(capsys, "audit", f"{file}:vector_part", "--json", tmp_path / "x.json")
+    found = json.loads((tmp_path / "x.json").read_text())
+    assert found["faults"] == ["double-cover"]
+    assert (found["convention"]["takes"], found["convention"]["frame"]) == ("wxyz", "base")
+    (finding,) = found["findings"]
+    assert len(finding["evidence"]["now"]) == 4
+
+
+def test_evidence_in_the_text_is_code_that_gives_the_same_answer(capsys, file):
+    out = bench(capsys, "audit", f"{file}:half").out
+    lines = [line.strip() for line in out.partition("fault stiffness")[2].splitlines()]
+    code = [line for line in lines if line.startswith(("R =", "R_d =", "half("))]
+    names = {"np": np, "half": load(f"{file}:half")}
+    exec("\n".join(code[:2]), names)
+    answer, _, said = code[2].partition("  # ")
+    np.testing.assert_array_equal(eval(answer, names), eval(said.partition(";")[0]))

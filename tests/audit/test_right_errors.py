@@ -1,0 +1,59 @@
+"""Against right errors nothing is said, and their conventions are found."""
+
+import numpy as np
+import pytest
+from support.planted import audited
+from support.right_errors import RIGHT, scipy_in_base
+
+from bench.audit import audit
+from bench.audit.fault import NOTE
+
+NAMED = pytest.mark.parametrize("function", RIGHT, ids=lambda one: one.__name__)
+
+
+@NAMED
+def test_nothing_is_said_against_a_right_error(function):
+    report = audited(function)
+    notes = {(one.fault.name, one.found.severity) for one in report.findings}
+    assert notes == ({("dead-at-180", NOTE)} if report.convention.form == "sine" else set())
+    assert report.faults == ()
+
+
+@NAMED
+def test_convention_is_found(function):
+    found = audited(function).convention
+    assert (found.takes, found.frame, found.sign, found.form) == RIGHT[function]
+    assert found.slope == pytest.approx(1.0, abs=1e-6)
+
+
+def test_right_errors_are_twenty_and_of_every_convention():
+    assert len(RIGHT) >= 20
+    assert {one[0] for one in RIGHT.values()} == {"matrix", "wxyz", "xyzw"}
+    assert {one[1:3] for one in RIGHT.values()} == {(f, s) for f in ("base", "body") for s in ("to-goal", "from-goal")}
+
+
+@pytest.mark.parametrize("scale", [0.5, 2.0, 30.0])
+def test_slope_is_the_gain_that_is_in_a_function(scale):
+    def scaled(R, R_d):
+        return scale * scipy_in_base(R, R_d)
+
+    assert audit(scaled).convention.slope == pytest.approx(scale)
+    assert audit(scaled).faults == ("stiffness",)
+    assert audit(scaled, stiffness=scale).faults == ()
+
+
+def test_function_that_writes_on_its_input_is_asked_all_the_same():
+    def writes(R, R_d):
+        e = scipy_in_base(R, R_d)
+        R[:], R_d[:] = 0.0, 0.0
+        return e
+
+    assert audit(writes).faults == ()
+
+
+def test_function_that_takes_both_kinds_of_input_is_asked_as_stated():
+    def both(now, goal):
+        return scipy_in_base(now, goal) if now.shape == (3, 3) else np.zeros(3)
+
+    assert audit(both).takes == audit(both, "matrix").takes == "matrix"
+    assert audit(both, "wxyz").convention is None
