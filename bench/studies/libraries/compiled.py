@@ -1,4 +1,4 @@
-"""C++ that calls a library of Debian's, compiled here: a file of asked/cpp, each function taking a rotation and giving e."""
+"""C++ that calls a library of Debian's, compiled here: a file of asked/cpp, whose functions give e of a rotation."""
 
 import ctypes
 import functools

@@ -40,7 +40,7 @@ def find(*names: str) -> Found:
     for name in names or files:
         try:
             module = importlib.import_module(f"{asked.__name__}.{name}")
-        except ImportError as error:
+        except ImportError as error:  # not installed, or no compiler
             missing[name] = str(error)
         else:
             libraries += module.LIBRARIES if hasattr(module, "LIBRARIES") else (module.LIBRARY,)

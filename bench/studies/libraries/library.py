@@ -12,6 +12,8 @@ from typing import NamedTuple
 import numpy as np
 
 MATRIX, QUATERNION = "matrix", "quaternion"
+ANGLES = "z-y-x"
+"""The form of functions that return angles, which are no error along the axis."""
 
 
 class Function(NamedTuple):
@@ -45,8 +47,8 @@ class Controller(NamedTuple):
 class Library(NamedTuple):
     """A library by the name that its package is installed under, and what is asked of it.
 
-    is_debian: the package is one of Debian's, compiled here. is_restated: nothing of theirs runs; what their source says
-    is written anew, and `package` is where it stands.
+    is_debian: the package is one of Debian's, compiled here. is_restated: nothing of theirs runs; what their source
+    says is written anew, and `package` is where it stands.
     """
 
     name: str

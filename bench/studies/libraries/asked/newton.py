@@ -12,7 +12,7 @@ warp.config.quiet = True
 @warp.kernel
 def axis_angle(given: warp.array(dtype=warp.quat), e: warp.array(dtype=warp.vec3)):  # type: ignore[valid-type]
     """warp.quat_to_axis_angle, angle times axis."""
-    axis, angle = warp.vec3(), float(0.0)
+    axis, angle = warp.vec3(), 0.0
     warp.quat_to_axis_angle(given[0], axis, angle)
     e[0] = angle * axis
 
@@ -20,7 +20,7 @@ def axis_angle(given: warp.array(dtype=warp.quat), e: warp.array(dtype=warp.vec3
 @warp.kernel
 def of_matrix(given: warp.array(dtype=warp.mat33), e: warp.array(dtype=warp.vec3)):  # type: ignore[valid-type]
     """warp.quat_from_matrix, then quat_to_axis_angle."""
-    axis, angle = warp.vec3(), float(0.0)
+    axis, angle = warp.vec3(), 0.0
     warp.quat_to_axis_angle(warp.quat_from_matrix(given[0]), axis, angle)
     e[0] = angle * axis
 
@@ -45,7 +45,7 @@ def matrix_to_axis_angle(R) -> np.ndarray:
 
 
 class Residual:
-    """IKObjectiveRotation of one free body whose goal is the identity; the residual of an orientation T is T's error."""
+    """IKObjectiveRotation of one free body whose goal is the identity: its residual at T is T's error."""
 
     def __init__(self) -> None:
         builder = newton.ModelBuilder()
@@ -59,7 +59,8 @@ class Residual:
         self.objective.bind_device(self.model.device)
         self.objective.init_buffers(self.model, newton.ik.IKJacobianType.ANALYTIC)
 
-    def __call__(self, quat_wxyz) -> np.ndarray:
+    def at(self, quat_wxyz) -> np.ndarray:
+        """The residual of a body at this orientation."""
         pose = np.array([[(0.0, 0.0, 0.0, *quat_wxyz[[1, 2, 3, 0]])]], dtype=np.float32)
         bodies = warp.array(pose, dtype=warp.transform, device="cpu")
         self.objective.compute_residuals(bodies, None, self.model, self.residuals, 0, self.first)
@@ -70,7 +71,7 @@ LIBRARY = Library(
     "newton",
     "newton",
     (
-        Function("ik.IKObjectiveRotation, residual", QUATERNION, Residual()),
+        Function("ik.IKObjectiveRotation, residual", QUATERNION, Residual().at),
         Function("warp.quat_to_axis_angle", QUATERNION, quat_to_axis_angle),
         Function("warp.quat_from_matrix, quat_to_axis_angle", MATRIX, matrix_to_axis_angle),
     ),

@@ -9,7 +9,6 @@ from spatialmath import base
 from bench.studies.libraries.free_body import driven
 from bench.studies.libraries.library import MATRIX, Controller, Function, Library
 
-
 DT_S = 0.05
 
 

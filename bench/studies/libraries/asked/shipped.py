@@ -1,8 +1,7 @@
 """Controllers that cannot be installed here: the orientation error that their source states, written anew.
 
-Each is read at the commit beside it. Their damping is 2 sqrt(stiffness) as delivered (serl's, 7 at 150, apart), which at
-kp = 100 is the suite's kv = 20; what differs is the error. T is the rotation that is left to go, in base coordinates: for a clip per
-axis, which is no law of the rotation alone, the axes are the base's.
+Each is read at the commit beside it. Their damping is 2 sqrt(stiffness) as delivered (serl's, 7 at 150, apart), which
+at kp = 100 is the suite's kv = 20; what differs is the error. A clip per axis is along the axes of the base.
 """
 
 import math
@@ -70,5 +69,7 @@ LIBRARIES = (
     restated("serl_franka_controllers", "rail-berkeley/serl_franka_controllers@5576ce17", clipped_vector_part),
     restated("Isaac Gym idiom", "isaacgym/python/examples/franka_cube_ik_osc.py@Preview 4", times_sign),
     restated("crisp_controllers", "utiasDSL/crisp_controllers@2b33ab77", clipped_logarithm),
-    restated("cartesian_controllers", "fzi-forschungszentrum-informatik/cartesian_controllers@017b68d6", bounded_logarithm),
+    restated(
+        "cartesian_controllers", "fzi-forschungszentrum-informatik/cartesian_controllers@017b68d6", bounded_logarithm
+    ),
 )
