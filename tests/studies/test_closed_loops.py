@@ -1,4 +1,4 @@
-"""Other libraries' errors in closed loop: closed forms, dead points, unwinding, stiffness; verdicts and what is fixed."""
+"""Other libraries' errors in closed loop: closed forms, dead points, unwinding; verdicts, and what is fixed."""
 
 import math
 
