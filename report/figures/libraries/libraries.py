@@ -158,7 +158,7 @@ def controllers() -> list[tuple]:
         (
             asked(one) if one.kind == "controller" else one.library,
             one.command,
-            html.MISSING if one.kind == "controller" else one.faults or "right",
+            loops.verdict(one) if one.kind == "controller" else one.faults or "right",
             f"{one.stiffness:.2g}" if one.kind != "controller" else html.MISSING,
             loops.dead(one),
             loops.settling(one),

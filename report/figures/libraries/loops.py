@@ -71,3 +71,9 @@ def dead(one) -> str:
 def away(one) -> str:
     """Of a line: how many starts turn away from the goal first."""
     return f"{one.away} of {one.starts}" if one.away else html.MISSING
+
+
+def verdict(one) -> str:
+    """Of a controller's line, in the check's words where it has them."""
+    words = {"dead-at-180": one.dead, "not settled": one.unsettled, "long-way": one.away}
+    return ", ".join(word for word, count in words.items() if count) or "right"
