@@ -6,8 +6,6 @@ import warp
 
 from bench.studies.libraries.library import MATRIX, QUATERNION, Function, Library
 
-warp.config.quiet = True
-
 
 @warp.kernel
 def axis_angle(given: warp.array(dtype=warp.quat), e: warp.array(dtype=warp.vec3)):  # type: ignore[valid-type]
