@@ -10,7 +10,7 @@ from bench.studies.libraries.library import MATRIX, QUATERNION, Function, Librar
 @warp.kernel
 def axis_angle(given: warp.array(dtype=warp.quat), e: warp.array(dtype=warp.vec3)):  # type: ignore[valid-type]
     """warp.quat_to_axis_angle, angle times axis."""
-    axis, angle = warp.vec3(), 0.0
+    axis, angle = warp.vec3(), float(0.0)  # noqa: UP018 - to Warp float(0.0) is a variable, 0.0 a constant
     warp.quat_to_axis_angle(given[0], axis, angle)
     e[0] = angle * axis
 
@@ -18,7 +18,7 @@ def axis_angle(given: warp.array(dtype=warp.quat), e: warp.array(dtype=warp.vec3
 @warp.kernel
 def of_matrix(given: warp.array(dtype=warp.mat33), e: warp.array(dtype=warp.vec3)):  # type: ignore[valid-type]
     """warp.quat_from_matrix, then quat_to_axis_angle."""
-    axis, angle = warp.vec3(), 0.0
+    axis, angle = warp.vec3(), float(0.0)  # noqa: UP018 - to Warp float(0.0) is a variable, 0.0 a constant
     warp.quat_to_axis_angle(warp.quat_from_matrix(given[0]), axis, angle)
     e[0] = angle * axis
 
