@@ -17,6 +17,8 @@ REPORT := $(VENV)/.report
 CLUSTER := $(VENV)/.cluster
 DEV := $(VENV)/.dev
 LIBRARIES := .venv-libraries
+# Libraries that contradict the others, each with an environment of its own.
+APART := placo robosuite
 AUDIT := .venv-audit
 ARRAYS := .venv-arrays
 
@@ -60,9 +62,10 @@ time:   ## time every law per control tick on this machine: results/timings
 time: $(READY)
 	@$(PY) -m bench time $(ARGS)
 
-libraries: ## ask other robot libraries for orientation errors (2 GB of their own): results/libraries
-libraries: $(LIBRARIES)/.made
+libraries: ## ask other robot libraries for orientation errors (5 GB of their own): results/libraries
+libraries: $(LIBRARIES)/.made $(APART:%=$(LIBRARIES)-%/.made)
 	@$(LIBRARIES)/bin/python -m bench.studies.libraries $(ARGS)
+	@for name in $(APART); do $(LIBRARIES)-$$name/bin/python -m bench.studies.libraries $$name || exit; done
 
 judge:  ## your law against an older one of it: make judge LAW=my_law.py BASE=main (alone: python -m bench judge FILE)
 judge: $(READY)
@@ -174,12 +177,13 @@ lock: $(DEV)
 	@$(call compile,cluster,--extra cluster --constraint requirements/dev.txt)
 	@$(call compile,libraries,--extra libraries --constraint requirements/dev.txt)
 	@$(locked) --group audit --output-file requirements/audit.txt
+	@for name in $(APART); do $(locked) --group $$name --output-file requirements/$$name.txt || exit; done
 	@$(locked) --group install --output-file requirements/install.txt
 	@$(locked) --group arrays --constraint requirements/base.txt --output-file requirements/arrays.txt
 	@echo "Locked. Look at the change: git diff --stat requirements"
 
 clean:  ## remove .venv, the built report, caches and results/quick; other results stay
-	@rm -rf $(VENV) $(LIBRARIES) $(AUDIT) $(ARRAYS) build report/_build report/.jupyter_cache results/quick
+	@rm -rf $(VENV) $(LIBRARIES) $(APART:%=$(LIBRARIES)-%) $(AUDIT) $(ARRAYS) build report/_build report/.jupyter_cache results/quick
 	@rm -rf .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .benchmarks .home *.egg-info
 	@find bench tasks report tests -name __pycache__ -prune -exec rm -rf {} + 2>/dev/null || true
 
@@ -225,6 +229,12 @@ $(ARRAYS)/.made: PY = $(ARRAYS)/bin/python
 $(ARRAYS)/.made: requirements/arrays.txt
 	@$(PYTHON) -m venv --clear $(ARRAYS)
 	@$(PIP) install $(AS_LOCKED)/arrays.txt && touch $@
+
+$(LIBRARIES)-%/.made: PY = $(LIBRARIES)-$*/bin/python
+$(LIBRARIES)-%/.made: requirements/%.txt
+	@echo "Installing $* into $(LIBRARIES)-$* ..."
+	@$(PYTHON) -m venv --clear $(LIBRARIES)-$*
+	@$(call install,$*) && touch $@
 
 $(AUDIT)/.made: PY = $(AUDIT)/bin/python
 $(AUDIT)/.made: requirements/audit.txt

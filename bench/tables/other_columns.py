@@ -142,3 +142,45 @@ def library_columns() -> list[Column]:
         *numbers("rad", "largest error against its own closed form; of angles, of the turn rebuilt", "form_error_rad"),
         *numbers("rad", "largest and smallest |e|", "largest_rad", "smallest_rad"),
     ]
+
+
+def closed_loop_columns() -> list[Column]:
+    """libraries/closed_loop.parquet: libraries' errors and controllers on the free body, a row an angle and sheet."""
+    counts = {
+        "starts": "how many",
+        "settled": "of them, those that settled as the judge says (tasks/rules.py)",
+        "dead": "those that never move: at rest, and the command exactly zero",
+        "lost": "those that had not settled at the horizon",
+        "failed": "those for which no number came",
+        "away": "those that turned away from the goal by more than a degree before they came to it",
+    }
+    return [
+        *words(
+            library="who is asked",
+            version="of its package; of a controller that is restated, the commit that was read",
+            function="its error, or its controller",
+            kind="function: its error in u = kp e - kv omega; controller: as its users run it; restated: by its source",
+            command="acceleration or velocity",
+            sheet="near: from the quaternion whose scalar is not negative; antipode: from the other one",
+        ),
+        *numbers("deg", "angle of the starts; at 180 exactly", "angle_deg"),
+        *(Column(name, COUNT, "1", meaning) for name, meaning in counts.items()),
+        *numbers("s", "settling time of the fastest and of the slowest that settled", "fastest_s", "slowest_s"),
+        *numbers("1", "stiffness felt near the goal over the one set; null for controllers", "stiffness_ratio"),
+    ]
+
+
+def verdict_columns() -> list[Column]:
+    """libraries/verdicts.parquet: what `bench audit` says of each function, and what replaces it, a row a function."""
+    return words(
+        library="who is asked",
+        version="of its package; of a controller that is restated, the commit that was read",
+        function="its error",
+        takes="matrix or quaternion",
+        convention="what it means by its three numbers, as the audit found",
+        faults="names of its faults, with commas between; empty if it has none",
+        replacement="the function of bench/studies/libraries/replacements.py that cures it; empty if it needs none",
+        replacement_faults="what the audit says of that one",
+        fixed="faults that an earlier version had and this one has not",
+        fixed_since="that earlier version",
+    )

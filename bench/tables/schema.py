@@ -38,6 +38,8 @@ TABLES = {
         Table("perturbed", motion.perturbed_columns, ("axis", "level", "regulator", "representation")),
         Table("timings", other.timing_columns, ("what", "arm", *CONTENDER, "engine")),
         Table("libraries", other.library_columns, ("library", "function", "takes", "turn_set")),
+        Table("closed_loop", other.closed_loop_columns, ("library", "function", "kind", "sheet", "angle_deg")),
+        Table("verdicts", other.verdict_columns, ("library", "function", "takes")),
     )
 }
 """By name. Of rows, kp, kv, dt_s and integrator name none: they are the run's."""
@@ -57,7 +59,7 @@ def readme() -> str:
         "",
         "`reference/` is committed and small: what `make check` compares with. `latest/` is what `make bench` wrote",
         "last, `maps/` what millions of random starts say (`python -m bench map`). `timings/` holds one file for each",
-        "kind of machine, `libraries/` what other robot libraries answered (`make libraries`), `scale/` what many",
+        "kind of machine, `libraries/` what other robot libraries answer and do (`make libraries`), `scale/` what many",
         "episodes cost (`python -m bench.studies.scale`), `contact/` what tasks in contact depend on (`make",
         "contact-study`), `robustness/` shares of hundreds of starts a level (`make robustness-study`). Every table is",
         "parquet, its units are in the columns' metadata, and `provenance.json` says where a run comes from.",

@@ -1,47 +1,44 @@
 """python -m bench.studies.libraries [NAME ...]: ask every library installed here, or those named; results/libraries.
 
-Rows of libraries that are not asked stay as they are, so that one which needs an environment of its own adds its own.
+A NAME is a file of asked/. Rows of libraries that are not asked stay as they are, so that one which needs an
+environment of its own adds its own.
 """
 
 import argparse
 import platform
+from collections.abc import Iterable
 from importlib.metadata import version
 
 import pandas as pd
 
-from bench.errors import UnknownWord
 from bench.provenance import cpu_name
+from bench.studies.libraries.closed_loop import rows_of, rows_of_controller
 from bench.studies.libraries.found import find, version_of
 from bench.studies.libraries.judge import judge
-from bench.studies.libraries.library import Library
+from bench.studies.libraries.kept import keep
+from bench.studies.libraries.library import ANGLES, Function, Library
 from bench.studies.libraries.turns import TurnSet, every_set
-from bench.tables.files import read_json, write_json
-from bench.tables.schema import RESULTS
-from bench.tables.store import read, write_table
-
-FOLDER = RESULTS / "libraries"
+from bench.studies.libraries.verdict import verdict
 
 
 def main() -> None:
     """Ask, and put the answers in the place of earlier ones."""
     parser = argparse.ArgumentParser(prog="python -m bench.studies.libraries", description=__doc__)
     parser.add_argument("names", nargs="*", metavar="NAME", help="only this library; repeatable")
-    names = parser.parse_args().names
-    found = find()
-    by_name = {one.name: one for one in found.libraries}
-    for name in names:
-        if name not in by_name:
-            raise UnknownWord("library", name, sorted(by_name))
+    found = find(*parser.parse_args().names)
     for name, reason in found.missing.items():
         print(f"{name}: not asked ({reason})")
-    chosen = [by_name[name] for name in names] or list(found.libraries)
     sets = every_set()
-    frames, about = [], {}
-    for library in chosen:
-        print(f"{library.name} {version_of(library)}: {len(library.functions)} functions")
-        frames.append(rows(library, sets))
-        about[library.name] = origin(library)
-    keep(pd.concat(frames), about)
+    frames: dict[str, list[pd.DataFrame]] = {"libraries": [], "closed_loop": [], "verdicts": []}
+    about = {}
+    for library in found.libraries:
+        print(f"{library.name} {version_of(library)}: {len(library.functions)} functions", flush=True)
+        if not library.is_restated:
+            frames["libraries"].append(rows(library, sets))
+            about[library.name] = origin(library)
+        frames["closed_loop"].append(closed_loops(library))
+        frames["verdicts"].append(verdicts(library))
+    keep({name: pd.concat(own) for name, own in frames.items() if own}, about)
 
 
 def rows(library: Library, sets: tuple[TurnSet, ...]) -> pd.DataFrame:
@@ -63,6 +60,35 @@ def rows(library: Library, sets: tuple[TurnSet, ...]) -> pd.DataFrame:
     )
 
 
+def errors(library: Library) -> Iterable[Function]:
+    """Its functions that are errors: all but angles; where anybody servos on those, that is a controller."""
+    return (one for one in library.functions if one.form != ANGLES)
+
+
+def closed_loops(library: Library) -> pd.DataFrame:
+    """One library's rows of closed_loop.parquet."""
+    whose = {"library": library.name, "version": version_of(library)}
+    kind = "restated" if library.is_restated else "function"
+    of_functions = [
+        whose | {"function": one.name, "kind": kind, "command": "acceleration"} | row
+        for one in errors(library)
+        for row in rows_of(one)
+    ]
+    of_controllers = [
+        whose | {"function": one.name, "kind": "controller", "command": one.command} | row
+        for one in library.controllers
+        for row in rows_of_controller(one)
+    ]
+    return pd.DataFrame(of_functions + of_controllers)
+
+
+def verdicts(library: Library) -> pd.DataFrame:
+    """One library's rows of verdicts.parquet."""
+    whose = {"library": library.name, "version": version_of(library)}
+    unmarked = {"fixed": "", "fixed_since": ""}
+    return pd.DataFrame(whose | {"function": one.name} | verdict(one) | unmarked for one in errors(library))
+
+
 def origin(library: Library) -> dict:
     """With what a library was asked."""
     return {
@@ -72,19 +98,6 @@ def origin(library: Library) -> dict:
         "platform": " ".join((platform.system(), platform.machine(), *platform.libc_ver())).strip(),
         "cpu": cpu_name(),
     }
-
-
-def keep(new: pd.DataFrame, about: dict) -> None:
-    """Write the table and provenance.json, with what other libraries answered earlier."""
-    if (FOLDER / "provenance.json").is_file():
-        earlier = read(FOLDER, "libraries")
-        new = pd.concat([earlier[~earlier["library"].isin(about)].astype({"library": str}), new])
-        about = read_json(FOLDER / "provenance.json")["libraries"] | about
-    order = new["library"].astype(str).str.lower()
-    new = new.assign(order=order).sort_values("order", kind="stable").drop(columns="order")
-    write_table(FOLDER / "libraries.parquet", new.reset_index(drop=True), "libraries")
-    write_json(FOLDER / "provenance.json", {"libraries": about})
-    print(f"wrote {FOLDER.relative_to(RESULTS.parent)}: {len(new)} rows, {new['library'].nunique()} libraries")
 
 
 if __name__ == "__main__":

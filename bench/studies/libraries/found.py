@@ -4,8 +4,10 @@ import functools
 import importlib
 import importlib.metadata
 import pkgutil
+import subprocess
 from typing import NamedTuple
 
+from bench.errors import UnknownWord
 from bench.studies.libraries import asked
 from bench.studies.libraries.library import Function, Library
 
@@ -24,19 +26,32 @@ class Found(NamedTuple):
 
 
 @functools.cache
-def find() -> Found:
-    """Import what is there."""
-    libraries, missing = [], {}
-    for module_info in pkgutil.iter_modules(asked.__path__):
+def find(*names: str) -> Found:
+    """Import what is there, or of it the files of these names alone.
+
+    Errors:
+        UnknownWord: no file of asked/ has that name.
+    """
+    libraries: list[Library] = []
+    missing, files = {}, [one.name for one in pkgutil.iter_modules(asked.__path__)]
+    for name in names:
+        if name not in files:
+            raise UnknownWord("library", name, files)
+    for name in names or files:
         try:
-            module = importlib.import_module(f"{asked.__name__}.{module_info.name}")
-        except ImportError as error:
-            missing[module_info.name] = str(error)
+            module = importlib.import_module(f"{asked.__name__}.{name}")
+        except ImportError as error:  # not installed, or no compiler
+            missing[name] = str(error)
         else:
-            libraries.append(module.LIBRARY)
+            libraries += module.LIBRARIES if hasattr(module, "LIBRARIES") else (module.LIBRARY,)
     return Found(tuple(libraries), missing)
 
 
 def version_of(library: Library) -> str:
-    """Of its package, as installed."""
+    """Of its package, as installed; of what is restated, the commit that was read, which its `package` ends with."""
+    if library.is_restated:
+        return library.package.rpartition("@")[2]
+    if library.is_debian:
+        asked_for = ["dpkg-query", "--show", "--showformat", "${Version}", library.package]
+        return subprocess.run(asked_for, capture_output=True, text=True, check=True).stdout
     return importlib.metadata.version(library.package)

@@ -5,13 +5,12 @@ stand for a turn: (w, x, y, z) with w >= 0 is judged, and its negative compared 
 """
 
 import math
-import warnings
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from bench.studies.libraries.forms import FORMS
-from bench.studies.libraries.library import QUATERNION, Function
+from bench.studies.libraries.library import QUATERNION, Function, answer, quiet
 from bench.studies.libraries.turns import Turn, TurnSet
 
 NOUGHT = 1e-6
@@ -29,6 +28,7 @@ class Answer(NamedTuple):
     size_rad: float = math.nan
 
 
+@quiet
 def judge(function: Function, turns: TurnSet) -> dict[str, Any]:
     """One row: the counts and the worst of a set.
 
@@ -77,11 +77,8 @@ def ask(function: Function, turn: Turn, is_half_turn: bool) -> Answer:
 
 
 def said(function: Function, turn: Turn, sign: float = 1.0) -> np.ndarray:
-    """The three numbers; a library that warns of them is taken at its word all the same."""
-    value = sign * turn.quat_wxyz if function.takes == QUATERNION else turn.R.copy()
-    with warnings.catch_warnings(), np.errstate(all="ignore"):
-        warnings.simplefilter("ignore")
-        return np.asarray(function.call(value), dtype=float).reshape(3)
+    """The three numbers of a turn, or of its other quaternion."""
+    return answer(function, sign * turn.quat_wxyz if function.takes == QUATERNION else turn.R.copy())
 
 
 def form_error(form, e: np.ndarray, turn: Turn, axis: np.ndarray) -> float:

@@ -1,13 +1,19 @@
-"""What is asked of a library: functions that its users take for the error between two orientations.
+"""What is asked of a library: functions that its users take for the error between two orientations, and controllers.
 
 Every function is asked for the turn T that leads from R = I to R_d = T, so that R_d R^T, R^T R_d and R_d are one and
 the same, exactly, and the base and the body frame agree on its axis.
 """
 
-from collections.abc import Callable
+import functools
+import warnings
+from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
+import numpy as np
+
 MATRIX, QUATERNION = "matrix", "quaternion"
+ANGLES = "z-y-x"
+"""The form of functions that return angles, which are no error along the axis."""
 
 
 class Function(NamedTuple):
@@ -24,9 +30,47 @@ class Function(NamedTuple):
     form: str = "rotation-vector"
 
 
+class Controller(NamedTuple):
+    """A controller as its users run it, with its own plant or command.
+
+    motion(quat_wxyz of T) -> what is left to go, T, as a quaternion after every tick of dt_s, the start first.
+    command: what it commands, `acceleration` or `velocity`; title: what is run, with its gains.
+    """
+
+    name: str
+    command: str
+    title: str
+    dt_s: float
+    motion: Callable[[tuple], Iterator[tuple]]
+
+
 class Library(NamedTuple):
-    """A library by the name that its package is installed under, and what is asked of it."""
+    """A library by the name that its package is installed under, and what is asked of it.
+
+    is_debian: the package is one of Debian's, compiled here. is_restated: nothing of theirs runs; what their source
+    says is written anew, and `package` is where it stands.
+    """
 
     name: str
     package: str
     functions: tuple[Function, ...]
+    controllers: tuple[Controller, ...] = ()
+    is_debian: bool = False
+    is_restated: bool = False
+
+
+def answer(function: Function, value: np.ndarray) -> np.ndarray:
+    """The three numbers."""
+    return np.asarray(function.call(value), dtype=float).reshape(3)
+
+
+def quiet(asking: Callable) -> Callable:
+    """A library that warns is taken at its word all the same."""
+
+    @functools.wraps(asking)
+    def called(*given):
+        with warnings.catch_warnings(), np.errstate(all="ignore"):
+            warnings.simplefilter("ignore")
+            return asking(*given)
+
+    return called

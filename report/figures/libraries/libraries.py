@@ -6,19 +6,19 @@ import functools
 
 import pandas as pd
 
-from bench.findings.counts import OURS
-from bench.studies.libraries.forms import FORMS
+from bench.findings.counts import OURS, counts
 from report.figures.kit import html
 from report.figures.kit.page import Run
 from report.figures.kit.spelling import power
 from report.figures.kit.tables import Table
-from report.figures.libraries import answers
+from report.figures.libraries import answers, loops
 
 EVERYWHERE = ["small", "drawn", "near", "at", "pole"]
 
 TO_USE = Table("Library | From a matrix | From a quaternion")
 FAULTS = Table("Function | But")
-ERRORS = Table("Function | It is | Small | Drawn | Near half turns | At them")
+ERRORS = Table("Function | Convention | Verdict | Largest error | Dead at 180° | Settles | Away | Instead")
+CONTROLLERS = Table("Controller | Commands | Verdict | Stiffness felt | Dead at 180° | Settles | Away")
 AS_ANGLES = Table("Function | Drawn | Poles | Half turns | As an error")
 VERSIONS = Table("Library | Version | Python | numpy")
 
@@ -53,7 +53,7 @@ def facts(_: Run) -> dict:
     exact = angles["objections"].map(len) == 0
     small, near = (rows[rows[name] > 0.0] for name in ("angle_rad", "distance_rad"))
     return {
-        "libraries": others["library"].nunique(),
+        "libraries": counts()["libraries"].number,
         "functions": len(others),
         "right": len(right(others)),
         "count": power(answers.COUNT_RAD),
@@ -78,6 +78,28 @@ def facts(_: Run) -> dict:
         "angle_functions": len(angles),
         "angles_exact": int(exact.sum()),
         "angles_wrong": names(angles[~exact]),
+        **loop_facts(),
+    }
+
+
+def loop_facts() -> dict:
+    """What the text says of closed loops: how many are run, and how many of them stay at 180° or turn away."""
+    lines = loops.responses()[loops.responses()["library"] != OURS]
+    functions, shipped, run = (lines[lines["kind"] == kind] for kind in ("function", "restated", "controller"))
+    dead = functions[functions["dead"] == functions["at_180"]]
+    weak = shipped[shipped["stiffness"] < 0.75]
+    fixed = loops.verdicts()[loops.verdicts()["fixed"] != ""]
+    return {
+        "loops": len(functions),
+        "controllers": len(run),
+        "shipped": len(shipped),
+        "loops_dead": len(dead),
+        "loops_away": int((functions["away"] > 0).sum()),
+        "shipped_weak": len(weak),
+        "shipped_slowest": f"{shipped['slowest'].max():.0f}",
+        "axes_180": int(functions["at_180"].min()),
+        "replaced": int((loops.verdicts()["replacement"] != "").sum()),
+        "fixed": len(fixed),
     }
 
 
@@ -94,10 +116,8 @@ def tables(_: Run) -> dict:
     return {
         "tab_to_use": TO_USE(to_use(every)),
         "tab_faults": FAULTS((asked(one), "; ".join(one.objections.values())) for one in faulty(every).itertuples()),
-        "tab_errors": ERRORS(
-            (asked(one), html.together(FORMS[one.form].title), *map(power, (one.small, one.drawn, one.near, one.at)))
-            for one in every[~is_angles].itertuples()
-        ),
+        "tab_errors": ERRORS(in_closed_loop(every[~is_angles])),
+        "tab_controllers": CONTROLLERS(controllers()),
         "tab_angles": AS_ANGLES(
             (asked(one), *map(power, (one.drawn, one.pole, max(one.near, one.at))), f"{one.off:.1f}")
             for one in every[is_angles].itertuples()
@@ -108,6 +128,44 @@ def tables(_: Run) -> dict:
             if name != OURS
         ),
     }
+
+
+def in_closed_loop(every: pd.DataFrame) -> list[tuple]:
+    """A row a function: what it means, what the audit finds, and what a body does that is driven by it."""
+    both = every.merge(loops.verdicts(), on=["library", "function", "takes"]).merge(
+        loops.responses()[loops.responses()["kind"] == "function"], on=["library", "function"]
+    )
+    return [
+        (
+            asked(one),
+            one.convention,
+            one.faults or "right",
+            power(max(one.small, one.drawn, one.near, one.at)),
+            loops.dead(one),
+            loops.settling(one),
+            loops.away(one),
+            f"`{one.replacement}`" if one.replacement else html.MISSING,
+        )
+        for one in both.itertuples()
+    ]
+
+
+def controllers() -> list[tuple]:
+    """A row a controller: those that are run, and those that are restated from their source."""
+    lines = loops.responses()[loops.responses()["kind"] != "function"]
+    lines = lines.merge(loops.verdicts()[["library", "function", "faults"]], how="left", on=["library", "function"])
+    return [
+        (
+            asked(one) if one.kind == "controller" else one.library,
+            one.command,
+            loops.verdict(one) if one.kind == "controller" else one.faults or "right",
+            f"{one.stiffness:.2g}" if one.kind != "controller" else html.MISSING,
+            loops.dead(one),
+            loops.settling(one),
+            loops.away(one),
+        )
+        for one in lines.itertuples()
+    ]
 
 
 def to_use(every: pd.DataFrame) -> list[tuple]:

@@ -1,16 +1,20 @@
-"""mink: the logarithm in Python, and the one in C that its FrameTask takes where it is compiled."""
+"""mink: the logarithm in Python, and the one in C that its FrameTask takes where it is compiled; its solve_ik."""
+
+from collections.abc import Iterator
 
 import mink
 import mujoco
 import numpy as np
 from mink.lie import _lie_ops_c
 
-from bench.studies.libraries.library import MATRIX, QUATERNION, Function, Library
+from bench.studies.libraries.free_body import conjugate
+from bench.studies.libraries.library import MATRIX, QUATERNION, Controller, Function, Library
 
 MODEL = mujoco.MjModel.from_xml_string("""
 <mujoco><worldbody><body name="body"><joint type="ball"/><inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/></body>
 </worldbody></mujoco>
 """)
+DT_S = 0.005
 AT_IDENTITY = mink.Configuration(MODEL)
 
 
@@ -36,6 +40,17 @@ def frame_task(quat_wxyz) -> np.ndarray:
     return task.compute_error(AT_IDENTITY)[3:]
 
 
+def solved(quat_wxyz) -> Iterator[tuple]:
+    """solve_ik and integrate_inplace tick by tick, as in mink's examples, towards the identity."""
+    configuration = mink.Configuration(MODEL, q=np.array(conjugate(quat_wxyz)))
+    task = mink.FrameTask("body", "body", position_cost=1.0, orientation_cost=1.0, lm_damping=1.0)
+    task.set_target(mink.SE3.identity())
+    while True:
+        yield conjugate(tuple(configuration.q))
+        velocity = mink.solve_ik(configuration, [task], DT_S, "daqp", damping=1e-3)
+        configuration.integrate_inplace(velocity, DT_S)
+
+
 LIBRARY = Library(
     "mink",
     "mink",
@@ -45,4 +60,5 @@ LIBRARY = Library(
         Function("se3_log (compiled), of a matrix", MATRIX, compiled_log_of_matrix),
         Function("FrameTask.compute_error", QUATERNION, frame_task),
     ),
+    (Controller("solve_ik, FrameTask", "velocity", "gain 1, lm_damping 1, damping 1e-3, 200 Hz", DT_S, solved),),
 )

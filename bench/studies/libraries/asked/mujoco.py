@@ -1,9 +1,12 @@
 """MuJoCo: its functions on quaternions, and what its constraints and actuators make of them."""
 
+from collections.abc import Iterator
+
 import mujoco
 import numpy as np
 
-from bench.studies.libraries.library import MATRIX, QUATERNION, Function, Library
+from bench.studies.libraries.free_body import conjugate
+from bench.studies.libraries.library import MATRIX, QUATERNION, Controller, Function, Library
 
 BODY = """
 <body name="body"><joint type="ball"/><inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/><site name="body"/></body>
@@ -11,6 +14,10 @@ BODY = """
 ACTUATED = mujoco.MjModel.from_xml_string(f"""
 <mujoco><worldbody><site name="goal"/>{BODY}</worldbody>
 <actuator><orientation site="body" refsite="goal" kp="1"/></actuator></mujoco>
+""")
+HELD = mujoco.MjModel.from_xml_string(f"""
+<mujoco><option timestep="0.001" gravity="0 0 0"/><worldbody><site name="goal"/>{BODY}</worldbody>
+<actuator><orientation site="body" refsite="goal" kp="100" kv="20"/></actuator></mujoco>
 """)
 WELDED = mujoco.MjModel.from_xml_string(f"""
 <mujoco><worldbody><body name="goal" mocap="true"/>{BODY}</worldbody>
@@ -67,6 +74,15 @@ def weld_pull(quat_wxyz) -> np.ndarray:
     return 4.0 * data.efc_J.reshape(-1, WELDED.nv)[3:6].T @ data.efc_pos[3:6]
 
 
+def actuated(quat_wxyz) -> Iterator[tuple]:
+    """mj_step tick by tick with the three actuators at kp = 100 and kv = 20 on a body of unit inertia."""
+    data = mujoco.MjData(HELD)
+    data.qpos[:] = conjugate(quat_wxyz)
+    while True:
+        yield conjugate(tuple(data.qpos))
+        mujoco.mj_step(HELD, data)
+
+
 LIBRARY = Library(
     "mujoco",
     "mujoco",
@@ -78,4 +94,5 @@ LIBRARY = Library(
         Function("<orientation> actuator", QUATERNION, orientation_actuator),
         Function("weld, pull", QUATERNION, weld_pull, "sine"),
     ),
+    (Controller("<orientation> actuators", "acceleration", "kp 100, kv 20, timestep 1 ms", 1e-3, actuated),),
 )

@@ -1,10 +1,15 @@
 """Robotics Toolbox for Python: what its servo and its inverse kinematics take for the error."""
 
+from functools import partial
+
 import numpy as np
 import roboticstoolbox
 from spatialmath import base
 
-from bench.studies.libraries.library import MATRIX, Function, Library
+from bench.studies.libraries.free_body import driven
+from bench.studies.libraries.library import MATRIX, Controller, Function, Library
+
+DT_S = 0.05
 
 
 def p_servo(method):
@@ -16,6 +21,16 @@ def p_servo(method):
     return called
 
 
+def servoed(method) -> Controller:
+    """The velocity that p_servo gives in the frame of the tool, in base coordinates, with its default gain of 1."""
+
+    def velocity(T) -> np.ndarray:
+        return T.T @ roboticstoolbox.p_servo(base.r2t(T.T), np.eye(4), gain=1.0, method=method)[0][3:]
+
+    name = 'p_servo(method="angle-axis")' if method == "angle-axis" else "p_servo, by default"
+    return Controller(name, "velocity", "gain 1, 20 Hz", DT_S, partial(driven, velocity, DT_S))
+
+
 LIBRARY = Library(
     "roboticstoolbox",
     "roboticstoolbox-python",
@@ -24,4 +39,5 @@ LIBRARY = Library(
         Function('p_servo(method="angle-axis")', MATRIX, p_servo("angle-axis")),
         Function("p_servo, by default", MATRIX, p_servo("rpy"), "z-y-x"),
     ),
+    (servoed("angle-axis"), servoed("rpy")),
 )

@@ -1,0 +1,133 @@
+"""Every library's error as the law u = kp e - kv omega on the free body, and controllers as their users run them.
+
+The plant and its gains are those of the suite (`ideal-held`: kp = 100, kv = 20, a tick of 1 ms). Starts are at rest, by
+angle about the axes of AXES, each from both quaternions where a function takes one; and exact 180° rotations about
+the axes of `turns`. Settled is what the judge says (tasks/rules.py).
+"""
+
+import math
+from collections.abc import Iterator
+from typing import Any, NamedTuple
+
+from bench.law.contender import PAPERS_GAINS
+from bench.studies.libraries import turns
+from bench.studies.libraries.free_body import accelerated, angle
+from bench.studies.libraries.library import QUATERNION, Controller, Function, answer, quiet
+from tasks.rules import RULES, ticks
+
+DT_S = 1e-3
+HORIZON_S = 20.0
+AXES = ((1, 0, 0), (0, 0, -1), (1, 1, 0), (1, -2, 3), (-5, 4, 7))
+"""Two of the base, one between them, two of no kind."""
+ANGLES_DEG = (1.0, 30.0, 90.0, 150.0, 175.0, 179.0, 179.9)
+HALF_TURN_AXES = 40
+"""Exact 180° rotations: about the 26 axes of a cube, then drawn ones."""
+AWAY_RAD = math.radians(1.0)
+"""A body at rest whose command points the short way never increases its angle; one degree is no rounding."""
+NEAR = 0.1
+"""An episode ends once the angle has stayed under this share of the band for the judge's hold."""
+SLOPE_AT_RAD = 1e-3
+"""Where stiffness is felt: near enough to the goal that every form is its own slope to 1e-6, and any number has its
+digits; deadbands of 0.005 are wider, and are felt as none."""
+
+
+class Response(NamedTuple):
+    """What became of one start: `outcome` is a word of OUTCOMES."""
+
+    outcome: str
+    settling_s: float = math.nan
+    goes_away: bool = False
+
+
+OUTCOMES = ("settled", "dead", "lost", "failed")
+"""Settled; never moves, by exact rest; still outside the band or moving at the horizon; no number came."""
+
+
+def response(motion: Iterator[tuple], dt_s: float, horizon_s: float = HORIZON_S) -> Response:
+    """One episode's response: a motion that ends by itself has come to rest for ever."""
+    hold, last = ticks(RULES.hold_s, dt_s), ticks(horizon_s, dt_s)
+    left, inside, highest, angle0, outside = 0, 0, 0.0, 0.0, 0
+    try:
+        for tick, quat_wxyz in enumerate(motion):
+            now = angle(quat_wxyz)
+            if not math.isfinite(now):
+                return Response("failed")
+            if tick == 0:
+                angle0 = now
+            highest, left = max(highest, now), tick
+            if now > RULES.band_rad(angle0):
+                outside = tick
+            inside = inside + 1 if now <= NEAR * RULES.band_rad(angle0) else 0
+            if inside > hold or tick >= last:
+                break
+        else:
+            if outside == left:
+                return Response("dead")
+    except Exception:  # whatever a library raises is its answer
+        return Response("failed")
+    goes_away = highest > angle0 + AWAY_RAD
+    if left >= last and left - outside < hold:
+        return Response("lost", goes_away=goes_away)
+    return Response("settled", (outside + 1) * dt_s, goes_away)
+
+
+def starts(angle_deg: float) -> Iterator[tuple]:
+    """Quaternions (w, x, y, z), w >= 0, of the rotations by an angle; at 180 exactly w = 0."""
+    if angle_deg == 180.0:
+        found: tuple = turns.half_turns().turns[:HALF_TURN_AXES]
+    else:
+        half = turns.DIGITS.mpf(angle_deg) * turns.DIGITS.pi / 360
+        found = tuple(turns.about(axis, turns.DIGITS.cos(half), turns.DIGITS.sin(half)) for axis in AXES)
+    for one in found:
+        yield tuple(map(float, one.quat_wxyz))
+
+
+@quiet
+def rows_of(function: Function) -> list[dict[str, Any]]:
+    """A function's rows: an angle and sheet each."""
+    gains, rows = PAPERS_GAINS, []
+    for angle_deg in (*ANGLES_DEG, 180.0):
+        for sheet in (1.0, -1.0) if function.takes == QUATERNION else (1.0,):
+            begun = [tuple(sheet * part for part in one) for one in starts(angle_deg)]
+            found = [response(accelerated(function, gains.kp, gains.kv, DT_S, one), DT_S) for one in begun]
+            rows.append(_row(angle_deg, "antipode" if sheet < 0.0 else "near", found, stiffness_ratio(function)))
+    return rows
+
+
+@quiet
+def rows_of_controller(controller: Controller) -> list[dict[str, Any]]:
+    """A controller's rows, an angle each."""
+    rows = []
+    for angle_deg in (*ANGLES_DEG, 180.0):
+        found = [response(controller.motion(one), controller.dt_s) for one in starts(angle_deg)]
+        rows.append(_row(angle_deg, "near", found, math.nan))
+    return rows
+
+
+def _row(angle_deg: float, sheet: str, found: list[Response], ratio: float) -> dict[str, Any]:
+    times = [one.settling_s for one in found if one.outcome == "settled"]
+    outcomes = [one.outcome for one in found]
+    return {
+        "angle_deg": angle_deg,
+        "sheet": sheet,
+        "starts": len(found),
+        **{word: outcomes.count(word) for word in OUTCOMES},
+        "away": sum(one.goes_away for one in found),
+        "fastest_s": min(times, default=math.nan),
+        "slowest_s": max(times, default=math.nan),
+        "stiffness_ratio": ratio,
+    }
+
+
+def stiffness_ratio(function: Function) -> float:
+    """Stiffness felt over stiffness set: the least e.k / theta at SLOPE_AT_RAD over AXES; NaN where no number comes."""
+    half = turns.DIGITS.mpf(SLOPE_AT_RAD) / 2
+    ratios = []
+    for axis in AXES:
+        turn = turns.about(axis, turns.DIGITS.cos(half), turns.DIGITS.sin(half))
+        try:
+            e = answer(function, turn.quat_wxyz if function.takes == QUATERNION else turn.R)
+        except Exception:  # whatever a library raises is its answer
+            return math.nan
+        ratios.append(float(e @ turn.axis) / turn.angle)
+    return min(ratios)

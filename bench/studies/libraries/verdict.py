@@ -1,0 +1,54 @@
+"""What `bench audit` says of a library's function, and of what would replace it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from bench.audit import audit
+from bench.audit.forms import FORMS
+from bench.studies.libraries.library import MATRIX, Function, answer, quiet
+from bench.studies.libraries.replacements import REPLACEMENTS
+
+if TYPE_CHECKING:
+    from bench.audit.convention import Convention
+    from bench.audit.report import Report
+
+
+def of_pair(function: Function):
+    """f(R, R_d) or f(q, q_d), (w, x, y, z): the function asked for what is left to go, R_d R^T, in base coordinates."""
+    if function.takes == MATRIX:
+        return lambda R, R_d: answer(function, R_d @ R.T)
+    return lambda q, q_d: answer(function, left_to_go(q, q_d))
+
+
+def left_to_go(q: np.ndarray, q_d: np.ndarray) -> np.ndarray:
+    """q_d q*, (w, x, y, z)."""
+    w, v, w_d, v_d = q[0], q[1:], q_d[0], q_d[1:]
+    return np.array((w_d * w + v_d @ v, *(w * v_d - w_d * v - np.cross(v_d, v))))
+
+
+@quiet
+def report(function: Function) -> Report:
+    """The audit's."""
+    return audit(of_pair(function), "matrix" if function.takes == MATRIX else "wxyz", name=function.name)
+
+
+def said(convention: Convention) -> str:
+    """Form, frame, direction and slope, short."""
+    form = FORMS[convention.form].title if convention.form else "a size of its own"
+    return f"{form}, {convention.frame}, {convention.sign}, slope {convention.slope:.4g}"
+
+
+def verdict(function: Function) -> dict[str, str]:
+    """Convention, faults and replacement of a function, as columns of verdicts.parquet."""
+    found = report(function)
+    replacement = Function("", function.takes, REPLACEMENTS[function.takes]) if found.faults else None
+    return {
+        "takes": function.takes,
+        "convention": said(found.convention) if found.convention else "",
+        "faults": ", ".join(found.faults),
+        "replacement": replacement.call.__name__ if replacement else "",
+        "replacement_faults": ", ".join(report(replacement).faults) if replacement else "",
+    }
