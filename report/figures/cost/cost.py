@@ -80,7 +80,7 @@ def in_c(counts: dict[str, dict[str, float]]) -> str:
     ends = (100 * (ratio - 1) for ratio in (min(ratios), max(ratios)))
     least, most = (f"{end:+.0f}".replace("-", "\N{MINUS SIGN}") for end in ends)
     return (
-        f"As C ([exported](29-take-it-home.md), by gcc) a law takes {least} to {most} % more instructions than "
+        f"As C (exported, by gcc) a law takes {least} to {most} % more instructions than "
         f"compiled here; {near} of {len(ratios)} are within 5 %. Two compilers arrange the same operations."
     )
 
