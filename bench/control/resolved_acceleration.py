@@ -9,7 +9,7 @@ coordinates themselves (3.7). In two halves, so that each law and each inverse i
 and `control`, which calls the two and turns x into torques.
 
 Position is held by the same gains, u_p = Kp (p_d - p) - Kv pdot, as the paper proposes for it (2.1). On seven joints
-the motion that the tool does not see is damped: see `relax`.
+null-space motion is damped: see `relax`.
 
 Fails: where J has no inverse; with the analytic Jacobian also where the coordinates are singular.
 """

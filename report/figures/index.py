@@ -4,7 +4,7 @@ import numpy as np
 
 from bench.findings import claims
 from bench.tables import read
-from report.figures.answer import which_law
+from report.figures.answer import answer_box, which_law
 from report.figures.claims import claims as judged
 from report.figures.contact import in_contact
 from report.figures.contact.rows import PAPERS, PAPERS_EULER
@@ -32,10 +32,14 @@ def facts(run: Run) -> dict:
     }
 
 
-def tables(_: Run) -> dict:
-    """Every verdict, and how many there are of each."""
+def tables(run: Run) -> dict:
+    """The answer with its code; every verdict, and how many there are of each."""
     every = claims.judge_all()
-    return {"tiles": judged.tiles(every), "verdicts": judged.table(every, "pages/40-claims.html")}
+    return {
+        "answer": answer_box.answer(run),
+        "tiles": judged.tiles(every),
+        "verdicts": judged.table(every, "pages/40-claims.html"),
+    }
 
 
 def figures(run: Run) -> dict:

@@ -75,7 +75,7 @@ def test_answer_is_the_one_that_the_rule_gives():
     [answer] = re.findall(r"\*\*The answer\.\*\* (.*?)\n\n", TEXT, re.DOTALL)
     first, *others = re.findall(r"\[late braking\]|`([\w-]+)`", answer)
     assert (first, advice.default.law) == ("", "late-braking")
-    assert others == [law_for(advice, "no memory in the controller"), law_for(advice, "a command that never jumps")]
+    assert others == [law_for(advice, "no memory in the controller"), law_for(advice, "a continuous command")]
 
 
 def law_for(advice, words):

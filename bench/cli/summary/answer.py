@@ -28,7 +28,7 @@ def _default(advice: Advice, found: Measured) -> str:
         return _nothing(found, everywhere)
     alone = standing(one, str) if len(found.laws) > 1 else "This run has no other law to compare it with."
     return (
-        f"Use the law {one.law}. It {everywhere}, and no {NOISE} holds it at a 180° rotation. {alone} It takes "
+        f"Use the law {one.law}. It {everywhere}, and no {NOISE} can trap it at a 180° rotation. {alone} It takes "
         f"{cost(found, one.law)} per tick. 99 % of the uniform starts settle within "
         f"{number('time', found.number('time', one.law))}."
     )
@@ -44,7 +44,7 @@ def _nothing(found: Measured, everywhere: str) -> str:
     if not needs.TRIED.has(found, simplest):
         why = "it was not tried under perturbations"
     elif not found.values["held"]:
-        why = "whether noise holds it at a 180° rotation was not tried (perturbation half-turn-noise)"
+        why = "whether noise traps it at a 180° rotation was not tried (perturbation half-turn-noise)"
     return f"Of this run ({laws}) {simplest} is the simplest law that {everywhere}; {why}."
 
 

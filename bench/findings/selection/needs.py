@@ -72,7 +72,7 @@ def _settles(found: Measured, law: str) -> bool:
 EVERYWHERE = Fact("settles from every start of the run, none the long way round", _settles)
 QUIET = Fact("its command is quiet at rest", lambda found, law: found.number("chatter", law) <= CHATTER)
 UNHELD = Fact(
-    f"no worst-case noise up to {HELD_RAD:g} rad holds it at a half turn",
+    f"no worst-case noise up to {HELD_RAD:g} rad can trap it at a 180° rotation",
     lambda found, law: found.number("held", law) > HELD_RAD,
 )
 FORGETFUL = Fact("keeps nothing from tick to tick", lambda found, law: not found.number("memory", law))
@@ -107,7 +107,7 @@ NEEDS = (
     Need(f"a goal that moves at {criteria.MOVING:g} rad/s, with feedforward", SURE, ("follows",)),
     Need(f"orientation known to {criteria.NOISY_RAD:g} rad", SURE, ("noisy",)),
     FORGETS,
-    Need("a command that never jumps", (TRIED, NEARLY, FORGETFUL, SMOOTH)),
+    Need("a continuous command", (TRIED, NEARLY, FORGETFUL, SMOOTH)),
     ARM,
 )
 

@@ -56,11 +56,11 @@ def front_page(run: Run) -> str:
     """The advice in a few words."""
     found, one = measured(run.folder), needs.advice(run.folder).default
     if one.law is None:
-        return f"No law of this run settles from every start tried and is held by no noise up to {HELD_RAD:g} rad."
+        return f"No law of this run settles from every start tried and is trapped by no noise up to {HELD_RAD:g} rad."
     word, time = families.word(one.law), told(BY_NAME["time"], found.estimate("time", one.law))
     return (
-        f"{word[0].upper()}{word[1:]}: it settles from every start tried, no noise up to {HELD_RAD:g} rad holds it at "
-        f"a 180° rotation, and 99 % of all starts are settled in {time}. "
+        f"{word[0].upper()}{word[1:]}: it settles from every start tried, no noise up to {HELD_RAD:g} rad can trap it "
+        f"at a 180° rotation, and 99 % of all starts are settled in {time}. "
         f"{standing(one, families.word)}"
     )
 

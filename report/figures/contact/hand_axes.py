@@ -172,7 +172,7 @@ def axes_of_turning(rows: pd.DataFrame, narrow: bool):
             words.append(f"{who}, beta {beta:.0f} degrees, moment about {pushed}: {does}")
     _head(figure, grid, narrow)
     return figure, (
-        "Drawings of a robot's hand that shall give way to moments about x and y and hold against moments about z. "
+        "Drawings of a robot's hand that complies with moments about x and y and is stiff against moments about z. "
         f"{'; '.join(words)}."
     )
 

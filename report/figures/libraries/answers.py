@@ -93,7 +93,7 @@ def objections(own: pd.DataFrame) -> dict[str, str]:
     if silent:
         found[NO_NUMBER] = f"no number for {silent} of {own['turns'].sum()} turns"
     if has_axis and at["nought"].sum():
-        found[ZERO] = f"nought at {_of(at, 'nought')} half turns"
+        found[ZERO] = f"zero at {_of(at, 'nought')} half turns"
     if has_axis and clear["long_way"].sum():
         found[LONG_WAY] = f"the long way round for {_of(clear, 'long_way')} turns"
     if has_axis and own["astray"].sum():

@@ -1,0 +1,46 @@
+"""The front page's box: the advised law with the text of its exports, and every exception, as the rule says them."""
+
+import pytest
+
+from bench.export.language import find_language
+from bench.export.subject import find_subject
+from bench.findings.selection import needs
+from bench.tables.schema import RESULTS
+from report.figures.answer import answer_box
+
+REFERENCE = RESULTS / "reference"
+
+
+@pytest.fixture(scope="module")
+def advice():
+    return needs.advice(REFERENCE)
+
+
+@pytest.fixture(scope="module")
+def box(advice):
+    return str(answer_box.box(advice))
+
+
+@pytest.mark.parametrize("word", answer_box.COPIED)
+def test_box_holds_the_exported_file(box, advice, word):
+    files = find_language(word).files(find_subject(advice.default.law))
+    assert f"```text\n{next(iter(files.values()))}```" in box
+
+
+def test_box_holds_the_formula(box, advice):
+    assert find_subject(advice.default.law).record.formula in box
+
+
+def test_box_names_each_exception_once(box, advice):
+    words = [one.need.words for one in advice.exceptions if one.law]
+    assert words
+    assert [box.count(one) for one in words] == [1] * len(words)
+
+
+def test_box_of_a_users_law_holds_exceptions_alone(advice):
+    users = advice._replace(default=advice.default._replace(law="somebodys-law"))
+    assert str(answer_box.box(users)) == answer_box.exceptions(users)
+
+
+def test_box_without_a_law_is_none(advice):
+    assert answer_box.box(advice._replace(default=advice.default._replace(law=None))) is None
