@@ -22,10 +22,11 @@ SOURCES = (
 CONTROLLER_SOURCES = (
     *SOURCES,
     *("bench.law.chain", "bench.law.impedance", "bench.control.hybrid", "bench.control.impedance"),
-    *("bench.errors", "collections.abc", "bench.contenders.representations", "bench.contenders.regulators"),
-    *("bench.contenders.jacobians", "bench.contenders.impedances"),
+    *("bench.control.resolved_acceleration", "bench.errors", "collections.abc", "bench.contenders.representations"),
+    *("bench.contenders.regulators", "bench.contenders.jacobians", "bench.contenders.inverses"),
+    "bench.contenders.impedances",
 )
-"""What a controller in contact may import from: it is put together of laws, coordinates and Jacobians."""
+"""What a controller in contact may import from: it is put together of laws, coordinates, Jacobians and inverses."""
 
 OPERATORS = (ast.Add, ast.Sub, ast.Mult, ast.Div, ast.USub, ast.UAdd, ast.Not)
 COMPARISONS = (ast.Lt, ast.LtE, ast.Gt, ast.GtE)
