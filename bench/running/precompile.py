@@ -5,16 +5,21 @@ cache on disk, where the run finds it; so do the operations of laws, which it co
 """
 
 import contextlib
-import functools
 import os
 import subprocess
 import sys
 import threading
 import time
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 
 WORTH = 8
 """Contenders from which on a process more is worth its start of some seconds."""
+
+LIFE = 24
+"""Contenders after which a new process goes on: what is compiled stays in memory, some 6 MB of each."""
+
+COUNT = "count:"
+"""Before a law's name: count its operations."""
 
 
 @contextlib.contextmanager
@@ -26,12 +31,16 @@ def compiling_ahead(contenders: Iterable[str]) -> Iterator[subprocess.Popen | No
     Args:
         contenders: names of laws, of controllers of arms (with `@`) and of controllers in contact.
     """
+    from bench.contenders.registry import all_contenders
+
     names = list(dict.fromkeys(contenders))
     if len(names) < WORTH:
         yield None
         return
     quiet = subprocess.DEVNULL
-    words = [sys.executable, "-m", __name__, str(os.getpid()), *reversed(names)]
+    counted = {one.name for one in all_contenders()}.intersection(names)
+    work = [*reversed(names), *(COUNT + name for name in reversed(names) if name in counted)]
+    words = [sys.executable, "-m", __name__, str(os.getpid()), *work]
     with subprocess.Popen(words, stdin=quiet, stdout=quiet, stderr=quiet, start_new_session=True) as process:
         try:
             yield process
@@ -55,17 +64,27 @@ def compile_one(name: str) -> None:
         evaluation(find_contender(name))
 
 
-def main(parent: int, names: list[str]) -> None:
-    """Compile one after the other, then count the laws among them, as long as the process that asked for it lives."""
-    from bench.contenders.registry import all_contenders
+def main(parent: int, work: list[str]) -> None:
+    """Compile, or count, one after the other, as long as the process that asked for it lives.
+
+    After LIFE of them a new program takes this process over, with the rest.
+    """
+    threading.Thread(target=_end_without, args=(parent,), daemon=True).start()
+    for word in work[:LIFE]:
+        if word.startswith(COUNT):
+            count_one(word.removeprefix(COUNT))
+        else:
+            compile_one(word)
+    if rest := work[LIFE:]:
+        os.execv(sys.executable, [sys.executable, "-m", "bench.running.precompile", str(parent), *rest])
+
+
+def count_one(name: str) -> None:
+    """Count the operations of a law of ours, and keep them."""
+    from bench.contenders.registry import find_contender
     from bench.tables.kept_costs import of_law
 
-    threading.Thread(target=_end_without, args=(parent,), daemon=True).start()
-    laws = {one.name: one for one in all_contenders()}
-    todo: list[Callable[[], object]] = [functools.partial(compile_one, name) for name in names]
-    todo += [functools.partial(of_law, laws[name]) for name in names if name in laws]
-    for work in todo:
-        work()
+    of_law(find_contender(name))
 
 
 def _end_without(parent: int) -> None:

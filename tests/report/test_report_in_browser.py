@@ -1,5 +1,7 @@
 """Every page of the built report as a reader's browser sees it: from its file, light, dark, wide, narrow."""
 
+import importlib.resources
+
 import pytest
 import screenshots
 
@@ -31,6 +33,23 @@ return {
 };
 """
 
+# Of axe-core's rules those that keep somebody from reading; colours that are still changing are not looked at.
+BARRIERS = """
+const done = arguments[arguments.length - 1];
+const still = document.createElement("style");
+still.textContent = "* { transition: none !important; animation: none !important }";
+document.head.append(still);
+const frame = () => new Promise(requestAnimationFrame);
+frame().then(frame).then(() => axe.run(document, {resultTypes: ["violations"]})).then(found => done(found.violations
+  .filter(one => ["serious", "critical"].includes(one.impact))
+  .flatMap(one => one.nodes.map(node => `${one.id}: ${node.html.slice(0, 200)}`))));
+"""
+
+
+@pytest.fixture(scope="module")
+def axe():
+    return importlib.resources.files("axe_core_python").joinpath("axe.min.js").read_text(encoding="utf-8")
+
 
 @pytest.fixture(scope="module")
 def driver():
@@ -39,8 +58,8 @@ def driver():
 
 
 @pytest.fixture(scope="module", params=PAGES, ids=lambda page: page.stem)
-def seen(request, driver):
-    """What one page shows in two views, with all that it asked of the network and told the console.
+def seen(request, driver, axe):
+    """What one page shows in two views, with all that it asked of the network and told the console, and its barriers.
 
     Each page is opened in one view, and then looked at in the other theme and width, as when a reader turns a phone
     into the night. Pages take turns in which view they are opened in.
@@ -52,7 +71,9 @@ def seen(request, driver):
     screenshots.look(driver, second)
     screenshots.settle(driver)
     facts[second] = driver.execute_script(FACTS)
-    return facts, screenshots.network_requests(driver), screenshots.console_errors(driver)
+    told = screenshots.network_requests(driver), screenshots.console_errors(driver)
+    driver.execute_script(axe)
+    return facts, *told, driver.execute_async_script(BARRIERS)
 
 
 def test_page_asks_nothing_of_the_network(seen):
@@ -61,6 +82,10 @@ def test_page_asks_nothing_of_the_network(seen):
 
 def test_page_makes_no_console_error(seen):
     assert seen[2] == []
+
+
+def test_page_keeps_nobody_out(seen):
+    assert seen[3] == []
 
 
 def test_page_follows_the_readers_theme(seen):

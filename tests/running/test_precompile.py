@@ -19,13 +19,24 @@ def cached(folder: Path) -> int:
 @pytest.mark.slow
 def test_it_leaves_laws_controllers_of_arms_and_of_contact_in_the_cache(tmp_path):
     names = ["rotation-matrix", "rotation-matrix@geometric+solve", "impedance-geometric"]
+    work = [*names, f"{precompile.COUNT}rotation-matrix"]
     environment = {**os.environ, "NUMBA_CACHE_DIR": str(tmp_path)}
-    words = [sys.executable, "-m", "bench.running.precompile", str(os.getpid()), *names]
+    words = [sys.executable, "-m", "bench.running.precompile", str(os.getpid()), *work]
     subprocess.run(words, env=environment, check=True, capture_output=True)
     kept = {path.name.split(".")[0] for path in tmp_path.rglob("*.nbi")}
     assert {"binding", "resolved_acceleration"} <= kept
     assert cached(tmp_path) >= len(names)
     assert [path.name.partition("-")[2] for path in (tmp_path / "costs").iterdir()] == ["rotation-matrix.json"]
+
+
+def test_what_is_beyond_a_life_is_done_by_the_next(tmp_path):
+    work = [f"{precompile.COUNT}rotation-matrix"] * precompile.LIFE + [f"{precompile.COUNT}hybrid"]
+    words = [sys.executable, "-m", "bench.running.precompile", str(os.getpid()), *work]
+    subprocess.run(words, env={**os.environ, "NUMBA_CACHE_DIR": str(tmp_path)}, check=True, capture_output=True)
+    assert {path.name.partition("-")[2] for path in (tmp_path / "costs").iterdir()} == {
+        "rotation-matrix.json",
+        "hybrid.json",
+    }
 
 
 def test_a_few_contenders_are_not_worth_a_process():
