@@ -33,12 +33,12 @@ def facts(run: Run) -> dict:
 
 
 def tables(run: Run) -> dict:
-    """The answer with its code; every verdict, and how many there are of each."""
+    """The answer with its code; a square for every verdict, and how many there are of each."""
     every = claims.judge_all()
     return {
         "answer": answer_box.answer(run),
         "tiles": judged.tiles(every),
-        "verdicts": judged.table(every, "pages/40-claims.html"),
+        "strip": judged.strip(every, "pages/40-claims.html"),
     }
 
 

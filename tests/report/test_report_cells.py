@@ -53,5 +53,5 @@ def test_names_of_one_page_are_not_those_of_the_next(book):
 
 def test_one_kernel_runs_all_pages_that_judge_all_claims():
     first, *others = cells.batches(list(cells.notebooks()))
-    assert {path.stem for path in first} == {"index", "40-claims", "50-errata"}
+    assert {path.stem for path in first} == {"index", "40-claims"}
     assert [len(batch) for batch in others] == [1] * len(others)

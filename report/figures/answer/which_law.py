@@ -16,7 +16,6 @@ from bench.findings.selection.rule import GENERAL, front
 from bench.findings.selection.words import cost, standing, together
 from bench.tables.statistics import Estimate
 from report.figures.answer.plane import plane, shown
-from report.figures.comparison.cells import by_family
 from report.figures.cost.cost import spent
 from report.figures.kit import families, html
 from report.figures.kit.page import Run
@@ -132,9 +131,16 @@ def every_law(found: Measured) -> html.Markdown | None:
         cells = {head(BY_NAME[name]): written(BY_NAME[name], found.number(name, law)) for name in SHOWN}
         settled = f"{100.0 - found.number('unsettled', law):.4g}"
         operations = spent(*found.tables.spent(law))
-        return {"Front": "●" if law in ahead else "", "Settles [%]": settled, "Operations": operations, **cells}
+        name = families.link(law, families.word(law))
+        return {
+            "Law": name,
+            "Front": "●" if law in ahead else "",
+            "Settles [%]": settled,
+            "Operations": operations,
+        } | cells
 
-    return by_family(found.laws, line)
+    laws = families.in_order(found.laws)
+    return html.table(pd.DataFrame(map(line, laws)).fillna("")) if laws else None
 
 
 def head(criterion: Criterion) -> str:

@@ -1,4 +1,4 @@
-"""The verdicts on a page: tiles, the table of the front page, and a claim's section. All words are the claim's own."""
+"""The verdicts on a page: tiles and a strip, the table, and a claim's section. All words are the claim's own."""
 
 from __future__ import annotations
 
@@ -15,8 +15,10 @@ from report.figures.kit.page import Run
 from report.figures.kit.spelling import marked_up, prose, typeset
 from report.figures.kit.tables import Table
 
-SMALL = ("Criterion", "Before", "Left open", "Readings")
-VERDICTS = Table(" | What the paper says, in our words | Verdict")
+FOLDED = ("Criterion", "Before", "Left open", "Readings")
+"""What a section shows only when it is opened."""
+
+VERDICTS = Table("Claim | Section | The paper | Verdict | Correction of the paper")
 
 
 def facts(_: Run) -> dict:
@@ -44,8 +46,9 @@ def steady(study: dict) -> str:
 
 
 def tables(_: Run) -> dict:
-    """A section for each claim, by its anchor."""
-    return {anchor(one): section(one) for one in claims.judge_all()}
+    """Every claim in a row, and a section for each, by its anchor."""
+    every = claims.judge_all()
+    return {"verdicts": table(every), **{anchor(one): section(one) for one in every}}
 
 
 def tiles(every: list[Verdict]) -> html.Html:
@@ -64,14 +67,44 @@ def tiles(every: list[Verdict]) -> html.Html:
     return html.Html(f'<div class="tiles">{"".join(tile.format(*entry) for entry in entries)}</div>')
 
 
-def table(every: list[Verdict], page: str) -> html.Markdown | None:
-    """Id, sentence and verdict of each decided claim, linked to its section of the page."""
-    return VERDICTS((link(one, page), prose(one.claim.sentence), html.badge(str(one.word))) for one in every)
+def strip(every: list[Verdict], page: str) -> html.Html:
+    """A square a claim in the colour of its word, leading to its section of the page."""
+    square = '<a class="{}" href="{}#{}" title="{}"><span>{}</span></a>'
+    squares = (
+        square.format(
+            html.VERDICTS[one.word],
+            page,
+            anchor(one),
+            escape.escape(f"{one.claim.sentence} {one.word.capitalize()}."),
+            one.claim.id,
+        )
+        for one in every
+    )
+    return html.Html(f'<div class="strip">{"".join(squares)}</div>')
 
 
-def link(one: Verdict, page: str) -> str:
-    """The claim's id, leading to its section."""
-    return f'<a href="{page}#{anchor(one)}">{one.claim.id}</a>'
+def table(every: list[Verdict], page: str = "") -> html.Markdown | None:
+    """A row a claim: where it stands, the sentence with its value, the verdict, and what it corrects.
+
+    page: where the sections are; empty on their own page.
+    """
+    return VERDICTS(
+        (
+            f'<a href="{page}#{anchor(one)}">{one.claim.id}</a>',
+            one.claim.section,
+            prose(quoted(one)),
+            html.badge(str(one.word)),
+            prose(one.correction) if one.correction else "",
+        )
+        for one in every
+    )
+
+
+def quoted(one: Verdict) -> str:
+    """The paper's sentence, with its value if it gives one."""
+    claim = one.claim
+    value = "" if claim.value == "none given" else f" (Its value: {claim.value}.)"
+    return f"“{claim.quote}”{value}" if claim.quote else claim.sentence
 
 
 def anchor(one: Verdict) -> str:
@@ -82,9 +115,8 @@ def anchor(one: Verdict) -> str:
 def section(one: Verdict) -> html.Html:
     """All that is said of one claim: verdict and evidence first, then how it was decided and what is left open."""
     claim = one.claim
-    value = "" if claim.value == "none given" else f" (Its value: {claim.value}.)"
     rows = {
-        "The paper": marked_up(f"“{claim.quote}”{value}" if claim.quote else claim.sentence),
+        "The paper": marked_up(quoted(one)),
         "Correction": marked_up(one.correction),
         "Evidence": marked_up(str(one.evidence)),
         "Criterion": marked_up(f"{claim.criterion} ({written(claim.written)})" if claim.written else claim.criterion),
@@ -92,14 +124,18 @@ def section(one: Verdict) -> html.Html:
         "Left open": marked_up(claim.open),
         "Readings": _listed(claim.readings),
     }
-    small = ' class="small"'
-    parts = [f"<dt{small if name in SMALL else ''}>{name}</dt><dd>{text}</dd>" for name, text in rows.items() if text]
+    entries = {name: f"<dt>{name}</dt><dd>{text}</dd>" for name, text in rows.items() if text}
+    shown = "".join(entry for name, entry in entries.items() if name not in FOLDED)
+    folded = "".join(entry for name, entry in entries.items() if name in FOLDED)
     tables = ", ".join(one.evidence.tables)
     head = (
         f'<p class="claim-head">{html.badge(str(one.word))}<span>{escape.escape(claim.place)}</span>'
         f"<span>n = {html.number(one.evidence.rows)} from {escape.escape(tables)}</span></p>"
     )
-    return html.Html(f'{head}<dl class="claim">{"".join(parts)}</dl>')
+    return html.Html(
+        f'{head}<dl class="claim">{shown}</dl><details class="claim-how"><summary>How it was decided</summary>'
+        f'<dl class="claim small">{folded}</dl></details>'
+    )
 
 
 def written(when: str) -> str:
