@@ -29,9 +29,15 @@ return {
   overflow: Math.max(root.scrollWidth, document.body.scrollWidth) - root.clientWidth,
   broken: shown.filter(image => !image.complete || image.naturalWidth === 0).map(image => image.src),
   empty: [...document.querySelectorAll("canvas.ball")].filter(c => !inked(c)).map(c => c.id),
+  cut: [...document.querySelectorAll("article table")]
+    .filter(table => table.parentElement.scrollWidth > table.parentElement.clientWidth + 1)
+    .map(table => table.id || table.className),
   unset: formulas.filter(formula => !formula.querySelector("mjx-container")).length,
 };
 """
+
+EIGHTEEN_COLUMNS = "tab-side-by-side"
+"""The one table that scrolls sideways."""
 
 # Of axe-core's rules those that keep somebody from reading; colours that are still changing are not looked at.
 BARRIERS = """
@@ -94,6 +100,11 @@ def test_page_follows_the_readers_theme(seen):
 
 def test_page_never_scrolls_sideways(seen):
     assert {view: facts["overflow"] for view, facts in seen[0].items() if facts["overflow"] > 0} == {}
+
+
+def test_no_table_is_cut_off_on_a_wide_screen(seen):
+    cut = {table for view, facts in seen[0].items() if view.width > 1000 for table in facts["cut"]}
+    assert cut - {EIGHTEEN_COLUMNS} == set()
 
 
 def test_page_has_a_main_heading(seen):

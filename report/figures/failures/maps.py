@@ -8,7 +8,7 @@ from bench.findings.maps import by_law, counted, spun
 from bench.findings.theory.closed_form import pole_crossings
 from bench.tables import read
 from bench.tables.schema import RESULTS
-from report.figures.kit import html, laws
+from report.figures.kit import families, html
 from report.figures.kit.rows import LINEARIZED, SHORT
 from report.figures.kit.tables import Table
 
@@ -61,7 +61,7 @@ def at_rest() -> html.Markdown | None:
     lines = by_law(rows()[rows()["most_speed"] == 0.0]).sort_values(["lost", "slowest [s]"]).to_dict("records")
     return MAPPED(
         (
-            html.law(line["law"], laws.title(line["law"])),
+            html.law(line["law"], families.word(line["law"])),
             line["lost [ppm]"],
             html.together(f"{line['least [ppm]']:.1f} to {line['most [ppm]']:.1f}"),
             line["slowest [s]"],
@@ -76,7 +76,7 @@ def spinning() -> html.Markdown | None:
     table = Table("Law | " + " | ".join(f"{speed:g} rad/s" for speed in speeds()))
     found = {law: [one for one in spun(numbers(), law) if one.speed > 0.0] for law in set(numbers()["contender"])}
     order = sorted(found, key=lambda law: (sum(one.lost + one.unconverged for one in found[law]), law))
-    return table((html.law(law, laws.title(law)), *map(cell, found[law])) for law in order)
+    return table((html.law(law, families.word(law)), *map(cell, found[law])) for law in order)
 
 
 def cell(one) -> str:
