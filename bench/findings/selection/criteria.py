@@ -98,7 +98,7 @@ CRITERIA = (
     ),
     Criterion(
         "spread",
-        "Slowest less fastest",
+        "Spread of settling",
         "s",
         "spread of settling times, uniform starts",
         later_than_fastest,

@@ -118,7 +118,7 @@ def written(criterion: Criterion, value: float) -> str:
     if math.isnan(value):
         return html.MISSING
     if math.isinf(value):
-        return "none" if criterion.sense < 0 else "never"
+        return "none" if criterion.sense < 0 else "never" if criterion.unit == "s" else "∞"
     text = criterion.form.format(value)
     return html.number(float(text)) if "e" in text or abs(value) >= 1e3 else text
 
