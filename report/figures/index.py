@@ -18,6 +18,19 @@ from report.figures.kit.share import share
 from report.figures.method.provenance import cited
 from report.figures.responses import hero, settling_decades
 
+BIBTEX = """```bibtex
+@misc{{orientation-bench,
+  author = {{{{The orientation-bench maintainers}}}},
+  title  = {{Orientation regulators, measured}},
+  note   = {{Version {version}, run of {date} at commit {commit}.
+            A replication of S. Murphy, On the Cartesian Control of
+            Orientation and Force for Robotic Manipulators, TFRT-7396,
+            Lund Institute of Technology, 1988}},
+  year   = {{{year}}},
+}}
+```"""
+"""An entry for this edition."""
+
 SHORT_COMMIT = 10
 """Digits of a commit that tell it from every other."""
 
@@ -39,6 +52,7 @@ def tables(run: Run) -> dict:
         "answer": answer_box.answer(run),
         "tiles": judged.tiles(every),
         "strip": judged.strip(every, "pages/40-claims.html"),
+        "bibtex": bibtex(edition(read.provenance())),
     }
 
 
@@ -71,6 +85,11 @@ def of_the_paper(run: Run) -> dict:
         values[f"flops_{letter}"] = int(tallies.loc[name, "flops"])
         values[f"calls_{letter}"] = int(tallies.loc[name, list(CALLS)].sum())
     return values
+
+
+def bibtex(values: dict) -> html.Markdown:
+    """How this edition is cited."""
+    return html.Markdown(BIBTEX.format(**values, year=values["date"].partition("-")[0]))
 
 
 def edition(provenance: dict) -> dict:
