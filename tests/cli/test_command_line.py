@@ -17,6 +17,7 @@ from bench.contenders.registry import (
     known_impedances,
     known_inverses,
     known_jacobians,
+    known_limiters,
     known_regulators,
     known_representations,
 )
@@ -106,6 +107,7 @@ KNOWN = {
     "inverses": known_inverses(),
     "controllers": dict.fromkeys(one.law for one in all_controllers()),
     "impedances": known_impedances(),
+    "limiters": known_limiters(),
     "metrics": [*known_metrics(), *known_contact_metrics()],
     "tasks": [*tasks.names(), *tasks.contact_names()],
     "arms": tasks.arm_names(),
@@ -187,7 +189,11 @@ def test_plan_of_a_suite_takes_twelve_lines_at_most(suite):
 
 def test_plan_names_what_is_made_beside_episodes(capsys):
     said = bench(capsys, "run", "--suite", "quick", "--dry-run").out
-    assert re.search(r"^also +boundaries, command-field, costs, jacobians and traces$", said, re.MULTILINE)
+    assert re.search(
+        r"^also +boundaries, command-field, costs, jacobians, traces, velocity and velocity-limits$",
+        said,
+        re.MULTILINE,
+    )
 
 
 def test_dry_run_counts_what_a_run_then_writes(capsys, tiny_run):
