@@ -22,7 +22,7 @@ from bench.law.chain import bias_acceleration, twist
 from bench.law.contender import AT_REST, Contender, Gains, Goal, Regulator
 from bench.law.equation import ANGLE, CHORD, LINEAR_MRP, LINEAR_SINE, QUARTER, SINE, TANGENT, Equation
 from bench.law.impedance import Impedance, driven
-from bench.law.limiter import Limiter
+from bench.law.limiter import GREATEST_RATE, Limiter
 from bench.law.linalg import (
     determinant,
     exceeds,

@@ -1,5 +1,6 @@
 """The promise of growing: one file adds a regulator, representation, Jacobian, inverse, impedance, limiter, baseline,
-metric, task, arm, start set, perturbation, experiment, claim, or page; a metric or task of contact too, and starts of arms."""
+metric, task, arm, start set, perturbation, experiment, claim, or page; a metric or task of contact too, and starts of
+arms."""
 
 import json
 import os

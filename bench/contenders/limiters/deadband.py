@@ -1,5 +1,6 @@
-"""A band of error per axis within which nothing is commanded: deoxys has one of 5e-3 in its operational-space control.
+"""A band of error per axis within which nothing is commanded.
 
+deoxys has one of 5e-3 on its error, the quaternion's vector part; here it is on the law's error, whatever that is.
 The tool stops where each component of the error is inside the band: up to sqrt(3) of it away, 0.5 degrees here.
 
 Fails: from starts so near that what is left is not inside their settling band.
@@ -29,7 +30,7 @@ def limit(omega, K):
 LIMITER = Limiter(
     "deadband",
     "Deadband per axis",
-    "UT-Austin-RPL/deoxys_control",
+    "UT-Austin-RPL/deoxys_control f2932a0, osc_impedance.cpp",
     r"\omega_i \text{ if } |\omega_i| > K d, \text{ else } 0",
     limit,
 )

@@ -1,22 +1,19 @@
 """A bound on the speed: a longer command is shortened to it and keeps its direction, so that the path is the law's own.
 
-FZI's controllers do so with the error, at 1 rad, and Cartesian velocity interfaces with the command.
+FZI's Cartesian controllers do so with the error, at 1 rad, whatever the gain.
 
 Fails: nowhere.
 """
 
-from bench.law import Limiter, dot, kernel, sqrt
-
-BOUND = 2.0
-"""[rad/s]. Robot arms turn their tools at 1 to 3 rad/s; half a turn takes 1.6 s and a bit."""
+from bench.law import GREATEST_RATE, Limiter, dot, kernel, sqrt
 
 
 @kernel
 def limit(omega, K):
-    """min(1, BOUND/|omega|) omega."""
+    """min(1, GREATEST_RATE/|omega|) omega."""
     squared = dot(omega, omega)
-    if squared > BOUND * BOUND:
-        scale = BOUND / sqrt(squared)
+    if squared > GREATEST_RATE * GREATEST_RATE:
+        scale = GREATEST_RATE / sqrt(squared)
         return (scale * omega[0], scale * omega[1], scale * omega[2])
     return omega
 
@@ -24,7 +21,7 @@ def limit(omega, K):
 LIMITER = Limiter(
     "norm-clamp",
     "Norm clamp",
-    "fzi-forschungszentrum-informatik/cartesian_controllers",
+    "fzi-forschungszentrum-informatik/cartesian_controllers 520baf4, computeMotionError",
     r"\omega\,\min(1, b/|\omega|)",
     limit,
 )
