@@ -1,7 +1,8 @@
 """The largest K dt of first-order laws, by bisection on episodes of a fixed number of ticks.
 
-near: errors of NEAR_RAD about each of AXES are no larger after TICKS ticks. A factor m a tick gives m^TICKS: of the
-limit a thousandth part makes 1.001^TICKS = 2.7, so that bisection finds it to about as much.
+near: errors of NEAR_RAD about each of AXES are no larger after TICKS ticks, after more of them the longer servos lag. A
+factor m a tick gives m^TICKS: of the limit a thousandth part makes 1.001^TICKS = 2.7, so that bisection finds it to
+about as much.
 
 far: in one tick no error of SCAN_RAD about FAR_AXIS grows, nor is it turned by more than twice its angle, which could
 end anywhere. Where that holds the angle falls at every tick from everywhere, and the law is stable whatever the start.
@@ -13,7 +14,8 @@ import numpy as np
 import pandas as pd
 
 import tasks
-from bench.contenders.registry import known_limiters
+from bench.contenders import combinations
+from bench.contenders.registry import find_contender, known_limiters
 from bench.engines.episode import FAILURE_TICK, FINAL_ANGLE, NEVER
 from bench.engines.run_velocity import run
 from bench.engines.velocity import PATH
@@ -47,7 +49,7 @@ def frame(settings: Settings, unit: Unit) -> pd.DataFrame:
     one = settings.contender(unit.contender)
     if unit.arm:
         start = [_on_arm(unit.arm)]
-        found = [("near", 1.0, lag, near(settings, unit, start, lag)) for lag in lags(one.way[1])]
+        found = [("near", 1.0, lag, near(settings, unit, start, lag)) for lag in lags(unit)]
     else:
         begun = [Start("", about(axis, NEAR_RAD)) for axis in AXES]
         limit = near(settings, unit, begun, 0.0)
@@ -58,13 +60,15 @@ def frame(settings: Settings, unit: Unit) -> pd.DataFrame:
     return rows.assign(arm=unit.arm, **contender_columns(one))[TABLES["velocity-limits"].names]
 
 
-def lags(inverse: str) -> tuple[float, ...]:
-    """A lag tells nothing of an inverse: all of them behind the exact ones alone."""
-    return LAG_TICKS if inverse in ("solve", "pseudo-inverse") else LAG_TICKS[:1]
+def lags(unit: Unit) -> tuple[float, ...]:
+    """A lag tells nothing of an inverse: all of them behind the standard one alone."""
+    law, _, _ = unit.contender.partition("@")
+    standard = combinations.on((f"{law}@geometric+standard",), {law: find_contender(law)}, tasks.arm(unit.arm).joints)
+    return LAG_TICKS if unit.contender == standard[0].name else LAG_TICKS[:1]
 
 
 def _on_arm(name: str) -> Start:
-    """The arm at the first clear start's joints, its goal NEAR_RAD off about an axis of no kind."""
+    """The arm at home, its goal NEAR_RAD off about an axis of no kind."""
     judge = kinematics(tasks.arm(name))
     q = pose(name)
     return judge.start("", q, multiply(about(FAR_AXIS, NEAR_RAD), judge.pose(q)[1]))
@@ -79,7 +83,8 @@ def near(settings: Settings, unit: Unit, begun: list[Start], lag_ticks: float, s
     """The largest K dt at which none of the errors near the goal has grown."""
 
     def holds(k_dt: float) -> bool:
-        return bool((_run(settings, unit, begun, share * k_dt, TICKS, lag_ticks)[:, FINAL_ANGLE] <= NEAR_RAD).all())
+        rows = _run(settings, unit, begun, share * k_dt, round(TICKS * (1.0 + lag_ticks)), lag_ticks)
+        return bool((rows[:, FINAL_ANGLE] <= NEAR_RAD).all())
 
     return _bisected(holds)
 

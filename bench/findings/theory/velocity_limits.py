@@ -16,8 +16,12 @@ Fails: far of a law whose axis turns on its way, as on Euler angles; not asked.
 import math
 
 import numpy as np
+import pandas as pd
 
 import tasks
+from bench.contenders.registry import find_contender, inverse
+from bench.engines.arm_episode import buffers
+from bench.experiments.rows.velocity_limits import SCAN_RAD, pose
 from bench.law.contender import AT_REST, Contender, Gains, Goal
 from bench.law.equation import Equation
 from bench.law.resolved_motion import Inverse
@@ -74,15 +78,30 @@ def lagged(lag_ticks: float) -> float:
     return min(bound for bound in bounds if bound > 0.0)
 
 
-def on_arm(arm: str, q, inverse: Inverse) -> float:
+def on_arm(arm: str, q, by: Inverse) -> float:
     """Of f with F = I, by an inverse at joint angles q [rad], J the judge's."""
-    from bench.engines.arm_episode import buffers
-
     J, n = kinematics(tasks.arm(arm)).jacobian(q), tasks.arm(arm).joints
     columns = []
     for unit in np.eye(6):
         into = buffers(n)
         into.J[:6, :n], into.a[:6] = J, unit
-        inverse.resolve(into.J, into.a, np.eye(n), into.x, 6, n, into.scratch)
+        by.resolve(into.J, into.a, np.eye(n), into.x, 6, n, into.scratch)
         columns.append(into.x[:n].copy())
     return by_eigenvalues(J @ np.array(columns).T)
+
+
+def with_theory(rows: pd.DataFrame) -> pd.DataFrame:
+    """Rows of velocity-limits.parquet with `k_dt_theory`; NaN where there is none."""
+    return rows.assign(k_dt_theory=[float(of_row(row)) for row in rows.to_dict("records")])
+
+
+def of_row(row: dict) -> float:
+    """The closed form of one row."""
+    law = str(row["contender"]).partition("@")[0]
+    if row["arm"]:
+        plain = on_arm(row["arm"], pose(row["arm"]), inverse(row["inverse"]))
+        return plain if row["lag_ticks"] == 0.0 else lagged(row["lag_ticks"])
+    one = find_contender(law)
+    if row["reach"] == "near":
+        return near(one) / row["share"]
+    return far(one.equation, SCAN_RAD) if one.equation else math.nan

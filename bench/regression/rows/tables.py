@@ -37,7 +37,7 @@ POSE_RELATIVE = 1e-5
 SINGLE_RELATIVE = 2e-6
 """RELATIVE, and what single precision makes of two numbers that are apart by as much."""
 
-LIMIT_RELATIVE = 1e-4
+LIMIT_RELATIVE = 1e-3
 """Bisection ends at 4e-6; at the limit itself errors neither grow nor fall, and rounding decides some steps of it."""
 
 STEADY = 1e8
