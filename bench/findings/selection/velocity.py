@@ -13,6 +13,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
+from bench.errors import BadResults
 from bench.findings.claims.tables import Results
 from bench.findings.claims.verdict import NoEvidence
 from bench.findings.selection.criteria import BY_NAME, CRITERIA
@@ -39,10 +40,7 @@ def measure(results: Results) -> Measured:
     Errors:
         NoEvidence: the run tells no robot velocities.
     """
-    rows = results.table("velocity", limiter="none")
-    rows = rows[rows["share"] == 1.0] if len(rows) else rows
-    if rows.empty:
-        raise NoEvidence("no robot was told velocities (try: python -m bench run --experiment velocity)")
+    rows = _told(results)
     law = rows["contender"].astype(str).str.partition("@")[0]
     rows = rows.assign(contender=law, lost=rows["outcome"].astype(str) != "settled")
     tables = tables_of(results)
@@ -58,6 +56,18 @@ def measure(results: Results) -> Measured:
     values["peak"] = by_law(uniform, "peak_omega", math.inf)
     values["arms"] = _on_arms(rows)
     return Measured(tables, {one.name: {} for one in CRITERIA} | values)
+
+
+def _told(results: Results) -> pd.DataFrame:
+    """Rows at the full share of K without a limiter; there is at least one."""
+    advice = "no robot was told velocities (try: python -m bench run --experiment velocity)"
+    try:
+        rows = results.table("velocity", limiter="none")
+    except BadResults as error:  # a run that is older than the table
+        raise NoEvidence(advice) from error
+    if not len(rows) or not (rows["share"] == 1.0).any():
+        raise NoEvidence(advice)
+    return rows[rows["share"] == 1.0]
 
 
 AS_EVER = ("unsettled", "lost", "time", "worst", "spread", "tick", "memory", "jump")
