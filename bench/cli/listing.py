@@ -13,6 +13,7 @@ from bench.contenders.registry import (
     known_impedances,
     known_inverses,
     known_jacobians,
+    known_limiters,
     known_regulators,
     known_representations,
 )
@@ -50,8 +51,9 @@ def kind(word: str, title: str, *columns: str):
 def COMMAND(kind, laws):
     """What there is to run, of one kind or of all.
 
-    Kinds: regulators, representations, jacobians, inverses, controllers, impedances, metrics, tasks, arms, variations,
-    axes, starts, engines, suites, experiments, claims. A file of an arm that cannot be used is listed with the reason.
+    Kinds: regulators, representations, jacobians, inverses, controllers, impedances, limiters, metrics, tasks, arms,
+    variations, axes, starts, engines, suites, experiments, claims. A file of an arm that cannot be used is listed with
+    the reason.
     """
     own = options.own_laws(laws)
     if kind is not None and kind not in KINDS:
@@ -112,6 +114,11 @@ def _impedances(_):
 @kind("baselines", "Baselines of arms, which are no laws", "name", "title", "source")
 def _baselines(_):
     return ((name, one.regulator.title, one.regulator.source) for name, one in baselines_of_arms().items())
+
+
+@kind("limiters", "Limiters of velocity commands", "name", "title", "source")
+def _limiters(_):
+    return ((one.name, one.title, one.source) for one in known_limiters().values())
 
 
 @kind("metrics", "Metrics", "column", "unit", "of", "meaning")

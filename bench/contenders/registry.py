@@ -9,10 +9,11 @@ import importlib
 import pkgutil
 from typing import Any
 
-from bench.contenders import baselines, impedances, inverses, jacobians, regulators, representations
+from bench.contenders import baselines, impedances, inverses, jacobians, limiters, regulators, representations
 from bench.errors import BadLaw, Incompatible, UnknownWord
 from bench.law.contender import ON_MATRIX, Contender, Regulator, Representation, contender
 from bench.law.impedance import Impedance
+from bench.law.limiter import Limiter
 from bench.law.resolved_motion import Inverse, Jacobian
 
 
@@ -42,6 +43,7 @@ FOLDERS = {
     "inverse": (inverses, Inverse),
     "impedance": (impedances, Impedance),
     "baseline": (baselines, Regulator),
+    "limiter": (limiters, Limiter),
 }
 """What is found in a folder of bench/contenders: constants of one type, named as their kind."""
 
@@ -58,6 +60,7 @@ known_representations = functools.partial(known, "representation")
 known_jacobians = functools.partial(known, "Jacobian")
 known_inverses = functools.partial(known, "inverse")
 known_impedances = functools.partial(known, "impedance")
+known_limiters = functools.partial(known, "limiter")
 
 
 def baselines_of_arms() -> dict[str, Contender]:

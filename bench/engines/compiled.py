@@ -22,7 +22,7 @@ from bench.errors import BadLaw
 from bench.law import scalar
 from bench.law.contender import Gains, Goal
 from bench.law.so3 import Rotation
-from tasks import moving_goal, truth, verdict
+from tasks import moving_goal, truth, velocity, verdict
 
 FunctionIdentity._unique_ids = itertools.count(secrets.randbits(56))
 """numba tells functions of one name apart by a number that counts from 1 in every process, and the linker keeps the
@@ -90,7 +90,8 @@ def register_kernels() -> None:
         for function in scalar.PRIMITIVES:
             if function not in _registered:
                 _register_primitive(function)
-        for function in (*scalar.KERNELS, *verdict.COMPILABLE, *truth.COMPILABLE, *moving_goal.COMPILABLE):
+        judges = (verdict, truth, moving_goal, velocity)
+        for function in (*scalar.KERNELS, *(one for module in judges for one in module.COMPILABLE)):
             register(function)
 
 

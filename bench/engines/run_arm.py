@@ -112,7 +112,7 @@ def compiled_loop(metrics: tuple):
 def pointers(contender: Contender) -> Pointers:
     """The three functions of a contender, compiled or taken from the disk cache; a user's law is compiled anew."""
     law = contender._replace(jacobian=None, inverse=None)
-    return Pointers(_assemble(contender._replace(inverse=None)), _resolve(contender.inverse), _margin(law))
+    return Pointers(_assemble(contender._replace(inverse=None)), resolution(contender.inverse), _margin(law))
 
 
 @made_once
@@ -122,7 +122,8 @@ def _assemble(contender: Contender):
 
 
 @made_once
-def _resolve(inverse):
+def resolution(inverse):
+    """An inverse as loops call it."""
     return compile_function(inverse.resolve, native.RESOLVE)
 
 

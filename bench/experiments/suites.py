@@ -112,6 +112,25 @@ class Robustness(NamedTuple):
     others: tuple[str, ...] | None = ("feedback-linearized/mrp",)
 
 
+class Velocity(NamedTuple):
+    """The part of a suite that tells robots velocities.
+
+    starts: uniform ones of every first-order law on the free body; limited: those with a limiter; on_arms: of each of
+    AT_VELOCITIES on each arm.
+    """
+
+    starts: int
+    limited: int
+    on_arms: int
+
+
+AT_VELOCITIES = ("clear", "uniform")
+BY_EVERY_INVERSE = "rotation-vector"
+"""The velocity law that is resolved by every inverse: the logarithm, which velocity interfaces take."""
+WITHOUT_FACTOR = "quaternion-shortest"
+"""The law that is also run at half of K: the quaternion's vector part as it is, without the factor 2."""
+
+
 class Suite(NamedTuple):
     """A named list of slices, run for every contender that is not only a costing.
 
@@ -129,6 +148,7 @@ class Suite(NamedTuple):
     in_contact: InContact
     robustness: Robustness
     in_engine: tuple[Slice, ...]
+    velocity: Velocity
 
 
 DIRECTED = ("box", "goals", "half-turn", "paper", "poles", "tumbling", "wraps")
@@ -212,6 +232,7 @@ SUITES = {
             in_contact=InContact(COMPLIANT, FIRST_FRAMES, redundant=REDUNDANT[:2], redundant_poses=FIRST_SCENES),
             robustness=Robustness(4),
             in_engine=_slices("native", 200, ("half-turn", "paper", "poles")),
+            velocity=Velocity(24, 8, 1),
         ),
         Suite(
             "default",
@@ -235,6 +256,7 @@ SUITES = {
             in_contact=InContact((*COMPLIANT, *MORE_COMPLIANT), redundant=REDUNDANT, redundant_poses=FIRST_SERIES),
             robustness=Robustness(24),
             in_engine=_slices("native", 250) + _slices("reference", 0, ("paper",)),
+            velocity=Velocity(100, 16, 4),
         ),
         Suite(
             "full",
@@ -257,6 +279,7 @@ SUITES = {
             in_contact=InContact((), dense=True, in_free_space=()),
             robustness=Robustness(1024, None),
             in_engine=_slices("native", 50_000) + _slices("reference", 0, ("paper",)),
+            velocity=Velocity(1000, 100, 12),
         ),
     )
 }

@@ -3,6 +3,7 @@
 from bench.provenance import ROOT
 from bench.tables import motion_columns as motion
 from bench.tables import other_columns as other
+from bench.tables import velocity_columns as velocity
 from bench.tables.column import Table
 
 CONTENDER = ("regulator", "representation", "jacobian", "inverse")
@@ -34,6 +35,16 @@ TABLES = {
             "robustness",
             motion.robustness_columns,
             ("suite", "axis", "level", "regulator", "representation", "start_id"),
+        ),
+        Table(
+            "velocity",
+            velocity.velocity_columns,
+            ("suite", "arm", *CONTENDER, "share", "limiter", "lag_s", "start_set", "start_id"),
+        ),
+        Table(
+            "velocity-limits",
+            velocity.velocity_limit_columns,
+            ("arm", *CONTENDER, "share", "reach", "lag_ticks"),
         ),
         Table("perturbed", motion.perturbed_columns, ("axis", "level", "regulator", "representation")),
         Table("timings", other.timing_columns, ("what", "arm", *CONTENDER, "engine")),

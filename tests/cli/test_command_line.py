@@ -17,6 +17,7 @@ from bench.contenders.registry import (
     known_impedances,
     known_inverses,
     known_jacobians,
+    known_limiters,
     known_regulators,
     known_representations,
 )
@@ -106,6 +107,7 @@ KNOWN = {
     "inverses": known_inverses(),
     "controllers": dict.fromkeys(one.law for one in all_controllers()),
     "impedances": known_impedances(),
+    "limiters": known_limiters(),
     "metrics": [*known_metrics(), *known_contact_metrics()],
     "tasks": [*tasks.names(), *tasks.contact_names()],
     "arms": tasks.arm_names(),
@@ -177,17 +179,21 @@ def test_run_prints_its_plan_and_what_to_do_next(capsys, tmp_path):
 
 
 @pytest.mark.parametrize("suite", SUITES)
-def test_plan_of_a_suite_takes_twelve_lines_at_most(suite):
+def test_plan_of_a_suite_takes_thirteen_lines_at_most(suite):
     chosen = [one for one in all_contenders() if not one.regulator.costing_only]
     plan = planning.make(suite, chosen, count=1)
     lines = laid_out(planned.size(plan, Path("results/latest"), 2, THREADS), 80)
-    assert len(lines) <= 11  # and one if the run goes on
+    assert len(lines) <= 12  # and one if the run goes on
     assert max(map(len, lines)) <= 80
 
 
 def test_plan_names_what_is_made_beside_episodes(capsys):
     said = bench(capsys, "run", "--suite", "quick", "--dry-run").out
-    assert re.search(r"^also +boundaries, command-field, costs, jacobians and traces$", said, re.MULTILINE)
+    assert re.search(
+        r"^also +boundaries, command-field, costs, jacobians, traces, velocity and velocity-limits$",
+        said,
+        re.MULTILINE,
+    )
 
 
 def test_dry_run_counts_what_a_run_then_writes(capsys, tiny_run):

@@ -1,5 +1,6 @@
-"""The promise of growing: one file adds a regulator, representation, Jacobian, inverse, impedance, baseline, metric,
-task, arm, start set, perturbation, experiment, claim, or page; a metric or task of contact too, and starts of arms."""
+"""The promise of growing: one file adds a regulator, representation, Jacobian, inverse, impedance, limiter, baseline,
+metric, task, arm, start set, perturbation, experiment, claim, or page; a metric or task of contact too, and starts of
+arms."""
 
 import json
 import os
@@ -75,6 +76,7 @@ LISTED = {
     "jacobians": "dropped-jacobian",
     "inverses": "dropped-inverse",
     "impedances": "dropped-impedance",
+    "limiters": "dropped-limiter",
     "baselines": "dropped-baseline",
     "metrics of contact": "dropped_touch",
     "tasks in contact": "dropped-probe",

@@ -13,7 +13,7 @@ ROOM = Path(bench.__file__).parent
 FILES = sorted(
     path
     for pattern in (
-        *(f"contenders/{kind}/*.py" for kind in ("regulators", "representations", "jacobians", "inverses")),
+        *(f"contenders/{kind}/*.py" for kind in ("regulators", "representations", "jacobians", "inverses", "limiters")),
         *("law/linalg/*.py", "law/so3.py", "law/chain.py", "law/weighting.py"),
     )
     for path in ROOM.glob(pattern)

@@ -157,9 +157,13 @@ def decide(need: Need, found: Measured) -> Decision:
     return Decision(need, law, tuple(one for one in kept if one != law), tuple(best), asked)
 
 
-def advise(found: Measured) -> Advice:
-    """All situations, decided."""
-    default, every = decide(DEFAULT, found), [decide(need, found) for need in NEEDS]
+def advise(found: Measured, usual: Need = DEFAULT, needs: Sequence[Need] = NEEDS) -> Advice:
+    """All situations, decided.
+
+    Args:
+        usual: what is asked where nothing else is known.
+    """
+    default, every = decide(usual, found), [decide(need, found) for need in needs]
     is_decisive = [default.law not in one.best for one in every]
     return Advice(
         default,

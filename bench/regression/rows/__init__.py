@@ -20,7 +20,17 @@ from bench.errors import BadResults
 from bench.experiments.experiment import known_tables
 from bench.regression.rows.contact import compliance, robustness
 from bench.regression.rows.difference import COLUMN, Difference, by_column, lines
-from bench.regression.rows.tables import boundaries, command_field, costs, episodes, of_key, poses, traces
+from bench.regression.rows.tables import (
+    boundaries,
+    command_field,
+    costs,
+    episodes,
+    of_key,
+    poses,
+    traces,
+    velocity,
+    velocity_limits,
+)
 from bench.tables.column import Table
 from bench.tables.files import read_json
 from bench.tables.store import read, read_arrow
@@ -36,6 +46,8 @@ TABLES = {
     "compliance": compliance,
     "robustness": robustness,
     "traces": traces,
+    "velocity": velocity,
+    "velocity-limits": velocity_limits,
 }
 """What is compared in a way of its own; tables of other experiments are, row by row, as `of_key` says."""
 

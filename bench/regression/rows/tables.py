@@ -34,6 +34,12 @@ ARRIVED = 0.02
 POSE_RELATIVE = 1e-5
 """Single precision is 6e-8; condition numbers up to STEADY lose half the digits of the doubles they are made of."""
 
+SINGLE_RELATIVE = 2e-6
+"""RELATIVE, and what single precision makes of two numbers that are apart by as much."""
+
+LIMIT_RELATIVE = 1e-3
+"""Bisection ends at 4e-6; at the limit itself errors neither grow nor fall, and rounding decides some steps of it."""
+
 STEADY = 1e8
 """Condition number beyond which the last bit of a joint angle decides its value."""
 
@@ -72,6 +78,31 @@ def episodes(old: pd.DataFrame, new: pd.DataFrame) -> list[Difference]:
 
     judged = ("outcome", "cause", "outcome_beside", "rounding_change")
     return found + compared(table, old, new, close, settled & same & (loose < 1.0), judged)
+
+
+def velocity(old: pd.DataFrame, new: pd.DataFrame) -> list[Difference]:
+    """As `episodes`; a change of ABSOLUTE by 1e-12 rad is taken for rounding's, and of larger ones MARGIN times it."""
+    table = TABLES["velocity"]
+    old, new, found = aligned(table, old, new)
+    settled = old["outcome"].astype(str) == OUTCOMES[SETTLED]
+    same = new["outcome"].astype(str) == old["outcome"].astype(str)
+    found += changed(table, "outcome", old, new, ~same & ~_share_an_outcome(old, new))
+    doubt = np.fmax(old["rounding_change"].to_numpy(), new["rounding_change"].to_numpy())
+    loose = np.fmax(SINGLE_RELATIVE, MARGIN * doubt)
+
+    def close(name, a, b):
+        ticks = old["dt_s"].to_numpy() if name in ("settling_time_s", "failure_time_s") else 0.0
+        return np.isclose(a, b, rtol=np.fmin(loose, 1.0), atol=ABSOLUTE + 0.5 * ticks, equal_nan=True)
+
+    judged = ("outcome", "outcome_beside", "rounding_change")
+    return found + compared(table, old, new, close, settled & same & (loose < 1.0), judged)
+
+
+def velocity_limits(old: pd.DataFrame, new: pd.DataFrame) -> list[Difference]:
+    """What was bisected, to LIMIT_RELATIVE."""
+    table = TABLES["velocity-limits"]
+    old, new, found = aligned(table, old, new)
+    return found + compared(table, old, new, near(LIMIT_RELATIVE, LIMIT_RELATIVE))
 
 
 def _share_an_outcome(old: pd.DataFrame, new: pd.DataFrame) -> np.ndarray:

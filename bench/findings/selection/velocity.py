@@ -1,0 +1,97 @@
+"""Which law to use where the robot takes velocities: by the same rule, from the rows of first-order laws.
+
+A law that is no velocity law was not asked. Criteria keep their names and what is notable; peak is that of omega
+[rad/s]. What a first-order loop has no number for (effort, variation, noise at 180°) ties.
+"""
+
+from __future__ import annotations
+
+import functools
+import math
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from bench.errors import BadResults
+from bench.findings.claims.tables import Results
+from bench.findings.claims.verdict import NoEvidence
+from bench.findings.selection.criteria import BY_NAME, CRITERIA
+from bench.findings.selection.measured import Measured
+from bench.findings.selection.needs import EVERYWHERE, FORGETFUL, NEARLY, SMOOTH, Advice, Need, advise
+from bench.findings.selection.tables import by_law, common, tables_of
+
+VELOCITY = Need("your robot takes velocities", (EVERYWHERE,))
+"""What a velocity law must have to be advised where nothing else is said."""
+
+NEEDS = (
+    Need("the fastest, at equal gain near the goal", (EVERYWHERE,), ("time",)),
+    Need("the smallest peak of the command", (EVERYWHERE,), ("peak",)),
+    Need("no memory in the controller", (EVERYWHERE, FORGETFUL)),
+    Need("a command that never jumps", (NEARLY, FORGETFUL, SMOOTH)),
+    Need("an arm told joint rates by the standard inverse", (EVERYWHERE,), ("arms",)),
+)
+"""Situations of a robot that takes velocities."""
+
+
+def measure(results: Results) -> Measured:
+    """The criteria of every first-order law of a run at the full share of K, without a limiter.
+
+    Errors:
+        NoEvidence: the run tells no robot velocities.
+    """
+    rows = _told(results)
+    law = rows["contender"].astype(str).str.partition("@")[0]
+    rows = rows.assign(contender=law, lost=rows["outcome"].astype(str) != "settled")
+    tables = tables_of(results)
+    rows = rows[rows["contender"].isin(tables.contenders)]
+    free = rows[rows["arm"] == ""]
+    uniform, exact = (common(free[free["start_set"] == name]) for name in ("uniform", "half-turn"))
+    known = set(uniform["contender"])
+    contenders = {name: one for name, one in tables.contenders.items() if name in known}
+    tables = tables._replace(uniform=uniform, directed=exact, contenders=contenders, robustness=pd.DataFrame())
+    values = {one.name: BY_NAME[one.name].measure(tables) for one in CRITERIA if one.name in AS_EVER}
+    ways = [by_law(part, "path_ratio") for part in (uniform, exact)]
+    values["detour"] = {name: np.array([np.nanmax([*(way[name].max() for way in ways)])]) for name in contenders}
+    values["peak"] = by_law(uniform, "peak_omega", math.inf)
+    values["arms"] = _on_arms(rows)
+    return Measured(tables, {one.name: {} for one in CRITERIA} | values)
+
+
+def _told(results: Results) -> pd.DataFrame:
+    """Rows at the full share of K without a limiter; there is at least one."""
+    advice = "no robot was told velocities (try: python -m bench run --experiment velocity)"
+    try:
+        rows = results.table("velocity", limiter="none")
+    except BadResults as error:  # a run that is older than the table
+        raise NoEvidence(advice) from error
+    if not len(rows) or not (rows["share"] == 1.0).any():
+        raise NoEvidence(advice)
+    return rows[rows["share"] == 1.0]
+
+
+AS_EVER = ("unsettled", "lost", "time", "worst", "spread", "tick", "memory", "jump")
+"""Criteria that are measured of these rows as of any others."""
+
+
+def _on_arms(rows: pd.DataFrame) -> dict[str, np.ndarray]:
+    """100 for each uniform start on arms that settles by the standard inverse and servos that follow at once [%]."""
+    own = rows[(rows["arm"] != "") & (rows["start_set"] == "uniform") & (rows["lag_s"] == 0.0)]
+    own = own[own["inverse"].isin(("solve", "pseudo-inverse"))]
+    has_solve = own.groupby(["contender", "arm"], observed=True)["inverse"].transform(
+        lambda one: (one == "solve").any()
+    )
+    own = own[~has_solve | (own["inverse"] == "solve")].sort_values(["arm", "start_id"], kind="stable")
+    return by_law(own.assign(passed=100.0 * ~own["lost"]), "passed")
+
+
+@functools.cache
+def velocity_measured(folder: Path) -> Measured:
+    """The criteria of the run in a folder."""
+    return measure(Results(folder))
+
+
+@functools.cache
+def velocity_choice(folder: Path) -> Advice:
+    """What is advised where a robot takes velocities, by the run in a folder; NoEvidence if it has no such rows."""
+    return advise(velocity_measured(folder), VELOCITY, NEEDS)
