@@ -9,11 +9,12 @@ import importlib
 import pkgutil
 from typing import Any
 
-from bench.contenders import baselines, impedances, inverses, jacobians, regulators, representations
+from bench.contenders import baselines, impedances, inverses, jacobians, regulators, representations, shipped
 from bench.errors import BadLaw, Incompatible, UnknownWord
 from bench.law.contender import ON_MATRIX, Contender, Regulator, Representation, contender
 from bench.law.impedance import Impedance
 from bench.law.resolved_motion import Inverse, Jacobian
+from bench.law.shipped import Shipped
 
 
 def collect(package, constant: str, kind: type) -> dict[str, Any]:
@@ -42,6 +43,7 @@ FOLDERS = {
     "inverse": (inverses, Inverse),
     "impedance": (impedances, Impedance),
     "baseline": (baselines, Regulator),
+    "shipped": (shipped, Shipped),
 }
 """What is found in a folder of bench/contenders: constants of one type, named as their kind."""
 
@@ -58,6 +60,7 @@ known_representations = functools.partial(known, "representation")
 known_jacobians = functools.partial(known, "Jacobian")
 known_inverses = functools.partial(known, "inverse")
 known_impedances = functools.partial(known, "impedance")
+known_shipped = functools.partial(known, "shipped")
 
 
 def baselines_of_arms() -> dict[str, Contender]:
