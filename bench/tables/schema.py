@@ -20,7 +20,7 @@ TABLES = {
         Table("traces", motion.trace_columns, ("task", "arm", *CONTENDER, "engine", "start_set", "start_id", "time_s")),
         Table("boundaries", motion.boundary_columns, (*CONTENDER, "axis_x", "axis_y", "axis_z")),
         Table("command-field", motion.field_columns, (*CONTENDER, "finding")),
-        Table("shipped", shipped_columns, ("controller", "law")),
+        Table("shipped", shipped_columns, ("shipped", "law")),
         Table(
             "map",
             motion.map_columns,

@@ -18,7 +18,7 @@ def shipped_columns() -> list[Column]:
     times = {f"settling_{name}_s": f"{name.replace('_', '.')}°" for name in SETTLING_DEG}
     return [
         *words(
-            controller="whose gains they are",
+            shipped="the controller whose gains they are",
             law="empty: the controller as shipped; else the law of ours in its place",
             level="what is commanded: torque, velocity or position",
             shapes_inertia="whether unit inertia is felt whatever the body's: yes or no",

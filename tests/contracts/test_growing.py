@@ -75,6 +75,7 @@ LISTED = {
     "jacobians": "dropped-jacobian",
     "inverses": "dropped-inverse",
     "impedances": "dropped-impedance",
+    "shipped": "dropped-shipped",
     "baselines": "dropped-baseline",
     "metrics of contact": "dropped_touch",
     "tasks in contact": "dropped-probe",

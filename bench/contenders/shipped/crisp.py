@@ -22,6 +22,6 @@ SHIPPED = Shipped(
     error,
     30.0,
     2.0 * 30.0**0.5,
-    "defaults of the parameters; 2 sqrt(K)",
+    "defaults of the parameters; 2√K",
     besides="filters goals, states and torques, and limits the torques' rate; cancels the inertia if told to",
 )

@@ -34,7 +34,7 @@ SHIPPED = Shipped(
     error,
     250.0,
     2.0 * 250.0**0.5,
-    "osc-pose-controller.yml; 2 sqrt(K)",
+    "osc-pose-controller.yml; 2√K",
     shapes_inertia=True,
     besides="adds residual masses to the model, and repels joints from their limits",
 )

@@ -15,6 +15,6 @@ SHIPPED = Shipped(
     vector_part,
     10.0,
     2.0 * 10.0**0.5,
-    "default of the parameter; 2 sqrt(K)",
+    "default of the parameter; 2√K",
     besides="filters its gains and goals, limits the rate of the torques",
 )

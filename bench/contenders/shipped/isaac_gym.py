@@ -27,7 +27,7 @@ SHIPPED = Shipped(
     error,
     150.0,
     2.0 * 150.0**0.5,
-    "in the source; 2 sqrt(K)",
+    "in the source; 2√K",
     shapes_inertia=True,
     besides="computes in single precision",
 )

@@ -12,5 +12,5 @@ SHIPPED = Shipped(
     vector_part,
     10.0,
     2.0 * 10.0**0.5,
-    "in the source; 2 sqrt(K)",
+    "in the source; 2√K",
 )

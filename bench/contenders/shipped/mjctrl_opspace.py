@@ -26,7 +26,7 @@ SHIPPED = Shipped(
     error,
     50.0,
     2.0 * 50.0**0.5,
-    "in the source; 2 sqrt(K)",
+    "in the source; 2√K",
     shapes_inertia=True,
     besides="bounds the torques by the actuators' ranges",
 )

@@ -11,7 +11,6 @@ import numpy as np
 import pandas as pd
 
 from bench.audit import audit
-from bench.audit.pairs import product
 from bench.contenders.registry import find_contender
 from bench.engines.binding import memory_of
 from bench.engines.curve import NUMBERS, blank_curves
@@ -22,8 +21,10 @@ from bench.experiments.rows.command_field import ENGINE, ZERO, Field, about, siz
 from bench.law.contender import Contender, Gains
 from bench.law.shipped import ANTIPODE, NEAR, VELOCITY, Shipped, regulator_of
 from bench.metrics.registry import metrics_of
+from bench.tables.schema import TABLES
 from bench.tables.shipped_columns import BENT_DEG, FELT_RAD, SETTLING_DEG
 from tasks.base import Start
+from tasks.rotations import multiply
 from tasks.sphere import axes
 from tasks.verdict import SETTLED
 
@@ -36,7 +37,6 @@ AWAY_RAD = math.radians(1.0)
 """By more than this a spring that pulls the short way increases no angle of a body at rest."""
 SAMPLE_S = 0.02
 HAVERSINE = NUMBERS.index("haversine")
-CONJUGATE = np.array((1.0, -1.0, -1.0, -1.0))
 
 
 def frame(one: Shipped, laws: tuple[str, ...], settings: Settings, horizon_s: float) -> pd.DataFrame:
@@ -44,7 +44,7 @@ def frame(one: Shipped, laws: tuple[str, ...], settings: Settings, horizon_s: fl
     rows = [row(one, "", Contender(regulator_of(one)), settings, horizon_s) | {"findings": ", ".join(findings(one))}]
     if one.level != VELOCITY:
         rows += [row(one, law, find_contender(law), settings, horizon_s) | {"findings": ""} for law in laws]
-    return pd.DataFrame(rows)
+    return pd.DataFrame(rows, columns=TABLES["shipped"].names)
 
 
 def row(one: Shipped, law: str, contender: Contender, settings: Settings, horizon_s: float) -> dict:
@@ -57,7 +57,7 @@ def row(one: Shipped, law: str, contender: Contender, settings: Settings, horizo
         ratio = gains.kv / (2.0 * math.sqrt(gains.kp * felt["stiffness_50mrad"]))
     dead = size(field(about(axes(DIRECTIONS), math.pi) * (0.0, 1.0, 1.0, 1.0))) <= ZERO
     found = {
-        "controller": one.name,
+        "shipped": one.name,
         "law": law,
         "level": one.level,
         "shapes_inertia": "yes" if one.shapes_inertia else "no",
@@ -82,20 +82,21 @@ def stiffness(field: Field, angle: float) -> float:
 
 
 def bent(field: Field, angle: float) -> float:
-    """The largest angle between the command at rest and the axis to the goal [rad]; NaN where all rest."""
+    """The largest angle between the command at rest and the axis [rad], 0 within ZERO; NaN where all rest."""
     k = axes(DIRECTIONS)
     u = field(about(k, angle))
     moves = size(u) > ZERO
     off = np.arctan2(np.linalg.norm(np.cross(u, -k), axis=1), np.sum(u * -k, axis=1))
-    return float(off[moves].max()) if moves.any() else math.nan
+    worst = float(off[moves].max()) if moves.any() else math.nan
+    return 0.0 if worst < ZERO else worst  # what rounding leaves is no property of a controller
 
 
 def findings(one: Shipped) -> tuple[str, ...]:
     """What the audit says of the error, notes too, as a function of two quaternions whose slope shall be 1."""
 
     def error(q, q_d):
-        turn = product(q_d[None], (q * CONJUGATE)[None])[0]
-        return one.error(tuple(turn.tolist()))
+        (w, x, y, z), goal = q.tolist(), q_d.tolist()
+        return one.error(multiply(tuple(goal), (w, -x, -y, -z)))
 
     return tuple(found.fault.name for found in audit(error, "wxyz", name=one.name).findings)
 
