@@ -92,7 +92,7 @@ def test_step_is_that_of_rodrigues_formula():
     ("name", "ratio", "faults"),
     [
         ("franka_ros", 0.5, {"stiffness"}),
-        ("deoxys_control", 0.0, {"deadband"}),
+        ("deoxys_control", 0.0, {"deadband", "stiffness"}),
         ("Isaac Gym idiom", 0.5, {"dead-at-180", "stiffness"}),
         ("crisp_controllers", 1.0, {"axis-clip"}),
         ("cartesian_controllers", 1.0, {"norm-clip"}),

@@ -10,9 +10,9 @@ import pandas as pd
 from bench.contenders.registry import known_shipped
 from bench.findings.claims.verdict import NoEvidence
 from bench.findings.selection import needs
-from bench.law.shipped import POSITION, TORQUE, VELOCITY, Shipped
+from bench.law.shipped import POSITION, TORQUE, VELOCITY
 from bench.tables.shipped_columns import BENT_DEG, FELT_RAD
-from report.figures.kit import laws
+from report.figures.kit import html, laws
 from report.figures.kit.page import Run, given
 from report.figures.kit.tables import Table
 
@@ -26,9 +26,9 @@ HOST = "https://github.com"
 
 MEASURED = Table(
     "Controller | K, D | Felt [%] | Damping ratio:.3g | Critical at [kg m²]:.2g | Rests at 180° | Unwinds "
-    "| Bent [°]:.0f | Settles [s] | Instead [s] | Write instead"
+    "| Bent [°]:.0f | Settles [s] | Instead [s]"
 )
-SOURCES = Table("Controller | Source | K and D set by | Audit of the error | Besides, not restated")
+SOURCES = Table("Controller | What, and where | Audit | Write instead")
 
 
 def advised(run: Run) -> str | None:
@@ -98,59 +98,44 @@ def in_place(own: pd.DataFrame, law: str | None) -> str | None:
 
 
 def named(rows: pd.DataFrame) -> str:
-    """Titles, or none."""
-    return "; ".join(map(title, rows["shipped"])) or "none"
-
-
-def title(name: str) -> str:
-    """Of a controller; its name if it is no longer known."""
-    return known_shipped()[name].title if name in known_shipped() else name
+    """Names, or none."""
+    return ", ".join(rows["shipped"]) or "none"
 
 
 def tables(run: Run) -> dict:
-    """What is measured, and where it comes from."""
+    """What is measured, equals in one line; where it comes from, and what to write instead."""
     own, law = shipped(run), advised(run)
+    lines: dict[tuple, list[str]] = {}
+    for one in own.itertuples():
+        lines.setdefault(measured(one, law), []).append(one.shipped)
     return {
-        "measured": MEASURED(map(measured(law), own.itertuples())),
-        "sources": SOURCES(map(sourced, own.itertuples())),
+        "measured": MEASURED((", ".join(names), *cells) for cells, names in lines.items()),
+        "sources": SOURCES(
+            (one.shipped, described(one.shipped), one.findings or "nothing", instead(one, law))
+            for one in own.itertuples()
+        ),
     }
 
 
-def sourced(one) -> tuple:
-    """Where a controller is from; of one that is no longer there, its name."""
-    source = known_shipped().get(one.shipped)
-    if source is None:
-        return (one.shipped, None, None, one.findings, None)
-    return (source.title, link(source), source.set_by, one.findings or "nothing", source.besides or None)
+def measured(one, law: str | None) -> tuple:
+    """A controller's cells but for its name; law: the one that is advised."""
+    has_body = one.starts > 0
+    return (
+        f"{one.kp:.3g}, {one.kv:.3g}" if has_body else f"{one.kp:.3g} a tick",
+        html.together(", ".join(f"{100.0 * getattr(one, name):.0f}" for name in FELT_RAD)),
+        one.damping_ratio if has_body else None,
+        None if math.isnan(one.critical) else one.critical,
+        "every" if one.dead == one.half_turns else f"{one.dead} of {one.half_turns}" if one.dead else "no",
+        (f"{one.away} of {one.starts}" if one.away else "no") if has_body else None,
+        math.degrees(one.bent),
+        times(one.settling_1_s, one.settling_90_s, one.settling_179_9_s) if has_body else None,
+        times(one.ours_settling_1_s, one.ours_settling_90_s, one.ours_settling_179_9_s) if law and has_body else None,
+    )
 
 
-def measured(law: str | None):
-    """A controller's line, with the law that is advised."""
-
-    def line(one) -> tuple:
-        has_body = one.starts > 0
-        return (
-            title(one.shipped),
-            f"{one.kp:.3g}, {one.kv:.3g}" if has_body else f"{one.kp:.3g} a tick",
-            ", ".join(f"{100.0 * getattr(one, name):.0f}" for name in FELT_RAD),
-            one.damping_ratio if has_body else None,
-            one.critical,
-            "every" if one.dead == one.half_turns else f"{one.dead} of {one.half_turns}" if one.dead else "no",
-            (f"{one.away} of {one.starts}" if one.away else "no") if has_body else None,
-            math.degrees(one.bent),
-            ", ".join(map(seconds, (one.settling_1_s, one.settling_90_s, one.settling_179_9_s))) if has_body else None,
-            ", ".join(map(seconds, (one.ours_settling_1_s, one.ours_settling_90_s, one.ours_settling_179_9_s)))
-            if law and has_body
-            else None,
-            instead(one, law),
-        )
-
-    return line
-
-
-def seconds(time: float) -> str:
-    """A settling time."""
-    return "never" if math.isnan(time) else f"{time:.2g}"
+def times(*settling: float) -> str:
+    """Settling times [s]."""
+    return html.together(", ".join("never" if math.isnan(one) else f"{one:.2g}" for one in settling))
 
 
 def instead(one, law: str | None) -> str | None:
@@ -159,13 +144,13 @@ def instead(one, law: str | None) -> str | None:
         return "Keep its error: direction and dead points are right."
     changes = []
     if one.level != VELOCITY and one.stiffness_50mrad < RIGHT:
-        changes.append(f"all of K is felt, {1.0 / one.stiffness_50mrad:.2g} times as much as now")
+        changes.append(f"all of K is felt, {1.0 / one.stiffness_50mrad:.3g} times as much as now")
     if not one.stiffness_1mrad:
         changes.append("it moves inside the deadband too")
     if one.dead:
         changes.append("it leaves every 180° rotation")
     if one.bent:
-        changes.append("no clip bends it")
+        changes.append("its direction is kept")
     if not changes:
         return "Keep it: nothing that is looked at is wrong."
     if law is None:
@@ -175,8 +160,11 @@ def instead(one, law: str | None) -> str | None:
     return f"`bench export {law} --to cpp`, same K and D: {'; '.join(changes)}."
 
 
-def link(one: Shipped) -> str:
-    """The source at its commit, and the first of the files that were read."""
+def described(name: str) -> str | None:
+    """Title, source at its commit by the first of the files that were read, and where the gains are set."""
+    if name not in known_shipped():
+        return None
+    one = known_shipped()[name]
     repository, _, revision = one.source.partition("@")
-    first = one.path.partition(",")[0]
-    return f"[{repository} at {revision[:8]}]({HOST}/{repository}/blob/{revision}/{first})"
+    where = f"{HOST}/{repository}/blob/{revision}/{one.path.partition(',')[0]}"
+    return f"{one.title} ([{revision[:8]}]({where}); gains: {one.set_by})"
