@@ -16,6 +16,7 @@ from bench.contenders.registry import (
     known_limiters,
     known_regulators,
     known_representations,
+    known_shipped,
 )
 from bench.control.contact_controller import HYBRIDS
 from bench.control.registry import all_controllers
@@ -51,7 +52,7 @@ def kind(word: str, title: str, *columns: str):
 def COMMAND(kind, laws):
     """What there is to run, of one kind or of all.
 
-    Kinds: regulators, representations, jacobians, inverses, controllers, impedances, limiters, metrics, tasks, arms,
+    Kinds: regulators, representations, jacobians, inverses, controllers, impedances, limiters, shipped, metrics, tasks, arms,
     variations, axes, starts, engines, suites, experiments, claims. A file of an arm that cannot be used is listed with
     the reason.
     """
@@ -109,6 +110,11 @@ def _controllers(_):
 def _impedances(_):
     every = known_impedances().values()
     return ((one.name, "coordinates" if one.law_in else "R", one.title, one.source) for one in every)
+
+
+@kind("shipped", "Controllers as they are shipped", "name", "level", "title", "source")
+def _shipped(_):
+    return ((one.name, one.level, one.title, one.source) for one in known_shipped().values())
 
 
 @kind("baselines", "Baselines of arms, which are no laws", "name", "title", "source")

@@ -9,12 +9,13 @@ import importlib
 import pkgutil
 from typing import Any
 
-from bench.contenders import baselines, impedances, inverses, jacobians, limiters, regulators, representations
+from bench.contenders import baselines, impedances, inverses, jacobians, limiters, regulators, representations, shipped
 from bench.errors import BadLaw, Incompatible, UnknownWord
 from bench.law.contender import ON_MATRIX, Contender, Regulator, Representation, contender
 from bench.law.impedance import Impedance
 from bench.law.limiter import Limiter
 from bench.law.resolved_motion import Inverse, Jacobian
+from bench.law.shipped import Shipped
 
 
 def collect(package, constant: str, kind: type) -> dict[str, Any]:
@@ -44,6 +45,7 @@ FOLDERS = {
     "impedance": (impedances, Impedance),
     "baseline": (baselines, Regulator),
     "limiter": (limiters, Limiter),
+    "shipped": (shipped, Shipped),
 }
 """What is found in a folder of bench/contenders: constants of one type, named as their kind."""
 
@@ -61,6 +63,7 @@ known_jacobians = functools.partial(known, "Jacobian")
 known_inverses = functools.partial(known, "inverse")
 known_impedances = functools.partial(known, "impedance")
 known_limiters = functools.partial(known, "limiter")
+known_shipped = functools.partial(known, "shipped")
 
 
 def baselines_of_arms() -> dict[str, Contender]:

@@ -12,6 +12,7 @@ representation   Representation; euler: what Euler angles share
 resolved_motion  Jacobian, Inverse: from the tool's acceleration to the joints
 impedance        Impedance
 limiter          Limiter, of commanded velocities
+shipped          Shipped: a controller as its authors set it, and the law it makes
 equation, look   what the book shows of a law: its scalar equation, and how it is drawn
 chain, weighting an arm as kernels see it; weights of its joints
 tracking         goals that move

@@ -5,6 +5,7 @@ from bench.tables import motion_columns as motion
 from bench.tables import other_columns as other
 from bench.tables import velocity_columns as velocity
 from bench.tables.column import Table
+from bench.tables.shipped_columns import shipped_columns
 
 CONTENDER = ("regulator", "representation", "jacobian", "inverse")
 
@@ -20,6 +21,7 @@ TABLES = {
         Table("traces", motion.trace_columns, ("task", "arm", *CONTENDER, "engine", "start_set", "start_id", "time_s")),
         Table("boundaries", motion.boundary_columns, (*CONTENDER, "axis_x", "axis_y", "axis_z")),
         Table("command-field", motion.field_columns, (*CONTENDER, "finding")),
+        Table("shipped", shipped_columns, ("shipped", "law")),
         Table(
             "map",
             motion.map_columns,

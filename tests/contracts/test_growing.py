@@ -77,6 +77,7 @@ LISTED = {
     "inverses": "dropped-inverse",
     "impedances": "dropped-impedance",
     "limiters": "dropped-limiter",
+    "shipped": "dropped-shipped",
     "baselines": "dropped-baseline",
     "metrics of contact": "dropped_touch",
     "tasks in contact": "dropped-probe",

@@ -12,7 +12,7 @@ READ_ONLY = {"bench/__init__.py", "bench/provenance.py", "bench/tables/__init__.
 MODULES = """
 import sys
 from bench.experiments.experiment import known_experiments
-from bench.experiments.rows import contact, episodes, poses, robustness, rounding
+from bench.experiments.rows import contact, episodes, poses, robustness, rounding, shipped
 from bench.engines import run, run_arm, run_contact, run_disturbed
 from bench.tables import kept_costs
 known_experiments()

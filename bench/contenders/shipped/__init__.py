@@ -1,0 +1,5 @@
+"""Controllers as their authors ship them, one file each, with one constant SHIPPED. The file is the word.
+
+Each states what its source at the named commit does to a rotation, in its order and with its gains; none of their code
+is here. Not read, and so not here: placo, and the controllers of UR, KUKA and ABB, whose source is closed.
+"""

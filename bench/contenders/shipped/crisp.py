@@ -1,0 +1,27 @@
+"""The Cartesian controller of crisp_controllers: the logarithm, each component clipped in the base frame."""
+
+from bench.law import kernel
+from bench.law.shipped import TORQUE, Shipped, clipped, logarithm
+
+CLIP_RAD = 0.5
+
+
+@kernel
+def error(q):
+    """log(R_d R^T), each component in [-CLIP_RAD, CLIP_RAD]."""
+    return clipped(logarithm(q), CLIP_RAD)
+
+
+SHIPPED = Shipped(
+    "crisp",
+    "crisp_controllers, Cartesian controller",
+    "utiasDSL/crisp_controllers@2b33ab777caf3d3e5d0d3ff39b8ba036a75e9e68",
+    "src/cartesian_controller.cpp, src/cartesian_controller.yaml",
+    TORQUE,
+    r"e_i = \operatorname{clip}(\log(R_d R^\top)_i,\, 0.5)",
+    error,
+    30.0,
+    2.0 * 30.0**0.5,
+    "defaults of the parameters; 2√K",
+    besides="filters goals, states and torques, and limits the torques' rate; cancels the inertia if told to",
+)

@@ -1,0 +1,33 @@
+"""The idiom of Isaac Gym's Franka examples: the vector part times the sign of the scalar, which is 0 at 0.
+
+Read in a public copy of the Preview 4 package, whose own repository is not public.
+"""
+
+from bench.law import kernel
+from bench.law.shipped import TORQUE, Shipped
+
+
+@kernel
+def error(q):
+    """sign(eta) eps, sign(0) = 0."""
+    if q[0] > 0.0:
+        return (q[1], q[2], q[3])
+    if q[0] < 0.0:
+        return (-q[1], -q[2], -q[3])
+    return (0.0 * q[1], 0.0 * q[2], 0.0 * q[3])
+
+
+SHIPPED = Shipped(
+    "isaac-gym",
+    "Isaac Gym Preview 4, Franka OSC example",
+    "notAnyrobot/isaacgym@87649bb8d53cd085594c0255d146e3570c9b750c",
+    "python/examples/franka_cube_ik_osc.py",
+    TORQUE,
+    r"e = \operatorname{sign}(\eta)\,\epsilon,\ \operatorname{sign}(0) = 0",
+    error,
+    150.0,
+    2.0 * 150.0**0.5,
+    "in the source; 2√K",
+    shapes_inertia=True,
+    besides="computes in single precision",
+)

@@ -1,0 +1,16 @@
+"""The Cartesian impedance example of libfranka: franka_ros's without filters, gains in the source."""
+
+from bench.law.shipped import TORQUE, Shipped, vector_part
+
+SHIPPED = Shipped(
+    "libfranka",
+    "libfranka, Cartesian impedance example",
+    "frankaemika/libfranka@155ddac80565975b58f53eb2feeb85b07a6b9e13",
+    "examples/cartesian_impedance_control.cpp",
+    TORQUE,
+    r"e = \operatorname{sgn}(\eta)\,\epsilon",
+    vector_part,
+    10.0,
+    2.0 * 10.0**0.5,
+    "in the source; 2√K",
+)

@@ -1,0 +1,17 @@
+"""Differential inverse kinematics of mjctrl: MuJoCo's quaternion to velocity, all of it in a tick, as positions."""
+
+from bench.law.shipped import VELOCITY, Shipped, logarithm
+
+SHIPPED = Shipped(
+    "mjctrl-diffik",
+    "mjctrl, diffik.py",
+    "kevinzakka/mjctrl@f1c82c257248e2e52b0e6c1beaf23c6a2026e4f2",
+    "diffik.py",
+    VELOCITY,
+    r"e = \log(R_d R^\top)",
+    logarithm,
+    1.0,
+    None,
+    "all of it in a tick",
+    besides="the joints' position servos stand between",
+)

@@ -1,0 +1,17 @@
+"""The frame task of pink: as mink's, by pinocchio's logarithm."""
+
+from bench.law.shipped import VELOCITY, Shipped, logarithm
+
+SHIPPED = Shipped(
+    "pink",
+    "pink, frame task",
+    "stephane-caron/pink@f568e80536549a3b7f627468eb29526d3404c85b",
+    "pink/tasks/frame_task.py, pink/tasks/task.py",
+    VELOCITY,
+    r"e = \log(R_d R^\top)",
+    logarithm,
+    1.0,
+    None,
+    "default gain 1, over the period",
+    besides="solves for joint rates within limits; its error is the logarithm of SE(3), whose rotation is this one",
+)

@@ -1,0 +1,28 @@
+"""Operational-space control of robosuite: half the sum of the columns' cross products, the law of 1980.
+
+The source's docstring promises axis times angle; the release 1.5.2 is what was read.
+"""
+
+from bench.law import kernel
+from bench.law.shipped import TORQUE, Shipped
+
+
+@kernel
+def error(q):
+    """sin(theta) k = 2 eta eps, of either sign of q."""
+    return (2.0 * q[0] * q[1], 2.0 * q[0] * q[2], 2.0 * q[0] * q[3])
+
+
+SHIPPED = Shipped(
+    "robosuite",
+    "robosuite, OSC_POSE",
+    "ARISE-Initiative/robosuite@v1.5.2",
+    "robosuite/utils/control_utils.py, controllers/parts/arm/osc.py, controllers/config/robots/default_panda.json",
+    TORQUE,
+    r"e = \tfrac12 (n \times n_d + o \times o_d + a \times a_d) = \sin\theta\,k",
+    error,
+    150.0,
+    2.0 * 150.0**0.5,
+    "default_panda.json; damping ratio 1",
+    shapes_inertia=True,
+)

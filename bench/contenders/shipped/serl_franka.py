@@ -1,0 +1,30 @@
+"""The impedance controller of serl_franka: the bare vector part, each component clipped, and an integral without dt.
+
+The integral's gain is 0 as delivered, so it is none here.
+"""
+
+from bench.law import kernel
+from bench.law.shipped import TORQUE, Shipped, clipped, vector_part
+
+CLIP = 0.05
+
+
+@kernel
+def error(q):
+    """sgn(eta) eps, each component in [-CLIP, CLIP], in the base frame."""
+    return clipped(vector_part(q), CLIP)
+
+
+SHIPPED = Shipped(
+    "serl-franka",
+    "serl_franka_controllers, Cartesian impedance",
+    "rail-berkeley/serl_franka_controllers@5576ce172b9e1414b078ddf8582aafccd741f3c7",
+    "src/cartesian_impedance_controller.cpp, cfg/compliance_param.cfg",
+    TORQUE,
+    r"e_i = \operatorname{clip}(\operatorname{sgn}(\eta)\,\epsilon_i,\, 0.05)",
+    error,
+    150.0,
+    7.0,
+    "defaults of two parameters",
+    besides="integrates the clipped error tick by tick, without dt (gain 0 as delivered); filters gains and goals",
+)
