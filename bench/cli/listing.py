@@ -52,9 +52,9 @@ def kind(word: str, title: str, *columns: str):
 def COMMAND(kind, laws):
     """What there is to run, of one kind or of all.
 
-    Kinds: regulators, representations, jacobians, inverses, controllers, impedances, limiters, shipped, metrics, tasks, arms,
-    variations, axes, starts, engines, suites, experiments, claims. A file of an arm that cannot be used is listed with
-    the reason.
+    Kinds: regulators, representations, jacobians, inverses, controllers, impedances, limiters, shipped, metrics, tasks,
+    arms, variations, axes, starts, engines, suites, experiments, claims. A file of an arm that cannot be used is listed
+    with the reason.
     """
     own = options.own_laws(laws)
     if kind is not None and kind not in KINDS:
