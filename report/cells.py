@@ -29,7 +29,7 @@ CONFIG = yaml.safe_load((REPORT / "_config.yml").read_text(encoding="utf-8"))
 MOST = 4
 """Kernels at the most: each takes some 500 MB."""
 
-PAGE = re.compile(r'kit\.page\("([\w.]+)"\)')
+PAGE = re.compile(r"kit\.page\(([^)]*)\)")
 
 FORGET = "get_ipython().reset()"
 """Empties the namespace, and counts cells from 1 again."""
@@ -56,10 +56,11 @@ def is_known(cache, notebook) -> bool:
 
 
 def judges(text: str) -> bool:
-    """Whether a page's module judges all claims, which takes a while and is kept in its kernel."""
+    """Whether a module of a page judges all claims, which takes a while and is kept in its kernel."""
     named = PAGE.search(text)
-    module = REPORT / "figures" / f"{named[1].replace('.', '/')}.py" if named else None
-    return module is not None and module.is_file() and "judge_all" in module.read_text(encoding="utf-8")
+    modules = re.findall(r'"([\w.]+)"', named[1]) if named else []
+    files = (REPORT / "figures" / f"{name.replace('.', '/')}.py" for name in modules)
+    return any("judge_all" in path.read_text(encoding="utf-8") for path in files if path.is_file())
 
 
 def batches(pages: list[Path]) -> list[list[Path]]:

@@ -1,8 +1,8 @@
 """Every page and its module: named alike, and what the one pastes the other gives; what a run does not hold is said."""
 
 import importlib
-import re
 from pathlib import Path
+from types import ModuleType
 
 import pandas as pd
 import pytest
@@ -10,29 +10,49 @@ import pytest
 pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
 
 from report.figures.kit import html
-from report.figures.kit.page import ABSENT, PARTS, REPORT, as_pasted, contents, pasted, run_in, text_of
+from report.figures.kit.page import (
+    ABSENT,
+    PARTS,
+    REPORT,
+    as_pasted,
+    contents,
+    kinds_of,
+    modules_of,
+    pasted,
+    run_in,
+    text_of,
+)
 from report.figures.kit.tables import Table
 
-CALL = re.compile(r'^kit\.page\("([\w.]+)"\)$', re.MULTILINE)
 PAGES = {
-    found[1]: path
+    name: path
     for path in (REPORT / "index.md", *sorted(REPORT.glob("pages/*.md")))
-    if (found := CALL.search(path.read_text(encoding="utf-8")))
+    for name in modules_of(path.read_text(encoding="utf-8"))
 }
 QUICK = sorted(set(PAGES) - {"index", "claims.claims"})
 """Without those that judge all claims, which are tested by themselves."""
 
 
+@pytest.mark.parametrize("path", sorted(set(PAGES.values())), ids=lambda path: path.stem)
+def test_page_pastes_the_module_that_bears_its_name_first(path):
+    own, *others = modules_of(path.read_text(encoding="utf-8"))
+    assert own.rpartition(".")[2].replace("_", "-") == path.stem.lstrip("0123456789-")
+    assert own not in others
+
+
 @pytest.mark.parametrize("name", PAGES)
-def test_page_pastes_the_module_that_bears_its_name(name):
-    assert text_of(name) == PAGES[name].read_text(encoding="utf-8")
+def test_module_is_pasted_by_one_page_which_names_no_other_s_keys(name):
+    text = text_of(name)
+    assert text == PAGES[name].read_text(encoding="utf-8")
+    words = {key.partition(".")[0] for key in pasted(text) if "." in key}
+    assert words == {other.rpartition(".")[2] for other in modules_of(text)[1:]}
 
 
 @pytest.mark.parametrize("name", QUICK)
 def test_module_gives_what_its_page_pastes_of_the_published_run(name):
     module, run = importlib.import_module(f"report.figures.{name}"), run_in(Path("results/reference").resolve())
     given = {key for part in PARTS[:2] if hasattr(module, part) for key in getattr(module, part)(run)}
-    kinds = pasted(PAGES[name].read_text(encoding="utf-8"))
+    kinds = kinds_of(module, text_of(name))
     wanted = {key for key, kind in kinds.items() if kind in ("fact", "sentence", "table")}
     assert wanted - given == set()
 
@@ -41,6 +61,13 @@ def test_keys_of_a_page_are_told_apart_by_how_they_are_pasted():
     text = "{glue:text}`n` {glue:md}`why`\n```{glue:md} rows\n```\n```{glue:figure} curve\n```\n```{glue} tiles\n```\n"
     kinds = {"n": "fact", "why": "sentence", "rows": "table", "curve": "figure", "tiles": "piece"}
     assert pasted(text) == kinds
+
+
+def test_further_module_of_a_page_has_the_keys_under_its_word():
+    text = 'kit.page("book.own", "book.other")\n{glue:text}`n` {glue:text}`other.n` {glue:md}`other.why`\n'
+    own, other = (ModuleType(f"report.figures.book.{name}") for name in ("own", "other"))
+    assert kinds_of(own, text) == {"n": "fact"}
+    assert kinds_of(other, text) == {"n": "fact", "why": "sentence"}
 
 
 @pytest.mark.parametrize("kind", ["fact", "sentence", "table", "figure", "piece"])

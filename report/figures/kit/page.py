@@ -1,8 +1,9 @@
-"""A page's module pasted into its page, and the words where the run does not hold what the page shows.
+"""A page's modules pasted into it, and the words where the run does not hold what the page shows.
 
 The page pages/05-settling-time.md has the module responses/settling_time.py (the front page, `index`), whose functions
-facts(run), tables(run) and figures(run) give what it pastes, key by key; a page may do without any of them. A value
-that is None, or a key that is left out, is not in this run, and the page says so.
+facts(run), tables(run) and figures(run) give what it pastes, key by key; a page may do without any of them. Further
+modules on a page give what it pastes under their own word: `spread` of responses.responses is pasted as
+`responses.spread`. A value that is None, or a key that is left out, is not in this run, and the page says so.
 """
 
 from __future__ import annotations
@@ -25,6 +26,7 @@ from report.figures.kit.inline import responsive_picture
 REPORT = Path(__file__).resolve().parents[2]
 ABSENT = "not in this run"
 PARTS = ("facts", "tables", "figures")
+CALL = re.compile(r"^kit\.page\(([^)]*)\)$", re.MULTILINE)
 INLINE = re.compile(r"\{glue:(text|md)\}`([^`:]+)")
 BLOCK = re.compile(r"^\s*(?:`{3,}|:{3,})\{glue:?(md|figure|)\}\s+(\S+)", re.MULTILINE)
 
@@ -52,26 +54,47 @@ def given(rows: pd.DataFrame, make: Callable[[pd.DataFrame], Any]) -> Any:
     return make(rows) if len(rows) else None
 
 
-def page(name: str) -> None:
-    """Paste all of a page: page("responses.settling_time")."""
+def page(*names: str) -> None:
+    """Paste all of a page's modules, its own first: page("responses.settling_time", "responses.responses")."""
     from myst_nb import glue
 
-    module = importlib.import_module(f"report.figures.{name}")
-    for key, value in contents(module, run_in(read.folder()), text_of(name)).items():
-        glue(key, value, display=False)
+    run, text = run_in(read.folder()), text_of(names[0])
+    for name in names:
+        module = importlib.import_module(f"report.figures.{name}")
+        for key, value in contents(module, run, text).items():
+            glue(f"{word_of(module, text)}{key}", value, display=False)
+
+
+def modules_of(text: str) -> list[str]:
+    """The modules that a page pastes, its own first; none of a page without results."""
+    call = CALL.search(text)
+    return re.findall(r'"([\w.]+)"', call[1]) if call else []
 
 
 def text_of(name: str) -> str:
     """The Markdown of the page that a module belongs to."""
-    stem = name.rpartition(".")[2].replace("_", "-")
-    (path,) = [REPORT / "index.md"] if stem == "index" else REPORT.glob(f"pages/??-{stem}.md")
-    return path.read_text(encoding="utf-8")
+    texts = (path.read_text(encoding="utf-8") for path in (REPORT / "index.md", *sorted(REPORT.glob("pages/*.md"))))
+    (text,) = (text for text in texts if name in modules_of(text))
+    return text
 
 
 def contents(module: ModuleType, run: Run, text: str) -> dict[str, Any]:
-    """What a page pastes, as it pastes it."""
+    """What a page pastes of a module, as it pastes it, by the module's own keys."""
     found = {key: value for part in PARTS if hasattr(module, part) for key, value in getattr(module, part)(run).items()}
-    return {key: as_pasted(found.get(key), kind, key) for key, kind in pasted(text).items()}
+    return {key: as_pasted(found.get(key), kind, key) for key, kind in kinds_of(module, text).items()}
+
+
+def kinds_of(module: ModuleType, text: str) -> dict[str, str]:
+    """As `pasted`, of a module alone, by its own keys."""
+    word = word_of(module, text)
+    of_module = {key: kind for key, kind in pasted(text).items() if (key.startswith(word) if word else "." not in key)}
+    return {key.removeprefix(word): kind for key, kind in of_module.items()}
+
+
+def word_of(module: ModuleType, text: str) -> str:
+    """What stands on a page before a module's keys: nothing if it is the page's own, else its word and a dot."""
+    name = module.__name__.removeprefix("report.figures.")
+    return f"{name.rpartition('.')[2]}." if name in modules_of(text)[1:] else ""
 
 
 def pasted(text: str) -> dict[str, str]:
