@@ -15,9 +15,6 @@ from report.figures.kit.page import Run
 from report.figures.kit.spelling import marked_up, prose, typeset
 from report.figures.kit.tables import Table
 
-FOLDED = ("Criterion", "Before", "Left open", "Readings")
-"""What a section shows only when it is opened."""
-
 VERDICTS = Table("Claim | Section | The paper | Verdict | Correction of the paper")
 
 
@@ -46,9 +43,9 @@ def steady(study: dict) -> str:
 
 
 def tables(_: Run) -> dict:
-    """Every claim in a row, and a section for each, by its anchor."""
+    """Every claim in a row, and what decided each, folded."""
     every = claims.judge_all()
-    return {"verdicts": table(every), **{anchor(one): section(one) for one in every}}
+    return {"verdicts": table(every), "sections": html.Html("".join(map(section, every)))}
 
 
 def tiles(every: list[Verdict]) -> html.Html:
@@ -112,29 +109,23 @@ def anchor(one: Verdict) -> str:
     return one.claim.id.lower()
 
 
-def section(one: Verdict) -> html.Html:
-    """All that is said of one claim: verdict and evidence first, then how it was decided and what is left open."""
+def section(one: Verdict) -> str:
+    """What decided a claim, folded under its sentence; a link to it opens it, for the anchor is inside."""
     claim = one.claim
     rows = {
-        "The paper": marked_up(quoted(one)),
-        "Correction": marked_up(one.correction),
         "Evidence": marked_up(str(one.evidence)),
         "Criterion": marked_up(f"{claim.criterion} ({written(claim.written)})" if claim.written else claim.criterion),
         "Before": _listed(f"{written(old.written)}: {old.criterion} By it: {word}." for old, word in one.earlier),
         "Left open": marked_up(claim.open),
         "Readings": _listed(claim.readings),
+        "Rows": f"{html.number(one.evidence.rows)} from {escape.escape(', '.join(one.evidence.tables))}; "
+        f"the paper's {escape.escape(claim.place)}",
     }
-    entries = {name: f"<dt>{name}</dt><dd>{text}</dd>" for name, text in rows.items() if text}
-    shown = "".join(entry for name, entry in entries.items() if name not in FOLDED)
-    folded = "".join(entry for name, entry in entries.items() if name in FOLDED)
-    tables = ", ".join(one.evidence.tables)
-    head = (
-        f'<p class="claim-head">{html.badge(str(one.word))}<span>{escape.escape(claim.place)}</span>'
-        f"<span>n = {html.number(one.evidence.rows)} from {escape.escape(tables)}</span></p>"
-    )
-    return html.Html(
-        f'{head}<dl class="claim">{shown}</dl><details class="claim-how"><summary>How it was decided</summary>'
-        f'<dl class="claim small">{folded}</dl></details>'
+    entries = "".join(f"<dt>{name}</dt><dd>{text}</dd>" for name, text in rows.items() if text)
+    head = f"<b>{claim.id}</b> <span>{marked_up(claim.sentence)}</span> {html.badge(str(one.word))}"
+    return (
+        f'<details class="claim-fold"><summary>{head}</summary><dl class="claim" id="{anchor(one)}">{entries}</dl>'
+        "</details>"
     )
 
 
