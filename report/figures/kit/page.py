@@ -1,6 +1,6 @@
 """A page's modules pasted into it, and the words where the run does not hold what the page shows.
 
-The page pages/05-settling-time.md has the module responses/settling_time.py (the front page, `index`), whose functions
+The page pages/16-robustness.md has the module robustness/robustness.py (the front page, `index`), whose functions
 facts(run), tables(run) and figures(run) give what it pastes, key by key; a page may do without any of them. Further
 modules on a page give what it pastes under their own word: `spread` of responses.responses is pasted as
 `responses.spread`. A value that is None, or a key that is left out, is not in this run, and the page says so.
