@@ -190,7 +190,7 @@ def test_plan_of_a_suite_takes_thirteen_lines_at_most(suite):
 def test_plan_names_what_is_made_beside_episodes(capsys):
     said = bench(capsys, "run", "--suite", "quick", "--dry-run").out
     assert re.search(
-        r"^also +boundaries, command-field, costs, jacobians, traces, velocity and velocity-limits$",
+        r"^also +boundaries, command-field, costs, jacobians, shipped, traces, velocity and velocity-limits$",
         said,
         re.MULTILINE,
     )
