@@ -16,9 +16,8 @@ from bench.findings.perturbed import perturbations
 from bench.findings.selection.needs import CHATTER
 from bench.tables.statistics import quantile
 
-GAINS, FRAMES, COORDINATES = "03-regulators", "01-problem-and-plant", "02-representations"
-FAILURES, JUMPS, SIGNS, SIDE = "06-failure-map", "20-half-turn-noise", "25-libraries", "15-comparison"
-ENDS, ROBUSTNESS = "30-method", "16-robustness"
+GAINS, FRAMES, FAILURES, SIDE = "03-regulators", "30-method", "06-failure-map", "15-comparison"
+SIGNS, ENDS, ROBUSTNESS = "25-libraries", "30-method", "16-robustness"
 
 WRONG = "Near the goal its stiffness is {value} kp"
 BASE = "as {at_goal}; R_d^T R and R^T R_d give a vector in the body's axes, u is wanted in the base frame"
@@ -39,15 +38,15 @@ SENTENCES: dict[str, dict[str, tuple[str, ...]]] = {
         "row-first": (f"Row first. {WRONG} R_d^T, {COLUMNS}: R[i][j] is row j of column i.", FRAMES, "row first"),
         "turned-by-goal": (f"Wrong frame. {WRONG} R_d, as {{at_goal}}.", FRAMES, "wrong frame"),
         "none": ("No stiffness: near the goal it does not pull.", GAINS, "no stiffness"),
-        "unbounded": ("Near the goal its stiffness has no bound, {at_goal}.", COORDINATES, "singular goal"),
+        "unbounded": ("Near the goal its stiffness has no bound, {at_goal}.", FAILURES, "singular goal"),
         "uneven": ("Stiffness differs by axis: {least} to {most} kp, {at_goal}.", GAINS, "uneven stiffness"),
-        "uneven-elsewhere": ("Its stiffness is kp at R_d = I, {least} to {most} kp {at_goal}.", COORDINATES),
+        "uneven-elsewhere": ("Its stiffness is kp at R_d = I, {least} to {most} kp {at_goal}.", FAILURES),
     },
     "damping": {
         "as-set": ("Its damping is {value} kv.", GAINS),
         "none": ("Undamped: its command does not depend on omega.", GAINS, "undamped"),
         "wrong-sign": ("Its damping has the wrong sign, {value} kv: it drives.", GAINS, "wrong damping"),
-        "uneven-elsewhere": ("Its damping is kv at R_d = I, {least} to {most} kv {at_goal}.", COORDINATES),
+        "uneven-elsewhere": ("Its damping is kv at R_d = I, {least} to {most} kv {at_goal}.", FAILURES),
         "*": ("Wrong damping, {what}: {least} to {most} kv, {at_goal}.", GAINS, "wrong damping"),
     },
     "dead-half-turns": {
@@ -57,12 +56,12 @@ SENTENCES: dict[str, dict[str, tuple[str, ...]]] = {
     "no-number-half-turns": {"*": (f"Its command is no number at {{set}}. {SHOWN}", FAILURES, "dead points")},
     "jump-goal": {"*": ("It jumps by {value} kp at the goal itself.", SIGNS, "jump at the goal")},
     "jump-half-turns": {
-        "jump": ("At half turns it jumps by {value} kp, as {state}: noise can hold it there.", JUMPS),
+        "jump": ("At half turns it jumps by {value} kp, as {state}: noise can hold it there.", ROBUSTNESS),
         "unbounded": ("Towards half turns its command grows without bound, as at {state}.", FAILURES),
     },
     "jump-elsewhere": {
         "unbounded": ("Its command is no number, or unbounded, as at {state}.", FAILURES, "no number"),
-        "*": ("It jumps by {value} kp off the half turns too, as at {state}.", COORDINATES),
+        "*": ("It jumps by {value} kp off the half turns too, as at {state}.", FAILURES),
     },
     "away": {"some": ("At rest it pulls away from {found} of {of} states, as from {state}, where u = {u}.", SIDE)},
     "pull": {"swapped": (f"Exchanged arguments of atan2: {SWAPPED}.", SIGNS, "swapped atan2")},

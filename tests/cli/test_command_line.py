@@ -189,11 +189,8 @@ def test_plan_of_a_suite_takes_thirteen_lines_at_most(suite):
 
 def test_plan_names_what_is_made_beside_episodes(capsys):
     said = bench(capsys, "run", "--suite", "quick", "--dry-run").out
-    assert re.search(
-        r"^also +boundaries, command-field, costs, jacobians, shipped, traces, velocity and velocity-limits$",
-        said,
-        re.MULTILINE,
-    )
+    made = "boundaries, command-field, costs, jacobians, shipped, traces, velocity and velocity-limits"
+    assert f" also {made} with " in " ".join(said.split())
 
 
 def test_dry_run_counts_what_a_run_then_writes(capsys, tiny_run):

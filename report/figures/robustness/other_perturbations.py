@@ -1,6 +1,6 @@
 """The page on the perturbations that act on all laws through the linear loop that all are near the goal.
 
-Control rate, delay, noise, inertia, initial spin and goals that move: a section each, with its facts and its table.
+Control rate, delay, noise, inertia, initial spin and goals that move: a paragraph each, with its facts; a table of what lasts.
 """
 
 from __future__ import annotations
@@ -20,7 +20,6 @@ from report.figures.kit.tables import Table
 from report.figures.robustness.rows import (
     DEG,
     along,
-    by_level,
     gains,
     laws,
     levels,
@@ -213,8 +212,6 @@ def facts(run: Run) -> dict:
 
 
 def tables(run: Run) -> dict:
-    """Settling times by level and law; of what lasts, the error by level, near the goal one for all laws."""
+    """Of what lasts, the error by level, near the goal one for all laws."""
     lasting = {"noise": SECTIONS[noise], "moving-goals": MOVING}
-    return {name: by_level(along(run, name), name) for name in TIMED} | {
-        key: errors(*((name, along(run, name)) for name in names)) for key, names in lasting.items()
-    }
+    return {key: errors(*((name, along(run, name)) for name in names)) for key, names in lasting.items()}
