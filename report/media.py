@@ -1,4 +1,4 @@
-"""Rendered pictures of the arms for the report: stills at home, strips of film, short loops. Optional.
+"""Rendered pictures of the arms for the report: stills at home, short loops. Optional.
 
     python report/media.py     renders anew into report/_static/media (make media)
 
@@ -31,11 +31,10 @@ CONTENDERS = {
     "feedback-linearized/zyx-euler@analytic+solve": "Euler Jacobian",
     "rotation-matrix@geometric+solve": "geometric Jacobian",
 }
-STILLS_S = (0.0, 0.06, 0.12, 0.18, 0.65)
 LOOP_S, SLOWER = 0.7, 4  # played in 2.8 s; the band is reached in 0.65 s or so
+POSTER_S = 0.18
 
-STRIP = (380, 460)  # pixels of an arm at home, and of a still
-STILL = (300, 300)
+STRIP = (380, 460)  # pixels of an arm at home
 CAMERA = "view"  # of an arm's model
 CLOSE = (0.22, 0.11, 0.95, 0.88)  # what is kept of it: left, top, right, bottom, as shares of its sides
 
@@ -102,7 +101,7 @@ def facts(found: dict[str, tuple[Motion, dict]], commit: str) -> dict:
         for word, (_, row) in found.items()
     ]
     place = {"commit": commit, "arm": ARM, "start_set": START_SET, "start": START, "seed": SEED}
-    return {**place, "episodes": episodes, "stills_s": STILLS_S, "loop_s": LOOP_S, "slower": SLOWER}
+    return {**place, "episodes": episodes, "loop_s": LOOP_S, "slower": SLOWER}
 
 
 def at_home() -> None:
@@ -119,21 +118,6 @@ def at_home() -> None:
     save(strip, "arms.png")
 
 
-def film(shown: dict[str, Motion], view: View) -> None:
-    """Stills of motions, one above the other, by title."""
-    width, height = STILL
-    line = 44
-    strip = sheet(width * len(STILLS_S), len(shown) * (height + line) + line)
-    for row, (title, motion) in enumerate(shown.items()):
-        top = line + row * (height + line)
-        written(strip, (8, top + line - 12), f"with the {title}", 32, anchor="ls")
-        for column, time_s in enumerate(STILLS_S):
-            strip.paste(view.picture(motion.at(time_s)), (column * width, top + line))
-    for column, time_s in enumerate(STILLS_S):
-        written(strip, (column * width + width // 2, line - 12), f"{time_s:.2f} s", 32, anchor="ms")
-    save(strip, "pole-film.png")
-
-
 def draw() -> int:
     """All files, in this process; NO_GL if MuJoCo cannot draw here."""
     sys.path.insert(0, str(REPORT.parent))
@@ -142,7 +126,7 @@ def draw() -> int:
     from bench.provenance import describe
 
     try:
-        large, small = (View(Puppet(ARM), size, CAMERA, CLOSE) for size in (HALF, STILL))
+        large = View(Puppet(ARM), HALF, CAMERA, CLOSE)
     except Exception as reason:  # what a missing GL raises depends on the backend
         print(f"media: {os.environ['MUJOCO_GL']} does not draw here ({reason})", file=sys.stderr)
         return NO_GL
@@ -150,9 +134,8 @@ def draw() -> int:
     found = motions()
     shown = {CONTENDERS[word]: motion for word, (motion, _) in found.items()}
     at_home()
-    film(shown, small)
     both = {title: (large, motion) for title, motion in shown.items()}
-    loop("pole-loop", both, LOOP_S, SLOWER, f", played {SLOWER} times slower", STILLS_S[3])
+    loop("pole-loop", both, LOOP_S, SLOWER, f", played {SLOWER} times slower", POSTER_S)
     contact_media.tasks_in_contact()
     contact_media.on_the_plate()
     commit = describe()["commit"]

@@ -9,7 +9,7 @@ import numpy as np
 from bench.audit.convention import Convention
 from bench.audit.fault import NOTE, Evidence, Finding
 
-PAGE = "24-check-your-error"
+PAGE = "29-take-it-home"
 
 
 class Report(NamedTuple):

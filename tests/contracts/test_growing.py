@@ -98,8 +98,9 @@ def tree(tmp_path_factory):
     for name in known_regulators().keys() - {"rotation-matrix", "feedback-linearized", "rotation-vector"}:
         (tree / "bench" / "contenders" / "regulators" / f"{name.replace('-', '_')}.py").unlink()
     (tree / "report" / "pages").mkdir()
-    for name in ("pyproject.toml", "CITATION.cff", "report/pages/99-references.md"):
+    for name in ("pyproject.toml", "CITATION.cff"):
         shutil.copy(ROOT / name, tree / name)
+    (tree / "report" / "pages" / "99-references.md").write_text("# References\n\n```{bibliography}\n```\n")
     (tree / "report" / "index.md").write_text(INDEX)
     (tree / "report" / "_toc.yml").write_text(CONTENTS)  # a part without a page is refused
     return tree

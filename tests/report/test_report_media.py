@@ -17,7 +17,7 @@ from report.figures.kit import media
 ABOUT = media.facts()
 LOOPS = ("pole-loop", "plate-loop")
 FILES = (
-    *("arms.png", "pole-film.png", "contact-tasks.png"),
+    *("arms.png", "contact-tasks.png"),
     *(f"{loop}.{kind}" for loop in LOOPS for kind in ("png", "webm", "mp4")),
 )
 LARGEST, LARGEST_IN_ALL = 300_000, 1_500_000

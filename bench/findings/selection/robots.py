@@ -37,7 +37,7 @@ ROBOTS = (
     Robot(
         "torques, no inertia cancelled",
         "laws at the gains of shipped controllers",
-        "18-as-shipped",
+        "17-velocity-commands",
         uncancelled_choice,
     ),
     Robot(

@@ -1,6 +1,6 @@
 """The page on the perturbations that act on all laws through the linear loop that all are near the goal.
 
-Control rate, delay, noise, inertia, initial spin and goals that move: a paragraph each, with its facts; a table of what lasts.
+Control rate, delay, noise, inertia, initial spin and goals that move: facts of a paragraph each; tables of what lasts.
 """
 
 from __future__ import annotations
