@@ -15,6 +15,15 @@ from report.figures.kit.page import Run
 from report.figures.kit.spelling import marked_up, prose, typeset
 from report.figures.kit.tables import Table
 
+LABELS = {
+    "holds": "hold",
+    "holds with a correction": "hold with a correction",
+    "does not hold": "do not hold",
+    "open in 1988; answered since": "was open in 1988 and is answered since",
+    "not testable": "cannot be tested",
+}
+"""Verdicts in their order -> what statements do that got them."""
+
 VERDICTS = Table("Claim | Section | The paper | Verdict | Correction of the paper")
 
 
@@ -25,6 +34,7 @@ def facts(_: Run) -> dict:
     return {
         "rule": typeset(claims.RULE),
         "decided": len(every),
+        "words": ", ".join(f"{number} {label}" for _, number, label in counted(every)),
         "changed": len(changed),
         "turned": sum(one.word != one.earlier[-1][1] for one in changed),
         "steady": steady(read_json(verdicts.STORED)),
@@ -48,18 +58,16 @@ def tables(_: Run) -> dict:
     return {"verdicts": table(every), "sections": html.Html("".join(map(section, every)))}
 
 
+def counted(every: list[Verdict]) -> list[tuple[str, int, str]]:
+    """Of each word that some claim got: the word, how many, and what they do."""
+    counts = Counter(str(one.word) for one in every)
+    return [(word, counts[word], label) for word, label in LABELS.items() if counts[word]]
+
+
 def tiles(every: list[Verdict]) -> html.Html:
     """How many statements were decided, and how many got each word."""
-    counts = Counter(str(one.word) for one in every)
-    labels = {
-        "holds": "hold",
-        "holds with a correction": "hold with a correction",
-        "does not hold": "do not hold",
-        "open in 1988; answered since": "was open in 1988 and is answered since",
-        "not testable": "cannot be tested",
-    }
     entries = [("plain", len(every), "statements of the paper decided")]
-    entries += [(html.VERDICTS[word], counts[word], label) for word, label in labels.items() if counts[word]]
+    entries += [(html.VERDICTS[word], number, label) for word, number, label in counted(every)]
     tile = '<div class="tile {}"><b>{}</b><span>{}</span></div>'
     return html.Html(f'<div class="tiles">{"".join(tile.format(*entry) for entry in entries)}</div>')
 
