@@ -118,6 +118,21 @@ def field_columns() -> list[Column]:
     ]
 
 
+def stream_columns() -> list[Column]:
+    """goal-streams.parquet: goals that arrive as a stream (tasks/goal_stream.py), a row a stream and law."""
+    return [
+        *words(
+            stream="how goals are sent and filled in",
+            regulator="the law; empty: 2 K_p vec(q_d q*) - K_v omega, the spring on the quaternion as it came",
+        ),
+        *numbers("1", "greatest rate of the goal as filled in, over the true goal's", "goal_rate_ratio"),
+        *numbers("1", "way that the goal as filled in turns, over the true goal's", "goal_way_ratio"),
+        *numbers("rad/s^2", "greatest command", "peak_u"),
+        *numbers("rad", "greatest angle of the body to the true goal", "off_rad"),
+        *numbers("1", "way that the body turns, over the true goal's", "way_ratio"),
+    ]
+
+
 def map_columns() -> list[Column]:
     """map.parquet: millions of random starts of a law, counted in cells of SO(3) (`python -m bench map`).
 

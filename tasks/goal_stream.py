@@ -1,0 +1,152 @@
+"""Goals that arrive one after the other and are filled in between: what reaches a controller from a policy or planner.
+
+The true goal turns through 180 degrees off the base frame, where the coordinates of goals jump:
+
+    R_d(t) = exp(a [k]x) exp(b [m]x),   a = A_0 + RATE t,   b = SWAY sin(2 t)
+
+It is sent every PERIOD_S in coordinates, and a filter makes a goal of every tick:
+
+    held            the last goal that came
+    componentwise   c = (1 - s) c_0 + s c_1, of a quaternion scaled to length 1
+    slerp           sin((1 - s) w)/sin(w) q_0 + sin(s w)/sin(w) q_1, cos w = q_0 . q_1 (Shoemake 1985)
+    log             R_0 exp(s log(R_0^T R_1))
+
+Between two goals nothing is extrapolated: every filter is a period late, held ones as well.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+
+from tasks.rotations import about, multiply
+
+PERIOD_S, LENGTH_S = 0.05, 2.0
+"""20 goals a second, as policies and planners send them."""
+
+K, M = (1.0, 2.0, 3.0), (3.0, 0.0, -1.0)
+A_0, RATE, SWAY = math.radians(120.0), 1.0, 0.3
+
+
+def true_goal(time: float) -> tuple[float, float, float, float]:
+    """The goal's unit quaternion (w, x, y, z) at a time [s], of either sign."""
+    a, b = A_0 + RATE * time, SWAY * math.sin(2.0 * time)
+    half = multiply(about(K, 0.5 * a), about(K, 0.5 * a))
+    return multiply(half, about(M, b))
+
+
+def canonical(q: np.ndarray) -> np.ndarray:
+    """Quaternions (n x 4) with w >= 0, as libraries write them: the sign flips at 180 degrees."""
+    return np.where(q[:, :1] < 0.0, -q, q)
+
+
+def continued(q: np.ndarray) -> np.ndarray:
+    """Quaternions (n x 4), each of the sign that is nearer to the one before."""
+    flips = np.concatenate(([1.0], np.where(np.sum(q[1:] * q[:-1], axis=1) < 0.0, -1.0, 1.0)))
+    return q * np.cumprod(flips)[:, None]
+
+
+def rotation_vector(q: np.ndarray) -> np.ndarray:
+    """2 atan2(|v|, w) v/|v| of quaternions (n x 4) [rad]: up to 180 degrees if w >= 0, up to a whole turn if not."""
+    length = np.linalg.norm(q[:, 1:], axis=1, keepdims=True)
+    angle = 2.0 * np.arctan2(length, q[:, :1])
+    return q[:, 1:] * np.where(length > 1e-12, angle / np.maximum(length, 1e-12), 2.0)
+
+
+def of_rotation_vector(v: np.ndarray) -> np.ndarray:
+    """Unit quaternions (n x 4) of rotation vectors (n x 3)."""
+    half = 0.5 * np.linalg.norm(v, axis=1, keepdims=True)
+    return np.hstack((np.cos(half), 0.5 * np.sinc(half / math.pi) * v))
+
+
+def componentwise(c: np.ndarray, s: np.ndarray) -> np.ndarray:
+    """(1 - s) c_0 + s c_1 between each two of the rows, for every share s in [0, 1)."""
+    return np.concatenate([(1.0 - s) * c_0 + s * c_1 for c_0, c_1 in itertools.pairwise(c)])
+
+
+def normalized(q: np.ndarray) -> np.ndarray:
+    """Rows of length 1."""
+    return q / np.linalg.norm(q, axis=1, keepdims=True)
+
+
+def slerp(q: np.ndarray, s: np.ndarray) -> np.ndarray:
+    """Along the great circle between each two quaternions as their signs are, the longer way round if they say so."""
+    made = []
+    for q_0, q_1 in itertools.pairwise(q):
+        w = 2.0 * math.atan2(float(np.linalg.norm(q_1 - q_0)), float(np.linalg.norm(q_1 + q_0)))
+        made.append((np.sin((1.0 - s) * w) * q_0 + np.sin(s * w) * q_1) / math.sin(w))
+    return np.concatenate(made)
+
+
+def by_log(q: np.ndarray, s: np.ndarray) -> np.ndarray:
+    """R_0 exp(s log(R_0^T R_1)), in quaternions: what is left to turn, by the shorter way, in proportion."""
+    made = []
+    for q_0, q_1 in itertools.pairwise(q):
+        w, x, y, z = q_0.tolist()
+        left = rotation_vector(canonical(np.array([multiply((w, -x, -y, -z), tuple(q_1.tolist()))])))
+        made.append(np.array([multiply((w, x, y, z), tuple(p)) for p in of_rotation_vector(s * left).tolist()]))
+    return np.concatenate(made)
+
+
+class Stream(NamedTuple):
+    """How goals are sent and filled in.
+
+    filled(q, s) -> goals: of the quaternions that are sent (n x 4) and the shares s (m x 1), those of (n - 1) m ticks.
+    """
+
+    name: str
+    arrives: str
+    between: str
+    filled: Callable[[np.ndarray, np.ndarray], np.ndarray]
+
+
+def held(q: np.ndarray, s: np.ndarray) -> np.ndarray:
+    """The last goal that came."""
+    return np.repeat(q[:-1], len(s), axis=0)
+
+
+STREAMS = (
+    Stream("held", "matrix", "held", lambda q, s: held(canonical(q), s)),
+    Stream("log", "matrix", "log", lambda q, s: by_log(canonical(q), s)),
+    Stream(
+        "rotation-vector",
+        "rotation vector, up to 180°",
+        "componentwise",
+        lambda q, s: of_rotation_vector(componentwise(rotation_vector(canonical(q)), s)),
+    ),
+    Stream(
+        "rotation-vector-continued",
+        "rotation vector, continued",
+        "componentwise",
+        lambda q, s: of_rotation_vector(componentwise(rotation_vector(continued(q)), s)),
+    ),
+    Stream("quaternion", "quaternion, w ≥ 0", "componentwise", lambda q, s: normalized(componentwise(canonical(q), s))),
+    Stream(
+        "quaternion-continued",
+        "quaternion, nearer sign",
+        "componentwise",
+        lambda q, s: normalized(componentwise(continued(q), s)),
+    ),
+    Stream("slerp", "quaternion, w ≥ 0", "slerp", lambda q, s: slerp(canonical(q), s)),
+    Stream("slerp-continued", "quaternion, nearer sign", "slerp", lambda q, s: slerp(continued(q), s)),
+)
+"""From what cannot go wrong to what is written in earnest and does."""
+
+
+def sent() -> np.ndarray:
+    """The goals that are sent (n x 4)."""
+    return np.array([true_goal(k * PERIOD_S) for k in range(round(LENGTH_S / PERIOD_S) + 1)])
+
+
+def goals(stream: Stream, dt: float) -> np.ndarray:
+    """The goal of every tick (n x 4), of the sign that the stream gives it, from its first period on.
+
+    Args:
+        dt: control period [s], of which PERIOD_S is a multiple.
+    """
+    count = round(PERIOD_S / dt)
+    return stream.filled(sent(), np.arange(count)[:, None] / count)
