@@ -15,14 +15,15 @@ metrics/      what is measured: motion/ along an episode, contact/ of a hand in 
 counting/     operations of the code that runs
 tables/       schema, store, files, read, statistics, lock; trust and kept_laws (laws of a results folder that may run)
 experiments/  one file an experiment: free_body, arm, contact, robustness, velocity, velocity_limits, traces,
-              boundaries, command_field, shipped, jacobians, costs; what plans them (experiment, plan, suites, choice);
-              rows/ (from what engines give back)
+              boundaries, command_field, shipped, goal_streams, jacobians, costs; what plans them (experiment, plan,
+              suites, choice); rows/ (from what engines give back)
 running/      run, run_folder (until it is finished), order, precompile, sandbox (a user's laws), wire_format,
               schedulers/ (threads, and a Dask cluster), finish (the tables)
 timing/       time per tick (pytest-benchmark)
 findings/     claims/ (the paper's sentences), selection/ (which law), why (what a law does), theory/ (closed forms)
 regression/   rows/ (two runs), revisions/ (two revisions), history/ (every build)
 export/       laws as code for another's controller: C, C++, Python, JavaScript, with test vectors
+questions/    what users of robot libraries asked in public, one case a file
 studies/      scale (what many episodes cost), settings (other processors), libraries/ (other robot libraries), gates/
 cli/          the command line, one file a command
 
