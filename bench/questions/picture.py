@@ -7,7 +7,6 @@ from pathlib import Path
 from bench.errors import MissingTool
 from bench.questions.question import Curves, Question
 
-
 COLOURS = ("#c23b22", "#1b7f79")
 
 

@@ -74,7 +74,7 @@ def every_curve(narrow: bool):
     rows = -(-len(every) // columns)
     figure, axes = style.panels(rows, columns, height=2.3 * rows, narrow=narrow, squeeze=False)
     for place, (one, curves, _) in zip(axes.flat, every, strict=False):
-        draw(place, one, curves, (style.INK, style.MUTED))
+        draw(place, one, curves, (style.COLOURS["vermillion"], style.COLOURS["green"]))
         place.set_title(one.name)
     for place in axes.flat[len(every) :]:
         place.set_axis_off()
