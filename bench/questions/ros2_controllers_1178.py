@@ -12,7 +12,8 @@ ERROR = 0.1 * np.array([0.0, 1.0, 1.0]) / np.sqrt(2.0)
 
 def curves() -> Curves:
     """Angle between the torque and that of the spring that was meant, along axes of the control frame."""
-    before, after = [], []
+    before: list[float] = []
+    after: list[float] = []
     for turn in np.radians(TURN_DEG):
         R = Rotation.from_rotvec([0.0, turn, 0.0]).as_matrix()
         error = R @ ERROR  # the same in the control frame, whatever its turn
