@@ -17,6 +17,7 @@ from bench.contenders.registry import (
     known_regulators,
     known_representations,
     known_shipped,
+    known_springs,
 )
 from bench.control.contact_controller import HYBRIDS
 from bench.control.registry import all_controllers
@@ -52,9 +53,9 @@ def kind(word: str, title: str, *columns: str):
 def COMMAND(kind, laws):
     """What there is to run, of one kind or of all.
 
-    Kinds: regulators, representations, jacobians, inverses, controllers, impedances, limiters, shipped, metrics, tasks,
-    arms, variations, axes, starts, engines, suites, experiments, claims. A file of an arm that cannot be used is listed
-    with the reason.
+    Kinds: regulators, representations, jacobians, inverses, controllers, impedances, limiters, shipped, springs,
+    metrics, tasks, arms, variations, axes, starts, engines, suites, experiments, claims. A file of an arm that cannot
+    be used is listed with the reason.
     """
     own = options.own_laws(laws)
     if kind is not None and kind not in KINDS:
@@ -125,6 +126,11 @@ def _baselines(_):
 @kind("limiters", "Limiters of velocity commands", "name", "title", "source")
 def _limiters(_):
     return ((one.name, one.title, one.source) for one in known_limiters().values())
+
+
+@kind("springs", "Rotational springs with a stiffness matrix", "name", "potential", "title", "source")
+def _springs(_):
+    return ((one.name, "yes" if one.potential else "no", one.title, one.source) for one in known_springs().values())
 
 
 @kind("metrics", "Metrics", "column", "unit", "of", "meaning")

@@ -9,13 +9,24 @@ import importlib
 import pkgutil
 from typing import Any
 
-from bench.contenders import baselines, impedances, inverses, jacobians, limiters, regulators, representations, shipped
+from bench.contenders import (
+    baselines,
+    impedances,
+    inverses,
+    jacobians,
+    limiters,
+    regulators,
+    representations,
+    shipped,
+    springs,
+)
 from bench.errors import BadLaw, Incompatible, UnknownWord
 from bench.law.contender import ON_MATRIX, Contender, Regulator, Representation, contender
 from bench.law.impedance import Impedance
 from bench.law.limiter import Limiter
 from bench.law.resolved_motion import Inverse, Jacobian
 from bench.law.shipped import Shipped
+from bench.law.spring import Spring
 
 
 def collect(package, constant: str, kind: type) -> dict[str, Any]:
@@ -46,6 +57,7 @@ FOLDERS = {
     "baseline": (baselines, Regulator),
     "limiter": (limiters, Limiter),
     "shipped": (shipped, Shipped),
+    "spring": (springs, Spring),
 }
 """What is found in a folder of bench/contenders: constants of one type, named as their kind."""
 
@@ -64,6 +76,7 @@ known_inverses = functools.partial(known, "inverse")
 known_impedances = functools.partial(known, "impedance")
 known_limiters = functools.partial(known, "limiter")
 known_shipped = functools.partial(known, "shipped")
+known_springs = functools.partial(known, "spring")
 
 
 def baselines_of_arms() -> dict[str, Contender]:

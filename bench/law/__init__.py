@@ -1,6 +1,6 @@
 """What a law is: the dialect it is written in, rotations, small linear algebra, and the records it is made of.
 
-Whoever writes a law, coordinates, a Jacobian, an inverse, an impedance or a limiter imports from here alone:
+Whoever writes a law, coordinates, a Jacobian, an inverse, an impedance, a limiter or a spring imports from here alone:
 
     from bench.law import Regulator, cross, dot, kernel, sqrt
 
@@ -12,6 +12,7 @@ representation   Representation; euler: what Euler angles share
 resolved_motion  Jacobian, Inverse: from the tool's acceleration to the joints
 impedance        Impedance
 limiter          Limiter, of commanded velocities
+spring           Spring, with a stiffness matrix
 shipped          Shipped: a controller as its authors set it, and the law it makes
 equation, look   what the book shows of a law: its scalar equation, and how it is drawn
 chain, weighting an arm as kernels see it; weights of its joints
@@ -60,4 +61,5 @@ from bench.law.so3 import (
     turn_matrix,
     turn_quaternion,
 )
+from bench.law.spring import Spring, times
 from bench.law.weighting import GREATEST_GAIN, LENGTH, smaller_gram, solve_gram, weigh

@@ -133,6 +133,30 @@ def stream_columns() -> list[Column]:
     ]
 
 
+def spring_columns() -> list[Column]:
+    """springs.parquet: rotational springs with a stiffness matrix (bench/contenders/springs), a row a spring and frame.
+
+    K is symmetric with eigenvalues 30, 10 and 3 N m/rad along drawn axes.
+    """
+    return [
+        *words(
+            spring="the spring",
+            frame="in whose axes its three numbers are taken for a moment: tool or goal",
+            potential="whether it has a potential: yes or no",
+        ),
+        *numbers("1", "stiffness at the goal over that of K, least and most over K's axes", "felt_least", "felt_most"),
+        *numbers(
+            "1",
+            "largest work over a closed way, over what the greatest stiffness stores at the way's furthest angle",
+            "work_share",
+        ),
+        *numbers("1", "the same with K = 10 I", "work_share_isotropic"),
+        Column("loops", COUNT, "1", "closed ways that were gone"),
+        Column("vanishes", COUNT, "1", "of three, 180° rotations about K's axes at which it vanishes"),
+        *numbers("1", "largest change of the energy over a damped motion, over that at its start", "balance_share"),
+    ]
+
+
 def map_columns() -> list[Column]:
     """map.parquet: millions of random starts of a law, counted in cells of SO(3) (`python -m bench map`).
 

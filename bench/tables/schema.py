@@ -22,6 +22,7 @@ TABLES = {
         Table("boundaries", motion.boundary_columns, (*CONTENDER, "axis_x", "axis_y", "axis_z")),
         Table("command-field", motion.field_columns, (*CONTENDER, "finding")),
         Table("shipped", shipped_columns, ("shipped", "law")),
+        Table("springs", motion.spring_columns, ("spring", "frame")),
         Table("goal-streams", motion.stream_columns, ("stream", "regulator")),
         Table(
             "map",

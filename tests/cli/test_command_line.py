@@ -190,7 +190,7 @@ def test_plan_of_a_suite_takes_thirteen_lines_at_most(suite):
 
 def test_plan_names_what_is_made_beside_episodes(capsys):
     said = bench(capsys, "run", "--suite", "quick", "--dry-run").out
-    made = "boundaries, command-field, costs, goal-streams, jacobians, shipped, traces, velocity and velocity-limits"
+    made = "boundaries, command-field, costs, goal-streams, jacobians, shipped, springs, traces, velocity and velocity-limits"
     assert f" also {made} with " in " ".join(said.split())
 
 

@@ -78,6 +78,7 @@ LISTED = {
     "impedances": "dropped-impedance",
     "limiters": "dropped-limiter",
     "shipped": "dropped-shipped",
+    "springs": "dropped-spring",
     "baselines": "dropped-baseline",
     "metrics of contact": "dropped_touch",
     "tasks in contact": "dropped-probe",

@@ -10,10 +10,11 @@ from bench.counting.dialect import CONTROLLER_SOURCES, violations
 from bench.law.scalar import KERNELS
 
 ROOM = Path(bench.__file__).parent
+KINDS = ("regulators", "representations", "jacobians", "inverses", "limiters", "springs")
 FILES = sorted(
     path
     for pattern in (
-        *(f"contenders/{kind}/*.py" for kind in ("regulators", "representations", "jacobians", "inverses", "limiters")),
+        *(f"contenders/{kind}/*.py" for kind in KINDS),
         *("law/linalg/*.py", "law/so3.py", "law/chain.py", "law/weighting.py"),
     )
     for path in ROOM.glob(pattern)

@@ -1,0 +1,16 @@
+"""K times twice the quaternion's vector part: the stiffness that is set, and no spring unless K = k I.
+
+Fails: where K has different eigenvalues its work over a closed way is not zero.
+"""
+
+from bench.law import Spring, kernel, times
+
+
+@kernel
+def moment(q, K):
+    """-2 K eps."""
+    e = times(K, (q[1], q[2], q[3]))
+    return (-2.0 * e[0], -2.0 * e[1], -2.0 * e[2])
+
+
+SPRING = Spring("double-vector-part", "K times twice the vector part", "", r"-2K\epsilon", moment)
