@@ -1,6 +1,6 @@
 """What a law is: the dialect it is written in, rotations, small linear algebra, and the records it is made of.
 
-Whoever writes a law, coordinates, a Jacobian, an inverse, an impedance or a limiter imports from here alone:
+Whoever writes a law, coordinates, a Jacobian, an inverse, an impedance, a damping or a limiter imports from here alone:
 
     from bench.law import Regulator, cross, dot, kernel, sqrt
 
@@ -11,6 +11,7 @@ contender        Regulator, Contender, Gains, Goal
 representation   Representation; euler: what Euler angles share
 resolved_motion  Jacobian, Inverse: from the tool's acceleration to the joints
 impedance        Impedance
+damping          Damping, of an impedance that shapes no inertia
 limiter          Limiter, of commanded velocities
 shipped          Shipped: a controller as its authors set it, and the law it makes
 equation, look   what the book shows of a law: its scalar equation, and how it is drawn
@@ -21,6 +22,7 @@ tracking         goals that move
 
 from bench.law.chain import bias_acceleration, twist
 from bench.law.contender import AT_REST, Contender, Gains, Goal, Regulator
+from bench.law.damping import Damping
 from bench.law.equation import ANGLE, CHORD, LINEAR_MRP, LINEAR_SINE, QUARTER, SINE, TANGENT, Equation
 from bench.law.impedance import Impedance, driven
 from bench.law.limiter import GREATEST_RATE, Limiter

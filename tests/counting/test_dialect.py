@@ -14,6 +14,7 @@ FILES = sorted(
     path
     for pattern in (
         *(f"contenders/{kind}/*.py" for kind in ("regulators", "representations", "jacobians", "inverses", "limiters")),
+        "contenders/dampings/*.py",
         *("law/linalg/*.py", "law/so3.py", "law/chain.py", "law/weighting.py"),
     )
     for path in ROOM.glob(pattern)
