@@ -182,7 +182,8 @@ def limit(row) -> str:
     """Measured and by theory [N/mm]."""
     if np.isnan(row.measured):
         return "none"
-    return html.together(f"{row.measured / 1000:.3g} ({row.theory / 1000:.3g})")
+    form = ".3g" if row.measured < 1e6 else ",.0f"
+    return html.together(f"{row.measured / 1000:{form}} ({row.theory / 1000:{form}})")
 
 
 def figures(run: Run) -> dict:
