@@ -107,3 +107,26 @@ def test_row_of_the_unshaped_impedance_is_where_it_was():
     made = unshaped.pressed("ur5e", "per-axis", STIFFNESSES[1], 1e6)
     assert made["force"] == pytest.approx(row["force"], rel=1e-3)
     assert made["given"] == pytest.approx(row["given"], rel=0.05)
+
+
+IN_TASKS = {(one["task"], one["arm"], one["damping"]): one for one in FOUND["unshaped-tasks"]}
+
+
+def test_unshaped_impedance_leaves_the_scene_as_one_of_the_same_springs_that_shapes_inertia():
+    """Where a hand comes to rest is the springs' matter alone; what differs is within dry friction."""
+    for (task, arm, damping), one in IN_TASKS.items():
+        if damping != "shaped" and one["outcome"] == "done":
+            assert one["done"] == pytest.approx(IN_TASKS[task, arm, "shaped"]["done"], rel=2e-3)
+            assert one["given"] < 2.0 * IN_TASKS[task, arm, "shaped"]["given"]
+
+
+def test_only_what_is_unstable_in_free_motion_is_lost_in_tasks():
+    lost = {(arm, damping) for (_, arm, damping), one in IN_TASKS.items() if one["outcome"] != "done"}
+    assert lost == {("panda", "diagonal")}
+
+
+def test_row_of_a_task_is_where_it_was():
+    row = IN_TASKS["crank", "ur5e", "double-diagonalization"]
+    made = unshaped.done("crank", "ur5e", "double-diagonalization")
+    assert made["done"] == pytest.approx(row["done"], rel=1e-3)
+    assert made["given"] == pytest.approx(row["given"], rel=1e-2)

@@ -22,6 +22,7 @@ PARTS = {
     "sensitivity": pegs.sensitivity,
     "admittance": admittance.limits,
     "unshaped": unshaped.rows,
+    "unshaped-tasks": unshaped.in_tasks,
 }
 
 

@@ -13,7 +13,7 @@ import tasks
 from bench.engines.contact_episode import USUAL
 from bench.findings.theory.admittance import Admittance, Loop, lagged_limit, routh_limit, settles
 from bench.findings.theory.contact_stability import Spring
-from bench.studies.contact.pressing import Tick, press
+from bench.studies.contact.by_torque import Tick, press
 from bench.studies.contact.stability import ARM, INERTANCE, RELAXATION_S, mobility, scale
 
 MASS, STIFFNESS, RATIO = 5.5, 214.1, 2.828427

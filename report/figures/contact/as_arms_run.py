@@ -27,10 +27,16 @@ WITHIN = 10.0 ** ((DECADES[1] - DECADES[0]) / 2**HALVINGS) - 1.0
 """What bisection leaves of a limit on the arm."""
 LAG_COLOURS = (style.INK, "#0072b2", "#009e73", "#d55e00")
 
-FACTS = ("felt_least", "felt_most", "asked", "double", "axis_least", "axis_most", "unstable", "worst_gap", "modes")
-FACTS += ("episodes", "account", "coriolis_least", "coriolis_most", "tick")
-STUDY = ("planes", "plane_arms", "given_share", "unaccounted", "servos", "servo_gap", "arm_gap", "shipped_k", "lag_k")
-STUDY += ("shipped_m", "shipped_d", "force", "lag", "never")
+FACTS = (
+    *("felt_least", "felt_most", "asked", "double", "axis_least", "axis_most", "unstable", "worst_gap", "modes"),
+    *("episodes", "account", "coriolis_least", "coriolis_most", "tick"),
+)
+"""Of the text, what runs hold."""
+STUDY = (
+    *("planes", "plane_arms", "given_share", "unaccounted", "tasks", "same", "servos", "servo_gap", "arm_gap"),
+    *("shipped_m", "shipped_d", "shipped_k", "force", "lag", "lag_k", "never"),
+)
+"""Of the text, what the study of contact holds."""
 
 SHORT = {"diagonal": "2√K", "per-axis": "per axis", "double-diagonalization": "double"}
 RATIOS, TIMES = ({name: f"{what}, {word}" for name, word in SHORT.items()} for what in ("Ratio", "Settles [s]"))
@@ -117,6 +123,8 @@ def in_contact() -> dict:
         "servos": len(servos),
         "servo_gap": f"{100 * float(off['servo']):.1g}",
         "arm_gap": f"{100 * max(float(off['arm']), WITHIN):.1g}",
+        "tasks": len(study("unshaped-tasks")["task"].unique()),
+        "same": f"{100 * farthest_from_shaped(study('unshaped-tasks')):.1g}",
         "shipped_m": f"{SHIPPED.m:g}",
         "shipped_d": f"{SHIPPED.d:.0f}",
         "shipped_k": f"{SHIPPED.k:g}",
@@ -125,6 +133,12 @@ def in_contact() -> dict:
         "lag_k": f"{slow.loc[slow['delay_ms'] == 20, 'measured'].iloc[0] / 1000:.1f}",
         "never": f"{len(lost)} of {len(arms)}",
     }
+
+
+def farthest_from_shaped(rows: pd.DataFrame) -> float:
+    """The largest share by which what is done to a scene differs from what shaped inertia does."""
+    wide = rows.pivot_table(index=["task", "arm"], columns="damping", values="done")
+    return float(wide.div(wide["shaped"], axis=0).sub(1.0).abs().max().max())
 
 
 def tables(run: Run) -> dict:
