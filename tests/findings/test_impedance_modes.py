@@ -11,7 +11,7 @@ import tasks
 from bench.contenders.registry import known_dampings
 from bench.experiments.experiment import Settings, Unit
 from bench.experiments.impedance import STIFFNESSES, ZETA
-from bench.experiments.rows.impedance_modes import frame
+from bench.experiments.rows.impedance_modes import frame, sampled
 from bench.findings.theory import impedance_modes as theory
 
 ARMS = ("panda", "puma560", "ur5e")
@@ -29,7 +29,7 @@ def measured(arm: str, damping: str, dt: float = 1e-3) -> pd.DataFrame:
 @pytest.mark.parametrize("arm", ["jaco", *ARMS])
 def test_modes_of_the_loop_are_those_of_the_arms_matrices(arm, damping):
     rows = measured(arm, damping)
-    # central differences of 1e-5 rad over a tick of 1e-3 s: rounding of 1e-16/1e-5/1e-3
+    # differences err by the square of 1e-4 rad times what K J changes by over it
     np.testing.assert_allclose(rows["omega"], rows["omega_theory"], rtol=1e-5)
     np.testing.assert_allclose(rows["ratio"], rows["ratio_theory"], rtol=1e-4)
     np.testing.assert_allclose(rows["radius"], rows["radius_theory"], rtol=1e-5)
@@ -77,3 +77,23 @@ def test_slowest_decay_is_that_of_the_poles_of_numpy():
 def test_every_arm_has_six_modes_for_each_stiffness():
     for arm in tasks.arm_names():
         assert measured(arm, "diagonal").groupby("stiffness_n_m").size().tolist() == [6, 6]
+
+
+@pytest.mark.parametrize("arm", ARMS)
+@pytest.mark.parametrize("damping", DESIGNS)
+def test_longest_tick_is_where_the_loop_that_runs_becomes_unstable(arm, damping):
+    for stiffness in STIFFNESSES:
+        dt = theory.longest_tick(arm, damping, stiffness, ZETA)
+        for share, holds in ((0.99, True), (1.01, False)):
+            rows = measured(arm, damping, share * dt).query(f"stiffness_n_m == {stiffness.translation}")
+            assert (rows["radius"].max() < 1.0) == holds
+
+
+def test_longest_tick_of_one_mass_is_jurys():
+    """v+ = v - dt (K x + D v)/m, x+ = x + dt v+: stable up to K dt^2/m + 2 D dt/m = 4."""
+    K, D, m = 50.0, 14.0, 0.03
+    dt = (-D + np.sqrt(D * D + 4.0 * K * m)) / K
+    P, Q = np.eye(6) * K / m, np.eye(6) * D / m
+    for share, holds in ((0.999, True), (1.001, False)):
+        assert (np.abs(np.linalg.eigvals(sampled(P, Q, share * dt))).max() < 1.0) == holds
+    assert dt < 2.0 * m / D

@@ -23,6 +23,9 @@ from bench.experiments.impedance import Stiffness
 from bench.experiments.rows.impedance_modes import modes, sampled
 from tasks.kinematics import kinematics
 
+HALVINGS = 30
+"""Of a second: to a nanosecond."""
+
 
 class Hand(NamedTuple):
     """Lambda^-1 of an arm at its home, 6 x 6, and what the joints' friction does to the hand, J M^-1 B J^+ [1/s]."""
@@ -57,6 +60,17 @@ def hand_matrices(arm: str, damping: str, stiffness: Stiffness, zeta: float) -> 
     hand = hand_of(arm)
     D = damping_matrix(damping, stiffness, hand.mobility, zeta)
     return hand.mobility * diagonal(stiffness), hand.mobility @ D + hand.friction
+
+
+def longest_tick(arm: str, damping: str, stiffness: Stiffness, zeta: float) -> float:
+    """The control period [s] from which on the sampled loop is unstable: 2/(D/Lambda) of the fastest pole, or less."""
+    P, Q = hand_matrices(arm, damping, stiffness, zeta)
+    low, high = 0.0, 1.0
+    for _ in range(HALVINGS):
+        middle = 0.5 * (low + high)
+        stable = np.abs(np.linalg.eigvals(sampled(P, Q, middle))).max() < 1.0
+        low, high = (middle, high) if stable else (low, middle)
+    return low
 
 
 def with_theory(rows: pd.DataFrame) -> pd.DataFrame:

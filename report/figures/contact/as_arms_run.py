@@ -8,7 +8,8 @@ import numpy as np
 import pandas as pd
 
 from bench.contenders.registry import known_dampings
-from bench.findings.theory.impedance_modes import with_theory
+from bench.experiments.impedance import Stiffness
+from bench.findings.theory.impedance_modes import longest_tick, with_theory
 from bench.studies.contact.__main__ import STORED
 from bench.studies.contact.admittance import DECADES, FORCE_N, HALVINGS, SHIPPED
 from bench.tables.files import read_json
@@ -29,7 +30,7 @@ LAG_COLOURS = (style.INK, "#0072b2", "#009e73", "#d55e00")
 
 FACTS = (
     *("felt_least", "felt_most", "asked", "double", "axis_least", "axis_most", "unstable", "worst_gap", "modes"),
-    *("episodes", "account", "coriolis_least", "coriolis_most", "tick"),
+    *("episodes", "account", "coriolis_least", "coriolis_most", "tick", "overshoots", "slower", "needs"),
 )
 """Of the text, what runs hold."""
 STUDY = (
@@ -102,8 +103,33 @@ def in_free_motion(run: Run) -> dict:
         "account": f"{100 * float(rows['gap'].max()):.1g}",
         "coriolis_least": f"{100 * float(moved.min()):.1f}",
         "coriolis_most": f"{100 * float(moved.max()):.1f}",
+        "overshoots": ", ".join(
+            f"{100 * float(rows.loc[rows['damping'] == name, 'overshoot'].max()):.2g}" for name in LOOKS
+        ),
+        "slower": f"{slower(rows, 'diagonal', 'double-diagonalization'):.2g}",
+        "needs": needed_ticks(found),
         "tick": f"{1000 * float(rows['dt_s'].iloc[0]):g}",
     }
+
+
+def needed_ticks(found: pd.DataFrame) -> str:
+    """The longest stable control period [ms] of the shipped rule on each arm, the shortest of its stiffnesses."""
+    own = found[found["damping"] == "diagonal"].drop_duplicates(["arm", "stiffness_n_m"])
+    ticks = {
+        (one.arm, one.stiffness_n_m): longest_tick(
+            one.arm, one.damping, Stiffness(one.stiffness_n_m, one.stiffness_nm_rad), one.zeta
+        )
+        for one in own.itertuples()
+    }
+    least = {arm: min(tick for (which, _), tick in ticks.items() if which == arm) for arm in own["arm"].unique()}
+    return ", ".join(f"{1000 * tick:.2g} on the {arm_looks.title(arm)}" for arm, tick in least.items())
+
+
+def slower(rows: pd.DataFrame, one: str, other: str) -> float:
+    """How many times as long one design takes as another: the median over episodes that settle by both."""
+    key = ["arm", "stiffness_n_m", "compensated", "start_id"]
+    wide = rows[rows["settled"]].pivot_table(index=key, columns="damping", values="settling_time_s", observed=True)
+    return float((wide[one] / wide[other]).median())
 
 
 def in_contact() -> dict:
