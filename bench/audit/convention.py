@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from bench.audit.forms import FORMS
-from bench.audit.pairs import CLOSE, FINE, WIDE, Pairs
+from bench.audit.pairs import CLOSE, FINE, NEAR_IDENTITY, WIDE, Pairs
 from bench.audit.stated import FRAMES
 
 ALONG_RAD = 0.1
@@ -27,6 +27,11 @@ FIT = {WIDE: 1e-5, CLOSE: 1e-6, FINE: 1e-9}
 Two forms differ by a twenty-fourth of the square at least, 1e-4 at 0.05 rad and 1e-6 at 0.005 rad; forms of no name may
 differ from one by the fourth power, 1e-8 and less. Single precision has 6e-8, so that it is told where pairs are wide.
 """
+
+
+NEAREST_RAD, EVEN = (1e-4, 2e-3), 1e-5
+"""Where a form of no name, clipped as short as 0.002 rad, has its slope, if it is one there: to the square of the
+angle, 4e-6, and to what double precision leaves. Single precision, 6e-4 at 1e-4 rad, and dead bands have none there."""
 
 
 class Convention(NamedTuple):
@@ -97,7 +102,16 @@ def form_of(pairs: Pairs, size: np.ndarray) -> tuple[str, float]:
             slope = float(np.nanmedian(ratio))
             if slope > 0.0 and np.mean(np.abs(ratio / slope - 1.0) < tolerance) >= ENOUGH:
                 return form, slope
+    nearest = is_nearest(pairs)
+    ratio = size[nearest] / pairs.angle[nearest]
+    if len(ratio) and np.ptp(ratio) <= EVEN * ratio.min():
+        return "", float(np.median(ratio))
     return "", limit_at_0(pairs.angle[pairs.place == FINE], size[pairs.place == FINE])
+
+
+def is_nearest(pairs: Pairs) -> np.ndarray:
+    """The pairs (n) at NEAREST_RAD, as a mask."""
+    return (pairs.place == NEAR_IDENTITY) & (pairs.angle >= NEAREST_RAD[0]) & (pairs.angle <= NEAREST_RAD[1])
 
 
 def limit_at_0(angle: np.ndarray, size: np.ndarray) -> float:

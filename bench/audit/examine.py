@@ -14,7 +14,7 @@ from bench.audit.euler import Angles, find_angles
 from bench.audit.fault import Evidence, Finding
 from bench.audit.faults import every_fault
 from bench.audit.forms import FORMS
-from bench.audit.pairs import CLOSE, FINE, WIDE, Pairs
+from bench.audit.pairs import CLOSE, FINE, NEAR_IDENTITY, WIDE, Pairs
 from bench.audit.report import Report
 from bench.audit.stated import TAKES, Stated
 from bench.errors import BadFunction
@@ -122,7 +122,7 @@ def understood(function: Callable, stated: Stated, name: str) -> list[tuple[str,
         BadFunction: of nothing that it may take does it return three numbers.
     """
     every = pairs.every_pair()
-    some = every.chosen(np.isin(every.place, (WIDE, CLOSE, FINE)))
+    some = every.chosen(np.isin(every.place, (WIDE, CLOSE, FINE, NEAR_IDENTITY)))
     known: list[tuple[float, str, Convention]] = []
     answered: list[tuple[str, Convention | None]] = []
     reasons = {}

@@ -131,6 +131,11 @@ def norm_clip_by_the_largest(q, q_d):
     return e / max(1.0, np.abs(e).max() / 0.3)
 
 
+def clip_of_a_tick(q, q_d):
+    e = chord(left(q, q_d))
+    return e * min(1.0, 0.008 / max(np.linalg.norm(e), 1e-12))
+
+
 def arc_cosine(R, R_d):
     X = R_d @ R.T
     theta = np.arccos(np.clip(0.5 * (np.trace(X) - 1.0), -1.0, 1.0))
@@ -233,6 +238,7 @@ PLANTED: dict = {
     axis_clip_tight: {"axis-clip"},
     norm_clip: {"norm-clip"},
     norm_clip_by_the_largest: {"norm-clip"},
+    clip_of_a_tick: {"norm-clip"},
     arc_cosine: {"dead-at-180", "digits-near-180", "digits-near-0", "non-unit"},
     arc_cosine_of_quaternion: {"digits-near-0", "non-unit"},
     euler_difference: {"euler-angles"},

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from bench.audit.convention import is_nearest
 from bench.audit.fault import Fault, Found
 from bench.audit.pairs import CLOSE, WIDE
 
@@ -12,11 +13,20 @@ SHORTER = 0.999
 
 
 def find(examined) -> Found | None:
-    """Many answers have one length, or one largest component, and are shorter than they should be."""
-    if not examined.convention or not examined.convention.form:
+    """Many answers have one length, or one largest component, and are shorter than they should be.
+
+    Of a form of no name, shorter than a slope says that it has near the goal: a smooth one has its largest length at a
+    few angles, not at many.
+    """
+    if not examined.convention:
         return None
+    full = np.linalg.norm(examined.truth, axis=1)
+    if not examined.convention.form:
+        full, near = examined.slope * examined.pairs.angle, is_nearest(examined.pairs)
+        if not np.allclose(examined.size[near], full[near], rtol=1.0 - SHORTER, atol=0.0):
+            return None
     here = np.flatnonzero(examined.at(WIDE, CLOSE) & (examined.apart < BENT_RAD))
-    shorter = here[examined.size[here] < SHORTER * np.linalg.norm(examined.truth[here], axis=1)]
+    shorter = here[examined.size[here] < SHORTER * full[here]]
     for what, length in (("length", examined.size), ("largest component", np.abs(examined.e).max(axis=1))):
         limit = float(length[here].max(initial=0.0))
         at_limit = shorter[np.abs(length[shorter] - limit) <= SAME * limit]

@@ -18,7 +18,7 @@ from bench.findings.claims.tables import Results
 from bench.findings.claims.verdict import NoEvidence
 from bench.findings.selection.criteria import BY_NAME, CRITERIA
 from bench.findings.selection.measured import Measured
-from bench.findings.selection.needs import EVERYWHERE, FORGETFUL, NEARLY, SMOOTH, Advice, Need, advise
+from bench.findings.selection.needs import EVERYWHERE, FORGETFUL, NEARLY, SMOOTH, Advice, Decision, Need, advise, decide
 from bench.findings.selection.tables import by_law, common, tables_of
 
 VELOCITY = Need("your robot takes velocities", (EVERYWHERE,))
@@ -32,6 +32,10 @@ NEEDS = (
     Need("an arm told joint rates by the standard inverse", (EVERYWHERE,), ("arms",)),
 )
 """Situations of a robot that takes velocities."""
+
+POSITION = Need("your robot takes positions", (EVERYWHERE,), ("late",))
+"""A position loop of time constant T that is given the integral of omega moves as a servo of velocity with lag T does:
+(q_d - q)/T is omega through 1/(T s + 1)."""
 
 
 def measure(results: Results) -> Measured:
@@ -54,7 +58,10 @@ def measure(results: Results) -> Measured:
     ways = [by_law(part, "path_ratio") for part in (uniform, exact)]
     values["detour"] = {name: np.array([np.nanmax([*(way[name].max() for way in ways)])]) for name in contenders}
     values["peak"] = by_law(uniform, "peak_omega", math.inf)
-    values["arms"] = _on_arms(rows)
+    at_once, late = (_on_arms(rows[is_late]) for is_late in (rows["lag_s"] == 0.0, rows["lag_s"] > 0.0))
+    at_once = at_once[at_once["start_set"] == "uniform"]
+    values["arms"] = by_law(at_once.assign(passed=100.0 * ~at_once["lost"]), "passed")
+    values["late"] = by_law(late, "settling_time_s", math.inf)
     return Measured(tables, {one.name: {} for one in CRITERIA} | values)
 
 
@@ -74,15 +81,13 @@ AS_EVER = ("unsettled", "lost", "time", "worst", "spread", "tick", "memory", "ju
 """Criteria that are measured of these rows as of any others."""
 
 
-def _on_arms(rows: pd.DataFrame) -> dict[str, np.ndarray]:
-    """100 for each uniform start on arms that settles by the standard inverse and servos that follow at once [%]."""
-    own = rows[(rows["arm"] != "") & (rows["start_set"] == "uniform") & (rows["lag_s"] == 0.0)]
-    own = own[own["inverse"].isin(("solve", "pseudo-inverse"))]
+def _on_arms(rows: pd.DataFrame) -> pd.DataFrame:
+    """Rows of arms by their standard inverse, in the order of arms and starts."""
+    own = rows[(rows["arm"] != "") & rows["inverse"].isin(("solve", "pseudo-inverse"))]
     has_solve = own.groupby(["contender", "arm"], observed=True)["inverse"].transform(
         lambda one: (one == "solve").any()
     )
-    own = own[~has_solve | (own["inverse"] == "solve")].sort_values(["arm", "start_id"], kind="stable")
-    return by_law(own.assign(passed=100.0 * ~own["lost"]), "passed")
+    return own[~has_solve | (own["inverse"] == "solve")].sort_values(["arm", "start_set", "start_id"], kind="stable")
 
 
 @functools.cache
@@ -95,3 +100,9 @@ def velocity_measured(folder: Path) -> Measured:
 def velocity_choice(folder: Path) -> Advice:
     """What is advised where a robot takes velocities, by the run in a folder; NoEvidence if it has no such rows."""
     return advise(velocity_measured(folder), VELOCITY, NEEDS)
+
+
+@functools.cache
+def position_choice(folder: Path) -> Decision:
+    """What is advised where a robot takes positions, by the rows of arms whose servos lag; errors as above."""
+    return decide(POSITION, velocity_measured(folder))

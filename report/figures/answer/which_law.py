@@ -12,6 +12,7 @@ from bench.findings.selection import needs
 from bench.findings.selection.criteria import BY_NAME, Criterion
 from bench.findings.selection.measured import Measured, measured
 from bench.findings.selection.needs import HELD_RAD
+from bench.findings.selection.robots import ROBOTS, word_of
 from bench.findings.selection.rule import GENERAL, front
 from bench.findings.selection.words import cost, standing, together
 from bench.tables.statistics import Estimate
@@ -78,7 +79,32 @@ def lead(run: Run) -> str:
 def tables(run: Run) -> dict:
     """Situations, and all laws."""
     found = measured(run.folder)
-    return {"decided": decided(needs.advice(run.folder), found), "laws_table": every_law(found)}
+    return {
+        "robots": by_robot(run),
+        "decided": decided(needs.advice(run.folder), found),
+        "laws_table": every_law(found),
+    }
+
+
+def by_robot(run: Run) -> html.Markdown:
+    """A line for each thing that a robot may take: the law to use, with whom it ties, the rows that say so."""
+    lines = []
+    for robot in ROBOTS:
+        one = word_of(robot, run.folder)
+        cells = {"If your robot takes": robot.takes}
+        if one is None:
+            cells["use"] = "not in this run"
+        elif one.law is None:
+            cells["use"] = "no law of this run"
+        else:
+            tied = [families.word(law) for law in one.tied]
+            cells |= {
+                "use": families.link(one.law, families.word(one.law)),
+                "Tied with": together(tied) if tied else "",
+            }
+            cells["Of laws"] = str(len(one.asked))
+        lines.append(cells | {"Measured": html.Html(f'<a href="{robot.page}.html">{robot.rows}</a>')})
+    return html.table(pd.DataFrame(lines).fillna(""))
 
 
 def decided(advice: needs.Advice, found: Measured) -> html.Markdown:

@@ -26,8 +26,8 @@ from report.figures.kit.tables import Table
 
 DEG = 180.0 / math.pi
 
-FACTS = ("lead", "gain", "tick", "uniform", "exact", "bound", "others", "dead", "unwinds", "worst_gap", "lag")
-FACTS += ("band", "detour", "overshoots", "transpose", "bent", "longer", "left")
+FACTS: tuple[str, ...] = ("lead", "gain", "tick", "uniform", "exact", "bound", "others", "dead", "unwinds", "lag")
+FACTS += ("worst_gap", "band", "detour", "overshoots", "transpose", "bent", "longer", "left")
 
 SITUATIONS = Table("Situation | Law | Ties with")
 LIMITERS = Table(

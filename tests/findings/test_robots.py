@@ -1,0 +1,83 @@
+"""Which law for what a robot takes: on rows made here, and where a run has none."""
+
+import functools
+import math
+
+import pandas as pd
+import pytest
+
+from bench.contenders.registry import known_shipped
+from bench.experiments.experiment import Settings, Unit, rows_of
+from bench.findings.claims.tables import Results
+from bench.findings.claims.verdict import NoEvidence
+from bench.findings.selection.needs import advice, decide, has_all
+from bench.findings.selection.robots import ROBOTS, word_of
+from bench.findings.selection.rule import dominates
+from bench.findings.selection.uncancelled import UNCANCELLED, measure
+from bench.findings.selection.velocity import POSITION
+from bench.findings.selection.velocity import measure as measure_velocity
+from bench.tables.read import with_contender
+from bench.tables.schema import RESULTS
+
+REFERENCE = RESULTS / "reference"
+FASTEST = "mrp"
+
+
+@functools.cache
+def shipped():
+    one = next(one for one in known_shipped().values() if one.level == "torque" and not one.shapes_inertia)
+    return rows_of(Settings("quick"), Unit("shipped", selector=one.name, count=1, total=1, horizon_s=20.0))
+
+
+@functools.cache
+def lagging():
+    settings, laws = Settings("quick"), ("rotation-vector", FASTEST)
+    units = [Unit("velocity", law, "free-body", count=24, horizon_s=2.5) for law in laws]
+    units += [
+        Unit("velocity", f"{law}@geometric+solve", "arm-regulation", "ur5e", count=2, horizon_s=2.5) for law in laws
+    ]
+    return with_contender(pd.concat([rows_of(settings, unit) for unit in units], ignore_index=True))
+
+
+def test_uncancelled_law_has_the_facts_and_nothing_dominates_it():
+    found = measure(Results(REFERENCE, {"shipped": shipped()}))
+    one = decide(UNCANCELLED, found)
+    assert set(one.asked) == set(shipped()["law"].astype(str)) - {""}
+    assert has_all(found, one.law, UNCANCELLED.facts)
+    assert not any(dominates(found, law, one.law, ("time", "worst", "tick")) for law in one.asked)
+
+
+def test_uncancelled_law_that_rests_or_goes_the_long_way_is_not_asked():
+    rows = shipped().copy()
+    rows.loc[rows["law"] == FASTEST, "dead"] = 1
+    rows.loc[rows["law"] == "rotation-vector", "away"] = 1
+    asked = decide(UNCANCELLED, measure(Results(REFERENCE, {"shipped": rows}))).asked
+    assert asked
+    assert not {FASTEST, "rotation-vector"} & set(asked)
+
+
+def test_uncancelled_choice_without_rows_is_no_evidence():
+    rows = shipped()
+    with pytest.raises(NoEvidence, match="no law was run"):
+        measure(Results(REFERENCE, {"shipped": rows[rows["law"] == ""]}))
+
+
+def test_position_is_judged_by_servos_that_lag():
+    found = measure_velocity(Results(REFERENCE, {"velocity": lagging()}))
+    rows = lagging()
+    late = rows[(rows["lag_s"] > 0.0) & rows["contender"].astype(str).str.startswith(FASTEST)]
+    assert len(found.values["late"][FASTEST]) == len(late)
+    median = late["settling_time_s"].fillna(math.inf).median()
+    assert found.number("late", FASTEST) == pytest.approx(median, abs=0.02)
+    assert decide(POSITION, found).law == FASTEST
+
+
+def test_every_robot_has_a_word_of_the_reference():
+    words = {robot.takes: word_of(robot, REFERENCE) for robot in ROBOTS}
+    assert all(one is not None and one.law for one in words.values())
+    assert words["torques, and a model cancels the inertia"].law == advice(REFERENCE).default.law
+
+
+@pytest.mark.parametrize("robot", ROBOTS, ids=lambda robot: robot.page)
+def test_robot_names_a_page_of_the_book(robot):
+    assert (RESULTS.parent / "report" / "pages" / f"{robot.page}.md").is_file()
