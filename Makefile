@@ -134,7 +134,7 @@ regress-study: ## does that gate cry wolf, and does it bite? (half an hour): res
 regress-study: $(READY)
 	@$(PY) -m bench.studies.gates $(ARGS)
 
-contact-study: ## in contact: stiffness, delay, noise, fits of pegs, springs (two minutes): results/contact
+contact-study: ## in contact: stiffness, delay, noise, admittance, fits of pegs, springs (five minutes): results/contact
 contact-study: $(READY)
 	@$(PY) -m bench.studies.contact $(ARGS)
 

@@ -10,6 +10,7 @@ from bench.cli import options
 from bench.cli.screen import Frame, console, word_table
 from bench.contenders.registry import (
     baselines_of_arms,
+    known_dampings,
     known_impedances,
     known_inverses,
     known_jacobians,
@@ -53,9 +54,9 @@ def kind(word: str, title: str, *columns: str):
 def COMMAND(kind, laws):
     """What there is to run, of one kind or of all.
 
-    Kinds: regulators, representations, jacobians, inverses, controllers, impedances, limiters, shipped, springs,
-    metrics, tasks, arms, variations, axes, starts, engines, suites, experiments, claims. A file of an arm that cannot
-    be used is listed with the reason.
+    Kinds: regulators, representations, jacobians, inverses, controllers, impedances, dampings, limiters, shipped,
+    springs, metrics, tasks, arms, variations, axes, starts, engines, suites, experiments, claims. A file of an arm that
+    cannot be used is listed with the reason.
     """
     own = options.own_laws(laws)
     if kind is not None and kind not in KINDS:
@@ -121,6 +122,11 @@ def _shipped(_):
 @kind("baselines", "Baselines of arms, which are no laws", "name", "title", "source")
 def _baselines(_):
     return ((name, one.regulator.title, one.regulator.source) for name, one in baselines_of_arms().items())
+
+
+@kind("dampings", "Dampings of impedances without inertia shaping", "name", "title", "source")
+def _dampings(_):
+    return ((one.name, one.title, one.source) for one in known_dampings().values())
 
 
 @kind("limiters", "Limiters of velocity commands", "name", "title", "source")

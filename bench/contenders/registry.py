@@ -11,6 +11,7 @@ from typing import Any
 
 from bench.contenders import (
     baselines,
+    dampings,
     impedances,
     inverses,
     jacobians,
@@ -22,6 +23,7 @@ from bench.contenders import (
 )
 from bench.errors import BadLaw, Incompatible, UnknownWord
 from bench.law.contender import ON_MATRIX, Contender, Regulator, Representation, contender
+from bench.law.damping import Damping
 from bench.law.impedance import Impedance
 from bench.law.limiter import Limiter
 from bench.law.resolved_motion import Inverse, Jacobian
@@ -54,6 +56,7 @@ FOLDERS = {
     "Jacobian": (jacobians, Jacobian),
     "inverse": (inverses, Inverse),
     "impedance": (impedances, Impedance),
+    "damping": (dampings, Damping),
     "baseline": (baselines, Regulator),
     "limiter": (limiters, Limiter),
     "shipped": (shipped, Shipped),
@@ -74,6 +77,7 @@ known_representations = functools.partial(known, "representation")
 known_jacobians = functools.partial(known, "Jacobian")
 known_inverses = functools.partial(known, "inverse")
 known_impedances = functools.partial(known, "impedance")
+known_dampings = functools.partial(known, "damping")
 known_limiters = functools.partial(known, "limiter")
 known_shipped = functools.partial(known, "shipped")
 known_springs = functools.partial(known, "spring")

@@ -1,6 +1,7 @@
 """What a law is: the dialect it is written in, rotations, small linear algebra, and the records it is made of.
 
-Whoever writes a law, coordinates, a Jacobian, an inverse, an impedance, a limiter or a spring imports from here alone:
+Whoever writes a law, coordinates, a Jacobian, an inverse, an impedance, a damping, a limiter or a spring imports from
+here alone:
 
     from bench.law import Regulator, cross, dot, kernel, sqrt
 
@@ -11,6 +12,7 @@ contender        Regulator, Contender, Gains, Goal
 representation   Representation; euler: what Euler angles share
 resolved_motion  Jacobian, Inverse: from the tool's acceleration to the joints
 impedance        Impedance
+damping          Damping, of an impedance that shapes no inertia
 limiter          Limiter, of commanded velocities
 spring           Spring, with a stiffness matrix
 shipped          Shipped: a controller as its authors set it, and the law it makes
@@ -22,6 +24,7 @@ tracking         goals that move
 
 from bench.law.chain import bias_acceleration, twist
 from bench.law.contender import AT_REST, Contender, Gains, Goal, Regulator
+from bench.law.damping import Damping
 from bench.law.equation import ANGLE, CHORD, LINEAR_MRP, LINEAR_SINE, QUARTER, SINE, TANGENT, Equation
 from bench.law.impedance import Impedance, driven
 from bench.law.limiter import GREATEST_RATE, Limiter

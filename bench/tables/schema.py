@@ -5,6 +5,7 @@ from bench.tables import motion_columns as motion
 from bench.tables import other_columns as other
 from bench.tables import velocity_columns as velocity
 from bench.tables.column import Table
+from bench.tables.impedance_columns import impedance_columns, mode_columns
 from bench.tables.shipped_columns import shipped_columns
 
 CONTENDER = ("regulator", "representation", "jacobian", "inverse")
@@ -50,6 +51,12 @@ TABLES = {
             velocity.velocity_limit_columns,
             ("arm", *CONTENDER, "share", "reach", "lag_ticks"),
         ),
+        Table(
+            "impedance",
+            impedance_columns,
+            ("suite", "arm", "damping", "stiffness_n_m", "compensated", "start_set", "start_id"),
+        ),
+        Table("impedance-modes", mode_columns, ("arm", "damping", "stiffness_n_m", "mode")),
         Table("perturbed", motion.perturbed_columns, ("axis", "level", "regulator", "representation")),
         Table("timings", other.timing_columns, ("what", "arm", *CONTENDER, "engine")),
         Table("libraries", other.library_columns, ("library", "function", "takes", "turn_set")),

@@ -14,6 +14,7 @@ from bench.cli.listing import row_of_arm
 from bench.cli.paragraphs import laid_out
 from bench.contenders.registry import (
     all_contenders,
+    known_dampings,
     known_impedances,
     known_inverses,
     known_jacobians,
@@ -108,6 +109,7 @@ KNOWN = {
     "inverses": known_inverses(),
     "controllers": dict.fromkeys(one.law for one in all_controllers()),
     "impedances": known_impedances(),
+    "dampings": known_dampings(),
     "limiters": known_limiters(),
     "metrics": [*known_metrics(), *known_contact_metrics()],
     "tasks": [*tasks.names(), *tasks.contact_names()],
@@ -190,8 +192,8 @@ def test_plan_of_a_suite_takes_thirteen_lines_at_most(suite):
 
 def test_plan_names_what_is_made_beside_episodes(capsys):
     said = bench(capsys, "run", "--suite", "quick", "--dry-run").out
-    made = "boundaries, command-field, costs, goal-streams, jacobians, shipped, springs, traces, velocity and velocity-limits"
-    assert f" also {made} with " in " ".join(said.split())
+    made = "boundaries, command-field, costs, goal-streams, impedance, impedance-modes, jacobians, shipped, springs, traces"
+    assert f" also {made}, velocity and velocity-limits with " in " ".join(said.split())
 
 
 def test_dry_run_counts_what_a_run_then_writes(capsys, tiny_run):

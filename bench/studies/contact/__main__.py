@@ -1,6 +1,6 @@
 """What tasks in contact depend on: results/contact/contact.json.
 
-python -m bench.studies.contact                    all of it, some three minutes
+python -m bench.studies.contact                    all of it, some five minutes
 python -m bench.studies.contact --only boundary    one part anew; the others stay as they are
 """
 
@@ -9,7 +9,7 @@ import math
 from pathlib import Path
 
 from bench.provenance import ROOT
-from bench.studies.contact import pegs, springs, stability
+from bench.studies.contact import admittance, pegs, springs, stability, unshaped
 from bench.tables.files import read_json, write_json
 
 STORED = ROOT / "results" / "contact" / "contact.json"
@@ -20,6 +20,9 @@ PARTS = {
     "springs": springs.rows,
     "fits": pegs.fits,
     "sensitivity": pegs.sensitivity,
+    "admittance": admittance.limits,
+    "unshaped": unshaped.rows,
+    "unshaped-tasks": unshaped.in_tasks,
 }
 
 

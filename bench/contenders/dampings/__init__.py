@@ -1,0 +1,1 @@
+"""Designs of damping for an impedance without inertia shaping, one file each with a constant DAMPING."""

@@ -1,0 +1,86 @@
+"""Modes of an impedance without inertia shaping about the goal, from the arm's own matrices.
+
+    Lambda xddot + D xdot + K x = 0,  Lambda = (J M^-1 J^T)^-1          K phi = omega^2 Lambda phi
+    ratio = phi^T D phi/(2 omega phi^T Lambda phi)
+
+With double diagonalization it is zeta in every mode. D = 2 zeta sqrt(K) on the diagonal makes sqrt(K/Lambda) the
+frequency and zeta/sqrt(Lambda) the ratio of an axis that is alone; its fastest pole is D/Lambda, so that a tick of dt
+is unstable from some D dt/Lambda = 2 on, whatever the stiffness. Friction of the joints, B, adds J M^-1 B J^+.
+
+Fails: where J loses rank; says nothing of errors that are not small.
+Source: Albu-Schaeffer, Ott, Frese, Hirzinger 2003.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+import pandas as pd
+
+import tasks
+from bench.contenders.registry import known_dampings
+from bench.engines.arm_episode import buffers
+from bench.experiments.impedance import Stiffness
+from bench.experiments.rows.impedance_modes import modes, sampled
+from tasks.kinematics import kinematics
+
+HALVINGS = 30
+"""Of a second: to a nanosecond."""
+
+
+class Hand(NamedTuple):
+    """Lambda^-1 of an arm at its home, 6 x 6, and what the joints' friction does to the hand, J M^-1 B J^+ [1/s]."""
+
+    mobility: np.ndarray
+    friction: np.ndarray
+
+
+def hand_of(name: str) -> Hand:
+    """The hand of an arm at its home."""
+    arm = tasks.arm(name)
+    judge = kinematics(arm)
+    J, friction = judge.jacobian(arm.home), np.diag(judge.model.dof_damping)
+    by_friction = J @ np.linalg.solve(judge.inertia_matrix(arm.home), friction) @ np.linalg.pinv(J)
+    return Hand(judge.mobility(arm.home), by_friction)
+
+
+def damping_matrix(name: str, stiffness: Stiffness, mobility: np.ndarray, zeta: float) -> np.ndarray:
+    """D of a design, 6 x 6."""
+    D = np.zeros((6, 6))
+    known_dampings()[name].design(diagonal(stiffness), np.linalg.inv(mobility), zeta, D, buffers(7).scratch)
+    return D
+
+
+def diagonal(stiffness: Stiffness) -> np.ndarray:
+    """K's diagonal: six stiffnesses."""
+    return np.repeat([stiffness.translation, stiffness.rotation], 3)
+
+
+def hand_matrices(arm: str, damping: str, stiffness: Stiffness, zeta: float) -> tuple[np.ndarray, np.ndarray]:
+    """P = Lambda^-1 K [1/s^2] and Q = Lambda^-1 D and friction's [1/s]."""
+    hand = hand_of(arm)
+    D = damping_matrix(damping, stiffness, hand.mobility, zeta)
+    return hand.mobility * diagonal(stiffness), hand.mobility @ D + hand.friction
+
+
+def longest_tick(arm: str, damping: str, stiffness: Stiffness, zeta: float) -> float:
+    """The control period [s] from which on the sampled loop is unstable: 2/(D/Lambda) of the fastest pole, or less."""
+    P, Q = hand_matrices(arm, damping, stiffness, zeta)
+    low, high = 0.0, 1.0
+    for _ in range(HALVINGS):
+        middle = 0.5 * (low + high)
+        stable = np.abs(np.linalg.eigvals(sampled(P, Q, middle))).max() < 1.0
+        low, high = (middle, high) if stable else (low, middle)
+    return low
+
+
+def with_theory(rows: pd.DataFrame) -> pd.DataFrame:
+    """Rows of impedance-modes.parquet with `omega_theory`, `ratio_theory` and `radius_theory`."""
+    keys, found = ["arm", "damping", "stiffness_n_m", "stiffness_nm_rad", "zeta", "dt_s"], []
+    for key, group in rows.groupby(keys, observed=True, sort=False):
+        arm, damping, translation, rotation, zeta, dt = key
+        P, Q = hand_matrices(str(arm), str(damping), Stiffness(translation, rotation), zeta)
+        omega, ratio = modes(P, Q)
+        radius = float(np.abs(np.linalg.eigvals(sampled(P, Q, dt))).max())
+        places = group["mode"].to_numpy() - 1
+        found.append(group.assign(omega_theory=omega[places], ratio_theory=ratio[places], radius_theory=radius))
+    return pd.concat(found) if found else rows

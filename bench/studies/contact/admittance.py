@@ -1,0 +1,136 @@
+"""Admittance over a position loop, pressed on a plane of any stiffness: up to which does it settle?
+
+servo   a place that follows its command with a first-order lag and a delay, on a spring: held against its closed form
+arm     the UR5e's hand, its place held by a double pole through the model of its inertia, on a plane in MuJoCo
+"""
+
+import math
+from collections import deque
+
+import numpy as np
+
+import tasks
+from bench.engines.contact_episode import USUAL
+from bench.findings.theory.admittance import Admittance, Loop, lagged_limit, routh_limit, settles
+from bench.findings.theory.contact_stability import Spring
+from bench.studies.contact.by_torque import Tick, press
+from bench.studies.contact.stability import ARM, INERTANCE, RELAXATION_S, mobility, scale
+
+MASS, STIFFNESS, RATIO = 5.5, 214.1, 2.828427
+SHIPPED = Admittance(MASS, 2.0 * RATIO * math.sqrt(MASS * STIFFNESS), STIFFNESS)
+"""ros-controls/ros2_controllers@187bfd5, admittance_controller/test/test_params.yaml, about x: it has no defaults."""
+
+FORCE_N = 15.0
+LAGS_S = (0.0, 0.003, 0.01, 0.03)
+DOUBLE_POLES = (300.0, 100.0, 30.0)
+"""Of the arm's position loop [1/s]: its lag at low frequencies is 2/w."""
+DELAYS_MS = (0, 2, 5, 10, 20)
+TICKS = 20_000
+"""Of a servo's episode: 1 % off the limit an error grows or falls by e^4 and more."""
+BISECTIONS = 16
+"""Of the logarithm of the stiffness, over eight decades: to 0.1 %."""
+DECADES, HALVINGS = (3.0, 6.0), 9
+"""Of the plane that the arm presses on [N/m]: to 1 %."""
+HORIZON_S, RAMP_S = 4.0, 1.0
+"""Of the press, and until when the force ordered rises to FORCE_N, so that the tip does not strike."""
+CALM_N = 1e-3
+"""A force that varies by less no longer varies."""
+
+
+def limits() -> list[dict]:
+    """A row a plant, lag and delay: the largest stiffness measured, and by theory [N/m]; null up to the stiffest."""
+    return [*_servos(), *_arms()]
+
+
+def _servos():
+    dt = USUAL.dt_s
+    for lag_s in LAGS_S:
+        for delay in DELAYS_MS:
+            late = round(1e-3 * delay / dt)
+            yield {
+                "plant": "servo",
+                "lag_ms": 1e3 * lag_s,
+                "delay_ms": delay,
+                "measured": bisected(lambda K, lag_s=lag_s, late=late: is_damped(K, lag_s, late), 0.0, 8.0, BISECTIONS),
+                "theory": lagged_limit(SHIPPED, lag_s, late, dt),
+                "continuous": routh_limit(SHIPPED, lag_s) if delay == 0 else math.nan,
+            }
+
+
+def _arms():
+    for w in DOUBLE_POLES:
+        for delay in DELAYS_MS:
+            yield {
+                "plant": "arm",
+                "lag_ms": 2e3 / w,
+                "delay_ms": delay,
+                "measured": bisected(lambda K, w=w, delay=delay: calms(pressed(K, w, delay)), *DECADES, HALVINGS),
+                "theory": bisected(lambda K, w=w, delay=delay: predicted(K, w, delay), *DECADES, HALVINGS),
+                "continuous": math.nan,
+            }
+
+
+def bisected(holds, low: float, high: float, halvings: int) -> float:
+    """The stiffness [N/m] up to which something holds, between powers of ten; infinite if at the highest too."""
+    if holds(10.0**high):
+        return math.inf
+    for _ in range(halvings):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if holds(10.0**middle) else (low, middle)
+    return 10.0 ** (0.5 * (low + high))
+
+
+def is_damped(K: float, lag_s: float, late: int) -> bool:
+    """Whether a place that is a thousandth off its equilibrium on the spring is nearer to it after TICKS."""
+    dt, (m, d, k) = USUAL.dt_s, SHIPPED
+    a = math.exp(-dt / lag_s) if lag_s > 0.0 else 0.0
+    rest = FORCE_N / (k + K)
+    off = 1e-3 * rest
+    x, c, rate, told = rest + off, rest + off, 0.0, deque([rest + off] * late)
+    worst = 0.0
+    for tick in range(TICKS):
+        F = -K * max(x, 0.0)
+        rate += dt * (FORCE_N + F - d * rate - k * c) / m
+        c += dt * rate
+        told.append(c)
+        x = a * x + (1.0 - a) * told.popleft()
+        if tick >= TICKS - TICKS // 10:
+            worst = max(worst, abs(x - rest))
+        elif abs(x - rest) > 1e3 * off:
+            return False
+    return worst < off
+
+
+def pressed(stiffness: float, w: float, delay_ms: float) -> np.ndarray:
+    """The normal force [N] over the ticks of an episode on the arm."""
+    (m, d, k), dt = SHIPPED, USUAL.dt_s
+    c, rate, time, told = 0.0, 0.0, 0.0, deque([0.0] * round(1e-3 * delay_ms / dt))
+
+    def torque(now: Tick) -> np.ndarray:
+        nonlocal c, rate, time
+        time += dt
+        ordered = FORCE_N * min(1.0, 0.1 + time / RAMP_S)
+        rate += dt * (now.wrench[2] - ordered - d * rate - k * c) / m
+        c += dt * rate
+        told.append(c)
+        error = now.error.copy()
+        error[2] += told.popleft()
+        wanted = w * w * error - 2.0 * w * now.twist
+        return now.M @ np.linalg.solve(now.J, wanted) + now.bias
+
+    return np.array([now.wrench[2] for now in press(ARM, stiffness, torque, HORIZON_S)])
+
+
+def calms(force: np.ndarray) -> bool:
+    """Whether the force of a whole episode varies less in its last quarter than in its second half's first."""
+    if len(force) < round(HORIZON_S / USUAL.dt_s):
+        return False
+    _, _, before, last = np.array_split(force, 4)
+    return bool(np.ptp(last) < max(np.ptp(before), CALM_N) and last.min() > 0.0)
+
+
+def predicted(stiffness: float, w: float, delay_ms: float) -> bool:
+    """What theory says of the same."""
+    arm = tasks.arm(ARM)
+    spring = Spring(stiffness, RELAXATION_S * stiffness, INERTANCE / (1.0 - INERTANCE) / scale(arm))
+    return settles(SHIPPED, Loop(w, round(1e-3 * delay_ms / USUAL.dt_s), mobility(arm)), spring, USUAL.dt_s)

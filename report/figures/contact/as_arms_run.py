@@ -1,0 +1,284 @@
+"""The page on impedance as arms run it: damping felt per mode, free motion, energy; admittance and its limit."""
+
+from __future__ import annotations
+
+import functools
+
+import numpy as np
+import pandas as pd
+
+from bench.contenders.registry import known_dampings
+from bench.experiments.impedance import Stiffness
+from bench.findings.theory.impedance_modes import longest_tick, with_theory
+from bench.studies.contact.__main__ import STORED
+from bench.studies.contact.admittance import DECADES, FORCE_N, HALVINGS, SHIPPED
+from bench.tables.files import read_json
+from report.figures.arms import arm_looks
+from report.figures.kit import html, style
+from report.figures.kit.inline import responsive_picture
+from report.figures.kit.page import Run, given
+from report.figures.kit.tables import Table
+
+LOOKS = {
+    "diagonal": style.Look("#d55e00", "s", style.DASH_DOT),
+    "per-axis": style.Look("#0072b2", "o", style.SOLID),
+    "double-diagonalization": style.Look("#009e73", "^", style.DASHED),
+}
+WITHIN = 10.0 ** ((DECADES[1] - DECADES[0]) / 2**HALVINGS) - 1.0
+"""What bisection leaves of a limit on the arm."""
+LAG_COLOURS = (style.INK, "#0072b2", "#009e73", "#d55e00")
+
+FACTS = (
+    *("felt_least", "felt_most", "asked", "double", "axis_least", "axis_most", "unstable", "worst_gap", "modes"),
+    *("episodes", "account", "coriolis_least", "coriolis_most", "tick", "overshoots", "slower", "needs"),
+)
+"""Of the text, what runs hold."""
+STUDY = (
+    *("planes", "plane_arms", "given_share", "unaccounted", "tasks", "same", "servos", "servo_gap", "arm_gap"),
+    *("shipped_m", "shipped_d", "shipped_k", "force", "lag", "lag_k", "never"),
+)
+"""Of the text, what the study of contact holds."""
+
+SHORT = {"diagonal": "2√K", "per-axis": "per axis", "double-diagonalization": "double"}
+RATIOS, TIMES = ({name: f"{what}, {word}" for name, word in SHORT.items()} for what in ("Ratio", "Settles [s]"))
+FELT = Table(
+    " | ".join(("Arm", "K [N/m, N m/rad]", *RATIOS.values(), *TIMES.values())),
+    words=(*RATIOS.values(), *TIMES.values()),
+)
+LIMITS = Table(
+    "Position loop | Lag [ms] | 0 ms | 2 ms | 5 ms | 10 ms | 20 ms", words=("0 ms", "2 ms", "5 ms", "10 ms", "20 ms")
+)
+
+
+@functools.cache
+def modes(run: Run) -> pd.DataFrame:
+    """Modes measured, beside theory's; none where the run has none."""
+    rows = run.rows("impedance-modes")
+    return with_theory(rows.astype({"arm": str, "damping": str})) if len(rows) else rows
+
+
+@functools.cache
+def episodes(run: Run) -> pd.DataFrame:
+    """Episodes in free motion, with `settled` and `gap`, the share of its energy that is unaccounted for."""
+    rows = run.rows("impedance")
+    if rows.empty:
+        return rows
+    gone = rows["left_j"] + rows["damped_j"] + rows["elbow_j"] - rows["added_j"]
+    return rows.astype({"arm": str, "damping": str, "compensated": str}).assign(
+        settled=rows["outcome"].astype(str) == "settled", gap=(gone / rows["stored_j"] - 1.0).abs()
+    )
+
+
+@functools.cache
+def study(part: str) -> pd.DataFrame:
+    """A part of the committed study of contact."""
+    return pd.DataFrame(read_json(STORED).get(part, []))
+
+
+def facts(run: Run) -> dict:
+    """Numbers of the text."""
+    return in_free_motion(run) | in_contact()
+
+
+def in_free_motion(run: Run) -> dict:
+    """Of modes and episodes; all absent where the run lacks one of them."""
+    found, rows = modes(run), episodes(run)
+    if found.empty or rows.empty:
+        return dict.fromkeys(FACTS)
+    felt = {name: found.loc[found["damping"] == name, "ratio"] for name in LOOKS}
+    lost = found[found["radius"] >= 1.0].groupby(["arm", "stiffness_n_m", "stiffness_nm_rad"]).size().index
+    whole = rows[rows["compensated"] == "bias"]
+    moved = whole["added_j"] / whole["stored_j"]
+    return {
+        "felt_least": f"{felt['diagonal'].min():.2g}",
+        "felt_most": f"{felt['diagonal'].max():.2g}",
+        "asked": f"{found['zeta'].iloc[0]:g}",
+        "double": f"{felt['double-diagonalization'].min():.3f} to {felt['double-diagonalization'].max():.3f}",
+        "axis_least": f"{felt['per-axis'].min():.2g}",
+        "axis_most": f"{felt['per-axis'].max():.2g}",
+        "unstable": ", ".join(f"{arm_looks.title(arm)} at {k:g} N/m, {r:g} N m/rad" for arm, k, r in lost) or "none",
+        "worst_gap": f"{100 * float((found['ratio'] / found['ratio_theory'] - 1.0).abs().max()):.1g}",
+        "modes": len(found),
+        "episodes": len(rows),
+        "account": f"{100 * float(rows['gap'].max()):.1g}",
+        "coriolis_least": f"{100 * float(moved.min()):.1f}",
+        "coriolis_most": f"{100 * float(moved.max()):.1f}",
+        "overshoots": ", ".join(
+            f"{100 * float(rows.loc[rows['damping'] == name, 'overshoot'].max()):.2g}" for name in LOOKS
+        ),
+        "slower": f"{slower(rows, 'diagonal', 'double-diagonalization'):.2g}",
+        "needs": needed_ticks(found),
+        "tick": f"{1000 * float(rows['dt_s'].iloc[0]):g}",
+    }
+
+
+def needed_ticks(found: pd.DataFrame) -> str:
+    """The longest stable control period [ms] of the shipped rule on each arm, the shortest of its stiffnesses."""
+    own = found[found["damping"] == "diagonal"].drop_duplicates(["arm", "stiffness_n_m"])
+    ticks = {
+        (one.arm, one.stiffness_n_m): longest_tick(
+            one.arm, one.damping, Stiffness(one.stiffness_n_m, one.stiffness_nm_rad), one.zeta
+        )
+        for one in own.itertuples()
+    }
+    least = {arm: min(tick for (which, _), tick in ticks.items() if which == arm) for arm in own["arm"].unique()}
+    return ", ".join(f"{1000 * tick:.2g} on the {arm_looks.title(arm)}" for arm, tick in least.items())
+
+
+def slower(rows: pd.DataFrame, one: str, other: str) -> float:
+    """How many times as long one design takes as another: the median over episodes that settle by both."""
+    key = ["arm", "stiffness_n_m", "compensated", "start_id"]
+    wide = rows[rows["settled"]].pivot_table(index=key, columns="damping", values="settling_time_s", observed=True)
+    return float((wide[one] / wide[other]).median())
+
+
+def in_contact() -> dict:
+    """Of the study: planes that the impedance was pressed on, and limits of the admittance."""
+    pressed, limits = study("unshaped"), study("admittance")
+    if pressed.empty or limits.empty:
+        return dict.fromkeys(STUDY)
+    calm, servos, arms = pressed[pressed["settles"]], *(limits[limits["plant"] == name] for name in ("servo", "arm"))
+    slow = servos[servos["lag_ms"] == servos["lag_ms"].max()]
+    off = {name: (own["measured"] / own["theory"] - 1.0).abs().max() for name, own in limits.groupby("plant")}
+    lost = arms[arms["measured"].isna()]
+    return {
+        "planes": f"{len(calm)} of {len(pressed)}",
+        "plane_arms": pressed["arm"].nunique(),
+        "given_share": f"{100 * float((calm['given'] / calm['stored']).max()):.0f}",
+        "unaccounted": f"{100 * float(calm['unaccounted'].max()):.1f}",
+        "servos": len(servos),
+        "servo_gap": f"{100 * float(off['servo']):.1g}",
+        "arm_gap": f"{100 * max(float(off['arm']), WITHIN):.1g}",
+        "tasks": len(study("unshaped-tasks")["task"].unique()),
+        "same": f"{100 * farthest_from_shaped(study('unshaped-tasks')):.1g}",
+        "shipped_m": f"{SHIPPED.m:g}",
+        "shipped_d": f"{SHIPPED.d:.0f}",
+        "shipped_k": f"{SHIPPED.k:g}",
+        "force": f"{FORCE_N:g}",
+        "lag": f"{slow['lag_ms'].iloc[0]:g}",
+        "lag_k": f"{slow.loc[slow['delay_ms'] == 20, 'measured'].iloc[0] / 1000:.1f}",
+        "never": f"{len(lost)} of {len(arms)}",
+    }
+
+
+def farthest_from_shaped(rows: pd.DataFrame) -> float:
+    """The largest share by which what is done to a scene differs from what shaped inertia does."""
+    wide = rows.pivot_table(index=["task", "arm"], columns="damping", values="done")
+    return float(wide.div(wide["shaped"], axis=0).sub(1.0).abs().max().max())
+
+
+def tables(run: Run) -> dict:
+    """Damping felt and free motion; limits of the admittance."""
+    return {"tab_felt": FELT(felt(run)), "tab_limits": LIMITS(limits())}
+
+
+def felt(run: Run) -> list[tuple]:
+    """A row an arm and stiffness, with gravity alone compensated."""
+    found, rows = modes(run), episodes(run)
+    if found.empty or rows.empty:
+        return []
+    rows = rows[rows["compensated"] == "gravity"]
+    return [
+        (
+            arm_looks.title(arm),
+            html.together(f"{k:g}, {r:g}"),
+            *(ratio(own[own["damping"] == name]) for name in LOOKS),
+            *(
+                time(rows[(rows["arm"] == arm) & (rows["stiffness_n_m"] == k) & (rows["damping"] == name)])
+                for name in LOOKS
+            ),
+        )
+        for (arm, k, r), own in found.groupby(["arm", "stiffness_n_m", "stiffness_nm_rad"])
+    ]
+
+
+def ratio(own: pd.DataFrame) -> str:
+    """The least and the greatest of six modes."""
+    low, high = f"{own['ratio'].min():.2g}", f"{own['ratio'].max():.2g}"
+    said = low if low == high else f"{low} to {high}"
+    return html.together(f"{said}, unstable" if own["radius"].iloc[0] >= 1.0 else said)
+
+
+def time(ran: pd.DataFrame) -> str:
+    """The median of those that settle, and how many do."""
+    settled = ran[ran["settled"]]
+    median = f"{settled['settling_time_s'].median():.2g}, " if len(settled) else ""
+    return html.together(f"{median}{len(settled)} of {len(ran)}")
+
+
+def limits() -> list[tuple]:
+    """A row a position loop: the stiffness [N/mm] up to which a press settles, by delay; theory in brackets."""
+    own = study("admittance")
+    if own.empty:
+        return []
+    titles = {"servo": "servo with a lag", "arm": "UR5e, a double pole"}
+    return [
+        (titles[plant], lag, *(limit(row) for row in group.sort_values("delay_ms").itertuples()))
+        for (plant, lag), group in own.groupby(["plant", "lag_ms"], sort=False)
+    ]
+
+
+def limit(row) -> str:
+    """Measured and by theory [N/mm]."""
+    if np.isnan(row.measured):
+        return "none"
+    form = ".3g" if row.measured < 1e6 else ",.0f"
+    return html.together(f"{row.measured / 1000:{form}} ({row.theory / 1000:{form}})")
+
+
+def figures(run: Run) -> dict:
+    """Ratios felt, and limits."""
+    return {"ratios-felt": given(modes(run), ratios_felt), "admittance-limits": given(study("admittance"), stiffest)}
+
+
+@responsive_picture
+def ratios_felt(rows: pd.DataFrame, narrow: bool):
+    """The damping ratio of every mode over its frequency: marks measured, points theory."""
+    figure, axes = style.panels(height=3.6 if narrow else 3.2, narrow=narrow)
+    for name, look in LOOKS.items():
+        own = rows[rows["damping"] == name]
+        axes.plot(
+            own["omega"],
+            own["ratio"],
+            linestyle="none",
+            marker=look.marker,
+            markersize=5,
+            color=look.colour,
+            alpha=0.7,
+            label=known_dampings()[name].title,
+        )
+        axes.plot(own["omega_theory"], own["ratio_theory"], ".", color=style.INK, markersize=2)
+    axes.axhline(float(rows["zeta"].iloc[0]), color=style.MUTED, linewidth=0.7, linestyle=style.DASHED)
+    axes.set(xscale="log", yscale="log", xlabel="natural frequency of the mode [1/s]", ylabel="damping ratio felt")
+    axes.set_yticks([0.2, 0.5, 1, 2, 5, 10], ["0.2", "0.5", "1", "2", "5", "10"])
+    axes.set_xticks([1, 3, 10, 30, 100], ["1", "3", "10", "30", "100"])
+    figure.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=1 if narrow else 3)
+    spread = ", ".join(
+        f"{known_dampings()[name].title.lower()} {own.min():.2g} to {own.max():.2g}"
+        for name, own in ((name, rows.loc[rows["damping"] == name, "ratio"]) for name in LOOKS)
+    )
+    return figure, f"Damping ratio of the modes of {rows['arm'].nunique()} arms where 1 is asked for: {spread}."
+
+
+@responsive_picture
+def stiffest(rows: pd.DataFrame, narrow: bool):
+    """The stiffness up to which a press settles over the delay: marks measured, lines theory."""
+    figure, axes = style.panels(height=3.6 if narrow else 3.2, narrow=narrow)
+    words = []
+    servos = rows[rows["plant"] == "servo"]
+    for colour, (lag, own) in zip(LAG_COLOURS, servos.groupby("lag_ms"), strict=True):
+        axes.plot(own["delay_ms"], own["theory"], color=colour)
+        axes.plot(own["delay_ms"], own["measured"], "o", color=colour, markersize=5, label=f"servo, {lag:g} ms")
+        words.append(
+            f"{own['measured'].iloc[-1] / 1000:.1f} N/mm at {lag:g} ms of lag and {own['delay_ms'].max()} of delay"
+        )
+    for marker, (lag, own) in zip(
+        "v^", rows[(rows["plant"] == "arm") & rows["measured"].notna()].groupby("lag_ms"), strict=True
+    ):
+        axes.plot(own["delay_ms"], own["theory"], color=style.MUTED, linestyle=style.DASHED)
+        axes.plot(
+            own["delay_ms"], own["measured"], marker, color=style.MUTED, markersize=5, label=f"UR5e, {lag:.0f} ms"
+        )
+    axes.set(yscale="log", ylim=(4e3, 2e5), xlabel="delay of the command [ms]", ylabel="stiffness [N/m]")
+    figure.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=2 if narrow else 3)
+    return figure, f"Stiffness up to which a press by admittance settles. {'; '.join(words)}."

@@ -1,0 +1,99 @@
+"""Modes of impedances without inertia shaping: measured from a tick of the loop, from the arm's matrices, by scipy."""
+
+import functools
+
+import numpy as np
+import pandas as pd
+import pytest
+import scipy.linalg
+
+import tasks
+from bench.contenders.registry import known_dampings
+from bench.experiments.experiment import Settings, Unit
+from bench.experiments.impedance import STIFFNESSES, ZETA
+from bench.experiments.rows.impedance_modes import frame, sampled
+from bench.findings.theory import impedance_modes as theory
+
+ARMS = ("panda", "puma560", "ur5e")
+DESIGNS = tuple(known_dampings())
+
+
+@functools.cache
+def measured(arm: str, damping: str, dt: float = 1e-3) -> pd.DataFrame:
+    """Rows of a design on an arm, with theory."""
+    unit = Unit("impedance-modes", task="arm-regulation", arm=arm, selector=damping)
+    return theory.with_theory(frame(Settings(dt_s=dt), unit))
+
+
+@pytest.mark.parametrize("damping", DESIGNS)
+@pytest.mark.parametrize("arm", ["jaco", *ARMS])
+def test_modes_of_the_loop_are_those_of_the_arms_matrices(arm, damping):
+    rows = measured(arm, damping)
+    # differences err by the square of 1e-4 rad times what K J changes by over it
+    np.testing.assert_allclose(rows["omega"], rows["omega_theory"], rtol=1e-5)
+    np.testing.assert_allclose(rows["ratio"], rows["ratio_theory"], rtol=1e-4)
+    np.testing.assert_allclose(rows["radius"], rows["radius_theory"], rtol=1e-5)
+
+
+@pytest.mark.parametrize("damping", DESIGNS)
+@pytest.mark.parametrize("arm", ARMS)
+def test_ratio_is_that_of_the_generalized_eigenvectors_of_scipy(arm, damping):
+    for stiffness in STIFFNESSES:
+        K, mobility = np.diag(theory.diagonal(stiffness)), theory.hand_of(arm).mobility
+        Lambda = np.linalg.inv(mobility)
+        squares, phi = scipy.linalg.eigh(K, 0.5 * (Lambda + Lambda.T))
+        D = theory.damping_matrix(damping, stiffness, mobility, ZETA)
+        rows = measured(arm, damping)
+        rows = rows[rows["stiffness_n_m"] == stiffness.translation]
+        np.testing.assert_allclose(rows["omega"], np.sqrt(squares), rtol=1e-5)
+        np.testing.assert_allclose(rows["ratio"], np.diag(phi.T @ D @ phi) / (2.0 * np.sqrt(squares)), rtol=1e-4)
+
+
+@pytest.mark.parametrize("arm", ARMS)
+def test_double_diagonalization_damps_every_mode_as_asked(arm):
+    np.testing.assert_allclose(measured(arm, "double-diagonalization")["ratio"], ZETA, rtol=1e-6)
+
+
+@pytest.mark.parametrize("arm", ARMS)
+def test_other_designs_damp_some_mode_by_less_than_asked(arm):
+    for damping in ("diagonal", "per-axis"):
+        assert measured(arm, damping)["ratio"].min() < 0.9 * ZETA
+
+
+def test_shipped_rule_is_unstable_on_the_panda_at_1_khz_and_stable_at_2_khz():
+    stiff = [measured("panda", "diagonal", dt).query("stiffness_n_m == 2000")["radius"].max() for dt in (1e-3, 5e-4)]
+    assert stiff[0] > 1.0 > stiff[1]
+
+
+def test_slowest_decay_is_that_of_the_poles_of_numpy():
+    """Poles of the continuous loop; a tick of 1 ms changes a pole p by some p^2 dt/2."""
+    stiffness = STIFFNESSES[0]
+    P, Q = theory.hand_matrices("ur5e", "per-axis", stiffness, ZETA)
+    poles = np.linalg.eigvals(np.block([[np.zeros((6, 6)), np.eye(6)], [-P, -Q]]))
+    decay = measured("ur5e", "per-axis").query("stiffness_n_m == 150")["decay"].iloc[0]
+    assert decay == pytest.approx(-poles.real.max(), rel=1e-2)
+
+
+def test_every_arm_has_six_modes_for_each_stiffness():
+    for arm in tasks.arm_names():
+        assert measured(arm, "diagonal").groupby("stiffness_n_m").size().tolist() == [6, 6]
+
+
+@pytest.mark.parametrize("arm", ARMS)
+@pytest.mark.parametrize("damping", DESIGNS)
+def test_longest_tick_is_where_the_loop_that_runs_becomes_unstable(arm, damping):
+    for stiffness in STIFFNESSES:
+        dt = theory.longest_tick(arm, damping, stiffness, ZETA)
+        for share, holds in ((0.99, True), (1.01, False)):
+            rows = measured(arm, damping, share * dt).query(f"stiffness_n_m == {stiffness.translation}")
+            assert (rows["radius"].max() < 1.0) == holds
+
+
+def test_longest_tick_of_one_mass_is_jurys():
+    """v+ = v - dt (K x + D v)/m, x+ = x + dt v+: stable up to K dt^2/m + 2 D dt/m = 4."""
+    K, D, m = 50.0, 14.0, 0.03
+    dt = (-D + np.sqrt(D * D + 4.0 * K * m)) / K
+    P, Q = np.eye(6) * K / m, np.eye(6) * D / m
+    for share, holds in ((0.999, True), (1.001, False)):
+        assert (np.abs(np.linalg.eigvals(sampled(P, Q, share * dt))).max() < 1.0) == holds
+    assert dt < 2.0 * m / D
