@@ -36,8 +36,8 @@ STIFFNESSES = (Stiffness(150.0, 10.0), Stiffness(2000.0, 50.0))
 ZETA = 1.0
 """The ratio asked for: the shipped rule's 2 sqrt(K)."""
 
-EPISODE_S = 0.06
-"""CPU seconds an episode of five seconds at most, a median."""
+EPISODE_S = 0.02
+"""CPU seconds an episode of five seconds at most, median."""
 
 
 def of_arms(asked: Asked, name: str, **more) -> tuple[Unit, ...]:

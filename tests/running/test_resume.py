@@ -18,8 +18,8 @@ from bench.running import run as running
 TABLES = [
     *("boundaries.parquet", "command-field.parquet", "compliance.parquet", "costs.parquet", "episodes.parquet"),
     *("impedance-modes.parquet", "impedance.parquet"),
-    *("plan.json", "poses.parquet", "provenance.json", "robustness.parquet", "traces.parquet"),
-    *("velocity-limits.parquet", "velocity.parquet"),
+    *("plan.json", "poses.parquet", "provenance.json", "robustness.parquet", "shipped.parquet"),
+    *("traces.parquet", "velocity-limits.parquet", "velocity.parquet"),
 ]
 
 

@@ -1,1 +1,1 @@
-"""What tasks in contact depend on: stiffness, delay and noise; the fit of a peg; the stiffness of springs."""
+"""What tasks in contact depend on: stiffness, delay, noise; admittance, shaped inertia; fit of a peg; springs."""
