@@ -123,7 +123,7 @@ def stream_columns() -> list[Column]:
     return [
         *words(
             stream="how goals are sent and filled in",
-            regulator="the law; empty: 2 K_p vec(q_d q*) - K_v omega, the spring on the quaternion as it came",
+            law="the law; empty: 2 K_p vec(q_d q*) - K_v omega, the spring on the quaternion as it came",
         ),
         *numbers("1", "greatest rate of the goal as filled in, over the true goal's", "goal_rate_ratio"),
         *numbers("1", "way that the goal as filled in turns, over the true goal's", "goal_way_ratio"),

@@ -24,7 +24,7 @@ TABLES = {
         Table("command-field", motion.field_columns, (*CONTENDER, "finding")),
         Table("shipped", shipped_columns, ("shipped", "law")),
         Table("springs", motion.spring_columns, ("spring", "frame")),
-        Table("goal-streams", motion.stream_columns, ("stream", "regulator")),
+        Table("goal-streams", motion.stream_columns, ("stream", "law")),
         Table(
             "map",
             motion.map_columns,

@@ -20,7 +20,7 @@ AXIS, RATE, DT = (0.0, 0.0, 1.0), 0.5, 1e-3
 
 @functools.cache
 def rows():
-    return rows_of(Settings("quick"), Unit("goal-streams", count=1, total=1)).set_index(["stream", "regulator"])
+    return rows_of(Settings("quick"), Unit("goal-streams", count=1, total=1)).set_index(["stream", "law"])
 
 
 def test_body_behind_a_turning_goal_lags_as_the_linear_loop():
@@ -47,12 +47,12 @@ def test_law_on_matrices_sees_no_sign(law):
 
 
 def test_spring_on_the_quaternion_as_it_came_unwinds_where_its_sign_flips():
-    raw = rows().xs("", level="regulator")
+    raw = rows().xs("", level="law")
     assert (raw.loc[["quaternion", "slerp"], "way_ratio"] > 1.5).all()
     assert (raw.loc[["quaternion-continued", "slerp-continued"], "way_ratio"] < 1.0).all()
     assert (raw.loc[["quaternion", "slerp"], "off_rad"] > math.radians(150.0)).all()
 
 
 def test_flip_raises_every_laws_peak_tenfold():
-    peaks = rows()["peak_u"].drop("", level="regulator").unstack("stream")
+    peaks = rows()["peak_u"].drop("", level="law").unstack("stream")
     assert (peaks[["rotation-vector", "quaternion", "slerp"]].min(axis=1) > 10.0 * peaks["log"]).all()

@@ -15,7 +15,7 @@ SIGNED = "quaternion"
 
 
 def frame(settings: Settings, laws: list[str]) -> pd.DataFrame:
-    """A row a stream and law; `regulator` is empty of the spring on the quaternion as it came."""
+    """A row a stream and law; `law` is empty of the spring on the quaternion as it came."""
     dt = settings.dt_s
     truth = np.array([true_goal(k * dt) for k in range(round(LENGTH_S / dt))])
     steps = turned_by(truth)
@@ -27,7 +27,7 @@ def frame(settings: Settings, laws: list[str]) -> pd.DataFrame:
         for law in (*laws, *[""] * stream.arrives.startswith(SIGNED)):
             seen = run(find_contender(law or laws[0]), filled, truth, settings.gains, dt, is_raw=not law)
             loop = {"peak_u": seen.peak_u, "off_rad": seen.off_rad, "way_ratio": seen.way_rad / steps.sum()}
-            found.append({"stream": stream.name, "regulator": law, **goal, **loop})
+            found.append({"stream": stream.name, "law": law, **goal, **loop})
     return pd.DataFrame(found, columns=TABLES["goal-streams"].names)
 
 

@@ -20,9 +20,9 @@ FACTS = ("worst_rate", "worst_peak", "right_peak", "period", "raw_way", "raw_off
 
 
 def streamed(run: Run) -> pd.DataFrame:
-    """Rows, `regulator` as text."""
+    """Rows, words as text."""
     rows = run.rows("goal-streams")
-    return rows.astype({"stream": str, "regulator": str}) if len(rows) else rows
+    return rows.astype({"stream": str, "law": str}) if len(rows) else rows
 
 
 def facts(run: Run) -> dict:
@@ -30,7 +30,7 @@ def facts(run: Run) -> dict:
     rows = streamed(run)
     if rows.empty:
         return dict.fromkeys(FACTS)
-    laws, raw = rows[rows["regulator"] != ""], rows[rows["regulator"] == ""]
+    laws, raw = rows[rows["law"] != ""], rows[rows["law"] == ""]
     swept = laws[laws["stream"] != "held"]
     return {
         "worst_rate": f"{swept['goal_rate_ratio'].max():.0f}",
@@ -47,7 +47,7 @@ def tables(run: Run) -> dict:
     rows, lines = streamed(run), []
     for stream in STREAMS if len(rows) else ():
         own = rows[rows["stream"] == stream.name]
-        laws, raw = own[own["regulator"] != ""], own[own["regulator"] == ""]
+        laws, raw = own[own["law"] != ""], own[own["law"] == ""]
         peaks = f"{laws['peak_u'].min():.0f} to {laws['peak_u'].max():.0f}"
         way = f"{raw['way_ratio'].iloc[0]:.2f}" if len(raw) else html.MISSING
         goal = own.iloc[0]
