@@ -13,7 +13,7 @@ from tasks.goal_stream import PERIOD_S, STREAMS
 
 STREAM_TABLE = Table(
     "Goals arrive as | Filled in | Goal's rate:.3g | Goal's way:.2f | Laws' peak [rad/s²] | Off [°]:.0f "
-    "| As it came: way"
+    "| As it came, way"
 )
 RIGHT = "log"
 FACTS = ("worst_rate", "worst_peak", "right_peak", "period", "raw_way", "raw_off")
