@@ -27,11 +27,8 @@ def size(plan: Plan, out: Path, workers: int, scheduler: str) -> list[Paragraph]
 
 def _sizes(plan: Plan) -> list[Paragraph]:
     free_body, on_arms, contacts, perturbed = map(plan.of, OF_EPISODES)
-    alone = plan.episodes("free-body", "arm")
-    parts = [counted(alone, "episode")] if alone or not (contacts or perturbed) else []
-    parts += [f"{counted(plan.episodes('contact'), 'trial')} in contact"] if contacts else []
-    parts += [f"{counted(plan.episodes('robustness'), 'episode')} for robustness"] if perturbed else []
-    size = f"suite {plan.settings.suite}: {listed(parts)} in {counted(len(plan.units), 'unit')}"
+    episodes = counted(plan.episodes(*OF_EPISODES), "episode")
+    size = f"suite {plan.settings.suite}: {episodes} in {counted(len(plan.units), 'unit')}"
     found = [Paragraph("plan", (size,))]
     if free_body:
         what = f"{_few(free_body, 'contender', 'law')} by {_few(free_body, 'engine', 'engine')}"

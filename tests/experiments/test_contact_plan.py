@@ -247,7 +247,7 @@ def test_dry_run_counts_trials_of_each_arm_and_task(capsys):
         capsys, *DRY, "--experiment", "contact", "--controller", EULER, "--task", "wrench-probe", "--count", "3"
     )
     assert (said.code, said.err) == (0, "")
-    assert f"{18 * len(ABLE)} trials in contact in {len(ABLE)} unit" in said.out
+    assert f"{18 * len(ABLE)} episodes in {len(ABLE)} unit" in said.out
     assert f"controllers in contact: {EULER}" in said.out
     for arm in ABLE:
         assert f"in contact, {arm}: wrench-probe 18 " in said.out
