@@ -128,17 +128,22 @@ def guard(module: str, descriptor: int) -> NoReturn:
         sys.argv = [module, str(descriptor)]
         runpy.run_module(module, run_name="__main__", alter_sys=True)
         sys.exit()
-    threading.Thread(target=_watch, args=(descriptor,), daemon=True).start()
+    has_hung_up = threading.Event()
+    watch = threading.Thread(target=_watch, args=(descriptor, has_hung_up), daemon=True)
+    watch.start()
     code = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
+    if has_hung_up.is_set():  # the watch has ended the child; it removes the folder, and ends this process
+        watch.join()
     if code < 0:
         os.kill(os.getpid(), -code)
     os._exit(abs(code))
 
 
-def _watch(descriptor: int) -> NoReturn:
+def _watch(descriptor: int, has_hung_up: threading.Event) -> NoReturn:
     folder, poll = Path(os.environ.get("TMPDIR", "")), select.poll()
     poll.register(descriptor, 0)  # a line that hangs up is always reported
     poll.poll()
+    has_hung_up.set()
     end_all(os.environ.get(TOKEN, ""))
     if folder.name.startswith(FOLDER):
         shutil.rmtree(folder, ignore_errors=True)

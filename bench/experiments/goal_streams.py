@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from bench.contenders.registry import known_regulators
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit
-from bench.experiments.suites import BEST
+from bench.experiments.suites import STREAMED
 from bench.tables.schema import TABLES
 from tasks.goal_stream import LENGTH_S, STREAMS
 
@@ -14,9 +14,6 @@ if TYPE_CHECKING:
     import pandas as pd
 
 NAME = "goal-streams"
-
-LAWS = ("rotation-matrix", *(word.partition("@")[0] for word in BEST))
-"""The paper's first and those among which is whatever is advised."""
 
 
 def units(asked: Asked) -> tuple[Unit, ...]:
@@ -30,7 +27,7 @@ def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
     """A row a stream and law."""
     from bench.experiments.rows.goal_streams import frame
 
-    return frame(settings, [law for law in LAWS if law in known_regulators()])
+    return frame(settings, [law for law in STREAMED if law in known_regulators()])
 
 
 EXPERIMENT = Experiment(

@@ -35,6 +35,8 @@ BEST = tuple(
 )
 """The later laws that run on arms: those that no noise holds at a 180° rotation, and of the simplest others three whose
 springs differ. Whatever law is advised is among them (a test)."""
+STREAMED = ("rotation-matrix", *(word.partition("@")[0] for word in BEST))
+"""What follows goals that arrive as a stream: the paper's first, and those."""
 ANALYTIC = tuple(f"feedback-linearized/{word}@analytic+standard" for word in IN_COORDINATES)
 RESOLVED = "rotation-matrix@geometric"
 BOUNDED = ("damped-least-squares", "damped-least-squares-variable", "truncated-svd", "dynamically-consistent")

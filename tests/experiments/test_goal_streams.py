@@ -10,7 +10,7 @@ from scipy.integrate import solve_ivp
 from bench.contenders.registry import find_contender
 from bench.engines.streamed import run
 from bench.experiments.experiment import Settings, Unit, rows_of
-from bench.experiments.goal_streams import LAWS
+from bench.experiments.suites import STREAMED
 from bench.law.contender import PAPERS_GAINS
 from tasks.goal_stream import STREAMS
 from tasks.rotations import about
@@ -34,11 +34,11 @@ def test_body_behind_a_turning_goal_lags_as_the_linear_loop():
 
 def test_every_stream_and_law_has_a_row():
     signed = [one.name for one in STREAMS if one.arrives.startswith("quaternion")]
-    expected = {(one.name, law) for one in STREAMS for law in LAWS} | {(name, "") for name in signed}
+    expected = {(one.name, law) for one in STREAMS for law in STREAMED} | {(name, "") for name in signed}
     assert set(rows().index) == expected
 
 
-@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize("law", STREAMED)
 def test_law_on_matrices_sees_no_sign(law):
     right = rows().loc[("log", law)]
     np.testing.assert_allclose(rows().loc[("slerp-continued", law)].to_numpy(), right.to_numpy(), rtol=1e-9)

@@ -25,6 +25,8 @@ ALLOWED = {
     "bench/regression/revisions/side.py": "what is timed on every revision",
     "bench/timing/": "what the loop in numpy computes",
     "bench/cli/": "examples of --help",
+    "bench/questions/": "what a thread is about",
+    "tasks/goal_stream.py": "what goals arrive as",
     **dict.fromkeys((f"report/figures/{chapter}/" for chapter in CHAPTERS), "what a page of the book is about"),
     "report/figures/cards/side_by_side.py": "pairs that are worth a look",
     "report/figures/comparison/a_new_law.py": "the law that it is about, and its neighbours",

@@ -17,8 +17,8 @@ from bench.running import run as running
 
 TABLES = [
     *("boundaries.parquet", "command-field.parquet", "compliance.parquet", "costs.parquet", "episodes.parquet"),
-    *("impedance-modes.parquet", "impedance.parquet"),
-    *("plan.json", "poses.parquet", "provenance.json", "robustness.parquet", "shipped.parquet"),
+    *("goal-streams.parquet", "impedance-modes.parquet", "impedance.parquet"),
+    *("plan.json", "poses.parquet", "provenance.json", "robustness.parquet", "shipped.parquet", "springs.parquet"),
     *("traces.parquet", "velocity-limits.parquet", "velocity.parquet"),
 ]
 

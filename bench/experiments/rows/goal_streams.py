@@ -10,7 +10,7 @@ from bench.tables.schema import TABLES
 from tasks.goal_stream import LENGTH_S, STREAMS, goals, true_goal
 from tasks.truth import angle
 
-SIGNED = "quaternion"
+SIGNED = "quaternion,"
 """Of streams that arrive so, the spring on the quaternion as it came is run too."""
 
 
