@@ -12,7 +12,7 @@ from bench.law.scalar import PRIMITIVES
 
 INDENT, WIDTH = "    ", 120
 NAMES = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/"}
-SIGNS = {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">="}
+SIGNS = {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">=", ast.Eq: "==", ast.NotEq: "!="}
 STRENGTH = {ast.Mult: 6, ast.Div: 6, ast.Add: 5, ast.Sub: 5}
 """How an operator binds: a call 9, a sign 7, a comparison 4, `and` 3, `or` 2, a choice 1, as in all of them."""
 

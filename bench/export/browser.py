@@ -1,0 +1,108 @@
+"""All laws, the plant and the judge as one script for a page, translated from the sources that are measured.
+
+    live.laws["late-braking"].law(R, omega, goal, gains, memory), live.plant.step(R, omega, u, inertia, h), ...
+
+Matrices are their three columns. A function that two laws call is there once; `needs` names what a law calls, callees
+first, so that a page can show the text of the very functions it runs.
+"""
+
+import json
+from collections.abc import Callable, Iterable, Iterator
+from typing import NamedTuple
+
+from bench.engines.ideal import angle_between, haversine, turned
+from bench.engines.rigid_body import bounded, step
+from bench.export.braces import is_identity, wrapped
+from bench.export.heading import summary
+from bench.export.languages.js import COPYSIGN, Script, comment
+from bench.export.program import Function, read_function
+from bench.export.subject import GAINS, MATRIX
+from bench.export.types import REAL, TRUTH, Kind, Program, Tuple, Typed, numbers
+from bench.law.contender import Contender, Goal
+from bench.law.so3 import from_quaternion, turn_quaternion
+from tasks.verdict import OUTCOMES, Watch, check_command, check_state, first_watch, verdict, watched
+
+THREE, FOUR = numbers(3), numbers(4)
+GOAL = Tuple((MATRIX, THREE, THREE), Goal.__name__, Goal._fields)
+WATCH = Tuple((REAL, REAL, TRUTH, REAL, REAL), Watch.__name__, Watch._fields)
+
+PLANT: dict[Callable, tuple[Kind, ...]] = {
+    from_quaternion: (FOUR,),
+    turn_quaternion: (MATRIX, MATRIX),
+    turned: (MATRIX, THREE),
+    bounded: (THREE, REAL),
+    step: (MATRIX, THREE, THREE, THREE, REAL),
+    haversine: (MATRIX, MATRIX),
+    angle_between: (MATRIX, MATRIX),
+}
+"""What moves the body and measures it, with the kinds of its arguments."""
+
+JUDGE: dict[Callable, tuple[Kind, ...]] = {
+    first_watch: (REAL,) * 4,
+    watched: (WATCH, *(REAL,) * 5),
+    check_command: (REAL, REAL),
+    check_state: (REAL, REAL),
+    verdict: (REAL, WATCH, *(REAL,) * 6),
+}
+
+
+class Live(NamedTuple):
+    """A law in the script: its function, and its memory at first; what it needs ends with itself."""
+
+    law: Typed
+    memory: tuple | None
+
+    def __str__(self) -> str:
+        needs = list(dict.fromkeys(one.name for one in _with_callees(self.law)))
+        if any("copysign(" in _text(one) for one in _with_callees(self.law)):
+            needs.insert(0, "copysign")
+        return f"{{law: {self.law.name}, memory: {json.dumps(self.memory)}, needs: {json.dumps(needs)}}}"
+
+
+def script(contenders: Iterable[Contender], name: str = "live") -> str:
+    """The script; it defines a global of that name, with laws, plant, judge, outcomes and the functions by name."""
+    program = Program()
+    known: dict[Callable, Function] = {}
+    plant, judge = (
+        [program.add(read_function(one, known), kinds) for one, kinds in of.items()] for of in (PLANT, JUDGE)
+    )
+    laws = {one.on_free_body: _live(program, known, one) for one in contenders}
+    functions = [one for one in program.functions if not is_identity(one)]
+    listed = ",\n".join(f"{json.dumps(word)}: {one}" for word, one in laws.items())
+    return "\n".join(
+        (
+            "(function (root) {",
+            "'use strict';",
+            COPYSIGN,
+            *map(_text, functions),
+            f"root.{name} = {{",
+            f"plant: {_object(plant)},",
+            f"judge: {_object(judge)},",
+            f"functions: {{copysign, {', '.join(one.name for one in functions)}}},",
+            f"outcomes: {json.dumps(OUTCOMES)},",
+            f"laws: {{\n{listed}\n}}}};",
+            "})(typeof globalThis === 'object' ? globalThis : this);\n",
+        )
+    )
+
+
+def _live(program: Program, known: dict[Callable, Function], one: Contender) -> Live:
+    memory = one.regulator.memory
+    kinds = (MATRIX, THREE, GOAL, GAINS, *((numbers(len(memory)),) if memory else ()))
+    return Live(program.add(read_function(one.law, known), kinds), memory)
+
+
+def _with_callees(function: Typed) -> Iterator[Typed]:
+    for one in function.calls.values():
+        if not is_identity(one):
+            yield from _with_callees(one)
+    yield function
+
+
+def _text(function: Typed) -> str:
+    lines = wrapped(Script().function(function).split("\n"))
+    return "\n".join((*comment(summary(function.text)), *lines))
+
+
+def _object(functions: list[Typed]) -> str:
+    return f"{{{', '.join(one.name for one in functions)}}}"

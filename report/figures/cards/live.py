@@ -1,0 +1,242 @@
+"""Two laws from one start: the controls of the live page, its starts and laws; report/_extra/live.js runs them.
+
+The laws, the plant and the judge are those that are measured, translated (`bench.export.browser`).
+"""
+
+from __future__ import annotations
+
+import html as markup
+import itertools
+import json
+import math
+from collections.abc import Iterable
+
+import tasks
+from bench.contenders.registry import all_contenders
+from bench.errors import BadLaw
+from bench.export import browser
+from bench.law.contender import Contender
+from bench.tables import read
+from report.figures.cost.operations import CALLS
+from report.figures.kit import families, html, laws, style
+from report.figures.kit.page import Run
+from tasks.base import Start
+from tasks.rules import RULES
+from tasks.truth import angle
+
+OPENING = {"a": "rotation-matrix", "b": "late-braking", "start": "half-turn-random0-k02"}
+"""What the page shows first: the paper's first law beside half a turn, and one that leaves it at once."""
+
+PRESETS = (
+    ("Exactly half a turn", "rotation-matrix", "late-braking", "start=half-turn-random0-exact"),
+    ("A sign forgotten", "quaternion-shortest", "quaternion-unwinding", "start=goal-beyond-wrap-gamma-up"),
+    ("Beside a pole", "linearized-euler/zyx-euler", "euler-gradient/zyx-euler", "start=pole-plus-k02-a2.5-g2.8"),
+    ("Spinning", "feedback-linearized/zyx-euler", "mrp", "start=tumbling-0006"),
+    ("Late by 40 ms", "rotation-matrix", "square-root", "start=figure-2.3&delay=40"),
+    ("Weak motors", "quaternion-shortest", "late-braking", "start=tumbling-0006&bound=20"),
+)
+"""Title, laws A and B, the rest of the address: one click each."""
+
+STARTS = (
+    ("paper", "The paper's figures", "figure-2.3", "Figure 2.3 of the paper, {angle} to go"),
+    ("paper", "The paper's figures", "figure-2.4", "Figure 2.4 of the paper, {angle} to go"),
+    ("paper", "The paper's figures", "figure-2.5", "Figure 2.5 of the paper, {angle} to go"),
+    ("half-turn", "Half turns", "half-turn-random0-k02", "Nearly half a turn: {angle}"),
+    ("half-turn", "Half turns", "half-turn-random0-k04", "Very nearly half a turn: {angle}"),
+    ("half-turn", "Half turns", "half-turn-random0-exact", "Exactly half a turn, about a tilted axis"),
+    ("half-turn", "Half turns", "half-turn-x-exact", "Exactly half a turn, about x"),
+    ("poles", "Poles and jumps of Z-Y-X angles", "pole-plus-k02-a2.5-g2.8", "Beside a pole, {angle} to go"),
+    ("poles", "Poles and jumps of Z-Y-X angles", "pole-plus-exact-twist-plus-1.0", "Exactly on a pole, {angle} to go"),
+    (
+        "wraps",
+        "Poles and jumps of Z-Y-X angles",
+        "wrap-gamma-plus-k02-b-0.9-o-1.5",
+        "Before the jump of γ, {angle} to go",
+    ),
+    ("goals", "Other goals", "goal-beyond-wrap-gamma-up", "A goal beyond the jump of γ, {angle} away"),
+    ("goals", "Other goals", "goal-uniform-0000", "A goal far from zero, {angle} away"),
+    ("tumbling", "Spinning", "tumbling-0002", "Spinning at {speed}, {angle} to go"),
+    ("tumbling", "Spinning", "tumbling-0006", "Spinning at {speed}, {angle} to go"),
+)
+"""Start set, group, start, title: where laws part."""
+
+
+def starts() -> list[tuple[str, str, Start]]:
+    """(group, title, start) of each."""
+    found = []
+    for name, group, start_id, title in STARTS:
+        [one] = [start for start in tasks.start_set(name) if start.id == start_id]
+        numbers = {
+            "angle": degrees(angle(one.quat_wxyz, one.goal_wxyz)),
+            "speed": f"{math.hypot(*one.omega):.0f} rad/s",
+        }
+        found.append((group, title.format(**numbers), one))
+    return found
+
+
+def page(contenders: list[Contender], costs) -> html.Html:
+    """Controls, hidden until the script is there; the laws' code, and what the script reads.
+
+    Args:
+        costs: rows about the free body.
+    """
+    names, every = [one.on_free_body for one in contenders], starts()
+    inside = json.dumps(data(names, every, costs), separators=(",", ":")).replace("<", "\\u003c")
+    presets = "\n".join(
+        f'<button type="button" data-view="{markup.escape(f"a={a}&b={b}&{rest}")}">{title}</button>'
+        for title, a, b, rest in PRESETS
+        if {a, b} <= set(names)
+    )
+    options = {side: _law_options(names, OPENING[side]) for side in "ab"}
+    controls = CONTROLS.format(starts=_start_options(every), presets=presets, band=f"{RULES.tolerance:.0%}", **options)
+    return html.Html(
+        f'{controls}<script type="application/json" id="live-data">{inside}</script>'
+        f"<script>\n{browser.script(contenders)}</script>"
+        "<noscript><p>This page runs the laws in the browser, which needs JavaScript.</p></noscript>"
+    )
+
+
+CONTROLS = """
+<section id="live-page" class="live" aria-label="Two laws from one start" hidden>
+<div class="live-choices">
+<p><label for="live-a"><span class="live-key a"></span>Law A</label><select id="live-a">{a}</select></p>
+<p><label for="live-b"><span class="live-key b"></span>Law B</label><select id="live-b">{b}</select></p>
+<p class="live-start"><label for="live-start">Start</label><span class="live-row">
+<button type="button" id="live-previous" aria-label="Previous start">‹</button>
+<select id="live-start">{starts}<option value="own">Your own</option></select>
+<button type="button" id="live-next" aria-label="Next start">›</button></span></p>
+</div>
+<div class="live-views">
+<div class="live-body">
+<canvas id="live-gripper" tabindex="0" role="application" aria-roledescription="gripper"
+ aria-label="The gripper: arrow keys, page up and page down turn the start"></canvas>
+<p class="hint">Drag, or use the arrow keys: that is the start. Broken lines: the goal. B is the paler hand.</p>
+<div id="live-start-sliders" class="live-sliders one"></div>
+</div>
+<div class="live-plots">
+<p class="live-title">Angle to the goal [deg]
+<label class="live-check"><input type="checkbox" id="live-log"> logarithmic</label></p>
+<svg id="live-angle-plot" role="img" aria-label="Angle to the goal against time, of both laws"></svg>
+<p class="live-title">Size of the command [rad/s²]</p>
+<svg id="live-command-plot" role="img" aria-label="Size of the command against time, of both laws"></svg>
+<p id="live-said" class="live-said" role="status"></p>
+</div>
+</div>
+<div class="live-clock">
+<button type="button" id="live-play">Play</button>
+<label for="live-time">Time</label><input type="range" id="live-time" aria-label="Time" min="0" step="0.005" value="0">
+<output id="live-now" for="live-time"></output>
+</div>
+<p class="live-presets"><span>Worth a look:</span> {presets}</p>
+<div class="live-title">Controller and plant <button type="button" id="live-reset">As measured</button></div>
+<div id="live-sliders" class="live-sliders"></div>
+<div class="live-views">
+<table class="plain live-facts">
+<thead><tr><th scope="col">Law</th><th scope="col" class="a"></th><th scope="col" class="b"></th></tr></thead>
+<tbody></tbody>
+</table>
+<div class="live-turns">
+<canvas id="live-ball" class="ball" tabindex="0" role="application" aria-roledescription="ball"
+ aria-label="The ball of rotation vectors, with the ways of both laws to its centre: arrow keys turn it"></canvas>
+<p class="hint">The way to the goal, the cross: distance is the angle, direction the axis; the surface is half a turn,
+where a way goes on at the opposite point. In the plots: a ring where a law stays inside {band} of the first angle, a
+cross where it breaks off.</p>
+</div>
+</div>
+</section>
+"""
+
+
+def data(names: list[str], every: list[tuple[str, str, Start]], costs) -> dict:
+    """All that the script reads."""
+    return {
+        "opening": OPENING,
+        "rules": {**RULES._asdict(), "slow_squared": RULES.slow_squared},
+        "laws": {name: law(name, costs) for name in families.in_order(names)},
+        "starts": [{"id": one.id, "q": one.quat_wxyz, "omega": one.omega, "goal": one.goal_wxyz} for *_, one in every],
+    }
+
+
+def law(name: str, costs) -> dict:
+    """How a law is called and drawn, where its card is, and what a tick of it costs."""
+    look = style.look(name)
+    return {
+        "name": families.word(name),
+        "title": laws.title(name),
+        "card": f"{families.CARDS}#{families.anchor(name)}",
+        "colour": [look.colour, look.dark],
+        "cost": cost(name, costs),
+    }
+
+
+def cost(name: str, costs) -> str:
+    """Operations a tick in words, where they differ also the worst branch."""
+    totals = costs[(costs["contender"] == name) & (costs["stage"] == "total")].set_index("branch")
+    if totals.empty:
+        return html.MISSING
+    said = {}
+    for branch in ("typical", "worst"):
+        calls = int(totals.loc[branch, list(CALLS)].sum())
+        said[branch] = f"{int(totals.at[branch, 'flops'])} flops, {calls} {'call' if calls == 1 else 'calls'}"
+    return said["typical"] if said["typical"] == said["worst"] else f"{said['typical']}; at most {said['worst']}"
+
+
+def _law_options(names: Iterable[str], chosen: str) -> str:
+    """Laws by family."""
+    return "".join(
+        _group(one.title, ((name, families.word(name)) for name in one.laws), chosen) for one in families.present(names)
+    )
+
+
+def _start_options(every: list[tuple[str, str, Start]]) -> str:
+    """Starts by kind."""
+    return "".join(
+        _group(group, ((one.id, title) for _, title, one in own), OPENING["start"])
+        for group, own in itertools.groupby(every, lambda one: one[0])
+    )
+
+
+def _group(title: str, options: Iterable[tuple[str, str]], chosen: str) -> str:
+    inside = "".join(
+        f'<option value="{markup.escape(value)}"{" selected" if value == chosen else ""}>{markup.escape(text)}</option>'
+        for value, text in options
+    )
+    return f'<optgroup label="{markup.escape(title)}">{inside}</optgroup>'
+
+
+def degrees(angle_rad: float) -> str:
+    """An angle in degrees, with as many decimals as tell it from half a turn."""
+    angle = math.degrees(angle_rad)
+    short = abs(180.0 - angle)
+    decimals = max(0, math.ceil(-math.log10(short))) if short > 1e-9 else 0
+    return f"{angle:.{decimals}f}°"
+
+
+def alive(names: Iterable[str]) -> list[Contender]:
+    """Ours, and of the other laws of these names those that can be translated."""
+    ours = [one for one in all_contenders() if one.regulator.assemble is None and not one.regulator.costing_only]
+    known = {one.on_free_body for one in ours}
+    return [*ours, *filter(None, (_translatable(name) for name in sorted(set(names) - known)))]
+
+
+def _translatable(name: str) -> Contender | None:
+    found = laws.contender(name)
+    if found is None or found.regulator.assemble is not None or found.regulator.costing_only:
+        return None
+    try:
+        browser.script([found])
+    except BadLaw:
+        return None
+    return found
+
+
+def facts(run: Run) -> dict:
+    """Numbers of the page's text."""
+    chosen = alive(())
+    return {"laws": len(chosen), "kilobytes": f"{len(browser.script(chosen)) / 1000:.0f}"}
+
+
+def figures(run: Run) -> dict:
+    """What the script brings to life."""
+    costs = run.rows("costs", **read.FREE_BODY)
+    return {"two-laws": page(alive(costs["contender"].astype(str)) if len(costs) else alive(()), costs)}

@@ -1,0 +1,237 @@
+"""The live page in a browser: episodes as recorded, keyboard, drag, address, copies, phone, and without a script."""
+
+import pytest
+
+pytest.importorskip("selenium", reason="the dev extra is not installed (cure: make setup)")
+import screenshots
+from selenium.webdriver.common.action_chains import ActionChains
+from selenium.webdriver.support.ui import WebDriverWait
+from support import live
+
+import tasks
+
+PAGE = screenshots.SITE / "pages" / "26-live.html"
+PHONE, DESK = screenshots.View("light", 360), screenshots.View("dark", 1280)
+STARTS = 1000
+ARROW_DOWN, ARROW_RIGHT, HOME, END, ENTER = "\ue015", "\ue014", "\ue011", "\ue010", "\ue007"
+
+
+def missing():
+    """Why the page cannot be operated here; empty if it can."""
+    if screenshots.missing():
+        return screenshots.missing()
+    return "" if PAGE.is_file() else "the report is not built (cure: make report)"
+
+
+# Every law as B, each from every fourth or fifth start.
+DRAW_ALL = """
+const [every, done] = arguments, part = name => document.getElementById(`live-${name}`), broken = [];
+const pick = (name, index) => { part(name).selectedIndex = index; part(name).dispatchEvent(new Event("change")); };
+const views = [];
+for (let start = 0; start < part("start").length - 1; start += every)
+  for (let law = 0; law < part("b").length; law++) views.push([start, law]);
+function next() {
+  const drawn = part("angle-plot").innerHTML + part("command-plot").innerHTML;
+  if (/NaN|undefined|Infinity/.test(drawn)) broken.push(part("b").value);
+  if (!views.length) { done(broken); return; }
+  const [start, law] = views.pop();
+  pick("start", start);
+  pick("b", law);
+  requestAnimationFrame(() => requestAnimationFrame(next));
+}
+next();
+"""
+
+pytestmark = [pytest.mark.browser, pytest.mark.skipif(bool(missing()), reason=missing() or "ready")]
+
+
+@pytest.fixture(scope="module")
+def opened():
+    with screenshots.browser() as driver:
+        driver.set_script_timeout(300)
+        yield driver
+
+
+@pytest.fixture
+def driver(opened):
+    """The page as it opens."""
+    show(opened)
+    return opened
+
+
+def show(driver, address="", view=DESK):
+    driver.get("about:blank")  # or a new address of the same page would load nothing
+    screenshots.look(driver, view)
+    driver.get(PAGE.as_uri() + address)
+    screenshots.settle(driver)
+    wait(driver, lambda: said(driver))
+
+
+def wait(driver, fact):
+    return WebDriverWait(driver, screenshots.LOAD_SECONDS).until(lambda _: fact())
+
+
+def part(driver, name):
+    return driver.find_element("id", f"live-{name}")
+
+
+def said(driver):
+    return part(driver, "said").text
+
+
+def press(driver, name, key):
+    """A key while the control has the focus, as after so many tabs."""
+    driver.execute_script("arguments[0].focus()", part(driver, name))
+    driver.switch_to.active_element.send_keys(key)
+
+
+def changed(driver, act):
+    """What is said after the act, once it differs."""
+    before = said(driver)
+    act()
+    return wait(driver, lambda: said(driver) != before and said(driver))
+
+
+def test_a_thousand_episodes_of_every_law_are_the_recorded_ones(driver):
+    starts = tasks.start_set("uniform", STARTS)
+    rows, (settings, rules) = live.rows_of(starts), live.asked()
+    script = f"return ({live.PLAYED})(...arguments)"
+    beyond = {}
+    for word in driver.execute_script("return Object.keys(live.laws)"):
+        wanted = live.by_the_sampled_plant(word, starts)
+        found = driver.execute_script(script, word, rows, settings, rules, live.SEEN)
+        which = live.differing(wanted, found)
+        if len(which) > live.most_that_rounding_decides(wanted):
+            beyond[word] = which
+    assert beyond == {}
+
+
+@pytest.mark.parametrize(("name", "line"), [("a", 0), ("b", 1)])
+def test_choice_by_keyboard_changes_its_sentence_alone(driver, name, line):
+    before = said(driver).splitlines()
+    after = changed(driver, lambda: press(driver, name, ARROW_DOWN)).splitlines()
+    assert [one != other for one, other in zip(before, after, strict=True)] == [line == 0, line == 1]
+
+
+def test_exact_half_turn_by_a_slider_is_a_dead_point_of_the_first_law(driver):
+    after = changed(driver, lambda: press(driver, "angle", END))
+    assert "A: rotation matrix is stuck 180° from the goal." in after
+    assert part(driver, "start").get_attribute("value") == "own"
+
+
+@pytest.mark.parametrize("how", ["keys", "drag"])
+def test_gripper_turns_the_start(driver, how):
+    gripper = part(driver, "gripper")
+
+    def turn():
+        if how == "keys":
+            press(driver, "gripper", 3 * ARROW_RIGHT)
+        else:
+            ActionChains(driver).click_and_hold(gripper).move_by_offset(60, 30).release().perform()
+
+    changed(driver, turn)
+    assert part(driver, "start").get_attribute("value") == "own"
+    assert part(driver, "angle-now").text != "179.43°"
+
+
+def test_sliders_say_their_value_and_change_the_episode(driver):
+    after = changed(driver, lambda: press(driver, "rate", HOME))
+    assert (part(driver, "rate-now").text, part(driver, "rate").get_attribute("aria-valuetext")) == (
+        "10 Hz",
+        "10\xa0Hz",
+    )
+    press(driver, "reset", ENTER)
+    assert wait(driver, lambda: said(driver) != after)
+    assert part(driver, "rate-now").text == "1000 Hz"
+
+
+def test_address_holds_the_view(driver):
+    press(driver, "delay", 20 * ARROW_RIGHT)
+    changed(driver, lambda: press(driver, "gripper", 5 * ARROW_RIGHT))
+    press(driver, "log", " ")
+    wait(driver, lambda: "log=1" in driver.current_url and "q=" in driver.current_url)
+    shown, drawn = said(driver), part(driver, "angle-plot").get_attribute("innerHTML")
+    address = driver.execute_script("return location.hash")
+    show(driver, address)
+    assert said(driver) == shown
+    assert part(driver, "angle-plot").get_attribute("innerHTML") == drawn
+
+
+@pytest.mark.parametrize("address", ["#a=none&b=", "#a=mrp&q=0,0,0,0&kp=nine", "#b=mrp&q=1,2&rate=1e9&start=nowhere"])
+def test_address_with_mistakes_shows_what_can_be_shown(driver, address):
+    screenshots.console_errors(driver)
+    show(driver, address)
+    assert len(said(driver).splitlines()) == 2
+    assert screenshots.console_errors(driver) == []
+
+
+def test_link_to_a_heading_leaves_the_view(driver):
+    shown = changed(driver, lambda: press(driver, "next", ENTER))
+    driver.execute_script("location.hash = 'try-two-laws'")
+    screenshots.settle(driver)
+    assert said(driver) == shown
+
+
+def test_each_preset_shows_another_view(driver):
+    buttons, seen = driver.find_elements("css selector", "[data-view]"), {said(driver)}
+    for button in buttons:
+        driver.execute_script("arguments[0].focus()", button)
+        seen.add(changed(driver, lambda here=button: here.send_keys(ENTER)))
+    assert len(seen) == len(buttons) + 1
+
+
+def test_play_runs_the_clock_and_pause_stops_it(driver):
+    screenshots.settle(driver)
+    assert (part(driver, "now").text, part(driver, "play").text) == ("0.00 s", "Play")
+    press(driver, "play", ENTER)
+    wait(driver, lambda: part(driver, "now").text != "0.00 s")
+    press(driver, "play", ENTER)
+    stopped = part(driver, "now").text
+    screenshots.settle(driver)
+    assert part(driver, "now").text == stopped
+
+
+def test_copied_law_is_the_text_of_what_runs(driver):
+    button = driver.find_element("css selector", ".live-code button")
+    driver.execute_script("arguments[0].focus()", button)
+    button.send_keys(ENTER)
+    text = wait(driver, lambda: driver.find_element("css selector", ".live-code button").get_attribute("data-copied"))
+    assert "function turn_matrix(R, R_d)" in text or "function cross(p, q)" in text
+    assert driver.execute_script("return Object.values(live.functions).some(one => arguments[0].includes(one))", text)
+
+
+@pytest.mark.parametrize("every", [4, 5])
+def test_every_law_draws_numbers_alone_and_asks_nothing_of_the_network(driver, every):
+    screenshots.network_requests(driver), screenshots.console_errors(driver)
+    broken = driver.execute_async_script(DRAW_ALL, every)
+    assert (broken, screenshots.network_requests(driver), screenshots.console_errors(driver)) == ([], [], [])
+
+
+@pytest.mark.parametrize("view", [PHONE, DESK])
+@pytest.mark.parametrize("name", ["ball", "gripper"])
+def test_pictures_have_ink_and_nothing_is_wider_than_the_window(driver, view, name):
+    show(driver, view=view)
+    root = "document.documentElement"
+    assert driver.execute_script(f"return {root}.scrollWidth - {root}.clientWidth") <= 0
+    assert driver.execute_script(
+        "const c = document.getElementById(`live-${arguments[0]}`);"
+        "return c.width > 200 && c.getContext('2d').getImageData(0, 0, c.width, c.height).data.some(byte => byte)",
+        name,
+    )
+
+
+def test_controls_are_large_enough_for_a_finger(driver):
+    show(driver, view=PHONE)
+    for name in ("a", "b", "start", "previous", "next", "play", "time", "angle", "rate"):
+        assert part(driver, name).size["height"] >= 40
+
+
+def test_page_without_a_script_says_so_and_shows_no_dead_control(driver):
+    driver.execute_cdp_cmd("Emulation.setScriptExecutionDisabled", {"value": True})
+    try:
+        driver.get("about:blank")
+        driver.get(PAGE.as_uri())
+        assert not part(driver, "page").is_displayed()
+        assert "needs JavaScript" in driver.find_element("css selector", "noscript p").text
+    finally:
+        driver.execute_cdp_cmd("Emulation.setScriptExecutionDisabled", {"value": False})

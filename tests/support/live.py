@@ -1,0 +1,98 @@
+"""Episodes of the live page in node or a browser, and the same by the compiled loop: rows to compare."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from bench.contenders.registry import find_contender
+from bench.engines import run_disturbed
+from bench.engines.curve import blank_curves
+from bench.engines.episode import FINAL_ANGLE, OUTCOME, SETTLING_TICK, TICKS, start_rows
+from bench.engines.run import run
+from bench.export.subject import find_subject, translated
+from support.driving import settings
+from tasks.condition import Condition
+from tasks.rules import RULES
+
+HORIZON_S, KP, KV = 6.0, 100.0, 20.0
+SEEN = (50, 200)
+"""Ticks of 1 ms after which the orientations are compared."""
+
+PLAYED = """
+(word, starts, settings, rules, seen) => starts.map(s => {
+    const { laws, plant, outcomes } = globalThis.live;
+    const [R, R_d] = [s.slice(0, 4), s.slice(7, 11)].map(plant.from_quaternion);
+    const given = { ...settings, bound: settings.bound === null ? Infinity : settings.bound };
+    const start = { R, omega: s.slice(4, 7), R_d, band: s[11] };
+    const one = globalThis.liveEpisode.begin(laws[word], start, given, rules);
+    one.advance(Infinity);
+    const at = tick => (tick < one.tick ? one.samples[Math.round(tick / 5)].R.flat() : Array(9).fill(null));
+    return [outcomes.indexOf(one.outcome), one.settled_tick ?? -1, one.tick, one.angle, ...seen.map(at).flat()];
+})
+"""
+"""JavaScript: a row an episode, (outcome, settling tick, ticks, final angle, R after each of SEEN)."""
+
+
+class Wanted(NamedTuple):
+    """Rows of the compiled loop, as PLAYED has them; R where it was kept."""
+
+    rows: np.ndarray
+    states: np.ndarray | None
+    is_algebraic: bool
+
+
+def asked(condition: Condition = Condition()) -> tuple[dict, dict]:  # noqa: B008, a tuple of numbers
+    """Settings and rules, as the page hands them over."""
+    bound = None if np.isinf(condition.bound) else condition.bound
+    times = {"period_s": condition.period_s, "delay_s": condition.delay_s, "horizon_s": HORIZON_S}
+    noise = {"attitude_noise": 0.0, "rate_noise": 0.0}
+    given = {"kp": KP, "kv": KV, "bound": bound, "inertia": condition.inertia, **times, **noise}
+    return given, {**RULES._asdict(), "slow_squared": RULES.slow_squared}
+
+
+def by_the_sampled_plant(word: str, starts) -> Wanted:
+    """Of the engine `ideal-held`, whose rows are in the results."""
+    curves = blank_curves(len(starts), len(range(0, max(SEEN) + 1, SEEN[0])), SEEN[0])
+    chosen = settings(horizon_s=HORIZON_S, hold_ticks=RULES.hold_ticks(1e-3))
+    rows = run("ideal-held", find_contender(word), "free-body", starts, chosen, (), curves=curves)
+    states = curves.samples[:, [tick // SEEN[0] for tick in SEEN], 1:10].reshape(len(starts), -1)
+    return Wanted(_judged(rows), states, _is_algebraic(word))
+
+
+def by_the_perturbed_plant(word: str, starts, condition: Condition) -> Wanted:
+    """Of the loop under perturbations."""
+    rows = run_disturbed.run(find_contender(word), starts, condition, settings(horizon_s=HORIZON_S), ())
+    return Wanted(_judged(rows), None, _is_algebraic(word))
+
+
+def rows_of(starts) -> list[list[float]]:
+    """Starts, as the page is given them here."""
+    return start_rows(starts).tolist()
+
+
+def _judged(rows: np.ndarray) -> np.ndarray:
+    return rows[:, [OUTCOME, SETTLING_TICK, TICKS, FINAL_ANGLE]]
+
+
+def _is_algebraic(word: str) -> bool:
+    return translated(find_subject(word)).program.is_algebraic
+
+
+def differing(wanted: Wanted, found: list) -> list[int]:
+    """Numbers of the episodes that end otherwise, or are elsewhere on their way.
+
+    The angle itself is by another atan2; with a law that calls libm orientations may differ by rounding, too.
+    """
+    rows = np.array(found, dtype=float)
+    ends = rows[:, :3] == wanted.rows[:, :3]
+    same = ends.all(axis=1) & np.isclose(rows[:, 3], wanted.rows[:, 3], rtol=0.0, atol=1e-6, equal_nan=True)
+    if wanted.states is not None:
+        states, ran = rows[:, 4:], ~np.isnan(rows[:, 4:])
+        off = np.where(ran, np.abs(states - wanted.states), 0.0).max(axis=1)
+        same &= off == 0.0 if wanted.is_algebraic else off < 1e-6
+    return np.flatnonzero(~same).tolist()
+
+
+def most_that_rounding_decides(wanted: Wanted) -> int:
+    """Of a law that calls libm some episodes hang on its last bit: those thrown through a pole."""
+    return 0 if wanted.is_algebraic else len(wanted.rows) // 20
