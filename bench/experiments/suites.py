@@ -69,9 +69,8 @@ class OnArms(NamedTuple):
     """The part of a suite that runs on every arm.
 
     words: contenders as `combinations` writes them; none at all: every compatible combination. few: those of them that
-    run from AT_INVERSES alone. varied: the contenders of the study of model errors, which runs over all
-    variations of the plant. traced: starts of `clear` and `pole` whose episodes are kept as curves. poses: how many an
-    arm's Jacobians are looked at, beside the directed ones.
+    run from AT_INVERSES alone. varied: the contenders of the study of model errors, which runs over all variations of
+    the plant. poses: how many an arm's Jacobians are looked at, beside the directed ones.
     """
 
     words: tuple[str, ...]
@@ -79,7 +78,6 @@ class OnArms(NamedTuple):
     varied: tuple[str, ...] = ()
     varied_slices: tuple[Slice, ...] = ()
     few: tuple[str, ...] = ()
-    traced: int = 0
     poses: int = 0
 
 
@@ -228,7 +226,6 @@ SUITES = {
                 _on_arms(clear=4, wrist=4, pole=4, half_turn=4, uniform=4, tumbling=4, reach=4),
                 (LAWS[0], ANALYTIC[0]),
                 (Slice("native", "clear", 2, VARIED_S),),
-                traced=1,
                 poses=200,
             ),
             in_contact=InContact(COMPLIANT, FIRST_FRAMES, redundant=REDUNDANT[:2], redundant_poses=FIRST_SCENES),
@@ -252,7 +249,6 @@ SUITES = {
                 VARIED,
                 (Slice("native", "clear", 4, VARIED_S),),
                 (*TWINS, *INVERSES),
-                traced=1,
                 poses=1000,
             ),
             in_contact=InContact((*COMPLIANT, *MORE_COMPLIANT), redundant=REDUNDANT, redundant_poses=FIRST_SERIES),
@@ -275,7 +271,6 @@ SUITES = {
                 _on_arms(clear=None, wrist=None, pole=None, half_turn=None, uniform=None, tumbling=None, reach=None),
                 VARIED,
                 (Slice("native", "clear", None, ON_ARM),),
-                traced=4,
                 poses=1000,
             ),
             in_contact=InContact((), dense=True, in_free_space=()),

@@ -1,6 +1,5 @@
 """Figures, tables and findings of the pages about arms, from a small run on one arm; and what they say without one."""
 
-import dataclasses
 import shutil
 
 import pandas as pd
@@ -13,7 +12,6 @@ from support.pages import assert_is_whole, pasted
 from bench.contenders.registry import find_contender
 from bench.experiments import plan
 from bench.experiments.choice import Choice
-from bench.experiments.traces import of_arm
 from bench.running import run
 from bench.tables import read, store
 from bench.tables.schema import RESULTS
@@ -51,8 +49,7 @@ def small_run(tmp_path_factory):
     laws = [find_contender(word) for word in ("rotation-matrix", "feedback-linearized/zyx-euler")]
     made = plan.make("quick", laws, CHOICE, count=STARTS, horizon_s=2.5)
     folder = tmp_path_factory.mktemp("arms") / "run"
-    more = (of_arm(*one, 1) for one in dict.fromkeys((u.contender, u.task, u.arm) for u in made.of("arm")))
-    run.run(dataclasses.replace(made, units=(*made.units, *more)), folder)
+    run.run(made, folder)
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv(read.VARIABLE, str(folder))
         yield folder
