@@ -18,7 +18,7 @@ EVERYWHERE = ["small", "drawn", "near", "at", "pole"]
 TO_USE = Table("Library | From a matrix | From a quaternion")
 FAULTS = Table("Function | But")
 ERRORS = Table("Function | Convention | Verdict | Largest error | Dead at 180° | Settles | Away | Instead")
-CONTROLLERS = Table("Controller | Commands | Verdict | Stiffness felt | Dead at 180° | Settles | Away")
+CONTROLLERS = Table("Controller | Commands | Verdict | Dead at 180° | Settles | Away")
 AS_ANGLES = Table("Function | Drawn | Poles | Half turns | As an error")
 VERSIONS = Table("Library | Version | Python | numpy")
 
@@ -85,18 +85,14 @@ def facts(_: Run) -> dict:
 def loop_facts() -> dict:
     """What the text says of closed loops: how many are run, and how many of them stay at 180° or turn away."""
     lines = loops.responses()[loops.responses()["library"] != OURS]
-    functions, shipped, run = (lines[lines["kind"] == kind] for kind in ("function", "restated", "controller"))
+    functions, run = (lines[lines["kind"] == kind] for kind in ("function", "controller"))
     dead = functions[functions["dead"] == functions["at_180"]]
-    weak = shipped[shipped["stiffness"] < 0.75]
     fixed = loops.verdicts()[loops.verdicts()["fixed"] != ""]
     return {
         "loops": len(functions),
         "controllers": len(run),
-        "shipped": len(shipped),
         "loops_dead": len(dead),
         "loops_away": int((functions["away"] > 0).sum()),
-        "shipped_weak": len(weak),
-        "shipped_slowest": f"{shipped['slowest'].max():.0f}",
         "axes_180": int(functions["at_180"].min()),
         "replaced": int((loops.verdicts()["replacement"] != "").sum()),
         "fixed": len(fixed),
@@ -151,19 +147,10 @@ def in_closed_loop(every: pd.DataFrame) -> list[tuple]:
 
 
 def controllers() -> list[tuple]:
-    """A row a controller: those that are run, and those that are restated from their source."""
-    lines = loops.responses()[loops.responses()["kind"] != "function"]
-    lines = lines.merge(loops.verdicts()[["library", "function", "faults"]], how="left", on=["library", "function"])
+    """A row a controller that is run."""
+    lines = loops.responses()[loops.responses()["kind"] == "controller"]
     return [
-        (
-            asked(one) if one.kind == "controller" else one.library,
-            one.command,
-            loops.verdict(one) if one.kind == "controller" else one.faults or "right",
-            f"{one.stiffness:.2g}" if one.kind != "controller" else html.MISSING,
-            loops.dead(one),
-            loops.settling(one),
-            loops.away(one),
-        )
+        (asked(one), one.command, loops.verdict(one), loops.dead(one), loops.settling(one), loops.away(one))
         for one in lines.itertuples()
     ]
 
