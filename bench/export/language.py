@@ -14,13 +14,14 @@ from bench.export.vectors import Vector
 
 
 class Language(NamedTuple):
-    """files(subject) -> file name -> text: the law, its test, and what they need.
+    """law(subject) -> (name of its file, text). files(subject) -> file name -> text: it, its test, and what they need.
 
     test: the command that runs the test of an export in its folder, with {name} for the subject's identifier.
     """
 
     name: str
     title: str
+    law: Callable[[Subject], tuple[str, str]]
     files: Callable[[Subject], dict[str, str]]
     test: str
 

@@ -57,6 +57,10 @@ SENTENCES: dict[str, dict[str, tuple[str, ...]]] = {
     "jump-goal": {"*": ("It jumps by {value} kp at the goal itself.", SIGNS, "jump at the goal")},
     "jump-half-turns": {
         "jump": ("At half turns it jumps by {value} kp, as {state}: noise can hold it there.", ROBUSTNESS),
+        "kept": (
+            "At half turns its first tick jumps by {value} kp, as {state}; memory keeps the side.",
+            ROBUSTNESS,
+        ),
         "unbounded": ("Towards half turns its command grows without bound, as at {state}.", FAILURES),
     },
     "jump-elsewhere": {
@@ -86,6 +90,8 @@ def sentences(rows: pd.DataFrame, declared: str) -> list[Said]:
     whats, said = dict(zip(rows["finding"].astype(str), rows["what"].astype(str), strict=True)), []
     if whats["dead-half-turns"] != "none" == whats["no-number-half-turns"] and whats["jump-half-turns"] == "jump":
         whats["dead-half-turns"] = "between"
+    if declared == "global with memory" and whats["jump-half-turns"] == "jump":
+        whats["jump-half-turns"] = "kept"
     for row, (finding, what) in zip(rows.to_dict("records"), whats.items(), strict=True):
         known = SENTENCES[finding].get(what) or SENTENCES[finding].get("*" if what != "none" else "")
         if known is not None:

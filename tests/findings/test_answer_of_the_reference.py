@@ -180,7 +180,7 @@ def test_front_page_lead_and_table_name_the_advised_law():
     for one, line in zip((decided().default, *decided().exceptions), lines, strict=True):
         cells = line.split(" | ")
         assert cells[0].removeprefix("| ") == one.need.words
-        assert f"#{families.anchor(one.law)}" in cells[1]
+        assert f"laws/{families.anchor(one.law)}.html" in cells[1]
         assert not one.tied or all(families.word(law) in line for law in one.tied[:2])
 
 

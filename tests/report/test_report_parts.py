@@ -10,12 +10,13 @@ import pandas as pd
 import pytest
 
 from bench.contenders.registry import known_regulators, papers_laws
+from bench.export.language import language_words
 from bench.provenance import ROOT
 from bench.tables import read
 from bench.tables.schema import RESULTS
-from report.figures.cards import regulators
+from report.figures.cards import law_page, regulators
 from report.figures.cost import cost, operations
-from report.figures.kit import html, spelling
+from report.figures.kit import families, html, spelling
 from report.figures.kit.page import Run, run_in
 from report.figures.method import engines, provenance
 from report.figures.problem import conditioning, representations
@@ -41,10 +42,14 @@ def test_our_extraction_is_exact_at_every_distance_and_the_textbooks_is_not():
     assert worst["ours"] < 1e-14 < worst["scipy"] < 1.0 < worst["textbook"]
 
 
-def test_every_regulator_has_a_card_with_its_source():
-    page = regulators.figures(run_in(read.folder()))["cards"]
-    for regulator in known_regulators().values():
-        assert f"bench/contenders/regulators/{regulator.name.replace('-', '_')}.py" in page
+def test_every_law_has_a_page_with_its_source_and_its_files():
+    pages = {made.name: made for made in (law_page.page(one, run_in(read.folder())) for one in law_page.every_law())}
+    assert len(pages) == len(law_page.every_law())
+    for one in law_page.every_law():
+        made, file = pages[families.anchor(one.on_free_body)], f"{one.regulator.name.replace('-', '_')}.py"
+        assert f"bench/contenders/regulators/{file}" in made.body
+        assert len(made.files) == (0 if one.regulator.costing_only else len(language_words()))
+        assert all(f'href="code/{name}"' in made.body for name in made.files)
 
 
 def test_costs_are_drawn_for_every_law():

@@ -11,12 +11,13 @@ import pyarrow.parquet as pq
 import pytest
 from support.command_line import TINY, bench, digest, refused, refused_run
 
+from bench.contenders.registry import contenders_of
 from bench.errors import BadResults
 from bench.findings.claims.tables import Results
 from bench.findings.selection.tables import tables_of
 from bench.tables import files, read, store
 from bench.tables.schema import RESULTS
-from report.figures.cards import regulators
+from report.figures.cards import law_page
 from report.figures.kit.page import run_in
 from report.figures.method import provenance as origin
 
@@ -66,7 +67,7 @@ def evil(renamed, tmp_path, marker, monkeypatch):
 
 def test_law_from_elsewhere_is_shown_as_text_and_not_run(evil, marker):
     [own] = read.own_laws()
-    shown = "".join(regulators.parts(own, run_in(read.folder())))
+    shown = law_page.page(contenders_of(own)[0], run_in(read.folder())).body
     assert (own.name, own.law, marker.exists()) == ("evil-law", None, False)
     assert "was not run" in shown
     assert "uniform starts settle" in shown

@@ -18,11 +18,17 @@ RESULTS = {"command": "u", "orientation": "e", "torque": "tau", "rotation": "R"}
 COMPILE = "cc -std=c99 -O2 -ffp-contract=off -o test_{name} test_{name}.c -lm && ./test_{name}"
 
 
+def law(subject: Subject) -> tuple[str, str]:
+    """The name of its header, and the header."""
+    return f"{subject.identifier}.h", header(subject)
+
+
 def files(subject: Subject) -> dict[str, str]:
     """The header, its test, and the vectors."""
     name, found = subject.identifier, vectors(subject)
+    name_of_law, text = law(subject)
     return {
-        f"{name}.h": header(subject),
+        name_of_law: text,
         f"test_{name}.c": test(subject, found),
         "vectors.json": as_json(subject, found),
         "README.md": readme(subject, LANGUAGE),
@@ -158,4 +164,4 @@ def test(subject: Subject, found: Sequence[Vector]) -> str:
     return program(subject, found, Asking(include, passed, called, lambda one: f"{one.identifier}_state"))
 
 
-LANGUAGE = Language("c", "C99", files, COMPILE)
+LANGUAGE = Language("c", "C99", law, files, COMPILE)

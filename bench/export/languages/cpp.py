@@ -33,11 +33,17 @@ inline Eigen::Matrix3d matrix(const core::Rotation &R) {
 """
 
 
+def law(subject: Subject) -> tuple[str, str]:
+    """The name of its header, and the header."""
+    return f"{subject.identifier}.hpp", header(subject)
+
+
 def files(subject: Subject) -> dict[str, str]:
     """The header, its test, and the vectors."""
     name, found = subject.identifier, vectors(subject)
+    name_of_law, text = law(subject)
     return {
-        f"{name}.hpp": header(subject),
+        name_of_law: text,
         f"test_{name}.cpp": test(subject, found),
         "vectors.json": as_json(subject, found),
         "README.md": readme(subject, LANGUAGE),
@@ -178,4 +184,4 @@ def test(subject: Subject, found: Sequence[Vector]) -> str:
     return program(subject, found, asking)
 
 
-LANGUAGE = Language("cpp", "C++17 on Eigen", files, COMPILE)
+LANGUAGE = Language("cpp", "C++17 on Eigen", law, files, COMPILE)

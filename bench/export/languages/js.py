@@ -54,11 +54,17 @@ class Script(Braces):
         return f"function {function.name}({', '.join(map(self.variable, function.parameters))})"
 
 
+def law(subject: Subject) -> tuple[str, str]:
+    """The name of its script, and the script."""
+    return f"{subject.identifier}.js", script(subject)
+
+
 def files(subject: Subject) -> dict[str, str]:
     """The script, its test, and the vectors."""
     name = subject.identifier
+    name_of_law, text = law(subject)
     return {
-        f"{name}.js": script(subject),
+        name_of_law: text,
         f"test_{name}.js": TEST.replace("NAME", name),
         "vectors.json": as_json(subject, vectors(subject)),
         "README.md": readme(subject, LANGUAGE),
@@ -152,4 +158,4 @@ console.log(`NAME: ${wrong} of ${vectors.length} vectors wrong`);
 process.exit(wrong ? 1 : 0);
 """
 
-LANGUAGE = Language("js", "JavaScript", files, "node test_{name}.js")
+LANGUAGE = Language("js", "JavaScript", law, files, "node test_{name}.js")

@@ -21,11 +21,17 @@ ARRAYS = (
 )
 
 
+def law(subject: Subject) -> tuple[str, str]:
+    """The name of its module, and the module."""
+    return f"{subject.identifier}.py", module(subject)
+
+
 def files(subject: Subject) -> dict[str, str]:
     """The module, its test, and the vectors."""
     name = subject.identifier
+    name_of_law, text = law(subject)
     return {
-        f"{name}.py": module(subject),
+        name_of_law: text,
         f"test_{name}.py": TEST.replace("NAME", name),
         "vectors.json": as_json(subject, vectors(subject)),
         "README.md": readme(subject, LANGUAGE),
@@ -162,4 +168,4 @@ print(f"NAME: {wrong} of {sum(map(len, asked.values()))} vectors wrong")
 sys.exit(1 if wrong else 0)
 '''
 
-LANGUAGE = Language("python", "Python on arrays", files, "python test_{name}.py")
+LANGUAGE = Language("python", "Python on arrays", law, files, "python test_{name}.py")

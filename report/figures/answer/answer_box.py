@@ -55,9 +55,9 @@ def exceptions(advice: needs.Advice) -> str:
 
 def _tab(title: str, word: str, subject: Subject) -> str:
     """The file of the law, the first of an export, as a tab; as text, for colours would be four fifths of the page."""
-    text = next(iter(find_language(word).files(subject).values()))
+    text = find_language(word).law(subject)[1]
     return f"````{{tab-item}} {title}\n```text\n{text}```\n````"
 
 
 def _linked(law: str) -> str:
-    return families.link(law, families.word(law)).replace('href="', 'href="pages/', 1)
+    return families.link(law, families.word(law)).replace('href="../', 'href="', 1)

@@ -163,7 +163,7 @@ def law(name: str, costs) -> dict:
     return {
         "name": families.word(name),
         "title": laws.title(name),
-        "card": f"{families.CARDS}#{families.anchor(name)}",
+        "card": f"{families.PAGES}/{families.anchor(name)}.html",
         "colour": [look.colour, look.dark],
         "cost": cost(name, costs),
     }

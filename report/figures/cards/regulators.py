@@ -1,4 +1,4 @@
-"""The page of regulators: a card for every law that the registry knows; nothing of it is typed here."""
+"""The laws: a line of a table each, and a card; nothing of it is typed here."""
 
 from __future__ import annotations
 
@@ -20,8 +20,7 @@ from bench.findings.selection import needs
 from bench.law.contender import Contender, Regulator
 from bench.tables import read
 from report.figures.cards.card_map import MOST_SETTLED, card_map
-from report.figures.kit import html, laws, style
-from report.figures.kit.families import anchor
+from report.figures.kit import families, html, laws, style
 from report.figures.kit.page import Run
 from report.figures.kit.share import share
 from report.figures.kit.spelling import typeset
@@ -62,14 +61,16 @@ def file_of(regulator: Regulator) -> Path:
     return Path(regulator.origin) if regulator.origin else ours
 
 
-def text_of(regulator: Regulator) -> tuple[str, str]:
-    """What its docstring says: what the law is, and where it fails; nothing of a file that may not run (`trust`)."""
+def text_of(regulator: Regulator) -> tuple[list[str], str]:
+    """What its docstring says: paragraphs on what the law is, and where it fails; nothing of one that may not run."""
     if not (regulator.law or regulator.law_in):
-        return UNTRUSTED, ""
-    text = typeset(" ".join((ast.get_docstring(ast.parse(file_of(regulator).read_bytes())) or "").split()))
+        return [UNTRUSTED], ""
+    text = ast.get_docstring(ast.parse(file_of(regulator).read_bytes())) or ""
     found = FAILS.search(text)
-    fails = found[1] if found else ""
-    return text[: found.start()].strip() if found else text, fails[:1].upper() + fails[1:]
+    fails = typeset(" ".join(found[1].split())) if found else ""
+    about = text[: found.start()] if found else text
+    paragraphs = [typeset(" ".join(one.split())) for one in about.split("\n\n") if one.strip()]
+    return paragraphs, fails[:1].upper() + fails[1:]
 
 
 def costs_of(one: Contender, run: Run) -> pd.DataFrame:
@@ -116,7 +117,7 @@ def advised(law: str, run: Run) -> str:
 
 
 def card(one: Contender, run: Run) -> str:
-    """Heading and card of one law: source, formula, words, costs, and the map of its failures."""
+    """Card of one law: source, formula, words, costs, and the map of its failures."""
     regulator, title = one.regulator, laws.title_of(one)
     episodes = run.rows("episodes", contender=one.name, engine=engine_of(regulator))
     drawn = f'<div class="card-map">{card_map(episodes, title)._repr_html_()}</div>' if len(episodes) else ""
@@ -124,8 +125,7 @@ def card(one: Contender, run: Run) -> str:
     look, alone = html.both(style.look(one.name).colour), "" if drawn else " alone"
     return (
         f'<section class="law-card{alone}" style="--law: {look}" aria-label="{markup.escape(title, quote=True)}">'
-        f'<header><h2 id="{anchor(one.name)}">{html.foreign(title)}</h2>'
-        f'<span class="card-source">{html.foreign(regulator.source)}</span></header>{formula}'
+        f'<header><span class="card-source">{html.foreign(regulator.source)}</span></header>{formula}'
         f'<div class="card-body"><div class="card-text">{said_of(one, episodes, run)}'
         f'<div class="card-costs" tabindex="0">{html.plain_table(costs_of(one, run))}</div></div>{drawn}</div>'
         "</section>"
@@ -145,7 +145,7 @@ def said_of(one: Contender, episodes: pd.DataFrame, run: Run) -> str:
         "Advised": advised(one.name, run),
     }
     lines = [f'<p class="card-fact"><b>{head}.</b> {html.foreign(text)}</p>' for head, text in words.items() if text]
-    return f"<p>{html.foreign(what)}</p>{''.join(lines)}"
+    return "".join((*(f"<p>{html.foreign(one)}</p>" for one in what), *lines))
 
 
 def source(regulator: Regulator) -> str:
@@ -158,17 +158,6 @@ def source(regulator: Regulator) -> str:
         f'<details class="law-source"><summary>Its file, <code>{where}</code></summary>'
         f'<div class="highlight"><pre tabindex="0">{code}</pre></div></details>'
     )
-
-
-def parts(regulator: Regulator, run: Run) -> list[str]:
-    """The pieces of one law: its card and its file, then, folded, the same law in other coordinates."""
-    first, *others = papers_first(regulator)
-    found = [card(first, run), source(regulator)]
-    if others:
-        words = f"{html.law(first.name, regulator.title)} in {len(others)} other coordinates"
-        inside = "".join(card(one, run) for one in others)
-        found.append(f'<details class="columns"><summary>{words}</summary>{inside}</details>')
-    return found
 
 
 def facts(run: Run) -> dict:
@@ -193,13 +182,8 @@ def line(one: Contender, run: Run) -> tuple:
     """A link to a law's card, what is proved, what was measured, its word on the command line."""
     uniform = run.rows("episodes", contender=one.name, engine=engine_of(one.regulator), start_set="uniform")
     return (
-        f'<a href="#{anchor(one.name)}">{html.law(one.name, laws.title_of(one))}</a>',
+        families.link(one.name, laws.title_of(one)),
         html.together(html.foreign(one.regulator.property)),
         (uniform["outcome"] == "settled").mean() if len(uniform) else None,
         f"`{one.name}`",
     )
-
-
-def figures(run: Run) -> dict:
-    """All cards, in order."""
-    return {"cards": html.Html("".join(part for regulator in in_order() for part in parts(regulator, run)))}

@@ -12,7 +12,9 @@ from typing import NamedTuple
 from bench.contenders.registry import all_contenders
 from report.figures.kit import html, laws
 
-CARDS = "03-regulators.html"
+PAGES = "../laws"
+"""Where each law has a page, from a page of the book."""
+
 OTHERS = "Others"
 """The family of a law that none names: a user's own, or a new one."""
 
@@ -69,10 +71,10 @@ def word(name: str) -> str:
 
 
 def anchor(name: str) -> str:
-    """The id of a law's card on its page."""
+    """What a law's page is called."""
     return name.replace("/", "-")
 
 
 def link(name: str, text: str) -> html.Html:
-    """A law by this text, leading to its card."""
-    return html.Html(f'<a href="{CARDS}#{anchor(name)}">{html.law(name, text)}</a>')
+    """A law by this text, leading to its page."""
+    return html.Html(f'<a href="{PAGES}/{anchor(name)}.html">{html.law(name, text)}</a>')

@@ -1,0 +1,30 @@
+"""Sphinx extension: a page for every law, laws/NAME.html, with its card, files for other languages and source."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+FOLDER, CODE = "laws", "laws/code"
+
+
+def collected(app) -> Iterator[tuple[str, dict, str]]:
+    """(name, context, template) of each page; the files that it offers are written beside it."""
+    from bench.tables import read
+    from report.figures.cards import law_page
+    from report.figures.kit.page import run_in
+
+    run = run_in(read.folder())
+    for one in law_page.every_law():
+        made = law_page.page(one, run)
+        for name, text in made.files.items():
+            target = Path(app.outdir) / CODE / name
+            target.parent.mkdir(parents=True, exist_ok=True)
+            target.write_text(text, encoding="utf-8")
+        yield f"{FOLDER}/{made.name}", {"title": made.title, "body": made.body}, "page.html"
+
+
+def setup(app) -> dict:
+    app.connect("html-collect-pages", collected)
+    app.set_html_assets_policy("always")  # formulas stand in pages that no source file has
+    return {"parallel_read_safe": True, "parallel_write_safe": True}

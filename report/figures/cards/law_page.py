@@ -1,0 +1,56 @@
+"""A law's own page: formula, words, where it fails, costs, map, its files for other languages, and its source."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from bench.export.language import find_language, language_words
+from bench.export.subject import find_subject
+from bench.law.contender import Contender
+from report.figures.cards import regulators
+from report.figures.kit import html, laws
+from report.figures.kit.families import anchor
+from report.figures.kit.page import Run
+
+
+class LawPage(NamedTuple):
+    """name: of the page, without a suffix. files: what it offers to take away, by name."""
+
+    name: str
+    title: str
+    body: str
+    files: dict[str, str]
+
+
+def every_law() -> list[Contender]:
+    """Each in each of its coordinates, the run's own among them."""
+    return [one for regulator in regulators.in_order() for one in regulators.papers_first(regulator)]
+
+
+def page(one: Contender, run: Run) -> LawPage:
+    """The page of a law."""
+    title, files = laws.title_of(one), exported(one)
+    body = (
+        f"<section><h1>{html.foreign(title)}</h1>{regulators.card(one, run)}"
+        f"{_taken(one, files)}{regulators.source(one.regulator)}</section>"
+    )
+    return LawPage(anchor(one.on_free_body), title, body, dict(files.values()))
+
+
+def exported(one: Contender) -> dict[str, tuple[str, str]]:
+    """By the language's title, the first file of its export: name and text; none of a user's own law."""
+    if one.regulator.origin or one.regulator.costing_only:
+        return {}
+    subject = find_subject(one.on_free_body)
+    return {each.title: each.law(subject) for each in map(find_language, language_words())}
+
+
+def _taken(one: Contender, files: dict[str, tuple[str, str]]) -> str:
+    """What leads to its files and to the page on which it runs."""
+    if not files:
+        return ""
+    links = ", ".join(f'<a href="code/{name}" download>{title}</a>' for title, (name, _) in files.items())
+    return (
+        f'<p><a href="../pages/26-live.html#a={one.on_free_body}">Try it</a>, or take it: {links}. '
+        f"<code>python -m bench export {one.on_free_body} --to c</code> adds test vectors and a test.</p>"
+    )
