@@ -11,6 +11,7 @@ from typing import Any
 
 from bench.contenders import (
     baselines,
+    compensators,
     dampings,
     impedances,
     inverses,
@@ -22,6 +23,7 @@ from bench.contenders import (
     springs,
 )
 from bench.errors import BadLaw, Incompatible, UnknownWord
+from bench.law.compensator import Compensator
 from bench.law.contender import ON_MATRIX, Contender, Regulator, Representation, contender
 from bench.law.damping import Damping
 from bench.law.impedance import Impedance
@@ -61,6 +63,7 @@ FOLDERS = {
     "limiter": (limiters, Limiter),
     "shipped": (shipped, Shipped),
     "spring": (springs, Spring),
+    "compensator": (compensators, Compensator),
 }
 """What is found in a folder of bench/contenders: constants of one type, named as their kind."""
 
@@ -81,6 +84,7 @@ known_dampings = functools.partial(known, "damping")
 known_limiters = functools.partial(known, "limiter")
 known_shipped = functools.partial(known, "shipped")
 known_springs = functools.partial(known, "spring")
+known_compensators = functools.partial(known, "compensator")
 
 
 def baselines_of_arms() -> dict[str, Contender]:

@@ -10,6 +10,7 @@ so3              rotations as three columns, and vectors
 linalg/          products, eliminations and rotations of small matrices
 contender        Regulator, Contender, Gains, Goal
 representation   Representation; euler: what Euler angles share
+compensator      Compensator: a law with a state of its own
 resolved_motion  Jacobian, Inverse: from the tool's acceleration to the joints
 impedance        Impedance
 damping          Damping, of an impedance that shapes no inertia
@@ -23,6 +24,7 @@ tracking         goals that move
 # ruff: noqa: F401  the public face: what it imports is what it gives
 
 from bench.law.chain import bias_acceleration, twist
+from bench.law.compensator import Compensator
 from bench.law.contender import AT_REST, Contender, Gains, Goal, Regulator
 from bench.law.damping import Damping
 from bench.law.equation import ANGLE, CHORD, LINEAR_MRP, LINEAR_SINE, QUARTER, SINE, TANGENT, Equation

@@ -80,6 +80,7 @@ LISTED = {
     "limiters": "dropped-limiter",
     "shipped": "dropped-shipped",
     "springs": "dropped-spring",
+    "compensators": "dropped-compensator",
     "baselines": "dropped-baseline",
     "metrics of contact": "dropped_touch",
     "tasks in contact": "dropped-probe",
