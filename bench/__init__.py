@@ -16,8 +16,8 @@ metrics/      what is measured: motion/ along an episode, contact/ of a hand in 
 counting/     operations of the code that runs
 tables/       schema, store, files, read, statistics, lock; trust and kept_laws (laws of a results folder that may run)
 experiments/  one file an experiment: free_body, arm, contact, robustness, velocity, velocity_limits, impedance,
-              impedance_modes, springs, goal_streams, traces, boundaries, command_field, shipped, jacobians, costs; what
-              plans them (experiment, plan, suites, choice); rows/ (from what engines give back)
+              impedance_modes, springs, compensators, goal_streams, traces, boundaries, command_field, shipped,
+              jacobians, costs; what plans them (experiment, plan, suites, choice); rows/ (from what engines give back)
 running/      run, run_folder (until it is finished), order, precompile, sandbox (a user's laws), wire_format,
               schedulers/ (threads, and a Dask cluster), finish (the tables)
 timing/       time per tick (pytest-benchmark)

@@ -12,7 +12,8 @@ class Compensator(NamedTuple):
     is, and needs no period.
 
     measures_rate: whether the law reads omega. rejects: whether a constant disturbance leaves no error.
-    polynomial(kp, kv): of small angles, the coefficients (c2, c1, c0) of s^3 + c2 s^2 + c1 s + c0.
+    polynomial(kp, kv): of small angles, the coefficients (c2, c1, c0) of s^3 + c2 s^2 + c1 s + c0; None of one
+    whose state does nothing.
     bound(kp, kv): what |u| never exceeds [rad/s^2]; None if there is nothing.
     property: what is proved of it, and for which gains.
     """
@@ -23,7 +24,7 @@ class Compensator(NamedTuple):
     formula: str
     law: Callable
     begin: Callable
-    polynomial: Callable
+    polynomial: Callable | None
     measures_rate: bool
     rejects: bool
     property: str
