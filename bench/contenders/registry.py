@@ -17,6 +17,7 @@ from bench.contenders import (
     inverses,
     jacobians,
     limiters,
+    pointings,
     regulators,
     representations,
     shipped,
@@ -28,6 +29,7 @@ from bench.law.contender import ON_MATRIX, Contender, Regulator, Representation,
 from bench.law.damping import Damping
 from bench.law.impedance import Impedance
 from bench.law.limiter import Limiter
+from bench.law.pointing import Pointing
 from bench.law.resolved_motion import Inverse, Jacobian
 from bench.law.shipped import Shipped
 from bench.law.spring import Spring
@@ -64,6 +66,7 @@ FOLDERS = {
     "shipped": (shipped, Shipped),
     "spring": (springs, Spring),
     "compensator": (compensators, Compensator),
+    "pointing": (pointings, Pointing),
 }
 """What is found in a folder of bench/contenders: constants of one type, named as their kind."""
 
@@ -85,6 +88,7 @@ known_limiters = functools.partial(known, "limiter")
 known_shipped = functools.partial(known, "shipped")
 known_springs = functools.partial(known, "spring")
 known_compensators = functools.partial(known, "compensator")
+known_pointings = functools.partial(known, "pointing")
 
 
 def baselines_of_arms() -> dict[str, Contender]:

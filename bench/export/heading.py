@@ -8,7 +8,7 @@ from typing import Any
 
 from bench.counting.costs import FLOPS, cost
 from bench.counting.counted import TOTAL
-from bench.export.subject import SPRING, STATED, Subject
+from bench.export.subject import AXIAL, SPRING, STATED, Subject
 from bench.law.contender import Regulator
 from bench.provenance import ROOT
 
@@ -49,6 +49,11 @@ def _facts(subject: Subject) -> list[str]:
             "Gains     kp [1/s^2], kv [1/s]; what they set is in the formula",
             f"Property  {subject.record.property}",
             "State     four numbers; begin gives the first of them, next_state those of every period after",
+        ]
+    elif subject.word.startswith(AXIAL):
+        lines += [
+            "Gains     kp [1/s^2], kv [1/s]; near the goal theta'' = -kp theta - kv theta'",
+            f"Property  {subject.record.property}",
         ]
     elif subject.word.startswith(SPRING):
         lines.append("Gains     kp [1/s^2], kv [1/s]; apparent inertia [kg m^2]; stiffness at the goal kp times that")

@@ -11,6 +11,7 @@ linalg/          products, eliminations and rotations of small matrices
 contender        Regulator, Contender, Gains, Goal
 representation   Representation; euler: what Euler angles share
 compensator      Compensator: a law with a state of its own
+pointing         Pointing: a law of one axis, in S^2
 resolved_motion  Jacobian, Inverse: from the tool's acceleration to the joints
 impedance        Impedance
 damping          Damping, of an impedance that shapes no inertia
@@ -45,6 +46,7 @@ from bench.law.linalg import (
     solve_upper,
 )
 from bench.law.look import Look
+from bench.law.pointing import Pointing
 from bench.law.representation import Representation
 from bench.law.resolved_motion import Inverse, Jacobian
 from bench.law.scalar import acos, atan2, copysign, cos, kernel, sin, sqrt

@@ -81,6 +81,7 @@ LISTED = {
     "shipped": "dropped-shipped",
     "springs": "dropped-spring",
     "compensators": "dropped-compensator",
+    "pointings": "dropped-pointing",
     "baselines": "dropped-baseline",
     "metrics of contact": "dropped_touch",
     "tasks in contact": "dropped-probe",
