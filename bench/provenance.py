@@ -16,7 +16,8 @@ DECIDING = (
     *("tasks", "bench/errors.py", "bench/law", "bench/audit", "bench/contenders", "bench/control", "bench/engines"),
     *("bench/metrics", "bench/counting", "bench/experiments", "bench/running"),
     *("bench/tables/column.py", "bench/tables/motion_columns.py", "bench/tables/other_columns.py"),
-    *("bench/tables/impedance_columns.py", "bench/tables/shipped_columns.py", "bench/tables/velocity_columns.py"),
+    *("bench/tables/compensator_columns.py", "bench/tables/impedance_columns.py"),
+    *("bench/tables/shipped_columns.py", "bench/tables/velocity_columns.py"),
     "bench/tables/schema.py",
     *("bench/tables/files.py", "bench/tables/store.py", "bench/tables/kept_costs.py", "bench/tables/kept_rows.py"),
 )

@@ -10,11 +10,13 @@ from bench.cli import options
 from bench.cli.screen import Frame, console, word_table
 from bench.contenders.registry import (
     baselines_of_arms,
+    known_compensators,
     known_dampings,
     known_impedances,
     known_inverses,
     known_jacobians,
     known_limiters,
+    known_pointings,
     known_regulators,
     known_representations,
     known_shipped,
@@ -55,8 +57,8 @@ def COMMAND(kind, laws):
     """What there is to run, of one kind or of all.
 
     Kinds: regulators, representations, jacobians, inverses, controllers, impedances, dampings, limiters, shipped,
-    springs, metrics, tasks, arms, variations, axes, starts, engines, suites, experiments, claims. A file of an arm that
-    cannot be used is listed with the reason.
+    springs, compensators, pointings, metrics, tasks, arms, variations, axes, starts, engines, suites, experiments,
+    claims. A file of an arm that cannot be used is listed with the reason.
     """
     own = options.own_laws(laws)
     if kind is not None and kind not in KINDS:
@@ -137,6 +139,20 @@ def _limiters(_):
 @kind("springs", "Rotational springs with a stiffness matrix", "name", "potential", "title", "source")
 def _springs(_):
     return ((one.name, "yes" if one.potential else "no", one.title, one.source) for one in known_springs().values())
+
+
+@kind("compensators", "Laws with a state of their own", "name", "reads the rate", "proved", "title", "source")
+def _compensators(_):
+    for one in known_compensators().values():
+        yield one.name, "yes" if one.measures_rate else "no", one.property, one.title, one.source
+
+
+@kind(
+    "pointings", "Laws of reduced attitude, which point an axis", "name", "keeps the spin", "proved", "title", "source"
+)
+def _pointings(_):
+    for one in known_pointings().values():
+        yield one.name, "yes" if one.keeps_spin else "no", one.property, one.title, one.source
 
 
 @kind("metrics", "Metrics", "column", "unit", "of", "meaning")

@@ -11,21 +11,25 @@ from typing import Any
 
 from bench.contenders import (
     baselines,
+    compensators,
     dampings,
     impedances,
     inverses,
     jacobians,
     limiters,
+    pointings,
     regulators,
     representations,
     shipped,
     springs,
 )
 from bench.errors import BadLaw, Incompatible, UnknownWord
+from bench.law.compensator import Compensator
 from bench.law.contender import ON_MATRIX, Contender, Regulator, Representation, contender
 from bench.law.damping import Damping
 from bench.law.impedance import Impedance
 from bench.law.limiter import Limiter
+from bench.law.pointing import Pointing
 from bench.law.resolved_motion import Inverse, Jacobian
 from bench.law.shipped import Shipped
 from bench.law.spring import Spring
@@ -61,6 +65,8 @@ FOLDERS = {
     "limiter": (limiters, Limiter),
     "shipped": (shipped, Shipped),
     "spring": (springs, Spring),
+    "compensator": (compensators, Compensator),
+    "pointing": (pointings, Pointing),
 }
 """What is found in a folder of bench/contenders: constants of one type, named as their kind."""
 
@@ -81,6 +87,8 @@ known_dampings = functools.partial(known, "damping")
 known_limiters = functools.partial(known, "limiter")
 known_shipped = functools.partial(known, "shipped")
 known_springs = functools.partial(known, "spring")
+known_compensators = functools.partial(known, "compensator")
+known_pointings = functools.partial(known, "pointing")
 
 
 def baselines_of_arms() -> dict[str, Contender]:

@@ -132,7 +132,7 @@ def of_law(law: Callable, has_memory: bool) -> list[Entry]:
                 "torque": (form.R, omega, form.R_d, GAINS, INERTIA, *kept),
             }
             for name, doc in wanted:
-                found.append(_entry(f"{name}{frame}", form, made, given[name], doc))
+                found.append(named_entry(f"{name}{frame}", form, made, given[name], doc))
     return found
 
 
@@ -214,11 +214,11 @@ def of_impedance(law: Callable) -> list[Entry]:
         for frame in ("", "_body"):
             omega, moment = Parameter(f"omega{frame}", "tuple", 3), Parameter(f"moment{frame}", "tuple", 3)
             given = (form.R, omega, moment, form.R_d, GAINS, Parameter("apparent_inertia", "number"))
-            found.append(_entry(f"command{frame}", form, made, given, f"{COMMAND} under a moment [N m]"))
+            found.append(named_entry(f"command{frame}", form, made, given, f"{COMMAND} under a moment [N m]"))
     return found
 
 
-def _entry(name: str, form: Form, made: dict[str, Callable], given: tuple[Parameter, ...], doc: str) -> Entry:
+def named_entry(name: str, form: Form, made: dict[str, Callable], given: tuple[Parameter, ...], doc: str) -> Entry:
     """The entry of that name for a form; its function takes the name too, for others of the form call it."""
     function = made[name]
     function.__name__ = f"{name}{form.suffix}"
@@ -271,7 +271,7 @@ def of_representation(one: Representation) -> list[Entry]:
         return convert(chart_of(E), moment)
 
     return [
-        *(_entry("coordinates", form, _read(chart, form.read), (form.R,), "E of R") for form in FORMS),
+        *(named_entry("coordinates", form, _read(chart, form.read), (form.R,), "E of R") for form in FORMS),
         Entry("rotation", rotation, (E,), "matrix", "R of E"),
         Entry("rates", rates, (E, omega), "tuple", "Edot = B^-1 omega"),
         Entry("angular_velocity", angular_velocity, (E, Edot), "tuple", "omega = B Edot"),

@@ -8,7 +8,7 @@ from typing import Any
 
 from bench.counting.costs import FLOPS, cost
 from bench.counting.counted import TOTAL
-from bench.export.subject import Subject
+from bench.export.subject import AXIAL, SPRING, STATED, Subject
 from bench.law.contender import Regulator
 from bench.provenance import ROOT
 
@@ -44,7 +44,18 @@ def _facts(subject: Subject) -> list[str]:
         if subject.memory is not None:
             first = ", ".join(map(repr, subject.memory))
             lines.append(f"Memory    four numbers from tick to tick, at first ({first})")
-    elif subject.word.startswith("impedance-"):
+    elif subject.word.startswith(STATED):
+        lines += [
+            "Gains     kp [1/s^2], kv [1/s]; what they set is in the formula",
+            f"Property  {subject.record.property}",
+            "State     four numbers; begin gives the first of them, next_state those of every period after",
+        ]
+    elif subject.word.startswith(AXIAL):
+        lines += [
+            "Gains     kp [1/s^2], kv [1/s]; near the goal theta'' = -kp theta - kv theta'",
+            f"Property  {subject.record.property}",
+        ]
+    elif subject.word.startswith(SPRING):
         lines.append("Gains     kp [1/s^2], kv [1/s]; apparent inertia [kg m^2]; stiffness at the goal kp times that")
     texts = [sys.modules[one.__module__].__doc__ or "" for one in _functions(subject.record)]
     fails = failures(texts[0]) if texts else ""

@@ -1,4 +1,4 @@
-"""What is exported: a regulator, coordinates or an impedance, with its entries as functions.
+"""What is exported: a law, coordinates or an impedance, with its entries as functions.
 
 find_subject("feedback-linearized/zyx-euler"), find_subject("representation-mrp"), find_subject("impedance-geometric")
 """
@@ -8,17 +8,18 @@ from collections.abc import Callable
 from typing import Any, NamedTuple
 
 from bench.contenders import registry
-from bench.contenders.registry import known_impedances, known_representations
+from bench.contenders.registry import known_compensators, known_impedances, known_pointings, known_representations
 from bench.control.registry import all_controllers
 from bench.errors import UnknownWord
+from bench.export.compensated import of_compensator, of_pointing
 from bench.export.entries import Entry, of_impedance, of_law, of_representation
 from bench.export.program import Function, read_function
 from bench.export.types import REAL, Kind, Program, Tuple, Typed, numbers
 from bench.law.contender import Contender, Gains, Regulator
 from bench.law.so3 import Rotation
 
-COORDINATES, SPRING = "representation-", "impedance-"
-"""What the words of representations and impedances begin with; a regulator's is its name."""
+COORDINATES, SPRING, STATED, AXIAL = "representation-", "impedance-", "compensator-", "pointing-"
+"""What words begin with, by kind; a regulator's is its name."""
 
 
 class Subject(NamedTuple):
@@ -44,19 +45,27 @@ def subject_words(extra: tuple[Regulator, ...] = ()) -> list[str]:
     """Everything that can be exported."""
     laws = [one.name for one in registry.all_contenders(extra)]
     springs = [one.name for one in all_controllers() if one.impedance is not None]
-    return [*laws, *(f"{COORDINATES}{name}" for name in known_representations()), *springs]
+    stated = (f"{STATED}{name}" for name in known_compensators())
+    axial = (f"{AXIAL}{name}" for name in known_pointings())
+    return [*laws, *(f"{COORDINATES}{name}" for name in known_representations()), *springs, *stated, *axial]
 
 
 def find_subject(word: str, extra: tuple[Regulator, ...] = ()) -> Subject:
     """The subject of a word.
 
     Errors:
-        UnknownWord: no such law, coordinates or impedance. Incompatible: coordinates are missing, or do not fit.
+        UnknownWord: nothing of that name. Incompatible: coordinates are missing, or do not fit.
     """
     first, _, second = word.partition("/")
     if first.startswith(COORDINATES):
         one = registry.representation(first.removeprefix(COORDINATES))
         return Subject(word, one, None, tuple(of_representation(one)))
+    if first.startswith(STATED) and first.removeprefix(STATED) in known_compensators():
+        compensator = known_compensators()[first.removeprefix(STATED)]
+        return Subject(word, compensator, None, tuple(of_compensator(compensator.law, compensator.begin)))
+    if first.startswith(AXIAL) and first.removeprefix(AXIAL) in known_pointings():
+        pointing = known_pointings()[first.removeprefix(AXIAL)]
+        return Subject(word, pointing, None, (of_pointing(pointing.law),))
     if first.startswith(SPRING) and first.removeprefix(SPRING) in known_impedances():
         spring = known_impedances()[first.removeprefix(SPRING)]
         along = registry.representation(second) if second else None

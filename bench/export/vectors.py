@@ -127,6 +127,8 @@ def _argument(subject: Subject, one: Parameter, state: State, random: np.random.
         return float(random.uniform(0.5, 2.0))
     if one.name.startswith("omega"):
         return state.omega.tolist()
+    if one.name.startswith("axis"):
+        return _unit(random.normal(size=3)).tolist()
     if one.name == "E":
         E = subject.record.chart(from_quaternion(tuple(quat))).E
         return [float(each) for each in E]

@@ -10,6 +10,8 @@ so3              rotations as three columns, and vectors
 linalg/          products, eliminations and rotations of small matrices
 contender        Regulator, Contender, Gains, Goal
 representation   Representation; euler: what Euler angles share
+compensator      Compensator: a law with a state of its own
+pointing         Pointing: a law of one axis, in S^2
 resolved_motion  Jacobian, Inverse: from the tool's acceleration to the joints
 impedance        Impedance
 damping          Damping, of an impedance that shapes no inertia
@@ -23,6 +25,7 @@ tracking         goals that move
 # ruff: noqa: F401  the public face: what it imports is what it gives
 
 from bench.law.chain import bias_acceleration, twist
+from bench.law.compensator import Compensator
 from bench.law.contender import AT_REST, Contender, Gains, Goal, Regulator
 from bench.law.damping import Damping
 from bench.law.equation import ANGLE, CHORD, LINEAR_MRP, LINEAR_SINE, QUARTER, SINE, TANGENT, Equation
@@ -43,6 +46,7 @@ from bench.law.linalg import (
     solve_upper,
 )
 from bench.law.look import Look
+from bench.law.pointing import Pointing
 from bench.law.representation import Representation
 from bench.law.resolved_motion import Inverse, Jacobian
 from bench.law.scalar import acos, atan2, copysign, cos, kernel, sin, sqrt

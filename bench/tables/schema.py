@@ -5,6 +5,7 @@ from bench.tables import motion_columns as motion
 from bench.tables import other_columns as other
 from bench.tables import velocity_columns as velocity
 from bench.tables.column import Table
+from bench.tables.compensator_columns import compensator_columns
 from bench.tables.impedance_columns import impedance_columns, mode_columns
 from bench.tables.shipped_columns import shipped_columns
 
@@ -24,6 +25,7 @@ TABLES = {
         Table("command-field", motion.field_columns, (*CONTENDER, "finding")),
         Table("shipped", shipped_columns, ("shipped", "law")),
         Table("springs", motion.spring_columns, ("spring", "frame")),
+        Table("compensators", compensator_columns, ("law", "disturbance")),
         Table("goal-streams", motion.stream_columns, ("stream", "law")),
         Table(
             "map",

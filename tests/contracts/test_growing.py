@@ -80,6 +80,8 @@ LISTED = {
     "limiters": "dropped-limiter",
     "shipped": "dropped-shipped",
     "springs": "dropped-spring",
+    "compensators": "dropped-compensator",
+    "pointings": "dropped-pointing",
     "baselines": "dropped-baseline",
     "metrics of contact": "dropped_touch",
     "tasks in contact": "dropped-probe",

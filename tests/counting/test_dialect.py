@@ -10,7 +10,17 @@ from bench.counting.dialect import CONTROLLER_SOURCES, violations
 from bench.law.scalar import KERNELS
 
 ROOM = Path(bench.__file__).parent
-KINDS = ("regulators", "representations", "jacobians", "inverses", "limiters", "springs", "dampings")
+KINDS = (
+    "regulators",
+    "representations",
+    "jacobians",
+    "inverses",
+    "limiters",
+    "springs",
+    "dampings",
+    "compensators",
+    "pointings",
+)
 FILES = sorted(
     path
     for pattern in (

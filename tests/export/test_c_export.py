@@ -88,7 +88,13 @@ def test_vectors_pass_in_c_where_nothing_of_ours_is_installed(tmp_path):
         assert (ended.returncode, " 0 of " in ended.stdout) == (0, True), (one.word, ended.stdout)
 
 
-IN_CPP = ("late-braking", "feedback-linearized/zyx-euler", "representation-quaternion", "impedance-geometric")
+IN_CPP = (
+    "late-braking",
+    "feedback-linearized/zyx-euler",
+    "representation-quaternion",
+    "impedance-geometric",
+    "compensator-integral",
+)
 """With memory, calling libm, with four coordinates and matrices returned, and with a number among its arguments."""
 
 

@@ -1,0 +1,81 @@
+"""Rows of laws with a state: bit for bit the plain loop's, scipy's motion, and what a disturbance leaves in theory."""
+
+import functools
+import math
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation as ScipyRotation
+from support.compensated import left, motion
+from support.driving import settings
+
+import tasks
+from bench.contenders.registry import find_contender, known_compensators
+from bench.engines.compensated import LEFT, Asked, loop, run, without_state
+from bench.engines.episode import FINAL_ANGLE
+from bench.engines.run import run as run_law
+from bench.experiments.compensators import DISTURBANCES
+from bench.experiments.experiment import Settings, Unit, rows_of
+from bench.experiments.rows.compensators import BAND_RAD, law_of
+from bench.law.contender import Gains
+from bench.metrics.registry import metrics_of
+from tasks.base import Start
+
+NAMES = ("", *known_compensators())
+PUSHED = (3.0, -4.0, 2.0)
+
+
+def asked(ticks, disturbance=PUSHED, dt=1e-3):
+    return Asked(dt, float(ticks), float(BAND_RAD), *disturbance)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_compiled_rows_are_the_plain_loops_bit_for_bit(name):
+    one, starts, given = law_of(name), tasks.start_set("uniform", 3), asked(200)
+    begun = np.array([(*start.quat_wxyz, *start.omega, *start.goal_wxyz) for start in starts])
+    plain = np.empty((len(starts), 3))
+    loop(one.law, one.begin, begun, given, Gains(np.float64(70.0), np.float64(13.0)), plain)
+    np.testing.assert_array_equal(run(one, starts, Gains(70.0, 13.0), given), plain)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_end_of_an_episode_is_scipys(name):
+    """RK4 of 1 ms beside poles of 50/s leaves (p h)^4/120 = 5e-8 of what moves."""
+    one, goal = law_of(name), ScipyRotation.from_rotvec((0.3, 1.0, -0.4))
+    first = ScipyRotation.from_rotvec((-1.0, 0.2, 1.5))
+    quat_wxyz, goal_wxyz = (tuple(turn.as_quat(scalar_first=True)) for turn in (first, goal))
+    start = Start("one", quat_wxyz, (1.0, -2.0, 0.5), goal_wxyz)
+    for seconds in (0.05, 0.2, 0.6):
+        rows = run(one, [start], Gains(), asked(round(1e3 * seconds)))
+        R, _, _ = motion(one, first, goal, Gains(), np.array((0.0, seconds)), start.omega, PUSHED)
+        assert rows[0, LEFT] == pytest.approx(np.linalg.norm(left(R[-1], goal)), abs=1e-6)
+
+
+@functools.cache
+def rows(name):
+    return rows_of(Settings(), Unit("compensators", selector=name, count=8, total=8, horizon_s=8.0))
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_disturbance_leaves_its_sine_over_kp_without_an_integral_and_nothing_with_one(name):
+    one, found = law_of(name), rows(name)
+    for level, off, settled in zip(found["disturbance"], found["left_rad"], found["settled"], strict=True):
+        assert off == pytest.approx(0.0 if one.rejects else math.asin(level / Gains().kp), abs=1e-6)
+        assert settled == (8 if off < BAND_RAD else 0)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_rows_are_one_a_disturbance_and_within_a_stated_bound(name):
+    one, found = law_of(name), rows(name)
+    assert tuple(found["disturbance"]) == DISTURBANCES
+    assert found["settling_median_s"].isna().equals(found["settled"] == 0)
+    assert one.bound is None or (found["peak_u"] <= one.bound(*Gains())).all()
+
+
+def test_regulator_without_a_state_ends_where_its_own_engine_has_it():
+    """Both are RK4 of 1 ms, of R there and of a quaternion here: what the steps leave differs."""
+    starts = tasks.start_set("uniform", 20)
+    one = find_contender("rotation-matrix")
+    ours = run(without_state(one.regulator), starts, Gains(), asked(300, (0.0, 0.0, 0.0)))
+    theirs = run_law("ideal-rk4", one, "free-body", starts, settings(horizon_s=0.3), metrics_of(on_arm=False))
+    np.testing.assert_allclose(ours[:, LEFT], theirs[:, FINAL_ANGLE], rtol=0.0, atol=1e-7)
