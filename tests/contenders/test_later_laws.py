@@ -16,6 +16,7 @@ GAINS = Gains(kp=100.0, kv=20.0)
 # The spring of each isotropic law, f in u = Kp f(theta) k - Kv omega, from rest, the short way round.
 SPRINGS = {
     "rotation-matrix": math.sin,
+    "bounded-command": math.sin,
     "square-root": lambda theta: 2.0 * math.sin(theta / 2.0),
     "quaternion-shortest": lambda theta: 2.0 * math.sin(theta / 2.0),
     "hybrid": lambda theta: 2.0 * math.sin(theta / 2.0),
@@ -30,6 +31,7 @@ SPRINGS = {
 
 # What the rate adds to thetadd = -Kp f - Kv thetad, of laws whose damping is no mere Kv omega.
 ADDED = {
+    "bounded-command": lambda theta, rate: 20.0 * rate * (1.0 - 1.0 / math.hypot(1.0, rate / 5.0)),
     "paielli-bach": lambda theta, rate: 0.5 * rate**2 * math.tan(theta / 2.0),
     "mrp-linearized": lambda theta, rate: -0.5 * rate**2 * math.tan(theta / 4.0),
     "sliding": lambda theta, rate: 10.0 * (1.0 - math.cos(theta / 2.0)) * rate,
