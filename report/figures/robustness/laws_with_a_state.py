@@ -1,0 +1,66 @@
+"""Laws with a state of their own: what they leave under a constant disturbance, and what they need to measure."""
+
+from __future__ import annotations
+
+import math
+
+import pandas as pd
+
+from bench.contenders.registry import known_compensators, known_pointings, known_regulators
+from report.figures.kit import html
+from report.figures.kit.page import Run
+from report.figures.kit.tables import Table
+
+STATES = Table("Law | Measures the rate | Disturbance [rad/s²]:g | Left [°]:.2f | Within 1° [s]:.2f | Slowest [s]:.2f")
+FACTS = ("left", "disturbance", "starts", "faster", "pointings")
+
+
+def compensated(run: Run) -> pd.DataFrame:
+    """Rows, words as text."""
+    rows = run.rows("compensators")
+    return rows.astype({"law": str, "reads_rate": str}) if len(rows) else rows
+
+
+def facts(run: Run) -> dict:
+    """What laws without an integral leave; how long the law without a rate takes over the one whose spring it has."""
+    rows = compensated(run)
+    if rows.empty:
+        return dict.fromkeys(FACTS)
+    worst = rows["disturbance"].max()
+    rejecting = {name for name, one in known_compensators().items() if one.rejects}
+    left = rows[(rows["disturbance"] == worst) & ~rows["law"].isin(rejecting)]["left_rad"].max()
+    still = rows[rows["disturbance"] == 0.0]
+    without = still.loc[still["reads_rate"] == "no", "settling_median_s"].iloc[0]
+    paper = still.loc[~still["law"].isin(known_compensators()), "settling_median_s"].iloc[0]
+    return {
+        "left": f"{math.degrees(left):.1f}",
+        "disturbance": f"{worst:g}",
+        "starts": int(rows["starts"].max()),
+        "faster": f"{without / paper:.2f}",
+        "pointings": len(known_pointings()),
+    }
+
+
+def tables(run: Run) -> dict:
+    """A row a law and disturbance."""
+    return {
+        "states": STATES(
+            (
+                _title(one.law),
+                one.reads_rate,
+                one.disturbance,
+                math.degrees(one.left_rad),
+                *(_seconds(value) for value in (one.settling_median_s, one.settling_worst_s)),
+            )
+            for one in compensated(run).itertuples()
+        )
+    }
+
+
+def _title(law: str) -> str:
+    known = {**known_regulators(), **known_compensators()}
+    return known[law].title if law in known else law
+
+
+def _seconds(value: float) -> str:
+    return html.MISSING if math.isnan(value) else f"{value:.2f}"
