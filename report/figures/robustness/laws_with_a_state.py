@@ -11,7 +11,7 @@ from report.figures.kit import html
 from report.figures.kit.page import Run
 from report.figures.kit.tables import Table
 
-STATES = Table("Law | Measures the rate | Disturbance [rad/s²]:g | Left [°]:.2f | Within 1° [s]:.2f | Slowest [s]:.2f")
+STATES = Table("Law | Measures the rate | Disturbance [rad/s²]:g | Left [°]:.2f | Within 1° [s] | Slowest [s]")
 FACTS = ("left", "disturbance", "starts", "faster", "pointings")
 
 
