@@ -19,7 +19,7 @@ degrees."""
 STARTS = 64
 HORIZON_S = 8.0
 """[s]. The slowest of the starts, 2 degrees short of 180, is settled by half of it."""
-LEVEL_S = 0.3
+LEVEL_S = 0.12
 """CPU seconds a level."""
 
 
