@@ -39,8 +39,6 @@ def plan_of_all_kinds(folder: Path) -> plan.Plan:
         Unit("compensators", selector="integral", count=2, total=2, horizon_s=0.05),
         Unit("impedance", task="arm-regulation", arm="ur5e", selector="diagonal", count=1, horizon_s=0.05),
         Unit("impedance-modes", task="arm-regulation", arm="ur5e", selector="diagonal"),
-        Unit("goal-streams", count=1, total=1),
-        Unit("springs", count=1, total=1),
         Unit("costs", "rotation-matrix"),
         Unit("costs", "mine"),
         Unit("jacobians", arm="ur5e", count=1, total=1),
