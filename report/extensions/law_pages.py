@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
-FOLDER, CODE = "laws", "laws/code"
+FOLDER, CODE, LIVE = "laws", "laws/code", "pages/26-live"
 
 
 def collected(app) -> Iterator[tuple[str, dict, str]]:
@@ -16,7 +16,7 @@ def collected(app) -> Iterator[tuple[str, dict, str]]:
 
     run = run_in(read.folder())
     for one in law_page.every_law():
-        made = law_page.page(one, run)
+        made = law_page.page(one, run, LIVE if LIVE in app.env.found_docs else "")
         for name, text in made.files.items():
             target = Path(app.outdir) / CODE / name
             target.parent.mkdir(parents=True, exist_ok=True)

@@ -16,7 +16,14 @@ from bench.provenance import ROOT
 from bench.running import run as running
 
 TABLES = [
-    *("boundaries.parquet", "command-field.parquet", "compliance.parquet", "costs.parquet", "episodes.parquet"),
+    *(
+        "boundaries.parquet",
+        "command-field.parquet",
+        "compensators.parquet",
+        "compliance.parquet",
+        "costs.parquet",
+        "episodes.parquet",
+    ),
     *("goal-streams.parquet", "impedance-modes.parquet", "impedance.parquet"),
     *("plan.json", "poses.parquet", "provenance.json", "robustness.parquet", "shipped.parquet", "springs.parquet"),
     *("traces.parquet", "velocity-limits.parquet", "velocity.parquet"),

@@ -27,12 +27,16 @@ def every_law() -> list[Contender]:
     return [one for regulator in regulators.in_order() for one in regulators.papers_first(regulator)]
 
 
-def page(one: Contender, run: Run) -> LawPage:
-    """The page of a law."""
+def page(one: Contender, run: Run, live: str = "") -> LawPage:
+    """The page of a law.
+
+    Args:
+        live: the page on which laws run, from the site's root; empty where the site has none.
+    """
     title, files = laws.title_of(one), exported(one)
     body = (
         f"<section><h1>{html.foreign(title)}</h1>{regulators.card(one, run)}"
-        f"{_taken(one, files)}{regulators.source(one.regulator)}</section>"
+        f"{_taken(one, files, live)}{regulators.source(one.regulator)}</section>"
     )
     return LawPage(anchor(one.on_free_body), title, body, dict(files.values()))
 
@@ -45,12 +49,13 @@ def exported(one: Contender) -> dict[str, tuple[str, str]]:
     return {each.title: each.law(subject) for each in map(find_language, language_words())}
 
 
-def _taken(one: Contender, files: dict[str, tuple[str, str]]) -> str:
+def _taken(one: Contender, files: dict[str, tuple[str, str]], live: str) -> str:
     """What leads to its files and to the page on which it runs."""
     if not files:
         return ""
     links = ", ".join(f'<a href="code/{name}" download>{title}</a>' for title, (name, _) in files.items())
+    tried = f'<a href="../{live}.html#a={one.on_free_body}">Try it</a>, or take it' if live else "Take it"
     return (
-        f'<p><a href="../pages/26-live.html#a={one.on_free_body}">Try it</a>, or take it: {links}. '
+        f"<p>{tried}: {links}. "
         f"<code>python -m bench export {one.on_free_body} --to c</code> adds test vectors and a test.</p>"
     )
