@@ -25,7 +25,7 @@ from pathlib import Path
 import check_site
 
 from bench.cli.progress import progress
-from bench.tables import trust
+from bench.tables import data_package, trust
 
 REPORT = Path(__file__).resolve().parent
 ROOT = REPORT.parent
@@ -180,14 +180,17 @@ def build(results: Path, cell_key: str) -> None:
 
 
 def offer_data(results: Path, site: Path = SITE) -> None:
-    """Put beside the pages what they link to as data/...: files of the run, and data/timings/ of this checkout."""
+    """Put beside the pages what they link to as data/...: the run's files and descriptor, this checkout's timings."""
     pages = [page.read_text(encoding="utf-8") for page in site.rglob("*.html")]
-    for name in sorted({name for page in pages for name in DATA_LINK.findall(page)}):
+    names = sorted({name for page in pages for name in DATA_LINK.findall(page)})
+    for name in names:
         source = ROOT / "results" / name if name.startswith("timings/") else results / name
         if source.is_file() and ".." not in Path(name).parts:  # a link to nothing is the page check's to report
             target = site / "data" / name
             target.parent.mkdir(parents=True, exist_ok=True)
             shutil.copyfile(source, target)
+    if data_package.NAME in names and any(results.glob("*.parquet")):
+        (site / "data" / data_package.NAME).write_text(data_package.written(results), encoding="utf-8")
 
 
 def complaints(log: str) -> list[str]:

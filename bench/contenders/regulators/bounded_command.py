@@ -6,10 +6,10 @@ Far above w the damper is Kp against the motion; far below it is Kv omega. With 
 V' = -Kv |omega|^2/sqrt(1 + |omega|^2/w^2): almost global, like the law without the bound. A motor of 2 Kp is never
 saturated, whatever spin the law is switched on at.
 
-Fails: rests at exact half turns; takes |omega|/Kp to stop a fast spin, where the damper alone would take 1/Kv.
-
 Source: Su, Zheng 2011, Globally asymptotic stabilization of spacecraft with simple saturated proportional-derivative
 control (there each component by itself, and the quaternion's vector part).
+
+Fails: rests at exact half turns; takes |omega|/Kp to stop a fast spin, where the damper alone would take 1/Kv.
 """
 
 from bench.law import SINE, Equation, Look, Regulator, dot, double_sine, kernel, spring_damper, sqrt
