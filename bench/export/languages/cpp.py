@@ -8,7 +8,7 @@ from bench.export.c_tests import Asking, program
 from bench.export.entries import Entry, Parameter
 from bench.export.heading import heading
 from bench.export.language import Language, as_json, readme
-from bench.export.subject import Subject, translated
+from bench.export.subject import MATRIX, Subject, translated
 from bench.export.types import Kind, Tuple
 from bench.export.vectors import Vector, vectors
 from bench.law.scalar import PRIMITIVES
@@ -60,7 +60,7 @@ def header(subject: Subject) -> str:
             f"#ifndef {guard}\n#define {guard}\n\n#include <cmath>\n\n#include <Eigen/Geometry>\n",
             f"namespace orientation_bench::{name} {{\n\nnamespace core {{\n\n{USED}\n",
             f"{core.text()}\n}}  // namespace core",
-            READING,
+            READING if MATRIX in core.names else "",
             *(line for size in sizes(subject, core) for line in vector_passage(size)),
             *state(subject),
             *(f"{entry_text(subject, core, one)}\n" for one in subject.entries),

@@ -22,6 +22,9 @@ LEAST_RAD, NEAREST_RAD = math.radians(2.0), math.radians(0.2)
 LONGEST_S = 6.0
 """Three times what the slowest of them takes that near a half turn."""
 
+SHORT_S = 1e-3
+"""Longest step where a body leaves the band by so little that a longer one steps over it."""
+
 REST = 10.0
 """Angle, and the way that the speed still goes against damping alone, within this part of the band: no spring of these
 leaves the band from there, and the integration ends."""
@@ -44,7 +47,14 @@ def settling(equation: Equation, angle: float, kp: float, kv: float, tolerance: 
     def rest(_, state):
         return abs(state[0]) + abs(state[1]) / kv - tolerance * angle / REST
 
+    def turn(_, state):
+        return state[1]
+
     rest.terminal = True  # type: ignore[attr-defined]  # how solve_ivp is asked to stop
     first = 2.0 * math.pi - angle if equation.the_long_way else angle
-    found = solve_ivp(rate, (0.0, LONGEST_S), (first, 0.0), events=(edge, rest), **TIGHT)
+    given = rate, (0.0, LONGEST_S), (first, 0.0)
+    found = solve_ivp(*given, events=(edge, rest, turn), **TIGHT)
+    last, turns = found.t_events[0][-1], zip(found.t_events[2], found.y_events[2], strict=True)
+    if any(time > last and edge(time, state) > 0.0 for time, state in turns):  # out of the band and back in one step
+        found = solve_ivp(*given, events=(edge, rest), max_step=SHORT_S, **TIGHT)
     return float(found.t_events[0][-1])
