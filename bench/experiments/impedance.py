@@ -51,7 +51,7 @@ def of_arms(asked: Asked, name: str, **more) -> tuple[Unit, ...]:
 
 
 def units(asked: Asked) -> tuple[Unit, ...]:
-    """The designs on arms, as many starts as robots that are told velocities get."""
+    """The designs on arms, as many starts as velocity-commanded robots get."""
     starts = asked.suite.velocity.on_arms
     return of_arms(asked, NAME, count=starts, total=starts, horizon_s=ON_ARM)
 

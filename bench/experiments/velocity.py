@@ -1,4 +1,4 @@
-"""Robots that are told velocities: every law as omega = K f(R, R_d), on the free body and resolved on arms.
+"""Velocity-commanded robots: every law as omega = K f(R, R_d), on the free body and resolved on arms.
 
 On the free body from uniform starts and exact 180° rotations, and behind every limiter; on arms by the standard
 inverse, one law by every inverse, by servos that follow at once and by servos with a lag. K is sqrt(kp), the pole that

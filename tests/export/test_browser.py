@@ -56,7 +56,7 @@ def starts():
     return [*tasks.start_set("uniform", 40), *tasks.start_set("tumbling", 20), *tasks.start_set("half-turn")[::20]]
 
 
-def played(folder, words, starts, condition=Condition()):  # noqa: B008, a tuple of numbers
+def played(folder, words, starts, condition=live.IDEAL):
     """Rows of each law."""
     given = {"words": words, "others": [live.rows_of(starts), *live.asked(condition), live.SEEN]}
     ended = subprocess.run(

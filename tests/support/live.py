@@ -15,6 +15,9 @@ from tasks.condition import Condition
 from tasks.rules import RULES
 
 HORIZON_S, KP, KV = 6.0, 100.0, 20.0
+IDEAL = Condition()
+"""Asked every millisecond, given the truth at once."""
+
 SEEN = (50, 200)
 """Ticks of 1 ms after which the orientations are compared."""
 
@@ -41,7 +44,7 @@ class Wanted(NamedTuple):
     is_algebraic: bool
 
 
-def asked(condition: Condition = Condition()) -> tuple[dict, dict]:  # noqa: B008, a tuple of numbers
+def asked(condition: Condition = IDEAL) -> tuple[dict, dict]:
     """Settings and rules, as the page hands them over."""
     bound = None if np.isinf(condition.bound) else condition.bound
     times = {"period_s": condition.period_s, "delay_s": condition.delay_s, "horizon_s": HORIZON_S}
@@ -94,5 +97,5 @@ def differing(wanted: Wanted, found: list) -> list[int]:
 
 
 def most_that_rounding_decides(wanted: Wanted) -> int:
-    """Of a law that calls libm some episodes hang on its last bit: those thrown through a pole."""
+    """Of a law that calls libm rounding decides some episodes: those that pass a pole at high speed."""
     return 0 if wanted.is_algebraic else len(wanted.rows) // 20

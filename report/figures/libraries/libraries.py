@@ -18,7 +18,7 @@ EVERYWHERE = ["small", "drawn", "near", "at", "pole"]
 TO_USE = Table("Library | From a matrix | From a quaternion")
 FAULTS = Table("Function | But")
 ERRORS = Table("Function | Convention | Verdict | Largest error | Dead at 180° | Settles | Away | Instead")
-CONTROLLERS = Table("Controller | Commands | Verdict | Dead at 180° | Settles | Away")
+CONTROLLERS = Table("Controller | Commands | Verdict | Stiffness felt | Dead at 180° | Settles | Away")
 AS_ANGLES = Table("Function | Drawn | Poles | Half turns | As an error")
 VERSIONS = Table("Library | Version | Python | numpy")
 
@@ -147,10 +147,19 @@ def in_closed_loop(every: pd.DataFrame) -> list[tuple]:
 
 
 def controllers() -> list[tuple]:
-    """A row a controller that is run."""
-    lines = loops.responses()[loops.responses()["kind"] == "controller"]
+    """A row a controller: those that are run, and those that are restated from their source."""
+    lines = loops.responses()[loops.responses()["kind"] != "function"]
+    lines = lines.merge(loops.verdicts()[["library", "function", "faults"]], how="left", on=["library", "function"])
     return [
-        (asked(one), one.command, loops.verdict(one), loops.dead(one), loops.settling(one), loops.away(one))
+        (
+            asked(one) if one.kind == "controller" else one.library,
+            one.command,
+            loops.verdict(one) if one.kind == "controller" else one.faults or "right",
+            f"{one.stiffness:.2g}" if one.kind != "controller" else html.MISSING,
+            loops.dead(one),
+            loops.settling(one),
+            loops.away(one),
+        )
         for one in lines.itertuples()
     ]
 
