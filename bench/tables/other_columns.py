@@ -160,6 +160,7 @@ def closed_loop_columns() -> list[Column]:
             version="of its package; of a controller that is restated, the commit that was read",
             function="its error, or its controller",
             kind="function: its error in u = kp e - kv omega; controller: as its users run it; restated: by its source",
+            error="the function that it takes for its error; itself but for controllers",
             command="acceleration or velocity",
             sheet="near: from the quaternion whose scalar is not negative; antipode: from the other one",
         ),

@@ -15,6 +15,7 @@ from bench.studies.libraries.judge import judge
 from bench.studies.libraries.library import MATRIX, QUATERNION, Function
 from bench.studies.libraries.replacements import REPLACEMENTS
 from bench.studies.libraries.verdict import left_to_go, verdict
+from report.figures.libraries import libraries, loops
 from tasks.rules import RULES
 
 TICK_S = closed_loop.DT_S
@@ -118,6 +119,22 @@ def test_right_function_needs_no_replacement():
     found = verdict(Function("f", MATRIX, logarithm))
     assert (found["faults"], found["replacement"]) == ("", "")
     assert found["convention"] == "θ, base, to-goal, slope 1"
+
+
+def test_every_controller_has_a_convention_and_one_that_is_not_right_a_replacement():
+    lines = libraries.with_their_errors(loops.responses())
+    assert set(lines["function"]) == set(loops.responses().query("kind != 'function'")["function"])
+    run = lines[lines["kind"] == "controller"]
+    assert {loops.verdict(one) == loops.RIGHT for one in run.itertuples()} == {True, False}
+    for one in run.itertuples():
+        assert (loops.instead(one) == "") == (loops.verdict(one) == loops.RIGHT)
+        assert loops.instead(one) in {"", *(function.__name__ for function in REPLACEMENTS.values())}
+
+
+@pytest.mark.parametrize("takes", [MATRIX, QUATERNION])
+def test_replacement_in_closed_loop_leaves_every_start_by_the_short_way(takes):
+    for row in closed_loop.rows_of(Function("f", takes, REPLACEMENTS[takes])):
+        assert (row["settled"], row["away"]) == (row["starts"], 0)
 
 
 @pytest.mark.parametrize("takes", [MATRIX, QUATERNION])

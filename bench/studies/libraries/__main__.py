@@ -70,12 +70,12 @@ def closed_loops(library: Library) -> pd.DataFrame:
     whose = {"library": library.name, "version": version_of(library)}
     kind = "restated" if library.is_restated else "function"
     of_functions = [
-        whose | {"function": one.name, "kind": kind, "command": "acceleration"} | row
+        whose | {"function": one.name, "kind": kind, "error": one.name, "command": "acceleration"} | row
         for one in errors(library)
         for row in rows_of(one)
     ]
     of_controllers = [
-        whose | {"function": one.name, "kind": "controller", "command": one.command} | row
+        whose | {"function": one.name, "kind": "controller", "error": one.error, "command": one.command} | row
         for one in library.controllers
         for row in rows_of_controller(one)
     ]

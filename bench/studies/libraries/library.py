@@ -34,10 +34,12 @@ class Controller(NamedTuple):
     """A controller as its users run it, with its own plant or command.
 
     motion(quat_wxyz of T) -> what is left to go, T, as a quaternion after every tick of dt_s, the start first.
+    error: the function of its library that it takes for the error, by name.
     command: what it commands, `acceleration` or `velocity`; title: what is run, with its gains.
     """
 
     name: str
+    error: str
     command: str
     title: str
     dt_s: float

@@ -18,7 +18,7 @@ EVERYWHERE = ["small", "drawn", "near", "at", "pole"]
 TO_USE = Table("Library | From a matrix | From a quaternion")
 FAULTS = Table("Function | But")
 ERRORS = Table("Function | Convention | Verdict | Largest error | Dead at 180° | Settles | Away | Instead")
-CONTROLLERS = Table("Controller | Commands | Verdict | Stiffness felt | Dead at 180° | Settles | Away")
+CONTROLLERS = Table("Controller | Commands | Convention | Verdict | Dead at 180° | Settles | Away | Instead")
 AS_ANGLES = Table("Function | Drawn | Poles | Half turns | As an error")
 VERSIONS = Table("Library | Version | Python | numpy")
 
@@ -135,12 +135,12 @@ def in_closed_loop(every: pd.DataFrame) -> list[tuple]:
         (
             asked(one),
             one.convention,
-            one.faults or "right",
+            one.faults or loops.RIGHT,
             power(max(one.small, one.drawn, one.near, one.at)),
             loops.dead(one),
             loops.settling(one),
             loops.away(one),
-            f"`{one.replacement}`" if one.replacement else html.MISSING,
+            replaced(one.replacement),
         )
         for one in both.itertuples()
     ]
@@ -148,20 +148,33 @@ def in_closed_loop(every: pd.DataFrame) -> list[tuple]:
 
 def controllers() -> list[tuple]:
     """A row a controller: those that are run, and those that are restated from their source."""
-    lines = loops.responses()[loops.responses()["kind"] != "function"]
-    lines = lines.merge(loops.verdicts()[["library", "function", "faults"]], how="left", on=["library", "function"])
     return [
         (
             asked(one) if one.kind == "controller" else one.library,
             one.command,
-            loops.verdict(one) if one.kind == "controller" else one.faults or "right",
-            f"{one.stiffness:.2g}" if one.kind != "controller" else html.MISSING,
+            one.convention or "Z-Y-X angles",
+            loops.verdict(one) if one.kind == "controller" else one.faults or loops.RIGHT,
             loops.dead(one),
             loops.settling(one),
             loops.away(one),
+            replaced(loops.instead(one)),
         )
-        for one in lines.itertuples()
+        for one in with_their_errors(loops.responses()).itertuples()
     ]
+
+
+def with_their_errors(lines: pd.DataFrame) -> pd.DataFrame:
+    """Controllers' lines, with what the check says of the errors that they take; of angles it is not asked: empty."""
+    theirs = lines[lines["kind"] != "function"]
+    said = loops.verdicts()[["library", "function", "takes", "convention", "faults", "replacement"]]
+    angles = lines_of_angles().reindex(columns=said.columns, fill_value="")
+    said = pd.concat([said, angles]).rename(columns={"function": "error"})
+    return theirs.merge(said, on=["library", "error"], validate="many_to_one")
+
+
+def lines_of_angles() -> pd.DataFrame:
+    """A line a function that returns angles."""
+    return lines()[lines()["form"] == answers.ANGLES]
 
 
 def to_use(every: pd.DataFrame) -> list[tuple]:
@@ -178,6 +191,11 @@ def to_use(every: pd.DataFrame) -> list[tuple]:
 def _named(own: pd.DataFrame) -> str:
     """Names as code, without what the column says already."""
     return "<br>".join(f"`{name.partition(', of a ')[0]}`" for name in own["function"]) or html.MISSING
+
+
+def replaced(by: str) -> str:
+    """A replacement as code, or that none is needed."""
+    return f"`{by}`" if by else html.MISSING
 
 
 def asked(one) -> str:

@@ -13,6 +13,8 @@ from bench.tables.store import read
 from report.figures.kit import html
 from report.figures.libraries.answers import FOLDER
 
+RIGHT = "right"
+
 
 @functools.cache
 def verdicts() -> pd.DataFrame:
@@ -24,8 +26,8 @@ def verdicts() -> pd.DataFrame:
 def responses() -> pd.DataFrame:
     """A row a function or controller: its starts below 180° and at it.
 
-    Columns: library, function, kind, command; fastest, slowest [s], over all starts below 180°; lost, away: of `starts`
-    there; at_180, dead: of the starts at 180° exactly, how many and how many of them never move; stiffness.
+    Columns: library, function, kind, error, command; fastest, slowest [s], over all starts below 180°; unsettled,
+    away: of `starts` there; at_180, dead: of the starts at 180° exactly, how many and how many of them never move.
     """
     rows = _words(read(FOLDER, "closed_loop"))
     lines = []
@@ -36,6 +38,7 @@ def responses() -> pd.DataFrame:
                 "library": library,
                 "function": function,
                 "kind": kind,
+                "error": own["error"].iloc[0],
                 "command": own["command"].iloc[0],
                 "fastest": below["fastest_s"].min(),
                 "slowest": own["slowest_s"].max(),
@@ -44,7 +47,6 @@ def responses() -> pd.DataFrame:
                 "away": below["away"].sum(),
                 "at_180": at["starts"].sum(),
                 "dead": at["dead"].sum(),
-                "stiffness": own["stiffness_ratio"].min(),
             }
         )
     return pd.DataFrame(lines)
@@ -73,7 +75,12 @@ def away(one) -> str:
     return f"{one.away} of {one.starts}" if one.away else html.MISSING
 
 
+def instead(one) -> str:
+    """Of a controller's line: the replacement for its error, by what it takes, where the loop is not right."""
+    return one.replacement or ("" if verdict(one) == RIGHT else f"of_{one.takes}")
+
+
 def verdict(one) -> str:
     """Of a controller's line, in the check's words where it has them."""
     words = {"dead-at-180": one.dead, "not settled": one.unsettled, "long-way": one.away}
-    return ", ".join(word for word, count in words.items() if count) or "right"
+    return ", ".join(word for word, count in words.items() if count) or RIGHT

@@ -51,7 +51,12 @@ def solved(T) -> np.ndarray:
 
 
 DIFFERENTIAL = Controller(
-    "DoDifferentialInverseKinematics", "velocity", "time step 10 ms, no limits", DT_S, partial(driven, solved, DT_S)
+    "DoDifferentialInverseKinematics",
+    "RotationMatrix.ToAngleAxis",
+    "velocity",
+    "time step 10 ms, no limits",
+    DT_S,
+    partial(driven, solved, DT_S),
 )
 LIBRARY = Library(
     "drake",

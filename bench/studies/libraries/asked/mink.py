@@ -60,5 +60,14 @@ LIBRARY = Library(
         Function("se3_log (compiled), of a matrix", MATRIX, compiled_log_of_matrix),
         Function("FrameTask.compute_error", QUATERNION, frame_task),
     ),
-    (Controller("solve_ik, FrameTask", "velocity", "gain 1, lm_damping 1, damping 1e-3, 200 Hz", DT_S, solved),),
+    (
+        Controller(
+            "solve_ik, FrameTask",
+            "FrameTask.compute_error",
+            "velocity",
+            "gain 1, lm_damping 1, damping 1e-3, 200 Hz",
+            DT_S,
+            solved,
+        ),
+    ),
 )

@@ -94,5 +94,14 @@ LIBRARY = Library(
         Function("<orientation> actuator", QUATERNION, orientation_actuator),
         Function("weld, pull", QUATERNION, weld_pull, "sine"),
     ),
-    (Controller("<orientation> actuators", "acceleration", "kp 100, kv 20, timestep 1 ms", 1e-3, actuated),),
+    (
+        Controller(
+            "<orientation> actuators",
+            "<orientation> actuator",
+            "acceleration",
+            "kp 100, kv 20, timestep 1 ms",
+            1e-3,
+            actuated,
+        ),
+    ),
 )

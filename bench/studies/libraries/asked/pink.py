@@ -46,5 +46,14 @@ LIBRARY = Library(
     "pink",
     "pin-pink",
     (Function("FrameTask.compute_error", MATRIX, frame_task),),
-    (Controller("solve_ik, FrameTask", "velocity", "gain 1, lm_damping 1, 200 Hz", DT_S, solved),),
+    (
+        Controller(
+            "solve_ik, FrameTask",
+            "FrameTask.compute_error",
+            "velocity",
+            "gain 1, lm_damping 1, 200 Hz",
+            DT_S,
+            solved,
+        ),
+    ),
 )

@@ -63,5 +63,14 @@ LIBRARY = Library(
     "placo",
     "placo",
     (Function("OrientationTask", MATRIX, orientation_task),),
-    (Controller("KinematicsSolver, OrientationTask", "velocity", "solve(True), weight 1", DT_S, solved),),
+    (
+        Controller(
+            "KinematicsSolver, OrientationTask",
+            "OrientationTask",
+            "velocity",
+            "solve(True), weight 1",
+            DT_S,
+            solved,
+        ),
+    ),
 )

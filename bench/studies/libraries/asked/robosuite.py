@@ -30,6 +30,7 @@ def matrix_to_axis_angle(R) -> np.ndarray:
 ERROR = Function("orientation_error", MATRIX, lambda R: orientation_error(R, np.eye(3)), "sine")
 OSC = Controller(
     "OSC_POSE, rotation decoupled",
+    ERROR.name,
     "acceleration",
     "kp 150, damping ratio 1, 500 Hz",
     DT_S,

@@ -28,7 +28,7 @@ def servoed(method) -> Controller:
         return T.T @ roboticstoolbox.p_servo(base.r2t(T.T), np.eye(4), gain=1.0, method=method)[0][3:]
 
     name = 'p_servo(method="angle-axis")' if method == "angle-axis" else "p_servo, by default"
-    return Controller(name, "velocity", "gain 1, 20 Hz", DT_S, partial(driven, velocity, DT_S))
+    return Controller(name, name, "velocity", "gain 1, 20 Hz", DT_S, partial(driven, velocity, DT_S))
 
 
 LIBRARY = Library(
