@@ -14,7 +14,7 @@ from bench.export.language import language_words
 from bench.provenance import ROOT
 from bench.tables import read
 from bench.tables.schema import RESULTS
-from report.figures.cards import law_page, regulators
+from report.figures.cards import law_page, other_page, regulators
 from report.figures.cost import cost, operations
 from report.figures.kit import families, html, spelling
 from report.figures.kit.page import Run, run_in
@@ -49,6 +49,17 @@ def test_every_law_has_a_page_with_its_source_and_its_files():
         made, file = pages[families.anchor(one.on_free_body)], f"{one.regulator.name.replace('-', '_')}.py"
         assert f"bench/contenders/regulators/{file}" in made.body
         assert len(made.files) == (0 if one.regulator.costing_only else len(language_words()))
+        assert all(f'href="code/{name}"' in made.body for name in made.files)
+
+
+def test_every_law_of_another_kind_has_a_page_with_its_source_and_its_files():
+    others = other_page.every_other()
+    assert {one.kind.prefix for one in others} == {kind.prefix for kind in other_page.KINDS}
+    for one in others:
+        made = other_page.page(one)
+        assert one.file.is_file()
+        assert one.where in made.body
+        assert len(made.files) == len(language_words())
         assert all(f'href="code/{name}"' in made.body for name in made.files)
 
 

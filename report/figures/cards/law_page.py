@@ -36,7 +36,7 @@ def page(one: Contender, run: Run, live: str = "") -> LawPage:
     title, files = laws.title_of(one), exported(one)
     body = (
         f"<section><h1>{html.foreign(title)}</h1>{regulators.card(one, run)}"
-        f"{_taken(one, files, live)}{regulators.source(one.regulator)}</section>"
+        f"{taken(one.on_free_body, files, live)}{regulators.source(one.regulator)}</section>"
     )
     return LawPage(anchor(one.on_free_body), title, body, dict(files.values()))
 
@@ -45,17 +45,19 @@ def exported(one: Contender) -> dict[str, tuple[str, str]]:
     """By the language's title, the first file of its export: name and text; none of a user's own law."""
     if one.regulator.origin or one.regulator.costing_only:
         return {}
-    subject = find_subject(one.on_free_body)
+    return in_every_language(one.on_free_body)
+
+
+def in_every_language(word: str) -> dict[str, tuple[str, str]]:
+    """By the language's title, the first file of the export of a word: name and text."""
+    subject = find_subject(word)
     return {each.title: each.law(subject) for each in map(find_language, language_words())}
 
 
-def _taken(one: Contender, files: dict[str, tuple[str, str]], live: str) -> str:
+def taken(word: str, files: dict[str, tuple[str, str]], live: str = "") -> str:
     """What leads to its files and to the page on which it runs."""
     if not files:
         return ""
     links = ", ".join(f'<a href="code/{name}" download>{title}</a>' for title, (name, _) in files.items())
-    tried = f'<a href="../{live}.html#a={one.on_free_body}">Try it</a>, or take it' if live else "Take it"
-    return (
-        f"<p>{tried}: {links}. "
-        f"<code>python -m bench export {one.on_free_body} --to c</code> adds test vectors and a test.</p>"
-    )
+    tried = f'<a href="../{live}.html#a={word}">Try it</a>, or take it' if live else "Take it"
+    return f"<p>{tried}: {links}. <code>python -m bench export {word} --to c</code> adds test vectors and a test.</p>"

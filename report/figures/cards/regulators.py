@@ -63,9 +63,12 @@ def file_of(regulator: Regulator) -> Path:
 
 def text_of(regulator: Regulator) -> tuple[list[str], str]:
     """What its docstring says: paragraphs on what the law is, and where it fails; nothing of one that may not run."""
-    if not (regulator.law or regulator.law_in):
-        return [UNTRUSTED], ""
-    text = ast.get_docstring(ast.parse(file_of(regulator).read_bytes())) or ""
+    return docstring(file_of(regulator)) if regulator.law or regulator.law_in else ([UNTRUSTED], "")
+
+
+def docstring(file: Path) -> tuple[list[str], str]:
+    """A contender's file in words: paragraphs on what it is, and where it fails."""
+    text = ast.get_docstring(ast.parse(file.read_bytes())) or ""
     found = FAILS.search(text)
     fails = typeset(" ".join(found[1].split())) if found else ""
     about = text[: found.start()] if found else text
@@ -150,12 +153,15 @@ def said_of(one: Contender, episodes: pd.DataFrame, run: Run) -> str:
 
 def source(regulator: Regulator) -> str:
     """The law's own file, folded."""
-    text = file_of(regulator).read_text(encoding="utf-8", errors="replace")
-    code = highlight(text, PythonLexer(), HtmlFormatter(nowrap=True))
     folder = "laws" if regulator.origin else "bench/contenders/regulators"
-    where = markup.escape(f"{folder}/{regulator.name.replace('-', '_')}.py")
+    return folded(file_of(regulator), f"{folder}/{regulator.name.replace('-', '_')}.py")
+
+
+def folded(file: Path, where: str) -> str:
+    """A file's text behind its name."""
+    code = highlight(file.read_text(encoding="utf-8", errors="replace"), PythonLexer(), HtmlFormatter(nowrap=True))
     return (
-        f'<details class="law-source"><summary>Its file, <code>{where}</code></summary>'
+        f'<details class="law-source"><summary>Its file, <code>{markup.escape(where)}</code></summary>'
         f'<div class="highlight"><pre tabindex="0">{code}</pre></div></details>'
     )
 
