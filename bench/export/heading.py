@@ -8,11 +8,22 @@ from typing import Any
 
 from bench.counting.costs import FLOPS, cost
 from bench.counting.counted import TOTAL
-from bench.export.subject import AXIAL, SPRING, STATED, Subject
+from bench.export.subject import AXIAL, IMPEDANCE, SPRING, STATED, Subject
 from bench.law.contender import Regulator
 from bench.provenance import ROOT
 
 WIDTH = 110
+GAINS = "Gains     kp [1/s^2], kv [1/s]; "
+OF_KIND = {
+    STATED: (
+        f"{GAINS}what they set is in the formula",
+        "State     four numbers; begin gives the first of them, next_state those of every period after",
+    ),
+    AXIAL: (f"{GAINS}near the goal theta'' = -kp theta - kv theta'",),
+    IMPEDANCE: (f"{GAINS}apparent inertia [kg m^2]; stiffness at the goal kp times that",),
+    SPRING: ("Turn      eta, epsilon: the quaternion of R_d^T R, eta >= 0; phi: its rotation vector",),
+}
+"""What else is said of a kind that is no regulator."""
 
 
 def heading(subject: Subject) -> str:
@@ -23,7 +34,7 @@ def heading(subject: Subject) -> str:
         f"{record.title}{of} ({subject.word})",
         "",
         f"Formula   {record.formula}",
-        f"Source    {record.source}",
+        *([f"Source    {record.source}"] if record.source else []),
         *_facts(subject),
         "Frames    base frame; what ends in _body is in the body's. R: columns are the body's axes in the base frame",
         *_field("Entries", "; ".join(_entry_lines(subject))),
@@ -37,26 +48,17 @@ def _facts(subject: Subject) -> list[str]:
     if subject.contender is not None:
         regulator: Regulator = subject.record
         lines += [
-            "Gains     kp [1/s^2], kv [1/s]; near the goal u = kp (rotation vector to the goal) - kv omega",
+            f"{GAINS}near the goal u = kp (rotation vector to the goal) - kv omega",
             f"Property  {regulator.property}",
             f"Cost      {_cost(subject)}",
         ]
         if subject.memory is not None:
             first = ", ".join(map(repr, subject.memory))
             lines.append(f"Memory    four numbers from tick to tick, at first ({first})")
-    elif subject.word.startswith(STATED):
-        lines += [
-            "Gains     kp [1/s^2], kv [1/s]; what they set is in the formula",
-            f"Property  {subject.record.property}",
-            "State     four numbers; begin gives the first of them, next_state those of every period after",
-        ]
-    elif subject.word.startswith(AXIAL):
-        lines += [
-            "Gains     kp [1/s^2], kv [1/s]; near the goal theta'' = -kp theta - kv theta'",
-            f"Property  {subject.record.property}",
-        ]
-    elif subject.word.startswith(SPRING):
-        lines.append("Gains     kp [1/s^2], kv [1/s]; apparent inertia [kg m^2]; stiffness at the goal kp times that")
+    else:
+        lines += (line for kind, said in OF_KIND.items() if subject.word.startswith(kind) for line in said)
+        if hasattr(subject.record, "property"):
+            lines.append(f"Property  {subject.record.property}")
     texts = [sys.modules[one.__module__].__doc__ or "" for one in _functions(subject.record)]
     fails = failures(texts[0]) if texts else ""
     return [*lines, *_field("Fails", fails)] if fails else lines
@@ -64,7 +66,7 @@ def _facts(subject: Subject) -> list[str]:
 
 def _functions(record: Any) -> list:
     """The functions of a record, that of the law first: its module says where it fails."""
-    found = (getattr(record, name, None) for name in ("law", "law_in", "chart"))
+    found = (getattr(record, name, None) for name in ("law", "law_in", "chart", "moment"))
     return [one for one in found if one is not None]
 
 

@@ -8,18 +8,33 @@ from collections.abc import Callable
 from typing import Any, NamedTuple
 
 from bench.contenders import registry
-from bench.contenders.registry import known_compensators, known_impedances, known_pointings, known_representations
+from bench.contenders.registry import (
+    known_compensators,
+    known_impedances,
+    known_pointings,
+    known_representations,
+    known_springs,
+)
 from bench.control.registry import all_controllers
 from bench.errors import UnknownWord
 from bench.export.compensated import of_compensator, of_pointing
 from bench.export.entries import Entry, of_impedance, of_law, of_representation
 from bench.export.program import Function, read_function
+from bench.export.sprung import of_spring
 from bench.export.types import REAL, Kind, Program, Tuple, Typed, numbers
 from bench.law.contender import Contender, Gains, Regulator
 from bench.law.so3 import Rotation
 
-COORDINATES, SPRING, STATED, AXIAL = "representation-", "impedance-", "compensator-", "pointing-"
+COORDINATES, IMPEDANCE = "representation-", "impedance-"
+STATED, AXIAL, SPRING = "compensator-", "pointing-", "spring-"
 """What words begin with, by kind; a regulator's is its name."""
+
+ALONE: dict[str, tuple[Callable[[], dict], Callable[[Any], list[Entry]]]] = {
+    STATED: (known_compensators, lambda one: of_compensator(one.law, one.begin)),
+    AXIAL: (known_pointings, lambda one: [of_pointing(one.law)]),
+    SPRING: (known_springs, lambda one: of_spring(one.moment)),
+}
+"""Kinds that act on no coordinates: what is known of each, and the entries of one."""
 
 
 class Subject(NamedTuple):
@@ -44,10 +59,9 @@ class Subject(NamedTuple):
 def subject_words(extra: tuple[Regulator, ...] = ()) -> list[str]:
     """Everything that can be exported."""
     laws = [one.name for one in registry.all_contenders(extra)]
-    springs = [one.name for one in all_controllers() if one.impedance is not None]
-    stated = (f"{STATED}{name}" for name in known_compensators())
-    axial = (f"{AXIAL}{name}" for name in known_pointings())
-    return [*laws, *(f"{COORDINATES}{name}" for name in known_representations()), *springs, *stated, *axial]
+    impedances = [one.name for one in all_controllers() if one.impedance is not None]
+    alone = (f"{prefix}{name}" for prefix, (known, _) in ALONE.items() for name in known())
+    return [*laws, *(f"{COORDINATES}{name}" for name in known_representations()), *impedances, *alone]
 
 
 def find_subject(word: str, extra: tuple[Regulator, ...] = ()) -> Subject:
@@ -60,20 +74,18 @@ def find_subject(word: str, extra: tuple[Regulator, ...] = ()) -> Subject:
     if first.startswith(COORDINATES):
         one = registry.representation(first.removeprefix(COORDINATES))
         return Subject(word, one, None, tuple(of_representation(one)))
-    if first.startswith(STATED) and first.removeprefix(STATED) in known_compensators():
-        compensator = known_compensators()[first.removeprefix(STATED)]
-        return Subject(word, compensator, None, tuple(of_compensator(compensator.law, compensator.begin)))
-    if first.startswith(AXIAL) and first.removeprefix(AXIAL) in known_pointings():
-        pointing = known_pointings()[first.removeprefix(AXIAL)]
-        return Subject(word, pointing, None, (of_pointing(pointing.law),))
-    if first.startswith(SPRING) and first.removeprefix(SPRING) in known_impedances():
-        spring = known_impedances()[first.removeprefix(SPRING)]
+    for prefix, (known, entries) in ALONE.items():
+        if first.startswith(prefix) and first.removeprefix(prefix) in known():
+            record = known()[first.removeprefix(prefix)]
+            return Subject(word, record, None, tuple(entries(record)))
+    if first.startswith(IMPEDANCE) and first.removeprefix(IMPEDANCE) in known_impedances():
+        impedance = known_impedances()[first.removeprefix(IMPEDANCE)]
         along = registry.representation(second) if second else None
-        law = spring.law_in(along) if along and spring.law_in else spring.law
+        law = impedance.law_in(along) if along and impedance.law_in else impedance.law
         if law is None:
             words = [one for one in subject_words() if one.startswith(f"{first}/")]
             raise UnknownWord("impedance", word, words)
-        return Subject(word, spring, along, tuple(of_impedance(law)))
+        return Subject(word, impedance, along, tuple(of_impedance(law)))
     contender = registry.find_contender(word, extra)
     regulator = contender.regulator
     entries = tuple(of_law(contender.law, regulator.memory is not None))

@@ -120,7 +120,7 @@ def _argument(subject: Subject, one: Parameter, state: State, random: np.random.
         return list(PAPERS_GAINS)
     if one.kind == "memory":
         return _unit(random.normal(size=4)).tolist() if state.kind != "at 180°" else list(subject.memory or ())
-    if one.name == "inertia":
+    if one.name in ("inertia", "stiffness"):
         half = random.normal(size=(3, 3))
         return (np.eye(3) + half @ half.T).reshape(-1).tolist()
     if one.kind == "number":

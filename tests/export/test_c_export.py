@@ -94,8 +94,9 @@ IN_CPP = (
     "representation-quaternion",
     "impedance-geometric",
     "compensator-integral",
+    "spring-logarithm-energy",
 )
-"""With memory, calling libm, with four coordinates and matrices returned, and with a number among its arguments."""
+"""With memory, calling libm, with four coordinates and matrices returned, a number and nine numbers among arguments."""
 
 
 @needs("g++")

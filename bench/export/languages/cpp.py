@@ -132,9 +132,9 @@ def argument(one: Parameter, quaternion: bool) -> tuple[list[str], str]:
         return ["double kp", "double kv"], "core::Gains_of(kp, kv)"
     if one.kind == "memory":
         return ["State &state"], "state.memory"
-    if one.name == "inertia":
-        items = ", ".join(f"inertia({row}, {column})" for row in range(3) for column in range(3))
-        return ["const Eigen::Matrix3d &inertia"], f"core::real9_of({items})"
+    if one.kind == "tuple" and one.size == 9:  # a matrix, by rows
+        items = ", ".join(f"{one.name}({row}, {column})" for row in range(3) for column in range(3))
+        return [f"const Eigen::Matrix3d &{one.name}"], f"core::real9_of({items})"
     if quaternion and one.name.startswith("quat"):
         name = one.name.removesuffix("_wxyz").replace("quat", "q")
         return [f"const Eigen::Quaterniond &{name}"], f"core::real4_of({name}.w(), {name}.x(), {name}.y(), {name}.z())"

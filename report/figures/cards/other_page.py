@@ -1,4 +1,4 @@
-"""Pages of what is exported and is no regulator: laws with a state, laws of an axis, impedances."""
+"""Pages of what is exported and is no regulator: laws with a state, laws of an axis, impedances, springs."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import NamedTuple
 
 from bench import contenders
-from bench.contenders.registry import known_compensators, known_impedances, known_pointings
-from bench.export.subject import AXIAL, SPRING, STATED, subject_words
+from bench.contenders.registry import known_compensators, known_impedances, known_pointings, known_springs
+from bench.export.subject import AXIAL, IMPEDANCE, SPRING, STATED, subject_words
 from report.figures.cards import regulators
 from report.figures.cards.law_page import LawPage, in_every_language, taken
 from report.figures.kit import html
@@ -31,7 +31,8 @@ class Kind(NamedTuple):
 KINDS = (
     Kind(STATED, "compensators", "a law with a state", known_compensators()),
     Kind(AXIAL, "pointings", "a law of an axis", known_pointings()),
-    Kind(SPRING, "impedances", "an impedance", known_impedances()),
+    Kind(IMPEDANCE, "impedances", "an impedance", known_impedances()),
+    Kind(SPRING, "springs", "a spring with a stiffness matrix", known_springs()),
 )
 
 
@@ -87,7 +88,7 @@ def page(one: Other) -> LawPage:
 
 
 def proved(one: Other) -> str:
-    """What is proved of it; nothing of an impedance, which is judged in contact."""
+    """What is proved of it; nothing of impedances and springs."""
     found = getattr(one.record, "property", "")
     return regulators.PROPERTIES.get(found, f"{found[:1].upper()}{found[1:]}." if found else "")
 
