@@ -74,10 +74,10 @@ def find_subject(word: str, extra: tuple[Regulator, ...] = ()) -> Subject:
     if first.startswith(COORDINATES):
         one = registry.representation(first.removeprefix(COORDINATES))
         return Subject(word, one, None, tuple(of_representation(one)))
-    for prefix, (known, entries) in ALONE.items():
+    for prefix, (known, entries_of) in ALONE.items():
         if first.startswith(prefix) and first.removeprefix(prefix) in known():
             record = known()[first.removeprefix(prefix)]
-            return Subject(word, record, None, tuple(entries(record)))
+            return Subject(word, record, None, tuple(entries_of(record)))
     if first.startswith(IMPEDANCE) and first.removeprefix(IMPEDANCE) in known_impedances():
         impedance = known_impedances()[first.removeprefix(IMPEDANCE)]
         along = registry.representation(second) if second else None

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import inspect
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from bench import contenders
 from bench.contenders.registry import known_compensators, known_impedances, known_pointings, known_springs
@@ -40,7 +40,7 @@ class Other(NamedTuple):
     """A law of another kind: its kind, its file's record, and the word by which it is exported."""
 
     kind: Kind
-    record: NamedTuple
+    record: Any
     word: str
 
     @property
