@@ -5,9 +5,9 @@ Rooms, bottom up; each imports only from rooms above it in this list (pyproject.
 law/          what a law is: the dialect, rotations, linear algebra, records. `from bench.law import Regulator, kernel`
 audit/        anybody's orientation error: pairs, convention, faults/ (one file each), report; knows nothing of laws
 contenders/   the contestants, one file each: regulators/ representations/ jacobians/ inverses/ impedances/ dampings/
-              limiters/ springs/, laws with a state of their own: compensators/, of one axis: pointings/, what others
-              run: shipped/; registry finds them, combinations says what goes together; a user's own: law_file runs it,
-              law_process where, described_law is what everybody else knows of it
+              limiters/ springs/ pose_springs/, laws with a state of their own: compensators/, of one axis: pointings/,
+              what others run: shipped/; registry finds them, combinations says what goes together; a user's own:
+              law_file runs it, law_process where, described_law is what everybody else knows of it
 control/      contenders at work: resolved_acceleration (tau = D J^-1 (u - Jdot qdot) + fg), velocity (omega = K f),
               hybrid, impedance, unshaped (an impedance with the hand's own inertia), contact_controller, registry
 engines/      one episode, four ways: reference, native, ideal-rk4, ideal-held; and disturbed, and told velocities
@@ -16,8 +16,8 @@ metrics/      what is measured: motion/ along an episode, contact/ of a hand in 
 counting/     operations of the code that runs
 tables/       schema, store, files, read, statistics, lock; trust and kept_laws (laws of a results folder that may run)
 experiments/  one file an experiment: free_body, arm, contact, robustness, velocity, velocity_limits, impedance,
-              impedance_modes, springs, compensators, goal_streams, traces, boundaries, command_field, shipped,
-              jacobians, costs; what plans them (experiment, plan, suites, choice); rows/ (from what engines give back)
+              impedance_modes, springs, pose_springs, compensators, goal_streams, traces, boundaries, command_field,
+              shipped, jacobians, costs; what plans them (experiment, plan, suites, choice); rows/ (from what engines give back)
 running/      run, run_folder (until it is finished), order, precompile, sandbox (a user's laws), wire_format,
               schedulers/ (threads, and a Dask cluster), finish (the tables)
 timing/       time per tick (pytest-benchmark)

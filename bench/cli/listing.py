@@ -17,6 +17,7 @@ from bench.contenders.registry import (
     known_jacobians,
     known_limiters,
     known_pointings,
+    known_pose_springs,
     known_regulators,
     known_representations,
     known_shipped,
@@ -57,8 +58,8 @@ def COMMAND(kind, laws):
     """What there is to run, of one kind or of all.
 
     Kinds: regulators, representations, jacobians, inverses, controllers, impedances, dampings, limiters, shipped,
-    springs, compensators, pointings, metrics, tasks, arms, variations, axes, starts, engines, suites, experiments,
-    claims. A file of an arm that cannot be used is listed with the reason.
+    springs, pose-springs, compensators, pointings, metrics, tasks, arms, variations, axes, starts, engines, suites,
+    experiments, claims. A file of an arm that cannot be used is listed with the reason.
     """
     own = options.own_laws(laws)
     if kind is not None and kind not in KINDS:
@@ -139,6 +140,13 @@ def _limiters(_):
 @kind("springs", "Rotational springs with a stiffness matrix", "name", "potential", "title", "source")
 def _springs(_):
     return ((one.name, "yes" if one.potential else "no", one.title, one.source) for one in known_springs().values())
+
+
+@kind("pose-springs", "Springs of position and orientation", "name", "potential", "title", "source")
+def _pose_springs(_):
+    return (
+        (one.name, "yes" if one.potential else "no", one.title, one.source) for one in known_pose_springs().values()
+    )
 
 
 @kind("compensators", "Laws with a state of their own", "name", "reads the rate", "proved", "title", "source")

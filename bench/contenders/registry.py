@@ -18,6 +18,7 @@ from bench.contenders import (
     jacobians,
     limiters,
     pointings,
+    pose_springs,
     regulators,
     representations,
     shipped,
@@ -30,6 +31,7 @@ from bench.law.damping import Damping
 from bench.law.impedance import Impedance
 from bench.law.limiter import Limiter
 from bench.law.pointing import Pointing
+from bench.law.pose_spring import PoseSpring
 from bench.law.resolved_motion import Inverse, Jacobian
 from bench.law.shipped import Shipped
 from bench.law.spring import Spring
@@ -65,6 +67,7 @@ FOLDERS = {
     "limiter": (limiters, Limiter),
     "shipped": (shipped, Shipped),
     "spring": (springs, Spring),
+    "pose_spring": (pose_springs, PoseSpring),
     "compensator": (compensators, Compensator),
     "pointing": (pointings, Pointing),
 }
@@ -87,6 +90,7 @@ known_dampings = functools.partial(known, "damping")
 known_limiters = functools.partial(known, "limiter")
 known_shipped = functools.partial(known, "shipped")
 known_springs = functools.partial(known, "spring")
+known_pose_springs = functools.partial(known, "pose_spring")
 known_compensators = functools.partial(known, "compensator")
 known_pointings = functools.partial(known, "pointing")
 

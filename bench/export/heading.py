@@ -8,7 +8,7 @@ from typing import Any
 
 from bench.counting.costs import FLOPS, cost
 from bench.counting.counted import TOTAL
-from bench.export.subject import AXIAL, IMPEDANCE, SPRING, STATED, Subject
+from bench.export.subject import AXIAL, IMPEDANCE, POSE_SPRING, SPRING, STATED, Subject
 from bench.law.contender import Regulator
 from bench.provenance import ROOT
 
@@ -21,6 +21,9 @@ OF_KIND = {
     ),
     AXIAL: (f"{GAINS}near the goal theta'' = -kp theta - kv theta'",),
     IMPEDANCE: (f"{GAINS}apparent inertia [kg m^2]; stiffness at the goal kp times that",),
+    POSE_SPRING: (
+        "Pose      R, p: R_d^T R and R_d^T (p - p_d); eta, epsilon, phi: quaternion and rotation vector of R",
+    ),
     SPRING: ("Turn      eta, epsilon: the quaternion of R_d^T R, eta >= 0; phi: its rotation vector",),
 }
 """What else is said of a kind that is no regulator."""
@@ -66,7 +69,7 @@ def _facts(subject: Subject) -> list[str]:
 
 def _functions(record: Any) -> list:
     """The functions of a record, that of the law first: its module says where it fails."""
-    found = (getattr(record, name, None) for name in ("law", "law_in", "chart", "moment"))
+    found = (getattr(record, name, None) for name in ("law", "law_in", "chart", "moment", "wrench"))
     return [one for one in found if one is not None]
 
 

@@ -12,6 +12,7 @@ from bench.contenders.registry import (
     known_compensators,
     known_impedances,
     known_pointings,
+    known_pose_springs,
     known_representations,
     known_springs,
 )
@@ -20,19 +21,20 @@ from bench.errors import UnknownWord
 from bench.export.compensated import of_compensator, of_pointing
 from bench.export.entries import Entry, of_impedance, of_law, of_representation
 from bench.export.program import Function, read_function
-from bench.export.sprung import of_spring
+from bench.export.sprung import of_pose_spring, of_spring
 from bench.export.types import REAL, Kind, Program, Tuple, Typed, numbers
 from bench.law.contender import Contender, Gains, Regulator
 from bench.law.so3 import Rotation
 
 COORDINATES, IMPEDANCE = "representation-", "impedance-"
-STATED, AXIAL, SPRING = "compensator-", "pointing-", "spring-"
+STATED, AXIAL, SPRING, POSE_SPRING = "compensator-", "pointing-", "spring-", "pose-spring-"
 """What words begin with, by kind; a regulator's is its name."""
 
 ALONE: dict[str, tuple[Callable[[], dict], Callable[[Any], list[Entry]]]] = {
     STATED: (known_compensators, lambda one: of_compensator(one.law, one.begin)),
     AXIAL: (known_pointings, lambda one: [of_pointing(one.law)]),
     SPRING: (known_springs, lambda one: of_spring(one.moment)),
+    POSE_SPRING: (known_pose_springs, lambda one: of_pose_spring(one.wrench)),
 }
 """Kinds that act on no coordinates: what is known of each, and the entries of one."""
 

@@ -16,7 +16,7 @@ resolved_motion  Jacobian, Inverse: from the tool's acceleration to the joints
 impedance        Impedance
 damping          Damping, of an impedance that shapes no inertia
 limiter          Limiter, of commanded velocities
-spring           Spring, with a stiffness matrix
+spring           Spring, with a stiffness matrix; pose_spring: PoseSpring, of position too
 shipped          Shipped: a controller as its authors set it, and the law it makes
 equation, look   what the book shows of a law: its scalar equation, and how it is drawn
 chain, weighting an arm as kernels see it; weights of its joints
@@ -47,6 +47,7 @@ from bench.law.linalg import (
 )
 from bench.law.look import Look
 from bench.law.pointing import Pointing
+from bench.law.pose_spring import PoseSpring, rotation_vector
 from bench.law.representation import Representation
 from bench.law.resolved_motion import Inverse, Jacobian
 from bench.law.scalar import acos, atan2, copysign, cos, kernel, sin, sqrt

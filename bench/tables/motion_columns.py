@@ -157,6 +157,24 @@ def spring_columns() -> list[Column]:
     ]
 
 
+def pose_spring_columns() -> list[Column]:
+    """pose-springs.parquet: springs of position and orientation (bench/contenders/pose_springs), a row a spring.
+
+    K is symmetric with eigenvalues 30, 10 and 3 N/m along drawn axes, kr is 10 N m/rad; ways are of velocity commands
+    with K = I and kr = 1, from uniform orientations, half a metre from the goal.
+    """
+    return [
+        *words(spring="the spring", potential="whether it has a potential: yes or no"),
+        *numbers("1", "largest work over a closed way, over what is stored where it is furthest", "work_share"),
+        *numbers("1", "the same with K = 10 I", "work_share_isotropic"),
+        Column("starts", COUNT, "1", "starts of the ways"),
+        *numbers("1", "way of the hand's origin over the straight one: median and most", "way_median", "way_most"),
+        *numbers(
+            "m", "distance of two ways of one point of the hand at most, the origin drawn 0.2 m elsewhere", "apart_m"
+        ),
+    ]
+
+
 def map_columns() -> list[Column]:
     """map.parquet: millions of random starts of a law, counted in cells of SO(3) (`python -m bench map`).
 

@@ -25,6 +25,7 @@ TABLES = {
         Table("command-field", motion.field_columns, (*CONTENDER, "finding")),
         Table("shipped", shipped_columns, ("shipped", "law")),
         Table("springs", motion.spring_columns, ("spring", "frame")),
+        Table("pose-springs", motion.pose_spring_columns, ("spring",)),
         Table("compensators", compensator_columns, ("law", "disturbance")),
         Table("goal-streams", motion.stream_columns, ("stream", "law")),
         Table(

@@ -193,7 +193,9 @@ def test_plan_of_a_suite_takes_fourteen_lines_at_most(suite):
 def test_plan_names_what_is_made_beside_episodes(capsys):
     said = bench(capsys, "run", "--suite", "quick", "--dry-run").out
     made = "boundaries, command-field, compensators, costs, goal-streams, impedance, impedance-modes, jacobians"
-    assert f" also {made}, shipped, springs, traces, velocity and velocity-limits with " in " ".join(said.split())
+    assert f" also {made}, pose-springs, shipped, springs, traces, velocity and velocity-limits with " in " ".join(
+        said.split()
+    )
 
 
 def test_dry_run_counts_what_a_run_then_writes(capsys, tiny_run):

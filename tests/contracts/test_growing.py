@@ -80,6 +80,7 @@ LISTED = {
     "limiters": "dropped-limiter",
     "shipped": "dropped-shipped",
     "springs": "dropped-spring",
+    "pose-springs": "dropped-pose-spring",
     "compensators": "dropped-compensator",
     "pointings": "dropped-pointing",
     "baselines": "dropped-baseline",

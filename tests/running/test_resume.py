@@ -25,7 +25,8 @@ TABLES = [
         "episodes.parquet",
     ),
     *("goal-streams.parquet", "impedance-modes.parquet", "impedance.parquet"),
-    *("plan.json", "poses.parquet", "provenance.json", "robustness.parquet", "shipped.parquet", "springs.parquet"),
+    *("plan.json", "pose-springs.parquet", "poses.parquet", "provenance.json", "robustness.parquet"),
+    *("shipped.parquet", "springs.parquet"),
     *("traces.parquet", "velocity-limits.parquet", "velocity.parquet"),
 ]
 

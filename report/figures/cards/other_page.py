@@ -7,8 +7,14 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from bench import contenders
-from bench.contenders.registry import known_compensators, known_impedances, known_pointings, known_springs
-from bench.export.subject import AXIAL, IMPEDANCE, SPRING, STATED, subject_words
+from bench.contenders.registry import (
+    known_compensators,
+    known_impedances,
+    known_pointings,
+    known_pose_springs,
+    known_springs,
+)
+from bench.export.subject import AXIAL, IMPEDANCE, POSE_SPRING, SPRING, STATED, subject_words
 from report.figures.cards import regulators
 from report.figures.cards.law_page import LawPage, in_every_language, taken
 from report.figures.kit import html
@@ -33,6 +39,7 @@ KINDS = (
     Kind(AXIAL, "pointings", "a law of an axis", known_pointings()),
     Kind(IMPEDANCE, "impedances", "an impedance", known_impedances()),
     Kind(SPRING, "springs", "a spring with a stiffness matrix", known_springs()),
+    Kind(POSE_SPRING, "pose_springs", "a spring of position and orientation", known_pose_springs()),
 )
 
 
