@@ -15,7 +15,7 @@ from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
 SITE = Path(__file__).resolve().parent / "_build" / "html"
-# MathJax is 2 MB, the theme 3 MB, pages and figures 16 MB, the data of a default run 16 MB; a fifth to spare.
+# The theme is 3 MB, pages and figures 16 MB, the data of a default run 16 MB; a fifth to spare.
 BUDGET_BYTES = 45_000_000
 GENERATED = {"genindex.html", "search.html"}  # the theme's own pages: checked for loads, not for headings
 LOADING_LINKS = {"stylesheet", "icon", "preload", "prefetch", "modulepreload", "preconnect", "dns-prefetch"}

@@ -29,16 +29,15 @@ PICTURES = Path(__file__).resolve().parent / "_build" / "screenshots"
 THEMES = ("light", "dark")
 WIDTHS = (1280, 390)
 HEIGHT = 900
-LOAD_SECONDS = 30  # a page with MathJax needs one; the rest is for a loaded machine
+LOAD_SECONDS = 30  # a page needs less than one; the rest is for a loaded machine
 GENERATED = {"genindex.html", "search.html"}
 LOCAL_SCHEMES = ("file:", "data:", "blob:", "about:", "chrome:")
 CURE = "apt-get install chromium chromium-driver; pip install selenium"
 
 WAIT_FOR_QUIET = """
 const done = arguments[arguments.length - 1];
-const maths = window.MathJax && MathJax.startup ? MathJax.startup.promise : Promise.resolve();
 const frame = () => new Promise(requestAnimationFrame);
-Promise.all([maths, document.fonts.ready]).then(frame).then(frame).then(() => done(true));
+document.fonts.ready.then(frame).then(frame).then(() => done(true));
 """
 
 

@@ -27,5 +27,4 @@ def collected(app) -> Iterator[tuple[str, dict, str]]:
 
 def setup(app) -> dict:
     app.connect("html-collect-pages", collected)
-    app.set_html_assets_policy("always")  # formulas stand in pages that no source file has
     return {"parallel_read_safe": True, "parallel_write_safe": True}

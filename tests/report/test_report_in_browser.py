@@ -16,13 +16,14 @@ PAGES = [] if screenshots.missing() else screenshots.pages()
 FACTS = """
 const root = document.documentElement, heading = document.querySelector("article h1");
 const shown = [...document.images].filter(image => image.src && image.getClientRects().length);
-const formulas = [...document.querySelectorAll("span.math, div.math")];
+const formulas = [...document.querySelectorAll("article math, article div.math")];
 const copied = c => {
   const copy = Object.assign(document.createElement("canvas"), {width: c.width, height: c.height}).getContext("2d");
   copy.drawImage(c, 0, 0);
   return copy;
 };
 const inked = c => copied(c).getImageData(0, 0, c.width, c.height).data.some(byte => byte);
+const unset = one => (one.checkVisibility() && !one.getBoundingClientRect().width) || one.textContent.includes("\\\\");
 return {
   theme: root.dataset.theme,
   heading: heading ? heading.innerText.trim() : "",
@@ -32,7 +33,7 @@ return {
   cut: [...document.querySelectorAll("article table")]
     .filter(table => table.parentElement.scrollWidth > table.parentElement.clientWidth + 1)
     .map(table => table.id || table.className),
-  unset: formulas.filter(formula => !formula.querySelector("mjx-container")).length,
+  unset: formulas.filter(unset).length,
 };
 """
 

@@ -21,7 +21,7 @@ BY = "rotation-vector@geometric+"
 
 @pytest.fixture(scope="module")
 def run(tmp_path_factory):
-    """The reference with a few rows of robots that are told velocities."""
+    """The reference with a few rows of robots commanded by velocities."""
     folder = tmp_path_factory.mktemp("velocity") / "run"
     shutil.copytree(RESULTS / "reference", folder)
     settings = Settings("quick")

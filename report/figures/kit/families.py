@@ -1,6 +1,6 @@
 """The laws in families, each small enough for one panel, with names short enough to stand beside a curve.
 
-Two dozen laws in one figure are told apart by nothing. A family's laws are drawn in their own colours over all
+Two dozen laws in one figure cannot be distinguished. A family's laws are drawn in their own colours over all
 others in grey.
 """
 

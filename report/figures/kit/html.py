@@ -16,7 +16,7 @@ from typing import Any
 
 import pandas as pd
 
-from report.figures.kit import style
+from report.figures.kit import mathml, style
 
 VERDICTS = {
     "holds": "holds",
@@ -63,14 +63,9 @@ def law(name: str, text: str | None = None) -> Html:
 def foreign(text: str) -> str:
     """A text that we did not write, for HTML and for Markdown: it reads as it is, and nothing of it is markup.
 
-    An entity is a letter to Markdown; MathJax, which looks for \\( and $$ in the finished page, is stopped by a word
-    joiner, which has no width.
+    An entity is a letter to Markdown.
     """
-
-    def spelled(sign: re.Match) -> str:
-        return f"&#{ord(sign[0])};" + ("&#8288;" if sign[0] in "\\$" else "")
-
-    return TAKEN.sub(spelled, " ".join(str(text).split()))
+    return TAKEN.sub(lambda sign: f"&#{ord(sign[0])};", " ".join(str(text).split()))
 
 
 def together(text: str) -> Html:
@@ -139,8 +134,11 @@ def number(value: Any) -> str:
 
 
 def formula(tex: str) -> str:
-    """TeX in a piece of HTML, set by the page's MathJax."""
-    return f'<span class="math notranslate nohighlight">\\[{html.escape(tex)}\\]</span>'
+    """TeX in a piece of HTML, on a line of its own; as it is written where it cannot be set, for a user wrote it."""
+    try:
+        return mathml.block(tex)
+    except ValueError:
+        return f'<div class="math"><code>{foreign(tex)}</code></div>'
 
 
 def plain_table(frame: pd.DataFrame) -> str:

@@ -1,6 +1,6 @@
 """How figures look: one colour, marker and line per regulator everywhere, and the style they are drawn in.
 
-Colours are Okabe and Ito's eight, told apart with any colour vision, each with a lighter twin for dark pages.
+Colours are Okabe and Ito's eight, distinguished with any colour vision, each with a lighter twin for dark pages.
 Colour never stands alone: the marker and the line differ too, so that a print in grey still reads.
 """
 
