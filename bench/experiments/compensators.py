@@ -56,5 +56,6 @@ EXPERIMENT = Experiment(
     units,
     rows,
     cost_s=lambda unit: LEVEL_S * len(DISTURBANCES),
+    compiles=False,
     prepare=prepare,
 )

@@ -5,12 +5,13 @@ cache on disk, where the run finds it; so do the operations of laws, which it co
 """
 
 import contextlib
+import functools
 import os
 import subprocess
 import sys
 import threading
 import time
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 
 WORTH = 8
 """Contenders from which on a process more is worth its start of some seconds."""
@@ -48,8 +49,12 @@ def compiling_ahead(contenders: Iterable[str]) -> Iterator[subprocess.Popen | No
             process.terminate()
 
 
-def compile_one(name: str) -> None:
-    """Compile a contender of ours into the cache."""
+def compiler_of(name: str) -> Callable[[], object]:
+    """What compiles a contender of ours into the cache.
+
+    Errors:
+        UnknownWord: there is none of this name.
+    """
     from bench.contenders.registry import find_contender
     from bench.control.registry import all_controllers
     from bench.engines import run_arm, run_contact
@@ -57,11 +62,8 @@ def compile_one(name: str) -> None:
 
     touching = {one.name: one for one in all_controllers()}
     if name in touching:
-        run_contact.pointer(touching[name])
-    elif "@" in name:
-        run_arm.pointers(find_contender(name))
-    else:
-        evaluation(find_contender(name))
+        return functools.partial(run_contact.pointer, touching[name])
+    return functools.partial(run_arm.pointers if "@" in name else evaluation, find_contender(name))
 
 
 def main(parent: int, work: list[str]) -> None:
@@ -74,7 +76,7 @@ def main(parent: int, work: list[str]) -> None:
         if word.startswith(COUNT):
             count_one(word.removeprefix(COUNT))
         else:
-            compile_one(word)
+            compiler_of(word)()
     if rest := work[LIFE:]:
         os.execv(sys.executable, [sys.executable, "-m", "bench.running.precompile", str(parent), *rest])
 

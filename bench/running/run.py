@@ -24,15 +24,15 @@ def run(
     workers: int = 2,
     scheduler: str = THREADS,
     replace: bool = False,
-    told: Callable[[Unit], None] = lambda _: None,
+    report: Callable[[Unit], None] = lambda _: None,
     law_limit_s: float | None = None,
 ) -> bool:
     """Carry out what is not done yet; whether there was anything to do.
 
     Args:
         workers: threads of this process. scheduler: who carries out the units (bench/running/schedulers/words.py).
-        told: of every unit when it is done. law_limit_s: how long a unit of a user's law may take; None for the rule of
-            `bench.running.sandbox`.
+        report: called with every unit when it is done. law_limit_s: how long a unit of a user's law may take; None for
+            the rule of `bench.running.sandbox`.
     Errors:
         BadNumber: workers. BadResults: the folder cannot be used or written, or another run is at work there.
         MissingTool, LostWorkers: a cluster. KeyboardInterrupt: after what is finished is written.
@@ -55,8 +55,8 @@ def run(
                 begin(plan, out)
             for unit in plan.units:
                 if unit.key in state.done:
-                    told(unit)
-            by = {"scheduler": kind(scheduler), "workers": carry_out(told)}
+                    report(unit)
+            by = {"scheduler": kind(scheduler), "workers": carry_out(report)}
         finish(plan, out, sandbox.notes, by, began, resumed=bool(state.done))
         return True
 

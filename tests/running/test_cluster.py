@@ -100,7 +100,7 @@ def test_cluster_makes_the_bytes_that_threads_make_though_a_worker_is_killed(pla
             os.kill(next(iter(pids.values())), signal.SIGKILL)
         told.append(unit)
 
-    run.run(plan, tmp_path, scheduler=address(client), told=kill_one)
+    run.run(plan, tmp_path, scheduler=address(client), report=kill_one)
     assert by_threads.keys() == {f"{experiment_of(unit).table.name}.parquet" for unit in plan.units}
     assert tables(tmp_path) == by_threads
     assert sorted(unit.key for unit in told) == sorted(unit.key for unit in plan.units)

@@ -8,6 +8,9 @@ from pathlib import Path
 import psutil
 import pytest
 
+from bench.contenders.registry import all_contenders
+from bench.experiments import plan
+from bench.experiments.experiment import experiment_of
 from bench.provenance import ROOT
 from bench.running import precompile
 
@@ -27,6 +30,13 @@ def test_it_leaves_laws_controllers_of_arms_and_of_contact_in_the_cache(tmp_path
     assert {"binding", "resolved_acceleration"} <= kept
     assert cached(tmp_path) >= len(names)
     assert [path.name.partition("-")[2] for path in (tmp_path / "costs").iterdir()] == ["rotation-matrix.json"]
+
+
+def test_every_name_that_a_default_run_compiles_ahead_is_one_it_can_compile():
+    every = plan.make("default", all_contenders())
+    names = {unit.contender for unit in every.units if experiment_of(unit).compiles}
+    assert len(names) > precompile.LIFE
+    assert all(callable(precompile.compiler_of(name)) for name in names)
 
 
 def test_what_is_beyond_a_life_is_done_by_the_next(tmp_path):

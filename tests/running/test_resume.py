@@ -143,7 +143,7 @@ def test_stopped_run_in_contact_goes_on_and_ends_with_the_same_files(tmp_path, c
     choice = Choice(("wrench-probe",), arms=("ur5e",), controllers=CONTROLLERS, experiments=("contact",))
     plan = planning.make("quick", [], choice, count=6, horizon_s=0.1)
     with pytest.raises(KeyboardInterrupt):
-        running.run(plan, tmp_path / "stopped", workers=1, told=stop_after_two)
+        running.run(plan, tmp_path / "stopped", workers=1, report=stop_after_two)
     kept = {path.stem for path in (tmp_path / "stopped" / "parts").iterdir()}
     assert set(keys) <= kept < {unit.key for unit in plan.units}
     said = bench(capsys, *IN_CONTACT, "--out", tmp_path / "stopped")

@@ -10,6 +10,7 @@ from bench.experiments.experiment import Unit, experiment_of, rows_of
 from bench.experiments.plan import Plan
 from bench.running.run_folder import part
 from bench.running.sandbox import Sandbox
+from bench.running.schedulers import heap
 from bench.tables.store import write_table
 
 UNITS_A_PROCESS = 8
@@ -26,6 +27,7 @@ def run(
     Errors:
         KeyboardInterrupt: after the units under way are written.
     """
+    heap.share()
     stop = threading.Event()
 
     def work(unit: Unit) -> Unit | None:
