@@ -10,14 +10,14 @@ contenders/   the contestants, one file each: regulators/ representations/ jacob
               law_file runs it, law_process where, described_law is what everybody else knows of it
 control/      contenders at work: resolved_acceleration (tau = D J^-1 (u - Jdot qdot) + fg), velocity (omega = K f),
               hybrid, impedance, unshaped (an impedance with the hand's own inertia), contact_controller, registry
-engines/      one episode, four ways: reference, native, ideal-rk4, ideal-held; and disturbed, and told velocities
+engines/      one episode, four ways: reference, native, ideal-rk4, ideal-held; disturbed, and commanded by velocities
 metrics/      what is measured: motion/ along an episode, contact/ of a hand in contact, over contact_force and
               measured_compliance
 counting/     operations of the code that runs
 tables/       schema, store, files, read, statistics, lock; trust and kept_laws (laws of a results folder that may run)
 experiments/  one file an experiment: free_body, arm, contact, robustness, velocity, velocity_limits, impedance,
               impedance_modes, springs, pose_springs, compensators, goal_streams, traces, boundaries, command_field,
-              shipped, jacobians, costs; what plans them (experiment, plan, suites, choice); rows/ (from what engines give back)
+              shipped, jacobians, costs; what plans them (experiment, plan, suites, choice); rows/ (engines' results)
 running/      run, run_folder (until it is finished), order, precompile, sandbox (a user's laws), wire_format,
               schedulers/ (threads, and a Dask cluster), finish (the tables)
 timing/       time per tick (pytest-benchmark)

@@ -22,7 +22,7 @@ FEWEST = 0.2
 """Share of answers the right way that is enough to tell a form by."""
 
 FIT = {WIDE: 1e-5, CLOSE: 1e-6, FINE: 1e-9}
-"""Places where forms are told apart, and how well the right one fits there, of its size.
+"""Places where forms are distinguished, and how well the right one fits there, of its size.
 
 Two forms differ by a twenty-fourth of the square at least, 1e-4 at 0.05 rad and 1e-6 at 0.005 rad; forms of no name may
 differ from one by the fourth power, 1e-8 and less. Single precision has 6e-8, so that it is told where pairs are wide.

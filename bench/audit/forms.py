@@ -2,7 +2,7 @@
 
 The rotation vector is the error itself. The others are errors of their own right, and laws have been built on each;
 only `sin(theta) k` is zero at 180°, only 2 tan(theta/2) k is infinite there, and only Euler angles have poles. A
-function is first judged by its own form, so that what it means is told apart from what it gets wrong.
+function is first judged by its own form, so that what it means is distinguished from what it gets wrong.
 """
 
 from __future__ import annotations

@@ -49,7 +49,7 @@ def COMMAND(laws, regulators, representations, jacobians, inverses, controllers,
 
     With a Jacobian, an inverse, a number of joints or an arm: of the whole controller of an arm, without what MuJoCo
     computes. A Jacobian or inverse that is not named is every one that fits. With a controller: of it in contact, on
-    six joints, told to comply about x and y.
+    six joints, compliant about x and y.
     """
     if controllers:
         if laws or regulators or representations or jacobians or inverses or joints or arm:

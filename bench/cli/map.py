@@ -90,13 +90,13 @@ def COMMAND(
     done = 0
     with progress("starts") as steps:
 
-        def told(unit):
+        def report(unit):
             nonlocal done
             done += unit.episodes
             steps.now(unit.label, done, plan.episodes())
 
         steps.now("compiling the laws")
-        running.run(plan, out, workers=workers, scheduler=scheduler, replace=replace, told=told)
+        running.run(plan, out, workers=workers, scheduler=scheduler, replace=replace, report=report)
     _print(out)
     if read_json(out / "provenance.json")["lost"]:
         raise Exit(1)  # a law of the user's crashed or hung: what was lost has been said

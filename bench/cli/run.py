@@ -124,7 +124,7 @@ def COMMAND(
         total = plan.episodes()
         steps.now("compiling the laws")
 
-        def told(unit):
+        def report(unit):
             if left.pop(unit.key, None) is None:
                 return
             missing = sum(left.values())
@@ -134,7 +134,7 @@ def COMMAND(
                 steps.now(f"{counted(len(left), 'unit')} left" if left else "joining the tables")
 
         by = {"workers": workers, "scheduler": scheduler, "law_limit_s": law_limit}
-        did = running.run(plan, out, replace=replace, told=told, **by)
+        did = running.run(plan, out, replace=replace, report=report, **by)
     took = f" in {timedelta(seconds=round(time.monotonic() - began))}" if did else ""
     console().print(
         f"{'wrote' if did else 'up to date:'} {shown_path(out)}{took}   (python -m bench show {shown_path(out)})"

@@ -24,12 +24,12 @@ def COMMAND(laws, regulators, representations, arms, quick, benchmark_json):
         tasks.arm(arm)  # a word that names none is refused before anything is compiled
     with progress("samples") as steps:
 
-        def told(done):
+        def report(done):
             steps.now(f"{'timing' if done.total else 'compiling'} {done.name}", done.done, done.total or None)
 
         chosen = options.chosen(laws, regulators, representations, costings=True)
         run = timing.run_apart if laws else timing.run
-        path = run(chosen, quick=quick, told=told, arms=named, json_file=benchmark_json)
+        path = run(chosen, quick=quick, report=report, arms=named, json_file=benchmark_json)
     console().print(frame_table(timing.table(path), "Time per tick"))
     console().print(frame_table(timing.arm_table(path), "Time per tick on arms"))
     console().print(f"wrote {path}" + (f" and {benchmark_json}" if benchmark_json else ""))

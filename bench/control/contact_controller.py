@@ -64,7 +64,7 @@ class ContactController(NamedTuple):
 
     @property
     def assemble(self) -> Callable:
-        """Its rows: assemble(chain, wish, f, m, gains, touch, J, rows)."""
+        """Its rows: assemble(chain, setpoint, f, m, gains, touch, J, rows)."""
         if self.impedance is not None:
             return assembly(law_of(self.impedance, self.representation))
         if self.representation is not None:

@@ -53,9 +53,9 @@ from bench.law.weighting import smaller_gram, solve_gram
 
 
 @kernel
-def hold_moving(p, pdot, wish, gains):
+def hold_moving(p, pdot, setpoint, gains):
     """u_p = Kp (p_d - p) + Kv (v_d - pdot) [m/s^2], base frame."""
-    p_d, v_d = wish.p_d, wish.v_d
+    p_d, v_d = setpoint.p_d, setpoint.v_d
     return (
         gains.kp * (p_d[0] - p[0]) + gains.kv * (v_d[0] - pdot[0]),
         gains.kp * (p_d[1] - p[1]) + gains.kv * (v_d[1] - pdot[1]),
@@ -72,30 +72,30 @@ def write(buffer, linear, angular):
 
 
 @kernel
-def measure(chain, wish, f, m, J, rows):
+def measure(chain, setpoint, f, m, J, rows):
     """J and all rows but a, along the axes of the base frame; returns pdot and omega."""
     pdot, omega = twist(chain)
     bias = bias_acceleration(chain)
     fill(J, chain)
     write(rows.drift, (bias[0], bias[1], bias[2]), (bias[3], bias[4], bias[5]))
     write(rows.F, f, m)
-    write(rows.h, wish.f_d, wish.m_d)
+    write(rows.h, setpoint.f_d, setpoint.m_d)
     write(rows.v, pdot, omega)
     return pdot, omega
 
 
 @kernel
-def in_base(chain, wish, f, m, gains, touch, J, rows):
+def in_base(chain, setpoint, f, m, gains, touch, J, rows):
     """J and the rows of hybrid control along the axes of the base frame."""
-    pdot, omega = measure(chain, wish, f, m, J, rows)
-    u = regulate(chain.R, omega, Goal(wish.R_d, AT_REST, AT_REST), gains)
-    write(rows.a, hold_moving(chain.p, pdot, wish, gains), u)
+    pdot, omega = measure(chain, setpoint, f, m, J, rows)
+    u = regulate(chain.R, omega, Goal(setpoint.R_d, AT_REST, AT_REST), gains)
+    write(rows.a, hold_moving(chain.p, pdot, setpoint, gains), u)
 
 
 @kernel
-def in_base_by_rate(chain, wish, f, m, gains, touch, J, rows):
+def in_base_by_rate(chain, setpoint, f, m, gains, touch, J, rows):
     """The same; a turn that is held is held by its rate alone, omegadot = -Kv omega, whatever the orientation."""
-    in_base(chain, wish, f, m, gains, touch, J, rows)
+    in_base(chain, setpoint, f, m, gains, touch, J, rows)
     for i in range(3, 6):
         rows.a[i] = -gains.kv * rows.v[i]
 
@@ -107,10 +107,10 @@ def carried_back(R, R_d, v):
 
 
 @kernel
-def in_hand(chain, wish, f, m, gains, touch, J, rows):
+def in_hand(chain, setpoint, f, m, gains, touch, J, rows):
     """J and the rows of hybrid control along the base's axes as the hand carries them along from the goal."""
-    in_base(chain, wish, f, m, gains, touch, J, rows)
-    R, R_d = chain.R, wish.R_d
+    in_base(chain, setpoint, f, m, gains, touch, J, rows)
+    R, R_d = chain.R, setpoint.R_d
     for i in range(chain.n):
         linear, angular = (J[0, i], J[1, i], J[2, i]), (J[3, i], J[4, i], J[5, i])
         linear, angular = carried_back(R, R_d, linear), carried_back(R, R_d, angular)
@@ -143,17 +143,17 @@ def in_coordinates(representation: Representation, converts: bool = True) -> Cal
     convert = conversion(representation, converts)
 
     @kernel
-    def assemble(chain, wish, f, m, gains, touch, J, rows):
+    def assemble(chain, setpoint, f, m, gains, touch, J, rows):
         """J_E and the rows of hybrid control along x, y, z and E."""
         pdot, omega = twist(chain)
         at = chart(chain.R)
         Edot = rates(at, omega)
         drift = drift_of(chain, at, Edot, omega, bias_acceleration(chain))
         fill_in(J, chain, at)
-        write(rows.a, hold_moving(chain.p, pdot, wish, gains), law(at, chart(wish.R_d).E, Edot, gains))
+        write(rows.a, hold_moving(chain.p, pdot, setpoint, gains), law(at, chart(setpoint.R_d).E, Edot, gains))
         write(rows.drift, (drift[0], drift[1], drift[2]), (drift[3], drift[4], drift[5]))
         write(rows.F, f, convert(at, m))
-        write(rows.h, wish.f_d, convert(at, wish.m_d))
+        write(rows.h, setpoint.f_d, convert(at, setpoint.m_d))
         write(rows.v, pdot, Edot)
 
     return assemble

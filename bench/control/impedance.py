@@ -22,17 +22,17 @@ def assembly(law: Callable) -> Callable:
     """The rows of `hybrid.comply`, all of them held, for the law of an impedance."""
 
     @kernel
-    def assemble(chain, wish, f, m, gains, touch, J, rows):
+    def assemble(chain, setpoint, f, m, gains, touch, J, rows):
         """J, and a = (u_p, u) with the wrench put back, along the axes of the base frame."""
-        pdot, omega = measure(chain, wish, f, m, J, rows)
-        spring, f_d, m_d = hold_moving(chain.p, pdot, wish, gains), wish.f_d, wish.m_d
+        pdot, omega = measure(chain, setpoint, f, m, J, rows)
+        spring, f_d, m_d = hold_moving(chain.p, pdot, setpoint, gains), setpoint.f_d, setpoint.m_d
         pressed = (
             spring[0] + (f[0] + f_d[0]) / touch.m_p,
             spring[1] + (f[1] + f_d[1]) / touch.m_p,
             spring[2] + (f[2] + f_d[2]) / touch.m_p,
         )
         moment = (m[0] + m_d[0], m[1] + m_d[1], m[2] + m_d[2])
-        write(rows.a, pressed, law(chain.R, omega, moment, wish.R_d, gains, touch.m_o))
+        write(rows.a, pressed, law(chain.R, omega, moment, setpoint.R_d, gains, touch.m_o))
 
     return assemble
 

@@ -1,8 +1,8 @@
-"""First-order laws, for robots that are told velocities: omega = K f(R, R_d).
+"""First-order laws, for robots commanded by velocities: omega = K f(R, R_d).
 
 f is the error vector of a law u = Kp f - Kv omega: its command at omega = 0 over Kp. So every law whose command at rest
 depends on nothing but R and R_d is a velocity law too. On an arm J qdot = (K (p_d - p), omega): resolved rate (Whitney
-1969), by any inverse; a robot that is told velocities has no inertia to its controller, so that what an inverse is
+1969), by any inverse; a robot commanded by velocities has no inertia to its controller, so that what an inverse is
 given for D is the identity.
 
 Near the goal f = theta k, and each tick takes K dt of the angle: held commands are stable up to K dt = 2 / f'(0).

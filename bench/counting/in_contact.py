@@ -50,13 +50,13 @@ def rows_in_contact(controller: ContactController) -> Iterator[dict]:
 
 def _call(controller: ContactController, held, state: ArmState, draw) -> Call:
     f, m, v_d, f_d, m_d = (tuple(three) for three in draw.normal(size=(5, 3)))
-    wish = Setpoint(state.goal.R, state.p_d, v_d, f_d, m_d)
-    given, tally = (state.chain, wish, f, m, GAINS, TOUCH, state.D, state.fg), Tally()
+    setpoint = Setpoint(state.goal.R, state.p_d, v_d, f_d, m_d)
+    given, tally = (state.chain, setpoint, f, m, GAINS, TOUCH, state.D, state.fg), Tally()
 
-    def torques(chain, wish, f, m, gains, touch, D, fg, dtype):
+    def torques(chain, setpoint, f, m, gains, touch, D, fg, dtype):
         J, tau, into = np.zeros((6, chain.n), dtype), np.zeros(chain.n, dtype), rows(dtype)
         tally.stage = "regulate"
-        controller.assemble(chain, wish, f, m, gains, touch, J, into)
+        controller.assemble(chain, setpoint, f, m, gains, touch, J, into)
         tally.stage = "invert"
         form = FORMS.index(controller.form) if controller.form else INVERSE
         comply(form, held, chain, D, fg, J, into, gains, touch, room(dtype), tau)

@@ -1,4 +1,4 @@
-"""One call for robots that are told velocities: a first-order law on starts of the free body or an arm, rows back."""
+"""One call for robots commanded by velocities: a first-order law on starts of the free body or an arm, rows back."""
 
 import functools
 import math
@@ -31,7 +31,7 @@ def run(
 
     Args:
         contender: a velocity law; on an arm with its Jacobian and inverse. K: its gain [1/s].
-        starts: tasks.Start, in order, whose omega and joint rates are not used: nothing moves before it is told.
+        starts: tasks.Start, in order, whose omega and joint rates are not used: nothing moves before a command.
         lag_s: time constant of the joints' servos [s]; 0: none. Those of the free body have none.
     """
     rows, begun, given = blank_rows(len(starts)), start_rows(starts), numbers(settings)

@@ -1,4 +1,4 @@
-"""The loop over episodes of a free body that is told its angular velocity, held over each tick and followed exactly."""
+"""The loop over episodes of a free body commanded by its angular velocity, held over each tick and followed exactly."""
 
 import math
 from typing import NamedTuple

@@ -51,7 +51,7 @@ TWINS = (
 """What ought to equal another contender: the same command by another Jacobian."""
 
 AT_INVERSES = ("wrist", "uniform")
-"""Start sets on which inverses are told apart, and twins looked at: beside the arm's singularities, and anywhere."""
+"""Start sets on which inverses are distinguished, and twins looked at: beside the arm's singularities, and anywhere."""
 
 VARIED = (LAWS[0], LAWS[3], ANALYTIC[0])  # they settle every clear start of a perfect model
 

@@ -8,9 +8,9 @@ Three measures of an episode, each with those before it:
 
 The plant enforces neither torques nor ranges: an episode that passes all three is one that the arm could have done.
 
-Two controllers are compared on the starts that both ran. They are told apart if so many of the starts at which one
+Two controllers are compared on the starts that both ran. They are distinguished if so many of the starts at which one
 alone passes are one's that a fair coin gives as many with less than P_VALUE, both sides (McNemar's test, exact). The
-best are the one that passes most and all that are not told apart from it: several are a tie, which nobody wins.
+best are the one that passes most and all that are not distinguished from it: several are a tie, which nobody wins.
 """
 
 import pandas as pd

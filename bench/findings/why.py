@@ -1,7 +1,7 @@
 """Why a law does what it does: a sentence for each thing found of it, with the state that shows it and its page.
 
-A fault is a sentence that names one. Dead points, and places where the command is no number, are none of a law whose
-`property` is "almost global", which says as much: they are told.
+A fault is a sentence that names one. Dead points, and places where the command is no number, are no faults of a law
+whose `property` is "almost global": the word says that they exist.
 """
 
 import math

@@ -3,7 +3,7 @@
 from typing import NamedTuple
 
 COLOURS = ("blue", "vermillion", "green", "purple", "orange", "sky", "yellow")
-"""Okabe and Ito's, told apart with any colour vision."""
+"""Okabe and Ito's, distinguished with any colour vision."""
 MARKERS = ("o", "s", "^", "v", "D", "d", "p", "P", "x", "X", "h", "*", "<")
 LINES = ("solid", "dashed", "dotted", "dash-dot")
 

@@ -1,4 +1,4 @@
-"""What a study of many episodes costs, and that its rows do not hang on who carries it out: results/scale/scale.json.
+"""What a study of many episodes costs, and that its rows do not depend on who carries it out: results/scale/scale.json.
 
     python -m bench.studies.scale                     all of it: some ten minutes on an idle machine
     python -m bench.studies.scale --only schedulers   one part anew; the others stay as they are
@@ -146,7 +146,7 @@ def killed() -> dict:
     ):
         told: list[int] = []
         with tempfile.TemporaryDirectory() as folder:
-            run.run(plan, Path(folder) / "run", workers=2, scheduler=scheduler, told=hook)
+            run.run(plan, Path(folder) / "run", workers=2, scheduler=scheduler, report=hook)
             paths = sorted((Path(folder) / "run").glob("*.parquet"))
             found[name] = {path.name: hashlib.sha256(path.read_bytes()).hexdigest() for path in paths}
     return {

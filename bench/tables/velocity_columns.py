@@ -1,4 +1,4 @@
-"""Tables of robots that are told velocities: episodes of first-order laws, and how far K dt may be raised."""
+"""Tables of robots that are commanded by velocities: episodes of first-order laws, and how far K dt may be raised."""
 
 from bench.tables.column import SINGLE, Column, numbers, words
 from bench.tables.motion_columns import CONTENDER, JUDGED

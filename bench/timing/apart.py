@@ -26,7 +26,7 @@ def run_apart(
     contenders: Iterable[Contender],
     folder: Path = FOLDER,
     quick: bool = False,
-    told: Callable = lambda _: None,
+    report: Callable = lambda _: None,
     arms: tuple[str, ...] = (),
     json_file: str = "",
     silent_s: float = SILENT_S,
@@ -49,7 +49,7 @@ def run_apart(
                 return Path(said["path"])
             if "mistake" in said:
                 raise BadLaw(said["mistake"])
-            told(Progress(*said["progress"]))
+            report(Progress(*said["progress"]))
     except TimeoutError as error:
         raise BadLaw(f"--law {', '.join(files)}: it did not return within {silent_s:g} s; mend the file") from error
     except (EOFError, OSError) as error:
@@ -64,13 +64,13 @@ def main(descriptor: int) -> None:
     with Connection(descriptor) as line:
         asked = json.loads(line.recv_bytes())
 
-        def told(done: Progress) -> None:
+        def report(done: Progress) -> None:
             line.send_bytes(json.dumps({"progress": done}).encode())
 
         try:
             own = tuple(load_law(Path(path)) for path in asked["files"])
             contenders = [find_contender(name, own) for name in asked["names"]]
-            said = {"path": str(run(contenders, told=told, **asked["how"]))}
+            said = {"path": str(run(contenders, report=report, **asked["how"]))}
         except BenchError as error:
             said = {"mistake": str(error)}
         line.send_bytes(json.dumps(said).encode())

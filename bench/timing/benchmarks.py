@@ -49,7 +49,7 @@ class Progress(NamedTuple):
 
 
 def benchmarks(
-    contenders: list[Contender], told: Callable = lambda _: None, arms: tuple[str, ...] = ()
+    contenders: list[Contender], report: Callable = lambda _: None, arms: tuple[str, ...] = ()
 ) -> list[Benchmark]:
     """The reference kernel first, then everything else; all is compiled and has run once.
 
@@ -63,7 +63,7 @@ def benchmarks(
     contenders = [one for one in contenders if not one.regulator.in_engine]
     loops, laws = [], []
     for one in contenders:
-        told(Progress(one.name, 0, 0))
+        report(Progress(one.name, 0, 0))
         if not one.regulator.costing_only:  # before the law alone: this refuses, in a line, what does not compile
             loops += [_engine(engine, one) for engine in ENGINES]
         laws.append(_law(LAW, one))
@@ -71,7 +71,7 @@ def benchmarks(
     kernel = Benchmark(KERNEL, None, "", reference_kernel.STEPS, _kernel())
     found = [kernel, *laws, *loops, empty, _rollout()]
     for arm in arms:
-        told(Progress(arm, 0, 0))
+        report(Progress(arm, 0, 0))
         found += on_arms.of_arm(arm, [one for one in contenders if not one.regulator.costing_only])
     return found
 

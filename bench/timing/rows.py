@@ -28,7 +28,7 @@ def run(
     contenders: list[Contender],
     folder: Path = FOLDER,
     quick: bool = False,
-    told: Callable = lambda _: None,
+    report: Callable = lambda _: None,
     arms: tuple[str, ...] = (),
     json_file: str = "",
 ) -> Path:
@@ -36,13 +36,13 @@ def run(
 
     Args:
         arms: names of those that are timed too; and if there are any, two threads against one.
-        told: called with a `benchmarks.Progress` for every law compiled and after every sample.
+        report: called with a `benchmarks.Progress` for every law compiled and after every sample.
         json_file: gets the samples too, in pytest-benchmark's format.
     Errors:
         BadLaw: a user's law that cannot be compiled. BadResults: the folder or the file cannot be written.
     """
-    measured = benchmarks(contenders, told, arms)
-    seconds = measure(measured, QUICK_PASSES if quick else PASSES, told=told)
+    measured = benchmarks(contenders, report, arms)
+    seconds = measure(measured, QUICK_PASSES if quick else PASSES, report=report)
     rows = frame(measured, seconds)
     if arms:
         scaling = threads.measure(threads.QUICK_REPETITIONS if quick else threads.REPETITIONS)

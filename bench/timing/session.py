@@ -40,7 +40,7 @@ def order(count: int, passes: int, seed: int) -> list[list[int]]:
     return [shuffled.sample(range(count), count) for _ in range(passes)]
 
 
-def measure(benchmarks: list[Benchmark], passes: int, seed: int = 0, told: Callable = lambda _: None) -> np.ndarray:
+def measure(benchmarks: list[Benchmark], passes: int, seed: int = 0, report: Callable = lambda _: None) -> np.ndarray:
     """Seconds of the fastest round: one row a pass, one column a benchmark.
 
     Errors:
@@ -52,7 +52,7 @@ def measure(benchmarks: list[Benchmark], passes: int, seed: int = 0, told: Calla
     def sample(number: int, place: int) -> Sample:
         def taken(rounds):
             seconds[number, place] = min(rounds)
-            told(Progress(benchmarks[place].name, int(np.isfinite(seconds).sum()), total))
+            report(Progress(benchmarks[place].name, int(np.isfinite(seconds).sum()), total))
 
         return Sample(benchmarks[place], number, taken)
 

@@ -21,8 +21,8 @@ from support.in_contact import (
     drawn,
     felt,
     hand,
+    setpoint_of,
     tick,
-    wish_of,
 )
 from support.states import as_rotation, rotations, vector
 
@@ -59,11 +59,11 @@ def B_of(representation, E) -> np.ndarray:
     return np.array(exact_B(representation.to_matrix, E).tolist(), dtype=float)
 
 
-def frame(one, at, wish) -> tuple[np.ndarray, np.ndarray]:
+def frame(one, at, setpoint) -> tuple[np.ndarray, np.ndarray]:
     """(M, bent): its rows' velocity is M (pdot, omega), their acceleration M (pddot, omegadot) - bent."""
     M, bent = np.eye(6), np.zeros(6)
     if one.law == "hybrid-hand":
-        M = np.kron(np.eye(2), (at.R @ np.array(wish.R_d)).T)  # Q = R R_d^T; rows of np.array(R_d) are R_d's columns
+        M = np.kron(np.eye(2), (at.R @ np.array(setpoint.R_d)).T)  # Q = R R_d^T; np.array(R_d) is R_d^T
     elif one.representation is not None:
         E = one.representation.chart(at.chain.R).E
         B = B_of(one.representation, E)
@@ -73,18 +73,18 @@ def frame(one, at, wish) -> tuple[np.ndarray, np.ndarray]:
     return M, bent
 
 
-def commanded(one, at, wish, held) -> np.ndarray:
+def commanded(one, at, setpoint, held) -> np.ndarray:
     """The acceleration along its rows; of `transpose` that and what the wrenches make of the hand."""
-    M, _ = frame(one, at, wish)
+    M, _ = frame(one, at, setpoint)
     velocity, into_frame = M @ at.velocity, np.linalg.inv(M).T
-    spring = GAINS.kp * (np.array(wish.p_d) - at.chain.p) + GAINS.kv * (np.array(wish.v_d) - at.velocity[:3])
-    f_d, m_d = np.array(wish.f_d), np.array(wish.m_d)
+    spring = GAINS.kp * (np.array(setpoint.p_d) - at.chain.p) + GAINS.kv * (np.array(setpoint.v_d) - at.velocity[:3])
+    f_d, m_d = np.array(setpoint.f_d), np.array(setpoint.m_d)
     if one.representation is not None:
-        E, E_d = (np.array(one.representation.chart(R).E) for R in (at.chain.R, wish.R_d))
+        E, E_d = (np.array(one.representation.chart(R).E) for R in (at.chain.R, setpoint.R_d))
         a = np.concatenate((spring, GAINS.kp * (E_d - E) - GAINS.kv * velocity[3:]))
         h = into_frame @ np.concatenate((f_d, m_d))
     else:
-        turn = (ScipyRotation.from_matrix(np.array(wish.R_d).T) * ScipyRotation.from_matrix(at.R).inv()).as_rotvec()
+        turn = (ScipyRotation.from_matrix(np.array(setpoint.R_d).T) * ScipyRotation.from_matrix(at.R).inv()).as_rotvec()
         stiff = 0.0 if one.law == "hybrid-rate" else GAINS.kp * np.sinc(np.linalg.norm(turn) / np.pi)
         a = M @ np.concatenate((spring, stiff * turn - GAINS.kv * at.velocity[3:]))
         h = np.concatenate((f_d, m_d))
@@ -132,15 +132,15 @@ def test_wrench_that_is_felt_is_the_one_applied_moved_to_the_hands_frame(arm):
 def test_perfect_model_gives_the_hand_the_commanded_acceleration(arm, one):
     """MuJoCo's J qacc + Jdot qdot under the wrench in the controller's frame: all rows; of `projected` what is held."""
     compared = 0
-    for state, wish in drawn(arm):
+    for state, setpoint in drawn(arm):
         at = hand(*state)
         if not regular(one, at):
             continue
-        M, bent = frame(one, at, wish)
+        M, bent = frame(one, at, setpoint)
         for held in some_selections():
-            made = tick(one, at, wish, held)
+            made = tick(one, at, setpoint, held)
             got = M @ at.acceleration(made.tau) - bent
-            wanted = commanded(one, at, wish, held)
+            wanted = commanded(one, at, setpoint, held)
             if one.form == "projected" and not all(x == 0.0 for x in held):
                 got, wanted = got[np.array(held) > 0.0], wanted[np.array(held) > 0.0]
             allowed = rounding(at, M @ at.J) * sizes(at, M, bent)
@@ -153,12 +153,12 @@ def test_perfect_model_gives_the_hand_the_commanded_acceleration(arm, one):
 @pytest.mark.parametrize("one", UNCONVERTED, ids=named)
 def test_acceleration_is_not_the_commanded_one_when_moments_are_left_unconverted(arm, one):
     """The test above can fail: a wrench taken for generalized forces as it is is not the one that acts."""
-    for state, wish in drawn(arm):
+    for state, setpoint in drawn(arm):
         at = hand(*state)
         if regular(one, at):
-            M, bent = frame(one, at, wish)
-            got = M @ at.acceleration(tick(one, at, wish, SELECTIONS[0]).tau) - bent
-            assert np.abs(got - commanded(one, at, wish, SELECTIONS[0])).max() > 1e-2
+            M, bent = frame(one, at, setpoint)
+            got = M @ at.acceleration(tick(one, at, setpoint, SELECTIONS[0]).tau) - bent
+            assert np.abs(got - commanded(one, at, setpoint, SELECTIONS[0])).max() > 1e-2
 
 
 @over_arms
@@ -166,16 +166,16 @@ def test_acceleration_is_not_the_commanded_one_when_moments_are_left_unconverted
 def test_perfect_model_gives_the_hand_the_acceleration_of_the_impedance(arm, one):
     """p as a mass, damper and spring; the turn as the law says."""
     compared = 0
-    for state, wish in drawn(arm):
+    for state, setpoint in drawn(arm):
         at = hand(*state)
         law = law_of(one.impedance, one.representation)
-        f_d, m_d = np.array(wish.f_d), np.array(wish.m_d)
-        u = law(at.chain.R, vector(at.velocity[3:]), vector(at.F[3:] + m_d), wish.R_d, GAINS, TOUCH.m_o)
+        f_d, m_d = np.array(setpoint.f_d), np.array(setpoint.m_d)
+        u = law(at.chain.R, vector(at.velocity[3:]), vector(at.F[3:] + m_d), setpoint.R_d, GAINS, TOUCH.m_o)
         if np.linalg.norm(u) > 1e3:
             continue  # beside a pole of its coordinates
-        pddot = GAINS.kp * (np.array(wish.p_d) - at.chain.p) + GAINS.kv * (np.array(wish.v_d) - at.velocity[:3])
+        pddot = GAINS.kp * (np.array(setpoint.p_d) - at.chain.p) + GAINS.kv * (np.array(setpoint.v_d) - at.velocity[:3])
         wanted = np.concatenate((pddot + (at.F[:3] + f_d) / TOUCH.m_p, u))
-        got = at.acceleration(tick(one, at, wish, one.selection(None)).tau)
+        got = at.acceleration(tick(one, at, setpoint, one.selection(None)).tau)
         allowed = rounding(at, at.J) * sizes(at, np.eye(6), np.zeros(6)) + ROUNDING * 20 * np.linalg.norm(u)
         np.testing.assert_allclose(got, wanted, rtol=0.0, atol=allowed)
         compared += 1
@@ -189,10 +189,10 @@ def test_perfect_model_gives_the_hand_the_acceleration_of_the_impedance(arm, one
 @over_frames
 def test_wrench_does_the_same_work_in_every_frame(arm, one):
     """F_E . v_E = F . v and J_E^T F_E = J^T F."""
-    for state, wish in drawn(arm):
+    for state, setpoint in drawn(arm):
         at = hand(*state)
         if regular(one, at):
-            made = tick(one, at, wish, SELECTIONS[0])
+            made = tick(one, at, setpoint, SELECTIONS[0])
             into, terms = made.rows, np.linalg.norm(at.F) * np.linalg.norm(at.velocity)
             # a moment passes through B^T, its rate through B^-1: 1/margin = 5 at most
             assert abs(into.F @ into.v - at.F @ at.velocity) <= 5 * ROUNDING * terms
@@ -207,23 +207,23 @@ def test_wrench_does_the_same_work_in_every_frame(arm, one):
 
 @pytest.mark.parametrize("one", UNCONVERTED, ids=named)
 def test_unconverted_moments_are_their_components_about_the_axes_that_the_coordinates_stand_for(one):
-    for state, wish in drawn(ARMS[0]):
+    for state, setpoint in drawn(ARMS[0]):
         at = hand(*state)
-        into = tick(one, at, wish, SELECTIONS[0]).rows
+        into = tick(one, at, setpoint, SELECTIONS[0]).rows
         _, m = felt(at)
-        for row, moment in ((into.F, m), (into.h, wish.m_d)):
+        for row, moment in ((into.F, m), (into.h, setpoint.m_d)):
             assert tuple(row[3 + k] for k in axes_of(one.representation)) == tuple(moment)
 
 
 def test_generalized_forces_along_zyx_angles_are_the_moments_about_their_axes():
     """About z, about the level axis, about the hand's own x: (alpha, beta, gamma) turn the hand about these."""
     one = hybrid("hybrid", "inverse", COORDINATES["zyx-euler"])
-    for state, wish in drawn(ARMS[0]):
+    for state, setpoint in drawn(ARMS[0]):
         at = hand(*state)
         alpha, _, _ = ScipyRotation.from_matrix(at.R).as_euler("ZYX")
         m = at.F[3:]
         about = (m[2], m @ (-np.sin(alpha), np.cos(alpha), 0.0), m @ at.R[:, 0])
-        F = tick(one, at, wish, SELECTIONS[0]).rows.F
+        F = tick(one, at, setpoint, SELECTIONS[0]).rows.F
         np.testing.assert_allclose(F, (*at.F[:3], *about), rtol=0.0, atol=ROUNDING * np.linalg.norm(at.F))
 
 
@@ -236,16 +236,16 @@ ON_POLES = [
 
 def at_orientation(R):
     """A hand of that orientation in one of the drawn states: its frame redrawn, as a trial's mount does."""
-    state, wish = drawn(ARMS[0])[0]
+    state, setpoint = drawn(ARMS[0])[0]
     at = hand(*state)
-    return at._replace(chain=at.chain._replace(R=R)), wish
+    return at._replace(chain=at.chain._replace(R=R)), setpoint
 
 
 @pytest.mark.parametrize(("representation", "R"), ON_POLES)
 def test_wrench_is_converted_on_the_pole_too_and_does_the_work_of_what_motion_is_left(representation, R):
     """F_E = diag(I, B)^T F, of rank 5: F_E . (v, Edot) = F . (v, B Edot) for every Edot, though B^-1 does not exist."""
-    at, wish = at_orientation(R)
-    made = tick(hybrid("hybrid", "inverse", representation), at, wish, SELECTIONS[0])
+    at, setpoint = at_orientation(R)
+    made = tick(hybrid("hybrid", "inverse", representation), at, setpoint, SELECTIONS[0])
     f, m = (np.array(three) for three in felt(at))
     # felt() turns the sensors' components by R, and B is of coordinates that are exact on the pole but for rounding
     B = B_of(representation, representation.chart(R).E)
@@ -281,10 +281,10 @@ def test_poles_are_among_the_orientations_tried():
 @over_arms
 def test_rows_of_the_hand_are_those_of_the_base_turned_back(arm):
     on_base, in_hand = (hybrid(law, "inverse") for law in ("hybrid-base", "hybrid-hand"))
-    for state, wish in drawn(arm):
+    for state, setpoint in drawn(arm):
         at = hand(*state)
-        base, turned = (tick(one, at, wish, SELECTIONS[0]) for one in (on_base, in_hand))
-        back = np.kron(np.eye(2), np.array(wish.R_d).T @ at.R.T)  # Q^T = R_d R^T
+        base, turned = (tick(one, at, setpoint, SELECTIONS[0]) for one in (on_base, in_hand))
+        back = np.kron(np.eye(2), np.array(setpoint.R_d).T @ at.R.T)  # Q^T = R_d R^T
         for name in ("a", "drift", "F", "v"):
             row = getattr(base.rows, name)
             np.testing.assert_allclose(
@@ -298,12 +298,12 @@ def test_rows_of_the_hand_are_those_of_the_base_turned_back(arm):
 @over_arms
 def test_hand_and_base_are_one_while_all_is_held_and_at_the_goal_for_every_selection(arm, form):
     on_base, in_hand = (hybrid(law, form) for law in ("hybrid-base", "hybrid-hand"))
-    for k, (state, wish) in enumerate(drawn(arm)):
+    for k, (state, setpoint) in enumerate(drawn(arm)):
         at = hand(*state)
         size = np.linalg.norm(at.D, 2) * np.linalg.norm(np.linalg.pinv(at.J), 2) * LONGEST
-        there = wish._replace(R_d=at.chain.R)
-        for wished, held in [(wish, SELECTIONS[-1]), *((there, held) for held in SELECTIONS if k < 2)]:
-            base, turned = (tick(one, at, wished, held).tau for one in (on_base, in_hand))
+        there = setpoint._replace(R_d=at.chain.R)
+        for goal, held in [(setpoint, SELECTIONS[-1]), *((there, held) for held in SELECTIONS if k < 2)]:
+            base, turned = (tick(one, at, goal, held).tau for one in (on_base, in_hand))
             np.testing.assert_allclose(turned, base, rtol=0.0, atol=backward(at.J) * size)
 
 
@@ -314,7 +314,7 @@ def oriented(arm: str, moving: bool):
     wrist = hand(arm, q, qdot, ScipyRotation.identity(), push)
     at = hand(arm, q, qdot, ScipyRotation.from_matrix(wrist.R).inv(), push)
     at = at._replace(chain=at.chain._replace(R=as_rotation(IDENTITY)))
-    return at, wish_of(ScipyRotation.identity(), np.array(at.chain.p) + 0.1, draw)
+    return at, setpoint_of(ScipyRotation.identity(), np.array(at.chain.p) + 0.1, draw)
 
 
 @IN_FORMS
@@ -323,12 +323,12 @@ def oriented(arm: str, moving: bool):
 def test_coordinates_are_the_base_frames_at_their_origin(representation, arm, form):
     """Where B is the identity but for the order of its columns, at rest; on the rotation vector moving too."""
     np.testing.assert_array_equal(B_of(representation, (0.0, 0.0, 0.0))[:, axes_of(representation)], np.eye(3))
-    at, wish = oriented(arm, moving=representation.name == "rotation-vector")
+    at, setpoint = oriented(arm, moving=representation.name == "rotation-vector")
     for held in SELECTIONS:
         specification = Specification("", tuple(map(int, held)))
         taus = []
         for one in (hybrid("hybrid", form, representation), hybrid("hybrid-base", form)):
-            taus.append(tick(one, at, wish, one.selection(specification)).tau)
+            taus.append(tick(one, at, setpoint, one.selection(specification)).tau)
         size = np.linalg.norm(at.D, 2) * np.linalg.norm(np.linalg.pinv(at.J), 2) * LONGEST
         np.testing.assert_allclose(*taus, rtol=0.0, atol=backward(at.J) * size, err_msg=held)
 

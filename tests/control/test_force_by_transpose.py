@@ -25,14 +25,14 @@ def regular(one, at) -> bool:
 
 
 def ticks(one, arm):
-    """(hand, wish, held, tick) in the drawn states where its coordinates are regular, selections taking turns."""
+    """(hand, setpoint, held, tick) in the drawn states where its coordinates are regular, selections taking turns."""
     found = 0
-    for k, (state, wish) in enumerate(drawn(arm)):
+    for k, (state, setpoint) in enumerate(drawn(arm)):
         at = hand(*state)
         if regular(one, at):
             found += 1
             for held in SELECTIONS[k::8]:
-                yield at, wish, held, tick(one, at, wish, held)
+                yield at, setpoint, held, tick(one, at, setpoint, held)
     assert found >= 3
 
 
@@ -58,12 +58,12 @@ def test_torques_are_those_of_operational_space(arm, one):
 @pytest.mark.parametrize("one", CONVERTED, ids=named)
 def test_what_is_exerted_has_the_power_of_its_wrench_in_every_frame(arm, one):
     """With nothing held (tau - D y - fg) . qdot = w . (pdot, omega): (3.10), by the velocity that MuJoCo's J gives."""
-    for at, wish, held, made in ticks(one, arm):
+    for at, setpoint, held, made in ticks(one, arm):
         if any(held):
             continue
-        h = np.concatenate((wish.f_d, wish.m_d))
+        h = np.concatenate((setpoint.f_d, setpoint.m_d))
         if one.law == "hybrid-hand":  # exerts along axes that it carries along
-            h = np.kron(np.eye(2), at.R @ np.array(wish.R_d)) @ h
+            h = np.kron(np.eye(2), at.R @ np.array(setpoint.R_d)) @ h
         w = h + TOUCH.kf * (h + at.F)
         power = (made.tau - at.D @ made.y - at.fg) @ at.chain.qdot
         size = np.linalg.norm(at.D @ made.y) + np.linalg.norm(at.fg) + np.linalg.norm(at.J, 2) * np.linalg.norm(w)
@@ -72,14 +72,14 @@ def test_what_is_exerted_has_the_power_of_its_wrench_in_every_frame(arm, one):
 
 def at_rest(one, arm):
     """(acceleration [m/s^2, rad/s^2] by MuJoCo, the size of what cancels in it) of hands at rest, pushed by F = -h."""
-    for (_, q, _, mount, push), wish in drawn(arm):
+    for (_, q, _, mount, push), setpoint in drawn(arm):
         at = hand(arm, q, np.zeros_like(q), mount, push)
         if not regular(one, at):
             continue
         h = -at.F
         if one.law == "hybrid-hand":
-            h = np.kron(np.eye(2), (at.R @ np.array(wish.R_d)).T) @ h
-        pressing = wish._replace(f_d=vector(h[:3]), m_d=vector(h[3:]))
+            h = np.kron(np.eye(2), (at.R @ np.array(setpoint.R_d)).T) @ h
+        pressing = setpoint._replace(f_d=vector(h[:3]), m_d=vector(h[3:]))
         made = tick(one, at, pressing, SELECTIONS[0])
         joints = np.linalg.norm(np.linalg.inv(at.D), 2) * (np.linalg.norm(at.J.T @ h) + np.linalg.norm(at.fg))
         size = np.linalg.norm(at.J, 2) * joints * np.linalg.cond(made.J)
@@ -99,13 +99,13 @@ def test_hand_stays_at_rest_in_mujoco_where_it_exerts_what_it_shall(arm, one):
 def test_no_wrench_and_no_command_turns_the_elbow_of_an_arm_at_rest(arm, one):
     """v^T D qddot = 0 by MuJoCo, J v = 0; by J^+ in its place it would not be."""
     turned = []
-    for (_, q, _, mount, push), wish in drawn(arm):
+    for (_, q, _, mount, push), setpoint in drawn(arm):
         at = hand(arm, q, np.zeros_like(q), mount, push)
         if not regular(one, at):
             continue
         v = np.linalg.svd(at.J)[2][-1]
         for held in SELECTIONS[9::9]:
-            made = tick(one, at, wish, held)
+            made = tick(one, at, setpoint, held)
             at.acceleration(made.tau)
             joints = np.array(at.data.qacc)
             size = np.linalg.norm(at.D, 2) * np.linalg.norm(joints) + np.linalg.norm(at.J.T @ at.F)

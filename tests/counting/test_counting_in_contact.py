@@ -106,9 +106,9 @@ def test_every_controller_can_be_counted_and_costs_the_same_at_least_in_the_wors
     assert 800 < typical <= worst
 
 
-def asks_who_calls(chain, wish, f, m, gains, touch, J, rows):
+def asks_who_calls(chain, setpoint, f, m, gains, touch, J, rows):
     """The rows of the base frame, another command if they are counted."""
-    in_base(chain, wish, f, m, gains, touch, J, rows)
+    in_base(chain, setpoint, f, m, gains, touch, J, rows)
     if hasattr(rows.a[0], "tally"):
         rows.a[0] = rows.a[0] + rows.a[0]
 

@@ -70,8 +70,8 @@ def test_memory_counts_as_ever():
 
 
 def test_run_that_tells_no_robot_velocities_is_no_evidence(tmp_path):
-    with pytest.raises(NoEvidence, match="told velocities"):
+    with pytest.raises(NoEvidence, match="commanded by velocities"):
         measure(Results(tmp_path))
     rows = found().tables.uniform.iloc[:0]
-    with pytest.raises(NoEvidence, match="told velocities"):
+    with pytest.raises(NoEvidence, match="commanded by velocities"):
         measure(Results(RESULTS / "reference", {"velocity": rows}))

@@ -38,7 +38,7 @@ def failing(finished):
             raise SideFailed(place, "no bench.timing yet")
             yield
 
-        return gates.Means(lambda side, told: contextlib.nullcontext(finished), running, judged=lambda laws: [])
+        return gates.Means(lambda side, report: contextlib.nullcontext(finished), running, judged=lambda laws: [])
 
     return at
 

@@ -126,7 +126,7 @@ def hand(arm: str, q, qdot, mount: ScipyRotation, push) -> Hand:
 
 @functools.cache
 def drawn(arm: str, count: int = 8, turn: float = 0.5) -> tuple:
-    """(arguments of `hand`, wish) in states around home, moving and pushed; goals some `turn` rad away."""
+    """(arguments of `hand`, setpoint) in states around home, moving and pushed; goals some `turn` rad away."""
     draw, home, found = np.random.default_rng(21), np.array(tasks.arm(arm).home), []
     n = len(home)
     while len(found) < count:
@@ -139,13 +139,13 @@ def drawn(arm: str, count: int = 8, turn: float = 0.5) -> tuple:
         at = hand(arm, q, qdot, mount, push)
         goal = ScipyRotation.from_matrix(at.R) * ScipyRotation.from_rotvec(turn * draw.normal(size=3) / 3**0.5)
         found.append(
-            ((arm, q, qdot, mount, push), wish_of(goal, np.array(at.chain.p) + 0.05 * draw.normal(size=3), draw))
+            ((arm, q, qdot, mount, push), setpoint_of(goal, np.array(at.chain.p) + 0.05 * draw.normal(size=3), draw))
         )
     return tuple(found)
 
 
-def wish_of(goal: ScipyRotation, p_d, draw) -> Setpoint:
-    """A wish with that goal; velocity, force and moment drawn."""
+def setpoint_of(goal: ScipyRotation, p_d, draw) -> Setpoint:
+    """A setpoint with that goal; velocity, force and moment drawn."""
     v_d, f_d, m_d = (vector(draw.normal(scale=scale, size=3)) for scale in (0.1, 15.0, 1.5))
     return Setpoint(as_rotation(goal.as_matrix().T), vector(p_d), v_d, f_d, m_d)
 
@@ -155,14 +155,14 @@ def felt(at: Hand):
     return wrench(at.chain.R, at.data.sensordata)
 
 
-def tick(one, at: Hand, wish: Setpoint, held) -> Tick:
+def tick(one, at: Hand, setpoint: Setpoint, held) -> Tick:
     """One tick of a controller, with the wrench that MuJoCo's sensors read."""
     n = at.chain.n
     into, about, J, tau = rows(), room(), np.zeros((6, n)), np.zeros(n)
     gains, touch = Gains(*map(np.float64, GAINS)), ContactParameters(*map(np.float64, TOUCH))
     f, m = (vector(three) for three in felt(at))
     with np.errstate(all="ignore"):
-        one.assemble(at.chain, wish, f, m, gains, touch, J, into)
+        one.assemble(at.chain, setpoint, f, m, gains, touch, J, into)
         form = FORMS.index(one.form) if one.form else 0
         comply(form, held, at.chain, at.D, at.fg, J, into, gains, touch, about, tau)
     return Tick(tau, J, into, about.y[:n] + np.linalg.solve(at.D, about.x[:n]))

@@ -97,7 +97,7 @@ def gone_on_alone(wanted: Undisturbed, folder: Path, kills: int) -> Iterator[dic
         killer = threading.Thread(target=kill_worker, args=(out, moment, chance, todo, at))
         if longest:
             killer.start()
-        run.run(wanted.plan, out, scheduler=LOCAL, told=lambda _, todo=todo: todo.pop())
+        run.run(wanted.plan, out, scheduler=LOCAL, report=lambda _, todo=todo: todo.pop())
         longest = time.time() - (out / "plan.json").stat().st_mtime
         if killer.is_alive():
             killer.join()

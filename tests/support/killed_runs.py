@@ -65,14 +65,14 @@ class Undisturbed(NamedTuple):
     files: dict
 
 
-def start(one: plan.Plan, out: Path, workers: int, before=lambda: None, told=lambda _: None) -> int:
+def start(one: plan.Plan, out: Path, workers: int, before=lambda: None, report=lambda _: None) -> int:
     """A run in a process of its own; its id."""
     child = os.fork()
     if child:
         return child
     try:
         before()
-        run.run(one, out, workers=workers, replace=True, told=told)
+        run.run(one, out, workers=workers, replace=True, report=report)
         os._exit(0)
     finally:
         os._exit(1)
@@ -170,7 +170,7 @@ def while_finishing(wanted: Undisturbed, folder: Path) -> list[dict]:
         if not left:
             os.kill(os.getpid(), signal.SIGKILL)
 
-    ended(start(wanted.plan, folder / "finishing", 1, told=die_at_the_last))
+    ended(start(wanted.plan, folder / "finishing", 1, report=die_at_the_last))
     return at_every_file_operation(wanted, folder / "finishing")
 
 

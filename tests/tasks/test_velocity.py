@@ -1,4 +1,4 @@
-"""The judge's plants that are told velocities, beside scipy's rotations and exponentials of matrices."""
+"""The judge's plants commanded by velocities, beside scipy's rotations and exponentials of matrices."""
 
 import numpy as np
 import pytest

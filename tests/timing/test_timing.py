@@ -29,7 +29,7 @@ def quick(tmp_path_factory):
     told = []
     contenders = [find_contender(word) for word in LAWS]
     folder = tmp_path_factory.mktemp("timings")
-    path = timing.run(contenders, folder, quick=True, told=told.append, json_file=folder / "samples.json")
+    path = timing.run(contenders, folder, quick=True, report=told.append, json_file=folder / "samples.json")
     assert [one.name for one in told if one.total == 0] == list(LAWS)
     return path, [one for one in told if one.total]
 

@@ -18,7 +18,7 @@ def contenders(tmp_path, *lines):
 
 def test_law_of_a_user_is_timed_beside_ours(tmp_path):
     told = []
-    given = {"quick": True, "told": told.append, "json_file": tmp_path / "samples.json"}
+    given = {"quick": True, "report": told.append, "json_file": tmp_path / "samples.json"}
     path = timing.run_apart(contenders(tmp_path), tmp_path / "timings", **given)
     assert '"name": "law mine"' in given["json_file"].read_text()
     rows = timing.read(path)

@@ -1,6 +1,6 @@
 """The shipped rule: twice the root of each stiffness, as if every mass were 1 kg and every inertia 1 kg m^2.
 
-libfranka's and franka_ros's examples, and what copies them. The number hangs on the units: of a hand of inertia m it
+libfranka's and franka_ros's examples, and what copies them. The number depends on the units: of a hand of inertia m it
 makes the ratio 1/sqrt(m).
 
 Fails: a light wrist is damped so much that it creeps back, and with D dt/m above 2 the sampled loop is unstable.

@@ -1,6 +1,6 @@
 """A bound on each component: what exceeds it is cut, the others stay, so that the command turns off its direction.
 
-crisp_controllers cuts the error so if it is told to (limit_error). Near the goal it does nothing. Far from it the tool
+crisp_controllers cuts the error so with limit_error set. Near the goal it does nothing. Far from it the tool
 turns about another axis than the shortest way's, by up to 54.7 degrees, the angle of a cube's diagonal to its edge; how
 much depends on the base frame.
 

@@ -1,4 +1,4 @@
-"""No limit: the robot is told what the law says.
+"""No limit: the robot gets the command of the law.
 
 Fails: nowhere; far from the goal it may ask for more than a robot turns.
 """

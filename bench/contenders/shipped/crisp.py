@@ -23,5 +23,5 @@ SHIPPED = Shipped(
     30.0,
     2.0 * 30.0**0.5,
     "defaults of the parameters; 2√K",
-    besides="filters goals, states and torques, and limits the torques' rate; cancels the inertia if told to",
+    besides="filters goals, states and torques, and limits the torques' rate; cancels the inertia on request",
 )

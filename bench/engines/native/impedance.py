@@ -162,7 +162,7 @@ def episodes_of():
             for i in range(n):
                 row[KINETIC] += 0.5 * qdot[i] * tau[i]
                 ends[k, i], ends[k, n + i] = q[i], qdot[i]
-            final, told = angle((s[12], s[13], s[14], s[15]), quat_d), dot(u, u)
-            finish(row, blamed(failure, u), watch, tick, final, squared(qdot, n), told, numbers)
+            final, size = angle((s[12], s[13], s[14], s[15]), quat_d), dot(u, u)
+            finish(row, blamed(failure, u), watch, tick, final, squared(qdot, n), size, numbers)
 
     return compile_function(episodes, EPISODES)

@@ -1,4 +1,4 @@
-"""The loop over episodes of an arm that is told joint rates, which its servos follow at once or with a first-order lag.
+"""The loop over episodes of an arm commanded by joint rates, which its servos follow at once or with a first-order lag.
 
 Kinematics are MuJoCo's, the joints' motion the judge's exact step: there is no dynamics. The controller resolves
 (K (p_d - p), omega) by the geometric Jacobian and an inverse, with the identity for D.
@@ -94,7 +94,7 @@ def episodes_of():
                 hav = haversine(quat, quat_d)
                 speed = s[9] * s[9] + s[10] * s[10] + s[11] * s[11]
                 watch = watched(watch, tick, hav, band, speed, numbers.slow_squared)
-            told = u[0] * u[0] + u[1] * u[1] + u[2] * u[2]
-            finish(row, blamed(failure, u), watch, tick, angle(quat, quat_d), squared(qdot, n), told, numbers)
+            size = u[0] * u[0] + u[1] * u[1] + u[2] * u[2]
+            finish(row, blamed(failure, u), watch, tick, angle(quat, quat_d), squared(qdot, n), size, numbers)
 
     return compile_function(episodes, EPISODES)

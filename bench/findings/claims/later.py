@@ -73,7 +73,7 @@ def c27(results, engine):
         )
     known, small = adequacy.of_three(results), closed_form.linear_settling(*results.gains())
     if not known.times:
-        raise NoEvidence("no law was timed, and flops and calls alone tell no cost: run python -m bench time")
+        raise NoEvidence("no law was timed, and flops and calls alone give no cost: run python -m bench time")
     lacks = {one.name: adequacy.missed(one, known, small, held) for one in later}
     adequate = [one for one in later if not set(lacks[one.name]) & set(adequacy.BOTH)]
     answers = [one for one in adequate if not lacks[one.name]]

@@ -23,7 +23,7 @@ NEAR_DEG, LITTLE = 15.0, 0.5
 """What 'near zero' is; and the share of the wanted compliance under which something is a problem."""
 
 LEAK = 1.0
-"""Rotation about z over that about x from which on a hand turns about another axis than the one it was told."""
+"""Rotation about z over that about x from which on a hand turns about another axis than the compliant one."""
 
 
 @claim(

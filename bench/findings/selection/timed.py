@@ -1,7 +1,7 @@
 """What a law takes of a whole controller's tick, by the times of results/timings.
 
-Two laws must differ by `standing.MEASURABLE` of it to be told apart by time. That was 0.03 when the rule was fixed, by
-three runs of the same loops; the advice is the same by both (a test).
+Two laws must differ by `standing.MEASURABLE` of it to be distinguished by time. That was 0.03 when the rule was fixed,
+by three runs of the same loops; the advice is the same by both (a test).
 """
 
 from __future__ import annotations

@@ -28,8 +28,8 @@ NEEDS = (
     Need("the fastest, at equal gain near the goal", (EVERYWHERE,), ("time",)),
     Need("the smallest peak of the command", (EVERYWHERE,), ("peak",)),
     Need("no memory in the controller", (EVERYWHERE, FORGETFUL)),
-    Need("a command that never jumps", (NEARLY, FORGETFUL, SMOOTH)),
-    Need("an arm told joint rates by the standard inverse", (EVERYWHERE,), ("arms",)),
+    Need("a continuous command", (NEARLY, FORGETFUL, SMOOTH)),
+    Need("an arm commanded by joint rates from the standard inverse", (EVERYWHERE,), ("arms",)),
 )
 """Situations of a robot that takes velocities."""
 
@@ -42,9 +42,9 @@ def measure(results: Results) -> Measured:
     """The criteria of every first-order law of a run at the full share of K, without a limiter.
 
     Errors:
-        NoEvidence: the run tells no robot velocities.
+        NoEvidence: the run commands no robot by velocities.
     """
-    rows = _told(results)
+    rows = _commanded(results)
     law = rows["contender"].astype(str).str.partition("@")[0]
     rows = rows.assign(contender=law, lost=rows["outcome"].astype(str) != "settled")
     tables = tables_of(results)
@@ -65,9 +65,9 @@ def measure(results: Results) -> Measured:
     return Measured(tables, {one.name: {} for one in CRITERIA} | values)
 
 
-def _told(results: Results) -> pd.DataFrame:
+def _commanded(results: Results) -> pd.DataFrame:
     """Rows at the full share of K without a limiter; there is at least one."""
-    advice = "no robot was told velocities (try: python -m bench run --experiment velocity)"
+    advice = "no robot was commanded by velocities (try: python -m bench run --experiment velocity)"
     try:
         rows = results.table("velocity", limiter="none")
     except BadResults as error:  # a run that is older than the table

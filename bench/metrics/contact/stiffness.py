@@ -1,6 +1,6 @@
 """The hand's rotational stiffness, by the compliance C that known moments show (`measured_compliance`).
 
-A moment about e turns the hand by C e. A hand that does what it was told turns about the moment, alike about every axis
+A moment about e turns the hand by C e. A hand that follows its setpoint turns about the moment, alike about every axis
 that complies, and as springs do: C = c I. With Z-Y-X angles kp I becomes kp B^-T B^-1.
 """
 

@@ -26,19 +26,19 @@ print(json.dumps(counting.rows(all_contenders())))
 """Run in the checkout: every row of operations of its laws."""
 
 
-def measure(revision: str, told: Callable[[str], None] = lambda _: None) -> self_measure.SelfMeasure:
+def measure(revision: str, report: Callable[[str], None] = lambda _: None) -> self_measure.SelfMeasure:
     """All benchmarks of a commit, as `self_measure.measure` does of this checkout.
 
     Errors:
         UnknownWord: no such commit. Incompatible: its sources do not run. MissingTool: no valgrind.
     """
     commit = commits.commit_of(ROOT, revision)
-    told(f"{commit[:10]}: compiling")
+    report(f"{commit[:10]}: compiling")
     with commits.worktree(ROOT, commit) as checkout, running([(checkout, Laws())]) as [side]:
-        told(f"{commit[:10]}: counting")
+        report(f"{commit[:10]}: counting")
         counted = instructions.count(side, self_measure.timed_laws(side))
         operations = self_measure.by_law(pd.DataFrame(_counts(checkout)))
-        told(f"{commit[:10]}: timing")
+        report(f"{commit[:10]}: timing")
         [rounds] = alternating.take([side], self_measure.timed(side))
         found = self_measure.measurements(side, counted, rounds, operations)
     return self_measure.SelfMeasure(commit, False, side.sources, self_measure.machine(), tuple(found.values()))

@@ -30,12 +30,12 @@ class Rounds(NamedTuple):
 
 
 def take(
-    sides: list[Process], names: list[str], rounds: int = ROUNDS, seed: int = 0, told: Callable = lambda _: None
+    sides: list[Process], names: list[str], rounds: int = ROUNDS, seed: int = 0, report: Callable = lambda _: None
 ) -> list[dict[str, Rounds]]:
     """The rounds of every side, by name; one side alone is timed by itself.
 
     Args:
-        told: called with each name when its rounds are done.
+        report: called with each name when its rounds are done.
     """
     draw, places = random.Random(seed), cores()
     for side in sides:
@@ -48,7 +48,7 @@ def take(
             for at in draw.sample(range(len(sides)), len(sides)):
                 sides[at].say(core=core)
                 last[at] = sides[at].hear()  # it waits for its next round, so this one is done
-        told(name)
+        report(name)
     return [
         {name: Rounds(*np.array(pairs).T) for name, pairs in last[at]["seconds"].items()} for at in range(len(sides))
     ]

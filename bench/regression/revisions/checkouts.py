@@ -114,7 +114,7 @@ def locks_agree(base: Checkout, head: Checkout) -> bool:
 
 
 @contextlib.contextmanager
-def finished_run(side: Checkout, told: Callable[[str], None]) -> Iterator[Path]:
+def finished_run(side: Checkout, report: Callable[[str], None]) -> Iterator[Path]:
     """The folder of a run of the quick suite: the committed reference if these sources made it, else run now.
 
     The working tree's own run is kept in results/quick, and is not run again while nothing changes.
@@ -129,7 +129,7 @@ def finished_run(side: Checkout, told: Callable[[str], None]) -> Iterator[Path]:
             return
         kept = side.path / "results" / "quick"
         folder = Path(temporary) / "run" if side.own else kept
-        told(f"running the quick suite of {side.name}")
+        report(f"running the quick suite of {side.name}")
         words = ["-m", "bench", "run", "--suite", "quick", "--replace", "--out", str(folder)]
         for law in side.laws:
             words += ["--law", str(law), "--regulator", described(law).name]

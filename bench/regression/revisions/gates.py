@@ -30,7 +30,7 @@ from bench.regression.rows.difference import JUDGE
 from bench.tables.files import read_json
 from bench.tables.store import read
 
-Told = Callable[[str], None]
+Report = Callable[[str], None]
 ALL = Wanted()
 
 
@@ -85,7 +85,7 @@ def of_revisions(
     head: str | None,
     laws: tuple[Path, ...] = (),
     wanted: Wanted = ALL,
-    told: Told = lambda _: None,
+    report: Report = lambda _: None,
     by: Means = USUAL,
 ) -> Comparison:
     """Two revisions, or a revision and the files as they lie (head None), through every gate.
@@ -96,11 +96,11 @@ def of_revisions(
     with checkouts.checkouts(base, head, laws) as (old, new):
         if new.is_new:
             raise BadResults(f"{new.name}: none of the --law files is there")
-        gates, found, operations = _by_rows(old, new, told, by)
-        more_gates, more, benchmarks = _by_process(old, new, operations, wanted, told, by)
+        gates, found, operations = _by_rows(old, new, report, by)
+        more_gates, more, benchmarks = _by_process(old, new, operations, wanted, report, by)
         judgements: tuple[Judgement, ...] = ()
         if new.own:
-            told("judging")
+            report("judging")
             gate, of_laws, judgements = faults.compared(old, new, by.judged)
             more_gates, more = [gate, *more_gates], [*of_laws, *more]
         machine = self_measure.machine()
@@ -108,10 +108,10 @@ def of_revisions(
     return Comparison(was, now, machine, (*gates, *more_gates), (*found, *more), tuple(benchmarks), judgements)
 
 
-def _by_rows(old: Checkout, new: Checkout, told: Told, by: Means) -> tuple[list[Gate], list[Finding], Operations]:
+def _by_rows(old: Checkout, new: Checkout, report: Report, by: Means) -> tuple[list[Gate], list[Finding], Operations]:
     """The exact gate and that of operations."""
     if old.is_new:
-        with by.finished_run(new, told) as run:
+        with by.finished_run(new, report) as run:
             counted, found = self_measure.by_law(read(run, "costs")), exact.lost(run)
         says = f"base's does not load ({old.broken})" if old.broken else "the law is new"
         says += ": there is nothing to compare it with"
@@ -120,7 +120,7 @@ def _by_rows(old: Checkout, new: Checkout, told: Told, by: Means) -> tuple[list[
     if old.sources == new.sources and not new.own:
         says = "both sides have the same sources and versions, so a run would be the same"
         return [Gate(name, PASSED, says) for name in (EXACT, OPERATIONS)], [], ({}, {})
-    with by.finished_run(old, told) as before, by.finished_run(new, told) as after:
+    with by.finished_run(old, report) as before, by.finished_run(new, report) as after:
         try:
             found = _exact(before, after)
             operations = self_measure.by_law(read(before, "costs")), self_measure.by_law(read(after, "costs"))
@@ -131,16 +131,16 @@ def _by_rows(old: Checkout, new: Checkout, told: Told, by: Means) -> tuple[list[
 
 
 def _by_process(
-    old: Checkout, new: Checkout, operations: Operations, wanted: Wanted, told: Told, by: Means
+    old: Checkout, new: Checkout, operations: Operations, wanted: Wanted, report: Report, by: Means
 ) -> tuple[list[Gate], list[Finding], list[Benchmark]]:
     """The gates of instructions and time, which need both sides compiled."""
     if not (old.is_new or checkouts.locks_agree(old, new)):
         return left_out(f"{checkouts.LOCK} differs, so base was made for other packages than are installed"), [], []
-    told("compiling")
+    report("compiling")
     both = [(new.path, new.asked)] if old.is_new else [(old.path, old.asked), (new.path, new.asked)]
     try:
         with by.running(both) as processes:
-            return by.measured(processes, operations, wanted, told)
+            return by.measured(processes, operations, wanted, report)
     except SideFailed as error:
         if error.at < len(both) - 1:
             return left_out(f"base is too old for it: {error}"), [], []

@@ -47,7 +47,7 @@ def left_out(why: str) -> list[Gate]:
 
 
 def measured(
-    processes: list[Process], operations: Operations, wanted: Wanted, told: Callable[[str], None]
+    processes: list[Process], operations: Operations, wanted: Wanted, report: Callable[[str], None]
 ) -> tuple[list[Gate], list[Finding], list[Benchmark]]:
     """Both gates.
 
@@ -55,7 +55,7 @@ def measured(
         processes: base's and head's; head's alone if there is no base.
     """
     head, base = processes[-1], processes[0]
-    counts, why = _counts(processes, told)
+    counts, why = _counts(processes, report)
     laws = counts[0].keys() & counts[-1].keys() if len(processes) > 1 else set()
     found = [one for name in sorted(laws) if (one := _more(name, counts[0][name], counts[-1][name]))]
     gates = [Gate(INSTRUCTIONS, SKIPPED, why) if why else _gate(INSTRUCTIONS, found, f"{len(laws)} laws")]
@@ -66,12 +66,12 @@ def measured(
     if not wanted.timing:
         gates.append(Gate(TIME, SKIPPED, "left out on request"))
     elif len(processes) == 1:
-        rounds = alternating.take(processes, self_measure.timed(head), wanted.rounds, wanted.seed, told)
+        rounds = alternating.take(processes, self_measure.timed(head), wanted.rounds, wanted.seed, report)
         gates.append(Gate(TIME, SKIPPED, "there is no base to compare with"))
     else:
         names = _to_time(base, head, wanted.same_code)
-        rounds, first = timed_once(processes, names, wanted, told)
-        times = first | second_run(processes, first, wanted, told)
+        rounds, first = timed_once(processes, names, wanted, report)
+        times = first | second_run(processes, first, wanted, report)
         slower = [_slower(name, one) for name, one in times.items() if one.verdict != SAME]
         untimed = len(self_measure.timed(head)) - len(names)
         gates.append(_gate(TIME, slower, f"{len(names)} timed, {untimed} not: the same machine code, or new"))
@@ -83,10 +83,10 @@ def measured(
     return gates, found, _benchmarks(each, times)
 
 
-def _counts(processes: list[Process], told: Callable[[str], None]) -> tuple[list[dict[str, float]], str]:
+def _counts(processes: list[Process], report: Callable[[str], None]) -> tuple[list[dict[str, float]], str]:
     """Instructions of every law, side by side, or why there are none; the same code is counted once."""
     head, base = processes[-1], processes[0]
-    told("counting instructions")
+    report("counting instructions")
     try:
         of_head = instructions.count(head, self_measure.timed_laws(head))
         if base is head:
@@ -110,25 +110,25 @@ def _to_time(base: Process, head: Process, same_code: bool) -> list[str]:
 
 
 def timed_once(
-    processes: list[Process], names: list[str], wanted: Wanted, told: Callable[[str], None] = lambda _: None
+    processes: list[Process], names: list[str], wanted: Wanted, report: Callable[[str], None] = lambda _: None
 ) -> tuple[list[dict[str, alternating.Rounds]], dict[str, Timed]]:
     """The rounds of both sides, and the verdicts of this one run."""
     if not names:
         return [{} for _ in processes], {}
-    rounds = alternating.take(processes, names, wanted.rounds, wanted.seed, told)
+    rounds = alternating.take(processes, names, wanted.rounds, wanted.seed, report)
     return rounds, {name: rule.judge(rounds[0][name].ticks, rounds[1][name].ticks) for name in names}
 
 
 def second_run(
-    processes: list[Process], times: dict[str, Timed], wanted: Wanted, told: Callable[[str], None] = lambda _: None
+    processes: list[Process], times: dict[str, Timed], wanted: Wanted, report: Callable[[str], None] = lambda _: None
 ) -> dict[str, Timed]:
     """What is left of verdicts other than "same", after a run of these alone in processes of their own."""
     suspects = [name for name, one in times.items() if one.verdict != SAME]
     if not suspects:
         return {}
-    told(f"timing {len(suspects)} once more")
+    report(f"timing {len(suspects)} once more")
     with running([(side.checkout, side.laws) for side in processes]) as anew:
-        _, again = timed_once(anew, suspects, wanted._replace(seed=wanted.seed + 1), told)
+        _, again = timed_once(anew, suspects, wanted._replace(seed=wanted.seed + 1), report)
     return {name: rule.confirmed(times[name], again[name]) for name in suspects}
 
 

@@ -114,9 +114,9 @@ class Process:
 
     def ready(self) -> None:
         """Wait until all is compiled."""
-        told = self.hear()
-        self.benchmarks = {one["name"]: Compiled(**one) for one in told["benchmarks"]}
-        self.sources = told["sources"]
+        heard = self.hear()
+        self.benchmarks = {one["name"]: Compiled(**one) for one in heard["benchmarks"]}
+        self.sources = heard["sources"]
 
 
 @contextlib.contextmanager

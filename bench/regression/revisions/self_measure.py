@@ -54,21 +54,21 @@ def machine() -> dict[str, Any]:
     }
 
 
-def measure(told: Callable[[str], None] = lambda _: None, rounds: int = alternating.ROUNDS) -> SelfMeasure:
+def measure(report: Callable[[str], None] = lambda _: None, rounds: int = alternating.ROUNDS) -> SelfMeasure:
     """Compile, count and time every law and engine of this checkout.
 
     Args:
-        told: called with a few words at every step.
+        report: called with a few words at every step.
     """
-    told("compiling")
+    report("compiling")
     with running([(ROOT, Laws())]) as [side]:
-        told("counting instructions")
+        report("counting instructions")
         try:
             counted, why = instructions.count(side, timed_laws(side)), ""
         except MissingTool as error:
             counted, why = {}, str(error)
-        [rounds_of] = alternating.take([side], timed(side), rounds, told=told)
-        told("counting operations")
+        [rounds_of] = alternating.take([side], timed(side), rounds, report=report)
+        report("counting operations")
         found = measurements(side, counted, rounds_of, operations())
     at = commit()
     return SelfMeasure(at["commit"], at["dirty"], side.sources, machine(), tuple(found.values()), why)

@@ -1,4 +1,4 @@
-"""The process of one side: compiles a checkout's laws, writes their machine code, and times rounds when told to.
+"""The process of one side: compiles a checkout's laws, writes their machine code, and times rounds when asked to.
 
 Run by its path with the checkout as PYTHONPATH (`process.py`), so it is always the head's file, and imports of the
 other side only what both have: bench.timing and what that stands on. It speaks JSON lines:

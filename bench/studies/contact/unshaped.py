@@ -1,6 +1,6 @@
 """Impedance without inertia shaping in contact: does it settle, what does it do to the scene, where does energy go?
 
-On a plane the hand is told to be deeper by what its spring makes FORCE_N of. No force is measured, so that none is
+On a plane the hand's setpoint is deeper by what its spring makes FORCE_N of. No force is measured, so that none is
 late. Energy: V(t) - V(0) = -damped - elbow - given, V of springs and motion, given through the port of the hand.
 
 In tasks it is set what impedances with inertia shaping are, at their stiffness, and held against one of them.

@@ -1,4 +1,4 @@
-"""A law made slower step by step: which share of comparisons finds it by time, and whether its instructions tell.
+"""A law made slower step by step: which share of comparisons finds it by time, and whether its instructions show it.
 
 Each step puts two dependent operations more in the way of the command, so that it waits for them. How much slower that
 is, is measured: the median ratio of all comparisons of a step.

@@ -23,6 +23,7 @@ AS_ANGLES = Table("Function | Drawn | Poles | Half turns | As an error")
 VERSIONS = Table("Library | Version | Python | numpy")
 
 TAKES = ("matrix", "quaternion")
+COMMANDS = {"velocity": "ω", "acceleration": "u"}
 
 
 @functools.cache
@@ -151,7 +152,7 @@ def controllers() -> list[tuple]:
     return [
         (
             asked(one) if one.kind == "controller" else one.library,
-            one.command,
+            COMMANDS[one.command],
             one.convention or "Z-Y-X angles",
             loops.verdict(one) if one.kind == "controller" else one.faults or loops.RIGHT,
             loops.dead(one),
