@@ -7,7 +7,7 @@
 .NOTPARALLEL:
 .PHONY: help setup setup-cluster bench bench-quick time libraries report test check lint gate regress regress-study
 .PHONY: scale-study contact-study settings-study verdicts-study robustness-study kill-study reference media lock clean audit judge history
-.PHONY: arrays-check
+.PHONY: arrays-check edition
 
 SHELL := /bin/sh
 VENV := .venv
@@ -21,6 +21,14 @@ LIBRARIES := .venv-libraries
 APART := placo robosuite
 AUDIT := .venv-audit
 ARRAYS := .venv-arrays
+
+# Without a network, from the wheels of an edition: make bench WHEELS=../wheels
+ifdef WHEELS
+export PIP_NO_INDEX := 1
+export PIP_FIND_LINKS := $(abspath $(WHEELS))
+export UV_NO_INDEX := 1
+export UV_FIND_LINKS := $(PIP_FIND_LINKS)
+endif
 
 # Where HOME cannot be written, as in a container under another user's number, tools keep here what they keep at home.
 ifneq ($(shell test -d "$$HOME" && test -w "$$HOME" && echo ok),ok)
@@ -165,6 +173,10 @@ reference: $(READY)
 		{ echo "results/reference is $$kilobytes kB; at most 5000 are committed" >&2; exit 1; }
 	@echo "Promoted. Now: git add results && git commit"
 
+edition: ## the site, its print, data, paper, source and wheels to rebuild it without a network: dist
+edition: $(DEV) report
+	@$(PY) -m report.edition $(ARGS)
+
 media:  ## render the arms anew for the report (needs GL; without it the committed files stay)
 media: $(DEV)
 	@$(PY) report/media.py
@@ -183,7 +195,7 @@ lock: $(DEV)
 	@echo "Locked. Look at the change: git diff --stat requirements"
 
 clean:  ## remove .venv, the built report, caches and results/quick; other results stay
-	@rm -rf $(VENV) $(LIBRARIES) $(APART:%=$(LIBRARIES)-%) $(AUDIT) $(ARRAYS) build report/_build report/.jupyter_cache results/quick
+	@rm -rf $(VENV) $(LIBRARIES) $(APART:%=$(LIBRARIES)-%) $(AUDIT) $(ARRAYS) build dist report/_build report/.jupyter_cache results/quick
 	@rm -rf .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .benchmarks .home *.egg-info
 	@find bench tasks report tests -name __pycache__ -prune -exec rm -rf {} + 2>/dev/null || true
 

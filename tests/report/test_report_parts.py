@@ -3,6 +3,7 @@
 import fnmatch
 import hashlib
 import re
+import shutil
 
 import build
 import numpy as np
@@ -15,9 +16,10 @@ from bench.provenance import ROOT
 from bench.tables import read
 from bench.tables.schema import RESULTS
 from report.figures.cards import law_page, other_page, regulators
-from report.figures.cost import cost, operations
+from report.figures.cost import cost, machines, operations, times
 from report.figures.kit import families, html, spelling
 from report.figures.kit.page import Run, run_in
+from report.figures.kit.rows import FEEDBACK, MATRIX
 from report.figures.method import engines, provenance
 from report.figures.problem import conditioning, representations
 
@@ -159,3 +161,14 @@ def test_every_page_has_a_number_of_its_own():
     numbers = [path.name[:3] for path in (ROOT / "report" / "pages").glob("*.md")]
     assert all(re.fullmatch(r"\d\d-", number) for number in numbers)
     assert len(set(numbers)) == len(numbers)
+
+
+def test_every_machine_that_was_timed_has_a_row(tmp_path):
+    [known] = times.files(shown())
+    (tmp_path / "timings").mkdir()
+    for name in ("one", "two"):
+        shutil.copyfile(known, tmp_path / "timings" / f"{name}.parquet")
+    rows = machines.tables(Run(RESULTS / "reference", tmp_path))["tab_machines"].splitlines()[2:]
+    own = times.alone(times.read(known)).set_index("contender")["ratio"]
+    assert len(rows) == 2
+    assert f"| {own[FEEDBACK] / own[MATRIX]:.2f} |" in rows[0]
