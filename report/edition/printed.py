@@ -41,7 +41,7 @@ def book(folder: Path) -> str:
             title = driver.find_element("css selector", "article h1").text.rstrip("#")
             first = len(writer.pages)
             writer.append(PdfReader(io.BytesIO(on_paper(driver))), import_outline=False)
-            writer.add_outline_item(title, first)
+            writer.add_outline_item(title=title, page_number=first)
     writer.add_metadata({"/Title": "Orientation regulators, measured"})
     with (folder / NAME).open("wb") as file:
         writer.write(file)

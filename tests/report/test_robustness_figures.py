@@ -185,7 +185,7 @@ def test_no_law_settles_sooner_than_the_bound_on_its_command_allows(small_run):
 
 def test_theory_says_which_laws_the_worst_noise_holds_at_the_half_turn(small_run):
     found = half_turn_noise.facts(small_run)
-    assert found["agree"] == found["told"] > 0
+    assert found["agree"] == found["decided"] > 0
 
 
 def test_paielli_bach_loses_only_starts_that_its_blindness_explains(along):

@@ -168,7 +168,7 @@ def facts(run: Run) -> dict:
     return {
         "n": starts(rows),
         "agree": sum(map(bool, agree)),
-        "told": len(agree),
+        "decided": len(agree),
         "known": len(known),
         "minding": len(minding),
         "blind": len(blind),
