@@ -17,10 +17,12 @@ from urllib.parse import unquote, urlsplit
 SITE = Path(__file__).resolve().parent / "_build" / "html"
 # The theme is 3 MB, pages and figures 16 MB, the data of a default run 16 MB; a fifth to spare.
 BUDGET_BYTES = 45_000_000
+FRONT_BYTES = 1_500_000  # the front page with all that it loads
 GENERATED = {"genindex.html", "search.html"}  # the theme's own pages: checked for loads, not for headings
 LOADING_LINKS = {"stylesheet", "icon", "preload", "prefetch", "modulepreload", "preconnect", "dns-prefetch"}
 FILE_NAME = re.compile(r"\S+\.(svg|png|jpe?g|webp|gif)$", re.IGNORECASE)
 DIRECTIVE = re.compile(r"`{3,}\{[a-z:]+\}")
+FONT = re.compile(r"""url\(\s*['"]?([^'")?#:]+\.woff2)""")
 CSS_URL = re.compile(r"""url\(\s*['"]?((?:https?:)?//[^)'"\s]+)|@import\s+['"]((?:https?:)?//[^'"]+)""")
 
 
@@ -105,6 +107,9 @@ def problems(site: Path = SITE, budget_bytes: int = BUDGET_BYTES) -> list[str]:
     for sheet in sorted(site.rglob("*.css")):
         text = sheet.read_text(encoding="utf-8", errors="replace")
         found += [f"{sheet.relative_to(site)}: loads {url}" for url in network_urls(text)]
+    front = front_bytes(site, pages[site / "index.html"])
+    if front > FRONT_BYTES:
+        found.append(f"index.html loads {front / 1e6:.2f} MB, above its budget of {FRONT_BYTES / 1e6:.1f} MB")
     size = site_bytes(site)
     if size > budget_bytes:
         found.append(f"the site is {size / 1e6:.1f} MB, above its budget of {budget_bytes / 1e6:.0f} MB")
@@ -152,6 +157,14 @@ def html_files(site: Path) -> list[Path]:
 def site_bytes(site: Path) -> int:
     """What the site weighs."""
     return sum(path.stat().st_size for path in site.rglob("*") if path.is_file())
+
+
+def front_bytes(site: Path, page: Page) -> int:
+    """What the front page weighs, uncompressed: itself, what it loads, and the fonts that its style sheets name."""
+    loaded = {(site / unquote(urlsplit(url).path)).resolve() for url in page.loads}
+    sheets = [path for path in loaded if path.suffix == ".css" and path.is_file()]
+    fonts = {(one.parent / name).resolve() for one in sheets for name in FONT.findall(one.read_text(encoding="utf-8"))}
+    return sum(path.stat().st_size for path in {site / "index.html", *loaded, *fonts} if path.is_file())
 
 
 def summary(site: Path) -> str:

@@ -1,7 +1,7 @@
 """Sphinx extension: pages that need nothing from the network, without what no reader loads.
 
-Thebe, which jupyter-book switches on and which would run cells on a server, is taken out, and so are source maps,
-translations, and the icons once more in a format for browsers before 2016.
+Thebe, which jupyter-book switches on and which would run cells on a server, is taken out, and so are source maps and
+translations.
 """
 
 from __future__ import annotations
@@ -9,7 +9,7 @@ from __future__ import annotations
 from pathlib import Path
 
 AFTER_ALL_OTHERS = 999
-UNREAD = ("**/*.map", "sphinx-thebe.*", "fonts/*.md", "vendor/**/*.ttf", "locales/**/*.[mp]o")
+UNREAD = ("**/*.map", "sphinx-thebe.*", "fonts/*.md", "locales/**/*.[mp]o")
 
 
 def leave_out_thebe(app, pagename, templatename, context, doctree) -> None:

@@ -2,6 +2,7 @@
 
 import build
 import check_site
+import icons
 import pytest
 
 
@@ -146,6 +147,23 @@ def test_page_check_accepts_a_good_page(tmp_path):
 def test_page_check_keeps_the_size_budget(tmp_path):
     (tmp_path / "index.html").write_text(GOOD)
     assert "above its budget" in check_site.problems(tmp_path, budget_bytes=10)[0]
+
+
+def test_front_page_keeps_its_own_budget_with_what_it_loads_and_its_fonts(tmp_path):
+    (tmp_path / "style.css").write_text('@font-face { src: url("big.woff2") }')
+    (tmp_path / "big.woff2").write_bytes(bytes(check_site.FRONT_BYTES))
+    markup = '<link rel="stylesheet" href="style.css?v=1"></article>'
+    (tmp_path / "index.html").write_text(GOOD.replace("</article>", markup))
+    [problem] = check_site.problems(tmp_path)
+    assert problem.startswith("index.html loads 1.50 MB, above its budget")
+
+
+def test_icons_that_no_page_names_are_left_out_and_an_alias_keeps_its_icon():
+    script = 'x={"arrow-up":[1,2,[],"f0",["M0","M1"]],bars:[3,4,["menu"],"f1","M2"],moon:[5,6,[9,"night"],"f2","M3"]};y'
+    assert icons.reduced(script, {"menu", "night", "solid"}) == (
+        'x={bars:[3,4,["menu"],"f1","M2"],moon:[5,6,[9,"night"],"f2","M3"]};y',
+        {"menu", "night"},
+    )
 
 
 def test_page_check_says_the_cure_when_nothing_is_built(tmp_path):
