@@ -157,7 +157,7 @@ CRITERIA = (
         "matched", "Settled at equal peak", f" with gains that give a peak of {PEAK:g} rad/s²", "equal-peak", PEAK
     ),
     settled_under("bounded", "Settled with weak motors", f", command cut at {BOUND:g} rad/s²", "saturation", BOUND),
-    settled_under("slow", f"Settled at {SLOW_HZ:g} Hz", f", asked {SLOW_HZ:g} times a second", "control-rate", SLOW_HZ),
+    settled_under("slow", f"Settled at {SLOW_HZ:g} Hz", f", control at {SLOW_HZ:g} Hz", "control-rate", SLOW_HZ),
     settled_under("late", "Settled, late", f", {1e3 * LATE_S:g} ms late", "delay", LATE_S),
     settled_under("heavy", "Settled, heavy", f", inertia {HEAVY:g} times the model's", "inertia", HEAVY),
     settled_under("spinning", "Settled, spinning", f", {SPIN:g} rad/s at the start", "spin", SPIN),

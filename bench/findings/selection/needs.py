@@ -90,7 +90,7 @@ DEFAULT = Need("nothing else is known", (*SURE, UNHELD))
 
 ARM = Need("a robot's arm, exact 180° rotations aside", (TRIED, NEARLY), ("arms", "within"))
 FORGETS = Need("no memory in the controller", (*SURE, FORGETFUL))
-BOUNDED = Need(f"motors that end at {criteria.BOUND:g} rad/s²", SURE, ("bounded",))
+BOUNDED = Need(f"a command bounded by {criteria.BOUND:g} rad/s²", SURE, ("bounded",))
 
 NEEDS = (
     Need("the fastest, at equal stiffness near the goal", SURE, ("time",)),
@@ -100,9 +100,9 @@ NEEDS = (
     Need("the smallest peak of the command", SURE, ("peak",)),
     Need(f"gains that make the peak {criteria.PEAK:g} rad/s²", SURE, ("matched",)),
     BOUNDED,
-    Need(f"a computer that answers {criteria.SLOW_HZ:g} times a second", SURE, ("slow",)),
+    Need(f"a control rate of {criteria.SLOW_HZ:g} Hz", SURE, ("slow",)),
     Need(f"{1e3 * criteria.LATE_S:g} ms of delay", SURE, ("late",)),
-    Need(f"inertia {criteria.HEAVY:g} times what the model says", SURE, ("heavy",)),
+    Need(f"an inertia {criteria.HEAVY:g} times the model's", SURE, ("heavy",)),
     Need(f"a body that spins at {criteria.SPIN:g} rad/s", SURE, ("spinning",)),
     Need(f"a goal that moves at {criteria.MOVING:g} rad/s, with feedforward", SURE, ("follows",)),
     Need(f"orientation known to {criteria.NOISY_RAD:g} rad", SURE, ("noisy",)),

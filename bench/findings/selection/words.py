@@ -16,13 +16,11 @@ Called = Callable[[str], str]
 
 
 def standing(one: Decision, called: Called) -> str:
-    """That the advised law is alone on the front, or with whom it ties."""
+    """That the advised law is alone on the Pareto front, or with which laws it ties."""
     if len(one.asked) == 1:
-        return "No other law has all this."
+        return "No other law meets all this."
     if not one.tied:
-        return (
-            f"Of the {len(one.asked)} laws that have all this each other is worse by something and better by nothing."
-        )
+        return f"It dominates every other law that meets all this ({len(one.asked) - 1})."
     return (
         f"{together([called(law) for law in (one.law or '', *one.tied)])} tie: none is better by all that counts. Of "
         "these it is the simplest."
