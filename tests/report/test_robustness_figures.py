@@ -193,7 +193,7 @@ def test_paielli_bach_loses_only_starts_that_its_blindness_explains(along):
         assert other_perturbations.is_within(along(name), name) == "all"
 
 
-def test_law_gives_way_at_the_first_level_that_costs_it_starts(small_run):
+def test_law_degrades_at_the_first_level_that_costs_it_starts(small_run):
     walk = next(one for one in robustness.WALKS if one.axis == "half-turn-noise")
     held = robustness.reach(robustness.counted(small_run, walk.axis), "quaternion-shortest", walk)
     assert held.level == 0.001

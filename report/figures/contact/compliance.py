@@ -1,4 +1,4 @@
-"""The page on compliance: what Euler angles make of a hand that gives way, by theory and by a probe of moments."""
+"""The page on compliance: what Euler angles make of a compliant hand, by theory and by a probe of moments."""
 
 from __future__ import annotations
 

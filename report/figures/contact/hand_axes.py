@@ -18,7 +18,7 @@ from report.figures.kit.inline import responsive_picture
 
 BETAS = (0, 30, 60, 85)
 ORDER = "about x and y"
-PUSHED = (("x", "A moment about x, where it should give way"), ("z", "A moment about z, where it should hold"))
+PUSHED = (("x", "A moment about x, where it should comply"), ("z", "A moment about z, where it should hold"))
 STILL = 0.01  # of the wanted rotation: less is drawn as none
 
 AZIMUTH, ELEVATION = math.radians(-68.0), math.radians(16.0)

@@ -1,6 +1,6 @@
-"""The page that opens the chapter on robustness: how far each law goes along each perturbation before it gives way.
+"""The page that opens the chapter on robustness: how far each law goes along each perturbation before it degrades.
 
-A law gives way at the first level, walking away from none, at which LOST fewer of the starts go well than unperturbed,
+A law degrades at the first level, walking away from none, at which LOST fewer of the starts go well than unperturbed,
 or at which its median settling time is more than SLOWED of what it was. A law from which less than half of the starts
 go well without any perturbation has nothing to lose: it fails.
 """
@@ -64,7 +64,7 @@ FAULT, FINE = "#d55e00", "#b9c3cf"
 
 
 class Reach(NamedTuple):
-    """The level at which a law gives way, None if at none; fails: it has nothing to lose, and no level.
+    """The level at which a law degrades, None if at none; fails: it has nothing to lose, and no level.
 
     depth: 1 if at the first level, the less the farther it goes.
     """
@@ -108,7 +108,7 @@ def widest(starts: int) -> float:
 
 
 def is_fine(one: Reach) -> bool:
-    """Whether a law gives way nowhere on its way."""
+    """Whether a law degrades nowhere."""
     return one.level is None and not one.fails
 
 
@@ -123,7 +123,7 @@ def reaches(run: Run) -> dict[str, list[Reach]]:
 
 
 def facts(run: Run) -> dict:
-    """How many laws give way to each perturbation, without the negative controls."""
+    """How many laws degrade under each perturbation, without the negative controls."""
     found = reaches(run)
     own = [law for law in found if law not in families.CONTROLS]
     if not own:
@@ -149,13 +149,13 @@ def facts(run: Run) -> dict:
 
 
 def figures(run: Run) -> dict:
-    """Who gives way to what."""
+    """Which law degrades under what."""
     return {"robustness": given(reaches(run), reach_map)}
 
 
 @responsive_picture
 def reach_map(found: dict[str, list[Reach]], narrow: bool):
-    """A cell a law and way, as found by `reaches`: empty where nothing gives way, else the level at which it does."""
+    """A cell a law and way, as found by `reaches`: empty where it does not degrade, else the level at which it does."""
     groups = families.present(found)
     lines = len(found) + 0.4 * len(groups)
     parts = [slice(0, SPLIT), slice(SPLIT, None)] if narrow else [slice(None)]
@@ -163,7 +163,7 @@ def reach_map(found: dict[str, list[Reach]], narrow: bool):
     for axes, part in zip(grid.flat, parts, strict=True):
         _cells(axes, groups, found, part)
     words = (
-        f"{families.word(law)} gives way to {gives_way(found[law]) or 'nothing'}"
+        f"{families.word(law)} degrades under {degrading(found[law]) or 'nothing'}"
         for family in groups
         for law in family.laws
     )
@@ -198,8 +198,8 @@ def _cell(axes, column: int, place: float, one: Reach) -> None:
     axes.text(column + 0.5, place + 0.52, word, ha="center", va="center", fontsize=8)
 
 
-def gives_way(own: list[Reach]) -> str:
-    """The ways along which a law gives way, with the levels, in words."""
+def degrading(own: list[Reach]) -> str:
+    """The perturbations under which a law degrades, with the levels, in words."""
     parts = [
         f"{walk.words} ({'fails' if one.fails else f'at {one.level:g}'})"
         for walk, one in zip(WALKS, own, strict=True)
