@@ -43,7 +43,7 @@ def folder() -> Path:
 
 
 def rows(name: str, **words: str) -> pd.DataFrame:
-    """Rows of one table that have these words, as in rows("episodes", engine="native", start_set="poles")."""
+    """Rows of one table that have these words: `rows("episodes", engine="native", start_set="poles")`."""
     return chosen(table(folder(), name), words)
 
 

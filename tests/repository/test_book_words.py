@@ -10,7 +10,7 @@ MOST = 15_000
 PAGES = [ROOT / "report/index.md", *sorted((ROOT / "report/pages").glob("*.md"))]
 NOT_TEXT = (
     re.compile(r"\A---.*?---\n", re.DOTALL),
-    re.compile(r"^```(?:\{code-cell\}[^\n]*|bash|yaml|python|sh|c)\n.*?^```$", re.DOTALL | re.MULTILINE),
+    re.compile(r"^```(?:\{code-cell\}[^\n]*|\{eval-rst\}|bash|yaml|python|sh|c)\n.*?^```$", re.DOTALL | re.MULTILINE),
     re.compile(r"\$\$.*?\$\$", re.DOTALL),
     re.compile(r"^(?:`{3,}|:{3,}).*$", re.MULTILINE),
     re.compile(r"^:\w+:.*$", re.MULTILINE),
