@@ -31,6 +31,7 @@ TERMS = (
     ("half turn", "a rotation by 180°"),
     ("pole", "an orientation at which coordinates lose a direction, as Z-Y-X angles do at 90° of the second"),
     ("settled", "inside the band, 2 % of the first angle, and slow until the end"),
+    ("saturated", "the command is beyond any use"),
     ("singular", "the command is not a number, or the Jacobian cannot be inverted"),
     ("start set", "starts drawn or listed under one name; a result is given for each"),
     ("stuck", "outside the band at the end, without speed or command"),
