@@ -14,7 +14,8 @@ from report.edition import CannotMake
 REPORT = Path(__file__).resolve().parents[1]
 LEFT_OUT = ("Using the benchmark",)
 """Parts of the table of contents that are about the tool."""
-ALIVE = "26-live"
+ON_THE_SCREEN = ("26-live", "03-regulators")
+"""Pages to move things on, or to go on from."""
 NAME = "orientation-bench.pdf"
 A4 = {
     "paperWidth": 8.27,
@@ -24,7 +25,7 @@ A4 = {
     "marginLeft": 0.55,
     "marginRight": 0.55,
 }
-SCALE = 0.65
+SCALE = 0.63
 
 
 def book(folder: Path) -> str:
@@ -54,7 +55,9 @@ def chapters() -> list[Path]:
     globs = [
         chapter["glob"] for part in contents["parts"] if part["caption"] not in LEFT_OUT for chapter in part["chapters"]
     ]
-    names = [path.stem for glob in globs for path in sorted(REPORT.glob(f"{glob}.md")) if path.stem != ALIVE]
+    names = [
+        path.stem for glob in globs for path in sorted(REPORT.glob(f"{glob}.md")) if path.stem not in ON_THE_SCREEN
+    ]
     return [screenshots.SITE / "index.html", *(screenshots.SITE / "pages" / f"{name}.html" for name in names)]
 
 
