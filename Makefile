@@ -26,8 +26,8 @@ ARRAYS := .venv-arrays
 ifdef WHEELS
 export PIP_NO_INDEX := 1
 export PIP_FIND_LINKS := $(abspath $(WHEELS))
-export UV_NO_INDEX := 1
 export UV_FIND_LINKS := $(PIP_FIND_LINKS)
+NO_INDEX := --no-index
 endif
 
 # Where HOME cannot be written, as in a container under another user's number, tools keep here what they keep at home.
@@ -212,7 +212,7 @@ PIP = $(PY) -m pip --disable-pip-version-check --quiet --no-input
 UV = UV_PYTHON_DOWNLOADS=never $(PY) -m uv
 AS_LOCKED = --require-hashes --no-deps --only-binary :all: -r requirements
 install = $(PIP) install $(AS_LOCKED)/install.txt \
-	&& $(UV) pip install --quiet --python $(PY) --compile-bytecode $(AS_LOCKED)/$(1).txt \
+	&& $(UV) pip install --quiet $(NO_INDEX) --python $(PY) --compile-bytecode $(AS_LOCKED)/$(1).txt \
 	&& $(UV) pip install --quiet --python $(PY) --no-deps --no-build-isolation -e .
 
 $(READY): $(PY) requirements/base.txt pyproject.toml

@@ -17,6 +17,8 @@ from report.edition import CannotMake, __main__, bundle, data, paper, printed, s
 ROOT = bundle.ROOT
 TINY = ("run", "--suite", "quick", "--regulator", "rotation-matrix", "--engine", "native", "--task", "free-body")
 MOST_PAGES = 50
+NOBODY = "http://127.0.0.1:9"
+"""A proxy that is not there."""
 
 
 def test_checksums_are_of_every_file_and_of_nothing_else(tmp_path):
@@ -72,10 +74,13 @@ def test_unknown_part_is_an_error_that_names_the_known(capsys):
 
 
 def without_index(folder) -> dict[str, str]:
-    """The variables of a machine that reaches no index and has no cache of wheels."""
-    kept = {name: value for name, value in os.environ.items() if not name.startswith(("PIP_", "UV_", "VIRTUAL_ENV"))}
+    """The variables of a machine that reaches no network, for its proxy answers nothing, and has no cache of wheels."""
+    ours = ("PIP_", "UV_", "VIRTUAL_ENV", "no_proxy", "NO_PROXY")
+    kept = {name: value for name, value in os.environ.items() if not name.startswith(ours)}
+    proxies = ("http_proxy", "https_proxy", "all_proxy", "HTTP_PROXY", "HTTPS_PROXY", "ALL_PROXY")
     return {
         **kept,
+        **dict.fromkeys(proxies, NOBODY),
         "HOME": str(folder / "home"),
         "XDG_CACHE_HOME": str(folder / "cache"),
         "PIP_CONFIG_FILE": os.devnull,
