@@ -67,17 +67,19 @@ def _posed(law: Callable, form: Form) -> dict[str, Callable]:
     read = form.read
 
     @kernel
-    def force_body(R, p, R_d, p_d, stiffness, turning_stiffness):
+    def both(R, p, R_d, p_d, stiffness, turning_stiffness):
         goal = read(R_d)
         left = rotate_back(goal, minus(p, p_d))
-        force, _moment = law(turn_left(read(R), goal), left, by_rows(stiffness), turning_stiffness)
+        return law(turn_left(read(R), goal), left, by_rows(stiffness), turning_stiffness)
+
+    @kernel
+    def force_body(R, p, R_d, p_d, stiffness, turning_stiffness):
+        force, _moment = both(R, p, R_d, p_d, stiffness, turning_stiffness)
         return force
 
     @kernel
     def moment_body(R, p, R_d, p_d, stiffness, turning_stiffness):
-        goal = read(R_d)
-        left = rotate_back(goal, minus(p, p_d))
-        _force, moment = law(turn_left(read(R), goal), left, by_rows(stiffness), turning_stiffness)
+        _force, moment = both(R, p, R_d, p_d, stiffness, turning_stiffness)
         return moment
 
     return {"force_body": force_body, "moment_body": moment_body}

@@ -160,9 +160,9 @@ def facts(run: Run) -> dict:
     own = laws(rows, controls=False)
     known = {law: least(law, kp, kv) for law in own if not math.isnan(least(law, kp, kv))}
     agree = [(level >= begin) == (noisy.loc[level, law] < 0.5) for law, begin in known.items() for level in noisy.index]
-    minding = [law for law in own if regulator_of(law).memory]
-    blind = [law for law in own if law not in minding]
-    jumping = [begin for law, begin in known.items() if law in blind and begin > 0.0]
+    with_memory = [law for law in own if regulator_of(law).memory]
+    without_memory = [law for law in own if law not in with_memory]
+    jumping = [begin for law, begin in known.items() if law in without_memory and begin > 0.0]
     middle = float(noisy.index[noisy.index < min(KEEPS.values())].max())
     chord, chord_least = jump("square-root", kp), least("square-root", kp, kv)
     return {
@@ -170,12 +170,12 @@ def facts(run: Run) -> dict:
         "agree": sum(map(bool, agree)),
         "decided": len(agree),
         "known": len(known),
-        "minding": len(minding),
-        "blind": len(blind),
-        "blind_free": sum(bool((noisy[law] == 1.0).all()) for law in blind),
+        "with_memory": len(with_memory),
+        "without_memory": len(without_memory),
+        "blind_free": sum(bool((noisy[law] == 1.0).all()) for law in without_memory),
         "middle": f"{middle:g}",
-        "blind_middle": f"{100 * float(noisy.loc[middle, blind].max()):.0f}",
-        "memory_middle": f"{100 * float(noisy.loc[middle, minding].min()):.0f}",
+        "blind_middle": f"{100 * float(noisy.loc[middle, without_memory].max()):.0f}",
+        "memory_middle": f"{100 * float(noisy.loc[middle, with_memory].min()):.0f}",
         "stuck": int((shares.loc[0.0, own] < 1.0).sum()),
         "least": f"{min(jumping):.2g}",
         "most": f"{max(jumping):.2g}",

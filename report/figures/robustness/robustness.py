@@ -129,7 +129,7 @@ def facts(run: Run) -> dict:
     if not own:
         return {}
     hurt = [sum(not is_fine(found[law][i]) for law in own) for i in range(len(WALKS))]
-    avoidable = hurt[:-1]  # a goal that moves without feedforward escapes every law
+    avoidable = hurt[:-1]  # without feedforward every law loses a moving goal
     harmless = [walk.words for walk, number in zip(WALKS, hurt, strict=True) if not number]
     hardest = [walk.words for walk, number in zip(WALKS, avoidable, strict=False) if number == max(avoidable)]
     return {
@@ -144,7 +144,7 @@ def facts(run: Run) -> dict:
         "harmless": listed(harmless) if harmless else "nothing",
         "hardest": listed(hardest),
         "hardest_n": max(avoidable),
-        "untold_n": hurt[-1],
+        "no_feedforward": hurt[-1],
     }
 
 
