@@ -36,7 +36,7 @@ def COMMAND(law: str, language: str, out: Path | None, laws: tuple[Path, ...]):
 
     A law is named as in `list regulators`, with its coordinates where it has several; representation-NAME are the
     functions of coordinates, impedance-NAME an impedance, spring-NAME a spring with a stiffness matrix,
-    pose-spring-NAME one of position too, compensator-NAME a law with a state, pointing-NAME one of an axis. A file of
+    pose-spring-NAME one of position too, compensator-NAME a law with a state. A file of
     your own is run to be read.
     """
     from bench.contenders.law_file import load_law

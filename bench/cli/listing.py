@@ -16,7 +16,6 @@ from bench.contenders.registry import (
     known_inverses,
     known_jacobians,
     known_limiters,
-    known_pointings,
     known_pose_springs,
     known_regulators,
     known_representations,
@@ -58,7 +57,7 @@ def COMMAND(kind, laws):
     """What there is to run, of one kind or of all.
 
     Kinds: regulators, representations, jacobians, inverses, controllers, impedances, dampings, limiters, shipped,
-    springs, pose-springs, compensators, pointings, metrics, tasks, arms, variations, axes, starts, engines, suites,
+    springs, pose-springs, compensators, metrics, tasks, arms, variations, axes, starts, engines, suites,
     experiments, claims. A file of an arm that cannot be used is listed with the reason.
     """
     own = options.own_laws(laws)
@@ -153,14 +152,6 @@ def _pose_springs(_):
 def _compensators(_):
     for one in known_compensators().values():
         yield one.name, "yes" if one.measures_rate else "no", one.property, one.title, one.source
-
-
-@kind(
-    "pointings", "Laws of reduced attitude, which point an axis", "name", "keeps the spin", "proved", "title", "source"
-)
-def _pointings(_):
-    for one in known_pointings().values():
-        yield one.name, "yes" if one.keeps_spin else "no", one.property, one.title, one.source
 
 
 @kind("metrics", "Metrics", "column", "unit", "of", "meaning")

@@ -17,7 +17,6 @@ from bench.contenders import (
     inverses,
     jacobians,
     limiters,
-    pointings,
     pose_springs,
     regulators,
     representations,
@@ -30,7 +29,6 @@ from bench.law.contender import ON_MATRIX, Contender, Regulator, Representation,
 from bench.law.damping import Damping
 from bench.law.impedance import Impedance
 from bench.law.limiter import Limiter
-from bench.law.pointing import Pointing
 from bench.law.pose_spring import PoseSpring
 from bench.law.resolved_motion import Inverse, Jacobian
 from bench.law.shipped import Shipped
@@ -69,7 +67,6 @@ FOLDERS = {
     "spring": (springs, Spring),
     "pose_spring": (pose_springs, PoseSpring),
     "compensator": (compensators, Compensator),
-    "pointing": (pointings, Pointing),
 }
 """What is found in a folder of bench/contenders: constants of one type, named as their kind."""
 
@@ -92,7 +89,6 @@ known_shipped = functools.partial(known, "shipped")
 known_springs = functools.partial(known, "spring")
 known_pose_springs = functools.partial(known, "pose_spring")
 known_compensators = functools.partial(known, "compensator")
-known_pointings = functools.partial(known, "pointing")
 
 
 def baselines_of_arms() -> dict[str, Contender]:

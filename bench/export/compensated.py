@@ -1,14 +1,10 @@
-"""What exported laws with a state and laws of an axis are asked.
-
-Of a state: the command, and the state, at first and one control period on. Of an axis: the command.
-"""
+"""Entries of an exported law with a state: the command, and the state at first and one control period on."""
 
 from collections.abc import Callable
 
 from bench.export.entries import COMMAND, FORMS, GAINS, Entry, Form, Parameter, named_entry
 from bench.law import AT_REST, Goal, kernel, rotate, rotate_back
 
-AXIS, AXIS_D = Parameter("axis", "tuple", 3), Parameter("axis_d", "tuple", 3)
 STATE, PERIOD = Parameter("state", "tuple", 4), Parameter("period", "number")
 
 
@@ -60,14 +56,3 @@ def _compensating(law: Callable, begin: Callable, form: Form) -> dict[str, Calla
 
     made = (command, command_body, next_state, next_state_body)
     return {"begin": first, **{one.__name__: one for one in made}}
-
-
-def of_pointing(law: Callable) -> Entry:
-    """Of a law of reduced attitude: its command. The law is the same in every frame, the body's among them."""
-
-    @kernel
-    def command(axis, omega, axis_d, gains):
-        return law(axis, omega, axis_d, gains)
-
-    given = (AXIS, Parameter("omega", "tuple", 3), AXIS_D, GAINS)
-    return Entry("command", command, given, "tuple", f"{COMMAND}, all of it in one frame, whichever")

@@ -8,7 +8,7 @@ from typing import Any
 
 from bench.counting.costs import FLOPS, cost
 from bench.counting.counted import TOTAL
-from bench.export.subject import AXIAL, IMPEDANCE, POSE_SPRING, SPRING, STATED, Subject
+from bench.export.subject import IMPEDANCE, POSE_SPRING, SPRING, STATED, Subject
 from bench.law.contender import Regulator
 from bench.provenance import ROOT
 
@@ -19,7 +19,6 @@ OF_KIND = {
         f"{GAINS}what they set is in the formula",
         "State     four numbers; begin gives the first of them, next_state those of every period after",
     ),
-    AXIAL: (f"{GAINS}near the goal theta'' = -kp theta - kv theta'",),
     IMPEDANCE: (f"{GAINS}apparent inertia [kg m^2]; stiffness at the goal kp times that",),
     POSE_SPRING: (
         "Pose      R, p: R_d^T R and R_d^T (p - p_d); eta, epsilon, phi: quaternion and rotation vector of R",

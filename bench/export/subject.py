@@ -11,14 +11,13 @@ from bench.contenders import registry
 from bench.contenders.registry import (
     known_compensators,
     known_impedances,
-    known_pointings,
     known_pose_springs,
     known_representations,
     known_springs,
 )
 from bench.control.registry import all_controllers
 from bench.errors import UnknownWord
-from bench.export.compensated import of_compensator, of_pointing
+from bench.export.compensated import of_compensator
 from bench.export.entries import Entry, of_impedance, of_law, of_representation
 from bench.export.program import Function, read_function
 from bench.export.sprung import of_pose_spring, of_spring
@@ -27,12 +26,11 @@ from bench.law.contender import Contender, Gains, Regulator
 from bench.law.so3 import Rotation
 
 COORDINATES, IMPEDANCE = "representation-", "impedance-"
-STATED, AXIAL, SPRING, POSE_SPRING = "compensator-", "pointing-", "spring-", "pose-spring-"
+STATED, SPRING, POSE_SPRING = "compensator-", "spring-", "pose-spring-"
 """What words begin with, by kind; a regulator's is its name."""
 
 ALONE: dict[str, tuple[Callable[[], dict], Callable[[Any], list[Entry]]]] = {
     STATED: (known_compensators, lambda one: of_compensator(one.law, one.begin)),
-    AXIAL: (known_pointings, lambda one: [of_pointing(one.law)]),
     SPRING: (known_springs, lambda one: of_spring(one.moment)),
     POSE_SPRING: (known_pose_springs, lambda one: of_pose_spring(one.wrench)),
 }

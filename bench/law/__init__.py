@@ -11,7 +11,6 @@ linalg/          products, eliminations and rotations of small matrices
 contender        Regulator, Contender, Gains, Goal
 representation   Representation; euler: what Euler angles share
 compensator      Compensator: a law with a state of its own
-pointing         Pointing: a law of one axis, in S^2
 resolved_motion  Jacobian, Inverse: from the tool's acceleration to the joints
 impedance        Impedance
 damping          Damping, of an impedance that shapes no inertia
@@ -46,7 +45,6 @@ from bench.law.linalg import (
     solve_upper,
 )
 from bench.law.look import Look
-from bench.law.pointing import Pointing
 from bench.law.pose_spring import PoseSpring, rotation_vector
 from bench.law.representation import Representation
 from bench.law.resolved_motion import Inverse, Jacobian

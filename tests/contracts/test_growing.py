@@ -82,7 +82,6 @@ LISTED = {
     "springs": "dropped-spring",
     "pose-springs": "dropped-pose-spring",
     "compensators": "dropped-compensator",
-    "pointings": "dropped-pointing",
     "baselines": "dropped-baseline",
     "metrics of contact": "dropped_touch",
     "tasks in contact": "dropped-probe",

@@ -19,7 +19,6 @@ KINDS = (
     "springs",
     "dampings",
     "compensators",
-    "pointings",
 )
 FILES = sorted(
     path

@@ -20,7 +20,6 @@ DROPPED = {
     "bench/contenders/springs/dropped_spring.py": renamed("springs", "vector_part", "spring"),
     "bench/contenders/pose_springs/dropped_pose_spring.py": renamed("pose_springs", "split", "pose-spring"),
     "bench/contenders/compensators/dropped_compensator.py": renamed("compensators", "integral", "compensator"),
-    "bench/contenders/pointings/dropped_pointing.py": renamed("pointings", "free_spin", "pointing"),
     "bench/contenders/baselines/dropped_baseline.py": renamed("baselines", "resolved_rate", "baseline"),
     "bench/contenders/regulators/dropped_regulator.py": '''
 """Damping, and a spring on the first coordinate."""

@@ -1,4 +1,4 @@
-"""Pages of what is exported and is no regulator: laws with a state, laws of an axis, impedances, springs."""
+"""Pages of what is exported and is no regulator: laws with a state, impedances, springs."""
 
 from __future__ import annotations
 
@@ -10,11 +10,10 @@ from bench import contenders
 from bench.contenders.registry import (
     known_compensators,
     known_impedances,
-    known_pointings,
     known_pose_springs,
     known_springs,
 )
-from bench.export.subject import AXIAL, IMPEDANCE, POSE_SPRING, SPRING, STATED, subject_words
+from bench.export.subject import IMPEDANCE, POSE_SPRING, SPRING, STATED, subject_words
 from report.figures.cards import regulators
 from report.figures.cards.law_page import LawPage, in_every_language, taken
 from report.figures.kit import html
@@ -36,7 +35,6 @@ class Kind(NamedTuple):
 
 KINDS = (
     Kind(STATED, "compensators", "a law with a state", known_compensators()),
-    Kind(AXIAL, "pointings", "a law of an axis", known_pointings()),
     Kind(IMPEDANCE, "impedances", "an impedance", known_impedances()),
     Kind(SPRING, "springs", "a spring with a stiffness matrix", known_springs()),
     Kind(POSE_SPRING, "pose_springs", "a spring of position and orientation", known_pose_springs()),

@@ -6,13 +6,13 @@ import math
 
 import pandas as pd
 
-from bench.contenders.registry import known_compensators, known_pointings, known_regulators
+from bench.contenders.registry import known_compensators, known_regulators
 from report.figures.kit import html
 from report.figures.kit.page import Run
 from report.figures.kit.tables import Table
 
 STATES = Table("Law | Measures the rate | Disturbance [rad/s²]:g | Left [°]:.2f | Within 1° [s] | Slowest [s]")
-FACTS = ("left", "disturbance", "starts", "faster", "pointings")
+FACTS = ("left", "disturbance", "starts", "faster")
 
 
 def compensated(run: Run) -> pd.DataFrame:
@@ -37,7 +37,6 @@ def facts(run: Run) -> dict:
         "disturbance": f"{worst:g}",
         "starts": int(rows["starts"].max()),
         "faster": f"{without / paper:.2f}",
-        "pointings": len(known_pointings()),
     }
 
 
