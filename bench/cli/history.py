@@ -69,28 +69,12 @@ def merge(histories, path):
     console().print(f"{log.append(lines, path)} of {len(lines)} lines are new: {path}")
 
 
-@COMMAND.command("walk")
-@click.argument("commits", nargs=-1, required=True, metavar="COMMIT...")
-@book
-def walk(commits, path):
-    """Measure older commits today, each in a checkout of its own, and append their lines (minutes each)."""
-    from bench.regression.history import log, record
-    from bench.regression.history.backfill import measure
-
-    for commit in commits:
-        with progress("steps") as steps:
-            lines = record.of_self_measure(measure(commit, steps.now), commit_of)
-        console().print(f"{commit}: {log.append(lines, path)} of {len(lines)} lines are new: {path}")
-
-
 @COMMAND.command("show")
 @book
-@click.option("--asv", type=click.Path(path_type=Path), metavar="FOLDER", help="Write it as results of asv, too.")
-def show(path, asv):
+def show(path):
     """The builds, and every step: what changed, from which commit on, by how much."""
     import pandas as pd
 
-    from bench.regression.history import asv as as_asv
     from bench.regression.history import log
     from bench.regression.history.series import series
     from bench.regression.history.steps import steps
@@ -98,8 +82,6 @@ def show(path, asv):
     lines = log.read(path)
     if not lines:
         raise BadResults("the history is empty; add a build to it (try: python -m bench history add --help)")
-    if asv:
-        as_asv.write(lines, asv)
     builds = pd.DataFrame(
         [(record.date, record.commit[:10], record.machine, record.benchmark.name) for record in lines],
         columns=["date", "commit", "machine", "benchmarks"],

@@ -199,17 +199,6 @@ def test_builds_of_a_comparison_are_added_once_and_shown_with_their_steps(capsys
     assert "typical flops 45 to 46" in said.out
 
 
-def test_asv_gets_every_value_of_a_build_and_none_where_none_was_measured(capsys, tmp_path, path):
-    other = GOOD.benchmark._replace(name="other", instructions=None)
-    log.append([GOOD, GOOD._replace(benchmark=other)], path)
-    assert bench(capsys, "history", "show", "--file", path, "--asv", tmp_path / "asv").code == 0
-    assert {"time", "version"} < {*json.loads((tmp_path / "asv" / "benchmarks.json").read_text())}
-    made = json.loads((tmp_path / "asv" / GOOD.machine / f"{GOOD.commit[:8]}-locked.json").read_text())
-    assert (made["commit_hash"], made["date"]) == (GOOD.commit, 1767225600000)  # date -d 2026-01-01Z +%s
-    assert made["results"]["time"] == [[2.5, 2.5], [["'my-law'", "'other'"]], "1"]
-    assert str(made["results"]["instructions"][0]) == "[100.0, nan]"
-
-
 def test_comparison_of_what_is_no_commit_is_refused(compared):
     given = comparison.read(compared)
     dirty = given._replace(head=comparison.Side("working tree"))
