@@ -11,7 +11,7 @@ from bench.contenders import combinations
 from bench.errors import Incompatible
 from bench.experiments.choice import Choice
 from bench.experiments.episodes import Place, cut, lost, narrowed, prepare, runs_on, starts_of, tasks_of
-from bench.experiments.experiment import Asked, Experiment, Settings, Unit
+from bench.experiments.experiment import EVERYTHING, Asked, Experiment, Settings, Unit
 from bench.experiments.suites import AT_INVERSES, NOMINAL, OnArms, Slice
 from bench.law.contender import Contender
 from bench.tables.schema import TABLES
@@ -112,6 +112,7 @@ EXPERIMENT = Experiment(
     TABLES["episodes"],
     units,
     rows,
+    takes=EVERYTHING,
     cost_s=lambda unit: unit.count * EPISODE_S[unit.engine],
     prepare=prepare,
     lost=lost,

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from bench.experiments.episodes import prepare
-from bench.experiments.experiment import Asked, Experiment, Settings, Unit, own_last
+from bench.experiments.experiment import OF_LAWS, Asked, Experiment, Settings, Unit, own_last
 from bench.experiments.suites import SHORT
 from bench.experiments.traces import laws
 from bench.law.contender import Contender
@@ -35,7 +35,7 @@ AXIS_S = 0.02
 
 def units(asked: Asked) -> tuple[Unit, ...]:
     """A unit for each of the paper's laws, and the user's, over the suite's axes; a user's last."""
-    count = 0 if asked.choice.narrows else asked.suite.boundary_axes
+    count = asked.suite.boundary_axes
     found = [of_law(one, count) for one in laws(asked) if count and not one.is_beyond_the_paper]
     return own_last(found, asked.own)
 
@@ -101,6 +101,7 @@ EXPERIMENT = Experiment(
     TABLES["boundaries"],
     units,
     rows,
+    takes=OF_LAWS,
     cost_s=lambda unit: unit.count * AXIS_S,
     prepare=prepare,
     ticks=lambda settings, unit: unit.count * len(SCAN) * unit.horizon_s / settings.dt_s,

@@ -92,6 +92,11 @@ class Choice:
                 )
 
     @property
+    def named(self) -> tuple[str, ...]:
+        """Return the kinds of words that are named, experiments apart."""
+        return tuple(kind for kind, words in vars(self).items() if words and kind != "experiments")
+
+    @property
     def of_episodes(self) -> dict[str, tuple[str, ...]]:
         """By kind, the words that only tasks without contact take."""
         return {
@@ -112,13 +117,6 @@ class Choice:
     def is_about_contact(self) -> bool:
         """Whether it names a task in contact or a controller for one."""
         return bool(self.controllers or set(self.tasks) & set(tasks.contact_names()))
-
-    @property
-    def takes_robustness(self) -> bool:
-        """Whether laws are perturbed: if axes are named, or nothing that has to do with other episodes."""
-        beside = (self.arms, self.jacobians, self.inverses, self.variations, self.controllers)
-        is_elsewhere = bool(self.tasks) and "free-body" not in self.tasks
-        return bool(self.axes) or not (is_elsewhere or self.narrows or any(beside))
 
     @property
     def is_contact_alone(self) -> bool:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from bench.experiments.episodes import prepare
-from bench.experiments.experiment import Asked, Experiment, Settings, Unit, own_last
+from bench.experiments.experiment import OF_LAWS, Asked, Experiment, Settings, Unit, own_last
 from bench.experiments.traces import laws
 from bench.tables.schema import TABLES
 
@@ -19,9 +19,7 @@ LAW_S, CALLS = 0.4, 150_000
 
 
 def units(asked: Asked) -> tuple[Unit, ...]:
-    """A unit for each law on the free body, a user's last; none where start sets or engines alone are asked for."""
-    if asked.choice.narrows and NAME not in asked.choice.experiments:
-        return ()
+    """A unit for each law on the free body, a user's last."""
     made = [Unit(NAME, one.name, "free-body", engine="ideal-held", count=1, total=1) for one in laws(asked)]
     return own_last(made, asked.own)
 
@@ -48,6 +46,7 @@ EXPERIMENT = Experiment(
     units,
     rows,
     cost_s=lambda unit: LAW_S,
+    takes=OF_LAWS,
     prepare=prepare,
     ticks=lambda settings, unit: CALLS,
 )

@@ -24,9 +24,7 @@ LEVEL_S = 0.12
 
 
 def units(asked: Asked) -> tuple[Unit, ...]:
-    """A unit a law; none where other words are chosen than this experiment's."""
-    if asked.choice.narrows and NAME not in asked.choice.experiments:
-        return ()
+    """Return a unit for each law."""
     each = asked.count or STARTS
     return tuple(
         Unit(NAME, selector=name, count=each, total=each, horizon_s=asked.horizon_s or HORIZON_S)

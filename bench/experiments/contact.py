@@ -14,7 +14,7 @@ from bench.control.contact_controller import ContactController
 from bench.control.registry import all_controllers, find_controller
 from bench.errors import Incompatible
 from bench.experiments.choice import Choice
-from bench.experiments.experiment import Asked, Experiment, Settings, Unit
+from bench.experiments.experiment import EVERYTHING, Asked, Experiment, Settings, Unit
 from bench.tables.schema import TABLES
 from tasks.base import BadValue
 
@@ -171,6 +171,7 @@ EXPERIMENT = Experiment(
     TABLES["compliance"],
     units,
     rows,
+    takes=EVERYTHING,
     cost_s=lambda unit: unit.episodes * TRIAL_S,
     rank=2,
 )

@@ -1,4 +1,4 @@
-"""Operations a tick: of every law of ours, run or not, unless some are named; and of every controller on an arm."""
+"""Operations a tick: of every law of ours, run or not, unless something is named; and of every controller on an arm."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import tasks
 from bench.contenders.registry import all_contenders
 from bench.errors import BadLaw
 from bench.experiments import arm, free_body
-from bench.experiments.experiment import Asked, Experiment, Settings, Unit, own_last
+from bench.experiments.experiment import EVERYTHING, Asked, Experiment, Settings, Unit, own_last
 from bench.experiments.traces import laws
 from bench.tables.schema import TABLES
 
@@ -27,7 +27,7 @@ def units(asked: Asked) -> tuple[Unit, ...]:
     on_arms: dict = {}
     for unit in arm.units(asked):
         on_arms.setdefault((unit.contender, tasks.arm(unit.arm).joints), unit.arm)
-    ours = () if asked.choice.is_of_some_laws else all_contenders()
+    ours = () if asked.choice.named else all_contenders()
     names = dict.fromkeys(one.name for one in (*ours, *laws(asked)))
     places = [*((name, "") for name in names), *((name, on) for (name, _), on in on_arms.items())]
     is_beyond = all(unit.engine == BEYOND for unit in (*free_body.units(asked), *arm.units(asked)))
@@ -61,6 +61,7 @@ EXPERIMENT = Experiment(
     TABLES["costs"],
     units,
     rows,
+    takes=tuple(kind for kind in EVERYTHING if kind not in ("axes", "controllers")),
     cost_s=lambda unit: CONTROLLER_S if unit.arm else LAW_S,
     is_tried_first=True,
     compiles=False,

@@ -122,6 +122,13 @@ class Asked:
         return tuple(dict.fromkeys(one.regulator for one in self.laws if one.regulator.origin))
 
 
+EVERYTHING = tuple(field.name for field in dataclasses.fields(Choice) if field.name != "experiments")
+"""What the experiments take whose units follow every word of a choice, and refuse those that exclude each other."""
+
+OF_LAWS = ("tasks", "regulators", "representations")
+"""What an experiment takes that runs some laws on the free body."""
+
+
 def nothing(settings: Settings, unit: Unit, outcome: str = "") -> pd.DataFrame:
     """No rows: of a unit that tells of a law what cannot be told of one that crashed or hung."""
     import pandas as pd  # as engines: planning needs neither
@@ -145,6 +152,8 @@ class Experiment(NamedTuple):
     periods that it takes at most, which a user's law has its time by. is_divisible: whether `Unit.part` of it is a unit
     too. is_tried_first: whether a user's law goes through it before a run begins, so that a mistake leaves no folder.
     compiles: whether its contender is compiled. summary(frame) -> what `show` prints of the table.
+    takes: the kinds of words, fields of Choice, that narrow its units. Where a word of another kind is named, the
+    experiment is not run.
     fold(before, after) -> the rows of two units as those of both, where the table is not all of them one after the
     other. in_suites: whether suites have it; what they have not makes runs of its own. rank: place among all
     experiments, then by name.
@@ -156,6 +165,7 @@ class Experiment(NamedTuple):
     units: Callable[[Asked], tuple[Unit, ...]]
     rows: Callable[[Settings, Unit], pd.DataFrame]
     cost_s: Callable[[Unit], float]
+    takes: tuple[str, ...] = ()
     prepare: Callable[[Settings, Unit], None] = lambda settings, unit: None
     lost: Callable[[Settings, Unit, str], pd.DataFrame] = nothing
     ticks: Callable[[Settings, Unit], float] = usual_ticks

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import tasks
 from bench.experiments import arm
 from bench.experiments.episodes import Place, cut, lost, narrowed, prepare, refuse_if_none, runs_on, starts_of, tasks_of
-from bench.experiments.experiment import Asked, Experiment, Settings, Unit
+from bench.experiments.experiment import EVERYTHING, Asked, Experiment, Settings, Unit
 from bench.experiments.suites import Slice, Suite
 from bench.law.contender import Contender
 from bench.tables.schema import TABLES
@@ -69,6 +69,7 @@ EXPERIMENT = Experiment(
     TABLES["episodes"],
     units,
     rows,
+    takes=EVERYTHING,
     cost_s=lambda unit: unit.count * EPISODE_S[unit.engine],
     prepare=prepare,
     lost=lost,

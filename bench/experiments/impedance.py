@@ -41,9 +41,7 @@ EPISODE_S = 0.02
 
 
 def of_arms(asked: Asked, name: str, **more) -> tuple[Unit, ...]:
-    """A unit a design of damping on each arm of the plan; none where other words are chosen than this experiment's."""
-    if (asked.choice.narrows and name not in asked.choice.experiments) or asked.choice.axes:
-        return ()
+    """A unit a design of damping on each arm of the plan."""
     arms = dict.fromkeys(unit.arm for unit in arm.units(asked))
     return tuple(
         Unit(name, task="arm-regulation", arm=one, selector=word, **more) for one in arms for word in known_dampings()
@@ -76,6 +74,7 @@ EXPERIMENT = Experiment(
     TABLES[NAME],
     units,
     rows,
+    takes=("tasks", "arms"),
     cost_s=lambda unit: 2.0 * len(STIFFNESSES) * unit.count * EPISODE_S,
     prepare=prepare,
     compiles=False,

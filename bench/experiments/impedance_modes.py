@@ -35,6 +35,7 @@ EXPERIMENT = Experiment(
     TABLES[NAME],
     units,
     rows,
+    takes=("tasks", "arms"),
     cost_s=lambda unit: DESIGN_S,
     prepare=impedance.prepare,
     compiles=False,

@@ -18,7 +18,7 @@ ARM_S, POSE_S = 5.0, 5e-3
 
 def units(asked: Asked) -> tuple[Unit, ...]:
     """A unit for each arm that episodes are run on; `count` random poses."""
-    count = 0 if asked.choice.narrows else asked.suite.on_arms.poses
+    count = asked.suite.on_arms.poses
     arms = dict.fromkeys(unit.arm for unit in arm.units(asked) if count)
     return tuple(of_arm(name, count) for name in arms)
 
@@ -41,6 +41,7 @@ EXPERIMENT = Experiment(
     TABLES["poses"],
     units,
     rows,
+    takes=("tasks", "arms"),
     cost_s=lambda unit: ARM_S + POSE_S * unit.count,
     compiles=False,
 )

@@ -16,7 +16,7 @@ from bench.experiments.choice import (
     check_numbers,
     check_word,
 )
-from bench.experiments.experiment import Asked, Settings, Unit, known_experiments, known_tables
+from bench.experiments.experiment import Asked, Experiment, Settings, Unit, known_experiments, known_tables
 from bench.experiments.suites import suite
 from bench.law.contender import PAPERS_GAINS, Contender, Gains
 from bench.provenance import source_digest
@@ -74,6 +74,25 @@ def _text_digest(path: str) -> str:
         return hashlib.sha256(file.read()).hexdigest()[:16]
 
 
+def chosen(choice: Choice) -> list[Experiment]:
+    """Return the experiments that are named, or else those that take every kind of word that is.
+
+    Errors:
+        Incompatible: experiments are named, and a word that none of them takes.
+    """
+    if not choice.experiments:
+        return [one for one in known_experiments().values() if set(choice.named) <= set(one.takes)]
+    found = [one for name, one in known_experiments().items() if name in choice.experiments]
+    taken = {kind for one in found for kind in one.takes}
+    for kind in choice.named:
+        if kind not in taken:
+            raise Incompatible(
+                f"'{getattr(choice, kind)[0]}' cannot narrow the experiment '{found[0].name}', which takes "
+                f"{', '.join(sorted(taken)).replace('_', ' ') or 'no other words'} (leave one of the two away)"
+            )
+    return found
+
+
 def make(
     suite_word: str,
     laws: list[Contender],
@@ -102,8 +121,7 @@ def make(
     for word in choice.experiments:
         check_word("experiment", word, list(known_experiments()))
     asked = Asked(suite(suite_word), tuple(laws), choice.checked(), count, horizon_s, seed)
-    chosen = [one for name, one in known_experiments().items() if name in (choice.experiments or known_experiments())]
-    units = tuple(unit for one in chosen for unit in one.units(asked))
+    units = tuple(unit for one in chosen(asked.choice) for unit in one.units(asked))
     if not units:
         raise Incompatible("nothing to run: no unit of the experiments is left (name fewer words, or other ones)")
     without, in_contact = integrator or WITHOUT, integrator or IN_CONTACT

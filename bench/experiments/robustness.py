@@ -9,7 +9,7 @@ import tasks
 from bench.contenders.registry import papers_laws
 from bench.errors import Incompatible
 from bench.experiments.choice import Choice
-from bench.experiments.experiment import Asked, Experiment, Settings, Unit
+from bench.experiments.experiment import OF_LAWS, Asked, Experiment, Settings, Unit
 from bench.experiments.suites import Robustness
 from bench.law.contender import Contender
 from bench.tables.schema import TABLES
@@ -35,7 +35,7 @@ def units(asked: Asked) -> tuple[Unit, ...]:
         Incompatible: perturbations are named and no law that can meet them.
     """
     part, choice = asked.suite.robustness, asked.choice
-    if not choice.takes_robustness:
+    if choice.tasks and "free-body" not in choice.tasks:
         return ()
     chosen = [one for one in asked.laws if _takes_part(one, part, choice)]
     if choice.axes and not chosen:
@@ -96,6 +96,7 @@ EXPERIMENT = Experiment(
     TABLES["robustness"],
     units,
     rows,
+    takes=(*OF_LAWS, "axes"),
     cost_s=lambda unit: unit.episodes * EPISODE_S,
     prepare=prepare,
     lost=lost,

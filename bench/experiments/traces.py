@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 import tasks
-from bench.experiments import free_body, robustness
+from bench.experiments import free_body
 from bench.experiments.episodes import prepare
-from bench.experiments.experiment import Asked, Experiment, Settings, Unit, own_last
+from bench.experiments.experiment import OF_LAWS, Asked, Experiment, Settings, Unit, own_last
 from bench.experiments.starts import on_arm
 from bench.experiments.suites import HORIZON, LONG, SHORT
 from bench.law.contender import Contender
@@ -34,14 +34,14 @@ CURVE_S = 0.05
 
 
 def laws(asked: Asked) -> list[Contender]:
-    """The laws that are run on the free body, undisturbed or not."""
-    names = {unit.contender for unit in (*free_body.units(asked), *robustness.units(asked))}
+    """Return the laws that are run on the free body."""
+    names = {unit.contender for unit in free_body.units(asked)}
     return [one for one in asked.laws if one.name in names]
 
 
 def units(asked: Asked) -> tuple[Unit, ...]:
     """A unit a law on the free body, continuous but for MuJoCo's own actuator; a user's last."""
-    if asked.choice.narrows or not asked.suite.traces:
+    if not asked.suite.traces:
         return ()
     followed = [one for one in laws(asked) if not one.is_beyond_the_paper]
     return own_last([of_law(one, asked.suite.traces) for one in followed], asked.own)
@@ -123,6 +123,7 @@ EXPERIMENT = Experiment(
     TABLES["traces"],
     units,
     rows,
+    takes=OF_LAWS,
     cost_s=lambda unit: CURVE_S * curves_of(unit),
     prepare=prepare,
     ticks=lambda settings, unit: curves_of(unit) * unit.horizon_s / settings.dt_s,

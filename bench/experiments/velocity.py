@@ -14,7 +14,7 @@ from bench.contenders import combinations
 from bench.contenders.registry import known_inverses, known_limiters
 from bench.control.velocity import is_velocity_law
 from bench.experiments import arm
-from bench.experiments.experiment import Asked, Experiment, Settings, Unit, own_last
+from bench.experiments.experiment import OF_LAWS, Asked, Experiment, Settings, Unit, own_last
 from bench.experiments.suites import BY_EVERY_INVERSE
 from bench.experiments.traces import laws
 from bench.law.contender import Contender, refusal
@@ -34,8 +34,6 @@ EPISODE_S = {"": 2e-4, "arm": 3e-3}
 
 def units(asked: Asked) -> tuple[Unit, ...]:
     """A unit a law on the free body, and one a law, inverse and arm; a user's last."""
-    if (asked.choice.narrows and NAME not in asked.choice.experiments) or asked.choice.axes:
-        return ()
     part, some = asked.suite.velocity, velocity_laws(asked)
     made = [Unit(NAME, one.name, "free-body", count=part.starts, horizon_s=HORIZON_S) for one in some]
     for name in dict.fromkeys(unit.arm for unit in arm.units(asked)):
@@ -86,6 +84,7 @@ EXPERIMENT = Experiment(
     TABLES[NAME],
     units,
     rows,
+    takes=(*OF_LAWS, "arms"),
     cost_s=lambda unit: unit.count * (8.0 * EPISODE_S["arm"] if unit.arm else 4.0 * EPISODE_S[""]),
     prepare=prepare,
     ticks=lambda settings, unit: 8.0 * unit.count * unit.horizon_s / settings.dt_s,

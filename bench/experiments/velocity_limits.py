@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import tasks
 from bench.experiments import arm, velocity
-from bench.experiments.experiment import Asked, Experiment, Settings, Unit, own_last
+from bench.experiments.experiment import OF_LAWS, Asked, Experiment, Settings, Unit, own_last
 from bench.experiments.suites import BY_EVERY_INVERSE
 from bench.tables.schema import TABLES
 
@@ -24,8 +24,6 @@ LAW_S, ARM_S = 0.01, 0.4
 
 def units(asked: Asked) -> tuple[Unit, ...]:
     """A unit a law on the free body; on each arm one for each inverse of one law."""
-    if (asked.choice.narrows and NAME not in asked.choice.experiments) or asked.choice.axes:
-        return ()
     some = velocity.velocity_laws(asked)
     made = [Unit(NAME, one.name, "free-body") for one in some]
     for name in dict.fromkeys(unit.arm for unit in arm.units(asked)):
@@ -51,6 +49,7 @@ EXPERIMENT = Experiment(
     TABLES[NAME],
     units,
     rows,
+    takes=(*OF_LAWS, "arms"),
     cost_s=lambda unit: ARM_S if unit.arm else LAW_S,
     prepare=velocity.prepare,
     ticks=lambda settings, unit: 1e6,

@@ -42,14 +42,14 @@ def test_every_suite_perturbs_every_law_on_r_along_every_axis(suite):
 
 def test_a_named_axis_is_all_that_runs():
     found = made(Choice(axes=("delay",)), count=3)
-    assert {unit.selector for unit in found.of("robustness")} == {"delay"}
+    assert {(unit.experiment, unit.selector) for unit in found.units} == {("robustness", "delay")}
     assert found.episodes("robustness") == found.episodes() == 2 * 3 * len(tasks.axis("delay").levels)
 
 
 def test_what_has_to_do_with_other_episodes_leaves_perturbations_out():
     for choice in (Choice(tasks=("arm-regulation",)), Choice(arms=("ur5e",)), Choice(start_sets=("paper",))):
-        assert not units(choice)
-    assert units(Choice(tasks=("free-body",)))
+        assert not made(choice).of("robustness")
+    assert made(Choice(tasks=("free-body",))).of("robustness")
 
 
 def test_words_that_an_axis_does_not_take_are_refused():
