@@ -51,7 +51,7 @@ rounding eps/step are both about eps^(2/3), over the margin."""
         elements values approaching infinity, at other points in the workspace.
     """,
     correction="Its determinant is zero there, not the matrix (E10).",
-    written="2026-11-24 PENDING",
+    written="2026-11-24 b7bade9",
     earlier=(
         Earlier(
             "2026-11-21 9b9e874",

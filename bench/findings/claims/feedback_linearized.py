@@ -35,7 +35,7 @@ any more."""
         points: alpha = +-pi, beta = +-pi/2, gamma = +-pi.
     """,
     correction="It is nearly linear there, or for all but a few starts.",
-    written="2026-11-24 PENDING",
+    written="2026-11-24 b7bade9",
     sentence="""
         The response is linear over the whole range of Euler angles but alpha, gamma = +-pi and beta =
         +-pi/2.

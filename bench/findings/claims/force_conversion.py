@@ -46,7 +46,7 @@ STEP = 2.0 ** (-52 / 3)
         forces usable by the Euler Jacobian controller for every manipulator orientation.
     """,
     correction="Converted always; what the controller makes of them grows as 1 / cos(beta), without end at the poles.",
-    written="2026-11-24 PENDING",
+    written="2026-11-24 b7bade9",
     earlier=(
         Earlier(
             "2026-11-21 6e6672b",

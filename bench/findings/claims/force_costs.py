@@ -30,7 +30,7 @@ EULER = f"hybrid/{COORDINATES}"
     """,
     value="a few more",
     correction="On an arm of seven joints they are a few; on six they are more.",
-    written="2026-11-24 PENDING",
+    written="2026-11-24 b7bade9",
     earlier=(Earlier("2026-11-23 bc126c2", "Counted on an arm of six joints alone.", Word.CORRECTED),),
     sentence="Force control on the Euler Jacobian needs a few more calculations.",
     question="What do both controllers in contact take a tick, and is the difference a few?",

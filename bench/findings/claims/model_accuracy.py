@@ -27,7 +27,7 @@ PLAIN, LINEARIZING = THREE[0], THREE[-1]
         regulator.
     """,
     correction="It loses no more starts than a law without a model, but becomes the slower of the two.",
-    written="2026-11-24 PENDING",
+    written="2026-11-24 b7bade9",
     earlier=(
         Earlier(
             "2026-11-23 bc126c2",

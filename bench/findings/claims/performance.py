@@ -59,7 +59,7 @@ def _times(rows: pd.DataFrame) -> np.ndarray:
         Its range is not larger than the rotation-matrix law's. At the paper's gains it is dramatically faster over that
         range, at other damping ratios it is faster, but not dramatically.
     """,
-    written="2026-11-24 PENDING",
+    written="2026-11-24 b7bade9",
     earlier=(Earlier("2026-11-23 bc126c2", "Judged at the gains of the run alone.", Word.CORRECTED),),
     sentence="Feedback linearization dramatically improved the performance, over the largest range of orientations.",
     question="Does it settle from more starts than the other two, and how much sooner?",

@@ -152,7 +152,7 @@ def c02(results):
     section="2.4",
     quote="For large rotations the settling times would increase and could become infinity at certain orientations.",
     correction="They grow as the closed form has it, but not to infinity, or not exactly so.",
-    written="2026-11-24 PENDING",
+    written="2026-11-24 b7bade9",
     earlier=(
         Earlier(
             "2026-11-21 9072535",
