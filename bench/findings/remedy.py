@@ -1,7 +1,7 @@
 """The smallest fix of a shipped controller's orientation error, and its greatest command before and after.
 
-Pages 17 and 25 both print it. A bound is not a fault: a fix keeps it, and at most bounds the length where each component
-is clipped. An error that is replaced keeps the greatest command that it had.
+Pages 17 and 25 both print it. A bound is not a fault: a fix keeps it, and at most bounds the length where each
+component is clipped. An error that is replaced keeps the greatest command that it had.
 """
 
 import math
@@ -24,11 +24,11 @@ SMALL, SMALLEST = 1e-9, math.ulp(0.0)
 
 
 class Fix(NamedTuple):
-    """words: what to change, KEEP if nothing; before, after: greatest K e about an axis of the base, None of a speed."""
+    """What to change, KEEP if nothing; the greatest K e about an axis of the base before and after, 0 of a speed."""
 
     words: str
-    before: float | None
-    after: float | None
+    before: float
+    after: float
 
 
 def smallest_fix(one: Shipped) -> Fix:
@@ -42,7 +42,7 @@ def smallest_fix(one: Shipped) -> Fix:
         else:
             bound = largest(free, None)
             steps.append(
-                f"for goals beyond 90°, return axis times angle and bound its length at {bound:.3g}, the most that it is now"
+                f"for goals beyond 90°, return axis times angle, its length bounded at {bound:.3g} as it is now"
             )
             fixed = logarithm
     if HALF[0] < size(free, DIRECTIONS[0], NEAR_RAD) / NEAR_RAD < HALF[1]:
@@ -51,7 +51,7 @@ def smallest_fix(one: Shipped) -> Fix:
     if is_bent(one.error):
         steps.append(f"to keep the direction, clip the length at {bound:g} instead of each component")
     words = f"{'; '.join(steps)}."
-    before = None if one.level == VELOCITY else one.stiffness * largest(one.error, None)
+    before = 0.0 if one.level == VELOCITY else one.stiffness * largest(one.error, None)
     if not steps:
         return Fix(KEEP, before, before)
     return Fix(words[0].upper() + words[1:], before, one.stiffness * min(bound, largest(fixed, None)))

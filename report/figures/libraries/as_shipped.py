@@ -86,7 +86,7 @@ def held() -> dict:
     """Return what the study of sources found."""
     built = [one for one in restated().values() if "difference" in one]
     fixes = {name: fix_of(name) for name in known_shipped()}
-    rises = [name for name, fix in fixes.items() if fix.before is not None and fix.after > 1.01 * fix.before]
+    rises = [name for name, fix in fixes.items() if fix.after > 1.01 * fix.before]
     return {
         "fixed": sum(fix.words != KEEP for fix in fixes.values()),
         "kept": sum(fix.words == KEEP for fix in fixes.values()),
@@ -153,16 +153,18 @@ def source(one: Shipped) -> tuple:
         compared(one, f"{HOST}/{repository}/blob/{revision}"),
         None if math.isinf(one.bound) else f"{one.bound:g}, {'each component' if is_bent(one.error) else 'length'}",
         fix.words + known,
-        None if fix.before is None else html.together(f"{fix.before:.3g} → {fix.after:.3g} {torque}"),
+        None if one.level == VELOCITY else html.together(f"{fix.before:.3g} → {fix.after:.3g} {torque}"),
     )
 
 
 def compared(one: Shipped, at: str) -> str:
     """Return the greatest difference from the source that was built, or why it was only read."""
+    if one.name not in restated():
+        return "not compared yet"
     found = restated()[one.name]
     first, _, last = found["lines"].partition("-")
     lines = f"[lines {first} to {last}]({at}/{found['file']}#L{first}-L{last})"
     if "reason" in found:
         return f"{lines} read: {found['reason']}"
-    near = f"; {power(found['near_180'])} above 179°" if found["near_180"] > 10.0 * found["difference"] else ""
+    near = f"; {power(found['near_180'])} above 175°" if found["near_180"] > 10.0 * found["difference"] else ""
     return f"{lines} built: {power(found['difference'])}{near}"

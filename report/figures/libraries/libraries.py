@@ -7,6 +7,8 @@ import functools
 import pandas as pd
 
 from bench.findings.counts import OURS, counts
+from bench.findings.remedy import fix_of
+from bench.studies.libraries.asked.shipped import ASKED
 from report.figures.kit import html
 from report.figures.kit.page import Run
 from report.figures.kit.spelling import power
@@ -158,7 +160,7 @@ def controllers() -> list[tuple]:
             loops.dead(one),
             loops.settling(one),
             loops.away(one),
-            replaced(loops.instead(one)),
+            fix_of(ASKED[one.library]).words if one.kind == "restated" else replaced(loops.instead(one)),
         )
         for one in with_their_errors(loops.responses()).itertuples()
     ]
