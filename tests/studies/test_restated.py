@@ -1,5 +1,6 @@
 """Restated controllers against their sources: the committed comparison, and the study on a source made here."""
 
+import numpy as np
 import pytest
 
 from bench.contenders.registry import known_shipped
@@ -25,6 +26,14 @@ def test_controller_equals_its_source_where_it_was_built(row):
         assert row["pairs"] == study.PAIRS
         assert row["difference"] <= LIMIT
         assert row["near_180"] <= (1e-10 if row["name"] in {"crisp", "fzi-motion", "pink"} else LIMIT)
+
+
+@pytest.mark.parametrize("row", [row for row in ROWS.values() if "errors" in row], ids=lambda row: row["name"])
+def test_kernel_gives_what_the_source_gave(row):
+    turns = study.turns_of(study.pairs()[study.KEPT])
+    found = study.errors_of(known_shipped()[row["name"]], turns)
+    is_far = turns.magnitude() <= study.NEAR_180_RAD
+    np.testing.assert_allclose(found[is_far], np.array(row["errors"])[is_far], rtol=0.0, atol=LIMIT)
 
 
 @pytest.mark.parametrize("row", ROWS.values(), ids=lambda row: row["name"])
