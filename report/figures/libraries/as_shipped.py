@@ -31,7 +31,8 @@ MEASURED = Table(
     "Controller | K, D | Felt [%] | Damping ratio:.3g | Critical at [kg m²]:.2g | Rests at 180° | Unwinds "
     "| Bent [°]:.0f | Settles [s]"
 )
-SOURCES = Table("Controller | What, and where | Held to its source | Bound of the error | Smallest fix | Greatest K e")
+FIXES = Table("Controller | Bound of the error | Smallest fix | Greatest K e")
+SOURCES = Table("Controller | What, and where | Its lines | Difference [rad]")
 
 
 def shipped(run: Run) -> pd.DataFrame:
@@ -115,6 +116,7 @@ def tables(run: Run) -> dict:
     ordered = sorted(known_shipped().values(), key=lambda one: (LEVELS.index(one.level), one.name))
     return {
         "measured": MEASURED((", ".join(names), *cells) for cells, names in lines.items()),
+        "fixes": FIXES(fix(one) for one in ordered),
         "sources": SOURCES(source(one) for one in ordered),
     }
 
@@ -139,32 +141,30 @@ def times(*settling: float) -> str:
     return html.together(", ".join("never" if math.isnan(one) else f"{one:.2g}" for one in settling))
 
 
-def source(one: Shipped) -> tuple:
-    """Return the cells of a controller's source: where it is, how it was held to it, its bound, the fix."""
-    fix = fix_of(one.name)
-    repository, _, revision = one.source.partition("@")
-    where = f"{HOST}/{repository}/blob/{revision}/{one.path.partition(',')[0]}"
-    owner, _, number = one.thread.partition("#")
-    known = f" Known: [{one.thread}]({HOST}/{owner}/issues/{number})." if one.thread else ""
-    torque = "rad/s²" if one.shapes_inertia else "N m"
+def fix(one: Shipped) -> tuple:
+    """Return the cells of a controller's fix: its bound, what to change, the greatest command before and after."""
+    found = fix_of(one.name)
+    repository, _, number = one.thread.partition("#")
+    known = f" Known: [{one.thread}]({HOST}/{repository}/issues/{number})." if one.thread else ""
+    unit = "rad/s²" if one.shapes_inertia else "N m"
     return (
         one.name,
-        f"{one.title} ([{revision[:8]}]({where}); gains: {one.set_by})",
-        compared(one, f"{HOST}/{repository}/blob/{revision}"),
         None if math.isinf(one.bound) else f"{one.bound:g}, {'each component' if is_bent(one.error) else 'length'}",
-        fix.words + known,
-        None if one.level == VELOCITY else html.together(f"{fix.before:.3g} → {fix.after:.3g} {torque}"),
+        found.words + known,
+        None if one.level == VELOCITY else html.together(f"{found.before:.3g} → {found.after:.3g} {unit}"),
     )
 
 
-def compared(one: Shipped, at: str) -> str:
-    """Return the greatest difference from the source that was built, or why it was only read."""
-    if one.name not in restated():
-        return "not compared yet"
-    found = restated()[one.name]
-    first, _, last = found["lines"].partition("-")
-    lines = f"[lines {first} to {last}]({at}/{found['file']}#L{first}-L{last})"
-    if "reason" in found:
-        return f"{lines} read: {found['reason']}"
-    near = f"; {power(found['near_180'])} above 175°" if found["near_180"] > 10.0 * found["difference"] else ""
-    return f"{lines} built: {power(found['difference'])}{near}"
+def source(one: Shipped) -> tuple:
+    """Return the cells of a controller's source: where it is, its error's lines, how far the restatement is off."""
+    repository, _, revision = one.source.partition("@")
+    at, held = f"{HOST}/{repository}/blob/{revision}", restated().get(one.name)
+    where = f"{one.title} ([{revision[:8]}]({at}/{one.path.partition(',')[0]}); gains: {one.set_by})"
+    if held is None:
+        return one.name, where, None, "not compared yet"
+    first, last = held["lines"].partition(",")[0].split("-")
+    lines = f"[{held['lines']}]({at}/{held['file']}#L{first}-L{last})"
+    if "reason" in held:
+        return one.name, where, lines, f"read; {held['reason']}"
+    near = f"; {power(held['near_180'])} above 175°" if held["near_180"] > 10.0 * held["difference"] else ""
+    return one.name, where, lines, power(held["difference"]) + near
