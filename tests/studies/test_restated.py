@@ -64,3 +64,5 @@ def test_study_finds_a_source_that_differs(tmp_path, factor, difference):
 def test_source_without_a_copy_is_read_and_says_why(tmp_path):
     row = study.compare(known_shipped()["libfranka"], study.SOURCES / "libfranka.cpp", tmp_path, [])
     assert "not built" in row["reason"]
+    assert study.kept(row, list(ROWS.values())) == ROWS["libfranka"]
+    assert study.kept(row | {"commit": "another"}, list(ROWS.values()))["commit"] == "another"

@@ -4,7 +4,7 @@ FOLDER has a copy of each repository as `owner+name` or `owner+name/repo`: a clo
 `SHIPPED.source`, or, of a release, its files. A file of sources/ is a few lines of ours around the lines of theirs: a
 line `//@ FILE FIRST-LAST` or `#@ FILE FIRST-LAST` stands for these lines of FILE at that commit. It is built in a
 folder that is removed afterwards, and none of their code stays here. The marks of the last file named are the error
-block. C++ needs g++, Eigen, KDL and, by --include, pinocchio's headers; Python needs torch, mujoco and pinocchio.
+block. What is not built keeps its earlier row of the same lines. C++ needs g++, Eigen, KDL and, by --include, pinocchio's headers; Python needs torch, mujoco and pinocchio.
 
 Compared are pairs of orientations: half of them uniform, a quarter within 1e-5 to 0.1 rad of the goal, a quarter as
 near a 180° rotation. Above 175° the greatest difference is kept apart: an axis from a matrix loses digits there.
@@ -15,7 +15,6 @@ import ctypes
 import re
 import runpy
 import subprocess
-import sys
 import tempfile
 import textwrap
 from collections.abc import Callable
@@ -27,7 +26,7 @@ from scipy.spatial.transform import Rotation
 from bench.contenders.registry import known_shipped
 from bench.law.shipped import Shipped
 from bench.provenance import describe
-from bench.tables.files import write_json
+from bench.tables.files import read_json, write_json
 from bench.tables.schema import RESULTS
 
 STORED = RESULTS / "libraries" / "restated.json"
@@ -139,16 +138,22 @@ def compare(one: Shipped, source: Path, folder: Path, options: list[str]) -> dic
     return row | {"errors": found[KEPT].tolist()}
 
 
+def kept(row: dict, earlier: list[dict]) -> dict:
+    """Return the row, or where it was not built here the earlier one of the same lines at the same commit."""
+    same = [one for one in earlier if all(one[key] == row[key] for key in ("name", "commit", "file", "lines"))]
+    return same[0] if same and "reason" in row else row
+
+
 def main() -> None:
     """Build and compare all of them."""
     parser = argparse.ArgumentParser(prog="python -m bench.studies.restated", description=__doc__.splitlines()[0])
     parser.add_argument("folder", type=Path, metavar="FOLDER", help="copies of the repositories, owner+name each")
     parser.add_argument("--include", action="append", default=[], metavar="DIR", help="more headers (pinocchio's)")
     asked = parser.parse_args()
-    sys.path.append(str(asked.folder))
     files = {source.stem.replace("_", "-"): source for source in SOURCES.iterdir()}
     options = [f"-I{one}" for one in (SOURCES, *asked.include)]
-    rows = [compare(one, files[name], asked.folder, options) for name, one in known_shipped().items()]
+    earlier = read_json(STORED)["controllers"]
+    rows = [kept(compare(one, files[name], asked.folder, options), earlier) for name, one in known_shipped().items()]
     about = describe() | {"command": "python -m bench.studies.restated FOLDER"}
     write_json(STORED, {"controllers": rows, "provenance": about})
 

@@ -152,7 +152,8 @@ def practice(dt: float) -> dict:
     """Return the default that runs on real arms, and the least of ROTORS with which all examples are stable at dt."""
     k, r = EXAMPLES["frankapy"]
     calm = [one for one in ROTORS if min(tick_of(name, one) for name in EXAMPLES) > dt]
-    return {"practice": f"{k:g} N/m, {r:g} N m/rad", "rotor_stable": f"{min(calm):g}" if calm else "none"}
+    default = f"{k:g} N/m, {r:g} N m/rad (public since 2020)"
+    return {"practice": default, "rotor_stable": f"{min(calm):g}" if calm else "none"}
 
 
 def sensitivity(dt: float) -> list[tuple]:

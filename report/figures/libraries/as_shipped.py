@@ -145,7 +145,7 @@ def fix(one: Shipped) -> tuple:
     """Return the cells of a controller's fix: its bound, what to change, the greatest command before and after."""
     found = fix_of(one.name)
     repository, _, number = one.thread.partition("#")
-    known = f" Known: [{one.thread}]({HOST}/{repository}/issues/{number})." if one.thread else ""
+    known = f" Thread: [{one.thread}]({HOST}/{repository}/issues/{number})." if one.thread else ""
     unit = "rad/s²" if one.shapes_inertia else "N m"
     return (
         one.name,
