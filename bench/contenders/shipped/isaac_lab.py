@@ -1,6 +1,7 @@
 """The operational-space controller of Isaac Lab: axis times angle of either sign of the quaternion.
 
 By default it cancels no inertia, in spite of its name; tasks may ask for it. Its source computes in single precision.
+Read in the wheel of the release, isaaclab 2.3.2.post1.
 """
 
 from bench.law.shipped import TORQUE, Shipped, logarithm

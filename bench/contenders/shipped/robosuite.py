@@ -1,7 +1,7 @@
 """Operational-space control of robosuite: half the sum of the columns' cross products, the law of 1980.
 
 Its docstring promises axis times angle, which this is near the goal alone. As delivered, goals are steps of at most
-0.5 rad from the present pose, so that a 180° rotation is not asked for.
+0.5 rad from the present pose, so that a 180° rotation is not asked for. Read in the wheel of the release.
 """
 
 from bench.law import kernel
