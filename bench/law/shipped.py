@@ -1,12 +1,13 @@
-"""What a controller that is shipped is: the record that each file of bench/contenders/shipped holds, and its law.
+"""The record of a controller as it is shipped, which each file of bench/contenders/shipped holds, and its law.
 
-Its orientation error is a kernel of the unit quaternion (w, x, y, z) of the turn from R to R_d in the base frame, of
-either sign, as its source has it; of an error that takes matrices both signs are one. `regulator_of` makes a law of it,
-u = K e - D omega, which carries the quaternion on from tick to tick as an encoder or an integrator does: with the
-memory ANTIPODE an episode begins on the other sign.
+The orientation error is a kernel of the unit quaternion (w, x, y, z) of the rotation from R to R_d in the base frame,
+of either sign, as its source has it; an error that takes matrices is the same for both signs. `regulator_of` makes a
+law of it, u = K e - D omega, which carries the quaternion on from tick to tick as an encoder or an integrator does:
+with the memory ANTIPODE an episode begins on the other sign.
 """
 
 import functools
+import math
 from collections.abc import Callable
 from typing import NamedTuple
 
@@ -29,7 +30,8 @@ class Shipped(NamedTuple):
     stiffness: what multiplies e: N m/rad, 1/s^2 where an inertia is cancelled or simulated, 1/s of a velocity;
     damping: what multiplies the angular velocity; None of a velocity. set_by: where they are set.
     shapes_inertia: whether the body that K and D act on is one of unit inertia whatever the robot's.
-    besides: what the source does and this law does not.
+    unbounded, bound: the error before its bound, and the bound of its components or of its length, if it has one.
+    thread: owner/name#number of a public thread on what its error does.
     """
 
     name: str
@@ -43,7 +45,9 @@ class Shipped(NamedTuple):
     damping: float | None
     set_by: str
     shapes_inertia: bool = False
-    besides: str = ""
+    unbounded: Callable | None = None
+    bound: float = math.inf
+    thread: str = ""
 
 
 @kernel

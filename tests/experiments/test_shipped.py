@@ -1,7 +1,4 @@
-"""Controllers as they are shipped: errors against libraries and laws, what is felt against closed forms and scipy.
-
-Oracles: scipy's rotation vectors and integrator, MuJoCo's quaternion to velocity, pinocchio's logarithm, numpy's clip.
-"""
+"""Controllers as they are shipped: what is felt against closed forms, settling against scipy's integrator."""
 
 import functools
 import math
@@ -11,26 +8,17 @@ import pandas as pd
 import pytest
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation as ScipyRotation
-from support.states import of_scipy
 
-from bench.contenders.registry import find_contender, known_shipped
+from bench.contenders.registry import known_shipped
 from bench.experiments.experiment import Settings
 from bench.experiments.rows import shipped as measured
 from bench.experiments.rows.shipped import frame
 from bench.law import kernel
-from bench.law.contender import AT_REST, Gains, Goal
-from bench.law.so3 import IDENTITY
 from bench.tables.schema import TABLES
 from tasks.rules import RULES
-from tasks.sphere import axes
 
 HORIZON_S = 20.0
 TURNS = ScipyRotation.random(50, rng=np.random.default_rng(7))
-
-
-def error(name: str, turn: ScipyRotation) -> np.ndarray:
-    """What leads along a turn, by its quaternion with a scalar that is not negative."""
-    return np.array(known_shipped()[name].error(tuple(turn.as_quat(canonical=True, scalar_first=True).tolist())))
 
 
 @functools.cache
@@ -38,75 +26,6 @@ def rows() -> pd.DataFrame:
     """All of the controllers, without laws of ours."""
     made = [frame(one, (), Settings(), HORIZON_S) for one in known_shipped().values()]
     return pd.concat(made).set_index("shipped")
-
-
-def law_error(word: str, turn: ScipyRotation) -> np.ndarray:
-    """The spring of a law of ours over kp, from R = I."""
-    return np.array(find_contender(word).law(of_scipy(turn.inv()), AT_REST, Goal(IDENTITY), Gains(1.0, 0.0)))
-
-
-@pytest.mark.parametrize(
-    ("name", "word", "share"),
-    [
-        ("robosuite", "rotation-matrix", 1.0),
-        ("franka-ros", "quaternion-shortest", 0.5),
-        ("libfranka", "quaternion-shortest", 0.5),
-        ("isaac-gym", "quaternion-shortest", 0.5),
-        ("mink", "rotation-vector", 1.0),
-        ("mjctrl-opspace", "rotation-vector", 0.95),
-    ],
-)
-def test_error_without_clips_is_a_share_of_a_law_of_ours(name, word, share):
-    for turn in TURNS:
-        np.testing.assert_allclose(error(name, turn), share * law_error(word, turn), atol=1e-14)
-
-
-@pytest.mark.parametrize(
-    ("name", "limited"),
-    [
-        ("crisp", lambda e: np.clip(e, -0.5, 0.5)),
-        ("fzi-motion", lambda e: e * min(1.0, 1.0 / np.linalg.norm(e))),
-        ("moveit-servo", lambda e: e * min(1.0, 0.008 / np.linalg.norm(e))),
-        ("ros2-admittance", lambda e: e),
-        ("pink", lambda e: e),
-    ],
-)
-def test_logarithms_are_those_of_scipy_within_their_limits(name, limited):
-    for turn in TURNS:
-        np.testing.assert_allclose(error(name, turn), limited(turn.as_rotvec()), atol=1e-13)
-
-
-@pytest.mark.parametrize("name", ["mjctrl-diffik", "mink"])
-def test_logarithm_is_mujocos_velocity_of_either_sign_of_the_quaternion(name):
-    mujoco = pytest.importorskip("mujoco")
-    for turn in TURNS:
-        for sign in (1.0, -1.0):
-            quat, found = sign * turn.as_quat(canonical=True, scalar_first=True), np.zeros(3)
-            mujoco.mju_quat2Vel(found, quat, 1.0)
-            np.testing.assert_allclose(known_shipped()[name].error(tuple(quat.tolist())), found, atol=1e-13)
-
-
-def test_logarithm_is_pinocchios():
-    pinocchio = pytest.importorskip("pinocchio")
-    for turn in TURNS:
-        np.testing.assert_allclose(error("pink", turn), pinocchio.log3(turn.as_matrix()), atol=1e-9)
-
-
-@pytest.mark.parametrize(("name", "limit"), [("serl-franka", 0.05), ("crisp", 0.5)])
-def test_clip_per_axis_bends_as_numpys_does(name, limit):
-    factor = 0.5 if name == "serl-franka" else 1.0
-    for angle in (0.4, 1.5, 2.6):
-        for k in axes(20):
-            turn = ScipyRotation.from_rotvec(angle * k)
-            e = turn.as_quat(canonical=True)[:3] if factor < 1.0 else turn.as_rotvec()
-            np.testing.assert_allclose(error(name, turn), np.clip(e, -limit, limit), atol=1e-14)
-
-
-def test_deadband_sets_components_to_zero_and_no_others():
-    turn = ScipyRotation.from_rotvec((0.0099, 0.02, -0.0101))
-    x, y, z = error("deoxys", turn)
-    assert x == 0.0
-    assert (y, z) == pytest.approx((0.01, -0.00505), rel=1e-3)
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,4 @@
-"""The page on impedance as arms run it: whole on a run that has it, silent on one that has not."""
+"""The page on impedance without inertia shaping: whole on a run that has it, silent on one that has not."""
 
 import shutil
 

@@ -1,4 +1,8 @@
-"""The Cartesian controller of crisp_controllers: the logarithm, each component clipped in the base frame."""
+"""The Cartesian controller of crisp_controllers: the logarithm, each component clipped in the base frame.
+
+Its source also moves the goal to its target by slerp, smooths joint states and torques, limits the change of a torque
+to 0.5 N m a tick, and cancels the inertia on request; the law here does none of this, so that its response is faster.
+"""
 
 from bench.law import kernel
 from bench.law.shipped import TORQUE, Shipped, clipped, logarithm
@@ -23,5 +27,6 @@ SHIPPED = Shipped(
     30.0,
     2.0 * 30.0**0.5,
     "defaults of the parameters; 2√K",
-    besides="filters goals, states and torques, and limits the torques' rate; cancels the inertia on request",
+    unbounded=logarithm,
+    bound=CLIP_RAD,
 )

@@ -1,6 +1,8 @@
-"""Operational-space control of deoxys: the bare vector part, each component of it zero within a deadband.
+"""Operational-space control of deoxys: the vector part without factor 2, its components zero within a deadband.
 
-Kv = 2 sqrt(Kp) is critical of a stiffness that is not felt: half of Kp is, so the damping ratio is sqrt(2).
+D = 2 sqrt(K) is critical for K; half of K is felt, so that the damping ratio is sqrt(2). Its source also takes goals as
+steps from the present pose and interpolates them, adds residual masses to the model, pulls the elbow to a posture and
+repels joints from their limits; the law here does not.
 """
 
 from bench.law import kernel
@@ -36,5 +38,5 @@ SHIPPED = Shipped(
     2.0 * 250.0**0.5,
     "osc-pose-controller.yml; 2√K",
     shapes_inertia=True,
-    besides="adds residual masses to the model, and repels joints from their limits",
+    thread="UT-Austin-RPL/deoxys_control#40",
 )

@@ -2,7 +2,8 @@
 
 The error times 0.5 drives a simulated arm whose last link has unit inertia; 10 % of its velocity is taken off at each
 of its steps of 0.02 s, which is the damping here. Ten such steps are one tick of 10 ms: its seconds pass 20 times as
-fast, so that in the robot's seconds the stiffness is 400 times and the damping 20 times what it simulates.
+fast, so that in the robot's seconds the stiffness is 400 times and the damping 20 times what it simulates. Its source
+turns the simulated joints; KDL takes angles below 1e-6 rad for none and loses digits near 180°.
 """
 
 import math
@@ -33,5 +34,7 @@ SHIPPED = Shipped(
     -math.log(LEFT) / STEP_S * FASTER,
     "p 0.5 of controller_manager.yaml; 10 % of the velocity a step",
     shapes_inertia=True,
-    besides="turns the simulated joints; loses digits near 180° as KDL does",
+    unbounded=logarithm,
+    bound=LONGEST_RAD,
+    thread="orocos/orocos_kinematics_dynamics#352",
 )

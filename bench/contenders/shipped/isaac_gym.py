@@ -1,6 +1,8 @@
 """The idiom of Isaac Gym's Franka examples: the vector part times the sign of the scalar, which is 0 at 0.
 
-Read in a public copy of the Preview 4 package, whose own repository is not public.
+Read in a public copy of the Preview 4 package, whose own repository is not public; NVIDIA's public IsaacGymEnvs takes
+the sign of zero alike (commit aeed2986, isaacgymenvs/tasks/factory/factory_control.py, line 363). Its source computes
+in single precision; the law here in double.
 """
 
 from bench.law import kernel
@@ -29,5 +31,4 @@ SHIPPED = Shipped(
     2.0 * 150.0**0.5,
     "in the source; 2√K",
     shapes_inertia=True,
-    besides="computes in single precision",
 )

@@ -1,4 +1,4 @@
-"""The Cartesian impedance example of libfranka: franka_ros's without filters, gains in the source."""
+"""The Cartesian impedance example of libfranka: that of franka_ros without filters; its gains are in the source."""
 
 from bench.law.shipped import TORQUE, Shipped, vector_part
 

@@ -1,4 +1,7 @@
-"""Differential inverse kinematics of mjctrl: MuJoCo's quaternion to velocity, all of it in a tick, as positions."""
+"""Differential inverse kinematics of mjctrl: MuJoCo's quaternion to velocity, all of it in a tick, as positions.
+
+The joints' position servos are between the command and the body; the law here has none.
+"""
 
 from bench.law.shipped import VELOCITY, Shipped, logarithm
 
@@ -13,5 +16,4 @@ SHIPPED = Shipped(
     1.0,
     None,
     "all of it in a tick",
-    besides="the joints' position servos stand between",
 )

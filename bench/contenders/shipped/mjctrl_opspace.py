@@ -1,6 +1,7 @@
 """Operational-space control of mjctrl: the logarithm by MuJoCo's quaternion to velocity, times 0.95.
 
-The factor is the gain of a twist that it was made for; the stiffness multiplies what is left.
+The factor is the gain of a twist, and a constant of this demonstration; the stiffness multiplies the product. Its
+source also bounds the torques by the actuators' ranges.
 """
 
 from bench.law import kernel
@@ -28,5 +29,4 @@ SHIPPED = Shipped(
     2.0 * 50.0**0.5,
     "in the source; 2√K",
     shapes_inertia=True,
-    besides="bounds the torques by the actuators' ranges",
 )

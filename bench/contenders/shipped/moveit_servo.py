@@ -1,4 +1,7 @@
-"""Pose tracking of MoveIt Servo: axis and angle over a tick of 10 ms, at most 0.8 rad/s, along the great circle."""
+"""Pose tracking of MoveIt Servo: axis and angle over a tick of 10 ms, at most 0.8 rad/s, along the great circle.
+
+Its source also slows down near singularities and joint limits, and smooths; the law here does not.
+"""
 
 from bench.law import kernel
 from bench.law.shipped import VELOCITY, Shipped, logarithm, shortened
@@ -24,5 +27,6 @@ SHIPPED = Shipped(
     1.0,
     None,
     "all of it in a tick, at most 0.8 rad/s",
-    besides="slows down near singularities and joint limits, and smooths",
+    unbounded=logarithm,
+    bound=FASTEST * PERIOD_S,
 )

@@ -1,4 +1,4 @@
-"""The frame task of pink: as mink's, by pinocchio's logarithm."""
+"""The frame task of pink: that of mink, by pinocchio's logarithm of SE(3), whose rotation this is."""
 
 from bench.law.shipped import VELOCITY, Shipped, logarithm
 
@@ -13,5 +13,4 @@ SHIPPED = Shipped(
     1.0,
     None,
     "default gain 1, over the period",
-    besides="solves for joint rates within limits; its error is the logarithm of SE(3), whose rotation is this one",
 )

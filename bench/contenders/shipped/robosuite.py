@@ -1,6 +1,7 @@
 """Operational-space control of robosuite: half the sum of the columns' cross products, the law of 1980.
 
-The source's docstring promises axis times angle; the release 1.5.2 is what was read.
+Its docstring promises axis times angle, which this is near the goal alone. As delivered, goals are steps of at most
+0.5 rad from the present pose, so that a 180° rotation is not asked for. Read in the wheel of the release.
 """
 
 from bench.law import kernel
@@ -17,7 +18,8 @@ SHIPPED = Shipped(
     "robosuite",
     "robosuite, OSC_POSE",
     "ARISE-Initiative/robosuite@v1.5.2",
-    "robosuite/utils/control_utils.py, controllers/parts/arm/osc.py, controllers/config/robots/default_panda.json",
+    "robosuite/utils/control_utils.py, robosuite/controllers/parts/arm/osc.py, robosuite/controllers/config/robots/"
+    "default_panda.json",
     TORQUE,
     r"e = \tfrac12 (n \times n_d + o \times o_d + a \times a_d) = \sin\theta\,k",
     error,

@@ -1,7 +1,7 @@
 """The admittance controller of ros2_controllers: the logarithm, on a mass, damper and spring that it simulates.
 
 It has no default gains: those here are of its own tests, about z. Stiffness and damping are in a frame that the user
-names; with equal ones about all axes it is no matter which.
+names; with equal ones about all axes the frame has no effect. Its source also damps the joints and filters the wrench.
 """
 
 from bench.law.shipped import POSITION, Shipped, logarithm
@@ -12,7 +12,8 @@ SHIPPED = Shipped(
     "ros2-admittance",
     "ros2_controllers, admittance controller",
     "ros-controls/ros2_controllers@94e74de35f9d04f313aca8f29df66c3a76004aa7",
-    "admittance_controller/include/admittance_controller/admittance_rule_impl.hpp, test/test_params.yaml",
+    "admittance_controller/include/admittance_controller/admittance_rule_impl.hpp, admittance_controller/"
+    "test/test_params.yaml",
     POSITION,
     r"e = \log(R_d R^\top)",
     logarithm,
@@ -20,5 +21,4 @@ SHIPPED = Shipped(
     2.0 * DAMPING_RATIO * (STIFFNESS / INERTIA) ** 0.5,
     "its tests' parameters, over their inertia; damping ratio 2.83",
     shapes_inertia=True,
-    besides="damps the joints too, and filters the measured wrench",
 )

@@ -1,6 +1,7 @@
-"""The impedance controller of serl_franka: the bare vector part, each component clipped, and an integral without dt.
+"""The impedance controller of serl_franka: the vector part without factor 2, each component clipped, and an integral.
 
-The integral's gain is 0 as delivered, so it is none here.
+The clip bounds the torque at K times 0.05 about each axis. The integral adds up the clipped error tick by tick, without
+dt; its gain is 0 as delivered, so that there is none here. Its source also filters gains and goals.
 """
 
 from bench.law import kernel
@@ -26,5 +27,6 @@ SHIPPED = Shipped(
     150.0,
     7.0,
     "defaults of two parameters",
-    besides="integrates the clipped error tick by tick, without dt (gain 0 as delivered); filters gains and goals",
+    unbounded=vector_part,
+    bound=CLIP,
 )

@@ -34,13 +34,13 @@ class Hand(NamedTuple):
     friction: np.ndarray
 
 
-def hand_of(name: str) -> Hand:
-    """The hand of an arm at its home."""
+def hand_of(name: str, rotor: float = 0.0) -> Hand:
+    """Return the hand of an arm at its home, each joint with so much more inertia than its model has [kg m^2]."""
     arm = tasks.arm(name)
     judge = kinematics(arm)
     J, friction = judge.jacobian(arm.home), np.diag(judge.model.dof_damping)
-    by_friction = J @ np.linalg.solve(judge.inertia_matrix(arm.home), friction) @ np.linalg.pinv(J)
-    return Hand(judge.mobility(arm.home), by_friction)
+    by_joints = np.linalg.inv(judge.inertia_matrix(arm.home) + rotor * np.eye(J.shape[1]))
+    return Hand(J @ by_joints @ J.T, J @ by_joints @ friction @ np.linalg.pinv(J))
 
 
 def damping_matrix(name: str, stiffness: Stiffness, mobility: np.ndarray, zeta: float) -> np.ndarray:
@@ -55,16 +55,18 @@ def diagonal(stiffness: Stiffness) -> np.ndarray:
     return np.repeat([stiffness.translation, stiffness.rotation], 3)
 
 
-def hand_matrices(arm: str, damping: str, stiffness: Stiffness, zeta: float) -> tuple[np.ndarray, np.ndarray]:
+def hand_matrices(
+    arm: str, damping: str, stiffness: Stiffness, zeta: float, rotor: float = 0.0
+) -> tuple[np.ndarray, np.ndarray]:
     """P = Lambda^-1 K [1/s^2] and Q = Lambda^-1 D and friction's [1/s]."""
-    hand = hand_of(arm)
+    hand = hand_of(arm, rotor)
     D = damping_matrix(damping, stiffness, hand.mobility, zeta)
     return hand.mobility * diagonal(stiffness), hand.mobility @ D + hand.friction
 
 
-def longest_tick(arm: str, damping: str, stiffness: Stiffness, zeta: float) -> float:
+def longest_tick(arm: str, damping: str, stiffness: Stiffness, zeta: float, rotor: float = 0.0) -> float:
     """The control period [s] from which on the sampled loop is unstable: 2/(D/Lambda) of the fastest pole, or less."""
-    P, Q = hand_matrices(arm, damping, stiffness, zeta)
+    P, Q = hand_matrices(arm, damping, stiffness, zeta, rotor)
     low, high = 0.0, 1.0
     for _ in range(HALVINGS):
         middle = 0.5 * (low + high)

@@ -1,4 +1,4 @@
-"""The page on impedance as arms run it: damping felt per mode, free motion, energy; admittance and its limit."""
+"""The page on impedance without inertia shaping: damping felt by mode, free motion, energy; limits of admittance."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 
 from bench.contenders.registry import known_dampings
-from bench.experiments.impedance import Stiffness
+from bench.experiments.impedance import ZETA, Stiffness
 from bench.findings.theory.impedance_modes import longest_tick, with_theory
 from bench.studies.contact.__main__ import STORED
 from bench.studies.contact.admittance import DECADES, FORCE_N, HALVINGS, SHIPPED
@@ -31,6 +31,7 @@ LAG_COLOURS = (style.INK, "#0072b2", "#009e73", "#d55e00")
 FACTS = (
     *("felt_least", "felt_most", "asked", "double", "axis_least", "axis_most", "unstable", "worst_gap", "modes"),
     *("episodes", "account", "coriolis_least", "coriolis_most", "tick", "overshoots", "slower", "needs"),
+    *("practice", "rotor_stable"),
 )
 """Of the text, what runs hold."""
 STUDY = (
@@ -44,6 +45,22 @@ RATIOS, TIMES = ({name: f"{what}, {word}" for name, word in SHORT.items()} for w
 FELT = Table(
     " | ".join(("Arm", "K [N/m, N m/rad]", *RATIOS.values(), *TIMES.values())),
     words=(*RATIOS.values(), *TIMES.values()),
+)
+BARE = "panda"
+"""The arm whose model has neither hand nor rotors."""
+EXAMPLES = {
+    "libfranka": Stiffness(150.0, 10.0),
+    "franka_ros": Stiffness(200.0, 10.0),
+    "end of its ranges": Stiffness(400.0, 30.0),
+    "frankapy": Stiffness(600.0, 50.0),
+    "here": Stiffness(2000.0, 50.0),
+}
+"""Stiffnesses with D = 2 sqrt(K): Franka's examples, frankapy's default on real Pandas, this benchmark's own choice."""
+ROTORS = (0.0, 0.005, 0.01, 0.1)
+"""Effective inertia [kg m^2] that each joint's rotor, or what else the loop feels, adds to the model."""
+SENSITIVITY = Table(
+    " | ".join(("Rotor [kg m² a joint]", *(f"{name}, {k:g}, {r:g}" for name, (k, r) in EXAMPLES.items()))),
+    words=tuple(f"{name}, {k:g}, {r:g}" for name, (k, r) in EXAMPLES.items()),
 )
 LIMITS = Table(
     "Position loop | Lag [ms] | 0 ms | 2 ms | 5 ms | 10 ms | 20 ms", words=("0 ms", "2 ms", "5 ms", "10 ms", "20 ms")
@@ -109,6 +126,7 @@ def in_free_motion(run: Run) -> dict:
         "slower": f"{slower(rows, 'diagonal', 'double-diagonalization'):.2g}",
         "needs": needed_ticks(found),
         "tick": f"{1000 * float(rows['dt_s'].iloc[0]):g}",
+        **practice(float(rows["dt_s"].iloc[0])),
     }
 
 
@@ -123,6 +141,29 @@ def needed_ticks(found: pd.DataFrame) -> str:
     }
     least = {arm: min(tick for (which, _), tick in ticks.items() if which == arm) for arm in own["arm"].unique()}
     return ", ".join(f"{1000 * tick:.2g} on the {arm_looks.title(arm)}" for arm, tick in least.items())
+
+
+def tick_of(name: str, rotor: float) -> float:
+    """Return the longest stable control period [s] of an example's stiffness on the bare arm with such rotors."""
+    return longest_tick(BARE, "diagonal", EXAMPLES[name], ZETA, rotor)
+
+
+def practice(dt: float) -> dict:
+    """Return the default that runs on real arms, and the least of ROTORS with which all examples are stable at dt."""
+    k, r = EXAMPLES["frankapy"]
+    calm = [one for one in ROTORS if min(tick_of(name, one) for name in EXAMPLES) > dt]
+    default = f"{k:g} N/m, {r:g} N m/rad (public since 2020)"
+    return {"practice": default, "rotor_stable": f"{min(calm):g}" if calm else "none"}
+
+
+def sensitivity(dt: float) -> list[tuple]:
+    """Return a row for each rotor: the longest stable tick [ms] of each example, and whether dt is beyond it."""
+    return [(f"{rotor:g}", *(word(tick_of(name, rotor), dt) for name in EXAMPLES)) for rotor in ROTORS]
+
+
+def word(longest: float, dt: float) -> str:
+    """Return a period in ms, with the word unstable where dt is longer."""
+    return html.together(f"{1000 * longest:.2g}{', unstable' if longest < dt else ''}")
 
 
 def slower(rows: pd.DataFrame, one: str, other: str) -> float:
@@ -168,8 +209,10 @@ def farthest_from_shaped(rows: pd.DataFrame) -> float:
 
 
 def tables(run: Run) -> dict:
-    """Damping felt and free motion; limits of the admittance."""
-    return {"tab_felt": FELT(felt(run)), "tab_limits": LIMITS(limits())}
+    """Return damping felt and free motion; the bare arm with rotors; limits of the admittance."""
+    rows = episodes(run)
+    rotors = [] if rows.empty else sensitivity(float(rows["dt_s"].iloc[0]))
+    return {"tab_felt": FELT(felt(run)), "tab_rotors": SENSITIVITY(rotors), "tab_limits": LIMITS(limits())}
 
 
 def felt(run: Run) -> list[tuple]:

@@ -1,19 +1,22 @@
-"""Controllers as their authors ship them: what is felt of what is set, where they rest, and what to write instead."""
+"""Controllers as their authors ship them: what is felt of what is set, where they rest, and the smallest fix."""
 
 from __future__ import annotations
 
+import functools
 import math
 from collections.abc import Callable
 
 import pandas as pd
 
 from bench.contenders.registry import known_shipped
-from bench.findings.claims.verdict import NoEvidence
-from bench.findings.selection import needs
-from bench.law.shipped import POSITION, TORQUE, VELOCITY
+from bench.findings.remedy import KEEP, fix_of, is_bent
+from bench.law.shipped import POSITION, TORQUE, VELOCITY, Shipped
+from bench.studies.restated.__main__ import STORED
+from bench.tables.files import read_json
 from bench.tables.shipped_columns import BENT_DEG, FELT_RAD
-from report.figures.kit import html, laws
+from report.figures.kit import html
 from report.figures.kit.page import Run, given
+from report.figures.kit.spelling import power
 from report.figures.kit.tables import Table
 
 LEVELS = (TORQUE, POSITION, VELOCITY)
@@ -26,30 +29,28 @@ HOST = "https://github.com"
 
 MEASURED = Table(
     "Controller | K, D | Felt [%] | Damping ratio:.3g | Critical at [kg m²]:.2g | Rests at 180° | Unwinds "
-    "| Bent [°]:.0f | Settles [s] | Instead [s]"
+    "| Bent [°]:.0f | Settles [s]"
 )
-SOURCES = Table("Controller | What, and where | Audit | Write instead")
-
-
-def advised(run: Run) -> str | None:
-    """The law that is advised where nothing else is known; None if this run cannot tell."""
-    try:
-        return needs.advice(run.folder).default.law
-    except NoEvidence:
-        return None
+FIXES = Table("Controller | Bound of the error | Smallest fix | Greatest K e")
+SOURCES = Table("Controller | What, and where | Its lines | Difference [rad]")
 
 
 def shipped(run: Run) -> pd.DataFrame:
-    """A row a controller, torques first; `ours_...` of the advised law in its place, null where there is none."""
+    """Return a row for each controller, torques first."""
     rows = run.rows("shipped")
     if rows.empty:
         return rows
-    rows = rows.astype(dict.fromkeys(("shipped", "law", "level", "shapes_inertia", "findings"), str))
+    rows = rows.astype(dict.fromkeys(("shipped", "law", "level", "shapes_inertia"), str))
     rows["bent"] = rows[[f"bent_{angle}_rad" for angle in BENT_DEG]].max(axis=1)
-    own, ours = rows[rows["law"] == ""], rows[rows["law"] == (advised(run) or "none")]
-    own = own.merge(ours.add_prefix("ours_"), how="left", left_on="shipped", right_on="ours_shipped")
+    own = rows[rows["law"] == ""]
     order = own["level"].map(LEVELS.index)
     return own.assign(order=order).sort_values(["order", "shipped"], ignore_index=True)
+
+
+@functools.cache
+def restated() -> dict[str, dict]:
+    """Return by name what the study found that held each controller to its source."""
+    return {one["name"]: one for one in read_json(STORED)["controllers"]}
 
 
 def is_weak(own: pd.DataFrame) -> pd.Series:
@@ -77,24 +78,29 @@ FACTS: dict[str, Callable[[pd.DataFrame], object]] = {
 
 
 def facts(run: Run) -> dict:
-    """The conclusion, and what the text says of inertia."""
+    """Return what the text says of controllers, of fixes and of the study that held them to their sources."""
     own = shipped(run)
-    return {key: given(own, make) for key, make in FACTS.items()} | {"ours": in_place(own, advised(run))}
+    return {key: given(own, make) for key, make in FACTS.items()} | held()
+
+
+def held() -> dict:
+    """Return what the study of sources found."""
+    built = [one for one in restated().values() if "difference" in one]
+    fixes = {name: fix_of(name) for name in known_shipped()}
+    rises = [name for name, fix in fixes.items() if fix.after > 1.01 * fix.before]
+    return {
+        "fixed": sum(fix.words != KEEP for fix in fixes.values()),
+        "kept": sum(fix.words == KEEP for fix in fixes.values()),
+        "rises": ", ".join(rises) or "none",
+        "built": f"{len(built)} of {len(restated())}",
+        "pairs": power(max(one["pairs"] for one in built)),
+        "difference": power(max(one["difference"] for one in built)),
+    }
 
 
 def heaviest(own: pd.DataFrame) -> pd.DataFrame:
     """Those whose inertia is not cancelled, damped critically at the largest inertia."""
     return own[own["critical"] >= own["critical"].max() * RIGHT]
-
-
-def in_place(own: pd.DataFrame, law: str | None) -> str | None:
-    """What the advised law has of all this at the same gains."""
-    if law is None or own.empty:
-        return None
-    theirs = own[own["starts"] > 0]
-    wrong = int(theirs[["ours_dead", "ours_lost", "ours_away", "ours_bent"]].gt(0.0).any(axis=1).sum())
-    has = f"has some of this at the gains of {wrong}" if wrong else "has none of this at the same gains"
-    return f"{laws.title(law)} {has}"
 
 
 def named(rows: pd.DataFrame) -> str:
@@ -103,22 +109,20 @@ def named(rows: pd.DataFrame) -> str:
 
 
 def tables(run: Run) -> dict:
-    """What is measured, equals in one line; where it comes from, and what to write instead."""
-    own, law = shipped(run), advised(run)
+    """Return what is measured, equals in one line; where it comes from, and the smallest fix."""
     lines: dict[tuple, list[str]] = {}
-    for one in own.itertuples():
-        lines.setdefault(measured(one, law), []).append(one.shipped)
+    for one in shipped(run).itertuples():
+        lines.setdefault(measured(one), []).append(one.shipped)
+    ordered = sorted(known_shipped().values(), key=lambda one: (LEVELS.index(one.level), one.name))
     return {
         "measured": MEASURED((", ".join(names), *cells) for cells, names in lines.items()),
-        "sources": SOURCES(
-            (one.shipped, described(one.shipped), one.findings or "nothing", instead(one, law))
-            for one in own.itertuples()
-        ),
+        "fixes": FIXES(fix(one) for one in ordered),
+        "sources": SOURCES(source(one) for one in ordered),
     }
 
 
-def measured(one, law: str | None) -> tuple:
-    """A controller's cells but for its name; law: the one that is advised."""
+def measured(one) -> tuple:
+    """Return the cells of a controller but for its name."""
     has_body = one.starts > 0
     return (
         f"{one.kp:.3g}, {one.kv:.3g}" if has_body else f"{one.kp:.3g} a tick",
@@ -129,7 +133,6 @@ def measured(one, law: str | None) -> tuple:
         (f"{one.away} of {one.starts}" if one.away else "no") if has_body else None,
         math.degrees(one.bent),
         times(one.settling_1_s, one.settling_90_s, one.settling_179_9_s) if has_body else None,
-        times(one.ours_settling_1_s, one.ours_settling_90_s, one.ours_settling_179_9_s) if law and has_body else None,
     )
 
 
@@ -138,33 +141,30 @@ def times(*settling: float) -> str:
     return html.together(", ".join("never" if math.isnan(one) else f"{one:.2g}" for one in settling))
 
 
-def instead(one, law: str | None) -> str | None:
-    """One sentence: what to write in a controller's place, and what that changes."""
-    if one.level == VELOCITY and not one.bent and not one.dead:
-        return "Keep its error: direction and dead points are right."
-    changes = []
-    if one.level != VELOCITY and one.stiffness_50mrad < RIGHT:
-        changes.append(f"all of K is felt, {1.0 / one.stiffness_50mrad:.3g} times as much as now")
-    if not one.stiffness_1mrad:
-        changes.append("it moves inside the deadband too")
-    if one.dead:
-        changes.append("it leaves every 180° rotation")
-    if one.bent:
-        changes.append("its direction is kept")
-    if not changes:
-        return "Keep it: nothing that is looked at is wrong."
-    if law is None:
-        return None
-    if one.shapes_inertia == "no":
-        changes.append(f"critical at {one.ours_critical:.2g} kg m²")
-    return f"`bench export {law} --to cpp`, same K and D: {'; '.join(changes)}."
+def fix(one: Shipped) -> tuple:
+    """Return the cells of a controller's fix: its bound, what to change, the greatest command before and after."""
+    found = fix_of(one.name)
+    repository, _, number = one.thread.partition("#")
+    known = f" Thread: [{one.thread}]({HOST}/{repository}/issues/{number})." if one.thread else ""
+    unit = "rad/s²" if one.shapes_inertia else "N m"
+    return (
+        one.name,
+        None if math.isinf(one.bound) else f"{one.bound:g}, {'each component' if is_bent(one.error) else 'length'}",
+        found.words + known,
+        None if one.level == VELOCITY else html.together(f"{found.before:.3g} → {found.after:.3g} {unit}"),
+    )
 
 
-def described(name: str) -> str | None:
-    """Title, source at its commit by the first of the files that were read, and where the gains are set."""
-    if name not in known_shipped():
-        return None
-    one = known_shipped()[name]
+def source(one: Shipped) -> tuple:
+    """Return the cells of a controller's source: where it is, its error's lines, how far the restatement is off."""
     repository, _, revision = one.source.partition("@")
-    where = f"{HOST}/{repository}/blob/{revision}/{one.path.partition(',')[0]}"
-    return f"{one.title} ([{revision[:8]}]({where}); gains: {one.set_by})"
+    at, held = f"{HOST}/{repository}/blob/{revision}", restated().get(one.name)
+    where = f"{one.title} ([{revision[:8]}]({at}/{one.path.partition(',')[0]}); gains: {one.set_by})"
+    if held is None:
+        return one.name, where, None, "not compared yet"
+    first, last = held["lines"].partition(",")[0].split("-")
+    lines = f"[{held['lines']}]({at}/{held['file']}#L{first}-L{last})"
+    if "reason" in held:
+        return one.name, where, lines, f"read; {held['reason']}"
+    near = f"; {power(held['near_180'])} above 175°" if held["near_180"] > 10.0 * held["difference"] else ""
+    return one.name, where, lines, power(held["difference"]) + near

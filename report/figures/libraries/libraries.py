@@ -18,7 +18,7 @@ EVERYWHERE = ["small", "drawn", "near", "at", "pole"]
 TO_USE = Table("Library | From a matrix | From a quaternion")
 FAULTS = Table("Function | But")
 ERRORS = Table("Function | Convention | Verdict | Largest error | Dead at 180° | Settles | Away | Instead")
-CONTROLLERS = Table("Controller | By | Convention | Verdict | Dead at 180° | Settles | Away | Instead")
+CONTROLLERS = Table("Controller | By | Convention | Verdict | Dead at 180° | Settles | Away")
 AS_ANGLES = Table("Function | Drawn | Poles | Half turns | As an error")
 VERSIONS = Table("Library | Version | Python | numpy")
 
@@ -158,7 +158,6 @@ def controllers() -> list[tuple]:
             loops.dead(one),
             loops.settling(one),
             loops.away(one),
-            replaced(loops.instead(one)),
         )
         for one in with_their_errors(loops.responses()).itertuples()
     ]

@@ -1,0 +1,50 @@
+"""Controllers as they are shipped, on their page: statements are those of the rows, and they alone advise."""
+
+import shutil
+
+import pandas as pd
+import pytest
+
+pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
+
+from support.pages import assert_is_whole
+
+from bench.contenders.registry import known_shipped
+from bench.experiments.experiment import Settings
+from bench.experiments.rows.shipped import frame
+from bench.findings.remedy import fix_of
+from bench.tables import store
+from bench.tables.schema import RESULTS
+from report.figures.kit.page import run_in
+from report.figures.libraries import as_shipped, libraries
+
+
+@pytest.fixture(scope="module")
+def run(tmp_path_factory):
+    """The reference with the rows of every controller, without laws of ours."""
+    folder = tmp_path_factory.mktemp("shipped") / "run"
+    shutil.copytree(RESULTS / "reference", folder)
+    rows = pd.concat([frame(one, (), Settings(), 20.0) for one in known_shipped().values()], ignore_index=True)
+    store.write_table(folder / "shipped.parquet", rows, "shipped")
+    return run_in(folder)
+
+
+def test_page_is_whole(run):
+    assert_is_whole(as_shipped, run)
+
+
+def test_statements_are_those_of_the_rows(run):
+    facts, own = as_shipped.facts(run), as_shipped.shipped(run)
+    assert facts["controllers"] == len(known_shipped()) == facts["fixed"] + facts["kept"]
+    felt = own.set_index("shipped")["stiffness_50mrad"]
+    weak = [name for name in felt.index if felt[name] < 0.75 and known_shipped()[name].level != "velocity"]
+    assert facts["weak"] == len(weak)
+    assert set(facts["rises"].split(", ")) == {name for name in weak if known_shipped()[name].unbounded is None}
+    assert facts["dead_names"] == ", ".join(own.loc[own["dead"] > 0, "shipped"])
+    assert facts["built"].endswith(f"of {len(known_shipped())}")
+
+
+def test_fix_of_a_controller_is_printed_here_and_page_25_has_no_advice_of_its_own():
+    assert not {"Instead", "Write instead", "Smallest fix"} & set(libraries.CONTROLLERS.heads)
+    for one in known_shipped().values():
+        assert as_shipped.fix(one)[2].startswith(fix_of(one.name).words)

@@ -1,0 +1,68 @@
+"""Restated controllers against their sources: the committed comparison, and the study on a source made here."""
+
+import numpy as np
+import pytest
+
+from bench.contenders.registry import known_shipped
+from bench.studies.restated import __main__ as study
+from bench.tables.files import read_json
+
+ROWS = {row["name"]: row for row in read_json(study.STORED)["controllers"]}
+LIMIT = 1e-12
+
+
+def test_every_controller_was_compared_at_the_commit_that_it_names():
+    assert set(ROWS) == set(known_shipped())
+    for name, one in known_shipped().items():
+        assert f"{ROWS[name]['repository']}@{ROWS[name]['commit']}" == one.source
+        assert ROWS[name]["file"] in one.path.split(", ")
+
+
+@pytest.mark.parametrize("row", ROWS.values(), ids=lambda row: row["name"])
+def test_controller_equals_its_source_where_it_was_built(row):
+    if "reason" in row:
+        assert row["reason"]
+    else:
+        assert row["pairs"] == study.PAIRS
+        assert row["difference"] <= LIMIT
+        assert row["near_180"] <= (1e-10 if row["name"] in {"crisp", "fzi-motion", "pink"} else LIMIT)
+
+
+@pytest.mark.parametrize("row", [row for row in ROWS.values() if "errors" in row], ids=lambda row: row["name"])
+def test_kernel_gives_what_the_source_gave(row):
+    turns = study.turns_of(study.pairs()[study.KEPT])
+    found = study.errors_of(known_shipped()[row["name"]], turns)
+    is_far = turns.magnitude() <= study.NEAR_180_RAD
+    np.testing.assert_allclose(found[is_far], np.array(row["errors"])[is_far], rtol=0.0, atol=LIMIT)
+
+
+@pytest.mark.parametrize("row", ROWS.values(), ids=lambda row: row["name"])
+def test_lines_are_those_that_the_study_marks(row):
+    [source] = study.SOURCES.glob(f"{row['name'].replace('-', '_')}.*")
+    marks = [mark for mark in study.MARK.finditer(source.read_text()) if mark["file"] == row["file"]]
+    assert row["lines"] == ", ".join(f"{mark['first']}-{mark['last']}" for mark in marks)
+    assert all(int(mark["first"]) <= int(mark["last"]) for mark in marks)
+
+
+@pytest.mark.parametrize(("factor", "difference"), [("1.0", 0.0), ("1.5", 0.5)])
+def test_study_finds_a_source_that_differs(tmp_path, factor, difference):
+    one = known_shipped()["libfranka"]
+    file = tmp_path / "frankaemika+libfranka" / "examples" / "theirs.py"
+    file.parent.mkdir(parents=True)
+    file.write_text(f"before\n    v = {factor} * turn.as_quat(canonical=True)[:3]\nafter\n")
+    source = tmp_path / "libfranka.python"
+    source.write_text(
+        "from scipy.spatial.transform import Rotation\n\n\ndef error(goal, now):\n"
+        "    both = [Rotation.from_quat(q, scalar_first=True) for q in (goal, now)]\n"
+        "    turn = both[0] * both[1].inv()\n    #@ examples/theirs.py 2-2\n    return v\n"
+    )
+    row = study.compare(one, source, tmp_path, [])
+    assert row["lines"] == "2-2"
+    assert row["difference"] == pytest.approx(difference, abs=0.01 if difference else 1e-15)
+
+
+def test_source_without_a_copy_is_read_and_says_why(tmp_path):
+    row = study.compare(known_shipped()["libfranka"], study.SOURCES / "libfranka.cpp", tmp_path, [])
+    assert "not built" in row["reason"]
+    assert study.kept(row, list(ROWS.values())) == ROWS["libfranka"]
+    assert study.kept(row | {"commit": "another"}, list(ROWS.values()))["commit"] == "another"
