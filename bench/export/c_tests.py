@@ -9,8 +9,8 @@ from bench.export.subject import Subject
 from bench.export.vectors import Vector
 
 FUSED = 1e-7
-"""Relative tolerance where a compiler fuses products with sums. Vectors lie as near as 1e-8 rad to 180° rotations, where some
-laws divide by that distance: half of the digits are left."""
+"""Relative tolerance where a compiler fuses products with sums. Vectors lie as near as 1e-8 rad to 180° rotations;
+some laws divide by that distance, which leaves half of the digits."""
 
 IS_WRONG = f"""static int inexact = 0;
 

@@ -12,7 +12,6 @@ from report.figures.kit import html, laws
 from report.figures.kit.families import anchor
 from report.figures.kit.page import Run
 
-
 BACK = '<p class="hint"><a href="../pages/03-regulators.html">Catalogue of laws</a></p>'
 
 
