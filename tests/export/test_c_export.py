@@ -124,7 +124,7 @@ def test_every_header_in_cpp_compiles_beside_all_others(tmp_path):
 @needs("gcc")
 @pytest.mark.parametrize(
     ("word", "right", "wrong"),
-    [("rotation-matrix", "0.5 * ", "0.25 * "), ("hybrid", "state->memory[0] = 1.0;", "")],
+    [("rotation-matrix", "0.5 * ", "0.25 * "), ("hybrid", "state->memory[1] = 0.0;", "")],
 )
 def test_wrong_answer_is_counted(tmp_path, word, right, wrong):
     subject = find_subject(word)
