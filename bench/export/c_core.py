@@ -21,16 +21,21 @@ RESERVED = frozenset(WORDS.split())
 class Core(Braces):
     """The typed functions in what C and C++ have in common."""
 
-    def __init__(self, program: Program):
-        self.program = program
+    def __init__(self, program: Program, prefix: str = ""):
+        """prefix: begins every name of the file's scope, in a language without namespaces."""
+        self.program, self.prefix = program, prefix
         self.names: dict[Tuple, str] = {}
         for kind in program.tuples:
-            self.names[kind] = _free(self._name_of(kind), self.names.values())
+            self.names[kind] = _free(self.function_name(self._name_of(kind)), self.names.values())
+
+    def function_name(self, name: str) -> str:
+        """After the prefix."""
+        return f"{self.prefix}{name}"
 
     def _name_of(self, kind: Tuple) -> str:
         if kind.is_numbers:
             return f"real{len(kind.items)}"
-        return kind.name or "_".join(self.kind(one) for one in kind.items)
+        return kind.name or "_".join(self.kind(one).removeprefix(self.prefix) for one in kind.items)
 
     def kind(self, kind: Kind) -> str:
         """How a kind is written."""
@@ -59,7 +64,7 @@ class Core(Braces):
     def head(self, function: Typed) -> str:
         """The signature."""
         given = (f"{self.kind(kind)} {self.variable(name)}" for name, kind in function.parameters.items())
-        return f"static inline {self.kind(function.returns)} {function.name}({', '.join(given)})"
+        return f"static inline {self.kind(function.returns)} {self.function_name(function.name)}({', '.join(given)})"
 
     def types(self) -> Iterator[str]:
         """The structures, each with what makes one."""
@@ -79,11 +84,6 @@ class Core(Braces):
         """Types and functions, callees first."""
         functions = (self.documented(one) for one in self.program.functions if not is_identity(one))
         return "\n".join((*wrapped(self.types()), "", "\n\n".join(functions), ""))
-
-    def defined(self) -> list[str]:
-        """Every name that the text defines."""
-        makers = (f"{name}_of" for name in self.names.values())
-        return [*self.names.values(), *makers, *(one.name for one in self.program.functions if not is_identity(one))]
 
     def documented(self, function: Typed) -> str:
         """A function after its comment; parameters that it does not look at are said to be so."""

@@ -113,9 +113,7 @@ def torque_in_body(omega_body, u_body, inertia):
 
 COMMAND = "angular acceleration u [rad/s^2]"
 ERROR = "error of orientation e [rad near the goal], towards the goal: the command at rest over Kp, at Kv^2 = 4 Kp"
-TORQUE = (
-    "torque on a rigid body [N m] of that inertia [kg m^2], row-major, in the body's frame, whatever the vectors' is"
-)
+TORQUE = "torque [N m] on a rigid body of that inertia [kg m^2], which is in the body's frame in every entry"
 
 
 def of_law(law: Callable, has_memory: bool) -> list[Entry]:

@@ -12,7 +12,28 @@ from bench.export.subject import IMPEDANCE, POSE_SPRING, SPRING, STATED, Subject
 from bench.law.contender import Regulator
 from bench.provenance import ROOT
 
+PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+HOLDER = PROJECT["authors"][0]["name"]
 WIDTH = 110
+RESET = (
+    "Call reset before the first tick, after a pause, and whenever the goal jumps: the memory outlives the goal, and "
+    "the side that was right for the last goal may be the longer way to the new one."
+)
+SIDE = (
+    "The side is followed from tick to tick, so the measured orientation must turn by less than 180° between two "
+    "ticks: e + phi/2 < 90°, where e is the error of the measured orientation and phi the rotation within a tick. What "
+    "is said of noise needs this too."
+)
+"""What a user of any law with memory must know."""
+
+BY_ROWS = (
+    "Matrices  nine numbers by rows: R[3*i+j] is in row i and column j. What is stored by columns (Eigen's data(), "
+    "OpenGL, O_T_EE of libfranka, the observation R of this project's tasks) must be transposed first"
+)
+UNFUSED = (
+    "Digits    equal to the test vectors bit for bit where the compiler fuses no product with a sum "
+    "(-ffp-contract=off and no -march); with -march=native or on aarch64 the last digits may differ"
+)
 GAINS = "Gains     kp [1/s^2], kv [1/s]; "
 OF_KIND = {
     STATED: (
@@ -28,8 +49,12 @@ OF_KIND = {
 """What else is said of a kind that is no regulator."""
 
 
-def heading(subject: Subject) -> str:
-    """Lines of plain text, for a comment."""
+def heading(subject: Subject, *notes: str) -> str:
+    """Lines of plain text, for a comment.
+
+    Args:
+        notes: what is said of one language, each after its padded name.
+    """
     record = subject.record
     of = f" in {subject.representation.title}" if subject.representation else ""
     lines = [
@@ -40,7 +65,10 @@ def heading(subject: Subject) -> str:
         *_facts(subject),
         "Frames    base frame; what ends in _body is in the body's. R: columns are the body's axes in the base frame",
         *_field("Entries", "; ".join(_entry_lines(subject))),
-        f"Made by   orientation-bench {_version()} from the law's one source; licence Apache-2.0",
+        *(line for note in notes for line in _field("", note)),
+        f"Made by   orientation-bench {PROJECT['version']} from the law's one source",
+        f"SPDX-FileCopyrightText: {HOLDER}",
+        "SPDX-License-Identifier: Apache-2.0",
     ]
     return "\n".join(lines)
 
@@ -56,7 +84,7 @@ def _facts(subject: Subject) -> list[str]:
         ]
         if subject.memory is not None:
             first = ", ".join(map(repr, subject.memory))
-            lines.append(f"Memory    four numbers from tick to tick, at first ({first})")
+            lines += _field("Memory", f"the error quaternion of the last tick, at first ({first}). {RESET} {SIDE}")
     else:
         lines += (line for kind, said in OF_KIND.items() if subject.word.startswith(kind) for line in said)
         if hasattr(subject.record, "property"):
@@ -92,11 +120,9 @@ def _entry_lines(subject: Subject) -> list[str]:
 
 
 def _field(name: str, text: str) -> list[str]:
-    return textwrap.wrap(f"{name:<10}{text}", WIDTH, subsequent_indent=" " * 10)
-
-
-def _version() -> str:
-    return tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["version"]
+    return textwrap.wrap(
+        f"{name:<10}{text}" if name else text, WIDTH, subsequent_indent=" " * 10, break_on_hyphens=False
+    )
 
 
 def summary(text: str) -> str:

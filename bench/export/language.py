@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 from bench.errors import UnknownWord
 from bench.export import languages
+from bench.export.heading import BY_ROWS, RESET, SIDE
 from bench.export.shaken import ULPS
 from bench.export.subject import Subject
 from bench.export.vectors import Vector
@@ -47,10 +48,12 @@ def as_json(subject: Subject, found: Sequence[Vector]) -> str:
 
 def readme(subject: Subject, language: Language) -> str:
     """How the export is tried."""
+    remembered = f"\n**Memory.** {RESET} {SIDE}\n" if subject.memory else ""
     return (
         f"# {subject.record.title}, {language.title}\n\nTry it in this folder:\n\n```sh\n"
         f"{language.test.format(name=subject.identifier)}\n```\n\n"
-        "`vectors.json` has questions and our own answers. Where `tolerance` is 0 every bit is met, on any processor "
-        "that rounds by IEEE 754 and fuses no product with a sum; elsewhere it covers sines, cosines and arcs off by "
-        f"{ULPS:g} units in the last place. The file of the law says first what it is and where it fails.\n"
+        "`vectors.json` has questions and our own answers. Where `tolerance` is 0 the answers are equal bit for bit if "
+        "the compiler fuses no product with a sum (`-ffp-contract=off`); elsewhere it covers sines, cosines and arcs "
+        f"off by {ULPS:g} units in the last place. The file of the law says first what it is and where it fails.\n\n"
+        f"**Matrices** in arrays and in `vectors.json` are {BY_ROWS.partition('  ')[2]}.\n{remembered}"
     )

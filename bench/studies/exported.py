@@ -57,7 +57,7 @@ def program(subject: Subject) -> str:
     return LOOP.format(
         name=subject.identifier,
         states=law.STATES,
-        state=f"{subject.identifier}_state state;\n    {subject.identifier}_start(&state);" if subject.memory else "",
+        state=f"{subject.identifier}_state state;\n    {subject.identifier}_reset(&state);" if subject.memory else "",
         passed="&state, " if subject.memory else "",
         R=", ".join(f"s[{at}] + chain" for at in by_rows),
         omega=", ".join(f"s[{at}] + chain" for at in (9, 10, 11)),

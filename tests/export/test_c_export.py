@@ -121,13 +121,18 @@ def test_every_header_in_cpp_compiles_beside_all_others(tmp_path):
     subprocess.run(words, cwd=tmp_path, check=True)
 
 
-def test_wrong_answer_is_counted(tmp_path):
-    subject = find_subject("rotation-matrix")
+@needs("gcc")
+@pytest.mark.parametrize(
+    ("word", "right", "wrong"),
+    [("rotation-matrix", "0.5 * ", "0.25 * "), ("hybrid", "state->memory[1] = 0.0;", "")],
+)
+def test_wrong_answer_is_counted(tmp_path, word, right, wrong):
+    subject = find_subject(word)
     here = written(subject, "c", tmp_path)
-    header = here / "rotation_matrix.h"
+    header = here / f"{subject.identifier}.h"
     text = header.read_text()
-    assert text.count("0.5 * ") >= 1
-    header.write_text(text.replace("0.5 * ", "0.25 * ", 1))
-    subprocess.run(["gcc", "-o", "test", "test_rotation_matrix.c", "-lm"], cwd=here, check=True)
+    assert text.count(right) >= 1
+    header.write_text(text.replace(right, wrong, 1))
+    subprocess.run(["gcc", "-o", "test", f"test_{subject.identifier}.c", "-lm"], cwd=here, check=True)
     ended = subprocess.run(["./test"], cwd=here, capture_output=True, text=True)
     assert (ended.returncode, " 0 of " in ended.stdout) == (1, False)

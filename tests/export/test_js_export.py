@@ -67,7 +67,7 @@ def test_algebraic_laws_give_our_bits_in_node(tmp_path):
 @pytest.mark.parametrize("way", ["require", "import", "script"])
 def test_script_loads_in_every_way(tmp_path, way):
     here = written(find_subject("late-braking"), "js", tmp_path)
-    said = "console.log(Object.keys(law).length, law.start().memory.length)"
+    said = "console.log(Object.keys(law).length, law.reset().memory.length)"
     text = {
         "require": f"const law = require('./late_braking.js'); {said}",
         "import": f"import law from './late_braking.js'; {said}",

@@ -95,10 +95,10 @@ def test_goals_gains_and_memory_are_broadcast(tmp_path):
     law = loaded(subject, tmp_path)
     R, omega, R_d, *_ = asked(subject, states()[-6:].reshape(2, 3, -1))
     kp = np.array([50.0, 100.0, 200.0])
-    u, memory = law.command(R, omega, R_d[0, 0], kp, 20, law.START)
+    u, memory = law.command(R, omega, R_d[0, 0], kp, 20, law.reset())
     assert (u.shape, memory.shape) == ((2, 3, 3), (2, 3, 4))
     for at in np.ndindex(2, 3):
-        one, _ = law.command(R[at], omega[at], R_d[0, 0], float(kp[at[1]]), 20.0, np.array(law.START))
+        one, _ = law.command(R[at], omega[at], R_d[0, 0], float(kp[at[1]]), 20.0, law.reset())
         np.testing.assert_array_equal(u[at], one)
 
 

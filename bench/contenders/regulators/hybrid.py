@@ -1,10 +1,12 @@
 """The square-root law with one quaternion of memory: global, with no point of rest but the goal.
 
 The error quaternion is followed from tick to tick, and its sign changed only where its scalar part has fallen below
--DELTA: near a half turn the law keeps to the way it has begun, so that no noise holds it there. No continuous law
-without memory can do it (Bhat & Bernstein 2000).
+-DELTA: near a 180° rotation the law keeps the side it has begun on, so that noise does not hold it there. No
+continuous law without memory can do it (Bhat & Bernstein 2000). The memory outlives the goal: reset it before the first
+tick, after a pause, and when the goal jumps.
 
-Fails: nowhere known; up to 2 asin(DELTA), 47 degrees, beyond a 180° rotation it goes the longer way on.
+Fails: nowhere known; up to 2 asin(DELTA), 47 degrees, beyond a 180° rotation it keeps turning the longer
+way, and so it may without a reset when the goal jumps.
 """
 
 from bench.law import CHORD, Look, Regulator, kernel, spring_damper, sqrt, turn_quaternion

@@ -2,9 +2,10 @@
 
 With sigma = tan(theta/4) k of the turn from R to a fixed R_d, sigmaddot = -Kv sigmadot - Kp sigma. Beyond a half turn
 the shadow set, -sigma/|sigma|^2, is the shorter; a sheet is kept until |sigma|^2 is over SWITCH, so that the law does
-not chatter there.
+not chatter there. The memory outlives the goal: reset it before the first tick, after a pause, and when the goal jumps.
 
-Fails: nowhere within a turn; where the sheet changes the command jumps.
+Fails: nowhere within a turn; where the sheet changes the command jumps; a goal that jumps without a reset may be
+reached the longer way.
 """
 
 from bench.law import LINEAR_MRP, Look, Regulator, dot, kernel, sqrt, turn_quaternion

@@ -2,7 +2,8 @@
 
 Its quaternion is followed from tick to tick, as an attitude filter does, and begins on the sheet with eta <= 0, as half
 of all quaternions do. There the law drives to eta = 1 the long way round, through up to 360 degrees: unwinding. On the
-other sheet it would be quaternion-shortest.
+other sheet it would be quaternion-shortest. A reset begins on that sheet again; it is needed before the first tick,
+after a pause, and when the goal jumps.
 
 Fails: it settles everywhere but goes the wrong way.
 """

@@ -6,7 +6,7 @@ from bench.export.braces import INDENT, wrapped
 from bench.export.c_core import Core, comment
 from bench.export.c_tests import Asking, program
 from bench.export.entries import Entry, Parameter
-from bench.export.heading import heading
+from bench.export.heading import BY_ROWS, RESET, UNFUSED, heading
 from bench.export.language import Language, as_json, readme
 from bench.export.subject import MATRIX, Subject, translated
 from bench.export.types import Kind, Tuple
@@ -38,23 +38,19 @@ def files(subject: Subject) -> dict[str, str]:
 def header(subject: Subject) -> str:
     """The law as one header."""
     name, done = subject.identifier, translated(subject)
-    core = Core(done.program)
+    core = Core(done.program, prefix=f"{name}_core_")
     guard = f"ORIENTATION_BENCH_{name.upper()}_H"
-    shapes = passages(subject, core)
-    own = [*core.defined(), *(f"{shape}{way}" for shape in shapes for way in ("_at", "_to"))]
     return "\n".join(
         (
-            "/*\n" + "\n".join(f" * {line}".rstrip() for line in heading(subject).splitlines()) + "\n */",
+            "/*\n"
+            + "\n".join(f" * {line}".rstrip() for line in heading(subject, BY_ROWS, UNFUSED).splitlines())
+            + "\n */",
             f"#ifndef {guard}\n#define {guard}\n\n#include <math.h>\n",
-            "/* Names within this header, so that several laws can be included. */",
-            *(f"#define {one} {name}_core_{one}" for one in own),
-            "",
             core.text(),
-            *(line for text in shapes.values() for line in text),
+            *(line for text in passages(subject, core).values() for line in text),
             *state(subject),
             *(f"{entry_text(subject, core, one)}\n" for one in subject.entries),
-            *(f"#undef {one}" for one in own),
-            "\n#endif\n",
+            "#endif\n",
         )
     )
 
@@ -101,8 +97,8 @@ def state(subject: Subject) -> Iterator[str]:
     name = subject.identifier
     yield "/* What the law remembers from tick to tick. */"
     yield f"typedef struct {{ double memory[{len(subject.memory)}]; }} {name}_state;\n"
-    yield "/* Before the first tick. */"
-    yield f"static inline void {name}_start({name}_state *state) {{"
+    yield from comment(RESET)
+    yield f"static inline void {name}_reset({name}_state *state) {{"
     yield from (f"{INDENT}state->memory[{at}] = {value!r};" for at, value in enumerate(subject.memory))
     yield "}\n"
 
@@ -115,7 +111,7 @@ def entry_text(subject: Subject, core: Core, entry: Entry) -> str:
         words, value = argument(subject, core.kind(kind), one)
         given += words
         passed.append(value)
-    call = f"{function.name}({', '.join(passed)})"
+    call = f"{core.function_name(function.name)}({', '.join(passed)})"
     if entry.returns == "number":
         head, body = f"static inline double {name}({', '.join(given)}) {{", [f"return {call};"]
     else:
@@ -130,7 +126,15 @@ def entry_text(subject: Subject, core: Core, entry: Entry) -> str:
                 f"{core.kind(first)}_to(answer.item0, {out});",
                 f"{core.kind(kept[0])}_to(answer.item1, state->memory);",
             ]
-    return "\n".join((*comment(entry.doc), *wrapped((head, *(f"{INDENT}{line}" for line in body), "}"))))
+    return "\n".join(
+        (*comment(entry.doc + rows_of(entry)), *wrapped((head, *(f"{INDENT}{line}" for line in body), "}")))
+    )
+
+
+def rows_of(entry: Entry) -> str:
+    """Name the entry's matrices that are arrays, and say how they are stored."""
+    names = [one.name for one in entry.parameters if one.size == 9] + ["R"] * (entry.returns == "matrix")
+    return f"; {', '.join(names)} by rows: {names[0]}[3*i+j]" if names else ""
 
 
 def argument(subject: Subject, kind: str, one: Parameter) -> tuple[list[str], str]:
@@ -161,7 +165,8 @@ def called(subject: Subject, entry: Entry, given: list[str]) -> str:
 def test(subject: Subject, found: Sequence[Vector]) -> str:
     """The program that runs the vectors."""
     include = (f'#include "{subject.identifier}.h"',)
-    return program(subject, found, Asking(include, passed, called, lambda one: f"{one.identifier}_state"))
+    state, reset = f"{subject.identifier}_state", f"{subject.identifier}_reset(&state)"
+    return program(subject, found, Asking(include, passed, called, state, reset))
 
 
 LANGUAGE = Language("c", "C99", law, files, COMPILE)

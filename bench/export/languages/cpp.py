@@ -6,7 +6,7 @@ from bench.export.braces import INDENT, wrapped
 from bench.export.c_core import Core, comment
 from bench.export.c_tests import Asking, program
 from bench.export.entries import Entry, Parameter
-from bench.export.heading import heading
+from bench.export.heading import RESET, UNFUSED, heading
 from bench.export.language import Language, as_json, readme
 from bench.export.subject import MATRIX, Subject, translated
 from bench.export.types import Kind, Tuple
@@ -56,7 +56,7 @@ def header(subject: Subject) -> str:
     guard = f"ORIENTATION_BENCH_{name.upper()}_HPP"
     return "\n".join(
         (
-            "\n".join(f"// {line}".rstrip() for line in heading(subject).splitlines()),
+            "\n".join(f"// {line}".rstrip() for line in heading(subject, UNFUSED).splitlines()),
             f"#ifndef {guard}\n#define {guard}\n\n#include <cmath>\n\n#include <Eigen/Geometry>\n",
             f"namespace orientation_bench::{name} {{\n\nnamespace core {{\n\n{USED}\n",
             f"{core.text()}\n}}  // namespace core",
@@ -89,9 +89,11 @@ def state(subject: Subject) -> Iterator[str]:
     """What a law with memory carries from tick to tick."""
     if subject.memory is not None:
         first = ", ".join(map(repr, subject.memory))
-        yield "// What the law remembers from tick to tick; made anew before the first."
         real = f"core::real{len(subject.memory)}"
-        yield f"struct State {{\n{INDENT}{real} memory = {real}_of({first});\n}};\n"
+        about = "\n".join(f"{INDENT}{line}" for line in slashes(RESET))
+        yield "// What the law remembers from tick to tick."
+        yield f"struct State {{\n{INDENT}{real} memory = {real}_of({first});\n"
+        yield f"{about}\n{INDENT}void reset() {{ *this = State(); }}\n}};\n"
 
 
 def entry_text(subject: Subject, core: Core, entry: Entry) -> str:
@@ -120,8 +122,12 @@ def _function(subject: Subject, core: Core, entry: Entry, quaternion: bool) -> s
             "state.memory = answer.item1;",
             f"return {result(entry, 'answer.item0')};",
         ]
-    about = [one.replace("/* ", "// ").replace(" */", "").replace("   ", "// ") for one in comment(entry.doc)]
-    return "\n".join((*about, *wrapped((head, *(f"{INDENT}{line}" for line in body), "}"))))
+    return "\n".join((*slashes(entry.doc), *wrapped((head, *(f"{INDENT}{line}" for line in body), "}"))))
+
+
+def slashes(text: str) -> list[str]:
+    """A comment in the manner of C++."""
+    return [one.replace("/* ", "// ").replace(" */", "").replace("   ", "// ") for one in comment(text)]
 
 
 def argument(one: Parameter, quaternion: bool) -> tuple[list[str], str]:
@@ -178,9 +184,8 @@ def called(subject: Subject, entry: Entry, given: list[str]) -> str:
 def test(subject: Subject, found: Sequence[Vector]) -> str:
     """The program that runs the vectors."""
     include = (f'#include "{subject.identifier}.hpp"',)
-    asking = Asking(
-        include, passed, called, lambda one: f"orientation_bench::{one.identifier}::State", "state.memory.at"
-    )
+    state = f"orientation_bench::{subject.identifier}::State"
+    asking = Asking(include, passed, called, state, "state.reset()", "state.memory.at")
     return program(subject, found, asking)
 
 

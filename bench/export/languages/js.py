@@ -8,7 +8,7 @@ import textwrap
 
 from bench.export.braces import INDENT, WIDTH, Braces, is_identity, wrapped
 from bench.export.entries import Entry
-from bench.export.heading import heading, summary
+from bench.export.heading import BY_ROWS, RESET, heading, summary
 from bench.export.language import Language, as_json, readme
 from bench.export.subject import Subject, translated
 from bench.export.types import Kind, Tuple, Typed
@@ -89,13 +89,13 @@ def script(subject: Subject) -> str:
     if any("copysign(" in one for one in functions):
         functions.insert(0, COPYSIGN)
     offered = [_offered(subject, one, done.entries[one.name]) for one in subject.entries]
-    memory = f"{INDENT}start: () => ({{ memory: {json.dumps(subject.memory)} }}),\n" if subject.memory else ""
+    first = f"Object.assign(state, {{ memory: {json.dumps(subject.memory)} }})"
+    about = "".join(f"{INDENT}{line}\n" for line in comment(f"{RESET} reset() makes a state."))
+    memory = f"{about}{INDENT}reset: (state = {{}}) => {first},\n" if subject.memory else ""
     body = "\n\n".join(functions)
     return "\n".join(
         (
-            *(f"// {line}".rstrip() for line in heading(subject).splitlines()),
-            "// Matrices are arrays of nine numbers, by rows.",
-            *(("// state = start() before the first tick; every call changes it.",) if subject.memory else ()),
+            *(f"// {line}".rstrip() for line in heading(subject, BY_ROWS).splitlines()),
             f"(function (root) {{\n'use strict';\n\n{body}\n",
             *(READING,),
             f"const offered = {{\n{memory}{''.join(offered)}}};",
@@ -107,6 +107,8 @@ def script(subject: Subject) -> str:
 
 
 READING = """function columns(R) {
+    if (R.length !== 9 || typeof R[0] !== 'number')
+        throw new TypeError('a matrix is an array of nine numbers, by rows: R[3 * i + j]; flatten a nested one');
     return [[R[0], R[3], R[6]], [R[1], R[4], R[7]], [R[2], R[5], R[8]]];
 }
 
@@ -146,7 +148,10 @@ const { vectors } = require('./vectors.json');
 
 let wrong = 0;
 for (const one of vectors) {
-    const state = { memory: one.arguments.memory };
+    // a law with memory is at its first tick in the vectors at 180 degrees: after reset
+    const state = { memory: [-1, -1, -1, -1] };
+    if (one.kind === 'at 180°' && law.reset) law.reset(state);
+    else state.memory = one.arguments.memory;
     const given = Object.entries(one.arguments).flatMap(([name, value]) =>
         name === 'gains' ? value : name === 'memory' ? [state] : [value]);
     const result = [law[one.entry](...given)].flat();

@@ -8,7 +8,7 @@ import textwrap
 from bench.export import lanes
 from bench.export.braces import INDENT, is_identity, wrapped
 from bench.export.entries import Entry, Parameter
-from bench.export.heading import WIDTH, heading, summary
+from bench.export.heading import RESET, WIDTH, heading, summary
 from bench.export.language import Language, as_json, readme
 from bench.export.masks import ELSE, LANES, THEN, function_name, masked
 from bench.export.subject import Subject, translated
@@ -44,18 +44,17 @@ def module(subject: Subject) -> str:
     tuples = _tuples(done.program)
     taken = {LANES, THEN, ELSE, "range", *tuples.values(), *keyword.kwlist, *keyword.softkwlist}
     taken |= {function_name(one) for one in done.program.functions}
-    offered = [one.name for one in subject.entries] + (["START"] if subject.memory else [])
-    about = "\n".join((heading(subject), *textwrap.wrap(ARRAYS, WIDTH, subsequent_indent=" " * 10)))
+    offered = [one.name for one in subject.entries] + (["reset"] if subject.memory else [])
     names = textwrap.fill(", ".join(f'"{one}"' for one in offered) + ",", WIDTH)
     parts = [
-        f'r"""{about}\n"""\n\n{RUNTIME}',
+        f'r"""{heading(subject, ARRAYS)}\n"""\n\n{RUNTIME}',
         *(_definition(tuples[kind.name], kind) for kind in done.program.tuples if kind.name),
         *(
             _text(masked(one, taken, tuples), summary(one.text))
             for one in done.program.functions
             if not is_identity(one)
         ),
-        *([f'START = {subject.memory}\n"""The memory before the first tick."""'] if subject.memory else []),
+        *([_reset(subject.memory)] if subject.memory else []),
         *(_offered(one, function_name(done.entries[one.name]), tuples) for one in subject.entries),
         f"__all__ = [\n{textwrap.indent(names, INDENT)}\n]\n",
     ]
@@ -88,6 +87,14 @@ def _docstring(doc: str) -> list[str]:
     if len(lines) < 2:
         return [f'{INDENT}"""{one}"""' for one in lines]
     return [INDENT + one for one in (f'"""{lines[0]}', *lines[1:], '"""')]
+
+
+def _reset(first: tuple) -> str:
+    """What returns the memory before the first tick."""
+    zeros = f"({', '.join('0.0' for _ in first)})"
+    about = f"{RESET} A memory (..., {len(first)}) that is given says the lanes, the library and the precision."
+    lines = (f"{LANES}, _ = opened(memory=(memory, {len(first)}))", f"return {LANES}.vector({first})")
+    return "\n".join((f"def reset(memory={zeros}):", *_docstring(about), *(INDENT + one for one in lines)))
 
 
 def _offered(entry: Entry, core: str, tuples: dict[str, str]) -> str:
@@ -141,11 +148,13 @@ import numpy as np
 import NAME as law
 
 
-def values(name, given):
+def values(name, given, kinds):
     """The arguments that a name stands for, of all questions at once."""
     rows = np.array(given)
     if name == "gains":
         return [rows[:, 0], rows[:, 1]]
+    if name == "memory":  # at its first tick in the vectors at 180 degrees: after reset
+        rows[kinds == "at 180°"] = law.reset()
     return [rows.reshape(-1, 3, 3) if rows.shape[-1] == 9 else rows]
 
 
@@ -156,7 +165,8 @@ for one in json.loads(Path(__file__).with_name("vectors.json").read_text())["vec
 wrong = 0
 for entry, questions in asked.items():
     names = questions[0]["arguments"]
-    given = [x for name in names for x in values(name, [one["arguments"][name] for one in questions])]
+    kinds = np.array([one["kind"] for one in questions])
+    given = [x for name in names for x in values(name, [one["arguments"][name] for one in questions], kinds)]
     answer = getattr(law, entry)(*given)
     parts = answer if isinstance(answer, tuple) else (answer,)
     found = np.concatenate([part.reshape(len(questions), -1) for part in parts], axis=1)

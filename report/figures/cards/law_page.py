@@ -12,6 +12,8 @@ from report.figures.kit import html, laws
 from report.figures.kit.families import anchor
 from report.figures.kit.page import Run
 
+BACK = '<p class="hint"><a href="../pages/03-regulators.html">Catalogue of laws</a></p>'
+
 
 class LawPage(NamedTuple):
     """name: of the page, without a suffix. files: what it offers to take away, by name."""
@@ -35,7 +37,7 @@ def page(one: Contender, run: Run, live: str = "") -> LawPage:
     """
     title, files = laws.title_of(one), exported(one)
     body = (
-        f"<section><h1>{html.foreign(title)}</h1>{regulators.card(one, run)}"
+        f"<section>{BACK}<h1>{html.foreign(title)}</h1>{regulators.card(one, run)}"
         f"{taken(one.on_free_body, files, live)}{regulators.source(one.regulator)}</section>"
     )
     return LawPage(anchor(one.on_free_body), title, body, dict(files.values()))

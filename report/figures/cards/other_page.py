@@ -15,7 +15,7 @@ from bench.contenders.registry import (
 )
 from bench.export.subject import IMPEDANCE, POSE_SPRING, SPRING, STATED, subject_words
 from report.figures.cards import regulators
-from report.figures.cards.law_page import LawPage, in_every_language, taken
+from report.figures.cards.law_page import BACK, LawPage, in_every_language, taken
 from report.figures.kit import html
 from report.figures.kit.families import PAGES
 from report.figures.kit.page import Run
@@ -82,7 +82,7 @@ def page(one: Other) -> LawPage:
     lines = [f"<p>{html.foreign(text)}</p>" for text in what]
     lines += [f'<p class="card-fact"><b>{head}.</b> {html.foreign(text)}</p>' for head, text in said.items() if text]
     body = (
-        f"<section><h1>{html.foreign(one.record.title)}</h1>"
+        f"<section>{BACK}<h1>{html.foreign(one.record.title)}</h1>"
         f'<section class="law-card alone" style="--law: var(--rule)"><header><span class="card-source">'
         f"{html.foreign(one.record.source)}</span></header>"
         f'<div class="card-formula">{html.formula(one.record.formula)}</div>'

@@ -14,6 +14,7 @@ from pygments.lexers import PythonLexer
 
 from bench.contenders import regulators
 from bench.contenders.registry import contenders_of, known_regulators, papers_laws
+from bench.export.heading import RESET, SIDE
 from bench.findings import why
 from bench.findings.claims.verdict import NoEvidence
 from bench.findings.selection import needs
@@ -141,6 +142,7 @@ def said_of(one: Contender, episodes: pd.DataFrame, run: Run) -> str:
     acts = one.representation.title if one.representation else "the rotation matrix"
     words = {
         "Fails": fails,
+        "Memory": f"{RESET} {SIDE}" if one.regulator.memory else "",
         "Acts on": f"{acts[:1].upper()}{acts[1:]}.",
         "Proved": PROPERTIES.get(one.regulator.property, f"{one.regulator.property}."),
         "Measured": measured(episodes, one.regulator),

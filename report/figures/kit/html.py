@@ -57,7 +57,8 @@ def law(name: str, text: str | None = None) -> Html:
     """The name of a regulator with the colour it has in every figure."""
     light = style.look(name).colour
     key = f'<span class="key" style="--key: {both(light)}"></span>'
-    return Html(f'<span class="law">{key}{foreign(text or name)}</span>')
+    first, space, others = foreign(text or name).partition(" ")
+    return Html(f'<span class="law"><span class="together">{key}{first}</span>{space}{others}</span>')
 
 
 def foreign(text: str) -> str:

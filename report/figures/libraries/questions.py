@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import html as escape
+import textwrap
 
 from bench.questions.picture import draw
 from bench.questions.question import Curves, Found, Question, every_question, find
@@ -12,7 +13,7 @@ from report.figures.kit.inline import responsive_picture
 from report.figures.kit.page import Run
 
 HOST = "https://github.com"
-COLUMNS = 3
+COLUMNS = 2
 
 
 @functools.cache
@@ -75,7 +76,8 @@ def every_curve(narrow: bool):
     figure, axes = style.panels(rows, columns, height=2.3 * rows, narrow=narrow, squeeze=False)
     for place, (one, curves, _) in zip(axes.flat, every, strict=False):
         draw(place, one, curves, (style.COLOURS["vermillion"], style.COLOURS["green"]))
-        place.set_title(one.name)
+        place.set_title(textwrap.fill(f"{one.name}: {one.y}", 45))
+        place.set_ylabel("")
     for place in axes.flat[len(every) :]:
         place.set_axis_off()
     shown = sum(found.shows and found.cures for *_, found in every)
