@@ -134,6 +134,7 @@ def facts(run: Run) -> dict:
     middle = float(noisy.index[noisy.index < min(KEEPS.values())].max())
     return {
         "n": starts(rows),
+        "last": f"{noisy.index.max():g}",
         "agree": sum(map(bool, agree)),
         "decided": len(agree),
         "with_memory": len(with_memory),
