@@ -13,7 +13,7 @@ from bench.cli.details import robustness as details
 from bench.contenders.registry import find_contender
 from bench.experiments import plan
 from bench.experiments.choice import Choice
-from bench.findings import why
+from bench.findings import perturbed, why
 from bench.findings.perturbed import Way
 from bench.findings.theory import closed_form, robustness_theory, thresholds
 from bench.law.equation import Equation
@@ -203,10 +203,10 @@ def test_threshold_is_the_level_before_the_first_that_costs_a_law_its_starts(sma
     assert math.isnan(each["paielli-bach"][way].held)
 
 
-def test_judge_show_and_book_have_one_threshold(small_run):
+def test_judge_and_show_have_one_threshold(small_run):
     rows_of_run = small_run.rows("robustness")
     lines = details.summary(rows_of_run).set_index("law")
-    for law, own in robustness.found(small_run).items():
+    for law, own in perturbed.thresholds(read.with_contender(perturbed.by_level(rows_of_run))).items():
         text = why.perturbed(rows_of_run[rows_of_run["contender"] == law])[0].text
         for way, one in own.items():
             assert lines.loc[law, way.name] == str(one)

@@ -16,7 +16,7 @@ FEW = 3
 
 def tables(rows):
     """Thresholds; of few perturbations one more table for each."""
-    yield f"robustness: thresholds ({WITHSTANDS}; {OF_STARTS})", summary(rows)
+    yield f"robustness, thresholds ({OF_STARTS}; threshold: {WITHSTANDS})", summary(rows)
     axes = sorted(rows["axis"].unique())
     for axis in axes if len(axes) <= FEW else ():
         own = results.with_contender(rows[rows["axis"] == axis]).astype({"contender": str})

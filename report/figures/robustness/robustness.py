@@ -55,7 +55,7 @@ def found(run: Run) -> Found:
 
 
 def compared(each: Found) -> list[str]:
-    """Return the laws whose thresholds are compared: no negative control, and none that fails unperturbed everywhere."""
+    """Return the laws whose thresholds are compared: no negative control, and none that always fails."""
     return [
         law for law in each if law not in families.CONTROLS and any(one.held == one.held for one in each[law].values())
     ]
