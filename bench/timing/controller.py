@@ -7,14 +7,13 @@ memory; 0 times the torques is added to the next state, so that each tick waits 
 
 import mujoco
 import numpy as np
-from numba import float64, int64, types
 
 import tasks
 from bench.control.resolved_acceleration import Buffers, control
 from bench.engines import run_arm
 from bench.engines.arm_episode import MOST
 from bench.engines.binding import memory_of
-from bench.engines.compiled import FOUR, MATRIX, compile_function
+from bench.engines.compiled import FOUR, MATRIX, compile_function, float64, int64, types
 from bench.engines.native import arm as native
 from bench.engines.native.libmujoco import library_function, mj_fullM, model_of
 from bench.engines.native.pointers import address_of, matrix, vector

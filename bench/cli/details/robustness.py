@@ -10,13 +10,22 @@ from bench.findings.perturbed import WITHSTANDS, by_level, thresholds
 from bench.findings.theory.thresholds import HALF_TURN, least, near_goal
 from bench.tables import read as results
 
+NEAR = "(theory near the goal)"
 FEW = 3
 """Perturbations up to which each has a table of its own."""
 
 
 def tables(rows):
     """Thresholds; of few perturbations one more table for each."""
-    yield f"robustness, thresholds ({OF_STARTS}; threshold: {WITHSTANDS})", summary(rows)
+    table = summary(rows)
+    laws = table[(table["law"] != NEAR) & ~(table == "none").sum(axis=1).gt(FEW)]
+    alike = [one for one in table.columns[2:] if laws[one].nunique() == 1 and table.shape[1] > FEW + 2]
+    title = f"robustness, thresholds ({OF_STARTS}; threshold: {WITHSTANDS})"
+    if alike:
+        title += (
+            f"\nalike for all laws that settle unperturbed: {', '.join(f'{one} {laws[one].iloc[0]}' for one in alike)}"
+        )
+    yield title, table.drop(columns=alike)
     axes = sorted(rows["axis"].unique())
     for axis in axes if len(axes) <= FEW else ():
         own = results.with_contender(rows[rows["axis"] == axis]).astype({"contender": str})
@@ -33,7 +42,7 @@ def summary(rows):
     kp, kv = float(rows["kp"].iloc[0]), float(rows["kv"].iloc[0])
     found = thresholds(results.with_contender(by_level(named)))
     tried = list(dict.fromkeys(way for own in found.values() for way in own))
-    theory = {"law": "(theory near the goal)", "settled": ""}
+    theory = {"law": NEAR, "settled": ""}
     theory |= {way.name: form(near_goal(way.axis, way.grows, kp, kv)) for way in tried}
     lines = [theory]
     for law, own in found.items():
