@@ -35,9 +35,9 @@ def facts(_: Run) -> dict:
 
 
 def cited() -> dict[str, str]:
-    """Version and date of CITATION.cff."""
+    """Return title, version and date of CITATION.cff."""
     text = CITATION.read_text(encoding="utf-8")
-    return dict(re.findall(r"^(version|date-released): *[\"']?([^\"'\n]+)", text, re.MULTILINE))
+    return dict(re.findall(r"^(title|version|date-released): *[\"']?([^\"'\n]+)", text, re.MULTILINE))
 
 
 def tables(run: Run) -> dict:
