@@ -27,6 +27,11 @@ JUDGE = ("tasks/rules.py", "tasks/verdict.py", "tasks/truth.py", "tasks/cause.py
 VERSIONED = ("mujoco", "dm-control", "numpy", "scipy", "numba", "llvmlite", "pandas", "pyarrow")
 
 
+def count_episodes(provenance: dict) -> int:
+    """Return how many episodes a run simulated: on the free body and arms, trials in contact, and perturbed ones."""
+    return sum(provenance.get(name, 0) for name in ("episodes", "trials", "troubled"))
+
+
 @functools.cache
 def source_digest() -> str:
     """Sixteen hex digits over every source that results depend on, and the versions of what they are computed with.

@@ -4,6 +4,7 @@ from pathlib import Path
 
 from bench.cli.screen import counted, shown_path
 from bench.errors import BadResults
+from bench.provenance import count_episodes
 from bench.tables.files import read_json
 
 NEEDED = ("suite", "episodes", "commit", "dirty", "cpu", "wall_s")
@@ -20,7 +21,7 @@ def origin(folder: Path) -> str:
     lacking = [name for name in NEEDED if name not in found]
     if lacking:
         raise BadResults(f"{path}: it lacks {', '.join(lacking)}; delete the folder and run again")
-    episodes = sum(found.get(name, 0) for name in ("episodes", "trials", "troubled"))
+    episodes = count_episodes(found)
     changed = " with changes" if found["dirty"] else ""
     return (
         f"{shown_path(folder)}: suite {found['suite']}, {counted(episodes, 'episode')}, commit "

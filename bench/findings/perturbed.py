@@ -1,12 +1,16 @@
-"""Which episodes under a perturbation went well: one criterion for the summary, its tables and the book.
+"""How far each law goes along a perturbation: one definition for `judge`, `show` and the book.
 
-It went well if it settled. Where the perturbation lasts after the goal is reached no body comes to rest; there it went
-well if over the last second the root mean square angle to the goal is at most FOLLOWED_RAD.
+An episode goes well if it settles. Where the perturbation lasts after the goal is reached no body comes to rest; there
+it goes well if over the last second the root mean square angle to the goal is at most FOLLOWED_RAD. A law's threshold
+is the last level, from the mildest outwards, up to which at most LOST fewer of its starts go well than at the mildest;
+a law that loses more than FEWEST of them there has none.
 """
 
 import functools
 import math
+from collections.abc import Iterable
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 import pandas as pd
@@ -21,12 +25,61 @@ STUDY = RESULTS / "robustness"
 """What `make robustness-study` keeps: `by_level` of hundreds of starts a level."""
 
 FOLLOWED_RAD = math.radians(3.0)
+LOST, FEWEST = 0.05, 0.5
+
+WITHSTANDS = (
+    f"at most {100 * LOST:g} points fewer of its starts go well than at the mildest level; + : the last level tried"
+)
+"""What a threshold is, in words."""
+
+
+class Way(NamedTuple):
+    """A perturbation, and whether its level grows from the mildest outwards or shrinks."""
+
+    axis: str
+    grows: bool = True
+
+    @property
+    def name(self) -> str:
+        """The axis, and the direction where it shrinks."""
+        return self.axis if self.grows else f"{self.axis} (down)"
+
+    def outwards(self, levels: Iterable[float]) -> list[float]:
+        """Return the levels on this side, from the mildest."""
+        nominal = tasks.axis(self.axis).nominal
+        start = max(levels) if nominal is None else nominal
+        return [x for x in sorted(levels, reverse=not self.grows) if (x >= start if self.grows else x <= start)]
+
+
+class Threshold(NamedTuple):
+    """The last level a law withstands, NaN for none; the next level tried, NaN for none, and its share of starts."""
+
+    held: float
+    broken: float
+    share: float
+
+    def __str__(self) -> str:
+        if math.isnan(self.held):
+            return "none"
+        return f"{self.held:g}" if not self.is_whole else f"{self.held:g}+"
+
+    @property
+    def is_whole(self) -> bool:
+        """Tell whether the law withstands every level tried: its true threshold lies beyond the grid."""
+        return math.isnan(self.broken)
 
 
 @functools.cache
 def perturbations() -> tuple[str, ...]:
     """Axes that perturb; one that sets the gains alone, so that peak commands are equal, does not."""
     return tuple(name for name in tasks.axis_names() if not tasks.axis(name).at(1.0).peak)
+
+
+@functools.cache
+def ways() -> tuple[Way, ...]:
+    """Return every perturbation, once for each side of its mildest level on which it has others."""
+    each = (Way(name, grows) for name in perturbations() for grows in (True, False))
+    return tuple(way for way in each if len(way.outwards(tasks.axis(way.axis).levels)) > 1)
 
 
 @functools.cache
@@ -59,6 +112,27 @@ def by_level(rows: pd.DataFrame) -> pd.DataFrame:
             "longest_s": groups["time_s"].agg(lambda each: each[np.isfinite(each)].max()),
         }
     ).reset_index()
+
+
+def thresholds(counted: pd.DataFrame) -> dict[str, dict[Way, Threshold]]:
+    """Return each law's threshold along each way of rows of `by_level` with `contender`."""
+    found: dict[str, dict[Way, Threshold]] = {}
+    rows = counted.assign(share=counted["good"] / counted["starts"])
+    for (law, axis), own in rows.groupby([rows["contender"].astype(str), rows["axis"].astype(str)], sort=False):
+        shares = own.set_index("level")["share"]
+        for way in (way for way in ways() if way.axis == axis):
+            found.setdefault(law, {})[way] = _threshold(shares, way)
+    return found
+
+
+def _threshold(shares: pd.Series, way: Way) -> Threshold:
+    levels, held = way.outwards(shares.index), math.nan
+    least = max(FEWEST, shares[levels[0]] - LOST)
+    for level in levels:
+        if shares[level] < least:
+            return Threshold(held, level, float(shares[level]))
+        held = level
+    return Threshold(held, math.nan, math.nan)
 
 
 @functools.cache

@@ -12,8 +12,10 @@ import pandas as pd
 import tasks
 from bench.contenders.registry import known_regulators
 from bench.findings.judgement import Said
-from bench.findings.perturbed import perturbations
+from bench.findings.perturbed import WITHSTANDS, by_level, perturbations, thresholds
 from bench.findings.selection.needs import CHATTER
+from bench.findings.theory.thresholds import near_goal
+from bench.tables.read import with_contender
 from bench.tables.statistics import quantile
 
 GAINS, FRAMES, FAILURES, SIDE = "03-regulators", "30-method", "06-failure-map", "15-comparison"
@@ -75,9 +77,9 @@ SENTENCES: dict[str, dict[str, tuple[str, ...]]] = {
 SETS = {"every": "every half turn ({found} of {of} axes tried)", "plane": "half turns about axes in one plane"}
 SETS |= {f"plane-{axis}": f"half turns about axes normal to {axis}" for axis in "xyz"}
 
-WITHSTOOD, MOST, NEAR_RAD = 0.95, 3, 0.01
-"""Share of its starts that a law settles at every level of a perturbation that it withstands. Laws shown beside it.
-From a half turn: what lies nearer, a law that is "almost global" may lose. Paielli and Bach's does, to 0.005 rad."""
+MOST, NEAR_RAD = 3, 0.01
+"""Laws shown beside it. From a half turn: what lies nearer, a law that is "almost global" may lose; Paielli and
+Bach's does, to 0.005 rad."""
 
 FAULTS = {"oscillating": "oscillation", "creeping": "creeping", "stuck": "dead points"}
 """Of an outcome; of any other the starts are lost."""
@@ -129,22 +131,23 @@ def ends(rows: pd.DataFrame, declared: str) -> list[Said]:
 
 
 def perturbed(rows: pd.DataFrame) -> list[Said]:
-    """Which perturbation breaks it first: the fewest levels from the nominal one, or the first."""
+    """State up to which level the law withstands each perturbation, and what closed forms say of it."""
+    rows = rows[rows["axis"].isin(perturbations())] if len(rows) else rows
     if rows.empty:
         return []
-    rows = rows[rows["axis"].isin(perturbations())]
-    shares = (rows["outcome"] == "settled").groupby([rows["axis"].astype(str), rows["level"]], sort=False).mean()
-    names, broken = {name for name, _ in shares.index}, []
-    for (name, level), share in shares[shares < WITHSTOOD].items():
-        one = tasks.axis(name)
-        nominal = one.levels.index(one.nominal) if one.nominal in one.levels else -1
-        broken.append((abs(one.levels.index(level) - nominal), share, name, f"{level:g} {one.unit}"))
-    text = f"Of {len(names)} perturbations it withstands {len(names - {name for _, _, name, _ in broken})}."
-    if broken:
-        off, share, name, level = min(broken)
-        where = f"at {level}" if off else f"without it already ({level})"
-        text += f" What breaks it first is {name}: {where} it settles {share:.0%} of its starts."
-    return [Said(text, ROBUSTNESS)]
+    gains = float(rows["kp"].iloc[0]), float(rows["kv"].iloc[0])
+    [found] = thresholds(with_contender(by_level(rows))).values()
+    whole = [f"{way.name} {one.held:g}" for way, one in found.items() if one.is_whole]
+    parts = []
+    for way, one in found.items():
+        if not one.is_whole:
+            limit, unit = near_goal(way.axis, way.grows, *gains), tasks.axis(way.axis).unit
+            theory = f"; theory near the goal, for every law: {limit:.3g}" if limit == limit else ""
+            held = "none" if math.isnan(one.held) else f"{one.held:g}"
+            parts.append(f"{way.name} {held} {unit} ({one.share:.0%} at {one.broken:g}{theory})")
+    text = f"Thresholds: {'; '.join(parts)}. " if parts else ""
+    text += f"Withstood to the last level tried: {', '.join(whole)}." if whole else ""
+    return [Said(f"{text.strip()} A threshold is where {WITHSTANDS.partition(';')[0]}.", ROBUSTNESS)]
 
 
 def beside(field: pd.DataFrame, episodes: pd.DataFrame, run_field: pd.DataFrame, run: pd.DataFrame) -> pd.DataFrame:

@@ -88,8 +88,9 @@ def timing_columns() -> list[Column]:
     """timings/<machine>.parquet: one row for everything timed, in one run whose passes visit all of it."""
     return [
         *words(
-            what="law (alone), engine (a whole loop), loop (the empty loop that every law's time holds), or threads "
-            "(two against one, on the wall)",
+            what="law (alone), controller (kinematics, D, fg, law, Jacobian and inverse, without plant and judge), "
+            "engine (a whole loop), loop (the empty loop that every law's time holds), or threads (two against one, on "
+            "the wall)",
             arm="manipulator; empty for a law alone and for the free body",
             regulator="the law; empty for the empty loop and for rollout",
             representation="coordinates the law acts on; empty for a law on R",

@@ -10,6 +10,7 @@ from mujoco.rollout import Rollout
 from bench.law.contender import Contender
 
 KERNEL, LAW, LOOP, ENGINE, THREADS = "reference-kernel", "law", "loop", "engine", "threads"
+CONTROLLER = "controller"
 ROLLOUT, DM_CONTROL = "rollout", "dm-control"
 
 NEVER = 10**9

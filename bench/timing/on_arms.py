@@ -1,4 +1,4 @@
-"""What is timed on arms: rollout, every controller in the compiled loop, dm_control's loop with a law in numpy.
+"""What is timed on arms: rollout, every controller in the compiled loop, the usual ones alone, dm_control with numpy.
 
 The compiled loop is the real one, all metrics on, with no early stop; its model, data and buffers are made once,
 outside what is timed. `rollout` is the same model, start and number of ticks in open loop.
@@ -21,6 +21,7 @@ from bench.law.contender import PAPERS_GAINS, Contender
 from bench.metrics.registry import metrics_of
 from bench.timing import dm_control_loop
 from bench.timing.benchmark import DM_CONTROL, ENGINE, NEVER, Benchmark, open_loop
+from bench.timing.controller import controller
 from tasks.base import Start
 
 TASK = "arm-regulation"
@@ -50,10 +51,18 @@ def controllers(laws: list[Contender], arm: str) -> list[Contender]:
 
 def of_arm(arm: str, laws: list[Contender]) -> list[Benchmark]:
     """Everything of one arm, rollout first; all is compiled and has run once."""
-    found = [rollout(arm), *(native(arm, one) for one in controllers(laws, arm))]
+    each = controllers(laws, arm)
+    found = [rollout(arm), *(native(arm, one) for one in each)]
+    usual = (one for one in each if one.jacobian and one.jacobian.name == "geometric" and is_standard(one, arm))
+    found += [controller(TASK, arm, one, _start(arm)) for one in usual]
     by_name = {one.name: one for one in laws}
     in_numpy = combinations.on((IN_NUMPY,), by_name, tasks.arm(arm).joints)
     return [*found, *(dm_control(arm, one) for one in in_numpy)]
+
+
+def is_standard(one: Contender, arm: str) -> bool:
+    """Tell whether a controller inverts its Jacobian as the arm's standard controllers do."""
+    return bool(one.inverse and one.inverse.name == ("solve" if tasks.arm(arm).joints == 6 else "pseudo-inverse"))
 
 
 def _start(arm: str) -> Start:

@@ -3,6 +3,7 @@
 import numpy as np
 
 from bench.findings import claims
+from bench.provenance import count_episodes
 from bench.tables import read
 from report.figures.answer import answer_box, which_law
 from report.figures.claims import claims as judged
@@ -21,7 +22,7 @@ from report.figures.responses import hero, settling_decades
 BIBTEX = """```bibtex
 @misc{{orientation-bench,
   author = {{{{The orientation-bench maintainers}}}},
-  title  = {{Orientation regulators, measured}},
+  title  = {{{title}}},
   note   = {{Version {version}, run of {date} at commit {commit}.
             A replication of S. Murphy, On the Cartesian Control of
             Orientation and Force for Robotic Manipulators, TFRT-7396,
@@ -100,5 +101,6 @@ def edition(provenance: dict) -> dict:
         "date": provenance["finished"].partition("T")[0],
         "commit": f"{commit}, with changes" if provenance["dirty"] else commit,
         "suite": provenance["suite"],
-        "episodes": provenance["episodes"],
+        "title": cited()["title"],
+        "episodes": count_episodes(provenance),
     }

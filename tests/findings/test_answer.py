@@ -115,16 +115,16 @@ def test_time_a_tick_counts_from_what_is_measurable_on_a_whole_controller(times,
     assert not found.beats("tick", MIDDLE, CHEAP)
 
 
-def test_time_a_tick_is_the_law_over_the_shortest_loop_on_an_arm():
+def test_share_of_a_law_is_its_time_over_the_median_whole_controller():
     usual = {"representation": "", "jacobian": "", "inverse": "", "arm": "", "engine": "", "ticks": 10}
-    loop = usual | {"what": "engine", "engine": "native", "arm": "a", "regulator": "mrp", "jacobian": "geometric"}
+    whole = usual | {"what": "controller", "regulator": "rotation-matrix", "jacobian": "geometric", "inverse": "solve"}
     rows = [
-        usual | {"what": "law", "regulator": "mrp", "ns_per_tick": 20.0},
-        usual | {"what": "law", "regulator": "gibbs", "ns_per_tick": 90.0, "ticks": 0},
-        loop | {"ns_per_tick": 2000.0},
-        loop | {"ns_per_tick": 4000.0},
+        usual | {"what": "law", "regulator": "mrp", "ratio": 1.0},
+        usual | {"what": "law", "regulator": "gibbs", "ratio": 4.0, "ticks": 0},
+        *(whole | {"arm": arm, "ratio": ratio} for arm, ratio in zip("abc", (40.0, 50.0, 90.0), strict=True)),
+        whole | {"regulator": "mrp", "arm": "a", "ratio": 1000.0},
     ]
-    assert ticks(Results(None, {"timings": pd.DataFrame(rows)})) == {"mrp": 1.0}
+    assert ticks(Results(None, {"timings": pd.DataFrame(rows)})) == {"mrp": 2.0}
     assert ticks(Results(None, {"timings": pd.DataFrame(rows[:2])})) == {}
 
 

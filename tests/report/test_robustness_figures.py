@@ -9,10 +9,13 @@ from support.pages import Nothing, assert_is_whole
 
 pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
 
+from bench.cli.details import robustness as details
 from bench.contenders.registry import find_contender
 from bench.experiments import plan
 from bench.experiments.choice import Choice
-from bench.findings.theory import closed_form, robustness_theory
+from bench.findings import perturbed, why
+from bench.findings.perturbed import Way
+from bench.findings.theory import closed_form, robustness_theory, thresholds
 from bench.law.equation import Equation
 from bench.running import run
 from bench.tables import read
@@ -117,20 +120,20 @@ def test_noise_holds_a_law_of_constant_force_if_it_is_more_than_two_ticks_of_it(
 
 
 def test_law_whose_command_vanishes_at_the_half_turn_is_held_by_any_noise():
-    assert half_turn_noise.least("rotation-matrix", KP, KV) == 0.0
+    assert thresholds.least("rotation-matrix", KP, KV) == 0.0
 
 
 def test_memory_ends_where_its_hysteresis_does():
     # eta = cos(theta/2) at -delta; the trace at 0; |sigma| = tan(theta/4) at sqrt(switch)
-    assert math.cos((math.pi + half_turn_noise.KEEPS["hybrid"]) / 2.0) == pytest.approx(-0.4)
-    assert 1.0 + 2.0 * math.cos(math.pi + half_turn_noise.KEEPS["late-braking"]) == pytest.approx(0.0)
-    assert math.tan((math.pi + half_turn_noise.KEEPS["mrp-linearized"]) / 4.0) ** 2 == pytest.approx(1.5)
+    assert math.cos((math.pi + thresholds.KEEPS["hybrid"]) / 2.0) == pytest.approx(-0.4)
+    assert 1.0 + 2.0 * math.cos(math.pi + thresholds.KEEPS["late-braking"]) == pytest.approx(0.0)
+    assert math.tan((math.pi + thresholds.KEEPS["mrp-linearized"]) / 4.0) ** 2 == pytest.approx(1.5)
 
 
 @pytest.mark.parametrize("law", ["hybrid", "late-braking"])
 def test_cards_of_laws_with_memory_say_how_far_they_keep_to_their_way(law):
     _, fails = regulators.text_of(half_turn_noise.regulator_of(law))
-    assert f"{math.degrees(half_turn_noise.KEEPS[law]):.0f} degrees" in fails
+    assert f"{math.degrees(thresholds.KEEPS[law]):.0f} degrees" in fails
 
 
 # ---------------------------------------------------------------------------------------------- pages, from a small run
@@ -193,9 +196,25 @@ def test_paielli_bach_loses_only_starts_that_its_blindness_explains(along):
         assert other_perturbations.is_within(along(name), name) == "all"
 
 
-def test_law_degrades_at_the_first_level_that_costs_it_starts(small_run):
-    walk = next(one for one in robustness.WALKS if one.axis == "half-turn-noise")
-    held = robustness.reach(robustness.counted(small_run, walk.axis), "quaternion-shortest", walk)
-    assert held.level == 0.001
-    assert robustness.reach(robustness.counted(small_run, walk.axis), "hybrid", walk).level == 1.0
-    assert robustness.reach(robustness.counted(small_run, walk.axis), "paielli-bach", walk).fails
+def test_threshold_is_the_level_before_the_first_that_costs_a_law_its_starts(small_run):
+    each, way = robustness.found(small_run), Way("half-turn-noise")
+    assert (each["quaternion-shortest"][way].held, each["quaternion-shortest"][way].broken) == (0.0, 0.001)
+    assert (each["hybrid"][way].held, each["hybrid"][way].broken) == (0.3, 1.0)
+    assert math.isnan(each["paielli-bach"][way].held)
+
+
+def test_judge_and_show_have_one_threshold(small_run):
+    rows_of_run = small_run.rows("robustness")
+    lines = details.summary(rows_of_run).set_index("law")
+    for law, own in perturbed.thresholds(read.with_contender(perturbed.by_level(rows_of_run))).items():
+        text = why.perturbed(rows_of_run[rows_of_run["contender"] == law])[0].text
+        for way, one in own.items():
+            assert lines.loc[law, way.name] == str(one)
+            assert f"{way.name} {'none' if math.isnan(one.held) else f'{one.held:g}'}" in text
+
+
+def test_moving_goals_break_every_law_where_theory_near_the_goal_says(small_run):
+    for axis in ("moving-goal-rate", "moving-goal-untold"):
+        limit = thresholds.near_goal(axis, True, KP, KV)
+        for own in robustness.found(small_run).values():
+            assert own[Way(axis)].held < limit < own[Way(axis)].broken

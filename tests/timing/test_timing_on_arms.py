@@ -9,7 +9,7 @@ import tasks
 from bench import timing
 from bench.contenders.registry import find_contender
 from bench.law.contender import PAPERS_GAINS
-from bench.timing import dm_control_loop, on_arms, threads
+from bench.timing import controller, dm_control_loop, on_arms, threads
 from bench.timing.benchmark import DM_CONTROL, ENGINE, KERNEL, ROLLOUT, THREADS, Benchmark
 from bench.timing.rows import QUICK_PASSES, frame
 
@@ -57,6 +57,17 @@ def test_every_controller_of_the_default_suite_with_these_laws_is_timed_on_the_a
     assert {("rotation-matrix", "geometric", "solve"), ("linearized-euler", "geometric", "solve")} < names
     assert (own.engine == ROLLOUT).sum() == (own.engine == DM_CONTROL).sum() == 1
     assert (own.passes == QUICK_PASSES).all()
+
+
+def test_controller_alone_commands_the_torques_of_the_equations():
+    one, start = named("ur5e", on_arms.IN_NUMPY), tasks.start_set("clear", 8, arm="ur5e")[-1]
+    benchmark = controller.controller(on_arms.TASK, "ur5e", one, start)
+    _, _, arrays = benchmark.call()
+    last = controller.states(start)[-1]
+    at = here("ur5e", last[:6], last[6:12])
+    expected, _ = torques(one, at, last[12:], at.chain.p, PAPERS_GAINS)
+    np.testing.assert_allclose(arrays[3], expected, rtol=1e-9)
+    assert benchmark.ticks == controller.SWEEPS * controller.STATES
 
 
 def test_ratios_are_where_there_is_something_to_compare_with(quick):

@@ -1,4 +1,4 @@
-"""Robustness: which perturbations each law withstands, and at what share of starts it ends under the others."""
+"""Robustness: up to which level each law withstands each perturbation, beside the closed forms."""
 
 import math
 
@@ -6,32 +6,28 @@ import pandas as pd
 
 import tasks
 from bench.cli.details.episodes import OF_STARTS, settled
-from bench.findings.perturbed import FOLLOWED_RAD, perturbations, went_well
+from bench.findings.perturbed import WITHSTANDS, by_level, thresholds
+from bench.findings.theory.thresholds import HALF_TURN, least, near_goal
 from bench.tables import read as results
 
-WITHSTOOD = 95
-"""Share of its starts [%] that go well at every level of a perturbation that a law withstands."""
-
-
-IS_WITHSTOOD = (
-    f"at least {WITHSTOOD} % settle at every level; where it lasts, end within {math.degrees(FOLLOWED_RAD):g} deg rms"
-)
-
-
+NEAR = "(theory near the goal)"
 FEW = 3
 """Perturbations up to which each has a table of its own."""
 
 
 def tables(rows):
-    """One table; of few perturbations one more for each."""
-    least = least_shares(rows)
-    nobody = [axis for axis in least if not (least[axis] >= WITHSTOOD).any()]
-    title = f"robustness ({OF_STARTS}; withstood: {IS_WITHSTOOD})"
+    """Thresholds; of few perturbations one more table for each."""
     table = summary(rows)
-    if nobody and len(nobody) < least.shape[1]:
-        title += f"\nwithstood by no law, and left out on the right: {', '.join(nobody)}"
-    yield title, table
-    for axis in least if least.shape[1] <= FEW else ():
+    laws = table[(table["law"] != NEAR) & ~(table == "none").sum(axis=1).gt(FEW)]
+    alike = [one for one in table.columns[2:] if laws[one].nunique() == 1 and table.shape[1] > FEW + 2]
+    title = f"robustness, thresholds ({OF_STARTS}; threshold: {WITHSTANDS})"
+    if alike:
+        title += (
+            f"\nalike for all laws that settle unperturbed: {', '.join(f'{one} {laws[one].iloc[0]}' for one in alike)}"
+        )
+    yield title, table.drop(columns=alike)
+    axes = sorted(rows["axis"].unique())
+    for axis in axes if len(axes) <= FEW else ():
         own = results.with_contender(rows[rows["axis"] == axis]).astype({"contender": str})
         levels = (
             own.groupby(["contender", "level"], sort=False)[["outcome"]].apply(settled).unstack().sort_index(axis=1)
@@ -41,29 +37,23 @@ def tables(rows):
 
 
 def summary(rows):
-    """One line for each law: perturbations withstood, and its least share [%] under others that some law withstands."""
-    least = least_shares(rows)
-    withstood = least >= WITHSTOOD
-    shown = withstood.any() if withstood.to_numpy().any() else withstood.any() | True
+    """One line for each law and one of theory near the goal: a threshold for each way, theory's at 180° beside it."""
     named = results.with_contender(rows)
-    lines = []
-    for name, one in least.iterrows():
-        short = ", ".join(f"{axis} {share:.0f}" for axis, share in one[shown].items() if share < WITHSTOOD)
-        lines.append(
-            {
-                "law": str(name),
-                "settled": settled(named[named["contender"] == name]),
-                f"withstood of {one.size}": int((one >= WITHSTOOD).sum()),
-                "settled least [%]": short,
-            }
-        )
-    return pd.DataFrame(lines)
+    kp, kv = float(rows["kp"].iloc[0]), float(rows["kv"].iloc[0])
+    found = thresholds(results.with_contender(by_level(named)))
+    tried = list(dict.fromkeys(way for own in found.values() for way in own))
+    theory = {"law": NEAR, "settled": ""}
+    theory |= {way.name: form(near_goal(way.axis, way.grows, kp, kv)) for way in tried}
+    lines = [theory]
+    for law, own in found.items():
+        line = {"law": law, "settled": settled(named[named["contender"] == law])}
+        line |= {way.name: str(own[way]) if way in own else "" for way in tried}
+        if any(way.axis == HALF_TURN for way in tried):
+            line[f"{HALF_TURN}, theory"] = form(least(law, kp, kv))
+        lines.append(line)
+    return pd.DataFrame(lines).fillna("")
 
 
-def least_shares(rows):
-    """A row a law, a column a perturbation: the share [%] that went well at its worst level."""
-    is_perturbed = rows["axis"].isin(perturbations())
-    named = results.with_contender(rows[is_perturbed] if is_perturbed.any() else rows)
-    well, by = 100.0 * went_well(named), [named["contender"], named["axis"], named["level"]]
-    shares = well.groupby(by, observed=True, sort=False).mean()
-    return shares.groupby(level=[0, 1], observed=True, sort=False).min().unstack()
+def form(value: float) -> str:
+    """A number of a closed form; empty where there is none."""
+    return "" if math.isnan(value) else f"{value:.3g}"

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import pandas as pd
 
-from bench.cli.details.robustness import IS_WITHSTOOD, WITHSTOOD, least_shares
 from bench.cli.paragraphs import Paragraph, listed
 from bench.cli.screen import counted
 from bench.contenders.registry import known_regulators
 from bench.experiments.suites import NOMINAL
 from bench.findings.claims import Results
+from bench.findings.perturbed import by_level, thresholds
+from bench.findings.theory.thresholds import HALF_TURN
+from bench.tables.read import with_contender
 
 WORST = 2
 """Laws that are named, those that settle the smallest share; of controllers, whose names are long, one."""
@@ -90,23 +92,23 @@ def _contact(rows: pd.DataFrame) -> list[str]:
 
 
 def _robustness(rows: pd.DataFrame) -> list[str]:
+    """State the range of thresholds of every perturbation that does not do the same to all laws."""
     if rows.empty:
         return []
-    least = least_shares(rows) >= WITHSTOOD
-    meant = [law for law in least.index if not is_control(str(law))]  # a negative control withstands what it ignores
-    least = least.loc[meant or least.index]
-    nobody = list(least.columns[~least.any()])
-    most = least.sum(axis=1)
-    if not most.any():
-        return [f"Robustness: {of(rows)} episodes. No law withstands {listed(nobody, 'or')}.{worst(rows, 'law')}"]
-    best = list(most.index[most == most.max()].astype(str))
-    named = listed(best) if len(best) <= WORST else counted(len(best), "law")
-    none = f"; no law withstands {listed(nobody, 'or')}" if nobody else ""
-    return [
-        f"Robustness: {of(rows)} episodes. {named} {'withstands' if len(best) == 1 else 'withstand'} {most.max()} of "
-        f"{counted(least.shape[1], 'perturbation')} ({IS_WITHSTOOD})"
-        f"{', the most' if len(most) > len(best) else ''}{none}."
-    ]
+    found = thresholds(with_contender(by_level(with_contender(rows))))
+    meant = {law: own for law, own in found.items() if not is_control(law)} or found
+    parts, alike = [], 0
+    for way in dict.fromkeys(way for own in meant.values() for way in own):
+        by_text: dict[str, list[str]] = {}
+        for law, own in meant.items():
+            by_text.setdefault(str(own[way]), []).append(law)
+        alike += len(by_text) == 1
+        if len(by_text) > 1 and way.axis == HALF_TURN:
+            best = max(by_text, key=lambda text: float(text.rstrip("+").replace("none", "-1")))
+            end = ", the last level tried" if best.endswith("+") else ""
+            parts = [f"Worst-case noise at 180°: {listed(by_text[best])} up to {best.rstrip('+')} rad{end}."]
+    same = f" {alike} of the perturbations do the same to all laws." if alike else ""
+    return [f"Robustness: {of(rows)} episodes. {' '.join(parts)}{same} Thresholds: show robustness.".replace("  ", " ")]
 
 
 def is_control(law: str) -> bool:

@@ -1,6 +1,7 @@
 """Rodrigues parameters (the Gibbs vector) of the turn to the goal: e = 2 tan(theta/2) k = 2 s/(1 + t), one division.
 
-Fails: at half turns the command is unbounded, and on them not finite.
+Fails: the command, 2 Kp tan(theta/2), grows without bound towards 180 degrees and is not finite there.
+Starts that the maps count as lost exceed the judge's limit on the command: their share depends on that limit.
 """
 
 from bench.law import TANGENT, Look, Regulator, double_sine, half_cosine_squared, kernel, spring_damper, trace

@@ -2,7 +2,8 @@
 
 With a fixed goal epsddot = -Kv epsdot - Kp eps; for it eps must be divided by eta: eps/eta = s/(1 + t).
 
-Fails: at half turns the command is unbounded, and on them not finite.
+Fails: the command, 2 Kp tan(theta/2) at rest, grows without bound towards 180 degrees and is not finite there.
+Starts that the maps count as lost exceed the judge's limit on the command: their share depends on that limit.
 """
 
 from bench.law import LINEAR_SINE, Look, Regulator, dot, double_sine, half_cosine_squared, kernel, spring_damper, trace

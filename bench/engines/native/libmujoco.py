@@ -28,17 +28,18 @@ MUJOCO_INTEGRATORS = {
 }
 
 
-def _c_function(name: str, pointers: int):
-    return types.ExternalFunction(name, types.void(*[types.intp] * pointers))
+def library_function(name: str, *arguments):
+    """Return a C function by its name for compiled code; it takes a model and data where no arguments are named."""
+    return types.ExternalFunction(name, types.void(*(arguments or (types.intp, types.intp))))
 
 
-mj_resetData = _c_function("mj_resetData", 2)
-mj_step = _c_function("mj_step", 2)
-mj_step1 = _c_function("mj_step1", 2)
-mj_step2 = _c_function("mj_step2", 2)
-mj_fwdActuation = _c_function("mj_fwdActuation", 2)
-mj_forward = _c_function("mj_forward", 2)
-mj_fullM = _c_function("mj_fullM", 3)
+mj_resetData = library_function("mj_resetData")
+mj_step = library_function("mj_step")
+mj_step1 = library_function("mj_step1")
+mj_step2 = library_function("mj_step2")
+mj_fwdActuation = library_function("mj_fwdActuation")
+mj_forward = library_function("mj_forward")
+mj_fullM = library_function("mj_fullM", types.intp, types.intp, types.intp)
 
 
 def model_of(xml: str, integrator: str) -> mujoco.MjModel:

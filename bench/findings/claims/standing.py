@@ -25,8 +25,8 @@ RULE = """
     """
 
 MEASURABLE = 0.04
-"""Share by which two loops' times must differ, beyond their intervals, to be distinguished. An interval is of one
-build: compiled apart, the difference of two closed loops is that of their laws alone to 3.6 % of the tick."""
+"""Share of a controller's or a loop's time by which two must differ, beyond their intervals, to count as different. An
+interval is of one build; compiled apart, two builds differ by some per cent more than their laws alone do."""
 
 FEWEST = 6
 """Timed laws from which on a call has a price: twice the numbers that are fitted."""

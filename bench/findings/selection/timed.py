@@ -1,7 +1,8 @@
-"""What a law takes of a whole controller's tick, by the times of results/timings.
+"""What a law takes of a whole controller's time, by the times of results/timings.
 
-Two laws must differ by `standing.MEASURABLE` of it to be distinguished by time. That was 0.03 when the rule was fixed,
-by three runs of the same loops; the advice is the same by both (a test).
+A whole controller (`bench.timing.controller`) computes the forward kinematics, D and fg, then the law, the Jacobian,
+its inverse and (2.2); plant, judge and metrics are not in it. Every share of a controller has this one denominator: the
+controller with the rotation-matrix law. Laws tie by time where their shares differ by at most `standing.MEASURABLE`.
 """
 
 from __future__ import annotations
@@ -17,19 +18,22 @@ if TYPE_CHECKING:
     import pandas as pd
 
 
-def ticks(results: Results) -> dict[str, float]:
-    """Law -> its time alone over the shortest tick of any arm's closed loop [%], the median over machines.
+BY = "rotation-matrix@geometric"
+"""The controller of the denominator, by the inverse of each arm."""
 
-    Laws that no machine timed are left out. The loop is MuJoCo's step with controller and judge, so that the share of a
-    controller which computes the arm's dynamics itself is of the same order.
+
+def ticks(results: Results) -> dict[str, float]:
+    """Return law -> its time alone over a whole controller's [%], the medians over arms and over machines.
+
+    Laws that no machine timed are left out, and so are machines that timed no whole controller.
     """
     found: dict[str, list[float]] = {}
     for frame in _machines(results):
-        is_loop = (frame["what"] == "engine") & (frame["engine"] == "native") & (frame["arm"] != "")
-        tick_ns = frame.loc[is_loop & (frame["ticks"] > 0), "ns_per_tick"].min()
+        is_whole = (frame["what"] == "controller") & frame["contender"].astype(str).str.startswith(BY)
+        whole = frame.loc[is_whole & (frame["ticks"] > 0), "ratio"].median()
         alone = frame[(frame["what"] == "law") & (frame["ticks"] > 0)]
-        for law, ns in zip(alone["contender"].astype(str), alone["ns_per_tick"], strict=True):
-            found.setdefault(law, []).append(100.0 * float(ns / tick_ns))
+        for law, ratio in zip(alone["contender"].astype(str), alone["ratio"], strict=True):
+            found.setdefault(law, []).append(100.0 * float(ratio / whole))
     return {law: float(np.median(shares)) for law, shares in found.items() if np.isfinite(shares).all()}
 
 

@@ -8,11 +8,15 @@ import pandas as pd
 
 from bench.counting import STAGES
 from bench.findings.claims import Results, judge
+from bench.findings.claims.standing import MEASURABLE
+from bench.findings.selection.timed import ticks
 from report.figures.arms import arm_rows, arm_times, controller_costs
 from report.figures.arms.arm_rows import ON_MATRIX
-from report.figures.kit import html
+from report.figures.kit import families, html
 from report.figures.kit.page import Run, given
 from report.figures.kit.tables import Table
+
+ON_LAW = ON_MATRIX.partition("@")[0]
 
 MEANINGS = {
     "measure": "the tool's velocity and $\\dot J \\dot q$, from the joints' axes and rates",
@@ -40,10 +44,23 @@ def facts(run: Run) -> dict:
     counted, c26 = controller_costs.counted(run), judge("C26", Results(run.folder))
     return {
         **by_joints(counted),
+        **share_of_time(run),
+        "measurable": f"{100 * MEASURABLE:g}",
         "inverses_said": price_of_damping(counted, arm_rows.episodes(run)),
         "said": arm_times.duration(run),
         "c26": f"**{str(c26.word).capitalize()}.** {c26.evidence}",
     }
+
+
+def share_of_time(run: Run) -> dict[str, str]:
+    """Return the shares of a whole controller's time that the cheapest law, late braking and the dearest take."""
+    share = {law: value for law, value in ticks(Results(run.folder)).items() if not law.endswith("literal/zyx-euler")}
+    if ON_LAW not in share:
+        return dict.fromkeys(("time_matrix", "time_late", "time_most", "time_most_law"), html.MISSING)
+    most = max(share, key=lambda law: share[law])
+    shown = {"time_matrix": ON_LAW, "time_late": "late-braking", "time_most": most}
+    words = {key: percent(share[law] / 100.0) if law in share else html.MISSING for key, law in shown.items()}
+    return words | {"time_most_law": families.word(most)}
 
 
 def tables(run: Run) -> dict:

@@ -27,7 +27,10 @@ from report.figures.kit.tables import Table
 DEG = 180.0 / math.pi
 
 FACTS: tuple[str, ...] = ("lead", "gain", "tick", "uniform", "exact", "bound", "others", "dead", "unwinds", "lag")
-FACTS += ("worst_gap", "band", "detour", "overshoots", "transpose", "bent", "longer", "left")
+BENT_SUPREMUM = math.acos(1.0 / math.sqrt(3.0))
+"""The most [rad] by which a clamp per axis turns a vector: from beside an axis to the box's diagonal."""
+
+FACTS += ("bent_sup", "worst_gap", "band", "detour", "overshoots", "transpose", "bent", "longer", "left")
 
 SITUATIONS = Table("Situation | Law | Ties with")
 LIMITERS = Table(
@@ -105,6 +108,7 @@ def facts(run: Run) -> dict:
         "overshoots": f"{1000 / (4.0 * gain):g}",
         "transpose": f"{transposed.min():.2f} to {transposed.max():.2f}" if len(transposed) else None,
         "bent": f"{DEG * cut['axis-clamp']['bent_rad'].max():.0f}",
+        "bent_sup": f"{DEG * BENT_SUPREMUM:.1f}",
         "longer": f"{100 * (cut['axis-clamp']['path_ratio'].max() - 1):.0f}",
         "left": f"{DEG * cut['deadband']['final_angle_rad'].max():.2f}",
     }

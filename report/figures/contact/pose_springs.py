@@ -30,7 +30,7 @@ def facts(run: Run) -> dict:
     screw = found.loc[found["way_most"].idxmax()]
     return {
         "screw_work": percent(screw["work_share_isotropic"]),
-        "screw_way": f"{screw['way_most']:.2g}",
+        "screw_way": f"{screw['way_most']:.2g} (never more than π/2) ",
         "apart": f"{100.0 * found['apart_m'].max():.0f} cm",
     }
 

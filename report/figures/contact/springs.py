@@ -30,7 +30,7 @@ def facts(run: Run) -> dict:
     most = found.groupby("potential")["work_share"].max()
     return {
         "loops": int(found["loops"].max()),
-        "worst": f"{100.0 * most['no']:.0f} %",
+        "worst": f"{100.0 * most['no']:.0f} % (the most of {int(found['loops'].max())} loops; more loops give more)",
         "rounding": f"{html.number(float('{:.0e}'.format(most['yes'])))} of it",
     }
 

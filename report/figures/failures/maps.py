@@ -6,11 +6,15 @@ import pandas as pd
 
 from bench.findings.maps import by_law, counted, spun
 from bench.findings.theory.closed_form import pole_crossings
+from bench.findings.theory.thresholds import beyond_limit
+from bench.law.contender import PAPERS_GAINS
 from bench.tables import read
 from bench.tables.schema import RESULTS
 from report.figures.kit import families, html
 from report.figures.kit.rows import LINEARIZED, SHORT
+from report.figures.kit.spelling import power
 from report.figures.kit.tables import Table
+from tasks.rules import RULES
 
 MAPS = RESULTS / "maps"
 MAPPED = Table("Law | Lost [ppm]:.1f | 95 % interval | Slowest [s]:.2f | From [°]")
@@ -45,6 +49,8 @@ def facts() -> dict:
         "crossing_f": f"{100.0 * pole_crossings(fastest):.2f}",
         "lost_f": percent(linear.lost, linear.starts - linear.unconverged),
         "lost_l": percent(few.lost, few.starts - few.unconverged),
+        "beyond_limit": f"{1e6 * beyond_limit(PAPERS_GAINS.kp, RULES.command_limit):.0f}",
+        "limit": power(RULES.command_limit),
     }
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pyarrow.parquet as pq
 
-from bench.provenance import ROOT, rounded_on
+from bench.provenance import ROOT, count_episodes, rounded_on
 from bench.tables import read
 from bench.tables.files import read_json
 from bench.tables.schema import TABLES
@@ -35,9 +35,9 @@ def facts(_: Run) -> dict:
 
 
 def cited() -> dict[str, str]:
-    """Version and date of CITATION.cff."""
+    """Return title, version and date of CITATION.cff."""
     text = CITATION.read_text(encoding="utf-8")
-    return dict(re.findall(r"^(version|date-released): *[\"']?([^\"'\n]+)", text, re.MULTILINE))
+    return dict(re.findall(r"^(title|version|date-released): *[\"']?([^\"'\n]+)", text, re.MULTILINE))
 
 
 def tables(run: Run) -> dict:
@@ -73,7 +73,7 @@ def said_of_itself(given: dict) -> dict[str, str]:
     said = {name: escaped(value) for name, value in given.items()}
     changed = "yes: the sources had changes that no commit holds" if said["dirty"] else "no"
     return {
-        "Suite": f"{code(given['suite'])}, {html.number(said['episodes'])} episodes",
+        "Suite": f"{code(given['suite'])}, {html.number(count_episodes(given))} episodes",
         "Command": code(given["command"]),
         "Seed": f"{said['seed']}",
         "Finished": said["finished"].replace("T", " ").replace("Z", " UTC"),

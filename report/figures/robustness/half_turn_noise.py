@@ -6,7 +6,6 @@ is held follows from adding up. A law with memory is held from where its memory 
 
 from __future__ import annotations
 
-import functools
 import math
 
 import numpy as np
@@ -15,8 +14,8 @@ from matplotlib.axes import Axes
 
 from bench.contenders.registry import find_contender
 from bench.contenders.regulators import hybrid, mrp_linearized
-from bench.findings.theory import robustness_theory
 from bench.findings.theory.isotropic import EQUATIONS
+from bench.findings.theory.thresholds import HALF_TURN, KEEPS, UNBOUNDED, least
 from bench.law.contender import Regulator
 from bench.tables import read
 from report.figures.kit import families, html, style
@@ -26,38 +25,7 @@ from report.figures.kit.spelling import power
 from report.figures.kit.tables import Table
 from report.figures.robustness.rows import along, gains, laws, starts
 
-NAME = "half-turn-noise"
-
-KEEPS = {
-    "hybrid": 2.0 * math.asin(hybrid.DELTA),
-    "late-braking": math.pi / 3.0,
-    "mrp-linearized": 4.0 * math.atan(math.sqrt(mrp_linearized.SWITCH)) - math.pi,
-}
-"""Law with memory -> angle [rad] beyond the half turn up to which it keeps to the way it has begun."""
-
-UNBOUNDED = tuple(law for law, equation in EQUATIONS.items() if not equation.is_bounded)
-"""Laws without a greatest command: at the half turn they have none that a tick could hold."""
-
 FOOT, TOP = 1e-4, 1.6
-STEPS = 16
-"""Halvings of the interval that holds the least noise: to 1e-4 of it on a scale of factors."""
-
-
-@functools.cache
-def least(law: str, kp: float, kv: float) -> float:
-    """Least noise [rad] that holds a law at the half turn, by its equation or memory; 0 if any does, NaN if unknown."""
-    if law in KEEPS:
-        return KEEPS[law]
-    if law not in EQUATIONS or law in UNBOUNDED or find_contender(law).regulator.memory:
-        return math.nan
-    held = functools.partial(robustness_theory.is_held, EQUATIONS[law], kp, kv)
-    low, high = math.log(1e-6), math.log(1.0)
-    if held(math.exp(low)):
-        return 0.0
-    for _ in range(STEPS):
-        middle = 0.5 * (low + high)
-        low, high = (low, middle) if held(math.exp(middle)) else (middle, high)
-    return math.exp(high)
 
 
 def jump(law: str, kp: float) -> float:
@@ -151,7 +119,7 @@ def measured(shares: pd.Series) -> str:
 
 def facts(run: Run) -> dict:
     """Whom noise holds, by theory and in the episodes; laws with memory and without."""
-    rows = along(run, NAME)
+    rows = along(run, HALF_TURN)
     if rows.empty:
         return {}
     kp, kv = gains(rows)
@@ -164,25 +132,18 @@ def facts(run: Run) -> dict:
     without_memory = [law for law in own if law not in with_memory]
     jumping = [begin for law, begin in known.items() if law in without_memory and begin > 0.0]
     middle = float(noisy.index[noisy.index < min(KEEPS.values())].max())
-    chord, chord_least = jump("square-root", kp), least("square-root", kp, kv)
     return {
         "n": starts(rows),
+        "last": f"{noisy.index.max():g}",
         "agree": sum(map(bool, agree)),
         "decided": len(agree),
-        "known": len(known),
         "with_memory": len(with_memory),
-        "without_memory": len(without_memory),
-        "blind_free": sum(bool((noisy[law] == 1.0).all()) for law in without_memory),
         "middle": f"{middle:g}",
         "blind_middle": f"{100 * float(noisy.loc[middle, without_memory].max()):.0f}",
         "memory_middle": f"{100 * float(noisy.loc[middle, with_memory].min()):.0f}",
         "stuck": int((shares.loc[0.0, own] < 1.0).sum()),
         "least": f"{min(jumping):.2g}",
         "most": f"{max(jumping):.2g}",
-        "chord": f"{chord:g}",
-        "chord_least": f"{robustness_theory.two_ticks(chord, kv):.3g}",
-        "chord_exact": f"{chord_least:.3g}",
-        "faster": power(chord_least / 100.0),
         **{law: f"{angle:.3f}" for law, angle in KEEPS.items()},
         **{f"{law}_deg": f"{math.degrees(angle):.0f}" for law, angle in KEEPS.items()},
         "delta": f"{hybrid.DELTA:g}",
@@ -192,9 +153,9 @@ def facts(run: Run) -> dict:
 
 def tables(run: Run) -> dict:
     """What was measured of every law, beside what theory says."""
-    return {"tab_half_turn": given(along(run, NAME), table)}
+    return {"tab_half_turn": given(along(run, HALF_TURN), table)}
 
 
 def figures(run: Run) -> dict:
     """Who leaves the half turn at which noise."""
-    return {NAME: given(along(run, NAME), strips)}
+    return {HALF_TURN: given(along(run, HALF_TURN), strips)}

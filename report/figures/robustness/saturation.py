@@ -10,8 +10,7 @@ from bench.findings.selection.words import leaders
 from bench.findings.theory import robustness_theory
 from report.figures.kit import families
 from report.figures.kit.page import Run
-from report.figures.robustness.half_turn_noise import UNBOUNDED
-from report.figures.robustness.rows import DEG, along, by_level, laws, listed, losses, medians, of, with_unit
+from report.figures.robustness.rows import DEG, along, by_level, laws, losses, medians, with_unit
 from tasks.rules import RULES
 
 NAME = "saturation"
@@ -30,13 +29,13 @@ def bounded(run: Run) -> pd.DataFrame:
 
 
 def facts(run: Run) -> dict:
-    """Which laws come near the least time; and what becomes of commands without bound, without one and with."""
-    rows, free = bounded(run), along(run, "delay")
-    if rows.empty or free.empty:
+    """Return which laws come near the least time, and who overshoots."""
+    rows = bounded(run)
+    if rows.empty:
         return {}
     table = medians(rows, "over_least")
     kept = rows[rows["contender"].isin(laws(rows, controls=False))]
-    best, tight, mild = kept.loc[kept["over_least"].idxmin()], min(table.index), max(table.index)
+    best, tight = kept.loc[kept["over_least"].idxmin()], min(table.index)
     overshoot = medians(rows, "overshoot_rad").loc[tight]
     return {
         "worst": with_unit(tight, NAME),
@@ -47,12 +46,8 @@ def facts(run: Run) -> dict:
         "tight": f"{table.loc[tight].min():.2f}",
         "tight_law": fastest(run),
         "slack": f"{table.loc[tight].max():.2f}",
-        "mild": f"{table.loc[mild].min():.0f}",
-        "mild_bound": with_unit(mild, NAME),
         "over_law": families.word(overshoot.idxmax()),
         "over": f"{DEG * overshoot.max():.0f}",
-        "tamed": listed(_settled(rows, law, tight) for law in UNBOUNDED if law in table),
-        "untamed": listed(_settled(free, law, 0.0) for law in UNBOUNDED if law in table),
     }
 
 
@@ -62,11 +57,6 @@ def fastest(run: Run) -> str:
         return leaders(measured(run.folder), "bounded", families.word)
     except NoEvidence:
         return "none, for this run does not compare laws"
-
-
-def _settled(rows: pd.DataFrame, law: str, level: float) -> str:
-    own = of(rows, law, level)
-    return f"{families.word(law)} {int(own['good'].sum())} of {len(own)}"
 
 
 def tables(run: Run) -> dict:

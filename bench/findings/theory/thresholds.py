@@ -1,0 +1,81 @@
+"""Closed forms of the thresholds along perturbations, where there is one: near the goal, and at a 180° rotation."""
+
+from __future__ import annotations
+
+import functools
+import math
+
+import tasks
+from bench.contenders.registry import all_contenders
+from bench.contenders.regulators import hybrid, mrp_linearized
+from bench.findings.perturbed import FOLLOWED_RAD
+from bench.findings.theory import robustness_theory
+from bench.findings.theory.isotropic import EQUATIONS
+
+HALF_TURN = "half-turn-noise"
+
+KEEPS = {
+    "hybrid": 2.0 * math.asin(hybrid.DELTA),
+    "late-braking": math.pi / 3.0,
+    "mrp-linearized": 4.0 * math.atan(math.sqrt(mrp_linearized.SWITCH)) - math.pi,
+}
+"""Law with memory -> angle [rad] beyond a 180° rotation up to which it keeps to the direction it has begun in."""
+
+UNBOUNDED = tuple(law for law, equation in EQUATIONS.items() if not equation.is_bounded)
+"""Laws without a greatest command: at a 180° rotation they have none that a tick could hold."""
+
+STEPS = 16
+"""Halvings of the interval that holds the least noise: to 1e-4 of it on a scale of factors."""
+
+TAIL_HORIZON_S = 5.0
+"""Horizon [s] of the episodes under perturbations that last."""
+
+
+@functools.cache
+def least(law: str, kp: float, kv: float) -> float:
+    """Return the least noise [rad] that holds a law at a 180° rotation; 0 if any does, NaN if theory does not say.
+
+    It follows from the law's scalar equation, or from where its memory ends.
+    """
+    if law in KEEPS:
+        return KEEPS[law]
+    has_memory = {one.name for one in all_contenders() if one.regulator.memory}
+    if law not in EQUATIONS or law in UNBOUNDED or law in has_memory:
+        return math.nan
+    held = functools.partial(robustness_theory.is_held, EQUATIONS[law], kp, kv)
+    low, high = math.log(1e-6), math.log(1.0)
+    if held(math.exp(low)):
+        return 0.0
+    for _ in range(STEPS):
+        middle = 0.5 * (low + high)
+        low, high = (low, middle) if held(math.exp(middle)) else (middle, high)
+    return math.exp(high)
+
+
+@functools.cache
+def near_goal(axis: str, grows: bool, kp: float, kv: float) -> float:
+    """Return the level at which the linear loop near the goal leaves its limit, NaN where theory has none.
+
+    The loop is unstable from there, or what noise or a slightly moving goal leaves of the error exceeds FOLLOWED_RAD.
+    """
+    if axis == "delay":
+        return robustness_theory.delay_margin(kp, kv)
+    if axis == "control-rate":
+        return math.nan if grows else robustness_theory.least_rate(kp, kv)
+    unit = tasks.axis(axis).at(1.0)
+    if unit.is_noisy:
+        left = robustness_theory.noisy_rms(kp, kv, unit.period_s, unit.attitude_noise, unit.rate_noise)
+    elif unit.reference_amplitude:
+        left = robustness_theory.tracking_rms(kp, kv, unit.feedforward, unit.period_s, TAIL_HORIZON_S)
+    else:
+        return math.nan
+    return FOLLOWED_RAD / left
+
+
+def beyond_limit(kp: float, limit: float) -> float:
+    """Return the share of uniform starts at rest whose command 2 Kp tan(theta/2) exceeds a limit: (x + sin x)/pi.
+
+    x is the angle to the 180° rotation at which the command of `gibbs` and `paielli-bach` is the limit.
+    """
+    x = 2.0 * math.atan(2.0 * kp / limit)
+    return (x + math.sin(x)) / math.pi
