@@ -11,7 +11,7 @@ import math
 import pandas as pd
 
 from bench.studies.libraries.forms import FORMS
-from bench.studies.libraries.judge import COUNT_RAD, SINGLE_RAD
+from bench.studies.libraries.judge import ASTRAY_RAD, COUNT_RAD, SINGLE_RAD
 from bench.tables.files import read_json
 from bench.tables.schema import RESULTS
 from bench.tables.store import read
@@ -40,8 +40,8 @@ def functions(rows: pd.DataFrame) -> pd.DataFrame:
 
     Columns: library, function, kind, takes, form, precision, thread; the largest error by its own form over `small`
     turns, `drawn` ones, those `near` the half turn, `at` it and at the `pole`; `turn`, the largest error of the turn
-    that an answer stands for; `off`, the largest error against theta k over drawn turns, and `misaligned`, the share of
-    them that it is off the axis; `objections`, the verdict: a dictionary from kind to words, empty if it is right.
+    that an answer stands for; `off`, the largest error against theta k over drawn turns; `objections`, the verdict: a
+    dictionary from kind to words, empty if it is right.
     """
     lines = []
     for (library, function), own in rows.groupby(["library", "function"], sort=False):
@@ -54,7 +54,6 @@ def functions(rows: pd.DataFrame) -> pd.DataFrame:
                 **{name: part["form_error_rad"].max() for name, part in parts(own).items()},
                 "turn": own["turn_error_rad"].max(),
                 "off": uniform["error_rad"].max(),
-                "misaligned": uniform[["astray", "long_way"]].sum().sum() / uniform["turns"].sum(),
                 "objections": objections(own),
             }
         )
@@ -90,13 +89,15 @@ def objections(own: pd.DataFrame) -> dict[str, str]:
         found[NO_NUMBER] = f"no number for {silent} of {own['turns'].sum()} turns"
     if has_axis and at["nought"].sum():
         found[ZERO] = f"zero at {_of(at, 'nought')} 180° rotations"
-    if has_axis and own["long_way"].sum():
-        found[LONG_WAY] = f"the long way round for {_of(own, 'long_way')} rotations"
+    # Next to 180° the other axis is almost the same turn: what is left of it counts as digits.
+    long = own.assign(long_way=own["long_way"].where(own["turn_error_rad"] > ASTRAY_RAD, 0))
+    if has_axis and long["long_way"].sum():
+        found[LONG_WAY] = f"the long way round for {_of(long, 'long_way')} rotations"
     if has_axis and own["astray"].sum():
         found[MISALIGNED] = f"another axis for {_of(own, 'astray')} rotations"
     if own["other_sheet"].sum():
         found[SHEET] = "the long way round for −q"
-    return found if LONG_WAY in found else found | wrong(own if ZERO not in found else own.drop(at.index))
+    return found if LONG_WAY in found else found | wrong(own[own["nought"] == 0] if ZERO in found else own)
 
 
 def wrong(own: pd.DataFrame) -> dict[str, str]:

@@ -91,7 +91,7 @@ def facts(_: Run) -> dict:
         "drawn": int(rows[rows["turn_set"] == "drawn"]["turns"].max()),
         "smallest": power(small["angle_rad"].min()),
         "nearest": power(near["distance_rad"].min()),
-        "least_astray": f"{100 * angles['misaligned'].min():.0f}",
+        "angles_off": f"{angles['off'].min():.1f}",
         "angle_functions": len(angles),
         "angles_exact": len(right(angles)),
         "angles_wrong": names(faulty(angles)),
@@ -144,7 +144,7 @@ def tables(_: Run) -> dict:
     return {
         "tab_to_use": TO_USE(to_use(every)),
         "tab_faults": FAULTS(
-            (asked(one), said(one), power(one.turn), loops.in_words(one), instead(one, every), reported(one.thread))
+            (asked(one), said(one), off(one), loops.in_words(one), instead(one, every), reported(one.thread))
             for one in in_loop(faulty(errors(every)), driven).itertuples()
         ),
         "tab_idioms": IDIOMS(
@@ -152,7 +152,7 @@ def tables(_: Run) -> dict:
             for one in in_loop(faulty(errors(every, "idiom")), driven).itertuples()
         ),
         "tab_weld": WELDED(
-            (one.angle_deg, one.pull_ratio, abs(round(math.sin(math.radians(one.angle_deg)), 15)))
+            (f"{one.angle_deg:g}", one.pull_ratio, abs(round(math.sin(math.radians(one.angle_deg)), 15)))
             for one in pulls().itertuples()
         ),
         "tab_controllers": CONTROLLERS(controllers(every, driven)),
@@ -174,7 +174,7 @@ def tables(_: Run) -> dict:
 def in_loop(some: pd.DataFrame, driven: pd.DataFrame) -> pd.DataFrame:
     """Return lines with their smallest fix, and what a body does that each of them drives."""
     fixes = loops.verdicts()[["library", "function", "replacement"]]
-    return some.merge(fixes, on=["library", "function"]).merge(driven.drop(columns="kind"), on=["library", "function"])
+    return some.merge(fixes, on=["library", "function"]).merge(driven, on=["library", "function", "kind"])
 
 
 def controllers(every: pd.DataFrame, driven: pd.DataFrame) -> list[tuple]:
@@ -224,6 +224,11 @@ def instead(one, every: pd.DataFrame) -> str:
 def said(one) -> str:
     """Return the verdict on a line's function."""
     return "; ".join(one.objections.values()) or loops.RIGHT
+
+
+def off(one) -> str:
+    """Return the largest error of a line's function [rad]; none where only the sign of the quaternion is wrong."""
+    return html.MISSING if set(one.objections) == {answers.SHEET} else power(one.turn)
 
 
 def reported(thread: str) -> str:

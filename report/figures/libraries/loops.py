@@ -32,8 +32,8 @@ def responses() -> pd.DataFrame:
     """A row a function or controller: its starts below 180° and at it.
 
     Columns: library, function, kind, title, error, command; fastest, slowest [s], over all starts below 180°; slope,
-    the stiffness felt over the one set; unsettled, away: of `starts` there; at_180, dead: of the starts at 180° exactly,
-    how many and how many of them never move.
+    the stiffness felt over the one set; unsettled, away: of `starts` there; at_180, dead: of the starts at 180°, how
+    many and how many of them never move.
     """
     lines = []
     for (library, function, kind), own in rows().groupby(["library", "function", "kind"], sort=False):
