@@ -72,7 +72,6 @@ def facts(_: Run) -> dict:
         "idioms_wrong": len(faulty(idioms)),
         "count": power(answers.COUNT_RAD),
         "single_count": power(answers.SINGLE_RAD),
-        "single": int(single.sum()),
         "single_names": ", ".join(dict.fromkeys(good[single]["library"])),
         "sines": len(sines),
         "sine_names": names(sines),
