@@ -132,8 +132,11 @@ def library_columns() -> list[Column]:
             library="who is asked",
             version="of its package",
             function="what is asked, with the factor that makes it theta k near the identity",
+            kind="function: the library offers it; idiom: users write it on functions of the library",
             takes="matrix or quaternion",
             form="what it means to be: a word of bench/studies/libraries/forms.py",
+            precision="double, or single by design of the library",
+            thread="where the fault is known upstream: owner/repository#number; empty if no thread was found",
             turn_set="family of turns: bench/studies/libraries/turns.py",
         ),
         *numbers("rad", "angle of every turn of the set; null if they differ", "angle_rad"),
@@ -141,6 +144,9 @@ def library_columns() -> list[Column]:
         *(Column(name, COUNT, "1", meaning) for name, meaning in counts.items()),
         *numbers("rad", "largest |e - theta k|, theta and k known; null if no answer is a number", "error_rad"),
         *numbers("rad", "largest error against its own closed form; of angles, of the turn rebuilt", "form_error_rad"),
+        *numbers(
+            "rad", "largest angle to the turn that an answer stands for, or excess over the short way", "turn_error_rad"
+        ),
         *numbers("rad", "largest and smallest |e|", "largest_rad", "smallest_rad"),
     ]
 
@@ -160,7 +166,9 @@ def closed_loop_columns() -> list[Column]:
             library="who is asked",
             version="of its package; of a controller that is restated, the commit that was read",
             function="its error, or its controller",
-            kind="function: its error in u = kp e - kv omega; controller: as its users run it; restated: by its source",
+            kind="function or idiom: its error in u = kp e - kv omega; controller: as its users run it; our-loop: "
+            "with their error and gains, in a loop written here; restated: by its source",
+            title="of a controller: what is run, with its gains",
             error="the function that it takes for its error; itself but for controllers",
             command="acceleration or velocity",
             sheet="near: from the quaternion whose scalar is not negative; antipode: from the other one",
@@ -169,6 +177,9 @@ def closed_loop_columns() -> list[Column]:
         *(Column(name, COUNT, "1", meaning) for name, meaning in counts.items()),
         *numbers("s", "settling time of the fastest and of the slowest that settled", "fastest_s", "slowest_s"),
         *numbers("1", "stiffness felt near the goal over the one set; null for controllers", "stiffness_ratio"),
+        *numbers(
+            "1", "acceleration from rest over its slope at 1 deg, where it is no multiple of an error", "pull_ratio"
+        ),
     ]
 
 
@@ -181,7 +192,7 @@ def verdict_columns() -> list[Column]:
         takes="matrix or quaternion",
         convention="what it means by its three numbers, as the audit found",
         faults="names of its faults, with commas between; empty if it has none",
-        replacement="the function of bench/studies/libraries/replacements.py that cures it; empty if it needs none",
+        replacement="the smallest change that cures it, or a function of replacements.py; empty if it needs none",
         replacement_faults="what the audit says of that one",
         fixed="faults that an earlier version had and this one has not",
         fixed_since="that earlier version",

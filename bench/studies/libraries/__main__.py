@@ -5,6 +5,7 @@ environment of its own adds its own.
 """
 
 import argparse
+import datetime
 import platform
 from collections.abc import Iterable
 from importlib.metadata import version
@@ -14,7 +15,7 @@ import pandas as pd
 from bench.provenance import cpu_name
 from bench.studies.libraries.closed_loop import rows_of, rows_of_controller
 from bench.studies.libraries.found import find, version_of
-from bench.studies.libraries.judge import judge
+from bench.studies.libraries.judge import COUNT_RAD, SINGLE_RAD, judge
 from bench.studies.libraries.kept import keep
 from bench.studies.libraries.library import ANGLES, Function, Library
 from bench.studies.libraries.turns import TurnSet, every_set
@@ -48,16 +49,24 @@ def rows(library: Library, sets: tuple[TurnSet, ...]) -> pd.DataFrame:
             "library": library.name,
             "version": version_of(library),
             "function": function.name,
+            "kind": kind_of(function),
             "takes": function.takes,
             "form": function.form,
+            "precision": "single" if library.is_single else "double",
+            "thread": function.thread,
             "turn_set": one.name,
             "angle_rad": one.angle_rad,
             "distance_rad": one.distance_rad,
-            **judge(function, one),
+            **judge(function, one, SINGLE_RAD if library.is_single else COUNT_RAD),
         }
         for function in library.functions
         for one in sets
     )
+
+
+def kind_of(function: Function) -> str:
+    """Return whether the library offers it, or users write it."""
+    return "idiom" if function.is_idiom else "function"
 
 
 def errors(library: Library) -> Iterable[Function]:
@@ -68,14 +77,19 @@ def errors(library: Library) -> Iterable[Function]:
 def closed_loops(library: Library) -> pd.DataFrame:
     """One library's rows of closed_loop.parquet."""
     whose = {"library": library.name, "version": version_of(library)}
-    kind = "restated" if library.is_restated else "function"
     of_functions = [
-        whose | {"function": one.name, "kind": kind, "error": one.name, "command": "acceleration"} | row
+        whose
+        | {"function": one.name, "kind": "restated" if library.is_restated else kind_of(one), "title": ""}
+        | {"error": one.name, "command": "acceleration"}
+        | row
         for one in errors(library)
         for row in rows_of(one)
     ]
     of_controllers = [
-        whose | {"function": one.name, "kind": "controller", "error": one.error, "command": one.command} | row
+        whose
+        | {"function": one.name, "kind": "our-loop" if one.is_our_loop else "controller", "title": one.title}
+        | {"error": one.error, "command": one.command}
+        | row
         for one in library.controllers
         for row in rows_of_controller(one)
     ]
@@ -93,6 +107,8 @@ def origin(library: Library) -> dict:
     """With what a library was asked."""
     return {
         "version": version_of(library),
+        "asked": datetime.datetime.now(datetime.UTC).date().isoformat(),
+        "note": library.note,
         "python": platform.python_version(),
         "numpy": version("numpy"),
         "platform": " ".join((platform.system(), platform.machine(), *platform.libc_ver())).strip(),

@@ -90,7 +90,8 @@ def rows_of(function: Function) -> list[dict[str, Any]]:
         for sheet in (1.0, -1.0) if function.takes == QUATERNION else (1.0,):
             begun = [tuple(sheet * part for part in one) for one in starts(angle_deg)]
             found = [response(accelerated(function, gains.kp, gains.kv, DT_S, one), DT_S) for one in begun]
-            rows.append(_row(angle_deg, "antipode" if sheet < 0.0 else "near", found, stiffness_ratio(function)))
+            sheet_name = "antipode" if sheet < 0.0 else "near"
+            rows.append(_row(angle_deg, sheet_name, found) | {"stiffness_ratio": stiffness_ratio(function)})
     return rows
 
 
@@ -100,11 +101,19 @@ def rows_of_controller(controller: Controller) -> list[dict[str, Any]]:
     rows = []
     for angle_deg in (*ANGLES_DEG, 180.0):
         found = [response(controller.motion(one), controller.dt_s) for one in starts(angle_deg)]
-        rows.append(_row(angle_deg, "near", found, math.nan))
+        rows.append(_row(angle_deg, "near", found) | {"pull_ratio": pull_ratio(controller, angle_deg)})
     return rows
 
 
-def _row(angle_deg: float, sheet: str, found: list[Response], ratio: float) -> dict[str, Any]:
+def pull_ratio(controller: Controller, angle_deg: float) -> float:
+    """Return the acceleration from rest at an angle over its slope at the smallest; NaN where it is not asked for."""
+    if controller.pull is None:
+        return math.nan
+    at, near = (controller.pull(next(starts(angle))) for angle in (angle_deg, min(ANGLES_DEG)))
+    return math.hypot(*at) / math.hypot(*near) * math.radians(min(ANGLES_DEG))
+
+
+def _row(angle_deg: float, sheet: str, found: list[Response]) -> dict[str, Any]:
     times = [one.settling_s for one in found if one.outcome == "settled"]
     outcomes = [one.outcome for one in found]
     return {
@@ -115,7 +124,8 @@ def _row(angle_deg: float, sheet: str, found: list[Response], ratio: float) -> d
         "away": sum(one.goes_away for one in found),
         "fastest_s": min(times, default=math.nan),
         "slowest_s": max(times, default=math.nan),
-        "stiffness_ratio": ratio,
+        "stiffness_ratio": math.nan,
+        "pull_ratio": math.nan,
     }
 
 

@@ -10,10 +10,14 @@ from bench.audit.forms import FORMS as SIZED
 
 
 class Form(NamedTuple):
-    """A form by its closed form: size(theta), along k; or for angles, matrix(e), the turn that they stand for."""
+    """A form by its closed form: size(theta), along k; or for angles, matrix(e), the turn that they stand for.
+
+    angles(length) -> the angles in [0, 2 pi) that an answer of this length stands for.
+    """
 
     title: str
     size: Callable | None = None
+    angles: Callable | None = None
     matrix: Callable | None = None
 
 
@@ -31,4 +35,12 @@ def _z_y_x(e) -> np.ndarray:
     return _about(2, e[2]) @ _about(1, e[1]) @ _about(0, e[0])
 
 
-FORMS = {name: Form(*one) for name, one in SIZED.items()} | {"z-y-x": Form("Z-Y-X angles", matrix=_z_y_x)}
+ANGLES_OF = {
+    "rotation-vector": lambda length: (length,),
+    "sine-of-half": lambda length: (2.0 * math.asin(min(1.0, 0.5 * length)),),
+    "sine": lambda length: (math.asin(min(1.0, length)), math.pi - math.asin(min(1.0, length))),
+    "mrp": lambda length: (4.0 * math.atan(0.25 * length),),
+}
+FORMS = {name: Form(*SIZED[name], angles) for name, angles in ANGLES_OF.items()} | {
+    "z-y-x": Form("Z-Y-X angles", matrix=_z_y_x)
+}

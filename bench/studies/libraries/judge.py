@@ -13,6 +13,10 @@ from bench.studies.libraries.forms import FORMS
 from bench.studies.libraries.library import QUATERNION, Function, answer, quiet
 from bench.studies.libraries.turns import Turn, TurnSet
 
+COUNT_RAD = 2.0 * math.pi / 2**24
+"""An error below this is treated as zero: one count of an encoder of 24 bits, 3.7e-7 rad."""
+SINGLE_RAD = 4.0 * 2.0**-22
+"""The same for a library of single precision: four units in the last place of pi, 9.5e-7 rad."""
 NOUGHT = 1e-6
 """An answer smaller than this times the angle is none: six decades below what is asked for."""
 ASTRAY_RAD = 0.1
@@ -25,26 +29,28 @@ class Answer(NamedTuple):
     kind: str
     error_rad: float = math.nan
     form_error_rad: float = math.nan
+    turn_error_rad: float = math.nan
     size_rad: float = math.nan
 
 
 @quiet
-def judge(function: Function, turns: TurnSet) -> dict[str, Any]:
+def judge(function: Function, turns: TurnSet, tolerance: float = COUNT_RAD) -> dict[str, Any]:
     """One row: the counts and the worst of a set.
 
     Returns: how many turns, how many of them failed in each of the ways of KINDS, of how many the negative quaternion
-    is answered otherwise (`other_sheet`), the largest error, the largest error of its own form, the largest and the
-    smallest answer.
+    is answered otherwise (`other_sheet`), the largest error, that of its own form and that of the turn it stands for,
+    the largest and the smallest answer. An answer whose turn is right to the tolerance [rad] is usable.
     """
     is_half_turn = turns.distance_rad == 0.0
-    answers = [ask(function, one, is_half_turn) for one in turns.turns]
+    answers = [ask(function, one, is_half_turn, tolerance) for one in turns.turns]
     kinds = [answer.kind for answer in answers]
     return {
         "turns": len(answers),
         **{kind.replace("-", "_"): kinds.count(kind) for kind in KINDS},
-        "other_sheet": sum(is_other_sheet(function, one, is_half_turn) for one in turns.turns),
+        "other_sheet": sum(is_other_sheet(function, one, is_half_turn, tolerance) for one in turns.turns),
         "error_rad": largest(answer.error_rad for answer in answers),
         "form_error_rad": largest(answer.form_error_rad for answer in answers),
+        "turn_error_rad": largest(answer.turn_error_rad for answer in answers),
         "largest_rad": largest(answer.size_rad for answer in answers),
         "smallest_rad": -largest(-answer.size_rad for answer in answers),
     }
@@ -54,7 +60,7 @@ KINDS = ("raised", "not-finite", "nought", "long-way", "astray")
 """How an answer can fail to point the short way along the axis; else it is `usable`."""
 
 
-def ask(function: Function, turn: Turn, is_half_turn: bool) -> Answer:
+def ask(function: Function, turn: Turn, is_half_turn: bool, tolerance: float) -> Answer:
     """What a function says of one turn."""
     try:
         e = said(function, turn)
@@ -65,7 +71,10 @@ def ask(function: Function, turn: Turn, is_half_turn: bool) -> Answer:
     form, size = FORMS[function.form], float(np.linalg.norm(e))
     axis = -turn.axis if is_half_turn and e @ turn.axis < 0.0 else turn.axis
     apart = math.atan2(float(np.linalg.norm(np.cross(axis, e))), float(axis @ e))
-    if size <= NOUGHT * turn.angle:
+    off = turn_error(form, e, turn)
+    if off <= tolerance:
+        kind = "usable"
+    elif size <= NOUGHT * turn.angle:
         kind = "nought"
     elif apart > math.pi - ASTRAY_RAD:
         kind = "long-way"
@@ -73,7 +82,7 @@ def ask(function: Function, turn: Turn, is_half_turn: bool) -> Answer:
         kind = "astray"
     else:
         kind = "usable"
-    return Answer(kind, gap(e, turn.angle * axis), form_error(form, e, turn, axis), size)
+    return Answer(kind, gap(e, turn.angle * axis), form_error(form, e, turn, axis), off, size)
 
 
 def said(function: Function, turn: Turn, sign: float = 1.0) -> np.ndarray:
@@ -89,13 +98,33 @@ def form_error(form, e: np.ndarray, turn: Turn, axis: np.ndarray) -> float:
     return 2.0 * math.asin(min(1.0, float(np.linalg.norm(form.matrix(e) - turn.R)) / math.sqrt(8.0)))
 
 
-def is_other_sheet(function: Function, turn: Turn, is_half_turn: bool) -> bool:
-    """Whether -q, the same turn, has an answer that differs by more than a thousandth of the angle."""
+def turn_error(form, e: np.ndarray, turn: Turn) -> float:
+    """Return the angle from the turn that e stands for to the one asked, or how much longer e is than the short way.
+
+    Next to 180° the axis k and -k stand for almost one turn, so that this is small where a change of sign does nothing.
+    """
+    if form.matrix is not None:
+        return form_error(form, e, turn, turn.axis)
+    length = float(np.linalg.norm(e))
+    if length == 0.0:
+        return turn.angle
+    return min(max(_apart(a, e / length, turn), 2.0 * (a - math.pi)) for a in form.angles(length))
+
+
+def _apart(angle: float, axis: np.ndarray, turn: Turn) -> float:
+    q = np.array((math.cos(0.5 * angle), *(math.sin(0.5 * angle) * axis)))
+    return 4.0 * math.asin(min(1.0, 0.5 * min(gap(q, turn.quat_wxyz), gap(q, -turn.quat_wxyz))))
+
+
+def is_other_sheet(function: Function, turn: Turn, is_half_turn: bool, tolerance: float) -> bool:
+    """Whether -q, the same turn, has a wrong answer that differs by more than a thousandth of the angle."""
     if function.takes != QUATERNION:
         return False
     try:
         e, other = said(function, turn), said(function, turn, -1.0)
     except Exception:  # counted as raised already
+        return False
+    if turn_error(FORMS[function.form], other, turn) <= tolerance:
         return False
     if is_half_turn and e @ other < 0.0:
         other = -other

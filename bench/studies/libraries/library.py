@@ -22,20 +22,28 @@ class Function(NamedTuple):
     call(turn) -> three numbers: of a 3 x 3 array if it takes a matrix, else of a unit quaternion (w, x, y, z). Scaled
     so that near the identity they are theta k; angles stand as those about x, y and z.
     form: what the three numbers are, a word of `forms.FORMS`.
+    is_idiom: what users write on functions of the library, none of which promises an orientation error.
+    fix: the smallest change that cures its fault, where the library has one or its source needs one.
+    thread: where the fault is known upstream, as owner/repository#number.
     """
 
     name: str
     takes: str
     call: Callable
     form: str = "rotation-vector"
+    is_idiom: bool = False
+    fix: str = ""
+    thread: str = ""
 
 
 class Controller(NamedTuple):
     """A controller as its users run it, with its own plant or command.
 
     motion(quat_wxyz of T) -> what is left to go, T, as a quaternion after every tick of dt_s, the start first.
-    error: the function of its library that it takes for the error, by name.
+    error: the function of its library that it takes for the error, by name; empty if it has none of its own.
     command: what it commands, `acceleration` or `velocity`; title: what is run, with its gains.
+    pull(quat_wxyz of T) -> its acceleration from rest, where that is no multiple of the error.
+    is_our_loop: only the error is theirs; the law around it is written here.
     """
 
     name: str
@@ -44,13 +52,16 @@ class Controller(NamedTuple):
     title: str
     dt_s: float
     motion: Callable[[tuple], Iterator[tuple]]
+    pull: Callable[[tuple], np.ndarray] | None = None
+    is_our_loop: bool = False
 
 
 class Library(NamedTuple):
     """A library by the name that its package is installed under, and what is asked of it.
 
     is_debian: the package is one of Debian's, compiled here. is_restated: nothing of theirs runs; what their source
-    says is written anew, and `package` is where it stands.
+    says is written anew, and `package` is where it stands. is_single: it computes in single precision by design.
+    note: what a reader of its version should know.
     """
 
     name: str
@@ -59,6 +70,8 @@ class Library(NamedTuple):
     controllers: tuple[Controller, ...] = ()
     is_debian: bool = False
     is_restated: bool = False
+    is_single: bool = False
+    note: str = ""
 
 
 def answer(function: Function, value: np.ndarray) -> np.ndarray:

@@ -8,7 +8,7 @@ import numpy as np
 
 from bench.audit import audit
 from bench.audit.forms import FORMS
-from bench.studies.libraries.library import MATRIX, Function, answer, quiet
+from bench.studies.libraries.library import MATRIX, QUATERNION, Function, answer, quiet
 from bench.studies.libraries.replacements import REPLACEMENTS
 
 if TYPE_CHECKING:
@@ -44,11 +44,23 @@ def said(convention: Convention) -> str:
 def verdict(function: Function) -> dict[str, str]:
     """Convention, faults and replacement of a function, as columns of verdicts.parquet."""
     found = report(function)
-    replacement = Function("", function.takes, REPLACEMENTS[function.takes]) if found.faults else None
+    name, faults = smallest_fix(function) if found.faults else ("", ())
     return {
         "takes": function.takes,
         "convention": said(found.convention) if found.convention else "",
         "faults": ", ".join(found.faults),
-        "replacement": replacement.call.__name__ if replacement else "",
-        "replacement_faults": ", ".join(report(replacement).faults) if replacement else "",
+        "replacement": name,
+        "replacement_faults": ", ".join(faults),
     }
+
+
+def smallest_fix(function: Function) -> tuple[str, tuple[str, ...]]:
+    """Return the smallest change that cures a function, the library's own first, and the faults that remain."""
+    if function.fix:
+        return function.fix, ()
+    if function.takes == QUATERNION:
+        other = function._replace(call=lambda q: function.call(-q if q[0] < 0.0 else q))
+        if not report(other).faults:
+            return "`-q` where w < 0, before it", ()
+    replacement = REPLACEMENTS[function.takes]
+    return f"`{replacement.__name__}`", report(Function("", function.takes, replacement)).faults

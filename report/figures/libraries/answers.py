@@ -11,6 +11,7 @@ import math
 import pandas as pd
 
 from bench.studies.libraries.forms import FORMS
+from bench.studies.libraries.judge import ASTRAY_RAD, COUNT_RAD, SINGLE_RAD
 from bench.tables.files import read_json
 from bench.tables.schema import RESULTS
 from bench.tables.store import read
@@ -18,11 +19,6 @@ from report.figures.kit.spelling import power
 
 FOLDER = RESULTS / "libraries"
 VECTOR, SINE, ANGLES = "rotation-vector", "sine", "z-y-x"
-
-COUNT_RAD = 2.0 * math.pi / 2**24
-"""An error below this is none to a robot: one count of an encoder of 24 bits, 3.7e-7 rad."""
-UNDECIDED_RAD = 1e-7
-"""Nearer to the half turn than this, the long way round is longer than the short one by less than a count."""
 
 NO_NUMBER, ZERO, LONG_WAY, MISALIGNED, SHEET, DIGITS = "no-number", "zero", "long-way", "misaligned", "sheet", "digits"
 
@@ -42,9 +38,10 @@ def origins() -> dict[str, dict[str, str]]:
 def functions(rows: pd.DataFrame) -> pd.DataFrame:
     """One line a function, in the table's order.
 
-    Columns: library, function, takes, form; the largest error by its own form over `small` turns, `drawn` ones, those
-    `near` the half turn, `at` it and at the `pole`; `off`, the largest error against theta k over drawn turns, and
-    `misaligned`, the share of them that it is off the axis; `objections`, a dictionary from kind to words.
+    Columns: library, function, kind, takes, form, precision, thread; the largest error by its own form over `small`
+    turns, `drawn` ones, those `near` the half turn, `at` it and at the `pole`; `turn`, the largest error of the turn
+    that an answer stands for; `off`, the largest error against theta k over drawn turns; `objections`, the verdict: a
+    dictionary from kind to words, empty if it is right.
     """
     lines = []
     for (library, function), own in rows.groupby(["library", "function"], sort=False):
@@ -53,11 +50,10 @@ def functions(rows: pd.DataFrame) -> pd.DataFrame:
             {
                 "library": library,
                 "function": function,
-                "takes": first["takes"],
-                "form": first["form"],
+                **first[["kind", "takes", "form", "precision", "thread"]],
                 **{name: part["form_error_rad"].max() for name, part in parts(own).items()},
+                "turn": own["turn_error_rad"].max(),
                 "off": uniform["error_rad"].max(),
-                "misaligned": uniform[["astray", "long_way"]].sum().sum() / uniform["turns"].sum(),
                 "objections": objections(own),
             }
         )
@@ -81,46 +77,44 @@ def drawn(own: pd.DataFrame) -> pd.DataFrame:
 
 
 def objections(own: pd.DataFrame) -> dict[str, str]:
-    """What is wrong with a function: kind to words with numbers, empty if nothing is.
+    """Return what is wrong with a function: kind to words with numbers, empty if nothing is.
 
-    Angles are judged by the turn that they stand for alone; that they are no error along the axis is no fault of the
-    function.
+    Every function is judged by the turn that its answer stands for; that angles are no error along the axis is no fault
+    of the function. This is the only verdict on a function that the page has.
     """
     has_axis, at = FORMS[own["form"].iloc[0]].size is not None, parts(own)["at"]
-    clear = own[~(own["distance_rad"] <= UNDECIDED_RAD)] if has_axis else own
     found = {}
     silent = own["raised"].sum() + own["not_finite"].sum()
     if silent:
         found[NO_NUMBER] = f"no number for {silent} of {own['turns'].sum()} turns"
     if has_axis and at["nought"].sum():
-        found[ZERO] = f"zero at {_of(at, 'nought')} half turns"
-    if has_axis and clear["long_way"].sum():
-        found[LONG_WAY] = f"the long way round for {_of(clear, 'long_way')} turns"
+        found[ZERO] = f"zero at {_of(at, 'nought')} 180° rotations"
+    # Next to 180° the other axis is almost the same turn: what is left of it counts as digits.
+    long = own.assign(long_way=own["long_way"].where(own["turn_error_rad"] > ASTRAY_RAD, 0))
+    if has_axis and long["long_way"].sum():
+        found[LONG_WAY] = f"the long way round for {_of(long, 'long_way')} rotations"
     if has_axis and own["astray"].sum():
-        found[MISALIGNED] = f"another axis for {_of(own, 'astray')} turns"
+        found[MISALIGNED] = f"another axis for {_of(own, 'astray')} rotations"
     if own["other_sheet"].sum():
         found[SHEET] = "the long way round for −q"
-    if LONG_WAY not in found:
-        found |= wrong(clear)
-    return found
+    return found if LONG_WAY in found else found | wrong(own[own["nought"] == 0] if ZERO in found else own)
 
 
-def wrong(clear: pd.DataFrame) -> dict[str, str]:
-    """Where the error by its own form is largest, and how large; nothing if that is less than a count."""
-    usable = clear[(clear["nought"] < clear["turns"]) & clear["form_error_rad"].notna()]
-    worst = usable.loc[usable["form_error_rad"].idxmax()]
-    if worst["form_error_rad"] <= COUNT_RAD:
+def wrong(own: pd.DataFrame) -> dict[str, str]:
+    """Return where the error is largest, and how large; nothing if that is less than the library's precision."""
+    worst = own.loc[own["turn_error_rad"].idxmax()]
+    if worst["turn_error_rad"] <= (SINGLE_RAD if worst["precision"] == "single" else COUNT_RAD):
         return {}
-    return {DIGITS: f"off by {power(worst['form_error_rad'])} rad or more {where(worst)}"}
+    return {DIGITS: f"off by {power(worst['turn_error_rad'])} rad {where(worst)}"}
 
 
 def where(row: pd.Series) -> str:
-    """A set of turns in words."""
+    """Return a set of turns in words."""
     if not math.isnan(row["angle_rad"]):
-        return f"on turns of {power(row['angle_rad'])} rad"
+        return f"for rotations of {power(row['angle_rad'])} rad"
     if math.isnan(row["distance_rad"]):
-        return "at the poles" if row["turn_set"] == "pole" else "on drawn turns"
-    return f"at {power(row['distance_rad'])} rad before the half turn" if row["distance_rad"] else "at half turns"
+        return "at the poles" if row["turn_set"] == "pole" else "for drawn rotations"
+    return f"at {power(row['distance_rad'])} rad before 180°" if row["distance_rad"] else "at 180°"
 
 
 def _of(rows: pd.DataFrame, name: str) -> str:

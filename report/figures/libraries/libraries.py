@@ -1,8 +1,9 @@
-"""The page on other libraries: which functions are right, which are not and where, and Euler angles."""
+"""The page on other libraries: which functions are right, which are not and where, idioms, and Euler angles."""
 
 from __future__ import annotations
 
 import functools
+import math
 
 import pandas as pd
 
@@ -14,50 +15,64 @@ from report.figures.kit.tables import Table
 from report.figures.libraries import answers, loops
 
 EVERYWHERE = ["small", "drawn", "near", "at", "pole"]
+HOST = "https://github.com"
+WELD = "<weld>, by default"
 
 TO_USE = Table("Library | From a matrix | From a quaternion")
-FAULTS = Table("Function | But")
-ERRORS = Table("Function | Convention | Verdict | Largest error | Dead at 180° | Settles | Away | Instead")
-CONTROLLERS = Table("Controller | By | Convention | Verdict | Dead at 180° | Settles | Away")
-AS_ANGLES = Table("Function | Drawn | Poles | Half turns | As an error")
-VERSIONS = Table("Library | Version | Python | numpy")
+FAULTS = Table("Function | Fault | Off by [rad] | In closed loop | Smallest fix | Reported")
+IDIOMS = Table("Idiom | Fault | In closed loop | Write instead")
+CONTROLLERS = Table("Controller | What runs | By | Its error | In closed loop")
+WELDED = Table("Angle [°] | Weld | sin θ")
+AS_ANGLES = Table("Function | Drawn | Poles | 180° rotations | As an error | Reported")
+VERSIONS = Table("Library | Version | Asked on | Python | numpy | Note")
 
 TAKES = ("matrix", "quaternion")
 COMMANDS = {"velocity": "ω", "acceleration": "u"}
+RESTATED = "restated from its source, gains of the suite"
 
 
 @functools.cache
 def lines() -> pd.DataFrame:
-    """A line a function."""
+    """Return a line a function, idioms and angles among them."""
     return answers.functions(answers.table())
 
 
+def errors(every: pd.DataFrame, kind: str = "function") -> pd.DataFrame:
+    """Return the functions, or the idioms, that are errors along an axis."""
+    return every[every["form"].ne(answers.ANGLES) & every["kind"].eq(kind)]
+
+
 def right(every: pd.DataFrame) -> pd.DataFrame:
-    """The functions against which nothing is said, with their largest error anywhere."""
-    kept = every[every["objections"].map(len).eq(0) & every["form"].ne(answers.ANGLES)]
-    return kept.assign(largest=kept[EVERYWHERE].max(axis=1))
+    """Return those against which nothing is said."""
+    return every[every["objections"].map(len).eq(0)]
 
 
 def faulty(every: pd.DataFrame) -> pd.DataFrame:
-    """Those against which something is, angles apart."""
-    return every[every["objections"].map(len).gt(0) & every["form"].ne(answers.ANGLES)]
+    """Return those against which something is said."""
+    return every[every["objections"].map(len).gt(0)]
 
 
 def facts(_: Run) -> dict:
-    """Every number and list of names that the text takes; ours are not counted among other libraries'."""
+    """Return every number and list of names that the text takes; ours are not counted among other libraries'."""
     rows, every = answers.table(), lines()
-    others = every[(every["library"] != OURS) & (every["form"] != answers.ANGLES)]
-    kinds = others["objections"].map(set)
-    dead = others[kinds.map(lambda found: answers.ZERO in found) & (others["form"] != answers.SINE)]
-    sheets = others[kinds.map(lambda found: answers.SHEET in found)]
-    sines, angles = others[others["form"] == answers.SINE], every[every["form"] == answers.ANGLES]
-    exact = angles["objections"].map(len) == 0
+    others = every[every["library"] != OURS]
+    functions, idioms = errors(others), errors(others, "idiom")
+    kinds = functions["objections"].map(set)
+    dead = functions[kinds.map(lambda found: answers.ZERO in found) & (functions["form"] != answers.SINE)]
+    sheets = functions[kinds.map(lambda found: answers.SHEET in found)]
+    sines, angles = functions[functions["form"] == answers.SINE], every[every["form"] == answers.ANGLES]
     small, near = (rows[rows[name] > 0.0] for name in ("angle_rad", "distance_rad"))
+    good = right(functions)
+    single = good["precision"] == "single"
     return {
         "libraries": counts()["libraries"].number,
-        "functions": len(others),
-        "right": len(right(others)),
+        "functions": len(functions),
+        "right": len(good),
+        "idioms": len(idioms),
+        "idioms_wrong": len(faulty(idioms)),
         "count": power(answers.COUNT_RAD),
+        "single_count": power(answers.SINGLE_RAD),
+        "single_names": ", ".join(dict.fromkeys(good[single]["library"])),
         "sines": len(sines),
         "sine_names": names(sines),
         "sine_error": power(sines[EVERYWHERE].to_numpy().max()),
@@ -68,136 +83,159 @@ def facts(_: Run) -> dict:
         "digits": int(
             kinds.map(lambda found: bool(found & {answers.DIGITS, answers.MISALIGNED, answers.NO_NUMBER})).sum()
         ),
-        "long_names": names(others[kinds.map(lambda found: found == {answers.LONG_WAY})]),
-        "worst_right": power(right(others)["largest"].max()),
+        "long_names": names(functions[kinds.map(lambda found: answers.LONG_WAY in found)]),
+        "worst_right": power(good[~single]["turn"].max()),
+        "worst_single": power(good[single]["turn"].max()),
         "axes": int(near["turns"].max()),
         "drawn": int(rows[rows["turn_set"] == "drawn"]["turns"].max()),
         "smallest": power(small["angle_rad"].min()),
         "nearest": power(near["distance_rad"].min()),
-        "undecided": power(answers.UNDECIDED_RAD),
-        "least_astray": f"{100 * angles['misaligned'].min():.0f}",
+        "angles_off": f"{angles['off'].min():.1f}",
         "angle_functions": len(angles),
-        "angles_exact": int(exact.sum()),
-        "angles_wrong": names(angles[~exact]),
+        "angles_exact": len(right(angles)),
+        "angles_wrong": names(faulty(angles)),
+        "known": int(faulty(functions)["thread"].ne("").sum()),
         **loop_facts(),
     }
 
 
 def loop_facts() -> dict:
-    """What the text says of closed loops: how many are run, and how many of them stay at 180° or turn away."""
-    lines = loops.responses()[loops.responses()["library"] != OURS]
-    functions, run = (lines[lines["kind"] == kind] for kind in ("function", "controller"))
-    dead = functions[functions["dead"] == functions["at_180"]]
-    fixed = loops.verdicts()[loops.verdicts()["fixed"] != ""]
+    """Return what the text says of closed loops: how many are run, how many stay at 180° or turn away; the weld's."""
+    every = loops.responses()[loops.responses()["library"] != OURS]
+    functions, run, ours = (every[every["kind"] == kind] for kind in ("function", "controller", "our-loop"))
+    (weld,) = run[run["function"] == WELD].itertuples()
     return {
         "loops": len(functions),
         "controllers": len(run),
-        "loops_dead": len(dead),
+        "our_loop": named_loops(ours),
+        "our_loop_input": "; ".join(ours["title"].str.rpartition("; ")[2]),
+        "loops_dead": int((functions["dead"] == functions["at_180"]).sum()),
         "loops_away": int((functions["away"] > 0).sum()),
         "axes_180": int(functions["at_180"].min()),
-        "replaced": int((loops.verdicts()["replacement"] != "").sum()),
-        "fixed": len(fixed),
+        "fixed": int((loops.verdicts()["fixed"] != "").sum()),
+        "weld_settings": weld.title,
+        "weld_loop": loops.in_words(weld),
+        "weld_most": f"{pulls()['pull_ratio'].max():.2g}",
     }
 
 
+def pulls() -> pd.DataFrame:
+    """Return the acceleration from rest of the weld over its slope, a row an angle."""
+    rows = loops.rows()
+    return rows[rows["function"] == WELD].sort_values("angle_deg")
+
+
 def names(some: pd.DataFrame) -> str:
-    """`library's function, function; library's ...` as words, or none."""
+    """Return `library's function, function; library's ...` as words, or none."""
     by_library = some.groupby("library", sort=False)["function"].agg(lambda found: ", ".join(dict.fromkeys(found)))
     return "; ".join(f"{library}: {found}" for library, found in by_library.items()) or "none"
 
 
+def named_loops(some: pd.DataFrame) -> str:
+    """Return controllers as code."""
+    return ", ".join(asked(one) for one in some.itertuples())
+
+
 def tables(_: Run) -> dict:
-    """What to use, what not, largest errors by set of turns [rad], angles, versions."""
-    every = lines()
-    is_angles = every["form"] == answers.ANGLES
+    """Return what to use, what fails and its fix, idioms, the weld, controllers, angles and versions."""
+    every, driven = lines(), loops.responses()
+    angles = every[every["form"] == answers.ANGLES]
     return {
         "tab_to_use": TO_USE(to_use(every)),
-        "tab_faults": FAULTS((asked(one), "; ".join(one.objections.values())) for one in faulty(every).itertuples()),
-        "tab_errors": ERRORS(in_closed_loop(every[~is_angles])),
-        "tab_controllers": CONTROLLERS(controllers()),
+        "tab_faults": FAULTS(
+            (asked(one), said(one), off(one), loops.in_words(one), instead(one, every), reported(one.thread))
+            for one in in_loop(faulty(errors(every)), driven).itertuples()
+        ),
+        "tab_idioms": IDIOMS(
+            (asked(one), said(one), loops.in_words(one), one.replacement)
+            for one in in_loop(faulty(errors(every, "idiom")), driven).itertuples()
+        ),
+        "tab_weld": WELDED(
+            (f"{one.angle_deg:g}", one.pull_ratio, abs(round(math.sin(math.radians(one.angle_deg)), 15)))
+            for one in pulls().itertuples()
+        ),
+        "tab_controllers": CONTROLLERS(controllers(every, driven)),
         "tab_angles": AS_ANGLES(
-            (asked(one), *map(power, (one.drawn, one.pole, max(one.near, one.at))), f"{one.off:.1f}")
-            for one in every[is_angles].itertuples()
+            (
+                *(asked(one), *map(power, (one.drawn, one.pole, max(one.near, one.at))), f"{one.off:.1f}"),
+                reported(one.thread) if one.objections else html.MISSING,
+            )
+            for one in angles.itertuples()
         ),
         "tab_versions": VERSIONS(
-            (f"`{name}`", one["version"], one["python"], one["numpy"])
+            (f"`{name}`", one["version"], one["asked"], one["python"], one["numpy"], one["note"] or html.MISSING)
             for name, one in sorted(answers.origins().items())
             if name != OURS
         ),
     }
 
 
-def in_closed_loop(every: pd.DataFrame) -> list[tuple]:
-    """A row a function: what it means, what the audit finds, and what a body does that is driven by it."""
-    both = every.merge(loops.verdicts(), on=["library", "function", "takes"]).merge(
-        loops.responses()[loops.responses()["kind"] == "function"], on=["library", "function"]
-    )
-    return [
-        (
-            asked(one),
-            one.convention,
-            one.faults or loops.RIGHT,
-            power(max(one.small, one.drawn, one.near, one.at)),
-            loops.dead(one),
-            loops.settling(one),
-            loops.away(one),
-            replaced(one.replacement),
-        )
-        for one in both.itertuples()
-    ]
+def in_loop(some: pd.DataFrame, driven: pd.DataFrame) -> pd.DataFrame:
+    """Return lines with their smallest fix, and what a body does that each of them drives."""
+    fixes = loops.verdicts()[["library", "function", "replacement"]]
+    return some.merge(fixes, on=["library", "function"]).merge(driven, on=["library", "function", "kind"])
 
 
-def controllers() -> list[tuple]:
-    """A row a controller: those that are run, and those that are restated from their source."""
+def controllers(every: pd.DataFrame, driven: pd.DataFrame) -> list[tuple]:
+    """Return a row a controller: those that are run, and those that are restated from their source."""
+    theirs = driven[~driven["kind"].isin(["function", "idiom"])]
+    checked = theirs.merge(loops.verdicts()[["library", "function", "faults"]], on=["library", "function"], how="left")
+    verdict = {(one.library, one.function): said(one) for one in every.itertuples()}
     return [
         (
-            asked(one) if one.kind == "controller" else one.library,
+            one.library if one.kind == "restated" else asked(one),
+            one.title or RESTATED,
             COMMANDS[one.command],
-            one.convention or "Z-Y-X angles",
-            loops.verdict(one) if one.kind == "controller" else one.faults or loops.RIGHT,
-            loops.dead(one),
-            loops.settling(one),
-            loops.away(one),
+            loops.check_in_words(one)
+            if one.kind == "restated"
+            else verdict.get((one.library, one.error), html.MISSING),
+            loops.in_words(one),
         )
-        for one in with_their_errors(loops.responses()).itertuples()
+        for one in checked.itertuples()
     ]
-
-
-def with_their_errors(lines: pd.DataFrame) -> pd.DataFrame:
-    """Controllers' lines, with what the check says of the errors that they take; of angles it is not asked: empty."""
-    theirs = lines[lines["kind"] != "function"]
-    said = loops.verdicts()[["library", "function", "takes", "convention", "faults", "replacement"]]
-    angles = lines_of_angles().reindex(columns=said.columns, fill_value="")
-    said = pd.concat([said, angles]).rename(columns={"function": "error"})
-    return theirs.merge(said, on=["library", "error"], validate="many_to_one")
-
-
-def lines_of_angles() -> pd.DataFrame:
-    """A line a function that returns angles."""
-    return lines()[lines()["form"] == answers.ANGLES]
 
 
 def to_use(every: pd.DataFrame) -> list[tuple]:
-    """A row a library: its functions that are right and give the rotation vector, by what they take."""
-    kept = right(every)
+    """Return a row a library: its functions that are right and give the rotation vector, by what they take."""
+    kept = right(errors(every))
     kept = kept[kept["form"] == answers.VECTOR]
     return [
         (f"`{library}`", *(_named(kept[(kept["library"] == library) & (kept["takes"] == what)]) for what in TAKES))
-        for library in dict.fromkeys(every["library"])
+        for library in dict.fromkeys(kept["library"])
         if library != OURS
     ]
 
 
 def _named(own: pd.DataFrame) -> str:
-    """Names as code, without what the column says already."""
+    """Return names as code, without what the column says already."""
     return "<br>".join(f"`{name.partition(', of a ')[0]}`" for name in own["function"]) or html.MISSING
 
 
-def replaced(by: str) -> str:
-    """A replacement as code, or that none is needed."""
-    return f"`{by}`" if by else html.MISSING
+def instead(one, every: pd.DataFrame) -> str:
+    """Return the smallest fix: a change of a line, else a right function of the same library, else one of ours."""
+    if not one.replacement.startswith("`of_") and one.replacement:
+        return one.replacement
+    kept = right(errors(every))
+    alike = kept[(kept["library"] == one.library) & (kept["takes"] == one.takes) & (kept["form"] == answers.VECTOR)]
+    return f"`{alike['function'].iloc[0]}`" if len(alike) else f"`of_{one.takes}`"
+
+
+def said(one) -> str:
+    """Return the verdict on a line's function."""
+    return "; ".join(one.objections.values()) or loops.RIGHT
+
+
+def off(one) -> str:
+    """Return the largest error of a line's function [rad]; none where only the sign of the quaternion is wrong."""
+    return html.MISSING if set(one.objections) == {answers.SHEET} else power(one.turn)
+
+
+def reported(thread: str) -> str:
+    """Return a thread upstream, owner/repository#number, as a link."""
+    repository, _, number = thread.partition("#")
+    return f"[#{number}]({HOST}/{repository}/issues/{number})" if thread else "not found"
 
 
 def asked(one) -> str:
-    """A line's library and function."""
+    """Return a line's library and function."""
     return f"{one.library} `{one.function}`"

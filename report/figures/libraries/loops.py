@@ -10,7 +10,6 @@ import functools
 import pandas as pd
 
 from bench.tables.store import read
-from report.figures.kit import html
 from report.figures.libraries.answers import FOLDER
 
 RIGHT = "right"
@@ -23,23 +22,29 @@ def verdicts() -> pd.DataFrame:
 
 
 @functools.cache
+def rows() -> pd.DataFrame:
+    """Every row of closed_loop.parquet, words as words."""
+    return _words(read(FOLDER, "closed_loop"))
+
+
+@functools.cache
 def responses() -> pd.DataFrame:
     """A row a function or controller: its starts below 180° and at it.
 
-    Columns: library, function, kind, error, command; fastest, slowest [s], over all starts below 180°; unsettled,
-    away: of `starts` there; at_180, dead: of the starts at 180° exactly, how many and how many of them never move.
+    Columns: library, function, kind, title, error, command; fastest, slowest [s], over all starts below 180°; slope,
+    the stiffness felt over the one set; unsettled, away: of `starts` there; at_180, dead: of the starts at 180°, how
+    many and how many of them never move.
     """
-    rows = _words(read(FOLDER, "closed_loop"))
     lines = []
-    for (library, function, kind), own in rows.groupby(["library", "function", "kind"], sort=False):
+    for (library, function, kind), own in rows().groupby(["library", "function", "kind"], sort=False):
         below, at = own[own["angle_deg"] < 180.0], own[own["angle_deg"] == 180.0]
         lines.append(
             {
                 "library": library,
                 "function": function,
                 "kind": kind,
-                "error": own["error"].iloc[0],
-                "command": own["command"].iloc[0],
+                **own.iloc[0][["title", "error", "command"]],
+                "slope": own["stiffness_ratio"].iloc[0],
                 "fastest": below["fastest_s"].min(),
                 "slowest": own["slowest_s"].max(),
                 "starts": below["starts"].sum(),
@@ -56,31 +61,25 @@ def _words(table: pd.DataFrame) -> pd.DataFrame:
     return table.astype(dict.fromkeys(table.select_dtypes("category"), str))
 
 
-def settling(one) -> str:
-    """Of a line: fastest to slowest [s]."""
-    if pd.isna(one.fastest):
-        return "never"
-    ends = dict.fromkeys((f"{one.fastest:.3g}", f"{one.slowest:.3g}"))
-    never = f"; never from {one.unsettled} of {one.starts}" if one.unsettled else ""
-    return " to ".join(ends) + never
+def in_words(one) -> str:
+    """Return what a body does that a line's function or controller drives: stuck, turning away, settling times."""
+    words = []
+    if one.dead:
+        words.append(f"stuck at {'every' if one.dead == one.at_180 else f'{one.dead} of {one.at_180}'} 180° rotation")
+    if one.away:
+        words.append(f"turns away first from {one.away} of {one.starts}")
+    if one.unsettled:
+        words.append(f"never settles from {one.unsettled} of {one.starts}")
+    if not pd.isna(one.fastest):
+        words.append(f"settles in {' to '.join(dict.fromkeys((f'{one.fastest:.3g}', f'{one.slowest:.3g}')))} s")
+    return ", ".join(words)
 
 
-def dead(one) -> str:
-    """Of a line: how many of the exact 180° rotations never move."""
-    return "all" if one.dead == one.at_180 else str(one.dead or html.MISSING)
+BOUNDS = {"axis-clip": "bound of each component", "norm-clip": "bound of the length"}
+"""Limits that a controller sets on purpose: no faults."""
 
 
-def away(one) -> str:
-    """Of a line: how many starts turn away from the goal first."""
-    return f"{one.away} of {one.starts}" if one.away else html.MISSING
-
-
-def instead(one) -> str:
-    """Of a controller's line: the replacement for its error, by what it takes, where the loop is not right."""
-    return one.replacement or ("" if verdict(one) == RIGHT else f"of_{one.takes}")
-
-
-def verdict(one) -> str:
-    """Of a controller's line, in the check's words where it has them."""
-    words = {"dead-at-180": one.dead, "not settled": one.unsettled, "long-way": one.away}
-    return ", ".join(word for word, count in words.items() if count) or RIGHT
+def check_in_words(one) -> str:
+    """Return what the check finds in a restated error: faults, the stiffness felt, and bounds named as such."""
+    words = {"stiffness": f"stiffness {one.slope:.2g} of the one set"} | BOUNDS
+    return ", ".join(words.get(fault, fault) for fault in one.faults.split(", ") if fault) or RIGHT

@@ -12,12 +12,24 @@ LIBRARY = Library(
     "dm-control",
     (
         Function("quat_to_axisangle", QUATERNION, transformations.quat_to_axisangle),
-        Function("2 quat_log, vector part", QUATERNION, lambda q: 2.0 * transformations.quat_log(q)[1:]),
+        Function(
+            "2 quat_log, vector part",
+            QUATERNION,
+            lambda q: 2.0 * transformations.quat_log(q)[1:],
+            is_idiom=True,
+            fix="`quat_to_axisangle`",
+        ),
         Function(
             "mat_to_quat, quat_to_axisangle",
             MATRIX,
             lambda R: transformations.quat_to_axisangle(transformations.mat_to_quat(R)),
         ),
-        Function('rmat_to_euler("ZYX")', MATRIX, lambda R: transformations.rmat_to_euler(R, "ZYX")[::-1], "z-y-x"),
+        Function(
+            'rmat_to_euler("ZYX")',
+            MATRIX,
+            lambda R: transformations.rmat_to_euler(R, "ZYX")[::-1],
+            "z-y-x",
+            thread="google-deepmind/dm_control#555",
+        ),
     ),
 )

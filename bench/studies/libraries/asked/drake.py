@@ -69,6 +69,7 @@ LIBRARY = Library(
             MATRIX,
             lambda R: 2.0 * RotationMatrix(R).ToQuaternion().xyz(),
             "sine-of-half",
+            True,
         ),
         Function("RollPitchYaw", MATRIX, lambda R: RollPitchYaw(RotationMatrix(R)).vector(), "z-y-x"),
     ),

@@ -11,7 +11,9 @@ LIBRARY = Library(
     (
         Function("AngleAxisd, of a matrix", MATRIX, EIGEN("angle_axis_of_matrix")),
         Function("AngleAxisd, of a quaternion", QUATERNION, EIGEN("angle_axis_of_quaternion")),
-        Function("2 Quaterniond, vector part", MATRIX, EIGEN("vector_part_of_matrix"), "sine-of-half"),
+        Function(
+            "2 Quaterniond, vector part", MATRIX, EIGEN("vector_part_of_matrix"), "sine-of-half", True, "`AngleAxisd`"
+        ),
         Function("eulerAngles(2, 1, 0)", MATRIX, EIGEN("euler_angles"), "z-y-x"),
     ),
     is_debian=True,

@@ -55,7 +55,13 @@ LIBRARY = Library(
     "mink",
     "mink",
     (
-        Function("SO3.log (Python)", QUATERNION, python_log),
+        Function(
+            "SO3.log (Python)",
+            QUATERNION,
+            python_log,
+            fix="`np.copysign(1.0, q[0])` for `np.sign(q[0])`",
+            thread="kevinzakka/mink#82",
+        ),
         Function("se3_log (compiled)", QUATERNION, compiled_log),
         Function("se3_log (compiled), of a matrix", MATRIX, compiled_log_of_matrix),
         Function("FrameTask.compute_error", QUATERNION, frame_task),

@@ -1,6 +1,7 @@
 """MuJoCo: its functions on quaternions, and what its constraints and actuators make of them."""
 
 from collections.abc import Iterator
+from functools import partial
 
 import mujoco
 import numpy as np
@@ -20,7 +21,7 @@ HELD = mujoco.MjModel.from_xml_string(f"""
 <actuator><orientation site="body" refsite="goal" kp="100" kv="20"/></actuator></mujoco>
 """)
 WELDED = mujoco.MjModel.from_xml_string(f"""
-<mujoco><worldbody><body name="goal" mocap="true"/>{BODY}</worldbody>
+<mujoco><option gravity="0 0 0"/><worldbody><body name="goal" mocap="true"/>{BODY}</worldbody>
 <equality><weld body1="goal" body2="body" relpose="0 0 0 1 0 0 0"/></equality></mujoco>
 """)
 DATA = {model: mujoco.MjData(model) for model in (ACTUATED, WELDED)}
@@ -69,18 +70,24 @@ def orientation_actuator(quat_wxyz) -> np.ndarray:
 
 
 def weld_pull(quat_wxyz) -> np.ndarray:
-    """A weld's residual r, in size sin(theta/2)/2, through its own Jacobian, 4 J^T r: where a soft weld pulls."""
-    data = forward(WELDED, quat_wxyz)
-    return 4.0 * data.efc_J.reshape(-1, WELDED.nv)[3:6].T @ data.efc_pos[3:6]
+    """Return the acceleration from rest of a welded body; its residual is |efc_pos| = sin(theta/2)."""
+    return forward(WELDED, quat_wxyz).qacc.copy()
 
 
-def actuated(quat_wxyz) -> Iterator[tuple]:
-    """mj_step tick by tick with the three actuators at kp = 100 and kv = 20 on a body of unit inertia."""
-    data = mujoco.MjData(HELD)
+def stepped(model, quat_wxyz) -> Iterator[tuple]:
+    """Step a model of one body of unit inertia from rest until it neither moves nor accelerates."""
+    data = mujoco.MjData(model)
     data.qpos[:] = conjugate(quat_wxyz)
     while True:
         yield conjugate(tuple(data.qpos))
-        mujoco.mj_step(HELD, data)
+        mujoco.mj_step(model, data)
+        if not data.qvel.any() and not data.qacc.any():
+            return
+
+
+def numbers(values) -> str:
+    """Return numbers in as few digits as they need."""
+    return " ".join(f"{value:g}" for value in values)
 
 
 LIBRARY = Library(
@@ -90,9 +97,8 @@ LIBRARY = Library(
         Function("mju_subQuat", QUATERNION, sub_quat),
         Function("mju_quat2Vel", QUATERNION, quat_to_vel),
         Function("mju_mat2Quat, mju_quat2Vel", MATRIX, mat_to_vel),
-        Function("2 mju_mat2Quat, vector part", MATRIX, mat_to_quat, "sine-of-half"),
+        Function("2 mju_mat2Quat, vector part", MATRIX, mat_to_quat, "sine-of-half", True, "`mju_quat2Vel` of it"),
         Function("<orientation> actuator", QUATERNION, orientation_actuator),
-        Function("weld, pull", QUATERNION, weld_pull, "sine"),
     ),
     (
         Controller(
@@ -100,8 +106,18 @@ LIBRARY = Library(
             "<orientation> actuator",
             "acceleration",
             "kp 100, kv 20, timestep 1 ms",
-            1e-3,
-            actuated,
+            HELD.opt.timestep,
+            partial(stepped, HELD),
+        ),
+        Controller(
+            "<weld>, by default",
+            "",
+            "acceleration",
+            f"solref {numbers(WELDED.eq_solref[0])}, solimp {numbers(WELDED.eq_solimp[0])}, "
+            f"timestep {1e3 * WELDED.opt.timestep:g} ms",
+            WELDED.opt.timestep,
+            partial(stepped, WELDED),
+            weld_pull,
         ),
     ),
 )

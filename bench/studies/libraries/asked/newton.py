@@ -1,8 +1,9 @@
-"""Newton, on Warp: the residual of its inverse kinematics, and Warp's own axis and angle; single precision."""
+"""Newton, on Warp: the errors of its controllers and of its inverse kinematics, and Warp's axis and angle."""
 
 import newton
 import numpy as np
 import warp
+from newton._src.controllers.impl._common import _pose_error_kernel
 
 from bench.studies.libraries.library import MATRIX, QUATERNION, Function, Library
 
@@ -23,6 +24,7 @@ def of_matrix(given: warp.array(dtype=warp.mat33), e: warp.array(dtype=warp.vec3
     e[0] = angle * axis
 
 
+XYZW, IDENTITY = [1, 2, 3, 0], (0.0, 0.0, 0.0, 1.0)
 FOUND = warp.zeros(1, dtype=warp.vec3, device="cpu")
 
 
@@ -34,12 +36,20 @@ def launched(kernel, given) -> np.ndarray:
 
 def quat_to_axis_angle(quat_wxyz) -> np.ndarray:
     """Of Warp, which takes (x, y, z, w)."""
-    return launched(axis_angle, warp.array([quat_wxyz[[1, 2, 3, 0]]], dtype=warp.quat, device="cpu"))
+    return launched(axis_angle, warp.array([quat_wxyz[XYZW]], dtype=warp.quat, device="cpu"))
 
 
 def matrix_to_axis_angle(R) -> np.ndarray:
     """Of a matrix."""
     return launched(of_matrix, warp.array([R], dtype=warp.mat33, device="cpu"))
+
+
+def pose_error(quat_wxyz) -> np.ndarray:
+    """The angular part of the pose error that its operational-space and differential-kinematics controllers take."""
+    poses = [warp.array([(0.0, 0.0, 0.0, *q)], dtype=warp.transform, device="cpu") for q in (IDENTITY, quat_wxyz[XYZW])]
+    found = warp.zeros(1, dtype=warp.spatial_vector, device="cpu")
+    warp.launch(_pose_error_kernel, dim=1, inputs=poses, outputs=[found], device="cpu")
+    return found.numpy()[0][3:]
 
 
 class Residual:
@@ -59,7 +69,7 @@ class Residual:
 
     def at(self, quat_wxyz) -> np.ndarray:
         """The residual of a body at this orientation."""
-        pose = np.array([[(0.0, 0.0, 0.0, *quat_wxyz[[1, 2, 3, 0]])]], dtype=np.float32)
+        pose = np.array([[(0.0, 0.0, 0.0, *quat_wxyz[XYZW])]], dtype=np.float32)
         bodies = warp.array(pose, dtype=warp.transform, device="cpu")
         self.objective.compute_residuals(bodies, None, self.model, self.residuals, 0, self.first)
         return self.residuals.numpy()[0]
@@ -69,8 +79,10 @@ LIBRARY = Library(
     "newton",
     "newton",
     (
+        Function("controllers: _pose_error_kernel", QUATERNION, pose_error),
         Function("ik.IKObjectiveRotation, residual", QUATERNION, Residual().at),
         Function("warp.quat_to_axis_angle", QUATERNION, quat_to_axis_angle),
         Function("warp.quat_from_matrix, quat_to_axis_angle", MATRIX, matrix_to_axis_angle),
     ),
+    is_single=True,
 )

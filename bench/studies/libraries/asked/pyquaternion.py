@@ -22,6 +22,6 @@ LIBRARY = Library(
     (
         Function("angle, axis", QUATERNION, lambda q: vector(Quaternion(*q))),
         Function("angle, axis, of a matrix", MATRIX, lambda R: vector(Quaternion(matrix=R))),
-        Function("2 log, vector part", QUATERNION, logarithm),
+        Function("2 log, vector part", QUATERNION, logarithm, is_idiom=True, fix="`angle * axis`"),
     ),
 )

@@ -16,7 +16,7 @@ LIBRARY = Library(
     "pytransform3d",
     "pytransform3d",
     (
-        Function("axis_angle_from_matrix", MATRIX, of_matrix),
+        Function("axis_angle_from_matrix", MATRIX, of_matrix, thread="dfki-ric/pytransform3d#43"),
         Function("compact_axis_angle_from_quaternion", QUATERNION, rotations.compact_axis_angle_from_quaternion),
         Function("4 mrp_from_quaternion", QUATERNION, lambda q: 4.0 * rotations.mrp_from_quaternion(q), "mrp"),
     ),

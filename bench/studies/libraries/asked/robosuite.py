@@ -1,12 +1,15 @@
-"""robosuite: the error of its operational-space controller, and its law with its own gains.
+"""robosuite: the error of its operational-space controller, in our loop with its gains.
 
 Its requirements contradict those of the other libraries, so it is asked in an environment of its own.
 """
 
+import json
 import math
 from functools import partial
+from pathlib import Path
 
 import numpy as np
+import robosuite
 from robosuite.utils import transform_utils
 from robosuite.utils.control_utils import orientation_error
 
@@ -15,6 +18,15 @@ from bench.studies.libraries.library import MATRIX, QUATERNION, Controller, Func
 
 KP, KV, DT_S = 150.0, 2.0 * math.sqrt(150.0), 0.002
 """OSC_POSE as delivered: kp 150, damping_ratio 1, control at the simulation's 500 Hz."""
+
+
+def greatest_delta() -> float:
+    """Return the largest rotation [rad] about each axis that OSC_POSE takes in one command, as delivered."""
+    file = Path(robosuite.__file__).parent / "controllers/config/robots/default_panda.json"
+    arm = json.loads(file.read_text(encoding="utf-8"))["body_parts"]["arms"]["right"]
+    if arm["input_type"] != "delta":
+        raise ValueError(f"{file} sets input_type {arm['input_type']}; this file is written for delta")
+    return arm["output_max"][3]
 
 
 def axis_angle(quat_wxyz) -> np.ndarray:
@@ -32,9 +44,10 @@ OSC = Controller(
     "OSC_POSE, rotation decoupled",
     ERROR.name,
     "acceleration",
-    "kp 150, damping ratio 1, 500 Hz",
+    f"kp 150, damping ratio 1, 500 Hz; input as delivered: a delta of at most {greatest_delta():g} rad",
     DT_S,
     partial(accelerated, ERROR, KP, KV, DT_S),
+    is_our_loop=True,
 )
 LIBRARY = Library(
     "robosuite",

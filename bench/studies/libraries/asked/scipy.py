@@ -21,7 +21,14 @@ LIBRARY = Library(
     (
         Function("as_rotvec, of a matrix", MATRIX, lambda R: of_matrix(R).as_rotvec()),
         Function("as_rotvec, of a quaternion", QUATERNION, lambda q: of_quaternion(q).as_rotvec()),
-        Function("2 as_quat, vector part", MATRIX, lambda R: 2.0 * of_matrix(R).as_quat()[:3], "sine-of-half"),
+        Function(
+            "2 as_quat, vector part",
+            MATRIX,
+            lambda R: 2.0 * of_matrix(R).as_quat()[:3],
+            "sine-of-half",
+            True,
+            "`as_quat(canonical=True)`",
+        ),
         Function("4 as_mrp", MATRIX, lambda R: 4.0 * of_matrix(R).as_mrp(), "mrp"),
         Function('as_euler("ZYX")', MATRIX, lambda R: of_matrix(R).as_euler("ZYX")[::-1], "z-y-x"),
     ),
