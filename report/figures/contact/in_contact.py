@@ -150,6 +150,8 @@ def stuck(rows: pd.DataFrame, cartesian: str, euler: str) -> str:
 def flat(rows: pd.DataFrame) -> str:
     """How many tools come to lie flat on the plate by the paper's force control, and how far those turn that do not."""
     own = rows[rows["task"] == "surface-alignment"]
+    if own.empty:
+        return f"how tools end on the plate is {ABSENT}"
     parts = []
     for contender, who in ((PAPERS, "with Cartesian compliance"), (PAPERS_EULER, "on the Euler Jacobian")):
         mine = of(own, contender)
@@ -159,7 +161,7 @@ def flat(rows: pd.DataFrame) -> str:
             f"where the hand's frame leans) and turn by up to {np.degrees(mine['held_turn_rad'].max()):.1f}° about the "
             "axis that is to be held"
         )
-    return "; ".join(parts) if len(own) else f"how tools end on the plate is {ABSENT}"
+    return "; ".join(parts)
 
 
 def word_of_rest(row: pd.Series, side: str = "") -> str:
