@@ -23,7 +23,7 @@ CHECKED = 12
 FOOT_S, TOP_S = 0.3, 3.0
 """Of the panel, on a logarithmic axis: curves that go to infinity at 180° leave it."""
 
-APART = 0.03
+APART = 0.042
 """Least distance of two labels beside curves, in decades."""
 
 ASIDE_DEG = 7.0
