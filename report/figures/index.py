@@ -7,8 +7,8 @@ from bench.provenance import count_episodes
 from bench.tables import read
 from report.figures.answer import answer_box, which_law
 from report.figures.claims import claims as judged
-from report.figures.contact import in_contact
-from report.figures.contact.rows import PAPERS, PAPERS_EULER
+from report.figures.contact import compliance, in_contact
+from report.figures.contact.rows import CARTESIAN, EULER, PAPERS, PAPERS_EULER
 from report.figures.cost.cost import totals
 from report.figures.cost.operations import CALLS
 from report.figures.failures.failure_map import EXACT_RAD
@@ -41,6 +41,8 @@ def facts(run: Run) -> dict:
     return {
         "which_law": which_law.front_page(run),
         "pegs": in_contact.stuck(in_contact.all_rows(run), PAPERS, PAPERS_EULER),
+        "pegs_by_accelerations": in_contact.stuck(in_contact.all_rows(run), CARTESIAN, EULER),
+        "off": compliance.facts(run).get("off"),
         **of_the_paper(run),
         **edition(read.provenance()),
     }

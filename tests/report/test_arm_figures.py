@@ -129,22 +129,23 @@ def rows_of(passing: dict[str, int], of: int = 20, **columns) -> pd.DataFrame:
 
 def test_lead_names_a_winner_only_where_one_is_told_apart():
     winner = arm_ranking.leading(rows_of({"rotation-matrix": 15, "mrp": 8, "hybrid": 4}), "range")
-    assert winner.startswith("(2.2) Rotation matrix settles most: 75 % (")
+    assert winner.startswith("of the laws (2.2) Rotation matrix settles most: 75 % (")
     assert winner.endswith("n = 20)")
     tie = arm_ranking.leading(rows_of({"rotation-matrix": 15, "mrp": 12, "hybrid": 4}), "range")
-    assert tie.startswith("(2.2) Rotation matrix and (2.2) MRP tie, at up to 75 % (")
+    assert "(2.2) Rotation matrix and (2.2) MRP are not distinguished from the best of them" in tie
+    assert "(2.2) Rotation matrix: 75 % (" in tie
     every = rows_of(dict.fromkeys(("rotation-matrix", "mrp", "hybrid", "late-braking", "rotation-vector"), 20))
-    assert arm_ranking.leading(every, "settled").startswith("5 laws tie, at up to 100 % (")
+    assert arm_ranking.leading(every, "settled").startswith("5 laws are not distinguished from the best of them")
 
 
-def test_baselines_are_ranked_beside_the_laws_and_win_nothing():
+def test_baselines_are_compared_with_the_laws():
     baseline = {"regulator": "resolved-rate", "jacobian": "geometric", "way": "resolved-rate@geometric+standard"}
     law = {"regulator": "mrp", "jacobian": "geometric", "way": "mrp@geometric+standard"}
     rows = pd.concat([rows_of({"resolved-rate": 20}, **baseline), rows_of({"mrp": 5}, **law)])
     found = list(arm_ranking.ranked(rows))
     assert [cells[0] for cells in found] == ["Resolved rate", "(2.2) MRP"]
-    assert not any("**" in cell for cell in found[0])
-    assert found[1][3] == "**25 (11 to 47)**"
+    assert found[0][3].startswith("**100 (")
+    assert found[1][3] == "25 (11 to 47)"
 
 
 def test_inverses_that_are_not_told_apart_tie():

@@ -29,6 +29,7 @@ ALLOWED = {
     "tasks/goal_stream.py": "what goals arrive as",
     **dict.fromkeys((f"report/figures/{chapter}/" for chapter in CHAPTERS), "what a page of the book is about"),
     "report/figures/cards/live.py": "pairs that are worth a look",
+    "report/figures/comparison/comparison.py": "the law that is stiffer about some axes, left out of one comparison",
     "report/figures/comparison/a_new_law.py": "the law that it is about, and its neighbours",
     "report/figures/comparison/new_law.py": "those whose responses are drawn beside its own",
     "report/figures/libraries/": "what the libraries were asked",

@@ -42,7 +42,7 @@ def leaders(found: Measured, criterion: str, called: Called) -> str:
     sure = best_by(found, criterion, [law for law in found.laws if has_all(found, law, SURE)])
     if not sure or set(every) <= set(sure):
         return _tie(every, called)
-    return f"{_tie(every, called)}; of laws that settle from every start {_tie(sure, called)}"
+    return f"{_tie(every, called)}; among laws that settle from every start: {_tie(sure, called)}"
 
 
 def _tie(laws: Sequence[str], called: Called) -> str:

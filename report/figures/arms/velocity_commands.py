@@ -30,7 +30,7 @@ FACTS: tuple[str, ...] = ("lead", "gain", "tick", "uniform", "exact", "bound", "
 BENT_SUPREMUM = math.acos(1.0 / math.sqrt(3.0))
 """The most [rad] by which a clamp per axis turns a vector: from beside an axis to the box's diagonal."""
 
-FACTS += ("bent_sup", "worst_gap", "band", "detour", "overshoots", "transpose", "bent", "longer", "left")
+FACTS += ("bent_sup", "log_limit", "worst_gap", "band", "detour", "overshoots", "transpose", "bent", "longer", "left")
 
 SITUATIONS = Table("Situation | Law | Ties with")
 LIMITERS = Table(
@@ -94,6 +94,7 @@ def facts(run: Run) -> dict:
     return {
         "lead": lead(advice),
         "gain": gain,
+        "log_limit": log_limit(found),
         "tick": f"{1000 * float(rows['dt_s'].iloc[0]):g}",
         "uniform": len(uniform) // uniform["law"].nunique(),
         "exact": len(exact) // exact["law"].nunique(),
@@ -112,6 +113,13 @@ def facts(run: Run) -> dict:
         "longer": f"{100 * (cut['axis-clamp']['path_ratio'].max() - 1):.0f}",
         "left": f"{DEG * cut['deadband']['final_angle_rad'].max():.2f}",
     }
+
+
+def log_limit(found: pd.DataFrame) -> str | None:
+    """The largest K dt of the logarithm near the goal, measured on the free body."""
+    own = found[(found["law"] == "rotation-vector") & (found["arm"] == "") & (found["share"] == 1.0)]
+    own = own[own["reach"] == "near"]
+    return f"{float(own['k_dt'].iloc[0]):.3g}" if len(own) else None
 
 
 def named(laws) -> str:

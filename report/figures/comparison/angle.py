@@ -20,11 +20,11 @@ DRAWN = 150
 CHECKED = 12
 """At least so many starts of each law are held against its equation, at even steps through their sequence."""
 
-FOOT_S, TOP_S = 0.42, 0.86
-"""Of the panel: most of the curves lie between, and the steepest leave it."""
+FOOT_S, TOP_S = 0.3, 3.0
+"""Of the panel, on a logarithmic axis: curves that go to infinity at 180° leave it."""
 
-APART_S = 0.022
-"""Least distance of two labels beside curves."""
+APART = 0.042
+"""Least distance of two labels beside curves, in decades."""
 
 ASIDE_DEG = 7.0
 """How far before a curve leaves the panel its name ends."""
@@ -63,10 +63,12 @@ def curves(rows: pd.DataFrame, narrow: bool):
             axes.text(*leaves, word, color=colour, fontsize=9, ha="right", va="top" if leaves[1] == TOP_S else "bottom")
         else:
             beside.append((float(times[-1]), word, colour))
-    places = style.apart([time for time, _, _ in beside], APART_S)
+    places = 10.0 ** np.array(style.apart([math.log10(time) for time, _, _ in beside], APART))
     for place, (_, word, colour) in zip(places, beside, strict=True):
         style.label_line(axes, 181.5, place, word, colour, fontsize=9)
-    axes.set(xlim=(0, 180), ylim=(FOOT_S, TOP_S), xticks=range(0, 181, 30))
+    axes.set(xlim=(0, 180), yscale="log", ylim=(FOOT_S, TOP_S), xticks=range(0, 181, 30))
+    axes.set_yticks([0.3, 0.5, 1.0, 2.0, 3.0], ["0.3", "0.5", "1", "2", "3"])
+    axes.minorticks_off()
     axes.set(xlabel="initial angle to the goal [deg]", ylabel="settling time [s]")
     return figure, f"Settling time from {np.degrees(angles[0]):.0f} to nearly 180 degrees: {'; '.join(words)}."
 

@@ -22,6 +22,10 @@ from report.figures.kit.rows import MATRIX
 DETOUR = 1.5
 """Path over shortest path from which a start is a detour; about one fixed axis only the long way round is one."""
 
+NEAR_DEG = 30, 60
+ANISOTROPIC = "weighted-columns"
+"""Its stiffness is the others' on the average over its axes alone."""
+
 ACTUATOR = next(one.name for one in all_contenders() if one.regulator.in_engine)
 CONTROLS = {one.regulator.later: one.name for one in all_contenders() if one.regulator.control}
 LITERAL, UNWINDING = CONTROLS[False], CONTROLS[True]
@@ -91,10 +95,22 @@ def of_all(rows: pd.DataFrame, tried: pd.DataFrame) -> dict:
         "slowest_s": f"{middle.max():.2f}",
         "whole": int(sum(np.isfinite(times[name]).all() for name in laws)),
         "dearer": f"{spent.max() / spent.min():.0f}",
+        **near(rows[rows["contender"].isin(laws)]),
         "left": len(left),
         "left_laws": ", ".join(map(families.word, left)),
         "directed": int(tried.groupby("contender", observed=True).size().max()),
     }
+
+
+def near(rows: pd.DataFrame) -> dict:
+    """By how much the laws' medians from starts near the goal differ, weighted columns aside."""
+    found: dict = {}
+    for angle in NEAR_DEG:
+        own = rows[(rows["angle0_rad"] < np.radians(angle)) & (rows["contender"] != ANISOTROPIC)]
+        middles = own.groupby(own["contender"].astype(str))["settling_time_s"].median()
+        apart = f"{100.0 * (middles.max() / middles.min() - 1.0):.0f}"
+        found |= {f"within_{angle}": own["start_id"].nunique(), f"apart_{angle}": apart}
+    return found
 
 
 def best(run: Run) -> dict:

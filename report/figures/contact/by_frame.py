@@ -18,6 +18,7 @@ class Measure(NamedTuple):
     """A column of compliance.parquet as it is drawn: its words, short ones, unit there and factor to it, a format.
 
     middle: what stands for several episodes, "median", or "mean" of what is counted.
+    failed: what an episode counts as that fails before it has a value: the worst there is.
     """
 
     column: str
@@ -27,10 +28,13 @@ class Measure(NamedTuple):
     factor: float = 1.0
     form: str = ".2f"
     middle: str = "median"
+    failed: float = np.inf
 
     def over_beta(self, rows: pd.DataFrame) -> pd.Series:
-        """One value for each beta [deg] of the rows."""
-        return (rows[self.column] * self.factor).groupby(rows["beta_deg"]).agg(self.middle)
+        """One value for each beta [deg] of the rows, NaN where at least half of the episodes failed."""
+        values = (rows[self.column] * self.factor).fillna(self.failed)
+        middles = values.groupby(rows["beta_deg"]).agg(self.middle)
+        return middles.where(np.isfinite(middles))
 
 
 MEASURES = {
@@ -39,11 +43,11 @@ MEASURES = {
         Measure("held_turn_rad", "Turned about the held axis", "Yaw", "deg", DEGREES),
     ),
     "peg-in-hole": (
-        Measure("insertion_depth_m", "Depth of insertion", "Depth", "mm", MILLI, ".1f"),
-        Measure("jam", "Not in at the end", "Not in", "%", 100.0, ".0f", "mean"),
+        Measure("insertion_depth_m", "Depth of insertion", "Depth", "mm", MILLI, ".1f", failed=-np.inf),
+        Measure("jam", "Not in at the end", "Not in", "%", 100.0, ".0f", "mean", 100.0),
     ),
     "crank": (
-        Measure("crank_angle_rad", "Turned by", "Turned", "deg", DEGREES, ".1f"),
+        Measure("crank_angle_rad", "Turned by", "Turned", "deg", DEGREES, ".1f", failed=-np.inf),
         Measure("moment_error_rms_nm", "Moment where it complies, rms", "Moment", "N m"),
     ),
     "force-on-plane": (

@@ -18,7 +18,7 @@ from bench.law.so3 import from_quaternion
 from report.figures.contact import by_transpose, loops
 from report.figures.contact import rows as controllers
 from report.figures.contact.against_theory import COMPARED_TO, gaps
-from report.figures.contact.hand_axes import axes_of_turning, shown_arm
+from report.figures.contact.hand_axes import axes_of_turning, measured, shown_arm, turns
 from report.figures.contact.misalignment_map import misalignment
 from report.figures.kit import html
 from report.figures.kit.page import ABSENT, Run, given
@@ -79,6 +79,8 @@ def probed(rows: pd.DataFrame) -> dict:
     work = rows.loc[rows["way"].isin(("hybrid/zyx-euler", controllers.SPRINGS_OF_EULER)), "work_residual"].dropna()
     return {
         "axes_arm": shown_arm(rows),
+        **measured(turns(rows)),
+        "off_by_accelerations": off_by_accelerations(rows),
         "passive": passive(rows),
         "probe_arms": together(controllers.arms(rows)),
         "probe_rows": len(rows),
@@ -94,6 +96,13 @@ def probed(rows: pd.DataFrame) -> dict:
     }
 
 
+def off_by_accelerations(rows: pd.DataFrame) -> str:
+    """By how much the Euler hand's misalignment differs from beta [deg], about x and y complying by accelerations."""
+    own = controllers.level(controllers.of(rows, controllers.EULER, "about x and y"))
+    own = own[own["outcome"] == "done"]
+    return power(float((np.degrees(own["misalignment_rad"]) - own["beta_deg"].abs()).abs().max()))
+
+
 def cartesian(rows: pd.DataFrame) -> str:
     """What Cartesian compliance leaves of the same errors, over every frame and order."""
     own = rows[rows["way"].isin(("hybrid-base", "hybrid-hand"))]
@@ -101,8 +110,8 @@ def cartesian(rows: pd.DataFrame) -> str:
     return (
         f"Cartesian compliance, along the base's axes or the hand's, has none of it: {done} rows of {len(own)} reach "
         f"the end, and it leaks at most {power(own['leakage_ratio'].max())} and turns at most "
-        f"{power(np.degrees(own['misalignment_rad'].max()))} degrees away from the moment. Poles of angles that it "
-        "never computes do nothing to it."
+        f"{power(np.degrees(own['misalignment_rad'].max()))} degrees away from the moment. It computes no Euler "
+        "angles, so that it has none of their singularities."
     )
 
 
@@ -139,10 +148,10 @@ def passive(rows: pd.DataFrame) -> str:
     )
     if plain.empty:
         return f"{words}; no other controller does in any of {len(done) - of_these}."
-    near = ", ".join(sorted({controllers.title(way) for way in plain["way"]}))
+    near = " and the ".join(sorted({controllers.title(way) for way in plain["way"]}))
     return (
-        f"{words}; of the others {near} in {len(plain)} of {len(done) - of_these} rows, by at most "
-        f"{power(plain['port_energy_peak_j'].max())} J."
+        f"{words}. Of the {len(done) - of_these} rows of other controllers {len(plain)} give energy, by at most "
+        f"{power(plain['port_energy_peak_j'].max())} J: those of the {near}."
     )
 
 

@@ -47,17 +47,21 @@ def aligned(rows: pd.DataFrame) -> str:
     own = rows[rows["task"] == "surface-alignment"]
     if of(own, PAPERS).empty or of(own, PAPERS_EULER).empty:
         return f"How soon tools lie flat is {ABSENT}."
-    cartesian = of(own, PAPERS)["time_to_align_s"]
-    parts = []
-    for beta, mine in of(own, PAPERS_EULER).groupby("beta_deg"):
-        times = mine["time_to_align_s"].dropna()
-        lasts = f", in {times.median():.1f} s in the median and {times.max():.1f} s at most" if len(times) else ""
-        parts.append(f"at β = {beta:.0f}° {len(times)} of {len(mine)}{lasts}")
+    parts = [f"at β = {beta:.0f}° {timed(mine)}" for beta, mine in of(own, PAPERS_EULER).groupby("beta_deg")]
     return (
-        f"With Cartesian compliance {cartesian.notna().sum()} of {len(cartesian)} tools come to lie flat (2 % of the "
-        f"tilt left), in {cartesian.median():.1f} s in the median and {cartesian.max():.1f} s at most; on the Euler "
-        f"Jacobian {'; '.join(parts)}."
+        f"Tools lie flat once 2 % of the tilt is left: with Cartesian compliance {timed(of(own, PAPERS))}; on the "
+        f"Euler Jacobian {'; '.join(parts)}."
     )
+
+
+def timed(mine: pd.DataFrame) -> str:
+    """How many tools come to lie flat, and the median time, in which a tool that never does takes for ever."""
+    times = mine["time_to_align_s"].fillna(np.inf)
+    is_flat = np.isfinite(times)
+    if not np.isfinite(times.median()):
+        return f"{is_flat.sum()} of {len(times)}, so that the median tool never does"
+    slowest = times[is_flat].max()
+    return f"{is_flat.sum()} of {len(times)}, the median in {times.median():.1f} s and the slowest in {slowest:.1f} s"
 
 
 def overshot(rows: pd.DataFrame) -> str:
@@ -75,7 +79,7 @@ def overshot(rows: pd.DataFrame) -> str:
             f"{task.replace('-', ' ')} {peaks[0]:.0f} N ({1.0 + over:.1f} times the order along it; by accelerations "
             f"{peaks[1]:.0f} N)"
         )
-    return f"What strikes overshoots: the largest force is, in the median, {'; '.join(parts)}."
+    return f"No controller limits the impact. The largest force is, in the median, {'; '.join(parts)}."
 
 
 def given_away(rows: pd.DataFrame) -> str:

@@ -144,6 +144,24 @@ def turns(rows: pd.DataFrame) -> list[dict]:
     return found
 
 
+def measured(found: list[dict]) -> dict[str, str]:
+    """How far off the moment the Euler hand turns at each tilt, and how far about the axis that it should hold.
+
+    Args:
+        found: of `turns`.
+    """
+    tilted = [one for one in found if one["contender"] == PAPERS_EULER and one["beta"] > 0.0]
+    off = {one["beta"]: one["off"] for one in tilted if one["pushed"] == "x"}
+    held = {one["beta"]: 100.0 * one["share"] for one in tilted if one["pushed"] == "z"}
+    plain = [100.0 * one["share"] for one in found if one["contender"] == PAPERS and one["pushed"] == "z"]
+    return {
+        "off": ", ".join(f"{value:.0f}° at β = {beta:.0f}°" for beta, value in off.items()),
+        "off_word": "less than β" if all(value < beta for beta, value in off.items()) else "not always less than β",
+        "held": ", ".join(f"{value:.0f} % at β = {beta:.0f}°" for beta, value in held.items()),
+        "held_cartesian": f"{max(plain):.0f} %",
+    }
+
+
 @responsive_picture
 def axes_of_turning(rows: pd.DataFrame, narrow: bool):
     """A row a moment, a column a controller and beta; on a phone a column a moment.

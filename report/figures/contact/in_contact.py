@@ -6,6 +6,7 @@ import functools
 
 import numpy as np
 import pandas as pd
+from scipy.stats import fisher_exact
 
 import tasks
 from report.figures.arms import arm_looks
@@ -26,6 +27,8 @@ MARKS = {"projected": "(S J)⁺", "transpose": "Jᵀ"}
 """Form -> its mark in a table; J^-1, the usual one, has none."""
 
 QUANTILE = 0.95
+P_VALUE = 0.05
+"""Of Fisher's exact test, both sides: below it two shares of pegs differ significantly."""
 
 
 @functools.cache
@@ -53,6 +56,8 @@ def facts(run: Run) -> dict:
         "stuck": stuck(rows, PAPERS, PAPERS_EULER),
         "other_worst": worst(rows, CARTESIAN, EULER),
         "other_stuck": stuck(rows, CARTESIAN, EULER),
+        "flat": flat(rows),
+        "fits": limits.said_of_fits(limits.part("fits")),
     }
 
 
@@ -88,9 +93,7 @@ def fewer(rows: pd.DataFrame) -> str:
     parts = [f"the {arm_looks.title(arm)} {count} of {run.max()}" for arm, count in run[run < run.max()].items()]
     if not parts:
         return "Every arm runs every controller."
-    return (
-        f"Not every arm runs every controller ({'; '.join(parts)}), and so lines with more episodes are of more arms."
-    )
+    return f"Not every arm runs every controller ({'; '.join(parts)}): rows with more episodes cover more arms."
 
 
 def penetration(rows: pd.DataFrame) -> str:
@@ -101,8 +104,8 @@ def penetration(rows: pd.DataFrame) -> str:
     deepest = 1e3 * own["penetration_m"].dropna()
     return (
         f"Over the {len(deepest)} episodes that reach the end hand and scene penetrate by {deepest.median():.2f} mm in "
-        f"the median, and by {deepest.quantile(QUANTILE):.2f} mm or less in {QUANTILE:.0%}; what is beyond are hands "
-        "thrown about by coordinates near their singularity."
+        f"the median, by {deepest.quantile(QUANTILE):.2f} mm at the {QUANTILE:.0%} quantile and by {deepest.max():.2f} "
+        "mm at most."
     )
 
 
@@ -125,19 +128,40 @@ def worst(rows: pd.DataFrame, cartesian: str, euler: str) -> str:
 
 
 def stuck(rows: pd.DataFrame, cartesian: str, euler: str) -> str:
-    """How many pegs are not in at the end, by both Jacobians, where the hand's frame leans and where it does not."""
+    """How many pegs are not in at the end by both Jacobians, and whether they differ where the hand's frame leans."""
     own = rows[(rows["task"] == "peg-in-hole") & rows["contender"].isin((cartesian, euler))]
     if own.empty:
         return f"How pegs end is {ABSENT}."
-    counts = []
-    for contender, who in ((cartesian, "Cartesian"), (euler, "on the Euler Jacobian")):
+    out = own.assign(out=own["jam"] != 0.0).groupby(["contender", own["beta_deg"] != 0.0])["out"]
+    lost, n = out.sum().unstack(fill_value=0), out.size().unstack(fill_value=0)
+    counts = [
+        f"{who} {lost.loc[name].sum()} of {n.loc[name].sum()} ({lost.loc[name, True]} of {n.loc[name, True]} where the "
+        "hand's frame leans)"
+        for name, who in ((cartesian, "with Cartesian compliance"), (euler, "on the Euler Jacobian"))
+    ]
+    p_value = fisher_exact([[lost.loc[name, True], (n - lost).loc[name, True]] for name in (cartesian, euler)]).pvalue
+    differ = "differ significantly" if p_value < P_VALUE else "do not differ significantly"
+    return (
+        f"Pegs that are not in at the end: {' and '.join(counts)}; the two shares of leaning frames {differ} (Fisher's "
+        f"exact test, p = {p_value:.2g})."
+    )
+
+
+def flat(rows: pd.DataFrame) -> str:
+    """How many tools come to lie flat on the plate by the paper's force control, and how far those turn that do not."""
+    own = rows[rows["task"] == "surface-alignment"]
+    if own.empty:
+        return f"how tools end on the plate is {ABSENT}"
+    parts = []
+    for contender, who in ((PAPERS, "with Cartesian compliance"), (PAPERS_EULER, "on the Euler Jacobian")):
         mine = of(own, contender)
-        level, leaning = mine[mine["beta_deg"] == 0.0]["jam"], mine[mine["beta_deg"] != 0.0]["jam"]
-        counts.append(
-            f"{who} {level.sum():.0f} of {level.count()} where the frame is level and {leaning.sum():.0f} of "
-            f"{leaning.count()} where it leans"
+        is_flat, leans = mine["time_to_align_s"].notna(), mine["beta_deg"] != 0.0
+        parts.append(
+            f"{who} {is_flat.sum()} of {len(mine)} tools come to lie flat ({(is_flat & leans).sum()} of {leans.sum()} "
+            f"where the hand's frame leans) and turn by up to {np.degrees(mine['held_turn_rad'].max()):.1f}° about the "
+            "axis that is to be held"
         )
-    return f"Pegs that are not in at the end, at rest or creeping: {'; '.join(counts)}."
+    return "; ".join(parts)
 
 
 def word_of_rest(row: pd.Series, side: str = "") -> str:
@@ -170,21 +194,23 @@ def tables(run: Run) -> dict:
 
 
 def of_controllers(own: pd.DataFrame) -> html.Markdown | None:
-    """A controller a line: how many episodes of one task reach the end, and its two medians at every beta."""
+    """A controller a line: how many episodes of one task reach the end, and its two middles at every beta."""
     measures = MEASURES[str(own["task"].iloc[0])]
     betas = sorted(set(own["beta_deg"]))
     shown = betas if len(betas) <= 3 else [betas[0], betas[len(betas) // 2], betas[-1]]
+    ends_at_rest = (own["rest"].astype(str) != "").any()
     lines = []
     for contender in in_order(own):
         mine = own[own["contender"] == contender]
-        count = html.together(f"{(mine['outcome'] == 'done').sum()} of {len(mine)}")
-        middles = [measure.over_beta(mine) for measure in measures]
         done = mine[mine["outcome"] == "done"]
-        still = html.together(f"{(done['rest'] == 'at-rest').sum()} of {len(done)}") if done["rest"].any() else ""
+        counts = [f"{len(done)}/{len(mine)}"]
+        counts += [f"{(done['rest'] == 'at-rest').sum()}/{len(done)}"] if ends_at_rest else []
+        middles = [measure.over_beta(mine) for measure in measures]
         values = (middle.get(beta, np.nan) for middle in middles for beta in shown)
-        lines.append((controller(contender), count, still, *values))
+        lines.append((controller(contender), *map(html.together, counts), *values))
     forms = {_head(measure, b): measure.form for measure in measures for b in shown}
-    return Table({"Controller": "", "Reach the end": "", "At rest": "", **forms})(lines)
+    counted = ("Reach the end", "At rest") if ends_at_rest else ("Reach the end",)
+    return Table({"Controller": "", **dict.fromkeys(counted, ""), **forms})(lines)
 
 
 def _head(measure: Measure, beta: float) -> str:

@@ -8,6 +8,7 @@ import numpy as np
 import pandas as pd
 
 from bench.findings.theory.jamming import margin
+from bench.metrics.contact.scene import IN
 from bench.studies.contact.__main__ import STORED
 from bench.tables.files import read_json
 from report.figures.kit import html, style
@@ -74,6 +75,14 @@ def loads() -> pd.DataFrame:
     return own.assign(u=mu * own["across"], v=sheared, rested=own["rested"].astype(bool))
 
 
+def said_of_fits(fits: pd.DataFrame) -> str:
+    """How many pegs go in at each clearance, the widest first, and whether closer fits take fewer."""
+    counts = (fits["depth_m"] >= IN).groupby(fits["clearance"]).agg(["sum", "size"]).sort_index(ascending=False)
+    told = ", ".join(f"{one['sum']} of {one['size']} at {100 * share:g} %" for share, one in counts.iterrows())
+    falls = counts["sum"].is_monotonic_decreasing and counts["sum"].nunique() > 1
+    return f"{'fewer' if falls else 'not fewer'} pegs go in the closer they fit: {told} of play"
+
+
 def tables() -> dict:
     """Fits, variants of the contact model, noise."""
     return {"tab_fits": FITS(_fits()), "tab_sensitivity": VARIANTS(_variants()), "tab_noise": NOISE(_noise())}
@@ -124,8 +133,10 @@ def stability(rows: pd.DataFrame, narrow: bool):
     for (controller, kf), own in rows.groupby(["controller", "kf"], sort=False):
         name, look = LOOKS[(controller, kf)]
         axes.plot(own["delay_ms"], own["theory"], color=look.colour, linestyle=look.line)
-        axes.plot(own["delay_ms"], own["measured"], look.marker, color=look.colour, markersize=5, label=name)
         ends = own[own["measured"].notna()]
+        shown = name if len(ends) else f"{name}: no boundary up to 10⁶ N/m"
+        look_of_it = {"marker": look.marker if len(ends) else "", "color": look.colour, "linestyle": "none"}
+        axes.plot(own["delay_ms"], own["measured"], markersize=5, label=shown, **look_of_it)
         least = f"{ends['measured'].min():.1e} N/m at {ends['delay_ms'].max():g} ms" if len(ends) else "no boundary"
         words.append(f"{name}: {least}")
     axes.set(yscale="log", ylim=(8e2, 1.3e6), xlabel="delay of the force sensor [ms]", ylabel="stiffness [N/m]")

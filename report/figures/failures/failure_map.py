@@ -66,7 +66,7 @@ def facts(run: Run) -> dict:
         "failed_others": counted(len(lost(of(episodes, SHORT[letter]))) for letter in "mf"),
         "axes_l": int(along["l"].notna().sum()),
         "axes_others": counted(int(along[letter].notna().sum()) for letter in "mf"),
-        "percent": f"{100 * len(failed) / len(linearized):.1f}",
+        "mapped_l": maps.lost_at_rest(LINEARIZED),
         "least": f"{np.degrees(failed['alpha0'].abs().min()):.0f}",
         "least_gamma": f"{np.degrees(failed['gamma0'].abs().min()):.0f}",
         "inside": int((failed["alpha0"].abs() < np.pi / 2.0).sum()),

@@ -54,6 +54,12 @@ def facts() -> dict:
     }
 
 
+def lost_at_rest(law: str) -> str:
+    """The share of random starts at rest that a law loses, with its exact 95 % interval."""
+    own = numbers()[(numbers()["contender"] == law) & (numbers()["most_speed"] == 0.0)]
+    return percent(int(own["lost"].sum()), int(own["starts"].sum()))
+
+
 def percent(some: int, of: int) -> str:
     """A share with its exact 95 % interval."""
     from bench.findings.maps import lost_share

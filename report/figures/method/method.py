@@ -16,7 +16,7 @@ from bench.counting import RULES as COUNT_RULES
 from bench.findings.selection.needs import CHATTER
 from bench.law.resolved_motion import Inverse, Jacobian
 from bench.metrics.registry import known_metrics
-from report.figures.kit import html, laws
+from report.figures.kit import families, html, laws
 from report.figures.kit.page import Run
 from report.figures.kit.spelling import power, prose
 from report.figures.kit.tables import Table
@@ -74,11 +74,18 @@ def facts(run: Run) -> dict:
         "asked": len(asked),
         "shorter": int((asked["step_s"] < asked["dt_s"]).sum()),
         "unconverged": int((asked["converged"] == "no").sum()),
-        "most_ms": f"{engines.later_ms(episodes(run), 'native').max():.1f}",
+        "engines": episodes(run)["engine"].nunique(),
+        "later_ms": between(engines.later_ms(episodes(run), "native")),
         "hold_s": f"{RULES.hold_s:g}",
         "chatter": f"{CHATTER:g}",
         "count_rules": "\n".join(f"1. {prose(rule)}" for rule in COUNT_RULES),
     }
+
+
+def between(late: pd.Series) -> str:
+    """The least and the greatest of how much later laws settle, with the law of each."""
+    ends = late.idxmin(), late.idxmax()
+    return " and ".join(f"{html.cell(float(late[law]), '+.1f')} ms ({families.word(law)})" for law in ends)
 
 
 def tables(run: Run) -> dict:
