@@ -48,7 +48,10 @@ class InContact(control.Task):
         return motors(physics)
 
     def get_observation(self, physics: Physics) -> dict[str, np.ndarray]:
-        """R (n, o, a), omega [rad/s] and p [m] of the hand, q and qdot of the arm, F = (f, m) [N, N m], base frame."""
+        """R by columns (n, o, a: nine numbers), omega [rad/s] and p [m] of the hand, q and qdot of the arm, F = (f, m) [N, N m].
+
+        All is in the base frame; there is no goal among it.
+        """
         n = len(self.trial.q)
         R = physics.R().reshape(3, 3).T
         gauge = np.array(physics.data.sensordata[19:25])
@@ -62,7 +65,7 @@ class InContact(control.Task):
         }
 
     def get_reward(self, physics: Physics) -> float:
-        """None: what is good is the metrics' business."""
+        """Return 0.0: a task in contact defines no reward; compute one from the observation."""
         return 0.0
 
 

@@ -9,8 +9,6 @@ import numpy as np
 from bench.audit.convention import Convention
 from bench.audit.fault import NOTE, Evidence, Finding
 
-PAGE = "29-take-it-home"
-
 
 class Report(NamedTuple):
     """The convention of a function (None if no convention explains its answers), and what was found."""
@@ -48,9 +46,9 @@ class Report(NamedTuple):
         }
 
 
-def page(finding: Finding) -> str:
-    """Where it is explained."""
-    return f"report/pages/{PAGE}.md#{finding.fault.name}"
+def source(finding: Finding) -> str:
+    """Return the file that looks for it and explains it."""
+    return f"bench/audit/faults/{finding.fault.name.replace('-', '_')}.py"
 
 
 def word(finding: Finding) -> str:
@@ -65,7 +63,7 @@ def paragraph(name: str, finding: Finding) -> str:
         f"{word(finding)} {fault.name}: {fault.title}",
         f"  {found.text}",
         f"  Effect: {fault.effect}",
-        f"  Cure: {fault.cure} (law: {fault.law}; {page(finding)})",
+        f"  Cure: {fault.cure} (law: {fault.law}; {source(finding)})",
     ]
     return "\n".join((*lines, *(f"    {line}" for line in code(name, found.evidence))))
 
@@ -104,7 +102,7 @@ def as_dict(finding: Finding) -> dict[str, Any]:
         "effect": finding.fault.effect,
         "cure": finding.fault.cure,
         "law": finding.fault.law,
-        "page": page(finding),
+        "file": source(finding),
         "evidence": {key: plain(value) for key, value in evidence._asdict().items()} if evidence else None,
     }
 
