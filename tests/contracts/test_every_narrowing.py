@@ -13,7 +13,7 @@ WORDS = {
     "engines": "native",
     "arms": "ur5e",
     "jacobians": "geometric",
-    "inverses": "standard",
+    "inverses": "solve",
     "variations": "mass-1.30",
     "controllers": "impedance-geometric",
     "regulators": "rotation-matrix",
