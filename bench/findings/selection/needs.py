@@ -159,18 +159,19 @@ def matters(found: Measured, one: Decision, usual: str | None) -> bool:
     return any(abs(own - other) > MATTERS * abs(other) for own, other in pairs)
 
 
-def decide(need: Need, found: Measured) -> Decision:
+def decide(need: Need, found: Measured, general: Sequence[str] = GENERAL) -> Decision:
     """Apply the rule to a situation on its own, without the default's law; a law of ours is never advised."""
     asked = tuple(
         law
         for law in found.laws
         if not is_ours(found, law)
-        and has_all(found, law, need.facts) and all(len(found.values[one].get(law, ())) for one in need.by)
+        and has_all(found, law, need.facts)
+        and all(len(found.values[one].get(law, ())) for one in need.by)
     )
     if not asked:
         return Decision(need, None, (), (), ())
     best = front(found, asked, need.by)
-    kept = front(found, best, GENERAL)
+    kept = front(found, best, general)
     law = simplest(found, kept)
     return Decision(need, law, tuple(one for one in kept if one != law), tuple(best), asked)
 
