@@ -37,7 +37,7 @@ def _default(advice: Advice, found: Measured) -> str:
 
 
 def _ours(one: Decision, found: Measured) -> list[Paragraph]:
-    """Our own law compared with the one that is advised, here and at each damping ratio, and what other rules advise."""
+    """Compare our own law with the advised one at each damping ratio, and say what other rules advise."""
     own = gains.ours(found)
     if own is None or one.law is None:
         return []

@@ -1,4 +1,4 @@
-"""The law that the rule advises at other damping ratios, and our own law beside it, by runs that came with the benchmark.
+"""Find the law that the rule advises at other damping ratios, and compare our own law with it.
 
 `python -m bench.findings.selection.gains FOLDER OUT` keeps of a quick suite what the rule reads.
 """
@@ -104,7 +104,7 @@ def ours_in_words(own: str) -> str:
 
 def titles(names: tuple[str, ...]) -> str:
     """Criteria in words."""
-    return "; ".join(BY_NAME[one].title for one in names) or "nothing"
+    return ", ".join(BY_NAME[one].title.lower().replace(",", "") for one in names) or "nothing"
 
 
 def narrow(source: Path, target: Path) -> None:

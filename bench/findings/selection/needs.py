@@ -43,11 +43,15 @@ class Fact(NamedTuple):
 
 
 class Need(NamedTuple):
-    """A situation: the facts it asks of a law, and the criteria it decides by; none: by what counts everywhere."""
+    """A situation: the facts it asks of a law, and the criteria it decides by; none: by what counts everywhere.
+
+    is_apart: another robot, whose law is always given, also where the default's ties with it.
+    """
 
     words: str
     facts: tuple[Fact, ...]
     by: tuple[str, ...] = ()
+    is_apart: bool = False
 
 
 class Decision(NamedTuple):
@@ -92,7 +96,7 @@ SURE = (TRIED, EVERYWHERE, QUIET)
 DEFAULT = Need("nothing else is known", (*SURE, UNHELD))
 """What a law must have to be advised where nothing else is said."""
 
-ARM = Need("a robot's arm, exact 180° rotations aside", (TRIED, NEARLY), ("arms", "within"))
+ARM = Need("a robot's arm, exact 180° rotations aside", (TRIED, NEARLY), ("arms", "within"), is_apart=True)
 FORGETS = Need("no memory in the controller", (*SURE, FORGETFUL))
 BOUNDED = Need(f"a command bounded by {criteria.BOUND:g} rad/s²", SURE, ("bounded",))
 
@@ -183,7 +187,9 @@ def advise(found: Measured, usual: Need = DEFAULT, needs: Sequence[Need] = NEEDS
         usual: what is asked where nothing else is known.
     """
     default, every = decide(usual, found), [decide(need, found) for need in needs]
-    is_decisive = [default.law not in one.best and matters(found, one, default.law) for one in every]
+    is_decisive = [
+        one.need.is_apart or (default.law not in one.best and matters(found, one, default.law)) for one in every
+    ]
     return Advice(
         default,
         tuple(one for one, is_other in zip(every, is_decisive, strict=True) if is_other),
