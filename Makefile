@@ -5,7 +5,7 @@
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help setup setup-cluster bench bench-quick time libraries report test check lint gate regress regress-study
+.PHONY: help setup setup-cluster bench bench-quick time libraries report test check lint gate regress regress-study gains
 .PHONY: scale-study contact-study settings-study verdicts-study robustness-study kill-study reference media lock clean audit judge history
 .PHONY: arrays-check edition
 
@@ -172,6 +172,11 @@ reference: $(READY)
 	@kilobytes=$$(du -sk results/reference | cut -f1); test $$kilobytes -lt 5000 || \
 		{ echo "results/reference is $$kilobytes kB; at most 5000 are committed" >&2; exit 1; }
 	@echo "Promoted. Now: git add results && git commit"
+
+gains: ## the quick suite at three more damping ratios, narrowed to what the advice reads: results/gains
+gains: $(READY)
+	@for kv in 10 14 30; do $(PY) -m bench run --suite quick --kv $$kv --replace --out results/quick-kv-$$kv && \
+		$(PY) -m bench.findings.selection.gains results/quick-kv-$$kv results/gains/kv-$$kv || exit; done
 
 edition: ## the site, its print, data, paper, source and wheels to rebuild it without a network: dist
 edition: $(DEV) report

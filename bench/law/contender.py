@@ -34,6 +34,9 @@ class Gains(NamedTuple):
 
 PAPERS_GAINS = Gains()
 
+OURS = "this benchmark"
+"""How the source of a law begins that was made here."""
+
 
 class Goal(NamedTuple):
     """Desired rotation, and for tracking its angular velocity and acceleration (zero in regulation)."""
@@ -96,6 +99,10 @@ class Regulator(NamedTuple):
     control: bool = False
     equation: Equation | None = None
     equation_in: Callable[[Representation], Equation | None] | None = None
+
+    def is_ours(self) -> bool:
+        """Whether the law was made here and nobody else has reviewed it: its source then begins with OURS."""
+        return self.source.startswith(OURS)
 
 
 class Contender(NamedTuple):

@@ -6,6 +6,7 @@ import subprocess
 import pytest
 from support.command_line import bench
 
+from bench.contenders.registry import find_contender
 from bench.findings.selection import needs
 from bench.provenance import ROOT
 from bench.tables import store
@@ -73,13 +74,11 @@ def test_audit_says_what_the_readme_says_of_the_error(capsys, here):
 def test_answer_is_the_one_that_the_rule_gives():
     advice = needs.advice(ROOT / "results" / "reference")
     [answer] = re.findall(r"\*\*The answer\.\*\* (.*?)\n\n", TEXT, re.DOTALL)
-    first, *others = re.findall(r"\[late braking\]|`([\w-]+)`", answer)
-    assert (first, advice.default.law) == ("", "late-braking")
-    assert others == [law_for(advice, "no memory in the controller"), law_for(advice, "a continuous command")]
-
-
-def law_for(advice, words):
-    return next(one.law for one in advice.exceptions if one.need.words == words)
+    arm, default, forgetful, own = re.findall(r"`([\w-]+)`", answer)
+    assert (arm, default) == (advice.of(needs.ARM).law, advice.default.law)
+    assert forgetful == advice.of(needs.FORGETS).law
+    assert find_contender(own).regulator.is_ours()
+    assert not find_contender(default).regulator.is_ours()
 
 
 def test_readme_is_short():

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from bench.cli.paragraphs import Paragraph, listed
 from bench.cli.screen import counted
-from bench.findings.selection import needs
+from bench.findings.selection import gains, needs
 from bench.findings.selection.measured import Measured
 from bench.findings.selection.needs import HELD_RAD, Advice, Decision, advise
 from bench.findings.selection.words import NAMED, cost, number, standing, together
@@ -16,6 +16,7 @@ def paragraphs(found: Measured) -> list[Paragraph]:
     """The law to use, and the exceptions where there are laws to choose from."""
     advice = advise(found)
     said = [Paragraph("Which law", (_default(advice, found),))]
+    said += _ours(advice.default, found)
     every = tuple(_exception(one, advice.default.law, found) for one in advice.exceptions if one.law)
     return [*said, Paragraph("Exceptions", every)] if every and len(found.laws) > 1 else said
 
@@ -28,10 +29,29 @@ def _default(advice: Advice, found: Measured) -> str:
         return _nothing(found, everywhere)
     alone = standing(one, str) if len(found.laws) > 1 else "This run has no other law to compare it with."
     return (
-        f"Use the law {one.law}. It {everywhere}, and no {NOISE} can trap it at a 180° rotation. {alone} It takes "
-        f"{cost(found, one.law)} per tick. 99 % of the uniform starts settle within "
-        f"{number('time', found.number('time', one.law))}."
+        f"Use the law {one.law} (published: {found.tables.contenders[one.law].regulator.source}) at "
+        f"{gains.gains_in_words(found)}. It {everywhere}, and no {NOISE} can trap it at a 180° rotation. {alone} It "
+        f"takes {cost(found, one.law)}. 99 % of the uniform starts settle within "
+        f"{number('time', found.number('time', one.law))}. Simulation only."
     )
+
+
+def _ours(one: Decision, found: Measured) -> list[Paragraph]:
+    """Compare our own law with the advised one at each damping ratio, and say what other rules advise."""
+    own = gains.ours(found)
+    if own is None or one.law is None:
+        return []
+    lines = [gains.ours_in_words(own)]
+    arm = advise(found).of(needs.ARM).law
+    lines += [f"On a robot arm, exact 180° rotations aside, the rule advises the published law {arm}."] * bool(arm)
+    lines += [
+        f"Damping ratio {ratio:.2g}: {law} is advised. {own} is better by {gains.titles(beside.better)}; worse by "
+        f"{gains.titles(beside.worse)}."
+        for ratio, law, beside in gains.words_by_gain()
+        if beside is not None
+    ]
+    others = [f"If {words}: {together((law, *tied))}." for words, law, tied in gains.by_other_rules(found) if law]
+    return [Paragraph("Ours", tuple(lines)), Paragraph("Other rules", tuple(others))]
 
 
 def _nothing(found: Measured, everywhere: str) -> str:

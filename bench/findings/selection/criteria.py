@@ -88,6 +88,14 @@ CRITERIA = (
         form="{:.3f}",
     ),
     Criterion(
+        "median",
+        "Median settling time",
+        "s",
+        "median settling time of the uniform starts",
+        over_uniform("settling_time_s"),
+        form="{:.3f}",
+    ),
+    Criterion(
         "worst",
         "Slowest start",
         "s",

@@ -43,11 +43,15 @@ class Fact(NamedTuple):
 
 
 class Need(NamedTuple):
-    """A situation: the facts it asks of a law, and the criteria it decides by; none: by what counts everywhere."""
+    """A situation: the facts it asks of a law, and the criteria it decides by; none: by what counts everywhere.
+
+    is_apart: another robot, whose law is always given, also where the default's ties with it.
+    """
 
     words: str
     facts: tuple[Fact, ...]
     by: tuple[str, ...] = ()
+    is_apart: bool = False
 
 
 class Decision(NamedTuple):
@@ -83,12 +87,16 @@ NEARLY = Fact(
 )
 TRIED = Fact("was perturbed in this run", lambda found, law: law in found.values["variation"])
 
+MATTERS = 0.1
+"""Share by which another law must be better by a situation's criterion before the situation is named: for less nobody
+changes a controller."""
+
 SURE = (TRIED, EVERYWHERE, QUIET)
 
 DEFAULT = Need("nothing else is known", (*SURE, UNHELD))
 """What a law must have to be advised where nothing else is said."""
 
-ARM = Need("a robot's arm, exact 180° rotations aside", (TRIED, NEARLY), ("arms", "within"))
+ARM = Need("a robot's arm, exact 180° rotations aside", (TRIED, NEARLY), ("arms", "within"), is_apart=True)
 FORGETS = Need("no memory in the controller", (*SURE, FORGETFUL))
 BOUNDED = Need(f"a command bounded by {criteria.BOUND:g} rad/s²", SURE, ("bounded",))
 
@@ -142,17 +150,32 @@ def has_all(found: Measured, law: str, facts: tuple[Fact, ...]) -> bool:
     return all(fact.has(found, law) for fact in facts)
 
 
-def decide(need: Need, found: Measured) -> Decision:
-    """What the rule makes of a situation on its own, the default's law not looked at."""
+def is_ours(found: Measured, law: str) -> bool:
+    """Whether a law was made here: it is compared with what is advised, and is not advised."""
+    return found.tables.contenders[law].regulator.is_ours()
+
+
+def matters(found: Measured, one: Decision, usual: str | None) -> bool:
+    """Whether a situation's law is better than the usual one by more than MATTERS, or the usual one lacks a fact."""
+    if one.law is None or usual not in one.asked:
+        return True
+    pairs = [(found.number(by, one.law), found.number(by, usual)) for by in one.need.by]
+    return any(abs(own - other) > MATTERS * abs(other) for own, other in pairs)
+
+
+def decide(need: Need, found: Measured, general: Sequence[str] = GENERAL) -> Decision:
+    """Apply the rule to a situation on its own, without the default's law; a law of ours is never advised."""
     asked = tuple(
         law
         for law in found.laws
-        if has_all(found, law, need.facts) and all(len(found.values[one].get(law, ())) for one in need.by)
+        if not is_ours(found, law)
+        and has_all(found, law, need.facts)
+        and all(len(found.values[one].get(law, ())) for one in need.by)
     )
     if not asked:
         return Decision(need, None, (), (), ())
     best = front(found, asked, need.by)
-    kept = front(found, best, GENERAL)
+    kept = front(found, best, general)
     law = simplest(found, kept)
     return Decision(need, law, tuple(one for one in kept if one != law), tuple(best), asked)
 
@@ -164,7 +187,9 @@ def advise(found: Measured, usual: Need = DEFAULT, needs: Sequence[Need] = NEEDS
         usual: what is asked where nothing else is known.
     """
     default, every = decide(usual, found), [decide(need, found) for need in needs]
-    is_decisive = [default.law not in one.best for one in every]
+    is_decisive = [
+        one.need.is_apart or (default.law not in one.best and matters(found, one, default.law)) for one in every
+    ]
     return Advice(
         default,
         tuple(one for one, is_other in zip(every, is_decisive, strict=True) if is_other),

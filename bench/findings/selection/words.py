@@ -18,12 +18,15 @@ Called = Callable[[str], str]
 def standing(one: Decision, called: Called) -> str:
     """That the advised law is alone on the Pareto front, or with which laws it ties."""
     if len(one.asked) == 1:
-        return "No other law meets all this."
+        return "No other published law of this run meets these conditions."
     if not one.tied:
-        return f"It dominates every other law that meets all this ({len(one.asked) - 1})."
+        return (
+            f"{len(one.asked)} published laws meet these conditions; it is at least as good as the others on every "
+            "criterion and better on one."
+        )
     return (
-        f"{together([called(law) for law in (one.law or '', *one.tied)])} tie: none is better by all that counts. Of "
-        "these it is the simplest."
+        f"{together([called(law) for law in (one.law or '', *one.tied)])} tie: none of them is better than another on "
+        "one criterion and worse on none. Of these it is the simplest."
     )
 
 

@@ -37,7 +37,7 @@ def box(advice: needs.Advice) -> html.Markdown | None:
     parts = (
         f"$$\n{subject.record.formula}\n$$",
         SYMBOLS,
-        f"Better in the situations named, and not in others:\n\n{exceptions(advice)}",
+        f"Use another law if one of these applies:\n\n{exceptions(advice)}",
         f"`````{{tab-set}}\n{tabs}\n`````",
     )
     return html.Markdown("\n\n".join(parts))
