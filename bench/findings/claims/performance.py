@@ -119,8 +119,16 @@ def at_gains(law: str, gains: Gains, seed: int) -> pd.DataFrame:
     """Return uniform starts of a law at other gains, on the continuous plant."""
     from bench.experiments.experiment import Settings, Unit, rows_of
 
-    place = {"task": "free-body", "engine": MAIN_ENGINE, "selector": "uniform"}
-    unit = Unit("free-body", law, **place, count=STARTS, total=STARTS, horizon_s=SHORT)
+    unit = Unit(
+        "free-body",
+        law,
+        "free-body",
+        engine=MAIN_ENGINE,
+        selector="uniform",
+        count=STARTS,
+        total=STARTS,
+        horizon_s=SHORT,
+    )
     return _converged(rows_of(Settings(gains=gains, seed=seed), unit))
 
 
