@@ -140,6 +140,11 @@ class Verdict(NamedTuple):
         return self.claim.correction if self.word in (Word.CORRECTED, Word.FAILS, Word.DEPENDS) else ""
 
     @property
+    def is_revised(self) -> bool:
+        """Whether its criterion was revised after the first results."""
+        return bool(self.claim.earlier)
+
+    @property
     def first(self) -> Word:
         """The word by the claim's first criterion."""
         return self.earlier[0][1] if self.claim.earlier else self.word
