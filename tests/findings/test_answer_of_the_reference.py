@@ -14,9 +14,21 @@ from bench.findings import claims
 from bench.findings.claims.standing import MEASURABLE
 from bench.findings.claims.tables import Results
 from bench.findings.on_arms import best
+from bench.findings.selection import gains
 from bench.findings.selection.criteria import BY_NAME
 from bench.findings.selection.measured import measured, statistic
-from bench.findings.selection.needs import ARM, DEFAULT, EVERYWHERE, FORGETS, NEEDS, UNHELD, advice, advise, has_all
+from bench.findings.selection.needs import (
+    ARM,
+    DEFAULT,
+    EVERYWHERE,
+    FORGETS,
+    NEEDS,
+    UNHELD,
+    advice,
+    advise,
+    has_all,
+    matters,
+)
 from bench.findings.selection.rule import GENERAL, dominates
 from bench.findings.selection.words import leaders
 from bench.tables.read import with_contender
@@ -82,7 +94,7 @@ def changed(found, criterion, law, value):
 
 def test_laws_that_are_advised_and_run_on_arms_are_in_the_suite():
     on_arms = {word.partition("@")[0] for word in (*suites.LAWS, *suites.BEST)}
-    assert {one.law for one in every() if one.law} <= on_arms
+    assert {decided().default.law, decided().of(ARM).law} <= on_arms
 
 
 def test_default_is_a_law_with_memory():
@@ -120,10 +132,10 @@ def test_situation_that_decides_nothing_is_one_in_which_the_default_is_not_beate
     law = decided().default.law
     for one in decided().others:
         assert decided().of(one.need).law == law
-        assert not any(found.beats(by, other, law) for by in one.need.by[:1] for other in one.asked)
+        assert law in one.best or not matters(found, one, law)
     for one in decided().exceptions:
         is_beaten = any(found.beats(by, other, law) for by in one.need.by for other in one.best)
-        assert is_beaten or not has_all(found, law, one.need.facts), one.need.words
+        assert is_beaten or one.need.is_apart or not has_all(found, law, one.need.facts), one.need.words
 
 
 def test_single_best_is_better_by_scipys_paired_bootstrap_too(found):
@@ -254,3 +266,20 @@ def test_page_names_every_law_and_every_situation(found):
 
 def test_page_is_whole():
     assert_is_whole(which_law, RUN)
+
+
+# ------------------------------------------------------------------------------------------- our own law
+
+
+def test_no_law_of_ours_is_advised_at_any_damping_ratio():
+    for found in gains.committed():
+        one = advise(found)
+        own = gains.ours(found)
+        assert own
+        assert own not in {each.law for each in (one.default, *one.exceptions, *one.others)}
+
+
+def test_comparison_with_ours_changes_its_word_when_a_number_does(found):
+    own, law = gains.ours(found), decided().default.law
+    assert "peak" in gains.compare(found, own, law).better
+    assert "peak" in gains.compare(changed(found, "peak", own, 1e4), own, law).worse
