@@ -97,8 +97,8 @@ def tiles(every: list[Verdict]) -> html.Html:
     entries += [(html.VERDICTS[word], number, label) for word, number, label in counted(one.word for one in every)]
     tile = '<div class="tile {}"><b>{}</b><span>{}</span></div>'
     before = (
-        "<p>By the criteria first written: {first}. {changed} of {decided} criteria were revised after the first results; "
-        "this changed {turned} verdicts.</p>"
+        "<p>By the criteria first written: {first}. {changed} of {decided} criteria were revised after the first "
+        "results; this changed {turned} verdicts.</p>"
     ).format(decided=len(every), **revised(every))
     return html.Html(f'<div class="tiles">{"".join(tile.format(*entry) for entry in entries)}</div>{before}')
 
