@@ -44,12 +44,7 @@ def _ours(one: Decision, found: Measured) -> list[Paragraph]:
     lines = [gains.ours_in_words(own)]
     arm = advise(found).of(needs.ARM).law
     lines += [f"On a robot arm, exact 180° rotations aside, the rule advises the published law {arm}."] * bool(arm)
-    lines += [
-        f"Damping ratio {ratio:.2g}: {law} is advised. {own} is better by {gains.titles(beside.better)}; worse by "
-        f"{gains.titles(beside.worse)}."
-        for ratio, law, beside in gains.words_by_gain()
-        if beside is not None
-    ]
+    lines.append(gains.compare_at_all_gains())
     others = [f"If {words}: {together((law, *tied))}." for words, law, tied in gains.by_other_rules(found) if law]
     return [Paragraph("Ours", tuple(lines)), Paragraph("Other rules", tuple(others))]
 

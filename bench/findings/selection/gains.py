@@ -9,11 +9,11 @@ import functools
 import json
 import math
 import sys
+from collections.abc import Callable
 from pathlib import Path
 from typing import NamedTuple
 
 from bench.findings.counts import DIRECTED
-from bench.findings.selection.criteria import BY_NAME
 from bench.findings.selection.measured import Measured, measured
 from bench.findings.selection.needs import DEFAULT, NEARLY, SURE, TRIED, Need, decide, is_ours
 from bench.findings.selection.rule import GENERAL
@@ -77,16 +77,6 @@ def committed() -> tuple[Measured, ...]:
     return tuple(measured(RESULTS / name) for name in COMMITTED)
 
 
-def words_by_gain(found: Measured | None = None) -> list[tuple[float, str | None, Beside | None]]:
-    """For each damping ratio the law that is advised, and our own compared with it."""
-    lines = []
-    for one in committed() if found is None else (found,):
-        kp, kv = gains_of(one)
-        law, own = decide(DEFAULT, one).law, ours(one)
-        lines.append((kv / (2.0 * math.sqrt(kp)), law, compare(one, own, law) if own and law else None))
-    return lines
-
-
 def by_other_rules(found: Measured) -> list[tuple[str, str | None, tuple[str, ...]]]:
     """What each of OTHER_RULES advises, and the laws that tie with it."""
     every = ((need.words, decide(need, found, general)) for need, general in OTHER_RULES)
@@ -102,9 +92,47 @@ def ours_in_words(own: str) -> str:
     )
 
 
-def titles(names: tuple[str, ...]) -> str:
-    """Criteria in words."""
-    return ", ".join(BY_NAME[one].title.lower().replace(",", "") for one in names) or "nothing"
+WORDS = {
+    "time": "the time in which 99 % settle",
+    "worst": "the slowest start",
+    "effort": "effort",
+    "peak": "peak command",
+    "variation": "variation of the command",
+    "tick": "time a tick",
+    "matched": "time at equal peak command",
+    "bounded": "time with weak motors",
+    "slow": "time at 20 Hz",
+    "late": "time with 20 ms of delay",
+    "heavy": "time under twice the model's inertia",
+    "spinning": "time from a spin",
+}
+"""Criteria as part of a sentence that says what a law is better or worse by."""
+
+
+def compare_at_all_gains(called: Callable[[str], str] = str) -> str:
+    """Say in a few sentences how our law compares with the advised one at every committed damping ratio."""
+    lines, times = [], []
+    for one in committed():
+        kp, kv = gains_of(one)
+        law, own = decide(DEFAULT, one).law, ours(one)
+        if law and own:
+            ratio = f"{kv / (2.0 * math.sqrt(kp)):.2g}"
+            lines.append((ratio, compare(one, own, law)))
+            pair = one.number("time", own), one.number("time", law)
+            times.append(f"at {ratio} in {pair[0]:.3f} s against {pair[1]:.3f} s ({called(law)})")
+    if not lines:
+        return ""
+    always = [WORDS[name] for name in WORDS if all(name in its.better for _, its in lines)]
+    worse: dict[tuple[str, ...], list[str]] = {}
+    for name in WORDS:
+        at = tuple(ratio for ratio, its in lines if name in its.worse)
+        if at:
+            worse.setdefault(at, []).append(WORDS[name])
+    price = "; ".join(f"at {' and '.join(at)} by {', '.join(names)}" for at, names in worse.items())
+    return (
+        f"By damping ratio 99 % of its starts settle {', '.join(times)}. At every ratio it is better by "
+        f"{', '.join(always) or 'nothing'}. It is worse {price or 'by nothing'}."
+    )
 
 
 def narrow(source: Path, target: Path) -> None:

@@ -72,15 +72,9 @@ def _ours(found: Measured) -> str:
     own = gains.ours(found)
     if own is None:
         return ""
-    lines = "; ".join(
-        f"{ratio:.2g} ({families.word(law)}): better by {gains.titles(its.better)}, worse by {gains.titles(its.worse)}"
-        for ratio, law, its in gains.words_by_gain()
-        if law and its
-    )
     return (
-        f" Our own law, {families.word(own)} (2026, simulation only, not reviewed), compared with the published law "
-        f"that the rule advises at each damping ratio: {lines}. Reset its memory when the goal jumps, which was not "
-        "tested here."
+        f" Our own law beside it is {families.word(own)}: 2026, simulation only, not reviewed. "
+        f"{gains.compare_at_all_gains(families.word)} Reset its memory when the goal jumps, which was not tested here."
     )
 
 
