@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import itertools
 import math
 
 from bench.findings.claims.adequacy import PAPERS
-from bench.findings.selection.criteria import BY_NAME
 from bench.findings.selection.measured import Measured
 from bench.findings.selection.needs import EVERYWHERE, UNHELD
 from bench.findings.selection.words import cost
@@ -47,8 +45,8 @@ def shown(found: Measured) -> list[str]:
     return [law for law in found.laws if law not in families.CONTROLS]
 
 
-def across(found: Measured) -> tuple[dict[str, float], str, float | None]:
-    """What a law costs: its share of a whole controller's tick [%], and how far shares are alike on an arm.
+def across(found: Measured) -> tuple[dict[str, float], str]:
+    """Return what each law costs: its share of a whole controller's tick [%].
 
     MuJoCo's actuator, which is not timed apart from its step, is left out. Where others were not timed: operations,
     each counted once.
@@ -56,23 +54,18 @@ def across(found: Measured) -> tuple[dict[str, float], str, float | None]:
     laws = [law for law in shown(found) if not found.tables.contenders[law].regulator.in_engine]
     shares = {law: found.number("tick", law) for law in laws}
     if all(map(math.isfinite, shares.values())):
-        return shares, "time of the law, % of a whole controller's tick", BY_NAME["tick"].least
-    return {law: float(sum(found.tables.spent(law))) for law in laws}, "operations a tick, each counted once", None
+        return shares, "time of the law, % of a whole controller's tick"
+    return {law: float(sum(found.tables.spent(law))) for law in laws}, "operations a tick, each counted once"
 
 
 @responsive_picture
 def plane(found: Measured, *, narrow: bool = False):
     """What a tick costs, and the time in which 99 % of the uniform starts settle."""
     figure, axes = style.panels(height=6.2 if narrow else 5.6, narrow=narrow)
-    costs, label, alike = across(found)
+    costs, label = across(found)
     places = {law: (cost, 1.0 / found.number("time", law)) for law, cost in costs.items()}
     edge = 1.06 * max(costs.values())
     fastest = max(rate for _, rate in places.values())
-    lines = []
-    if alike is not None:
-        bound = min(costs.values()) + alike
-        lines = [[(bound, 0.0), (bound, fastest)]]
-        axes.plot([bound, bound], [0.0, fastest], color=style.MUTED, linewidth=0.8, linestyle=(0, (8, 3)), zorder=0)
     for law, place in places.items():
         kind = coverage(found, law)
         marks = {"linestyle": "none", "marker": MARKERS[kind], "markersize": SIZES[kind], "color": COLOURS[kind]}
@@ -89,20 +82,19 @@ def plane(found: Measured, *, narrow: bool = False):
     if narrow:
         named = [law for law in named if law in PAPERS or coverage(found, law) == len(COVERAGE) - 1]
     figure.legend(loc="outside upper left", ncols=1 if narrow else 3, columnspacing=1.4)
-    _label(axes, places, {law: COLOURS[coverage(found, law)] for law in reversed(named)}, lines)
+    _label(axes, places, {law: COLOURS[coverage(found, law)] for law in reversed(named)})
     return figure, sentence(found)
 
 
-def _label(axes, places: dict[str, tuple[float, float]], colours: dict[str, str], lines: list) -> None:
-    """Name marks where a name meets no other, no mark and no line: at the first such place of AROUND, or not at all.
+def _label(axes, places: dict[str, tuple[float, float]], colours: dict[str, str]) -> None:
+    """Name marks where a name meets no other name and no mark: at the first such place of AROUND, or not at all.
 
     Args:
-        places: of all marks. colours: of the names, the first to be placed first. lines: lists of corners.
+        places: of all marks. colours: of the names, the first to be placed first.
     """
     figure = axes.figure
     figure.draw_without_rendering()
     taken = [_box(axes, [place], 4.0) for place in places.values()]
-    taken += [_box(axes, list(pair), 1.5) for line in lines for pair in itertools.pairwise(line)]
     whole = axes.get_window_extent()
     for law, colour in colours.items():
         for shift in AROUND:
