@@ -12,12 +12,10 @@ from bench.cli.paragraphs import Paragraph, listed, print_paragraphs
 from bench.cli.progress import progress
 from bench.cli.screen import console, shown_path
 from bench.cli.summary import absent, answer, failures, verdicts
-from bench.experiments.experiment import known_experiments
 from bench.findings.claims import Results
 from bench.findings.claims.verdict import NoEvidence
 from bench.findings.selection.measured import measure
 from bench.tables import read as results
-from bench.tables.store import read
 
 
 def print_summary(folder: Path, is_named: bool) -> None:
@@ -43,26 +41,16 @@ def _instead(folder: Path, is_named: bool) -> list[str]:
     return ["It came with the benchmark; results/latest has no finished run (try: make bench)."] * stands_in
 
 
-def _has(folder: Path, part: str) -> bool:
-    """Whether a run has rows of a part."""
-    if part in ("free-body", "arms"):
-        return bool(((read(folder, "episodes")["arm"] != "") == (part == "arms")).any())
-    tables = {"contact": "compliance", "robustness": "robustness"}
-    return len(read(folder, tables.get(part) or known_experiments()[part].table)) > 0
-
-
 def _next(folder: Path, is_named: bool) -> Paragraph:
     here = shown_path(folder)
     show = f"python -m bench show {here}" if is_named else "python -m bench show"
     book = f"{results.VARIABLE}={here} make report" if is_named else "make report"
-    here_are = [part for part in parts() if _has(folder, part)]
-    also = f"; also {listed(here_are[1:])}" if here_are[1:] else ""
     return Paragraph(
         "Next",
         (
             f"{book}   the book of this run",
             f"{show} --details   every table",
-            *(f"{show} {part}   one part of them{also}" for part in here_are[:1]),
+            f"{show} arms   one part of them; also {listed([part for part in parts() if part != 'arms'])}",
             f"python -m bench claims {here}   each claim with its evidence",
             f"{here}   the data; results/README.md explains the columns",
         ),
