@@ -48,9 +48,9 @@ class InContact(control.Task):
         return motors(physics)
 
     def get_observation(self, physics: Physics) -> dict[str, np.ndarray]:
-        """R by columns (n, o, a: nine numbers), omega [rad/s] and p [m] of the hand, q and qdot of the arm, F = (f, m).
+        """R by columns (n, o, a: nine numbers), omega [rad/s] and p [m] of the hand, q and qdot of the arm, F = (f, m) [N, N m].
 
-        F is in N and N m; all is in the base frame; there is no goal among it.
+        All is in the base frame; there is no goal among it.
         """
         n = len(self.trial.q)
         R = physics.R().reshape(3, 3).T

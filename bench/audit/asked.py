@@ -39,7 +39,7 @@ def ask_of(function: Callable, now: np.ndarray, goal: np.ndarray) -> Answers:
     with warnings.catch_warnings(), np.errstate(all="ignore"):
         warnings.simplefilter("ignore")
         for i, (one, other) in enumerate(zip(now, goal, strict=True)):
-            e[i], reason = _answer(function, one, other)
+            e[i], reason = _answer(function, one.copy(), other.copy())
             raised.append(reason)
     return Answers(e, raised)
 
@@ -47,12 +47,9 @@ def ask_of(function: Callable, now: np.ndarray, goal: np.ndarray) -> Answers:
 def _answer(function: Callable, now: np.ndarray, goal: np.ndarray):
     """Three numbers, or NaN and the reason."""
     try:
-        given = now.copy(), goal.copy()
-        said = function(*given)
+        said = function(now, goal)
     except Exception as error:  # whatever it raises is its answer
         return np.nan, f"{type(error).__name__}: {error}"
-    if not (np.array_equal(given[0], now) and np.array_equal(given[1], goal)):
-        return np.nan, "it changes its input; let it copy what it writes to"
     try:
         numbers = np.asarray(said).astype(float)
     except Exception:  # as a tensor that requires a gradient
