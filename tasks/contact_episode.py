@@ -48,10 +48,7 @@ class InContact(control.Task):
         return motors(physics)
 
     def get_observation(self, physics: Physics) -> dict[str, np.ndarray]:
-        """R by columns (n, o, a: nine numbers), omega [rad/s] and p [m] of the hand, q and qdot of the arm, F = (f, m) [N, N m].
-
-        All is in the base frame; there is no goal among it.
-        """
+        """R (n, o, a), omega [rad/s] and p [m] of the hand, q and qdot of the arm, F = (f, m) [N, N m], base frame."""
         n = len(self.trial.q)
         R = physics.R().reshape(3, 3).T
         gauge = np.array(physics.data.sensordata[19:25])
@@ -65,7 +62,7 @@ class InContact(control.Task):
         }
 
     def get_reward(self, physics: Physics) -> float:
-        """Return 0.0: a task in contact defines no reward; compute one from the observation."""
+        """None: what is good is the metrics' business."""
         return 0.0
 
 

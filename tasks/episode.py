@@ -101,7 +101,7 @@ class Regulation(control.Task):
         return motors(physics)
 
     def get_observation(self, physics: Physics) -> dict[str, np.ndarray]:
-        """All that a contestant sees: R by columns (n, o, a), omega [rad/s], goal_quat wxyz; on an arm also q, qdot, p.
+        """All that a contestant sees: R (n, o, a), omega [rad/s], goal_quat (w, x, y, z); on an arm also q, qdot, p.
 
         Where the start commands a motion of the tool, goal_p too [m].
         """

@@ -52,7 +52,7 @@ def _answer(function: Callable, now: np.ndarray, goal: np.ndarray):
         return np.nan, f"{type(error).__name__}: {error}"
     try:
         numbers = np.asarray(said).astype(float)
-    except Exception:  # as a tensor that requires a gradient
+    except (TypeError, ValueError):
         return np.nan, f"{NO_THREE_NUMBERS}{type(said).__name__}"
     if numbers.size != 3:
         return np.nan, f"{NO_THREE_NUMBERS}an array of shape {numbers.shape}"

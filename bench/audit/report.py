@@ -9,6 +9,8 @@ import numpy as np
 from bench.audit.convention import Convention
 from bench.audit.fault import NOTE, Evidence, Finding
 
+PAGE = "29-take-it-home"
+
 
 class Report(NamedTuple):
     """The convention of a function (None if no convention explains its answers), and what was found."""
@@ -46,9 +48,9 @@ class Report(NamedTuple):
         }
 
 
-def source(finding: Finding) -> str:
-    """Return the file that looks for it and explains it."""
-    return f"bench/audit/faults/{finding.fault.name.replace('-', '_')}.py"
+def page(finding: Finding) -> str:
+    """Where it is explained."""
+    return f"report/pages/{PAGE}.md#{finding.fault.name}"
 
 
 def word(finding: Finding) -> str:
@@ -63,7 +65,7 @@ def paragraph(name: str, finding: Finding) -> str:
         f"{word(finding)} {fault.name}: {fault.title}",
         f"  {found.text}",
         f"  Effect: {fault.effect}",
-        f"  Cure: {fault.cure} (law: {fault.law}; {source(finding)})",
+        f"  Cure: {fault.cure} (law: {fault.law}; {page(finding)})",
     ]
     return "\n".join((*lines, *(f"    {line}" for line in code(name, found.evidence))))
 
@@ -102,7 +104,7 @@ def as_dict(finding: Finding) -> dict[str, Any]:
         "effect": finding.fault.effect,
         "cure": finding.fault.cure,
         "law": finding.fault.law,
-        "file": source(finding),
+        "page": page(finding),
         "evidence": {key: plain(value) for key, value in evidence._asdict().items()} if evidence else None,
     }
 

@@ -106,9 +106,8 @@ def contenders_of(regulator: Regulator) -> list[Contender]:
 
 
 def all_contenders(extra: tuple[Regulator, ...] = ()) -> list[Contender]:
-    """Every regulator in every representation it acts on, costings included; then the user's own, each in the place of ours of its name."""
-    every = known_regulators() | {one.name: one for one in extra}
-    return [one for regulator in every.values() for one in contenders_of(regulator)]
+    """Every regulator in every representation it acts on, costings included; then the user's own."""
+    return [one for regulator in (*known_regulators().values(), *extra) for one in contenders_of(regulator)]
 
 
 @functools.cache

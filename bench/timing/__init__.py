@@ -22,7 +22,7 @@ benchmark_json     from seconds to pytest-benchmark's own format
 """
 
 from bench.timing.apart import run_apart
-from bench.timing.rows import FOLDER, about, read, run
+from bench.timing.rows import about, read, run
 from bench.timing.summary import arm_table, table
 
-__all__ = ["FOLDER", "about", "arm_table", "read", "run", "run_apart", "table"]
+__all__ = ["about", "arm_table", "read", "run", "run_apart", "table"]

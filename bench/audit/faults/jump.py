@@ -19,7 +19,7 @@ JUMP = 1e-3
 
 def find(examined) -> Found | None:
     """Along rotations from 1 to 179° about some axes: neighbours apart, and still so when they come together."""
-    if not examined.convention or not examined.slope:
+    if not examined.convention:
         return None
     for q, axis in lines():
         angle = np.radians(np.arange(1.0, 179.5, STEP_DEG))

@@ -31,17 +31,14 @@ def find(examined) -> Found | None:
     ratio = examined.slope / examined.stated.stiffness
     i = int(np.flatnonzero(examined.at(NEAR_IDENTITY) & (examined.pairs.angle > LARGEST_RAD))[0])
     evidence = examined.evidence(i, False)._replace(right=examined.e[i] / ratio)
-    damped = f"the damping ratio is {1.0 / np.sqrt(ratio):.3g} times as large" if ratio > 0.0 else "nothing restores it"
-    why = " (180/pi: it returns degrees; convert with np.radians)" if abs(np.radians(ratio) - 1.0) <= DEVIATION else ""
-    return Found(f"the stiffness felt is {ratio:.6g} times the stiffness set{why}; {damped}", evidence)
+    return Found(f"the stiffness felt is {ratio:.4g} of the stiffness set", evidence)
 
 
 FAULT = Fault(
     "stiffness",
     "stiffness felt is not stiffness set",
-    "the robot is as many times as stiff as set, and its damping ratio changes by one over the root of that",
-    "convert degrees to radians; a vector part needs the factor 2, "
-    "modified Rodrigues parameters 4; or reckon with it in the gain",
+    "with half the slope the robot is half as stiff as set, and damped 1.4 times as much as critically",
+    "a vector part needs the factor 2, modified Rodrigues parameters 4; or reckon with it in the gain",
     "quaternion-shortest",
     find,
     unless=("euler-angles",),
