@@ -1,5 +1,8 @@
 """One trial of a task in contact as a dm_control Environment; the order of a tick is that of episode.py.
 
+The reward is 0.0 at every tick: what a trial comes to is said by the judge's metrics, and a learner needs a reward of
+its own. Every reset begins the same trial.
+
 F, what the surroundings do to the hand, is known at a tick as MuJoCo computed it in the step before.
 
 Fails: dm_control raises PhysicsError where MuJoCo warns of a state that is not finite, and MuJoCo's own FatalError
@@ -48,7 +51,10 @@ class InContact(control.Task):
         return motors(physics)
 
     def get_observation(self, physics: Physics) -> dict[str, np.ndarray]:
-        """R (n, o, a), omega [rad/s] and p [m] of the hand, q and qdot of the arm, F = (f, m) [N, N m], base frame."""
+        """R, omega [rad/s] and p [m] of the hand, q and qdot of the arm, F = (f, m) [N, N m], base frame.
+
+        R is nine numbers by columns: n, o, a.
+        """
         n = len(self.trial.q)
         R = physics.R().reshape(3, 3).T
         gauge = np.array(physics.data.sensordata[19:25])
@@ -62,7 +68,7 @@ class InContact(control.Task):
         }
 
     def get_reward(self, physics: Physics) -> float:
-        """None: what is good is the metrics' business."""
+        """0.0 always: the metrics judge a trial, not a reward."""
         return 0.0
 
 

@@ -101,9 +101,9 @@ class Regulation(control.Task):
         return motors(physics)
 
     def get_observation(self, physics: Physics) -> dict[str, np.ndarray]:
-        """All that a contestant sees: R (n, o, a), omega [rad/s], goal_quat (w, x, y, z); on an arm also q, qdot, p.
+        """All that a contestant sees: R, omega [rad/s], goal_quat (w, x, y, z); on an arm also q, qdot, p.
 
-        Where the start commands a motion of the tool, goal_p too [m].
+        R is nine numbers by columns: n, o, a. Where the start commands a motion of the tool, goal_p too [m].
         """
         seen = {"R": physics.R(), "omega": physics.omega(), "goal_quat": np.array(self.start.goal_wxyz)}
         if self.task.arm:

@@ -14,10 +14,14 @@ NO_THREE_NUMBERS = "it returned no three numbers, but "
 
 
 class Answers(NamedTuple):
-    """e (n x 3), NaN where there are no three numbers; raised (n): the reason there, else an empty string."""
+    """e (n x 3), NaN where there are no three numbers; raised (n): the reason there, else an empty string.
+
+    changed (n): whether the function wrote into what it was given.
+    """
 
     e: np.ndarray
     raised: list[str]
+    changed: np.ndarray
 
 
 def inputs(takes: str, pairs: Pairs) -> tuple[np.ndarray, np.ndarray]:
@@ -35,13 +39,15 @@ def ask(function: Callable, takes: str, pairs: Pairs) -> Answers:
 
 def ask_of(function: Callable, now: np.ndarray, goal: np.ndarray) -> Answers:
     """The same, of arrays."""
-    e, raised = np.full((len(now), 3), np.nan), []
+    e, raised, changed = np.full((len(now), 3), np.nan), [], np.zeros(len(now), bool)
     with warnings.catch_warnings(), np.errstate(all="ignore"):
         warnings.simplefilter("ignore")
         for i, (one, other) in enumerate(zip(now, goal, strict=True)):
-            e[i], reason = _answer(function, one.copy(), other.copy())
+            given = one.copy(), other.copy()
+            e[i], reason = _answer(function, *given)
             raised.append(reason)
-    return Answers(e, raised)
+            changed[i] = not (np.array_equal(given[0], one) and np.array_equal(given[1], other))
+    return Answers(e, raised, changed)
 
 
 def _answer(function: Callable, now: np.ndarray, goal: np.ndarray):
@@ -54,6 +60,8 @@ def _answer(function: Callable, now: np.ndarray, goal: np.ndarray):
         numbers = np.asarray(said).astype(float)
     except (TypeError, ValueError):
         return np.nan, f"{NO_THREE_NUMBERS}{type(said).__name__}"
+    except RuntimeError as error:  # a tensor that keeps a gradient
+        return np.nan, f"{NO_THREE_NUMBERS}{type(said).__name__} ({error})"
     if numbers.size != 3:
         return np.nan, f"{NO_THREE_NUMBERS}an array of shape {numbers.shape}"
     return numbers.reshape(3), ""

@@ -73,8 +73,7 @@ def find(takes: str, pairs: Pairs, e: np.ndarray) -> tuple[float, Convention | N
         angle = apart(e, directions(pairs, frame))
         for place in FIT:
             here = angle[pairs.place == place]
-            with np.errstate(invalid="ignore"):
-                share = float(np.mean((here < ALONG_RAD) | (here > np.pi - ALONG_RAD)))
+            share = float(np.mean((here < ALONG_RAD) | (here > np.pi - ALONG_RAD)))
             if share > best[0] + 1e-9:
                 best = (share, frame, way(here, np.linalg.norm(e[pairs.place == place], axis=1)))
     share, frame, sign = best

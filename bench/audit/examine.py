@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import warnings
 from collections.abc import Callable
 
 import numpy as np
@@ -24,7 +25,7 @@ class Examined:
     """A function with its answers to every pair.
 
     Attributes:
-        e: its answers (n x 3); raised: reasons where it had none.
+        e: its answers (n x 3); raised: reasons where it had none; changed: where it wrote into its inputs.
         convention: what it means; None if nothing explains its answers.
         direction: where they should point (n x 3), zero without a convention.
         truth: what they should be (n x 3), NaN without a form.
@@ -33,14 +34,14 @@ class Examined:
     def __init__(self, function: Callable, stated: Stated, takes: str, found: Convention | None):
         self.function, self.stated, self.takes, self.convention = function, stated, takes, found
         self.pairs = pairs.every_pair()
-        self.e, self.raised = ask(function, takes, self.pairs)
+        self.e, self.raised, self.changed = ask(function, takes, self.pairs)
         self.size = np.linalg.norm(self.e, axis=1)
         self.direction, self.truth = self.known(self.pairs)
 
     @property
     def slope(self) -> float:
-        """|e|/theta at the goal."""
-        return self.convention.slope if self.convention else 1.0
+        """|e|/theta at the goal; 1 where it has none, as in a dead band."""
+        return (self.convention and self.convention.slope) or 1.0
 
     def known(self, of: Pairs) -> tuple[np.ndarray, np.ndarray]:
         """direction and truth of some pairs."""
@@ -94,9 +95,11 @@ def examine(function: Callable, stated: Stated, name: str) -> Report:
     """The report on a function; if it has no convention, of that input for which the mistake is known, if it is."""
     stated.check([one.name for one in every_fault()])
     reports = []
-    for takes, found in understood(function, stated, name):
-        examined = Examined(function, stated, takes, found)
-        reports.append(Report(name, len(examined.e), takes, found, findings(examined)))
+    with warnings.catch_warnings(), np.errstate(all="ignore"):  # answers may be infinite, or no numbers
+        warnings.simplefilter("ignore", RuntimeWarning)
+        for takes, found in understood(function, stated, name):
+            examined = Examined(function, stated, takes, found)
+            reports.append(Report(name, len(examined.e), takes, found, findings(examined)))
     return min(reports, key=lambda one: UNKNOWN in one.faults)
 
 

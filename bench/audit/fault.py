@@ -20,11 +20,16 @@ class Evidence(NamedTuple):
 
 
 class Found(NamedTuple):
-    """What `find` returns: how it shows, in numbers; a pair; and whether it is a property that one may want."""
+    """What `find` returns: how it shows, in numbers; a pair; and whether it is a property that one may want.
+
+    effect, cure: of this function, where the fault's own words are too general.
+    """
 
     text: str
     evidence: Evidence | None = None
     severity: str = FAULT
+    effect: str = ""
+    cure: str = ""
 
 
 class Fault(NamedTuple):
@@ -55,6 +60,16 @@ class Finding(NamedTuple):
     fault: Fault
     found: Found
     is_accepted: bool = False
+
+    @property
+    def effect(self) -> str:
+        """What it does to a controller."""
+        return self.found.effect or self.fault.effect
+
+    @property
+    def cure(self) -> str:
+        """What to do."""
+        return self.found.cure or self.fault.cure
 
     @property
     def is_fault(self) -> bool:

@@ -9,8 +9,6 @@ import numpy as np
 from bench.audit.convention import Convention
 from bench.audit.fault import NOTE, Evidence, Finding
 
-PAGE = "29-take-it-home"
-
 
 class Report(NamedTuple):
     """The convention of a function (None if no convention explains its answers), and what was found."""
@@ -48,9 +46,9 @@ class Report(NamedTuple):
         }
 
 
-def page(finding: Finding) -> str:
-    """Where it is explained."""
-    return f"report/pages/{PAGE}.md#{finding.fault.name}"
+def file(finding: Finding) -> str:
+    """Where it is explained and looked for."""
+    return f"bench/audit/faults/{finding.fault.name.replace('-', '_')}.py"
 
 
 def word(finding: Finding) -> str:
@@ -64,8 +62,8 @@ def paragraph(name: str, finding: Finding) -> str:
     lines = [
         f"{word(finding)} {fault.name}: {fault.title}",
         f"  {found.text}",
-        f"  Effect: {fault.effect}",
-        f"  Cure: {fault.cure} (law: {fault.law}; {page(finding)})",
+        f"  Effect: {finding.effect}",
+        f"  Cure: {finding.cure} (law: {fault.law}; {file(finding)})",
     ]
     return "\n".join((*lines, *(f"    {line}" for line in code(name, found.evidence))))
 
@@ -101,10 +99,10 @@ def as_dict(finding: Finding) -> dict[str, Any]:
         "severity": word(finding),
         "title": finding.fault.title,
         "text": finding.found.text,
-        "effect": finding.fault.effect,
-        "cure": finding.fault.cure,
+        "effect": finding.effect,
+        "cure": finding.cure,
         "law": finding.fault.law,
-        "page": page(finding),
+        "file": file(finding),
         "evidence": {key: plain(value) for key, value in evidence._asdict().items()} if evidence else None,
     }
 

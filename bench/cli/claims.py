@@ -4,27 +4,44 @@ from pathlib import Path
 
 import rich_click as click
 
-from bench.cli.paragraphs import Paragraph, print_paragraphs
+from bench.cli.paragraphs import Paragraph, listed, print_paragraphs
 from bench.cli.progress import progress
-from bench.cli.screen import console
+from bench.cli.screen import console, examples
+
+EPILOG = examples(
+    ("Of results/latest", "claims"),
+    ("Of another run, with the paper's words and each criterion", "claims results/mine --criteria"),
+)
 
 
-@click.command("claims")
+@click.command("claims", epilog=EPILOG)
 @click.argument("folder", required=False, type=click.Path(path_type=Path))
 @click.option("--criteria", is_flag=True, help="Print each claim's quote and criteria too.")
 def COMMAND(folder, criteria):
-    """The claims of Murphy (1988): id, verdict, what is claimed, then the evidence (default: results/latest)."""
-    from bench.findings.claims import judge_all
+    """The claims of Murphy (1988): id, verdict, what is claimed, then the evidence (default: results/latest).
+
+    A run of some laws or starts has no rows about some claims; those are named at the end as not judged.
+    """
+    from bench.findings.claims import NoEvidence, Results, all_claims, decide
     from bench.tables import read
 
+    results = Results(folder or read.folder())
+    results.table("episodes")  # refuses a run that has not finished
+    verdicts, unknown = [], []
     with progress("claims", "judging the paper's claims"):
-        verdicts = judge_all(folder or read.folder())
+        for claim in all_claims():
+            try:
+                verdicts.append(decide(claim, results))
+            except NoEvidence:
+                unknown.append(claim.id)
     for one in verdicts:
         claimed = f"{str(one.word).capitalize()} ({one.rows:,} rows): {one.claim.sentence}"
         correction = (f"Correction of the paper: {one.correction}",) if one.correction else ()
         record = _record(one) if criteria else ()
         print_paragraphs(Paragraph(one.id, (claimed, *correction, f"Evidence: {one.evidence}", *record)))
         console().print()
+    if unknown:
+        print_paragraphs(Paragraph("Not judged", (f"This run has no rows about {listed(unknown)}.",)))
 
 
 def _record(one) -> tuple[str, ...]:

@@ -72,7 +72,7 @@ def COMMAND(kind, laws):
 
 @kind("regulators", "Regulators", "name", "acts on", "proved", "source")
 def _regulators(own):
-    for one in (*known_regulators().values(), *own):
+    for one in dict.fromkeys((*known_regulators().values(), *own)):
         on = one.coordinates if isinstance(one.coordinates, str) else ", ".join(one.coordinates)
         yield one.name, on, "costing only" if one.costing_only else one.property, one.origin or one.source
 

@@ -66,8 +66,8 @@ def named(regulators, jacobians, inverses) -> Named:
 
 
 def own_laws(files: tuple[Path, ...]) -> tuple[Regulator, ...]:
-    """The user's regulators; two of one name are refused."""
-    own = tuple(map(described, files))
+    """The regulators of these files, those that lie in bench/contenders too; two of one name are refused."""
+    own = tuple(registry.regulator_in(file) or described(file) for file in files)
     names = [one.name for one in own]
     for name in names:
         if names.count(name) > 1:

@@ -1,21 +1,42 @@
 """`time`: nanoseconds a tick on this machine, through pytest-benchmark."""
 
+from pathlib import Path
+
 import rich_click as click
 
 from bench.cli import options
 from bench.cli.progress import progress
-from bench.cli.screen import console, frame_table
+from bench.cli.screen import console, examples, frame_table, shown_path
+from bench.tables.schema import RESULTS
+
+WHOLE, PARTIAL = RESULTS / "timings", RESULTS / "timings-partial"
+
+EPILOG = examples(
+    ("Everything, into results/timings", "time"),
+    ("Two laws, roughly, into results/timings-partial", "time --quick --regulator gibbs --regulator mrp"),
+    ("A law of your own beside all others", "time --law my_law.py --out results/my-timings"),
+)
 
 
-@click.command("time")
+@click.command("time", epilog=EPILOG)
 @options.law
 @options.regulator
 @options.representation
 @options.arm
 @click.option("--quick", is_flag=True, help="Fewer passes: rougher numbers in a fraction of the time.")
 @click.option("--benchmark-json", default="", metavar="FILE", help="The samples, as pytest-benchmark reads them.")
-def COMMAND(laws, regulators, representations, arms, quick, benchmark_json):
-    """Time every law, engine and arm per tick, interleaved with a fixed reference kernel; into results/timings."""
+@click.option(
+    "--out",
+    type=options.PATH,
+    metavar="FOLDER",
+    help="Folder of the machine's file; by default results/timings for everything, results/timings-partial for less.",
+)
+def COMMAND(laws, regulators, representations, arms, quick, benchmark_json, out: Path | None):
+    """Time every law, engine and arm per tick, interleaved with a fixed reference kernel.
+
+    results/timings is under version control. A run with --quick, or of less or more than everything, does not write
+    there unless --out names it.
+    """
     import tasks
     from bench import timing
 
@@ -29,7 +50,9 @@ def COMMAND(laws, regulators, representations, arms, quick, benchmark_json):
 
         chosen = options.chosen(laws, regulators, representations, costings=True)
         run = timing.run_apart if laws else timing.run
-        path = run(chosen, quick=quick, report=report, arms=named, json_file=benchmark_json)
+        is_whole = not (laws or regulators or representations or arms or quick)
+        folder = out or (WHOLE if is_whole else PARTIAL)
+        path = run(chosen, folder, quick=quick, report=report, arms=named, json_file=benchmark_json)
     console().print(frame_table(timing.table(path), "Time per tick"))
     console().print(frame_table(timing.arm_table(path), "Time per tick on arms"))
-    console().print(f"wrote {path}" + (f" and {benchmark_json}" if benchmark_json else ""))
+    console().print(f"wrote {shown_path(path)}" + (f" and {benchmark_json}" if benchmark_json else ""))

@@ -7,6 +7,7 @@ constant's name.
 import functools
 import importlib
 import pkgutil
+from pathlib import Path
 from typing import Any
 
 from bench.contenders import (
@@ -126,6 +127,12 @@ def papers_coordinates() -> Representation:
 def regulator(word: str, extra: tuple[Regulator, ...] = ()) -> Regulator:
     """The regulator of that name, the user's own among them."""
     return _named("regulator", word, extra)
+
+
+def regulator_in(file: Path) -> Regulator | None:
+    """The regulator of a file in bench/contenders/regulators/; None for a file elsewhere."""
+    is_here = file.is_file() and file.resolve().parent == Path(regulators.__path__[0]).resolve()
+    return known_regulators().get(file.stem.replace("_", "-")) if is_here else None
 
 
 def representation(word: str) -> Representation:

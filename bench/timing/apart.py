@@ -16,7 +16,7 @@ from bench.contenders.registry import find_contender
 from bench.errors import BadLaw, BenchError
 from bench.law.contender import Contender
 from bench.timing.benchmarks import Progress
-from bench.timing.rows import FOLDER, run
+from bench.timing.rows import run
 
 SILENT_S = 300.0
 """On the wall, from one sample to the next: ten times what compiling a law for all engines takes."""
@@ -24,7 +24,7 @@ SILENT_S = 300.0
 
 def run_apart(
     contenders: Iterable[Contender],
-    folder: Path = FOLDER,
+    folder: Path,
     quick: bool = False,
     report: Callable = lambda _: None,
     arms: tuple[str, ...] = (),

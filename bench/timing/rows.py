@@ -11,7 +11,6 @@ import pandas as pd
 from bench.experiments.rows.episodes import contender_columns
 from bench.law.contender import Contender
 from bench.provenance import describe, machine_key
-from bench.tables.schema import RESULTS
 from bench.tables.store import read_arrow, write_table
 from bench.timing import benchmark_json, threads
 from bench.timing.benchmark import DM_CONTROL, KERNEL, ROLLOUT, THREADS, Benchmark
@@ -19,14 +18,13 @@ from bench.timing.benchmarks import benchmarks
 from bench.timing.ratios import Ratio, ratio
 from bench.timing.session import measure
 
-FOLDER = RESULTS / "timings"
 PASSES, QUICK_PASSES = 31, 7
 """Odd, so that the median is a value. The interval covers the 10th to 22nd of 31, and all 7."""
 
 
 def run(
     contenders: list[Contender],
-    folder: Path = FOLDER,
+    folder: Path,
     quick: bool = False,
     report: Callable = lambda _: None,
     arms: tuple[str, ...] = (),

@@ -157,6 +157,15 @@ def test_function_of_another_shape_is_refused(file, name, said):
         audit(load(f"{file}:{name}"))
 
 
+def test_answer_that_no_array_holds_is_refused_in_its_own_words():
+    class Tensor:
+        def __array__(self, *_, **__):
+            raise RuntimeError("Can't call numpy() on Tensor that requires grad")
+
+    with pytest.raises(BadFunction, match=r"Tensor \(Can't call numpy\(\) on Tensor that requires grad\)"):
+        audit(lambda R, R_d: Tensor())
+
+
 @pytest.mark.parametrize("words", [{"takes": "quat"}, {"frame": "world"}, {"sign": "plus"}, {"accept": ("norm-clop",)}])
 def test_unknown_word_is_refused_with_the_known_ones(file, words):
     with pytest.raises(UnknownWord, match="known: "):

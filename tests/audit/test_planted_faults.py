@@ -156,6 +156,11 @@ def tangent(R, R_d):
     return 2.0 * np.tan(0.5 * theta) * e / theta if theta else e
 
 
+def rounded(R, R_d):
+    """To tenths: its slope at the goal is 0."""
+    return np.round(scipy_in_base(R, R_d), 1)
+
+
 @pytest.mark.parametrize(
     ("function", "names"),
     [
@@ -169,12 +174,29 @@ def tangent(R, R_d):
         (unit_vector, {"stiffness"}),
         (stiffer_with_the_angle, {"stiffness"}),
         (saturated, set()),
+        (rounded, {"deadband"}),
         (noisy, {"memory"}),
         (filtered(), {"memory"}),
     ],
 )
 def test_other_fault_is_named_and_no_other(function, names):
     assert {one.fault.name for one in audited(function).findings} == names
+
+
+def test_degrees_are_told_from_another_slope():
+    in_degrees = paragraphs(lambda R, R_d: np.degrees(scipy_in_base(R, R_d)))
+    assert "in degrees: the slope is 57.2958 = 180/pi" in in_degrees
+    assert "57.3 times as stiff as set, and damped 0.13 times as much" in in_degrees
+    assert "0.5 times as stiff as set, and damped 1.4 times as much" in paragraphs(half_stiff)
+
+
+def paragraphs(function):
+    return audit(function).text()
+
+
+def test_numbers_that_overflow_print_no_warning(recwarn):
+    audit(lambda R, R_d: scipy_in_base(R, R_d) * 1e300 / 1e-10)
+    assert [one for one in recwarn if one.category is RuntimeWarning] == []
 
 
 def test_refusal_of_input_that_is_off_is_a_note():

@@ -67,6 +67,15 @@ def test_summary_of_a_tiny_run_fits_too_and_says_what_is_not_in_it(capsys, finis
     assert f"python -m bench show {finished.name} --details" in said.out
 
 
+def test_what_a_narrowed_run_offers_next_works(capsys, finished, monkeypatch):
+    monkeypatch.chdir(finished.parent)
+    offered = re.findall(r"python -m bench (.*?)   ", bench(capsys, "show", finished.name).out)
+    said = [bench(capsys, *words.split()) for words in offered]
+    assert [words.split()[0] for words in offered] == ["show", "claims"]
+    assert {(one.code, "There is nothing" in one.out) for one in said} == {(0, False)}
+    assert re.search(r"^Not judged {3}This run has no rows about C01", said[-1].out, re.MULTILINE)
+
+
 def test_no_line_of_a_paragraph_is_broken_inside_a_name():
     name = "feedback-linearized/quaternion@analytic+pseudo-inverse"
     lines = paragraphs.laid_out([paragraphs.Paragraph("What failed", (f"most often {name}, " * 3,))], 80)

@@ -24,6 +24,7 @@ from tasks.verdict import CRASHED, SINGULAR
 README = (ROOT / "README.md").read_text()
 EXAMPLE = next(code for code in re.findall(r"```python\n(.*?)```", README, re.DOTALL) if "REGULATOR" in code)
 METRICS = metrics_of(on_arm=False)
+ON_BODY = ("--regulator", "gibbs", "--task", "free-body")
 
 
 def contender(folder, *body: str, remembers: bool = False):
@@ -143,3 +144,11 @@ def test_run_keeps_a_law_of_ones_own_and_the_report_shows_it(tmp_path, monkeypat
     text = regulators.source(own)
     assert "laws/my_law.py" in text
     assert "REGULATOR" in text
+
+
+def test_law_file_that_lies_in_its_place_is_taken(capsys):
+    path = ROOT / "bench" / "contenders" / "regulators" / "gibbs.py"
+    judged, planned = bench(capsys, "judge", path), bench(capsys, "run", "--law", path, *ON_BODY, "--dry-run")
+    assert (judged.code, planned.code) == (0, 0)
+    assert judged.out.startswith("gibbs: no fault found.")
+    assert "laws: gibbs\n" in planned.out

@@ -218,6 +218,11 @@ def nan_at_identity_xyzw(q, q_d):
     return chord(e) / np.linalg.norm(e[1:]) * np.linalg.norm(e[1:])
 
 
+def transposes_in_place(R, R_d):
+    R[:] = R.T.copy()
+    return log(R_d @ R)
+
+
 PLANTED: dict = {
     sign_of_zero: {"dead-at-180"},
     sign_of_zero_in_body_xyzw: {"dead-at-180"},
@@ -254,5 +259,6 @@ PLANTED: dict = {
     jump_at_90_of_quaternions: {"jump"},
     nan_at_identity: {"not-a-number"},
     nan_at_identity_xyzw: {"not-a-number"},
+    transposes_in_place: {"changes-inputs"},
 }
 """Function -> what it must be found to have, notes too; nothing else is true of it."""

@@ -8,6 +8,7 @@ import numpy as np
 import pandas as pd
 import pytest
 from scipy.stats import binom
+from support.command_line import bench
 
 from bench import timing
 from bench.contenders.registry import find_contender
@@ -183,3 +184,19 @@ def test_interrupt_or_failure_of_a_thing_ends_the_measuring_with_its_reason(rais
 
     with pytest.raises(told, match=reason):
         measure([benchmark("one", broken)], passes=2)
+
+
+@pytest.mark.parametrize(
+    ("words", "folder"),
+    [
+        ((), "timings"),
+        (("--quick",), "timings-partial"),
+        (("--regulator", "gibbs"), "timings-partial"),
+        (("--quick", "--out", "mine"), "mine"),
+    ],
+)
+def test_only_a_whole_run_writes_unasked_where_files_are_tracked(capsys, monkeypatch, quick, words, folder):
+    given = []
+    monkeypatch.setattr(timing, "run", lambda _, out, **more: given.append(out.name) or quick[0])
+    assert bench(capsys, "time", *words).code == 0
+    assert given == [folder]

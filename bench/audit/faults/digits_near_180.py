@@ -14,13 +14,12 @@ def find(examined) -> Found | None:
     if not examined.convention:
         return None
     here = examined.at(NEAR_180) & (examined.size > 0.0)
-    with np.errstate(invalid="ignore"):
-        error = examined.size * np.sin(examined.apart)
-        if np.nanmax(examined.error[here & (examined.pairs.distance > FARTHEST_RAD)], initial=0.0) < COUNT_RAD:
-            error = np.fmax(error, examined.error)
-        error = np.where(here, error, 0.0) / examined.slope
-        if not (error > COUNT_RAD).any():
-            return None
+    error = examined.size * np.sin(examined.apart)
+    if np.nanmax(examined.error[here & (examined.pairs.distance > FARTHEST_RAD)], initial=0.0) < COUNT_RAD:
+        error = np.fmax(error, examined.error)
+    error = np.where(here, error, 0.0) / examined.slope
+    if not (error > COUNT_RAD).any():
+        return None
     worst = int(np.nanargmax(error))
     distance = examined.pairs.distance[worst]
     return Found(f"off by up to {error[worst]:.2g} rad, {distance:.2g} rad before 180°", examined.evidence(worst))

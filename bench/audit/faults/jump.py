@@ -25,9 +25,8 @@ def find(examined) -> Found | None:
         angle = np.radians(np.arange(1.0, 179.5, STEP_DEG))
         e = examined.ask(along(q, axis, angle)).e
         step = np.linalg.norm(np.diff(e, axis=0), axis=1) / examined.slope
-        with np.errstate(invalid="ignore"):
-            beside = np.fmax(np.append(step[1:], 0.0), np.insert(step[:-1], 0, 0.0))
-            suspects = np.flatnonzero((step > np.radians(STEP_DEG) + SUSPECT) & (step > STEEPER * beside))
+        beside = np.fmax(np.append(step[1:], 0.0), np.insert(step[:-1], 0, 0.0))
+        suspects = np.flatnonzero((step > np.radians(STEP_DEG) + SUSPECT) & (step > STEEPER * beside))
         for i in suspects:
             low, high = narrowed(examined, q, axis, angle[i], angle[i + 1])
             ends = along(q, axis, np.array((low, high)))

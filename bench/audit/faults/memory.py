@@ -13,8 +13,7 @@ def find(examined) -> Found | None:
     """Some pairs are asked once more, in reverse order."""
     here = np.flatnonzero(examined.at(WIDE))[::-10]
     first, again = examined.e[here], examined.ask(examined.pairs.chosen(here)).e
-    with np.errstate(invalid="ignore"):
-        differs = np.linalg.norm(again - first, axis=1) > DIFFERENCE * examined.slope
+    differs = np.linalg.norm(again - first, axis=1) > DIFFERENCE * examined.slope
     if not differs.any():
         return None
     return Found(

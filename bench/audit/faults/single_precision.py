@@ -15,11 +15,10 @@ Along it a small constant in a denominator leaves as much.
 def find(examined) -> Found | None:
     """Off the axis by as much as single precision leaves where nothing is difficult."""
     here = np.flatnonzero(examined.at(WIDE, CLOSE))
-    with np.errstate(invalid="ignore"):
-        across = np.sin(examined.apart[here])
-        fits = across < MOST
-        if not examined.convention or fits.sum() < len(here) / 5 or np.median(across[fits]) < LEAST:
-            return None
+    across = np.sin(examined.apart[here])
+    fits = across < MOST
+    if not examined.convention or fits.sum() < len(here) / 5 or np.median(across[fits]) < LEAST:
+        return None
     i = int(here[np.flatnonzero(fits)[np.argmax(across[fits])]])
     return Found(f"answers are off by {np.median(across[fits]):.1g} of their size everywhere", examined.evidence(i))
 

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from bench.audit.fault import FAULT as IS_FAULT
 from bench.audit.fault import Fault, Found
 from bench.audit.pairs import NEAR_IDENTITY
 
@@ -14,6 +15,9 @@ LARGEST_RAD = 0.09
 LEAST_RAD, MOST_RAD = 1e-6, 1e-2
 TIMES = 1.5
 """Between them; a form of one slope changes by 1e-4, and digits lost by less than a tenth."""
+
+
+RADIANS = "convert it to radians: np.radians(e)"
 
 
 def find(examined) -> Found | None:
@@ -31,14 +35,17 @@ def find(examined) -> Found | None:
     ratio = examined.slope / examined.stated.stiffness
     i = int(np.flatnonzero(examined.at(NEAR_IDENTITY) & (examined.pairs.angle > LARGEST_RAD))[0])
     evidence = examined.evidence(i, False)._replace(right=examined.e[i] / ratio)
-    return Found(f"the stiffness felt is {ratio:.4g} of the stiffness set", evidence)
+    effect = f"the robot is {ratio:.3g} times as stiff as set, and damped {ratio**-0.5:.2g} times as much for it"
+    if abs(ratio * np.radians(1.0) - 1.0) <= DEVIATION:
+        return Found(f"e is in degrees: the slope is {ratio:.6g} = 180/pi", evidence, IS_FAULT, effect, RADIANS)
+    return Found(f"the stiffness felt is {ratio:.4g} of the stiffness set", evidence, IS_FAULT, effect)
 
 
 FAULT = Fault(
     "stiffness",
     "stiffness felt is not stiffness set",
-    "with half the slope the robot is half as stiff as set, and damped 1.4 times as much as critically",
-    "a vector part needs the factor 2, modified Rodrigues parameters 4; or reckon with it in the gain",
+    "the stiffness felt is the slope times that set, and the damping ratio changes by one over the slope's root",
+    "take radians; a vector part needs the factor 2, modified Rodrigues parameters 4; or divide the gain by the slope",
     "quaternion-shortest",
     find,
     unless=("euler-angles",),

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from bench.cli.details import parts
 from bench.cli.paragraphs import Paragraph, listed
 from bench.cli.screen import counted
 from bench.contenders.registry import all_contenders
+from bench.experiments.experiment import known_experiments
 from bench.findings.claims import Results
 
 
@@ -26,19 +28,22 @@ def undecided(results: Results) -> Paragraph:
     )
 
 
+def parts_in(results: Results) -> list[str]:
+    """The parts of a run, as `show` names them, that have rows."""
+    episodes = results.table("episodes")
+    tables = {"contact": "compliance"} | {name: one.table.name for name, one in known_experiments().items()}
+    has = {"free-body": (episodes["arm"] == "").any(), "arms": (episodes["arm"] != "").any()}
+    return [part for part in parts() if (has[part] if part in has else len(results.table(tables[part])))]
+
+
 def paragraphs(results: Results) -> list[Paragraph]:
     """The parts and the laws that are not in the run; nothing if all are."""
     episodes = results.table("episodes")
-    there = {
-        "free body": (episodes["arm"] == "").any(),
-        "arms": (episodes["arm"] != "").any(),
-        "contact": len(results.table("compliance")) > 0,
-        "robustness": len(results.table("robustness")) > 0,
-    }
-    absent = [part for part, is_there in there.items() if not is_there]
+    present = parts_in(results)
+    absent = [part.replace("-", " ") for part in parts() if part not in present]
     ran = {str(name).partition("@")[0] for name in episodes["contender"].unique()}
     laws = [one.name for one in all_contenders() if not one.regulator.costing_only]
     missing = [law for law in laws if law not in ran]
-    if there["free body"] and missing:
+    if "free-body" in present and missing:
         absent.append(f"{len(missing)} of the benchmark's {counted(len(laws), 'law')}")
     return [Paragraph("Not in it", (f"Not in this run: {listed(absent)}.",))] if absent else []

@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-from bench.cli.details import parts
 from bench.cli.options import REFERENCE
 from bench.cli.origin import origin
 from bench.cli.paragraphs import Paragraph, listed, print_paragraphs
@@ -32,7 +31,9 @@ def print_summary(folder: Path, is_named: bool) -> None:
         judged = verdicts.paragraph(found)
     print_paragraphs(judged, failures.paragraph(found), *absent.paragraphs(found))
     console().print()
-    print_paragraphs(Paragraph("This run", (here, *_instead(folder, is_named))), _next(folder, is_named))
+    print_paragraphs(
+        Paragraph("This run", (here, *_instead(folder, is_named))), _next(folder, is_named, absent.parts_in(found))
+    )
 
 
 def _instead(folder: Path, is_named: bool) -> list[str]:
@@ -41,7 +42,14 @@ def _instead(folder: Path, is_named: bool) -> list[str]:
     return ["It came with the benchmark; results/latest has no finished run (try: make bench)."] * stands_in
 
 
-def _next(folder: Path, is_named: bool) -> Paragraph:
+def _part(show: str, present: list[str]) -> list[str]:
+    """How to see one part, where there are several."""
+    first = "arms" if "arms" in present else present[0]
+    others = [part for part in present if part != first]
+    return [f"{show} {first}   one part of them; also {listed(others)}"] if others else []
+
+
+def _next(folder: Path, is_named: bool, present: list[str]) -> Paragraph:
     here = shown_path(folder)
     show = f"python -m bench show {here}" if is_named else "python -m bench show"
     book = f"{results.VARIABLE}={here} make report" if is_named else "make report"
@@ -50,7 +58,7 @@ def _next(folder: Path, is_named: bool) -> Paragraph:
         (
             f"{book}   the book of this run",
             f"{show} --details   every table",
-            f"{show} arms   one part of them; also {listed([part for part in parts() if part != 'arms'])}",
+            *_part(show, present),
             f"python -m bench claims {here}   each claim with its evidence",
             f"{here}   the data; results/README.md explains the columns",
         ),

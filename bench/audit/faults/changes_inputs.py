@@ -1,0 +1,24 @@
+"""The function writes into the arrays that it is given."""
+
+import numpy as np
+
+from bench.audit.fault import Fault, Found
+
+
+def find(examined) -> Found | None:
+    """Some inputs are others after the call."""
+    if not examined.changed.any():
+        return None
+    i = int(np.argmax(examined.changed))
+    text = f"{examined.changed.sum()} of {len(examined.changed)} calls changed the orientations that they were given"
+    return Found(text, examined.evidence(i, False))
+
+
+FAULT = Fault(
+    "changes-inputs",
+    "it changes its inputs",
+    "the controller's own pose or goal is another after the call, and what is computed next is wrong",
+    "copy what is changed inside: R = R.copy()",
+    "rotation-matrix",
+    find,
+)
