@@ -177,7 +177,6 @@ gains: ## the quick suite at three more damping ratios, narrowed to what the adv
 gains: $(READY)
 	@for kv in 10 14 30; do $(PY) -m bench run --suite quick --kv $$kv --replace --out results/quick-kv-$$kv && \
 		$(PY) -m bench.findings.selection.gains results/quick-kv-$$kv results/gains/kv-$$kv || exit; done
-	@$(PY) -m bench.studies.verdicts --gains results/quick-kv-10 results/quick-kv-14 results/quick-kv-30
 
 edition: ## the site, its print, data, paper, source and wheels to rebuild it without a network: dist
 edition: $(DEV) report

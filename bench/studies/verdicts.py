@@ -2,7 +2,6 @@
 
     python -m bench.studies.verdicts                     what results/verdicts lacks: about a minute of CPU a seed
     python -m bench.studies.verdicts --only 3 half-step  these anew
-    python -m bench.studies.verdicts --gains FOLDER ...  whole runs at other gains: their words into at_gains.json
 
 A seed draws other starts and poses; what follows from no draw (operations, contact, boundaries) is the reference's. At
 half the step all that steps is run again, contact too. Each run is judged in this process, by the tables that it made
@@ -33,9 +32,6 @@ from bench.tables.files import read_json, write_json
 
 REFERENCE = ROOT / "results" / "reference"
 STORED = ROOT / "results" / "verdicts" / "verdicts.json"
-
-AT_GAINS = STORED.with_name("at_gains.json")
-"""Words of the claims on the runs at other gains, results/gains."""
 
 SEEDS = tuple(range(1, 21))
 HALF_STEP = "half-step"
@@ -133,27 +129,13 @@ def study(names: tuple[str, ...], workers: int, out: Path, again: bool) -> dict:
     return content
 
 
-def at_gains(folders: list[Path]) -> dict:
-    """Judge whole runs at other gains; return the words of all claims by the run's damping ratio."""
-    words = {}
-    for folder in folders:
-        results = Results(folder)
-        kp, kv = results.gains()
-        words[f"{kv / (2.0 * kp**0.5):g}"] = {one.id: _word(one, results) for one in claims.all_claims()}
-    return {"words": dict(sorted(words.items())), "provenance": describe()}
-
-
 def main() -> None:
     """The study's command; exit code 1 if a word changes."""
     parser = argparse.ArgumentParser(prog="python -m bench.studies.verdicts", description=__doc__.splitlines()[0])
     parser.add_argument("--only", nargs="+", choices=RUNS, metavar="RUN", help=f"seeds, or {HALF_STEP}: these anew")
     parser.add_argument("--workers", type=int, default=2, help="threads (default: 2)")
     parser.add_argument("--out", type=Path, default=STORED, help="where to write (default: results/verdicts)")
-    parser.add_argument("--gains", nargs="+", type=Path, metavar="FOLDER", help="judge these runs at other gains alone")
     words = parser.parse_args()
-    if words.gains:
-        write_json(AT_GAINS, at_gains(words.gains))
-        return
     content = study(tuple(words.only or RUNS), words.workers, words.out, again=bool(words.only))
     raise SystemExit(1 if turned(content["runs"], content["reference"]) else 0)
 

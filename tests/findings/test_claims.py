@@ -177,7 +177,7 @@ def slower(factor):
         ("C02", Word.FAILS, "episodes", of("rotation-matrix", "goals"), slower(2)),
         ("C03", Word.CORRECTED, "episodes", of("rotation-matrix", "half-turn"), slower(1.05)),
         ("C03", Word.FAILS, "episodes", of("rotation-matrix", "half-turn"), slower(1.2)),
-        ("C03", Word.FAILS, "episodes", of("rotation-matrix", "uniform"), {"settling_time_s": lambda time: 2.0 - time}),
+        ("C03", Word.FAILS, "episodes", of("rotation-matrix", "uniform"), {"settling_time_s": 1.0}),
         ("C05", Word.FAILS, "episodes", off_the_axes, {"quat_x": 1.0, "quat_y": 0.0, "quat_z": 0.0}),
         ("C06", Word.FAILS, "episodes", of("linearized-euler", "box"), {"outcome": "diverged"}),
         ("C07", Word.FAILS, "episodes", law_of("linearized-euler"), ALL_SETTLE | {"peak_u": 100.0}),

@@ -61,7 +61,7 @@ def later(factor):
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("id", "word"),
-    [("C31", Word.DEPENDS), ("C32", Word.HOLDS), ("C34", Word.CORRECTED), ("C35", Word.HOLDS)],
+    [("C31", Word.CORRECTED), ("C32", Word.HOLDS), ("C34", Word.CORRECTED), ("C35", Word.HOLDS)],
 )
 def test_claim_is_decided_by_the_committed_run(frames, id, word):
     assert decided(judged(id, **frames), word)
@@ -71,6 +71,7 @@ def test_claim_is_decided_by_the_committed_run(frames, id, word):
 @pytest.mark.parametrize(
     ("id", "word", "table", "rows", "cells"),
     [
+        ("C31", Word.HOLDS, "episodes", every(10, "rotation-matrix", "uniform"), LOST),  # its range is larger, then
         ("C31", Word.FAILS, "episodes", every(10, FL, "uniform"), LOST),
         ("C31", Word.FAILS, "episodes", of(FL, "uniform"), later(1.5)),
         ("C32", Word.FAILS, "episodes", every(100, "rotation-matrix", "uniform"), {"outcome": "diverged"}),
@@ -119,18 +120,6 @@ def test_small_rotations_settle_as_expected_and_large_ones_do_not():
     assert expected_settling._off(1.2, Gains(), 1e-3) > expected_settling.LOOSE_SETTLING
 
 
-def as_now(law, gains, seed):
-    """Every other damping ratio as dramatic as the paper's: starts of C31 at other gains."""
-    time = {"rotation-matrix": 2.0, "feedback-linearized/zyx-euler": 0.5}.get(law, math.nan)
-    cells = {"outcome": "settled" if time > 0 else "stuck", "settling_time_s": time, "converged": "yes"}
-    return pd.DataFrame([cells] * 500)
-
-
-@pytest.mark.slow
-def test_claim_depends_on_the_gains_only_where_a_word_differs(frames):
-    assert judged("C31", {"at_gains": as_now}, **frames).word == Word.CORRECTED
-
-
 def heavier(slow, lost):
     """Experiment of C30: feedback linearization slowed by so much and losing so many of 100 at twice the inertia."""
 
@@ -150,25 +139,18 @@ def heavier(slow, lost):
 
 
 @pytest.mark.parametrize(
-    ("slow", "lost", "word"), [(0.95, 2, Word.HOLDS), (1.05, 2, Word.CORRECTED), (0.95, 20, Word.FAILS)]
+    ("slow", "lost", "word"), [(1.05, 2, Word.HOLDS), (1.2, 2, Word.CORRECTED), (1.05, 20, Word.FAILS)]
 )
 def test_model_errors_are_judged_against_the_law_without_a_model(frames, slow, lost, word):
     assert judged("C30", heavier(slow, lost), episodes=frames["episodes"]).word == word
 
 
 @pytest.mark.parametrize(
-    ("euler", "seven", "word"),
-    [
-        ((950, 6), (950, 6), Word.HOLDS),
-        ((1200, 6), (950, 6), Word.CORRECTED),
-        ((1200, 6), (1200, 6), Word.FAILS),
-        ((890, 0), (950, 6), Word.FAILS),
-    ],
+    ("euler", "word"), [((950, 6), Word.HOLDS), ((1200, 6), Word.CORRECTED), ((890, 0), Word.FAILS)]
 )
-def test_force_control_is_judged_by_flops_and_calls(frames, euler, seven, word):
-    def in_contact(controller, joints):
-        more = euler if joints == 6 else seven
-        return Operations(*(more if force_costs.EULER in controller else (900, 0)))
+def test_force_control_is_judged_by_flops_and_calls(frames, euler, word):
+    def in_contact(controller):
+        return Operations(*(euler if force_costs.EULER in controller else (900, 0)))
 
     assert judged("C33", {"in_contact": in_contact}, costs=frames["costs"]).word == word
 

@@ -11,7 +11,6 @@ PLURAL = {
     Word.CORRECTED: "hold with a correction",
     Word.FAILS: "do not",
     Word.ANSWERED: "open in 1988 and answered since then",
-    Word.DEPENDS: "depend on the gains",
 }
 
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from bench.findings.claims import probes, side_by_side
+from bench.findings.claims import side_by_side
 from bench.findings.claims.euler_jacobian import COORDINATES
 from bench.findings.claims.tables import evidence, some
 from bench.findings.claims.verdict import Earlier, Word, claim, word_of
@@ -105,21 +105,10 @@ def _one_axis(results, forms):
         f"""The same as along the base's axes {_by_order(judged, "same")} poses and forms ({judged["arm"].nunique()}
         arms); elsewhere Euler compliance is up to {_greatest(differs[away]):.2f} of the Cartesian one off. Turned by
         the angles before, the Cartesian one differs by at most {_greatest(differs_turned[away]):.1e}. The same as about
-        the hand's own axes {_by_order(judged, "same_in_hand")}. By kinematics alone alpha is the base's z, to
-        {_alpha_off_z(rows):.0e}, and gamma the hand's x; but the arm's inertia spreads a moment, so that about z
-        too the two differ. Closer to the pole: {close}.""",
+        the hand's own axes {_by_order(judged, "same_in_hand")}. Closer to the pole: {close}.""",
         len(rows),
         ("compliance",),
     )
-
-
-def _alpha_off_z(rows: pd.DataFrame) -> float:
-    """Return how far the axis of alpha is from the base's z, over all poses."""
-    from bench.contenders.registry import representation
-
-    to_matrix = representation(COORDINATES).to_matrix
-    axes = [probes.euler_B(to_matrix(tuple(E)))[:, 0] for E in rows[list(ANGLES)].to_numpy().tolist()]
-    return float(np.abs(np.array(axes) - (0.0, 0.0, 1.0)).max())
 
 
 def _turns(angles: np.ndarray) -> np.ndarray:

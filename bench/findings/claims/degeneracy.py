@@ -25,22 +25,16 @@ def _least(R) -> float:
     section="2.2 against 2.3",
     quote="With Z-Y-X Euler angles and Roll-Pitch-Yaw angles this occurs at 180° rotation about the Y, or Pitch axis.",
     value="180°",
-    correction="It is at 90 degrees about Y, either way, as 2.3 and (2.8) have it.",
-    written="2026-11-24 b7bade9",
-    earlier=(
-        Earlier(
-            "2026-11-21 9072535",
-            "A number that 2.3 and (2.8) correct was a failure here, a symbol or a sign a correction in C10 and C15.",
-            Word.FAILS,
-        ),
-    ),
+    correction="It is there, and at other places too.",
+    written="2026-11-21 9072535",
     sentence="With Z-Y-X angles the degeneracy is at a rotation of 180 degrees about Y.",
     question="Is the degenerate rotation about Y one of 180 degrees, or of 90 as the equations have it?",
     criterion=f"""
         Smallest singular value of B (2.8) at rotations of 180, 90 and -90 degrees about Y. It holds if it
-        is below {ON_POLE:g} at 180 degrees; with a correction if it is below that at both +-90 degrees and above
-        {OFF_POLE} at 180, for then another number is meant, as 2.3 has it; otherwise it does not hold. Reported:
-        whether the feedback-linearized law settles from the exact 180° rotation about y and from the exact poles.
+        is below {ON_POLE:g} at 180 degrees; it does not hold if it is below that at both +-90 degrees and
+        above {OFF_POLE} at 180; in any other case it holds with a correction. The exact 180° rotation about y
+        of the set half-turn and the exact poles say the same from simulation: whether the
+        feedback-linearized law settles from them is reported.
     """,
     open="Nothing.",
 )
@@ -60,8 +54,8 @@ def c14(results):
     if least[180] < ON_POLE:
         word = Word.HOLDS
     else:
-        word = Word.CORRECTED if at_quarter and least[180] > OFF_POLE else Word.FAILS
-    so = "2.3 and the equations are right, 2.2 is not" if word == Word.CORRECTED else "2.3 is not confirmed"
+        word = Word.FAILS if at_quarter and least[180] > OFF_POLE else Word.CORRECTED
+    so = "2.3 and the equations are right, 2.2 is not" if word == Word.FAILS else "2.2 is not refuted"
     return word, evidence(
         f"""Smallest singular value of B: {least[180]:.3f} at 180 degrees about Y, {least[90]:.0e} and {least[-90]:.0e}
         at +-90. The feedback-linearized law settles from {int(settled(about_y).sum())} of {len(about_y)} exact half
@@ -123,17 +117,18 @@ def c15(results):
     section="2.2 against 3.3",
     equation="(2.8), (2.9)",
     quote="The matrix B does not exist whenever beta = +-pi/2 and no model is available at that point.",
-    written="2026-11-24 b7bade9",
+    written="2026-11-23 953f62a",
     sentence="B does not exist at beta = +-pi/2 (2.2); B always exists (3.3).",
     question="Which of the two sentences do B and its inverse support?",
     criterion=f"""
-        B (2.8) over the run's orientations and the exact poles. The sentence of 2.2 holds if an element of B is not
-        finite at a pole; with a correction if B is finite at every orientation (elements at most 1) and its inverse
-        does not exist at the poles (smallest singular value below {ON_POLE:g}): then B^-1 is meant, and 3.3 is right;
-        otherwise it does not hold.
+        B (2.8) over the run's orientations and the exact poles. The sentence of 2.2 holds if an element
+        of B is not finite at a pole; it does not hold if B is finite at every orientation (elements at most 1),
+        whatever its rank; with a correction if B is finite at the poles and larger than 1 elsewhere. Reported: the
+        rank at the poles, where B^-1 is what does not exist (smallest singular value below {ON_POLE:g}), so that 3.3
+        is right.
     """,
     open="Nothing.",
-    correction="B exists everywhere, as 3.3 says; B^-1 is what does not exist there.",
+    correction="B exists at the poles, but grows about them.",
     earlier=(
         Earlier(
             "2026-11-21 9072535",
@@ -142,11 +137,6 @@ def c15(results):
             B^-1 is as false as that of C14.
             """,
             Word.CORRECTED,
-        ),
-        Earlier(
-            "2026-11-23 953f62a",
-            "It did not hold where B is finite, whatever its rank; C10 called the same slip, B for B^-1, a correction.",
-            Word.FAILS,
         ),
     ),
 )
@@ -158,8 +148,8 @@ def c16(results):
     at_poles = some(frame[is_pole], "exact pole")
     values = np.linalg.svd(matrices[is_pole], compute_uv=False)
     largest = float(np.abs(matrices).max())
-    lacks_inverse = largest <= 1 + SAME and values[:, 2].max() < ON_POLE
-    word = word_of(not np.isfinite(matrices[is_pole]).all(), lacks_inverse)
+    word = word_of(not np.isfinite(matrices[is_pole]).all(), not largest <= 1 + SAME)
+    lacks_inverse = word == Word.FAILS and values[:, 2].max() < ON_POLE
     so = "B exists everywhere, as 3.3 says; B^-1 does not" if lacks_inverse else "3.3 is not confirmed"
     return word, evidence(
         f"""B is finite at all {len(frame):,} orientations (elements at most {largest:.3f}); at {len(at_poles)} exact

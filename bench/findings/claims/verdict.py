@@ -12,17 +12,12 @@ from bench.errors import BenchError
 
 
 class Word(StrEnum):
-    """What can be said of a claim. A correction is of the paper, and the claim names it.
-
-    One rule decides about misprints: a wrong symbol, number or place that the paper's other equations correct is a
-    correction (C10, C14, C15, C16, C18). A sentence that is false with those equations too does not hold.
-    """
+    """What can be said of a claim. A correction is of the paper, and the claim names it."""
 
     HOLDS = "holds"
     CORRECTED = "holds with a correction"
     FAILS = "does not hold"
     ANSWERED = "open in 1988; answered since"
-    DEPENDS = "depends on the gains"
     UNTESTABLE = "not testable"
 
 
@@ -136,18 +131,8 @@ class Verdict(NamedTuple):
 
     @property
     def correction(self) -> str:
-        """What is true instead, where the claim does not hold as it stands."""
-        return self.claim.correction if self.word in (Word.CORRECTED, Word.FAILS, Word.DEPENDS) else ""
-
-    @property
-    def is_revised(self) -> bool:
-        """Whether its criterion was revised after the first results."""
-        return bool(self.claim.earlier)
-
-    @property
-    def first(self) -> Word:
-        """The word by the claim's first criterion."""
-        return self.earlier[0][1] if self.claim.earlier else self.word
+        """What of the paper is corrected; nothing where the word is no correction."""
+        return self.claim.correction if self.word == Word.CORRECTED else ""
 
     @property
     def earlier(self) -> list[tuple[Earlier, Word]]:

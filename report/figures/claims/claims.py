@@ -7,7 +7,7 @@ from collections import Counter
 from collections.abc import Iterable
 
 from bench.findings import claims
-from bench.findings.claims import Verdict, Word
+from bench.findings.claims import Verdict
 from bench.studies import verdicts
 from bench.tables.files import read_json
 from report.figures.kit import html
@@ -20,26 +20,23 @@ LABELS = {
     "holds with a correction": "hold with a correction",
     "does not hold": "do not hold",
     "open in 1988; answered since": "was open in 1988 and is answered since",
-    "depends on the gains": "depends on the gains",
     "not testable": "cannot be tested",
 }
 """Verdicts in their order -> what statements do that got them."""
 
-ORDER = (Word.FAILS, Word.DEPENDS, Word.CORRECTED, Word.ANSWERED, Word.UNTESTABLE, Word.HOLDS)
-"""Verdicts as the table has them, refuted ones first."""
-
-VERDICTS = Table("Claim | Section | The paper | Verdict | What is true instead | Criterion revised; first verdict")
+VERDICTS = Table("Claim | Section | The paper | Verdict | Correction of the paper")
 
 
 def facts(_: Run) -> dict:
-    """Return how many are decided, by what rule, by present and by first criteria, and where gains change a word."""
+    """How many are decided, by what rule, and how many by a criterion that is not the first."""
     every = claims.judge_all()
+    changed = [one for one in every if one.earlier]
     return {
         "rule": typeset(claims.RULE),
         "decided": len(every),
-        "words": said(one.word for one in every),
-        **revised(every),
-        "by_gains": by_gains(every),
+        "words": ", ".join(f"{number} {label}" for _, number, label in counted(every)),
+        "changed": len(changed),
+        "turned": sum(one.word != one.earlier[-1][1] for one in changed),
         "steady": steady(read_json(verdicts.STORED)),
     }
 
@@ -55,52 +52,24 @@ def steady(study: dict) -> str:
     )
 
 
-def revised(every: list[Verdict]) -> dict:
-    """Return the tally by the criteria first written, how many were revised, and how many verdicts that changed."""
-    return {
-        "first": said(one.first for one in every),
-        "changed": sum(one.is_revised for one in every),
-        "turned": sum(one.word != one.first for one in every),
-    }
-
-
-def by_gains(every: list[Verdict]) -> str:
-    """Return which verdicts are others in the runs at other damping ratios."""
-    words = {one.id: str(one.word) for one in every}
-    found = []
-    for zeta, own in read_json(verdicts.AT_GAINS)["words"].items():
-        other = [f"{id} ({word})" for id, word in own.items() if word != words.get(id)]
-        found.append(f"at a damping ratio of {zeta}: {', '.join(other) or 'none'}")
-    return "; ".join(found)
-
-
 def tables(_: Run) -> dict:
     """Every claim in a row, and what decided each, folded."""
     every = claims.judge_all()
     return {"verdicts": table(every), "sections": html.Html("".join(map(section, every)))}
 
 
-def said(words: Iterable[str]) -> str:
-    """Return '18 hold, 13 hold with a correction, ...'."""
-    return ", ".join(f"{number} {label}" for _, number, label in counted(words))
-
-
-def counted(words: Iterable[str]) -> list[tuple[str, int, str]]:
-    """Return each word that some claim got, how many, and what they do."""
-    counts = Counter(map(str, words))
+def counted(every: list[Verdict]) -> list[tuple[str, int, str]]:
+    """Of each word that some claim got: the word, how many, and what they do."""
+    counts = Counter(str(one.word) for one in every)
     return [(word, counts[word], label) for word, label in LABELS.items() if counts[word]]
 
 
 def tiles(every: list[Verdict]) -> html.Html:
-    """Return how many statements were decided, how many got each word, and the tally by the first criteria."""
+    """How many statements were decided, and how many got each word."""
     entries = [("plain", len(every), "statements of the paper decided")]
-    entries += [(html.VERDICTS[word], number, label) for word, number, label in counted(one.word for one in every)]
+    entries += [(html.VERDICTS[word], number, label) for word, number, label in counted(every)]
     tile = '<div class="tile {}"><b>{}</b><span>{}</span></div>'
-    before = (
-        "<p>By the criteria first written: {first}. {changed} of {decided} criteria were revised after the first "
-        "results; this changed {turned} verdicts.</p>"
-    ).format(decided=len(every), **revised(every))
-    return html.Html(f'<div class="tiles">{"".join(tile.format(*entry) for entry in entries)}</div>{before}')
+    return html.Html(f'<div class="tiles">{"".join(tile.format(*entry) for entry in entries)}</div>')
 
 
 def strip(every: list[Verdict], page: str) -> html.Html:
@@ -131,9 +100,8 @@ def table(every: list[Verdict], page: str = "") -> html.Markdown | None:
             prose(quoted(one)),
             html.badge(str(one.word)),
             prose(one.correction) if one.correction else "",
-            str(one.first) if one.is_revised else "",
         )
-        for one in sorted(every, key=lambda one: (ORDER.index(one.word), one.id))
+        for one in every
     )
 
 

@@ -23,7 +23,6 @@ VERDICTS = {
     "holds with a correction": "corrected",
     "does not hold": "fails",
     "open in 1988; answered since": "answered",
-    "depends on the gains": "depends",
     "not testable": "untestable",
 }
 MISSING = "–"
