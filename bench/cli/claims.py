@@ -14,17 +14,19 @@ from bench.cli.screen import console
 @click.option("--criteria", is_flag=True, help="Print each claim's quote and criteria too.")
 def COMMAND(folder, criteria):
     """The claims of Murphy (1988): id, verdict, what is claimed, then the evidence (default: results/latest)."""
-    from bench.findings.claims import judge_all
+    from bench.findings.claims import Results, judge_possible
     from bench.tables import read
 
     with progress("claims", "judging the paper's claims"):
-        verdicts = judge_all(folder or read.folder())
+        verdicts, lacks = judge_possible(Results(folder or read.folder()))
     for one in verdicts:
         claimed = f"{str(one.word).capitalize()} ({one.rows:,} rows): {one.claim.sentence}"
-        correction = (f"Correction of the paper: {one.correction}",) if one.correction else ()
+        correction = (f"What is true: {one.correction}",) if one.correction else ()
         record = _record(one) if criteria else ()
         print_paragraphs(Paragraph(one.id, (claimed, *correction, f"Evidence: {one.evidence}", *record)))
         console().print()
+    if lacks:
+        print_paragraphs(Paragraph("Not judged", tuple(f"{id}: {why}" for id, why in lacks.items())))
 
 
 def _record(one) -> tuple[str, ...]:

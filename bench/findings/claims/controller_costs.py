@@ -48,7 +48,7 @@ def controller_costs(results, controller: str, joints: int) -> pd.DataFrame:
         This Jacobian is commonly used in the literature without statement to the fact that it must exclude
         certain orientations and has a higher calculation cost.
     """,
-    written="2026-11-24 0000000",
+    written="2026-11-24 fb18d38",
     sentence="The Euler Jacobian costs more operations to calculate.",
     question="What do the tallies of both say?",
     criterion=f"""

@@ -26,7 +26,7 @@ def _least(R) -> float:
     quote="With Z-Y-X Euler angles and Roll-Pitch-Yaw angles this occurs at 180° rotation about the Y, or Pitch axis.",
     value="180°",
     correction="It is at 90°, as 2.3 and equation (2.9) of the paper itself have it.",
-    written="2026-11-24 0000000",
+    written="2026-11-24 fb18d38",
     sentence="With Z-Y-X angles the degeneracy is at a rotation of 180 degrees about Y.",
     question="Is the degenerate rotation about Y one of 180 degrees, or of 90 as the equations have it?",
     criterion=f"""
@@ -123,7 +123,7 @@ def c15(results):
     section="2.2 against 3.3",
     equation="(2.8), (2.9)",
     quote="The matrix B does not exist whenever beta = +-pi/2 and no model is available at that point.",
-    written="2026-11-24 0000000",
+    written="2026-11-24 fb18d38",
     sentence="B does not exist at beta = +-pi/2 (2.2); B always exists (3.3).",
     question="Which of the two sentences do B and its inverse support?",
     criterion=f"""

@@ -50,7 +50,7 @@ rounding eps/step are both about eps^(2/3), over the margin."""
         elements values approaching infinity, at other points in the workspace.
     """,
     correction="Zero there is its determinant: the matrix is singular, and not zero.",
-    written="2026-11-24 0000000",
+    written="2026-11-24 fb18d38",
     sentence="The Euler Jacobian adds singularities of its own, with unbounded elements, to those of the manipulator.",
     question="Does J_E grow without bound where J is well conditioned, and is it singular wherever J is?",
     criterion=f"""

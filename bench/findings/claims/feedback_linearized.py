@@ -35,7 +35,7 @@ any more."""
         points: alpha = +-pi, beta = +-pi/2, gamma = +-pi.
     """,
     correction="The response is linear, but orientations off these boundary points are lost too.",
-    written="2026-11-24 0000000",
+    written="2026-11-24 fb18d38",
     sentence="""
         The response is linear over the whole range of Euler angles but alpha, gamma = +-pi and beta =
         +-pi/2.

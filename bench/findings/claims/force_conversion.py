@@ -49,7 +49,7 @@ STEP = 2.0 ** (-52 / 3)
         They may be converted always; near the poles the controller cannot use them, for it amplifies them by 1 /
         cos(beta).
     """,
-    written="2026-11-24 0000000",
+    written="2026-11-24 fb18d38",
     sentence="Measured forces can be converted by B transposed at every orientation, and work is conserved.",
     question="Does the power balance close over all poses, the poles included?",
     criterion=f"""

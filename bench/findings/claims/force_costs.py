@@ -31,7 +31,7 @@ EULER = f"hybrid/{COORDINATES}"
     """,
     value="a few more",
     correction="A few more on an arm of seven joints; on one of six joints more than a tenth.",
-    written="2026-11-24 0000000",
+    written="2026-11-24 fb18d38",
     sentence="Force control on the Euler Jacobian needs a few more calculations.",
     question="What do both controllers in contact take a tick, and is the difference a few?",
     criterion=f"""

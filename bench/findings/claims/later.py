@@ -19,7 +19,7 @@ orientation in use exceeds by much, and far less than any law's memory could bri
         Areas of further work include the development of a better rotation matrix based regulator and the
         examination of other forms of orientation representation.
     """,
-    written="2026-11-24 0000000",
+    written="2026-11-24 fb18d38",
     sentence="The problem is open: a better regulator on the rotation matrix, and other representations, are wanted.",
     question="Which later law is adequate in both cost and performance by the criterion of C17?",
     criterion=f"""

@@ -30,7 +30,7 @@ SLACK = 0.1
         regulator.
     """,
     correction="It loses no more starts than a law without a model, but takes longer.",
-    written="2026-11-24 0000000",
+    written="2026-11-24 fb18d38",
     sentence="Feedback linearization has no problem of model accuracy.",
     question="Does an inertia that is not the model's harm it more than the law on R, which cancels nothing?",
     criterion=f"""

@@ -50,7 +50,7 @@ def _times(rows: pd.DataFrame) -> np.ndarray:
     instead="""
         At all gains tried it is faster over the range of the rotation-matrix law; by how much depends on the gains.
     """,
-    written="2026-11-24 0000000",
+    written="2026-11-24 fb18d38",
     sentence="Feedback linearization dramatically improved the performance, over the largest range of orientations.",
     question="Does it settle from more starts than the other two, and how much sooner?",
     criterion=f"""

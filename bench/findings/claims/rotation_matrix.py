@@ -156,7 +156,7 @@ def c02(results):
     section="2.4",
     quote="For large rotations the settling times would increase and could become infinity at certain orientations.",
     correction="They grow as the closed form has it, but not to infinity, or not exactly so.",
-    written="2026-11-24 0000000",
+    written="2026-11-24 fb18d38",
     sentence="For large rotations the settling time grows, and it can become infinite.",
     question="Does it grow with the angle, at which rate towards the half turn, and is it ever infinite?",
     criterion=f"""
