@@ -22,26 +22,21 @@ def COMMAND(folder, criteria):
 
     A run of some laws or starts has no rows about some claims; those are named at the end as not judged.
     """
-    from bench.findings.claims import NoEvidence, Results, all_claims, decide
+    from bench.findings.claims import Results, judge_possible
     from bench.tables import read
 
     results = Results(folder or read.folder())
     results.table("episodes")  # refuses a run that has not finished
-    verdicts, unknown = [], []
     with progress("claims", "judging the paper's claims"):
-        for claim in all_claims():
-            try:
-                verdicts.append(decide(claim, results))
-            except NoEvidence:
-                unknown.append(claim.id)
+        verdicts, lacks = judge_possible(results)
     for one in verdicts:
         claimed = f"{str(one.word).capitalize()} ({one.rows:,} rows): {one.claim.sentence}"
-        correction = (f"Correction of the paper: {one.correction}",) if one.correction else ()
+        correction = (f"What is true: {one.correction}",) if one.correction else ()
         record = _record(one) if criteria else ()
         print_paragraphs(Paragraph(one.id, (claimed, *correction, f"Evidence: {one.evidence}", *record)))
         console().print()
-    if unknown:
-        print_paragraphs(Paragraph("Not judged", (f"This run has no rows about {listed(unknown)}.",)))
+    if lacks:
+        print_paragraphs(Paragraph("Not judged", (f"This run has no rows about {listed(list(lacks))}.",)))
 
 
 def _record(one) -> tuple[str, ...]:

@@ -1,11 +1,12 @@
-"""Does a verdict depend on the draw or on the step? Every claim on 20 seeds and at half the step: results/verdicts.
+"""Does a verdict depend on the draw, the step or the gains? Claims on 20 seeds, half the step and results/gains.
 
     python -m bench.studies.verdicts                     what results/verdicts lacks: about a minute of CPU a seed
     python -m bench.studies.verdicts --only 3 half-step  these anew
 
-A seed draws other starts and poses; what follows from no draw (operations, contact, boundaries) is the reference's. At
-half the step all that steps is run again, contact too. Each run is judged in this process, by the tables that it made
-and the reference's for the rest, and written when it is done: another call goes on where one was stopped.
+The words are stored in results/verdicts. A seed draws other starts and poses; what follows from no draw (operations,
+contact, boundaries) is the reference's. At half the step all that steps is run again, contact too. Each run is judged
+in this process, by the tables that it made and the reference's for the rest, and written when it is done: another call
+goes on where one was stopped.
 """
 
 import argparse
@@ -23,8 +24,8 @@ from bench.experiments.suites import NOMINAL
 from bench.findings import claims
 from bench.findings.claims.adequacy import NOISE
 from bench.findings.claims.controller_costs import BY_COMMON, BY_EULER, ON_MATRIX
+from bench.findings.claims.performance import GAINS
 from bench.findings.claims.tables import MAIN_ENGINE, Results
-from bench.findings.claims.verdict import NoEvidence, decide
 from bench.provenance import ROOT, describe, source_digest
 from bench.running import run
 from bench.tables import read
@@ -89,15 +90,19 @@ def judged(name: str, workers: int) -> dict:
         made = {known_experiments()[unit.experiment].table.name for unit in plan.units}
         shared = {table: read.table(REFERENCE, table) for table in plan.tables if table not in made}
         results = Results(out, shared)
-        words = {one.id: _word(one, results) for one in claims.all_claims()}
+        words = words_of(results)
     return {"words": words, "cpu_s": time.process_time() - began, "sources": source_digest()}
 
 
-def _word(claim: claims.Claim, results: Results) -> str:
-    try:
-        return str(decide(claim, results).word)
-    except NoEvidence as error:
-        return f"no evidence: {error}"
+def words_of(results: Results) -> dict[str, str]:
+    """The word of every claim that the results decide, by its id."""
+    return {one.id: str(one.word) for one in claims.judge_possible(results)[0]}
+
+
+def at_other_gains() -> list[dict]:
+    """Of each run of results/gains its gains, and the words of the claims that its tables decide."""
+    runs = [Results(path.parent) for path in sorted(GAINS.glob("*/episodes.parquet"))]
+    return [{**run.gains()._asdict(), "words": words_of(run)} for run in runs]
 
 
 def turned(runs: dict[str, dict], reference: dict[str, str]) -> dict[str, dict[str, str]]:
@@ -116,6 +121,7 @@ def study(names: tuple[str, ...], workers: int, out: Path, again: bool) -> dict:
     content = read_json(out) if out.is_file() else {"runs": {}}
     digest = source_digest()
     content["reference"] = {one.id: str(one.word) for one in claims.judge_all(REFERENCE)}
+    content["gains"] = at_other_gains()
     for name in names:
         if not again and content["runs"].get(name, {}).get("sources") == digest:
             continue

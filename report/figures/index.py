@@ -37,8 +37,10 @@ SHORT_COMMIT = 10
 
 
 def facts(run: Run) -> dict:
-    """The answer, the laws, and which edition this is."""
+    """The answer, the laws, how many criteria were revised, and which edition this is."""
+    on_claims = judged.facts(run)
     return {
+        **{name: on_claims[name] for name in ("decided", "changed", "turned")},
         "which_law": which_law.front_page(run),
         "pegs": in_contact.stuck(in_contact.all_rows(run), PAPERS, PAPERS_EULER),
         "pegs_by_accelerations": in_contact.stuck(in_contact.all_rows(run), CARTESIAN, EULER),

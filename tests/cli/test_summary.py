@@ -160,7 +160,7 @@ def test_claims_without_rows_are_counted_apart(tables):
     empty = {name: results.table(REFERENCE, name).iloc[:0] for name in frames}
     said = text(verdicts.paragraph(Results(REFERENCE, {**empty, "costs": tables["costs"]})))
     number = int(re.search(r"(\d+) cannot be judged from this run", said)[1])
-    assert f"of the paper's {len(all_claims())} claims" in said
+    assert f"Of the paper's {len(all_claims())} claims" in said
     assert 0 < number < len(all_claims())
 
 

@@ -115,6 +115,7 @@ def experiment():
     places = [force_conversion.AT_RANDOM, force_conversion.NEAR_POLE, force_conversion.AT_POLE]
     rounding = {"exists": True, "gap": EPS, "difference_gap": DIFFERENCED, "raw_gap": 0.4, "least": 0.1, "lost": 0.1}
     found = pd.DataFrame([{"place": place, **rounding} for place in places])
+    found["gain"] = 1.0
     found.loc[2, ["least", "lost"]] = 0.0
     return found
 
@@ -246,6 +247,11 @@ def test_verdict_follows_the_table(judged, theory, id, word, rows, cells):
 )
 def test_verdict_follows_where_euler_complies_like_the_base(judged, theory, id, word, rows):
     assert judged(id, as_base(theory, rows(theory))).word == word
+
+
+def test_c21_asks_that_converted_forces_are_usable(judged, theory, experiment):
+    experiment.loc[1, "gain"] = 100.0
+    assert judged("C21", theory).word == Word.CORRECTED
 
 
 @pytest.mark.parametrize(

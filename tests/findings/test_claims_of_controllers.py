@@ -183,7 +183,7 @@ def test_c20_fails_when_it_neither_fails_nor_hides(judged, frames):
         # calls are the same in both: one flop less contradicts
         ("C26", BY_EULER, "total", 829, Word.FAILS),
         ("C26", BY_EULER, "total", 831, Word.HOLDS),
-        # 3 calls more and 10 flops less: columns differ, and nothing was timed
+        # 3 calls more and 10 flops less: columns differ
         ("C26", ON_MATRIX, "total", 910, Word.FAILS),
     ],
 )
@@ -197,22 +197,17 @@ def test_c26_counts_pairs_on_both_numbers_of_joints(judged):
     assert "dearer in both columns in 4 of 4 pairs" in str(judged("C26").evidence)
 
 
-@pytest.mark.parametrize(
-    ("euler", "half_width", "word"),
-    [
-        (3000.0, 50.0, Word.HOLDS),
-        (1890.0, 50.0, Word.CORRECTED),  # faster than the same law on the common Jacobian, as sure as that is
-        (1990.0, 50.0, Word.HOLDS),  # noise: the intervals do not part
-    ],
-)
-def test_c26_is_corrected_where_intervals_of_time_part_the_other_way(judged, euler, half_width, word):
+@pytest.mark.parametrize("euler", [3000.0, 1000.0])
+def test_no_time_changes_the_word_of_c26(judged, euler):
     times = {BY_COMMON: 2000.0, ON_MATRIX: 1800.0, BY_EULER: euler}
     where = {"what": "engine", "engine": "native", "arm": "ur5e", "machine": "m", "ticks": 1}
     rows = [
-        {**words(one, 6), **where, "ratio": time, "ratio_low": time - half_width, "ratio_high": time + half_width}
+        {**words(one, 6), **where, "ratio": time, "ratio_low": time - 50.0, "ratio_high": time + 50.0}
         for one, time in times.items()
     ]
-    assert judged("C26", timings=pd.DataFrame(rows).assign(ns_per_tick=1.0)).word == word
+    verdict = judged("C26", timings=pd.DataFrame(rows).assign(ns_per_tick=1.0))
+    assert verdict.word == Word.HOLDS
+    assert "times part 2 of them" in str(verdict.evidence)
 
 
 def test_c26_says_that_nothing_was_timed(judged):

@@ -110,7 +110,7 @@ SLOW = {"ratio": 4.0, "ratio_low": 3.9, "ratio_high": 4.1}
 @pytest.mark.parametrize(
     ("table", "words", "cells", "lacks"),
     [
-        ("episodes", {"start_set": "uniform"}, {"outcome": "stuck"}, "(a)"),
+        ("episodes", {"start_set": "uniform"}, {"outcome": "stuck"}, "(a, c)"),
         ("episodes", {"start_set": "box"}, {"outcome": "diverged"}, "(b)"),
         ("counted", {}, {"lost": 20}, "(b)"),
         ("episodes", {"start_set": "uniform"}, {"settling_time_s": 1.2}, "(c)"),

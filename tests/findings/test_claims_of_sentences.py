@@ -149,10 +149,28 @@ def test_model_errors_are_judged_against_the_law_without_a_model(frames, slow, l
     ("euler", "word"), [((950, 6), Word.HOLDS), ((1200, 6), Word.CORRECTED), ((890, 0), Word.FAILS)]
 )
 def test_force_control_is_judged_by_flops_and_calls(frames, euler, word):
-    def in_contact(controller):
+    def in_contact(controller, joints):
         return Operations(*(euler if force_costs.EULER in controller else (900, 0)))
 
     assert judged("C33", {"in_contact": in_contact}, costs=frames["costs"]).word == word
+
+
+def test_few_on_seven_joints_and_not_on_six_is_a_correction(frames):
+    def in_contact(controller, joints):
+        return Operations(*((1200 if joints == 6 else 950, 6) if force_costs.EULER in controller else (900, 0)))
+
+    assert judged("C33", {"in_contact": in_contact}, costs=frames["costs"]).word == Word.CORRECTED
+
+
+@pytest.mark.slow
+def test_improvement_that_is_not_dramatic_at_other_gains_depends_on_them(frames):
+    episodes = frames["episodes"]
+    slower = changed(episodes, of(FL, "uniform")(episodes), **later(1.5)).assign(kv=10.0)
+    found = {"other_gains": lambda results: [Results(None, {"episodes": slower})]}
+    verdict = judged("C31", found, **frames)
+    assert verdict.word == Word.DEPENDS
+    assert verdict.correction == verdict.claim.instead
+    assert "Kv = 10: does not hold" in str(verdict.evidence)
 
 
 def test_exact_error_of_a_turn_about_z_is_its_sine():

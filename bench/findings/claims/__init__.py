@@ -33,6 +33,7 @@ One file for each part of the paper; a claim is found by being in one of them.
     arm_probes.py            the same on arms
     side_by_side.py          rows of two controllers in contact, side by side
     errata.py                what is printed wrongly in the paper, each with a check
+    untestable.py            sentences that no run can decide
 """
 
 from __future__ import annotations
@@ -40,6 +41,8 @@ from __future__ import annotations
 import functools
 import importlib
 import pkgutil
+from collections import Counter
+from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -61,7 +64,9 @@ __all__ = [
     "all_claims",
     "judge",
     "judge_all",
+    "judge_possible",
     "table",
+    "tally",
 ]
 
 RULE = (
@@ -83,6 +88,23 @@ def all_claims() -> tuple[Claim, ...]:
 def judge(id: str, results: Results) -> Verdict:
     """One claim on a run's tables."""
     return decide(next(claim for claim in all_claims() if claim.id == id), results)
+
+
+def judge_possible(results: Results) -> tuple[list[Verdict], dict[str, str]]:
+    """Every claim that a run decides, and for each other one what the run lacks."""
+    decided, lacks = [], {}
+    for one in all_claims():
+        try:
+            decided.append(decide(one, results))
+        except NoEvidence as error:
+            lacks[one.id] = str(error)
+    return decided, lacks
+
+
+def tally(words: Iterable[Word]) -> dict[Word, int]:
+    """How many claims have each word that some claim has, in the order of the words."""
+    counts = Counter(words)
+    return {word: counts[word] for word in Word if counts[word]}
 
 
 def judge_all(folder: Path | None = None) -> list[Verdict]:

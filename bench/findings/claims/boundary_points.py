@@ -8,7 +8,7 @@ from bench.contenders.registry import representation
 from bench.findings.claims import probes
 from bench.findings.claims.feedback_linearized import LAW
 from bench.findings.claims.tables import MAIN_ENGINE, evidence, on_every_engine, settled, some
-from bench.findings.claims.verdict import Earlier, claim, word_of
+from bench.findings.claims.verdict import MISPRINTS, Earlier, claim, word_of
 from bench.law.contender import AT_REST, Gains
 
 CONTENDER = f"{LAW}/zyx-euler"
@@ -47,7 +47,7 @@ MARGINS = ", ".join(f"{margin:g}" for margin in MARGINS_RAD)
         command changes by 2 pi Kp within {JUMP_SLACK:.0%}. Where: elements of B (2.8) are not finite at
         the pole. It holds if all four pass; with a correction if pole and jump pass but growth or where
         does not (the division may be in B^-1 only); if the command stays finite at an exact pole, or does
-        not jump, it does not hold.
+        not jump, it does not hold. {MISPRINTS}
     """,
     open="""
         How the angles are extracted at the exact pole, and 0/0, are left to the program: the paper says

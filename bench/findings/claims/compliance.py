@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from bench.findings.claims import side_by_side
+from bench.findings.claims import probes, side_by_side
 from bench.findings.claims.euler_jacobian import COORDINATES
+from bench.findings.claims.force_conversion import random_orientations
 from bench.findings.claims.tables import evidence, some
 from bench.findings.claims.verdict import Earlier, Word, claim, word_of
 
@@ -30,6 +31,9 @@ CLOSE_TO_POLE = 0.05
 """cos(beta) under which a pose is reported and does not decide: within 3 degrees of the pole B's condition number is
 above 40 and the controller's failures are those of C18 and C20."""
 
+POSES = 200
+"""Random orientations at which the angles' own axes are compared."""
+
 APART_DEG = 1.0
 """An angle that is not zero is at least this; zero is below a billionth."""
 
@@ -49,6 +53,10 @@ PLANE_RAD = 0.005
         about one of the x, y, z axes.
     """,
     correction="One angle is one axis, but of the base only where the angles before it are zero.",
+    instead="""
+        Of the axes, alpha's is the base's z and gamma's the hand's x exactly, beta's is between. By the paper's own
+        force control the arm's inertia turns the hand about other axes too.
+    """,
     written="2026-11-23 4af5940",
     earlier=(
         Earlier(
@@ -81,7 +89,16 @@ PLANE_RAD = 0.005
 )
 def c22(results):
     """One angle against one axis, by both ways to control forces."""
-    return side_by_side.by_papers_form(_one_axis, results)
+    word, found = side_by_side.by_papers_form(_one_axis, results)
+    turns = random_orientations(POSES, 0)
+    B = np.array([probes.euler_B(R) for R in turns])
+    by_alpha = np.abs(B[:, :, 0] - (0.0, 0.0, 1.0)).max()
+    by_gamma = np.abs(B[:, :, 2] - [R.n for R in turns]).max()
+    axes = (
+        f"At {POSES} orientations alpha's own axis is the base's z to {by_alpha:.0e} and gamma's the hand's x to "
+        f"{by_gamma:.0e}."
+    )
+    return word, found._replace(sentence=f"{axes} {found.sentence}")
 
 
 def _one_axis(results, forms):

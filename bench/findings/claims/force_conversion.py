@@ -12,7 +12,7 @@ from bench.contenders.registry import known_representations, representation
 from bench.findings.claims.euler_jacobian import COORDINATES, DIFFERENCED, EPS, ROUNDINGS
 from bench.findings.claims.side_by_side import PROBE
 from bench.findings.claims.tables import evidence, some
-from bench.findings.claims.verdict import claim, word_of
+from bench.findings.claims.verdict import Earlier, Word, claim, word_of
 from bench.law.contender import Representation
 from bench.law.so3 import Rotation, from_quaternion
 
@@ -21,6 +21,9 @@ if TYPE_CHECKING:
 
 TURNS, TURNS_ELSEWHERE, SEED = 2000, 200, 0
 """Haar-random orientations of Z-Y-X, and of every other representation."""
+
+USABLE = 10.0
+"""Greatest amplification of a moment with which a controller is of use: it is reached at cos(beta) = 0.1."""
 
 LOST = 1e-12
 """Smallest singular value of B at a pole, and the size of what it leaves of the lost moment: rounding of pi/2."""
@@ -42,8 +45,11 @@ STEP = 2.0 ** (-52 / 3)
         Since the matrix B always exists ... Forces measured by the force wrist may always be converted to
         forces usable by the Euler Jacobian controller for every manipulator orientation.
     """,
-    correction="At the poles themselves they cannot.",
-    written="2026-11-21 6e6672b",
+    correction="""
+        They may be converted always; near the poles the controller cannot use them, for it amplifies them by 1 /
+        cos(beta).
+    """,
+    written="2026-11-24 fb18d38",
     sentence="Measured forces can be converted by B transposed at every orientation, and work is conserved.",
     question="Does the power balance close over all poses, the poles included?",
     criterion=f"""
@@ -53,16 +59,24 @@ STEP = 2.0 ** (-52 / 3)
         {ROUNDINGS:g} eps. (c) The same with omega from central differences of R(E), which know no B, to {ROUNDINGS:g}
         eps^(2/3). (d) In the loop: in every row of wrench-probe of hybrid/zyx-euler in compliance.parquet that is done,
         the work residual, the largest |m . omega - F_E . Edot| over the largest |m| |omega|, is at most {ROUNDINGS:g}
-        eps / cos(beta). It holds if all four pass everywhere; with a correction if they pass at every orientation but
-        the exact poles; otherwise it does not hold. Reported: at the exact poles the rank of B and the moment that it
-        loses, |B^T m| at most {LOST:g}; (b) in every other representation; and what (b) is for a moment that is not
-        converted.
+        eps / cos(beta). (e) Usable: where alpha complies alone, what the controller makes of a moment, B^-T S B^T m
+        with S = diag(1, 0, 0), is at most {USABLE:g} times the moment. It holds if all five pass everywhere; with a
+        correction if (a) to (d) pass at every orientation but the exact poles; otherwise it does not hold. Reported:
+        at the exact poles the rank of B and the moment that it loses, |B^T m| at most {LOST:g}; (b) in every other
+        representation; and what (b) is for a moment that is not converted.
     """,
     open="""
         At a pole F_E exists, and one moment
         does not reach it: that it exists and balances the work of every motion of the angles is the reading judged. A
         turn about the lost moment's axis is no motion of the angles.
     """,
+    earlier=(
+        Earlier(
+            "2026-11-21 6e6672b",
+            "Only (a) to (d): that the forces are usable by the controller, as the sentence says, was not tested.",
+            Word.HOLDS,
+        ),
+    ),
     readings=(
         "F_E exists and balances the work of every motion of the coordinates (decides)",
         "no moment is lost on the way (reported)",
@@ -78,7 +92,8 @@ def c21(results):
     closes = found["exists"] & (found["gap"] <= ROUNDINGS * EPS) & (found["difference_gap"] <= ROUNDINGS * DIFFERENCED)
     poles = found["place"] == AT_POLE
     off_poles = closes[~poles].all() and (residual <= ROUNDINGS).all()
-    word = word_of(off_poles and closes.all(), off_poles)
+    word = word_of(off_poles and closes.all() and found["gain"].max() <= USABLE, off_poles)
+    usable = found["gain"] <= USABLE
     rank = 2 if found.loc[poles, "least"].max() <= LOST else 3
     return word, evidence(
         f"""{len(found):,} orientations, {int(poles.sum())} of them exact poles: F_E is finite at
@@ -87,7 +102,9 @@ def c21(results):
         {len(looped):,} poses and forms of the wrench probe, to {residual.max():.1f} eps / cos(beta). At the poles B has
         rank {rank}: of one moment {found.loc[poles, "lost"].max():.0g} is left. In {len(elsewhere)} other
         representations the balance closes to {max(elsewhere) / EPS:.1f} eps. A moment that is not converted misses it
-        by {found["raw_gap"].median():.2f} in the median.""",
+        by {found["raw_gap"].median():.2f} in the median. Where alpha complies alone, a moment is amplified at most
+        {USABLE:g} times at {int(usable.sum()):,} of the orientations, and up to {found.loc[~poles, "gain"].max():.1e}
+        times off the exact poles, as 1 / cos(beta) has it.""",
         len(found) + len(looped),
         ("experiment", "compliance"),
     )
@@ -128,7 +145,8 @@ def balance(along: Representation, R: Rotation, moment: np.ndarray, rates: np.nd
     Returns:
         exists: whether F_E = B^T m is finite. gap: |F_E . Edot - m . B Edot|. difference_gap: the same with omega from
         R(E), differenced along Edot. raw_gap: the same with the moment not converted (of three coordinates). least:
-        smallest singular value of B; lost: |B^T e| of the moment e of length 1 that it belongs to.
+        smallest singular value of B; lost: |B^T e| of the moment e of length 1 that it belongs to. gain: size of B^-T S
+        B^T with S = diag(1, 0, 0), infinite where B has no inverse.
     """
     from scipy.spatial.transform import Rotation as Turn
 
@@ -140,6 +158,7 @@ def balance(along: Representation, R: Rotation, moment: np.ndarray, rates: np.nd
     after, before = (np.array(one).T for one in ends)
     omega = Turn.from_matrix(after @ before.T).as_rotvec() / (2 * STEP)
     moments, sizes, _ = np.linalg.svd(B)
+    is_regular = B.shape == (3, 3) and sizes[-1] > ROUNDINGS * EPS
     return {
         "exists": bool(np.isfinite(F_E).all()),
         "gap": abs(F_E @ rates - moment @ along.angular_velocity(at, tuple(rates.tolist()))),
@@ -147,6 +166,7 @@ def balance(along: Representation, R: Rotation, moment: np.ndarray, rates: np.nd
         "raw_gap": abs(raw @ rates - moment @ B @ rates),
         "least": sizes[-1],
         "lost": float(np.linalg.norm(along.generalized(at, tuple(moments[:, -1].tolist())))),
+        "gain": float(np.linalg.norm(np.linalg.inv(B)[0]) * np.linalg.norm(B[:, 0])) if is_regular else math.inf,
     }
 
 

@@ -18,7 +18,15 @@ class Word(StrEnum):
     CORRECTED = "holds with a correction"
     FAILS = "does not hold"
     ANSWERED = "open in 1988; answered since"
+    DEPENDS = "depends on the gains"
     UNTESTABLE = "not testable"
+
+
+MISPRINTS = """
+    A slip of symbol, or a misprint that the paper's own other equations or sentences correct, makes "holds with a
+    correction"; a false statement of substance makes "does not hold".
+    """
+"""The rule of C10, C14, C15, C16 and C18."""
 
 
 def word_of(holds: object, corrected: object) -> Word:
@@ -66,7 +74,8 @@ class Claim(NamedTuple):
     sentence: our paraphrase. criterion: what each word takes, in numbers. open: what the paper leaves open and how the
     verdict depends on it. readings: where there are several. judge: results -> (word, evidence). quote: the paper's own
     words; section and equation: where they stand; value: the paper's number. correction: of the paper, what is said
-    when the claim holds with one; empty: no criterion of it leads there. written: date and commit of the criterion.
+    when the claim holds with one; empty: no criterion of it leads there. instead: what is true where it does not hold,
+    or on what it depends. written: date and commit of the criterion.
     """
 
     id: str
@@ -81,6 +90,7 @@ class Claim(NamedTuple):
     equation: str = ""
     value: str = "none given"
     correction: str = ""
+    instead: str = ""
     written: str = ""
     earlier: tuple[Earlier, ...] = ()
 
@@ -131,8 +141,15 @@ class Verdict(NamedTuple):
 
     @property
     def correction(self) -> str:
-        """What of the paper is corrected; nothing where the word is no correction."""
+        """What is true of the paper's sentence where it does not hold as it stands; else nothing."""
+        if self.word in (Word.FAILS, Word.DEPENDS):
+            return self.claim.instead or self.claim.correction
         return self.claim.correction if self.word == Word.CORRECTED else ""
+
+    @property
+    def first(self) -> Word:
+        """The word by the criterion that was written first."""
+        return self.earlier[0][1] if self.earlier else self.word
 
     @property
     def earlier(self) -> list[tuple[Earlier, Word]]:

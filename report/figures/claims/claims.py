@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import html as escape
-from collections import Counter
+import math
 from collections.abc import Iterable
 
 from bench.findings import claims
-from bench.findings.claims import Verdict
+from bench.findings.claims import Verdict, Word, tally
+from bench.findings.claims.untestable import UNTESTABLE
+from bench.findings.claims.verdict import MISPRINTS
 from bench.studies import verdicts
 from bench.tables.files import read_json
 from report.figures.kit import html
@@ -16,15 +18,20 @@ from report.figures.kit.spelling import marked_up, prose, typeset
 from report.figures.kit.tables import Table
 
 LABELS = {
-    "holds": "hold",
-    "holds with a correction": "hold with a correction",
-    "does not hold": "do not hold",
-    "open in 1988; answered since": "was open in 1988 and is answered since",
-    "not testable": "cannot be tested",
+    Word.HOLDS: "hold",
+    Word.CORRECTED: "hold with a correction",
+    Word.FAILS: "do not hold",
+    Word.ANSWERED: "was open in 1988 and is answered since",
+    Word.DEPENDS: "depends on the gains",
+    Word.UNTESTABLE: "cannot be tested",
 }
 """Verdicts in their order -> what statements do that got them."""
 
-VERDICTS = Table("Claim | Section | The paper | Verdict | Correction of the paper")
+ORDER = (Word.FAILS, Word.DEPENDS, Word.CORRECTED, Word.UNTESTABLE, Word.ANSWERED, Word.HOLDS)
+"""Of the table's rows."""
+
+VERDICTS = Table("Claim | Section | The paper | Verdict | Criterion revised? | What is true")
+SENTENCES = Table("Section | The paper | Why it is not tested")
 
 
 def facts(_: Run) -> dict:
@@ -34,40 +41,56 @@ def facts(_: Run) -> dict:
     return {
         "rule": typeset(claims.RULE),
         "decided": len(every),
-        "words": ", ".join(f"{number} {label}" for _, number, label in counted(every)),
+        "words": counted(one.word for one in every),
+        "first_words": counted(one.first for one in every),
         "changed": len(changed),
-        "turned": sum(one.word != one.earlier[-1][1] for one in changed),
+        "turned": sum(one.word != one.first for one in changed),
+        "misprints": typeset(" ".join(MISPRINTS.split())),
         "steady": steady(read_json(verdicts.STORED)),
     }
 
 
 def steady(study: dict) -> str:
-    """What the study of seeds and of half the step found, in a sentence."""
+    """What the study of seeds, of half the step and of other gains found, in a sentence or two."""
     runs = study["runs"]
     seeds = sum(name != verdicts.HALF_STEP for name in runs)
     other = verdicts.turned(runs, study["reference"])
-    found = "no claim gets another word" if not other else f"{', '.join(other)} get another word somewhere"
-    return (
-        f"On {seeds} other seeds of the starts{' and at half the step' if verdicts.HALF_STEP in runs else ''} {found}"
-    )
+    found = "every verdict stays the same" if not other else f"these change: {', '.join(other)}"
+    step = " and with half the step size" if verdicts.HALF_STEP in runs else ""
+    return f"With {seeds} other random seeds{step}, {found}.{by_gains(study)}"
+
+
+def by_gains(study: dict) -> str:
+    """Which verdicts are other ones at other damping ratios; nothing where no run at other gains was judged."""
+    said = []
+    for one in study.get("gains", ()):
+        changed = (f"{id} ({word})" for id, word in one["words"].items() if word != study["reference"][id])
+        ratio = one["kv"] / (2.0 * math.sqrt(one["kp"]))
+        said.append(f"with a damping ratio of {ratio:g}: {', '.join(changed) or 'none'} of {len(one['words'])}")
+    return f" Other gains change these verdicts, of those that their runs decide: {'; '.join(said)}." if said else ""
 
 
 def tables(_: Run) -> dict:
     """Every claim in a row, and what decided each, folded."""
     every = claims.judge_all()
-    return {"verdicts": table(every), "sections": html.Html("".join(map(section, every)))}
+    sentences = SENTENCES((one.section, f"“{prose(one.quote)}”", prose(one.why)) for one in UNTESTABLE)
+    return {"verdicts": table(every), "sections": html.Html("".join(map(section, every))), "untestable": sentences}
 
 
-def counted(every: list[Verdict]) -> list[tuple[str, int, str]]:
-    """Of each word that some claim got: the word, how many, and what they do."""
-    counts = Counter(str(one.word) for one in every)
-    return [(word, counts[word], label) for word, label in LABELS.items() if counts[word]]
+def counted(words: Iterable[Word]) -> str:
+    """'20 hold, 13 hold with a correction'."""
+    return ", ".join(f"{number} {LABELS[word]}" for word, number in tally(words).items())
 
 
 def tiles(every: list[Verdict]) -> html.Html:
-    """How many statements were decided, and how many got each word."""
+    """How many statements were decided, and how many got each word: by the present criteria and by the first ones."""
+    now, first = (tally(words) for words in ([one.word for one in every], [one.first for one in every]))
     entries = [("plain", len(every), "statements of the paper decided")]
-    entries += [(html.VERDICTS[word], number, label) for word, number, label in counted(every)]
+    entries += [
+        (html.VERDICTS[word], now.get(word, 0), f"{label} ({first.get(word, 0)} by the criteria first written)")
+        for word, label in LABELS.items()
+        if word in now or word in first
+    ]
     tile = '<div class="tile {}"><b>{}</b><span>{}</span></div>'
     return html.Html(f'<div class="tiles">{"".join(tile.format(*entry) for entry in entries)}</div>')
 
@@ -89,7 +112,7 @@ def strip(every: list[Verdict], page: str) -> html.Html:
 
 
 def table(every: list[Verdict], page: str = "") -> html.Markdown | None:
-    """A row a claim: where it stands, the sentence with its value, the verdict, and what it corrects.
+    """A row a claim, refuted ones first: the sentence with its value, the verdict, its history, and what is true.
 
     page: where the sections are; empty on their own page.
     """
@@ -99,10 +122,18 @@ def table(every: list[Verdict], page: str = "") -> html.Markdown | None:
             one.claim.section,
             prose(quoted(one)),
             html.badge(str(one.word)),
+            revised(one),
             prose(one.correction) if one.correction else "",
         )
-        for one in every
+        for one in sorted(every, key=lambda one: ORDER.index(one.word))
     )
+
+
+def revised(one: Verdict) -> str:
+    """Whether the criterion is not the first one, and the first one's word if that is another."""
+    if not one.earlier:
+        return "no"
+    return "yes" if one.first == one.word else f"yes; first: {one.first}"
 
 
 def quoted(one: Verdict) -> str:

@@ -23,6 +23,7 @@ VERDICTS = {
     "holds with a correction": "corrected",
     "does not hold": "fails",
     "open in 1988; answered since": "answered",
+    "depends on the gains": "untestable",
     "not testable": "untestable",
 }
 MISSING = "–"

@@ -1,0 +1,68 @@
+"""Both tallies of the claims, by the present criteria and by the first ones, and what a narrowed run decides."""
+
+import re
+
+import pytest
+from click.testing import CliRunner
+
+from bench.cli import claims as command
+from bench.findings import claims
+from bench.findings.claims.untestable import UNTESTABLE
+from bench.findings.claims.verdict import Claim, Earlier, Evidence, Verdict, Word
+from bench.studies.verdicts import REFERENCE
+from report.figures.claims import claims as page
+
+
+def verdict(id, word, *earlier):
+    before = tuple(Earlier("2026-11-21 a", "", one) for one in earlier)
+    claim = Claim(id, "", "", "", "", lambda results: None, correction="corrected", instead="else", earlier=before)
+    return Verdict(claim, word, Evidence("", 1, ()))
+
+
+EVERY = [
+    verdict("C01", Word.HOLDS),
+    verdict("C02", Word.HOLDS, Word.CORRECTED, Word.HOLDS),
+    verdict("C03", Word.FAILS, Word.FAILS),
+    verdict("C04", Word.DEPENDS, Word.HOLDS),
+]
+
+
+def test_both_tallies_agree_with_the_table_of_claims():
+    tiles = re.findall(r"<b>(\d+)</b><span>([^(<]+) \((\d+) by", page.tiles(EVERY))
+    lines = [[cell.strip() for cell in line.split("|")[4:6]] for line in page.table(EVERY).splitlines() if "C0" in line]
+    now = [next(word for word in sorted(Word, key=len, reverse=True) if f">{word}<" in cell) for cell, _ in lines]
+    first = [Word(was.partition("first: ")[2] or word) for word, (_, was) in zip(now, lines, strict=True)]
+    for label, word in ((label, word) for word, label in page.LABELS.items()):
+        told = [(int(n), int(of)) for n, said, of in tiles if said == label] or [(0, 0)]
+        assert told == [(now.count(word), first.count(word))]
+
+
+def test_refuted_claims_come_first_and_say_what_is_true():
+    rows = [line for line in page.table(EVERY).splitlines() if "C0" in line]
+    assert [re.search("C0.", row)[0] for row in rows] == ["C03", "C04", "C01", "C02"]
+    assert ["else" in row for row in rows] == [True, True, False, False]
+
+
+def test_counts_of_words_are_told_in_their_order():
+    assert page.counted(one.word for one in EVERY) == "2 hold, 1 do not hold, 1 depends on the gains"
+
+
+def test_claims_of_a_narrowed_run_lists_what_it_decides_and_what_not(monkeypatch):
+    decided, _ = claims.judge_possible(claims.Results(None, {}))
+    assert 0 < len(decided) < len(claims.all_claims())
+    monkeypatch.setattr(claims, "judge_possible", lambda results: (decided, {"C01": "no episode"}))
+    said = CliRunner().invoke(command.COMMAND, [str(REFERENCE)])
+    assert said.exit_code == 0
+    assert all(one.id in said.output for one in decided)
+    assert re.search(r"Not judged\s+C01: no episode", said.output)
+
+
+@pytest.mark.parametrize("other", [{}, {"C03": "holds"}])
+def test_words_at_other_gains_are_told_by_damping_ratio(other):
+    study = {"reference": {"C03": "does not hold"}, "gains": [{"kp": 100.0, "kv": 14.0, "words": other}]}
+    said = page.by_gains(study)
+    assert ("damping ratio of 0.7: C03 (holds)" in said) == bool(other)
+
+
+def test_sentences_that_no_run_decides_have_their_reason():
+    assert all(one.section and one.quote and one.why for one in UNTESTABLE)
