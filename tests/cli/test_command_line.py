@@ -342,3 +342,14 @@ def test_doctor_says_what_it_checked(capsys):
     checked = ["python", "versions", "compiler", "engines", "arms", "contact", "rendering", "results"]
     assert [line.split()[1] for line in said.out.splitlines()] == checked
     assert all(line.startswith(("ok", "note")) or "Cure: " in line for line in said.out.splitlines())
+
+
+def test_sign_that_the_encoding_lacks_is_no_error():
+    said = subprocess.run(
+        [sys.executable, "-m", "bench", "list", "axes"],
+        cwd=ROOT,
+        env={**os.environ, "PYTHONIOENCODING": "ascii"},
+        capture_output=True,
+        text=True,
+    )
+    assert (said.returncode, "?" in said.stdout) == (0, True)
