@@ -79,13 +79,8 @@ WITHSTOOD, MOST, NEAR_RAD = 0.95, 3, 0.01
 """Share of its starts that a law settles at every level of a perturbation that it withstands. Laws shown beside it.
 From a half turn: what lies nearer, a law that is "almost global" may lose. Paielli and Bach's does, to 0.005 rad."""
 
-FAULTS = {
-    "crashed": "raises or exits",
-    "hung": "does not return",
-    "oscillating": "oscillation",
-    "creeping": "creeping",
-    "stuck": "dead points",
-}
+FAULTS = {"oscillating": "oscillation", "creeping": "creeping", "stuck": "dead points"}
+FAULTS |= {"crashed": "raises or exits", "hung": "does not return"}
 """Of an outcome; of any other the starts are lost."""
 
 
