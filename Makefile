@@ -62,7 +62,7 @@ report: $(REPORT)
 	@$(PY) report/build.py $(ARGS)
 
 ##@ Benchmark
-bench-quick: ## run the quick suite into results/quick (under 2 minutes)
+bench-quick: ## run the quick suite into results/quick (minutes)
 bench-quick: $(READY)
 	@$(PY) -m bench run --suite quick --replace --out results/quick $(ARGS)
 
@@ -134,7 +134,7 @@ gate: $(READY)
 	@$(PY) -m bench run --suite quick --out results/quick
 	@$(PY) -m bench compare results/reference results/quick
 
-regress: ## your files against BASE (where you left main): outcomes, operations, instructions, time
+regress: ## your files against BASE (where you left main): outcomes, operations, instructions, time (half an hour)
 regress: $(READY)
 	@$(PY) -m bench compare $(BASE) $(ARGS)
 

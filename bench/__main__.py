@@ -1,10 +1,17 @@
 """`python -m bench`."""
 
+import io
 import sys
 
 
 def main() -> int:
-    """The command line; imported late, so that importing this module costs nothing."""
+    """The command line; imported late, so that importing this module costs nothing.
+
+    A sign that the terminal's encoding lacks, as ° in ASCII, is printed as a question mark.
+    """
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="replace")
     try:
         from bench.cli import main as command_line
     except KeyboardInterrupt:

@@ -11,14 +11,14 @@ import rich_click as click
 from click.exceptions import Exit
 from rich.text import Text
 
-from bench.cli.screen import console, shown_path
+from bench.cli.screen import console, examples, shown_path
 from bench.provenance import ROOT
 from bench.tables.schema import RESULTS
 
 CURE_INSTALL = "make setup (or: pip install --require-hashes -r requirements/base.txt)"
 
 
-@click.command("doctor")
+@click.command("doctor", epilog=examples(("What this machine lacks", "doctor")))
 def COMMAND():
     """Check versions, compiler, engines, arms, rendering, results; say the cure. Exit code 1: a needed one is bad."""
     failed = 0

@@ -7,7 +7,7 @@ import rich_click as click
 
 import tasks
 from bench.cli import options
-from bench.cli.screen import Frame, console, word_table
+from bench.cli.screen import Frame, console, examples, word_table
 from bench.contenders.registry import (
     baselines_of_arms,
     known_compensators,
@@ -50,14 +50,17 @@ def kind(word: str, title: str, *columns: str):
     return listed
 
 
-@click.command("list")
+@click.command(
+    "list",
+    epilog=examples(("All there is", "list"), ("One kind, a law of yours too", "list regulators --law my_law.py")),
+)
 @click.argument("kind", required=False, metavar="[KIND]")
 @options.law
 def COMMAND(kind, laws):
     """What there is to run, of one kind or of all.
 
     Kinds: regulators, representations, jacobians, inverses, controllers, impedances, dampings, limiters, shipped,
-    springs, pose-springs, compensators, metrics, tasks, arms, variations, axes, starts, engines, suites,
+    springs, pose-springs, compensators, baselines, metrics, tasks, arms, variations, axes, starts, engines, suites,
     experiments, claims. A file of an arm that cannot be used is listed with the reason.
     """
     own = options.own_laws(laws)

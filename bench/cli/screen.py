@@ -1,6 +1,7 @@
 """Printing: one console, the same width rules everywhere, plain text when the output is not a terminal."""
 
 import os
+import shlex
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
@@ -21,9 +22,9 @@ def console(stderr: bool = False) -> Console:
 
 
 def shown_path(path: Path) -> str:
-    """A path as one would type it here: relative if it lies in the working directory."""
+    """A path as one would type it here: relative if it lies in the working directory, in quotes if it has a space."""
     relative = os.path.relpath(path)
-    return str(path) if relative.startswith("..") else relative
+    return shlex.quote(str(path) if relative.startswith("..") else relative)
 
 
 def counted(number: int, word: str) -> str:
@@ -67,7 +68,10 @@ class Frame:
     def __rich_console__(self, screen: Console, options: ConsoleOptions) -> Iterator[RenderableType]:
         if self.title:
             yield Text(self.title, "bold")
-        for place, block in enumerate(_blocks(self.columns, options.max_width)):
+        first, *others = blocks = _blocks(self.columns, options.max_width)
+        if others:
+            yield Text(f"{len(self.columns) - len(first)} of {len(self.columns)} columns do not fit and are below.")
+        for place, block in enumerate(blocks):
             if place:
                 yield Text()
             yield _table(block)

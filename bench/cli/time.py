@@ -50,9 +50,13 @@ def COMMAND(laws, regulators, representations, arms, quick, benchmark_json, out:
 
         chosen = options.chosen(laws, regulators, representations, costings=True)
         run = timing.run_apart if laws else timing.run
-        is_whole = not (laws or regulators or representations or arms or quick)
-        folder = out or (WHOLE if is_whole else PARTIAL)
+        folder = out or folder_for(laws, regulators, representations, arms, quick)
         path = run(chosen, folder, quick=quick, report=report, arms=named, json_file=benchmark_json)
     console().print(frame_table(timing.table(path), "Time per tick"))
     console().print(frame_table(timing.arm_table(path), "Time per tick on arms"))
     console().print(f"wrote {shown_path(path)}" + (f" and {benchmark_json}" if benchmark_json else ""))
+
+
+def folder_for(*narrowing) -> Path:
+    """Where timings go if no folder is named: only those of everything to the files under version control."""
+    return PARTIAL if any(narrowing) else WHOLE

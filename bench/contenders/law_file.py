@@ -31,7 +31,7 @@ def read_law(path: Path) -> bytes:
         BadLaw: there is no such file, or it cannot be read.
     """
     if not path.is_file():
-        raise BadLaw(f"--law {path}: there is no such file; give the path of a Python file with a constant REGULATOR")
+        raise BadLaw(f"{path}: there is no such file; give the path of a Python file with a constant REGULATOR")
     try:
         text = path.read_bytes()
         text.decode()

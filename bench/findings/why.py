@@ -82,6 +82,7 @@ MOST, NEAR_RAD = 3, 0.01
 Bach's does, to 0.005 rad."""
 
 FAULTS = {"oscillating": "oscillation", "creeping": "creeping", "stuck": "dead points"}
+FAULTS |= {"crashed": "raises or exits", "hung": "does not return"}
 """Of an outcome; of any other the starts are lost."""
 
 

@@ -1,7 +1,10 @@
 """The command line where nothing is wrong: what each command prints of a small run, and what its help explains."""
 
 import inspect
+import os
 import re
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -26,6 +29,7 @@ from bench.control.registry import all_controllers
 from bench.experiments import plan as planning
 from bench.experiments.suites import ENGINES, SUITES
 from bench.metrics.registry import known_contact_metrics, known_metrics
+from bench.provenance import ROOT
 from bench.running.schedulers.words import THREADS
 from bench.tables import files, store
 from tasks.base import BadArm
@@ -342,3 +346,9 @@ def test_doctor_says_what_it_checked(capsys):
     checked = ["python", "versions", "compiler", "engines", "arms", "contact", "rendering", "results"]
     assert [line.split()[1] for line in said.out.splitlines()] == checked
     assert all(line.startswith(("ok", "note")) or "Cure: " in line for line in said.out.splitlines())
+
+
+def test_sign_that_the_encoding_lacks_is_no_error():
+    words, environment = (sys.executable, "-m", "bench", "audit", "--help"), {**os.environ, "PYTHONIOENCODING": "ascii"}
+    said = subprocess.run(words, cwd=ROOT, env=environment, capture_output=True, text=True)
+    assert (said.returncode, "180?" in said.stdout) == (0, True)

@@ -11,6 +11,7 @@ from scipy.stats import binom
 from support.command_line import bench
 
 from bench import timing
+from bench.cli.time import folder_for
 from bench.contenders.registry import find_contender
 from bench.law.contender import Contender, Regulator
 from bench.law.scalar import kernel, sqrt
@@ -186,17 +187,12 @@ def test_interrupt_or_failure_of_a_thing_ends_the_measuring_with_its_reason(rais
         measure([benchmark("one", broken)], passes=2)
 
 
-@pytest.mark.parametrize(
-    ("words", "folder"),
-    [
-        ((), "timings"),
-        (("--quick",), "timings-partial"),
-        (("--regulator", "gibbs"), "timings-partial"),
-        (("--quick", "--out", "mine"), "mine"),
-    ],
-)
-def test_only_a_whole_run_writes_unasked_where_files_are_tracked(capsys, monkeypatch, quick, words, folder):
-    given = []
-    monkeypatch.setattr(timing, "run", lambda _, out, **more: given.append(out.name) or quick[0])
+def test_only_a_whole_run_writes_unasked_where_files_are_tracked():
+    found = [folder_for((), (), quick).name for quick in (False, True)] + [folder_for((), ("gibbs",), False).name]
+    assert found == ["timings", "timings-partial", "timings-partial"]
+
+
+def test_timings_go_into_the_folder_that_is_named(capsys, tmp_path):
+    words = ("--quick", "--regulator", "gibbs", "--arm", "ur5e", "--out", tmp_path / "mine")
     assert bench(capsys, "time", *words).code == 0
-    assert given == [folder]
+    assert len(list((tmp_path / "mine").glob("*.parquet"))) == 1
