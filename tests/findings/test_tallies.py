@@ -8,7 +8,7 @@ from click.testing import CliRunner
 from bench.cli import claims as command
 from bench.findings import claims
 from bench.findings.claims.untestable import UNTESTABLE
-from bench.findings.claims.verdict import Claim, Earlier, Evidence, Verdict, Word
+from bench.findings.claims.verdict import Claim, Earlier, Evidence, Verdict, Word, does
 from bench.studies.verdicts import REFERENCE
 from report.figures.claims import claims as page
 
@@ -32,8 +32,8 @@ def test_both_tallies_agree_with_the_table_of_claims():
     lines = [[cell.strip() for cell in line.split("|")[4:6]] for line in page.table(EVERY).splitlines() if "C0" in line]
     now = [next(word for word in sorted(Word, key=len, reverse=True) if f">{word}<" in cell) for cell, _ in lines]
     first = [Word(was.partition("first: ")[2] or word) for word, (_, was) in zip(now, lines, strict=True)]
-    for label, word in ((label, word) for word, label in page.LABELS.items()):
-        told = [(int(n), int(of)) for n, said, of in tiles if said == label] or [(0, 0)]
+    for word in Word:
+        told = [(int(n), int(of)) for n, said, of in tiles if said == does(word, int(n))] or [(0, 0)]
         assert told == [(now.count(word), first.count(word))]
 
 
@@ -44,7 +44,7 @@ def test_refuted_claims_come_first_and_say_what_is_true():
 
 
 def test_counts_of_words_are_told_in_their_order():
-    assert page.counted(one.word for one in EVERY) == "2 hold, 1 do not hold, 1 depends on the gains"
+    assert claims.told(one.word for one in EVERY) == "2 hold, 1 does not hold, 1 depends on the gains"
 
 
 def test_claims_of_a_narrowed_run_lists_what_it_decides_and_what_not(monkeypatch):
