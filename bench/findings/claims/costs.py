@@ -95,7 +95,7 @@ def _flops_alone(known: Ledger) -> str:
     id="C17",
     section="2.5, 4",
     quote="Overall, no regulator performed adequately in terms of both calculation cost and performance.",
-    written="2026-11-24 0000000",
+    written="2026-11-24 c7944ec",
     sentence="No regulator performs adequately in both calculation cost and performance.",
     question="Which of the three is adequate in which, on one plane of cost and performance?",
     criterion=f"""
