@@ -5,6 +5,7 @@ import shutil
 
 import pytest
 from click.testing import CliRunner
+from pyarrow import parquet
 
 from bench.cli import claims as command
 from bench.findings import claims
@@ -49,8 +50,11 @@ def test_counts_of_words_are_told_in_their_order():
 
 
 def test_claims_of_a_narrowed_run_lists_what_it_decides_and_what_not(tmp_path):
-    for name in ("costs.parquet", "plan.json", "provenance.json"):
+    for name in ("plan.json", "provenance.json"):
         shutil.copy(REFERENCE / name, tmp_path)
+    for path in REFERENCE.glob("*.parquet"):
+        rows = parquet.read_table(path)
+        parquet.write_table(rows if path.stem == "costs" else rows.slice(0, 3), tmp_path / path.name)
     decided, lacks = claims.judge_possible(claims.Results(tmp_path))
     said = CliRunner().invoke(command.COMMAND, [str(tmp_path)])
     assert said.exit_code == 0
