@@ -36,25 +36,25 @@ def facts(_: Run) -> dict:
         "changed": len(changed),
         "turned": sum(one.word != one.first for one in changed),
         "misprints": typeset(" ".join(MISPRINTS.split())),
-        "steady": steady(read_json(verdicts.STORED)),
+        "steady": steady(read_json(verdicts.STORED), {one.id: str(one.word) for one in every}),
     }
 
 
-def steady(study: dict) -> str:
+def steady(study: dict, words: dict[str, str]) -> str:
     """What the study of seeds, of half the step and of other gains found, in a sentence or two."""
     runs = study["runs"]
     seeds = sum(name != verdicts.HALF_STEP for name in runs)
-    other = verdicts.turned(runs, study["reference"])
+    other = verdicts.turned(runs, words)
     found = "every verdict stays the same" if not other else f"these change: {', '.join(other)}"
     step = " and with half the step size" if verdicts.HALF_STEP in runs else ""
-    return f"With {seeds} other random seeds{step}, {found}.{by_gains(study)}"
+    return f"With {seeds} other random seeds{step}, {found}.{by_gains(study, words)}"
 
 
-def by_gains(study: dict) -> str:
+def by_gains(study: dict, words: dict[str, str]) -> str:
     """Which verdicts are other ones at other damping ratios; nothing where no run at other gains was judged."""
     said = []
     for one in study.get("gains", ()):
-        changed = (f"{id} ({word})" for id, word in one["words"].items() if word != study["reference"][id])
+        changed = (f"{id} ({word})" for id, word in one["words"].items() if word != words[id])
         ratio = one["kv"] / (2.0 * math.sqrt(one["kp"]))
         said.append(f"with a damping ratio of {ratio:g}: {', '.join(changed) or 'none'} of {len(one['words'])}")
     return f" Other gains change these verdicts, of those that their runs decide: {'; '.join(said)}." if said else ""
