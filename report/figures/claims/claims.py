@@ -75,7 +75,7 @@ def tiles(every: list[Verdict]) -> html.Html:
         (
             html.VERDICTS[word],
             now.get(word, 0),
-            f"{does(word, now.get(word, 0))} ({first.get(word, 0)} by the criteria first written)",
+            f"{does(word, now.get(word, 0))} (first criteria: {first.get(word, 0)})",
         )
         for word in Word
         if word in now or word in first
