@@ -23,8 +23,8 @@ from bench.experiments.plan import Plan
 from bench.experiments.suites import NOMINAL
 from bench.findings import claims
 from bench.findings.claims.adequacy import NOISE
+from bench.findings.claims.at_gains import GAINS
 from bench.findings.claims.controller_costs import BY_COMMON, BY_EULER, ON_MATRIX
-from bench.findings.claims.performance import GAINS
 from bench.findings.claims.tables import MAIN_ENGINE, Results
 from bench.provenance import ROOT, describe, source_digest
 from bench.running import run

@@ -27,7 +27,6 @@ def cited() -> set[str]:
 def numbers() -> dict[str, object]:
     """What the text's placeholders stand for."""
     from bench.findings import claims
-    from bench.findings.claims.verdict import Word
     from bench.findings.counts import counts
     from bench.tables import read
     from report.figures import index
@@ -44,10 +43,7 @@ def numbers() -> dict[str, object]:
         "laws": counts()["laws"].number,
         "arms": counts()["arms"].number,
         "claims": len(words),
-        "holds": words.count(Word.HOLDS),
-        "corrected": words.count(Word.CORRECTED),
-        "fails": words.count(Word.FAILS),
-        "open": words.count(Word.ANSWERED),
+        "words": claims.told(words),
         "asked": found["functions"],
         "faulty": found["functions"] - found["right"],
         "which_law": which_law.front_page(run),

@@ -1,14 +1,16 @@
 """Both tallies of the claims, by the present criteria and by the first ones, and what a narrowed run decides."""
 
 import re
+import shutil
 
 import pytest
 from click.testing import CliRunner
+from pyarrow import parquet
 
 from bench.cli import claims as command
 from bench.findings import claims
 from bench.findings.claims.untestable import UNTESTABLE
-from bench.findings.claims.verdict import Claim, Earlier, Evidence, Verdict, Word
+from bench.findings.claims.verdict import Claim, Earlier, Evidence, Verdict, Word, does
 from bench.studies.verdicts import REFERENCE
 from report.figures.claims import claims as page
 
@@ -28,12 +30,12 @@ EVERY = [
 
 
 def test_both_tallies_agree_with_the_table_of_claims():
-    tiles = re.findall(r"<b>(\d+)</b><span>([^(<]+) \((\d+) by", page.tiles(EVERY))
+    tiles = re.findall(r"<b>(\d+)</b><span>([^(<]+) \(first criteria: (\d+)\)", page.tiles(EVERY))
     lines = [[cell.strip() for cell in line.split("|")[4:6]] for line in page.table(EVERY).splitlines() if "C0" in line]
     now = [next(word for word in sorted(Word, key=len, reverse=True) if f">{word}<" in cell) for cell, _ in lines]
     first = [Word(was.partition("first: ")[2] or word) for word, (_, was) in zip(now, lines, strict=True)]
-    for label, word in ((label, word) for word, label in page.LABELS.items()):
-        told = [(int(n), int(of)) for n, said, of in tiles if said == label] or [(0, 0)]
+    for word in Word:
+        told = [(int(n), int(of)) for n, said, of in tiles if said == does(word, int(n))] or [(0, 0)]
         assert told == [(now.count(word), first.count(word))]
 
 
@@ -44,23 +46,27 @@ def test_refuted_claims_come_first_and_say_what_is_true():
 
 
 def test_counts_of_words_are_told_in_their_order():
-    assert page.counted(one.word for one in EVERY) == "2 hold, 1 do not hold, 1 depends on the gains"
+    assert claims.told(one.word for one in EVERY) == "2 hold, 1 does not hold, 1 depends on the gains"
 
 
-def test_claims_of_a_narrowed_run_lists_what_it_decides_and_what_not(monkeypatch):
-    decided, _ = claims.judge_possible(claims.Results(None, {}))
-    assert 0 < len(decided) < len(claims.all_claims())
-    monkeypatch.setattr(claims, "judge_possible", lambda results: (decided, {"C01": "no episode"}))
-    said = CliRunner().invoke(command.COMMAND, [str(REFERENCE)])
+def test_claims_of_a_narrowed_run_lists_what_it_decides_and_what_not(tmp_path):
+    for name in ("plan.json", "provenance.json"):
+        shutil.copy(REFERENCE / name, tmp_path)
+    for path in REFERENCE.glob("*.parquet"):
+        rows = parquet.read_table(path)
+        parquet.write_table(rows if path.stem == "costs" else rows.slice(0, 3), tmp_path / path.name)
+    decided, lacks = claims.judge_possible(claims.Results(tmp_path))
+    said = CliRunner().invoke(command.COMMAND, [str(tmp_path)])
     assert said.exit_code == 0
-    assert all(one.id in said.output for one in decided)
-    assert re.search(r"Not judged\s+C01: no episode", said.output)
+    listed, _, rest = said.output.partition("Not judged")
+    assert set(re.findall(r"^C\d\d", listed, re.MULTILINE)) == {one.id for one in decided} != set()
+    assert set(re.findall(r"\b(C\d\d): ", rest)) == set(lacks) != set()
 
 
 @pytest.mark.parametrize("other", [{}, {"C03": "holds"}])
 def test_words_at_other_gains_are_told_by_damping_ratio(other):
-    study = {"reference": {"C03": "does not hold"}, "gains": [{"kp": 100.0, "kv": 14.0, "words": other}]}
-    said = page.by_gains(study)
+    study = {"gains": [{"kp": 100.0, "kv": 14.0, "words": other}]}
+    said = page.by_gains(study, {"C03": "does not hold"})
     assert ("damping ratio of 0.7: C03 (holds)" in said) == bool(other)
 
 

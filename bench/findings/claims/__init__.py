@@ -27,6 +27,7 @@ One file for each part of the paper; a claim is found by being in one of them.
     force_costs.py           C33
     angle_forms.py           C34
     adequacy.py              every law by the tests of C17 and C27
+    at_gains.py              the same claim at other gains
     standing.py              how two laws stand in cost, by time and by operations
     tables.py                what a judging function reads
     probes.py                the small experiments of claims that no table answers
@@ -47,7 +48,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from bench.findings.claims.tables import CHECK_ENGINES, MAIN_ENGINE, Results
-from bench.findings.claims.verdict import Claim, Evidence, NoEvidence, Verdict, Word, decide
+from bench.findings.claims.verdict import Claim, Evidence, NoEvidence, Verdict, Word, decide, does
 from bench.tables import read as published
 
 if TYPE_CHECKING:
@@ -67,6 +68,7 @@ __all__ = [
     "judge_possible",
     "table",
     "tally",
+    "told",
 ]
 
 RULE = (
@@ -99,6 +101,11 @@ def judge_possible(results: Results) -> tuple[list[Verdict], dict[str, str]]:
         except NoEvidence as error:
             lacks[one.id] = str(error)
     return decided, lacks
+
+
+def told(words: Iterable[Word]) -> str:
+    """'20 hold, 1 does not hold'."""
+    return ", ".join(f"{number} {does(word, number)}" for word, number in tally(words).items())
 
 
 def tally(words: Iterable[Word]) -> dict[Word, int]:

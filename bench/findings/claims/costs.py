@@ -6,6 +6,7 @@ import numpy as np
 
 from bench.findings.claims import adequacy, probes, standing
 from bench.findings.claims.adequacy import DIRECTED_SHARE, NEARLY_ALL, SETTLED_SHARE, SLOW, THREE
+from bench.findings.claims.at_gains import RULE, at_every_gain
 from bench.findings.claims.standing import ORDERED, Ledger
 from bench.findings.claims.tables import evidence, lost_text, on_every_engine, settled
 from bench.findings.claims.verdict import Earlier, NoEvidence, Word, claim, word_of
@@ -94,7 +95,7 @@ def _flops_alone(known: Ledger) -> str:
     id="C17",
     section="2.5, 4",
     quote="Overall, no regulator performed adequately in terms of both calculation cost and performance.",
-    written="2026-11-24 fb18d38",
+    written="2026-11-24 c7944ec",
     sentence="No regulator performs adequately in both calculation cost and performance.",
     question="Which of the three is adequate in which, on one plane of cost and performance?",
     criterion=f"""
@@ -108,14 +109,19 @@ def _flops_alone(known: Ledger) -> str:
         Euler angles, whose cost is what the paper objects to (2.5), as C12 compares them. It
         holds if none of rotation-matrix, linearized-euler and feedback-linearized is adequate in both; with a
         correction if one is, but fails on starts that (b) leaves out, or is cheaper by time and not by operations;
-        otherwise it does not hold. Later laws do not change this verdict, they answer C27.
+        otherwise it does not hold. {RULE} Later laws do not change this verdict, they answer C27.
     """,
     open=f"""
         'Adequate' is the paper's word without a number: the word rests on the thresholds of (a) to (c), which are ours,
         and on the gains, of which the paper gives none for the first law. (c) is what the paper calls uncertain
-        settling times. Cost is that of the law alone, and its times were known when (d) was written. Of a whole
-        controller's tick the laws differ by so little that our advice does not tell them apart (up to
-        {100 * standing.MEASURABLE:.0f} % counts as equal there): by that measure the objection to cost is empty.
+        settling times. Random starts that spin are those of results/maps, at its gains, whatever the run's. Cost is
+        that of the law alone, and its times were known when (d) was written. Of a whole controller's tick the laws
+        differ by so little that our advice does not tell them apart (up to {100 * standing.MEASURABLE:.0f} % counts as
+        equal there): by that measure the objection to cost is empty.
+    """,
+    instead="""
+        At the gains of the other laws no regulator is adequate in both; at the lowest damping tried the rotation-matrix
+        law is, isolated orientations aside.
     """,
     correction="One of the three is adequate in both, but for isolated orientations, or by one measure of cost alone.",
     earlier=(
@@ -132,12 +138,13 @@ def _flops_alone(known: Ledger) -> str:
             "2026-11-23 953f62a",
             """
             (d) compared each law on Euler angles with itself too, so that neither could pass; (c) was of the slowest
-            start, which grows with the number of starts.
+            start, which grows with the number of starts. It was decided at one pair of gains.
             """,
             Word.HOLDS,
         ),
     ),
 )
+@at_every_gain
 @on_every_engine
 def c17(results, engine):
     """The three laws against the three tests of performance and the test of cost."""

@@ -7,17 +7,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from bench.findings.claims.adequacy import THREE
-from bench.findings.claims.tables import MAIN_ENGINE, Results, Share, evidence, settled, share
-from bench.findings.claims.verdict import Earlier, Evidence, Word, claim, word_of
+from bench.findings.claims.at_gains import RULE, at_every_gain
+from bench.findings.claims.tables import MAIN_ENGINE, Share, evidence, settled, share
+from bench.findings.claims.verdict import Earlier, Word, claim, word_of
 from bench.findings.theory import closed_form
-from bench.tables.schema import RESULTS
 from bench.tables.statistics import bootstrap, quantile, quantile_estimate
 
 if TYPE_CHECKING:
     import pandas as pd
-
-GAINS = RESULTS / "gains"
-"""Runs of the same starts at other gains, a folder each."""
 
 NEARLY_ALL, DRAMATIC = 0.99, 2.0
 """The quantile that stands for 'the range', and the factor in time from which an improvement is dramatic."""
@@ -60,8 +57,7 @@ def _times(rows: pd.DataFrame) -> np.ndarray:
         ratio is at least {DRAMATIC:g} by the lower end of its interval (paired bootstrap). It holds if it is
         dramatically better than both others and its range is larger than both; with a correction if it is dramatically
         better than both, its range larger than the linearized law's and not smaller than the rotation-matrix law's;
-        otherwise it does not hold. The same is decided on every run of results/gains: where they do not all give one
-        word, it depends on the gains.
+        otherwise it does not hold. {RULE}
     """,
     earlier=(
         Earlier(
@@ -72,25 +68,9 @@ def _times(rows: pd.DataFrame) -> np.ndarray:
     ),
     open="'Dramatically' has no number. Points of the boundary itself are left out, as the paper's next sentence does.",
 )
+@at_every_gain
 def c31(results):
-    """Shares that settle, and ratios of the time in which nearly all do; here and at other gains."""
-    own = _improved(results)
-    found = {results.gains(): own, **{one.gains(): _improved(one) for one in results.found_by(other_gains, results)}}
-    told = " ".join(f"At Kp = {kp:g}, Kv = {kv:g}: {word}. {said}" for (kp, kv), (word, said) in found.items())
-    word = own[0] if len({word for word, _ in found.values()}) == 1 else Word.DEPENDS
-    return word, evidence(told, sum(said.rows for _, said in found.values()), ("episodes",))
-
-
-def other_gains(results: Results) -> list[Results]:
-    """The runs of results/gains; none for tables alone, or for one of these runs itself."""
-    folder = results.folder
-    if folder is None or folder.resolve().parent == GAINS.resolve():
-        return []
-    return [Results(path.parent) for path in sorted(GAINS.glob("*/episodes.parquet"))]
-
-
-def _improved(results: Results) -> tuple[Word, Evidence]:
-    """Whether feedback linearization is dramatically better, at the gains of one run."""
+    """Shares that settle, and ratios of the time in which nearly all do."""
     *others, own = _of_the_three(results)
     ranges = [share(settled(one)) for one in (*others, own)]
     ratios = [_gain(_times(own), _times(one)) for one in others]

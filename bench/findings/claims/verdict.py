@@ -22,6 +22,25 @@ class Word(StrEnum):
     UNTESTABLE = "not testable"
 
 
+PLURAL = {
+    Word.HOLDS: "hold",
+    Word.CORRECTED: "hold with a correction",
+    Word.FAILS: "do not hold",
+    Word.ANSWERED: "were open in 1988 and are answered since",
+    Word.DEPENDS: "depend on the gains",
+    Word.UNTESTABLE: "are not testable",
+}
+
+
+def does(word: Word, number: int) -> str:
+    """What so many statements with a word do."""
+    return (
+        "was open in 1988 and is answered since"
+        if (word, number) == (Word.ANSWERED, 1)
+        else (str(word) if number == 1 else PLURAL[word])
+    )
+
+
 MISPRINTS = """
     A slip of symbol, or a misprint that the paper's own other equations or sentences correct, makes "holds with a
     correction"; a false statement of substance makes "does not hold".

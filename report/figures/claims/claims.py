@@ -9,23 +9,13 @@ from collections.abc import Iterable
 from bench.findings import claims
 from bench.findings.claims import Verdict, Word, tally
 from bench.findings.claims.untestable import UNTESTABLE
-from bench.findings.claims.verdict import MISPRINTS
+from bench.findings.claims.verdict import MISPRINTS, does
 from bench.studies import verdicts
 from bench.tables.files import read_json
 from report.figures.kit import html
 from report.figures.kit.page import Run
 from report.figures.kit.spelling import marked_up, prose, typeset
 from report.figures.kit.tables import Table
-
-LABELS = {
-    Word.HOLDS: "hold",
-    Word.CORRECTED: "hold with a correction",
-    Word.FAILS: "do not hold",
-    Word.ANSWERED: "was open in 1988 and is answered since",
-    Word.DEPENDS: "depends on the gains",
-    Word.UNTESTABLE: "cannot be tested",
-}
-"""Verdicts in their order -> what statements do that got them."""
 
 ORDER = (Word.FAILS, Word.DEPENDS, Word.CORRECTED, Word.UNTESTABLE, Word.ANSWERED, Word.HOLDS)
 """Of the table's rows."""
@@ -41,30 +31,30 @@ def facts(_: Run) -> dict:
     return {
         "rule": typeset(claims.RULE),
         "decided": len(every),
-        "words": counted(one.word for one in every),
-        "first_words": counted(one.first for one in every),
+        "words": claims.told(one.word for one in every),
+        "first_words": claims.told(one.first for one in every),
         "changed": len(changed),
         "turned": sum(one.word != one.first for one in changed),
         "misprints": typeset(" ".join(MISPRINTS.split())),
-        "steady": steady(read_json(verdicts.STORED)),
+        "steady": steady(read_json(verdicts.STORED), {one.id: str(one.word) for one in every}),
     }
 
 
-def steady(study: dict) -> str:
+def steady(study: dict, words: dict[str, str]) -> str:
     """What the study of seeds, of half the step and of other gains found, in a sentence or two."""
     runs = study["runs"]
     seeds = sum(name != verdicts.HALF_STEP for name in runs)
-    other = verdicts.turned(runs, study["reference"])
+    other = verdicts.turned(runs, words)
     found = "every verdict stays the same" if not other else f"these change: {', '.join(other)}"
     step = " and with half the step size" if verdicts.HALF_STEP in runs else ""
-    return f"With {seeds} other random seeds{step}, {found}.{by_gains(study)}"
+    return f"With {seeds} other random seeds{step}, {found}.{by_gains(study, words)}"
 
 
-def by_gains(study: dict) -> str:
+def by_gains(study: dict, words: dict[str, str]) -> str:
     """Which verdicts are other ones at other damping ratios; nothing where no run at other gains was judged."""
     said = []
     for one in study.get("gains", ()):
-        changed = (f"{id} ({word})" for id, word in one["words"].items() if word != study["reference"][id])
+        changed = (f"{id} ({word})" for id, word in one["words"].items() if word != words[id])
         ratio = one["kv"] / (2.0 * math.sqrt(one["kp"]))
         said.append(f"with a damping ratio of {ratio:g}: {', '.join(changed) or 'none'} of {len(one['words'])}")
     return f" Other gains change these verdicts, of those that their runs decide: {'; '.join(said)}." if said else ""
@@ -77,18 +67,17 @@ def tables(_: Run) -> dict:
     return {"verdicts": table(every), "sections": html.Html("".join(map(section, every))), "untestable": sentences}
 
 
-def counted(words: Iterable[Word]) -> str:
-    """'20 hold, 13 hold with a correction'."""
-    return ", ".join(f"{number} {LABELS[word]}" for word, number in tally(words).items())
-
-
 def tiles(every: list[Verdict]) -> html.Html:
     """How many statements were decided, and how many got each word: by the present criteria and by the first ones."""
     now, first = (tally(words) for words in ([one.word for one in every], [one.first for one in every]))
     entries = [("plain", len(every), "statements of the paper decided")]
     entries += [
-        (html.VERDICTS[word], now.get(word, 0), f"{label} ({first.get(word, 0)} by the criteria first written)")
-        for word, label in LABELS.items()
+        (
+            html.VERDICTS[word],
+            now.get(word, 0),
+            f"{does(word, now.get(word, 0))} (first criteria: {first.get(word, 0)})",
+        )
+        for word in Word
         if word in now or word in first
     ]
     tile = '<div class="tile {}"><b>{}</b><span>{}</span></div>'
