@@ -5,6 +5,7 @@ from __future__ import annotations
 from bench.cli.paragraphs import Paragraph, listed
 from bench.cli.screen import counted
 from bench.findings.selection import gains, needs
+from bench.findings.selection.criteria import BY_NAME
 from bench.findings.selection.measured import Measured
 from bench.findings.selection.needs import HELD_RAD, Advice, Decision, advise
 from bench.findings.selection.words import NAMED, cost, number, standing, together
@@ -67,7 +68,7 @@ def _exception(one: Decision, usual: str | None, found: Measured) -> str:
     """The law that a situation leads to, its number beside the default's, and with what it ties."""
 
     def has(law: str) -> str:
-        return ", ".join(number(by, found.number(by, law)) for by in one.need.by)
+        return ", ".join(f"{BY_NAME[by].title.lower()} {number(by, found.number(by, law))}" for by in one.need.by)
 
     law = one.law or ""
     beside = f"; {usual}: {has(usual)}" if usual in one.asked else ""
