@@ -125,15 +125,15 @@ def test_law_whose_command_vanishes_at_the_half_turn_is_held_by_any_noise():
 
 def test_memory_ends_where_its_hysteresis_does():
     # eta = cos(theta/2) at -delta; the trace at 0; |sigma| = tan(theta/4) at sqrt(switch)
-    assert math.cos((math.pi + thresholds.KEEPS["hybrid"]) / 2.0) == pytest.approx(-0.4)
-    assert 1.0 + 2.0 * math.cos(math.pi + thresholds.KEEPS["late-braking"]) == pytest.approx(0.0)
-    assert math.tan((math.pi + thresholds.KEEPS["mrp-linearized"]) / 4.0) ** 2 == pytest.approx(1.5)
+    assert math.cos((math.pi + thresholds.keeps("hybrid")) / 2.0) == pytest.approx(-0.4)
+    assert 1.0 + 2.0 * math.cos(math.pi + thresholds.keeps("late-braking")) == pytest.approx(0.0)
+    assert math.tan((math.pi + thresholds.keeps("mrp-linearized")) / 4.0) ** 2 == pytest.approx(1.5)
 
 
 @pytest.mark.parametrize("law", ["hybrid", "late-braking"])
 def test_cards_of_laws_with_memory_say_how_far_they_keep_to_their_way(law):
     _, fails = regulators.text_of(half_turn_noise.regulator_of(law))
-    assert f"{math.degrees(thresholds.KEEPS[law]):.0f} degrees" in fails
+    assert f"{math.degrees(thresholds.keeps(law)):.0f} degrees" in fails
 
 
 # ---------------------------------------------------------------------------------------------- pages, from a small run

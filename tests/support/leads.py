@@ -198,7 +198,20 @@ def libraries():
     below = loops[loops["angle_deg"] < 180].groupby(["library", "function"])["away"].sum()
     origins = json.loads((RESULTS / "libraries/provenance.json").read_text(encoding="utf-8"))["libraries"]
     counts = {"loops": len(at), "loops_dead": (at["dead"] == at["starts"]).sum(), "loops_away": (below > 0).sum()}
+    asked = table("libraries", "libraries").query("library != 'orientation-bench' and form != 'z-y-x'")
+    kinds = asked.drop_duplicates(["library", "function"])["kind"].value_counts()
+    counts |= {"functions": kinds["function"], "idioms": kinds["idiom"]}
     return {**counts, "libraries": len(set(origins) - {"orientation-bench"})}
+
+
+def shares_of_time():
+    [path] = (RESULTS / "timings").glob("*.parquet")
+    rows = table(path.stem, "timings").query("ticks > 0")
+    is_whole = (rows["what"] == "controller") & (rows["law"] == "rotation-matrix") & (rows["jacobian"] == "geometric")
+    alone = rows[(rows["what"] == "law") & ~rows["law"].str.contains("literal")].set_index("law")["ratio"]
+    share = 100.0 * alone / rows.loc[is_whole, "ratio"].median()
+    found = {"matrix": share["rotation-matrix"], "late": share["late-braking"], "most": share.max()}
+    return {f"cost_on_arms.time_{name}": [float(f"{value:.2g}")] for name, value in found.items()}
 
 
 def method():
@@ -207,7 +220,8 @@ def method():
 
 def verdicts():
     words = list(json.loads((RESULTS / "verdicts/verdicts.json").read_text(encoding="utf-8"))["reference"].values())
-    order = ("holds", "holds with a correction", "does not hold", "open in 1988; answered since", "not testable")
+    order = ("holds", "holds with a correction", "does not hold", "open in 1988; answered since")
+    order += ("depends on the gains", "not testable")
     return {"decided": len(words), "words": [words.count(word) for word in order if word in words]}
 
 
@@ -223,6 +237,7 @@ COMPUTED = {
         "pegs_by_accelerations": pegs("inverse"),
     },
     "06-failure-map": failure_map,
+    "07-cost": shares_of_time,
     "08-arms": arms,
     "13-compliance": compliance,
     "14-in-contact": in_contact_numbers,

@@ -7,19 +7,14 @@ import math
 
 import tasks
 from bench.contenders.registry import all_contenders
-from bench.contenders.regulators import hybrid, mrp_linearized
 from bench.findings.perturbed import FOLLOWED_RAD
 from bench.findings.theory import robustness_theory
 from bench.findings.theory.isotropic import EQUATIONS
 
 HALF_TURN = "half-turn-noise"
 
-KEEPS = {
-    "hybrid": 2.0 * math.asin(hybrid.DELTA),
-    "late-braking": math.pi / 3.0,
-    "mrp-linearized": 4.0 * math.atan(math.sqrt(mrp_linearized.SWITCH)) - math.pi,
-}
-"""Law with memory -> angle [rad] beyond a 180° rotation up to which it keeps to the direction it has begun in."""
+WITH_MEMORY = ("hybrid", "late-braking", "mrp-linearized")
+"""Laws that `keeps` knows."""
 
 UNBOUNDED = tuple(law for law, equation in EQUATIONS.items() if not equation.is_bounded)
 """Laws without a greatest command: at a 180° rotation they have none that a tick could hold."""
@@ -31,14 +26,28 @@ TAIL_HORIZON_S = 5.0
 """Horizon [s] of the episodes under perturbations that last."""
 
 
+def keeps(law: str) -> float:
+    """Return the angle [rad] beyond 180° up to which a law with memory keeps its direction; NaN of other laws."""
+    if law == "hybrid":
+        from bench.contenders.regulators.hybrid import DELTA
+
+        return 2.0 * math.asin(DELTA)
+    if law == "mrp-linearized":
+        from bench.contenders.regulators.mrp_linearized import SWITCH
+
+        return 4.0 * math.atan(math.sqrt(SWITCH)) - math.pi
+    return math.pi / 3.0 if law == "late-braking" else math.nan
+
+
 @functools.cache
 def least(law: str, kp: float, kv: float) -> float:
     """Return the least noise [rad] that holds a law at a 180° rotation; 0 if any does, NaN if theory does not say.
 
     It follows from the law's scalar equation, or from where its memory ends.
     """
-    if law in KEEPS:
-        return KEEPS[law]
+    kept = keeps(law)
+    if not math.isnan(kept):
+        return kept
     has_memory = {one.name for one in all_contenders() if one.regulator.memory}
     if law not in EQUATIONS or law in UNBOUNDED or law in has_memory:
         return math.nan

@@ -15,7 +15,7 @@ from matplotlib.axes import Axes
 from bench.contenders.registry import find_contender
 from bench.contenders.regulators import hybrid, mrp_linearized
 from bench.findings.theory.isotropic import EQUATIONS
-from bench.findings.theory.thresholds import HALF_TURN, KEEPS, UNBOUNDED, least
+from bench.findings.theory.thresholds import HALF_TURN, UNBOUNDED, WITH_MEMORY, keeps, least
 from bench.law.contender import Regulator
 from bench.tables import read
 from report.figures.kit import families, html, style
@@ -131,7 +131,7 @@ def facts(run: Run) -> dict:
     with_memory = [law for law in own if regulator_of(law).memory]
     without_memory = [law for law in own if law not in with_memory]
     jumping = [begin for law, begin in known.items() if law in without_memory and begin > 0.0]
-    middle = float(noisy.index[noisy.index < min(KEEPS.values())].max())
+    middle = float(noisy.index[noisy.index < min(map(keeps, WITH_MEMORY))].max())
     return {
         "n": starts(rows),
         "last": f"{noisy.index.max():g}",
@@ -144,8 +144,8 @@ def facts(run: Run) -> dict:
         "stuck": int((shares.loc[0.0, own] < 1.0).sum()),
         "least": f"{min(jumping):.2g}",
         "most": f"{max(jumping):.2g}",
-        **{law: f"{angle:.3f}" for law, angle in KEEPS.items()},
-        **{f"{law}_deg": f"{math.degrees(angle):.0f}" for law, angle in KEEPS.items()},
+        **{law: f"{keeps(law):.3f}" for law in WITH_MEMORY},
+        **{f"{law}_deg": f"{math.degrees(keeps(law)):.0f}" for law in WITH_MEMORY},
         "delta": f"{hybrid.DELTA:g}",
         "switch": f"{mrp_linearized.SWITCH:g}",
     }
