@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import NamedTuple
 
 from bench.export.language import find_language, language_words
@@ -12,7 +13,8 @@ from report.figures.kit import html, laws
 from report.figures.kit.families import anchor
 from report.figures.kit.page import Run
 
-BACK = '<p class="hint"><a href="../pages/03-regulators.html">Catalogue of laws</a></p>'
+CATALOGUE = Path(__file__).resolve().parents[2] / "pages" / "03-regulators.md"
+BACK = '<p class="hint"><a href="../pages/03-regulators.html">Catalogue of laws</a></p>' if CATALOGUE.is_file() else ""
 
 
 class LawPage(NamedTuple):
