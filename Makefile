@@ -154,7 +154,7 @@ robustness-study: ## shares lost under every perturbation, 400 starts a level (6
 robustness-study: $(READY)
 	@$(PY) -m bench.studies.robustness $(ARGS)
 
-verdicts-study: ## does a verdict hang on the draw or the step? 10 seeds, half the step (10 minutes): results/verdicts
+verdicts-study: ## does a verdict hang on the draw or the step? 20 seeds, half the step (half an hour): results/verdicts
 verdicts-study: $(READY)
 	@$(PY) -m bench.studies.verdicts $(ARGS)
 

@@ -1,4 +1,4 @@
-"""Does a verdict depend on the draw, the step or the gains? Claims on 10 seeds, half the step and results/gains.
+"""Does a verdict depend on the draw, the step or the gains? Claims on 20 seeds, half the step and results/gains.
 
     python -m bench.studies.verdicts                     what results/verdicts lacks: about a minute of CPU a seed
     python -m bench.studies.verdicts --only 3 half-step  these anew
@@ -34,7 +34,7 @@ from bench.tables.files import read_json, write_json
 REFERENCE = ROOT / "results" / "reference"
 STORED = ROOT / "results" / "verdicts" / "verdicts.json"
 
-SEEDS = tuple(range(1, 11))
+SEEDS = tuple(range(1, 21))
 HALF_STEP = "half-step"
 """The reference's seed, at half its control period."""
 
