@@ -22,6 +22,7 @@ from support.states import as_rotation, axis_permuting, matrix, vector
 from bench.contenders.registry import find_contender
 from bench.law.contender import AT_REST, Gains, Goal
 from bench.studies.libraries import turns
+from bench.studies.libraries.asked.mujoco import WELDED, forward
 from bench.studies.libraries.found import find
 from bench.studies.libraries.library import MATRIX
 
@@ -177,9 +178,14 @@ def test_tangent_of_a_right_angle_is_no_number_or_by_rounding_nought(law):
 
 
 @pytest.mark.parametrize("where", SETS)
-def test_rotation_matrix_error_is_what_mujocos_weld_pulls_with(where):
-    """A weld's residual through its Jacobian is sin(theta) k: the law of 1980, with its dead points."""
-    some, pull = judged(where), asked("mujoco", "weld, pull")
+def test_rotation_matrix_error_is_a_welds_residual_through_its_jacobian(where):
+    """4 J^T r is sin(theta) k: where a weld pulls whose impedance is near zero; the default weld pulls otherwise."""
+
+    def pull(turn):
+        data = forward(WELDED, np.array(turn.quat_wxyz))
+        return 4.0 * data.efc_J.reshape(-1, WELDED.nv)[3:6].T @ data.efc_pos[3:6]
+
+    some = judged(where)
     assert_agree(errors("rotation-matrix", some), np.array([pull(turn) for turn in some]), scales(some))
 
 
