@@ -193,7 +193,7 @@ def slower(factor):
         ("C17", Word.FAILS, "episodes", law_of("rotation-matrix"), ALL_SETTLE | {"settling_time_s": 0.6}),
         ("C09", Word.FAILS, "traces", of("feedback-linearized"), {"time_s": lambda t: 1.1 * t}),  # a trace bends
         ("C12", Word.HOLDS, "costs", law_of("rotation-matrix"), {"flops": 1}),
-        ("C12", Word.CORRECTED, "costs", law_of("feedback-linearized"), {"flops": 0, "atan2": 0}),
+        ("C12", Word.CORRECTED, "costs", law_of("linearized-euler"), {"flops": 1, "atan2": 0}),  # time says otherwise
     ],
 )
 def test_verdict_follows_the_table_when_it_contradicts(frames, id, word, table, rows, cells):
