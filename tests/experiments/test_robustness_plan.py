@@ -101,9 +101,8 @@ def test_noise_at_the_half_turn_holds_the_law_that_rests_there_and_not_the_one_w
     assert settled["rotation-matrix"] == 0.0
 
 
-def test_table_says_under_which_perturbations_a_law_fails(rows):
-    lines = details.summary(rows[rows["level"] != 1.0]).set_index("law")
-    assert "half-turn-noise 0" in lines.loc["rotation-matrix", "settled least [%]"]
-    assert "delay" not in lines.loc["hybrid", "settled least [%]"]
-    delayed = rows[(rows["axis"] == "delay") & (rows["contender"] == "hybrid")]
-    assert 100.0 * (delayed["outcome"] == "settled").groupby(delayed["level"]).mean().min() >= details.WITHSTOOD
+def test_table_says_up_to_which_level_a_law_withstands(rows):
+    lines = details.summary(rows).set_index("law")
+    assert lines.loc["rotation-matrix", "half-turn-noise"] == "none"
+    assert float(lines.loc["hybrid", "half-turn-noise"]) < float(lines.loc["hybrid", "half-turn-noise, theory"])
+    assert lines.loc["hybrid", "delay"] == f"{max(tasks.axis('delay').levels):g}+"  # the end of the grid
