@@ -14,7 +14,8 @@ def paragraph(results: Results) -> Paragraph:
     if not decided:
         return Paragraph("Claims", (f"This run decides none of the paper's {every} claims.",))
     failed = ", ".join(one.id for one in decided if one.word == Word.FAILS)
-    now = f"Of the paper's {every} claims {told(one.word for one in decided)}{f' ({failed})' * bool(failed)}"
+    now = f"Of the paper's {every} claims {told(one.word for one in decided)}"
+    now += f". What does not hold: {failed}" if failed else ""
     unknown = f"; {len(lacks)} cannot be judged from this run" if lacks else ""
     first = f"By the criteria first written: {told(one.first for one in decided)}."
     return Paragraph("Claims", (f"{now}{unknown}.", first))
