@@ -13,9 +13,10 @@ from bench.studies.libraries import turns
 from bench.studies.libraries.__main__ import rows
 from bench.studies.libraries.forms import FORMS
 from bench.studies.libraries.found import find, version_of
-from bench.studies.libraries.judge import COUNT_RAD, KINDS, SINGLE_RAD, judge
+from bench.studies.libraries.judge import KINDS, judge
 from bench.studies.libraries.kept import FOLDER
 from bench.studies.libraries.library import MATRIX, QUATERNION, Function, Library
+from bench.studies.libraries.tolerances import COUNT_RAD, SINGLE_RAD
 from bench.studies.libraries.verdict import report
 from bench.tables.files import read_json
 from bench.tables.store import read

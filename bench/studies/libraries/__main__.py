@@ -15,9 +15,10 @@ import pandas as pd
 from bench.provenance import cpu_name
 from bench.studies.libraries.closed_loop import rows_of, rows_of_controller
 from bench.studies.libraries.found import find, version_of
-from bench.studies.libraries.judge import COUNT_RAD, SINGLE_RAD, judge
+from bench.studies.libraries.judge import judge
 from bench.studies.libraries.kept import keep
 from bench.studies.libraries.library import ANGLES, Function, Library
+from bench.studies.libraries.tolerances import COUNT_RAD, SINGLE_RAD
 from bench.studies.libraries.turns import TurnSet, every_set
 from bench.studies.libraries.verdict import verdict
 

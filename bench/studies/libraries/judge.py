@@ -11,16 +11,8 @@ import numpy as np
 
 from bench.studies.libraries.forms import FORMS
 from bench.studies.libraries.library import QUATERNION, Function, answer, quiet
+from bench.studies.libraries.tolerances import COUNT_RAD, WRONG_AXIS_RAD, ZERO_SHARE
 from bench.studies.libraries.turns import Turn, TurnSet
-
-COUNT_RAD = 2.0 * math.pi / 2**24
-"""An error below this is treated as zero: one count of an encoder of 24 bits, 3.7e-7 rad."""
-SINGLE_RAD = 4.0 * 2.0**-22
-"""The same for a library of single precision: four units in the last place of pi, 9.5e-7 rad."""
-NOUGHT = 1e-6
-"""An answer smaller than this times the angle is none: six decades below what is asked for."""
-ASTRAY_RAD = 0.1
-"""Angle between an answer and the axis beyond which it is no error in that direction, 6 degrees: no form bends so."""
 
 
 class Answer(NamedTuple):
@@ -74,11 +66,11 @@ def ask(function: Function, turn: Turn, is_half_turn: bool, tolerance: float) ->
     off = turn_error(form, e, turn)
     if off <= tolerance:
         kind = "usable"
-    elif size <= NOUGHT * turn.angle:
+    elif size <= ZERO_SHARE * turn.angle:
         kind = "nought"
-    elif apart > math.pi - ASTRAY_RAD:
+    elif apart > math.pi - WRONG_AXIS_RAD:
         kind = "long-way"
-    elif apart > ASTRAY_RAD:
+    elif apart > WRONG_AXIS_RAD:
         kind = "astray"
     else:
         kind = "usable"

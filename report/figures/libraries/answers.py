@@ -11,7 +11,7 @@ import math
 import pandas as pd
 
 from bench.studies.libraries.forms import FORMS
-from bench.studies.libraries.judge import ASTRAY_RAD, COUNT_RAD, SINGLE_RAD
+from bench.studies.libraries.tolerances import COUNT_RAD, SINGLE_RAD, WRONG_AXIS_RAD
 from bench.tables.files import read_json
 from bench.tables.schema import RESULTS
 from bench.tables.store import read
@@ -90,7 +90,7 @@ def objections(own: pd.DataFrame) -> dict[str, str]:
     if has_axis and at["nought"].sum():
         found[ZERO] = f"zero at {_of(at, 'nought')} 180° rotations"
     # Next to 180° the other axis is almost the same turn: what is left of it counts as digits.
-    long = own.assign(long_way=own["long_way"].where(own["turn_error_rad"] > ASTRAY_RAD, 0))
+    long = own.assign(long_way=own["long_way"].where(own["turn_error_rad"] > WRONG_AXIS_RAD, 0))
     if has_axis and long["long_way"].sum():
         found[LONG_WAY] = f"the long way round for {_of(long, 'long_way')} rotations"
     if has_axis and own["astray"].sum():
