@@ -23,7 +23,7 @@ AT_REST: Vector = (0.0, 0.0, 0.0)
 
 
 class Start(NamedTuple):
-    """Where an episode begins and where it shall end.
+    """Hold the state in which an episode begins and its goal.
 
     On an arm q and qdot are the state, and quat_wxyz and omega are the tool's, by MuJoCo's forward kinematics.
     """
@@ -76,7 +76,7 @@ class Task(NamedTuple):
     servo_xml: Callable[[float, float, float], str] | None = None  # servo_xml(dt, kp, kv): see `with_servo`
 
     def with_servo(self, kp: float, kv: float) -> Task:
-        """The same plant, driven by MuJoCo's own <orientation> actuator: its ctrl is the goal, a quaternion wxyz.
+        """Return this plant driven by MuJoCo's own <orientation> actuator: its ctrl is the goal, a quaternion wxyz.
 
         Args:
             kp, kv: gains of the actuator [N m/rad, N m s/rad].

@@ -30,7 +30,7 @@ def mounts(arm: Arm, q: tuple[float, ...], goal: Quat) -> Quat:
 
 
 def at(arm: Arm, q: tuple[float, ...], point: Vector) -> Vector:
-    """Where a point of the wrist's frame is [m], base frame."""
+    """Return the position [m] of a point of the wrist's frame, base frame."""
     p, quat = wrist(arm, q)
     return plus(p, to_base(quat, point))
 

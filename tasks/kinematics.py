@@ -90,7 +90,7 @@ class Kinematics:
         return float(1.0 / np.linalg.eigvalsh(self.mobility(q)[3:, 3:])[-1])
 
     def into_range(self, q: Sequence[float] | np.ndarray) -> np.ndarray:
-        """The same pose with every joint, by whole turns, as near as can be to the middle of its range, or to 0."""
+        """Return q with each joint moved by whole turns as near to the middle of its range as possible, or to 0."""
         ranges = zip(self.arm.lower, self.arm.upper, strict=True)
         middle = np.array([0.5 * (low + high) if high - low < math.inf else 0.0 for low, high in ranges])
         return np.asarray(q) - math.tau * np.round((np.asarray(q) - middle) / math.tau)

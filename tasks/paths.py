@@ -39,7 +39,7 @@ def to_vertical(quat: Quat, sign: int, steps: int) -> list[Quat]:
 
 
 def beyond(quat: Quat, middle: Quat) -> Quat:
-    """As far beyond `middle` as `quat` lies before it: middle quat^-1 middle, so that the middle is the geodesic's."""
+    """Reflect `quat` at `middle`: middle quat^-1 middle, so that `middle` halves the geodesic between the two."""
     w, x, y, z = quat
     return normal(multiply(multiply(middle, (w, -x, -y, -z)), middle))
 

@@ -49,7 +49,7 @@ class Rules(NamedTuple):
         return self.floor_rad if angle0 < self.at_goal_rad else self.tolerance * angle0
 
     def band_haversine(self, angle0: float) -> float:
-        """The same band as sin^2(band/2), to compare with `truth.haversine`."""
+        """Return the band as sin^2(band/2), to compare with `truth.haversine`."""
         return math.sin(self.band_rad(angle0) / 2.0) ** 2
 
     @property

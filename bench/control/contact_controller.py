@@ -77,7 +77,7 @@ class ContactController(NamedTuple):
         return self.law != "hybrid-unconverted"
 
     def selection(self, specification) -> tuple[float, ...]:
-        """Of each of its rows 1.0 if it is held, 0.0 if it complies; an impedance holds all, by its springs."""
+        """Return 1.0 for each row held and 0.0 for each that complies; an impedance holds all, by its springs."""
         if self.impedance is not None:
             return (1.0,) * 6
         turns = specification.selection[3:]

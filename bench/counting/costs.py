@@ -146,7 +146,7 @@ def _call(contender: Contender, plain, counting, tally: Tally, state: State, mem
 
 
 def counted(numbers, tally: Tally):
-    """The same nested tuples with every number a counting scalar."""
+    """Return the nested tuples with every number replaced by a counting scalar."""
     if not isinstance(numbers, tuple):
         return Counted(numbers, tally)
     inside = [counted(number, tally) for number in numbers]

@@ -48,7 +48,7 @@ class Tally:
 
     @property
     def stage(self) -> str:
-        """Where the next operation belongs."""
+        """Return the stage to which the next operation is counted."""
         return self._stage
 
     @stage.setter

@@ -161,7 +161,7 @@ class Contender(NamedTuple):
 
     @property
     def equation(self) -> Equation | None:
-        """Of its angle, if it turns a free body about one fixed axis from rest."""
+        """Return the equation of motion of its angle, if it turns a free body about one fixed axis from rest."""
         equation_in = self.regulator.equation_in
         return equation_in(self.representation) if equation_in and self.representation else self.regulator.equation
 

@@ -60,12 +60,12 @@ def compliance(pose: Pose) -> np.ndarray:
 
 
 def held(pose: Pose) -> np.ndarray:
-    """Of the axes x, y and z whether the specification says that the hand shall not turn about them."""
+    """Return for the axes x, y, z whether the specification forbids the hand to turn about them."""
     return np.array(pose.first.trial.specification.selection[3:]) == 1
 
 
 def complying(pose: Pose) -> np.ndarray:
-    """Of the axes x, y and z whether the hand shall comply about them; with an impedance about all."""
+    """Return for the axes x, y, z whether the hand must comply about them; with an impedance about all."""
     if pose.controller.impedance is not None:
         return np.ones(3, bool)
     return ~held(pose)
@@ -78,7 +78,7 @@ def among_complying(pose: Pose) -> np.ndarray:
 
 
 def is_still(yields: np.ndarray) -> np.ndarray:
-    """Of k rotations per moment [rad/(N m)], the columns of a matrix, whether they are none."""
+    """Return whether each of k rotations per moment [rad/(N m)], columns of a matrix, is zero."""
     return np.linalg.norm(yields, axis=0) < STILL
 
 

@@ -42,5 +42,5 @@ def if_finite(value, ending):
 
 
 def root(value, ending):
-    """Of the largest square."""
+    """Return the square root of the largest square."""
     return math.sqrt(value)

@@ -90,7 +90,7 @@ def unpacked(content: bytes) -> pa.Table:
 
 
 def answer_of_a_fork(work: Callable[[], bytes], processor_s: float, longest_s: float, run_of: Connection) -> bytes:
-    """The same by a fork of this process, with its limits; the end of the run is its end too.
+    """Answer in a fork of this process, under its limits; the fork ends with the run.
 
     Args:
         run_of: the line to the run.

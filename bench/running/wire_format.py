@@ -50,7 +50,7 @@ def plan_of(content: dict, read: Callable[[Path], Regulator] = described_law.des
 
 @functools.lru_cache(maxsize=32)
 def _file(text: str) -> Path:
-    """Where the text of a user's law lies as long as this process lives; once for all chunks."""
+    """Write the text of a user's law to a file that lasts as long as this process, once for all chunks."""
     digest = hashlib.sha256(text.encode()).hexdigest()[:16]
     path = Path(_folder().name) / f"law_{digest}.py"
     path.write_text(text, encoding="utf-8")

@@ -31,7 +31,7 @@ def run_apart(
     json_file: str = "",
     silent_s: float = SILENT_S,
 ) -> Path:
-    """The same as `run`, for contenders of which some are a user's.
+    """Time contenders as `run` does, where some of them are a user's.
 
     Errors:
         BadLaw: a user's law that cannot be compiled, that ends its process, or that does not return.

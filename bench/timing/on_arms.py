@@ -43,7 +43,7 @@ IN_NUMPY = "rotation-matrix@geometric+standard"
 
 
 def controllers(laws: list[Contender], arm: str) -> list[Contender]:
-    """Those of the default suite that have one of these laws; a user's law by the geometric Jacobian."""
+    """Return the default suite's controllers that use these laws; a user's law by the geometric Jacobian."""
     by_name = {one.name: one for one in laws}
     own = tuple(f"{one.name}@geometric+standard" for one in laws if one.regulator.origin)
     return combinations.on((*suite("default").on_arms.words, *own), by_name, tasks.arm(arm).joints)

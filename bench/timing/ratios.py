@@ -28,7 +28,7 @@ def ranks(passes: int) -> tuple[int, int]:
 
 
 def ratio(times: np.ndarray, others: np.ndarray) -> Ratio:
-    """Of two columns of times, pass by pass.
+    """Return the ratio of two columns of times, pass by pass.
 
     Args:
         times, others: one number a pass, in the same unit.

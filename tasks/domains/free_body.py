@@ -30,7 +30,7 @@ def xml(dt: float) -> str:
 
 
 def servo_xml(dt: float, kp: float, kv: float) -> str:
-    """The same body, driven by MuJoCo's <orientation> actuator on the ball joint instead of motors.
+    """Return the body's XML with MuJoCo's <orientation> actuator on the ball joint instead of motors.
 
     ctrl is the goal, a quaternion wxyz of any length; the torque is kp log(R^T R_d) - kv R^T omega in the body frame.
     """

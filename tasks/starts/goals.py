@@ -31,7 +31,7 @@ def build(count: int, seed: int) -> list[Start]:
 
 
 def between(first: int, end: int, seed: int) -> list[Start]:
-    """Those from `first` to before `end`."""
+    """Return the goals from `first` to before `end`."""
     directed = _directed()
     ahead = len(directed)
     return directed[first:end] + _uniform(max(0, first - ahead), max(0, end - ahead), seed)

@@ -23,7 +23,7 @@ def pd_of_three(at, E_d, Edot, gains):
 
 @kernel
 def pd_of_four(at, E_d, Edot, gains):
-    """The same of four."""
+    """Return the PD law for four coordinates, those of a quaternion."""
     return (
         gains.kp * (E_d[0] - at.E[0]) - gains.kv * Edot[0],
         gains.kp * (E_d[1] - at.E[1]) - gains.kv * Edot[1],

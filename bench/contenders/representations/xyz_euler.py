@@ -90,7 +90,7 @@ def margin(R):
 
 @kernel
 def elements(R):
-    """Those that the angles are of: alpha = atan2(-a_y, a_z), beta = asin(a_x), gamma = atan2(-o_x, n_x)."""
+    """Return what gives the angles: alpha = atan2(-a_y, a_z), beta = asin(a_x), gamma = atan2(-o_x, n_x)."""
     return (R.a[2], -R.a[1], R.a[0], R.n[0], -R.o[0])
 
 

@@ -46,7 +46,7 @@ def margin(R):
 
 @kernel
 def elements(R):
-    """Those that the angles are of: alpha = atan2(n_y, n_x), beta = asin(-n_z), gamma = atan2(o_z, a_z)."""
+    """Return what gives the angles: alpha = atan2(n_y, n_x), beta = asin(-n_z), gamma = atan2(o_z, a_z)."""
     return (R.n[0], R.n[1], -R.n[2], R.a[2], R.o[2])
 
 

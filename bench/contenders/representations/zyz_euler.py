@@ -46,7 +46,7 @@ def margin(R):
 
 @kernel
 def elements(R):
-    """Those that the angles are of: alpha = atan2(a_y, a_x), beta = asin(-a_z) + pi/2, gamma = atan2(o_z, -n_z)."""
+    """Return what gives the angles: alpha = atan2(a_y, a_x), beta = asin(-a_z) + pi/2, gamma = atan2(o_z, -n_z)."""
     return (R.a[0], R.a[1], -R.a[2], -R.n[2], R.o[2])
 
 

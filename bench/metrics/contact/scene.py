@@ -21,7 +21,7 @@ def alignment_error(pose: Pose) -> float:
 
 
 def angle_to_plate(one: Response) -> np.ndarray:
-    """That angle [rad] at every tick, N."""
+    """Return the angle to the plate [rad] at every tick, N."""
     out, normal = wrist_axis(one), scene_normal(one.trial)
     return np.arctan2(np.linalg.norm(np.cross(out, normal), axis=1), -out @ normal)
 
