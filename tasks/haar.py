@@ -3,7 +3,7 @@
 A scrambled Halton sequence in the unit cube, mapped to unit quaternions by the subgroup algorithm (K.
 Shoemake, "Uniform random rotations", Graphics Gems III, 1992), which carries the uniform density of the cube
 to the Haar measure. The angle of such a rotation has the density (1 - cos theta)/pi on [0, pi]: its median is
-132 degrees and 11 % lie within 10 degrees of a half turn.
+132 degrees and 11 % lie within 10 degrees of a 180° rotation.
 """
 
 from __future__ import annotations

@@ -68,7 +68,7 @@ def short_of_180_degrees(axis: Vector, delta: float) -> Quat:
     """Rotation by pi - delta [rad] about an axis.
 
     w = sin(delta/2) has full relative precision for any delta, which pi - delta rounded to a double has not;
-    delta = 0 gives w = 0, an exact half turn: a symmetric R, whose rotation-matrix error (2.12) is exactly
+    delta = 0 gives w = 0, an exact 180° rotation: a symmetric R, whose rotation-matrix error (2.12) is exactly
     zero.
     """
     x, y, z = unit(axis)

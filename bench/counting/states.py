@@ -1,6 +1,6 @@
 """The states a law is counted at: sampled ones for the typical branch, directed ones for the rare branches.
 
-Each start is taken at rest and spinning. Half turns, poles, wraps and far goals are the judge's start sets;
+Each start is taken at rest and spinning. 180° rotations, poles, wraps and far goals are the judge's start sets;
 states at and near the goal, where an episode would have nothing to regulate, are ours.
 """
 

@@ -24,7 +24,7 @@ class Equation(NamedTuple):
 
     @property
     def is_bounded(self) -> bool:
-        """Whether the spring has a greatest pull: without one it is tan(pi/2) at the half turn, 1e16 in floats."""
+        """Whether the spring has a greatest pull: without one it is tan(pi/2) at 180°, 1e16 in floats."""
         return abs(self.spring(math.pi)) < 1e9
 
 

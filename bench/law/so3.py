@@ -81,7 +81,7 @@ def trace(R, R_d):
 
 @kernel
 def half_cosine_squared(R, R_d):
-    """cos^2(theta/2) = (1 + tr(R_d^T R))/4: 0 exactly on half turns."""
+    """cos^2(theta/2) = (1 + tr(R_d^T R))/4: 0 exactly on 180° rotations."""
     return 0.25 * (1.0 + trace(R, R_d))
 
 
@@ -99,7 +99,7 @@ def turn_matrix(R, R_d):
 def turn_quaternion(R, R_d):
     """(w, (x, y, z), t): the quaternion of the turn from R to R_d, base frame, of length 2 sqrt(t), t >= 1, w >= 0.
 
-    Its vector part is 2 sqrt(t) sin(theta/2) k. At half turns see `quaternion_direction`.
+    Its vector part is 2 sqrt(t) sin(theta/2) k. At 180° see `quaternion_direction`.
     """
     (w, x, y, z), t = quaternion_direction(turn_matrix(R, R_d))
     return w, (x, y, z), t
@@ -125,7 +125,7 @@ def quaternion_direction(R):
     """((w, x, y, z), t): the quaternion of R with w >= 0, of length 2 sqrt(t), t >= 1; no root is taken.
 
     One of its four elements is t itself, 4 times the square of that element of the unit quaternion, and the branches
-    choose one that is at least 1/2 there: nothing cancels, at half turns neither. Where w is 0 that element is
+    choose one that is at least 1/2 there: nothing cancels, at 180° rotations neither. Where w is 0 that element is
     positive; where w is 0 but for rounding, its sign is the rounding's.
     Source: Shepperd 1978, with the two comparisons of Day (Converting a rotation matrix to a quaternion).
     """

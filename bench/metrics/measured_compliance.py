@@ -22,7 +22,7 @@ STILL = 1e-9
 def rotation_vector(R: np.ndarray) -> np.ndarray:
     """log R [rad], ... x 3, of rotation matrices, ... x 3 x 3: theta k, theta in [0, pi).
 
-    Fails: within 1e-8 rad of a half turn nothing is left of the axis.
+    Fails: within 1e-8 rad of a 180° rotation nothing is left of the axis.
     """
     sine = 0.5 * np.stack(
         (R[..., 2, 1] - R[..., 1, 2], R[..., 0, 2] - R[..., 2, 0], R[..., 1, 0] - R[..., 0, 1]), axis=-1

@@ -2,11 +2,11 @@
 
 Half a turn away the rotation-matrix error vanishes (Murphy 1988, 2.12 and section 2.4). The axes are the base's x, y
 and z and AXES_DRAWN drawn ones; for each the first pose around home is taken from which the arm can make the whole
-half turn on a clear joint path (clearance.py), about the axis or against it. Joint angles are drawn from further
+180° rotation on a clear joint path (clearance.py), about the axis or against it. Joint angles are drawn from further
 around home than elsewhere, since half a turn about a given axis is much to ask.
 
 How exact: the goal is (0, axis) times the quaternion of the start, so that the judge's haversine is at least 1 - 1e-15
-and its angle math.pi. R is not that of an exact half turn bit for bit, as it is on the free body: on an arm the error
+and its angle math.pi. R is not exactly that of 180° bit for bit, as it is on the free body: on an arm the error
 (2.12) of about 1e-16 is what rounding makes of zero, and any law drifts away from there in time.
 """
 
@@ -36,7 +36,7 @@ TRIES = 300
 
 
 def build(arm: Arm, count: int, seed: int) -> list[Start]:
-    """Exact half turns about every axis first, then those at 0.1 rad, and so on."""
+    """Exact 180° rotations about every axis first, then those at 0.1 rad, and so on."""
     model = kinematics(arm)
     axes = AXES | {f"drawn{i}": direction(*point) for i, point in enumerate(halton(AXES_DRAWN, 2, seed))}
     found = {name: _pose(model, axis, seed) for name, axis in axes.items()}

@@ -36,7 +36,7 @@ from tasks.rotations import unit
 from tasks.singular import Singularity, beside, path_from, rates_through, singularity_near, widening
 
 HALF_ANGLE = math.radians(40.0)
-# Points of a half turn: one degree apart, since with seven joints the path depends on its points near a singularity.
+# Points on a 180° rotation: a degree apart, since with seven joints the path depends on its points near a singularity.
 THROUGH = 40
 DECADES = range(2, 7)
 POSES = 4

@@ -1,7 +1,7 @@
-"""The worst noise at the half turn: within `level` of it the body is reported beyond it.
+"""The worst noise at 180°: within `level` of it the body is reported beyond it.
 
 A law that looks at the reported orientation alone turns back whenever the body is about to leave, and is held at the
-half turn for good, however small the noise (Mayhew, Sanfelice, Teel 2011, of laws that jump there; a law that is
+180° rotation for good, however small the noise (Mayhew, Sanfelice, Teel 2011, of laws that jump there; a law that is
 continuous is at rest there anyway). Asked now and then, it is held by what exceeds the body's turn in a period. Memory
 lets a law keep to the way it has begun.
 """
@@ -15,14 +15,14 @@ from tasks.rotations import short_of_180_degrees
 
 
 def starts(count: int, seed: int, level: float) -> list[Start]:
-    """Exact half turns about axes spread evenly over the sphere, at rest."""
+    """Exact 180° rotations about axes spread evenly over the sphere, at rest."""
     axes = [direction(*point) for point in halton(count, 2, seed)]
     return [Start(f"exact-{i:04d}", short_of_180_degrees(axis, 0.0)) for i, axis in enumerate(axes)]
 
 
 AXIS = Axis(
     "half-turn-noise",
-    "Worst noise at the half turn",
+    "Worst noise at 180°",
     "rad",
     (0.0, 0.001, 0.01, 0.03, 0.1, 0.3, 1.0),
     0.0,

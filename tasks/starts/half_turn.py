@@ -1,6 +1,6 @@
 """Rotations by pi - 10^-k, k = 0 to 12, and by exactly pi, about axes of several kinds.
 
-A half turn makes the rotation-matrix error vanish (Murphy 1988, 2.12 and section 2.4). Exact ones have w = 0,
+A 180° rotation makes the rotation-matrix error vanish (Murphy 1988, 2.12 and section 2.4). Exact ones have w = 0,
 so that R is symmetric bit for bit and the error is exactly zero whatever the axis.
 """
 
@@ -35,7 +35,7 @@ DECADES = range(13)
 
 
 def build(count: int, seed: int) -> list[Start]:
-    """Exact half turns first, then every axis at pi - 1 rad, pi - 0.1 rad, ...; `seed` draws random axes."""
+    """Exact 180° rotations first, then every axis at pi - 1 rad, pi - 0.1 rad, ...; `seed` draws random axes."""
     axes = AXES | _random_axes(seed)
     exact = [Start(f"half-turn-{name}-exact", short_of_180_degrees(axis, 0.0)) for name, axis in axes.items()]
     near = [

@@ -10,7 +10,7 @@ Kv = 2 sqrt(Kp). There a disturbance alone turns the body by d t^2/2 exp(-Kv t/3
 V = Kp (1 - cos theta) - c e . omega + |omega|^2/2 + (Kp/6) |x - 3 d/Kp|^2 is positive and never rises where
 Kv^2 < 5 Kp: V' <= -((Kv - c) |omega|^2 - c Kv |e| |omega| + c Kp |e|^2). So almost global there.
 
-The state is x, and a zero. Fails: rests at exact half turns without a disturbance; overshoots from rest, by the
+The state is x, and a zero. Fails: rests at exact 180° rotations without a disturbance; overshoots from rest, by the
 integral of the way it has come.
 
 Source: Goodarzi, Lee, Lee 2013, Geometric nonlinear PID control of a quadrotor UAV on SE(3) (the integral of

@@ -9,8 +9,8 @@ stable for all gains and (s + sqrt(3 Kp))^3 at Kv = 2 sqrt(Kp).
 
 V = Kp (1 - cos theta) + 2 Kv^2 (1 - cos theta_F) + |omega|^2/2 has V' = -2 Kv^2 gamma |z|^2: almost global.
 
-The state is the quaternion of F, of any length. Fails: rests at exact half turns; regulates only, a moving goal's rate
-is not fed forward.
+The state is the quaternion of F, of any length. Fails: rests at exact 180° rotations; regulates only, a moving
+goal's rate is not fed forward.
 
 Source: Lizarralde, Wen 1996, Attitude control without angular velocity measurement (a filter makes up for the rate);
 Tayebi 2008, Unit quaternion-based output feedback for the attitude tracking problem (a frame that follows); on vectors

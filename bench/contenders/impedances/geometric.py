@@ -1,6 +1,6 @@
 """Impedance on the error of the rotation-matrix regulator: e = sin(theta) k.
 
-Fails: at half turns from the goal the spring gives way to nothing.
+Fails: at 180° rotations from the goal the spring gives way to nothing.
 """
 
 from bench.contenders.regulators.rotation_matrix import law as regulate

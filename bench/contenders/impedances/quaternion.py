@@ -1,6 +1,6 @@
 """Impedance on the error quaternion, the short way round: e = 2 sgn(eta) eps = 2 sin(theta/2) k.
 
-Fails: at half turns e jumps to -e; there the sign is that of `so3.quaternion_direction`.
+Fails: at 180° e jumps to -e; there the sign is that of `so3.quaternion_direction`.
 """
 
 from bench.law import Impedance, driven, kernel, quaternion_direction, relative, rotate, sqrt

@@ -1,6 +1,6 @@
 """Impedance on the rotation vector from where the hand is to where it shall be: e = theta k, the spring of angle/axis.
 
-Fails: at half turns e jumps to -e.
+Fails: at 180° e jumps to -e.
 """
 
 from bench.contenders.representations.rotation_vector import chart

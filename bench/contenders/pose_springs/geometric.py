@@ -2,7 +2,7 @@
 
     f = -R^T K p        m = -kr sin(theta) k
 
-Fails: at exact half turns the moment is zero; the hand's origin decides how the hand moves, as where it is split.
+Fails: at exact 180° rotations the moment is zero; the hand's origin decides how the hand moves, as where it is split.
 
 Source: Bullo, Murray 1999, Tracking for fully actuated mechanical systems: a geometric framework; Seo, Prakash, Rose,
 Choi, Horowitz 2023, Geometric impedance control on SE(3) for robotic manipulators.

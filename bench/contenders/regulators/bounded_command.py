@@ -9,7 +9,7 @@ saturated, whatever spin the law is switched on at.
 Source: Su, Zheng 2011, Globally asymptotic stabilization of spacecraft with simple saturated proportional-derivative
 control (there each component by itself, and the quaternion's vector part).
 
-Fails: rests at exact half turns; takes |omega|/Kp to stop a fast spin, where the damper alone would take 1/Kv.
+Fails: rests at exact 180° rotations; takes |omega|/Kp to stop a fast spin, where the damper alone would take 1/Kv.
 """
 
 from bench.law import SINE, Equation, Look, Regulator, dot, double_sine, kernel, spring_damper, sqrt

@@ -6,7 +6,7 @@ What that is, from rest towards the identity:
 - mrp: tan(theta/4) decays linearly; u is trig-free.
 - quaternion: u = -2 Kp eps - Kd omega exactly, eps = (x, y, z): what is along E moves nothing and drops out.
 
-Where E_d and E lie on different sheets (of mrp and rotation vector past the half turn, of the quaternion's sign) the
+Where E_d and E lie on different sheets (of mrp and rotation vector past 180°, of the quaternion's sign) the
 numbers are taken as they come, and the way round is the long one.
 
 Fails: where B^-1 does not exist (in Z-Y-Z at the identity itself), and where a coordinate jumps.

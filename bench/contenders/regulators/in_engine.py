@@ -1,10 +1,10 @@
 """MuJoCo's <orientation> actuator: what a user of the simulator gets who writes no law, a servo along the geodesic.
 
 It is run in MuJoCo, in place of our motors, with the goal as its control; the rotation vector's law is what it
-computes, to rounding. Within 1e-15 rad of a half turn rounding chooses the side, and at exactly a half turn q and -q,
-one attitude, are pushed opposite ways.
+computes, to rounding. Within 1e-15 rad of 180° rounding chooses the side, and at exactly 180° q and -q, one attitude,
+are pushed opposite ways.
 
-Fails: nowhere; at a half turn the command jumps to its opposite.
+Fails: nowhere; at 180° the command jumps to its opposite.
 """
 
 from bench.law import Look, Regulator, atan2, dot, kernel, spring_damper, sqrt, turn_quaternion

@@ -5,8 +5,8 @@ With E = R_d R^T, the turn theta k from R to R_d in the base frame, t = tr E and
     u = (Kp (5 + t)/4 + (4/5) Kv max(0, eps . omega)) eps - Kv omega
 
 Spring: (5 + t)/4 = 1 + cos^2(theta/2), so f = (1 + cos^2(theta/2)) sin(theta/2), the 1980 law's sine at first. It is
-never above (4/3) sqrt(2/3) = 1.09, and at the half turn, where the sine is 0, it is 1. Damper: towards the goal it is
-Kv (1 - (4/5) sin^2(theta/2)), a fifth of Kv at the half turn; every other motion feels all of Kv. So a far body gains
+never above (4/3) sqrt(2/3) = 1.09, and at 180°, where the sine is 0, it is 1. Damper: towards the goal it is
+Kv (1 - (4/5) sin^2(theta/2)), a fifth of Kv at 180°; every other motion feels all of Kv. So a far body gains
 speed, and brakes late.
 
 Within 120 degrees (t >= 0) eps = s/(2 sqrt(1 + t)), s = 2 sin(theta) k off the diagonal of E. Beyond, eps comes of the
@@ -23,7 +23,7 @@ without a reset when the goal jumps.
 from bench.law import Equation, Look, Regulator, cos, dot, kernel, quaternion_direction, sin, sqrt, turn_matrix
 
 EASED = 0.8
-"""Share of the damper that is gone at the half turn; under 1, so that it never pushes."""
+"""Share of the damper that is gone at 180°; under 1, so that it never pushes."""
 
 
 @kernel

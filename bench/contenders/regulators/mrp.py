@@ -1,6 +1,6 @@
-"""Modified Rodrigues parameters of the turn to the goal, on the sheet within a half turn: e = 4 tan(theta/4) k.
+"""Modified Rodrigues parameters of the turn to the goal, on the sheet within 180°: e = 4 tan(theta/4) k.
 
-Fails: nowhere; at a half turn the command jumps to its opposite.
+Fails: nowhere; at 180° the command jumps to its opposite.
 """
 
 from bench.law import QUARTER, Look, Regulator, kernel, spring_damper, sqrt, turn_quaternion

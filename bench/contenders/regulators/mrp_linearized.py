@@ -1,6 +1,6 @@
 """Feedback linearization in the modified Rodrigues parameters of the turn to the goal: no trigonometry, no pole.
 
-With sigma = tan(theta/4) k of the turn from R to a fixed R_d, sigmaddot = -Kv sigmadot - Kp sigma. Beyond a half turn
+With sigma = tan(theta/4) k of the turn from R to a fixed R_d, sigmaddot = -Kv sigmadot - Kp sigma. Beyond 180°
 the shadow set, -sigma/|sigma|^2, is the shorter; a sheet is kept until |sigma|^2 is over SWITCH, so that the law does
 not chatter there. The memory outlives the goal: reset it before the first tick, after a pause, and when the goal jumps.
 
@@ -11,7 +11,7 @@ reached the longer way.
 from bench.law import LINEAR_MRP, Look, Regulator, dot, kernel, sqrt, turn_quaternion
 
 SWITCH = 1.5
-"""|sigma|^2 at which the sheet changes: 23 degrees beyond the half turn, where it is 1."""
+"""|sigma|^2 at which the sheet changes: 23 degrees beyond 180°, where it is 1."""
 
 
 @kernel

@@ -1,6 +1,6 @@
 """The regulator of Luh, Walker and Paul, on the columns of R (Murphy 1988, 2.12-2.13).
 
-Fails: every half turn is a point of rest, for there sin(theta) = 0; settling time grows without bound towards it.
+Fails: every 180° rotation is a point of rest, for there sin(theta) = 0; settling time grows without bound towards it.
 """
 
 from bench.law import SINE, Look, Regulator, cross, kernel

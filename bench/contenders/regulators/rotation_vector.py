@@ -1,6 +1,6 @@
 """The rotation vector of the turn to the goal: e = theta k, a spring whose force grows with the angle to the end.
 
-Fails: nowhere; at a half turn the command jumps to its opposite.
+Fails: nowhere; at 180° the command jumps to its opposite.
 """
 
 from bench.law import ANGLE, Look, Regulator, atan2, dot, kernel, spring_damper, sqrt, turn_quaternion

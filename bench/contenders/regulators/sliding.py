@@ -5,7 +5,7 @@ z = omega - lambda eps obey zdot = -K z. Near the goal that is the double pole o
 K = Kv/2 + d, lambda/2 = Kv/2 - d, d^2 = Kv^2/4 - Kp. Gains whose poles are not real leave no surface to slide on: then
 d is taken for 0, and K lambda eps, which is 2 Kp eps, stays that.
 
-Fails: nowhere; at a half turn the command jumps to its opposite.
+Fails: nowhere; at 180° the command jumps to its opposite.
 """
 
 from bench.law import CHORD, Equation, Look, Regulator, cos, cross, kernel, sqrt, turn_quaternion

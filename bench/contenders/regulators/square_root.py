@@ -3,10 +3,10 @@
     e = s / sqrt(1 + t) = 2 sin(theta/2) k,   s = n x n_d + o x o_d + a x a_d,   t = tr(R_d^T R)
 
 It is the error quaternion's vector part, the short way round, with one square root and no other function. Where t < 0
-that division would lose digits and at the half turn divide zero by zero: there it is taken from the largest
+that division would lose digits and at 180° divide zero by zero: there it is taken from the largest
 diagonal element (`so3.turn_quaternion`).
 
-Fails: nowhere; at a half turn the command jumps to its opposite, and on it the sign is a rule's.
+Fails: nowhere; at 180° the command jumps to its opposite, and on it the sign is a rule's.
 """
 
 from bench.law import CHORD, Look, Regulator, double_sine, kernel, spring_damper, sqrt, trace, turn_quaternion

@@ -1,9 +1,9 @@
 """The rotation-matrix regulator with a weight of its own for each column: only four points of rest are left.
 
-With distinct weights the spring is zero at the goal and at half turns about n_d, o_d and a_d, no more, and those three
+With distinct weights the spring is zero only at the goal and at 180° rotations about n_d, o_d and a_d; those three
 are saddles. The price is a stiffness that depends on the axis: about column i half of the sum of the other two weights.
 
-Fails: at those three half turns, exactly.
+Fails: at those three 180° rotations, exactly.
 """
 
 from bench.law import Look, Regulator, cross, kernel

@@ -1,7 +1,7 @@
 """Modified Rodrigues parameters E = sigma = tan(theta/4) k, theta <= 180 deg, so that |sigma| <= 1: no trigonometry.
 
 B is a rotation times 4/(1 + sigma^2), so B^-1 = (1 + sigma^2)^2/16 B^T; it is singular at 360 deg only, beyond
-reach. Beyond a half turn the shadow set -sigma/sigma^2 takes over: E jumps to -E there.
+reach. Beyond a 180° rotation the shadow set -sigma/sigma^2 takes over: E jumps to -E there.
 """
 
 from typing import NamedTuple
@@ -18,7 +18,7 @@ class Chart(NamedTuple):
 
 @kernel
 def chart(R):
-    """sigma of R; on a half turn (|sigma| = 1) the element the extraction divides by is positive.
+    """sigma of R; at 180° (|sigma| = 1) the element the extraction divides by is positive.
 
     With q the quaternion of any length |q|, sigma is (x, y, z)/(|q| + w): one division, by at least |q|.
     """
@@ -100,7 +100,7 @@ def generalized(at, moment):
 
 @kernel
 def margin(R):
-    """1/(1 + sigma^2) = cos(theta/4)^2, the size of B by its size at the identity: from 1 to 1/2 at a half turn."""
+    """1/(1 + sigma^2) = cos(theta/4)^2, the size of B by its size at the identity: from 1 to 1/2 at 180°."""
     q, t = quaternion_direction(R)
     return 0.5 + 0.25 * q[0] / sqrt(t)
 

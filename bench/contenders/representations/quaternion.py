@@ -2,7 +2,7 @@
 
 Four coordinates of a rotation: B is 3 x 4, and for Edot = B^-1 omega stands Edot = (1/2) Xi omega, tangent to the unit
 sphere. An Edot or Eddot along E itself moves nothing. Never singular. Of the two quaternions of R the extraction takes
-the one with w >= 0: E jumps to -E at half turns.
+the one with w >= 0: E jumps to -E at 180° rotations.
 """
 
 from typing import NamedTuple
@@ -18,7 +18,7 @@ class Chart(NamedTuple):
 
 @kernel
 def chart(R):
-    """Unit quaternion of R with w >= 0; on a half turn (w = 0) the element the extraction divides by is positive."""
+    """Unit quaternion of R with w >= 0; at 180° (w = 0) the element the extraction divides by is positive."""
     (w, x, y, z), t = quaternion_direction(R)
     scale = 0.5 / sqrt(t)
     return Chart((scale * w, scale * x, scale * y, scale * z))

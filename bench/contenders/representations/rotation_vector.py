@@ -1,6 +1,6 @@
 """The rotation vector E = phi = theta k: axis times angle, |phi| <= pi.
 
-B = J_l(phi), the left Jacobian, is singular at |phi| = 2 pi only, beyond reach. At half turns E jumps to -E.
+B = J_l(phi), the left Jacobian, is singular at |phi| = 2 pi only, beyond reach. At 180° E jumps to -E.
 """
 
 from typing import NamedTuple
@@ -41,7 +41,7 @@ class Chart(NamedTuple):
 
 @kernel
 def chart(R):
-    """phi of R; on a half turn (|phi| = pi) the element of the axis the extraction divides by is positive.
+    """phi of R; at 180° (|phi| = pi) the element of the axis the extraction divides by is positive.
 
     With q the quaternion of any length, theta = 2 atan2(|(x, y, z)|, w), accurate at both ends of its range; its
     cosines and sines are elements of q, so that no other function is needed. Where the vector's square is 0 (below
@@ -190,7 +190,7 @@ def generalized(at, moment):
 
 @kernel
 def margin(R):
-    """sin(theta/2)/(theta/2), the least singular value of J_l: 1 at the identity, 2/pi at a half turn."""
+    """sin(theta/2)/(theta/2), the least singular value of J_l: 1 at the identity, 2/pi at 180°."""
     (w, x, y, z), t = quaternion_direction(R)
     square = x * x + y * y + z * z
     if square > 0.0:
