@@ -178,7 +178,7 @@ gains: $(READY)
 	@for kv in 10 14 30; do $(PY) -m bench run --suite quick --kv $$kv --replace --out results/quick-kv-$$kv && \
 		$(PY) -m bench.findings.selection.gains results/quick-kv-$$kv results/gains/kv-$$kv || exit; done
 
-edition: ## the site, its print, data, paper, source and wheels to rebuild it without a network: dist
+edition: ## an archive of site, data, source and wheels that rebuilds all without a network: dist
 edition: $(DEV) report
 	@$(PY) -m report.edition $(ARGS)
 
