@@ -6,7 +6,7 @@
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
 .PHONY: help setup setup-cluster bench bench-quick time libraries report test check lint gate regress regress-study gains
-.PHONY: scale-study contact-study settings-study verdicts-study robustness-study kill-study reference media lock clean audit judge history
+.PHONY: contact-study verdicts-study robustness-study reference media lock clean audit judge history
 .PHONY: arrays-check edition
 
 SHELL := /bin/sh
@@ -85,10 +85,6 @@ history: ## measure this commit and append it to results/history/history.jsonl (
 history: $(READY)
 	@$(PY) -m bench history add $(ARGS)
 
-scale-study: ## what 10^3 to 10^6 episodes cost, on one thread and on processes (ten minutes): results/scale
-scale-study: $(CLUSTER)
-	@$(PY) -m bench.studies.scale $(ARGS)
-
 setup:  ## install what the benchmark needs, and nothing else
 setup: $(READY)
 	@echo "Ready. Run the benchmark: make bench. Look around: $(PY) -m bench --help"
@@ -146,10 +142,6 @@ contact-study: ## in contact: stiffness, delay, noise, admittance, fits of pegs,
 contact-study: $(READY)
 	@$(PY) -m bench.studies.contact $(ARGS)
 
-settings-study: ## is a run the same on every processor? quick suites under other settings (15 minutes): results/settings
-settings-study: $(READY)
-	@$(PY) -m bench.studies.settings $(ARGS)
-
 robustness-study: ## shares lost under every perturbation, 400 starts a level (6 CPU minutes): results/robustness
 robustness-study: $(READY)
 	@$(PY) -m bench.studies.robustness $(ARGS)
@@ -157,10 +149,6 @@ robustness-study: $(READY)
 verdicts-study: ## does a verdict hang on the draw or the step? 20 seeds, half the step (half an hour): results/verdicts
 verdicts-study: $(READY)
 	@$(PY) -m bench.studies.verdicts $(ARGS)
-
-kill-study: ## kill 100 runs, fill disks, break laws: does each end the same? (minutes): results/survival
-kill-study: $(CLUSTER)
-	@PYTHONPATH=tests $(PY) -W ignore tests/studies/kill_study.py $(ARGS)
 
 reference: ## run the quick suite and make it the new reference (commit it by itself)
 reference: $(READY)
