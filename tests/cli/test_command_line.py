@@ -61,7 +61,6 @@ def tiny_run(ran):
 
 def test_commands_are_those_of_the_design():
     others = {"count", "time", "compare", "judge", "claims", "doctor", "trust", "history", "export", "audit"}
-    others |= {"question"}
     assert set(COMMANDS) == {"list", "run", "show", "map"} | others
 
 

@@ -28,7 +28,6 @@ ALLOWED = {
     "bench/regression/revisions/side.py": "what is timed on every revision",
     "bench/timing/": "what the loop in numpy computes",
     "bench/cli/": "examples of --help",
-    "bench/questions/": "what a thread is about",
     "tasks/goal_stream.py": "what goals arrive as",
     **dict.fromkeys((f"report/figures/{chapter}/" for chapter in CHAPTERS), "what a page of the book is about"),
     "report/figures/cards/live.py": "pairs that are worth a look",
