@@ -21,6 +21,7 @@ ALLOWED = {
     "bench/control/hybrid.py": "the cure in a refusal; a law's file asks no registry",
     "bench/experiments/suites.py": "what a suite runs",
     "bench/findings/claims/": "sentences about them",
+    "bench/findings/measured_questions.py": "a goal stream",
     "bench/findings/selection/gains.py": "the law that no continuous plant runs",
     "bench/findings/selection/timed.py": "the controller that every share is of",
     "bench/findings/theory/thresholds.py": "where the memory of each law ends",
