@@ -1,26 +1,22 @@
-# Every target does its own set-up in .venv, and only when the lock has changed since. Start with: make
-#
-# The set-up has layers: base (run benchmarks); on it report (build the book) and cluster (Dask); dev, which holds them
-# all (tests, lint, types). A stamp in .venv says which are installed.
+# Every target installs what it needs into .venv, again only when the lock has changed. Layers: base runs benchmarks,
+# report adds the book, cluster Dask; dev has them all, with tests, lint and types. Start with: make
+# More words for the command behind a target: make bench ARGS="--workers 4". The revision that regress and judge compare
+# with: make regress BASE=v0.1.0. A target that fails ends with 2.
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help setup setup-cluster bench bench-quick time libraries report test check lint gate regress regress-study gains
-.PHONY: scale-study contact-study settings-study verdicts-study robustness-study kill-study reference media lock clean audit judge history
-.PHONY: arrays-check edition
+.PHONY: help setup setup-cluster bench bench-quick time libraries report test check lint gate regress reference lock
+.PHONY: clean audit judge history edition
 
 SHELL := /bin/sh
 VENV := .venv
 PY := $(VENV)/bin/python
 READY := $(VENV)/.base
-REPORT := $(VENV)/.report
-CLUSTER := $(VENV)/.cluster
 DEV := $(VENV)/.dev
-LIBRARIES := .venv-libraries
-# Libraries that contradict the others, each with an environment of its own.
+# Libraries that contradict the others; each has an environment of its own, .venv-NAME.
 APART := placo robosuite
-AUDIT := .venv-audit
-ARRAYS := .venv-arrays
+# Test processes: one more than cores, because some tests wait. Tests of one file share one: a law is compiled once.
+JOBS ?= $(shell $(PY) -c 'import os; print((os.cpu_count() or 1) + 1)')
 
 # Without a network, from the wheels of an edition: make bench WHEELS=../wheels
 ifdef WHEELS
@@ -35,135 +31,63 @@ ifneq ($(shell test -d "$$HOME" && test -w "$$HOME" && echo ok),ok)
 export HOME := $(CURDIR)/.home
 endif
 
-# A target that fails ends with 2, which is make's own exit code, whatever its command said; those of commands:
-# python -m bench --help
-#
-# More words for the command behind a target: make bench ARGS="--workers 4", make test ARGS="-k so3"
-ARGS ?=
-# The revision that `make regress` compares with: make regress BASE=v0.1.0
-BASE ?=
-# Test processes, one more than cores, for some tests wait; tests of one file share one, so each law is compiled once.
-# Which files begin: tests/conftest.py.
-JOBS ?= $(shell $(PY) -c 'import os; print((os.cpu_count() or 1) + 1)')
-
 # The first Python on the path that the lock covers; PYTHON=... overrides.
 SUPPORTED := import sys; sys.exit(not (3, 11) <= sys.version_info[:2] <= (3, 13))
 PYTHON ?= $(shell for python in python3 python3.13 python3.12 python3.11; do \
 	$$python -c '$(SUPPORTED)' 2>/dev/null && { echo $$python; break; }; done)
 
 ##@ Start here
-bench:  ## run the default suite, free body and arms, and print the summary (minutes, set-up included)
-bench: $(READY)
+bench: $(READY) ## run the default suite, free body and arms, and print the summary (minutes, set-up included)
 	@$(PY) -m bench run --suite default --replace $(ARGS)
 	@$(PY) -m bench show
-
-report: ## build the report: report/_build/html/index.html (from your run if there is one)
-report: $(REPORT)
+report: $(VENV)/.report ## build the report: report/_build/html/index.html (from your run if there is one)
 	@$(PY) report/build.py $(ARGS)
 
 ##@ Benchmark
-bench-quick: ## run the quick suite into results/quick (minutes)
-bench-quick: $(READY)
+bench-quick: $(READY) ## run the quick suite into results/quick (minutes)
 	@$(PY) -m bench run --suite quick --replace --out results/quick $(ARGS)
-
-time:   ## time every law per control tick on this machine: results/timings
-time: $(READY)
+time: $(READY) ## time every law per control tick on this machine: results/timings
 	@$(PY) -m bench time $(ARGS)
-
-libraries: ## ask other robot libraries for orientation errors (5 GB of their own): results/libraries
-libraries: $(LIBRARIES)/.made $(APART:%=$(LIBRARIES)-%/.made)
-	@$(LIBRARIES)/bin/python -m bench.studies.libraries $(ARGS)
-	@for name in $(APART); do $(LIBRARIES)-$$name/bin/python -m bench.studies.libraries $$name || exit; done
-
-judge:  ## your law against an older one of it: make judge LAW=my_law.py BASE=main (alone: python -m bench judge FILE)
-judge: $(READY)
+libraries: .venv-libraries/.made $(APART:%=.venv-%/.made) ## compare other robot libraries (5 GB): results/libraries
+	@.venv-libraries/bin/python -m bench.studies.libraries $(ARGS)
+	@for name in $(APART); do .venv-$$name/bin/python -m bench.studies.libraries $$name || exit; done
+judge: $(READY) ## your law against an older one: make judge LAW=my_law.py BASE=main (alone: python -m bench judge FILE)
 	@test -n "$$LAW" || { echo "Name your law's file: make judge LAW=my_law.py BASE=main" >&2; exit 2; }
 	@rm -f judge.md
 	@$(PY) -m bench compare $(BASE) --law "$$LAW" --summary judge.md --json judge.json $(ARGS)
-
-history: ## measure this commit and append it to results/history/history.jsonl (minutes)
-history: $(READY)
+history: $(READY) ## measure this commit and append it to results/history/history.jsonl (minutes)
 	@$(PY) -m bench history add $(ARGS)
-
-scale-study: ## what 10^3 to 10^6 episodes cost, on one thread and on processes (ten minutes): results/scale
-scale-study: $(CLUSTER)
-	@$(PY) -m bench.studies.scale $(ARGS)
-
-setup:  ## install what the benchmark needs, and nothing else
-setup: $(READY)
+setup: $(READY) ## install what the benchmark needs, and nothing else
 	@echo "Ready. Run the benchmark: make bench. Look around: $(PY) -m bench --help"
-
-setup-cluster: ## install Dask too, for bench run --scheduler: on every machine of a cluster
-setup-cluster: $(CLUSTER)
+setup-cluster: $(VENV)/.cluster ## install Dask too, for bench run --scheduler: on every machine of a cluster
 	@echo "Ready. Two processes of this machine: $(PY) -m bench run --scheduler local:2"
 
 ##@ Develop
-test:   ## run the tests (ARGS="-k so3" for some, -m 'not slow' for the fast ones)
-test: $(DEV)
+test: $(DEV) ## run the tests (ARGS="-k so3" for some, -m 'not slow' for the fast ones)
 	@$(PY) -m pytest -q -n $(JOBS) --maxprocesses 8 --dist loadfile --no-loadscope-reorder $(ARGS)
-
-check:  ## all that must hold before a merge: lint, gate, report, test
-check: lint
+check: lint ## all that must hold before a merge: lint, gate, report, test
 	@trap 'kill $$report' INT TERM; \
 		$(MAKE) --no-print-directory report >$(VENV)/report.log 2>&1 & report=$$!; \
 		$(MAKE) --no-print-directory gate; gate=$$?; \
 		wait $$report; report=$$?; cat $(VENV)/report.log; test $$gate -eq 0 && test $$report -eq 0
 	@$(MAKE) --no-print-directory test
 	@echo "check: all green"
-
-lint:   ## style (ruff), types (mypy), layers (import-linter) and workflow files (check-jsonschema)
-lint: $(DEV)
+lint: $(DEV) ## style (ruff), types (mypy), layers (import-linter) and workflow files (check-jsonschema)
 	@$(VENV)/bin/ruff check
 	@$(PY) -m mypy
 	@$(VENV)/bin/lint-imports --no-logo
 	@$(VENV)/bin/check-jsonschema --quiet --builtin-schema vendor.github-workflows .github/workflows/*.yml
 	@$(VENV)/bin/check-jsonschema --quiet --builtin-schema vendor.dependabot .github/dependabot.yml
-
-audit:  ## known vulnerabilities of what the locks name (pip-audit); without a network it says so
-audit:
-	@if $(MAKE) --no-print-directory $(AUDIT)/.made; then $(AUDIT)/bin/python .ci/audit.py requirements/*.txt; \
+audit: ## known vulnerabilities of what the locks name (pip-audit); without a network it says so
+	@if $(MAKE) --no-print-directory .venv-audit/.made; then .venv-audit/bin/python .ci/audit.py requirements/*.txt; \
 		else echo "audit skipped: pip-audit cannot be installed here (no network?)"; fi
-
-arrays-check: ## exported laws on the arrays of JAX, in an environment of its own (0.6 GB)
-arrays-check: $(DEV) $(ARRAYS)/.made
-	@$(PY) -m pytest tests/export/test_python_arrays.py $(ARGS)
-
-gate:   ## rerun the quick suite and compare it with results/reference
-gate: $(READY)
+gate: $(READY) ## rerun the quick suite and compare it with results/reference
 	@rm -rf results/quick  # a finished run would be resumed, not rerun
 	@$(PY) -m bench run --suite quick --out results/quick
 	@$(PY) -m bench compare results/reference results/quick
-
-regress: ## your files against BASE (where you left main): outcomes, operations, instructions, time (half an hour)
-regress: $(READY)
+regress: $(READY) ## your files against BASE (where you left main): outcomes, operations, time (half an hour)
 	@$(PY) -m bench compare $(BASE) $(ARGS)
-
-regress-study: ## does that gate cry wolf, and does it bite? (half an hour): results/regress
-regress-study: $(READY)
-	@$(PY) -m bench.studies.gates $(ARGS)
-
-contact-study: ## in contact: stiffness, delay, noise, admittance, fits of pegs, springs (five minutes): results/contact
-contact-study: $(READY)
-	@$(PY) -m bench.studies.contact $(ARGS)
-
-settings-study: ## is a run the same on every processor? quick suites under other settings (15 minutes): results/settings
-settings-study: $(READY)
-	@$(PY) -m bench.studies.settings $(ARGS)
-
-robustness-study: ## shares lost under every perturbation, 400 starts a level (6 CPU minutes): results/robustness
-robustness-study: $(READY)
-	@$(PY) -m bench.studies.robustness $(ARGS)
-
-verdicts-study: ## does a verdict hang on the draw or the step? 20 seeds, half the step (half an hour): results/verdicts
-verdicts-study: $(READY)
-	@$(PY) -m bench.studies.verdicts $(ARGS)
-
-kill-study: ## kill 100 runs, fill disks, break laws: does each end the same? (minutes): results/survival
-kill-study: $(CLUSTER)
-	@PYTHONPATH=tests $(PY) -W ignore tests/studies/kill_study.py $(ARGS)
-
-reference: ## run the quick suite and make it the new reference (commit it by itself)
-reference: $(READY)
+reference: $(READY) ## run the quick suite and make it the new reference (in a commit of its own)
 	@rm -rf results/quick
 	@$(PY) -m bench run --suite quick --out results/quick
 	@rm -rf results/reference && mkdir -p results/reference
@@ -172,109 +96,54 @@ reference: $(READY)
 	@kilobytes=$$(du -sk results/reference | cut -f1); test $$kilobytes -lt 5000 || \
 		{ echo "results/reference is $$kilobytes kB; at most 5000 are committed" >&2; exit 1; }
 	@echo "Promoted. Now: git add results && git commit"
-
-gains: ## the quick suite at three more damping ratios, narrowed to what the advice reads: results/gains
-gains: $(READY)
-	@for kv in 10 14 30; do $(PY) -m bench run --suite quick --kv $$kv --replace --out results/quick-kv-$$kv && \
-		$(PY) -m bench.findings.selection.gains results/quick-kv-$$kv results/gains/kv-$$kv || exit; done
-
-edition: ## the site, its print, data, paper, source and wheels to rebuild it without a network: dist
-edition: $(DEV) report
+edition: $(DEV) report ## an archive of site, data, source and wheels that rebuilds all without a network: dist
 	@$(PY) -m report.edition $(ARGS)
-
-media:  ## render the arms anew for the report (needs GL; without it the committed files stay)
-media: $(DEV)
-	@$(PY) report/media.py
-
-lock:   ## write requirements/*.txt anew from pyproject.toml (after changing a dependency)
-lock: $(DEV)
-	@$(call compile,dev,--extra report --extra dev --extra cluster)
-	@$(call compile,report,--extra report --constraint requirements/dev.txt)
-	@$(call compile,base,--constraint requirements/dev.txt)
-	@$(call compile,cluster,--extra cluster --constraint requirements/dev.txt)
-	@$(call compile,libraries,--extra libraries --constraint requirements/dev.txt)
-	@$(locked) --group audit --output-file requirements/audit.txt
-	@for name in $(APART); do $(locked) --group $$name --output-file requirements/$$name.txt || exit; done
-	@$(locked) --group install --output-file requirements/install.txt
-	@$(locked) --group arrays --constraint requirements/base.txt --output-file requirements/arrays.txt
-	@echo "Locked. Look at the change: git diff --stat requirements"
-
-clean:  ## remove .venv, the built report, caches and results/quick; other results stay
-	@rm -rf $(VENV) $(LIBRARIES) $(APART:%=$(LIBRARIES)-%) $(AUDIT) $(ARRAYS) build dist report/_build report/.jupyter_cache results/quick
+lock: $(DEV) ## write requirements/*.txt from pyproject.toml (after changing a dependency; look at git diff --stat)
+	@$(call compile,dev,--extra report --extra dev --extra cluster pyproject.toml)
+	@$(call compile,report,--extra report --constraint requirements/dev.txt pyproject.toml)
+	@$(call compile,base,--constraint requirements/dev.txt pyproject.toml)
+	@for name in cluster libraries; do \
+		$(call compile,$$name,--extra $$name --constraint requirements/dev.txt pyproject.toml) || exit; done
+	@for name in audit arrays $(APART) install; do $(call compile,$$name,--group $$name) || exit; done
+clean: ## remove environments, the built report, caches and results/quick; other results stay
+	@rm -rf $(VENV) .venv-* build dist report/_build report/.jupyter_cache results/quick
 	@rm -rf .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .benchmarks .home *.egg-info
 	@find bench tasks report tests -name __pycache__ -prune -exec rm -rf {} + 2>/dev/null || true
-
 help:
-	@awk 'BEGIN { FS = ":[^#]*## " } \
-		/^##@/ { printf "\n%s\n", substr($$0, 5) } \
+	@awk 'BEGIN { FS = ":[^#]*## " } /^##@/ { printf "\n%s\n", substr($$0, 5) } \
 		/^[a-z-]+:.*## / { printf "  make %-13s %s\n", $$1, $$2 }' Makefile
-	@printf '\nNew here? Type: make bench\n'
 
 # ------------------------------------------------------------------------------------------- set-up
-# Installed as locked and checked by hash, by uv, which pip brings in. The lock is complete, so nothing need be resolved
-# (--no-deps: it would ask for labmaze, see pyproject.toml); wheels only, so that nothing is ever compiled here.
-PIP = $(PY) -m pip --disable-pip-version-check --quiet --no-input
-UV = UV_PYTHON_DOWNLOADS=never $(PY) -m uv
+# install PYTHON, LOCK: by hash, by uv, which pip brings in. The lock is complete (--no-deps: a resolver would ask for
+# labmaze, see pyproject.toml), and all are wheels. A lock that has setuptools takes this package too. HELD_LAYER: the
+# layers that a layer contains, besides base.
 AS_LOCKED = --require-hashes --no-deps --only-binary :all: -r requirements
-install = $(PIP) install $(AS_LOCKED)/install.txt \
-	&& $(UV) pip install --quiet $(NO_INDEX) --python $(PY) --compile-bytecode $(AS_LOCKED)/$(1).txt \
-	&& $(UV) pip install --quiet --python $(PY) --no-deps --no-build-isolation -e .
+UV = UV_PYTHON_DOWNLOADS=never $(1) -m uv pip install --quiet --python $(1)
+install = $(1) -m pip --disable-pip-version-check --quiet --no-input install $(AS_LOCKED)/install.txt \
+	&& $(UV) $(NO_INDEX) --compile-bytecode $(AS_LOCKED)/$(2).txt \
+	&& { ! grep -q '^setuptools==' requirements/$(2).txt || $(UV) --no-deps --no-build-isolation -e .; }
+# Names, versions and hashes only. Pins already in the files are kept; to move one, pin it in pyproject.toml.
+compile = env -u UV_FIND_LINKS UV_PYTHON_DOWNLOADS=never $(PY) -m uv pip compile --quiet --universal \
+	--python-version 3.11 --generate-hashes --no-header --no-annotate --no-emit-index-url --no-emit-find-links \
+	$(2) --output-file requirements/$(1).txt
 
-$(READY): $(PY) requirements/base.txt pyproject.toml
-	@echo "Installing the benchmark into $(VENV) ..."
-	@$(call install,base) && touch $@
+HELD_dev := report cluster
+$(VENV)/.%: $(PY) requirements/%.txt pyproject.toml
+	@echo "Installing requirements/$*.txt into $(VENV) ..."
+	@$(call install,$(PY),$*) && touch $(READY) $@ $(HELD_$*:%=$(VENV)/.%)
 
-$(REPORT): $(PY) requirements/report.txt pyproject.toml
-	@echo "Installing the benchmark and the report tools into $(VENV) ..."
-	@$(call install,report) && touch $(READY) $@
+.venv-%/.made: requirements/%.txt
+	@echo "Installing requirements/$*.txt into .venv-$* ..."
+	@$(PYTHON) -m venv --clear .venv-$*
+	@$(call install,.venv-$*/bin/python,$*) && touch $@
 
-$(CLUSTER): $(PY) requirements/cluster.txt pyproject.toml
-	@echo "Installing the benchmark and Dask into $(VENV) ..."
-	@$(call install,cluster) && touch $(READY) $@
-
-$(DEV): $(PY) requirements/dev.txt pyproject.toml
-	@echo "Installing the benchmark, the report tools and the developer tools into $(VENV) ..."
-	@$(call install,dev) && touch $(READY) $(REPORT) $(CLUSTER) $@
-
-$(LIBRARIES)/.made: PY = $(LIBRARIES)/bin/python
-$(LIBRARIES)/.made: requirements/libraries.txt pyproject.toml
-	@echo "Installing robot libraries into $(LIBRARIES) ..."
-	@$(PYTHON) -m venv --clear $(LIBRARIES)
-	@$(call install,libraries) && touch $@
-
-$(ARRAYS)/.made: PY = $(ARRAYS)/bin/python
-$(ARRAYS)/.made: requirements/arrays.txt
-	@$(PYTHON) -m venv --clear $(ARRAYS)
-	@$(PIP) install $(AS_LOCKED)/arrays.txt && touch $@
-
-$(LIBRARIES)-%/.made: PY = $(LIBRARIES)-$*/bin/python
-$(LIBRARIES)-%/.made: requirements/%.txt
-	@echo "Installing $* into $(LIBRARIES)-$* ..."
-	@$(PYTHON) -m venv --clear $(LIBRARIES)-$*
-	@$(call install,$*) && touch $@
-
-$(AUDIT)/.made: PY = $(AUDIT)/bin/python
-$(AUDIT)/.made: requirements/audit.txt
-	@$(PYTHON) -m venv --clear $(AUDIT)
-	@$(PIP) install $(AS_LOCKED)/audit.txt && touch $@
-
-# An environment whose Python has gone, or that the lock does not cover, is made anew.
+# An environment whose Python has gone, or that the lock does not cover, is made again.
 ifneq ($(shell $(PY) -c '$(SUPPORTED)' 2>/dev/null && echo ok),ok)
 $(shell rm -f $(PY))
 endif
 $(PY):
-	@test -n "$(PYTHON)" || { echo "No Python 3.11, 3.12 or 3.13 on the path. Install one, or name one:" \
-		"make setup PYTHON=/path/to/python3.12" >&2; exit 1; }
-	@$(PYTHON) -c '$(SUPPORTED)' || { echo "PYTHON=$(PYTHON) is not Python 3.11, 3.12 or 3.13." \
-		"Name one that is: make setup PYTHON=/path/to/python3.12" >&2; exit 1; }
-	@$(PYTHON) -c 'import ensurepip' 2>/dev/null || { echo "$(PYTHON) cannot make virtual environments." \
-		"On Debian or Ubuntu: apt install python3-venv" >&2; exit 1; }
+	@test -n "$(PYTHON)" && $(PYTHON) -c '$(SUPPORTED)' || { echo "No Python 3.11, 3.12 or 3.13: '$(PYTHON)'." \
+		"Install one, or name one: make setup PYTHON=/path/to/python3.12" >&2; exit 1; }
 	@test -w . || { echo "$(CURDIR) cannot be written, and $(VENV) goes into it." \
 		"Give yourself the right to, or clone it where you have it" >&2; exit 1; }
 	@$(PYTHON) -m venv --clear $(VENV)
-
-# Names, versions and hashes only. Pins already in the files are kept; to move one, pin it in pyproject.toml.
-locked = env -u UV_FIND_LINKS $(UV) pip compile --quiet \
-	--universal --python-version 3.11 --generate-hashes --no-header --no-annotate --no-emit-index-url \
-	--no-emit-find-links
-compile = $(locked) $(2) pyproject.toml --output-file requirements/$(1).txt

@@ -22,7 +22,7 @@ from bench.tables.statistics import quantile
 from bench.tables.store import read
 
 STUDY = RESULTS / "robustness"
-"""What `make robustness-study` keeps: `by_level` of hundreds of starts a level."""
+"""What `python -m bench.studies.robustness` keeps: `by_level` of hundreds of starts a level."""
 
 FOLLOWED_RAD = math.radians(3.0)
 LOST, FEWEST = 0.05, 0.5

@@ -1,20 +1,16 @@
-"""What a study of many episodes costs, and that its rows do not depend on who carries it out: results/scale/scale.json.
+"""Measure what many episodes cost, on one thread and on processes: results/scale/scale.json.
 
-    python -m bench.studies.scale                     all of it: some ten minutes on an idle machine
-    python -m bench.studies.scale --only schedulers   one part anew; the others stay as they are
-    python -m bench.studies.scale --most 10000 --out /tmp/scale.json    a try of it
+    python -m bench.studies.scale                                       all of it: ten minutes on an idle machine
+    python -m bench.studies.scale --most 10000 --out /tmp/scale.json    a smaller one
 
-Each run is a process of its own, on one law on the ideal plant. It first runs an episode for each process, which
-imports, compiles and counts; what that takes when it is repeated is taken off, so that an episode's cost is what grows
-with their number.
-CPU seconds hang little on what else the machine does, wall time much: the cores that others took are written beside.
+Each run is a process of its own, with one law on the continuous plant. It first runs an episode for each process, which
+imports, compiles and counts; the time of a repetition of that is subtracted, so that what is left grows with the number
+of episodes. Other programs change wall time more than CPU time: the cores that they took are recorded.
 """
 
 import argparse
-import dataclasses
 import hashlib
 import json
-import multiprocessing.process
 import os
 import resource
 import subprocess
@@ -32,73 +28,59 @@ from bench.experiments.plan import Plan
 from bench.provenance import ROOT, describe
 from bench.running import run
 from bench.running.schedulers.words import LOCAL, THREADS
-from bench.tables.files import read_json, write_json
+from bench.tables.files import write_json
 
 LAW = "rotation-matrix"
-
 FEW, BASE, MANY, MOST = 1_000, 10_000, 100_000, 1_000_000
 AROUND = (FEW, BASE, FEW, BASE, FEW, BASE, MANY)
 ORDER = (*AROUND, MOST, *reversed(AROUND))
-"""Episodes of the runs whose cost and memory are compared: small ones before the largest and after it, so that what the
-machine's clock does in those minutes befalls them too."""
-
+"""Episodes of the runs whose cost and memory are compared: small ones before and after the largest, because the
+machine's clock may change in these minutes."""
 FIXED = 3
-"""Runs of an episode for each process, whose median is taken off."""
-
+"""Runs of an episode for each process, whose median is subtracted."""
 SCHEDULERS = (THREADS, "local:1", "local:2")
-"""They run MANY episodes each."""
-
-PARTS = ("sizes", "schedulers", "killed")
+"""Each runs MANY episodes."""
 
 
-def ideal(count: int, start_sets: tuple[str, ...] = ("uniform",)) -> Plan:
-    """So many starts of each set of one law on the ideal plant."""
+def make_plan(count: int, start_sets: tuple[str, ...] = ("uniform",)) -> Plan:
+    """Return a plan of that many starts of each set, of one law on the continuous plant."""
     choice = Choice((), start_sets, ("ideal-rk4",), experiments=("free-body",))
     return planning.make("default", [find_contender(LAW)], choice, count=count)
 
 
-def least(scheduler: str) -> Plan:
-    """An episode for each process of a scheduler, so that each begins: of sets of their own, or it were one unit."""
+def make_smallest_plan(scheduler: str) -> Plan:
+    """Return a plan with an episode for each process of a scheduler, each of its own start set: a unit each."""
     processes = 1 if scheduler == THREADS else int(scheduler.removeprefix(LOCAL))
-    return ideal(1, ("uniform", "half-turn")[:processes])
+    return make_plan(1, ("uniform", "half-turn")[:processes])
 
 
-def mixed() -> Plan:
-    """Units of every experiment, on one arm, in contact in one task and under one perturbation."""
-    laws = [find_contender(name) for name in (LAW, "hybrid", "feedback-linearized/zyx-euler")]
-    touching = Choice(("wrench-probe",), arms=("ur5e",), controllers=("hybrid-base+inverse",))
-    alone, others = Choice(("free-body", "arm-regulation"), arms=("ur5e",)), (touching, Choice(axes=("delay",)))
-    made = planning.make("quick", laws, alone, count=40)
-    contact, perturbed = (planning.make("quick", laws, choice, count=8) for choice in others)
-    return dataclasses.replace(made, units=(*made.units, *contact.of("contact"), *perturbed.of("robustness")))
-
-
-def clocks() -> np.ndarray:
-    """Seconds: CPU of this process, of those that it has seen the end of, and of the whole machine; the wall's."""
+def read_clocks() -> np.ndarray:
+    """Return seconds: CPU of this process, of its ended children, and of the whole machine; wall time."""
     both = (resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN))
     user, nice, system, _idle, _waiting, *interrupted = map(int, Path("/proc/stat").read_text().split()[1:9])
     whole = (user + nice + system + sum(interrupted)) / os.sysconf("SC_CLK_TCK")
     return np.array([*(one.ru_utime + one.ru_stime for one in both), whole, time.perf_counter()])
 
 
-def spent(plan: Plan, out: Path, scheduler: str) -> np.ndarray:
-    """What a run takes of each clock."""
-    before = clocks()
+def time_run(plan: Plan, out: Path, scheduler: str) -> np.ndarray:
+    """Run a plan and return what it took of each clock [s]."""
+    before = read_clocks()
     run.run(plan, out, workers=1, scheduler=scheduler)
-    return clocks() - before
+    return read_clocks() - before
 
 
-def measured(scheduler: str, count: int) -> dict:
-    """A run of so many episodes in this process, and by its scheduler's: what it costs and holds.
+def measure(scheduler: str, count: int) -> dict:
+    """Measure a run of that many episodes in this process and its scheduler's.
 
-    cpu_s: of all processes; own_cpu_s: of this one, which plans, writes and merges, and gives out work if others do it.
-    others: cores that other programs took meanwhile. rows: digest of episodes.parquet.
+    cpu_s: of all processes; own_cpu_s: of this one, which plans, writes and merges. others: cores that other programs
+    took. peak_bytes: largest memory of this process. rows: digest of episodes.parquet.
     """
     with tempfile.TemporaryDirectory() as folder:
-        _first, *again = (spent(least(scheduler), Path(folder) / str(turn), scheduler) for turn in range(1 + FIXED))
-        forget_peak()
-        whole = spent(ideal(count), Path(folder) / "all", scheduler)
-        peak = peak_bytes()
+        smallest = make_smallest_plan(scheduler)
+        _, *again = (time_run(smallest, Path(folder) / str(turn), scheduler) for turn in range(1 + FIXED))
+        Path("/proc/self/clear_refs").write_text("5")  # Linux forgets the peak of imports and compiler
+        whole = time_run(make_plan(count), Path(folder) / "all", scheduler)
+        peak = read_peak_bytes()
         rows = (Path(folder) / "all" / "episodes.parquet").read_bytes()
     own, children, _, wall = whole - np.median(again, axis=0)
     return {
@@ -115,88 +97,37 @@ def measured(scheduler: str, count: int) -> dict:
     }
 
 
-def forget_peak() -> None:
-    """Let Linux forget the largest memory so far, of imports and the compiler."""
-    Path("/proc/self/clear_refs").write_text("5")
-
-
-def peak_bytes() -> int:
-    """The largest memory since then."""
+def read_peak_bytes() -> int:
+    """Return the largest memory of this process since Linux was made to forget it."""
     lines = Path("/proc/self/status").read_text().splitlines()
     return 1024 * next(int(line.split()[1]) for line in lines if line.startswith("VmHWM"))
 
 
-def killed() -> dict:
-    """A plan by threads, by two processes, and by two of which one is killed half way: the tables' digests."""
-    plan = mixed()
-    half = plan.episodes() / 2
-    found: dict[str, dict[str, str]] = {}
-    victims: list[multiprocessing.process.BaseProcess] = []
-
-    def kill_at_half(unit):
-        told.append(unit.episodes)
-        if sum(told) >= half and not victims:
-            victims.append(multiprocessing.active_children()[0])
-            victims[0].kill()
-
-    for name, scheduler, hook in (
-        ("threads", THREADS, lambda _: None),
-        ("local:2", "local:2", lambda _: None),
-        ("local:2, a worker killed", "local:2", kill_at_half),
-    ):
-        told: list[int] = []
-        with tempfile.TemporaryDirectory() as folder:
-            run.run(plan, Path(folder) / "run", workers=2, scheduler=scheduler, report=hook)
-            paths = sorted((Path(folder) / "run").glob("*.parquet"))
-            found[name] = {path.name: hashlib.sha256(path.read_bytes()).hexdigest() for path in paths}
-    return {
-        "units": len(plan.units),
-        "killed": len(victims),
-        "same": all(tables == found["threads"] for tables in found.values()),
-        "tables": found,
-    }
-
-
-def apart(*words) -> dict:
-    """What another process of this module measures."""
-    asked = [sys.executable, "-m", "bench.studies.scale", *map(str, words)]
-    answer = subprocess.run(asked, cwd=ROOT, capture_output=True, text=True, check=False)
-    if answer.returncode:
-        raise SystemExit(answer.stderr)
-    return json.loads(answer.stdout.splitlines()[-1])
-
-
-def study(parts: tuple[str, ...], most: int, out: Path) -> None:
-    """Measure the parts anew, each written when it is done, and keep what the file says of the others."""
-    content = read_json(out) if out.is_file() else {}
-    for part in parts:
-        if part == "sizes":
-            content[part] = [apart("--run", THREADS, count) for count in ORDER if count <= most]
-        elif part == "schedulers":
-            content[part] = [apart("--run", one, min(MANY, most)) for one in SCHEDULERS]
-        else:
-            content[part] = apart("--killed")
-        about = describe()
-        content.setdefault("provenance", {})[part] = {**about, "command": "python -m bench.studies.scale"}
-        write_json(out, content)
-        print(f"{part}: {out}", flush=True)
+def measure_apart(scheduler: str, count: int) -> dict:
+    """Measure a run in a process of its own."""
+    command = [sys.executable, "-m", "bench.studies.scale", "--run", scheduler, str(count)]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+    if done.returncode:
+        raise SystemExit(done.stderr)
+    return json.loads(done.stdout.splitlines()[-1])
 
 
 def main() -> None:
-    """Take the words of the command line."""
+    """Run the study, or with --run one measurement of it."""
     parser = argparse.ArgumentParser(prog="python -m bench.studies.scale", description=__doc__.split("\n")[0])
-    parser.add_argument("--only", choices=PARTS, action="append", help="this part alone; repeatable")
     parser.add_argument("--most", type=int, default=MOST, help="no run of more episodes than this")
     parser.add_argument("--out", type=Path, default=ROOT / "results" / "scale" / "scale.json")
     parser.add_argument("--run", nargs=2, metavar=("SCHEDULER", "COUNT"), help=argparse.SUPPRESS)
-    parser.add_argument("--killed", action="store_true", help=argparse.SUPPRESS)
-    words = parser.parse_args()
-    if words.run:
-        print(json.dumps(measured(words.run[0], int(words.run[1]))))
-    elif words.killed:
-        print(json.dumps(killed()))
-    else:
-        study(tuple(words.only or PARTS), words.most, words.out)
+    options = parser.parse_args()
+    if options.run:
+        print(json.dumps(measure(options.run[0], int(options.run[1]))))
+        return
+    sizes = [measure_apart(THREADS, count) for count in ORDER if count <= options.most]
+    schedulers = [measure_apart(one, min(MANY, options.most)) for one in SCHEDULERS]
+    about = describe() | {"command": "python -m bench.studies.scale"}
+    content = {"sizes": sizes, "schedulers": schedulers, "provenance": dict.fromkeys(("sizes", "schedulers"), about)}
+    write_json(options.out, content)
+    print(f"wrote {options.out}")
 
 
 if __name__ == "__main__":

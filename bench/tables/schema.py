@@ -85,9 +85,9 @@ def readme() -> str:
         "`reference/` is committed and small: what `make check` compares with. `latest/` is what `make bench` wrote",
         "last, `maps/` what millions of random starts say (`python -m bench map`). `timings/` holds one file for each",
         "kind of machine, `libraries/` what other robot libraries answer and do (`make libraries`), `scale/` what many",
-        "episodes cost (`python -m bench.studies.scale`), `contact/` what tasks in contact depend on (`make",
-        "contact-study`), `robustness/` shares of hundreds of starts a level (`make robustness-study`). Every table is",
-        "parquet, its units are in the columns' metadata, and `provenance.json` says where a run comes from.",
+        "episodes cost, `contact/` what tasks in contact depend on, `robustness/` shares of hundreds of starts a level",
+        "(CONTRIBUTING.md lists the studies). Every table is parquet, its units are in the columns' metadata, and",
+        "`provenance.json` says where a run comes from.",
     ]
     for table in TABLES.values():
         lines += ["", f"## {table.name}.parquet", "", (table.columns.__doc__ or "").strip(), ""]

@@ -13,7 +13,7 @@ from support.command_line import TINY, bench
 
 import tasks
 from bench.cli import commands, main, planned
-from bench.cli.listing import row_of_arm
+from bench.cli.listing import describe_arm
 from bench.cli.paragraphs import laid_out
 from bench.contenders.registry import (
     all_contenders,
@@ -61,7 +61,6 @@ def tiny_run(ran):
 
 def test_commands_are_those_of_the_design():
     others = {"count", "time", "compare", "judge", "claims", "doctor", "trust", "history", "export", "audit"}
-    others |= {"question"}
     assert set(COMMANDS) == {"list", "run", "show", "map"} | others
 
 
@@ -115,11 +114,13 @@ KNOWN = {
     "impedances": known_impedances(),
     "dampings": known_dampings(),
     "limiters": known_limiters(),
-    "metrics": [*known_metrics(), *known_contact_metrics()],
+    "metrics": known_metrics(),
+    "contact-metrics": known_contact_metrics(),
     "tasks": [*tasks.names(), *tasks.contact_names()],
     "arms": tasks.arm_names(),
     "variations": tasks.variation_names(),
-    "starts": [*tasks.start_set_names(), *tasks.start_set_names(arm=True)],
+    "starts": tasks.start_set_names(),
+    "arm-starts": tasks.start_set_names(arm=True),
     "engines": ENGINES,
     "suites": SUITES,
 }
@@ -138,27 +139,21 @@ def test_list_takes_the_singular_too(capsys, kind):
     assert bench(capsys, "list", kind[:-1]).out == bench(capsys, "list", kind).out
 
 
-def test_list_says_which_start_sets_are_of_arms(capsys):
-    said = bench(capsys, "list", "starts")
-    assert len(re.findall(r"^half-turn +(free body|each arm)", said.out, re.MULTILINE)) == 2
-
-
 def test_list_names_a_broken_arm_with_the_reason():
     reason = "arm 'bent': it has no site 'tool' (add one)"
-    assert row_of_arm("bent", BadArm(reason)) == ("bent", "", f"cannot be used: {reason}", "")
+    assert describe_arm(BadArm(reason)).title == f"cannot be used: {reason}"
 
 
 @pytest.mark.parametrize(
     ("kind", "line"),
     [
-        ("starts", r"poles +free body +136 "),
-        ("starts", r"wrist +each arm, at most +24 "),
+        ("starts", r"poles +136 "),
+        ("arm-starts", r"wrist +24 "),
         ("arms", r"ur5e +6 "),
-        ("inverses", r"solve +acceleration +6 x 6  "),
-        ("inverses", r"pseudo-inverse +acceleration +6 x 6, 6 x 7, 7 x 6  "),
+        ("inverses", r"solve +acceleration +Inverse"),
         ("baselines", r"joint-pd +Joint PD with gravity compensation +Takegaki"),
-        ("tasks", r"wrench-probe +contact: panda, puma560, ur5e  "),
-        ("controllers", r"name +/coordinates +\+form "),
+        ("tasks", r"wrench-probe +panda, puma560, ur5e  "),
+        ("controllers", r"name +coordinates +forms "),
         ("controllers", r"hybrid +mrp, rotation-vector, .*inverse, projected, transpose "),
         ("controllers", r"impedance-geometric +impedance: "),
     ],
@@ -170,9 +165,7 @@ def test_list_says_of_each_what_it_has_or_takes(capsys, kind, line):
 def test_list_without_a_kind_lists_every_kind(capsys):
     said = bench(capsys, "list")
     assert said.code == 0
-    for kind, names in KNOWN.items():
-        assert kind.capitalize().removesuffix("s") in said.out
-        assert all(name in said.out for name in names)
+    assert all(name in said.out for names in KNOWN.values() for name in names)
 
 
 # ------------------------------------------------------------------------------------------ run, show

@@ -1,7 +1,7 @@
 """Laws as Python on the arrays of JAX and torch: NumPy's commands, and slopes that NumPy's differences confirm.
 
-JAX has an environment of its own (`make arrays-check`). torch is not locked: for Linux its packages on PyPI bring CUDA,
-some 5 GB; where it is installed in that environment by hand, it is asked too (torch 2.14.1 passed).
+JAX has an environment of its own (`make .venv-arrays/.made`). torch is not locked: for Linux its packages on PyPI bring
+CUDA, some 5 GB; where it is installed in that environment by hand, it is tested too (torch 2.14.1 passed).
 """
 
 import functools
@@ -19,7 +19,7 @@ from bench.export.subject import find_subject
 from bench.provenance import ROOT
 
 PYTHON = ROOT / ".venv-arrays" / "bin" / "python"
-CURES = {"jax": "make arrays-check", "torch": "make arrays-check, then .venv-arrays/bin/python -m pip install torch"}
+CURES = {"jax": "make .venv-arrays/.made", "torch": "make .venv-arrays/.made, then its pip install torch"}
 FEW = 16
 ULP = float(np.finfo(float).eps)
 

@@ -14,7 +14,7 @@ COMMITTED = Run(RESULTS)
 
 def test_study_if_it_was_run_has_all_its_comparisons_and_no_false_alarm():
     if not regressions.part(COMMITTED, "same_code"):
-        pytest.skip("results/regress/same_code.json is not there: make regress-study")
+        pytest.skip("results/regress/same_code.json is not there: python -m bench.studies.gates")
     verdicts = regressions.verdicts(COMMITTED)
     assert verdicts["comparison"].nunique() == same_code.COMPARISONS == 50
     assert len(verdicts) == verdicts["comparison"].nunique() * verdicts["benchmark"].nunique()

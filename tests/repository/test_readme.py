@@ -25,7 +25,6 @@ FAULTY = "my_error.py:my_error"
 """What the README has checked, and is found at fault."""
 FEWER = {"run": ["--count", "2"]}
 """What a line that has the word gets besides here: the README's own take a minute."""
-LENGTH = 150
 
 
 @pytest.fixture
@@ -79,7 +78,3 @@ def test_answer_is_the_one_that_the_rule_gives():
     assert forgetful == advice.of(needs.FORGETS).law
     assert find_contender(own).regulator.is_ours()
     assert not find_contender(default).regulator.is_ours()
-
-
-def test_readme_is_short():
-    assert TEXT.count("\n") <= LENGTH

@@ -11,8 +11,8 @@ from bench.contenders.registry import all_contenders, contenders_of
 from bench.findings.claims.adequacy import tallied
 from bench.findings.claims.tables import MAIN_ENGINE, Results, settled, some
 from bench.findings.claims.verdict import NoEvidence
-from bench.findings.counts import DIRECTED
 from bench.findings.selection.timed import ticks
+from bench.findings.start_sets import DIRECTED
 from bench.law.contender import Contender
 from bench.tables import read as published
 

@@ -1,4 +1,4 @@
-"""False alarms and power of the regression gate: `python -m bench.studies.gates` (make regress-study): half an hour.
+"""False alarms and power of the regression gate: `python -m bench.studies.gates`, half an hour.
 
 same code     fifty comparisons of a checkout with itself, every law and engine timed, while other processes keep the
               machine busy: any verdict but "same" is a false alarm

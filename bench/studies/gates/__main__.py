@@ -22,7 +22,7 @@ def main(words: list[str]) -> int:
             began, rows = time.time(), []
             for row in PARTS[word]():
                 rows.append(row)
-                about = {**describe(), "command": f"make regress-study ARGS={word}"}
+                about = {**describe(), "command": f"python -m bench.studies.gates {word}"}
                 about["wall_s"] = round(time.time() - began)
                 write_json(FOLDER / f"{word.replace('-', '_')}.json", {"about": about, "rows": rows})
                 print(f"{word} {len(rows)}: {str(row)[:200]}", flush=True)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pandas as pd
 
-from bench.findings.counts import AT_REST
+from bench.findings.start_sets import AT_REST
 from bench.tables.read import converged
 from report.figures.comparison.cells import by_family
 from report.figures.failures.failure_map import once, places

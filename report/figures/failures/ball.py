@@ -9,7 +9,7 @@ import math
 import numpy as np
 import pandas as pd
 
-from bench.findings.counts import AT_REST
+from bench.findings.start_sets import AT_REST
 from report.figures.kit import html, laws, style
 
 ON_SURFACE = 1e-9

@@ -9,7 +9,7 @@ import pandas as pd
 from scipy.spatial.transform import Rotation
 
 from bench.contenders.registry import find_contender, papers_coordinates
-from bench.findings.counts import AT_REST
+from bench.findings.start_sets import AT_REST
 from bench.findings.theory import held_goals
 from bench.law.contender import PAPERS_GAINS
 from bench.law.so3 import from_quaternion

@@ -10,7 +10,7 @@ import pandas as pd
 from matplotlib.lines import Line2D
 from matplotlib.patheffects import withStroke
 
-from bench.findings.counts import AT_REST
+from bench.findings.start_sets import AT_REST
 from report.figures.kit import html, laws, style
 from report.figures.kit.dots import dots
 from report.figures.kit.inline import responsive_picture

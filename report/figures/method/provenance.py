@@ -10,7 +10,6 @@ import pyarrow.parquet as pq
 
 from bench.provenance import ROOT, count_episodes, rounded_on
 from bench.tables import read
-from bench.tables.files import read_json
 from bench.tables.schema import TABLES
 from report.figures.cost import times
 from report.figures.kit import html
@@ -20,12 +19,10 @@ from report.figures.kit.tables import Table
 OFFERED_BYTES = 8_000_000
 """A larger file is named, not offered: the site stays small enough to be mailed or put on a stick."""
 CITATION = ROOT / "CITATION.cff"
-SETTINGS = ROOT / "results" / "settings" / "settings.json"
 SITE_DATA = "../data"
 """Seen from a page in pages/; report/build.py copies there what pages link to."""
 FACTS = Table("Fact | Value")
 FILES = Table("File | Rows | Size | SHA-256")
-REMADE = Table("Made on | Equal bit for bit | Rows that differ in some bit | Other outcome | Differences for the gate")
 
 
 def facts(_: Run) -> dict:
@@ -41,12 +38,10 @@ def cited() -> dict[str, str]:
 
 
 def tables(run: Run) -> dict:
-    """The run, its files, and the published run made again elsewhere."""
-    made = [one for every in read_json(SETTINGS).values() for one in every.values()] if SETTINGS.is_file() else []
+    """The run and its files."""
     return {
         "run": FACTS(said_of_itself(read.provenance()).items()),
         "tables": FILES(map(offered, files(run))),
-        "settings": REMADE(map(against_published, made)),
     }
 
 
@@ -102,22 +97,6 @@ def escaped(value):
     if isinstance(value, dict):
         return {name: escaped(one) for name, one in value.items()}
     return html.foreign(value) if isinstance(value, str) else value
-
-
-def against_published(found: dict) -> dict:
-    """The run made again under a setting that rounds as another processor does: what differs from the published."""
-    unlike = [
-        f"{name} {html.number(one['differ'])} of {html.number(one['rows'])}"
-        for name, one in found["tables"].items()
-        if one["differ"]
-    ]
-    return {
-        "Made on": html.foreign(found["made_on"]),
-        "Equal bit for bit": ", ".join(name for name, one in found["tables"].items() if not one["differ"]),
-        "Rows that differ in some bit": ", ".join(unlike) or "none",
-        "Other outcome": sum(one["outcomes"] for one in found["tables"].values()),
-        "Differences for the gate": found["gate"],
-    }
 
 
 def offered(path: Path) -> tuple:

@@ -1,1 +1,1 @@
-"""The benchmark itself: history, regressions, clusters, survival."""
+"""The benchmark itself: history and regressions."""

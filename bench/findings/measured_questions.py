@@ -1,0 +1,136 @@
+"""Measurements of the questions (`questions.py`): each restates a public thread, without and with the cure.
+
+Nobody's code runs here: what a thread describes is a few lines of its own.
+"""
+
+from __future__ import annotations
+
+import itertools
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from bench.contenders.registry import known_limiters, known_shipped
+from bench.law.limiter import GREATEST_RATE
+from tasks.goal_stream import STREAMS, componentwise, continued, goals, normalized, slerp
+from tasks.rotations import about
+from tasks.truth import angle
+
+
+def angle_between(a, b) -> float:
+    """Return the angle between two vectors [deg]."""
+    return float(np.degrees(np.arctan2(np.linalg.norm(np.cross(a, b)), np.dot(a, b))))
+
+
+def measure_vector_part() -> tuple[float, float]:
+    """Compare the vector part of a quaternion, w < 0, with the rotation vector, over the angle."""
+    half = np.radians(45.0)
+    w, v = -np.cos(half), -np.sin(half)
+    return v / (2.0 * half), 2.0 * np.arctan2(-v, -w) / (2.0 * half)
+
+
+def measure_angle_difference() -> tuple[float, float]:
+    """Compare a small difference of Z-Y-X angles, and B times it, with the rotation vector to the goal."""
+    (a, b, c), difference = (0.4, np.radians(60.0), 0.3), 1e-4 * np.array([1.0, 0.0, 1.0])
+    R, R_d = (Rotation.from_euler("ZYX", angles) for angles in ((a, b, c), np.add((a, b, c), difference)))
+    B = [[0.0, -np.sin(a), np.cos(a) * np.cos(b)], [0.0, np.cos(a), np.sin(a) * np.cos(b)], [1.0, 0.0, -np.sin(b)]]
+    needed = (R_d * R.inv()).as_rotvec()
+    return angle_between(difference, needed), angle_between(B @ difference, needed)
+
+
+def measure_axis_of_180_degrees() -> tuple[float, float]:
+    """Rebuild a rotation by 180 degrees from its axis by R - R^T, and from its quaternion."""
+    R = np.diag([-1.0, -1.0, 1.0])
+    by_differences = np.pi * np.array([R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]])
+    rebuilt = (Rotation.from_rotvec(one) for one in (by_differences, Rotation.from_matrix(R).as_rotvec()))
+    before, after = (float(np.degrees((one.inv() * Rotation.from_matrix(R)).magnitude())) for one in rebuilt)
+    return before, after
+
+
+def measure_damping_ratio() -> tuple[float, float]:
+    """Compute the damping ratio of the franka_ros example about an axis, and with the logarithm and D = 2 sqrt(K I)."""
+    example, inertia, small = known_shipped()["franka-ros"], 0.1, 0.01
+    K, turn = example.stiffness, about((1.0, 0.0, 0.0), small)
+    by_example, by_log = example.error(turn)[0], Rotation.from_quat(turn, scalar_first=True).as_rotvec()[0]
+    D, felt = (example.damping, 2.0 * np.sqrt(K * inertia)), (K * by_example / small, K * by_log / small)
+    return D[0] / (2.0 * np.sqrt(felt[0] * inertia)), D[1] / (2.0 * np.sqrt(felt[1] * inertia))
+
+
+def measure_quaternion_order() -> tuple[float, float]:
+    """Read the identity, (w, x, y, z), in the other order and in its own."""
+    before, after = (Rotation.from_quat([1.0, 0.0, 0.0, 0.0], scalar_first=first) for first in (False, True))
+    return float(np.degrees(before.magnitude())), float(np.degrees(after.magnitude()))
+
+
+def measure_arc_cosine() -> tuple[float, float]:
+    """Compute the relative error of an angle of 1e-9 rad by arc cosine and by atan2."""
+    theta = 1e-9
+    R = Rotation.from_rotvec(theta * np.array([1.0, 2.0, 3.0]) / np.sqrt(14.0)).as_matrix()
+    c, v = 0.5 * (np.trace(R) - 1.0), 0.5 * np.array([R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]])
+    before, after = np.arccos(np.clip(c, -1.0, 1.0)), np.arctan2(np.linalg.norm(v), c)
+    return abs(before / theta - 1.0), abs(after / theta - 1.0)
+
+
+def measure_overshoot() -> tuple[float, float]:
+    """Compute the overshoot of a step from the damping ratio that D = 2 sqrt(K), and D = 2 sqrt(K I), make."""
+    K, inertia = 250.0, 10.0
+    ratios = (D / (2.0 * np.sqrt(K * inertia)) for D in (2.0 * np.sqrt(K), 2.0 * np.sqrt(K * inertia)))
+    before, after = (100.0 * np.exp(-np.pi * z / np.sqrt(1.0 - z * z)) if z < 1.0 else 0.0 for z in ratios)
+    return before, after
+
+
+def measure_goal_rate() -> tuple[float, float]:
+    """Find the highest rate of a goal stream that is filled in by component and by the logarithm."""
+    dt, by_name = 1e-3, {stream.name: stream for stream in STREAMS}
+    filled = (goals(by_name[name], dt).tolist() for name in ("rotation-vector", "log"))
+    before, after = (max(angle(a, b) for a, b in itertools.pairwise(stream)) / dt for stream in filled)
+    return before, after
+
+
+def measure_scaled_action() -> tuple[float, float]:
+    """Run 20 steps of a loop whose action is scaled by the lower bound and by the upper bound."""
+    before = after = 0.5
+    for _ in range(20):
+        before += 0.1 * np.clip(before, -1.0, 1.0)
+        after -= 0.1 * np.clip(after, -1.0, 1.0)
+    return before / 0.5, after / 0.5
+
+
+def measure_tolerance_box() -> tuple[float, float]:
+    """Compare the first two numbers of a rotation vector, and of X-Y-Z angles, with the tilt that they bound."""
+    tilt = np.radians(3.0)
+    R = Rotation.from_rotvec([tilt, 0.0, 0.0]) * Rotation.from_rotvec([0.0, 0.0, np.radians(170.0)])
+    return float(np.linalg.norm(R.as_rotvec()[:2]) / tilt), float(np.linalg.norm(R.as_euler("XYZ")[:2]) / tilt)
+
+
+def measure_clipped_direction() -> tuple[float, float]:
+    """Compare a command of three times the limit with what a clip by component, and one of the norm, leave of it."""
+    omega = 3.0 * GREATEST_RATE * np.array([np.cos(np.radians(20.0)), np.sin(np.radians(20.0)), 0.0])
+    limits = (known_limiters()[name].limit for name in ("axis-clamp", "norm-clamp"))
+    before, after = (angle_between(omega, limit(tuple(omega.tolist()), 1.0)) for limit in limits)
+    return before, after
+
+
+def measure_stiffness_frame() -> tuple[float, float]:
+    """Compare the torque of a diagonal stiffness, as it is and rotated, with that of the spring in the tool's axes."""
+    R, K = Rotation.from_rotvec([0.0, np.radians(60.0), 0.0]).as_matrix(), np.diag([100.0, 10.0, 10.0])
+    error = np.array([0.0, 1.0, 1.0])
+    meant = R @ K @ error
+    return angle_between(K @ R @ error, meant), angle_between(R @ K @ R.T @ R @ error, meant)
+
+
+def measure_masked_axis() -> tuple[float, float]:
+    """Compare a logarithm without its z component, and z x z_d, with the shortest rotation of the tool's axis."""
+    wanted = Rotation.from_rotvec([np.radians(5.0), 0.0, 0.0]) * Rotation.from_rotvec([0.0, 0.0, np.radians(120.0)])
+    z, z_d = np.array([0.0, 0.0, 1.0]), wanted.as_matrix()[:, 2]
+    needed = Rotation.align_vectors([z_d], [z])[0].as_rotvec()
+    return angle_between(wanted.as_rotvec() * [1.0, 1.0, 0.0], needed), angle_between(np.cross(z, z_d), needed)
+
+
+def measure_interpolation() -> tuple[float, float]:
+    """Interpolate half of 60 degrees between quaternions of opposite signs by component, and by slerp."""
+    axis, turn, half = (0.0, 1.0, 0.0), np.radians(60.0), np.array([[0.5]])
+    q = np.array([about(axis, 0.0), [-one for one in about(axis, turn)]])
+    middles = normalized(componentwise(q, half)), slerp(continued(q), half)
+    before, after = (float(np.degrees(angle(one[0].tolist(), about(axis, 0.5 * turn)))) for one in middles)
+    return before, after
