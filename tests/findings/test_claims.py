@@ -11,10 +11,10 @@ from support.tables import changed, decided, judged
 
 from bench.contenders.registry import representation
 from bench.findings import claims
-from bench.findings.claims import probes, representations
+from bench.findings.claims import degeneracy, probes
 from bench.findings.claims.errata import ERRATA
 from bench.findings.claims.tables import Results, share
-from bench.findings.claims.verdict import Claim, Earlier, Evidence, NoEvidence, Word, claim, decide
+from bench.findings.claims.verdict import HISTORY, Claim, Evidence, NoEvidence, Word, decide, read_texts
 from bench.law.contender import Gains
 from bench.provenance import ROOT
 from bench.tables import read
@@ -65,7 +65,7 @@ def test_every_claim_is_there_once():
 
 @pytest.mark.parametrize("one", claims.all_claims(), ids=lambda one: one.id)
 def test_claim_has_its_texts_and_its_judge(one):
-    assert all((one.section, one.sentence, one.question, one.judge, one.quote, one.value))
+    assert all((one.section, one.sentence, one.judge, one.quote, one.value))
     assert "does not hold" in one.criterion or "answered since" in one.criterion
     assert bool(one.correction) == ("with a correction" in one.criterion)
 
@@ -106,17 +106,11 @@ def test_claim_is_refused_without_rows(frames, id):
 def test_verdict_on_no_rows_is_an_error():
     nothing = Evidence("all of none", 0, ("episodes",))
     with pytest.raises(NoEvidence, match="C00: no row of episodes"):
-        decide(Claim("C00", "", "", "", "", judge=lambda results: (Word.HOLDS, nothing)), None)
+        decide(Claim("C00", "", "", "", judge=lambda results: (Word.HOLDS, nothing)), None)
 
 
-def test_earlier_criteria_have_the_words_that_they_gave_or_give():
-    before = (Earlier("2026-11-21 a", "first", Word.FAILS), Earlier("2026-11-22 b", "second"))
-    said = Evidence("1 row", 1, ("episodes",), earlier=(Word.CORRECTED,))
-    one = Claim("C00", "", "", "", "", lambda results: (Word.HOLDS, said), correction="another", earlier=before)
-    verdict = decide(one, None)
-    assert [word for _, word in verdict.earlier] == [Word.FAILS, Word.CORRECTED]
-    assert not verdict.correction
-    assert verdict._replace(word=Word.CORRECTED).correction == "another"
+def test_history_is_of_claims():
+    assert set(read_texts(HISTORY)) <= {one.id for one in claims.all_claims()}
 
 
 def beside(frame):
@@ -225,21 +219,21 @@ def test_condition_of_the_rotation_vector_is_that_of_the_left_jacobian():
     angle = math.hypot(*E)
     R = representation("rotation-vector").to_matrix(E)
     expected = angle / (2 * math.sin(angle / 2))
-    assert representations.condition_in("rotation-vector", R) == pytest.approx(expected, rel=1e-12)
+    assert degeneracy.condition_in("rotation-vector", R) == pytest.approx(expected, rel=1e-12)
 
 
 def test_condition_of_zyz_is_that_of_its_middle_angle():
     # B^T B has eigenvalues 1, 1 + cos(beta), 1 - cos(beta)
     expected = math.sqrt((1 + math.cos(0.3)) / (1 - math.cos(0.3)))
     R = representation("zyz-euler").to_matrix((0.4, 0.3, -0.9))
-    assert representations.condition_in("zyz-euler", R) == pytest.approx(expected, rel=1e-12)
+    assert degeneracy.condition_in("zyz-euler", R) == pytest.approx(expected, rel=1e-12)
 
 
 def test_condition_of_angle_and_axis_is_that_of_its_half_angle():
     # columns of length 1, 2 sin(angle / 2) and that times sin(polar angle), orthogonal
     angle, polar = 0.3, 0.7
     expected = 1.0 / (2 * math.sin(angle / 2) * math.sin(polar))
-    found = representations.condition_of_angle_and_axis(np.array((angle, polar, -0.9)))
+    found = degeneracy.condition_of_angle_and_axis(np.array((angle, polar, -0.9)))
     assert found == pytest.approx(expected, rel=1e-12)
 
 
@@ -253,9 +247,10 @@ def test_errata_are_numbered_and_complete():
     assert all(one.where and one.printed and one.right and one.how for one in ERRATA)
 
 
-def test_texts_are_joined_into_lines():
-    one = claim(id="C00", section="", sentence=" a\n   b ", question="", criterion="", readings=("c\n d",))(None)
-    assert (one.sentence, one.readings) == ("a b", ("c d",))
+def test_texts_are_lines_with_the_numbers_of_their_module():
+    one = next(claim for claim in claims.all_claims() if claim.id == "C01")
+    assert "at most 0.1% of the uniform ones" in one.criterion
+    assert not any(mark in text for text in (one.quote, one.criterion, one.open) for mark in ("{", "\n"))
 
 
 def test_bodies_beside_a_pole_are_fast_and_outside_the_margin():

@@ -167,13 +167,6 @@ def test_what_comes_of_commanded_accelerations_is_said_beside_the_papers_force_c
     assert by_accelerations(judged(id, theory)).startswith(f"{word}:")
 
 
-@pytest.mark.parametrize("id", ["C23", "C24"])
-def test_changed_criterion_is_published_with_the_verdict_as_first_written(judged, theory, id):
-    found = judged(id, theory)
-    assert f"As first written: {Word.CORRECTED}. By commanded" in str(found.evidence)
-    assert by_accelerations(found).endswith(f"As first written: {Word.HOLDS}.")
-
-
 def test_c23_takes_the_leak_of_another_arm_for_no_leak_as_predicted(judged, theory):
     swapped = theory.assign(arm=theory["arm"].map({"puma560": "ur5e", "ur5e": "puma560"}))
     assert judged("C23", swapped).word == Word.CORRECTED

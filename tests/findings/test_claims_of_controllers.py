@@ -13,8 +13,8 @@ import tasks
 from bench.counting.counted import OPERATIONS
 from bench.experiments.rows import poses
 from bench.experiments.suites import ON_ARM
-from bench.findings.claims import arm_probes, euler_controller
-from bench.findings.claims.euler_controller import BY_COMMON, BY_EULER, INVERSES, ON_MATRIX, words
+from bench.findings.claims import arm_probes, controller_costs
+from bench.findings.claims.controller_costs import BY_COMMON, BY_EULER, INVERSES, ON_MATRIX, words
 from bench.findings.claims.verdict import NoEvidence, Word
 from bench.law.contender import Gains
 
@@ -80,7 +80,7 @@ def judged(frames):
             outcome = "settled" if word.startswith("rotation-matrix") else beside
             return pd.DataFrame({"start_id": ["0-plus-exact"], "outcome": [outcome], "peak_tau_nm": [30.0]})
 
-        bends = functools.partial(euler_controller.bend.__wrapped__, curves=curves)
+        bends = functools.partial(controller_costs.bend.__wrapped__, curves=curves)
         return judged_on(id, {"bend": bends, "beside_poles": beside_poles}, **frames | tables)
 
     return judge

@@ -7,6 +7,8 @@ from collections.abc import Callable, Sized
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
+import numpy as np
+
 from bench.findings.claims.verdict import Evidence, NoEvidence
 from bench.law.contender import Gains
 from bench.tables import read
@@ -188,6 +190,11 @@ def share(facts: pd.Series) -> Share:
     return Share(k, n, k / n, float(interval.low), float(interval.high))
 
 
+def interval(one: Share | Estimate, form: str) -> str:
+    """Format a number with its interval: '0.62 (0.60 to 0.64)'."""
+    return f"{one.value:{form}} ({one.low:{form}} to {one.high:{form}})"
+
+
 def lost(frame: pd.DataFrame) -> Estimate:
     """The share of episodes that do not settle, of those that converge; the interval is that of `maps.lost_between`."""
     from bench.findings.maps import lost_between
@@ -207,6 +214,22 @@ def lost_text(one: Spun) -> str:
 def settled(frame: pd.DataFrame) -> pd.Series:
     """Whether each episode settled."""
     return frame["outcome"] == SETTLED
+
+
+def settling_times(frame: pd.DataFrame) -> np.ndarray:
+    """Return the settling time of each episode [s], infinite where it does not settle."""
+    return frame["settling_time_s"].where(settled(frame), np.inf).to_numpy(float)
+
+
+def same_starts(frames: list[pd.DataFrame]) -> list[pd.DataFrame]:
+    """Return the episodes of each frame from the starts that all frames have, in the same order."""
+    common = set.intersection(*(set(one["start_id"]) for one in frames))
+    return [one[one["start_id"].isin(common)].sort_values("start_id", kind="stable") for one in frames]
+
+
+def settled_of(frame: pd.DataFrame) -> str:
+    """Format how many episodes settled: '3 of 12'."""
+    return f"{int(settled(frame).sum())} of {len(frame)}"
 
 
 def evidence(sentence: str, rows: int, tables: tuple[str, ...], **parts: str) -> Evidence:
