@@ -11,7 +11,6 @@ from pyarrow import parquet
 
 from bench.cli import claims as command
 from bench.findings import claims
-from bench.findings.claims.errata import UNTESTABLE
 from bench.findings.claims.verdict import HISTORY, Claim, Earlier, Evidence, Verdict, Word, does
 from bench.studies.verdicts import REFERENCE, STORED
 from bench.tables.files import read_json
@@ -82,7 +81,3 @@ def test_words_at_other_gains_are_told_by_damping_ratio(other):
     study = {"gains": [{"kp": 100.0, "kv": 14.0, "words": other}]}
     said = page.by_gains(study, {"C03": "does not hold"})
     assert ("damping ratio of 0.7: C03 (holds)" in said) == bool(other)
-
-
-def test_sentences_that_no_run_decides_have_their_reason():
-    assert all(one.section and one.quote and one.why for one in UNTESTABLE)
