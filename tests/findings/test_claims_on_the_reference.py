@@ -6,10 +6,9 @@ import math
 import numpy as np
 import pandas as pd
 import pytest
-from support.claim_tables import TABLES, Refused, assert_follows, every, planted, put, reference
+from support.claim_tables import TABLES, Refused, assert_follows, planted, put, reference
 from support.tables import decided
 
-from bench.findings import claims
 from bench.findings.claims import controller_costs, degeneracy
 from bench.findings.claims.standing import Operations
 from bench.findings.claims.tables import Results
@@ -73,7 +72,7 @@ CASES = [
     ("C03", CORRECTED, episodes(of(MATRIX, "half-turn"), final_angle_rad=3.0)),
     ("C05", FAILS, episodes(of(MATRIX, "half-turn"), quat_x=1.0, quat_y=0.0, quat_z=0.0)),
     ("C06", FAILS, episodes(of(EULER, "box"), **DIVERGE)),
-    ("C06", HOLDS, every(episodes(of(EULER), **SETTLE), episodes(outside, **DIVERGE))),
+    ("C06", HOLDS, episodes(of(EULER), **SETTLE), episodes(outside, **DIVERGE)),
     ("C07", FAILS, episodes(of(EULER), **SETTLE, peak_u=100.0)),
     ("C08", FAILS, episodes(of(RELATIVE, "goals"), outcome="timed-out")),
     ("C09", FAILS, counted(lambda t: t["contender"].str.startswith("feedback"), lost=200)),
@@ -101,7 +100,7 @@ CASES = [
     ("C35", FAILS, episodes(of(MATRIX, "uniform", step=10), **LOST)),
     ("C35", FAILS, episodes(of(FL, "uniform"), **slower(2.5))),
     *(
-        (id, Refused(""), lambda frames: {name: frame.iloc[:0] for name, frame in frames.items()})
+        (id, Refused("."), lambda frames: {name: frame.iloc[:0] for name, frame in frames.items()})
         for id, tables in TABLES.items()
         if tables is reference and id not in ("C13", "C15", "C28", "C30", "C33")
     ),
@@ -120,14 +119,6 @@ def test_claim_is_decided_by_a_quick_run(id):
     verdict = planted(id)
     assert verdict.word in (HOLDS, CORRECTED, FAILS)
     assert decided(verdict, verdict.word)
-
-
-@pytest.mark.slow
-def test_table_has_a_line_a_verdict():
-    verdicts = [planted(id) for id in ("C16", "C17")]
-    table = claims.table(verdicts)
-    assert list(table["claim"]) == ["C16", "C17"]
-    assert list(table["rows"]) == [one.rows for one in verdicts]
 
 
 def beside(frame):

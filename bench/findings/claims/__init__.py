@@ -31,14 +31,10 @@ import pkgutil
 from collections import Counter
 from collections.abc import Iterable
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from bench.findings.claims.tables import CHECK_ENGINES, MAIN_ENGINE, Results
 from bench.findings.claims.verdict import Claim, Evidence, NoEvidence, Verdict, Word, decide, does
 from bench.tables import read as published
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 __all__ = [
     "RULE",
@@ -52,7 +48,6 @@ __all__ = [
     "judge",
     "judge_all",
     "judge_possible",
-    "table",
     "tally",
     "told",
 ]
@@ -114,19 +109,3 @@ def _judged(folder: Path) -> tuple[Verdict, ...]:
     """Once for all that read a run: it takes ten seconds."""
     results = Results(folder)
     return tuple(decide(claim, results) for claim in all_claims())
-
-
-def table(verdicts: list[Verdict]) -> pd.DataFrame:
-    """One line a verdict."""
-    import pandas as pd
-
-    return pd.DataFrame(
-        {
-            "claim": [one.id for one in verdicts],
-            "section": [one.claim.section for one in verdicts],
-            "sentence": [one.claim.sentence for one in verdicts],
-            "verdict": [str(one.word) for one in verdicts],
-            "evidence": [str(one.evidence) for one in verdicts],
-            "rows": [one.rows for one in verdicts],
-        }
-    )

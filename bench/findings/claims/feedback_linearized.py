@@ -11,12 +11,12 @@ import numpy as np
 from bench.contenders.registry import representation
 from bench.findings.claims import probes
 from bench.findings.claims.adequacy import THREE
+from bench.findings.claims.at_gains import on_every_engine
 from bench.findings.claims.probes import EXACT_RAD, at_boundary
 from bench.findings.claims.tables import (
     MAIN_ENGINE,
     evidence,
     lost_text,
-    on_every_engine,
     settled,
     settled_of,
     share,

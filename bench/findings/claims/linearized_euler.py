@@ -6,8 +6,9 @@ import numpy as np
 
 from bench.experiments.suites import SHORT
 from bench.findings.claims import probes
+from bench.findings.claims.at_gains import on_every_engine
 from bench.findings.claims.rotation_matrix import GAINS, LOOSE_SETTLING, SMALL_ANGLES
-from bench.findings.claims.tables import evidence, interval, lost, on_every_engine, settled, settled_of, share, some
+from bench.findings.claims.tables import evidence, interval, lost, settled, settled_of, share, some
 from bench.findings.claims.verdict import claim, word_of
 from bench.findings.theory import closed_form, held_goals
 from bench.law.contender import Gains

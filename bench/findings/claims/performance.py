@@ -9,14 +9,13 @@ import numpy as np
 
 from bench.findings.claims import adequacy, probes
 from bench.findings.claims.adequacy import PAPERS, THREE, Adequacy
-from bench.findings.claims.at_gains import at_every_gain
+from bench.findings.claims.at_gains import at_every_gain, on_every_engine
 from bench.findings.claims.standing import ORDERED, Ledger
 from bench.findings.claims.tables import (
     MAIN_ENGINE,
     evidence,
     interval,
     lost_text,
-    on_every_engine,
     same_starts,
     settled,
     settling_times,

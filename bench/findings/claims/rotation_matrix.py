@@ -8,8 +8,9 @@ import numpy as np
 
 from bench.findings.claims import probes
 from bench.findings.claims.adequacy import CALLS
+from bench.findings.claims.at_gains import on_every_engine
 from bench.findings.claims.probes import at_boundary
-from bench.findings.claims.tables import MAIN_ENGINE, evidence, on_every_engine, settled, share, some
+from bench.findings.claims.tables import MAIN_ENGINE, evidence, settled, share, some
 from bench.findings.claims.verdict import claim, word_of
 from bench.findings.theory import closed_form
 from bench.law.contender import Gains

@@ -235,30 +235,3 @@ def settled_of(frame: pd.DataFrame) -> str:
 def evidence(sentence: str, rows: int, tables: tuple[str, ...], **parts: str) -> Evidence:
     """Evidence whose sentence may be broken into lines as the file likes."""
     return Evidence(" ".join(sentence.split()), int(rows), tables, parts)
-
-
-def on_every_engine(decide: Callable) -> Callable:
-    """A judging function of (results, engine) asked of the main engine, then of the sampled ones that have rows."""
-
-    @functools.wraps(decide)
-    def judge(results: Results):
-        word, found = decide(results, MAIN_ENGINE)
-        others, rows = {}, found.rows
-        for engine in CHECK_ENGINES:
-            try:
-                others[engine], also = decide(results, engine)
-            except NoEvidence:
-                continue
-            rows += also.rows
-        differing = {engine: other for engine, other in others.items() if other != word}
-        return word, found._replace(sentence=f"{found.sentence} {_said_by(others, differing)}", rows=rows)
-
-    return judge
-
-
-def _said_by(others: dict, differing: dict) -> str:
-    if not others:
-        return "No sampled engine has rows for this."
-    if not differing:
-        return f"Sampled engines agree ({', '.join(others)})."
-    return "Sampled: " + ", ".join(f"{engine} says '{word}'" for engine, word in others.items()) + "."

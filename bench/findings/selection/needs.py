@@ -132,9 +132,14 @@ class Advice(NamedTuple):
     exceptions: tuple[Decision, ...]
     others: tuple[Decision, ...]
 
+    @property
+    def every(self) -> list[Decision]:
+        """All situations, the default first."""
+        return [self.default, *self.exceptions, *self.others]
+
     def of(self, need: Need) -> Decision:
         """What is advised in a situation: where it decides nothing the default's law, which ties with its best."""
-        one = next(each for each in (self.default, *self.exceptions, *self.others) if each.need is need)
+        one = next(each for each in self.every if each.need is need)
         law = self.default.law
         return (
             one._replace(law=law, tied=tuple(each for each in one.best if each != law)) if one in self.others else one

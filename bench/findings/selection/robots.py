@@ -8,26 +8,38 @@ from typing import NamedTuple
 
 from bench.findings.claims.tables import Results
 from bench.findings.claims.verdict import NoEvidence
-from bench.findings.selection import needs
-from bench.findings.selection.measured import Measured, measure
-from bench.findings.selection.needs import ARM, DEFAULT, EVERYWHERE, FORGETFUL, NEARLY, SMOOTH, Advice, Decision, Need
+from bench.findings.selection.measured import Measured
+from bench.findings.selection.measured import measure as measure_all
+from bench.findings.selection.needs import (
+    ARM,
+    DEFAULT,
+    EVERYWHERE,
+    FORGETFUL,
+    NEARLY,
+    NEEDS,
+    SMOOTH,
+    Advice,
+    Decision,
+    Need,
+    advice,
+)
 from bench.findings.selection.robot_rows import measure_uncancelled, measure_velocities
 
 
 class Robot(NamedTuple):
-    """A kind of robot.
+    """A kind of robot; the defaults are those of robots that take torques, with the inertia cancelled.
 
-    takes: the command. rows: what was run. page: its file in the book. measure: how laws are measured on it. usual:
-    what is asked where nothing else is known; needs: the other situations; need: the one that is this robot's.
+    takes: the command. rows: what was run. page: its file in the book. need: its situation. measure: how laws are
+    measured on it. usual: what is asked where nothing else is known. needs: the other situations.
     """
 
     takes: str
     rows: str
     page: str
-    measure: Callable[[Results], Measured]
     need: Need
-    usual: Need
-    needs: tuple[Need, ...] = ()
+    measure: Callable[[Results], Measured] = measure_all
+    usual: Need = DEFAULT
+    needs: tuple[Need, ...] = NEEDS
 
 
 VELOCITY = Need("your robot takes velocities", (EVERYWHERE,))
@@ -40,8 +52,8 @@ VELOCITIES = Robot(
     "velocities",
     "first-order laws on the free body",
     "17-velocity-commands",
-    measure_velocities,
     VELOCITY,
+    measure_velocities,
     VELOCITY,
     (
         Need("the fastest, at equal gain near the goal", (EVERYWHERE,), ("time",)),
@@ -57,36 +69,27 @@ ROBOTS = (
         "torques, and a model cancels the inertia",
         "every law: the free body, every perturbation",
         "15-comparison",
-        measure,
         DEFAULT,
-        DEFAULT,
-        needs.NEEDS,
     ),
-    Robot(
-        "the same, on an arm where exact 180° rotations do not come",
-        "every law, four arms",
-        "08-arms",
-        measure,
-        ARM,
-        DEFAULT,
-        needs.NEEDS,
-    ),
+    Robot("the same, on an arm where exact 180° rotations do not come", "every law, four arms", "08-arms", ARM),
     Robot(
         "torques, no inertia cancelled",
         "laws at the gains of shipped controllers",
         "17-velocity-commands",
+        UNCANCELLED,
         measure_uncancelled,
         UNCANCELLED,
-        UNCANCELLED,
+        (),
     ),
     VELOCITIES,
     Robot(
         "positions, by a loop of its own that lags",
         "first-order laws on four arms with lagging servos",
         "17-velocity-commands",
+        POSITION,
         measure_velocities,
         POSITION,
-        POSITION,
+        (),
     ),
 )
 
@@ -97,7 +100,7 @@ def advise_for(robot: Robot, folder: Path) -> Advice:
     Errors:
         NoEvidence: the run has no rows of such robots.
     """
-    return needs.advice(folder, robot.measure, robot.usual, robot.needs)
+    return advice(folder, robot.measure, robot.usual, robot.needs)
 
 
 def word_of(robot: Robot, folder: Path) -> Decision | None:
