@@ -42,5 +42,5 @@ def COMMAND(folder, criteria):
 def _record(one) -> tuple[str, ...]:
     """The paper's words, the criterion, and those before it."""
     claim = one.claim
-    before = (f"Before ({old.written}): {old.criterion} By it: {word}." for old, word in one.earlier)
+    before = (f"Before ({old.written}): {old.criterion} By it: {old.word}." for old in claim.earlier)
     return f"Paper, {claim.place}: {claim.quote}", f"Criterion ({claim.written}): {claim.criterion}", *before

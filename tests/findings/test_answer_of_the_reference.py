@@ -14,7 +14,7 @@ from bench.findings import claims
 from bench.findings.claims.standing import MEASURABLE
 from bench.findings.claims.tables import Results
 from bench.findings.on_arms import best
-from bench.findings.selection import gains
+from bench.findings.selection import gains, needs
 from bench.findings.selection.criteria import BY_NAME
 from bench.findings.selection.measured import measured, statistic
 from bench.findings.selection.needs import (
@@ -27,7 +27,6 @@ from bench.findings.selection.needs import (
     advice,
     advise,
     has_all,
-    matters,
 )
 from bench.findings.selection.rule import GENERAL, dominates
 from bench.findings.selection.words import leaders
@@ -39,10 +38,9 @@ from report.figures.answer import plane, which_law
 from report.figures.arms import arm_ranking, arm_rows, arms
 from report.figures.cards import regulators
 from report.figures.comparison import comparison
-from report.figures.cost import cost
 from report.figures.kit import families, html
 from report.figures.kit.page import run_in
-from report.figures.robustness import half_turn_noise, other_perturbations, robustness, saturation
+from report.figures.robustness import saturation
 
 FOLDER = RESULTS / "reference"
 RUN = run_in(FOLDER)
@@ -53,21 +51,6 @@ BY_CRITERION = {
 }
 """Page -> facts that name what is best by a criterion."""
 
-ADVICE = {which_law: ("lead",), index: ("which_law",), arms: ("advised",)}
-"""Page -> facts that advise a law."""
-
-DESCRIBED = {
-    comparison: ("left_laws",),
-    saturation: ("over_law", "record_law", "losses", "tamed", "untamed"),
-    cost: ("against_time",),
-    robustness: ("harmless", "hardest"),
-    arms: ("inverse_advice", "lead"),
-}
-"""Page -> facts that name a law for what it does, and call none better."""
-
-CHANGES = re.compile(r".*_(law|losses)|losses_[amr]")
-"""Of perturbations: the law whose time changes most, and those that lose starts."""
-
 
 @pytest.fixture(scope="module")
 def found():
@@ -77,10 +60,6 @@ def found():
 @functools.cache
 def decided():
     return advice(FOLDER)
-
-
-def every():
-    return [decided().default, *decided().exceptions, *decided().others]
 
 
 def changed(found, criterion, law, value):
@@ -122,17 +101,17 @@ def test_no_law_without_memory_settles_everywhere_and_is_not_held(found):
 
 
 def test_every_law_that_is_advised_has_what_the_situation_asks(found):
-    for one in every():
+    for one in decided().every:
         assert one.law is not None, one.need.words
         assert all(has_all(found, law, one.need.facts) for law in (one.law, *one.tied, *one.best))
 
 
 def test_situation_that_decides_nothing_is_one_in_which_the_default_is_not_beaten(found):
-    assert {one.need.words for one in every()[1:]} == {need.words for need in NEEDS}
+    assert {one.need.words for one in decided().every[1:]} == {need.words for need in NEEDS}
     law = decided().default.law
     for one in decided().others:
         assert decided().of(one.need).law == law
-        assert law in one.best or not matters(found, one, law)
+        assert law in one.best or not needs.matters(found, one, law)
     for one in decided().exceptions:
         is_beaten = any(found.beats(by, other, law) for by in one.need.by for other in one.best)
         assert is_beaten or one.need.is_apart or not has_all(found, law, one.need.facts), one.need.words
@@ -140,7 +119,7 @@ def test_situation_that_decides_nothing_is_one_in_which_the_default_is_not_beate
 
 def test_single_best_is_better_by_scipys_paired_bootstrap_too(found):
     tried = 0
-    for one in every():
+    for one in decided().every:
         for by in one.need.by if len(one.best) == 1 and len(one.need.by) == 1 else ():
             taken = statistic(BY_NAME[by])
             values = [found.values[by][law] for law in one.asked if found.beats(by, one.law, law)]
@@ -221,20 +200,6 @@ def test_page_calls_best_what_the_rule_does(found, page):
         assert facts[key] == leaders(found, criterion, families.word)
         if "(a tie)" in facts[key]:
             assert "," in facts[key] or " and " in facts[key]
-
-
-@pytest.mark.parametrize(
-    "page",
-    [which_law, index, arms, comparison, cost, robustness, half_turn_noise, saturation, other_perturbations],
-    ids=lambda page: page.__name__,
-)
-def test_fact_that_names_a_law_is_one_of_those_known_to(found, page):
-    known = (*BY_CRITERION.get(page, ()), *ADVICE.get(page, ()), *DESCRIBED.get(page, ()))
-    words = [families.word(law) for law in found.laws]
-    for key, value in page.facts(RUN).items():
-        names = any(re.search(rf"\b{re.escape(word)}\b", str(value), re.IGNORECASE) for word in words if len(word) > 3)
-        is_change = page is other_perturbations and CHANGES.fullmatch(key)
-        assert not names or key in known or is_change, (key, value)
 
 
 def test_open_question_has_the_advised_law_among_the_later_laws_that_were_judged():

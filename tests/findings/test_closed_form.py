@@ -1,13 +1,22 @@
-"""What theory says of settling times, against the paper's closed forms and against itself."""
+"""Closed forms of settling times and of what complies, against the paper's, against scipy and against themselves."""
 
 import math
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 from scipy.linalg import expm
+from scipy.spatial.transform import Rotation as Turn
 from scipy.special import lambertw
+from support.bits import EPS
+from support.in_contact import COORDINATES
+from support.states import of_scipy
 
-from bench.findings.theory import closed_form
+from bench.control.setpoint import TOUCH
+from bench.findings.theory import closed_form, compliance_theory
+from bench.law.contender import PAPERS_GAINS, Gains
+from bench.law.so3 import IDENTITY, from_quaternion
+from tasks.rotations import on_pole
 
 PAPER = 100.0, 20.0
 TOLERANCE = 0.02
@@ -63,3 +72,86 @@ def test_settling_curve_is_within_a_thousandth_of_a_tick(short):
     assert float(curve(np.array(short))) == pytest.approx(
         closed_form.settling(0.0, *PAPER, TOLERANCE, short=short), abs=1e-6
     )
+
+
+SCIPYS = {
+    "zyx-euler": lambda E: Turn.from_euler("ZYX", E),
+    "xyz-euler": lambda E: Turn.from_euler("XYZ", E),
+    "zyz-euler": lambda E: Turn.from_euler("ZYZ", E),
+    "rotation-vector": Turn.from_rotvec,
+    "mrp": Turn.from_mrp,
+}
+STEP = EPS ** (1 / 3)
+EULER, ZYZ = COORDINATES["zyx-euler"], COORDINATES["zyz-euler"]
+
+
+def turned(seed: int) -> list[Turn]:
+    return list(Turn.random(20, rng=np.random.default_rng(seed)))
+
+
+@pytest.mark.parametrize("word", COORDINATES)
+def test_columns_of_B_are_what_scipys_rotation_turns_about_along_each_coordinate(word):
+    """Central differences: truncation and rounding are about STEP^2 = 4e-11, times third derivatives near poles."""
+    of = SCIPYS[word]
+    for turn in turned(1):
+        E = np.array(COORDINATES[word].chart(of_scipy(turn)).E)
+        steps = STEP * np.eye(3)
+        differenced = [(of(E + h) * of(E - h).inv()).as_rotvec() / (2.0 * STEP) for h in steps]
+        found = compliance_theory.matrix_B(COORDINATES[word], of_scipy(turn))
+        np.testing.assert_allclose(found, np.transpose(differenced), atol=1e-8)
+
+
+def test_eigenvalues_of_euler_springs_are_one_and_one_plus_minus_sine_at_any_alpha_and_gamma():
+    for turn in turned(2):
+        beta = turn.as_euler("ZYX")[1]
+        B = compliance_theory.matrix_B(EULER, of_scipy(turn))
+        expected = sorted((1.0 - math.sin(beta), 1.0, 1.0 + math.sin(beta)))
+        np.testing.assert_allclose(np.linalg.eigvalsh(B @ B.T), expected, atol=8 * EPS)
+        assert np.linalg.cond(B @ B.T) == pytest.approx(compliance_theory.stiffness_condition(beta), rel=1e-9)
+
+
+@pytest.mark.parametrize("sign", [1, -1])
+def test_a_moment_about_the_level_axis_is_lost_at_the_poles_of_zyx(sign):
+    R = from_quaternion(on_pole(sign, 0.7))
+    lost, kept = compliance_theory.lost_moment(EULER, R)
+    alpha = EULER.chart(R).E[0]
+    assert kept == pytest.approx(0.0, abs=4 * EPS)
+    assert abs(lost @ (math.cos(alpha), math.sin(alpha), 0.0)) == pytest.approx(1.0, abs=4 * EPS)
+    np.testing.assert_allclose(EULER.generalized(EULER.chart(R), tuple(lost)), 0.0, atol=4 * EPS)
+
+
+def test_a_moment_about_x_is_lost_at_the_identity_with_zyz():
+    lost, kept = compliance_theory.lost_moment(ZYZ, IDENTITY)
+    assert kept == 0.0
+    assert abs(lost[0]) == 1.0
+
+
+def test_no_moment_is_lost_away_from_the_poles():
+    for turn in turned(3):
+        beta = turn.as_euler("ZYX")[1]
+        assert compliance_theory.lost_moment(EULER, of_scipy(turn))[1] == pytest.approx(
+            math.sqrt(compliance_theory.least_yield(beta)), rel=1e-9
+        )
+
+
+@pytest.mark.parametrize("gains", [PAPERS_GAINS, Gains(100.0, 10.0), Gains(100.0, 40.0)], ids=str)
+def test_springs_are_those_of_an_integrated_oscillator(gains):
+    def rates(_, state):
+        return state[1], 1.0 / TOUCH.m_o - gains.kv * state[1] - gains.kp * state[0]
+
+    path = solve_ivp(rates, (0.0, 0.3), (0.0, 0.0), rtol=1e-11, atol=1e-14)
+    assert compliance_theory.sprung(0.3, gains) == pytest.approx(path.y[0, -1], rel=1e-8)
+
+
+def test_what_is_free_is_an_integrated_damper():
+    path = solve_ivp(
+        lambda _, s: (s[1], 1.0 / TOUCH.m_o - TOUCH.kc * s[1]), (0.0, 0.3), (0.0, 0.0), rtol=1e-11, atol=1e-14
+    )
+    assert compliance_theory.free(0.3) == pytest.approx(path.y[0, -1], rel=1e-8)
+
+
+@pytest.mark.parametrize("angle", [0.0, 1e-3, 0.1, 0.7, math.pi / 2])
+def test_a_square_loop_leaves_what_scipys_turns_leave(angle):
+    x, y = Turn.from_rotvec((angle, 0.0, 0.0)), Turn.from_rotvec((0.0, angle, 0.0))
+    left = (y.inv() * x.inv() * y * x).as_rotvec()
+    np.testing.assert_allclose(compliance_theory.square_loop(angle), left, atol=4 * EPS)

@@ -5,7 +5,6 @@ import math
 
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation as Turn
 from support.bits import EPS
 from support.in_contact import ARMS, COORDINATES, hand
@@ -19,7 +18,6 @@ from bench.control.contact_controller import PAPERS_FORM, hybrid, impedance_cont
 from bench.control.setpoint import TOUCH
 from bench.engines.run_contact import run
 from bench.findings.theory import compliance_theory as theory
-from bench.law.contender import PAPERS_GAINS, Gains
 from bench.law.so3 import IDENTITY, from_quaternion
 from bench.metrics.contact.held_axes import leakage
 from bench.metrics.contact.stiffness import least_yield, misalignment, stiffness_axes, stiffness_condition
@@ -28,14 +26,6 @@ from bench.metrics.measured_compliance import compliance
 from tasks.domains.wrench_probe import SPECIFICATIONS, TASK, push
 from tasks.rotations import on_pole, zyx
 
-SCIPYS = {
-    "zyx-euler": lambda E: Turn.from_euler("ZYX", E),
-    "xyz-euler": lambda E: Turn.from_euler("XYZ", E),
-    "zyz-euler": lambda E: Turn.from_euler("ZYZ", E),
-    "rotation-vector": Turn.from_rotvec,
-    "mrp": Turn.from_mrp,
-}
-STEP = EPS ** (1 / 3)
 EULER, ZYZ = COORDINATES["zyx-euler"], COORDINATES["zyz-euler"]
 SPRINGS_OF_EULER = impedance_controller(coordinates.IMPEDANCE, EULER)
 AT_ITS_POLE = impedance_controller(coordinates_relative.IMPEDANCE, ZYZ)
@@ -76,39 +66,35 @@ def turned(seed: int) -> list[Turn]:
     return list(Turn.random(20, rng=np.random.default_rng(seed)))
 
 
-@pytest.mark.parametrize("word", COORDINATES)
-def test_columns_of_B_are_what_scipys_rotation_turns_about_along_each_coordinate(word):
-    """Central differences: truncation and rounding are about STEP^2 = 4e-11, times third derivatives near poles."""
-    of = SCIPYS[word]
-    for turn in turned(1):
-        E = np.array(COORDINATES[word].chart(of_scipy(turn)).E)
-        steps = STEP * np.eye(3)
-        differenced = [(of(E + h) * of(E - h).inv()).as_rotvec() / (2.0 * STEP) for h in steps]
-        found = theory.matrix_B(COORDINATES[word], of_scipy(turn))
-        np.testing.assert_allclose(found, np.transpose(differenced), atol=1e-8)
-
-
 COMPLIES = ("about x", "about x and y", "about y and z")
-# Every controller in every pose, with every specification, which take turns.
-TURNS = [
-    pytest.param(one, COMPLIES[(k + p) % 3], angles, id=f"{one.name}-{COMPLIES[(k + p) % 3]}-{angles}")
-    for k, one in enumerate(HYBRIDS)
-    for p, angles in enumerate(POSES)
+BY_TRANSPOSE = [
+    *(hybrid(law, PAPERS_FORM) for law in ("hybrid-base", "hybrid-rate", "hybrid-hand")),
+    *(hybrid("hybrid", PAPERS_FORM, COORDINATES[word]) for word in ("zyx-euler", "mrp")),
+    hybrid("hybrid-unconverted", PAPERS_FORM, EULER),
+]
+LEANING = [(0, 0, 0), (0, 45, 0), (35, 45, -20), (0, 75, 0)]
+# Every hybrid controller in every pose, with every specification, which take turns; by the Jacobian transpose to 75
+# degrees, for with an inertia of its own the hand turns by some 10 mrad.
+COMPARED = [
+    *(
+        (one, COMPLIES[(k + p) % 3], angles, AT_89 if angles[1] == 89 else FREE)
+        for k, one in enumerate(HYBRIDS)
+        for p, angles in enumerate(POSES)
+    ),
+    *((one, "about x", angles, SPRUNG) for one in SPRINGS if one != AT_ITS_POLE for angles in POSES),
+    *(
+        (one, COMPLIES[(k + p) % 3], angles, SPRUNG)
+        for k, one in enumerate(BY_TRANSPOSE)
+        for p, angles in enumerate(LEANING)
+    ),
 ]
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("controller", "complies", "angles"), TURNS)
-def test_a_hybrid_controllers_compliance_is_as_predicted(controller, complies, angles):
-    _, beta, _ = angles
-    compare(controller, probed(controller, complies, *angles), AT_89 if beta == 89 else FREE)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("angles", POSES, ids=str)
-@pytest.mark.parametrize("controller", [one for one in SPRINGS if one != AT_ITS_POLE], ids=lambda one: one.name)
-def test_an_impedances_compliance_is_as_predicted(controller, angles):
-    compare(controller, probed(controller, "about x", *angles), SPRUNG)
+@pytest.mark.parametrize("case", COMPARED, ids=lambda case: f"{case[0].name}-{case[1]}-{case[2]}")
+def test_compliance_is_as_predicted(case):
+    controller, complies, angles, tolerance = case
+    compare(controller, probed(controller, complies, *angles), tolerance)
 
 
 @pytest.mark.parametrize("arm", ARMS)
@@ -130,28 +116,6 @@ def compare(controller, pose, tolerance):
         assert np.isnan(measured).all()
     else:
         assert np.linalg.norm(measured - predicted) <= tolerance * np.linalg.norm(predicted)
-
-
-BY_TRANSPOSE = [
-    *(hybrid(law, PAPERS_FORM) for law in ("hybrid-base", "hybrid-rate", "hybrid-hand")),
-    *(hybrid("hybrid", PAPERS_FORM, COORDINATES[word]) for word in ("zyx-euler", "mrp")),
-    hybrid("hybrid-unconverted", PAPERS_FORM, EULER),
-]
-LEANING = [(0, 0, 0), (0, 45, 0), (35, 45, -20), (0, 75, 0)]
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(
-    ("controller", "complies", "angles"),
-    [
-        pytest.param(one, COMPLIES[(k + p) % 3], angles, id=f"{one.name}-{angles}")
-        for k, one in enumerate(BY_TRANSPOSE)
-        for p, angles in enumerate(LEANING)
-    ],
-)
-def test_compliance_by_the_jacobian_transpose_is_as_predicted(controller, complies, angles):
-    """To what a sampled spring leaves; to 75 degrees, for with an inertia of its own the hand turns by some 10 mrad."""
-    compare(controller, probed(controller, complies, *angles), SPRUNG)
 
 
 @pytest.mark.parametrize("arm", ARMS)
@@ -231,62 +195,6 @@ def test_springs_of_the_matrix_have_no_axes_of_their_own():
     pose = probed(next(one for one in SPRINGS if one.law == "impedance-geometric"), "about x", beta=75)
     assert stiffness_condition(pose) == pytest.approx(1.0, abs=1e-6)
     assert stiffness_axes(pose) == pytest.approx(0.0, abs=4.0 * math.sqrt(EPS))  # an arc cosine of 1
-
-
-def test_eigenvalues_of_euler_springs_are_one_and_one_plus_minus_sine_at_any_alpha_and_gamma():
-    for turn in turned(2):
-        beta = turn.as_euler("ZYX")[1]
-        B = theory.matrix_B(EULER, of_scipy(turn))
-        expected = sorted((1.0 - math.sin(beta), 1.0, 1.0 + math.sin(beta)))
-        np.testing.assert_allclose(np.linalg.eigvalsh(B @ B.T), expected, atol=8 * EPS)
-        assert np.linalg.cond(B @ B.T) == pytest.approx(theory.stiffness_condition(beta), rel=1e-9)
-
-
-@pytest.mark.parametrize("sign", [1, -1])
-def test_a_moment_about_the_level_axis_is_lost_at_the_poles_of_zyx(sign):
-    R = from_quaternion(on_pole(sign, 0.7))
-    lost, kept = theory.lost_moment(EULER, R)
-    alpha = EULER.chart(R).E[0]
-    assert kept == pytest.approx(0.0, abs=4 * EPS)
-    assert abs(lost @ (math.cos(alpha), math.sin(alpha), 0.0)) == pytest.approx(1.0, abs=4 * EPS)
-    np.testing.assert_allclose(EULER.generalized(EULER.chart(R), tuple(lost)), 0.0, atol=4 * EPS)
-
-
-def test_a_moment_about_x_is_lost_at_the_identity_with_zyz():
-    lost, kept = theory.lost_moment(ZYZ, IDENTITY)
-    assert kept == 0.0
-    assert abs(lost[0]) == 1.0
-
-
-def test_no_moment_is_lost_away_from_the_poles():
-    for turn in turned(3):
-        beta = turn.as_euler("ZYX")[1]
-        assert theory.lost_moment(EULER, of_scipy(turn))[1] == pytest.approx(
-            math.sqrt(theory.least_yield(beta)), rel=1e-9
-        )
-
-
-@pytest.mark.parametrize("gains", [PAPERS_GAINS, Gains(100.0, 10.0), Gains(100.0, 40.0)], ids=str)
-def test_springs_are_those_of_an_integrated_oscillator(gains):
-    def rates(_, state):
-        return state[1], 1.0 / TOUCH.m_o - gains.kv * state[1] - gains.kp * state[0]
-
-    path = solve_ivp(rates, (0.0, 0.3), (0.0, 0.0), rtol=1e-11, atol=1e-14)
-    assert theory.sprung(0.3, gains) == pytest.approx(path.y[0, -1], rel=1e-8)
-
-
-def test_what_is_free_is_an_integrated_damper():
-    path = solve_ivp(
-        lambda _, s: (s[1], 1.0 / TOUCH.m_o - TOUCH.kc * s[1]), (0.0, 0.3), (0.0, 0.0), rtol=1e-11, atol=1e-14
-    )
-    assert theory.free(0.3) == pytest.approx(path.y[0, -1], rel=1e-8)
-
-
-@pytest.mark.parametrize("angle", [0.0, 1e-3, 0.1, 0.7, math.pi / 2])
-def test_a_square_loop_leaves_what_scipys_turns_leave(angle):
-    x, y = Turn.from_rotvec((angle, 0.0, 0.0)), Turn.from_rotvec((0.0, angle, 0.0))
-    left = (y.inv() * x.inv() * y * x).as_rotvec()
-    np.testing.assert_allclose(theory.square_loop(angle), left, atol=4 * EPS)
 
 
 @pytest.mark.parametrize(

@@ -12,11 +12,10 @@ from bench.findings.claims.tables import Results
 from bench.findings.claims.verdict import NoEvidence
 from bench.findings.selection import gains
 from bench.findings.selection.needs import advice, decide, has_all
-from bench.findings.selection.robots import ROBOTS, word_of
+from bench.findings.selection.robot_rows import measure_uncancelled as measure
+from bench.findings.selection.robot_rows import measure_velocities
+from bench.findings.selection.robots import POSITION, ROBOTS, UNCANCELLED, word_of
 from bench.findings.selection.rule import dominates
-from bench.findings.selection.uncancelled import UNCANCELLED, measure
-from bench.findings.selection.velocity import POSITION
-from bench.findings.selection.velocity import measure as measure_velocity
 from bench.tables.read import with_contender
 from bench.tables.schema import RESULTS
 
@@ -64,7 +63,7 @@ def test_uncancelled_choice_without_rows_is_no_evidence():
 
 
 def test_position_is_judged_by_servos_that_lag():
-    found = measure_velocity(Results(REFERENCE, {"velocity": lagging()}))
+    found = measure_velocities(Results(REFERENCE, {"velocity": lagging()}))
     rows = lagging()
     late = rows[(rows["lag_s"] > 0.0) & rows["contender"].astype(str).str.startswith(FASTEST)]
     assert len(found.values["late"][FASTEST]) == len(late)

@@ -2,6 +2,8 @@
 
 import re
 import shutil
+import tomllib
+from collections import Counter
 
 import pytest
 from click.testing import CliRunner
@@ -9,15 +11,15 @@ from pyarrow import parquet
 
 from bench.cli import claims as command
 from bench.findings import claims
-from bench.findings.claims.untestable import UNTESTABLE
-from bench.findings.claims.verdict import Claim, Earlier, Evidence, Verdict, Word, does
-from bench.studies.verdicts import REFERENCE
+from bench.findings.claims.verdict import HISTORY, Claim, Earlier, Evidence, Verdict, Word, does
+from bench.studies.verdicts import REFERENCE, STORED
+from bench.tables.files import read_json
 from report.figures.claims import claims as page
 
 
 def verdict(id, word, *earlier):
     before = tuple(Earlier("2026-11-21 a", "", one) for one in earlier)
-    claim = Claim(id, "", "", "", "", lambda results: None, correction="corrected", instead="else", earlier=before)
+    claim = Claim(id, "", "", "", lambda results: None, correction="corrected", instead="else", earlier=before)
     return Verdict(claim, word, Evidence("", 1, ()))
 
 
@@ -37,6 +39,17 @@ def test_both_tallies_agree_with_the_table_of_claims():
     for word in Word:
         told = [(int(n), int(of)) for n, said, of in tiles if said == does(word, int(n))] or [(0, 0)]
         assert told == [(now.count(word), first.count(word))]
+
+
+def test_both_tallies_of_the_reference_are_those_of_its_words_and_of_the_history():
+    words = {id: Word(word) for id, word in read_json(STORED)["reference"].items()}
+    every = [Verdict(one, words[one.id], Evidence("", 1, ())) for one in claims.all_claims()]
+    history = tomllib.loads(HISTORY.read_text())
+    first = Counter(history[id][0]["word"] if id in history else str(word) for id, word in words.items())
+    tiles = re.findall(r"<b>(\d+)</b><span>([^(<]+) \(first criteria: (\d+)\)", page.tiles(every))
+    expected = {does(word, words_now): first[word] for word, words_now in claims.tally(words.values()).items()}
+    assert {said: int(of) for _, said, of in tiles} == expected
+    assert sum(first.values()) == len(words) == len(claims.all_claims())
 
 
 def test_refuted_claims_come_first_and_say_what_is_true():
@@ -68,7 +81,3 @@ def test_words_at_other_gains_are_told_by_damping_ratio(other):
     study = {"gains": [{"kp": 100.0, "kv": 14.0, "words": other}]}
     said = page.by_gains(study, {"C03": "does not hold"})
     assert ("damping ratio of 0.7: C03 (holds)" in said) == bool(other)
-
-
-def test_sentences_that_no_run_decides_have_their_reason():
-    assert all(one.section and one.quote and one.why for one in UNTESTABLE)

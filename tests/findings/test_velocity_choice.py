@@ -10,8 +10,9 @@ from bench.experiments.experiment import Settings, Unit, rows_of
 from bench.findings.claims.tables import Results
 from bench.findings.claims.verdict import NoEvidence
 from bench.findings.selection.needs import advise, has_all
+from bench.findings.selection.robot_rows import measure_velocities as measure
+from bench.findings.selection.robots import VELOCITIES, VELOCITY
 from bench.findings.selection.rule import dominates
-from bench.findings.selection.velocity import NEEDS, VELOCITY, measure
 from bench.tables.read import with_contender
 from bench.tables.schema import RESULTS
 
@@ -39,28 +40,28 @@ def test_laws_are_those_that_were_told_the_simplest_first():
 
 
 def test_advised_law_has_the_facts_and_nothing_dominates_it():
-    advice, by = advise(found(), VELOCITY, NEEDS), ("time", "worst", "peak", "tick")
+    advice, by = advise(found(), VELOCITY, VELOCITIES.needs), ("time", "worst", "peak", "tick")
     assert advice.default.law == SIMPLEST
     assert has_all(found(), SIMPLEST, VELOCITY.facts)
     assert not any(dominates(found(), law, SIMPLEST, by) for law in advice.default.asked)
 
 
 def test_law_that_is_dead_and_law_that_unwinds_are_not_asked():
-    asked = advise(found(), VELOCITY, NEEDS).default.asked
+    asked = advise(found(), VELOCITY, VELOCITIES.needs).default.asked
     assert SINE not in asked
     assert NO_SIGN not in asked
     assert found().number("lost", SINE) == found().number("lost", SIMPLEST) + len(found().tables.directed) / 5
 
 
 def test_fastest_is_the_logarithm_and_no_law_of_ours_is_advised():
-    advice = advise(found(), VELOCITY, NEEDS)
+    advice = advise(found(), VELOCITY, VELOCITIES.needs)
     laws = {one.need.words: one.law for one in (*advice.exceptions, *advice.others)}
     assert laws["the fastest, at equal gain near the goal"] == LOGARITHM
     assert EASED not in laws.values()
 
 
 def test_law_that_was_not_told_on_arms_is_no_answer_there():
-    advice = advise(found(), VELOCITY, NEEDS)
+    advice = advise(found(), VELOCITY, VELOCITIES.needs)
     [on_arm] = (one for one in (*advice.exceptions, *advice.others) if one.need.by == ("arms",))
     assert set(on_arm.asked) == {SIMPLEST, LOGARITHM}
 

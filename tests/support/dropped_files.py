@@ -179,11 +179,17 @@ from bench.findings.claims.tables import evidence
 from bench.findings.claims.verdict import Word, claim
 
 
-@claim(id="C99", section="9", sentence="A dropped claim.", question="None?", criterion="It holds.")
+@claim("C99")
 def c99(results):
     """One row."""
     return Word.HOLDS, evidence("1 row.", 1, ("experiment",))
 ''',
+    "bench/findings/claims/dropped_claim.toml": """
+[C99]
+section = "9"
+sentence = "A dropped claim."
+criterion = "It holds."
+""",
     "report/pages/90-dropped-page.md": """---
 jupytext: {text_representation: {extension: .md, format_name: myst}}
 kernelspec: {name: python3, display_name: Python 3}

@@ -1,31 +1,18 @@
 """The paper's claims, C01 to C35: each sentence with a criterion fixed before the results, and its verdict.
 
-One file for each part of the paper; a claim is found by being in one of them.
+A module holds measurements alone; the TOML file of the same name holds the texts of its claims.
 
-    verdict.py               what a claim, a verdict and its evidence are
-    rotation_matrix.py       C01 to C03
-    half_turns.py            C04, C05
-    linearized_euler.py      C06 to C08
-    feedback_linearized.py   C09
-    boundary_points.py       C10, C11
-    costs.py                 C12, C17
-    representations.py       C13
-    degeneracy.py            C14 to C16
-    euler_jacobian.py        C18, C19
-    euler_controller.py      C20
-    controller_costs.py      C26
+    verdict.py               what a claim, a verdict and its evidence are; history.toml: criteria that stood before
+    rotation_matrix.py       C01 to C05, C32
+    linearized_euler.py      C06 to C08, C29
+    feedback_linearized.py   C09 to C11, C30
+    performance.py           C12, C17, C27, C31, C35
+    degeneracy.py            C13 to C16, C28
+    euler_jacobian.py        C18, C19, C34
+    controller_costs.py      C20, C26, C33
     force_conversion.py      C21
-    compliance.py            C22, C23
-    zyz_compliance.py        C24
+    compliance.py            C22 to C24
     contact.py               C25
-    later.py                 C27
-    angular_velocity.py      C28
-    expected_settling.py     C29
-    model_accuracy.py        C30
-    performance.py           C31, C35
-    numerics.py              C32
-    force_costs.py           C33
-    angle_forms.py           C34
     adequacy.py              every law by the tests of C17 and C27
     at_gains.py              the same claim at other gains
     standing.py              how two laws stand in cost, by time and by operations
@@ -33,8 +20,7 @@ One file for each part of the paper; a claim is found by being in one of them.
     probes.py                the small experiments of claims that no table answers
     arm_probes.py            the same on arms
     side_by_side.py          rows of two controllers in contact, side by side
-    errata.py                what is printed wrongly in the paper, each with a check
-    untestable.py            sentences that no run can decide
+    errata.py                what is printed wrongly in the paper, each with a check, and what no run can decide
 """
 
 from __future__ import annotations
@@ -45,14 +31,10 @@ import pkgutil
 from collections import Counter
 from collections.abc import Iterable
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from bench.findings.claims.tables import CHECK_ENGINES, MAIN_ENGINE, Results
 from bench.findings.claims.verdict import Claim, Evidence, NoEvidence, Verdict, Word, decide, does
 from bench.tables import read as published
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 __all__ = [
     "RULE",
@@ -66,7 +48,6 @@ __all__ = [
     "judge",
     "judge_all",
     "judge_possible",
-    "table",
     "tally",
     "told",
 ]
@@ -128,19 +109,3 @@ def _judged(folder: Path) -> tuple[Verdict, ...]:
     """Once for all that read a run: it takes ten seconds."""
     results = Results(folder)
     return tuple(decide(claim, results) for claim in all_claims())
-
-
-def table(verdicts: list[Verdict]) -> pd.DataFrame:
-    """One line a verdict."""
-    import pandas as pd
-
-    return pd.DataFrame(
-        {
-            "claim": [one.id for one in verdicts],
-            "section": [one.claim.section for one in verdicts],
-            "sentence": [one.claim.sentence for one in verdicts],
-            "verdict": [str(one.word) for one in verdicts],
-            "evidence": [str(one.evidence) for one in verdicts],
-            "rows": [one.rows for one in verdicts],
-        }
-    )

@@ -9,7 +9,7 @@ import numpy as np
 from bench.findings.claims import probes
 from bench.findings.claims.probes import EXACT_RAD
 from bench.findings.claims.standing import ORDERED, Ledger, Operations, price_of_a_call, times_of
-from bench.findings.claims.tables import Results, settled, some
+from bench.findings.claims.tables import Results, settled, settling_times, some
 from bench.tables.read import FREE_BODY, converged
 from bench.tables.statistics import Estimate, quantile_estimate
 
@@ -34,6 +34,7 @@ THREE = ("rotation-matrix", "linearized-euler/zyx-euler", "feedback-linearized/z
 """Those that it compares, in its order of cost: the first is 'remarkably simple', the others are 'more involved'."""
 
 SETTLED_SHARE, NEARLY_ALL, SLOW = 0.999, 0.99, 2.0
+LOST_SHARE = 1.0 - SETTLED_SHARE
 DIRECTED_SHARE = 0.99
 """Of the directed starts at rest, a few of which may be as near to a singular place as doubles can be."""
 
@@ -105,7 +106,7 @@ def _row(name: str, own: pd.DataFrame, costs: pd.DataFrame, spun: tuple[Spun, ..
         name,
         len(uniform),
         float(1.0 - uniform["lost"].mean()),
-        quantile_estimate(uniform["settling_time_s"].where(~uniform["lost"], np.inf).to_numpy(float), NEARLY_ALL),
+        quantile_estimate(settling_times(uniform), NEARLY_ALL),
         int((~directed["exact"]).sum()),
         int((directed["lost"] & ~directed["exact"]).sum()),
         int((directed["lost"] & directed["exact"]).sum()),
@@ -166,7 +167,7 @@ BOTH = "abcd"
 
 def is_kept_spinning(one: Adequacy) -> bool:
     """Whether random starts at every stated speed settle but for 1 - SETTLED_SHARE; not, if none were run."""
-    spinning = [spun.share.high <= 1.0 - SETTLED_SHARE for spun in one.spun if spun.speed > 0.0]
+    spinning = [spun.share.high <= LOST_SHARE for spun in one.spun if spun.speed > 0.0]
     return bool(spinning) and all(spinning)
 
 

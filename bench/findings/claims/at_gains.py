@@ -1,12 +1,12 @@
-"""Claims whose word could be another one at other gains, decided on every run of results/gains too."""
+"""Claims that are decided more than once: on the runs at other gains, and by the sampled engines too."""
 
 from __future__ import annotations
 
 import functools
 from collections.abc import Callable
 
-from bench.findings.claims.tables import Results, evidence
-from bench.findings.claims.verdict import Word
+from bench.findings.claims.tables import CHECK_ENGINES, MAIN_ENGINE, Results, evidence
+from bench.findings.claims.verdict import NoEvidence, Word
 from bench.tables.schema import RESULTS
 
 GAINS = RESULTS / "gains"
@@ -41,3 +41,30 @@ def at_every_gain(decide: Callable) -> Callable:
         return word, evidence(told, sum(said.rows for _, said in found.values()), tables)
 
     return judge
+
+
+def on_every_engine(decide: Callable) -> Callable:
+    """A judging function of (results, engine) asked of the main engine, then of the sampled ones that have rows."""
+
+    @functools.wraps(decide)
+    def judge(results: Results):
+        word, found = decide(results, MAIN_ENGINE)
+        others, rows = {}, found.rows
+        for engine in CHECK_ENGINES:
+            try:
+                others[engine], also = decide(results, engine)
+            except NoEvidence:
+                continue
+            rows += also.rows
+        differing = {engine: other for engine, other in others.items() if other != word}
+        return word, found._replace(sentence=f"{found.sentence} {_said_by(others, differing)}", rows=rows)
+
+    return judge
+
+
+def _said_by(others: dict, differing: dict) -> str:
+    if not others:
+        return "No sampled engine has rows for this."
+    if not differing:
+        return f"Sampled engines agree ({', '.join(others)})."
+    return "Sampled: " + ", ".join(f"{engine} says '{word}'" for engine, word in others.items()) + "."

@@ -1,4 +1,4 @@
-"""C22 and C23: about which axes Euler angles comply, measured in free space (Murphy 1988, 3.3)."""
+"""C22 to C24: about which axes Euler angles comply, measured in free space (Murphy 1988, 3.3)."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from bench.findings.claims import probes, side_by_side
 from bench.findings.claims.euler_jacobian import COORDINATES
 from bench.findings.claims.force_conversion import random_orientations
 from bench.findings.claims.tables import evidence, some
-from bench.findings.claims.verdict import Earlier, Word, claim, word_of
+from bench.findings.claims.verdict import claim, word_of
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -43,50 +43,19 @@ LEAK, SMALL_DEG = 0.01, 5.0
 PLANE_RAD = 0.005
 """rad, between measured and predicted tilt of a plane: a hand that turns by 3 mrad tilts its own axes by as much."""
 
+ZYZ, ORDER = "zyz-euler", "about x"
 
-@claim(
-    id="C22",
-    section="3.3",
-    quote="""
-        When only one rotational axis is in compliance, the effect is the same as compliance in the normal
-        Cartesian space because, with Z-Y-X Euler angles, single Euler angle rotation corresponds to rotation
-        about one of the x, y, z axes.
-    """,
-    correction="One angle is one axis, but of the base only where the angles before it are zero.",
-    instead="""
-        Of the axes, alpha's is the base's z and gamma's the hand's x exactly, beta's is between. By the paper's own
-        force control the arm's inertia turns the hand about other axes too.
-    """,
-    written="2026-11-23 4af5940",
-    earlier=(
-        Earlier(
-            "2026-11-21 5b25b22",
-            "Asked of commanded accelerations, for the paper's force control was not there.",
-            Word.CORRECTED,
-        ),
-    ),
-    sentence="With one compliant rotational axis, Euler and Cartesian compliance are the same.",
-    question="Does a wrench probe, one axis at a time, see any difference, at zero angles and away from them?",
-    criterion=f"""
-        wrench-probe in compliance.parquet, orders 'about x', 'about y' and 'about z', every arm, pose and form with
-        cos(beta) >= {CLOSE_TO_POLE:g}: the measured compliance c of hybrid/zyx-euler against that of hybrid-base. Same:
-        |c - c'| <= {SAME:g} |c'| (Frobenius); a row that is not done is not. It holds if all are the same; with a
-        correction if all are the same once the Cartesian compliance is turned by the rotations that come before it, as
-        Q c' Q^T with Q = 1 about z, Rz(alpha) about y and Rz(alpha) Ry(beta) about x: one compliant angle is then one
-        compliant axis, but of the base only where the earlier angles are zero; otherwise it does not hold. Every axis
-        must be there, x and y also with earlier angles of {APART_DEG:g} degree or more: else it is no evidence.
-        Reported: how many are the same by axis; how many are the same as compliance about the hand's own x, y, z; how
-        rows closer to the pole end. {side_by_side.DECIDES}
-    """,
-    open="""
-        Whose axes is not said: the base's are those of (2.1), in which the controller without the Euler
-        Jacobian complies.
-    """,
-    readings=(
-        "the x, y, z axes of the base frame (decides)",
-        "those of the hand (reported)",
-    ),
-)
+ZERO_RAD, SLACK_DEG = 1e-9, 1e-6
+"""What rounding may make of an angle that a pose is named after."""
+
+NEAR_DEG, LITTLE = 15.0, 0.5
+"""What 'near zero' is; and the share of the wanted compliance under which something is a problem."""
+
+MOST_LEAK = 1.0
+"""Rotation about z over that about x from which on a hand turns about another axis than the compliant one."""
+
+
+@claim("C22")
 def c22(results):
     """One angle against one axis, by both ways to control forces."""
     word, found = side_by_side.by_papers_form(_one_axis, results)
@@ -144,43 +113,7 @@ def _greatest(numbers: np.ndarray) -> float:
     return float(np.nanmax(numbers, initial=-np.inf))
 
 
-@claim(
-    id="C23",
-    section="3.3",
-    quote="""
-        However, when two rotational axes are to comply to external forces, Euler angle rotations and rotations
-        about two of the x, y, z axes do not correspond.
-    """,
-    correction="They part, but not everywhere, or not as the closed form has it.",
-    written="2026-11-23 4af5940",
-    earlier=(
-        Earlier(
-            "2026-11-21 5b25b22",
-            "Asked of commanded accelerations, by their closed form: planes |beta| apart, a leak of tan |beta|.",
-            Word.HOLDS,
-        ),
-    ),
-    sentence="With two compliant rotational axes they do not correspond.",
-    question="How far are the compliant planes apart, and how much leaks into the stiff axis?",
-    criterion=f"""
-        wrench-probe in compliance.parquet, the orders with two axes, every arm, pose and form with cos(beta) >=
-        {CLOSE_TO_POLE:g}; same as in C22. A pose is general if alpha, beta and gamma all are {APART_DEG:g} degree or
-        more from zero. (a) Apart: at every general pose and for every pair c of hybrid/zyx-euler and of hybrid-base are
-        not the same. (b) As the form's own closed form has it (findings/theory), at every pose, 'about x and y',
-        with hybrid/zyx-euler and with hybrid-base: the compliant plane (of the two greater singular values) lies as
-        predicted to {PLANE_RAD:g} rad, and of a moment about the level axis l = (cos alpha, sin alpha, 0), x where
-        alpha = 0, the rotation about z over that about l, |c_zl / c_ll|, is as predicted to {LEAK:.0%}, of tan
-        {SMALL_DEG:g} degrees where that is less. As first written, before the paper's form was there, (b) asked of any
-        form what commanded accelerations do: planes |beta| apart, a leak of tan |beta|, and none with hybrid-base.
-        It holds if (a) and (b) pass; with a correction if (a) passes at more than half of the general poses and pairs:
-        they part, but not everywhere, or not as predicted; otherwise it does not hold. Reported: at which poses that
-        are not general they correspond after all, and the verdict as first written. {side_by_side.DECIDES}
-    """,
-    open="""
-        Where all angles are zero they do to first order, whatever the
-        coordinates, and two axes are then told apart by finite rotations only: a general pose is what is judged.
-    """,
-)
+@claim("C23")
 def c23(results):
     """Two angles against two axes, by both ways to control forces."""
     return side_by_side.by_papers_form(_two_axes, results)
@@ -199,18 +132,11 @@ def _two_axes(results, forms):
     level = (rows["complies"] == LEVEL_PAIR).to_numpy()
     own, beta = rows[level], rows.loc[level, "beta"].abs().to_numpy()
     leak, by_base = (_leak(own, one[level]) for one in (C, base))
-    flat = np.broadcast_to(np.diag([1.0, 1.0, 0.0]), base[level].shape)
     expected, of_base = side_by_side.predicted(own, COORDINATES), side_by_side.predicted(own)
     missed = np.maximum(_missed(leak, _leak(own, expected)), _missed(by_base, _leak(own, of_base)))
     tilt = np.maximum(*map(side_by_side.planes_apart, (C[level], base[level]), (expected, of_base)))
-    by_tangent = np.maximum(_missed(leak, np.tan(beta)), _missed(by_base, np.zeros_like(beta)))
-    by_beta = np.maximum(
-        np.abs(side_by_side.planes_apart(C[level], base[level]) - beta), side_by_side.planes_apart(base[level], flat)
-    )
-    word, first = (
-        word_of(parted.all() and (off <= LEAK).all() and (lean <= PLANE_RAD).all(), parted.mean() > 0.5)
-        for off, lean in ((missed, tilt), (by_tangent, by_beta))
-    )
+    as_predicted = (missed <= LEAK).all() and (tilt <= PLANE_RAD).all()
+    word = word_of(parted.all() and as_predicted, parted.mean() > 0.5)
     least = float(np.nanmin(differs[general], initial=np.inf))
     special = _by_order(rows.assign(same=differs <= SAME)[~general], "same") or "at no pose: there is none"
     return word, evidence(
@@ -219,8 +145,7 @@ def _two_axes(results, forms):
         {int(level.sum())} poses and forms up to |beta| = {math.degrees(beta.max()):.0f} degrees on
         {rows["arm"].nunique()} arms: both planes lie as predicted to {_greatest(tilt):.1e} rad, and what a moment about
         the level axis leaks into z is as predicted to {_greatest(missed):.1e}: {_greatest(leak):.2f} at most, where tan
-        |beta| is {_greatest(np.tan(beta)):.2f}; along the base's axes {_greatest(by_base):.2g}. As first written:
-        {first}.""",
+        |beta| is {_greatest(np.tan(beta)):.2f}; along the base's axes {_greatest(by_base):.2g}.""",
         len(rows),
         ("compliance",),
     )
@@ -236,3 +161,37 @@ def _leak(rows: pd.DataFrame, C: np.ndarray) -> np.ndarray:
     level = np.stack([np.cos(rows["alpha"]), np.sin(rows["alpha"]), np.zeros(len(rows))], axis=1)
     turn = np.einsum("nij,nj->ni", C, level)
     return np.abs(turn[:, 2] / np.sum(turn * level, axis=1))
+
+
+@claim("C24")
+def c24(results):
+    """Z-Y-Z and Z-Y-X angles about x, by both ways to control forces."""
+    return side_by_side.by_papers_form(_near_zero, results)
+
+
+def _near_zero(results, forms):
+    """Rotation about x and z per moment about x with Z-Y-Z and with Z-Y-X angles, over what is wanted."""
+    zyz, zyx = (_about_x(results, coordinates, forms) for coordinates in (ZYZ, COORDINATES))
+    at_zero = some(zyz[zyz["from_zero"] <= ZERO_RAD], f"pose of {side_by_side.PROBE} by hybrid/{ZYZ} at zero rotation")
+    near = some(zyz[zyz["from_zero"] > ZERO_RAD], f"pose of {side_by_side.PROBE} by hybrid/{ZYZ} near zero rotation")
+    word = word_of(zyz["problem"].all() and not zyx["problem"].any(), zyz["problem"].any())
+    done = near[near["outcome"] == "done"]
+    ends = ", ".join(sorted(set(at_zero["outcome"].astype(str))))
+    return word, evidence(
+        f"""Z-Y-Z is a problem at {int(at_zero["problem"].sum())} of {len(at_zero)} poses at zero ({ends}) and at
+        {int(near["problem"].sum())} of {len(near)} within {NEAR_DEG:g} degrees: about x it yields
+        {done["yields"].min():.1e} to {done["yields"].max():.1e} of what is wanted, and about z
+        {done["leak"].min():.1f} to {done["leak"].max():.1f} times as much as about x. Z-Y-X is one at
+        {int(zyx["problem"].sum())} of {len(zyx)}, where it yields {zyx["yields"].min():.3f} or more.""",
+        len(zyz) + len(zyx),
+        ("compliance",),
+    )
+
+
+def _about_x(results, coordinates: str, forms: tuple[str, ...]) -> pd.DataFrame:
+    """Poses near zero, order 'about x': c_xx over that of hybrid-base, |c_zx / c_xx|, and whether it is a problem."""
+    rows = side_by_side.beside_base(results, coordinates, (ORDER,), forms)
+    rows = rows[np.degrees(rows["from_zero"]) <= NEAR_DEG + SLACK_DEG].reset_index(drop=True)
+    C, base = side_by_side.compliances(rows), side_by_side.compliances(rows, "_base")
+    yields, leak = C[:, 0, 0] / base[:, 0, 0], np.abs(C[:, 2, 0] / C[:, 0, 0])
+    return rows.assign(yields=yields, leak=leak, problem=~(yields >= LITTLE) | (leak > MOST_LEAK))

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from bench.findings.claims.euler_jacobian import COORDINATES
-from bench.findings.claims.side_by_side import BASE, DECIDES, by_papers_form, paired
+from bench.findings.claims.side_by_side import BASE, by_papers_form, paired
 from bench.findings.claims.tables import evidence, some
-from bench.findings.claims.verdict import Earlier, NoEvidence, Word, claim, word_of
+from bench.findings.claims.verdict import NoEvidence, claim, word_of
 from bench.metrics.contact_force import WINDOW_S
 from tasks.contact_rest import HORIZON_S
 
@@ -37,6 +37,9 @@ PERFORMANCE = {
 """Columns that say how well a task went, and their units."""
 
 MORE_IS_BETTER = ("insertion_depth_m",)
+LIMITS_S = {"end": HORIZON_S, "window": WINDOW_S}
+"""When a task that has an end is stopped, and the first time in contact that rms errors are of."""
+
 TOUCHED = ["force_error_rms_n", "moment_error_rms_nm"]
 """Columns that have a number only after a touch."""
 
@@ -44,48 +47,7 @@ ZERO_RAD, SLACK_DEG = 1e-9, 1e-6
 """What rounding may make of an angle that a frame is named after."""
 
 
-@claim(
-    id="C25",
-    section="3.3",
-    quote="""
-        The performance of complex compliant robot motions will depend upon which form of Jacobian is used in
-        the controller.
-    """,
-    correction="On some tasks, arms and forms it does not.",
-    written="2026-11-23 4af5940",
-    earlier=(
-        Earlier(
-            "2026-11-21 5b25b22",
-            """
-            Asked of commanded accelerations, and no pair with beta = 0 was to part; but a difference there is
-            dependence too.
-            """,
-            Word.CORRECTED,
-        ),
-    ),
-    sentence="How well complex compliant motions go depends on the Jacobian used.",
-    question="Do contact tasks end differently with the two Jacobians?",
-    criterion=f"""
-        compliance.parquet, every task with contact whose order lets two or more turns comply: hybrid/zyx-euler against
-        hybrid-base, the same law but for the Jacobian, on the same arm, scene and frame of the hand and in the same
-        form. Compared: outcomes, and if both are done each number of performance that the task has: alignment error,
-        rms error and peak of force and of moment, insertion depth; tasks that have an end run to rest or to
-        {HORIZON_S:g} s, rms errors are over the first {WINDOW_S:g} s of contact, and whether a hand ends at rest or
-        creeping parts no pair. (As first judged, all ended at 2.5 to 3 s, at rest or not.) A pair parts if the outcomes
-        differ or one number does by a factor of {PARTS:g} or more, numbers below
-        {", ".join(f"{x:g} {unit}" for unit, x in FLOORS.items())} being taken for that. A task
-        depends on the Jacobian if on every arm and in every form that is judged some pair with |beta| >=
-        {TURNED_DEG:g} degrees parts. It holds if every such task depends on it; with a correction if on
-        some task some pair with |beta| >= {TURNED_DEG:g} degrees parts; otherwise it does not hold. As first written,
-        no pair with beta = 0 was to part besides; but a difference there is one that the Jacobian makes, too. A task
-        without both kinds of frames is no evidence. Reported: how often Euler is the worse of a pair that parts, how
-        many pairs part on tasks where fewer turns comply, and the verdict as first written. {DECIDES}
-    """,
-    open="""
-        Neither motions nor performance are named. Complex is read from the sentence before it: two
-        rotational axes comply. Tasks and frames are ours.
-    """,
-)
+@claim("C25")
 def c25(results):
     """Both Jacobians in contact, by both ways to control forces."""
     return by_papers_form(_in_contact, results)
@@ -98,9 +60,9 @@ def _in_contact(results, forms):
     touching = rows[TOUCHED].notna().groupby(rows["task"]).transform("any").any(axis=1)
     rows = some(_compared(rows[touching].reset_index(drop=True)), "pose of a task with contact")
     complex_ones = some(rows[rows["turns"] >= 2], "pose of a task with contact where two turns comply")
-    depends, only_turned = np.transpose([_depends(task, own, forms) for task, own in complex_ones.groupby("task")])
+    depends = [_depends(task, own, forms) for task, own in complex_ones.groupby("task")]
     turned = complex_ones[complex_ones["is_turned"]]
-    word, first = (word_of(all(facts), turned["parts"].any()) for facts in (depends, only_turned))
+    word = word_of(all(depends), turned["parts"].any())
     parted = complex_ones[complex_ones["parts"]]
     by_frame = complex_ones.groupby(["task", "arm", "pose"])["parts"]
     agree = by_frame.nunique()[by_frame.size() == len(forms)] == 1
@@ -111,31 +73,27 @@ def _in_contact(results, forms):
         f"""{sum(depends)} of {len(depends)} tasks in which two turns comply depend on the Jacobian, by
         {len(complex_ones)} pairs on {complex_ones["arm"].nunique()} arms: {listed}. Of the pairs that part Euler is the
         worse in {int(parted["euler_is_worse"].sum())} of {len(parted)}{agreed}. Where fewer turns comply
-        {int(simple["parts"].sum())} of {len(simple)} pairs part. As first written: {first}.""",
+        {int(simple["parts"].sum())} of {len(simple)} pairs part.""",
         len(rows),
         ("compliance",),
     )
 
 
-def _depends(task: str, rows: pd.DataFrame, forms: tuple[str, ...]) -> tuple[bool, bool]:
-    """Whether on every arm and in every form some pair with a turned frame parts; whether besides none with beta = 0.
-
-    An arm is judged by the forms that it has run.
+def _depends(task: str, rows: pd.DataFrame, forms: tuple[str, ...]) -> bool:
+    """Whether on every arm and in every form some pair with a turned frame parts; an arm has run a form or not.
 
     Errors:
-        NoEvidence: no arm has run a form, or a form lacks such frames.
+        NoEvidence: no arm has run a form, or a form lacks turned frames or straight ones.
     """
-    found = []
     for form in forms:
         some(rows[rows["form"] == form], f"pose of {task}, +{form}")
-    for arm, on_arm in rows.groupby("arm"):
-        for form, own in on_arm.groupby("form"):
-            turned, straight = own[own["is_turned"]], own[own["beta"].abs() <= ZERO_RAD]
-            if turned.empty or straight.empty:
-                raise NoEvidence(f"{task} on {arm}, {form}: no frames both at beta = 0 and from {TURNED_DEG:g} degrees")
-            found.append((turned["parts"].any(), not straight["parts"].any()))
-    parts, only_turned = zip(*found, strict=True)
-    return all(parts), all(parts) and all(only_turned)
+    found = []
+    for (arm, form), own in rows.groupby(["arm", "form"]):
+        turned, straight = own[own["is_turned"]], own[own["beta"].abs() <= ZERO_RAD]
+        if turned.empty or straight.empty:
+            raise NoEvidence(f"{task} on {arm}, {form}: no frames both at beta = 0 and from {TURNED_DEG:g} degrees")
+        found.append(turned["parts"].any())
+    return all(found)
 
 
 def _compared(rows: pd.DataFrame) -> pd.DataFrame:

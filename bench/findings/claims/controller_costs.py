@@ -1,15 +1,23 @@
-"""C26: what whole controllers cost on either Jacobian (Murphy 1988, 3.2 and 4)."""
+"""C20, C26, C33: controllers on the Euler Jacobian, what they do and what they cost (Murphy 1988, 3.2, 3.3 and 4)."""
 
 from __future__ import annotations
 
+import functools
 import math
-from typing import TYPE_CHECKING
+from collections.abc import Callable
+from typing import TYPE_CHECKING, NamedTuple
 
-from bench.findings.claims import standing
-from bench.findings.claims.adequacy import tallied
-from bench.findings.claims.standing import ORDERED
+import numpy as np
+
+import tasks
+from bench.control.contact_controller import PAPERS_FORM
+from bench.findings.claims import adequacy, arm_probes, standing
+from bench.findings.claims.adequacy import CALLS, tallied
+from bench.findings.claims.side_by_side import BASE
+from bench.findings.claims.standing import ORDERED, Operations, by_columns
 from bench.findings.claims.tables import evidence, some
-from bench.findings.claims.verdict import Earlier, Word, claim
+from bench.findings.claims.verdict import claim, word_of
+from bench.law.contender import Gains
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -26,6 +34,28 @@ BY_EULER, BY_COMMON, ON_MATRIX = (
 )
 """(3.7), (2.2) with (2.15), and (2.2) with the law on R; the inverse goes by the number of joints."""
 
+CURVES = 8
+"""Clear starts whose curves are computed at both steps."""
+
+BEND_TIGHT, BEND_LOOSE = 1e-3, 1e-2
+"""rad, at step zero by Richardson. What the extrapolation leaves is of second order: (10/s x 1 ms)^2 = 1e-4, times a
+motion of up to pi, times a few for the curvature of the angles. A visible bend is a hundredth, as in C09."""
+
+DRIFT_M = 1e-3
+"""m, at step zero: a thousandth of an arm's reach."""
+
+HALVING = (0.4, 0.6)
+"""Departure at half the step over that at the step: a half if it is the integrator's, of first order; one if it is the
+law's. A second-order part of -0.3 to 0.7 of the first-order one moves it this far from a half."""
+
+HAMMERED = 10.0
+"""Peak torque over that of the geometric Jacobian from the same start: beyond it the Jacobian is to blame."""
+
+FEW = 0.1
+"""Of the flops of the whole tick: up to a tenth more is a few."""
+
+EULER = f"hybrid/{COORDINATES}"
+
 
 def words(controller: str, joints: int) -> dict[str, str]:
     """The words of a controller's rows on so many joints."""
@@ -40,62 +70,106 @@ def controller_costs(results, controller: str, joints: int) -> pd.DataFrame:
     return some(rows[rows["joints"] == joints], f"cost of {controller} on {joints} joints")
 
 
-@claim(
-    id="C26",
-    section="4",
-    equation="(3.7)",
-    quote="""
-        This Jacobian is commonly used in the literature without statement to the fact that it must exclude
-        certain orientations and has a higher calculation cost.
-    """,
-    written="2026-11-24 fb18d38",
-    sentence="The Euler Jacobian costs more operations to calculate.",
-    question="What do the tallies of both say?",
-    criterion=f"""
-        costs.parquet, typical branch, on six joints with {INVERSES[6]} and on seven with {INVERSES[7]}: whole
-        controllers, what MuJoCo computes for all of them left out. Pairs, the cheaper by the claim first: the same law
-        both ways, {LAW}/{COORDINATES}@geometric, (2.2) with (2.15), and @analytic, (3.7); and
-        rotation-matrix@geometric, (2.2), and the latter; with the goal's angles and without (the paper's accounting).
-        It holds if the latter has no fewer flops, no fewer calls and more of one in every pair; otherwise it does not
-        hold. Reported: the times of the compiled loops on each arm, where intervals part by more than
-        {100 * standing.MEASURABLE:.0f} %, by which builds differ.
-    """,
-    earlier=(
-        Earlier(
-            "2026-11-21 f52a15d",
-            """
-            A median time that is not in order lowered 'holds', also where intervals overlap: 3583 ns against 3608 on
-            one arm of four did.
-            """,
-            Word.CORRECTED,
-        ),
-        Earlier(
-            "2026-11-23 953f62a",
-            """
-            Intervals alone parted times: (3.7) took 3.7 % less than (2.2) with (2.15) on one arm of four, in loops
-            compiled apart, whose differences are the laws' to 3.6 %.
-            """,
-            Word.CORRECTED,
-        ),
-        Earlier(
-            "2026-11-23 8772c3c",
-            """
-            Times counted where they differ by more than 4 %. That limit was set when the times were known, and with it
-            the word changed: so the word is now of operations alone, and no time can change it.
-            """,
-            Word.HOLDS,
-        ),
-    ),
-    open="""
-        Higher than what is not said: than the common Jacobian with the
-        same law is the narrow reading, than the cheapest controller without Euler angles the wide one; both are judged.
-        What the literature states or leaves out is not judged here.
-    """,
-    readings=(
-        "dearer than the same law on the common Jacobian",
-        "dearer than the law on R on the common Jacobian",
-    ),
-)
+class Bend(NamedTuple):
+    """How far an arm is from double integrators: [rad] at the step, the halved one's share, at step zero; [m]."""
+
+    full: float
+    share: float
+    limit: float
+    drift: float
+    samples: int
+
+
+@claim("C20")
+def c20(results):
+    """Curves at two steps; outcomes at the poles against the law on R; stages and totals."""
+    import pandas as pd
+
+    found = some(
+        results.table("episodes", task=arm_probes.TASK, engine="native", variation="nominal"),
+        "nominal episode of an arm",
+    )
+    arms = sorted(set(found["arm"].astype(str)))
+    poses = some(results.table("poses", representation=COORDINATES, pose_set="pole"), "pose at a pole")
+    gains = Gains(float(found["kp"].iloc[0]), float(found["kv"].iloc[0]))
+    bends = [results.found_by(bend, arm, gains, float(found["dt_s"].iloc[0])) for arm in arms]
+    compared_at = {arm: _at_poles(results, found, poses, arm, gains) for arm in arms}
+    clear, common = (pd.concat([_pairs(found, arm, "clear", one) for arm in arms]) for one in (BY_EULER, BY_COMMON))
+    hidden = [_hidden(results, joints) for joints in INVERSES]
+    full, shares, limits, drifts, samples = zip(*bends, strict=True)
+    is_first_order = HALVING[0] <= min(shares) and max(shares) <= HALVING[1]
+    is_linear = is_first_order and max(limits) <= BEND_TIGHT and max(drifts) <= DRIFT_M
+    fails = all(rows["fails"].any() for rows in compared_at.values()) and not clear["fails"].any()
+    hides = all(is_hidden for is_hidden, _ in hidden)
+    at_poles = ", ".join(f"{rows['fails'].sum()} of {len(rows)} ({arm})" for arm, rows in compared_at.items())
+    return word_of(is_linear and fails and hides, max(limits) <= BEND_LOOSE and (fails or hides)), evidence(
+        f"""{CURVES * len(arms)} clear curves a step on {len(arms)} arms: angles are at most {max(full):.1e} rad off the
+        closed form at the step, {min(shares):.3f} to {max(shares):.3f} of that at half of it, and {max(limits):.1e} rad
+        at step zero; the tool moves {max(drifts):.1e} m. At a pole it fails, and the law on R does not, from
+        {at_poles}; from {int(clear["fails"].sum())} of {len(clear)} clear starts (by the same law on the common
+        Jacobian: {int(common["fails"].sum())}). {" ".join(said for _, said in hidden)}""",
+        sum(samples) + sum(map(len, compared_at.values())) + len(clear) + 3 * len(hidden),
+        ("episodes", "poses", "costs", "experiment"),
+    )
+
+
+@functools.cache
+def bend(arm: str, gains: Gains, dt_s: float, curves: Callable = arm_probes.curves) -> Bend:
+    """Of curves at a step and at half of it."""
+    word = f"{BY_EULER}+{INVERSES[tasks.arm(arm).joints]}"
+    full, half = (curves(word, arm, gains, step, CURVES) for step in (dt_s, dt_s / 2))
+    both = full.merge(half, on=["start_id", "time_s"], suffixes=("", "_half"))
+    limits = [2 * both[f"{name}_half"] - both[name] for name in arm_probes.BENDS]
+    drift = 2 * both["position_error_m_half"] - both["position_error_m"]
+    whole, at_half = map(arm_probes.largest, (full, half))
+    return Bend(whole, at_half / whole, float(np.abs(limits).max()), float(np.abs(drift.to_numpy()).max()), len(both))
+
+
+def _pairs(found: pd.DataFrame, arm: str, start_set: str, controller: str = BY_EULER) -> pd.DataFrame:
+    """Episodes by a controller and by the law on R from the same starts of a set."""
+    rows = found[(found["arm"] == arm) & (found["start_set"] == start_set)]
+    parts = []
+    for one in (controller, ON_MATRIX):
+        named = words(one, tasks.arm(arm).joints).items()
+        own = rows[np.logical_and.reduce([rows[column] == word for column, word in named])]
+        parts.append(some(own, f"episode of {one} on {arm} from {start_set}"))
+    return _against(*parts)
+
+
+def _against(own: pd.DataFrame, other: pd.DataFrame) -> pd.DataFrame:
+    """Both controllers' episodes side by side: whether the first fails where the other settles."""
+    import pandas as pd
+
+    both = own.merge(other, on="start_id", suffixes=("", "_other"))
+    hammered = ~(both["peak_tau_nm"] <= HAMMERED * both["peak_tau_nm_other"])
+    fails = (both["outcome_other"] == "settled") & ((both["outcome"] != "settled") | hammered)
+    return pd.DataFrame({"start_id": both["start_id"].astype(str), "fails": fails})
+
+
+def _at_poles(results, found: pd.DataFrame, poses: pd.DataFrame, arm: str, gains: Gains) -> pd.DataFrame:
+    import pandas as pd
+
+    controllers = [f"{one}+{INVERSES[tasks.arm(arm).joints]}" for one in (BY_EULER, ON_MATRIX)]
+    beside = [results.found_by(arm_probes.beside_poles, one, arm, poses, gains) for one in controllers]
+    return pd.concat([_pairs(found, arm, "pole"), _against(*beside)], ignore_index=True)
+
+
+def _hidden(results, joints: int) -> tuple[bool, str]:
+    """Whether the law seems cheaper and the controller is dearer, and the numbers in a sentence."""
+    rows = {one: controller_costs(results, one, joints) for one in (BY_EULER, BY_COMMON, ON_MATRIX)}
+    laws = {one: own[own["stage"] == "regulate"].iloc[0] for one, own in rows.items()}
+    seen = {one: (int(law["flops"]), int(sum(law[name] for name in CALLS))) for one, law in laws.items()}
+    total = {one: tallied(own, with_goal=False) for one, own in rows.items()}
+    seems_cheaper = seen[BY_EULER][0] < seen[ON_MATRIX][0] and seen[BY_EULER][1] <= seen[ON_MATRIX][1]
+    is_dearer = by_columns(total[ON_MATRIX], total[BY_EULER]) == ORDERED
+    told = "; ".join(
+        f"{name} {seen[one][0]} flops of {total[one]} calls"
+        for name, one in (("(3.7)", BY_EULER), ("(2.2) with the law on R", ON_MATRIX), ("(2.2) with (2.15)", BY_COMMON))
+    )
+    return seems_cheaper and is_dearer, f"On {joints} joints the law itself is {told}."
+
+
+@claim("C26")
 def c26(results):
     """Pairs of controllers on six and seven joints."""
     timed, stands, listed = results.controller_timings(), [], []
@@ -108,13 +182,43 @@ def c26(results):
         stands += [known.stand(one, euler) for one in others]
         told = (f"{', '.join(map(str, one.values()))}{goal}" for one, goal in ((alone, ""), (whole, ", goal and all")))
         listed.append(f"{joints} joints: {'; '.join(told)}; time {', '.join(known.over(euler, one) for one in others)}")
-    word = Word.HOLDS if all(set(one.by_columns) == {ORDERED} for one in stands) else Word.FAILS
-    return word, evidence(
+    dearer = sum(set(one.by_columns) == {ORDERED} for one in stands)
+    return word_of(dearer == len(stands), False), evidence(
         f"""Flops and calls a tick of (2.2) with (2.15), (2.2) with the law on R, and (3.7), and the time of (3.7) over
         each of the others': {"; ".join(listed)}. (3.7) is dearer in both columns in
-        {sum(set(one.by_columns) == {ORDERED} for one in stands)} of {len(stands)} pairs; times part
+        {dearer} of {len(stands)} pairs; times part
         {sum(bool(one.by_time) for one in stands)} of them, {sum(one.by_time == ORDERED for one in stands)} in that
         order.""",
         3 * 2 * len(INVERSES) + len(timed),
         ("costs", "timings") if len(timed) else ("costs",),
     )
+
+
+@claim("C33")
+def c33(results):
+    """Flops and calls of both in contact."""
+    price, told, is_more, is_few = adequacy.ledger(results).price, [], [], []
+    for joints in INVERSES:
+        base, euler = (results.found_by(in_contact, f"{one}+{PAPERS_FORM}", joints) for one in (BASE, EULER))
+        weighed = f", {euler.weighed(price) / base.weighed(price) - 1:.0%} more with a call at its price in C12's times"
+        more = euler.flops / base.flops - 1
+        is_more.append(by_columns(base, euler) == ORDERED)
+        is_few.append(more <= FEW)
+        told.append(
+            f"on {joints} joints {base} on the common Jacobian, {euler} on Euler's: {more:.1%} more flops and "
+            f"{euler.calls - base.calls} calls{weighed if math.isfinite(price) else ''}"
+        )
+    return word_of(all(is_more) and all(is_few), all(is_more)), evidence(
+        f"Flops and calls a tick: {'; '.join(told)}.", 2 * len(told), ("experiment",)
+    )
+
+
+@functools.cache
+def in_contact(controller: str, joints: int) -> Operations:
+    """Of a controller's typical tick on an arm of so many joints."""
+    from bench.control.registry import find_controller
+    from bench.counting import TOTAL, flops
+    from bench.counting.in_contact import cost_in_contact
+
+    numbers = cost_in_contact(find_controller(controller), joints=joints).typical.of(TOTAL)
+    return Operations(flops(numbers), sum(numbers[name] for name in CALLS))

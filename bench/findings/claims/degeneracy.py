@@ -1,111 +1,139 @@
-"""C14 to C16: where Z-Y-X angles break down, and what does at that place (Murphy 1988, 2.2, 2.3 and 3.3)."""
+"""C13 to C16 and C28: where coordinates break down, and what integrates to no orientation (Murphy 1988, 2 and 3.3)."""
+
+from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from bench.contenders.registry import representation
 from bench.findings.claims import probes
-from bench.findings.claims.tables import MAIN_ENGINE, evidence, settled, some
-from bench.findings.claims.verdict import MISPRINTS, Earlier, Word, claim, word_of
-from bench.law.so3 import from_quaternion
+from bench.findings.claims.probes import at_boundary
+from bench.findings.claims.tables import MAIN_ENGINE, evidence, settled_of, some
+from bench.findings.claims.verdict import Word, claim, word_of
+from bench.law.so3 import Rotation
+from tasks.sphere import axes
+
+if TYPE_CHECKING:
+    from scipy.spatial.transform import Rotation as Turn
+
+DIRECTIONS = 12
+DECADES = (1, 6)
+DEGENERATE, SMOOTH = 0.9, 0.01
+STEP = 1e-30
+"""Of the complex-step derivative, which has no cancellation: any tiny number does."""
+
+ANGLE_AND_AXIS = "angle and axis"
+"""The angle, and the polar and azimuth angle of the axis: coordinates that no controller here uses."""
 
 SHIFT = 0.7
 """rad: any amount that no symmetry of the angles shares."""
 
 ON_POLE, SAME = 1e-12, 1e-12
 
+WAYS, LEGS = 200, 5
+"""Pairs of paths with the same ends; turns about one axis, one after the other."""
 
-def _least(R) -> float:
-    return float(np.linalg.svd(probes.euler_B(R), compute_uv=False)[-1])
+APART_RAD, SAME_RAD = 1e-3, 1e-12
+"""Two integrals that are not the same; two orientations that are, to rounding."""
+
+LOOPS_RAD = (0.1, 0.5, 1.0, math.pi / 2)
+COMMUTATOR = 0.5
+"""Of angle^2, by which four quarter-way turns about x, y, -x, -y must at least miss: by Campbell, Baker and Hausdorff
+they miss by angle^2 about z, less terms of third order."""
 
 
-@claim(
-    id="C14",
-    section="2.2 against 2.3",
-    quote="With Z-Y-X Euler angles and Roll-Pitch-Yaw angles this occurs at 180° rotation about the Y, or Pitch axis.",
-    value="180°",
-    correction="It is at 90°, as 2.3 and equation (2.9) of the paper itself have it.",
-    written="2026-11-24 fb18d38",
-    sentence="With Z-Y-X angles the degeneracy is at a rotation of 180 degrees about Y.",
-    question="Is the degenerate rotation about Y one of 180 degrees, or of 90 as the equations have it?",
-    criterion=f"""
-        Smallest singular value of B (2.8) at rotations of 180, 90 and -90 degrees about Y. It holds if it
-        is below {ON_POLE:g} at 180 degrees; with a correction if it is below that at both +-90 degrees, where the
-        paper's own equations put it; otherwise it does not hold. {MISPRINTS} The exact 180° rotation about y
-        of the set half-turn and the exact poles say the same from simulation: whether the
-        feedback-linearized law settles from them is reported.
-    """,
-    open="Nothing.",
-    earlier=(
-        Earlier(
-            "2026-11-21 9072535",
-            """
-            A wrong number for the angle made "does not hold", although the paper's own equations correct it: one kind
-            of slip got two words.
-            """,
-            Word.FAILS,
-        ),
-    ),
-)
+@claim("C13")
+def c13(results):
+    """Condition numbers near zero rotation."""
+    decades = range(DECADES[0], DECADES[1] + 1)
+    tables = [conditions(axis, 10.0**-k) for k in decades for axis in axes(DIRECTIONS)]
+    found = {}
+    for word in tables[0]:
+        numbers = np.array([one[word] for one in tables]).reshape(len(decades), -1)
+        rise = np.diff(np.log10(np.median(numbers, axis=1))).min()
+        found[word] = (rise >= DEGENERATE, float(rise), float(numbers.max()))
+    zyz, axis, vector = found["zyz-euler"], found[ANGLE_AND_AXIS], found["rotation-vector"]
+    word = word_of(zyz[0] and axis[0] and vector[0], zyz[0] and axis[0] != vector[0])
+    return word, evidence(
+        f"""Per decade towards zero rotation the condition number of the rate map rises by {zyz[1]:.3f} decades for
+        Z-Y-Z and {axis[1]:.3f} for angle and axis (to {zyz[2]:.1e} and {axis[2]:.1e}); for the rotation vector it is at
+        most {vector[2]:.5f}.""",
+        3 * len(tables),
+        ("experiment",),
+    )
+
+
+def turn(axis, angle):
+    """Rodrigues' formula, complex numbers allowed."""
+    x, y, z = axis
+    K = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    return np.eye(3) + np.sin(angle) * K + (1 - np.cos(angle)) * (K @ K)
+
+
+def condition_in(word: str, R: Rotation) -> float:
+    """Condition number of B (2.8) of a representation at R."""
+    return float(np.linalg.cond(probes.rate_matrix(representation(word), R)))
+
+
+def condition_of_angle_and_axis(E) -> float:
+    """The same of angle and axis: column i is vee(dR/dE_i R^T)."""
+
+    def to_matrix(E):
+        axis = (np.sin(E[1]) * np.cos(E[2]), np.sin(E[1]) * np.sin(E[2]), np.cos(E[1]))
+        return turn(axis, E[0])
+
+    R = to_matrix(E)
+    slopes = [to_matrix(E + 1j * STEP * unit).imag / STEP @ R.T for unit in np.eye(3)]
+    return float(np.linalg.cond(np.array([(S[2, 1], S[0, 2], S[1, 0]) for S in slopes]).T))
+
+
+def conditions(axis, angle) -> dict[str, float]:
+    """The condition number in three sets of coordinates of one rotation, by their names."""
+    x, y, z = axis
+    R = Rotation(*(tuple(column) for column in turn(axis, angle).T.tolist()))
+    found = {name: condition_in(name, R) for name in ("zyz-euler", "rotation-vector")}
+    return found | {ANGLE_AND_AXIS: condition_of_angle_and_axis(np.array((angle, math.acos(z), math.atan2(y, x))))}
+
+
+@claim("C14")
 def c14(results):
     """B at half and quarter turns about Y, and what a simulation from there does."""
-    quats = {180: (0.0, 0.0, 1.0, 0.0), 90: (1.0, 0.0, 1.0, 0.0), -90: (1.0, 0.0, -1.0, 0.0)}
-    half = math.sqrt(0.5)
-    least = {
-        degrees: _least(from_quaternion(tuple(x if degrees == 180 else half * x for x in quat)))
-        for degrees, quat in quats.items()
-    }
+    least = {degrees: probes.least_of_B(quat) for degrees, quat in probes.ABOUT_Y.items()}
     turns = results.free_body("episodes", task="free-body", regulator="feedback-linearized", engine=MAIN_ENGINE)
     about_y = some(turns[turns["start_id"] == "half-turn-y-exact"], "exact 180° rotation about y")
-    poles = turns[turns["start_set"] == "poles"]
-    poles = some(poles[probes.boundary_distance(poles)["pole"] <= probes.EXACT_RAD], "exact pole")
+    poles = at_boundary(turns[turns["start_set"] == "poles"], "pole", "exact pole")
     word = word_of(least[180] < ON_POLE, max(least[90], least[-90]) < ON_POLE)
     so = "2.3 and the equations are right, 2.2 is not" if word == Word.CORRECTED else "The equations do not correct 2.2"
     return word, evidence(
         f"""Smallest singular value of B: {least[180]:.3f} at 180 degrees about Y, {least[90]:.0e} and {least[-90]:.0e}
-        at +-90. The feedback-linearized law settles from {int(settled(about_y).sum())} of {len(about_y)} exact half
-        turns about y and from {int(settled(poles).sum())} of {len(poles)} exact poles. {so}.""",
+        at +-90. The feedback-linearized law settles from {settled_of(about_y)} exact half
+        turns about y and from {settled_of(poles)} exact poles. {so}.""",
         len(least) + len(about_y) + len(poles),
         ("experiment", "episodes"),
     )
 
 
-def _change(to_matrix, E, other) -> float:
-    return float(np.abs(np.subtract(to_matrix(E), to_matrix(other))).max())
-
-
-@claim(
-    id="C15",
-    section="2.2",
-    equation="(2.8)",
-    quote="""
-        It is important to note that when beta = +-pi/2 only the sum of alpha and gamma may be determined from
-        the rotation matrix.
-    """,
-    correction="At beta = +pi/2 it is the difference, at -pi/2 the sum.",
-    written="2026-11-21 9072535",
-    sentence="At beta = +-pi/2 only the sum of alpha and gamma is determined.",
-    question="Is it the sum at both poles?",
-    criterion=f"""
-        At each pole, over 64 pairs (alpha, gamma): R is the same (to {SAME:g}) if alpha grows and gamma
-        falls by one amount (the sum kept), and differs if both grow. It holds if so at both poles; with a
-        correction if at exactly one (the difference at the other); otherwise it does not hold. {MISPRINTS}
-    """,
-    open="Nothing; it follows from the convention of (2.8).",
-)
+@claim("C15")
 def c15(results):
     """R at both poles as alpha and gamma move against and with each other."""
     to_matrix = representation("zyx-euler").to_matrix
     grid = np.linspace(-3.0, 3.0, 8).tolist()
-    moved = {}
-    for sign in (1, -1):
-        for word, direction in (("sum", -1), ("difference", 1)):
-            moved[sign, word] = max(
-                _change(to_matrix, (a, sign * math.pi / 2, g), (a + SHIFT, sign * math.pi / 2, g + direction * SHIFT))
-                for a in grid
-                for g in grid
-            )
+    moved = {
+        (sign, word): max(
+            np.abs(
+                np.subtract(
+                    to_matrix((a, sign * math.pi / 2, g)),
+                    to_matrix((a + SHIFT, sign * math.pi / 2, g + direction * SHIFT)),
+                )
+            ).max()
+            for a in grid
+            for g in grid
+        )
+        for sign in (1, -1)
+        for word, direction in (("sum", -1), ("difference", 1))
+    }
     by_sum = [moved[sign, "sum"] <= SAME < moved[sign, "difference"] for sign in (1, -1)]
     sums = [pole for pole, is_sum in zip(("+90", "-90"), by_sum, strict=True) if is_sum]
     word = {2: Word.HOLDS, 1: Word.CORRECTED, 0: Word.FAILS}[sum(by_sum)]
@@ -118,46 +146,13 @@ def c15(results):
     )
 
 
-@claim(
-    id="C16",
-    section="2.2 against 3.3",
-    equation="(2.8), (2.9)",
-    quote="The matrix B does not exist whenever beta = +-pi/2 and no model is available at that point.",
-    written="2026-11-24 fb18d38",
-    sentence="B does not exist at beta = +-pi/2 (2.2); B always exists (3.3).",
-    question="Which of the two sentences do B and its inverse support?",
-    criterion=f"""
-        B (2.8) over the run's orientations and the exact poles. The sentence of 2.2 holds if an element
-        of B is not finite at a pole; with a correction if B is finite at every orientation and singular at the poles
-        (smallest singular value below {ON_POLE:g}): B^-1 is then what does not exist, as (2.9) shows, and 3.3 is right;
-        otherwise it does not hold. {MISPRINTS}
-    """,
-    open="Nothing.",
-    correction="B exists everywhere, as 3.3 says; its inverse does not exist there.",
-    earlier=(
-        Earlier(
-            "2026-11-21 9072535",
-            """
-            A correction where B is finite and of rank 2 at the poles; but a sentence that says of B what is true of
-            B^-1 is as false as that of C14.
-            """,
-            Word.CORRECTED,
-        ),
-        Earlier(
-            "2026-11-23 953f62a",
-            """
-            It did not hold if B is finite everywhere; but the same slip, B for its inverse, made a correction in C10.
-            """,
-            Word.FAILS,
-        ),
-    ),
-)
+@claim("C16")
 def c16(results):
     """B at the run's orientations and at both poles."""
     frame = results.episodes("feedback-linearized", MAIN_ENGINE).drop_duplicates(["start_set", "start_id"])
-    is_pole = (probes.boundary_distance(frame)["pole"] <= probes.EXACT_RAD).to_numpy()
+    at_poles = at_boundary(frame, "pole", "exact pole")
+    is_pole = frame.index.isin(at_poles.index)
     matrices = np.array([probes.euler_B(R) for R in probes.rotations(frame)])
-    at_poles = some(frame[is_pole], "exact pole")
     values = np.linalg.svd(matrices[is_pole], compute_uv=False)
     largest = float(np.abs(matrices).max())
     lacks_inverse = np.isfinite(matrices).all() and values[:, 2].max() < ON_POLE
@@ -170,3 +165,51 @@ def c16(results):
         len(frame),
         ("episodes", "experiment"),
     )
+
+
+@claim("C28")
+def c28(results):
+    """Ways with the same ends, a loop of zero integral, and turns about one axis."""
+    ends, loops, plane = results.found_by(ways, results.seed)
+    is_none = ends.min() >= APART_RAD and all(
+        missed >= COMMUTATOR * a * a for a, missed in zip(LOOPS_RAD, loops, strict=True)
+    )
+    word = word_of(is_none and plane <= SAME_RAD, is_none)
+    missed = ", ".join(f"{angle:.3f} (a = {a:.3g})" for a, angle in zip(LOOPS_RAD, loops, strict=True))
+    return word, evidence(
+        f"""Of {len(ends)} pairs of ways with the same ends the integrals differ by {ends.min():.2f} to {ends.max():.2f}
+        rad, {np.median(ends):.2f} in the median. After turns whose integrals sum to zero the body is turned by {missed}
+        rad. About one axis the integral is the turn to {plane:.0e} rad.""",
+        2 * len(ends) + len(loops),
+        ("experiment",),
+    )
+
+
+def ways(seed: int) -> tuple[np.ndarray, list[float], float]:
+    """Distances of the integrals of two ways with the same ends, what loops of zero integral leave, what a plane does.
+
+    Oracle: scipy's rotations.
+    """
+    from scipy.spatial.transform import Rotation as Turn
+
+    rng = np.random.default_rng(seed)
+    end, between = Turn.random(WAYS, rng=rng), Turn.random(WAYS, rng=rng)
+    by_way = between.as_rotvec() + (end * between.inv()).as_rotvec()
+    ends = np.linalg.norm(end.as_rotvec() - by_way, axis=1)
+    x, y = np.eye(3)[:2]
+    loops = [float(_after([a * x, a * y, -a * x, -a * y]).magnitude()) for a in LOOPS_RAD]
+    axes = rng.normal(size=(WAYS, 3))
+    axes /= np.linalg.norm(axes, axis=1)[:, None]
+    turns = [angles[:, None] * axis for axis, angles in zip(axes, rng.uniform(-3, 3, (WAYS, LEGS)), strict=True)]
+    plane = max(float((Turn.from_rotvec(legs.sum(axis=0)).inv() * _after(legs)).magnitude()) for legs in turns)
+    return ends, loops, plane
+
+
+def _after(legs) -> Turn:
+    """Where turns in the base frame end, one after the other."""
+    from scipy.spatial.transform import Rotation as Turn
+
+    at = Turn.identity()
+    for leg in legs:
+        at = Turn.from_rotvec(leg) * at
+    return at

@@ -1,13 +1,19 @@
-"""C18, C19: the Euler Jacobian J_E, its singularities and its two derivations (Murphy 1988, 3.1-3.5)."""
+"""C18, C19, C34: the Euler Jacobian J_E, its singularities, derivations, and forms of angles (Murphy 1988, 3.1-3.5)."""
 
 from __future__ import annotations
 
+import itertools
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from bench.findings.claims.tables import evidence, share, some
-from bench.findings.claims.verdict import MISPRINTS, Earlier, NoEvidence, Word, claim, word_of
+from bench.contenders.registry import representation
+from bench.findings.claims.degeneracy import condition_in
+from bench.findings.claims.feedback_linearized import LAW
+from bench.findings.claims.tables import MAIN_ENGINE, Share, evidence, same_starts, settled, settling_times, share, some
+from bench.findings.claims.verdict import NoEvidence, claim, word_of
+from bench.tables.read import FREE_BODY
+from bench.tables.statistics import Estimate, quantile_estimate
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -40,51 +46,18 @@ DIFFERENCED = EPS ** (2 / 3)
 """What a central difference keeps: with a step of eps^(1/3) times the margin, truncation (step/margin)^2/3 and
 rounding eps/step are both about eps^(2/3), over the margin."""
 
+REGULAR, AT_ZERO = ("zyx-euler", "xyz-euler"), "zyz-euler"
+"""Forms whose degenerate orientations are a quarter turn from zero, and one that is degenerate at zero."""
 
-@claim(
-    id="C18",
-    section="3.1",
-    equation="(3.3)",
-    quote="""
-        it has the property of being zero at points in the workspace as well as being undefined, or having
-        elements values approaching infinity, at other points in the workspace.
-    """,
-    correction="Zero there is its determinant: the matrix is singular, and not zero.",
-    written="2026-11-24 fb18d38",
-    sentence="The Euler Jacobian adds singularities of its own, with unbounded elements, to those of the manipulator.",
-    question="Does J_E grow without bound where J is well conditioned, and is it singular wherever J is?",
-    criterion=f"""
-        poses.parquet, Z-Y-X angles, every arm. A family is one arm posture brought to distances 10^-k from beta =
-        +-pi/2; it speaks if J's condition number (metres, radians) is at most {WELL_CONDITIONED:g} at every k. (a) Own
-        singularities: over k = 1 to {DECADES}, the least-squares slopes of log10 of J_E's condition number and of its
-        largest element (orientation rows) are {SLOPE:g} +- {SLOPE_TIGHT:.0%} decades a decade. (b) Unbounded: at k =
-        {NEAREST} the largest element is {UNBOUNDED:g} or more. (c) The manipulator's: on six joints, at every pose with
-        cos(beta) >= {NEAR:g}, det J_E = -det J / cos(beta) to {ROUNDINGS:g} eps / cos(beta) of the product of J_E's row
-        norms, so that det J_E is zero exactly where det J is. (d) Zero: at some pose every element of J_E is at most
-        {ROUNDINGS:g} eps. It holds if all four pass; with a correction if every family of every arm passes (a) and (b)
-        and every pose (c): zero is then the determinant, not the matrix; otherwise it does not hold. {MISPRINTS} An arm
-        without a family is no evidence.
-    """,
-    open="""
-        "... it has the property of being zero at points in the workspace as well as being undefined, or having elements
-        values approaching infinity, at other points in the workspace." No matrix of an arm with hinges is zero; the
-        smallest value that the largest element takes over all poses is reported. Families, arms and distances are ours.
-    """,
-    readings=(
-        "'zero' of every element, as it is written (d)",
-        "'zero' of the determinant: singular (c)",
-    ),
-    earlier=(
-        Earlier(
-            "2026-11-21 9b9e874",
-            """
-            Zero was read of the determinant, and the sentence held; but the errata list the same words as a slip
-            (E10), and such a slip makes a correction.
-            """,
-            Word.HOLDS,
-        ),
-    ),
-)
+SHARES, TIMES = 0.05, 0.05
+"""Points of a share, and relative difference of a median time, up to which results are the same 'for the most part'."""
+
+FORM_DECADES, PAIRS = 6, 12
+SETS = ("uniform", "half-turn")
+"""Starts that no form of angles was asked for."""
+
+
+@claim("C18")
 def c18(results):
     """Slopes towards the pole by family, the largest element on arrival, and the determinants' identity."""
     rows = some(results.table("poses", representation=COORDINATES), "pose of an arm")
@@ -132,33 +105,7 @@ def _families(rows: pd.DataFrame) -> pd.DataFrame:
     return pd.DataFrame(found, columns=["arm", "condition_analytic", "largest", "nearest", "condition"])
 
 
-@claim(
-    id="C19",
-    section="3.1",
-    equation="(3.3), (3.5)",
-    quote="""
-        The function is differentiated with respect to the joint angles and the resultant matrix is the
-        manipulator Jacobian with respect to Euler angles. ... This Jacobian has the same properties as that
-        presented in the previous section
-    """,
-    correction="The two part near the pole.",
-    written="2026-11-21 f52a15d",
-    sentence="Its two derivations agree: diag(I, B^-1) J, and the derivative of the forward kinematics.",
-    question="Are (3.3) and (3.5) the same matrix, and that of the differentiated forward kinematics?",
-    criterion=f"""
-        poses.parquet, Z-Y-X angles, every arm, every pose with cos(beta) >= {NEAR:g}. The gap of two matrices is the
-        largest difference of elements over the largest element. (a) Derivations: the gap between (3.3) and (3.5), the
-        extraction differentiated element by element, is at most {ROUNDINGS:g} eps / cos(beta). (b) Differentiation: the
-        gap between (3.3) and central differences of the judge's forward kinematics is at most {ROUNDINGS:g} eps^(2/3) /
-        cos(beta). It holds if every pose passes both; with a correction if every pose with cos(beta) >= {AWAY:g} does:
-        they part near the pole; otherwise it does not hold.
-    """,
-    open="""
-        "The function is differentiated with respect to the joint angles and the resultant matrix is the manipulator
-        Jacobian with respect to Euler angles." and "This Jacobian has the same properties as that presented in the
-        previous section". The paper states the equality and does not show it; tolerances are ours.
-    """,
-)
+@claim("C19")
 def c19(results):
     """Both gaps at every pose away from the pole, in the units of what rounding leaves."""
     rows = some(results.table("poses", representation=COORDINATES), "pose of an arm")
@@ -181,4 +128,55 @@ def c19(results):
         difference: {len(differenced) - len(kept)}.""",
         len(rows),
         ("poses",),
+    )
+
+
+@claim("C34")
+def c34(results):
+    """Pairs of forms by how their laws settle, and each form's Jacobian at its pole."""
+    forms = (*REGULAR, AT_ZERO)
+    episodes = results.table("episodes", **FREE_BODY, task="free-body", regulator=LAW, engine=MAIN_ENGINE)
+    found: dict[str, dict[str, tuple[Share, Estimate]]] = {form: {} for form in forms}
+    for name in SETS:
+        rows = [episodes[(episodes["representation"] == form) & (episodes["start_set"] == name)] for form in forms]
+        rows = [some(own, f"episode of {LAW}/{form} from {name}") for form, own in zip(forms, rows, strict=True)]
+        for form, own in zip(forms, same_starts(rows), strict=True):
+            found[form][name] = share(settled(own)), quantile_estimate(settling_times(own), 0.5)
+    degenerate = {form: _degenerates(form) for form in forms}
+    alike = {
+        (one, two): degenerate[one][0]
+        and degenerate[two][0]
+        and all(_alike(found[one][name], found[two][name]) for name in SETS)
+        for one, two in itertools.combinations(forms, 2)
+    }
+    told = "; ".join(f"{form} {_told(found[form])}, {degenerate[form][1]}" for form in forms)
+    return word_of(all(alike.values()), alike[REGULAR] and not all(alike.values())), evidence(
+        f"""{told}. Alike: {", ".join(" and ".join(pair) for pair, facts in alike.items() if facts) or "none"}.""",
+        sum(kept.n for own in found.values() for kept, _ in own.values()) + len(forms) * PAIRS * FORM_DECADES,
+        ("episodes", "experiment"),
+    )
+
+
+def _alike(one: tuple[Share, Estimate], two: tuple[Share, Estimate]) -> bool:
+    """Whether shares and medians are the same for the most part."""
+    (kept, time), (other_kept, other_time) = one, two
+    meet = time.low <= other_time.high and other_time.low <= time.high
+    same = meet or abs(time.value / other_time.value - 1) <= TIMES
+    return abs(kept.value - other_kept.value) <= SHARES and same
+
+
+def _degenerates(form: str) -> tuple[bool, str]:
+    """Whether a form's B has C18's slope at its pole, and what it is."""
+    along, at_pole = representation(form), 0.0 if form == AT_ZERO else np.pi / 2
+    outer = np.random.default_rng(0).uniform(-3.0, 3.0, (PAIRS, 2)).tolist()
+    near = [at_pole + 10.0**-k for k in range(1, FORM_DECADES + 1)]
+    logs = [[np.log10(condition_in(form, along.to_matrix((one, x, two)))) for x in near] for one, two in outer]
+    slopes = np.diff(logs, axis=1)
+    tight = np.abs(slopes - SLOPE).max() <= SLOPE_TIGHT * SLOPE
+    return bool(tight), f"B {slopes.min():.3f} to {slopes.max():.3f} decades a decade"
+
+
+def _told(found: dict[str, tuple[Share, Estimate]]) -> str:
+    return ", ".join(
+        f"{name} {kept.n - kept.k} of {kept.n} lost, {time.value:.3f} s" for name, (kept, time) in found.items()
     )

@@ -10,9 +10,10 @@ import numpy as np
 
 from bench.contenders.registry import known_representations, representation
 from bench.findings.claims.euler_jacobian import COORDINATES, DIFFERENCED, EPS, ROUNDINGS
+from bench.findings.claims.probes import rate_matrix
 from bench.findings.claims.side_by_side import PROBE
 from bench.findings.claims.tables import evidence, some
-from bench.findings.claims.verdict import Earlier, Word, claim, word_of
+from bench.findings.claims.verdict import claim, word_of
 from bench.law.contender import Representation
 from bench.law.so3 import Rotation, from_quaternion
 
@@ -37,51 +38,7 @@ STEP = 2.0 ** (-52 / 3)
 """rad; of a central difference, whose truncation and rounding then are both about its square."""
 
 
-@claim(
-    id="C21",
-    section="3.3",
-    equation="(3.10)-(3.12)",
-    quote="""
-        Since the matrix B always exists ... Forces measured by the force wrist may always be converted to
-        forces usable by the Euler Jacobian controller for every manipulator orientation.
-    """,
-    correction="""
-        They may be converted always; near the poles the controller cannot use them, for it amplifies them by 1 /
-        cos(beta).
-    """,
-    written="2026-11-24 fb18d38",
-    sentence="Measured forces can be converted by B transposed at every orientation, and work is conserved.",
-    question="Does the power balance close over all poses, the poles included?",
-    criterion=f"""
-        Experiment, Z-Y-X angles: {TURNS:,} Haar-random orientations; both poles, exactly and at 10^-k rad from them,
-        k = 1 to 12, each with random alpha and gamma; at each a random moment m and random rates Edot, of length 1.
-        (a) Exists: F_E = B^T m is finite. (b) Work: |F_E . Edot - m . omega|, omega = B Edot (2.8), is at most
-        {ROUNDINGS:g} eps. (c) The same with omega from central differences of R(E), which know no B, to {ROUNDINGS:g}
-        eps^(2/3). (d) In the loop: in every row of wrench-probe of hybrid/zyx-euler in compliance.parquet that is done,
-        the work residual, the largest |m . omega - F_E . Edot| over the largest |m| |omega|, is at most {ROUNDINGS:g}
-        eps / cos(beta). (e) Usable: where alpha complies alone, what the controller makes of a moment, B^-T S B^T m
-        with S = diag(1, 0, 0), is at most {USABLE:g} times the moment. It holds if all five pass everywhere; with a
-        correction if (a) to (d) pass at every orientation but the exact poles; otherwise it does not hold. Reported:
-        at the exact poles the rank of B and the moment that it loses, |B^T m| at most {LOST:g}; (b) in every other
-        representation; and what (b) is for a moment that is not converted.
-    """,
-    open="""
-        At a pole F_E exists, and one moment
-        does not reach it: that it exists and balances the work of every motion of the angles is the reading judged. A
-        turn about the lost moment's axis is no motion of the angles.
-    """,
-    earlier=(
-        Earlier(
-            "2026-11-21 6e6672b",
-            "Only (a) to (d): that the forces are usable by the controller, as the sentence says, was not tested.",
-            Word.HOLDS,
-        ),
-    ),
-    readings=(
-        "F_E exists and balances the work of every motion of the coordinates (decides)",
-        "no moment is lost on the way (reported)",
-    ),
-)
+@claim("C21")
 def c21(results):
     """The balance at random and polar orientations, the loop's own work residual, and what is lost at the poles."""
     looped = results.table("compliance", task=PROBE, controller="hybrid", representation=COORDINATES)
@@ -151,7 +108,7 @@ def balance(along: Representation, R: Rotation, moment: np.ndarray, rates: np.nd
     from scipy.spatial.transform import Rotation as Turn
 
     at = along.chart(R)
-    B = np.array([along.angular_velocity(at, tuple(one)) for one in np.eye(len(rates)).tolist()]).T
+    B = rate_matrix(along, R)
     F_E = np.array(along.generalized(at, tuple(moment.tolist())))
     raw = [moment[along.about.index(i)] for i in range(3)] if along.about else [math.nan] * len(rates)
     ends = [along.to_matrix(tuple((at.E + side * STEP * rates).tolist())) for side in (1, -1)]

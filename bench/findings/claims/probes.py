@@ -9,7 +9,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from bench.contenders.registry import find_contender, representation
-from bench.law.contender import AT_REST, Gains, Goal
+from bench.findings.claims.tables import some
+from bench.findings.theory.closed_form import linear_settling
+from bench.law.contender import AT_REST, Gains, Goal, Representation
 from bench.law.so3 import IDENTITY, Rotation, from_quaternion
 from bench.metrics.registry import metrics_of
 from tasks.base import Start
@@ -42,11 +44,25 @@ def command(contender: str, R: Rotation, omega=AT_REST, R_d: Rotation = IDENTITY
         return np.array(find_contender(contender).law(doubles(R), doubles(omega), goal, doubles(gains)))
 
 
+def rate_matrix(along: Representation, R: Rotation) -> np.ndarray:
+    """B of (2.8) in some coordinates, column by column: omega of each unit rate."""
+    at = along.chart(R)
+    return np.array([along.angular_velocity(at, tuple(rate)) for rate in np.eye(len(at.E)).tolist()]).T
+
+
 def euler_B(R: Rotation) -> np.ndarray:
-    """B of (2.8) at R, column by column: omega of each unit rate."""
-    zyx = representation("zyx-euler")
-    at = zyx.chart(R)
-    return np.array([zyx.angular_velocity(at, tuple(rate)) for rate in np.eye(3).tolist()]).T
+    """B of Z-Y-X angles."""
+    return rate_matrix(representation("zyx-euler"), R)
+
+
+HALF = math.sqrt(0.5)
+ABOUT_Y = {180: (0.0, 0.0, 1.0, 0.0), 90: (HALF, 0.0, HALF, 0.0), -90: (HALF, 0.0, -HALF, 0.0)}
+"""Quaternions of rotations about Y by so many degrees: the last two are the poles of Z-Y-X angles."""
+
+
+def least_of_B(quat: tuple) -> float:
+    """The smallest singular value of B at an orientation."""
+    return float(np.linalg.svd(euler_B(from_quaternion(quat)), compute_uv=False)[-1])
 
 
 def euler_angles(R: Rotation) -> tuple:
@@ -92,6 +108,17 @@ def episodes(contender: str, starts: list[Start], gains: Gains, dt_s: float, hor
     )
 
 
+def off_linear(contender: str, angle: float, about_axes, gains: Gains, dt_s: float) -> np.ndarray:
+    """Return how far rotations by an angle about some axes settle from the linear closed form, relatively.
+
+    Returns:
+        a number an axis, infinite where it does not settle.
+    """
+    starts = [Start("", about(axis, angle)) for axis in about_axes]
+    times = episodes(contender, starts, gains, dt_s, 20.0)["settling_time_s"].to_numpy()
+    return np.nan_to_num(np.abs(times / linear_settling(*gains) - 1), nan=np.inf)
+
+
 SPEED, BESIDE = 20.0, 64
 """rad/s, as fast as the fastest tumbling start; starts at each margin."""
 
@@ -122,6 +149,15 @@ def boundary_distance(frame: pd.DataFrame) -> pd.DataFrame:
             "half_turn": math.pi - frame["angle0_rad"],
         }
     )
+
+
+def at_boundary(frame: pd.DataFrame, place: str, what: str) -> pd.DataFrame:
+    """Return the starts that are exactly on a pole, a wrap or a half turn.
+
+    Errors:
+        NoEvidence: there is none.
+    """
+    return some(frame[boundary_distance(frame)[place] <= EXACT_RAD], what)
 
 
 def goal_to_pole(frame: pd.DataFrame) -> pd.Series:

@@ -1,14 +1,22 @@
-"""C01 to C03: stability and settling time of the rotation-matrix law (Murphy 1988, 2.12-2.13 and 2.4)."""
+"""C01 to C05 and C32: stability, settling times, zeros and arithmetic of the rotation-matrix law (Murphy 1988, 2.4)."""
+
+from __future__ import annotations
+
+from fractions import Fraction
 
 import numpy as np
 
 from bench.findings.claims import probes
-from bench.findings.claims.tables import MAIN_ENGINE, evidence, on_every_engine, settled, share, some
-from bench.findings.claims.verdict import Earlier, Word, claim, word_of
+from bench.findings.claims.adequacy import CALLS
+from bench.findings.claims.at_gains import on_every_engine
+from bench.findings.claims.probes import at_boundary
+from bench.findings.claims.tables import MAIN_ENGINE, evidence, settled, share, some
+from bench.findings.claims.verdict import claim, word_of
 from bench.findings.theory import closed_form
 from bench.law.contender import Gains
+from bench.law.so3 import IDENTITY, Rotation, cross, from_quaternion
 from bench.tables.statistics import bootstrap
-from tasks.base import Start
+from tasks.sphere import axes
 
 LAW = "rotation-matrix"
 STRAY_SHARE = 1e-3
@@ -18,6 +26,7 @@ ENERGY_SLACK = 1e-6
 """rad^2/s^2 over Kp: rounding and integration of an energy that never grows; the largest is 2."""
 
 SMALL_ANGLES = (0.1, 0.01, 0.001)
+AXES = ((1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 1, 1))
 GAINS = ((100.0, 20.0), (25.0, 10.0), (400.0, 40.0), (100.0, 10.0), (100.0, 40.0))
 """Critically damped at 10, 5 and 20 rad/s; then damping ratios 1/2 and 2 at 10 rad/s."""
 
@@ -32,164 +41,72 @@ SLOPE_TIGHT, SLOPE_LOOSE = 0.01, 0.1
 AT_HALF_TURN = 1e-6
 """rad: what leaves an equilibrium has left it by more within its horizon."""
 
+ZERO_ERROR = EPS = 2.0**-52
+"""One rounding of an element of R."""
 
-@claim(
-    id="C01",
-    section="2.4",
-    equation="(2.12), (2.13)",
-    quote="""
-        The results of the simulation show that this regulator was stable over the entire range of rotations but
-        had varying settling times for different initial orientations.
-    """,
-    written="2026-11-23 953f62a",
-    sentence="The rotation-matrix regulator is stable over the entire range of rotations.",
-    question="Does any start diverge; and does every start reach the goal?",
-    criterion=f"""
-        Start sets uniform, half-turn and tumbling. Stable (Lyapunov) means: no episode ends diverged, singular or
-        saturated, and none ends beyond its initial energy, 1 - cos(angle_end) <= 1 - cos(angle_0) + |omega_0|^2 / (2
-        Kp) + {ENERGY_SLACK:g}. It holds if that is so and every start that does not settle is on a 180° rotation to
-        {probes.EXACT_RAD:g} rad, where the paper itself lets the settling time be infinite; with a correction if it is
-        stable but other starts do not settle, at most {STRAY_SHARE:.1%} of the uniform ones; otherwise it does not
-        hold.
-    """,
-    open="""
-        The paper gives no gains for this law (ours are those of the other two), no starts and no horizon;
-        a start that has not settled at the horizon counts as not settled. The energy bound is free of all
-        three.
-    """,
-    readings=(
-        "stable: nothing diverges (the one judged)",
-        "attracted: every start reaches the goal, but those of which the paper's next sentences say that they do not",
-    ),
-    correction="It is stable, but other starts than 180° rotations are not attracted.",
-    earlier=(
-        Earlier(
-            "2026-11-21 9072535",
-            """
-            A start that does not settle made a correction, wherever it was; but the paper says itself that settling
-            times can become infinite at certain orientations.
-            """,
-            Word.CORRECTED,
-        ),
-    ),
-)
+AWAY_RAD, NEAR_ZERO = 1e-3, 1e-9
+
+ROUNDINGS = 10.0
+"""Each element of e sums six products of numbers up to 1: eleven roundings of half an eps, of partial sums up to 3."""
+
+CLOSEST_RAD, DIGITS = 1e-12, 1e-2
+"""To the goal and to a 180° rotation; and what rounding may make of the error's length there."""
+
+BROKEN = ("diverged", "singular", "saturated", "crashed")
+
+
+@claim("C01")
 @on_every_engine
 def c01(results, engine):
     """Outcomes and final energies of uniform, half-turn and tumbling starts."""
     frame = results.episodes(LAW, engine, "uniform", "half-turn", "tumbling")
-    broken = frame["outcome"].isin(["diverged", "singular", "saturated"])
     speed = (frame[list(probes.OMEGA)] ** 2).sum(axis=1)
     gained = np.cos(frame["angle0_rad"]) - np.cos(frame["final_angle_rad"]) - speed / (2 * frame["kp"])
-    unstable = broken | (gained > ENERGY_SLACK)
+    unstable = int((frame["outcome"].isin(BROKEN[:3]) | (gained > ENERGY_SLACK)).sum())
     uniform = share(settled(frame[frame["start_set"] == "uniform"]))
     left = frame[~settled(frame)]
-    away = probes.boundary_distance(left)["half_turn"].abs() if len(left) else np.zeros(0)
-    elsewhere = int((away > probes.EXACT_RAD).sum())
-    is_stable = not unstable.any()
-    word = word_of(is_stable and not elsewhere, is_stable and uniform.n - uniform.k <= STRAY_SHARE * uniform.n)
-    return word, evidence(
-        f"""{int(unstable.sum())} of {len(frame):,} starts diverge or gain energy. {len(left)} do not settle,
-        {len(left) - elsewhere} of them exactly a 180° rotation from the goal; of uniform starts {uniform}
-        settle.""",
+    exactly = int((probes.boundary_distance(left)["half_turn"].abs() <= probes.EXACT_RAD).sum())
+    is_stray = uniform.n - uniform.k <= STRAY_SHARE * uniform.n
+    return word_of(not unstable and exactly == len(left), not unstable and is_stray), evidence(
+        f"""{unstable} of {len(frame):,} starts diverge or gain energy. {len(left)} do not settle, {exactly} of them
+        exactly a 180° rotation from the goal; of uniform starts {uniform} settle.""",
         len(frame),
         ("episodes",),
     )
 
 
-@claim(
-    id="C02",
-    section="2.4",
-    quote="""
-        In the linear region of small rotations about zero, the settling times could be chosen from the feedback
-        gains.
-    """,
-    correction="They follow the closed form of the gains, but only to a few per cent.",
-    written="2026-11-21 9072535",
-    sentence="Near zero its settling time can be chosen by the gains.",
-    question="""
-        Is the settling time of small rotations the closed form of the linear system, at every pair of
-        gains?
-    """,
-    criterion=f"""
-        Rotations of 0.1, 0.01 and 0.001 rad about x, y, z and a diagonal, at (Kp, Kd) = {GAINS_TRIED},
-        and the small steps of the set goals. The closed form is the last time at which the response of
-        x'' = -Kp x - Kd x' from 1 is 0.02, for the paper's gains (1 + 10 t) exp(-10 t) = 0.02. It holds
-        if every settling time is within one tick plus angle^2 of it (sin x = x - x^3/6 softens the spring
-        by angle^2/6); with a correction if within {LOOSE_SETTLING:.0%}; otherwise it does not hold.
-    """,
-    open="""
-        The paper states no settling band; 2 % of the initial angle is ours, and the closed form uses the
-        same.
-    """,
-)
+@claim("C02")
 def c02(results):
     """Small rotations at several gains, and the small steps of the run."""
-    axes = {"x": (1, 0, 0), "y": (0, 1, 0), "z": (0, 0, 1), "diagonal": (1, 1, 1)}
-    pairs = [(angle, axis) for angle in SMALL_ANGLES for axis in axes.values()]
-    starts = [Start("", probes.about(axis, angle)) for angle, axis in pairs]
-    angles = np.array([angle for angle, _ in pairs])
-    dt, off, share_off, longest = results.dt_s, [], [], {}
+    off, allowed = [], []
     for gains in (Gains(*pair) for pair in GAINS):
-        closed = closed_form.linear_settling(*gains)
-        found = probes.episodes(LAW, starts, gains, dt, 20.0)["settling_time_s"].to_numpy()
-        off += list(np.abs(found - closed) - dt - angles**2 * closed)
-        share_off += list(np.abs(found - closed) / closed)
-        longest[gains] = closed
+        for angle in SMALL_ANGLES:
+            off.append(probes.off_linear(LAW, angle, AXES, gains, results.dt_s))
+            allowed.append(results.dt_s / closed_form.linear_settling(*gains) + angle**2)
     steps = results.episodes(LAW, MAIN_ENGINE, "goals")
     steps = some(steps[steps["angle0_rad"].between(1e-3, 0.11)], "small step of the start set goals")
     closed = closed_form.linear_settling(*results.gains())
-    wrong = (steps["settling_time_s"] - closed).abs()
-    off += list(wrong - steps["dt_s"] - steps["angle0_rad"] ** 2 * closed)
-    share_off += list(wrong / closed)
-    tight, loose = np.max(off) <= 0, np.max(share_off) <= LOOSE_SETTLING
-    return (word_of(tight, loose)), evidence(
-        f"""{len(off)} small rotations at {len(GAINS)} pairs of gains: settling times from {min(longest.values()):.3f}
-        to {max(longest.values()):.3f} s, at most {float(np.max(share_off)):.2%} from the closed form
-        ({closed_form.linear_settling(*Gains()):.4f} s at the paper's gains).""",
-        len(off),
+    off += [(steps["settling_time_s"] / closed - 1).abs().fillna(np.inf)]
+    allowed += [steps["dt_s"] / closed + steps["angle0_rad"] ** 2]
+    times = [closed_form.linear_settling(*pair) for pair in GAINS]
+    largest, count = max(one.max() for one in off), sum(map(len, off))
+    is_tight = all((one <= most).all() for one, most in zip(off, allowed, strict=True))
+    return word_of(is_tight, largest <= LOOSE_SETTLING), evidence(
+        f"""{count} small rotations at {len(GAINS)} pairs of gains: settling times from {min(times):.3f} to
+        {max(times):.3f} s, at most {largest:.2%} from the closed form ({closed_form.linear_settling(*Gains()):.4f} s at
+        the paper's gains).""",
+        count,
         ("experiment", "episodes"),
     )
 
 
-@claim(
-    id="C03",
-    section="2.4",
-    quote="For large rotations the settling times would increase and could become infinity at certain orientations.",
-    correction="They grow as the closed form has it, but not to infinity, or not exactly so.",
-    written="2026-11-24 fb18d38",
-    sentence="For large rotations the settling time grows, and it can become infinite.",
-    question="Does it grow with the angle, at which rate towards the half turn, and is it ever infinite?",
-    criterion=f"""
-        Three tests. Growth: the least-squares slope of settling time against the initial angle, of uniform starts that
-        settle, is above zero by the lower end of its 95 % interval (bootstrap). Rate: least squares over the set
-        half-turn, pi - angle = 10^-k, k = {SLOPE_DECADES[0]} to {SLOPE_DECADES[1]}, gives a slope per decade within
-        {SLOPE_TIGHT:.0%} of ln 10 / (sqrt(Kp + Kd^2/4) - Kd/2). Infinity: at least one exact half turn
-        has not settled at its horizon and is then still at pi, to {AT_HALF_TURN:g} rad: it is at an equilibrium. It
-        holds if all three pass; with a correction if growth passes and the slope is
-        within {SLOPE_LOOSE:.0%}, whatever infinity says; otherwise it does not hold.
-    """,
-    open="""
-        The slope depends on the gains, which enter the formula. The paper gives none for this law.
-    """,
-    earlier=(
-        Earlier(
-            "2026-11-21 9072535",
-            """
-            Growth was a mean that rises from each 30 degree bin to the next, and infinity a horizon of more than twice
-            the longest settling time. At other gains the least bin or the horizon decided, not the law: with Kv = 10
-            the first two bins fall, with Kv = 30 the horizon is too short.
-            """,
-            Word.HOLDS,
-        ),
-    ),
-)
+@claim("C03")
 @on_every_engine
 def c03(results, engine):
     """Settling time by angle, its slope towards the half turn, and the exact half turns."""
     uniform = results.episodes(LAW, engine, "uniform")
     sure = some(uniform[settled(uniform)], "uniform start that settles")
     growth = bootstrap(sure[["angle0_rad", "settling_time_s"]].to_numpy(float), _slope)
-    grows = growth.low > 0.0
     turns = results.episodes(LAW, engine, "half-turn")
     short = probes.boundary_distance(turns)["half_turn"]
     decades = -np.log10(short.clip(lower=1e-17))
@@ -201,10 +118,9 @@ def c03(results, engine):
     exact = some(turns[short <= probes.EXACT_RAD], "exact half turn")
     stay = exact[~settled(exact)]
     slowest = turns.loc[short > probes.EXACT_RAD, "settling_time_s"].max()
-    infinite = bool((np.abs(stay["final_angle_rad"] - np.pi) <= AT_HALF_TURN).any())
-    held = grows and off <= SLOPE_TIGHT and infinite
-    word = word_of(held, grows and off <= SLOPE_LOOSE)
-    return word, evidence(
+    is_infinite = bool((np.abs(stay["final_angle_rad"] - np.pi) <= AT_HALF_TURN).any())
+    grows = growth.low > 0.0
+    return word_of(grows and off <= SLOPE_TIGHT and is_infinite, grows and off <= SLOPE_LOOSE), evidence(
         f"""Settling time rises by {growth.value:.3f} s ({growth.low:.3f} to {growth.high:.3f}) per rad of the initial
         angle; towards the half turn by {float(slope):.4f} s a decade (closed form {closed:.4f} s), to
         {float(slowest):.2f} s at 1e-12 rad. {len(stay)} of {len(exact)} exact half turns never settle in
@@ -218,3 +134,110 @@ def _slope(pairs, axis):
     """Least-squares slope of the second of each pair against the first."""
     from_mean = pairs - pairs.mean(axis=-2, keepdims=True)
     return (from_mean[..., 0] * from_mean[..., 1]).sum(axis=-1) / (from_mean[..., 0] ** 2).sum(axis=-1)
+
+
+@claim("C04")
+@on_every_engine
+def c04(results, engine):
+    """The error and its three cross products at exact half turns, and how the episodes end."""
+    exact = at_boundary(results.episodes(LAW, engine, "half-turn"), "half_turn", "exact half turn")
+    orientations = probes.rotations(exact)
+    largest = max(_size(R) for R in orientations)
+    products = [_largest_product(R) for R in orientations]
+    parallel = sum(product <= ZERO_ERROR for product in products)
+    is_zero = largest <= ZERO_ERROR
+    return word_of(is_zero and parallel == len(exact), is_zero), evidence(
+        f"""At {len(exact)} exact half turns the error is at most {largest:.1g}, and {int(settled(exact).sum())} of them
+        settle. Each cross product is zero by itself at {parallel} (axes x, y, z); at the other
+        {len(exact) - parallel} they cancel in the sum only, the largest being {max(products):.2f}.""",
+        len(exact),
+        ("episodes", "experiment"),
+    )
+
+
+@claim("C05")
+def c05(results):
+    """|e| over sin(angle), at every start of the run and as low as a search gets; what cancels at 180° rotations."""
+    from scipy.optimize import minimize
+
+    frame = results.episodes(LAW, MAIN_ENGINE).drop_duplicates(["start_set", "start_id"])
+    frame = some(frame[frame["angle0_rad"].between(AWAY_RAD, np.pi - AWAY_RAD)], "start away from zero and half turn")
+    sizes = np.array([_size(*pair) for pair in _pairs(frame)])
+    found = [minimize(_ratio, 1.5 * axis, method="Nelder-Mead", options={"maxiter": 200}) for axis in axes(16)]
+    states = sum(one.nfev for one in found)
+    lowest = min(float((sizes / np.sin(frame["angle0_rad"])).min()), *(one.fun for one in found))
+    least = min(float(sizes.min()), *(_size(_turn(one.x)) for one in found))
+    exact = at_boundary(results.episodes(LAW, MAIN_ENGINE, "half-turn"), "half_turn", "exact 180° rotation")
+    cancel = sum(_size(R) <= ZERO_ERROR < _largest_product(R) for R in probes.rotations(exact))
+    readings = (least < NEAR_ZERO, cancel > 0)
+    return word_of(all(readings), any(readings)), evidence(
+        f"""Ambiguous. (a) Off the 180° rotation |e| / sin(angle) is never below {lowest:.9f} at {len(frame):,} starts
+        and {states:,} states of a search, and |e| never below {least:.1e}. (b) At {cancel} of {len(exact)} exact 180°
+        rotations the cross products are not zero and their sum is.""",
+        len(frame) + states + len(exact),
+        ("episodes", "experiment"),
+    )
+
+
+def error(R, R_d=IDENTITY) -> np.ndarray:
+    """e of (2.12): the law's command at rest over Kp."""
+    return probes.command(LAW, R, R_d=R_d) / Gains().kp
+
+
+def _size(R, R_d=IDENTITY) -> float:
+    return float(np.linalg.norm(error(R, R_d)))
+
+
+def _largest_product(R) -> float:
+    """The largest of the three cross products of (2.12), goal zero."""
+    return float(max(np.linalg.norm(cross(c, d)) for c, d in zip(R, IDENTITY, strict=True)))
+
+
+def _turn(vector) -> Rotation:
+    """R of a rotation vector."""
+    return from_quaternion(probes.about(vector, float(np.linalg.norm(vector))))
+
+
+def _ratio(vector) -> float:
+    angle = float(np.linalg.norm(vector))
+    if not AWAY_RAD < angle < np.pi - AWAY_RAD:
+        return 2.0  # out of bounds: more than any ratio
+    return _size(_turn(vector)) / np.sin(angle)
+
+
+def _pairs(frame) -> list[tuple[Rotation, Rotation]]:
+    """R and R_d of each start."""
+    return list(zip(probes.rotations(frame), probes.rotations(frame, probes.GOAL_QUAT), strict=True))
+
+
+@claim("C32")
+def c32(results):
+    """Rounding of e against exact fractions, what the law is made of, and how its episodes end."""
+    every = some(results.free_body("episodes", task="free-body", regulator=LAW), f"episode of {LAW}")
+    ended = int(every["outcome"].isin(BROKEN).sum())
+    frame = every.drop_duplicates(["start_set", "start_id"])
+    ours = np.array([error(*pair) for pair in _pairs(frame)])
+    off = np.array([_farthest(e, _exact(*pair)) for e, pair in zip(ours, _pairs(frame), strict=True)])
+    angle = frame["angle0_rad"].to_numpy()
+    inner = np.minimum(angle, np.pi - angle) >= CLOSEST_RAD * (1 - DIGITS)
+    relative = (off / np.linalg.norm(ours, axis=1).clip(min=EPS))[inner]
+    costs = some(results.free_body("costs", regulator=LAW), f"cost of {LAW}")
+    asked = int(costs[["div", *CALLS]].to_numpy().sum())
+    sound = bool(np.isfinite(ours).all() and off.max() <= ROUNDINGS * EPS and not asked and not ended)
+    return word_of(sound and relative.max() <= DIGITS, sound), evidence(
+        f"""At {len(frame):,} starts e is off by at most {off.max() / EPS:.1f} eps, and by {relative.max():.1e} of its
+        length, closest to a 180° rotation. It takes {asked} divisions and calls; {ended} of {len(every):,} episodes end
+        {" or ".join(BROKEN)}.""",
+        len(every) + len(costs),
+        ("episodes", "costs", "experiment"),
+    )
+
+
+def _farthest(ours: np.ndarray, exact: list[Fraction]) -> float:
+    return float(max(abs(Fraction(x) - y) for x, y in zip(ours, exact, strict=True)))
+
+
+def _exact(R: Rotation, R_d: Rotation) -> list[Fraction]:
+    """e of (2.12) of the same doubles, without rounding."""
+    columns = [([Fraction(x) for x in c], [Fraction(x) for x in d]) for c, d in zip(R, R_d, strict=True)]
+    return [sum((c[i - 2] * d[i - 1] - c[i - 1] * d[i - 2] for c, d in columns), Fraction(0)) / 2 for i in range(3)]

@@ -7,6 +7,8 @@ from collections.abc import Callable, Sized
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
+import numpy as np
+
 from bench.findings.claims.verdict import Evidence, NoEvidence
 from bench.law.contender import Gains
 from bench.tables import read
@@ -188,6 +190,11 @@ def share(facts: pd.Series) -> Share:
     return Share(k, n, k / n, float(interval.low), float(interval.high))
 
 
+def interval(one: Share | Estimate, form: str) -> str:
+    """Format a number with its interval: '0.62 (0.60 to 0.64)'."""
+    return f"{one.value:{form}} ({one.low:{form}} to {one.high:{form}})"
+
+
 def lost(frame: pd.DataFrame) -> Estimate:
     """The share of episodes that do not settle, of those that converge; the interval is that of `maps.lost_between`."""
     from bench.findings.maps import lost_between
@@ -209,33 +216,22 @@ def settled(frame: pd.DataFrame) -> pd.Series:
     return frame["outcome"] == SETTLED
 
 
+def settling_times(frame: pd.DataFrame) -> np.ndarray:
+    """Return the settling time of each episode [s], infinite where it does not settle."""
+    return frame["settling_time_s"].where(settled(frame), np.inf).to_numpy(float)
+
+
+def same_starts(frames: list[pd.DataFrame]) -> list[pd.DataFrame]:
+    """Return the episodes of each frame from the starts that all frames have, in the same order."""
+    common = set.intersection(*(set(one["start_id"]) for one in frames))
+    return [one[one["start_id"].isin(common)].sort_values("start_id", kind="stable") for one in frames]
+
+
+def settled_of(frame: pd.DataFrame) -> str:
+    """Format how many episodes settled: '3 of 12'."""
+    return f"{int(settled(frame).sum())} of {len(frame)}"
+
+
 def evidence(sentence: str, rows: int, tables: tuple[str, ...], **parts: str) -> Evidence:
     """Evidence whose sentence may be broken into lines as the file likes."""
     return Evidence(" ".join(sentence.split()), int(rows), tables, parts)
-
-
-def on_every_engine(decide: Callable) -> Callable:
-    """A judging function of (results, engine) asked of the main engine, then of the sampled ones that have rows."""
-
-    @functools.wraps(decide)
-    def judge(results: Results):
-        word, found = decide(results, MAIN_ENGINE)
-        others, rows = {}, found.rows
-        for engine in CHECK_ENGINES:
-            try:
-                others[engine], also = decide(results, engine)
-            except NoEvidence:
-                continue
-            rows += also.rows
-        differing = {engine: other for engine, other in others.items() if other != word}
-        return word, found._replace(sentence=f"{found.sentence} {_said_by(others, differing)}", rows=rows)
-
-    return judge
-
-
-def _said_by(others: dict, differing: dict) -> str:
-    if not others:
-        return "No sampled engine has rows for this."
-    if not differing:
-        return f"Sampled engines agree ({', '.join(others)})."
-    return "Sampled: " + ", ".join(f"{engine} says '{word}'" for engine, word in others.items()) + "."

@@ -1,12 +1,18 @@
 """What a claim is, what can be said of it, and on what evidence.
 
-A claim says when its criterion was written, and what stood before; `git log` of its file shows it.
+A module of claims holds the measurements alone. The texts of its claims stand in the TOML file of the same name beside
+it, with the names of the module's constants in braces; criteria that stood before are in history.toml.
 """
 
+import functools
+import importlib
+import inspect
+import tomllib
 from collections.abc import Callable, Mapping
 from enum import StrEnum
-from types import MappingProxyType
-from typing import NamedTuple
+from pathlib import Path
+from types import MappingProxyType, ModuleType
+from typing import Any, NamedTuple
 
 from bench.errors import BenchError
 
@@ -62,14 +68,12 @@ class Evidence(NamedTuple):
 
     sentence: plain prose, every number in it computed. rows: table rows, states and episodes looked at. tables: where
     they come from; "experiment" for what the claim computes itself. parts: of the sentence, by name, for the book.
-    earlier: the words by those of the claim's earlier criteria that are still computed, in their order.
     """
 
     sentence: str
     rows: int
     tables: tuple[str, ...]
     parts: Mapping[str, str] = MappingProxyType({})
-    earlier: tuple[Word, ...] = ()
 
     def __str__(self) -> str:
         return self.sentence
@@ -78,13 +82,12 @@ class Evidence(NamedTuple):
 class Earlier(NamedTuple):
     """A criterion that stood before.
 
-    written: date and commit. criterion: in short, and why it was given up. word: what it gave when it was given up;
-    None where it is still computed.
+    written: date and commit. criterion: in short, and why it was given up. word: what it gave when it was given up.
     """
 
     written: str
     criterion: str
-    word: Word | None = None
+    word: Word
 
 
 class Claim(NamedTuple):
@@ -100,7 +103,6 @@ class Claim(NamedTuple):
     id: str
     section: str
     sentence: str
-    question: str
     criterion: str
     judge: Callable
     open: str = ""
@@ -119,26 +121,41 @@ class Claim(NamedTuple):
         return f"section {self.section}{', ' * bool(self.equation)}{self.equation}"
 
 
-def claim(
-    *,
-    id: str,
-    section: str,
-    sentence: str,
-    question: str,
-    criterion: str,
-    readings: tuple[str, ...] = (),
-    earlier: tuple[Earlier, ...] = (),
-    **texts: str,
-) -> Callable[[Callable], Claim]:
-    """Makes the function below, which judges it, a Claim; its texts may be broken into lines as the file likes."""
+def claim(id: str) -> Callable[[Callable], Claim]:
+    """Return a decorator that makes a judging function the claim of this id, with the texts beside its module."""
 
-    def joined(text: str) -> str:
-        return " ".join(text.split())
+    def with_texts(judge: Callable) -> Claim:
+        names = Names(inspect.unwrap(judge).__globals__)
 
-    first = (id, section, joined(sentence), joined(question), joined(criterion))
-    before = tuple(one._replace(criterion=joined(one.criterion)) for one in earlier)
-    others = {name: joined(text) for name, text in texts.items()}
-    return lambda judge: Claim(*first, judge, readings=tuple(map(joined, readings)), earlier=before, **others)
+        def text(template: str) -> str:
+            return " ".join(template.format_map(names).split())
+
+        texts = read_texts(Path(names["__file__"]).with_suffix(".toml"))[id]
+        readings = tuple(map(text, texts.get("readings", ())))
+        earlier = tuple(
+            Earlier(old["written"], " ".join(old["criterion"].split()), Word(old["word"]))
+            for old in read_texts(HISTORY).get(id, ())
+        )
+        written = {name: text(words) for name, words in texts.items() if name != "readings"}
+        return Claim(id, judge=judge, readings=readings, earlier=earlier, **written)
+
+    return with_texts
+
+
+class Names(dict[str, Any]):
+    """The names of a module that texts may hold in braces; any other name is a module of claims."""
+
+    def __missing__(self, name: str) -> ModuleType:
+        return importlib.import_module(f"{__package__}.{name}")
+
+
+HISTORY = Path(__file__).with_name("history.toml")
+
+
+@functools.cache
+def read_texts(path: Path) -> dict[str, Any]:
+    """Return what a TOML file says, by the id of the claim."""
+    return tomllib.loads(path.read_text(encoding="utf-8"))
 
 
 class Verdict(NamedTuple):
@@ -168,13 +185,7 @@ class Verdict(NamedTuple):
     @property
     def first(self) -> Word:
         """The word by the criterion that was written first."""
-        return self.earlier[0][1] if self.earlier else self.word
-
-    @property
-    def earlier(self) -> list[tuple[Earlier, Word]]:
-        """The criteria that stood before, each with its word."""
-        computed = iter(self.evidence.earlier)
-        return [(one, one.word or next(computed)) for one in self.claim.earlier]
+        return self.claim.earlier[0].word if self.claim.earlier else self.word
 
 
 def decide(claim: Claim, results) -> Verdict:

@@ -6,5 +6,6 @@ measured.py     all criteria of all laws, with intervals, and when one law is no
 rule.py         how a law is advised: ties, Pareto fronts, the simplest; fixed before it was run
 timed.py        what a law takes of a whole controller's tick
 needs.py        situations, and the law advised in each: the one place that pages, cards and commands ask
-velocity.py     the same of first-order laws, for robots that take velocities
+robot_rows.py   the same criteria on robots that take velocities, positions, or torques with no inertia cancelled
+robots.py       what a robot takes, and the law that is advised for it
 """

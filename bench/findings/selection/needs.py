@@ -11,8 +11,9 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
+from bench.findings.claims.tables import Results
 from bench.findings.selection import criteria
-from bench.findings.selection.measured import Measured, measured
+from bench.findings.selection.measured import Measured, measure, measured
 from bench.findings.selection.rule import GENERAL, front, simplest
 
 DETOUR = 1.5
@@ -131,9 +132,14 @@ class Advice(NamedTuple):
     exceptions: tuple[Decision, ...]
     others: tuple[Decision, ...]
 
+    @property
+    def every(self) -> list[Decision]:
+        """All situations, the default first."""
+        return [self.default, *self.exceptions, *self.others]
+
     def of(self, need: Need) -> Decision:
         """What is advised in a situation: where it decides nothing the default's law, which ties with its best."""
-        one = next(each for each in (self.default, *self.exceptions, *self.others) if each.need is need)
+        one = next(each for each in self.every if each.need is need)
         law = self.default.law
         return (
             one._replace(law=law, tied=tuple(each for each in one.best if each != law)) if one in self.others else one
@@ -198,9 +204,14 @@ def advise(found: Measured, usual: Need = DEFAULT, needs: Sequence[Need] = NEEDS
 
 
 @functools.cache
-def advice(folder: Path) -> Advice:
-    """That of the run in a folder."""
-    return advise(measured(folder))
+def advice(
+    folder: Path,
+    measure: Callable[[Results], Measured] = measure,
+    usual: Need = DEFAULT,
+    needs: tuple[Need, ...] = NEEDS,
+) -> Advice:
+    """Return what is advised by the run in a folder; by default where torques are taken and the inertia cancelled."""
+    return advise(measured(folder, measure), usual, needs)
 
 
 def best_by(found: Measured, criterion: str, laws: Sequence[str]) -> tuple[str, ...]:

@@ -100,13 +100,19 @@ def _on_arms(every: pd.DataFrame) -> pd.DataFrame:
     """Uniform starts on arms; `contender` is the law alone."""
     is_wanted = (every["task"] == "arm-regulation") & (every["start_set"] == "uniform")
     is_wanted &= (every["jacobian"] == "geometric") & (every["variation"] == "nominal") & (every["engine"] == SAMPLED)
-    rows = every[is_wanted & every["inverse"].isin(("solve", "pseudo-inverse"))]
-    law, inverse = rows["contender"].astype(str).str.split("@").str[0], rows["inverse"].astype(str)
-    rows = rows.assign(contender=law, inverse=inverse, lost=~settled(rows))
-    has_solve = rows.groupby(["contender", "arm"], observed=True)["inverse"].transform(
-        lambda own: (own == "solve").any()
+    rows = every[is_wanted]
+    law = rows["contender"].astype(str).str.split("@").str[0]
+    return by_standard_inverse(rows.assign(contender=law, lost=~settled(rows)))
+
+
+def by_standard_inverse(rows: pd.DataFrame) -> pd.DataFrame:
+    """Rows of arms by their standard inverse, in the order of arms and starts."""
+    own = rows[(rows["arm"] != "") & rows["inverse"].isin(("solve", "pseudo-inverse"))]
+    own = own.assign(inverse=own["inverse"].astype(str))
+    has_solve = own.groupby(["contender", "arm"], observed=True)["inverse"].transform(
+        lambda one: (one == "solve").any()
     )
-    return rows[~has_solve | (rows["inverse"] == "solve")].sort_values(["arm", "start_id"], kind="stable")
+    return own[~has_solve | (own["inverse"] == "solve")].sort_values(["arm", "start_set", "start_id"], kind="stable")
 
 
 def _own(results: Results) -> list[Contender]:

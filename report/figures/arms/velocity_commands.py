@@ -13,7 +13,7 @@ from bench.contenders.registry import known_inverses, known_limiters
 from bench.experiments.suites import BY_EVERY_INVERSE
 from bench.findings.claims.verdict import NoEvidence
 from bench.findings.selection.needs import DETOUR, Advice
-from bench.findings.selection.velocity import velocity_choice
+from bench.findings.selection.robots import VELOCITIES, advise_for
 from bench.findings.selection.words import standing
 from bench.findings.theory.velocity_limits import lagged, with_theory
 from bench.law.limiter import GREATEST_RATE
@@ -65,7 +65,7 @@ def limits(run: Run) -> pd.DataFrame:
 def choice(run: Run) -> Advice | None:
     """What the rule advises; None if the run compares no laws."""
     try:
-        return velocity_choice(run.folder)
+        return advise_for(VELOCITIES, run.folder)
     except NoEvidence:
         return None
 

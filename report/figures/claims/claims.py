@@ -8,7 +8,7 @@ from collections.abc import Iterable
 
 from bench.findings import claims
 from bench.findings.claims import Verdict, Word, tally
-from bench.findings.claims.untestable import UNTESTABLE
+from bench.findings.claims.errata import UNTESTABLE
 from bench.findings.claims.verdict import MISPRINTS, does
 from bench.studies import verdicts
 from bench.tables.files import read_json
@@ -27,7 +27,7 @@ SENTENCES = Table("Section | The paper | Why it is not tested")
 def facts(_: Run) -> dict:
     """How many are decided, by what rule, and how many by a criterion that is not the first."""
     every = claims.judge_all()
-    changed = [one for one in every if one.earlier]
+    changed = [one for one in every if one.claim.earlier]
     return {
         "rule": typeset(claims.RULE),
         "decided": len(every),
@@ -120,7 +120,7 @@ def table(every: list[Verdict], page: str = "") -> html.Markdown | None:
 
 def revised(one: Verdict) -> str:
     """Whether the criterion is not the first one, and the first one's word if that is another."""
-    if not one.earlier:
+    if not one.claim.earlier:
         return "no"
     return "yes" if one.first == one.word else f"yes; first: {one.first}"
 
@@ -143,7 +143,7 @@ def section(one: Verdict) -> str:
     rows = {
         "Evidence": marked_up(str(one.evidence)),
         "Criterion": marked_up(f"{claim.criterion} ({written(claim.written)})" if claim.written else claim.criterion),
-        "Before": _listed(f"{written(old.written)}: {old.criterion} By it: {word}." for old, word in one.earlier),
+        "Before": _listed(f"{written(old.written)}: {old.criterion} By it: {old.word}." for old in claim.earlier),
         "Left open": marked_up(claim.open),
         "Readings": _listed(claim.readings),
         "Rows": f"{html.number(one.evidence.rows)} from {escape.escape(', '.join(one.evidence.tables))}; "
