@@ -7,7 +7,7 @@
 .NOTPARALLEL:
 .PHONY: help setup setup-cluster bench bench-quick time libraries report test check lint gate regress regress-study gains
 .PHONY: scale-study contact-study settings-study verdicts-study robustness-study kill-study reference media lock clean audit judge history
-.PHONY: arrays-check edition
+.PHONY: edition
 
 SHELL := /bin/sh
 VENV := .venv
@@ -20,7 +20,6 @@ LIBRARIES := .venv-libraries
 # Libraries that contradict the others, each with an environment of its own.
 APART := placo robosuite
 AUDIT := .venv-audit
-ARRAYS := .venv-arrays
 
 # Without a network, from the wheels of an edition: make bench WHEELS=../wheels
 ifdef WHEELS
@@ -124,10 +123,6 @@ audit:
 	@if $(MAKE) --no-print-directory $(AUDIT)/.made; then $(AUDIT)/bin/python .ci/audit.py requirements/*.txt; \
 		else echo "audit skipped: pip-audit cannot be installed here (no network?)"; fi
 
-arrays-check: ## exported laws on the arrays of JAX, in an environment of its own (0.6 GB)
-arrays-check: $(DEV) $(ARRAYS)/.made
-	@$(PY) -m pytest tests/export/test_python_arrays.py $(ARGS)
-
 gate:   ## rerun the quick suite and compare it with results/reference
 gate: $(READY)
 	@rm -rf results/quick  # a finished run would be resumed, not rerun
@@ -196,11 +191,10 @@ lock: $(DEV)
 	@$(locked) --group audit --output-file requirements/audit.txt
 	@for name in $(APART); do $(locked) --group $$name --output-file requirements/$$name.txt || exit; done
 	@$(locked) --group install --output-file requirements/install.txt
-	@$(locked) --group arrays --constraint requirements/base.txt --output-file requirements/arrays.txt
 	@echo "Locked. Look at the change: git diff --stat requirements"
 
 clean:  ## remove .venv, the built report, caches and results/quick; other results stay
-	@rm -rf $(VENV) $(LIBRARIES) $(APART:%=$(LIBRARIES)-%) $(AUDIT) $(ARRAYS) build dist report/_build report/.jupyter_cache results/quick
+	@rm -rf $(VENV) $(LIBRARIES) $(APART:%=$(LIBRARIES)-%) $(AUDIT) build dist report/_build report/.jupyter_cache results/quick
 	@rm -rf .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .benchmarks .home *.egg-info
 	@find bench tasks report tests -name __pycache__ -prune -exec rm -rf {} + 2>/dev/null || true
 
@@ -241,11 +235,6 @@ $(LIBRARIES)/.made: requirements/libraries.txt pyproject.toml
 	@echo "Installing robot libraries into $(LIBRARIES) ..."
 	@$(PYTHON) -m venv --clear $(LIBRARIES)
 	@$(call install,libraries) && touch $@
-
-$(ARRAYS)/.made: PY = $(ARRAYS)/bin/python
-$(ARRAYS)/.made: requirements/arrays.txt
-	@$(PYTHON) -m venv --clear $(ARRAYS)
-	@$(PIP) install $(AS_LOCKED)/arrays.txt && touch $@
 
 $(LIBRARIES)-%/.made: PY = $(LIBRARIES)-$*/bin/python
 $(LIBRARIES)-%/.made: requirements/%.txt
