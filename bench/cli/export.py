@@ -13,7 +13,7 @@ from bench.errors import BadResults
 EPILOG = examples(
     ("A header for a controller in C++", "export late-braking --to cpp"),
     ("The same for a microcontroller, into a folder of yours", "export late-braking --to c --out firmware/attitude"),
-    ("A law on coordinates, for arrays", "export feedback-linearized/zyx-euler --to python"),
+    ("A law on coordinates", "export feedback-linearized/zyx-euler --to python"),
     ("Coordinates", "export representation-mrp --to js"),
     ("An impedance", "export impedance-geometric --to c"),
     ("A law of your own", "export my-law --law my_law.py --to cpp"),
@@ -36,8 +36,7 @@ def COMMAND(law: str, language: str, out: Path | None, laws: tuple[Path, ...]):
 
     A law is named as in `list regulators`, with its coordinates where it has several; representation-NAME are the
     functions of coordinates, impedance-NAME an impedance, spring-NAME a spring with a stiffness matrix,
-    pose-spring-NAME one of position too, compensator-NAME a law with a state. A file of
-    your own is run to be read.
+    pose-spring-NAME one of position too, compensator-NAME a law with a state. --law FILE runs your file to load it.
     """
     from bench.contenders.law_file import load_law
     from bench.export.language import find_language

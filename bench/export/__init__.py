@@ -1,13 +1,12 @@
-"""Laws as code for somebody else's controller: translated from their one source, with test vectors.
+"""Laws as code for another controller: translated from their one source, with test vectors.
 
+entries    what an export offers: orientation error, command and torque; sprung: springs, and laws with a state
+subject    what is exported, by its word: a regulator, coordinates, an impedance or a spring
 program    the functions that a law calls, with every name resolved
-types      what each expression is
-entries    what an export offers: command, error, torque; frames; matrices and quaternions
-subject    a regulator, coordinates or an impedance by its word
-vectors    questions and our own answers; shaken: what another library's last bits may make of them
-heading    what a file says first
-braces     what languages with braces share; c_core: C and C++
-masks      branches as masks, for arrays; flow: which variables they change
-lanes      what an export to Python runs on: its text goes into each file
+types      the kinds of expressions; reading infers them
+braces     the writer for languages with braces; layout: lines and comments
+heading    the heading of every file
+vectors    test vectors; c_tests: the program that runs them in C and C++
 language   the record of a language; languages/ has one file each
+browser    all laws, the plant and the judge as one script for the live page
 """

@@ -1,114 +1,99 @@
-"""What languages with braces share: a typed function, statement by statement.
+"""Writer of typed functions for languages with braces, statement by statement.
 
 A variable is declared where it is assigned first, or before the branches that assign it. A tuple assigned to several
-names is taken apart; where a part needs a name that an earlier part changes, the old values are kept first.
+names is taken apart; where a part needs a name that an earlier part changes, its old value is kept first.
 """
 
 import ast
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
+from typing import Any
 
-from bench.export.types import INDEX, REAL, Kind, Tuple, Typed, arguments, place_of, place_of_constant
-from bench.law.scalar import PRIMITIVES
+from bench.export.layout import INDENT, wrapped
+from bench.export.types import INDEX, REAL, Kind, Tuple, Typed, arguments, place_of
 
-INDENT, WIDTH = "    ", 120
 NAMES = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/"}
 SIGNS = {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">=", ast.Eq: "==", ast.NotEq: "!="}
 STRENGTH = {ast.Mult: 6, ast.Div: 6, ast.Add: 5, ast.Sub: 5}
-"""How an operator binds: a call 9, a sign 7, a comparison 4, `and` 3, `or` 2, a choice 1, as in all of them."""
-
-WORDS_OF_PRIMITIVES = {one.__name__ for one in PRIMITIVES}
+"""How an operator binds: a call 9, a sign 7, a comparison 4, `and` 3, `or` 2, a choice 1, in every such language."""
 
 
 class Braces:
-    """A language with braces; a subclass says how it writes tuples, declarations and the names of functions."""
+    """A language with braces; a subclass writes tuples, declarations and names."""
 
-    end = ";"
+    reserved: frozenset[str] = frozenset()
 
     def declaration(self, kind: Kind, name: str, value: str | None) -> str:
-        """`double x = 1.0`."""
+        """Return `double x = 1.0`, or `double x` without a value."""
         raise NotImplementedError
 
     def built(self, kind: Tuple, items: list[str]) -> str:
-        """A tuple of these items."""
+        """Return a tuple of these items."""
         raise NotImplementedError
 
-    def part(self, kind: Tuple, value: str, place: int) -> str:
-        """One item of a tuple."""
+    def part(self, kind: Tuple, value: str, place: int | str) -> str:
+        """Return an item of a tuple; place: a number, or a variable where all items are numbers."""
         raise NotImplementedError
 
-    def chosen(self, kind: Tuple, value: str, index: str) -> str:
-        """The item that a variable says."""
+    def head(self, function: Typed) -> str:
+        """Return all that is before the opening brace."""
         raise NotImplementedError
 
     def function_name(self, name: str) -> str:
-        """Of a function of the program."""
+        """Return the name of a function of the program."""
         return name
 
     def primitive(self, name: str) -> str:
-        """Of sqrt, sin and so on."""
+        """Return the name of sqrt, sin and so on."""
         return name
 
     def variable(self, name: str) -> str:
-        """A local name that is no word of the language."""
-        return name
+        """Return a local name, with an underscore after it if it is a word of the language."""
+        return f"{name}_" if name in self.reserved else name
 
-    def head(self, function: Typed) -> str:
-        """All before the opening brace."""
-        raise NotImplementedError
-
-    def function(self, function: Typed) -> str:
-        """The whole function with its comment."""
-        return "\n".join(_Body(self, function).lines())
+    def function(self, function: Typed) -> list[str]:
+        """Return the lines of a function."""
+        body = _Body(self, function).block(function.node.body, set(function.variables), INDENT)
+        return list(wrapped((f"{self.head(function)} {{", *body, "}")))
 
 
 class _Body:
     """One function while it is written."""
 
-    def __init__(self, language: Braces, function: Typed):
+    def __init__(self, language: Braces, function: Typed) -> None:
         self.language, self.function = language, function
         self.spare = 0
 
-    def lines(self) -> Iterator[str]:
-        yield self.language.head(self.function) + " {"
-        yield from self.block(self.function.node.body, set(self.function.variables), INDENT)
-        yield "}"
-
     def block(self, statements: list[ast.stmt], undeclared: set[str], indent: str) -> Iterator[str]:
-        """The statements, and in their places the declarations of the variables that live in this block alone."""
+        """Write statements, and in their places the declarations of the variables that live in this block alone."""
         here = {}
         for name in sorted(undeclared):
             users = [at for at, one in enumerate(statements) if name in names_in(one)]
             if users and not _is_inside(name, statements[users[0]], len(users)):
                 here[name] = users[0]
-        inner = undeclared - set(here)
         for at, statement in enumerate(statements):
-            due = [name for name, first in here.items() if first == at]
+            due = {name for name, first in here.items() if first == at}
             if isinstance(statement, ast.Assign):
-                yield from self.statement(statement, set(due), inner, indent)
+                for target in statement.targets:
+                    yield from (f"{indent}{one};" for one in self.assigned(target, statement.value, due))
                 continue
-            for name in due:
-                yield f"{indent}{self.declared(name)}{self.language.end}"
-            yield from self.statement(statement, set(), inner, indent)
+            yield from (f"{indent}{self.declared(name)};" for name in sorted(due))
+            yield from self.statement(statement, undeclared - set(here), indent)
 
     def declared(self, name: str, value: str | None = None) -> str:
         return self.language.declaration(self.function.variables[name], self.language.variable(name), value)
 
-    def statement(self, node: ast.stmt, fresh: set[str], inner: set[str], indent: str) -> Iterator[str]:
-        end = self.language.end
-        if isinstance(node, ast.Assign):
-            for target in node.targets:
-                yield from (f"{indent}{one}{end}" for one in self.assigned(target, node.value, fresh))
-        elif isinstance(node, ast.AugAssign):
+    def statement(self, node: ast.stmt, inner: set[str], indent: str) -> Iterator[str]:
+        if isinstance(node, ast.AugAssign):
             name = self.expression(node.target)
-            yield f"{indent}{name} = {name} {NAMES[type(node.op)]} {self.expression(node.value, 7)}{end}"
+            yield f"{indent}{name} = {name} {NAMES[type(node.op)]} {self.expression(node.value, 7)};"
         elif isinstance(node, ast.Return) and node.value is not None:
-            yield f"{indent}return {self.expression(node.value)}{end}"
+            yield f"{indent}return {self.expression(node.value)};"
         elif isinstance(node, ast.If):
             yield from self.branches(node, inner, indent)
         elif isinstance(node, ast.For):
             yield from self.loop(node, inner, indent)
         elif isinstance(node, ast.Break | ast.Continue):
-            yield f"{indent}{type(node).__name__.lower()}{end}"
+            yield f"{indent}{type(node).__name__.lower()};"
 
     def branches(self, node: ast.If, inner: set[str], indent: str) -> Iterator[str]:
         yield f"{indent}if ({self.expression(node.test)}) {{"
@@ -132,178 +117,120 @@ class _Body:
         yield f"{indent}}}"
 
     def assigned(self, target: ast.expr, value: ast.expr, fresh: set[str]) -> Iterator[str]:
-        """The assignments of one target, declarations where a name is fresh."""
-        if isinstance(target, ast.Name):
-            yield self.given(target, self.expression(value), fresh)
-            return
-        if not isinstance(target, ast.Tuple):
-            return
-        if isinstance(value, ast.Tuple):
-            yield from self.together(target.elts, value.elts, fresh)
-            return
-        kind = self.function.kinds[value]
-        source = self.expression(value, 9)
-        if not isinstance(value, ast.Name | ast.Attribute):
-            source, made = self.temporary(kind, source)
-            yield made
-        yield from self.taken_apart(target, kind, source, fresh)
+        """Write the assignments of one target; fresh: the names that are declared by it."""
+        parts: list[list] = []
+        yield from self.taken_apart(target, value, parts)
+        for at, part in enumerate(parts):
+            name, text, used, kind = part
+            if used & {earlier for earlier, *_ in parts[:at]}:
+                part[1] = f"before_{self.spare}"
+                yield self.temporary(kind, part[1], text)
+        for name, text, *_ in parts:
+            yield self.declared(name, text) if name in fresh else f"{self.language.variable(name)} = {text}"
 
-    def taken_apart(self, target: ast.Tuple, kind: Kind, source: str, fresh: set[str]) -> Iterator[str]:
-        if isinstance(kind, Tuple):
+    def taken_apart(
+        self, target: ast.expr, value: ast.expr | str, parts: list[list], kind: Any = None
+    ) -> Iterator[str]:
+        """Collect name, text, names in it and kind of every part of a target; write what is kept before."""
+        kind = self.function.kinds[value] if isinstance(value, ast.expr) else kind
+        if isinstance(target, ast.Tuple) and isinstance(value, ast.Tuple):
+            for one, item in zip(target.elts, value.elts, strict=True):
+                yield from self.taken_apart(one, item, parts)
+        elif isinstance(target, ast.Tuple):
+            source = self.expression(value, 9) if isinstance(value, ast.expr) else value
+            if isinstance(value, ast.expr) and not isinstance(value, ast.Name | ast.Attribute):
+                call, source = source, f"parts_{self.spare}"
+                yield self.temporary(kind, source, call)
             for place, one in enumerate(target.elts):
                 part = self.language.part(kind, source, place)
-                if isinstance(one, ast.Tuple):
-                    yield from self.taken_apart(one, kind.items[place], part, fresh)
-                elif isinstance(one, ast.Name) and self.is_read(one.id):
-                    yield self.given(one, part, fresh)
+                yield from self.taken_apart(one, part, parts, kind.items[place])
+        elif isinstance(target, ast.Name) and isinstance(value, ast.expr):
+            parts.append([target.id, self.expression(value), names_in(value), kind])
+        elif isinstance(target, ast.Name) and self.is_read(target.id):
+            parts.append([target.id, value, set(), kind])
 
-    def together(self, targets: list[ast.expr], values: list[ast.expr], fresh: set[str]) -> Iterator[str]:
-        """a, b = b, a: values that an earlier target changes are kept before."""
-        sources: list[str | None] = [None] * len(values)
-        for place, value in enumerate(values):
-            changed = {name for one in targets[:place] for name in names_in(one)}
-            if changed & names_in(value):
-                sources[place], made = self.temporary(self.function.kinds[value], self.expression(value))
-                yield made
-        for one, value, source in zip(targets, values, sources, strict=True):
-            if source is None:
-                yield from self.assigned(one, value, fresh)
-            elif isinstance(one, ast.Name):
-                yield self.given(one, source, fresh)
-            elif isinstance(one, ast.Tuple):
-                yield from self.taken_apart(one, self.function.kinds[value], source, fresh)
-
-    def given(self, target: ast.Name, value: str, fresh: set[str]) -> str:
-        """`name = value`, declared if it is fresh."""
-        if target.id in fresh:
-            fresh.discard(target.id)
-            return self.declared(target.id, value)
-        return f"{self.language.variable(target.id)} = {value}"
-
-    def temporary(self, kind: Kind, value: str) -> tuple[str, str]:
-        """A name for a value, and its declaration."""
+    def temporary(self, kind: Kind, name: str, value: str) -> str:
         self.spare += 1
-        name = f"parts_{self.spare}" if isinstance(kind, Tuple) else f"before_{self.spare}"
-        return name, self.language.declaration(kind, name, value)
+        return self.language.declaration(kind, name, value)
 
     def is_read(self, name: str) -> bool:
-        """Whether a variable is looked at anywhere."""
-        nodes = (one for statement in self.function.node.body for one in ast.walk(statement))
-        return any(isinstance(one, ast.Name) and one.id == name and isinstance(one.ctx, ast.Load) for one in nodes)
+        nodes = (one for one in ast.walk(self.function.node) if isinstance(one, ast.Name) and one.id == name)
+        return any(isinstance(one.ctx, ast.Load) for one in nodes)
 
     def expression(self, node: ast.expr, outside: int = 0) -> str:
-        """An expression, in parentheses if it binds less than what is outside."""
+        """Write an expression, in parentheses if it binds less than what is outside."""
         text, strength = self.bound(node)
         return f"({text})" if strength < outside else text
 
     def bound(self, node: ast.expr) -> tuple[str, int]:
-        """The text of an expression and how strongly it binds."""
+        """Return the text of an expression and how strongly it binds."""
         kinds, language = self.function.kinds, self.language
         kind = kinds[node]
-        if kind == INDEX and place_of_constant(node) is not None:
-            return str(place_of_constant(node)), 9
-        if isinstance(node, ast.Constant):
-            return self.value(node.value, kind), 9
-        if isinstance(node, ast.Name):
-            if node.id in self.function.values and node.id not in self.function.variables:
+        if kind == INDEX and place_of(node) is not None:
+            return str(place_of(node)), 9
+        match node:
+            case ast.Constant():
+                return self.value(node.value, kind), 9
+            case ast.Name() if node.id in self.function.values and node.id not in self.function.variables:
                 text = self.value(self.function.values[node.id], kind)
                 return text, 7 if text.startswith("-") else 9
-            return language.variable(node.id), 9
-        if isinstance(node, ast.Attribute):
-            of = kinds[node.value]
-            return language.part(of, self.expression(node.value, 9), of.fields.index(node.attr)), 9
-        if isinstance(node, ast.Subscript):
-            return self.subscript(node), 9
-        if isinstance(node, ast.Tuple):
-            return language.built(kind, [self.expression(one) for one in node.elts]), 9
-        if isinstance(node, ast.Call):
-            return self.call(node, kind), 9
-        if isinstance(node, ast.BinOp):
-            strength = STRENGTH[type(node.op)]
-            left, right = self.expression(node.left, strength), self.expression(node.right, strength + 1)
-            return f"{left} {NAMES[type(node.op)]} {right}", strength
-        if isinstance(node, ast.UnaryOp):
-            sign = {ast.USub: "-", ast.UAdd: "+", ast.Not: "!"}[type(node.op)]
-            return sign + self.expression(node.operand, 8), 7
-        if isinstance(node, ast.Compare):
-            sides = [self.expression(one, 5) for one in (node.left, *node.comparators)]
-            signs = [SIGNS[type(one)] for one in node.ops]
-            pairs = [f"{left} {sign} {right}" for left, sign, right in zip(sides, signs, sides[1:], strict=False)]
-            return " && ".join(pairs), 4 if len(pairs) == 1 else 3
-        if isinstance(node, ast.BoolOp):
-            word, strength = (" && ", 3) if isinstance(node.op, ast.And) else (" || ", 2)
-            return word.join(self.expression(one, 4) for one in node.values), strength
-        if isinstance(node, ast.IfExp):
-            parts = [self.expression(one, 2) for one in (node.test, node.body, node.orelse)]
-            return f"{parts[0]} ? {parts[1]} : {parts[2]}", 1
-        raise TypeError(f"{ast.dump(node)} has passed the reading of types")  # pragma: no cover
+            case ast.Name():
+                return language.variable(node.id), 9
+            case ast.Attribute():
+                of = kinds[node.value]
+                return language.part(of, self.expression(node.value, 9), of.fields.index(node.attr)), 9
+            case ast.Subscript():
+                of, place = kinds[node.value], place_of(node.slice)
+                at = self.expression(node.slice) if place is None else place % len(of.items)
+                return language.part(of, self.expression(node.value, 9), at), 9
+            case ast.Tuple():
+                return language.built(kind, [self.expression(one) for one in node.elts]), 9
+            case ast.Call():
+                return self.call(node, kind)
+            case ast.BinOp():
+                strength = STRENGTH[type(node.op)]
+                left, right = self.expression(node.left, strength), self.expression(node.right, strength + 1)
+                return f"{left} {NAMES[type(node.op)]} {right}", strength
+            case ast.UnaryOp():
+                sign = {ast.USub: "-", ast.UAdd: "+", ast.Not: "!"}[type(node.op)]
+                return sign + self.expression(node.operand, 8), 7
+            case ast.Compare():
+                sides = [self.expression(one, 5) for one in (node.left, *node.comparators)]
+                signs = [SIGNS[type(one)] for one in node.ops]
+                pairs = [f"{left} {sign} {right}" for left, sign, right in zip(sides, signs, sides[1:], strict=False)]
+                return " && ".join(pairs), 4 if len(pairs) == 1 else 3
+            case ast.BoolOp():
+                word, strength = (" && ", 3) if isinstance(node.op, ast.And) else (" || ", 2)
+                return word.join(self.expression(one, 4) for one in node.values), strength
+            case ast.IfExp():
+                parts = [self.expression(one, 2) for one in (node.test, node.body, node.orelse)]
+                return f"{parts[0]} ? {parts[1]} : {parts[2]}", 1
+        raise TypeError(f"{ast.dump(node)} has passed the type inference")  # pragma: no cover
 
-    def subscript(self, node: ast.Subscript) -> str:
-        kind, value = self.function.kinds[node.value], self.expression(node.value, 9)
-        place = place_of(node)
-        if place is None:
-            return self.language.chosen(kind, value, self.expression(node.slice))
-        return self.language.part(kind, value, place % len(kind.items))
-
-    def call(self, node: ast.Call, kind: Kind) -> str:
-        if node in self.function.calls:
-            callee = self.function.calls[node]
-            given = [self.expression(one) for one in arguments(node, list(callee.parameters))]
-            if is_identity(callee):
-                return self.expression(arguments(node, list(callee.parameters))[0], 9)
-            return f"{self.language.function_name(callee.name)}({', '.join(given)})"
+    def call(self, node: ast.Call, kind: Kind) -> tuple[str, int]:
+        if callee := self.function.calls.get(node):
+            given = dict(zip(callee.parameters, arguments(node, list(callee.parameters)), strict=True))
+            if callee.identity:
+                return self.bound(given[callee.identity])
+            texts = map(self.expression, given.values())
+            return f"{self.language.function_name(callee.name)}({', '.join(texts)})", 9
+        if isinstance(kind, Tuple):
+            return self.language.built(kind, [self.expression(one) for one in arguments(node, kind.fields)]), 9
         name = node.func.id if isinstance(node.func, ast.Name) else ""
+        return f"{self.language.primitive(name)}({', '.join(map(self.expression, node.args))})", 9
+
+    def value(self, value: Any, kind: Kind) -> str:
+        """Write a constant; numbers read back as the same bits."""
         if isinstance(kind, Tuple):
-            return self.language.built(kind, [self.expression(one) for one in arguments(node, kind.fields)])
-        return f"{self.language.primitive(name)}({', '.join(self.expression(one) for one in node.args)})"
-
-    def value(self, value, kind: Kind) -> str:
-        """A constant."""
-        if isinstance(kind, Tuple):
-            items = [self.value(one, item) for one, item in zip(value, kind.items, strict=True)]
-            return self.language.built(kind, items)
-        return number(value) if kind == REAL else str(value).lower()
-
-
-def number(value: float) -> str:
-    """A double as text that reads back as the same bits."""
-    return repr(float(value))
-
-
-def is_identity(function: Typed) -> bool:
-    """Whether a function returns its one argument: a call of it is that argument."""
-    [last] = function.node.body[-1:]
-    value = last.value if isinstance(last, ast.Return) and len(function.node.body) == 1 else None
-    return isinstance(value, ast.Name) and list(function.parameters) == [value.id]
+            return self.language.built(kind, [self.value(*one) for one in zip(value, kind.items, strict=True)])
+        return repr(float(value)) if kind == REAL else str(value).lower()
 
 
 def names_in(node: ast.AST) -> set[str]:
-    """Every name in a tree."""
+    """Return every name in a tree."""
     return {one.id for one in ast.walk(node) if isinstance(one, ast.Name)}
 
 
 def _is_inside(name: str, statement: ast.stmt, users: int) -> bool:
-    """Whether a variable that one statement alone looks at lives within one of its branches."""
+    """Tell whether a variable of one statement alone lives within one of its branches."""
     return users == 1 and isinstance(statement, ast.If) and name not in names_in(statement.test)
-
-
-def wrapped(lines: Iterable[str]) -> Iterator[str]:
-    """Lines of code, those that are too long broken after commas in brackets."""
-    for line in lines:
-        indent, depth = " " * (len(line) - len(line.lstrip())), 0
-        while len(line) > WIDTH and (breaks := list(_breaks(line, depth))):
-            fitting = [one for one in breaks if one[0] <= WIDTH + 1] or breaks[:1]
-            late = [one for one in fitting if one[0] > WIDTH // 2] or fitting
-            outermost = min(at for _, at in late)
-            place, depth = [one for one in late if one[1] == outermost][-1]
-            yield line[:place].rstrip()
-            line = f"{indent}{INDENT}{line[place:]}"
-        yield line
-
-
-def _breaks(line: str, depth: int) -> Iterator[tuple[int, int]]:
-    """Places after commas in brackets, with how many brackets are open there; depth: at the beginning of the line."""
-    for place, sign in enumerate(line, start=1):
-        depth += (sign in "([{") - (sign in ")]}")
-        if depth and line[place - 1 : place + 1] == ", ":
-            yield place + 1, depth

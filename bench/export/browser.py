@@ -12,12 +12,11 @@ from typing import NamedTuple
 
 from bench.engines.ideal import angle_between, haversine, turned
 from bench.engines.rigid_body import bounded, step
-from bench.export.braces import is_identity, wrapped
-from bench.export.heading import summary
-from bench.export.languages.js import COPYSIGN, Script, comment
+from bench.export.languages.js import COPYSIGN, Script
 from bench.export.program import Function, read_function
+from bench.export.reading import Program
 from bench.export.subject import GAINS, MATRIX
-from bench.export.types import REAL, TRUTH, Kind, Program, Tuple, Typed, numbers
+from bench.export.types import REAL, TRUTH, Kind, Tuple, Typed, numbers
 from bench.law.contender import Contender, Goal
 from bench.law.so3 import from_quaternion, turn_quaternion
 from tasks.verdict import OUTCOMES, Watch, check_command, check_state, first_watch, verdict, watched
@@ -54,7 +53,7 @@ class Live(NamedTuple):
 
     def __str__(self) -> str:
         needs = list(dict.fromkeys(one.name for one in _with_callees(self.law)))
-        if any("copysign(" in _text(one) for one in _with_callees(self.law)):
+        if any("copysign(" in Script().documented(one) for one in _with_callees(self.law)):
             needs.insert(0, "copysign")
         return f"{{law: {self.law.name}, memory: {json.dumps(self.memory)}, needs: {json.dumps(needs)}}}"
 
@@ -67,18 +66,17 @@ def script(contenders: Iterable[Contender], name: str = "live") -> str:
         [program.add(read_function(one, known), kinds) for one, kinds in of.items()] for of in (PLANT, JUDGE)
     )
     laws = {one.on_free_body: _live(program, known, one) for one in contenders}
-    functions = [one for one in program.functions if not is_identity(one)]
     listed = ",\n".join(f"{json.dumps(word)}: {one}" for word, one in laws.items())
     return "\n".join(
         (
             "(function (root) {",
             "'use strict';",
             COPYSIGN,
-            *map(_text, functions),
+            *map(Script().documented, program.functions),
             f"root.{name} = {{",
             f"plant: {_object(plant)},",
             f"judge: {_object(judge)},",
-            f"functions: {{copysign, {', '.join(one.name for one in functions)}}},",
+            f"functions: {{copysign, {', '.join(one.name for one in program.functions)}}},",
             f"outcomes: {json.dumps(OUTCOMES)},",
             f"laws: {{\n{listed}\n}}}};",
             "})(typeof globalThis === 'object' ? globalThis : this);\n",
@@ -94,14 +92,9 @@ def _live(program: Program, known: dict[Callable, Function], one: Contender) -> 
 
 def _with_callees(function: Typed) -> Iterator[Typed]:
     for one in function.calls.values():
-        if not is_identity(one):
+        if one.identity is None:
             yield from _with_callees(one)
     yield function
-
-
-def _text(function: Typed) -> str:
-    lines = wrapped(Script().function(function).split("\n"))
-    return "\n".join((*comment(summary(function.text)), *lines))
 
 
 def _object(functions: list[Typed]) -> str:

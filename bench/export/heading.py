@@ -1,15 +1,15 @@
-"""What every exported file says first: what it is, where it fails, what it costs, and where it is from."""
+"""Headings of exported files: formula, source, limitations, cost and licence."""
 
 import re
 import sys
 import textwrap
 import tomllib
+from collections.abc import Callable
 from typing import Any
 
 from bench.counting.costs import FLOPS, cost
 from bench.counting.counted import TOTAL
 from bench.export.subject import IMPEDANCE, POSE_SPRING, SPRING, STATED, Subject
-from bench.law.contender import Regulator
 from bench.provenance import ROOT
 
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
@@ -21,10 +21,10 @@ RESET = (
 )
 SIDE = (
     "The side is followed from tick to tick, so the measured orientation must turn by less than 180° between two "
-    "ticks: e + phi/2 < 90°, where e is the error of the measured orientation and phi the rotation within a tick. What "
-    "is said of noise needs this too."
+    "ticks: e + phi/2 < 90°, where e is the error of the measured orientation and phi the rotation within a tick. The "
+    "results with noise need this too."
 )
-"""What a user of any law with memory must know."""
+"""What a user of a law with memory must know."""
 
 BY_ROWS = (
     "Matrices  nine numbers by rows: R[3*i+j] is in row i and column j. What is stored by columns (Eigen's data(), "
@@ -38,7 +38,7 @@ GAINS = "Gains     kp [1/s^2], kv [1/s]; "
 OF_KIND = {
     STATED: (
         f"{GAINS}what they set is in the formula",
-        "State     four numbers; begin gives the first of them, next_state those of every period after",
+        "State     four numbers; begin returns the first of them, next_state those of every period after",
     ),
     IMPEDANCE: (f"{GAINS}apparent inertia [kg m^2]; stiffness at the goal kp times that",),
     POSE_SPRING: (
@@ -46,26 +46,26 @@ OF_KIND = {
     ),
     SPRING: ("Turn      eta, epsilon: the quaternion of R_d^T R, eta >= 0; phi: its rotation vector",),
 }
-"""What else is said of a kind that is no regulator."""
+"""Lines of a kind that is no regulator."""
 
 
 def heading(subject: Subject, *notes: str) -> str:
-    """Lines of plain text, for a comment.
-
-    Args:
-        notes: what is said of one language, each after its padded name.
-    """
+    """Return the heading as lines of plain text, for a comment; notes: on the language, each after its padded name."""
     record = subject.record
     of = f" in {subject.representation.title}" if subject.representation else ""
+    module = sys.modules[_function(record).__module__].__doc__ or ""
+    fails = re.search(r"(Fails|Limitations): (.*?)(?:\n\n|\Z)", module, re.DOTALL)
+    entries = "; ".join(f"{one.name}: {one.doc}" for one in subject.entries if not one.name.endswith("_body"))
     lines = [
         f"{record.title}{of} ({subject.word})",
         "",
         f"Formula   {record.formula}",
         *([f"Source    {record.source}"] if record.source else []),
         *_facts(subject),
-        "Frames    base frame; what ends in _body is in the body's. R: columns are the body's axes in the base frame",
-        *_field("Entries", "; ".join(_entry_lines(subject))),
-        *(line for note in notes for line in _field("", note)),
+        *_wrapped(f"{fails[1]:<10}{' '.join(fails[2].split())}" if fails else ""),
+        "Frames    base frame; body frame where a name ends in _body. R: columns are the body's axes in the base frame",
+        *_wrapped(f"Entries   {entries}"),
+        *(line for note in notes for line in _wrapped(note)),
         f"Made by   orientation-bench {PROJECT['version']} from the law's one source",
         f"SPDX-FileCopyrightText: {HOLDER}",
         "SPDX-License-Identifier: Apache-2.0",
@@ -74,57 +74,28 @@ def heading(subject: Subject, *notes: str) -> str:
 
 
 def _facts(subject: Subject) -> list[str]:
-    lines = []
-    if subject.contender is not None:
-        regulator: Regulator = subject.record
-        lines += [
-            f"{GAINS}near the goal u = kp (rotation vector to the goal) - kv omega",
-            f"Property  {regulator.property}",
-            f"Cost      {_cost(subject)}",
-        ]
-        if subject.memory is not None:
-            first = ", ".join(map(repr, subject.memory))
-            lines += _field("Memory", f"the error quaternion of the last tick, at first ({first}). {RESET} {SIDE}")
-    else:
-        lines += (line for kind, said in OF_KIND.items() if subject.word.startswith(kind) for line in said)
-        if hasattr(subject.record, "property"):
-            lines.append(f"Property  {subject.record.property}")
-    texts = [sys.modules[one.__module__].__doc__ or "" for one in _functions(subject.record)]
-    fails = failures(texts[0]) if texts else ""
-    return [*lines, *_field("Fails", fails)] if fails else lines
-
-
-def _functions(record: Any) -> list:
-    """The functions of a record, that of the law first: its module says where it fails."""
-    found = (getattr(record, name, None) for name in ("law", "law_in", "chart", "moment", "wrench"))
-    return [one for one in found if one is not None]
-
-
-def failures(text: str) -> str:
-    """What a module says after 'Fails:', on one line; empty if it says nothing."""
-    found = re.search(r"Fails: (.*?)(?:\n\n|\Z)", text, re.DOTALL)
-    return " ".join(found.group(1).split()) if found else ""
-
-
-def _cost(subject: Subject) -> str:
+    """Return the lines of a kind."""
+    if subject.contender is None:
+        lines = [line for kind, lines in OF_KIND.items() if subject.word.startswith(kind) for line in lines]
+        return [*lines, f"Property  {subject.record.property}"] if hasattr(subject.record, "property") else lines
     counted = cost(subject.contender).typical.of(TOTAL)
-    flops = sum(counted[name] for name in FLOPS)
-    calls = sum(counted[name] for name in ("sin", "cos", "atan2", "acos"))
-    return f"{flops} flops and {calls} calls of sin, cos, atan2, acos in the typical branch of the command"
+    flops, calls = (sum(counted[name] for name in names) for names in (FLOPS, ("sin", "cos", "atan2", "acos")))
+    lines = [
+        f"{GAINS}near the goal u = kp (rotation vector to the goal) - kv omega",
+        f"Property  {subject.record.property}",
+        f"Cost      {flops} flops and {calls} calls of sin, cos, atan2, acos in the typical branch of the command",
+    ]
+    if subject.memory is not None:
+        first = ", ".join(map(repr, subject.memory))
+        lines += _wrapped(f"Memory    the error quaternion of the last tick, at first ({first}). {RESET} {SIDE}")
+    return lines
 
 
-def _entry_lines(subject: Subject) -> list[str]:
-    """Each kind of entry once: those of the base frame, by a matrix."""
-    plain = [one for one in subject.entries if not re.search(r"_body|_wxyz|_xyzw", one.name)]
-    return [f"{one.name}: {one.doc}" for one in plain]
+def _function(record: Any) -> Callable:
+    """Return the function of a record whose module says where it fails."""
+    found = (getattr(record, name, None) for name in ("law", "law_in", "chart", "moment", "wrench"))
+    return next(one for one in found if one is not None)
 
 
-def _field(name: str, text: str) -> list[str]:
-    return textwrap.wrap(
-        f"{name:<10}{text}" if name else text, WIDTH, subsequent_indent=" " * 10, break_on_hyphens=False
-    )
-
-
-def summary(text: str) -> str:
-    """The first paragraph of a docstring, on one line."""
-    return " ".join(text.partition("\n\n")[0].split())
+def _wrapped(text: str) -> list[str]:
+    return textwrap.wrap(text, WIDTH, subsequent_indent=" " * 10, break_on_hyphens=False)

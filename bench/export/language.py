@@ -1,59 +1,91 @@
-"""What a language of the export is: the record that each file of bench/export/languages holds."""
+"""Languages of the export: the record that each file of bench/export/languages holds."""
+
+from __future__ import annotations
 
 import importlib
 import json
 import pkgutil
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping
 from typing import NamedTuple
 
 from bench.errors import UnknownWord
 from bench.export import languages
+from bench.export.entries import Entry
 from bench.export.heading import BY_ROWS, RESET, SIDE
-from bench.export.shaken import ULPS
 from bench.export.subject import Subject
-from bench.export.vectors import Vector
+from bench.export.vectors import CLOSE, vectors
 
 
 class Language(NamedTuple):
-    """law(subject) -> (name of its file, text). files(subject) -> file name -> text: it, its test, and what they need.
+    """A language: how it writes the file of a subject and the test of it.
 
-    test: the command that runs the test of an export in its folder, with {name} for the subject's identifier.
+    suffixes: of the two files. test: the command that runs the test of an export in its folder, with {name} for the
+    subject's identifier. around: the language whose file this one's file includes.
     """
 
     name: str
     title: str
-    law: Callable[[Subject], tuple[str, str]]
-    files: Callable[[Subject], dict[str, str]]
+    suffixes: tuple[str, str]
+    write_law: Callable[[Subject], str]
+    write_test: Callable[[Subject], str]
     test: str
+    around: Language | None = None
+
+    def law(self, subject: Subject) -> tuple[str, str]:
+        """Return the name of the file of a subject, and its text."""
+        return f"{subject.identifier}.{self.suffixes[0]}", self.write_law(subject)
+
+    def files(self, subject: Subject) -> dict[str, str]:
+        """Return the files of an export by name: the law, its test, and what they need."""
+        return {
+            **dict([self.law(subject)]),
+            **dict([self.around.law(subject)] if self.around else []),
+            f"test_{subject.identifier}.{self.suffixes[1]}": self.write_test(subject),
+            "vectors.json": write_vectors(subject),
+            "README.md": write_readme(subject, self),
+        }
 
 
 def language_words() -> list[str]:
-    """Every language: the names of the files of bench/export/languages."""
+    """Return every language: the names of the files of bench/export/languages."""
     return [one.name for one in pkgutil.iter_modules(languages.__path__)]
 
 
 def find_language(word: str) -> Language:
-    """The constant LANGUAGE of the file of that name."""
+    """Return the constant LANGUAGE of the file of that name."""
     if word not in language_words():
         raise UnknownWord("language", word, language_words())
     return importlib.import_module(f"{languages.__name__}.{word}").LANGUAGE
 
 
-def as_json(subject: Subject, found: Sequence[Vector]) -> str:
-    """The vectors as every language may read them, a line each; numbers read back as the same bits."""
-    lines = ",\n".join(json.dumps(one._asdict(), allow_nan=False) for one in found)
-    about = json.dumps({"law": subject.word, "matrices": "row-major", "frame": "base, but what ends in _body"})
+def write_arguments(entry: Entry, declared: Mapping[str, str], passed: Mapping[str, str]) -> tuple[str, str]:
+    """Write the parameters of an entry, and the arguments that its function is called with.
+
+    declared, passed: templates by kind of a parameter, with {name} and {size}; "" is for all other kinds.
+    """
+    declarations, arguments = (
+        ", ".join(by.get(one.kind, by[""]).format(name=one.name, size=one.size) for one in entry.parameters)
+        for by in (declared, passed)
+    )
+    return declarations, arguments
+
+
+def write_vectors(subject: Subject) -> str:
+    """Write the vectors as JSON, one a line; numbers read back as the same bits."""
+    lines = ",\n".join(json.dumps(one._asdict(), allow_nan=False) for one in vectors(subject))
+    about = json.dumps({"law": subject.word, "matrices": "row-major", "frame": "base, except for what ends in _body"})
     return f'{{"about": {about},\n"vectors": [\n{lines}\n]}}\n'
 
 
-def readme(subject: Subject, language: Language) -> str:
-    """How the export is tried."""
+def write_readme(subject: Subject, language: Language) -> str:
+    """Write how to try the export."""
     remembered = f"\n**Memory.** {RESET} {SIDE}\n" if subject.memory else ""
     return (
         f"# {subject.record.title}, {language.title}\n\nTry it in this folder:\n\n```sh\n"
         f"{language.test.format(name=subject.identifier)}\n```\n\n"
-        "`vectors.json` has questions and our own answers. Where `tolerance` is 0 the answers are equal bit for bit if "
-        "the compiler fuses no product with a sum (`-ffp-contract=off`); elsewhere it covers sines, cosines and arcs "
-        f"off by {ULPS:g} units in the last place. The file of the law says first what it is and where it fails.\n\n"
-        f"**Matrices** in arrays and in `vectors.json` are {BY_ROWS.partition('  ')[2]}.\n{remembered}"
+        "`vectors.json` has the benchmark's own answers. Where `tolerance` is 0 the answers are equal bit for bit if "
+        "the compiler fuses no product with a sum (`-ffp-contract=off`); elsewhere sines, cosines and "
+        f"arcs of another library change last digits, and the tolerance is {CLOSE:g} of the largest number of the "
+        f"answer. The file of the law says what it is and where it fails.\n\n**Matrices** in `vectors.json` are "
+        f"{BY_ROWS.partition('  ')[2]}.\n{remembered}"
     )

@@ -1,12 +1,15 @@
-"""What an exported spring is asked: its moment on the body; of one of a pose, its force and moment on the hand."""
+"""Entries of laws with a state, of springs, and of springs of a pose, in both frames."""
 
 from collections.abc import Callable
 
-from bench.export.entries import FORMS, Entry, Form, Parameter, named_entry
-from bench.law import kernel, minus, quaternion_direction, relative, rotate, rotate_back, sqrt
+from bench.export.entries import COMMAND, GAINS, OMEGA, R_D, Entry, Frame, Parameter, R, in_both_frames
+from bench.law import AT_REST, Goal, kernel, minus, quaternion_direction, relative, rotate_back, sqrt
 
-STIFFNESS, TURNING = Parameter("stiffness", "tuple", 9), Parameter("turning_stiffness", "number")
-PLACES = (Parameter("p", "tuple", 3), Parameter("p_d", "tuple", 3))
+STATE, PERIOD = Parameter("state", "tuple", 4), Parameter("period", "number")
+BEGIN = "the state to begin with"
+NEXT_STATE = "the state one period [s] on: the state, and the period times its rate"
+STIFFNESS, TURNING = Parameter("stiffness", "rows", 9), Parameter("turning_stiffness", "number")
+P, P_D = Parameter("p", "tuple", 3), Parameter("p_d", "tuple", 3)
 FORCE = "force on the hand [N] of the stiffness K [N/m], symmetric, row-major; p, p_d: its place, the goal's [m]"
 TURN = "moment on the hand about its origin [N m]; turning_stiffness [N m/rad]"
 MOMENT = (
@@ -14,33 +17,83 @@ MOMENT = (
 )
 
 
-def of_spring(moment: Callable) -> list[Entry]:
-    """Of a spring, as it is in the tool's axes: its moment, in both frames and every form."""
-    found = []
-    for form in FORMS:
-        made = _springing(moment, form)
-        for name in made:
-            found.append(named_entry(name, form, made, (form.R, form.R_d, STIFFNESS), MOMENT))
-    return found
+def of_compensator(law: Callable, begin: Callable) -> list[Entry]:
+    """Return the command of a law with a state, the state one control period on, and the first state."""
 
+    def make(frame: Frame) -> tuple[Callable, ...]:
+        to_base, from_base = frame.to_base, frame.from_base
 
-def _springing(law: Callable, form: Form) -> dict[str, Callable]:
-    read = form.read
+        @kernel
+        def command(R, omega, R_d, gains, state):
+            u, _rate = law(R, to_base(R, omega), Goal(R_d, AT_REST, AT_REST), gains, state)
+            return from_base(R, u)
+
+        @kernel
+        def next_state(R, omega, R_d, gains, state, period):
+            _u, rate = law(R, to_base(R, omega), Goal(R_d, AT_REST, AT_REST), gains, state)
+            return (
+                state[0] + period * rate[0],
+                state[1] + period * rate[1],
+                state[2] + period * rate[2],
+                state[3] + period * rate[3],
+            )
+
+        return command, next_state
 
     @kernel
-    def moment_body(R, R_d, stiffness):
-        return law(turn_left(read(R), read(R_d)), by_rows(stiffness))
+    def first(R):
+        return begin(R)
 
-    @kernel
-    def moment(R, R_d, stiffness):
-        return rotate(read(R), moment_body(R, R_d, stiffness))
+    given = (R, OMEGA, R_D, GAINS, STATE)
+    both = in_both_frames(make, (given, COMMAND), ((*given, PERIOD), NEXT_STATE))
+    return [*both, Entry("begin", first, (R,), "tuple", BEGIN)]
 
-    return {"moment": moment, "moment_body": moment_body}
+
+def of_spring(law: Callable) -> list[Entry]:
+    """Return the moment of a spring on the body."""
+
+    def make(frame: Frame) -> tuple[Callable, ...]:
+        from_body = frame.from_body
+
+        @kernel
+        def moment(R, R_d, stiffness):
+            return from_body(R, law(turn_left(R, R_d), by_rows(stiffness)))
+
+        return (moment,)
+
+    return in_both_frames(make, ((R, R_D, STIFFNESS), MOMENT))
+
+
+def of_pose_spring(law: Callable) -> list[Entry]:
+    """Return the force and the moment on the hand of a spring of position and orientation."""
+
+    def make(frame: Frame) -> tuple[Callable, ...]:
+        from_body = frame.from_body
+
+        @kernel
+        def wrench(R, p, R_d, p_d, stiffness, turning_stiffness):
+            left = rotate_back(R_d, minus(p, p_d))
+            return law(turn_left(R, R_d), left, by_rows(stiffness), turning_stiffness)
+
+        @kernel
+        def force(R, p, R_d, p_d, stiffness, turning_stiffness):
+            f, _m = wrench(R, p, R_d, p_d, stiffness, turning_stiffness)
+            return from_body(R, f)
+
+        @kernel
+        def moment(R, p, R_d, p_d, stiffness, turning_stiffness):
+            _f, m = wrench(R, p, R_d, p_d, stiffness, turning_stiffness)
+            return from_body(R, m)
+
+        return force, moment
+
+    given = (R, P, R_D, P_D, STIFFNESS, TURNING)
+    return in_both_frames(make, (given, FORCE), (given, TURN))
 
 
 @kernel
 def turn_left(R, R_d):
-    """The unit quaternion (w, x, y, z) of R_d^T R, w >= 0."""
+    """Return the unit quaternion (w, x, y, z) of R_d^T R, w >= 0."""
     quat_wxyz, t = quaternion_direction(relative(R_d, R))
     shorter = 0.5 / sqrt(t)
     return (shorter * quat_wxyz[0], shorter * quat_wxyz[1], shorter * quat_wxyz[2], shorter * quat_wxyz[3])
@@ -48,38 +101,5 @@ def turn_left(R, R_d):
 
 @kernel
 def by_rows(k):
-    """A matrix of nine numbers."""
+    """Return a matrix of nine numbers by rows."""
     return ((k[0], k[1], k[2]), (k[3], k[4], k[5]), (k[6], k[7], k[8]))
-
-
-def of_pose_spring(wrench: Callable) -> list[Entry]:
-    """Of a spring of position and orientation: force and moment in the hand's axes, in every form."""
-    found = []
-    for form in FORMS:
-        made = _posed(wrench, form)
-        for name, doc in (("force_body", FORCE), ("moment_body", TURN)):
-            given = (form.R, PLACES[0], form.R_d, PLACES[1], STIFFNESS, TURNING)
-            found.append(named_entry(name, form, made, given, doc))
-    return found
-
-
-def _posed(law: Callable, form: Form) -> dict[str, Callable]:
-    read = form.read
-
-    @kernel
-    def both(R, p, R_d, p_d, stiffness, turning_stiffness):
-        goal = read(R_d)
-        left = rotate_back(goal, minus(p, p_d))
-        return law(turn_left(read(R), goal), left, by_rows(stiffness), turning_stiffness)
-
-    @kernel
-    def force_body(R, p, R_d, p_d, stiffness, turning_stiffness):
-        force, _moment = both(R, p, R_d, p_d, stiffness, turning_stiffness)
-        return force
-
-    @kernel
-    def moment_body(R, p, R_d, p_d, stiffness, turning_stiffness):
-        _force, moment = both(R, p, R_d, p_d, stiffness, turning_stiffness)
-        return moment
-
-    return {"force_body": force_body, "moment_body": moment_body}

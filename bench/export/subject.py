@@ -17,11 +17,11 @@ from bench.contenders.registry import (
 )
 from bench.control.registry import all_controllers
 from bench.errors import UnknownWord
-from bench.export.compensated import of_compensator
-from bench.export.entries import Entry, of_impedance, of_law, of_representation
+from bench.export.entries import FROM_QUATERNION, Entry, Parameter, of_impedance, of_law, of_representation
 from bench.export.program import Function, read_function
-from bench.export.sprung import of_pose_spring, of_spring
-from bench.export.types import REAL, Kind, Program, Tuple, Typed, numbers
+from bench.export.reading import Program
+from bench.export.sprung import of_compensator, of_pose_spring, of_spring
+from bench.export.types import REAL, Kind, Tuple, Typed, numbers
 from bench.law.contender import Contender, Gains, Regulator
 from bench.law.so3 import Rotation
 
@@ -34,30 +34,35 @@ ALONE: dict[str, tuple[Callable[[], dict], Callable[[Any], list[Entry]]]] = {
     SPRING: (known_springs, lambda one: of_spring(one.moment)),
     POSE_SPRING: (known_pose_springs, lambda one: of_pose_spring(one.wrench)),
 }
-"""Kinds that act on no coordinates: what is known of each, and the entries of one."""
+"""Kinds that act on no coordinates: the records of each by name, and the entries of a record."""
 
 
 class Subject(NamedTuple):
     """One thing to export.
 
-    record: the constant of its file. representation: what it acts on, if it is something. entries: what it offers.
+    record: the constant of its file. representation: the coordinates that it acts on, if any. own: its entries.
     """
 
     word: str
     record: Any
     representation: Any
-    entries: tuple[Entry, ...]
+    own: tuple[Entry, ...]
     memory: tuple | None = None
     contender: Contender | None = None
 
     @property
     def identifier(self) -> str:
-        """The word as a name in every language."""
+        """Return the word as a name in every language."""
         return self.word.replace("-", "_").replace("/", "_")
+
+    @property
+    def entries(self) -> tuple[Entry, ...]:
+        """Return its own entries and the one that every export has."""
+        return (*self.own, FROM_QUATERNION)
 
 
 def subject_words(extra: tuple[Regulator, ...] = ()) -> list[str]:
-    """Everything that can be exported."""
+    """Return the words of everything that can be exported."""
     laws = [one.name for one in registry.all_contenders(extra)]
     impedances = [one.name for one in all_controllers() if one.impedance is not None]
     alone = (f"{prefix}{name}" for prefix, (known, _) in ALONE.items() for name in known())
@@ -65,15 +70,15 @@ def subject_words(extra: tuple[Regulator, ...] = ()) -> list[str]:
 
 
 def find_subject(word: str, extra: tuple[Regulator, ...] = ()) -> Subject:
-    """The subject of a word.
+    """Return the subject of a word.
 
     Errors:
         UnknownWord: nothing of that name. Incompatible: coordinates are missing, or do not fit.
     """
     first, _, second = word.partition("/")
     if first.startswith(COORDINATES):
-        one = registry.representation(first.removeprefix(COORDINATES))
-        return Subject(word, one, None, tuple(of_representation(one)))
+        record = registry.representation(first.removeprefix(COORDINATES))
+        return Subject(word, record, None, tuple(of_representation(record)))
     for prefix, (known, entries_of) in ALONE.items():
         if first.startswith(prefix) and first.removeprefix(prefix) in known():
             record = known()[first.removeprefix(prefix)]
@@ -96,8 +101,8 @@ MATRIX = Tuple((numbers(3),) * 3, Rotation.__name__, Rotation._fields)
 GAINS = Tuple((REAL, REAL), Gains.__name__, Gains._fields)
 
 
-def kind_of(parameter) -> Kind:
-    """Of an entry's argument."""
+def kind_of(parameter: Parameter) -> Kind:
+    """Return the kind of an argument of an entry."""
     fixed: dict[str, Kind] = {"matrix": MATRIX, "gains": GAINS, "number": REAL}
     return fixed.get(parameter.kind, numbers(parameter.size))
 
@@ -111,7 +116,7 @@ class Translated(NamedTuple):
 
 @functools.lru_cache(maxsize=128)
 def translated(subject: Subject) -> Translated:
-    """All that a subject calls; once a subject."""
+    """Translate all that a subject calls, once a subject."""
     program = Program()
     known: dict[Callable, Function] = {}
     entries: dict[str, Typed] = {}

@@ -1,172 +1,198 @@
-"""C99: one header of static inline functions on plain arrays, without allocation, on nothing but <math.h>."""
+"""C99: one header of static inline functions on plain arrays, without allocation, on nothing but <math.h>.
 
-from collections.abc import Iterator, Sequence
+Inside, tuples are structures; the entries read them from arrays and write them to arrays.
+"""
 
-from bench.export.braces import INDENT, wrapped
-from bench.export.c_core import Core, comment
-from bench.export.c_tests import Asking, program
-from bench.export.entries import Entry, Parameter
+import ast
+import textwrap
+from collections.abc import Iterator
+
+from bench.export.braces import Braces
+from bench.export.c_tests import Calls, write_program
+from bench.export.entries import Entry
 from bench.export.heading import BY_ROWS, RESET, UNFUSED, heading
-from bench.export.language import Language, as_json, readme
+from bench.export.language import Language, write_arguments
+from bench.export.layout import INDENT, WIDTH, summary, wrapped
 from bench.export.subject import MATRIX, Subject, translated
-from bench.export.types import Kind, Tuple
-from bench.export.vectors import Vector, vectors
+from bench.export.types import INDEX, REAL, TRUTH, Kind, Tuple, Typed
 
-RESULTS = {"command": "u", "orientation": "e", "torque": "tau", "rotation": "R"}
-"""What the result of an entry is called, by the first word of its name."""
+WORDS = """
+auto break case char const continue default do double else enum extern float for goto if inline int long
+register restrict return short signed sizeof static struct switch typedef union unsigned void volatile while
+and and_eq bitand bitor bool catch class compl delete explicit export false friend mutable namespace new not
+not_eq operator or or_eq private protected public template this throw true try typename using virtual xor
+"""
+"""Words of C and of C++, which includes the header."""
 
-COMPILE = "cc -std=c99 -O2 -ffp-contract=off -o test_{name} test_{name}.c -lm && ./test_{name}"
-
-
-def law(subject: Subject) -> tuple[str, str]:
-    """The name of its header, and the header."""
-    return f"{subject.identifier}.h", header(subject)
-
-
-def files(subject: Subject) -> dict[str, str]:
-    """The header, its test, and the vectors."""
-    name, found = subject.identifier, vectors(subject)
-    name_of_law, text = law(subject)
-    return {
-        name_of_law: text,
-        f"test_{name}.c": test(subject, found),
-        "vectors.json": as_json(subject, found),
-        "README.md": readme(subject, LANGUAGE),
-    }
+RESULTS = {"command": "u", "orientation": "e", "torque": "tau", "rotation": "R", "from": "R"}
+"""Names of results, by the first word of the entry's name."""
 
 
-def header(subject: Subject) -> str:
-    """The law as one header."""
-    name, done = subject.identifier, translated(subject)
-    core = Core(done.program, prefix=f"{name}_core_")
+class Core(Braces):
+    """The functions of a program in C; prefix: begins every name of theirs."""
+
+    reserved = frozenset(WORDS.split())
+
+    def __init__(self, subject: Subject) -> None:
+        self.program, self.prefix = translated(subject).program, f"{subject.identifier}_core_"
+        self.names: dict[Tuple, str] = {}
+        for kind in self.program.tuples:
+            name = f"real{len(kind.items)}" if kind.is_numbers else kind.name
+            name = name or "_".join(self.kind(one).removeprefix(self.prefix) for one in kind.items)
+            while f"{self.prefix}{name}" in self.names.values():
+                name += "_"
+            self.names[kind] = f"{self.prefix}{name}"
+
+    def function_name(self, name: str) -> str:
+        """Return the name after the prefix."""
+        return f"{self.prefix}{name}"
+
+    def kind(self, kind: Kind) -> str:
+        """Return the type of a kind."""
+        return self.names[kind] if isinstance(kind, Tuple) else {REAL: "double", TRUTH: "int", INDEX: "int"}[kind]
+
+    def declaration(self, kind: Kind, name: str, value: str | None) -> str:
+        """Return `double x = 1.0`."""
+        return f"{self.kind(kind)} {name}" if value is None else f"{self.kind(kind)} {name} = {value}"
+
+    def built(self, kind: Tuple, items: list[str]) -> str:
+        """Return a call of the function that makes one."""
+        return f"{self.names[kind]}_of({', '.join(items)})"
+
+    def part(self, kind: Tuple, value: str, place: int | str) -> str:
+        """Return an element, or a field."""
+        return f"{value}.{self.item(kind, place)}"
+
+    def item(self, kind: Tuple, place: int | str) -> str:
+        """Return the name of an element, or of a field."""
+        if kind.is_numbers:
+            return f"at[{place}]"
+        return kind.fields[int(place)] if kind.fields else f"item{place}"
+
+    def head(self, function: Typed) -> str:
+        """Return the signature."""
+        given = (f"{self.kind(kind)} {self.variable(name)}" for name, kind in function.parameters.items())
+        return f"static inline {self.kind(function.returns)} {self.function_name(function.name)}({', '.join(given)})"
+
+    def structure(self, kind: Tuple) -> Iterator[str]:
+        """Write a structure, what makes one, and for vectors and matrices what reads and writes arrays, by rows."""
+        name, count = self.names[kind], len(kind.items)
+        items = [f"x{at}" if kind.is_numbers else self.item(kind, at) for at in range(count)]
+        fields = [f"{self.kind(one)} {item}" for one, item in zip(kind.items, items, strict=True)]
+        held, value = f"{'; '.join(fields)};", f"{{{', '.join(items)}}}"
+        yield f"typedef struct {{ {f'double at[{count}];' if kind.is_numbers else held} }} {name};"
+        yield f"static inline {name} {name}_of({', '.join(fields)}) {{"
+        yield f"{INDENT}{name} t = {f'{{{value}}}' if kind.is_numbers else value};"
+        yield f"{INDENT}return t;\n}}"
+        read, parts = [f"x[{at}]" for at in range(count)], [f"at[{at}]" for at in range(count)]
+        if kind == MATRIX:
+            column = self.names[MATRIX.items[0]]
+            read = [f"{column}_of(x[{at}], x[{at + 3}], x[{at + 6}])" for at in range(3)]
+            parts = [f"{field}.at[{row}]" for row in range(3) for field in kind.fields]
+        if kind == MATRIX or kind.is_numbers:
+            yield f"static inline {name} {name}_at(const double *x) {{"
+            yield f"{INDENT}return {name}_of({', '.join(read)});\n}}"
+            yield f"static inline void {name}_to({name} t, double *x) {{"
+            yield from (f"{INDENT}x[{at}] = t.{part};" for at, part in enumerate(parts))
+            yield "}"
+
+    def text(self) -> str:
+        """Write structures and functions, callees first."""
+        structures = (line for kind in self.names for line in self.structure(kind))
+        return "\n".join((*wrapped(structures), "", *(self.documented(one) for one in self.program.functions)))
+
+    def documented(self, function: Typed) -> str:
+        """Write a function after its comment; its unused parameters are marked."""
+        head, *body = self.function(function)
+        while not head.endswith("{"):
+            head = f"{head}\n{body.pop(0)}"
+        used = {one.id for one in ast.walk(function.node) if isinstance(one, ast.Name)}
+        unused = [f"{INDENT}(void){self.variable(name)};" for name in function.parameters if name not in used]
+        return "\n".join((*comment(summary(function.text)), head, *unused, *body, ""))
+
+
+def comment(text: str) -> list[str]:
+    """Return a text as a comment before a function; no line if it is empty."""
+    lines = textwrap.wrap(f"/* {text} */", WIDTH - 6, subsequent_indent="   ")
+    return lines if text else []
+
+
+def write_header(subject: Subject) -> str:
+    """Write the law as one header."""
+    name, core = subject.identifier, Core(subject)
     guard = f"ORIENTATION_BENCH_{name.upper()}_H"
+    about = "\n".join(f" * {line}".rstrip() for line in heading(subject, BY_ROWS, UNFUSED).splitlines())
     return "\n".join(
         (
-            "/*\n"
-            + "\n".join(f" * {line}".rstrip() for line in heading(subject, BY_ROWS, UNFUSED).splitlines())
-            + "\n */",
-            f"#ifndef {guard}\n#define {guard}\n\n#include <math.h>\n",
+            f"/*\n{about}\n */\n#ifndef {guard}\n#define {guard}\n\n#include <math.h>\n",
             core.text(),
-            *(line for text in passages(subject, core).values() for line in text),
-            *state(subject),
-            *(f"{entry_text(subject, core, one)}\n" for one in subject.entries),
+            *write_state(subject),
+            *(write_entry(subject, core, one) for one in subject.entries),
             "#endif\n",
         )
     )
 
 
-def passages(subject: Subject, core: Core) -> dict[str, list[str]]:
-    """By type, how its numbers are read from an array and written to one."""
-    done = translated(subject)
-    found: dict[str, list[str]] = {}
-    for entry in subject.entries:
-        function = done.entries[entry.name]
-        for kind in (*function.parameters.values(), *results(entry, function.returns)):
-            if isinstance(kind, Tuple) and (kind.is_numbers or kind.name == MATRIX.name):
-                found.setdefault(core.kind(kind), list(_passage(core, kind)))
-    return found
+def write_state(subject: Subject) -> Iterator[str]:
+    """Write the type of a memory, and its reset."""
+    if subject.memory is not None:
+        name = subject.identifier
+        yield "/* What the law remembers from tick to tick. */"
+        yield f"typedef struct {{ double memory[{len(subject.memory)}]; }} {name}_state;\n"
+        yield from comment(RESET)
+        yield f"static inline void {name}_reset({name}_state *state) {{"
+        yield from (f"{INDENT}state->memory[{at}] = {value!r};" for at, value in enumerate(subject.memory))
+        yield "}\n"
 
 
-def _passage(core: Core, kind: Tuple) -> Iterator[str]:
-    """A matrix is by rows in arrays, and by columns in ours."""
-    name = core.kind(kind)
-    if kind.is_numbers:
-        items = [f"x[{at}]" for at in range(len(kind.items))]
-        parts = [core.part(kind, "t", at) for at in range(len(kind.items))]
-    else:
-        column = core.kind(kind.items[0])
-        items = [f"{column}_of(x[{at}], x[{at + 3}], x[{at + 6}])" for at in range(3)]
-        parts = [f"{core.part(kind, 't', at)}.at[{row}]" for row in range(3) for at in range(3)]
-    yield f"static inline {name} {name}_at(const double *x) {{"
-    yield f"{INDENT}return {name}_of({', '.join(items)});"
-    yield "}"
-    yield f"static inline void {name}_to({name} t, double *x) {{"
-    yield from (f"{INDENT}x[{at}] = {part};" for at, part in enumerate(parts))
-    yield "}\n"
-
-
-def results(entry: Entry, returns: Kind) -> tuple[Kind, ...]:
-    """What an entry returns; with memory the new memory after it."""
-    return returns.items if entry.has_memory and isinstance(returns, Tuple) else (returns,)
-
-
-def state(subject: Subject) -> Iterator[str]:
-    """What a law with memory carries from tick to tick."""
-    if subject.memory is None:
-        return
-    name = subject.identifier
-    yield "/* What the law remembers from tick to tick. */"
-    yield f"typedef struct {{ double memory[{len(subject.memory)}]; }} {name}_state;\n"
-    yield from comment(RESET)
-    yield f"static inline void {name}_reset({name}_state *state) {{"
-    yield from (f"{INDENT}state->memory[{at}] = {value!r};" for at, value in enumerate(subject.memory))
-    yield "}\n"
-
-
-def entry_text(subject: Subject, core: Core, entry: Entry) -> str:
-    """One entry on plain arrays: NAME_ENTRY(arguments..., result)."""
+def write_entry(subject: Subject, core: Core, entry: Entry) -> str:
+    """Write one entry on plain arrays: NAME_ENTRY(arguments..., result)."""
     name, function = f"{subject.identifier}_{entry.name}", translated(subject).entries[entry.name]
-    given, passed = [], []
-    for one, kind in zip(entry.parameters, function.parameters.values(), strict=True):
-        words, value = argument(subject, core.kind(kind), one)
-        given += words
-        passed.append(value)
-    call = f"{core.function_name(function.name)}({', '.join(passed)})"
+    declared = {
+        "number": "double {name}",
+        "gains": "double kp, double kv",
+        "memory": f"{subject.identifier}_state *state",
+        "": "const double {name}[{size}]",
+    }
+    passed = {"number": "{name}", "gains": f"{core.prefix}Gains_of(kp, kv)"}
+    passed["memory"] = f"{core.prefix}real{len(subject.memory or ())}_at(state->memory)"
+    passed |= {"matrix": f"{core.prefix}Rotation_at({{name}})", "": f"{core.prefix}real{{size}}_at({{name}})"}
+    given, arguments = write_arguments(entry, declared, passed)
+    call, returned = f"{core.function_name(function.name)}({arguments})", core.kind(function.returns)
+    about, out = entry.doc, RESULTS.get(entry.name.partition("_")[0], "result")
     if entry.returns == "number":
-        head, body = f"static inline double {name}({', '.join(given)}) {{", [f"return {call};"]
+        head, body = f"static inline double {name}({given}) {{", [f"return {call};"]
     else:
-        first, *kept = results(entry, function.returns)
-        out = RESULTS.get(entry.name.partition("_")[0], "result")
-        size = 9 if entry.returns == "matrix" or not isinstance(first, Tuple) else len(first.items)
-        head = f"static inline void {name}({', '.join(given)}, double {out}[{size}]) {{"
-        body = [f"{core.kind(first)}_to({call}, {out});"]
-        if kept:
-            body = [f"const {core.kind(function.returns)} answer = {call};"]
-            body += [
-                f"{core.kind(first)}_to(answer.item0, {out});",
-                f"{core.kind(kept[0])}_to(answer.item1, state->memory);",
-            ]
-    return "\n".join(
-        (*comment(entry.doc + rows_of(entry)), *wrapped((head, *(f"{INDENT}{line}" for line in body), "}")))
-    )
+        head = f"static inline void {name}({given}, double {out}[{result_size(subject, entry)}]) {{"
+        body = [f"{returned}_to({call}, {out});"]
+    if entry.has_memory:
+        first, kept = map(core.kind, function.returns.items)
+        body = [f"const {returned} answer = {call};", f"{first}_to(answer.item0, {out});"]
+        body.append(f"{kept}_to(answer.item1, state->memory);")
+    if matrices := [one.name for one in entry.parameters if one.size == 9] + ["R"] * (entry.returns == "matrix"):
+        about += f"; {', '.join(matrices)} by rows: {matrices[0]}[3*i+j]"
+    return "\n".join((*comment(about), *wrapped((head, *(f"{INDENT}{line}" for line in body), "}", ""))))
 
 
-def rows_of(entry: Entry) -> str:
-    """Name the entry's matrices that are arrays, and say how they are stored."""
-    names = [one.name for one in entry.parameters if one.size == 9] + ["R"] * (entry.returns == "matrix")
-    return f"; {', '.join(names)} by rows: {names[0]}[3*i+j]" if names else ""
+def result_size(subject: Subject, entry: Entry) -> int:
+    """Return how many numbers an entry returns, without the memory."""
+    kind = translated(subject).entries[entry.name].returns
+    first = kind.items[0] if entry.has_memory and isinstance(kind, Tuple) else kind
+    return 9 if entry.returns == "matrix" else len(first.items) if isinstance(first, Tuple) else 1
 
 
-def argument(subject: Subject, kind: str, one: Parameter) -> tuple[list[str], str]:
-    """How an argument is declared, and the value that is made of it."""
-    if one.kind == "number":
-        return [f"double {one.name}"], one.name
-    if one.kind == "gains":
-        return ["double kp", "double kv"], f"{kind}_of(kp, kv)"
-    if one.kind == "memory":
-        return [f"{subject.identifier}_state *state"], f"{kind}_at(state->memory)"
-    return [f"const double {one.name}[{one.size}]"], f"{kind}_at({one.name})"
+def write_test(subject: Subject) -> str:
+    """Write the program that runs the vectors."""
+    name = subject.identifier
+    passed = {"memory": "&state", "number": "row[{at}]", "gains": "row[{at}], row[{at} + 1]", "": "row + {at}"}
+
+    def call(entry: Entry, arguments: str) -> str:
+        if entry.returns == "number":
+            return f"result[0] = {name}_{entry.name}({arguments});"
+        return f"{name}_{entry.name}({arguments}, result);"
+
+    return write_program(subject, Calls(f"{name}.h", passed, call, f"{name}_state", f"{name}_reset(&state)"))
 
 
-def passed(one: Parameter, place: int) -> list[str]:
-    """How a test passes an argument that begins at a place of the row."""
-    words = {"memory": ["&state"], "number": [f"row[{place}]"], "gains": [f"row[{place}]", f"row[{place + 1}]"]}
-    return words.get(one.kind, [f"row + {place}"])
-
-
-def called(subject: Subject, entry: Entry, given: list[str]) -> str:
-    """What leaves the answer in `result`."""
-    name = f"{subject.identifier}_{entry.name}"
-    if entry.returns == "number":
-        return f"result[0] = {name}({', '.join(given)});"
-    return f"{name}({', '.join((*given, 'result'))});"
-
-
-def test(subject: Subject, found: Sequence[Vector]) -> str:
-    """The program that runs the vectors."""
-    include = (f'#include "{subject.identifier}.h"',)
-    state, reset = f"{subject.identifier}_state", f"{subject.identifier}_reset(&state)"
-    return program(subject, found, Asking(include, passed, called, state, reset))
-
-
-LANGUAGE = Language("c", "C99", law, files, COMPILE)
+COMPILE = "cc -std=c99 -O2 -ffp-contract=off -o test_{name} test_{name}.c -lm && ./test_{name}"
+LANGUAGE = Language("c", "C99", ("h", "c"), write_header, write_test, COMPILE)

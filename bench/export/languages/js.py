@@ -4,71 +4,50 @@ Tuples are arrays, those with names too; numbers are IEEE doubles, and no produc
 """
 
 import json
-import textwrap
 
-from bench.export.braces import INDENT, WIDTH, Braces, is_identity, wrapped
+from bench.export.braces import Braces
 from bench.export.entries import Entry
-from bench.export.heading import BY_ROWS, RESET, heading, summary
-from bench.export.language import Language, as_json, readme
+from bench.export.heading import BY_ROWS, RESET, heading
+from bench.export.language import Language, write_arguments
+from bench.export.layout import INDENT, slashes, summary
 from bench.export.subject import Subject, translated
 from bench.export.types import Kind, Tuple, Typed
-from bench.export.vectors import vectors
 
 WORDS = """
 arguments await break case catch class const continue debugger default delete do else enum eval export extends
 finally for function if implements import in instanceof interface let new package private protected public
 return static super switch this throw try typeof var void while with yield
 """
-RESERVED = frozenset(WORDS.split())
 
 
 class Script(Braces):
     """The typed functions as JavaScript."""
 
+    reserved = frozenset(WORDS.split())
+
     def declaration(self, kind: Kind, name: str, value: str | None) -> str:
-        """`let x = 1.0`."""
+        """Return `let x = 1.0`."""
         return f"let {name}" if value is None else f"let {name} = {value}"
 
     def built(self, kind: Tuple, items: list[str]) -> str:
-        """An array."""
+        """Return an array."""
         return f"[{', '.join(items)}]"
 
-    def part(self, kind: Tuple, value: str, place: int) -> str:
-        """An element."""
+    def part(self, kind: Tuple, value: str, place: int | str) -> str:
+        """Return an element."""
         return f"{value}[{place}]"
 
-    def chosen(self, kind: Tuple, value: str, index: str) -> str:
-        """The element that a variable says."""
-        return f"{value}[{index}]"
-
     def primitive(self, name: str) -> str:
-        """Those of Math, and copysign, which it lacks."""
+        """Return the function of Math; it lacks copysign."""
         return name if name == "copysign" else f"Math.{name}"
 
-    def variable(self, name: str) -> str:
-        """With an underscore after it if it is a word of the language."""
-        return f"{name}_" if name in RESERVED else name
-
     def head(self, function: Typed) -> str:
-        """The signature."""
+        """Return the signature."""
         return f"function {function.name}({', '.join(map(self.variable, function.parameters))})"
 
-
-def law(subject: Subject) -> tuple[str, str]:
-    """The name of its script, and the script."""
-    return f"{subject.identifier}.js", script(subject)
-
-
-def files(subject: Subject) -> dict[str, str]:
-    """The script, its test, and the vectors."""
-    name = subject.identifier
-    name_of_law, text = law(subject)
-    return {
-        name_of_law: text,
-        f"test_{name}.js": TEST.replace("NAME", name),
-        "vectors.json": as_json(subject, vectors(subject)),
-        "README.md": readme(subject, LANGUAGE),
-    }
+    def documented(self, function: Typed) -> str:
+        """Write a function after its comment."""
+        return "\n".join((*slashes(summary(function.text)), *self.function(function)))
 
 
 COPYSIGN = """function copysign(magnitude, sign) {
@@ -76,35 +55,6 @@ COPYSIGN = """function copysign(magnitude, sign) {
     return negative ? -Math.abs(magnitude) : Math.abs(magnitude);
 }
 """
-
-
-def script(subject: Subject) -> str:
-    """The law as one script: NAME.command(...) and so on, in the frame and form that the name says."""
-    done, language = translated(subject), Script()
-    functions = [
-        "\n".join((*comment(summary(one.text)), *wrapped(language.function(one).split("\n"))))
-        for one in done.program.functions
-        if not is_identity(one)
-    ]
-    if any("copysign(" in one for one in functions):
-        functions.insert(0, COPYSIGN)
-    offered = [_offered(subject, one, done.entries[one.name]) for one in subject.entries]
-    first = f"Object.assign(state, {{ memory: {json.dumps(subject.memory)} }})"
-    about = "".join(f"{INDENT}{line}\n" for line in comment(f"{RESET} reset() makes a state."))
-    memory = f"{about}{INDENT}reset: (state = {{}}) => {first},\n" if subject.memory else ""
-    body = "\n\n".join(functions)
-    return "\n".join(
-        (
-            *(f"// {line}".rstrip() for line in heading(subject, BY_ROWS).splitlines()),
-            f"(function (root) {{\n'use strict';\n\n{body}\n",
-            *(READING,),
-            f"const offered = {{\n{memory}{''.join(offered)}}};",
-            "if (typeof module === 'object' && module.exports) module.exports = offered;",
-            f"else root.{subject.identifier} = offered;",
-            "})(typeof globalThis === 'object' ? globalThis : this);\n",
-        )
-    )
-
 
 READING = """function columns(R) {
     if (R.length !== 9 || typeof R[0] !== 'number')
@@ -122,24 +72,40 @@ function kept(answer, state) {
 }
 """
 
+PASSED = {"gains": "[kp, kv]", "memory": "state.memory", "matrix": "columns({name})", "": "{name}"}
 
-def _offered(subject: Subject, entry: Entry, function: Typed) -> str:
-    """One entry of the object that the script offers."""
-    given, passed = [], []
-    for one in entry.parameters:
-        words = {"gains": ["kp", "kv"], "memory": ["state"]}.get(one.kind, [one.name])
-        values = {"gains": "[kp, kv]", "memory": "state.memory", "matrix": f"columns({one.name})"}
-        given += words
-        passed.append(values.get(one.kind, one.name))
-    call = f"{function.name}({', '.join(passed)})"
+
+def write_script(subject: Subject) -> str:
+    """Write the law as one script: NAME.command(...) and so on."""
+    done = translated(subject)
+    functions = [Script().documented(one) for one in done.program.functions]
+    if any("copysign(" in one for one in functions):
+        functions.insert(0, COPYSIGN)
+    offered = [line for one in subject.entries for line in write_entry(one, done.entries[one.name].name)]
+    if subject.memory:
+        first = f"Object.assign(state, {{ memory: {json.dumps(subject.memory)} }})"
+        offered = [*slashes(f"{RESET} reset() makes a state."), f"reset: (state = {{}}) => {first},", *offered]
+    return "\n".join(
+        (
+            *(f"// {line}".rstrip() for line in heading(subject, BY_ROWS).splitlines()),
+            "(function (root) {\n'use strict';\n",
+            "\n\n".join((*functions, READING)),
+            "const offered = {",
+            *(f"{INDENT}{line}" for line in offered),
+            "};",
+            "if (typeof module === 'object' && module.exports) module.exports = offered;",
+            f"else root.{subject.identifier} = offered;",
+            "})(typeof globalThis === 'object' ? globalThis : this);\n",
+        )
+    )
+
+
+def write_entry(entry: Entry, function: str) -> list[str]:
+    """Write one entry of the object that the script offers."""
+    given, passed = write_arguments(entry, {"gains": "kp, kv", "memory": "state", "": "{name}"}, PASSED)
+    call = f"{function}({passed})"
     call = f"kept({call}, state)" if entry.has_memory else f"rows({call})" if entry.returns == "matrix" else call
-    about = "".join(f"{INDENT}{line}\n" for line in comment(entry.doc))
-    return f"{about}{INDENT}{entry.name}: ({', '.join(given)}) => {call},\n"
-
-
-def comment(text: str) -> list[str]:
-    """As a comment before a function."""
-    return [f"// {line}" for line in textwrap.wrap(text, WIDTH - 4)]
+    return [*slashes(entry.doc), f"{entry.name}: ({given}) => {call},"]
 
 
 TEST = """// node test_NAME.js
@@ -163,4 +129,10 @@ console.log(`NAME: ${wrong} of ${vectors.length} vectors wrong`);
 process.exit(wrong ? 1 : 0);
 """
 
-LANGUAGE = Language("js", "JavaScript", law, files, "node test_{name}.js")
+
+def write_test(subject: Subject) -> str:
+    """Write the program that runs the vectors."""
+    return TEST.replace("NAME", subject.identifier)
+
+
+LANGUAGE = Language("js", "JavaScript", ("js", "js"), write_script, write_test, "node test_{name}.js")

@@ -1,141 +1,111 @@
-"""Python: one file to the array API standard, for NumPy, JAX and torch alike, over any leading axes."""
+"""Python: one module on nothing but the standard library, the law's own functions with all that they call."""
 
 import ast
-import inspect
-import keyword
+import copy
 import textwrap
+from collections.abc import Iterator
 
-from bench.export import lanes
-from bench.export.braces import INDENT, is_identity, wrapped
-from bench.export.entries import Entry, Parameter
-from bench.export.heading import RESET, WIDTH, heading, summary
-from bench.export.language import Language, as_json, readme
-from bench.export.masks import ELSE, LANES, THEN, function_name, masked
+from bench.export.entries import Entry
+from bench.export.heading import RESET, WIDTH, heading
+from bench.export.language import Language, write_arguments
+from bench.export.layout import INDENT, summary, wrapped
 from bench.export.subject import Subject, translated
-from bench.export.types import Program, Tuple
-from bench.export.vectors import vectors
+from bench.export.types import Typed
+from bench.law.scalar import PRIMITIVES
 
-ARRAYS = (
-    "Arrays    NumPy 2, JAX (jit, vmap, grad), torch, or any of the array API standard: matrices (..., 3, 3), vectors "
-    "(..., 3), quaternions (..., 4), gains numbers or (...), over any leading axes, broadcast. float32 stays float32"
+NUMBERS = (
+    "Numbers   matrices are three rows of three numbers, vectors three numbers: lists, tuples or NumPy arrays",
+    "Errors    where C gives infinity or NaN, ZeroDivisionError or ValueError is raised",
 )
+DECLARED = {"gains": "kp, kv", "": "{name}"}
+PASSED = {
+    "number": "{name}",
+    "gains": "Gains(kp, kv)",
+    "matrix": "Rotation(*_columns({name}))",
+    "rows": "sum(_columns({name}), ())",
+    "": "_numbers({name})",
+}
+READING = '''def _numbers(v):
+    """Return a vector as a tuple of floats."""
+    return tuple(float(x) for x in v)
 
 
-def law(subject: Subject) -> tuple[str, str]:
-    """The name of its module, and the module."""
-    return f"{subject.identifier}.py", module(subject)
+def _columns(R):
+    """Return the columns of a matrix of three rows."""
+    rows = tuple(_numbers(row) for row in R)
+    if [len(row) for row in rows] != [3, 3, 3]:
+        raise ValueError("a matrix is three rows of three numbers")
+    return tuple(zip(*rows))
+'''
 
 
-def files(subject: Subject) -> dict[str, str]:
-    """The module, its test, and the vectors."""
-    name = subject.identifier
-    name_of_law, text = law(subject)
-    return {
-        name_of_law: text,
-        f"test_{name}.py": TEST.replace("NAME", name),
-        "vectors.json": as_json(subject, vectors(subject)),
-        "README.md": readme(subject, LANGUAGE),
-    }
+class _Resolved(ast.NodeTransformer):
+    """A function with the names that it has in the module: callees are private, constants are numbers."""
+
+    def __init__(self, function: Typed, memo: dict) -> None:
+        self.calls = {memo[id(call)]: callee for call, callee in function.calls.items()}
+        self.values = {name: value for name, value in function.values.items() if name not in function.variables}
+
+    def visit_Call(self, node: ast.Call) -> ast.AST:
+        """Name the callee."""
+        callee = self.calls.get(node)
+        self.generic_visit(node)
+        if callee is not None and callee.identity:
+            return node.args[list(callee.parameters).index(callee.identity)]
+        if callee is not None:
+            node.func = ast.Name(f"_{callee.name}")
+        return node
+
+    def visit_Name(self, node: ast.Name) -> ast.AST:
+        """Write the value of a constant."""
+        return ast.parse(repr(self.values[node.id]), mode="eval").body if node.id in self.values else node
 
 
-def module(subject: Subject) -> str:
-    """The law as one module: command(R, omega, R_d, kp, kv) and so on, in the frame and form that the name says."""
+def write_module(subject: Subject) -> str:
+    """Write the law as one module: command(R, omega, R_d, kp, kv) and so on."""
     done = translated(subject)
-    tuples = _tuples(done.program)
-    taken = {LANES, THEN, ELSE, "range", *tuples.values(), *keyword.kwlist, *keyword.softkwlist}
-    taken |= {function_name(one) for one in done.program.functions}
-    offered = [one.name for one in subject.entries] + (["reset"] if subject.memory else [])
-    names = textwrap.fill(", ".join(f'"{one}"' for one in offered) + ",", WIDTH)
-    parts = [
-        f'r"""{heading(subject, ARRAYS)}\n"""\n\n{RUNTIME}',
-        *(_definition(tuples[kind.name], kind) for kind in done.program.tuples if kind.name),
-        *(
-            _text(masked(one, taken, tuples), summary(one.text))
-            for one in done.program.functions
-            if not is_identity(one)
-        ),
-        *([_reset(subject.memory)] if subject.memory else []),
-        *(_offered(one, function_name(done.entries[one.name]), tuples) for one in subject.entries),
-        f"__all__ = [\n{textwrap.indent(names, INDENT)}\n]\n",
-    ]
-    return "\n\n\n".join(parts)
+    named = {kind.name: kind.fields for kind in done.program.tuples if kind.name}
+    classes = (
+        f"class {name}(NamedTuple):\n" + "\n".join(f"{INDENT}{one}: Any" for one in named[name]) for name in named
+    )
+    reset = (f"def reset():\n{_docstring(RESET)}\n{INDENT}return {subject.memory}\n",) if subject.memory else ()
+    imports = f"from math import {', '.join(one.__name__ for one in PRIMITIVES)}\nfrom typing import Any, NamedTuple"
+    return "\n\n".join(
+        (
+            f'r"""{heading(subject, *NUMBERS)}\n"""\n\n{imports}\n',
+            *(f"{one}\n" for one in classes),
+            READING,
+            *(write_function(one) for one in done.program.functions),
+            *reset,
+            *("\n".join(write_entry(one, f"_{done.entries[one.name].name}")) for one in subject.entries),
+        )
+    )
 
 
-RUNTIME = inspect.getsource(lanes).partition('"""\n\n')[2].strip()
-"""The file of lanes without what it says first."""
+def write_function(function: Typed) -> str:
+    """Write a function of the program."""
+    memo: dict = {}
+    node = copy.deepcopy(function.node, memo)
+    node.name, node.decorator_list = f"_{function.name}", []
+    resolved = _Resolved(function, memo).visit(node)
+    head, *body = ast.unparse(ast.fix_missing_locations(resolved)).split("\n")
+    return "\n".join(wrapped((head, *_docstring(summary(function.text)).splitlines(), *body, "")))
 
 
-def _tuples(program: Program) -> dict[str, str]:
-    """By name of a NamedTuple, its name in the file."""
-    return {
-        kind.name: f"{kind.name}_" if hasattr(lanes, kind.name) else kind.name for kind in program.tuples if kind.name
-    }
+def write_entry(entry: Entry, function: str) -> Iterator[str]:
+    """Write one entry."""
+    given, passed = write_arguments(entry, DECLARED, PASSED)
+    call = f"{function}({passed})"
+    result = f"tuple(zip(*{call}))" if entry.returns == "matrix" else call
+    doc = f"Return {entry.doc}{'; and the new memory' if entry.has_memory else ''}."
+    yield from wrapped((f"def {entry.name}({given}):", *_docstring(doc).splitlines(), f"{INDENT}return {result}", ""))
 
 
-def _definition(name: str, kind: Tuple) -> str:
-    return "\n".join((f"class {name}(NamedTuple):", *(f"{INDENT}{field}: Any" for field in kind.fields)))
-
-
-def _text(node: ast.FunctionDef, doc: str) -> str:
-    """A function with what it says of itself."""
-    head, *body = ast.unparse(ast.fix_missing_locations(node)).split("\n")
-    return "\n".join(wrapped((head, *_docstring(doc), *body)))
-
-
-def _docstring(doc: str) -> list[str]:
-    lines = textwrap.wrap(doc.replace("\\", "\\\\"), WIDTH)
-    if len(lines) < 2:
-        return [f'{INDENT}"""{one}"""' for one in lines]
-    return [INDENT + one for one in (f'"""{lines[0]}', *lines[1:], '"""')]
-
-
-def _reset(first: tuple) -> str:
-    """What returns the memory before the first tick."""
-    zeros = f"({', '.join('0.0' for _ in first)})"
-    about = f"{RESET} A memory (..., {len(first)}) that is given says the lanes, the library and the precision."
-    lines = (f"{LANES}, _ = opened(memory=(memory, {len(first)}))", f"return {LANES}.vector({first})")
-    return "\n".join((f"def reset(memory={zeros}):", *_docstring(about), *(INDENT + one for one in lines)))
-
-
-def _offered(entry: Entry, core: str, tuples: dict[str, str]) -> str:
-    """One entry on arrays."""
-    given = [each for one in entry.parameters for each in _arguments(one)]
-    names = ", ".join(name for name, _ in given)
-    opening = ", ".join(f"{name}={_written((name, *axes))}" for name, axes in given)
-    shapes = ", ".join(f"{name} ({', '.join(map(str, ('...', *axes)))})" for name, axes in given)
-    passed = ", ".join((LANES, *(_passed(one, tuples) for one in entry.parameters)))
-    if entry.has_memory:
-        ends = [f"answer, kept = {core}({passed})", f"return {LANES}.vector(answer), {LANES}.vector(kept)"]
-    else:
-        way = {"matrix": "matrix", "number": "number"}.get(entry.returns, "vector")
-        ends = [f"return {LANES}.{way}({core}({passed}))"]
-    body = [INDENT + one for one in (f"{LANES}, {names} = opened({opening})", *ends)]
-    doc = _docstring(f"{entry.doc[0].upper()}{entry.doc[1:]}; {shapes}.")
-    return "\n".join((*wrapped([f"def {entry.name}({names}):"]), *doc, *wrapped(body)))
-
-
-def _written(items: tuple) -> str:
-    """As a tuple in Python."""
-    return f"({', '.join(map(str, items))})" if len(items) > 1 else f"({items[0]},)"
-
-
-def _arguments(one: Parameter) -> list[tuple[str, tuple[int, ...]]]:
-    """What an argument is for who calls, with its last axes."""
-    if one.kind == "gains":
-        return [("kp", ()), ("kv", ())]
-    axes: dict[int, tuple[int, ...]] = {1: (), 9: (3, 3)}
-    return [(one.name, axes.get(one.size, (one.size,)))]
-
-
-def _passed(one: Parameter, tuples: dict[str, str]) -> str:
-    """The argument of the core."""
-    if one.kind == "gains":
-        return f"{tuples['Gains']}(kp, kv)"
-    if one.kind == "matrix":
-        return f"{tuples['Rotation']}(*columns({one.name}))"
-    if one.size == 9:
-        return f"by_rows({one.name})"
-    return one.name if one.kind == "number" else f"numbers({one.name})"
+def _docstring(text: str) -> str:
+    """Return a text as an indented docstring; nothing if it is empty."""
+    lines = textwrap.wrap(text.replace("\\", "\\\\"), WIDTH)
+    closed = [f'"""{lines[0]}"""'] if len(lines) == 1 else [f'"""{lines[0]}', *lines[1:], '"""'] if lines else []
+    return textwrap.indent("\n".join(closed), INDENT)
 
 
 TEST = '''"""python test_NAME.py"""
@@ -144,38 +114,39 @@ import json
 import sys
 from pathlib import Path
 
-import numpy as np
 import NAME as law
 
 
-def values(name, given, kinds):
-    """The arguments that a name stands for, of all questions at once."""
-    rows = np.array(given)
-    if name == "gains":
-        return [rows[:, 0], rows[:, 1]]
-    if name == "memory":  # at its first tick in the vectors at 180 degrees: after reset
-        rows[kinds == "at 180°"] = law.reset()
-    return [rows.reshape(-1, 3, 3) if rows.shape[-1] == 9 else rows]
+def given(one):
+    """Return the arguments of a vector; a memory is the first one in the vectors at 180 degrees: after reset."""
+    for name, value in one["arguments"].items():
+        if name == "gains":
+            yield from value
+        elif name == "memory" and one["kind"] == "at 180°":
+            yield law.reset()
+        else:
+            yield [value[0:3], value[3:6], value[6:9]] if isinstance(value, list) and len(value) == 9 else value
 
 
-asked = {}
-for one in json.loads(Path(__file__).with_name("vectors.json").read_text())["vectors"]:
-    asked.setdefault(one["entry"], []).append(one)
+def flat(answer):
+    """Return an answer as a list of numbers."""
+    return [x for part in answer for x in flat(part)] if isinstance(answer, tuple) else [answer]
 
+
+vectors = json.loads(Path(__file__).with_name("vectors.json").read_text(encoding="utf-8"))["vectors"]
 wrong = 0
-for entry, questions in asked.items():
-    names = questions[0]["arguments"]
-    kinds = np.array([one["kind"] for one in questions])
-    given = [x for name in names for x in values(name, [one["arguments"][name] for one in questions], kinds)]
-    answer = getattr(law, entry)(*given)
-    parts = answer if isinstance(answer, tuple) else (answer,)
-    found = np.concatenate([part.reshape(len(questions), -1) for part in parts], axis=1)
-    expected = np.array([one["result"] + one["memory"] for one in questions])
-    tolerance = np.array([[one["tolerance"]] for one in questions])
-    wrong += int((~(np.abs(found - expected) <= tolerance)).any(axis=1).sum())
-
-print(f"NAME: {wrong} of {sum(map(len, asked.values()))} vectors wrong")
+for one in vectors:
+    found, expected = flat(getattr(law, one["entry"])(*given(one))), one["result"] + one["memory"]
+    if not all(abs(x - y) <= one["tolerance"] for x, y in zip(found, expected, strict=True)):
+        wrong += 1
+print(f"NAME: {wrong} of {len(vectors)} vectors wrong")
 sys.exit(1 if wrong else 0)
 '''
 
-LANGUAGE = Language("python", "Python on arrays", law, files, "python test_{name}.py")
+
+def write_test(subject: Subject) -> str:
+    """Write the program that runs the vectors."""
+    return TEST.replace("NAME", subject.identifier)
+
+
+LANGUAGE = Language("python", "Python", ("py", "py"), write_module, write_test, "python test_{name}.py")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from bench.contenders.registry import all_contenders, known_representations, papers_laws
 from bench.export.language import find_language, language_words
 from bench.export.subject import find_subject, subject_words
-from bench.export.vectors import vectors
+from bench.export.vectors import CLOSE, vectors
 from report.figures.kit.page import Run
 from report.figures.kit.tables import Table
 
@@ -22,6 +22,7 @@ def facts(run: Run) -> dict:
     return {
         "languages": f"{', '.join(words[:-1])} and {words[-1]}",
         "vectors": len(vectors(find_subject(SHOWN))),
+        "close": f"{CLOSE:g}",
         "subjects": len(subject_words()),
         "laws": laws,
         "coordinates": coordinates,
@@ -40,7 +41,7 @@ def tables(run: Run) -> dict:
         lines.append(
             (one.title, f"`{word}`", ", ".join(f"`{file}`" for file in files), f"`{one.test.format(name=name)}`")
         )
-    plain = (one for one in subject.entries if not one.name.endswith(("_body", "_wxyz", "_xyzw")))
+    plain = (one for one in subject.entries if not one.name.endswith("_body"))
     named = {"gains": "kp, kv"}
     entries = [
         (f"`{one.name}({', '.join(named.get(each.name, each.name) for each in one.parameters)})`", one.doc)
