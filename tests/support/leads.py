@@ -1,57 +1,71 @@
-"""What leads of the book take from results, computed again from the tables by other code than the pages'."""
+"""What leads of the book take from results, computed again from the tables by other code than the pages'.
 
-import json
-from pathlib import Path
+A value is the text that a key shows, or a list: every number of that text, and words of it, in their order.
+"""
+
+import collections
+import math
 
 import numpy as np
-import pandas as pd
-from scipy.stats import binomtest, fisher_exact
+from scipy.stats import binomtest
 
+import tasks
+from bench.contenders.registry import find_contender
+from bench.findings import claims
+from bench.findings.selection import gains, needs
+from bench.findings.selection.velocity import VELOCITY
 from bench.tables.schema import RESULTS
+from report.figures.kit.families import word
+from support.advised import accelerations, operations, shares_of_time, velocities
+from support.leads_of_arms import (
+    read_json,
+    recompute_arms,
+    recompute_checks,
+    recompute_compliance,
+    recompute_contact,
+    recompute_history,
+    recompute_impedance,
+    recompute_libraries,
+    recompute_pegs,
+)
+from support.tables import table
 
 CONTROLS = ("quaternion-unwinding", "linearized-euler-literal/zyx-euler")
-CARTESIAN, EULER = "hybrid-base", "hybrid/zyx-euler"
+MATRIX, LINEARIZED, FEEDBACK = "rotation-matrix", "linearized-euler/zyx-euler", "feedback-linearized/zyx-euler"
+LATE = "late-braking"
 
 
-def table(name, folder="reference"):
-    """A table with plain words and `law`."""
-    found = pd.read_parquet(RESULTS / folder / f"{name}.parquet")
-    words = found.select_dtypes("category").columns
-    found = found.astype(dict.fromkeys(words, str))
-    if "regulator" in found:
-        found["law"] = found["regulator"] + np.where(found["representation"] == "", "", "/") + found["representation"]
-    return found
+def name_together(laws):
+    """Return the words of the first three laws and how many more, or of four laws and fewer all."""
+    words = [word(law) for law in laws]
+    return words if len(words) <= 4 else [*words[:3], len(words) - 3]
 
 
 def uniform():
-    """Uniform starts of the free body on the continuous plant, those that converge."""
+    """Return the uniform starts of the free body on the continuous plant that converge."""
     rows = table("episodes").query("engine == 'ideal-rk4' and task == 'free-body' and start_set == 'uniform'")
     return rows[rows["converged"] != "no"]
 
 
-def lost(law):
-    own = uniform().query("law == @law")
-    return own[own["outcome"] != "settled"]
-
-
-def failure_map():
-    cells = table("map", "maps").query("row == 'cell' and law == 'linearized-euler/zyx-euler' and most_speed == 0")
+def recompute_failure_map():
+    cells = table("map", "maps").query("row == 'cell' and law == @LINEARIZED and most_speed == 0")
     n = int(cells["starts"].sum())
     bad = n - int(cells[["settled", "unconverged"]].sum().sum())
     low, high = binomtest(bad, n).proportion_ci(0.95)
-    others = [len(lost(law)) for law in ("rotation-matrix", "feedback-linearized/zyx-euler")]
-    own = lost("linearized-euler/zyx-euler")
+    rows = uniform()
+    lost = {law: own[own["outcome"] != "settled"] for law, own in rows.groupby("law")}
+    others = [len(lost[law]) for law in (MATRIX, FEEDBACK)]
     return {
-        "n": (uniform()["law"] == "linearized-euler/zyx-euler").sum(),
+        "n": (rows["law"] == LINEARIZED).sum(),
         "failed_others": " and ".join(map(str, others)) if any(others) else "none",
         "mapped_l": f"{100 * bad / n:.2f} % ({100 * low:.2f} to {100 * high:.2f})",
         "mapped": n,
-        "failed_l": len(own),
-        "least": f"{np.degrees(own['alpha0'].abs().min()):.0f}",
+        "failed_l": len(lost[LINEARIZED]),
+        "least": f"{np.degrees(lost[LINEARIZED]['alpha0'].abs().min()):.0f}",
     }
 
 
-def side_by_side():
+def recompute_comparison():
     rows = uniform().query("law not in @CONTROLS")
     n = rows["law"].nunique()
     shared = rows.groupby("start_id")["law"].nunique().loc[lambda found: found == n].index
@@ -59,197 +73,187 @@ def side_by_side():
     settled = rows["outcome"] == "settled"
     rows = rows.assign(time=rows["settling_time_s"].where(settled, np.inf), cost=rows["effort"].where(settled, np.inf))
     middle, cost = (rows.groupby("law")[name].quantile(0.5, interpolation="lower") for name in ("time", "cost"))
-    near = {}
+    said = {"laws": n, "starts": len(shared), "dearer": f"{cost.max() / cost.min():.0f}"}
     for angle in (30, 60):
         own = rows[(rows["angle0_rad"] < np.radians(angle)) & (rows["law"] != "weighted-columns")]
         medians = own.groupby("law")["settling_time_s"].median()
-        near |= {f"within_{angle}": own["start_id"].nunique()}
-        near |= {f"apart_{angle}": f"{100 * (medians.max() / medians.min() - 1):.0f}"}
-    ends = {"fastest_s": f"{middle.min():.2f}", "slowest_s": f"{middle.max():.2f}"}
-    return {**near, **ends, "laws": n, "starts": len(shared), "dearer": f"{cost.max() / cost.min():.0f}"}
+        said |= {f"within_{angle}": own["start_id"].nunique()}
+        said |= {f"apart_{angle}": f"{100 * (medians.max() / medians.min() - 1):.0f}"}
+    asked = accelerations()
+    sure = [law for law in asked.laws if all(asked.has(fact).get(law, False) for fact in needs.SURE)]
+    for key, by in {"fastest": "time", "surest": "worst", "sparest": "effort", "peak_fastest": "matched"}.items():
+        known = [law for law in asked.laws if law in asked.values[by]]
+        every, some = (asked.front(laws, (by,)) for laws in (known, [law for law in known if law in sure]))
+        said[key] = name_together(every) + ([] if set(every) <= set(some) else name_together(some))
+    return said | {"fastest_s": f"{middle.min():.2f}", "slowest_s": f"{middle.max():.2f}"}
 
 
-def contact(task):
-    rows = table("compliance").query("task == @task")
-    coordinates = np.where(rows["representation"] == "", "", "/") + rows["representation"]
-    return rows.assign(who=rows["controller"] + coordinates, tilt_deg=np.degrees(rows["beta"]).round(6))
-
-
-def compliance():
-    rows = contact("wrench-probe").query("complies == 'about x and y' and alpha == 0 and gamma == 0")
-    drawn = rows.query("form == 'transpose' and arm == 'ur5e'").set_index("tilt_deg")
-    euler, plain = (drawn[drawn["who"] == who] for who in (EULER, CARTESIAN))
-    full, betas = plain["c_xx"].median(), [30.0, 60.0, 85.0]
-    C = {
-        beta: euler.loc[beta, [f"c_{i}{j}" for i in "xyz" for j in "xyz"]].to_numpy(float).reshape(3, 3)
-        for beta in betas
-    }
-    off = {beta: np.degrees(np.arctan2(np.hypot(*C[beta][1:, 0]), abs(C[beta][0, 0]))) for beta in betas}
-    held = {beta: 100 * np.linalg.norm(C[beta][:, 2]) / full for beta in betas}
-    plain_held = 100 * np.linalg.norm(plain.loc[60.0, ["c_xz", "c_yz", "c_zz"]].to_numpy(float)) / full
-    by = rows[(rows["form"] == "inverse") & (rows["who"] == EULER) & (rows["outcome"] == "done")]
-    worst = np.abs(np.degrees(by["misalignment_rad"]) - by["tilt_deg"].abs()).max()
-    exponent = int(np.floor(np.log10(worst)))
+def recompute_thresholds():
+    """Return the perturbations along which the laws' thresholds in the study differ, and noise at 180° in the run."""
+    rows = table("perturbed", "robustness").query("law not in @CONTROLS and axis != 'equal-peak'")
+    rows = rows[rows["law"].isin(table("robustness")["law"])]
+    each = collections.defaultdict(dict)
+    for (law, axis), own in rows.groupby(["law", "axis"]):
+        share, nominal = (own["good"] / own["starts"]).set_axis(own["level"]), tasks.axis(axis).nominal
+        start = share.index.max() if nominal is None else nominal
+        for grows in (True, False):
+            outwards = share.sort_index(ascending=grows).loc[start:]
+            if len(outwards) > 1:
+                is_kept = (outwards >= max(0.5, outwards.iloc[0] - 0.05)).cummin()
+                held = outwards.index[is_kept]
+                each[axis, not grows][law] = (held[-1], is_kept.all()) if len(held) else None
+    known = {law for own in each.values() for law, held in own.items() if held}
+    apart = [way for way, own in sorted(each.items()) if len({own[law] for law in known}) > 1]
+    *most, last = (f"{tasks.axis(axis).title.lower()}{' (downwards)' * falls}" for axis, falls in apart)
+    noise = table("robustness").query("axis == 'half-turn-noise' and law not in @CONTROLS and level > 0")
+    left = (noise["outcome"] == "settled").groupby([noise["law"], noise["level"]]).mean().unstack()
+    remembers = np.array([find_contender(law).regulator.memory is not None for law in left.index])
+    middle = max(level for level in left if (left.loc[remembers, level] == 1.0).all())
     return {
-        "off": ", ".join(f"{value:.0f}° at β = {beta:.0f}°" for beta, value in off.items()),
-        "off_word": "less than β" if all(value < beta for beta, value in off.items()) else "not always less than β",
-        "held": ", ".join(f"{value:.0f} % at β = {beta:.0f}°" for beta, value in held.items()),
-        "held_cartesian": f"{plain_held:.0f} %",
-        "off_by_accelerations": [round(worst / 10.0**exponent), -exponent],
+        "apart": f"{', '.join(most)} and {last}",
+        "half_turn_noise.middle": f"{middle:g}",
+        "half_turn_noise.blind_middle": f"{100 * left.loc[~remembers, middle].max():.0f}",
+        "half_turn_noise.memory_middle": f"{100 * left.loc[remembers, middle].min():.0f}",
     }
 
 
-def pegs(form):
-    rows = contact("peg-in-hole").query("form == @form")
-    tallies = []
-    for who in (CARTESIAN, EULER):
-        own = rows[rows["who"] == who]
-        leans = own["tilt_deg"] != 0
-        out = ~(own["jam"] == 0.0)
-        tallies.append((out.sum(), len(own), (out & leans).sum(), leans.sum()))
-    p = fisher_exact([(bad, n - bad) for *_, bad, n in tallies]).pvalue
-    return [*tallies[0], *tallies[1], float(f"{p:.2g}")]
-
-
-def in_contact_numbers():
-    rows, said = contact("surface-alignment").query("form == 'transpose'"), []
-    for who in (CARTESIAN, EULER):
-        own = rows[rows["who"] == who]
-        flat, leans = own["time_to_align_s"].notna(), own["tilt_deg"] != 0
-        turned = float(f"{np.degrees(own['held_turn_rad'].max()):.1f}")
-        said += [flat.sum(), len(own), (flat & leans).sum(), leans.sum(), turned]
-    fits = pd.DataFrame(json.loads((RESULTS / "contact/contact.json").read_text(encoding="utf-8"))["fits"])
-    is_in = (fits["depth_m"] >= 0.027).groupby(fits["clearance"]).agg(["sum", "size"]).iloc[::-1]
-    by_fit = [number for share, (good, n) in is_in.iterrows() for number in (good, n, 100 * share)]
-    return {"flat": said, "stuck": pegs("transpose"), "other_stuck": pegs("inverse"), "fits": by_fit}
-
-
-def share(passes):
-    """Percent with Wilson's interval, rounded, and n."""
-    low, high = binomtest(int(passes.sum()), len(passes)).proportion_ci(0.95, method="wilson")
-    return [*(round(100 * value) for value in (passes.mean(), low, high)), len(passes)]
-
-
-def as_arms_run():
-    rows = table("impedance-modes")
-    felt = rows.query("damping == 'diagonal'")["ratio"]
-    lost = rows[rows["radius"] >= 1.0].groupby(["arm", "stiffness_n_m", "stiffness_nm_rad"]).size().index
-    return {
-        "felt_least": f"{felt.min():.2g}",
-        "felt_most": f"{felt.max():.2g}",
-        "tick": f"{1000 * table('impedance')['dt_s'].iloc[0]:g}",
-        "unstable": [value for _, *pair in lost for value in pair],
-    }
-
-
-def performance():
-    lines = list(map(json.loads, (RESULTS / "history/history.jsonl").read_text(encoding="utf-8").splitlines()))
-    named = {(line["benchmark"]["what"], line["benchmark"]["name"]) for line in lines}
-    machines = len({line["machine"] for line in lines})
-    return {
-        "benchmarks": len(named),
-        "builds": len({line["commit"] for line in lines}),
-        "machines": f"{machines} machine{'' if machines == 1 else 's'}",
-    }
-
-
-def limit_of_the_logarithm():
+def recompute_velocities():
     rows = table("velocity-limits").query("law == 'rotation-vector' and arm == '' and share == 1 and reach == 'near'")
-    return {"log_limit": f"{rows['k_dt'].iloc[0]:.3g}"}
+    one = velocities().decide(VELOCITY)
+    said = [word(one.law), *name_together([one.law, *one.tied])] if one.tied else [word(one.law), len(one.asked)]
+    return {"log_limit": f"{rows['k_dt'].iloc[0]:.3g}", "lead": said}
 
 
-def new_law():
-    """sin(theta/2) springs stiffened by 1 + cos²(theta/2), damping eased: integrated from rest at many angles."""
-    e, grid = (lambda theta: np.sin(theta / 2)), np.linspace(0, np.pi, 100_001)
-    angles = np.linspace(1e-3, np.pi, 25)
-    theta, rate, last, h = angles.copy(), np.zeros(25), np.zeros(25), 1e-4
-
-    def push(theta, rate):
-        s2 = 1 - e(theta) ** 2
-        return -((1 + s2) * 100 + 16 * np.maximum(0, -e(theta) * rate)) * e(theta) - 20 * rate
-
+def settle(push, kp, kv):
+    """Return the longest time in which angles from rest come within 2 % to stay, by steps of 0.1 ms."""
+    angles, h = np.linspace(1e-3, np.pi, 25), 1e-4
+    theta, rate, last = angles.copy(), np.zeros(25), np.zeros(25)
     for tick in range(20_000):
-        middle = theta + h / 2 * rate, rate + h / 2 * push(theta, rate)
-        theta, rate = theta + h * middle[1], rate + h * push(*middle)
+        middle = theta + h / 2 * rate, rate + h / 2 * push(theta, rate, kp, kv)
+        theta, rate = theta + h * middle[1], rate + h * push(*middle, kp, kv)
         last = np.where(np.abs(theta) > 0.02 * angles, (tick + 1) * h, last)
-    return {"slowest": f"{last.max():.3f}", "pull": f"{((2 - e(grid) ** 2) * e(grid)).max():.2f}"}
+    return last.max()
 
 
-def advice():
-    """Of the law that is advised first: 99 % of starts settled, and the noise that traps no law of the answer."""
-    times = uniform().query("law == 'late-braking'").sort_values("settling_time_s")["settling_time_s"]
-    return {"lead": [float(f"{times.quantile(0.99):.3f}")]}
+def brake_late(theta, rate, kp, kv):
+    """Return the acceleration by a spring of sin(theta/2), stiffened by 1 + cos²(theta/2), and an eased damper."""
+    e = np.sin(theta / 2)
+    return -((2 - e**2) * kp + 0.8 * kv * np.maximum(0, -e * rate)) * e - kv * rate
 
 
-def arms():
-    rows = table("episodes").query("task == 'arm-regulation' and start_set == 'uniform' and variation == 'nominal'")
-    seven, tall = rows["arm"] == "panda", rows["law"] == "feedback-linearized/quaternion"  # J_E of four rows for three
-    usual = np.select([seven & tall, seven | tall], ["truncated-svd", "pseudo-inverse"], "solve")
-    rows = rows[(rows["inverse"] == usual) & rows["jacobian"].isin(("geometric", "analytic"))]
-    rows = rows[~rows["regulator"].isin(("joint-pd", "resolved-rate"))]
-    euler = rows.query("law == 'feedback-linearized/zyx-euler' and jacobian == 'analytic'")
-    is_within = (euler["outcome"] == "settled") & (euler["peak_torque_ratio"] <= 1) & (euler["range_excess_rad"] <= 0)
-    return {"lead": [len(rows), round(100 * (rows["peak_torque_ratio"] > 1).mean()), *share(is_within)]}
+def recompute_new_law():
+    kvs = {ratio: 20.0 * ratio for ratio in (0.5, 0.7, 1.0, 1.5)}
+    late, linear = (
+        {ratio: settle(push, 100.0, kv) for ratio, kv in kvs.items()}
+        for push in (brake_late, lambda theta, rate, kp, kv: -kp * theta - kv * rate)
+    )
+    rows = table("robustness").query("axis == 'equal-peak' and level == 100 and law not in @CONTROLS")
+    settled, said = rows["outcome"] == "settled", [100]
+    for column, level in (("settling_time_s", 0.5), ("settling_time_s", 1.0), ("effort", 0.5)):
+        own = rows[column].where(settled, np.inf).groupby(rows["law"]).quantile(level, interpolation="lower")
+        said += [f"{own[LATE]:.3g}", (own.drop(LATE) <= own[LATE]).sum(), len(own) - 1]
+    count = table("costs").query("law == @LATE and jacobian == '' and stage == 'total' and branch == 'typical'").iloc[0]
+    return {
+        "slowest": f"{late[1.0]:.3f}",
+        "linear": f"{linear[1.0]:.3f}",
+        "later": ", ".join(f"{ratio:g}" for ratio in kvs if late[ratio] > linear[ratio] + 1e-3) or "none",
+        "later_of": [*kvs],
+        "pull": f"{brake_late(-np.linspace(0, np.pi, 100_001), 0.0, 1.0, 2.0).max():.2f}",
+        "at_peak": said,
+        "roots": count["sqrt"],
+        "calls": count[["sin", "cos", "atan2", "acos"]].sum(),
+    }
 
 
-def libraries():
-    loops = table("closed_loop", "libraries").query("library != 'orientation-bench' and kind == 'function'")
-    at = loops[loops["angle_deg"] == 180].groupby(["library", "function"])[["dead", "starts"]].sum()
-    below = loops[loops["angle_deg"] < 180].groupby(["library", "function"])["away"].sum()
-    origins = json.loads((RESULTS / "libraries/provenance.json").read_text(encoding="utf-8"))["libraries"]
-    counts = {"loops": len(at), "loops_dead": (at["dead"] == at["starts"]).sum(), "loops_away": (below > 0).sum()}
-    asked = table("libraries", "libraries").query("library != 'orientation-bench' and form != 'z-y-x'")
-    kinds = asked.drop_duplicates(["library", "function"])["kind"].value_counts()
-    counts |= {"functions": kinds["function"], "idioms": kinds["idiom"]}
-    return {**counts, "libraries": len(set(origins) - {"orientation-bench"})}
+def recompute_advice():
+    """Return what is said of the law that is advised first, and of ours beside it at four damping ratios."""
+    found = accelerations()
+    one, usual = found.decide(needs.DEFAULT), word(found.decide(needs.DEFAULT).law)
+    drawn = found.drawn("time")[:, list(found.values["time"]).index(one.law)]
+    times = found.number("time")[one.law], *np.quantile(drawn, (0.025, 0.975), method="inverted_cdf")
+    kp, kv = table("episodes").query("task == 'free-body'")[["kp", "kv"]].iloc[0]
+    said = [usual, kp, kv, kv / (2 * math.sqrt(kp)), 0.1, 180, 99, *(f"{time:.3f}" for time in times)]
+    said += [*name_together([one.law, *one.tied])] if one.tied else [len(one.asked)]
+    said += [word(LATE), 2026, 99]
+    at = {f"{kv / 20:g}": accelerations(f"gains/kv-{kv}" if kv != 20 else "reference") for kv in (10, 14, 20, 30)}
+    words = {ratio: own.decide(needs.DEFAULT).law for ratio, own in at.items()}
+    for ratio, own in at.items():
+        pair = (f"{own.number('time')[law]:.3f}" for law in (LATE, words[ratio]))
+        said += [ratio, *pair, f"({word(words[ratio])})"]
+    better = {ratio: {by: own.beats(by) for by in gains.WORDS} for ratio, own in at.items()}
+    wins, losses = (
+        {by: tuple(ratio for ratio in at if better[ratio][by].loc[pair(words[ratio])]) for by in gains.WORDS}
+        for pair in (lambda law: (LATE, law), lambda law: (law, LATE))
+    )
+    said += ["better by", *(gains.WORDS[by] for by, ratios in wins.items() if len(ratios) == len(at))]
+    by_ratios = collections.defaultdict(list)
+    for by, ratios in losses.items():
+        by_ratios[ratios].append(gains.WORDS[by])
+    for ratios, names in by_ratios.items():
+        said += [*ratios, *names] if ratios else []
+    share = shares_of_time()[one.law]
+    others = sum(not found.is_decisive(need, one.law) for need in needs.NEEDS)
+    calls = table("costs").query("law == @one.law and jacobian == '' and stage == 'total' and branch == 'typical'")
+    said_of_cost = [operations()[one.law]] if not calls[["sin", "cos", "atan2", "acos"]].sum(axis=None) else [None]
+    return {"lead": [*said, *said_of_cost, f"{share:.1f}", others, len(needs.NEEDS), 10]}
 
 
-def shares_of_time():
-    [path] = (RESULTS / "timings").glob("*.parquet")
-    rows = table(path.stem, "timings").query("ticks > 0")
-    is_whole = (rows["what"] == "controller") & (rows["law"] == "rotation-matrix") & (rows["jacobian"] == "geometric")
-    alone = rows[(rows["what"] == "law") & ~rows["law"].str.contains("literal")].set_index("law")["ratio"]
-    share = 100.0 * alone / rows.loc[is_whole, "ratio"].median()
-    found = {"matrix": share["rotation-matrix"], "late": share["late-braking"], "most": share.max()}
-    return {f"cost_on_arms.time_{name}": [float(f"{value:.2g}")] for name, value in found.items()}
+def recompute_engines():
+    rows = table("episodes").query("task == 'free-body'")
+    pairs = sorted(rows.groupby(["kp", "kv"]).size().index)
+    return {"engines": rows["engine"].nunique(), "gains": [number for pair in pairs for number in pair]}
 
 
-def method():
-    return {"engines": table("episodes").query("task == 'free-body'")["engine"].nunique()}
+def recompute_verdicts():
+    now = {id: str(one) for id, one in read_json("verdicts/verdicts.json")["reference"].items()}
+    first = dict(now)
+    for verdict in claims.judge_all(RESULTS / "reference"):
+        for word_of_first in (one.word for one in verdict.claim.earlier[:1]):
+            first[verdict.claim.id] = str(word_of_first or verdict.evidence.earlier[0])
+    order = {"holds": [], "holds with a correction": [], "does not hold": []}
+    order |= {"open in 1988; answered since": [1988], "depends on the gains": [], "not testable": []}
+    said = [
+        [number for word, more in order.items() if (n := list(words.values()).count(word)) for number in (n, *more)]
+        for words in (now, first)
+    ]
+    return {"decided": len(now), "words": said[0], "first_words": said[1]}
 
 
-def verdicts():
-    words = list(json.loads((RESULTS / "verdicts/verdicts.json").read_text(encoding="utf-8"))["reference"].values())
-    order = ("holds", "holds with a correction", "does not hold", "open in 1988; answered since")
-    order += ("depends on the gains", "not testable")
-    return {"decided": len(words), "words": [words.count(word) for word in order if word in words]}
-
-
-def faults():
-    files = Path("bench/audit/faults").glob("[a-z]*.py")
-    return {"check_your_error.faults": sum("FAULT" in file.read_text(encoding="utf-8") for file in files)}
+def recompute_times():
+    share = shares_of_time().loc[lambda own: ~own.index.str.contains("literal/zyx")]
+    three = share[[MATRIX, LINEARIZED, FEEDBACK]]
+    found = {"matrix": share[MATRIX], "late": share[LATE], "most": share.max()}
+    said = {f"cost_on_arms.time_{name}": [float(f"{value:.2g}")] for name, value in found.items()}
+    said["cost_on_arms.time_most_law"] = word(share.idxmax())
+    is_papers = (three.idxmin(), three.idxmax()) == (MATRIX, FEEDBACK)
+    said["cost_on_arms.paper_order"] = [word(three.idxmin()), word(three.idxmax())]
+    said["cost_on_arms.paper_order"] += ["as the paper" if is_papers else "other than the paper"]
+    return said
 
 
 COMPUTED = {
     "index": lambda: {
-        "off": compliance()["off"],
-        "pegs": pegs("transpose"),
-        "pegs_by_accelerations": pegs("inverse"),
+        "off": recompute_compliance()["off"],
+        "pegs": recompute_pegs("transpose"),
+        "pegs_by_accelerations": recompute_pegs("inverse"),
+        "which_law": recompute_advice()["lead"][:-5],
     },
-    "06-failure-map": failure_map,
-    "07-cost": shares_of_time,
-    "08-arms": arms,
-    "13-compliance": compliance,
-    "14-in-contact": in_contact_numbers,
-    "15-comparison": side_by_side,
-    "17-velocity-commands": limit_of_the_logarithm,
-    "23-as-arms-run": as_arms_run,
-    "25-libraries": libraries,
-    "27-which-law": advice,
-    "28-a-new-law": new_law,
-    "29-take-it-home": faults,
-    "30-method": method,
-    "31-performance": performance,
-    "40-claims": verdicts,
+    "06-failure-map": recompute_failure_map,
+    "07-cost": recompute_times,
+    "08-arms": recompute_arms,
+    "13-compliance": recompute_compliance,
+    "14-in-contact": recompute_contact,
+    "15-comparison": recompute_comparison,
+    "16-robustness": recompute_thresholds,
+    "17-velocity-commands": recompute_velocities,
+    "23-as-arms-run": recompute_impedance,
+    "25-libraries": recompute_libraries,
+    "26-live": lambda: {"laws": table("episodes").query("task == 'free-body'")["law"].nunique()},
+    "27-which-law": recompute_advice,
+    "28-a-new-law": recompute_new_law,
+    "29-take-it-home": recompute_checks,
+    "30-method": recompute_engines,
+    "31-performance": recompute_history,
+    "40-claims": recompute_verdicts,
 }
-"""Page -> key -> text, or the numbers that its text has, in their order, among others."""
+"""Page -> key -> its text, or numbers and words of it."""

@@ -2,10 +2,12 @@
 
 from pathlib import Path
 
+import numpy as np
 import pandas as pd
 
 from bench.findings import claims
 from bench.findings.claims.tables import Results
+from bench.tables.schema import RESULTS
 
 NO_TIMINGS = Path("no-such-folder")
 
@@ -28,3 +30,12 @@ def changed(frame: pd.DataFrame, rows, **cells) -> pd.DataFrame:
             frame[name] = frame[name].astype(str)
         frame.loc[rows, name] = value(frame.loc[rows, name]) if callable(value) else value
     return frame
+
+
+def table(name, folder="reference"):
+    """Return a table of results with plain words and `law`."""
+    found = pd.read_parquet(RESULTS / folder / f"{name}.parquet")
+    found = found.astype(dict.fromkeys(found.select_dtypes("category").columns, str))
+    if "regulator" in found:
+        found["law"] = found["regulator"] + np.where(found["representation"] == "", "", "/") + found["representation"]
+    return found

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 import pandas as pd
@@ -14,6 +15,7 @@ from report.figures.arms import arm_rows, arm_times, controller_costs
 from report.figures.arms.arm_rows import ON_MATRIX
 from report.figures.kit import families, html
 from report.figures.kit.page import Run, given
+from report.figures.kit.rows import FEEDBACK, LINEARIZED, MATRIX
 from report.figures.kit.tables import Table
 
 ON_LAW = ON_MATRIX.partition("@")[0]
@@ -56,11 +58,19 @@ def share_of_time(run: Run) -> dict[str, str]:
     """Return the shares of a whole controller's time that the cheapest law, late braking and the dearest take."""
     share = {law: value for law, value in ticks(Results(run.folder)).items() if not law.endswith("literal/zyx-euler")}
     if ON_LAW not in share:
-        return dict.fromkeys(("time_matrix", "time_late", "time_most", "time_most_law"), html.MISSING)
+        return dict.fromkeys(("time_matrix", "time_late", "time_most", "time_most_law", "paper_order"), html.MISSING)
     most = max(share, key=lambda law: share[law])
     shown = {"time_matrix": ON_LAW, "time_late": "late-braking", "time_most": most}
     words = {key: percent(share[law] / 100.0) if law in share else html.MISSING for key, law in shown.items()}
-    return words | {"time_most_law": families.word(most)}
+    return words | {"time_most_law": families.word(most), "paper_order": order_papers_laws(share)}
+
+
+def order_papers_laws(share: dict[str, float]) -> str:
+    """State which of the paper's laws takes least time alone and which most, and whether the paper says so too."""
+    least, _, most = sorted((MATRIX, LINEARIZED, FEEDBACK), key=lambda law: share.get(law, math.nan))
+    agrees = "as" if (least, most) == (MATRIX, FEEDBACK) else "other than"
+    names = f"{families.word(least)} is the cheapest and {families.word(most)} the dearest"
+    return f"Alone, of the paper's three laws {names}, {agrees} the paper says"
 
 
 def tables(run: Run) -> dict:

@@ -5,21 +5,27 @@ from __future__ import annotations
 import math
 
 import numpy as np
+import pandas as pd
 
+from bench.findings.theory.closed_form import linear_settling
 from bench.findings.theory.isotropic import EQUATIONS, LEAST_RAD, settling
 from bench.law.contender import PAPERS_GAINS
 from bench.law.equation import ANGLE, CHORD, Equation
 from bench.tables import read
-from report.figures.comparison import new_law
-from report.figures.comparison.cells import LEVEL
+from report.figures.comparison import comparison, new_law
+from report.figures.comparison.cells import LEVEL, costs, medians
 from report.figures.comparison.new_law import greatest_pull, peak_gains, response
-from report.figures.kit import html
-from report.figures.kit.page import Run
+from report.figures.cost.operations import CALLS
+from report.figures.kit import families, html
+from report.figures.kit.page import Run, given
 from report.figures.kit.rows import MATRIX
 from report.figures.kit.tables import Table
 from tasks.rules import RULES
 
 NEW = "late-braking"
+RATIOS = 0.5, 0.7, 1.0, 1.5
+"""Damping ratios at which it is compared with a linear system."""
+
 LATE = EQUATIONS[NEW]
 ROOTLESS = Equation(
     r"5 \sin\theta/(3 + 2\cos\theta),\ \tfrac52 \sin(\theta/2)",
@@ -46,7 +52,8 @@ VARIANTS = Table("Variant | Slowest [s] | Peak [$K_p$] | Effort | Slowest at equ
 def facts(run: Run) -> dict:
     """By the equations, how slow and strong this law is beside the straight spring; and operations a tick."""
     counted = run.rows("costs", **read.FREE_BODY)
-    totals = counted[counted["stage"] == "total"].set_index(["contender", "branch"])["flops"]
+    spent = counted[counted["stage"] == "total"].set_index(["contender", "branch"])
+    totals = spent["flops"]
     wanted = {
         "flops": (NEW, "typical"),
         "flops_worst": (NEW, "worst"),
@@ -54,7 +61,12 @@ def facts(run: Run) -> dict:
         "flops_hybrid": ("hybrid", "typical"),
     }
     return {
+        "at_peak": given(comparison.at_peak(run), compare_at_equal_peak),
         "slowest": f"{longest(LATE, *PAPERS_GAINS):.3f}",
+        "linear": f"{linear_settling(*PAPERS_GAINS):.3f}",
+        "later": ", ".join(f"{ratio:g}" for ratio in RATIOS if is_later(ratio)) or "none",
+        "later_of": f"{', '.join(map('{:g}'.format, RATIOS))}",
+        **(count_calls(spent.loc[NEW, "typical"]) if (NEW, "typical") in spent.index else {}),
         "pull": f"{greatest_pull(LATE):.2f}",
         "effort": html.number(round(effort(LATE))),
         "straight_effort": html.number(round(effort(ANGLE))),
@@ -64,6 +76,31 @@ def facts(run: Run) -> dict:
         "level": html.number(LEVEL),
         **{key: int(totals[place]) for key, place in wanted.items() if place in totals.index},
     }
+
+
+def compare_at_equal_peak(rows: pd.DataFrame) -> str:
+    """Count the published laws that are as fast as this one, or spend as little, with gains for one peak command."""
+    times, efforts = costs(rows, "settling_time_s"), costs(rows, "effort")
+    others = [law for law in times if law != NEW and law not in families.CONTROLS]
+    measures = {"median settling time": medians(times), "slowest start": times.max(), "median effort": medians(efforts)}
+    units = ("s", "s", "rad²/s³")
+    parts = [
+        f"{name} {own[NEW]:.3g} {unit} ({(own[others] <= own[NEW]).sum()} of {len(others)} published laws need no more)"
+        for (name, own), unit in zip(measures.items(), units, strict=True)
+    ]
+    return f"With gains that give every law a peak command of {LEVEL:g} rad/s² from rest: {'; '.join(parts)}."
+
+
+def is_later(ratio: float) -> bool:
+    """Tell whether this law's slowest start settles a millisecond later than a linear system of this damping ratio."""
+    kp = PAPERS_GAINS[0]
+    kv = 2.0 * ratio * math.sqrt(kp)
+    return longest(LATE, kp, kv) > linear_settling(kp, kv) + 1e-3
+
+
+def count_calls(row: pd.Series) -> dict[str, int]:
+    """Return the square roots and the trigonometric calls of a row of costs.parquet."""
+    return {"roots": int(row["sqrt"]), "calls": int(row[list(CALLS)].sum())}
 
 
 def longest(equation: Equation, kp: float, kv: float) -> float:

@@ -75,11 +75,18 @@ def facts(run: Run) -> dict:
         "shorter": int((asked["step_s"] < asked["dt_s"]).sum()),
         "unconverged": int((asked["converged"] == "no").sum()),
         "engines": episodes(run)["engine"].nunique(),
+        "gains": describe_gains(episodes(run)),
         "later_ms": between(engines.later_ms(episodes(run), "native")),
         "hold_s": f"{RULES.hold_s:g}",
         "chatter": f"{CHATTER:g}",
         "count_rules": "\n".join(f"1. {prose(rule)}" for rule in COUNT_RULES),
     }
+
+
+def describe_gains(runs: pd.DataFrame) -> str:
+    """List the pairs of gains that the episodes ran with."""
+    pairs = sorted(set(zip(runs["kp"], runs["kv"], strict=True)))
+    return " and ".join(f"kp = {kp:g} 1/s², kv = {kv:g} 1/s" for kp, kv in pairs)
 
 
 def between(late: pd.Series) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import itertools
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -52,7 +53,7 @@ def facts(run: Run) -> dict:
         "counted": len(counted),
         "timed": len(given.steps) - len(counted),
         "longest": longest,
-        "wanted": BUILDS + WINDOW,
+        "wanted": count_needed_builds(),
         "repeats": f"{100.0 * REPEATS:g}\N{NO-BREAK SPACE}%",
         "fewest": BUILDS,
         "p": P,
@@ -61,6 +62,12 @@ def facts(run: Run) -> dict:
         "noise": f"{100.0 * (np.median(ratios) - 1.0):.1f}\N{NO-BREAK SPACE}%" if ratios else html.MISSING,
         "most_noise": f"{100.0 * (max(ratios) - 1.0):.1f}\N{NO-BREAK SPACE}%" if ratios else html.MISSING,
     }
+
+
+def count_needed_builds() -> int:
+    """Return the fewest builds of a series among which a step can have a p below P: all before it below all from it."""
+    sides = itertools.product(range(BUILDS, WINDOW + 1), repeat=2)
+    return min(one + other for one, other in sides if 2.0 / math.comb(one + other, one) < P)
 
 
 def same_code(given: History) -> list[float]:

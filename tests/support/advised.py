@@ -1,0 +1,251 @@
+"""The law that the rule of `bench.findings.selection` advises, by the rule written a second time, on arrays.
+
+Only what the situations ask (`needs.NEEDS`), whose laws are ours and what a law remembers is read from the program.
+"""
+
+import functools
+from typing import NamedTuple
+
+import numpy as np
+import pandas as pd
+
+from bench.contenders.registry import find_contender
+from bench.findings.counts import DIRECTED
+from bench.findings.selection import measures, needs
+from bench.tables.schema import RESULTS
+from support.tables import table
+
+GENERAL = ("time", "worst", "effort", "peak", "variation", "tick")
+PERTURBED = {
+    "variation": ("delay", 0.0, "variation"),
+    "matched": ("equal-peak", 100.0, "settling_time_s"),
+    "bounded": ("saturation", 10.0, "settling_time_s"),
+    "slow": ("control-rate", 20.0, "settling_time_s"),
+    "late": ("delay", 0.02, "settling_time_s"),
+    "heavy": ("inertia", 2.0, "settling_time_s"),
+    "spinning": ("spin", 20.0, "settling_time_s"),
+    "follows": ("moving-goal", 10.0, "tail_max_rad"),
+    "noisy": ("attitude-noise", 0.01, "variation"),
+}
+LEVELS = {"time": 0.99, "worst": 1.0, "spread": 1.0, "peak": 1.0, "chatter": 1.0}
+MEANS, MORE_IS_BETTER = ("unsettled", "arms", "within"), ("held", "arms", "within")
+DRAWS = 1000
+
+
+def take(criterion, values):
+    """Return the criterion's number of arrays (..., starts, laws): a mean, or a quantile that is one of the values."""
+    if criterion in MEANS:
+        return values.mean(axis=-2)
+    place = int(np.ceil(LEVELS.get(criterion, 0.5) * values.shape[-2] - 1e-9)) - 1
+    return np.take(np.partition(values, place, axis=-2), place, axis=-2)
+
+
+class Decision(NamedTuple):
+    """What `needs.Decision` has, beside the situation."""
+
+    law: str
+    tied: tuple
+    best: tuple
+    asked: tuple
+
+
+class Asked:
+    """Criterion -> a row a start, a column a law."""
+
+    def __init__(self, values):
+        self.values, self.compared = values, {}
+        self.laws = sorted(values["memory"].columns, key=lambda law: (*self.simplicity(law), law))
+
+    def simplicity(self, law):
+        """Return the numbers kept and the operations of a tick."""
+        return self.values["memory"][law].iloc[0], operations()[law]
+
+    def number(self, criterion):
+        """Return law -> number."""
+        frame = self.values[criterion]
+        return pd.Series(take(criterion, frame.to_numpy(float)), frame.columns)
+
+    def drawn(self, criterion):
+        """Return the numbers (DRAWS, laws) of resampled starts, the same for every law."""
+        values = self.values[criterion].to_numpy(float)
+        which = np.random.default_rng(0).integers(len(values), size=(DRAWS, len(values)))
+        return take(criterion, values[which])
+
+    def beats(self, criterion):
+        """Return whether the law of a row is better than that of a column."""
+        if criterion in self.compared:
+            return self.compared[criterion]
+        sense = -1.0 if criterion in MORE_IS_BETTER else 1.0
+        number = sense * self.number(criterion)
+        own, other = number.to_numpy()[:, None], number.to_numpy()[None, :]
+        with np.errstate(invalid="ignore"):
+            least = 4.0 if criterion == "tick" else 0.01 * np.abs(other)
+            is_better = (own < other) & (np.isinf(other) | (other - own > least))
+            if len(self.values[criterion]) > 1:
+                drawn = sense * self.drawn(criterion)
+                less = np.nan_to_num(drawn[:, :, None] - drawn[:, None, :], nan=0.0, posinf=np.inf, neginf=-np.inf)
+                is_better &= np.quantile(less, 0.975, axis=0, method="inverted_cdf") < 0.0
+        self.compared[criterion] = pd.DataFrame(is_better, number.index, number.index)
+        return self.compared[criterion]
+
+    def front(self, laws, criteria):
+        """Return the laws that no other is better than by one of the criteria and worse than by none."""
+        better = [
+            self.beats(one).reindex(laws, fill_value=False).reindex(laws, axis=1, fill_value=False)
+            for one in criteria
+            if one in self.values
+        ]
+        wins = np.array([one.to_numpy(bool) for one in better]).reshape(-1, len(laws), len(laws)).any(axis=0)
+        dominated = (wins & ~wins.T).any(axis=0)
+        return [law for law, is_out in zip(laws, dominated, strict=True) if not is_out] or list(laws)
+
+    def has(self, fact):
+        """Return law -> whether it has one of the facts of `needs`."""
+        number = self.number
+        if fact is needs.EVERYWHERE:
+            return (number("unsettled") == 0) & (number("lost") == 0) & (number("detour") < 1.5)
+        return {
+            needs.QUIET: lambda: number("chatter") <= 1.0,
+            needs.UNHELD: lambda: number("held") > 0.1,
+            needs.FORGETFUL: lambda: number("memory") == 0.0,
+            needs.SMOOTH: lambda: number("jump").abs() < 1e-3,
+            needs.NEARLY: lambda: number("unsettled") <= 0.1 + 1e-9,
+            needs.TRIED: lambda: number("variation").notna(),
+        }[fact]()
+
+    def decide(self, need):
+        """Return the decision in a situation."""
+        facts = [self.has(fact).reindex(self.laws, fill_value=False) for fact in need.facts]
+        asked = [law for law in self.laws if all(one[law] for one in facts) and not is_ours(law)]
+        asked = [law for law in asked if all(law in self.values[by] for by in need.by)]
+        best = self.front(asked, need.by) if need.by else asked
+        kept = self.front(best, GENERAL)
+        law = min(kept, key=lambda law: (*self.simplicity(law), law))
+        return Decision(law, tuple(one for one in kept if one != law), tuple(best), tuple(asked))
+
+    def is_decisive(self, need, usual):
+        """Return whether a situation's law is better than the usual one by more than a tenth, or that lacks a fact."""
+        one = self.decide(need)
+        if need.is_apart or usual not in one.asked:
+            return True
+        pairs = [(self.number(by)[one.law], self.number(by)[usual]) for by in need.by]
+        return usual not in one.best and any(abs(own - other) > 0.1 * abs(other) for own, other in pairs)
+
+
+def is_ours(law):
+    """Return whether a law was made here."""
+    return find_contender(law).regulator.is_ours()
+
+
+@functools.cache
+def operations(folder="reference"):
+    """Return law -> flops and calls of a tick, typical branch, with the goal's stage."""
+    rows = table("costs", folder).query("jacobian == '' and inverse == '' and branch == 'typical' and stage == 'total'")
+    return rows.set_index("law")[["flops", "sin", "cos", "atan2", "acos"]].sum(axis=1)
+
+
+def by_start(rows, column, failed=None):
+    """Return a row a start and a column a law; `failed` where a law does not settle."""
+    values = rows[column] if failed is None else rows[column].where(rows["outcome"] == "settled", failed)
+    keys = [name for name in ("arm", "start_set", "start_id") if name in rows]
+    return (
+        rows.assign(value=values.astype(float))
+        .pivot_table("value", keys, "law", aggfunc="first", dropna=False)
+        .dropna(how="all")
+        .dropna(axis=1, how="all")
+    )
+
+
+def common(rows):
+    """Return the rows of starts that every law ran."""
+    ran = rows.groupby(["start_set", "start_id"])["law"].transform("nunique")
+    return rows[ran == rows["law"].nunique()]
+
+
+def alone(numbers):
+    """Return one row of a number a law."""
+    return pd.Series(numbers, dtype=float).to_frame().T
+
+
+def timed(uniform, directed, peak):
+    """Return the criteria that every kind of command has."""
+    time = by_start(uniform, "settling_time_s", np.inf)
+    laws = time.columns
+    ways = pd.concat([uniform, directed[directed["start_set"] == "half-turn"]]).groupby("law")["path_ratio"].max()
+    lost = (directed["outcome"] != "settled").groupby(directed["law"]).sum()
+    return {
+        **dict.fromkeys(("time", "worst", "median"), time),
+        "unsettled": 100.0 * np.isinf(time),
+        "lost": alone(lost.reindex(laws, fill_value=0)),
+        "detour": alone(ways.reindex(laws)),
+        "spread": (time - time.min()).fillna(np.inf),
+        "peak": by_start(uniform, peak, np.inf),
+        "tick": alone(shares_of_time().reindex(laws)),
+        "memory": alone({law: len(find_contender(law).regulator.memory or ()) for law in laws}),
+        "jump": alone({law: measures.jump(find_contender(law)) for law in laws}),
+    }
+
+
+def shares_of_time():
+    """Return law -> its time alone over a whole controller's [%]."""
+    [path] = (RESULTS / "timings").glob("*.parquet")
+    rows = table(path.stem, "timings").query("ticks > 0")
+    whole = rows.query("what == 'controller' and law == 'rotation-matrix' and jacobian == 'geometric'")["ratio"]
+    return 100.0 * rows[rows["what"] == "law"].set_index("law")["ratio"] / whole.median()
+
+
+def standard(rows):
+    """Return the rows of arms by the plain inverse, or the pseudo-inverse where a law has no plain one on an arm."""
+    rows = rows[rows["inverse"].isin(("solve", "pseudo-inverse"))]
+    has_plain = (rows["inverse"] == "solve").groupby([rows["law"], rows["arm"]]).transform("any")
+    return rows[(rows["inverse"] == "solve") | ~has_plain]
+
+
+@functools.cache
+def accelerations(folder="reference"):
+    """Return what laws that command accelerations or torques were asked."""
+    rows = table("episodes", folder)
+    free = rows.query("task == 'free-body' and engine in ('ideal-rk4', 'native')")
+    on_main = free["law"].isin(free.loc[free["engine"] == "ideal-rk4", "law"])
+    free = free[(free["engine"] == "ideal-rk4") | ~on_main]
+    uniform, directed = common(free.query("start_set == 'uniform'")), common(free[free["start_set"].isin(DIRECTED)])
+    perturbed = table("robustness", folder)
+    at = {
+        name: perturbed[(perturbed["axis"] == axis) & (perturbed["level"] == level)]
+        for name, (axis, level, _) in PERTURBED.items()
+    }
+    noise = perturbed.query("axis == 'half-turn-noise'")
+    holds = noise["level"].where(noise["outcome"] != "settled", np.inf).groupby(noise["law"]).min()
+    arms = standard(
+        rows.query(
+            "task == 'arm-regulation' and start_set == 'uniform' and jacobian == 'geometric'"
+            " and variation == 'nominal' and engine == 'native'"
+        )
+    )
+    settled = arms["outcome"] == "settled"
+    within = settled & (arms["peak_torque_ratio"] <= 1.0) & (arms["range_excess_rad"] <= 0.0)
+    known = uniform["law"].unique()
+    arms = arms.assign(settled=100.0 * settled, within=100.0 * within)[arms["law"].isin(known)]
+    return Asked(
+        {
+            **timed(uniform, directed, "peak_u"),
+            "effort": by_start(uniform, "effort", np.inf),
+            "chatter": by_start(uniform, "rest_change", np.inf),
+            "held": alone(holds),
+            "arms": by_start(arms, "settled"),
+            "within": by_start(arms, "within"),
+            **{name: by_start(at[name], column, np.inf) for name, (_, _, column) in PERTURBED.items()},
+        }
+    )
+
+
+@functools.cache
+def velocities():
+    """Return what laws that command velocities were asked."""
+    rows = table("velocity").query("limiter == 'none' and share == 1.0")
+    rows = rows[rows["law"].isin(accelerations().laws)]
+    free, arms = rows.query("arm == ''"), standard(rows.query("arm != '' and lag_s == 0 and start_set == 'uniform'"))
+    uniform, exact = (common(free[free["start_set"] == name]) for name in ("uniform", "half-turn"))
+    arms = arms[arms["law"].isin(uniform["law"])]
+    arms = arms.assign(settled=100.0 * (arms["outcome"] == "settled"))
+    return Asked({**timed(uniform, exact, "peak_omega"), "arms": by_start(arms, "settled")})

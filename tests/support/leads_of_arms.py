@@ -1,0 +1,190 @@
+"""Numbers of the leads on arms, contact, libraries, the history and the code, computed again; see `support.leads`."""
+
+import itertools
+import json
+import re
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+from scipy.stats import binomtest, fisher_exact, mannwhitneyu
+
+import tasks
+from bench.audit.faults.digits_near_0 import COUNT_RAD
+from bench.findings.selection import needs
+from bench.tables.schema import RESULTS
+from report.figures.kit.families import word
+from support.advised import accelerations
+from support.tables import table
+
+CARTESIAN, EULER = "hybrid-base", "hybrid/zyx-euler"
+
+
+def read_json(name):
+    """Return a JSON file of results."""
+    return json.loads((RESULTS / name).read_text(encoding="utf-8"))
+
+
+def contact(task):
+    """Return the rows of a task in contact, with the controller and its coordinates and the tilt."""
+    rows = table("compliance").query("task == @task")
+    coordinates = np.where(rows["representation"] == "", "", "/") + rows["representation"]
+    return rows.assign(who=rows["controller"] + coordinates, tilt_deg=np.degrees(rows["beta"]).round(6))
+
+
+def recompute_compliance():
+    rows = contact("wrench-probe").query("complies == 'about x and y' and alpha == 0 and gamma == 0")
+    drawn = rows.query("form == 'transpose' and arm == 'ur5e'").set_index("tilt_deg")
+    euler, plain = (drawn[drawn["who"] == who] for who in (EULER, CARTESIAN))
+    full, betas = plain["c_xx"].median(), [30.0, 60.0, 85.0]
+    entries = [f"c_{i}{j}" for i in "xyz" for j in "xyz"]
+    C = {beta: euler.loc[beta, entries].to_numpy(float).reshape(3, 3) for beta in betas}
+    off = {beta: np.degrees(np.arctan2(np.hypot(*C[beta][1:, 0]), abs(C[beta][0, 0]))) for beta in betas}
+    held = {beta: 100 * np.linalg.norm(C[beta][:, 2]) / full for beta in betas}
+    plain_held = 100 * np.linalg.norm(plain.loc[60.0, ["c_xz", "c_yz", "c_zz"]].to_numpy(float)) / full
+    by = rows[(rows["form"] == "inverse") & (rows["who"] == EULER) & (rows["outcome"] == "done")]
+    worst = np.abs(np.degrees(by["misalignment_rad"]) - by["tilt_deg"].abs()).max()
+    exponent = int(np.floor(np.log10(worst)))
+    return {
+        "off": ", ".join(f"{value:.0f}° at β = {beta:.0f}°" for beta, value in off.items()),
+        "off_word": "less than β" if all(value < beta for beta, value in off.items()) else "not always less than β",
+        "held": ", ".join(f"{value:.0f} % at β = {beta:.0f}°" for beta, value in held.items()),
+        "held_cartesian": f"{plain_held:.0f} %",
+        "off_by_accelerations": [round(worst / 10.0**exponent), 10, -exponent],
+    }
+
+
+def recompute_pegs(form):
+    rows = contact("peg-in-hole").query("form == @form")
+    tallies = []
+    for who in (CARTESIAN, EULER):
+        own = rows[rows["who"] == who]
+        leans, out = own["tilt_deg"] != 0, ~(own["jam"] == 0.0)
+        tallies.append((out.sum(), len(own), (out & leans).sum(), leans.sum()))
+    p = fisher_exact([(bad, n - bad) for *_, bad, n in tallies]).pvalue
+    return [*tallies[0], *tallies[1], "differ significantly" if p < 0.05 else "not differ", float(f"{p:.2g}")]
+
+
+def recompute_contact():
+    rows, said = contact("surface-alignment").query("form == 'transpose'"), []
+    for who in (CARTESIAN, EULER):
+        own = rows[rows["who"] == who]
+        flat, leans = own["time_to_align_s"].notna(), own["tilt_deg"] != 0
+        turned = float(f"{np.degrees(own['held_turn_rad'].max()):.1f}")
+        said += [flat.sum(), len(own), (flat & leans).sum(), leans.sum(), turned]
+    fits = pd.DataFrame(read_json("contact/contact.json")["fits"])
+    is_in = (fits["depth_m"] >= 0.027).groupby(fits["clearance"]).agg(["sum", "size"]).iloc[::-1]
+    by_fit = [number for share, (good, n) in is_in.iterrows() for number in (good, n, 100 * share)]
+    stuck, other = map(recompute_pegs, ("transpose", "inverse"))
+    return {"flat": said, "stuck": stuck, "other_stuck": other, "fits": by_fit}
+
+
+def recompute_impedance():
+    rows = table("impedance-modes")
+    felt = {name: own["ratio"] for name, own in rows.groupby("damping")}
+    double = felt["double-diagonalization"]
+    lost = rows[rows["radius"] >= 1.0].groupby(["arm", "stiffness_n_m", "stiffness_nm_rad"]).size().index
+    return {
+        "felt_least": f"{felt['diagonal'].min():.2g}",
+        "felt_most": f"{felt['diagonal'].max():.2g}",
+        "double": f"{double.min():.3f} to {double.max():.3f}",
+        "tick": f"{1000 * table('impedance')['dt_s'].iloc[0]:g}",
+        "unstable": [part for arm, *pair in lost for part in (tasks.arm(arm).title, *pair)],
+    }
+
+
+def share(passes):
+    """Return the percent with Wilson's interval, rounded, and n."""
+    low, high = binomtest(int(passes.sum()), len(passes)).proportion_ci(0.95, method="wilson")
+    return [*(round(100 * value) for value in (passes.mean(), low, high)), len(passes)]
+
+
+def lead_on_arms(passes):
+    """Return who passes most of a row a start and a column a controller, and how many McNemar's test ties with it."""
+    first = min(passes, key=lambda name: (-passes[name].mean(), name))
+    alone = [((passes[first] & ~own).sum(), (own & ~passes[first]).sum()) for _, own in passes.items()]
+    tied = [a + b == 0 or binomtest(a, a + b).pvalue >= 0.05 for a, b in alone]
+    law, equation = first.partition("@")[0], 2.2 if first.endswith("geometric") else 3.7
+    return [*([sum(tied)] if sum(tied) > 1 else []), equation, word(law), *share(passes[first])]
+
+
+def recompute_arms():
+    rows = table("episodes").query("task == 'arm-regulation' and start_set == 'uniform' and variation == 'nominal'")
+    seven, tall = rows["arm"] == "panda", rows["law"] == "feedback-linearized/quaternion"  # J_E of four rows for three
+    usual = np.select([seven & tall, seven | tall], ["truncated-svd", "pseudo-inverse"], "solve")
+    rows = rows[(rows["inverse"] == usual) & rows["jacobian"].isin(("geometric", "analytic"))]
+    rows = rows[~rows["regulator"].isin(("joint-pd", "resolved-rate"))]
+    settled = rows["outcome"] == "settled"
+    within = settled & (rows["peak_torque_ratio"] <= 1) & (rows["range_excess_rad"] <= 0)
+    rows = rows.assign(settled=settled, within=within, by=rows["law"] + "@" + rows["jacobian"])
+    settled, within = (rows.pivot(index=["arm", "start_id"], columns="by", values=one) for one in ("settled", "within"))
+    never = [tasks.arm(arm).title for arm, own in within.groupby("arm") if not own.to_numpy().any()]
+    said = [len(rows), round(100 * (rows["peak_torque_ratio"] > 1).mean()), *lead_on_arms(within), 3.7]
+    said += [*share(within["feedback-linearized/zyx-euler@analytic"]), *(never or ["none"]), *lead_on_arms(settled)]
+    return {"advised": word(accelerations().decide(needs.ARM).law), "lead": said}
+
+
+def is_right(own):
+    """Return whether nothing is said against a function: every answer stands for the rotation that was asked for."""
+    silent, at = own["raised"] + own["not_finite"], own["distance_rad"] == 0.0
+    long_way = own["long_way"].where(own["turn_error_rad"] > 0.1, 0)
+    bad = silent.sum() + own.loc[at, "nought"].sum() + long_way.sum() + own["astray"].sum() + own["other_sheet"].sum()
+    bound = 4.0 * 2.0**-22 if own["precision"].iloc[0] == "single" else COUNT_RAD
+    return bad == 0 and own["turn_error_rad"].max() <= bound
+
+
+def recompute_libraries():
+    loops = table("closed_loop", "libraries").query("library != 'orientation-bench' and kind == 'function'")
+    at = loops[loops["angle_deg"] == 180].groupby(["library", "function"])[["dead", "starts"]].sum()
+    below = loops[loops["angle_deg"] < 180].groupby(["library", "function"])["away"].sum()
+    asked = table("libraries", "libraries").query("library != 'orientation-bench' and form != 'z-y-x'")
+    good = asked.groupby(["kind", "library", "function"])[list(asked)].apply(is_right)
+    return {
+        "loops": len(at),
+        "loops_dead": (at["dead"] == at["starts"]).sum(),
+        "loops_away": (below > 0).sum(),
+        "functions": len(good["function"]),
+        "right": good["function"].sum(),
+        "idioms": len(good["idiom"]),
+        "idioms_wrong": (~good["idiom"]).sum(),
+        "libraries": len(set(read_json("libraries/provenance.json")["libraries"]) - {"orientation-bench"}),
+    }
+
+
+def recompute_history():
+    lines = pd.DataFrame(map(json.loads, (RESULTS / "history/history.jsonl").read_text(encoding="utf-8").splitlines()))
+    lines = lines.join(pd.DataFrame(lines.pop("benchmark").tolist())).sort_values(["place", "date"])
+    counted, timed, longest = 0, 0, 0
+    for _, own in lines.drop_duplicates(["what", "name", "commit"]).groupby(["what", "name"]):
+        tallies = [one for one in own["operations"] if "typical" in one]
+        counted += sum(one != other for one, other in itertools.pairwise(tallies))
+        code, change = own["code"], own["instructions"].pct_change().abs() > 1e-3
+        counted += (change & ~((code == code.shift()) & (code != ""))).sum()
+    for _, own in lines.groupby(["what", "name", "machine"]):
+        times, longest = np.array([median for median, *_ in own["kernel_steps"]]), max(longest, len(own))
+        splits = [(times[max(0, at - 10) : at], times[at : at + 10]) for at in range(5, len(times) - 4)]
+        ratios = [np.median(before) / np.median(after) for before, after in splits]
+        chance = [mannwhitneyu(*pair, method="exact").pvalue for pair in splits]
+        timed += any(p < 1e-3 and max(ratio, 1 / ratio) > 1.1 for p, ratio in zip(chance, ratios, strict=True))
+    machines, sides = lines["machine"].nunique(), itertools.product(range(5, 11), repeat=2)
+    return {
+        "benchmarks": len(lines.groupby(["what", "name"])),
+        "builds": lines["commit"].nunique(),
+        "machines": f"{machines} machine{'' if machines == 1 else 's'}",
+        "counted": counted,
+        "timed": timed,
+        "longest": longest,
+        "wanted": min(n + m for n, m in sides if mannwhitneyu(range(n), range(n, n + m), method="exact").pvalue < 1e-3),
+    }
+
+
+def list_titles(folder, pattern):
+    """Return what a pattern finds first in each file of a folder."""
+    texts = (path.read_text(encoding="utf-8") for path in sorted(Path(folder).glob("[a-z]*.py")))
+    return [found[1] for text in texts if (found := re.search(pattern, text))]
+
+
+def recompute_checks():
+    *most, last = list_titles("bench/export/languages", r'Language\("\w+", "([^"]+)"')
+    faults = len(list_titles("bench/audit/faults", "(FAULT)"))
+    return {"languages": f"{', '.join(most)} and {last}", "check_your_error.faults": faults}
