@@ -8,15 +8,12 @@ import ast
 from collections.abc import Iterable, Iterator
 
 from bench.export.types import INDEX, REAL, Kind, Tuple, Typed, arguments, place_of, place_of_constant
-from bench.law.scalar import PRIMITIVES
 
 INDENT, WIDTH = "    ", 120
 NAMES = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/"}
 SIGNS = {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">=", ast.Eq: "==", ast.NotEq: "!="}
 STRENGTH = {ast.Mult: 6, ast.Div: 6, ast.Add: 5, ast.Sub: 5}
 """How an operator binds: a call 9, a sign 7, a comparison 4, `and` 3, `or` 2, a choice 1, as in all of them."""
-
-WORDS_OF_PRIMITIVES = {one.__name__ for one in PRIMITIVES}
 
 
 class Braces:
