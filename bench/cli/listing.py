@@ -1,5 +1,6 @@
 """`list`: what there is to run, by kind."""
 
+import functools
 from collections.abc import Callable, Iterator, Mapping
 from types import SimpleNamespace
 from typing import Any, NamedTuple
@@ -31,7 +32,12 @@ class Kind(NamedTuple):
         """Yield the name and the attributes of each thing, the user's own laws last."""
         found = {**self.find(), **{one.name: one for one in own}}
         for name, one in found.items():
-            yield name, *(write_cell(getattr(one, attribute, "")) for attribute in self.attributes.split())
+            yield name, *(write_cell(read_attribute(one, attribute)) for attribute in self.attributes.split())
+
+
+def read_attribute(one: Any, path: str) -> Any:
+    """Return an attribute, or the attribute of one (`table.name`); empty where it has none."""
+    return functools.reduce(lambda found, word: getattr(found, word, ""), path.split("."), one)
 
 
 def write_cell(value: Any) -> str:
@@ -130,7 +136,7 @@ KINDS = {
     "arm-starts": Kind("Start sets of arms, starts on each arm at most", lambda: find_starts(True), "starts title"),
     "engines": Kind("Engines", find_engines),
     "suites": Kind("Suites", find_suites),
-    "experiments": Kind("Experiments", known_experiments),
+    "experiments": Kind("Experiments", known_experiments, "table.name title"),
     "claims": Kind("Claims", find_claims, "section sentence"),
 }
 
@@ -162,7 +168,7 @@ def COMMAND(kind, laws):
     for word in KINDS if kind is None else (kind,):
         one = KINDS[word]
         rows = list(one.rows(own if word == "regulators" else ()))
-        names = ["name", *(attribute.replace("_", " ") for attribute in one.attributes.split())]
+        names = ["name", *(attribute.partition(".")[0].replace("_", " ") for attribute in one.attributes.split())]
         used = [at for at, _ in enumerate(names) if any(row[at] for row in rows)]
         shown = [[row[at] for at in used] for row in rows]
         console().print(word_table([names[at] for at in used], shown, one.title))
