@@ -42,7 +42,9 @@ DETOUR = 1.5
 """Path over shortest path from which a start at rest counts as unwinding: halfway to a full turn from a half turn is
 3/2, and no spring that pulls towards the goal goes so far."""
 
-NOISE = "half-turn-noise"
+NOISE, HELD_RAD = "half-turn-noise", 0.1
+"""Greatest worst-case noise near the half turn that must not hold a law there: six degrees, which no sensor of
+orientation in use exceeds by much, and far less than any law's memory could bridge."""
 
 
 class Adequacy(NamedTuple):
