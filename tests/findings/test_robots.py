@@ -6,24 +6,21 @@ import math
 import pandas as pd
 import pytest
 
-from bench.contenders.registry import find_contender, known_shipped
+from bench.contenders.registry import known_shipped
 from bench.experiments.experiment import Settings, Unit, rows_of
 from bench.findings.claims.tables import Results
 from bench.findings.claims.verdict import NoEvidence
 from bench.findings.selection import gains
-from bench.findings.selection.needs import advice, advise, decide, has_all
+from bench.findings.selection.needs import advice, decide, has_all
 from bench.findings.selection.robot_rows import measure_uncancelled as measure
 from bench.findings.selection.robot_rows import measure_velocities
-from bench.findings.selection.robots import POSITION, ROBOTS, UNCANCELLED, VELOCITIES, VELOCITY, word_of
+from bench.findings.selection.robots import POSITION, ROBOTS, UNCANCELLED, word_of
 from bench.findings.selection.rule import dominates
 from bench.tables.read import with_contender
 from bench.tables.schema import RESULTS
 
 REFERENCE = RESULTS / "reference"
 FASTEST = "mrp"
-SIMPLEST, LOGARITHM, SINE, NO_SIGN, EASED = (
-    *("quaternion-shortest", "rotation-vector", "rotation-matrix", "quaternion-unwinding", "late-braking"),
-)
 
 
 @functools.cache
@@ -32,24 +29,14 @@ def shipped():
     return rows_of(Settings("quick"), Unit("shipped", selector=one.name, count=1, total=1, horizon_s=20.0))
 
 
-def commanded(free, on_arm):
-    """Rows of laws on the free body and on an arm that takes velocities."""
-    units = [Unit("velocity", law, "free-body", count=24, horizon_s=2.5) for law in free]
-    units += [
-        Unit("velocity", f"{law}@geometric+solve", "arm-regulation", "ur5e", count=2, horizon_s=2.5) for law in on_arm
-    ]
-    return with_contender(pd.concat([rows_of(Settings("quick"), unit) for unit in units], ignore_index=True))
-
-
 @functools.cache
 def lagging():
-    return commanded((LOGARITHM, FASTEST), (LOGARITHM, FASTEST))
-
-
-@functools.cache
-def found():
-    rows = commanded((SIMPLEST, LOGARITHM, SINE, NO_SIGN, EASED), (SIMPLEST, LOGARITHM))
-    return measure_velocities(Results(REFERENCE, {"velocity": rows}))
+    settings, laws = Settings("quick"), ("rotation-vector", FASTEST)
+    units = [Unit("velocity", law, "free-body", count=24, horizon_s=2.5) for law in laws]
+    units += [
+        Unit("velocity", f"{law}@geometric+solve", "arm-regulation", "ur5e", count=2, horizon_s=2.5) for law in laws
+    ]
+    return with_contender(pd.concat([rows_of(settings, unit) for unit in units], ignore_index=True))
 
 
 def test_uncancelled_law_has_the_facts_and_nothing_dominates_it():
@@ -94,50 +81,3 @@ def test_every_robot_has_a_word_of_the_reference():
 @pytest.mark.parametrize("robot", ROBOTS, ids=lambda robot: robot.page)
 def test_robot_names_a_page_of_the_book(robot):
     assert (RESULTS.parent / "report" / "pages" / f"{robot.page}.md").is_file()
-
-
-# --------------------------------------------------------------------------------------------- velocities
-
-
-def test_laws_are_those_that_were_told_the_simplest_first():
-    assert set(found().laws) == {SIMPLEST, LOGARITHM, SINE, NO_SIGN, EASED}
-    assert found().laws.index(SIMPLEST) < found().laws.index(EASED)
-
-
-def test_advised_law_has_the_facts_and_nothing_dominates_it():
-    advice, by = advise(found(), VELOCITY, VELOCITIES.needs), ("time", "worst", "peak", "tick")
-    assert advice.default.law == SIMPLEST
-    assert has_all(found(), SIMPLEST, VELOCITY.facts)
-    assert not any(dominates(found(), law, SIMPLEST, by) for law in advice.default.asked)
-
-
-def test_law_that_is_dead_and_law_that_unwinds_are_not_asked():
-    asked = advise(found(), VELOCITY, VELOCITIES.needs).default.asked
-    assert SINE not in asked
-    assert NO_SIGN not in asked
-    assert found().number("lost", SINE) == found().number("lost", SIMPLEST) + len(found().tables.directed) / 5
-
-
-def test_fastest_is_the_logarithm_and_no_law_of_ours_is_advised():
-    advice = advise(found(), VELOCITY, VELOCITIES.needs)
-    laws = {one.need.words: one.law for one in (*advice.exceptions, *advice.others)}
-    assert laws["the fastest, at equal gain near the goal"] == LOGARITHM
-    assert EASED not in laws.values()
-
-
-def test_law_that_was_not_told_on_arms_is_no_answer_there():
-    advice = advise(found(), VELOCITY, VELOCITIES.needs)
-    [on_arm] = (one for one in (*advice.exceptions, *advice.others) if one.need.by == ("arms",))
-    assert set(on_arm.asked) == {SIMPLEST, LOGARITHM}
-
-
-def test_memory_counts_as_ever():
-    assert found().number("memory", EASED) == len(find_contender(EASED).regulator.memory)
-
-
-def test_run_that_tells_no_robot_velocities_is_no_evidence(tmp_path):
-    with pytest.raises(NoEvidence, match="commanded by velocities"):
-        measure_velocities(Results(tmp_path))
-    rows = found().tables.uniform.iloc[:0]
-    with pytest.raises(NoEvidence, match="commanded by velocities"):
-        measure_velocities(Results(REFERENCE, {"velocity": rows}))
