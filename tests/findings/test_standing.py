@@ -12,18 +12,18 @@ from bench.findings.claims.standing import (
     UNDECIDED,
     Ledger,
     Operations,
-    Ratio,
     by_columns,
     price_of_a_call,
     times_of,
 )
+from bench.tables.statistics import Estimate
 
 FLOP, CALL = 0.02, 1.2
 COUNTS = {"a": (10, 0), "b": (40, 0), "c": (30, 3), "d": (60, 6), "e": (70, 1), "f": (90, 2)}
 
 
 def near(value, half_width=0.05):
-    return Ratio(value, value - half_width, value + half_width)
+    return Estimate(value, value - half_width, value + half_width)
 
 
 def ledger(times, cheap, dear, price=math.nan):

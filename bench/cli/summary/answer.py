@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from bench.cli.paragraphs import Paragraph, listed
 from bench.cli.screen import counted
+from bench.findings.claims.adequacy import HELD_RAD
 from bench.findings.selection import gains, needs
 from bench.findings.selection.criteria import BY_NAME
 from bench.findings.selection.measured import Measured
-from bench.findings.selection.needs import HELD_RAD, Advice, Decision, advise
+from bench.findings.selection.needs import Advice, Decision, advise
 from bench.findings.selection.words import NAMED, cost, number, standing, together
 
 NOISE = f"worst-case attitude noise up to {HELD_RAD:g} rad"

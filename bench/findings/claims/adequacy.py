@@ -42,7 +42,9 @@ DETOUR = 1.5
 """Path over shortest path from which a start at rest counts as unwinding: halfway to a full turn from a half turn is
 3/2, and no spring that pulls towards the goal goes so far."""
 
-NOISE = "half-turn-noise"
+NOISE, HELD_RAD = "half-turn-noise", 0.1
+"""Greatest worst-case noise near the half turn that must not hold a law there: six degrees, which no sensor of
+orientation in use exceeds by much, and far less than any law's memory could bridge."""
 
 
 class Adequacy(NamedTuple):
@@ -128,13 +130,16 @@ def exact(runs: pd.DataFrame) -> pd.Series:
     return found | (far.to_numpy() <= EXACT_RAD)
 
 
+def of_stage(rows: pd.DataFrame, stage: str) -> Operations:
+    """Flops and transcendental calls of one stage of a contender's rows."""
+    own = rows[rows["stage"] == stage].iloc[0]
+    return Operations(int(own["flops"]), int(sum(own[name] for name in CALLS)))
+
+
 def tallied(rows: pd.DataFrame, with_goal: bool) -> Operations:
     """Flops and transcendental calls of one contender's rows, a row a stage."""
-    total, goal = (rows[rows["stage"] == stage].iloc[0] for stage in ("total", "goal"))
-    flops, calls = int(total["flops"]), int(sum(total[name] for name in CALLS))
-    if with_goal:
-        return Operations(flops, calls)
-    return Operations(flops - int(goal["flops"]), calls - int(sum(goal[name] for name in CALLS)))
+    total, goal = of_stage(rows, "total"), of_stage(rows, "goal")
+    return total if with_goal else Operations(total.flops - goal.flops, total.calls - goal.calls)
 
 
 def ledger(results: Results) -> Ledger:

@@ -58,7 +58,7 @@ MOST_LEAK = 1.0
 @claim("C22")
 def c22(results):
     """One angle against one axis, by both ways to control forces."""
-    word, found = side_by_side.by_papers_form(_one_axis, results)
+    word, found = _one_axis(results)
     turns = random_orientations(POSES, 0)
     B = np.array([probes.euler_B(R) for R in turns])
     by_alpha = np.abs(B[:, :, 0] - (0.0, 0.0, 1.0)).max()
@@ -70,6 +70,7 @@ def c22(results):
     return word, found._replace(sentence=f"{axes} {found.sentence}")
 
 
+@side_by_side.by_papers_form
 def _one_axis(results, forms):
     """Measured compliance of one angle against that of one axis, as it is and turned by the angles before."""
     rows = side_by_side.beside_base(results, COORDINATES, ONE_AXIS, forms)
@@ -114,12 +115,8 @@ def _greatest(numbers: np.ndarray) -> float:
 
 
 @claim("C23")
-def c23(results):
-    """Two angles against two axes, by both ways to control forces."""
-    return side_by_side.by_papers_form(_two_axes, results)
-
-
-def _two_axes(results, forms):
+@side_by_side.by_papers_form
+def c23(results, forms):
     """Measured compliance of two angles against that of two axes: apart or not, and by how much in theory."""
     rows = side_by_side.beside_base(results, COORDINATES, TWO_AXES, forms)
     rows = rows[rows["cos_beta"] >= CLOSE_TO_POLE].reset_index(drop=True)
@@ -164,12 +161,8 @@ def _leak(rows: pd.DataFrame, C: np.ndarray) -> np.ndarray:
 
 
 @claim("C24")
-def c24(results):
-    """Z-Y-Z and Z-Y-X angles about x, by both ways to control forces."""
-    return side_by_side.by_papers_form(_near_zero, results)
-
-
-def _near_zero(results, forms):
+@side_by_side.by_papers_form
+def c24(results, forms):
     """Rotation about x and z per moment about x with Z-Y-Z and with Z-Y-X angles, over what is wanted."""
     zyz, zyx = (_about_x(results, coordinates, forms) for coordinates in (ZYZ, COORDINATES))
     at_zero = some(zyz[zyz["from_zero"] <= ZERO_RAD], f"pose of {side_by_side.PROBE} by hybrid/{ZYZ} at zero rotation")

@@ -48,12 +48,8 @@ ZERO_RAD, SLACK_DEG = 1e-9, 1e-6
 
 
 @claim("C25")
-def c25(results):
-    """Both Jacobians in contact, by both ways to control forces."""
-    return by_papers_form(_in_contact, results)
-
-
-def _in_contact(results, forms):
+@by_papers_form
+def c25(results, forms):
     """Pairs of episodes in contact that differ in the Jacobian alone, by task."""
     what = f"pose of a task by hybrid/{COORDINATES} and {BASE}, +{' or +'.join(forms)}"
     rows = some(paired(results, COORDINATES, forms), what)

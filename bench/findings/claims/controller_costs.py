@@ -12,7 +12,7 @@ import numpy as np
 import tasks
 from bench.control.contact_controller import PAPERS_FORM
 from bench.findings.claims import adequacy, arm_probes, standing
-from bench.findings.claims.adequacy import CALLS, tallied
+from bench.findings.claims.adequacy import CALLS, of_stage, tallied
 from bench.findings.claims.side_by_side import BASE
 from bench.findings.claims.standing import ORDERED, Operations, by_columns
 from bench.findings.claims.tables import evidence, some
@@ -157,13 +157,12 @@ def _at_poles(results, found: pd.DataFrame, poses: pd.DataFrame, arm: str, gains
 def _hidden(results, joints: int) -> tuple[bool, str]:
     """Whether the law seems cheaper and the controller is dearer, and the numbers in a sentence."""
     rows = {one: controller_costs(results, one, joints) for one in (BY_EULER, BY_COMMON, ON_MATRIX)}
-    laws = {one: own[own["stage"] == "regulate"].iloc[0] for one, own in rows.items()}
-    seen = {one: (int(law["flops"]), int(sum(law[name] for name in CALLS))) for one, law in laws.items()}
+    seen = {one: of_stage(own, "regulate") for one, own in rows.items()}
     total = {one: tallied(own, with_goal=False) for one, own in rows.items()}
-    seems_cheaper = seen[BY_EULER][0] < seen[ON_MATRIX][0] and seen[BY_EULER][1] <= seen[ON_MATRIX][1]
+    seems_cheaper = seen[BY_EULER].flops < seen[ON_MATRIX].flops and seen[BY_EULER].calls <= seen[ON_MATRIX].calls
     is_dearer = by_columns(total[ON_MATRIX], total[BY_EULER]) == ORDERED
     told = "; ".join(
-        f"{name} {seen[one][0]} flops of {total[one]} calls"
+        f"{name} {seen[one].flops} flops of {total[one]} calls"
         for name, one in (("(3.7)", BY_EULER), ("(2.2) with the law on R", ON_MATRIX), ("(2.2) with (2.15)", BY_COMMON))
     )
     return seems_cheaper and is_dearer, f"On {joints} joints the law itself is {told}."
@@ -185,10 +184,9 @@ def c26(results):
     dearer = sum(set(one.by_columns) == {ORDERED} for one in stands)
     return word_of(dearer == len(stands), False), evidence(
         f"""Flops and calls a tick of (2.2) with (2.15), (2.2) with the law on R, and (3.7), and the time of (3.7) over
-        each of the others': {"; ".join(listed)}. (3.7) is dearer in both columns in
-        {dearer} of {len(stands)} pairs; times part
-        {sum(bool(one.by_time) for one in stands)} of them, {sum(one.by_time == ORDERED for one in stands)} in that
-        order.""",
+        each of the others': {"; ".join(listed)}. (3.7) is dearer in both columns in {dearer} of
+        {len(stands)} pairs; times part {sum(bool(one.by_time) for one in stands)} of them,
+        {sum(one.by_time == ORDERED for one in stands)} in that order.""",
         3 * 2 * len(INVERSES) + len(timed),
         ("costs", "timings") if len(timed) else ("costs",),
     )

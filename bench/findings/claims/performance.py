@@ -32,10 +32,6 @@ if TYPE_CHECKING:
 LITERAL = "feedback-linearized-literal/zyx-euler"
 NAMES = [name.partition("/")[0] for name in THREE]
 
-HELD_RAD = 0.1
-"""Greatest worst-case noise near the half turn that must not hold a law there: six degrees, which no sensor of
-orientation in use exceeds by much, and far less than any law's memory could bridge."""
-
 NEARLY_ALL, DRAMATIC = 0.99, 2.0
 """The quantile that stands for 'the range', and the factor in time from which an improvement is dramatic."""
 
@@ -118,7 +114,7 @@ def _placed(one: Adequacy, known: Ledger) -> str:
 def c27(results, engine):
     """Each later law against the eight tests."""
     later = [one for one in adequacy.every(results, engine) if one.name not in PAPERS]
-    held = adequacy.held(results, HELD_RAD)
+    held = adequacy.held(results, adequacy.HELD_RAD)
     some([one for one in later if one.name in held], f"later law by {engine} on which noise was tried")
     known, small = adequacy.of_three(results), closed_form.linear_settling(*results.gains())
     if not known.times:

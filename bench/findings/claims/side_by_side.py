@@ -6,6 +6,7 @@ is said beside it, by the same criterion.
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
@@ -30,15 +31,20 @@ DECIDES = f"""
     """
 
 
-def by_papers_form(judge: Callable[..., tuple[Word, Evidence]], results) -> tuple[Word, Evidence]:
-    """judge(results, forms) of the paper's force control, with what it says of commanded accelerations beside it."""
-    word, papers = judge(results, (PAPERS_FORM,))
-    other, ours = judge(results, ACCELERATION_FORMS)
-    return word, evidence(
-        f"""Forces by the Jacobian transpose, {word}: {papers} By commanded accelerations, {other}: {ours}""",
-        papers.rows + ours.rows,
-        papers.tables,
-    )
+def by_papers_form(decide: Callable[..., tuple[Word, Evidence]]) -> Callable[..., tuple[Word, Evidence]]:
+    """A judging function of (results, forms) asked of the paper's force control, then of commanded accelerations."""
+
+    @functools.wraps(decide)
+    def judge(results):
+        word, papers = decide(results, (PAPERS_FORM,))
+        other, ours = decide(results, ACCELERATION_FORMS)
+        return word, evidence(
+            f"""Forces by the Jacobian transpose, {word}: {papers} By commanded accelerations, {other}: {ours}""",
+            papers.rows + ours.rows,
+            papers.tables,
+        )
+
+    return judge
 
 
 def beside_base(results, representation: str, orders: tuple[str, ...], forms: tuple[str, ...]) -> pd.DataFrame:

@@ -12,6 +12,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from bench.tables.statistics import Estimate
+
 if TYPE_CHECKING:
     import pandas as pd
 
@@ -46,16 +48,8 @@ class Operations(NamedTuple):
         return self.flops + price * self.calls
 
 
-class Ratio(NamedTuple):
-    """Time a tick over that of the kernel, with its 95 % interval."""
-
-    value: float
-    low: float
-    high: float
-
-
-Times = list[dict[str, Ratio]]
-"""By contender, of each machine and arm."""
+Times = list[dict[str, Estimate]]
+"""Time a tick over that of the kernel, by contender, of each machine and arm."""
 
 
 class Standing(NamedTuple):
@@ -114,7 +108,7 @@ def agreed(signs: Iterable[int]) -> int:
     return found.pop() if len(found) == 1 else UNDECIDED
 
 
-def by_times(cheap: Ratio, dear: Ratio, least: float = 0.0) -> int:
+def by_times(cheap: Estimate, dear: Estimate, least: float = 0.0) -> int:
     """Which side of the one the other's interval lies on; undecided if they differ by the share `least` or less."""
     if abs(dear.value - cheap.value) <= least * min(cheap.value, dear.value):
         return UNDECIDED
@@ -134,10 +128,10 @@ def by_price(cheap: Operations, dear: Operations, price: float) -> int:
 
 def times_of(rows: pd.DataFrame) -> Times:
     """Ratios from rows of results/timings with `machine` and `contender`, by machine and arm."""
-    found: dict[tuple, dict[str, Ratio]] = {}
+    found: dict[tuple, dict[str, Estimate]] = {}
     columns = ["machine", "arm", "contender", "ratio", "ratio_low", "ratio_high"]
     for machine, arm, name, *ratio in rows[columns].astype({"arm": str, "contender": str}).itertuples(index=False):
-        found.setdefault((machine, arm), {})[name] = Ratio(*ratio)
+        found.setdefault((machine, arm), {})[name] = Estimate(*ratio)
     return list(found.values())
 
 

@@ -11,21 +11,11 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
+from bench.findings.claims.adequacy import DETOUR, HELD_RAD, SETTLED_SHARE
 from bench.findings.claims.tables import Results
 from bench.findings.selection import criteria
 from bench.findings.selection.measured import Measured, measure, measured
 from bench.findings.selection.rule import GENERAL, front, simplest
-
-DETOUR = 1.5
-"""Way over the shortest way from which a start unwinds: halfway to a full turn from a 180° rotation is 3/2, and no
-spring that pulls towards the goal goes so far."""
-
-HELD_RAD = 0.1
-"""Greatest worst-case noise near the 180° rotation that must not hold a law there: six degrees, which no sensor of
-orientation in use exceeds by much, and far less than any law's memory could bridge."""
-
-SETTLED_SHARE = 0.999
-"""Of evenly spread starts, where a law may lose what chance does not hit."""
 
 CONTINUOUS = 1e-3
 """Jump of the command over kp [rad] below which it is the slope's: f'(pi) 2e-6 of any law here."""

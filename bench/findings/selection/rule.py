@@ -13,9 +13,6 @@
    trusted, not as time.
 6. The default asks what a law must have where nothing else is known. A situation in which the default's law is among
    the best decides nothing: no law is better there, and the default is advised.
-
-Before this rule laws were ranked by flops plus ten for each call, and of equals the cheapest was advised. Known when it
-was written: by that rule the hybrid law, which late braking beats by slowest start, effort, peak and variation.
 """
 
 from __future__ import annotations

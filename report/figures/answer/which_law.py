@@ -7,11 +7,11 @@ import math
 import pandas as pd
 
 from bench.findings.claims import Results, judge
+from bench.findings.claims.adequacy import HELD_RAD
 from bench.findings.claims.standing import MEASURABLE
 from bench.findings.selection import gains, needs
 from bench.findings.selection.criteria import BY_NAME, Criterion
 from bench.findings.selection.measured import Measured, measured
-from bench.findings.selection.needs import HELD_RAD
 from bench.findings.selection.robots import ROBOTS, word_of
 from bench.findings.selection.rule import GENERAL, front
 from bench.findings.selection.words import cost, standing, together

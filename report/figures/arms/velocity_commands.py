@@ -11,8 +11,9 @@ import pandas as pd
 from bench.contenders.limiters.deadband import BAND
 from bench.contenders.registry import known_inverses, known_limiters
 from bench.experiments.suites import BY_EVERY_INVERSE
+from bench.findings.claims.adequacy import DETOUR
 from bench.findings.claims.verdict import NoEvidence
-from bench.findings.selection.needs import DETOUR, Advice
+from bench.findings.selection.needs import Advice
 from bench.findings.selection.robots import VELOCITIES, advise_for
 from bench.findings.selection.words import standing
 from bench.findings.theory.velocity_limits import lagged, with_theory
