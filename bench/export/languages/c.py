@@ -166,7 +166,7 @@ def write_entry(subject: Subject, core: Core, entry: Entry) -> str:
         head = f"static inline void {name}({given}, double {out}[{result_size(subject, entry)}]) {{"
         body = [f"{returned}_to({call}, {out});"]
     if entry.has_memory:
-        first, kept = map(core.kind, function.returns.items)
+        first, kept = map(core.kind, result_kinds(subject, entry))
         body = [f"const {returned} answer = {call};", f"{first}_to(answer.item0, {out});"]
         body.append(f"{kept}_to(answer.item1, state->memory);")
     if matrices := [one.name for one in entry.parameters if one.size == 9] + ["R"] * (entry.returns == "matrix"):
@@ -174,11 +174,16 @@ def write_entry(subject: Subject, core: Core, entry: Entry) -> str:
     return "\n".join((*comment(about), *wrapped((head, *(f"{INDENT}{line}" for line in body), "}", ""))))
 
 
+def result_kinds(subject: Subject, entry: Entry) -> tuple[Kind, ...]:
+    """Return the kind of an entry's result, and that of the new memory if it returns one."""
+    kind = translated(subject).entries[entry.name].returns
+    return kind.items if entry.has_memory and isinstance(kind, Tuple) else (kind,)
+
+
 def result_size(subject: Subject, entry: Entry) -> int:
     """Return how many numbers an entry returns, without the memory."""
-    kind = translated(subject).entries[entry.name].returns
-    first = kind.items[0] if entry.has_memory and isinstance(kind, Tuple) else kind
-    return 9 if entry.returns == "matrix" else len(first.items) if isinstance(first, Tuple) else 1
+    kind = result_kinds(subject, entry)[0]
+    return 9 if entry.returns == "matrix" else len(kind.items) if isinstance(kind, Tuple) else 1
 
 
 def write_test(subject: Subject) -> str:
