@@ -6,10 +6,13 @@ as it does where laws are compiled.
 
 import ast
 import copy
+import functools
+import inspect
+from collections.abc import Callable
 from typing import Any
 
 from bench.errors import BadLaw
-from bench.export.program import Function
+from bench.export.program import Function, read_function
 from bench.export.types import INDEX, REAL, TRUTH, Kind, Tuple, Typed, arguments, kind_of_value, place_of
 from bench.law.scalar import PRIMITIVES
 
@@ -23,15 +26,15 @@ class Program:
         self.functions: list[Typed] = []
         self._done: dict[tuple, Typed] = {}
         self._names: set[str] = set()
+        self.read = functools.cache(read_function)
 
-    def add(self, function: Function, kinds: tuple[Kind, ...]) -> Typed:
+    def add(self, function: Callable, kinds: tuple[Kind, ...]) -> Typed:
         """Add a function for these kinds of its arguments, and all that it calls."""
-        key = id(function.node), kinds
-        if key not in self._done:
-            self._done[key] = _Reading(self, function, kinds).typed()
-            if self._done[key].identity is None:
-                self.functions.append(self._done[key])
-        return self._done[key]
+        if (function, kinds) not in self._done:
+            self._done[function, kinds] = typed = _Reading(self, self.read(function), kinds).typed()
+            if typed.identity is None:
+                self.functions.append(typed)
+        return self._done[function, kinds]
 
     @property
     def is_algebraic(self) -> bool:
@@ -73,8 +76,7 @@ class _Reading:
         self.program, self.function = program, function
         self.node = copy.deepcopy(function.node)
         self.parameters = dict(zip(function.parameters, kinds, strict=True))
-        names = function.names.items()
-        self.values = {name: one for name, one in names if not (isinstance(one, Function) or callable(one))}
+        self.values = {name: value for name, value in function.names.items() if not callable(value)}
         self.variables: dict[str, Kind] = {}
         self.kinds: dict[ast.AST, Kind] = {}
         self.calls: dict[ast.Call, Typed] = {}
@@ -182,16 +184,16 @@ class _Reading:
         self.kinds[node] = INDEX
 
     def call(self, node: ast.Call, value: Any) -> Kind | None:
-        if isinstance(value, Function):
-            kinds = tuple(map(self.of, arguments(node, value.parameters)))
-            self.calls[node] = self.program.add(value, kinds)
-            return self.calls[node].returns
         if value in PRIMITIVES:
             return REAL if [self.of(one) for one in node.args] else None
-        if isinstance(value, type):
+        if isinstance(value, type) and value is not range:
             fields = vars(value)["_fields"]
             return Tuple(tuple(map(self.of, arguments(node, fields))), value.__name__, fields)
-        return None
+        if not inspect.isfunction(value):
+            return None
+        kinds = tuple(map(self.of, arguments(node, self.program.read(value).parameters)))
+        self.calls[node] = self.program.add(value, kinds)
+        return self.calls[node].returns
 
     def outside(self, node: ast.AST) -> BadLaw:
         line = ast.unparse(node).splitlines()[0]

@@ -18,7 +18,6 @@ from bench.contenders.registry import (
 from bench.control.registry import all_controllers
 from bench.errors import UnknownWord
 from bench.export.entries import FROM_QUATERNION, Entry, Parameter, of_impedance, of_law, of_representation
-from bench.export.program import Function, read_function
 from bench.export.reading import Program
 from bench.export.sprung import of_compensator, of_pose_spring, of_spring
 from bench.export.types import REAL, Kind, Tuple, Typed, numbers
@@ -118,9 +117,8 @@ class Translated(NamedTuple):
 def translated(subject: Subject) -> Translated:
     """Translate all that a subject calls, once a subject."""
     program = Program()
-    known: dict[Callable, Function] = {}
     entries: dict[str, Typed] = {}
     for entry in subject.entries:
         kinds = tuple(kind_of(one) for one in entry.parameters)
-        entries[entry.name] = program.add(read_function(entry.function, known), kinds)
+        entries[entry.name] = program.add(entry.function, kinds)
     return Translated(program, entries)

@@ -47,11 +47,12 @@ def states(count: int, seed: int = SEED) -> Iterator[State]:
     """Yield states: uniform, near and at 180°, near the goal, at the poles of angles, spinning."""
     random = np.random.default_rng(seed)
     for at in range(count):
-        axis, drawn, goal = random.normal(size=3), _unit(random), _unit(random) if at % 2 else IDENTITY
+        axis = tuple(random.normal(size=3).tolist())
+        drawn, goal = _unit(random), _unit(random) if at % 2 else IDENTITY
         kind, turn, faster = (
             ("uniform", drawn, 1.0),
             ("near 180°", about(axis, math.pi - 10.0 ** random.uniform(-8.0, -1.0)), 1.0),
-            ("at 180°", about(np.eye(3)[at // 6 % 3], math.pi), 1.0),
+            ("at 180°", about(tuple(np.eye(3)[at // 6 % 3].tolist()), math.pi), 1.0),
             ("near the goal", about(axis, 10.0 ** random.uniform(-8.0, -1.0)), 1.0),
             ("near a pole", multiply(about((0.0, 1.0, 0.0), math.pi / 2.0), about(axis, 1e-3)), 1.0),
             ("spinning", drawn, 10.0),
