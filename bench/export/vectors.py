@@ -91,8 +91,6 @@ def _argument(subject: Subject, one: Parameter, state: State, random: np.random.
     name = one.name.removesuffix("_body")
     if one.kind == "matrix":
         return np.array(from_quaternion(quat)).T.ravel().tolist()
-    if name == "quat_wxyz":
-        return (random.uniform(0.5, 2.0) * np.array(quat)).tolist()
     if one.kind == "gains":
         return list(PAPERS_GAINS)
     if one.kind == "memory":

@@ -24,7 +24,7 @@ not_eq operator or or_eq private protected public template this throw true try t
 """
 """Words of C and of C++, which includes the header."""
 
-RESULTS = {"command": "u", "orientation": "e", "torque": "tau", "rotation": "R", "from": "R"}
+RESULTS = {"command": "u", "orientation": "e", "torque": "tau", "rotation": "R"}
 """Names of results, by the first word of the entry's name."""
 
 
