@@ -5,8 +5,8 @@ names is taken apart; where a part needs a name that an earlier part changes, it
 """
 
 import ast
-from collections.abc import Iterator
-from typing import Any
+from collections.abc import Callable, Iterator
+from typing import Any, NamedTuple
 
 from bench.export.layout import INDENT, wrapped
 from bench.export.types import INDEX, REAL, Kind, Tuple, Typed, arguments, place_of
@@ -17,43 +17,30 @@ STRENGTH = {ast.Mult: 6, ast.Div: 6, ast.Add: 5, ast.Sub: 5}
 """How an operator binds: a call 9, a sign 7, a comparison 4, `and` 3, `or` 2, a choice 1, in every such language."""
 
 
-class Braces:
-    """A language with braces; a subclass writes tuples, declarations and names."""
+class Braces(NamedTuple):
+    """A language with braces, by the functions that write its parts.
 
-    reserved: frozenset[str] = frozenset()
+    reserved: its words. declaration(kind, name): `double x`. built(kind, items): a tuple. part(kind, value, place): an
+    item of a tuple; place: a number, or a variable where all items are numbers. head(function): all that is before the
+    opening brace. function_name(name): that of a function of the program. primitive(name): that of sqrt, sin and so on.
+    """
 
-    def declaration(self, kind: Kind, name: str, value: str | None) -> str:
-        """Return `double x = 1.0`, or `double x` without a value."""
-        raise NotImplementedError
-
-    def built(self, kind: Tuple, items: list[str]) -> str:
-        """Return a tuple of these items."""
-        raise NotImplementedError
-
-    def part(self, kind: Tuple, value: str, place: int | str) -> str:
-        """Return an item of a tuple; place: a number, or a variable where all items are numbers."""
-        raise NotImplementedError
-
-    def head(self, function: Typed) -> str:
-        """Return all that is before the opening brace."""
-        raise NotImplementedError
-
-    def function_name(self, name: str) -> str:
-        """Return the name of a function of the program."""
-        return name
-
-    def primitive(self, name: str) -> str:
-        """Return the name of sqrt, sin and so on."""
-        return name
+    reserved: frozenset[str]
+    declaration: Callable[[Kind, str], str]
+    built: Callable[[Tuple, list[str]], str]
+    part: Callable[[Tuple, str, int | str], str]
+    head: Callable[[Typed], str]
+    function_name: Callable[[str], str]
+    primitive: Callable[[str], str]
 
     def variable(self, name: str) -> str:
         """Return a local name, with an underscore after it if it is a word of the language."""
         return f"{name}_" if name in self.reserved else name
 
-    def function(self, function: Typed) -> list[str]:
-        """Return the lines of a function."""
+    def write(self, function: Typed) -> list[str]:
+        """Return the lines of a function, the first of them its whole head."""
         body = _Body(self, function).block(function.node.body, set(function.variables), INDENT)
-        return list(wrapped((f"{self.head(function)} {{", *body, "}")))
+        return ["\n".join(wrapped([f"{self.head(function)} {{"])), *wrapped((*body, "}"))]
 
 
 class _Body:
@@ -79,8 +66,8 @@ class _Body:
             yield from (f"{indent}{self.declared(name)};" for name in sorted(due))
             yield from self.statement(statement, undeclared - set(here), indent)
 
-    def declared(self, name: str, value: str | None = None) -> str:
-        return self.language.declaration(self.function.variables[name], self.language.variable(name), value)
+    def declared(self, name: str) -> str:
+        return self.language.declaration(self.function.variables[name], self.language.variable(name))
 
     def statement(self, node: ast.stmt, inner: set[str], indent: str) -> Iterator[str]:
         if isinstance(node, ast.AugAssign):
@@ -111,8 +98,7 @@ class _Body:
         bounds = [self.expression(each) for each in node.iter.args] if isinstance(node.iter, ast.Call) else []
         first, last = ("0", bounds[0]) if len(bounds) == 1 else bounds[:2]
         name = self.expression(node.target)
-        begin = self.language.declaration(INDEX, name, first)
-        yield f"{indent}for ({begin}; {name} < {last}; {name}++) {{"
+        yield f"{indent}for ({self.language.declaration(INDEX, name)} = {first}; {name} < {last}; {name}++) {{"
         yield from self.block(node.body, inner - names_in(node.target), indent + INDENT)
         yield f"{indent}}}"
 
@@ -126,7 +112,7 @@ class _Body:
                 part[1] = f"before_{self.spare}"
                 yield self.temporary(kind, part[1], text)
         for name, text, *_ in parts:
-            yield self.declared(name, text) if name in fresh else f"{self.language.variable(name)} = {text}"
+            yield f"{self.declared(name) if name in fresh else self.language.variable(name)} = {text}"
 
     def taken_apart(
         self, target: ast.expr, value: ast.expr | str, parts: list[list], kind: Any = None
@@ -151,7 +137,7 @@ class _Body:
 
     def temporary(self, kind: Kind, name: str, value: str) -> str:
         self.spare += 1
-        return self.language.declaration(kind, name, value)
+        return f"{self.language.declaration(kind, name)} = {value}"
 
     def is_read(self, name: str) -> bool:
         nodes = (one for one in ast.walk(self.function.node) if isinstance(one, ast.Name) and one.id == name)

@@ -12,8 +12,7 @@ from typing import NamedTuple
 
 from bench.engines.ideal import angle_between, haversine, turned
 from bench.engines.rigid_body import bounded, step
-from bench.export.languages.js import COPYSIGN, Script
-from bench.export.program import Function, read_function
+from bench.export.languages.js import COPYSIGN, write_function
 from bench.export.reading import Program
 from bench.export.subject import GAINS, MATRIX
 from bench.export.types import REAL, TRUTH, Kind, Tuple, Typed, numbers
@@ -53,7 +52,7 @@ class Live(NamedTuple):
 
     def __str__(self) -> str:
         needs = list(dict.fromkeys(one.name for one in _with_callees(self.law)))
-        if any("copysign(" in Script().documented(one) for one in _with_callees(self.law)):
+        if any("copysign(" in write_function(one) for one in _with_callees(self.law)):
             needs.insert(0, "copysign")
         return f"{{law: {self.law.name}, memory: {json.dumps(self.memory)}, needs: {json.dumps(needs)}}}"
 
@@ -61,18 +60,15 @@ class Live(NamedTuple):
 def script(contenders: Iterable[Contender], name: str = "live") -> str:
     """The script; it defines a global of that name, with laws, plant, judge, outcomes and the functions by name."""
     program = Program()
-    known: dict[Callable, Function] = {}
-    plant, judge = (
-        [program.add(read_function(one, known), kinds) for one, kinds in of.items()] for of in (PLANT, JUDGE)
-    )
-    laws = {one.on_free_body: _live(program, known, one) for one in contenders}
+    plant, judge = ([program.add(one, kinds) for one, kinds in of.items()] for of in (PLANT, JUDGE))
+    laws = {one.on_free_body: _live(program, one) for one in contenders}
     listed = ",\n".join(f"{json.dumps(word)}: {one}" for word, one in laws.items())
     return "\n".join(
         (
             "(function (root) {",
             "'use strict';",
             COPYSIGN,
-            *map(Script().documented, program.functions),
+            *map(write_function, program.functions),
             f"root.{name} = {{",
             f"plant: {_object(plant)},",
             f"judge: {_object(judge)},",
@@ -84,10 +80,10 @@ def script(contenders: Iterable[Contender], name: str = "live") -> str:
     )
 
 
-def _live(program: Program, known: dict[Callable, Function], one: Contender) -> Live:
+def _live(program: Program, one: Contender) -> Live:
     memory = one.regulator.memory
     kinds = (MATRIX, THREE, GOAL, GAINS, *((numbers(len(memory)),) if memory else ()))
-    return Live(program.add(read_function(one.law, known), kinds), memory)
+    return Live(program.add(one.law, kinds), memory)
 
 
 def _with_callees(function: Typed) -> Iterator[Typed]:

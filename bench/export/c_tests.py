@@ -3,6 +3,8 @@
 from collections.abc import Callable, Iterator, Sequence
 from typing import NamedTuple
 
+import numpy as np
+
 from bench.export.entries import Entry
 from bench.export.layout import INDENT, wrapped
 from bench.export.subject import Subject
@@ -70,7 +72,8 @@ def _test_entry(subject: Subject, entry: Entry, found: Sequence[Vector], calls: 
     width = given + results + kept + 1
     yield f"static const double {entry.name}_rows[{len(found)}][{width}] = {{"
     for each in found:
-        yield from wrapped([f"{INDENT}{{{', '.join(repr(float(value)) for value in _numbers(each))}}},"])
+        numbers = np.hstack([*each.arguments.values(), each.result, each.memory, each.tolerance]).tolist()
+        yield from wrapped([f"{INDENT}{{{', '.join(map(repr, numbers))}}},"])
     yield f"}};\n\nstatic int test_{entry.name}(void) {{"
     yield f"{INDENT}int wrong = 0, at;"
     yield f"{INDENT}for (at = 0; at < {len(found)}; at++) {{"
@@ -92,9 +95,3 @@ def _test_entry(subject: Subject, entry: Entry, found: Sequence[Vector], calls: 
     if kept:
         checks.append(f"is_wrong(state.memory, row + {place + results}, {kept}, tolerance)")
     yield f"{deep}wrong += {' || '.join(checks)};\n{INDENT}}}\n{INDENT}return wrong;\n}}\n"
-
-
-def _numbers(one: Vector) -> Iterator[float]:
-    for value in one.arguments.values():
-        yield from value if isinstance(value, list) else (value,)
-    yield from (*one.result, *one.memory, one.tolerance)

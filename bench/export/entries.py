@@ -14,11 +14,9 @@ from bench.law import (
     Representation,
     cross,
     dot,
-    from_quaternion,
     kernel,
     rotate,
     rotate_back,
-    sqrt,
 )
 
 
@@ -75,14 +73,14 @@ def in_both_frames(make: Callable[[Frame], Iterable[Callable]], *declared: Decla
     entries = []
     for frame in FRAMES:
         for function, (parameters, doc) in zip(make(frame), declared, strict=True):
-            function.__name__ += frame.suffix
+            function.__name__ = f"{function.__name__.removesuffix('_with_memory')}{frame.suffix}"
             given = (one._replace(name=one.name + frame.suffix * (one.kind == "vector")) for one in parameters)
             entries.append(Entry(function.__name__, function, tuple(given), "tuple", doc))
     return entries
 
 
 R, R_D = Parameter("R", "matrix", 9), Parameter("R_d", "matrix", 9)
-OMEGA, MOMENT = Parameter("omega", "vector", 3), Parameter("moment", "vector", 3)
+OMEGA, U, MOMENT = (Parameter(name, "vector", 3) for name in ("omega", "u", "moment"))
 GAINS, MEMORY = Parameter("gains", "gains", 2), Parameter("memory", "memory", 4)
 INERTIA = Parameter("inertia", "rows", 9)
 REGULATING = Gains(1.0, 2.0)
@@ -90,24 +88,7 @@ REGULATING = Gains(1.0, 2.0)
 
 COMMAND = "angular acceleration u [rad/s^2]"
 ERROR = "error of orientation e [rad near the goal], towards the goal: the command at rest over Kp, at Kv^2 = 4 Kp"
-TORQUE = "torque [N m] on a rigid body of that inertia [kg m^2], which is in the body frame in every entry"
-
-
-@kernel
-def of_quaternion(quat_wxyz):
-    """Return the rotation of a quaternion (w, x, y, z) of any length but zero."""
-    w, x, y, z = quat_wxyz
-    shorter = 1.0 / sqrt(w * w + x * x + y * y + z * z)
-    return from_quaternion((shorter * w, shorter * x, shorter * y, shorter * z))
-
-
-FROM_QUATERNION = Entry(
-    "from_quaternion",
-    of_quaternion,
-    (Parameter("quat_wxyz", "tuple", 4),),
-    "matrix",
-    "rotation matrix of a quaternion (w, x, y, z) of any length but zero",
-)
+TORQUE = "torque [N m] that gives a rigid body the command u; inertia [kg m^2] is in the body frame in every entry"
 
 
 @kernel
@@ -128,53 +109,39 @@ def torque_in_body(omega_body, u_body, inertia):
 
 
 def of_law(law: Callable, has_memory: bool) -> list[Entry]:
-    """Return the command, the orientation error and the torque of a regulator, in both frames."""
+    """Return the command and the orientation error of a regulator, and the torque of a command, in both frames."""
+
+    def make(frame: Frame) -> tuple[Callable, ...]:
+        _suffix, to_base, from_base, to_body, from_body = frame
+
+        @kernel
+        def command(R, omega, R_d, gains):
+            return from_base(R, law(R, to_base(R, omega), Goal(R_d, AT_REST, AT_REST), gains))
+
+        @kernel
+        def orientation_error(R, R_d):
+            return command(R, AT_REST, R_d, REGULATING)
+
+        @kernel
+        def command_with_memory(R, omega, R_d, gains, memory):
+            u, kept = law(R, to_base(R, omega), Goal(R_d, AT_REST, AT_REST), gains, memory)
+            return from_base(R, u), kept
+
+        @kernel
+        def orientation_error_with_memory(R, R_d, memory):
+            return command_with_memory(R, AT_REST, R_d, REGULATING, memory)
+
+        @kernel
+        def torque(R, omega, u, inertia):
+            return from_body(R, torque_in_body(to_body(R, omega), to_body(R, u), inertia))
+
+        if has_memory:
+            return command_with_memory, orientation_error_with_memory, torque
+        return command, orientation_error, torque
+
     kept = (MEMORY,) if has_memory else ()
-    return in_both_frames(
-        lambda frame: (_stateful if has_memory else _stateless)(law, frame),
-        ((R, OMEGA, R_D, GAINS, *kept), COMMAND),
-        ((R, R_D, *kept), ERROR),
-        ((R, OMEGA, R_D, GAINS, INERTIA, *kept), TORQUE),
-    )
-
-
-def _stateless(law: Callable, frame: Frame) -> tuple[Callable, ...]:
-    _suffix, to_base, from_base, to_body, from_body = frame
-
-    @kernel
-    def command(R, omega, R_d, gains):
-        return from_base(R, law(R, to_base(R, omega), Goal(R_d, AT_REST, AT_REST), gains))
-
-    @kernel
-    def orientation_error(R, R_d):
-        return command(R, AT_REST, R_d, REGULATING)
-
-    @kernel
-    def torque(R, omega, R_d, gains, inertia):
-        u_body = to_body(R, command(R, omega, R_d, gains))
-        return from_body(R, torque_in_body(to_body(R, omega), u_body, inertia))
-
-    return command, orientation_error, torque
-
-
-def _stateful(law: Callable, frame: Frame) -> tuple[Callable, ...]:
-    _suffix, to_base, from_base, to_body, from_body = frame
-
-    @kernel
-    def command(R, omega, R_d, gains, memory):
-        u, kept = law(R, to_base(R, omega), Goal(R_d, AT_REST, AT_REST), gains, memory)
-        return from_base(R, u), kept
-
-    @kernel
-    def orientation_error(R, R_d, memory):
-        return command(R, AT_REST, R_d, REGULATING, memory)
-
-    @kernel
-    def torque(R, omega, R_d, gains, inertia, memory):
-        u, kept = command(R, omega, R_d, gains, memory)
-        return from_body(R, torque_in_body(to_body(R, omega), to_body(R, u), inertia)), kept
-
-    return command, orientation_error, torque
+    declared = ((R, OMEGA, R_D, GAINS, *kept), COMMAND), ((R, R_D, *kept), ERROR), ((R, OMEGA, U, INERTIA), TORQUE)
+    return in_both_frames(make, *declared)
 
 
 def of_impedance(law: Callable) -> list[Entry]:

@@ -6,11 +6,13 @@ as it does where laws are compiled.
 
 import ast
 import copy
+import functools
+import inspect
 from collections.abc import Callable
 from typing import Any
 
 from bench.errors import BadLaw
-from bench.export.program import Function
+from bench.export.program import Function, read_function
 from bench.export.types import INDEX, REAL, TRUTH, Kind, Tuple, Typed, arguments, kind_of_value, place_of
 from bench.law.scalar import PRIMITIVES
 
@@ -24,15 +26,15 @@ class Program:
         self.functions: list[Typed] = []
         self._done: dict[tuple, Typed] = {}
         self._names: set[str] = set()
+        self.read = functools.cache(read_function)
 
-    def add(self, function: Function, kinds: tuple[Kind, ...]) -> Typed:
+    def add(self, function: Callable, kinds: tuple[Kind, ...]) -> Typed:
         """Add a function for these kinds of its arguments, and all that it calls."""
-        key = id(function.node), kinds
-        if key not in self._done:
-            self._done[key] = _Reading(self, function, kinds).typed()
-            if self._done[key].identity is None:
-                self.functions.append(self._done[key])
-        return self._done[key]
+        if (function, kinds) not in self._done:
+            self._done[function, kinds] = typed = _Reading(self, self.read(function), kinds).typed()
+            if typed.identity is None:
+                self.functions.append(typed)
+        return self._done[function, kinds]
 
     @property
     def is_algebraic(self) -> bool:
@@ -74,6 +76,7 @@ class _Reading:
         self.program, self.function = program, function
         self.node = copy.deepcopy(function.node)
         self.parameters = dict(zip(function.parameters, kinds, strict=True))
+        self.values = {name: value for name, value in function.names.items() if not callable(value)}
         self.variables: dict[str, Kind] = {}
         self.kinds: dict[ast.AST, Kind] = {}
         self.calls: dict[ast.Call, Typed] = {}
@@ -85,10 +88,8 @@ class _Reading:
             self.statement(statement)
         if not self.returns or any(one != self.returns[0] for one in self.returns):
             raise BadLaw(f"{self.function.name}: every path returns the same kind of value; given: {self.returns}")
-        name, names = self.program.name(self.function.name), self.function.names
-        values = {name: value for name, value in names.items() if not (isinstance(value, Function) or callable(value))}
-        known = self.parameters, self.returns[0], self.kinds, self.calls, values, self.variables
-        return Typed(name, self.node, self.function.text, *known)
+        known = self.parameters, self.returns[0], self.kinds, self.calls, self.values, self.variables
+        return Typed(self.program.name(self.function.name), self.node, self.function.text, *known)
 
     def statement(self, node: ast.stmt) -> None:
         if isinstance(node, ast.Assign):
@@ -130,99 +131,69 @@ class _Reading:
 
     def of(self, node: ast.expr) -> Kind:
         """Infer and record the kind of an expression."""
-        readers: dict[type, Callable[[Any], Kind]] = {
-            ast.Constant: lambda at: kind_of_value(at.value),
-            ast.Name: self.name,
-            ast.Attribute: self.attribute,
-            ast.Subscript: self.subscript,
-            ast.Tuple: lambda at: Tuple(tuple(self.of(one) for one in at.elts)),
-            ast.Call: self.call,
-            ast.BinOp: self.operation,
-            ast.UnaryOp: self.unary,
-            ast.Compare: self.compare,
-            ast.BoolOp: lambda at: self.all_of(TRUTH, *at.values),
-            ast.IfExp: self.choice,
-        }
-        if type(node) not in readers:
+        kind = self.infer(node)
+        if kind is None:
             raise self.outside(node)
-        self.kinds[node] = kind = readers[type(node)](node)
+        self.kinds[node] = kind
         return kind
 
-    def all_of(self, kind: Kind, *nodes: ast.expr) -> Kind:
-        for one in nodes:
-            self.of(one)
-        return kind
-
-    def name(self, node: ast.Name) -> Kind:
-        for known in (self.variables, self.parameters):
-            if node.id in known:
-                return known[node.id]
-        value = self.function.names[node.id]
-        if isinstance(value, Function) or callable(value):
-            raise self.outside(node)
-        return kind_of_value(value)
-
-    def attribute(self, node: ast.Attribute) -> Kind:
-        kind = self.of(node.value)
-        if not isinstance(kind, Tuple) or node.attr not in kind.fields:
-            raise self.outside(node)
-        return kind.items[kind.fields.index(node.attr)]
-
-    def subscript(self, node: ast.Subscript) -> Kind:
-        kind = self.of(node.value)
-        if not isinstance(kind, Tuple):
-            raise self.outside(node)
-        place = place_of(node.slice)
-        if place is not None:
-            return kind.items[place]
-        self.index(node.slice)
-        if len(set(kind.items)) != 1:
-            raise BadLaw(f"{self.function.name}: `{ast.unparse(node)}`: what a variable chooses from is of one kind")
-        return kind.items[0]
+    def infer(self, node: ast.expr) -> Kind | None:
+        """Return the kind of an expression; None if it is outside the dialect."""
+        match node:
+            case ast.Constant(value=value):
+                return kind_of_value(value)
+            case ast.Name(id=name):
+                known = self.variables | self.parameters | {one: kind_of_value(at) for one, at in self.values.items()}
+                return known.get(name)
+            case ast.Attribute(value=value, attr=field):
+                kind = self.of(value)
+                known = dict(zip(kind.fields, kind.items, strict=True)) if isinstance(kind, Tuple) and kind.name else {}
+                return known.get(field)
+            case ast.Subscript(value=value, slice=index):
+                kind, place = self.of(value), place_of(index)
+                if place is None:
+                    self.index(index)
+                items = kind.items if isinstance(kind, Tuple) else ()
+                return items[place or 0] if items and (place is not None or len(set(items)) == 1) else None
+            case ast.Tuple(elts=items):
+                return Tuple(tuple(map(self.of, items)))
+            case ast.Call(func=ast.Name(id=name)):
+                return self.call(node, self.function.names.get(name))
+            case ast.BinOp(left=left, right=right):
+                return REAL if {self.of(left), self.of(right)} == {REAL} else None
+            case ast.UnaryOp(op=sign, operand=operand):
+                self.of(operand)
+                return TRUTH if isinstance(sign, ast.Not) else REAL
+            case ast.Compare(left=left, comparators=others):
+                return TRUTH if [self.of(one) for one in (left, *others)] else None
+            case ast.BoolOp(values=values):
+                return TRUTH if [self.of(one) for one in values] else None
+            case ast.IfExp(test=test, body=body, orelse=otherwise):
+                self.of(test)
+                kinds = {self.of(body), self.of(otherwise)}
+                return kinds.pop() if len(kinds) == 1 else None
+        return None
 
     def index(self, node: ast.expr) -> None:
         """Record an index: a whole number, the variable of a loop, or a sum of such."""
         if isinstance(node, ast.BinOp):
             self.index(node.left)
             self.index(node.right)
-        elif isinstance(node, ast.Name):
-            if self.of(node) != INDEX:
-                raise self.outside(node)
-        elif place_of(node) is None:
+        elif place_of(node) is None and not (isinstance(node, ast.Name) and self.of(node) == INDEX):
             raise self.outside(node)
         self.kinds[node] = INDEX
 
-    def call(self, node: ast.Call) -> Kind:
-        value = self.function.names.get(node.func.id) if isinstance(node.func, ast.Name) else None
-        if isinstance(value, Function):
-            kinds = tuple(self.of(one) for one in arguments(node, value.parameters))
-            self.calls[node] = self.program.add(value, kinds)
-            return self.calls[node].returns
+    def call(self, node: ast.Call, value: Any) -> Kind | None:
         if value in PRIMITIVES:
-            return self.all_of(REAL, *node.args)
-        if isinstance(value, type):
+            return REAL if [self.of(one) for one in node.args] else None
+        if isinstance(value, type) and value is not range:
             fields = vars(value)["_fields"]
-            return Tuple(tuple(self.of(one) for one in arguments(node, fields)), value.__name__, fields)
-        raise self.outside(node)
-
-    def operation(self, node: ast.BinOp) -> Kind:
-        self.all_of(REAL, node.left, node.right)
-        if {self.kinds[node.left], self.kinds[node.right]} != {REAL}:
-            raise self.outside(node)
-        return REAL
-
-    def unary(self, node: ast.UnaryOp) -> Kind:
-        return self.all_of(TRUTH if isinstance(node.op, ast.Not) else REAL, node.operand)
-
-    def compare(self, node: ast.Compare) -> Kind:
-        return self.all_of(TRUTH, node.left, *node.comparators)
-
-    def choice(self, node: ast.IfExp) -> Kind:
-        self.of(node.test)
-        kind = self.of(node.body)
-        if self.of(node.orelse) != kind:
-            raise self.outside(node)
-        return kind
+            return Tuple(tuple(map(self.of, arguments(node, fields))), value.__name__, fields)
+        if not inspect.isfunction(value):
+            return None
+        kinds = tuple(map(self.of, arguments(node, self.program.read(value).parameters)))
+        self.calls[node] = self.program.add(value, kinds)
+        return self.calls[node].returns
 
     def outside(self, node: ast.AST) -> BadLaw:
         line = ast.unparse(node).splitlines()[0]

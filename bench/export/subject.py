@@ -17,8 +17,7 @@ from bench.contenders.registry import (
 )
 from bench.control.registry import all_controllers
 from bench.errors import UnknownWord
-from bench.export.entries import FROM_QUATERNION, Entry, Parameter, of_impedance, of_law, of_representation
-from bench.export.program import Function, read_function
+from bench.export.entries import Entry, of_impedance, of_law, of_representation
 from bench.export.reading import Program
 from bench.export.sprung import of_compensator, of_pose_spring, of_spring
 from bench.export.types import REAL, Kind, Tuple, Typed, numbers
@@ -40,13 +39,13 @@ ALONE: dict[str, tuple[Callable[[], dict], Callable[[Any], list[Entry]]]] = {
 class Subject(NamedTuple):
     """One thing to export.
 
-    record: the constant of its file. representation: the coordinates that it acts on, if any. own: its entries.
+    record: the constant of its file. representation: the coordinates that it acts on, if any.
     """
 
     word: str
     record: Any
     representation: Any
-    own: tuple[Entry, ...]
+    entries: tuple[Entry, ...]
     memory: tuple | None = None
     contender: Contender | None = None
 
@@ -54,11 +53,6 @@ class Subject(NamedTuple):
     def identifier(self) -> str:
         """Return the word as a name in every language."""
         return self.word.replace("-", "_").replace("/", "_")
-
-    @property
-    def entries(self) -> tuple[Entry, ...]:
-        """Return its own entries and the one that every export has."""
-        return (*self.own, FROM_QUATERNION)
 
 
 def subject_words(extra: tuple[Regulator, ...] = ()) -> list[str]:
@@ -99,12 +93,8 @@ def find_subject(word: str, extra: tuple[Regulator, ...] = ()) -> Subject:
 
 MATRIX = Tuple((numbers(3),) * 3, Rotation.__name__, Rotation._fields)
 GAINS = Tuple((REAL, REAL), Gains.__name__, Gains._fields)
-
-
-def kind_of(parameter: Parameter) -> Kind:
-    """Return the kind of an argument of an entry."""
-    fixed: dict[str, Kind] = {"matrix": MATRIX, "gains": GAINS, "number": REAL}
-    return fixed.get(parameter.kind, numbers(parameter.size))
+KINDS: dict[str, Kind] = {"matrix": MATRIX, "gains": GAINS, "number": REAL}
+"""Kinds of the arguments of entries; those of others are numbers."""
 
 
 class Translated(NamedTuple):
@@ -118,9 +108,8 @@ class Translated(NamedTuple):
 def translated(subject: Subject) -> Translated:
     """Translate all that a subject calls, once a subject."""
     program = Program()
-    known: dict[Callable, Function] = {}
     entries: dict[str, Typed] = {}
     for entry in subject.entries:
-        kinds = tuple(kind_of(one) for one in entry.parameters)
-        entries[entry.name] = program.add(read_function(entry.function, known), kinds)
+        kinds = tuple(KINDS.get(one.kind, numbers(one.size)) for one in entry.parameters)
+        entries[entry.name] = program.add(entry.function, kinds)
     return Translated(program, entries)

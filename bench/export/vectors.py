@@ -11,6 +11,8 @@ from bench.export.entries import Entry, Parameter
 from bench.export.subject import Subject, translated
 from bench.law.contender import PAPERS_GAINS, Gains
 from bench.law.so3 import Rotation, from_quaternion
+from tasks.base import IDENTITY, Quat
+from tasks.rotations import about, multiply
 
 FIRST, OTHERS = 120, 15
 """Vectors of the first entry, and of every other one: together some 200 for a law."""
@@ -20,15 +22,13 @@ CLOSE = 1e-7
 """Tolerance over the largest number of the answer, for a law that calls libm. Libraries differ in last bits; vectors
 lie as near as 1e-8 rad to 180° rotations, and some laws divide by that distance, which leaves half of the digits."""
 
-IDENTITY = np.array([1.0, 0.0, 0.0, 0.0])
-
 
 class State(NamedTuple):
     """A state of a body: quaternions (w, x, y, z) of R and R_d, and the angular velocity [rad/s]."""
 
     kind: str
-    quat: np.ndarray
-    quat_d: np.ndarray
+    quat: Quat
+    quat_d: Quat
     omega: np.ndarray
 
 
@@ -47,24 +47,18 @@ def states(count: int, seed: int = SEED) -> Iterator[State]:
     """Yield states: uniform, near and at 180°, near the goal, at the poles of angles, spinning."""
     random = np.random.default_rng(seed)
     for at in range(count):
-        axis = _unit(random.normal(size=3))
-        goal = IDENTITY if at % 2 else _unit(random.normal(size=4))
-        omega = random.normal(size=3)
-        match at % 6:
-            case 0:
-                kind, turn = "uniform", _unit(random.normal(size=4))
-            case 1:
-                kind, turn = "near 180°", _about(axis, math.pi - 10.0 ** random.uniform(-8.0, -1.0))
-            case 2:
-                kind, turn, goal = "at 180°", np.array([0.0, *np.eye(3)[at // 6 % 3]]), IDENTITY
-            case 3:
-                kind, turn = "near the goal", _about(axis, 10.0 ** random.uniform(-8.0, -1.0))
-            case 4:
-                pole = _about(np.array([0.0, 1.0, 0.0]), math.pi / 2.0)
-                kind, turn, goal = "near a pole", _product(pole, _about(axis, 1e-3)), IDENTITY
-            case _:
-                kind, turn, omega = "spinning", _unit(random.normal(size=4)), 10.0 * omega
-        yield State(kind, _product(turn, goal), goal, omega)
+        axis = tuple(random.normal(size=3).tolist())
+        drawn, goal = _unit(random), _unit(random) if at % 2 else IDENTITY
+        kind, turn, faster = (
+            ("uniform", drawn, 1.0),
+            ("near 180°", about(axis, math.pi - 10.0 ** random.uniform(-8.0, -1.0)), 1.0),
+            ("at 180°", about(tuple(np.eye(3)[at // 6 % 3].tolist()), math.pi), 1.0),
+            ("near the goal", about(axis, 10.0 ** random.uniform(-8.0, -1.0)), 1.0),
+            ("near a pole", multiply(about((0.0, 1.0, 0.0), math.pi / 2.0), about(axis, 1e-3)), 1.0),
+            ("spinning", drawn, 10.0),
+        )[at % 6]
+        goal = IDENTITY if kind in ("at 180°", "near a pole") else goal
+        yield State(kind, multiply(turn, goal), goal, faster * random.normal(size=3))
 
 
 @functools.lru_cache(maxsize=64)
@@ -96,13 +90,11 @@ def _argument(subject: Subject, one: Parameter, state: State, random: np.random.
     quat = state.quat_d if "_d" in one.name else state.quat
     name = one.name.removesuffix("_body")
     if one.kind == "matrix":
-        return np.array(from_quaternion(tuple(quat))).T.ravel().tolist()
-    if name == "quat_wxyz":
-        return (quat * random.uniform(0.5, 2.0)).tolist()
+        return np.array(from_quaternion(quat)).T.ravel().tolist()
     if one.kind == "gains":
         return list(PAPERS_GAINS)
     if one.kind == "memory":
-        return list(subject.memory or ()) if state.kind == "at 180°" else _unit(random.normal(size=4)).tolist()
+        return list(subject.memory or ()) if state.kind == "at 180°" else list(_unit(random))
     if one.kind == "rows":  # symmetric and positive, as an inertia and a stiffness are
         half = random.normal(size=(3, 3))
         return (np.eye(3) + half @ half.T).ravel().tolist()
@@ -111,7 +103,7 @@ def _argument(subject: Subject, one: Parameter, state: State, random: np.random.
     if name == "omega":
         return state.omega.tolist()
     if name == "E":
-        return [float(each) for each in subject.record.chart(from_quaternion(tuple(quat))).E]
+        return [float(each) for each in subject.record.chart(from_quaternion(quat)).E]
     return random.normal(size=one.size).tolist()
 
 
@@ -125,14 +117,6 @@ def _as_given(one: Parameter, value: Any) -> Any:
     return tuple(numbers) if numbers.ndim else np.float64(value)
 
 
-def _unit(v: np.ndarray) -> np.ndarray:
-    return v / np.linalg.norm(v)
-
-
-def _about(axis: np.ndarray, angle: float) -> np.ndarray:
-    return np.array([math.cos(angle / 2.0), *(math.sin(angle / 2.0) * axis)])
-
-
-def _product(p: np.ndarray, q: np.ndarray) -> np.ndarray:
-    w, v, x, u = p[0], p[1:], q[0], q[1:]
-    return np.array([w * x - v @ u, *(w * u + x * v + np.cross(v, u))])
+def _unit(random: np.random.Generator) -> Quat:
+    q = random.normal(size=4)
+    return tuple((q / np.linalg.norm(q)).tolist())

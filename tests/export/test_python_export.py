@@ -72,7 +72,7 @@ def test_law_in_python_gives_our_bits_where_the_command_is_finite(contender):
 
 def test_arrays_of_numpy_are_taken_as_lists_are():
     law = loaded(find_subject("quaternion-shortest"))
-    R = law.from_quaternion([0.0, 3.0, 0.0, 4.0])
+    R = loaded(find_subject("representation-quaternion")).rotation([0.0, 0.6, 0.0, 0.8])
     assert law.orientation_error(np.array(R), np.eye(3)) == law.orientation_error(R, np.eye(3).tolist())
     np.testing.assert_allclose(R, [[-0.28, 0.0, 0.96], [0.0, -1.0, 0.0], [0.96, 0.0, 0.28]], atol=1e-15)
 

@@ -24,14 +24,12 @@ not_eq operator or or_eq private protected public template this throw true try t
 """
 """Words of C and of C++, which includes the header."""
 
-RESULTS = {"command": "u", "orientation": "e", "torque": "tau", "rotation": "R", "from": "R"}
+RESULTS = {"command": "u", "orientation": "e", "torque": "tau", "rotation": "R"}
 """Names of results, by the first word of the entry's name."""
 
 
-class Core(Braces):
-    """The functions of a program in C; prefix: begins every name of theirs."""
-
-    reserved = frozenset(WORDS.split())
+class Core:
+    """The functions of a subject in C, on structures; prefix: begins every name of theirs."""
 
     def __init__(self, subject: Subject) -> None:
         self.program, self.prefix = translated(subject).program, f"{subject.identifier}_core_"
@@ -42,37 +40,28 @@ class Core(Braces):
             while f"{self.prefix}{name}" in self.names.values():
                 name += "_"
             self.names[kind] = f"{self.prefix}{name}"
-
-    def function_name(self, name: str) -> str:
-        """Return the name after the prefix."""
-        return f"{self.prefix}{name}"
+        self.language = Braces(
+            reserved=frozenset(WORDS.split()),
+            declaration=lambda kind, name: f"{self.kind(kind)} {name}",
+            built=lambda kind, items: f"{self.names[kind]}_of({', '.join(items)})",
+            part=lambda kind, value, place: f"{value}.{self.item(kind, place)}",
+            head=self.head,
+            function_name=lambda name: f"{self.prefix}{name}",
+            primitive=str,
+        )
 
     def kind(self, kind: Kind) -> str:
         """Return the type of a kind."""
         return self.names[kind] if isinstance(kind, Tuple) else {REAL: "double", TRUTH: "int", INDEX: "int"}[kind]
 
-    def declaration(self, kind: Kind, name: str, value: str | None) -> str:
-        """Return `double x = 1.0`."""
-        return f"{self.kind(kind)} {name}" if value is None else f"{self.kind(kind)} {name} = {value}"
-
-    def built(self, kind: Tuple, items: list[str]) -> str:
-        """Return a call of the function that makes one."""
-        return f"{self.names[kind]}_of({', '.join(items)})"
-
-    def part(self, kind: Tuple, value: str, place: int | str) -> str:
-        """Return an element, or a field."""
-        return f"{value}.{self.item(kind, place)}"
-
     def item(self, kind: Tuple, place: int | str) -> str:
         """Return the name of an element, or of a field."""
-        if kind.is_numbers:
-            return f"at[{place}]"
-        return kind.fields[int(place)] if kind.fields else f"item{place}"
+        return f"at[{place}]" if kind.is_numbers else (kind.fields[int(place)] if kind.fields else f"item{place}")
 
     def head(self, function: Typed) -> str:
-        """Return the signature."""
-        given = (f"{self.kind(kind)} {self.variable(name)}" for name, kind in function.parameters.items())
-        return f"static inline {self.kind(function.returns)} {self.function_name(function.name)}({', '.join(given)})"
+        """Return the signature of a function."""
+        given = (f"{self.kind(kind)} {self.language.variable(name)}" for name, kind in function.parameters.items())
+        return f"static inline {self.kind(function.returns)} {self.prefix}{function.name}({', '.join(given)})"
 
     def structure(self, kind: Tuple) -> Iterator[str]:
         """Write a structure, what makes one, and for vectors and matrices what reads and writes arrays, by rows."""
@@ -103,11 +92,9 @@ class Core(Braces):
 
     def documented(self, function: Typed) -> str:
         """Write a function after its comment; its unused parameters are marked."""
-        head, *body = self.function(function)
-        while not head.endswith("{"):
-            head = f"{head}\n{body.pop(0)}"
+        head, *body = self.language.write(function)
         used = {one.id for one in ast.walk(function.node) if isinstance(one, ast.Name)}
-        unused = [f"{INDENT}(void){self.variable(name)};" for name in function.parameters if name not in used]
+        unused = [f"{INDENT}(void){self.language.variable(name)};" for name in function.parameters if name not in used]
         return "\n".join((*comment(summary(function.text)), head, *unused, *body, ""))
 
 
@@ -158,7 +145,7 @@ def write_entry(subject: Subject, core: Core, entry: Entry) -> str:
     passed["memory"] = f"{core.prefix}real{len(subject.memory or ())}_at(state->memory)"
     passed |= {"matrix": f"{core.prefix}Rotation_at({{name}})", "": f"{core.prefix}real{{size}}_at({{name}})"}
     given, arguments = write_arguments(entry, declared, passed)
-    call, returned = f"{core.function_name(function.name)}({arguments})", core.kind(function.returns)
+    call, returned = f"{core.prefix}{function.name}({arguments})", core.kind(function.returns)
     about, out = entry.doc, RESULTS.get(entry.name.partition("_")[0], "result")
     if entry.returns == "number":
         head, body = f"static inline double {name}({given}) {{", [f"return {call};"]
@@ -166,7 +153,7 @@ def write_entry(subject: Subject, core: Core, entry: Entry) -> str:
         head = f"static inline void {name}({given}, double {out}[{result_size(subject, entry)}]) {{"
         body = [f"{returned}_to({call}, {out});"]
     if entry.has_memory:
-        first, kept = map(core.kind, function.returns.items)
+        first, kept = map(core.kind, result_kinds(subject, entry))
         body = [f"const {returned} answer = {call};", f"{first}_to(answer.item0, {out});"]
         body.append(f"{kept}_to(answer.item1, state->memory);")
     if matrices := [one.name for one in entry.parameters if one.size == 9] + ["R"] * (entry.returns == "matrix"):
@@ -174,11 +161,16 @@ def write_entry(subject: Subject, core: Core, entry: Entry) -> str:
     return "\n".join((*comment(about), *wrapped((head, *(f"{INDENT}{line}" for line in body), "}", ""))))
 
 
+def result_kinds(subject: Subject, entry: Entry) -> tuple[Kind, ...]:
+    """Return the kind of an entry's result, and that of the new memory if it returns one."""
+    kind = translated(subject).entries[entry.name].returns
+    return kind.items if entry.has_memory and isinstance(kind, Tuple) else (kind,)
+
+
 def result_size(subject: Subject, entry: Entry) -> int:
     """Return how many numbers an entry returns, without the memory."""
-    kind = translated(subject).entries[entry.name].returns
-    first = kind.items[0] if entry.has_memory and isinstance(kind, Tuple) else kind
-    return 9 if entry.returns == "matrix" else len(first.items) if isinstance(first, Tuple) else 1
+    kind = result_kinds(subject, entry)[0]
+    return 9 if entry.returns == "matrix" else len(kind.items) if isinstance(kind, Tuple) else 1
 
 
 def write_test(subject: Subject) -> str:

@@ -11,7 +11,7 @@ from bench.export.heading import BY_ROWS, RESET, heading
 from bench.export.language import Language, write_arguments
 from bench.export.layout import INDENT, slashes, summary
 from bench.export.subject import Subject, translated
-from bench.export.types import Kind, Tuple, Typed
+from bench.export.types import Typed
 
 WORDS = """
 arguments await break case catch class const continue debugger default delete do else enum eval export extends
@@ -20,34 +20,20 @@ return static super switch this throw try typeof var void while with yield
 """
 
 
-class Script(Braces):
-    """The typed functions as JavaScript."""
+SCRIPT: Braces = Braces(
+    reserved=frozenset(WORDS.split()),
+    declaration=lambda kind, name: f"let {name}",
+    built=lambda kind, items: f"[{', '.join(items)}]",
+    part=lambda kind, value, place: f"{value}[{place}]",
+    head=lambda function: f"function {function.name}({', '.join(map(SCRIPT.variable, function.parameters))})",
+    function_name=str,
+    primitive=lambda name: name if name == "copysign" else f"Math.{name}",  # Math has no copysign
+)
 
-    reserved = frozenset(WORDS.split())
 
-    def declaration(self, kind: Kind, name: str, value: str | None) -> str:
-        """Return `let x = 1.0`."""
-        return f"let {name}" if value is None else f"let {name} = {value}"
-
-    def built(self, kind: Tuple, items: list[str]) -> str:
-        """Return an array."""
-        return f"[{', '.join(items)}]"
-
-    def part(self, kind: Tuple, value: str, place: int | str) -> str:
-        """Return an element."""
-        return f"{value}[{place}]"
-
-    def primitive(self, name: str) -> str:
-        """Return the function of Math; it lacks copysign."""
-        return name if name == "copysign" else f"Math.{name}"
-
-    def head(self, function: Typed) -> str:
-        """Return the signature."""
-        return f"function {function.name}({', '.join(map(self.variable, function.parameters))})"
-
-    def documented(self, function: Typed) -> str:
-        """Write a function after its comment."""
-        return "\n".join((*slashes(summary(function.text)), *self.function(function)))
+def write_function(function: Typed) -> str:
+    """Write a function after its comment."""
+    return "\n".join((*slashes(summary(function.text)), *SCRIPT.write(function)))
 
 
 COPYSIGN = """function copysign(magnitude, sign) {
@@ -78,7 +64,7 @@ PASSED = {"gains": "[kp, kv]", "memory": "state.memory", "matrix": "columns({nam
 def write_script(subject: Subject) -> str:
     """Write the law as one script: NAME.command(...) and so on."""
     done = translated(subject)
-    functions = [Script().documented(one) for one in done.program.functions]
+    functions = [write_function(one) for one in done.program.functions]
     if any("copysign(" in one for one in functions):
         functions.insert(0, COPYSIGN)
     offered = [line for one in subject.entries for line in write_entry(one, done.entries[one.name].name)]
