@@ -78,10 +78,10 @@ libraries: $(LIBRARIES)/.made $(APART:%=$(LIBRARIES)-%/.made)
 judge:  ## your law against an older one of it: make judge LAW=my_law.py BASE=main (alone: python -m bench judge FILE)
 judge: $(READY)
 	@test -n "$$LAW" || { echo "Name your law's file: make judge LAW=my_law.py BASE=main" >&2; exit 2; }
-	@rm -f judge.md
-	@$(PY) -m bench compare $(BASE) --law "$$LAW" --summary judge.md --json judge.json $(ARGS)
+	@rm -rf judge.md judge
+	@$(PY) -m bench compare $(BASE) --law "$$LAW" --summary judge.md --benchmarks judge $(ARGS)
 
-history: ## measure this commit and append it to results/history/history.jsonl (minutes)
+history: ## measure this commit, add a file of pytest-benchmark to results/history, and show it (minutes)
 history: $(READY)
 	@$(PY) -m bench history add $(ARGS)
 
@@ -134,11 +134,11 @@ gate: $(READY)
 	@$(PY) -m bench run --suite quick --out results/quick
 	@$(PY) -m bench compare results/reference results/quick
 
-regress: ## your files against BASE (where you left main): outcomes, operations, instructions, time (half an hour)
+regress: ## your files against BASE (where you left main): outcomes, operations, time (five CPU minutes)
 regress: $(READY)
 	@$(PY) -m bench compare $(BASE) $(ARGS)
 
-regress-study: ## does that gate cry wolf, and does it bite? (half an hour): results/regress
+regress-study: ## false alarms and planted faults of that gate (20 CPU minutes, can be resumed): results/regress
 regress-study: $(READY)
 	@$(PY) -m bench.studies.gates $(ARGS)
 

@@ -53,7 +53,7 @@ def test_print_leaves_out_what_is_about_the_tool_and_what_is_alive():
     names = [page.stem for page in printed.chapters()]
     assert names[0] == "index"
     assert {"27-which-law", "40-claims", "06-failure-map"} <= set(names)
-    assert not {"26-live", "31-performance", "34-clusters"} & set(names)
+    assert not {"26-live", "31-regressions", "34-clusters"} & set(names)
 
 
 @pytest.mark.skipif(bool(screenshots.missing()), reason=screenshots.missing() or "nothing is missing")

@@ -31,7 +31,6 @@ ELSEWHERE = {
     "25-libraries": {"right", "idioms_wrong"},
     "26-live": {"laws"},
     "29-take-it-home": {"languages"},
-    "31-performance": {"counted", "timed", "wanted", "longest"},
     "40-claims": {"first_words"},
 }
 """Page -> keys that no table decides alone: a rule's choice, a search for steps, what is registered."""

@@ -142,14 +142,19 @@ def as_arms_run():
     }
 
 
-def performance():
-    lines = list(map(json.loads, (RESULTS / "history/history.jsonl").read_text(encoding="utf-8").splitlines()))
-    named = {(line["benchmark"]["what"], line["benchmark"]["name"]) for line in lines}
-    machines = len({line["machine"] for line in lines})
+def regressions():
+    same, planted = (
+        json.loads((RESULTS / f"regress/{name}.json").read_text())["rows"] for name in ("same_code", "faults")
+    )
+    builds = [json.loads(path.read_text()) for path in (RESULTS / "history").glob("*/*.json")]
+    faults = [one for one in planted if one["law"]]
     return {
-        "benchmarks": len(named),
-        "builds": len({line["commit"] for line in lines}),
-        "machines": f"{machines} machine{'' if machines == 1 else 's'}",
+        "comparisons": len(same),
+        "alarms": sum(len(one["alarms"]) for one in same),
+        "planted": len(faults),
+        "caught": sum(one["caught"] and one["named"] for one in faults),
+        "builds": len({one["commit_info"]["id"] for one in builds}),
+        "benchmarks": len({one["param"] for build in builds for one in build["benchmarks"]}),
     }
 
 
@@ -249,7 +254,7 @@ COMPUTED = {
     "28-a-new-law": new_law,
     "29-take-it-home": faults,
     "30-method": method,
-    "31-performance": performance,
+    "31-regressions": regressions,
     "40-claims": verdicts,
 }
 """Page -> key -> text, or the numbers that its text has, in their order, among others."""

@@ -1,4 +1,4 @@
-"""What BASE and HEAD mean: a results folder, a git revision, or the files as they lie; and checkouts that go away."""
+"""Resolve what BASE and HEAD mean: a results folder, a git revision, or the files in the checkout."""
 
 import contextlib
 import os
@@ -11,15 +11,14 @@ from pathlib import Path
 from bench.errors import BadResults, Incompatible, UnknownWord
 from bench.provenance import ROOT
 
-WORKING_TREE = "working tree"
 MAIN = ("origin/main", "main", "origin/master", "master")
 
 
 def is_folder(word: str) -> bool:
-    """Whether a word names a results folder; a revision of that name is meant only if there is no such folder.
+    """Return whether a word names a results folder; it means a revision only if there is no such folder.
 
     Errors:
-        BadResults: it is written like a path, and nothing is there.
+        BadResults: the word is written like a path, and there is no such folder.
     """
     path = Path(word)
     if path.is_dir():
@@ -29,11 +28,11 @@ def is_folder(word: str) -> bool:
     return False
 
 
-def repository(laws: tuple[Path, ...] = ()) -> Path:
-    """The git checkout that revisions are of: of a user's law files, else of this program.
+def find_repository(laws: tuple[Path, ...] = ()) -> Path:
+    """Return the git checkout of a user's law files, or of this program if there are none.
 
     Errors:
-        Incompatible: not in git, or the files are of several repositories.
+        Incompatible: the files are not in git, or in several repositories.
     """
     folders = {path.resolve().parent for path in laws} or {ROOT}
     found = {git(folder, "rev-parse", "--show-toplevel") for folder in folders}
@@ -45,10 +44,10 @@ def repository(laws: tuple[Path, ...] = ()) -> Path:
 
 
 def git(folder: Path, *words: str) -> str:
-    """What a git command says.
+    """Return what a git command prints.
 
     Errors:
-        Incompatible: it fails; the message is git's own.
+        Incompatible: the command fails; the message is git's.
     """
     try:
         ended = subprocess.run(["git", "-C", str(folder), *words], capture_output=True, text=True)
@@ -60,11 +59,11 @@ def git(folder: Path, *words: str) -> str:
     return ended.stdout.strip()
 
 
-def commit_of(folder: Path, revision: str) -> str:
-    """The commit that a revision is.
+def find_commit(folder: Path, revision: str) -> str:
+    """Return the commit of a revision.
 
     Errors:
-        UnknownWord: there is none.
+        UnknownWord: there is no such revision.
     """
     try:
         return git(folder, "rev-parse", "--verify", "--quiet", f"{revision}^{{commit}}")
@@ -73,32 +72,33 @@ def commit_of(folder: Path, revision: str) -> str:
         raise UnknownWord("revision", revision, known) from None
 
 
-def default_base(folder: Path, head: str | None) -> str:
-    """Where head left main; on main itself the commit before, or the last one if files have changed since.
+def find_default_base(folder: Path, head: str | None) -> str:
+    """Return where head left main; on main the commit before, or the last one if files have changed since.
 
     Errors:
-        Incompatible: there is no main, and so nothing to have left.
+        Incompatible: there is no main.
     """
-    tip = commit_of(folder, head or "HEAD")
+    tip = find_commit(folder, head or "HEAD")
     for name in MAIN:
         with contextlib.suppress(Incompatible):
             left = git(folder, "merge-base", tip, name)
             if left != tip:
                 return left
             changed = head is None and git(folder, "status", "--porcelain", "--untracked-files=no")
-            return tip if changed else commit_of(folder, f"{tip}~1")
+            return tip if changed else find_commit(folder, f"{tip}~1")
     raise Incompatible(f"no branch of {', '.join(MAIN)} is here; name the base (try: python -m bench compare HEAD~1)")
 
 
 @contextlib.contextmanager
-def worktree(folder: Path, commit: str) -> Iterator[Path]:
-    """A commit checked out apart from the user's own files; gone when the block ends, however it ends.
+def check_out(folder: Path, commit: str) -> Iterator[Path]:
+    """Check a commit out into a temporary folder, and remove it when the block ends.
 
-    Its files are as old as the commit and lie in the same place each time: numba's cache knows files by place and time.
+    The folder has the same name each time and its files are as old as the commit, because numba's cache knows files by
+    place and time.
     """
     path = Path(tempfile.gettempdir()) / f"orientation-bench-{commit[:12]}"
     git(folder, "worktree", "prune")
-    if path.exists():  # another comparison's, at this moment
+    if path.exists():  # another comparison has it at this moment
         path = Path(tempfile.mkdtemp(prefix="orientation-bench-")) / "checkout"
     try:
         git(folder, "worktree", "add", "--detach", str(path), commit)

@@ -1,150 +1,144 @@
-"""One comparison, gate after gate: `of_folders` of two runs, `of_revisions` of two states of the code."""
+"""Compare gate after gate: two runs' folders (`compare_folders`), or two states of the code (`compare_revisions`)."""
 
 from collections.abc import Callable
 from pathlib import Path
 from typing import NamedTuple
 
-from bench.errors import BadResults
+from bench.contenders.described_law import described
+from bench.errors import BadLaw, BadResults
 from bench.findings.judged import judged
 from bench.findings.judgement import Judgement
-from bench.regression.revisions import checkouts, exact, faults, self_measure
+from bench.regression.revisions import checkouts, exact
 from bench.regression.revisions.checkouts import Checkout
 from bench.regression.revisions.comparison import (
     EXACT,
     FAILED,
-    INSTRUCTIONS,
+    FAULTS,
+    IMPROVEMENT,
     OPERATIONS,
     PASSED,
     REGRESSION,
     SKIPPED,
-    Benchmark,
+    TIME,
     Comparison,
     Finding,
     Gate,
-    Side,
+    make_gate,
 )
-from bench.regression.revisions.measured import Operations, Wanted, left_out, measured
-from bench.regression.revisions.process import SideFailed, running
-from bench.regression.rows import differences
-from bench.regression.rows.difference import JUDGE
-from bench.tables.files import read_json
-from bench.tables.store import read
+from bench.regression.revisions.timing import ROUNDS, SAME, SLOWER, SideFailed, Timed, compare_times
 
 Report = Callable[[str], None]
-ALL = Wanted()
 
 
 class Means(NamedTuple):
-    """What the gates are carried out by: a finished run of a side, both's processes, what they measure, the judge."""
+    """The functions that run, time and judge a side, so that tests can give others; rounds: 0 leaves time out."""
 
-    finished_run: Callable = checkouts.finished_run
-    running: Callable = running
-    measured: Callable = measured
-    judged: faults.Judge = judged
+    run_side: Callable = checkouts.run_side
+    compare_times: Callable = compare_times
+    judge: Callable[..., list[Judgement]] = judged
+    rounds: int = ROUNDS
 
 
 USUAL = Means()
 
 
-def of_folders(base: Path, head: Path) -> Comparison:
-    """Two runs' folders, row by row; nothing is run.
+def compare_folders(base: Path, head: Path) -> Comparison:
+    """Compare two runs' folders row by row; nothing is run.
 
     Errors:
         BadResults: a folder holds no finished run.
     """
-    found = _exact(base, head)
-    was, now = (Side(str(one), **_origin(one)) for one in (base, head))
-    return Comparison(was, now, self_measure.machine(), tuple(_gates(found, (EXACT, OPERATIONS))), tuple(found), ())
+    found = exact.compare_runs(base, head)
+    return Comparison(str(base), str(head), tuple(make_gate(name, found) for name in (EXACT, OPERATIONS)), tuple(found))
 
 
-def _origin(folder: Path) -> dict[str, str]:
-    about = read_json(folder / "provenance.json")
-    return {"commit": about["commit"], "sources": about["sources"]}
-
-
-def _exact(base: Path, head: Path) -> list[Finding]:
-    found = differences(base, head)
-    if any(one.kind == JUDGE for one in found):
-        return [*exact.lost(head), *exact.findings(found)]
-    return [*exact.lost(head), *exact.removed(found, head), *exact.basins(base, head), *exact.findings(found)]
-
-
-def _gates(found: list[Finding], names: tuple[str, ...]) -> list[Gate]:
-    """What came of gates that were not left out."""
-    gates = []
-    for name in names:
-        of_gate = [one for one in found if one.gate == name]
-        bad = sum(one.verdict == REGRESSION for one in of_gate)
-        says = f"{bad} regressions, {len(of_gate) - bad} other changes" if of_gate else "nothing differs"
-        gates.append(Gate(name, FAILED if bad else PASSED, says))
-    return gates
-
-
-def of_revisions(
-    base: str,
-    head: str | None,
-    laws: tuple[Path, ...] = (),
-    wanted: Wanted = ALL,
-    report: Report = lambda _: None,
-    by: Means = USUAL,
+def compare_revisions(
+    base: str, head: str | None, laws: tuple[Path, ...] = (), report: Report = lambda _: None, means: Means = USUAL
 ) -> Comparison:
-    """Two revisions, or a revision and the files as they lie (head None), through every gate.
+    """Compare two revisions, or a revision and the files in the checkout (head None), through every gate.
 
     Errors:
         UnknownWord, Incompatible: a revision. BadResults: a side does not run. BadLaw: a user's file.
     """
-    with checkouts.checkouts(base, head, laws) as (old, new):
+    judgements: tuple[Judgement, ...] = ()
+    with checkouts.check_out_both(base, head, laws) as (old, new):
         if new.is_new:
             raise BadResults(f"{new.name}: none of the --law files is there")
-        gates, found, operations = _by_rows(old, new, report, by)
-        more_gates, more, benchmarks = _by_process(old, new, operations, wanted, report, by)
-        judgements: tuple[Judgement, ...] = ()
+        gates, found = _compare_rows(old, new, report, means)
         if new.own:
             report("judging")
-            gate, of_laws, judgements = faults.compared(old, new, by.judged)
-            more_gates, more = [gate, *more_gates], [*of_laws, *more]
-        machine = self_measure.machine()
-    was, now = (Side(one.name, one.commit, one.sources) for one in (old, new))
-    return Comparison(was, now, machine, (*gates, *more_gates), (*found, *more), tuple(benchmarks), judgements)
+            gate, faults, judgements = _compare_faults(old, new, means.judge)
+            gates, found = [*gates, gate], [*found, *faults]
+        gate, slower, times, files = _compare_times(old, new, report, means)
+    found = sorted([*found, *slower], key=lambda one: one.verdict != REGRESSION)
+    return Comparison(old.name, new.name, (*gates, gate), tuple(found), tuple(times), judgements, tuple(files))
 
 
-def _by_rows(old: Checkout, new: Checkout, report: Report, by: Means) -> tuple[list[Gate], list[Finding], Operations]:
-    """The exact gate and that of operations."""
+def _compare_rows(old: Checkout, new: Checkout, report: Report, means: Means) -> tuple[list[Gate], list[Finding]]:
+    """Compare outcomes and operations."""
+    state, says = PASSED, "both sides have the same sources and versions, so a run would be the same"
     if old.is_new:
-        with by.finished_run(new, report) as run:
-            counted, found = self_measure.by_law(read(run, "costs")), exact.lost(run)
-        says = f"base's does not load ({old.broken})" if old.broken else "the law is new"
-        says += ": there is nothing to compare it with"
-        gates = _gates(found, (EXACT,)) if found else [Gate(EXACT, SKIPPED, says)]
-        return [*gates, Gate(OPERATIONS, SKIPPED, says)], found, ({}, counted)
-    if old.sources == new.sources and not new.own:
-        says = "both sides have the same sources and versions, so a run would be the same"
-        return [Gate(name, PASSED, says) for name in (EXACT, OPERATIONS)], [], ({}, {})
-    with by.finished_run(old, report) as before, by.finished_run(new, report) as after:
+        state, says = SKIPPED, "base has no such law, or it does not load: there is nothing to compare with"
+    if old.is_new or (old.sources == new.sources and not new.own):
+        return [Gate(name, state, says) for name in (EXACT, OPERATIONS)], []
+    with means.run_side(old, report) as before, means.run_side(new, report) as after:
         try:
-            found = _exact(before, after)
-            operations = self_measure.by_law(read(before, "costs")), self_measure.by_law(read(after, "costs"))
-        except BadResults as error:  # both have just been written by their own program: it is the schema that differs
-            says = f"the schema differs: {error}"
-            found, operations = [Finding(EXACT, REGRESSION, "", "schema", "", "", says)], ({}, {})
-    return _gates(found, (EXACT, OPERATIONS)), found, operations
+            found = exact.compare_runs(before, after)
+        except BadResults as error:  # each program has just written its own run, so the schema differs
+            found = [Finding(EXACT, REGRESSION, "", f"the schema differs: {error}")]
+    return [make_gate(name, found) for name in (EXACT, OPERATIONS)], found
 
 
-def _by_process(
-    old: Checkout, new: Checkout, operations: Operations, wanted: Wanted, report: Report, by: Means
-) -> tuple[list[Gate], list[Finding], list[Benchmark]]:
-    """The gates of instructions and time, which need both sides compiled."""
-    if not (old.is_new or checkouts.locks_agree(old, new)):
-        return left_out(f"{checkouts.LOCK} differs, so base was made for other packages than are installed"), [], []
-    report("compiling")
-    both = [(new.path, new.asked)] if old.is_new else [(old.path, old.asked), (new.path, new.asked)]
+def _compare_faults(
+    old: Checkout, new: Checkout, judge: Callable[..., list[Judgement]]
+) -> tuple[Gate, list[Finding], tuple[Judgement, ...]]:
+    """Judge a user's laws on both sides by this program: a fault that base has not is a regression."""
+
+    def judge_side(side: Checkout) -> list[Judgement]:
+        return judge([described(law) for law in side.laws]) if side.laws else []
+
     try:
-        with by.running(both) as processes:
-            return by.measured(processes, operations, wanted, report)
+        now = judge_side(new)
+    except BadLaw as error:
+        return Gate(FAULTS, FAILED, str(error)), [Finding(FAULTS, REGRESSION, "", str(error))], ()
+    try:
+        before = {one.name: one.faults for one in judge_side(old)}
+    except BadLaw:
+        before = {}
+    found, kept = [], []
+    for one in now:
+        was, lost = before.get(one.name, []), ["crashed or hung"] if one.is_lost else []
+        new_faults = [fault for fault in one.faults + lost if fault not in was]
+        found += [Finding(FAULTS, REGRESSION, one.name, f"{one.name}: new fault: {each}") for each in new_faults]
+        mended = [fault for fault in was if fault not in one.faults]
+        found += [Finding(FAULTS, IMPROVEMENT, one.name, f"{one.name}: no more: {each}") for each in mended]
+        kept += [fault for fault in one.faults if fault in was]
+    return make_gate(FAULTS, found, f"as in base: {', '.join(kept) or 'no fault'}"), found, tuple(now)
+
+
+def _compare_times(
+    old: Checkout, new: Checkout, report: Report, means: Means
+) -> tuple[Gate, list[Finding], list[Timed], list[dict]]:
+    if old.is_new or not means.rounds:
+        says = "there is no base to compare with" if old.is_new else "left out on request"
+        return Gate(TIME, SKIPPED, says), [], [], []
+    try:
+        files, times = means.compare_times(old.asked, new.asked, report, means.rounds)
     except SideFailed as error:
-        if error.at < len(both) - 1:
-            return left_out(f"base is too old for it: {error}"), [], []
+        if error.at == 0:
+            return Gate(TIME, SKIPPED, f"base is too old for it: {error}"), [], [], []
         if not new.own:
             raise
-        found = Finding(INSTRUCTIONS, REGRESSION, "", "compiled", "", "", f"the law cannot be timed: {error}")
-        return [Gate(INSTRUCTIONS, FAILED, str(error)), *left_out("")[1:]], [found], []
+        says = f"the law cannot be timed: {error}"
+        return Gate(TIME, FAILED, says), [Finding(TIME, REGRESSION, "", says)], [], []
+    slower = [describe_time(one) for one in times.values() if one.verdict != SAME]
+    return make_gate(TIME, slower, f"{len(times)} timed"), slower, list(times.values()), files
+
+
+def describe_time(one: Timed) -> Finding:
+    """Return the finding of a benchmark that is slower or faster."""
+    says = (
+        f"{one.name} is {one.verdict}: a tick takes {one.ratio:.2f} times as long [{one.low:.2f}, {one.high:.2f}], "
+        f"p = {one.p:.1g}, {one.rounds} rounds of each, confirmed by a second run"
+    )
+    return Finding(TIME, REGRESSION if one.verdict == SLOWER else IMPROVEMENT, one.name, says)
