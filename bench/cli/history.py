@@ -60,7 +60,7 @@ def _show(folder: Path) -> None:
     for machine, timed in rows.groupby("machine"):
         newest = timed[timed["commit"].isin(timed["commit"].unique()[-SHOWN:])]
         cells = newest["kernel_steps"].map("{:.3f}".format)
-        flops = newest["flops_typical"].map(lambda count: "" if count != count else f" ({count:.0f})")
+        flops = newest["flops"].map(lambda count: "" if count != count else f" ({count:.0f})")
         table = newest.assign(cell=cells + flops, commit=newest["commit"].str[:10])
         wide = table.pivot_table(index="name", columns="commit", values="cell", aggfunc="last", sort=False)
         title = f"{machine}: steps of the reference kernel a tick (flops), newest build last"

@@ -9,7 +9,7 @@ import pandas as pd
 
 from bench.errors import BadResults
 from bench.provenance import ROOT, commit
-from bench.regression.revisions.timing import ROUNDS, Asked, run_benchmarks
+from bench.regression.revisions.timing import ROUNDS, Side, run_benchmarks
 from bench.tables.files import read_json
 from bench.tables.schema import RESULTS
 
@@ -17,17 +17,13 @@ FOLDER = RESULTS / "history"
 
 
 def append_build(folder: Path = FOLDER, rounds: int = ROUNDS) -> Path:
-    """Measure the commit of this checkout and add its file; return the file.
-
-    Errors:
-        BadResults: the sources are no commit's.
-    """
+    """Measure the commit of this checkout and add its file; return the file."""
     about = commit()
     if about["dirty"] or not about["commit"]:
         raise BadResults("this checkout has changes that no commit holds, and the history holds commits; commit them")
     before = set(find_files(folder))
     words = (f"--benchmark-storage={Path(folder).resolve()}", "--benchmark-autosave")
-    run_benchmarks([Asked(ROOT)], words, rounds)
+    run_benchmarks([Side(ROOT)], words, rounds)
     [new] = set(find_files(folder)) - before
     return new
 
@@ -41,10 +37,7 @@ def read_history(folder: Path = FOLDER) -> pd.DataFrame:
     """Return a row for each benchmark of each build, in the order of the commits.
 
     Columns: commit, date (UTC), machine, what, name, ns_per_tick, kernel_steps (time of a tick over a step of the
-    reference kernel) with its bounds low and high, flops_typical and flops_worst a tick (NaN for an engine).
-
-    Errors:
-        BadResults: a file was not written by pytest-benchmark for `append_build`.
+    reference kernel) with its bounds low and high, and flops of the typical branch a tick (NaN for an engine).
     """
     rows = []
     for path in find_files(folder):
@@ -55,14 +48,10 @@ def read_history(folder: Path = FOLDER) -> pd.DataFrame:
                 more = one["extra_info"]
                 steps = dict(zip(("kernel_steps", "low", "high"), more["kernel_steps"], strict=True))
                 ns = {"ns_per_tick": 1e9 * one["stats"]["median"] / more["ticks"]}
-                flops = {f"flops_{branch}": more["flops"].get(branch) for branch in ("typical", "worst")}
                 build = {"commit": about["id"], "date": pd.to_datetime(about["time"], utc=True), "machine": machine}
+                flops = {"flops": float(more["flops"].get("typical", "nan"))}
                 rows.append({**build, "what": more["what"], "name": one["param"], **ns, **steps, **flops})
         except (KeyError, TypeError, ValueError) as error:
             raise BadResults(f"{path}: no build of this history ({error!r}); delete it, or take it from git") from error
-    if not rows:
-        return pd.DataFrame()
-    frame = pd.DataFrame(rows).astype({"flops_typical": float, "flops_worst": float})
-    return frame.assign(date=pd.to_datetime(frame["date"], utc=True)).sort_values(
-        "date", kind="stable", ignore_index=True
-    )
+    frame = pd.DataFrame(rows)
+    return frame.sort_values("date", kind="stable", ignore_index=True) if rows else frame

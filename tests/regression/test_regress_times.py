@@ -14,7 +14,7 @@ from bench.errors import BadResults
 from bench.provenance import ROOT
 from bench.regression.history import append_build, find_files, read_history
 from bench.regression.revisions import timing
-from bench.regression.revisions.timing import RATIO, Asked, P, SideFailed, confirm, judge_files, judge_rounds
+from bench.regression.revisions.timing import RATIO, P, Side, SideFailed, confirm, judge_files, judge_rounds
 
 
 def rounds(factor=1.0, spread=0.01, count=60):
@@ -66,7 +66,7 @@ def sides(tmp_path_factory):
         x = f"gains.kp * (goal.R.o[2] - R.o[2]){more} - gains.kv * omega[0]"
         file = folder / f"{name}.py"
         file.write_text(law_text(f"return ({x}, -gains.kv * omega[1], -gains.kv * omega[2])", name="tilted"))
-        found.append(Asked(ROOT, (file,), only=True))
+        found.append(Side(ROOT, (file,), only=True))
     return found
 
 
@@ -98,7 +98,7 @@ def test_side_that_cannot_compile_says_so_and_which_it_is(sides, tmp_path, at):
     broken = tmp_path / "broken.py"
     broken.write_text("REGULATOR = 1 / 0\n")
     both = list(sides)
-    both[at] = Asked(ROOT, (broken,), only=True)
+    both[at] = Side(ROOT, (broken,), only=True)
     with pytest.raises(SideFailed, match=r"cannot be compiled and timed \(.*division by zero") as caught:
         timing.run_benchmarks(both, rounds=2)
     assert caught.value.at == at
@@ -107,7 +107,7 @@ def test_side_that_cannot_compile_says_so_and_which_it_is(sides, tmp_path, at):
 def test_base_from_before_there_was_bench_timing_says_so(tmp_path):
     (tmp_path / "bench").mkdir()
     with pytest.raises(SideFailed, match=r"there is no bench\.timing yet"):
-        timing.run_benchmarks([Asked(tmp_path)], rounds=2)
+        timing.run_benchmarks([Side(tmp_path)], rounds=2)
 
 
 @pytest.fixture
@@ -136,12 +136,12 @@ def test_file_that_is_no_build_is_refused_by_its_name(history):
 
 
 def test_build_is_appended_in_the_storage_of_pytest_benchmark(monkeypatch, sides, tmp_path):
-    monkeypatch.setattr("bench.regression.history.Asked", lambda checkout: sides[0])
+    monkeypatch.setattr("bench.regression.history.Side", lambda checkout: sides[0])
     monkeypatch.setattr("bench.regression.history.commit", lambda: {"commit": "1" * 40, "dirty": False})
     path = append_build(tmp_path, rounds=2)
     assert find_files(tmp_path) == [path]
     [row] = read_history(tmp_path).to_dict("records")
-    assert (row["what"], row["name"], row["flops_typical"] > 3) == ("law", "tilted", True)
+    assert (row["what"], row["name"], row["flops"] > 3) == ("law", "tilted", True)
 
 
 def test_checkout_with_changes_is_not_appended(monkeypatch, tmp_path):

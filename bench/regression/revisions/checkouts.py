@@ -7,13 +7,12 @@ import sys
 import tempfile
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import NamedTuple
 
 from bench.contenders.described_law import described
 from bench.errors import BadLaw, BadResults
 from bench.provenance import ROOT
 from bench.regression.revisions.commits import check_out, find_commit, find_repository
-from bench.regression.revisions.timing import Asked
+from bench.regression.revisions.timing import Side
 
 DIGEST = "from bench.provenance import source_digest; print(source_digest())"
 """Each checkout knows which files belong to its sources."""
@@ -21,37 +20,11 @@ PART = ("--engine", "ideal-rk4", "--engine", "native", "--task", "free-body", "-
 """The part of the quick suite through which all laws are run; `make gate` runs the whole."""
 
 
-class Checkout(NamedTuple):
-    """A side: its name, the benchmark's sources and their digest, and the user's law files that load there.
-
-    own: whether only the user's laws are compared, both by this benchmark.
-    """
-
-    name: str
-    path: Path
-    sources: str
-    laws: tuple[Path, ...]
-    own: bool
-
-    @property
-    def is_new(self) -> bool:
-        """Return whether there is nothing to compare: none of the law files is there yet."""
-        return self.own and not self.laws
-
-    @property
-    def asked(self) -> Asked:
-        """Return what is timed of it."""
-        return Asked(self.path, self.laws, self.own)
-
-
 @contextlib.contextmanager
-def check_out_both(base: str, head: str | None, laws: tuple[Path, ...]) -> Iterator[tuple[Checkout, Checkout]]:
+def check_out_both(base: str, head: str | None, laws: tuple[Path, ...]) -> Iterator[tuple[Side, Side]]:
     """Check out base and head for as long as the block lasts; head None means the files in the checkout.
 
-    Args:
-        laws: a user's files; revisions are then of their repository.
-    Errors:
-        UnknownWord: there is no such revision. Incompatible: git cannot do it.
+    If there are law files of a user's, revisions are of their repository.
     """
     folder = find_repository(laws)
     with contextlib.ExitStack() as stack:
@@ -66,43 +39,37 @@ def _loads(law: Path) -> bool:
         return False
 
 
-def _make(stack: contextlib.ExitStack, folder: Path, revision: str | None, laws: tuple[Path, ...]) -> Checkout:
+def _make(stack: contextlib.ExitStack, folder: Path, revision: str | None, laws: tuple[Path, ...]) -> Side:
     commit = find_commit(folder, revision or "HEAD")
     path = stack.enter_context(check_out(folder, commit)) if revision else folder
     files = tuple(file for law in laws if (file := path / law.resolve().relative_to(folder)).is_file())
     sources = ROOT if laws else path
     name = f"{revision} ({commit[:10]})" if revision and not commit.startswith(revision) else commit[:10]
-    ended = run_python(sources, "-c", DIGEST)
-    if ended.returncode:
-        raise BadResults(f"{sources}: these sources do not run ({_last_line(ended.stderr)})")
-    return Checkout(name if revision else "working tree", sources, ended.stdout.strip(), files, bool(laws))
+    digest = run_python(sources, "-c", DIGEST)
+    return Side(sources, files, bool(laws), (), name if revision else "working tree", digest)
 
 
-def run_python(checkout: Path, *words: str) -> subprocess.CompletedProcess:
-    """Run this environment's Python with the sources of a checkout, to its end."""
-    environment = {**os.environ, "PYTHONPATH": str(checkout)}
-    return subprocess.run([sys.executable, *words], cwd=checkout, env=environment, capture_output=True, text=True)
-
-
-def _last_line(text: str) -> str:
-    return (text.strip().splitlines() or ["it said nothing"])[-1].removeprefix("error: ")
+def run_python(checkout: Path, *words: str, allowed: tuple[int, ...] = (0,)) -> str:
+    """Run Python with the sources of a checkout; return what it prints, or raise BadResults with its last words."""
+    more = {"PYTHONPATH": str(checkout)}
+    ended = subprocess.run(
+        [sys.executable, *words], cwd=checkout, env=os.environ | more, capture_output=True, text=True
+    )
+    if ended.returncode not in allowed:
+        said = (ended.stderr.strip().splitlines() or ["it said nothing"])[-1].removeprefix("error: ")
+        raise BadResults(f"{checkout}: python {' '.join(words[:3])} does not run ({said})")
+    return ended.stdout.strip()
 
 
 @contextlib.contextmanager
-def run_side(side: Checkout, report: Callable[[str], None]) -> Iterator[Path]:
-    """Run a user's laws through the quick suite, or all laws through PART of it; give the folder for the block.
-
-    Errors:
-        BadResults: the run fails; the message has its last words.
-    """
+def run_side(side: Side, report: Callable[[str], None]) -> Iterator[Path]:
+    """Run a user's laws through the quick suite, or all laws through PART of it; give the folder for the block."""
     with tempfile.TemporaryDirectory(prefix="orientation-bench-") as temporary:
-        report(f"running {'the quick suite' if side.own else 'a part of the quick suite'} of {side.name}")
+        report(f"running {'the quick suite' if side.only else 'a part of the quick suite'} of {side.name}")
         folder = Path(temporary) / "run"
-        words = ["-m", "bench", "run", "--suite", "quick", "--out", str(folder), *(() if side.own else PART)]
+        words = [*(() if side.only else PART), "--out", str(folder)]
         for law in side.laws:
             words += ["--law", str(law), "--regulator", described(law).name]
-        ended = run_python(side.path, *words)
         # 1: some rows of a user's law were lost, and the folder says which
-        if ended.returncode not in ((0, 1) if side.own else (0,)) or not (folder / "provenance.json").is_file():
-            raise BadResults(f"{side.name}: its quick suite does not run ({_last_line(ended.stderr)})")
+        run_python(side.path, "-m", "bench", "run", "--suite", "quick", *words, allowed=(0, 1) if side.only else (0,))
         yield folder

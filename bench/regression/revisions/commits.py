@@ -15,40 +15,24 @@ MAIN = ("origin/main", "main", "origin/master", "master")
 
 
 def is_folder(word: str) -> bool:
-    """Return whether a word names a results folder; it means a revision only if there is no such folder.
-
-    Errors:
-        BadResults: the word is written like a path, and there is no such folder.
-    """
+    """Return whether a word names a results folder; raise BadResults for a path at which there is none."""
     path = Path(word)
-    if path.is_dir():
-        return True
-    if path.is_absolute() or word.startswith(("./", "../", "results/")):
+    if not path.is_dir() and (path.is_absolute() or word.startswith(("./", "../", "results/"))):
         raise BadResults(f"{word}: there is no such folder; give a results folder or a git revision (try: git branch)")
-    return False
+    return path.is_dir()
 
 
 def find_repository(laws: tuple[Path, ...] = ()) -> Path:
-    """Return the git checkout of a user's law files, or of this program if there are none.
-
-    Errors:
-        Incompatible: the files are not in git, or in several repositories.
-    """
+    """Return the one git checkout of a user's law files, or of this program if there are none."""
     folders = {path.resolve().parent for path in laws} or {ROOT}
     found = {git(folder, "rev-parse", "--show-toplevel") for folder in folders}
     if len(found) > 1:
-        raise Incompatible(
-            f"the --law files lie in several repositories ({', '.join(sorted(found))}); compare each alone"
-        )
+        raise Incompatible(f"the --law files are in several repositories ({', '.join(found)}); compare each alone")
     return Path(found.pop())
 
 
 def git(folder: Path, *words: str) -> str:
-    """Return what a git command prints.
-
-    Errors:
-        Incompatible: the command fails; the message is git's.
-    """
+    """Return what a git command prints; raise Incompatible with git's last words if it fails."""
     try:
         ended = subprocess.run(["git", "-C", str(folder), *words], capture_output=True, text=True)
     except FileNotFoundError:
@@ -60,11 +44,7 @@ def git(folder: Path, *words: str) -> str:
 
 
 def find_commit(folder: Path, revision: str) -> str:
-    """Return the commit of a revision.
-
-    Errors:
-        UnknownWord: there is no such revision.
-    """
+    """Return the commit of a revision; raise UnknownWord if there is none."""
     try:
         return git(folder, "rev-parse", "--verify", "--quiet", f"{revision}^{{commit}}")
     except Incompatible:
@@ -73,11 +53,7 @@ def find_commit(folder: Path, revision: str) -> str:
 
 
 def find_default_base(folder: Path, head: str | None) -> str:
-    """Return where head left main; on main the commit before, or the last one if files have changed since.
-
-    Errors:
-        Incompatible: there is no main.
-    """
+    """Return where head left main; on main the commit before, or the last one if files have changed since."""
     tip = find_commit(folder, head or "HEAD")
     for name in MAIN:
         with contextlib.suppress(Incompatible):
@@ -96,18 +72,15 @@ def check_out(folder: Path, commit: str) -> Iterator[Path]:
     The folder has the same name each time and its files are as old as the commit, because numba's cache knows files by
     place and time.
     """
-    path = Path(tempfile.gettempdir()) / f"orientation-bench-{commit[:12]}"
-    git(folder, "worktree", "prune")
-    if path.exists():  # another comparison has it at this moment
-        path = Path(tempfile.mkdtemp(prefix="orientation-bench-")) / "checkout"
-    try:
+    path = Path(tempfile.gettempdir(), f"orientation-bench-{commit[:12]}")
+    with contextlib.ExitStack() as stack:
+        if path.exists():  # another comparison has it at this moment
+            path = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="orientation-bench-")), "checkout")
+        stack.callback(git, folder, "worktree", "prune")
+        stack.callback(shutil.rmtree, path, ignore_errors=True)
+        git(folder, "worktree", "prune")
         git(folder, "worktree", "add", "--detach", str(path), commit)
         made = int(git(folder, "show", "--no-patch", "--format=%ct", commit))
         for file in path.rglob("*.py"):
             os.utime(file, (made, made))
         yield path
-    finally:
-        shutil.rmtree(path, ignore_errors=True)
-        git(folder, "worktree", "prune")
-        if path.name == "checkout":
-            path.parent.rmdir()

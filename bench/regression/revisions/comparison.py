@@ -6,13 +6,11 @@ from typing import Any, NamedTuple
 from bench.findings.judgement import Judgement
 from bench.regression.revisions.timing import Timed
 
-EXACT, OPERATIONS, TIME, FAULTS = "exact", "operations", "time", "faults"
 REGRESSION, CHANGE, IMPROVEMENT = "regression", "change", "improvement"
-PASSED, FAILED, SKIPPED = "passed", "failed", "skipped"
 
 
 class Gate(NamedTuple):
-    """One gate, its state, and in a line what came of it or why it was skipped."""
+    """A gate; whether it passed, failed or was skipped; and in a line what came of it or why."""
 
     gate: str
     state: str
@@ -50,4 +48,4 @@ def make_gate(name: str, findings: Iterable[Finding], what: str = "") -> Gate:
     found = [one for one in findings if one.gate == name]
     bad = sum(one.verdict == REGRESSION for one in found)
     says = f"{bad} regressions, {len(found) - bad} other changes" if found else "nothing differs"
-    return Gate(name, FAILED if bad else PASSED, f"{what}: {says}" if what else says)
+    return Gate(name, "failed" if bad else "passed", f"{what}: {says}" if what else says)

@@ -11,11 +11,13 @@ from pathlib import Path
 
 from bench.counting import OPERATIONS as OPERATION_NAMES
 from bench.counting import TOTAL
-from bench.regression.revisions.comparison import CHANGE, EXACT, IMPROVEMENT, OPERATIONS, REGRESSION, Finding
+from bench.regression.revisions.comparison import CHANGE, IMPROVEMENT, REGRESSION, Finding
 from bench.regression.rows import find_differences
 from bench.regression.rows.difference import CHANGED, COLUMN, JUDGE, MISSING, NEW, Difference
 from bench.tables.files import read_json
 
+EXACT, OPERATIONS = "exact", "operations"
+OF_LAW = ("regulator", "representation")
 GOOD, STUCK = ("settled", "done"), "stuck"
 SMALLER_IS_WORSE = ("fails_from_rad", "settled_to_rad")
 """Columns of boundaries: nothing fails up to there."""
@@ -25,11 +27,7 @@ rest of a hundredth of Kp times a radian."""
 
 
 def compare_runs(base: Path, head: Path) -> list[Finding]:
-    """Return all findings between two runs' folders; first what head's run says of a law that crashed or hung.
-
-    Errors:
-        BadResults: a folder holds no finished run.
-    """
+    """Return all findings between two runs' folders; first what head's run says of a law that crashed or hung."""
     lost = read_json(head / "provenance.json").get("lost", [])
     return [*(Finding(EXACT, REGRESSION, "", note) for note in lost), *sort_findings(find_differences(base, head))]
 
@@ -83,12 +81,10 @@ def _make_finding(name: str, verdict: str, group: list[Difference]) -> Finding:
     gate = OPERATIONS if one.table == "costs" and one.column in OPERATION_NAMES else EXACT
     if one.kind in (COLUMN, JUDGE):
         return Finding(gate, verdict, name, one.says)
-    where = " ".join(word for key, word in one.row.items() if word and key not in ("regulator", "representation"))
+    where = " ".join(word for key, word in one.row.items() if word not in ("", "0") and key not in OF_LAW)
     what = name or one.table
-    if one.kind == MISSING:
-        said = f"{what}: gone from {one.table}"
-    elif one.kind == NEW:
-        said = f"{what}: new in {one.table}"
+    if one.kind in (MISSING, NEW):
+        said = f"{what}: {'gone from' if one.kind == MISSING else 'new in'} {one.table}"
     elif one.column == "outcome" and one.now == STUCK:
         said = f"{name} is stuck, was {one.was}: new dead point"
     else:

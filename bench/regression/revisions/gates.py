@@ -9,25 +9,11 @@ from bench.errors import BadLaw, BadResults
 from bench.findings.judged import judged
 from bench.findings.judgement import Judgement
 from bench.regression.revisions import checkouts, exact
-from bench.regression.revisions.checkouts import Checkout
-from bench.regression.revisions.comparison import (
-    EXACT,
-    FAILED,
-    FAULTS,
-    IMPROVEMENT,
-    OPERATIONS,
-    PASSED,
-    REGRESSION,
-    SKIPPED,
-    TIME,
-    Comparison,
-    Finding,
-    Gate,
-    make_gate,
-)
-from bench.regression.revisions.timing import ROUNDS, SAME, SLOWER, SideFailed, Timed, compare_times
+from bench.regression.revisions.comparison import IMPROVEMENT, REGRESSION, Comparison, Finding, Gate, make_gate
+from bench.regression.revisions.timing import ROUNDS, SAME, SLOWER, Side, SideFailed, Timed, compare_times
 
 Report = Callable[[str], None]
+EXACT, OPERATIONS, TIME, FAULTS = exact.EXACT, exact.OPERATIONS, "time", "faults"
 
 
 class Means(NamedTuple):
@@ -43,11 +29,7 @@ USUAL = Means()
 
 
 def compare_folders(base: Path, head: Path) -> Comparison:
-    """Compare two runs' folders row by row; nothing is run.
-
-    Errors:
-        BadResults: a folder holds no finished run.
-    """
+    """Compare two folders of finished runs row by row; nothing is run."""
     found = exact.compare_runs(base, head)
     return Comparison(str(base), str(head), tuple(make_gate(name, found) for name in (EXACT, OPERATIONS)), tuple(found))
 
@@ -55,17 +37,13 @@ def compare_folders(base: Path, head: Path) -> Comparison:
 def compare_revisions(
     base: str, head: str | None, laws: tuple[Path, ...] = (), report: Report = lambda _: None, means: Means = USUAL
 ) -> Comparison:
-    """Compare two revisions, or a revision and the files in the checkout (head None), through every gate.
-
-    Errors:
-        UnknownWord, Incompatible: a revision. BadResults: a side does not run. BadLaw: a user's file.
-    """
+    """Compare two revisions, or a revision and the files in the checkout (head None), through every gate."""
     judgements: tuple[Judgement, ...] = ()
     with checkouts.check_out_both(base, head, laws) as (old, new):
         if new.is_new:
             raise BadResults(f"{new.name}: none of the --law files is there")
         gates, found = _compare_rows(old, new, report, means)
-        if new.own:
+        if new.only:
             report("judging")
             gate, faults, judgements = _compare_faults(old, new, means.judge)
             gates, found = [*gates, gate], [*found, *faults]
@@ -74,12 +52,12 @@ def compare_revisions(
     return Comparison(old.name, new.name, (*gates, gate), tuple(found), tuple(times), judgements, tuple(files))
 
 
-def _compare_rows(old: Checkout, new: Checkout, report: Report, means: Means) -> tuple[list[Gate], list[Finding]]:
+def _compare_rows(old: Side, new: Side, report: Report, means: Means) -> tuple[list[Gate], list[Finding]]:
     """Compare outcomes and operations."""
-    state, says = PASSED, "both sides have the same sources and versions, so a run would be the same"
+    state, says = "passed", "both sides have the same sources and versions, so a run would be the same"
     if old.is_new:
-        state, says = SKIPPED, "base has no such law, or it does not load: there is nothing to compare with"
-    if old.is_new or (old.sources == new.sources and not new.own):
+        state, says = "skipped", "base has no such law, or it does not load: there is nothing to compare with"
+    if old.is_new or (old.digest == new.digest and not new.only):
         return [Gate(name, state, says) for name in (EXACT, OPERATIONS)], []
     with means.run_side(old, report) as before, means.run_side(new, report) as after:
         try:
@@ -90,17 +68,17 @@ def _compare_rows(old: Checkout, new: Checkout, report: Report, means: Means) ->
 
 
 def _compare_faults(
-    old: Checkout, new: Checkout, judge: Callable[..., list[Judgement]]
+    old: Side, new: Side, judge: Callable[..., list[Judgement]]
 ) -> tuple[Gate, list[Finding], tuple[Judgement, ...]]:
     """Judge a user's laws on both sides by this program: a fault that base has not is a regression."""
 
-    def judge_side(side: Checkout) -> list[Judgement]:
+    def judge_side(side: Side) -> list[Judgement]:
         return judge([described(law) for law in side.laws]) if side.laws else []
 
     try:
         now = judge_side(new)
     except BadLaw as error:
-        return Gate(FAULTS, FAILED, str(error)), [Finding(FAULTS, REGRESSION, "", str(error))], ()
+        return Gate(FAULTS, "failed", str(error)), [Finding(FAULTS, REGRESSION, "", str(error))], ()
     try:
         before = {one.name: one.faults for one in judge_side(old)}
     except BadLaw:
@@ -117,20 +95,21 @@ def _compare_faults(
 
 
 def _compare_times(
-    old: Checkout, new: Checkout, report: Report, means: Means
+    old: Side, new: Side, report: Report, means: Means
 ) -> tuple[Gate, list[Finding], list[Timed], list[dict]]:
-    if old.is_new or not means.rounds:
-        says = "there is no base to compare with" if old.is_new else "left out on request"
-        return Gate(TIME, SKIPPED, says), [], [], []
+    is_same = old.digest == new.digest and not new.only
+    if old.is_new or is_same or not means.rounds:
+        says = "left out on request" if not means.rounds else "the same sources" if is_same else "there is no base"
+        return Gate(TIME, "skipped", says), [], [], []
     try:
-        files, times = means.compare_times(old.asked, new.asked, report, means.rounds)
+        files, times = means.compare_times(old, new, report, means.rounds)
     except SideFailed as error:
         if error.at == 0:
-            return Gate(TIME, SKIPPED, f"base is too old for it: {error}"), [], [], []
-        if not new.own:
+            return Gate(TIME, "skipped", f"base is too old for it: {error}"), [], [], []
+        if not new.only:
             raise
         says = f"the law cannot be timed: {error}"
-        return Gate(TIME, FAILED, says), [Finding(TIME, REGRESSION, "", says)], [], []
+        return Gate(TIME, "failed", says), [Finding(TIME, REGRESSION, "", says)], [], []
     slower = [describe_time(one) for one in times.values() if one.verdict != SAME]
     return make_gate(TIME, slower, f"{len(times)} timed"), slower, list(times.values()), files
 

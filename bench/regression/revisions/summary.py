@@ -7,7 +7,7 @@ from typing import Any
 from bench.findings.judgement import Judgement
 from bench.provenance import cpu_name, describe
 from bench.regression.revisions.comparison import Comparison
-from bench.regression.revisions.timing import SAME, Timed
+from bench.regression.revisions.timing import Timed
 
 SHOWN = 40
 """Findings that a summary lists."""
@@ -23,21 +23,16 @@ def write_headline(comparison: Comparison) -> str:
 
 def tabulate_times(times: Sequence[Timed]) -> list[dict[str, str]]:
     """Return a line of text for each benchmark."""
+    more = {True: ", twice", False: ", by a second run", None: ""}
     return [
         {
             "benchmark": one.name,
             "time, head / base": f"{one.ratio:.3f} [{one.low:.3f}, {one.high:.3f}]",
             "p": f"{one.p:.1g}",
-            "verdict": _word_verdict(one),
+            "verdict": one.verdict + more[one.confirmed],
         }
         for one in times
     ]
-
-
-def _word_verdict(one: Timed) -> str:
-    if one.verdict == SAME:
-        return "same, by a second run" if one.confirmed is False else "same"
-    return f"{one.verdict}, twice"
 
 
 def write_markdown(comparison: Comparison) -> str:
@@ -56,9 +51,8 @@ def write_markdown(comparison: Comparison) -> str:
 
 def _write_judgement(one: Judgement) -> list[str]:
     """Return why a law does what it does, faults first, and the laws most like it."""
-    said = sorted(one.said, key=lambda each: not each.fault)
     lines = [f"**{escape(one.name)}: {', '.join(one.faults) or 'no fault found'}**", ""]
-    lines += [f"- {escape(each.text)} ({each.page})" for each in said]
+    lines += [f"- {escape(each.text)} ({each.page})" for each in sorted(one.said, key=lambda each: not each.fault)]
     return lines + (["", "The laws most like it:", "", *_write_table(one.beside)] if one.beside else [])
 
 

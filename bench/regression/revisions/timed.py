@@ -5,11 +5,10 @@ environment variable ORIENTATION_BENCH_TIMED is a JSON object:
 
     laws, only, names, rounds   a user's law files; whether to time only them; names to time, or none for all
     words                       options of pytest, as --benchmark-json=FILE
-    read, write, begins         pipes from and to the other process, and whether this one has the first turn
+    line, begins                a socket to the other process, or null, and whether this one has the first turn
 
-Before each round, which is a call of a fixed number of ticks, the reference kernel is timed. The CPU time of the thread
-is taken. `extra_info` of each benchmark holds `what`, `ticks`, `kernel_steps` (the time of a tick over a step of the
-reference kernel: median and interval), and, if there is no other process, a law's `flops` by branch.
+The CPU time of the thread is taken. `extra_info` holds what a benchmark is, the ticks of a round, `kernel_steps` (the
+time of a tick over a step of the reference kernel: median and interval), and in one process alone a law's flops.
 """
 
 import contextlib
@@ -18,20 +17,17 @@ import json
 import os
 import sys
 import time
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 import pytest
 
-ENGINES_OF = "rotation-matrix"
-ON_ARM = ("ur5e", "rotation-matrix@geometric+solve")
+ENGINES_OF, ARM, ON_ARM = "rotation-matrix", "ur5e", "rotation-matrix@geometric+solve"
 BLOCKS, SWEEPS = 4, 5
 """Four times the states, each time with other goals, five times over: 0.7 MB, which fits a second-level cache."""
 GOAL = 12  # column of a state at which its goal begins
-OTHER_ENDED = 77
-"""The exit code of a process that lost the other one."""
+OTHER_ENDED = 77  # the exit code of a process that lost the other one
 WORDS = (
     *("-c", os.devnull, "--rootdir", str(Path(__file__).parent), "--noconftest", "--import-mode=importlib"),
     *("-p", "no:cacheprovider", "-p", "no:xdist", "-p", "no:faulthandler", "-q", "--exitfirst", "--capture=no"),
@@ -39,42 +35,36 @@ WORDS = (
 )
 
 
-class Timed(NamedTuple):
-    """A benchmark: whether it is a "law" or an "engine", how many ticks a call does, the call, and flops by branch."""
-
-    what: str
-    ticks: int
-    call: Callable
-    flops: dict[str, int] = {}  # noqa: RUF012  a tuple's default, never written to
-
-
 class Turns:
     """The turns of two processes: one works while the other waits for a byte."""
 
-    def __init__(self, read: int | None, write: int | None, begins: bool):
-        self.pipe = None if read is None else io.FileIO(read)
-        self.write, self.begins = write, begins
+    def __init__(self, line: int | None, begins: bool):
+        self.line, self.begins = io.FileIO(line, "r+") if line else None, begins
 
     def agree(self, names: list[str]) -> list[str]:
         """Tell the other process the names of the benchmarks; return those that both have, in one order."""
-        if self.pipe is None:
+        if self.line is None:
             return names
         self.send(json.dumps(names).encode() + b"\n")
-        theirs = set(json.loads(self.pipe.readline() or b"[]"))
+        theirs = b""
+        with contextlib.suppress(ConnectionError):
+            theirs = self.line.readline()
         if not self.begins:
             self.send()
-        return sorted(theirs.intersection(names))
+        return sorted(set(json.loads(theirs or b"[]")).intersection(names))
 
     def wait(self) -> None:
         """Wait for this process's turn."""
-        if self.pipe is not None and not self.pipe.read(1):
-            pytest.exit("the other side has ended", OTHER_ENDED)
+        with contextlib.suppress(ConnectionError):
+            if self.line is None or self.line.read(1):
+                return
+        pytest.exit("the other side has ended", OTHER_ENDED)
 
     def send(self, words: bytes = b".") -> None:
         """Write to the other process; one byte gives it its turn."""
-        with contextlib.suppress(BrokenPipeError):  # it has ended; `wait` notices if that was too early
-            if self.write is not None:
-                os.write(self.write, words)
+        with contextlib.suppress(ConnectionError):  # it has ended; `wait` notices if that was too early
+            if self.line is not None:
+                self.line.write(words)
 
 
 def shuffle(states: np.ndarray, rows: np.ndarray, number: int) -> None:
@@ -89,20 +79,21 @@ def shuffle(states: np.ndarray, rows: np.ndarray, number: int) -> None:
         block[:, GOAL:] = states[draw.permutation(count), GOAL:]
 
 
-def compile_laws(asked: dict[str, Any], rows: np.ndarray) -> dict[str, Timed]:
-    """Compile laws, each in a loop over rows in which a tick waits for the command of the one before."""
+def compile_benchmarks(asked: dict[str, Any], rows: np.ndarray) -> dict[str, Any]:
+    """Compile laws, each in a loop over rows in which a tick waits for the command of the one before, and engines."""
+    from bench.contenders import combinations, registry
     from bench.contenders.law_file import load_law
-    from bench.contenders.registry import all_contenders
-    from bench.counting import TOTAL
     from bench.engines.binding import command_of, memory_of
     from bench.law.contender import Gains
-    from bench.tables import kept_costs
-    from bench.timing import law
+    from bench.timing import law, on_arms
+    from bench.timing.benchmark import ENGINE, LAW, Benchmark
+    from bench.timing.benchmarks import benchmarks
 
-    gains, found = Gains(), {}
-    for one in all_contenders(tuple(load_law(Path(path)) for path in asked["laws"])):
-        is_wanted = one.regulator.origin or not asked["only"]
-        if one.regulator.in_engine or not is_wanted or one.name not in (asked["names"] or [one.name]):
+    gains, found = Gains(), []
+    for one in registry.all_contenders(tuple(load_law(Path(path)) for path in asked["laws"])):
+        if one.regulator.in_engine or (asked["only"] and not one.regulator.origin):
+            continue
+        if one.name not in (asked["names"] or [one.name]):
             continue
         loop = law.loop_of(command_of(one), memory_of(one), cache=not one.regulator.origin)
 
@@ -110,32 +101,14 @@ def compile_laws(asked: dict[str, Any], rows: np.ndarray) -> dict[str, Timed]:
             return loop(rows, gains.kp, gains.kv, SWEEPS)
 
         if call() == 0.0:  # a command that is not finite breaks the chain
-            costs = [] if asked["read"] else kept_costs.of_law(one)
-            flops = {row["branch"]: int(row["flops"]) for row in costs if row["stage"] == TOTAL}
-            found[one.name] = Timed("law", SWEEPS * len(rows), call, flops)
-    return found
-
-
-def compile_engines(asked: dict[str, Any]) -> dict[str, Timed]:
-    """Compile every engine of the free body with one law, and one arm."""
-    from bench.contenders import combinations
-    from bench.contenders.registry import find_contender
-    from bench.timing import on_arms
-    from bench.timing.benchmarks import benchmarks
-
-    if asked["only"] or (asked["names"] and not any(" " in name for name in asked["names"])):
-        return {}
-    one, (arm, word) = find_contender(ENGINES_OF), ON_ARM
-    [controller] = combinations.on((word,), {one.name: one}, 6)
-    loops = {
-        f"{loop.engine} {one.name}": loop for loop in benchmarks([one]) if loop.what == "engine" and loop.contender
-    }
-    loops[f"native {arm} {word}"] = on_arms.native(arm, controller)
-    return {
-        name: Timed("engine", loop.ticks, loop.call)
-        for name, loop in loops.items()
-        if name in (asked["names"] or loops)
-    }
+            found.append(Benchmark(LAW, one, "", SWEEPS * len(rows), call))
+    if not asked["only"] and any(" " in name for name in asked["names"] or " "):
+        one = registry.find_contender(ENGINES_OF)
+        [controller] = combinations.on((ON_ARM,), {one.name: one}, 6)
+        found += [loop for loop in benchmarks([one]) if loop.what == ENGINE and loop.contender]
+        found.append(on_arms.native(ARM, controller))
+    named = {one.name.removeprefix(f"{LAW} "): one for one in found}
+    return {name: one for name, one in named.items() if name in (asked["names"] or named)}
 
 
 class Session:
@@ -144,14 +117,13 @@ class Session:
     def __init__(self, asked: dict[str, Any]):
         from bench.timing import law, reference_kernel
 
-        self.rounds, self.turns = asked["rounds"], Turns(asked["read"], asked["write"], asked["begins"])
+        self.rounds, self.turns = asked["rounds"], Turns(asked["line"], asked["begins"])
         self.cores = sorted(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else []
-        states, chain = law.states(), reference_kernel.compiled()
+        states, chain, self.kernel_steps = law.states(), reference_kernel.compiled(), reference_kernel.STEPS
         rows = np.tile(states, (BLOCKS, 1))
         self.shuffle = lambda number: shuffle(states, rows, number)
         self.kernel = lambda: chain(reference_kernel.START, reference_kernel.STEPS)
-        self.kernel_steps = reference_kernel.STEPS
-        known = {**compile_laws(asked, rows), **compile_engines(asked)}
+        known = compile_benchmarks(asked, rows)
         self.benchmarks = {name: known[name] for name in self.turns.agree(list(known))}
 
     def pytest_generate_tests(self, metafunc):
@@ -179,6 +151,7 @@ class Session:
 
 def test_ticks(benchmark, plugin, name):
     """Time one benchmark for all its rounds, each in its turn."""
+    from bench.tables import kept_costs
     from bench.timing.ratios import ratio
 
     one = plugin.benchmarks[name]
@@ -195,7 +168,9 @@ def test_ticks(benchmark, plugin, name):
 
     benchmark.pedantic(one.call, setup=wait, teardown=plugin.turns.send, rounds=plugin.rounds, iterations=1)
     steps = list(ratio(np.array(benchmark.stats.stats.data) / one.ticks, np.array(kernels)))
-    benchmark.extra_info.update(what=one.what, ticks=one.ticks, kernel_steps=steps, flops=one.flops)
+    costs = kept_costs.of_law(one.contender) if plugin.turns.line is None and one.what == "law" else []
+    flops = {row["branch"]: int(row["flops"]) for row in costs if row["stage"] == "total"}
+    benchmark.extra_info.update(what=one.what, ticks=one.ticks, kernel_steps=steps, flops=flops)
 
 
 def main() -> int:

@@ -11,6 +11,7 @@ Limitations: a law that is slower by less than a tenth is not found, unless it h
 import contextlib
 import json
 import os
+import socket
 import subprocess
 import sys
 import tempfile
@@ -27,10 +28,8 @@ from bench.regression.revisions.timed import OTHER_ENDED
 from bench.tables.files import read_json
 from bench.timing.ratios import ratio
 
-P = 0.002
-"""Of thirty laws and no change, one comparison in seventeen has a p below this by chance; RATIO must agree."""
-
-RATIO = 1.10
+P, RATIO = 0.002, 1.10
+"""Of thirty laws and no change, one comparison in seventeen has a p below P by chance; RATIO must agree."""
 ROUNDS = 60
 """Of each side. The interval of a median covers the 23rd to 38th of 60; a round takes from 0.3 ms to 10 ms."""
 
@@ -40,13 +39,23 @@ LONGEST_S = 1800.0
 """On the wall, until a process is ended. Compiling all laws takes a tenth of it."""
 
 
-class Asked(NamedTuple):
-    """What to time: a checkout, a user's law files, whether only those, and names; no names: all benchmarks."""
+class Side(NamedTuple):
+    """A side of a comparison: sources, a user's law files, whether only those count, names to time, or none for all.
 
-    checkout: Path
+    name: of the side, in words. digest: of its sources.
+    """
+
+    path: Path
     laws: tuple[Path, ...] = ()
     only: bool = False
     names: tuple[str, ...] = ()
+    name: str = ""
+    digest: str = ""
+
+    @property
+    def is_new(self) -> bool:
+        """Return whether there is nothing to compare: none of the law files is there yet."""
+        return self.only and not self.laws
 
 
 class Timed(NamedTuple):
@@ -73,46 +82,35 @@ class SideFailed(Incompatible):
         self.at = at
 
 
-def run_benchmarks(sides: list[Asked], words: tuple[str, ...] = (), rounds: int = ROUNDS) -> list[dict[str, Any]]:
-    """Run the benchmarks of one side, or of two in turn; return the content of pytest-benchmark's files.
-
-    Args:
-        words: more options of pytest.
-    Errors:
-        SideFailed: a side cannot import, compile or time its laws.
-    """
+def run_benchmarks(sides: list[Side], words: tuple[str, ...] = (), rounds: int = ROUNDS) -> list[dict[str, Any]]:
+    """Run the benchmarks of one side, or of two in turn, with words for pytest; return pytest-benchmark's files."""
     with contextlib.ExitStack() as stack:
         folder = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="orientation-bench-")))
-        ends = [*os.pipe(), *os.pipe()] if len(sides) > 1 else []
+        ends = [stack.enter_context(end) for end in socket.socketpair()]
         processes = []
         for at, side in enumerate(sides):
             log = stack.enter_context(open(folder / f"{at}.log", "w", encoding="utf-8"))
-            pipes = (ends[2 * at], ends[3 - 2 * at]) if ends else (None, None)
-            more = (*words, f"--benchmark-json={folder / f'{at}.json'}")
-            processes.append(_start(side, more, pipes, at == 0, rounds, log))
+            asked = {"laws": list(map(str, side.laws)), "only": side.only, "names": side.names, "rounds": rounds}
+            asked |= {"words": [*words, f"--benchmark-json={folder / f'{at}.json'}"]}
+            asked |= {"line": ends[at].fileno() if len(sides) > 1 else None, "begins": at == 0}
+            processes.append(_start(side.path, asked, log))
             stack.callback(processes[-1].kill)
         for end in ends:
-            os.close(end)
-        failed = _wait_for(processes)
-        if failed is not None:
-            said = (folder / f"{failed}.log").read_text(encoding="utf-8", errors="replace").split("\n")
-            reason = next((line.strip() for line in reversed(said) if line.strip()), "it said nothing")
-            raise SideFailed(failed, f"laws of {sides[failed].checkout} cannot be compiled and timed ({reason})")
+            end.close()
+        if (failed := _wait_for(processes)) is not None:
+            lines = (folder / f"{failed}.log").read_text(encoding="utf-8", errors="replace").strip().splitlines()
+            reason = lines[-1] if lines else f"it ended with {processes[failed].poll()}"
+            raise SideFailed(failed, f"laws of {sides[failed].path} cannot be compiled and timed ({reason})")
         files = [folder / f"{at}.json" for at in range(len(sides))]
         return [read_json(file) if file.is_file() else {"benchmarks": []} for file in files]
 
 
-def _start(side: Asked, words: tuple[str, ...], pipes: tuple, begins: bool, rounds: int, log) -> subprocess.Popen:
-    asked = {
-        **{"laws": [str(path) for path in side.laws], "only": side.only, "names": side.names, "rounds": rounds},
-        **{"words": words, "read": pipes[0], "write": pipes[1], "begins": begins},
-    }
+def _start(checkout: Path, asked: dict[str, Any], log) -> subprocess.Popen:
     # under variables of pytest-xdist, pytest-benchmark would switch itself off
     ours = {name: value for name, value in os.environ.items() if not name.startswith("PYTEST_")}
-    more = {"PYTHONPATH": str(side.checkout), "PYTHONHASHSEED": "0", "ORIENTATION_BENCH_TIMED": json.dumps(asked)}
-    given = tuple(end for end in pipes if end is not None)
-    command = [sys.executable, "-P", str(PROGRAM)]
-    return subprocess.Popen(command, cwd=side.checkout, env={**ours, **more}, pass_fds=given, stdout=log, stderr=log)
+    more = {"PYTHONPATH": str(checkout), "PYTHONHASHSEED": "0", "ORIENTATION_BENCH_TIMED": json.dumps(asked)}
+    words, inherited = [sys.executable, "-P", str(PROGRAM)], [asked["line"]] if asked["line"] else []
+    return subprocess.Popen(words, cwd=checkout, env=ours | more, pass_fds=inherited, stdout=log, stderr=log)
 
 
 def _wait_for(processes: list[subprocess.Popen]) -> int | None:
@@ -146,16 +144,16 @@ def judge_files(*files: dict[str, Any]) -> dict[str, Timed]:
 
 
 def confirm(first: Timed, second: Timed) -> Timed:
-    """Return the verdict of two runs: the first's if the second agrees, else "same"; the numbers are the second's.
+    """Return the verdict of two runs: the first's if the second agrees, else "same".
 
-    The first run of many picks what chance made largest. The second has no such choice, so its ratio is honest.
+    The numbers are the second's: the first run of many picks what chance made largest.
     """
     agrees = second.verdict == first.verdict
     return second._replace(verdict=first.verdict if agrees else SAME, confirmed=agrees)
 
 
 def compare_times(
-    base: Asked, head: Asked, report: Callable[[str], None] = lambda _: None, rounds: int = ROUNDS
+    base: Side, head: Side, report: Callable[[str], None] = lambda _: None, rounds: int = ROUNDS
 ) -> tuple[list[dict[str, Any]], dict[str, Timed]]:
     """Time both sides, and once more what differs; return the two files of the first run, and verdicts by name."""
     report("compiling and timing")

@@ -5,11 +5,7 @@ numbers of settled episodes to RELATIVE. Numbers of an episode that failed are n
 singular point, where the last bit of a library's sine decides them.
 
 An arm has more such points. An episode that passed one has been judged on both sides of its start (`rounding_change`):
-then one outcome of base must be one of head, and a number must agree to what it changed by. In contact rounding decides
-for coordinates whose singular set the goal lies on, and for a hand that was THROWN about.
-
-difference   what differs, and in which words
-tables       how each table is compared, with its tolerances
+then one outcome of base must be one of head, and a number must agree to what it changed by.
 """
 
 from collections import Counter
@@ -21,32 +17,19 @@ import pandas as pd
 from bench.errors import BadResults
 from bench.experiments.experiment import known_tables
 from bench.regression.rows.difference import COLUMN, JUDGE, Difference, Rule, align_rows, compare_cells, write_lines
-from bench.regression.rows.tables import RELATIVE, RULES, within
+from bench.regression.rows.tables import RELATIVE, RULES, is_settled, within
 from bench.tables.column import Table
 from bench.tables.files import read_json
 from bench.tables.store import read, read_arrow
 
-ARRIVED = 0.02
-"""A curve whose angle ends below the settling band's share of its first one came to the goal."""
-
 
 def compare(base: Path, head: Path) -> list[str]:
-    """Return what differs between two runs' folders, a line each; empty if nothing differs.
-
-    Errors:
-        BadResults: a folder holds no finished run.
-    """
+    """Return what differs between two runs' folders, a line each; empty if nothing differs."""
     return write_lines(find_differences(base, head))
 
 
 def find_differences(base: Path, head: Path) -> list[Difference]:
-    """Return what differs between two runs' folders, row by row; of a table whose columns differ, only those.
-
-    Of runs that different judges judged, return how many rows differ by column.
-
-    Errors:
-        BadResults: a folder holds no finished run.
-    """
+    """Return what differs between two folders of finished runs, row by row; of two judges, only counts by column."""
     found: list[Difference] = []
     tables = known_tables()
     for name in (*RULES, *(tables.keys() - RULES.keys())):
@@ -66,17 +49,11 @@ def find_differences(base: Path, head: Path) -> list[Difference]:
 
 def compare_tables(table: Table, old: pd.DataFrame, new: pd.DataFrame) -> list[Difference]:
     """Return what differs between base's and head's rows."""
-    if table.name == "traces":
-        old, new = (_keep_arriving(table, frame) for frame in (old, new))
+    if table.name == "traces":  # curves that came to the goal; on the others rounding may decide when they end
+        old, new = (frame[is_settled(frame)] for frame in (old, new))
     old, new, found = align_rows(table, old, new)
     rule = RULES[table.name](old, new) if table.name in RULES else Rule(within(RELATIVE))
     return found + compare_cells(table, old, new, rule)
-
-
-def _keep_arriving(table: Table, frame: pd.DataFrame) -> pd.DataFrame:
-    """Return the curves that end at the goal."""
-    angle = frame.groupby(list(table.key[:-1]), observed=True)["angle_rad"]
-    return frame[angle.transform("last") <= ARRIVED * angle.transform("first")]
 
 
 def _compare_columns(table: Table, base: Path, head: Path) -> list[Difference]:

@@ -11,16 +11,11 @@ from bench.tables.column import Table
 
 MISSING, NEW, TWICE, COLUMN, CHANGED, JUDGE = "missing", "new", "twice", "column", "changed", "judge"
 
-SHOWN = 10
-"""Lines of one kind."""
+SHOWN = 10  # lines of one kind
 
 
 class Difference(NamedTuple):
-    """One thing that differs.
-
-    column: which of the row, or of the table; empty for a whole row. says: all of it in words. row: the words that name
-    the row, by column; empty if the table differs. was, now: in base and head.
-    """
+    """One thing that differs: in which column ("" for a whole row), in words, the row's key, and the two values."""
 
     table: str
     kind: str
@@ -31,25 +26,20 @@ class Difference(NamedTuple):
     now: str = ""
 
 
-Tolerance = Callable[[str], tuple[float | np.ndarray, float | np.ndarray]]
-"""column -> (relative, absolute): how near two numbers of it must be, for all rows or for each."""
-
-
 class Rule(NamedTuple):
-    """How the cells of a table are compared.
+    """How cells are compared: numbers by a tolerance (column -> relative, absolute) in some rows, words exactly.
 
-    tolerance: of numbers; words must be the same. rows: in which rows numbers are compared. exact: columns that are
-    compared first, exactly, in some rows. skipped: columns that are not compared.
+    exact: columns that are compared first, exactly, each in some rows. skipped: columns that are not compared.
     """
 
-    tolerance: Tolerance
+    tolerance: Callable[[str], tuple[float | np.ndarray, float | np.ndarray]]
     rows: np.ndarray | bool = True
     exact: dict[str, np.ndarray] = {}  # noqa: RUF012  a tuple's default, never written to
     skipped: tuple[str, ...] = ()
 
 
 def write_lines(differences: Iterable[Difference]) -> list[str]:
-    """Return what differs in lines: SHOWN of a kind, and then how many more."""
+    """Return what differs in lines: SHOWN of a kind, and then how many more there are."""
     lines = []
     for (table, kind, column), group in groupby(differences, lambda one: (one.table, one.kind, one.column)):
         same = [one.says for one in group]

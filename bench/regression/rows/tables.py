@@ -7,13 +7,13 @@ import pandas as pd
 
 from bench.contenders.registry import known_representations
 from bench.contenders.representations.zyx_euler import to_matrix
-from bench.regression.rows.difference import Rule, Tolerance
+from bench.regression.rows.difference import Rule
 from tasks.contact_rest import REST
 from tasks.verdict import OUTCOMES, SETTLED
 
 RELATIVE = 1e-6
-"""Rounding grows by less than a millionth in a settled episode: two libraries' sines (1e-16 apart) and some 1e4 ticks
-leave 1e-12; step-size effects that a change of code could bring start at 1e-4."""
+"""Two libraries' sines (1e-16 apart) and some 1e4 ticks of a settled episode leave 1e-12; effects of the step size,
+which a change of code could bring, start at 1e-4."""
 ABSOLUTE = 1e-9
 """Below this an angle [rad] or a margin is rounding itself."""
 SINGLE_RELATIVE = 2e-6
@@ -23,32 +23,24 @@ MARGIN = 10.0
 FRICTION_RELATIVE = 1e-3
 """With dry friction an arm's joints stick and creep, by what MuJoCo's solver leaves of each tick at its own tolerance:
 1e-4 of the angle that is left differs between two libraries' sines."""
-BOUNDARY_ANGLE = 1e-5
-"""Bisection ends at 7e-7 rad; near a fractal boundary the last steps may go either way."""
-LIMIT_RELATIVE = 1e-3
-"""Bisection ends at 4e-6; at the limit itself errors neither grow nor fall, and rounding decides some steps of it."""
-POSE_RELATIVE = 1e-5
+BOUNDARY_ANGLE, LIMIT_RELATIVE = 1e-5, 1e-3
+"""Bisection ends at 7e-7 rad and at 4e-6; near the limit rounding decides its last steps."""
+POSE_RELATIVE, STEADY = 1e-5, 1e8
 """Single precision is 6e-8; condition numbers up to STEADY lose half the digits of the doubles they are made of."""
-STEADY = 1e8
-"""Condition number above which the last bit of a joint angle decides its value."""
 PERTURBED_RELATIVE = 1e-4
 """A law that jumps at 180° chooses its side by the last bit when its start there has noise; what settles all the same
 was driven by its goal or its noise for five thousand steps."""
 
-ON_SET = 1e-6
-"""Margin of coordinates: a goal that is nearer to their singular set is meant to be on it."""
-THROWN = 1.0
-"""Torque over its rated one: a hand that asks more of its motors has been thrown about, and rounding decides what it
-hits next."""
+ON_SET, THROWN = 1e-6, 1.0
+"""A goal whose margin is smaller is meant to be on the singular set of its coordinates. Above a torque of THROWN times
+its rated one a hand has been thrown about. In both cases rounding decides the outcome."""
 CONTACT = (1e-4, 1e-7)
 """Relative and absolute. Impacts multiply rounding: 1e-16 in a joint angle becomes 4e-7 in the peak of a jammed peg's
 force, and each tick rounds again. A rotation [rad] by its cosine is known to 2e-8."""
-PEG = (1e-3, 1e-5)
-"""For pegs under the Jacobian transpose or an impedance, which cancel no impact: another processor's libraries moved an
-overshoot by 6e-4 of it, a rotation about held axes by 8e-6 rad."""
-CREEP = (1e-2, 1e-4)
-"""For a peg that sticks and slips for the whole horizon: without fused multiply-add one went 1.6e-4 of its depth less
-far, and turned by 0.5 % less about a held axis."""
+PEG, CREEP = (1e-3, 1e-5), (1e-2, 1e-4)
+"""For pegs by the Jacobian transpose or an impedance, which cancel no impact: another processor's libraries moved an
+overshoot by 6e-4 of it, a rotation about held axes by 8e-6 rad. For what sticks and slips all the time: without
+fused multiply-add one peg went 1.6e-4 of its depth less far, and turned by 0.5 % less about a held axis."""
 ENDS = {
     "remaining_speed_m_per_s": (0.1, REST.speed),
     "remaining_rate_rad_per_s": (0.1, REST.rate),
@@ -60,7 +52,7 @@ CREEPING = "creeping"
 TIMES = ("settling_time_s", "failure_time_s")
 
 
-def within(relative: float | np.ndarray, absolute: float | np.ndarray = ABSOLUTE) -> Tolerance:
+def within(relative: float, absolute: float = ABSOLUTE) -> Callable[[str], tuple[float, float]]:
     """Return one tolerance for all columns."""
     return lambda column: (relative, absolute)
 

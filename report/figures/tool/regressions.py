@@ -83,7 +83,7 @@ def write_builds(rows: pd.DataFrame) -> list[tuple]:
     """Return a line for each build: commit, date, machine, benchmarks, and laws whose flops are not those before."""
     lines, before = [], pd.Series(dtype=float)
     for (commit, machine), own in rows.groupby(["commit", "machine"], sort=False) if len(rows) else []:
-        flops = own.set_index("name")["flops_typical"].dropna()
+        flops = own.set_index("name")["flops"].dropna()
         known = flops.index.intersection(before.index)
         changed = [name for name in known if flops[name] != before[name]]
         before = flops.combine_first(before)
