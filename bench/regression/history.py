@@ -36,8 +36,8 @@ def find_files(folder: Path = FOLDER) -> list[Path]:
 def read_history(folder: Path = FOLDER) -> pd.DataFrame:
     """Return a row for each benchmark of each build, in the order of the commits.
 
-    Columns: commit, date (UTC), machine, what, name, ns_per_tick, kernel_steps (time of a tick over a step of the
-    reference kernel) with its bounds low and high, and flops of the typical branch a tick (NaN for an engine).
+    Columns: commit, date (UTC), machine, what, name, kernel_steps (time of a tick over a step of the reference kernel)
+    with its bounds low and high, and flops of the typical branch a tick (NaN for an engine).
     """
     rows = []
     for path in find_files(folder):
@@ -47,10 +47,9 @@ def read_history(folder: Path = FOLDER) -> pd.DataFrame:
             for one in content["benchmarks"]:
                 more = one["extra_info"]
                 steps = dict(zip(("kernel_steps", "low", "high"), more["kernel_steps"], strict=True))
-                ns = {"ns_per_tick": 1e9 * one["stats"]["median"] / more["ticks"]}
                 build = {"commit": about["id"], "date": pd.to_datetime(about["time"], utc=True), "machine": machine}
-                flops = {"flops": float(more["flops"].get("typical", "nan"))}
-                rows.append({**build, "what": more["what"], "name": one["param"], **ns, **steps, **flops})
+                flops = float(more["flops"].get("typical", "nan"))
+                rows.append({**build, "what": more["what"], "name": one["param"], **steps, "flops": flops})
         except (KeyError, TypeError, ValueError) as error:
             raise BadResults(f"{path}: no build of this history ({error!r}); delete it, or take it from git") from error
     frame = pd.DataFrame(rows)

@@ -126,7 +126,7 @@ def test_history_is_in_the_order_of_commits(history):
     assert list(rows["commit"].str[-1]) == ["1", "2"]
     assert list(rows["name"]) == ["tilted", "tilted"]
     assert rows["kernel_steps"].between(rows["low"], rows["high"]).all()
-    assert rows["ns_per_tick"].iloc[0] > rows["ns_per_tick"].iloc[1]
+    assert rows["kernel_steps"].iloc[0] > rows["kernel_steps"].iloc[1]
 
 
 def test_file_that_is_no_build_is_refused_by_its_name(history):

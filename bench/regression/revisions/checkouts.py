@@ -14,8 +14,7 @@ from bench.provenance import ROOT
 from bench.regression.revisions.commits import check_out, find_commit, find_repository
 from bench.regression.revisions.timing import Side
 
-DIGEST = "from bench.provenance import source_digest; print(source_digest())"
-"""Each checkout knows which files belong to its sources."""
+DIGEST = "from bench.provenance import source_digest; print(source_digest())"  # each knows its own sources
 PART = ("--engine", "ideal-rk4", "--engine", "native", "--task", "free-body", "--count", "40")
 """The part of the quick suite through which all laws are run; `make gate` runs the whole."""
 
@@ -33,10 +32,9 @@ def check_out_both(base: str, head: str | None, laws: tuple[Path, ...]) -> Itera
 
 
 def _loads(law: Path) -> bool:
-    try:
+    with contextlib.suppress(BadLaw):
         return bool(described(law))
-    except BadLaw:
-        return False
+    return False
 
 
 def _make(stack: contextlib.ExitStack, folder: Path, revision: str | None, laws: tuple[Path, ...]) -> Side:

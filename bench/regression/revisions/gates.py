@@ -71,27 +71,24 @@ def _compare_faults(
     old: Side, new: Side, judge: Callable[..., list[Judgement]]
 ) -> tuple[Gate, list[Finding], tuple[Judgement, ...]]:
     """Judge a user's laws on both sides by this program: a fault that base has not is a regression."""
-
-    def judge_side(side: Side) -> list[Judgement]:
-        return judge([described(law) for law in side.laws]) if side.laws else []
-
-    try:
-        now = judge_side(new)
-    except BadLaw as error:
-        return Gate(FAULTS, "failed", str(error)), [Finding(FAULTS, REGRESSION, "", str(error))], ()
-    try:
-        before = {one.name: one.faults for one in judge_side(old)}
-    except BadLaw:
-        before = {}
+    judgements: list[list[Judgement]] = [[], []]
+    for at, side in enumerate((old, new)):
+        try:
+            judgements[at] = judge([described(law) for law in side.laws]) if side.laws else []
+        except BadLaw as error:
+            if side is new:
+                says = str(error)
+                return Gate(FAULTS, "failed", says), [Finding(FAULTS, REGRESSION, "", says)], ()
+    before, now = ({one.name: one.faults + ["lost"] * one.is_lost for one in each} for each in judgements)
     found, kept = [], []
-    for one in now:
-        was, lost = before.get(one.name, []), ["crashed or hung"] if one.is_lost else []
-        new_faults = [fault for fault in one.faults + lost if fault not in was]
-        found += [Finding(FAULTS, REGRESSION, one.name, f"{one.name}: new fault: {each}") for each in new_faults]
-        mended = [fault for fault in was if fault not in one.faults]
-        found += [Finding(FAULTS, IMPROVEMENT, one.name, f"{one.name}: no more: {each}") for each in mended]
-        kept += [fault for fault in one.faults if fault in was]
-    return make_gate(FAULTS, found, f"as in base: {', '.join(kept) or 'no fault'}"), found, tuple(now)
+    for name, faults in now.items():
+        was = before.get(name, [])
+        kept += [fault for fault in faults if fault in was]
+        new_ones, mended = [each for each in faults if each not in was], [each for each in was if each not in faults]
+        found += [Finding(FAULTS, REGRESSION, name, f"{name}: new fault: {each}") for each in new_ones]
+        found += [Finding(FAULTS, IMPROVEMENT, name, f"{name}: no more: {each}") for each in mended]
+    says = f"as in base: {', '.join(kept) or 'no fault'}"
+    return make_gate(FAULTS, found, says), found, tuple(judgements[1])
 
 
 def _compare_times(

@@ -9,8 +9,7 @@ from bench.provenance import cpu_name, describe
 from bench.regression.revisions.comparison import Comparison
 from bench.regression.revisions.timing import Timed
 
-SHOWN = 40
-"""Findings that a summary lists."""
+SHOWN = 40  # findings that a summary lists
 
 
 def write_headline(comparison: Comparison) -> str:

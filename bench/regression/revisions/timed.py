@@ -24,8 +24,7 @@ import numpy as np
 import pytest
 
 ENGINES_OF, ARM, ON_ARM = "rotation-matrix", "ur5e", "rotation-matrix@geometric+solve"
-BLOCKS, SWEEPS = 4, 5
-"""Four times the states, each time with other goals, five times over: 0.7 MB, which fits a second-level cache."""
+BLOCKS, SWEEPS = 4, 5  # four times the states with other goals, five times over: 0.7 MB fit a second-level cache
 GOAL = 12  # column of a state at which its goal begins
 OTHER_ENDED = 77  # the exit code of a process that lost the other one
 WORDS = (

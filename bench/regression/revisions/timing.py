@@ -30,13 +30,11 @@ from bench.timing.ratios import ratio
 
 P, RATIO = 0.002, 1.10
 """Of thirty laws and no change, one comparison in seventeen has a p below P by chance; RATIO must agree."""
-ROUNDS = 60
-"""Of each side. The interval of a median covers the 23rd to 38th of 60; a round takes from 0.3 ms to 10 ms."""
+ROUNDS = 60  # the interval of a median covers the 23rd to 38th; a round takes from 0.3 ms to 10 ms
 
 SAME, SLOWER, FASTER = "same", "slower", "faster"
 PROGRAM = Path(__file__).with_name("timed.py")
-LONGEST_S = 1800.0
-"""On the wall, until a process is ended. Compiling all laws takes a tenth of it."""
+LONGEST_S = 1800.0  # on the wall, until a process is ended; compiling all laws takes a tenth of it
 
 
 class Side(NamedTuple):

@@ -14,12 +14,9 @@ from tasks.verdict import OUTCOMES, SETTLED
 RELATIVE = 1e-6
 """Two libraries' sines (1e-16 apart) and some 1e4 ticks of a settled episode leave 1e-12; effects of the step size,
 which a change of code could bring, start at 1e-4."""
-ABSOLUTE = 1e-9
-"""Below this an angle [rad] or a margin is rounding itself."""
-SINGLE_RELATIVE = 2e-6
-"""RELATIVE, and the rounding to single precision of two numbers that are apart by as much."""
-MARGIN = 10.0
-"""Times the change that 1e-12 rad made of a doubtful episode: two samples of the effect of rounding."""
+ABSOLUTE = 1e-9  # below this an angle [rad] or a margin is rounding itself
+SINGLE_RELATIVE = 2e-6  # RELATIVE, and rounding to single precision
+MARGIN = 10.0  # times the change that 1e-12 rad made of a doubtful episode: two samples of the effect of rounding
 FRICTION_RELATIVE = 1e-3
 """With dry friction an arm's joints stick and creep, by what MuJoCo's solver leaves of each tick at its own tolerance:
 1e-4 of the angle that is left differs between two libraries' sines."""
@@ -27,9 +24,7 @@ BOUNDARY_ANGLE, LIMIT_RELATIVE = 1e-5, 1e-3
 """Bisection ends at 7e-7 rad and at 4e-6; near the limit rounding decides its last steps."""
 POSE_RELATIVE, STEADY = 1e-5, 1e8
 """Single precision is 6e-8; condition numbers up to STEADY lose half the digits of the doubles they are made of."""
-PERTURBED_RELATIVE = 1e-4
-"""A law that jumps at 180° chooses its side by the last bit when its start there has noise; what settles all the same
-was driven by its goal or its noise for five thousand steps."""
+PERTURBED_RELATIVE = 1e-4  # noise or a moving goal has driven what settles for five thousand steps
 
 ON_SET, THROWN = 1e-6, 1.0
 """A goal whose margin is smaller is meant to be on the singular set of its coordinates. Above a torque of THROWN times
@@ -48,7 +43,6 @@ ENDS = {
 }
 """How an episode in contact ends. A speed below the bound of rest is that of a last shiver, above it that of one slip
 among many (by 4 % on the peg above); one shiver more and the window of rest begins again (0.08 s later)."""
-CREEPING = "creeping"
 TIMES = ("settling_time_s", "failure_time_s")
 
 
@@ -110,7 +104,7 @@ def compare_contact(old: pd.DataFrame, new: pd.DataFrame) -> Rule:
     decided = ~_is_on_singular_set(old) & ~(torque > THROWN)
     both = have_same_outcome(old, new) & decided & (old["outcome"].astype(str) == "done").to_numpy()
     is_peg = (old["task"].astype(str) == "peg-in-hole") & ~old["form"].astype(str).isin(("inverse", "projected"))
-    creeps = old["rest"].astype(str) == CREEPING
+    creeps = old["rest"].astype(str) == "creeping"
     relative, absolute = (np.select([creeps, is_peg], [CREEP[at], PEG[at]], CONTACT[at]) for at in (0, 1))
     return Rule(lambda column: ENDS.get(column, (relative, absolute)), both, {"outcome": decided, "rest": both})
 
