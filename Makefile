@@ -53,9 +53,9 @@ libraries: .venv-libraries/.made $(APART:%=.venv-%/.made) ## compare other robot
 	@for name in $(APART); do .venv-$$name/bin/python -m bench.studies.libraries $$name || exit; done
 judge: $(READY) ## your law against an older one: make judge LAW=my_law.py BASE=main (alone: python -m bench judge FILE)
 	@test -n "$$LAW" || { echo "Name your law's file: make judge LAW=my_law.py BASE=main" >&2; exit 2; }
-	@rm -f judge.md
-	@$(PY) -m bench compare $(BASE) --law "$$LAW" --summary judge.md --json judge.json $(ARGS)
-history: $(READY) ## measure this commit and append it to results/history/history.jsonl (minutes)
+	@rm -rf judge.md judge
+	@$(PY) -m bench compare $(BASE) --law "$$LAW" --summary judge.md --benchmarks judge $(ARGS)
+history: $(READY) ## measure this commit, add a file of pytest-benchmark to results/history, and show it (minutes)
 	@$(PY) -m bench history add $(ARGS)
 setup: $(READY) ## install what the benchmark needs, and nothing else
 	@echo "Ready. Run the benchmark: make bench. Look around: $(PY) -m bench --help"
@@ -85,7 +85,7 @@ gate: $(READY) ## rerun the quick suite and compare it with results/reference
 	@rm -rf results/quick  # a finished run would be resumed, not rerun
 	@$(PY) -m bench run --suite quick --out results/quick
 	@$(PY) -m bench compare results/reference results/quick
-regress: $(READY) ## your files against BASE (where you left main): outcomes, operations, time (half an hour)
+regress: $(READY) ## your files against BASE (where you left main): outcomes, operations, time (five CPU minutes)
 	@$(PY) -m bench compare $(BASE) $(ARGS)
 reference: $(READY) ## run the quick suite and make it the new reference (in a commit of its own)
 	@rm -rf results/quick

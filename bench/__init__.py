@@ -22,10 +22,10 @@ running/      run, run_folder (until it is finished), order, precompile, sandbox
               schedulers/ (threads, and a Dask cluster), finish (the tables)
 timing/       time per tick (pytest-benchmark)
 findings/     claims/ (the paper's sentences), selection/ (which law), why (what a law does), theory/ (closed forms)
-regression/   rows/ (two runs), revisions/ (two revisions), history/ (every build)
+regression/   rows/ (two runs), revisions/ (two revisions), history (every build)
 export/       laws as code for another's controller: C, C++, Python, JavaScript, with test vectors
 questions/    what users of robot libraries asked in public, one case a file
-studies/      scale (what many episodes cost), settings (other processors), libraries/ (other robot libraries), gates/
+studies/      scale (what many episodes cost), settings (other processors), libraries/ (other robot libraries), gates
 cli/          the command line, one file a command
 
 Beside them errors (each says its cure) and provenance (where numbers come from, and where caches are kept). The judge

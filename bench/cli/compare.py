@@ -12,7 +12,6 @@ from bench.cli.progress import progress
 from bench.cli.screen import console, examples, frame_table
 from bench.errors import BenchError
 from bench.provenance import rounded_on
-from bench.regression.revisions import comparison
 from bench.regression.revisions import summary as words
 from bench.tables.files import read_json, write_json
 from tasks.base import TaskError
@@ -33,18 +32,20 @@ EPILOG = examples(
 @click.argument("base", required=False)
 @click.argument("head", required=False)
 @options.law
-@click.option("--no-timing", is_flag=True, help="Leave time out; instructions are counted all the same.")
-@click.option("--json", "json_file", type=click.Path(path_type=Path), metavar="FILE", help="All of it for machines.")
+@click.option("--no-timing", is_flag=True, help="Leave time out.")
+@click.option("--benchmarks", type=click.Path(path_type=Path), metavar="FOLDER", help="Keep base.json and head.json.")
 @click.option("--summary", type=click.Path(path_type=Path), metavar="FILE", help="Markdown for a pull request.")
-def COMMAND(base, head, laws, no_timing, json_file, summary):
+def COMMAND(base, head, laws, no_timing, benchmarks, summary):
     """Compare HEAD with BASE, each a results folder or a git revision: what got worse, by how much, how sure.
 
-    HEAD is the files as they lie unless named. BASE is where HEAD left main (on main the commit before; outside git
+    HEAD is the files in the checkout unless named. BASE is where HEAD left main (on main the commit before; outside git
     results/reference, with results/quick for HEAD). A regression is an outcome that got worse, a new dead point, a
     smaller basin, a row or a law that is gone, a later settling time, a quarter more effort or peak command, twice the
-    change of the command at rest, more of any operation, more than 1 % more instructions, or a slower tick. If the
-    judge changed, only that is said, by column. A law of your own is judged against its file at BASE, and `bench judge`
-    says of both why: a fault that BASE has not is a regression. In $GITHUB_STEP_SUMMARY the summary is left by itself.
+    change of the command at rest, more of any operation, or a slower tick. If the judge changed, only that is said, by
+    column. A law of your own is compared with its file at BASE in the whole quick suite, and `bench judge` says of both
+    why: a fault that BASE has not is a regression. All laws of the benchmark are compared in a part of the quick suite;
+    `make gate` compares the whole. The files of --benchmarks are pytest-benchmark's. In $GITHUB_STEP_SUMMARY the
+    summary is added too.
     """
     written = map(Path, filter(None, (summary, os.environ.get("GITHUB_STEP_SUMMARY"))))
     before = {path: path.read_text(encoding="utf-8") if path.exists() else "" for path in written}
@@ -54,42 +55,41 @@ def COMMAND(base, head, laws, no_timing, json_file, summary):
             path.write_text(said + text, encoding="utf-8")
 
     leave("### Not judged: the comparison did not come to its end\n")
-    if json_file:
-        write_json(json_file, {"verdict": "not judged"})
     try:
-        _compare(base, head, laws, no_timing, json_file, leave)
+        _compare(base, head, laws, no_timing, benchmarks, leave)
     except (BenchError, TaskError, click.UsageError) as error:
-        leave(f"### Not judged: {words.plain(str(error))}\n")
+        leave(f"### Not judged: {words.escape(str(error))}\n")
         raise
 
 
-def _compare(base, head, laws, no_timing, json_file, leave) -> None:
+def _compare(base, head, laws, no_timing, benchmarks, leave) -> None:
     import pandas as pd
 
     from bench.regression import rows
     from bench.regression.revisions import gates
 
-    base, head, folders = _meant(base, head, laws)
+    base, head, folders = _resolve_sides(base, head, laws)
     if folders:
-        said = gates.of_folders(Path(base), Path(head))
+        said = gates.compare_folders(Path(base), Path(head))
         differences = rows.compare(Path(base), Path(head))
     else:
-        wanted = gates.Wanted(timing=not no_timing)
+        means = gates.Means(rounds=0) if no_timing else gates.USUAL
         with progress("steps", "checking out") as steps:
-            said = gates.of_revisions(base, head, laws, wanted, steps.now)
-        differences = [f"{one.verdict}: {one.says}" for one in words.ordered(said)]
+            said = gates.compare_revisions(base, head, laws, steps.now, means)
+        differences = [f"{one.verdict}: {one.says}" for one in said.findings]
     for line in differences:
         console().print(line)
     for one in said.judgements:
         console().print()
         print_judgement(one)
-    if said.benchmarks:
-        console().print(frame_table(pd.DataFrame(words.rows(said)), "\nBenchmarks"))
+    if said.times:
+        console().print(frame_table(pd.DataFrame(words.tabulate_times(said.times)), "\nBenchmarks"))
     if not folders:
         console().print(frame_table(pd.DataFrame(said.gates), "\nGates"))
-    if json_file:
-        comparison.write(json_file, said)
-    leave(words.markdown(said))
+    if benchmarks:
+        for name, content in zip(("base", "head"), said.files, strict=False):
+            write_json(benchmarks / f"{name}.json", content)
+    leave(words.write_markdown(said))
     if folders:
         for folder in (base, head):
             made_on = rounded_on(read_json(Path(folder, "provenance.json"))) or "an unknown machine"
@@ -97,13 +97,13 @@ def _compare(base, head, laws, no_timing, json_file, leave) -> None:
         agree = f"{len(differences)} differences between {base} and {head}"
         console().print(agree if differences else f"{head} agrees with {base}")
     else:
-        console().print(f"\n{words.headline(said)}")
+        console().print(f"\n{words.write_headline(said)}")
     if differences if folders else said.regressions:
         raise Exit(1)
 
 
-def _meant(base: str | None, head: str | None, laws) -> tuple[str, str | None, bool]:
-    """Base, head, and whether they are folders.
+def _resolve_sides(base: str | None, head: str | None, laws) -> tuple[str, str | None, bool]:
+    """Return base, head, and whether they are folders.
 
     Errors:
         UsageError: one is a folder and the other is not; or a user's law is to be judged in folders.
@@ -113,7 +113,7 @@ def _meant(base: str | None, head: str | None, laws) -> tuple[str, str | None, b
 
     if base is None:
         try:
-            return commits.default_base(commits.repository(laws), head), None, False
+            return commits.find_default_base(commits.find_repository(laws), head), None, False
         except Incompatible:
             if laws or (commits.ROOT / ".git").exists():
                 raise

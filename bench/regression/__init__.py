@@ -1,1 +1,1 @@
-"""What a change did: rows against rows, a revision against another, and all builds in a row."""
+"""Find what a change did: rows against rows, a revision against another, and the cost of every build."""

@@ -1,28 +1,31 @@
 """What does a law cost as exported C? Instructions a tick by callgrind, beside our own compiled loop's: results/export.
 
-    python -m bench.studies.exported        some minutes; needs gcc and valgrind
+    python -m bench.studies.exported        some minutes a law; needs gcc and valgrind
 
 The loop in C is that of bench/timing/law.py: each tick waits for the command before it. gcc and our compiler arrange
 the same operations each in its way: what goes into vectors is counted once, and what spills is counted too.
 """
 
 import argparse
+import os
+import shutil
 import subprocess
+import sys
 import tempfile
 from pathlib import Path
 
+from bench.contenders.registry import all_contenders
 from bench.errors import MissingTool
 from bench.export.language import find_language
 from bench.export.subject import Subject, find_subject
 from bench.provenance import ROOT, describe
-from bench.regression.revisions import instructions, self_measure
-from bench.regression.revisions.process import Laws, running
 from bench.tables.files import write_json
 from bench.timing import law
 
 STORED = ROOT / "results" / "export" / "instructions.json"
 FLAGS = ("-std=c99", "-O2", "-ffp-contract=off")
-SWEEPS = 2
+SWEEPS, MANY = 2, 2000
+"""Sweeps over the states in C, and in an interpreter, whose own start repeats to a million instructions or so."""
 
 LOOP = """#include "{name}.h"
 #include <stdio.h>
@@ -76,29 +79,52 @@ def in_c(subject: Subject, folder: Path) -> float:
 
 
 def _total(folder: Path, sweeps: int) -> int:
-    words = ["setarch", "-R", "valgrind", "--tool=callgrind", "--callgrind-out-file=counted", "./loop", str(sweeps)]
-    environment = {"PATH": "/usr/bin:/bin"}
-    subprocess.run([*words, "100", "20"], cwd=folder, check=True, capture_output=True, env=environment)
+    return _count(["./loop", str(sweeps), "100", "20"], folder, {"PATH": "/usr/bin:/bin"})
+
+
+def _count(words: list[str], folder: Path, environment: dict[str, str]) -> int:
+    """Count the instructions of a command."""
+    valgrind = ["setarch", "-R", "valgrind", "--tool=callgrind", "--callgrind-out-file=counted"]
+    subprocess.run([*valgrind, *words], cwd=folder, check=True, capture_output=True, env=environment)
     [line] = [one for one in (folder / "counted").read_text(encoding="utf-8").splitlines() if one.startswith("totals:")]
     return int(line.split()[1])
+
+
+OURS = """import sys
+from bench.contenders.registry import find_contender
+from bench.engines.binding import command_of, memory_of
+from bench.timing import law
+
+one = find_contender(sys.argv[1])
+loop = law.loop_of(command_of(one), memory_of(one))
+loop(law.states(), 100.0, 20.0, int(sys.argv[2]))
+"""
+"""Valgrind knows none of the newest processors' instructions, so the compiler is told of an older one."""
+
+
+def in_numba(name: str, folder: Path) -> float:
+    """Count the instructions a tick of our compiled loop, in an interpreter that finds it compiled."""
+    more = {"PYTHONPATH": str(ROOT), "PYTHONHASHSEED": "0", "NUMBA_CPU_NAME": "x86-64-v3", "NUMBA_CPU_FEATURES": ""}
+    words, environment = [sys.executable, "-c", OURS, name], {**os.environ, **more}
+    subprocess.run([*words, "1"], check=True, env=environment)
+    short, long = (_count([*words, str(sweeps)], folder, environment) for sweeps in (MANY, 2 * MANY))
+    return (long - short) / (MANY * law.STATES)
 
 
 def counted(names: tuple[str, ...] = ()) -> dict[str, dict[str, float]]:
     """Law -> instructions a tick of ours and of the exported one; no names: every law that is timed.
 
     Errors:
-        MissingTool: valgrind or gcc is not here.
+        MissingTool: valgrind is not here.
     """
-    if absent := instructions.missing():
-        raise MissingTool(absent)
-    with running([(ROOT, Laws(names=names, engines=False))]) as [side], tempfile.TemporaryDirectory() as folder:
-        chosen = self_measure.timed_laws(side)
-        ours = instructions.count(side, chosen)
-        states = Path(folder)
-        (states / "states").write_bytes(law.states().tobytes())
+    if absent := [tool for tool in ("valgrind", "setarch") if shutil.which(tool) is None]:
+        raise MissingTool(f"{' and '.join(absent)} not found (Debian: apt install valgrind util-linux)")
+    with tempfile.TemporaryDirectory() as folder:
+        place = Path(folder)
+        (place / "states").write_bytes(law.states().tobytes())
         found = {}
-        for name in chosen:
-            found[name] = {"ours": ours[name], "c": in_c(find_subject(name), states)}
+        for name in names or [one.name for one in all_contenders() if not one.regulator.in_engine]:
+            found[name] = {"ours": in_numba(name, place), "c": in_c(find_subject(name), place)}
             print(f"{name}: {found[name]['ours']:.1f}, in C {found[name]['c']:.1f}", flush=True)
     return found
 

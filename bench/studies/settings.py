@@ -19,7 +19,7 @@ import numpy as np
 import pandas as pd
 
 from bench.provenance import ROOT, machine_key, rounded_on
-from bench.regression.rows import TABLES, differences
+from bench.regression.rows import RULES, find_differences
 from bench.tables.files import read_json, write_json
 from bench.tables.store import read
 
@@ -46,8 +46,8 @@ def measure(variables: dict[str, str], folder: Path) -> dict:
     subprocess.run(command, env=os.environ | variables, check=True)
     return {
         "made_on": rounded_on(read_json(folder / "provenance.json")),
-        "gate": len(differences(REFERENCE, folder)),
-        "tables": {table: _bits(read(REFERENCE, table), read(folder, table)) for table in TABLES},
+        "gate": len(find_differences(REFERENCE, folder)),
+        "tables": {table: _bits(read(REFERENCE, table), read(folder, table)) for table in RULES},
     }
 
 

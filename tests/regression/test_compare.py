@@ -123,9 +123,7 @@ def test_gate_catches_a_curve_that_bends_and_one_that_is_gone(candidate, tmp_pat
     [line] = compare(before, candidate)
     assert line.startswith("omega_x: ")
     change(candidate, "traces", lambda frame: frame[frame["start_id"] != "uniform-00001"])
-    assert "traces: curve is missing: free-body rotation-matrix ideal-rk4 uniform uniform-00001" in compare(
-        before, candidate
-    )
+    assert all("row is missing" in line and "uniform-00001" in line for line in compare(before, candidate)[:-1])
 
 
 def test_gate_ignores_what_a_failed_episode_measured(reference, candidate):

@@ -1,4 +1,4 @@
-"""From revisions to a comparison: what is left out and why, and what a summary makes of it. Nothing is run or timed."""
+"""From revisions to a comparison: what is left out and why, and the summary. Nothing is run or timed."""
 
 import contextlib
 import subprocess
@@ -7,13 +7,30 @@ import pytest
 from support.user_law import DAMPER, law_text
 
 from bench.cli import main
-from bench.errors import BadLaw, BadResults
+from bench.errors import BadLaw, BadResults, Incompatible, UnknownWord
 from bench.findings.judgement import Judgement, Said
-from bench.regression.revisions import comparison, gates, summary
-from bench.regression.revisions.process import SideFailed
+from bench.regression.revisions import gates, summary
+from bench.regression.revisions.commits import (
+    check_out,
+    find_commit,
+    find_default_base,
+    find_repository,
+    git,
+    is_folder,
+)
+from bench.regression.revisions.comparison import Finding
+from bench.regression.revisions.timing import SideFailed, Timed
 
 LAW = law_text(DAMPER, name="braking")
-AS_NOBODY = ("-c", "user.name=nobody", "-c", "user.email=nobody@example.org", "-c", "commit.gpgsign=false")
+SAME = Timed("braking", 1.0, 0.9, 1.1, 0.5, 6, "same")
+
+
+def commit(folder, file, text):
+    """Commit a file; return the commit's name."""
+    (folder / file).write_text(text)
+    git(folder, "add", ".")
+    git(folder, "-c", "user.name=nobody", "-c", "user.email=nobody@example.org", "commit", "-qm", "more")
+    return git(folder, "rev-parse", "HEAD")
 
 
 @pytest.fixture
@@ -21,122 +38,111 @@ def user(tmp_path):
     """A user's repository: a first commit without a law, a second with one. The law's file."""
     folder = tmp_path / "user"
     subprocess.run(["git", "init", "-q", "-b", "main", folder], check=True)
-    for text in ("", LAW):
-        (folder / ("law.py" if text else "README")).write_text(text)
-        subprocess.run(["git", "-C", folder, "add", "."], check=True)
-        subprocess.run(["git", *AS_NOBODY, "-C", folder, "commit", "-qm", "more"], check=True)
+    commit(folder, "README", "")
+    commit(folder, "law.py", LAW)
     return folder / "law.py"
 
 
 @pytest.fixture
-def failing(finished):
-    """failing(place): every side's run is one and the same; the process of the side named cannot be compiled."""
+def means(finished):
+    """means(...): both sides' runs are one and the same; times and faults are as given."""
 
-    def at(place):
-        @contextlib.contextmanager
-        def running(asked):
-            raise SideFailed(place, "no bench.timing yet")
-            yield
+    def make(time=SAME, faults=(), base_faults=()):
+        def compare_times(base, head, report, rounds):
+            if isinstance(time, Exception):
+                raise time
+            return [{}, {}], {time.name: time}
 
-        return gates.Means(lambda side, report: contextlib.nullcontext(finished), running, judged=lambda laws: [])
+        def judge(laws):
+            if isinstance(faults, Exception):
+                raise faults
+            is_head = laws[0].origin.endswith("user/law.py")
+            said = tuple(Said("It shakes.", "30-method", fault) for fault in (faults if is_head else base_faults))
+            return [Judgement("braking", said, (), False)]
 
-    return at
+        return gates.Means(lambda side, report: contextlib.nullcontext(finished), compare_times, judge)
 
-
-def test_base_that_is_too_old_leaves_the_last_gates_out_and_says_why(user, failing):
-    said = gates.of_revisions("HEAD", None, (user,), by=failing(0))
-    assert [(one.gate, one.state) for one in said.gates] == [
-        ("exact", "passed"),
-        ("operations", "passed"),
-        ("faults", "passed"),
-        ("instructions", "skipped"),
-        ("time", "skipped"),
-    ]
-    assert said.gates[-1].says == "base is too old for it: no bench.timing yet"
-    assert said.findings == ()
-    assert said.base.commit == said.head.commit
+    return make
 
 
-def test_law_that_cannot_be_compiled_is_a_regression(user, failing):
-    said = gates.of_revisions("HEAD", None, (user,), by=failing(1))
-    assert [(one.gate, one.state) for one in said.gates][3:] == [("instructions", "failed"), ("time", "skipped")]
-    assert [one.says for one in said.regressions] == ["the law cannot be timed: no bench.timing yet"]
+def states(said):
+    return {one.gate: one.state for one in said.gates}
 
 
-def test_law_that_base_lacks_is_new_and_one_that_head_lacks_a_mistake(user, failing):
-    by = failing(0)._replace(
-        running=lambda asked: contextlib.nullcontext(list(asked)),
-        measured=lambda processes, *rest: ([], [], [len(processes)]),
-    )
-    said = gates.of_revisions("HEAD~1", None, (user,), by=by)
-    assert said.gates[0].says == "the law is new: there is nothing to compare it with"
-    assert said.benchmarks == (1,)
-    with pytest.raises(BadResults, match="none of the --law files is there"):
-        gates.of_revisions("HEAD", "HEAD~1", (user,), by=by)
+def test_gates_of_a_law_that_is_as_before_all_pass(user, means):
+    said = gates.compare_revisions("HEAD", None, (user,), means=means())
+    assert states(said) == dict.fromkeys(("exact", "operations", "faults", "time"), "passed")
+    assert (said.findings, said.head) == ((), "working tree")
+    assert "| braking | 1.000 \\[0.900, 1.100\\] | 0.5 | same |" in summary.write_markdown(said)
 
 
-def test_law_that_base_cannot_load_is_judged_as_new(user, failing):
-    user.write_text("REGULATOR = None\n")
-    subprocess.run(["git", *AS_NOBODY, "-C", user.parent, "commit", "-qam", "broken"], check=True)
-    user.write_text(LAW)
-    by = failing(0)._replace(
-        running=lambda asked: contextlib.nullcontext(list(asked)),
-        measured=lambda processes, *rest: ([], [], [len(processes)]),
-    )
-    said = gates.of_revisions("HEAD", None, (user,), by=by)
-    assert said.gates[0].says.startswith("base's does not load (--law law.py: it has no REGULATOR;")
-    assert said.benchmarks == (1,)
+def test_law_that_is_slower_twice_is_a_regression(user, means):
+    slower = Timed("braking", 1.3, 1.2, 1.4, 1e-9, 60, "slower", True)
+    said = gates.compare_revisions("HEAD", None, (user,), means=means(slower))
+    assert [one.says[:51] for one in said.regressions] == ["braking is slower: a tick takes 1.30 times as long "]
+    assert states(said)["time"] == "failed"
 
 
 @pytest.mark.parametrize(
-    ("faults", "verdicts", "state"),
+    ("at", "state", "says"),
+    [(0, "skipped", "base is too old for it: no timing"), (1, "failed", "the law cannot be timed: no timing")],
+)
+def test_side_that_cannot_be_timed_is_skipped_as_base_and_a_regression_as_head(user, means, at, state, says):
+    said = gates.compare_revisions("HEAD", None, (user,), means=means(SideFailed(at, "no timing")))
+    assert (said.gates[-1].state, said.gates[-1].says) == (state, says)
+    assert len(said.regressions) == at
+
+
+def test_law_that_base_lacks_is_judged_alone_and_one_that_head_lacks_is_a_mistake(user, means):
+    said = gates.compare_revisions("HEAD~1", None, (user,), means=means(faults=("chatter",)))
+    assert states(said) == {"exact": "skipped", "operations": "skipped", "faults": "failed", "time": "skipped"}
+    with pytest.raises(BadResults, match="none of the --law files is there"):
+        gates.compare_revisions("HEAD", "HEAD~1", (user,), means=means())
+
+
+def test_law_that_base_cannot_load_is_judged_alone(user, means):
+    commit(user.parent, "law.py", "REGULATOR = None\n")
+    user.write_text(LAW)
+    said = gates.compare_revisions("HEAD", None, (user,), means=means())
+    assert "base has no such law, or it does not load" in said.gates[0].says
+
+
+@pytest.mark.parametrize(
+    ("base", "head", "verdicts", "state"),
     [
-        ({"HEAD": (), "head": ("chatter",)}, ["regression"], "failed"),
-        ({"HEAD": ("chatter",), "head": ("chatter",)}, [], "passed"),
-        ({"HEAD": ("chatter",), "head": ()}, ["improvement"], "passed"),
+        ((), ("chatter",), ["regression"], "failed"),
+        (("chatter",), ("chatter",), [], "passed"),
+        (("chatter",), (), ["improvement"], "passed"),
     ],
 )
-def test_fault_that_base_has_not_is_a_regression(user, failing, faults, verdicts, state):
+def test_fault_that_base_has_not_is_a_regression(user, means, base, head, verdicts, state):
     user.write_text(LAW + "# another\n")
-
-    def judged(laws):
-        said = faults["head" if str(laws[0].origin) == str(user) else "HEAD"]
-        return [Judgement("braking", tuple(Said("It shakes.", "30-method", fault) for fault in said), (), False)]
-
-    comparison = gates.of_revisions("HEAD", None, (user,), by=failing(0)._replace(judged=judged))
-    assert [one.verdict for one in comparison.findings if one.gate == "faults"] == verdicts
-    assert [one.state for one in comparison.gates if one.gate == "faults"] == [state]
-    assert ("- It shakes. (30-method)" in summary.markdown(comparison)) == bool(faults["head"])
+    said = gates.compare_revisions("HEAD", None, (user,), means=means(faults=head, base_faults=base))
+    assert [one.verdict for one in said.findings] == verdicts
+    assert states(said)["faults"] == state
+    assert ("- It shakes. (30-method)" in summary.write_markdown(said)) == bool(head)
 
 
-def test_law_that_cannot_be_judged_is_a_regression(user, failing):
-    def judged(laws):
-        raise BadLaw("it cannot be compiled")
-
-    said = gates.of_revisions("HEAD", None, (user,), by=failing(0)._replace(judged=judged))
+def test_law_that_cannot_be_judged_is_a_regression(user, means):
+    said = gates.compare_revisions("HEAD", None, (user,), means=means(faults=BadLaw("it cannot be compiled")))
     assert [(one.gate, one.says) for one in said.regressions] == [("faults", "it cannot be compiled")]
 
 
-def test_runs_of_two_schemas_are_a_regression_and_no_mistake(user, failing, finished):
+def test_runs_of_two_schemas_are_a_regression_and_no_mistake(user, means, finished):
     (finished / "robustness.parquet").unlink()
-    said = gates.of_revisions("HEAD", None, (user,), by=failing(0))
-    [found] = said.regressions
-    assert found.what == "schema"
+    [found] = gates.compare_revisions("HEAD", None, (user,), means=means()).regressions
+    assert found.says.startswith("the schema differs: ")
     assert "robustness.parquet" in found.says
 
 
-def test_command_writes_json_and_adds_to_the_summaries(finished, tmp_path, monkeypatch, capsys):
-    job = tmp_path / "job.md"
+def test_command_adds_to_the_summaries(finished, tmp_path, monkeypatch, capsys):
+    job, own = tmp_path / "job.md", tmp_path / "own.md"
     job.write_text("before\n")
     monkeypatch.setenv("GITHUB_STEP_SUMMARY", str(job))
-    files = {name: tmp_path / name for name in ("said.json", "own.md")}
-    words = ["compare", finished, finished, "--json", files["said.json"], "--summary", files["own.md"]]
-    assert main([str(word) for word in words]) == 0
+    assert main(["compare", str(finished), str(finished), "--summary", str(own)]) == 0
     assert "agrees with" in capsys.readouterr().out
-    assert job.read_text() == "before\n" + files["own.md"].read_text()
-    said = comparison.read(files["said.json"])
-    assert files["own.md"].read_text().startswith("### no regression: ")
-    assert [one.state for one in said.gates] == ["passed", "passed"]
+    assert job.read_text() == "before\n" + own.read_text()
+    assert own.read_text().startswith("### no regression: ")
 
 
 def test_summary_says_why_nothing_was_judged(tmp_path, capsys):
@@ -147,8 +153,51 @@ def test_summary_says_why_nothing_was_judged(tmp_path, capsys):
 
 
 def test_markdown_leaves_no_markup_of_what_it_quotes(finished):
-    said = gates.of_folders(finished, finished)
-    found = comparison.Finding("exact", "regression", "a", "b", "1", "2", "a|b <img src=x> `c` *d*")
-    text = summary.markdown(said._replace(findings=(found,)))
+    said = gates.compare_folders(finished, finished)
+    found = Finding("exact", "regression", "a", "a|b <img src=x> `c` *d*")
+    text = summary.write_markdown(said._replace(findings=(found,)))
     assert "- **regression**: a\\|b &lt;img src=x&gt; \\`c\\` \\*d\\*" in text
     assert text.startswith("### 1 regression: ")
+
+
+def test_base_is_where_a_branch_left_main_and_on_main_what_was_before(user):
+    folder = user.parent
+    first, second = git(folder, "rev-parse", "HEAD~1"), git(folder, "rev-parse", "HEAD")
+    assert find_default_base(folder, None) == find_default_base(folder, "main") == first
+    user.write_text("changed")
+    assert find_default_base(folder, None) == second
+    git(folder, "checkout", "-qf", "-b", "work", first)
+    commit(folder, "mine", "")
+    assert find_default_base(folder, None) == first
+    git(folder, "branch", "-m", "main", "trunk")
+    with pytest.raises(Incompatible, match="name the base"):
+        find_default_base(folder, None)
+
+
+def test_words_that_name_nothing_are_refused(user, tmp_path):
+    with pytest.raises(UnknownWord, match=r"revision 'mian' is unknown \(did you mean 'main'\?\)"):
+        find_commit(user.parent, "mian")
+    assert is_folder(str(tmp_path))
+    assert not is_folder("main~2")
+    with pytest.raises(BadResults, match="no such folder"):
+        is_folder(str(tmp_path / "nowhere"))
+
+
+@pytest.mark.parametrize("error", [None, KeyboardInterrupt, ValueError])
+def test_checkout_holds_the_commit_as_old_as_it_is_and_is_gone_afterwards(user, error):
+    folder, first = user.parent, git(user.parent, "rev-parse", "HEAD")
+    user.write_text("changed")
+    with pytest.raises(error) if error else contextlib.nullcontext(), check_out(folder, first) as path:
+        assert (path / "law.py").read_text() == LAW
+        assert (path / "law.py").stat().st_mtime == int(git(folder, "show", "--no-patch", "--format=%ct", first))
+        (path / "new").write_text("")
+        if error:
+            raise error
+    assert not path.exists()
+    assert git(folder, "worktree", "list").count("\n") == 0
+
+
+def test_repository_is_that_of_the_users_law(user, tmp_path):
+    assert find_repository((user,)) == user.parent
+    with pytest.raises(Incompatible, match="not a git repository"):
+        find_repository((tmp_path / "law.py",))

@@ -26,7 +26,7 @@ ALLOWED = {
     "bench/findings/selection/timed.py": "the controller that every share is of",
     "bench/findings/theory/thresholds.py": "where the memory of each law ends",
     "bench/studies/": "what a study was designed for",
-    "bench/regression/revisions/side.py": "what is timed on every revision",
+    "bench/regression/revisions/timed.py": "what is timed on every revision",
     "bench/timing/": "what the loop in numpy computes",
     "bench/cli/": "examples of --help",
     "tasks/goal_stream.py": "what goals arrive as",

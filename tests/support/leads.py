@@ -23,10 +23,10 @@ from support.leads_of_arms import (
     recompute_checks,
     recompute_compliance,
     recompute_contact,
-    recompute_history,
     recompute_impedance,
     recompute_libraries,
     recompute_pegs,
+    recompute_regressions,
 )
 from support.tables import table
 
@@ -253,7 +253,7 @@ COMPUTED = {
     "28-a-new-law": recompute_new_law,
     "29-take-it-home": recompute_checks,
     "30-method": recompute_engines,
-    "31-performance": recompute_history,
+    "31-regressions": recompute_regressions,
     "40-claims": recompute_verdicts,
 }
 """Page -> key -> its text, or numbers and words of it."""

@@ -1,13 +1,12 @@
 """Numbers of the leads on arms, contact, libraries, the history and the code, computed again; see `support.leads`."""
 
-import itertools
 import json
 import re
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
-from scipy.stats import binomtest, fisher_exact, mannwhitneyu
+from scipy.stats import binomtest, fisher_exact
 
 import tasks
 from bench.audit.faults.digits_near_0 import COUNT_RAD
@@ -151,30 +150,20 @@ def recompute_libraries():
     }
 
 
-def recompute_history():
-    lines = pd.DataFrame(map(json.loads, (RESULTS / "history/history.jsonl").read_text(encoding="utf-8").splitlines()))
-    lines = lines.join(pd.DataFrame(lines.pop("benchmark").tolist())).sort_values(["place", "date"])
-    counted, timed, longest = 0, 0, 0
-    for _, own in lines.drop_duplicates(["what", "name", "commit"]).groupby(["what", "name"]):
-        tallies = [one for one in own["operations"] if "typical" in one]
-        counted += sum(one != other for one, other in itertools.pairwise(tallies))
-        code, change = own["code"], own["instructions"].pct_change().abs() > 1e-3
-        counted += (change & ~((code == code.shift()) & (code != ""))).sum()
-    for _, own in lines.groupby(["what", "name", "machine"]):
-        times, longest = np.array([median for median, *_ in own["kernel_steps"]]), max(longest, len(own))
-        splits = [(times[max(0, at - 10) : at], times[at : at + 10]) for at in range(5, len(times) - 4)]
-        ratios = [np.median(before) / np.median(after) for before, after in splits]
-        chance = [mannwhitneyu(*pair, method="exact").pvalue for pair in splits]
-        timed += any(p < 1e-3 and max(ratio, 1 / ratio) > 1.1 for p, ratio in zip(chance, ratios, strict=True))
-    machines, sides = lines["machine"].nunique(), itertools.product(range(5, 11), repeat=2)
+def recompute_regressions():
+    same, planted = (
+        json.loads((RESULTS / f"regress/{name}.json").read_text(encoding="utf-8"))["rows"]
+        for name in ("same_code", "faults")
+    )
+    builds = [json.loads(path.read_text(encoding="utf-8")) for path in (RESULTS / "history").glob("*/*.json")]
+    faults = [one for one in planted if one["law"]]
     return {
-        "benchmarks": len(lines.groupby(["what", "name"])),
-        "builds": lines["commit"].nunique(),
-        "machines": f"{machines} machine{'' if machines == 1 else 's'}",
-        "counted": counted,
-        "timed": timed,
-        "longest": longest,
-        "wanted": min(n + m for n, m in sides if mannwhitneyu(range(n), range(n, n + m), method="exact").pvalue < 1e-3),
+        "comparisons": len(same),
+        "alarms": sum(len(one["alarms"]) for one in same),
+        "planted": len(faults),
+        "caught": sum(one["caught"] and one["named"] for one in faults),
+        "builds": len({one["commit_info"]["id"] for one in builds}),
+        "benchmarks": len({one["param"] for build in builds for one in build["benchmarks"]}),
     }
 
 

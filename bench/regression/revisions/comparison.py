@@ -1,48 +1,16 @@
-"""What one comparison says, and its JSON.
+"""What one comparison found: gates, findings, times, and what `bench judge` says of a user's laws."""
 
-The JSON is one object; `schema` names its version, which changes whenever a field is renamed or gets another meaning:
-
-    schema      "orientation-bench comparison 2"
-    verdict     "regression" or "clean"
-    base, head  {name, commit, sources}: what was compared
-    machine     {key, cpu, cores, platform, lock, versions, target}: where, and by which packages
-    gates       [{gate, state, says}]: state is "passed", "failed" or "skipped"
-    findings    [{gate, verdict, name, what, was, now, says, rows}]: verdict is "regression", "change" or "improvement"
-    benchmarks  [{name, what, base, head, time, same_code}]: base and head as in measurement.py, or null
-
-    judgements  [{name, said: [{text, page, fault}], beside, is_lost}]: of a user's laws, as `bench judge` says it
-
-and of a benchmark that was timed `time` holds {ratio, low, high, p, rounds, verdict, confirmed}.
-"""
-
-from pathlib import Path
+from collections.abc import Iterable
 from typing import Any, NamedTuple
 
-from bench.errors import BadResults
-from bench.findings.judgement import Judgement, Said
-from bench.regression.revisions import measurement
-from bench.regression.revisions.measurement import Measurement
-from bench.tables.files import read_json, write_json
-
-SCHEMA = "orientation-bench comparison 2"
-
-EXACT, OPERATIONS, INSTRUCTIONS, TIME, FAULTS = "exact", "operations", "instructions", "time", "faults"
+from bench.findings.judgement import Judgement
+from bench.regression.revisions.timing import Timed
 
 REGRESSION, CHANGE, IMPROVEMENT = "regression", "change", "improvement"
-PASSED, FAILED, SKIPPED = "passed", "failed", "skipped"
-SAME, SLOWER, FASTER = "same", "slower", "faster"
-
-
-class Side(NamedTuple):
-    """What was compared: a word for it, its commit ("" for none), and the digest of its sources."""
-
-    name: str
-    commit: str = ""
-    sources: str = ""
 
 
 class Gate(NamedTuple):
-    """One gate, and in a line what came of it or why it was left out."""
+    """A gate; whether it passed, failed or was skipped; and in a line what came of it or why."""
 
     gate: str
     state: str
@@ -50,129 +18,34 @@ class Gate(NamedTuple):
 
 
 class Finding(NamedTuple):
-    """One thing that differs: of which law, what, from what to what; `says` is all of it in words.
-
-    rows: how many rows say the same; the words name the first of them.
-    """
+    """One thing that differs: found by which gate, of which law, and in words; several rows may say the same."""
 
     gate: str
     verdict: str
     name: str
-    what: str
-    was: str
-    now: str
     says: str
-    rows: int = 1
-
-
-class Timed(NamedTuple):
-    """Head over base: the median ratio of neighbouring rounds with its 95 % interval, and how sure it is.
-
-    p: one-sided, of rounds as far apart or farther if both sides were equally fast. confirmed: what a second run of its
-    own said of a first verdict other than "same"; None if there was none.
-    """
-
-    ratio: float
-    low: float
-    high: float
-    p: float
-    rounds: int
-    verdict: str
-    confirmed: bool | None = None
-
-
-class Benchmark(NamedTuple):
-    """A law or an engine on both sides; base or head is None where it is not there.
-
-    same_code: both sides compile to the same machine code.
-    """
-
-    name: str
-    what: str
-    base: Measurement | None
-    head: Measurement | None
-    time: Timed | None = None
-    same_code: bool = False
 
 
 class Comparison(NamedTuple):
-    """All that was compared, and what was found."""
+    """All that was compared, and what was found; files: of pytest-benchmark, of base and head, if both were timed."""
 
-    base: Side
-    head: Side
-    machine: dict[str, Any]
+    base: str
+    head: str
     gates: tuple[Gate, ...]
     findings: tuple[Finding, ...]
-    benchmarks: tuple[Benchmark, ...]
+    times: tuple[Timed, ...] = ()
     judgements: tuple[Judgement, ...] = ()
+    files: tuple[dict[str, Any], ...] = ()
 
     @property
     def regressions(self) -> list[Finding]:
-        """What must not be merged unseen."""
+        """Return what must not be merged unseen."""
         return [one for one in self.findings if one.verdict == REGRESSION]
 
-    def as_json(self) -> dict[str, Any]:
-        """The object that this module describes."""
-        return {"schema": SCHEMA, "verdict": REGRESSION if self.regressions else "clean", **_plain(self)}
 
-
-def _plain(value: Any) -> Any:
-    """Records as objects, and tuples of them as lists."""
-    if isinstance(value, Measurement):
-        return value.as_json()
-    if isinstance(value, tuple) and hasattr(value, "_asdict"):
-        return {name: _plain(one) for name, one in value._asdict().items()}
-    return [_plain(one) for one in value] if isinstance(value, tuple) else value
-
-
-def from_json(given: dict[str, Any]) -> Comparison:
-    """The comparison that `as_json` wrote.
-
-    Errors:
-        BadResults: another schema.
-    """
-    if given.get("schema") != SCHEMA:
-        raise BadResults(
-            f"a comparison of schema '{given.get('schema')}'; this program reads '{SCHEMA}' (compare again: python -m "
-            "bench compare)"
-        )
-
-    def measured(content: dict[str, Any] | None) -> Measurement | None:
-        return measurement.from_json(content) if content else None
-
-    return Comparison(
-        Side(**given["base"]),
-        Side(**given["head"]),
-        given["machine"],
-        tuple(Gate(**one) for one in given["gates"]),
-        tuple(Finding(**one) for one in given["findings"]),
-        tuple(
-            Benchmark(
-                one["name"],
-                one["what"],
-                measured(one["base"]),
-                measured(one["head"]),
-                Timed(**one["time"]) if one["time"] else None,
-                one["same_code"],
-            )
-            for one in given["benchmarks"]
-        ),
-        tuple(
-            Judgement(one["name"], tuple(Said(**each) for each in one["said"]), tuple(one["beside"]), one["is_lost"])
-            for one in given["judgements"]
-        ),
-    )
-
-
-def write(path: Path, comparison: Comparison) -> None:
-    """The JSON file, whole or not at all."""
-    write_json(path, comparison.as_json())
-
-
-def read(path: Path) -> Comparison:
-    """A comparison from its JSON file.
-
-    Errors:
-        BadResults: missing, no JSON, or another schema.
-    """
-    return from_json(read_json(path))
+def make_gate(name: str, findings: Iterable[Finding], what: str = "") -> Gate:
+    """Return the gate of these findings: failed if one of them is a regression."""
+    found = [one for one in findings if one.gate == name]
+    bad = sum(one.verdict == REGRESSION for one in found)
+    says = f"{bad} regressions, {len(found) - bad} other changes" if found else "nothing differs"
+    return Gate(name, "failed" if bad else "passed", f"{what}: {says}" if what else says)

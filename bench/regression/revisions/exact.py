@@ -1,75 +1,54 @@
-"""Two runs, row by row, in words: what differs, of which law, and whether that is a regression.
+"""Say in words what differs between two runs: of which law, what, and whether it is a regression.
 
-A regression is an outcome that got worse (settled or done, and no longer so; or stuck, which is a new dead point), a
-basin that shrank, a row, contender or column that is gone, more of any operation, a settling time beyond the
-tolerance of bench/regression/rows, or effort, peak or change at rest of the command beyond LARGER_IS_WORSE. Everything
-else that differs is a change, or an improvement if it is one of these undone. Where the judge changed that is all that
-is said.
+A regression is an outcome that got worse (settled or done, and no longer so; or stuck, a new dead point), a row or
+column that is gone, more of any operation, a settling time beyond the tolerance of bench/regression/rows, or effort,
+peak or change at rest of the command beyond LARGER_IS_WORSE. Everything else that differs is a change, or an
+improvement if it is one of these undone. Where the judge changed, only that is said.
 """
 
 from collections.abc import Iterable
 from pathlib import Path
 
-import pandas as pd
-
 from bench.counting import OPERATIONS as OPERATION_NAMES
 from bench.counting import TOTAL
-from bench.regression.revisions.comparison import CHANGE, EXACT, IMPROVEMENT, OPERATIONS, REGRESSION, Finding
+from bench.regression.revisions.comparison import CHANGE, IMPROVEMENT, REGRESSION, Finding
+from bench.regression.rows import find_differences
 from bench.regression.rows.difference import CHANGED, COLUMN, JUDGE, MISSING, NEW, Difference
 from bench.tables.files import read_json
-from bench.tables.read import with_contender
-from bench.tables.store import read
 
-GOOD = ("settled", "done")
-STUCK = "stuck"
-SMALLER_IS_WORSE = ("fails_from_rad", "settled_to_rad")
-"""Of boundaries: nothing fails up to there."""
+EXACT, OPERATIONS = "exact", "operations"
+OF_LAW = ("regulator", "representation")
+GOOD, STUCK = ("settled", "done"), "stuck"
+SMALLER_IS_WORSE = ("fails_from_rad", "settled_to_rad")  # of boundaries: nothing fails up to there
 LARGER_IS_WORSE = {"effort": (1.25, 0.0), "peak_u": (1.25, 0.0), "rest_change": (2.0, 1.0)}
-"""Of episodes: how many times as much is a regression, and what is too little to count: in rad/s^2 a change at rest of
-a hundredth of Kp times a radian."""
+"""Columns of episodes: how many times as much is a regression, and what is too little to count: in rad/s^2 a change at
+rest of a hundredth of Kp times a radian."""
 
 
-def findings(differences: Iterable[Difference]) -> list[Finding]:
-    """What differs, one finding for each law, kind of change and verdict; regressions first."""
+def compare_runs(base: Path, head: Path) -> list[Finding]:
+    """Return all findings between two runs' folders; first what head's run says of a law that crashed or hung."""
+    lost = read_json(head / "provenance.json").get("lost", [])
+    return [*(Finding(EXACT, REGRESSION, "", note) for note in lost), *sort_findings(find_differences(base, head))]
+
+
+def sort_findings(differences: Iterable[Difference]) -> list[Finding]:
+    """Return one finding for each law, kind of change and verdict; regressions first."""
     groups: dict[tuple, list[Difference]] = {}
     differences = list(differences)
-    totals = {_law(one.row) for one in differences if _is_total(one)}
+    totals = {_name_law(one.row) for one in differences if _is_total(one)}
     for one in differences:
-        if one.table == "costs" and one.kind == CHANGED and not _is_total(one) and _law(one.row) in totals:
+        if one.table == "costs" and one.kind == CHANGED and not _is_total(one) and _name_law(one.row) in totals:
             continue  # a stage of what the total says
-        if one.column != "flops":  # the sum of what is said already
-            groups.setdefault((one.table, _law(one.row), _what(one), _verdict(one)), []).append(one)
-    found = [_finding(name, what, verdict, group) for (_, name, what, verdict), group in groups.items()]
-    order = (REGRESSION, CHANGE, IMPROVEMENT)
-    return sorted(found, key=lambda one: order.index(one.verdict))
+        if one.column == "flops":
+            continue  # the sum of what is said already
+        what = (one.was, one.now) if one.column == "outcome" else one.row.get("branch")
+        groups.setdefault((_judge(one), one.table, _name_law(one.row), one.kind, one.column, what), []).append(one)
+    found = [_make_finding(name, verdict, group) for (verdict, _, name, *_), group in groups.items()]
+    return sorted(found, key=lambda one: (REGRESSION, CHANGE, IMPROVEMENT).index(one.verdict))
 
 
-def basins(base: Path, head: Path) -> list[Finding]:
-    """Laws that settle from a smaller share of all orientations, by engine: of uniform starts that both runs have."""
-    was, now = (_settled(Path(folder)) for folder in (base, head))
-    found = []
-    for (law, engine), old in was.groupby(level=[0, 1]):
-        both = old.index.intersection(now.index)
-        before, after = old.loc[both].mean(), now.loc[both].mean()
-        if after < before:
-            says = (
-                f"{law} settles from {after:.1%} of all orientations, before from {before:.1%} "
-                f"({len(both)} uniform starts, {engine}): lost basin"
-            )
-            found.append(Finding(EXACT, REGRESSION, law, "basin", f"{before:.4f}", f"{after:.4f}", says, len(both)))
-    return found
-
-
-def _settled(folder: Path) -> pd.Series:
-    """Whether each episode of the free body from a uniform start settled; by law, engine and start."""
-    rows = with_contender(read(folder, "episodes"))
-    rows = rows[(rows["start_set"] == "uniform") & (rows["arm"] == "")]
-    index = pd.MultiIndex.from_frame(rows[["contender", "engine", "start_id"]].astype(str))
-    return pd.Series((rows["outcome"] == "settled").to_numpy(), index=index)
-
-
-def _law(row: dict[str, str]) -> str:
-    """The law, or the controller in contact; empty for a table."""
+def _name_law(row: dict[str, str]) -> str:
+    """Return the law, or the controller in contact; empty for a table."""
     name = row.get("regulator") or row.get("controller") or ""
     return f"{name}/{row['representation']}" if row.get("representation") else name
 
@@ -78,83 +57,35 @@ def _is_total(one: Difference) -> bool:
     return one.table == "costs" and one.kind == CHANGED and one.row["stage"] == TOTAL
 
 
-def _what(one: Difference) -> str:
-    """What of a law, as a finding names it."""
-    if one.kind in (MISSING, NEW):
-        return f"row of {one.table} {'gone' if one.kind == MISSING else 'new'}"
+def _judge(one: Difference) -> str:
+    """Return whether a difference is a regression, a change or an improvement."""
     if one.kind != CHANGED:
-        return f"{one.table}.{one.column}" if one.column else f"{one.table}: row twice"
+        return CHANGE if one.kind == NEW else REGRESSION
     if one.column == "outcome":
-        return f"outcome {one.was} -> {one.now}"
-    return f"{one.column} ({one.row['branch']})" if one.table == "costs" else f"{one.table}.{one.column}"
-
-
-def _verdict(one: Difference) -> str:
-    if one.kind == NEW:
-        return CHANGE
-    if one.kind != CHANGED:
-        return REGRESSION
-    if one.column == "outcome":
-        worse = one.was in GOOD or one.now == STUCK
-        return REGRESSION if worse else IMPROVEMENT if one.now in GOOD else CHANGE
-    if one.column in SMALLER_IS_WORSE:
-        return REGRESSION if _number(one.now) < _number(one.was) else IMPROVEMENT
-    if _is_total(one) or one.column == "settling_time_s":
-        return REGRESSION if _number(one.now) > _number(one.was) else IMPROVEMENT
+        is_worse = one.was in GOOD or one.now == STUCK
+        return REGRESSION if is_worse else IMPROVEMENT if one.now in GOOD else CHANGE
+    times, least = (1.0, 0.0)
     if one.table == "episodes" and one.column in LARGER_IS_WORSE:
-        return _grown(_number(one.was), _number(one.now), *LARGER_IS_WORSE[one.column])
-    return CHANGE
+        times, least = LARGER_IS_WORSE[one.column]
+    elif not (_is_total(one) or one.column in (*SMALLER_IS_WORSE, "settling_time_s")):
+        return CHANGE
+    was, now = (float("inf") if word == "nan" else float(word) for word in (one.was, one.now))
+    if one.column in SMALLER_IS_WORSE:
+        was, now = now, was
+    return REGRESSION if now > times * max(was, least) else IMPROVEMENT if was > times * max(now, least) else CHANGE
 
 
-def _grown(was: float, now: float, times: float, least: float) -> str:
-    """Whether a number has grown or shrunk beyond a factor, to or from more than what counts."""
-    if now > times * max(was, least):
-        return REGRESSION
-    return IMPROVEMENT if was > times * max(now, least) else CHANGE
-
-
-def _number(word: str) -> float:
-    """Nowhere is as far as can be."""
-    return float("inf") if word == "nan" else float(word)
-
-
-def _finding(name: str, what: str, verdict: str, group: list[Difference]) -> Finding:
-    first = group[0]
-    gate = OPERATIONS if first.table == "costs" and first.column in OPERATION_NAMES else EXACT
-    return Finding(gate, verdict, name, what, first.was, first.now, _says(name, first, len(group)), len(group))
-
-
-def _says(name: str, one: Difference, count: int) -> str:
-    """All of it in words; of several rows the first is named."""
-    more = f", and {count - 1} rows more" if count > 1 else ""
+def _make_finding(name: str, verdict: str, group: list[Difference]) -> Finding:
+    one, more = group[0], f", and {len(group) - 1} rows more" if len(group) > 1 else ""
+    gate = OPERATIONS if one.table == "costs" and one.column in OPERATION_NAMES else EXACT
     if one.kind in (COLUMN, JUDGE):
-        return one.says
-    where = " ".join(word for key, word in one.row.items() if word and key not in ("regulator", "representation"))
-    if one.kind == MISSING:
-        return f"{name or one.table}: gone from {one.table}: {where}{more}"
-    if one.kind == NEW:
-        return f"{name or one.table}: new in {one.table}: {where}{more}"
-    if one.column == "outcome" and one.now == STUCK:
-        return f"{name} is stuck, was {one.was}: new dead point: {where}{more}"
-    if one.column == "outcome":
-        return f"{name}: outcome {one.was} -> {one.now}: {where}{more}"
-    if one.table == "costs":
-        return f"{name}: {one.column} {one.was} -> {one.now} a tick: {where}{more}"
-    return f"{name or one.table}: {one.column or one.says} {one.was} -> {one.now}: {where}{more}"
-
-
-def lost(head: Path) -> list[Finding]:
-    """What head's run says of a user's law that crashed or hung."""
-    notes = read_json(head / "provenance.json").get("lost", [])
-    return [Finding(EXACT, REGRESSION, "", "lost", "", "", note) for note in notes]
-
-
-def removed(differences: Iterable[Difference], head: Path) -> list[Finding]:
-    """Laws of which head's run has no episode at all any more."""
-    gone = {_law(one.row): one for one in differences if one.kind == MISSING and one.table == "episodes"}
-    left = set(with_contender(read(head, "episodes"))["contender"].astype(str).str.partition("@")[0]) if gone else set()
-    return [
-        Finding(EXACT, REGRESSION, name, "contender", "there", "gone", f"{name} is gone: a removed contender")
-        for name in gone
-        if name not in left
-    ]
+        return Finding(gate, verdict, name, one.says)
+    where = " ".join(word for key, word in one.row.items() if word not in ("", "0") and key not in OF_LAW)
+    what = name or one.table
+    if one.kind in (MISSING, NEW):
+        said = f"{what}: {'gone from' if one.kind == MISSING else 'new in'} {one.table}"
+    elif one.column == "outcome" and one.now == STUCK:
+        said = f"{name} is stuck, was {one.was}: new dead point"
+    else:
+        said = f"{what}: {one.column or one.says} {one.was} -> {one.now}{' a tick' if one.table == 'costs' else ''}"
+    return Finding(gate, verdict, name, f"{said}: {where}{more}")

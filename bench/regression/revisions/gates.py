@@ -1,150 +1,120 @@
-"""One comparison, gate after gate: `of_folders` of two runs, `of_revisions` of two states of the code."""
+"""Compare gate after gate: two runs' folders (`compare_folders`), or two states of the code (`compare_revisions`)."""
 
 from collections.abc import Callable
 from pathlib import Path
 from typing import NamedTuple
 
-from bench.errors import BadResults
+from bench.contenders.described_law import described
+from bench.errors import BadLaw, BadResults
 from bench.findings.judged import judged
 from bench.findings.judgement import Judgement
-from bench.regression.revisions import checkouts, exact, faults, self_measure
-from bench.regression.revisions.checkouts import Checkout
-from bench.regression.revisions.comparison import (
-    EXACT,
-    FAILED,
-    INSTRUCTIONS,
-    OPERATIONS,
-    PASSED,
-    REGRESSION,
-    SKIPPED,
-    Benchmark,
-    Comparison,
-    Finding,
-    Gate,
-    Side,
-)
-from bench.regression.revisions.measured import Operations, Wanted, left_out, measured
-from bench.regression.revisions.process import SideFailed, running
-from bench.regression.rows import differences
-from bench.regression.rows.difference import JUDGE
-from bench.tables.files import read_json
-from bench.tables.store import read
+from bench.regression.revisions import checkouts, exact
+from bench.regression.revisions.comparison import IMPROVEMENT, REGRESSION, Comparison, Finding, Gate, make_gate
+from bench.regression.revisions.timing import ROUNDS, SAME, SLOWER, Side, SideFailed, Timed, compare_times
 
 Report = Callable[[str], None]
-ALL = Wanted()
+EXACT, OPERATIONS, TIME, FAULTS = exact.EXACT, exact.OPERATIONS, "time", "faults"
 
 
 class Means(NamedTuple):
-    """What the gates are carried out by: a finished run of a side, both's processes, what they measure, the judge."""
+    """The functions that run, time and judge a side, so that tests can give others; rounds: 0 leaves time out."""
 
-    finished_run: Callable = checkouts.finished_run
-    running: Callable = running
-    measured: Callable = measured
-    judged: faults.Judge = judged
+    run_side: Callable = checkouts.run_side
+    compare_times: Callable = compare_times
+    judge: Callable[..., list[Judgement]] = judged
+    rounds: int = ROUNDS
 
 
 USUAL = Means()
 
 
-def of_folders(base: Path, head: Path) -> Comparison:
-    """Two runs' folders, row by row; nothing is run.
-
-    Errors:
-        BadResults: a folder holds no finished run.
-    """
-    found = _exact(base, head)
-    was, now = (Side(str(one), **_origin(one)) for one in (base, head))
-    return Comparison(was, now, self_measure.machine(), tuple(_gates(found, (EXACT, OPERATIONS))), tuple(found), ())
+def compare_folders(base: Path, head: Path) -> Comparison:
+    """Compare two folders of finished runs row by row; nothing is run."""
+    found = exact.compare_runs(base, head)
+    return Comparison(str(base), str(head), tuple(make_gate(name, found) for name in (EXACT, OPERATIONS)), tuple(found))
 
 
-def _origin(folder: Path) -> dict[str, str]:
-    about = read_json(folder / "provenance.json")
-    return {"commit": about["commit"], "sources": about["sources"]}
-
-
-def _exact(base: Path, head: Path) -> list[Finding]:
-    found = differences(base, head)
-    if any(one.kind == JUDGE for one in found):
-        return [*exact.lost(head), *exact.findings(found)]
-    return [*exact.lost(head), *exact.removed(found, head), *exact.basins(base, head), *exact.findings(found)]
-
-
-def _gates(found: list[Finding], names: tuple[str, ...]) -> list[Gate]:
-    """What came of gates that were not left out."""
-    gates = []
-    for name in names:
-        of_gate = [one for one in found if one.gate == name]
-        bad = sum(one.verdict == REGRESSION for one in of_gate)
-        says = f"{bad} regressions, {len(of_gate) - bad} other changes" if of_gate else "nothing differs"
-        gates.append(Gate(name, FAILED if bad else PASSED, says))
-    return gates
-
-
-def of_revisions(
-    base: str,
-    head: str | None,
-    laws: tuple[Path, ...] = (),
-    wanted: Wanted = ALL,
-    report: Report = lambda _: None,
-    by: Means = USUAL,
+def compare_revisions(
+    base: str, head: str | None, laws: tuple[Path, ...] = (), report: Report = lambda _: None, means: Means = USUAL
 ) -> Comparison:
-    """Two revisions, or a revision and the files as they lie (head None), through every gate.
-
-    Errors:
-        UnknownWord, Incompatible: a revision. BadResults: a side does not run. BadLaw: a user's file.
-    """
-    with checkouts.checkouts(base, head, laws) as (old, new):
+    """Compare two revisions, or a revision and the files in the checkout (head None), through every gate."""
+    judgements: tuple[Judgement, ...] = ()
+    with checkouts.check_out_both(base, head, laws) as (old, new):
         if new.is_new:
             raise BadResults(f"{new.name}: none of the --law files is there")
-        gates, found, operations = _by_rows(old, new, report, by)
-        more_gates, more, benchmarks = _by_process(old, new, operations, wanted, report, by)
-        judgements: tuple[Judgement, ...] = ()
-        if new.own:
+        gates, found = _compare_rows(old, new, report, means)
+        if new.only:
             report("judging")
-            gate, of_laws, judgements = faults.compared(old, new, by.judged)
-            more_gates, more = [gate, *more_gates], [*of_laws, *more]
-        machine = self_measure.machine()
-    was, now = (Side(one.name, one.commit, one.sources) for one in (old, new))
-    return Comparison(was, now, machine, (*gates, *more_gates), (*found, *more), tuple(benchmarks), judgements)
+            gate, faults, judgements = _compare_faults(old, new, means.judge)
+            gates, found = [*gates, gate], [*found, *faults]
+        gate, slower, times, files = _compare_times(old, new, report, means)
+    found = sorted([*found, *slower], key=lambda one: one.verdict != REGRESSION)
+    return Comparison(old.name, new.name, (*gates, gate), tuple(found), tuple(times), judgements, tuple(files))
 
 
-def _by_rows(old: Checkout, new: Checkout, report: Report, by: Means) -> tuple[list[Gate], list[Finding], Operations]:
-    """The exact gate and that of operations."""
+def _compare_rows(old: Side, new: Side, report: Report, means: Means) -> tuple[list[Gate], list[Finding]]:
+    """Compare outcomes and operations."""
+    state, says = "passed", "both sides have the same sources and versions, so a run would be the same"
     if old.is_new:
-        with by.finished_run(new, report) as run:
-            counted, found = self_measure.by_law(read(run, "costs")), exact.lost(run)
-        says = f"base's does not load ({old.broken})" if old.broken else "the law is new"
-        says += ": there is nothing to compare it with"
-        gates = _gates(found, (EXACT,)) if found else [Gate(EXACT, SKIPPED, says)]
-        return [*gates, Gate(OPERATIONS, SKIPPED, says)], found, ({}, counted)
-    if old.sources == new.sources and not new.own:
-        says = "both sides have the same sources and versions, so a run would be the same"
-        return [Gate(name, PASSED, says) for name in (EXACT, OPERATIONS)], [], ({}, {})
-    with by.finished_run(old, report) as before, by.finished_run(new, report) as after:
+        state, says = "skipped", "base has no such law, or it does not load: there is nothing to compare with"
+    if old.is_new or (old.digest == new.digest and not new.only):
+        return [Gate(name, state, says) for name in (EXACT, OPERATIONS)], []
+    with means.run_side(old, report) as before, means.run_side(new, report) as after:
         try:
-            found = _exact(before, after)
-            operations = self_measure.by_law(read(before, "costs")), self_measure.by_law(read(after, "costs"))
-        except BadResults as error:  # both have just been written by their own program: it is the schema that differs
-            says = f"the schema differs: {error}"
-            found, operations = [Finding(EXACT, REGRESSION, "", "schema", "", "", says)], ({}, {})
-    return _gates(found, (EXACT, OPERATIONS)), found, operations
+            found = exact.compare_runs(before, after)
+        except BadResults as error:  # each program has just written its own run, so the schema differs
+            found = [Finding(EXACT, REGRESSION, "", f"the schema differs: {error}")]
+    return [make_gate(name, found) for name in (EXACT, OPERATIONS)], found
 
 
-def _by_process(
-    old: Checkout, new: Checkout, operations: Operations, wanted: Wanted, report: Report, by: Means
-) -> tuple[list[Gate], list[Finding], list[Benchmark]]:
-    """The gates of instructions and time, which need both sides compiled."""
-    if not (old.is_new or checkouts.locks_agree(old, new)):
-        return left_out(f"{checkouts.LOCK} differs, so base was made for other packages than are installed"), [], []
-    report("compiling")
-    both = [(new.path, new.asked)] if old.is_new else [(old.path, old.asked), (new.path, new.asked)]
+def _compare_faults(
+    old: Side, new: Side, judge: Callable[..., list[Judgement]]
+) -> tuple[Gate, list[Finding], tuple[Judgement, ...]]:
+    """Judge a user's laws on both sides by this program: a fault that base has not is a regression."""
+    judgements: list[list[Judgement]] = [[], []]
+    for at, side in enumerate((old, new)):
+        try:
+            judgements[at] = judge([described(law) for law in side.laws]) if side.laws else []
+        except BadLaw as error:
+            if side is new:
+                says = str(error)
+                return Gate(FAULTS, "failed", says), [Finding(FAULTS, REGRESSION, "", says)], ()
+    before, now = ({one.name: one.faults + ["lost"] * one.is_lost for one in each} for each in judgements)
+    found, kept = [], []
+    for name, faults in now.items():
+        was = before.get(name, [])
+        kept += [fault for fault in faults if fault in was]
+        new_ones, mended = [each for each in faults if each not in was], [each for each in was if each not in faults]
+        found += [Finding(FAULTS, REGRESSION, name, f"{name}: new fault: {each}") for each in new_ones]
+        found += [Finding(FAULTS, IMPROVEMENT, name, f"{name}: no more: {each}") for each in mended]
+    says = f"as in base: {', '.join(kept) or 'no fault'}"
+    return make_gate(FAULTS, found, says), found, tuple(judgements[1])
+
+
+def _compare_times(
+    old: Side, new: Side, report: Report, means: Means
+) -> tuple[Gate, list[Finding], list[Timed], list[dict]]:
+    is_same = old.digest == new.digest and not new.only
+    if old.is_new or is_same or not means.rounds:
+        says = "left out on request" if not means.rounds else "the same sources" if is_same else "there is no base"
+        return Gate(TIME, "skipped", says), [], [], []
     try:
-        with by.running(both) as processes:
-            return by.measured(processes, operations, wanted, report)
+        files, times = means.compare_times(old, new, report, means.rounds)
     except SideFailed as error:
-        if error.at < len(both) - 1:
-            return left_out(f"base is too old for it: {error}"), [], []
-        if not new.own:
+        if error.at == 0:
+            return Gate(TIME, "skipped", f"base is too old for it: {error}"), [], [], []
+        if not new.only:
             raise
-        found = Finding(INSTRUCTIONS, REGRESSION, "", "compiled", "", "", f"the law cannot be timed: {error}")
-        return [Gate(INSTRUCTIONS, FAILED, str(error)), *left_out("")[1:]], [found], []
+        says = f"the law cannot be timed: {error}"
+        return Gate(TIME, "failed", says), [Finding(TIME, REGRESSION, "", says)], [], []
+    slower = [describe_time(one) for one in times.values() if one.verdict != SAME]
+    return make_gate(TIME, slower, f"{len(times)} timed"), slower, list(times.values()), files
+
+
+def describe_time(one: Timed) -> Finding:
+    """Return the finding of a benchmark that is slower or faster."""
+    says = (
+        f"{one.name} is {one.verdict}: a tick takes {one.ratio:.2f} times as long [{one.low:.2f}, {one.high:.2f}], "
+        f"p = {one.p:.1g}, {one.rounds} rounds of each, confirmed by a second run"
+    )
+    return Finding(TIME, REGRESSION if one.verdict == SLOWER else IMPROVEMENT, one.name, says)

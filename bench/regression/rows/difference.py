@@ -1,6 +1,5 @@
-"""What differs between two runs: one row or column, and how a list of them is said."""
+"""Find and describe what differs between two tables: rows that only one has, and cells."""
 
-from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from itertools import groupby
 from typing import NamedTuple
@@ -12,16 +11,11 @@ from bench.tables.column import Table
 
 MISSING, NEW, TWICE, COLUMN, CHANGED, JUDGE = "missing", "new", "twice", "column", "changed", "judge"
 
-SHOWN = 10
-"""Lines of one kind."""
+SHOWN = 10  # lines of one kind
 
 
 class Difference(NamedTuple):
-    """One thing that differs.
-
-    column: what of the row, or of the table; empty for a whole row. says: all of it in words. row: the words that name
-    the row, by column; empty if it is the table that differs. was, now: in base and head.
-    """
+    """One thing that differs: in which column ("" for a whole row), in words, the row's key, and the two values."""
 
     table: str
     kind: str
@@ -32,59 +26,80 @@ class Difference(NamedTuple):
     now: str = ""
 
 
-def lines(differences: Iterable[Difference]) -> list[str]:
-    """What differs in lines, SHOWN of a kind and then how many more."""
-    said = []
+class Rule(NamedTuple):
+    """How cells are compared: numbers by a tolerance (column -> relative, absolute) in some rows, words exactly.
+
+    exact: columns that are compared first, exactly, each in some rows. skipped: columns that are not compared.
+    """
+
+    tolerance: Callable[[str], tuple[float | np.ndarray, float | np.ndarray]]
+    rows: np.ndarray | bool = True
+    exact: dict[str, np.ndarray] = {}  # noqa: RUF012  a tuple's default, never written to
+    skipped: tuple[str, ...] = ()
+
+
+def write_lines(differences: Iterable[Difference]) -> list[str]:
+    """Return what differs in lines: SHOWN of a kind, and then how many more there are."""
+    lines = []
     for (table, kind, column), group in groupby(differences, lambda one: (one.table, one.kind, one.column)):
         same = [one.says for one in group]
-        said += same if kind in (COLUMN, JUDGE) else same[:SHOWN]
-        if kind not in (COLUMN, JUDGE) and len(same) > SHOWN:
-            said.append(f"{column or f'{table}: row is {kind}'}: ... and {len(same) - SHOWN} more")
-    return said
+        shown = len(same) if kind == COLUMN else SHOWN
+        lines += same[:shown]
+        if len(same) > shown:
+            lines.append(f"{column or f'{table}: row is {kind}'}: ... and {len(same) - shown} more")
+    return lines
 
 
-def by_column(differences: Sequence[Difference]) -> list[Difference]:
-    """What a judge that changed made differ: how many rows, by table and column."""
-    counts = Counter((one.table, one.column or f"rows {one.kind}") for one in differences)
-    first = f"the judge changed: {len(differences)} differences, by column; laws are not compared"
-    said = [(table, column, f"{table}: {column}: {count}") for (table, column), count in counts.items()]
-    return [Difference(table, JUDGE, column, says, {}) for table, column, says in [("", "", first), *said]]
-
-
-def aligned(table: Table, old: pd.DataFrame, new: pd.DataFrame) -> tuple[pd.DataFrame, pd.DataFrame, list[Difference]]:
-    """The rows that both have, in one order and named by their key, and what only one has."""
-    old, new = (_keyed(frame, table.key) for frame in (old, new))
+def align_rows(
+    table: Table, old: pd.DataFrame, new: pd.DataFrame
+) -> tuple[pd.DataFrame, pd.DataFrame, list[Difference]]:
+    """Return the rows that both have, in one order and named by their key, and what only one has."""
+    old, new = (_name_rows(frame, table.key) for frame in (old, new))
     found = []
     for name, frame in (("base", old), ("head", new)):
-        found += _rows(table, TWICE, f"row twice in the {name}", frame[frame.index.duplicated()])
+        found += _describe_rows(table, TWICE, f"row twice in the {name}", frame[frame.index.duplicated()])
     if found:
         return old.iloc[:0], new.iloc[:0], found
-    found += _rows(table, MISSING, "row is missing", old[~old.index.isin(new.index)])
-    found += _rows(table, NEW, "row is new", new[~new.index.isin(old.index)])
+    found += _describe_rows(table, MISSING, "row is missing", old[~old.index.isin(new.index)])
+    found += _describe_rows(table, NEW, "row is new", new[~new.index.isin(old.index)])
     both = old.index.intersection(new.index, sort=False)
     return old.loc[both], new.loc[both], found
 
 
-def _keyed(frame: pd.DataFrame, key: Sequence[str]) -> pd.DataFrame:
-    rows = frame[list(key)].astype(str).itertuples(index=False)
-    return frame.set_axis(pd.Index([" ".join(filter(None, row)) for row in rows], dtype=str), axis=0)
+def _name_rows(frame: pd.DataFrame, key: Sequence[str]) -> pd.DataFrame:
+    names = [" ".join(word for word in row.values() if word not in ("", "0")) for row in _read_keys(frame, key)]
+    return frame.set_axis(pd.Index(names, dtype=str), axis=0)
 
 
-def _rows(table: Table, kind: str, words: str, frame: pd.DataFrame) -> list[Difference]:
-    named = zip(frame.index, _words(frame, table.key), strict=True)
+def _describe_rows(table: Table, kind: str, words: str, frame: pd.DataFrame) -> list[Difference]:
+    named = zip(frame.index, _read_keys(frame, table.key), strict=True)
     return [Difference(table.name, kind, "", f"{table.name}: {words}: {name}", row) for name, row in named]
 
 
-def _words(frame: pd.DataFrame, key: Sequence[str]) -> list[dict[str, str]]:
-    return [] if frame.empty else frame[list(key)].astype(str).to_dict("records")
+def _read_keys(frame: pd.DataFrame, key: Sequence[str]) -> list[dict[str, str]]:
+    """Return the words that name each row; numbers, as those of an axis, to nine digits."""
+    is_float = {name: frame[name].dtype.kind == "f" for name in key}
+    words = {name: frame[name].map("{:.9g}".format) if is_float[name] else frame[name].astype(str) for name in key}
+    return pd.DataFrame(words, dtype=str).to_dict("records")
 
 
-def changed(table: Table, column: str, old: pd.DataFrame, new: pd.DataFrame, rows) -> list[Difference]:
-    """The rows, of two aligned tables, in which a column has changed.
+def compare_cells(table: Table, old: pd.DataFrame, new: pd.DataFrame, rule: Rule) -> list[Difference]:
+    """Return the cells that differ between two aligned tables."""
+    found = []
+    for name, rows in rule.exact.items():
+        found += _describe_cells(table, name, old, new, rows & (old[name].astype(str) != new[name].astype(str)))
+    for name in old.columns.difference([*table.key, *rule.exact, *rule.skipped], sort=False):
+        if old[name].dtype.kind in "iuf":
+            relative, absolute = rule.tolerance(name)
+            pair = (new[name].to_numpy(float), old[name].to_numpy(float))
+            differs = rule.rows & ~np.isclose(*pair, rtol=relative, atol=absolute, equal_nan=True)
+        else:
+            differs = new[name].astype(str) != old[name].astype(str)
+        found += _describe_cells(table, name, old, new, differs)
+    return found
 
-    Args:
-        rows: whether each has.
-    """
+
+def _describe_cells(table: Table, column: str, old: pd.DataFrame, new: pd.DataFrame, rows) -> list[Difference]:
     picked = np.asarray(rows)
     if not picked.any():
         return []
@@ -93,32 +108,5 @@ def changed(table: Table, column: str, old: pd.DataFrame, new: pd.DataFrame, row
     cells = ([f"{cell:.10g}" if isinstance(cell, float) else str(cell) for cell in one[column]] for one in (old, new))
     return [
         Difference(table.name, CHANGED, column, f"{column}: {was} -> {now}: {name}", row, was, now)
-        for name, row, was, now in zip(old.index, _words(old, table.key), *cells, strict=True)
+        for name, row, was, now in zip(old.index, _read_keys(old, table.key), *cells, strict=True)
     ]
-
-
-Close = Callable[[str, np.ndarray, np.ndarray], np.ndarray]
-"""(column, head's numbers, base's) -> which of them count as the same."""
-
-
-def near(relative: np.ndarray | float, absolute: np.ndarray | float) -> Close:
-    """The same to a tolerance, whatever the column; of each row its own, if they are arrays."""
-    return lambda _, a, b: np.isclose(a, b, rtol=relative, atol=absolute, equal_nan=True)
-
-
-def compared(
-    table: Table, old: pd.DataFrame, new: pd.DataFrame, close: Close, rows=True, but: Sequence[str] = ()
-) -> list[Difference]:
-    """What differs between two aligned tables in columns that are no key: words exactly, numbers unless `close`.
-
-    Args:
-        rows: in which numbers are compared. but: columns that are not.
-    """
-    found = []
-    for name in old.columns.difference([*table.key, *but], sort=False):
-        if old[name].dtype.kind in "iuf":
-            differs = rows & ~close(name, new[name].to_numpy(float), old[name].to_numpy(float))
-        else:
-            differs = new[name].astype(str) != old[name].astype(str)
-        found += changed(table, name, old, new, differs)
-    return found

@@ -1,4 +1,4 @@
-"""The page on the regression gate, read from results/regress, which is committed."""
+"""The page on regressions: its rule, what the study of it found (results/regress), and the history of builds."""
 
 from __future__ import annotations
 
@@ -7,132 +7,119 @@ from typing import Any
 
 import pandas as pd
 
-from bench.regression.revisions import alternating, instructions, rule
-from bench.regression.revisions.comparison import SAME
-from bench.regression.revisions.machine import LEVEL
-from bench.studies.gates import power
+from bench.regression.history import read_history
+from bench.regression.revisions import timing
 from bench.tables.files import read_json
-from report.figures.kit import html
+from report.figures.kit import html, laws, style
+from report.figures.kit.inline import responsive_picture
 from report.figures.kit.page import Run, given
-from report.figures.kit.spelling import power as in_powers
 from report.figures.kit.tables import Table
 
-TENTH = 0.10
-
 FAULTS = Table("Planted | In | Caught by | In the words")
+BUILDS = Table("Commit | Date | Machine | Benchmarks | Counts that changed")
+SHORT = 10
+"""Digits of a commit."""
 
 
-@functools.cache
-def part(run: Run, name: str) -> list[dict[str, Any]]:
-    """The rows of same_code, power or faults; none if it has not been run."""
+def read_rows(run: Run, name: str) -> list[dict[str, Any]]:
+    """Return the rows of same_code or faults; none if that was not run."""
     path = run.studies / "regress" / f"{name}.json"
     return read_json(path)["rows"] if path.is_file() else []
 
 
-def verdicts(run: Run) -> pd.DataFrame:
-    """A row for each benchmark of each comparison of the same code.
-
-    Columns: comparison, neighbours (busy processes), benchmark, ratio and p of the first run, `doubted` (its verdict
-    was not "same") and `alarm` (a second run agreed).
-    """
-    rows = [
-        {
-            "comparison": number,
-            "neighbours": sum(one["load"].values()),
-            "benchmark": name,
-            "ratio": timed["ratio"],
-            "p": timed["p"],
-            "doubted": name in one["doubted"],
-            "alarm": name in one["doubted"] and one["doubted"][name]["verdict"] != SAME,
-        }
-        for number, one in enumerate(part(run, "same_code"), start=1)
-        for name, timed in one["timed"].items()
-    ]
-    return pd.DataFrame(rows)
-
-
-def counts_apart(run: Run) -> pd.Series:
-    """Instructions of the same code, head over base - 1; one for each law of each comparison that counted them."""
-    return pd.Series(
-        [apart for one in part(run, "same_code") for apart in (one["instructions"] or {}).values()], dtype=float
-    )
-
-
-def steps(run: Run) -> pd.DataFrame:
-    """A row for each planted step: how much slower, the shares found by one run and by two, and more instructions."""
-    found = pd.DataFrame([one for one in part(run, "power") if one["instructions"]])
-    if found.empty:
-        return found
-    base, head = (found["instructions"].str[side] for side in (0, 1))
-    shares = {name: found[name] / found["repeats"] for name in ("once", "twice")}
-    return found.assign(instructions=head / base - 1.0, **shares).sort_values("slower", ignore_index=True)
+@functools.cache
+def read_builds(run: Run) -> pd.DataFrame:
+    """Return the history of this checkout."""
+    return read_history(run.studies / "history")
 
 
 def facts(run: Run) -> dict:
-    """The rule's numbers, and a paragraph each on false alarms, faults, the same code and slower code."""
+    """Return the rule's numbers, false alarms, faults that were caught, and the size of the history."""
+    same, builds = pd.DataFrame(read_rows(run, "same_code")), read_builds(run)
+    planted = [one["caught"] and one["named"] for one in read_rows(run, "faults") if one["law"]]
     return {
-        "p": rule.P,
-        "ratio": f"{rule.RATIO:.2f}",
-        "rounds": alternating.ROUNDS,
-        "tolerance": f"{100 * instructions.TOLERANCE:g} %",
-        "level": LEVEL,
-        "lead": given(verdicts(run), lambda rows: lead(rows, part(run, "faults"))),
-        "noise": given(verdicts(run), lambda rows: noise(rows, counts_apart(run))),
-        "found": given(steps(run), found),
+        "p": timing.P,
+        "ratio": f"{timing.RATIO:.2f}",
+        "rounds": timing.ROUNDS,
+        "comparisons": len(same) or None,
+        "alarms": given(same, lambda rows: int(rows["alarms"].map(len).sum())),
+        "planted": len(planted) or None,
+        "caught": sum(planted) if planted else None,
+        "noise": given(same, describe_noise),
+        "builds": given(builds, lambda rows: rows["commit"].nunique()),
+        "benchmarks": given(builds, lambda rows: rows["name"].nunique()),
     }
 
 
-def lead(rows: pd.DataFrame, faults: list[dict[str, Any]]) -> str:
-    """Both figures: false alarms, and faults found."""
-    alarms = rows.groupby("comparison")["alarm"].any()
-    planted = [one["caught"] and one["named"] for one in faults if one["law"]]
+def describe_noise(rows: pd.DataFrame) -> str:
+    """Return how far apart the same code was, and what each condition of the rule took away."""
+    least, largest = rows["least_ratio"].min(), rows["largest_ratio"].max()
+    by_chance, doubted, alarmed = (
+        rows["least_p"] < timing.P,
+        *(rows[name].map(len) > 0 for name in ("doubted", "alarms")),
+    )
     return (
-        f"Same code against itself, {len(alarms)} times on a busy machine: {int(alarms.sum())} false alarms. "
-        f"Of {len(planted)} planted faults {sum(planted)} are caught and named."
+        f"{len(rows)} comparisons of {rows['benchmarks'].max()} benchmarks: ratios from {least:.2f} to {largest:.2f}. "
+        f"By $p$ alone {by_chance.sum()} comparisons would have alarmed; both conditions held in {doubted.sum()}, "
+        f"and the second run confirmed {alarmed.sum()}."
     )
-
-
-def noise(rows: pd.DataFrame, apart: pd.Series) -> str:
-    """How far apart the same code was, and what each condition of the rule took away."""
-    comparisons = rows.groupby("comparison")
-    alone = comparisons["p"].min() < rule.P
-    words = (
-        f"{len(comparisons)} comparisons of {rows['benchmark'].nunique()} benchmarks, beside up to "
-        f"{rows['neighbours'].max()} busy processes of the study's own. The {len(rows)} ratios go from "
-        f"{rows['ratio'].min():.2f} to {rows['ratio'].max():.2f}. By p alone {int(alone.sum())} comparisons "
-        f"would have rung; both conditions held for {int(rows['doubted'].sum())} benchmarks in "
-        f"{int(comparisons['doubted'].any().sum())} of them, and the second run confirmed "
-        f"{int(rows['alarm'].sum())}. No machine code was taken to be as fast because it is the same."
-    )
-    if len(apart):
-        most = in_powers(float(apart.abs().max()))
-        words += f" Counts of instructions, {len(apart)} pairs, differed by {most} at most."
-    return words
-
-
-def found(rows: pd.DataFrame) -> str:
-    """What a tenth more time looks like, and from where on each gate is sure."""
-    near = rows.iloc[(rows["slower"] - TENTH).abs().argmin()]
-    words = (
-        f"`{power.LAW}`, {rows['repeats'].iloc[0]} comparisons a step. What is {100 * near['slower']:.0f} % slower is "
-        f"found in {100 * near['once']:.0f} % of single runs and in {100 * near['twice']:.0f} % of pairs of runs; it "
-        f"has {100 * near['instructions']:.1f} % more instructions."
-    )
-    for who, which in (
-        ("Time is sure", (rows["twice"] == 1.0) & (rows["slower"] > 0.0)),
-        ("Instructions tell", rows["instructions"] > instructions.TOLERANCE),
-    ):
-        if which.any():
-            words += f" {who} from {100 * rows.loc[which, 'slower'].min():.0f} % on."
-    return words
 
 
 def tables(run: Run) -> dict:
-    """What was planted, which gates caught it, and in what words; what has no law is caught by nothing."""
-    return {"tab_faults": FAULTS(map(fault, part(run, "faults")))}
+    """Return what was planted, which gates caught it, and in what words; and builds, newest first."""
+    return {
+        "tab_faults": FAULTS(map(write_fault, read_rows(run, "faults"))),
+        "tab_builds": BUILDS(write_builds(read_builds(run))),
+    }
 
 
-def fault(one: dict[str, Any]) -> tuple:
-    """A line of the table."""
+def write_fault(one: dict[str, Any]) -> tuple:
+    """Return a line of the table of faults."""
     words = html.foreign(one["says"][0]) if one["says"] else html.MISSING
     return one["fault"], one["law"] or html.MISSING, ", ".join(one["gates"]) or "nothing", words
+
+
+def write_builds(rows: pd.DataFrame) -> list[tuple]:
+    """Return a line for each build: commit, date, machine, benchmarks, and laws whose flops are not those before."""
+    lines, before = [], pd.Series(dtype=float)
+    for (commit, machine), own in rows.groupby(["commit", "machine"], sort=False) if len(rows) else []:
+        flops = own.set_index("name")["flops"].dropna()
+        known = flops.index.intersection(before.index)
+        changed = [name for name in known if flops[name] != before[name]]
+        before = flops.combine_first(before)
+        words = html.foreign(", ".join(changed)) or None
+        date = html.together(str(own["date"].iloc[0].date()))
+        lines.append(
+            (html.Html(f"<code>{html.foreign(commit[:SHORT])}</code>"), date, html.foreign(machine), len(own), words)
+        )
+    return lines[::-1]
+
+
+def figures(run: Run) -> dict:
+    """Return times over the builds."""
+    return {"history": given(read_builds(run), draw_history)}
+
+
+@responsive_picture
+def draw_history(rows: pd.DataFrame, *, narrow=False):
+    """Draw the time of a tick of each law over the builds, on the machine with most builds."""
+    machine = rows.groupby("machine")["commit"].nunique().idxmax()
+    own = rows[(rows["machine"] == machine) & (rows["what"] == "law")]
+    places = {commit: place for place, commit in enumerate(own["commit"].unique(), 1)}
+    figure, axes = style.panels(height=4.4 if narrow else 3.6, narrow=narrow)
+    for name, each in own.groupby("name"):
+        look = style.look(name)
+        axes.plot(
+            each["commit"].map(places),
+            each["kernel_steps"],
+            "o-",
+            color=look.colour,
+            markersize=3,
+            label=laws.title(name),
+        )
+    axes.set_yscale("log")
+    axes.set_xticks(list(places.values()), [commit[:7] for commit in places], rotation=90)
+    axes.set_ylabel("Time of a tick [steps of the reference kernel]")
+    ends = own.groupby("name")["kernel_steps"].last().sort_values()
+    words = "; ".join(f"{laws.title(name)} {steps:.2f}" for name, steps in ends.items())
+    return figure, f"Time of a tick over {len(places)} builds on {machine}; in the newest: {words}."

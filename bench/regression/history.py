@@ -1,0 +1,56 @@
+"""The history: one file of pytest-benchmark for each measured build, under results/history.
+
+`pytest-benchmark --storage results/history compare` reads the files as well. Times compare only on one machine.
+"""
+
+from pathlib import Path
+
+import pandas as pd
+
+from bench.errors import BadResults
+from bench.provenance import ROOT, commit
+from bench.regression.revisions.timing import ROUNDS, Side, run_benchmarks
+from bench.tables.files import read_json
+from bench.tables.schema import RESULTS
+
+FOLDER = RESULTS / "history"
+
+
+def append_build(folder: Path = FOLDER, rounds: int = ROUNDS) -> Path:
+    """Measure the commit of this checkout and add its file; return the file."""
+    about = commit()
+    if about["dirty"] or not about["commit"]:
+        raise BadResults("this checkout has changes that no commit holds, and the history holds commits; commit them")
+    before = set(find_files(folder))
+    words = (f"--benchmark-storage={Path(folder).resolve()}", "--benchmark-autosave")
+    run_benchmarks([Side(ROOT)], words, rounds)
+    [new] = set(find_files(folder)) - before
+    return new
+
+
+def find_files(folder: Path = FOLDER) -> list[Path]:
+    """Return the files of a history."""
+    return sorted(Path(folder).glob("*/[0-9]*.json"))
+
+
+def read_history(folder: Path = FOLDER) -> pd.DataFrame:
+    """Return a row for each benchmark of each build, in the order of the commits.
+
+    Columns: commit, date (UTC), machine, what, name, kernel_steps (time of a tick over a step of the reference kernel)
+    with its bounds low and high, and flops of the typical branch a tick (NaN for an engine).
+    """
+    rows = []
+    for path in find_files(folder):
+        content = read_json(path)
+        try:
+            about, machine = content["commit_info"], content["machine_info"]["key"]
+            for one in content["benchmarks"]:
+                more = one["extra_info"]
+                steps = dict(zip(("kernel_steps", "low", "high"), more["kernel_steps"], strict=True))
+                build = {"commit": about["id"], "date": pd.to_datetime(about["time"], utc=True), "machine": machine}
+                flops = float(more["flops"].get("typical", "nan"))
+                rows.append({**build, "what": more["what"], "name": one["param"], **steps, "flops": flops})
+        except (KeyError, TypeError, ValueError) as error:
+            raise BadResults(f"{path}: no build of this history ({error!r}); delete it, or take it from git") from error
+    frame = pd.DataFrame(rows)
+    return frame.sort_values("date", kind="stable", ignore_index=True) if rows else frame

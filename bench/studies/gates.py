@@ -1,0 +1,196 @@
+"""Check the regression gate: false alarms on the same code, and planted faults (`make regress-study`).
+
+    python -m bench.studies.gates [same-code] [faults]
+
+same-code   COMPARISONS timings of this checkout against itself, at the gate's own settings; every verdict but "same"
+            is a false alarm
+faults      one fault at a time in a copy of the sources: is it caught, and is the law named?
+
+Each row is written to results/regress as soon as it is known, and a later call goes on with the rows that are missing,
+if the sources are the same.
+"""
+
+import contextlib
+import shutil
+import sys
+import tempfile
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import tasks
+from bench.errors import BadResults, BenchError, UnknownWord
+from bench.law.so3 import from_quaternion
+from bench.provenance import ROOT, describe
+from bench.regression.revisions.checkouts import run_python
+from bench.regression.revisions.comparison import REGRESSION
+from bench.regression.revisions.exact import compare_runs
+from bench.regression.revisions.gates import describe_time
+from bench.regression.revisions.timing import SAME, Side, compare_times
+from bench.tables.files import read_json, write_json
+from bench.tables.schema import RESULTS
+
+FOLDER = RESULTS / "regress"
+COMPARISONS = 20
+STARTS, START = 40, 17
+"""Uniform starts, and the one at which something is planted."""
+LAWS = ("rotation-matrix", "mrp", "sliding")
+RUN = (
+    "--suite",
+    "quick",
+    "--task",
+    "free-body",
+    "--engine",
+    "ideal-rk4",
+    "--starts",
+    "uniform",
+    "--count",
+    str(STARTS),
+)
+COPIED = ("bench", "tasks", "requirements", "pyproject.toml")
+FILES = {law: f"bench/contenders/regulators/{law.replace('-', '_')}.py" for law in (*LAWS, "rotation-vector")}
+MATRIX = FILES["rotation-matrix"]
+ENTRY, SQUARE = "    n = cross(R.n, goal.R.n)\n", "    square = dot(v, v)\n"
+NEAR = 1e-9
+"""No other episode passes through a box of that width in three numbers."""
+SLOW = f"""{SQUARE}    slow = square
+    for _ in range(8):
+        slow = 0.5 * slow + w
+    square = square + 0.0 * slow
+"""
+"""A quarter slower; the command keeps every bit, for 0 x = 0."""
+
+
+class Fault(NamedTuple):
+    """What is planted, in words; the law that must be named, words that must be said of it; file, old and new text."""
+
+    title: str
+    law: str = ""
+    says: str = ""
+    file: str = ""
+    old: str = ""
+    new: str = ""
+
+
+def list_faults() -> list[Fault]:
+    """Return what is planted: first nothing, last what only time shows."""
+    start = tasks.start_set("uniform", STARTS, 0)[START]
+    R = from_quaternion(start.quat_wxyz)
+    sides = {"R.n[0]": R.n[0], "R.o[1]": R.o[1], "R.a[0]": R.a[0]}
+    inside = " and ".join(f"{value - NEAR!r} < {name} < {value + NEAR!r}" for name, value in sides.items())
+    flipped, dead = (f"    if {inside}:\n        return ({u}, 0.0, 0.0)\n{ENTRY}" for u in ("1e300", "0.0"))
+    half = "    half = 0.5 * gains.kp\n"
+    return [
+        Fault("nothing"),
+        Fault("one multiplication more", LAWS[0], "mul", MATRIX, half, half.replace("kp", "kp * 1.0")),
+        Fault("one outcome flipped", LAWS[0], start.id, MATRIX, ENTRY, flipped),
+        Fault("one dead point more", LAWS[0], "new dead point", MATRIX, ENTRY, dead),
+        Fault("a contender removed", "sliding", "gone from episodes", FILES["sliding"]),
+        Fault("a quarter slower", "rotation-vector", "slower", FILES["rotation-vector"], SQUARE, SLOW),
+    ]
+
+
+@contextlib.contextmanager
+def copy_with(fault: Fault) -> Iterator[Path]:
+    """Copy the sources with a fault in them; the copy is removed when the block ends.
+
+    Errors:
+        BadResults: the text that is replaced does not occur once, so the study must follow the sources.
+    """
+    with tempfile.TemporaryDirectory(prefix="orientation-bench-") as folder:
+        copy = Path(folder) / "checkout"
+        for name in COPIED:
+            place = shutil.copytree if (ROOT / name).is_dir() else shutil.copy2
+            copy.mkdir(exist_ok=True)
+            place(ROOT / name, copy / name)
+        if fault.file and not fault.old:
+            (copy / fault.file).unlink()
+        elif fault.file:
+            text = (copy / fault.file).read_text(encoding="utf-8")
+            if text.count(fault.old) != 1:
+                raise BadResults(f"{fault.file}: '{fault.old.strip()}' does not occur once; mend this study")
+            (copy / fault.file).write_text(text.replace(fault.old, fault.new), encoding="utf-8")
+        yield copy
+
+
+def run_copy(copy: Path) -> Path:
+    """Run a copy; return the folder of its run."""
+    folder = copy / "results" / "run"
+    words = [word for law in LAWS if (copy / FILES[law]).is_file() for word in ("--regulator", law)]
+    run_python(copy, "-m", "bench", "run", *RUN, *words, "--out", str(folder))
+    return folder
+
+
+def plant(number: int) -> dict[str, Any]:
+    """Plant one fault and return a row: whether it was caught, whether the law was named, and the words."""
+    fault = list_faults()[number]
+    with copy_with(fault) as copy:
+        if fault.says == "slower":
+            base, head = (Side(path, names=(fault.law, *LAWS)) for path in (ROOT, copy))
+            _, times = compare_times(base, head)
+            found = [describe_time(one) for one in times.values() if one.verdict != SAME]
+        else:
+            with copy_with(Fault("nothing")) as unchanged:
+                found = compare_runs(run_copy(unchanged), run_copy(copy))
+    bad = [one for one in found if one.verdict == REGRESSION]
+    named = [one.says for one in bad if one.name == fault.law and fault.says in one.says]
+    return {
+        **{"fault": fault.title, "law": fault.law, "caught": bool(bad), "named": bool(named)},
+        **{
+            "others_blamed": sorted({one.name for one in bad} - {fault.law}),
+            "gates": sorted({one.gate for one in bad}),
+        },
+        "says": named[:2],
+    }
+
+
+def compare_same_code(number: int) -> dict[str, Any]:
+    """Time this checkout against itself and return a row: least p, extreme ratios, what one run doubted, and alarms."""
+    _, times = compare_times(Side(ROOT), Side(ROOT))
+    ratios = [one.ratio for one in times.values()]
+    return {
+        **{"benchmarks": len(times), "least_p": min(one.p for one in times.values())},
+        **{"least_ratio": round(min(ratios), 4), "largest_ratio": round(max(ratios), 4)},
+        "doubted": [name for name, one in times.items() if one.confirmed is not None],
+        "alarms": [name for name, one in times.items() if one.verdict != SAME],
+    }
+
+
+PARTS: dict[str, tuple[Callable[[int], dict[str, Any]], int, int]] = {
+    "same-code": (compare_same_code, COMPARISONS, 40),
+    "faults": (plant, len(list_faults()), 60),
+}
+"""Name -> how a row is made, how many rows there are, and about how many CPU seconds a row takes."""
+
+
+def run_part(name: str) -> None:
+    """Make the rows of a part that are missing."""
+    make, count, seconds = PARTS[name]
+    path = FOLDER / f"{name.replace('-', '_')}.json"
+    kept = read_json(path) if path.is_file() else {"about": {}, "rows": []}
+    rows = kept["rows"] if kept["about"].get("sources") == describe()["sources"] else []
+    left = (count - len(rows)) * seconds
+    print(f"{name}: {len(rows)} of {count} rows are there; the others take about {left} CPU s", flush=True)
+    while len(rows) < count:
+        began = time.monotonic()
+        rows.append(make(len(rows)))
+        write_json(path, {"about": {**describe(), "command": f"make regress-study ARGS={name}"}, "rows": rows})
+        print(f"{name} {len(rows)} of {count}, {time.monotonic() - began:.0f} s: {str(rows[-1])[:200]}", flush=True)
+
+
+def main(words: list[str]) -> int:
+    """Run the parts that are named, or both; return the exit code."""
+    try:
+        for word in words or PARTS:
+            if word not in PARTS:
+                raise UnknownWord("part", word, list(PARTS))
+            run_part(word)
+    except BenchError as error:
+        print(f"error: {error}", file=sys.stderr)
+        return 2
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

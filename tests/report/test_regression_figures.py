@@ -1,0 +1,60 @@
+"""The page on regressions: its numbers follow from the rows, and what is committed holds what the page says."""
+
+import pandas as pd
+import pytest
+
+pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make report)")
+
+from bench.studies.gates import COMPARISONS, list_faults
+from bench.tables.schema import RESULTS
+from report.figures.kit.page import Run
+from report.figures.tool import regressions
+
+COMMITTED = Run(RESULTS)
+SAME = pd.DataFrame(
+    {
+        "benchmarks": [29, 29],
+        "least_p": [1e-4, 0.5],
+        "least_ratio": [0.9, 0.99],
+        "largest_ratio": [1.2, 1.01],
+        "doubted": [["a"], []],
+        "alarms": [[], []],
+    }
+)
+
+
+def test_study_if_it_was_run_has_all_its_comparisons_and_no_false_alarm():
+    rows = regressions.read_rows(COMMITTED, "same_code")
+    if not rows:
+        pytest.skip("results/regress/same_code.json is not there: make regress-study")
+    assert len(rows) == COMPARISONS
+    assert not any(one["alarms"] for one in rows)
+
+
+def test_every_planted_fault_is_caught_and_named_and_nothing_else_is():
+    nothing, *planted = regressions.read_rows(COMMITTED, "faults")
+    assert (nothing["caught"], nothing["law"]) == (False, "")
+    assert [one["fault"] for one in planted] == [one.title for one in list_faults()[1:]]
+    assert all(one["caught"] and one["named"] and not one["others_blamed"] for one in planted)
+
+
+def test_sentence_counts_doubts_and_alarms():
+    said = regressions.describe_noise(SAME)
+    assert "2 comparisons of 29 benchmarks: ratios from 0.90 to 1.20" in said
+    assert (
+        "By $p$ alone 1 comparisons would have alarmed; both conditions held in 1, and the second run confirmed 0"
+        in said
+    )
+
+
+def test_builds_are_listed_newest_first_with_the_laws_whose_flops_changed():
+    build = {"machine": "m", "what": "law", "name": "gibbs", "kernel_steps": 1.0, "date": pd.Timestamp("2026-01-01")}
+    rows = pd.DataFrame([build | {"commit": f"{at:040x}", "flops": flops} for at, flops in enumerate((9.0, 9.0, 8.0))])
+    assert [line[-1] for line in regressions.write_builds(rows)] == ["gibbs", None, None]
+    assert "3 builds" in regressions.draw_history(rows).alt
+
+
+def test_page_without_a_study_has_only_the_numbers_of_the_rule(tmp_path):
+    facts = regressions.facts(Run(tmp_path, studies=tmp_path))
+    assert {key for key, value in facts.items() if value is not None} == {"p", "ratio", "rounds"}
+    assert not any(regressions.tables(Run(tmp_path, studies=tmp_path)).values())
