@@ -10,11 +10,13 @@ import tasks
 from bench.contenders import combinations
 from bench.errors import Incompatible
 from bench.experiments.choice import Choice
+from bench.experiments.episode_rows import TABLE, frame
 from bench.experiments.episodes import Place, cut, lost, narrowed, prepare, runs_on, starts_of, tasks_of
 from bench.experiments.experiment import EVERYTHING, Asked, Experiment, Settings, Unit
+from bench.experiments.rounding import judged_on_both_sides
 from bench.experiments.suites import AT_INVERSES, NOMINAL, OnArms, Slice
 from bench.law.contender import Contender
-from bench.tables.schema import TABLES
+from bench.metrics.registry import metrics_of
 from tasks.base import Start
 
 if TYPE_CHECKING:
@@ -92,9 +94,6 @@ def _check_combinations(asked: Asked) -> None:
 def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
     """The rows of a unit, each doubtful one judged on both sides of its start."""
     from bench.engines.run_arm import run
-    from bench.experiments.rows.episodes import frame
-    from bench.experiments.rows.rounding import judged_on_both_sides
-    from bench.metrics.registry import metrics_of
 
     starts, one, metrics = starts_of(settings, unit), settings.contender(unit.contender), metrics_of(on_arm=True)
     limits = settings.limits(unit.horizon_s)
@@ -109,7 +108,7 @@ def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
 EXPERIMENT = Experiment(
     "arm",
     "laws on arms, by a Jacobian and its inverse",
-    TABLES["episodes"],
+    TABLE,
     units,
     rows,
     takes=EVERYTHING,

@@ -14,9 +14,11 @@ import tasks
 from bench.errors import Incompatible
 from bench.experiments import starts
 from bench.experiments.choice import Choice
+from bench.experiments.episode_rows import lost_frame
 from bench.experiments.experiment import Asked, Settings, Unit
 from bench.experiments.suites import HORIZON, NOMINAL, ON_ARM, SHORT, Slice
 from bench.law.contender import Contender
+from bench.metrics.registry import metrics_of
 from tasks.base import Start
 
 if TYPE_CHECKING:
@@ -125,8 +127,6 @@ def starts_of(settings: Settings, unit: Unit) -> list[Start]:
 
 def prepare(settings: Settings, unit: Unit) -> None:
     """Build the starts, and compile the loop and the contender."""
-    from bench.metrics.registry import metrics_of
-
     if unit.selector:
         starts_of(settings, unit)
     one, metrics = settings.contender(unit.contender), tuple(metrics_of(on_arm=bool(unit.arm)))
@@ -144,7 +144,5 @@ def prepare(settings: Settings, unit: Unit) -> None:
 
 
 def lost(settings: Settings, unit: Unit, outcome: str) -> pd.DataFrame:
-    """What was asked, the outcome, no measure."""
-    from bench.experiments.rows.episodes import lost_frame
-
+    """Return the settings and the outcome, no measure."""
     return lost_frame(settings, unit, starts_of(settings, unit), outcome)

@@ -7,11 +7,12 @@ from typing import TYPE_CHECKING
 
 import tasks
 from bench.experiments import arm
+from bench.experiments.episode_rows import TABLE, frame
 from bench.experiments.episodes import Place, cut, lost, narrowed, prepare, refuse_if_none, runs_on, starts_of, tasks_of
 from bench.experiments.experiment import EVERYTHING, Asked, Experiment, Settings, Unit
 from bench.experiments.suites import Slice, Suite
 from bench.law.contender import Contender
-from bench.tables.schema import TABLES
+from bench.metrics.registry import metrics_of
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -54,8 +55,6 @@ def slices_of(suite: Suite, one: Contender) -> tuple[Slice, ...]:
 def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
     """The rows of a unit."""
     from bench.engines.run import run
-    from bench.experiments.rows.episodes import frame
-    from bench.metrics.registry import metrics_of
 
     starts, one, metrics = starts_of(settings, unit), settings.contender(unit.contender), metrics_of(on_arm=False)
     limits = settings.limits(unit.horizon_s)
@@ -66,7 +65,7 @@ def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
 EXPERIMENT = Experiment(
     "free-body",
     "laws on the body that turns freely",
-    TABLES["episodes"],
+    TABLE,
     units,
     rows,
     takes=EVERYTHING,

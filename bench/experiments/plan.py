@@ -16,11 +16,11 @@ from bench.experiments.choice import (
     check_numbers,
     check_word,
 )
+from bench.experiments.columns import Table
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit, known_experiments, known_tables
 from bench.experiments.suites import suite
 from bench.law.contender import PAPERS_GAINS, Contender, Gains
 from bench.provenance import source_digest
-from bench.tables.column import Table
 from tasks.rules import RULES
 
 

@@ -12,9 +12,9 @@ import numpy as np
 
 import tasks
 from bench.contenders.registry import all_contenders, papers_laws
+from bench.files import read_json
 from bench.findings.claims import all_claims
 from bench.findings.perturbed import perturbations
-from bench.tables.files import read_json
 from bench.tables.schema import RESULTS
 
 AT_REST = ("half-turn", "poles", "wraps", "box")

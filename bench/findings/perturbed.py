@@ -16,8 +16,9 @@ import numpy as np
 import pandas as pd
 
 import tasks
+from bench.experiments.columns import CONTENDER_KEY
 from bench.tables.read import with_contender
-from bench.tables.schema import CONTENDER, RESULTS
+from bench.tables.schema import RESULTS
 from bench.tables.statistics import quantile
 from bench.tables.store import read
 
@@ -102,7 +103,7 @@ def by_level(rows: pd.DataFrame) -> pd.DataFrame:
     """
     is_settled = rows["outcome"] == "settled"
     times = rows.assign(good=went_well(rows), time_s=rows["settling_time_s"].where(is_settled, np.inf))
-    keys = ["axis", *(name for name in CONTENDER if name in rows), "level"]
+    keys = ["axis", *(name for name in CONTENDER_KEY if name in rows), "level"]
     groups = times.groupby(keys, observed=True, sort=False)
     return pd.DataFrame(
         {

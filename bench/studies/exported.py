@@ -14,10 +14,10 @@ from pathlib import Path
 from bench.errors import MissingTool
 from bench.export.language import find_language
 from bench.export.subject import Subject, find_subject
+from bench.files import write_json
 from bench.provenance import ROOT, describe
 from bench.regression.revisions import instructions, self_measure
 from bench.regression.revisions.process import Laws, running
-from bench.tables.files import write_json
 from bench.timing import law
 
 STORED = ROOT / "results" / "export" / "instructions.json"

@@ -8,8 +8,8 @@ import json
 from pathlib import Path
 
 from bench.errors import BadResults
-from bench.tables.column import COUNT, NUMBER, SINGLE, WORD, Table
-from bench.tables.schema import TABLES
+from bench.experiments.columns import COUNT, NUMBER, SINGLE, WORD, Table
+from bench.tables.schema import all_tables
 
 NAME = "datapackage.json"
 PROFILE = "https://datapackage.org/profiles/2.0/"
@@ -23,14 +23,14 @@ def described_folder(folder: Path) -> dict:
     Errors:
         BadResults: the folder holds no table that the schema knows.
     """
-    paths = [path for path in sorted(folder.glob("*.parquet")) if path.stem in TABLES]
+    paths = [path for path in sorted(folder.glob("*.parquet")) if path.stem in all_tables()]
     if not paths:
         raise BadResults(f"{folder}: no tables there; give a results folder, such as results/reference")
     return {
         "$schema": PROFILE + "datapackage.json",
         "name": "orientation-bench",
         "licenses": [{"name": "Apache-2.0"}],
-        "resources": [described_table(path, TABLES[path.stem]) for path in paths],
+        "resources": [described_table(path, all_tables()[path.stem]) for path in paths],
     }
 
 

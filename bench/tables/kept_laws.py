@@ -9,9 +9,9 @@ from bench.contenders.described_law import described
 from bench.contenders.law_file import WORD
 from bench.contenders.registry import known_regulators, known_representations
 from bench.errors import BadResults
+from bench.files import refuse_link
 from bench.law.contender import ON_MATRIX, Regulator
 from bench.tables import trust
-from bench.tables.files import refuse_link
 
 if TYPE_CHECKING:
     import pandas as pd

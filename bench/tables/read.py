@@ -19,8 +19,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from bench.errors import BadResults
+from bench.files import read_json
 from bench.law.contender import Regulator
-from bench.tables.files import read_json
 from bench.tables.kept_laws import kept_laws
 from bench.tables.schema import RESULTS
 

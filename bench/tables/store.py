@@ -14,8 +14,8 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from bench.errors import BadResults
-from bench.tables.column import VERSION, Table
-from bench.tables.files import refuse_link, write_atomically
+from bench.experiments.columns import VERSION, Table
+from bench.files import refuse_link, write_atomically
 from bench.tables.schema import table_of
 
 

@@ -33,7 +33,7 @@ import signal
 import pandas as pd
 
 from bench.experiments.experiment import Experiment, Unit
-from bench.tables.column import Table, numbers, words
+from bench.experiments.columns import Table, numbers, words
 
 
 def columns():

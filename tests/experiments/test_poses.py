@@ -11,9 +11,18 @@ from support.bits import EPS
 
 import tasks
 from bench.contenders.registry import find_contender, known_representations
+from bench.experiments import jacobians as poses
 from bench.experiments import plan
-from bench.experiments.rows import poses
-from bench.experiments.rows.pose_sets import DECADES, FAMILIES, WELL_CONDITIONED, grid, pair, polished, towards_pole
+from bench.experiments.experiment import Settings
+from bench.experiments.jacobians.pose_sets import (
+    DECADES,
+    FAMILIES,
+    WELL_CONDITIONED,
+    grid,
+    pair,
+    polished,
+    towards_pole,
+)
 from bench.regression import rows as compare
 from bench.regression.rows import difference
 from bench.tables import schema
@@ -29,7 +38,7 @@ COUNT, SEED = 30, 7
 @pytest.fixture(scope="module")
 def frames():
     """The rows of two arms with few poses."""
-    return {name: poses.frame(tasks.arm(name), COUNT, SEED) for name in ARMS}
+    return {name: poses.rows(Settings(seed=SEED), poses.of_arm(name, COUNT)) for name in ARMS}
 
 
 def of_zyx(frame, *sets):
@@ -164,7 +173,7 @@ def test_random_poses_are_in_range_and_the_first_of_more(frames):
     q = rows[[f"q_{i + 1}" for i in range(6)]].to_numpy()
     assert len(q) == COUNT
     assert ((q >= arm.lower) & (q <= arm.upper)).all()
-    more = of_zyx(poses.frame(arm, 2 * COUNT, SEED), "random")
+    more = of_zyx(poses.rows(Settings(seed=SEED), poses.of_arm("puma560", 2 * COUNT)), "random")
     assert np.array_equal(more[[f"q_{i + 1}" for i in range(6)]].to_numpy()[:COUNT], q)
 
 
@@ -173,7 +182,7 @@ def test_every_pose_has_a_row_in_every_representation(frames):
         counts = frame.groupby(["pose_set", "pose_id"]).size()
         assert set(counts) == {len(known_representations())}
         assert frame["q_7"].isna().all()
-        assert set(schema.TABLES["poses"].names) == set(frame.columns)
+        assert set(schema.table_of("poses").names) == set(frame.columns)
 
 
 def test_conditions_are_numpys_and_infinite_where_nothing_is_finite():

@@ -14,7 +14,7 @@ from bench.experiments.experiment import Asked
 from bench.experiments.suites import SUITES
 from bench.running import run as running
 from bench.tables.read import with_contender
-from bench.tables.schema import TABLES
+from bench.tables.schema import table_of
 from bench.tables.store import read
 
 LAWS = [one for one in all_contenders() if not one.regulator.costing_only]
@@ -72,7 +72,7 @@ def rows(tmp_path_factory) -> pd.DataFrame:
 
 
 def test_there_is_a_row_for_each_law_level_and_start(rows):
-    assert not rows.duplicated(list(TABLES["robustness"].key)).any()
+    assert not rows.duplicated(list(table_of("robustness").key)).any()
     counts = rows.groupby(["contender", "axis", "level"], observed=True).size()
     assert (counts == 3).all()
     for axis in ("delay", "half-turn-noise"):

@@ -9,9 +9,9 @@ import pytest
 from support.tables import changed, decided
 from support.tables import judged as judged_on
 
-import tasks
 from bench.counting.counted import OPERATIONS
-from bench.experiments.rows import poses
+from bench.experiments import jacobians as poses
+from bench.experiments.experiment import Settings
 from bench.experiments.suites import ON_ARM
 from bench.findings.claims import arm_probes, euler_controller
 from bench.findings.claims.euler_controller import BY_COMMON, BY_EULER, INVERSES, ON_MATRIX, words
@@ -231,7 +231,7 @@ def test_curves_of_a_law_that_is_not_linear_in_the_angles_bend_at_any_step():
 
 @pytest.mark.slow
 def test_episodes_beside_poles_start_where_the_table_says_and_end_at_a_tenth_of_a_radian():
-    table = poses.frame(tasks.arm("ur5e"), 5, 0)
+    table = poses.rows(Settings(), poses.of_arm("ur5e", 5))
     table = table[table["representation"] == "zyx-euler"]
     found = arm_probes.beside_poles(f"{ON_MATRIX}+solve", "ur5e", table, Gains())
     assert len(found) == 8 * 12

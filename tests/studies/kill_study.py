@@ -18,10 +18,11 @@ from support.killed_clusters import LOCAL, STUDIED, gone_on_alone, gone_on_with
 from support.killed_runs import Undisturbed, at_random_moments, files_of, undisturbed
 from support.small_disk import NoDisk, fill, mounted
 
+from bench import files
 from bench.errors import BadResults
 from bench.provenance import ROOT, describe
 from bench.running import run
-from bench.tables import files, store
+from bench.tables import store
 
 KILLS = 100
 SHARES = {"threads": 0.6, LOCAL: 0.2, "worker": 0.2}

@@ -14,6 +14,7 @@ from pathlib import Path
 import numpy as np
 
 from bench.errors import BadResults
+from bench.experiments.shipped import SETTLING_DEG
 from bench.findings.claims.tables import Results
 from bench.findings.claims.verdict import NoEvidence
 from bench.findings.selection.criteria import BY_NAME, CRITERIA
@@ -21,7 +22,6 @@ from bench.findings.selection.measured import Measured
 from bench.findings.selection.needs import EVERYWHERE, Decision, Need, decide
 from bench.findings.selection.tables import tables_of
 from bench.law.shipped import TORQUE
-from bench.tables.shipped_columns import SETTLING_DEG
 
 UNCANCELLED = Need("your robot takes torques and you cancel no inertia", (EVERYWHERE,))
 OF_THE_LAW = ("tick", "memory", "jump")

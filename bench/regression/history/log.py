@@ -7,9 +7,9 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from bench.errors import BadResults
+from bench.files import refuse_link, write_atomically
 from bench.regression.history.record import Record, from_json, to_json
 from bench.tables import lock
-from bench.tables.files import refuse_link, write_atomically
 from bench.tables.schema import RESULTS
 
 LOG = RESULTS / "history" / "history.jsonl"

@@ -11,10 +11,10 @@ from typing import NamedTuple
 
 from bench.contenders.described_law import described
 from bench.errors import BadLaw, BadResults
+from bench.files import read_json
 from bench.provenance import ROOT
 from bench.regression.revisions.commits import WORKING_TREE, commit_of, repository, worktree
 from bench.regression.revisions.process import Laws
-from bench.tables.files import read_json
 
 LOCK = Path("requirements") / "base.txt"
 DIGEST = "from bench.provenance import source_digest; print(source_digest())"

@@ -19,10 +19,10 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from bench.errors import BadResults
+from bench.files import read_json, write_json
 from bench.findings.judgement import Judgement, Said
 from bench.regression.revisions import measurement
 from bench.regression.revisions.measurement import Measurement
-from bench.tables.files import read_json, write_json
 
 SCHEMA = "orientation-bench comparison 2"
 

@@ -14,9 +14,9 @@ import pandas as pd
 
 from bench.counting import OPERATIONS as OPERATION_NAMES
 from bench.counting import TOTAL
+from bench.files import read_json
 from bench.regression.revisions.comparison import CHANGE, EXACT, IMPROVEMENT, OPERATIONS, REGRESSION, Finding
 from bench.regression.rows.difference import CHANGED, COLUMN, JUDGE, MISSING, NEW, Difference
-from bench.tables.files import read_json
 from bench.tables.read import with_contender
 from bench.tables.store import read
 

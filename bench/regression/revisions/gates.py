@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from bench.errors import BadResults
+from bench.files import read_json
 from bench.findings.judged import judged
 from bench.findings.judgement import Judgement
 from bench.regression.revisions import checkouts, exact, faults, self_measure
@@ -27,7 +28,6 @@ from bench.regression.revisions.measured import Operations, Wanted, left_out, me
 from bench.regression.revisions.process import SideFailed, running
 from bench.regression.rows import differences
 from bench.regression.rows.difference import JUDGE
-from bench.tables.files import read_json
 from bench.tables.store import read
 
 Report = Callable[[str], None]

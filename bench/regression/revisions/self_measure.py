@@ -8,13 +8,13 @@ import pandas as pd
 from bench import counting
 from bench.contenders.registry import all_contenders
 from bench.errors import MissingTool
+from bench.experiments.costs import count_law
+from bench.files import read_json
 from bench.provenance import ROOT, commit, cpu_name, describe, lock_digest, machine_key, source_digest, versions
 from bench.regression.revisions import alternating, instructions
 from bench.regression.revisions.machine import target
 from bench.regression.revisions.measurement import Measurement
 from bench.regression.revisions.process import Laws, Process, running
-from bench.tables import kept_costs
-from bench.tables.files import read_json
 from bench.tables.read import with_contender
 from bench.tables.schema import RESULTS
 from bench.tables.store import read
@@ -109,7 +109,7 @@ def operations() -> Operations:
         origin = folder / "provenance.json"
         if origin.is_file() and read_json(origin)["sources"] == source_digest():
             return by_law(read(folder, "costs"))
-    return by_law(pd.DataFrame([row for one in all_contenders() for row in kept_costs.of_law(one)]))
+    return by_law(pd.DataFrame([row for one in all_contenders() for row in count_law(one)]))
 
 
 def by_law(costs: pd.DataFrame) -> Operations:

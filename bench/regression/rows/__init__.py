@@ -17,7 +17,9 @@ contact      tables of hands in contact, and of laws under perturbations
 from pathlib import Path
 
 from bench.errors import BadResults
+from bench.experiments.columns import Table
 from bench.experiments.experiment import known_tables
+from bench.files import read_json
 from bench.regression.rows.contact import compliance, robustness
 from bench.regression.rows.difference import COLUMN, Difference, by_column, lines
 from bench.regression.rows.tables import (
@@ -31,8 +33,6 @@ from bench.regression.rows.tables import (
     velocity,
     velocity_limits,
 )
-from bench.tables.column import Table
-from bench.tables.files import read_json
 from bench.tables.store import read, read_arrow
 
 __all__ = ["TABLES", "Difference", "compare", "differences", "lines"]

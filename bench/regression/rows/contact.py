@@ -7,7 +7,7 @@ from bench.contenders.registry import known_representations
 from bench.contenders.representations.zyx_euler import to_matrix
 from bench.regression.rows.difference import Close, Difference, aligned, changed, compared, near
 from bench.regression.rows.tables import ABSOLUTE
-from bench.tables.schema import TABLES
+from bench.tables.schema import table_of
 from tasks.contact_rest import REST
 from tasks.verdict import OUTCOMES, SETTLED
 
@@ -48,7 +48,7 @@ has been driven on by its goal or its noise for five thousand steps."""
 
 def compliance(old: pd.DataFrame, new: pd.DataFrame) -> list[Difference]:
     """Hands in contact: outcomes where no rounding decides them, numbers of what is done in both."""
-    table = TABLES["compliance"]
+    table = table_of("compliance")
     old, new, found = aligned(table, old, new)
     same = new["outcome"].astype(str) == old["outcome"].astype(str)
     torque = np.fmin(new["peak_torque_ratio"].to_numpy(), old["peak_torque_ratio"].to_numpy())
@@ -70,7 +70,7 @@ def _as_near_as_contact_leaves(rows: pd.DataFrame) -> Close:
 
 def robustness(old: pd.DataFrame, new: pd.DataFrame) -> list[Difference]:
     """Laws under perturbations: outcomes exactly, numbers of what settled in both."""
-    table = TABLES["robustness"]
+    table = table_of("robustness")
     old, new, found = aligned(table, old, new)
     same = new["outcome"].astype(str) == old["outcome"].astype(str)
     found += changed(table, "outcome", old, new, ~same)

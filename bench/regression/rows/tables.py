@@ -5,9 +5,9 @@ from collections.abc import Callable
 import numpy as np
 import pandas as pd
 
+from bench.experiments.columns import Table
 from bench.regression.rows.difference import MISSING, NEW, Difference, aligned, changed, compared, near
-from bench.tables.column import Table
-from bench.tables.schema import TABLES
+from bench.tables.schema import table_of
 from tasks.verdict import OUTCOMES, SETTLED
 
 RELATIVE = 1e-6
@@ -27,7 +27,7 @@ FRICTION_RELATIVE = 1e-3
 BOUNDARY_ANGLE = 1e-5
 """Bisection ends at 7e-7 rad; near a fractal boundary the last steps may go either way."""
 
-CURVE_KEY = TABLES["traces"].key[:-1]
+CURVE_KEY = table_of("traces").key[:-1]
 ARRIVED = 0.02
 """A curve whose angle ends below the settling band's share of where it began came to the goal."""
 
@@ -56,7 +56,7 @@ def of_key(table: Table) -> Callable[[pd.DataFrame, pd.DataFrame], list[Differen
 
 def episodes(old: pd.DataFrame, new: pd.DataFrame) -> list[Difference]:
     """Outcomes exactly, on a knife's edge either; numbers of what settled in both, to what rounding makes of them."""
-    table = TABLES["episodes"]
+    table = table_of("episodes")
     old, new, found = aligned(table, old, new)
     settled = old["outcome"].astype(str) == OUTCOMES[SETTLED]
     same = new["outcome"].astype(str) == old["outcome"].astype(str)
@@ -82,7 +82,7 @@ def episodes(old: pd.DataFrame, new: pd.DataFrame) -> list[Difference]:
 
 def velocity(old: pd.DataFrame, new: pd.DataFrame) -> list[Difference]:
     """As `episodes`; a change of ABSOLUTE by 1e-12 rad is taken for rounding's, and of larger ones MARGIN times it."""
-    table = TABLES["velocity"]
+    table = table_of("velocity")
     old, new, found = aligned(table, old, new)
     settled = old["outcome"].astype(str) == OUTCOMES[SETTLED]
     same = new["outcome"].astype(str) == old["outcome"].astype(str)
@@ -100,7 +100,7 @@ def velocity(old: pd.DataFrame, new: pd.DataFrame) -> list[Difference]:
 
 def velocity_limits(old: pd.DataFrame, new: pd.DataFrame) -> list[Difference]:
     """What was bisected, to LIMIT_RELATIVE."""
-    table = TABLES["velocity-limits"]
+    table = table_of("velocity-limits")
     old, new, found = aligned(table, old, new)
     return found + compared(table, old, new, near(LIMIT_RELATIVE, LIMIT_RELATIVE))
 
@@ -115,8 +115,8 @@ def _share_an_outcome(old: pd.DataFrame, new: pd.DataFrame) -> np.ndarray:
 def costs(old: pd.DataFrame, new: pd.DataFrame) -> list[Difference]:
     """Operations, exactly."""
     old, new = (frame.assign(joints=_joints(frame)) for frame in (old, new))
-    old, new, found = aligned(TABLES["costs"], old, new)
-    return found + compared(TABLES["costs"], old, new, near(0.0, 0.0))
+    old, new, found = aligned(table_of("costs"), old, new)
+    return found + compared(table_of("costs"), old, new, near(0.0, 0.0))
 
 
 def _joints(costs: pd.DataFrame) -> pd.Series:
@@ -126,8 +126,8 @@ def _joints(costs: pd.DataFrame) -> pd.Series:
 
 def boundaries(old: pd.DataFrame, new: pd.DataFrame) -> list[Difference]:
     """Where each law first fails, to BOUNDARY_ANGLE."""
-    old, new, found = aligned(TABLES["boundaries"], old.round(_digits(old)), new.round(_digits(new)))
-    return found + compared(TABLES["boundaries"], old, new, near(0.0, BOUNDARY_ANGLE), but=["outcome"])
+    old, new, found = aligned(table_of("boundaries"), old.round(_digits(old)), new.round(_digits(new)))
+    return found + compared(table_of("boundaries"), old, new, near(0.0, BOUNDARY_ANGLE), but=["outcome"])
 
 
 def _digits(frame: pd.DataFrame) -> dict[str, int]:
@@ -137,7 +137,7 @@ def _digits(frame: pd.DataFrame) -> dict[str, int]:
 
 def command_field(old: pd.DataFrame, new: pd.DataFrame) -> list[Difference]:
     """Every finding's word, and its numbers where they are bounded; not the state that shows it, one of many alike."""
-    table = TABLES["command-field"]
+    table = table_of("command-field")
     old, new, found = aligned(table, old, new)
     kept, is_bounded = [*table.key, "what", "value", "least", "most"], (old["what"] != "unbounded").to_numpy()
     return found + compared(table, old[kept], new[kept], near(POSE_RELATIVE, ABSOLUTE), is_bounded)
@@ -151,9 +151,9 @@ def traces(old: pd.DataFrame, new: pd.DataFrame) -> list[Difference]:
     if found:
         return found
     arrived = [one.transform("last") <= ARRIVED * one.transform("first") for one in curves]
-    old, new, found = aligned(TABLES["traces"], old[arrived[0]], new[arrived[1]])
+    old, new, found = aligned(table_of("traces"), old[arrived[0]], new[arrived[1]])
     # a curve that arrives has settled
-    return found + compared(TABLES["traces"], old, new, near(RELATIVE, RELATIVE), but=["outcome"])
+    return found + compared(table_of("traces"), old, new, near(RELATIVE, RELATIVE), but=["outcome"])
 
 
 def _curves(kind: str, words: str, keys: set[tuple[str, ...]]) -> list[Difference]:
@@ -163,7 +163,7 @@ def _curves(kind: str, words: str, keys: set[tuple[str, ...]]) -> list[Differenc
 
 def poses(old: pd.DataFrame, new: pd.DataFrame) -> list[Difference]:
     """Poses and what their Jacobians are; the gaps are rounding itself, and claims look at their size."""
-    old, new, found = aligned(TABLES["poses"], old, new)
+    old, new, found = aligned(table_of("poses"), old, new)
     steady = (old["condition_analytic"].to_numpy() < STEADY) & (old["condition"].to_numpy() < STEADY)
     gaps = [name for name in old.columns if name.endswith("_gap")]
-    return found + compared(TABLES["poses"], old, new, near(POSE_RELATIVE, ABSOLUTE), steady, gaps)
+    return found + compared(table_of("poses"), old, new, near(POSE_RELATIVE, ABSOLUTE), steady, gaps)

@@ -6,9 +6,9 @@ import tempfile
 import time
 
 from bench.errors import BenchError, UnknownWord
+from bench.files import write_json
 from bench.provenance import describe
 from bench.studies.gates import FOLDER, faults, power, same_code
-from bench.tables.files import write_json
 
 PARTS = {"faults": faults.run, "power": power.run, "same-code": same_code.run}
 

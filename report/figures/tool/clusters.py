@@ -8,8 +8,8 @@ from typing import Any
 import pandas as pd
 
 from bench.experiments.choice import MOST_STARTS
+from bench.files import read_json
 from bench.running.schedulers.words import THREADS
-from bench.tables.files import read_json
 from bench.tables.schema import RESULTS
 from report.figures.kit.html import number
 from report.figures.kit.page import Run

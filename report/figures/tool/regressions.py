@@ -7,11 +7,11 @@ from typing import Any
 
 import pandas as pd
 
+from bench.files import read_json
 from bench.regression.revisions import alternating, instructions, rule
 from bench.regression.revisions.comparison import SAME
 from bench.regression.revisions.machine import LEVEL
 from bench.studies.gates import power
-from bench.tables.files import read_json
 from report.figures.kit import html
 from report.figures.kit.page import Run, given
 from report.figures.kit.spelling import power as in_powers

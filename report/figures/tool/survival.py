@@ -6,7 +6,7 @@ import functools
 from collections import Counter
 from typing import Any
 
-from bench.tables.files import read_json
+from bench.files import read_json
 from report.figures.kit import html
 from report.figures.kit.page import Run, given
 from report.figures.kit.tables import Table

@@ -14,8 +14,8 @@ from bench.control.contact_controller import ContactController
 from bench.control.registry import all_controllers, find_controller
 from bench.errors import Incompatible
 from bench.experiments.choice import Choice
+from bench.experiments.contact.rows import TABLE, frame
 from bench.experiments.experiment import EVERYTHING, Asked, Experiment, Settings, Unit
-from bench.tables.schema import TABLES
 from tasks.base import BadValue
 
 if TYPE_CHECKING:
@@ -156,7 +156,6 @@ def _without_selection(trials: tuple[Trial, ...]) -> Iterator[Trial]:
 def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
     """One row a pose."""
     from bench.engines.contact_episode import Conditions
-    from bench.experiments.rows.contact import frame
 
     one, arm = find_controller(unit.contender), tasks.arm(unit.arm)
     task = tasks.contact_task(unit.task)
@@ -168,7 +167,7 @@ def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
 EXPERIMENT = Experiment(
     "contact",
     "controllers of a hand in contact",
-    TABLES["compliance"],
+    TABLE,
     units,
     rows,
     takes=EVERYTHING,

@@ -9,12 +9,17 @@ Fails: an episode that is neither DOUBTFUL in conditioning nor in torque, and ha
 seen. Under other BLAS kernels, compiler targets and C libraries' variants of sin and cos there was none.
 """
 
+from __future__ import annotations
+
 from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
-import pandas as pd
 
 from tasks.base import Start
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 NUDGE = 1e-12
 """[rad]. Joint angles are rounded to 4e-16; two libraries' sines and some 1e3 ticks make 1e-14 of that."""

@@ -6,8 +6,8 @@ from pathlib import Path
 
 from bench.engines import cache
 from bench.errors import BadResults
+from bench.files import read_json, write_json
 from bench.provenance import source_digest
-from bench.tables.files import read_json, write_json
 
 Rows = list[dict]
 
