@@ -32,7 +32,7 @@ from bench.experiments.experiment import OF_LAWS, Asked, Experiment, Settings, U
 from bench.experiments.suites import Robustness
 from bench.law.contender import Contender, Gains
 from bench.metrics.registry import metrics_of
-from tasks.condition import Condition
+from tasks.condition import Condition, condition_at
 from tasks.truth import angle
 
 if TYPE_CHECKING:
@@ -130,7 +130,7 @@ def simulated(settings: Settings, unit: Unit, simulate, gains=gains_at) -> pd.Da
     one, axis, seed = settings.contender(unit.contender), tasks.axis(unit.selector), settings.seed
     parts = []
     for level in axis.levels:
-        condition = axis.at(level)
+        condition = condition_at(axis, level)
         chosen = gains(one, condition.peak) if condition.peak else settings.gains
         if chosen is not None:
             some = axis.starts(unit.count, seed, level)

@@ -21,6 +21,7 @@ from bench.tables.read import with_contender
 from bench.tables.schema import RESULTS
 from bench.tables.statistics import quantile
 from bench.tables.store import read
+from tasks.condition import condition_at
 
 STUDY = RESULTS / "robustness"
 """What `make robustness-study` keeps: `by_level` of hundreds of starts a level."""
@@ -73,7 +74,7 @@ class Threshold(NamedTuple):
 @functools.cache
 def perturbations() -> tuple[str, ...]:
     """Axes that perturb; one that sets the gains alone, so that peak commands are equal, does not."""
-    return tuple(name for name in tasks.axis_names() if not tasks.axis(name).at(1.0).peak)
+    return tuple(name for name in tasks.axis_names() if not condition_at(tasks.axis(name), 1.0).peak)
 
 
 @functools.cache
@@ -87,7 +88,7 @@ def ways() -> tuple[Way, ...]:
 def lasting() -> tuple[str, ...]:
     """Perturbations that last."""
     every = map(tasks.axis, tasks.axis_names())
-    return tuple(axis.name for axis in every if axis.at(max(axis.levels)).lasts)
+    return tuple(axis.name for axis in every if condition_at(axis, max(axis.levels)).lasts)
 
 
 def went_well(rows: pd.DataFrame) -> pd.Series:

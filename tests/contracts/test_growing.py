@@ -65,6 +65,34 @@ EXPERIMENT = Experiment(
 )
 '''
 
+PLANTED = "tasks/conditions/planted_bias.py"
+PLANTED_AXIS = '''
+"""A gyroscope that reads too much."""
+
+from tasks.axis import Axis, Field
+
+AXIS = Axis(
+    "planted-bias",
+    "A planted bias",
+    "rad/s",
+    (0.0, 0.1),
+    0.0,
+    lambda level: {"planted_bias": level},
+    (Field("planted_bias", 0.0, "what the rate reads too much [rad/s]", lasts=True),),
+)
+'''
+ASKED_OF_AXIS = """
+import tasks
+from bench.engines.disturbed import CONDITION
+from bench.findings.perturbed import lasting, ways
+from report.figures.robustness.robustness import AXES
+from tasks.condition import Condition, condition_at
+
+print(dict(zip(CONDITION.fields, map(str, CONDITION.types)))["planted_bias"])
+print(condition_at(tasks.axis("planted-bias"), 0.1).planted_bias)
+print("planted-bias" in lasting(), [way.name for way in ways() if way.axis == "planted-bias"], "planted-bias" in AXES)
+"""
+
 LISTED = {
     "regulators": "dropped-regulator",
     "representations": "dropped-coordinates",
@@ -91,14 +119,20 @@ LISTED = {
 }
 
 
+def copied(tree: Path) -> Path:
+    """A copy of the rooms."""
+    for room in ("bench", "tasks", "report"):
+        shutil.copytree(
+            ROOT / room, tree / room, ignore=shutil.ignore_patterns("__pycache__", "_build", "pages", "*.md")
+        )
+    return tree
+
+
 @pytest.fixture(scope="module")
 def tree(tmp_path_factory):
     """A copy of the rooms with no laws but those that other files build on, for every run counts the operations of all;
     nothing but the files above is added to it; the book cut down to its references."""
-    tree = tmp_path_factory.mktemp("growing")
-    ignored = shutil.ignore_patterns("__pycache__", "_build", "pages", "index.md")
-    for room in ("bench", "tasks", "report"):
-        shutil.copytree(ROOT / room, tree / room, ignore=ignored)
+    tree = copied(tmp_path_factory.mktemp("growing"))
     for name in known_regulators().keys() - {"rotation-matrix", "feedback-linearized", "rotation-vector"}:
         (tree / "bench" / "contenders" / "regulators" / f"{name.replace('-', '_')}.py").unlink()
     (tree / "report" / "pages").mkdir()
@@ -149,6 +183,11 @@ def sources(tree: Path) -> dict[str, str]:
     return {
         name: what for name, what in digest(tree).items() if not name.startswith(made) and "__pycache__" not in name
     }
+
+
+def test_planted_axis_is_in_the_compiled_condition_the_thresholds_and_the_book_without_another_file_touched(tmp_path):
+    (copied(tmp_path) / PLANTED).write_text(PLANTED_AXIS.lstrip("\n"))
+    assert ran(tmp_path, "-c", ASKED_OF_AXIS).splitlines() == ["float64", "0.1", "True ['planted-bias'] True"]
 
 
 @pytest.mark.slow

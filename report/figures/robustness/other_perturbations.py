@@ -30,6 +30,7 @@ from report.figures.robustness.rows import (
     with_unit,
     worst,
 )
+from tasks.condition import condition_at
 from tasks.rules import RULES
 
 LINEAR = ("control-rate", "delay", "inertia")
@@ -51,7 +52,7 @@ ERRORS = Table("Perturbation | Level | Linear theory [deg] | Median law [deg] | 
 def farthest_ms(rows: pd.DataFrame, name: str) -> float:
     """Largest difference of any start of EXACT from the linear loop's settling time [ms], under one of LINEAR."""
     own = of(rows, EXACT)
-    there = {level: tasks.axis(name).at(level) for level in levels(own)}
+    there = {level: condition_at(tasks.axis(name), level) for level in levels(own)}
     theory = {
         level: robustness_theory.settling(*gains(rows), RULES.tolerance, one.period_s, one.delay_s, one.inertia[0])
         for level, one in there.items()
@@ -61,7 +62,7 @@ def farthest_ms(rows: pd.DataFrame, name: str) -> float:
 
 def left(rows: pd.DataFrame, name: str) -> float:
     """Root mean square angle that the linear loop keeps of noise or of a slightly moving goal [rad], over the level."""
-    unit = tasks.axis(name).at(1.0)
+    unit = condition_at(tasks.axis(name), 1.0)
     if unit.is_noisy:
         return robustness_theory.noisy_rms(*gains(rows), unit.period_s, unit.attitude_noise, unit.rate_noise)
     horizon_s = float(rows["horizon_s"].iloc[0])
@@ -125,7 +126,7 @@ def delay(rows: pd.DataFrame) -> dict:
 def is_within(rows: pd.DataFrame, name: str) -> str:
     """Whether PAIELLI loses only starts from which it can turn its own spring round, blind for a delay and a period."""
     lost = of(rows, PAIELLI).query("not good")
-    blind = [one.delay_s + one.period_s for one in map(tasks.axis(name).at, lost["level"])]
+    blind = [one.delay_s + one.period_s for one in (condition_at(tasks.axis(name), level) for level in lost["level"])]
     beyond = [robustness_theory.reversal_angle(gains(rows)[0], one) for one in blind]
     return "all" if (lost["angle0_rad"] >= beyond).all() else "not all"
 
