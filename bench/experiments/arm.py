@@ -12,7 +12,7 @@ from bench.errors import Incompatible
 from bench.experiments.choice import Choice
 from bench.experiments.episode_rows import TABLE, frame
 from bench.experiments.episodes import Place, cut, lost, narrowed, prepare, runs_on, starts_of, tasks_of
-from bench.experiments.experiment import EVERYTHING, Asked, Experiment, Settings, Unit
+from bench.experiments.experiment import ON_ARMS, Asked, Experiment, Settings, Unit
 from bench.experiments.rounding import judged_on_both_sides
 from bench.experiments.suites import AT_INVERSES, NOMINAL, OnArms, Slice
 from bench.law.contender import Contender
@@ -111,7 +111,7 @@ EXPERIMENT = Experiment(
     TABLE,
     units,
     rows,
-    takes=EVERYTHING,
+    takes=ON_ARMS,
     cost_s=lambda unit: unit.count * EPISODE_S[unit.engine],
     prepare=prepare,
     lost=lost,

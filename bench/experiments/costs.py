@@ -7,7 +7,7 @@ from bench.contenders.registry import all_contenders
 from bench.errors import BadLaw
 from bench.experiments import arm, free_body
 from bench.experiments.columns import CONTENDER, CONTENDER_KEY, Column, Table, counts, words
-from bench.experiments.experiment import EVERYTHING, Asked, Experiment, Settings, Unit, own_last
+from bench.experiments.experiment import ON_ARMS, Asked, Experiment, Settings, Unit, own_last
 from bench.experiments.kept_rows import kept
 from bench.experiments.traces import laws
 from bench.law.contender import Contender
@@ -84,7 +84,7 @@ EXPERIMENT = Experiment(
     Table("costs", columns, (*CONTENDER_KEY, "joints", "branch", "stage")),
     units,
     rows,
-    takes=tuple(kind for kind in EVERYTHING if kind not in ("axes", "controllers")),
+    takes=ON_ARMS,
     cost_s=lambda unit: CONTROLLER_S if unit.arm else LAW_S,
     is_tried_first=True,
     compiles=False,

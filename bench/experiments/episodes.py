@@ -36,19 +36,11 @@ class Place(NamedTuple):
 
 
 def tasks_of(asked: Asked) -> tuple[str, ...]:
-    """The tasks without contact that are meant; none with a perturbation, whose starts are its own."""
+    """Return the tasks without contact that are meant."""
     choice = asked.choice
-    if choice.axes:
-        return ()
-    if choice.is_contact_alone:
-        if asked.own:
-            raise Incompatible(
-                f"tasks in contact take controllers, not the regulator '{asked.own[0].name}' (leave --law away)"
-            )
-        return ()
-    named = tuple(word for word in choice.tasks if word in tasks.names())
-    every = tuple(word for word in tasks.names() if tasks.is_for_arms(word) or not choice.is_about_arms)
-    return named or every
+    if choice.tasks:
+        return tuple(word for word in choice.tasks if word in tasks.names())
+    return tuple(word for word in tasks.names() if tasks.is_for_arms(word) or not choice.is_about_arms)
 
 
 def runs_on(engine: str, task: str, one: Contender) -> bool:

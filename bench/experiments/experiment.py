@@ -122,11 +122,11 @@ class Asked:
         return tuple(dict.fromkeys(one.regulator for one in self.laws if one.regulator.origin))
 
 
-EVERYTHING = tuple(field.name for field in dataclasses.fields(Choice) if field.name != "experiments")
-"""What the experiments take whose units follow every word of a choice, and refuse those that exclude each other."""
-
 OF_LAWS = ("tasks", "regulators", "representations")
 """What an experiment takes that runs some laws on the free body."""
+
+OF_EPISODES = (*OF_LAWS, "start_sets", "engines")
+ON_ARMS = (*OF_EPISODES, "arms", "jacobians", "inverses", "variations")
 
 
 def no_rows(settings: Settings, unit: Unit, outcome: str = "") -> Rows:

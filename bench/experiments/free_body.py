@@ -9,7 +9,7 @@ import tasks
 from bench.experiments import arm
 from bench.experiments.episode_rows import TABLE, frame
 from bench.experiments.episodes import Place, cut, lost, narrowed, prepare, refuse_if_none, runs_on, starts_of, tasks_of
-from bench.experiments.experiment import EVERYTHING, Asked, Experiment, Settings, Unit
+from bench.experiments.experiment import OF_EPISODES, Asked, Experiment, Settings, Unit
 from bench.experiments.suites import Slice, Suite
 from bench.law.contender import Contender
 from bench.metrics.registry import metrics_of
@@ -68,7 +68,7 @@ EXPERIMENT = Experiment(
     TABLE,
     units,
     rows,
-    takes=EVERYTHING,
+    takes=OF_EPISODES,
     cost_s=lambda unit: unit.count * EPISODE_S[unit.engine],
     prepare=prepare,
     lost=lost,

@@ -2,6 +2,7 @@
 
 import dataclasses
 import hashlib
+import itertools
 import json
 from dataclasses import dataclass
 
@@ -78,10 +79,10 @@ def chosen(choice: Choice) -> list[Experiment]:
     """Return the experiments that are named, or else those that take every kind of word that is.
 
     Errors:
-        Incompatible: experiments are named, and a word that none of them takes.
+        Incompatible: a word that no experiment takes beside the others, or none that is named.
     """
     if not choice.experiments:
-        return [one for one in known_experiments().values() if set(choice.named) <= set(one.takes)]
+        return _taking(choice)
     found = [one for name, one in known_experiments().items() if name in choice.experiments]
     taken = {kind for one in found for kind in one.takes}
     for kind in choice.named:
@@ -91,6 +92,31 @@ def chosen(choice: Choice) -> list[Experiment]:
                 f"{', '.join(sorted(taken)).replace('_', ' ') or 'no other words'} (leave one of the two away)"
             )
     return found
+
+
+def _taking(choice: Choice) -> list[Experiment]:
+    """Return the experiments that take every kind of word that is named.
+
+    Errors:
+        Incompatible: words of two kinds exclude each other, or tasks in contact and a word that they do not take.
+    """
+    found = [one for one in known_experiments().values() if set(choice.named) <= set(one.takes)]
+    taken = [set(one.takes) for one in known_experiments().values()]
+    for pair in itertools.combinations(choice.named, 2):
+        if not any(set(pair) <= kinds for kinds in taken):
+            both = " and ".join(_shown(choice, kind) for kind in pair)
+            raise Incompatible(f"nothing to run: no experiment takes both {both} (leave one of the two away)")
+    if choice.tasks and set(choice.tasks) <= set(tasks.contact_names()):
+        for kind in set(choice.named) - set(known_experiments()["contact"].takes):
+            raise Incompatible(
+                f"tasks in contact take an arm and a --controller, no {_shown(choice, kind)} (try: python -m bench "
+                "list controllers)"
+            )
+    return found
+
+
+def _shown(choice: Choice, kind: str) -> str:
+    return f"{kind.replace('_', ' ')} such as '{getattr(choice, kind)[0]}'"
 
 
 def make(

@@ -123,7 +123,7 @@ def copied(tree: Path) -> Path:
     """A copy of the rooms."""
     for room in ("bench", "tasks", "report"):
         shutil.copytree(
-            ROOT / room, tree / room, ignore=shutil.ignore_patterns("__pycache__", "_build", "pages", "*.md")
+            ROOT / room, tree / room, ignore=shutil.ignore_patterns("__pycache__", "_build", "pages", "index.md")
         )
     return tree
 

@@ -53,7 +53,7 @@ def test_what_has_to_do_with_other_episodes_leaves_perturbations_out():
 
 
 def test_words_that_an_axis_does_not_take_are_refused():
-    with pytest.raises(Incompatible, match="no arm such as 'ur5e'"):
+    with pytest.raises(Incompatible, match="takes both arms such as 'ur5e' and axes such as 'delay'"):
         made(Choice(axes=("delay",), arms=("ur5e",)))
     with pytest.raises(UnknownWord, match="did you mean 'delay'"):
         made(Choice(axes=("dely",)))

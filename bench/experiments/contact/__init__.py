@@ -15,7 +15,7 @@ from bench.control.registry import all_controllers, find_controller
 from bench.errors import Incompatible
 from bench.experiments.choice import Choice
 from bench.experiments.contact.rows import TABLE, frame
-from bench.experiments.experiment import EVERYTHING, Asked, Experiment, Settings, Unit
+from bench.experiments.experiment import Asked, Experiment, Settings, Unit
 from tasks.base import BadValue
 
 if TYPE_CHECKING:
@@ -42,8 +42,10 @@ def units(asked: Asked) -> tuple[Unit, ...]:
         BadValue: an arm that was named cannot be set a task that was. Incompatible: no controller is left.
     """
     part, choice = asked.suite.in_contact, asked.choice
-    if not choice.takes_contact:
-        return ()
+    if asked.own and choice.is_about_contact and set(choice.tasks) <= set(tasks.contact_names()):
+        raise Incompatible(
+            f"tasks in contact take controllers, not the regulator '{asked.own[0].name}' (leave --law away)"
+        )
     found: list[Unit] = []
     pairs = [(task, arm) for task in _tasks(choice) for arm in _arms(task, choice)]
     for task, arm in pairs:
@@ -63,8 +65,13 @@ def units(asked: Asked) -> tuple[Unit, ...]:
 
 
 def _tasks(choice: Choice) -> list[ContactTask]:
-    named = [word for word in choice.tasks if word in tasks.contact_names()]
-    return [tasks.contact_task(word) for word in named or tasks.contact_names()]
+    others = [word for word in choice.tasks if word not in tasks.contact_names()]
+    if choice.controllers and others:
+        raise Incompatible(
+            f"task '{others[0]}' takes regulators and no controller '{choice.controllers[0]}' (try: --task "
+            f"{tasks.contact_names()[0]})"
+        )
+    return [tasks.contact_task(word) for word in choice.tasks or tasks.contact_names() if word not in others]
 
 
 def _controllers(words: tuple[str, ...], choice: Choice) -> list[ContactController]:
@@ -170,7 +177,7 @@ EXPERIMENT = Experiment(
     TABLE,
     units,
     rows,
-    takes=EVERYTHING,
+    takes=("tasks", "arms", "controllers", "representations"),
     cost_s=lambda unit: unit.episodes * TRIAL_S,
     rank=2,
 )
