@@ -10,11 +10,12 @@ import tasks
 from bench.contenders import combinations
 from bench.errors import Incompatible
 from bench.experiments.choice import Choice
+from bench.experiments.chosen_words import AT_INVERSES
 from bench.experiments.episode_rows import TABLE, frame
 from bench.experiments.episodes import Place, cut, lost, narrowed, prepare, runs_on, starts_of, tasks_of
 from bench.experiments.experiment import ON_ARMS, Asked, Experiment, Settings, Unit
 from bench.experiments.rounding import judged_on_both_sides
-from bench.experiments.suites import AT_INVERSES, NOMINAL, OnArms, Slice
+from bench.experiments.suites import NOMINAL, OnArms, Slice
 from bench.law.contender import Contender
 from bench.metrics.registry import metrics_of
 from tasks.base import Start

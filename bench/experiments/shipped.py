@@ -18,10 +18,11 @@ from bench.engines.binding import memory_of
 from bench.engines.curve import NUMBERS, blank_curves
 from bench.engines.episode import OUTCOME, SETTLING_TICK, blank, start_rows
 from bench.engines.episode import numbers as numbers_of
+from bench.experiments.chosen_words import BEST
 from bench.experiments.columns import Column, Table, counts, numbers, words
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit
 from bench.experiments.field import ENGINE, ZERO, Field, about, size
-from bench.experiments.suites import BEST, LONG
+from bench.experiments.suites import LONG
 from bench.law.contender import Contender, Gains
 from bench.law.shipped import ANTIPODE, NEAR, VELOCITY, Shipped, regulator_of
 from bench.metrics.registry import metrics_of

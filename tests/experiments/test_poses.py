@@ -14,6 +14,7 @@ from bench.contenders.registry import find_contender, known_representations
 from bench.experiments import jacobians as poses
 from bench.experiments import plan
 from bench.experiments.experiment import Settings
+from bench.experiments.jacobians.eye import Eye
 from bench.experiments.jacobians.pose_sets import (
     DECADES,
     FAMILIES,
@@ -93,7 +94,7 @@ def test_our_jacobian_is_mujocos(frames, name):
 
 @pytest.mark.parametrize("name", ARMS)
 def test_our_jacobian_from_mujoco_alone_is_mujocos(name):
-    eye = poses.Eye(tasks.arm(name))
+    eye = Eye(tasks.arm(name))
     chain, J = eye.look(tasks.arm(name).home)
     swept = np.cross(chain.axes, np.array(chain.p) - chain.anchors)
     assert np.abs(np.vstack((swept.T, chain.axes.T)) - J).max() <= 16 * EPS

@@ -46,12 +46,6 @@ def test_a_named_axis_is_all_that_runs():
     assert found.episodes("robustness") == found.episodes() == 2 * 3 * len(tasks.axis("delay").levels)
 
 
-def test_what_has_to_do_with_other_episodes_leaves_perturbations_out():
-    for choice in (Choice(tasks=("arm-regulation",)), Choice(arms=("ur5e",)), Choice(start_sets=("paper",))):
-        assert not made(choice).of("robustness")
-    assert made(Choice(tasks=("free-body",))).of("robustness")
-
-
 def test_words_that_an_axis_does_not_take_are_refused():
     with pytest.raises(Incompatible, match="takes both arms such as 'ur5e' and axes such as 'delay'"):
         made(Choice(axes=("delay",), arms=("ur5e",)))

@@ -160,12 +160,6 @@ def test_readme_of_results_is_the_one_the_schema_writes():
     assert README.read_text(encoding="utf-8") == schema.readme()
 
 
-def test_readme_of_results_names_every_column_with_its_unit():
-    for table in schema.all_tables().values():
-        for one in table.columns():
-            assert f"| {one.name} | {one.unit} | {one.meaning} |" in schema.readme()
-
-
 def test_schema_is_one_arrow_reads_without_us(tmp_path):
     store.write_table(tmp_path / "x.parquet", frame("episodes", 2), "episodes")
     assert pa.types.is_dictionary(pq.read_table(tmp_path / "x.parquet").schema.field("outcome").type)

@@ -21,12 +21,12 @@ from bench.experiments.columns import JOINTS, Column, Table, numbers, singles, w
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit
 from bench.law.contender import Representation
 from bench.law.resolved_motion import Chain
-from bench.law.so3 import Rotation
-from tasks.arm_model import Arm, model_xml
+from tasks.arm_model import Arm
 
 if TYPE_CHECKING:
     import pandas as pd
 
+    from bench.experiments.jacobians.eye import Eye
     from bench.experiments.jacobians.pose_sets import Pose
 
 ARM_S, POSE_S = 5.0, 5e-3
@@ -86,39 +86,6 @@ def of_arm(name: str, count: int) -> Unit:
     return Unit("jacobians", arm=name, count=count, total=count)
 
 
-class Eye:
-    """An arm seen by MuJoCo."""
-
-    def __init__(self, arm: Arm):
-        import mujoco
-
-        self.mujoco = mujoco
-        self.model = mujoco.MjModel.from_xml_string(model_xml(arm, 1e-3))
-        self.data = mujoco.MjData(self.model)
-        self.site = self.model.site("tool").id
-        self.n = arm.joints
-
-    def rotation(self, q) -> Rotation:
-        """Return the tool's orientation."""
-        self.data.qpos[:] = q
-        self.mujoco.mj_kinematics(self.model, self.data)
-        m = self.data.site_xmat[self.site]
-        return Rotation((m[0], m[3], m[6]), (m[1], m[4], m[7]), (m[2], m[5], m[8]))
-
-    def position(self) -> np.ndarray:
-        """Return its position, where `rotation` was last called [m]."""
-        return self.data.site_xpos[self.site].copy()
-
-    def look(self, q) -> tuple[Chain, np.ndarray]:
-        """Return what a controller sees of a pose, at rest; and J."""
-        R = self.rotation(q)
-        self.mujoco.mj_comPos(self.model, self.data)
-        J = np.empty((6, self.n))
-        self.mujoco.mj_jacSite(self.model, self.data, J[:3], J[3:], self.site)
-        data = self.data
-        return Chain(self.n, data.xaxis.copy(), data.xanchor.copy(), np.zeros(self.n), tuple(self.position()), R), J
-
-
 class Seen(NamedTuple):
     """All poses of an arm: chains, and J (N x 6 x n) by the judge and by our kernel."""
 
@@ -132,6 +99,7 @@ def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
     """Return one row a pose and representation."""
     import pandas as pd
 
+    from bench.experiments.jacobians.eye import Eye
     from bench.experiments.jacobians.pose_sets import poses
 
     arm = tasks.arm(unit.arm)
