@@ -33,7 +33,7 @@ guess."""
 
 @functools.lru_cache(maxsize=8)
 def units(asked: Asked) -> tuple[Unit, ...]:
-    """The units on every arm.
+    """Return the units on every arm.
 
     Errors:
         Incompatible: no law, Jacobian and inverse that were named go together on any arm that was named.
@@ -78,7 +78,7 @@ def _on_arm(on_arms: OnArms, laws, joints: int, choice: Choice) -> Iterator[tupl
 
 
 def _knows(one: Contender, start_set: str) -> bool:
-    """Whether a set says all that a controller asks: of the goal's joint angles no law does."""
+    """Tell whether a set says all that a controller asks: of the goal's joint angles no law does."""
     return one.regulator.assemble is None or tasks.knows_joints(start_set)
 
 
@@ -93,7 +93,7 @@ def _check_combinations(asked: Asked) -> None:
 
 
 def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
-    """The rows of a unit, each doubtful one judged on both sides of its start."""
+    """Return the rows of a unit, each doubtful one judged on both sides of its start."""
     from bench.engines.run_arm import run
 
     starts, one, metrics = starts_of(settings, unit), settings.contender(unit.contender), metrics_of(on_arm=True)

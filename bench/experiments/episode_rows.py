@@ -205,7 +205,7 @@ def measured_columns(numbers: np.ndarray, metrics, angle0: list[float], judged: 
 
 
 def _steps(numbers: np.ndarray, dt_s: float) -> dict:
-    """The step of integration, and whether it was short enough where that was asked (`engines.convergence`)."""
+    """Return the step of integration, and whether it was short enough where that was asked (`engines.convergence`)."""
     step_s = numbers[:, STEP]
     return {
         "step_s": np.where(step_s == 0.0, dt_s, np.abs(step_s)),
@@ -214,7 +214,7 @@ def _steps(numbers: np.ndarray, dt_s: float) -> dict:
 
 
 def _seen_on_arm(arm: str, numbers: np.ndarray) -> list[float]:
-    """The judge's condition number where each episode was worst conditioned; infinite if the angles are no numbers."""
+    """Return the judge's condition number where each episode was worst conditioned; infinite where angles are NaN."""
     from tasks.kinematics import kinematics  # MuJoCo takes a moment to import; the ideal plant needs none
 
     judge = kinematics(tasks.arm(arm))

@@ -44,12 +44,12 @@ def tasks_of(asked: Asked) -> tuple[str, ...]:
 
 
 def runs_on(engine: str, task: str, one: Contender) -> bool:
-    """Whether an engine can run a task: the ideal plant is the free body's alone, and has no actuators of MuJoCo."""
+    """Tell whether an engine can run a task: the ideal plant is a free body without actuators of MuJoCo."""
     return not engine.startswith("ideal") or (task == "free-body" and not one.regulator.in_engine)
 
 
 def narrowed(slices: tuple[Slice, ...], choice: Choice) -> tuple[Slice, ...]:
-    """The start sets and engines that are named, with the suite's sizes where it has some."""
+    """Return the start sets and engines that are named, with the suite's sizes where it has some."""
     if not choice.narrows:
         return slices
     sizes = {(part.engine, part.start_set): part for part in slices}
@@ -65,7 +65,7 @@ def narrowed(slices: tuple[Slice, ...], choice: Choice) -> tuple[Slice, ...]:
 
 
 def cut(experiment: str, places: list[Place], asked: Asked, most: dict[str, int]) -> Iterator[Unit]:
-    """The units of places, of at most so many episodes each by engine."""
+    """Return the units of places, of at most so many episodes each by engine."""
     number = functools.cache(lambda word, size, arm: starts.count_of(word, size, asked.seed, arm))
     for part, one, task, arm, variation in places:
         total, step = number(part.start_set, asked.count or part.size, arm), most[part.engine]
@@ -110,7 +110,7 @@ def refuse_if_none(asked: Asked, units: tuple[Unit, ...]) -> None:
 
 
 def starts_of(settings: Settings, unit: Unit) -> list[Start]:
-    """A unit's stretch of its start set."""
+    """Return a unit's stretch of its start set."""
     end = unit.first + unit.count
     if unit.arm:
         return starts.on_arm(unit.selector, unit.total, settings.seed, unit.arm)[unit.first : end]

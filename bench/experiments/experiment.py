@@ -46,7 +46,7 @@ class Settings(NamedTuple):
     own: tuple[Regulator, ...] = ()
 
     def contender(self, name: str) -> Contender:
-        """The law, or the controller of an arm, of that name."""
+        """Return the law, or the controller of an arm, of that name."""
         return find_contender(name, self.own)
 
     def limits(self, horizon_s: float) -> Limits:
@@ -80,24 +80,24 @@ class Unit:
 
     @property
     def key(self) -> str:
-        """A name for a file."""
+        """Return a name for a file."""
         law = self.contender.replace("/", "~")
         words = (self.experiment, self.engine, law, self.task, self.arm, self.variation, self.selector)
         return "_".join((*filter(None, words), f"{self.first:06d}"))
 
     @property
     def law(self) -> str:
-        """The name of the contender's regulator."""
+        """Return the name of the contender's regulator."""
         return self.contender.partition("@")[0].partition("/")[0]
 
     @property
     def label(self) -> str:
-        """Where it is and what it runs, in a few words."""
+        """Return where it is and what it runs, in a few words."""
         where = (self.arm or self.engine or self.selector) if self.episodes else self.experiment
         return f"{where} {self.contender.split('/')[0] or self.arm}"
 
     def part(self, first: int, count: int) -> Unit:
-        """Some of its starts, an episode each."""
+        """Return a unit of some of its starts, an episode each."""
         return dataclasses.replace(self, first=first, count=count, episodes=count)
 
 
@@ -118,7 +118,7 @@ class Asked:
 
     @property
     def own(self) -> tuple[Regulator, ...]:
-        """The user's laws."""
+        """Return the user's laws."""
         return tuple(dict.fromkeys(one.regulator for one in self.laws if one.regulator.origin))
 
 
@@ -203,7 +203,7 @@ def known_tables() -> dict[str, Table]:
 
 
 def experiment_of(unit: Unit) -> Experiment:
-    """The experiment that a unit is of."""
+    """Return the experiment that a unit is of."""
     return known_experiments()[unit.experiment]
 
 

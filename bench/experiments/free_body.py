@@ -27,7 +27,7 @@ on a core of 2026, to one digit. A factor of two does not matter. Compiling come
 
 @functools.lru_cache(maxsize=8)
 def units(asked: Asked) -> tuple[Unit, ...]:
-    """The units of a suite's slices.
+    """Return the units of a suite's slices.
 
     Errors:
         Incompatible: no named task, engine and start set go together, here or on arms.
@@ -46,14 +46,14 @@ def units(asked: Asked) -> tuple[Unit, ...]:
 
 
 def slices_of(suite: Suite, one: Contender) -> tuple[Slice, ...]:
-    """The slices of a suite that a contender runs on."""
+    """Return the slices of a suite that a contender runs on."""
     if one.regulator.in_engine:
         return suite.in_engine
     return suite.beyond if one.is_beyond_the_paper else suite.slices
 
 
 def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
-    """The rows of a unit."""
+    """Return the rows of a unit."""
     from bench.engines.run import run
 
     starts, one, metrics = starts_of(settings, unit), settings.contender(unit.contender), metrics_of(on_arm=False)

@@ -13,7 +13,7 @@ Rows = list[dict]
 
 
 def kept(name: str, make: Callable[[], Rows], folder: Path = cache.FOLDER, sources: str = "") -> Rows:
-    """What `make` gave when it was first called by that name for these sources; none named: this checkout's.
+    """Return what `make` gave when it was first called by that name for these sources; none named: this checkout's.
 
     Args:
         name: kind/name. make: all its rows have the same columns, of numbers, words, or lists of them.

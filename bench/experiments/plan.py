@@ -33,28 +33,28 @@ class Plan:
     units: tuple[Unit, ...]
 
     def of(self, *experiments: str) -> tuple[Unit, ...]:
-        """The units of these experiments."""
+        """Return the units of these experiments."""
         return tuple(unit for unit in self.units if unit.experiment in experiments)
 
     @property
     def tables(self) -> dict[str, Table]:
-        """Those that a run of it has: all that suites have if one of them is run, and those of what is in no suite."""
+        """Return the tables of a run: all that suites have if one of them is run, and those of what no suite has."""
         own = [known_experiments()[name] for name in dict.fromkeys(unit.experiment for unit in self.units)]
         of_suites = known_tables() if any(one.in_suites for one in own) else {}
         return of_suites | {one.table.name: one.table for one in own if not one.in_suites}
 
     def episodes(self, *experiments: str) -> int:
-        """How many episodes these experiments run; all of them if none is named."""
+        """Return how many episodes these experiments run; all of them if none is named."""
         return sum(unit.episodes for unit in (self.of(*experiments) if experiments else self.units))
 
     @property
     def contenders(self) -> tuple[Contender, ...]:
-        """The laws and the controllers of arms that are run."""
+        """Return the laws and the controllers of arms that are run."""
         names = dict.fromkeys(unit.contender for unit in self.of("free-body", "arm", "robustness"))
         return tuple(map(self.settings.contender, names))
 
     def identity(self) -> dict:
-        """What two runs must share for one to continue the other: the plan, the rules and the sources."""
+        """Return what two runs must share for one to continue the other: the plan, the rules and the sources."""
         arms = dict.fromkeys(unit.arm for unit in self.units if unit.arm)
         return {
             **self.settings._asdict(),
@@ -131,7 +131,7 @@ def make(
     integrator: str | None = None,
     seed: int = 0,
 ) -> Plan:
-    """The plan of a suite, narrowed or widened by what the user named.
+    """Return the plan of a suite, narrowed or widened by what the user named.
 
     Args:
         laws: the contenders of the free body; on arms the same laws, by the suite's Jacobians and inverses.

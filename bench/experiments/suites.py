@@ -76,7 +76,7 @@ class InContact(NamedTuple):
     redundant_poses: int | None = None
 
     def on(self, joints: int) -> tuple[tuple[str, ...], int | None]:
-        """The controllers and the number of poses of a task on an arm of so many joints."""
+        """Return the controllers and the number of poses of a task on an arm of so many joints."""
         return (self.redundant, self.redundant_poses) if joints > 6 else (self.controllers, self.poses)
 
 
@@ -217,7 +217,7 @@ SUITES = {
 
 
 def suite(word: str) -> Suite:
-    """The suite of that name."""
+    """Return the suite of that name."""
     if word not in SUITES:
         raise UnknownWord("suite", word, sorted(SUITES))
     return SUITES[word]

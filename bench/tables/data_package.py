@@ -18,7 +18,7 @@ TYPES = {WORD: "string", NUMBER: "number", SINGLE: "number", COUNT: "integer"}
 
 
 def described_folder(folder: Path) -> dict:
-    """The descriptor of a folder's tables, in order of their names.
+    """Return the descriptor of a folder's tables, in order of their names.
 
     Errors:
         BadResults: the folder holds no table that the schema knows.
@@ -50,7 +50,7 @@ def described_table(path: Path, table: Table) -> dict:
 
 
 def fields(table: Table) -> list[dict]:
-    """Of Table Schema: name, type, meaning, and the unit where a column has one."""
+    """Return the fields of Table Schema: name, type, meaning, and the unit where a column has one."""
     return [
         {"name": one.name, "type": TYPES[one.type], "description": one.meaning}
         | ({"unit": one.unit} if one.unit else {})
@@ -59,5 +59,5 @@ def fields(table: Table) -> list[dict]:
 
 
 def written(folder: Path) -> str:
-    """The descriptor as the text of datapackage.json."""
+    """Return the descriptor as the text of datapackage.json."""
     return json.dumps(described_folder(folder), indent=1, ensure_ascii=False) + "\n"

@@ -21,7 +21,7 @@ UNTRUSTED = "a file that came with the results; it was not run"
 
 
 def kept_laws(folder: Path, costs: pd.DataFrame) -> tuple[Regulator, ...]:
-    """The laws that the folder keeps, in alphabetical order; one that is now ours is left out.
+    """Return the laws that the folder keeps, in alphabetical order; one that is now ours is left out.
 
     Args:
         costs: the folder's costs.parquet, which says what a law acts on that may not run.
@@ -48,7 +48,7 @@ def _law(path: Path, costs: pd.DataFrame) -> Regulator:
 
 
 def _by_its_rows(path: Path, costs: pd.DataFrame) -> Regulator:
-    """A regulator without a law, on the coordinates that its rows name."""
+    """Return a regulator without a law, on the coordinates that its rows name."""
     word = _word(path)
     rows = costs[costs["regulator"] == word]
     known = known_representations()

@@ -36,7 +36,7 @@ DENSE = "dense"
 
 @functools.lru_cache(maxsize=8)
 def units(asked: Asked) -> tuple[Unit, ...]:
-    """The units of a suite's part in contact, narrowed or widened by what the user named; `count` poses of each task.
+    """Return the units of a suite's part in contact, narrowed or widened by the user; `count` poses of each task.
 
     Errors:
         BadValue: an arm that was named cannot be set a task that was. Incompatible: no controller is left.
@@ -88,7 +88,7 @@ def _arms(task: ContactTask, choice: Choice) -> list[Arm]:
 
 
 def can_do(task: ContactTask, arm: Arm, or_refuse: bool = False) -> bool:
-    """Whether an arm can be set a task.
+    """Tell whether an arm can be set a task.
 
     Errors:
         BadValue: it cannot, and `or_refuse` asks for the reason.
@@ -113,7 +113,7 @@ def cut(
     horizon_s: float,
     longest_s: float = LONGEST_S,
 ) -> Iterator[Unit]:
-    """The units of a controller on a task's first so many poses."""
+    """Return the units of a controller on a task's first so many poses."""
     every = poses_of(one, task, arm, dense)[:size]
     step = max(1, int(longest_s / (max(map(len, every)) * horizon_s)))
     for first in range(0, len(every), step):
@@ -133,7 +133,7 @@ def cut(
 
 
 def poses_of(one: ContactController, task: ContactTask, arm: Arm, dense: bool) -> tuple[tuple[Trial, ...], ...]:
-    """The trials that a controller is set, by pose, in the task's order.
+    """Return the trials that a controller is set, by pose, in the task's order.
 
     To an impedance, which heeds no selection, trials that differ in nothing else are the same, and it is set the first.
     """
@@ -161,7 +161,7 @@ def _without_selection(trials: tuple[Trial, ...]) -> Iterator[Trial]:
 
 
 def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
-    """One row a pose."""
+    """Return one row a pose."""
     from bench.engines.contact_episode import Conditions
 
     one, arm = find_controller(unit.contender), tasks.arm(unit.arm)
