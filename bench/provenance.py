@@ -13,13 +13,8 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
 DECIDING = (
-    *("tasks", "bench/errors.py", "bench/law", "bench/audit", "bench/contenders", "bench/control", "bench/engines"),
-    *("bench/metrics", "bench/counting", "bench/experiments", "bench/running"),
-    *("bench/tables/column.py", "bench/tables/motion_columns.py", "bench/tables/other_columns.py"),
-    *("bench/tables/compensator_columns.py", "bench/tables/impedance_columns.py"),
-    *("bench/tables/shipped_columns.py", "bench/tables/velocity_columns.py"),
-    "bench/tables/schema.py",
-    *("bench/tables/files.py", "bench/tables/store.py", "bench/tables/kept_costs.py", "bench/tables/kept_rows.py"),
+    *("tasks", "bench/errors.py", "bench/files.py", "bench/law", "bench/audit", "bench/contenders", "bench/control"),
+    *("bench/engines", "bench/metrics", "bench/counting", "bench/experiments", "bench/tables", "bench/running"),
 )
 """What numbers of a run depend on; everything else only reads results, or is measured and kept apart from them."""
 JUDGE = ("tasks/rules.py", "tasks/verdict.py", "tasks/truth.py", "tasks/cause.py")

@@ -66,8 +66,8 @@ def motions() -> dict[str, tuple[Motion, dict]]:
     import tasks
     from bench.engines.curve import ARM_NUMBERS, blank_curves
     from bench.engines.run_arm import run
+    from bench.experiments.episode_rows import frame
     from bench.experiments.experiment import Settings, Unit
-    from bench.experiments.rows.episodes import frame
     from bench.experiments.suites import NOMINAL, ON_ARM
     from bench.findings.claims.arm_probes import controller
     from bench.metrics.registry import metrics_of

@@ -14,8 +14,8 @@
 
 What it stands on: base (Start, Task, StartSet, sensors, errors), rules and verdict (when an episode is settled, stuck
 or failed), truth (its own angle), rotations and haar (exact quaternions, points of SO(3)), arm and arm_model, contact
-and contact_model, condition and moving_goal, kinematics, linear_algebra, paths, clearance and singular (how starts of
-arms are found), episode (a Task as a dm_control Environment), discovery (the one constant of every file in a folder).
+and contact_model, axis, condition and moving_goal, kinematics, linear_algebra, paths, clearance and singular (how
+starts of arms are found), episode (a Task as a dm_control Environment), discovery (the constant of every file).
 
 Frames and units: everything is in the base frame unless its name ends in `_body`; radians, seconds;
 quaternions are (w, x, y, z) and take body coordinates to base coordinates.
@@ -30,12 +30,13 @@ import functools
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from tasks import arm_starts, conditions, domains, starts
+from tasks import arm_starts, domains, starts
 from tasks.arm import arm as arm
 from tasks.arm import arm_names as arm_names
 from tasks.arm_model import Arm
+from tasks.axis import Axis
 from tasks.base import ArmStartSet, ArmTask, BadValue, Start, StartSet, Task, UnknownName
-from tasks.condition import Axis
+from tasks.condition import known_axes
 from tasks.contact import ContactTask
 from tasks.discovery import constants, pick
 from tasks.variations import VARIATIONS, Variation
@@ -197,12 +198,12 @@ def starts_between(name: str, first: int, end: int, seed: int = 0) -> list[Start
 
 def axis_names() -> list[str]:
     """Names of all perturbations, sorted."""
-    return sorted(constants(conditions, "AXIS"))
+    return list(known_axes())
 
 
 def axis(name: str) -> Axis:
     """The axis of this name; UnknownName lists the known ones."""
-    return pick("axis", name, constants(conditions, "AXIS"), "tasks/conditions")
+    return pick("axis", name, known_axes(), "tasks/conditions")
 
 
 def variation_names() -> list[str]:

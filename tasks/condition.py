@@ -1,73 +1,92 @@
-"""What a controller meets outside the paper: conditions of an episode on the free body, one axis a perturbation.
+"""Conditions of an episode on the free body, put together from the perturbations of tasks/conditions.
 
-An axis is one file of tasks/conditions with a constant AXIS; along it a number, the level, grows or shrinks. At the
-nominal level of every axis the condition is the default one: a law asked every millisecond, given the truth at once.
+At the nominal level of every axis the condition is the default one: a law asked every millisecond, given the truth at
+once.
 """
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable
-from typing import NamedTuple
+import functools
+from collections import namedtuple
+from typing import Any
 
-from tasks.base import Start, Vector
+from tasks import conditions
+from tasks.axis import Axis, Field
+from tasks.base import BadValue
+from tasks.discovery import constants
+from tasks.moving_goal import NO_FEEDFORWARD, RATE, RATE_AND_ACCELERATION
 
-NO_FEEDFORWARD, RATE, RATE_AND_ACCELERATION = range(3)
-"""What a law is given of a moving goal beside where it is."""
+__all__ = ["FIELDS", "NO_FEEDFORWARD", "RATE", "RATE_AND_ACCELERATION", "Condition", "condition_at", "known_axes"]
 
 
-class Condition(NamedTuple):
-    """How an episode differs from the ideal one.
+@functools.cache
+def known_axes() -> dict[str, Axis]:
+    """Return every perturbation by its name, in alphabetical order."""
+    return constants(conditions, "AXIS")
 
-    period_s: from one command to the next; between them it is held. delay_s: from measuring to the command's effect.
-    attitude_noise, rate_noise: standard deviation about each axis, drawn anew each period [rad, rad/s].
-    worst_attitude_error: within this angle [rad] of a 180-degree rotation the body is reported so much farther from the
-    goal than it is, so that it seems to lie on the other side. bound: what |u| is cut to [rad/s^2]. inertia: true
-    principal moments over the law's model of them, along the body's axes. reference_amplitude: peak rate [rad/s] of a
-    goal that moves (`moving_goal`), and feedforward: what the law is given of its motion. peak: gains such that the
-    law's greatest command from rest is this [rad/s^2], critically damped; 0: the gains as they are.
+
+def declared_fields(axes: dict[str, Axis]) -> tuple[Field, ...]:
+    """Return the fields that axes declare, in their order.
+
+    Errors:
+        BadValue: a field that does not say whether it lasts, that two files declare, or of a type that no loop takes.
     """
+    found: dict[str, Field] = {}
+    for name, axis in axes.items():
+        for field in axis.fields:
+            where = f"tasks/conditions/{name.replace('-', '_')}.py: the field '{field.name}'"
+            if field.lasts is None:
+                raise BadValue(
+                    f"{where} does not say whether its perturbation lasts; give lasts=True if it goes on after the "
+                    "goal is reached, so that an episode runs to its horizon, else lasts=False"
+                )
+            if field.name in found:
+                raise BadValue(f"{where} is declared by two files; choose another name, or set the one that exists")
+            if not isinstance(field.default, float | int) and len(field.default) != 3:
+                raise BadValue(f"{where} must be a number or three numbers, not {field.default!r}")
+            found[field.name] = field
+    return tuple(found.values())
 
-    period_s: float = 1e-3
-    delay_s: float = 0.0
-    attitude_noise: float = 0.0
-    rate_noise: float = 0.0
-    worst_attitude_error: float = 0.0
-    bound: float = math.inf
-    inertia: Vector = (1.0, 1.0, 1.0)
-    reference_amplitude: float = 0.0
-    feedforward: int = RATE_AND_ACCELERATION
-    peak: float = 0.0
+
+FIELDS = declared_fields(known_axes())
+
+
+def _record(fields: tuple[Field, ...]) -> Any:
+    return namedtuple("_record", [one.name for one in fields], defaults=[one.default for one in fields])
+
+
+_VALUES: Any = _record(FIELDS)
+
+
+class Condition(_VALUES):
+    """How an episode differs from the ideal one: a value for each of FIELDS, which say what they mean."""
+
+    __slots__ = ()
+
+    def _has(self, kind: str) -> bool:
+        return any(value != one.default for value, one in zip(self, FIELDS, strict=True) if getattr(one, kind))
 
     @property
     def is_noisy(self) -> bool:
-        """Whether measurements are drawn."""
-        return self.attitude_noise > 0.0 or self.rate_noise > 0.0
+        """Tell whether measurements are drawn."""
+        return self._has("is_drawn")
 
     @property
     def lasts(self) -> bool:
-        """Whether the perturbation goes on after the goal is reached, so that an episode must run to its horizon."""
-        return self.is_noisy or self.reference_amplitude > 0.0
+        """Tell whether the perturbation goes on after the goal is reached, so that an episode runs to its horizon."""
+        return self._has("lasts")
 
 
-def spread(count: int, seed: int, level: float) -> list[Start]:
-    """Orientations spread evenly over SO(3), at rest: the same at every level."""
-    from tasks.starts.uniform import build
+def condition_at(axis: Axis, level: float) -> Condition:
+    """Return the condition at a level of an axis.
 
-    return build(count, seed)
-
-
-class Axis(NamedTuple):
-    """A perturbation: the constant AXIS of every tasks/conditions/<name>.py.
-
-    at(level) -> Condition; starts(count, seed, level) -> as many starts; nominal: the level of no perturbation, None if
-    there is none.
+    Errors:
+        BadValue: the axis sets a field that no file declares.
     """
-
-    name: str
-    title: str
-    unit: str
-    levels: tuple[float, ...]
-    nominal: float | None
-    at: Callable[[float], Condition]
-    starts: Callable[[int, int, float], list[Start]] = spread
+    changes = axis.changes(level)
+    for name in changes.keys() - set(Condition._fields):
+        raise BadValue(
+            f"the axis '{axis.name}' sets '{name}', a field that no file of tasks/conditions declares; declared are "
+            f"{', '.join(Condition._fields)} (declare it in `fields`)"
+        )
+    return Condition(**changes)

@@ -10,6 +10,9 @@ Plain functions of numbers, so that the slow loop calls them and the compiled lo
 
 import math
 
+NO_FEEDFORWARD, RATE, RATE_AND_ACCELERATION = range(3)
+"""What a law is given of a moving goal beside where it is."""
+
 
 def reference_column(time, amplitude, column):
     """A column of R_d at a time, from what it is at time 0 (base frame).

@@ -11,9 +11,9 @@ from bench.cli.judge import print_judgement
 from bench.cli.progress import progress
 from bench.cli.screen import console, examples, frame_table
 from bench.errors import BenchError
+from bench.files import read_json, write_json
 from bench.provenance import rounded_on
 from bench.regression.revisions import summary as words
-from bench.tables.files import read_json, write_json
 from tasks.base import TaskError
 
 EPILOG = examples(

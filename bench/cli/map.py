@@ -11,9 +11,9 @@ from bench.cli.progress import progress
 from bench.cli.screen import console, counted, examples, frame_table, shown_path
 from bench.experiments.choice import check_numbers, check_workers
 from bench.experiments.map import plan_of
+from bench.files import read_json
 from bench.law.contender import Gains
 from bench.running.schedulers.words import THREADS, check_scheduler
-from bench.tables.files import read_json
 from bench.tables.schema import RESULTS
 
 EPILOG = examples(

@@ -4,8 +4,8 @@ from pathlib import Path
 
 from bench.cli.screen import counted, shown_path
 from bench.errors import BadResults
+from bench.files import read_json
 from bench.provenance import count_episodes
-from bench.tables.files import read_json
 
 NEEDED = ("suite", "episodes", "commit", "dirty", "cpu", "wall_s")
 

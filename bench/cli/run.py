@@ -11,9 +11,9 @@ from bench.cli import options
 from bench.cli.progress import progress
 from bench.cli.screen import console, counted, examples, shown_path
 from bench.experiments.choice import IN_CONTACT, WITHOUT, Choice, check_workers
+from bench.files import read_json
 from bench.law.contender import Gains
 from bench.running.schedulers.words import THREADS, check_scheduler
-from bench.tables.files import read_json
 
 EPILOG = examples(
     ("The default suite into results/latest", "run"),

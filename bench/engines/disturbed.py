@@ -18,7 +18,7 @@ from bench.law.contender import AT_REST, Gains, Goal
 from bench.law.scalar import kernel, sqrt
 from bench.law.so3 import Rotation, dot, from_quaternion, minus, turn_quaternion
 from bench.law.tracking import carried_along
-from tasks.condition import RATE, RATE_AND_ACCELERATION, Condition
+from tasks.condition import FIELDS, RATE, RATE_AND_ACCELERATION, Condition
 from tasks.moving_goal import reference_column, reference_rates
 from tasks.verdict import GOING, check_command, check_state, first_watch, watched
 
@@ -103,7 +103,8 @@ def fed_forward(omega_d, alpha_d, feedforward):
 
 
 TIMING = types.NamedUniTuple(int64, len(Timing._fields), Timing)
-CONDITION = types.NamedTuple((*[float64] * 6, THREE, float64, int64, float64), Condition)
+TYPES = {float: float64, int: int64, tuple: THREE}
+CONDITION = types.NamedTuple([TYPES[type(one.default)] for one in FIELDS], Condition)
 NOISE = float64[:, :, ::1]
 EPISODES = types.void(types.FunctionType(EVALUATE), FOUR, MATRIX, NOISE, NUMBERS, TIMING, CONDITION, MATRIX)
 

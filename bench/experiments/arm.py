@@ -10,11 +10,14 @@ import tasks
 from bench.contenders import combinations
 from bench.errors import Incompatible
 from bench.experiments.choice import Choice
+from bench.experiments.chosen_words import AT_INVERSES
+from bench.experiments.episode_rows import TABLE, frame
 from bench.experiments.episodes import Place, cut, lost, narrowed, prepare, runs_on, starts_of, tasks_of
-from bench.experiments.experiment import EVERYTHING, Asked, Experiment, Settings, Unit
-from bench.experiments.suites import AT_INVERSES, NOMINAL, OnArms, Slice
+from bench.experiments.experiment import ON_ARMS, Asked, Experiment, Settings, Unit
+from bench.experiments.rounding import judged_on_both_sides
+from bench.experiments.suites import NOMINAL, OnArms, Slice
 from bench.law.contender import Contender
-from bench.tables.schema import TABLES
+from bench.metrics.registry import metrics_of
 from tasks.base import Start
 
 if TYPE_CHECKING:
@@ -30,7 +33,7 @@ guess."""
 
 @functools.lru_cache(maxsize=8)
 def units(asked: Asked) -> tuple[Unit, ...]:
-    """The units on every arm.
+    """Return the units on every arm.
 
     Errors:
         Incompatible: no law, Jacobian and inverse that were named go together on any arm that was named.
@@ -75,7 +78,7 @@ def _on_arm(on_arms: OnArms, laws, joints: int, choice: Choice) -> Iterator[tupl
 
 
 def _knows(one: Contender, start_set: str) -> bool:
-    """Whether a set says all that a controller asks: of the goal's joint angles no law does."""
+    """Tell whether a set says all that a controller asks: of the goal's joint angles no law does."""
     return one.regulator.assemble is None or tasks.knows_joints(start_set)
 
 
@@ -90,11 +93,8 @@ def _check_combinations(asked: Asked) -> None:
 
 
 def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
-    """The rows of a unit, each doubtful one judged on both sides of its start."""
+    """Return the rows of a unit, each doubtful one judged on both sides of its start."""
     from bench.engines.run_arm import run
-    from bench.experiments.rows.episodes import frame
-    from bench.experiments.rows.rounding import judged_on_both_sides
-    from bench.metrics.registry import metrics_of
 
     starts, one, metrics = starts_of(settings, unit), settings.contender(unit.contender), metrics_of(on_arm=True)
     limits = settings.limits(unit.horizon_s)
@@ -109,10 +109,10 @@ def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
 EXPERIMENT = Experiment(
     "arm",
     "laws on arms, by a Jacobian and its inverse",
-    TABLES["episodes"],
+    TABLE,
     units,
     rows,
-    takes=EVERYTHING,
+    takes=ON_ARMS,
     cost_s=lambda unit: unit.count * EPISODE_S[unit.engine],
     prepare=prepare,
     lost=lost,

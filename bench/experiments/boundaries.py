@@ -7,50 +7,55 @@ sets hit those exactly.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from bench.engines.episode import OUTCOME
+from bench.experiments.columns import CONTENDER, CONTENDER_KEY, Column, Table, numbers, words
+from bench.experiments.episode_rows import contender_columns
 from bench.experiments.episodes import prepare
 from bench.experiments.experiment import OF_LAWS, Asked, Experiment, Settings, Unit, own_last
 from bench.experiments.suites import SHORT
 from bench.experiments.traces import laws
 from bench.law.contender import Contender
-from bench.tables.schema import TABLES
+from bench.metrics.registry import metrics_of
 from tasks.base import Start
 from tasks.sphere import axes
 from tasks.verdict import OUTCOMES, SETTLED
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 SCAN = np.radians(np.arange(2.5, 178.0, 2.5))
 BISECTIONS = 10
 """2.5 degrees halved 10 times: 4e-5 rad, a hundredth of the degree that is shown."""
 
-
 AXIS_S = 0.02
 """CPU seconds an axis."""
 
 
+def columns() -> list[Column]:
+    """boundaries.parquet: along the geodesic about one axis, where a law first fails."""
+    return [
+        *CONTENDER,
+        *numbers("1", "axis of the initial rotation, base frame", "axis_x", "axis_y", "axis_z"),
+        *numbers("rad", "largest angle of the scan below which every start settled", "settled_to_rad"),
+        *numbers("rad", "first failing angle, bisected; null if none fails", "fails_from_rad"),
+        *words(outcome="how it fails there; empty if it does not"),
+    ]
+
+
 def units(asked: Asked) -> tuple[Unit, ...]:
-    """A unit for each of the paper's laws, and the user's, over the suite's axes; a user's last."""
+    """Return a unit for each of the paper's laws, and the user's, over the suite's axes; a user's last."""
     count = asked.suite.boundary_axes
     found = [of_law(one, count) for one in laws(asked) if count and not one.is_beyond_the_paper]
     return own_last(found, asked.own)
 
 
 def of_law(one: Contender, count: int) -> Unit:
-    """The unit of a law, along so many axes."""
+    """Return the unit of a law, along so many axes."""
     return Unit("boundaries", one.name, "free-body", engine="ideal-rk4", count=count, total=count, horizon_s=SHORT)
 
 
-def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
-    """One row an axis."""
-    import pandas as pd
-
-    from bench.experiments.rows.episodes import contender_columns
-
+def rows(settings: Settings, unit: Unit) -> dict:
+    """Return one row an axis, as columns."""
     one, directions = settings.contender(unit.contender), axes(unit.count)
     count = len(directions)
     first = np.full(count, len(SCAN))
@@ -71,21 +76,17 @@ def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
         good = codes == SETTLED
         settled[found[good]] = middle[good]
         fails[found[~good]], outcome[found[~good]] = middle[~good], codes[~good]
-    return pd.DataFrame(
-        {
-            **contender_columns(one),
-            **{f"axis_{axis}": directions[:, i] for i, axis in enumerate("xyz")},
-            "settled_to_rad": settled,
-            "fails_from_rad": fails,
-            "outcome": [OUTCOMES[code] if code != SETTLED else "" for code in outcome],
-        }
-    )
+    return {
+        **contender_columns(one),
+        **{f"axis_{axis}": directions[:, i] for i, axis in enumerate("xyz")},
+        "settled_to_rad": settled,
+        "fails_from_rad": fails,
+        "outcome": [OUTCOMES[code] if code != SETTLED else "" for code in outcome],
+    }
 
 
 def _outcomes(settings: Settings, unit: Unit, one: Contender, directions: np.ndarray, angles: np.ndarray) -> np.ndarray:
-    from bench.engines.episode import OUTCOME
     from bench.engines.run import run
-    from bench.metrics.registry import metrics_of
 
     starts = [
         Start("", (math.cos(angle / 2), *(math.sin(angle / 2) * axis).tolist()))
@@ -98,7 +99,7 @@ def _outcomes(settings: Settings, unit: Unit, one: Contender, directions: np.nda
 EXPERIMENT = Experiment(
     "boundaries",
     "where a law first fails, along geodesics",
-    TABLES["boundaries"],
+    Table("boundaries", columns, (*CONTENDER_KEY, "axis_x", "axis_y", "axis_z")),
     units,
     rows,
     takes=OF_LAWS,

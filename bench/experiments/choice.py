@@ -36,7 +36,7 @@ class Choice:
     experiments: tuple[str, ...] = ()
 
     def checked(self) -> "Choice":
-        """Each word once; UnknownWord for one in no list, Incompatible for words that exclude each other."""
+        """Return each word once; UnknownWord for one in no list, Incompatible for a task without an arm on one."""
         once = Choice(**{name: tuple(dict.fromkeys(words)) for name, words in vars(self).items()})
         sets = dict.fromkeys(tasks.start_set_names())
         if not sets.keys() >= set(once.start_sets):
@@ -56,8 +56,6 @@ class Choice:
                 check_word(kind, word, list(allowed))
         for word in once.controllers:
             find_controller(word)
-        once._check_contact()
-        once._check_axes()
         bodies = [word for word in once.tasks if word in tasks.names() and not tasks.is_for_arms(word)]
         if bodies and once.is_about_arms and len(bodies) == len(once.tasks):
             raise Incompatible(
@@ -65,77 +63,29 @@ class Choice:
             )
         return once
 
-    def _check_contact(self) -> None:
-        """Refuse words that the tasks in contact do not take, if they are all that is named; and controllers else."""
-        contact = tasks.contact_names()
-        others = [word for word in self.tasks if word not in contact]
-        if self.controllers and others:
-            raise Incompatible(
-                f"task '{others[0]}' takes regulators and no controller '{self.controllers[0]}' (try: --task "
-                f"{contact[0]})"
-            )
-        for kind, words in self.of_episodes.items() if self.is_contact_alone else ():
-            if words:
-                raise Incompatible(
-                    f"tasks in contact take an arm and a --controller, no {kind} such as '{words[0]}' (try: python -m "
-                    "bench list controllers)"
-                )
-
-    def _check_axes(self) -> None:
-        """Refuse words that laws along an axis do not take."""
-        given = {"task": self.tasks, "arm": self.arms, "controller": self.controllers, **self.of_episodes}
-        for kind in ("task", "start", "engine", "arm", "jacobian", "inverse", "variation", "controller"):
-            if self.axes and given[kind]:
-                raise Incompatible(
-                    f"along the axis '{self.axes[0]}' goes the free body on starts of the axis's own, with no {kind} "
-                    f"such as '{given[kind][0]}' (name regulators and --count alone, or leave --axis away)"
-                )
-
     @property
     def named(self) -> tuple[str, ...]:
         """Return the kinds of words that are named, experiments apart."""
         return tuple(kind for kind, words in vars(self).items() if words and kind != "experiments")
 
     @property
-    def of_episodes(self) -> dict[str, tuple[str, ...]]:
-        """By kind, the words that only tasks without contact take."""
-        return {
-            "start": self.start_sets,
-            "engine": self.engines,
-            "regulator": self.regulators,
-            "jacobian": self.jacobians,
-            "inverse": self.inverses,
-            "variation": self.variations,
-        }
-
-    @property
     def is_of_some_laws(self) -> bool:
-        """Whether it names laws, or coordinates that they act on."""
+        """Tell whether it names laws, or coordinates that they act on."""
         return bool(self.regulators or self.representations)
 
     @property
     def is_about_contact(self) -> bool:
-        """Whether it names a task in contact or a controller for one."""
+        """Tell whether it names a task in contact or a controller for one."""
         return bool(self.controllers or set(self.tasks) & set(tasks.contact_names()))
 
     @property
-    def is_contact_alone(self) -> bool:
-        """Whether all that it names is in contact."""
-        return self.is_about_contact and set(self.tasks) <= set(tasks.contact_names())
-
-    @property
-    def takes_contact(self) -> bool:
-        """Whether tasks in contact are run: if some are named, or nothing that they do not take."""
-        return self.is_about_contact or not (self.tasks or self.axes or any(self.of_episodes.values()))
-
-    @property
     def is_about_arms(self) -> bool:
-        """Whether it names something that only arms have."""
+        """Tell whether it names something that only arms have."""
         return bool(self.arms or self.jacobians or self.inverses or self.variations)
 
     @property
     def narrows(self) -> bool:
-        """Whether less or other than the suite's start sets and engines is asked for."""
+        """Tell whether less or other than the suite's start sets and engines is asked for."""
         return bool(self.start_sets or self.engines)
 
 

@@ -1,48 +1,230 @@
-"""What a law commands, as a function of state: stiffness and damping, dead points, jumps, how hard it pulls."""
+"""What a law commands, as a function of state: stiffness and damping, equilibria, jumps, how hard it pulls.
+
+A row is a finding, with the state that shows it; all laws have the same rows. Stiffness and damping are shares of the
+gains that are set, and so are commands: |u|/kp. They are also taken at two goals whose matrices are not symmetric:
+there a command in another frame, or a matrix read row first, differs from what is meant.
+
+Limitations: an equilibrium away from 180° rotations, and a jump that no geodesic crosses, are not seen; episodes that
+end at the first are stuck.
+"""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import itertools
+import math
+from collections.abc import Iterator
+from typing import NamedTuple
 
+import numpy as np
+
+from bench.experiments.columns import CONTENDER, CONTENDER_KEY, Column, Table, counts, numbers, words
+from bench.experiments.episode_rows import contender_columns
 from bench.experiments.episodes import prepare
 from bench.experiments.experiment import OF_LAWS, Asked, Experiment, Settings, Unit, own_last
+from bench.experiments.field import ZERO, Field, about, size
 from bench.experiments.traces import laws
-from bench.tables.schema import TABLES
-
-if TYPE_CHECKING:
-    import pandas as pd
+from bench.law.contender import Contender, Gains
+from bench.law.so3 import from_quaternion
+from tasks.base import IDENTITY, Quat
+from tasks.rotations import multiply
+from tasks.sphere import axes
 
 NAME = "command-field"
 
 LAW_S, CALLS = 0.4, 150_000
 """CPU seconds and, at most, calls of a law."""
 
+GOALS = (IDENTITY, (0.8, 0.2, 0.4, 0.4), (0.4, -0.8, 0.4, 0.2))
+"""The last two lie off the singular sets of all our coordinates."""
+
+TURN_RAD, RATE = 1e-4, 1e-3
+"""Of central differences: their error is under 1e-8, rounding leaves 1e-12."""
+
+SAME, BOUNDED = 1e-3, 1e3
+"""Shares: by the first a stiffness may differ from what it is taken for; above the second it is a jump or a pole."""
+
+AXES, GEODESICS, SAMPLES, HALVINGS, PULLED = 200, 60, 48, 40, np.radians((30.0, 90.0))
+
+LEFT, POLE, BESIDE_RAD = 1e-3, 1e3, 1e-6
+"""|u|/kp that is left of a jump when its interval is 1e-13 rad long: no slope under 1e10 is taken for one; from which
+on a jump is one to infinity, of which 1e6 is seen: 8 is the most of other laws. How near to a place a jump is at it."""
+
+
+class Finding(NamedTuple):
+    """One row: what was found of what, its size, in how many states of how many, and the state that shows it."""
+
+    finding: str
+    what: str
+    value: float = math.nan
+    least: float = math.nan
+    most: float = math.nan
+    found: int = 0
+    of: int = 0
+    quat: np.ndarray | tuple = (math.nan,) * 4
+    goal: Quat = IDENTITY
+    u: np.ndarray | tuple = (math.nan,) * 3
+
+
+def columns() -> list[Column]:
+    """command-field.parquet: a law as a function of state, a row a finding (bench/experiments/command_field.py)."""
+    return [
+        *CONTENDER,
+        *words(finding="what was looked at, as stiffness", what="what it is; none if there is nothing of it"),
+        *numbers("1", "its size: share of kp or kv; null if there is none", "value"),
+        *numbers("1", "least and most of it, over axes", "least", "most"),
+        *counts(
+            found="in how many states, or on how many geodesics",
+            of="of so many that were looked at",
+        ),
+        *numbers("1", "orientation that shows it, unit quaternion", "quat_w", "quat_x", "quat_y", "quat_z"),
+        *numbers("1", "goal there, unit quaternion", "goal_quat_w", "goal_quat_x", "goal_quat_y", "goal_quat_z"),
+        *numbers("rad/s^2", "command there, at rest, base frame", "u_x", "u_y", "u_z"),
+    ]
+
 
 def units(asked: Asked) -> tuple[Unit, ...]:
-    """A unit for each law on the free body, a user's last."""
+    """Return a unit for each law on the free body, a user's last."""
     made = [Unit(NAME, one.name, "free-body", engine="ideal-held", count=1, total=1) for one in laws(asked)]
     return own_last(made, asked.own)
 
 
-def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
-    """One row a finding."""
-    import pandas as pd
-
-    from bench.experiments.rows.command_field import findings
-    from bench.experiments.rows.episodes import contender_columns
-
+def rows(settings: Settings, unit: Unit) -> list[dict]:
+    """Return one row a finding."""
     one = settings.contender(unit.contender)
-    found = pd.DataFrame(findings(one, settings.gains))
+    return [contender_columns(one) | flattened(each) for each in findings(one, settings.gains)]
+
+
+def flattened(one: Finding) -> dict:
+    """Return a finding with a column for each component of its vectors."""
+    flat = one._asdict()
     for name, stem, parts in (("quat", "quat_", "wxyz"), ("goal", "goal_quat_", "wxyz"), ("u", "u_", "xyz")):
-        vectors = pd.DataFrame(found.pop(name).map(tuple).tolist(), columns=[stem + part for part in parts])
-        found = found.join(vectors.astype(float))
-    return found.assign(**contender_columns(one))
+        flat |= {stem + part: float(x) for part, x in zip(parts, flat.pop(name), strict=True)}
+    return flat
+
+
+def findings(one: Contender, gains: Gains) -> Iterator[Finding]:
+    """Yield all findings of a law."""
+    field = Field(one, gains)
+    with np.errstate(all="ignore"):
+        yield from _near_goal(field)
+        yield from _half_turns(field)
+        yield from _along_geodesics(field)
+
+
+def _near_goal(field: Field) -> Iterator[Finding]:
+    """Look whether the law rests at the goal, and at its stiffness and damping there."""
+    base, gains = np.eye(3), field.gains
+    at = np.array([field(np.array([goal]), goal)[0] for goal in GOALS])
+    worst = int(np.argmax(size(at)))
+    largest, goal = size(at)[worst], GOALS[worst]
+    what = "rests" if largest <= ZERO else "pushes" if np.isfinite(largest) else "no-number"
+    yield Finding("goal", what, largest, quat=goal, goal=goal, u=at[worst] * gains.kp)
+    K, D = [], []
+    for goal in GOALS:
+        sides = ([multiply(tuple(about(axis, sign * TURN_RAD)), goal) for axis in base] for sign in (1.0, -1.0))
+        up, down = (field(np.array(side), goal) for side in sides)
+        K.append((down - up).T / (2.0 * TURN_RAD))
+        beside = np.array([multiply(tuple(about(np.array((0.6, 0.0, 0.8)), TURN_RAD)), goal)] * 3)
+        up, down = (field(beside, goal, sign * RATE * base) for sign in (1.0, -1.0))
+        D.append((down - up).T * gains.kp / (2.0 * RATE * gains.kv))
+    yield _compared("stiffness", np.array(K), field.one.regulator.stiffness)
+    yield _compared("damping", np.array(D), (1.0, 1.0, 1.0))
+
+
+def _compared(finding: str, matrices: np.ndarray, declared: tuple) -> Finding:
+    """Compare the matrices found at GOALS with what they should be, R_d diag(declared) R_d^T."""
+    turns = np.array([from_quaternion(goal) for goal in GOALS]).transpose(0, 2, 1)
+    wanted = turns @ np.diag(declared) @ turns.transpose(0, 2, 1)
+    off = np.nan_to_num(np.abs(matrices - wanted).max(axis=(1, 2)), nan=np.inf)
+    worst = int(np.argmax(off))
+    most, _, least = np.linalg.svd(np.nan_to_num(matrices[worst], posinf=0.0, neginf=0.0), compute_uv=False)
+    shown = {"least": least, "most": most, "goal": GOALS[worst]}
+    if off[worst] > BOUNDED:
+        return Finding(finding, "unbounded", **shown)
+    if np.abs(matrices).max() < SAME:
+        return Finding(finding, "none", 0.0, **shown)
+    for word, turned in {"": np.eye(3), "body-frame": turns.transpose(0, 2, 1), "turned-by-goal": turns}.items():
+        expected = turned @ wanted
+        share = float(np.sum(expected * matrices) / np.sum(expected * expected))
+        if np.abs(matrices - share * expected).max() >= SAME * abs(share):
+            continue
+        if word:  # at I all frames are one
+            called = "row-first" if word == "body-frame" and share < 0.0 else word
+            return Finding(finding, called, share, **shown | {"goal": GOALS[-1]})
+        near = (known for known, of in {"as-set": 1.0, "half": 0.5}.items() if abs(share - of) < 0.01)
+        return Finding(finding, next(near, "scaled" if share > 0.0 else "wrong-sign"), share, **shown)
+    return Finding(finding, "uneven" if off[0] > SAME else "uneven-elsewhere", **shown)
+
+
+def _half_turns(field: Field) -> Iterator[Finding]:
+    """Look for rotations of 180 degrees where the command is zero, or no number.
+
+    Their axes are those of small whole numbers, so that many lie in each base plane, and others spread over the sphere.
+    """
+    whole = [v for v in itertools.product(range(-3, 4), repeat=3) if v > (0, 0, 0) and math.gcd(*v) == 1]
+    k = np.concatenate((np.array(whole) / np.linalg.norm(whole, axis=1)[:, None], axes(AXES - len(whole))))
+    quats = about(k, math.pi) * (0.0, 1.0, 1.0, 1.0)
+    sizes = size(field(quats))
+    for finding, is_one in (("dead-half-turns", sizes <= ZERO), ("no-number-half-turns", ~np.isfinite(sizes))):
+        yield _largest(field, finding, _set_of(k, is_one), sizes, is_one, quats)
+
+
+def _largest(field: Field, finding: str, what: str, sizes: np.ndarray, is_one: np.ndarray, quats) -> Finding:
+    """Return the finding of some states; the one where its size is largest shows it."""
+    if not is_one.any():
+        return Finding(finding, "none", of=len(quats))
+    worst = int(np.argmax(np.where(is_one, sizes, -np.inf)))
+    shown = {"quat": quats[worst], "u": field(quats[[worst]])[0] * field.gains.kp}
+    return Finding(finding, what, sizes[worst], found=int(is_one.sum()), of=len(quats), **shown)
+
+
+def _set_of(directions: np.ndarray, is_one: np.ndarray) -> str:
+    """Return the word for the set that these axes form."""
+    if is_one.all() or not is_one.any():
+        return "every"
+    normal = np.linalg.svd(directions[is_one])[2][-1]
+    if is_one.sum() > 3 and (is_one == (np.abs(directions @ normal) < ZERO)).all():
+        axis = int(np.argmax(np.abs(normal)))
+        return "plane-" + "xyz"[axis] if abs(normal[axis]) > 1.0 - ZERO else "plane"
+    return "some"
+
+
+def _along_geodesics(field: Field) -> Iterator[Finding]:
+    """Look along closed geodesics through the goal where it pulls away and jumps, and how hard it pulls at PULLED."""
+    k, step = axes(GEODESICS), 2.0 * math.pi / SAMPLES
+    axis, low = np.repeat(k, SAMPLES, axis=0), np.tile((np.arange(SAMPLES) + 0.5) * step, GEODESICS)
+    high = low + step
+    at_low, at_high = field(about(axis, low)), field(about(axis, high))
+    pull = np.nan_to_num(np.sum(at_low * axis, axis=1) * np.where(low < math.pi, -1.0, 1.0))
+    yield _largest(field, "away", "some", -pull, pull < -ZERO, about(axis, low))
+    for _ in range(HALVINGS):
+        middle = 0.5 * (low + high)
+        at = field(about(axis, middle))
+        first = size(at - at_low) >= size(at_high - at)
+        low, high = np.where(first, low, middle), np.where(first, middle, high)
+        at_low, at_high = np.where(first[:, None], at_low, at), np.where(first[:, None], at, at_high)
+    angle = np.remainder(low, 2.0 * math.pi)
+    before, behind = (field(about(axis, angle + sign * BESIDE_RAD)) for sign in (-1.0, 1.0))
+    change = size(at_high - at_low)
+    change = np.where(np.isfinite(change), change, size(behind - before))  # no number right there
+    from_goal = np.minimum(angle, 2.0 * math.pi - angle)
+    places = {"goal": from_goal < BESIDE_RAD, "half-turns": from_goal > math.pi - BESIDE_RAD}
+    places["elsewhere"] = ~(places["goal"] | places["half-turns"])
+    for place, is_there in places.items():
+        there = np.where(is_there, change, 0.0).reshape(GEODESICS, SAMPLES)
+        at, sizes = there.argmax(axis=1) + SAMPLES * np.arange(GEODESICS), there.max(axis=1)
+        what = "unbounded" if sizes.max() > POLE else "jump"
+        yield _largest(field, f"jump-{place}", what, sizes, sizes > LEFT, about(axis[at], angle[at]))
+    pulls = np.array([np.sum(field(about(k, angle)) * -k, axis=1) for angle in PULLED])
+    # theta is 2 atan2(|eps|, eta), or atan2(sin, cos): with exchanged arguments it is one of these less theta
+    is_swapped = any(np.abs(pulls - (wrong - PULLED)[:, None]).max() < 0.01 for wrong in (math.pi, 0.5 * math.pi))
+    yield Finding("pull", "swapped" if is_swapped else "some", pulls[-1].mean(), pulls[-1].min(), pulls[-1].max())
 
 
 EXPERIMENT = Experiment(
     NAME,
     "commands over all states",
-    TABLES[NAME],
+    Table(NAME, columns, (*CONTENDER_KEY, "finding")),
     units,
     rows,
     cost_s=lambda unit: LAW_S,

@@ -1,26 +1,49 @@
-"""Laws with a state of their own under a constant disturbance, and beside them the paper's law with the same spring."""
+"""Laws with a state of their own under a constant disturbance, and the paper's law on R, whose spring they have."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import numpy as np
 
-from bench.contenders.registry import known_compensators
+import tasks
+from bench.contenders.registry import known_compensators, papers_laws
+from bench.experiments.columns import GAINS, STEPPED_DT, Column, Table, counts, numbers, words
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit
-from bench.tables.schema import TABLES
-
-if TYPE_CHECKING:
-    import pandas as pd
+from bench.law.compensator import Compensator
+from tasks.rules import ticks
 
 NAME = "compensators"
 
 DISTURBANCES = (0.0, 5.0, 20.0)
 """Lengths [rad/s^2]; over the paper's Kp they are the sine of what a law without an integral leaves: 2.9 and 11.5
 degrees."""
+DIRECTION = (1.0 / 3.0, 2.0 / 3.0, 2.0 / 3.0)
+"""Of the disturbance, in the base frame."""
+BAND_RAD = np.deg2rad(1.0)
+"""The same for all starts: a disturbance leaves what it leaves wherever the body came from."""
 STARTS = 64
 HORIZON_S = 8.0
 """[s]. The slowest of the starts, 2 degrees short of 180, is settled by half of it."""
 LEVEL_S = 0.12
 """CPU seconds a level."""
+
+
+def columns() -> list[Column]:
+    """compensators.parquet: laws with a state of their own (bench/contenders/compensators), by disturbance.
+
+    Beside them the paper's law on R, whose spring they have. The free body starts at rest all over SO(3).
+    """
+    return [
+        *words(law="the law", reads_rate="whether it reads the angular velocity: yes or no"),
+        *numbers("rad/s^2", "constant disturbance of the angular acceleration, base frame", "disturbance"),
+        *GAINS,
+        *STEPPED_DT,
+        *numbers("s", "time simulated", "horizon_s"),
+        *counts(starts="episodes", settled="of them, those within 1° at the end"),
+        *numbers("s", "median of their times after which the angle stays within 1°; null of none", "settling_median_s"),
+        *numbers("s", "greatest of them", "settling_worst_s"),
+        *numbers("rad", "greatest angle at the end", "left_rad"),
+        *numbers("rad/s^2", "greatest command", "peak_u"),
+    ]
 
 
 def units(asked: Asked) -> tuple[Unit, ...]:
@@ -32,25 +55,57 @@ def units(asked: Asked) -> tuple[Unit, ...]:
     )
 
 
-def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
-    """A row a level."""
-    from bench.experiments.rows.compensators import frame
+def rows(settings: Settings, unit: Unit) -> list[dict]:
+    """Return a row a level of the disturbance."""
+    from bench.engines.compensated import LEFT, PEAK, SETTLED, run
+    from bench.engines.compensated import Asked as Disturbed
 
-    return frame(settings, unit, DISTURBANCES)
+    one, starts = law_of(unit.selector), tasks.start_set("uniform", unit.count, seed=settings.seed)
+    found = []
+    for level in DISTURBANCES:
+        pushed = (level * x for x in DIRECTION)
+        asked = Disturbed(settings.dt_s, float(ticks(unit.horizon_s, settings.dt_s)), float(BAND_RAD), *pushed)
+        made = run(one, starts, settings.gains, asked)
+        times = made[np.isfinite(made[:, SETTLED]), SETTLED]
+        found.append(
+            {
+                "law": one.name,
+                "disturbance": level,
+                "reads_rate": "yes" if one.measures_rate else "no",
+                **settings.gains._asdict(),
+                "dt_s": settings.dt_s,
+                "horizon_s": unit.horizon_s,
+                "starts": len(starts),
+                "settled": len(times),
+                "settling_median_s": float(np.median(times)) if len(times) else None,
+                "settling_worst_s": float(np.max(times)) if len(times) else None,
+                "left_rad": float(np.max(made[:, LEFT])),
+                "peak_u": float(np.max(made[:, PEAK])),
+            }
+        )
+    return found
+
+
+def law_of(name: str) -> Compensator:
+    """Return the law of that name; for an empty name the paper's on R."""
+    from bench.engines.compensated import without_state
+
+    if name:
+        return known_compensators()[name]
+    return without_state(next(one for one in papers_laws() if one.representation is None).regulator)
 
 
 def prepare(settings: Settings, unit: Unit) -> None:
     """Compile the loop and the law."""
-    from bench.engines.compensated import prepare as compiled
-    from bench.experiments.rows.compensators import law_of
+    from bench.engines import compensated
 
-    compiled(law_of(unit.selector))
+    compensated.prepare(law_of(unit.selector))
 
 
 EXPERIMENT = Experiment(
     NAME,
     "laws with a state of their own",
-    TABLES[NAME],
+    Table(NAME, columns, ("law", "disturbance")),
     units,
     rows,
     cost_s=lambda unit: LEVEL_S * len(DISTURBANCES),

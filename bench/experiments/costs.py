@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import tasks
 from bench.contenders.registry import all_contenders
 from bench.errors import BadLaw
 from bench.experiments import arm, free_body
-from bench.experiments.experiment import EVERYTHING, Asked, Experiment, Settings, Unit, own_last
+from bench.experiments.columns import CONTENDER, CONTENDER_KEY, Column, Table, counts, words
+from bench.experiments.experiment import ON_ARMS, Asked, Experiment, Settings, Unit, own_last
+from bench.experiments.kept_rows import kept
 from bench.experiments.traces import laws
-from bench.tables.schema import TABLES
-
-if TYPE_CHECKING:
-    import pandas as pd
+from bench.law.contender import Contender
 
 LAW_S, CONTROLLER_S = 0.2, 1.0
 """CPU seconds of counting; none where it has been counted before."""
@@ -22,8 +19,21 @@ BEYOND = "reference"
 """The engine of a unit whose law may be beyond what can be counted, for this engine alone runs it."""
 
 
+def columns() -> list[Column]:
+    """costs.parquet: operations a tick, by stage and branch."""
+    from bench.counting import OPERATIONS
+
+    return [
+        *CONTENDER,
+        *counts(joints="joints of the arm; 0 on the free body, where a law is all there is"),
+        *words(branch="typical or worst", stage="part of the tick, or total"),
+        *counts(**{name: f"{name} operations a tick" for name in OPERATIONS}),
+        *counts(flops="add + mul + div + sqrt; transcendental functions apart"),
+    ]
+
+
 def units(asked: Asked) -> tuple[Unit, ...]:
-    """A unit a law, then one for each controller and number of joints that it is run with; a user's last."""
+    """Return a unit a law, then one for each controller and number of joints that it is run with; a user's last."""
     on_arms: dict = {}
     for unit in arm.units(asked):
         on_arms.setdefault((unit.contender, tasks.arm(unit.arm).joints), unit.arm)
@@ -35,33 +45,46 @@ def units(asked: Asked) -> tuple[Unit, ...]:
     return own_last([Unit("costs", name, arm=on, engine=engine) for name, on in places], asked.own)
 
 
-def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
-    """One row a branch and stage; none of a user's law beyond the dialect that only BEYOND runs.
+def rows(settings: Settings, unit: Unit) -> list[dict]:
+    """Return a row a branch and stage; none of a user's law beyond the dialect that only BEYOND runs.
 
     Errors:
         BadLaw: a law that cannot be counted.
     """
-    import pandas as pd
-
-    from bench.tables.kept_costs import of_controller, of_law
-
     one = settings.contender(unit.contender)
     try:
-        made = of_controller(one, tasks.arm(unit.arm).joints) if unit.arm else of_law(one)
+        return count_controller(one, tasks.arm(unit.arm).joints) if unit.arm else count_law(one)
     except BadLaw:
         if unit.engine != BEYOND:
             raise
-        made = []
-    return pd.DataFrame(made)
+        return []
+
+
+def count_law(one: Contender) -> list[dict]:
+    """Count the operations of a law alone; those of ours are kept on disk, for counting all laws takes ten seconds."""
+    from bench import counting
+
+    if one.regulator.origin:
+        return counting.rows([one])
+    return kept(f"costs/{one.name}", lambda: counting.rows([one]))
+
+
+def count_controller(one: Contender, joints: int) -> list[dict]:
+    """Count the operations of a controller on so many joints; those of ours are kept on disk."""
+    from bench import counting
+
+    if one.regulator.origin:
+        return counting.rows_on_arm(one, joints)
+    return kept(f"costs/{one.name}-{joints}", lambda: counting.rows_on_arm(one, joints))
 
 
 EXPERIMENT = Experiment(
     "costs",
     "operations a tick",
-    TABLES["costs"],
+    Table("costs", columns, (*CONTENDER_KEY, "joints", "branch", "stage")),
     units,
     rows,
-    takes=tuple(kind for kind in EVERYTHING if kind not in ("axes", "controllers")),
+    takes=ON_ARMS,
     cost_s=lambda unit: CONTROLLER_S if unit.arm else LAW_S,
     is_tried_first=True,
     compiles=False,

@@ -14,9 +14,11 @@ import tasks
 from bench.errors import Incompatible
 from bench.experiments import starts
 from bench.experiments.choice import Choice
+from bench.experiments.episode_rows import lost_frame
 from bench.experiments.experiment import Asked, Settings, Unit
 from bench.experiments.suites import HORIZON, NOMINAL, ON_ARM, SHORT, Slice
 from bench.law.contender import Contender
+from bench.metrics.registry import metrics_of
 from tasks.base import Start
 
 if TYPE_CHECKING:
@@ -34,28 +36,20 @@ class Place(NamedTuple):
 
 
 def tasks_of(asked: Asked) -> tuple[str, ...]:
-    """The tasks without contact that are meant; none with a perturbation, whose starts are its own."""
+    """Return the tasks without contact that are meant."""
     choice = asked.choice
-    if choice.axes:
-        return ()
-    if choice.is_contact_alone:
-        if asked.own:
-            raise Incompatible(
-                f"tasks in contact take controllers, not the regulator '{asked.own[0].name}' (leave --law away)"
-            )
-        return ()
-    named = tuple(word for word in choice.tasks if word in tasks.names())
-    every = tuple(word for word in tasks.names() if tasks.is_for_arms(word) or not choice.is_about_arms)
-    return named or every
+    if choice.tasks:
+        return tuple(word for word in choice.tasks if word in tasks.names())
+    return tuple(word for word in tasks.names() if tasks.is_for_arms(word) or not choice.is_about_arms)
 
 
 def runs_on(engine: str, task: str, one: Contender) -> bool:
-    """Whether an engine can run a task: the ideal plant is the free body's alone, and has no actuators of MuJoCo."""
+    """Tell whether an engine can run a task: the ideal plant is a free body without actuators of MuJoCo."""
     return not engine.startswith("ideal") or (task == "free-body" and not one.regulator.in_engine)
 
 
 def narrowed(slices: tuple[Slice, ...], choice: Choice) -> tuple[Slice, ...]:
-    """The start sets and engines that are named, with the suite's sizes where it has some."""
+    """Return the start sets and engines that are named, with the suite's sizes where it has some."""
     if not choice.narrows:
         return slices
     sizes = {(part.engine, part.start_set): part for part in slices}
@@ -71,7 +65,7 @@ def narrowed(slices: tuple[Slice, ...], choice: Choice) -> tuple[Slice, ...]:
 
 
 def cut(experiment: str, places: list[Place], asked: Asked, most: dict[str, int]) -> Iterator[Unit]:
-    """The units of places, of at most so many episodes each by engine."""
+    """Return the units of places, of at most so many episodes each by engine."""
     number = functools.cache(lambda word, size, arm: starts.count_of(word, size, asked.seed, arm))
     for part, one, task, arm, variation in places:
         total, step = number(part.start_set, asked.count or part.size, arm), most[part.engine]
@@ -116,7 +110,7 @@ def refuse_if_none(asked: Asked, units: tuple[Unit, ...]) -> None:
 
 
 def starts_of(settings: Settings, unit: Unit) -> list[Start]:
-    """A unit's stretch of its start set."""
+    """Return a unit's stretch of its start set."""
     end = unit.first + unit.count
     if unit.arm:
         return starts.on_arm(unit.selector, unit.total, settings.seed, unit.arm)[unit.first : end]
@@ -125,8 +119,6 @@ def starts_of(settings: Settings, unit: Unit) -> list[Start]:
 
 def prepare(settings: Settings, unit: Unit) -> None:
     """Build the starts, and compile the loop and the contender."""
-    from bench.metrics.registry import metrics_of
-
     if unit.selector:
         starts_of(settings, unit)
     one, metrics = settings.contender(unit.contender), tuple(metrics_of(on_arm=bool(unit.arm)))
@@ -144,7 +136,5 @@ def prepare(settings: Settings, unit: Unit) -> None:
 
 
 def lost(settings: Settings, unit: Unit, outcome: str) -> pd.DataFrame:
-    """What was asked, the outcome, no measure."""
-    from bench.experiments.rows.episodes import lost_frame
-
+    """Return the settings and the outcome, no measure."""
     return lost_frame(settings, unit, starts_of(settings, unit), outcome)

@@ -1,10 +1,10 @@
-"""What an experiment is, and the piece of work that it is made of: the same for every table of a run.
+"""What an experiment is, and the units of work that it is made of.
 
-An experiment is one file of this folder with a constant EXPERIMENT. Its units are planned from what was asked, carried
-out one by one, each by whatever process, and their rows, in the order of the units, are the table.
+An experiment is one file of this folder with a constant EXPERIMENT: `columns` says what its table holds, `units` plans
+the work, `rows` does a unit of it in whatever process. The rows of all units, in their order, are the table.
 
-Fails: an experiment whose file imports an engine or pandas outside its functions makes every plan, and `list`, wait for
-it.
+Limitations: an experiment that imports a compiled engine, scipy or pandas outside its functions makes every plan, and
+`list`, wait for it.
 """
 
 from __future__ import annotations
@@ -13,15 +13,15 @@ import dataclasses
 import functools
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 from bench import experiments
 from bench.contenders.registry import find_contender
 from bench.errors import BadLaw
 from bench.experiments.choice import IN_CONTACT, WITHOUT, Choice
+from bench.experiments.columns import Table
 from bench.experiments.suites import Suite
 from bench.law.contender import PAPERS_GAINS, Contender, Gains, Regulator
-from bench.tables.schema import Table
 from tasks.discovery import constants
 from tasks.rules import RULES, ticks
 
@@ -46,7 +46,7 @@ class Settings(NamedTuple):
     own: tuple[Regulator, ...] = ()
 
     def contender(self, name: str) -> Contender:
-        """The law, or the controller of an arm, of that name."""
+        """Return the law, or the controller of an arm, of that name."""
         return find_contender(name, self.own)
 
     def limits(self, horizon_s: float) -> Limits:
@@ -80,24 +80,24 @@ class Unit:
 
     @property
     def key(self) -> str:
-        """A name for a file."""
+        """Return a name for a file."""
         law = self.contender.replace("/", "~")
         words = (self.experiment, self.engine, law, self.task, self.arm, self.variation, self.selector)
         return "_".join((*filter(None, words), f"{self.first:06d}"))
 
     @property
     def law(self) -> str:
-        """The name of the contender's regulator."""
+        """Return the name of the contender's regulator."""
         return self.contender.partition("@")[0].partition("/")[0]
 
     @property
     def label(self) -> str:
-        """Where it is and what it runs, in a few words."""
+        """Return where it is and what it runs, in a few words."""
         where = (self.arm or self.engine or self.selector) if self.episodes else self.experiment
         return f"{where} {self.contender.split('/')[0] or self.arm}"
 
     def part(self, first: int, count: int) -> Unit:
-        """Some of its starts, an episode each."""
+        """Return a unit of some of its starts, an episode each."""
         return dataclasses.replace(self, first=first, count=count, episodes=count)
 
 
@@ -118,34 +118,37 @@ class Asked:
 
     @property
     def own(self) -> tuple[Regulator, ...]:
-        """The user's laws."""
+        """Return the user's laws."""
         return tuple(dict.fromkeys(one.regulator for one in self.laws if one.regulator.origin))
 
-
-EVERYTHING = tuple(field.name for field in dataclasses.fields(Choice) if field.name != "experiments")
-"""What the experiments take whose units follow every word of a choice, and refuse those that exclude each other."""
 
 OF_LAWS = ("tasks", "regulators", "representations")
 """What an experiment takes that runs some laws on the free body."""
 
+OF_EPISODES = (*OF_LAWS, "start_sets", "engines")
+ON_ARMS = (*OF_EPISODES, "arms", "jacobians", "inverses", "variations")
 
-def nothing(settings: Settings, unit: Unit, outcome: str = "") -> pd.DataFrame:
-    """No rows: of a unit that tells of a law what cannot be told of one that crashed or hung."""
-    import pandas as pd  # as engines: planning needs neither
 
-    return pd.DataFrame()
+def no_rows(settings: Settings, unit: Unit, outcome: str = "") -> Rows:
+    """Return no rows: this experiment has none for a law that crashed or hung."""
+    return []
 
 
 def usual_ticks(settings: Settings, unit: Unit) -> float:
-    """Control periods of every episode to its horizon."""
+    """Return the control periods of every episode to its horizon."""
     return unit.episodes * unit.horizon_s / settings.dt_s
+
+
+Rows: TypeAlias = "pd.DataFrame | list[dict] | dict[str, Any]"
+"""Rows as a data frame, as one dict a row, or as columns."""
 
 
 class Experiment(NamedTuple):
     """The constant EXPERIMENT of a file: what there is to do, and what comes of it.
 
-    name: the file's, with dashes. units(asked) -> units, in the order of the table's rows. rows(settings, unit) ->
-    its rows. cost_s(unit) -> seconds it usually takes.
+    name: the file's, with dashes. table: its name, `columns` and the key of a row; the docstring of `columns` describes
+    it in results/README.md. units(asked) -> units, in the order of the table's rows. rows(settings, unit) -> what
+    `pandas.DataFrame` takes. cost_s(unit) -> seconds it usually takes.
 
     prepare(settings, unit): compile, import and build what its rows need, for all processes that are forked then.
     lost(settings, unit, outcome) -> what is left of a unit whose law crashed or hung. ticks(settings, unit) -> control
@@ -163,11 +166,11 @@ class Experiment(NamedTuple):
     title: str
     table: Table
     units: Callable[[Asked], tuple[Unit, ...]]
-    rows: Callable[[Settings, Unit], pd.DataFrame]
+    rows: Callable[[Settings, Unit], Rows]
     cost_s: Callable[[Unit], float]
     takes: tuple[str, ...] = ()
     prepare: Callable[[Settings, Unit], None] = lambda settings, unit: None
-    lost: Callable[[Settings, Unit, str], pd.DataFrame] = nothing
+    lost: Callable[[Settings, Unit, str], Rows] = no_rows
     ticks: Callable[[Settings, Unit], float] = usual_ticks
     is_divisible: bool = False
     is_tried_first: bool = False
@@ -200,17 +203,26 @@ def known_tables() -> dict[str, Table]:
 
 
 def experiment_of(unit: Unit) -> Experiment:
-    """The experiment that a unit is of."""
+    """Return the experiment that a unit is of."""
     return known_experiments()[unit.experiment]
 
 
 def rows_of(settings: Settings, unit: Unit) -> pd.DataFrame:
-    """The rows of a unit."""
-    return experiment_of(unit).rows(settings, unit)
+    """Return the rows of a unit."""
+    import pandas as pd  # planning needs it not
+
+    return pd.DataFrame(experiment_of(unit).rows(settings, unit))
+
+
+def lost_rows_of(settings: Settings, unit: Unit, outcome: str) -> pd.DataFrame:
+    """Return what is left of a unit whose law crashed or hung."""
+    import pandas as pd
+
+    return pd.DataFrame(experiment_of(unit).lost(settings, unit, outcome))
 
 
 def own_last(units: list[Unit], own: tuple[Regulator, ...]) -> tuple[Unit, ...]:
-    """Units of our laws in their order, then those of a user's, contender by contender."""
+    """Return the units of our laws in their order, then those of a user's, contender by contender."""
     names = [one.name for one in own]
     theirs = [unit.contender for unit in units if unit.law in names]
     place = {name: 1 + i for i, name in enumerate(dict.fromkeys(theirs))}

@@ -7,11 +7,12 @@ from typing import TYPE_CHECKING
 
 import tasks
 from bench.experiments import arm
+from bench.experiments.episode_rows import TABLE, frame
 from bench.experiments.episodes import Place, cut, lost, narrowed, prepare, refuse_if_none, runs_on, starts_of, tasks_of
-from bench.experiments.experiment import EVERYTHING, Asked, Experiment, Settings, Unit
+from bench.experiments.experiment import OF_EPISODES, Asked, Experiment, Settings, Unit
 from bench.experiments.suites import Slice, Suite
 from bench.law.contender import Contender
-from bench.tables.schema import TABLES
+from bench.metrics.registry import metrics_of
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -26,7 +27,7 @@ on a core of 2026, to one digit. A factor of two does not matter. Compiling come
 
 @functools.lru_cache(maxsize=8)
 def units(asked: Asked) -> tuple[Unit, ...]:
-    """The units of a suite's slices.
+    """Return the units of a suite's slices.
 
     Errors:
         Incompatible: no named task, engine and start set go together, here or on arms.
@@ -45,17 +46,15 @@ def units(asked: Asked) -> tuple[Unit, ...]:
 
 
 def slices_of(suite: Suite, one: Contender) -> tuple[Slice, ...]:
-    """The slices of a suite that a contender runs on."""
+    """Return the slices of a suite that a contender runs on."""
     if one.regulator.in_engine:
         return suite.in_engine
     return suite.beyond if one.is_beyond_the_paper else suite.slices
 
 
 def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
-    """The rows of a unit."""
+    """Return the rows of a unit."""
     from bench.engines.run import run
-    from bench.experiments.rows.episodes import frame
-    from bench.metrics.registry import metrics_of
 
     starts, one, metrics = starts_of(settings, unit), settings.contender(unit.contender), metrics_of(on_arm=False)
     limits = settings.limits(unit.horizon_s)
@@ -66,10 +65,10 @@ def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
 EXPERIMENT = Experiment(
     "free-body",
     "laws on the body that turns freely",
-    TABLES["episodes"],
+    TABLE,
     units,
     rows,
-    takes=EVERYTHING,
+    takes=OF_EPISODES,
     cost_s=lambda unit: unit.count * EPISODE_S[unit.engine],
     prepare=prepare,
     lost=lost,

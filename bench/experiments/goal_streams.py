@@ -1,19 +1,38 @@
-"""Goals that arrive as a stream (tasks/goal_stream.py): what each way to fill them in makes of each law."""
+"""Goals that arrive as a stream (tasks/goal_stream.py): what each filter makes of the goal, and each loop of that.
+
+The laws are those of STREAMED, and for streams of quaternions also the spring on the quaternion as it came.
+"""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import numpy as np
 
-from bench.contenders.registry import known_regulators
+from bench.contenders.registry import find_contender, known_regulators
+from bench.experiments.chosen_words import STREAMED
+from bench.experiments.columns import Column, Table, numbers, words
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit
-from bench.experiments.suites import STREAMED
-from bench.tables.schema import TABLES
-from tasks.goal_stream import LENGTH_S, STREAMS
-
-if TYPE_CHECKING:
-    import pandas as pd
+from tasks.goal_stream import LENGTH_S, STREAMS, goals, true_goal
+from tasks.truth import angle
 
 NAME = "goal-streams"
+
+SIGNED = "quaternion,"
+"""Streams that arrive so are also run by the spring on the quaternion as it came."""
+
+
+def columns() -> list[Column]:
+    """goal-streams.parquet: goals that arrive as a stream (tasks/goal_stream.py), a row a stream and law."""
+    return [
+        *words(
+            stream="how goals are sent and filled in",
+            law="the law; empty: 2 K_p vec(q_d q*) - K_v omega, the spring on the quaternion as it came",
+        ),
+        *numbers("1", "greatest rate of the goal as filled in, over the true goal's", "goal_rate_ratio"),
+        *numbers("1", "way that the goal as filled in turns, over the true goal's", "goal_way_ratio"),
+        *numbers("rad/s^2", "greatest command", "peak_u"),
+        *numbers("rad", "greatest angle of the body to the true goal", "off_rad"),
+        *numbers("1", "way that the body turns, over the true goal's", "way_ratio"),
+    ]
 
 
 def units(asked: Asked) -> tuple[Unit, ...]:
@@ -21,13 +40,36 @@ def units(asked: Asked) -> tuple[Unit, ...]:
     return (Unit(NAME, count=len(STREAMS), total=len(STREAMS), horizon_s=LENGTH_S),)
 
 
-def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
-    """A row a stream and law."""
-    from bench.experiments.rows.goal_streams import frame
+def rows(settings: Settings, unit: Unit) -> list[dict]:
+    """Return a row a stream and law; `law` is empty for the spring on the quaternion as it came."""
+    from bench.engines.streamed import run
 
-    return frame(settings, [law for law in STREAMED if law in known_regulators()])
+    dt, laws = settings.dt_s, [law for law in STREAMED if law in known_regulators()]
+    truth = np.array([true_goal(k * dt) for k in range(round(LENGTH_S / dt))])
+    steps = compute_steps(truth)
+    found = []
+    for stream in STREAMS:
+        filled = np.ascontiguousarray(goals(stream, dt))
+        made = compute_steps(filled)
+        goal = {"goal_rate_ratio": made.max() / steps.max(), "goal_way_ratio": made.sum() / steps.sum()}
+        for law in (*laws, *[""] * stream.arrives.startswith(SIGNED)):
+            seen = run(find_contender(law or laws[0]), filled, truth, settings.gains, dt, is_raw=not law)
+            loop = {"peak_u": seen.peak_u, "off_rad": seen.off_rad, "way_ratio": seen.way_rad / steps.sum()}
+            found.append({"stream": stream.name, "law": law, **goal, **loop})
+    return found
+
+
+def compute_steps(q: np.ndarray) -> np.ndarray:
+    """Compute the angles between neighbouring goals [rad]."""
+    return np.array([angle(before, after) for before, after in zip(q[:-1].tolist(), q[1:].tolist(), strict=True)])
 
 
 EXPERIMENT = Experiment(
-    NAME, "goals that arrive as a stream", TABLES[NAME], units, rows, cost_s=lambda unit: 1.0, compiles=False
+    NAME,
+    "goals that arrive as a stream",
+    Table(NAME, columns, ("stream", "law")),
+    units,
+    rows,
+    cost_s=lambda unit: 1.0,
+    compiles=False,
 )

@@ -8,23 +8,29 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
+import numpy as np
+
 from bench.contenders.registry import find_contender, known_dampings
-from bench.experiments import arm
+from bench.engines.episode import FINAL_ANGLE
+from bench.experiments import arm, starts
+from bench.experiments.columns import ANGLE0, DT, HORIZON, JUDGED, SUITE, Column, Table, numbers, singles, words
+from bench.experiments.episode_rows import judged_columns
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit
 from bench.experiments.suites import BY_EVERY_INVERSE, ON_ARM
-from bench.tables.schema import TABLES
+from tasks.truth import angle
 
 if TYPE_CHECKING:
     import pandas as pd
 
 NAME = "impedance"
+KEY = ("arm", "damping", "stiffness_n_m")
 
 LAW = BY_EVERY_INVERSE
-"""Whose command at rest is the error of orientation: near the goal all are alike."""
+"""The law whose command at rest is the error of orientation: near the goal all are alike."""
 
 
 class Stiffness(NamedTuple):
-    """Of translation [N/m] and of turns [N m/rad]."""
+    """Stiffness of translation [N/m] and of rotation [N m/rad]."""
 
     translation: float
     rotation: float
@@ -36,12 +42,56 @@ STIFFNESSES = (Stiffness(150.0, 10.0), Stiffness(2000.0, 50.0))
 ZETA = 1.0
 """The ratio asked for: the shipped rule's 2 sqrt(K)."""
 
+START_SET = "clear"
+COMPENSATED = ("gravity", "bias")
+"""In the order of `Springs.is_whole`."""
+UNBOUNDED = ("overshoot", "off_m", "strain", "left_j", "damped_j", "elbow_j", "added_j")
+"""Columns set to NaN when the episode diverged: they say how far it got by the tick at which it was stopped."""
+
 EPISODE_S = 0.02
 """CPU seconds an episode of five seconds at most, median."""
 
+WHAT = [
+    *words(arm="manipulator", damping="design of the damping"),
+    *numbers("N/m", "stiffness of translation", "stiffness_n_m"),
+    *numbers("N m/rad", "stiffness of turns, that of the error vector 1 rad long", "stiffness_nm_rad"),
+    *numbers("1", "damping ratio that is asked for", "zeta"),
+]
 
-def of_arms(asked: Asked, name: str, **more) -> tuple[Unit, ...]:
-    """A unit a design of damping on each arm of the plan."""
+
+def columns() -> list[Column]:
+    """impedance.parquet: tau = J^T (K e - D v) + g in free motion, from rest, and where its energy goes; an episode.
+
+    stored_j = left_j + damped_j + elbow_j - added_j + unaccounted: the integrator's, of the order of the tick.
+    """
+    return [
+        *SUITE,
+        *WHAT,
+        *words(
+            compensated="gravity, or bias: gravity, Coriolis torques and friction",
+            law="whose command at rest, over kp, is the error of orientation",
+            start_set="family of starts, all at rest",
+            start_id="start within its family",
+        ),
+        *ANGLE0,
+        *DT,
+        *HORIZON,
+        *JUDGED,
+        *singles(
+            overshoot=("1", "greatest error against the first one's direction, over the first one"),
+            off_m=("m", "greatest distance of the tool from its place"),
+            strain=("1", "greatest torque of a joint over its rated one"),
+            stored_j=("J", "potential energy of the springs at the start"),
+            left_j=("J", "potential and kinetic energy at the end"),
+            damped_j=("J", "energy taken by the damping of the hand"),
+            elbow_j=("J", "energy taken by the damping of the null space; 0 on six joints"),
+            added_j=("J", "work of what is compensated beside gravity; negative of friction that is not"),
+        ),
+    ]
+
+
+def units_on_arms(asked: Asked, name: str, **more) -> tuple[Unit, ...]:
+    """Return a unit a design of damping on each arm of the plan."""
     arms = dict.fromkeys(unit.arm for unit in arm.units(asked))
     return tuple(
         Unit(name, task="arm-regulation", arm=one, selector=word, **more) for one in arms for word in known_dampings()
@@ -49,16 +99,67 @@ def of_arms(asked: Asked, name: str, **more) -> tuple[Unit, ...]:
 
 
 def units(asked: Asked) -> tuple[Unit, ...]:
-    """The designs on arms, as many starts as velocity-commanded robots get."""
-    starts = asked.suite.velocity.on_arms
-    return of_arms(asked, NAME, count=starts, total=starts, horizon_s=ON_ARM)
+    """Return the designs on arms, with as many starts as velocity-commanded robots get."""
+    count = asked.suite.velocity.on_arms
+    return units_on_arms(asked, NAME, count=count, total=count, horizon_s=ON_ARM)
 
 
 def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
-    """One row an episode."""
-    from bench.experiments.rows.impedance import frame
+    """Return one row an episode."""
+    import pandas as pd
 
-    return frame(settings, unit)
+    made = [_rows(settings, unit, stiffness, whole) for stiffness in STIFFNESSES for whole in range(len(COMPENSATED))]
+    frame = pd.concat(map(pd.DataFrame, made), ignore_index=True)
+    frame.loc[frame["failure_time_s"].notna(), list(UNBOUNDED)] = np.nan
+    return frame
+
+
+def _rows(settings: Settings, unit: Unit, stiffness: Stiffness, whole: int) -> dict:
+    from bench.engines.native.impedance import ADDED, DAMPED, ELBOW, KINETIC, LEFT, OFF, OVERSHOOT, STRAIN, Springs
+    from bench.engines.run_impedance import run
+
+    some = starts.on_arm(START_SET, unit.count, settings.seed, unit.arm)
+    law, damping = find_contender(LAW), known_dampings()[unit.selector]
+    springs = Springs(*stiffness, ZETA, whole)
+    numbers, _ = run(law, damping, springs, some, settings.limits(unit.horizon_s), unit.arm)
+    angle0 = np.array([angle(start.quat_wxyz, start.goal_wxyz) for start in some])
+    left = compute_potential(stiffness, numbers[:, FINAL_ANGLE], numbers[:, LEFT]) + numbers[:, KINETIC]
+    return {
+        "suite": settings.suite,
+        **setting_columns(unit, stiffness),
+        "compensated": COMPENSATED[whole],
+        "law": LAW,
+        "start_set": START_SET,
+        "start_id": [start.id for start in some],
+        "angle0_rad": angle0,
+        "dt_s": settings.dt_s,
+        "horizon_s": unit.horizon_s,
+        **judged_columns(numbers, settings.dt_s),
+        "overshoot": numbers[:, OVERSHOOT],
+        "off_m": numbers[:, OFF],
+        "strain": numbers[:, STRAIN],
+        "stored_j": compute_potential(stiffness, angle0, np.zeros(len(some))),
+        "left_j": left,
+        "damped_j": numbers[:, DAMPED],
+        "elbow_j": numbers[:, ELBOW],
+        "added_j": numbers[:, ADDED],
+    }
+
+
+def setting_columns(unit: Unit, stiffness: Stiffness) -> dict:
+    """Return the values of the columns WHAT."""
+    return {
+        "arm": unit.arm,
+        "damping": unit.selector,
+        "stiffness_n_m": stiffness.translation,
+        "stiffness_nm_rad": stiffness.rotation,
+        "zeta": ZETA,
+    }
+
+
+def compute_potential(stiffness: Stiffness, theta: np.ndarray, distance: np.ndarray) -> np.ndarray:
+    """Compute the energy of the springs [J]: k_r theta^2/2 of the logarithm, and k_t |p_d - p|^2/2."""
+    return 0.5 * (stiffness.rotation * theta**2 + stiffness.translation * distance**2)
 
 
 def prepare(settings: Settings, unit: Unit) -> None:
@@ -71,7 +172,7 @@ def prepare(settings: Settings, unit: Unit) -> None:
 EXPERIMENT = Experiment(
     NAME,
     "impedance without inertia shaping, in free motion",
-    TABLES[NAME],
+    Table(NAME, columns, ("suite", *KEY, "compensated", "start_set", "start_id")),
     units,
     rows,
     takes=("tasks", "arms"),

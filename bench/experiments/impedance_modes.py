@@ -1,42 +1,120 @@
-"""Impedance without inertia shaping about the goal: natural frequency and damping ratio felt of every mode."""
+"""Modes of impedances that shape no inertia, from one tick of the loop about the goal.
+
+    (q, qdot) -> (q, qdot) one tick later, by central differences          qdot+ = qdot - dt (X q + Y qdot)
+    P = J X J^+ = Lambda^-1 K,  Q = J Y J^+ = Lambda^-1 D                  as the hand sees it
+
+P phi = omega^2 phi; with psi the left eigenvector the mode's damping ratio is psi Q phi/(2 omega psi phi). The tick's
+map of the hand is [[I - dt^2 P, dt (I - dt Q)], [-dt P, I - dt Q]], MuJoCo's rates first.
+"""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import numpy as np
 
-from bench.experiments import impedance
+import tasks
+from bench.contenders.registry import find_contender, known_dampings
+from bench.experiments.columns import DT, Column, Table, counts, numbers
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit
-from bench.tables.schema import TABLES
-
-if TYPE_CHECKING:
-    import pandas as pd
+from bench.experiments.impedance import (
+    KEY,
+    LAW,
+    STIFFNESSES,
+    WHAT,
+    ZETA,
+    Stiffness,
+    prepare,
+    setting_columns,
+    units_on_arms,
+)
 
 NAME = "impedance-modes"
+
+STEP = 1e-4
+"""Of the differences [rad, rad/s]: they err by its square, 1e-8, and by rounding over it and the tick, 1e-9."""
 
 DESIGN_S = 0.01
 """CPU seconds a design of damping on an arm."""
 
 
+def columns() -> list[Column]:
+    """impedance-modes.parquet: modes about the goal, from one tick of the loop, differentiated at the arm's home.
+
+    What theory says of it: bench/findings/theory/impedance_modes.py.
+    """
+    return [
+        *WHAT,
+        *DT,
+        *counts(mode="place by frequency, from 1"),
+        *numbers("1/s", "natural frequency", "omega"),
+        *numbers("1", "damping ratio felt: of the mode's damping to its critical one", "ratio"),
+        *numbers("1/s", "slowest decay of all modes' errors; negative if one grows", "decay"),
+        *numbers("1", "greatest eigenvalue of the tick's map, as it is sampled; 1 and above is unstable", "radius"),
+    ]
+
+
 def units(asked: Asked) -> tuple[Unit, ...]:
-    """The designs on arms."""
-    return impedance.of_arms(asked, NAME)
+    """Return the designs on arms."""
+    return units_on_arms(asked, NAME)
 
 
-def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
-    """One row a mode."""
-    from bench.experiments.rows.impedance_modes import frame
+def rows(settings: Settings, unit: Unit) -> list[dict]:
+    """Return one row a mode."""
+    found = []
+    for stiffness in STIFFNESSES:
+        P, Q = hand_matrices(settings, unit, stiffness)
+        radius = float(np.abs(np.linalg.eigvals(compute_tick_map(P, Q, settings.dt_s))).max())
+        loop = {"dt_s": settings.dt_s, "decay": -np.log(radius) / settings.dt_s, "radius": radius}
+        for mode, (omega, ratio) in enumerate(zip(*compute_modes(P, Q), strict=True), start=1):
+            found.append({**setting_columns(unit, stiffness), **loop, "mode": mode, "omega": omega, "ratio": ratio})
+    return found
 
-    return frame(settings, unit)
+
+def hand_matrices(settings: Settings, unit: Unit, stiffness: Stiffness) -> tuple[np.ndarray, np.ndarray]:
+    """Compute P [1/s^2] and Q [1/s], 6 x 6, at the arm's home."""
+    from bench.engines.native.impedance import Springs
+    from bench.engines.run_impedance import run
+    from tasks.kinematics import kinematics
+
+    arm = tasks.arm(unit.arm)
+    judge, n, dt = kinematics(arm), arm.joints, settings.dt_s
+    p, quat = judge.pose(arm.home)
+    offsets = STEP * np.vstack((np.eye(2 * n), -np.eye(2 * n)))
+    states = np.hstack((arm.home, np.zeros(n))) + offsets
+    begun = [judge.start("", one[:n], quat, one[n:], goal_p=tuple(p.tolist())) for one in states]
+    limits = settings.limits(dt)._replace(ticks=1)
+    _, ends = run(
+        find_contender(LAW), known_dampings()[unit.selector], Springs(*stiffness, ZETA, 0), begun, limits, unit.arm
+    )
+    tick = (ends[: 2 * n] - ends[2 * n :]).T / (2.0 * STEP)
+    J = judge.jacobian(arm.home)
+    J_inverse = np.linalg.pinv(J)
+    X, Y = -tick[n:, :n] / dt, (np.eye(n) - tick[n:, n:]) / dt
+    return J @ X @ J_inverse, J @ Y @ J_inverse
+
+
+def compute_modes(P: np.ndarray, Q: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Compute natural frequencies [1/s] in ascending order, and their damping ratios."""
+    squares, phi = np.linalg.eig(P)
+    order = np.argsort(squares.real)
+    omega, phi = np.sqrt(squares.real[order]), phi.real[:, order]
+    psi = np.linalg.inv(phi)
+    return omega, np.diag(psi @ Q @ phi) / (2.0 * omega)
+
+
+def compute_tick_map(P: np.ndarray, Q: np.ndarray, dt: float) -> np.ndarray:
+    """Compute the map of the hand's place and rate over one tick, 12 x 12."""
+    after = np.eye(6) - dt * Q
+    return np.block([[np.eye(6) - dt * dt * P, dt * after], [-dt * P, after]])
 
 
 EXPERIMENT = Experiment(
     NAME,
     "modes of impedance without inertia shaping",
-    TABLES[NAME],
+    Table(NAME, columns, (*KEY, "mode")),
     units,
     rows,
     takes=("tasks", "arms"),
     cost_s=lambda unit: DESIGN_S,
-    prepare=impedance.prepare,
+    prepare=prepare,
     compiles=False,
 )

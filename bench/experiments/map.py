@@ -1,15 +1,32 @@
-"""Maps: what becomes of millions of random starts, counted in cells of SO(3); no suite has them, `map` has."""
+"""Millions of random starts of a law, counted in cells of SO(3), the slowest of each ring, and those that are lost.
+
+No suite has this experiment; `python -m bench map` runs it.
+
+A start is settled, lost or unconverged: what becomes of it depends on the step (`engines.convergence`).
+
+A ring is 5 degrees of the angle to the goal. A cell is a ring in one of 128 equal parts of the sphere of axes, 8 bands
+of z by 16 of the azimuth; the axis is that of the turn from the goal to the start, which is below 180 degrees.
+"""
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
+import numpy as np
+
+from bench.engines.episode import OUTCOME, SETTLING_TICK, START_WIDTH, STEP
+from bench.experiments.columns import CONTENDER, CONTENDER_KEY, COUNT, Column, Table, counts, numbers, words
+from bench.experiments.episode_rows import contender_columns
 from bench.experiments.experiment import Experiment, Settings, Unit
 from bench.experiments.plan import Plan
 from bench.experiments.suites import SHORT
 from bench.law.contender import PAPERS_GAINS, Contender, Gains
-from bench.tables.schema import TABLES
-from tasks.random_starts import BLOCK
+from tasks.base import IDENTITY
+from tasks.random_starts import BLOCK, block
+from tasks.rules import RULES
+from tasks.truth import angle
+from tasks.verdict import OUTCOMES, SETTLED
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -19,6 +36,46 @@ UNIT = 8 * BLOCK
 
 START_S = 3e-5
 """CPU seconds a start."""
+
+RINGS, BANDS, AZIMUTHS = 36, 8, 16
+EDGES = np.array([math.cos(math.radians(5.0 * ring) / 2.0) for ring in range(1, RINGS)])
+"""|w| of the quaternion at the rings' edges, falling."""
+
+MOST_LOST = 1000
+"""Lost and unconverged starts that are kept of a law and speed."""
+
+CELL, SLOWEST, LOST = "cell", "slowest", "lost"
+PLACE = ["ring_deg", "band", "azimuth"]
+STATE = [*(f"quat_{part}" for part in "wxyz"), *(f"omega0_{axis}" for axis in "xyz")]
+LAW = [*CONTENDER_KEY, "engine", "seed", "least_speed", "most_speed"]
+
+
+def columns() -> list[Column]:
+    """map.parquet: millions of random starts of a law, counted in cells of SO(3) (`python -m bench map`).
+
+    A row a cell; one for the slowest start of each ring of 5 degrees; one for each start that is lost or does not
+    converge, the first thousand of a law and speed. Starts are numbers of a sequence that the seed names.
+    """
+    return [
+        *CONTENDER,
+        *words(engine="what simulated the episodes"),
+        *counts(seed="of the starts"),
+        *numbers("rad/s", "initial speeds are uniform between these two", "least_speed", "most_speed"),
+        *words(row="cell, slowest or lost"),
+        Column("ring_deg", COUNT, "deg", "initial angle to the goal: from this to 5 degrees more"),
+        *counts(band="z of the axis of the initial turn: 0 to 7, eighths of [-1, 1]"),
+        *counts(azimuth="its azimuth: 0 to 15, sixteenths of [-pi, pi]"),
+        *counts(start="number of the start; -1 for a cell"),
+        *counts(starts="how many"),
+        *counts(settled="how many of them converged and settled"),
+        *counts(unconverged="how many did not converge; the others are lost"),
+        *numbers("s", "largest settling time of those that settled; null if none did", "settling_time_s"),
+        *words(outcome="of a start; empty for a cell"),
+        *numbers(
+            "1", "orientation of the start, unit quaternion; null for a cell", *(f"quat_{part}" for part in "wxyz")
+        ),
+        *numbers("rad/s", "its angular velocity, base frame; null for a cell", *(f"omega0_{axis}" for axis in "xyz")),
+    ]
 
 
 def plan_of(
@@ -32,7 +89,7 @@ def plan_of(
     horizon_s: float = SHORT,
     gains: Gains = PAPERS_GAINS,
 ) -> Plan:
-    """A map of each law from the same orientations, at speeds between the least and the most of each pair [rad/s]."""
+    """Plan a map of each law from the same orientations, at speeds between the numbers of each pair [rad/s]."""
     units = (
         Unit(
             "map",
@@ -55,16 +112,95 @@ def plan_of(
 
 
 def speeds_of(unit: Unit) -> tuple[float, float]:
-    """The least and the most initial speed of a unit's starts [rad/s]."""
+    """Return the least and the most initial speed of a unit's starts [rad/s]."""
     least, _, most = unit.selector.removeprefix("speed-").partition("to")
     return float(least), float(most)
 
 
 def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
-    """The cells that a unit's starts lie in, the slowest start of each ring, and the starts that are lost."""
-    from bench.experiments.rows.map import rows as counted
+    """Return the cells that a unit's starts lie in, the slowest start of each ring, and the lost starts."""
+    import pandas as pd
 
-    return counted(settings, unit)
+    found = pd.DataFrame()
+    for number in range(unit.first // BLOCK, -(-(unit.first + unit.count) // BLOCK)):
+        made = _of_block(settings, unit, number)
+        found = made if found.empty else folded(found, made)
+    return found
+
+
+def _of_block(settings: Settings, unit: Unit, number: int) -> pd.DataFrame:
+    import pandas as pd
+
+    from bench.engines.run import on_ideal
+
+    one, (least, most), first = settings.contender(unit.contender), speeds_of(unit), number * BLOCK
+    quats, omegas = (part[: unit.first + unit.count - first] for part in block(number, settings.seed, most, least))
+    ended = on_ideal(unit.engine, one, start_rows(quats, omegas), settings.limits(unit.horizon_s), total=unit.total)
+    codes, has_converged = ended[:, OUTCOME].astype(int), ended[:, STEP] >= 0.0
+    is_settled = (ended[:, OUTCOME] == SETTLED) & has_converged
+    starts = pd.DataFrame(
+        {
+            **dict(zip(PLACE, cells(quats), strict=True)),
+            "starts": 1,
+            "settled": is_settled.astype(np.int64),
+            "unconverged": (~has_converged).astype(np.int64),
+            "settling_time_s": np.where(is_settled, ended[:, SETTLING_TICK] * settings.dt_s, np.nan),
+            "start": first + np.arange(len(quats)),
+            **dict(zip(STATE, np.column_stack((quats, omegas)).T, strict=True)),
+            "outcome": np.array(OUTCOMES)[codes],
+        }
+    )
+    every = pd.concat([starts.assign(row=row) for row in (CELL, SLOWEST, LOST)], ignore_index=True)
+    law = {
+        **contender_columns(one),
+        "engine": unit.engine,
+        "seed": settings.seed,
+        "least_speed": least,
+        "most_speed": most,
+    }
+    return _reduced(every[~((every["row"] == LOST) & (every["settled"] == 1))].assign(**law))
+
+
+def start_rows(quats: np.ndarray, omegas: np.ndarray) -> np.ndarray:
+    """Return starts of an engine, with the goal I: quaternion, omega, goal, haversine of the settling band."""
+    made = np.empty((len(quats), START_WIDTH))
+    made[:, :4], made[:, 4:7], made[:, 7:11] = quats, omegas, IDENTITY
+    made[:, 11] = [RULES.band_haversine(angle(quat, IDENTITY)) for quat in quats.tolist()]
+    return made
+
+
+def cells(quats: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return ring [deg], band and azimuth of quaternions (n, 4)."""
+    w, x, y, z = np.where(quats[:, :1] < 0.0, -quats, quats).T
+    ring = RINGS - 1 - np.searchsorted(EDGES[::-1], w)
+    along = z / np.sqrt(x * x + y * y + z * z)
+    band = np.clip(np.floor(0.5 * BANDS * (along + 1.0)), 0, BANDS - 1)
+    azimuth = np.floor(AZIMUTHS * (np.arctan2(y, x) / math.tau + 0.5)) % AZIMUTHS
+    return 5 * ring, band.astype(np.int64), azimuth.astype(np.int64)
+
+
+def folded(before: pd.DataFrame, after: pd.DataFrame) -> pd.DataFrame:
+    """Return the rows of two stretches of starts, the first before the second, as those of both."""
+    import pandas as pd
+
+    return _reduced(pd.concat([before, after], ignore_index=True))
+
+
+def _reduced(every: pd.DataFrame) -> pd.DataFrame:
+    """Sum cells; keep of each ring's slowest starts the slowest, the first of equals; the first MOST_LOST lost ones."""
+    import pandas as pd
+
+    cells = every[every["row"] == CELL].assign(start=-1, outcome="", **dict.fromkeys(STATE, np.nan))
+    how = {"starts": "sum", "settled": "sum", "unconverged": "sum", "settling_time_s": "max"} | dict.fromkeys(
+        ("start", *STATE), "first"
+    )
+    cells = cells.groupby([*LAW, *PLACE, "row", "outcome"], sort=False, as_index=False).agg(how)
+    slowest = every[(every["row"] == SLOWEST) & (every["settled"] == 1)]
+    slowest = slowest.sort_values("settling_time_s", ascending=False, kind="stable")
+    slowest = slowest.drop_duplicates([*LAW, "ring_deg"])
+    lost = every[every["row"] == LOST].groupby(LAW, sort=False).head(MOST_LOST)
+    order = [*LAW, "row", *PLACE, "start"]
+    return pd.concat([cells, slowest, lost], ignore_index=True).sort_values(order, ignore_index=True)
 
 
 def prepare(settings: Settings, unit: Unit) -> None:
@@ -74,17 +210,10 @@ def prepare(settings: Settings, unit: Unit) -> None:
     run.prepare(unit.engine, settings.contender(unit.contender), (), unit.total)
 
 
-def folded(before: pd.DataFrame, after: pd.DataFrame) -> pd.DataFrame:
-    """The rows of two stretches of starts as those of both."""
-    from bench.experiments.rows.map import folded as both
-
-    return both(before, after)
-
-
 EXPERIMENT = Experiment(
     "map",
     "laws from millions of random starts",
-    TABLES["map"],
+    Table("map", columns, (*LAW, "row", *PLACE, "start")),
     units=lambda asked: (),
     rows=rows,
     cost_s=lambda unit: unit.count * START_S,

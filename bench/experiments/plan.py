@@ -2,6 +2,7 @@
 
 import dataclasses
 import hashlib
+import itertools
 import json
 from dataclasses import dataclass
 
@@ -16,11 +17,11 @@ from bench.experiments.choice import (
     check_numbers,
     check_word,
 )
+from bench.experiments.columns import Table
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit, known_experiments, known_tables
 from bench.experiments.suites import suite
 from bench.law.contender import PAPERS_GAINS, Contender, Gains
 from bench.provenance import source_digest
-from bench.tables.column import Table
 from tasks.rules import RULES
 
 
@@ -32,28 +33,28 @@ class Plan:
     units: tuple[Unit, ...]
 
     def of(self, *experiments: str) -> tuple[Unit, ...]:
-        """The units of these experiments."""
+        """Return the units of these experiments."""
         return tuple(unit for unit in self.units if unit.experiment in experiments)
 
     @property
     def tables(self) -> dict[str, Table]:
-        """Those that a run of it has: all that suites have if one of them is run, and those of what is in no suite."""
+        """Return the tables of a run: all that suites have if one of them is run, and those of what no suite has."""
         own = [known_experiments()[name] for name in dict.fromkeys(unit.experiment for unit in self.units)]
         of_suites = known_tables() if any(one.in_suites for one in own) else {}
         return of_suites | {one.table.name: one.table for one in own if not one.in_suites}
 
     def episodes(self, *experiments: str) -> int:
-        """How many episodes these experiments run; all of them if none is named."""
+        """Return how many episodes these experiments run; all of them if none is named."""
         return sum(unit.episodes for unit in (self.of(*experiments) if experiments else self.units))
 
     @property
     def contenders(self) -> tuple[Contender, ...]:
-        """The laws and the controllers of arms that are run."""
+        """Return the laws and the controllers of arms that are run."""
         names = dict.fromkeys(unit.contender for unit in self.of("free-body", "arm", "robustness"))
         return tuple(map(self.settings.contender, names))
 
     def identity(self) -> dict:
-        """What two runs must share for one to continue the other: the plan, the rules and the sources."""
+        """Return what two runs must share for one to continue the other: the plan, the rules and the sources."""
         arms = dict.fromkeys(unit.arm for unit in self.units if unit.arm)
         return {
             **self.settings._asdict(),
@@ -78,10 +79,10 @@ def chosen(choice: Choice) -> list[Experiment]:
     """Return the experiments that are named, or else those that take every kind of word that is.
 
     Errors:
-        Incompatible: experiments are named, and a word that none of them takes.
+        Incompatible: a word that no experiment takes beside the others, or none that is named.
     """
     if not choice.experiments:
-        return [one for one in known_experiments().values() if set(choice.named) <= set(one.takes)]
+        return _taking(choice)
     found = [one for name, one in known_experiments().items() if name in choice.experiments]
     taken = {kind for one in found for kind in one.takes}
     for kind in choice.named:
@@ -91,6 +92,31 @@ def chosen(choice: Choice) -> list[Experiment]:
                 f"{', '.join(sorted(taken)).replace('_', ' ') or 'no other words'} (leave one of the two away)"
             )
     return found
+
+
+def _taking(choice: Choice) -> list[Experiment]:
+    """Return the experiments that take every kind of word that is named.
+
+    Errors:
+        Incompatible: words of two kinds exclude each other, or tasks in contact and a word that they do not take.
+    """
+    found = [one for one in known_experiments().values() if set(choice.named) <= set(one.takes)]
+    taken = [set(one.takes) for one in known_experiments().values()]
+    for pair in itertools.combinations(choice.named, 2):
+        if not any(set(pair) <= kinds for kinds in taken):
+            both = " and ".join(_shown(choice, kind) for kind in pair)
+            raise Incompatible(f"nothing to run: no experiment takes both {both} (leave one of the two away)")
+    if choice.tasks and set(choice.tasks) <= set(tasks.contact_names()):
+        for kind in set(choice.named) - set(known_experiments()["contact"].takes):
+            raise Incompatible(
+                f"tasks in contact take an arm and a --controller, no {_shown(choice, kind)} (try: python -m bench "
+                "list controllers)"
+            )
+    return found
+
+
+def _shown(choice: Choice, kind: str) -> str:
+    return f"{kind.replace('_', ' ')} such as '{getattr(choice, kind)[0]}'"
 
 
 def make(
@@ -105,7 +131,7 @@ def make(
     integrator: str | None = None,
     seed: int = 0,
 ) -> Plan:
-    """The plan of a suite, narrowed or widened by what the user named.
+    """Return the plan of a suite, narrowed or widened by what the user named.
 
     Args:
         laws: the contenders of the free body; on arms the same laws, by the suite's Jacobians and inverses.

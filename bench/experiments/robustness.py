@@ -5,14 +5,35 @@ from __future__ import annotations
 import functools
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 import tasks
 from bench.contenders.registry import papers_laws
+from bench.engines.episode import Settings as Limits
 from bench.errors import Incompatible
 from bench.experiments.choice import Choice
+from bench.experiments.columns import (
+    ANGLE0,
+    DT,
+    GAINS,
+    HORIZON,
+    JUDGED,
+    LEVEL,
+    LEVEL_KEY,
+    SUITE,
+    Column,
+    Table,
+    singles,
+    words,
+)
+from bench.experiments.episode_rows import judged_columns, lost_numbers, measured_columns
+from bench.experiments.equal_peak import gains_at
 from bench.experiments.experiment import OF_LAWS, Asked, Experiment, Settings, Unit
 from bench.experiments.suites import Robustness
-from bench.law.contender import Contender
-from bench.tables.schema import TABLES
+from bench.law.contender import Contender, Gains
+from bench.metrics.registry import metrics_of
+from tasks.condition import Condition, condition_at
+from tasks.truth import angle
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -27,9 +48,33 @@ EPISODE_S = 6e-4
 """CPU seconds an episode, see `free_body`."""
 
 
+def columns() -> list[Column]:
+    """robustness.parquet: the perturbed free body, an episode a row; starts and noise are the same for every law.
+
+    The plant moves between commands, which are held; every metric of the free body adds its column, over the plant's
+    steps. Of an episode that ended early, what is left in its tail is the final angle.
+    """
+    return [
+        *SUITE,
+        *LEVEL,
+        *words(start_id="start; the axes' starts are their own"),
+        *ANGLE0,
+        *GAINS,
+        *DT,
+        *HORIZON,
+        *JUDGED,
+        *singles(**{one.column: (one.unit, one.title) for one in metrics_of(on_arm=False)}),
+        *singles(
+            tail_rms_rad=("rad", "root of the mean squared angle to the goal over the last second"),
+            tail_max_rad=("rad", "largest angle to the goal in the last second"),
+            variation=("rad/s^2", "variation of the command: sum of |u - u before| over control periods"),
+        ),
+    ]
+
+
 @functools.lru_cache(maxsize=8)
 def units(asked: Asked) -> tuple[Unit, ...]:
-    """The units of a suite's part, narrowed or widened by what the user named; `count` starts at each level.
+    """Return the units of a suite's part, narrowed or widened by what the user named; `count` starts at each level.
 
     Errors:
         Incompatible: perturbations are named and no law that can meet them.
@@ -59,41 +104,105 @@ def units(asked: Asked) -> tuple[Unit, ...]:
 
 
 def _takes_part(one: Contender, part: Robustness, choice: Choice) -> bool:
-    """Whether it is a law on R or on the paper's coordinates, a user's, or named; and no actuator of MuJoCo's."""
+    """Tell whether it is a law on R or on the paper's coordinates, a user's, or named; and no actuator of MuJoCo's."""
     is_wanted = bool(one.regulator.origin or choice.regulators or choice.representations)
     is_usual = not one.is_elsewhere or part.others is None or one.name in part.others
     return (is_wanted or is_usual) and not one.regulator.in_engine
 
 
 def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
-    """One row a level and start; none at a level whose command the law has no gains for."""
+    """Return one row a level and start; none at a level whose command the law has no gains for."""
     from bench.engines.run_disturbed import run
-    from bench.experiments.rows.robustness import frame
 
-    return frame(settings, unit, run)
+    return simulated(settings, unit, run)
+
+
+def simulated(settings: Settings, unit: Unit, simulate, gains=gains_at) -> pd.DataFrame:
+    """Return one row a level and start; none at a level whose command the law has no gains for.
+
+    The starts and the noise are the same for every law.
+
+    Args:
+        simulate: makes the numbers of the rows, as `run_disturbed.run`. gains(law, peak): those that give the peak.
+    """
+    import pandas as pd
+
+    one, axis, seed = settings.contender(unit.contender), tasks.axis(unit.selector), settings.seed
+    parts = []
+    for level in axis.levels:
+        condition = condition_at(axis, level)
+        chosen = gains(one, condition.peak) if condition.peak else settings.gains
+        if chosen is not None:
+            some = axis.starts(unit.count, seed, level)
+            rows = _rows(one, some, condition, _limits(chosen, unit.horizon_s), seed, simulate)
+            parts.append(pd.DataFrame({"axis": axis.name, "level": level, **rows}))
+    if not parts:
+        return pd.DataFrame()
+    coordinates = one.representation.name if one.representation else ""
+    whole = pd.concat(parts, ignore_index=True)
+    return whole.assign(suite=settings.suite, regulator=one.regulator.name, representation=coordinates)
+
+
+def lost(settings: Settings, unit: Unit, outcome: str) -> pd.DataFrame:
+    """Return the settings and the outcome, no measure.
+
+    A row has the run's gains: only the law knows those that give a peak.
+    """
+    from bench.engines.disturbed import blank_rows
+
+    def simulate(_one, starts, _condition, _limits, metrics, _seed):
+        return lost_numbers(blank_rows(len(starts), metrics), outcome)
+
+    nothing = dict.fromkeys((metric.column for metric in metrics_of(on_arm=False)), np.nan)
+    return simulated(settings, unit, simulate, lambda _one, _peak: settings.gains).assign(**nothing, variation=np.nan)
+
+
+def _limits(gains: Gains, horizon_s: float) -> Limits:
+    """Return the judge's rules in ticks of a microsecond, which the condition's own steps replace."""
+    return Limits(gains, 1e-6, round(1e6 * horizon_s), 1)
+
+
+def _rows(one: Contender, starts, condition: Condition, limits: Limits, seed: int, simulate) -> dict:
+    from bench.engines import disturbed
+
+    metrics = metrics_of(on_arm=False)
+    numbers = simulate(one, starts, condition, limits, metrics, seed)
+    step_s = condition.period_s / disturbed.steps_of(condition)
+    angle0 = [angle(start.quat_wxyz, start.goal_wxyz) for start in starts]
+    judged = judged_columns(numbers, step_s)
+    finals = judged["final_angle_rad"]
+    extra = numbers[:, -disturbed.EXTRA :]
+    tail = extra[:, disturbed.TAIL_COUNT]
+    has_tail = tail > 0
+    rms = np.sqrt(extra[:, disturbed.TAIL_SQUARES] / np.where(has_tail, tail, 1.0))
+    return {
+        "start_id": [start.id for start in starts],
+        "angle0_rad": angle0,
+        "kp": limits.gains.kp,
+        "kv": limits.gains.kv,
+        "dt_s": condition.period_s,
+        "horizon_s": limits.ticks * limits.dt_s,
+        **judged,
+        **measured_columns(numbers, metrics, angle0, judged),
+        "tail_rms_rad": np.where(has_tail, rms, finals),
+        "tail_max_rad": np.where(has_tail, extra[:, disturbed.TAIL_WORST], finals),
+        "variation": extra[:, disturbed.VARIATION],
+    }
 
 
 def prepare(settings: Settings, unit: Unit) -> None:
     """Compile the loop and the law."""
     from bench.engines.run import evaluation
     from bench.engines.run_disturbed import compiled_loop
-    from bench.metrics.registry import metrics_of
 
     compiled_loop(tuple(metrics_of(on_arm=False)))
     evaluation(settings.contender(unit.contender))
 
 
-def lost(settings: Settings, unit: Unit, outcome: str) -> pd.DataFrame:
-    """What was asked, the outcome, no measure."""
-    from bench.experiments.rows.robustness import lost_frame
-
-    return lost_frame(settings, unit, outcome)
-
-
 EXPERIMENT = Experiment(
     "robustness",
     "laws on the free body under perturbations",
-    TABLES["robustness"],
+    Table("robustness", columns, ("suite", *LEVEL_KEY, "start_id")),
     units,
     rows,
     takes=(*OF_LAWS, "axes"),

@@ -1,16 +1,35 @@
-"""Controllers as they are shipped: stiffness and damping felt, dead points, unwinding, settling; beside our laws."""
+"""A controller as it is shipped, and laws of ours at its gains: stiffness, dead points, unwinding, settling times.
+
+Stiffness and directions are of the command at rest; episodes run on the ideal plant with a held command, from both
+signs of the quaternion. Where the authors cancel no inertia, unit inertia stands for the body's: of another, I, divide
+both gains by it, so that the damping ratio falls as 1/sqrt(I) and I = D^2/(4 K) is critically damped.
+"""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import math
+from collections.abc import Iterable
 
-from bench.contenders.registry import known_regulators, known_shipped
+import numpy as np
+
+from bench.audit import audit
+from bench.contenders.registry import find_contender, known_regulators, known_shipped
+from bench.engines.binding import memory_of
+from bench.engines.curve import NUMBERS, blank_curves
+from bench.engines.episode import OUTCOME, SETTLING_TICK, blank, start_rows
+from bench.engines.episode import numbers as numbers_of
+from bench.experiments.chosen_words import BEST
+from bench.experiments.columns import Column, Table, counts, numbers, words
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit
-from bench.experiments.suites import BEST, LONG
-from bench.tables.schema import TABLES
-
-if TYPE_CHECKING:
-    import pandas as pd
+from bench.experiments.field import ENGINE, ZERO, Field, about, size
+from bench.experiments.suites import LONG
+from bench.law.contender import Contender, Gains
+from bench.law.shipped import ANTIPODE, NEAR, VELOCITY, Shipped, regulator_of
+from bench.metrics.registry import metrics_of
+from tasks.base import Start
+from tasks.rotations import multiply
+from tasks.sphere import axes
+from tasks.verdict import SETTLED
 
 NAME = "shipped"
 
@@ -20,24 +39,167 @@ LAWS = tuple(word.partition("@")[0] for word in BEST)
 CONTROLLER_S = 0.7
 """CPU seconds a controller, most of them for the audit and for compiling."""
 
+FELT_RAD = {"stiffness_1mrad": 1e-3, "stiffness_50mrad": 5e-2, "stiffness_1rad": 1.0}
+"""Where stiffness is felt: inside any deadband, outside it and under any clip of torques, and under clips."""
+BENT_DEG = (10, 30, 90, 150)
+"""Where the direction of the command is looked at."""
+SETTLING_DEG = {"1": 1.0, "30": 30.0, "90": 90.0, "150": 150.0, "179": 179.0, "179_9": 179.9}
+
+BASE = np.eye(3)
+DIRECTIONS = 200
+AXES = np.concatenate((BASE[:1], -BASE[2:], axes(6)))
+"""Of episodes: two of the base, and some of no kind."""
+BEFORE_180_RAD = 1e-6
+AWAY_RAD = math.radians(1.0)
+"""By more than this a spring that pulls the short way increases no angle of a body at rest."""
+SAMPLE_S = 0.02
+HAVERSINE = NUMBERS.index("haversine")
+
+
+def columns() -> list[Column]:
+    """shipped.parquet: controllers as they are shipped, and laws of ours at the same gains (bench/contenders/shipped).
+
+    A row a controller, and one more for each law of ours in its place, with the same two gains. Of velocity commands
+    what is a function of the orientation alone.
+    """
+    times = {f"settling_{name}_s": f"{name.replace('_', '.')}°" for name in SETTLING_DEG}
+    return [
+        *words(
+            shipped="the controller whose gains they are",
+            law="empty: the controller as shipped; else the law of ours in its place",
+            level="what is commanded: torque, velocity or position",
+            shapes_inertia="whether unit inertia is felt whatever the body's: yes or no",
+        ),
+        *numbers("1/s^2", "stiffness as set, of unit inertia; of a velocity command 1/tick", "kp"),
+        *numbers("1/s", "damping as set, of unit inertia; null of a velocity command", "kv"),
+        *numbers("1", "command along a base axis over stiffness set times angle, the least of three", *FELT_RAD),
+        *numbers("1", "damping ratio felt at 50 mrad of a body of unit inertia; null of a velocity", "damping_ratio"),
+        *numbers("kg m^2", "inertia that is critically damped at 50 mrad; null where inertia is shaped", "critical"),
+        *numbers(
+            "rad",
+            "largest angle between command and axis at so many degrees, over directions; null where all rest",
+            *(f"bent_{angle}_rad" for angle in BENT_DEG),
+        ),
+        *counts(half_turns="exact 180° rotations that were looked at"),
+        *counts(dead="of them, those at which it rests for ever"),
+        *counts(starts="episodes, from both signs of the quaternion; 0 of a velocity"),
+        *counts(lost="of them, those that never settle"),
+        *counts(away="of them, those that turn away from the goal by more than 1°: that unwind"),
+        *(
+            one
+            for name, angle in times.items()
+            for one in numbers("s", f"settling time of the slowest start at {angle}; null if one is lost", name)
+        ),
+        *numbers("s", "likewise at 1e-6 rad before 180°", "settling_near_180_s"),
+        *words(
+            findings="what the audit says of its error, faults and notes, with commas between; empty of laws of ours"
+        ),
+    ]
+
 
 def units(asked: Asked) -> tuple[Unit, ...]:
     """Return a unit for each controller."""
     return tuple(Unit(NAME, selector=name, count=1, total=1, horizon_s=LONG) for name in known_shipped())
 
 
-def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
-    """The controller, then each of LAWS at its gains."""
-    from bench.experiments.rows.shipped import frame
+def rows(settings: Settings, unit: Unit) -> list[dict]:
+    """Return the row of the controller, then that of each of LAWS at its gains."""
+    laws = [law for law in LAWS if law.partition("/")[0] in known_regulators()]
+    return compare(known_shipped()[unit.selector], laws, settings, unit.horizon_s)
 
-    laws = tuple(law for law in LAWS if law.partition("/")[0] in known_regulators())
-    return frame(known_shipped()[unit.selector], laws, settings, unit.horizon_s)
+
+def compare(one: Shipped, laws: Iterable[str], settings: Settings, horizon_s: float) -> list[dict]:
+    """Return the row of a controller, then those of laws at its gains; no law takes the place of velocity commands."""
+    made = [row(one, "", Contender(regulator_of(one)), settings, horizon_s) | {"findings": ", ".join(findings(one))}]
+    for law in laws if one.level != VELOCITY else ():
+        made.append(row(one, law, find_contender(law), settings, horizon_s) | {"findings": ""})
+    return made
+
+
+def row(one: Shipped, law: str, contender: Contender, settings: Settings, horizon_s: float) -> dict:
+    """Return a law's numbers at the gains of a controller."""
+    gains = Gains(one.stiffness, one.damping or 0.0)
+    field = Field(contender, gains)
+    felt = {name: compute_stiffness(field, angle) for name, angle in FELT_RAD.items()}
+    ratio, is_velocity = math.nan, one.level == VELOCITY
+    if not is_velocity and felt["stiffness_50mrad"] > 0.0:
+        ratio = gains.kv / (2.0 * math.sqrt(gains.kp * felt["stiffness_50mrad"]))
+    dead = size(field(about(axes(DIRECTIONS), math.pi) * (0.0, 1.0, 1.0, 1.0))) <= ZERO
+    found = {
+        "shipped": one.name,
+        "law": law,
+        "level": one.level,
+        "shapes_inertia": "yes" if one.shapes_inertia else "no",
+        "kp": gains.kp,
+        "kv": math.nan if is_velocity else gains.kv,
+        **felt,
+        "damping_ratio": ratio,
+        "critical": math.nan if one.shapes_inertia else ratio**2,
+        **{f"bent_{angle}_rad": compute_bending(field, math.radians(angle)) for angle in BENT_DEG},
+        "half_turns": DIRECTIONS,
+        "dead": int(dead.sum()),
+    }
+    if is_velocity:
+        return found | {"starts": 0, "lost": 0, "away": 0}
+    memories = (memory_of(contender),) if law else (NEAR, ANTIPODE)  # of ours, which take matrices, both signs are one
+    return found | motion(contender, memories, settings._replace(gains=gains), horizon_s)
+
+
+def compute_stiffness(field: Field, angle: float) -> float:
+    """Compute e . k / theta at rest, the least over the axes of the base."""
+    return float(np.min(np.sum(field(about(BASE, angle)) * -BASE, axis=1)) / angle)
+
+
+def compute_bending(field: Field, angle: float) -> float:
+    """Compute the largest angle between the command at rest and the axis [rad], 0 within ZERO; NaN where all rest."""
+    k = axes(DIRECTIONS)
+    u = field(about(k, angle))
+    moves = size(u) > ZERO
+    off = np.arctan2(np.linalg.norm(np.cross(u, -k), axis=1), np.sum(u * -k, axis=1))
+    worst = float(off[moves].max()) if moves.any() else math.nan
+    return 0.0 if worst < ZERO else worst  # what rounding leaves is no property of a controller
+
+
+def findings(one: Shipped) -> tuple[str, ...]:
+    """Return the faults and notes of the audit, for the error as a function of two quaternions with slope 1."""
+
+    def error(q, q_d):
+        (w, x, y, z), goal = q.tolist(), q_d.tolist()
+        return one.error(multiply(tuple(goal), (w, -x, -y, -z)))
+
+    return tuple(found.fault.name for found in audit(error, "wxyz", name=one.name).findings)
+
+
+def motion(contender: Contender, memories: tuple, settings: Settings, horizon_s: float) -> dict:
+    """Simulate starts at rest from each of the memories, and count how they end."""
+    from bench.engines.run import compiled_loop, evaluation
+
+    angles = {f"settling_{name}_s": math.radians(angle) for name, angle in SETTLING_DEG.items()}
+    angles["settling_near_180_s"] = math.pi - BEFORE_180_RAD
+    begun = start_rows([Start("", tuple(q)) for angle in angles.values() for q in about(AXES, angle).tolist()])
+    metrics, limits, episodes = tuple(metrics_of(on_arm=False)), numbers_of(settings.limits(horizon_s)), []
+    every = round(SAMPLE_S / settings.dt_s)
+    for memory in memories:
+        made, curves = blank(len(begun), metrics), blank_curves(len(begun), limits.ticks // every, every)
+        compiled_loop(ENGINE, metrics)(evaluation(contender), memory, begun, limits, made, curves)
+        farthest = np.nanmax(curves.samples[:, :, HAVERSINE], axis=1)
+        allowed = np.sin(0.5 * np.minimum(np.repeat([*angles.values()], len(AXES)) + AWAY_RAD, math.pi)) ** 2
+        episodes.append(np.column_stack((made[:, [OUTCOME, SETTLING_TICK]], farthest > allowed)))
+    outcome, tick, is_away = np.reshape(episodes, (len(memories), len(angles), len(AXES), 3)).transpose(3, 1, 0, 2)
+    settled = outcome == SETTLED
+    slowest = np.where(settled, tick, np.nan).max(axis=(1, 2)) * settings.dt_s
+    return {
+        "starts": settled.size,
+        "lost": int((~settled).sum()),
+        "away": int(is_away.sum()),
+        **dict(zip(angles, slowest.tolist(), strict=True)),
+    }
 
 
 EXPERIMENT = Experiment(
     NAME,
     "controllers as they are shipped",
-    TABLES[NAME],
+    Table(NAME, columns, ("shipped", "law")),
     units,
     rows,
     cost_s=lambda unit: CONTROLLER_S,

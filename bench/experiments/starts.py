@@ -4,12 +4,12 @@ import functools
 import hashlib
 
 import tasks
-from bench.tables.kept_rows import kept
+from bench.experiments.kept_rows import kept
 from tasks.base import Start
 
 
 def count_of(start_set: str, count: int | None, seed: int, arm: str = "") -> int:
-    """How many starts a set has, its own number if `count` is None; an arm that cannot do so many has fewer."""
+    """Return how many starts a set has, its own number if `count` is None; an arm that cannot do so many has fewer."""
     return len(on_arm(start_set, count, seed, arm)) if arm else tasks.start_set_length(start_set, count, seed)
 
 

@@ -12,13 +12,27 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 import tasks
+from bench.engines.curve import ARM_NUMBERS, NUMBERS, blank_curves
 from bench.experiments import free_body
+from bench.experiments.columns import (
+    ARM,
+    CONTENDER,
+    CONTENDER_KEY,
+    JOINTS,
+    JUDGED,
+    START,
+    Column,
+    Table,
+    numbers,
+    words,
+)
+from bench.experiments.episode_rows import contender_columns, judged_columns
 from bench.experiments.episodes import prepare
 from bench.experiments.experiment import OF_LAWS, Asked, Experiment, Settings, Unit, own_last
 from bench.experiments.starts import on_arm
 from bench.experiments.suites import HORIZON, LONG, SHORT
 from bench.law.contender import Contender
-from bench.tables.schema import TABLES
+from bench.metrics.registry import metrics_of
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -33,6 +47,28 @@ CURVE_S = 0.05
 """CPU seconds a curve; most of it goes into its rows."""
 
 
+def columns() -> list[Column]:
+    """traces.parquet: an episode every few ticks."""
+    return [
+        *words(task="plant and goal"),
+        *ARM,
+        *CONTENDER,
+        *words(engine="what simulated the episode"),
+        *START,
+        *numbers("s", "time", "time_s"),
+        *numbers("1", "columns of R = [n o a], base frame", *(f"{c}_{x}" for c in "noa" for x in "xyz")),
+        *numbers("rad/s", "angular velocity, base frame", "omega_x", "omega_y", "omega_z"),
+        *numbers("rad/s^2", "command, base frame", "u_x", "u_y", "u_z"),
+        *numbers("rad", "angle to the goal", "angle_rad"),
+        *numbers("m", "distance of the tool from its place; null on the free body", "position_error_m"),
+        *JOINTS,
+        *(one._replace(meaning=f"of the episode: {one.meaning}; none on an arm") for one in JUDGED),
+    ]
+
+
+TABLE = Table("traces", columns, ("task", "arm", *CONTENDER_KEY, "engine", "start_set", "start_id", "time_s"))
+
+
 def laws(asked: Asked) -> list[Contender]:
     """Return the laws that are run on the free body."""
     names = {unit.contender for unit in free_body.units(asked)}
@@ -40,7 +76,7 @@ def laws(asked: Asked) -> list[Contender]:
 
 
 def units(asked: Asked) -> tuple[Unit, ...]:
-    """A unit a law on the free body, continuous but for MuJoCo's own actuator; a user's last."""
+    """Return a unit a law on the free body, continuous but for MuJoCo's own actuator; a user's last."""
     if not asked.suite.traces:
         return ()
     followed = [one for one in laws(asked) if not one.is_beyond_the_paper]
@@ -48,31 +84,28 @@ def units(asked: Asked) -> tuple[Unit, ...]:
 
 
 def of_law(one: Contender, count: int) -> Unit:
-    """The unit of a law on the free body, from so many uniform starts beside the others."""
+    """Return the unit of a law on the free body, from so many uniform starts beside the others."""
     engine = "native" if one.regulator.in_engine else "ideal-rk4"
     return Unit("traces", one.name, "free-body", engine=engine, count=count, horizon_s=LONG)
 
 
 def of_arm(contender: str, task: str, arm: str, count: int, start_set: str) -> Unit:
-    """The unit of a controller on an arm, from the first so many of a start set."""
+    """Return the unit of a controller on an arm, from the first so many of a start set."""
     return Unit("traces", contender, task, arm, "native", start_set, count=count, horizon_s=LONGEST_S)
 
 
 def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
-    """The samples of all curves of a unit."""
+    """Return the samples of all curves of a unit."""
     import pandas as pd
 
     every = max(1, round(EVERY_S / settings.dt_s))
     one = settings.contender(unit.contender)
     frames = [_on_arm(settings, unit, one, every)] if unit.arm else _on_free_body(settings, unit, one, every)
-    return pd.concat(frames, ignore_index=True).reindex(columns=TABLES["traces"].names)
+    return pd.concat(frames, ignore_index=True).reindex(columns=TABLE.names)
 
 
 def _on_free_body(settings: Settings, unit: Unit, one: Contender, every: int) -> Iterator[pd.DataFrame]:
-    from bench.engines.curve import NUMBERS, blank_curves
     from bench.engines.run import run
-    from bench.experiments.rows.episodes import contender_columns, judged_columns
-    from bench.metrics.registry import metrics_of
 
     metrics = metrics_of(on_arm=False)
     place = {"task": unit.task, "arm": "", **contender_columns(one), "engine": unit.engine}
@@ -86,10 +119,7 @@ def _on_free_body(settings: Settings, unit: Unit, one: Contender, every: int) ->
 
 
 def _on_arm(settings: Settings, unit: Unit, one: Contender, every: int) -> pd.DataFrame:
-    from bench.engines.curve import ARM_NUMBERS, blank_curves
     from bench.engines.run_arm import run
-    from bench.experiments.rows.episodes import contender_columns
-    from bench.metrics.registry import metrics_of
 
     metrics, limits = metrics_of(on_arm=True), settings.limits(unit.horizon_s)
     place = {"task": unit.task, "arm": unit.arm, **contender_columns(one), "engine": unit.engine}
@@ -101,26 +131,26 @@ def _on_arm(settings: Settings, unit: Unit, one: Contender, every: int) -> pd.Da
 
 
 def _frame(place: dict, starts, samples: np.ndarray, names, endings: dict) -> pd.DataFrame:
-    """The curves of all starts, one below the other; what the judge says of an episode stands at all its samples."""
+    """Return the curves of all starts, one below the other; the end of an episode stands at all its samples."""
     import pandas as pd
 
     is_kept = ~np.isnan(samples[:, :, 0])
     lengths = is_kept.sum(axis=1)
-    columns = dict(zip(names, samples[is_kept].T, strict=True))
-    columns["angle_rad"] = 2.0 * np.arcsin(np.minimum(1.0, np.sqrt(columns.pop("haversine"))))
+    found = dict(zip(names, samples[is_kept].T, strict=True))
+    found["angle_rad"] = 2.0 * np.arcsin(np.minimum(1.0, np.sqrt(found.pop("haversine"))))
     said = {name: np.repeat(values, lengths) for name, values in endings.items()}
-    return pd.DataFrame({**place, "start_id": np.repeat([start.id for start in starts], lengths), **columns, **said})
+    return pd.DataFrame({**place, "start_id": np.repeat([start.id for start in starts], lengths), **found, **said})
 
 
 def curves_of(unit: Unit) -> int:
-    """How many curves a unit has at most."""
+    """Return how many curves a unit has at most."""
     return unit.count if unit.arm else len(tasks.start_set("paper")) + unit.count
 
 
 EXPERIMENT = Experiment(
     "traces",
     "curves of the paper's laws",
-    TABLES["traces"],
+    TABLE,
     units,
     rows,
     takes=OF_LAWS,

@@ -2,26 +2,47 @@
 
 On the free body from uniform starts and exact 180° rotations, and behind every limiter; on arms by the standard
 inverse, one law by every inverse, by servos that follow at once and by servos with a lag. K is sqrt(kp), the pole that
-the paper's gains have twice.
+the paper's gains have twice. On arms each start is run twice, the second time with its joints turned by 1e-12 rad: what
+a singularity makes of rounding shows.
 """
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import math
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import numpy as np
 
 import tasks
 from bench.contenders import combinations
 from bench.contenders.registry import known_inverses, known_limiters
 from bench.control.velocity import is_velocity_law
-from bench.experiments import arm
+from bench.engines.episode import FINAL_ANGLE, OUTCOME
+from bench.experiments import arm, starts
+from bench.experiments.columns import (
+    ANGLE0,
+    ARM,
+    CONTENDER,
+    CONTENDER_KEY,
+    DT,
+    HORIZON,
+    JUDGED,
+    SUITE,
+    Column,
+    Table,
+    numbers,
+    singles,
+    words,
+)
+from bench.experiments.episode_rows import contender_columns, judged_columns
 from bench.experiments.experiment import OF_LAWS, Asked, Experiment, Settings, Unit, own_last
-from bench.experiments.suites import BY_EVERY_INVERSE
+from bench.experiments.suites import AT_VELOCITIES, BY_EVERY_INVERSE, SUITES, WITHOUT_FACTOR
 from bench.experiments.traces import laws
 from bench.law.contender import Contender, refusal
-from bench.tables.schema import TABLES
-
-if TYPE_CHECKING:
-    import pandas as pd
+from tasks.base import Start
+from tasks.truth import angle
+from tasks.verdict import OUTCOMES
 
 NAME = "velocity"
 
@@ -31,9 +52,64 @@ HORIZON_S = 2.5
 EPISODE_S = {"": 2e-4, "arm": 3e-3}
 """CPU seconds an episode, medians."""
 
+LAGS_S = (0.0, 0.05)
+"""Time constants of servos: none, and one that with K = 10/s makes K T = 1/2, twice what does not overshoot."""
+
+BESIDE_RAD = 1e-12
+
+NONE = "none"
+"""The limiter that limits nothing."""
+
+PLACED = ("share", "limiter", "lag_s", "start_set")
+
+SHARE = numbers("1", "of K that is used: 0.5 writes the quaternion's vector part where the law has twice it", "share")
+
+
+class Part(NamedTuple):
+    """Starts of a unit that are run alike."""
+
+    start_set: str
+    starts: list[Start]
+    limiter: str = NONE
+    share: float = 1.0
+    lag_s: float = 0.0
+
+
+def columns() -> list[Column]:
+    """velocity.parquet: first-order laws omega = K f(R, R_d), f a law's command at rest over kp; a row an episode."""
+    seen: dict[str, tuple[str, str]] = {
+        "path_ratio": ("1", "way turned over the initial angle"),
+        "furthest_rad": ("rad", "greatest angle to the goal"),
+        "bent_rad": ("rad", "greatest angle by which the limiter turned a command off its direction"),
+        "peak_omega": ("rad/s", "greatest angular velocity commanded, as limited"),
+        "peak_rate": ("rad/s", "greatest length of the vector of joint rates commanded; null on the free body"),
+        "off_m": ("m", "greatest distance of the tool from its place; null on the free body"),
+        "rounding_change": (
+            "1",
+            "on arms, largest relative change of this row's numbers when its joints start 1e-12 rad further; null on "
+            "the free body",
+        ),
+    }
+    return [
+        *SUITE,
+        *ARM,
+        *CONTENDER,
+        *SHARE,
+        *words(limiter="what stands between the law and the robot"),
+        *numbers("s", "time constant of the joints' servos; 0 of servos that follow at once", "lag_s"),
+        *words(start_set="family of starts, all at rest", start_id="start within its family"),
+        *ANGLE0,
+        *numbers("1/s", "gain of the law, share left out", "gain"),
+        *DT,
+        *HORIZON,
+        *JUDGED,
+        *singles(**seen),
+        *words(outcome_beside="on arms, the other outcome 1e-12 rad beside: rounding decides; empty if there is none"),
+    ]
+
 
 def units(asked: Asked) -> tuple[Unit, ...]:
-    """A unit a law on the free body, and one a law, inverse and arm; a user's last."""
+    """Return a unit a law on the free body, and one a law, inverse and arm; a user's last."""
     part, some = asked.suite.velocity, velocity_laws(asked)
     made = [Unit(NAME, one.name, "free-body", count=part.starts, horizon_s=HORIZON_S) for one in some]
     for name in dict.fromkeys(unit.arm for unit in arm.units(asked)):
@@ -46,7 +122,7 @@ def units(asked: Asked) -> tuple[Unit, ...]:
 
 
 def velocity_laws(asked: Asked) -> list[Contender]:
-    """The laws whose command at rest is an error vector: on R or the paper's coordinates, a user's, or named."""
+    """Return the laws whose command at rest is an error vector: on R or the paper's coordinates, a user's, or named."""
     is_named = asked.choice.is_of_some_laws
     return [
         one
@@ -56,32 +132,111 @@ def velocity_laws(asked: Asked) -> list[Contender]:
 
 
 def on_joints(law: Contender, joints: int) -> list[Contender]:
-    """A law by the geometric Jacobian and the standard inverse, or by every one that fits."""
+    """Return a law by the geometric Jacobian and the standard inverse, or by every one that fits."""
     if law.name != BY_EVERY_INVERSE:
         return combinations.on((f"{law.name}@geometric+standard",), {law.name: law}, joints)
     (by, *_) = combinations.on((f"{law.name}@geometric+standard",), {law.name: law}, joints)
     return [one for every in known_inverses().values() if not refusal(one := by._replace(inverse=every), joints)]
 
 
-def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
-    """One row an episode."""
-    from bench.experiments.rows.velocity import frame
+def rows(settings: Settings, unit: Unit) -> dict:
+    """Return one row an episode, as columns."""
+    from bench.engines.velocity import BENT, FURTHEST, OFF, PATH, PEAK, RATE
 
-    return frame(settings, unit)
+    every = list(parts(settings, unit))
+    lengths = [len(part.starts) for part in every]
+    made = np.vstack([_run(settings, unit, part, part.starts) for part in every])
+    some = [start for part in every for start in part.starts]
+    angle0 = np.array([angle(start.quat_wxyz, start.goal_wxyz) for start in some])
+    one = settings.contender(unit.contender)
+    found = {
+        "suite": settings.suite,
+        "arm": unit.arm,
+        **contender_columns(one),
+        **{name: np.repeat([getattr(part, name) for part in every], lengths) for name in PLACED},
+        "start_id": [start.id for start in some],
+        "angle0_rad": angle0,
+        "gain": gain(settings),
+        "dt_s": settings.dt_s,
+        "horizon_s": unit.horizon_s,
+        **judged_columns(made, settings.dt_s),
+        "path_ratio": made[:, PATH] / angle0,
+        "furthest_rad": np.fmax(2.0 * np.arcsin(np.sqrt(np.fmin(made[:, FURTHEST], 1.0))), made[:, FINAL_ANGLE]),
+        "bent_rad": made[:, BENT],
+        "peak_omega": made[:, PEAK],
+        "peak_rate": made[:, RATE] if unit.arm else np.nan,
+        "off_m": made[:, OFF] if unit.arm else np.nan,
+    }
+    if unit.arm:
+        changed = [OUTCOME, PATH, FURTHEST, PEAK, RATE, OFF]
+        beside = np.vstack([_run(settings, unit, part, list(map(_turned, part.starts))) for part in every])
+        found |= compare_beside(made[:, changed], beside[:, changed])
+    else:
+        found |= {"rounding_change": np.nan, "outcome_beside": ""}
+    return found
+
+
+def gain(settings: Settings) -> float:
+    """Return K [1/s]: the loop's pole is where the paper's gains have two."""
+    return math.sqrt(settings.gains.kp)
+
+
+def parts(settings: Settings, unit: Unit) -> Iterator[Part]:
+    """Yield what a unit runs."""
+    if unit.arm:
+        for name in AT_VELOCITIES:
+            some = starts.on_arm(name, unit.count, settings.seed, unit.arm)
+            yield from (Part(name, some, lag_s=lag_s) for lag_s in LAGS_S)
+        return
+    uniform = tasks.start_set("uniform", unit.count, settings.seed)
+    exact = [start for start in tasks.start_set("half-turn") if start.quat_wxyz[0] == 0.0]
+    few = uniform[: SUITES[settings.suite].velocity.limited if settings.suite in SUITES else unit.count]
+    for share in (1.0, 0.5) if unit.contender == WITHOUT_FACTOR else (1.0,):
+        yield Part("uniform", uniform, share=share)
+        yield Part("half-turn", exact, share=share)
+        yield from (Part("uniform", few, name, share) for name in known_limiters() if name != NONE)
+
+
+def _run(settings: Settings, unit: Unit, part: Part, some: list[Start]) -> np.ndarray:
+    from bench.engines.run_velocity import run
+
+    one, limiter = settings.contender(unit.contender), known_limiters()[part.limiter]
+    K = part.share * gain(settings)
+    return run(one, limiter, K, some, settings.limits(unit.horizon_s), unit.arm, part.lag_s)
+
+
+def _turned(start: Start) -> Start:
+    """Return the start with every joint 1e-12 rad further."""
+    return start._replace(q=tuple(x + BESIDE_RAD for x in start.q))
+
+
+def compare_beside(numbers: np.ndarray, beside: np.ndarray) -> dict:
+    """Return what 1e-12 rad made of each row: the largest relative change, and the outcome if it is another.
+
+    Args:
+        numbers, beside: the outcome, then the numbers in which rounding is looked for.
+    """
+    was, now = numbers[:, 1:], beside[:, 1:]
+    with np.errstate(invalid="ignore"):
+        change = np.abs(now - was) / np.maximum(np.abs(was), 1e-6)
+    outcomes = ([OUTCOMES[int(code)] for code in each[:, 0]] for each in (numbers, beside))
+    return {
+        "rounding_change": np.nan_to_num(change, nan=math.inf, posinf=math.inf).max(axis=1),
+        "outcome_beside": [other if other != one else "" for one, other in zip(*outcomes, strict=True)],
+    }
 
 
 def prepare(settings: Settings, unit: Unit) -> None:
     """Compile the loops, the limiters, the law and the inverse."""
     from bench.engines import run_velocity
 
-    one = settings.contender(unit.contender)
-    run_velocity.prepare(one, known_limiters().values())
+    run_velocity.prepare(settings.contender(unit.contender), known_limiters().values())
 
 
 EXPERIMENT = Experiment(
     NAME,
     "first-order laws: robots that are told velocities",
-    TABLES[NAME],
+    Table(NAME, columns, ("suite", "arm", *CONTENDER_KEY, *PLACED, "start_id")),
     units,
     rows,
     takes=(*OF_LAWS, "arms"),

@@ -1,29 +1,75 @@
-"""How far K dt may be raised: the largest at which errors near the goal die out, and at which none grows far from it.
+"""The largest K dt of first-order laws, by bisection on episodes of a fixed number of ticks.
 
-By bisection, on the free body for every law, and on arms for one law by every inverse and behind servos with a lag.
+On the free body for every law, and on arms for one law by every inverse and behind servos with a lag.
+
+near: errors of NEAR_RAD about each of AXES are no larger after TICKS ticks, after more of them the longer servos lag. A
+factor m a tick gives m^TICKS: of the limit a thousandth part makes 1.001^TICKS = 2.7, so that bisection finds it to
+about as much.
+
+far: in one tick no error of SCAN_RAD about FAR_AXIS grows, nor is it turned by more than twice its angle, which could
+end anywhere. Where that holds the angle falls at every tick from everywhere, and the law is stable whatever the start.
 """
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import math
+
+import numpy as np
 
 import tasks
+from bench.contenders import combinations
+from bench.contenders.registry import find_contender, known_limiters
+from bench.engines.episode import FAILURE_TICK, FINAL_ANGLE, NEVER
 from bench.experiments import arm, velocity
+from bench.experiments.columns import ARM, CONTENDER, CONTENDER_KEY, Column, Table, numbers, words
+from bench.experiments.episode_rows import contender_columns
 from bench.experiments.experiment import OF_LAWS, Asked, Experiment, Settings, Unit, own_last
-from bench.experiments.suites import BY_EVERY_INVERSE
-from bench.tables.schema import TABLES
-
-if TYPE_CHECKING:
-    import pandas as pd
+from bench.experiments.suites import BY_EVERY_INVERSE, WITHOUT_FACTOR
+from bench.experiments.velocity import NONE, SHARE
+from tasks.base import Start
+from tasks.rotations import about, multiply
 
 NAME = "velocity-limits"
 
 LAW_S, ARM_S = 0.01, 0.4
 """CPU seconds a law on the free body, and an inverse on an arm."""
 
+TICKS, NEAR_RAD, GREATEST = 1000, 1e-3, 64.0
+"""K dt is looked for below GREATEST."""
+
+AXES = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0), (1.0, 2.0, 3.0))
+FAR_AXIS, SCAN_RAD = (1.0, 2.0, 3.0), np.linspace(1e-3, math.pi - 1e-3, 400)
+
+BISECTIONS = 24
+"""Of 64: 4e-6."""
+
+LAG_TICKS = (0.0, 0.25, 1.0, 4.0)
+"""Time constants of servos over the control period."""
+
+DT_S = 0.1
+"""Of no matter to K dt, but that commands keep far from the judge's limit of speed."""
+
+
+def columns() -> list[Column]:
+    """velocity-limits.parquet: the largest K dt at which a first-order law is stable, bisected.
+
+    What theory says of it: bench/findings/theory/velocity_limits.py.
+    """
+    return [
+        *ARM,
+        *CONTENDER,
+        *SHARE,
+        *words(
+            reach="near: errors of 1e-3 rad die out; far: no tick takes any start further away than it was, from 1e-3 "
+            "rad to 1e-3 rad short of 180 degrees"
+        ),
+        *numbers("1", "time constant of the servos over the control period", "lag_ticks"),
+        *numbers("1", "largest K dt, bisected", "k_dt"),
+    ]
+
 
 def units(asked: Asked) -> tuple[Unit, ...]:
-    """A unit a law on the free body; on each arm one for each inverse of one law."""
+    """Return a unit a law on the free body; on each arm one for each inverse of one law."""
     some = velocity.velocity_laws(asked)
     made = [Unit(NAME, one.name, "free-body") for one in some]
     for name in dict.fromkeys(unit.arm for unit in arm.units(asked)):
@@ -36,17 +82,90 @@ def units(asked: Asked) -> tuple[Unit, ...]:
     return own_last(made, asked.own)
 
 
-def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
-    """One row a reach and lag."""
-    from bench.experiments.rows.velocity_limits import frame
+def rows(settings: Settings, unit: Unit) -> list[dict]:
+    """Return one row a reach and lag."""
+    one = settings.contender(unit.contender)
+    if unit.arm:
+        start = [_on_arm(unit.arm)]
+        found = [("near", 1.0, lag, near(settings, unit, start, lag)) for lag in lags(unit)]
+    else:
+        begun = [Start("", about(axis, NEAR_RAD)) for axis in AXES]
+        limit = near(settings, unit, begun, 0.0)
+        found = [("near", 1.0, 0.0, limit), ("far", 1.0, 0.0, far(settings, unit))]
+        if unit.contender == WITHOUT_FACTOR:
+            found += [("near", 0.5, 0.0, near(settings, unit, begun, 0.0, 0.5))]
+    place, names = {"arm": unit.arm, **contender_columns(one)}, ("reach", "share", "lag_ticks", "k_dt")
+    return [place | dict(zip(names, each, strict=True)) for each in found]
 
-    return frame(settings, unit)
+
+def lags(unit: Unit) -> tuple[float, ...]:
+    """Return all lags for the standard inverse, and none for others: a lag tells nothing of an inverse."""
+    law, _, _ = unit.contender.partition("@")
+    standard = combinations.on((f"{law}@geometric+standard",), {law: find_contender(law)}, tasks.arm(unit.arm).joints)
+    return LAG_TICKS if unit.contender == standard[0].name else LAG_TICKS[:1]
+
+
+def _on_arm(name: str) -> Start:
+    """Return the arm at home, its goal NEAR_RAD off about an axis of no kind."""
+    from tasks.kinematics import kinematics
+
+    judge = kinematics(tasks.arm(name))
+    q = pose(name)
+    return judge.start("", q, multiply(about(FAR_AXIS, NEAR_RAD), judge.pose(q)[1]))
+
+
+def pose(name: str) -> tuple[float, ...]:
+    """Return the joint angles at which an arm's limits are measured: its home."""
+    return tasks.arm(name).home
+
+
+def near(settings: Settings, unit: Unit, begun: list[Start], lag_ticks: float, share: float = 1.0) -> float:
+    """Compute the largest K dt at which none of the errors near the goal has grown."""
+
+    def holds(k_dt: float) -> bool:
+        made = _run(settings, unit, begun, share * k_dt, round(TICKS * (1.0 + lag_ticks)), lag_ticks)
+        return bool((made[:, FINAL_ANGLE] <= NEAR_RAD).all())
+
+    return bisect(holds)
+
+
+def far(settings: Settings, unit: Unit) -> float:
+    """Compute the largest K dt at which a tick makes no error of SCAN_RAD larger."""
+    from bench.engines.velocity import PATH
+
+    begun = [Start("", about(FAR_AXIS, float(angle))) for angle in SCAN_RAD]
+
+    def holds(k_dt: float) -> bool:
+        made = _run(settings, unit, begun, k_dt, 1)
+        return bool(((made[:, FINAL_ANGLE] <= SCAN_RAD) & (made[:, PATH] <= 2.0 * SCAN_RAD)).all())
+
+    return bisect(holds)
+
+
+def _run(settings: Settings, unit: Unit, begun, k_dt: float, ticks: int, lag_ticks: float = 0.0) -> np.ndarray:
+    """Return rows of `engines.velocity` of episodes that take so many ticks, unless the robot is lost before."""
+    from bench.engines.run_velocity import run
+
+    limits = settings.limits(1.0)._replace(dt_s=DT_S, ticks=ticks, hold_ticks=ticks + 1)
+    one, none = settings.contender(unit.contender), known_limiters()[NONE]
+    made = run(one, none, k_dt / DT_S, begun, limits, unit.arm, lag_ticks * DT_S)
+    made[made[:, FAILURE_TICK] != NEVER, FINAL_ANGLE] = math.inf
+    return made
+
+
+def bisect(holds) -> float:
+    """Return the largest number below GREATEST up to which something holds."""
+    low, high = 0.0, GREATEST
+    for _ in range(BISECTIONS):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if holds(middle) else (low, middle)
+    return low
 
 
 EXPERIMENT = Experiment(
     NAME,
     "the largest K dt of first-order laws",
-    TABLES[NAME],
+    Table(NAME, columns, ("arm", *CONTENDER_KEY, "share", "reach", "lag_ticks")),
     units,
     rows,
     takes=(*OF_LAWS, "arms"),

@@ -16,10 +16,12 @@ import numpy as np
 import pandas as pd
 
 import tasks
+from bench.experiments.columns import CONTENDER_KEY
 from bench.tables.read import with_contender
-from bench.tables.schema import CONTENDER, RESULTS
+from bench.tables.schema import RESULTS
 from bench.tables.statistics import quantile
 from bench.tables.store import read
+from tasks.condition import condition_at
 
 STUDY = RESULTS / "robustness"
 """What `python -m bench.studies.robustness` keeps: `by_level` of hundreds of starts a level."""
@@ -72,7 +74,7 @@ class Threshold(NamedTuple):
 @functools.cache
 def perturbations() -> tuple[str, ...]:
     """Axes that perturb; one that sets the gains alone, so that peak commands are equal, does not."""
-    return tuple(name for name in tasks.axis_names() if not tasks.axis(name).at(1.0).peak)
+    return tuple(name for name in tasks.axis_names() if not condition_at(tasks.axis(name), 1.0).peak)
 
 
 @functools.cache
@@ -86,7 +88,7 @@ def ways() -> tuple[Way, ...]:
 def lasting() -> tuple[str, ...]:
     """Perturbations that last."""
     every = map(tasks.axis, tasks.axis_names())
-    return tuple(axis.name for axis in every if axis.at(max(axis.levels)).lasts)
+    return tuple(axis.name for axis in every if condition_at(axis, max(axis.levels)).lasts)
 
 
 def went_well(rows: pd.DataFrame) -> pd.Series:
@@ -102,7 +104,7 @@ def by_level(rows: pd.DataFrame) -> pd.DataFrame:
     """
     is_settled = rows["outcome"] == "settled"
     times = rows.assign(good=went_well(rows), time_s=rows["settling_time_s"].where(is_settled, np.inf))
-    keys = ["axis", *(name for name in CONTENDER if name in rows), "level"]
+    keys = ["axis", *(name for name in CONTENDER_KEY if name in rows), "level"]
     groups = times.groupby(keys, observed=True, sort=False)
     return pd.DataFrame(
         {

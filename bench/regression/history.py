@@ -8,9 +8,9 @@ from pathlib import Path
 import pandas as pd
 
 from bench.errors import BadResults
+from bench.files import read_json
 from bench.provenance import ROOT, commit
 from bench.regression.revisions.timing import ROUNDS, Side, run_benchmarks
-from bench.tables.files import read_json
 from bench.tables.schema import RESULTS
 
 FOLDER = RESULTS / "history"

@@ -7,10 +7,10 @@ from pathlib import Path
 
 from bench.experiments.experiment import experiment_of, known_experiments
 from bench.experiments.plan import Plan
+from bench.files import write_json
 from bench.provenance import describe
 from bench.running.run_folder import part, tidy
 from bench.running.sandbox import LOST
-from bench.tables.files import write_json
 from bench.tables.store import frame, merge, read_arrow, write_table
 
 

@@ -84,9 +84,9 @@ def main(parent: int, work: list[str]) -> None:
 def count_one(name: str) -> None:
     """Count the operations of a law of ours, and keep them."""
     from bench.contenders.registry import find_contender
-    from bench.tables.kept_costs import of_law
+    from bench.experiments.costs import count_law
 
-    of_law(find_contender(name))
+    count_law(find_contender(name))
 
 
 def _end_without(parent: int) -> None:

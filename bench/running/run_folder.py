@@ -14,8 +14,8 @@ from typing import NamedTuple
 from bench.errors import BadResults
 from bench.experiments.experiment import Unit, experiment_of, known_experiments
 from bench.experiments.plan import Plan
+from bench.files import is_leftover, make_folder, read_json, refuse_link, refused, write_atomically, write_json
 from bench.tables import lock, trust
-from bench.tables.files import is_leftover, make_folder, read_json, refuse_link, refused, write_atomically, write_json
 from bench.tables.store import check
 
 

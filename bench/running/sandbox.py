@@ -16,7 +16,7 @@ from collections.abc import Iterator
 import pyarrow as pa
 
 from bench.errors import BadLaw
-from bench.experiments.experiment import Unit, experiment_of
+from bench.experiments.experiment import Unit, experiment_of, lost_rows_of
 from bench.experiments.plan import Plan
 from bench.running.sandbox_line import Ended, Lost, Mistake, Process
 from bench.running.wire_format import described
@@ -126,8 +126,7 @@ class Sandbox:
                     return
 
     def _lost(self, unit: Unit, outcome: str) -> pa.Table:
-        experiment = experiment_of(unit)
-        return as_table(experiment.lost(self.plan.settings, unit, outcome), experiment.table)
+        return as_table(lost_rows_of(self.plan.settings, unit, outcome), experiment_of(unit).table)
 
     def _rows(self, unit: Unit, some: Unit, patience_s: float) -> pa.Table:
         """The rows of some of a unit's episodes."""

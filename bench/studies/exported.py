@@ -18,8 +18,8 @@ from bench.contenders.registry import all_contenders
 from bench.errors import MissingTool
 from bench.export.language import find_language
 from bench.export.subject import Subject, find_subject
+from bench.files import write_json
 from bench.provenance import ROOT, describe
-from bench.tables.files import write_json
 from bench.timing import law
 
 STORED = ROOT / "results" / "export" / "instructions.json"

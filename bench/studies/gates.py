@@ -21,6 +21,7 @@ from typing import Any, NamedTuple
 
 import tasks
 from bench.errors import BadResults, BenchError, UnknownWord
+from bench.files import read_json, write_json
 from bench.law.so3 import from_quaternion
 from bench.provenance import ROOT, describe
 from bench.regression.revisions.checkouts import run_python
@@ -28,7 +29,6 @@ from bench.regression.revisions.comparison import REGRESSION
 from bench.regression.revisions.exact import compare_runs
 from bench.regression.revisions.gates import describe_time
 from bench.regression.revisions.timing import SAME, Side, compare_times
-from bench.tables.files import read_json, write_json
 from bench.tables.schema import RESULTS
 
 FOLDER = RESULTS / "regress"

@@ -13,10 +13,10 @@ from pathlib import Path
 from bench.contenders.registry import all_contenders
 from bench.experiments import plan as planning
 from bench.experiments.choice import Choice
+from bench.files import write_json
 from bench.findings.perturbed import STUDY, by_level
 from bench.provenance import describe, source_digest
 from bench.running import run
-from bench.tables.files import write_json
 from bench.tables.store import read, write_table
 
 STARTS = 400

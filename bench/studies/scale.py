@@ -25,10 +25,10 @@ from bench.contenders.registry import find_contender
 from bench.experiments import plan as planning
 from bench.experiments.choice import Choice
 from bench.experiments.plan import Plan
+from bench.files import write_json
 from bench.provenance import ROOT, describe
 from bench.running import run
 from bench.running.schedulers.words import LOCAL, THREADS
-from bench.tables.files import write_json
 
 LAW = "rotation-matrix"
 FEW, BASE, MANY, MOST = 1_000, 10_000, 100_000, 1_000_000

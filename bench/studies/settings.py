@@ -18,9 +18,9 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
+from bench.files import read_json, write_json
 from bench.provenance import ROOT, machine_key, rounded_on
 from bench.regression.rows import RULES, find_differences
-from bench.tables.files import read_json, write_json
 from bench.tables.store import read
 
 REFERENCE = ROOT / "results" / "reference"

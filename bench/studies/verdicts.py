@@ -21,6 +21,7 @@ from bench.experiments import plan as planning
 from bench.experiments.experiment import Unit, known_experiments
 from bench.experiments.plan import Plan
 from bench.experiments.suites import NOMINAL
+from bench.files import read_json, write_json
 from bench.findings import claims
 from bench.findings.claims.adequacy import NOISE
 from bench.findings.claims.at_gains import GAINS
@@ -29,7 +30,6 @@ from bench.findings.claims.tables import MAIN_ENGINE, Results
 from bench.provenance import ROOT, describe, source_digest
 from bench.running import run
 from bench.tables import read
-from bench.tables.files import read_json, write_json
 
 REFERENCE = ROOT / "results" / "reference"
 STORED = ROOT / "results" / "verdicts" / "verdicts.json"

@@ -8,8 +8,8 @@ import json
 from pathlib import Path
 
 from bench.errors import BadResults
-from bench.tables.column import COUNT, NUMBER, SINGLE, WORD, Table
-from bench.tables.schema import TABLES
+from bench.experiments.columns import COUNT, NUMBER, SINGLE, WORD, Table
+from bench.tables.schema import all_tables
 
 NAME = "datapackage.json"
 PROFILE = "https://datapackage.org/profiles/2.0/"
@@ -18,19 +18,19 @@ TYPES = {WORD: "string", NUMBER: "number", SINGLE: "number", COUNT: "integer"}
 
 
 def described_folder(folder: Path) -> dict:
-    """The descriptor of a folder's tables, in order of their names.
+    """Return the descriptor of a folder's tables, in order of their names.
 
     Errors:
         BadResults: the folder holds no table that the schema knows.
     """
-    paths = [path for path in sorted(folder.glob("*.parquet")) if path.stem in TABLES]
+    paths = [path for path in sorted(folder.glob("*.parquet")) if path.stem in all_tables()]
     if not paths:
         raise BadResults(f"{folder}: no tables there; give a results folder, such as results/reference")
     return {
         "$schema": PROFILE + "datapackage.json",
         "name": "orientation-bench",
         "licenses": [{"name": "Apache-2.0"}],
-        "resources": [described_table(path, TABLES[path.stem]) for path in paths],
+        "resources": [described_table(path, all_tables()[path.stem]) for path in paths],
     }
 
 
@@ -50,7 +50,7 @@ def described_table(path: Path, table: Table) -> dict:
 
 
 def fields(table: Table) -> list[dict]:
-    """Of Table Schema: name, type, meaning, and the unit where a column has one."""
+    """Return the fields of Table Schema: name, type, meaning, and the unit where a column has one."""
     return [
         {"name": one.name, "type": TYPES[one.type], "description": one.meaning}
         | ({"unit": one.unit} if one.unit else {})
@@ -59,5 +59,5 @@ def fields(table: Table) -> list[dict]:
 
 
 def written(folder: Path) -> str:
-    """The descriptor as the text of datapackage.json."""
+    """Return the descriptor as the text of datapackage.json."""
     return json.dumps(described_folder(folder), indent=1, ensure_ascii=False) + "\n"

@@ -9,9 +9,9 @@ from bench.contenders.described_law import described
 from bench.contenders.law_file import WORD
 from bench.contenders.registry import known_regulators, known_representations
 from bench.errors import BadResults
+from bench.files import refuse_link
 from bench.law.contender import ON_MATRIX, Regulator
 from bench.tables import trust
-from bench.tables.files import refuse_link
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -21,7 +21,7 @@ UNTRUSTED = "a file that came with the results; it was not run"
 
 
 def kept_laws(folder: Path, costs: pd.DataFrame) -> tuple[Regulator, ...]:
-    """The laws that the folder keeps, in alphabetical order; one that is now ours is left out.
+    """Return the laws that the folder keeps, in alphabetical order; one that is now ours is left out.
 
     Args:
         costs: the folder's costs.parquet, which says what a law acts on that may not run.
@@ -48,7 +48,7 @@ def _law(path: Path, costs: pd.DataFrame) -> Regulator:
 
 
 def _by_its_rows(path: Path, costs: pd.DataFrame) -> Regulator:
-    """A regulator without a law, on the coordinates that its rows name."""
+    """Return a regulator without a law, on the coordinates that its rows name."""
     word = _word(path)
     rows = costs[costs["regulator"] == word]
     known = known_representations()

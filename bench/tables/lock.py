@@ -64,7 +64,7 @@ def _warn(folder: Path, reason: str) -> None:
 
 
 def _holder(handle: int) -> int | None:
-    """The process that holds the lock, where the kernel lists locks and shows that process."""
+    """Return the process that holds the lock, where the kernel lists locks and shows that process."""
     table = Path("/proc/locks")
     if not table.is_file():
         return None

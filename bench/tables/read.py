@@ -19,8 +19,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from bench.errors import BadResults
+from bench.files import read_json
 from bench.law.contender import Regulator
-from bench.tables.files import read_json
 from bench.tables.kept_laws import kept_laws
 from bench.tables.schema import RESULTS
 
@@ -34,7 +34,7 @@ FREE_BODY = {"jacobian": ""}
 
 
 def folder() -> Path:
-    """The folder that the environment names, else results/latest if its run has finished, else results/reference."""
+    """Return the folder that the environment names, else results/latest if finished, else results/reference."""
     named = os.environ.get(VARIABLE)
     if named:
         return Path(named).expanduser().resolve()
@@ -43,7 +43,7 @@ def folder() -> Path:
 
 
 def rows(name: str, **words: str) -> pd.DataFrame:
-    """Rows of one table that have these words: `rows("episodes", engine="native", start_set="poles")`."""
+    """Return rows of one table that have these words: `rows("episodes", engine="native", start_set="poles")`."""
     return chosen(table(folder(), name), words)
 
 
@@ -54,24 +54,24 @@ episodes, traces, costs, boundaries, poses, compliance, robustness = (
 
 
 def converged(frame: pd.DataFrame) -> pd.DataFrame:
-    """The episodes whose end no shorter step moves (`engines.convergence`), and all of engines that are not asked."""
+    """Return the episodes whose end no shorter step moves (`engines.convergence`), and those that say nothing of it."""
     return frame[frame["converged"] != "no"]
 
 
 def provenance() -> dict:
-    """Where the run comes from: provenance.json."""
+    """Return where the run comes from: provenance.json."""
     return read_json(folder() / "provenance.json")
 
 
 def own_laws(run: Path | None = None) -> tuple[Regulator, ...]:
-    """The user's laws that took part in a run, see `kept_laws`; in the chosen folder's if none is named."""
+    """Return the user's laws that took part in a run, see `kept_laws`; in the chosen folder's if none is named."""
     run = run or folder()
     return kept_laws(run, table(run, "costs"))
 
 
 @functools.cache
 def table(path: Path, name: str) -> pd.DataFrame:
-    """A whole table with `contender` added where it has some; shared, so copy it before you change it."""
+    """Return a whole table with `contender` added where it has some; shared, so copy it before you change it."""
     from bench.tables.store import read
 
     frame = read(path, name)
@@ -81,7 +81,7 @@ def table(path: Path, name: str) -> pd.DataFrame:
 
 
 def with_contender(frame: pd.DataFrame) -> pd.DataFrame:
-    """The frame with `contender` added, as the command line writes it."""
+    """Return the frame with `contender` added, as the command line writes it."""
     columns = ["regulator", "representation", *(("jacobian", "inverse") if "jacobian" in frame else ())]
 
     def named(few: pd.DataFrame) -> pd.Series:
@@ -94,7 +94,7 @@ def with_contender(frame: pd.DataFrame) -> pd.DataFrame:
 
 
 def with_controller(frame: pd.DataFrame) -> pd.DataFrame:
-    """Rows of compliance.parquet with `contender` added, as the command line writes it."""
+    """Return rows of compliance.parquet with `contender` added, as the command line writes it."""
 
     def named(few: pd.DataFrame) -> pd.Series:
         names = few["controller"]
@@ -114,7 +114,7 @@ def _with_names(frame: pd.DataFrame, columns: list[str], named: Callable[[pd.Dat
 
 
 def chosen(frame: pd.DataFrame, words: dict[str, str]) -> pd.DataFrame:
-    """The rows whose columns have these words, counted anew from 0, with only the words that occur.
+    """Return the rows whose columns have these words, counted anew from 0, with only the words that occur.
 
     Errors:
         BadResults: the table has no such column.

@@ -27,7 +27,7 @@ class Estimate(NamedTuple):
 
 
 def quantile(values: np.ndarray, level: float, axis: int = -1) -> np.ndarray:
-    """The smallest value that at least a share `level` of the values do not exceed; infinities are values."""
+    """Return the smallest value that at least a share `level` of the values do not exceed; infinities are values."""
     # 0.07 * 100 is 7.000000000000001, which is no reason to take the eighth
     place = max(0, math.ceil(level * np.shape(values)[axis] - 1e-9) - 1)
     return np.take(np.partition(values, place, axis=axis), place, axis=axis)
@@ -53,7 +53,7 @@ def bootstrap(values: np.ndarray, statistic: Callable[..., np.ndarray], seed: in
 
 
 def resampled(values: np.ndarray, statistic: Callable[..., np.ndarray], seed: int = SEED) -> np.ndarray:
-    """A statistic of each resample, shape (RESAMPLES,); resample by resample of the same starts for every law.
+    """Return a statistic of each resample, shape (RESAMPLES,); resample by resample of the same starts for every law.
 
     So the difference of two laws' is the paired bootstrap of their difference.
 
@@ -72,5 +72,5 @@ def _resamples(count: int, seed: int) -> np.ndarray:
 
 
 def quantile_estimate(values: np.ndarray, level: float, seed: int = SEED) -> Estimate:
-    """A quantile with its interval."""
+    """Return a quantile with its interval."""
     return bootstrap(values, lambda drawn, axis: quantile(drawn, level, axis), seed)

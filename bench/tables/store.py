@@ -14,13 +14,13 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from bench.errors import BadResults
-from bench.tables.column import VERSION, Table
-from bench.tables.files import refuse_link, write_atomically
+from bench.experiments.columns import VERSION, Table
+from bench.files import refuse_link, write_atomically
 from bench.tables.schema import table_of
 
 
 def encoding(schema: pa.Schema) -> dict:
-    """How columns are written: of numbers with a fraction, which seldom repeat, all first bytes, then all second ones.
+    """Say how columns are written: numbers with a fraction, which seldom repeat, by all first bytes, then all second.
 
     Neighbours share their sign and exponent, so that a default run takes 11 MB and not 15.5; words and counts go into
     a dictionary.
@@ -44,7 +44,7 @@ FREE_WORDS = ("libraries", "closed_loop", "verdicts")
 
 
 def as_table(frame: pd.DataFrame, table: str | Table) -> pa.Table:
-    """A data frame in the table's schema, columns in its order."""
+    """Return a data frame in the table's schema, columns in its order."""
     schema = table_of(table).schema()
     if frame.empty:
         return schema.empty_table()
@@ -71,7 +71,7 @@ PARTS = 64
 
 
 def merge(path: Path, parts: Iterable[Path], table: str | Table, group: int = GROUP) -> int:
-    """All parts in their order as one table, at most `group` rows and one part in memory; the number of rows."""
+    """Return all parts in their order as one table, at most `group` rows and one part in memory; the number of rows."""
     rows = 0
 
     def write(temporary):
@@ -95,12 +95,12 @@ def merge(path: Path, parts: Iterable[Path], table: str | Table, group: int = GR
 
 
 def joined(tables: list[pa.Table]) -> pa.Table:
-    """The tables as one whole, words in one dictionary."""
+    """Return the tables as one whole, words in one dictionary."""
     return pa.concat_tables(tables).unify_dictionaries().combine_chunks()
 
 
 def read_arrow(path: Path, table: str | Table) -> pa.Table:
-    """A table of ours with its schema checked.
+    """Return a table of ours with its schema checked.
 
     Errors:
         BadResults: missing, truncated, or of another schema; the message says which and the cure.
@@ -109,7 +109,7 @@ def read_arrow(path: Path, table: str | Table) -> pa.Table:
 
 
 def check(path: Path, table: str | Table) -> None:
-    """The same checks from the file's end alone, where parquet keeps its schema: what a truncated file lacks.
+    """Return the same checks from the file's end alone, where parquet keeps its schema: what a truncated file lacks.
 
     Errors:
         BadResults: see `read_arrow`.
@@ -154,7 +154,7 @@ def _refuse_words(path: Path, arrow: pa.Table) -> None:
 
 
 def frame(path: Path, table: str | Table) -> pd.DataFrame:
-    """A file of a table as a data frame.
+    """Return a file of a table as a data frame.
 
     Errors:
         BadResults: see `read_arrow`.

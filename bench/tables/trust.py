@@ -11,17 +11,17 @@ from bench.provenance import kept_in
 
 
 def home() -> Path:
-    """The folder that holds an empty file for each text, named by its SHA-256."""
+    """Return the folder that holds an empty file for each text, named by its SHA-256."""
     return kept_in("XDG_STATE_HOME", ".local/state") / "laws"
 
 
 def mark(text: bytes) -> Path:
-    """The file that is there if this user has run the text, or said that it may run."""
+    """Return the file that is there if this user has run the text, or said that it may run."""
     return home() / hashlib.sha256(text).hexdigest()
 
 
 def remember(text: bytes) -> None:
-    """From now on this text is this user's own.
+    """Remember this text as this user's own.
 
     Errors:
         OSError: the user's state cannot be written.
@@ -31,5 +31,5 @@ def remember(text: bytes) -> None:
 
 
 def is_own(text: bytes) -> bool:
-    """Whether this user has run the text, or said that it may run."""
+    """Tell whether this user has run the text, or said that it may run."""
     return mark(text).is_file()

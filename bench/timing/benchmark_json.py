@@ -10,7 +10,7 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from bench.tables.files import write_json
+from bench.files import write_json
 from bench.timing.benchmark import Benchmark
 from bench.timing.session import TIMER
 

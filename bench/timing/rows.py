@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from bench.experiments.rows.episodes import contender_columns
+from bench.experiments.episode_rows import contender_columns
 from bench.law.contender import Contender
 from bench.provenance import describe, machine_key
 from bench.tables.store import read_arrow, write_table

@@ -3,7 +3,7 @@
 The level is its standard deviation about each axis.
 """
 
-from tasks.condition import Axis, Condition
+from tasks.axis import Axis, Field
 
 AXIS = Axis(
     "attitude-noise",
@@ -11,5 +11,6 @@ AXIS = Axis(
     "rad",
     (0.0, 0.001, 0.003, 0.01, 0.03),
     0.0,
-    lambda level: Condition(attitude_noise=level),
+    lambda level: {"attitude_noise": level},
+    (Field("attitude_noise", 0.0, "standard deviation about each axis [rad]", lasts=True, is_drawn=True),),
 )

@@ -3,7 +3,7 @@
 At equal stiffness near the goal a law that asks for more far from it is the faster one, and pays for it in torque.
 """
 
-from tasks.condition import Axis, Condition
+from tasks.axis import Axis, Field
 
 AXIS = Axis(
     "equal-peak",
@@ -11,5 +11,6 @@ AXIS = Axis(
     "rad/s^2",
     (50.0, 100.0, 200.0, 400.0),
     None,
-    lambda level: Condition(peak=level),
+    lambda level: {"peak": level},
+    (Field("peak", 0.0, "greatest command from rest that the gains give [rad/s^2]; 0: gains as set", lasts=False),),
 )

@@ -8,8 +8,8 @@ lets a law keep to the way it has begun.
 
 from __future__ import annotations
 
+from tasks.axis import Axis, Field
 from tasks.base import Start
-from tasks.condition import Axis, Condition
 from tasks.haar import direction, halton
 from tasks.rotations import short_of_180_degrees
 
@@ -26,6 +26,7 @@ AXIS = Axis(
     "rad",
     (0.0, 0.001, 0.01, 0.03, 0.1, 0.3, 1.0),
     0.0,
-    lambda level: Condition(worst_attitude_error=level),
+    lambda level: {"worst_attitude_error": level},
+    (Field("worst_attitude_error", 0.0, "how far the body is reported beyond 180° [rad]", lasts=False),),
     starts,
 )

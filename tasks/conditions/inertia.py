@@ -1,6 +1,6 @@
 """A body whose inertia is the level times the law's model of it, alike about all axes."""
 
-from tasks.condition import Axis, Condition
+from tasks.axis import Axis, Field
 
 AXIS = Axis(
     "inertia",
@@ -8,5 +8,6 @@ AXIS = Axis(
     "1",
     (0.5, 0.7, 1.0, 1.4, 2.0),
     1.0,
-    lambda level: Condition(inertia=(level, level, level)),
+    lambda level: {"inertia": (level, level, level)},
+    (Field("inertia", (1.0, 1.0, 1.0), "principal moments over the law's model, in the body's axes", lasts=False),),
 )

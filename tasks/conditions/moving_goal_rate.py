@@ -1,6 +1,7 @@
 """A goal oscillating about two axes, at a peak rate of the level; its rate is feedforward, its acceleration is not."""
 
-from tasks.condition import RATE, Axis, Condition
+from tasks.axis import Axis
+from tasks.moving_goal import RATE
 
 AXIS = Axis(
     "moving-goal-rate",
@@ -8,5 +9,5 @@ AXIS = Axis(
     "rad/s",
     (0.0, 0.5, 1.0, 2.0, 5.0, 10.0),
     0.0,
-    lambda level: Condition(reference_amplitude=level, feedforward=RATE),
+    lambda level: {"reference_amplitude": level, "feedforward": RATE},
 )

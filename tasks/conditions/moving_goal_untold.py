@@ -1,6 +1,7 @@
 """A goal oscillating about two axes, at a peak rate of the level; the law is given where it is, without feedforward."""
 
-from tasks.condition import NO_FEEDFORWARD, Axis, Condition
+from tasks.axis import Axis
+from tasks.moving_goal import NO_FEEDFORWARD
 
 AXIS = Axis(
     "moving-goal-untold",
@@ -8,5 +9,5 @@ AXIS = Axis(
     "rad/s",
     (0.0, 0.5, 1.0, 2.0, 5.0, 10.0),
     0.0,
-    lambda level: Condition(reference_amplitude=level, feedforward=NO_FEEDFORWARD),
+    lambda level: {"reference_amplitude": level, "feedforward": NO_FEEDFORWARD},
 )

@@ -3,7 +3,7 @@
 The level is its standard deviation about each axis.
 """
 
-from tasks.condition import Axis, Condition
+from tasks.axis import Axis, Field
 
 AXIS = Axis(
     "rate-noise",
@@ -11,5 +11,6 @@ AXIS = Axis(
     "rad/s",
     (0.0, 0.01, 0.03, 0.1, 0.3, 1.0),
     0.0,
-    lambda level: Condition(rate_noise=level),
+    lambda level: {"rate_noise": level},
+    (Field("rate_noise", 0.0, "standard deviation about each axis [rad/s]", lasts=True, is_drawn=True),),
 )

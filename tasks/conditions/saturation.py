@@ -1,6 +1,8 @@
 """The most a motor gives: a longer command is shortened, its direction kept."""
 
-from tasks.condition import Axis, Condition
+import math
+
+from tasks.axis import Axis, Field
 
 AXIS = Axis(
     "saturation",
@@ -8,5 +10,6 @@ AXIS = Axis(
     "rad/s^2",
     (10.0, 20.0, 50.0, 100.0, 300.0, 1000.0),
     None,
-    lambda level: Condition(bound=level),
+    lambda level: {"bound": level},
+    (Field("bound", math.inf, "what |u| is cut to [rad/s^2]", lasts=False),),
 )

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from tasks.axis import Axis
 from tasks.base import Start
-from tasks.condition import Axis, Condition
 from tasks.haar import direction, halton, orientation
 
 
@@ -16,4 +16,4 @@ def starts(count: int, seed: int, level: float) -> list[Start]:
     return found
 
 
-AXIS = Axis("spin", "Initial spin", "rad/s", (0.0, 5.0, 10.0, 15.0, 20.0), 0.0, lambda level: Condition(), starts)
+AXIS = Axis("spin", "Initial spin", "rad/s", (0.0, 5.0, 10.0, 15.0, 20.0), 0.0, lambda level: {}, starts=starts)

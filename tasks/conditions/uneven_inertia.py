@@ -4,7 +4,7 @@ The gyroscopic torque comes with them. No rigid body has s above 1/2: the two sm
 largest.
 """
 
-from tasks.condition import Axis, Condition
+from tasks.axis import Axis
 
 AXIS = Axis(
     "uneven-inertia",
@@ -12,5 +12,5 @@ AXIS = Axis(
     "1",
     (0.0, 0.1, 0.2, 0.3, 0.4, 0.5),
     0.0,
-    lambda level: Condition(inertia=(1.0 - level, 1.0, 1.0 + level)),
+    lambda level: {"inertia": (1.0 - level, 1.0, 1.0 + level)},
 )

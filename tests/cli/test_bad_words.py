@@ -141,10 +141,16 @@ def test_impossible_number_is_refused_in_a_dry_run_too(capsys, finished):
             "'quaternion' has no coordinate for each of the axes x, y and z",
         ),
         (("--controller", "impedance-geometric", "--task", "free-body"), "task 'free-body' takes regulators and no"),
-        (("--controller", "impedance-geometric", "--regulator", "rotation-matrix"), "no regulator such as"),
-        (("--task", "wrench-probe", "--starts", "paper"), "tasks in contact take an arm and a --controller, no start"),
-        (("--task", "wrench-probe", "--engine", "reference"), "no engine such as 'reference'"),
-        (("--task", "wrench-probe", "--inverse", "solve"), "no inverse such as 'solve'"),
+        (
+            ("--controller", "impedance-geometric", "--regulator", "rotation-matrix"),
+            "no experiment takes both controllers",
+        ),
+        (
+            ("--task", "wrench-probe", "--starts", "paper"),
+            "take an arm and a --controller, no start sets",
+        ),
+        (("--task", "wrench-probe", "--engine", "reference"), "no engines such as 'reference'"),
+        (("--task", "wrench-probe", "--inverse", "solve"), "no inverses such as 'solve'"),
         (("--controller", "impedance-geometric", "--representation", "mrp"), "acts on mrp"),
     ],
 )

@@ -12,6 +12,7 @@ import rich_click as click
 from support.command_line import TINY, bench
 
 import tasks
+from bench import files
 from bench.cli import commands, main, planned
 from bench.cli.listing import describe_arm
 from bench.cli.paragraphs import laid_out
@@ -31,7 +32,7 @@ from bench.experiments.suites import ENGINES, SUITES
 from bench.metrics.registry import known_contact_metrics, known_metrics
 from bench.provenance import ROOT
 from bench.running.schedulers.words import THREADS
-from bench.tables import files, store
+from bench.tables import store
 from tasks.base import BadArm
 
 EULER = "hybrid/zyx-euler+inverse"

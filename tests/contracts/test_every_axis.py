@@ -7,7 +7,9 @@ import pytest
 
 import tasks
 from bench.engines import disturbed
-from tasks.condition import Condition
+from tasks.axis import Field
+from tasks.base import BadValue
+from tasks.condition import Condition, condition_at, declared_fields
 
 AXES = [tasks.axis(name) for name in tasks.axis_names()]
 
@@ -31,19 +33,19 @@ def test_levels_grow_and_the_nominal_one_is_among_them(axis):
 
 def test_at_its_nominal_level_nothing_is_wrong(axis):
     if axis.nominal is None:
-        assert Condition() not in [axis.at(level) for level in axis.levels]
+        assert Condition() not in [condition_at(axis, level) for level in axis.levels]
     else:
-        assert axis.at(axis.nominal)._replace(feedforward=Condition().feedforward) == Condition()
+        assert condition_at(axis, axis.nominal)._replace(feedforward=Condition().feedforward) == Condition()
 
 
 def test_each_level_differs_from_the_others_in_condition_or_starts(axis):
-    met = [(axis.at(level), tuple(axis.starts(3, 0, level))) for level in axis.levels]
+    met = [(condition_at(axis, level), tuple(axis.starts(3, 0, level))) for level in axis.levels]
     assert len(set(met)) == len(met)
 
 
 def test_conditions_are_of_this_world(axis):
     for level in axis.levels:
-        met = axis.at(level)
+        met = condition_at(axis, level)
         x, y, z = sorted(met.inertia)
         assert x > 0.0
         assert x + y >= z * (1.0 - 1e-12)
@@ -55,7 +57,7 @@ def test_conditions_are_of_this_world(axis):
 
 def test_delays_are_whole_steps_of_the_plant(axis):
     for level in axis.levels:
-        met = axis.at(level)
+        met = condition_at(axis, level)
         steps = met.delay_s / (met.period_s / disturbed.steps_of(met))
         assert steps == pytest.approx(round(steps), abs=1e-9)
 
@@ -68,3 +70,21 @@ def test_starts_are_as_many_as_asked_for_and_differ(axis, seed):
         assert axis.starts(5, seed, level) == starts[:5]
         for one in starts:
             assert math.hypot(*one.quat_wxyz) == pytest.approx(1.0, abs=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("fields", "reason"),
+    [
+        ([Field("bias", 0.0, "none")], "tasks/conditions/one.py: the field 'bias' does not say whether .* lasts; give"),
+        ([Field("bias", 0.0, "none", lasts=True)] * 2, "'bias' is declared by two files"),
+        ([Field("bias", (0.0, 0.0), "none", lasts=True)], "must be a number or three numbers"),
+    ],
+)
+def test_field_that_no_verdict_could_be_given_of_is_refused(fields, reason):
+    with pytest.raises(BadValue, match=reason):
+        declared_fields({"one": AXES[0]._replace(fields=tuple(fields))})
+
+
+def test_axis_that_sets_an_undeclared_field_is_refused():
+    with pytest.raises(BadValue, match="'delay' sets 'dela', a field that no file of tasks/conditions declares"):
+        condition_at(tasks.axis("delay")._replace(changes=lambda level: {"dela": level}), 0.0)

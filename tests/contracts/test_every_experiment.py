@@ -39,5 +39,5 @@ def test_every_word_of_a_choice_is_tried_here():
 @pytest.mark.parametrize("one", known_experiments().values(), ids=lambda one: one.name)
 def test_word_that_a_named_experiment_does_not_take_is_refused(one):
     for kind in NAMED.keys() - {*one.takes}:
-        with pytest.raises(Incompatible, match=f"'{NAMED[kind]}' cannot narrow the experiment '{one.name}'|such as"):
+        with pytest.raises(Incompatible, match=f"'{NAMED[kind]}' cannot narrow the experiment '{one.name}'"):
             plan.make("quick", LAWS, Choice(**{kind: (NAMED[kind],)}, experiments=(one.name,)))

@@ -14,7 +14,7 @@ SETTINGS = {
 
 STARTS = """
 import json, tasks
-from bench.experiments.rows.pose_sets import poses
+from bench.experiments.jacobians.pose_sets import poses
 
 found = {}
 for name in ("wrist", "pole", "tumbling"):

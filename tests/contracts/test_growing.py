@@ -14,6 +14,7 @@ import pyarrow.parquet as pq
 import pytest
 from support.command_line import digest
 from support.dropped_files import DROPPED
+from support.planted_files import ASKED_OF_AXIS, DROPPED_EXPERIMENT, EXPERIMENT, PLANTED, PLANTED_AXIS
 
 from bench.contenders.registry import known_regulators
 from bench.provenance import ROOT
@@ -22,48 +23,6 @@ from bench.tables import store
 INDEX = "# A book of one page\n\nIt cites {cite}`murphy1988`.\n"
 
 CONTENTS = "format: jb-book\nroot: index\nchapters:\n- glob: pages/*\n"
-
-EXPERIMENT = "bench/experiments/dropped_experiment.py"
-DROPPED_EXPERIMENT = '''
-"""Position gains: a unit a law; killed at the one that the environment names."""
-
-import os
-import signal
-
-import pandas as pd
-
-from bench.experiments.experiment import Experiment, Unit
-from bench.tables.column import Table, numbers, words
-
-
-def columns():
-    """dropped.parquet: a row a law."""
-    return [*words(law="the law"), *numbers("1/s^2", "position gain", "kp")]
-
-
-def units(asked):
-    """A unit a law."""
-    return tuple(Unit("dropped-experiment", one.name, episodes=1) for one in asked.laws)
-
-
-def rows(settings, unit):
-    """One."""
-    if os.environ.get("KILLED_AT") == unit.contender:
-        os.kill(os.getpid(), signal.SIGKILL)
-    return pd.DataFrame({"law": [unit.contender], "kp": [settings.gains.kp]})
-
-
-EXPERIMENT = Experiment(
-    "dropped-experiment",
-    "A dropped experiment",
-    Table("dropped", columns, ("law",)),
-    units,
-    rows,
-    cost_s=lambda unit: 0.1,
-    compiles=False,
-    summary=lambda frame: frame,
-)
-'''
 
 LISTED = {
     "regulators": "dropped-regulator",
@@ -91,14 +50,20 @@ LISTED = {
 }
 
 
+def copied(tree: Path) -> Path:
+    """A copy of the rooms."""
+    for room in ("bench", "tasks", "report"):
+        shutil.copytree(
+            ROOT / room, tree / room, ignore=shutil.ignore_patterns("__pycache__", "_build", "pages", "index.md")
+        )
+    return tree
+
+
 @pytest.fixture(scope="module")
 def tree(tmp_path_factory):
     """A copy of the rooms with no laws but those that other files build on, for every run counts the operations of all;
     nothing but the files above is added to it; the book cut down to its references."""
-    tree = tmp_path_factory.mktemp("growing")
-    ignored = shutil.ignore_patterns("__pycache__", "_build", "pages", "index.md")
-    for room in ("bench", "tasks", "report"):
-        shutil.copytree(ROOT / room, tree / room, ignore=ignored)
+    tree = copied(tmp_path_factory.mktemp("growing"))
     for name in known_regulators().keys() - {"rotation-matrix", "feedback-linearized", "rotation-vector"}:
         (tree / "bench" / "contenders" / "regulators" / f"{name.replace('-', '_')}.py").unlink()
     (tree / "report" / "pages").mkdir()
@@ -149,6 +114,11 @@ def sources(tree: Path) -> dict[str, str]:
     return {
         name: what for name, what in digest(tree).items() if not name.startswith(made) and "__pycache__" not in name
     }
+
+
+def test_planted_axis_is_in_the_compiled_condition_the_thresholds_and_the_book_without_another_file_touched(tmp_path):
+    (copied(tmp_path) / PLANTED).write_text(PLANTED_AXIS.lstrip("\n"))
+    assert ran(tmp_path, "-c", ASKED_OF_AXIS).splitlines() == ["float64", "0.1", "True ['planted-bias'] True"]
 
 
 @pytest.mark.slow

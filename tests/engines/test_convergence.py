@@ -25,9 +25,9 @@ from bench.engines.episode import (
     STEP,
     start_rows,
 )
+from bench.experiments.episode_rows import frame
 from bench.experiments.experiment import Settings, Unit
-from bench.experiments.rows.episodes import frame
-from bench.experiments.rows.map import start_rows as random_rows
+from bench.experiments.map import start_rows as random_rows
 from bench.findings.theory.closed_form import pole_crossings
 from bench.metrics.registry import metrics_of
 from report.figures.failures.pole_steps import crossing

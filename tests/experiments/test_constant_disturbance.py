@@ -14,9 +14,8 @@ from bench.contenders.registry import find_contender, known_compensators
 from bench.engines.compensated import LEFT, Asked, loop, run, without_state
 from bench.engines.episode import FINAL_ANGLE
 from bench.engines.run import run as run_law
-from bench.experiments.compensators import DISTURBANCES
+from bench.experiments.compensators import BAND_RAD, DISTURBANCES, law_of
 from bench.experiments.experiment import Settings, Unit, rows_of
-from bench.experiments.rows.compensators import BAND_RAD, law_of
 from bench.law.contender import Gains
 from bench.metrics.registry import metrics_of
 from tasks.base import Start

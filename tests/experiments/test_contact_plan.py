@@ -3,7 +3,7 @@
 import dataclasses
 
 import pytest
-from support.command_line import bench, refused
+from support.command_line import bench
 
 import tasks
 from bench.contenders.registry import find_contender
@@ -161,17 +161,6 @@ def test_what_is_named_runs_alone(words, name, values, has_episodes):
 def test_arm_that_cannot_is_refused_by_name_with_the_judges_reason(arm, words):
     with pytest.raises(BadValue, match="has no site 'wrist'"):
         contacts(arms=("ur5e", arm), **words)
-
-
-def test_refused_arm_is_one_line_of_the_command(capsys):
-    line = refused(capsys, *DRY, "--task", "wrench-probe", "--arm", "jaco")
-    assert "'jaco'" in line
-    assert "wrench-probe" in line
-
-
-def test_arm_whose_controllers_do_not_act_on_the_coordinates_named_is_refused_with_the_reason(capsys):
-    line = refused(capsys, *DRY, "--task", "wrench-probe", "--arm", "panda", "--representation", "mrp")
-    assert "no controller of the suite's, or that was named, acts on mrp" in line
 
 
 def test_named_representation_narrows_the_suites_controllers():

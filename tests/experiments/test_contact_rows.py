@@ -12,15 +12,15 @@ from bench.control.setpoint import TOUCH
 from bench.engines.contact_episode import OUTCOMES, WIDTH, Conditions, Ended
 from bench.engines.run_contact import run
 from bench.experiments.contact import poses_of
-from bench.experiments.rows.contact import WORST_LAST, frame
+from bench.experiments.contact.rows import WORST_LAST, frame
 from bench.metrics.contact_metric import Pose, response
 from bench.metrics.measured_compliance import compliance
 from bench.metrics.registry import known_contact_metrics
 from bench.tables import store
-from bench.tables.schema import TABLES
+from bench.tables.schema import table_of
 
 ARM = tasks.arm("ur5e")
-COMPLIANCE = TABLES["compliance"]
+COMPLIANCE = table_of("compliance")
 PROBE = tasks.contact_task("wrench-probe")._replace(horizon_s=0.05)
 EULER = find_controller("hybrid/zyx-euler+inverse")
 POSES = poses_of(EULER, PROBE, ARM, dense=False)

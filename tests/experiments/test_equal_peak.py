@@ -10,7 +10,7 @@ import tasks
 from bench.contenders.registry import all_contenders, find_contender
 from bench.engines.episode import FIRST_METRIC
 from bench.engines.run import run
-from bench.experiments.rows.equal_peak import gains_at, greatest_command
+from bench.experiments.equal_peak import gains_at, greatest_command
 from bench.metrics.registry import metrics_of
 
 METRICS = metrics_of(on_arm=False)

@@ -10,11 +10,10 @@ import pytest
 from bench.cli import main
 from bench.contenders.registry import find_contender
 from bench.experiments.experiment import rows_of
-from bench.experiments.map import folded, plan_of
-from bench.experiments.rows.map import MOST_LOST, cells
+from bench.experiments.map import MOST_LOST, cells, folded, plan_of
 from bench.findings.maps import by_law, counted, lost_between, lost_share
 from bench.running import run
-from bench.tables.schema import TABLES
+from bench.tables.schema import table_of
 from bench.tables.store import as_table, read
 from tasks.random_starts import BLOCK, block
 from tasks.truth import angle
@@ -51,7 +50,7 @@ def test_every_start_is_in_one_cell(plan, whole):
 def test_stretches_add_up_to_the_whole(plan, whole):
     parts = [part_of(plan, *stretch) for stretch in ((0, BLOCK), (BLOCK, BLOCK), (2 * BLOCK, 500))]
     for made in (folded(folded(*parts[:2]), parts[2]), folded(parts[0], folded(*parts[1:]))):
-        assert as_table(made, TABLES["map"]).equals(as_table(whole, TABLES["map"]))
+        assert as_table(made, table_of("map")).equals(as_table(whole, table_of("map")))
 
 
 def test_first_lost_starts_are_kept_and_the_slowest_of_each_ring(plan, whole):

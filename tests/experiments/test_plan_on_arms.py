@@ -56,23 +56,6 @@ def test_plan_of_a_named_combination_is_that_one_alone_or_refused_with_its_reaso
     assert planned == len(combinations.every(LAWS, tasks.arm(arm).joints))
 
 
-@pytest.mark.parametrize("arm", ARMS)
-@pytest.mark.parametrize("by", known_jacobians())
-def test_command_line_plans_every_combination_of_a_jacobian(capsys, arm, by):
-    for law, jacobian, through, is_compatible in crossed(tasks.arm(arm).joints):
-        if jacobian != by or not law.name.startswith(
-            ("rotation-matrix", "feedback-linearized/q", "feedback-linearized/zyx")
-        ):
-            continue
-        words = (*SHORT, "--arm", arm, "--regulator", law.name, "--jacobian", by, "--inverse", through)
-        if is_compatible:
-            said = bench(capsys, *words)
-            assert (said.code, said.err) == (0, "")
-            assert f"{arm}: clear 2 (each of 1 controller)" in said.out
-        else:
-            assert refused(capsys, *words).startswith("error: nothing to run: ")
-
-
 def test_arm_alone_is_the_suite_on_that_arm():
     laws = list(LAWS.values())
     plan = planning.make("default", laws, Choice(arms=("puma560",)))

@@ -8,8 +8,8 @@ from scipy.linalg import expm, logm
 from scipy.spatial.transform import Rotation
 
 from bench.contenders.registry import known_pose_springs
+from bench.experiments import pose_springs
 from bench.experiments.experiment import Settings, Unit, rows_of
-from bench.experiments.rows import pose_springs
 from bench.law.scalar import KERNELS
 
 SPRINGS = known_pose_springs()

@@ -11,9 +11,19 @@ from support.bits import EPS
 
 import tasks
 from bench.contenders.registry import find_contender, known_representations
+from bench.experiments import jacobians as poses
 from bench.experiments import plan
-from bench.experiments.rows import poses
-from bench.experiments.rows.pose_sets import DECADES, FAMILIES, WELL_CONDITIONED, grid, pair, polished, towards_pole
+from bench.experiments.experiment import Settings
+from bench.experiments.jacobians.eye import Eye
+from bench.experiments.jacobians.pose_sets import (
+    DECADES,
+    FAMILIES,
+    WELL_CONDITIONED,
+    grid,
+    pair,
+    polished,
+    towards_pole,
+)
 from bench.regression import rows as compare
 from bench.regression.rows import difference
 from bench.tables import schema
@@ -29,7 +39,7 @@ COUNT, SEED = 30, 7
 @pytest.fixture(scope="module")
 def frames():
     """The rows of two arms with few poses."""
-    return {name: poses.frame(tasks.arm(name), COUNT, SEED) for name in ARMS}
+    return {name: poses.rows(Settings(seed=SEED), poses.of_arm(name, COUNT)) for name in ARMS}
 
 
 def of_zyx(frame, *sets):
@@ -84,7 +94,7 @@ def test_our_jacobian_is_mujocos(frames, name):
 
 @pytest.mark.parametrize("name", ARMS)
 def test_our_jacobian_from_mujoco_alone_is_mujocos(name):
-    eye = poses.Eye(tasks.arm(name))
+    eye = Eye(tasks.arm(name))
     chain, J = eye.look(tasks.arm(name).home)
     swept = np.cross(chain.axes, np.array(chain.p) - chain.anchors)
     assert np.abs(np.vstack((swept.T, chain.axes.T)) - J).max() <= 16 * EPS
@@ -164,7 +174,7 @@ def test_random_poses_are_in_range_and_the_first_of_more(frames):
     q = rows[[f"q_{i + 1}" for i in range(6)]].to_numpy()
     assert len(q) == COUNT
     assert ((q >= arm.lower) & (q <= arm.upper)).all()
-    more = of_zyx(poses.frame(arm, 2 * COUNT, SEED), "random")
+    more = of_zyx(poses.rows(Settings(seed=SEED), poses.of_arm("puma560", 2 * COUNT)), "random")
     assert np.array_equal(more[[f"q_{i + 1}" for i in range(6)]].to_numpy()[:COUNT], q)
 
 
@@ -173,7 +183,7 @@ def test_every_pose_has_a_row_in_every_representation(frames):
         counts = frame.groupby(["pose_set", "pose_id"]).size()
         assert set(counts) == {len(known_representations())}
         assert frame["q_7"].isna().all()
-        assert set(schema.TABLES["poses"].names) == set(frame.columns)
+        assert set(schema.table_of("poses").names) == set(frame.columns)
 
 
 def test_conditions_are_numpys_and_infinite_where_nothing_is_finite():
@@ -231,18 +241,18 @@ def test_gate_catches_a_pose_that_changed_but_for_rounding(frames, pose_set, col
     row = old.index[(old["pose_set"] == pose_set) & (old["representation"] == "zyx-euler")][0]
     new = old.copy()
     new.loc[row, column] = 1.001 * new.loc[row, column] + 1e-3
-    assert compare.compare_tables(schema.TABLES["poses"], old, old) == []
-    assert len(compare.compare_tables(schema.TABLES["poses"], old, new)) == lines
+    assert compare.compare_tables(schema.table_of("poses"), old, old) == []
+    assert len(compare.compare_tables(schema.table_of("poses"), old, new)) == lines
 
 
 def test_gate_takes_no_notice_of_a_condition_number_on_the_pole(frames):
     old = frames["puma560"]
     on = (old["pose_id"] == "qn") & (old["representation"] == "zyx-euler")
     new = old.assign(condition_analytic=old["condition_analytic"].where(~on, 1e18))
-    assert compare.compare_tables(schema.TABLES["poses"], old, new) == []
+    assert compare.compare_tables(schema.table_of("poses"), old, new) == []
 
 
 def test_gate_catches_a_pose_that_is_gone(frames):
     old = frames["ur5e"]
-    [gone] = compare.compare_tables(schema.TABLES["poses"], old, old.iloc[1:])
+    [gone] = compare.compare_tables(schema.table_of("poses"), old, old.iloc[1:])
     assert (gone.table, gone.kind) == ("poses", difference.MISSING)

@@ -10,11 +10,11 @@ from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation as ScipyRotation
 
 from bench.contenders.registry import known_shipped
+from bench.experiments import shipped as measured
 from bench.experiments.experiment import Settings
-from bench.experiments.rows import shipped as measured
-from bench.experiments.rows.shipped import frame
+from bench.experiments.shipped import compare
 from bench.law import kernel
-from bench.tables.schema import TABLES
+from bench.tables.schema import table_of
 from tasks.rules import RULES
 
 HORIZON_S = 20.0
@@ -24,8 +24,8 @@ TURNS = ScipyRotation.random(50, rng=np.random.default_rng(7))
 @functools.cache
 def rows() -> pd.DataFrame:
     """All of the controllers, without laws of ours."""
-    made = [frame(one, (), Settings(), HORIZON_S) for one in known_shipped().values()]
-    return pd.concat(made).set_index("shipped")
+    made = [row for one in known_shipped().values() for row in compare(one, (), Settings(), HORIZON_S)]
+    return pd.DataFrame(made).set_index("shipped")
 
 
 @pytest.mark.parametrize(
@@ -109,7 +109,7 @@ def bare(q):
 
 def test_error_without_a_sign_is_found_to_unwind_from_the_antipode():
     one = known_shipped()["franka-ros"]._replace(name="no-sign", error=bare)
-    [found] = frame(one, (), Settings(), HORIZON_S).to_dict("records")
+    [found] = compare(one, (), Settings(), HORIZON_S)
     assert found["away"] > 0
     assert "double-cover" in found["findings"] or "long-way" in found["findings"]
 
@@ -131,14 +131,14 @@ def test_audit_agrees_with_what_is_measured():
 
 
 def test_rows_are_the_tables_columns():
-    made = frame(known_shipped()["crisp"], ("rotation-vector",), Settings(), HORIZON_S)
-    assert list(made) == TABLES["shipped"].names
+    made = pd.DataFrame(compare(known_shipped()["crisp"], ("rotation-vector",), Settings(), HORIZON_S))
+    assert set(made) == set(table_of("shipped").names)
     assert made["settling_90_s"].notna().all()
     assert list(made["law"]) == ["", "rotation-vector"]
 
 
 def test_law_of_ours_at_the_same_gains_feels_what_is_set():
-    [_, ours] = frame(known_shipped()["franka-ros"], ("rotation-vector",), Settings(), HORIZON_S).to_dict("records")
+    [_, ours] = compare(known_shipped()["franka-ros"], ("rotation-vector",), Settings(), HORIZON_S)
     assert ours["stiffness_1rad"] == pytest.approx(1.0, rel=1e-12)
     assert ours["damping_ratio"] == pytest.approx(1.0, rel=1e-12)
     assert (ours["dead"], ours["lost"], ours["starts"]) == (0, 0, len(measured.AXES) * 7)

@@ -7,8 +7,8 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from bench.contenders.registry import known_springs
+from bench.experiments import springs
 from bench.experiments.experiment import Settings, Unit, rows_of
-from bench.experiments.rows import springs
 from bench.law.scalar import KERNELS
 
 SPRINGS = known_springs()
@@ -93,8 +93,8 @@ def test_work_is_zero_for_what_has_a_potential_and_no_one_else(spring):
 def test_twice_as_many_points_change_no_work():
     spring, ways = SPRINGS["logarithm"], np.random.default_rng(1).uniform(-0.7, 0.7, (2, 3, 3))
     moment = springs.in_tool(spring, "tool", K)
-    few = springs.work(moment, ways, 30.0)
-    assert springs.work(moment, ways, 30.0, points=2 * springs.POINTS) == pytest.approx(few, rel=1e-12)
+    few = springs.compute_work(moment, ways, 30.0)
+    assert springs.compute_work(moment, ways, 30.0, points=2 * springs.POINTS) == pytest.approx(few, rel=1e-12)
 
 
 def test_energy_balance_of_every_spring_closes():

@@ -12,8 +12,8 @@ from bench.contenders.registry import find_contender
 from bench.engines.curve import NUMBERS, blank_curves
 from bench.engines.run import run
 from bench.experiments import plan, traces
+from bench.experiments.episode_rows import judged_columns
 from bench.experiments.experiment import Settings
-from bench.experiments.rows.episodes import judged_columns
 from bench.metrics.registry import metrics_of
 from tasks.rules import RULES
 

@@ -8,9 +8,9 @@ import pytest
 from scipy.spatial.transform import Rotation as Turn
 from support.claim_tables import compliances, controllers
 
-import tasks
 from bench.contenders.registry import representation
-from bench.experiments.rows import poses
+from bench.experiments import jacobians as poses
+from bench.experiments.experiment import Settings
 from bench.experiments.suites import ON_ARM
 from bench.findings.claims import arm_probes, degeneracy, force_conversion, probes, rotation_matrix, side_by_side
 from bench.findings.claims.controller_costs import BY_EULER, ON_MATRIX
@@ -97,7 +97,7 @@ def test_curves_of_a_law_that_is_not_linear_in_the_angles_bend_at_any_step():
 
 @pytest.mark.slow
 def test_episodes_beside_poles_start_where_the_table_says_and_end_at_a_tenth_of_a_radian():
-    table = poses.frame(tasks.arm("ur5e"), 5, 0)
+    table = poses.rows(Settings(), poses.of_arm("ur5e", 5))
     table = table[table["representation"] == "zyx-euler"]
     found = arm_probes.beside_poles(f"{ON_MATRIX}+solve", "ur5e", table, Gains())
     assert len(found) == 8 * 12

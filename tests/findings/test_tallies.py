@@ -10,10 +10,10 @@ from click.testing import CliRunner
 from pyarrow import parquet
 
 from bench.cli import claims as command
+from bench.files import read_json
 from bench.findings import claims
 from bench.findings.claims.verdict import HISTORY, Claim, Earlier, Evidence, Verdict, Word, does
 from bench.studies.verdicts import REFERENCE, STORED
-from bench.tables.files import read_json
 from report.figures.claims import claims as page
 
 

@@ -4,17 +4,17 @@ import shutil
 
 import pytest
 
+from bench.files import read_json, write_json
 from bench.regression.revisions import gates
 from bench.regression.revisions.exact import sort_findings
 from bench.regression.rows import find_differences
 from bench.regression.rows.difference import CHANGED, COLUMN, MISSING, NEW, Difference
-from bench.tables.files import read_json, write_json
-from bench.tables.schema import TABLES
+from bench.tables.schema import table_of
 from bench.tables.store import read, write_table
 
 
 def episode(column, was, now, law="rotation-matrix", start="half-turn-x", kind=CHANGED):
-    blank = dict.fromkeys(TABLES["episodes"].key, "")
+    blank = dict.fromkeys(table_of("episodes").key, "")
     row = blank | {"regulator": law, "start_set": "half-turn", "start_id": start, "engine": "native"}
     return Difference("episodes", kind, column, "", row, was, now)
 

@@ -11,7 +11,7 @@ from support.pages import assert_is_whole
 
 from bench.contenders.registry import known_shipped
 from bench.experiments.experiment import Settings
-from bench.experiments.rows.shipped import frame
+from bench.experiments.shipped import compare
 from bench.findings.remedy import fix_of
 from bench.tables import store
 from bench.tables.schema import RESULTS
@@ -24,7 +24,7 @@ def run(tmp_path_factory):
     """The reference with the rows of every controller, without laws of ours."""
     folder = tmp_path_factory.mktemp("shipped") / "run"
     shutil.copytree(RESULTS / "reference", folder)
-    rows = pd.concat([frame(one, (), Settings(), 20.0) for one in known_shipped().values()], ignore_index=True)
+    rows = pd.DataFrame([row for one in known_shipped().values() for row in compare(one, (), Settings(), 20.0)])
     store.write_table(folder / "shipped.parquet", rows, "shipped")
     return run_in(folder)
 

@@ -13,7 +13,7 @@ import tasks
 from bench.control.registry import find_controller
 from bench.engines.contact_episode import USUAL
 from bench.experiments.contact import poses_of
-from bench.experiments.rows import contact as contact_rows
+from bench.experiments.contact import rows as contact_rows
 from bench.findings.claims.side_by_side import predicted
 from bench.studies.contact import pegs, stability
 from bench.tables import read

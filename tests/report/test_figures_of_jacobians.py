@@ -11,9 +11,9 @@ pytest.importorskip("matplotlib", reason="the report extra is not installed (cur
 
 from support.pages import assert_is_drawn
 
-import tasks
 from bench.counting import rows_on_arm
-from bench.experiments.rows import poses
+from bench.experiments import jacobians as poses
+from bench.experiments.experiment import Settings
 from bench.findings.claims.arm_probes import controller
 from bench.findings.claims.euler_jacobian import ROUNDINGS
 from bench.tables.read import with_contender
@@ -36,7 +36,7 @@ WORDS = {
 @pytest.fixture(scope="module")
 def seen():
     """poses.parquet of two arms, as it would be read."""
-    frames = [poses.frame(tasks.arm(name), 24, 0) for name in ARMS]
+    frames = [poses.rows(Settings(), poses.of_arm(name, 24)) for name in ARMS]
     frame = pd.concat(frames, ignore_index=True)
     return frame.astype({"arm": "category", "pose_set": "category", "representation": "category"})
 

@@ -16,6 +16,7 @@ from bench.errors import BadNumber, BadResults, LostWorkers, MissingTool, Unknow
 from bench.experiments import plan as planning
 from bench.experiments.choice import Choice
 from bench.experiments.experiment import experiment_of
+from bench.files import read_json
 from bench.provenance import ROOT
 from bench.running import run
 from bench.running.run_folder import begin, part
@@ -23,7 +24,6 @@ from bench.running.schedulers import cluster, worker
 from bench.running.schedulers.batches import CHUNK_S, MOST_EPISODES, in_batches, seconds
 from bench.running.schedulers.words import check_scheduler, kind
 from bench.running.wire_format import described
-from bench.tables.files import read_json
 
 WITHOUT = """
 import pathlib, sys

@@ -4,12 +4,12 @@ import pytest
 from support.command_line import digest
 from support.small_disk import KILOBYTES, NoDisk, fill, mounted
 
+from bench import files
 from bench.contenders.registry import find_contender
 from bench.errors import BadResults
 from bench.experiments import plan as planning
 from bench.experiments.choice import Choice
 from bench.running import run
-from bench.tables import files
 
 
 @pytest.fixture(scope="module")

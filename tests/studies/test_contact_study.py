@@ -8,11 +8,11 @@ import tasks
 from bench.control.setpoint import TOUCH
 from bench.engines.run_contact import run
 from bench.experiments.impedance import STIFFNESSES
+from bench.files import read_json
 from bench.metrics.contact.scene import alignment_error
 from bench.metrics.contact_metric import Pose, response
 from bench.studies.contact import admittance, pegs, springs, stability, unshaped
 from bench.studies.contact.__main__ import PARTS, STORED
-from bench.tables.files import read_json
 
 FOUND = read_json(STORED)
 

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from bench.contenders.registry import known_shipped
+from bench.files import read_json
 from bench.studies.restated import __main__ as study
-from bench.tables.files import read_json
 
 ROWS = {row["name"]: row for row in read_json(study.STORED)["controllers"]}
 LIMIT = 1e-12

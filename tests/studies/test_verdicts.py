@@ -2,10 +2,10 @@
 
 import pytest
 
+from bench.files import read_json
 from bench.findings import claims
 from bench.studies import verdicts
 from bench.studies.verdicts import HALF_STEP, RUNS, SEEDS, STORED, plan_of, turned
-from bench.tables.files import read_json
 
 
 @pytest.fixture(scope="module")

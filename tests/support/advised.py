@@ -8,10 +8,10 @@ from typing import NamedTuple
 
 import numpy as np
 import pandas as pd
-from bench.findings.counts import DIRECTED
 
 from bench.contenders.registry import find_contender
 from bench.findings.selection import measures, needs
+from bench.findings.start_sets import DIRECTED
 from bench.tables.schema import RESULTS
 from support.tables import table
 

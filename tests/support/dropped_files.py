@@ -168,9 +168,9 @@ STARTS = StartSet("dropped-starts", "Two starts about z", 2, build)
     "tasks/conditions/dropped_axis.py": '''
 """A bound on the command."""
 
-from tasks.condition import Axis, Condition
+from tasks.axis import Axis
 
-AXIS = Axis("dropped-axis", "A dropped axis", "rad/s^2", (60.0, 70.0), None, lambda level: Condition(bound=level))
+AXIS = Axis("dropped-axis", "A dropped axis", "rad/s^2", (60.0, 70.0), None, lambda level: {"bound": level})
 ''',
     "bench/findings/claims/dropped_claim.py": '''
 """A claim about nothing."""

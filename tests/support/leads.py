@@ -7,13 +7,13 @@ import collections
 import math
 
 import numpy as np
-from bench.findings.selection.velocity import VELOCITY
 from scipy.stats import binomtest
 
 import tasks
 from bench.contenders.registry import find_contender
 from bench.findings import claims
 from bench.findings.selection import gains, needs
+from bench.findings.selection.robots import VELOCITY
 from bench.tables.schema import RESULTS
 from report.figures.kit.families import word
 from support.advised import accelerations, operations, shares_of_time, velocities

@@ -7,9 +7,10 @@ import pyarrow.parquet as pq
 import pytest
 from support.command_line import TINY, bench, digest, refused, refused_run
 
+from bench import files
 from bench.errors import BadResults
-from bench.tables import files, store
-from bench.tables.column import VERSION
+from bench.experiments.columns import VERSION
+from bench.tables import store
 
 
 def test_file_in_place_of_a_results_folder_is_refused(capsys, tmp_path):

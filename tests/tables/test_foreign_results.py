@@ -11,11 +11,12 @@ import pyarrow.parquet as pq
 import pytest
 from support.command_line import TINY, bench, digest, refused, refused_run
 
+from bench import files
 from bench.contenders.registry import contenders_of
 from bench.errors import BadResults
 from bench.findings.claims.tables import Results
 from bench.findings.selection.tables import tables_of
-from bench.tables import files, read, store
+from bench.tables import read, store
 from bench.tables.schema import RESULTS
 from report.figures.cards import law_page
 from report.figures.kit.page import run_in

@@ -7,8 +7,8 @@ from bench import counting
 from bench.contenders.registry import find_contender
 from bench.engines import cache
 from bench.experiments import starts
-from bench.tables.kept_costs import of_controller, of_law
-from bench.tables.kept_rows import kept
+from bench.experiments.costs import count_controller, count_law
+from bench.experiments.kept_rows import kept
 
 LAW = find_contender("mrp")
 ROW = {"law": "mrp", "branch": "worst", "add": 3}
@@ -57,14 +57,14 @@ def test_none_are_made_each_time(tmp_path):
 
 def test_law_of_a_user_is_not_kept():
     own = LAW._replace(regulator=LAW.regulator._replace(name="nobody-s", origin="nobody_s.py"))
-    assert of_law(own) == counting.rows([own])
+    assert count_law(own) == counting.rows([own])
     assert not list((cache.FOLDER / "costs").glob("*nobody-s*"))
 
 
 def test_what_is_kept_is_what_is_counted():
-    assert of_law(LAW) == counting.rows([LAW])
+    assert count_law(LAW) == counting.rows([LAW])
     one = find_contender("rotation-matrix@geometric+solve")
-    assert of_controller(one, 6) == counting.rows_on_arm(one, 6)
+    assert count_controller(one, 6) == counting.rows_on_arm(one, 6)
 
 
 @pytest.mark.parametrize("count", [None, 1, 40])

@@ -8,9 +8,11 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 
+from bench import files
 from bench.errors import BadResults
+from bench.experiments import columns as column
 from bench.provenance import ROOT
-from bench.tables import column, files, schema, store
+from bench.tables import schema, store
 
 README = ROOT / "results" / "README.md"
 
@@ -20,31 +22,31 @@ def frame(table: str, rows: int, first: int = 0) -> pd.DataFrame:
     fill = {column.WORD: lambda i: f"word-{i % 3}", column.NUMBER: lambda i: i / 7.0, column.COUNT: lambda i: i}
     fill[column.SINGLE] = fill[column.NUMBER]
     return pd.DataFrame(
-        {one.name: [fill[one.type](i) for i in range(first, first + rows)] for one in schema.TABLES[table].columns()}
+        {one.name: [fill[one.type](i) for i in range(first, first + rows)] for one in schema.table_of(table).columns()}
     )
 
 
-@pytest.mark.parametrize("table", schema.TABLES)
+@pytest.mark.parametrize("table", schema.all_tables())
 def test_table_comes_back_with_units_and_meanings(tmp_path, table):
     store.write_table(tmp_path / "x.parquet", frame(table, 5), table)
     found = pq.read_schema(tmp_path / "x.parquet")
     assert found.metadata[b"orientation-bench table"].decode() == table
     assert found.metadata[b"orientation-bench schema"].decode() == column.VERSION
-    for one in schema.TABLES[table].columns():
+    for one in schema.table_of(table).columns():
         metadata = found.field(one.name).metadata
         assert (metadata[b"unit"].decode(), metadata[b"meaning"].decode()) == (one.unit, one.meaning)
 
 
-@pytest.mark.parametrize("table", schema.TABLES)
+@pytest.mark.parametrize("table", schema.all_tables())
 def test_every_column_has_a_meaning_and_every_number_a_unit(table):
-    for one in schema.TABLES[table].columns():
+    for one in schema.table_of(table).columns():
         assert one.meaning
         assert bool(one.unit) == (one.type != column.WORD), one.name
 
 
-@pytest.mark.parametrize("table", schema.TABLES)
+@pytest.mark.parametrize("table", schema.all_tables())
 def test_no_column_comes_twice(table):
-    names = [one.name for one in schema.TABLES[table].columns()]
+    names = [one.name for one in schema.table_of(table).columns()]
     assert len(set(names)) == len(names)
 
 
@@ -58,11 +60,11 @@ def test_numbers_come_back_bit_for_bit(tmp_path):
     assert np.isnan(found[~known]).all()
 
 
-@pytest.mark.parametrize("table", schema.TABLES)
+@pytest.mark.parametrize("table", schema.all_tables())
 def test_fractions_are_written_byte_by_byte_and_words_once(tmp_path, table):
     store.write_table(tmp_path / "x.parquet", frame(table, 5), table)
     columns = pq.ParquetFile(tmp_path / "x.parquet").metadata.row_group(0).to_dict()["columns"]
-    types = {one.name: one.type for one in schema.TABLES[table].columns()}
+    types = {one.name: one.type for one in schema.table_of(table).columns()}
     for one in columns:
         is_fraction = types[one["path_in_schema"]] in (column.NUMBER, column.SINGLE)
         assert ("BYTE_STREAM_SPLIT" in one["encodings"]) == is_fraction, one["path_in_schema"]
@@ -75,11 +77,11 @@ def test_columns_come_in_the_order_of_the_schema(tmp_path):
     assert list(store.read_arrow(tmp_path / "x.parquet", "costs").column_names) == list(given.columns)
 
 
-@pytest.mark.parametrize("table", schema.TABLES)
+@pytest.mark.parametrize("table", schema.all_tables())
 def test_empty_table_keeps_its_columns(tmp_path, table):
     store.write_table(tmp_path / "x.parquet", frame(table, 0), table)
     found = store.read_arrow(tmp_path / "x.parquet", table)
-    assert (found.num_rows, found.schema) == (0, schema.TABLES[table].schema())
+    assert (found.num_rows, found.schema) == (0, schema.table_of(table).schema())
 
 
 class Broken(Exception):
@@ -156,12 +158,6 @@ def test_truncated_table_is_told_from_its_end_alone(tmp_path, kept):
 def test_readme_of_results_is_the_one_the_schema_writes():
     """`make reference` writes it anew."""
     assert README.read_text(encoding="utf-8") == schema.readme()
-
-
-def test_readme_of_results_names_every_column_with_its_unit():
-    for table in schema.TABLES.values():
-        for one in table.columns():
-            assert f"| {one.name} | {one.unit} | {one.meaning} |" in schema.readme()
 
 
 def test_schema_is_one_arrow_reads_without_us(tmp_path):

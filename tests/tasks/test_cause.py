@@ -9,8 +9,8 @@ from support.on_arms import named
 
 import tasks
 from bench.engines.run_arm import run
+from bench.experiments.episode_rows import frame
 from bench.experiments.experiment import Settings, Unit
-from bench.experiments.rows.episodes import frame
 from bench.experiments.suites import NOMINAL
 from bench.metrics.registry import metrics_of
 from tasks.cause import CAUSES, NEAR_CONDITION, NEAR_MARGIN, cause

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 import numpy as np
 
+from bench.files import read_json
 from bench.findings.claims.verdict import Evidence, NoEvidence
 from bench.law.contender import Gains
 from bench.tables import read
-from bench.tables.files import read_json
 from bench.tables.schema import RESULTS
 
 if TYPE_CHECKING:

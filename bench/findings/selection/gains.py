@@ -13,11 +13,11 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import NamedTuple
 
+from bench.files import read_json
 from bench.findings.selection.measured import Measured, measured
 from bench.findings.selection.needs import DEFAULT, NEARLY, SURE, TRIED, Need, decide, is_ours
 from bench.findings.selection.rule import GENERAL
 from bench.findings.start_sets import DIRECTED
-from bench.tables.files import read_json
 from bench.tables.schema import RESULTS
 from bench.tables.store import read, write_table
 

@@ -13,13 +13,13 @@ import numpy as np
 import pandas as pd
 
 from bench.errors import BadResults
+from bench.experiments.shipped import SETTLING_DEG
 from bench.findings.claims.tables import Results
 from bench.findings.claims.verdict import NoEvidence
 from bench.findings.selection.criteria import BY_NAME, CRITERIA
 from bench.findings.selection.measured import Measured
 from bench.findings.selection.tables import Tables, by_law, by_standard_inverse, common, tables_of
 from bench.law.shipped import TORQUE
-from bench.tables.shipped_columns import SETTLING_DEG
 
 FULL_TURN = 2.0
 """Way over the shortest, at the least, of a start at 120 degrees or less that goes the long way."""

@@ -15,12 +15,12 @@ from typing import NamedTuple
 
 import numpy as np
 import pandas as pd
+from scipy.linalg import eigh
 
 import tasks
 from bench.contenders.registry import known_dampings
 from bench.engines.arm_episode import buffers
 from bench.experiments.impedance import Stiffness
-from bench.experiments.rows.impedance_modes import modes, sampled
 from tasks.kinematics import kinematics
 
 HALVINGS = 30
@@ -70,9 +70,26 @@ def longest_tick(arm: str, damping: str, stiffness: Stiffness, zeta: float, roto
     low, high = 0.0, 1.0
     for _ in range(HALVINGS):
         middle = 0.5 * (low + high)
-        stable = np.abs(np.linalg.eigvals(sampled(P, Q, middle))).max() < 1.0
-        low, high = (middle, high) if stable else (low, middle)
+        low, high = (middle, high) if compute_radius(P, Q, middle) < 1.0 else (low, middle)
     return low
+
+
+def compute_modes(P: np.ndarray, Q: np.ndarray, mobility: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Compute natural frequencies [1/s] in ascending order, and their damping ratios, with P = mobility K."""
+    Lambda = np.linalg.inv(mobility)
+    squares, phi = eigh(Lambda @ P, 0.5 * (Lambda + Lambda.T))  # phi^T Lambda phi = 1
+    omega = np.sqrt(squares)
+    return omega, np.diag(phi.T @ Lambda @ Q @ phi) / (2.0 * omega)
+
+
+def compute_radius(P: np.ndarray, Q: np.ndarray, dt: float) -> float:
+    """Compute the greatest |z| with det(z^2 + z (dt Q + dt^2 P - 2) + 1 - dt Q) = 0.
+
+    They are the poles of v+ = v - dt (P x + Q v), x+ = x + dt v+, MuJoCo's rates first.
+    """
+    one = np.eye(len(P))
+    companion = np.block([[np.zeros_like(P), one], [dt * Q - one, 2.0 * one - dt * Q - dt * dt * P]])
+    return float(np.abs(np.linalg.eigvals(companion)).max())
 
 
 def with_theory(rows: pd.DataFrame) -> pd.DataFrame:
@@ -81,8 +98,8 @@ def with_theory(rows: pd.DataFrame) -> pd.DataFrame:
     for key, group in rows.groupby(keys, observed=True, sort=False):
         arm, damping, translation, rotation, zeta, dt = key
         P, Q = hand_matrices(str(arm), str(damping), Stiffness(translation, rotation), zeta)
-        omega, ratio = modes(P, Q)
-        radius = float(np.abs(np.linalg.eigvals(sampled(P, Q, dt))).max())
+        omega, ratio = compute_modes(P, Q, hand_of(str(arm)).mobility)
+        radius = compute_radius(P, Q, dt)
         places = group["mode"].to_numpy() - 1
         found.append(group.assign(omega_theory=omega[places], ratio_theory=ratio[places], radius_theory=radius))
     return pd.concat(found) if found else rows

@@ -10,6 +10,7 @@ from bench.contenders.registry import all_contenders
 from bench.findings.perturbed import FOLLOWED_RAD
 from bench.findings.theory import robustness_theory
 from bench.findings.theory.isotropic import EQUATIONS
+from tasks.condition import condition_at
 
 HALF_TURN = "half-turn-noise"
 
@@ -71,7 +72,7 @@ def near_goal(axis: str, grows: bool, kp: float, kv: float) -> float:
         return robustness_theory.delay_margin(kp, kv)
     if axis == "control-rate":
         return math.nan if grows else robustness_theory.least_rate(kp, kv)
-    unit = tasks.axis(axis).at(1.0)
+    unit = condition_at(tasks.axis(axis), 1.0)
     if unit.is_noisy:
         left = robustness_theory.noisy_rms(kp, kv, unit.period_s, unit.attitude_noise, unit.rate_noise)
     elif unit.reference_amplitude:

@@ -21,7 +21,7 @@ import pandas as pd
 import tasks
 from bench.contenders.registry import find_contender, inverse
 from bench.engines.arm_episode import buffers
-from bench.experiments.rows.velocity_limits import SCAN_RAD, pose
+from bench.experiments.velocity_limits import SCAN_RAD, pose
 from bench.law.contender import AT_REST, Contender, Gains, Goal
 from bench.law.equation import Equation
 from bench.law.resolved_motion import Inverse

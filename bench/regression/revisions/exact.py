@@ -11,10 +11,10 @@ from pathlib import Path
 
 from bench.counting import OPERATIONS as OPERATION_NAMES
 from bench.counting import TOTAL
+from bench.files import read_json
 from bench.regression.revisions.comparison import CHANGE, IMPROVEMENT, REGRESSION, Finding
 from bench.regression.rows import find_differences
 from bench.regression.rows.difference import CHANGED, COLUMN, JUDGE, MISSING, NEW, Difference
-from bench.tables.files import read_json
 
 EXACT, OPERATIONS = "exact", "operations"
 OF_LAW = ("regulator", "representation")

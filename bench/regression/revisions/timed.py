@@ -150,7 +150,7 @@ class Session:
 
 def test_ticks(benchmark, plugin, name):
     """Time one benchmark for all its rounds, each in its turn."""
-    from bench.tables import kept_costs
+    from bench.experiments.costs import count_law
     from bench.timing.ratios import ratio
 
     one = plugin.benchmarks[name]
@@ -167,7 +167,7 @@ def test_ticks(benchmark, plugin, name):
 
     benchmark.pedantic(one.call, setup=wait, teardown=plugin.turns.send, rounds=plugin.rounds, iterations=1)
     steps = list(ratio(np.array(benchmark.stats.stats.data) / one.ticks, np.array(kernels)))
-    costs = kept_costs.of_law(one.contender) if plugin.turns.line is None and one.what == "law" else []
+    costs = count_law(one.contender) if plugin.turns.line is None and one.what == "law" else []
     flops = {row["branch"]: int(row["flops"]) for row in costs if row["stage"] == "total"}
     benchmark.extra_info.update(what=one.what, ticks=one.ticks, kernel_steps=steps, flops=flops)
 

@@ -24,8 +24,8 @@ import numpy as np
 from scipy.stats import mannwhitneyu
 
 from bench.errors import Incompatible
+from bench.files import read_json
 from bench.regression.revisions.timed import OTHER_ENDED
-from bench.tables.files import read_json
 from bench.timing.ratios import ratio
 
 P, RATIO = 0.002, 1.10

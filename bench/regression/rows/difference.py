@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 import pandas as pd
 
-from bench.tables.column import Table
+from bench.experiments.columns import Table
 
 MISSING, NEW, TWICE, COLUMN, CHANGED, JUDGE = "missing", "new", "twice", "column", "changed", "judge"
 

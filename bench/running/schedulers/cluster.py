@@ -18,13 +18,13 @@ from dask import config
 from bench.errors import LostWorkers, MissingTool
 from bench.experiments.experiment import Unit
 from bench.experiments.plan import Plan
+from bench.files import write_atomically
 from bench.running.run_folder import part
 from bench.running.sandbox import Sandbox
 from bench.running.schedulers import worker
 from bench.running.schedulers.batches import in_batches
 from bench.running.schedulers.words import LOCAL
 from bench.running.wire_format import described
-from bench.tables.files import write_atomically
 
 AHEAD = 2
 """Chunks given to each thread of a worker: one to work on and one that waits. Memory holds no more than their rows."""

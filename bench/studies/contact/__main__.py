@@ -8,9 +8,9 @@ import argparse
 import math
 from pathlib import Path
 
+from bench.files import read_json, write_json
 from bench.provenance import ROOT
 from bench.studies.contact import admittance, pegs, springs, stability, unshaped
-from bench.tables.files import read_json, write_json
 
 STORED = ROOT / "results" / "contact" / "contact.json"
 

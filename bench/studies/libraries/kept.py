@@ -2,7 +2,7 @@
 
 import pandas as pd
 
-from bench.tables.files import read_json, write_json
+from bench.files import read_json, write_json
 from bench.tables.schema import RESULTS
 from bench.tables.store import read, write_table
 

@@ -25,9 +25,9 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from bench.contenders.registry import known_shipped
+from bench.files import read_json, write_json
 from bench.law.shipped import Shipped
 from bench.provenance import describe
-from bench.tables.files import read_json, write_json
 from bench.tables.schema import RESULTS
 
 STORED = RESULTS / "libraries" / "restated.json"

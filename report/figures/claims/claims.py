@@ -6,12 +6,12 @@ import html as escape
 import math
 from collections.abc import Iterable
 
+from bench.files import read_json
 from bench.findings import claims
 from bench.findings.claims import Verdict, Word, tally
 from bench.findings.claims.errata import UNTESTABLE
 from bench.findings.claims.verdict import MISPRINTS, does
 from bench.studies import verdicts
-from bench.tables.files import read_json
 from report.figures.kit import html
 from report.figures.kit.page import Run
 from report.figures.kit.spelling import marked_up, prose, typeset

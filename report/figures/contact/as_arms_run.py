@@ -9,10 +9,10 @@ import pandas as pd
 
 from bench.contenders.registry import known_dampings
 from bench.experiments.impedance import ZETA, Stiffness
+from bench.files import read_json
 from bench.findings.theory.impedance_modes import longest_tick, with_theory
 from bench.studies.contact.__main__ import STORED
 from bench.studies.contact.admittance import DECADES, FORCE_N, HALVINGS, SHIPPED
-from bench.tables.files import read_json
 from report.figures.arms import arm_looks
 from report.figures.kit import html, style
 from report.figures.kit.inline import responsive_picture

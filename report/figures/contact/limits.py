@@ -7,10 +7,10 @@ import functools
 import numpy as np
 import pandas as pd
 
+from bench.files import read_json
 from bench.findings.theory.jamming import margin
 from bench.metrics.contact.scene import IN
 from bench.studies.contact.__main__ import STORED
-from bench.tables.files import read_json
 from report.figures.kit import html, style
 from report.figures.kit.inline import responsive_picture
 from report.figures.kit.tables import Table

@@ -8,8 +8,8 @@ import pandas as pd
 
 from bench.contenders.registry import all_contenders
 from bench.counting import OPERATIONS
+from bench.files import read_json
 from bench.tables import read
-from bench.tables.files import read_json
 from report.figures.cost import operations, times
 from report.figures.cost.operations import CALLS
 from report.figures.kit import html, laws

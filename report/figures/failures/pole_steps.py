@@ -12,7 +12,7 @@ from bench.contenders.registry import find_contender
 from bench.engines.episode import OUTCOME
 from bench.engines.run import by_equal_steps
 from bench.experiments.experiment import Settings
-from bench.experiments.rows.map import start_rows
+from bench.experiments.map import start_rows
 from bench.findings.maps import lost_share
 from bench.law.contender import PAPERS_GAINS
 from report.figures.kit.rows import SHORT

@@ -10,9 +10,9 @@ import math
 
 import pandas as pd
 
+from bench.files import read_json
 from bench.studies.libraries.forms import FORMS
 from bench.studies.libraries.tolerances import COUNT_RAD, SINGLE_RAD, WRONG_AXIS_RAD
-from bench.tables.files import read_json
 from bench.tables.schema import RESULTS
 from bench.tables.store import read
 from report.figures.kit.spelling import power

@@ -9,11 +9,11 @@ from collections.abc import Callable
 import pandas as pd
 
 from bench.contenders.registry import known_shipped
+from bench.experiments.shipped import BENT_DEG, FELT_RAD
+from bench.files import read_json
 from bench.findings.remedy import KEEP, fix_of, is_bent
 from bench.law.shipped import POSITION, TORQUE, VELOCITY, Shipped
 from bench.studies.restated.__main__ import STORED
-from bench.tables.files import read_json
-from bench.tables.shipped_columns import BENT_DEG, FELT_RAD
 from report.figures.kit import html
 from report.figures.kit.page import Run, given
 from report.figures.kit.spelling import power

@@ -10,7 +10,7 @@ import pyarrow.parquet as pq
 
 from bench.provenance import ROOT, count_episodes, rounded_on
 from bench.tables import read
-from bench.tables.schema import TABLES
+from bench.tables.schema import all_tables
 from report.figures.cost import times
 from report.figures.kit import html
 from report.figures.kit.page import Run
@@ -59,7 +59,7 @@ def spelled(hex_digits: str) -> str:
 
 def files(run: Run) -> list[Path]:
     """The files of the run, tables first, then every machine's timings."""
-    names = [*(f"{name}.parquet" for name in sorted(TABLES)), "provenance.json", "plan.json"]
+    names = [*(f"{name}.parquet" for name in sorted(all_tables())), "provenance.json", "plan.json"]
     return [*(path for path in (run.folder / name for name in names) if path.is_file()), *times.files(run)]
 
 

@@ -26,7 +26,7 @@ def streamed(run: Run) -> pd.DataFrame:
 
 
 def facts(run: Run) -> dict:
-    """The worst of the filters, and of the quaternion taken as it came."""
+    """Return the worst of the filters, and of the quaternion taken as it came."""
     rows = streamed(run)
     if rows.empty:
         return dict.fromkeys(FACTS)
@@ -43,7 +43,7 @@ def facts(run: Run) -> dict:
 
 
 def tables(run: Run) -> dict:
-    """A row a stream: the goal, the laws from the least to the most, the quaternion as it came."""
+    """Return a row a stream: the goal, the laws from the least to the most, the quaternion as it came."""
     rows, lines = streamed(run), []
     for stream in STREAMS if len(rows) else ():
         own = rows[rows["stream"] == stream.name]

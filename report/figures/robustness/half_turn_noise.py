@@ -40,7 +40,7 @@ def leaving(rows: pd.DataFrame) -> pd.DataFrame:
 
 @responsive_picture
 def strips(rows: pd.DataFrame, narrow: bool):
-    """A row a law: in colour the noise that holds it by theory; marks are the episodes, full where all are held."""
+    """Draw a row a law: in colour the noise that holds it by theory; marks: the episodes, full where all are held."""
     shares = leaving(rows)
     shares = shares[shares.index > 0]
     own = laws(rows, controls=False)
@@ -80,7 +80,7 @@ def _marks(axes: Axes, place: int, shares: pd.Series, colour: str) -> None:
 
 
 def regulator_of(law: str) -> Regulator:
-    """The regulator of a contender, the user's own of the run among them."""
+    """Return the regulator of a contender, the user's own of the run among them."""
     return find_contender(law, read.own_laws()).regulator
 
 
@@ -95,7 +95,7 @@ LAWS = Table(
 
 
 def table(rows: pd.DataFrame) -> html.Markdown | None:
-    """A law a row: its property, half the jump of its command, the least noise by theory, and what was measured."""
+    """Return a law a row: its property, half the jump of its command, the least noise by theory and as measured."""
     kp, kv = gains(rows)
     shares, lines = leaving(rows), []
     for law in laws(rows):
@@ -152,7 +152,7 @@ def facts(run: Run) -> dict:
 
 
 def tables(run: Run) -> dict:
-    """What was measured of every law, beside what theory says."""
+    """Return what was measured of every law, beside what theory says."""
     return {"tab_half_turn": given(along(run, HALF_TURN), table)}
 
 

@@ -22,7 +22,7 @@ def compensated(run: Run) -> pd.DataFrame:
 
 
 def facts(run: Run) -> dict:
-    """What laws without an integral leave; how long the law without a rate takes over the one whose spring it has."""
+    """Return what laws without an integral leave; how long the law without a rate takes over its twin."""
     rows = compensated(run)
     if rows.empty:
         return dict.fromkeys(FACTS)
@@ -41,7 +41,7 @@ def facts(run: Run) -> dict:
 
 
 def tables(run: Run) -> dict:
-    """A row a law and disturbance."""
+    """Return a row a law and disturbance."""
     return {
         "states": STATES(
             (

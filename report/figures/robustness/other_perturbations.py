@@ -30,6 +30,7 @@ from report.figures.robustness.rows import (
     with_unit,
     worst,
 )
+from tasks.condition import condition_at
 from tasks.rules import RULES
 
 LINEAR = ("control-rate", "delay", "inertia")
@@ -51,7 +52,7 @@ ERRORS = Table("Perturbation | Level | Linear theory [deg] | Median law [deg] | 
 def farthest_ms(rows: pd.DataFrame, name: str) -> float:
     """Largest difference of any start of EXACT from the linear loop's settling time [ms], under one of LINEAR."""
     own = of(rows, EXACT)
-    there = {level: tasks.axis(name).at(level) for level in levels(own)}
+    there = {level: condition_at(tasks.axis(name), level) for level in levels(own)}
     theory = {
         level: robustness_theory.settling(*gains(rows), RULES.tolerance, one.period_s, one.delay_s, one.inertia[0])
         for level, one in there.items()
@@ -61,7 +62,7 @@ def farthest_ms(rows: pd.DataFrame, name: str) -> float:
 
 def left(rows: pd.DataFrame, name: str) -> float:
     """Root mean square angle that the linear loop keeps of noise or of a slightly moving goal [rad], over the level."""
-    unit = tasks.axis(name).at(1.0)
+    unit = condition_at(tasks.axis(name), 1.0)
     if unit.is_noisy:
         return robustness_theory.noisy_rms(*gains(rows), unit.period_s, unit.attitude_noise, unit.rate_noise)
     horizon_s = float(rows["horizon_s"].iloc[0])
@@ -69,14 +70,14 @@ def left(rows: pd.DataFrame, name: str) -> float:
 
 
 def over_theory(rows: pd.DataFrame, name: str) -> pd.DataFrame:
-    """The median error over `left`: a row a level that is not zero, a column a law."""
+    """Return the median error over `left`: a row a level that is not zero, a column a law."""
     found = medians(rows, "tail_rms_rad")
     found = found[found.index > 0.0]
     return found.div(left(rows, name) * found.index.to_series(), axis=0)
 
 
 def errors(*each: tuple[str, pd.DataFrame]) -> html.Markdown | None:
-    """A level a row: the error that is left by theory, and over the laws."""
+    """Return a level a row: the error that is left by theory, and over the laws."""
     lines = []
     for name, rows in each:
         for level, ratios in over_theory(rows, name).iterrows() if len(rows) else ():
@@ -88,7 +89,7 @@ def errors(*each: tuple[str, pd.DataFrame]) -> html.Markdown | None:
 
 
 def changes(rows: pd.DataFrame, name: str) -> dict:
-    """At the worst level: by how much median settling times change, the most of which law, and who loses starts."""
+    """Say by how much median settling times change at the worst level, for which law most, and who loses starts."""
     table = medians(rows)
     ratio = table.loc[worst(rows, name)] / table.loc[nominal(name)]
     ratio = 100.0 * (ratio[np.isfinite(ratio)] - 1.0)
@@ -103,7 +104,7 @@ def changes(rows: pd.DataFrame, name: str) -> dict:
 
 
 def control_rate(rows: pd.DataFrame) -> dict:
-    """The rate at which the sampled loop is unstable."""
+    """Return the rate at which the sampled loop is unstable."""
     limit = robustness_theory.least_rate(*gains(rows))
     return {
         "limit": f"{limit:g}",
@@ -113,7 +114,7 @@ def control_rate(rows: pd.DataFrame) -> dict:
 
 
 def delay(rows: pd.DataFrame) -> dict:
-    """The margin of the loop."""
+    """Return the margin of the loop."""
     margin = robustness_theory.delay_margin(*gains(rows))
     return {
         "margin_ms": f"{1000.0 * margin:.0f}",
@@ -123,15 +124,15 @@ def delay(rows: pd.DataFrame) -> dict:
 
 
 def is_within(rows: pd.DataFrame, name: str) -> str:
-    """Whether PAIELLI loses only starts from which it can turn its own spring round, blind for a delay and a period."""
+    """Say whether PAIELLI loses only starts from which it can reverse its spring, blind for a delay and a period."""
     lost = of(rows, PAIELLI).query("not good")
-    blind = [one.delay_s + one.period_s for one in map(tasks.axis(name).at, lost["level"])]
+    blind = [one.delay_s + one.period_s for one in (condition_at(tasks.axis(name), level) for level in lost["level"])]
     beyond = [robustness_theory.reversal_angle(gains(rows)[0], one) for one in blind]
     return "all" if (lost["angle0_rad"] >= beyond).all() else "not all"
 
 
 def noise(attitude: pd.DataFrame, rate: pd.DataFrame) -> dict:
-    """What noise leaves, by theory and in the episodes, and what it does to the command."""
+    """Return what noise leaves, by theory and in the episodes, and what it does to the command."""
     ratios = pd.concat([over_theory(attitude, "attitude-noise"), over_theory(rate, "rate-noise")])
     variation, most = medians(rate, "variation"), max(levels(rate))
     return {
@@ -147,7 +148,7 @@ def noise(attitude: pd.DataFrame, rate: pd.DataFrame) -> dict:
 
 
 def spin(rows: pd.DataFrame) -> dict:
-    """How far bodies turn [deg], and whether memory sends them the longer way."""
+    """Return how far bodies turn [deg], and whether memory sends them the longer way."""
     rows = rows.assign(turned_deg=DEG * rows["path_ratio"] * rows["angle0_rad"])
     fastest = worst(rows, "spin")
     last = rows[(rows["level"] == fastest) & rows["good"]]
@@ -169,7 +170,7 @@ def spin(rows: pd.DataFrame) -> dict:
 
 
 def moving_goals(full: pd.DataFrame, part: pd.DataFrame, none: pd.DataFrame) -> dict:
-    """What is left with rate and acceleration fed forward, with the rate alone, with neither."""
+    """Return what is left with rate and acceleration fed forward, with the rate alone, with neither."""
     kp, kv = gains(full)
     each = zip((full, part, none), MOVING, strict=True)
     ratios = pd.concat([over_theory(rows, name).iloc[:1] for rows, name in each])
@@ -198,7 +199,7 @@ SECTIONS: dict[Callable[..., dict], tuple[str, ...]] = {
 
 
 def facts(run: Run) -> dict:
-    """Of every section whose perturbations the run has; and how near the linear loop is to the law that it is."""
+    """Return the facts of every section whose perturbations the run has, and how near the linear loop is to EXACT."""
     found: dict = {}
     for section, names in SECTIONS.items():
         each = [along(run, name) for name in names]
@@ -212,6 +213,6 @@ def facts(run: Run) -> dict:
 
 
 def tables(run: Run) -> dict:
-    """Of what lasts, the error by level, near the goal one for all laws."""
+    """Return the error by level under perturbations that last, near the goal the same for all laws."""
     lasting = {"noise": SECTIONS[noise], "moving-goals": MOVING}
     return {key: errors(*((name, along(run, name)) for name in names)) for key, names in lasting.items()}

@@ -38,7 +38,7 @@ def counted(run: Run, axis: str) -> pd.DataFrame:
 
 
 def widest(starts: int) -> float:
-    """The most that a share of so many starts lies off an end of its exact interval: where half of them are lost."""
+    """Return the greatest half-width of the exact interval of a share of so many starts: where half are lost."""
     one = lost_share(starts // 2, starts)
     return max(one.high - one.value, one.value - one.low)
 
@@ -83,13 +83,13 @@ def alike(each: Found, run: Run) -> str:
 
 
 def named(way: Way) -> str:
-    """The perturbation's title, and its direction where it shrinks."""
+    """Return the perturbation's title, and its direction where it shrinks."""
     title = tasks.axis(way.axis).title.lower()
     return title if way.grows else f"{title} (downwards)"
 
 
 def facts(run: Run) -> dict:
-    """How laws differ under the perturbations, without the negative controls."""
+    """Return how laws differ under the perturbations, without the negative controls."""
     each = found(run)
     if not compared(each):
         return {}
@@ -115,7 +115,7 @@ def figures(run: Run) -> dict:
 
 @responsive_picture
 def threshold_map(each: Found, narrow: bool):
-    """A cell a law and way: its threshold; pale where that is the last level tried."""
+    """Return a cell a law and way: its threshold; pale where that is the last level tried."""
     groups, (ways, _) = families.present(each), differing(each)
     lines = len(each) + 0.4 * len(groups)
     figure, axes = style.panels(height=0.215 * lines + 1.75, narrow=narrow)

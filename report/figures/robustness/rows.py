@@ -22,7 +22,7 @@ DEG = 180.0 / math.pi
 
 @functools.cache
 def along(run: Run, name: str) -> pd.DataFrame:
-    """Rows of one perturbation, laws family by family, with `good` and `time_s`, infinite where nothing settled."""
+    """Return rows of one perturbation, by family, with `good` and `time_s`, infinite where nothing settled."""
     rows = run.rows("robustness", axis=name)
     if rows.empty:
         return rows
@@ -35,7 +35,7 @@ def along(run: Run, name: str) -> pd.DataFrame:
 
 
 def laws(rows: pd.DataFrame, controls: bool = True) -> list[str]:
-    """The laws of the rows, family by family; without the negative controls if so asked."""
+    """Return the laws of the rows, family by family; without the negative controls if so asked."""
     if rows.empty:
         return []
     names = [name for name in rows["contender"].cat.categories if (rows["contender"] == name).any()]
@@ -43,7 +43,7 @@ def laws(rows: pd.DataFrame, controls: bool = True) -> list[str]:
 
 
 def of(rows: pd.DataFrame, law: str, level: float | None = None) -> pd.DataFrame:
-    """Rows of one law, or of one law at one level."""
+    """Return rows of one law, or of one law at one level."""
     own = rows[rows["contender"] == law]
     return own if level is None else own[own["level"] == level]
 
@@ -59,25 +59,25 @@ def starts(rows: pd.DataFrame) -> int:
 
 
 def levels(rows: pd.DataFrame) -> list[float]:
-    """The levels that the rows hold, from the least."""
+    """Return the levels that the rows hold, from the least."""
     return sorted(rows["level"].unique()) if len(rows) else []
 
 
 def nominal(name: str) -> float:
-    """The level without perturbation; of one that has none, its mildest: the largest bound."""
+    """Return the level without perturbation; of one that has none, its mildest: the largest bound."""
     axis = tasks.axis(name)
     return max(axis.levels) if axis.nominal is None else axis.nominal
 
 
 def worst(rows: pd.DataFrame, name: str) -> float:
-    """The level most levels away from the nominal one; of two such the greater."""
+    """Return the level most levels away from the nominal one; of two such the greater."""
     there = levels(rows)
     place = there.index(nominal(name))
     return there[0] if place > len(there) - 1 - place else there[-1]
 
 
 def with_unit(level: float, name: str) -> str:
-    """A level with its unit, in a unit that suits it."""
+    """Return a level with its unit, in a unit that suits it."""
     unit = tasks.axis(name).unit
     if unit == "s":
         return f"{1000.0 * level:g} ms"
@@ -87,7 +87,7 @@ def with_unit(level: float, name: str) -> str:
 
 
 def median(values: pd.Series) -> float:
-    """Of values of which some may be infinite."""
+    """Return the median of values of which some may be infinite."""
     return float(quantile(values.to_numpy(), 0.5))
 
 
@@ -98,7 +98,7 @@ def medians(rows: pd.DataFrame, column: str = "time_s") -> pd.DataFrame:
 
 
 def losses(rows: pd.DataFrame, name: str) -> str:
-    """From which laws fewer starts go well at the worst level, in words, with Wilson intervals."""
+    """Say for which laws fewer starts go well at the worst level, with Wilson intervals."""
     before, after = (
         rows[rows["level"] == level].groupby("contender", observed=True)["good"].agg(["sum", "size"])
         for level in (nominal(name), worst(rows, name))
@@ -116,7 +116,7 @@ def losses(rows: pd.DataFrame, name: str) -> str:
 
 
 def listed(words: Iterable[str]) -> str:
-    """The words with commas and an "and"."""
+    """Return the words with commas and an "and"."""
     *most, last = words
     return f"{', '.join(most)} and {last}" if most else last
 

@@ -17,7 +17,7 @@ NAME = "saturation"
 
 
 def bounded(run: Run) -> pd.DataFrame:
-    """Rows with `over_least`: settling time over the least that the bound allows from that angle."""
+    """Return rows with `over_least`: settling time over the least that the bound allows from that angle."""
     rows = along(run, NAME)
     if rows.empty:
         return rows
@@ -52,7 +52,7 @@ def facts(run: Run) -> dict:
 
 
 def fastest(run: Run) -> str:
-    """The laws that none beats behind the tightest bound."""
+    """Return the laws that none beats behind the tightest bound."""
     try:
         return leaders(measured(run.folder), "bounded", families.word)
     except NoEvidence:

@@ -7,9 +7,9 @@ from typing import Any
 
 import pandas as pd
 
+from bench.files import read_json
 from bench.regression.history import read_history
 from bench.regression.revisions import timing
-from bench.tables.files import read_json
 from report.figures.kit import html, laws, style
 from report.figures.kit.inline import responsive_picture
 from report.figures.kit.page import Run, given

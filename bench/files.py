@@ -46,7 +46,7 @@ FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 
 
 def refused(path: Path, error: OSError) -> BadResults:
-    """The error for a file or folder that could not be written, with the cure."""
+    """Return the error for a file or folder that could not be written, with the cure."""
     is_full = error.errno in FULL
     reason = os.strerror(error.errno) if error.errno else error  # arrow's own text runs over lines
     cure = "make room and give the same command again" if is_full else "mend its rights"
@@ -54,7 +54,7 @@ def refused(path: Path, error: OSError) -> BadResults:
 
 
 def make_folder(folder: Path) -> None:
-    """The folder and those above it, each known to the one that holds it before anything is put there."""
+    """Return the folder and those above it, each known to the one that holds it before anything is put there."""
     new = [one for one in (folder, *folder.parents) if not one.exists()]
     folder.mkdir(parents=True, exist_ok=True)
     for one in new:
@@ -73,12 +73,12 @@ def _sync_folder(folder: Path) -> None:
 
 
 def is_leftover(path: Path) -> bool:
-    """Whether this is the temporary file of a write that was killed."""
+    """Tell whether this is the temporary file of a write that was killed."""
     return path.name.startswith(".") and path.name.endswith(".tmp")
 
 
 def write_json(path: Path, content: dict) -> None:
-    """A JSON file, whole or not at all."""
+    """Return a JSON file, whole or not at all."""
     text = json.dumps(content, indent=1, sort_keys=True) + "\n"
     write_atomically(path, lambda temporary: Path(temporary).write_text(text, encoding="utf-8"))
 
@@ -88,7 +88,7 @@ MOST_JSON_BYTES = 200_000_000
 
 
 def refuse_link(path: Path) -> None:
-    """What lies in a results folder lies there itself.
+    """Return what lies in a results folder lies there itself.
 
     Errors:
         BadResults: the path is a symbolic link.
@@ -101,7 +101,7 @@ def refuse_link(path: Path) -> None:
 
 
 def read_json(path: Path, most_bytes: int = MOST_JSON_BYTES) -> dict:
-    """A JSON file of ours.
+    """Return a JSON file of ours.
 
     Errors:
         BadResults: missing, a link, too large, no object, or with texts that a terminal would obey.
@@ -124,7 +124,7 @@ def read_json(path: Path, most_bytes: int = MOST_JSON_BYTES) -> dict:
 
 
 def _texts(content) -> Iterator[str]:
-    """Every text of a JSON value, names of fields too."""
+    """Return every text of a JSON value, names of fields too."""
     if isinstance(content, str):
         yield content
     elif isinstance(content, dict):

@@ -4,24 +4,33 @@
     J_E    diag(I, B^-1) J by conversion (3.3), and by differentiating the coordinates of R (3.5)
 
 Condition numbers are of the 2-norm, in metres and radians, over six singular values: of a quaternion's seven rows one
-is dependent. What is not finite has the condition number infinity.
-
-Fails: nowhere; a pose on a singularity is a row like others.
+is dependent. What is not finite has the condition number infinity. The poses are those of `pose_sets`.
 """
 
+from __future__ import annotations
+
 import math
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
-import mujoco
 import numpy as np
-import pandas as pd
 
+import tasks
 from bench.contenders.registry import known_jacobians, known_representations, papers_coordinates
-from bench.experiments.rows.pose_sets import Pose, poses
+from bench.experiments import arm as arms
+from bench.experiments.columns import JOINTS, Column, Table, numbers, singles, words
+from bench.experiments.experiment import Asked, Experiment, Settings, Unit
 from bench.law.contender import Representation
 from bench.law.resolved_motion import Chain
-from bench.law.so3 import Rotation
-from tasks.arm_model import Arm, model_xml
+from tasks.arm_model import Arm
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+    from bench.experiments.jacobians.eye import Eye
+    from bench.experiments.jacobians.pose_sets import Pose
+
+ARM_S, POSE_S = 5.0, 5e-3
+"""CPU seconds of an arm's directed poses, and of each random one."""
 
 LONGEST = 7
 """Joints that the table has columns for."""
@@ -37,34 +46,44 @@ JUMP = 1.0
 """rad: a change of coordinates over one step that is none of the motion's but a wrap."""
 
 
-class Eye:
-    """An arm seen by MuJoCo."""
+def columns() -> list[Column]:
+    """poses.parquet: Jacobians of an arm, a row a pose and representation; metres and radians."""
+    seen = {
+        "condition": "condition number of J, by the judge",
+        "kernel_gap": "largest difference between our J and the judge's, over the largest element",
+        "det": "determinant of J; null unless it is six by six",
+        "margin": "of the representation: 0 on its singular set",
+        "condition_analytic": "condition number of J_E = diag(I, B^-1) J, over six singular values",
+        "largest": "largest element of J_E's rows of orientation, in size",
+        "det_analytic": "determinant of J_E; null unless it is six by six",
+        "det_gap": "Z-Y-X: |det J_E + det J / cos(beta)|, our J, over the product of J_E's row norms",
+        "derivation_gap": "largest difference between J_E converted and differentiated, over the largest element; on a "
+        "slice of Z-Y-X alone",
+        "difference_gap": "Z-Y-X, but on a slice: likewise, J_E and central differences of the judge's kinematics",
+    }
+    return [
+        *words(
+            arm="manipulator",
+            pose_set="named, random, slice or pole",
+            pose_id="pose within its set",
+            representation="coordinates of J_E",
+        ),
+        *JOINTS,
+        *numbers("rad", "Z-Y-X angle beta of the tool", "beta"),
+        *singles(**{name: ("1", meaning) for name, meaning in seen.items()}),
+    ]
 
-    def __init__(self, arm: Arm):
-        self.model = mujoco.MjModel.from_xml_string(model_xml(arm, 1e-3))
-        self.data = mujoco.MjData(self.model)
-        self.site = self.model.site("tool").id
-        self.n = arm.joints
 
-    def rotation(self, q) -> Rotation:
-        """The tool's orientation."""
-        self.data.qpos[:] = q
-        mujoco.mj_kinematics(self.model, self.data)
-        m = self.data.site_xmat[self.site]
-        return Rotation((m[0], m[3], m[6]), (m[1], m[4], m[7]), (m[2], m[5], m[8]))
+def units(asked: Asked) -> tuple[Unit, ...]:
+    """Return a unit for each arm that episodes are run on; `count` random poses."""
+    count = asked.suite.on_arms.poses
+    names = dict.fromkeys(unit.arm for unit in arms.units(asked) if count)
+    return tuple(of_arm(name, count) for name in names)
 
-    def position(self) -> np.ndarray:
-        """Its position, where `rotation` was last called [m]."""
-        return self.data.site_xpos[self.site].copy()
 
-    def look(self, q) -> tuple[Chain, np.ndarray]:
-        """What a controller sees of a pose, at rest; and J."""
-        R = self.rotation(q)
-        mujoco.mj_comPos(self.model, self.data)
-        J = np.empty((6, self.n))
-        mujoco.mj_jacSite(self.model, self.data, J[:3], J[3:], self.site)
-        data = self.data
-        return Chain(self.n, data.xaxis.copy(), data.xanchor.copy(), np.zeros(self.n), tuple(self.position()), R), J
+def of_arm(name: str, count: int) -> Unit:
+    """Return the unit of an arm, with so many random poses."""
+    return Unit("jacobians", arm=name, count=count, total=count)
 
 
 class Seen(NamedTuple):
@@ -76,10 +95,15 @@ class Seen(NamedTuple):
     ours: np.ndarray
 
 
-def frame(arm: Arm, count: int, seed: int) -> pd.DataFrame:
-    """The rows of one arm."""
-    eye = Eye(arm)
-    chosen = poses(arm, count, seed)
+def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
+    """Return one row a pose and representation."""
+    import pandas as pd
+
+    from bench.experiments.jacobians.eye import Eye
+    from bench.experiments.jacobians.pose_sets import poses
+
+    arm = tasks.arm(unit.arm)
+    eye, chosen = Eye(arm), poses(arm, unit.count, settings.seed)
     with np.errstate(all="ignore"):
         chains, Js = zip(*(eye.look(pose.q) for pose in chosen), strict=True)
         ours = filled("geometric", None, chains, chains)
@@ -90,7 +114,7 @@ def frame(arm: Arm, count: int, seed: int) -> pd.DataFrame:
 
 
 def _shared(arm: Arm, seen: Seen) -> dict:
-    """The columns that are the same in every representation."""
+    """Return the columns that are the same in every representation."""
     q = np.full((len(seen.poses), LONGEST), np.nan)
     q[:, : arm.joints] = [pose.q for pose in seen.poses]
     return {
@@ -106,7 +130,7 @@ def _shared(arm: Arm, seen: Seen) -> dict:
 
 
 def _of(eye: Eye, seen: Seen, one: Representation) -> dict:
-    """The columns of one representation."""
+    """Return the columns of one representation."""
     charts = [one.chart(chain.R) for chain in seen.chains]
     J_E = filled("analytic", one, seen.chains, charts)
     margin = np.array([one.margin(chain.R) for chain in seen.chains], dtype=float)
@@ -132,7 +156,7 @@ def _of(eye: Eye, seen: Seen, one: Representation) -> dict:
 
 
 def filled(jacobian: str, representation: Representation | None, chains, charts) -> np.ndarray:
-    """The Jacobian of that name at every pose, N x rows x n."""
+    """Compute the Jacobian of that name at every pose, N x rows x n."""
     fill = known_jacobians()[jacobian].kernels_in(representation)[0]
     rows = 3 + len(representation.symbols) if representation else 6
     Js = np.empty((len(chains), rows, chains[0].n))
@@ -142,7 +166,7 @@ def filled(jacobian: str, representation: Representation | None, chains, charts)
 
 
 def conditions(J: np.ndarray) -> np.ndarray:
-    """Largest over sixth singular value of each; infinite where an element is not finite."""
+    """Compute largest over sixth singular value of each; infinite where an element is not finite."""
     good = np.isfinite(J).all(axis=(1, 2))
     s = np.linalg.svd(np.where(good[:, None, None], J, 0.0), compute_uv=False)
     with np.errstate(all="ignore"):
@@ -150,17 +174,17 @@ def conditions(J: np.ndarray) -> np.ndarray:
 
 
 def determinants(J: np.ndarray) -> np.ndarray:
-    """det of each six by six; NaN of other shapes."""
+    """Compute det of each six by six; NaN of other shapes."""
     return np.linalg.det(J) if J.shape[1:] == (6, 6) else np.full(len(J), np.nan)
 
 
 def gap(one: np.ndarray, other: np.ndarray) -> np.ndarray:
-    """Largest difference of elements over the largest element of `other`."""
+    """Compute the largest difference of elements over the largest element of `other`."""
     return abs(one - other).max(axis=(1, 2)) / abs(other).max(axis=(1, 2))
 
 
 def _det_gap(J: np.ndarray, J_E: np.ndarray, cos_beta: np.ndarray) -> np.ndarray:
-    """|det J_E + det J / cos(beta)| over the product of J_E's row norms, which rounding of a determinant goes by.
+    """Compute |det J_E + det J / cos(beta)| over the product of J_E's row norms, the scale of a determinant's rounding.
 
     J is ours: an element near zero is known to eps of a metre only, so that MuJoCo's and ours differ by all of it.
     """
@@ -169,7 +193,7 @@ def _det_gap(J: np.ndarray, J_E: np.ndarray, cos_beta: np.ndarray) -> np.ndarray
 
 
 def _differences(eye: Eye, one: Representation, qs: np.ndarray, margin: np.ndarray) -> np.ndarray:
-    """Central differences of position and coordinates, N x rows x n; NaN beside a jump of the coordinates."""
+    """Compute central differences of position and coordinates, N x rows x n; NaN beside a jump of the coordinates."""
     ends = np.empty((2, len(qs), 3 + len(one.symbols), eye.n))
     steps = np.empty((2, len(qs), eye.n))
     for place, (q, h) in enumerate(zip(qs, STEP * margin, strict=True)):
@@ -183,3 +207,15 @@ def _differences(eye: Eye, one: Representation, qs: np.ndarray, margin: np.ndarr
     change = np.where(abs(change) > JUMP, np.remainder(change + math.pi, math.tau) - math.pi, change)
     change = np.where(abs(change).max(axis=(1, 2), keepdims=True) > JUMP, np.nan, change)
     return change / (steps[0] - steps[1])[:, None, :]
+
+
+EXPERIMENT = Experiment(
+    "jacobians",
+    "Jacobians over an arm's poses",
+    Table("poses", columns, ("arm", "pose_set", "pose_id", "representation")),
+    units,
+    rows,
+    takes=("tasks", "arms"),
+    cost_s=lambda unit: ARM_S + POSE_S * unit.count,
+    compiles=False,
+)

@@ -1,87 +1,6 @@
-"""Tables of everything else: a hand in contact, poses, operations, times, and other libraries."""
+"""Tables that no experiment makes: times, shares of a study of perturbations, and what other libraries answer."""
 
-from bench.metrics.registry import known_contact_metrics
-from bench.tables.column import COUNT, NUMBER, SINGLE, Column, numbers, words
-from bench.tables.motion_columns import CONTENDER
-
-
-def compliance_columns() -> list[Column]:
-    """compliance.parquet: a hand in contact, a row a pose and controller; every contact metric found adds its column.
-
-    Null where a number has no meaning: a metric of another task, or of an episode that broke off too early.
-    """
-    measured = [Column(one.column, NUMBER, one.unit, one.title) for one in known_contact_metrics().values()]
-    about = "measured rotation about {} per moment about {}, base frame; least squares over the pose's small moments"
-    return [
-        *words(
-            suite="plan the row belongs to",
-            task="what the hand does",
-            arm="manipulator",
-            controller="hybrid control along axes of the base or the hand, or coordinates; or an impedance",
-            representation="coordinates the controller acts on; empty for none",
-            form="inverse, projected or transpose: how a hybrid controller's rows become torques; empty for others",
-            pose="where the hand is, and what is asked of it",
-            complies="what the order lets comply; an impedance complies along and about all axes whatever it says",
-        ),
-        *numbers("rad", "Z-Y-X Euler angles of the hand's goal", "alpha", "beta", "gamma"),
-        *numbers("rad", "angle by which the surroundings differ from what the order supposes", "tilt"),
-        *numbers("1/s^2", "position gain", "kp"),
-        *numbers("1/s", "velocity gain", "kv"),
-        *numbers("kg", "apparent mass", "m_p"),
-        *numbers("kg m^2", "apparent inertia", "m_o"),
-        *numbers("1/s", "damping of what complies", "kc"),
-        *numbers("1", "gain on the error of force, of the form transpose", "kf"),
-        *numbers("s", "control period and integration step", "dt_s"),
-        *words(integrator="how the plant is integrated"),
-        *numbers("s", "time simulated", "horizon_s"),
-        Column("trials", COUNT, "1", "episodes of the pose"),
-        *words(outcome="the worst of its episodes: done, singular, saturated, diverged or broken (MuJoCo gave up)"),
-        *words(rest="at-rest or creeping (not at rest by the horizon); empty of tasks without an end, and failures"),
-        *numbers("s", "time at which the first of the worst episodes failed; null if all are done", "failure_time_s"),
-        *measured,
-        *(Column(f"c_{i}{j}", NUMBER, "rad/(N m)", about.format(i, j)) for i in "xyz" for j in "xyz"),
-    ]
-
-
-def pose_columns() -> list[Column]:
-    """poses.parquet: Jacobians of an arm, a row a pose and representation; metres and radians."""
-    singles = {
-        "condition": "condition number of J, by the judge",
-        "kernel_gap": "largest difference between our J and the judge's, over the largest element",
-        "det": "determinant of J; null unless it is six by six",
-        "margin": "of the representation: 0 on its singular set",
-        "condition_analytic": "condition number of J_E = diag(I, B^-1) J, over six singular values",
-        "largest": "largest element of J_E's rows of orientation, in size",
-        "det_analytic": "determinant of J_E; null unless it is six by six",
-        "det_gap": "Z-Y-X: |det J_E + det J / cos(beta)|, our J, over the product of J_E's row norms",
-        "derivation_gap": "largest difference between J_E converted and differentiated, over the largest element; on a "
-        "slice of Z-Y-X alone",
-        "difference_gap": "Z-Y-X, but on a slice: likewise, J_E and central differences of the judge's kinematics",
-    }
-    return [
-        *words(
-            arm="manipulator",
-            pose_set="named, random, slice or pole",
-            pose_id="pose within its set",
-            representation="coordinates of J_E",
-        ),
-        *numbers("rad", "joint angles; null where there is no such joint", *(f"q_{i}" for i in range(1, 8))),
-        *numbers("rad", "Z-Y-X angle beta of the tool", "beta"),
-        *(Column(name, SINGLE, "1", meaning) for name, meaning in singles.items()),
-    ]
-
-
-def cost_columns() -> list[Column]:
-    """costs.parquet: operations a tick, by stage and branch."""
-    from bench.counting import OPERATIONS
-
-    return [
-        *CONTENDER,
-        Column("joints", COUNT, "1", "joints of the arm; 0 on the free body, where a law is all there is"),
-        *words(branch="typical or worst", stage="part of the tick, or total"),
-        *(Column(name, COUNT, "1", f"{name} operations a tick") for name in OPERATIONS),
-        Column("flops", COUNT, "1", "add + mul + div + sqrt; transcendental functions apart"),
-    ]
+from bench.experiments.columns import CONTENDER_KEY, LEVEL, LEVEL_KEY, Column, Table, counts, numbers, words
 
 
 def timing_columns() -> list[Column]:
@@ -111,14 +30,16 @@ def timing_columns() -> list[Column]:
             "1", "dm-control: its time a tick over native's of the same pass; threads: one's time over two's", "speedup"
         ),
         *numbers("1", "interval of that median, 95 % by order statistics", "speedup_low", "speedup_high"),
-        Column("passes", COUNT, "1", "passes; of threads: repetitions"),
-        Column("ticks", COUNT, "1", "ticks of one round; 0 if the law fails and could not be timed"),
+        *counts(
+            passes="passes; of threads: repetitions",
+            ticks="ticks of one round; 0 if the law fails and could not be timed",
+        ),
     ]
 
 
 def library_columns() -> list[Column]:
     """libraries/libraries.parquet: what robot libraries say at the same turns, a row a function and set."""
-    counts = {
+    how_many = {
         "turns": "how many were asked for",
         "raised": "of them, those that raised an error",
         "not_finite": "those answered with what is no number",
@@ -141,7 +62,7 @@ def library_columns() -> list[Column]:
         ),
         *numbers("rad", "angle of every turn of the set; null if they differ", "angle_rad"),
         *numbers("rad", "how much every turn of the set is short of half a turn; null if they differ", "distance_rad"),
-        *(Column(name, COUNT, "1", meaning) for name, meaning in counts.items()),
+        *counts(**how_many),
         *numbers("rad", "largest |e - theta k|, theta and k known; null if no answer is a number", "error_rad"),
         *numbers("rad", "largest error against its own closed form; of angles, of the turn rebuilt", "form_error_rad"),
         *numbers(
@@ -153,7 +74,7 @@ def library_columns() -> list[Column]:
 
 def closed_loop_columns() -> list[Column]:
     """libraries/closed_loop.parquet: libraries' errors and controllers on the free body, a row an angle and sheet."""
-    counts = {
+    how_many = {
         "starts": "how many",
         "settled": "of them, those that settled as the judge says (tasks/rules.py)",
         "dead": "those that never move: at rest, and the command exactly zero",
@@ -174,7 +95,7 @@ def closed_loop_columns() -> list[Column]:
             sheet="near: from the quaternion whose scalar is not negative; antipode: from the other one",
         ),
         *numbers("deg", "angle of the starts; at 180 exactly", "angle_deg"),
-        *(Column(name, COUNT, "1", meaning) for name, meaning in counts.items()),
+        *counts(**how_many),
         *numbers("s", "settling time of the fastest and of the slowest that settled", "fastest_s", "slowest_s"),
         *numbers("1", "stiffness felt near the goal over the one set; null for controllers", "stiffness_ratio"),
         *numbers(
@@ -197,3 +118,25 @@ def verdict_columns() -> list[Column]:
         fixed="faults that an earlier version had and this one has not",
         fixed_since="that earlier version",
     )
+
+
+def perturbed_columns() -> list[Column]:
+    """robustness/perturbed.parquet: the perturbed free body from hundreds of starts, a row a law and level."""
+    return [
+        *LEVEL,
+        *counts(
+            starts="how many, the same for every law",
+            good="of them, those that settled; where it lasts, those left within 3 degrees rms",
+        ),
+        *numbers("s", "median settling time, those that never settle counted as infinite", "median_s"),
+        *numbers("s", "longest settling time of those that settled; null if none did", "longest_s"),
+    ]
+
+
+STUDIED = (
+    Table("perturbed", perturbed_columns, LEVEL_KEY),
+    Table("timings", timing_columns, ("what", "arm", *CONTENDER_KEY, "engine")),
+    Table("libraries", library_columns, ("library", "function", "takes", "turn_set")),
+    Table("closed_loop", closed_loop_columns, ("library", "function", "kind", "sheet", "angle_deg")),
+    Table("verdicts", verdict_columns, ("library", "function", "takes")),
+)

@@ -9,12 +9,17 @@ Fails: an episode that is neither DOUBTFUL in conditioning nor in torque, and ha
 seen. Under other BLAS kernels, compiler targets and C libraries' variants of sin and cos there was none.
 """
 
+from __future__ import annotations
+
 from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
-import pandas as pd
 
 from tasks.base import Start
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 NUDGE = 1e-12
 """[rad]. Joint angles are rounded to 4e-16; two libraries' sines and some 1e3 ticks make 1e-14 of that."""
@@ -34,7 +39,7 @@ BESIDE, CHANGE = "outcome_beside", "rounding_change"
 def judged_on_both_sides(
     rows: pd.DataFrame, starts: Sequence[Start], again: Callable[[list[Start]], pd.DataFrame]
 ) -> pd.DataFrame:
-    """The rows of episodes on an arm, with the columns BESIDE and CHANGE.
+    """Return the rows of episodes on an arm, with the columns BESIDE and CHANGE.
 
     BESIDE: the other outcome found beside the start; empty if there is none, or the episode is not doubtful.
     CHANGE: the largest relative change of any number of the row beside its start; null if not doubtful.
@@ -55,12 +60,12 @@ def judged_on_both_sides(
 
 
 def nudged(start: Start, by: float) -> Start:
-    """The same start and goal, every joint turned by so much [rad]."""
+    """Return the same start and goal, every joint turned by so much [rad]."""
     return start._replace(q=tuple(angle + by for angle in start.q))
 
 
 def _change(here: pd.DataFrame, there: pd.DataFrame) -> np.ndarray:
-    """Of each row the largest relative change of a number; infinite where one of them is none."""
+    """Return the largest relative change of a number in each row; infinite where one of them is none."""
     a, b = (frame.select_dtypes("number").to_numpy(float) for frame in (here, there))
     size = np.fmax(abs(a), abs(b))
     with np.errstate(invalid="ignore", divide="ignore"):

@@ -14,8 +14,8 @@ from bench.control.contact_controller import ContactController
 from bench.control.registry import all_controllers, find_controller
 from bench.errors import Incompatible
 from bench.experiments.choice import Choice
-from bench.experiments.experiment import EVERYTHING, Asked, Experiment, Settings, Unit
-from bench.tables.schema import TABLES
+from bench.experiments.contact.rows import TABLE, frame
+from bench.experiments.experiment import Asked, Experiment, Settings, Unit
 from tasks.base import BadValue
 
 if TYPE_CHECKING:
@@ -36,14 +36,16 @@ DENSE = "dense"
 
 @functools.lru_cache(maxsize=8)
 def units(asked: Asked) -> tuple[Unit, ...]:
-    """The units of a suite's part in contact, narrowed or widened by what the user named; `count` poses of each task.
+    """Return the units of a suite's part in contact, narrowed or widened by the user; `count` poses of each task.
 
     Errors:
         BadValue: an arm that was named cannot be set a task that was. Incompatible: no controller is left.
     """
     part, choice = asked.suite.in_contact, asked.choice
-    if not choice.takes_contact:
-        return ()
+    if asked.own and choice.is_about_contact and set(choice.tasks) <= set(tasks.contact_names()):
+        raise Incompatible(
+            f"tasks in contact take controllers, not the regulator '{asked.own[0].name}' (leave --law away)"
+        )
     found: list[Unit] = []
     pairs = [(task, arm) for task in _tasks(choice) for arm in _arms(task, choice)]
     for task, arm in pairs:
@@ -63,8 +65,13 @@ def units(asked: Asked) -> tuple[Unit, ...]:
 
 
 def _tasks(choice: Choice) -> list[ContactTask]:
-    named = [word for word in choice.tasks if word in tasks.contact_names()]
-    return [tasks.contact_task(word) for word in named or tasks.contact_names()]
+    others = [word for word in choice.tasks if word not in tasks.contact_names()]
+    if choice.controllers and others:
+        raise Incompatible(
+            f"task '{others[0]}' takes regulators and no controller '{choice.controllers[0]}' (try: --task "
+            f"{tasks.contact_names()[0]})"
+        )
+    return [tasks.contact_task(word) for word in choice.tasks or tasks.contact_names() if word not in others]
 
 
 def _controllers(words: tuple[str, ...], choice: Choice) -> list[ContactController]:
@@ -81,7 +88,7 @@ def _arms(task: ContactTask, choice: Choice) -> list[Arm]:
 
 
 def can_do(task: ContactTask, arm: Arm, or_refuse: bool = False) -> bool:
-    """Whether an arm can be set a task.
+    """Tell whether an arm can be set a task.
 
     Errors:
         BadValue: it cannot, and `or_refuse` asks for the reason.
@@ -106,7 +113,7 @@ def cut(
     horizon_s: float,
     longest_s: float = LONGEST_S,
 ) -> Iterator[Unit]:
-    """The units of a controller on a task's first so many poses."""
+    """Return the units of a controller on a task's first so many poses."""
     every = poses_of(one, task, arm, dense)[:size]
     step = max(1, int(longest_s / (max(map(len, every)) * horizon_s)))
     for first in range(0, len(every), step):
@@ -126,7 +133,7 @@ def cut(
 
 
 def poses_of(one: ContactController, task: ContactTask, arm: Arm, dense: bool) -> tuple[tuple[Trial, ...], ...]:
-    """The trials that a controller is set, by pose, in the task's order.
+    """Return the trials that a controller is set, by pose, in the task's order.
 
     To an impedance, which heeds no selection, trials that differ in nothing else are the same, and it is set the first.
     """
@@ -154,9 +161,8 @@ def _without_selection(trials: tuple[Trial, ...]) -> Iterator[Trial]:
 
 
 def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
-    """One row a pose."""
+    """Return one row a pose."""
     from bench.engines.contact_episode import Conditions
-    from bench.experiments.rows.contact import frame
 
     one, arm = find_controller(unit.contender), tasks.arm(unit.arm)
     task = tasks.contact_task(unit.task)
@@ -168,10 +174,10 @@ def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
 EXPERIMENT = Experiment(
     "contact",
     "controllers of a hand in contact",
-    TABLES["compliance"],
+    TABLE,
     units,
     rows,
-    takes=EVERYTHING,
+    takes=("tasks", "arms", "controllers", "representations"),
     cost_s=lambda unit: unit.episodes * TRIAL_S,
     rank=2,
 )

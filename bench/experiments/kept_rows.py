@@ -6,14 +6,14 @@ from pathlib import Path
 
 from bench.engines import cache
 from bench.errors import BadResults
+from bench.files import read_json, write_json
 from bench.provenance import source_digest
-from bench.tables.files import read_json, write_json
 
 Rows = list[dict]
 
 
 def kept(name: str, make: Callable[[], Rows], folder: Path = cache.FOLDER, sources: str = "") -> Rows:
-    """What `make` gave when it was first called by that name for these sources; none named: this checkout's.
+    """Return what `make` gave when it was first called by that name for these sources; none named: this checkout's.
 
     Args:
         name: kind/name. make: all its rows have the same columns, of numbers, words, or lists of them.

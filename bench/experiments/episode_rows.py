@@ -1,9 +1,11 @@
-"""From numbers to rows: what an engine gives back, as columns of episodes.parquet."""
+"""Rows of episodes without contact: their columns, and how they are made of what an engine gives back."""
+
+from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING
 
 import numpy as np
-import pandas as pd
 
 import tasks
 from bench.contenders.representations.zyx_euler import chart
@@ -19,8 +21,25 @@ from bench.engines.episode import (
     TICKS,
     blank,
 )
+from bench.experiments.columns import (
+    ANGLE0,
+    CONTENDER,
+    CONTENDER_KEY,
+    GAINS,
+    HORIZON,
+    JUDGED,
+    NUMBER,
+    START,
+    STEPPED_DT,
+    SUITE,
+    Column,
+    Table,
+    counts,
+    numbers,
+    words,
+)
 from bench.experiments.experiment import Settings, Unit
-from bench.experiments.rows.rounding import BESIDE, CHANGE
+from bench.experiments.rounding import BESIDE, CHANGE
 from bench.law.contender import Contender
 from bench.law.so3 import from_quaternion
 from bench.metrics.metric import Ending
@@ -30,30 +49,85 @@ from tasks.rules import RULES
 from tasks.truth import angle
 from tasks.verdict import OUTCOMES
 
+if TYPE_CHECKING:
+    import pandas as pd
+
 INTEGRATORS = {"ideal-rk4": "rk4", "ideal-held": "magnus4"}
 
 
+def columns() -> list[Column]:
+    """episodes.parquet: one row an episode; every metric found adds its column."""
+    return [
+        *SUITE,
+        *words(
+            task="plant and goal",
+            arm="manipulator; empty for the free body",
+            variation="how the plant differs from the controller's model of it; nominal if it does not",
+        ),
+        *CONTENDER,
+        *words(engine="what simulated the episode"),
+        *START,
+        *numbers("1", "initial orientation, body to base, unit quaternion", "quat_w", "quat_x", "quat_y", "quat_z"),
+        *numbers("rad", "Z-Y-X Euler angles of the initial orientation", "alpha0", "beta0", "gamma0"),
+        *ANGLE0,
+        *numbers("rad/s", "initial angular velocity, base frame", "omega0_x", "omega0_y", "omega0_z"),
+        *numbers("1", "goal orientation, unit quaternion", "goal_quat_w", "goal_quat_x", "goal_quat_y", "goal_quat_z"),
+        *GAINS,
+        *STEPPED_DT,
+        *words(integrator="how the plant is integrated"),
+        *numbers("s", "shortest step of integration", "step_s"),
+        *words(
+            converged="on ideal-rk4 yes or no: whether half the step changes no outcome and moves no settling time by "
+            "more than a control period; empty on others"
+        ),
+        *HORIZON,
+        *numbers("1", "settling band over initial angle", "tolerance"),
+        *numbers("s", "how long a settled body is at rest, or an early stop under a hundredth of the band", "hold_s"),
+        *JUDGED,
+        *(Column(one.column, NUMBER, one.unit, one.title) for one in known_metrics().values()),
+        *numbers(
+            "1",
+            "largest condition number of the tool's Jacobian (SI units), looked at every 8 ticks, by the judge",
+            "cond_jacobian_max",
+        ),
+        *words(
+            cause="what a failed episode on an arm was near: representation, kinematic, both, torque or law",
+            outcome_beside="on an arm, the other outcome of the same start with its joints turned by 1e-12 rad: "
+            "rounding decides; empty if there is none",
+        ),
+        *numbers(
+            "1",
+            "largest relative change of this row's numbers by those 1e-12 rad; null if the episode came near no "
+            "singularity and no hundredfold rated torque",
+            "rounding_change",
+        ),
+        *counts(ticks="control periods simulated"),
+    ]
+
+
+TABLE = Table(
+    "episodes", columns, ("suite", "task", "arm", "variation", *CONTENDER_KEY, "engine", "start_set", "start_id")
+)
+"""The table of `free_body` and `arm`."""
+
+
 def contender_columns(one: Contender) -> dict:
-    """The columns that say which law a row is about."""
+    """Return the values of the columns CONTENDER."""
     coordinates = one.representation.name if one.representation else ""
-    jacobian, inverse = one.way
-    return {
-        "regulator": one.regulator.name,
-        "representation": coordinates,
-        "jacobian": jacobian,
-        "inverse": inverse,
-    }
+    return dict(zip(CONTENDER_KEY, (one.regulator.name, coordinates, *one.way), strict=True))
 
 
 def frame(settings: Settings, unit: Unit, contender: Contender, starts, numbers: np.ndarray, metrics) -> pd.DataFrame:
-    """The rows of one unit."""
+    """Return the rows of one unit."""
+    import pandas as pd
+
     angles = np.array([chart(from_quaternion(start.quat_wxyz)).E for start in starts])
     quats = np.array([start.quat_wxyz for start in starts])
     omegas = np.array([start.omega for start in starts])
     goals = np.array([start.goal_wxyz for start in starts])
     angle0 = [angle(start.quat_wxyz, start.goal_wxyz) for start in starts]
     judged = judged_columns(numbers, settings.dt_s)
-    columns = {
+    found = {
         "suite": settings.suite,
         "task": unit.task,
         "arm": unit.arm,
@@ -78,13 +152,13 @@ def frame(settings: Settings, unit: Unit, contender: Contender, starts, numbers:
         **judged,
         "ticks": numbers[:, TICKS].astype(np.int64),
     }
-    columns |= measured_columns(numbers, metrics, angle0, judged)
+    found |= measured_columns(numbers, metrics, angle0, judged)
     seen = _seen_on_arm(unit.arm, numbers) if unit.arm else np.full(len(starts), np.nan)
-    margins = columns["min_margin"]
+    margins = found["min_margin"]
     return pd.DataFrame(
         {
             **dict.fromkeys((one.column for one in known_metrics().values()), np.nan),
-            **columns,
+            **found,
             "cond_jacobian_max": seen,
             "cause": [cause(*near) if unit.arm else "" for near in zip(judged["outcome"], margins, seen, strict=True)],
             BESIDE: "",
@@ -94,22 +168,22 @@ def frame(settings: Settings, unit: Unit, contender: Contender, starts, numbers:
 
 
 def lost_frame(settings: Settings, unit: Unit, starts, outcome: str) -> pd.DataFrame:
-    """The rows of episodes that a user's law never came back from: what was asked, the outcome, no measure."""
+    """Return rows of episodes that a user's law never came back from: the settings and the outcome, no measure."""
     metrics = metrics_of(on_arm=bool(unit.arm))
-    numbers = lost((blank_arm if unit.arm else blank)(len(starts), metrics), outcome)
+    numbers = lost_numbers((blank_arm if unit.arm else blank)(len(starts), metrics), outcome)
     made = frame(settings, unit, settings.contender(unit.contender), starts, numbers, metrics)
     return made.assign(**dict.fromkeys((metric.column for metric in metrics), np.nan), cond_jacobian_max=np.nan)
 
 
-def lost(numbers: np.ndarray, outcome: str) -> np.ndarray:
-    """Blank rows of `engines.episode` as those of episodes that a user's law never came back from."""
+def lost_numbers(numbers: np.ndarray, outcome: str) -> np.ndarray:
+    """Turn blank rows of `engines.episode` into those of episodes that a user's law never came back from."""
     numbers[:, [OUTCOME, SETTLING_TICK, FAILURE_TICK]] = OUTCOMES.index(outcome), NEVER, NEVER
     numbers[:, FINAL_ANGLE] = np.nan
     return numbers
 
 
 def judged_columns(numbers: np.ndarray, dt_s: float) -> dict:
-    """The columns that say how episodes ended, from rows of `engines.episode`."""
+    """Return the values of the columns JUDGED, from rows of `engines.episode`."""
     return {
         "outcome": [OUTCOMES[int(code)] for code in numbers[:, OUTCOME]],
         "settling_time_s": _time(numbers[:, SETTLING_TICK], dt_s),
@@ -119,7 +193,7 @@ def judged_columns(numbers: np.ndarray, dt_s: float) -> dict:
 
 
 def measured_columns(numbers: np.ndarray, metrics, angle0: list[float], judged: dict) -> dict:
-    """The columns of the metrics, each finished by how its episode began and ended."""
+    """Return the columns of the metrics, each finished by how its episode began and ended."""
     endings = [
         Ending(start, final, RULES.band_rad(start), outcome)
         for start, final, outcome in zip(angle0, judged["final_angle_rad"], judged["outcome"], strict=True)
@@ -131,7 +205,7 @@ def measured_columns(numbers: np.ndarray, metrics, angle0: list[float], judged: 
 
 
 def _steps(numbers: np.ndarray, dt_s: float) -> dict:
-    """The step of integration, and whether it was short enough where that was asked (`engines.convergence`)."""
+    """Return the step of integration, and whether it was short enough where that was asked (`engines.convergence`)."""
     step_s = numbers[:, STEP]
     return {
         "step_s": np.where(step_s == 0.0, dt_s, np.abs(step_s)),
@@ -140,7 +214,7 @@ def _steps(numbers: np.ndarray, dt_s: float) -> dict:
 
 
 def _seen_on_arm(arm: str, numbers: np.ndarray) -> list[float]:
-    """The judge's condition number where each episode was worst conditioned; infinite if the angles are no numbers."""
+    """Return the judge's condition number where each episode was worst conditioned; infinite where angles are NaN."""
     from tasks.kinematics import kinematics  # MuJoCo takes a moment to import; the ideal plant needs none
 
     judge = kinematics(tasks.arm(arm))

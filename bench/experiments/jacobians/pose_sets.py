@@ -49,24 +49,24 @@ COARSE = 13
 
 
 def poses(arm: Arm, count: int, seed: int) -> list[Pose]:
-    """Every set; `random` has so many poses, the slice about twice as many."""
+    """Return every set; `random` has so many poses, the slice about twice as many."""
     kin = Kinematics(arm)
     return [*named(arm), *random(arm, count, seed), *sliced(kin, math.isqrt(2 * count) | 1), *pole(kin, seed)]
 
 
 def named(arm: Arm) -> list[Pose]:
-    """The keyframes."""
+    """Return the keyframes."""
     return [Pose("named", name, q) for name, q in arm.poses]
 
 
 def random(arm: Arm, count: int, seed: int) -> list[Pose]:
-    """A scrambled Halton sequence over the joint ranges."""
+    """Return a scrambled Halton sequence over the joint ranges."""
     points = enumerate(halton(count, arm.joints, seed))
     return [Pose("random", f"{i:04d}", tuple(spread(arm, point).tolist())) for i, point in points]
 
 
 def sliced(kin: Kinematics, side: int) -> list[Pose]:
-    """A grid of the two joints that `pair` chooses; the id names them and the place, as in q4-q5-07-33."""
+    """Return a grid of the two joints that `pair` chooses; the id names them and the place, as in q4-q5-07-33."""
     i, j = pair(kin)
     return [
         Pose("slice", f"q{i + 1}-q{j + 1}-{row:02d}-{column:02d}", q) for (row, column), q in grid(kin.arm, i, j, side)
@@ -84,7 +84,7 @@ def grid(arm: Arm, i: int, j: int, side: int) -> Iterator[tuple[tuple[int, int],
 
 
 def pair(kin: Kinematics) -> tuple[int, int]:
-    """The two joints whose grid comes nearest to both kinds of singularity.
+    """Return the two joints whose grid comes nearest to both kinds of singularity.
 
     The kinematic kind by its least 1/cond J over the middle one, the representation's by its least cos(beta) where J is
     well conditioned; the larger of the two is the pair's distance.
@@ -112,7 +112,7 @@ def pole(kin: Kinematics, seed: int) -> list[Pose]:
 
 
 def towards_pole(kin: Kinematics, q: np.ndarray, sign: float) -> list[tuple[float, ...]] | None:
-    """The poses at 10^-1 to 10^-12 from beta = sign pi/2, and on it; None if the arm does not get there well."""
+    """Return the poses at 10^-1 to 10^-12 from beta = sign pi/2, and on it; None if the arm does not get there well."""
     if kin.condition(q) > WELL_CONDITIONED:
         return None
     p, quat = kin.pose(q)

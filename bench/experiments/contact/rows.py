@@ -1,0 +1,134 @@
+"""Columns and rows of tasks in contact: a pose a row of compliance.parquet.
+
+A record is folded into numbers as soon as the trials of its pose are there, and then dropped: it is 25 doubles a tick.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from bench.contenders.representations.zyx_euler import chart
+from bench.control.contact_controller import ContactController
+from bench.experiments.columns import GAINS, NUMBER, STEPPED_DT, SUITE, Column, Table, counts, numbers, words
+from bench.law.so3 import from_quaternion
+from bench.metrics.contact_metric import Pose, response
+from bench.metrics.measured_compliance import compliance
+from bench.metrics.registry import known_contact_metrics
+from tasks.arm_model import Arm
+from tasks.contact import ContactTask, Trial
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+    from bench.engines.contact_episode import Conditions, Ended
+
+DONE, *_ = WORST_LAST = ("done", "singular", "saturated", "diverged", "broken")
+"""Outcomes of `engines.contact_episode`; a pose has the worst of its trials'."""
+
+AT_REST, CREEPING = "at-rest", "creeping"
+
+MEASURED = tuple(f"c_{i}{j}" for i in "xyz" for j in "xyz")
+
+
+def columns() -> list[Column]:
+    """compliance.parquet: a hand in contact, a row a pose and controller; every contact metric found adds its column.
+
+    Null where a number has no meaning: a metric of another task, or of an episode that broke off too early.
+    """
+    measured = [Column(one.column, NUMBER, one.unit, one.title) for one in known_contact_metrics().values()]
+    about = "measured rotation about {} per moment about {}, base frame; least squares over the pose's small moments"
+    return [
+        *SUITE,
+        *words(
+            task="what the hand does",
+            arm="manipulator",
+            controller="hybrid control along axes of the base or the hand, or coordinates; or an impedance",
+            representation="coordinates the controller acts on; empty for none",
+            form="inverse, projected or transpose: how a hybrid controller's rows become torques; empty for others",
+            pose="where the hand is, and what is asked of it",
+            complies="what the order lets comply; an impedance complies along and about all axes whatever it says",
+        ),
+        *numbers("rad", "Z-Y-X Euler angles of the hand's goal", "alpha", "beta", "gamma"),
+        *numbers("rad", "angle by which the surroundings differ from what the order supposes", "tilt"),
+        *GAINS,
+        *numbers("kg", "apparent mass", "m_p"),
+        *numbers("kg m^2", "apparent inertia", "m_o"),
+        *numbers("1/s", "damping of what complies", "kc"),
+        *numbers("1", "gain on the error of force, of the form transpose", "kf"),
+        *STEPPED_DT,
+        *words(integrator="how the plant is integrated"),
+        *numbers("s", "time simulated", "horizon_s"),
+        *counts(trials="episodes of the pose"),
+        *words(outcome="the worst of its episodes: done, singular, saturated, diverged or broken (MuJoCo gave up)"),
+        *words(rest="at-rest or creeping (not at rest by the horizon); empty of tasks without an end, and failures"),
+        *numbers("s", "time at which the first of the worst episodes failed; null if all are done", "failure_time_s"),
+        *measured,
+        *(Column(f"c_{i}{j}", NUMBER, "rad/(N m)", about.format(i, j)) for i in "xyz" for j in "xyz"),
+    ]
+
+
+TABLE = Table("compliance", columns, ("suite", "task", "arm", "controller", "representation", "form", "pose"))
+
+
+def frame(
+    suite: str,
+    controller: ContactController,
+    task: ContactTask,
+    arm: Arm,
+    poses: tuple[tuple[Trial, ...], ...],
+    conditions: Conditions,
+    simulate: Callable[..., Iterator[Ended]] | None = None,
+) -> pd.DataFrame:
+    """Return one row a pose; a pose is the trials that share it. `simulate` is `run_contact.run` unless it is given."""
+    import pandas as pd
+
+    from bench.engines.run_contact import run
+
+    episodes = (simulate or run)(
+        "native", controller, task, arm, (trial for pose in poses for trial in pose), conditions
+    )
+    made = [_row(task, arm, controller, [(one, next(episodes)) for one in pose], conditions) for pose in poses]
+    return pd.DataFrame([{"suite": suite, **row} for row in made])
+
+
+def _row(
+    task: ContactTask, arm: Arm, controller: ContactController, ended: list[tuple[Trial, Ended]], conditions
+) -> dict:
+    first = ended[0][0]
+    outcome = max((one.outcome for _, one in ended), key=WORST_LAST.index)
+    ticks = min(len(one.record) for _, one in ended if one.outcome == outcome)
+    pose = Pose(task, arm, controller, tuple(response(*each) for each in ended))
+    with np.errstate(all="ignore"):  # of a record that ends beyond all bounds
+        measured = {one.column: one.measure(pose) for one in known_contact_metrics().values()}
+    return {
+        "task": task.name,
+        "arm": arm.name,
+        "controller": controller.law,
+        "representation": controller.representation.name if controller.representation else "",
+        "form": controller.form,
+        "pose": first.pose,
+        "complies": first.specification.name,
+        **dict(zip(("alpha", "beta", "gamma"), chart(from_quaternion(first.goal_wxyz)).E, strict=True)),
+        "tilt": first.tilt,
+        **conditions.gains._asdict(),
+        **conditions.touch._asdict(),
+        "dt_s": conditions.dt_s,
+        "integrator": conditions.integrator,
+        "horizon_s": task.horizon_s,
+        "trials": len(ended),
+        "outcome": outcome,
+        "rest": _rest(task, outcome, [one for _, one in ended]),
+        "failure_time_s": np.nan if outcome == DONE else ticks * conditions.dt_s,
+        **measured,
+        **dict(zip(MEASURED, compliance(pose).ravel(), strict=True)),
+    }
+
+
+def _rest(task: ContactTask, outcome: str, ended: list[Ended]) -> str:
+    """Say how episodes that have an end stand at it; empty for those that have none, or failed."""
+    if not task.rests or outcome != DONE:
+        return ""
+    return AT_REST if all(one.rested for one in ended) else CREEPING

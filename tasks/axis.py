@@ -1,0 +1,51 @@
+"""What a file of tasks/conditions declares: a perturbation of the free body, and the fields of a condition it needs.
+
+Along an axis a number, the level, grows or shrinks. A field is declared by one axis and may be set by others.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+from tasks.base import Start, Vector
+
+Value = float | int | Vector
+
+
+class Field(NamedTuple):
+    """A number, a whole number or three numbers of a condition, by the type of its default: the value without effect.
+
+    meaning: with its unit. lasts: whether the perturbation goes on after the goal is reached, so that an episode runs
+    to its horizon; it must be said. is_drawn: whether the measurements need random numbers, drawn anew each period.
+    """
+
+    name: str
+    default: Value
+    meaning: str
+    lasts: bool | None = None
+    is_drawn: bool = False
+
+
+def spread(count: int, seed: int, level: float) -> list[Start]:
+    """Return orientations spread evenly over SO(3), at rest: the same at every level."""
+    from tasks.starts.uniform import build
+
+    return build(count, seed)
+
+
+class Axis(NamedTuple):
+    """A perturbation: the constant AXIS of every tasks/conditions/<name>.py.
+
+    nominal: the level of no perturbation, None if there is none. changes(level) -> {field: its value}; fields: those
+    that this file declares. starts(count, seed, level) -> as many starts.
+    """
+
+    name: str
+    title: str
+    unit: str
+    levels: tuple[float, ...]
+    nominal: float | None
+    changes: Callable[[float], dict[str, Value]]
+    fields: tuple[Field, ...] = ()
+    starts: Callable[[int, int, float], list[Start]] = spread
