@@ -13,7 +13,7 @@ from bench.findings.claims.standing import MEASURABLE
 from bench.findings.claims.tables import Results
 from bench.findings.selection.criteria import BY_NAME, CRITERIA, jump
 from bench.findings.selection.measured import Measured
-from bench.findings.selection.needs import DEFAULT, NEEDS, Fact, Need, best_by, decide
+from bench.findings.selection.needs import DEFAULT, NEEDS, Fact, Need, decide
 from bench.findings.selection.rule import GENERAL, dominates, front
 from bench.findings.selection.tables import Tables
 from bench.findings.selection.timed import ticks
@@ -44,22 +44,6 @@ def alone(cheap, middle, dear):
     return {name: np.array([value]) for name, value in ((CHEAP, cheap), (MIDDLE, middle), (DEAR, dear))}
 
 
-def beaten(point, points):
-    return any(
-        all(a <= b for a, b in zip(other, point, strict=True)) and tuple(other) != tuple(point) for other in points
-    )
-
-
-@pytest.mark.parametrize("seed", range(20))
-def test_front_is_what_brute_force_finds_where_no_difference_is_small(seed):
-    # few different numbers, so that ties and equal points occur; of whole ones none differ by a hundredth only
-    points = np.random.default_rng(seed).integers(1, 4, size=(3, 2)).astype(float)
-    found = made_up(time=alone(*points[:, 0]), effort=alone(*points[:, 1]))
-    laws = [CHEAP, MIDDLE, DEAR]
-    expected = [law for law, point in zip(laws, points, strict=True) if not beaten(point, points)]
-    assert front(found, laws, ("time", "effort")) == expected
-
-
 def test_circle_of_laws_of_which_each_dominates_the_next_is_kept_whole():
     near, between, far = 1.0, 1.0075, 1.015
     found = made_up(time=alone(near, far, between), effort=alone(between, near, far), peak=alone(far, between, near))
@@ -81,25 +65,6 @@ def test_circle_of_laws_of_which_each_dominates_the_next_is_kept_whole():
 def test_situation_names_the_best_and_its_equals(by, values, law, tied, best):
     found = decide(Need("", (ANY,), (by,)), made_up(**{by: values}))
     assert (found.law, found.tied, found.best) == (law, tied, best)
-
-
-def test_law_that_is_dominated_in_general_is_not_advised_though_it_is_as_good_here():
-    found = made_up(late=alone(1.0, 1.0, 1.0), effort=alone(2.0, 1.0, 1.0))
-    one = decide(Need("", (ANY,), ("late",)), found)
-    assert (one.law, one.tied, one.best) == (MIDDLE, (DEAR,), (CHEAP, MIDDLE, DEAR))
-
-
-def test_situation_of_two_criteria_keeps_what_is_better_by_either():
-    found = made_up(late=alone(1.0, 2.0, 3.0), heavy=alone(2.0, 1.0, 3.0))
-    one = decide(Need("", (ANY,), ("late", "heavy")), found)
-    assert (one.law, one.tied) == (CHEAP, (MIDDLE,))
-
-
-def test_situation_asks_its_facts_first():
-    found = made_up(peak=alone(3.0, 1.0, 2.0), memory=alone(0.0, 4.0, 4.0))
-    forgets = Fact("", lambda found, law: not found.number("memory", law))
-    one = decide(Need("", (forgets,), ("peak",)), found)
-    assert (one.law, one.asked) == (CHEAP, (CHEAP,))
 
 
 def test_situation_that_no_law_meets_names_none():
@@ -126,30 +91,6 @@ def test_share_of_a_law_is_its_time_over_the_median_whole_controller():
     ]
     assert ticks(Results(None, {"timings": pd.DataFrame(rows)})) == {"mrp": 2.0}
     assert ticks(Results(None, {"timings": pd.DataFrame(rows[:2])})) == {}
-
-
-def starts(offset, noise, seed):
-    return 0.6 + offset + noise * np.random.default_rng(seed).standard_normal(50)
-
-
-def test_difference_within_the_chance_of_the_starts_is_none():
-    values = {CHEAP: starts(0.02, 0.3, 1), MIDDLE: starts(0.0, 0.3, 2), DEAR: starts(5.0, 0.3, 3)}
-    found = made_up(late=values)
-    assert decide(Need("", (ANY,), ("late",)), found).best == best_by(found, "late", [CHEAP, MIDDLE, DEAR])
-    assert best_by(found, "late", [CHEAP, MIDDLE, DEAR]) == (CHEAP, MIDDLE)
-
-
-def test_difference_at_every_start_is_one_however_starts_differ():
-    hard = starts(0.0, 0.3, 1)
-    values = {CHEAP: hard + 0.02, MIDDLE: hard, DEAR: hard + 5.0}
-    assert decide(Need("", (ANY,), ("late",)), made_up(late=values)).law == MIDDLE
-
-
-def test_law_that_settles_beats_one_that_does_not():
-    values = {CHEAP: np.full(8, np.inf), MIDDLE: np.full(8, np.inf), DEAR: np.full(8, 3.0)}
-    found = made_up(late=values)
-    assert found.beats("late", DEAR, CHEAP)
-    assert not found.beats("late", CHEAP, MIDDLE)
 
 
 def test_every_situation_decides_by_criteria_and_every_criterion_says_what_it_means():

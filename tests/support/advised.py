@@ -58,7 +58,7 @@ class Asked:
 
     def simplicity(self, law):
         """Return the numbers kept and the operations of a tick."""
-        return self.values["memory"][law].iloc[0], operations()[law]
+        return self.values["memory"][law].iloc[0], sum(operations(law))
 
     def number(self, criterion):
         """Return law -> number."""
@@ -90,21 +90,16 @@ class Asked:
 
     def front(self, laws, criteria):
         """Return the laws that no other is better than by one of the criteria and worse than by none."""
-        better = [
-            self.beats(one).reindex(laws, fill_value=False).reindex(laws, axis=1, fill_value=False)
-            for one in criteria
-            if one in self.values
-        ]
-        wins = np.array([one.to_numpy(bool) for one in better]).reshape(-1, len(laws), len(laws)).any(axis=0)
+        better = [self.beats(one).reindex(index=laws, columns=laws) for one in criteria if one in self.values]
+        wins = np.any([one.eq(True).to_numpy() for one in better], axis=0)
         dominated = (wins & ~wins.T).any(axis=0)
         return [law for law, is_out in zip(laws, dominated, strict=True) if not is_out] or list(laws)
 
     def has(self, fact):
         """Return law -> whether it has one of the facts of `needs`."""
         number = self.number
-        if fact is needs.EVERYWHERE:
-            return (number("unsettled") == 0) & (number("lost") == 0) & (number("detour") < 1.5)
         return {
+            needs.EVERYWHERE: lambda: (number("unsettled") + number("lost") == 0) & (number("detour") < 1.5),
             needs.QUIET: lambda: number("chatter") <= 1.0,
             needs.UNHELD: lambda: number("held") > 0.1,
             needs.FORGETFUL: lambda: number("memory") == 0.0,
@@ -138,22 +133,23 @@ def is_ours(law):
 
 
 @functools.cache
-def operations(folder="reference"):
-    """Return law -> flops and calls of a tick, typical branch, with the goal's stage."""
-    rows = table("costs", folder).query("jacobian == '' and inverse == '' and branch == 'typical' and stage == 'total'")
-    return rows.set_index("law")[["flops", "sin", "cos", "atan2", "acos"]].sum(axis=1)
+def costs():
+    """Return law -> operations of a tick, typical branch, with the goal's stage."""
+    rows = table("costs").query("jacobian == '' and inverse == '' and branch == 'typical' and stage == 'total'")
+    return rows.set_index("law")
+
+
+def operations(law):
+    """Return the flops and calls of a law's tick."""
+    return costs().loc[law, "flops"], costs().loc[law, ["sin", "cos", "atan2", "acos"]].sum()
 
 
 def by_start(rows, column, failed=None):
     """Return a row a start and a column a law; `failed` where a law does not settle."""
     values = rows[column] if failed is None else rows[column].where(rows["outcome"] == "settled", failed)
     keys = [name for name in ("arm", "start_set", "start_id") if name in rows]
-    return (
-        rows.assign(value=values.astype(float))
-        .pivot_table("value", keys, "law", aggfunc="first", dropna=False)
-        .dropna(how="all")
-        .dropna(axis=1, how="all")
-    )
+    wide = rows.assign(value=values.astype(float)).pivot(index=keys, columns="law", values="value")
+    return wide.dropna(how="all").dropna(axis=1, how="all")
 
 
 def common(rows):
@@ -210,18 +206,11 @@ def accelerations(folder="reference"):
     free = free[(free["engine"] == "ideal-rk4") | ~on_main]
     uniform, directed = common(free.query("start_set == 'uniform'")), common(free[free["start_set"].isin(DIRECTED)])
     perturbed = table("robustness", folder)
-    at = {
-        name: perturbed[(perturbed["axis"] == axis) & (perturbed["level"] == level)]
-        for name, (axis, level, _) in PERTURBED.items()
-    }
+    at = dict(iter(perturbed.groupby(["axis", "level"])))
     noise = perturbed.query("axis == 'half-turn-noise'")
     holds = noise["level"].where(noise["outcome"] != "settled", np.inf).groupby(noise["law"]).min()
-    arms = standard(
-        rows.query(
-            "task == 'arm-regulation' and start_set == 'uniform' and jacobian == 'geometric'"
-            " and variation == 'nominal' and engine == 'native'"
-        )
-    )
+    arms = rows.query("task == 'arm-regulation' and start_set == 'uniform' and jacobian == 'geometric'")
+    arms = standard(arms.query("variation == 'nominal' and engine == 'native'"))
     settled = arms["outcome"] == "settled"
     within = settled & (arms["peak_torque_ratio"] <= 1.0) & (arms["range_excess_rad"] <= 0.0)
     known = uniform["law"].unique()
@@ -234,7 +223,7 @@ def accelerations(folder="reference"):
             "held": alone(holds),
             "arms": by_start(arms, "settled"),
             "within": by_start(arms, "within"),
-            **{name: by_start(at[name], column, np.inf) for name, (_, _, column) in PERTURBED.items()},
+            **{name: by_start(at[axis, level], column, np.inf) for name, (axis, level, column) in PERTURBED.items()},
         }
     )
 

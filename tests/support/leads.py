@@ -7,6 +7,7 @@ import collections
 import math
 
 import numpy as np
+import pandas as pd
 from scipy.stats import binomtest
 
 import tasks
@@ -16,23 +17,27 @@ from bench.findings.selection import gains, needs
 from bench.findings.selection.robots import VELOCITY
 from bench.tables.schema import RESULTS
 from report.figures.kit.families import word
-from support.advised import accelerations, operations, shares_of_time, velocities
+from support.advised import accelerations, costs, operations, shares_of_time, velocities
 from support.leads_of_arms import (
+    FEEDBACK,
+    LATE,
+    LINEARIZED,
+    MATRIX,
     read_json,
     recompute_arms,
     recompute_checks,
     recompute_compliance,
     recompute_contact,
+    recompute_engines,
     recompute_impedance,
     recompute_libraries,
     recompute_pegs,
     recompute_regressions,
+    recompute_times,
 )
 from support.tables import table
 
 CONTROLS = ("quaternion-unwinding", "linearized-euler-literal/zyx-euler")
-MATRIX, LINEARIZED, FEEDBACK = "rotation-matrix", "linearized-euler/zyx-euler", "feedback-linearized/zyx-euler"
-LATE = "late-braking"
 
 
 def name_together(laws):
@@ -90,8 +95,12 @@ def recompute_comparison():
 
 def recompute_thresholds():
     """Return the perturbations along which the laws' thresholds in the study differ, and noise at 180° in the run."""
-    rows = table("perturbed", "robustness").query("law not in @CONTROLS and axis != 'equal-peak'")
-    rows = rows[rows["law"].isin(table("robustness")["law"])]
+    lasts = [name for name in tasks.axis_names() if tasks.axis(name).at(max(tasks.axis(name).levels)).lasts]
+    run, study = table("robustness"), table("perturbed", "robustness")
+    good = (run["tail_rms_rad"] <= np.radians(3)).where(run["axis"].isin(lasts), run["outcome"] == "settled")
+    own = good.groupby([run["law"], run["axis"], run["level"]]).agg(good="sum", starts="size").reset_index()
+    rows = pd.concat([study[study["law"].isin(run["law"])], own[~own["law"].isin(study["law"])]])
+    rows = rows.query("law not in @CONTROLS and axis != 'equal-peak'")
     each = collections.defaultdict(dict)
     for (law, axis), own in rows.groupby(["law", "axis"]):
         share, nominal = (own["good"] / own["starts"]).set_axis(own["level"]), tasks.axis(axis).nominal
@@ -152,7 +161,6 @@ def recompute_new_law():
     for column, level in (("settling_time_s", 0.5), ("settling_time_s", 1.0), ("effort", 0.5)):
         own = rows[column].where(settled, np.inf).groupby(rows["law"]).quantile(level, interpolation="lower")
         said += [f"{own[LATE]:.3g}", (own.drop(LATE) <= own[LATE]).sum(), len(own) - 1]
-    count = table("costs").query("law == @LATE and jacobian == '' and stage == 'total' and branch == 'typical'").iloc[0]
     return {
         "slowest": f"{late[1.0]:.3f}",
         "linear": f"{linear[1.0]:.3f}",
@@ -160,8 +168,8 @@ def recompute_new_law():
         "later_of": [*kvs],
         "pull": f"{brake_late(-np.linspace(0, np.pi, 100_001), 0.0, 1.0, 2.0).max():.2f}",
         "at_peak": said,
-        "roots": count["sqrt"],
-        "calls": count[["sin", "cos", "atan2", "acos"]].sum(),
+        "roots": costs().loc[LATE, "sqrt"],
+        "calls": operations(LATE)[1],
     }
 
 
@@ -193,15 +201,9 @@ def recompute_advice():
         said += [*ratios, *names] if ratios else []
     share = shares_of_time()[one.law]
     others = sum(not found.is_decisive(need, one.law) for need in needs.NEEDS)
-    calls = table("costs").query("law == @one.law and jacobian == '' and stage == 'total' and branch == 'typical'")
-    said_of_cost = [operations()[one.law]] if not calls[["sin", "cos", "atan2", "acos"]].sum(axis=None) else [None]
-    return {"lead": [*said, *said_of_cost, f"{share:.1f}", others, len(needs.NEEDS), 10]}
-
-
-def recompute_engines():
-    rows = table("episodes").query("task == 'free-body'")
-    pairs = sorted(rows.groupby(["kp", "kv"]).size().index)
-    return {"engines": rows["engine"].nunique(), "gains": [number for pair in pairs for number in pair]}
+    flops, calls = operations(one.law)
+    said += [flops, calls] if calls else [flops]
+    return {"lead": [*said, f"{share:.1f}", others, len(needs.NEEDS), 10]}
 
 
 def recompute_verdicts():
@@ -217,18 +219,6 @@ def recompute_verdicts():
         for words in (now, first)
     ]
     return {"decided": len(now), "words": said[0], "first_words": said[1]}
-
-
-def recompute_times():
-    share = shares_of_time().loc[lambda own: ~own.index.str.contains("literal/zyx")]
-    three = share[[MATRIX, LINEARIZED, FEEDBACK]]
-    found = {"matrix": share[MATRIX], "late": share[LATE], "most": share.max()}
-    said = {f"cost_on_arms.time_{name}": [float(f"{value:.2g}")] for name, value in found.items()}
-    said["cost_on_arms.time_most_law"] = word(share.idxmax())
-    is_papers = (three.idxmin(), three.idxmax()) == (MATRIX, FEEDBACK)
-    said["cost_on_arms.paper_order"] = [word(three.idxmin()), word(three.idxmax())]
-    said["cost_on_arms.paper_order"] += ["as the paper" if is_papers else "other than the paper"]
-    return said
 
 
 COMPUTED = {

@@ -13,10 +13,12 @@ from bench.audit.faults.digits_near_0 import COUNT_RAD
 from bench.findings.selection import needs
 from bench.tables.schema import RESULTS
 from report.figures.kit.families import word
-from support.advised import accelerations
+from support.advised import accelerations, shares_of_time
 from support.tables import table
 
 CARTESIAN, EULER = "hybrid-base", "hybrid/zyx-euler"
+MATRIX, LINEARIZED, FEEDBACK = "rotation-matrix", "linearized-euler/zyx-euler", "feedback-linearized/zyx-euler"
+LATE = "late-braking"
 
 
 def read_json(name):
@@ -177,3 +179,21 @@ def recompute_checks():
     *most, last = list_titles("bench/export/languages", r'Language\("\w+", "([^"]+)"')
     faults = len(list_titles("bench/audit/faults", "(FAULT)"))
     return {"languages": f"{', '.join(most)} and {last}", "check_your_error.faults": faults}
+
+
+def recompute_engines():
+    rows = table("episodes").query("task == 'free-body'")
+    pairs = sorted(rows.groupby(["kp", "kv"]).size().index)
+    return {"engines": rows["engine"].nunique(), "gains": [number for pair in pairs for number in pair]}
+
+
+def recompute_times():
+    share = shares_of_time().loc[lambda own: ~own.index.str.contains("literal/zyx")]
+    three = share[[MATRIX, LINEARIZED, FEEDBACK]]
+    found = {"matrix": share[MATRIX], "late": share[LATE], "most": share.max()}
+    said = {f"cost_on_arms.time_{name}": [float(f"{value:.2g}")] for name, value in found.items()}
+    said["cost_on_arms.time_most_law"] = word(share.idxmax())
+    is_papers = (three.idxmin(), three.idxmax()) == (MATRIX, FEEDBACK)
+    said["cost_on_arms.paper_order"] = [word(three.idxmin()), word(three.idxmax())]
+    said["cost_on_arms.paper_order"] += ["as the paper" if is_papers else "other than the paper"]
+    return said

@@ -1,0 +1,200 @@
+"""Sentences of leads that compare: each says something else of a planted table."""
+
+import numpy as np
+import pandas as pd
+import pytest
+
+pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
+
+from bench.findings.perturbed import Threshold, Way
+from bench.findings.selection import gains, needs
+from bench.findings.selection.measured import measured
+from bench.findings.selection.words import leaders, standing
+from bench.tables.schema import RESULTS
+from report.figures import index
+from report.figures.answer import which_law
+from report.figures.arms import arm_ranking, cost_on_arms
+from report.figures.comparison import a_new_law, comparison
+from report.figures.contact import as_arms_run, hand_axes, in_contact, limits
+from report.figures.kit.page import Run
+from report.figures.kit.rows import FEEDBACK, LINEARIZED, MATRIX
+from report.figures.libraries import answers, libraries, loops
+from report.figures.method import method
+from report.figures.robustness import half_turn_noise, robustness
+
+FOLDER = RESULTS / "reference"
+OURS, ADVISED = "late-braking", "hybrid"
+
+
+class Planted(Run):
+    """The reference with some columns of its tables changed."""
+
+    def __init__(self, **columns):
+        super().__init__(FOLDER)
+        self.columns = columns
+
+    def rows(self, table, **words):
+        """Return its rows, with the columns that they have changed."""
+        found = super().rows(table, **words)
+        return found.assign(**{name: value for name, value in self.columns.items() if name in found})
+
+
+def plant_pegs(bad):
+    """State how 24 pegs in leaning frames go in by each controller, so many of the Euler ones not."""
+    lines = [(who, 45.0, float(i < (bad if who == "e" else 0))) for who in "ce" for i in range(24)]
+    frame = pd.DataFrame([*lines, ("c", 0.0, 0.0), ("e", 0.0, 0.0)], columns=["contender", "beta_deg", "jam"])
+    return in_contact.stuck(frame.assign(task="peg-in-hole"), "c", "e")
+
+
+def plant_fits(*depths_m):
+    """State how pegs of two fits go in, two of each."""
+    return limits.said_of_fits(pd.DataFrame({"clearance": [0.02, 0.02, 0.001, 0.001], "depth_m": depths_m}))
+
+
+def plant_axis(off_deg):
+    """State whether an axis is less off than the hand's tilt of 30°."""
+    one = {"contender": hand_axes.PAPERS_EULER, "beta": 30.0, "pushed": "x", "share": 1.0, "off": off_deg}
+    plain = {"contender": hand_axes.PAPERS, "beta": 60.0, "pushed": "z", "share": 0.2, "off": 5.0}
+    return hand_axes.measured([one, plain])["off_word"]
+
+
+def plant_near(*times_s):
+    """State by how much the medians of two laws near the goal differ."""
+    rows = pd.DataFrame({"contender": ["a", "b"], "start_id": 1, "angle0_rad": 0.1, "settling_time_s": times_s})
+    return f"{comparison.near(rows)['apart_30']} %"
+
+
+def plant_arm(torque):
+    """State on which arms no law passes, by two laws whose torques are so large a share of the rated ones."""
+    law = {"controller": "rotation-matrix@geometric", "start_set": "uniform", "outcome": "settled", "start_id": [1, 2]}
+    angles = {**law, "controller": "feedback-linearized/zyx-euler@analytic"}
+    rows = pd.concat([pd.DataFrame(one) for one in (law, angles)])
+    return arm_ranking.lead(rows.assign(arm="panda", peak_torque_ratio=torque, range_excess_rad=0.0))
+
+
+def plant_thresholds(*held):
+    """List the perturbations along which thresholds of laws differ."""
+    each = {law: {Way("delay"): Threshold(one, np.nan, np.nan)} for law, one in zip("ab", held, strict=True)}
+    return [way.axis for way in robustness.differing(each)[0]]
+
+
+def plant_decision(tied, asked):
+    """State whether the advised law is alone."""
+    return standing(needs.Decision(needs.DEFAULT, "a", tied, ("a", *tied), asked), str)
+
+
+def plant_library(**columns):
+    """Count the functions that are right."""
+    rows = answers.table().query("library != @libraries.OURS").assign(**columns)
+    return f"{len(libraries.right(libraries.errors(answers.functions(rows))))} right"
+
+
+def plant_loops(**columns):
+    """Count the closed loops that stay at 180° and those that turn away first."""
+    found = loops.responses().assign(**columns)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(loops, "responses", lambda: found)
+        said = libraries.loop_facts()
+    return f"{said['loops_dead']} dead, {said['loops_away']} away"
+
+
+def plant_numbers(laws=None, **numbers):
+    """Return what was measured, with the numbers of some laws, or of all, changed."""
+    found = measured(FOLDER)
+    new = {name: dict.fromkeys(laws or found.laws, np.array([value])) for name, value in numbers.items()}
+    return found._replace(values=found.values | {name: found.values[name] | own for name, own in new.items()})
+
+
+def plant_advice(laws=None, **numbers):
+    """State what is advised."""
+    found = plant_numbers(laws, **numbers)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(which_law, "measured", lambda folder: found)
+        patch.setattr(needs, "advice", lambda folder: needs.advise(found))
+        return which_law.lead(Run(FOLDER))
+
+
+def plant_gains(**numbers):
+    """State how our law compares with the advised one at the reference's gains."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(gains, "committed", lambda: (plant_numbers([OURS], **numbers),))
+        return gains.compare_at_all_gains()
+
+
+def plant_leader(criterion, **numbers):
+    """Name what is best by a criterion."""
+    return leaders(plant_numbers([FEEDBACK], **numbers), criterion, str)
+
+
+def plant_peak(**columns):
+    """State how our law compares at equal peak command."""
+    rows = comparison.at_peak(Run(FOLDER))
+    own = rows["contender"] == OURS
+    return a_new_law.compare_at_equal_peak(rows.assign(**{key: rows[key].where(~own, x) for key, x in columns.items()}))
+
+
+def plant_order(*times):
+    """State which of the paper's three laws takes least time alone."""
+    return cost_on_arms.order_papers_laws(dict(zip((MATRIX, LINEARIZED, FEEDBACK), times, strict=True)))
+
+
+def plant_dearest(law):
+    """Name the law that takes most time alone."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(cost_on_arms, "ticks", lambda results: {MATRIX: 1.0, LINEARIZED: 1.5, FEEDBACK: 2.0, law: 3.0})
+        return cost_on_arms.share_of_time(Run(FOLDER))["time_most_law"]
+
+
+def plant_kv(**columns):
+    """List the gains of the reference's episodes."""
+    return method.describe_gains(Planted(**columns).rows("episodes"))
+
+
+def plant_fact(facts, key):
+    """Return a function of columns that states one fact of the reference so changed."""
+    return lambda **columns: facts(Planted(**columns))[key]
+
+
+SENTENCES = {
+    "pegs": (plant_pegs, [((3,), "do not differ significantly"), ((18,), "frames differ significantly")]),
+    "fits": (plant_fits, [((0.03, 0.03, 0.03, 0.0), "fewer pegs"), ((0.03,) * 4, "not fewer pegs")]),
+    "axis": (plant_axis, [((24.0,), "less than β"), ((31.0,), "not always less than β")]),
+    "near": (plant_near, [((0.5, 0.6), "20 %"), ((0.5, 0.5), "0 %")]),
+    "arms": (plant_arm, [((2.0,), "no law passes: Franka Emika Panda."), ((0.5,), "no law passes: none.")]),
+    "thresholds": (plant_thresholds, [((1.0, 1.0), "[]"), ((1.0, 2.0), "['delay']")]),
+    "alone": (
+        plant_decision,
+        [
+            (((), ("a",)), "No other published law"),
+            (((), ("a", "b")), "at least as good as the others on every criterion and better on one"),
+            ((("b",), ("a", "b")), "none of them is better than another"),
+        ],
+    ),
+    "order": (plant_order, [((1, 2, 3), "dearest, as the paper"), ((3, 2, 1), "dearest, other than the paper")]),
+    "peak": (
+        plant_peak,
+        [({}, "(1 of 15"), ({"settling_time_s": 9.0}, "median settling time 9 s")],
+    ),
+    "right": (plant_library, [({}, "38 right"), ({"turn_error_rad": 1.0}, "0 right")]),
+    "loops": (plant_loops, [({}, "3 dead, 4 away"), ({"dead": 0, "away": 1}, "0 dead, 55 away")]),
+    "unstable": (plant_fact(as_arms_run.in_free_motion, "unstable"), [({}, "Panda"), ({"radius": 0.5}, "none")]),
+    "noise": (plant_fact(half_turn_noise.facts, "blind_middle"), [({}, "25"), ({"outcome": "settled"}, "100")]),
+    "least": (plant_fact(index.of_the_paper, "least"), [({}, "135"), ({"alpha0": 0.1}, "6")]),
+    "gains": (plant_kv, [({}, "kv = 20"), ({"kv": 7.0}, "kv = 7")]),
+    "held": (plant_advice, [({}, "cannot hold the body"), ({"held": 0.01}, "No law of this run settles")]),
+    "lost": (plant_advice, [({}, "it settles from every start"), ({"lost": 1.0}, "No law of this run settles")]),
+    "no better": (plant_advice, [({}, "In 9 of 16"), ({"laws": [ADVISED], "time": 0.1}, "In 10 of 16")]),
+    "ours": (plant_gains, [({}, "slowest start, effort"), ({"effort": 1e9}, "worse at 1 by effort")]),
+    "time": (plant_leader, [({"criterion": "time"}, "gibbs"), ({"criterion": "time", "time": 1e-9}, FEEDBACK)]),
+    "effort": (plant_leader, [({"criterion": "effort"}, MATRIX), ({"criterion": "effort", "effort": 1e-9}, FEEDBACK)]),
+    "dearest": (plant_dearest, [((LINEARIZED,), "linearized"), ((MATRIX,), "rotation matrix")]),
+}
+
+
+@pytest.mark.parametrize("name", SENTENCES)
+def test_sentence_changes_with_its_table(name):
+    plant, cases = SENTENCES[name]
+    for planted, words in cases:
+        said = str(plant(**planted) if isinstance(planted, dict) else plant(*planted))
+        assert words in said
+        assert not [other for _, other in cases if other in said and other not in words]
