@@ -5,21 +5,31 @@ from __future__ import annotations
 import math
 
 import numpy as np
+import pandas as pd
 
+from bench.findings.selection.criteria import BOUND, HEAVY, NOTABLE
 from bench.findings.theory.isotropic import EQUATIONS, LEAST_RAD, settling
 from bench.law.contender import PAPERS_GAINS
 from bench.law.equation import ANGLE, CHORD, Equation
 from bench.tables import read
-from report.figures.comparison import new_law
+from report.figures.comparison import cells, new_law
 from report.figures.comparison.cells import LEVEL
+from report.figures.comparison.comparison import at_peak, uniform
 from report.figures.comparison.new_law import greatest_pull, peak_gains, response
-from report.figures.kit import html
-from report.figures.kit.page import Run
+from report.figures.kit import families, html
+from report.figures.kit.page import Run, given
 from report.figures.kit.rows import MATRIX
 from report.figures.kit.tables import Table
+from report.figures.robustness.rows import along, starts
 from tasks.rules import RULES
 
 NEW = "late-braking"
+BESIDE = (NEW, "quaternion-shortest", MATRIX)
+"""Laws whose effort and overshoot are compared in the text."""
+
+RATIO_STEP = 1e-3
+"""Width to which the damping ratio is bisected."""
+
 LATE = EQUATIONS[NEW]
 ROOTLESS = Equation(
     r"5 \sin\theta/(3 + 2\cos\theta),\ \tfrac52 \sin(\theta/2)",
@@ -55,15 +65,54 @@ def facts(run: Run) -> dict:
     }
     return {
         "slowest": f"{longest(LATE, *PAPERS_GAINS):.3f}",
+        "later_below": f"{later_below():.2f}",
         "pull": f"{greatest_pull(LATE):.2f}",
         "effort": html.number(round(effort(LATE))),
+        "chord_effort": html.number(round(effort(CHORD))),
         "straight_effort": html.number(round(effort(ANGLE))),
+        "medians": given(uniform(run), lambda rows: in_words(medians(rows, "effort"), "{:.0f}")),
+        "factors": given(at_peak(run), effort_factors),
+        "bounded": given(along(run, "saturation"), lambda rows: overshoots(rows, BOUND)),
+        "heavy": given(along(run, "inertia"), lambda rows: overshoots(rows, HEAVY)),
         "peak_s": f"{longest(LATE, *peak_gains(LATE)):.2f}",
         "peak_straight_s": f"{longest(ANGLE, *peak_gains(ANGLE)):.2f}",
         "peak_chord_s": f"{longest(CHORD, *peak_gains(CHORD)):.2f}",
         "level": html.number(LEVEL),
         **{key: int(totals[place]) for key, place in wanted.items() if place in totals.index},
     }
+
+
+def later_below() -> float:
+    """Return the damping ratio below which the slowest start settles later than a linear system's by over NOTABLE."""
+    kp, low, high = PAPERS_GAINS.kp, 0.8, 1.0
+    while high - low > RATIO_STEP:
+        ratio = (low + high) / 2.0
+        late, linear = (longest(one, kp, 2.0 * ratio * math.sqrt(kp)) for one in (LATE, ANGLE))
+        low, high = (ratio, high) if late > (1.0 + NOTABLE) * linear else (low, ratio)
+    return high
+
+
+def medians(rows: pd.DataFrame, column: str) -> pd.Series:
+    """Compute the median of a column for each of the laws that are compared."""
+    return cells.medians(cells.costs(rows, column))[list(BESIDE)]
+
+
+def in_words(values: pd.Series, form: str) -> str:
+    """List a number of each of the laws that are compared."""
+    return ", ".join(f"{form.format(value)} ({families.word(law)})" for law, value in values.items())
+
+
+def effort_factors(rows: pd.DataFrame) -> str:
+    """Compare the median effort of this law at equal peak command with the others'."""
+    spent = medians(rows, "effort")
+    return " and ".join(f"{spent[NEW] / spent[law]:.1f} times the {families.word(law)}'s" for law in BESIDE[1:])
+
+
+def overshoots(rows: pd.DataFrame, level: float) -> str:
+    """List the greatest overshoot of the laws at one level of a perturbation, and the number of starts."""
+    there = rows[rows["level"] == level]
+    most = np.degrees(there.groupby("contender", observed=True)["overshoot_rad"].max())[list(BESIDE)]
+    return f"{in_words(most, '{:.0f}°')} from {starts(there)} starts"
 
 
 def longest(equation: Equation, kp: float, kv: float) -> float:

@@ -29,9 +29,10 @@ REMADE = Table("Made on | Equal bit for bit | Rows that differ in some bit | Oth
 
 
 def facts(_: Run) -> dict:
-    """The version that is cited, and its date."""
+    """Return the title and the version that are cited, with its date."""
     said = cited()
-    return {"version": f"{said['version']} ({said['date-released']})" if "date-released" in said else said["version"]}
+    version = f"{said['version']} ({said['date-released']})" if "date-released" in said else said["version"]
+    return {"title": said["title"], "version": version}
 
 
 def cited() -> dict[str, str]:
