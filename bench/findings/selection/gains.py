@@ -115,7 +115,9 @@ def name_criteria(names: Sequence[str]) -> str:
 
 def compare_at_all_gains(called: Callable[[str], str] = str) -> str:
     """Say in a few sentences how our law compares with the advised one at every committed damping ratio."""
-    lines, times, before = [], [], ""
+    lines: list[tuple[str, Beside]] = []
+    times: list[str] = []
+    before = ""
     for one in committed():
         kp, kv = gains_of(one)
         law, own = decide(DEFAULT, one).law, ours(one)
@@ -124,8 +126,8 @@ def compare_at_all_gains(called: Callable[[str], str] = str) -> str:
             lines.append((ratio, compare(one, own, law)))
             pair = one.number("time", own), one.number("time", law)
             named = "" if law == before else f" ({called(law)})"
-            at = ratio if times else f"damping ratio {ratio}"
-            times.append(f"{pair[0]:.3f} against {pair[1]:.3f} s{named} at {at}")
+            where = ratio if times else f"damping ratio {ratio}"
+            times.append(f"{pair[0]:.3f} against {pair[1]:.3f} s{named} at {where}")
             before = law
     if not lines:
         return ""
