@@ -35,14 +35,11 @@ def of(rows: pd.DataFrame, good: str = "settled") -> str:
     return f"{(rows['outcome'] == good).sum():,} of {len(rows):,}"
 
 
-def worst(rows: pd.DataFrame, word: str, good: str = "settled") -> str:
-    """Say how many laws or controllers have failures, and which settles the smallest share."""
-    shares = (rows["outcome"] == good).groupby(rows["contender"].astype(str), sort=False).mean()
-    failing = shares[shares < 1.0].sort_values(kind="stable")
-    if failing.empty or len(shares) == 1:
-        return ""
-    least = f"{failing.index[0]} ({good} {of(rows[rows['contender'] == failing.index[0]], good)})"
-    return f" {len(failing)} of {counted(len(shares), word)} failed at some starts, most often {least}."
+def failing(rows: pd.DataFrame, word: str, good: str = "settled") -> str:
+    """Say how many laws or controllers have failures."""
+    is_whole = (rows["outcome"] == good).groupby(rows["contender"].astype(str)).all()
+    some = f" {(~is_whole).sum()} of {counted(len(is_whole), word)} failed somewhere."
+    return some if len(is_whole) > 1 and not is_whole.all() else ""
 
 
 def _free_body(rows: pd.DataFrame) -> list[str]:
@@ -52,8 +49,8 @@ def _free_body(rows: pd.DataFrame) -> list[str]:
     at = int((stuck["start_set"] == HALF_TURNS).sum())
     dead = f" {counted(len(stuck), 'episode')} got stuck, {at:,} of them at or near 180°." if len(stuck) else ""
     apart = int((rows["converged"] == "no").sum())
-    unsure = f" {counted(apart, 'episode')} did not converge (they depend on the step)." if apart else ""
-    return [f"Free body: settled {of(rows)} episodes.{worst(rows, 'law')}{dead}{unsure}"]
+    unsure = f" {apart:,} did not converge." if apart else ""
+    return [f"Free body: settled {of(rows)} episodes.{failing(rows, 'law')}{dead}{unsure}"]
 
 
 def _arms(every: pd.DataFrame) -> list[str]:
@@ -61,11 +58,11 @@ def _arms(every: pd.DataFrame) -> list[str]:
     rows, varied = every[is_nominal], every[~is_nominal]
     arms = [f"{of(own)} on {arm}" for arm, own in rows.groupby("arm", observed=True, sort=False)]
     arms += [f"{of(varied)} with model errors"] if len(varied) else []
-    return [f"Arms: settled {listed(arms)}.{worst(rows, 'controller')}"] if arms else []
+    return [f"Arms: settled {listed(arms)}.{failing(rows, 'controller')}"] if arms else []
 
 
 def _contact(rows: pd.DataFrame) -> list[str]:
-    return [f"Contact: done {of(rows, 'done')} poses.{worst(rows, 'controller', 'done')}"] if len(rows) else []
+    return [f"Contact: done {of(rows, 'done')} poses.{failing(rows, 'controller', 'done')}"] if len(rows) else []
 
 
 def _lost(*tables: pd.DataFrame) -> list[str]:
