@@ -87,7 +87,9 @@ def readme() -> str:
         "kind of machine, `libraries/` what other robot libraries answer and do (`make libraries`), `scale/` what many",
         "episodes cost (`python -m bench.studies.scale`), `contact/` what tasks in contact depend on (`make",
         "contact-study`), `robustness/` shares of hundreds of starts a level (`make robustness-study`). Every table is",
-        "parquet, its units are in the columns' metadata, and `provenance.json` says where a run comes from.",
+        "parquet, its units are in the columns' metadata (which pandas does not keep: they are below), and",
+        "`provenance.json` says where a run comes from. In `episodes` a start has a row for each `engine` that ran it:",
+        "choose one, as `ideal-rk4` on the free body, before you count starts.",
     ]
     for table in TABLES.values():
         lines += ["", f"## {table.name}.parquet", "", (table.columns.__doc__ or "").strip(), ""]
