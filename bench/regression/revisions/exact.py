@@ -86,6 +86,8 @@ def _what(one: Difference) -> str:
         return f"{one.table}.{one.column}" if one.column else f"{one.table}: row twice"
     if one.column == "outcome":
         return f"outcome {one.was} -> {one.now}"
+    if one.table == "traces":
+        return "curve"  # the columns of a curve are one finding
     return f"{one.column} ({one.row['branch']})" if one.table == "costs" else f"{one.table}.{one.column}"
 
 
