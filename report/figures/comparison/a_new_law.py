@@ -20,7 +20,6 @@ from report.figures.kit import families, html
 from report.figures.kit.page import Run, given
 from report.figures.kit.rows import MATRIX
 from report.figures.kit.tables import Table
-from report.figures.robustness.rows import along, starts
 from tasks.rules import RULES
 
 NEW = "late-braking"
@@ -72,8 +71,8 @@ def facts(run: Run) -> dict:
         "straight_effort": html.number(round(effort(ANGLE))),
         "medians": given(uniform(run), lambda rows: in_words(medians(rows, "effort"), "{:.0f}")),
         "factors": given(at_peak(run), effort_factors),
-        "bounded": given(along(run, "saturation"), lambda rows: overshoots(rows, BOUND)),
-        "heavy": given(along(run, "inertia"), lambda rows: overshoots(rows, HEAVY)),
+        "bounded": given(run.rows("robustness", axis="saturation"), lambda rows: overshoots(rows, BOUND)),
+        "heavy": given(run.rows("robustness", axis="inertia"), lambda rows: overshoots(rows, HEAVY)),
         "peak_s": f"{longest(LATE, *peak_gains(LATE)):.2f}",
         "peak_straight_s": f"{longest(ANGLE, *peak_gains(ANGLE)):.2f}",
         "peak_chord_s": f"{longest(CHORD, *peak_gains(CHORD)):.2f}",
@@ -111,8 +110,8 @@ def effort_factors(rows: pd.DataFrame) -> str:
 def overshoots(rows: pd.DataFrame, level: float) -> str:
     """List the greatest overshoot of the laws at one level of a perturbation, and the number of starts."""
     there = rows[rows["level"] == level]
-    most = np.degrees(there.groupby("contender", observed=True)["overshoot_rad"].max())[list(BESIDE)]
-    return f"{in_words(most, '{:.0f}°')} from {starts(there)} starts"
+    most = np.degrees(there.groupby(there["contender"].astype(str))["overshoot_rad"].max())[list(BESIDE)]
+    return f"{in_words(most, '{:.0f}°')} from {there['start_id'].nunique()} starts"
 
 
 def longest(equation: Equation, kp: float, kv: float) -> float:
