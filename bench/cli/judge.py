@@ -48,7 +48,7 @@ def print_judgement(one: Judgement) -> None:
 
     screen = console()
     screen.print(f"{one.name}: {verdict(one)}\n")
-    for head, is_fault in (("Faults", True), ("Otherwise", False)):
+    for head, is_fault in (("Faults", True), ("Otherwise" if one.faults else "Findings", False)):
         texts = tuple(f"{each.text} [{each.page}]" for each in one.said if bool(each.fault) == is_fault)
         print_paragraphs(Paragraph(head, texts))
     if one.beside:

@@ -68,6 +68,8 @@ def judgement(one: Contender, parts: Parts, is_lost: bool = False) -> Judgement:
     )
     declared = one.regulator.property
     said = (*why.sentences(field, declared), *why.ends(episodes, declared), *why.perturbed(perturbed))
+    if any(each.fault == why.FAULTS["crashed"] for each in said):  # where it raises its command is no number
+        said = tuple(each for each in said if each.fault != "no number")
     return Judgement(one.name, said, _beside(field, with_contender(episodes)), is_lost)
 
 

@@ -55,19 +55,19 @@ SENTENCES: dict[str, dict[str, tuple[str, ...]]] = {
         "*": (f"Dead points: {{set}}; |u| is at most {{value}} kp. {SHOWN}", FAILURES, "dead points"),
         "between": (f"Dead points at {{set}}, between two sides: take 1 for sign(0), not 0. {SHOWN}", SIGNS, "sign(0)"),
     },
-    "no-number-half-turns": {"*": (f"Its command is no number at {{set}}. {SHOWN}", FAILURES, "dead points")},
-    "jump-goal": {"*": ("It jumps by {value} kp at the goal itself.", SIGNS, "jump at the goal")},
+    "no-number-half-turns": {"*": (f"Its command is no number at {{set}}. {SHOWN}", FAILURES, "no number")},
+    "jump-goal": {"*": ("It jumps by {value} rad times kp at the goal itself.", SIGNS, "jump at the goal")},
     "jump-half-turns": {
-        "jump": ("At half turns it jumps by {value} kp, as {state}: noise can hold it there.", ROBUSTNESS),
+        "jump": ("At half turns it jumps by {value} rad times kp, as {state}: noise can hold it there.", ROBUSTNESS),
         "kept": (
-            "At half turns its first tick jumps by {value} kp, as {state}; memory keeps the side.",
+            "At half turns its first tick jumps by {value} rad times kp, as {state}; memory keeps the side.",
             ROBUSTNESS,
         ),
         "unbounded": ("Towards half turns its command grows without bound, as at {state}.", FAILURES),
     },
     "jump-elsewhere": {
         "unbounded": ("Its command is no number, or unbounded, as at {state}.", FAILURES, "no number"),
-        "*": ("It jumps by {value} kp off the half turns too, as at {state}.", FAILURES),
+        "*": ("It jumps by {value} rad times kp off the half turns too, as at {state}.", FAILURES),
     },
     "away": {"some": ("At rest it pulls away from {found} of {of} states, as from {state}, where u = {u}.", SIDE)},
     "pull": {"swapped": (f"Exchanged arguments of atan2: {SWAPPED}.", SIGNS, "swapped atan2")},
@@ -99,7 +99,8 @@ def sentences(rows: pd.DataFrame, declared: str) -> list[Said]:
         known = SENTENCES[finding].get(what) or SENTENCES[finding].get("*" if what != "none" else "")
         if known is not None:
             text, page, *fault = known
-            is_declared = fault == ["dead points"] and declared == "almost global"
+            is_excused = finding in ("dead-half-turns", "no-number-half-turns") and what != "between"
+            is_declared = is_excused and declared == "almost global"
             said.append(Said(text.format(**_words(row)), page, *([] if is_declared else fault)))
     return said
 
@@ -120,7 +121,7 @@ def ends(rows: pd.DataFrame, declared: str) -> list[Said]:
     )
     change = f"at rest its command changes by {settled['rest_change'].max():.3g} rad/s² from tick to tick"
     if len(chatters):
-        said.append(Said(f"Chatter: {change}, a quiet one's by {CHATTER:g}: {_counts(chatters)}.", ENDS, "chatter"))
+        said.append(Said(f"Chatter: {change}, over {CHATTER:g}: {_counts(chatters)}.", ENDS, "chatter"))
     elif len(quiet):
         said.append(Said(f"Quiet: {change}.", ENDS))
     uniform = quiet[quiet["start_set"] == "uniform"]

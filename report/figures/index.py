@@ -11,6 +11,7 @@ from report.figures.contact import compliance, in_contact
 from report.figures.contact.rows import CARTESIAN, EULER, PAPERS, PAPERS_EULER
 from report.figures.cost.cost import totals
 from report.figures.cost.operations import CALLS
+from report.figures.failures import maps
 from report.figures.failures.failure_map import EXACT_RAD
 from report.figures.kit import html
 from report.figures.kit.page import Run
@@ -46,6 +47,8 @@ def facts(run: Run) -> dict:
         "pegs_by_accelerations": in_contact.stuck(in_contact.all_rows(run), CARTESIAN, EULER),
         "off": compliance.facts(run).get("off"),
         **of_the_paper(run),
+        "mapped_l": maps.lost_at_rest(LINEARIZED),
+        "mapped": maps.facts()["mapped"],
         **edition(read.provenance()),
     }
 

@@ -42,7 +42,11 @@ DECIDED = {
     "accelerations": (advised.accelerations, advice, (DEFAULT, *NEEDS)),
     "velocities": (
         advised.velocities,
-        lambda folder: robots.advise_for(robots.VELOCITIES, folder),
+    "velocities": (
+        advised.velocities,
+        functools.partial(robots.advise_for, robots.VELOCITIES),
+        (robots.VELOCITY, *robots.VELOCITIES.needs),
+    ),
         (robots.VELOCITY, *robots.VELOCITIES.needs),
     ),
 }

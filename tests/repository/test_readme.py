@@ -8,6 +8,8 @@ from support.command_line import bench
 
 from bench.contenders.registry import find_contender
 from bench.findings.selection import needs
+from bench.findings.selection.measured import measured
+from bench.findings.selection.words import faster_under_a_bound
 from bench.provenance import ROOT
 from bench.tables import store
 
@@ -78,3 +80,9 @@ def test_answer_is_the_one_that_the_rule_gives():
     assert forgetful == advice.of(needs.FORGETS).law
     assert find_contender(own).regulator.is_ours()
     assert not find_contender(default).regulator.is_ours()
+    bounded = faster_under_a_bound(measured(ROOT / "results" / "reference"), default)
+    assert (
+        re.search(r"bounded by (\S+ rad/s²) .* (\d+ % sooner in the median)", bounded).groups()
+        == re.search(r"bounded by (\S+ rad/s²) .* (\d+ % sooner in the median)", " ".join(answer.split())).groups()
+    )
+    assert bounded.partition("s² ")[2].startswith(arm)

@@ -18,7 +18,7 @@ def paragraphs(found: Measured) -> list[Paragraph]:
     """The law to use, and the exceptions where there are laws to choose from."""
     advice = advise(found)
     said = [Paragraph("Which law", (_default(advice, found),))]
-    said += _ours(advice.default, found)
+    said += _ours(found) if advice.default.law else []
     every = tuple(_exception(one, advice.default.law, found) for one in advice.exceptions if one.law)
     return [*said, Paragraph("Exceptions", every)] if every and len(found.laws) > 1 else said
 
@@ -32,23 +32,24 @@ def _default(advice: Advice, found: Measured) -> str:
     alone = standing(one, str) if len(found.laws) > 1 else "This run has no other law to compare it with."
     return (
         f"Use the law {one.law} (published: {found.tables.contenders[one.law].regulator.source}) at "
-        f"{gains.gains_in_words(found)}. It {everywhere}, and no {NOISE} can trap it at a 180° rotation. {alone} It "
-        f"takes {cost(found, one.law)}. 99 % of the uniform starts settle within "
-        f"{number('time', found.number('time', one.law))}. Simulation only."
+        f"{gains.gains_in_words(found)}, in simulation. It {everywhere}, 99 % of the uniform ones within "
+        f"{number('time', found.number('time', one.law))}, and no {NOISE} can trap it at a 180° rotation. {alone} It "
+        f"takes {cost(found, one.law)}."
     )
 
 
-def _ours(one: Decision, found: Measured) -> list[Paragraph]:
+def _ours(found: Measured) -> list[Paragraph]:
     """Compare our own law with the advised one at each damping ratio, and say what other rules advise."""
     own = gains.ours(found)
-    if own is None or one.law is None:
+    if own is None:
         return []
-    lines = [gains.ours_in_words(own)]
-    arm = advise(found).of(needs.ARM).law
-    lines += [f"On a robot arm, exact 180° rotations aside, the rule advises the published law {arm}."] * bool(arm)
-    lines.append(gains.compare_at_all_gains())
-    others = [f"If {words}: {together((law, *tied))}." for words, law, tied in gains.by_other_rules(found) if law]
-    return [Paragraph("Ours", tuple(lines)), Paragraph("Other rules", tuple(others))]
+    others = [
+        f"If {words}: {law}{f' (a tie of {len(tied) + 1})' if tied else ''}."
+        for words, law, tied in gains.by_other_rules(found)
+        if law
+    ]
+    compared = f"{gains.ours_in_words(own)} {gains.compare_at_all_gains()}"
+    return [Paragraph("Ours", (compared,)), Paragraph("Other rules", tuple(others))]
 
 
 def _nothing(found: Measured, everywhere: str) -> str:
@@ -66,13 +67,18 @@ def _nothing(found: Measured, everywhere: str) -> str:
 
 
 def _exception(one: Decision, usual: str | None, found: Measured) -> str:
-    """The law that a situation leads to, its number beside the default's, and with what it ties."""
+    """Say which law a situation leads to, its numbers and the default's, and with what it ties.
+
+    A criterion is named where there are several.
+    """
 
     def has(law: str) -> str:
-        return ", ".join(f"{BY_NAME[by].title.lower()} {number(by, found.number(by, law))}" for by in one.need.by)
+        several = len(one.need.by) > 1 and law == one.law
+        names = [f"{BY_NAME[by].title.lower()} " if several else "" for by in one.need.by]
+        return ", ".join(name + number(by, found.number(by, law)) for name, by in zip(names, one.need.by, strict=True))
 
     law = one.law or ""
-    beside = f"; {usual}: {has(usual)}" if usual in one.asked else ""
+    beside = f"; {usual} {has(usual)}" if usual in one.asked else ""
     numbers = f" ({has(law)}{beside})" if one.need.by else ""
     tied = f", tied with {together(one.tied)}" if one.tied else ""
     words = one.need.words

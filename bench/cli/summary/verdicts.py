@@ -17,5 +17,5 @@ def paragraph(results: Results) -> Paragraph:
     now = f"Of the paper's {every} claims {told(one.word for one in decided)}"
     now += f". What does not hold: {failed}" if failed else ""
     unknown = f"; {len(lacks)} cannot be judged from this run" if lacks else ""
-    first = f"By the criteria first written: {told(one.first for one in decided)}."
-    return Paragraph("Claims", (f"{now}{unknown}.", first))
+    first = told(one.first for one in decided)
+    return Paragraph("Claims", (f"{now}{unknown}. By the criteria first written: {first}.",))

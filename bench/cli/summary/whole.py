@@ -7,9 +7,9 @@ from pathlib import Path
 
 from bench.cli.options import REFERENCE
 from bench.cli.origin import origin
-from bench.cli.paragraphs import Paragraph, listed, print_paragraphs
+from bench.cli.paragraphs import Paragraph, print_paragraphs
 from bench.cli.progress import progress
-from bench.cli.screen import console, shown_path
+from bench.cli.screen import shown_path
 from bench.cli.summary import absent, answer, failures, verdicts
 from bench.findings.claims import Results
 from bench.findings.claims.verdict import NoEvidence
@@ -26,13 +26,14 @@ def print_summary(folder: Path, is_named: bool) -> None:
         print_paragraphs(*answer.paragraphs(measure(found)))
     except NoEvidence:
         print_paragraphs(absent.undecided(found))
-    console().print()
     with progress("claims", "judging the paper's claims"):
         judged = verdicts.paragraph(found)
-    print_paragraphs(judged, failures.paragraph(found), *absent.paragraphs(found))
-    console().print()
     print_paragraphs(
-        Paragraph("This run", (here, *_instead(folder, is_named))), _next(folder, is_named, absent.parts_in(found))
+        judged,
+        failures.paragraph(found),
+        *absent.paragraphs(found),
+        Paragraph("This run", (here, *_instead(folder, is_named))),
+        _next(folder, is_named, absent.parts_in(found)),
     )
 
 
@@ -42,24 +43,16 @@ def _instead(folder: Path, is_named: bool) -> list[str]:
     return ["It came with the benchmark; results/latest has no finished run (try: make bench)."] * stands_in
 
 
-def _part(show: str, present: list[str]) -> list[str]:
-    """How to see one part, where there are several."""
-    first = "arms" if "arms" in present else present[0]
-    others = [part for part in present if part != first]
-    return [f"{show} {first}   one part of them; also {listed(others)}"] if others else []
-
-
 def _next(folder: Path, is_named: bool, present: list[str]) -> Paragraph:
     here = shown_path(folder)
     show = f"python -m bench show {here}" if is_named else "python -m bench show"
     book = f"{results.VARIABLE}={here} make report" if is_named else "make report"
+    parts = f", or one part: {', '.join(present)}" if len(present) > 1 else ""
     return Paragraph(
         "Next",
         (
             f"{book}   the book of this run",
-            f"{show} --details   every table",
-            *_part(show, present),
+            f"{show} --details   every table{parts}",
             f"python -m bench claims {here}   each claim with its evidence",
-            f"{here}   the data; results/README.md explains the columns",
         ),
     )

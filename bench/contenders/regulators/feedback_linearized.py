@@ -9,6 +9,10 @@ What that is, from rest towards the identity:
 Where E_d and E lie on different sheets (of mrp and rotation vector past 180°, of the quaternion's sign) the
 numbers are taken as they come, and the way round is the long one.
 
+Proved in Z-Y-X angles: from rest E - E_d = (E_0 - E_d) r(t), and 0 <= r <= 1 where Kd^2 >= 4 Kp, so that E stays on the
+segment from E_0 to E_d, where |beta| < pi/2 and no angle jumps: every start at rest off the poles reaches every goal
+off them.
+
 Fails: where B^-1 does not exist (in Z-Y-Z at the identity itself), and where a coordinate jumps.
 """
 

@@ -196,7 +196,7 @@ CRITERIA = (
     ),
     Criterion(
         "within",
-        "Settle within torque and range",
+        "Within torque and range",
         "%",
         "uniform starts on arms that settle within the motors' rated torques and the joints' ranges",
         on_arms("range"),

@@ -87,13 +87,13 @@ SURE = (TRIED, EVERYWHERE, QUIET)
 DEFAULT = Need("nothing else is known", (*SURE, UNHELD))
 """What a law must have to be advised where nothing else is said."""
 
-ARM = Need("a robot's arm, exact 180° rotations aside", (TRIED, NEARLY), ("arms", "within"), is_apart=True)
+ARM = Need("a robot's arm whose goal is never exactly 180° away", (TRIED, NEARLY), ("arms", "within"), is_apart=True)
 FORGETS = Need("no memory in the controller", (*SURE, FORGETFUL))
 BOUNDED = Need(f"a command bounded by {criteria.BOUND:g} rad/s²", SURE, ("bounded",))
 
 NEEDS = (
     Need("the fastest, at equal stiffness near the goal", SURE, ("time",)),
-    Need("the same settling time from everywhere", SURE, ("spread",)),
+    Need("the least spread of settling times", SURE, ("spread",)),
     Need("least effort", SURE, ("effort",)),
     Need("the smoothest command", SURE, ("variation",)),
     Need("the smallest peak of the command", SURE, ("peak",)),

@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 
-from bench.findings.selection.criteria import BY_NAME, Criterion
+from bench.findings.perturbed import studied
+from bench.findings.selection.criteria import BOUND, BY_NAME, Criterion
 from bench.findings.selection.measured import Measured
-from bench.findings.selection.needs import SURE, Decision, best_by, has_all
+from bench.findings.selection.needs import NEARLY, SURE, TRIED, Decision, best_by, has_all
 
 NAMED = 3
 """Laws named where several tie; the others are counted."""
@@ -24,10 +25,7 @@ def standing(one: Decision, called: Called) -> str:
             f"{len(one.asked)} published laws meet these conditions; it is at least as good as the others on every "
             "criterion and better on one."
         )
-    return (
-        f"{together([called(law) for law in (one.law or '', *one.tied)])} tie: none of them is better than another on "
-        "one criterion and worse on none. Of these it is the simplest."
-    )
+    return f"It ties with {together([called(law) for law in one.tied])} and is the simplest of these."
 
 
 def together(words: Sequence[str]) -> str:
@@ -46,6 +44,22 @@ def leaders(found: Measured, criterion: str, called: Called) -> str:
     if not sure or set(every) <= set(sure):
         return _tie(every, called)
     return f"{_tie(every, called)}; among laws that settle from every start: {_tie(sure, called)}"
+
+
+def faster_under_a_bound(found: Measured, usual: str, called: Called = str) -> str:
+    """Say which law that fails at some directed start is the fastest under a bound, if it is faster than the usual."""
+    rows = studied()
+    at = rows[(rows["axis"].astype(str) == "saturation") & (rows["level"] == BOUND)].set_index("contender")
+    laws = [law for law in found.laws if has_all(found, law, (TRIED, NEARLY)) and found.number("lost", law)]
+    times = at["median_s"].reindex([usual, *laws]).dropna()
+    if usual not in times or times.idxmin() == usual:
+        return ""
+    law = times.idxmin()
+    own, other = times[law], times[usual]
+    return (
+        f"Under a command bounded by {BOUND:g} rad/s² {called(law)} settles {100 * (1 - own / other):.0f} % sooner in "
+        f"the median ({own:.3f} s against {other:.3f} s, {at['starts'][law]} starts), but gets stuck at 180° rotations."
+    )
 
 
 def _tie(laws: Sequence[str], called: Called) -> str:

@@ -14,7 +14,7 @@ from bench.findings.selection.criteria import BY_NAME, Criterion
 from bench.findings.selection.measured import Measured, measured
 from bench.findings.selection.robots import ROBOTS, word_of
 from bench.findings.selection.rule import GENERAL, front
-from bench.findings.selection.words import cost, standing, together
+from bench.findings.selection.words import cost, faster_under_a_bound, standing, together
 from bench.tables.statistics import Estimate
 from report.figures.answer.plane import plane, shown
 from report.figures.cost.cost import spent
@@ -42,6 +42,7 @@ def facts(run: Run) -> dict:
         "unheld": sum(needs.UNHELD.has(found, law) for law in whole),
         "uniform": len(found.values["time"][found.laws[0]]),
         "directed": len(found.tables.directed) // len(found.laws),
+        "perturbed": max(map(len, found.values["bounded"].values()), default=0),
         "noise": f"{HELD_RAD:g}",
         "measurable": f"{100 * MEASURABLE:g}",
         "band": f"{100 * float(found.tables.uniform['tolerance'].iloc[0]):g}",
@@ -57,13 +58,13 @@ def front_page(run: Run) -> str:
     found, one = measured(run.folder), needs.advice(run.folder).default
     if one.law is None:
         return f"No law of this run settles from every start tried and is trapped by no noise up to {HELD_RAD:g} rad."
+    rest = (standing(one, families.word), faster_under_a_bound(found, one.law, families.word), _ours(found))
     word, time = families.word(one.law), told(BY_NAME["time"], found.estimate("time", one.law))
-    beside = _ours(found)
     return (
         f"{word[0].upper()}{word[1:]}, a published law, at {gains.gains_in_words(found)}, in simulation only: it "
         f"settles from every start tried, even an adversary who falsifies the measured orientation by up to "
         f"{HELD_RAD:g} rad cannot hold the body at 180°, and 99 % of all starts settle in {time}. "
-        f"{standing(one, families.word)}{beside}"
+        f"{' '.join(filter(None, rest))}"
     )
 
 
@@ -73,7 +74,7 @@ def _ours(found: Measured) -> str:
     if own is None:
         return ""
     return (
-        f" Our own law beside it is {families.word(own)}: 2026, simulation only, not reviewed. "
+        f"Our own law beside it is {families.word(own)}: 2026, simulation only, not reviewed. "
         f"{gains.compare_at_all_gains(families.word)} Reset its memory when the goal jumps, which was not tested here."
     )
 

@@ -28,7 +28,7 @@ from report.figures.kit.spelling import typeset
 from report.figures.kit.tables import Table
 
 PROPERTIES = {
-    "local": "Stable near the goal, by linearization; no more than that.",
+    "local": "Stable near the goal, by linearization.",
     "almost global": "Stable from all starts but a set of measure zero. No continuous law without memory can do more "
     "(Bhat & Bernstein 2000).",
     "global with memory": "Stable from every start, with memory. No continuous law is without (Bhat & Bernstein 2000).",

@@ -7,13 +7,15 @@ import math
 import numpy as np
 import pandas as pd
 
+from bench.findings.selection.criteria import BOUND, HEAVY
 from bench.findings.theory.closed_form import linear_settling
 from bench.findings.theory.isotropic import EQUATIONS, LEAST_RAD, settling
 from bench.law.contender import PAPERS_GAINS
 from bench.law.equation import ANGLE, CHORD, Equation
 from bench.tables import read
-from report.figures.comparison import comparison, new_law
-from report.figures.comparison.cells import LEVEL, costs, medians
+from report.figures.comparison import cells, comparison, new_law
+from report.figures.comparison.cells import LEVEL
+from report.figures.comparison.comparison import uniform
 from report.figures.comparison.new_law import greatest_pull, peak_gains, response
 from report.figures.cost.operations import CALLS
 from report.figures.kit import families, html
@@ -25,6 +27,8 @@ from tasks.rules import RULES
 NEW = "late-braking"
 RATIOS = 0.5, 0.7, 1.0, 1.5
 """Damping ratios at which it is compared with a linear system."""
+BESIDE = (NEW, "quaternion-shortest", MATRIX)
+"""Laws whose effort and overshoot are compared in the text."""
 
 LATE = EQUATIONS[NEW]
 ROOTLESS = Equation(
@@ -69,7 +73,12 @@ def facts(run: Run) -> dict:
         **(count_calls(spent.loc[NEW, "typical"]) if (NEW, "typical") in spent.index else {}),
         "pull": f"{greatest_pull(LATE):.2f}",
         "effort": html.number(round(effort(LATE))),
+        "chord_effort": html.number(round(effort(CHORD))),
         "straight_effort": html.number(round(effort(ANGLE))),
+        "medians": given(uniform(run), lambda rows: in_words(medians(rows, "effort"), "{:.0f}")),
+        "factors": given(comparison.at_peak(run), effort_factors),
+        "bounded": given(run.rows("robustness", axis="saturation"), lambda rows: overshoots(rows, BOUND)),
+        "heavy": given(run.rows("robustness", axis="inertia"), lambda rows: overshoots(rows, HEAVY)),
         "peak_s": f"{longest(LATE, *peak_gains(LATE)):.2f}",
         "peak_straight_s": f"{longest(ANGLE, *peak_gains(ANGLE)):.2f}",
         "peak_chord_s": f"{longest(CHORD, *peak_gains(CHORD)):.2f}",
@@ -80,9 +89,13 @@ def facts(run: Run) -> dict:
 
 def compare_at_equal_peak(rows: pd.DataFrame) -> str:
     """Count the published laws that are as fast as this one, or spend as little, with gains for one peak command."""
-    times, efforts = costs(rows, "settling_time_s"), costs(rows, "effort")
+    times, efforts = cells.costs(rows, "settling_time_s"), cells.costs(rows, "effort")
     others = [law for law in times if law != NEW and law not in families.CONTROLS]
-    measures = {"median settling time": medians(times), "slowest start": times.max(), "median effort": medians(efforts)}
+    measures = {
+        "median settling time": cells.medians(times),
+        "slowest start": times.max(),
+        "median effort": cells.medians(efforts),
+    }
     units = ("s", "s", "rad²/s³")
     parts = [
         f"{name} {own[NEW]:.3g} {unit} ({(own[others] <= own[NEW]).sum()} of {len(others)} published laws need no more)"
@@ -101,6 +114,29 @@ def is_later(ratio: float) -> bool:
 def count_calls(row: pd.Series) -> dict[str, int]:
     """Return the square roots and the trigonometric calls of a row of costs.parquet."""
     return {"roots": int(row["sqrt"]), "calls": int(row[list(CALLS)].sum())}
+
+
+def medians(rows: pd.DataFrame, column: str) -> pd.Series:
+    """Compute the median of a column for each of the laws that are compared."""
+    return cells.medians(cells.costs(rows, column))[list(BESIDE)]
+
+
+def in_words(values: pd.Series, form: str) -> str:
+    """List a number of each of the laws that are compared."""
+    return ", ".join(f"{form.format(value)} ({families.word(law)})" for law, value in values.items())
+
+
+def effort_factors(rows: pd.DataFrame) -> str:
+    """Compare the median effort of this law at equal peak command with the others'."""
+    spent = medians(rows, "effort")
+    return " and ".join(f"{spent[NEW] / spent[law]:.1f} times the {families.word(law)}'s" for law in BESIDE[1:])
+
+
+def overshoots(rows: pd.DataFrame, level: float) -> str:
+    """List the greatest overshoot of the laws at one level of a perturbation, and the number of starts."""
+    there = rows[rows["level"] == level]
+    most = np.degrees(there.groupby(there["contender"].astype(str))["overshoot_rad"].max())[list(BESIDE)]
+    return f"{in_words(most, '{:.0f}°')} from {there['start_id'].nunique()} starts"
 
 
 def longest(equation: Equation, kp: float, kv: float) -> float:

@@ -27,6 +27,9 @@ VERDICTS = {
     "not testable": "untestable",
 }
 MISSING = "–"
+COUNT = re.compile(r"(?<=\d) of (?=\d)")
+"""In a cell, where no line may break."""
+
 ROUNDED_FROM, SCIENTIFIC_FROM = 1e3, 1e9  # three figures of a number in between would read 1.23e+03
 LEADING_MINUS = re.compile(r"-[\d.\u221e]")
 TAKEN = re.compile(r"[&<>\"'\\$`*_{}\[\]|~#!^@]")
@@ -98,7 +101,7 @@ def table(
     head = [str(column) for column in frame.columns]
     rule = [":--" if column in as_words else "--:" for column in head]
     rows = [
-        [cell(value, formats.get(column)) for column, value in zip(head, row, strict=True)]
+        [COUNT.sub("\u00a0of\u00a0", cell(value, formats.get(column))) for column, value in zip(head, row, strict=True)]
         for row in frame.itertuples(index=False, name=None)
     ]
     lines = [head, rule, *rows]

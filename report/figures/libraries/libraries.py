@@ -7,6 +7,7 @@ import math
 
 import pandas as pd
 
+from bench.contenders.registry import known_shipped
 from report.figures.kit import html
 from report.figures.kit.page import Run
 from report.figures.kit.spelling import power
@@ -114,6 +115,8 @@ def loop_facts() -> dict:
         "loops_away": int((functions["away"] > 0).sum()),
         "axes_180": int(functions["at_180"].min()),
         "fixed": int((loops.verdicts()["fixed"] != "").sum()),
+        "mink_version": answers.origins()["mink"]["version"],
+        "mink_commit": known_shipped()["mink"].source.partition("@")[2][:7],
         "weld_settings": weld.title,
         "weld_loop": loops.in_words(weld),
         "weld_most": f"{pulls()['pull_ratio'].max():.2g}",

@@ -26,9 +26,10 @@ FILES = Table("File | Rows | Size | SHA-256")
 
 
 def facts(_: Run) -> dict:
-    """The version that is cited, and its date."""
+    """Return the title and the version that are cited, with its date."""
     said = cited()
-    return {"version": f"{said['version']} ({said['date-released']})" if "date-released" in said else said["version"]}
+    version = f"{said['version']} ({said['date-released']})" if "date-released" in said else said["version"]
+    return {"title": said["title"], "version": version}
 
 
 def cited() -> dict[str, str]:

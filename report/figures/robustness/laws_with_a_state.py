@@ -7,12 +7,13 @@ import math
 import pandas as pd
 
 from bench.contenders.registry import known_compensators, known_regulators
+from bench.law.contender import PAPERS_GAINS
 from report.figures.kit import html
 from report.figures.kit.page import Run
 from report.figures.kit.tables import Table
 
 STATES = Table("Law | Measures the rate | Disturbance [rad/s²]:g | Left [°]:.2f | Within 1° [s] | Slowest [s]")
-FACTS = ("left", "disturbance", "starts", "faster")
+FACTS = ("left", "disturbance", "starts", "faster", "fast_gain", "slow_gain")
 
 
 def compensated(run: Run) -> pd.DataFrame:
@@ -37,6 +38,8 @@ def facts(run: Run) -> dict:
         "disturbance": f"{worst:g}",
         "starts": int(rows["starts"].max()),
         "faster": f"{without / paper:.2f}",
+        "fast_gain": f"{PAPERS_GAINS.kp + 2.0 * PAPERS_GAINS.kv**2:g}",
+        "slow_gain": f"{PAPERS_GAINS.kp:g}",
     }
 
 

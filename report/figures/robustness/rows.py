@@ -112,7 +112,7 @@ def losses(rows: pd.DataFrame, name: str) -> str:
             )
     if not parts:
         return "No law loses a start there that goes well unperturbed."
-    return f"There fewer starts go well than unperturbed for {listed(parts)}."
+    return f"Success drops there for {listed(parts)}."
 
 
 def listed(words: Iterable[str]) -> str:
