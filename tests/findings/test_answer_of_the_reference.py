@@ -42,11 +42,7 @@ DECIDED = {
     "accelerations": (advised.accelerations, advice, (DEFAULT, *NEEDS)),
     "velocities": (
         advised.velocities,
-    "velocities": (
-        advised.velocities,
         functools.partial(robots.advise_for, robots.VELOCITIES),
-        (robots.VELOCITY, *robots.VELOCITIES.needs),
-    ),
         (robots.VELOCITY, *robots.VELOCITIES.needs),
     ),
 }
