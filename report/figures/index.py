@@ -80,7 +80,7 @@ def of_the_paper(run: Run) -> dict:
         "slope": f"{settling_decades.slope(half):.3f}",
         "stuck": len(lost(exact)),
         "exact": len(exact),
-        "least": f"{np.degrees(lost(of(episodes, LINEARIZED))['alpha0'].abs().min()):.0f}",
+        "least": f"{np.floor(np.degrees(lost(of(episodes, LINEARIZED))['alpha0'].abs().min())):.0f}",
         "polar": len(lost(on_pole)),
         "on_pole": len(on_pole),
     }

@@ -66,7 +66,7 @@ def recompute_failure_map():
         "mapped_l": f"{100 * bad / n:.2f} % ({100 * low:.2f} to {100 * high:.2f})",
         "mapped": n,
         "failed_l": len(lost[LINEARIZED]),
-        "least": f"{np.degrees(lost[LINEARIZED]['alpha0'].abs().min()):.0f}",
+        "least": f"{np.floor(np.degrees(lost[LINEARIZED]['alpha0'].abs().min())):.0f}",
     }
 
 
@@ -83,7 +83,7 @@ def recompute_comparison():
         own = rows[(rows["angle0_rad"] < np.radians(angle)) & (rows["law"] != "weighted-columns")]
         medians = own.groupby("law")["settling_time_s"].median()
         said |= {f"within_{angle}": own["start_id"].nunique()}
-        said |= {f"apart_{angle}": f"{100 * (medians.max() / medians.min() - 1):.0f}"}
+        said |= {f"apart_{angle}": f"{np.ceil(100 * (medians.max() / medians.min() - 1) - 1e-9):.0f}"}
     asked = accelerations()
     sure = [law for law in asked.laws if all(asked.has(fact).get(law, False) for fact in needs.SURE)]
     for key, by in {"fastest": "time", "surest": "worst", "sparest": "effort", "peak_fastest": "matched"}.items():

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import math
 
 import numpy as np
 import pandas as pd
@@ -108,7 +109,7 @@ def near(rows: pd.DataFrame) -> dict:
     for angle in NEAR_DEG:
         own = rows[(rows["angle0_rad"] < np.radians(angle)) & (rows["contender"] != ANISOTROPIC)]
         middles = own.groupby(own["contender"].astype(str))["settling_time_s"].median()
-        apart = f"{100.0 * (middles.max() / middles.min() - 1.0):.0f}"
+        apart = f"{math.ceil(100.0 * (middles.max() / middles.min() - 1.0) - 1e-9)}"  # "or less"
         found |= {f"within_{angle}": own["start_id"].nunique(), f"apart_{angle}": apart}
     return found
 

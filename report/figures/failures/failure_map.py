@@ -67,7 +67,7 @@ def facts(run: Run) -> dict:
         "axes_l": int(along["l"].notna().sum()),
         "axes_others": counted(int(along[letter].notna().sum()) for letter in "mf"),
         "mapped_l": maps.lost_at_rest(LINEARIZED),
-        "least": f"{np.degrees(failed['alpha0'].abs().min()):.0f}",
+        "least": f"{np.floor(np.degrees(failed['alpha0'].abs().min())):.0f}",
         "least_gamma": f"{np.degrees(failed['gamma0'].abs().min()):.0f}",
         "inside": int((failed["alpha0"].abs() < np.pi / 2.0).sum()),
         "outside": f"{100 * (1 - len(lost(outside)) / len(outside)):.0f}",
