@@ -1,6 +1,6 @@
 """What does a law cost as exported C? Instructions a tick by callgrind, beside our own compiled loop's: results/export.
 
-    python -m bench.studies.exported        some minutes a law; needs gcc and valgrind
+    python -m bench.studies.exported        some minutes; needs gcc and valgrind
 
 The loop in C is that of bench/timing/law.py: each tick waits for the command before it. gcc and our compiler arrange
 the same operations each in its way: what goes into vectors is counted once, and what spills is counted too.
@@ -24,8 +24,7 @@ from bench.timing import law
 
 STORED = ROOT / "results" / "export" / "instructions.json"
 FLAGS = ("-std=c99", "-O2", "-ffp-contract=off")
-SWEEPS, MANY = 2, 2000
-"""Sweeps over the states in C, and in an interpreter, whose own start repeats to a million instructions or so."""
+SWEEPS = 2
 
 LOOP = """#include "{name}.h"
 #include <stdio.h>
@@ -79,36 +78,50 @@ def in_c(subject: Subject, folder: Path) -> float:
 
 
 def _total(folder: Path, sweeps: int) -> int:
-    return _count(["./loop", str(sweeps), "100", "20"], folder, {"PATH": "/usr/bin:/bin"})
+    [total] = _count(["./loop", str(sweeps), "100", "20"], folder, {"PATH": "/usr/bin:/bin"})
+    return total
 
 
-def _count(words: list[str], folder: Path, environment: dict[str, str]) -> int:
-    """Count the instructions of a command."""
-    valgrind = ["setarch", "-R", "valgrind", "--tool=callgrind", "--callgrind-out-file=counted"]
-    subprocess.run([*valgrind, *words], cwd=folder, check=True, capture_output=True, env=environment)
-    [line] = [one for one in (folder / "counted").read_text(encoding="utf-8").splitlines() if one.startswith("totals:")]
-    return int(line.split()[1])
+def _count(words: list[str], folder: Path, environment: dict[str, str]) -> list[int]:
+    """Count the instructions of a command: up to each call of getpgid, and from the last one on."""
+    for old in folder.glob("counted*"):
+        old.unlink()
+    valgrind = ["setarch", "-R", "valgrind", "--tool=callgrind", "--dump-before=getpgid"]
+    command = [*valgrind, "--callgrind-out-file=counted", *words]
+    subprocess.run(command, cwd=folder, check=True, capture_output=True, env=environment)
+    files = sorted(folder.glob("counted*"), key=lambda path: (path.suffix == "", int(path.suffix[1:] or 0)))
+    lines = [line for path in files for line in path.read_text(encoding="utf-8").splitlines()]
+    return [int(line.split()[1]) for line in lines if line.startswith("totals:")]
 
 
-OURS = """import sys
+OURS = """import os, sys
 from bench.contenders.registry import find_contender
 from bench.engines.binding import command_of, memory_of
 from bench.timing import law
 
-one = find_contender(sys.argv[1])
-loop = law.loop_of(command_of(one), memory_of(one))
-loop(law.states(), 100.0, 20.0, int(sys.argv[2]))
+for name in sys.argv[2:]:
+    one = find_contender(name)
+    loop = law.loop_of(command_of(one), memory_of(one))
+    loop(law.states(), 100.0, 20.0, 1)
+    for sweeps in (int(sys.argv[1]), 2 * int(sys.argv[1])):
+        os.getpgid(0)
+        loop(law.states(), 100.0, 20.0, sweeps)
+        os.getpgid(0)
 """
-"""Valgrind knows none of the newest processors' instructions, so the compiler is told of an older one."""
+MARKS = 4  # of a law: before and after each of two calls
 
 
-def in_numba(name: str, folder: Path) -> float:
-    """Count the instructions a tick of our compiled loop, in an interpreter that finds it compiled."""
+def in_numba(names: list[str], folder: Path) -> list[float]:
+    """Count the instructions a tick of our compiled loops, in one interpreter, which takes minutes to import numba.
+
+    Valgrind does not know the newest processors' instructions, so numba compiles for an older one.
+    """
     more = {"PYTHONPATH": str(ROOT), "PYTHONHASHSEED": "0", "NUMBA_CPU_NAME": "x86-64-v3", "NUMBA_CPU_FEATURES": ""}
-    words, environment = [sys.executable, "-c", OURS, name], {**os.environ, **more}
-    subprocess.run([*words, "1"], check=True, env=environment)
-    short, long = (_count([*words, str(sweeps)], folder, environment) for sweeps in (MANY, 2 * MANY))
-    return (long - short) / (MANY * law.STATES)
+    words, environment = [sys.executable, "-c", OURS, str(SWEEPS), *names], {**os.environ, **more}
+    subprocess.run(words, check=True, env=environment)  # so that all is compiled before
+    totals = _count(words, folder, environment)[:-1]
+    pairs = zip(totals[1::MARKS], totals[3::MARKS], strict=True)
+    return [(long - short) / (SWEEPS * law.STATES) for short, long in pairs]
 
 
 def counted(names: tuple[str, ...] = ()) -> dict[str, dict[str, float]]:
@@ -119,13 +132,14 @@ def counted(names: tuple[str, ...] = ()) -> dict[str, dict[str, float]]:
     """
     if absent := [tool for tool in ("valgrind", "setarch") if shutil.which(tool) is None]:
         raise MissingTool(f"{' and '.join(absent)} not found (Debian: apt install valgrind util-linux)")
+    chosen = list(names) or [one.name for one in all_contenders() if not one.regulator.in_engine]
     with tempfile.TemporaryDirectory() as folder:
         place = Path(folder)
         (place / "states").write_bytes(law.states().tobytes())
         found = {}
-        for name in names or [one.name for one in all_contenders() if not one.regulator.in_engine]:
-            found[name] = {"ours": in_numba(name, place), "c": in_c(find_subject(name), place)}
-            print(f"{name}: {found[name]['ours']:.1f}, in C {found[name]['c']:.1f}", flush=True)
+        for name, ours in zip(chosen, in_numba(chosen, place), strict=True):
+            found[name] = {"ours": ours, "c": in_c(find_subject(name), place)}
+            print(f"{name}: {ours:.1f}, in C {found[name]['c']:.1f}", flush=True)
     return found
 
 

@@ -1,4 +1,4 @@
-"""The regression gate finds each kind of change, and nothing where nothing changed."""
+"""The row gate finds each kind of change in a run, and nothing that rounding alone can make."""
 
 import shutil
 
@@ -17,30 +17,55 @@ from bench.experiments.experiment import Settings
 from bench.regression.rows import compare
 from bench.tables.store import write_table
 
+NAN, INF = float("nan"), float("inf")
+
 
 @pytest.fixture(scope="module")
-def reference(tmp_path_factory):
+def body(tmp_path_factory):
+    """Two laws on the free body."""
     laws = [find_contender("rotation-matrix"), find_contender("feedback-linearized/zyx-euler")]
     plan = planning.make("quick", laws, Choice(start_sets=("paper", "poles"), engines=("ideal-held",)), horizon_s=2.0)
     return ran(plan, tmp_path_factory)
 
 
+@pytest.fixture(scope="module")
+def arms(tmp_path_factory):
+    """Two arms and two inverses, which only the columns of an arm distinguish."""
+    places, ways = (("arm-regulation",), ("clear",), ("native",), ("puma560", "ur5e")), ("solve", "truncated-svd")
+    choice = Choice(*places, ("geometric",), ways, ("nominal", "mass-1.15"))
+    plan = planning.make("quick", [find_contender("rotation-matrix")], choice, count=1, horizon_s=1.5)
+    return ran(plan, tmp_path_factory)
+
+
+@pytest.fixture(scope="module")
+def contact(tmp_path_factory):
+    """One controller on all poses of wrench-probe on one arm; the pole is among them."""
+    choice = Choice(("wrench-probe",), arms=("ur5e",), controllers=("impedance-coordinates/zyx-euler",))
+    return ran(planning.make("quick", [], choice, horizon_s=0.02), tmp_path_factory)
+
+
 @pytest.fixture
-def candidate(reference, tmp_path):
-    return shutil.copytree(reference, tmp_path / "candidate")
+def pair(request, tmp_path):
+    """pair(run): two copies of a run."""
 
+    def copy(run):
+        finished = request.getfixturevalue(run)
+        return [shutil.copytree(finished, tmp_path / name) for name in ("base", "head")]
 
-def test_gate_passes_when_nothing_changed(reference, candidate):
-    assert compare(reference, candidate) == []
-    assert main(["compare", str(reference), str(candidate)]) == 0
-
-
-def worst_total(frame):
-    return (frame["regulator"] == "rotation-matrix") & (frame["branch"] == "worst") & (frame["stage"] == "total")
+    return copy
 
 
 def settled(frame):
     return frame.index[frame["outcome"] == "settled"][3:4]
+
+
+def failed(frame):
+    assert (frame["outcome"] != "settled").any()
+    return frame["outcome"] != "settled"
+
+
+def worst_total(frame):
+    return (frame["regulator"] == "rotation-matrix") & (frame["branch"] == "worst") & (frame["stage"] == "total")
 
 
 @pytest.mark.parametrize(
@@ -52,90 +77,128 @@ def settled(frame):
             lambda frame: changed(frame, worst_total(frame), mul=lambda mul: mul + 1),
             "mul: 25 -> 26: rotation-matrix worst total",
         ),
-        (
-            "episodes",
-            lambda frame: changed(frame, settled(frame), settling_time_s=0.1 + 0.2),
-            "settling_time_s: ",
-        ),
+        ("episodes", lambda frame: changed(frame, settled(frame), settling_time_s=0.1 + 0.2), "settling_time_s: "),
         ("episodes", lambda frame: frame.drop(index=5), "episodes: row is missing: quick free-body"),
+        ("episodes", lambda frame: changed(frame, failed(frame), effort=lambda effort: 3.0 * effort), ""),
     ],
-    ids=["one flipped outcome", "one more multiplication", "another time", "a missing row"],
+    ids=["one flipped outcome", "one more multiplication", "another time", "a missing row", "effort of a failure"],
 )
-def test_gate_catches(reference, candidate, capsys, table, edit, says):
-    change(candidate, table, edit)
-    [line] = compare(reference, candidate)
-    assert line.startswith(says)
-    assert "0000" not in line  # 0.1 + 0.2 is shown as 0.3
-    assert main(["compare", str(reference), str(candidate)]) == 1
-    assert says.partition(": ")[2].partition(":")[0] in capsys.readouterr().out
-
-
-def test_gate_catches_a_new_row(reference, candidate):
-    def paper(frame):
-        return frame["start_id"] == "figure-2.3"
-
-    change(candidate, "episodes", lambda frame: changed(frame, paper(frame), start_id="figure-9.9"))
-    lines = compare(reference, candidate)
-    assert any(line.startswith("episodes: row is new") for line in lines)
-    assert any(line.startswith("episodes: row is missing") for line in lines)
+def test_gate_catches_a_change_on_the_body(pair, capsys, table, edit, says):
+    base, head = pair("body")
+    assert main(["compare", str(base), str(head)]) == 0
+    change(head, table, edit)
+    lines = compare(base, head)
+    assert [line[: len(says)] for line in lines] == [says] * bool(says)
+    assert "0000" not in "".join(lines)  # 0.1 + 0.2 is shown as 0.3
+    assert main(["compare", str(base), str(head)]) == bool(says)
 
 
 @pytest.mark.parametrize("edit", ["unit", "name", "type"])
-def test_gate_catches_a_changed_column(reference, candidate, edit):
-    path = candidate / "episodes.parquet"
-    table = pq.read_table(path)
+def test_gate_catches_a_changed_column(pair, edit):
+    base, head = pair("body")
+    table = pq.read_table(head / "episodes.parquet")
     place = table.schema.get_field_index("effort")
     field = table.schema.field(place)
-    changed = {
-        "unit": field.with_metadata({"unit": "N m"}),
-        "name": field.with_name("work"),
-        "type": field.with_type(pa.float32()),
-    }[edit]
-    schema = table.schema.set(place, changed)
-    column = table.column(place).cast(changed.type, safe=False)
-    pq.write_table(table.set_column(place, changed, column).replace_schema_metadata(schema.metadata), path)
-    lines = compare(reference, candidate)
-    assert any("column effort" in line for line in lines)
+    other = {"unit": field.with_metadata({"unit": "N m"}), "name": field.with_name("work")}
+    new = other.get(edit) or field.with_type(pa.float32())
+    schema = table.schema.set(place, new)
+    column = table.column(place).cast(new.type, safe=False)
+    pq.write_table(
+        table.set_column(place, new, column).replace_schema_metadata(schema.metadata), head / "episodes.parquet"
+    )
+    assert any("column effort" in line for line in compare(base, head))
 
 
-def test_gate_catches_a_moved_failure_boundary(reference, candidate, tmp_path):
-    unit = boundaries.of_law(find_contender("linearized-euler"), 16)
-    write_table(candidate / "boundaries.parquet", boundaries.rows(Settings(), unit), "boundaries")
-    before = shutil.copytree(candidate, tmp_path / "before")
+def test_gate_catches_a_moved_boundary_and_a_curve_that_bends_or_is_gone(pair, tmp_path):
+    base, head = pair("body")
+    for folder in (base, head):
+        unit = boundaries.of_law(find_contender("linearized-euler"), 16)
+        write_table(folder / "boundaries.parquet", boundaries.rows(Settings(), unit), "boundaries")
+        unit = traces.of_law(find_contender("rotation-matrix"), 3)
+        write_table(folder / "traces.parquet", traces.rows(Settings(), unit), "traces")
+    assert compare(base, head) == []
 
     def move(frame):
         row = frame.index[frame["fails_from_rad"].notna()][0]
         return changed(frame, row, fails_from_rad=lambda angle: angle + 1e-3)
 
-    assert compare(before, candidate) == []
-    change(candidate, "boundaries", move)
-    [line] = compare(before, candidate)
-    assert line.startswith("fails_from_rad: ")
+    change(head, "boundaries", move)
+    change(head, "traces", lambda frame: changed(frame, 7, omega_x=lambda rate: rate + 1e-3))
+    assert sorted(line.partition(":")[0] for line in compare(base, head)) == ["fails_from_rad", "omega_x"]
+    change(head, "traces", lambda frame: frame[frame["start_id"] != "uniform-00001"])
+    assert any(line.startswith("traces: row is missing: free-body") for line in compare(base, head))
 
 
-def test_gate_catches_a_curve_that_bends_and_one_that_is_gone(candidate, tmp_path):
-    unit = traces.of_law(find_contender("rotation-matrix"), 3)
-    write_table(candidate / "traces.parquet", traces.rows(Settings(), unit), "traces")
-    before = shutil.copytree(candidate, tmp_path / "before")
-    assert compare(before, candidate) == []
-
-    change(candidate, "traces", lambda frame: changed(frame, 7, omega_x=lambda rate: rate + 1e-3))
-    [line] = compare(before, candidate)
-    assert line.startswith("omega_x: ")
-    change(candidate, "traces", lambda frame: frame[frame["start_id"] != "uniform-00001"])
-    assert all("row is missing" in line and "uniform-00001" in line for line in compare(before, candidate)[:-1])
+def nominal(frame):
+    return (frame["variation"] == "nominal") & (frame["outcome"] == "settled")
 
 
-def test_gate_ignores_what_a_failed_episode_measured(reference, candidate):
-    def shake(frame):
-        failed = frame["outcome"] != "settled"
-        assert failed.any()
-        return changed(frame, failed, effort=lambda effort: 3.0 * effort)
+@pytest.mark.parametrize(
+    ("by_rounding", "change_by", "is_said"),
+    [
+        (NAN, 2e-6, True),
+        (NAN, 5e-7, False),
+        (1e-9, 2e-6, True),
+        (1e-5, 5e-5, False),  # ten times what 1e-12 rad did
+        (1e-5, 2e-4, True),
+        (INF, 5.0, False),
+    ],
+)
+def test_gate_allows_a_torque_what_rounding_makes_of_it(pair, by_rounding, change_by, is_said):
+    folders = pair("arms")
+    for folder in folders:
+        change(folder, "episodes", lambda frame: frame.assign(rounding_change=by_rounding))
+    change(
+        folders[1], "episodes", lambda frame: changed(frame, nominal(frame), peak_tau_nm=lambda x: x * (1 + change_by))
+    )
+    lines = compare(*folders)
+    assert bool(lines) == is_said
+    assert all(line.startswith("peak_tau_nm: ") for line in lines)
 
-    change(candidate, "episodes", shake)
-    assert compare(reference, candidate) == []
+
+@pytest.mark.parametrize(
+    ("beside", "beside_now", "is_said"),
+    [("", "", True), ("diverged", "", False), ("", "settled", False), ("", "stuck", True), ("stuck", "stuck", False)],
+)
+def test_gate_wants_one_outcome_in_common_and_no_cause(pair, beside, beside_now, is_said):
+    base, head = pair("arms")
+    change(base, "episodes", lambda frame: frame.assign(outcome_beside=beside))
+    change(head, "episodes", lambda frame: frame.assign(outcome_beside=beside_now, cause="both"))
+    change(head, "episodes", lambda frame: changed(frame, nominal(frame), outcome="diverged"))
+    lines = compare(base, head)
+    assert bool(lines) == is_said
+    assert all(line.startswith("outcome: settled -> diverged: quick arm-regulation ") for line in lines)
 
 
-def test_gate_refuses_a_folder_without_a_run(reference, tmp_path, capsys):
-    assert main(["compare", str(reference), str(tmp_path)]) == 2
+FREE, POLE, NEAR = (f"alpha+0 beta+{beta} gamma+0, about x" for beta in (45, 90, 89))
+
+
+@pytest.mark.parametrize(
+    ("pose", "before", "after", "says"),
+    [
+        (FREE, {}, {"outcome": "broken"}, "outcome: done -> broken: quick wrench-probe ur5e impedance-coordinates"),
+        (FREE, {}, {"c_xz": lambda x: x * 1.01}, "c_xz: "),
+        (FREE, {}, {"misalignment_rad": lambda x: x * 0.9998}, "misalignment_rad: "),
+        (FREE, {}, {"trials": lambda x: x + 1}, "trials: "),
+        (FREE, {}, {"c_zz": NAN}, "c_zz: "),
+        (FREE, {}, {"rest": "creeping"}, "rest:  -> creeping: "),
+        (FREE, {"remaining_speed_m_per_s": 1e-6}, {"remaining_speed_m_per_s": 9e-6}, ""),  # at rest, both
+        (FREE, {"remaining_speed_m_per_s": 1e-3}, {"remaining_speed_m_per_s": 1.2e-3}, "remaining_speed_m_per_s: "),
+        (FREE, {"time_to_rest_s": 3.4}, {"time_to_rest_s": 3.6}, ""),
+        (FREE, {"time_to_rest_s": 3.4}, {"time_to_rest_s": 3.7}, "time_to_rest_s: "),
+        # rounding decides whether a coordinate is lost on the pole, and what a hand does that was thrown about
+        (POLE, {"peak_torque_ratio": 0.5, "outcome": "done"}, {"peak_torque_ratio": 0.5, "outcome": "saturated"}, ""),
+        (NEAR, {"peak_torque_ratio": 9.0, "outcome": "done"}, {"peak_torque_ratio": 8.0, "outcome": "saturated"}, ""),
+        (NEAR, {"peak_torque_ratio": 9.0, "outcome": "done"}, {"peak_torque_ratio": 0.5, "outcome": "slow"}, "outcome"),
+    ],
+)
+def test_gate_catches_in_contact_what_no_rounding_decides(pair, pose, before, after, says):
+    folders = pair("contact")
+    for folder, cells in zip(folders, (before, after), strict=True):
+        change(folder, "compliance", lambda frame, cells=cells: changed(frame, frame["pose"] == pose, **cells))
+    assert [line[: len(says)] for line in compare(*folders)] == [says] * bool(says)
+
+
+def test_gate_refuses_a_folder_without_a_run(body, tmp_path, capsys):
+    assert main(["compare", str(body), str(tmp_path)]) == 2
     assert "has not finished" in capsys.readouterr().err

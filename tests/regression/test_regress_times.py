@@ -89,8 +89,7 @@ def test_files_are_those_of_pytest_benchmark_and_name_no_machine(compared, tmp_p
         (tmp_path / f"{name}.json").write_text(json.dumps(content))
     words = [Path(sys.executable).with_name("pytest-benchmark"), "compare", *tmp_path.iterdir()]
     said = subprocess.run(words, capture_output=True, text=True, check=True, cwd=tmp_path).stdout
-    assert "test_ticks[tilted] (0001_base)" in said
-    assert "test_ticks[tilted] (0002_head)" in said
+    assert all(word in said for word in ("tilted", "0001", "0002", "2 tests"))
 
 
 @pytest.mark.parametrize("at", [0, 1])

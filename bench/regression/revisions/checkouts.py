@@ -15,7 +15,10 @@ from bench.regression.revisions.commits import check_out, find_commit, find_repo
 from bench.regression.revisions.timing import Side
 
 DIGEST = "from bench.provenance import source_digest; print(source_digest())"  # each knows its own sources
-PART = ("--engine", "ideal-rk4", "--engine", "native", "--task", "free-body", "--count", "40")
+PART = (
+    *("--engine", "ideal-rk4", "--engine", "native", "--arm", "ur5e", "--count", "16"),
+    *("--task", "free-body", "--task", "arm-regulation"),
+)
 """The part of the quick suite through which all laws are run; `make gate` runs the whole."""
 
 
