@@ -31,12 +31,12 @@ PAPERS = (
 """The paper's laws as contenders, with its reading of 2.4 and its equation to the letter; all others are later."""
 
 THREE = ("rotation-matrix", "linearized-euler/zyx-euler", "feedback-linearized/zyx-euler")
-"""Those that it compares, in its order of cost: the first is 'remarkably simple', the others are 'more involved'."""
+"""The laws that it compares, in its order of cost: the first is 'remarkably simple', the others are 'more involved'."""
 
 SETTLED_SHARE, NEARLY_ALL, SLOW = 0.999, 0.99, 2.0
 LOST_SHARE = 1.0 - SETTLED_SHARE
 DIRECTED_SHARE = 0.99
-"""Of the directed starts at rest, a few of which may be as near to a singular place as doubles can be."""
+"""Share of the directed starts at rest, a few of which may be as near to a singular place as doubles can be."""
 
 DETOUR = 1.5
 """Path over shortest path from which a start at rest counts as unwinding: halfway to a full turn from a half turn is
@@ -152,7 +152,7 @@ def ledger(results: Results) -> Ledger:
 
 
 def of_three(results: Results) -> Ledger:
-    """The same where the paper's three laws are counted.
+    """Return the ledger where the paper's three laws are counted.
 
     Errors:
         NoEvidence: one of them is not.
@@ -164,7 +164,7 @@ def of_three(results: Results) -> Ledger:
 
 
 TESTS = "abcdefgh"
-"""Of C27's criterion, in its order."""
+"""Tests of C27's criterion, in its order."""
 
 BOTH = "abcd"
 """What C17 asks."""

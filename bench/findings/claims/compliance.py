@@ -21,11 +21,11 @@ TWO_AXES = ("about x and y", "about y and z", "about z and x")
 LEVEL_PAIR = TWO_AXES[0]
 ANGLES = ("alpha", "beta", "gamma")
 EARLIER = {"about x": (1, 1, 0), "about y": (1, 0, 0), "about z": (0, 0, 0)}
-"""By order, the angles that come before the one that complies."""
+"""The angles that come before the one that complies, by order."""
 
 SAME = 0.01
-"""Of two matrices of compliance, over the size of the reference: ten times the 1e-3 that a sampled plant leaves of the
-closed form, and less than half of what one degree makes of an axis, sqrt(2) sin(1 deg) = 0.025."""
+"""Distance of two matrices of compliance, over the size of the reference: ten times the 1e-3 that a sampled plant
+leaves of the closed form, and less than half of what one degree makes of an axis, sqrt(2) sin(1 deg) = 0.025."""
 
 CLOSE_TO_POLE = 0.05
 """cos(beta) under which a pose is reported and does not decide: within 3 degrees of the pole B's condition number is

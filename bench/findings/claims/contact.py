@@ -23,8 +23,8 @@ PARTS = 2.0
 """Factor between two numbers that are not the same performance."""
 
 FLOORS = {"rad": 1e-3, "N": 0.1, "N m": 0.01, "m": 1e-4}
-"""By unit; a number below is taken for it, so that nothing is compared with almost nothing. About what the contact of a
-simulated hand leaves at rest."""
+"""Floors by unit; a number below is taken for it, so that nothing is compared with almost nothing. About what the
+contact of a simulated hand leaves at rest."""
 
 PERFORMANCE = {
     "alignment_error_rad": "rad",
@@ -118,7 +118,7 @@ def _worse_by(rows: pd.DataFrame, column: str) -> np.ndarray:
 
 
 def _told(task: str, rows: pd.DataFrame) -> str:
-    """Of a task how the pairs with turned and with straight frames part."""
+    """Describe how the pairs of a task with turned and with straight frames part."""
     turned, straight = rows[rows["is_turned"]], rows[rows["beta"].abs() <= ZERO_RAD]
     return f"{task}, {_parted(turned)} with |beta| >= {TURNED_DEG:g} degrees and {_parted(straight)} with beta = 0"
 

@@ -52,7 +52,7 @@ HAMMERED = 10.0
 """Peak torque over that of the geometric Jacobian from the same start: beyond it the Jacobian is to blame."""
 
 FEW = 0.1
-"""Of the flops of the whole tick: up to a tenth more is a few."""
+"""Share of the flops of the whole tick: up to a tenth more is a few."""
 
 EULER = f"hybrid/{COORDINATES}"
 
@@ -115,7 +115,7 @@ def c20(results):
 
 @functools.cache
 def bend(arm: str, gains: Gains, dt_s: float, curves: Callable = arm_probes.curves) -> Bend:
-    """Of curves at a step and at half of it."""
+    """Compare curves at a step and at half of it."""
     word = f"{BY_EULER}+{INVERSES[tasks.arm(arm).joints]}"
     full, half = (curves(word, arm, gains, step, CURVES) for step in (dt_s, dt_s / 2))
     both = full.merge(half, on=["start_id", "time_s"], suffixes=("", "_half"))
@@ -213,7 +213,7 @@ def c33(results):
 
 @functools.cache
 def in_contact(controller: str, joints: int) -> Operations:
-    """Of a controller's typical tick on an arm of so many joints."""
+    """Count a controller's typical tick on an arm of so many joints."""
     from bench.control.registry import find_controller
     from bench.counting import TOTAL, flops
     from bench.counting.in_contact import cost_in_contact

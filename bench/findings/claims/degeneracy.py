@@ -22,7 +22,7 @@ DIRECTIONS = 12
 DECADES = (1, 6)
 DEGENERATE, SMOOTH = 0.9, 0.01
 STEP = 1e-30
-"""Of the complex-step derivative, which has no cancellation: any tiny number does."""
+"""Step of the complex-step derivative, which has no cancellation: any tiny number does."""
 
 ANGLE_AND_AXIS = "angle and axis"
 """The angle, and the polar and azimuth angle of the axis: coordinates that no controller here uses."""
@@ -40,7 +40,7 @@ APART_RAD, SAME_RAD = 1e-3, 1e-12
 
 LOOPS_RAD = (0.1, 0.5, 1.0, math.pi / 2)
 COMMUTATOR = 0.5
-"""Of angle^2, by which four quarter-way turns about x, y, -x, -y must at least miss: by Campbell, Baker and Hausdorff
+"""Share of angle^2 by which four turns about x, y, -x, -y must miss at least: by Campbell, Baker and Hausdorff
 they miss by angle^2 about z, less terms of third order."""
 
 
@@ -78,7 +78,7 @@ def condition_in(word: str, R: Rotation) -> float:
 
 
 def condition_of_angle_and_axis(E) -> float:
-    """The same of angle and axis: column i is vee(dR/dE_i R^T)."""
+    """Compute the condition number for angle and axis: column i is vee(dR/dE_i R^T)."""
 
     def to_matrix(E):
         axis = (np.sin(E[1]) * np.cos(E[2]), np.sin(E[1]) * np.sin(E[2]), np.cos(E[1]))
@@ -206,7 +206,7 @@ def ways(seed: int) -> tuple[np.ndarray, list[float], float]:
 
 
 def _after(legs) -> Turn:
-    """Where turns in the base frame end, one after the other."""
+    """Compute the orientation after turns in the base frame, one after the other."""
     from scipy.spatial.transform import Rotation as Turn
 
     at = Turn.identity()

@@ -36,8 +36,8 @@ LINEAR_TIGHT, LINEAR_LOOSE = 1e-4, 1e-2
 """rad: Runge-Kutta of order 4 at 1 ms errs by far less on a time constant of 0.1 s; a visible bend is a hundredth."""
 
 LOST_SHARE, STRAY_SHARE = 1e-3, 0.01
-"""Of random starts: as C01 has it, isolated orientations are no more than one in 1,000; and one that is no exception
-any more."""
+"""Shares of random starts: as C01 has it, isolated orientations are no more than one in 1,000; and one that is no
+exception any more."""
 
 PAIRS = ((1.0, -0.5), (-2.0, 1.0))
 SIDES = ((0.0, 0.0), (0.4, 0.3), (-0.9, -1.5))

@@ -89,7 +89,7 @@ def c07(results, engine):
 
 
 def _median_peak(frame):
-    """Of the episodes that converge, with the interval of the median."""
+    """Compute the median peak command of the episodes that converge, with its interval."""
     return quantile_estimate(some(converged(frame), "episode that converges")["peak_u"].to_numpy(), 0.5)
 
 

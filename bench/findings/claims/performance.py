@@ -69,7 +69,7 @@ def _timed(known: Ledger) -> str:
 
 
 def _flops_alone(known: Ledger) -> str:
-    """Where flops, calls left out, come in another order."""
+    """Describe where flops, calls left out, come in another order."""
     orders = [
         [short for _, short in sorted((one[name].flops, short) for short, name in zip(NAMES, THREE, strict=True))]
         for one in known.accountings

@@ -35,7 +35,7 @@ FEWEST = 6
 
 
 class Operations(NamedTuple):
-    """Of a tick."""
+    """Flops and calls of a tick."""
 
     flops: int
     calls: int

@@ -33,7 +33,7 @@ class Measured(NamedTuple):
         return math.nan if values is None or not len(values) else float(statistic(BY_NAME[criterion])(values))
 
     def estimate(self, criterion: str, law: str) -> Estimate:
-        """The same with its 95 % interval, that of the starts: a bootstrap. One value alone has none."""
+        """Return a criterion of a law with its 95 % interval, by a bootstrap of the starts; one value has none."""
         values = self.values[criterion].get(law, np.array([]))
         if len(values) < 2:
             return Estimate(*[self.number(criterion, law)] * 3)
@@ -79,5 +79,5 @@ def measure(results: Results) -> Measured:
 
 @functools.cache
 def measured(folder: Path, measure: Callable[[Results], Measured] = measure) -> Measured:
-    """Those of the run in a folder."""
+    """Measure all criteria of the run in a folder."""
     return measure(Results(folder))

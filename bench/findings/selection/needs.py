@@ -205,6 +205,6 @@ def advice(
 
 
 def best_by(found: Measured, criterion: str, laws: Sequence[str]) -> tuple[str, ...]:
-    """Of some laws those that were measured by a criterion and that no other is better than: several tie."""
+    """Return the laws that were measured by a criterion and that no other is better than: several tie."""
     asked = [law for law in laws if len(found.values[criterion].get(law, ()))]
     return tuple(front(found, asked, (criterion,)))

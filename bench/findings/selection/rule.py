@@ -42,5 +42,5 @@ def dominates(found: Measured, law: str, other: str, criteria: Sequence[str]) ->
 
 
 def simplest(found: Measured, laws: Sequence[str]) -> str:
-    """Of some laws the simplest; of two alike in that, the first by name."""
+    """Return the simplest of some laws; of two alike in that, the first by name."""
     return min(laws, key=lambda law: (*found.tables.simplicity(law), law))

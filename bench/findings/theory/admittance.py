@@ -28,7 +28,7 @@ import numpy as np
 from bench.findings.theory.contact_stability import Spring
 
 ANGLES = 4000
-"""Of z on the half circle: between two of them the phase of H moves by far less than a turn."""
+"""Values of z on the half circle: between two of them the phase of H moves by far less than a turn."""
 
 
 class Admittance(NamedTuple):
@@ -70,7 +70,7 @@ def _root(function, low: float, high: float) -> float:
 
 
 def routh_limit(one: Admittance, lag_s: float) -> float:
-    """The same in continuous time without delay [N/m]; infinite without lag."""
+    """Compute the limit in continuous time without delay [N/m]; infinite without lag."""
     if lag_s <= 0.0:
         return math.inf
     return (one.m + one.d * lag_s) * (one.d + one.k * lag_s) / (one.m * lag_s) - one.k

@@ -73,7 +73,7 @@ def settling(angle: float, kp: float, kv: float, tolerance: float, short: float 
 
 @functools.cache
 def settling_curve(kp: float, kv: float, tolerance: float) -> Callable[[np.ndarray], np.ndarray]:
-    """The same as a function of many pi - angle [rad] at once, a cubic spline.
+    """Return settling times as a function of many pi - angle [rad] at once, a cubic spline.
 
     Its variable, log(tan((pi - angle)/4)), is the logarithm near the half turn and linear in the angle near zero.
     Within 1e-6 s of `settling`, a thousandth of a tick (tests/findings/test_closed_form.py).

@@ -15,7 +15,7 @@ from bench.law.contender import AT_REST, Gains, Goal
 from bench.law.so3 import Rotation, from_quaternion
 
 BISECTIONS = 40
-"""Of an angle up to pi: 3e-12 rad."""
+"""Halvings of an angle up to pi: to 3e-12 rad."""
 
 DIFFERENCE = 1e-5
 """Step of central differences [rad, rad/s]: they err by its square, 1e-10 of Kp, and by rounding of as much."""

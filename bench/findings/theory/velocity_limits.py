@@ -30,7 +30,7 @@ from tasks.kinematics import kinematics
 from tasks.rotations import about
 
 DIFFERENCE_RAD = 1e-5
-"""Of central differences: they err by its square."""
+"""Step of central differences, which err by its square."""
 
 SPANNED = 1e-9
 """Eigenvalues smaller than this are of directions that are not commanded at all."""
@@ -44,7 +44,7 @@ def by_eigenvalues(F: np.ndarray) -> float:
 
 
 def near(one: Contender) -> float:
-    """Of a law whose angle obeys an equation 2 / f'(0); of others by their derivative at the goal I."""
+    """Compute the limit near the goal: 2 / f'(0) of a law with an equation, of others by their derivative at I."""
     if one.equation is not None:
         spring = one.equation.spring
         return 2.0 * 2.0 * DIFFERENCE_RAD / (spring(DIFFERENCE_RAD) - spring(-DIFFERENCE_RAD))
@@ -79,7 +79,7 @@ def lagged(lag_ticks: float) -> float:
 
 
 def on_arm(arm: str, q, by: Inverse) -> float:
-    """Of f with F = I, by an inverse at joint angles q [rad], J the judge's."""
+    """Compute the limit of f with F = I, by an inverse at joint angles q [rad], J the judge's."""
     J, n = kinematics(tasks.arm(arm)).jacobian(q), tasks.arm(arm).joints
     columns = []
     for unit in np.eye(6):

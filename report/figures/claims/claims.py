@@ -18,7 +18,7 @@ from report.figures.kit.spelling import marked_up, prose, typeset
 from report.figures.kit.tables import Table
 
 ORDER = (Word.FAILS, Word.DEPENDS, Word.CORRECTED, Word.UNTESTABLE, Word.ANSWERED, Word.HOLDS)
-"""Of the table's rows."""
+"""Order of the table's rows."""
 
 VERDICTS = Table("Claim | Section | The paper | Verdict | Criterion revised? | What is true")
 SENTENCES = Table("Section | The paper | Why it is not tested")

@@ -32,7 +32,7 @@ def checked(one: Erratum) -> str:
 
 
 def row(one: Erratum) -> tuple:
-    """Of the table."""
+    """Return a row of the table."""
     return one.id, prose(one.where), f"“{prose(one.printed)}”", prose(one.right), checked(one)
 
 
