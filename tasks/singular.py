@@ -87,7 +87,9 @@ def rates_through(model: Kinematics, at: Singularity, axis: Vector) -> list[np.n
     return [least + x * w for x in ([c / far] + ([far / a] if abs(a) > 1e-9 else []))]
 
 
-def path_from(model: Kinematics, at: Singularity, axis: Vector, rates: np.ndarray, angles: list[float]):
+def path_from(
+    model: Kinematics, at: Singularity, axis: Vector, rates: np.ndarray, angles: list[float]
+) -> np.ndarray | None:
     """The joint path out of a singularity along a turn about `axis`, by these angles [rad]; None if it ends early."""
     p, quat = model.pose(at.q)
     begin = math.copysign(BEGIN, angles[-1])

@@ -50,7 +50,7 @@ def ask_of(function: Callable, now: np.ndarray, goal: np.ndarray) -> Answers:
     return Answers(e, raised, changed)
 
 
-def _answer(function: Callable, now: np.ndarray, goal: np.ndarray):
+def _answer(function: Callable, now: np.ndarray, goal: np.ndarray) -> tuple[np.ndarray | float, str]:
     """Three numbers, or NaN and the reason."""
     try:
         said = function(now, goal)

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import functools
 import itertools
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
 
 from bench.audit.convention import ENOUGH
+from bench.audit.examined import Examined
 from bench.audit.pairs import WIDE, Pairs
 
 SEQUENCES = tuple("".join(axes) for axes in itertools.permutations("XYZ"))
@@ -23,7 +26,8 @@ class Angles(NamedTuple):
     values: np.ndarray
 
 
-def find_angles(examined) -> Angles | None:
+@functools.lru_cache(maxsize=2)
+def find_angles(examined: Examined) -> Angles | None:
     """The sequence whose angles e is, or whose difference; None if it is no such thing."""
     if examined.convention and examined.convention.form:
         return None
@@ -39,7 +43,7 @@ def find_angles(examined) -> Angles | None:
     return None
 
 
-def combined(of: Pairs, sequence: str):
+def combined(of: Pairs, sequence: str) -> Iterator[tuple[str, np.ndarray]]:
     """(words, angles n x 3) for each way to make an error of them."""
     R, R_d = of.R, of.R_d
     yield "the difference of angles of R_d and R", angles_of(R_d, sequence) - angles_of(R, sequence)

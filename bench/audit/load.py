@@ -20,6 +20,7 @@ import inspect
 import sys
 from collections.abc import Callable
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 import numpy as np
@@ -57,7 +58,7 @@ def existing(path: Path) -> Path:
     return path
 
 
-def of_file(path: Path):
+def of_file(path: Path) -> ModuleType:
     """A Python file as a module, its folder among those that it may import from."""
     spec: Any = importlib.util.spec_from_file_location(f"audited_{path.stem}", existing(path))
     module = importlib.util.module_from_spec(spec)
@@ -71,7 +72,7 @@ def of_file(path: Path):
     return module
 
 
-def of_name(name: str):
+def of_name(name: str) -> ModuleType:
     """A module that can be imported from here."""
     sys.path.insert(0, str(Path.cwd()))
     try:
@@ -101,7 +102,7 @@ def of_class(found: type, target: str) -> Callable:
     return getattr(instance, methods[0])
 
 
-def takes_two(instance, name: str) -> bool:
+def takes_two(instance: object, name: str) -> bool:
     """Whether a public method can be called with two arguments."""
     if name.startswith("_"):
         return False
@@ -112,7 +113,7 @@ def takes_two(instance, name: str) -> bool:
     return True
 
 
-def callable_one(found, target: str) -> Callable:
+def callable_one(found: Any, target: str) -> Callable:
     """What can be called, as it is."""
     if not callable(found):
         raise BadFunction(f"{target} is {type(found).__name__}, no function; give one of (R, R_d) or (q, q_d)")
@@ -132,7 +133,7 @@ def of_library(path: Path, symbol: str) -> Callable:
     numbers = np.ctypeslib.ndpointer(dtype=np.float64, shape=(BUFFER,), flags="C_CONTIGUOUS")
     function.argtypes, function.restype = (numbers, numbers, numbers), None
 
-    def ask(now, goal) -> np.ndarray:
+    def ask(now: np.ndarray, goal: np.ndarray) -> np.ndarray:
         given, wanted, e = (np.zeros(BUFFER) for _ in range(3))
         given[: now.size], wanted[: goal.size] = now.ravel(), goal.ravel()
         e[:3] = np.nan  # what it leaves unwritten is no number

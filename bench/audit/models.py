@@ -7,13 +7,17 @@ from collections.abc import Callable, Iterable
 import numpy as np
 
 from bench.audit.convention import ENOUGH, apart
+from bench.audit.examined import Examined
 from bench.audit.pairs import WIDE, Pairs
+
+Model = tuple[str, np.ndarray]
+"""Words, and vectors (n x 3)."""
 
 EXPLAINED_RAD = 1e-3
 """Of the angle to a model's line; of two random directions one in two million is so near."""
 
 
-def explanation(examined, models: Callable[[Pairs], Iterable[tuple[str, np.ndarray]]]) -> tuple[str, int] | None:
+def explanation(examined: Examined, models: Callable[[Pairs], Iterable[Model]]) -> tuple[str, int] | None:
     """The model along whose vectors most answers lie, in words, and a pair that shows it; None if there is none.
 
     Args:

@@ -16,6 +16,7 @@ WIDE, CLOSE, FINE = "wide", "close", "fine"
 IDENTITY, NEAR_IDENTITY, NEAR_180, AT_180 = "identity", "near-identity", "near-180", "at-180"
 POLE, CUBE = "pole", "cube"
 
+Numbers = np.ndarray | float
 SEED = 7
 LARGEST = 1000
 """Of drawn integers: fine enough that no two axes are one."""
@@ -36,7 +37,7 @@ class Pairs(NamedTuple):
     angle: np.ndarray
     distance: np.ndarray
 
-    def chosen(self, which) -> Pairs:
+    def chosen(self, which: np.ndarray | slice) -> Pairs:
         """Those of a mask, of indices or of a slice."""
         return Pairs(*(field[which] for field in self))
 
@@ -58,7 +59,7 @@ def product(p: np.ndarray, q: np.ndarray) -> np.ndarray:
     return np.hstack((w * u - (v * r).sum(axis=1, keepdims=True), w * r + u * v + np.cross(v, r)))
 
 
-def made(place: str, q: np.ndarray, axis: np.ndarray, cosine, sine) -> Pairs:
+def made(place: str, q: np.ndarray, axis: np.ndarray, cosine: Numbers, sine: Numbers) -> Pairs:
     """Pairs from q (n x 4), axes of any length (n x 3), and the functions of half the angle.
 
     T = I + 2 c s K + 2 s^2 K^2 with K = [k x]: near 180° and at it every element is right to an ulp, and T symmetric.
@@ -101,12 +102,12 @@ def diagonal(count: int) -> np.ndarray:
     return np.eye(4)[np.arange(count) % 4]
 
 
-def drawn_axes(rng, count: int) -> np.ndarray:
+def drawn_axes(rng: np.random.Generator, count: int) -> np.ndarray:
     """Integers in every direction."""
     return rng.integers(1, LARGEST, size=(count, 3)) * rng.choice((-1.0, 1.0), size=(count, 3))
 
 
-def drawn_orientations(rng, count: int) -> np.ndarray:
+def drawn_orientations(rng: np.random.Generator, count: int) -> np.ndarray:
     """Unit quaternions of integers, uniform: those of a cube within the ball."""
     found = rng.integers(-LARGEST, LARGEST + 1, size=(8 * count, 4)).astype(float)
     square = (found * found).sum(axis=1)
@@ -114,7 +115,7 @@ def drawn_orientations(rng, count: int) -> np.ndarray:
     return kept / np.sqrt((kept * kept).sum(axis=1))[:, None]
 
 
-def at_angles(place: str, rng, angles: np.ndarray) -> Pairs:
+def at_angles(place: str, rng: np.random.Generator, angles: np.ndarray) -> Pairs:
     """One pair an angle, from drawn orientations about drawn axes."""
     count = len(angles)
     return made(
@@ -122,7 +123,7 @@ def at_angles(place: str, rng, angles: np.ndarray) -> Pairs:
     )
 
 
-def at_decades(place: str, rng, is_near_180: bool) -> Pairs:
+def at_decades(place: str, rng: np.random.Generator, is_near_180: bool) -> Pairs:
     """1, 2 and 5 times every power of ten from 10^-12 to 10^-1 rad: of the angle, or of what lacks to 180°."""
     lengths = np.array([times * 10.0**-decade for decade in range(12, 0, -1) for times in (1, 2, 5)])
     axes = np.vstack((CUBE_AXES[:12], drawn_axes(rng, 4)))
@@ -131,14 +132,14 @@ def at_decades(place: str, rng, is_near_180: bool) -> Pairs:
     return made(place, diagonal(len(half)), axis, *whole)
 
 
-def at_180(rng) -> Pairs:
+def at_180(rng: np.random.Generator) -> Pairs:
     """Exactly 180°: about coordinate axes, axes with zero components and drawn ones; then from drawn orientations."""
     axes = np.vstack((CUBE_AXES, (3, 4, 0), (0, -5, 12), (8, 0, 15), drawn_axes(rng, 19)))
     exact = [made(AT_180, np.tile(np.eye(4)[i], (len(axes), 1)), axes, 0.0, 1.0) for i in range(4)]
     return joined(*exact, made(AT_180, drawn_orientations(rng, 48), drawn_axes(rng, 48), 0.0, 1.0))
 
 
-def at_poles(rng) -> Pairs:
+def at_poles(rng: np.random.Generator) -> Pairs:
     """R with a middle Euler angle of +-90° about each axis, and rotations by +-90° about each from drawn ones."""
     root = np.sqrt(0.5)
     axes = np.repeat(np.vstack((np.eye(3), -np.eye(3))), 12, axis=0)

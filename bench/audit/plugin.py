@@ -6,11 +6,17 @@ Where the option is absent nothing but this file is imported.
 from __future__ import annotations
 
 import functools
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import pytest
 
+if TYPE_CHECKING:
+    from bench.audit.report import Report
 
-def pytest_addoption(parser) -> None:
+
+def pytest_addoption(parser: pytest.Parser) -> None:
     """The options."""
     group = parser.getgroup("orientation error")
     function = "check it, FILE.py:NAME, MODULE:NAME or LIBRARY.so:SYMBOL; repeatable"
@@ -19,13 +25,13 @@ def pytest_addoption(parser) -> None:
     group.addoption("--orientation-error-accept", action="append", default=[], metavar="FAULT", help=accept)
 
 
-def pytest_collection_modifyitems(session, config, items) -> None:
+def pytest_collection_modifyitems(session: pytest.Session, config: pytest.Config, items: list[pytest.Item]) -> None:
     """The checks join what was collected."""
     for target in config.getoption("orientation_error"):
         items.extend(checks(session, target, tuple(config.getoption("orientation_error_accept"))))
 
 
-def checks(session, target: str, accept: tuple[str, ...]) -> list[pytest.Item]:
+def checks(session: pytest.Session, target: str, accept: tuple[str, ...]) -> list[pytest.Item]:
     """One test a fault, over one report.
 
     Errors:
@@ -37,7 +43,7 @@ def checks(session, target: str, accept: tuple[str, ...]) -> list[pytest.Item]:
     from bench.errors import BenchError
 
     @functools.cache
-    def report():
+    def report() -> Report:
         try:
             return audit(load(target), accept=accept, name=target)
         except BenchError as error:
@@ -51,7 +57,7 @@ def checks(session, target: str, accept: tuple[str, ...]) -> list[pytest.Item]:
 class Check(pytest.Item):
     """One fault of one function."""
 
-    def __init__(self, *, fault: str, report, **given):
+    def __init__(self, *, fault: str, report: Callable[[], Report], **given: Any) -> None:
         super().__init__(**given)
         self.fault, self.report = fault, report
 
@@ -64,11 +70,11 @@ class Check(pytest.Item):
             if finding.fault.name == self.fault and finding.is_fault:
                 raise Faulty("\n".join((report.head(), "", paragraph(report.name, finding))))
 
-    def repr_failure(self, excinfo, style=None):
+    def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: Any = None) -> Any:
         """The report's paragraph, and no trace."""
         return str(excinfo.value) if excinfo.errisinstance(Faulty) else super().repr_failure(excinfo, style)
 
-    def reportinfo(self):
+    def reportinfo(self) -> tuple[Path, int | None, str]:
         """Where it stands in pytest's lists."""
         return self.path, None, f"orientation error {self.name}"
 

@@ -3,6 +3,7 @@
 import functools
 import importlib
 import pkgutil
+from types import ModuleType
 from typing import Any
 
 from bench.errors import BadMetric
@@ -30,7 +31,7 @@ def metrics_of(on_arm: bool) -> tuple[Metric, ...]:
     return tuple(one for one in known_metrics().values() if on_arm or not one.arm_only)
 
 
-def collect(package, kind: type[Any]) -> dict[str, Any]:
+def collect(package: ModuleType, kind: type[Any]) -> dict[str, Any]:
     """Column -> metric, from METRIC or METRICS of every module of a package, in alphabetical order.
 
     Errors:

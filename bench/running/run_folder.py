@@ -142,7 +142,7 @@ def sweep(out: Path) -> None:
 
 
 @contextlib.contextmanager
-def _removing(out: Path):
+def _removing(out: Path) -> Iterator[None]:
     try:
         yield
     except OSError as error:

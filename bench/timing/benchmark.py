@@ -34,7 +34,9 @@ class Benchmark(NamedTuple):
         return " ".join(part for part in parts if part)
 
 
-def open_loop(model, data, states: np.ndarray, control: np.ndarray, arm: str = "") -> Benchmark:
+def open_loop(
+    model: mujoco.MjModel, data: mujoco.MjData, states: np.ndarray, control: np.ndarray, arm: str = ""
+) -> Benchmark:
     """mujoco.rollout over a model from states (qpos, qvel), with commands (starts, ticks, nu) drawn beforehand."""
     count, ticks, _ = control.shape
     width = mujoco.mj_stateSize(model, mujoco.mjtState.mjSTATE_FULLPHYSICS)
@@ -43,7 +45,7 @@ def open_loop(model, data, states: np.ndarray, control: np.ndarray, arm: str = "
     state, sensors = np.zeros((count, ticks, width)), np.zeros((count, ticks, model.nsensordata))
     rollout = Rollout(nthread=0)  # no pool: everything happens on the calling thread, whose time is taken
 
-    def call():
+    def call() -> None:
         rollout.rollout(model, data, initial, control, state=state, sensordata=sensors)
 
     call()

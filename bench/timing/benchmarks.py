@@ -6,7 +6,7 @@ beforehand and outputs allocated beforehand: what a closed loop can hope to appr
 """
 
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import mujoco
 import numpy as np
@@ -15,6 +15,7 @@ import tasks
 from bench.engines.binding import command_of, memory_of
 from bench.engines.curve import blank_curves
 from bench.engines.episode import TICKS, blank, numbers, start_rows
+from bench.engines.episode import Settings as EngineSettings
 from bench.engines.native import free_body as native
 from bench.engines.native.libmujoco import model_of
 from bench.engines.run import compiled_loop, evaluation
@@ -23,6 +24,7 @@ from bench.law.contender import Contender, Gains
 from bench.metrics.registry import metrics_of
 from bench.timing import law, on_arms, reference_kernel
 from bench.timing.benchmark import ENGINE, KERNEL, LAW, LOOP, NEVER, Benchmark, open_loop
+from tasks.base import Start
 
 ENGINES = ("ideal-held", "ideal-rk4", "native")
 
@@ -85,13 +87,13 @@ def _law(what: str, one: Contender) -> Benchmark:
     loop = law.loop_of(command_of(one), memory_of(one), cache=not one.regulator.origin)
     states, gains = law.states(), Gains()
 
-    def call():
+    def call() -> Any:
         return loop(states, gains.kp, gains.kv, law.SWEEPS)
 
     return Benchmark(what, one, "", law.SWEEPS * law.STATES if call() == 0.0 else 0, call)
 
 
-def _settings():
+def _settings() -> EngineSettings:
     return Settings().limits(HORIZON_S)._replace(hold_ticks=NEVER)
 
 
@@ -105,14 +107,14 @@ def _engine(engine: str, one: Contender) -> Benchmark:
         model, data, states = _simulation(starts)
         sim = native.view(model, data)
 
-        def call():
+        def call() -> Any:
             rows[:] = fresh
             loop(*asked, sim, states, *given)
             return data  # the view holds addresses only: this keeps what they point to
 
     else:
 
-        def call():
+        def call() -> Any:
             rows[:] = fresh
             loop(*asked, *given)
 
@@ -120,7 +122,7 @@ def _engine(engine: str, one: Contender) -> Benchmark:
     return Benchmark(ENGINE, one, engine, int(rows[:, TICKS].sum()), call)
 
 
-def _simulation(starts):
+def _simulation(starts: list[Start]) -> tuple[mujoco.MjModel, mujoco.MjData, np.ndarray]:
     task = tasks.task(TASK)
     model = model_of(task.xml(_settings().dt_s), "euler")
     return model, mujoco.MjData(model), np.array([[*qpos, *qvel] for qpos, qvel in map(task.state, starts)])

@@ -7,6 +7,7 @@ Fails: where J is singular; numpy then raises or gives torques without bound.
 """
 
 from collections.abc import Callable
+from typing import Any
 
 import mujoco
 import numpy as np
@@ -23,7 +24,7 @@ HORIZON_S = 1000.0
 class Controller:
     """tau = D J^+ (a - J z) + D z + fg with a = (u_p, u) - Jdot qdot; on seven joints z = -Kv/2 qdot, else 0."""
 
-    def __init__(self, physics, start: Start, gains: Gains):
+    def __init__(self, physics: Any, start: Start, gains: Gains) -> None:
         self.model, self.data = physics.model.ptr, physics.data.ptr
         self.gains = gains
         site = self.model.site("tool").id
@@ -58,7 +59,7 @@ def loop(task: str, arm: str, start: Start, dt_s: float, ticks: int, gains: Gain
     environment.reset()
     controller = Controller(environment.physics, start, gains)
 
-    def call():
+    def call() -> None:
         for _ in range(ticks):
             environment.step(controller.torques())
 

@@ -14,6 +14,7 @@ from bench.engines.arm_episode import blank_arm, controls, joints, states
 from bench.engines.binding import memory_of
 from bench.engines.curve import blank_curves
 from bench.engines.episode import TICKS, numbers, start_rows
+from bench.engines.episode import Settings as EngineSettings
 from bench.engines.native.libmujoco import model_of
 from bench.experiments.experiment import Settings
 from bench.experiments.suites import suite
@@ -70,7 +71,7 @@ def _start(arm: str) -> Start:
     return tasks.start_set("clear", 8, arm=arm)[-1]
 
 
-def _settings(horizon_s: float):
+def _settings(horizon_s: float) -> EngineSettings:
     return Settings().limits(horizon_s)._replace(hold_ticks=NEVER)
 
 
@@ -104,7 +105,7 @@ def _native(arm: str, one: Contender, start: Start, horizon_s: float, fewest: in
         blank_curves(1),
     )
 
-    def call():
+    def call() -> object:
         rows[:] = fresh
         loop(*given)
         return ready  # the views hold addresses only: this keeps what they point to

@@ -3,10 +3,12 @@
 `session` parametrizes it with the samples of all passes, in their order.
 """
 
-from bench.timing.session import ROUNDS
+from typing import Any
+
+from bench.timing.session import ROUNDS, Sample
 
 
-def test_sample(benchmark, sample):
+def test_sample(benchmark: Any, sample: Sample) -> None:
     """One benchmark, once a pass, two rounds on end."""
     benchmark.pedantic(sample.benchmark.call, rounds=ROUNDS, iterations=1)
     sample.taken(benchmark.stats.stats.data)

@@ -10,7 +10,7 @@ import io
 import os
 import random
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
@@ -50,7 +50,7 @@ def measure(benchmarks: list[Benchmark], passes: int, seed: int = 0, report: Cal
     total = passes * len(benchmarks)
 
     def sample(number: int, place: int) -> Sample:
-        def taken(rounds):
+        def taken(rounds: Sequence[float]) -> None:
             seconds[number, place] = min(rounds)
             report(Progress(benchmarks[place].name, int(np.isfinite(seconds).sum()), total))
 
@@ -74,15 +74,15 @@ class _Visits:
         self.redirected = contextlib.ExitStack()
 
     @pytest.hookimpl(tryfirst=True)
-    def pytest_configure(self):
+    def pytest_configure(self) -> None:
         self.redirected.enter_context(contextlib.redirect_stdout(self.report))
         self.redirected.enter_context(contextlib.redirect_stderr(self.report))
 
     @pytest.hookimpl(tryfirst=True)
-    def pytest_sessionstart(self):
+    def pytest_sessionstart(self) -> None:
         self.redirected.close()
 
-    def pytest_generate_tests(self, metafunc):
+    def pytest_generate_tests(self, metafunc: pytest.Metafunc) -> None:
         names = [f"pass {one.pass_number} {one.benchmark.name}" for one in self.samples]
         metafunc.parametrize("sample", self.samples, ids=names)
 
@@ -108,7 +108,7 @@ def _benchmark(samples: list[Sample]) -> None:
 
 
 @contextlib.contextmanager
-def _no_outer_pytest():
+def _no_outer_pytest() -> Iterator[None]:
     """Hide an outer pytest's variables: under pytest-xdist's, pytest-benchmark would switch itself off."""
     hidden = {name: os.environ.pop(name) for name in list(os.environ) if name.startswith("PYTEST_")}
     path = list(sys.path)

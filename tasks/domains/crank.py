@@ -76,7 +76,7 @@ def trials(arm: Arm, dense: bool = False) -> tuple[Trial, ...]:
     return tuple(found)
 
 
-def _turned(arm: Arm, azimuth: float):
+def _turned(arm: Arm, azimuth: float) -> tuple[float, ...]:
     """The posture with the wrist's x axis turned to this azimuth by the last joint, whose axis points down."""
     q = posture(arm)
     x = columns(wrist(arm, q)[1])[0]

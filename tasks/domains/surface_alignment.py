@@ -19,6 +19,7 @@ import itertools
 import math
 
 from tasks.arm_model import Arm
+from tasks.base import Vector
 from tasks.contact import ContactTask, Specification, Surroundings, Trial
 from tasks.contact_rest import HORIZON_S
 from tasks.hand_frames import at, leaning, mounts, posture, wrist
@@ -69,7 +70,7 @@ def trials(arm: Arm, dense: bool = False) -> tuple[Trial, ...]:
     return tuple(found)
 
 
-def _below(arm: Arm, q, normal):
+def _below(arm: Arm, q: tuple[float, ...], normal: Vector) -> Vector:
     """Straight below the face's middle, so low that the lowest corner is CLEARANCE from a plate of this normal."""
     x, y, z = at(arm, q, TIP)
     n, o, _ = columns(wrist(arm, q)[1])

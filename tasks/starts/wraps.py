@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 
-from tasks.base import Start, StartSet
+from tasks.base import Quat, Start, StartSet
 from tasks.rotations import zyx
 
 SIGNS = {"plus": 1, "minus": -1}
@@ -39,7 +39,7 @@ def build(count: int, seed: int) -> list[Start]:
     return exact + near
 
 
-def _start(angle: str, value: float, beta: float, other: float):
+def _start(angle: str, value: float, beta: float, other: float) -> Quat:
     return zyx(value, beta, other) if angle == "alpha" else zyx(other, beta, value)
 
 

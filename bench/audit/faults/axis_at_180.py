@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from bench.audit.examined import Examined
 from bench.audit.fault import Fault, Found
 from bench.audit.faults.dead_at_180 import ZERO
 from bench.audit.pairs import AT_180
@@ -10,7 +11,7 @@ ASTRAY_RAD = 0.01
 """Angle to the axis: a hundred thousand times what a root of rounding leaves, 1e-8."""
 
 
-def find(examined) -> Found | None:
+def find(examined: Examined) -> Found | None:
     """At 180° either direction along the axis is right, and nothing else."""
     alive = examined.size > ZERO * examined.slope * np.pi
     here = examined.at(AT_180) & np.isfinite(examined.apart) & alive

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from bench.audit.examined import Examined
 from bench.audit.fault import Fault, Found
 from bench.audit.pairs import CLOSE, POLE, WIDE
 
@@ -11,7 +12,7 @@ SAME = 1e-6
 BENT_RAD = 1e-3
 
 
-def find(examined) -> Found | None:
+def find(examined: Examined) -> Found | None:
     """Many answers have the same largest component, and leave the axis."""
     if not examined.convention:
         return None

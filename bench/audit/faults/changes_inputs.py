@@ -2,10 +2,11 @@
 
 import numpy as np
 
+from bench.audit.examined import Examined
 from bench.audit.fault import Fault, Found
 
 
-def find(examined) -> Found | None:
+def find(examined: Examined) -> Found | None:
     """Some inputs are others after the call."""
     if not examined.changed.any():
         return None

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from bench.audit.examined import Examined
 from bench.audit.fault import NOTE, Fault, Found
 from bench.audit.pairs import AT_180
 
@@ -11,7 +12,7 @@ TWENTIETH = 0.05
 BEFORE_RAD = 0.01
 
 
-def find(examined) -> Found | None:
+def find(examined: Examined) -> Found | None:
     """|e| is zero at 180°; a property of its form if e dies away before, as sin(theta) does."""
     if not examined.convention:
         return None

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from bench.audit.examined import Examined
 from bench.audit.fault import Fault, Found
 from bench.audit.pairs import CLOSE, FINE, NEAR_IDENTITY
 
@@ -10,7 +11,7 @@ SMALLEST_RAD = 1e-7
 FEWEST = 10
 
 
-def find(examined) -> Found | None:
+def find(examined: Examined) -> Found | None:
     """e is exactly zero, or a component of it, up to an angle; beyond it is not."""
     if not examined.convention:
         return None

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from bench.audit.examined import Examined
 from bench.audit.fault import FAULT as IS_FAULT
 from bench.audit.fault import NOTE, Fault, Found
 from bench.audit.pairs import IDENTITY, NEAR_IDENTITY
@@ -13,7 +14,7 @@ COUNT_RAD = 2.0 * np.pi / 2**24
 """An error below this is none to a robot: one count of an encoder of 24 bits, 3.7e-7 rad."""
 
 
-def find(examined) -> Found | None:
+def find(examined: Examined) -> Found | None:
     """|e - truth| of the smallest rotations; a note if no encoder shows it."""
     if not examined.convention:
         return None

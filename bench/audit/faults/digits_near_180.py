@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from bench.audit.examined import Examined
 from bench.audit.fault import Fault, Found
 from bench.audit.faults.digits_near_0 import COUNT_RAD
 from bench.audit.pairs import NEAR_180
@@ -9,7 +10,7 @@ from bench.audit.pairs import NEAR_180
 FARTHEST_RAD = 0.1
 
 
-def find(examined) -> Found | None:
+def find(examined: Examined) -> Found | None:
     """What is across the axis; and along it, if the size is right 0.1 rad before."""
     if not examined.convention:
         return None

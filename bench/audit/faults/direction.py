@@ -1,9 +1,10 @@
 """The other direction than stated."""
 
+from bench.audit.examined import Examined
 from bench.audit.fault import Fault, Found
 
 
-def find(examined) -> Found | None:
+def find(examined: Examined) -> Found | None:
     """e points from R_d to R where the caller wants the opposite, or the reverse."""
     stated, found = examined.stated, examined.convention
     if not found or stated.sign in (None, found.sign):

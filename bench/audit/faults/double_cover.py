@@ -3,6 +3,7 @@
 import numpy as np
 
 from bench.audit.asked import ask_of, inputs
+from bench.audit.examined import Examined
 from bench.audit.fault import Evidence, Fault, Found
 from bench.audit.pairs import WIDE
 
@@ -10,7 +11,7 @@ OTHERWISE = 1e-3
 """Of the angle; rounding leaves 1e-16, single precision 1e-7."""
 
 
-def find(examined) -> Found | None:
+def find(examined: Examined) -> Found | None:
     """f(q, -q_d) and f(-q, q_d) are not f(q, q_d)."""
     if examined.takes == "matrix" or not examined.convention:
         return None

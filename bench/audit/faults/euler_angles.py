@@ -2,13 +2,15 @@
 
 import numpy as np
 
+from bench.audit.euler import find_angles
+from bench.audit.examined import Examined
 from bench.audit.fault import Fault, Found
 from bench.audit.pairs import WIDE
 
 
-def find(examined) -> Found | None:
+def find(examined: Examined) -> Found | None:
     """Three angles, or differences of them, about axes that are not at right angles."""
-    angles = examined.euler
+    angles = find_angles(examined)
     if angles is None:
         return None
     here = np.flatnonzero(examined.at(WIDE))

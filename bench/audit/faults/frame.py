@@ -1,11 +1,14 @@
 """The other frame, or one that is none."""
 
+from collections.abc import Iterator
+
+from bench.audit.examined import Examined
 from bench.audit.fault import Fault, Found
-from bench.audit.models import explanation, rotated
+from bench.audit.models import Model, explanation, rotated
 from bench.audit.pairs import Pairs
 
 
-def find(examined) -> Found | None:
+def find(examined: Examined) -> Found | None:
     """It lies in the other frame than stated, or is rotated into none."""
     stated, found = examined.stated, examined.convention
     if found and stated.frame and stated.frame != found.frame:
@@ -14,7 +17,7 @@ def find(examined) -> Found | None:
     return Found(f"e = {why[0]}, which is in no frame", examined.evidence(why[1], False)) if why else None
 
 
-def models(pairs: Pairs):
+def models(pairs: Pairs) -> Iterator[Model]:
     """The axis in base or body, rotated where it must not be, or the wrong way; R_d^T k is R^T k."""
     R, k = pairs.R, pairs.axis
     T, k_body = R.swapaxes(1, 2), rotated(R.swapaxes(1, 2), k)

@@ -3,6 +3,7 @@
 import numpy as np
 
 from bench.audit.asked import inputs
+from bench.audit.examined import Examined
 from bench.audit.fault import Evidence, Fault, Found
 from bench.audit.pairs import CUBE_AXES, Pairs, diagonal, drawn_axes, drawn_orientations, made
 
@@ -17,7 +18,7 @@ JUMP = 1e-3
 """A difference over WIDTH_RAD; the steepest form, 2 tan(theta/2) at 179°, changes by 1e-5 there."""
 
 
-def find(examined) -> Found | None:
+def find(examined: Examined) -> Found | None:
     """Along rotations from 1 to 179° about some axes: neighbours apart, and still so when they come together."""
     if not examined.convention:
         return None
@@ -53,7 +54,7 @@ def along(q: np.ndarray, axis: np.ndarray, angle: np.ndarray) -> Pairs:
     return made("line", np.tile(q, (count, 1)), np.tile(axis, (count, 1)), np.cos(angle / 2.0), np.sin(angle / 2.0))
 
 
-def narrowed(examined, q, axis, low: float, high: float) -> tuple[float, float]:
+def narrowed(examined: Examined, q: np.ndarray, axis: np.ndarray, low: float, high: float) -> tuple[float, float]:
     """Bisection, into the half with the larger difference."""
     while high - low > WIDTH_RAD:
         middle = 0.5 * (low + high)

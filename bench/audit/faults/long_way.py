@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from bench.audit.euler import SAME_RAD
+from bench.audit.euler import SAME_RAD, find_angles
+from bench.audit.examined import Examined
 from bench.audit.fault import Fault, Found
 from bench.audit.pairs import AT_180, IDENTITY, NEAR_180, WIDE
 
@@ -10,15 +11,15 @@ AGAINST_RAD = 0.1
 """Between an answer and the axis the wrong way; rounding bends no answer so."""
 
 
-def find(examined) -> Found | None:
+def find(examined: Examined) -> Found | None:
     """e points against the axis for some pairs, or an angle is more than pi."""
     if examined.convention:
         here = ~examined.at(AT_180, IDENTITY, NEAR_180)
         with np.errstate(invalid="ignore"):
             bad = here & (examined.apart > np.pi - AGAINST_RAD)
-    elif examined.euler is not None:
+    elif (angles := find_angles(examined)) is not None:
         here, bad = examined.at(WIDE), np.zeros(len(examined.e), dtype=bool)
-        off = np.abs(examined.e[here] - examined.euler.values)
+        off = np.abs(examined.e[here] - angles.values)
         outside = (np.abs(examined.e[here]) > np.pi + SAME_RAD) & (np.minimum(off, np.abs(off - 2 * np.pi)) < SAME_RAD)
         bad[here] = outside.any(axis=1)
     else:

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from bench.audit.examined import Examined
 from bench.audit.fault import Fault, Found
 from bench.audit.pairs import WIDE
 
@@ -9,7 +10,7 @@ DIFFERENCE = 1e-12
 """Of slope times a radian; one function of the same numbers has none."""
 
 
-def find(examined) -> Found | None:
+def find(examined: Examined) -> Found | None:
     """Some pairs are asked once more, in reverse order."""
     here = np.flatnonzero(examined.at(WIDE))[::-10]
     first, again = examined.e[here], examined.ask(examined.pairs.chosen(here)).e

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from bench.audit.examined import Examined
 from bench.audit.fault import Fault, Found
 from bench.audit.pairs import CLOSE, WIDE
 
@@ -9,7 +10,7 @@ BENT_RAD = 1e-3
 """Angle to the axis: half a thousandth of it is what single precision leaves nowhere in these places."""
 
 
-def find(examined) -> Found | None:
+def find(examined: Examined) -> Found | None:
     """Away from 0 and 180° answers leave the axis."""
     here = np.flatnonzero(examined.at(WIDE, CLOSE))
     if not examined.convention:

@@ -3,6 +3,7 @@
 import numpy as np
 
 from bench.audit.asked import ask_of, inputs
+from bench.audit.examined import Examined
 from bench.audit.fault import NOTE, Evidence, Fault, Found
 from bench.audit.pairs import IDENTITY, NEAR_IDENTITY, WIDE
 
@@ -12,7 +13,7 @@ AMPLIFIED = 1e-4
 """Change of e, a hundred times that of the input, in rad times slope."""
 
 
-def find(examined) -> Found | None:
+def find(examined: Examined) -> Found | None:
     """Both inputs longer or shorter by a millionth: no number, or another error; a note if it refuses them."""
     if not examined.convention:
         return None

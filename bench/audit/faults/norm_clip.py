@@ -3,6 +3,7 @@
 import numpy as np
 
 from bench.audit.convention import is_nearest
+from bench.audit.examined import Examined
 from bench.audit.fault import Fault, Found
 from bench.audit.pairs import CLOSE, WIDE
 
@@ -12,7 +13,7 @@ BENT_RAD = 1e-3
 SHORTER = 0.999
 
 
-def find(examined) -> Found | None:
+def find(examined: Examined) -> Found | None:
     """Many answers have one length, or one largest component, and are shorter than they should be.
 
     Of a form of no name, shorter than a slope says that it has near the goal: a smooth one has its largest length at a

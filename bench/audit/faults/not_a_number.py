@@ -2,10 +2,11 @@
 
 import numpy as np
 
+from bench.audit.examined import Examined
 from bench.audit.fault import Fault, Found
 
 
-def find(examined) -> Found | None:
+def find(examined: Examined) -> Found | None:
     """Three numbers of which one is none."""
     answered = np.array([not reason for reason in examined.raised])
     bad = answered & ~np.isfinite(examined.e).all(axis=1)

@@ -1,12 +1,14 @@
 """Scalar first or last, mixed up."""
 
 import itertools
+from collections.abc import Iterator
 
 import numpy as np
 
 from bench.audit.asked import inputs
+from bench.audit.examined import Examined
 from bench.audit.fault import Fault, Found
-from bench.audit.models import explanation
+from bench.audit.models import Model, explanation
 from bench.audit.pairs import Pairs, product
 
 ORDERS = ("wxyz", "xyzw")
@@ -14,7 +16,7 @@ READ = {"wxyz": [0, 1, 2, 3], "xyzw": [3, 0, 1, 2], "xyzw, shifted the wrong way
 """Where w, x, y, z are taken from."""
 
 
-def find(examined) -> Found | None:
+def find(examined: Examined) -> Found | None:
     """It takes the other order than stated, or one order here and the other there."""
     stated, found = examined.stated.takes, examined.convention
     if found and stated in ORDERS and found.takes in ORDERS and found.takes != stated:
@@ -27,7 +29,7 @@ def find(examined) -> Found | None:
     )
 
 
-def models(takes: str, pairs: Pairs):
+def models(takes: str, pairs: Pairs) -> Iterator[Model]:
     """Each step of vec(q_d q*) in either order, of vec(q* q_d), and of both with swapped arguments."""
     now, goal = inputs(takes, pairs)
     for first, second, conjugate, vector in itertools.product(READ, READ, ORDERS, ORDERS):

@@ -2,10 +2,11 @@
 
 import numpy as np
 
+from bench.audit.examined import Examined
 from bench.audit.fault import Fault, Found
 
 
-def find(examined) -> Found | None:
+def find(examined: Examined) -> Found | None:
     """It raises, or returns no three numbers."""
     silent = np.array([bool(reason) for reason in examined.raised])
     if not silent.any():

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from bench.audit.examined import Examined
 from bench.audit.fault import Fault, Found
 from bench.audit.pairs import CLOSE, WIDE
 
@@ -12,7 +13,7 @@ Along it a small constant in a denominator leaves as much.
 """
 
 
-def find(examined) -> Found | None:
+def find(examined: Examined) -> Found | None:
     """Off the axis by as much as single precision leaves where nothing is difficult."""
     here = np.flatnonzero(examined.at(WIDE, CLOSE))
     across = np.sin(examined.apart[here])

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from bench.audit.examined import Examined
 from bench.audit.fault import FAULT as IS_FAULT
 from bench.audit.fault import Fault, Found
 from bench.audit.pairs import NEAR_IDENTITY
@@ -20,7 +21,7 @@ TIMES = 1.5
 RADIANS = "convert it to radians: np.radians(e)"
 
 
-def find(examined) -> Found | None:
+def find(examined: Examined) -> Found | None:
     """|e|/theta at the goal is not what was stated."""
     if not examined.convention or abs(examined.slope / examined.stated.stiffness - 1.0) <= DEVIATION:
         return None

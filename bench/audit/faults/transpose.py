@@ -1,11 +1,14 @@
 """A transpose too many, or one missing."""
 
+from collections.abc import Iterator
+
+from bench.audit.examined import Examined
 from bench.audit.fault import Fault, Found
-from bench.audit.models import axis_of, explanation
+from bench.audit.models import Model, axis_of, explanation
 from bench.audit.pairs import Pairs
 
 
-def find(examined) -> Found | None:
+def find(examined: Examined) -> Found | None:
     """The axis of a product with one transpose less; or, if both are stated, the other frame and direction."""
     stated, found = examined.stated, examined.convention
     if found and None not in (stated.frame, stated.sign) and (stated.frame, stated.sign) != (found.frame, found.sign):
@@ -17,7 +20,7 @@ def find(examined) -> Found | None:
     return Found(f"e lies along the axis of {why[0]}", examined.evidence(why[1])) if why else None
 
 
-def models(pairs: Pairs):
+def models(pairs: Pairs) -> Iterator[Model]:
     """Products of two rotations without a transpose; with two the line is that of the other order."""
     yield "R_d R, not of R_d R^T", axis_of(pairs.R_d @ pairs.R)
     yield "R R_d, not of R^T R_d", axis_of(pairs.R @ pairs.R_d)

@@ -10,6 +10,8 @@ The F that a tick records acted from the tick before to it.
 Source: Colgate and Hogan 1988, "Robust control of dynamically interacting systems"; Hogan 1985.
 """
 
+from collections.abc import Callable
+
 import numpy as np
 
 from bench.metrics.contact_metric import ContactMetric, Pose, Response
@@ -33,7 +35,7 @@ def port_energy_peak(pose: Pose) -> float:
     return _largest(pose, lambda energies: max(0.0, energies.max()))
 
 
-def _largest(pose: Pose, of) -> float:
+def _largest(pose: Pose, of: Callable[[np.ndarray], float]) -> float:
     energies = [given(one) for one in pose.responses]
     if any(len(one) == 0 or not np.isfinite(one).all() for one in energies):
         return np.nan

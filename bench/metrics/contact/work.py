@@ -3,6 +3,8 @@
 m . omega = F_E . Edot        Edot = B^-1 omega, F_E = B^T m (3.12), or what the controller takes for it
 """
 
+from collections.abc import Callable, Iterator, Sequence
+
 import numpy as np
 
 from bench.control import hybrid
@@ -28,7 +30,9 @@ def work_residual(pose: Pose) -> float:
     return float(np.abs(works[:, 0] - works[:, 1]).max() / largest) if largest > 0.0 else np.nan
 
 
-def _works(coordinates: Representation, convert, from_goal: bool, one: Response):
+def _works(
+    coordinates: Representation, convert: Callable, from_goal: bool, one: Response
+) -> Iterator[tuple[float, float, float]]:
     """(m . omega, F_E . Edot, |m| |omega|) at some ticks [W]."""
     goal = from_quaternion(one.trial.goal_wxyz)
     for tick in np.linspace(0, len(one.time) - 1, TICKS).astype(int):
@@ -39,7 +43,7 @@ def _works(coordinates: Representation, convert, from_goal: bool, one: Response)
         yield np.dot(m, omega), np.dot(convert(at, m), coordinates.rates(at, omega)), _length(m) * _length(omega)
 
 
-def _length(v) -> float:
+def _length(v: Sequence[float]) -> float:
     return float(np.linalg.norm(v))
 
 
