@@ -129,7 +129,7 @@ def recompute_thresholds():
 def recompute_velocities():
     rows = table("velocity-limits").query("law == 'rotation-vector' and arm == '' and share == 1 and reach == 'near'")
     one = velocities().decide(VELOCITY)
-    said = [word(one.law), *name_together([one.law, *one.tied])] if one.tied else [word(one.law), len(one.asked)]
+    said = [word(one.law), *name_together(one.tied)] if one.tied else [word(one.law), len(one.asked)]
     return {"log_limit": f"{rows['k_dt'].iloc[0]:.3g}", "lead": said}
 
 
@@ -173,6 +173,15 @@ def recompute_new_law():
     }
 
 
+def bounded(found, usual):
+    """Return what is said of the fastest law under a bounded command, which is stuck at 180°."""
+    at = table("perturbed", "robustness").query("axis == 'saturation' and level == 10").set_index("law")
+    law = at["median_s"].idxmin()
+    assert found.number("lost")[law] > 0
+    own, other = at["median_s"][law], at["median_s"][usual]
+    return [10, word(law), round(100 * (1 - own / other)), f"{own:.3f}", f"{other:.3f}", at["starts"][law], 180]
+
+
 def recompute_advice():
     """Return what is said of the law that is advised first, and of ours beside it at four damping ratios."""
     found = accelerations()
@@ -181,22 +190,23 @@ def recompute_advice():
     times = found.number("time")[one.law], *np.quantile(drawn, (0.025, 0.975), method="inverted_cdf")
     kp, kv = table("episodes").query("task == 'free-body'")[["kp", "kv"]].iloc[0]
     said = [usual, kp, kv, kv / (2 * math.sqrt(kp)), 0.1, 180, 99, *(f"{time:.3f}" for time in times)]
-    said += [*name_together([one.law, *one.tied])] if one.tied else [len(one.asked)]
-    said += [word(LATE), 2026, 99]
+    said += [*name_together(one.tied)] if one.tied else [len(one.asked)]
+    said += [*bounded(found, one.law), word(LATE), 2026, 99]
     at = {f"{kv / 20:g}": accelerations(f"gains/kv-{kv}" if kv != 20 else "reference") for kv in (10, 14, 20, 30)}
     words = {ratio: own.decide(needs.DEFAULT).law for ratio, own in at.items()}
     for ratio, own in at.items():
         pair = (f"{own.number('time')[law]:.3f}" for law in (LATE, words[ratio]))
-        said += [ratio, *pair, f"({word(words[ratio])})"]
-    better = {ratio: {by: own.beats(by) for by in gains.WORDS} for ratio, own in at.items()}
+        said += [*pair, *([f"({word(words[ratio])})"] if ratio == "0.5" else []), ratio]
+    called = gains.WORDS | gains.TIMES
+    better = {ratio: {by: own.beats(by) for by in called} for ratio, own in at.items()}
     wins, losses = (
-        {by: tuple(ratio for ratio in at if better[ratio][by].loc[pair(words[ratio])]) for by in gains.WORDS}
+        {by: tuple(ratio for ratio in at if better[ratio][by].loc[pair(words[ratio])]) for by in called}
         for pair in (lambda law: (LATE, law), lambda law: (law, LATE))
     )
-    said += ["better by", *(gains.WORDS[by] for by, ratios in wins.items() if len(ratios) == len(at))]
+    said += ["better at every ratio by", *(called[by] for by, ratios in wins.items() if len(ratios) == len(at))]
     by_ratios = collections.defaultdict(list)
     for by, ratios in losses.items():
-        by_ratios[ratios].append(gains.WORDS[by])
+        by_ratios[ratios].append(called[by])
     for ratios, names in by_ratios.items():
         said += [*ratios, *names] if ratios else []
     share = shares_of_time()[one.law]

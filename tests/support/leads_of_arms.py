@@ -121,7 +121,9 @@ def recompute_arms():
     settled, within = (rows.pivot(index=["arm", "start_id"], columns="by", values=one) for one in ("settled", "within"))
     never = [tasks.arm(arm).title for arm, own in within.groupby("arm") if not own.to_numpy().any()]
     said = [len(rows), round(100 * (rows["peak_torque_ratio"] > 1).mean()), *lead_on_arms(within), 3.7]
-    said += [*share(within["feedback-linearized/zyx-euler@analytic"]), *(never or ["none"]), *lead_on_arms(settled)]
+    said += [*share(within["feedback-linearized/zyx-euler@analytic"]), *(never or ["none"])]
+    able = within[within.groupby("arm").transform("any").any(axis=1)]
+    said += [*share(able[min(within, key=lambda name: (-within[name].mean(), name))]), *lead_on_arms(settled)]
     return {"advised": word(accelerations().decide(needs.ARM).law), "lead": said}
 
 

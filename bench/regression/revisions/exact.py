@@ -42,7 +42,8 @@ def sort_findings(differences: Iterable[Difference]) -> list[Finding]:
         if one.column == "flops":
             continue  # the sum of what is said already
         what = (one.was, one.now) if one.column == "outcome" else one.row.get("branch")
-        groups.setdefault((_judge(one), one.table, _name_law(one.row), one.kind, one.column, what), []).append(one)
+        column = "" if one.table == "traces" and one.kind == CHANGED else one.column  # a curve is one finding
+        groups.setdefault((_judge(one), one.table, _name_law(one.row), one.kind, column, what), []).append(one)
     found = [_make_finding(name, verdict, group) for (verdict, _, name, *_), group in groups.items()]
     return sorted(found, key=lambda one: (REGRESSION, CHANGE, IMPROVEMENT).index(one.verdict))
 

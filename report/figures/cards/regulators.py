@@ -13,7 +13,7 @@ from pygments.formatters import HtmlFormatter
 from pygments.lexers import PythonLexer
 
 from bench.contenders import regulators
-from bench.contenders.registry import contenders_of, known_regulators, papers_laws
+from bench.contenders.registry import all_contenders, contenders_of, known_regulators, papers_laws
 from bench.export.heading import RESET, SIDE
 from bench.findings import why
 from bench.findings.claims.verdict import NoEvidence
@@ -169,11 +169,17 @@ def folded(file: Path, where: str) -> str:
 
 
 def facts(run: Run) -> dict:
-    """What a card's drawings hold."""
+    """Return how many laws there are of each kind, and what a card's drawings hold."""
+    every = [one.regulator for one in all_contenders()]
+    ran = [one for one in every if not one.costing_only]
     uniform = run.rows("episodes", **read.FREE_BODY, engine="ideal-rk4", start_set="uniform")
     looked_at = run.rows("command-field")
     tried = dict(zip(looked_at["finding"], looked_at["of"], strict=True)) if len(looked_at) else {}
     return {
+        "compared": sum(not one.control for one in ran),
+        "continuous": sum(not (one.control or one.in_engine) for one in ran),
+        "controls": sum(one.control for one in ran),
+        "costed": len(every) - len(ran),
         "uniform": int(uniform["contender"].value_counts().max()),
         "drawn": MOST_SETTLED,
         "half_turns": tried.get("dead-half-turns"),
