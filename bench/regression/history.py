@@ -36,8 +36,7 @@ def find_files(folder: Path = FOLDER) -> list[Path]:
 def read_history(folder: Path = FOLDER) -> pd.DataFrame:
     """Return a row for each benchmark of each build, in the order of the commits.
 
-    Columns: commit, date (UTC), machine, what, name, kernel_steps (time of a tick over a step of the reference kernel)
-    with its bounds low and high, and flops of the typical branch a tick (NaN for an engine).
+    kernel_steps, low, high: time of a tick over a step of the reference kernel. flops: of the typical branch, or NaN.
     """
     rows = []
     for path in find_files(folder):

@@ -67,11 +67,7 @@ def find_default_base(folder: Path, head: str | None) -> str:
 
 @contextlib.contextmanager
 def check_out(folder: Path, commit: str) -> Iterator[Path]:
-    """Check a commit out into a temporary folder, and remove it when the block ends.
-
-    The folder has the same name each time and its files are as old as the commit, because numba's cache knows files by
-    place and time.
-    """
+    """Check a commit out for the block: each time at one place and as old as it is, by which numba's cache knows it."""
     path = Path(tempfile.gettempdir(), f"orientation-bench-{commit[:12]}")
     with contextlib.ExitStack() as stack:
         if path.exists():  # another comparison has it at this moment

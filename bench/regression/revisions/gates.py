@@ -12,7 +12,6 @@ from bench.regression.revisions import checkouts, exact
 from bench.regression.revisions.comparison import IMPROVEMENT, REGRESSION, Comparison, Finding, Gate, make_gate
 from bench.regression.revisions.timing import ROUNDS, SAME, SLOWER, Side, SideFailed, Timed, compare_times
 
-Report = Callable[[str], None]
 EXACT, OPERATIONS, TIME, FAULTS = exact.EXACT, exact.OPERATIONS, "time", "faults"
 
 
@@ -35,7 +34,7 @@ def compare_folders(base: Path, head: Path) -> Comparison:
 
 
 def compare_revisions(
-    base: str, head: str | None, laws: tuple[Path, ...] = (), report: Report = lambda _: None, means: Means = USUAL
+    base: str, head: str | None, laws: tuple[Path, ...] = (), report: Callable = lambda _: None, means: Means = USUAL
 ) -> Comparison:
     """Compare two revisions, or a revision and the files in the checkout (head None), through every gate."""
     judgements: tuple[Judgement, ...] = ()
@@ -52,7 +51,7 @@ def compare_revisions(
     return Comparison(old.name, new.name, (*gates, gate), tuple(found), tuple(times), judgements, tuple(files))
 
 
-def _compare_rows(old: Side, new: Side, report: Report, means: Means) -> tuple[list[Gate], list[Finding]]:
+def _compare_rows(old: Side, new: Side, report: Callable, means: Means) -> tuple[list[Gate], list[Finding]]:
     """Compare outcomes and operations."""
     state, says = "passed", "both sides have the same sources and versions, so a run would be the same"
     if old.is_new:
@@ -92,7 +91,7 @@ def _compare_faults(
 
 
 def _compare_times(
-    old: Side, new: Side, report: Report, means: Means
+    old: Side, new: Side, report: Callable, means: Means
 ) -> tuple[Gate, list[Finding], list[Timed], list[dict]]:
     is_same = old.digest == new.digest and not new.only
     if old.is_new or is_same or not means.rounds:

@@ -1,14 +1,14 @@
 """Time every law alone and some engines, as benchmarks of pytest-benchmark, in turn with another process.
 
-The program is run by its path with a checkout as PYTHONPATH, so both sides of a comparison run this one file. The
-environment variable ORIENTATION_BENCH_TIMED is a JSON object:
+The program is run by its path with a checkout as PYTHONPATH, so both sides run this one file. The environment variable
+ORIENTATION_BENCH_TIMED is a JSON object:
 
     laws, only, names, rounds   a user's law files; whether to time only them; names to time, or none for all
     words                       options of pytest, as --benchmark-json=FILE
     line, begins                a socket to the other process, or null, and whether this one has the first turn
 
-The CPU time of the thread is taken. `extra_info` holds what a benchmark is, the ticks of a round, `kernel_steps` (the
-time of a tick over a step of the reference kernel: median and interval), and in one process alone a law's flops.
+`extra_info` holds what a benchmark is, the ticks of a round, `kernel_steps` (CPU time of a tick over a step of the
+reference kernel: median and interval), and in one process alone a law's flops.
 """
 
 import contextlib
@@ -84,9 +84,8 @@ def compile_benchmarks(asked: dict[str, Any], rows: np.ndarray) -> dict[str, Any
     from bench.contenders.law_file import load_law
     from bench.engines.binding import command_of, memory_of
     from bench.law.contender import Gains
-    from bench.timing import law, on_arms
+    from bench.timing import benchmarks, law, on_arms
     from bench.timing.benchmark import ENGINE, LAW, Benchmark
-    from bench.timing.benchmarks import benchmarks
 
     gains, found = Gains(), []
     for one in registry.all_contenders(tuple(load_law(Path(path)) for path in asked["laws"])):
@@ -104,7 +103,7 @@ def compile_benchmarks(asked: dict[str, Any], rows: np.ndarray) -> dict[str, Any
     if not asked["only"] and any(" " in name for name in asked["names"] or " "):
         one = registry.find_contender(ENGINES_OF)
         [controller] = combinations.on((ON_ARM,), {one.name: one}, 6)
-        found += [loop for loop in benchmarks([one]) if loop.what == ENGINE and loop.contender]
+        found += [loop for loop in benchmarks.benchmarks([one]) if loop.what == ENGINE and loop.contender]
         found.append(on_arms.native(ARM, controller))
     named = {one.name.removeprefix(f"{LAW} "): one for one in found}
     return {name: one for name, one in named.items() if name in (asked["names"] or named)}
@@ -174,10 +173,6 @@ def test_ticks(benchmark, plugin, name):
 
 def main() -> int:
     """Compile, agree with the other process, and time; return pytest's exit code."""
-    from bench.timing import law
-
-    if not Path(law.__file__).is_relative_to(Path.cwd()):  # another checkout's, installed
-        raise ImportError("there is no bench.timing yet")
     asked, report = json.loads(os.environ["ORIENTATION_BENCH_TIMED"]), io.StringIO()
     session = Session(asked)
     if not session.benchmarks:

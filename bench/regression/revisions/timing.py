@@ -1,9 +1,8 @@
 """Time base and head in turn, and judge: slower by more than a tenth, beyond chance, twice.
 
-Each side is a process of `timed.py`, which writes a file of pytest-benchmark. Their rounds alternate, so a slow moment
-of the machine meets both. Two conditions must hold: the Mann-Whitney test of the rounds rejects "not slower" at P, and
-the median ratio of neighbouring rounds is above RATIO. The first keeps noise out. The second keeps out what is real but
-small, such as code at another place in memory. A second run of the suspects alone, in new processes, must agree.
+Each side is a process of `timed.py`. Their rounds alternate, so a slow moment of the machine meets both. Two conditions
+must hold: the Mann-Whitney test of the rounds rejects "not slower" at P, and the median ratio of neighbouring rounds is
+above RATIO, which keeps out what is real but small. A second run of the suspects, in new processes, must agree.
 
 Limitations: a law that is slower by less than a tenth is not found, unless it has more operations.
 """
@@ -28,8 +27,7 @@ from bench.files import read_json
 from bench.regression.revisions.timed import OTHER_ENDED
 from bench.timing.ratios import ratio
 
-P, RATIO = 0.002, 1.10
-"""Of thirty laws and no change, one comparison in seventeen has a p below P by chance; RATIO must agree."""
+P, RATIO = 0.002, 1.10  # of thirty laws and no change, one comparison in seventeen has a p below P by chance
 ROUNDS = 60  # the interval of a median covers the 23rd to 38th; a round takes from 0.3 ms to 10 ms
 
 SAME, SLOWER, FASTER = "same", "slower", "faster"
@@ -38,10 +36,7 @@ LONGEST_S = 1800.0  # on the wall, until a process is ended; compiling all laws 
 
 
 class Side(NamedTuple):
-    """A side of a comparison: sources, a user's law files, whether only those count, names to time, or none for all.
-
-    name: of the side, in words. digest: of its sources.
-    """
+    """A side: sources, a user's law files, whether only those count, benchmarks to time (none: all), name, digest."""
 
     path: Path
     laws: tuple[Path, ...] = ()
@@ -142,10 +137,7 @@ def judge_files(*files: dict[str, Any]) -> dict[str, Timed]:
 
 
 def confirm(first: Timed, second: Timed) -> Timed:
-    """Return the verdict of two runs: the first's if the second agrees, else "same".
-
-    The numbers are the second's: the first run of many picks what chance made largest.
-    """
+    """Return the first verdict if the second agrees, else "same", with the second's numbers, which nobody picked."""
     agrees = second.verdict == first.verdict
     return second._replace(verdict=first.verdict if agrees else SAME, confirmed=agrees)
 
@@ -159,7 +151,6 @@ def compare_times(
     times = judge_files(*files)
     suspects = tuple(name for name, one in times.items() if one.verdict != SAME)
     if suspects:
-        report(f"timing {len(suspects)} once more")
         again = run_benchmarks([side._replace(names=suspects) for side in (base, head)], rounds=rounds)
         times |= {name: confirm(times[name], one) for name, one in judge_files(*again).items()}
     return files, times

@@ -10,7 +10,6 @@ import pandas as pd
 from bench.experiments.columns import Table
 
 MISSING, NEW, TWICE, COLUMN, CHANGED, JUDGE = "missing", "new", "twice", "column", "changed", "judge"
-
 SHOWN = 10  # lines of one kind
 
 

@@ -18,20 +18,16 @@ ABSOLUTE = 1e-9  # below this an angle [rad] or a margin is rounding itself
 SINGLE_RELATIVE = 2e-6  # RELATIVE, and rounding to single precision
 MARGIN = 10.0  # times the change that 1e-12 rad made of a doubtful episode: two samples of the effect of rounding
 FRICTION_RELATIVE = 1e-3
-"""With dry friction an arm's joints stick and creep, by what MuJoCo's solver leaves of each tick at its own tolerance:
-1e-4 of the angle that is left differs between two libraries' sines."""
-BOUNDARY_ANGLE, LIMIT_RELATIVE = 1e-5, 1e-3
-"""Bisection ends at 7e-7 rad and at 4e-6; near the limit rounding decides its last steps."""
+"""With dry friction joints stick and creep by what MuJoCo's solver leaves: two libraries' angles differ by 1e-4."""
+BOUNDARY_ANGLE, LIMIT_RELATIVE = 1e-5, 1e-3  # bisection ends at 7e-7 rad and 4e-6; rounding decides its last steps
 POSE_RELATIVE, STEADY = 1e-5, 1e8
 """Single precision is 6e-8; condition numbers up to STEADY lose half the digits of the doubles they are made of."""
 PERTURBED_RELATIVE = 1e-4  # noise or a moving goal has driven what settles for five thousand steps
-
 ON_SET, THROWN = 1e-6, 1.0
 """A goal whose margin is smaller is meant to be on the singular set of its coordinates. Above a torque of THROWN times
 its rated one a hand has been thrown about. In both cases rounding decides the outcome."""
 CONTACT = (1e-4, 1e-7)
-"""Relative and absolute. Impacts multiply rounding: 1e-16 in a joint angle becomes 4e-7 in the peak of a jammed peg's
-force, and each tick rounds again. A rotation [rad] by its cosine is known to 2e-8."""
+"""Relative and absolute. Impacts multiply rounding: 1e-16 in a joint angle becomes 4e-7 in a jammed peg's force."""
 PEG, CREEP = (1e-3, 1e-5), (1e-2, 1e-4)
 """For pegs by the Jacobian transpose or an impedance, which cancel no impact: another processor's libraries moved an
 overshoot by 6e-4 of it, a rotation about held axes by 8e-6 rad. For what sticks and slips all the time: without
@@ -41,9 +37,7 @@ ENDS = {
     "remaining_rate_rad_per_s": (0.1, REST.rate),
     "time_to_rest_s": (0.0, REST.hold_s),
 }
-"""How an episode in contact ends. A speed below the bound of rest is that of a last shiver, above it that of one slip
-among many (by 4 % on the peg above); one shiver more and the window of rest begins again (0.08 s later)."""
-TIMES = ("settling_time_s", "failure_time_s")
+"""How an episode in contact ends: with a last shiver or one slip more, the window of rest begins again 0.08 s later."""
 
 
 def within(relative: float, absolute: float = ABSOLUTE) -> Callable[[str], tuple[float, float]]:
@@ -83,7 +77,7 @@ def compare_episodes(old: pd.DataFrame, new: pd.DataFrame) -> Rule:
     relative, half_tick = np.fmin(loose, 1.0), 0.5 * old["dt_s"].to_numpy()
 
     def tolerance(column):
-        if column in TIMES:
+        if column in ("settling_time_s", "failure_time_s"):
             return (relative - RELATIVE, half_tick) if has_ticks else (relative, ABSOLUTE + half_tick)
         return (relative - RELATIVE, 0.0) if column == "ticks" else (relative, ABSOLUTE)
 
