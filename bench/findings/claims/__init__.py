@@ -14,7 +14,7 @@ A module holds measurements alone; the TOML file of the same name holds the text
     compliance.py            C22 to C24
     contact.py               C25
     adequacy.py              every law by the tests of C17 and C27
-    at_gains.py              the same claim at other gains
+    at_gains.py              the same claim at other gains, and by the sampled engines
     standing.py              how two laws stand in cost, by time and by operations
     tables.py                what a judging function reads
     probes.py                the small experiments of claims that no table answers
