@@ -3,7 +3,7 @@
 Inside, tuples are structures; the entries read them from arrays and write them to arrays.
 """
 
-import ast
+import re
 import textwrap
 from collections.abc import Iterator
 
@@ -93,8 +93,8 @@ class Core:
     def documented(self, function: Typed) -> str:
         """Write a function after its comment; its unused parameters are marked."""
         head, *body = self.language.write(function)
-        used = {one.id for one in ast.walk(function.node) if isinstance(one, ast.Name)}
-        unused = [f"{INDENT}(void){self.language.variable(name)};" for name in function.parameters if name not in used]
+        names, used = map(self.language.variable, function.parameters), set(re.findall(r"\w+", "\n".join(body)))
+        unused = [f"{INDENT}(void){name};" for name in names if name not in used]
         return "\n".join((*comment(summary(function.text)), head, *unused, *body, ""))
 
 
