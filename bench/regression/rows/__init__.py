@@ -13,7 +13,6 @@ from pathlib import Path
 
 import pandas as pd
 
-from bench.errors import BadResults
 from bench.experiments.columns import Table
 from bench.experiments.experiment import known_tables
 from bench.files import read_json
