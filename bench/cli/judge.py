@@ -1,4 +1,4 @@
-"""`judge`: one law, alone: what it does, and why."""
+"""`judge`: say what one law does, and why."""
 
 from pathlib import Path
 
@@ -27,9 +27,9 @@ EPILOG = examples(
 def COMMAND(law: Path, law_limit: float):
     """Judge a law of yours on the free body and say why it does what it does: seconds, nothing is written.
 
-    Asked for: its command over all states (stiffness and damping at three goals, dead points, jumps), episodes from
-    uniform, half-turn, spinning and other starts (what is lost, and how it rests), and robustness. Beside it stand the
-    laws of results/reference that are most like it.
+    It examines the command over all states (stiffness and damping at three goals, dead points, jumps), episodes from
+    uniform, spinning and other starts (which are lost, and how they rest), and robustness. It lists the laws of
+    results/reference that are most like yours.
     """
     own = options.own_laws((law,))
     from bench.findings.judged import judged  # after the file is known to hold a law, for it takes a second
@@ -43,7 +43,7 @@ def COMMAND(law: Path, law_limit: float):
 
 
 def print_judgement(one: Judgement) -> None:
-    """What there is to say of a law, faults first, and the laws most like it."""
+    """Print what a judgement says of a law, faults first, and the laws most like it."""
     import pandas as pd
 
     screen = console()
@@ -52,11 +52,11 @@ def print_judgement(one: Judgement) -> None:
         texts = tuple(f"{each.text} [{each.page}]" for each in one.said if bool(each.fault) == is_fault)
         print_paragraphs(Paragraph(head, texts))
     if one.beside:
-        title = "\nBeside the laws most like it (results/reference; a/b: a of b settled)"
+        title = "\nThe laws most like it (results/reference; a/b: a of b settled)"
         screen.print(frame_table(pd.DataFrame(one.beside), title))
     screen.print("\n[..] are pages of the book: report/pages, or make report.")
 
 
 def verdict(one: Judgement) -> str:
-    """Its faults in a line."""
+    """Return the faults of a law in a line."""
     return f"{counted(len(one.faults), 'fault')}: {', '.join(one.faults)}." if one.faults else "no fault found."
