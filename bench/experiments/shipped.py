@@ -50,6 +50,9 @@ DIRECTIONS = 200
 AXES = np.concatenate((BASE[:1], -BASE[2:], axes(6)))
 """Of episodes: two of the base, and some of no kind."""
 BEFORE_180_RAD = 1e-6
+SETTLING_RAD = {f"settling_{name}_s": math.radians(angle) for name, angle in SETTLING_DEG.items()}
+SETTLING_RAD["settling_near_180_s"] = math.pi - BEFORE_180_RAD
+"""The columns of settling times -> angles of the starts."""
 AWAY_RAD = math.radians(1.0)
 """By more than this a spring that pulls the short way increases no angle of a body at rest."""
 SAMPLE_S = 0.02
@@ -140,7 +143,7 @@ def row(one: Shipped, law: str, contender: Contender, settings: Settings, horizo
         "dead": int(dead.sum()),
     }
     if is_velocity:
-        return found | {"starts": 0, "lost": 0, "away": 0}
+        return found | {"starts": 0, "lost": 0, "away": 0} | dict.fromkeys(SETTLING_RAD, math.nan)
     memories = (memory_of(contender),) if law else (NEAR, ANTIPODE)  # of ours, which take matrices, both signs are one
     return found | motion(contender, memories, settings._replace(gains=gains), horizon_s)
 
@@ -174,8 +177,7 @@ def motion(contender: Contender, memories: tuple, settings: Settings, horizon_s:
     """Simulate starts at rest from each of the memories, and count how they end."""
     from bench.engines.run import compiled_loop, evaluation
 
-    angles = {f"settling_{name}_s": math.radians(angle) for name, angle in SETTLING_DEG.items()}
-    angles["settling_near_180_s"] = math.pi - BEFORE_180_RAD
+    angles = SETTLING_RAD
     begun = start_rows([Start("", tuple(q)) for angle in angles.values() for q in about(AXES, angle).tolist()])
     metrics, limits, episodes = tuple(metrics_of(on_arm=False)), numbers_of(settings.limits(horizon_s)), []
     every = round(SAMPLE_S / settings.dt_s)

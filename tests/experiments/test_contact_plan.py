@@ -9,12 +9,10 @@ import tasks
 from bench.contenders.registry import find_contender
 from bench.control.contact_controller import FORMS
 from bench.control.registry import all_controllers, find_controller
-from bench.errors import Incompatible, UnknownWord
 from bench.experiments import plan as planning
 from bench.experiments.choice import Choice
 from bench.experiments.contact import DENSE, can_do, cut, poses_of
 from bench.experiments.suites import SUITES
-from tasks.base import BadValue
 
 LAW = [find_contender("rotation-matrix")]
 TASKS = tasks.contact_names()
@@ -156,13 +154,6 @@ def test_what_is_named_runs_alone(words, name, values, has_episodes):
     assert (episodes > 0) == has_episodes
 
 
-@pytest.mark.parametrize("arm", UNABLE)
-@pytest.mark.parametrize("words", [{"tasks": ("wrench-probe",)}, {"controllers": (EULER,)}])
-def test_arm_that_cannot_is_refused_by_name_with_the_judges_reason(arm, words):
-    with pytest.raises(BadValue, match="has no site 'wrist'"):
-        contacts(arms=("ur5e", arm), **words)
-
-
 def test_named_representation_narrows_the_suites_controllers():
     units, _ = contacts("default", representations=("mrp",))
     assert named(units, "contender") == ["hybrid/mrp+inverse"]
@@ -202,30 +193,6 @@ def test_every_controller_is_found_by_its_name():
 def test_hybrids_come_in_every_form_and_impedances_in_one():
     forms = {one.law: {other.form for other in all_controllers() if other.law == one.law} for one in all_controllers()}
     assert all(found == ({""} if law.startswith("impedance-") else set(FORMS)) for law, found in forms.items())
-
-
-@pytest.mark.parametrize(
-    ("word", "reason"),
-    [
-        ("hybrid-base", r"lacks its form \(try: hybrid-base\+inverse"),
-        ("hybrid", r"needs some \(try: hybrid/zyx-euler\+inverse\)"),
-        ("hybrid-base/zyx-euler+inverse", r"takes no representation \(try: hybrid-base\+inverse\)"),
-        ("hybrid/zyx-euler+solve", "known: inverse, projected, transpose"),
-        ("hybrid/quaternion+inverse", r"no coordinate for each of the axes x, y and z"),
-        ("impedance-coordinates", r"needs some \(try: impedance-coordinates/zyx-euler\)"),
-        ("impedance-geometric/mrp", r"omit 'mrp'"),
-        ("impedance-geometric+inverse", r"omit '\+inverse'"),
-    ],
-)
-def test_word_that_is_no_controller_is_refused_with_the_reason(word, reason):
-    with pytest.raises(Incompatible, match=reason):
-        find_controller(word)
-
-
-@pytest.mark.parametrize(("word", "guess"), [("hybird-base+inverse", "hybrid-base"), ("hybrid/zyx+inverse", "")])
-def test_unknown_word_of_a_controller_lists_the_known_ones(word, guess):
-    with pytest.raises(UnknownWord, match=guess or "zyx-euler"):
-        find_controller(word)
 
 
 # ------------------------------------------------------------------------------------------ the command

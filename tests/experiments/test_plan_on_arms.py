@@ -167,19 +167,3 @@ def test_users_law_runs_on_an_arm(capsys, own, tmp_path):
     assert fast.drop(columns="engine").equals(slow.drop(columns="engine"))
     costs = store.read(out, "costs")
     assert set(costs[costs.regulator == "mine"].joints) == {6}
-
-
-@pytest.mark.parametrize("arm", ["nosuch", "ur5"])
-def test_unknown_arm_lists_the_known_ones(capsys, arm):
-    line = refused(capsys, "run", "--dry-run", "--arm", arm)
-    assert f"arm '{arm}' is unknown" in line
-    assert f"known: {', '.join(ARMS)}" in line
-
-
-@pytest.mark.parametrize(
-    "words", [("--jacobian", "analytic"), ("--inverse", "solve"), ("--variation", "mass-1.30"), ("--arm", "ur5e")]
-)
-def test_free_body_has_nothing_of_an_arm(capsys, words):
-    line = refused(capsys, "run", "--dry-run", "--task", "free-body", *words)
-    assert "task 'free-body' has no arm" in line
-    assert "try: --task arm-regulation" in line
