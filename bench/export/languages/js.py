@@ -90,7 +90,7 @@ def write_entry(entry: Entry, function: str) -> list[str]:
     """Write one entry of the object that the script offers."""
     given, passed = write_arguments(entry, {"gains": "kp, kv", "memory": "state", "": "{name}"}, PASSED)
     call = f"{function}({passed})"
-    call = f"kept({call}, state)" if entry.has_memory else f"rows({call})" if entry.returns == "matrix" else call
+    call = f"kept({call}, state)" if entry.has_memory else f"rows({call})" if entry.returns.kind == "matrix" else call
     return [*slashes(entry.doc), f"{entry.name}: ({given}) => {call},"]
 
 

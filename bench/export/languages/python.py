@@ -96,7 +96,7 @@ def write_entry(entry: Entry, function: str) -> Iterator[str]:
     """Write one entry."""
     given, passed = write_arguments(entry, DECLARED, PASSED)
     call = f"{function}({passed})"
-    result = f"tuple(zip(*{call}))" if entry.returns == "matrix" else call
+    result = f"tuple(zip(*{call}))" if entry.returns.kind == "matrix" else call
     doc = f"Return {entry.doc}{'; and the new memory' if entry.has_memory else ''}."
     yield from wrapped((f"def {entry.name}({given}):", *_docstring(doc).splitlines(), f"{INDENT}return {result}", ""))
 
