@@ -12,7 +12,7 @@ from bench.export.c_tests import Calls, write_program
 from bench.export.entries import Entry
 from bench.export.heading import BY_ROWS, RESET, UNFUSED, heading
 from bench.export.language import Language, write_arguments
-from bench.export.layout import INDENT, WIDTH, summary, wrapped
+from bench.export.layout import INDENT, WIDTH, wrapped
 from bench.export.subject import MATRIX, Subject, translated
 from bench.export.types import INDEX, REAL, TRUTH, Kind, Tuple, Typed
 
@@ -92,7 +92,7 @@ class Core:
         head, *body = self.language.write(function)
         names, used = map(self.language.variable, function.parameters), set(re.findall(r"\w+", "\n".join(body)))
         unused = [f"{INDENT}(void){name};" for name in names if name not in used]
-        return "\n".join((*comment(summary(function.text)), head, *unused, *body, ""))
+        return "\n".join((*comment(function.summary), head, *unused, *body, ""))
 
 
 def comment(text: str) -> list[str]:

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from bench.export.entries import Entry
 from bench.export.heading import RESET, WIDTH, heading
 from bench.export.language import Language, write_arguments
-from bench.export.layout import INDENT, summary, wrapped
+from bench.export.layout import INDENT, wrapped
 from bench.export.subject import Subject, translated
 from bench.export.types import Typed
 from bench.law.scalar import PRIMITIVES
@@ -89,7 +89,7 @@ def write_function(function: Typed) -> str:
     node.name, node.decorator_list = f"_{function.name}", []
     resolved = _Resolved(function, memo).visit(node)
     head, *body = ast.unparse(ast.fix_missing_locations(resolved)).split("\n")
-    return "\n".join(wrapped((head, *_docstring(summary(function.text)).splitlines(), *body, "")))
+    return "\n".join(wrapped((head, *_docstring(function.summary).splitlines(), *body, "")))
 
 
 def write_entry(entry: Entry, function: str) -> Iterator[str]:
