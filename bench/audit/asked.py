@@ -25,7 +25,7 @@ class Answers(NamedTuple):
 
 
 def inputs(takes: str, pairs: Pairs) -> tuple[np.ndarray, np.ndarray]:
-    """What the function is given, pair by pair."""
+    """Return what the function is given, pair by pair."""
     if takes == "matrix":
         return pairs.R, pairs.R_d
     order = [0, 1, 2, 3] if takes == "wxyz" else [1, 2, 3, 0]
@@ -38,7 +38,7 @@ def ask(function: Callable, takes: str, pairs: Pairs) -> Answers:
 
 
 def ask_of(function: Callable, now: np.ndarray, goal: np.ndarray) -> Answers:
-    """The same, of arrays."""
+    """Return its answers to every pair of two arrays."""
     e, raised, changed = np.full((len(now), 3), np.nan), [], np.zeros(len(now), bool)
     with warnings.catch_warnings(), np.errstate(all="ignore"):
         warnings.simplefilter("ignore")

@@ -15,7 +15,7 @@ from bench.audit.pairs import WIDE, Pairs
 
 SEQUENCES = tuple("".join(axes) for axes in itertools.permutations("XYZ"))
 SAME_RAD = 1e-5
-"""Of each angle: single precision has 1e-6."""
+"""Largest difference of each angle: single precision has 1e-6."""
 
 
 class Angles(NamedTuple):

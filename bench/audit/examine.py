@@ -35,7 +35,7 @@ UNKNOWN = "misaligned"
 
 
 def findings(examined: Examined) -> tuple[Finding, ...]:
-    """What is wrong with it, faults first, without what others explain."""
+    """Return what is wrong with it, faults first, without what others explain."""
     found = [(one, one.find(examined)) for one in every_fault()]
     names = {one.name for one, what in found if what}
     kept = [
@@ -47,7 +47,7 @@ def findings(examined: Examined) -> tuple[Finding, ...]:
 
 
 def understood(function: Callable, stated: Stated, name: str) -> list[tuple[str, Convention | None]]:
-    """What it takes and its convention; if nothing explains its answers, all that it may take.
+    """Find what it takes and its convention; if nothing explains its answers, all that it may take.
 
     Errors:
         BadFunction: of nothing that it may take does it return three numbers.
@@ -76,7 +76,7 @@ def understood(function: Callable, stated: Stated, name: str) -> list[tuple[str,
 
 
 def possible(stated: Stated) -> tuple[str, ...]:
-    """What may be tried: of quaternions both orders, for the wrong one is a fault that is looked for."""
+    """Return what may be tried: of quaternions both orders, for the wrong one is a fault that is looked for."""
     if stated.takes is None:
         return TAKES
     others = () if stated.takes == "matrix" else TAKES[1:]

@@ -1,4 +1,4 @@
-"""What a fault is, and a finding of it."""
+"""The record of a fault, and that of a finding."""
 
 from __future__ import annotations
 
@@ -63,15 +63,15 @@ class Finding(NamedTuple):
 
     @property
     def effect(self) -> str:
-        """What it does to a controller."""
+        """Return what it does to a controller."""
         return self.found.effect or self.fault.effect
 
     @property
     def cure(self) -> str:
-        """What to do."""
+        """Return what to do."""
         return self.found.cure or self.fault.cure
 
     @property
     def is_fault(self) -> bool:
-        """Whether it makes the audit fail."""
+        """Tell whether it makes the audit fail."""
         return self.found.severity == FAULT and not self.is_accepted

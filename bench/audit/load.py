@@ -103,7 +103,7 @@ def of_class(found: type, target: str) -> Callable:
 
 
 def takes_two(instance: object, name: str) -> bool:
-    """Whether a public method can be called with two arguments."""
+    """Tell whether a public method can be called with two arguments."""
     if name.startswith("_"):
         return False
     try:
@@ -114,7 +114,7 @@ def takes_two(instance: object, name: str) -> bool:
 
 
 def callable_one(found: Any, target: str) -> Callable:
-    """What can be called, as it is."""
+    """Return what can be called, as it is."""
     if not callable(found):
         raise BadFunction(f"{target} is {type(found).__name__}, no function; give one of (R, R_d) or (q, q_d)")
     return found

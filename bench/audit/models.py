@@ -14,7 +14,7 @@ Model = tuple[str, np.ndarray]
 """Words, and vectors (n x 3)."""
 
 EXPLAINED_RAD = 1e-3
-"""Of the angle to a model's line; of two random directions one in two million is so near."""
+"""Largest angle to a model's line; of two random directions one in two million is so near."""
 
 
 def explanation(examined: Examined, models: Callable[[Pairs], Iterable[Model]]) -> tuple[str, int] | None:

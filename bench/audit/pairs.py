@@ -19,7 +19,7 @@ POLE, CUBE = "pole", "cube"
 Numbers = np.ndarray | float
 SEED = 7
 LARGEST = 1000
-"""Of drawn integers: fine enough that no two axes are one."""
+"""Largest of the drawn integers: fine enough that no two axes are one."""
 
 
 class Pairs(NamedTuple):
@@ -38,7 +38,7 @@ class Pairs(NamedTuple):
     distance: np.ndarray
 
     def chosen(self, which: np.ndarray | slice) -> Pairs:
-        """Those of a mask, of indices or of a slice."""
+        """Return the pairs of a mask, of indices or of a slice."""
         return Pairs(*(field[which] for field in self))
 
 
@@ -85,7 +85,7 @@ def made(place: str, q: np.ndarray, axis: np.ndarray, cosine: Numbers, sine: Num
 
 
 def joined(*parts: Pairs) -> Pairs:
-    """All of them."""
+    """Join them."""
     return Pairs(*map(np.concatenate, zip(*parts, strict=True)))
 
 
@@ -150,7 +150,7 @@ def at_poles(rng: np.random.Generator) -> Pairs:
 
 @functools.cache
 def every_pair() -> Pairs:
-    """All of them, the simplest of a place first."""
+    """Return all of them, the simplest of a place first."""
     rng = np.random.default_rng(SEED)
     cube = np.vstack((np.eye(4), [(0.5, x, y, z) for x in (0.5, -0.5) for y in (0.5, -0.5) for z in (0.5, -0.5)]))
     whole = np.vstack((cube, drawn_orientations(rng, 28)))

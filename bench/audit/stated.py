@@ -1,4 +1,4 @@
-"""What the caller says of a function beforehand; what is left out is found."""
+"""Statements of the caller on a function; what is left out is found."""
 
 from __future__ import annotations
 
@@ -9,13 +9,13 @@ from bench.errors import BadNumber, UnknownWord
 TAKES = ("matrix", "wxyz", "xyzw")
 """3 x 3 matrices, or quaternions with the scalar first or last."""
 FRAMES = ("base", "body")
-"""Of the three numbers. The body frames of R and of R_d are one for them: R_d^T k = R^T k."""
+"""Frames of the three numbers. The body frames of R and of R_d are one for them: R_d^T k = R^T k."""
 SIGNS = ("to-goal", "from-goal")
-"""Whether e points along the rotation from R to R_d, or back: as R_d - R, or as R - R_d and with swapped arguments."""
+"""Directions: along the rotation from R to R_d, as R_d - R, or back, as R - R_d and with swapped arguments."""
 
 
 class Stated(NamedTuple):
-    """As the arguments of `audit`."""
+    """The arguments of `audit`."""
 
     takes: str | None = None
     frame: str | None = None

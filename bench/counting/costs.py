@@ -7,7 +7,7 @@ import functools
 import math
 import struct
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -117,7 +117,9 @@ def counted_calls(contender: Contender, over: Iterable[State] | None = None) -> 
             left = after or initial
 
 
-def _call(contender: Contender, plain, counting, tally: Tally, state: State, memory) -> tuple[Call, tuple]:
+def _call(
+    contender: Contender, plain: Callable, counting: Callable, tally: Tally, state: State, memory: tuple
+) -> tuple[Call, tuple]:
     """The call, and the memory the law left (empty for a law without, or if it raised)."""
     given = (state.R, state.omega, state.goal, GAINS, *memory)
     want, answer, trouble = None, None, None
@@ -145,7 +147,7 @@ def _call(contender: Contender, plain, counting, tally: Tally, state: State, mem
     return Call(state, tally.take(), state.is_sampled), after
 
 
-def counted(numbers, tally: Tally):
+def counted(numbers: Any, tally: Tally) -> Any:
     """Return the nested tuples with every number replaced by a counting scalar."""
     if not isinstance(numbers, tuple):
         return Counted(numbers, tally)
@@ -153,7 +155,7 @@ def counted(numbers, tally: Tally):
     return type(numbers)(*inside) if hasattr(numbers, "_fields") else tuple(inside)
 
 
-def values(answer):
+def values(answer: Any) -> Any:
     """What a counted call returned, as nested tuples of floats."""
     if isinstance(answer, tuple):
         return tuple(values(number) for number in answer)
@@ -162,7 +164,7 @@ def values(answer):
     return float(answer) if isinstance(answer, int | float) else answer
 
 
-def bits(answer) -> bytes:
+def bits(answer: Any) -> bytes:
     """The numbers of an answer, bit by bit: NaN equals NaN, and 0.0 is not -0.0."""
     if isinstance(answer, tuple):
         return b"".join(bits(number) for number in answer)

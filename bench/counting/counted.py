@@ -5,7 +5,8 @@ math.sin(x) would make a plain float of the number.
 """
 
 import operator
-from typing import NamedTuple
+from collections.abc import Callable
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -42,8 +43,8 @@ class Counts(NamedTuple):
 class Tally:
     """Counts in progress. `stage` is where the next operation belongs, `now` its numbers in the order of OPERATIONS."""
 
-    def __init__(self):
-        self._by_stage = {}
+    def __init__(self) -> None:
+        self._by_stage: dict[str, list[int]] = {}
         self.stage = "regulate"
 
     @property
@@ -71,10 +72,10 @@ def _quotient(x: float, y: float) -> float:
         return float(np.float64(x) / np.float64(y))
 
 
-def _dyadic(operation: str, compute):
+def _dyadic(operation: str, compute: Callable) -> tuple[Callable, Callable]:
     place = OPERATIONS.index(operation)
 
-    def forward(self, other):
+    def forward(self: "Counted", other: Any) -> Any:
         if other.__class__ is Counted:
             value = other.value
         elif isinstance(other, int | float):
@@ -84,7 +85,7 @@ def _dyadic(operation: str, compute):
         self.tally.now[place] += 1
         return Counted(compute(self.value, value), self.tally)
 
-    def reflected(self, other):
+    def reflected(self: "Counted", other: Any) -> Any:
         """The other is a constant: of two counting scalars the first one's `forward` is called."""
         if not isinstance(other, int | float):
             return NotImplemented
@@ -94,20 +95,20 @@ def _dyadic(operation: str, compute):
     return forward, reflected
 
 
-def _monadic(operation: str, compute):
+def _monadic(operation: str, compute: Callable) -> Callable:
     place = OPERATIONS.index(operation)
 
-    def result(self):
+    def result(self: "Counted") -> "Counted":
         self.tally.now[place] += 1
         return Counted(compute(self.value), self.tally)
 
     return result
 
 
-def _comparison(compute):
+def _comparison(compute: Callable) -> Callable:
     place = OPERATIONS.index("compare")
 
-    def compare(self, other):
+    def compare(self: "Counted", other: Any) -> Any:
         if other.__class__ is Counted:
             other = other.value
         elif not isinstance(other, int | float):
@@ -118,8 +119,8 @@ def _comparison(compute):
     return compare
 
 
-def _refused(what: str, cure: str):
-    def refuse(self, *others):
+def _refused(what: str, cure: str) -> Callable:
+    def refuse(self: "Counted", *others: object) -> None:
         raise OutsideDialect(f"{what} cannot be counted; {cure} (what a law may contain: bench/law/scalar.py)")
 
     return refuse
@@ -135,11 +136,11 @@ class Counted:
     __slots__ = ("tally", "value")
     __array_ufunc__ = None  # numpy's own operators and functions then leave the operation to this class
 
-    def __init__(self, value, tally: Tally):
+    def __init__(self, value: Any, tally: Tally) -> None:
         self.value = float(value)
         self.tally = tally
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return f"Counted({self.value!r})"
 
     __add__, __radd__ = _dyadic("add", operator.add)
@@ -149,11 +150,11 @@ class Counted:
     atan2, ratan2 = _dyadic("atan2", scalar.atan2)
     copysign, rcopysign = _dyadic("copysign", scalar.copysign)
 
-    def __neg__(self):
+    def __neg__(self) -> "Counted":
         """Free: a sign bit."""
         return Counted(-self.value, self.tally)
 
-    def __pos__(self):
+    def __pos__(self) -> "Counted":
         return self
 
     sqrt = _monadic("sqrt", scalar.sqrt)

@@ -5,6 +5,7 @@ Jdot qdot, the law, and the wrench in its frame. "invert" is y and the torques.
 """
 
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 
@@ -16,6 +17,7 @@ from bench.counting.counted import TOTAL, Tally
 from bench.counting.on_arms import ARM_OF, ArmState, arm_states, checked, median_and_worst
 from bench.counting.states import GAINS
 from bench.engines.contact_episode import room, rows
+from bench.law.resolved_motion import Chain
 from tasks.contact import Specification
 
 TILTING = Specification("about x and y", (1, 1, 1, 0, 0, 1))
@@ -48,12 +50,14 @@ def rows_in_contact(controller: ContactController) -> Iterator[dict]:
             }  # fmt: skip
 
 
-def _call(controller: ContactController, held, state: ArmState, draw) -> Call:
+def _call(controller: ContactController, held: Any, state: ArmState, draw: np.random.Generator) -> Call:
     f, m, v_d, f_d, m_d = (tuple(three) for three in draw.normal(size=(5, 3)))
     setpoint = Setpoint(state.goal.R, state.p_d, v_d, f_d, m_d)
     given, tally = (state.chain, setpoint, f, m, GAINS, TOUCH, state.D, state.fg), Tally()
 
-    def torques(chain, setpoint, f, m, gains, touch, D, fg, dtype):
+    def torques(
+        chain: Chain, setpoint: Setpoint, f: Any, m: Any, gains: Any, touch: Any, D: Any, fg: Any, dtype: Any
+    ) -> tuple:
         J, tau, into = np.zeros((6, chain.n), dtype), np.zeros(chain.n, dtype), rows(dtype)
         tally.stage = "regulate"
         controller.assemble(chain, setpoint, f, m, gains, touch, J, into)

@@ -7,6 +7,7 @@ depends on anything else of an arm.
 
 import functools
 from collections import Counter
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -62,7 +63,7 @@ def arm_states(arm: str) -> tuple[ArmState, ...]:
     )
 
 
-def _state(model, data, start: Start, is_sampled: bool) -> ArmState:
+def _state(model: Any, data: Any, start: Start, is_sampled: bool) -> ArmState:
     import mujoco
 
     data.qpos[:], data.qvel[:] = start.q, start.qdot
@@ -106,7 +107,7 @@ def rows_on_arm(contender: Contender, joints: int) -> list[dict]:
     return list(rows_of(cost_on_arm(contender, ARM_OF[joints]), joints))
 
 
-def _command(contender: Contender, tally: Tally | None):
+def _command(contender: Contender, tally: Tally | None) -> Any:
     """The law as `resolved_acceleration.Parts` takes it; staged if there is a tally."""
     if contender.jacobian is not None and contender.jacobian.takes == "coordinates":
         return contender.coordinate_law
@@ -130,7 +131,7 @@ def _staged_parts(contender: Contender, tally: Tally) -> Parts:
         "report": UNSEEN,
         "assemble": "regulate",
     }
-    fields = {
+    fields: dict[str, Any] = {
         name: in_stage(tally, stage, function) for name, stage in stages.items() if (function := getattr(parts, name))
     }
     if parts.coordinates is not None:
@@ -138,13 +139,13 @@ def _staged_parts(contender: Contender, tally: Tally) -> Parts:
     return parts._replace(**fields)
 
 
-def _controller(contender: Contender, parts: Parts, tally: Tally | None):
+def _controller(contender: Contender, parts: Parts, tally: Tally | None) -> Callable:
     inverse = contender.inverse
     assert inverse is not None  # parts_of has refused a contender without
     resolve = inverse.resolve if tally is None else in_stage(tally, "invert", inverse.resolve)
     assemble, gives_torque = assembly(parts), int(inverse.gives == "torque")
 
-    def controller(chain, D, fg, goal, p_d, memory, gains, dtype):
+    def controller(chain: Chain, D: Any, fg: Any, goal: Goal, p_d: Any, memory: Any, gains: Any, dtype: type) -> tuple:
         into = buffers(chain.n, dtype)
         u, memory = control(
             assemble, resolve, gives_torque, contender.rows, chain, D, fg, goal, p_d, gains, memory, into
@@ -154,14 +155,14 @@ def _controller(contender: Contender, parts: Parts, tally: Tally | None):
     return controller
 
 
-def _call(contender: Contender, plain, counting, tally: Tally, state: ArmState) -> Call:
+def _call(contender: Contender, plain: Callable, counting: Callable, tally: Tally, state: ArmState) -> Call:
     memory = tuple(np.float64(x) for x in (*(contender.regulator.memory or ()), *NO_MEMORY)[: len(NO_MEMORY)])
     given = (state.chain, state.D, state.fg, state.goal, state.p_d, memory, GAINS)
     tally.stage = "linearize"
     return checked(contender.name, state, tally, given, plain, counting)
 
 
-def checked(name: str, state: ArmState, tally: Tally, given, plain, counting) -> Call:
+def checked(name: str, state: ArmState, tally: Tally, given: tuple, plain: Callable, counting: Callable) -> Call:
     """The counted call, whose answer must be the plain one bit for bit."""
     want = plain(*given, float)
     try:
@@ -176,7 +177,7 @@ def checked(name: str, state: ArmState, tally: Tally, given, plain, counting) ->
     return Call(state, tally.take(), state.is_sampled)
 
 
-def as_counted(numbers: Any, tally: Tally):
+def as_counted(numbers: Any, tally: Tally) -> Any:
     """Tuples and arrays with every float a counting scalar; counts of things stay ints."""
     if isinstance(numbers, int):
         return numbers

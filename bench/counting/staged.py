@@ -4,8 +4,9 @@
 no representation and is all `regulate`.
 """
 
+from collections.abc import Callable
 from types import SimpleNamespace
-from typing import cast
+from typing import Any, cast
 
 from bench.counting.counted import Tally
 from bench.law.contender import Contender, Representation, bind
@@ -26,7 +27,7 @@ STAGE_OF = {
 """Function of a Representation -> stage."""
 
 
-def law_of(contender: Contender, tally: Tally):
+def law_of(contender: Contender, tally: Tally) -> Callable:
     """The contender's law, its coordinates staged on this tally."""
     if contender.representation is None:
         return contender.law
@@ -42,10 +43,10 @@ def staged(representation: Representation, tally: Tally) -> Representation:
     return cast(Representation, SimpleNamespace(**fields))  # goal_chart is a property there, and cannot be replaced
 
 
-def in_stage(tally: Tally, stage: str, function):
+def in_stage(tally: Tally, stage: str, function: Callable) -> Callable:
     """The function, its operations counted in that stage."""
 
-    def call(*numbers):
+    def call(*numbers: Any) -> Any:
         before, tally.stage = tally.stage, stage
         try:
             return function(*numbers)

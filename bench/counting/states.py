@@ -6,6 +6,7 @@ states at and near the goal, where an episode would have nothing to regulate, ar
 
 import functools
 import math
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -54,7 +55,7 @@ def states() -> tuple[State, ...]:
     return tuple(found)
 
 
-def _near_identity():
+def _near_identity() -> Iterator[tuple[str, tuple[float, ...]]]:
     yield "identity", (1.0, 0.0, 0.0, 0.0)
     for word, axis in AXES.items():
         for k in DECADES:
@@ -62,7 +63,9 @@ def _near_identity():
             yield f"identity-{word}-k{k:02d}", (math.cos(half), *(math.sin(half) * part for part in axis))
 
 
-def _at_rest_and_spinning(name: str, quat_wxyz, goal_wxyz, is_sampled: bool = False) -> list[State]:
+def _at_rest_and_spinning(
+    name: str, quat_wxyz: tuple[float, ...], goal_wxyz: tuple[float, ...], is_sampled: bool = False
+) -> list[State]:
     R, at_rest = _rotation(quat_wxyz), _doubles(AT_REST)
     goal = Goal(_rotation(goal_wxyz), at_rest, at_rest)
     return [
@@ -71,7 +74,7 @@ def _at_rest_and_spinning(name: str, quat_wxyz, goal_wxyz, is_sampled: bool = Fa
     ]
 
 
-def _rotation(quat_wxyz) -> Rotation:
+def _rotation(quat_wxyz: tuple[float, ...]) -> Rotation:
     return Rotation(*(_doubles(column) for column in from_quaternion(quat_wxyz)))
 
 

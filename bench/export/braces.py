@@ -39,7 +39,7 @@ class Braces(NamedTuple):
 
     def write(self, function: Typed) -> list[str]:
         """Return the lines of a function, the first of them its whole head."""
-        body = _Body(self, function).block(function.node.body, set(function.variables), INDENT)
+        body = _Body(self, function).lines()
         return ["\n".join(wrapped([f"{self.head(function)} {{"])), *wrapped((*body, "}"))]
 
 
@@ -50,56 +50,59 @@ class _Body:
         self.language, self.function = language, function
         self.spare = 0
 
-    def block(self, statements: list[ast.stmt], undeclared: set[str], indent: str) -> Iterator[str]:
-        """Write statements, and in their places the declarations of the variables that live in this block alone."""
-        here = {}
-        for name in sorted(undeclared):
-            users = [at for at, one in enumerate(statements) if name in names_in(one)]
-            if users and not _is_inside(name, statements[users[0]], len(users)):
-                here[name] = users[0]
-        for at, statement in enumerate(statements):
-            due = {name for name, first in here.items() if first == at}
-            if isinstance(statement, ast.Assign):
-                for target in statement.targets:
-                    yield from (f"{indent}{one};" for one in self.assigned(target, statement.value, due))
-                continue
-            yield from (f"{indent}{self.declared(name)};" for name in sorted(due))
-            yield from self.statement(statement, undeclared - set(here), indent)
+    def lines(self) -> Iterator[str]:
+        """Write the statements, and before each of them the declarations of the variables that begin there."""
+        undeclared = {name for name, kind in self.function.variables.items() if kind != INDEX and self.is_read(name)}
+        for statement in self.function.node.body:
+            due = undeclared & names_in(statement)
+            undeclared -= due
+            if not isinstance(statement, ast.Assign):
+                yield from (f"{INDENT}{self.declared(name)};" for name in sorted(due))
+            yield from self.statement(statement, due, INDENT)
+
+    def block(self, statements: list[ast.stmt], indent: str) -> Iterator[str]:
+        """Write the statements of a branch or a loop."""
+        for one in statements:
+            yield from self.statement(one, set(), indent + INDENT)
 
     def declared(self, name: str) -> str:
         return self.language.declaration(self.function.variables[name], self.language.variable(name))
 
-    def statement(self, node: ast.stmt, inner: set[str], indent: str) -> Iterator[str]:
-        if isinstance(node, ast.AugAssign):
+    def statement(self, node: ast.stmt, due: set[str], indent: str) -> Iterator[str]:
+        """Write a statement; due: the names that an assignment declares."""
+        if isinstance(node, ast.Assign):
+            for target in node.targets:
+                yield from (f"{indent}{one};" for one in self.assigned(target, node.value, due))
+        elif isinstance(node, ast.AugAssign):
             name = self.expression(node.target)
             yield f"{indent}{name} = {name} {NAMES[type(node.op)]} {self.expression(node.value, 7)};"
         elif isinstance(node, ast.Return) and node.value is not None:
             yield f"{indent}return {self.expression(node.value)};"
         elif isinstance(node, ast.If):
-            yield from self.branches(node, inner, indent)
+            yield from self.branches(node, indent)
         elif isinstance(node, ast.For):
-            yield from self.loop(node, inner, indent)
+            yield from self.loop(node, indent)
         elif isinstance(node, ast.Break | ast.Continue):
             yield f"{indent}{type(node).__name__.lower()};"
 
-    def branches(self, node: ast.If, inner: set[str], indent: str) -> Iterator[str]:
+    def branches(self, node: ast.If, indent: str) -> Iterator[str]:
         yield f"{indent}if ({self.expression(node.test)}) {{"
-        yield from self.block(node.body, inner, indent + INDENT)
+        yield from self.block(node.body, indent)
         while len(node.orelse) == 1 and isinstance(node.orelse[0], ast.If):
             node = node.orelse[0]
             yield f"{indent}}} else if ({self.expression(node.test)}) {{"
-            yield from self.block(node.body, inner, indent + INDENT)
+            yield from self.block(node.body, indent)
         if node.orelse:
             yield f"{indent}}} else {{"
-            yield from self.block(node.orelse, inner, indent + INDENT)
+            yield from self.block(node.orelse, indent)
         yield f"{indent}}}"
 
-    def loop(self, node: ast.For, inner: set[str], indent: str) -> Iterator[str]:
+    def loop(self, node: ast.For, indent: str) -> Iterator[str]:
         bounds = [self.expression(each) for each in node.iter.args] if isinstance(node.iter, ast.Call) else []
         first, last = ("0", bounds[0]) if len(bounds) == 1 else bounds[:2]
         name = self.expression(node.target)
         yield f"{indent}for ({self.language.declaration(INDEX, name)} = {first}; {name} < {last}; {name}++) {{"
-        yield from self.block(node.body, inner - names_in(node.target), indent + INDENT)
+        yield from self.block(node.body, indent)
         yield f"{indent}}}"
 
     def assigned(self, target: ast.expr, value: ast.expr, fresh: set[str]) -> Iterator[str]:
@@ -130,10 +133,9 @@ class _Body:
             for place, one in enumerate(target.elts):
                 part = self.language.part(kind, source, place)
                 yield from self.taken_apart(one, part, parts, kind.items[place])
-        elif isinstance(target, ast.Name) and isinstance(value, ast.expr):
-            parts.append([target.id, self.expression(value), names_in(value), kind])
         elif isinstance(target, ast.Name) and self.is_read(target.id):
-            parts.append([target.id, value, set(), kind])
+            known = (self.expression(value), names_in(value)) if isinstance(value, ast.expr) else (value, set())
+            parts.append([target.id, *known, kind])
 
     def temporary(self, kind: Kind, name: str, value: str) -> str:
         self.spare += 1
@@ -215,8 +217,3 @@ class _Body:
 def names_in(node: ast.AST) -> set[str]:
     """Return every name in a tree."""
     return {one.id for one in ast.walk(node) if isinstance(one, ast.Name)}
-
-
-def _is_inside(name: str, statement: ast.stmt, users: int) -> bool:
-    """Tell whether a variable of one statement alone lives within one of its branches."""
-    return users == 1 and isinstance(statement, ast.If) and name not in names_in(statement.test)

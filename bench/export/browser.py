@@ -33,7 +33,7 @@ PLANT: dict[Callable, tuple[Kind, ...]] = {
     haversine: (MATRIX, MATRIX),
     angle_between: (MATRIX, MATRIX),
 }
-"""What moves the body and measures it, with the kinds of its arguments."""
+"""Functions that move the body and measure it, with the kinds of their arguments."""
 
 JUDGE: dict[Callable, tuple[Kind, ...]] = {
     first_watch: (REAL,) * 4,
@@ -58,7 +58,7 @@ class Live(NamedTuple):
 
 
 def script(contenders: Iterable[Contender], name: str = "live") -> str:
-    """The script; it defines a global of that name, with laws, plant, judge, outcomes and the functions by name."""
+    """Write the script, which defines a global of that name: laws, plant, judge, outcomes, and functions by name."""
     program = Program()
     plant, judge = ([program.add(one, kinds) for one, kinds in of.items()] for of in (PLANT, JUDGE))
     laws = {one.on_free_body: _live(program, one) for one in contenders}

@@ -33,12 +33,12 @@ class Parameter(NamedTuple):
 
 
 class Entry(NamedTuple):
-    """A function of an export; it returns a tuple, a matrix or a number, and the new memory if it takes one."""
+    """A function of an export; it returns what `returns` declares, and the new memory if it takes one."""
 
     name: str
     function: Callable
     parameters: tuple[Parameter, ...]
-    returns: str
+    returns: Parameter
     doc: str
 
     @property
@@ -64,23 +64,26 @@ def keep(R, v):
 
 
 FRAMES = (Frame("", keep, keep, rotate_back, rotate), Frame("_body", rotate, rotate_back, keep, keep))
-Declared = tuple[tuple[Parameter, ...], str]
-"""The parameters of an entry, and its docstring."""
+Declared = tuple[tuple[Parameter, ...], Parameter, str]
+"""The parameters of an entry, its result, and its docstring."""
 
 
 def in_both_frames(make: Callable[[Frame], Iterable[Callable]], *declared: Declared) -> list[Entry]:
     """Return the entries of the functions that `make` returns for each frame, declared in their order."""
     entries = []
     for frame in FRAMES:
-        for function, (parameters, doc) in zip(make(frame), declared, strict=True):
+        for function, (parameters, returns, doc) in zip(make(frame), declared, strict=True):
             function.__name__ = f"{function.__name__.removesuffix('_with_memory')}{frame.suffix}"
-            given = (one._replace(name=one.name + frame.suffix * (one.kind == "vector")) for one in parameters)
-            entries.append(Entry(function.__name__, function, tuple(given), "tuple", doc))
+            named = (
+                one._replace(name=one.name + frame.suffix * (one.kind == "vector")) for one in (*parameters, returns)
+            )
+            *given, result = named
+            entries.append(Entry(function.__name__, function, tuple(given), result, doc))
     return entries
 
 
 R, R_D = Parameter("R", "matrix", 9), Parameter("R_d", "matrix", 9)
-OMEGA, U, MOMENT = (Parameter(name, "vector", 3) for name in ("omega", "u", "moment"))
+OMEGA, U, MOMENT, E, TAU = (Parameter(name, "vector", 3) for name in ("omega", "u", "moment", "e", "tau"))
 GAINS, MEMORY = Parameter("gains", "gains", 2), Parameter("memory", "memory", 4)
 INERTIA = Parameter("inertia", "rows", 9)
 REGULATING = Gains(1.0, 2.0)
@@ -140,8 +143,12 @@ def of_law(law: Callable, has_memory: bool) -> list[Entry]:
         return command, orientation_error, torque
 
     kept = (MEMORY,) if has_memory else ()
-    declared = ((R, OMEGA, R_D, GAINS, *kept), COMMAND), ((R, R_D, *kept), ERROR), ((R, OMEGA, U, INERTIA), TORQUE)
-    return in_both_frames(make, *declared)
+    return in_both_frames(
+        make,
+        ((R, OMEGA, R_D, GAINS, *kept), U, COMMAND),
+        ((R, R_D, *kept), E, ERROR),
+        ((R, OMEGA, U, INERTIA), TAU, TORQUE),
+    )
 
 
 def of_impedance(law: Callable) -> list[Entry]:
@@ -157,7 +164,7 @@ def of_impedance(law: Callable) -> list[Entry]:
         return (command,)
 
     given = (R, OMEGA, MOMENT, R_D, GAINS, Parameter("apparent_inertia", "number"))
-    return in_both_frames(make, (given, f"{COMMAND} under a moment [N m]"))
+    return in_both_frames(make, (given, U, f"{COMMAND} under a moment [N m]"))
 
 
 def of_representation(record: Representation) -> list[Entry]:
@@ -165,7 +172,8 @@ def of_representation(record: Representation) -> list[Entry]:
     size = len(record.symbols)
     chart, chart_of, to_matrix, margin_of = record.chart, record.chart_of, record.to_matrix, record.margin
     push, pull, accelerate, convert = record.angular_velocity, record.rates, record.accelerate, record.generalized
-    E, Edot, Eddot = (Parameter(name, "tuple", size) for name in ("E", "Edot", "Eddot"))
+    E, Edot, Eddot, F = (Parameter(name, "tuple", size) for name in ("E", "Edot", "Eddot", "F"))
+    alpha, number = Parameter("alpha", "vector", 3), Parameter("margin", "number")
 
     @kernel
     def coordinates(R):
@@ -196,11 +204,11 @@ def of_representation(record: Representation) -> list[Entry]:
         return margin_of(R)
 
     return [
-        Entry("coordinates", coordinates, (R,), "tuple", "E of R"),
-        Entry("rotation", rotation, (E,), "matrix", "R of E"),
-        Entry("rates", rates, (E, OMEGA), "tuple", "Edot = B^-1 omega"),
-        Entry("angular_velocity", angular_velocity, (E, Edot), "tuple", "omega = B Edot"),
-        Entry("angular_acceleration", angular_acceleration, (E, Edot, Eddot), "tuple", "B Eddot + Bdot Edot"),
-        Entry("generalized_forces", generalized_forces, (E, MOMENT), "tuple", "B^T m"),
-        Entry("margin", margin, (R,), "number", "in [0, 1], 0 exactly where B^-1 does not exist"),
+        Entry("coordinates", coordinates, (R,), E, "E of R"),
+        Entry("rotation", rotation, (E,), R, "R of E"),
+        Entry("rates", rates, (E, OMEGA), Edot, "Edot = B^-1 omega"),
+        Entry("angular_velocity", angular_velocity, (E, Edot), OMEGA, "omega = B Edot"),
+        Entry("angular_acceleration", angular_acceleration, (E, Edot, Eddot), alpha, "B Eddot + Bdot Edot"),
+        Entry("generalized_forces", generalized_forces, (E, MOMENT), F, "B^T m"),
+        Entry("margin", margin, (R,), number, "in [0, 1], 0 exactly where B^-1 does not exist"),
     ]

@@ -31,8 +31,3 @@ def _breaks(line: str, depth: int) -> Iterator[tuple[int, int]]:
 def slashes(text: str) -> list[str]:
     """Return a text as lines of comment of C++ and JavaScript."""
     return [f"// {line}" for line in textwrap.wrap(text, WIDTH - 4)]
-
-
-def summary(text: str) -> str:
-    """Return the first paragraph of a docstring on one line."""
-    return " ".join(text.partition("\n\n")[0].split())

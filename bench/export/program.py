@@ -16,7 +16,7 @@ from bench.law.scalar import PRIMITIVES
 
 
 class Function(NamedTuple):
-    """A function of the dialect: its tree, and the value of each free name.
+    """A function of the dialect: its tree, the value of each free name, and the summary of its docstring.
 
     A value is a function of the dialect, a NamedTuple class, a function of PRIMITIVES, `range`, a number, or a tuple.
     """
@@ -24,7 +24,7 @@ class Function(NamedTuple):
     name: str
     node: ast.FunctionDef
     names: dict[str, Any]
-    text: str
+    summary: str
 
     @property
     def parameters(self) -> list[str]:
@@ -50,7 +50,8 @@ def read_function(function: Callable) -> Function:
     closure = inspect.getclosurevars(function)
     values = {**vars(builtins), **closure.globals, **closure.nonlocals}
     names = {name: _resolved(function, name, values) for name in free_names(node)}
-    return Function(function.__name__, node, names, inspect.getdoc(function) or "")
+    summary = (inspect.getdoc(function) or "").partition("\n\n")[0]
+    return Function(function.__name__, node, names, " ".join(summary.split()))
 
 
 def free_names(node: ast.FunctionDef) -> list[str]:

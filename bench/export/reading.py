@@ -89,7 +89,7 @@ class _Reading:
         if not self.returns or any(one != self.returns[0] for one in self.returns):
             raise BadLaw(f"{self.function.name}: every path returns the same kind of value; given: {self.returns}")
         known = self.parameters, self.returns[0], self.kinds, self.calls, self.values, self.variables
-        return Typed(self.program.name(self.function.name), self.node, self.function.text, *known)
+        return Typed(self.program.name(self.function.name), self.node, self.function.summary, *known)
 
     def statement(self, node: ast.stmt) -> None:
         if isinstance(node, ast.Assign):

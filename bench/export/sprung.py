@@ -2,17 +2,19 @@
 
 from collections.abc import Callable
 
-from bench.export.entries import COMMAND, GAINS, OMEGA, R_D, Entry, Frame, Parameter, R, in_both_frames
+from bench.export.entries import COMMAND, GAINS, MOMENT, OMEGA, R_D, Entry, Frame, Parameter, R, U, in_both_frames
 from bench.law import AT_REST, Goal, kernel, minus, quaternion_direction, relative, rotate_back, sqrt
 
-STATE, PERIOD = Parameter("state", "tuple", 4), Parameter("period", "number")
+STATE, NEXT = (Parameter(name, "tuple", 4) for name in ("state", "state_next"))
+PERIOD = Parameter("period", "number")
 BEGIN = "the state to begin with"
 NEXT_STATE = "the state one period [s] on: the state, and the period times its rate"
 STIFFNESS, TURNING = Parameter("stiffness", "rows", 9), Parameter("turning_stiffness", "number")
 P, P_D = Parameter("p", "tuple", 3), Parameter("p_d", "tuple", 3)
-FORCE = "force on the hand [N] of the stiffness K [N/m], symmetric, row-major; p, p_d: its place, the goal's [m]"
+FORCE = Parameter("force", "vector", 3)
+ON_HAND = "force on the hand [N] of the stiffness K [N/m], symmetric, row-major; p, p_d: its place, the goal's [m]"
 TURN = "moment on the hand about its origin [N m]; turning_stiffness [N m/rad]"
-MOMENT = (
+ON_BODY = (
     "moment on the body [N m] of the stiffness K at the goal [N m/rad], symmetric, row-major, in the axes of the tool"
 )
 
@@ -45,8 +47,8 @@ def of_compensator(law: Callable, begin: Callable) -> list[Entry]:
         return begin(R)
 
     given = (R, OMEGA, R_D, GAINS, STATE)
-    both = in_both_frames(make, (given, COMMAND), ((*given, PERIOD), NEXT_STATE))
-    return [*both, Entry("begin", first, (R,), "tuple", BEGIN)]
+    both = in_both_frames(make, (given, U, COMMAND), ((*given, PERIOD), NEXT, NEXT_STATE))
+    return [*both, Entry("begin", first, (R,), STATE, BEGIN)]
 
 
 def of_spring(law: Callable) -> list[Entry]:
@@ -61,7 +63,7 @@ def of_spring(law: Callable) -> list[Entry]:
 
         return (moment,)
 
-    return in_both_frames(make, ((R, R_D, STIFFNESS), MOMENT))
+    return in_both_frames(make, ((R, R_D, STIFFNESS), MOMENT, ON_BODY))
 
 
 def of_pose_spring(law: Callable) -> list[Entry]:
@@ -88,7 +90,7 @@ def of_pose_spring(law: Callable) -> list[Entry]:
         return force, moment
 
     given = (R, P, R_D, P_D, STIFFNESS, TURNING)
-    return in_both_frames(make, (given, FORCE), (given, TURN))
+    return in_both_frames(make, (given, FORCE, ON_HAND), (given, MOMENT, TURN))
 
 
 @kernel

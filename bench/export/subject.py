@@ -1,4 +1,4 @@
-"""What is exported: a law, coordinates or an impedance, with its entries as functions.
+"""Subjects of the export: a law, coordinates, an impedance or a spring, with its entries as functions.
 
 find_subject("feedback-linearized/zyx-euler"), find_subject("representation-mrp"), find_subject("impedance-geometric")
 """

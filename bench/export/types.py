@@ -34,7 +34,7 @@ class Typed(NamedTuple):
 
     name: str
     node: ast.FunctionDef
-    text: str
+    summary: str
     parameters: dict[str, Kind]
     returns: Kind
     kinds: dict[ast.AST, Any]

@@ -79,7 +79,7 @@ def _vector(subject: Subject, entry: Entry, state: State, random: np.random.Gene
     with np.errstate(all="ignore"):
         answer = entry.function(*(_as_given(one, arguments[one.name]) for one in entry.parameters))
     result, memory = answer if entry.has_memory else (answer, ())
-    numbers = np.transpose(result) if entry.returns == "matrix" else np.array(result)
+    numbers = np.transpose(result) if entry.returns.kind == "matrix" else np.array(result)
     flat = numbers.astype(float).ravel().tolist()
     tolerance = 0.0 if translated(subject).program.is_algebraic else CLOSE * max(map(abs, flat))
     return Vector(entry.name, state.kind, arguments, flat, list(map(float, memory)), tolerance)

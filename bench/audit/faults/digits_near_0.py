@@ -9,7 +9,7 @@ from bench.audit.pairs import IDENTITY, NEAR_IDENTITY
 
 LARGEST_RAD = 0.01
 LOST = 1e-9
-"""Of slope times a radian: rounding leaves 1e-16 here, an arc cosine 1e-8."""
+"""Share of slope times a radian: rounding leaves 1e-16 here, an arc cosine 1e-8."""
 COUNT_RAD = 2.0 * np.pi / 2**24
 """An error below this is none to a robot: one count of an encoder of 24 bits, 3.7e-7 rad."""
 

@@ -11,7 +11,7 @@ FARTHEST_RAD = 0.1
 
 
 def find(examined: Examined) -> Found | None:
-    """What is across the axis; and along it, if the size is right 0.1 rad before."""
+    """Find what is across the axis; and along it, if the size is right 0.1 rad before."""
     if not examined.convention:
         return None
     here = examined.at(NEAR_180) & (examined.size > 0.0)

@@ -8,7 +8,7 @@ from bench.audit.fault import Evidence, Fault, Found
 from bench.audit.pairs import WIDE
 
 OTHERWISE = 1e-3
-"""Of the angle; rounding leaves 1e-16, single precision 1e-7."""
+"""Least difference of angles; rounding leaves 1e-16, single precision 1e-7."""
 
 
 def find(examined: Examined) -> Found | None:

@@ -7,7 +7,7 @@ from bench.audit.fault import Fault, Found
 from bench.audit.pairs import WIDE
 
 DIFFERENCE = 1e-12
-"""Of slope times a radian; one function of the same numbers has none."""
+"""Share of slope times a radian; one function of the same numbers has none."""
 
 
 def find(examined: Examined) -> Found | None:

@@ -13,7 +13,7 @@ from bench.audit.pairs import Pairs, product
 
 ORDERS = ("wxyz", "xyzw")
 READ = {"wxyz": [0, 1, 2, 3], "xyzw": [3, 0, 1, 2], "xyzw, shifted the wrong way": [1, 2, 3, 0]}
-"""Where w, x, y, z are taken from."""
+"""Places that w, x, y, z are taken from."""
 
 
 def find(examined: Examined) -> Found | None:

@@ -8,10 +8,10 @@ from bench.audit.fault import Fault, Found
 from bench.audit.pairs import NEAR_IDENTITY
 
 DEVIATION = 1e-3
-"""Of the slope: no gain is set better than to a thousandth."""
+"""Share of the slope: no gain is set better than to a thousandth."""
 
 LARGEST_RAD = 0.09
-"""What is shown to reproduce is larger: no dead band reaches so far."""
+"""A pair that reproduces it is larger: no dead band reaches so far."""
 
 LEAST_RAD, MOST_RAD = 1e-6, 1e-2
 TIMES = 1.5

@@ -12,7 +12,7 @@ from bench.export.c_tests import Calls, write_program
 from bench.export.entries import Entry
 from bench.export.heading import BY_ROWS, RESET, UNFUSED, heading
 from bench.export.language import Language, write_arguments
-from bench.export.layout import INDENT, WIDTH, summary, wrapped
+from bench.export.layout import INDENT, WIDTH, wrapped
 from bench.export.subject import MATRIX, Subject, translated
 from bench.export.types import INDEX, REAL, TRUTH, Kind, Tuple, Typed
 
@@ -23,9 +23,6 @@ and and_eq bitand bitor bool catch class compl delete explicit export false frie
 not_eq operator or or_eq private protected public template this throw true try typename using virtual xor
 """
 """Words of C and of C++, which includes the header."""
-
-RESULTS = {"command": "u", "orientation": "e", "torque": "tau", "rotation": "R"}
-"""Names of results, by the first word of the entry's name."""
 
 
 class Core:
@@ -95,7 +92,7 @@ class Core:
         head, *body = self.language.write(function)
         names, used = map(self.language.variable, function.parameters), set(re.findall(r"\w+", "\n".join(body)))
         unused = [f"{INDENT}(void){name};" for name in names if name not in used]
-        return "\n".join((*comment(summary(function.text)), head, *unused, *body, ""))
+        return "\n".join((*comment(function.summary), head, *unused, *body, ""))
 
 
 def comment(text: str) -> list[str]:
@@ -145,32 +142,19 @@ def write_entry(subject: Subject, core: Core, entry: Entry) -> str:
     passed["memory"] = f"{core.prefix}real{len(subject.memory or ())}_at(state->memory)"
     passed |= {"matrix": f"{core.prefix}Rotation_at({{name}})", "": f"{core.prefix}real{{size}}_at({{name}})"}
     given, arguments = write_arguments(entry, declared, passed)
-    call, returned = f"{core.prefix}{function.name}({arguments})", core.kind(function.returns)
-    about, out = entry.doc, RESULTS.get(entry.name.partition("_")[0], "result")
-    if entry.returns == "number":
+    call, (out, kind, size) = f"{core.prefix}{function.name}({arguments})", entry.returns
+    head = f"static inline void {name}({given}, double {out}[{size}]) {{"
+    stored = f"{core.prefix}{'Rotation' if kind == 'matrix' else f'real{size}'}_to({{}}, {out});"
+    body = [stored.format(call)]
+    if kind == "number":
         head, body = f"static inline double {name}({given}) {{", [f"return {call};"]
-    else:
-        head = f"static inline void {name}({given}, double {out}[{result_size(subject, entry)}]) {{"
-        body = [f"{returned}_to({call}, {out});"]
     if entry.has_memory:
-        first, kept = map(core.kind, result_kinds(subject, entry))
-        body = [f"const {returned} answer = {call};", f"{first}_to(answer.item0, {out});"]
-        body.append(f"{kept}_to(answer.item1, state->memory);")
-    if matrices := [one.name for one in entry.parameters if one.size == 9] + ["R"] * (entry.returns == "matrix"):
+        body = [f"const {core.kind(function.returns)} answer = {call};", stored.format("answer.item0")]
+        body.append(f"{passed['memory'].partition('_at')[0]}_to(answer.item1, state->memory);")
+    about, matrices = entry.doc, [one.name for one in (*entry.parameters, entry.returns) if one.size == 9]
+    if matrices:
         about += f"; {', '.join(matrices)} by rows: {matrices[0]}[3*i+j]"
     return "\n".join((*comment(about), *wrapped((head, *(f"{INDENT}{line}" for line in body), "}", ""))))
-
-
-def result_kinds(subject: Subject, entry: Entry) -> tuple[Kind, ...]:
-    """Return the kind of an entry's result, and that of the new memory if it returns one."""
-    kind = translated(subject).entries[entry.name].returns
-    return kind.items if entry.has_memory and isinstance(kind, Tuple) else (kind,)
-
-
-def result_size(subject: Subject, entry: Entry) -> int:
-    """Return how many numbers an entry returns, without the memory."""
-    kind = result_kinds(subject, entry)[0]
-    return 9 if entry.returns == "matrix" else len(kind.items) if isinstance(kind, Tuple) else 1
 
 
 def write_test(subject: Subject) -> str:
@@ -179,7 +163,7 @@ def write_test(subject: Subject) -> str:
     passed = {"memory": "&state", "number": "row[{at}]", "gains": "row[{at}], row[{at} + 1]", "": "row + {at}"}
 
     def call(entry: Entry, arguments: str) -> str:
-        if entry.returns == "number":
+        if entry.returns.kind == "number":
             return f"result[0] = {name}_{entry.name}({arguments});"
         return f"{name}_{entry.name}({arguments}, result);"
 

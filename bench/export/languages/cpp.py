@@ -53,13 +53,12 @@ def write_entry(subject: Subject, entry: Entry) -> Iterator[str]:
     """Write one entry on Eigen's types."""
     given, arguments = write_arguments(entry, DECLARED, PASSED)
     name = f"{subject.identifier}_{entry.name}"
-    returned = {"number": "double", "matrix": "Eigen::Matrix3d"}.get(
-        entry.returns, f"Eigen::Vector{c.result_size(subject, entry)}d"
-    )
+    out, kind, size = entry.returns
+    returned = {"number": "double", "matrix": "Eigen::Matrix3d"}.get(kind, f"Eigen::Vector{size}d")
     body = [f"return {name}({arguments});"]
-    if entry.returns != "number":
-        held = "Rows" if entry.returns == "matrix" else returned
-        body = [f"{held} result;", f"{name}({arguments}, result.data());", "return result;"]
+    if kind != "number":
+        held = "Rows" if kind == "matrix" else returned
+        body = [f"{held} {out};", f"{name}({arguments}, {out}.data());", f"return {out};"]
     yield from slashes(entry.doc)
     head = f"inline {returned} {entry.name}({given}) {{"
     yield from wrapped((head, *(f"{INDENT}{line}" for line in body), "}\n"))
@@ -79,8 +78,8 @@ def write_test(subject: Subject) -> str:
     }
 
     def call(entry: Entry, arguments: str) -> str:
-        held = ROWS if entry.returns == "matrix" else f"Eigen::Vector{c.result_size(subject, entry)}d"
-        found = "result[0]" if entry.returns == "number" else f"Eigen::Map<{held}>{{result}}"
+        held = ROWS if entry.returns.kind == "matrix" else f"Eigen::Vector{entry.returns.size}d"
+        found = "result[0]" if entry.returns.kind == "number" else f"Eigen::Map<{held}>{{result}}"
         return f"{found} = {name}::{entry.name}({arguments});"
 
     return write_program(subject, Calls(f"{subject.identifier}.hpp", passed, call, f"{name}::State", "state.reset()"))

@@ -9,7 +9,7 @@ from bench.export.braces import Braces
 from bench.export.entries import Entry
 from bench.export.heading import BY_ROWS, RESET, heading
 from bench.export.language import Language, write_arguments
-from bench.export.layout import INDENT, slashes, summary
+from bench.export.layout import INDENT, slashes
 from bench.export.subject import Subject, translated
 from bench.export.types import Typed
 
@@ -33,7 +33,7 @@ SCRIPT: Braces = Braces(
 
 def write_function(function: Typed) -> str:
     """Write a function after its comment."""
-    return "\n".join((*slashes(summary(function.text)), *SCRIPT.write(function)))
+    return "\n".join((*slashes(function.summary), *SCRIPT.write(function)))
 
 
 COPYSIGN = """function copysign(magnitude, sign) {
@@ -90,7 +90,7 @@ def write_entry(entry: Entry, function: str) -> list[str]:
     """Write one entry of the object that the script offers."""
     given, passed = write_arguments(entry, {"gains": "kp, kv", "memory": "state", "": "{name}"}, PASSED)
     call = f"{function}({passed})"
-    call = f"kept({call}, state)" if entry.has_memory else f"rows({call})" if entry.returns == "matrix" else call
+    call = f"kept({call}, state)" if entry.has_memory else f"rows({call})" if entry.returns.kind == "matrix" else call
     return [*slashes(entry.doc), f"{entry.name}: ({given}) => {call},"]
 
 

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from bench.export.entries import Entry
 from bench.export.heading import RESET, WIDTH, heading
 from bench.export.language import Language, write_arguments
-from bench.export.layout import INDENT, summary, wrapped
+from bench.export.layout import INDENT, wrapped
 from bench.export.subject import Subject, translated
 from bench.export.types import Typed
 from bench.law.scalar import PRIMITIVES
@@ -89,14 +89,14 @@ def write_function(function: Typed) -> str:
     node.name, node.decorator_list = f"_{function.name}", []
     resolved = _Resolved(function, memo).visit(node)
     head, *body = ast.unparse(ast.fix_missing_locations(resolved)).split("\n")
-    return "\n".join(wrapped((head, *_docstring(summary(function.text)).splitlines(), *body, "")))
+    return "\n".join(wrapped((head, *_docstring(function.summary).splitlines(), *body, "")))
 
 
 def write_entry(entry: Entry, function: str) -> Iterator[str]:
     """Write one entry."""
     given, passed = write_arguments(entry, DECLARED, PASSED)
     call = f"{function}({passed})"
-    result = f"tuple(zip(*{call}))" if entry.returns == "matrix" else call
+    result = f"tuple(zip(*{call}))" if entry.returns.kind == "matrix" else call
     doc = f"Return {entry.doc}{'; and the new memory' if entry.has_memory else ''}."
     yield from wrapped((f"def {entry.name}({given}):", *_docstring(doc).splitlines(), f"{INDENT}return {result}", ""))
 
