@@ -1,7 +1,4 @@
-"""The history: one file of pytest-benchmark for each measured build, under results/history.
-
-`pytest-benchmark --storage results/history compare` reads the files as well. Times compare only on one machine.
-"""
+"""The history: one file of pytest-benchmark for each measured build. Times compare only on one machine."""
 
 from pathlib import Path
 

@@ -26,8 +26,9 @@ LARGER_IS_WORSE = {"effort": (1.25, 0.0), "peak_u": (1.25, 0.0), "rest_change": 
 
 def compare_runs(base: Path, head: Path) -> list[Finding]:
     """Return all findings between two runs' folders; first what head's run says of a law that crashed or hung."""
-    lost = read_json(head / "provenance.json").get("lost", [])
-    return [*(Finding(EXACT, REGRESSION, "", note) for note in lost), *sort_findings(find_differences(base, head))]
+    found = sort_findings(find_differences(base, head))
+    notes = read_json(head / "provenance.json").get("lost", [])
+    return [*(Finding(EXACT, REGRESSION, "", note) for note in notes), *found]
 
 
 def sort_findings(differences: Iterable[Difference]) -> list[Finding]:

@@ -115,6 +115,8 @@ class Session:
     def __init__(self, asked: dict[str, Any]):
         from bench.timing import law, reference_kernel
 
+        if not Path(law.__file__).is_relative_to(Path.cwd()):  # another checkout's, installed
+            raise ImportError("there is no bench.timing yet")
         self.rounds, self.turns = asked["rounds"], Turns(asked["line"], asked["begins"])
         self.cores = sorted(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else []
         states, chain, self.kernel_steps = law.states(), reference_kernel.compiled(), reference_kernel.STEPS

@@ -25,7 +25,6 @@ from scipy.stats import mannwhitneyu
 from bench.errors import Incompatible
 from bench.files import read_json
 from bench.regression.revisions.timed import OTHER_ENDED
-from bench.timing.ratios import ratio
 
 P, RATIO = 0.002, 1.10  # of thirty laws and no change, one comparison in seventeen has a p below P by chance
 ROUNDS = 60  # the interval of a median covers the 23rd to 38th; a round takes from 0.3 ms to 10 ms
@@ -120,6 +119,8 @@ def _wait_for(processes: list[subprocess.Popen]) -> int | None:
 
 def judge_rounds(name: str, base: np.ndarray, head: np.ndarray) -> Timed:
     """Return the verdict of one run, of one time a round each in the order in which they were taken."""
+    from bench.timing.ratios import ratio  # which imports the compiler
+
     middle = ratio(head, base)
     slower, faster = (float(mannwhitneyu(head, base, alternative=side).pvalue) for side in ("greater", "less"))
     is_slower, is_faster = slower < P and middle.median > RATIO, faster < P and middle.median < 1.0 / RATIO

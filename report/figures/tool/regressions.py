@@ -34,15 +34,13 @@ def read_builds(run: Run) -> pd.DataFrame:
 
 
 def facts(run: Run) -> dict:
-    """Return the rule's numbers, false alarms, faults that were caught, and the size of the history."""
+    """Return the rule's numbers, what the same code looked like, faults that were caught, and the history's size."""
     same, builds = pd.DataFrame(read_rows(run, "same_code")), read_builds(run)
     planted = [one["caught"] and one["named"] for one in read_rows(run, "faults") if one["law"]]
     return {
         "p": timing.P,
         "ratio": f"{timing.RATIO:.2f}",
         "rounds": timing.ROUNDS,
-        "comparisons": len(same) or None,
-        "alarms": given(same, lambda rows: int(rows["alarms"].map(len).sum())),
         "planted": len(planted) or None,
         "caught": sum(planted) if planted else None,
         "noise": given(same, describe_noise),
@@ -61,7 +59,7 @@ def describe_noise(rows: pd.DataFrame) -> str:
     return (
         f"{len(rows)} comparisons of {rows['benchmarks'].max()} benchmarks: ratios from {least:.2f} to {largest:.2f}. "
         f"By $p$ alone {by_chance.sum()} comparisons would have alarmed; both conditions held in {doubted.sum()}, "
-        f"and the second run confirmed {alarmed.sum()}."
+        f"and the second run confirmed {alarmed.sum()}: false alarms."
     )
 
 
