@@ -12,7 +12,7 @@ from bench.control.setpoint import TOUCH
 from bench.engines.contact_episode import OUTCOMES, WIDTH, Conditions, Ended
 from bench.engines.run_contact import run
 from bench.experiments.contact import poses_of
-from bench.experiments.contact.rows import WORST_LAST, frame
+from bench.experiments.contact.poses import WORST_LAST, frame
 from bench.metrics.contact_metric import Pose, response
 from bench.metrics.measured_compliance import compliance
 from bench.metrics.registry import known_contact_metrics

@@ -14,16 +14,8 @@ from bench.contenders.registry import find_contender, known_representations
 from bench.experiments import jacobians as poses
 from bench.experiments import plan
 from bench.experiments.experiment import Settings
+from bench.experiments.jacobians import pose_sets
 from bench.experiments.jacobians.eye import Eye
-from bench.experiments.jacobians.pose_sets import (
-    DECADES,
-    FAMILIES,
-    WELL_CONDITIONED,
-    grid,
-    pair,
-    polished,
-    towards_pole,
-)
 from bench.regression import rows as compare
 from bench.regression.rows import difference
 from bench.tables import schema
@@ -119,8 +111,8 @@ def test_determinants_are_those_of_the_converted_jacobian(frames, name):
 @pytest.mark.parametrize("name", ARMS)
 def test_pole_poses_come_to_their_distances_with_the_arm_well_conditioned(frames, name):
     rows = of_zyx(frames[name], "pole")
-    assert len(rows) == 2 * FAMILIES * (DECADES + 1)
-    assert rows["condition"].max() <= WELL_CONDITIONED
+    assert len(rows) == 2 * pose_sets.FAMILIES * (pose_sets.DECADES + 1)
+    assert rows["condition"].max() <= pose_sets.WELL_CONDITIONED
     for row in rows.itertuples():
         distance = row.pose_id.split("-", 2)[2]
         wanted = 0.0 if distance == "exact" else math.sin(float(distance))
@@ -144,22 +136,22 @@ def test_polished_joints_are_closer_than_newton_left_them():
     kin = Kinematics(tasks.arm("ur5e"))
     p, quat = kin.pose(kin.arm.home)
     near = np.array(kin.arm.home) + 1e-7
-    found = polished(kin, near, p, quat)
+    found = pose_sets.polished(kin, near, p, quat)
     assert np.abs(found - kin.arm.home).max() < 1e-12 < np.abs(near - kin.arm.home).max()
 
 
 @pytest.mark.parametrize("name", ARMS)
 def test_slice_shows_both_kinds_of_singularity(name):
     kin = Kinematics(tasks.arm(name))
-    seen = [(kin.condition(q), cos_beta(kin.pose(q)[1])) for _, q in grid(kin.arm, *pair(kin), 61)]
+    seen = [(kin.condition(q), cos_beta(kin.pose(q)[1])) for _, q in pose_sets.grid(kin.arm, *pose_sets.pair(kin), 61)]
     conditions, margins = (np.array(numbers) for numbers in zip(*seen, strict=True))
     assert conditions.max() > 10 * np.median(conditions)
-    assert margins[conditions <= WELL_CONDITIONED].min() < 0.1
+    assert margins[conditions <= pose_sets.WELL_CONDITIONED].min() < 0.1
 
 
 def test_slice_varies_two_joints_over_their_ranges_and_leaves_the_others_at_home():
     arm = tasks.arm("puma560")
-    places, qs = zip(*grid(arm, 1, 4, 5), strict=True)
+    places, qs = zip(*pose_sets.grid(arm, 1, 4, 5), strict=True)
     qs = np.array(qs)
     assert list(places) == list(itertools.product(range(5), repeat=2))
     assert np.ptp(qs[:, [0, 2, 3, 5]], axis=0).max() == 0.0
@@ -216,13 +208,13 @@ def test_way_to_the_pole_is_refused_from_a_singular_posture():
     kin = Kinematics(tasks.arm("puma560"))
     stretched = np.array(tasks.arm("puma560").home)
     stretched[4] = 0.0  # the wrist's first and last axis in line
-    assert kin.condition(stretched) > WELL_CONDITIONED
-    assert towards_pole(kin, stretched, 1.0) is None
+    assert kin.condition(stretched) > pose_sets.WELL_CONDITIONED
+    assert pose_sets.towards_pole(kin, stretched, 1.0) is None
 
 
 def test_tool_is_turned_to_the_angles_that_were_asked_for():
     # what the families rest on: quaternions of angles beside the pole, to rounding
-    for k in range(1, DECADES + 1):
+    for k in range(1, pose_sets.DECADES + 1):
         assert cos_beta(zyx(0.3, math.pi / 2 - 10.0**-k, -1.1)) == pytest.approx(math.sin(10.0**-k), abs=4 * EPS)
 
 

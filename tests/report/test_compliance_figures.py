@@ -12,8 +12,8 @@ pytest.importorskip("matplotlib", reason="the report extra is not installed (cur
 import tasks
 from bench.control.registry import find_controller
 from bench.engines.contact_episode import USUAL
+from bench.experiments.contact import poses as contact_rows
 from bench.experiments.contact import poses_of
-from bench.experiments.contact import rows as contact_rows
 from bench.findings.claims.side_by_side import predicted
 from bench.studies.contact import pegs, stability
 from bench.tables import read

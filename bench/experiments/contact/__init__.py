@@ -14,7 +14,7 @@ from bench.control.contact_controller import ContactController
 from bench.control.registry import all_controllers, find_controller
 from bench.errors import Incompatible
 from bench.experiments.choice import Choice
-from bench.experiments.contact.rows import TABLE, frame
+from bench.experiments.contact.poses import TABLE, frame
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit
 from tasks.base import BadValue
 
