@@ -148,7 +148,7 @@ def _call(
 
 
 def counted(numbers: Any, tally: Tally) -> Any:
-    """The same nested tuples with every number a counting scalar."""
+    """Return the nested tuples with every number replaced by a counting scalar."""
     if not isinstance(numbers, tuple):
         return Counted(numbers, tally)
     inside = [counted(number, tally) for number in numbers]
