@@ -5,13 +5,9 @@ import pytest
 from support.bits import EPS
 from support.buffers import poses, serial_arm
 from support.filling import AWAY, ON_COORDINATES, ROUNDING, converted, filled, named, rows_of
-from support.states import as_rotation
 
-from bench.contenders.registry import jacobian, known_representations, representation
+from bench.contenders.registry import jacobian, representation
 from bench.law.chain import bias_acceleration, twist
-
-A = np.array([1.0, -2.0, 0.5, 0.3, 1.5, -0.7])
-EULER = [one for one in known_representations().values() if one.differentiate is not None]
 
 
 @pytest.mark.parametrize("n", [6, 7])
@@ -69,41 +65,6 @@ def test_determinant_of_the_zyx_euler_jacobian_is_minus_that_of_J_over_cos_beta(
             # longer; the rows themselves by ROUNDING
             scale = np.prod(np.linalg.norm(J_E, axis=1))
             assert abs(given - expected) <= 6 * ROUNDING * scale / margin
-
-
-@pytest.mark.parametrize("n", [6, 7])
-@pytest.mark.parametrize("coordinates", EULER, ids=lambda one: one.name)
-def test_both_derivations_of_the_euler_jacobian_agree_away_from_the_pole(coordinates, n):
-    one, other = ((jacobian(word), coordinates) for word in ("analytic", "analytic-differentiated"))
-    for _, chain in poses(n, 80):
-        margin = coordinates.margin(chain.R)
-        if margin > AWAY:
-            agree(one, other, chain, n, margin)
-
-
-@pytest.mark.parametrize("coordinates", EULER, ids=lambda one: one.name)
-@pytest.mark.parametrize("k", range(1, 7))
-def test_both_derivations_agree_as_near_to_the_pole_as_rounding_lets_them(coordinates, k):
-    one, other = ((jacobian(word), coordinates) for word in ("analytic", "analytic-differentiated"))
-    middle = 0.0 if coordinates.name == "zyz-euler" else np.pi / 2
-    for _, chain in poses(6, 20):
-        alpha, _, gamma = coordinates.chart(chain.R).E
-        R = coordinates.to_matrix((alpha, np.float64(middle + 10.0**-k), gamma))
-        near = chain._replace(R=as_rotation(R))
-        agree(one, other, near, 6, coordinates.margin(near.R))
-
-
-def agree(one, other, chain, n, margin):
-    """J_E and the drift of both. An element of R near the pole is of size `margin` and errs by EPS, so it errs by
-    EPS / margin of itself; J_E is up to 1 / margin, the drift up to speed^2 / margin^2.
-    """
-    J, J_other = (filled(pair, chain)[:6, :n] for pair in (one, other))
-    reach = np.abs(J[:3]).max() + 1.0
-    np.testing.assert_allclose(J, J_other, rtol=0.0, atol=ROUNDING * reach / margin**2)
-    bias = bias_acceleration(chain)
-    drift, drift_other = (converted(pair, chain, bias) for pair in (one, other))
-    speed = np.abs(chain.qdot).sum()
-    np.testing.assert_allclose(drift, drift_other, rtol=0.0, atol=ROUNDING * reach * speed**2 / margin**3)
 
 
 def test_quaternion_jacobian_has_rank_six_and_does_not_see_the_quaternion_itself():

@@ -13,7 +13,6 @@ from support.driving import settings, spread
 from support.states import as_rotation, of_scipy, rotations, vector
 
 import tasks
-from bench.contenders.law_file import TRIAL
 from bench.contenders.registry import all_contenders
 from bench.engines.binding import command_of, evaluation_of, margin_of, memory_of
 from bench.engines.compiled import EVALUATE, FOUR, MATRIX, compile_function
@@ -232,10 +231,3 @@ def test_early_stop_changes_no_settling_tick(contender):
     )
     assert different_rows(to_the_end[:, :3], stopped[:, :3]) == []
     assert (stopped[:, TICKS] <= to_the_end[:, TICKS]).all()
-
-
-def test_law_answers_three_floats_to_floats(contender):
-    answer = contender.law(TRIAL, (0.1, 0.2, 0.3), Goal(), Gains()) if contender.regulator.memory is None else None
-    if answer is not None:
-        assert len(answer) == 3
-        assert all(type(x) is float for x in answer)

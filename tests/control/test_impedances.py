@@ -131,23 +131,6 @@ def test_energy_only_goes_and_goes_by_what_the_damping_takes(word, draw):
     check_energy(times, energy, GAINS.kv * (spin**2).sum(axis=1))
 
 
-@pytest.mark.parametrize("word", IN_COORDINATES)
-def test_energy_in_coordinates_only_goes_and_goes_by_what_the_damping_takes(word, draw):
-    """d/dt (Edot^2/2 + kp (E - E_d)^2/2) = -kv Edot^2."""
-    one = of(word)
-    goal = ScipyRotation.from_euler("ZYX", (0.3, 0.4, -0.2))
-    turn, omega = ScipyRotation.from_rotvec(0.4 * draw.normal(size=3)) * goal, draw.normal(size=3)
-    times, R, spin, _ = free_body(law_of(one.impedance, one.representation), turn, omega, goal, 2.0, count=401)
-    E_d = np.array(one.representation.chart(of_scipy(seen(one, goal, goal))).E)
-    E, Edot = [], []
-    for here, w in zip(ScipyRotation.from_matrix(R), spin, strict=True):
-        E.append(one.representation.chart(of_scipy(seen(one, here, goal))).E)
-        Edot.append(np.linalg.solve(B_at(one, here, goal), w))
-    E, Edot = np.array(E), np.array(Edot)
-    energy = 0.5 * (Edot**2).sum(axis=1) + 0.5 * GAINS.kp * ((E - E_d) ** 2).sum(axis=1)
-    check_energy(times, energy, GAINS.kv * (Edot**2).sum(axis=1))
-
-
 def check_energy(times, energy, taken):
     """It never grows, goes by what was taken, and in the end is almost none."""
     assert (np.diff(energy) <= 1e-8 * energy[0]).all()

@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from tasks.rules import RULES, Rules, ticks
+from tasks.rules import RULES, ticks
 
 PAPER_KP, PAPER_KV = 100.0, 20.0
 
@@ -49,7 +49,3 @@ def test_ticks_are_the_nearest_whole_number(seconds, dt, expected):
 
 def test_hold_window_is_counted_in_ticks():
     assert RULES.hold_ticks(1e-3) == 250
-
-
-def test_rules_can_be_replaced_one_number_at_a_time():
-    assert Rules(tolerance=0.05).band_rad(1.0) == 0.05
