@@ -13,9 +13,7 @@ from support.command_line import TINY, bench
 from bench import files
 from bench.cli import commands, main
 from bench.cli.listing import KINDS, describe_arm
-from bench.contenders.registry import (
-    all_contenders,
-)
+from bench.contenders.registry import all_contenders
 from bench.experiments.suites import SUITES
 from bench.provenance import ROOT
 from bench.tables import store
@@ -110,9 +108,6 @@ def test_list_without_a_kind_lists_every_kind(capsys):
     said = bench(capsys, "list")
     assert said.code == 0
     assert all(name in said.out for kind in KINDS.values() for name in kind.find())
-
-
-# ------------------------------------------------------------------------------------------ run, show
 
 
 def test_run_prints_its_plan_and_what_to_do_next(capsys, tmp_path):

@@ -32,8 +32,7 @@ from bench.control.setpoint import TOUCH as TOUCHING
 from tasks.contact import Specification
 
 INERTIA = np.array([TOUCH.m_p] * 3 + [TOUCH.m_o] * 3)
-FRAMES = [one for one in HYBRIDS if one.form == "inverse"]
-CONVERTED = [one for one in FRAMES if one.converts]
+CONVERTED = [one for one in HYBRIDS if one.form == "inverse" and one.converts]
 UNCONVERTED = [one for one in HYBRIDS if not one.converts]
 # Sums of a few products of numbers that carry the rounding of n rotations each (test_chain).
 ROUNDING = 200 * EPS

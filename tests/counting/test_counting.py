@@ -31,7 +31,6 @@ def typical(law, **fields):
     return cost(contender(regulator(law, **fields))).typical.of(TOTAL)
 
 
-# ------------------------------------------------------------------------------------------- what is counted
 @pytest.mark.parametrize(
     ("operation", "compute"),
     [
@@ -76,14 +75,10 @@ def test_comparison_counts_once_and_follows_the_value(compare, other):
         assert taken(tally) == {"compare": 2}
 
 
-def test_sign_change_is_free():
+def test_sign_change_is_free_and_constants_alone_are_folded():
     tally, x = counted(0.25)
     assert (-x).value == -0.25
     assert taken(tally) == {}
-
-
-def test_constants_alone_are_folded():
-    tally, x = counted(0.25)
     assert (x * (2.0 * scalar.sqrt(4.0))).value == 1.0
     assert taken(tally) == {"mul": 1}
 
@@ -102,7 +97,6 @@ def test_flops_leave_out_transcendental_functions_and_comparisons():
     assert flops(dict.fromkeys(OPERATIONS, 1)) == 4
 
 
-# ------------------------------------------------------------------------------------------- what is refused
 @pytest.mark.parametrize(
     "use",
     [
@@ -175,7 +169,6 @@ def test_cost_of_a_law_outside_the_dialect_is_refused_with_its_name_or_cure(law,
         cost(contender(regulator(law)))
 
 
-# ------------------------------------------------------------------------------------------- cost of a law
 def test_one_more_multiplication_adds_exactly_one():
     def twice(R, omega, goal, gains):
         return (R.n[0] * 2.0 * 1.0, R.n[1], R.n[2])
