@@ -45,6 +45,10 @@ def test_audit_imports_nothing_slow():
     assert SLOW & imported(AUDIT) == set()
 
 
+def test_names_of_tasks_and_starts_import_nothing_slow():
+    assert SLOW & imported("import tasks; tasks.names(); tasks.pairs(); tasks.start_set('poles'); code = 0") == set()
+
+
 def test_plugin_of_pytest_imports_neither_numpy_nor_the_audit():
     found = imported("import bench.audit.plugin; code = 0")
     assert {one for one in found if one.startswith("bench.")} == {"bench.audit", "bench.audit.plugin"}
