@@ -198,14 +198,6 @@ def test_run_in_contact_has_its_rows_and_no_episodes(contact_run):
     assert files.read_json(contact_run / "provenance.json")["trials"] == rows.trials.sum()
 
 
-def test_show_of_a_run_in_contact_has_a_line_for_each_controller(capsys, contact_run):
-    said = bench(capsys, "show", contact_run, "contact")
-    assert said.code == 0
-    assert re.search(r"ur5e, contact .*\ncontroller +done +at rest +leakage ", said.out)
-    assert re.search(r"\nhybrid-base\+inverse +3/3 +0/0 +0.000  0.000 ", said.out)
-    assert re.search(r"\nimpedance-geometric +\d/\d ", said.out)
-
-
 # --------------------------------------------------------------------------------------- count, doctor
 
 

@@ -59,9 +59,12 @@ def test_list_imports_mujoco_alone_for_it_reads_files_of_arms():
     assert SLOW & imported(COMMAND.format(words=["list"])) == {"mujoco"}
 
 
-def test_run_on_the_ideal_plant_imports_no_mujoco(tmp_path):
+def test_run_on_the_ideal_plant_imports_neither_mujoco_nor_dask(tmp_path):
     words = [*ONE.split(), "--out", str(tmp_path / "out")]
-    assert {"mujoco", "numba", "pandas"} & imported(COMMAND.format(words=words)) == {"numba", "pandas"}
+    assert {"mujoco", "dask", "distributed", "numba", "pandas"} & imported(COMMAND.format(words=words)) == {
+        "numba",
+        "pandas",
+    }
 
 
 def test_law_is_compiled_without_linear_algebra():

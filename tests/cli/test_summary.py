@@ -7,11 +7,10 @@ import pytest
 from rich.console import Console
 from support.command_line import bench, refused
 
-from bench.cli import paragraphs
 from bench.cli.details import arms, parts, robustness
 from bench.cli.options import REFERENCE
 from bench.cli.screen import frame_table
-from bench.cli.summary import absent, answer, failures, verdicts
+from bench.cli.summary import answer, failures, verdicts
 from bench.findings.claims import Results, all_claims
 from bench.findings.selection.measured import measure
 from bench.findings.selection.needs import advise
@@ -76,13 +75,6 @@ def test_what_a_narrowed_run_offers_next_works(capsys, finished, monkeypatch):
     assert re.search(r"^Not judged {3}This run has no rows about C01", said[-1].out, re.MULTILINE)
 
 
-def test_no_line_of_a_paragraph_is_broken_inside_a_name():
-    name = "feedback-linearized/quaternion@analytic+pseudo-inverse"
-    lines = paragraphs.laid_out([paragraphs.Paragraph("What failed", (f"most often {name}, " * 3,))], 80)
-    assert max(map(len, lines)) <= 80
-    assert sum(name in line for line in lines) == 3
-
-
 # ----------------------------------------------------------------------------------------- its words
 
 
@@ -97,25 +89,8 @@ def test_exceptions_are_those_of_the_advice(reference):
         assert all(other in law for other in one.tied[:3])
 
 
-@pytest.mark.parametrize(
-    ("names", "words", "said"),
-    [
-        (("compliance",), {}, "no law with uniform and half-turn starts on the free body and no robustness episodes"),
-        (("episodes",), {"arm": ""}, "it has no robustness episodes"),
-        (("robustness",), {}, "it has no law with uniform and half-turn starts on the free body."),
-    ],
-)
-def test_run_without_what_laws_are_compared_by_says_what_is_lacking(tables, names, words, said):
-    assert said in text(absent.undecided(only(tables, *names, **words)))
-
-
 def test_laws_of_a_run_without_arms_are_compared(tables):
     assert "Use the law" in text(*answer.paragraphs(measure(only(tables, "episodes", "robustness", arm=""))))
-
-
-def test_run_whose_laws_all_fail_somewhere_names_none(tables):
-    found = measure(only(tables, "episodes", "robustness", contender="rotation-matrix"))
-    assert "No law of this run (rotation-matrix) settles from all" in text(*answer.paragraphs(found))
 
 
 def test_noise_that_was_not_tried_is_not_taken_for_noise_that_holds(tables):
