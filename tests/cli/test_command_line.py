@@ -94,7 +94,7 @@ def test_list_names_everything_of_a_kind_and_nothing_else(capsys, kind):
     assert sorted(rows) == sorted(KINDS[kind].find())
 
 
-@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("kind", [kind for kind in KINDS if kind.endswith("s")])
 def test_list_takes_the_singular_too(capsys, kind):
     assert bench(capsys, "list", kind[:-1]).out == bench(capsys, "list", kind).out
 
