@@ -38,17 +38,10 @@ def over(controllers):
     return pytest.mark.parametrize("one", controllers, ids=lambda one: one.name)
 
 
-@pytest.fixture(params=known_impedances().values(), ids=lambda impedance: impedance.name)
-def impedance(request):
-    return request.param
-
-
+@pytest.mark.parametrize("impedance", known_impedances().values(), ids=lambda one: one.name)
 def test_impedance_has_a_law_or_one_in_coordinates(impedance):
     assert (impedance.law is None) != (impedance.law_in is None)
     assert impedance.law_in is not None or not impedance.relative
-
-
-# ---------------------------------------------------------------------------- at the goal
 
 
 @over(SPRINGS)
@@ -93,9 +86,6 @@ def test_stiffness_is_kp_times_the_apparent_inertia_and_in_coordinates_times_B_t
         back = np.linalg.inv(B_at(one, goal, goal))
         wanted = GAINS.kp * TOUCH.m_o * back.T @ back
         np.testing.assert_allclose(measured, wanted, rtol=0.0, atol=10 * SLOPE * np.linalg.norm(wanted, 2))
-
-
-# ---------------------------------------------------------------------------- everywhere
 
 
 def anywhere(one, count: int = 60):

@@ -43,7 +43,6 @@ def named(one) -> str:
 
 
 over_arms = pytest.mark.parametrize("arm", ARMS)
-over_frames = pytest.mark.parametrize("one", CONVERTED, ids=named)
 
 
 # ---------------------------------------------------------------------------- frames, by 80 digits and scipy
@@ -180,7 +179,7 @@ def test_perfect_model_gives_the_hand_the_acceleration_of_the_impedance(arm, one
 
 
 @over_arms
-@over_frames
+@pytest.mark.parametrize("one", CONVERTED, ids=named)
 def test_wrench_does_the_same_work_in_every_frame(arm, one):
     """F_E . v_E = F . v and J_E^T F_E = J^T F."""
     for state, setpoint in drawn(arm):
@@ -219,9 +218,6 @@ def test_generalized_forces_along_zyx_angles_are_the_moments_about_their_axes():
         about = (m[2], m @ (-np.sin(alpha), np.cos(alpha), 0.0), m @ at.R[:, 0])
         F = tick(one, at, setpoint, SELECTIONS[0]).rows.F
         np.testing.assert_allclose(F, (*at.F[:3], *about), rtol=0.0, atol=ROUNDING * np.linalg.norm(at.F))
-
-
-# ---------------------------------------------------------------------------- selections, constants
 
 
 @over_arms
