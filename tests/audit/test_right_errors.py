@@ -8,11 +8,11 @@ from support.right_errors import RIGHT, scipy_in_base
 from bench.audit import audit
 from bench.audit.fault import NOTE
 
-NAMED = pytest.mark.parametrize("function", RIGHT, ids=lambda one: one.__name__)
+NAMED = pytest.mark.parametrize(("function", "convention"), RIGHT.values(), ids=RIGHT)
 
 
 @NAMED
-def test_nothing_is_said_against_a_right_error(function):
+def test_nothing_is_said_against_a_right_error(function, convention):
     report = audited(function)
     notes = {(one.fault.name, one.found.severity) for one in report.findings}
     assert notes == ({("dead-at-180", NOTE)} if report.convention.form == "sine" else set())
@@ -20,16 +20,17 @@ def test_nothing_is_said_against_a_right_error(function):
 
 
 @NAMED
-def test_convention_is_found(function):
+def test_convention_is_found(function, convention):
     found = audited(function).convention
-    assert (found.takes, found.frame, found.sign, found.form) == RIGHT[function]
+    assert (found.takes, found.frame, found.sign, found.form) == convention
     assert found.slope == pytest.approx(1.0, abs=1e-6)
 
 
 def test_right_errors_are_twenty_and_of_every_convention():
     assert len(RIGHT) >= 20
-    assert {one[0] for one in RIGHT.values()} == {"matrix", "wxyz", "xyzw"}
-    assert {one[1:3] for one in RIGHT.values()} == {(f, s) for f in ("base", "body") for s in ("to-goal", "from-goal")}
+    conventions = [convention for _, convention in RIGHT.values()]
+    assert {one[0] for one in conventions} == {"matrix", "wxyz", "xyzw"}
+    assert {one[1:3] for one in conventions} == {(f, s) for f in ("base", "body") for s in ("to-goal", "from-goal")}
 
 
 @pytest.mark.parametrize("scale", [0.5, 2.0, 30.0])

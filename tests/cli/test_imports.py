@@ -45,6 +45,10 @@ def test_audit_imports_nothing_slow():
     assert SLOW & imported(AUDIT) == set()
 
 
+def test_names_of_tasks_and_starts_import_nothing_slow():
+    assert SLOW & imported("import tasks; tasks.names(); tasks.pairs(); tasks.start_set('poles'); code = 0") == set()
+
+
 def test_plugin_of_pytest_imports_neither_numpy_nor_the_audit():
     found = imported("import bench.audit.plugin; code = 0")
     assert {one for one in found if one.startswith("bench.")} == {"bench.audit", "bench.audit.plugin"}
@@ -55,9 +59,12 @@ def test_list_imports_mujoco_alone_for_it_reads_files_of_arms():
     assert SLOW & imported(COMMAND.format(words=["list"])) == {"mujoco"}
 
 
-def test_run_on_the_ideal_plant_imports_no_mujoco(tmp_path):
+def test_run_on_the_ideal_plant_imports_neither_mujoco_nor_dask(tmp_path):
     words = [*ONE.split(), "--out", str(tmp_path / "out")]
-    assert {"mujoco", "numba", "pandas"} & imported(COMMAND.format(words=words)) == {"numba", "pandas"}
+    assert {"mujoco", "dask", "distributed", "numba", "pandas"} & imported(COMMAND.format(words=words)) == {
+        "numba",
+        "pandas",
+    }
 
 
 def test_law_is_compiled_without_linear_algebra():

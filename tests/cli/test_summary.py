@@ -5,15 +5,13 @@ import re
 import pandas as pd
 import pytest
 from rich.console import Console
-from support.command_line import TINY, bench, refused
+from support.command_line import bench, refused
 
-from bench.cli import paragraphs
 from bench.cli.details import arms, parts, robustness
 from bench.cli.options import REFERENCE
 from bench.cli.screen import frame_table
-from bench.cli.summary import absent, answer, failures, verdicts
+from bench.cli.summary import answer, failures, verdicts
 from bench.findings.claims import Results, all_claims
-from bench.findings.selection import gains
 from bench.findings.selection.measured import measure
 from bench.findings.selection.needs import advise
 from bench.tables import read as results
@@ -77,13 +75,6 @@ def test_what_a_narrowed_run_offers_next_works(capsys, finished, monkeypatch):
     assert re.search(r"^Not judged {3}This run has no rows about C01", said[-1].out, re.MULTILINE)
 
 
-def test_no_line_of_a_paragraph_is_broken_inside_a_name():
-    name = "feedback-linearized/quaternion@analytic+pseudo-inverse"
-    lines = paragraphs.laid_out([paragraphs.Paragraph("What failed", (f"most often {name}, " * 3,))], 80)
-    assert max(map(len, lines)) <= 80
-    assert sum(name in line for line in lines) == 3
-
-
 # ----------------------------------------------------------------------------------------- its words
 
 
@@ -98,31 +89,8 @@ def test_exceptions_are_those_of_the_advice(reference):
         assert all(other in law for other in one.tied[:3])
 
 
-@pytest.mark.parametrize(
-    ("names", "words", "said"),
-    [
-        (("compliance",), {}, "no law with uniform and half-turn starts on the free body and no robustness episodes"),
-        (("episodes",), {"arm": ""}, "it has no robustness episodes"),
-        (("robustness",), {}, "it has no law with uniform and half-turn starts on the free body."),
-    ],
-)
-def test_run_without_what_laws_are_compared_by_says_what_is_lacking(tables, names, words, said):
-    assert said in text(absent.undecided(only(tables, *names, **words)))
-
-
 def test_laws_of_a_run_without_arms_are_compared(tables):
     assert "Use the law" in text(*answer.paragraphs(measure(only(tables, "episodes", "robustness", arm=""))))
-
-
-def test_run_of_one_law_is_no_choice(tables):
-    found = measure(only(tables, "episodes", "robustness", contender="hybrid"))
-    assert "no other law to compare it with" in text(*answer.paragraphs(found))
-    assert len(answer.paragraphs(found)) == 1
-
-
-def test_run_whose_laws_all_fail_somewhere_names_none(tables):
-    found = measure(only(tables, "episodes", "robustness", contender="rotation-matrix"))
-    assert "No law of this run (rotation-matrix) settles from all" in text(*answer.paragraphs(found))
 
 
 def test_noise_that_was_not_tried_is_not_taken_for_noise_that_holds(tables):
@@ -131,26 +99,11 @@ def test_noise_that_was_not_tried_is_not_taken_for_noise_that_holds(tables):
     assert "was not tried" in text(answer.paragraphs(measure(Results(REFERENCE, frames)))[0])
 
 
-def test_every_share_of_what_failed_is_settled_or_done_a_of_b(reference):
-    said = text(failures.paragraph(reference))
-    assert not re.search(r"\d/\d", said)
-    assert len(re.findall(r"\d of \d", said)) >= len(set(reference.table("episodes")["arm"])) + 2
-
-
 def test_settled_counts_are_those_of_the_tables(tables, reference):
     episodes = tables["episodes"]
     free_body = episodes[episodes["arm"] == ""]
     settled = (free_body["outcome"] == "settled").sum()
     assert f"Free body: settled {settled:,} of {len(free_body):,} episodes" in text(failures.paragraph(reference))
-
-
-def test_our_law_is_named_as_ours_with_the_price_at_each_damping_ratio(reference):
-    said = next(text(one) for one in answer.paragraphs(measure(reference)) if one.head == "Ours")
-    assert "ours: 2026, simulation only, not reviewed" in said
-    for found in gains.committed():
-        kp, kv = gains.gains_of(found)
-        time = found.number("time", gains.ours(found))
-        assert re.search(rf"{time:.3f} against [^,]* at (damping ratio )?{kv / 2 / kp**0.5:g}[,.]", said)
 
 
 def test_law_that_broke_is_named(tables):
@@ -229,10 +182,3 @@ def test_names_stay_whole_where_the_table_is_wider_than_the_screen(capsys):
     assert max(len(line.rstrip()) for line in lines) <= 80
     assert any(re.match(r"linearized-euler-relative/zyx-euler +\d/\d ", line) for line in lines)
     assert any(line.rstrip() == "  @geometric+pseudo-inverse" for line in lines)
-
-
-def test_tiny_run_says_what_it_will_do_in_few_lines(capsys, tmp_path):
-    said = bench(capsys, "run", *TINY, "--engine", "reference", "--out", tmp_path / "run")
-    before, after = said.out.split("wrote ")
-    assert 0 < len(before.splitlines()) <= 12
-    assert len(after.splitlines()) == 1

@@ -13,7 +13,7 @@ from support.bits import EPS
 from support.states import as_rotation, matrix, vector
 
 import tasks
-from bench.contenders.registry import known_representations, representation
+from bench.contenders.registry import representation
 from tasks.rotations import columns, on_pole
 
 # The bound of test_every_representation: sums of three products of up to three rounded factors.
@@ -70,10 +70,6 @@ def unwrapped(difference):
     """Of two triples of angles: the same one on either side of a wrap is the same."""
     difference[[0, 2]] = (difference[[0, 2]] + math.pi) % (2.0 * math.pi) - math.pi
     return difference
-
-
-def test_sequences_are_those_that_are_differentiated():
-    assert {word for word, one in known_representations().items() if one.differentiate is not None} == set(SEQUENCES)
 
 
 def test_rotation_is_scipys(one, sequence):

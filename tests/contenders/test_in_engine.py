@@ -4,7 +4,6 @@ import math
 
 import mujoco
 import numpy as np
-import pandas as pd
 import pytest
 from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation as ScipyRotation
@@ -100,62 +99,6 @@ def test_two_quaternions_of_one_half_turn_are_pushed_opposite_ways_and_of_no_oth
             np.testing.assert_allclose(other, expected, rtol=0.0, atol=20 * EPS * GAINS.kp * math.pi)
 
 
-def test_control_is_a_quaternion_of_any_length_and_either_sign():
-    quat, goal = about((0.0, 0.6, 0.8), 1.0), np.array(about((1.0, 0.0, 0.0), 0.5))
-    expected = torque(quat, goal)
-    for factor in (-1.0, 3.0, -0.01):
-        np.testing.assert_allclose(torque(quat, factor * goal), expected, rtol=0.0, atol=20 * EPS * GAINS.kp)
-
-
-OTHER_FORMS = """<mujoco>
-  <option><flag gravity="disable" contact="disable"/></option>
-  <worldbody>
-    <body mocap="true" name="goal"><site name="goal"/></body>
-    <body>
-      <joint name="ball" type="ball"/>
-      <inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/>
-      <site name="tool"/>
-    </body>
-  </worldbody>
-  <actuator><orientation {form} kp="100" kv="20"/></actuator>
-</mujoco>"""
-
-
-def test_site_and_refsite_are_pushed_as_the_joint_is():
-    model, data = simulation(OTHER_FORMS.format(form='site="tool" refsite="goal"'))
-    for R, R_d in zip(*(ScipyRotation.random(20, rng=np.random.default_rng(seed)) for seed in (5, 6)), strict=True):
-        data.qpos[:], data.mocap_quat[0], data.qvel[:] = quat_of(R), quat_of(R_d), (1.0, -2.0, 3.0)
-        mujoco.mj_forward(model, data)
-        expected = torque(quat_of(R), quat_of(R_d), (1.0, -2.0, 3.0))
-        np.testing.assert_allclose(data.qfrc_actuator, expected, rtol=0.0, atol=50 * EPS * GAINS.kp * math.pi)
-
-
-def test_rotation_vector_as_control_beyond_a_half_turn_is_gone_to_the_short_way():
-    sim = simulation(OTHER_FORMS.format(form='joint="ball"'))
-    for angle in (1.0, 3.0, 3.3, 6.0, 2.0 * math.pi, 10.0):
-        found = torque((1.0, 0.0, 0.0, 0.0), (0.0, angle, 0.0), sim=sim)
-        expected = GAINS.kp * math.remainder(angle, 2.0 * math.pi)
-        np.testing.assert_allclose(found, (0.0, expected, 0.0), rtol=0.0, atol=20 * EPS * GAINS.kp * angle)
-
-
-@pytest.mark.parametrize(
-    ("integrator", "left"),
-    [
-        ("EULER", lambda x: 1.0 - x),
-        ("IMPLICIT", lambda x: 1.0 / (1.0 + x)),
-        ("IMPLICITFAST", lambda x: 1.0 / (1.0 + x)),
-        ("RK4", lambda x: 1.0 - x + x**2 / 2.0 - x**3 / 6.0 + x**4 / 24.0),
-    ],
-)
-def test_damping_is_explicit_under_euler_and_implicit_where_the_integrator_is(integrator, left):
-    """What one tick of 1 ms leaves of the rate, without a spring; x = kv dt = 0.02."""
-    model, data = simulation(tasks.task("free-body").with_servo(0.0, GAINS.kv).xml(DT))
-    model.opt.integrator = getattr(mujoco.mjtIntegrator, f"mjINT_{integrator}")
-    data.qvel[:], data.ctrl[0] = (0.0, 0.0, 1.0), 1.0
-    mujoco.mj_step(model, data)
-    np.testing.assert_allclose(data.qvel, (0.0, 0.0, left(DT * GAINS.kv)), rtol=0.0, atol=20 * EPS)
-
-
 # ---------------------------------------------------------------------------- before the judge
 
 
@@ -208,24 +151,3 @@ def test_it_is_refused_where_mujoco_has_no_such_actuator(choice, reason):
 def test_arm_has_no_such_actuator():
     with pytest.raises(BadValue, match="'arm-regulation' has no model with an <orientation> actuator"):
         tasks.task("arm-regulation", "ur5e").with_servo(*GAINS)
-
-
-# ---------------------------------------------------------------------------- on the page
-
-
-def test_page_says_how_far_it_is_from_the_linear_response():
-    pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
-    from report.figures.comparison import comparison
-
-    usual = {"contender": "in-engine", "kp": 100.0, "kv": 20.0, "tolerance": 0.02, "outcome": "settled"}
-    linear = brentq(lambda t: angle_left(t) - 0.02, 0.1, 2.0)
-    found = comparison.of_actuator(
-        pd.DataFrame(
-            [
-                usual | {"start_set": "uniform", "settling_time_s": linear + 0.002},
-                usual | {"start_set": "half-turn", "settling_time_s": linear - 0.003},
-                usual | {"start_set": "half-turn", "settling_time_s": math.nan, "outcome": "stuck"},
-            ]
-        )
-    )
-    assert list(found.values()) == [1, 1, 2, 1, f"{linear:.3f}", "3.0"]

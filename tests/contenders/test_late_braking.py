@@ -4,7 +4,6 @@ import math
 
 import numpy as np
 import pytest
-from scipy.integrate import quad, solve_ivp
 from scipy.spatial.transform import Rotation as ScipyRotation
 from support.driving import settings
 from support.states import of_scipy, vector
@@ -17,7 +16,6 @@ from bench.engines.run_disturbed import run
 from bench.law.contender import AT_REST, Gains, Goal
 from bench.metrics.registry import metrics_of
 from tasks.condition import Condition
-from tasks.rules import RULES
 from tasks.verdict import SETTLED
 
 GAINS = Gains(kp=70.0, kv=13.0)
@@ -92,26 +90,6 @@ def test_goal_that_steps_away_from_a_body_at_rest_on_it_is_met_the_short_way():
         assert u @ k < 0.0
 
 
-def test_greatest_pull_from_rest_is_at_the_tetrahedrons_angle():
-    """f' = 0 where cos^2(theta/2) = 1/3; there f = (4/3) sqrt(2/3)."""
-    expected = GAINS.kp * 4.0 / 3.0 * math.sqrt(2.0 / 3.0)
-    pulls = [np.linalg.norm(command(turn(theta, TURNS[8]))[0]) for theta in np.linspace(0.0, math.pi, 721)]
-    assert max(pulls) <= expected * (1.0 + 1e-13)
-    top = 2.0 * math.acos(math.sqrt(1.0 / 3.0))
-    assert np.linalg.norm(command(turn(top, TURNS[8]))[0]) == pytest.approx(expected, rel=1e-13)
-
-
-def test_change_of_side_costs_thirteen_sixths_of_kp():
-    """The energy from 120 to 240 degrees on the side that is left, by quadrature of the law's own pull."""
-    k = np.array(TURNS[6])
-    middle = (0.0, *k)  # of this side, as the half turn's quaternion is
-
-    def pull(theta):
-        return command(turn(theta, k), memory=middle)[0] @ k
-
-    assert quad(pull, 2.0 * SIXTH + 1e-9, 4.0 * SIXTH - 1e-9)[0] == pytest.approx(13.0 / 6.0 * GAINS.kp, rel=1e-8)
-
-
 @pytest.mark.parametrize("memory", [NONE_YET, (0.0, 0.36, -0.48, 0.8)])
 def test_energy_falls_by_a_fifth_of_the_dampers_power_at_least(memory):
     """V = Kp U + omega^2/2, U = (2/3)(4 - 3 eta - eta^3), etadot = eps . omega / 2; on either side."""
@@ -120,29 +98,6 @@ def test_energy_falls_by_a_fifth_of_the_dampers_power_at_least(memory):
         eta, *eps = lift(E, after)
         rate = -2.0 * GAINS.kp * (1.0 + eta**2) * 0.5 * np.dot(eps, omega) + u @ omega
         assert rate <= -(1.0 - EASED) * GAINS.kv * (omega @ omega) + 1e-9
-
-
-def test_no_start_from_rest_settles_later_than_a_linear_one():
-    """The last time at 2 % of the start, of the scalar equation; the linear one is theta'' = -Kp theta - Kv theta'."""
-    kp, kv = Gains()
-
-    def last_inside(acceleration, theta0):
-        def edge(_, state):
-            return state[0] - RULES.tolerance * theta0
-
-        def rate(_, state):
-            return state[1], acceleration(*state)
-
-        found = solve_ivp(rate, (0.0, 3.0), (theta0, 0.0), "DOP853", events=edge, rtol=1e-10, atol=1e-12)
-        return found.t_events[0][-1]
-
-    def late(theta, rate):
-        half = math.sin(theta / 2.0)
-        return -kp * (2.0 - half**2) * half - kv * (rate - 0.8 * half**2 * min(rate, 0.0))
-
-    linear = last_inside(lambda theta, rate: -kp * theta - kv * rate, 1.0)
-    for theta0 in np.radians((1.0, 20.0, 40.0, 60.0, 90.0, 120.0, 150.0, 180.0)):
-        assert last_inside(late, theta0) <= linear
 
 
 HALF_TURNS = [start for start in tasks.start_set("half-turn") if start.id.endswith("exact")]

@@ -1,6 +1,6 @@
 """What defines each start set of arms, on every arm, looked at with scipy's rotations.
 
-Joint paths are walked again here, in steps of two degrees where the search took five.
+Joint paths are walked again, in steps of two degrees where the search took five.
 """
 
 import itertools
@@ -10,84 +10,30 @@ import sys
 
 import numpy as np
 import pytest
-from scipy.optimize import least_squares
-from scipy.spatial.transform import Rotation, Slerp
+from support.arm_paths import (
+    ARMS,
+    BETWEEN,
+    angle_of,
+    conditions,
+    cos_beta,
+    evenly,
+    geodesic,
+    in_range,
+    straight,
+    walked,
+)
 
 import tasks
-from tasks.base import AT_REST, haversine
+from tasks.base import AT_REST
 from tasks.clearance import CONDITION, COS_BETA, RANGE, WRAP
 from tasks.kinematics import kinematics
 
-ARMS = tasks.arm_names()
 SETS = tasks.start_set_names(arm=True)
 every_set_on_every_arm = pytest.mark.parametrize(("arm", "name"), list(itertools.product(ARMS, SETS)))
 on_every_arm = pytest.mark.parametrize("arm", ARMS)
 
-# A bound was looked at every five degrees; between these points a condition number can be a little larger.
-BETWEEN = 1.05
-
-
-def rotation(quat):
-    return Rotation.from_quat(quat, scalar_first=True)
-
-
-def quats(rotations):
-    return [tuple(quat) for quat in rotations.as_quat(scalar_first=True).tolist()]
-
-
-def geodesic(start, points):
-    """Rotations along the shortest way from start to goal, at these shares of it."""
-    return Slerp([0.0, 1.0], Rotation.concatenate([rotation(start.quat_wxyz), rotation(start.goal_wxyz)]))(points)
-
-
-def straight(start, points):
-    """Rotations whose Z-Y-X angles go straight from those of the start to those of the goal."""
-    first, last = (rotation(quat).as_euler("ZYX") for quat in (start.quat_wxyz, start.goal_wxyz))
-    return Rotation.from_euler("ZYX", first + np.outer(points, last - first))
-
-
-def evenly(start):
-    return np.linspace(0.0, 1.0, 2 + int(math.degrees(angle_of(start)) / 2.0))
-
-
-def angle_of(start):
-    return (rotation(start.goal_wxyz).inv() * rotation(start.quat_wxyz)).magnitude()
-
-
-def cos_beta(rotations):
-    return np.hypot(*rotations.as_matrix()[..., :2, 0].T)
-
-
-def walked(arm, start, rotations):
-    """The joint path, which must be there to the end."""
-    path = kinematics(tasks.arm(arm)).follow(start.q, quats(rotations))
-    assert path is not None, start.id
-    return path
-
-
-def conditions(arm, path):
-    model = kinematics(tasks.arm(arm))
-    return np.array([np.linalg.cond(model.jacobian(q)) for q in path])
-
-
-def in_range(arm, path, margin=0.0):
-    one = tasks.arm(arm)
-    return bool(((np.array(one.lower) + margin <= path) & (path <= np.array(one.upper) - margin)).all())
-
 
 # ------------------------------------------------------------------------------------------ every set
-
-
-def test_sets_are_those_of_the_task():
-    for arm in ARMS:
-        assert set(tasks.task("arm-regulation", arm).start_sets) == set(SETS)
-    assert set(SETS) == {"clear", "wrist", "pole", "half-turn", "uniform", "tumbling", "reach"}
-
-
-@every_set_on_every_arm
-def test_set_has_its_number_of_starts_on_the_arms_we_ship(arm, name):
-    sizes = {"clear": 32, "wrist": 24, "pole": 32, "half-turn": 24, "uniform": 200, "tumbling": 24, "reach": 24}
-    assert len(tasks.start_set(name, arm=arm)) == sizes[name]
 
 
 FRESH = """
@@ -151,12 +97,6 @@ def test_clear_angles_are_spread_from_10_to_150_degrees(arm):
 
 
 @on_every_arm
-def test_id_of_a_clear_start_says_its_angle(arm):
-    for start in tasks.start_set("clear", arm=arm):
-        assert int(start.id.split("-")[2]) == pytest.approx(math.degrees(angle_of(start)), abs=0.5 + 1e-9)
-
-
-@on_every_arm
 def test_tumbling_tool_turns_in_place_at_up_to_5_rad_per_second(arm):
     """Velocities by centred differences of the pose along qdot, 2e-6 s apart."""
     model, speeds = kinematics(tasks.arm(arm)), []
@@ -170,10 +110,6 @@ def test_tumbling_tool_turns_in_place_at_up_to_5_rad_per_second(arm):
 
 
 # ----------------------------------------------------------------------------------------------- wrist
-
-
-def middle(start):
-    return geodesic(start, [0.5])
 
 
 def towards_the_middle(start, least):
@@ -225,100 +161,3 @@ def test_condition_number_is_as_said_beside_a_singularity(arm):
                 assert s[5] == pytest.approx(distance, rel=0.05), start.id
             else:
                 assert conditions(arm, path).max() > 100.0, start.id
-
-
-# ------------------------------------------------------------------------------------------------ pole
-
-
-@on_every_arm
-def test_middle_is_on_the_pole_or_misses_it_by_what_the_id_says(arm):
-    for start in tasks.start_set("pole", arm=arm):
-        tilt = cos_beta(middle(start))[0]
-        sign = -np.sign(middle(start).as_matrix()[0, 2, 0])
-        assert start.id.startswith("pole-plus" if sign > 0 else "pole-minus")
-        if start.id.endswith("exact"):
-            assert tilt < 8e-15  # scipy's middle rounds a few times more
-            assert 1.0 - abs(middle(start).as_matrix()[0, 2, 0]) < 1e-15
-        else:
-            miss = 10.0 ** -int(start.id[-1])
-            assert tilt == pytest.approx(math.sin(miss), abs=1e-14)
-            around = geodesic(start, np.linspace(0.4, 0.6, 201))
-            assert cos_beta(around).min() == pytest.approx(tilt, abs=1e-14)
-
-
-@on_every_arm
-@pytest.mark.parametrize(("name", "ending"), [("pole", ""), ("half-turn", "k1")])
-def test_arm_is_well_conditioned_across_the_pole_and_through_a_half_turn(arm, name, ending):
-    """Of half turns those 0.1 rad short, where all pass: nearer ones are determined, that of an exact one is either."""
-    for start in tasks.start_set(name, arm=arm):
-        if start.id.endswith(ending):
-            path = walked(arm, start, geodesic(start, evenly(start)))
-            assert conditions(arm, path).max() <= CONDITION * BETWEEN
-            assert in_range(arm, path, RANGE - 0.02)
-
-
-@on_every_arm
-def test_start_and_goal_are_far_from_the_pole(arm):
-    for start in tasks.start_set("pole", arm=arm):
-        ends = Rotation.concatenate([rotation(start.quat_wxyz), rotation(start.goal_wxyz)])
-        assert cos_beta(ends).min() > 0.6
-
-
-# ------------------------------------------------------------------------------------------- half turn
-
-
-@on_every_arm
-def test_half_turn_is_exact_or_short_by_what_the_id_says(arm):
-    for start in tasks.start_set("half-turn", arm=arm):
-        if start.id.endswith("exact"):
-            assert haversine(start.quat_wxyz, start.goal_wxyz) >= 1.0 - 1e-15
-        else:
-            delta = 10.0 ** -int(start.id[-1])
-            assert math.pi - tasks.base.angle(start.quat_wxyz, start.goal_wxyz) == pytest.approx(delta, abs=2e-15)
-
-
-@on_every_arm
-def test_half_turns_are_about_the_base_axes_and_others(arm):
-    axes = {}
-    for start in tasks.start_set("half-turn", arm=arm):
-        turn = rotation(start.goal_wxyz) * rotation(start.quat_wxyz).inv()
-        axes.setdefault(start.id.split("-")[2], []).append(turn.as_rotvec() / turn.magnitude())
-    assert set(axes) == {"x", "y", "z", "drawn0", "drawn1", "drawn2"}
-    for i, word in enumerate("xyz"):
-        np.testing.assert_allclose(np.abs(axes[word]), np.tile(np.eye(3)[i], (4, 1)), atol=1e-14)
-
-
-# --------------------------------------------------------------------------------------------- uniform
-
-
-@on_every_arm
-def test_uniform_goal_is_reachable_at_the_starts_position(arm):
-    """scipy's own least squares, inside the joint ranges or one turn, from drawn joints."""
-    one, model = tasks.arm(arm), kinematics(tasks.arm(arm))
-    lower, upper = (np.nan_to_num(x, posinf=math.pi, neginf=-math.pi) for x in (one.lower, one.upper))
-    generator = np.random.default_rng(17)
-    for start in tasks.start_set("uniform", arm=arm)[::40]:
-        p, goal = model.pose(start.q)[0], rotation(start.goal_wxyz)
-
-        def miss(q, p=p, goal=goal):
-            here, quat = model.pose(q)
-            return np.concatenate((here - p, (goal * rotation(quat).inv()).as_rotvec()))
-
-        guesses = [generator.uniform(lower, upper) for _ in range(30)]
-        to_rounding = {"bounds": (lower, upper), "ftol": 1e-15, "xtol": 1e-15, "gtol": 1e-15}
-        found = (least_squares(miss, guess, **to_rounding).cost < 1e-16 for guess in guesses)
-        assert any(found), start.id
-
-
-@on_every_arm
-def test_uniform_joints_and_goals_are_spread_evenly(arm):
-    """Thirds of the range hold a third each, and the goals' traces have mean 0; what is refused moves both a little."""
-    starts = tasks.start_set("uniform", arm=arm)
-    q = np.array([start.q for start in starts])
-    one = tasks.arm(arm)
-    for joint in range(one.joints):
-        low, high = one.lower[joint], one.upper[joint]
-        middle, width = (0.5 * (low + high), min(high - low, math.tau)) if high - low < math.inf else (0.0, math.tau)
-        share = (abs(q[:, joint] - middle) < width / 6.0).mean()
-        assert share == pytest.approx(1.0 / 3.0, abs=0.1)
-    assert abs(np.mean([np.trace(rotation(start.goal_wxyz).as_matrix()) for start in starts])) < 0.2

@@ -8,7 +8,6 @@ from support.states import of_scipy, rotations
 
 from bench.contenders.registry import known_compensators
 from bench.law.contender import Gains, Goal
-from bench.law.scalar import KERNELS
 
 GAINS = Gains(37.0, 11.0)  # not the defaults: a law that has those built in is found out
 GOAL = ScipyRotation.from_rotvec((0.4, -0.7, 0.2))
@@ -18,11 +17,6 @@ SMALL = 1e-4
 @pytest.fixture(params=known_compensators().values(), ids=lambda one: one.name)
 def one(request):
     return request.param
-
-
-def test_fields_say_what_it_is(one):
-    assert all((one.title, one.source, one.formula, one.property))
-    assert {one.law, one.begin} <= set(KERNELS)
 
 
 def test_nothing_moves_at_the_goal_at_rest(one):
@@ -94,3 +88,94 @@ def test_constant_disturbance_leaves_no_error_if_it_says_so(one):
         assert off < 1e-4
     else:  # Kp sin(theta) = |d|
         assert off == pytest.approx(np.arcsin(np.linalg.norm(pushed) / GAINS[0]), rel=1e-4)
+
+
+# ---------------------------------------------------------------------------- closed forms and energies of ours
+
+KP, KV = Gains()
+TIMES = np.linspace(0.0, 2.0, 81)
+CLOSED = {
+    "velocity-free": (np.sqrt(3.0 * KP), 1.0 / 3.0),
+    "integral": (KV / 3.0, -5.0 / 8.0),
+}
+"""x = x0 exp(-p t) (1 + p t + share (p t)^2) from rest: p, share."""
+
+
+def known(name):
+    return known_compensators()[name]
+
+
+@pytest.mark.parametrize("name", CLOSED)
+def test_small_turn_from_rest_is_the_closed_form(name):
+    p, share = CLOSED[name]
+    R, _, _ = motion(
+        known(name), ScipyRotation.from_rotvec((-SMALL, 0.0, 0.0)), ScipyRotation.identity(), Gains(), TIMES
+    )
+    s = p * TIMES
+    expected = SMALL * np.exp(-s) * (1.0 + s + share * s * s)
+    np.testing.assert_allclose(left(R, ScipyRotation.identity())[:, 0], expected, rtol=0.0, atol=1e-7 * SMALL)
+
+
+def test_disturbance_alone_turns_the_body_with_an_integral_by_half_d_t_squared_and_back():
+    """x = d t^2/2 exp(-Kv t/3), the transform of d/(s + Kv/3)^3."""
+    d, goal = 1e-3, ScipyRotation.from_rotvec((0.3, -1.0, 2.0))
+    R, _, state = motion(known("integral"), goal, goal, Gains(), TIMES, disturbance=(0.0, d, 0.0))
+    expected = -0.5 * d * TIMES**2 * np.exp(-KV * TIMES / 3.0)
+    np.testing.assert_allclose(left(R, goal)[:, 1], expected, rtol=0.0, atol=1e-6 * np.abs(expected).max())
+    np.testing.assert_allclose(state[-1], (0.0, 3.0 * d / KP, 0.0, 0.0), rtol=0.0, atol=2e-3 * d / KP)
+
+
+def starts(count=8):
+    """(R, omega, goal) drawn, anywhere."""
+    draw = np.random.default_rng(4)
+    pairs = (ScipyRotation.random(count, rng=draw) for _ in range(2))
+    return list(zip(*pairs, draw.normal(scale=4.0, size=(count, 3)), strict=True))
+
+
+def chord(R, R_d):
+    """1 - cos(theta) between two scipy rotations or stacks of them."""
+    return 1.0 - np.cos((R_d * R.inv()).magnitude())
+
+
+def test_energy_without_a_rate_never_rises_and_ends_at_zero():
+    """V = Kp (1 - cos theta) + 2 Kv^2 (1 - cos theta_F) + omega^2/2; its fall is 2 Kv^2 gamma |z|^2."""
+    for R, R_d, omega in starts():
+        turned, rate, q = motion(known("velocity-free"), R, R_d, Gains(), np.linspace(0.0, 6.0, 400), omega)
+        F = ScipyRotation.from_quat(q, scalar_first=True)
+        V = KP * chord(turned, R_d) + 2.0 * KV**2 * chord(F, turned) + 0.5 * np.sum(rate * rate, axis=1)
+        assert np.diff(V).max() <= 1e-8 * V[0]
+        assert V[-1] < 1e-6 * V[0]
+
+
+def test_energy_with_an_integral_never_rises_under_a_constant_disturbance():
+    """V = Kp (1 - cos theta) - c e . omega + omega^2/2 + (Kp/6)|x - 3 d/Kp|^2, c = (4/9) Kv."""
+    d, c = np.array((6.0, -8.0, 3.0)), 4.0 * KV / 9.0
+    for R, R_d, omega in starts():
+        turned, rate, x = motion(known("integral"), R, R_d, Gains(), np.linspace(0.0, 6.0, 400), omega, d)
+        k = left(turned, R_d)
+        theta = np.linalg.norm(k, axis=1)
+        e = k * np.sinc(theta / np.pi)[:, None]
+        lead = c * np.sum(e * rate, axis=1)
+        stored = KP / 6.0 * np.sum((x[:, :3] - 3.0 * d / KP) ** 2, axis=1)
+        V = KP * chord(turned, R_d) - lead + 0.5 * np.sum(rate * rate, axis=1) + stored
+        assert V.min() > -1e-9
+        assert np.diff(V).max() <= 1e-8 * V[0]
+        assert V[-1] < 1e-6 * V[0]
+
+
+def test_filter_begins_with_no_command_of_its_own():
+    """At rest its first command is the spring alone: nothing is felt of where the frame was switched on."""
+    for R, R_d, _ in starts():
+        one = known("velocity-free")
+        u, rate = commanded(one, R, REST, R_d, Gains(), one.begin(of_scipy(R)))
+        k = left(R, R_d)
+        np.testing.assert_allclose(u, KP * np.sinc(np.linalg.norm(k) / np.pi) * k, atol=1e-11)
+        np.testing.assert_allclose(rate, 0.0, atol=1e-13)
+
+
+def test_length_of_the_filters_quaternion_does_not_matter():
+    R, R_d, _ = starts(1)[0]
+    one, q = known("velocity-free"), np.array((0.3, -0.8, 0.1, 0.5))
+    short, long = (commanded(one, R, REST, R_d, Gains(), size * q) for size in (1.0, 3.0))
+    np.testing.assert_allclose(short[0], long[0], rtol=1e-13)
+    np.testing.assert_allclose(3.0 * short[1], long[1], rtol=1e-12, atol=1e-12)

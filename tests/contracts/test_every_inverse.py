@@ -9,7 +9,6 @@ from support.inverting import FACTORED, SHAPES, A, accepted, anything, inertia, 
 
 from bench.contenders.registry import known_inverses
 from bench.engines.compiled import JIT, register_kernels
-from bench.law.scalar import KERNELS
 
 EVERY = known_inverses().values()
 ACCELERATIONS, TORQUES = ([one for one in EVERY if one.gives == what] for what in ("acceleration", "torque"))
@@ -20,16 +19,8 @@ def inverse(request):
     return request.param
 
 
-def test_it_is_a_kernel(inverse):
-    assert inverse.resolve in KERNELS
-
-
-def test_fields_say_what_it_is(inverse):
-    assert inverse.gives in ("acceleration", "torque")
-    assert all((inverse.title, inverse.source, inverse.formula))
-
-
 def test_it_accepts_some_shape_and_refusals_name_a_cure(inverse):
+    assert inverse.gives in ("acceleration", "torque")
     assert accepted(inverse)
     for shape in SHAPES:
         reason = inverse.refuses(*shape)

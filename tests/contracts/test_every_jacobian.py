@@ -5,13 +5,14 @@ import functools
 import numba
 import numpy as np
 import pytest
-from support.bits import same_bits
-from support.buffers import poses
-from support.filling import AWAY, EVERY, ON_COORDINATES, ON_OMEGA, PAIRS, ROUNDING, converted, filled, named, rows_of
+from support.bits import EPS, same_bits
+from support.buffers import poses, serial_arm
+from support.filling import AWAY, ON_COORDINATES, ON_OMEGA, PAIRS, ROUNDING, converted, filled, named, rows_of
 from support.states import rotations
 
+from bench.contenders.registry import jacobian, representation
 from bench.engines.compiled import JIT, register_kernels
-from bench.law.chain import bias_acceleration
+from bench.law.chain import bias_acceleration, twist
 from bench.law.scalar import KERNELS
 
 
@@ -22,15 +23,10 @@ def chains(n):
     return found + [found[i % 20]._replace(R=R) for i, R in enumerate((*permuting, *others))]
 
 
-@pytest.mark.parametrize("jacobian", EVERY, ids=lambda one: one.name)
-def test_fields_say_what_it_is(jacobian):
-    assert jacobian.takes in ("angular-acceleration", "coordinates")
-    assert all((jacobian.title, jacobian.source, jacobian.formula))
-
-
 @pytest.mark.parametrize("pair", PAIRS, ids=named)
 def test_its_functions_are_kernels(pair):
     one, coordinates = pair
+    assert one.takes in ("angular-acceleration", "coordinates")
     assert all(kernel in KERNELS for kernel in one.kernels_in(coordinates))
 
 
@@ -93,3 +89,73 @@ def test_counted_and_compiled_kernels_give_the_bits_of_the_plain_ones(pair, n):
         assert plain.shape == (rows_of(pair[1]),)
         assert same_bits(converted(pair, chain, bias, object), plain), chain.R
         assert same_bits(converted(pair, chain, bias, convert=convert), plain), chain.R
+
+
+# ---------------------------------------------------------------------------- MuJoCo's J and Jdot, det J_E
+
+
+@pytest.mark.parametrize("n", [6, 7])
+def test_geometric_jacobian_is_mujocos(n):
+    for arm, chain in poses(n, 60):
+        allowed = ROUNDING * np.abs(arm.jacobian).max()
+        given = filled((jacobian("geometric"), None), chain)[:6, :n]
+        np.testing.assert_allclose(given, arm.jacobian, rtol=0.0, atol=allowed)
+
+
+@pytest.mark.parametrize("n", [6, 7])
+def test_body_jacobian_is_mujocos_turned_into_the_tools_frame(n):
+    for arm, chain in poses(n, 60):
+        back = np.array(chain.R)  # rows are the columns of R: R^T
+        expected = np.kron(np.eye(2), back) @ arm.jacobian
+        given = filled((jacobian("geometric-body"), None), chain)[:6, :n]
+        np.testing.assert_allclose(given, expected, rtol=0.0, atol=ROUNDING * np.abs(arm.jacobian).max())
+
+
+@pytest.mark.parametrize("pair", ON_COORDINATES, ids=named)
+def test_drift_is_the_finite_difference_of_the_rates_at_constant_qdot(pair):
+    coordinates, h, n = pair[1], 1e-5, 6
+    arm, draw = serial_arm(n), np.random.default_rng(13)
+    for _ in range(30):
+        q, qdot = draw.uniform(-np.pi, np.pi, n), draw.normal(size=n)
+        chain = arm.move(q, qdot)
+        margin = coordinates.margin(chain.R)
+        if margin < 3 * AWAY:
+            continue
+        expected = converted(pair, chain, bias_acceleration(chain))
+        if rows_of(coordinates) == 7:
+            # the part along q that the drift leaves out: q . q = 1 twice differentiated is q . qddot = -|omega|^2 / 4
+            omega = np.array(twist(chain)[1])
+            expected[3:] -= 0.25 * (omega @ omega) * np.array(coordinates.chart(chain.R).E)
+        after, before = (rates_of(arm.move(q + sign * h * qdot, qdot), coordinates) for sign in (1, -1))
+        speed = np.abs(qdot).sum()
+        allowed = 10.0 * h * h * speed**3 / margin**4 + 100 * EPS * speed / (h * margin**2)
+        np.testing.assert_allclose((after - before) / (2.0 * h), expected, rtol=0.0, atol=allowed)
+
+
+def rates_of(chain, coordinates):
+    pdot, omega = twist(chain)
+    return np.array([*pdot, *coordinates.rates(coordinates.chart(chain.R), omega)])
+
+
+def test_determinant_of_the_zyx_euler_jacobian_is_minus_that_of_J_over_cos_beta():
+    """det B^-1 = -1 / cos(beta) (Murphy 1988, 2.9): the order alpha, beta, gamma is z, y, x."""
+    zyx = representation("zyx-euler")
+    for arm, chain in poses(6, 100):
+        margin = zyx.margin(chain.R)
+        if margin > 0.01:
+            J_E = filled((jacobian("analytic"), zyx), chain)[:6, :6]
+            given, expected = np.linalg.det(J_E), -np.linalg.det(arm.jacobian) / margin
+            # a determinant errs by n EPS times the product of the row lengths, the angular rows being up to 1/margin
+            # longer; the rows themselves by ROUNDING
+            scale = np.prod(np.linalg.norm(J_E, axis=1))
+            assert abs(given - expected) <= 6 * ROUNDING * scale / margin
+
+
+def test_quaternion_jacobian_has_rank_six_and_does_not_see_the_quaternion_itself():
+    quaternion = representation("quaternion")
+    for n in (6, 7):
+        for arm, chain in poses(n, 40):
+            J = filled((jacobian("analytic"), quaternion), chain)[:7, :n]
+            q = np.array([0.0, 0.0, 0.0, *quaternion.chart(chain.R).E])
+            assert np.abs(J.T @ q).max() <= ROUNDING * np.abs(arm.jacobian).max()
+            assert np.linalg.matrix_rank(J, tol=ROUNDING * np.linalg.norm(J)) <= 6

@@ -1,19 +1,22 @@
 """Contracts that every metric in bench/metrics/motion keeps; a new file is under them without being named here."""
 
 import functools
+import itertools
 import math
 
+import numba
 import numpy as np
 import pytest
 from support.bits import different_rows, same_bits
 from support.driving import NO_EARLY_STOP, settings, spread
 from support.on_arms import named
+from support.states import vector
 
 import tasks
 from bench.contenders.registry import find_contender
 from bench.engines import run_arm
 from bench.engines.arm_episode import ArmSample
-from bench.engines.compiled import MATRIX, compile_function
+from bench.engines.compiled import JIT, register_kernels
 from bench.engines.episode import FINAL_ANGLE, FIRST_METRIC, OUTCOME
 from bench.engines.run import run
 from bench.law.so3 import Rotation
@@ -36,54 +39,34 @@ def any_metric(request):
     return request.param
 
 
-def samples() -> np.ndarray:
-    """Rows of numbers of a sample: drawn ones, then huge and missing ones."""
-    draw = np.random.default_rng(18)
-    rows = draw.normal(scale=5.0, size=(200, 19))
-    rows[:, 1] = 1e-3  # dt
-    rows[:, 11] = draw.uniform(0.0, 1.0, 200)  # haversine
-    rows[:, 12] = np.arange(200) > 50  # entered
-    rows[:, 18] = draw.uniform(0.0, 1.0, 200)  # margin
-    rows[150:160, 18] = math.nan
-    rows[160:170, 15] = math.nan
-    rows[170:180, 16] = math.inf
-    rows[180:190, 13] = 1e200
-    return rows
+NAN, INF = (math.nan,) * 7, (math.inf,) * 7
+SPOILED = [
+    *(
+        {"margin": math.nan},
+        {"before": NAN[:3]},
+        {"u": NAN[:3]},
+        {"u": INF[:3]},
+        {"omega": (1e200,) * 3},
+        {"p": NAN[:3]},
+    ),
+    *({"q": INF}, {"q": NAN}, {"qdot": NAN}, {"tau": NAN}, {"tau": (1e200,) * 7}, {"upper": (-1e200,) * 7}),
+]
 
 
-def arm_samples() -> np.ndarray:
-    """The same, and p, p_d, q, qdot, tau, lower, upper and rated; then missing, huge and unlimited ones."""
-    draw = np.random.default_rng(19)
-    more = draw.normal(scale=2.0, size=(200, 6 + 7 * 6))
-    more[:, 27:34] = -np.abs(more[:, 27:34])  # lower
-    more[:, 34:41] = np.abs(more[:, 34:41])  # upper
-    more[:, 41:48] = 1.0 + np.abs(more[:, 41:48])  # rated
-    more[150:160, 8], more[160:170, 15], more[170:180, 22] = math.nan, math.inf, math.nan
-    more[180:185, 0], more[185:190, 20:27] = 1e200, -1e200
-    more[:, 27], more[:, 34] = -math.inf, math.inf  # a joint that turns all round
-    return np.hstack((samples(), more))
-
-
-def folding(update):
-    """The metric's value after every sample of an arm, as one function of rows."""
-
-    def fold(given, out):
-        value = out[0, 0]
-        for k in range(given.shape[0]):
-            s = given[k]
-            R = Rotation((s[2], s[3], s[4]), (s[5], s[6], s[7]), (s[8], s[9], s[10]))
-            omega, u = (s[13], s[14], s[17]), (s[15], s[16], s[0])
-            sample = ArmSample(
-                s[0], s[1], R, s[11], s[12] > 0.5, s[12] > 0.5, omega, u, omega, s[18],
-                (s[19], s[20], s[21]), (s[22], s[23], s[24]),
-                (s[25], s[26], s[27], s[28], s[29], s[30], s[31]), (s[32], s[33], s[34], s[35], s[36], s[37], s[38]),
-                (s[39], s[40], s[41], s[42], s[43], s[44], s[45]), (s[46], s[47], s[48], s[49], s[50], s[51], s[52]),
-                (s[53], s[54], s[55], s[56], s[57], s[58], s[59]), (s[60], s[61], s[62], s[63], s[64], s[65], s[66]),
-            )  # fmt: skip
-            value = update(value, sample)
-            out[k, 0] = value
-
-    return fold
+@functools.cache
+def arm_samples() -> list[ArmSample]:
+    """Return drawn samples, of a first joint that turns all round; then some with numbers that are huge or missing."""
+    draw, found = np.random.default_rng(18), []
+    for k in range(150):
+        three = [vector(row) for row in draw.normal(scale=5.0, size=(8, 3))]
+        q, qdot, tau, lower, upper, rated = draw.normal(scale=2.0, size=(6, 7))
+        ranges = (-np.abs(lower), np.abs(upper))
+        ranges[0][0], ranges[1][0] = -math.inf, math.inf
+        share, margin = draw.uniform(0.0, 1.0, 2)
+        seen = (np.float64(k), np.float64(1e-3), Rotation(*three[:3]), share, k > 50, k > 50, *three[3:6], margin)
+        joints = map(vector, (q, qdot, tau, *ranges, 1.0 + np.abs(rated)))
+        found.append(ArmSample(*seen, *three[6:], *joints))
+    return [*found, *(found[100 + i]._replace(**fields) for i, fields in enumerate(SPOILED)), *found[:20]]
 
 
 def test_metric_says_its_unit_and_what_it_is(any_metric):
@@ -92,13 +75,14 @@ def test_metric_says_its_unit_and_what_it_is(any_metric):
 
 
 def test_compiled_update_is_the_plain_update_bit_for_bit_on_an_arm(any_metric):
-    given = arm_samples()
-    plain, compiled = np.full((2, len(given), 1), any_metric.start)
-    fold = folding(any_metric.update)
+    register_kernels()
+    compiled = numba.njit(**JIT)(any_metric.update)
     with np.errstate(all="ignore"):
-        fold(given, plain)
-    compile_function(fold, (MATRIX, MATRIX), cache=False)(given, compiled)
-    assert same_bits(compiled, plain)
+        plain, other = (
+            list(itertools.accumulate(arm_samples(), update, initial=np.float64(any_metric.start)))
+            for update in (any_metric.update, compiled)
+        )
+    assert same_bits(other, plain)
     assert len(np.unique(plain[:150])) > 1  # it has taken something in
 
 

@@ -9,18 +9,18 @@ from numba import types
 from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation as ScipyRotation
 from support.bits import EPS, different_rows
+from support.buffers import numbers_of
 from support.driving import settings, spread
 from support.states import as_rotation, of_scipy, rotations, vector
 
 import tasks
-from bench.contenders.law_file import TRIAL
 from bench.contenders.registry import all_contenders
 from bench.engines.binding import command_of, evaluation_of, margin_of, memory_of
-from bench.engines.compiled import EVALUATE, FOUR, MATRIX, compile_function
+from bench.engines.compiled import EVALUATE, compile_function
 from bench.engines.episode import OUTCOME, SETTLING_TICK, TICKS
 from bench.engines.run import evaluation, run
 from bench.law.contender import AT_REST, Gains, Goal
-from bench.law.so3 import IDENTITY, Rotation
+from bench.law.so3 import IDENTITY
 from bench.metrics.registry import metrics_of
 from tasks.base import Start
 from tasks.rotations import about
@@ -65,42 +65,35 @@ def over(contenders):
 # ---------------------------------------------------------------------------- one tick
 
 
-def over_rows(evaluate, memory, given, out):
-    """The command, the memory after it and the margin, over rows of R, omega, R_d and gains."""
-    for row, into in zip(given, out):  # noqa: B905  numba's zip takes no strict
-        R = Rotation((row[0], row[1], row[2]), (row[3], row[4], row[5]), (row[6], row[7], row[8]))
-        R_d = Rotation((row[12], row[13], row[14]), (row[15], row[16], row[17]), (row[18], row[19], row[20]))
-        goal = Goal(R_d, AT_REST, AT_REST)
-        u, after, into[7] = evaluate(R, (row[9], row[10], row[11]), goal, Gains(row[21], row[22]), memory)
-        into[0], into[1], into[2] = u
-        into[3], into[4], into[5], into[6] = after
+def through(evaluate, R, omega, goal, gains, memory):
+    return evaluate(R, omega, goal, gains, memory)
 
 
 @functools.cache
-def compiled_over_rows():
-    """The same for every law, which it calls by pointer as the loops do."""
-    return compile_function(over_rows, types.void(types.FunctionType(EVALUATE), FOUR, MATRIX, MATRIX), cache=False)
+def by_pointer():
+    """Return a function that calls every law by its pointer, as the loops do."""
+    return compile_function(through, EVALUATE.return_type(types.FunctionType(EVALUATE), *EVALUATE.args), cache=False)
 
 
 @functools.cache
-def one_tick_rows() -> np.ndarray:
+def ticks() -> list[tuple]:
     """Every orientation of interest, at rest and tumbling, towards the identity and towards another one of them."""
-    draw = np.random.default_rng(9)
-    every = rotations()
-    rows = []
-    for R in every:
-        other = every[draw.integers(len(every))]
-        for omega, R_d in ((AT_REST, IDENTITY), (draw.normal(scale=5.0, size=3), other)):
-            rows.append([*R.n, *R.o, *R.a, *omega, *R_d.n, *R_d.o, *R_d.a, *draw.uniform(1.0, 200.0, 2)])
-    return np.array(rows)
+    draw, every = np.random.default_rng(9), rotations()
+    return [
+        (R, vector(omega), Goal(R_d), Gains(*map(np.float64, draw.uniform(1.0, 200.0, 2))))
+        for R in every
+        for omega, R_d in (
+            (AT_REST, IDENTITY),
+            (draw.normal(scale=5.0, size=3), every[draw.integers(len(every))]),
+        )
+    ]
 
 
 def test_compiled_command_is_the_plain_command_bit_for_bit(contender):
-    given = one_tick_rows()
-    plain, compiled = np.empty((2, len(given), 8))
+    evaluate, memory = evaluation_of(contender), memory_of(contender)
+    ways = (evaluate, functools.partial(by_pointer(), evaluation(contender)))
     with np.errstate(all="ignore"):
-        over_rows(evaluation_of(contender), memory_of(contender), given, plain)
-    compiled_over_rows()(evaluation(contender), memory_of(contender), given, compiled)
+        plain, compiled = (np.array([numbers_of(way(*tick, memory)) for tick in ticks()]) for way in ways)
     assert different_rows(compiled, plain) == []
     # the comparison has seen numbers, not only NaN
     assert np.isfinite(plain[:, :7]).all(axis=1).mean() > 0.5
@@ -232,10 +225,3 @@ def test_early_stop_changes_no_settling_tick(contender):
     )
     assert different_rows(to_the_end[:, :3], stopped[:, :3]) == []
     assert (stopped[:, TICKS] <= to_the_end[:, TICKS]).all()
-
-
-def test_law_answers_three_floats_to_floats(contender):
-    answer = contender.law(TRIAL, (0.1, 0.2, 0.3), Goal(), Gains()) if contender.regulator.memory is None else None
-    if answer is not None:
-        assert len(answer) == 3
-        assert all(type(x) is float for x in answer)

@@ -10,10 +10,10 @@ from support.states import of_scipy, rotations
 from bench.contenders.registry import all_contenders, known_representations
 from bench.counting import OPERATIONS, STAGES, TOTAL, Tally, cost, flops, rows
 from bench.counting.costs import bits, counted
-from bench.counting.staged import STAGE_OF, law_of, staged
+from bench.counting.staged import STAGE_OF, law_of
 from bench.engines.binding import memory_of
 from bench.law.contender import AT_REST, Gains, Goal
-from bench.law.so3 import IDENTITY, Rotation
+from bench.law.so3 import IDENTITY
 
 CONTENDERS = all_contenders()
 OMEGAS = {"at rest": AT_REST, "spinning": (-2.0, 0.7, 11.0)}
@@ -39,46 +39,6 @@ def test_counted_command_is_the_float_command_bit_for_bit(one, pace):
         for R, R_d in itertools.product(SOME, GOALS):
             given = (R, omega, Goal(R_d, *(omega, omega)), GAINS, *memory)
             assert bits(counting(*counted(given, tally))) == bits(plain(*given))
-
-
-@pytest.mark.parametrize("word", known_representations())
-def test_counted_representation_is_the_float_one_bit_for_bit(word):
-    tally = Tally()
-    plain = known_representations()[word]
-    counting = staged(plain, tally)
-    v = (np.float64(0.3), np.float64(-1.7), np.float64(0.0))
-    count = len(plain.symbols)
-    rate = (np.float64(2.0), np.float64(0.1), np.float64(5.0), np.float64(-0.6))[:count]
-    acceleration = (np.float64(-4.0), np.float64(0.0), np.float64(0.7), np.float64(30.0))[:count]
-    with np.errstate(all="ignore"):
-        for R in SOME:
-            at, counted_at = plain.chart(R), counting.chart(counted(R, tally))
-            E, counted_E = at.E, counted_at.E
-            pairs = [
-                (counted_at, at),
-                (counting.goal_chart(counted(R, tally)), at),
-                (counting.margin(counted(R, tally)), plain.margin(R)),
-                (counting.chart_of(counted_E), plain.chart_of(E)),
-                (counting.to_matrix(counted_E), plain.to_matrix(E)),
-                (counting.rates(counted_at, counted(v, tally)), plain.rates(at, v)),
-                (counting.angular_velocity(counted_at, counted(rate, tally)), plain.angular_velocity(at, rate)),
-                (counting.generalized(counted_at, counted(v, tally)), plain.generalized(at, v)),
-                (
-                    counting.accelerate(counted_at, *counted((rate, acceleration), tally)),
-                    plain.accelerate(at, rate, acceleration),
-                ),
-            ]
-            if plain.differentiate is not None:
-                along = Rotation(v, acceleration, rate), Rotation(rate, v, acceleration)
-                pairs += [
-                    (
-                        counting.differentiate(counted(R, tally), counted(along[0], tally)),
-                        plain.differentiate(R, along[0]),
-                    ),
-                    (counting.differentiate_twice(*counted((R, *along), tally)), plain.differentiate_twice(R, *along)),
-                ]
-            for ours, floats in pairs:
-                assert bits(ours) == bits(floats)
 
 
 def test_every_function_of_a_representation_has_a_stage():

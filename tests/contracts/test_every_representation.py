@@ -5,15 +5,16 @@ to_matrix is the rotation its title says is tested for each representation by it
 """
 
 import functools
+from collections import defaultdict
 
 import numpy as np
 import pytest
-from support.bits import EPS, different_rows
+from support.bits import EPS
+from support.buffers import different_calls
 from support.exact import EXACT, exact_B, motion, rows_of
 from support.states import axis_permuting, matrix, near_identity, rotations, vector
 
 from bench.contenders.registry import known_representations
-from bench.engines.compiled import MATRIX, compile_function
 from bench.law.so3 import Rotation
 
 # Three coordinates of size up to pi, each within one last place (2 EPS) of its true value, move R by up to
@@ -207,55 +208,22 @@ def test_B_exists_and_its_inverse_does_not_on_the_singular_set(representation):
                 assert not np.isfinite(representation.rates(at, x)).all(), R
 
 
-def all_of(representation):
-    """Every kernel of the representation in one function, rows in and rows out."""
-    chart, chart_of, to_matrix = representation.chart, representation.chart_of, representation.to_matrix
-    rates, accelerate = representation.rates, representation.accelerate
-    angular_velocity, generalized, margin = (
-        representation.angular_velocity,
-        representation.generalized,
-        representation.margin,
-    )
-    count = len(representation.symbols)
-
-    def over(given, out):
-        for row, into in zip(given, out):  # noqa: B905  numba's zip takes no strict
-            R = Rotation((row[0], row[1], row[2]), (row[3], row[4], row[5]), (row[6], row[7], row[8]))
-            x = (row[9], row[10], row[11])
-            at = chart(R)
-            again = chart_of(at.E)
-            rebuilt = to_matrix(at.E)
-            into[0], into[1], into[2] = rebuilt.n
-            into[3], into[4], into[5] = rebuilt.o
-            into[6], into[7], into[8] = rebuilt.a
-            into[9] = margin(R)
-            column = 10
-            for point in (at, again):
-                Edot = rates(point, x)
-                forces = generalized(point, x)
-                into[column], into[column + 1], into[column + 2] = angular_velocity(point, Edot)
-                into[column + 3], into[column + 4], into[column + 5] = angular_velocity(point, forces)
-                into[column + 6], into[column + 7], into[column + 8] = accelerate(point, forces, point.E)
-                column += 9
-                for i in range(count):
-                    into[column + i] = Edot[i]
-                    into[column + count + i] = forces[i]
-                    into[column + 2 * count + i] = point.E[i]
-                column += 3 * count
-
-    return over
-
-
-def columns_of_all(representation) -> int:
-    """How many numbers that is."""
-    return 10 + 2 * (9 + 3 * len(representation.symbols))
-
-
-def test_compiled_calls_are_the_plain_calls_bit_for_bit(representation, draw):
-    given = np.array([[*R.n, *R.o, *R.a, *draw.normal(scale=5.0, size=3)] for R in rotations()])
-    plain, compiled = np.empty((2, len(given), columns_of_all(representation)))
-    over = all_of(representation)
-    with np.errstate(all="ignore"):
-        over(given, plain)
-    compile_function(over, (MATRIX, MATRIX), cache=False)(given, compiled)
-    assert different_rows(compiled, plain) == []
+def test_counted_and_compiled_kernels_give_the_bits_of_the_plain_ones(representation, draw):
+    calls = defaultdict(list)
+    for R in rotations():
+        x, rate, bend = (
+            vector(draw.normal(scale=5.0, size=3)),
+            *(coordinates(representation, draw, 5.0) for _ in "12"),
+        )
+        at, again = charts(representation, R)
+        for name, given in (("chart", R), ("margin", R), ("chart_of", at.E), ("to_matrix", at.E)):
+            calls[name].append((given,))
+        for point in (at, again):
+            for name, given in (("rates", x), ("generalized", x), ("angular_velocity", rate)):
+                calls[name].append((point, given))
+            calls["accelerate"].append((point, rate, bend))
+        if representation.differentiate is not None:
+            calls["differentiate"].append((R, Rotation(x, rate, bend)))
+            calls["differentiate_twice"].append((R, Rotation(x, rate, bend), Rotation(bend, x, rate)))
+    for name, given in calls.items():
+        assert different_calls(getattr(representation, name), given) == [], name

@@ -9,7 +9,6 @@ from support.states import of_scipy
 
 from bench.contenders.registry import known_shipped
 from bench.law.contender import Gains, Goal
-from bench.law.scalar import KERNELS
 from bench.law.shipped import ANTIPODE, NEAR, POSITION, TORQUE, VELOCITY, regulator_of
 from bench.law.so3 import IDENTITY
 
@@ -30,7 +29,7 @@ def turns(count: int = 40):
 
 
 def test_fields_say_what_it_is(shipped):
-    assert all((shipped.title, shipped.formula, shipped.path, shipped.set_by))
+    assert all((shipped.path, shipped.set_by))
     assert shipped.level in {TORQUE, VELOCITY, POSITION}
     assert (shipped.damping is None) == (shipped.level == VELOCITY)
     assert shipped.stiffness > 0.0
@@ -42,8 +41,7 @@ def test_source_is_pinned_to_a_commit_or_a_release(shipped):
     assert revision.startswith("v") or (len(revision) == 40 and int(revision, 16))
 
 
-def test_error_is_a_kernel_and_zero_at_the_goal(shipped):
-    assert shipped.error in KERNELS
+def test_error_is_zero_at_the_goal(shipped):
     assert not any(shipped.error((1.0, 0.0, 0.0, 0.0)))
 
 

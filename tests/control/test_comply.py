@@ -8,7 +8,7 @@ import pytest
 from support.bits import EPS
 from support.in_contact import GAINS, SELECTIONS, TOUCH, backward, damping
 
-from bench.control.contact_controller import ACCELERATION_FORMS, FORMS, PAPERS_FORM
+from bench.control.contact_controller import FORMS, PAPERS_FORM
 from bench.control.hybrid import comply
 from bench.control.setpoint import Rows
 from bench.engines.contact_episode import room, rows
@@ -51,11 +51,6 @@ def complied(form: str, held, at: Given):
     chain = Chain(n, None, None, at.qdot, None, None)
     comply(FORMS.index(form), held, chain, at.D, at.fg, at.J, at.rows, GAINS, TOUCH, about, tau)
     return tau
-
-
-def accelerations(form: str, held, at: Given) -> np.ndarray:
-    """y: what the joints are accelerated by, tau less fg and J^T w."""
-    return np.linalg.solve(at.D, complied(form, held, at) - at.fg - at.J.T @ exerted(form, held, at.rows))
 
 
 def inverse(at: Given) -> np.ndarray:
@@ -112,29 +107,6 @@ def test_torques_are_the_formula_for_every_selection(n, form):
         np.testing.assert_allclose(tau, at.D @ wanted + at.fg + at.J.T @ w, rtol=0.0, atol=allowed, err_msg=held)
 
 
-@ON_JOINTS
-def test_forms_of_acceleration_are_one_where_all_is_held_or_all_complies_and_two_elsewhere(n):
-    """Where all is held to the hand alone: on seven joints (S J)^+ moves them least, and J^# with least energy."""
-    for at in given(n):
-        for held in SELECTIONS:
-            one, other = (accelerations(form, held, at) for form in ACCELERATION_FORMS)
-            apart = np.linalg.norm(at.J @ (one - other) if all(held) else one - other)
-            bound = rounding(at) * np.linalg.norm(at.J, 2) * size("inverse", at)
-            assert apart <= bound if len(set(held)) == 1 else apart > 1e-3, held
-
-
-@ON_JOINTS
-def test_projected_form_holds_with_the_least_motion_of_the_joints(n):
-    """Where nothing acts on what complies and no joint moves, y is lstsq's least answer to S J y = S (a - drift)."""
-    for at, held in itertools.product(given(n), SELECTIONS[1:]):
-        kept, nothing = np.array(held) > 0.0, np.zeros(6)
-        quiet = at.rows._replace(drift=np.where(kept, at.rows.drift, 0.0), F=nothing, h=nothing, v=nothing)
-        still = at._replace(rows=quiet, qdot=np.zeros(n))
-        least = np.linalg.lstsq(at.J[kept], (quiet.a - quiet.drift)[kept], rcond=None)[0]
-        y = accelerations("projected", held, still)
-        np.testing.assert_allclose(y, least, rtol=0.0, atol=rounding(at) * size("projected", still))
-
-
 @IN_FORMS
 @ON_JOINTS
 def test_hand_stays_at_rest_where_the_wrench_is_the_wished_one(n, form):
@@ -145,35 +117,3 @@ def test_hand_stays_at_rest_where_the_wrench_is_the_wished_one(n, form):
         # six products a torque, and the row of J no longer than all of it
         allowed = 12 * EPS * (np.linalg.norm(at.J) * np.linalg.norm(into.h) + np.linalg.norm(at.fg))
         np.testing.assert_allclose(tau, at.fg + at.J.T @ into.h, rtol=0.0, atol=allowed)
-
-
-# ---------------------------------------------------------------------------- seven joints
-
-
-@IN_FORMS
-def test_motion_that_the_hand_does_not_see_is_damped_and_nothing_else_moves_it(form):
-    """Null space by its own vector v, J v = 0: v^T D qddot = v^T D z whatever is commanded, with the wrench acting.
-
-    Of `projected` where nothing is held: (S J)^+ knows nothing of D.
-    """
-    for at, held in itertools.product(given(7), SELECTIONS[:1] if form == "projected" else SELECTIONS):
-        v = np.linalg.svd(at.J)[2][-1]
-        qddot = np.linalg.solve(at.D, complied(form, held, at) - at.fg + at.J.T @ at.rows.F)
-        allowed = rounding(at) * np.linalg.norm(at.D, 2) * (size(form, at) + np.linalg.norm(qddot))
-        assert abs(v @ at.D @ (qddot - damping(at.qdot))) <= allowed
-
-
-def test_papers_form_is_operational_space_by_the_consistent_inverse_and_by_no_other():
-    """D J^# = J^T Lambda; by J^+ the hand moves alike, and the wrench and the command turn the elbow besides."""
-    for at, held in itertools.product(given(7), SELECTIONS):
-        still = at._replace(qdot=np.zeros(7))
-        motion = np.where(held, at.rows.a, answer(PAPERS_FORM, at.rows)) - at.rows.drift
-        w, J, D = exerted(PAPERS_FORM, held, at.rows), at.J, at.D
-        tau = complied(PAPERS_FORM, held, still)
-        khatibs = J.T @ (np.linalg.inv(J @ np.linalg.solve(D, J.T)) @ motion + w) + at.fg
-        allowed = rounding(at) * np.linalg.norm(D, 2) * size(PAPERS_FORM, still)
-        np.testing.assert_allclose(tau, khatibs, rtol=0.0, atol=allowed + rounding(at) * np.linalg.norm(J.T @ w))
-        by_least_norm = D @ np.linalg.pinv(J) @ motion + J.T @ w + at.fg
-        apart = by_least_norm - khatibs
-        assert np.linalg.norm(apart) > 1e-3
-        assert np.linalg.norm(J @ np.linalg.solve(D, apart)) <= np.linalg.norm(J, 2) / np.linalg.norm(D, -2) * allowed

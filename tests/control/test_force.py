@@ -1,4 +1,4 @@
-"""Controllers in contact against MuJoCo's forward dynamics, by the work they do, and one frame against another.
+"""Controllers in contact against MuJoCo's forward dynamics, and by the work they do.
 
 B and its derivative are those of `exact`, differentiated with 80 digits.
 """
@@ -14,32 +14,26 @@ from support.in_contact import (
     GAINS,
     HYBRIDS,
     IMPEDANCES,
-    LONGEST,
     SELECTIONS,
     TOUCH,
     backward,
     drawn,
     felt,
     hand,
-    setpoint_of,
     tick,
 )
-from support.states import as_rotation, rotations, vector
+from support.states import vector
 
 import tasks
-from bench.control.contact_controller import FORMS, PAPERS_FORM, hybrid
+from bench.control.contact_controller import PAPERS_FORM, hybrid
 from bench.control.hybrid import axes_of
 from bench.control.impedance import law_of
 from bench.control.setpoint import TOUCH as TOUCHING
-from bench.law.so3 import IDENTITY
 from tasks.contact import Specification
 
 INERTIA = np.array([TOUCH.m_p] * 3 + [TOUCH.m_o] * 3)
-IN_FORMS = pytest.mark.parametrize("form", FORMS)
-FRAMES = [one for one in HYBRIDS if one.form == "inverse"]
-CONVERTED = [one for one in FRAMES if one.law != "hybrid-unconverted"]
-UNCONVERTED = [one for one in FRAMES if one.law == "hybrid-unconverted"]
-AT_ORIGIN = [one for one in COORDINATES.values() if one.name in ("rotation-vector", "xyz-euler", "zyx-euler")]
+CONVERTED = [one for one in HYBRIDS if one.form == "inverse" and one.converts]
+UNCONVERTED = [one for one in HYBRIDS if not one.converts]
 # Sums of a few products of numbers that carry the rounding of n rotations each (test_chain).
 ROUNDING = 200 * EPS
 
@@ -49,7 +43,6 @@ def named(one) -> str:
 
 
 over_arms = pytest.mark.parametrize("arm", ARMS)
-over_frames = pytest.mark.parametrize("one", CONVERTED, ids=named)
 
 
 # ---------------------------------------------------------------------------- frames, by 80 digits and scipy
@@ -128,7 +121,7 @@ def test_wrench_that_is_felt_is_the_one_applied_moved_to_the_hands_frame(arm):
 
 
 @over_arms
-@pytest.mark.parametrize("one", [one for one in HYBRIDS if one.law != "hybrid-unconverted"], ids=named)
+@pytest.mark.parametrize("one", [one for one in HYBRIDS if one.converts], ids=named)
 def test_perfect_model_gives_the_hand_the_commanded_acceleration(arm, one):
     """MuJoCo's J qacc + Jdot qdot under the wrench in the controller's frame: all rows; of `projected` what is held."""
     compared = 0
@@ -186,7 +179,7 @@ def test_perfect_model_gives_the_hand_the_acceleration_of_the_impedance(arm, one
 
 
 @over_arms
-@over_frames
+@pytest.mark.parametrize("one", CONVERTED, ids=named)
 def test_wrench_does_the_same_work_in_every_frame(arm, one):
     """F_E . v_E = F . v and J_E^T F_E = J^T F."""
     for state, setpoint in drawn(arm):
@@ -225,115 +218,6 @@ def test_generalized_forces_along_zyx_angles_are_the_moments_about_their_axes():
         about = (m[2], m @ (-np.sin(alpha), np.cos(alpha), 0.0), m @ at.R[:, 0])
         F = tick(one, at, setpoint, SELECTIONS[0]).rows.F
         np.testing.assert_allclose(F, (*at.F[:3], *about), rtol=0.0, atol=ROUNDING * np.linalg.norm(at.F))
-
-
-ON_POLES = [
-    pytest.param(one, R, id=f"{one.name}-{i}")
-    for one in COORDINATES.values()
-    for i, R in enumerate(R for R in rotations() if one.margin(R) == 0.0)
-]
-
-
-def at_orientation(R):
-    """A hand of that orientation in one of the drawn states: its frame redrawn, as a trial's mount does."""
-    state, setpoint = drawn(ARMS[0])[0]
-    at = hand(*state)
-    return at._replace(chain=at.chain._replace(R=R)), setpoint
-
-
-@pytest.mark.parametrize(("representation", "R"), ON_POLES)
-def test_wrench_is_converted_on_the_pole_too_and_does_the_work_of_what_motion_is_left(representation, R):
-    """F_E = diag(I, B)^T F, of rank 5: F_E . (v, Edot) = F . (v, B Edot) for every Edot, though B^-1 does not exist."""
-    at, setpoint = at_orientation(R)
-    made = tick(hybrid("hybrid", "inverse", representation), at, setpoint, SELECTIONS[0])
-    f, m = (np.array(three) for three in felt(at))
-    # felt() turns the sensors' components by R, and B is of coordinates that are exact on the pole but for rounding
-    B = B_of(representation, representation.chart(R).E)
-    np.testing.assert_allclose(made.rows.F[3:], B.T @ m, rtol=0.0, atol=ROUNDING * np.linalg.norm(m))
-    np.testing.assert_array_equal(made.rows.F[:3], f)
-    Edot = np.array((0.7, -1.1, 0.4))
-    omega = np.array(representation.angular_velocity(representation.chart(R), vector(Edot)))
-    assert abs(made.rows.F[3:] @ Edot - m @ omega) <= ROUNDING * np.linalg.norm(m)
-    assert np.linalg.matrix_rank(B, tol=1e-12) == 2
-    assert not np.isfinite(made.J).all()
-
-
-@pytest.mark.parametrize(("representation", "R"), ON_POLES)
-def test_one_moment_is_lost_on_the_pole_though_the_hand_can_turn_with_it(representation, R):
-    """B^T m = 0 for a moment m of unit length, the axis that no coordinate turns the hand about."""
-    at = representation.chart(R)
-    lost = np.linalg.svd(B_of(representation, at.E))[0][:, 2]
-    np.testing.assert_allclose(representation.generalized(at, vector(lost)), 0.0, rtol=0.0, atol=ROUNDING)
-    for unit in np.eye(3):
-        omega = representation.angular_velocity(at, vector(unit))
-        assert abs(lost @ np.array(omega)) <= ROUNDING
-    felt_elsewhere = representation.generalized(at, vector(np.roll(lost, 1) + np.roll(lost, 2)))
-    assert np.linalg.norm(felt_elsewhere) > 0.1
-
-
-def test_poles_are_among_the_orientations_tried():
-    assert {one.values[0].name for one in ON_POLES} == {"xyz-euler", "zyx-euler", "zyz-euler"}
-
-
-# ---------------------------------------------------------------------------- one frame against another
-
-
-@over_arms
-def test_rows_of_the_hand_are_those_of_the_base_turned_back(arm):
-    on_base, in_hand = (hybrid(law, "inverse") for law in ("hybrid-base", "hybrid-hand"))
-    for state, setpoint in drawn(arm):
-        at = hand(*state)
-        base, turned = (tick(one, at, setpoint, SELECTIONS[0]) for one in (on_base, in_hand))
-        back = np.kron(np.eye(2), np.array(setpoint.R_d).T @ at.R.T)  # Q^T = R_d R^T
-        for name in ("a", "drift", "F", "v"):
-            row = getattr(base.rows, name)
-            np.testing.assert_allclose(
-                getattr(turned.rows, name), back @ row, rtol=0.0, atol=20 * EPS * np.linalg.norm(row), err_msg=name
-            )
-        np.testing.assert_allclose(turned.J, back @ base.J, rtol=0.0, atol=20 * EPS * np.linalg.norm(base.J))
-        np.testing.assert_array_equal(turned.rows.h, base.rows.h)  # what it exerts, it exerts along its own axes
-
-
-@IN_FORMS
-@over_arms
-def test_hand_and_base_are_one_while_all_is_held_and_at_the_goal_for_every_selection(arm, form):
-    on_base, in_hand = (hybrid(law, form) for law in ("hybrid-base", "hybrid-hand"))
-    for k, (state, setpoint) in enumerate(drawn(arm)):
-        at = hand(*state)
-        size = np.linalg.norm(at.D, 2) * np.linalg.norm(np.linalg.pinv(at.J), 2) * LONGEST
-        there = setpoint._replace(R_d=at.chain.R)
-        for goal, held in [(setpoint, SELECTIONS[-1]), *((there, held) for held in SELECTIONS if k < 2)]:
-            base, turned = (tick(one, at, goal, held).tau for one in (on_base, in_hand))
-            np.testing.assert_allclose(turned, base, rtol=0.0, atol=backward(at.J) * size)
-
-
-def oriented(arm: str, moving: bool):
-    """A hand whose frame is the base's, at its goal: E = E_d = 0."""
-    (_, q, qdot, _, push), _ = drawn(arm)[0]
-    draw, qdot = np.random.default_rng(33), qdot if moving else np.zeros_like(qdot)
-    wrist = hand(arm, q, qdot, ScipyRotation.identity(), push)
-    at = hand(arm, q, qdot, ScipyRotation.from_matrix(wrist.R).inv(), push)
-    at = at._replace(chain=at.chain._replace(R=as_rotation(IDENTITY)))
-    return at, setpoint_of(ScipyRotation.identity(), np.array(at.chain.p) + 0.1, draw)
-
-
-@IN_FORMS
-@over_arms
-@pytest.mark.parametrize("representation", AT_ORIGIN, ids=named)
-def test_coordinates_are_the_base_frames_at_their_origin(representation, arm, form):
-    """Where B is the identity but for the order of its columns, at rest; on the rotation vector moving too."""
-    np.testing.assert_array_equal(B_of(representation, (0.0, 0.0, 0.0))[:, axes_of(representation)], np.eye(3))
-    at, setpoint = oriented(arm, moving=representation.name == "rotation-vector")
-    for held in SELECTIONS:
-        specification = Specification("", tuple(map(int, held)))
-        taus = []
-        for one in (hybrid("hybrid", form, representation), hybrid("hybrid-base", form)):
-            taus.append(tick(one, at, setpoint, one.selection(specification)).tau)
-        size = np.linalg.norm(at.D, 2) * np.linalg.norm(np.linalg.pinv(at.J), 2) * LONGEST
-        np.testing.assert_allclose(*taus, rtol=0.0, atol=backward(at.J) * size, err_msg=held)
-
-
-# ---------------------------------------------------------------------------- selections, constants
 
 
 @over_arms

@@ -78,14 +78,6 @@ def test_elimination_costs_the_textbooks_number_of_multiplications():
     assert counts.of("linearize")["mul"] >= n * n
 
 
-def test_analytic_jacobian_costs_more_than_the_geometric_one_with_the_same_law():
-    analytic, geometric = (
-        standing("ur5e", f"feedback-linearized/zyx-euler@{by}+solve").typical for by in ("analytic", "geometric")
-    )
-    assert analytic.of("jacobian")["mul"] > geometric.of("jacobian")["mul"]
-    assert analytic.of("invert") == geometric.of("invert")
-
-
 @pytest.mark.parametrize("arm", [arm for arm in ARMS if arm not in on_arms.ARM_OF.values()])
 def test_cost_does_not_depend_on_the_arm_where_nothing_iterates(arm):
     usual = on_arms.ARM_OF[tasks.arm(arm).joints]

@@ -1,12 +1,10 @@
 """Velocity and acceleration of a chain's tool against MuJoCo: its Jacobians, its sensors, its derivative of J."""
 
-import numba
 import numpy as np
 import pytest
-from support.bits import EPS, same_bits
-from support.buffers import as_floats, of_numbers, poses
+from support.bits import EPS
+from support.buffers import different_calls, poses
 
-from bench.engines.compiled import JIT, register_kernels
 from bench.law.chain import bias_acceleration, twist
 
 COUNT = 60
@@ -42,9 +40,4 @@ def test_bias_acceleration_is_mujocos_derivative_of_the_jacobian_times_the_rates
 @pytest.mark.parametrize("kernel", [twist, bias_acceleration])
 @pytest.mark.parametrize("n", [2, 6, 7])
 def test_counted_and_compiled_kernels_give_the_bits_of_the_plain_one(kernel, n):
-    register_kernels()
-    compiled = numba.njit(**JIT)(kernel)
-    for _, chain in poses(n, 20):
-        plain = np.ravel(kernel(chain))
-        assert same_bits(as_floats(kernel(of_numbers(chain, object))).ravel(), plain)
-        assert same_bits(np.ravel(compiled(chain)), plain)
+    assert different_calls(kernel, [(chain,) for _, chain in poses(n, 20)]) == []

@@ -6,7 +6,6 @@ import pytest
 import sympy
 from support.bits import EPS, same_bits
 from support.buffers import as_counted, as_floats, buffer, matrices, symmetric
-from sympy.combinatorics import Permutation
 
 from bench.engines.compiled import JIT, register_kernels
 from bench.law import linalg
@@ -65,16 +64,6 @@ def test_solution_is_exact_for_a_matrix_next_to_the_given_one(n):
         assert residual <= allowed, (word, residual / allowed)
 
 
-def test_permutation_is_solved_exactly():
-    draw = np.random.default_rng(1)
-    for n in SQUARES:
-        for _ in range(20):
-            order = draw.permutation(n)
-            x = buffer(B[:n])
-            linalg.solve(buffer(np.eye(n)[order]), x, n)
-            np.testing.assert_array_equal(np.eye(n)[order] @ x[:n], B[:n])
-
-
 def test_pivots_are_found_among_numbers_whose_squares_are_zero():
     A = 1e-200 * np.array([[1e-17, 1.0], [1.0, 1.0]])
     x = np.array([1e-200, 2e-200])
@@ -110,14 +99,6 @@ def test_determinant_of_a_singular_matrix_is_zero():
             found = linalg.determinant(buffer(matrices(n, n)[word]), np.zeros(7), n)
             assert found <= 0.0 <= found
         assert linalg.determinant(np.ones((n, n)), np.zeros(n), n) == 0.0
-
-
-def test_determinant_of_a_permutation_is_its_sign():
-    draw = np.random.default_rng(2)
-    for _ in range(50):
-        order = draw.permutation(6)
-        expected = Permutation(order.tolist()).signature()
-        assert linalg.determinant(buffer(np.eye(6)[order]), np.zeros(7), 6) == expected
 
 
 # ------------------------------------------------------------------------------------------------- Cholesky

@@ -6,6 +6,7 @@ import mujoco
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation as Turn
+from support.contact_records import ARM, answered, trial
 from support.in_contact import ARMS
 
 import tasks
@@ -14,13 +15,12 @@ from bench.engines.run_contact import run
 from bench.findings.theory.compliance_theory import free
 from bench.metrics.contact import port, rest, wrench
 from bench.metrics.contact_force import WINDOW_S, rms
-from bench.metrics.contact_metric import Pose, Response, response
+from bench.metrics.contact_metric import Pose, response
 from tasks.arm_model import Arm
-from tasks.contact import Specification, Trial
+from tasks.contact import Specification
 from tasks.contact_episode import environment
 from tasks.domains import force_on_plane, surface_alignment, wrench_probe
 
-ARM = tasks.arm("ur5e")
 CARTESIAN = find_controller("hybrid-base+inverse")
 DT, TICKS = 0.01, 401
 TIME = DT * np.arange(TICKS)
@@ -29,11 +29,9 @@ PRESSING = Specification("z", (1, 1, 0, 1, 1, 1), (0.0, 0.0, -20.0, 0.0, 0.0, 0.
 
 def pose(task=surface_alignment.TASK, rested=False, **arrays) -> Pose:
     """A hand that feels 20 N and does not move, but for the arrays given."""
-    still = np.zeros((TICKS, 3))
-    blank = {"time": TIME, "R": np.tile(np.eye(3), (TICKS, 1, 1)), "omega": still, "p": still, "moment": still}
-    blank |= {"force": still + np.array((0.0, 0.0, 20.0)), **dict.fromkeys(("gap", "turned", "load"), np.zeros(TICKS))}
-    trial = Trial("one", "pose", PRESSING, ARM.home, (1.0, 0.0, 0.0, 0.0))
-    return Pose(task, ARM, CARTESIAN, (Response(trial, "done", **(blank | arrays), rested=rested),))
+    force = np.tile((0.0, 0.0, 20.0), (TICKS, 1))
+    one = answered(trial(PRESSING), **({"time": TIME, "force": force} | arrays))
+    return Pose(task, ARM, CARTESIAN, (one._replace(rested=rested),))
 
 
 def test_time_to_rest_is_when_the_window_began():

@@ -3,7 +3,6 @@
 import json
 import os
 import signal
-import subprocess
 import sys
 from collections import deque
 from pathlib import Path
@@ -17,25 +16,12 @@ from bench.experiments import plan as planning
 from bench.experiments.choice import Choice
 from bench.experiments.experiment import experiment_of
 from bench.files import read_json
-from bench.provenance import ROOT
 from bench.running import run
 from bench.running.run_folder import begin, part
 from bench.running.schedulers import cluster, worker
 from bench.running.schedulers.batches import CHUNK_S, MOST_EPISODES, in_batches, seconds
 from bench.running.schedulers.words import check_scheduler, kind
 from bench.running.wire_format import described
-
-WITHOUT = """
-import pathlib, sys
-from bench.running import run
-from bench.experiments import plan as planning
-from bench.experiments.choice import Choice
-from bench.contenders.registry import find_contender
-choice = Choice(start_sets=("paper",), engines=("reference",), experiments=("free-body",))
-plan = planning.make("quick", [find_contender("rotation-matrix")], choice, horizon_s=0.01)
-assert run.run(plan, pathlib.Path(sys.argv[1]))
-print(sorted({"dask", "distributed"} & set(sys.modules)))
-"""
 
 
 @pytest.fixture(scope="module")
@@ -127,12 +113,6 @@ def test_chunk_that_lost_all_its_workers_is_taken_apart_and_its_unit_named(plan,
     chunks.given[future] = (second,)
     with pytest.raises(LostWorkers, match=f"unit {second.key}: each of 4 workers that ran it was lost"):
         chunks.take(future)
-
-
-def test_without_a_scheduler_dask_is_not_imported(tmp_path):
-    words = [sys.executable, "-W", "ignore", "-c", WITHOUT, str(tmp_path)]
-    done = subprocess.run(words, cwd=ROOT, capture_output=True, text=True)
-    assert (done.returncode, done.stdout) == (0, "[]\n"), done.stderr
 
 
 def test_missing_dask_is_said_with_the_cure(monkeypatch):

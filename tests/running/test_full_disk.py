@@ -1,8 +1,10 @@
 """A disk that fills up at any moment of a run: one line, what was finished stays, and with room made it goes on."""
 
+import subprocess
+from pathlib import Path
+
 import pytest
 from support.command_line import digest
-from support.small_disk import KILOBYTES, NoDisk, fill, mounted
 
 from bench import files
 from bench.contenders.registry import find_contender
@@ -10,6 +12,8 @@ from bench.errors import BadResults
 from bench.experiments import plan as planning
 from bench.experiments.choice import Choice
 from bench.running import run
+
+KILOBYTES = 1024
 
 
 @pytest.fixture(scope="module")
@@ -20,11 +24,28 @@ def plan():
 
 @pytest.fixture
 def disk(tmp_path):
+    """Mount a file system of KILOBYTES, gone afterwards: tmpfs, where mounting is allowed."""
+    folder = tmp_path / "disk"
+    folder.mkdir()
+    words = ["mount", "-t", "tmpfs", "-o", f"size={KILOBYTES}k", "tmpfs", str(folder)]
     try:
-        with mounted(tmp_path / "disk") as folder:
-            yield folder
-    except NoDisk as error:
-        pytest.skip(str(error))
+        done = subprocess.run(words, capture_output=True, text=True)
+    except FileNotFoundError:
+        pytest.skip("there is no mount to make a small disk with")
+    if done.returncode:
+        pytest.skip(f"no small disk can be mounted here ({done.stderr.strip()})")
+    try:
+        yield folder
+    finally:
+        # a write that failed may still hold its file
+        subprocess.run(["umount", "--lazy", str(folder)], check=True)
+
+
+def fill(disk: Path, left: int) -> Path:
+    """Fill the disk but for so many kilobytes; return the file to remove to make room."""
+    filler = disk / "filler"
+    filler.write_bytes(bytes((KILOBYTES - left) * 1024))
+    return filler
 
 
 @pytest.fixture

@@ -129,29 +129,11 @@ def test_every_restated_controller_was_read_at_the_commit_that_its_source_names(
         assert restated.groupby("library")["version"].unique().map(list).to_dict() == {k: [v] for k, v in named.items()}
 
 
-def test_clip_is_named_a_bound():
-    lines = loops.verdicts().set_index("library")["faults"]
-    assert lines["crisp_controllers"] == "axis-clip"
-    found = dict(zip(*zip(*((row[0], row[3]) for row in controllers()), strict=True), strict=True))
-    assert found["crisp_controllers"] == "bound of each component"
-    assert found["franka_ros"] == "stiffness 0.5 of the one set"
-
-
 def test_default_weld_is_stiffer_than_a_sine_and_stuck_at_180_degrees_alone():
     rows = libraries.pulls().set_index("angle_deg")
     assert rows["dead"].to_dict() == dict.fromkeys(closed_loop.ANGLES_DEG, 0) | {180.0: closed_loop.HALF_TURN_AXES}
     between = rows.loc[[30.0, 90.0, 150.0, 175.0, 179.0], "pull_ratio"]
     assert (between > np.sin(np.radians(between.index))).all()
-
-
-def test_every_controller_has_a_row_and_only_one_is_our_loop():
-    driven = loops.responses()
-    assert len(controllers()) == len(driven[~driven["kind"].isin(["function", "idiom"])])
-    assert driven[driven["kind"] == "our-loop"]["library"].tolist() == ["robosuite"]
-
-
-def controllers():
-    return libraries.controllers(libraries.lines(), loops.responses())
 
 
 @pytest.mark.parametrize("takes", [MATRIX, QUATERNION])

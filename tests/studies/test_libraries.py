@@ -18,7 +18,6 @@ from bench.studies.libraries.judge import KINDS, judge
 from bench.studies.libraries.kept import FOLDER
 from bench.studies.libraries.library import MATRIX, QUATERNION, Function, Library
 from bench.studies.libraries.tolerances import COUNT_RAD, SINGLE_RAD
-from bench.studies.libraries.verdict import report
 from bench.tables.store import read
 from report.figures.libraries import answers, libraries, loops
 
@@ -69,13 +68,6 @@ def test_turns_agree_with_rodrigues_formula_on_their_own_axis_and_angle(turn_set
 def test_distance_to_the_half_turn_keeps_its_digits():
     for turn in turns.near_half_turn(12, 5).turns:
         assert turn.quat_wxyz[0] == pytest.approx(2.5e-12, rel=1e-14)
-
-
-def test_poles_have_cosine_nought_and_are_no_half_turns():
-    found = turns.poles().turns
-    assert max(abs(turn.R[i, 0]) for turn in found for i in (0, 1)) <= EPS
-    assert {round(turn.R[2, 0]) for turn in found} == {1, -1}
-    assert max(turn.angle for turn in found) < 3.1
 
 
 # --------------------------------------------------------------------------- judge
@@ -185,12 +177,6 @@ def test_committed_answers_are_what_the_library_says_here(library):
             assert [row[name] for name in counted] == [committed[name] for name in counted], (function.name, one.name)
 
 
-def test_committed_answers_say_of_which_version_they_are():
-    table, about = read(FOLDER, "libraries"), read_json(FOLDER / "provenance.json")["libraries"]
-    versions = table.groupby("library", observed=True)["version"].unique()
-    assert {name: [one["version"]] for name, one in about.items()} == {k: list(v) for k, v in versions.items()}
-
-
 # --------------------------------------------------------------------------- the page
 
 
@@ -224,11 +210,6 @@ def test_page_says_what_is_wrong_with_a_function(call, form, said):
     assert said in "; ".join(line(call, form=form)["objections"].values())
 
 
-def test_page_says_that_the_negative_quaternion_is_answered_otherwise():
-    found = line(lambda quat_wxyz: 2.0 * quat_wxyz[1:], QUATERNION, "sine-of-half")
-    assert found["objections"] == {answers.SHEET: "the long way round for −q"}
-
-
 def test_page_names_the_functions_that_the_committed_answers_condemn():
     lines = answers.functions(answers.table()).set_index(["library", "function"])["objections"]
     assert set(lines["mink", "SO3.log (Python)"]) == {answers.ZERO}
@@ -251,24 +232,6 @@ def test_verdict_of_the_page_agrees_with_the_check_and_the_closed_loops():
         assert bool(one.objections) == is_wrong, (one.library, one.function)
         assert one.objections or not (one.dead or one.away or one.unsettled), (one.library, one.function)
     assert both.loc[both["precision"] == "single", "objections"].map(len).sum() == 0
-
-
-def test_idioms_are_counted_apart_and_each_that_fails_has_a_cure():
-    found, every = libraries.facts(None), libraries.lines()
-    idioms = libraries.faulty(libraries.errors(every, "idiom"))
-    assert len(idioms) == found["idioms_wrong"] < found["idioms"]
-    assert {"scipy", "eigen", "mujoco", "kdl", "tf2"} <= set(idioms["library"])
-    fixes = loops.verdicts().set_index(["library", "function"])["replacement"]
-    assert all(fixes[one.library, one.function] for one in idioms.itertuples())
-    assert set(idioms["function"]).isdisjoint(libraries.faulty(libraries.errors(every))["function"])
-
-
-def test_canonical_quaternion_cures_scipys_idiom():
-    def bare(R, canonical):
-        return 2.0 * ScipyRotation.from_matrix(R).as_quat(canonical=canonical)[:3]
-
-    assert report(Function("f", MATRIX, lambda R: bare(R, False))).faults
-    assert not report(Function("f", MATRIX, lambda R: bare(R, True))).faults
 
 
 def test_page_is_whole_and_faulty_functions_are_counted():

@@ -4,11 +4,14 @@ import functools
 from typing import NamedTuple
 
 import mujoco
+import numba
 import numpy as np
 
 from bench.counting import Counted, Tally
+from bench.engines.compiled import JIT, register_kernels
 from bench.law.resolved_motion import Chain, Scratch
 from bench.law.so3 import Rotation
+from support.bits import same_bits
 
 SIZE = 7
 
@@ -153,3 +156,22 @@ def of_numbers(part, dtype):
         inside = [of_numbers(each, dtype) for each in part]
         return type(part)(*inside) if hasattr(part, "_fields") else tuple(inside)
     return Counted(part, Tally())
+
+
+def numbers_of(answer) -> list:
+    """Return the numbers in a tuple, or in a tuple of tuples."""
+    if isinstance(answer, tuple):
+        return [number for part in answer for number in numbers_of(part)]
+    return [answer.value if isinstance(answer, Counted) else answer]
+
+
+def different_calls(kernel, calls) -> list[tuple[int, str]]:
+    """Return the calls for which the compiled or the counted kernel gives other bits than the plain one."""
+    register_kernels()
+    compiled, found = numba.njit(**JIT)(kernel), []
+    with np.errstate(all="ignore"):
+        for i, given in enumerate(calls):
+            plain = numbers_of(kernel(*given))
+            answers = {"compiled": compiled(*given), "counted": kernel(*of_numbers(given, object))}
+            found += [(i, how) for how, answer in answers.items() if not same_bits(numbers_of(answer), plain)]
+    return found

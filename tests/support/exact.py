@@ -12,79 +12,23 @@ EXACT.dps = 80
 STEP = EXACT.mpf(10) ** -20
 
 
-class Exact:
-    """One real number of 80 digits with the arithmetic and the functions of the law dialect."""
+def as_method(name: str):
+    """Return a function of mpmath as a method of its numbers, which is how the law dialect calls it."""
+    return lambda *numbers: getattr(EXACT, name)(*numbers)
 
-    tally = None
 
-    def __init__(self, value):
-        self.value = value.value if isinstance(value, Exact) else EXACT.mpf(value)
-
-    def __add__(self, other):
-        return Exact(self.value + Exact(other).value)
-
-    def __sub__(self, other):
-        return Exact(self.value - Exact(other).value)
-
-    def __rsub__(self, other):
-        return Exact(other) - self
-
-    def __mul__(self, other):
-        return Exact(self.value * Exact(other).value)
-
-    def __truediv__(self, other):
-        return Exact(self.value / Exact(other).value)
-
-    def __rtruediv__(self, other):
-        return Exact(other) / self
-
-    def __neg__(self):
-        return Exact(-self.value)
-
-    def __lt__(self, other):
-        return self.value < Exact(other).value
-
-    def __le__(self, other):
-        return self.value <= Exact(other).value
-
-    def __gt__(self, other):
-        return self.value > Exact(other).value
-
-    def __ge__(self, other):
-        return self.value >= Exact(other).value
-
-    __radd__, __rmul__ = __add__, __mul__
-
-    def sqrt(self):
-        return Exact(EXACT.sqrt(self.value))
-
-    def sin(self):
-        return Exact(EXACT.sin(self.value))
-
-    def cos(self):
-        return Exact(EXACT.cos(self.value))
-
-    def acos(self):
-        return Exact(EXACT.acos(self.value))
-
-    def atan2(self, x):
-        return Exact(EXACT.atan2(self.value, Exact(x).value))
-
-    def ratan2(self, y):
-        return Exact(y).atan2(self)
-
-    def copysign(self, sign):
-        size = abs(self.value)
-        return Exact(-size if Exact(sign).value < 0 else size)
-
-    def rcopysign(self, magnitude):
-        return Exact(magnitude).copysign(self)
+EXACT.mpf.tally = None
+for _name in ("sqrt", "sin", "cos", "acos", "atan2"):
+    setattr(EXACT.mpf, _name, as_method(_name))
+EXACT.mpf.ratan2 = lambda x, y: EXACT.atan2(y, x)
+EXACT.mpf.copysign = lambda x, sign: -abs(x) if sign < 0 else abs(x)
+EXACT.mpf.rcopysign = lambda sign, x: EXACT.mpf(x).copysign(sign)
 
 
 def exact_matrix(to_matrix, E):
     """to_matrix(E) as a matrix of 80 digits."""
-    columns = to_matrix(tuple(Exact(x) for x in E))
-    return EXACT.matrix([[columns[j][i].value for j in range(3)] for i in range(3)])
+    columns = to_matrix(tuple(EXACT.mpf(x) for x in E))
+    return EXACT.matrix([[columns[j][i] for j in range(3)] for i in range(3)])
 
 
 def motion(to_matrix, E, Edot, Eddot=(0.0, 0.0, 0.0, 0.0)):

@@ -52,14 +52,6 @@ def sign_of_zero_in_body_xyzw(q, q_d):
     return -2.0 * np.sign(e[0]) * e[1:]
 
 
-def no_sign(q, q_d):
-    return 2.0 * right(q, q_d)[1:]
-
-
-def no_sign_xyzw(q, q_d):
-    return -2.0 * left(np.roll(q, 1), np.roll(q_d, 1))[1:]
-
-
 def no_sign_of_matrices(R, R_d):
     """Each quaternion with w >= 0, their product not."""
     q, q_d = (np.roll(Rotation.from_matrix(X).as_quat(canonical=True), 1) for X in (R, R_d))
@@ -80,45 +72,8 @@ def order_swapped(q, q_d):
     return 2.0 * times(q_d, np.array((-1.0, -1.0, -1.0, 1.0)) * q)[1:]
 
 
-def order_swapped_of_the_goal(q, q_d):
-    """The same with the arguments the other way round."""
-    return order_swapped(q_d, q)
-
-
-def order_swapped_of_one(q, q_d):
-    """xyzw: the goal as it is, the pose read as wxyz."""
-    return chord(left(q, np.roll(q_d, 1)))
-
-
-def order_shifted_the_wrong_way(q, q_d):
-    """xyzw, made wxyz by moving the first number to the end."""
-    return chord(left(np.roll(q, -1), np.roll(q_d, -1)))
-
-
-def transposed(R, R_d):
-    return log(R_d @ R)
-
-
-def transposed_columns(R, R_d):
-    """Columns against rows."""
-    return 0.5 * sum(np.cross(R[:, i], R_d[i, :]) for i in range(3))
-
-
-def body_for_base(R, R_d):
-    """R^T applied where R would be right."""
-    return R.T @ log(R.T @ R_d)
-
-
-def base_rotated_again(R, R_d):
-    return -R @ log(R_d @ R.T)
-
-
 def axis_clip(R, R_d):
     return np.clip(log(R_d @ R.T), -0.5, 0.5)
-
-
-def axis_clip_tight(q, q_d):
-    return np.clip(-chord(right(q, q_d)), -0.1, 0.1)
 
 
 def norm_clip(R, R_d):
@@ -156,20 +111,6 @@ def euler_difference(R, R_d):
     return (difference + np.pi) % (2.0 * np.pi) - np.pi
 
 
-def euler_difference_of_quaternions(q, q_d):
-    """xyzw."""
-    return euler_difference(*(Rotation.from_quat(one).as_matrix() for one in (q, q_d)))
-
-
-def euler_of_difference(R, R_d):
-    return -Rotation.from_matrix(R_d @ R.T).as_euler("xyz")
-
-
-def wrong_wrap(R, R_d):
-    """Angles' differences as they are."""
-    return Rotation.from_matrix(R_d).as_euler("xyz") - Rotation.from_matrix(R).as_euler("xyz")
-
-
 def wrong_wrap_of_angle(R, R_d):
     """An angle from 0 to 360° about an axis of the upper half space."""
     e = log(R.T @ R_d)
@@ -180,10 +121,6 @@ def wrong_wrap_of_angle(R, R_d):
 def single_precision(R, R_d):
     X = R_d.astype(np.float32) @ R.T.astype(np.float32)
     return log(X.astype(float))
-
-
-def single_precision_quaternion(q, q_d):
-    return chord(left(np.roll(q, 1).astype(np.float32), np.roll(q_d, 1).astype(np.float32)).astype(np.float32))
 
 
 def deadband(R, R_d):
@@ -224,41 +161,64 @@ def transposes_in_place(R, R_d):
 
 
 PLANTED: dict = {
-    sign_of_zero: {"dead-at-180"},
-    sign_of_zero_in_body_xyzw: {"dead-at-180"},
-    no_sign: {"double-cover"},
-    no_sign_xyzw: {"double-cover"},
-    no_sign_of_matrices: {"long-way"},
-    half_stiff: {"stiffness"},
-    half_stiff_of_matrices: {"stiffness"},
-    order_swapped: {"quaternion-order"},
-    order_swapped_of_the_goal: {"quaternion-order"},
-    order_swapped_of_one: {"quaternion-order"},
-    order_shifted_the_wrong_way: {"quaternion-order"},
-    transposed: {"transpose"},
-    transposed_columns: {"transpose"},
-    body_for_base: {"frame"},
-    base_rotated_again: {"frame"},
-    axis_clip: {"axis-clip"},
-    axis_clip_tight: {"axis-clip"},
-    norm_clip: {"norm-clip"},
-    norm_clip_by_the_largest: {"norm-clip"},
-    clip_of_a_tick: {"norm-clip"},
-    arc_cosine: {"dead-at-180", "digits-near-180", "digits-near-0", "non-unit"},
-    arc_cosine_of_quaternion: {"digits-near-0", "non-unit"},
-    euler_difference: {"euler-angles"},
-    euler_difference_of_quaternions: {"euler-angles"},
-    euler_of_difference: {"euler-angles"},
-    wrong_wrap: {"euler-angles", "long-way"},
-    wrong_wrap_of_angle: {"long-way"},
-    single_precision: {"single-precision"},
-    single_precision_quaternion: {"single-precision"},
-    deadband: {"deadband"},
-    deadband_of_components: {"deadband"},
-    jump_at_90: {"jump"},
-    jump_at_90_of_quaternions: {"jump"},
-    nan_at_identity: {"not-a-number"},
-    nan_at_identity_xyzw: {"not-a-number"},
-    transposes_in_place: {"changes-inputs"},
+    "sign-of-zero": (sign_of_zero, {"dead-at-180"}),
+    "sign-of-zero-in-body-xyzw": (sign_of_zero_in_body_xyzw, {"dead-at-180"}),
+    "no-sign": (lambda q, q_d: 2.0 * right(q, q_d)[1:], {"double-cover"}),
+    "no-sign-xyzw": (lambda q, q_d: -2.0 * left(np.roll(q, 1), np.roll(q_d, 1))[1:], {"double-cover"}),
+    "no-sign-of-matrices": (no_sign_of_matrices, {"long-way"}),
+    "half-stiff": (half_stiff, {"stiffness"}),
+    "half-stiff-of-matrices": (half_stiff_of_matrices, {"stiffness"}),
+    "order-swapped": (order_swapped, {"quaternion-order"}),
+    "order-swapped-of-the-goal": (
+        lambda q, q_d: order_swapped(q_d, q),
+        {"quaternion-order"},
+    ),  # the same with the arguments the other way round
+    "order-swapped-of-one": (
+        lambda q, q_d: chord(left(q, np.roll(q_d, 1))),
+        {"quaternion-order"},
+    ),  # xyzw: the goal as it is, the pose read as wxyz
+    "order-shifted-the-wrong-way": (
+        lambda q, q_d: chord(left(np.roll(q, -1), np.roll(q_d, -1))),
+        {"quaternion-order"},
+    ),  # xyzw, made wxyz by moving the first number to the end
+    "transposed": (lambda R, R_d: log(R_d @ R), {"transpose"}),
+    "transposed-columns": (
+        lambda R, R_d: 0.5 * sum(np.cross(R[:, i], R_d[i, :]) for i in range(3)),
+        {"transpose"},
+    ),  # columns against rows
+    "body-for-base": (lambda R, R_d: R.T @ log(R.T @ R_d), {"frame"}),  # R^T applied where R would be right
+    "base-rotated-again": (lambda R, R_d: -R @ log(R_d @ R.T), {"frame"}),
+    "axis-clip": (axis_clip, {"axis-clip"}),
+    "axis-clip-tight": (lambda q, q_d: np.clip(-chord(right(q, q_d)), -0.1, 0.1), {"axis-clip"}),
+    "norm-clip": (norm_clip, {"norm-clip"}),
+    "norm-clip-by-the-largest": (norm_clip_by_the_largest, {"norm-clip"}),
+    "clip-of-a-tick": (clip_of_a_tick, {"norm-clip"}),
+    "arc-cosine": (arc_cosine, {"dead-at-180", "digits-near-180", "digits-near-0", "non-unit"}),
+    "arc-cosine-of-quaternion": (arc_cosine_of_quaternion, {"digits-near-0", "non-unit"}),
+    "euler-difference": (euler_difference, {"euler-angles"}),
+    "euler-difference-of-quaternions": (
+        lambda q, q_d: euler_difference(*(Rotation.from_quat(one).as_matrix() for one in (q, q_d))),
+        {"euler-angles"},
+    ),  # xyzw
+    "euler-of-difference": (lambda R, R_d: -Rotation.from_matrix(R_d @ R.T).as_euler("xyz"), {"euler-angles"}),
+    "wrong-wrap": (
+        lambda R, R_d: Rotation.from_matrix(R_d).as_euler("xyz") - Rotation.from_matrix(R).as_euler("xyz"),
+        {"euler-angles", "long-way"},
+    ),  # angles' differences as they are
+    "wrong-wrap-of-angle": (wrong_wrap_of_angle, {"long-way"}),
+    "single-precision": (single_precision, {"single-precision"}),
+    "single-precision-quaternion": (
+        lambda q, q_d: chord(
+            left(np.roll(q, 1).astype(np.float32), np.roll(q_d, 1).astype(np.float32)).astype(np.float32)
+        ),
+        {"single-precision"},
+    ),
+    "deadband": (deadband, {"deadband"}),
+    "deadband-of-components": (deadband_of_components, {"deadband"}),
+    "jump-at-90": (jump_at_90, {"jump"}),
+    "jump-at-90-of-quaternions": (jump_at_90_of_quaternions, {"jump"}),
+    "nan-at-identity": (nan_at_identity, {"not-a-number"}),
+    "nan-at-identity-xyzw": (nan_at_identity_xyzw, {"not-a-number"}),
+    "transposes-in-place": (transposes_in_place, {"changes-inputs"}),
 }
-"""Function -> what it must be found to have, notes too; nothing else is true of it."""
+"""Name -> a function, what it must be found to have, notes too; nothing else is true of it."""

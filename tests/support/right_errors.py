@@ -33,18 +33,6 @@ def scipy_of_xyzw(q, q_d):
     return -(q.inv() * q_d).as_rotvec()
 
 
-def scipy_mrp(R, R_d):
-    return 4.0 * transform.Rotation.from_matrix(R.T @ R_d).as_mrp()
-
-
-def scipy_vector_part(R, R_d):
-    return 2.0 * transform.Rotation.from_matrix(R @ R_d.T).as_quat(canonical=True)[:3]
-
-
-def numpy_columns(R, R_d):
-    return columns(R, R_d)
-
-
 def numpy_columns_list_in_body(R, R_d):
     X = R.T @ R_d
     return [[0.5 * (X[j, i] - X[i, j])] for i, j in ((1, 2), (2, 0), (0, 1))]
@@ -52,10 +40,6 @@ def numpy_columns_list_in_body(R, R_d):
 
 def numpy_chord(q, q_d):
     return chord(left(q, q_d))
-
-
-def numpy_chord_xyzw_from_goal(q, q_d):
-    return -chord(right(np.roll(q, 1), np.roll(q_d, 1)))
 
 
 def numpy_atan2(q, q_d):
@@ -82,10 +66,6 @@ def mujoco_sub_quat(q, q_d):
     return e
 
 
-def mujoco_sub_quat_from_goal(q, q_d):
-    return mujoco_sub_quat(q_d, q)
-
-
 def mujoco_quat_to_vel(q, q_d):
     e, product = np.empty(3), np.empty(4)
     mujoco.mju_mulQuat(product, q_d, CONJUGATE * q)
@@ -98,14 +78,6 @@ def mujoco_of_matrices(R, R_d):
     mujoco.mju_mat2Quat(q, (R_d @ R.T).ravel())
     mujoco.mju_quat2Vel(e, q, 1.0)
     return e
-
-
-def pinocchio_in_base(R, R_d):
-    return pinocchio.log3(R_d @ R.T)
-
-
-def pinocchio_in_body(R, R_d):
-    return pinocchio.log3(R.T @ R_d)
 
 
 def pinocchio_of_xyzw(q, q_d):
@@ -122,7 +94,6 @@ def ours(name):
         answer = law(of_columns(R), AT_REST, Goal(of_columns(R_d)), UNIT, *memory)
         return answer[0] if memory else answer
 
-    error.__name__ = name.replace("-", "_")
     return error
 
 
@@ -134,32 +105,38 @@ BASE, BODY = ("base", "to-goal"), ("body", "to-goal")
 BASE_BACK, BODY_BACK = ("base", "from-goal"), ("body", "from-goal")
 
 RIGHT = {
-    scipy_in_base: ("matrix", *BASE, "rotation-vector"),
-    scipy_in_body_from_goal: ("matrix", *BODY_BACK, "rotation-vector"),
-    scipy_of_wxyz: ("wxyz", *BASE, "rotation-vector"),
-    scipy_of_xyzw: ("xyzw", *BODY_BACK, "rotation-vector"),
-    scipy_mrp: ("matrix", *BODY, "mrp"),
-    scipy_vector_part: ("matrix", *BASE_BACK, "sine-of-half"),
-    numpy_columns: ("matrix", *BASE, "sine"),
-    numpy_columns_list_in_body: ("matrix", *BODY, "sine"),
-    numpy_chord: ("wxyz", *BASE, "sine-of-half"),
-    numpy_chord_xyzw_from_goal: ("xyzw", *BODY_BACK, "sine-of-half"),
-    numpy_atan2: ("wxyz", *BASE, "rotation-vector"),
-    numpy_mrp: ("wxyz", *BODY, "mrp"),
-    numpy_form_of_no_name: ("matrix", *BASE, ""),
-    mujoco_sub_quat: ("wxyz", *BODY, "rotation-vector"),
-    mujoco_sub_quat_from_goal: ("wxyz", *BODY_BACK, "rotation-vector"),
-    mujoco_quat_to_vel: ("wxyz", *BASE, "rotation-vector"),
-    mujoco_of_matrices: ("matrix", *BASE, "rotation-vector"),
-    pinocchio_in_base: ("matrix", *BASE, "rotation-vector"),
-    pinocchio_in_body: ("matrix", *BODY, "rotation-vector"),
-    pinocchio_of_xyzw: ("xyzw", *BODY, "rotation-vector"),
-    ours("quaternion-shortest"): ("matrix", *BASE, "sine-of-half"),
-    ours("rotation-vector"): ("matrix", *BASE, "rotation-vector"),
-    ours("rotation-matrix"): ("matrix", *BASE, "sine"),
-    ours("mrp"): ("matrix", *BASE, "mrp"),
-    ours("square-root"): ("matrix", *BASE, "sine-of-half"),
-    ours("in-engine"): ("matrix", *BASE, "rotation-vector"),
-    ours("late-braking"): ("matrix", *BASE, ""),
+    "scipy-in-base": (scipy_in_base, ("matrix", *BASE, "rotation-vector")),
+    "scipy-in-body-from-goal": (scipy_in_body_from_goal, ("matrix", *BODY_BACK, "rotation-vector")),
+    "scipy-of-wxyz": (scipy_of_wxyz, ("wxyz", *BASE, "rotation-vector")),
+    "scipy-of-xyzw": (scipy_of_xyzw, ("xyzw", *BODY_BACK, "rotation-vector")),
+    "scipy-mrp": (lambda R, R_d: 4.0 * transform.Rotation.from_matrix(R.T @ R_d).as_mrp(), ("matrix", *BODY, "mrp")),
+    "scipy-vector-part": (
+        lambda R, R_d: 2.0 * transform.Rotation.from_matrix(R @ R_d.T).as_quat(canonical=True)[:3],
+        ("matrix", *BASE_BACK, "sine-of-half"),
+    ),
+    "numpy-columns": (columns, ("matrix", *BASE, "sine")),
+    "numpy-columns-list-in-body": (numpy_columns_list_in_body, ("matrix", *BODY, "sine")),
+    "numpy-chord": (numpy_chord, ("wxyz", *BASE, "sine-of-half")),
+    "numpy-chord-xyzw-from-goal": (
+        lambda q, q_d: -chord(right(np.roll(q, 1), np.roll(q_d, 1))),
+        ("xyzw", *BODY_BACK, "sine-of-half"),
+    ),
+    "numpy-atan2": (numpy_atan2, ("wxyz", *BASE, "rotation-vector")),
+    "numpy-mrp": (numpy_mrp, ("wxyz", *BODY, "mrp")),
+    "numpy-form-of-no-name": (numpy_form_of_no_name, ("matrix", *BASE, "")),
+    "mujoco-sub-quat": (mujoco_sub_quat, ("wxyz", *BODY, "rotation-vector")),
+    "mujoco-sub-quat-from-goal": (lambda q, q_d: mujoco_sub_quat(q_d, q), ("wxyz", *BODY_BACK, "rotation-vector")),
+    "mujoco-quat-to-vel": (mujoco_quat_to_vel, ("wxyz", *BASE, "rotation-vector")),
+    "mujoco-of-matrices": (mujoco_of_matrices, ("matrix", *BASE, "rotation-vector")),
+    "pinocchio-in-base": (lambda R, R_d: pinocchio.log3(R_d @ R.T), ("matrix", *BASE, "rotation-vector")),
+    "pinocchio-in-body": (lambda R, R_d: pinocchio.log3(R.T @ R_d), ("matrix", *BODY, "rotation-vector")),
+    "pinocchio-of-xyzw": (pinocchio_of_xyzw, ("xyzw", *BODY, "rotation-vector")),
+    "quaternion-shortest": (ours("quaternion-shortest"), ("matrix", *BASE, "sine-of-half")),
+    "rotation-vector": (ours("rotation-vector"), ("matrix", *BASE, "rotation-vector")),
+    "rotation-matrix": (ours("rotation-matrix"), ("matrix", *BASE, "sine")),
+    "mrp": (ours("mrp"), ("matrix", *BASE, "mrp")),
+    "square-root": (ours("square-root"), ("matrix", *BASE, "sine-of-half")),
+    "in-engine": (ours("in-engine"), ("matrix", *BASE, "rotation-vector")),
+    "late-braking": (ours("late-braking"), ("matrix", *BASE, "")),
 }
-"""Function -> what it takes, frame, direction, form."""
+"""Name -> a function, what it takes, frame, direction, form."""

@@ -1,0 +1,69 @@
+"""Contracts that every contender keeps, of whatever kind; a new file, and a new kind, are under them unnamed."""
+
+import inspect
+from importlib import import_module
+from pathlib import Path
+
+import pytest
+from support.command_line import bench
+from support.in_contact import IMPEDANCES
+
+from bench.contenders import registry
+from bench.control import impedance
+from bench.counting.dialect import CONTROLLER_SOURCES, SOURCES, violations
+from bench.law.scalar import KERNELS
+
+EVERY = [
+    pytest.param(kind, one, id=f"{kind}-{one.name}")
+    for kind in registry.FOLDERS
+    for one in registry.known(kind).values()
+]
+PLAIN = {"refuses", "polynomial", "bound"}
+"""Functions of a record that no loop calls."""
+MADE_HERE = {"limiter", "spring", "pose_spring"}
+"""Kinds that may have no source."""
+MAY_IMPORT = {"impedance": CONTROLLER_SOURCES, "baseline": CONTROLLER_SOURCES}
+
+on_every = pytest.mark.parametrize(("kind", "one"), EVERY)
+
+
+def module_of(kind, one):
+    package, _ = registry.FOLDERS[kind]
+    return import_module(f"{package.__name__}.{one.name.replace('-', '_')}")
+
+
+@on_every
+def test_contender_says_what_it_is_and_where_it_is_from(kind, one):
+    assert one.title
+    assert one.source or kind in MADE_HERE
+    assert getattr(one, "formula", "none")
+    assert inspect.getdoc(module_of(kind, one))
+
+
+@on_every
+def test_functions_of_a_contender_are_kernels(kind, one):
+    called = {field: value for field, value in one._asdict().items() if inspect.isfunction(value)}
+    assert [
+        field for field in called.keys() - PLAIN if not field.endswith("_in") and called[field] not in KERNELS
+    ] == []
+
+
+@pytest.mark.parametrize("one", registry.all_contenders(), ids=lambda one: one.name)
+def test_law_in_coordinates_is_a_kernel(one):
+    assert one.law in KERNELS
+
+
+@pytest.mark.parametrize("one", IMPEDANCES, ids=lambda one: one.name)
+def test_impedance_in_coordinates_is_a_kernel(one):
+    assert impedance.law_of(one.impedance, one.representation) in KERNELS
+
+
+@pytest.mark.parametrize(("kind", "one"), [pair for pair in EVERY if pair.values[0] != "shipped"])
+def test_file_of_a_contender_keeps_to_the_dialect(kind, one):
+    text = Path(module_of(kind, one).__file__).read_text()
+    assert violations(text, MAY_IMPORT.get(kind, SOURCES)) == []
+
+
+def test_every_contender_is_listed(capsys):
+    listed = {line.split()[0] for line in bench(capsys, "list").out.splitlines() if line.strip()}
+    assert {one.name for kind in registry.FOLDERS for one in registry.known(kind).values()} <= listed
