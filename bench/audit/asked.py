@@ -38,7 +38,7 @@ def ask(function: Callable, takes: str, pairs: Pairs) -> Answers:
 
 
 def ask_of(function: Callable, now: np.ndarray, goal: np.ndarray) -> Answers:
-    """The same, of arrays."""
+    """Return the function's answers to each pair of the two arrays."""
     e, raised, changed = np.full((len(now), 3), np.nan), [], np.zeros(len(now), bool)
     with warnings.catch_warnings(), np.errstate(all="ignore"):
         warnings.simplefilter("ignore")

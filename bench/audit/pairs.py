@@ -38,7 +38,7 @@ class Pairs(NamedTuple):
     distance: np.ndarray
 
     def chosen(self, which: np.ndarray | slice) -> Pairs:
-        """Those of a mask, of indices or of a slice."""
+        """Select the pairs of a mask, of indices or of a slice."""
         return Pairs(*(field[which] for field in self))
 
 

@@ -75,7 +75,7 @@ class Check(pytest.Item):
         return str(excinfo.value) if excinfo.errisinstance(Faulty) else super().repr_failure(excinfo, style)
 
     def reportinfo(self) -> tuple[Path, int | None, str]:
-        """Where it stands in pytest's lists."""
+        """Return the path and the name under which pytest lists the item."""
         return self.path, None, f"orientation error {self.name}"
 
 

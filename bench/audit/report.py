@@ -47,7 +47,7 @@ class Report(NamedTuple):
 
 
 def file(finding: Finding) -> str:
-    """Where it is explained and looked for."""
+    """Return the path of the file that explains the fault and looks for it."""
     return f"bench/audit/faults/{finding.fault.name.replace('-', '_')}.py"
 
 
@@ -108,7 +108,7 @@ def as_dict(finding: Finding) -> dict[str, Any]:
 
 
 def plain(value: np.ndarray | str) -> Any:
-    """As JSON can hold it."""
+    """Return the value as JSON can hold it."""
     if isinstance(value, str):
         return value
     return value.tolist() if np.isfinite(value).all() else [str(one) for one in value.ravel().tolist()]

@@ -15,7 +15,7 @@ SIGNS = ("to-goal", "from-goal")
 
 
 class Stated(NamedTuple):
-    """As the arguments of `audit`."""
+    """Hold what the caller states, named as the arguments of `audit`."""
 
     takes: str | None = None
     frame: str | None = None

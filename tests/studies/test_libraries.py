@@ -213,7 +213,7 @@ def test_nothing_is_said_against_a_logarithm():
     ("call", "form", "said"),
     [
         (lambda R: logarithm(R) if R.trace() > -1.0 + 1e-15 else np.zeros(3), "rotation-vector", "zero at all 180°"),
-        (lambda R: -logarithm(R), "rotation-vector", "the long way round for"),
+        (lambda R: -logarithm(R), "rotation-vector", "unwinding for"),
         (lambda R: logarithm(R)[[1, 2, 0]], "rotation-vector", "another axis for"),
         (lambda R: logarithm(R) * (1.0 + 1e-3 * (R.trace() < 0.0)), "rotation-vector", "off by 0.006 rad"),
         (lambda R: logarithm(R) / (R.trace() > 0.0), "rotation-vector", "no number for"),
@@ -226,7 +226,7 @@ def test_page_says_what_is_wrong_with_a_function(call, form, said):
 
 def test_page_says_that_the_negative_quaternion_is_answered_otherwise():
     found = line(lambda quat_wxyz: 2.0 * quat_wxyz[1:], QUATERNION, "sine-of-half")
-    assert found["objections"] == {answers.SHEET: "the long way round for −q"}
+    assert found["objections"] == {answers.SHEET: "unwinding for −q"}
 
 
 def test_page_names_the_functions_that_the_committed_answers_condemn():

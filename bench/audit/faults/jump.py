@@ -42,7 +42,7 @@ def find(examined: Examined) -> Found | None:
 
 
 def lines() -> list[tuple[np.ndarray, np.ndarray]]:
-    """Where rotations begin, and about what."""
+    """Return the orientation at which each line of rotations begins, and its axis."""
     rng = np.random.default_rng(SEED)
     q = np.vstack((diagonal(3), drawn_orientations(rng, 5)))
     return [*zip(q, np.vstack((CUBE_AXES[[0, 6, 18]], drawn_axes(rng, 5))), strict=True)]
