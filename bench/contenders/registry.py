@@ -18,7 +18,6 @@ from bench.contenders import (
     inverses,
     jacobians,
     limiters,
-    pose_springs,
     regulators,
     representations,
     shipped,
@@ -30,7 +29,6 @@ from bench.law.contender import ON_MATRIX, Contender, Regulator, Representation,
 from bench.law.damping import Damping
 from bench.law.impedance import Impedance
 from bench.law.limiter import Limiter
-from bench.law.pose_spring import PoseSpring
 from bench.law.resolved_motion import Inverse, Jacobian
 from bench.law.shipped import Shipped
 from bench.law.spring import Spring
@@ -66,7 +64,6 @@ FOLDERS = {
     "limiter": (limiters, Limiter),
     "shipped": (shipped, Shipped),
     "spring": (springs, Spring),
-    "pose_spring": (pose_springs, PoseSpring),
     "compensator": (compensators, Compensator),
 }
 """What is found in a folder of bench/contenders: constants of one type, named as their kind."""
@@ -88,7 +85,6 @@ known_dampings = functools.partial(known, "damping")
 known_limiters = functools.partial(known, "limiter")
 known_shipped = functools.partial(known, "shipped")
 known_springs = functools.partial(known, "spring")
-known_pose_springs = functools.partial(known, "pose_spring")
 known_compensators = functools.partial(known, "compensator")
 
 

@@ -15,7 +15,7 @@ resolved_motion  Jacobian, Inverse: from the tool's acceleration to the joints
 impedance        Impedance
 damping          Damping, of an impedance that shapes no inertia
 limiter          Limiter, of commanded velocities
-spring           Spring, with a stiffness matrix; pose_spring: PoseSpring, of position too
+spring           Spring, of a pose or of a rotation alone
 shipped          Shipped: a controller as its authors set it, and the law it makes
 equation, look   what the book shows of a law: its scalar equation, and how it is drawn
 chain, weighting an arm as kernels see it; weights of its joints
@@ -45,7 +45,6 @@ from bench.law.linalg import (
     solve_upper,
 )
 from bench.law.look import Look
-from bench.law.pose_spring import PoseSpring, rotation_vector
 from bench.law.representation import Representation
 from bench.law.resolved_motion import Inverse, Jacobian
 from bench.law.scalar import acos, atan2, copysign, cos, kernel, sin, sqrt
@@ -67,5 +66,5 @@ from bench.law.so3 import (
     turn_matrix,
     turn_quaternion,
 )
-from bench.law.spring import Spring, times
+from bench.law.spring import Spring, divide_by_left_jacobian, rotation_vector, times
 from bench.law.weighting import GREATEST_GAIN, LENGTH, smaller_gram, solve_gram, weigh

@@ -39,7 +39,6 @@ LISTED = {
     "limiters": "dropped-limiter",
     "shipped": "dropped-shipped",
     "springs": "dropped-spring",
-    "pose-springs": "dropped-pose-spring",
     "compensators": "dropped-compensator",
     "baselines": "dropped-baseline",
     "metrics of contact": "dropped_touch",
