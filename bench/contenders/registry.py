@@ -13,7 +13,6 @@ from typing import Any
 from bench.contenders import (
     baselines,
     compensators,
-    dampings,
     impedances,
     inverses,
     jacobians,
@@ -26,7 +25,6 @@ from bench.contenders import (
 from bench.errors import BadLaw, Incompatible, UnknownWord
 from bench.law.compensator import Compensator
 from bench.law.contender import ON_MATRIX, Contender, Regulator, Representation, contender
-from bench.law.damping import Damping
 from bench.law.impedance import Impedance
 from bench.law.limiter import Limiter
 from bench.law.resolved_motion import Inverse, Jacobian
@@ -59,7 +57,6 @@ FOLDERS = {
     "Jacobian": (jacobians, Jacobian),
     "inverse": (inverses, Inverse),
     "impedance": (impedances, Impedance),
-    "damping": (dampings, Damping),
     "baseline": (baselines, Regulator),
     "limiter": (limiters, Limiter),
     "shipped": (shipped, Shipped),
@@ -81,7 +78,6 @@ known_representations = functools.partial(known, "representation")
 known_jacobians = functools.partial(known, "Jacobian")
 known_inverses = functools.partial(known, "inverse")
 known_impedances = functools.partial(known, "impedance")
-known_dampings = functools.partial(known, "damping")
 known_limiters = functools.partial(known, "limiter")
 known_shipped = functools.partial(known, "shipped")
 known_springs = functools.partial(known, "spring")

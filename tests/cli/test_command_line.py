@@ -18,7 +18,6 @@ from bench.cli.listing import describe_arm
 from bench.cli.paragraphs import laid_out
 from bench.contenders.registry import (
     all_contenders,
-    known_dampings,
     known_impedances,
     known_inverses,
     known_jacobians,
@@ -113,7 +112,6 @@ KNOWN = {
     "inverses": known_inverses(),
     "controllers": dict.fromkeys(one.law for one in all_controllers()),
     "impedances": known_impedances(),
-    "dampings": known_dampings(),
     "limiters": known_limiters(),
     "metrics": known_metrics(),
     "contact-metrics": known_contact_metrics(),

@@ -35,7 +35,6 @@ LISTED = {
     "jacobians": "dropped-jacobian",
     "inverses": "dropped-inverse",
     "impedances": "dropped-impedance",
-    "dampings": "dropped-damping",
     "limiters": "dropped-limiter",
     "shipped": "dropped-shipped",
     "springs": "dropped-spring",

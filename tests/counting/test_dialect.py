@@ -17,7 +17,6 @@ KINDS = (
     "inverses",
     "limiters",
     "springs",
-    "dampings",
     "compensators",
 )
 FILES = sorted(
