@@ -119,7 +119,6 @@ KINDS = {
     "impedances": Kind("Impedances", registry.known_impedances),
     "shipped": Kind("Controllers as they are shipped", registry.known_shipped, "level title source"),
     "baselines": Kind("Baselines of arms, which are no laws", find_baselines),
-    "limiters": Kind("Limiters of velocity commands", registry.known_limiters),
     "springs": Kind("Springs of a pose", registry.known_springs, "is_rotational title source"),
     "compensators": Kind("Laws with a state", registry.known_compensators, "measures_rate property title source"),
     "metrics": Kind("Metrics", known_metrics, "unit arm_only title"),
@@ -153,7 +152,7 @@ def by_name(find: Callable[[str], Any], names) -> Mapping[str, Any]:
 def COMMAND(kind, laws):
     """What there is to run, of one kind or of all.
 
-    Kinds: regulators, representations, jacobians, inverses, controllers, impedances, limiters, shipped,
+    Kinds: regulators, representations, jacobians, inverses, controllers, impedances, shipped,
     springs, compensators, baselines, metrics, contact-metrics, tasks, arms, variations, axes, starts,
     arm-starts, engines, suites, experiments, claims. A file of an arm that cannot be used is listed with the reason.
     """

@@ -16,7 +16,6 @@ from bench.contenders import (
     impedances,
     inverses,
     jacobians,
-    limiters,
     regulators,
     representations,
     shipped,
@@ -26,7 +25,6 @@ from bench.errors import BadLaw, Incompatible, UnknownWord
 from bench.law.compensator import Compensator
 from bench.law.contender import ON_MATRIX, Contender, Regulator, Representation, contender
 from bench.law.impedance import Impedance
-from bench.law.limiter import Limiter
 from bench.law.resolved_motion import Inverse, Jacobian
 from bench.law.shipped import Shipped
 from bench.law.spring import Spring
@@ -58,7 +56,6 @@ FOLDERS = {
     "inverse": (inverses, Inverse),
     "impedance": (impedances, Impedance),
     "baseline": (baselines, Regulator),
-    "limiter": (limiters, Limiter),
     "shipped": (shipped, Shipped),
     "spring": (springs, Spring),
     "compensator": (compensators, Compensator),
@@ -78,7 +75,6 @@ known_representations = functools.partial(known, "representation")
 known_jacobians = functools.partial(known, "Jacobian")
 known_inverses = functools.partial(known, "inverse")
 known_impedances = functools.partial(known, "impedance")
-known_limiters = functools.partial(known, "limiter")
 known_shipped = functools.partial(known, "shipped")
 known_springs = functools.partial(known, "spring")
 known_compensators = functools.partial(known, "compensator")

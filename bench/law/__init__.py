@@ -1,6 +1,6 @@
 """What a law is: the dialect it is written in, rotations, small linear algebra, and the records it is made of.
 
-Whoever writes a law, coordinates, a Jacobian, an inverse, an impedance, a limiter or a spring imports from
+Whoever writes a law, coordinates, a Jacobian, an inverse, an impedance or a spring imports from
 here alone:
 
     from bench.law import Regulator, cross, dot, kernel, sqrt
@@ -13,7 +13,6 @@ representation   Representation; euler: what Euler angles share
 compensator      Compensator: a law with a state of its own
 resolved_motion  Jacobian, Inverse: from the tool's acceleration to the joints
 impedance        Impedance
-limiter          Limiter, of commanded velocities
 spring           Spring, of a pose or of a rotation alone
 shipped          Shipped: a controller as its authors set it, and the law it makes
 equation, look   what the book shows of a law: its scalar equation, and how it is drawn
@@ -27,7 +26,6 @@ from bench.law.compensator import Compensator
 from bench.law.contender import AT_REST, Contender, Gains, Goal, Regulator
 from bench.law.equation import ANGLE, CHORD, LINEAR_MRP, LINEAR_SINE, QUARTER, SINE, TANGENT, Equation
 from bench.law.impedance import Impedance, driven
-from bench.law.limiter import GREATEST_RATE, Limiter
 from bench.law.linalg import (
     determinant,
     exceeds,

@@ -21,7 +21,6 @@ from bench.contenders.registry import (
     known_impedances,
     known_inverses,
     known_jacobians,
-    known_limiters,
     known_regulators,
     known_representations,
 )
@@ -112,7 +111,6 @@ KNOWN = {
     "inverses": known_inverses(),
     "controllers": dict.fromkeys(one.law for one in all_controllers()),
     "impedances": known_impedances(),
-    "limiters": known_limiters(),
     "metrics": known_metrics(),
     "contact-metrics": known_contact_metrics(),
     "tasks": [*tasks.names(), *tasks.contact_names()],

@@ -1,4 +1,4 @@
-"""The promise of growing: one file adds a regulator, representation, Jacobian, inverse, impedance, limiter, baseline,
+"""The promise of growing: one file adds a regulator, representation, Jacobian, inverse, impedance, baseline,
 metric, task, arm, start set, perturbation, experiment, claim, or page; a metric or task of contact too, and starts of
 arms."""
 
@@ -35,7 +35,6 @@ LISTED = {
     "jacobians": "dropped-jacobian",
     "inverses": "dropped-inverse",
     "impedances": "dropped-impedance",
-    "limiters": "dropped-limiter",
     "shipped": "dropped-shipped",
     "springs": "dropped-spring",
     "compensators": "dropped-compensator",

@@ -15,7 +15,6 @@ KINDS = (
     "representations",
     "jacobians",
     "inverses",
-    "limiters",
     "springs",
     "compensators",
 )
