@@ -4,8 +4,8 @@ Rooms, bottom up; each imports only from rooms above it in this list (pyproject.
 
 law/          what a law is: the dialect, rotations, linear algebra, records. `from bench.law import Regulator, kernel`
 audit/        anybody's orientation error: pairs, convention, faults/ (one file each), report; knows nothing of laws
-contenders/   the contestants, one file each: regulators/ representations/ jacobians/ inverses/ impedances/ dampings/
-              limiters/ springs/ pose_springs/, laws with a state of their own: compensators/,
+contenders/   the contestants, one file each: regulators/ representations/ jacobians/ inverses/ impedances/
+              springs/, laws with a state of their own: compensators/,
               what others run: shipped/; registry finds them, combinations says what goes together; a user's own:
               law_file runs it, law_process where, described_law is what everybody else knows of it
 control/      contenders at work: resolved_acceleration (tau = D J^-1 (u - Jdot qdot) + fg), velocity (omega = K f),

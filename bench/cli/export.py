@@ -35,8 +35,8 @@ def COMMAND(law: str, language: str, out: Path | None, laws: tuple[Path, ...]):
     """Write a LAW as code for your controller, translated from its one source, with test vectors.
 
     A law is named as in `list regulators`, with its coordinates where it has several; representation-NAME are the
-    functions of coordinates, impedance-NAME an impedance, spring-NAME a spring with a stiffness matrix,
-    pose-spring-NAME one of position too, compensator-NAME a law with a state. --law FILE runs your file to load it.
+    functions of coordinates, impedance-NAME an impedance, spring-NAME a spring, of a pose or of a
+    rotation alone, compensator-NAME a law with a state. --law FILE runs your file to load it.
     """
     from bench.contenders.law_file import load_law
     from bench.export.language import find_language

@@ -119,10 +119,7 @@ KINDS = {
     "impedances": Kind("Impedances", registry.known_impedances),
     "shipped": Kind("Controllers as they are shipped", registry.known_shipped, "level title source"),
     "baselines": Kind("Baselines of arms, which are no laws", find_baselines),
-    "dampings": Kind("Dampings of impedances without inertia shaping", registry.known_dampings),
-    "limiters": Kind("Limiters of velocity commands", registry.known_limiters),
-    "springs": Kind("Rotational springs with a stiffness matrix", registry.known_springs),
-    "pose-springs": Kind("Springs of position and orientation", registry.known_pose_springs),
+    "springs": Kind("Springs of a pose", registry.known_springs, "is_rotational title source"),
     "compensators": Kind("Laws with a state", registry.known_compensators, "measures_rate property title source"),
     "metrics": Kind("Metrics", known_metrics, "unit arm_only title"),
     "contact-metrics": Kind("Metrics of contact", known_contact_metrics, "unit title"),
@@ -155,8 +152,8 @@ def by_name(find: Callable[[str], Any], names) -> Mapping[str, Any]:
 def COMMAND(kind, laws):
     """What there is to run, of one kind or of all.
 
-    Kinds: regulators, representations, jacobians, inverses, controllers, impedances, dampings, limiters, shipped,
-    springs, pose-springs, compensators, baselines, metrics, contact-metrics, tasks, arms, variations, axes, starts,
+    Kinds: regulators, representations, jacobians, inverses, controllers, impedances, shipped,
+    springs, compensators, baselines, metrics, contact-metrics, tasks, arms, variations, axes, starts,
     arm-starts, engines, suites, experiments, claims. A file of an arm that cannot be used is listed with the reason.
     """
     own = options.own_laws(laws)

@@ -13,12 +13,9 @@ from typing import Any
 from bench.contenders import (
     baselines,
     compensators,
-    dampings,
     impedances,
     inverses,
     jacobians,
-    limiters,
-    pose_springs,
     regulators,
     representations,
     shipped,
@@ -27,10 +24,7 @@ from bench.contenders import (
 from bench.errors import BadLaw, Incompatible, UnknownWord
 from bench.law.compensator import Compensator
 from bench.law.contender import ON_MATRIX, Contender, Regulator, Representation, contender
-from bench.law.damping import Damping
 from bench.law.impedance import Impedance
-from bench.law.limiter import Limiter
-from bench.law.pose_spring import PoseSpring
 from bench.law.resolved_motion import Inverse, Jacobian
 from bench.law.shipped import Shipped
 from bench.law.spring import Spring
@@ -61,12 +55,9 @@ FOLDERS = {
     "Jacobian": (jacobians, Jacobian),
     "inverse": (inverses, Inverse),
     "impedance": (impedances, Impedance),
-    "damping": (dampings, Damping),
     "baseline": (baselines, Regulator),
-    "limiter": (limiters, Limiter),
     "shipped": (shipped, Shipped),
     "spring": (springs, Spring),
-    "pose_spring": (pose_springs, PoseSpring),
     "compensator": (compensators, Compensator),
 }
 """What is found in a folder of bench/contenders: constants of one type, named as their kind."""
@@ -84,11 +75,8 @@ known_representations = functools.partial(known, "representation")
 known_jacobians = functools.partial(known, "Jacobian")
 known_inverses = functools.partial(known, "inverse")
 known_impedances = functools.partial(known, "impedance")
-known_dampings = functools.partial(known, "damping")
-known_limiters = functools.partial(known, "limiter")
 known_shipped = functools.partial(known, "shipped")
 known_springs = functools.partial(known, "spring")
-known_pose_springs = functools.partial(known, "pose_spring")
 known_compensators = functools.partial(known, "compensator")
 
 

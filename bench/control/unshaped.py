@@ -9,12 +9,17 @@ compensates c too, as libfranka's example does, has c in it: qdot^T c = qdot^T M
 On seven joints the elbow is damped, -NULL_RATE (M qdot - J^T Lambda v): no acceleration of the hand, and power of
 -NULL_RATE times twice the kinetic energy that the hand does not show.
 
-Fails: where J loses rank, Lambda, and with it D of two designs, is not finite.
+D is chosen among DAMPINGS: one damping ratio zeta is asked for, and a design makes D of K and Lambda.
+
+Limitations: where J loses rank, Lambda, and with it D of two designs, is not finite.
 Source: Hogan 1985; Albu-Schaeffer et al. 2003; frankaemika/libfranka@155ddac8, cartesian_impedance_control.cpp.
 """
 
-from bench.law.linalg import factor, gram, multiply, multiply_transposed, solve_factored, solve_lower
-from bench.law.scalar import kernel
+from collections.abc import Callable
+from typing import NamedTuple
+
+from bench.law.linalg import factor, gram, multiply, multiply_transposed, orthogonalize, solve_factored, solve_lower
+from bench.law.scalar import kernel, sqrt
 
 NULL_RATE = 10.0
 """[1/s]: half of the paper's Kv, as for other controllers on seven joints (`resolved_acceleration.relax`)."""
@@ -52,3 +57,91 @@ def damp_elbow(J, M, Lambda, qdot, v, n, w, x, tau):
     multiply(M, qdot, tau, n, n)
     for i in range(n):
         tau[i] = NULL_RATE * (x[i] - tau[i])
+
+
+class Damping(NamedTuple):
+    """design(K, Lambda, zeta, D, scratch): write the damping D (6 x 6) [N s/m, N m s/rad], base frame.
+
+    K: six stiffnesses [N/m, N m/rad]; Lambda: the hand's inertia at the pose, 6 x 6, both halves; zeta: the ratio that
+    is asked for. Neither K nor Lambda is changed.
+    """
+
+    title: str
+    design: Callable
+
+
+@kernel
+def damp_by_stiffness(K, Lambda, zeta, D, scratch):
+    """D = 2 zeta diag(sqrt(K_i)), as if every mass were 1 kg and every inertia 1 kg m^2.
+
+    The number depends on the units: of a hand of inertia m it makes the ratio zeta/sqrt(m).
+
+    Limitations: a light wrist creeps back, and with D dt/m above 2 the sampled loop is unstable.
+    Source: frankaemika/libfranka@155ddac80565975b58f53eb2feeb85b07a6b9e13, cartesian_impedance_control.cpp.
+    """
+    for i in range(6):
+        for j in range(6):
+            D[i, j] = 0.0
+        D[i, i] = 2.0 * zeta * sqrt(K[i])
+
+
+@kernel
+def damp_modes(K, Lambda, zeta, D, scratch):
+    """D = 2 zeta Q diag(omega_i) Q^T, with Lambda = Q Q^T and K = Q diag(omega_i^2) Q^T: zeta in every mode.
+
+    With Lambda = L L^T and the singular values diag(sqrt(K_i))^-1 L = U Sigma V^T: Q = L V and omega_i = 1/sigma_i. D
+    is 2 zeta times the geometric mean of the matrices Lambda and K, 2 zeta B diag(sigma_i^-3) B^T with B = L (V Sigma).
+
+    Limitations: Lambda is that of the pose, so that D changes along the path.
+    Source: Albu-Schaeffer, Ott, Frese, Hirzinger 2003 (ICRA, 3704-3709).
+    """
+    L, rows, B, k = scratch.A, scratch.B, scratch.V, scratch.s
+    for i in range(6):
+        for j in range(6):
+            L[i, j] = Lambda[i, j]
+    factor(L, 6)
+    for i in range(6):
+        L[i, i] = 1.0 / L[i, i]
+        k[i] = sqrt(K[i])
+        for j in range(6):
+            if j > i:
+                L[i, j] = 0.0
+            rows[i, j] = L[i, j] / k[i]
+    orthogonalize(rows, k, 6, 6)  # to Sigma V^T
+    for i in range(6):
+        for j in range(6):
+            total = L[i, 0] * rows[j, 0]
+            for m in range(1, 6):
+                total = total + L[i, m] * rows[j, m]
+            B[i, j] = total
+    for j in range(6):
+        square = rows[j, 0] * rows[j, 0]
+        for m in range(1, 6):
+            square = square + rows[j, m] * rows[j, m]
+        scratch.t[j] = 1.0 / (square * sqrt(square))
+    for i in range(6):
+        for j in range(6):
+            total = 0.0 * B[i, 0]
+            for m in range(6):
+                total = total + B[i, m] * scratch.t[m] * B[j, m]
+            D[i, j] = 2.0 * zeta * total
+
+
+@kernel
+def damp_axes(K, Lambda, zeta, D, scratch):
+    """D = 2 zeta diag(sqrt(K_i Lambda_ii)), as of one mass on a spring, axis by axis.
+
+    Limitations: Lambda couples the axes, which is left out: no mode has the ratio zeta, and some have much less.
+    """
+    for i in range(6):
+        for j in range(6):
+            D[i, j] = 0.0
+        D[i, i] = 2.0 * zeta * sqrt(K[i] * Lambda[i, i])
+
+
+DAMPINGS = {
+    "diagonal": Damping("Twice the root of the stiffness", damp_by_stiffness),
+    "double-diagonalization": Damping("Double diagonalization", damp_modes),
+    "per-axis": Damping("A ratio for each axis", damp_axes),
+}
+"""The choices of D, by the word that rows have."""

@@ -7,6 +7,7 @@ import mujoco
 import numpy as np
 
 import tasks
+from bench.control.unshaped import Damping
 from bench.engines.binding import memory_of
 from bench.engines.compiled import compile_function, made_once
 from bench.engines.episode import Settings, numbers, start_rows
@@ -16,7 +17,6 @@ from bench.engines.native.impedance import Springs, blank_rows
 from bench.engines.native.libmujoco import model_of
 from bench.engines.run import evaluation
 from bench.law.contender import Contender
-from bench.law.damping import Damping
 
 ARM_TASK = "arm-regulation"
 

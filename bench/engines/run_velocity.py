@@ -2,6 +2,7 @@
 
 import functools
 import math
+from collections.abc import Callable
 
 import mujoco
 import numpy as np
@@ -18,14 +19,13 @@ from bench.engines.run import evaluation
 from bench.engines.run_arm import resolution
 from bench.engines.velocity import Pace, blank_rows
 from bench.law.contender import Contender
-from bench.law.limiter import Limiter
 from tasks.velocity import servo
 
 ARM_TASK = "arm-regulation"
 
 
 def run(
-    contender: Contender, limiter: Limiter, K: float, starts, settings: Settings, arm: str = "", lag_s: float = 0.0
+    contender: Contender, limit: Callable, K: float, starts, settings: Settings, arm: str = "", lag_s: float = 0.0
 ) -> np.ndarray:
     """Rows of `engines.velocity`, one per start.
 
@@ -37,7 +37,7 @@ def run(
     rows, begun, given = blank_rows(len(starts)), start_rows(starts), numbers(settings)
     pace = Pace(float(K), *map(float, servo(settings.dt_s, lag_s)))
     law = contender._replace(jacobian=None, inverse=None)
-    functions = evaluation(law), limit_of(limiter)
+    functions = evaluation(law), limit_of(limit)
     if not arm:
         free_body()(*functions, memory_of(law), begun, pace, given, rows)
         return rows
@@ -70,15 +70,15 @@ def arms():
 
 
 @made_once
-def limit_of(limiter: Limiter):
+def limit_of(limit: Callable):
     """A limiter as the loops call it."""
-    return compile_function(limiter.limit, velocity.LIMIT)
+    return compile_function(limit, velocity.LIMIT)
 
 
-def prepare(contender: Contender, limiters) -> None:
+def prepare(contender: Contender, limits) -> None:
     """Compile what `run` will need, or take it from the disk cache."""
     evaluation(contender._replace(jacobian=None, inverse=None))
-    for one in limiters:
+    for one in limits:
         limit_of(one)
     if contender.inverse:
         resolution(contender.inverse)

@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from bench.contenders.registry import find_contender, known_dampings
+from bench.contenders.registry import find_contender
+from bench.control.unshaped import DAMPINGS
 from bench.engines.episode import FINAL_ANGLE
 from bench.experiments import arm, starts
 from bench.experiments.columns import ANGLE0, DT, HORIZON, JUDGED, SUITE, Column, Table, numbers, singles, words
@@ -93,9 +94,7 @@ def columns() -> list[Column]:
 def units_on_arms(asked: Asked, name: str, **more) -> tuple[Unit, ...]:
     """Return a unit a design of damping on each arm of the plan."""
     arms = dict.fromkeys(unit.arm for unit in arm.units(asked))
-    return tuple(
-        Unit(name, task="arm-regulation", arm=one, selector=word, **more) for one in arms for word in known_dampings()
-    )
+    return tuple(Unit(name, task="arm-regulation", arm=one, selector=word, **more) for one in arms for word in DAMPINGS)
 
 
 def units(asked: Asked) -> tuple[Unit, ...]:
@@ -119,7 +118,7 @@ def _rows(settings: Settings, unit: Unit, stiffness: Stiffness, whole: int) -> d
     from bench.engines.run_impedance import run
 
     some = starts.on_arm(START_SET, unit.count, settings.seed, unit.arm)
-    law, damping = find_contender(LAW), known_dampings()[unit.selector]
+    law, damping = find_contender(LAW), DAMPINGS[unit.selector]
     springs = Springs(*stiffness, ZETA, whole)
     numbers, _ = run(law, damping, springs, some, settings.limits(unit.horizon_s), unit.arm)
     angle0 = np.array([angle(start.quat_wxyz, start.goal_wxyz) for start in some])
@@ -166,7 +165,7 @@ def prepare(settings: Settings, unit: Unit) -> None:
     """Compile the loop, the error and the design."""
     from bench.engines import run_impedance
 
-    run_impedance.prepare(find_contender(LAW), (known_dampings()[unit.selector],))
+    run_impedance.prepare(find_contender(LAW), (DAMPINGS[unit.selector],))
 
 
 EXPERIMENT = Experiment(

@@ -12,7 +12,8 @@ from __future__ import annotations
 import numpy as np
 
 import tasks
-from bench.contenders.registry import find_contender, known_dampings
+from bench.contenders.registry import find_contender
+from bench.control.unshaped import DAMPINGS
 from bench.experiments.columns import DT, Column, Table, counts, numbers
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit
 from bench.experiments.impedance import (
@@ -82,9 +83,7 @@ def hand_matrices(settings: Settings, unit: Unit, stiffness: Stiffness) -> tuple
     states = np.hstack((arm.home, np.zeros(n))) + offsets
     begun = [judge.start("", one[:n], quat, one[n:], goal_p=tuple(p.tolist())) for one in states]
     limits = settings.limits(dt)._replace(ticks=1)
-    _, ends = run(
-        find_contender(LAW), known_dampings()[unit.selector], Springs(*stiffness, ZETA, 0), begun, limits, unit.arm
-    )
+    _, ends = run(find_contender(LAW), DAMPINGS[unit.selector], Springs(*stiffness, ZETA, 0), begun, limits, unit.arm)
     tick = (ends[: 2 * n] - ends[2 * n :]).T / (2.0 * STEP)
     J = judge.jacobian(arm.home)
     J_inverse = np.linalg.pinv(J)

@@ -11,15 +11,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from bench.contenders.registry import known_pose_springs
+from bench.contenders.registry import known_springs
 from bench.experiments.columns import Column, Table, counts, numbers, words
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit
-from bench.experiments.springs import LOOPS, POINTS, STIFFNESSES, WIDTH, closed_path, right_jacobian
+from bench.experiments.springs import LOOPS, POINTS, WIDTH, closed_path, draw_stiffness, right_jacobian
 
 if TYPE_CHECKING:
     from scipy.spatial.transform import Rotation
 
-    from bench.law.pose_spring import PoseSpring
+    from bench.law.spring import Spring
 
 NAME = "pose-springs"
 
@@ -31,9 +31,11 @@ STEP, STEPS = 0.1, 80
 """Of Runge and Kutta's method, in units of 1/gain: e^-8 of the pose is left."""
 ALIKE = np.eye(3)
 
+SPRINGS = tuple(spring for spring in known_springs().values() if not spring.is_rotational)
+
 
 def columns() -> list[Column]:
-    """pose-springs.parquet: springs of position and orientation (bench/contenders/pose_springs), a row a spring.
+    """pose-springs.parquet: springs of position and orientation (bench/contenders/springs), a row a spring.
 
     K is symmetric with eigenvalues 30, 10 and 3 N/m along drawn axes, kr is 10 N m/rad; ways are of velocity commands
     with K = I and kr = 1, from uniform orientations, half a metre from the goal.
@@ -52,7 +54,7 @@ def columns() -> list[Column]:
 
 def units(asked: Asked) -> tuple[Unit, ...]:
     """Return one unit."""
-    return (Unit(NAME, count=len(known_pose_springs()), total=len(known_pose_springs()), horizon_s=2.0),)
+    return (Unit(NAME, count=len(SPRINGS), total=len(SPRINGS), horizon_s=2.0),)
 
 
 def rows(settings: Settings, unit: Unit) -> list[dict]:
@@ -60,13 +62,12 @@ def rows(settings: Settings, unit: Unit) -> list[dict]:
     from scipy.spatial.transform import Rotation
 
     rng = np.random.default_rng((settings.seed, 12))
-    axes = Rotation.random(rng=rng).as_matrix()
-    K = axes @ np.diag(STIFFNESSES) @ axes.T
+    K, _ = draw_stiffness(rng)
     paths = rng.uniform(-WIDTH, WIDTH, (LOOPS, 2, 3, 3)) / math.sqrt(3.0)
     begun = list(zip(Rotation.random(STARTS, rng=rng), _on_sphere(rng, STARTS, REACH_M), strict=True))
     off = _on_sphere(rng, 1, ELSEWHERE_M)[0]
     found = []
-    for spring in known_pose_springs().values():
+    for spring in SPRINGS:
         lengths = [length(motion(spring, *one)[1]) / REACH_M for one in begun]
         found.append(
             {
@@ -88,14 +89,14 @@ def _on_sphere(rng: np.random.Generator, count: int, radius: float) -> np.ndarra
     return radius * drawn / np.linalg.norm(drawn, axis=1, keepdims=True)
 
 
-def wrench(spring: PoseSpring, turn: Rotation, p: np.ndarray, K: np.ndarray, kr: float) -> tuple[np.ndarray, ...]:
+def wrench(spring: Spring, turn: Rotation, p: np.ndarray, K: np.ndarray, kr: float) -> tuple[np.ndarray, ...]:
     """Return (f, m) at a pose."""
     q = tuple(turn.as_quat(canonical=True, scalar_first=True).tolist())
     f, m = spring.wrench(q, tuple(p.tolist()), tuple(map(tuple, K.tolist())), kr)
     return np.array(f), np.array(m)
 
 
-def compute_work(spring: PoseSpring, paths: np.ndarray, K: np.ndarray) -> float:
+def compute_work(spring: Spring, paths: np.ndarray, K: np.ndarray) -> float:
     """Compute the largest |work| over closed paths, over what K's greatest stiffness and kr store at the furthest."""
     from scipy.spatial.transform import Rotation
 
@@ -114,7 +115,7 @@ def compute_work(spring: PoseSpring, paths: np.ndarray, K: np.ndarray) -> float:
     return float(max(shares))
 
 
-def motion(spring: PoseSpring, turn: Rotation, p: np.ndarray) -> tuple[list[Rotation], np.ndarray]:
+def motion(spring: Spring, turn: Rotation, p: np.ndarray) -> tuple[list[Rotation], np.ndarray]:
     """Compute orientations and places of the hand's origin under the velocity command with K = I and kr = 1."""
     from scipy.spatial.transform import Rotation
 
@@ -141,7 +142,7 @@ def length(places: np.ndarray) -> float:
     return float(np.sum(np.linalg.norm(np.diff(places, axis=0), axis=1)))
 
 
-def apart(spring: PoseSpring, turn: Rotation, p: np.ndarray, off: np.ndarray) -> float:
+def apart(spring: Spring, turn: Rotation, p: np.ndarray, off: np.ndarray) -> float:
     """Compute how far apart the same point of the hand is at most when its origin is drawn `off` beside it [m].
 
     Hand and goal have the origin at a point c = off of their axes: seen from the goal it lies at p + R c - c.

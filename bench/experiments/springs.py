@@ -35,6 +35,10 @@ VANISHED = 1e-9
 Moment = Callable[[np.ndarray], np.ndarray]
 """moment(q) of the remaining rotation -> in the tool's axes [N m]."""
 
+ROTATIONAL = tuple(spring for spring in known_springs().values() if spring.is_rotational)
+ORIGIN, NO_STIFFNESS = (0.0, 0.0, 0.0), ((0.0, 0.0, 0.0),) * 3
+"""Place and stiffness of position, which a rotational spring ignores."""
+
 
 def columns() -> list[Column]:
     """springs.parquet: rotational springs with a stiffness matrix (bench/contenders/springs), a row a spring and frame.
@@ -64,19 +68,16 @@ def columns() -> list[Column]:
 
 def units(asked: Asked) -> tuple[Unit, ...]:
     """Return one unit."""
-    return (Unit(NAME, count=len(known_springs()), total=len(known_springs()), horizon_s=2.0),)
+    return (Unit(NAME, count=len(ROTATIONAL), total=len(ROTATIONAL), horizon_s=2.0),)
 
 
 def rows(settings: Settings, unit: Unit) -> list[dict]:
     """Return a row a spring and frame of its moment."""
-    from scipy.spatial.transform import Rotation
-
     rng = np.random.default_rng((settings.seed, 11))
-    axes = Rotation.random(rng=rng).as_matrix()
-    K = axes @ np.diag(STIFFNESSES) @ axes.T
+    K, axes = draw_stiffness(rng)
     paths = rng.uniform(-WIDTH, WIDTH, (LOOPS, 3, 3)) / math.sqrt(3.0)
     found = []
-    for spring in known_springs().values():
+    for spring in ROTATIONAL:
         for frame in spring.frames:
             moment, alike = in_tool(spring, frame, K), in_tool(spring, frame, STIFFNESSES[1] * np.eye(3))
             least, most = compute_felt_stiffness(moment, K)
@@ -97,12 +98,20 @@ def rows(settings: Settings, unit: Unit) -> list[dict]:
     return found
 
 
+def draw_stiffness(rng: np.random.Generator) -> tuple[np.ndarray, np.ndarray]:
+    """Draw the axes of the stiffness matrix with eigenvalues STIFFNESSES, and return both."""
+    from scipy.spatial.transform import Rotation
+
+    axes = Rotation.random(rng=rng).as_matrix()
+    return axes @ np.diag(STIFFNESSES) @ axes.T, axes
+
+
 def in_tool(spring: Spring, name: str, K: np.ndarray) -> Moment:
     """Return the moment in the tool's axes: as it is, or turned there from the goal's."""
     by_rows = tuple(map(tuple, K.tolist()))
 
     def moment(q: np.ndarray) -> np.ndarray:
-        given = np.array(spring.moment(tuple(q.tolist()), by_rows))
+        given = np.array(spring.wrench(tuple(q.tolist()), ORIGIN, NO_STIFFNESS, by_rows)[1])
         return given if name == "tool" else np.array(columns_of(tuple(q.tolist()))) @ given
 
     return moment
@@ -170,7 +179,7 @@ def compute_energy_error(spring: Spring, moment: Moment, K: np.ndarray) -> float
     by_rows = tuple(map(tuple, K.tolist()))
 
     def stored(q) -> float:
-        return float(spring.potential(tuple(q.tolist()), by_rows)) if spring.potential else 0.0
+        return float(spring.potential(tuple(q.tolist()), ORIGIN, NO_STIFFNESS, by_rows)) if spring.potential else 0.0
 
     def rate(_, state):
         q, W = state[:4], state[4:7]

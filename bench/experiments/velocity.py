@@ -16,7 +16,7 @@ import numpy as np
 
 import tasks
 from bench.contenders import combinations
-from bench.contenders.registry import known_inverses, known_limiters
+from bench.contenders.registry import known_inverses
 from bench.control.velocity import is_velocity_law
 from bench.engines.episode import FINAL_ANGLE, OUTCOME
 from bench.experiments import arm, starts
@@ -37,6 +37,7 @@ from bench.experiments.columns import (
 )
 from bench.experiments.episode_rows import contender_columns, judged_columns
 from bench.experiments.experiment import OF_LAWS, Asked, Experiment, Settings, Unit, own_last
+from bench.experiments.limiters import LIMITERS, NONE
 from bench.experiments.suites import AT_VELOCITIES, BY_EVERY_INVERSE, SUITES, WITHOUT_FACTOR
 from bench.experiments.traces import laws
 from bench.law.contender import Contender, refusal
@@ -56,9 +57,6 @@ LAGS_S = (0.0, 0.05)
 """Time constants of servos: none, and one that with K = 10/s makes K T = 1/2, twice what does not overshoot."""
 
 BESIDE_RAD = 1e-12
-
-NONE = "none"
-"""The limiter that limits nothing."""
 
 PLACED = ("share", "limiter", "lag_s", "start_set")
 
@@ -194,15 +192,15 @@ def parts(settings: Settings, unit: Unit) -> Iterator[Part]:
     for share in (1.0, 0.5) if unit.contender == WITHOUT_FACTOR else (1.0,):
         yield Part("uniform", uniform, share=share)
         yield Part("half-turn", exact, share=share)
-        yield from (Part("uniform", few, name, share) for name in known_limiters() if name != NONE)
+        yield from (Part("uniform", few, name, share) for name in LIMITERS if name != NONE)
 
 
 def _run(settings: Settings, unit: Unit, part: Part, some: list[Start]) -> np.ndarray:
     from bench.engines.run_velocity import run
 
-    one, limiter = settings.contender(unit.contender), known_limiters()[part.limiter]
+    one, limit = settings.contender(unit.contender), LIMITERS[part.limiter].limit
     K = part.share * gain(settings)
-    return run(one, limiter, K, some, settings.limits(unit.horizon_s), unit.arm, part.lag_s)
+    return run(one, limit, K, some, settings.limits(unit.horizon_s), unit.arm, part.lag_s)
 
 
 def _turned(start: Start) -> Start:
@@ -230,7 +228,7 @@ def prepare(settings: Settings, unit: Unit) -> None:
     """Compile the loops, the limiters, the law and the inverse."""
     from bench.engines import run_velocity
 
-    run_velocity.prepare(settings.contender(unit.contender), known_limiters().values())
+    run_velocity.prepare(settings.contender(unit.contender), [one.limit for one in LIMITERS.values()])
 
 
 EXPERIMENT = Experiment(

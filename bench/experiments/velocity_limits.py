@@ -18,14 +18,15 @@ import numpy as np
 
 import tasks
 from bench.contenders import combinations
-from bench.contenders.registry import find_contender, known_limiters
+from bench.contenders.registry import find_contender
 from bench.engines.episode import FAILURE_TICK, FINAL_ANGLE, NEVER
 from bench.experiments import arm, velocity
 from bench.experiments.columns import ARM, CONTENDER, CONTENDER_KEY, Column, Table, numbers, words
 from bench.experiments.episode_rows import contender_columns
 from bench.experiments.experiment import OF_LAWS, Asked, Experiment, Settings, Unit, own_last
+from bench.experiments.limiters import pass_all
 from bench.experiments.suites import BY_EVERY_INVERSE, WITHOUT_FACTOR
-from bench.experiments.velocity import NONE, SHARE
+from bench.experiments.velocity import SHARE
 from tasks.base import Start
 from tasks.rotations import about, multiply
 
@@ -147,8 +148,8 @@ def _run(settings: Settings, unit: Unit, begun, k_dt: float, ticks: int, lag_tic
     from bench.engines.run_velocity import run
 
     limits = settings.limits(1.0)._replace(dt_s=DT_S, ticks=ticks, hold_ticks=ticks + 1)
-    one, none = settings.contender(unit.contender), known_limiters()[NONE]
-    made = run(one, none, k_dt / DT_S, begun, limits, unit.arm, lag_ticks * DT_S)
+    one = settings.contender(unit.contender)
+    made = run(one, pass_all, k_dt / DT_S, begun, limits, unit.arm, lag_ticks * DT_S)
     made[made[:, FAILURE_TICK] != NEVER, FINAL_ANGLE] = math.inf
     return made
 

@@ -9,7 +9,7 @@ from typing import Any
 
 from bench.counting.costs import FLOPS, cost
 from bench.counting.counted import TOTAL
-from bench.export.subject import IMPEDANCE, POSE_SPRING, SPRING, STATED, Subject
+from bench.export.subject import IMPEDANCE, SPRING, STATED, Subject
 from bench.provenance import ROOT
 
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
@@ -41,10 +41,9 @@ OF_KIND = {
         "State     four numbers; begin returns the first of them, next_state those of every period after",
     ),
     IMPEDANCE: (f"{GAINS}apparent inertia [kg m^2]; stiffness at the goal kp times that",),
-    POSE_SPRING: (
-        "Pose      R, p: R_d^T R and R_d^T (p - p_d); eta, epsilon, phi: quaternion and rotation vector of R",
+    SPRING: (
+        "Pose      R, p: R_d^T R and R_d^T (p - p_d); eta >= 0, epsilon, phi: quaternion and rotation vector of R",
     ),
-    SPRING: ("Turn      eta, epsilon: the quaternion of R_d^T R, eta >= 0; phi: its rotation vector",),
 }
 """Lines of a kind that is no regulator."""
 
@@ -93,7 +92,7 @@ def _facts(subject: Subject) -> list[str]:
 
 def _function(record: Any) -> Callable:
     """Return the function of a record whose module says where it fails."""
-    found = (getattr(record, name, None) for name in ("law", "law_in", "chart", "moment", "wrench"))
+    found = (getattr(record, name, None) for name in ("law", "law_in", "chart", "wrench"))
     return next(one for one in found if one is not None)
 
 

@@ -1,4 +1,4 @@
-"""Entries of laws with a state, of springs, and of springs of a pose, in both frames."""
+"""Entries of laws with a state and of springs, in both frames."""
 
 from collections.abc import Callable
 
@@ -51,23 +51,18 @@ def of_compensator(law: Callable, begin: Callable) -> list[Entry]:
     return [*both, Entry("begin", first, (R,), STATE, BEGIN)]
 
 
-def of_spring(law: Callable) -> list[Entry]:
-    """Return the moment of a spring on the body."""
+def of_spring(law: Callable, is_rotational: bool) -> list[Entry]:
+    """Return the force and the moment of a spring on the hand; of a rotational spring, the moment on the body alone."""
 
-    def make(frame: Frame) -> tuple[Callable, ...]:
+    def make_rotational(frame: Frame) -> tuple[Callable, ...]:
         from_body = frame.from_body
 
         @kernel
         def moment(R, R_d, stiffness):
-            return from_body(R, law(turn_left(R, R_d), by_rows(stiffness)))
+            _f, m = law(turn_left(R, R_d), AT_REST, AT_REST, by_rows(stiffness))
+            return from_body(R, m)
 
         return (moment,)
-
-    return in_both_frames(make, ((R, R_D, STIFFNESS), MOMENT, ON_BODY))
-
-
-def of_pose_spring(law: Callable) -> list[Entry]:
-    """Return the force and the moment on the hand of a spring of position and orientation."""
 
     def make(frame: Frame) -> tuple[Callable, ...]:
         from_body = frame.from_body
@@ -89,6 +84,8 @@ def of_pose_spring(law: Callable) -> list[Entry]:
 
         return force, moment
 
+    if is_rotational:
+        return in_both_frames(make_rotational, ((R, R_D, STIFFNESS), MOMENT, ON_BODY))
     given = (R, P, R_D, P_D, STIFFNESS, TURNING)
     return in_both_frames(make, (given, FORCE, ON_HAND), (given, MOMENT, TURN))
 

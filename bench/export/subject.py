@@ -11,7 +11,6 @@ from bench.contenders import registry
 from bench.contenders.registry import (
     known_compensators,
     known_impedances,
-    known_pose_springs,
     known_representations,
     known_springs,
 )
@@ -19,19 +18,18 @@ from bench.control.registry import all_controllers
 from bench.errors import UnknownWord
 from bench.export.entries import Entry, of_impedance, of_law, of_representation
 from bench.export.reading import Program
-from bench.export.sprung import of_compensator, of_pose_spring, of_spring
+from bench.export.sprung import of_compensator, of_spring
 from bench.export.types import REAL, Kind, Tuple, Typed, numbers
 from bench.law.contender import Contender, Gains, Regulator
 from bench.law.so3 import Rotation
 
 COORDINATES, IMPEDANCE = "representation-", "impedance-"
-STATED, SPRING, POSE_SPRING = "compensator-", "spring-", "pose-spring-"
+STATED, SPRING = "compensator-", "spring-"
 """What words begin with, by kind; a regulator's is its name."""
 
 ALONE: dict[str, tuple[Callable[[], dict], Callable[[Any], list[Entry]]]] = {
     STATED: (known_compensators, lambda one: of_compensator(one.law, one.begin)),
-    SPRING: (known_springs, lambda one: of_spring(one.moment)),
-    POSE_SPRING: (known_pose_springs, lambda one: of_pose_spring(one.wrench)),
+    SPRING: (known_springs, lambda one: of_spring(one.wrench, one.is_rotational)),
 }
 """Kinds that act on no coordinates: the records of each by name, and the entries of a record."""
 

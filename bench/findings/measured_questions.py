@@ -10,8 +10,8 @@ import itertools
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from bench.contenders.registry import known_limiters, known_shipped
-from bench.law.limiter import GREATEST_RATE
+from bench.contenders.registry import known_shipped
+from bench.experiments.limiters import GREATEST_RATE, clamp_axes, clamp_norm
 from tasks.goal_stream import STREAMS, componentwise, continued, goals, normalized, slerp
 from tasks.rotations import about
 from tasks.truth import angle
@@ -106,8 +106,7 @@ def measure_tolerance_box() -> tuple[float, float]:
 def measure_clipped_direction() -> tuple[float, float]:
     """Compare a command of three times the limit with what a clip by component, and one of the norm, leave of it."""
     omega = 3.0 * GREATEST_RATE * np.array([np.cos(np.radians(20.0)), np.sin(np.radians(20.0)), 0.0])
-    limits = (known_limiters()[name].limit for name in ("axis-clamp", "norm-clamp"))
-    before, after = (angle_between(omega, limit(tuple(omega.tolist()), 1.0)) for limit in limits)
+    before, after = (angle_between(omega, limit(tuple(omega.tolist()), 1.0)) for limit in (clamp_axes, clamp_norm))
     return before, after
 
 

@@ -1,6 +1,6 @@
 """What a law is: the dialect it is written in, rotations, small linear algebra, and the records it is made of.
 
-Whoever writes a law, coordinates, a Jacobian, an inverse, an impedance, a damping, a limiter or a spring imports from
+Whoever writes a law, coordinates, a Jacobian, an inverse, an impedance or a spring imports from
 here alone:
 
     from bench.law import Regulator, cross, dot, kernel, sqrt
@@ -13,9 +13,7 @@ representation   Representation; euler: what Euler angles share
 compensator      Compensator: a law with a state of its own
 resolved_motion  Jacobian, Inverse: from the tool's acceleration to the joints
 impedance        Impedance
-damping          Damping, of an impedance that shapes no inertia
-limiter          Limiter, of commanded velocities
-spring           Spring, with a stiffness matrix; pose_spring: PoseSpring, of position too
+spring           Spring, of a pose or of a rotation alone
 shipped          Shipped: a controller as its authors set it, and the law it makes
 equation, look   what the book shows of a law: its scalar equation, and how it is drawn
 chain, weighting an arm as kernels see it; weights of its joints
@@ -26,10 +24,8 @@ tracking         goals that move
 from bench.law.chain import bias_acceleration, twist
 from bench.law.compensator import Compensator
 from bench.law.contender import AT_REST, Contender, Gains, Goal, Regulator
-from bench.law.damping import Damping
 from bench.law.equation import ANGLE, CHORD, LINEAR_MRP, LINEAR_SINE, QUARTER, SINE, TANGENT, Equation
 from bench.law.impedance import Impedance, driven
-from bench.law.limiter import GREATEST_RATE, Limiter
 from bench.law.linalg import (
     determinant,
     exceeds,
@@ -45,7 +41,6 @@ from bench.law.linalg import (
     solve_upper,
 )
 from bench.law.look import Look
-from bench.law.pose_spring import PoseSpring, rotation_vector
 from bench.law.representation import Representation
 from bench.law.resolved_motion import Inverse, Jacobian
 from bench.law.scalar import acos, atan2, copysign, cos, kernel, sin, sqrt
@@ -67,5 +62,5 @@ from bench.law.so3 import (
     turn_matrix,
     turn_quaternion,
 )
-from bench.law.spring import Spring, times
+from bench.law.spring import Spring, divide_by_left_jacobian, rotation_vector, times
 from bench.law.weighting import GREATEST_GAIN, LENGTH, smaller_gram, solve_gram, weigh

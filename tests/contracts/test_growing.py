@@ -1,4 +1,4 @@
-"""The promise of growing: one file adds a regulator, representation, Jacobian, inverse, impedance, limiter, baseline,
+"""The promise of growing: one file adds a regulator, representation, Jacobian, inverse, impedance, baseline,
 metric, task, arm, start set, perturbation, experiment, claim, or page; a metric or task of contact too, and starts of
 arms."""
 
@@ -35,11 +35,8 @@ LISTED = {
     "jacobians": "dropped-jacobian",
     "inverses": "dropped-inverse",
     "impedances": "dropped-impedance",
-    "dampings": "dropped-damping",
-    "limiters": "dropped-limiter",
     "shipped": "dropped-shipped",
     "springs": "dropped-spring",
-    "pose-springs": "dropped-pose-spring",
     "compensators": "dropped-compensator",
     "baselines": "dropped-baseline",
     "metrics of contact": "dropped_touch",

@@ -9,8 +9,8 @@ from scipy.linalg import sqrtm
 from scipy.spatial.transform import Rotation
 
 import tasks
-from bench.contenders.registry import find_contender, known_dampings
-from bench.control.unshaped import NULL_RATE
+from bench.contenders.registry import find_contender
+from bench.control.unshaped import DAMPINGS, NULL_RATE
 from bench.engines.episode import FINAL_ANGLE, FIRST_METRIC, OUTCOME, Settings
 from bench.engines.native.impedance import ADDED, DAMPED, ELBOW, KINETIC, LEFT, OVERSHOOT, STRAIN, Springs
 from bench.engines.run_impedance import run
@@ -39,7 +39,7 @@ def energies(rows, starts, springs):
 def test_arm_goes_where_a_loop_of_mujoco_numpy_and_scipy_takes_it(arm, whole):
     [start], ticks, dt, zeta = tasks.start_set("clear", 1, 0, arm), 150, 1e-3, 0.7
     [row], [end] = run(
-        LAW, known_dampings()["double-diagonalization"], Springs(*STIFF, zeta, whole), [start], settings(0.15), arm
+        LAW, DAMPINGS["double-diagonalization"], Springs(*STIFF, zeta, whole), [start], settings(0.15), arm
     )
     model = mujoco.MjModel.from_xml_string(tasks.task("arm-regulation", arm).xml(dt))
     data, still, site, n = mujoco.MjData(model), mujoco.MjData(model), model.site("tool").id, model.nv
@@ -71,12 +71,12 @@ def test_arm_goes_where_a_loop_of_mujoco_numpy_and_scipy_takes_it(arm, whole):
 
 
 @pytest.mark.parametrize("whole", [0, 1])
-@pytest.mark.parametrize("damping", known_dampings())
+@pytest.mark.parametrize("damping", DAMPINGS)
 @pytest.mark.parametrize("arm", ["jaco", "panda", "puma560", "ur5e"])
 def test_energy_balance_closes_and_better_with_half_the_tick(arm, damping, whole):
     starts, springs, gaps = tasks.start_set("clear", 2, 0, arm), Springs(150.0, 10.0, 1.0, whole), []
     for dt in (1e-3, 5e-4):
-        rows, _ = run(LAW, known_dampings()[damping], springs, starts, settings(dt=dt), arm)
+        rows, _ = run(LAW, DAMPINGS[damping], springs, starts, settings(dt=dt), arm)
         stored, left, gone = energies(rows, starts, springs)
         gaps.append(np.abs(left + gone - stored) / stored)
     assert np.max(gaps[0]) < 5e-4
@@ -88,7 +88,7 @@ def test_energy_balance_closes_and_better_with_half_the_tick(arm, damping, whole
 def test_energy_never_grows_where_gravity_alone_is_compensated(arm):
     starts, springs = tasks.start_set("clear", 4, 0, arm), Springs(*STIFF, 1.0, 0)
     for horizon_s in (0.1, 0.4, 1.0):
-        rows, _ = run(LAW, known_dampings()["per-axis"], springs, starts, settings(horizon_s), arm)
+        rows, _ = run(LAW, DAMPINGS["per-axis"], springs, starts, settings(horizon_s), arm)
         stored, left, _ = energies(rows, starts, springs)
         assert (left < stored).all()
         assert (rows[:, ADDED] == 0.0).all()
@@ -98,20 +98,20 @@ def test_energy_never_grows_where_gravity_alone_is_compensated(arm):
 
 def test_work_of_compensated_coriolis_torques_has_either_sign():
     starts, springs = tasks.start_set("clear", 4, 0, "panda"), Springs(*STIFF, 1.0, 1)
-    rows, _ = run(LAW, known_dampings()["per-axis"], springs, starts, settings(), "panda")
+    rows, _ = run(LAW, DAMPINGS["per-axis"], springs, starts, settings(), "panda")
     assert rows[:, ADDED].min() < 0.0 < rows[:, ADDED].max()
 
 
 def test_shipped_rule_diverges_on_the_panda_at_1_khz_and_settles_at_2_khz():
     starts, springs = tasks.start_set("clear", 2, 0, "panda"), Springs(*STIFF, 1.0, 0)
     for dt, outcome in ((1e-3, None), (5e-4, SETTLED)):
-        rows, _ = run(LAW, known_dampings()["diagonal"], springs, starts, settings(dt=dt), "panda")
+        rows, _ = run(LAW, DAMPINGS["diagonal"], springs, starts, settings(dt=dt), "panda")
         assert (rows[:, OUTCOME] != SETTLED).all() if outcome is None else (rows[:, OUTCOME] == outcome).all()
 
 
 def test_torques_beyond_the_judges_limit_end_an_episode():
     starts, springs = tasks.start_set("clear", 1, 0, "ur5e"), Springs(*STIFF, 1.0, 0)
-    rows, _ = run(LAW, known_dampings()["per-axis"], springs, starts, settings(torque_limit=0.5), "ur5e")
+    rows, _ = run(LAW, DAMPINGS["per-axis"], springs, starts, settings(torque_limit=0.5), "ur5e")
     assert rows[0, OUTCOME] == SATURATED
     assert rows[0, STRAIN] > 0.0
 
@@ -120,7 +120,7 @@ def test_arm_at_its_goal_stays_there():
     arm = tasks.arm("ur5e")
     [begun] = tasks.start_set("clear", 1, 0, "ur5e")
     still = begun._replace(goal_wxyz=begun.quat_wxyz, goal_p=())
-    rows, ends = run(LAW, known_dampings()["per-axis"], Springs(*STIFF, 1.0, 0), [still], settings(0.5), arm.name)
+    rows, ends = run(LAW, DAMPINGS["per-axis"], Springs(*STIFF, 1.0, 0), [still], settings(0.5), arm.name)
     np.testing.assert_allclose(ends[0], (*begun.q, *[0.0] * 6), atol=1e-9)
     assert math.isclose(rows[0, OVERSHOOT], 0.0)
     assert rows.shape[1] == FIRST_METRIC + 8

@@ -8,18 +8,18 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 import tasks
-from bench.contenders.registry import find_contender, known_limiters
+from bench.contenders.registry import find_contender
 from bench.engines.episode import FINAL_ANGLE, OUTCOME, SETTLING_TICK, TICKS, Settings
 from bench.engines.run_velocity import run
 from bench.engines.velocity import BENT, OFF, PATH, PEAK, RATE
-from bench.law import GREATEST_RATE
+from bench.experiments.limiters import GREATEST_RATE, clamp_axes, clamp_norm, drop_small_errors, pass_all
 from bench.law.contender import Gains
 from tasks.base import Start
 from tasks.rotations import about
 from tasks.truth import angle
 from tasks.verdict import SETTLED, STUCK
 
-NONE, K, DT = known_limiters()["none"], 10.0, 1e-3
+NONE, K, DT = pass_all, 10.0, 1e-3
 
 
 def settings(ticks=2500, hold_ticks=250, dt=DT):
@@ -73,7 +73,7 @@ def test_law_without_its_sign_unwinds():
 @pytest.mark.parametrize("rad", [1.0, 3.0])
 def test_norm_clamp_settles_at_its_closed_form(rad):
     """At the bound b until theta = b/K, then theta = (b/K) exp(-K t), to 2 % of the beginning."""
-    [row] = run(find_contender("rotation-vector"), known_limiters()["norm-clamp"], K, turned_by(rad), settings())
+    [row] = run(find_contender("rotation-vector"), clamp_norm, K, turned_by(rad), settings())
     knee = GREATEST_RATE / K
     expected = (rad - knee) / GREATEST_RATE + math.log(knee / (0.02 * rad)) / K
     assert row[SETTLING_TICK] * DT == pytest.approx(expected, abs=3e-3)
@@ -84,12 +84,12 @@ def test_norm_clamp_settles_at_its_closed_form(rad):
 def test_clamp_per_axis_bends_the_command_by_the_angle_between():
     omega = K * 3.0 * np.array((1.0, 2.0, 3.0)) / math.sqrt(14.0)  # all three components are cut: (b, b, b)
     expected = math.acos(omega.sum() / (math.sqrt(3.0) * np.linalg.norm(omega)))
-    [row] = run(find_contender("rotation-vector"), known_limiters()["axis-clamp"], K, turned_by(3.0), settings(1))
+    [row] = run(find_contender("rotation-vector"), clamp_axes, K, turned_by(3.0), settings(1))
     assert row[BENT] == pytest.approx(expected, rel=1e-9)
 
 
 def test_deadband_leaves_less_than_its_diagonal():
-    [row] = run(find_contender("rotation-vector"), known_limiters()["deadband"], K, turned_by(2.0), settings())
+    [row] = run(find_contender("rotation-vector"), drop_small_errors, K, turned_by(2.0), settings())
     assert 1e-3 < row[FINAL_ANGLE] < 5e-3 * math.sqrt(3.0)
 
 

@@ -1,21 +1,25 @@
-"""Rotational springs beside what is not ours: gradients of potentials, the trace form, scipy's rotations."""
+"""Springs beside what is not ours: gradients of potentials, the trace form, logarithms, closed forms of paths."""
 
 import functools
 
 import numpy as np
 import pytest
+from scipy.linalg import expm, logm
 from scipy.spatial.transform import Rotation
 
 from bench.contenders.registry import known_springs
-from bench.experiments import springs
+from bench.experiments import pose_springs, springs
 from bench.experiments.experiment import Settings, Unit, rows_of
 from bench.law.scalar import KERNELS
 
 SPRINGS = known_springs()
 AXES = Rotation.from_rotvec([0.3, -0.5, 0.7]).as_matrix()
-K = AXES @ np.diag([30.0, 10.0, 3.0]) @ AXES.T
+K, KR = AXES @ np.diag([30.0, 10.0, 3.0]) @ AXES.T, 7.0
 each = pytest.mark.parametrize("spring", SPRINGS.values(), ids=SPRINGS)
-TURNS = [one for one in Rotation.random(200, rng=np.random.default_rng(3)) if one.magnitude() < 3.0]
+rotational = pytest.mark.parametrize("spring", springs.ROTATIONAL, ids=lambda one: one.name)
+of_pose = pytest.mark.parametrize("spring", pose_springs.SPRINGS, ids=lambda one: one.name)
+DRAWN = np.random.default_rng(3)
+POSES = [(one, DRAWN.normal(size=3)) for one in Rotation.random(100, rng=DRAWN) if one.magnitude() < 3.0]
 
 
 @functools.cache
@@ -23,56 +27,88 @@ def rows():
     return rows_of(Settings("quick"), Unit("springs", count=1, total=1)).set_index(["spring", "frame"])
 
 
-def matrix(q):
-    return tuple(map(tuple, q))
+@functools.cache
+def rows_of_poses():
+    return rows_of(Settings("quick"), Unit("pose-springs", count=1, total=1)).set_index("spring")
 
 
-def quaternion(turn):
-    return tuple(turn.as_quat(canonical=True, scalar_first=True).tolist())
+def asked(spring, turn, p):
+    """The arguments of a spring's functions."""
+    q, by_rows = tuple(turn.as_quat(canonical=True, scalar_first=True).tolist()), tuple(map(tuple, K.tolist()))
+    return q, tuple(p.tolist()), by_rows, by_rows if spring.is_rotational else KR
+
+
+def matrix(turn, p):
+    X = np.eye(4)
+    X[:3, :3], X[:3, 3] = turn.as_matrix(), p
+    return X
 
 
 @each
 def test_functions_are_kernels_of_the_dialect(spring):
-    assert spring.moment in KERNELS
+    assert spring.wrench in KERNELS
     assert spring.potential is None or spring.potential in KERNELS
 
 
 @pytest.mark.parametrize("name", [name for name, spring in SPRINGS.items() if spring.potential])
-def test_moment_is_the_gradient_of_its_potential(name):
-    spring = SPRINGS[name]
-    h = 1e-5
-    for turn in TURNS:
-        beside = [[turn * Rotation.from_rotvec(s * h * e) for e in np.eye(3)] for s in (1.0, -1.0)]
-        ahead, behind = ([spring.potential(quaternion(one), matrix(K)) for one in side] for side in beside)
-        gradient = (np.array(ahead) - np.array(behind)) / (2.0 * h)
-        np.testing.assert_allclose(spring.moment(quaternion(turn), matrix(K)), -gradient, atol=1e-6)
+def test_wrench_is_the_gradient_of_its_potential(name):
+    spring, h = SPRINGS[name], 1e-5
+    for turn, p in POSES:
+        for wrench, moved in zip(
+            spring.wrench(*asked(spring, turn, p)),
+            (
+                lambda step, turn=turn, p=p: (turn, p + turn.apply(step)),
+                lambda step, turn=turn, p=p: (turn * Rotation.from_rotvec(step), p),
+            ),
+            strict=True,
+        ):
+            ahead, behind = (
+                [spring.potential(*asked(spring, *moved(s * h * e))) for e in np.eye(3)] for s in (1.0, -1.0)
+            )
+            np.testing.assert_allclose(wrench, (np.array(behind) - np.array(ahead)) / (2.0 * h), atol=1e-5)
+
+
+@rotational
+def test_rotational_spring_makes_no_force_and_ignores_the_place(spring):
+    for turn, p in POSES[:5]:
+        f, m = spring.wrench(*asked(spring, turn, p))
+        assert f == (0.0, 0.0, 0.0)
+        assert m == spring.wrench(*asked(spring, turn, 2.0 * p))[1]
 
 
 def test_energy_of_the_quaternion_is_the_trace_form():
     spring, G = SPRINGS["quaternion-energy"], 0.5 * np.trace(K) * np.eye(3) - K
-    for turn in TURNS:
+    for turn, p in POSES:
         X = turn.as_matrix()
-        assert spring.potential(quaternion(turn), matrix(K)) == pytest.approx(np.trace(G @ (np.eye(3) - X)), rel=1e-12)
+        assert spring.potential(*asked(spring, turn, p)) == pytest.approx(np.trace(G @ (np.eye(3) - X)), rel=1e-12)
         twice = G @ X - X.T @ G
         expected = -np.array([twice[2, 1], twice[0, 2], twice[1, 0]])
-        np.testing.assert_allclose(spring.moment(quaternion(turn), matrix(K)), expected, atol=1e-12)
+        np.testing.assert_allclose(spring.wrench(*asked(spring, turn, p))[1], expected, atol=1e-12)
 
 
 def test_logarithms_are_scipys():
-    for turn in TURNS:
-        expected = -K @ turn.as_rotvec()
-        np.testing.assert_allclose(SPRINGS["logarithm"].moment(quaternion(turn), matrix(K)), expected, atol=1e-12)
-        energy = SPRINGS["logarithm-energy"].potential(quaternion(turn), matrix(K))
-        assert energy == pytest.approx(0.5 * turn.as_rotvec() @ K @ turn.as_rotvec(), rel=1e-12)
+    plain, energy = SPRINGS["logarithm"], SPRINGS["logarithm-energy"]
+    for turn, p in POSES:
+        phi = turn.as_rotvec()
+        np.testing.assert_allclose(plain.wrench(*asked(plain, turn, p))[1], -K @ phi, atol=1e-12)
+        assert energy.potential(*asked(energy, turn, p)) == pytest.approx(0.5 * phi @ K @ phi, rel=1e-12)
 
 
-def test_rate_of_a_way_is_scipys():
+def test_logarithm_of_the_pose_is_that_of_the_matrix():
+    for turn, p in POSES[:50]:
+        f, m = pose_springs.wrench(SPRINGS["log-pose"], turn, p, np.eye(3), 1.0)
+        xi = logm(matrix(turn, p)).real
+        np.testing.assert_allclose(-f, xi[:3, 3], atol=1e-9)
+        np.testing.assert_allclose(-m, (xi[2, 1], xi[0, 2], xi[1, 0]), atol=1e-9)
+
+
+def test_rate_of_a_path_is_scipys():
     phi, rate, h = np.array([0.9, -1.2, 0.4]), np.array([0.3, 0.5, -0.7]), 1e-6
     turned = Rotation.from_rotvec(phi - h * rate).inv() * Rotation.from_rotvec(phi + h * rate)
     np.testing.assert_allclose(springs.right_jacobian(phi) @ rate, turned.as_rotvec() / (2.0 * h), atol=1e-9)
 
 
-@each
+@rotational
 def test_stiffness_felt_is_what_the_file_says(spring):
     for frame in spring.frames:
         found = rows().loc[(spring.name, frame)]
@@ -80,8 +116,8 @@ def test_stiffness_felt_is_what_the_file_says(spring):
         assert found["felt_most"] == pytest.approx(spring.stiffness, rel=1e-6)
 
 
-@each
-def test_work_is_zero_for_what_has_a_potential_and_no_one_else(spring):
+@rotational
+def test_work_is_zero_for_a_potential_or_equal_stiffness_and_no_one_else(spring):
     found = rows().loc[spring.name]
     if spring.potential:
         assert (found["work_share"] < 1e-14).all()
@@ -90,12 +126,46 @@ def test_work_is_zero_for_what_has_a_potential_and_no_one_else(spring):
     assert (found["work_share_isotropic"] < 1e-14).all()
 
 
+@of_pose
+def test_work_over_paths_of_a_pose_is_zero_for_what_has_a_potential_and_no_one_else(spring):
+    assert (rows_of_poses().loc[spring.name, "work_share"] < 1e-13) == bool(spring.potential)
+
+
+def test_logarithm_of_the_pose_is_no_spring_even_where_stiffness_is_the_same_about_all_axes():
+    assert rows_of_poses().loc["log-pose", "work_share_isotropic"] > 1e-3
+    assert (rows_of_poses().drop("log-pose")["work_share_isotropic"] < 1e-13).all()
+
+
 def test_twice_as_many_points_change_no_work():
-    spring, ways = SPRINGS["logarithm"], np.random.default_rng(1).uniform(-0.7, 0.7, (2, 3, 3))
+    spring, paths = SPRINGS["logarithm"], np.random.default_rng(1).uniform(-0.7, 0.7, (2, 3, 3))
     moment = springs.in_tool(spring, "tool", K)
-    few = springs.compute_work(moment, ways, 30.0)
-    assert springs.compute_work(moment, ways, 30.0, points=2 * springs.POINTS) == pytest.approx(few, rel=1e-12)
+    few = springs.compute_work(moment, paths, 30.0)
+    assert springs.compute_work(moment, paths, 30.0, points=2 * springs.POINTS) == pytest.approx(few, rel=1e-12)
 
 
-def test_energy_balance_of_every_spring_closes():
+def test_energy_balance_of_every_rotational_spring_closes():
     assert (rows()["balance_share"] < 1e-10).all()
+
+
+def test_motion_of_the_logarithm_is_one_screw():
+    """X(t) = exp(e^-t xi), by the matrix exponential; the origin's path is |rho| long."""
+    turn, p = POSES[0]
+    xi = logm(matrix(turn, p)).real
+    turns, places = pose_springs.motion(SPRINGS["log-pose"], turn, p)
+    for step in (1, 20, pose_springs.STEPS):
+        X = expm(np.exp(-step * pose_springs.STEP) * xi)
+        np.testing.assert_allclose(turns[step].as_matrix(), X[:3, :3], atol=1e-5)
+        np.testing.assert_allclose(places[step], X[:3, 3], atol=1e-5)
+    done = 1.0 - np.exp(-pose_springs.STEP * pose_springs.STEPS)
+    assert pose_springs.length(places) == pytest.approx(done * np.linalg.norm(xi[:3, 3]), rel=5e-3)  # chords
+
+
+@pytest.mark.parametrize("name", ["split", "split-tool", "geometric"])
+def test_split_position_goes_straight(name):
+    done = 1.0 - np.exp(-pose_springs.STEP * pose_springs.STEPS)
+    assert rows_of_poses().loc[name, ["way_median", "way_most"]].tolist() == pytest.approx([done, done], rel=1e-6)
+
+
+def test_only_the_logarithm_of_the_pose_does_not_see_where_the_origin_is():
+    assert rows_of_poses().loc["log-pose", "apart_m"] < 1e-5
+    assert (rows_of_poses().drop("log-pose")["apart_m"] > 0.1).all()

@@ -95,7 +95,7 @@ IN_CPP = (
     "impedance-geometric",
     "compensator-integral",
     "spring-logarithm-energy",
-    "pose-spring-log-pose",
+    "spring-log-pose",
 )
 """With memory, calling libm, with four coordinates and matrices returned, a number and nine numbers among arguments."""
 

@@ -7,13 +7,13 @@ import pandas as pd
 import pytest
 
 import tasks
-from bench.contenders.registry import known_dampings
+from bench.control.unshaped import DAMPINGS
 from bench.experiments.experiment import Settings, Unit, rows_of
 from bench.experiments.impedance import STIFFNESSES, ZETA
 from bench.findings.theory import impedance_modes as theory
 
 ARMS = ("panda", "puma560", "ur5e")
-DESIGNS = tuple(known_dampings())
+DESIGNS = tuple(DAMPINGS)
 
 
 @functools.cache

@@ -14,11 +14,8 @@ DROPPED = {
     "bench/contenders/jacobians/dropped_jacobian.py": renamed("jacobians", "geometric", "jacobian"),
     "bench/contenders/inverses/dropped_inverse.py": renamed("inverses", "solve", "inverse"),
     "bench/contenders/impedances/dropped_impedance.py": renamed("impedances", "geometric", "impedance"),
-    "bench/contenders/dampings/dropped_damping.py": renamed("dampings", "diagonal", "damping"),
-    "bench/contenders/limiters/dropped_limiter.py": renamed("limiters", "norm_clamp", "limiter"),
     "bench/contenders/shipped/dropped_shipped.py": renamed("shipped", "crisp", "shipped"),
     "bench/contenders/springs/dropped_spring.py": renamed("springs", "vector_part", "spring"),
-    "bench/contenders/pose_springs/dropped_pose_spring.py": renamed("pose_springs", "split", "pose-spring"),
     "bench/contenders/compensators/dropped_compensator.py": renamed("compensators", "integral", "compensator"),
     "bench/contenders/baselines/dropped_baseline.py": renamed("baselines", "resolved_rate", "baseline"),
     "bench/contenders/regulators/dropped_regulator.py": '''

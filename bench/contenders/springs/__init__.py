@@ -1,1 +1,1 @@
-"""Rotational springs with a stiffness matrix, one file each, with one constant SPRING. The file is the word."""
+"""Springs of a pose, rotational ones among them, one file each, with one constant SPRING. The file is the word."""

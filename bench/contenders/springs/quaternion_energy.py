@@ -1,33 +1,33 @@
-"""The spring of the potential U = 2 eps^T K eps.
+"""The spring of the potential U = 2 eps^T Kr eps.
 
 eps' = (eta I + [eps]x) omega/2 in the tool's axes, so that U' = -moment . omega with
 
-    moment = -2 (eta I - [eps]x) K eps
+    moment = -2 (eta I - [eps]x) Kr eps
 
-It is the trace form too, U = tr(G (I - R_d^T R)) with G = tr(K)/2 I - K (Bullo, Murray 1999), written in quaternions.
+It is the trace form too, U = tr(G (I - R_d^T R)) with G = tr(Kr)/2 I - Kr (Bullo, Murray 1999), in quaternions.
 
-Fails: at 180 degrees about the eigenvectors of K it vanishes.
+Limitations: at 180 degrees about the eigenvectors of Kr it vanishes.
 
 Source: Caccavale, Natale, Siciliano, Villani 1999, IEEE Transactions on Robotics and Automation 15(2), section IV.
 """
 
-from bench.law import Spring, cross, dot, kernel, times
+from bench.law import AT_REST, Spring, cross, dot, kernel, times
 
 
 @kernel
-def moment(q, K):
-    """-2 (eta K eps - eps x K eps), in the tool's axes."""
+def wrench(q, p, K, Kr):
+    """Return (0, -2 (eta Kr eps - eps x Kr eps))."""
     eps = (q[1], q[2], q[3])
-    e = times(K, eps)
+    e = times(Kr, eps)
     c = cross(eps, e)
-    return (-2.0 * (q[0] * e[0] - c[0]), -2.0 * (q[0] * e[1] - c[1]), -2.0 * (q[0] * e[2] - c[2]))
+    return AT_REST, (-2.0 * (q[0] * e[0] - c[0]), -2.0 * (q[0] * e[1] - c[1]), -2.0 * (q[0] * e[2] - c[2]))
 
 
 @kernel
-def potential(q, K):
-    """2 eps^T K eps [J]."""
+def potential(q, p, K, Kr):
+    """Return 2 eps^T Kr eps [J]."""
     eps = (q[1], q[2], q[3])
-    return 2.0 * dot(eps, times(K, eps))
+    return 2.0 * dot(eps, times(Kr, eps))
 
 
 SPRING = Spring(
@@ -35,7 +35,7 @@ SPRING = Spring(
     "Energy of the quaternion",
     "Caccavale and others 1999",
     r"-2(\eta I - [\epsilon]_\times)K\epsilon",
-    moment,
+    wrench,
     potential,
-    ("tool",),
+    is_rotational=True,
 )

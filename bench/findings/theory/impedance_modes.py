@@ -18,7 +18,7 @@ import pandas as pd
 from scipy.linalg import eigh
 
 import tasks
-from bench.contenders.registry import known_dampings
+from bench.control.unshaped import DAMPINGS
 from bench.engines.arm_episode import buffers
 from bench.experiments.impedance import Stiffness
 from tasks.kinematics import kinematics
@@ -46,7 +46,7 @@ def hand_of(name: str, rotor: float = 0.0) -> Hand:
 def damping_matrix(name: str, stiffness: Stiffness, mobility: np.ndarray, zeta: float) -> np.ndarray:
     """D of a design, 6 x 6."""
     D = np.zeros((6, 6))
-    known_dampings()[name].design(diagonal(stiffness), np.linalg.inv(mobility), zeta, D, buffers(7).scratch)
+    DAMPINGS[name].design(diagonal(stiffness), np.linalg.inv(mobility), zeta, D, buffers(7).scratch)
     return D
 
 

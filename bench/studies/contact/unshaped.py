@@ -9,10 +9,9 @@ In tasks it is set what impedances with inertia shaping are, at their stiffness,
 import numpy as np
 
 import tasks
-from bench.contenders.registry import known_dampings
 from bench.control.contact_controller import ContactController
 from bench.control.registry import find_controller
-from bench.control.unshaped import NULL_RATE
+from bench.control.unshaped import DAMPINGS, NULL_RATE
 from bench.engines.arm_episode import buffers
 from bench.engines.contact_episode import USUAL
 from bench.engines.run_contact import run
@@ -44,7 +43,7 @@ SCENES = {
 
 def controller(damping: str, springs: Stiffness, deeper: np.ndarray, powers: list) -> Torque:
     """tau = J^T (K e + D (v_d - v) + h) + g; powers: gets what damping and elbow take at each tick [W]."""
-    K, D, design, scratch = diagonal(springs), np.zeros((6, 6)), known_dampings()[damping].design, buffers(7).scratch
+    K, D, design, scratch = diagonal(springs), np.zeros((6, 6)), DAMPINGS[damping].design, buffers(7).scratch
 
     def torque(now: Tick) -> np.ndarray:
         Lambda = np.linalg.inv(now.J @ np.linalg.solve(now.M, now.J.T))
@@ -68,7 +67,7 @@ def rows() -> list[dict]:
             **pressed(arm, name, springs, plane),
         }
         for arm in ARMS
-        for name in known_dampings()
+        for name in DAMPINGS
         for springs in STIFFNESSES
         for plane in PLANES
     ]
@@ -107,7 +106,7 @@ def in_tasks() -> list[dict]:
         {"task": task, "arm": arm, "damping": name, **done(task, arm, name)}
         for task in SCENES
         for arm in ARMS
-        for name in ("shaped", *known_dampings())
+        for name in ("shaped", *DAMPINGS)
     ]
 
 

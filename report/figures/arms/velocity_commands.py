@@ -8,8 +8,8 @@ import math
 import numpy as np
 import pandas as pd
 
-from bench.contenders.limiters.deadband import BAND
-from bench.contenders.registry import known_inverses, known_limiters
+from bench.contenders.registry import known_inverses
+from bench.experiments.limiters import BAND, GREATEST_RATE, LIMITERS, NONE
 from bench.experiments.suites import BY_EVERY_INVERSE
 from bench.findings.claims.adequacy import DETOUR
 from bench.findings.claims.verdict import NoEvidence
@@ -17,7 +17,6 @@ from bench.findings.selection.needs import Advice
 from bench.findings.selection.robots import VELOCITIES, advise_for
 from bench.findings.selection.words import standing
 from bench.findings.theory.velocity_limits import lagged, with_theory
-from bench.law.limiter import GREATEST_RATE
 from report.figures.arms import arm_looks
 from report.figures.comparison.cells import by_family
 from report.figures.kit import families, html, style
@@ -34,7 +33,7 @@ BENT_SUPREMUM = math.acos(1.0 / math.sqrt(3.0))
 FACTS += ("bent_sup", "log_limit", "worst_gap", "band", "detour", "overshoots", "transpose", "bent", "longer", "left")
 
 SITUATIONS = Table("Situation | Law | Ties with")
-LIMITERS = Table(
+LIMITED = Table(
     "Limiter | Starts | Settled | Median [s]:.2f | Way over the shortest:.3f | Bent by [deg]:.1f | Left [deg]:.2f"
 )
 INVERSES = Table(
@@ -142,7 +141,7 @@ def tables(run: Run) -> dict:
     return {
         "tab_situations": SITUATIONS(situations(advice)) if advice else None,
         "tab_laws": given(rows, lambda _: by_family(rows["law"].unique(), lambda law: line(run, law))),
-        "tab_limiters": LIMITERS(limited(run)) if len(rows) else None,
+        "tab_limiters": LIMITED(limited(run)) if len(rows) else None,
         "tab_inverses": INVERSES(by_inverse(run)) if len(rows) and len(limits(run)) else None,
     }
 
@@ -190,10 +189,10 @@ def of_limiter(run: Run, name: str) -> pd.DataFrame:
 
 def limited(run: Run) -> list[tuple]:
     """A row a limiter."""
-    found = ((one, of_limiter(run, name)) for name, one in known_limiters().items())
+    found = ((name, of_limiter(run, name)) for name in LIMITERS)
     return [
         (
-            one.title,
+            LIMITERS[name].title,
             len(own),
             int(own["settled"].sum()),
             own["settling_time_s"].median(),
@@ -201,7 +200,7 @@ def limited(run: Run) -> list[tuple]:
             DEG * own["bent_rad"].max(),
             DEG * own["final_angle_rad"].max(),
         )
-        for one, own in sorted(found, key=lambda pair: pair[0].name != "none")
+        for name, own in sorted(found, key=lambda pair: pair[0] != NONE)
         if len(own)
     ]
 

@@ -10,10 +10,9 @@ from bench import contenders
 from bench.contenders.registry import (
     known_compensators,
     known_impedances,
-    known_pose_springs,
     known_springs,
 )
-from bench.export.subject import IMPEDANCE, POSE_SPRING, SPRING, STATED, subject_words
+from bench.export.subject import IMPEDANCE, SPRING, STATED, subject_words
 from report.figures.cards import regulators
 from report.figures.cards.law_page import BACK, LawPage, in_every_language, taken
 from report.figures.kit import html
@@ -36,8 +35,7 @@ class Kind(NamedTuple):
 KINDS = (
     Kind(STATED, "compensators", "a law with a state", known_compensators()),
     Kind(IMPEDANCE, "impedances", "an impedance", known_impedances()),
-    Kind(SPRING, "springs", "a spring with a stiffness matrix", known_springs()),
-    Kind(POSE_SPRING, "pose_springs", "a spring of position and orientation", known_pose_springs()),
+    Kind(SPRING, "springs", "a spring of a pose or of a rotation", known_springs()),
 )
 
 

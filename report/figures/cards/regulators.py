@@ -41,7 +41,7 @@ UNTRUSTED = (
 LAWS = Table("Law | Proved | Settles | On the command line", {"Settles": lambda share: f"{100 * share:.1f} %"})
 COUNTED = ("flops", "sin", "cos", "atan2", "acos", "compare")
 EXAMPLE = re.compile(r" Shown by |, as from |, as at ")
-FAILS = re.compile(r"\bFails:\s*(.*)", re.DOTALL)
+FAILS = re.compile(r"\b(?:Fails|Limitations):\s*(.*)", re.DOTALL)
 
 
 def in_order() -> list[Regulator]:

@@ -7,7 +7,7 @@ import functools
 import numpy as np
 import pandas as pd
 
-from bench.contenders.registry import known_dampings
+from bench.control.unshaped import DAMPINGS
 from bench.experiments.impedance import ZETA, Stiffness
 from bench.files import read_json
 from bench.findings.theory.impedance_modes import longest_tick, with_theory
@@ -288,7 +288,7 @@ def ratios_felt(rows: pd.DataFrame, narrow: bool):
             markersize=5,
             color=look.colour,
             alpha=0.7,
-            label=known_dampings()[name].title,
+            label=DAMPINGS[name].title,
         )
         axes.plot(own["omega_theory"], own["ratio_theory"], ".", color=style.INK, markersize=2)
     axes.axhline(float(rows["zeta"].iloc[0]), color=style.MUTED, linewidth=0.7, linestyle=style.DASHED)
@@ -297,7 +297,7 @@ def ratios_felt(rows: pd.DataFrame, narrow: bool):
     axes.set_xticks([1, 3, 10, 30, 100], ["1", "3", "10", "30", "100"])
     figure.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=1 if narrow else 3)
     spread = ", ".join(
-        f"{known_dampings()[name].title.lower()} {own.min():.2g} to {own.max():.2g}"
+        f"{DAMPINGS[name].title.lower()} {own.min():.2g} to {own.max():.2g}"
         for name, own in ((name, rows.loc[rows["damping"] == name, "ratio"]) for name in LOOKS)
     )
     return figure, f"Damping ratio of the modes of {rows['arm'].nunique()} arms where 1 is asked for: {spread}."

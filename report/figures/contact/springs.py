@@ -1,4 +1,4 @@
-"""Rotational springs with a stiffness matrix: which of them are springs at all."""
+"""Springs of a pose and of a rotation: which of them are springs at all, and which path they make a hand take."""
 
 from __future__ import annotations
 
@@ -10,51 +10,78 @@ from report.figures.kit.page import Run
 from report.figures.kit.tables import Table
 
 WORK = Table("Moment | Axes | Potential | Stiffness felt | Work | Work, K = kI | Rests at 180° | Balance")
+WAYS = Table(
+    "Force and moment | Potential | Work | Work, K = kI | Way, median:.2f | Way, most:.2f | Moves apart [m]:.2f"
+)
+WORDS = ("spring", "potential", "frame")
 
 
-def rows(run: Run) -> pd.DataFrame:
-    """Return the run's rows, words as text, springs without a potential first."""
-    found = run.rows("springs")
+def read_rows(run: Run, name: str) -> pd.DataFrame:
+    """Return a table of the run with its words as text, springs without a potential first."""
+    found = run.rows(name)
     if found.empty:
         return found
-    return found.astype(dict.fromkeys(("spring", "frame", "potential"), str)).sort_values(
-        ["potential", "spring"], kind="stable"
-    )
+    words = [word for word in WORDS if word in found]
+    return found.astype(dict.fromkeys(words, str)).sort_values(["potential", "spring"], kind="stable")
 
 
 def facts(run: Run) -> dict:
-    """The most work of those with and of those without a potential."""
-    found = rows(run)
-    if found.empty:
-        return dict.fromkeys(("loops", "worst", "rounding"))
-    most = found.groupby("potential")["work_share"].max()
-    return {
-        "loops": int(found["loops"].max()),
-        "worst": f"{100.0 * most['no']:.0f} % (the most of {int(found['loops'].max())} loops; more loops give more)",
-        "rounding": f"{html.number(float('{:.0e}'.format(most['yes'])))} of it",
-    }
+    """Return the most work with and without a potential; work and path of the spring whose path is bent most."""
+    found, of_pose = read_rows(run, "springs"), read_rows(run, "pose-springs")
+    made: dict[str, int | str] = {}
+    if not found.empty:
+        most = found.groupby("potential")["work_share"].max()
+        loops = int(found["loops"].max())
+        made |= {
+            "loops": loops,
+            "worst": f"{100.0 * most['no']:.0f} % (the most of {loops} loops; more loops give more)",
+            "rounding": f"{html.number(float('{:.0e}'.format(most['yes'])))} of it",
+        }
+    if not of_pose.empty:
+        screw = of_pose.loc[of_pose["way_most"].idxmax()]
+        made |= {
+            "screw_work": write_percent(screw["work_share_isotropic"]),
+            "screw_way": f"{screw['way_most']:.2g} (never more than π/2) ",
+        }
+    return made
 
 
 def tables(run: Run) -> dict:
-    """A row a spring and frame."""
-    known = known_springs()
-    return {
-        "work": WORK(
-            (
-                f"${known[one.spring].formula}$" if one.spring in known else one.spring,
-                one.frame,
-                one.potential,
-                f"{one.felt_least:.2g}",
-                percent(one.work_share),
-                percent(one.work_share_isotropic),
-                f"{one.vanishes} of 3",
-                html.number(float(f"{one.balance_share:.0e}")),
-            )
-            for one in rows(run).itertuples()
+    """Return a row a rotational spring and frame, and a row a spring of a pose."""
+    work = (
+        (
+            write_formula(one.spring),
+            one.frame,
+            one.potential,
+            f"{one.felt_least:.2g}",
+            write_percent(one.work_share),
+            write_percent(one.work_share_isotropic),
+            f"{one.vanishes} of 3",
+            html.number(float(f"{one.balance_share:.0e}")),
         )
-    }
+        for one in read_rows(run, "springs").itertuples()
+    )
+    ways = (
+        (
+            write_formula(one.spring),
+            one.potential,
+            write_percent(one.work_share),
+            write_percent(one.work_share_isotropic),
+            one.way_median,
+            one.way_most,
+            one.apart_m,
+        )
+        for one in read_rows(run, "pose-springs").itertuples()
+    )
+    return {"work": WORK(work), "ways": WAYS(ways)}
 
 
-def percent(share: float) -> str:
-    """Format as a percentage, rounding noise as 0."""
+def write_formula(name: str) -> str:
+    """Return the formula of a spring; its name if it is not here any more."""
+    known = known_springs()
+    return f"${known[name].formula}$" if name in known else name
+
+
+def write_percent(share: float) -> str:
+    """Return a share in per cent, and rounding noise as 0."""
     return f"{100.0 * share:.0f} %" if share > 1e-12 else "0"

@@ -1,12 +1,10 @@
-"""What must hold of whatever stands between a velocity law and the robot."""
+"""Limiters of velocity commands: what holds of each, and of one alone."""
 
 import numpy as np
 import pytest
 
-from bench.contenders.registry import known_limiters
-from bench.law import GREATEST_RATE
+from bench.experiments.limiters import GREATEST_RATE, LIMITERS
 
-LIMITERS = known_limiters()
 K = 10.0
 
 

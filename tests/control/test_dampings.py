@@ -1,13 +1,12 @@
-"""What must hold of every design of damping, against scipy."""
+"""Designs of the damping of an impedance without inertia shaping, against scipy."""
 
 import numpy as np
 import pytest
 from scipy.linalg import sqrtm
 
-from bench.contenders.registry import known_dampings
+from bench.control.unshaped import DAMPINGS
 from bench.engines.arm_episode import buffers
 
-DAMPINGS = known_dampings()
 RNG = np.random.default_rng(11)
 
 

@@ -1,1 +1,0 @@
-"""Designs of damping for an impedance without inertia shaping, one file each with a constant DAMPING."""
