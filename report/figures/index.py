@@ -84,7 +84,8 @@ def of_the_paper(run: Run) -> dict:
         "polar": len(lost(on_pole)),
         "on_pole": len(on_pole),
     }
-    for letter, name in SHORT.items():
+    for letter in "mf":
+        name = SHORT[letter]
         rows = of(episodes, name)
         found = share(len(rows) - len(lost(rows)), len(rows))
         interval = f"{100 * found.low:.1f} to {100 * found.high:.1f} %"
@@ -97,17 +98,15 @@ def of_the_paper(run: Run) -> dict:
 
 def bibtex(values: dict) -> html.Markdown:
     """How this edition is cited."""
-    return html.Markdown(BIBTEX.format(**values, year=values["date"].partition("-")[0]))
+    return html.Markdown(BIBTEX.format(**values, **cited(), year=values["date"].partition("-")[0]))
 
 
 def edition(provenance: dict) -> dict:
-    """The version of CITATION.cff, and the run that is shown."""
+    """Return the run that is shown."""
     commit = provenance["commit"][:SHORT_COMMIT] or "none"
     return {
-        "version": cited()["version"],
         "date": provenance["finished"].partition("T")[0],
         "commit": f"{commit}, with changes" if provenance["dirty"] else commit,
         "suite": provenance["suite"],
-        "title": cited()["title"],
         "episodes": count_episodes(provenance),
     }

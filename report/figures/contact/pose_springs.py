@@ -26,12 +26,11 @@ def facts(run: Run) -> dict:
     """Work and way of what goes by a screw: the one whose way is bent most."""
     found = rows(run)
     if found.empty:
-        return dict.fromkeys(("screw_work", "screw_way", "apart"))
+        return dict.fromkeys(("screw_work", "screw_way"))
     screw = found.loc[found["way_most"].idxmax()]
     return {
         "screw_work": percent(screw["work_share_isotropic"]),
         "screw_way": f"{screw['way_most']:.2g} (never more than π/2) ",
-        "apart": f"{100.0 * found['apart_m'].max():.0f} cm",
     }
 
 

@@ -27,14 +27,11 @@ def continuous(run: Run) -> pd.DataFrame:
 def facts(run: Run) -> dict:
     """Settling near zero, against the angle by law, and towards the half turn."""
     episodes = continuous(run)
-    kp, kv, tolerance, tick = (float(episodes[name].iloc[0]) for name in ("kp", "kv", "tolerance", "dt_s"))
+    kp, kv, tolerance = (float(episodes[name].iloc[0]) for name in ("kp", "kv", "tolerance"))
     near, exact = settling_decades.near_and_exact(of(episodes, MATRIX, "half-turn"))
     late = late_ms(of(episodes, MATRIX), kp, kv, tolerance)
     values = {
-        "kp": kp,
-        "kv": kv,
         "band": f"{100 * tolerance:g}",
-        "tick": f"{1000 * tick:g}",
         "rtol": f"{closed_form.TIGHT['rtol']:.0e}",
         "linear": f"{closed_form.linear_settling(kp, kv, tolerance):.4f}",
         "n": len(late),
@@ -42,7 +39,6 @@ def facts(run: Run) -> dict:
         "late": f"{late.max():.2f}",
         "slope": f"{settling_decades.slope(near):.4f}",
         "theory": f"{closed_form.decade_slope(kp, kv):.4f}",
-        "near": len(near),
         "closest": f"{10.0 ** -settling_decades.decade(near['start_id']).max():.0e}",
         "longest": f"{near['settling_time_s'].max():.2f}",
         "exact": len(exact),
