@@ -18,7 +18,7 @@ from report.figures.kit.page import Run
 from report.figures.kit.rows import FEEDBACK, LINEARIZED, MATRIX, SHORT, lost, of
 from report.figures.kit.share import share
 from report.figures.method.provenance import cited
-from report.figures.responses import hero, settling_decades
+from report.figures.responses import hero, settling_time
 
 BIBTEX = """```bibtex
 @misc{{orientation-bench,
@@ -75,9 +75,9 @@ def of_the_paper(run: Run) -> dict:
     tallies = totals(run.rows("costs", **read.FREE_BODY))
     half, poles = of(episodes, MATRIX, "half-turn"), of(episodes, FEEDBACK, "poles")
     on_pole = poles[np.pi / 2.0 - poles["beta0"].abs() < EXACT_RAD]
-    _, exact = settling_decades.near_and_exact(half)
+    _, exact = settling_time.near_and_exact(half)
     values = {
-        "slope": f"{settling_decades.slope(half):.3f}",
+        "slope": f"{settling_time.slope(half):.3f}",
         "stuck": len(lost(exact)),
         "exact": len(exact),
         "least": f"{np.floor(np.degrees(lost(of(episodes, LINEARIZED))['alpha0'].abs().min())):.0f}",
