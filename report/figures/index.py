@@ -18,7 +18,7 @@ from report.figures.kit.page import Run
 from report.figures.kit.rows import FEEDBACK, LINEARIZED, MATRIX, SHORT, lost, of
 from report.figures.kit.share import share
 from report.figures.method.provenance import cited
-from report.figures.responses import hero, settling_decades
+from report.figures.responses import hero, settling_time
 
 BIBTEX = """```bibtex
 @misc{{orientation-bench,
@@ -75,16 +75,17 @@ def of_the_paper(run: Run) -> dict:
     tallies = totals(run.rows("costs", **read.FREE_BODY))
     half, poles = of(episodes, MATRIX, "half-turn"), of(episodes, FEEDBACK, "poles")
     on_pole = poles[np.pi / 2.0 - poles["beta0"].abs() < EXACT_RAD]
-    _, exact = settling_decades.near_and_exact(half)
+    _, exact = settling_time.near_and_exact(half)
     values = {
-        "slope": f"{settling_decades.slope(half):.3f}",
+        "slope": f"{settling_time.slope(half):.3f}",
         "stuck": len(lost(exact)),
         "exact": len(exact),
         "least": f"{np.floor(np.degrees(lost(of(episodes, LINEARIZED))['alpha0'].abs().min())):.0f}",
         "polar": len(lost(on_pole)),
         "on_pole": len(on_pole),
     }
-    for letter, name in SHORT.items():
+    for letter in "mf":
+        name = SHORT[letter]
         rows = of(episodes, name)
         found = share(len(rows) - len(lost(rows)), len(rows))
         interval = f"{100 * found.low:.1f} to {100 * found.high:.1f} %"
@@ -97,17 +98,15 @@ def of_the_paper(run: Run) -> dict:
 
 def bibtex(values: dict) -> html.Markdown:
     """How this edition is cited."""
-    return html.Markdown(BIBTEX.format(**values, year=values["date"].partition("-")[0]))
+    return html.Markdown(BIBTEX.format(**values, **cited(), year=values["date"].partition("-")[0]))
 
 
 def edition(provenance: dict) -> dict:
-    """The version of CITATION.cff, and the run that is shown."""
+    """Return the run that is shown."""
     commit = provenance["commit"][:SHORT_COMMIT] or "none"
     return {
-        "version": cited()["version"],
         "date": provenance["finished"].partition("T")[0],
         "commit": f"{commit}, with changes" if provenance["dirty"] else commit,
         "suite": provenance["suite"],
-        "title": cited()["title"],
         "episodes": count_episodes(provenance),
     }

@@ -14,7 +14,6 @@ from bench.experiments import plan
 from bench.experiments.choice import Choice
 from bench.running import run
 from bench.tables import read, store
-from bench.tables.schema import RESULTS
 from report.figures.arms import (
     arm_advice,
     arm_outcomes,
@@ -26,7 +25,6 @@ from report.figures.arms import (
     model_rest,
 )
 from report.figures.kit.page import ABSENT, Run, run_in
-from report.figures.method import method
 
 ARM = "puma560"
 CHOICE = Choice(
@@ -104,16 +102,6 @@ def test_six_joints_rest_where_gravity_alone_leaves_them():
     ratios = model_rest.ratios(model_rest.predicted(model_error.compared(shown())))
     assert len(ratios) == STARTS * len(model_error.SHOWN)
     assert ratios.to_numpy() == pytest.approx(1.0, abs=0.02)
-
-
-def test_tables_of_what_there_is_have_a_row_each():
-    tables, there = arms.tables(shown()), method.tables(run_in(RESULTS / "reference"))
-    assert len(there["jacobians"].splitlines()) == 2 + 4
-    assert all(f"`{name}`" in tables["tab_arms"] for name in ("jaco", "panda", "puma560", "ur5e"))
-    assert tables["tab_starts"].count("none") == 3
-    assert "damped-least-squares" in there["inverses"]
-    lines = {key: len(tables[f"tab_{key}"].splitlines()) - 2 for key in ("ranked", "settled", "causes", "wrist")}
-    assert lines == {"ranked": CONTROLLERS, "settled": CONTROLLERS, "causes": CONTROLLERS, "wrist": 2 * 2}
 
 
 def rows_of(passing: dict[str, int], of: int = 20, **columns) -> pd.DataFrame:

@@ -33,17 +33,6 @@ def test_page_is_whole(run):
     assert_is_whole(as_shipped, run)
 
 
-def test_statements_are_those_of_the_rows(run):
-    facts, own = as_shipped.facts(run), as_shipped.shipped(run)
-    assert facts["controllers"] == len(known_shipped()) == facts["fixed"] + facts["kept"]
-    felt = own.set_index("shipped")["stiffness_50mrad"]
-    weak = [name for name in felt.index if felt[name] < 0.75 and known_shipped()[name].level != "velocity"]
-    assert facts["weak"] == len(weak)
-    assert set(facts["rises"].split(", ")) == {name for name in weak if known_shipped()[name].unbounded is None}
-    assert facts["dead_names"] == ", ".join(own.loc[own["dead"] > 0, "shipped"])
-    assert facts["built"].endswith(f"of {len(known_shipped())}")
-
-
 def test_fix_of_a_controller_is_printed_here_and_page_25_has_no_advice_of_its_own():
     assert not {"Instead", "Write instead", "Smallest fix"} & set(libraries.CONTROLLERS.heads)
     for one in known_shipped().values():

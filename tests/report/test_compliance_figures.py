@@ -23,7 +23,6 @@ from report.figures.contact import (
     by_transpose,
     compliance,
     contact_models,
-    ends,
     hand_axes,
     in_contact,
     limits,
@@ -176,15 +175,6 @@ def test_hand_held_by_its_rate_drifts_by_about_the_square_of_the_side(run):
     assert float(facts["loop_base"]) < 0.1 * rate
 
 
-def test_tables_have_a_line_for_each_impedance_beta_and_controller(run, probe):
-    assert len(compliance.springs(probe).splitlines()) == 2 + len(SPRINGS)
-    assert len(compliance.conversion(probe).splitlines()) == 2 + len({0, 5, *hand_axes.BETAS})
-    found = in_contact.tables(run)
-    assert {name: len(found[f"tab_{name}"].splitlines()) for name in MEASURES} == {
-        name: 2 + len(WANTED[name]) for name in MEASURES
-    }
-
-
 def test_unconverted_moments_turn_the_hand_the_wrong_way_and_make_work(probe):
     line = next(one for one in compliance.conversion(probe).splitlines() if one.startswith("| 60 "))
     converted, lost, _, unconverted, made, _ = (cell.strip() for cell in line.strip("|").split("|")[1:])
@@ -198,15 +188,6 @@ def test_loop_shows_a_tool_that_lies_flat_and_one_that_does_not(run):
     said = in_contact.plate(controllers.of_task(run, "surface-alignment"))
     assert float(said["plate_cartesian"]) < 0.1
     assert float(said["plate_euler"]) > 10.0
-
-
-def test_ends_are_told_by_the_rows(run):
-    said = ends.ends(in_contact.all_rows(run))
-    at_rest, every = map(int, re.match(r"(\d+) of (\d+) are at rest", said["rest"]).groups())
-    assert 0 < at_rest <= every
-    assert said["align"].startswith("Tools lie flat once 2 %")
-    assert said["overshoot"].count("N (") == len(ends.PRESSING)
-    assert float(re.search(r"takes ([\d.]+) J", said["port"]).group(1)) > 0.0
 
 
 def test_study_speaks_of_every_controller_clearance_and_variant():

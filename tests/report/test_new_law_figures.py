@@ -3,7 +3,6 @@
 import math
 
 import pytest
-from support.pages import assert_is_whole
 
 pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
 
@@ -12,10 +11,8 @@ from scipy.integrate import quad
 from bench.findings.theory.isotropic import EQUATIONS
 from bench.law.contender import Gains
 from bench.law.equation import ANGLE
-from bench.tables.schema import RESULTS
-from report.figures.comparison import a_new_law, new_law
+from report.figures.comparison import new_law
 from report.figures.comparison.cells import LEVEL
-from report.figures.kit.page import run_in
 
 KP, KV = Gains()
 LATE = EQUATIONS["late-braking"]
@@ -40,9 +37,3 @@ def test_response_of_a_straight_spring_is_the_linear_one_with_its_effort():
         assert u == pytest.approx(100.0 * (1.0 - 10.0 * t) * math.exp(-10.0 * t), abs=1e-6)
     spent = quad(lambda t: (100.0 * (1.0 - 10.0 * t) * math.exp(-10.0 * t)) ** 2, 0.0, new_law.SHOWN_S)[0]
     assert effort[-1] == pytest.approx(spent, rel=1e-7)
-
-
-def test_page_is_whole():
-    run = run_in(RESULTS / "reference")
-    assert_is_whole(a_new_law, run)
-    assert all(f"| {what} |" in a_new_law.tables(run)["tried"] for what in a_new_law.TRIED)

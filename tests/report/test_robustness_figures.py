@@ -9,6 +9,7 @@ from support.pages import Nothing, assert_is_whole
 
 pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
 
+import tasks
 from bench.cli.details import robustness as details
 from bench.contenders.registry import find_contender
 from bench.experiments import plan
@@ -22,7 +23,7 @@ from bench.tables import read
 from report.figures.cards import regulators
 from report.figures.kit.page import run_in
 from report.figures.robustness import half_turn_noise, other_perturbations, robustness, rows, saturation
-from tasks.condition import NO_FEEDFORWARD, RATE, RATE_AND_ACCELERATION
+from tasks.condition import NO_FEEDFORWARD, RATE, RATE_AND_ACCELERATION, condition_at
 from tasks.rules import RULES
 
 KP, KV, TOLERANCE = 100.0, 20.0, RULES.tolerance
@@ -166,20 +167,13 @@ def test_page_is_whole_and_says_so_if_the_run_was_not_perturbed(page, small_run)
     assert not any(value for part in parts for value in part.values())
 
 
-def test_tables_have_a_column_for_each_level_and_a_line_for_each_law(along):
-    lines = rows.by_level(along("delay"), "delay").splitlines()
-    assert lines[0].count("|") == 2 + len(rows.levels(along("delay")))
-    assert sum("../laws/" in line for line in lines) == len(LAWS)
-
-
-def test_tables_of_errors_have_a_line_for_each_level_that_is_not_zero(along):
-    found = other_perturbations.errors(("delay", Nothing().rows("")), ("rate-noise", along("rate-noise")))
-    assert len(found.splitlines()) == 2 + len(rows.levels(along("rate-noise"))) - 1
-
-
-def test_rotation_vector_is_the_linear_loop_from_rest_at_every_level_and_angle(along):
-    for name in other_perturbations.LINEAR:
-        assert other_perturbations.farthest_ms(along(name), name) == pytest.approx(0.0, abs=1e-6)
+@pytest.mark.parametrize("name", ["control-rate", "delay", "inertia"])
+def test_rotation_vector_is_the_linear_loop_from_rest_at_every_level_and_angle(name, along):
+    own = rows.of(along(name), "rotation-vector")
+    for level, times in own.groupby("level")["time_s"]:
+        at = condition_at(tasks.axis(name), level)
+        theory = robustness_theory.settling(KP, KV, TOLERANCE, at.period_s, at.delay_s, at.inertia[0])
+        assert times.to_numpy() == pytest.approx(theory, abs=1e-9)
 
 
 def test_no_law_settles_sooner_than_the_bound_on_its_command_allows(small_run):
@@ -189,11 +183,6 @@ def test_no_law_settles_sooner_than_the_bound_on_its_command_allows(small_run):
 def test_theory_says_which_laws_the_worst_noise_holds_at_the_half_turn(small_run):
     found = half_turn_noise.facts(small_run)
     assert found["agree"] == found["decided"] > 0
-
-
-def test_paielli_bach_loses_only_starts_that_its_blindness_explains(along):
-    for name in ("control-rate", "delay"):
-        assert other_perturbations.is_within(along(name), name) == "all"
 
 
 def test_threshold_is_the_level_before_the_first_that_costs_a_law_its_starts(small_run):

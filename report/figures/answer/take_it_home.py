@@ -7,6 +7,7 @@ from bench.export.language import find_language, language_words
 from bench.export.subject import find_subject, subject_words
 from bench.export.vectors import CLOSE, vectors
 from report.figures.kit.page import Run
+from report.figures.kit.spelling import listed
 from report.figures.kit.tables import Table
 
 LANGUAGES = Table("Language | `--to` | The law | Try it")
@@ -20,7 +21,7 @@ def facts(run: Run) -> dict:
     words = [find_language(word).title for word in language_words()]
     laws, coordinates = len(all_contenders()), len(known_representations())
     return {
-        "languages": f"{', '.join(words[:-1])} and {words[-1]}",
+        "languages": listed(words),
         "vectors": len(vectors(find_subject(SHOWN))),
         "close": f"{CLOSE:g}",
         "subjects": len(subject_words()),

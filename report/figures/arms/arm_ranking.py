@@ -10,6 +10,7 @@ from bench.findings.on_arms import MEASURES, best, passed
 from report.figures.arms import arm_looks, arm_rows
 from report.figures.kit import html
 from report.figures.kit.share import Share, share
+from report.figures.kit.spelling import listed
 from report.figures.kit.tables import Table
 
 RANKED = Table("Controller | Settled [%] | Within torque | and range | Reach, settled | within torque and range")
@@ -109,10 +110,5 @@ def leading(rows: pd.DataFrame, measure: str) -> str:
     share_of_first = told(rows, names[0], measure)
     if len(names) == 1:
         return f"of the laws {arm_rows.title(names[0])} settles most: {share_of_first}"
-    return f"{listed(names)} are not distinguished from the best of them, {arm_rows.title(names[0])}: {share_of_first}"
-
-
-def listed(controllers: list[str]) -> str:
-    """Their titles, the last after "and"; of more than FEW their number."""
-    names = [arm_rows.title(one) for one in controllers]
-    return f"{', '.join(names[:-1])} and {names[-1]}" if len(names) <= FEW else f"{len(names)} laws"
+    words = listed(map(arm_rows.title, names)) if len(names) <= FEW else f"{len(names)} laws"
+    return f"{words} are not distinguished from the best of them, {arm_rows.title(names[0])}: {share_of_first}"

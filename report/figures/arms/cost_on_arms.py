@@ -58,7 +58,7 @@ def share_of_time(run: Run) -> dict[str, str]:
     """Return the shares of a whole controller's time that the cheapest law, late braking and the dearest take."""
     share = {law: value for law, value in ticks(Results(run.folder)).items() if not law.endswith("literal/zyx-euler")}
     if ON_LAW not in share:
-        return dict.fromkeys(("time_matrix", "time_late", "time_most", "time_most_law", "paper_order"), html.MISSING)
+        return {}
     most = max(share, key=lambda law: share[law])
     shown = {"time_matrix": ON_LAW, "time_late": "late-braking", "time_most": most}
     words = {key: percent(share[law] / 100.0) if law in share else html.MISSING for key, law in shown.items()}

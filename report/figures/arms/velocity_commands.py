@@ -26,11 +26,8 @@ from report.figures.kit.tables import Table
 
 DEG = 180.0 / math.pi
 
-FACTS: tuple[str, ...] = ("lead", "gain", "tick", "uniform", "exact", "bound", "others", "dead", "unwinds", "lag")
 BENT_SUPREMUM = math.acos(1.0 / math.sqrt(3.0))
 """The most [rad] by which a clamp per axis turns a vector: from beside an axis to the box's diagonal."""
-
-FACTS += ("bent_sup", "log_limit", "worst_gap", "band", "detour", "overshoots", "transpose", "bent", "longer", "left")
 
 SITUATIONS = Table("Situation | Law | Ties with")
 LIMITED = Table(
@@ -79,10 +76,10 @@ def plain(run: Run, start_set: str) -> pd.DataFrame:
 
 
 def facts(run: Run) -> dict:
-    """Numbers of the text; all of them absent where the run tells no robot velocities."""
+    """Return the numbers of the text; none where no law of the run commands velocities."""
     rows, found, advice = told(run), limits(run), choice(run)
     if rows.empty or found.empty or advice is None:
-        return dict.fromkeys(FACTS)
+        return {}
     uniform, exact = plain(run, "uniform"), plain(run, "half-turn")
     shares = exact.groupby("law")["settled"].mean()
     ways = uniform[uniform["settled"]].groupby("law")["path_ratio"].max()

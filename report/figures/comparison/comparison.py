@@ -89,7 +89,6 @@ def of_all(rows: pd.DataFrame, tried: pd.DataFrame) -> dict:
         "starts": len(times),
         "kp": float(rows["kp"].iloc[0]),
         "kv": float(rows["kv"].iloc[0]),
-        "band": f"{100 * float(rows['tolerance'].iloc[0]):g}",
         "tick": f"{1000 * float(rows['dt_s'].iloc[0]):g}",
         "detour": DETOUR,
         "fastest_s": f"{middle.min():.2f}",

@@ -28,18 +28,6 @@ WITHIN = 10.0 ** ((DECADES[1] - DECADES[0]) / 2**HALVINGS) - 1.0
 """What bisection leaves of a limit on the arm."""
 LAG_COLOURS = (style.INK, "#0072b2", "#009e73", "#d55e00")
 
-FACTS = (
-    *("felt_least", "felt_most", "asked", "double", "axis_least", "axis_most", "unstable", "worst_gap", "modes"),
-    *("episodes", "account", "coriolis_least", "coriolis_most", "tick", "overshoots", "slower", "needs"),
-    *("practice", "rotor_stable"),
-)
-"""Of the text, what runs hold."""
-STUDY = (
-    *("planes", "plane_arms", "given_share", "unaccounted", "tasks", "same", "servos", "servo_gap", "arm_gap"),
-    *("shipped_m", "shipped_d", "shipped_k", "force", "lag", "lag_k", "never"),
-)
-"""Of the text, what the study of contact holds."""
-
 SHORT = {"diagonal": "2√K", "per-axis": "per axis", "double-diagonalization": "double"}
 RATIOS, TIMES = ({name: f"{what}, {word}" for name, word in SHORT.items()} for what in ("Ratio", "Settles [s]"))
 FELT = Table(
@@ -98,10 +86,10 @@ def facts(run: Run) -> dict:
 
 
 def in_free_motion(run: Run) -> dict:
-    """Return the numbers of modes and episodes; all are absent if the run lacks one of them."""
+    """Of modes and episodes; none where the run lacks one of them."""
     found, rows = modes(run), episodes(run)
     if found.empty or rows.empty:
-        return dict.fromkeys(FACTS)
+        return {}
     felt = {name: found.loc[found["damping"] == name, "ratio"] for name in LOOKS}
     lost = found[found["radius"] >= 1.0].groupby(["arm", "stiffness_n_m", "stiffness_nm_rad"]).size().index
     whole = rows[rows["compensated"] == "bias"]
@@ -177,7 +165,7 @@ def in_contact() -> dict:
     """Return the study's numbers: planes that the impedance was pressed on, and limits of the admittance."""
     pressed, limits = study("unshaped"), study("admittance")
     if pressed.empty or limits.empty:
-        return dict.fromkeys(STUDY)
+        return {}
     calm, servos, arms = pressed[pressed["settles"]], *(limits[limits["plant"] == name] for name in ("servo", "arm"))
     slow = servos[servos["lag_ms"] == servos["lag_ms"].max()]
     off = {name: (own["measured"] / own["theory"] - 1.0).abs().max() for name, own in limits.groupby("plant")}

@@ -41,13 +41,12 @@ def timed(run: Run) -> pd.DataFrame:
 def facts(run: Run) -> dict:
     """The literal form against the lean one; time against flops."""
     counted = costs(run)
-    spent_by_form = {key: totals(counted).loc[name] for key, name in LEAN.items()}
     values: dict = {}
-    for key, spent_by in spent_by_form.items():
+    for key, name in LEAN.items():
+        spent_by = totals(counted).loc[name]
         values[f"{key}_flops"], values[f"{key}_div"] = int(spent_by["flops"]), int(spent_by["div"])
         values[f"{key}_calls"] = int(spent_by[list(CALLS)].sum())
     return values | {
-        "spared": f"{1 - spent_by_form['lean']['flops'] / spent_by_form['literal']['flops']:.0%}",
         "branches": f"{len(branches_differ(counted))} of {counted['contender'].nunique()}",
         "timed_on": times.said(run),
         "in_c": in_c(instructions(run)),

@@ -38,14 +38,9 @@ NEAREST = Table("Law | Axes | Failing | Smallest:.1f | About | Median:.1f | Near
 
 
 @functools.cache
-def every(run: Run) -> pd.DataFrame:
-    """Episodes of the free body."""
-    return run.rows("episodes", task="free-body")
-
-
 def continuous(run: Run) -> pd.DataFrame:
     """Return the episodes on the continuous plant whose end no shorter step moves."""
-    return read.converged(every(run)[every(run)["engine"] == "ideal-rk4"])
+    return read.converged(run.rows("episodes", task="free-body", engine="ideal-rk4"))
 
 
 def facts(run: Run) -> dict:
@@ -56,7 +51,6 @@ def facts(run: Run) -> dict:
     outside = linearized[linearized["alpha0"].abs() > np.pi / 2.0]
     along = {key: boundaries.loc[boundaries["contender"] == name, "fails_from_rad"] for key, name in SHORT.items()}
     return {
-        "unconverged": int((every(run)["converged"] == "no").sum()),
         **maps.facts(),
         "held_level": f"{math.degrees(math.acos(held_goals.least_cosine(0.0, PAPERS_GAINS))):.1f}",
         "held_share": f"{100.0 * held_goals.held_share(PAPERS_GAINS):.1f}",

@@ -3,7 +3,8 @@
 The page pages/16-robustness.md has the module robustness/robustness.py (the front page, `index`), whose functions
 facts(run), tables(run) and figures(run) give what it pastes, key by key; a page may do without any of them. Further
 modules on a page give what it pastes under their own word: `spread` of responses.responses is pasted as
-`responses.spread`. A value that is None, or a key that is left out, is not in this run, and the page says so.
+`responses.spread`. A value that is None, or a key that is left out, is not in this run, and the page says so. A key
+that the page does not paste is an error.
 """
 
 from __future__ import annotations
@@ -81,7 +82,10 @@ def text_of(name: str) -> str:
 def contents(module: ModuleType, run: Run, text: str) -> dict[str, Any]:
     """What a page pastes of a module, as it pastes it, by the module's own keys."""
     found = {key: value for part in PARTS if hasattr(module, part) for key, value in getattr(module, part)(run).items()}
-    return {key: as_pasted(found.get(key), kind, key) for key, kind in kinds_of(module, text).items()}
+    kinds = kinds_of(module, text)
+    if unread := sorted(set(found) - set(kinds)):
+        raise ValueError(f"{module.__name__} gives {unread}, which its page does not paste (cure: remove them)")
+    return {key: as_pasted(found.get(key), kind, key) for key, kind in kinds.items()}
 
 
 def kinds_of(module: ModuleType, text: str) -> dict[str, str]:

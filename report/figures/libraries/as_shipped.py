@@ -64,7 +64,6 @@ FACTS: dict[str, Callable[[pd.DataFrame], object]] = {
     "weak_ratio": lambda own: f"{own.loc[is_weak(own), 'damping_ratio'].max():.3g}",
     "dead": lambda own: int((own["dead"] > 0).sum()),
     "dead_names": lambda own: named(own[own["dead"] > 0]),
-    "half_turns": lambda own: int(own["half_turns"].max()),
     "bent": lambda own: int((own["bent"] > 0.0).sum()),
     "bent_most": lambda own: f"{math.degrees(own['bent'].max()):.0f}",
     "unsettled": lambda own: named(own[own["settling_1_s"].isna() & (own["starts"] > 0)]),

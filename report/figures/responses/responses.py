@@ -11,7 +11,7 @@ from bench.law.so3 import Rotation
 from report.figures.kit import laws, style
 from report.figures.kit.inline import responsive_picture
 from report.figures.kit.page import Run
-from report.figures.kit.rows import FEEDBACK, SHORT, lost
+from report.figures.kit.rows import SHORT, lost
 
 ANGLES = (
     ("alpha", r"$\alpha$", style.SOLID),
@@ -42,21 +42,23 @@ def gains(episodes: pd.DataFrame) -> dict[str, float]:
 
 
 def facts(run: Run) -> dict:
-    """Return the start of each figure, and how far, how long and how straight the laws go from there."""
+    """Return the start of each figure, and how far, how long and how straight its law goes from there."""
     traces, every = drawn(run)
     episodes = every[every["contender"].isin(SHORT.values())]
     values: dict = {**gains(every), "drawn": len(episodes), "good": len(episodes) - len(lost(episodes))}
-    for _, start in FIGURES.values():
-        end = start[-1]
-        followed = traces[traces["start_id"] == start].set_index("contender")
+    for letter, start in FIGURES.values():
+        end, law = start[-1], SHORT[letter]
+        followed = traces[(traces["start_id"] == start) & (traces["contender"] == law)]
         rows = episodes[episodes["start_id"] == start].set_index("contender")
-        for letter, name in SHORT.items():
-            values[f"bend_{letter}{end}"] = float(bend_deg(followed.loc[name], **gains(every)).max())
-            values[f"time_{letter}{end}"] = f"{rows.loc[name, 'settling_time_s']:.3f}"
-            values[f"path_{letter}{end}"] = f"{rows.loc[name, 'path_ratio']:.2f}"
+        values[f"bend_{letter}{end}"] = float(bend_deg(followed, **gains(every)).max())
+        values[f"time_{letter}{end}"] = f"{rows.loc[law, 'settling_time_s']:.3f}"
         values |= {f"{angle}_{end}": float(rows[f"{angle}0"].iloc[0]) for angle in ("alpha", "beta", "gamma")}
-        angles = np.degrees(followed["angle_rad"])
-        values |= {f"first_{end}": f"{angles.iloc[0]:.0f}", f"peak_{end}": f"{angles[FEEDBACK].max():.0f}"}
+        if letter == "l":
+            values[f"time_m{end}"] = f"{rows.loc[SHORT['m'], 'settling_time_s']:.3f}"
+        else:
+            values[f"path_{letter}{end}"] = f"{rows.loc[law, 'path_ratio']:.2f}"
+    angles = np.degrees(followed["angle_rad"])
+    values |= {"first_5": f"{angles.iloc[0]:.0f}", "peak_5": f"{angles.max():.0f}"}
     return values
 
 

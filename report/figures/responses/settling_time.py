@@ -2,15 +2,21 @@
 
 import functools
 import math
+import re
 
+import numpy as np
 import pandas as pd
 
 from bench.findings.theory import closed_form
-from report.figures.kit import html
+from report.figures.kit import html, style
+from report.figures.kit.inline import responsive_picture
 from report.figures.kit.page import Run
 from report.figures.kit.rows import MATRIX, SHORT, of
 from report.figures.kit.tables import Table
-from report.figures.responses import settling_decades
+
+DECADE = re.compile(r"-k(\d+)$")
+FITTED = (3, 10)
+"""Decades of the slope: the sine is linear in pi - angle from the first on, and rounding of R is small to the last."""
 
 SLOPES = Table(
     "Engine | Starts fitted | Slope [s/decade]:.4f | Closed form:.4f | Difference [%]:+.3f | Exact 180° rotations | "
@@ -27,29 +33,25 @@ def continuous(run: Run) -> pd.DataFrame:
 def facts(run: Run) -> dict:
     """Return settling near zero, against the angle by law, and towards 180°."""
     episodes = continuous(run)
-    kp, kv, tolerance, tick = (float(episodes[name].iloc[0]) for name in ("kp", "kv", "tolerance", "dt_s"))
-    near, exact = settling_decades.near_and_exact(of(episodes, MATRIX, "half-turn"))
+    kp, kv, tolerance = (float(episodes[name].iloc[0]) for name in ("kp", "kv", "tolerance"))
+    near, exact = near_and_exact(of(episodes, MATRIX, "half-turn"))
     late = late_ms(of(episodes, MATRIX), kp, kv, tolerance)
     values = {
-        "kp": kp,
-        "kv": kv,
         "band": f"{100 * tolerance:g}",
-        "tick": f"{1000 * tick:g}",
         "rtol": f"{closed_form.TIGHT['rtol']:.0e}",
         "linear": f"{closed_form.linear_settling(kp, kv, tolerance):.4f}",
         "n": len(late),
         "early": f"{late.min():.2f}",
         "late": f"{late.max():.2f}",
-        "slope": f"{settling_decades.slope(near):.4f}",
+        "slope": f"{slope(near):.4f}",
         "theory": f"{closed_form.decade_slope(kp, kv):.4f}",
-        "near": len(near),
-        "closest": f"{10.0 ** -settling_decades.decade(near['start_id']).max():.0e}",
+        "closest": f"{10.0 ** -decade(near['start_id']).max():.0e}",
         "longest": f"{near['settling_time_s'].max():.2f}",
         "exact": len(exact),
         "stuck": int((exact["outcome"] == "stuck").sum()),
         "horizon": float(exact["horizon_s"].max()),
-        "first_k": settling_decades.FITTED[0],
-        "last_k": settling_decades.FITTED[1],
+        "first_k": FITTED[0],
+        "last_k": FITTED[1],
     }
     for letter, name in SHORT.items():
         times = of(episodes, name)["settling_time_s"]
@@ -65,8 +67,8 @@ def tables(run: Run) -> dict:
 
 
 def figures(run: Run) -> dict:
-    """Draw the settling time against the distance from 180°."""
-    return {"settling-decades": settling_decades.decades(of(continuous(run), MATRIX, "half-turn"))}
+    """Against the distance from the half turn."""
+    return {"settling-decades": decades(of(continuous(run), MATRIX, "half-turn"))}
 
 
 def late_ms(rows: pd.DataFrame, kp: float, kv: float, tolerance: float) -> pd.Series:
@@ -76,17 +78,68 @@ def late_ms(rows: pd.DataFrame, kp: float, kv: float, tolerance: float) -> pd.Se
 
 
 def slope_on(engine: str, rows: pd.DataFrame) -> tuple:
-    """Return an engine's measured slope, the closed form's, and the outcomes of exact 180° rotations."""
-    near, exact = settling_decades.near_and_exact(rows)
+    """An engine's measured slope beside the closed form, and what became of exact half turns."""
+    near, exact = near_and_exact(rows)
     theory = closed_form.decade_slope(float(rows["kp"].iloc[0]), float(rows["kv"].iloc[0]))
-    found = settling_decades.slope(near)
+    found = slope(near)
     return (
         html.together(engine),
-        int(settling_decades.decade(near["start_id"]).between(*settling_decades.FITTED).sum()),
+        int(decade(near["start_id"]).between(*FITTED).sum()),
         found,
         theory,
         100.0 * (found / theory - 1.0),
         len(exact),
         int((exact["outcome"] == "settled").sum()),
         float(rows["horizon_s"].max()),
+    )
+
+
+def decade(start_ids: pd.Series) -> pd.Series:
+    """k of a start of the set half-turn at pi - 10^-k; missing for the exact ones."""
+    return start_ids.astype(str).str.extract(DECADE, expand=False).astype(float)
+
+
+def near_and_exact(rows: pd.DataFrame) -> tuple[pd.DataFrame, pd.DataFrame]:
+    """Rows of the set half-turn: those at a distance from one, and those exactly on one."""
+    is_near = decade(rows["start_id"]).notna()
+    return rows[is_near], rows[~is_near]
+
+
+def slope(rows: pd.DataFrame) -> float:
+    """Seconds a decade, by least squares over the decades FITTED."""
+    k = decade(rows["start_id"])
+    used = k.between(*FITTED) & rows["settling_time_s"].notna()
+    return float(np.polyfit(k[used], rows.loc[used, "settling_time_s"], 1)[0])
+
+
+@responsive_picture
+def decades(episodes: pd.DataFrame, narrow: bool):
+    """Settling time against the distance from the half turn.
+
+    Args:
+        episodes: rows of one engine, of the rotation-matrix law and the set half-turn.
+    """
+    figure, axes = style.panels(height=3.9 if narrow else 3.6, narrow=narrow)
+    kp, kv, tolerance = (float(episodes[name].iloc[0]) for name in ("kp", "kv", "tolerance"))
+    look = style.look(MATRIX)
+    k = decade(episodes["start_id"])
+    near, _ = near_and_exact(episodes)
+    theory = np.arange(0.0, k.max() + 0.01, 0.25)
+    times = closed_form.settling_curve(kp, kv, tolerance)(10.0**-theory)
+    axes.plot(theory, times, color=style.INK, linewidth=0.9, zorder=1)
+    marks = {"color": look.colour, "marker": look.marker, "linestyle": "none", "markersize": 5}
+    axes.plot(k[k.notna()], near["settling_time_s"], alpha=0.5, markeredgewidth=0, **marks)
+    axes.set(ylim=(0, None), xlim=(-0.5, k.max() + 0.5), ylabel="settling time [s]")
+    axes.set_xlabel("distance from the half turn, $\\pi - \\theta$ [rad]")
+    ticks = range(0, int(k.max()) + 1, 3)
+    axes.set_xticks(ticks, [f"$10^{{-{one}}}$" if one else "1" for one in ticks])
+    place = 0.5 * k.max()
+    height = float(np.interp(place, theory, times))
+    words = f"closed form, slope\n{closed_form.decade_slope(kp, kv):.4f} s a decade"
+    axes.text(place + 0.5, height - 0.35, words, va="top", color=style.INK, fontsize=9.5)
+    taken = near["settling_time_s"]
+    return figure, (
+        f"Settling time on the rotation matrix against the distance from the half turn, {len(near)} starts from "
+        f"1 to 1e-{k.max():.0f} rad: from {taken.min():.2f} to {taken.max():.2f} s on a straight line of "
+        f"{slope(episodes):.4f} s a decade."
     )

@@ -16,7 +16,6 @@ STREAM_TABLE = Table(
     "| As it came, way"
 )
 RIGHT = "log"
-FACTS = ("worst_rate", "worst_peak", "right_peak", "period", "raw_way", "raw_off")
 
 
 def streamed(run: Run) -> pd.DataFrame:
@@ -29,7 +28,7 @@ def facts(run: Run) -> dict:
     """Return the worst of the filters, and of the quaternion taken as it came."""
     rows = streamed(run)
     if rows.empty:
-        return dict.fromkeys(FACTS)
+        return {}
     laws, raw = rows[rows["law"] != ""], rows[rows["law"] == ""]
     swept = laws[laws["stream"] != "held"]
     return {

@@ -145,7 +145,7 @@ def facts(run: Run) -> dict:
         "least": f"{min(jumping):.2g}",
         "most": f"{max(jumping):.2g}",
         **{law: f"{keeps(law):.3f}" for law in WITH_MEMORY},
-        **{f"{law}_deg": f"{math.degrees(keeps(law)):.0f}" for law in WITH_MEMORY},
+        **{f"{law}_deg": f"{math.degrees(keeps(law)):.0f}" for law in ("hybrid", "late-braking")},
         "delta": f"{hybrid.DELTA:g}",
         "switch": f"{mrp_linearized.SWITCH:g}",
     }

@@ -13,7 +13,6 @@ from report.figures.kit.page import Run
 from report.figures.kit.tables import Table
 
 STATES = Table("Law | Measures the rate | Disturbance [rad/s²]:g | Left [°]:.2f | Within 1° [s] | Slowest [s]")
-FACTS = ("left", "disturbance", "starts", "faster", "fast_gain", "slow_gain")
 
 
 def compensated(run: Run) -> pd.DataFrame:
@@ -26,7 +25,7 @@ def facts(run: Run) -> dict:
     """Return what laws without an integral leave; how long the law without a rate takes over its twin."""
     rows = compensated(run)
     if rows.empty:
-        return dict.fromkeys(FACTS)
+        return {}
     worst = rows["disturbance"].max()
     rejecting = {name for name, one in known_compensators().items() if one.rejects}
     left = rows[(rows["disturbance"] == worst) & ~rows["law"].isin(rejecting)]["left_rad"].max()

@@ -31,33 +31,13 @@ from report.figures.robustness.rows import (
     worst,
 )
 from tasks.condition import condition_at
-from tasks.rules import RULES
 
-LINEAR = ("control-rate", "delay", "inertia")
-"""Perturbations of which the linear loop is stepped through."""
-
-TIMED = (*LINEAR, "uneven-inertia", "spin")
+TIMED = ("control-rate", "delay", "inertia", "uneven-inertia", "spin")
 """Those under which laws settle; the others last."""
 
 MOVING = ("moving-goal", "moving-goal-rate", "moving-goal-untold")
 
-EXACT = "rotation-vector"
-"""The law that is the linear loop from rest at every angle."""
-
-PAIELLI = "paielli-bach"
-
 ERRORS = Table("Perturbation | Level | Linear theory [deg] | Median law [deg] | Least [deg] | Most [deg] | Of the law")
-
-
-def farthest_ms(rows: pd.DataFrame, name: str) -> float:
-    """Largest difference of any start of EXACT from the linear loop's settling time [ms], under one of LINEAR."""
-    own = of(rows, EXACT)
-    there = {level: condition_at(tasks.axis(name), level) for level in levels(own)}
-    theory = {
-        level: robustness_theory.settling(*gains(rows), RULES.tolerance, one.period_s, one.delay_s, one.inertia[0])
-        for level, one in there.items()
-    }
-    return 1000.0 * float((own["time_s"] - own["level"].map(theory)).abs().max())
 
 
 def left(rows: pd.DataFrame, name: str) -> float:
@@ -109,7 +89,6 @@ def control_rate(rows: pd.DataFrame) -> dict:
     return {
         "limit": f"{limit:g}",
         "times": f"{worst(rows, 'control-rate') / limit:g}",
-        "rate_within": is_within(rows, "control-rate"),
     }
 
 
@@ -119,16 +98,7 @@ def delay(rows: pd.DataFrame) -> dict:
     return {
         "margin_ms": f"{1000.0 * margin:.0f}",
         "used": f"{100.0 * worst(rows, 'delay') / margin:.0f}",
-        "delay_within": is_within(rows, "delay"),
     }
-
-
-def is_within(rows: pd.DataFrame, name: str) -> str:
-    """Say whether PAIELLI loses only starts from which it can reverse its spring, blind for a delay and a period."""
-    lost = of(rows, PAIELLI).query("not good")
-    blind = [one.delay_s + one.period_s for one in (condition_at(tasks.axis(name), level) for level in lost["level"])]
-    beyond = [robustness_theory.reversal_angle(gains(rows)[0], one) for one in blind]
-    return "all" if (lost["angle0_rad"] >= beyond).all() else "not all"
 
 
 def noise(attitude: pd.DataFrame, rate: pd.DataFrame) -> dict:
@@ -136,7 +106,6 @@ def noise(attitude: pd.DataFrame, rate: pd.DataFrame) -> dict:
     ratios = pd.concat([over_theory(attitude, "attitude-noise"), over_theory(rate, "rate-noise")])
     variation, most = medians(rate, "variation"), max(levels(rate))
     return {
-        "part": f"{1.0 / left(attitude, 'attitude-noise'):.0f}",
         "noise_low": f"{ratios.min(axis=None):.2f}",
         "noise_high": f"{ratios.max(axis=None):.2f}",
         "jitter": f"{robustness_theory.jitter(*gains(rate), rate=most):.0f}",
@@ -154,14 +123,11 @@ def spin(rows: pd.DataFrame) -> dict:
     last = rows[(rows["level"] == fastest) & rows["good"]]
     farthest = last.groupby("contender", observed=True)["turned_deg"].max()
     mine = farthest[[law for law in laws(rows, controls=False) if law in farthest]]
-    middle = medians(rows, "turned_deg").median(axis=1)
     hybrid, short = (of(last, law).set_index("start_id")["turned_deg"] for law in ("hybrid", "quaternion-shortest"))
     ratio = (hybrid / short).dropna()
     return {
         "turns": f"{fastest / (2.0 * math.pi):.1f}",
         "coast_deg": f"{DEG * fastest / gains(rows)[1]:.0f}",
-        "rest_deg": f"{middle.iloc[0]:.0f}",
-        "spun_deg": f"{middle.loc[fastest]:.0f}",
         "most": f"{mine.max():.0f}",
         "most_law": families.word(mine.idxmax()),
         "unwound": f"{farthest.get('quaternion-unwinding', math.nan):.0f}",
@@ -199,7 +165,7 @@ SECTIONS: dict[Callable[..., dict], tuple[str, ...]] = {
 
 
 def facts(run: Run) -> dict:
-    """Return the facts of every section whose perturbations the run has, and how near the linear loop is to EXACT."""
+    """Return the facts of every section whose perturbations the run has."""
     found: dict = {}
     for section, names in SECTIONS.items():
         each = [along(run, name) for name in names]
@@ -207,8 +173,6 @@ def facts(run: Run) -> dict:
             found |= section(*each)
     for name in TIMED:
         found |= changes(along(run, name), name) if len(along(run, name)) else {}
-    if far := [farthest_ms(along(run, name), name) for name in LINEAR if EXACT in laws(along(run, name))]:
-        found["far_ms"] = f"{max(far):.1g}"
     return found
 
 

@@ -16,7 +16,8 @@ from bench.tables.read import with_contender
 from report.figures.kit import families, style
 from report.figures.kit.inline import responsive_picture
 from report.figures.kit.page import Run, given
-from report.figures.robustness.rows import along, gains, laws, listed, starts, with_unit
+from report.figures.kit.spelling import listed
+from report.figures.robustness.rows import along, gains, laws, starts, with_unit
 
 AXES = perturbations()
 

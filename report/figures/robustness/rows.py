@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import functools
 import math
-from collections.abc import Iterable
 
 import numpy as np
 import pandas as pd
@@ -16,6 +15,7 @@ from report.figures.comparison.cells import by_family
 from report.figures.kit import families, html
 from report.figures.kit.page import Run
 from report.figures.kit.share import share
+from report.figures.kit.spelling import listed
 
 DEG = 180.0 / math.pi
 
@@ -113,12 +113,6 @@ def losses(rows: pd.DataFrame, name: str) -> str:
     if not parts:
         return "No law loses a start there that goes well unperturbed."
     return f"Success drops there for {listed(parts)}."
-
-
-def listed(words: Iterable[str]) -> str:
-    """Return the words with commas and an "and"."""
-    *most, last = words
-    return f"{', '.join(most)} and {last}" if most else last
 
 
 def by_level(rows: pd.DataFrame, name: str) -> html.Markdown | None:
