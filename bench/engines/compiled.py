@@ -67,6 +67,7 @@ EVALUATE = types.Tuple((THREE, FOUR, float64))(ROTATION, THREE, GOAL, GAINS, FOU
 INLINED = (
     *("bench.law.chain", "bench.law.linalg", "bench.contenders.jacobians", "bench.control.resolved_acceleration"),
     *("bench.control.hybrid", "bench.engines.arm_episode", "bench.engines.contact_episode"),
+    *("bench.engines.plants", "bench.engines.controllers", "bench.engines.loop", "bench.engines.native"),
 )
 """Modules whose kernels take buffers and are always inlined: a call passes each array as seven words, and counts a
 reference to it; the chain's velocity took 60 ns, and takes 9."""
@@ -112,6 +113,17 @@ def compile_function(function, signature, cache: bool = True, **options):
     """
     register_kernels()
     return numba.njit(signature, cache=cache, **JIT, **options)(function)
+
+
+def compile_loop(episodes, laws: tuple, world=types.none, orders=types.none):
+    """Return a loop of `loop.episodes_of`, compiled; cached on disk.
+
+    Args:
+        laws: signatures of the functions that it calls by pointer, three at most. world, orders: types.
+    """
+    functions = (*map(types.FunctionType, laws), *[types.none] * (3 - len(laws)))
+    signature = types.void(*functions, world, orders, FOUR, MATRIX, NUMBERS, MATRIX, CURVES)
+    return compile_function(episodes, signature)
 
 
 def compile_callback(function, signature):

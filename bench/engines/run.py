@@ -2,13 +2,14 @@
 
 import numpy as np
 
-from bench.engines import ideal_episode, lanes
+from bench.engines import lanes
 from bench.engines.binding import evaluation_of, memory_of, observer, plant_of
-from bench.engines.compiled import EVALUATE, compile_function, made_once, own_law
+from bench.engines.compiled import EVALUATE, compile_function, compile_loop, made_once, own_law
 from bench.engines.convergence import Level, at_level, converged
 from bench.engines.curve import Curves, blank_curves
 from bench.engines.episode import Settings, blank, numbers, start_rows
-from bench.engines.ideal_episode import REFINED
+from bench.engines.plants import ideal
+from bench.engines.plants.ideal import REFINED
 from bench.law.contender import Contender
 
 CONTINUOUS = "ideal-rk4"
@@ -50,17 +51,22 @@ def run(
         return on_ideal(engine, contender, begun, settings, metrics, total, curves, converge)
     import mujoco  # takes a moment; the ideal plant needs none
 
-    from bench.engines.native import free_body as native
     from bench.engines.native.libmujoco import model_of
+    from bench.engines.plants import free_body
 
     plant = plant_of(contender, task, settings.gains)
     model = model_of(plant.xml(settings.dt_s), integrator)
     data = mujoco.MjData(model)
     states = np.array([[*qpos, *qvel] for qpos, qvel in map(plant.state, starts)], dtype=float)
-    law, rows = (evaluation(contender), memory_of(contender)), blank(len(starts), metrics)
-    given = begun, numbers(settings), rows, curves or blank_curves(len(starts))
-    compiled_loop(engine, tuple(metrics))(*law, native.view(model, data), states, *given)
+    rows, world = blank(len(starts), metrics), free_body.view(model, data, states)
+    law, given = law_of(contender, world), (begun, numbers(settings), rows, curves or blank_curves(len(starts)))
+    compiled_loop(engine, tuple(metrics))(*law, *given)
     return rows
+
+
+def law_of(contender: Contender, world=None, orders=None) -> tuple:
+    """Return a loop's first arguments: the law, the world it acts in, what else it is to do, and its memory."""
+    return evaluation(contender), None, None, world, orders, memory_of(contender)
 
 
 def on_ideal(
@@ -94,7 +100,7 @@ def on_ideal(
     def again(level: Level, which: np.ndarray) -> np.ndarray:
         rows, some = blank(len(which), metrics), Curves(curves.every, np.full_like(curves.samples[which], np.nan))
         limits = at_level(numbers(settings), level)
-        compiled_loop(REFINED, metrics)(evaluation(contender), memory_of(contender), begun[which], limits, rows, some)
+        compiled_loop(REFINED, metrics)(*law_of(contender), begun[which], limits, rows, some)
         curves.samples[which] = some.samples
         return rows
 
@@ -106,8 +112,7 @@ def _once(engine, contender, begun, settings, metrics, total, curves) -> np.ndar
     if curves.samples.shape[1] == 0 and is_in_lanes(max(total, len(begun))):
         loop_in_lanes(engine, contender, metrics)(memory_of(contender), begun, numbers(settings), rows)
     else:
-        given = begun, numbers(settings), rows, curves
-        compiled_loop(engine, metrics)(evaluation(contender), memory_of(contender), *given)
+        compiled_loop(engine, metrics)(*law_of(contender), begun, numbers(settings), rows, curves)
     return rows
 
 
@@ -120,8 +125,7 @@ def by_equal_steps(contender: Contender, begun: np.ndarray, settings: Settings, 
         return on_ideal(CONTINUOUS, contender, begun, settings, converge=False)
     rows, limits = blank(len(begun), ()), at_level(numbers(settings), Level(0.0, divisions))
     limits = limits._replace(tolerance_squared=NOTHING_IS_GOOD_ENOUGH, most_steps=divisions * settings.ticks)
-    law = evaluation(contender), memory_of(contender)
-    compiled_loop(REFINED, ())(*law, begun, limits, rows, blank_curves(len(begun)))
+    compiled_loop(REFINED, ())(*law_of(contender), begun, limits, rows, blank_curves(len(begun)))
     return rows
 
 
@@ -156,10 +160,10 @@ def compiled_loop(engine: str, metrics: tuple):
     """The loop of an engine, for all laws, compiled or taken from the disk cache."""
     observe = observer(metrics)
     if engine == "native":
-        from bench.engines.native import free_body as native
+        from bench.engines.plants import free_body
 
-        return native.episodes_of(observe)
-    return ideal_episode.episodes_of(engine, observe)
+        return compile_loop(free_body.loop_of(observe), (EVALUATE,), free_body.VIEW)
+    return compile_loop(ideal.loop_of(engine, observe), (EVALUATE,))
 
 
 @made_once

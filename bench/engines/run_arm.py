@@ -10,11 +10,13 @@ import tasks
 from bench.control.resolved_acceleration import assembly
 from bench.engines.arm_episode import STANDING, blank_arm, controls, joints, states
 from bench.engines.binding import margin_of, memory_of, observer, parts_for
-from bench.engines.compiled import compile_function, made_once, own_law
+from bench.engines.compiled import compile_function, compile_loop, made_once, own_law
 from bench.engines.curve import Curves, blank_curves
 from bench.engines.episode import Settings, numbers, start_rows
 from bench.engines.native import arm as native
 from bench.engines.native.libmujoco import model_of
+from bench.engines.plants import arm as on_arm
+from bench.engines.plants.arm import Orders, World
 from bench.engines.reference import arm as reference
 from bench.law.contender import Contender
 from tasks.arm_model import Arm
@@ -65,15 +67,13 @@ def run(
     rows = blank_arm(len(starts), metrics)
     has_one_at_rest = controls(contender, False, 1.0).has_own_model == STANDING
     ready = simulation(task, arm, settings.dt_s, integrator, variation, has_one_at_rest)
+    n = tasks.arm(arm).joints
+    shape = controls(contender, ready.has_own_model, settings.torque_limit)
     compiled_loop(tuple(metrics))(
         *pointers(contender),
-        ready.plant,
-        ready.model,
-        ready.work,
-        controls(contender, ready.has_own_model, settings.torque_limit),
-        joints(tasks.arm(arm)),
+        World(ready.plant, states(starts, n)),
+        Orders(ready.model, ready.work, shape, joints(tasks.arm(arm))),
         memory_of(contender),
-        states(starts, tasks.arm(arm).joints),
         start_rows(starts),
         numbers(settings),
         rows,
@@ -106,7 +106,8 @@ def _model(task: str, arm: Arm, dt_s: float, integrator: str, variation: str) ->
 @made_once
 def compiled_loop(metrics: tuple):
     """The loop with these metrics, for all contenders, compiled or taken from the disk cache."""
-    return native.episodes_of(observer(metrics))
+    laws = native.ASSEMBLE, native.RESOLVE, on_arm.MARGIN
+    return compile_loop(on_arm.loop_of(observer(metrics)), laws, on_arm.WORLD, on_arm.ORDERS)
 
 
 def pointers(contender: Contender) -> Pointers:
@@ -129,4 +130,4 @@ def resolution(inverse):
 
 @made_once
 def _margin(contender: Contender):
-    return compile_function(margin_of(contender), native.MARGIN)
+    return compile_function(margin_of(contender), on_arm.MARGIN)

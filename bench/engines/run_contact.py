@@ -9,17 +9,23 @@ import numpy as np
 from bench.control.contact_controller import ContactController, check_constants
 from bench.engines import contact_episode
 from bench.engines.compiled import compile_function, made_once
-from bench.engines.contact_episode import USUAL, Conditions, Ended, blank, made, numbers
+from bench.engines.contact_episode import TIME, USUAL, Conditions, Ended, blank, made, numbers
+from bench.engines.curve import blank_curves
+from bench.engines.episode import FAILURE_TICK, FIRST_METRIC, NEVER, OUTCOME, START_WIDTH
+from bench.engines.episode import Numbers as Limits
 from bench.engines.native import contact as native
 from bench.engines.native import trapped
 from bench.engines.native.libmujoco import MUJOCO_INTEGRATORS, model_of
+from bench.engines.plants.contact import World, compile_contact
 from bench.engines.reference import contact as reference
 from bench.errors import BadNumber, UnknownWord
+from bench.law.contender import NO_MEMORY
 from tasks.arm_model import Arm
 from tasks.contact import ContactTask, Trial, prepare, refuse
 from tasks.contact_checks import check_contact, check_trial
 from tasks.contact_model import STANDARD, ContactModel, model_xml
 from tasks.rules import ticks
+from tasks.verdict import GOING
 
 ENGINES = ("native", "reference")
 
@@ -97,12 +103,14 @@ def _episode(
     prepare(ready.model, ready.data, trial)
     ready.legs[: len(trial.pushes)] = trial.pushes
     shape = numbers(controller, task, trial, arm.rated, conditions)
-    record = blank(shape)
-    failure, ticks = _loop()(
-        pointer(controller), ready.view, ready.work, shape, conditions.gains, conditions.touch, record
-    )
+    record, row, ticks = blank(shape), np.zeros((1, FIRST_METRIC)), shape.ticks
+    limits = Limits(*conditions.gains, shape.dt, ticks, ticks + 1, 1, 0.0, 0.0, shape.speed_limit_squared, 0.0, 0.0)
+    world = World(ready.view, ready.work, shape, record)
+    given = NO_MEMORY, np.zeros((1, START_WIDTH)), limits, row, blank_curves(1)
+    _loop()(pointer(controller), None, None, world, conditions.touch, *given)
+    failure = GOING if row[0, FAILURE_TICK] == NEVER else int(row[0, OUTCOME])
     message = trapped.batch().error() if failure == contact_episode.BROKEN else ""
-    return made(record, failure, ticks, message, ready.data)
+    return made(record, failure, int(np.isfinite(record[:, TIME]).sum()), message, ready.data)
 
 
 def pointer(controller: ContactController):
@@ -115,4 +123,4 @@ def _pointer(controller: ContactController):
     return compile_function(controller.assemble, native.ASSEMBLE)
 
 
-_loop = made_once(native.episode_loop)
+_loop = made_once(compile_contact)

@@ -4,11 +4,12 @@ import functools
 
 import numpy as np
 
-from bench.engines import disturbed
-from bench.engines.binding import memory_of, observer
-from bench.engines.compiled import made_once
+from bench.engines.binding import observer
+from bench.engines.compiled import EVALUATE, compile_loop, made_once
+from bench.engines.curve import blank_curves
 from bench.engines.episode import Settings, numbers, start_rows
-from bench.engines.run import evaluation
+from bench.engines.plants import perturbed
+from bench.engines.run import law_of
 from bench.law.contender import Contender
 from tasks.condition import Condition
 from tasks.rules import RULES
@@ -27,23 +28,23 @@ def run(
     seed: int = 0,
     noise_bytes: float = NOISE_BYTES,
 ) -> np.ndarray:
-    """Rows of `engines.episode`, one a start, with `disturbed.EXTRA` columns more.
+    """Rows of `engines.episode`, one a start, with `perturbed.EXTRA` columns more.
 
     Args:
         settings: gains and limits; dt_s is the condition's.
         seed: of the noise, which is the same for every contender.
     """
-    rows = disturbed.blank_rows(len(starts), metrics)
+    rows = perturbed.blank_rows(len(starts), metrics)
     horizon_s = settings.ticks * settings.dt_s
-    given = disturbed.in_steps(numbers(settings), condition, RULES.hold_s, horizon_s)
-    periods = given.ticks // disturbed.steps_of(condition) + 1
+    given = perturbed.in_steps(numbers(settings), condition, RULES.hold_s, horizon_s)
+    periods = given.ticks // perturbed.steps_of(condition) + 1
     block = max(1, int(noise_bytes // (8 * 6 * periods))) if condition.is_noisy else len(starts)
-    law = evaluation(contender), memory_of(contender)
-    loop, timing, begun = compiled_loop(tuple(metrics)), disturbed.timing(condition), start_rows(starts)
+    loop, begun = compiled_loop(tuple(metrics)), start_rows(starts)
     for first in range(0, len(starts), block):
         some = slice(first, first + block)
         noise = drawn(len(begun[some]), periods, seed, condition.is_noisy, first)
-        loop(*law, begun[some], noise, given, timing, condition, rows[some])
+        law = law_of(contender, perturbed.world(condition, noise))
+        loop(*law, begun[some], given, rows[some], blank_curves(len(begun[some])))
     return rows
 
 
@@ -69,4 +70,4 @@ def _normal(first: int, count: int, periods: int, seed: int) -> np.ndarray:
 @made_once
 def compiled_loop(metrics: tuple):
     """The loop of the perturbed body, for all laws, compiled or taken from the disk cache."""
-    return disturbed.compiled(observer(metrics))
+    return compile_loop(perturbed.loop_of(observer(metrics)), (EVALUATE,), perturbed.WORLD)

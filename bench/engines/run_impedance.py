@@ -1,19 +1,22 @@
 """One call for impedances that shape no inertia: a law's error, springs and a design of damping on starts of an arm."""
 
 import functools
-import math
 
 import mujoco
 import numpy as np
 
 import tasks
+from bench.engines.arm_episode import MOST, states
 from bench.engines.binding import memory_of
 from bench.engines.compiled import compile_function, made_once
+from bench.engines.curve import blank_curves
 from bench.engines.episode import Settings, numbers, start_rows
 from bench.engines.native import arm as native
-from bench.engines.native import impedance
-from bench.engines.native.impedance import Springs, blank_rows
 from bench.engines.native.libmujoco import model_of
+from bench.engines.native.pointers import address_of
+from bench.engines.plants import impedance
+from bench.engines.plants.arm import World
+from bench.engines.plants.impedance import Orders, Springs, blank_rows
 from bench.engines.run import evaluation
 from bench.law.contender import Contender
 from bench.law.damping import Damping
@@ -35,12 +38,12 @@ def run(
     plant, still = (_model(arm, tasks.arm(arm).xml, settings.dt_s) for _ in range(2))
     data, standing, n = mujoco.MjData(plant), mujoco.MjData(still), tasks.arm(arm).joints
     work, kept = native.workspace(n)
-    unknown = (math.nan,) * 3
-    rows, ends = blank_rows(len(starts)), np.zeros((len(starts), 2 * n))
-    states = np.array([(*one.q, *one.qdot, *(one.goal_p or unknown)) for one in starts], dtype=float)
+    rows, ends, room = blank_rows(len(starts)), np.zeros((len(starts), 2 * n)), np.zeros((2 * MOST, MOST))
+    rated = np.array(tasks.arm(arm).rated, dtype=float)
     loop()(
-        evaluation(law), design_of(damping), memory_of(law), native.view(plant, data), native.view(still, standing),
-        work, springs, np.array(tasks.arm(arm).rated, dtype=float), states, start_rows(starts), given, rows, ends,
+        evaluation(law), design_of(damping), None, World(native.view(plant, data), states(starts, n)),
+        Orders(native.view(still, standing), work, address_of(room), springs, rated, ends),
+        memory_of(law), start_rows(starts), given, rows, blank_curves(len(starts)),
     )  # fmt: skip
     del kept  # what the addresses of `work` point into, until here
     return rows, ends
@@ -52,10 +55,7 @@ def _model(arm: str, xml: str, dt_s: float) -> mujoco.MjModel:
     return model_of(tasks.task(ARM_TASK, arm).xml(dt_s), "euler")
 
 
-@made_once
-def loop():
-    """The loop, for all of them."""
-    return impedance.episodes_of()
+loop = made_once(impedance.compile_arm)
 
 
 @made_once

@@ -1,22 +1,23 @@
 """One call for robots commanded by velocities: a first-order law on starts of the free body or an arm, rows back."""
 
 import functools
-import math
 
 import mujoco
 import numpy as np
 
 import tasks
-from bench.engines import velocity
+from bench.engines.arm_episode import states
 from bench.engines.binding import memory_of
 from bench.engines.compiled import compile_function, made_once
+from bench.engines.curve import blank_curves
 from bench.engines.episode import Settings, numbers, start_rows
 from bench.engines.native import arm as native
-from bench.engines.native import velocity as on_arm
 from bench.engines.native.libmujoco import model_of
+from bench.engines.plants import velocity
+from bench.engines.plants.arm import World
+from bench.engines.plants.velocity import Orders, Pace, blank_rows
 from bench.engines.run import evaluation
 from bench.engines.run_arm import resolution
-from bench.engines.velocity import Pace, blank_rows
 from bench.law.contender import Contender
 from bench.law.limiter import Limiter
 from tasks.velocity import servo
@@ -34,19 +35,20 @@ def run(
         starts: tasks.Start, in order, whose omega and joint rates are not used: nothing moves before a command.
         lag_s: time constant of the joints' servos [s]; 0: none. Those of the free body have none.
     """
-    rows, begun, given = blank_rows(len(starts)), start_rows(starts), numbers(settings)
+    rows, none = blank_rows(len(starts), bool(arm)), blank_curves(len(starts))
     pace = Pace(float(K), *map(float, servo(settings.dt_s, lag_s)))
     law = contender._replace(jacobian=None, inverse=None)
+    given = memory_of(law), start_rows(starts), numbers(settings), rows, none
     functions = evaluation(law), limit_of(limiter)
     if not arm:
-        free_body()(*functions, memory_of(law), begun, pace, given, rows)
+        free_body()(*functions, None, None, pace, *given)
         return rows
-    model = _model(arm, tasks.arm(arm).xml, settings.dt_s)
-    data, (work, kept) = mujoco.MjData(model), native.workspace(tasks.arm(arm).joints)
-    unknown = (math.nan,) * 3
-    states = np.array([(*one.q, *(one.goal_p or unknown)) for one in starts], dtype=float)
-    resolve = resolution(contender.inverse)
-    arms()(*functions, resolve, memory_of(law), native.view(model, data), work, states, begun, pace, given, rows)
+    model, n = _model(arm, tasks.arm(arm).xml, settings.dt_s), tasks.arm(arm).joints
+    data, (work, kept) = mujoco.MjData(model), native.workspace(n)
+    still = states([one._replace(qdot=(0.0,) * n) for one in starts], n)
+    arms()(
+        *functions, resolution(contender.inverse), World(native.view(model, data), still), Orders(pace, work), *given
+    )
     del kept  # what the addresses of `work` point into, until here
     return rows
 
@@ -57,16 +59,7 @@ def _model(arm: str, xml: str, dt_s: float) -> mujoco.MjModel:
     return model_of(tasks.task(ARM_TASK, arm).xml(dt_s), "euler")
 
 
-@made_once
-def free_body():
-    """The loop of the free body."""
-    return velocity.episodes_of()
-
-
-@made_once
-def arms():
-    """The loop of arms."""
-    return on_arm.episodes_of()
+free_body, arms = made_once(velocity.compile_body), made_once(velocity.compile_arm)
 
 
 @made_once

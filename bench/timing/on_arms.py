@@ -15,6 +15,7 @@ from bench.engines.binding import memory_of
 from bench.engines.curve import blank_curves
 from bench.engines.episode import TICKS, numbers, start_rows
 from bench.engines.native.libmujoco import model_of
+from bench.engines.plants.arm import Orders, World
 from bench.experiments.experiment import Settings
 from bench.experiments.suites import suite
 from bench.law.contender import PAPERS_GAINS, Contender
@@ -91,17 +92,12 @@ def _native(arm: str, one: Contender, start: Start, horizon_s: float, fewest: in
     fresh = blank_arm(1, metrics)
     rows = fresh.copy()
     loop = run_arm.compiled_loop(metrics)
+    shape = controls(one, ready.has_own_model, settings.torque_limit)
     given = (
         *run_arm.pointers(one),
-        *(ready.plant, ready.model, ready.work),
-        controls(one, ready.has_own_model, settings.torque_limit),
-        joints(tasks.arm(arm)),
-        memory_of(one),
-        states([start], tasks.arm(arm).joints),
-        start_rows([start]),
-        numbers(settings),
-        rows,
-        blank_curves(1),
+        World(ready.plant, states([start], tasks.arm(arm).joints)),
+        Orders(ready.model, ready.work, shape, joints(tasks.arm(arm))),
+        *(memory_of(one), start_rows([start]), numbers(settings), rows, blank_curves(1)),
     )
 
     def call():

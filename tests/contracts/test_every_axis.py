@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import tasks
-from bench.engines import disturbed
+from bench.engines.plants import perturbed
 from tasks.condition import Condition
 
 AXES = [tasks.axis(name) for name in tasks.axis_names()]
@@ -56,7 +56,7 @@ def test_conditions_are_of_this_world(axis):
 def test_delays_are_whole_steps_of_the_plant(axis):
     for level in axis.levels:
         met = axis.at(level)
-        steps = met.delay_s / (met.period_s / disturbed.steps_of(met))
+        steps = met.delay_s / (met.period_s / perturbed.steps_of(met))
         assert steps == pytest.approx(round(steps), abs=1e-9)
 
 

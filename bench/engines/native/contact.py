@@ -1,40 +1,23 @@
-"""A task in contact in MuJoCo, a whole episode compiled; MuJoCo's errors end the episode and nothing else.
+"""A task in contact as compiled code takes it: addresses of mjData's arrays and of buffers, and arrays made of them."""
 
-The loop is compiled once, for all arms, tasks and controllers: a controller comes as a function that is called by
-pointer. The order of a tick is dm_control's, as on the arm.
-"""
-
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import mujoco
 import numpy as np
-from numba import float64, int64, types
 
-from bench.control.hybrid import comply
 from bench.control.setpoint import ContactBuffers, ContactParameters, Rows, Setpoint
 from bench.engines.arm_episode import MOST
-from bench.engines.compiled import MATRIX, compile_function, register
+from bench.engines.compiled import GAINS, MATRIX, ROTATION, THREE, float64, int64, types
 from bench.engines.contact_episode import (
-    BROKEN,
-    RESTED,
     Numbers,
-    overload,
-    sensed,
     sensors_of,
-    setpoint,
-    wrench,
-    write_record,
 )
-from bench.engines.native.arm import CHAIN, GAINS, ROTATION, THREE, VECTOR
-from bench.engines.native.libmujoco import mj_fullM
+from bench.engines.native.arm import CHAIN, VECTOR
 from bench.engines.native.pointers import address_of, integers, matrix, vector
-from bench.engines.native.trapped import BEGIN, RUNGE_KUTTA, STEP, step
-from bench.law.resolved_motion import Chain, Scratch
-from bench.law.scalar import sqrt
-from bench.law.so3 import Rotation, from_quaternion
-from tasks.contact import MOST_LEGS, leg
-from tasks.contact_rest import RestNumbers, has_left
-from tasks.verdict import GOING, check_command, check_state
+from bench.law.resolved_motion import Scratch
+from bench.law.scalar import kernel
+from tasks.contact import MOST_LEGS
+from tasks.contact_rest import RestNumbers
 
 
 class ContactView(NamedTuple):
@@ -107,8 +90,6 @@ NUMBERS = types.NamedTuple(
 VIEW = types.NamedUniTuple(int64, len(ContactView._fields), ContactView)
 WORKSPACE = types.NamedUniTuple(int64, len(Workspace._fields), Workspace)
 ASSEMBLE = types.void(CHAIN, WISH, THREE, THREE, GAINS, TOUCH, MATRIX, ROWS)
-RESULT = types.UniTuple(int64, 2)
-EPISODE = RESULT(types.FunctionType(ASSEMBLE), VIEW, WORKSPACE, NUMBERS, GAINS, TOUCH, MATRIX)
 
 
 def view(model, data, batch, callback: int, asked: np.ndarray, n: int) -> ContactView:
@@ -142,71 +123,53 @@ def workspace(rows: Rows, room: ContactBuffers, nv: int, n: int, noise: np.ndarr
     return Workspace(*map(address_of, arrays)), arrays
 
 
-def episode_loop(cache: bool = True):
-    """The loop over one episode: `episode(assemble, sim, work, numbers, gains, touch, record)` -> (failure, ticks)."""
+class Body(NamedTuple):
+    """The arrays of `ContactView` and `Workspace`, and what of them stays a number."""
 
-    def episode(assemble, sim, work, numbers, gains, touch, record):
-        n, nv, dt = sim.n, sim.nv, numbers.dt
-        qvel, ctrl, s = vector(sim.qvel, nv), vector(sim.ctrl, n), vector(sim.sensordata, sim.sensors)
-        axes, anchors = matrix(sim.axes, nv, 3), matrix(sim.anchors, nv, 3)
-        bias, passive = vector(sim.bias, nv), vector(sim.passive, nv)
-        J, D, fg, tau = matrix(work.J, 6, MOST), matrix(work.D, nv, nv), vector(work.fg, n), vector(work.tau, n)
-        push, legs = vector(sim.push, 6), matrix(work.legs, MOST_LEGS, 6)
-        noise = matrix(work.noise, numbers.ticks, 6)
-        rows = Rows(vector(work.a, 6), vector(work.drift, 6), vector(work.F, 6), vector(work.h, 6), vector(work.v, 6))
-        scratch = Scratch(
-            matrix(work.A, MOST, MOST), matrix(work.B, MOST, MOST), matrix(work.V, MOST, MOST),
-            vector(work.s, MOST), vector(work.t, MOST),
-        )  # fmt: skip
-        room = ContactBuffers(
-            vector(work.y, MOST), vector(work.b, MOST), vector(work.x, MOST), matrix(work.held, 6, MOST), scratch
-        )
-        asked = integers(sim.asked, 3)
-        asked[2] = BEGIN
-        if step(sim.batch, sim.callback, sim.asked) > 0:
-            return BROKEN, 0
-        asked[2] = RUNGE_KUTTA if sim.is_runge_kutta else STEP
-        R_d, p_0 = from_quaternion(numbers.quat_d), (s[16], s[17], s[18])
-        place, frame, since = p_0, R_d, 0
-        for tick in range(numbers.ticks):
-            time = tick * dt
-            R = Rotation((s[0], s[1], s[2]), (s[3], s[4], s[5]), (s[6], s[7], s[8]))
-            p, omega = (s[16], s[17], s[18]), (s[9], s[10], s[11])
-            f, m = wrench(R, s)
-            f_seen, m_seen = sensed(f, m, record, tick, numbers.delay, noise)
-            wanted = setpoint(R_d, p_0, numbers, time)
-            mj_fullM(sim.model, sim.data, work.D)
-            for i in range(n):
-                fg[i] = bias[i] - passive[i]
-            chain = Chain(n, axes, anchors, qvel, p, R)
-            assemble(chain, wanted, f_seen, m_seen, gains, touch, J, rows)
-            comply(numbers.form, numbers.held, chain, D, fg, J, rows, gains, touch, room, tau)
-            total, largest = overload(tau, numbers.rated, n)
-            gap = s[sim.gap] if sim.gap >= 0 else 0.0
-            turned = s[sim.turned] if sim.turned >= 0 else 0.0
-            write_record(record[tick], time, R, omega, p, f, m, gap, turned, sqrt(largest))
-            failure = check_command(total, numbers.torque_limit_squared)
-            if failure != GOING:
-                return failure, tick + 1
-            if has_left(numbers.rest, tick, p, R, place, frame):
-                place, frame, since = p, R, tick
-            elif numbers.rest.ticks > 0 and tick - since >= numbers.rest.ticks:
-                return RESTED, tick + 1
-            for i in range(n):
-                ctrl[i] = tau[i]
-            now = leg(numbers.legs, tick, numbers.ticks)
-            for i in range(6):
-                push[i] = legs[now, i]
-            if step(sim.batch, sim.callback, sim.asked) > 0:
-                return BROKEN, tick + 1
-            speed = 0.0
-            for i in range(nv):
-                speed = speed + qvel[i] * qvel[i]
-            failure = check_state(speed, numbers.speed_limit_squared)
-            if failure != GOING:
-                return failure, tick + 1
-        return GOING, numbers.ticks
+    model: int
+    data: int
+    is_runge_kutta: int
+    n: int
+    nv: int
+    gap: int
+    turned: int
+    batch: int
+    callback: int
+    asked_address: int
+    D_address: int
+    asked: Any
+    push: Any
+    qvel: Any
+    ctrl: Any
+    s: Any
+    bias: Any
+    passive: Any
+    axes: Any
+    anchors: Any
+    J: Any
+    D: Any
+    fg: Any
+    tau: Any
+    legs: Any
+    noise: Any
+    rows: Rows
+    room: ContactBuffers
 
-    register(leg)
-    register(has_left)
-    return compile_function(episode, EPISODE, cache)
+
+@kernel
+def open_simulation(sim, work, ticks):
+    """Return the arrays of a simulation and its buffers."""
+    n, nv = sim.n, sim.nv
+    A, B, V = matrix(work.A, MOST, MOST), matrix(work.B, MOST, MOST), matrix(work.V, MOST, MOST)
+    scratch = Scratch(A, B, V, vector(work.s, MOST), vector(work.t, MOST))
+    y, b, x, held = vector(work.y, MOST), vector(work.b, MOST), vector(work.x, MOST), matrix(work.held, 6, MOST)
+    return Body(
+        sim.model, sim.data, sim.is_runge_kutta, n, nv, sim.gap, sim.turned, sim.batch, sim.callback, sim.asked, work.D,
+        integers(sim.asked, 3), vector(sim.push, 6), vector(sim.qvel, nv), vector(sim.ctrl, n),
+        vector(sim.sensordata, sim.sensors), vector(sim.bias, nv), vector(sim.passive, nv),
+        matrix(sim.axes, nv, 3), matrix(sim.anchors, nv, 3),
+        matrix(work.J, 6, MOST), matrix(work.D, nv, nv), vector(work.fg, n), vector(work.tau, n),
+        matrix(work.legs, MOST_LEGS, 6), matrix(work.noise, ticks, 6),
+        Rows(vector(work.a, 6), vector(work.drift, 6), vector(work.F, 6), vector(work.h, 6), vector(work.v, 6)),
+        ContactBuffers(y, b, x, held, scratch),
+    )  # fmt: skip

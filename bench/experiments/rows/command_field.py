@@ -15,10 +15,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bench.engines.binding import memory_of
 from bench.engines.curve import NUMBERS, blank_curves
 from bench.engines.episode import Settings, blank, numbers
-from bench.engines.run import compiled_loop, evaluation
+from bench.engines.run import compiled_loop, law_of
 from bench.law.contender import Contender, Gains
 from bench.law.so3 import from_quaternion
 from bench.metrics.registry import metrics_of
@@ -67,7 +66,7 @@ class Field:
 
     def __init__(self, one: Contender, gains: Gains):
         self.one, self.gains, self.metrics = one, gains, tuple(metrics_of(on_arm=False))
-        self.law = evaluation(one), memory_of(one)
+        self.law = law_of(one)
 
     def __call__(self, quats: np.ndarray, goal: Quat = IDENTITY, omegas: np.ndarray | float = 0.0) -> np.ndarray:
         """u/kp of n quaternions (n, 4) and angular velocities (n, 3)."""

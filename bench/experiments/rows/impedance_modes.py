@@ -12,7 +12,7 @@ import pandas as pd
 
 import tasks
 from bench.contenders.registry import find_contender, known_dampings
-from bench.engines.native.impedance import Springs
+from bench.engines.plants.impedance import Springs
 from bench.engines.run_impedance import run
 from bench.experiments.experiment import Settings, Unit
 from bench.experiments.impedance import LAW, STIFFNESSES, ZETA, Stiffness

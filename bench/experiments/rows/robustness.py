@@ -4,8 +4,8 @@ import numpy as np
 import pandas as pd
 
 import tasks
-from bench.engines import disturbed
 from bench.engines.episode import Settings as Limits
+from bench.engines.plants import perturbed
 from bench.experiments.experiment import Settings, Unit
 from bench.experiments.rows.episodes import judged_columns, lost, measured_columns
 from bench.experiments.rows.equal_peak import gains_at
@@ -46,7 +46,7 @@ def lost_frame(settings: Settings, unit: Unit, outcome: str) -> pd.DataFrame:
     """
 
     def simulate(_one, starts, _condition, _limits, metrics, _seed):
-        return lost(disturbed.blank_rows(len(starts), metrics), outcome)
+        return lost(perturbed.blank_rows(len(starts), metrics), outcome)
 
     nothing = dict.fromkeys((metric.column for metric in metrics_of(on_arm=False)), np.nan)
     return frame(settings, unit, simulate, lambda _one, _peak: settings.gains).assign(**nothing, variation=np.nan)
@@ -60,14 +60,14 @@ def _limits(gains: Gains, horizon_s: float) -> Limits:
 def _rows(one: Contender, starts, condition: Condition, limits: Limits, seed: int, simulate) -> dict:
     metrics = metrics_of(on_arm=False)
     numbers = simulate(one, starts, condition, limits, metrics, seed)
-    step_s = condition.period_s / disturbed.steps_of(condition)
+    step_s = condition.period_s / perturbed.steps_of(condition)
     angle0 = [angle(start.quat_wxyz, start.goal_wxyz) for start in starts]
     judged = judged_columns(numbers, step_s)
     finals = judged["final_angle_rad"]
-    extra = numbers[:, -disturbed.EXTRA :]
-    tail = extra[:, disturbed.TAIL_COUNT]
+    extra = numbers[:, -perturbed.EXTRA :]
+    tail = extra[:, perturbed.TAIL_COUNT]
     has_tail = tail > 0
-    rms = np.sqrt(extra[:, disturbed.TAIL_SQUARES] / np.where(has_tail, tail, 1.0))
+    rms = np.sqrt(extra[:, perturbed.TAIL_SQUARES] / np.where(has_tail, tail, 1.0))
     return {
         "start_id": [start.id for start in starts],
         "angle0_rad": angle0,
@@ -78,6 +78,6 @@ def _rows(one: Contender, starts, condition: Condition, limits: Limits, seed: in
         **judged,
         **measured_columns(numbers, metrics, angle0, judged),
         "tail_rms_rad": np.where(has_tail, rms, finals),
-        "tail_max_rad": np.where(has_tail, extra[:, disturbed.TAIL_WORST], finals),
-        "variation": extra[:, disturbed.VARIATION],
+        "tail_max_rad": np.where(has_tail, extra[:, perturbed.TAIL_WORST], finals),
+        "variation": extra[:, perturbed.VARIATION],
     }
