@@ -5,10 +5,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bench.engines.compiled import compile_function, made_once
-from bench.engines.curve import blank_curves
+from bench.engines.compiled import BEGIN_STATE, STATEFUL, compile_function, made_once
 from bench.engines.episode import FINAL_ANGLE, SETTLING_TICK, Numbers, start_rows
 from bench.engines.plants import quaternion
+from bench.engines.simulate import compiled_loop, simulate
 from bench.law.compensator import Compensator
 from bench.law.contender import NO_MEMORY, Gains
 from bench.law.scalar import kernel
@@ -29,23 +29,20 @@ class Asked(NamedTuple):
     z: float
 
 
-compiled_loop = made_once(quaternion.compile_with_state)
-
-
 @made_once
 def _parts(one: Compensator):
-    return compile_function(one.law, quaternion.LAW), compile_function(one.begin, quaternion.BEGIN)
+    return compile_function(one.law, STATEFUL), compile_function(one.begin, BEGIN_STATE)
 
 
 def prepare(one: Compensator) -> None:
     """Compile what `run` will need, or take it from the disk cache."""
-    compiled_loop()
+    compiled_loop("state")
     _parts(one)
 
 
 def run(one: Compensator, starts, gains: Gains, asked: Asked) -> np.ndarray:
     """Rows (SETTLED, LEFT, PEAK), one per start, from its orientation and angular velocity."""
-    return rows_of(compiled_loop(), _parts(one), starts, gains, asked)
+    return rows_of(compiled_loop("state"), _parts(one), starts, gains, asked)
 
 
 def rows_of(loop, parts: tuple, starts, gains: Gains, asked: Asked) -> np.ndarray:
@@ -53,7 +50,7 @@ def rows_of(loop, parts: tuple, starts, gains: Gains, asked: Asked) -> np.ndarra
     begun, rows, ticks = start_rows(starts), np.zeros((len(starts), quaternion.PEAK + 1)), int(asked.ticks)
     begun[:, 11] = math.sin(0.5 * asked.band) ** 2
     limits = Numbers(*gains, asked.dt, ticks, ticks + 1, 1, *(math.inf,) * 3, 0.0, 0.0)
-    loop(*parts, None, asked[3:], None, NO_MEMORY, begun, limits, rows, blank_curves(len(starts)))
+    simulate(loop, parts, quaternion.Disturbance(asked[3:]), NO_MEMORY, begun, limits, rows)
     is_in = rows[:, FINAL_ANGLE] <= asked.band
     times = np.where(is_in, rows[:, SETTLING_TICK] * asked.dt, math.nan)
     return np.column_stack((times, rows[:, FINAL_ANGLE], rows[:, quaternion.PEAK]))

@@ -1,90 +1,124 @@
 """The loop over episodes that all engines share, made of a plant, a controller and a record.
 
-A tick: sense, command, see | advance, check | look. What the judge sees is the state at the beginning of each tick.
-The parts are kernels, which the loop holds as a closure: compiled they become one function, plain they are the
-reference. `body` and `desk` are what plant and controller work with; `state`, `memory` and `act` go from tick to tick.
+A tick: command, see, advance, sense. What the judge sees is the state at the beginning of each tick. The parts are
+kernels, which the loop holds as a closure: compiled they become one function, plain they are the reference. `body` is
+the world they work in; `state`, `sensed`, `act` and `memory` go from tick to tick.
 """
 
 import math
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from bench.engines.curve import keep
 from bench.engines.episode import Sample, blamed, finish
-from bench.law.contender import AT_REST, Gains
+from bench.engines.typed import borrow
+from bench.law.contender import AT_REST, Gains, Goal
 from bench.law.scalar import kernel
-from tasks.verdict import GOING, first_watch, watched
+from bench.law.so3 import Rotation, dot
+from tasks.verdict import GOING, check_command, check_state, first_watch, watched
 
 
 class Plant(NamedTuple):
     """Functions of what moves.
 
-    enter(world) -> body, what all episodes share; reset(body, k, start) -> state; sense(body, state) -> what a
-    controller and a record are given, R and omega among it; look(body, state, tick, numbers) -> (state, haversine,
-    speed squared), the judge's look, after which goals that move have moved; advance(laws, body, desk, state, act,
-    gains, memory, numbers) -> (state, memory); check(body, state, numbers) -> why the episode ends, or GOING;
-    end(body, state) -> (angle, speed squared).
+    reset(body, k, start) -> state; sense(body, state, tick, numbers) -> Sensed; advance(laws, body, state, act, gains,
+    memory, numbers) -> (state, memory); measure(body, state, sensed) -> the angle to the goal [rad].
     """
 
-    enter: Callable
     reset: Callable
     sense: Callable
-    look: Callable
     advance: Callable
-    check: Callable
-    end: Callable
+    measure: Callable
 
 
 class Controller(NamedTuple):
     """Functions of what commands.
 
-    gather(first, second, third) -> the law's functions by their names; ready(orders) -> desk; begin(laws, memory0,
-    sensed) -> (memory, act); command(laws, body, desk, state, sensed, now, gains, memory, numbers) -> (act, memory).
+    begin(laws, memory0, sensed) -> (memory, act before the first); command(laws, body, sensed, now, gains, memory,
+    numbers) -> (act, memory).
     """
 
-    gather: Callable
-    ready: Callable
     begin: Callable
     command: Callable
 
 
+class Laws(NamedTuple):
+    """What the loop calls by pointer: the law, and two functions more if its controller has them."""
+
+    law: Any
+    second: Any
+    third: Any
+
+
+class Sensed(NamedTuple):
+    """What is known of the plant at a tick, base frame.
+
+    turning, speed, rest: squared speeds, as the judge's watch, his limit and his verdict take them. fate: why the plant
+    ends the episode, or GOING. more: what is particular to a plant.
+    """
+
+    R: Rotation
+    omega: tuple
+    goal: Goal
+    haversine: float
+    turning: float
+    speed: float
+    rest: float
+    fate: int
+    more: Any
+
+
 class Act(NamedTuple):
-    """A command: u as applied and as the law gave it, its square for the verdict, the margin, and why it fails."""
+    """A command: u as it is applied and as the law gave it, its square for the verdict, margin, and why it fails.
+
+    more: what is particular to a controller.
+    """
 
     u: tuple
     given: tuple
     squared: float
     margin: float
     failure: int
+    more: Any = ()
 
 
 NO_ACT = Act(AT_REST, AT_REST, 0.0, math.nan, GOING)
 
 
 class Now(NamedTuple):
-    """Number of the episode and of the tick; what the judge has seen of it."""
+    """Number of the episode and of the tick; whether the judge has seen the angle in the band, and the body at rest."""
 
     k: int
     tick: int
-    haversine: float
     entered: bool
     at_rest: bool
 
 
 @kernel
-def pass_on(given):
-    """Return what is given: a world that is a body already, or orders that are a desk."""
-    return given
+def begin(laws, memory0, sensed):
+    """Start with the law's own memory, and no command."""
+    return memory0, NO_ACT
 
 
 @kernel
-def no_account(row, body, desk, state, act, tick, numbers):
+def accelerate(laws, body, sensed, now, gains, memory, numbers):
+    """Command the angular acceleration that the law says."""
+    u, memory, margin = laws.law(sensed.R, sensed.omega, sensed.goal, gains, memory)
+    squared = dot(u, u)
+    return Act(u, u, squared, margin, check_command(squared, numbers.command_limit_squared), ()), memory
+
+
+ACCELERATION = Controller(begin, accelerate)
+
+
+@kernel
+def no_account(row, body, state, sensed, act, tick, numbers):
     """Keep nothing of a tick that is over."""
     return None
 
 
 @kernel
-def no_close(row, body, desk, state, k, numbers):
+def no_close(row, body, state, k, numbers):
     """Add nothing to an episode's row."""
     return None
 
@@ -92,9 +126,9 @@ def no_close(row, body, desk, state, k, numbers):
 class Record(NamedTuple):
     """Functions that fill a row.
 
-    see(row, curves, now, body, desk, state, sensed, act, before, numbers): before the plant moves, with the command
-    before it. account(row, body, desk, state, act, tick, numbers): after it has. close(row, body, desk, state, k,
-    numbers): at the end.
+    see(row, curves, now, body, sensed, act, before, numbers): before the plant moves; before: the u before this one.
+    account(row, body, state, sensed, act, tick, numbers): after it has. close(row, body, state, k, numbers): at the
+    end.
     """
 
     see: Callable
@@ -106,12 +140,9 @@ def sampled(observe) -> Record:
     """Return the record of a free body: the metrics' columns, and curves."""
 
     @kernel
-    def see(row, curves, now, body, desk, state, sensed, act, before, numbers):
-        dt = numbers.dt
-        sample = Sample(
-            now.tick * dt, dt, sensed.R, now.haversine, now.entered, now.at_rest, sensed.omega,
-            act.u, before, act.margin,
-        )  # fmt: skip
+    def see(row, curves, now, body, sensed, act, before, numbers):
+        time, R, hav, omega = now.tick * numbers.dt, sensed.R, sensed.haversine, sensed.omega
+        sample = Sample(time, numbers.dt, R, hav, now.entered, now.at_rest, omega, act.u, before, act.margin)
         observe(row, sample)
         keep(curves, now.k, now.tick, sample)
 
@@ -120,37 +151,38 @@ def sampled(observe) -> Record:
 
 def episodes_of(plant: Plant, controller: Controller, record: Record):
     """Return the loop, which fills the last two of its arguments: a row an episode, and curves where there is room."""
-    enter, reset, sense, look, advance, check, end = plant
-    gather, ready, begin, command = controller
+    reset, sense, advance, measure = plant
+    begin, command = controller
     see, account, close = record
 
-    def episodes(first, second, third, world, orders, memory0, starts, numbers, rows, curves):
-        laws, gains = gather(first, second, third), Gains(numbers.kp, numbers.kv)
-        body, desk = enter(world), ready(orders)
+    def episodes(first, second, third, world, memory0, starts, numbers, rows, curves):
+        laws, gains, body = Laws(first, second, third), Gains(numbers.kp, numbers.kv), borrow(world)
         for k in range(starts.shape[0]):
             start, row = starts[k], rows[k]
-            state, haversine, speed = look(body, reset(body, k, start), 0, numbers)
-            watch = first_watch(haversine, start[11], speed, numbers.slow_squared)
-            memory, act = begin(laws, memory0, sense(body, state))
-            tick, failure = 0, GOING
-            while tick < numbers.ticks and watch.quiet < numbers.hold_ticks:
-                sensed, before = sense(body, state), act.u
-                now = Now(k, tick, haversine, watch.entries > 0, watch.rest > 0)
-                act, memory = command(laws, body, desk, state, sensed, now, gains, memory, numbers)
-                see(row, curves, now, body, desk, state, sensed, act, before, numbers)
+            state = reset(body, k, start)
+            sensed = sense(body, state, 0, numbers)
+            watch = first_watch(sensed.haversine, start[11], sensed.turning, numbers.slow_squared)
+            memory, act = begin(laws, memory0, sensed)
+            tick, failure = 0, sensed.fate
+            while tick < numbers.ticks and watch.quiet < numbers.hold_ticks and failure == GOING:
+                before, now = act.u, Now(k, tick, watch.entries > 0, watch.rest > 0)
+                act, memory = command(laws, body, sensed, now, gains, memory, numbers)
+                see(row, curves, now, body, sensed, act, before, numbers)
                 failure = act.failure
                 if failure != GOING:
                     break
-                state, memory = advance(laws, body, desk, state, act, gains, memory, numbers)
+                state, memory = advance(laws, body, state, act, gains, memory, numbers)
                 tick += 1
-                failure = check(body, state, numbers)
+                sensed = sense(body, state, tick, numbers)
+                failure = sensed.fate
+                if failure == GOING:
+                    failure = check_state(sensed.speed, numbers.speed_limit_squared)
                 if failure != GOING:
                     break
-                state, haversine, speed = look(body, state, tick, numbers)
-                watch = watched(watch, tick, haversine, start[11], speed, numbers.slow_squared)
-                account(row, body, desk, state, act, tick, numbers)
-            angle, speed = end(body, state)
-            finish(row, blamed(failure, act.given), watch, tick, angle, speed, act.squared, numbers)
-            close(row, body, desk, state, k, numbers)
+                watch = watched(watch, tick, sensed.haversine, start[11], sensed.turning, numbers.slow_squared)
+                account(row, body, state, sensed, act, tick, numbers)
+            angle, failure = measure(body, state, sensed), blamed(failure, act.given)
+            finish(row, failure, watch, tick, angle, sensed.rest, act.squared, numbers)
+            close(row, body, state, k, numbers)
 
     return episodes

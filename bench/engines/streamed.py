@@ -5,11 +5,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bench.engines.compiled import made_once
-from bench.engines.curve import blank_curves
+from bench.engines.binding import memory_of
 from bench.engines.episode import START_WIDTH, Numbers
 from bench.engines.plants import quaternion
-from bench.engines.run import law_of
+from bench.engines.simulate import compiled_loop, evaluation, simulate
 from bench.law.contender import Contender, Gains
 
 
@@ -19,9 +18,6 @@ class Seen(NamedTuple):
     peak_u: float
     off_rad: float
     way_rad: float
-
-
-loop = made_once(quaternion.compile_streamed)
 
 
 def run(
@@ -35,6 +31,6 @@ def run(
     start, rows = np.zeros((1, START_WIDTH)), np.zeros((1, quaternion.PATH + 1))
     start[0, 0:4], start[0, 7:11] = truth[0], goals[0]
     limits = Numbers(*gains, dt, len(goals), len(goals) + 1, 1, *(math.inf,) * 3, 0.0, 0.0)
-    law = law_of(contender, quaternion.Stream(goals, truth), is_raw)
-    loop()(*law, start, limits, rows, blank_curves(1))
+    stream = quaternion.Stream(goals, truth, int(is_raw))
+    simulate(compiled_loop("stream"), (evaluation(contender),), stream, memory_of(contender), start, limits, rows)
     return Seen(*rows[0, quaternion.PEAK :].tolist())

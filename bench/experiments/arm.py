@@ -91,7 +91,7 @@ def _check_combinations(asked: Asked) -> None:
 
 def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
     """The rows of a unit, each doubtful one judged on both sides of its start."""
-    from bench.engines.run_arm import run
+    from bench.engines.simulate_arms import run_arm as run
     from bench.experiments.rows.episodes import frame
     from bench.experiments.rows.rounding import judged_on_both_sides
     from bench.metrics.registry import metrics_of

@@ -84,7 +84,7 @@ def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
 
 def _outcomes(settings: Settings, unit: Unit, one: Contender, directions: np.ndarray, angles: np.ndarray) -> np.ndarray:
     from bench.engines.episode import OUTCOME
-    from bench.engines.run import run
+    from bench.engines.simulate import run
     from bench.metrics.registry import metrics_of
 
     starts = [

@@ -53,7 +53,7 @@ def slices_of(suite: Suite, one: Contender) -> tuple[Slice, ...]:
 
 def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
     """The rows of a unit."""
-    from bench.engines.run import run
+    from bench.engines.simulate import run
     from bench.experiments.rows.episodes import frame
     from bench.metrics.registry import metrics_of
 

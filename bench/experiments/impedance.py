@@ -63,9 +63,9 @@ def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
 
 def prepare(settings: Settings, unit: Unit) -> None:
     """Compile the loop, the error and the design."""
-    from bench.engines import run_impedance
+    from bench.engines.simulate_arms import prepare_impedance
 
-    run_impedance.prepare(find_contender(LAW), (known_dampings()[unit.selector],))
+    prepare_impedance(find_contender(LAW), (known_dampings()[unit.selector],))
 
 
 EXPERIMENT = Experiment(

@@ -69,9 +69,9 @@ def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
 
 def prepare(settings: Settings, unit: Unit) -> None:
     """Compile what runs the law without metrics."""
-    from bench.engines import run
+    from bench.engines import simulate
 
-    run.prepare(unit.engine, settings.contender(unit.contender), (), unit.total)
+    simulate.prepare(unit.engine, settings.contender(unit.contender), (), unit.total)
 
 
 def folded(before: pd.DataFrame, after: pd.DataFrame) -> pd.DataFrame:

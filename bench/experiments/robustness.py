@@ -67,7 +67,7 @@ def _takes_part(one: Contender, part: Robustness, choice: Choice) -> bool:
 
 def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
     """One row a level and start; none at a level whose command the law has no gains for."""
-    from bench.engines.run_disturbed import run
+    from bench.engines.simulate import run_disturbed as run
     from bench.experiments.rows.robustness import frame
 
     return frame(settings, unit, run)
@@ -75,11 +75,10 @@ def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
 
 def prepare(settings: Settings, unit: Unit) -> None:
     """Compile the loop and the law."""
-    from bench.engines.run import evaluation
-    from bench.engines.run_disturbed import compiled_loop
+    from bench.engines.simulate import compiled_loop, evaluation
     from bench.metrics.registry import metrics_of
 
-    compiled_loop(tuple(metrics_of(on_arm=False)))
+    compiled_loop("perturbed", tuple(metrics_of(on_arm=False)))
     evaluation(settings.contender(unit.contender))
 
 

@@ -70,7 +70,7 @@ def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
 
 def _on_free_body(settings: Settings, unit: Unit, one: Contender, every: int) -> Iterator[pd.DataFrame]:
     from bench.engines.curve import NUMBERS, blank_curves
-    from bench.engines.run import run
+    from bench.engines.simulate import run
     from bench.experiments.rows.episodes import contender_columns, judged_columns
     from bench.metrics.registry import metrics_of
 
@@ -87,7 +87,7 @@ def _on_free_body(settings: Settings, unit: Unit, one: Contender, every: int) ->
 
 def _on_arm(settings: Settings, unit: Unit, one: Contender, every: int) -> pd.DataFrame:
     from bench.engines.curve import ARM_NUMBERS, blank_curves
-    from bench.engines.run_arm import run
+    from bench.engines.simulate_arms import run_arm as run
     from bench.experiments.rows.episodes import contender_columns
     from bench.metrics.registry import metrics_of
 

@@ -72,10 +72,10 @@ def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
 
 def prepare(settings: Settings, unit: Unit) -> None:
     """Compile the loops, the limiters, the law and the inverse."""
-    from bench.engines import run_velocity
+    from bench.engines.simulate_arms import prepare_velocity
 
     one = settings.contender(unit.contender)
-    run_velocity.prepare(one, known_limiters().values())
+    prepare_velocity(one, known_limiters().values())
 
 
 EXPERIMENT = Experiment(

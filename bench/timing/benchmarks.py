@@ -17,7 +17,8 @@ from bench.engines.curve import blank_curves
 from bench.engines.episode import TICKS, blank, numbers, start_rows
 from bench.engines.native.libmujoco import model_of
 from bench.engines.plants import free_body
-from bench.engines.run import compiled_loop, law_of
+from bench.engines.simulate import compiled_loop, evaluation, simulate
+from bench.engines.simulated import compiled_view
 from bench.experiments.experiment import Settings
 from bench.law.contender import Contender, Gains
 from bench.metrics.registry import metrics_of
@@ -101,14 +102,15 @@ def _engine(engine: str, one: Contender) -> Benchmark:
     starts = tasks.start_set("uniform", STARTS[engine])
     if engine == "native":
         model, *kept = _simulation(starts)
-        world = free_body.view(model, *kept)
+        world = free_body.World(compiled_view(model, kept[0]), 0, kept[1])
     rows = blank(len(starts), metrics)
     fresh = rows.copy()
-    given = *law_of(one, world), start_rows(starts), numbers(_settings()), rows, blank_curves(len(starts))
+    given = memory_of(one), start_rows(starts), numbers(_settings()), rows, blank_curves(len(starts))
+    law = (evaluation(one),)
 
     def call():
         rows[:] = fresh
-        loop(*given)
+        simulate(loop, law, world, *given)
         return kept  # the view holds addresses only: this keeps what they point to
 
     call()

@@ -8,7 +8,7 @@ from support.states import of_scipy
 
 from bench.contenders.registry import contenders_of, known_regulators
 from bench.engines.curve import NUMBERS, blank_curves
-from bench.engines.run import run
+from bench.engines.simulate import run
 from bench.metrics.registry import metrics_of
 from tasks.base import Start
 from tasks.rotations import zyx

@@ -14,11 +14,11 @@ from bench.contenders.registry import find_contender
 from bench.contenders.regulators.hybrid import DELTA
 from bench.engines import rigid_body
 from bench.engines.binding import evaluation_of, memory_of, observer
-from bench.engines.curve import blank_curves
 from bench.engines.episode import FINAL_ANGLE, FIRST_METRIC, OUTCOME, SETTLING_TICK, TICKS, numbers, start_rows
 from bench.engines.plants import perturbed
-from bench.engines.run import run as run_unperturbed
-from bench.engines.run_disturbed import drawn, run
+from bench.engines.simulate import drawn, simulate
+from bench.engines.simulate import run as run_unperturbed
+from bench.engines.simulate import run_disturbed as run
 from bench.law.so3 import Rotation
 from bench.metrics.registry import metrics_of
 from tasks.base import Start
@@ -62,9 +62,8 @@ def test_compiled_and_plain_loops_agree_bit_for_bit(word):
     given = perturbed.in_steps(numbers(settings()), EVERYTHING, RULES.hold_s, horizon_s)
     noise = drawn(len(starts), given.ticks, 0, True)
     plain, world = perturbed.loop_of(observer(METRICS)), perturbed.world(EVERYTHING, noise)
-    law = evaluation_of(one), None, None, world, None, memory_of(one)
     with np.errstate(all="ignore"):
-        plain(*law, start_rows(starts), given, rows, blank_curves(len(starts)))
+        simulate(plain, (evaluation_of(one),), world, memory_of(one), start_rows(starts), given, rows)
     assert same_bits(ended(word, starts, EVERYTHING, horizon_s), rows)
 
 

@@ -11,7 +11,7 @@ import tasks
 from bench.contenders.registry import find_contender, known_limiters
 from bench.engines.episode import FINAL_ANGLE, OUTCOME, SETTLING_TICK, TICKS, Settings
 from bench.engines.plants.velocity import BENT, OFF, PATH, PEAK, RATE
-from bench.engines.run_velocity import run
+from bench.engines.simulate_arms import run_velocity as run
 from bench.law import GREATEST_RATE
 from bench.law.contender import Gains
 from tasks.base import Start

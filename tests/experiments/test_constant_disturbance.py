@@ -15,7 +15,7 @@ from bench.engines.compensated import LEFT, Asked, run, without_state
 from bench.engines.compensated import rows_of as rows_by
 from bench.engines.episode import FINAL_ANGLE
 from bench.engines.plants.quaternion import with_state
-from bench.engines.run import run as run_law
+from bench.engines.simulate import run as run_law
 from bench.experiments.compensators import DISTURBANCES
 from bench.experiments.experiment import Settings, Unit, rows_of
 from bench.experiments.rows.compensators import BAND_RAD, law_of

@@ -1,11 +1,12 @@
-"""An arm in MuJoCo, the whole closed loop compiled: kinematics and dynamics by MuJoCo, the controller by us.
+"""An arm in MuJoCo, kinematics and dynamics by MuJoCo, the controller by us.
 
-The loop is compiled once, for all arms and contenders: a contender comes as three functions that are called by
-pointer. The order of a tick is dm_control's, as on the free body. The controller's model is the plant itself, or
-another model of the same arm that is put into the plant's state at every tick (a study of model errors).
+The loop is compiled once, for all arms and contenders. The controller's model is the plant itself, or another model of
+the same arm that is put into the plant's state at every tick (a study of model errors).
 """
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
+
+import numpy as np
 
 from bench.control.resolved_acceleration import BY_JOINT, Buffers, control
 from bench.engines.arm_episode import (
@@ -15,74 +16,41 @@ from bench.engines.arm_episode import (
     ArmSample,
     Controls,
     Joints,
+    buffers,
     face_joints,
     load,
     probe,
     seven,
     squared,
 )
-from bench.engines.compiled import MATRIX, ROTATION, float64, int64, types
-from bench.engines.controllers import begin
+from bench.engines.arrays import Matrix, Vector
 from bench.engines.curve import keep_on_arm
-from bench.engines.loop import Act, Controller, Plant, Record, episodes_of
-from bench.engines.native.arm import (
-    ARM_VIEW,
-    WORKSPACE,
-    ArmView,
-    Body,
-    Workspace,
-    open_view,
-    open_workspace,
-)
-from bench.engines.native.libmujoco import mj_fullM, mj_resetData, mj_step, mj_step1, mj_step2
-from bench.engines.native.pointers import matrix, vector
+from bench.engines.loop import Act, Controller, Plant, Record, Sensed, begin, episodes_of
+from bench.engines.simulated import Simulated, compute, fill_inertia, place, step
 from bench.law.contender import AT_REST, Goal
 from bench.law.resolved_motion import Chain
 from bench.law.scalar import kernel
 from bench.law.so3 import Rotation, dot, from_quaternion
 from tasks.truth import angle, haversine
-from tasks.verdict import GOING, check_command, check_state
+from tasks.verdict import GOING, check_command
+
+
+class Work(NamedTuple):
+    """What a controller writes into: its buffers, D, fg, and a Jacobian for the judge's look."""
+
+    buffers: Buffers
+    D: Matrix
+    fg: Vector
+    G: Matrix
 
 
 class World(NamedTuple):
-    """The plant, and of each start q and qdot, then where the joints and the tool shall be (`arm_episode.states`)."""
+    """The plant, of each start its state (`arm_episode.states`), the controller's model and what belongs to it."""
 
-    plant: ArmView
-    states: Any
-
-
-class Orders(NamedTuple):
-    """The controller's model, its workspace, and the numbers of the contender and the joints."""
-
-    model: ArmView
-    work: Workspace
-    controls: Controls
-    joints: Joints
-
-
-WORLD = types.NamedTuple((ARM_VIEW, MATRIX), World)
-CONTROLS = types.NamedTuple((int64, int64, int64, float64), Controls)
-JOINTS = types.NamedUniTuple(types.UniTuple(float64, MOST), len(Joints._fields), Joints)
-ORDERS = types.NamedTuple((ARM_VIEW, WORKSPACE, CONTROLS, JOINTS), Orders)
-MARGIN = float64(ROTATION, ROTATION)
-
-
-class Arm(NamedTuple):
-    """The plant, and the starts' states."""
-
-    body: Body
-    states: Any
-
-
-class Desk(NamedTuple):
-    """The controller's model, its buffers, D at its address too, and the numbers of `Orders`."""
-
-    model: Body
-    D: Any
-    fg: Any
-    G: Any
-    D_address: int
-    buffers: Buffers
+    sim: Simulated
+    states: Matrix
+    model: Simulated
+    work: Work
     controls: Controls
     joints: Joints
 
@@ -96,32 +64,24 @@ class State(NamedTuple):
     path: float
 
 
-class Sensed(NamedTuple):
-    """What the sensors say, the goal, and the chain."""
+class Tool(NamedTuple):
+    """The tool's place and where it shall be [m], and the chain."""
 
-    R: Rotation
-    omega: tuple
-    goal: Goal
     p: tuple
     p_d: tuple
     chain: Chain
 
 
-@kernel
-def enter(world):
-    """Return the plant's arrays."""
-    return Arm(open_view(world.plant), world.states)
+def work(n: int) -> Work:
+    """Return fresh buffers for n joints."""
+    return Work(buffers(n), np.zeros((n, n)), np.zeros(n), np.zeros((MOST, MOST)))
 
 
 @kernel
-def reset(arm, k, start):
+def reset(body, k, start):
     """Place the arm at a start; the tool's place is to be kept where the start gives no other."""
-    body, states = arm.body, arm.states
-    n, s, at = body.n, body.s, 3 * body.n
-    mj_resetData(body.model, body.data)
-    for i in range(n):
-        body.q[i], body.qdot[i] = states[k, i], states[k, n + i]
-    mj_step1(body.model, body.data)
+    place(body.sim, body.states, k)
+    s, states, at = body.sim.sensordata, body.states, 3 * body.sim.n
     p_d = (s[16], s[17], s[18])
     if states[k, at] == states[k, at]:
         p_d = (states[k, at], states[k, at + 1], states[k, at + 2])
@@ -130,109 +90,75 @@ def reset(arm, k, start):
 
 
 @kernel
-def sense(arm, state):
+def sense(body, state, tick, numbers):
     """Read the sensors."""
-    body = arm.body
-    s = body.s
-    R, p = Rotation((s[0], s[1], s[2]), (s[3], s[4], s[5]), (s[6], s[7], s[8])), (s[16], s[17], s[18])
-    chain = Chain(body.n, body.axes, body.anchors, body.qdot, p, R)
-    return Sensed(R, (s[9], s[10], s[11]), state.goal, p, state.p_d, chain)
+    sim, s = body.sim, body.sim.sensordata
+    R, omega = Rotation((s[0], s[1], s[2]), (s[3], s[4], s[5]), (s[6], s[7], s[8])), (s[9], s[10], s[11])
+    p, speed = (s[16], s[17], s[18]), squared(sim.qvel, sim.n)
+    tool = Tool(p, state.p_d, Chain(sim.n, sim.xaxis, sim.xanchor, sim.qvel, p, R))
+    hav = haversine((s[12], s[13], s[14], s[15]), state.quat_d)
+    return Sensed(R, omega, state.goal, hav, dot(omega, omega), speed, speed, GOING, tool)
 
 
 @kernel
-def look(arm, state, tick, numbers):
-    """Compare the tool with its goal."""
-    s = arm.body.s
-    turning = s[9] * s[9] + s[10] * s[10] + s[11] * s[11]
-    return state, haversine((s[12], s[13], s[14], s[15]), state.quat_d), turning
-
-
-@kernel
-def advance(laws, arm, desk, state, act, gains, memory, numbers):
+def advance(laws, body, state, act, gains, memory, numbers):
     """Apply the torques, and let MuJoCo step."""
-    body = arm.body
-    for i in range(body.n):
-        body.ctrl[i] = desk.buffers.tau[i]
-    if body.is_runge_kutta:
-        mj_step(body.model, body.data)
-    else:
-        mj_step2(body.model, body.data)
-    mj_step1(body.model, body.data)
+    for i in range(body.sim.n):
+        body.sim.ctrl[i] = body.work.buffers.tau[i]
+    step(body.sim)
     return state, memory
 
 
 @kernel
-def check(arm, state, numbers):
-    """End an episode that diverges."""
-    return check_state(squared(arm.body.qdot, arm.body.n), numbers.speed_limit_squared)
+def measure(body, state, sensed):
+    """Measure the tool's angle to its goal."""
+    s = body.sim.sensordata
+    return angle((s[12], s[13], s[14], s[15]), state.quat_d)
+
+
+ARM = Plant(reset, sense, advance, measure)
 
 
 @kernel
-def end(arm, state):
-    """Measure the last angle and the joints' speed."""
-    s = arm.body.s
-    return angle((s[12], s[13], s[14], s[15]), state.quat_d), squared(arm.body.qdot, arm.body.n)
-
-
-ARM = Plant(enter, reset, sense, look, advance, check, end)
-
-
-class Laws(NamedTuple):
-    """The functions of a contender (`resolved_acceleration`), and the margin of its coordinates."""
-
-    assemble: Any
-    resolve: Any
-    margin: Any
-
-
-@kernel
-def ready(orders):
-    """Return the arrays of the controller's model and of its workspace."""
-    n, work = orders.model.n, orders.work
-    D, fg, G = matrix(work.D, n, n), vector(work.fg, n), matrix(work.G, MOST, MOST)
-    room = open_workspace(work)
-    return Desk(open_view(orders.model), D, fg, G, work.D, room, orders.controls, orders.joints)
-
-
-@kernel
-def command(laws, arm, desk, state, sensed, now, gains, memory, numbers):
-    """Compute the torques of a contender."""
-    body, model, controls, n = arm.body, desk.model, desk.controls, arm.body.n
+def command(laws, body, sensed, now, gains, memory, numbers):
+    """Compute the torques of a contender: laws are assemble, resolve (`resolved_acceleration`) and its margin."""
+    sim, model, controls, n, work = body.sim, body.model, body.controls, body.sim.n, body.work
     if controls.has_own_model > 0:
         for i in range(n):
-            model.q[i] = body.q[i]
-            model.qdot[i] = body.qdot[i] if controls.has_own_model != STANDING else 0.0
-        mj_step1(model.model, model.data)
-    mj_fullM(model.model, model.data, desk.D_address)
+            model.qpos[i] = sim.qpos[i]
+            model.qvel[i] = sim.qvel[i] if controls.has_own_model != STANDING else 0.0
+        compute(model)
+    fill_inertia(model, work.D)
     for i in range(n):
-        desk.fg[i] = model.bias[i] - model.passive[i]
+        work.fg[i] = model.qfrc_bias[i] - model.qfrc_passive[i]
     if controls.gives_torque == BY_JOINT:
-        q_d = arm.states[now.k, 2 * n : 3 * n]
-        face_joints(desk.buffers.J, desk.buffers.a, body.q, q_d, desk.joints.inertia, n)
+        q_d = body.states[now.k, 2 * n : 3 * n]
+        face_joints(work.buffers.J, work.buffers.a, sim.qpos, q_d, body.joints.inertia, n)
     u, memory = control(
-        laws.assemble, laws.resolve, controls.gives_torque, controls.rows,
-        sensed.chain, desk.D, desk.fg, sensed.goal, sensed.p_d, gains, memory, desk.buffers,
+        laws.law, laws.second, controls.gives_torque, controls.rows,
+        sensed.more.chain, work.D, work.fg, sensed.goal, sensed.more.p_d, gains, memory, work.buffers,
     )  # fmt: skip
-    total = load(seven(desk.buffers.tau, n), desk.joints.rated)
+    total = load(seven(work.buffers.tau, n), body.joints.rated)
     failure = check_command(total, controls.torque_limit_squared)
-    return Act(u, u, dot(u, u), laws.margin(sensed.R, sensed.goal.R), failure), memory
+    return Act(u, u, dot(u, u), laws.third(sensed.R, sensed.goal.R), failure, ()), memory
 
 
 def loop_of(observe):
     """Return the loop of arms, for all of them and all contenders."""
 
     @kernel
-    def see(row, curves, now, arm, desk, state, sensed, act, before, numbers):
+    def see(row, curves, now, body, sensed, act, before, numbers):
         """Show the metrics a sample, and look at the conditioning."""
-        body, joints, dt, n = arm.body, desk.joints, numbers.dt, arm.body.n
+        sim, joints, work, n = body.sim, body.joints, body.work, body.sim.n
         sample = ArmSample(
-            now.tick * dt, dt, sensed.R, now.haversine, now.entered, now.at_rest, sensed.omega, act.u, before,
-            act.margin, sensed.p, sensed.p_d, seven(body.q, n), seven(body.qdot, n), seven(desk.buffers.tau, n),
+            now.tick * numbers.dt, numbers.dt, sensed.R, sensed.haversine, now.entered, now.at_rest, sensed.omega,
+            act.u, before, act.margin, sensed.more.p, sensed.more.p_d,
+            seven(sim.qpos, n), seven(sim.qvel, n), seven(work.buffers.tau, n),
             joints.lower, joints.upper, joints.rated,
         )  # fmt: skip
         observe(row, sample)
         keep_on_arm(curves, now.k, now.tick, sample)
         if now.tick % PROBE_TICKS == 0 or act.failure != GOING:
-            probe(row, sensed.chain, body.q, desk.G, desk.buffers.scratch)
+            probe(row, sensed.more.chain, sim.qpos, work.G, work.buffers.scratch)
 
-    return episodes_of(ARM, Controller(Laws, ready, begin, command), Record(see))
+    return episodes_of(ARM, Controller(begin, command), Record(see))

@@ -2,15 +2,14 @@
 
 from typing import NamedTuple
 
-from bench.engines.controllers import ACCELERATION
 from bench.engines.episode import STEP
 from bench.engines.ideal import angle_between, haversine, held_step, rk4_step
-from bench.engines.loop import Plant, episodes_of, no_account, pass_on, sampled
+from bench.engines.loop import ACCELERATION, Plant, Sensed, episodes_of, sampled
 from bench.engines.refined import NO_EFFORT, Effort, refined_step, step_of
 from bench.law.contender import AT_REST, Goal
 from bench.law.scalar import kernel
 from bench.law.so3 import Rotation, dot, from_quaternion
-from tasks.verdict import DIVERGED, GOING, check_state
+from tasks.verdict import DIVERGED, GOING
 
 
 class State(NamedTuple):
@@ -31,55 +30,44 @@ def reset(body, k, start):
 
 
 @kernel
-def sense(body, state):
-    """Give the state itself."""
-    return state
+def sense(body, state, tick, numbers):
+    """Give the state itself; an episode that takes too many steps ends, and its row is not used."""
+    R, omega, goal, effort = state
+    speed = dot(omega, omega)
+    fate = DIVERGED if effort.steps > numbers.most_steps else GOING
+    return Sensed(R, omega, goal, haversine(R, goal.R), speed, speed, speed, fate, ())
 
 
 @kernel
-def look(body, state, tick, numbers):
-    """Compare the body with its goal."""
-    return state, haversine(state.R, state.goal.R), dot(state.omega, state.omega)
+def measure(body, state, sensed):
+    """Measure the angle to the goal."""
+    return angle_between(sensed.R, sensed.goal.R)
 
 
 @kernel
-def check(body, state, numbers):
-    """End an episode that diverges, or takes too many steps, whose row is not used (`refined.step_of`)."""
-    failure = check_state(dot(state.omega, state.omega), numbers.speed_limit_squared)
-    return DIVERGED if failure == GOING and state.effort.steps > numbers.most_steps else failure
-
-
-@kernel
-def end(body, state):
-    """Measure the last angle and speed."""
-    return angle_between(state.R, state.goal.R), dot(state.omega, state.omega)
-
-
-@kernel
-def by_whole_steps(laws, body, desk, state, act, gains, memory, numbers):
+def by_whole_steps(laws, body, state, act, gains, memory, numbers):
     """Take one Runge-Kutta step a tick."""
-    R, omega = rk4_step(laws.evaluate, state.R, state.omega, act.u, state.goal, gains, memory, numbers.dt)
+    R, omega = rk4_step(laws.law, state.R, state.omega, act.u, state.goal, gains, memory, numbers.dt)
     return State(R, omega, state.goal, state.effort), memory
 
 
 @kernel
-def by_refined_steps(laws, body, desk, state, act, gains, memory, numbers):
+def by_refined_steps(laws, body, state, act, gains, memory, numbers):
     """Take steps as short as `refined` finds them necessary."""
-    R, omega, memory, effort = refined_step(
-        laws.evaluate, state.R, state.omega, act.u, state.goal, gains, memory, numbers, state.effort
-    )
-    return State(R, omega, state.goal, effort), memory
+    R, omega, goal, effort = state
+    R, omega, memory, effort = refined_step(laws.law, R, omega, act.u, goal, gains, memory, numbers, effort)
+    return State(R, omega, goal, effort), memory
 
 
 @kernel
-def by_held_command(laws, body, desk, state, act, gains, memory, numbers):
+def by_held_command(laws, body, state, act, gains, memory, numbers):
     """Hold the command over the tick."""
     R, omega = held_step(state.R, state.omega, act.u, numbers.dt)
     return State(R, omega, state.goal, state.effort), memory
 
 
 @kernel
-def close(row, body, desk, state, k, numbers):
+def close(row, body, state, k, numbers):
     """Write down the shortest step."""
     row[STEP] = step_of(state.effort, numbers)
 
@@ -94,5 +82,5 @@ a Runge-Kutta tick was a sixth to a third shorter, and each law took 2 s and 16 
 
 def loop_of(engine: str, observe):
     """Return the loop of an ideal plant, for all laws."""
-    plant = Plant(pass_on, reset, sense, look, STEPS[engine], check, end)
-    return episodes_of(plant, ACCELERATION, sampled(observe)._replace(account=no_account, close=close))
+    plant = Plant(reset, sense, STEPS[engine], measure)
+    return episodes_of(plant, ACCELERATION, sampled(observe)._replace(close=close))

@@ -6,31 +6,19 @@ damped: of the hand's damping; elbow: of the null space's; added: by what is com
 friction that is not. Torques are held over a tick, in which the joints go on by the mean of their rates at its ends.
 """
 
-from typing import Any, NamedTuple
+import math
+from typing import NamedTuple
 
 import numpy as np
 
 from bench.contenders.jacobians.geometric import fill
-from bench.control.resolved_acceleration import Buffers
 from bench.control.unshaped import apparent_inertia, damp_elbow
 from bench.engines.arm_episode import MOST
-from bench.engines.compiled import EVALUATE, MATRIX, compile_loop, float64, int64, types
+from bench.engines.arrays import Matrix, Vector
 from bench.engines.episode import FIRST_METRIC, blank
-from bench.engines.loop import Controller, Record, episodes_of
-from bench.engines.native.arm import (
-    ARM_VIEW,
-    SCRATCH,
-    VECTOR,
-    WORKSPACE,
-    ArmView,
-    Body,
-    Workspace,
-    open_view,
-    open_workspace,
-)
-from bench.engines.native.libmujoco import mj_fullM, mj_step1
-from bench.engines.native.pointers import matrix, vector
+from bench.engines.loop import Act, Controller, Record, episodes_of
 from bench.engines.plants import arm
+from bench.engines.simulated import Simulated, compute, fill_inertia
 from bench.law.chain import twist
 from bench.law.contender import AT_REST
 from bench.law.linalg import multiply, multiply_transposed
@@ -56,176 +44,122 @@ class Springs(NamedTuple):
     is_whole: int
 
 
-class Laws(NamedTuple):
-    """The law of the error of orientation, and the design of damping."""
+class World(NamedTuple):
+    """The arm, of each start its state, another arm that stands where it is, for gravity, buffers and springs.
 
-    evaluate: Any
-    design: Any
-    third: Any
-
-
-class Orders(NamedTuple):
-    """An arm that stands where the plant is, for gravity; buffers, springs, torques [N m], and room for the ends.
-
-    room: the address of 14 x 7 numbers. ends: q and qdot at the end of each episode.
+    K: stiffnesses. v, e: the tool's velocity, and the springs' wrench. damp, elbow, added: torques [N m]; before: rates
+    at the beginning of a tick. rated: torques [N m]. ends: q and qdot at the end of each episode.
     """
 
-    still: ArmView
-    work: Workspace
-    room: int
+    sim: Simulated
+    states: Matrix
+    still: Simulated
+    work: arm.Work
     springs: Springs
-    rated: Any
-    ends: Any
+    D: Matrix
+    K: Vector
+    v: Vector
+    e: Vector
+    damp: Vector
+    elbow: Vector
+    added: Vector
+    before: Vector
+    rated: Vector
+    ends: Matrix
 
 
-class Desk(NamedTuple):
-    """The arrays of `Orders`, D (7 x 7), and vectors: of six numbers K, v, e; of the joints the others."""
-
-    still: Body
-    buffers: Buffers
-    M: Any
-    Lambda: Any
-    M_address: int
-    D: Any
-    K: Any
-    v: Any
-    e: Any
-    damp: Any
-    elbow: Any
-    added: Any
-    before: Any
-    springs: Springs
-    rated: Any
-    ends: Any
-
-
-class ImpedanceAct(NamedTuple):
-    """`loop.Act` of an impedance; first: the first command."""
-
-    u: tuple
-    given: tuple
-    squared: float
-    margin: float
-    failure: int
-    first: tuple
-
-
-NO_ACT = ImpedanceAct(AT_REST, AT_REST, 0.0, 0.0, GOING, AT_REST)
-
-
-class Memory(NamedTuple):
-    """The law's memory, and its first command."""
-
-    law: tuple
-    first: tuple
-
-
-@kernel
-def ready(orders):
-    """Return the arrays."""
-    work, n, row = orders.work, orders.work.n, 8 * MOST
-    at = orders.room + MOST * row
-    K, v, e = vector(at, 6), vector(at + row, 6), vector(at + 2 * row, 6)
-    damp, elbow = vector(at + 3 * row, n), vector(at + 4 * row, n)
-    added, before = vector(at + 5 * row, n), vector(at + 6 * row, n)
-    for i in range(3):
-        K[i], K[3 + i] = orders.springs.translation, orders.springs.rotation
-    M, Lambda, D = matrix(work.D, n, n), matrix(work.G, MOST, MOST), matrix(orders.room, MOST, MOST)
-    return Desk(
-        open_view(orders.still), open_workspace(work), M, Lambda, work.D, D,
-        K, v, e, damp, elbow, added, before, orders.springs, orders.rated, orders.ends,
-    )  # fmt: skip
+def world(sim: Simulated, still: Simulated, states: np.ndarray, springs: Springs, rated) -> World:
+    """Return the world of an arm under springs."""
+    n = sim.n
+    K = np.repeat((springs.translation, springs.rotation), 3)
+    D, ends = np.zeros((MOST, MOST)), np.zeros((len(states), 2 * n))
+    (v, e), (damp, elbow, added, before) = np.zeros((2, 6)), np.zeros((4, n))
+    of_joints = {"damp": damp, "elbow": elbow, "added": added, "before": before, "rated": np.array(rated, dtype=float)}
+    return World(sim, states, still, arm.work(n), springs, D, K, v, e, ends=ends, **of_joints)
 
 
 @kernel
 def begin(laws, memory0, sensed):
-    """Start with the law's own memory, and no command."""
-    return Memory(memory0, AT_REST), NO_ACT
+    """Start with the law's own memory; more than the command is kept the first one."""
+    return (memory0, AT_REST), Act(AT_REST, AT_REST, 0.0, math.nan, GOING, AT_REST)
 
 
 @kernel
-def command(laws, robot, desk, state, sensed, now, gains, memory, numbers):
-    """Compute the torques: those of the springs and the damping, and what is compensated."""
-    body, still, springs, n = robot.body, desk.still, desk.springs, robot.body.n
-    J, w, x, tau = desk.buffers.J, desk.buffers.a, desk.buffers.x, desk.buffers.tau
+def command(laws, body, sensed, now, gains, memory, numbers):
+    """Compute the torques of springs, damping and what is compensated; laws are the law and the design of damping."""
+    sim, still, springs, work, n = body.sim, body.still, body.springs, body.work, body.sim.n
+    J, w, x, tau = work.buffers.J, work.buffers.a, work.buffers.x, work.buffers.tau
     for i in range(n):
-        still.q[i] = body.q[i]
-    mj_step1(still.model, still.data)
-    mj_fullM(body.model, body.data, desk.M_address)
-    fill(J, sensed.chain)
-    apparent_inertia(J, desk.M, desk.Lambda, n, desk.buffers.scratch)
-    laws.design(desk.K, desk.Lambda, springs.zeta, desk.D, desk.buffers.scratch)
-    u, law, _ = laws.evaluate(sensed.R, AT_REST, sensed.goal, gains, memory.law)
-    pdot, omega = twist(sensed.chain)
-    away = minus(sensed.p_d, sensed.p)
+        still.qpos[i] = sim.qpos[i]
+    compute(still)
+    fill_inertia(sim, work.D)
+    fill(J, sensed.more.chain)
+    apparent_inertia(J, work.D, work.G, n, work.buffers.scratch)
+    laws.second(body.K, work.G, springs.zeta, body.D, work.buffers.scratch)
+    u, law, _ = laws.law(sensed.R, AT_REST, sensed.goal, gains, memory[0])
+    pdot, omega = twist(sensed.more.chain)
+    away = minus(sensed.more.p_d, sensed.more.p)
     for i in range(3):
-        desk.e[i], desk.e[3 + i] = springs.translation * away[i], springs.rotation * u[i] / gains.kp
-        desk.v[i], desk.v[3 + i] = pdot[i], omega[i]
-    multiply(desk.D, desk.v, w, 6, 6)
-    multiply_transposed(J, w, desk.damp, 6, n)
-    multiply_transposed(J, desk.e, tau, 6, n)
+        body.e[i], body.e[3 + i] = springs.translation * away[i], springs.rotation * u[i] / gains.kp
+        body.v[i], body.v[3 + i] = pdot[i], omega[i]
+    multiply(body.D, body.v, w, 6, 6)
+    multiply_transposed(J, w, body.damp, 6, n)
+    multiply_transposed(J, body.e, tau, 6, n)
     if n > 6:
-        damp_elbow(J, desk.M, desk.Lambda, body.qdot, desk.v, n, w, x, desk.elbow)
+        damp_elbow(J, work.D, work.G, sim.qvel, body.v, n, w, x, body.elbow)
     total = 0.0
     for i in range(n):
-        gravity, passive = still.bias[i], body.passive[i]
-        beside = body.bias[i] - passive - gravity
-        desk.added[i] = beside + passive if springs.is_whole > 0 else passive
-        tau[i] += gravity + desk.elbow[i] - desk.damp[i] + (beside if springs.is_whole > 0 else 0.0)
-        ratio, desk.before[i] = tau[i] / desk.rated[i], body.qdot[i]
+        gravity, passive = still.qfrc_bias[i], sim.qfrc_passive[i]
+        beside = sim.qfrc_bias[i] - passive - gravity
+        body.added[i] = beside + passive if springs.is_whole > 0 else passive
+        tau[i] += gravity + body.elbow[i] - body.damp[i] + (beside if springs.is_whole > 0 else 0.0)
+        ratio, body.before[i] = tau[i] / body.rated[i], sim.qvel[i]
         total = total + ratio * ratio
-    failure = check_command(total, numbers.command_limit_squared)
-    first = u if now.tick == 0 else memory.first
-    return ImpedanceAct(u, u, dot(u, u), 0.0, failure, first), Memory(law, first)
+    failure, first = check_command(total, numbers.command_limit_squared), u if now.tick == 0 else memory[1]
+    return Act(u, u, dot(u, u), math.nan, failure, first), (law, first)
 
 
 @kernel
-def see(row, curves, now, robot, desk, state, sensed, act, before, numbers):
+def see(row, curves, now, body, sensed, act, before, numbers):
     """Keep the greatest strain, overshoot and distance."""
-    for i in range(robot.body.n):
-        ratio = desk.buffers.tau[i] / desk.rated[i]
+    for i in range(body.sim.n):
+        ratio = body.work.buffers.tau[i] / body.rated[i]
         size = sqrt(ratio * ratio)
         row[STRAIN] = size if size > row[STRAIN] else row[STRAIN]
-    against, square = -dot(act.u, act.first), dot(act.first, act.first)
+    against, square = -dot(act.u, act.more), dot(act.more, act.more)
     if against > row[OVERSHOOT] * square:
         row[OVERSHOOT] = against / square
-    away = minus(sensed.p_d, sensed.p)
+    away = minus(sensed.more.p_d, sensed.more.p)
     off = sqrt(dot(away, away))
     row[OFF] = off if off > row[OFF] else row[OFF]
 
 
 @kernel
-def account(row, robot, desk, state, act, tick, numbers):
+def account(row, body, state, sensed, act, tick, numbers):
     """Add up the work of a tick."""
-    for i in range(robot.body.n):
-        turned = 0.5 * numbers.dt * (desk.before[i] + robot.body.qdot[i])
-        row[DAMPED] += desk.damp[i] * turned
-        row[ELBOW] -= desk.elbow[i] * turned
-        row[ADDED] += desk.added[i] * turned
+    for i in range(body.sim.n):
+        turned = 0.5 * numbers.dt * (body.before[i] + body.sim.qvel[i])
+        row[DAMPED] += body.damp[i] * turned
+        row[ELBOW] -= body.elbow[i] * turned
+        row[ADDED] += body.added[i] * turned
 
 
 @kernel
-def close(row, robot, desk, state, k, numbers):
+def close(row, body, state, k, numbers):
     """Measure the kinetic energy and where the arm ends."""
-    body, s, tau, n = robot.body, robot.body.s, desk.buffers.tau, robot.body.n
-    mj_fullM(body.model, body.data, desk.M_address)
-    multiply(desk.M, body.qdot, tau, n, n)
+    sim, s, tau, n = body.sim, body.sim.sensordata, body.work.buffers.tau, body.sim.n
+    fill_inertia(sim, body.work.D)
+    multiply(body.work.D, sim.qvel, tau, n, n)
     row[KINETIC], away = 0.0, minus(state.p_d, (s[16], s[17], s[18]))
     row[LEFT] = sqrt(dot(away, away))
     for i in range(n):
-        row[KINETIC] += 0.5 * body.qdot[i] * tau[i]
-        desk.ends[k, i], desk.ends[k, n + i] = body.q[i], body.qdot[i]
+        row[KINETIC] += 0.5 * sim.qvel[i] * tau[i]
+        body.ends[k, i], body.ends[k, n + i] = sim.qpos[i], sim.qvel[i]
 
 
-SPRINGS = types.NamedTuple((float64, float64, float64, int64), Springs)
-ORDERS = types.NamedTuple((ARM_VIEW, WORKSPACE, int64, SPRINGS, VECTOR, MATRIX), Orders)
-DESIGN = types.void(VECTOR, MATRIX, float64, MATRIX, SCRATCH)
-
-
-def compile_arm():
-    """Compile the loop, for all arms."""
-    loop = episodes_of(arm.ARM, Controller(Laws, ready, begin, command), Record(see, account, close))
-    return compile_loop(loop, (EVALUATE, DESIGN), arm.WORLD, ORDERS)
+def of_arm():
+    """Return the loop, for all arms."""
+    return episodes_of(arm.ARM, Controller(begin, command), Record(see, account, close))
 
 
 def blank_rows(count: int) -> np.ndarray:

@@ -5,15 +5,15 @@ from tick to tick of the control, and the body is moved by steps of at most STEP
 """
 
 import math
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
-from bench.engines.compiled import THREE, float64, int64, types
-from bench.engines.controllers import Law
+from bench.engines.arrays import Cube, Matrix
 from bench.engines.episode import FIRST_METRIC, Numbers
 from bench.engines.ideal import angle_between, haversine, plus, turned
-from bench.engines.loop import Controller, Plant, episodes_of, pass_on, sampled
+from bench.engines.loop import Act, Controller, Plant, Sensed, episodes_of, sampled
+from bench.engines.plants.ideal import measure
 from bench.engines.rigid_body import bounded, step
 from bench.law.contender import AT_REST, Goal
 from bench.law.scalar import kernel, sqrt
@@ -21,7 +21,7 @@ from bench.law.so3 import Rotation, dot, from_quaternion, minus, turn_quaternion
 from bench.law.tracking import carried_along
 from tasks.condition import RATE, RATE_AND_ACCELERATION, Condition
 from tasks.moving_goal import reference_column, reference_rates
-from tasks.verdict import GOING, check_command, check_state
+from tasks.verdict import GOING, check_command
 
 STEP_S = 1e-3
 """Longest step of the plant [s]."""
@@ -108,13 +108,8 @@ class World(NamedTuple):
 
     condition: Condition
     timing: Timing
-    noise: Any
-    sent: Any
-
-
-TIMING = types.NamedUniTuple(int64, len(Timing._fields), Timing)
-CONDITION = types.NamedTuple((*[float64] * 6, THREE, float64, int64, float64), Condition)
-WORLD = types.NamedTuple((CONDITION, TIMING, float64[:, :, ::1], float64[:, ::1]), World)
+    noise: Cube
+    sent: Matrix
 
 
 def world(condition: Condition, noise: np.ndarray) -> World:
@@ -124,14 +119,11 @@ def world(condition: Condition, noise: np.ndarray) -> World:
 
 
 class State(NamedTuple):
-    """The body, and the goal at first and now with its angular velocity and acceleration."""
+    """The body, and the goal at first."""
 
     R: Rotation
     omega: tuple
     R_0: Rotation
-    R_d: Rotation
-    omega_d: tuple
-    alpha_d: tuple
 
 
 class Periodic(NamedTuple):
@@ -144,83 +136,50 @@ class Periodic(NamedTuple):
     margin: float
 
 
-class LateAct(NamedTuple):
-    """`loop.Act` of a command that comes late; jump: by how much this tick's differs from that before, or 0."""
-
-    u: tuple
-    given: tuple
-    squared: float
-    margin: float
-    failure: int
-    jump: float
-
-
-NO_ACT = LateAct(AT_REST, AT_REST, 0.0, math.nan, GOING, 0.0)
-
-
 @kernel
 def reset(body, k, start):
     """Place the body at a start."""
     R = from_quaternion((start[0], start[1], start[2], start[3]))
     R_0 = from_quaternion((start[7], start[8], start[9], start[10]))
-    return State(R, (start[4], start[5], start[6]), R_0, R_0, AT_REST, AT_REST)
+    return State(R, (start[4], start[5], start[6]), R_0)
 
 
 @kernel
-def sense(body, state):
-    """Give the truth; what is measured is `reported`."""
-    return state
+def sense(body, state, tick, numbers):
+    """Give the truth, what is measured is `reported`; the goal has moved."""
+    R, omega, R_0 = state
+    R_d, omega_d, alpha_d = goal_at(R_0, tick * numbers.dt, body.condition.reference_amplitude)
+    behind = minus(omega, omega_d)
+    turning, speed = dot(behind, behind), dot(omega, omega)
+    return Sensed(R, omega, Goal(R_d, omega_d, alpha_d), haversine(R, R_d), turning, speed, turning, GOING, ())
 
 
 @kernel
-def look(body, state, tick, numbers):
-    """Move the goal, and compare the body with it."""
-    R_d, omega_d, alpha_d = goal_at(state.R_0, tick * numbers.dt, body.condition.reference_amplitude)
-    speed = minus(state.omega, omega_d)
-    seen = State(state.R, state.omega, state.R_0, R_d, omega_d, alpha_d)
-    return seen, haversine(state.R, R_d), dot(speed, speed)
-
-
-@kernel
-def advance(laws, body, desk, state, act, gains, memory, numbers):
+def advance(laws, body, state, act, gains, memory, numbers):
     """Move the body one step."""
     R, omega = step(state.R, state.omega, act.u, body.condition.inertia, numbers.dt)
-    return State(R, omega, state.R_0, state.R_d, state.omega_d, state.alpha_d), memory
-
-
-@kernel
-def check(body, state, numbers):
-    """End an episode that diverges."""
-    return check_state(dot(state.omega, state.omega), numbers.speed_limit_squared)
-
-
-@kernel
-def end(body, state):
-    """Measure the last angle and speed against the goal's."""
-    speed = minus(state.omega, state.omega_d)
-    return angle_between(state.R, state.R_d), dot(speed, speed)
+    return State(R, omega, state.R_0), memory
 
 
 @kernel
 def begin(laws, memory0, sensed):
     """Start with the law's own memory, and no command."""
-    return Periodic(memory0, 0, AT_REST, AT_REST, math.nan), NO_ACT
+    return Periodic(memory0, 0, AT_REST, AT_REST, math.nan), Act(AT_REST, AT_REST, 0.0, math.nan, GOING, 0.0)
 
 
 @kernel
-def command(laws, body, desk, state, sensed, now, gains, memory, numbers):
-    """Ask the law once a period, and apply what it commanded a delay ago."""
+def command(laws, body, sensed, now, gains, memory, numbers):
+    """Ask the law once a period, and apply what it commanded a delay ago; more: how far this command jumps."""
     condition, timing, sent = body.condition, body.timing, body.sent
     law, periods, u, given, margin = memory
     steps, slots, failure, jump = timing.steps, sent.shape[0], GOING, 0.0
     if now.tick == periods * steps:
+        before, goal = u, sensed.goal
         is_noisy = condition.attitude_noise > 0.0 or condition.rate_noise > 0.0
         noise = body.noise[now.k, periods] if is_noisy else body.noise[0, 0]
-        R, turning = reported(sensed.R, sensed.omega, sensed.R_d, noise, condition, LEAD * (steps * numbers.dt))
-        rate, acceleration = fed_forward(sensed.omega_d, sensed.alpha_d, condition.feedforward)
-        goal = Goal(sensed.R_d, AT_REST, AT_REST)
-        before = u
-        given, law, margin = laws.evaluate(R, minus(turning, rate), goal, gains, law)
+        R, turning = reported(sensed.R, sensed.omega, goal.R, noise, condition, LEAD * (steps * numbers.dt))
+        rate, acceleration = fed_forward(goal.omega, goal.alpha, condition.feedforward)
+        given, law, margin = laws.law(R, minus(turning, rate), Goal(goal.R, AT_REST, AT_REST), gains, law)
         u = given
         if condition.reference_amplitude > 0.0:
             u = carried_along(u, turning, rate, acceleration)
@@ -237,15 +196,15 @@ def command(laws, body, desk, state, sensed, now, gains, memory, numbers):
         if now.tick >= timing.late:
             slot = ((now.tick - timing.late) // steps) % slots
             applied = (sent[slot, 0], sent[slot, 1], sent[slot, 2])
-    return LateAct(applied, given, dot(u, u), margin, failure, jump), Periodic(law, periods, u, given, margin)
+    return Act(applied, given, dot(u, u), margin, failure, jump), Periodic(law, periods, u, given, margin)
 
 
 @kernel
-def account(row, body, desk, state, act, tick, numbers):
+def account(row, body, state, sensed, act, tick, numbers):
     """Add up the errors of the tail."""
     extra = row[row.shape[0] - EXTRA :]
     if tick > numbers.ticks - body.timing.tail:
-        error = angle_between(state.R, state.R_d)
+        error = angle_between(sensed.R, sensed.goal.R)
         extra[TAIL_SQUARES] += error * error
         extra[TAIL_COUNT] += 1.0
         extra[TAIL_WORST] = max(extra[TAIL_WORST], error)
@@ -254,15 +213,15 @@ def account(row, body, desk, state, act, tick, numbers):
 def loop_of(observe):
     """Return the loop of the perturbed body, for all laws; numbers.dt is the plant's step, and ticks are such steps."""
     metrics = sampled(observe)
+    show = metrics.see
 
     @kernel
-    def see(row, curves, now, body, desk, state, sensed, act, before, numbers):
-        row[row.shape[0] - EXTRA + VARIATION] += act.jump
-        metrics_see(row, curves, now, body, desk, state, sensed, act, before, numbers)
+    def see(row, curves, now, body, sensed, act, before, numbers):
+        row[row.shape[0] - EXTRA + VARIATION] += act.more
+        show(row, curves, now, body, sensed, act, before, numbers)
 
-    metrics_see = metrics.see
-    plant = Plant(pass_on, reset, sense, look, advance, check, end)
-    return episodes_of(plant, Controller(Law, pass_on, begin, command), metrics._replace(see=see, account=account))
+    plant = Plant(reset, sense, advance, measure)
+    return episodes_of(plant, Controller(begin, command), metrics._replace(see=see, account=account))
 
 
 def blank_rows(count: int, metrics) -> np.ndarray:

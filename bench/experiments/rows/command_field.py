@@ -17,7 +17,7 @@ import numpy as np
 
 from bench.engines.curve import NUMBERS, blank_curves
 from bench.engines.episode import Settings, blank, numbers
-from bench.engines.run import compiled_loop, law_of
+from bench.engines.simulate import by_law
 from bench.law.contender import Contender, Gains
 from bench.law.so3 import from_quaternion
 from bench.metrics.registry import metrics_of
@@ -66,14 +66,13 @@ class Field:
 
     def __init__(self, one: Contender, gains: Gains):
         self.one, self.gains, self.metrics = one, gains, tuple(metrics_of(on_arm=False))
-        self.law = law_of(one)
 
     def __call__(self, quats: np.ndarray, goal: Quat = IDENTITY, omegas: np.ndarray | float = 0.0) -> np.ndarray:
         """u/kp of n quaternions (n, 4) and angular velocities (n, 3)."""
         starts, curves = np.ones((len(quats), 12)), blank_curves(len(quats), 1)
         starts[:, :4], starts[:, 4:7], starts[:, 7:11] = quats, omegas, goal
         given = numbers(Settings(self.gains, 0.001, 1, 2))
-        compiled_loop(ENGINE, self.metrics)(*self.law, starts, given, blank(len(quats), self.metrics), curves)
+        by_law(ENGINE, self.one, starts, given, blank(len(quats), self.metrics), self.metrics, curves)
         return curves.samples[:, 0, U : U + 3] / self.gains.kp
 
 

@@ -6,7 +6,7 @@ import pandas as pd
 from bench.contenders.registry import find_contender, known_dampings
 from bench.engines.episode import FINAL_ANGLE
 from bench.engines.plants.impedance import ADDED, DAMPED, ELBOW, KINETIC, LEFT, OFF, OVERSHOOT, STRAIN, Springs
-from bench.engines.run_impedance import run
+from bench.engines.simulate_arms import run_impedance as run
 from bench.experiments import starts
 from bench.experiments.experiment import Settings, Unit
 from bench.experiments.impedance import LAW, STIFFNESSES, ZETA, Stiffness

@@ -13,7 +13,7 @@ import pandas as pd
 import tasks
 from bench.contenders.registry import find_contender, known_dampings
 from bench.engines.plants.impedance import Springs
-from bench.engines.run_impedance import run
+from bench.engines.simulate_arms import run_impedance as run
 from bench.experiments.experiment import Settings, Unit
 from bench.experiments.impedance import LAW, STIFFNESSES, ZETA, Stiffness
 from bench.experiments.rows.impedance import what

@@ -14,7 +14,7 @@ import numpy as np
 import pandas as pd
 
 from bench.engines.episode import OUTCOME, SETTLING_TICK, START_WIDTH, STEP
-from bench.engines.run import on_ideal
+from bench.engines.simulate import on_ideal
 from bench.experiments.experiment import Settings, Unit
 from bench.experiments.map import speeds_of
 from bench.experiments.rows.episodes import contender_columns

@@ -21,7 +21,7 @@ def frame(settings: Settings, unit: Unit, simulate, gains=gains_at) -> pd.DataFr
     The starts and the noise are the same for every law.
 
     Args:
-        simulate: makes the numbers of the rows, as `run_disturbed.run`. gains(law, peak): those that give the peak.
+        simulate: makes the numbers of the rows, as `run_disturbed`. gains(law, peak): those that give the peak.
     """
     one, axis, seed = settings.contender(unit.contender), tasks.axis(unit.selector), settings.seed
     parts = []

@@ -15,7 +15,7 @@ from bench.contenders.registry import find_contender
 from bench.engines.binding import memory_of
 from bench.engines.curve import NUMBERS, blank_curves
 from bench.engines.episode import OUTCOME, SETTLING_TICK, blank, numbers, start_rows
-from bench.engines.run import compiled_loop, law_of
+from bench.engines.simulate import by_law
 from bench.experiments.experiment import Settings
 from bench.experiments.rows.command_field import ENGINE, ZERO, Field, about, size
 from bench.law.contender import Contender, Gains
@@ -110,7 +110,7 @@ def motion(contender: Contender, memories: tuple, settings: Settings, horizon_s:
     every = round(SAMPLE_S / settings.dt_s)
     for memory in memories:
         made, curves = blank(len(begun), metrics), blank_curves(len(begun), limits.ticks // every, every)
-        compiled_loop(ENGINE, metrics)(*law_of(contender)[:-1], memory, begun, limits, made, curves)
+        by_law(ENGINE, contender, begun, limits, made, metrics, curves, memory)
         farthest = np.nanmax(curves.samples[:, :, HAVERSINE], axis=1)
         allowed = np.sin(0.5 * np.minimum(np.repeat([*angles.values()], len(AXES)) + AWAY_RAD, math.pi)) ** 2
         episodes.append(np.column_stack((made[:, [OUTCOME, SETTLING_TICK]], farthest > allowed)))

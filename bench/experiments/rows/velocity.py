@@ -15,7 +15,7 @@ import tasks
 from bench.contenders.registry import known_limiters
 from bench.engines.episode import FINAL_ANGLE, OUTCOME
 from bench.engines.plants.velocity import BENT, FURTHEST, OFF, PATH, PEAK, RATE
-from bench.engines.run_velocity import run
+from bench.engines.simulate_arms import run_velocity as run
 from bench.experiments import starts
 from bench.experiments.experiment import Settings, Unit
 from bench.experiments.rows.episodes import contender_columns, judged_columns

@@ -18,7 +18,7 @@ from bench.contenders import combinations
 from bench.contenders.registry import find_contender, known_limiters
 from bench.engines.episode import FAILURE_TICK, FINAL_ANGLE, NEVER
 from bench.engines.plants.velocity import PATH
-from bench.engines.run_velocity import run
+from bench.engines.simulate_arms import run_velocity as run
 from bench.experiments.experiment import Settings, Unit
 from bench.experiments.rows.episodes import contender_columns
 from bench.experiments.rows.velocity import NONE

@@ -1,0 +1,282 @@
+"""Episodes of the bodies that turn freely: a contender on starts of a task in any engine, rows of numbers back.
+
+`simulate` runs any loop of `LOOPS`; what a plant needs besides is made here, and for arms in `simulate_arms`.
+"""
+
+import functools
+import importlib
+
+import numpy as np
+
+from bench.engines import lanes
+from bench.engines.binding import evaluation_of, memory_of, observer, plant_of
+from bench.engines.compiled import (
+    ASSEMBLE,
+    BEGIN_STATE,
+    DESIGN,
+    EVALUATE,
+    LIMIT,
+    MARGIN,
+    RESOLVE,
+    STATEFUL,
+    TOUCH,
+    compile_function,
+    compile_loop,
+    made_once,
+    own_law,
+)
+from bench.engines.convergence import Level, at_level, converged
+from bench.engines.curve import Curves, blank_curves
+from bench.engines.episode import Numbers, Settings, blank, numbers, start_rows
+from bench.engines.plants import ideal, perturbed
+from bench.engines.plants.ideal import REFINED
+from bench.law.contender import Contender
+from tasks.condition import Condition
+from tasks.rules import RULES
+
+CONTINUOUS = "ideal-rk4"
+"""The paper's continuous plant."""
+
+FORCE_SHORTEST_STEP = -1.0
+"""A squared tolerance that no step keeps."""
+
+WORTH_LANES = 100_000
+"""Episodes of a law from which on lanes save more than the 3 to 8 s that they take to compile: 50 ns of each of some
+1,000 ticks."""
+
+NOISE_BYTES = 64e6
+"""Of noise held at once: 266 starts of 5 s, asked every millisecond. A thousand would be 246 MB; they run in blocks.
+The default suite's 24 are one block, so that all its laws share one draw."""
+
+LOOPS = {
+    "native": ("free_body", "loop_of", (EVALUATE,), "World"),
+    "perturbed": ("perturbed", "loop_of", (EVALUATE,), "World"),
+    "stream": ("quaternion", "streamed", (EVALUATE,), "Stream"),
+    "state": ("quaternion", "with_state", (STATEFUL, BEGIN_STATE), "Disturbance"),
+    "velocity": ("velocity", "of_body", (EVALUATE, LIMIT), "World"),
+    "velocity-arm": ("velocity", "of_arm", (EVALUATE, LIMIT, RESOLVE), "ArmWorld"),
+    "arm": ("arm", "loop_of", (ASSEMBLE, RESOLVE, MARGIN), "World"),
+    "impedance": ("impedance", "of_arm", (EVALUATE, DESIGN), "World"),
+    "contact": ("contact", "loop", (TOUCH,), "World"),
+}
+"""Beside the ideal ones: the file in `plants`, what makes the loop (`loop_of` of the metrics), the signatures of the
+functions that it calls, and its world."""
+
+
+@made_once
+def compiled_loop(kind: str, metrics: tuple = ()):
+    """Return a loop, for all laws, compiled or taken from the disk cache."""
+    if kind in ideal.STEPS:
+        return compile_loop(ideal.loop_of(kind, observer(metrics)), (EVALUATE,))
+    file, make, laws, world = LOOPS[kind]
+    plant = importlib.import_module(f"bench.engines.plants.{file}")  # MuJoCo takes a moment; the ideal plants need none
+    made = getattr(plant, make)(*[observer(metrics)] * (make == "loop_of"))
+    return compile_loop(made, laws, getattr(plant, world))
+
+
+def simulate(loop, laws: tuple, world, memory: tuple, begun, limits: Numbers, rows, curves: Curves | None = None):
+    """Run a loop: fill a row, and a curve if there is room, for each start.
+
+    Args:
+        loop: of `compiled_loop`, or plain. laws: the functions that it calls. world: what its plant and controller work
+            in. begun: of `episode.start_rows`.
+    """
+    functions = (*laws, *[None] * (3 - len(laws)))
+    loop(*functions, world, memory, begun, limits, rows, curves or blank_curves(len(begun)))
+    return rows
+
+
+def run(
+    engine: str,
+    contender: Contender,
+    task: str,
+    starts,
+    settings: Settings,
+    metrics,
+    integrator: str = "euler",
+    curves: Curves | None = None,
+    total: int = 0,
+    converge: bool = True,
+) -> np.ndarray:
+    """Rows of `engines.episode`, one per start, on the free body; on an arm: `simulate_arms.run_arm`.
+
+    Args:
+        starts: tasks.Start, in order; metrics: Metric, in the order of their columns.
+        curves: filled too, on any engine but `reference`.
+        total: episodes of which these are some; converge: see `on_ideal`.
+    """
+    if engine == "reference":
+        from bench.engines import reference
+
+        return reference.run(contender, task, starts, settings, metrics, integrator)
+    begun = start_rows(starts)
+    if engine != "native":
+        return on_ideal(engine, contender, begun, settings, metrics, total, curves, converge)
+    import mujoco
+
+    from bench.engines.native.libmujoco import model_of
+    from bench.engines.plants import free_body
+    from bench.engines.simulated import compiled_view
+
+    plant = plant_of(contender, task, settings.gains)
+    model = model_of(plant.xml(settings.dt_s), integrator)
+    data = mujoco.MjData(model)
+    states = np.array([[*qpos, *qvel] for qpos, qvel in map(plant.state, starts)], dtype=float)
+    world = free_body.World(compiled_view(model, data), int(contender.regulator.in_engine), states)
+    law, rows = (evaluation(contender),), blank(len(starts), metrics)
+    loop = compiled_loop(engine, tuple(metrics))
+    return simulate(loop, law, world, memory_of(contender), begun, numbers(settings), rows, curves)
+
+
+def on_ideal(
+    engine: str,
+    contender: Contender,
+    begun: np.ndarray,
+    settings: Settings,
+    metrics=(),
+    total: int = 0,
+    curves: Curves | None = None,
+    converge: bool = True,
+) -> np.ndarray:
+    """The same on an ideal plant, from starts that are rows already.
+
+    Args:
+        begun: of `engines.episode.start_rows`.
+        total: episodes that are asked of this law, if these are a part of them; WORTH_LANES of them or more run in
+            lanes. The rows are the same bits.
+        converge: whether the continuous plant's steps are made shorter where they decide, see `convergence`.
+    """
+    metrics, curves = tuple(metrics), curves or blank_curves(len(begun))
+    if engine != CONTINUOUS or not converge:
+        return _once(engine, contender, begun, settings, metrics, total, curves)
+
+    def once(chosen: Settings) -> np.ndarray:
+        """Rows of all; only those of the given control period are seen by metrics and curves."""
+        if chosen is settings:
+            return _once(engine, contender, begun, chosen, metrics, total, curves)
+        return _once(engine, contender, begun, chosen, (), total, blank_curves(len(begun)))
+
+    def again(level: Level, which: np.ndarray) -> np.ndarray:
+        rows, some = blank(len(which), metrics), Curves(curves.every, np.full_like(curves.samples[which], np.nan))
+        by_law(REFINED, contender, begun[which], at_level(numbers(settings), level), rows, metrics, some)
+        curves.samples[which] = some.samples
+        return rows
+
+    return converged(once, again, settings)
+
+
+def by_law(
+    engine: str,
+    contender: Contender,
+    begun: np.ndarray,
+    limits: Numbers,
+    rows: np.ndarray,
+    metrics: tuple = (),
+    curves: Curves | None = None,
+    memory: tuple | None = None,
+) -> np.ndarray:
+    """Run the loop of an ideal plant, one start at a time; memory: another than the law's own."""
+    law, loop = (evaluation(contender),), compiled_loop(engine, metrics)
+    return simulate(loop, law, None, memory or memory_of(contender), begun, limits, rows, curves)
+
+
+def _once(engine, contender, begun, settings, metrics, total, curves) -> np.ndarray:
+    rows = blank(len(begun), metrics)
+    if curves.samples.shape[1] or not is_in_lanes(max(total, len(begun))):
+        return by_law(engine, contender, begun, numbers(settings), rows, metrics, curves)
+    loop_in_lanes(engine, contender, metrics)(memory_of(contender), begun, numbers(settings), rows)
+    return rows
+
+
+def by_equal_steps(contender: Contender, begun: np.ndarray, settings: Settings, divisions: int) -> np.ndarray:
+    """Rows on the continuous plant by Runge-Kutta steps of a control period over `divisions`, an even number or 1.
+
+    The judge sees the body once a control period, whatever the step.
+    """
+    if divisions == 1:
+        return on_ideal(CONTINUOUS, contender, begun, settings, converge=False)
+    limits = at_level(numbers(settings), Level(0.0, divisions))
+    limits = limits._replace(tolerance_squared=FORCE_SHORTEST_STEP, most_steps=divisions * settings.ticks)
+    return by_law(REFINED, contender, begun, limits, blank(len(begun), ()))
+
+
+def is_in_lanes(total: int) -> bool:
+    """Whether so many episodes of a law are worth a loop of its own."""
+    return total >= WORTH_LANES
+
+
+def prepare(engine: str, contender: Contender, metrics, total: int = 0) -> None:
+    """Compile what `run` will need for so many episodes, or take it from the disk cache."""
+    is_continuous, metrics = engine == CONTINUOUS, tuple(metrics)
+    for observed in dict.fromkeys((metrics, () if is_continuous else metrics)):
+        if engine.startswith("ideal") and is_in_lanes(total):
+            loop_in_lanes(engine, contender, observed)
+        else:
+            compiled_loop(engine, observed)
+            evaluation(contender)
+    if is_continuous:
+        compiled_loop(REFINED, metrics)
+        evaluation(contender)
+
+
+@made_once
+def loop_in_lanes(engine: str, contender: Contender, metrics: tuple):
+    """The loop of an ideal plant with a law compiled into it; see `evaluation`."""
+    with own_law(contender.regulator.origin) as cache:
+        return lanes.episodes_of(engine, evaluation_of(contender), observer(metrics), len(metrics), cache)
+
+
+@made_once
+def evaluation(contender: Contender):
+    """A contender as the loops call it, compiled or taken from the disk cache; a user's law is compiled anew.
+
+    Errors:
+        BadLaw: a user's law that the compiler cannot take.
+    """
+    with own_law(contender.regulator.origin) as cache:
+        return compile_function(evaluation_of(contender), EVALUATE, cache)
+
+
+def run_disturbed(
+    contender: Contender,
+    starts,
+    condition: Condition,
+    settings: Settings,
+    metrics,
+    seed: int = 0,
+    noise_bytes: float = NOISE_BYTES,
+) -> np.ndarray:
+    """Rows of `engines.episode`, one a start, with `perturbed.EXTRA` columns more.
+
+    Args:
+        settings: gains and limits; dt_s is the condition's.
+        seed: of the noise, which is the same for every contender.
+    """
+    rows, begun = perturbed.blank_rows(len(starts), metrics), start_rows(starts)
+    horizon_s = settings.ticks * settings.dt_s
+    limits = perturbed.in_steps(numbers(settings), condition, RULES.hold_s, horizon_s)
+    periods = limits.ticks // perturbed.steps_of(condition) + 1
+    block = max(1, int(noise_bytes // (8 * 6 * periods))) if condition.is_noisy else len(starts)
+    law, memory, loop = (evaluation(contender),), memory_of(contender), compiled_loop("perturbed", tuple(metrics))
+    for first in range(0, len(starts), block):
+        some = slice(first, first + block)
+        noise = drawn(len(begun[some]), periods, seed, condition.is_noisy, first)
+        simulate(loop, law, perturbed.world(condition, noise), memory, begun[some], limits, rows[some])
+    return rows
+
+
+def drawn(count: int, periods: int, seed: int, is_noisy: bool, first: int = 0) -> np.ndarray:
+    """Six numbers of unit standard deviation for every start and period; of a condition without noise, zeros.
+
+    Args:
+        first: the number of the first start.
+    """
+    return _normal(first, count, periods, seed) if is_noisy else np.zeros((1, 1, 6))
+
+
+@functools.lru_cache(maxsize=1)
+def _normal(first: int, count: int, periods: int, seed: int) -> np.ndarray:
+    noise = np.empty((count, periods, 6))
+    for k in range(count):
+        np.random.default_rng((seed, first + k)).standard_normal(out=noise[k])
+    return noise
