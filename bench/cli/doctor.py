@@ -122,7 +122,7 @@ def _arms() -> str:
 def _contact() -> str:
     import tasks
     from bench.control.registry import find_controller
-    from bench.engines.simulate_arms import run_contact as run
+    from bench.engines.simulate_contact import run_contact as run
     from bench.experiments.contact import can_do
     from tasks.arm import arms
     from tasks.base import BadArm

@@ -3,7 +3,6 @@
 `simulate` runs any loop of `LOOPS`; what a plant needs besides is made here, and for arms in `simulate_arms`.
 """
 
-import functools
 import importlib
 
 import numpy as np
@@ -28,11 +27,9 @@ from bench.engines.compiled import (
 from bench.engines.convergence import Level, at_level, converged
 from bench.engines.curve import Curves, blank_curves
 from bench.engines.episode import Numbers, Settings, blank, numbers, start_rows
-from bench.engines.plants import ideal, perturbed
+from bench.engines.plants import ideal
 from bench.engines.plants.ideal import REFINED
 from bench.law.contender import Contender
-from tasks.condition import Condition
-from tasks.rules import RULES
 
 CONTINUOUS = "ideal-rk4"
 """The paper's continuous plant."""
@@ -43,10 +40,6 @@ FORCE_SHORTEST_STEP = -1.0
 WORTH_LANES = 100_000
 """Episodes of a law from which on lanes save more than the 3 to 8 s that they take to compile: 50 ns of each of some
 1,000 ticks."""
-
-NOISE_BYTES = 64e6
-"""Of noise held at once: 266 starts of 5 s, asked every millisecond. A thousand would be 246 MB; they run in blocks.
-The default suite's 24 are one block, so that all its laws share one draw."""
 
 LOOPS = {
     "native": ("free_body", "loop_of", (EVALUATE,), "World"),
@@ -235,48 +228,3 @@ def evaluation(contender: Contender):
     """
     with own_law(contender.regulator.origin) as cache:
         return compile_function(evaluation_of(contender), EVALUATE, cache)
-
-
-def run_disturbed(
-    contender: Contender,
-    starts,
-    condition: Condition,
-    settings: Settings,
-    metrics,
-    seed: int = 0,
-    noise_bytes: float = NOISE_BYTES,
-) -> np.ndarray:
-    """Rows of `engines.episode`, one a start, with `perturbed.EXTRA` columns more.
-
-    Args:
-        settings: gains and limits; dt_s is the condition's.
-        seed: of the noise, which is the same for every contender.
-    """
-    rows, begun = perturbed.blank_rows(len(starts), metrics), start_rows(starts)
-    horizon_s = settings.ticks * settings.dt_s
-    limits = perturbed.in_steps(numbers(settings), condition, RULES.hold_s, horizon_s)
-    periods = limits.ticks // perturbed.steps_of(condition) + 1
-    block = max(1, int(noise_bytes // (8 * 6 * periods))) if condition.is_noisy else len(starts)
-    law, memory, loop = (evaluation(contender),), memory_of(contender), compiled_loop("perturbed", tuple(metrics))
-    for first in range(0, len(starts), block):
-        some = slice(first, first + block)
-        noise = drawn(len(begun[some]), periods, seed, condition.is_noisy, first)
-        simulate(loop, law, perturbed.world(condition, noise), memory, begun[some], limits, rows[some])
-    return rows
-
-
-def drawn(count: int, periods: int, seed: int, is_noisy: bool, first: int = 0) -> np.ndarray:
-    """Six numbers of unit standard deviation for every start and period; of a condition without noise, zeros.
-
-    Args:
-        first: the number of the first start.
-    """
-    return _normal(first, count, periods, seed) if is_noisy else np.zeros((1, 1, 6))
-
-
-@functools.lru_cache(maxsize=1)
-def _normal(first: int, count: int, periods: int, seed: int) -> np.ndarray:
-    noise = np.empty((count, periods, 6))
-    for k in range(count):
-        np.random.default_rng((seed, first + k)).standard_normal(out=noise[k])
-    return noise

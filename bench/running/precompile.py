@@ -57,12 +57,12 @@ def compiler_of(name: str) -> Callable[[], object]:
     """
     from bench.contenders.registry import find_contender
     from bench.control.registry import all_controllers
-    from bench.engines import simulate_arms
+    from bench.engines import simulate_arms, simulate_contact
     from bench.engines.simulate import evaluation
 
     touching = {one.name: one for one in all_controllers()}
     if name in touching:
-        return functools.partial(simulate_arms.pointer, touching[name])
+        return functools.partial(simulate_contact.pointer, touching[name])
     return functools.partial(simulate_arms.pointers if "@" in name else evaluation, find_contender(name))
 
 

@@ -16,9 +16,10 @@ from bench.engines import rigid_body
 from bench.engines.binding import evaluation_of, memory_of, observer
 from bench.engines.episode import FINAL_ANGLE, FIRST_METRIC, OUTCOME, SETTLING_TICK, TICKS, numbers, start_rows
 from bench.engines.plants import perturbed
-from bench.engines.simulate import drawn, simulate
 from bench.engines.simulate import run as run_unperturbed
-from bench.engines.simulate import run_disturbed as run
+from bench.engines.simulate import simulate
+from bench.engines.simulate_perturbed import drawn
+from bench.engines.simulate_perturbed import run_disturbed as run
 from bench.law.so3 import Rotation
 from bench.metrics.registry import metrics_of
 from tasks.base import Start

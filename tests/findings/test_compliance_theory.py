@@ -17,7 +17,7 @@ from bench.contenders.impedances import coordinates, coordinates_relative
 from bench.contenders.registry import known_impedances
 from bench.control.contact_controller import PAPERS_FORM, hybrid, impedance_controller
 from bench.control.setpoint import TOUCH
-from bench.engines.simulate_arms import run_contact as run
+from bench.engines.simulate_contact import run_contact as run
 from bench.findings.theory import compliance_theory as theory
 from bench.law.contender import PAPERS_GAINS, Gains
 from bench.law.so3 import IDENTITY, from_quaternion

@@ -13,7 +13,7 @@ MODULES = """
 import sys
 from bench.experiments.experiment import known_experiments
 from bench.experiments.rows import contact, episodes, poses, robustness, rounding, shipped
-from bench.engines import simulate, simulate_arms
+from bench.engines import simulate, simulate_arms, simulate_contact, simulate_perturbed
 from bench.tables import kept_costs
 known_experiments()
 from bench.counting import in_contact, on_arms

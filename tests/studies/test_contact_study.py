@@ -6,7 +6,7 @@ import pytest
 
 import tasks
 from bench.control.setpoint import TOUCH
-from bench.engines.simulate_arms import run_contact as run
+from bench.engines.simulate_contact import run_contact as run
 from bench.experiments.impedance import STIFFNESSES
 from bench.metrics.contact.scene import alignment_error
 from bench.metrics.contact_metric import Pose, response

@@ -11,7 +11,7 @@ import pandas as pd
 from bench.contenders.representations.zyx_euler import chart
 from bench.control.contact_controller import ContactController
 from bench.engines.contact_episode import DONE, Conditions, Ended
-from bench.engines.simulate_arms import run_contact as run
+from bench.engines.simulate_contact import run_contact as run
 from bench.law.so3 import from_quaternion
 from bench.metrics.contact_metric import Pose, response
 from bench.metrics.measured_compliance import compliance
