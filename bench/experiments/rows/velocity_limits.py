@@ -101,7 +101,7 @@ def far(settings: Settings, unit: Unit) -> float:
 
 
 def _run(settings: Settings, unit: Unit, begun, k_dt: float, ticks: int, lag_ticks: float = 0.0) -> np.ndarray:
-    """Rows of `engines.velocity` of episodes that take so many ticks, unless the robot is lost on the way."""
+    """Rows of `plants.velocity` of episodes that take so many ticks, unless the robot is lost on the way."""
     limits = settings.limits(1.0)._replace(dt_s=DT_S, ticks=ticks, hold_ticks=ticks + 1)
     one, none = settings.contender(unit.contender), known_limiters()[NONE]
     rows = run(one, none, k_dt / DT_S, begun, limits, unit.arm, lag_ticks * DT_S)
