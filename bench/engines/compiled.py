@@ -134,6 +134,8 @@ def compile_loop(episodes, laws: tuple, world: Any = None):
         laws: signatures of the functions that it calls by pointer, three at most. world: a named tuple, annotated.
     """
     functions = (*map(types.FunctionType, laws), *[types.none] * (3 - len(laws)))
+    # a file of the cache for each world: one for all would import every world, and MuJoCo, with the first loop
+    episodes.__qualname__ += f".{world.__module__}.{world.__name__}" if world else ".ideal"
     return compile_function(episodes, types.void(*functions, type_of(world), FOUR, MATRIX, NUMBERS, MATRIX, CURVES))
 
 
