@@ -10,8 +10,8 @@ from scipy.spatial.transform import Rotation
 import tasks
 from bench.contenders.registry import find_contender, known_limiters
 from bench.engines.episode import FINAL_ANGLE, OUTCOME, SETTLING_TICK, TICKS, Settings
-from bench.engines.run_velocity import run
-from bench.engines.velocity import BENT, OFF, PATH, PEAK, RATE
+from bench.engines.plants.velocity import BENT, OFF, PATH, PEAK, RATE
+from bench.engines.simulate_arms import run_velocity as run
 from bench.law import GREATEST_RATE
 from bench.law.contender import Gains
 from tasks.base import Start

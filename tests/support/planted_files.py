@@ -58,7 +58,7 @@ AXIS = Axis(
 '''
 ASKED_OF_AXIS = """
 import tasks
-from bench.engines.disturbed import CONDITION
+from bench.engines.plants.perturbed import CONDITION
 from bench.findings.perturbed import lasting, ways
 from report.figures.robustness.robustness import AXES
 from tasks.condition import Condition, condition_at
