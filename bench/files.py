@@ -1,4 +1,4 @@
-"""Files of results: whole or not at all, no links, JSON that no terminal obeys.
+"""Write and read files of results: atomic writes; no symlinks, and no JSON with terminal escape sequences.
 
 A file appears by rename after fsync, and its folder is synced after the rename: a process killed at any moment, or a
 machine without power, leaves whole files only, and each that was finished.
@@ -49,7 +49,7 @@ def refused(path: Path, error: OSError) -> BadResults:
     """Return the error for a file or folder that could not be written, with the cure."""
     is_full = error.errno in FULL
     reason = os.strerror(error.errno) if error.errno else error  # arrow's own text runs over lines
-    cure = "make room and give the same command again" if is_full else "mend its rights"
+    cure = "make room and give the same command again" if is_full else "check its permissions"
     return BadResults(f"{path}: cannot be written ({reason}); {cure}, or choose another folder with --out")
 
 

@@ -1,4 +1,4 @@
-"""Where numbers come from: sources, versions, machine, command; and where caches are kept."""
+"""Record where numbers come from: sources, versions, machine, command; and where caches are kept."""
 
 import contextlib
 import functools

@@ -150,7 +150,7 @@ def environment(results: Path) -> dict[str, str]:
 def build(results: Path, cell_key: str) -> None:
     """Run the cells, then jupyter-book on a clean output folder; raise CannotBuild with what was said if one fails.
 
-    The pages are always read anew (Sphinx repeats no warning for a page it skips); only cell outputs
+    The pages are always read again (Sphinx repeats no warning for a page it skips); only cell outputs
     are kept.
     """
     STAMP.unlink(missing_ok=True)

@@ -27,7 +27,7 @@ from nbformat.v4 import new_code_cell, new_notebook
 REPORT = Path(__file__).resolve().parent
 CONFIG = yaml.safe_load((REPORT / "_config.yml").read_text(encoding="utf-8"))
 MOST = 4
-"""Kernels at the most: each takes some 500 MB."""
+"""Greatest number of kernels: each takes some 500 MB."""
 
 PAGE = re.compile(r"kit\.page\(([^)]*)\)")
 

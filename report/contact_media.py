@@ -80,7 +80,7 @@ class Puppet:
 
 
 def view(puppet: Puppet, azimuth: float, elevation: float, distance: float) -> View:
-    """Of where a puppet's hand begins, from so far [m]."""
+    """Return a view of the place where a puppet's hand begins, from a distance [m]."""
     import mujoco
 
     model = puppet.model

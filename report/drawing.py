@@ -85,7 +85,7 @@ def sheet(width: int, height: int):
 
 
 def save(image, name: str) -> None:
-    """As a PNG with a palette."""
+    """Save the image as a PNG with a palette."""
     image.quantize(COLOURS, dither=0).save(MEDIA / name, optimize=True)
 
 

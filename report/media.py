@@ -1,6 +1,6 @@
 """Rendered pictures of the arms for the report: stills at home, short loops. Optional.
 
-    python report/media.py     renders anew into report/_static/media (needs GL)
+    python report/media.py     renders into report/_static/media (needs GL)
 
 Joint angles come from the compiled engine, tick by tick, as in every episode of the results; MuJoCo draws them
 offscreen by EGL or else OSMesa, each tried in a process of its own. Where neither works the committed files stay.

@@ -17,7 +17,7 @@ class Field(NamedTuple):
     """A number, a whole number or three numbers of a condition, by the type of its default: the value without effect.
 
     meaning: with its unit. lasts: whether the perturbation goes on after the goal is reached, so that an episode runs
-    to its horizon; it must be said. is_drawn: whether the measurements need random numbers, drawn anew each period.
+    to its horizon; it must be said. is_drawn: whether the measurements need random numbers, drawn again each period.
     """
 
     name: str

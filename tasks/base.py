@@ -34,7 +34,7 @@ class Start(NamedTuple):
     goal_wxyz: Quat = IDENTITY  # desired orientation: unit quaternion, desired body to base
     q: tuple[float, ...] = ()  # joint angles [rad]
     qdot: tuple[float, ...] = ()  # joint rates [rad/s]
-    goal_p: tuple[float, ...] = ()  # where the tool shall be [m]; empty: where it starts
+    goal_p: tuple[float, ...] = ()  # goal position of the tool [m]; empty: where it starts
     goal_q: tuple[float, ...] = ()  # joint angles at which it is at its goal [rad]; empty: none that the set knows
 
 

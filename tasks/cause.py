@@ -2,7 +2,7 @@
 
 Near the representation's singular set, if the margin fell under NEAR_MARGIN; near a kinematic singularity, if the
 condition number of the tool's Jacobian (SI units) rose above NEAR_CONDITION. Both are twice as far in as the start set
-`clear` ever comes by itself. A cause is where an episode came to, not
+`clear` ever comes. A cause is where an episode came to, not
 a proof: an arm may pass such a place and fail of something else.
 """
 
@@ -19,8 +19,8 @@ CAUSES = ("", "representation", "kinematic", "both", "torque", "law")
 def cause(outcome: str, min_margin: float, condition: float) -> str:
     """The cause of a failure, in a word; empty for an episode that settled.
 
-    "both" singularities were near; "torque": neither, and the torque rule ended it; "law": none of these, as at a
-    dead point or a jump of the coordinates, and whatever was near if the law crashed or hung.
+    "both" singularities were near; "torque": neither, and the torque rule ended it; "law": none of these, as at an
+    equilibrium away from the goal or a jump of the coordinates, and whatever was near if the law crashed or hung.
 
     Args:
         outcome: one of verdict.OUTCOMES.

@@ -1,4 +1,4 @@
-"""Tasks in contact: a hand with a force sensor at an arm's wrist, something for it to touch, and what it is told to do.
+"""Tasks in contact: a hand with a force sensor at an arm's wrist, something for it to touch, and its commanded motion.
 
     D(q) qddot + fg(q, qdot) = tau + J^T F,   F = (f, m): what the surroundings do to the hand
 
@@ -35,10 +35,10 @@ MOST_LEGS = 8
 
 
 class Specification(NamedTuple):
-    """What a controller shall do, along and about the axes of the base frame (Mason 1981; Raibert and Craig 1981).
+    """Commands of a controller, along and about the axes of the base frame (Mason 1981; Raibert and Craig 1981).
 
     selection: of x, y, z and the turns about x, y, z, 1 if it is held at its place and 0 if it complies.
-    desired_wrench: the force [N] and moment [N m] that the hand shall exert where it complies; 0 where it is held.
+    desired_wrench: the force [N] and moment [N m] that the hand is to exert where it complies; 0 where it is held.
     velocity: of the place at which the hand is held [m/s]; where it complies only an impedance's springs heed it.
     moves_s: until when it moves [s]; then it stands.
     """

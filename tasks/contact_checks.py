@@ -29,7 +29,7 @@ def check_specification(specification: Specification) -> None:
     _check_numbers(f"{what}: velocity", specification.velocity, 3, "m/s")
     for axis, held, exerted in zip(AXES, specification.selection, specification.desired_wrench, strict=True):
         if held and exerted:
-            raise BadValue(f"{what}: {axis} is held and shall exert {exerted:g} at once (release it or exert 0)")
+            raise BadValue(f"{what}: {axis} is held and is to exert {exerted:g} at once (release it or exert 0)")
 
 
 def check_trial(trial: Trial, arm: Arm) -> None:

@@ -49,7 +49,7 @@ def rest_numbers(rests: bool, moves_s: float, dt: float) -> RestNumbers:
 
 
 def has_left(rule, tick, p, R, place, frame):
-    """Whether a hand at p, R is not yet, or no longer, at rest where it was: place, frame. Then rest counts anew."""
+    """Tell whether a hand at p, R is not at rest where it was: place, frame. Then rest is counted from zero."""
     x, y, z = p[0] - place[0], p[1] - place[1], p[2] - place[2]
     if tick < rule.first or x * x + y * y + z * z > rule.moved_squared:
         return True

@@ -74,7 +74,7 @@ def normalized(q: np.ndarray) -> np.ndarray:
 
 
 def slerp(q: np.ndarray, s: np.ndarray) -> np.ndarray:
-    """Along the great circle between each two quaternions as their signs are, the longer way round if they say so."""
+    """Interpolate along the great circle between each two quaternions; their signs choose the shorter or longer arc."""
     made = []
     for q_0, q_1 in itertools.pairwise(q):
         w = 2.0 * math.atan2(float(np.linalg.norm(q_1 - q_0)), float(np.linalg.norm(q_1 + q_0)))

@@ -24,7 +24,7 @@ def wrist(arm: Arm, q: tuple[float, ...]) -> tuple[Vector, Quat]:
 
 
 def mounts(arm: Arm, q: tuple[float, ...], goal: Quat) -> Quat:
-    """The hand's frame as the wrist sees it, if it shall have the orientation `goal` at the joint angles q."""
+    """Return the hand's frame in the wrist's for which the hand has the orientation `goal` at the joint angles q."""
     w, x, y, z = wrist(arm, q)[1]
     return multiply((w, -x, -y, -z), goal)
 

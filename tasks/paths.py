@@ -25,7 +25,7 @@ def turned(quat: Quat, axis: Vector, angle: float) -> Quat:
 
 
 def straight_zyx(quat: Quat, goal: Quat, steps: int) -> list[Quat]:
-    """steps + 1 orientations whose Z-Y-X angles go evenly, each by itself, from those of `quat` to those of `goal`."""
+    """Return steps + 1 orientations with evenly spaced Z-Y-X angles, from those of `quat` to those of `goal`."""
     first, last = zyx_angles(quat), zyx_angles(goal)
     return [zyx(*(a + (b - a) * i / steps for a, b in zip(first, last, strict=True))) for i in range(steps + 1)]
 

@@ -1,4 +1,4 @@
-"""Plants that are told velocities: a body that turns, and joints whose servos follow at once or with a first-order lag.
+"""Plants commanded in velocity: a body that turns, and joints whose servos follow at once or with a first-order lag.
 
     R(t + dt) = exp([omega dt]x) R(t)            omega held over the tick, base frame
     T qddot = c - qdot                           c held over the tick: qdot - c falls by exp(-dt/T)

@@ -12,7 +12,7 @@ from bench.experiments import plan as planning
 TOOK = "orientation-bench/seconds"
 """In pytest's cache: file -> what its tests took when they were last run [s]."""
 SLOW_ROOMS = ("running", "contracts", "engines", "regression")
-"""Whose files take longest on the whole: first where nothing was run yet."""
+"""Rooms whose test files take longest: they run first while no durations are known."""
 seconds: Counter = Counter()
 
 

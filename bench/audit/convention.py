@@ -1,6 +1,6 @@
 """What a function means: its input, the frame and direction of its three numbers, its form, its slope at the goal.
 
-Arguments the other way round are no case of their own: log(R R_d^T) = -log(R_d R^T), so that they are its direction.
+Swapped arguments are no case of their own: log(R R_d^T) = -log(R_d R^T), so that they only reverse the direction.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ FIT = {WIDE: 1e-5, CLOSE: 1e-6, FINE: 1e-9}
 """Places where forms are distinguished, and how well the right one fits there, of its size.
 
 Two forms differ by a twenty-fourth of the square at least, 1e-4 at 0.05 rad and 1e-6 at 0.005 rad; forms of no name may
-differ from one by the fourth power, 1e-8 and less. Single precision has 6e-8, so that it is told where pairs are wide.
+differ from one by the fourth power, 1e-8 and less. Single precision has 6e-8, so that only wide pairs decide.
 """
 
 
@@ -91,7 +91,7 @@ def way(angle: np.ndarray, size: np.ndarray) -> int:
 
 
 def form_of(pairs: Pairs, size: np.ndarray) -> tuple[str, float]:
-    """The form that sizes along the axis have, where it can be told, and the slope at the goal."""
+    """Return the form that the sizes along the axis have, where they decide one, and the slope at the goal."""
     for place, tolerance in FIT.items():
         here = (pairs.place == place) & (size > 0.0)
         if here.sum() < FEWEST * (pairs.place == place).sum():

@@ -68,7 +68,7 @@ class Examined:
 
     @functools.cached_property
     def error(self) -> np.ndarray:
-        """|e - truth| (n), of either direction where 180° is nearer than can be told; NaN without a form."""
+        """|e - truth| (n), of the nearer direction where 180° is too close to tell; NaN without a form."""
         straight = np.linalg.norm(self.e - self.truth, axis=1)
         either = self.pairs.distance < UNDECIDED_RAD
         return np.where(either, np.minimum(straight, np.linalg.norm(self.e + self.truth, axis=1)), straight)

@@ -66,7 +66,7 @@ def of_file(path: Path) -> ModuleType:
     try:
         spec.loader.exec_module(module)
     except (Exception, SystemExit) as error:
-        raise BadFunction(f"{path} does not import ({type(error).__name__}: {error}); mend the file") from error
+        raise BadFunction(f"{path} does not import ({type(error).__name__}: {error}); correct the file") from error
     finally:
         sys.path.pop(0)
     return module

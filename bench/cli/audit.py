@@ -13,7 +13,7 @@ EPILOG = examples(
     ("One of C: void f(const double[9], const double[9], double[3])", "audit libmine.so:my_error"),
     ("A class whose instance is called", "audit my_controller.py:Controller"),
     ("It must be in base, and a clip is meant", "audit my.py:f --frame base --accept norm-clip"),
-    after="A fault is what no controller wants. A note is a property that one may want, as the sine's dead point at "
+    after="A fault is what no controller wants. A note is a property that one may want, as the sine's zero at "
     "180°, or what no encoder shows. In pytest: pytest --orientation-error my_file.py:my_error\n"
     "Exit code 1: a fault that is not accepted. 2: no report, as of a file that holds no such function.",
 )

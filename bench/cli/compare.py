@@ -32,20 +32,23 @@ EPILOG = examples(
 @click.argument("base", required=False)
 @click.argument("head", required=False)
 @options.law
-@click.option("--no-timing", is_flag=True, help="Leave time out.")
+@click.option("--no-timing", is_flag=True, help="Do not compare time.")
 @click.option("--benchmarks", type=click.Path(path_type=Path), metavar="FOLDER", help="Keep base.json and head.json.")
 @click.option("--summary", type=click.Path(path_type=Path), metavar="FILE", help="Markdown for a pull request.")
 def COMMAND(base, head, laws, no_timing, benchmarks, summary):
     """Compare HEAD with BASE, each a results folder or a git revision: what got worse, by how much, how sure.
 
-    HEAD is the files in the checkout unless named. BASE is where HEAD left main (on main the commit before; outside git
-    results/reference, with results/quick for HEAD). A regression is an outcome that got worse, a new dead point, a
-    smaller basin, a row or a law that is gone, a later settling time, a quarter more effort or peak command, twice the
-    change of the command at rest, more of any operation, or a slower tick. If the judge changed, only that is said, by
-    column. A law of your own is compared with its file at BASE in the whole quick suite, and `bench judge` says of both
-    why: a fault that BASE has not is a regression. All laws of the benchmark are compared in a part of the quick suite;
-    `make gate` compares the whole. The files of --benchmarks are pytest-benchmark's. In $GITHUB_STEP_SUMMARY the
-    summary is added too.
+    HEAD defaults to the working tree. BASE defaults to the commit where HEAD left main (on main: the commit before;
+    outside git: results/reference, with results/quick for HEAD).
+
+    A regression is a worse outcome, a new equilibrium away from the goal, a smaller basin, a missing row or law, a
+    later settling time, 25 % more effort or peak command, twice the change of the command at rest, more of any
+    operation, or a slower tick. If the judge changed, only the changed columns are listed.
+
+    A law of your own is compared with its file at BASE in the whole quick suite and judged on both sides; a fault that
+    BASE does not have is a regression. The laws of the benchmark are compared in a part of the quick suite; `make gate`
+    compares the whole. --benchmarks keeps files of pytest-benchmark. The summary is also added to
+    $GITHUB_STEP_SUMMARY.
     """
     written = map(Path, filter(None, (summary, os.environ.get("GITHUB_STEP_SUMMARY"))))
     before = {path: path.read_text(encoding="utf-8") if path.exists() else "" for path in written}

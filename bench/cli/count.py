@@ -39,21 +39,21 @@ EPILOG = examples(
 @options.jacobian
 @options.inverse
 @options.controller
-@click.option("--joints", type=click.Choice(["6", "7"]), help="Of the arm; 6 unless --arm says otherwise.")
+@click.option("--joints", type=click.Choice(["6", "7"]), help="Joints of the arm (default: 6, or those of --arm).")
 @click.option("--arm", metavar="NAME", help="An arm, for its number of joints.")
 @click.option("--stages", is_flag=True, help="A line for each stage of the tick, not only the total.")
 def COMMAND(laws, regulators, representations, jacobians, inverses, controllers, joints, arm, stages):
     """Count the operations of each law per tick: typical and worst branch, transcendental functions apart.
 
-    With --law: of that law, and of those that --regulator names.
+    --law FILE: count this law and any law given with --regulator.
 
-    With a Jacobian, an inverse, a number of joints or an arm: of the whole controller of an arm, without what MuJoCo
-    computes. A Jacobian or inverse that is not named is every one that fits. With a controller: of it in contact, on
+    A Jacobian, an inverse, a number of joints or an arm: count the whole controller of an arm, without what MuJoCo
+    computes, for every Jacobian and inverse that fits unless one is named. --controller NAME: count it in contact, on
     six joints, compliant about x and y.
     """
     if controllers:
         if laws or regulators or representations or jacobians or inverses or joints or arm:
-            raise click.UsageError("--controller is counted by itself (leave the other options but --stages away)")
+            raise click.UsageError("--controller is counted alone (leave out all other options but --stages)")
         _print(_in_contact(controllers), "Operations per tick of a controller in contact", stages)
         return
     named = options.named(regulators, jacobians, inverses)

@@ -12,20 +12,20 @@ from bench.findings.judgement import Judgement
 
 EPILOG = examples(
     ("A law of your own (README has an example)", "judge my_law.py"),
-    after="A fault is a start that is lost, a dead point, chatter, or a stiffness or damping other than the gains say. "
-    'A law whose property is "almost global" may have dead points at rotations of 180 degrees and lose starts there.\n'
-    "Exit code 1: a fault. 2: no verdict, as of a file that holds no law. The same, against an older version of the "
-    "law: make judge LAW=my_law.py BASE=main.",
+    after="A fault is a start that does not settle, an equilibrium away from the goal, chatter, or a stiffness or "
+    'damping other than the gains say. A law whose property is "almost global" may be stuck at 180°.\n'
+    "Exit code 1: a fault. 2: no verdict, for example if the file holds no law. To compare with an older version of "
+    "the law: make judge LAW=my_law.py BASE=main.",
 )
 
 
 @click.command("judge", epilog=EPILOG)
 @click.argument("law", type=options.PATH)
 @click.option(
-    "--law-limit", type=click.FloatRange(0.1), default=5.0, show_default=True, help="Seconds until a unit is hung."
+    "--law-limit", type=click.FloatRange(0.1), default=5.0, show_default=True, help="Time limit per unit [s]."
 )
 def COMMAND(law: Path, law_limit: float):
-    """Judge a law of yours on the free body and say why it does what it does: seconds, nothing is written.
+    """Judge your law on the free body and explain the result. It takes seconds and writes no file.
 
     It examines the command over all states (stiffness and damping at three goals, dead points, jumps), episodes from
     uniform, spinning and other starts (which are lost, and how they rest), and robustness. It lists the laws of

@@ -1,4 +1,4 @@
-"""Where a run comes from, in a line."""
+"""Describe where a run comes from, in one line."""
 
 from pathlib import Path
 

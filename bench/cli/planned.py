@@ -16,12 +16,12 @@ FEW = 3
 
 
 def print_size(plan: Plan, out: Path, workers: int, scheduler: str) -> None:
-    """How much of what is run, how, and into which folder."""
+    """Print how much is run, how, and into which folder."""
     print_paragraphs(*size(plan, out, workers, scheduler))
 
 
 def size(plan: Plan, out: Path, workers: int, scheduler: str) -> list[Paragraph]:
-    """The same as paragraphs."""
+    """Return the size and settings of a plan and its folder as paragraphs."""
     return [*_sizes(plan), _settings(plan, workers, scheduler), Paragraph("into", (shown_path(out),))]
 
 

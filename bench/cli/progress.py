@@ -19,11 +19,11 @@ SURE_S = 5.0
 """Nothing is said of the time left before so many seconds are counted."""
 
 WORDS = 30
-"""Characters for what is being done, so that the bar stands still."""
+"""Characters for the current step, so that the bar keeps its place."""
 
 
 class Steps:
-    """What is being done, how many of how many are, and since when; the number is None while nobody can know it."""
+    """Hold the current step, the number done, the total (None if unknown) and the start time."""
 
     def __init__(self, unit: str, doing: str = "", clock: Callable[[], float] = time.monotonic):
         self.unit, self.clock, self.doing = unit, clock, doing

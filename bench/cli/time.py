@@ -58,5 +58,5 @@ def COMMAND(laws, regulators, representations, arms, quick, benchmark_json, out:
 
 
 def folder_for(*narrowing) -> Path:
-    """Where timings go if no folder is named: only those of everything to the files under version control."""
+    """Return the default folder of timings: the one under version control only if everything was timed."""
     return PARTIAL if any(narrowing) else WHOLE

@@ -53,7 +53,7 @@ def described(path: Path, text: bytes | None = None, limit_s: float = LOAD_S, wa
         own = stand_in(_described(path, text, limit_s, waits_s), path)
         check_fields(own, path)
     except (LookupError, TypeError, AttributeError) as error:
-        raise BadLaw(f"--law {path}: its process did not say what it is; mend what runs when it is imported") from error
+        raise BadLaw(f"--law {path}: its process did not say what it is; correct what runs on import") from error
     return own
 
 
@@ -80,7 +80,7 @@ def _described(path: Path, text: bytes, limit_s: float, waits_s: float) -> str:
     if not said:
         late = f"it did not return within {limit_s:g} s"
         why = late if is_late or code == -signal.SIGXCPU else f"it ended its process, {ending(code)}"
-        raise BadLaw(f"--law {path}: it does not load ({why}); mend what runs when it is imported")
+        raise BadLaw(f"--law {path}: it does not load ({why}); correct what runs on import")
     return json.dumps(said[0]["fields"])
 
 

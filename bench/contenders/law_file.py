@@ -21,7 +21,7 @@ WORD = re.compile(r"[a-z0-9]+(-[a-z0-9]+)*")
 
 LONGEST = 32
 SHORT = re.compile(rf"[\w ,.'-]{{0,{LONGEST}}}")
-"""What stands beside a curve; markup and formulas would break a figure."""
+"""Characters allowed in the name beside a curve; markup and formulas would break a figure."""
 
 
 def read_law(path: Path) -> bytes:
@@ -36,7 +36,7 @@ def read_law(path: Path) -> bytes:
         text = path.read_bytes()
         text.decode()
     except OSError as error:
-        raise BadLaw(f"--law {path}: it cannot be read ({error.strerror}); mend its rights") from error
+        raise BadLaw(f"--law {path}: it cannot be read ({error.strerror}); run: chmod u+r on it") from error
     except UnicodeDecodeError as error:
         raise BadLaw(
             f"--law {path}: it is not UTF-8 ({error.reason} at byte {error.start}); save it as UTF-8"
@@ -65,7 +65,7 @@ def load_law(path: Path, text: bytes | None = None) -> Regulator:
         exec(compile(text, path, "exec"), module.__dict__)
     except (Exception, SystemExit) as error:
         del sys.modules[name]
-        cure = _new_imports(text) if isinstance(error, ImportError) else "mend the file"
+        cure = _new_imports(text) if isinstance(error, ImportError) else "correct the file"
         raise BadLaw(f"--law {path}: it does not import ({_said(error, str(path))}); {cure}") from error
     own = getattr(module, "REGULATOR", None)
     if not isinstance(own, Regulator):
@@ -97,7 +97,7 @@ def _new_imports(text: bytes) -> str:
         if isinstance(one, ast.ImportFrom) and re.match(r"bench\.(?!law\b)", one.module or "")
     ]
     moved = sorted({name.name for one in old for name in one.names if hasattr(law, name.name)})
-    return f"write: from bench.law import {', '.join(moved)}" if moved else "mend the file"
+    return f"write: from bench.law import {', '.join(moved)}" if moved else "correct the file"
 
 
 TRIAL = Rotation((0.36, 0.48, -0.8), (-0.8, 0.6, 0.0), (0.48, 0.64, 0.6))

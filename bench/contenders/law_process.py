@@ -79,7 +79,7 @@ class LawProcess:
             raise TimeoutError from error
 
     def end(self) -> int:
-        """Stop it, and all that it started; its exit code, if it had ended by itself."""
+        """Stop the process and all that it started; return its exit code if it had already ended."""
         self.line.close()
         if self.process.returncode is None:
             with contextlib.suppress(ProcessLookupError):

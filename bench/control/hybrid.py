@@ -2,7 +2,7 @@
 
 tau = D y + fg + J^T w, row by row of J's frame either held or complying: the selection matrix S = diag(held) of Raibert
 and Craig. What is held is commanded the acceleration a of a position law. F is the measured wrench on the hand, h what
-the hand shall exert, v = J qdot; where the hand complies it comes to rest with F = -h. Three forms:
+the hand is commanded to exert, v = J qdot; where the hand complies it comes to rest with F = -h. Three forms:
 
     transpose    y = J^-1 (S a - (I - S) kc v - Jdot qdot)                                  w = (I - S)(h + kf (h + F))
     inverse      y = J^-1 (S a + (I - S) c - Jdot qdot)                                     w = -F
@@ -94,7 +94,7 @@ def in_base(chain, setpoint, f, m, gains, touch, J, rows):
 
 @kernel
 def in_base_by_rate(chain, setpoint, f, m, gains, touch, J, rows):
-    """The same; a turn that is held is held by its rate alone, omegadot = -Kv omega, whatever the orientation."""
+    """Command as `in_base`, but hold a held turn by its rate alone, omegadot = -Kv omega, whatever the orientation."""
     in_base(chain, setpoint, f, m, gains, touch, J, rows)
     for i in range(3, 6):
         rows.a[i] = -gains.kv * rows.v[i]

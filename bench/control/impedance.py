@@ -1,4 +1,4 @@
-"""Six-axis impedance: the hand answers a wrench like a mass, a damper and a spring about where it shall be.
+"""Six-axis impedance: the hand answers a wrench like a mass, a damper and a spring about its desired pose.
 
     m_p (pddot - vdot_d) + m_p Kv (pdot - v_d) + m_p Kp (p - p_d) = f + f_d
     omegadot = u(R, omega, m)

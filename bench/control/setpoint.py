@@ -43,8 +43,8 @@ class Setpoint(NamedTuple):
 class Rows(NamedTuple):
     """Five buffers of six numbers, along the axes or coordinates of a controller.
 
-    a: commanded acceleration of what is held; drift: Jdot qdot; F: the wrench on the hand; h: what it shall exert;
-    v: its velocity.
+    a: commanded acceleration of what is held; drift: Jdot qdot; F: the wrench on the hand; h: the commanded
+    wrench; v: its velocity.
     """
 
     a: Any

@@ -78,7 +78,7 @@ def _on_arm(on_arms: OnArms, laws, joints: int, choice: Choice) -> Iterator[tupl
 
 
 def _knows(one: Contender, start_set: str) -> bool:
-    """Tell whether a set says all that a controller asks: of the goal's joint angles no law does."""
+    """Tell whether a start set has what a controller needs: only joint-space baselines need the goal's joints."""
     return one.regulator.assemble is None or tasks.knows_joints(start_set)
 
 

@@ -1,6 +1,6 @@
-"""Where a law first fails, along geodesics from the goal: a scan for the first failing angle, then bisection.
+"""Find where a law first fails along geodesics from the goal: a scan for the first failing angle, then bisection.
 
-A failing set of measure zero (a half turn, a pole) is not found by a scan and not looked for here: the directed start
+A failing set of measure zero (180°, a pole) is not found by a scan and not looked for here: the directed start
 sets hit those exactly.
 """
 

@@ -27,7 +27,7 @@ TWINS = (
     "rotation-matrix@geometric-body+standard",
     "feedback-linearized/zyx-euler@analytic-differentiated+standard",
 )
-"""What ought to equal another contender: the same command by another Jacobian."""
+"""Controllers mathematically equivalent to another one: the same command by another Jacobian."""
 
 AT_INVERSES = ("wrist", "uniform")
 """Start sets on which inverses are distinguished, and twins looked at: beside the arm's singularities, and anywhere."""

@@ -82,7 +82,11 @@ def columns() -> list[Column]:
         ),
         *HORIZON,
         *numbers("1", "settling band over initial angle", "tolerance"),
-        *numbers("s", "how long a settled body is at rest, or an early stop under a hundredth of the band", "hold_s"),
+        *numbers(
+            "s",
+            "time at rest required to count as settled; an early stop takes as long within 1 % of the band",
+            "hold_s",
+        ),
         *JUDGED,
         *(Column(one.column, NUMBER, one.unit, one.title) for one in known_metrics().values()),
         *numbers(

@@ -13,7 +13,7 @@ LOOKED_AT = {"uniform": 500, "half-turn": None, "poles": None, "wraps": None}
 """Starts at rest over which a greatest command is sought, by set: they come close to where any of our laws has it."""
 
 UNBOUNDED = 100.0
-"""Greatest command over kp [rad] beyond which there is none: the starts come as near as 1e-12 rad to half turns."""
+"""Greatest command over kp [rad] beyond which there is none: the starts come as near as 1e-12 rad to 180°."""
 
 
 def gains_at(one: Contender, peak: float) -> Gains | None:

@@ -1,4 +1,4 @@
-"""A controller as it is shipped, and laws of ours at its gains: stiffness, dead points, unwinding, settling times.
+"""A controller as it is shipped, and laws of ours at its gains: stiffness, places where it is stuck, unwinding, times.
 
 Stiffness and directions are of the command at rest; episodes run on the ideal plant with a held command, from both
 signs of the quaternion. Where the authors cancel no inertia, unit inertia stands for the body's: of another, I, divide

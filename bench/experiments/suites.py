@@ -21,7 +21,7 @@ from bench.experiments.chosen_words import (
 ENGINES = ("ideal-rk4", "ideal-held", "native", "reference")
 
 LONG, SHORT = 20.0, 10.0
-"""Horizons [s]. SHORT is 17 settling times of a small error. LONG is for starts near a half turn: rounding (1e-16)
+"""Horizons [s]. SHORT is 17 settling times of a small error. LONG is for starts near 180°: rounding (1e-16)
 grows there by a decade every 0.56 s, so that what has not left after 10 s of it never will."""
 
 ON_ARM = 5.0
@@ -92,7 +92,7 @@ class Robustness(NamedTuple):
 
 
 class Velocity(NamedTuple):
-    """The part of a suite that tells robots velocities.
+    """Hold the velocity-command experiments of a suite.
 
     starts: uniform ones of every first-order law on the free body; limited: those with a limiter; on_arms: of each of
     AT_VELOCITIES on each arm.

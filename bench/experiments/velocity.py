@@ -235,7 +235,7 @@ def prepare(settings: Settings, unit: Unit) -> None:
 
 EXPERIMENT = Experiment(
     NAME,
-    "first-order laws: robots that are told velocities",
+    "first-order laws: robots commanded in velocity",
     Table(NAME, columns, ("suite", "arm", *CONTENDER_KEY, *PLACED, "start_id")),
     units,
     rows,

@@ -1,7 +1,7 @@
 """Why a law does what it does: a sentence for each thing found of it, with the state that shows it and its page.
 
-A fault is a sentence that names one. Dead points, and places where the command is no number, are no faults of a law
-whose `property` is "almost global": the word says that they exist.
+A fault is a sentence that names one. Equilibria away from the goal, and places where the command is no number, are no
+faults of a law whose `property` is "almost global": the word says that they exist.
 """
 
 import math
@@ -52,36 +52,36 @@ SENTENCES: dict[str, dict[str, tuple[str, ...]]] = {
         "*": ("Wrong damping, {what}: {least} to {most} kv, {at_goal}.", GAINS, "wrong damping"),
     },
     "dead-half-turns": {
-        "*": (f"Dead points: {{set}}; |u| is at most {{value}} kp. {SHOWN}", FAILURES, "dead points"),
-        "between": (f"Dead points at {{set}}, between two sides: take 1 for sign(0), not 0. {SHOWN}", SIGNS, "sign(0)"),
+        "*": (f"It is stuck at {{set}}: |u| is at most {{value}} kp. {SHOWN}", FAILURES, "stuck"),
+        "between": (f"It is stuck at {{set}}, between two sides: take 1 for sign(0), not 0. {SHOWN}", SIGNS, "sign(0)"),
     },
     "no-number-half-turns": {"*": (f"Its command is no number at {{set}}. {SHOWN}", FAILURES, "no number")},
     "jump-goal": {"*": ("It jumps by {value} rad times kp at the goal itself.", SIGNS, "jump at the goal")},
     "jump-half-turns": {
-        "jump": ("At half turns it jumps by {value} rad times kp, as {state}: noise can hold it there.", ROBUSTNESS),
+        "jump": ("At 180° it jumps by {value} rad times kp, as {state}: noise can hold it there.", ROBUSTNESS),
         "kept": (
-            "At half turns its first tick jumps by {value} rad times kp, as {state}; memory keeps the side.",
+            "At 180° its first tick jumps by {value} rad times kp, as {state}; memory keeps the side.",
             ROBUSTNESS,
         ),
-        "unbounded": ("Towards half turns its command grows without bound, as at {state}.", FAILURES),
+        "unbounded": ("Towards 180° its command grows without bound, as at {state}.", FAILURES),
     },
     "jump-elsewhere": {
         "unbounded": ("Its command is no number, or unbounded, as at {state}.", FAILURES, "no number"),
-        "*": ("It jumps by {value} rad times kp off the half turns too, as at {state}.", FAILURES),
+        "*": ("It jumps by {value} rad times kp away from 180° too, as at {state}.", FAILURES),
     },
     "away": {"some": ("At rest it pulls away from {found} of {of} states, as from {state}, where u = {u}.", SIDE)},
     "pull": {"swapped": (f"Exchanged arguments of atan2: {SWAPPED}.", SIGNS, "swapped atan2")},
 }
 """Finding -> what -> sentence, page, and the fault if it is one; * is any other word that says there is something."""
 
-SETS = {"every": "every half turn ({found} of {of} axes tried)", "plane": "half turns about axes in one plane"}
-SETS |= {f"plane-{axis}": f"half turns about axes normal to {axis}" for axis in "xyz"}
+SETS = {"every": "every 180° rotation ({found} of {of} axes tried)", "plane": "180° rotations about axes in one plane"}
+SETS |= {f"plane-{axis}": f"180° rotations about axes normal to {axis}" for axis in "xyz"}
 
 MOST, NEAR_RAD = 3, 0.01
-"""Laws shown beside it. From a half turn: what lies nearer, a law that is "almost global" may lose; Paielli and
+"""Laws shown beside it. From 180°: what lies nearer, a law that is "almost global" may lose; Paielli and
 Bach's does, to 0.005 rad."""
 
-FAULTS = {"oscillating": "oscillation", "creeping": "creeping", "stuck": "dead points"}
+FAULTS = {"oscillating": "oscillation", "creeping": "creeping", "stuck": "stuck"}
 FAULTS |= {"crashed": "raises or exits", "hung": "does not return"}
 """Of an outcome; of any other the starts are lost."""
 
@@ -194,7 +194,7 @@ def _words(row: dict) -> dict[str, str]:
     return {
         **{name: f"{row[name] + 0.0:.3g}" for name in ("value", "least", "most")},
         **{"what": what, "found": f"{found:,}", "of": f"{of:,}"},
-        "set": SETS.get(what, "{found} of {of} half turns tried").format(found=found, of=of),
+        "set": SETS.get(what, "{found} of {of} 180° rotations tried").format(found=found, of=of),
         "at_goal": "at R_d = I" if goal[0] == 1.0 else f"at R_d = {vector(goal)} (w x y z)",
         "state": _state([row[f"quat_{part}"] for part in "wxyz"]),
         "u": f"{vector([row[f'u_{axis}'] for axis in 'xyz'])} rad/s²",

@@ -1,4 +1,4 @@
-"""What stands beside a stiffness matrix: the damping of an impedance that leaves the hand its own inertia."""
+"""Damping design for a given stiffness matrix: an impedance that leaves the hand its own inertia."""
 
 from collections.abc import Callable
 from typing import NamedTuple

@@ -8,7 +8,7 @@ from bench.law.scalar import kernel
 
 @kernel
 def driven(m, inertia, spring, kv, omega):
-    """m/m_o + spring - Kv omega: what the moment drives, the spring pulls and the damper holds."""
+    """Compute the resulting angular acceleration, m/m_o + spring - Kv omega."""
     return (
         m[0] / inertia + spring[0] - kv * omega[0],
         m[1] / inertia + spring[1] - kv * omega[1],
@@ -19,7 +19,7 @@ def driven(m, inertia, spring, kv, omega):
 class Impedance(NamedTuple):
     """A law u = law(R, omega, m, R_d, gains, inertia): the hand's angular acceleration in the base frame [rad/s^2].
 
-    m: the moment on the hand and what it shall exert besides [N m], base frame. inertia: apparent, [kg m^2]. Near the
+    m: the moment on the hand plus the one it is to exert [N m], base frame. inertia: apparent, [kg m^2]. Near the
     goal the stiffness is kp inertia [N m/rad]; of an impedance in coordinates it is that times B^-T B^-1.
     law_in(representation) -> law, of an impedance in coordinates; `law` is then None.
     relative: the coordinates are those of R_d^T R.

@@ -1,4 +1,4 @@
-"""What stands between a velocity law and the robot that is told velocities."""
+"""Velocity limiters, applied before a velocity command is sent."""
 
 from collections.abc import Callable
 from typing import NamedTuple

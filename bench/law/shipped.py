@@ -60,7 +60,7 @@ def shorter(q):
 
 @kernel
 def vector_part(q):
-    """sin(theta/2) k, the short way round."""
+    """Return sin(theta/2) k of the shorter rotation."""
     s = shorter(q)
     return (s[1], s[2], s[3])
 

@@ -147,5 +147,5 @@ def _removing(out: Path) -> Iterator[None]:
         yield
     except OSError as error:
         raise BadResults(
-            f"{out}: cannot be emptied ({error.strerror}); mend its rights, or choose another folder with --out"
+            f"{out}: cannot be emptied ({error.strerror}); check its permissions, or choose another folder with --out"
         ) from error

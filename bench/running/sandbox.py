@@ -24,7 +24,7 @@ from bench.tables.store import as_table, joined
 from tasks.verdict import CRASHED, HUNG, OUTCOMES
 
 PATIENCE_S, SINGLE_S = 30.0, 1.0
-"""A unit's limit, and that of an episode by itself, beside TICK_S for each of their ticks."""
+"""Time limits of a unit and of a single episode, besides TICK_S for each of their ticks."""
 
 TICK_S = {"": 1e-5, "ideal-rk4": 1e-5, "ideal-held": 1e-5, "native": 1e-4, "reference": 2e-3}
 """Seconds of processor time, by engine: ten times what a tick of ours takes. A perturbed body is simulated as

@@ -35,7 +35,7 @@ class Mistake(Exception):
 
 
 class Process:
-    """One process, and the line to it. chunk: what it is told first, of one law."""
+    """One process, and the line to it. chunk: the first message, about one law."""
 
     def __init__(self, law: str, chunk: bytes):
         self.law, self.chunk = law, chunk

@@ -33,7 +33,7 @@ COMPLETE = b"\n"
 """The last byte of a fork's answer: without it the law has ended the fork."""
 
 ENDING_S = 0.5
-"""For a fork that has said its last to end by itself, so that its exit code is its own."""
+"""Grace period for a fork that has sent its last message, so that its exit code is its own."""
 
 READY_S = 120
 """Seconds of processor time for compiling: twice what all engines take that were never compiled before."""
@@ -117,7 +117,7 @@ def answer_of_a_fork(work: Callable[[], bytes], processor_s: float, longest_s: f
 
 
 def _heard(reading: int, child: int, longest_s: float, run_of: Connection) -> bytes | None:
-    """What a fork wrote until it ended, though what it forked in turn may still hold its pipe; None if it did not end.
+    """Return what a fork wrote until it ended, even if a grandchild keeps the pipe open; None if it did not end.
 
     Errors:
         EOFError: the run has ended.
@@ -157,7 +157,7 @@ def _answer_and_exit(work: Callable[[], bytes], processor_s: float, writing: int
 
 
 def main(descriptor: int) -> None:
-    """Answer until the run lets go."""
+    """Answer until the run closes the connection."""
     with Connection(descriptor) as run_of:
         try:
             limit(READY_S)

@@ -1,1 +1,1 @@
-"""Studies that stand beside the benchmark, each with results of its own."""
+"""Studies outside the benchmark's suites, each with its own results."""

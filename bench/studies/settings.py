@@ -1,7 +1,7 @@
 """Is a run the same on every processor? Quick suites under settings that round as others do: results/settings.
 
     python -m bench.studies.settings                every setting, some two minutes each
-    python -m bench.studies.settings --only blas    one anew; the others, and other machines', stay as they are
+    python -m bench.studies.settings --only blas    one again; the others, and other machines', stay as they are
 
 Libraries choose their kernels by the processor: OpenBLAS those of its linear algebra, numpy its vectors, the C library
 its sin and cos, the compiler its target. Variables make them choose as on another one. Each run is held against
@@ -69,7 +69,7 @@ def _same(a: pd.Series, b: pd.Series) -> np.ndarray:
 def main() -> None:
     """The study's command."""
     parser = argparse.ArgumentParser(prog="python -m bench.studies.settings", description=__doc__.splitlines()[0])
-    parser.add_argument("--only", choices=list(SETTINGS), help="one setting anew")
+    parser.add_argument("--only", choices=list(SETTINGS), help="run one setting again")
     parser.add_argument("--out", type=Path, default=STORED, help="where to write (default: results/settings)")
     chosen = parser.parse_args()
     found = read_json(chosen.out) if chosen.out.is_file() else {}

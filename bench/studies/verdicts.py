@@ -1,7 +1,7 @@
 """Does a verdict depend on the draw, the step or the gains? Claims on 20 seeds, half the step and results/gains.
 
     python -m bench.studies.verdicts                     what results/verdicts lacks: about a minute of CPU a seed
-    python -m bench.studies.verdicts --only 3 half-step  these anew
+    python -m bench.studies.verdicts --only 3 half-step  these again
 
 The words are stored in results/verdicts. A seed draws other starts and poses; what follows from no draw (operations,
 contact, boundaries) is the reference's. At half the step all that steps is run again, contact too. Each run is judged
@@ -68,7 +68,7 @@ def _is_judged(unit: Unit) -> bool:
 
 
 def plan_of(name: str) -> Plan:
-    """What is run anew of the suite of the reference."""
+    """Return the part of the reference's suite that is run again."""
     at_half = name == HALF_STEP
     laws = [one for one in all_contenders() if not one.regulator.costing_only]
     drawn = {"dt_s": STEP_S / 2} if at_half else {"seed": int(name)}
@@ -100,7 +100,7 @@ def words_of(results: Results) -> dict[str, str]:
 
 
 def at_other_gains() -> list[dict]:
-    """Of each run of results/gains its gains, and the words of the claims that its tables decide."""
+    """Return the gains of each run of results/gains, and the words of the claims that its tables decide."""
     runs = [Results(path.parent) for path in sorted(GAINS.glob("*/episodes.parquet"))]
     return [{**run.gains()._asdict(), "words": words_of(run)} for run in runs]
 
@@ -138,7 +138,7 @@ def study(names: tuple[str, ...], workers: int, out: Path, again: bool) -> dict:
 def main() -> None:
     """The study's command; exit code 1 if a word changes."""
     parser = argparse.ArgumentParser(prog="python -m bench.studies.verdicts", description=__doc__.splitlines()[0])
-    parser.add_argument("--only", nargs="+", choices=RUNS, metavar="RUN", help=f"seeds, or {HALF_STEP}: these anew")
+    parser.add_argument("--only", nargs="+", choices=RUNS, metavar="RUN", help=f"seeds, or {HALF_STEP}: run again")
     parser.add_argument("--workers", type=int, default=2, help="threads (default: 2)")
     parser.add_argument("--out", type=Path, default=STORED, help="where to write (default: results/verdicts)")
     words = parser.parse_args()

@@ -1,4 +1,4 @@
-"""One run at a time in a folder: a lock that the kernel holds on the folder itself, and lets go of with the process.
+"""One run at a time in a folder: a lock that the kernel holds on the folder itself until the process ends.
 
 No file is left behind, however a run ends. Some network file systems lock no folder; there a run goes on without.
 """

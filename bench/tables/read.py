@@ -114,7 +114,7 @@ def _with_names(frame: pd.DataFrame, columns: list[str], named: Callable[[pd.Dat
 
 
 def chosen(frame: pd.DataFrame, words: dict[str, str]) -> pd.DataFrame:
-    """Return the rows whose columns have these words, counted anew from 0, with only the words that occur.
+    """Return the rows whose columns have these words, renumbered from 0, with only the words that occur.
 
     Errors:
         BadResults: the table has no such column.

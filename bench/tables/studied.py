@@ -44,7 +44,7 @@ def library_columns() -> list[Column]:
         "raised": "of them, those that raised an error",
         "not_finite": "those answered with what is no number",
         "nought": "those answered with less than a millionth of the angle",
-        "long_way": "those answered with a vector that points the long way round",
+        "long_way": "those answered with the vector of the longer rotation",
         "astray": "those answered with a vector more than 0.1 rad off the axis",
         "other_sheet": "those answered otherwise when given as -q, for functions that take quaternions",
     }
@@ -52,7 +52,7 @@ def library_columns() -> list[Column]:
         *words(
             library="who is asked",
             version="of its package",
-            function="what is asked, with the factor that makes it theta k near the identity",
+            function="the function, with the factor that makes it theta k near the identity",
             kind="function: the library offers it; idiom: users write it on functions of the library",
             takes="matrix or quaternion",
             form="what it means to be: a word of bench/studies/libraries/forms.py",

@@ -60,7 +60,7 @@ def run_apart(
 
 
 def main(descriptor: int) -> None:
-    """Time what is asked for."""
+    """Time the requested calls."""
     with Connection(descriptor) as line:
         asked = json.loads(line.recv_bytes())
 

@@ -35,7 +35,7 @@ class Sample(NamedTuple):
 
 
 def order(count: int, passes: int, seed: int) -> list[list[int]]:
-    """For every pass all of 0..count-1, shuffled anew."""
+    """Return a new shuffle of 0..count-1 for every pass."""
     shuffled = random.Random(seed)
     return [shuffled.sample(range(count), count) for _ in range(passes)]
 

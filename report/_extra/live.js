@@ -1,4 +1,4 @@
-/* Two laws from one start, alive: every change runs both episodes anew (live-episode.js) and draws them. What is chosen
+/* Two laws from one start, alive: every change runs both episodes again (live-episode.js) and draws them. What is chosen
    stands in the address. No library; follows light and dark; at most BUDGET_MS of a frame goes into episodes. */
 (function () {
   "use strict";
@@ -44,7 +44,7 @@
 
   // ---- the episodes
 
-  function normals(seed) { // Box and Muller's, of a small generator that begins anew with every episode
+  function normals(seed) { // Box and Muller's, of a small generator that restarts with every episode
     let state = seed;
     const uniform = () => {
       state = (state + 0x6d2b79f5) | 0;

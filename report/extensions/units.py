@@ -32,7 +32,7 @@ class CloseUp(SphinxPostTransform):
 
 
 def close_up(block: nodes.TextElement) -> None:
-    """The same in one block, whose text may be cut into leaves anywhere."""
+    """Put the no-break spaces into one block, whose text may be cut into leaves anywhere."""
     leaves = list(block.findall(nodes.Text))
     text = SPACE.sub(NO_BREAK_SPACE, "".join(leaves))
     end = 0

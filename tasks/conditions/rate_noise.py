@@ -1,4 +1,4 @@
-"""White noise on the measured angular velocity, drawn anew each period.
+"""White noise on the measured angular velocity, drawn again each period.
 
 The level is its standard deviation about each axis.
 """

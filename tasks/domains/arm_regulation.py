@@ -1,10 +1,10 @@
-"""An arm that shall turn its tool to the goal and hold its position, or move it (Murphy 1988, 2.1 to 2.3 and 3.7).
+"""An arm that turns its tool to the goal and holds its position, or moves it (Murphy 1988, 2.1 to 2.3 and 3.7).
 
     D(q) qddot + fg(q, qdot) = tau,   xdot = J(q) qdot
 
 The command is the motors' torques tau [N m], in joint order. The plant has gravity; it has no contact, no joint
 limits and no torque limits, so that an arm that is driven out of its range shows it in the results and nowhere
-else. The tool is the site `tool` of the arm's file; its position shall stay the one at the start unless the start says
+else. The tool is the site `tool` of the arm's file; its goal position is the one at the start unless the start says
 another.
 
 The state: qpos are the joint angles [rad], qvel the joint rates [rad/s].

@@ -29,7 +29,7 @@ SIDE = 0.1  # of the face [m]
 TIP = (0.0, 0.0, 0.12)  # middle of the face, in the wrist's frame [m]
 CLEARANCE = 0.001  # of the lowest corner at the start [m]
 # Springs alone heed where the hand is held. It is lowered so fast [m/s], to so far [m] below the place where the tool
-# lies flat: a spring that shall turn the tool has to follow it down.
+# lies flat: a spring that turns the tool has to follow it down.
 LOWERING, BELOW = 0.02, 0.005
 SPECIFICATION = Specification(
     "z, about x and y",

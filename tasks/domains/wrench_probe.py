@@ -1,10 +1,10 @@
-"""Known moments at a hand in free space: which way it turns when it is told to comply.
+"""Known moments at a hand in free space: which way it turns when it is commanded to comply.
 
 Nothing touches the hand, and nothing moves fast, so that a controller's choice of coordinates is all there is to see.
 One of MOMENTS, as large as `push` says, acts from the first tick on. About axes that comply the hand turns with it;
 about the others, and with an impedance about all, it comes to rest where the controller's stiffness balances it.
 
-The arm keeps its posture in all trials: only the hand's frame is drawn anew, R = Rz(alpha) Ry(beta) Rx(gamma).
+The arm keeps its posture in all trials: only the hand's frame is drawn again, R = Rz(alpha) Ry(beta) Rx(gamma).
 
 Source: Murphy 1988, 3.3 and equations 3.9 to 3.12.
 """

@@ -98,9 +98,9 @@ def test_exact_points_are_where_the_laws_are_known_to_fail():
         for law, place, tried, failing, *_ in failure_map.exact_points(ideal())
     }
     of_matrix = {place for law, place in found if "Rotation matrix" in law}
-    assert of_matrix == {"half turn", "half turn and pole"}
+    assert of_matrix == {"180° rotation", "180° rotation and pole"}
     of_feedback = {place: tally for (law, place), tally in found.items() if "Feedback" in law}
-    assert set(of_feedback) == {"pole", "half turn and pole"}
+    assert set(of_feedback) == {"pole", "180° rotation and pole"}
     assert all(tried == failing for tried, failing in of_feedback.values())
 
 

@@ -130,7 +130,7 @@ def test_word_or_period_that_is_none_is_refused_before_anything_runs(engine, con
         (SPECIFICATION._replace(selection=np.eye(6)), "the diagonal of the selection matrix"),
         (
             SPECIFICATION._replace(desired_wrench=(0.0, 0.0, -5.0, 0.0, 0.0, 0.0)),
-            "z is held and shall exert -5 at once (release it",
+            "z is held and is to exert -5 at once (release it",
         ),
         (SPECIFICATION._replace(desired_wrench=(0.0, 0.0, 0.0, np.inf, 0.0, 0.0)), "desired_wrench = "),
         (SPECIFICATION._replace(desired_wrench=(0.0, 0.0, 0.0)), "must be 6 finite numbers [N, N m]"),

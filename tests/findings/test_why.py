@@ -58,7 +58,7 @@ FAULTY = {
 }
 """Law -> its spring, what it returns, its faults, and a finding's size; the swapped one jumps from -pi to pi."""
 
-CONSEQUENCES = {"", "dead points", "lost starts", "creeping", "oscillation", "singular goal", "no number"}
+CONSEQUENCES = {"", "stuck", "lost starts", "creeping", "oscillation", "singular goal", "no number"}
 
 
 @pytest.fixture(scope="module")

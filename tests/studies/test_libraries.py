@@ -199,7 +199,7 @@ def test_nothing_is_said_against_a_logarithm():
     ("call", "form", "said"),
     [
         (lambda R: logarithm(R) if R.trace() > -1.0 + 1e-15 else np.zeros(3), "rotation-vector", "zero at all 180°"),
-        (lambda R: -logarithm(R), "rotation-vector", "the long way round for"),
+        (lambda R: -logarithm(R), "rotation-vector", "unwinding for"),
         (lambda R: logarithm(R)[[1, 2, 0]], "rotation-vector", "another axis for"),
         (lambda R: logarithm(R) * (1.0 + 1e-3 * (R.trace() < 0.0)), "rotation-vector", "off by 0.006 rad"),
         (lambda R: logarithm(R) / (R.trace() > 0.0), "rotation-vector", "no number for"),

@@ -31,7 +31,7 @@ def find(examined: Examined) -> Found | None:
 FAULT = Fault(
     "double-cover",
     "a goal and its antipode answered differently: unwinding",
-    "the robot turns by up to 360° the long way round, or tumbles when a stream of goals changes its sign",
+    "the robot unwinds, by up to 360°, or tumbles when a stream of goals changes its sign",
     "change the sign of the error quaternion where its scalar part is negative",
     "quaternion-shortest",
     find,

@@ -1,4 +1,4 @@
-"""A whole turn too much: the long way round."""
+"""Unwinding: the error is the longer of the two rotations to the goal."""
 
 import numpy as np
 
@@ -31,7 +31,7 @@ def find(examined: Examined) -> Found | None:
 
 FAULT = Fault(
     "long-way",
-    "the long way round: a wrong wrap",
+    "unwinding: a wrong wrap",
     "the robot turns by up to 360° where a little would do, and jumps where the wrap changes",
     "wrap angles to [-180°, 180°]; change the sign of the error quaternion where its scalar part is negative",
     "quaternion-shortest",

@@ -53,7 +53,7 @@ def _ours(found: Measured) -> list[Paragraph]:
 
 
 def _nothing(found: Measured, everywhere: str) -> str:
-    """Where no law has all that the default asks."""
+    """Return the answer of a run in which no law meets all requirements of the default."""
     simplest = next((law for law in found.laws if needs.EVERYWHERE.has(found, law)), None)
     laws = listed(found.laws) if len(found.laws) <= NAMED else counted(len(found.laws), "law")
     if simplest is None:

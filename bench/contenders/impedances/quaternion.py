@@ -1,4 +1,4 @@
-"""Impedance on the error quaternion, the short way round: e = 2 sgn(eta) eps = 2 sin(theta/2) k.
+"""Impedance on the error quaternion of the shorter rotation: e = 2 sgn(eta) eps = 2 sin(theta/2) k.
 
 Fails: at 180° e jumps to -e; there the sign is that of `so3.quaternion_direction`.
 """

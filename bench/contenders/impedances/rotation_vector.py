@@ -1,4 +1,4 @@
-"""Impedance on the rotation vector from where the hand is to where it shall be: e = theta k, the spring of angle/axis.
+"""Impedance on the rotation vector from the hand to the desired orientation: e = theta k, the spring of angle/axis.
 
 Fails: at 180° e jumps to -e.
 """

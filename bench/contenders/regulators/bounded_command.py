@@ -7,7 +7,7 @@ V' = -Kv |omega|^2/sqrt(1 + |omega|^2/w^2): almost global, like the law without 
 saturated, whatever spin the law is switched on at.
 
 Source: Su, Zheng 2011, Globally asymptotic stabilization of spacecraft with simple saturated proportional-derivative
-control (there each component by itself, and the quaternion's vector part).
+control (there each component separately, and the quaternion's vector part).
 
 Fails: rests at exact 180° rotations; takes |omega|/Kp to stop a fast spin, where the damper alone would take 1/Kv.
 """

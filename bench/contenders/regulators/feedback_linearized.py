@@ -1,13 +1,13 @@
 """Feedback linearization in any coordinates: E obeys a linear double integrator (Murphy 1988, 2.15-2.16).
 
 What that is, from rest towards the identity:
-- Euler angles (zyx, zyz, xyz): each angle decays by itself; the path bends the more, the nearer the pole.
+- Euler angles (zyx, zyz, xyz): each angle decays independently; the path bends the more, the nearer the pole.
 - rotation vector: u = -Kp phi - Kd omega along the fixed axis, the angle decays linearly.
 - mrp: tan(theta/4) decays linearly; u is trig-free.
 - quaternion: u = -2 Kp eps - Kd omega exactly, eps = (x, y, z): what is along E moves nothing and drops out.
 
 Where E_d and E lie on different sheets (of mrp and rotation vector past 180°, of the quaternion's sign) the
-numbers are taken as they come, and the way round is the long one.
+numbers are taken as they come, and the body takes the longer rotation.
 
 Proved in Z-Y-X angles: from rest E - E_d = (E_0 - E_d) r(t), and 0 <= r <= 1 where Kd^2 >= 4 Kp, so that E stays on the
 segment from E_0 to E_d, where |beta| < pi/2 and no angle jumps: every start at rest off the poles reaches every goal

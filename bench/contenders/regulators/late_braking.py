@@ -1,4 +1,4 @@
-"""A spring no stiffer than the 1980 law's, a damper that lets go on the way home, and a side kept in memory.
+"""Saturating spring, damping reduced while moving towards the goal, and a stored sign of the error quaternion.
 
 With E = R_d R^T, the turn theta k from R to R_d in the base frame, t = tr E and eps = sin(theta/2) k,
 

@@ -1,4 +1,4 @@
-"""The error quaternion (eta, eps), the short way round: e = 2 sgn(eta) eps = 2 sin(theta/2) k.
+"""The error quaternion (eta, eps) of the shorter rotation: e = 2 sgn(eta) eps = 2 sin(theta/2) k.
 
 Fails: nowhere; at 180° the command jumps to its opposite. sgn(0) is 1 here: a law that takes it for 0 rests
 there for ever.

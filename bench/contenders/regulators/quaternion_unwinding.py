@@ -1,7 +1,7 @@
 """The error quaternion without its sign, a negative control: u = 2 Kp eps - Kv omega on the sheet it happens to be on.
 
 Its quaternion is followed from tick to tick, as an attitude filter does, and begins on the sheet with eta <= 0, as half
-of all quaternions do. There the law drives to eta = 1 the long way round, through up to 360 degrees: unwinding. On the
+of all quaternions do. There the law drives to eta = 1 by the longer rotation, up to 360 degrees: unwinding. On the
 other sheet it would be quaternion-shortest. A reset begins on that sheet again; it is needed before the first tick,
 after a pause, and when the goal jumps.
 

@@ -2,8 +2,8 @@
 
     e = s / sqrt(1 + t) = 2 sin(theta/2) k,   s = n x n_d + o x o_d + a x a_d,   t = tr(R_d^T R)
 
-It is the error quaternion's vector part, the short way round, with one square root and no other function. Where t < 0
-that division would lose digits and at 180° divide zero by zero: there it is taken from the largest
+It is the error quaternion's vector part, of the shorter rotation, with one square root and no other function. Where
+t < 0 that division would lose digits and at 180° divide zero by zero: there it is taken from the largest
 diagonal element (`so3.turn_quaternion`).
 
 Fails: nowhere; at 180° the command jumps to its opposite, and on it the sign is a rule's.

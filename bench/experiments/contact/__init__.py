@@ -1,6 +1,6 @@
 """Tasks in contact: which controllers do which tasks on which arms, in units of some seconds.
 
-A suite leaves an arm out that cannot be set a task; the user who names both is told why.
+A suite leaves out an arm that does not fit a task; an error says why if the user names both.
 """
 
 from __future__ import annotations

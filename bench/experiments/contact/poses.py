@@ -48,7 +48,7 @@ def columns() -> list[Column]:
             controller="hybrid control along axes of the base or the hand, or coordinates; or an impedance",
             representation="coordinates the controller acts on; empty for none",
             form="inverse, projected or transpose: how a hybrid controller's rows become torques; empty for others",
-            pose="where the hand is, and what is asked of it",
+            pose="name of the hand's pose and of its task there",
             complies="what the order lets comply; an impedance complies along and about all axes whatever it says",
         ),
         *numbers("rad", "Z-Y-X Euler angles of the hand's goal", "alpha", "beta", "gamma"),

@@ -39,11 +39,11 @@ DIRECTED_SHARE = 0.99
 """Share of the directed starts at rest, a few of which may be as near to a singular place as doubles can be."""
 
 DETOUR = 1.5
-"""Path over shortest path from which a start at rest counts as unwinding: halfway to a full turn from a half turn is
+"""Path over shortest path from which a start at rest counts as unwinding: halfway from 180° to 360° is
 3/2, and no spring that pulls towards the goal goes so far."""
 
 NOISE, HELD_RAD = "half-turn-noise", 0.1
-"""Greatest worst-case noise near the half turn that must not hold a law there: six degrees, which no sensor of
+"""Greatest worst-case noise near 180° that must not hold a law there: six degrees, which no sensor of
 orientation in use exceeds by much, and far less than any law's memory could bridge."""
 
 
@@ -52,7 +52,7 @@ class Adequacy(NamedTuple):
 
     lost_exact: directed starts that do not settle and are on a 180° rotation, a pole or a wrap themselves; lost: of
     others, the number directed. spun: random starts at stated speeds; none of a law that is in no map. detour: greatest
-    way over the shortest, from uniform starts and half turns. rows: looked at.
+    path over the shortest, from uniform and half-turn starts. rows: looked at.
     """
 
     name: str
@@ -89,7 +89,7 @@ def every(results: Results, engine: str) -> list[Adequacy]:
 
 
 def held(results: Results, noise_rad: float) -> dict[str, tuple[int, int]]:
-    """Law -> starts on half turns that worst-case noise up to an angle holds there, of how many; laws it was tried on.
+    """Return by law the starts at 180° that worst-case noise up to an angle holds there, and of how many.
 
     Errors:
         NoEvidence: such noise was tried on no law.
@@ -120,7 +120,7 @@ def _row(name: str, own: pd.DataFrame, costs: pd.DataFrame, spun: tuple[Spun, ..
 
 
 def exact(runs: pd.DataFrame) -> pd.Series:
-    """Whether a start is on a half turn, a pole or a wrap to EXACT_RAD, or its goal on a pole."""
+    """Tell whether a start is at 180°, a pole or a wrap to EXACT_RAD, or its goal on a pole."""
     distance = probes.boundary_distance(runs)
     at_goal = distance["half_turn"].where(runs["angle0_rad"] > 1, np.pi)
     found = (distance["pole"] <= EXACT_RAD) | (distance["wrap"] <= EXACT_RAD) | (at_goal <= EXACT_RAD)

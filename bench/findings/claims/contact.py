@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     import pandas as pd
 
 TURNED_DEG = 45.0
-"""|beta| of the hand's frame from which on the two shall part: its x then leans to z as much as it lies level."""
+"""|beta| of the hand's frame from which on the two must differ: its x then leans to z as much as it lies level."""
 
 PARTS = 2.0
 """Factor between two numbers that are not the same performance."""

@@ -77,7 +77,7 @@ def c09(results):
         f"""{len(bends)} traces bend from the closed form by at most {max(bends):.1e} rad. Lost of random starts
         {"; ".join(map(lost_text, spun))}. Settled: {settled_of(off)} starts off the boundary by 1e-12 rad or more,
         {settled_of(wrap)} exactly at +-pi, {settled_of(pole)} exactly on a pole, {settled_of(goals)} goals, {long_way}
-        of them the long way round.""",
+        of them by unwinding.""",
         len(rows) + sum(one.starts for one in spun) + len(near) + len(goals),
         ("traces", "episodes", "maps"),
     )

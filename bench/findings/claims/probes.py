@@ -27,7 +27,7 @@ GOAL_QUAT = tuple(f"goal_{name}" for name in QUAT)
 OMEGA = ("omega0_x", "omega0_y", "omega0_z")
 
 EXACT_RAD = 1e-13
-"""Between the nearest of the near starts (1e-12 rad from a pole or a half turn) and what rounding leaves of an exact
+"""Between the nearest of the near starts (1e-12 rad from a pole or from 180°) and what rounding leaves of an exact
 one (4e-16 rad)."""
 
 
@@ -139,7 +139,7 @@ def beside_pole(margin: float, contender: str, gains: Gains, dt_s: float = 1e-3)
 
 
 def boundary_distance(frame: pd.DataFrame) -> pd.DataFrame:
-    """How far each start is from the poles, the jumps of alpha and gamma, and the half turn [rad]."""
+    """Return the distance of each start from the poles, the jumps of alpha and gamma, and 180° [rad]."""
     import pandas as pd
 
     return pd.DataFrame(
@@ -152,7 +152,7 @@ def boundary_distance(frame: pd.DataFrame) -> pd.DataFrame:
 
 
 def at_boundary(frame: pd.DataFrame, place: str, what: str) -> pd.DataFrame:
-    """Return the starts that are exactly on a pole, a wrap or a half turn.
+    """Return the starts that are exactly on a pole, a wrap or at 180°.
 
     Errors:
         NoEvidence: there is none.

@@ -103,7 +103,7 @@ def c02(results):
 @claim("C03")
 @on_every_engine
 def c03(results, engine):
-    """Settling time by angle, its slope towards the half turn, and the exact half turns."""
+    """Judge the settling time by angle, its slope towards 180°, and the exact 180° rotations."""
     uniform = results.episodes(LAW, engine, "uniform")
     sure = some(uniform[settled(uniform)], "uniform start that settles")
     growth = bootstrap(sure[["angle0_rad", "settling_time_s"]].to_numpy(float), _slope)
@@ -115,15 +115,15 @@ def c03(results, engine):
     slope = np.polyfit(decades[fitted.index], fitted["settling_time_s"], 1)[0]
     closed = closed_form.decade_slope(*results.gains())
     off = abs(slope / closed - 1)
-    exact = some(turns[short <= probes.EXACT_RAD], "exact half turn")
+    exact = some(turns[short <= probes.EXACT_RAD], "exact 180° rotation")
     stay = exact[~settled(exact)]
     slowest = turns.loc[short > probes.EXACT_RAD, "settling_time_s"].max()
     is_infinite = bool((np.abs(stay["final_angle_rad"] - np.pi) <= AT_HALF_TURN).any())
     grows = growth.low > 0.0
     return word_of(grows and off <= SLOPE_TIGHT and is_infinite, grows and off <= SLOPE_LOOSE), evidence(
         f"""Settling time rises by {growth.value:.3f} s ({growth.low:.3f} to {growth.high:.3f}) per rad of the initial
-        angle; towards the half turn by {float(slope):.4f} s a decade (closed form {closed:.4f} s), to
-        {float(slowest):.2f} s at 1e-12 rad. {len(stay)} of {len(exact)} exact half turns never settle in
+        angle; towards 180° by {float(slope):.4f} s a decade (closed form {closed:.4f} s), to
+        {float(slowest):.2f} s at 1e-12 rad. {len(stay)} of {len(exact)} exact 180° rotations never settle in
         {float(exact["horizon_s"].min()):g} s.""",
         len(uniform) + len(turns),
         ("episodes",),
@@ -139,16 +139,16 @@ def _slope(pairs, axis):
 @claim("C04")
 @on_every_engine
 def c04(results, engine):
-    """The error and its three cross products at exact half turns, and how the episodes end."""
-    exact = at_boundary(results.episodes(LAW, engine, "half-turn"), "half_turn", "exact half turn")
+    """Judge the error and its three cross products at exact 180° rotations, and how the episodes end."""
+    exact = at_boundary(results.episodes(LAW, engine, "half-turn"), "half_turn", "exact 180° rotation")
     orientations = probes.rotations(exact)
     largest = max(_size(R) for R in orientations)
     products = [_largest_product(R) for R in orientations]
     parallel = sum(product <= ZERO_ERROR for product in products)
     is_zero = largest <= ZERO_ERROR
     return word_of(is_zero and parallel == len(exact), is_zero), evidence(
-        f"""At {len(exact)} exact half turns the error is at most {largest:.1g}, and {int(settled(exact).sum())} of them
-        settle. Each cross product is zero by itself at {parallel} (axes x, y, z); at the other
+        f"""At {len(exact)} exact 180° rotations the error is at most {largest:.1g}, and {int(settled(exact).sum())} of
+        them settle. Each single cross product is zero at {parallel} (axes x, y, z); at the other
         {len(exact) - parallel} they cancel in the sum only, the largest being {max(products):.2f}.""",
         len(exact),
         ("episodes", "experiment"),
@@ -161,7 +161,7 @@ def c05(results):
     from scipy.optimize import minimize
 
     frame = results.episodes(LAW, MAIN_ENGINE).drop_duplicates(["start_set", "start_id"])
-    frame = some(frame[frame["angle0_rad"].between(AWAY_RAD, np.pi - AWAY_RAD)], "start away from zero and half turn")
+    frame = some(frame[frame["angle0_rad"].between(AWAY_RAD, np.pi - AWAY_RAD)], "start away from 0 and 180°")
     sizes = np.array([_size(*pair) for pair in _pairs(frame)])
     found = [minimize(_ratio, 1.5 * axis, method="Nelder-Mead", options={"maxiter": 200}) for axis in axes(16)]
     states = sum(one.nfev for one in found)

@@ -116,7 +116,7 @@ def by_times(cheap: Estimate, dear: Estimate, least: float = 0.0) -> int:
 
 
 def by_columns(cheap: Operations, dear: Operations) -> int:
-    """In order where no column falls and one rises; reversed the other way round; undecided where they differ."""
+    """Compare by columns: in order if none falls and one rises, reversed if none rises, undecided otherwise."""
     signs = set(np.sign(np.subtract(dear, cheap)).astype(int).tolist()) - {0}
     return signs.pop() if len(signs) == 1 else UNDECIDED
 

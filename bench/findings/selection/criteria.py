@@ -72,11 +72,11 @@ CRITERIA = (
         "lost",
         "Directed starts",
         "lost",
-        "directed starts that do not settle, exact half turns, poles and jumps of coordinates among them",
+        "directed starts that do not settle, exact 180° rotations, poles and jumps of coordinates among them",
         lambda tables: {name: np.array([lost.sum()]) for name, lost in by_law(tables.directed, "lost").items()},
     ),
     Criterion(
-        "detour", "Longest way", "", "longest way over the shortest, from uniform starts and half turns", longest_path
+        "detour", "Longest path", "", "longest path over the shortest, from uniform and half-turn starts", longest_path
     ),
     Criterion(
         "time",
@@ -128,9 +128,9 @@ CRITERIA = (
     ),
     Criterion(
         "jump",
-        "Jump at a half turn",
+        "Jump at 180°",
         "rad",
-        "jump of the command across a half turn, over kp",
+        "jump of the command across a 180° rotation, over kp",
         of_one_law(lambda tables, name: jump(tables.contenders[name])),
     ),
     Criterion(

@@ -85,7 +85,7 @@ def by_other_rules(found: Measured) -> list[tuple[str, str | None, tuple[str, ..
 
 
 def ours_in_words(own: str) -> str:
-    """Whose law it is, and what the rows do not cover."""
+    """Return the sentences on our own law: its origin, and what the rows do not cover."""
     return (
         f"{own} is ours: 2026, simulation only, not reviewed. No orientation error below 60° holds it at 180° "
         "(proved for a fixed goal). Reset its memory when the goal jumps (not tested)."

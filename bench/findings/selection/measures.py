@@ -52,7 +52,7 @@ def longest_path(tables: Tables) -> dict[str, np.ndarray]:
 
 
 def held_by_noise_from(tables: Tables) -> dict[str, np.ndarray]:
-    """Least noise that was tried and holds a law at some half turn; infinite if none does."""
+    """Return the least noise tried that holds a law at some 180° rotation; infinite if none does."""
     rows = tables.robustness[tables.robustness["axis"] == NOISE]
     found = {}
     for name, own in rows[rows["contender"].isin(tables.contenders)].groupby("contender", observed=True):
@@ -66,7 +66,7 @@ BESIDE_RAD, DIRECTIONS = 1e-6, 16
 
 @functools.cache
 def jump(one: Contender) -> float:
-    """How far the command jumps where a body at rest is pushed through a half turn, over kp [rad].
+    """Return the jump of the command where a body at rest is pushed through a 180° rotation, over kp [rad].
 
     On coordinates: not a number, for a chart of SO(3) jumps somewhere else as well; nor of a user's law, which must not
     be called here. What a law remembers goes with it.

@@ -27,7 +27,7 @@ the band and w = b/0.25 s."""
 
 
 class Fact(NamedTuple):
-    """What is asked of a law, in words, and whether a law has it."""
+    """Hold a requirement in words, and the test whether a law meets it."""
 
     words: str
     has: Callable[[Measured, str], bool]
@@ -64,14 +64,14 @@ def _settles(found: Measured, law: str) -> bool:
     return not found.number("lost", law) and not found.number("unsettled", law) and found.number("detour", law) < DETOUR
 
 
-EVERYWHERE = Fact("settles from every start of the run, none the long way round", _settles)
+EVERYWHERE = Fact("settles from every start of the run, without unwinding", _settles)
 QUIET = Fact("its command is quiet at rest", lambda found, law: found.number("chatter", law) <= CHATTER)
 UNHELD = Fact(
     f"no worst-case noise up to {HELD_RAD:g} rad can trap it at a 180° rotation",
     lambda found, law: found.number("held", law) > HELD_RAD,
 )
 FORGETFUL = Fact("keeps nothing from tick to tick", lambda found, law: not found.number("memory", law))
-SMOOTH = Fact("its command does not jump at half turns", lambda found, law: abs(found.number("jump", law)) < CONTINUOUS)
+SMOOTH = Fact("its command does not jump at 180°", lambda found, law: abs(found.number("jump", law)) < CONTINUOUS)
 NEARLY = Fact(
     f"settles from {SETTLED_SHARE:.1%} of evenly spread starts",
     lambda found, law: found.number("unsettled", law) <= 100.0 * (1.0 - SETTLED_SHARE) + 1e-9,
@@ -180,7 +180,7 @@ def advise(found: Measured, usual: Need = DEFAULT, needs: Sequence[Need] = NEEDS
     """All situations, decided.
 
     Args:
-        usual: what is asked where nothing else is known.
+        usual: the default requirements.
     """
     default, every = decide(usual, found), [decide(need, found) for need in needs]
     is_decisive = [

@@ -30,7 +30,7 @@ class Robot(NamedTuple):
     """A kind of robot; the defaults are those of robots that take torques, with the inertia cancelled.
 
     takes: the command. rows: what was run. page: its file in the book. need: its situation. measure: how laws are
-    measured on it. usual: what is asked where nothing else is known. needs: the other situations.
+    measured on it. usual: the default requirements. needs: the other situations.
     """
 
     takes: str

@@ -50,7 +50,7 @@ class Tables(NamedTuple):
 
 
 def tables_of(results: Results) -> Tables:
-    """The tables of a run, of every law that has uniform starts, half turns and a cost.
+    """Return the tables of a run for every law that has uniform starts, half-turn starts and a cost.
 
     Errors:
         NoEvidence: the run has no such law, or perturbs none.
@@ -64,7 +64,7 @@ def tables_of(results: Results) -> Tables:
     sets = runs.groupby("contender", observed=True)["start_set"].agg(set)
     known = {one.name: one for one in (*all_contenders(), *_own(results))}
     names = [name for name in sets.index if {"uniform", "half-turn"} <= sets[name] and name in priced and name in known]
-    runs = some(runs[runs["contender"].isin(names)], "law with uniform starts, half turns and a cost")
+    runs = some(runs[runs["contender"].isin(names)], "law with uniform and half-turn starts and a cost")
     runs = runs.assign(contender=runs["contender"].astype(str), lost=~settled(runs))
     named = {name: known[name] for name in names}
     robustness = some(results.table("robustness"), "perturbed law")

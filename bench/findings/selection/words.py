@@ -17,7 +17,7 @@ Called = Callable[[str], str]
 
 
 def standing(one: Decision, called: Called) -> str:
-    """That the advised law is alone on the Pareto front, or with which laws it ties."""
+    """Say that the advised law is alone on the Pareto front, or with which laws it ties."""
     if len(one.asked) == 1:
         return "No other published law of this run meets these conditions."
     if not one.tied:

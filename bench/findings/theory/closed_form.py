@@ -5,7 +5,7 @@ Large turns: theta'' = -Kp sin(theta) - Kd theta'     the rotation-matrix law fr
              axis never turns: e = sin(theta) k, and omega stays along k.
 
 Settled is what the judge says: the last time at which the angle is the band's edge, `tolerance` times its beginning.
-Close to a half turn phi = pi - theta grows as exp(r t) with r = sqrt(Kp + Kd^2/4) - Kd/2, so that each decade of
+Close to 180° phi = pi - theta grows as exp(r t) with r = sqrt(Kp + Kd^2/4) - Kd/2, so that each decade of
 phi costs ln 10 / r.
 """
 
@@ -75,7 +75,7 @@ def settling(angle: float, kp: float, kv: float, tolerance: float, short: float 
 def settling_curve(kp: float, kv: float, tolerance: float) -> Callable[[np.ndarray], np.ndarray]:
     """Return settling times as a function of many pi - angle [rad] at once, a cubic spline.
 
-    Its variable, log(tan((pi - angle)/4)), is the logarithm near the half turn and linear in the angle near zero.
+    Its variable, log(tan((pi - angle)/4)), is the logarithm near 180° and linear in the angle near zero.
     Within 1e-6 s of `settling`, a thousandth of a tick (tests/findings/test_closed_form.py).
     """
     from scipy.interpolate import CubicSpline

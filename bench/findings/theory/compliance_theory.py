@@ -141,7 +141,7 @@ def leakage(beta: float) -> float:
 def leakage_by_transpose(
     beta: float, A: np.ndarray, time_s: float, gains: Gains = PAPERS_GAINS, touch: ContactParameters = TOUCH
 ) -> float:
-    """The same by the Jacobian transpose, A as of `mobility`: |(1 - r) tan beta - r A_zx/A_xx|, r = sprung(t)/free(t).
+    """Compute the leakage by the transpose, A of `mobility`: |(1 - r) tan beta - r A_zx/A_xx|, r = sprung(t)/free(t).
 
     c_xx = (1 + kf) free(t) A_xx at any beta. r fades as 1/t, and at last this too is tan |beta|, whatever the arm.
     """

@@ -63,7 +63,7 @@ def even(at: Pose) -> np.ndarray:
 
 
 def tuned(at: Pose) -> np.ndarray:
-    """C of servos that are tuned joint by joint, at every pose anew: each joint's own inertia, 6."""
+    """Return C of servos that are tuned joint by joint at every pose: each joint's own inertia, 6."""
     return np.diag(at.D)
 
 

@@ -17,10 +17,10 @@ TIGHT = {"method": "DOP853", "rtol": 1e-9, "atol": 1e-9}
 """The band's edge is at 7e-4 rad or more and crossed at ten times that in 1 s: times are known to 1e-6 s."""
 
 LEAST_RAD, NEAREST_RAD = math.radians(2.0), math.radians(0.2)
-"""Limits of the curves: the least angle, and the least distance from a half turn, where some springs have no end."""
+"""Limits of the curves: the least angle, and the least distance from 180°, where some springs are unbounded."""
 
 LONGEST_S = 6.0
-"""Three times what the slowest of them takes that near a half turn."""
+"""Three times what the slowest of them takes that near 180°."""
 
 SHORT_S = 1e-3
 """Longest step where a body leaves the band by so little that a longer one steps over it."""

@@ -31,7 +31,7 @@ MEAN_LENGTH = math.sqrt(8.0 / math.pi)
 """Mean length of a vector of three independent normal numbers of unit variance."""
 
 LEAVING_TICKS = 1500
-"""Ticks after which a body that has not left the half turn is held there: thirty time constants 1/Kv at 1 kHz."""
+"""Ticks after which a body that has not left 180° is held there: thirty time constants 1/Kv at 1 kHz."""
 
 
 def crossover(kp: float, kv: float) -> float:
@@ -145,9 +145,9 @@ def reversal_angle(kp: float, blind_s: float) -> float:
 
 
 def is_held(equation: Equation, kp: float, kv: float, worst_error: float, period_s: float = STEP_S) -> bool:
-    """Whether the worst noise holds a law at the half turn: its scalar equation, evaluated every tick on a wrong angle.
+    """Tell whether the worst noise holds a law at 180°: its scalar equation, evaluated every tick on a wrong angle.
 
-    x is the angle by which the body has left the half turn, of either sign. Within `worst_error` of it the law is given
+    x is the angle by which the body has left 180°, of either sign. Within `worst_error` of it the law is given
     x - worst_error sgn(x + LEAD h x'), with the side where the body is about to be; it leaves once |x| is more.
     """
     h, x, v = period_s, 0.0, 0.0
@@ -164,8 +164,8 @@ def is_held(equation: Equation, kp: float, kv: float, worst_error: float, period
 
 
 def two_ticks(push: float, kv: float, period_s: float = STEP_S) -> float:
-    """Angle [rad] that a body is driven from the half turn before a jump of 2 `push` brakes it: U h^2 (1 - Kv h/2).
+    """Return the angle [rad] that a body is driven from 180° before a jump of 2 `push` brakes it: U h^2 (1 - Kv h/2).
 
-    One tick of U, before the law can be told of any motion, makes the rate U h; the next, of -U - Kv U h, takes it.
+    One tick of U, before the law can measure any motion, makes the rate U h; the next, of -U - Kv U h, takes it.
     """
     return push * period_s * period_s * (1.0 - 0.5 * kv * period_s)

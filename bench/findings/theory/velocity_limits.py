@@ -37,7 +37,7 @@ SPANNED = 1e-9
 
 
 def by_eigenvalues(F: np.ndarray) -> float:
-    """The largest K dt at which I - K dt F has no eigenvalue beyond 1 in size; 0 if some error grows by itself."""
+    """Return the largest K dt at which I - K dt F has no eigenvalue beyond 1 in size; 0 if some error grows at any."""
     mu = np.linalg.eigvals(F)
     mu = mu[np.abs(mu) > SPANNED]
     return max(0.0, float((2.0 * mu.real / np.abs(mu) ** 2).min()))

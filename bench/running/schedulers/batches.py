@@ -23,7 +23,7 @@ def seconds(unit: Unit) -> float:
 
 
 def in_batches(units: Sequence[Unit], workers: int) -> list[tuple[Unit, ...]]:
-    """The units in their order, cut into chunks of at most CHUNK_S, or one unit that takes more by itself.
+    """Cut the units, in their order, into chunks of at most CHUNK_S, or of one unit that takes longer.
 
     Args:
         workers: that are there; of little work each gets ROUNDS chunks all the same.

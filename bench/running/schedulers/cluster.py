@@ -30,13 +30,13 @@ AHEAD = 2
 """Chunks given to each thread of a worker: one to work on and one that waits. Memory holds no more than their rows."""
 
 LOSSES = 3
-"""Workers that a chunk may lose before it is taken apart: Dask's own number, which a local cluster is told."""
+"""Workers that a chunk may lose before it is taken apart: Dask's default, set on a local cluster too."""
 
 ANSWER_S = 10.0
 """How long a scheduler may take to answer."""
 
 GONE = "the scheduler is gone; what is done is kept (start it again and give the same command)"
-"""What the user is told when it no longer answers."""
+"""Message to the user when the scheduler no longer answers."""
 
 
 logging.getLogger("distributed").setLevel(logging.CRITICAL)
@@ -54,8 +54,8 @@ def run(
     """Carry out units and write each when its chunk has come back; the most threads of workers that were there.
 
     Args:
-        done: told of each unit, when it is written. sandbox: of the user's laws: its limit holds for the workers', and
-            it is given their notes.
+        done: called for each unit when it is written. sandbox: of the user's laws: its limit holds for the
+            workers', and it is given their notes.
     Errors:
         MissingTool: a worker without this package. BadResults: a worker has other sources. LostWorkers: a unit ended
         all that took it, or the scheduler is gone. KeyboardInterrupt: what has come back is written.
@@ -151,7 +151,7 @@ class Chunks:
             ended.add(future)
 
     def take(self, future: distributed.Future) -> None:
-        """Write what a chunk has brought; one that lost all its workers is given anew, each unit by itself."""
+        """Write the rows of a chunk; resubmit a chunk that lost all its workers, unit by unit."""
         units = self.given[future]
         try:
             files, notes = future.result()

@@ -23,7 +23,7 @@ def run(
     """Carry out units, in their order, and write each when it is done.
 
     Args:
-        sandbox: of the user's laws. done: told of each, when it is written.
+        sandbox: of the user's laws. done: called for each unit when it is written.
     Errors:
         KeyboardInterrupt: after the units under way are written.
     """

@@ -1,7 +1,7 @@
 """What tasks in contact depend on: results/contact/contact.json.
 
 python -m bench.studies.contact                    all of it, some five minutes
-python -m bench.studies.contact --only boundary    one part anew; the others stay as they are
+python -m bench.studies.contact --only boundary    run one part again; the others stay as they are
 """
 
 import argparse
@@ -29,7 +29,7 @@ PARTS = {
 def main() -> None:
     """The study's command."""
     parser = argparse.ArgumentParser(prog="python -m bench.studies.contact", description=__doc__.splitlines()[0])
-    parser.add_argument("--only", choices=list(PARTS), help="one part anew")
+    parser.add_argument("--only", choices=list(PARTS), help="run one part again")
     parser.add_argument("--out", type=Path, default=STORED, help="where to write (default: results/contact)")
     chosen = parser.parse_args()
     found = read_json(chosen.out) if chosen.out.is_file() else {}

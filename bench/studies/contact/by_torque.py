@@ -23,8 +23,8 @@ class Tick(NamedTuple):
     """J (6 x n), M (n x n), bias less what friction takes of it, gravity alone [N m], and qdot.
 
     p, R: of the hand. error: (p_d - p, log(R_d R^T)) [m, rad]; twist: (pdot, omega), rate: v_d less it; wrench: what is
-    done to the hand, as it was in the step before [N, N m]; wanted: what it shall exert. All in the base frame. gap and
-    turned: as in `Response` [m], [rad].
+    done to the hand, as it was in the step before [N, N m]; wanted: the commanded wrench. All in the base frame. gap
+    and turned: as in `Response` [m], [rad].
     """
 
     J: np.ndarray

@@ -1,4 +1,4 @@
-"""Springs that hold a tool and shall let it lie down: what is left of a plate's tilt, by their rotational stiffness."""
+"""Springs that hold a tool and let it lie down: what is left of a plate's tilt, by their rotational stiffness."""
 
 import functools
 import math

@@ -96,7 +96,7 @@ def pressed(arm: str, damping: str, springs: Stiffness, plane: float) -> dict:
 
 
 def energy(now: Tick, K: np.ndarray, deeper: np.ndarray) -> float:
-    """Of springs and motion [J]."""
+    """Return the energy of springs and motion [J]."""
     off = now.error + deeper
     return float(0.5 * (off @ (K * off) + now.qdot @ now.M @ now.qdot))
 

@@ -44,7 +44,7 @@ OUTCOMES = ("settled", "dead", "lost", "failed")
 
 
 def response(motion: Iterator[tuple], dt_s: float, horizon_s: float = HORIZON_S) -> Response:
-    """One episode's response: a motion that ends by itself has come to rest for ever."""
+    """Return one episode's response; a motion that ends before the horizon stays at rest."""
     hold, last = ticks(RULES.hold_s, dt_s), ticks(horizon_s, dt_s)
     left, inside, highest, angle0, outside = 0, 0, 0.0, 0.0, 0
     try:

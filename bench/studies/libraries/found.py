@@ -48,7 +48,7 @@ def find(*names: str) -> Found:
 
 
 def version_of(library: Library) -> str:
-    """Of its package, as installed; of what is restated, the commit that was read, which its `package` ends with."""
+    """Return the installed version; of restated code, the commit that was read, which its `package` ends with."""
     if library.is_restated:
         return library.package.rpartition("@")[2]
     if library.is_debian:

@@ -1,7 +1,7 @@
 """Ask one function for every turn of one set, and compare what it says with the axis and angle that are known.
 
-Of an exact half turn either direction along its axis is right. A function that takes quaternions is asked of both that
-stand for a turn: (w, x, y, z) with w >= 0 is judged, and its negative compared with that.
+At exactly 180° either direction along the axis is right. A function that takes quaternions is called with both that
+stand for a rotation: (w, x, y, z) with w >= 0 is judged, and its negative compared with that.
 """
 
 import math
@@ -49,7 +49,7 @@ def judge(function: Function, turns: TurnSet, tolerance: float = COUNT_RAD) -> d
 
 
 KINDS = ("raised", "not-finite", "nought", "long-way", "astray")
-"""How an answer can fail to point the short way along the axis; else it is `usable`."""
+"""How an answer can fail to point along the axis of the shorter rotation; else it is `usable`."""
 
 
 def ask(function: Function, turn: Turn, is_half_turn: bool, tolerance: float) -> Answer:

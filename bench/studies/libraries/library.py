@@ -1,4 +1,4 @@
-"""What is asked of a library: functions that its users take for the error between two orientations, and controllers.
+"""What is tested of a library: functions that its users take for the error between two orientations, and controllers.
 
 Every function is asked for the turn T that leads from R = I to R_d = T, so that R_d R^T, R^T R_d and R_d are one and
 the same, exactly, and the base and the body frame agree on its axis.
@@ -57,10 +57,10 @@ class Controller(NamedTuple):
 
 
 class Library(NamedTuple):
-    """A library by the name that its package is installed under, and what is asked of it.
+    """A library by the name that its package is installed under, and what is tested of it.
 
     is_debian: the package is one of Debian's, compiled here. is_restated: nothing of theirs runs; what their source
-    says is written anew, and `package` is where it stands. is_single: it computes in single precision by design.
+    says is restated here, and `package` is where it stands. is_single: it computes in single precision by design.
     note: what a reader of its version should know.
     """
 

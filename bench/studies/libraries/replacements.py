@@ -1,6 +1,6 @@
 """What to put in the place of a library's faulty error: one function for R, one for a quaternion, a few lines each.
 
-Both return the rotation vector theta k of the shorter way round, everywhere, with all its digits; at 180° either of the
+Both return the rotation vector theta k of the shorter rotation, everywhere, with all its digits; at 180° either of the
 two directions. They are checked as the libraries are (`verdict.py`).
 """
 

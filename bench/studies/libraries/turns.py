@@ -1,8 +1,8 @@
 """The turns at which libraries are asked: their axis, angle, quaternion and matrix computed with 60 digits.
 
-A library is given the nearest doubles, so that what it should say is known to a unit in the last place. Exact half
-turns have w = 0 and an exactly symmetric matrix. Of a turn near the half turn it is the distance that is given, not
-the angle: sin(distance/2) = w keeps all its digits.
+A library is given the nearest doubles, so that what it should say is known to a unit in the last place. Exact 180°
+rotations have w = 0 and an exactly symmetric matrix. Near 180° the distance from it is given, not the
+angle: sin(distance/2) = w keeps all its digits.
 """
 
 from typing import NamedTuple
@@ -29,7 +29,7 @@ class Turn(NamedTuple):
 
 
 class TurnSet(NamedTuple):
-    """Turns of one family; angle_rad or distance_rad (from the half turn) where they have it in common, else None."""
+    """Turns of one family; angle_rad or distance_rad (from 180°) where they have it in common, else None."""
 
     name: str
     turns: tuple[Turn, ...]
@@ -70,39 +70,39 @@ def axes() -> list[tuple[int, int, int]]:
 
 
 def small(decade: int) -> TurnSet:
-    """By 10^-decade rad."""
+    """Return rotations by 10^-decade rad."""
     half = DIGITS.mpf(10) ** -decade / 2
     turns = tuple(about(axis, DIGITS.cos(half), DIGITS.sin(half)) for axis in axes())
     return TurnSet(f"angle-1e-{decade:02d}", turns, angle_rad=10.0**-decade)
 
 
 def near_half_turn(decade: int, times: int = 1) -> TurnSet:
-    """By times 10^-decade rad less than half a turn."""
+    """Return rotations by 180° less times 10^-decade rad."""
     distance = times * DIGITS.mpf(10) ** -decade
     turns = tuple(about(axis, DIGITS.sin(distance / 2), DIGITS.cos(distance / 2)) for axis in axes())
     return TurnSet(f"half-turn-{times}e-{decade:02d}", turns, distance_rad=float(distance))
 
 
 def half_turns() -> TurnSet:
-    """By half a turn exactly."""
+    """Return exact 180° rotations."""
     return TurnSet("half-turn", tuple(about(axis, 0, 1) for axis in axes()), distance_rad=0.0)
 
 
 def drawn() -> TurnSet:
-    """Of uniform quaternions, rounded to integers."""
+    """Draw uniform quaternions, rounded to integers."""
     found = np.random.default_rng(2).normal(scale=1e6, size=(DRAWN_TURNS, 4)).astype(int).tolist()
     return TurnSet("drawn", tuple(of_quaternion(abs(w), x, y, z) for w, x, y, z in found))
 
 
 def poles() -> TurnSet:
-    """Z-Y-X at beta = pi/2 (y = w, x = -z) and -pi/2 (y = -w, x = z): no half turns."""
+    """Z-Y-X at beta = pi/2 (y = w, x = -z) and -pi/2 (y = -w, x = z): no 180° rotations."""
     pairs = [(1, 0), (1, 1), (2, 1), (3, -1), (1, -2), (7, 4), (5, -12), (4, 3)]
     turns = [of_quaternion(w, -side * z, side * w, z) for w, z in pairs for side in (1, -1)]
     return TurnSet("pole", tuple(turns))
 
 
 def every_set() -> tuple[TurnSet, ...]:
-    """All sets, from the smallest turns to the half turn."""
+    """Return all sets, from the smallest rotations to 180°."""
     return (
         *(small(decade) for decade in range(SMALLEST_DECADE, 0, -1)),
         drawn(),

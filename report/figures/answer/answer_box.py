@@ -24,7 +24,7 @@ def answer(run: Run) -> html.Markdown | None:
 
 
 def box(advice: needs.Advice) -> html.Markdown | None:
-    """Formula, exceptions and code of the law that is advised; None where no law has what is asked.
+    """Formula, exceptions and code of the law that is advised; None where no law meets the requirements.
 
     Of a user's law the exceptions alone: its file is the user's already.
     """

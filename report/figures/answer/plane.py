@@ -30,7 +30,7 @@ AROUND = sorted(
     ((side * reach, lift) for reach in (7, 14, 24, 36, 50) for lift in range(-48, 49, 6) for side in (1, -1)),
     key=lambda shift: math.hypot(shift[0], 1.5 * shift[1]),
 )
-"""Where a name may stand beside its mark [pt], the best place first."""
+"""Offsets of a name from its mark [pt], the best first."""
 
 
 def coverage(found: Measured, law: str) -> int:

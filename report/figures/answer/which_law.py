@@ -80,7 +80,7 @@ def _ours(found: Measured) -> str:
 
 
 def lead(run: Run) -> str:
-    """The same, what a tick costs, and in how many situations another is better."""
+    """Return the front page's answer, the cost of a tick, and in how many situations another law is better."""
     advice = needs.advice(run.folder)
     if advice.default.law is None:
         return front_page(run)
@@ -141,7 +141,7 @@ def _line(one: needs.Decision, usual: str | None, found: Measured) -> dict:
 
 
 def _has(one: needs.Decision, law: str, found: Measured) -> str:
-    """By each of a situation's criteria, named where they are several."""
+    """Format a law's estimate by each of a situation's criteria, named where they are several."""
     parts = [(BY_NAME[name], found.estimate(name, law)) for name in one.need.by]
     named = [f"{criterion.title.lower()}: " if len(parts) > 1 else "" for criterion, _ in parts]
     return "; ".join(name + told(*part) for name, part in zip(named, parts, strict=True))

@@ -38,7 +38,7 @@ def tallied(rows: pd.DataFrame) -> pd.DataFrame:
 
 
 def failing(counts: pd.DataFrame) -> html.Markdown | None:
-    """The same as a table."""
+    """Return the failed episodes by cause as a table."""
     columns = ["episodes", "failed", *CAUSES]
     return FAILED((arm_rows.title(str(name)), *line[columns]) for name, line in counts.iterrows())
 

@@ -80,5 +80,5 @@ def side_by_side(rows: pd.DataFrame) -> pd.DataFrame:
 
 
 def hammers(both: pd.DataFrame) -> pd.Series:
-    """Of `side_by_side`: whether (3.7) fails or hammers the arm."""
+    """Return, for the rows of `side_by_side`, whether (3.7) fails or hammers the arm."""
     return both["fails"] | (both["harder"] > HAMMERED)

@@ -58,7 +58,7 @@ def in_short(found: Share) -> str:
 
 
 def table(rows: pd.DataFrame) -> html.Markdown | None:
-    """The same as a table."""
+    """Return the ranking as a table."""
     return RANKED(ranked(rows))
 
 

@@ -48,12 +48,12 @@ def every(run: Run) -> pd.DataFrame:
 
 
 def episodes(run: Run) -> pd.DataFrame:
-    """Those by a perfect model."""
+    """Return the episodes with a perfect model."""
     return every(run)[every(run)["variation"] == NOMINAL]
 
 
 def varied(run: Run) -> pd.DataFrame:
-    """Those whose plant differs from the controller's model."""
+    """Return the episodes whose plant differs from the controller's model."""
     return every(run)[every(run)["variation"] != NOMINAL]
 
 

@@ -60,7 +60,7 @@ def facts(run: Run) -> dict:
 
 
 def tables(run: Run) -> dict:
-    """The arms and their starts; what settles, failures by cause, the pole, what is asked of the arm, the wrist."""
+    """Return tables of arms and starts, what settles, failures by cause, the pole, the arm's load, and the wrist."""
     rows = arm_rows.episodes(run)
     return {
         "tab_arms": ARMS(map(arm_row, tasks.arm_names())),

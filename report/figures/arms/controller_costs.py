@@ -41,7 +41,7 @@ def counted(run: Run) -> pd.DataFrame:
 
 
 def prepared(rows: pd.DataFrame) -> pd.DataFrame:
-    """The same of any rows."""
+    """Return the rows about arms, with `calls` and the controller without its inverse."""
     rows = rows[rows["joints"] > 0]
     names = rows["contender"].astype(str)
     return rows.assign(
@@ -54,7 +54,7 @@ def prepared(rows: pd.DataFrame) -> pd.DataFrame:
 
 
 def standard(rows: pd.DataFrame, joints: int) -> pd.DataFrame:
-    """Those by the inverse of the claims; of a controller that it does not fit, by the cheapest that fits."""
+    """Return the rows by the inverse of the claims; of a controller that it does not fit, by the cheapest that fits."""
     own = rows[rows["joints"] == joints]
     totals = own[own["stage"] == "total"].sort_values("flops", kind="stable")
     kept = [

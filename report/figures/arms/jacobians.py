@@ -82,7 +82,7 @@ def first_example(rows: pd.DataFrame) -> dict[str, str]:
 
 
 def most_spoilt(rows: pd.DataFrame) -> dict[str, str]:
-    """Of poses where J is well conditioned, the least and the greatest share that J_E makes bad, by Z-Y-X angles."""
+    """Return the least and greatest share of poses with a good J that J_E of Z-Y-X angles makes bad."""
     fine = rows[rows["condition"] <= WELL_CONDITIONED]
     by = (fine["condition_analytic"] > condition_maps.BAD).groupby(fine["arm"].astype(str)).mean()
     least, most = (f"{share:.1%}".replace("%", "\N{NO-BREAK SPACE}%") for share in (by.min(), by.max()))
@@ -122,9 +122,9 @@ def conditions(rows: pd.DataFrame) -> html.Markdown:
 
 
 def slopes(rows: pd.DataFrame) -> dict[str, str]:
-    """By which power of 1/distance cond J_E grows on each way to the Z-Y-X pole, from 0.1 to 10^-8 rad.
+    """Fit the power of 1/distance by which cond J_E grows on each path to the Z-Y-X pole, from 0.1 to 10^-8 rad.
 
-    In Z-Y-X angles the least and the most of any way; in all other coordinates the most.
+    In Z-Y-X angles the least and the most of any path; in all other coordinates the most.
     """
     ways = rows.join(rows["pose_id"].astype(str).str.extract(ON_THE_WAY)).dropna(subset="k")  # but those on the pole
     at = ways.set_index(["representation", "arm", "family", ways["k"].astype(int)])["condition_analytic"].unstack("k")

@@ -54,7 +54,7 @@ def facts(run: Run) -> dict:
 
 
 def tables(run: Run) -> dict:
-    """By variation."""
+    """Return the table by variation."""
     return {"tab_variations": VARIATIONS(by_variation(compared(run)))}
 
 

@@ -1,4 +1,4 @@
-"""Where an arm comes to rest whose model is wrong, by a formula beside what was measured.
+"""Predict where an arm with a wrong model comes to rest, and compare it with the measurement.
 
 With masses and inertias wrong by a factor s it rests where the command makes up for the gravity that the model has
 not: s fg = D x + fg, so that a = J x and

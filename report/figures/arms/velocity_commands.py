@@ -1,4 +1,4 @@
-"""The page on robots that are told velocities: limits of K dt, first-order laws, limiters, inverses, lagging servos."""
+"""The page on robots commanded in velocity: limits of K dt, first-order laws, limiters, inverses, lagging servos."""
 
 from __future__ import annotations
 
@@ -165,7 +165,7 @@ def line(run: Run, law: str) -> dict:
         **{f"K dt, {reach}": limit(own, reach) for reach in ("near", "far")},
         "Settled in [s]": f"{times.median():.2f}, {times.max():.2f}" if times.notna().any() else html.MISSING,
         "Of 180°": f"{int(exact['settled'].sum())} of {len(exact)}",
-        "Longest way": f"{uniform['path_ratio'].max():.2f}",
+        "Longest path": f"{uniform['path_ratio'].max():.2f}",
         "Peak [rad/s]": f"{uniform['peak_omega'].max():.0f}",
     }
 

@@ -1,7 +1,7 @@
 """The map of a law's failures on its card.
 
 The ball of rotation vectors is cut open along a meridian and turned flat: height is the z component, distance
-from the axis the rest. The rim is the half turns, where opposite points are one orientation.
+from the axis the rest. The rim is the 180° rotations, where opposite points are one orientation.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ def at_rest(episodes: pd.DataFrame) -> pd.DataFrame:
 
 
 def flat(rows: pd.DataFrame) -> np.ndarray:
-    """(distance from the z axis, height) of each start's rotation vector [rad]; half turns once on either side."""
+    """Return (distance from the z axis, height) of each rotation vector [rad]; 180° rotations on both sides."""
     vector = rows[["quat_x", "quat_y", "quat_z"]].to_numpy() * np.where(rows["quat_w"] < 0.0, -1.0, 1.0)[:, None]
     length = np.linalg.norm(vector, axis=1)
     angle = rows["angle0_rad"].to_numpy()

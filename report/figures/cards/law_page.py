@@ -46,14 +46,14 @@ def page(one: Contender, run: Run, live: str = "") -> LawPage:
 
 
 def exported(one: Contender) -> dict[str, tuple[str, str]]:
-    """By the language's title, the first file of its export: name and text; none of a user's own law."""
+    """Return by the language's title the first file of its export: name and text; none of a user's own law."""
     if one.regulator.origin or one.regulator.costing_only:
         return {}
     return in_every_language(one.on_free_body)
 
 
 def in_every_language(word: str) -> dict[str, tuple[str, str]]:
-    """By the language's title, the first file of the export of a word: name and text."""
+    """Return by the language's title the first file of the export of a word: name and text."""
     subject = find_subject(word)
     return {each.title: each.law(subject) for each in map(find_language, language_words())}
 

@@ -50,7 +50,7 @@ class Other(NamedTuple):
 
     @property
     def name(self) -> str:
-        """Of its page."""
+        """Return the name of its page."""
         return f"{self.kind.prefix}{self.record.name}"
 
     @property
@@ -60,7 +60,7 @@ class Other(NamedTuple):
 
     @property
     def file(self) -> Path:
-        """The same on this machine."""
+        """Return the path of its file on this machine."""
         return Path(inspect.getfile(contenders)).parents[2] / self.where
 
 

@@ -57,7 +57,7 @@ def papers_first(regulator: Regulator) -> list[Contender]:
 
 
 def file_of(regulator: Regulator) -> Path:
-    """Where its source is."""
+    """Return the path of a law's source."""
     ours = Path(regulators.__path__[0]) / f"{regulator.name.replace('-', '_')}.py"
     return Path(regulator.origin) if regulator.origin else ours
 
@@ -85,7 +85,7 @@ def costs_of(one: Contender, run: Run) -> pd.DataFrame:
 
 
 def engine_of(regulator: Regulator) -> str:
-    """Where a card's episodes ran: on the continuous plant, but for an actuator that only MuJoCo has."""
+    """Return the engine of a card's episodes: the continuous plant, or MuJoCo for an actuator that only it has."""
     return "native" if regulator.in_engine else "ideal-rk4"
 
 

@@ -54,7 +54,7 @@ VARIANTS = Table("Variant | Slowest [s] | Peak [$K_p$] | Effort | Slowest at equ
 
 
 def facts(run: Run) -> dict:
-    """By the equations, how slow and strong this law is beside the straight spring; and operations a tick."""
+    """Return by the equations how slow and strong this law is against the straight spring; and operations a tick."""
     counted = run.rows("costs", **read.FREE_BODY)
     spent = counted[counted["stage"] == "total"].set_index(["contender", "branch"])
     totals = spent["flops"]
@@ -140,12 +140,12 @@ def overshoots(rows: pd.DataFrame, level: float) -> str:
 
 
 def longest(equation: Equation, kp: float, kv: float) -> float:
-    """The longest settling time [s] from rest, over angles to the half turn."""
+    """Return the longest settling time [s] from rest, over angles up to 180°."""
     return max(settling(equation, angle, kp, kv, RULES.tolerance) for angle in np.linspace(LEAST_RAD, math.pi, 24))
 
 
 def effort(equation: Equation) -> float:
-    """Integral of the squared command from rest at a half turn [rad^2/s^3]."""
+    """Integrate the squared command from rest at 180° [rad^2/s^3]."""
     return float(response(equation, math.pi, *PAPERS_GAINS)[-1, -1])
 
 
@@ -155,7 +155,7 @@ def tables(_: Run) -> dict:
 
 
 def variant(what: str) -> tuple:
-    """Slowest start, greatest pull, effort from a half turn, slowest start at equal peak."""
+    """Return the slowest start, greatest pull, effort from 180°, and slowest start at equal peak."""
     equation = TRIED[what]
     return (
         what,

@@ -74,7 +74,7 @@ def curves(rows: pd.DataFrame, narrow: bool):
 
 
 def left_at(angles: np.ndarray, times: np.ndarray) -> tuple[float, float] | None:
-    """Where to end the name of a curve that begins in the panel and leaves it: (angle, edge); None if it stays."""
+    """Return (angle, edge) where the name of a curve that leaves the panel ends; None if the curve stays."""
     outside = np.flatnonzero((times > TOP_S) | (times < FOOT_S))
     if not len(outside) or outside[0] == 0:
         return None

@@ -21,7 +21,7 @@ from report.figures.kit.page import Run, given
 from report.figures.kit.rows import MATRIX
 
 DETOUR = 1.5
-"""Path over shortest path from which a start is a detour; about one fixed axis only the long way round is one."""
+"""Path over shortest path from which a start is a detour; about one fixed axis only unwinding is one."""
 
 NEAR_DEG = 30, 60
 ANISOTROPIC = "weighted-columns"
@@ -41,7 +41,7 @@ def ideal(run: Run) -> pd.DataFrame:
 
 @functools.cache
 def uniform(run: Run) -> pd.DataFrame:
-    """Those from uniform starts that every law ran."""
+    """Return the episodes from uniform starts that every law ran."""
     return cells.common(ideal(run))
 
 
@@ -75,7 +75,7 @@ def facts(run: Run) -> dict:
 
 
 def of_all(rows: pd.DataFrame, tried: pd.DataFrame) -> dict:
-    """Of the laws that are no negative controls.
+    """Return the numbers of the laws that are not negative controls.
 
     Args:
         rows: of `uniform`. tried: of `directed.directed`.
@@ -104,7 +104,7 @@ def of_all(rows: pd.DataFrame, tried: pd.DataFrame) -> dict:
 
 
 def near(rows: pd.DataFrame) -> dict:
-    """By how much the laws' medians from starts near the goal differ, weighted columns aside."""
+    """Return by how much the laws' medians from starts near the goal differ, weighted columns aside."""
     found: dict = {}
     for angle in NEAR_DEG:
         own = rows[(rows["angle0_rad"] < np.radians(angle)) & (rows["contender"] != ANISOTROPIC)]
@@ -125,7 +125,7 @@ def best(run: Run) -> dict:
 
 
 def of_controls(rows: pd.DataFrame) -> dict:
-    """That the negative controls fail, and how."""
+    """Return how the negative controls fail."""
     literal, unwinding = (rows[rows["contender"] == name] for name in (LITERAL, UNWINDING))
     found: dict = {}
     if len(literal):

@@ -1,4 +1,4 @@
-"""Where each law fails exactly: half turns, poles and jumps of coordinates that uniform starts never hit."""
+"""Show where each law fails exactly: 180° rotations, poles and jumps of coordinates, which uniform starts never hit."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from report.figures.comparison.cells import by_family
 from report.figures.failures.failure_map import once, places
 from report.figures.kit import families, html
 
-EXACT = ("half turn", "half turn and pole", "pole", "jump of atan2")
+EXACT = ("180° rotation", "180° rotation and pole", "pole", "jump of atan2")
 """Of `failure_map.places`, those that are points and no neighbourhoods."""
 
 ELSEWHERE = "beside them"

@@ -51,7 +51,7 @@ def response(equation: Equation, theta: float, kp: float, kv: float) -> np.ndarr
 
 @responsive_picture
 def responses(narrow: bool):
-    """Angle and command against time from nearly a half turn: at equal gain, and at equal peak command."""
+    """Draw angle and command against time from nearly 180°: at equal gain, and at equal peak command."""
     figure, axes = style.panels(
         *((4, 1) if narrow else (2, 2)), height=9.6 if narrow else 5.2, narrow=narrow, sharex=True
     )

@@ -98,7 +98,7 @@ def facts(run: Run) -> dict:
 
 
 def in_free_motion(run: Run) -> dict:
-    """Of modes and episodes; all absent where the run lacks one of them."""
+    """Return the numbers of modes and episodes; all are absent if the run lacks one of them."""
     found, rows = modes(run), episodes(run)
     if found.empty or rows.empty:
         return dict.fromkeys(FACTS)
@@ -174,7 +174,7 @@ def slower(rows: pd.DataFrame, one: str, other: str) -> float:
 
 
 def in_contact() -> dict:
-    """Of the study: planes that the impedance was pressed on, and limits of the admittance."""
+    """Return the study's numbers: planes that the impedance was pressed on, and limits of the admittance."""
     pressed, limits = study("unshaped"), study("admittance")
     if pressed.empty or limits.empty:
         return dict.fromkeys(STUDY)

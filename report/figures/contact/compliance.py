@@ -65,7 +65,7 @@ CONVERSION = Table(
 
 
 def facts(run: Run) -> dict:
-    """Of the probe and of closed loops of moments."""
+    """Return the numbers of the probe and of closed loops of moments."""
     return {
         **(given(controllers.of_task(run, PROBE), probed) or {}),
         **(given(controllers.of_task(run, LOOP), loops.facts) or {}),
@@ -74,7 +74,7 @@ def facts(run: Run) -> dict:
 
 
 def probed(rows: pd.DataFrame) -> dict:
-    """Of the probe: theory against measurement, the other controllers, work, and the moment that a pole loses."""
+    """Return the probe's numbers: theory, measurement, other controllers, work, and the moment that a pole loses."""
     axis, kept = theory.lost_moment(known_representations()["zyx-euler"], from_quaternion(zyx(0.0, math.pi / 2.0, 0.0)))
     work = rows.loc[rows["way"].isin(("hybrid/zyx-euler", controllers.SPRINGS_OF_EULER)), "work_residual"].dropna()
     return {
@@ -97,7 +97,7 @@ def probed(rows: pd.DataFrame) -> dict:
 
 
 def off_by_accelerations(rows: pd.DataFrame) -> str:
-    """By how much the Euler hand's misalignment differs from beta [deg], about x and y complying by accelerations."""
+    """Return how far the Euler hand's misalignment is from beta [deg], about x and y complying by accelerations."""
     own = controllers.level(controllers.of(rows, controllers.EULER, "about x and y"))
     own = own[own["outcome"] == "done"]
     return power(float((np.degrees(own["misalignment_rad"]) - own["beta_deg"].abs()).abs().max()))

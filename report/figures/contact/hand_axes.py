@@ -1,7 +1,7 @@
 """What Euler compliance does wrong, in one picture: the moment on a hand, and the axis that the hand then turns about.
 
 The hand points down at beta = 0 and lies level at 90 degrees, with its own x axis in the plane of the picture. Each
-curved arrow in colour is a measured row: the direction of C e, and its length over that of a hand that yields as told.
+curved arrow in colour is a measured row: the direction of C e, and its length over that of a hand that yields as set.
 """
 
 from __future__ import annotations

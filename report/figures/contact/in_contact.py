@@ -110,7 +110,7 @@ def penetration(rows: pd.DataFrame) -> str:
 
 
 def worst(rows: pd.DataFrame, cartesian: str, euler: str) -> str:
-    """Where the Euler Jacobian is furthest from the Cartesian one, on the plate."""
+    """Say where the Euler Jacobian is furthest from the Cartesian one, on the plate."""
     own = rows[(rows["task"] == "surface-alignment") & (rows["outcome"] == "done")]
     pair = of(own, cartesian).merge(of(own, euler), on=["arm", "pose"])
     if pair.empty:
@@ -122,7 +122,7 @@ def worst(rows: pd.DataFrame, cartesian: str, euler: str) -> str:
         f"On the plate the Cartesian tool lies flat to {power(flat)} degrees in all {len(pair)} episodes that both "
         f"end. By the Euler one it ends up to {np.degrees(tilted['alignment_error_rad_y']):.0f}° off "
         f"({of_pose(tilted)}; {word_of_rest(tilted, '_y')}), and has turned by up to "
-        f"{np.degrees(turned['held_turn_rad_y']):.0f}° about the axis that it was told to hold ({of_pose(turned)}; "
+        f"{np.degrees(turned['held_turn_rad_y']):.0f}° about the axis that it had to hold ({of_pose(turned)}; "
         f"{word_of_rest(turned, '_y')})."
     )
 

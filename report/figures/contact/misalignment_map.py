@@ -1,4 +1,4 @@
-"""How far the hand turns away from the moment on it, over the hand's frames and over what was told to comply."""
+"""How far the hand turns away from the moment on it, over the hand's frames and over the compliant axes."""
 
 from __future__ import annotations
 

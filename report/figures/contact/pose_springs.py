@@ -15,7 +15,7 @@ WAYS = Table(
 
 
 def rows(run: Run) -> pd.DataFrame:
-    """Those of the run, words as text; without a potential first."""
+    """Return the run's rows, words as text, springs without a potential first."""
     found = run.rows("pose-springs")
     if found.empty:
         return found

@@ -13,7 +13,7 @@ WORK = Table("Moment | Axes | Potential | Stiffness felt | Work | Work, K = kI |
 
 
 def rows(run: Run) -> pd.DataFrame:
-    """Those of the run, words as text; without a potential first."""
+    """Return the run's rows, words as text, springs without a potential first."""
     found = run.rows("springs")
     if found.empty:
         return found
@@ -56,5 +56,5 @@ def tables(run: Run) -> dict:
 
 
 def percent(share: float) -> str:
-    """In per cent; what is no more than rounding is 0."""
+    """Format as a percentage, rounding noise as 0."""
     return f"{100.0 * share:.0f} %" if share > 1e-12 else "0"

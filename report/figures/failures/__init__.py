@@ -1,1 +1,1 @@
-"""Where laws fail, and where they stop to."""
+"""The chapter on where laws fail, and where they stop failing."""

@@ -32,7 +32,7 @@ def ball(episodes: pd.DataFrame, name: str = "failures") -> html.Html:
 
 
 def unit_ball(rows: pd.DataFrame) -> list[list[float]]:
-    """Rotation vectors over pi of the starts, each orientation once, half turns at both ends of their axis."""
+    """Rotation vectors over pi of the starts, each orientation once, 180° rotations at both ends of their axis."""
     quat = rows[["quat_w", "quat_x", "quat_y", "quat_z"]].to_numpy()
     quat = quat * np.where(quat[:, :1] < 0.0, -1.0, 1.0)
     length = np.linalg.norm(quat[:, 1:], axis=1)

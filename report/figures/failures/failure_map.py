@@ -44,7 +44,7 @@ def every(run: Run) -> pd.DataFrame:
 
 
 def continuous(run: Run) -> pd.DataFrame:
-    """Those on the continuous plant, whose end no shorter step moves."""
+    """Return the episodes on the continuous plant whose end no shorter step moves."""
     return read.converged(every(run)[every(run)["engine"] == "ideal-rk4"])
 
 
@@ -139,7 +139,7 @@ def places(rows: pd.DataFrame) -> pd.Series:
     beside = math.pi / 2.0 - rows["beta0"].abs() <= NEAR_RAD
     words = np.select(
         [half & pole, half, pole, wrap, beside],
-        ["half turn and pole", "half turn", "pole", "jump of atan2", "near a pole"],
+        ["180° rotation and pole", "180° rotation", "pole", "jump of atan2", "near a pole"],
         "elsewhere",
     )
     return pd.Series(words, rows.index)

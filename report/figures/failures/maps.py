@@ -22,7 +22,7 @@ MAPPED = Table("Law | Lost [ppm]:.1f | 95 % interval | Slowest [s]:.2f | From [Â
 
 @functools.cache
 def rows() -> pd.DataFrame:
-    """Of the maps."""
+    """Read the rows of the maps."""
     return read.table(MAPS, "map")
 
 

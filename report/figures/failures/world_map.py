@@ -1,4 +1,4 @@
-"""Where each law fails, as a map of the world: a point is where the body's x axis, the column n of R, points.
+"""Draw where each law fails as a map of the world: a point is where the body's x axis, the column n of R, points.
 
 Longitude is alpha, latitude -beta, in Hammer's projection, which keeps areas: Haar measure on SO(3) is area on this
 map times the turn gamma about n, which the map does not show (n is the base point of Hopf's fibration). The poles of

@@ -1,4 +1,4 @@
-"""The laws in families, each small enough for one panel, with names short enough to stand beside a curve.
+"""The laws in families, each small enough for one panel, with names short enough to label a curve.
 
 Two dozen laws in one figure cannot be distinguished. A family's laws are drawn in their own colours over all
 others in grey.

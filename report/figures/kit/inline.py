@@ -58,7 +58,7 @@ def picture(draw: Callable[..., tuple[Figure, str]]) -> Callable[..., Picture]:
 
 
 def responsive_picture(draw: Callable[..., tuple[Figure, str]]) -> Callable[..., Picture]:
-    """As `picture`, for a function with a keyword `narrow`: it is drawn a second time, for a phone."""
+    """Decorate like `picture` a function with a keyword `narrow`: it is drawn a second time, for a phone."""
 
     @functools.wraps(draw)
     def drawn(*args, **kwargs) -> Picture:

@@ -85,7 +85,7 @@ def contents(module: ModuleType, run: Run, text: str) -> dict[str, Any]:
 
 
 def kinds_of(module: ModuleType, text: str) -> dict[str, str]:
-    """As `pasted`, of a module alone, by its own keys."""
+    """Return what `pasted` says of one module, by the module's own keys."""
     word = word_of(module, text)
     of_module = {key: kind for key, kind in pasted(text).items() if (key.startswith(word) if word else "." not in key)}
     return {key.removeprefix(word): kind for key, kind in of_module.items()}

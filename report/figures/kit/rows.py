@@ -15,7 +15,7 @@ def of(frame: pd.DataFrame, contender: str, start_set: str = "uniform") -> pd.Da
 
 
 def lost(rows: pd.DataFrame) -> pd.DataFrame:
-    """Those that did not settle."""
+    """Return the rows that did not settle."""
     return rows[rows["outcome"] != "settled"]
 
 

@@ -56,11 +56,11 @@ def raised(mantissa: str, exponent: int) -> str:
 
 
 def marked_up(text: str) -> str:
-    """The same as HTML, with indices of one letter, J_E, and fractions in powers, eps^(2/3)."""
+    """Typeset text as HTML, with indices of one letter, J_E, and fractions in powers, eps^(2/3)."""
     text = INDEX.sub(r"\1<sub>\2</sub>", html.escape(typeset(text), quote=False))
     return FRACTION.sub(r"<sup>\1</sup>", text)
 
 
 def prose(text: str) -> str:
-    """The same for Markdown: what it would take for its own is escaped."""
+    """Typeset text as HTML for Markdown: escape the characters that Markdown would interpret."""
     return marked_up(text).replace("_", "\\_").replace("*", "\\*")

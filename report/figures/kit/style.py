@@ -58,7 +58,7 @@ class Look(NamedTuple):
 
     @property
     def dark(self) -> str:
-        """The same colour on a dark page."""
+        """Return the colour on a dark page."""
         return TWINS[self.colour]
 
 
@@ -225,7 +225,7 @@ def label_line(axes: Axes, x: float, y: float, text: str, colour: str = INK, **p
 
 
 def apart(places: Sequence[float], gap: float) -> list[float]:
-    """The same places, but neighbours nearer than `gap` moved so far from each other: for labels beside curves."""
+    """Move places nearer than `gap` to each other so far apart: for labels beside curves."""
     order = sorted(range(len(places)), key=lambda i: places[i])
     moved = [float(place) for place in places]
     for _ in places:

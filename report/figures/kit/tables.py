@@ -35,7 +35,7 @@ class Table:
         self.words = tuple(words)
 
     def __call__(self, rows: Iterable) -> html.Markdown | None:
-        """As Markdown.
+        """Return the table as Markdown.
 
         Args:
             rows: a frame or mappings with these heads, or sequences in their order; none makes no table.

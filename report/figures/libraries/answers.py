@@ -31,7 +31,7 @@ def table() -> pd.DataFrame:
 
 
 def origins() -> dict[str, dict[str, str]]:
-    """By library: its version, and with what it was asked."""
+    """Return by library its version and the packages that it was tested with."""
     return read_json(FOLDER / "provenance.json")["libraries"]
 
 
@@ -39,7 +39,7 @@ def functions(rows: pd.DataFrame) -> pd.DataFrame:
     """One line a function, in the table's order.
 
     Columns: library, function, kind, takes, form, precision, thread; the largest error by its own form over `small`
-    turns, `drawn` ones, those `near` the half turn, `at` it and at the `pole`; `turn`, the largest error of the turn
+    turns, `drawn` ones, those `near` 180°, `at` it and at the `pole`; `turn`, the largest error of the turn
     that an answer stands for; `off`, the largest error against theta k over drawn turns; `objections`, the verdict: a
     dictionary from kind to words, empty if it is right.
     """
@@ -92,11 +92,11 @@ def objections(own: pd.DataFrame) -> dict[str, str]:
     # Next to 180° the other axis is almost the same turn: what is left of it counts as digits.
     long = own.assign(long_way=own["long_way"].where(own["turn_error_rad"] > WRONG_AXIS_RAD, 0))
     if has_axis and long["long_way"].sum():
-        found[LONG_WAY] = f"the long way round for {_of(long, 'long_way')} rotations"
+        found[LONG_WAY] = f"unwinding for {_of(long, 'long_way')} rotations"
     if has_axis and own["astray"].sum():
         found[MISALIGNED] = f"another axis for {_of(own, 'astray')} rotations"
     if own["other_sheet"].sum():
-        found[SHEET] = "the long way round for −q"
+        found[SHEET] = "unwinding for −q"
     return found if LONG_WAY in found else found | wrong(own[own["nought"] == 0] if ZERO in found else own)
 
 

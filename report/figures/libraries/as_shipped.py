@@ -99,7 +99,7 @@ def held() -> dict:
 
 
 def heaviest(own: pd.DataFrame) -> pd.DataFrame:
-    """Those whose inertia is not cancelled, damped critically at the largest inertia."""
+    """Return the rows whose inertia is not cancelled, damped critically at the largest inertia."""
     return own[own["critical"] >= own["critical"].max() * RIGHT]
 
 

@@ -1,4 +1,4 @@
-"""The same starts on every engine: how much later or earlier each law settles than on the continuous plant."""
+"""Compare engines on the same starts: how much later or earlier each law settles than on the continuous plant."""
 
 from __future__ import annotations
 

@@ -48,7 +48,7 @@ halved = functools.cache(steps.errors)
 
 @functools.cache
 def episodes(run: Run) -> pd.DataFrame:
-    """Those of the free body."""
+    """Return the episodes of the free body."""
     return run.rows("episodes", task="free-body")
 
 

@@ -26,18 +26,16 @@ SYMBOLS = (
     (r"h", "control period", "s"),
 )
 TERMS = (
-    ("dead point", "an orientation other than the goal at which the command is zero"),
     ("directed start", "one aimed at a place where a law may fail; the others are spread evenly"),
-    ("half turn", "a rotation by 180°"),
     ("pole", "an orientation at which coordinates lose a direction, as Z-Y-X angles do at 90° of the second"),
     ("settled", "inside the band, 2 % of the first angle, and slow until the end"),
     ("saturated", "the command is beyond any use"),
     ("singular", "the command is not a number, or the Jacobian cannot be inverted"),
     ("start set", "starts drawn or listed under one name; a result is given for each"),
-    ("stuck", "outside the band at the end, without speed or command"),
+    ("stuck", "outside the band at the end, without speed or command: at an equilibrium away from the goal"),
     ("tick", "one control period"),
-    ("unwinding", "turning the long way round because a quaternion and its negative are answered differently"),
-    ("worst and typical branch", "the way through a law's conditions that takes most operations, and the usual way"),
+    ("unwinding", "taking the longer rotation because a quaternion and its negative are answered differently"),
+    ("worst and typical branch", "the path through a law's conditions that takes most operations, and the usual path"),
 )
 OF_SYMBOLS, OF_TERMS = Table("Symbol | Meaning | Unit"), Table("Term | Meaning")
 

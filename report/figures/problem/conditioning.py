@@ -1,7 +1,7 @@
 """How badly each set of coordinates maps omega to Edot, as the body turns about one axis: where B^-1 is lost.
 
 Representations of the registry are mapped by their own `angular_velocity`; of four numbers only the three that move
-the body count. The rotation vector goes by its closed form, which follows it past a half turn, where logarithms jump.
+the body count. The rotation vector goes by its closed form, which follows it past 180°, where logarithms jump.
 """
 
 from __future__ import annotations

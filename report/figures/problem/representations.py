@@ -38,7 +38,7 @@ def tables(_: Run) -> dict:
 
 
 def figures(_: Run) -> dict:
-    """Where each map of rates is lost."""
+    """Draw where each map of rates loses rank."""
     return {"conditioning": conditioning.conditioning()}
 
 

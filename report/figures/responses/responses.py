@@ -37,12 +37,12 @@ def drawn(run: Run) -> tuple[pd.DataFrame, pd.DataFrame]:
 
 
 def gains(episodes: pd.DataFrame) -> dict[str, float]:
-    """Those of the closed form."""
+    """Return the gains of the closed form."""
     return {name: float(episodes[name].iloc[0]) for name in ("kp", "kv")}
 
 
 def facts(run: Run) -> dict:
-    """Of each figure its start, and how far, how long and how straight the laws go from there."""
+    """Return the start of each figure, and how far, how long and how straight the laws go from there."""
     traces, every = drawn(run)
     episodes = every[every["contender"].isin(SHORT.values())]
     values: dict = {**gains(every), "drawn": len(episodes), "good": len(episodes) - len(lost(episodes))}

@@ -1,4 +1,4 @@
-"""Settling time near the half turn against log10(pi - angle): a straight line whose slope the gains decide."""
+"""Settling time near 180° against log10(pi - angle): a straight line whose slope the gains decide."""
 
 import re
 
@@ -35,7 +35,7 @@ def slope(rows: pd.DataFrame) -> float:
 
 @responsive_picture
 def decades(episodes: pd.DataFrame, narrow: bool):
-    """Settling time against the distance from the half turn.
+    """Draw the settling time against the distance from 180°.
 
     Args:
         episodes: rows of one engine, of the rotation-matrix law and the set half-turn.
@@ -51,7 +51,7 @@ def decades(episodes: pd.DataFrame, narrow: bool):
     marks = {"color": look.colour, "marker": look.marker, "linestyle": "none", "markersize": 5}
     axes.plot(k[k.notna()], near["settling_time_s"], alpha=0.5, markeredgewidth=0, **marks)
     axes.set(ylim=(0, None), xlim=(-0.5, k.max() + 0.5), ylabel="settling time [s]")
-    axes.set_xlabel("distance from the half turn, $\\pi - \\theta$ [rad]")
+    axes.set_xlabel("distance from 180°, $\\pi - \\theta$ [rad]")
     ticks = range(0, int(k.max()) + 1, 3)
     axes.set_xticks(ticks, [f"$10^{{-{one}}}$" if one else "1" for one in ticks])
     place = 0.5 * k.max()
@@ -60,7 +60,7 @@ def decades(episodes: pd.DataFrame, narrow: bool):
     axes.text(place + 0.5, height - 0.35, words, va="top", color=style.INK, fontsize=9.5)
     taken = near["settling_time_s"]
     return figure, (
-        f"Settling time on the rotation matrix against the distance from the half turn, {len(near)} starts from "
+        f"Settling time on the rotation matrix against the distance from 180°, {len(near)} starts from "
         f"1 to 1e-{k.max():.0f} rad: from {taken.min():.2f} to {taken.max():.2f} s on a straight line of "
         f"{slope(episodes):.4f} s a decade."
     )

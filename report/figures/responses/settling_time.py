@@ -1,4 +1,4 @@
-"""What the page on settling times shows: numbers of the three laws, and the rotation matrix towards the half turn."""
+"""What the page on settling times shows: numbers of the three laws, and the rotation matrix towards 180°."""
 
 import functools
 import math
@@ -13,7 +13,7 @@ from report.figures.kit.tables import Table
 from report.figures.responses import settling_decades
 
 SLOPES = Table(
-    "Engine | Starts fitted | Slope [s/decade]:.4f | Closed form:.4f | Difference [%]:+.3f | Exact half turns | "
+    "Engine | Starts fitted | Slope [s/decade]:.4f | Closed form:.4f | Difference [%]:+.3f | Exact 180° rotations | "
     "of which settle | Horizon [s]"
 )
 
@@ -25,7 +25,7 @@ def continuous(run: Run) -> pd.DataFrame:
 
 
 def facts(run: Run) -> dict:
-    """Settling near zero, against the angle by law, and towards the half turn."""
+    """Return settling near zero, against the angle by law, and towards 180°."""
     episodes = continuous(run)
     kp, kv, tolerance, tick = (float(episodes[name].iloc[0]) for name in ("kp", "kv", "tolerance", "dt_s"))
     near, exact = settling_decades.near_and_exact(of(episodes, MATRIX, "half-turn"))
@@ -65,7 +65,7 @@ def tables(run: Run) -> dict:
 
 
 def figures(run: Run) -> dict:
-    """Against the distance from the half turn."""
+    """Draw the settling time against the distance from 180°."""
     return {"settling-decades": settling_decades.decades(of(continuous(run), MATRIX, "half-turn"))}
 
 
@@ -76,7 +76,7 @@ def late_ms(rows: pd.DataFrame, kp: float, kv: float, tolerance: float) -> pd.Se
 
 
 def slope_on(engine: str, rows: pd.DataFrame) -> tuple:
-    """An engine's measured slope beside the closed form, and what became of exact half turns."""
+    """Return an engine's measured slope, the closed form's, and the outcomes of exact 180° rotations."""
     near, exact = settling_decades.near_and_exact(rows)
     theory = closed_form.decade_slope(float(rows["kp"].iloc[0]), float(rows["kv"].iloc[0]))
     found = settling_decades.slope(near)

@@ -1,4 +1,4 @@
-"""The page on the worst noise at the half turn: which laws it holds there, from which noise on, and why.
+"""The page on the worst noise at 180°: which laws it holds there, from which noise on, and why.
 
 A law that turns about one axis is a scalar equation there (`isotropic`), and the lie a change of one sign: whether it
 is held follows from adding up. A law with memory is held from where its memory ends.
@@ -29,7 +29,7 @@ FOOT, TOP = 1e-4, 1.6
 
 
 def jump(law: str, kp: float) -> float:
-    """Half the jump of a law's command at the half turn [rad/s^2], of a law with a scalar equation; NaN of others."""
+    """Return half the jump of a law's command at 180° [rad/s^2]; NaN for a law without a scalar equation."""
     return kp * EQUATIONS[law].spring(math.pi) if law in EQUATIONS and law not in UNBOUNDED else math.nan
 
 
@@ -57,7 +57,7 @@ def strips(rows: pd.DataFrame, narrow: bool):
         words.append(
             f"{families.word(law)} {settled}" + ("" if math.isnan(begin) else f" (held from {begin:.2g} by theory)")
         )
-    axes.set(xscale="log", xlim=(FOOT, TOP), ylim=(len(own) - 0.4, -0.6), xlabel="worst noise at the half turn [rad]")
+    axes.set(xscale="log", xlim=(FOOT, TOP), ylim=(len(own) - 0.4, -0.6), xlabel="worst noise at 180° [rad]")
     axes.set_yticks(range(len(own)), map(families.word, own), fontsize=9)
     # 0.3 and its like lie too close to their neighbours on a phone
     axes.set_xticks(list(shares.index), ["" if narrow and f"{x:g}"[-1] == "3" else f"{x:g}" for x in shares.index])
@@ -67,7 +67,7 @@ def strips(rows: pd.DataFrame, narrow: bool):
     levels = ", ".join(f"{level:g}" for level in shares.index)
     return (
         figure,
-        f"Share of half turns that is left and settled, in per cent, at noise of {levels} rad: {'; '.join(words)}.",
+        f"Share of starts at 180° that leave it and settle, in per cent, at noise of {levels} rad: {'; '.join(words)}.",
     )
 
 
@@ -89,7 +89,7 @@ def _noise(value: float) -> str:
 
 
 LAWS = Table(
-    "Law | Proved | Memory | Jump [rad/s²]:.0f | Held from, by theory [rad] | Exact half turns left [%]:.0f | Measured",
+    "Law | Proved | Memory | Jump [rad/s²]:.0f | Held from, by theory [rad] | Starts at 180° left [%]:.0f | Measured",
     {"Held from, by theory [rad]": _noise},
 )
 
@@ -157,5 +157,5 @@ def tables(run: Run) -> dict:
 
 
 def figures(run: Run) -> dict:
-    """Who leaves the half turn at which noise."""
+    """Draw which laws leave 180° at which noise."""
     return {HALF_TURN: given(along(run, HALF_TURN), strips)}

@@ -35,12 +35,12 @@ def launched(kernel, given) -> np.ndarray:
 
 
 def quat_to_axis_angle(quat_wxyz) -> np.ndarray:
-    """Of Warp, which takes (x, y, z, w)."""
+    """Return axis and angle by Warp, which takes (x, y, z, w)."""
     return launched(axis_angle, warp.array([quat_wxyz[XYZW]], dtype=warp.quat, device="cpu"))
 
 
 def matrix_to_axis_angle(R) -> np.ndarray:
-    """Of a matrix."""
+    """Return axis and angle of a matrix by Warp."""
     return launched(of_matrix, warp.array([R], dtype=warp.mat33, device="cpu"))
 
 

@@ -6,12 +6,12 @@ from bench.studies.libraries.library import MATRIX, QUATERNION, Function, Librar
 
 
 def of_matrix(R) -> Rotation:
-    """As the functions that take matrices are asked."""
+    """Return the Rotation of a matrix."""
     return Rotation.from_matrix(R)
 
 
 def of_quaternion(quat_wxyz) -> Rotation:
-    """As the functions that take quaternions are asked."""
+    """Return the Rotation of a quaternion (w, x, y, z)."""
     return Rotation.from_quat(quat_wxyz, scalar_first=True)
 
 
