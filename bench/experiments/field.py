@@ -2,7 +2,6 @@
 
 import numpy as np
 
-from bench.engines.binding import memory_of
 from bench.engines.curve import NUMBERS, blank_curves
 from bench.engines.episode import Settings, blank, numbers
 from bench.law.contender import Contender, Gains

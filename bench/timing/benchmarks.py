@@ -15,6 +15,7 @@ import tasks
 from bench.engines.binding import command_of, memory_of
 from bench.engines.curve import blank_curves
 from bench.engines.episode import TICKS, blank, numbers, start_rows
+from bench.engines.episode import Settings as EngineSettings
 from bench.engines.native.libmujoco import model_of
 from bench.engines.plants import free_body
 from bench.engines.simulate import compiled_loop, evaluation, simulate
@@ -109,7 +110,7 @@ def _engine(engine: str, one: Contender) -> Benchmark:
     given = memory_of(one), start_rows(starts), numbers(_settings()), rows, blank_curves(len(starts))
     law = (evaluation(one),)
 
-    def call():
+    def call() -> Any:
         rows[:] = fresh
         simulate(loop, law, world, *given)
         return kept  # the view holds addresses only: this keeps what they point to
