@@ -13,6 +13,7 @@ from bench.engines.arrays import Matrix, Three, Vector
 from bench.law.contender import Goal
 from bench.law.resolved_motion import Chain, Scratch
 from bench.law.so3 import Rotation
+from tasks.condition import FIELDS, Condition
 
 UNTYPED: dict[Any, tuple] = {
     Rotation: (Three, Three, Three),
@@ -23,8 +24,9 @@ UNTYPED: dict[Any, tuple] = {
     Rows: (Vector,) * 5,
     ContactBuffers: (Vector, Vector, Vector, Matrix, Scratch),
     Setpoint: (Rotation, Three, Three, Three, Three),
+    Condition: tuple(Three if isinstance(one.default, tuple) else type(one.default) for one in FIELDS),
 }
-"""Annotations of tuples whose own say Any, since counting scalars and symbols go into them too."""
+"""Annotations of tuples without their own, since counting scalars and symbols go into them or files declare them."""
 
 SCALARS: dict[Any, types.Type] = {int: int64, float: float64, bool: types.boolean, None: types.none}
 
