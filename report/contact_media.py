@@ -31,7 +31,7 @@ def seen(task: str, trial: str, controller: str) -> tuple[Puppet, Motion]:
     import tasks
     from bench.control.registry import find_controller
     from bench.engines.contact_episode import USUAL
-    from bench.engines.run_contact import run
+    from bench.engines.simulate_contact import run_contact as run
 
     arm, about = tasks.arm(ARM), tasks.contact_task(task)
     one = next(each for each in about.trials(arm) if each.id == trial or not trial)

@@ -65,7 +65,7 @@ def motions() -> dict[str, tuple[Motion, dict]]:
 
     import tasks
     from bench.engines.curve import ARM_NUMBERS, blank_curves
-    from bench.engines.run_arm import run
+    from bench.engines.simulate_arms import run_arm as run
     from bench.experiments.episode_rows import frame
     from bench.experiments.experiment import Settings, Unit
     from bench.experiments.suites import NOMINAL, ON_ARM

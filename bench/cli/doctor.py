@@ -74,7 +74,7 @@ def _compiler() -> str:
 def _engines() -> str:
     import tasks
     from bench.contenders.registry import papers_laws
-    from bench.engines.run import run
+    from bench.engines.simulate import run
     from bench.experiments.experiment import Settings
     from bench.metrics.registry import metrics_of
 
@@ -97,7 +97,7 @@ def _arms() -> str:
     import tasks
     from bench.contenders import combinations
     from bench.contenders.registry import all_contenders, papers_laws
-    from bench.engines.run_arm import run
+    from bench.engines.simulate_arms import run_arm as run
     from bench.experiments.experiment import Settings
     from bench.metrics.registry import metrics_of
     from tasks.arm import arms
@@ -122,7 +122,7 @@ def _arms() -> str:
 def _contact() -> str:
     import tasks
     from bench.control.registry import find_controller
-    from bench.engines.run_contact import run
+    from bench.engines.simulate_contact import run_contact as run
     from bench.experiments.contact import can_do
     from tasks.arm import arms
     from tasks.base import BadArm

@@ -1,4 +1,4 @@
-"""Four ways to run the same episode, one file each.
+"""Four ways to run the same episode, all by the loop of `loop`.
 
 reference   dm_control's Environment with the plain Python law: slow, and the truth
 native      MuJoCo stepped from compiled code, the reference's numbers bit for bit

@@ -10,6 +10,7 @@ import numpy as np
 
 from bench.contenders.jacobians.geometric import fill
 from bench.control.resolved_acceleration import BY_JOINT, Buffers
+from bench.engines.arrays import Seven
 from bench.engines.episode import blank
 from bench.law.contender import Contender
 from bench.law.linalg import determinant, gram
@@ -80,10 +81,10 @@ class Joints(NamedTuple):
     inertia: the joint's element on D's diagonal at home [kg m^2], filled up with zeros.
     """
 
-    lower: tuple
-    upper: tuple
-    rated: tuple
-    inertia: tuple
+    lower: Seven
+    upper: Seven
+    rated: Seven
+    inertia: Seven
 
 
 def controls(contender: Contender, has_own_model: bool, torque_limit: float) -> Controls:

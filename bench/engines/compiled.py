@@ -7,6 +7,7 @@ import itertools
 import math
 import secrets
 import threading
+from typing import Any
 
 import numba
 from numba import float64, int64, types
@@ -15,12 +16,16 @@ from numba.core.caching import IndexDataCacheFile
 from numba.extending import overload, register_jitable
 from numba.np import linalg
 
+from bench.control.setpoint import ContactParameters, Rows, Setpoint
+from bench.engines.arrays import Four, Three
 from bench.engines.cache import to_itself
 from bench.engines.curve import Curves
 from bench.engines.episode import Numbers
+from bench.engines.typed import type_of
 from bench.errors import BadLaw
 from bench.law import scalar
 from bench.law.contender import Gains, Goal
+from bench.law.resolved_motion import Chain, Scratch
 from bench.law.so3 import Rotation
 from tasks import moving_goal, truth, velocity, verdict
 
@@ -53,20 +58,28 @@ second, and no kernel of ours calls BLAS. One that did would look for it then.""
 JIT = {"nogil": True, "error_model": "numpy"}
 """Never fastmath: results must be the plain Python call's, bit for bit."""
 
-MATRIX = float64[:, ::1]
-NUMBERS = types.NamedTuple((*[float64] * 3, *[int64] * 3, *[float64] * 6, int64, int64), Numbers)
-CURVES = types.NamedTuple((int64, float64[:, :, ::1]), Curves)
-THREE, FOUR = types.UniTuple(float64, 3), types.UniTuple(float64, 4)
-ROTATION = types.NamedUniTuple(THREE, 3, Rotation)
-GOAL = types.NamedTuple((ROTATION, THREE, THREE), Goal)
-GAINS = types.NamedUniTuple(float64, 2, Gains)
+VECTOR, MATRIX = float64[::1], float64[:, ::1]
+THREE, FOUR = type_of(Three), type_of(Four)
+NUMBERS, CURVES, ROTATION, GOAL, GAINS, CHAIN, SCRATCH = map(
+    type_of, (Numbers, Curves, Rotation, Goal, Gains, Chain, Scratch)
+)
 
 EVALUATE = types.Tuple((THREE, FOUR, float64))(ROTATION, THREE, GOAL, GAINS, FOUR)
 """evaluate(R, omega, goal, gains, memory) -> (u, memory, margin): a law as loops on the free body call it."""
 
+ASSEMBLE = types.Tuple((THREE, FOUR))(CHAIN, GOAL, THREE, GAINS, FOUR, MATRIX, VECTOR)
+RESOLVE = types.void(MATRIX, VECTOR, MATRIX, VECTOR, int64, int64, SCRATCH)
+MARGIN = float64(ROTATION, ROTATION)
+LIMIT = THREE(THREE, float64)
+DESIGN = types.void(VECTOR, MATRIX, float64, MATRIX, SCRATCH)
+STATEFUL, BEGIN_STATE = types.Tuple((THREE, FOUR))(ROTATION, THREE, GOAL, GAINS, FOUR), FOUR(ROTATION)
+TOUCH = types.void(CHAIN, *map(type_of, (Setpoint, Three, Three, Gains, ContactParameters)), MATRIX, type_of(Rows))
+"""The other functions that loops call: see `plants`."""
+
 INLINED = (
     *("bench.law.chain", "bench.law.linalg", "bench.contenders.jacobians", "bench.control.resolved_acceleration"),
     *("bench.control.hybrid", "bench.engines.arm_episode", "bench.engines.contact_episode"),
+    *("bench.engines.plants", "bench.engines.loop"),
 )
 """Modules whose kernels take buffers and are always inlined: a call passes each array as seven words, and counts a
 reference to it; the chain's velocity took 60 ns, and takes 9."""
@@ -112,6 +125,18 @@ def compile_function(function, signature, cache: bool = True, **options):
     """
     register_kernels()
     return numba.njit(signature, cache=cache, **JIT, **options)(function)
+
+
+def compile_loop(episodes, laws: tuple, world: Any = None):
+    """Return a loop of `loop.episodes_of`, compiled; cached on disk.
+
+    Args:
+        laws: signatures of the functions that it calls by pointer, three at most. world: a named tuple, annotated.
+    """
+    functions = (*map(types.FunctionType, laws), *[types.none] * (3 - len(laws)))
+    # a file of the cache for each world: one for all would import every world, and MuJoCo, with the first loop
+    episodes.__qualname__ += f".{world.__module__}.{world.__name__}" if world else ".ideal"
+    return compile_function(episodes, types.void(*functions, type_of(world), FOUR, MATRIX, NUMBERS, MATRIX, CURVES))
 
 
 def compile_callback(function, signature):

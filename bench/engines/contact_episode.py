@@ -9,6 +9,7 @@ import numpy as np
 from bench.control.contact_controller import FORMS, ContactController
 from bench.control.setpoint import TOUCH, ContactBuffers, ContactParameters, Rows, Setpoint
 from bench.engines.arm_episode import MOST
+from bench.engines.arrays import Four, Seven, Six, Three
 from bench.law.contender import PAPERS_GAINS, Gains
 from bench.law.resolved_motion import Scratch
 from bench.law.scalar import kernel
@@ -47,12 +48,12 @@ class Numbers(NamedTuple):
     form: int
     speed_limit_squared: float
     torque_limit_squared: float
-    held: tuple
-    quat_d: tuple
-    v_d: tuple
-    f_d: tuple
-    m_d: tuple
-    rated: tuple
+    held: Six
+    quat_d: Four
+    v_d: Three
+    f_d: Three
+    m_d: Three
+    rated: Seven
     legs: int
     moves_s: float
     delay: int

@@ -5,6 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from bench.engines.arm_episode import MOST
+from bench.engines.arrays import Cube
 from bench.law.scalar import kernel, sqrt
 
 _VECTORS = ("n", "o", "a", "omega", "u")
@@ -22,7 +23,7 @@ class Curves(NamedTuple):
     """
 
     every: int
-    samples: np.ndarray
+    samples: Cube
 
 
 def blank_curves(count: int, samples: int = 0, every: int = 1, numbers: tuple = NUMBERS) -> Curves:

@@ -94,7 +94,7 @@ def _check_combinations(asked: Asked) -> None:
 
 def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
     """Return the rows of a unit, each doubtful one judged on both sides of its start."""
-    from bench.engines.run_arm import run
+    from bench.engines.simulate_arms import run_arm as run
 
     starts, one, metrics = starts_of(settings, unit), settings.contender(unit.contender), metrics_of(on_arm=True)
     limits = settings.limits(unit.horizon_s)

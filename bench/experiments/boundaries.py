@@ -86,7 +86,7 @@ def rows(settings: Settings, unit: Unit) -> dict:
 
 
 def _outcomes(settings: Settings, unit: Unit, one: Contender, directions: np.ndarray, angles: np.ndarray) -> np.ndarray:
-    from bench.engines.run import run
+    from bench.engines.simulate import run
 
     starts = [
         Start("", (math.cos(angle / 2), *(math.sin(angle / 2) * axis).tolist()))

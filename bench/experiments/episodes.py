@@ -125,14 +125,14 @@ def prepare(settings: Settings, unit: Unit) -> None:
     if unit.engine == "reference":
         importlib.import_module("tasks.episode")
     elif unit.arm:
-        from bench.engines import run_arm
+        from bench.engines import simulate_arms
 
-        run_arm.compiled_loop(metrics)
-        run_arm.pointers(one)
+        simulate_arms.compiled_loop("arm", metrics)
+        simulate_arms.pointers(one)
     else:
-        from bench.engines import run
+        from bench.engines import simulate
 
-        run.prepare(unit.engine, one, metrics, unit.total)
+        simulate.prepare(unit.engine, one, metrics, unit.total)
 
 
 def lost(settings: Settings, unit: Unit, outcome: str) -> pd.DataFrame:

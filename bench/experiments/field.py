@@ -2,7 +2,6 @@
 
 import numpy as np
 
-from bench.engines.binding import memory_of
 from bench.engines.curve import NUMBERS, blank_curves
 from bench.engines.episode import Settings, blank, numbers
 from bench.law.contender import Contender, Gains
@@ -19,17 +18,16 @@ class Field:
     """u(R, omega) of a law with its initial memory, by the compiled loop: its first sample of an episode."""
 
     def __init__(self, one: Contender, gains: Gains):
-        from bench.engines.run import compiled_loop, evaluation
-
         self.one, self.gains, self.metrics = one, gains, tuple(metrics_of(on_arm=False))
-        self.law, self.loop = (evaluation(one), memory_of(one)), compiled_loop(ENGINE, self.metrics)
 
     def __call__(self, quats: np.ndarray, goal: Quat = IDENTITY, omegas: np.ndarray | float = 0.0) -> np.ndarray:
         """Return u/kp of n quaternions (n, 4) and angular velocities (n, 3)."""
+        from bench.engines.simulate import by_law
+
         starts, curves = np.ones((len(quats), 12)), blank_curves(len(quats), 1)
         starts[:, :4], starts[:, 4:7], starts[:, 7:11] = quats, omegas, goal
         given = numbers(Settings(self.gains, 0.001, 1, 2))
-        self.loop(*self.law, starts, given, blank(len(quats), self.metrics), curves)
+        by_law(ENGINE, self.one, starts, given, blank(len(quats), self.metrics), self.metrics, curves)
         return curves.samples[:, 0, U : U + 3] / self.gains.kp
 
 

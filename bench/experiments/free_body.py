@@ -54,7 +54,7 @@ def slices_of(suite: Suite, one: Contender) -> tuple[Slice, ...]:
 
 def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
     """Return the rows of a unit."""
-    from bench.engines.run import run
+    from bench.engines.simulate import run
 
     starts, one, metrics = starts_of(settings, unit), settings.contender(unit.contender), metrics_of(on_arm=False)
     limits = settings.limits(unit.horizon_s)

@@ -114,8 +114,8 @@ def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
 
 
 def _rows(settings: Settings, unit: Unit, stiffness: Stiffness, whole: int) -> dict:
-    from bench.engines.native.impedance import ADDED, DAMPED, ELBOW, KINETIC, LEFT, OFF, OVERSHOOT, STRAIN, Springs
-    from bench.engines.run_impedance import run
+    from bench.engines.plants.impedance import ADDED, DAMPED, ELBOW, KINETIC, LEFT, OFF, OVERSHOOT, STRAIN, Springs
+    from bench.engines.simulate_arms import run_impedance as run
 
     some = starts.on_arm(START_SET, unit.count, settings.seed, unit.arm)
     law, damping = find_contender(LAW), DAMPINGS[unit.selector]
@@ -163,9 +163,9 @@ def compute_potential(stiffness: Stiffness, theta: np.ndarray, distance: np.ndar
 
 def prepare(settings: Settings, unit: Unit) -> None:
     """Compile the loop, the error and the design."""
-    from bench.engines import run_impedance
+    from bench.engines.simulate_arms import prepare_impedance
 
-    run_impedance.prepare(find_contender(LAW), (DAMPINGS[unit.selector],))
+    prepare_impedance(find_contender(LAW), (DAMPINGS[unit.selector],))
 
 
 EXPERIMENT = Experiment(

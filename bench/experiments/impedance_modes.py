@@ -72,8 +72,8 @@ def rows(settings: Settings, unit: Unit) -> list[dict]:
 
 def hand_matrices(settings: Settings, unit: Unit, stiffness: Stiffness) -> tuple[np.ndarray, np.ndarray]:
     """Compute P [1/s^2] and Q [1/s], 6 x 6, at the arm's home."""
-    from bench.engines.native.impedance import Springs
-    from bench.engines.run_impedance import run
+    from bench.engines.plants.impedance import Springs
+    from bench.engines.simulate_arms import run_impedance as run
     from tasks.kinematics import kinematics
 
     arm = tasks.arm(unit.arm)

@@ -131,7 +131,7 @@ def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
 def _of_block(settings: Settings, unit: Unit, number: int) -> pd.DataFrame:
     import pandas as pd
 
-    from bench.engines.run import on_ideal
+    from bench.engines.simulate import on_ideal
 
     one, (least, most), first = settings.contender(unit.contender), speeds_of(unit), number * BLOCK
     quats, omegas = (part[: unit.first + unit.count - first] for part in block(number, settings.seed, most, least))
@@ -205,9 +205,9 @@ def _reduced(every: pd.DataFrame) -> pd.DataFrame:
 
 def prepare(settings: Settings, unit: Unit) -> None:
     """Compile what runs the law without metrics."""
-    from bench.engines import run
+    from bench.engines import simulate
 
-    run.prepare(unit.engine, settings.contender(unit.contender), (), unit.total)
+    simulate.prepare(unit.engine, settings.contender(unit.contender), (), unit.total)
 
 
 EXPERIMENT = Experiment(

@@ -112,7 +112,7 @@ def _takes_part(one: Contender, part: Robustness, choice: Choice) -> bool:
 
 def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
     """Return one row a level and start; none at a level whose command the law has no gains for."""
-    from bench.engines.run_disturbed import run
+    from bench.engines.simulate_perturbed import run_disturbed as run
 
     return simulated(settings, unit, run)
 
@@ -123,7 +123,7 @@ def simulated(settings: Settings, unit: Unit, simulate, gains=gains_at) -> pd.Da
     The starts and the noise are the same for every law.
 
     Args:
-        simulate: makes the numbers of the rows, as `run_disturbed.run`. gains(law, peak): those that give the peak.
+        simulate: makes the numbers of the rows, as `run_disturbed`. gains(law, peak): those that give the peak.
     """
     import pandas as pd
 
@@ -148,7 +148,7 @@ def lost(settings: Settings, unit: Unit, outcome: str) -> pd.DataFrame:
 
     A row has the run's gains: only the law knows those that give a peak.
     """
-    from bench.engines.disturbed import blank_rows
+    from bench.engines.plants.perturbed import blank_rows
 
     def simulate(_one, starts, _condition, _limits, metrics, _seed):
         return lost_numbers(blank_rows(len(starts), metrics), outcome)
@@ -163,18 +163,18 @@ def _limits(gains: Gains, horizon_s: float) -> Limits:
 
 
 def _rows(one: Contender, starts, condition: Condition, limits: Limits, seed: int, simulate) -> dict:
-    from bench.engines import disturbed
+    from bench.engines.plants import perturbed
 
     metrics = metrics_of(on_arm=False)
     numbers = simulate(one, starts, condition, limits, metrics, seed)
-    step_s = condition.period_s / disturbed.steps_of(condition)
+    step_s = condition.period_s / perturbed.steps_of(condition)
     angle0 = [angle(start.quat_wxyz, start.goal_wxyz) for start in starts]
     judged = judged_columns(numbers, step_s)
     finals = judged["final_angle_rad"]
-    extra = numbers[:, -disturbed.EXTRA :]
-    tail = extra[:, disturbed.TAIL_COUNT]
+    extra = numbers[:, -perturbed.EXTRA :]
+    tail = extra[:, perturbed.TAIL_COUNT]
     has_tail = tail > 0
-    rms = np.sqrt(extra[:, disturbed.TAIL_SQUARES] / np.where(has_tail, tail, 1.0))
+    rms = np.sqrt(extra[:, perturbed.TAIL_SQUARES] / np.where(has_tail, tail, 1.0))
     return {
         "start_id": [start.id for start in starts],
         "angle0_rad": angle0,
@@ -185,17 +185,16 @@ def _rows(one: Contender, starts, condition: Condition, limits: Limits, seed: in
         **judged,
         **measured_columns(numbers, metrics, angle0, judged),
         "tail_rms_rad": np.where(has_tail, rms, finals),
-        "tail_max_rad": np.where(has_tail, extra[:, disturbed.TAIL_WORST], finals),
-        "variation": extra[:, disturbed.VARIATION],
+        "tail_max_rad": np.where(has_tail, extra[:, perturbed.TAIL_WORST], finals),
+        "variation": extra[:, perturbed.VARIATION],
     }
 
 
 def prepare(settings: Settings, unit: Unit) -> None:
     """Compile the loop and the law."""
-    from bench.engines.run import evaluation
-    from bench.engines.run_disturbed import compiled_loop
+    from bench.engines.simulate import compiled_loop, evaluation
 
-    compiled_loop(tuple(metrics_of(on_arm=False)))
+    compiled_loop("perturbed", tuple(metrics_of(on_arm=False)))
     evaluation(settings.contender(unit.contender))
 
 

@@ -175,7 +175,7 @@ def findings(one: Shipped) -> tuple[str, ...]:
 
 def motion(contender: Contender, memories: tuple, settings: Settings, horizon_s: float) -> dict:
     """Simulate starts at rest from each of the memories, and count how they end."""
-    from bench.engines.run import compiled_loop, evaluation
+    from bench.engines.simulate import by_law
 
     angles = SETTLING_RAD
     begun = start_rows([Start("", tuple(q)) for angle in angles.values() for q in about(AXES, angle).tolist()])
@@ -183,7 +183,7 @@ def motion(contender: Contender, memories: tuple, settings: Settings, horizon_s:
     every = round(SAMPLE_S / settings.dt_s)
     for memory in memories:
         made, curves = blank(len(begun), metrics), blank_curves(len(begun), limits.ticks // every, every)
-        compiled_loop(ENGINE, metrics)(evaluation(contender), memory, begun, limits, made, curves)
+        by_law(ENGINE, contender, begun, limits, made, metrics, curves, memory)
         farthest = np.nanmax(curves.samples[:, :, HAVERSINE], axis=1)
         allowed = np.sin(0.5 * np.minimum(np.repeat([*angles.values()], len(AXES)) + AWAY_RAD, math.pi)) ** 2
         episodes.append(np.column_stack((made[:, [OUTCOME, SETTLING_TICK]], farthest > allowed)))

@@ -105,7 +105,7 @@ def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
 
 
 def _on_free_body(settings: Settings, unit: Unit, one: Contender, every: int) -> Iterator[pd.DataFrame]:
-    from bench.engines.run import run
+    from bench.engines.simulate import run
 
     metrics = metrics_of(on_arm=False)
     place = {"task": unit.task, "arm": "", **contender_columns(one), "engine": unit.engine}
@@ -119,7 +119,7 @@ def _on_free_body(settings: Settings, unit: Unit, one: Contender, every: int) ->
 
 
 def _on_arm(settings: Settings, unit: Unit, one: Contender, every: int) -> pd.DataFrame:
-    from bench.engines.run_arm import run
+    from bench.engines.simulate_arms import run_arm as run
 
     metrics, limits = metrics_of(on_arm=True), settings.limits(unit.horizon_s)
     place = {"task": unit.task, "arm": unit.arm, **contender_columns(one), "engine": unit.engine}

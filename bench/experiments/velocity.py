@@ -139,7 +139,7 @@ def on_joints(law: Contender, joints: int) -> list[Contender]:
 
 def rows(settings: Settings, unit: Unit) -> dict:
     """Return one row an episode, as columns."""
-    from bench.engines.velocity import BENT, FURTHEST, OFF, PATH, PEAK, RATE
+    from bench.engines.plants.velocity import BENT, FURTHEST, OFF, PATH, PEAK, RATE
 
     every = list(parts(settings, unit))
     lengths = [len(part.starts) for part in every]
@@ -196,7 +196,7 @@ def parts(settings: Settings, unit: Unit) -> Iterator[Part]:
 
 
 def _run(settings: Settings, unit: Unit, part: Part, some: list[Start]) -> np.ndarray:
-    from bench.engines.run_velocity import run
+    from bench.engines.simulate_arms import run_velocity as run
 
     one, limit = settings.contender(unit.contender), LIMITERS[part.limiter].limit
     K = part.share * gain(settings)
@@ -226,9 +226,9 @@ def compare_beside(numbers: np.ndarray, beside: np.ndarray) -> dict:
 
 def prepare(settings: Settings, unit: Unit) -> None:
     """Compile the loops, the limiters, the law and the inverse."""
-    from bench.engines import run_velocity
+    from bench.engines.simulate_arms import prepare_velocity
 
-    run_velocity.prepare(settings.contender(unit.contender), [one.limit for one in LIMITERS.values()])
+    prepare_velocity(settings.contender(unit.contender), [one.limit for one in LIMITERS.values()])
 
 
 EXPERIMENT = Experiment(

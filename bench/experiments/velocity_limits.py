@@ -132,7 +132,7 @@ def near(settings: Settings, unit: Unit, begun: list[Start], lag_ticks: float, s
 
 def far(settings: Settings, unit: Unit) -> float:
     """Compute the largest K dt at which a tick makes no error of SCAN_RAD larger."""
-    from bench.engines.velocity import PATH
+    from bench.engines.plants.velocity import PATH
 
     begun = [Start("", about(FAR_AXIS, float(angle))) for angle in SCAN_RAD]
 
@@ -144,8 +144,8 @@ def far(settings: Settings, unit: Unit) -> float:
 
 
 def _run(settings: Settings, unit: Unit, begun, k_dt: float, ticks: int, lag_ticks: float = 0.0) -> np.ndarray:
-    """Return rows of `engines.velocity` of episodes that take so many ticks, unless the robot is lost before."""
-    from bench.engines.run_velocity import run
+    """Return rows of `plants.velocity` of episodes that take so many ticks, unless the robot is lost before."""
+    from bench.engines.simulate_arms import run_velocity as run
 
     limits = settings.limits(1.0)._replace(dt_s=DT_S, ticks=ticks, hold_ticks=ticks + 1)
     one = settings.contender(unit.contender)

@@ -57,13 +57,13 @@ def compiler_of(name: str) -> Callable[[], object]:
     """
     from bench.contenders.registry import find_contender
     from bench.control.registry import all_controllers
-    from bench.engines import run_arm, run_contact
-    from bench.engines.run import evaluation
+    from bench.engines import simulate_arms, simulate_contact
+    from bench.engines.simulate import evaluation
 
     touching = {one.name: one for one in all_controllers()}
     if name in touching:
-        return functools.partial(run_contact.pointer, touching[name])
-    return functools.partial(run_arm.pointers if "@" in name else evaluation, find_contender(name))
+        return functools.partial(simulate_contact.pointer, touching[name])
+    return functools.partial(simulate_arms.pointers if "@" in name else evaluation, find_contender(name))
 
 
 def main(parent: int, work: list[str]) -> None:

@@ -16,9 +16,10 @@ from bench.engines.binding import command_of, memory_of
 from bench.engines.curve import blank_curves
 from bench.engines.episode import TICKS, blank, numbers, start_rows
 from bench.engines.episode import Settings as EngineSettings
-from bench.engines.native import free_body as native
 from bench.engines.native.libmujoco import model_of
-from bench.engines.run import compiled_loop, evaluation
+from bench.engines.plants import free_body
+from bench.engines.simulate import compiled_loop, evaluation, simulate
+from bench.engines.simulated import compiled_view
 from bench.experiments.experiment import Settings
 from bench.law.contender import Contender, Gains
 from bench.metrics.registry import metrics_of
@@ -99,24 +100,20 @@ def _settings() -> EngineSettings:
 
 def _engine(engine: str, one: Contender) -> Benchmark:
     metrics = metrics_of(on_arm=False)
-    loop, asked = compiled_loop(engine, metrics), (evaluation(one), memory_of(one))
+    loop, kept, world = compiled_loop(engine, metrics), None, None
     starts = tasks.start_set("uniform", STARTS[engine])
-    rows, fixed, limits = blank(len(starts), metrics), start_rows(starts), numbers(_settings())
-    fresh, given = rows.copy(), (fixed, limits, rows, blank_curves(len(starts)))
     if engine == "native":
-        model, data, states = _simulation(starts)
-        sim = native.view(model, data)
+        model, *kept = _simulation(starts)
+        world = free_body.World(compiled_view(model, kept[0]), 0, kept[1])
+    rows = blank(len(starts), metrics)
+    fresh = rows.copy()
+    given = memory_of(one), start_rows(starts), numbers(_settings()), rows, blank_curves(len(starts))
+    law = (evaluation(one),)
 
-        def call() -> Any:
-            rows[:] = fresh
-            loop(*asked, sim, states, *given)
-            return data  # the view holds addresses only: this keeps what they point to
-
-    else:
-
-        def call() -> Any:
-            rows[:] = fresh
-            loop(*asked, *given)
+    def call() -> Any:
+        rows[:] = fresh
+        simulate(loop, law, world, *given)
+        return kept  # the view holds addresses only: this keeps what they point to
 
     call()
     return Benchmark(ENGINE, one, engine, int(rows[:, TICKS].sum()), call)

@@ -9,13 +9,14 @@ import numpy as np
 
 import tasks
 from bench.contenders import combinations
-from bench.engines import run_arm
-from bench.engines.arm_episode import blank_arm, controls, joints, states
+from bench.engines import simulate_arms
+from bench.engines.arm_episode import blank_arm
 from bench.engines.binding import memory_of
 from bench.engines.curve import blank_curves
 from bench.engines.episode import TICKS, numbers, start_rows
 from bench.engines.episode import Settings as EngineSettings
 from bench.engines.native.libmujoco import model_of
+from bench.engines.simulate import compiled_loop, simulate
 from bench.experiments.experiment import Settings
 from bench.experiments.suites import suite
 from bench.law.contender import PAPERS_GAINS, Contender
@@ -88,27 +89,16 @@ def native(
 def _native(arm: str, one: Contender, start: Start, horizon_s: float, fewest: int) -> Benchmark:
     metrics = metrics_of(on_arm=True)
     settings = _settings(horizon_s)
-    ready = run_arm.simulation(TASK, arm, settings.dt_s, "euler")
+    kept, world = simulate_arms.arm_world(one, TASK, arm, [start], settings, "euler")
     fresh = blank_arm(1, metrics)
-    rows = fresh.copy()
-    loop = run_arm.compiled_loop(metrics)
-    given = (
-        *run_arm.pointers(one),
-        *(ready.plant, ready.model, ready.work),
-        controls(one, ready.has_own_model, settings.torque_limit),
-        joints(tasks.arm(arm)),
-        memory_of(one),
-        states([start], tasks.arm(arm).joints),
-        start_rows([start]),
-        numbers(settings),
-        rows,
-        blank_curves(1),
-    )
+    rows, laws = fresh.copy(), simulate_arms.pointers(one)
+    loop = compiled_loop("arm", tuple(metrics))
+    given = memory_of(one), start_rows([start]), numbers(settings), rows, blank_curves(1)
 
     def call() -> object:
         rows[:] = fresh
-        loop(*given)
-        return ready  # the views hold addresses only: this keeps what they point to
+        simulate(loop, laws, world, *given)
+        return kept  # the world holds addresses: this keeps what they point to
 
     call()
     ticks = int(rows[0, TICKS])

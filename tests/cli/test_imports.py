@@ -11,7 +11,7 @@ SLOW = {"dm_control.mujoco", "matplotlib", "mujoco", "numba", "pandas", "pyarrow
 COMMAND = "from bench.cli import main; code = main({words})"
 LAW = """
 from bench.contenders.registry import find_contender
-from bench.engines.run import evaluation
+from bench.engines.simulate import evaluation
 evaluation(find_contender("rotation-matrix"))
 code = 0
 """

@@ -14,7 +14,7 @@ from support.states import of_scipy, vector
 import tasks
 from bench.contenders.registry import find_contender
 from bench.engines.episode import OUTCOME, SETTLING_TICK
-from bench.engines.run import run
+from bench.engines.simulate import run
 from bench.errors import Incompatible
 from bench.experiments.choice import Choice
 from bench.experiments.plan import make

@@ -12,7 +12,7 @@ import tasks
 from bench.contenders.registry import find_contender
 from bench.contenders.regulators.late_braking import EASED, law
 from bench.engines.episode import OUTCOME, SETTLING_TICK
-from bench.engines.run_disturbed import run
+from bench.engines.simulate_perturbed import run_disturbed as run
 from bench.law.contender import AT_REST, Gains, Goal
 from bench.metrics.registry import metrics_of
 from tasks.condition import Condition

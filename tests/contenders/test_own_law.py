@@ -12,7 +12,7 @@ from support.user_law import spring_text
 from bench.contenders.law_file import load_law
 from bench.contenders.registry import contenders_of
 from bench.engines.episode import FAILURE_TICK, OUTCOME
-from bench.engines.run import run
+from bench.engines.simulate import run
 from bench.experiments.suites import ENGINES
 from bench.metrics.registry import metrics_of
 from bench.provenance import ROOT

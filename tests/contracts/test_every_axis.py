@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import tasks
-from bench.engines import disturbed
+from bench.engines.plants import perturbed
 from tasks.axis import Field
 from tasks.base import BadValue
 from tasks.condition import Condition, condition_at, declared_fields
@@ -58,7 +58,7 @@ def test_conditions_are_of_this_world(axis):
 def test_delays_are_whole_steps_of_the_plant(axis):
     for level in axis.levels:
         met = condition_at(axis, level)
-        steps = met.delay_s / (met.period_s / disturbed.steps_of(met))
+        steps = met.delay_s / (met.period_s / perturbed.steps_of(met))
         assert steps == pytest.approx(round(steps), abs=1e-9)
 
 

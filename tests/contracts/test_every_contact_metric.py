@@ -12,7 +12,7 @@ from bench.contenders.impedances import coordinates
 from bench.contenders.representations import zyx_euler
 from bench.control.contact_controller import hybrid, impedance_controller
 from bench.engines.contact_episode import OUTCOMES, WIDTH, Ended
-from bench.engines.run_contact import run
+from bench.engines.simulate_contact import run_contact as run
 from bench.metrics.contact_metric import Pose, response
 from bench.metrics.registry import known_contact_metrics
 

@@ -14,11 +14,11 @@ from support.states import vector
 
 import tasks
 from bench.contenders.registry import find_contender
-from bench.engines import run_arm
 from bench.engines.arm_episode import ArmSample
 from bench.engines.compiled import JIT, register_kernels
 from bench.engines.episode import FINAL_ANGLE, FIRST_METRIC, OUTCOME
-from bench.engines.run import run
+from bench.engines.simulate import run
+from bench.engines.simulate_arms import run_arm
 from bench.law.so3 import Rotation
 from bench.metrics.metric import Ending
 from bench.metrics.registry import metrics_of
@@ -92,7 +92,7 @@ def rows_on_arm():
     starts = [tasks.start_set(word, arm="ur5e")[0] for word in tasks.task("arm-regulation", "ur5e").start_sets]
     words = ("rotation-matrix@geometric+solve", "feedback-linearized/zyx-euler@geometric+transpose")
     given = ("arm-regulation", "ur5e", starts, settings(dt_s=1e-2, horizon_s=1.0), ON_ARM)
-    return np.vstack([run_arm.run("native", named("ur5e", word), *given) for word in words])
+    return np.vstack([run_arm("native", named("ur5e", word), *given) for word in words])
 
 
 def test_finish_answers_a_number_or_nan_after_any_episode_on_an_arm(any_metric):

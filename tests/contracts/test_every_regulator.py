@@ -18,7 +18,7 @@ from bench.contenders.registry import all_contenders
 from bench.engines.binding import command_of, evaluation_of, margin_of, memory_of
 from bench.engines.compiled import EVALUATE, compile_function
 from bench.engines.episode import OUTCOME, SETTLING_TICK, TICKS
-from bench.engines.run import evaluation, run
+from bench.engines.simulate import evaluation, run
 from bench.law.contender import AT_REST, Gains, Goal
 from bench.law.so3 import IDENTITY
 from bench.metrics.registry import metrics_of

@@ -16,7 +16,7 @@ from bench.control.resolved_acceleration import BY_JOINT
 from bench.engines.arm_episode import controls
 from bench.engines.curve import ARM_NUMBERS, blank_curves
 from bench.engines.episode import OUTCOME
-from bench.engines.run_arm import run
+from bench.engines.simulate_arms import run_arm as run
 from bench.law.contender import Gains
 from bench.metrics.registry import metrics_of
 from tasks.kinematics import kinematics

@@ -11,7 +11,7 @@ from bench.control.contact_controller import FORMS, HYBRIDS, hybrid, impedance_c
 from bench.control.registry import find_controller
 from bench.control.setpoint import TOUCH
 from bench.engines.contact_episode import USUAL
-from bench.engines.run_contact import run
+from bench.engines.simulate_contact import run_contact as run
 from bench.errors import BenchError
 from bench.law.contender import Gains
 from tasks.arm import arm as arm_in

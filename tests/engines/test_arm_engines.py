@@ -18,7 +18,8 @@ from bench.contenders import combinations
 from bench.contenders.registry import known_inverses, known_jacobians, known_representations
 from bench.engines.arm_episode import POSE
 from bench.engines.episode import OUTCOME, SETTLING_TICK, TICKS
-from bench.engines.run_arm import pointers, run
+from bench.engines.simulate_arms import pointers
+from bench.engines.simulate_arms import run_arm as run
 from bench.experiments.choice import INTEGRATORS
 from bench.metrics.registry import metrics_of
 from tasks.kinematics import kinematics

@@ -15,10 +15,10 @@ from support.driving import settings
 from support.on_arms import ARMS, LAWS, named
 
 import tasks
-from bench.engines import run_arm
 from bench.engines.arm_episode import POSE
 from bench.engines.episode import FINAL_ANGLE, FIRST_METRIC, OUTCOME, SETTLING_TICK
-from bench.engines.run import run
+from bench.engines.simulate import run
+from bench.engines.simulate_arms import run_arm
 from bench.law.so3 import from_quaternion
 from bench.metrics.registry import metrics_of
 from tasks.cause import NEAR_CONDITION
@@ -88,7 +88,7 @@ def angles_on_body(arm: str, law, engine: str, dt: float, ticks: int = 0) -> np.
 def on_arm(arm: str, one, dt: float, at: float) -> np.ndarray:
     """Rows of the arm at that time, by motors without a limit: the Jaco's are too weak for some of its turns."""
     chosen = settings(dt_s=dt, horizon_s=at, torque_limit=math.inf)
-    return run_arm.run("native", one, "arm-regulation", arm, starts(arm), chosen, ON_ARM)
+    return run_arm("native", one, "arm-regulation", arm, starts(arm), chosen, ON_ARM)
 
 
 def regular(arm: str, law, one) -> np.ndarray:

@@ -15,7 +15,7 @@ import json, sys
 from bench.law.contender import Gains
 from bench.contenders.registry import find_contender
 from bench.engines.episode import FINAL_ANGLE, Settings
-from bench.engines.run import run
+from bench.engines.simulate import run
 from tasks import start_set
 settings = Settings(Gains(), 1e-3, 500, 501, 1e6, 1e4, 1e-3, 1e-2)
 said = {}

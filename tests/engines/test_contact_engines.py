@@ -11,7 +11,7 @@ import tasks
 from bench.control.registry import all_controllers, find_controller
 from bench.engines.contact_episode import FORCE, USUAL, WIDTH, P, R, Sensor, sensed
 from bench.engines.native.libmujoco import MUJOCO_INTEGRATORS
-from bench.engines.run_contact import run
+from bench.engines.simulate_contact import run_contact as run
 from bench.errors import BadNumber
 from tasks.contact_model import STANDARD
 

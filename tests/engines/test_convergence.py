@@ -14,7 +14,7 @@ from support.driving import settings
 
 import tasks
 from bench.contenders.registry import find_contender
-from bench.engines import run as engines
+from bench.engines import simulate as engines
 from bench.engines.convergence import FAILED, LEVELS, alike
 from bench.engines.episode import (
     FAILURE_TICK,

@@ -8,10 +8,10 @@ from support.driving import recorder, settings
 import tasks
 from bench.contenders import combinations
 from bench.contenders.registry import find_contender
-from bench.engines import run_arm
 from bench.engines.curve import ARM_NUMBERS, NUMBERS, blank_curves
 from bench.engines.episode import TICKS
-from bench.engines.run import run
+from bench.engines.simulate import run
+from bench.engines.simulate_arms import run_arm
 from bench.metrics.registry import metrics_of
 
 LAW, ARM = "feedback-linearized/zyx-euler", "puma560"
@@ -46,9 +46,9 @@ def test_curve_of_an_arm_is_what_dm_controls_loop_shows_a_metric_bit_for_bit():
     starts = tasks.start_set("clear", 2, arm=ARM)
     curves = blank_curves(2, 10, 5, ARM_NUMBERS)
     given = "arm-regulation", ARM, starts, settings(horizon_s=0.05)
-    run_arm.run("native", one, *given, metrics_of(on_arm=True), curves=curves)
+    run_arm("native", one, *given, metrics_of(on_arm=True), curves=curves)
     kept = []
-    run_arm.run("reference", one, *given, [recorder(kept)])
+    run_arm("reference", one, *given, [recorder(kept)])
     expected = []
     for sample in kept[::5]:
         away = np.subtract(sample.p, sample.p_d)

@@ -12,11 +12,14 @@ from support.driving import settings
 import tasks
 from bench.contenders.registry import find_contender
 from bench.contenders.regulators.hybrid import DELTA
-from bench.engines import disturbed, rigid_body
+from bench.engines import rigid_body
 from bench.engines.binding import evaluation_of, memory_of, observer
 from bench.engines.episode import FINAL_ANGLE, FIRST_METRIC, OUTCOME, SETTLING_TICK, TICKS, numbers, start_rows
-from bench.engines.run import run as run_unperturbed
-from bench.engines.run_disturbed import drawn, run
+from bench.engines.plants import perturbed
+from bench.engines.simulate import run as run_unperturbed
+from bench.engines.simulate import simulate
+from bench.engines.simulate_perturbed import drawn
+from bench.engines.simulate_perturbed import run_disturbed as run
 from bench.law.so3 import Rotation
 from bench.metrics.registry import metrics_of
 from tasks.base import Start
@@ -56,13 +59,12 @@ EVERYTHING = Condition(
 def test_compiled_and_plain_loops_agree_bit_for_bit(word):
     one, horizon_s = find_contender(word), 0.1
     starts = [*tasks.start_set("tumbling", 3), *tasks.start_set("half-turn")[:2]]
-    rows = disturbed.blank_rows(len(starts), METRICS)
-    given = disturbed.in_steps(numbers(settings()), EVERYTHING, RULES.hold_s, horizon_s)
+    rows = perturbed.blank_rows(len(starts), METRICS)
+    given = perturbed.in_steps(numbers(settings()), EVERYTHING, RULES.hold_s, horizon_s)
     noise = drawn(len(starts), given.ticks, 0, True)
-    plain = disturbed.episodes_of(observer(METRICS))
+    plain, world = perturbed.loop_of(observer(METRICS)), perturbed.world(EVERYTHING, noise)
     with np.errstate(all="ignore"):
-        times = disturbed.timing(EVERYTHING)
-        plain(evaluation_of(one), memory_of(one), start_rows(starts), noise, given, times, EVERYTHING, rows)
+        simulate(plain, (evaluation_of(one),), world, memory_of(one), start_rows(starts), given, rows)
     assert same_bits(ended(word, starts, EVERYTHING, horizon_s), rows)
 
 
@@ -71,7 +73,7 @@ def one_axis(angle0, condition, ticks):
 
     Between commands theta and its rate are known in closed form; steps of a millisecond or less.
     """
-    steps = disturbed.steps_of(condition)
+    steps = perturbed.steps_of(condition)
     h = condition.period_s / steps
     late = round(condition.delay_s / h)
     theta, rate, settled, sent = angle0, 0.0, 0, []
@@ -130,10 +132,10 @@ def test_small_noise_adds_up_as_it_does_in_the_linear_loop():
         theta, rate = theta + h * rate + 0.5 * h * h * u, rate + h * u
         squares.append(theta @ theta)
     assert rows[0, FINAL_ANGLE] == pytest.approx(math.sqrt(squares[-1]), rel=1e-4)
-    tail = rows[0, -disturbed.EXTRA :]
-    assert tail[disturbed.TAIL_COUNT] == 1000
-    assert tail[disturbed.TAIL_SQUARES] == pytest.approx(sum(squares[1000:]), rel=1e-4)
-    assert tail[disturbed.TAIL_WORST] ** 2 == pytest.approx(max(squares[1000:]), rel=1e-4)
+    tail = rows[0, -perturbed.EXTRA :]
+    assert tail[perturbed.TAIL_COUNT] == 1000
+    assert tail[perturbed.TAIL_SQUARES] == pytest.approx(sum(squares[1000:]), rel=1e-4)
+    assert tail[perturbed.TAIL_WORST] ** 2 == pytest.approx(max(squares[1000:]), rel=1e-4)
 
 
 def test_starts_in_blocks_of_noise_give_the_same_rows():
@@ -219,9 +221,9 @@ def test_untold_it_lags_and_told_the_rate_alone_it_lags_less():
     tails = []
     for told in (NO_FEEDFORWARD, RATE):
         extra = ended("rotation-vector", start, Condition(reference_amplitude=0.5, feedforward=told), horizon_s=4.0)[
-            0, -disturbed.EXTRA :
+            0, -perturbed.EXTRA :
         ]
-        tails.append(math.sqrt(extra[disturbed.TAIL_SQUARES] / extra[disturbed.TAIL_COUNT]))
+        tails.append(math.sqrt(extra[perturbed.TAIL_SQUARES] / extra[perturbed.TAIL_COUNT]))
     times = np.linspace(3.0, 4.0, 1000)
     rates, accelerations = (np.array([reference_rates(t, 0.5)[i] for t in times]) for i in (0, 1))
     assert tails[0] == pytest.approx(KV / KP * np.sqrt((rates**2).sum(1).mean()), rel=0.15)

@@ -9,8 +9,8 @@ from support.driving import settings, spread
 from support.on_arms import named
 
 from bench.contenders.registry import find_contender
-from bench.engines import run as engines
-from bench.engines import run_arm
+from bench.engines import simulate as engines
+from bench.engines import simulate_arms
 from bench.engines.compiled import made_once
 from bench.metrics.registry import metrics_of
 
@@ -18,7 +18,7 @@ METRICS = metrics_of(on_arm=False)
 ENGINES = ("ideal-rk4", "ideal-held", "native")
 
 
-PARTS = [lambda one, part=part: getattr(run_arm.pointers(one), part) for part in run_arm.Pointers._fields]
+PARTS = [lambda one, part=part: simulate_arms.pointers(one)[part] for part in range(3)]
 """Of a controller of an arm."""
 
 
@@ -42,7 +42,7 @@ def test_threads_that_need_the_same_wait_for_the_first_to_make_it():
     [
         (engines.compiled_loop, ("ideal-held", ())),
         (engines.evaluation, (find_contender("rotation-matrix"),)),
-        (run_arm.compiled_loop, (metrics_of(on_arm=True),)),
+        (engines.compiled_loop, ("arm", metrics_of(on_arm=True))),
         *((part, (named("ur5e", "rotation-matrix@geometric+standard"),)) for part in PARTS),
     ],
 )

@@ -17,7 +17,7 @@ from bench.contenders.registry import find_contender
 from bench.engines import ideal
 from bench.engines.curve import NUMBERS, blank_curves
 from bench.engines.episode import FIRST_METRIC, OUTCOME, SETTLING_TICK
-from bench.engines.run import run
+from bench.engines.simulate import run
 from bench.metrics.registry import metrics_of
 from tasks.base import Start
 from tasks.rotations import short_of_180_degrees, zyx

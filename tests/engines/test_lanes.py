@@ -14,7 +14,7 @@ from support.driving import compile_into_cache, settings, spread
 
 from bench.contenders.registry import all_contenders, find_contender
 from bench.engines import lanes
-from bench.engines import run as engines
+from bench.engines import simulate as engines
 from bench.engines.binding import evaluation_of, observer
 from bench.engines.curve import blank_curves
 from bench.engines.episode import FIRST_METRIC, OUTCOME, TICKS, start_rows

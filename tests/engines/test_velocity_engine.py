@@ -10,8 +10,8 @@ from scipy.spatial.transform import Rotation
 import tasks
 from bench.contenders.registry import find_contender
 from bench.engines.episode import FINAL_ANGLE, OUTCOME, SETTLING_TICK, TICKS, Settings
-from bench.engines.run_velocity import run
-from bench.engines.velocity import BENT, OFF, PATH, PEAK, RATE
+from bench.engines.plants.velocity import BENT, OFF, PATH, PEAK, RATE
+from bench.engines.simulate_arms import run_velocity as run
 from bench.experiments.limiters import GREATEST_RATE, clamp_axes, clamp_norm, drop_small_errors, pass_all
 from bench.law.contender import Gains
 from tasks.base import Start

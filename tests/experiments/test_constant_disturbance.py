@@ -11,9 +11,11 @@ from support.driving import settings
 
 import tasks
 from bench.contenders.registry import find_contender, known_compensators
-from bench.engines.compensated import LEFT, Asked, loop, run, without_state
+from bench.engines.compensated import LEFT, Asked, run, without_state
+from bench.engines.compensated import rows_of as rows_by
 from bench.engines.episode import FINAL_ANGLE
-from bench.engines.run import run as run_law
+from bench.engines.plants.quaternion import with_state
+from bench.engines.simulate import run as run_law
 from bench.experiments.compensators import BAND_RAD, DISTURBANCES, law_of
 from bench.experiments.experiment import Settings, Unit, rows_of
 from bench.law.contender import Gains
@@ -31,9 +33,7 @@ def asked(ticks, disturbance=PUSHED, dt=1e-3):
 @pytest.mark.parametrize("name", NAMES)
 def test_compiled_rows_are_the_plain_loops_bit_for_bit(name):
     one, starts, given = law_of(name), tasks.start_set("uniform", 3), asked(200)
-    begun = np.array([(*start.quat_wxyz, *start.omega, *start.goal_wxyz) for start in starts])
-    plain = np.empty((len(starts), 3))
-    loop(one.law, one.begin, begun, given, Gains(np.float64(70.0), np.float64(13.0)), plain)
+    plain = rows_by(with_state(), (one.law, one.begin), starts, Gains(np.float64(70.0), np.float64(13.0)), given)
     np.testing.assert_array_equal(run(one, starts, Gains(70.0, 13.0), given), plain)
 
 

@@ -10,7 +10,7 @@ import tasks
 from bench.control.registry import find_controller
 from bench.control.setpoint import TOUCH
 from bench.engines.contact_episode import OUTCOMES, WIDTH, Conditions, Ended
-from bench.engines.run_contact import run
+from bench.engines.simulate_contact import run_contact as run
 from bench.experiments.contact import poses_of
 from bench.experiments.contact.poses import WORST_LAST, frame
 from bench.metrics.contact_metric import Pose, response

@@ -9,7 +9,7 @@ from support.driving import settings
 import tasks
 from bench.contenders.registry import all_contenders, find_contender
 from bench.engines.episode import FIRST_METRIC
-from bench.engines.run import run
+from bench.engines.simulate import run
 from bench.experiments.equal_peak import gains_at, greatest_command
 from bench.metrics.registry import metrics_of
 

@@ -10,7 +10,7 @@ from bench.contenders import combinations
 from bench.contenders.law_file import load_law
 from bench.contenders.registry import find_contender
 from bench.engines.curve import NUMBERS, blank_curves
-from bench.engines.run import run
+from bench.engines.simulate import run
 from bench.experiments import plan, traces
 from bench.experiments.episode_rows import judged_columns
 from bench.experiments.experiment import Settings

@@ -16,7 +16,7 @@ from bench.contenders.impedances import coordinates, coordinates_relative
 from bench.contenders.registry import known_impedances
 from bench.control.contact_controller import PAPERS_FORM, hybrid, impedance_controller
 from bench.control.setpoint import TOUCH
-from bench.engines.run_contact import run
+from bench.engines.simulate_contact import run_contact as run
 from bench.findings.theory import compliance_theory as theory
 from bench.law.so3 import IDENTITY, from_quaternion
 from bench.metrics.contact.held_axes import leakage

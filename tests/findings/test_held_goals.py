@@ -9,7 +9,7 @@ from support.driving import settings
 
 from bench.contenders.registry import find_contender
 from bench.engines.episode import OUTCOME
-from bench.engines.run import run
+from bench.engines.simulate import run
 from bench.findings.theory.held_goals import held_share, held_to, least_cosine
 from bench.law.contender import Gains
 from tasks.base import Start

@@ -11,7 +11,7 @@ from support.on_arms import named
 
 import tasks
 from bench.engines.episode import FINAL_ANGLE, FIRST_METRIC, OUTCOME
-from bench.engines.run_arm import run
+from bench.engines.simulate_arms import run_arm as run
 from bench.metrics.metric import Ending
 from bench.metrics.registry import metrics_of
 from tasks.kinematics import kinematics

@@ -11,7 +11,7 @@ from support.in_contact import ARMS
 
 import tasks
 from bench.control.registry import find_controller
-from bench.engines.run_contact import run
+from bench.engines.simulate_contact import run_contact as run
 from bench.findings.theory.compliance_theory import free
 from bench.metrics.contact import port, rest, wrench
 from bench.metrics.contact_force import WINDOW_S, rms

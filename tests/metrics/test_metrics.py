@@ -11,7 +11,7 @@ from support.driving import recorder, settings
 import tasks
 from bench.contenders.registry import find_contender
 from bench.engines.episode import FINAL_ANGLE, FIRST_METRIC, OUTCOME
-from bench.engines.run import run
+from bench.engines.simulate import run
 from bench.metrics.metric import Ending
 from bench.metrics.registry import metrics_of
 from tasks.base import Start, angle

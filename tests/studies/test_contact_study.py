@@ -6,7 +6,7 @@ import pytest
 
 import tasks
 from bench.control.setpoint import TOUCH
-from bench.engines.run_contact import run
+from bench.engines.simulate_contact import run_contact as run
 from bench.experiments.impedance import STIFFNESSES
 from bench.files import read_json
 from bench.metrics.contact.scene import alignment_error

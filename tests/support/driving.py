@@ -3,7 +3,7 @@
 import tasks
 from bench.contenders.registry import find_contender
 from bench.engines.episode import Settings
-from bench.engines.run import WORTH_LANES, prepare
+from bench.engines.simulate import WORTH_LANES, prepare
 from bench.law.contender import Gains
 from bench.metrics.metric import Metric
 from bench.metrics.registry import metrics_of

@@ -9,7 +9,7 @@ import pytest
 
 from bench.contenders.registry import all_contenders
 from bench.engines.compiled import EVALUATE, GAINS, MATRIX, compile_function, types
-from bench.engines.run import evaluation
+from bench.engines.simulate import evaluation
 from bench.export.language import find_language
 from bench.export.subject import Subject, find_subject, subject_words
 from bench.law.contender import AT_REST, PAPERS_GAINS, Contender, Gains, Goal

@@ -5,10 +5,10 @@ from typing import NamedTuple
 import numpy as np
 
 from bench.contenders.registry import find_contender
-from bench.engines import run_disturbed
 from bench.engines.curve import blank_curves
 from bench.engines.episode import FINAL_ANGLE, OUTCOME, SETTLING_TICK, TICKS, start_rows
-from bench.engines.run import run
+from bench.engines.simulate import run
+from bench.engines.simulate_perturbed import run_disturbed
 from bench.export.subject import find_subject, translated
 from support.driving import settings
 from tasks.condition import Condition
@@ -64,7 +64,7 @@ def by_the_sampled_plant(word: str, starts) -> Wanted:
 
 def by_the_perturbed_plant(word: str, starts, condition: Condition) -> Wanted:
     """Of the loop under perturbations."""
-    rows = run_disturbed.run(find_contender(word), starts, condition, settings(horizon_s=HORIZON_S), ())
+    rows = run_disturbed(find_contender(word), starts, condition, settings(horizon_s=HORIZON_S), ())
     return Wanted(_judged(rows), None, _is_algebraic(word))
 
 

@@ -58,12 +58,13 @@ AXIS = Axis(
 '''
 ASKED_OF_AXIS = """
 import tasks
-from bench.engines.disturbed import CONDITION
+from bench.engines.typed import type_of
 from bench.findings.perturbed import lasting, ways
 from report.figures.robustness.robustness import AXES
 from tasks.condition import Condition, condition_at
 
-print(dict(zip(CONDITION.fields, map(str, CONDITION.types)))["planted_bias"])
+compiled = type_of(Condition)
+print(dict(zip(compiled.fields, map(str, compiled.types)))["planted_bias"])
 print(condition_at(tasks.axis("planted-bias"), 0.1).planted_bias)
 print("planted-bias" in lasting(), [way.name for way in ways() if way.axis == "planted-bias"], "planted-bias" in AXES)
 """

@@ -8,7 +8,7 @@ from support.driving import settings
 from support.on_arms import named
 
 import tasks
-from bench.engines.run_arm import run
+from bench.engines.simulate_arms import run_arm as run
 from bench.experiments.episode_rows import frame
 from bench.experiments.experiment import Settings, Unit
 from bench.experiments.suites import NOMINAL

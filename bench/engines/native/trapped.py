@@ -18,6 +18,8 @@ from bench.engines.native.libmujoco import library, mj_forward, mj_step, mj_step
 
 BEGIN, STEP, RUNGE_KUTTA = 0, 1, 2
 
+_of_thread = threading.local()
+
 _mjb_apply = types.ExternalFunction(
     "mjb_apply", types.int32(types.intp, types.intp, types.int32, types.intp, types.intp, types.int32)
 )
@@ -42,10 +44,23 @@ _callback = compile_callback(_advance, types.void(types.intp, types.intp, int32,
 CALLBACK = _callback.address
 
 
-@numba.extending.register_jitable
-def step(batch, callback, argument):
-    """Number of errors, 0 or 1, of one step; `argument` is the address of three integers for `_advance`."""
-    return _mjb_apply(batch, 0, 1, callback, argument, 0)
+def advance_trapped(body):
+    """Return the number of errors, 0 or 1, of one step; body.asked holds three integers for `_advance`.
+
+    Plain, dm_control's environment steps, which has been reset.
+    """
+    if body.asked[2] != BEGIN:
+        try:
+            body.sim.data.step(body.sim.ctrl.copy())
+        except mujoco.FatalError as error:
+            _of_thread.said = str(error)
+            return 1
+    return 0
+
+
+@numba.extending.overload(advance_trapped, jit_options={"forceinline": True})
+def _advance_trapped(body):
+    return lambda body: _mjb_apply(body.batch, 0, 1, body.callback, body.asked.ctypes.data, 0)
 
 
 class _Config(ctypes.Structure):
@@ -77,11 +92,13 @@ class Batch:
         return library.mjb_error(self._made, 0).decode()
 
 
-_of_thread = threading.local()
-
-
 def batch() -> Batch:
     """The batch of this thread."""
     if not hasattr(_of_thread, "batch"):
         _of_thread.batch = Batch()
     return _of_thread.batch
+
+
+def said() -> str:
+    """What MuJoCo said in the last step of this thread that failed and was plain."""
+    return getattr(_of_thread, "said", "")

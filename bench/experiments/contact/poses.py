@@ -82,10 +82,10 @@ def frame(
     conditions: Conditions,
     simulate: Callable[..., Iterator[Ended]] | None = None,
 ) -> pd.DataFrame:
-    """Return one row a pose; a pose is the trials that share it. `simulate` is `run_contact.run` unless it is given."""
+    """Return one row a pose; a pose is the trials that share it. `simulate` is `run_contact` unless it is given."""
     import pandas as pd
 
-    from bench.engines.run_contact import run
+    from bench.engines.simulate_contact import run_contact as run
 
     episodes = (simulate or run)(
         "native", controller, task, arm, (trial for pose in poses for trial in pose), conditions

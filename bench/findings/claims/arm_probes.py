@@ -64,7 +64,7 @@ def beside_poles(word: str, arm: str, poses: pd.DataFrame, gains: Gains) -> pd.D
     Errors:
         NoEvidence: the table has no such pose of the arm, or none of its family at 10^-1.
     """
-    from bench.engines.run_arm import run
+    from bench.engines.simulate_arms import run_arm as run
     from bench.experiments.episode_rows import frame
     from bench.experiments.experiment import Settings, Unit
     from bench.experiments.suites import NOMINAL, ON_ARM

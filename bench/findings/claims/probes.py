@@ -92,7 +92,7 @@ def episodes(contender: str, starts: list[Start], gains: Gains, dt_s: float, hor
     import pandas as pd
 
     from bench.engines.episode import FIRST_METRIC, NEVER, OUTCOME, SETTLING_TICK
-    from bench.engines.run import run as run_engine  # imports the compiler: listing claims must not
+    from bench.engines.simulate import run as run_engine  # imports the compiler: listing claims must not
     from bench.experiments.experiment import Settings
 
     settings = Settings(gains=gains, dt_s=dt_s).limits(horizon_s)

@@ -13,7 +13,7 @@ import numpy as np
 from scipy.linalg import solve_discrete_lyapunov
 from scipy.signal import lsim
 
-from bench.engines.disturbed import LEAD
+from bench.engines.plants.perturbed import LEAD
 from bench.findings.theory.isotropic import Equation
 from tasks.condition import NO_FEEDFORWARD, RATE
 from tasks.moving_goal import reference_rates

@@ -8,7 +8,7 @@ import numpy as np
 import tasks
 from bench.control.registry import find_controller
 from bench.engines.contact_episode import FORCE, MOMENT, USUAL
-from bench.engines.run_contact import run
+from bench.engines.simulate_contact import run_contact as run
 from bench.findings.theory import jamming
 from bench.metrics.contact.rest import remaining_speed
 from bench.metrics.contact.scene import IN, insertion_depth

@@ -9,7 +9,7 @@ import tasks
 from bench.contenders.impedances import geometric
 from bench.control.contact_controller import ContactController, impedance_controller
 from bench.control.setpoint import TOUCH
-from bench.engines.run_contact import run
+from bench.engines.simulate_contact import run_contact as run
 from bench.law import Gains, kernel
 from bench.law.contender import PAPERS_GAINS
 from bench.metrics.contact.rest import time_to_rest

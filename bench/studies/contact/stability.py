@@ -13,7 +13,7 @@ import tasks
 from bench.control.registry import find_controller
 from bench.control.setpoint import TOUCH
 from bench.engines.contact_episode import FORCE, USUAL, Sensor
-from bench.engines.run_contact import run
+from bench.engines.simulate_contact import run_contact as run
 from bench.findings.theory.contact_stability import Spring, acceleration, settles
 from tasks.arm_model import Arm
 from tasks.contact_model import STANDARD, ContactModel, mobilities, model_xml

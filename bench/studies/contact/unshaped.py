@@ -14,7 +14,7 @@ from bench.control.registry import find_controller
 from bench.control.unshaped import DAMPINGS, NULL_RATE
 from bench.engines.arm_episode import buffers
 from bench.engines.contact_episode import USUAL
-from bench.engines.run_contact import run
+from bench.engines.simulate_contact import run_contact as run
 from bench.experiments.impedance import STIFFNESSES, ZETA, Stiffness
 from bench.findings.theory.impedance_modes import diagonal
 from bench.metrics.contact.port import given

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import tasks
 from bench.control.registry import find_controller
 from bench.engines.contact_episode import USUAL, Conditions, Ended
-from bench.engines.run_contact import run
+from bench.engines.simulate_contact import run_contact as run
 from bench.metrics.contact_metric import Pose, response
 from bench.metrics.registry import known_contact_metrics
 from report.figures.kit.tables import Table

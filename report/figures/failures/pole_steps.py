@@ -10,7 +10,7 @@ import numpy as np
 
 from bench.contenders.registry import find_contender
 from bench.engines.episode import OUTCOME
-from bench.engines.run import by_equal_steps
+from bench.engines.simulate import by_equal_steps
 from bench.experiments.experiment import Settings
 from bench.experiments.map import start_rows
 from bench.findings.maps import lost_share

@@ -11,7 +11,7 @@ import pandas as pd
 
 from bench.contenders.registry import find_contender
 from bench.engines.episode import FINAL_ANGLE, Settings
-from bench.engines.run import run
+from bench.engines.simulate import run
 from bench.law.contender import Gains
 from bench.metrics.registry import metrics_of
 from report.figures.kit.laws import TITLES

@@ -1,14 +1,13 @@
-"""One call for the perturbed free body: a contender on starts under a condition, rows of numbers back."""
+"""Episodes of the perturbed free body: a contender on starts under a condition, rows of numbers back."""
 
 import functools
 
 import numpy as np
 
-from bench.engines import disturbed
-from bench.engines.binding import memory_of, observer
-from bench.engines.compiled import made_once
+from bench.engines.binding import memory_of
 from bench.engines.episode import Settings, numbers, start_rows
-from bench.engines.run import evaluation
+from bench.engines.plants import perturbed
+from bench.engines.simulate import compiled_loop, evaluation, simulate
 from bench.law.contender import Contender
 from tasks.condition import Condition
 from tasks.rules import RULES
@@ -18,7 +17,7 @@ NOISE_BYTES = 64e6
 The default suite's 24 are one block, so that all its laws share one draw."""
 
 
-def run(
+def run_disturbed(
     contender: Contender,
     starts,
     condition: Condition,
@@ -27,23 +26,22 @@ def run(
     seed: int = 0,
     noise_bytes: float = NOISE_BYTES,
 ) -> np.ndarray:
-    """Rows of `engines.episode`, one a start, with `disturbed.EXTRA` columns more.
+    """Rows of `engines.episode`, one a start, with `perturbed.EXTRA` columns more.
 
     Args:
         settings: gains and limits; dt_s is the condition's.
         seed: of the noise, which is the same for every contender.
     """
-    rows = disturbed.blank_rows(len(starts), metrics)
+    rows, begun = perturbed.blank_rows(len(starts), metrics), start_rows(starts)
     horizon_s = settings.ticks * settings.dt_s
-    given = disturbed.in_steps(numbers(settings), condition, RULES.hold_s, horizon_s)
-    periods = given.ticks // disturbed.steps_of(condition) + 1
+    limits = perturbed.in_steps(numbers(settings), condition, RULES.hold_s, horizon_s)
+    periods = limits.ticks // perturbed.steps_of(condition) + 1
     block = max(1, int(noise_bytes // (8 * 6 * periods))) if condition.is_noisy else len(starts)
-    law = evaluation(contender), memory_of(contender)
-    loop, timing, begun = compiled_loop(tuple(metrics)), disturbed.timing(condition), start_rows(starts)
+    law, memory, loop = (evaluation(contender),), memory_of(contender), compiled_loop("perturbed", tuple(metrics))
     for first in range(0, len(starts), block):
         some = slice(first, first + block)
         noise = drawn(len(begun[some]), periods, seed, condition.is_noisy, first)
-        loop(*law, begun[some], noise, given, timing, condition, rows[some])
+        simulate(loop, law, perturbed.world(condition, noise), memory, begun[some], limits, rows[some])
     return rows
 
 
@@ -53,9 +51,7 @@ def drawn(count: int, periods: int, seed: int, is_noisy: bool, first: int = 0) -
     Args:
         first: the number of the first start.
     """
-    if not is_noisy:
-        return np.zeros((1, 1, 6))
-    return _normal(first, count, periods, seed)
+    return _normal(first, count, periods, seed) if is_noisy else np.zeros((1, 1, 6))
 
 
 @functools.lru_cache(maxsize=1)
@@ -64,9 +60,3 @@ def _normal(first: int, count: int, periods: int, seed: int) -> np.ndarray:
     for k in range(count):
         np.random.default_rng((seed, first + k)).standard_normal(out=noise[k])
     return noise
-
-
-@made_once
-def compiled_loop(metrics: tuple):
-    """The loop of the perturbed body, for all laws, compiled or taken from the disk cache."""
-    return disturbed.compiled(observer(metrics))

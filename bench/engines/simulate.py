@@ -1,25 +1,82 @@
-"""One call for every engine: a contender on starts of a task, rows of numbers back."""
+"""Episodes of the bodies that turn freely: a contender on starts of a task in any engine, rows of numbers back.
+
+`simulate` runs any loop of `LOOPS`; what a plant needs besides is made here, and for arms in `simulate_arms`.
+"""
+
+import importlib
 
 import numpy as np
 
-from bench.engines import ideal_episode, lanes
+from bench.engines import lanes
 from bench.engines.binding import evaluation_of, memory_of, observer, plant_of
-from bench.engines.compiled import EVALUATE, compile_function, made_once, own_law
+from bench.engines.compiled import (
+    ASSEMBLE,
+    BEGIN_STATE,
+    DESIGN,
+    EVALUATE,
+    LIMIT,
+    MARGIN,
+    RESOLVE,
+    STATEFUL,
+    TOUCH,
+    compile_function,
+    compile_loop,
+    made_once,
+    own_law,
+)
 from bench.engines.convergence import Level, at_level, converged
 from bench.engines.curve import Curves, blank_curves
-from bench.engines.episode import Settings, blank, numbers, start_rows
-from bench.engines.ideal_episode import REFINED
+from bench.engines.episode import Numbers, Settings, blank, numbers, start_rows
+from bench.engines.plants import ideal
+from bench.engines.plants.ideal import REFINED
 from bench.law.contender import Contender
 
 CONTINUOUS = "ideal-rk4"
 """The paper's continuous plant."""
 
-NOTHING_IS_GOOD_ENOUGH = -1.0
+FORCE_SHORTEST_STEP = -1.0
 """A squared tolerance that no step keeps."""
 
 WORTH_LANES = 100_000
 """Episodes of a law from which on lanes save more than the 3 to 8 s that they take to compile: 50 ns of each of some
 1,000 ticks."""
+
+LOOPS = {
+    "native": ("free_body", "loop_of", (EVALUATE,), "World"),
+    "perturbed": ("perturbed", "loop_of", (EVALUATE,), "World"),
+    "stream": ("quaternion", "streamed", (EVALUATE,), "Stream"),
+    "state": ("quaternion", "with_state", (STATEFUL, BEGIN_STATE), "Disturbance"),
+    "velocity": ("velocity", "of_body", (EVALUATE, LIMIT), "World"),
+    "velocity-arm": ("velocity", "of_arm", (EVALUATE, LIMIT, RESOLVE), "ArmWorld"),
+    "arm": ("arm", "loop_of", (ASSEMBLE, RESOLVE, MARGIN), "World"),
+    "impedance": ("impedance", "of_arm", (EVALUATE, DESIGN), "World"),
+    "contact": ("contact", "loop", (TOUCH,), "World"),
+}
+"""Beside the ideal ones: the file in `plants`, what makes the loop (`loop_of` of the metrics), the signatures of the
+functions that it calls, and its world."""
+
+
+@made_once
+def compiled_loop(kind: str, metrics: tuple = ()):
+    """Return a loop, for all laws, compiled or taken from the disk cache."""
+    if kind in ideal.STEPS:
+        return compile_loop(ideal.loop_of(kind, observer(metrics)), (EVALUATE,))
+    file, make, laws, world = LOOPS[kind]
+    plant = importlib.import_module(f"bench.engines.plants.{file}")  # MuJoCo takes a moment; the ideal plants need none
+    made = getattr(plant, make)(*[observer(metrics)] * (make == "loop_of"))
+    return compile_loop(made, laws, getattr(plant, world))
+
+
+def simulate(loop, laws: tuple, world, memory: tuple, begun, limits: Numbers, rows, curves: Curves | None = None):
+    """Run a loop: fill a row, and a curve if there is room, for each start.
+
+    Args:
+        loop: of `compiled_loop`, or plain. laws: the functions that it calls. world: what its plant and controller work
+            in. begun: of `episode.start_rows`.
+    """
+    functions = (*laws, *[None] * (3 - len(laws)))
+    loop(*functions, world, memory, begun, limits, rows, curves or blank_curves(len(begun)))
+    return rows
 
 
 def run(
@@ -34,7 +91,7 @@ def run(
     total: int = 0,
     converge: bool = True,
 ) -> np.ndarray:
-    """Rows of `engines.episode`, one per start, on the free body; on an arm: `run_arm.run`.
+    """Rows of `engines.episode`, one per start, on the free body; on an arm: `simulate_arms.run_arm`.
 
     Args:
         starts: tasks.Start, in order; metrics: Metric, in the order of their columns.
@@ -42,25 +99,26 @@ def run(
         total: episodes of which these are some; converge: see `on_ideal`.
     """
     if engine == "reference":
-        from bench.engines.reference import free_body as reference
+        from bench.engines import reference
 
-        return reference.run(contender, task, starts, start_rows(starts)[:, 11], settings, metrics, integrator)
+        return reference.run(contender, task, starts, settings, metrics, integrator)
     begun = start_rows(starts)
     if engine != "native":
         return on_ideal(engine, contender, begun, settings, metrics, total, curves, converge)
-    import mujoco  # takes a moment; the ideal plant needs none
+    import mujoco
 
-    from bench.engines.native import free_body as native
     from bench.engines.native.libmujoco import model_of
+    from bench.engines.plants import free_body
+    from bench.engines.simulated import compiled_view
 
     plant = plant_of(contender, task, settings.gains)
     model = model_of(plant.xml(settings.dt_s), integrator)
     data = mujoco.MjData(model)
     states = np.array([[*qpos, *qvel] for qpos, qvel in map(plant.state, starts)], dtype=float)
-    law, rows = (evaluation(contender), memory_of(contender)), blank(len(starts), metrics)
-    given = begun, numbers(settings), rows, curves or blank_curves(len(starts))
-    compiled_loop(engine, tuple(metrics))(*law, native.view(model, data), states, *given)
-    return rows
+    world = free_body.World(compiled_view(model, data), int(contender.regulator.in_engine), states)
+    law, rows = (evaluation(contender),), blank(len(starts), metrics)
+    loop = compiled_loop(engine, tuple(metrics))
+    return simulate(loop, law, world, memory_of(contender), begun, numbers(settings), rows, curves)
 
 
 def on_ideal(
@@ -93,21 +151,33 @@ def on_ideal(
 
     def again(level: Level, which: np.ndarray) -> np.ndarray:
         rows, some = blank(len(which), metrics), Curves(curves.every, np.full_like(curves.samples[which], np.nan))
-        limits = at_level(numbers(settings), level)
-        compiled_loop(REFINED, metrics)(evaluation(contender), memory_of(contender), begun[which], limits, rows, some)
+        by_law(REFINED, contender, begun[which], at_level(numbers(settings), level), rows, metrics, some)
         curves.samples[which] = some.samples
         return rows
 
     return converged(once, again, settings)
 
 
+def by_law(
+    engine: str,
+    contender: Contender,
+    begun: np.ndarray,
+    limits: Numbers,
+    rows: np.ndarray,
+    metrics: tuple = (),
+    curves: Curves | None = None,
+    memory: tuple | None = None,
+) -> np.ndarray:
+    """Run the loop of an ideal plant, one start at a time; memory: another than the law's own."""
+    law, loop = (evaluation(contender),), compiled_loop(engine, metrics)
+    return simulate(loop, law, None, memory or memory_of(contender), begun, limits, rows, curves)
+
+
 def _once(engine, contender, begun, settings, metrics, total, curves) -> np.ndarray:
     rows = blank(len(begun), metrics)
-    if curves.samples.shape[1] == 0 and is_in_lanes(max(total, len(begun))):
-        loop_in_lanes(engine, contender, metrics)(memory_of(contender), begun, numbers(settings), rows)
-    else:
-        given = begun, numbers(settings), rows, curves
-        compiled_loop(engine, metrics)(evaluation(contender), memory_of(contender), *given)
+    if curves.samples.shape[1] or not is_in_lanes(max(total, len(begun))):
+        return by_law(engine, contender, begun, numbers(settings), rows, metrics, curves)
+    loop_in_lanes(engine, contender, metrics)(memory_of(contender), begun, numbers(settings), rows)
     return rows
 
 
@@ -118,11 +188,9 @@ def by_equal_steps(contender: Contender, begun: np.ndarray, settings: Settings, 
     """
     if divisions == 1:
         return on_ideal(CONTINUOUS, contender, begun, settings, converge=False)
-    rows, limits = blank(len(begun), ()), at_level(numbers(settings), Level(0.0, divisions))
-    limits = limits._replace(tolerance_squared=NOTHING_IS_GOOD_ENOUGH, most_steps=divisions * settings.ticks)
-    law = evaluation(contender), memory_of(contender)
-    compiled_loop(REFINED, ())(*law, begun, limits, rows, blank_curves(len(begun)))
-    return rows
+    limits = at_level(numbers(settings), Level(0.0, divisions))
+    limits = limits._replace(tolerance_squared=FORCE_SHORTEST_STEP, most_steps=divisions * settings.ticks)
+    return by_law(REFINED, contender, begun, limits, blank(len(begun), ()))
 
 
 def is_in_lanes(total: int) -> bool:
@@ -149,17 +217,6 @@ def loop_in_lanes(engine: str, contender: Contender, metrics: tuple):
     """The loop of an ideal plant with a law compiled into it; see `evaluation`."""
     with own_law(contender.regulator.origin) as cache:
         return lanes.episodes_of(engine, evaluation_of(contender), observer(metrics), len(metrics), cache)
-
-
-@made_once
-def compiled_loop(engine: str, metrics: tuple):
-    """The loop of an engine, for all laws, compiled or taken from the disk cache."""
-    observe = observer(metrics)
-    if engine == "native":
-        from bench.engines.native import free_body as native
-
-        return native.episodes_of(observe)
-    return ideal_episode.episodes_of(engine, observe)
 
 
 @made_once

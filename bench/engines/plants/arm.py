@@ -1,0 +1,164 @@
+"""An arm in MuJoCo, kinematics and dynamics by MuJoCo, the controller by us.
+
+The loop is compiled once, for all arms and contenders. The controller's model is the plant itself, or another model of
+the same arm that is put into the plant's state at every tick (a study of model errors).
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from bench.control.resolved_acceleration import BY_JOINT, Buffers, control
+from bench.engines.arm_episode import (
+    MOST,
+    PROBE_TICKS,
+    STANDING,
+    ArmSample,
+    Controls,
+    Joints,
+    buffers,
+    face_joints,
+    load,
+    probe,
+    seven,
+    squared,
+)
+from bench.engines.arrays import Matrix, Vector
+from bench.engines.curve import keep_on_arm
+from bench.engines.loop import Act, Controller, Plant, Record, Sensed, begin, episodes_of
+from bench.engines.simulated import Simulated, compute, fill_inertia, place, step
+from bench.law.contender import AT_REST, Goal
+from bench.law.resolved_motion import Chain
+from bench.law.scalar import kernel
+from bench.law.so3 import Rotation, dot, from_quaternion
+from tasks.truth import angle, haversine
+from tasks.verdict import GOING, check_command
+
+
+class Work(NamedTuple):
+    """What a controller writes into: its buffers, D, fg, and a Jacobian for the judge's look."""
+
+    buffers: Buffers
+    D: Matrix
+    fg: Vector
+    G: Matrix
+
+
+class World(NamedTuple):
+    """The plant, of each start its state (`arm_episode.states`), the controller's model and what belongs to it."""
+
+    sim: Simulated
+    states: Matrix
+    model: Simulated
+    work: Work
+    controls: Controls
+    joints: Joints
+
+
+class State(NamedTuple):
+    """Where the tool shall be; the rest is MuJoCo's. path: angle of its last rotation [rad], where that is asked."""
+
+    quat_d: tuple
+    goal: Goal
+    p_d: tuple
+    path: float
+
+
+class Tool(NamedTuple):
+    """The tool's place and where it shall be [m], and the chain."""
+
+    p: tuple
+    p_d: tuple
+    chain: Chain
+
+
+def work(n: int) -> Work:
+    """Return fresh buffers for n joints."""
+    return Work(buffers(n), np.zeros((n, n)), np.zeros(n), np.zeros((MOST, MOST)))
+
+
+@kernel
+def reset(body, k, start):
+    """Place the arm at a start; the tool's place is to be kept where the start gives no other."""
+    place(body.sim, body.states, k)
+    s, states, at = body.sim.sensordata, body.states, 3 * body.sim.n
+    p_d = (s[16], s[17], s[18])
+    if states[k, at] == states[k, at]:
+        p_d = (states[k, at], states[k, at + 1], states[k, at + 2])
+    quat_d = (start[7], start[8], start[9], start[10])
+    return State(quat_d, Goal(from_quaternion(quat_d), AT_REST, AT_REST), p_d, 0.0)
+
+
+@kernel
+def sense(body, state, tick, numbers):
+    """Read the sensors."""
+    sim, s = body.sim, body.sim.sensordata
+    R, omega = Rotation((s[0], s[1], s[2]), (s[3], s[4], s[5]), (s[6], s[7], s[8])), (s[9], s[10], s[11])
+    p, speed = (s[16], s[17], s[18]), squared(sim.qvel, sim.n)
+    tool = Tool(p, state.p_d, Chain(sim.n, sim.xaxis, sim.xanchor, sim.qvel, p, R))
+    hav = haversine((s[12], s[13], s[14], s[15]), state.quat_d)
+    return Sensed(R, omega, state.goal, hav, dot(omega, omega), speed, speed, GOING, tool)
+
+
+@kernel
+def advance(laws, body, state, act, gains, memory, numbers):
+    """Apply the torques, and let MuJoCo step."""
+    for i in range(body.sim.n):
+        body.sim.ctrl[i] = body.work.buffers.tau[i]
+    step(body.sim)
+    return state, memory
+
+
+@kernel
+def measure(body, state, sensed):
+    """Measure the tool's angle to its goal."""
+    s = body.sim.sensordata
+    return angle((s[12], s[13], s[14], s[15]), state.quat_d)
+
+
+ARM = Plant(reset, sense, advance, measure)
+
+
+@kernel
+def command(laws, body, sensed, now, gains, memory, numbers):
+    """Compute the torques of a contender: laws are assemble, resolve (`resolved_acceleration`) and its margin."""
+    sim, model, controls, n, work = body.sim, body.model, body.controls, body.sim.n, body.work
+    if controls.has_own_model > 0:
+        for i in range(n):
+            model.qpos[i] = sim.qpos[i]
+            model.qvel[i] = sim.qvel[i] if controls.has_own_model != STANDING else 0.0
+        compute(model)
+    fill_inertia(model, work.D)
+    for i in range(n):
+        work.fg[i] = model.qfrc_bias[i] - model.qfrc_passive[i]
+    if controls.gives_torque == BY_JOINT:
+        q_d = body.states[now.k, 2 * n : 3 * n]
+        face_joints(work.buffers.J, work.buffers.a, sim.qpos, q_d, body.joints.inertia, n)
+    u, memory = control(
+        laws.law, laws.second, controls.gives_torque, controls.rows,
+        sensed.more.chain, work.D, work.fg, sensed.goal, sensed.more.p_d, gains, memory, work.buffers,
+    )  # fmt: skip
+    total = load(seven(work.buffers.tau, n), body.joints.rated)
+    failure = check_command(total, controls.torque_limit_squared)
+    return Act(u, u, dot(u, u), laws.third(sensed.R, sensed.goal.R), failure, ()), memory
+
+
+def loop_of(observe):
+    """Return the loop of arms, for all of them and all contenders."""
+
+    @kernel
+    def see(row, curves, now, body, sensed, act, before, numbers):
+        """Show the metrics a sample, and look at the conditioning."""
+        sim, joints, work, n = body.sim, body.joints, body.work, body.sim.n
+        sample = ArmSample(
+            now.tick * numbers.dt, numbers.dt, sensed.R, sensed.haversine, now.entered, now.at_rest, sensed.omega,
+            act.u, before, act.margin, sensed.more.p, sensed.more.p_d,
+            seven(sim.qpos, n), seven(sim.qvel, n), seven(work.buffers.tau, n),
+            joints.lower, joints.upper, joints.rated,
+        )  # fmt: skip
+        observe(row, sample)
+        keep_on_arm(curves, now.k, now.tick, sample)
+        if now.tick % PROBE_TICKS == 0 or act.failure != GOING:
+            probe(row, sensed.more.chain, sim.qpos, work.G, work.buffers.scratch)
+
+    return episodes_of(ARM, Controller(begin, command), Record(see))

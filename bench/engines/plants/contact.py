@@ -1,0 +1,188 @@
+"""A task in contact in MuJoCo, a whole episode compiled; MuJoCo's errors end the episode and nothing else.
+
+The loop is compiled once, for all arms, tasks and controllers: a controller comes as a function that is called by
+pointer. The order of a tick is dm_control's, as on the arm. An episode ends when the hand is at rest
+(`tasks.contact_rest`), and has a record in place of metrics.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from bench.control.hybrid import comply
+from bench.control.setpoint import ContactBuffers, ContactParameters, Rows
+from bench.engines import contact_episode
+from bench.engines.arm_episode import MOST
+from bench.engines.arrays import Integers, Matrix, Vector
+from bench.engines.contact_episode import BROKEN, RESTED, Numbers, overload, sensed, setpoint, wrench, write_record
+from bench.engines.episode import Numbers as Limits
+from bench.engines.loop import NO_ACT, Act, Controller, Plant, Record, Sensed, episodes_of
+from bench.engines.native.trapped import BEGIN, RUNGE_KUTTA, STEP, advance_trapped
+from bench.engines.simulated import Simulated, fill_inertia
+from bench.law.contender import AT_REST, Gains, Goal
+from bench.law.resolved_motion import Chain
+from bench.law.scalar import kernel, sqrt
+from bench.law.so3 import Rotation, from_quaternion
+from tasks.contact import MOST_LEGS, leg
+from tasks.contact_rest import has_left
+from tasks.verdict import GOING, check_command
+
+
+class Work(NamedTuple):
+    """Buffers of a controller and of an episode: D (nv x nv), the trial's pushes, the sensor's noise, ticks x 6."""
+
+    rows: Rows
+    room: ContactBuffers
+    J: Matrix
+    D: Matrix
+    fg: Vector
+    tau: Vector
+    legs: Matrix
+    noise: Matrix
+
+
+class World(NamedTuple):
+    """A scene: the simulation with the arm's n joints first, and all that an episode needs.
+
+    push: the wrench applied to the hand. gap, turned: places among the sensor values, -1 if there is none. batch,
+    callback, asked: what steps MuJoCo, see `trapped`. record: to be filled.
+    """
+
+    sim: Simulated
+    n: int
+    push: Vector
+    gap: int
+    turned: int
+    batch: int
+    callback: int
+    asked: Integers
+    work: Work
+    shape: Numbers
+    touch: ContactParameters
+    record: Matrix
+
+
+def work(n: int, nv: int, noise: np.ndarray) -> Work:
+    """Return fresh buffers for an arm of n joints in a scene of nv degrees of freedom."""
+    D, legs = np.zeros((nv, nv)), np.zeros((MOST_LEGS, 6))
+    room = contact_episode.rows(), contact_episode.room()
+    return Work(*room, np.zeros((6, MOST)), D, np.zeros(n), np.zeros(n), legs, noise)
+
+
+class State(NamedTuple):
+    """What is wanted at first; the tick, and why MuJoCo ends the episode, or GOING."""
+
+    R_d: Rotation
+    p_0: tuple
+    tick: int
+    fate: int
+
+
+class Hand(NamedTuple):
+    """The hand's place [m], force [N], moment [N m] and chain, and its place at first."""
+
+    p: tuple
+    f: tuple
+    m: tuple
+    chain: Chain
+    p_0: tuple
+
+
+class Rest(NamedTuple):
+    """Where the hand was, and at which tick, when rest was last counted."""
+
+    place: tuple
+    frame: Rotation
+    since: int
+
+
+@kernel
+def reset(body, k, start):
+    """Let MuJoCo compute what follows from the state that Python has put the scene into."""
+    body.asked[2] = BEGIN
+    fate = BROKEN if advance_trapped(body) > 0 else GOING
+    body.asked[2] = RUNGE_KUTTA if body.sim.is_runge_kutta else STEP
+    s, R_d = body.sim.sensordata, from_quaternion(body.shape.quat_d)
+    return State(R_d, (s[16], s[17], s[18]), 0, fate)
+
+
+@kernel
+def sense(body, state, tick, numbers):
+    """Read the sensors; no angle counts."""
+    sim, s, speed = body.sim, body.sim.sensordata, 0.0
+    R, omega = Rotation((s[0], s[1], s[2]), (s[3], s[4], s[5]), (s[6], s[7], s[8])), (s[9], s[10], s[11])
+    p, (f, m) = (s[16], s[17], s[18]), wrench(R, s)
+    for i in range(sim.n):
+        speed = speed + sim.qvel[i] * sim.qvel[i]
+    hand = Hand(p, f, m, Chain(body.n, sim.xaxis, sim.xanchor, sim.qvel, p, R), state.p_0)
+    return Sensed(R, omega, Goal(state.R_d, AT_REST, AT_REST), 1.0, 0.0, speed, 0.0, state.fate, hand)
+
+
+@kernel
+def begin(laws, memory0, sensed_now):
+    """Begin to count rest."""
+    return Rest(sensed_now.more.p, sensed_now.goal.R, 0), NO_ACT
+
+
+@kernel
+def command(laws, body, sensed_now, now, gains, memory, numbers):
+    """Compute the torques of a controller, whose rows are the law; the act's square is the largest over its rated."""
+    sim, shape, work, hand, n = body.sim, body.shape, body.work, sensed_now.more, body.n
+    f, m = sensed(hand.f, hand.m, body.record, now.tick, shape.delay, work.noise)
+    wanted = setpoint(sensed_now.goal.R, hand.p_0, shape, now.tick * numbers.dt)
+    fill_inertia(sim, work.D)
+    for i in range(n):
+        work.fg[i] = sim.qfrc_bias[i] - sim.qfrc_passive[i]
+    laws.law(hand.chain, wanted, f, m, gains, body.touch, work.J, work.rows)
+    comply(
+        shape.form, shape.held, hand.chain, work.D, work.fg, work.J, work.rows, gains, body.touch, work.room, work.tau
+    )
+    total, largest = overload(work.tau, shape.rated, n)
+    failure = check_command(total, shape.torque_limit_squared)
+    if has_left(shape.rest, now.tick, hand.p, sensed_now.R, memory.place, memory.frame):
+        memory = Rest(hand.p, sensed_now.R, now.tick)
+    elif failure == GOING and shape.rest.ticks > 0 and now.tick - memory.since >= shape.rest.ticks:
+        failure = RESTED
+    return Act(AT_REST, AT_REST, largest, math.nan, failure, ()), memory
+
+
+@kernel
+def see(row, curves, now, body, sensed_now, act, before, numbers):
+    """Write the tick's line of the record."""
+    s, hand = body.sim.sensordata, sensed_now.more
+    gap = s[body.gap] if body.gap >= 0 else 0.0
+    turned = s[body.turned] if body.turned >= 0 else 0.0
+    write_record(
+        body.record[now.tick], now.tick * numbers.dt, sensed_now.R, sensed_now.omega, hand.p, hand.f, hand.m,
+        gap, turned, sqrt(act.squared),
+    )  # fmt: skip
+
+
+@kernel
+def advance(laws, body, state, act, gains, memory, numbers):
+    """Apply the torques and the trial's push, and let MuJoCo step."""
+    for i in range(body.n):
+        body.sim.ctrl[i] = body.work.tau[i]
+    now = leg(body.shape.legs, state.tick, numbers.ticks)
+    for i in range(6):
+        body.push[i] = body.work.legs[now, i]
+    fate = BROKEN if advance_trapped(body) > 0 else GOING
+    return State(state.R_d, state.p_0, state.tick + 1, fate), memory
+
+
+@kernel
+def measure(body, state, sensed_now):
+    """Measure no angle."""
+    return 0.0
+
+
+def loop():
+    """Return the loop, for all arms, tasks and controllers."""
+    return episodes_of(Plant(reset, sense, advance, measure), Controller(begin, command), Record(see))
+
+
+def limits(shape: Numbers, gains: Gains) -> Limits:
+    """Return the loop's numbers of a trial: no angle ends it."""
+    kp, kv, ticks, speed = float(gains.kp), float(gains.kv), shape.ticks, shape.speed_limit_squared
+    return Limits(kp, kv, shape.dt, ticks, ticks + 1, 1, 0.0, 0.0, speed, 0.0, 0.0)

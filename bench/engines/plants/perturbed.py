@@ -1,0 +1,240 @@
+"""The perturbed free body (tasks/condition.py): a low rate, delay, noise, saturation, model errors, moving goals.
+
+The plant is the paper's (2.6)-(2.7) or, with an inertia that is not the model's, Euler's equations; a command holds
+from tick to tick of the control, and the body is moved by steps of at most STEP_S between.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from bench.engines.arrays import Cube, Matrix
+from bench.engines.episode import FIRST_METRIC, Numbers
+from bench.engines.ideal import angle_between, haversine, plus, turned
+from bench.engines.loop import Act, Controller, Plant, Sensed, episodes_of, sampled
+from bench.engines.plants.ideal import measure
+from bench.engines.rigid_body import bounded, step
+from bench.law.contender import AT_REST, Goal
+from bench.law.scalar import kernel, sqrt
+from bench.law.so3 import Rotation, dot, from_quaternion, minus, turn_quaternion
+from bench.law.tracking import carried_along
+from tasks.condition import RATE, RATE_AND_ACCELERATION, Condition
+from tasks.moving_goal import reference_column, reference_rates
+from tasks.verdict import GOING, check_command
+
+STEP_S = 1e-3
+"""Longest step of the plant [s]."""
+
+TAIL_S = 1.0
+"""The end of an episode, over which its error is averaged [s]."""
+
+LEAD = 2.0
+"""Periods that the worst of measurements looks ahead."""
+
+TAIL_SQUARES, TAIL_COUNT, TAIL_WORST, VARIATION = range(4)
+EXTRA = 4
+"""Columns behind the metrics': sum of squared angles in the tail, how many, the largest, and the variation of u."""
+
+
+class Timing(NamedTuple):
+    """A condition's times in steps of the plant: a period of control, how late a command is, the tail."""
+
+    steps: int
+    late: int
+    tail: int
+
+
+def timing(condition: Condition) -> Timing:
+    """The condition's times."""
+    steps = steps_of(condition)
+    step_s = condition.period_s / steps
+    return Timing(steps, round(condition.delay_s / step_s), round(TAIL_S / step_s))
+
+
+def steps_of(condition: Condition) -> int:
+    """Steps of the plant in a period of control: as few as STEP_S allows."""
+    return max(1, math.ceil(condition.period_s / STEP_S - 1e-9))
+
+
+@kernel
+def reported(R, omega, R_d, noise, condition, ahead):
+    """(R, omega) as they are measured: turned and shifted by drawn numbers, and by the worst that can be at half turns.
+
+    The worst is reported with foresight: away from the goal as it will be in LEAD periods, so that what turns back the
+    body brakes it too. Without, the body swings through the half turn farther each time, and gets away.
+
+    Args:
+        noise: six numbers, of unit standard deviation. ahead: LEAD periods [s].
+    """
+    if condition.attitude_noise > 0.0:
+        s = condition.attitude_noise
+        R = turned(R, (s * noise[0], s * noise[1], s * noise[2]))
+    if condition.rate_noise > 0.0:
+        omega = plus(omega, condition.rate_noise, (noise[3], noise[4], noise[5]))
+    if condition.worst_attitude_error > 0.0 and angle_between(R, R_d) + condition.worst_attitude_error > math.pi:
+        _, v, _ = turn_quaternion(turned(R, (ahead * omega[0], ahead * omega[1], ahead * omega[2])), R_d)
+        away = -condition.worst_attitude_error / sqrt(dot(v, v))
+        R = turned(R, (away * v[0], away * v[1], away * v[2]))
+    return R, omega
+
+
+@kernel
+def goal_at(R_0, time, amplitude):
+    """(R_d, omega_d, alpha_d) at a time."""
+    if amplitude > 0.0:
+        R_d = Rotation(
+            reference_column(time, amplitude, R_0.n),
+            reference_column(time, amplitude, R_0.o),
+            reference_column(time, amplitude, R_0.a),
+        )
+        omega_d, alpha_d = reference_rates(time, amplitude)
+        return R_d, omega_d, alpha_d
+    return R_0, AT_REST, AT_REST
+
+
+@kernel
+def fed_forward(omega_d, alpha_d, feedforward):
+    """What the law is given of the goal's motion."""
+    if feedforward < RATE:
+        return AT_REST, AT_REST
+    if feedforward < RATE_AND_ACCELERATION:
+        return omega_d, AT_REST
+    return omega_d, alpha_d
+
+
+class World(NamedTuple):
+    """A condition, its times, noise (episodes x periods x six, read only if there is noise), and room for commands."""
+
+    condition: Condition
+    timing: Timing
+    noise: Cube
+    sent: Matrix
+
+
+def world(condition: Condition, noise: np.ndarray) -> World:
+    """Return the world of a condition: commands on their way are kept in a ring."""
+    times = timing(condition)
+    return World(condition, times, noise, np.zeros((times.late // times.steps + 2, 3)))
+
+
+class State(NamedTuple):
+    """The body, and the goal at first."""
+
+    R: Rotation
+    omega: tuple
+    R_0: Rotation
+
+
+class Periodic(NamedTuple):
+    """What a controller that is asked once a period remembers: number of periods, the last command, as it was given."""
+
+    law: tuple
+    periods: int
+    u: tuple
+    given: tuple
+    margin: float
+
+
+@kernel
+def reset(body, k, start):
+    """Place the body at a start."""
+    R = from_quaternion((start[0], start[1], start[2], start[3]))
+    R_0 = from_quaternion((start[7], start[8], start[9], start[10]))
+    return State(R, (start[4], start[5], start[6]), R_0)
+
+
+@kernel
+def sense(body, state, tick, numbers):
+    """Give the truth, what is measured is `reported`; the goal has moved."""
+    R, omega, R_0 = state
+    R_d, omega_d, alpha_d = goal_at(R_0, tick * numbers.dt, body.condition.reference_amplitude)
+    behind = minus(omega, omega_d)
+    turning, speed = dot(behind, behind), dot(omega, omega)
+    return Sensed(R, omega, Goal(R_d, omega_d, alpha_d), haversine(R, R_d), turning, speed, turning, GOING, ())
+
+
+@kernel
+def advance(laws, body, state, act, gains, memory, numbers):
+    """Move the body one step."""
+    R, omega = step(state.R, state.omega, act.u, body.condition.inertia, numbers.dt)
+    return State(R, omega, state.R_0), memory
+
+
+@kernel
+def begin(laws, memory0, sensed):
+    """Start with the law's own memory, and no command."""
+    return Periodic(memory0, 0, AT_REST, AT_REST, math.nan), Act(AT_REST, AT_REST, 0.0, math.nan, GOING, 0.0)
+
+
+@kernel
+def command(laws, body, sensed, now, gains, memory, numbers):
+    """Ask the law once a period, and apply what it commanded a delay ago; more: how far this command jumps."""
+    condition, timing, sent = body.condition, body.timing, body.sent
+    law, periods, u, given, margin = memory
+    steps, slots, failure, jump = timing.steps, sent.shape[0], GOING, 0.0
+    if now.tick == periods * steps:
+        before, goal = u, sensed.goal
+        is_noisy = condition.attitude_noise > 0.0 or condition.rate_noise > 0.0
+        noise = body.noise[now.k, periods] if is_noisy else body.noise[0, 0]
+        R, turning = reported(sensed.R, sensed.omega, goal.R, noise, condition, LEAD * (steps * numbers.dt))
+        rate, acceleration = fed_forward(goal.omega, goal.alpha, condition.feedforward)
+        given, law, margin = laws.law(R, minus(turning, rate), Goal(goal.R, AT_REST, AT_REST), gains, law)
+        u = given
+        if condition.reference_amplitude > 0.0:
+            u = carried_along(u, turning, rate, acceleration)
+        u = bounded(u, condition.bound)
+        failure = check_command(dot(u, u), numbers.command_limit_squared)
+        if periods > 0 and failure == GOING:
+            change = plus(u, -1.0, before)
+            jump = sqrt(dot(change, change))
+        sent[periods % slots, 0], sent[periods % slots, 1], sent[periods % slots, 2] = u
+        periods += 1
+    applied = u
+    if timing.late > 0 or steps > 1:
+        applied = AT_REST
+        if now.tick >= timing.late:
+            slot = ((now.tick - timing.late) // steps) % slots
+            applied = (sent[slot, 0], sent[slot, 1], sent[slot, 2])
+    return Act(applied, given, dot(u, u), margin, failure, jump), Periodic(law, periods, u, given, margin)
+
+
+@kernel
+def account(row, body, state, sensed, act, tick, numbers):
+    """Add up the errors of the tail."""
+    extra = row[row.shape[0] - EXTRA :]
+    if tick > numbers.ticks - body.timing.tail:
+        error = angle_between(sensed.R, sensed.goal.R)
+        extra[TAIL_SQUARES] += error * error
+        extra[TAIL_COUNT] += 1.0
+        extra[TAIL_WORST] = max(extra[TAIL_WORST], error)
+
+
+def loop_of(observe):
+    """Return the loop of the perturbed body, for all laws; numbers.dt is the plant's step, and ticks are such steps."""
+    metrics = sampled(observe)
+    show = metrics.see
+
+    @kernel
+    def see(row, curves, now, body, sensed, act, before, numbers):
+        row[row.shape[0] - EXTRA + VARIATION] += act.more
+        show(row, curves, now, body, sensed, act, before, numbers)
+
+    plant = Plant(reset, sense, advance, measure)
+    return episodes_of(plant, Controller(begin, command), metrics._replace(see=see, account=account))
+
+
+def blank_rows(count: int, metrics) -> np.ndarray:
+    """Rows to be filled: every metric at its start value."""
+    rows = np.zeros((count, FIRST_METRIC + len(metrics) + EXTRA))
+    rows[:, FIRST_METRIC : FIRST_METRIC + len(metrics)] = [metric.start for metric in metrics]
+    return rows
+
+
+def in_steps(numbers: Numbers, condition: Condition, hold_s: float, horizon_s: float) -> Numbers:
+    """The numbers with the plant's step for a tick; no episode stops early under a perturbation that lasts."""
+    step_s = condition.period_s / steps_of(condition)
+    ticks = max(1, round(horizon_s / step_s))
+    rest = max(1, round(hold_s / step_s))
+    hold = ticks + 1 if condition.lasts else rest
+    return numbers._replace(dt=step_s, ticks=ticks, hold_ticks=hold, rest_ticks=rest)

@@ -1,0 +1,183 @@
+"""Robots commanded by velocities: a body that follows at once, and an arm whose joints follow at once or with a lag.
+
+Kinematics are MuJoCo's, the motion the judge's exact step: there is no dynamics. On an arm the controller resolves
+(K (p_d - p), omega) by the geometric Jacobian and an inverse, with the identity for D.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from bench.contenders.jacobians.geometric import fill
+from bench.control.velocity import velocity
+from bench.engines.arm_episode import squared
+from bench.engines.arrays import Matrix
+from bench.engines.episode import FIRST_METRIC, blank
+from bench.engines.loop import Act, Controller, Plant, Record, Sensed, episodes_of
+from bench.engines.plants import arm, quaternion
+from bench.engines.simulated import Simulated, compute
+from bench.law.contender import AT_REST
+from bench.law.scalar import atan2, kernel, sqrt
+from bench.law.so3 import cross, dot
+from tasks.truth import angle
+from tasks.velocity import followed, turned
+from tasks.verdict import GOING, check_command
+
+PATH, FURTHEST, BENT, PEAK, RATE, OFF = range(FIRST_METRIC, FIRST_METRIC + 6)
+"""A row's columns after the judge's: path turned [rad], greatest haversine, greatest angle [rad] by which the limiter
+bent a command, greatest |omega| [rad/s]; on arms greatest |qdot| [rad/s] and distance of the tool from its place [m],
+of which the free body has none."""
+
+
+class Pace(NamedTuple):
+    """K [1/s], and the tick [s] and what it makes of a servo's lag: see tasks.velocity.Servo."""
+
+    K: float
+    dt: float
+    decay: float
+    coast: float
+
+
+class World(NamedTuple):
+    """The pace of a free body."""
+
+    pace: Pace
+
+
+class ArmWorld(NamedTuple):
+    """An arm, of each start its state, buffers with the identity for D, and the pace."""
+
+    sim: Simulated
+    states: Matrix
+    work: arm.Work
+    pace: Pace
+
+
+class Told(NamedTuple):
+    """A velocity before the limiter; of joints their squared rate, and how far the tool is from its place [m]."""
+
+    asked: tuple
+    rate: float
+    off: float
+
+
+@kernel
+def begin(laws, memory0, sensed):
+    """Start with the law's own memory, and no command."""
+    return memory0, Act(AT_REST, AT_REST, 0.0, math.nan, GOING, Told(AT_REST, 0.0, 0.0))
+
+
+@kernel
+def command(laws, body, sensed, now, gains, memory, numbers):
+    """Command an angular velocity: laws are the law and its limiter, limit(omega, K) -> omega."""
+    u, memory, _ = laws.law(sensed.R, AT_REST, sensed.goal, gains, memory)
+    asked, omega = velocity(laws.second, u, body.pace.K, gains.kp)
+    speed = dot(omega, omega)
+    failure = check_command(speed, numbers.speed_limit_squared)
+    return Act(omega, u, speed, math.nan, failure, Told(asked, 0.0, 0.0)), memory
+
+
+@kernel
+def follow(laws, body, state, act, gains, memory, numbers):
+    """Turn the body by its velocity times dt."""
+    dt, omega = numbers.dt, act.u
+    quat = turned(state.quat, (dt * omega[0], dt * omega[1], dt * omega[2]))
+    return quaternion.State(quat, omega, state.quat_d, dt * sqrt(act.squared)), memory
+
+
+@kernel
+def see(row, curves, now, body, sensed, act, before, numbers):
+    """Keep the greatest angle, bend and speed."""
+    asked, omega, hav = act.more.asked, act.u, sensed.haversine
+    turned_off, along = cross(asked, omega), dot(asked, omega)
+    bend = atan2(sqrt(dot(turned_off, turned_off)), along)
+    speed = sqrt(dot(omega, omega))
+    row[FURTHEST] = hav if hav > row[FURTHEST] else row[FURTHEST]
+    row[BENT] = bend if bend > row[BENT] and speed > 0.0 else row[BENT]
+    row[PEAK] = speed if speed > row[PEAK] else row[PEAK]
+
+
+@kernel
+def see_body(row, curves, now, body, sensed, act, before, numbers):
+    """Keep the greatest of what is seen of a body, but not of a command that fails."""
+    if act.failure == GOING:
+        see(row, curves, now, body, sensed, act, before, numbers)
+
+
+@kernel
+def see_arm(row, curves, now, body, sensed, act, before, numbers):
+    """Keep the greatest of what is seen of an arm."""
+    see(row, curves, now, body, sensed, act, before, numbers)
+    off, rate = act.more.off, sqrt(act.more.rate)
+    row[OFF] = off if off > row[OFF] else row[OFF]
+    row[RATE] = rate if act.failure == GOING and rate > row[RATE] else row[RATE]
+
+
+@kernel
+def account(row, body, state, sensed, act, tick, numbers):
+    """Add up the path."""
+    row[PATH] += state.path
+
+
+@kernel
+def reset_at_rest(body, k, start):
+    """Place the body at a start, at rest."""
+    quat, _, quat_d, path = quaternion.reset(body, k, start)
+    return quaternion.State(quat, AT_REST, quat_d, path)
+
+
+@kernel
+def command_joints(laws, body, sensed, now, gains, memory, numbers):
+    """Command joint rates, written into x: laws are the law, its limiter, and an inverse."""
+    buffers, K, tool, n, off = body.work.buffers, body.pace.K, sensed.more, body.sim.n, 0.0
+    u, memory, _ = laws.law(sensed.R, AT_REST, sensed.goal, gains, memory)
+    asked, omega = velocity(laws.second, u, K, gains.kp)
+    for i in range(3):
+        buffers.a[i] = K * (tool.p_d[i] - tool.p[i])
+        buffers.a[3 + i] = omega[i]
+        off = off + (tool.p_d[i] - tool.p[i]) * (tool.p_d[i] - tool.p[i])
+    fill(buffers.J, tool.chain)
+    laws.third(buffers.J, buffers.a, body.work.D, buffers.x, 6, n, buffers.scratch)
+    rate = squared(buffers.x, n)
+    failure = check_command(rate, numbers.speed_limit_squared)
+    return Act(omega, u, dot(u, u), math.nan, failure, Told(asked, rate, sqrt(off))), memory
+
+
+@kernel
+def follow_with_joints(laws, body, state, act, gains, memory, numbers):
+    """Let the joints' servos follow."""
+    sim, s = body.sim, body.sim.sensordata
+    before = (s[12], s[13], s[14], s[15])
+    for i in range(sim.n):
+        angle_turned, rate_after = followed(sim.qvel[i], body.work.buffers.x[i], body.pace)
+        sim.qpos[i] += angle_turned
+        sim.qvel[i] = rate_after
+    compute(sim)
+    return arm.State(state.quat_d, state.goal, state.p_d, angle(before, (s[12], s[13], s[14], s[15]))), memory
+
+
+@kernel
+def sense_unlimited(body, state, tick, numbers):
+    """Read the sensors; a command is limited, and so no speed is."""
+    R, omega, goal, hav, turning, _, rest, fate, more = arm.sense(body, state, tick, numbers)
+    return Sensed(R, omega, goal, hav, turning, 0.0, rest, fate, more)
+
+
+def of_body():
+    """Return the loop of the free body."""
+    plant = Plant(reset_at_rest, quaternion.sense, follow, quaternion.measure)
+    return episodes_of(plant, Controller(begin, command), Record(see_body, account))
+
+
+def of_arm():
+    """Return the loop of arms."""
+    plant = Plant(arm.reset, sense_unlimited, follow_with_joints, arm.measure)
+    return episodes_of(plant, Controller(begin, command_joints), Record(see_arm, account))
+
+
+def blank_rows(count: int, on_arm: bool) -> np.ndarray:
+    """Rows to be filled."""
+    rows = np.hstack((blank(count, ()), np.zeros((count, 6))))
+    rows[:, OFF] = 0.0 if on_arm else math.nan
+    return rows

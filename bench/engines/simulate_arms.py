@@ -1,0 +1,190 @@
+"""Episodes of arms: by torques, by velocities, by impedances that shape no inertia, and in contact."""
+
+import functools
+from collections.abc import Callable
+
+import mujoco
+import numpy as np
+
+import tasks
+from bench.control.resolved_acceleration import assembly
+from bench.control.unshaped import Damping
+from bench.engines import reference
+from bench.engines.arm_episode import STANDING, blank_arm, controls, joints, states
+from bench.engines.binding import margin_of, memory_of, parts_for
+from bench.engines.compiled import (
+    ASSEMBLE,
+    DESIGN,
+    LIMIT,
+    MARGIN,
+    RESOLVE,
+    compile_function,
+    made_once,
+    own_law,
+)
+from bench.engines.curve import Curves
+from bench.engines.episode import Settings, numbers, start_rows
+from bench.engines.native.libmujoco import model_of
+from bench.engines.plants import arm as on_arm
+from bench.engines.plants import impedance, velocity
+from bench.engines.plants.impedance import Springs
+from bench.engines.simulate import compiled_loop, evaluation, simulate
+from bench.engines.simulated import compiled_view
+from bench.law.contender import Contender
+from tasks.arm_model import Arm
+from tasks.velocity import servo
+
+NOMINAL = "nominal"
+"""The variation in which the controller's model is the plant."""
+ARM_TASK = "arm-regulation"
+ENGINES = ("native", "reference")
+
+
+def run_arm(
+    engine: str,
+    contender: Contender,
+    task: str,
+    arm: str,
+    starts,
+    settings: Settings,
+    metrics,
+    integrator: str = "euler",
+    variation: str = NOMINAL,
+    curves: Curves | None = None,
+) -> np.ndarray:
+    """Rows of `engines.arm_episode`, one per start.
+
+    Args:
+        starts: tasks.Start with joint angles, in order; metrics: Metric, in the order of their columns.
+        variation: how the plant differs from the controller's model. curves: filled too, on the engine `native`.
+    """
+    if engine == "reference":
+        return reference.run_arm(contender, task, arm, starts, settings, metrics, integrator, variation)
+    kept, world = arm_world(contender, task, arm, starts, settings, integrator, variation)
+    rows, limits, loop = blank_arm(len(starts), metrics), numbers(settings), compiled_loop("arm", tuple(metrics))
+    simulate(loop, pointers(contender), world, memory_of(contender), start_rows(starts), limits, rows, curves)
+    del kept  # what the addresses of the world point into, until here
+    return rows
+
+
+def arm_world(
+    contender: Contender, task: str, arm: str, starts, settings: Settings, integrator: str, variation: str = NOMINAL
+) -> tuple[list, on_arm.World]:
+    """Return the models of one arm, the plant and the controller's if it is another one, and the world of the loop."""
+    one = tasks.arm(arm)
+    has_own = variation != NOMINAL or controls(contender, False, 1.0).has_own_model == STANDING
+    sims = [_simulation(task, one, settings.dt_s, integrator, name) for name in (variation, NOMINAL)[: 1 + has_own]]
+    kept, views = [sim[:2] for sim in sims], [compiled_view(*sim) for sim in sims]
+    shape = controls(contender, has_own, settings.torque_limit)
+    world = on_arm.World(views[0], states(starts, one.joints), views[-1], on_arm.work(one.joints), shape, joints(one))
+    return kept, world
+
+
+def _simulation(task: str, arm: Arm, dt_s: float, integrator: str = "euler", variation: str = NOMINAL) -> tuple:
+    model = _model(task, arm, dt_s, integrator, variation)
+    return model, mujoco.MjData(model)
+
+
+@functools.lru_cache(maxsize=64)
+def _model(task: str, arm: Arm, dt_s: float, integrator: str, variation: str) -> mujoco.MjModel:
+    """A model that many simulations may share: stepping does not change it."""
+    model = model_of(tasks.task(task, arm.name).xml(dt_s), integrator)
+    if variation != NOMINAL:
+        tasks.variation(variation).apply(model, arm.rated)
+    return model
+
+
+def pointers(contender: Contender) -> tuple:
+    """The three functions of a contender, compiled or taken from the disk cache; a user's law is compiled anew."""
+    law = contender._replace(jacobian=None, inverse=None)
+    return _assemble(contender._replace(inverse=None)), resolution(contender.inverse), _margin(law)
+
+
+@made_once
+def _assemble(contender: Contender):
+    with own_law(contender.regulator.origin) as cache:
+        return compile_function(assembly(parts_for(contender)), ASSEMBLE, cache)
+
+
+@made_once
+def resolution(inverse):
+    """An inverse as loops call it."""
+    return compile_function(inverse.resolve, RESOLVE)
+
+
+@made_once
+def _margin(contender: Contender):
+    return compile_function(margin_of(contender), MARGIN)
+
+
+@made_once
+def limit_of(limit: Callable):
+    """Compile a limiter for the loops."""
+    return compile_function(limit, LIMIT)
+
+
+@made_once
+def design_of(damping: Damping):
+    """Compile a design of damping for the loop."""
+    return compile_function(damping.design, DESIGN)
+
+
+def run_velocity(
+    contender: Contender, limit: Callable, K: float, starts, settings: Settings, arm: str = "", lag_s: float = 0.0
+) -> np.ndarray:
+    """Rows of `plants.velocity`, one per start.
+
+    Args:
+        contender: a velocity law; on an arm with its Jacobian and inverse. K: its gain [1/s].
+        starts: tasks.Start, in order, whose omega and joint rates are not used: nothing moves before a command.
+        lag_s: time constant of the joints' servos [s]; 0: none. Those of the free body have none.
+    """
+    pace = velocity.Pace(float(K), *map(float, servo(settings.dt_s, lag_s)))
+    law, rows = contender._replace(jacobian=None, inverse=None), velocity.blank_rows(len(starts), bool(arm))
+    given = memory_of(law), start_rows(starts), numbers(settings), rows
+    functions = evaluation(law), limit_of(limit)
+    if not arm:
+        return simulate(compiled_loop("velocity"), functions, velocity.World(pace), *given)
+    n, (model, data) = tasks.arm(arm).joints, _simulation(ARM_TASK, tasks.arm(arm), settings.dt_s)
+    still, work = states([one._replace(qdot=(0.0,) * n) for one in starts], n), on_arm.work(n)
+    work.D[:] = np.eye(n)
+    world = velocity.ArmWorld(compiled_view(model, data), still, work, pace)
+    return simulate(compiled_loop("velocity-arm"), (*functions, resolution(contender.inverse)), world, *given)
+
+
+def prepare_velocity(contender: Contender, limits) -> None:
+    """Compile what `run_velocity` will need, or take it from the disk cache."""
+    evaluation(contender._replace(jacobian=None, inverse=None))
+    for one in limits:
+        limit_of(one)
+    if contender.inverse:
+        resolution(contender.inverse)
+    compiled_loop("velocity-arm" if contender.inverse else "velocity")
+
+
+def run_impedance(
+    law: Contender, damping: Damping, springs: Springs, starts, settings: Settings, arm: str
+) -> tuple[np.ndarray, np.ndarray]:
+    """Rows of `plants.impedance`, and q and qdot at the end, one per start.
+
+    Args:
+        law: its command at omega = 0 over kp is the error of orientation.
+        starts: tasks.Start with joint angles and rates, in order.
+        settings: `torque_limit` is what torques over rated ones may come to.
+    """
+    limits, one = numbers(settings._replace(command_limit=settings.torque_limit)), tasks.arm(arm)
+    kept = [_simulation(ARM_TASK, one, settings.dt_s) for _ in range(2)]
+    plant, still = (compiled_view(*sim) for sim in kept)
+    world = impedance.world(plant, still, states(starts, one.joints), springs, one.rated)
+    rows, laws = impedance.blank_rows(len(starts)), (evaluation(law), design_of(damping))
+    simulate(compiled_loop("impedance"), laws, world, memory_of(law), start_rows(starts), limits, rows)
+    del kept
+    return rows, world.ends
+
+
+def prepare_impedance(law: Contender, dampings) -> None:
+    """Compile what `run_impedance` will need, or take it from the disk cache."""
+    evaluation(law)
+    for one in dampings:
+        design_of(one)
+    compiled_loop("impedance")

@@ -1,0 +1,130 @@
+"""Episodes of arms in contact: a controller on trials of a task and an arm, one record an episode back."""
+
+from collections.abc import Iterable, Iterator
+from typing import NamedTuple
+
+import mujoco
+import numpy as np
+
+from bench.control.contact_controller import ContactController, check_constants
+from bench.engines import contact_episode, reference
+from bench.engines.compiled import TOUCH, compile_function, made_once, register
+from bench.engines.contact_episode import BROKEN, TIME, USUAL, Conditions, Ended, made
+from bench.engines.episode import FAILURE_TICK, FIRST_METRIC, NEVER, OUTCOME, START_WIDTH
+from bench.engines.native import trapped
+from bench.engines.native.libmujoco import MUJOCO_INTEGRATORS, model_of
+from bench.engines.plants import contact as in_contact
+from bench.engines.simulate import compiled_loop, simulate
+from bench.engines.simulated import compiled_view
+from bench.errors import BadNumber, UnknownWord
+from bench.law.contender import NO_MEMORY
+from tasks.arm_model import Arm
+from tasks.contact import ContactTask, Trial, leg, prepare, refuse
+from tasks.contact_checks import check_contact, check_trial
+from tasks.contact_model import STANDARD, ContactModel, model_xml
+from tasks.contact_rest import has_left
+from tasks.rules import ticks
+from tasks.verdict import GOING
+
+ENGINES = ("native", "reference")
+
+
+class Scene(NamedTuple):
+    """A model and its data, and of the loop's world what is no trial's."""
+
+    model: mujoco.MjModel
+    data: mujoco.MjData
+    world: dict
+
+
+def run_contact(
+    engine: str,
+    controller: ContactController,
+    task: ContactTask,
+    arm: Arm,
+    trials: Iterable[Trial],
+    conditions: Conditions = USUAL,
+    contact: ContactModel = STANDARD,
+) -> Iterator[Ended]:
+    """One `Ended` a trial, in order, each as soon as it is there.
+
+    Args:
+        engine: "native", or "reference" for dm_control's own loop.
+    Errors, before the first episode begins:
+        UnknownWord: the engine or the integrator. BadNumber: a constant of the controller, or the control period.
+        BadValue: the arm cannot be set the task, or a trial or the contact model is none.
+    """
+    trials = tuple(trials)
+    _check(engine, task, arm, trials, conditions, contact)
+    scene = None if engine == "reference" else simulation(task, arm, conditions, contact)
+    return (_episode(scene, controller, task, arm, trial, conditions, contact) for trial in trials)
+
+
+def _check(
+    engine: str, task: ContactTask, arm: Arm, trials: tuple[Trial, ...], conditions: Conditions, contact: ContactModel
+) -> None:
+    refuse(task, arm)
+    known = {"engine": (engine, ENGINES), "integrator": (conditions.integrator, MUJOCO_INTEGRATORS)}
+    for kind, (word, words) in known.items():
+        if word not in words:
+            raise UnknownWord(kind, word, sorted(words))
+    if not 0.0 < conditions.dt_s < np.inf:
+        raise BadNumber(f"dt_s = {conditions.dt_s} s: give a finite number above 0 (try: {USUAL.dt_s})")
+    check_constants(conditions.gains, conditions.touch)
+    check_contact(contact)
+    for name, value in conditions.sensor._asdict().items():
+        if not 0.0 <= value < np.inf:
+            raise BadNumber(f"sensor: {name} = {value}: give a finite number of 0 or more")
+    for trial in trials:
+        check_trial(trial, arm)
+
+
+def simulation(task: ContactTask, arm: Arm, conditions: Conditions, contact: ContactModel = STANDARD) -> Scene:
+    """A fresh model of a task on an arm."""
+    model = model_of(model_xml(task, arm, conditions.dt_s, contact), conditions.integrator)
+    data = mujoco.MjData(model)
+    asked = np.array((model._address, data._address, 0), np.int64)
+    noise = conditions.sensor.noise(ticks(task.horizon_s, conditions.dt_s))
+    gap, turned = contact_episode.sensors_of(model)
+    world = {
+        **{"sim": compiled_view(model, data), "n": arm.joints, "push": data.xfrc_applied[model.body("hand").id]},
+        **{"gap": gap, "turned": turned, "work": in_contact.work(arm.joints, model.nv, noise)},
+        **{"batch": trapped.batch().address, "callback": trapped.CALLBACK, "asked": asked},
+    }
+    return Scene(model, data, world)
+
+
+def _episode(scene: Scene | None, controller, task, arm: Arm, trial: Trial, conditions: Conditions, contact) -> Ended:
+    shape = contact_episode.numbers(controller, task, trial, arm.rated, conditions)
+    record = contact_episode.blank(shape)
+    if scene is None:
+        row, message, data = reference.run_contact(controller, task, arm, trial, conditions, contact, shape, record)
+    else:
+        data, row, message = scene.data, np.zeros(FIRST_METRIC), ""
+        mujoco.mj_resetData(scene.model, data)
+        prepare(scene.model, data, trial)
+        scene.world["work"].legs[: len(trial.pushes)] = trial.pushes
+        touch, start = conditions.touch, np.zeros((1, START_WIDTH))
+        world = in_contact.World(**scene.world, shape=shape, touch=touch, record=record)
+        limits = in_contact.limits(shape, conditions.gains)
+        simulate(_loop(), (pointer(controller),), world, NO_MEMORY, start, limits, row[None])
+    failure = GOING if row[FAILURE_TICK] == NEVER else int(row[OUTCOME])
+    if failure == BROKEN:
+        message = message or trapped.batch().error()
+    return made(record, failure, int(np.isfinite(record[:, TIME]).sum()), message if failure == BROKEN else "", data)
+
+
+def _loop():
+    for function in (leg, has_left):
+        register(function)
+    return compiled_loop("contact")
+
+
+def pointer(controller: ContactController):
+    """The rows of a controller, compiled or taken from the disk cache."""
+    return _pointer(controller._replace(form=""))
+
+
+@made_once
+def _pointer(controller: ContactController):
+    return compile_function(controller.assemble, TOUCH)
