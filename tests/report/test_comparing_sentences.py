@@ -167,7 +167,7 @@ SENTENCES = {
         [
             (((), ("a",)), "No other published law"),
             (((), ("a", "b")), "at least as good as the others on every criterion and better on one"),
-            ((("b",), ("a", "b")), "none of them is better than another"),
+            ((("b",), ("a", "b")), "It ties with b and is the simplest"),
         ],
     ),
     "order": (plant_order, [((1, 2, 3), "dearest, as the paper"), ((3, 2, 1), "dearest, other than the paper")]),
@@ -184,7 +184,7 @@ SENTENCES = {
     "held": (plant_advice, [({}, "cannot hold the body"), ({"held": 0.01}, "No law of this run settles")]),
     "lost": (plant_advice, [({}, "it settles from every start"), ({"lost": 1.0}, "No law of this run settles")]),
     "no better": (plant_advice, [({}, "In 9 of 16"), ({"laws": [ADVISED], "time": 0.1}, "In 10 of 16")]),
-    "ours": (plant_gains, [({}, "slowest start, effort"), ({"effort": 1e9}, "worse at 1 by effort")]),
+    "ours": (plant_gains, [({}, "better at every ratio by effort"), ({"effort": 1e9}, "worse at 1 by effort")]),
     "time": (plant_leader, [({"criterion": "time"}, "gibbs"), ({"criterion": "time", "time": 1e-9}, FEEDBACK)]),
     "effort": (plant_leader, [({"criterion": "effort"}, MATRIX), ({"criterion": "effort", "effort": 1e-9}, FEEDBACK)]),
     "dearest": (plant_dearest, [((LINEARIZED,), "linearized"), ((MATRIX,), "rotation matrix")]),

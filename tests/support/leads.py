@@ -36,6 +36,7 @@ from support.leads_of_arms import (
     recompute_times,
 )
 from support.tables import table
+from tasks.condition import condition_at
 
 CONTROLS = ("quaternion-unwinding", "linearized-euler-literal/zyx-euler")
 
@@ -95,7 +96,7 @@ def recompute_comparison():
 
 def recompute_thresholds():
     """Return the perturbations along which the laws' thresholds in the study differ, and noise at 180° in the run."""
-    lasts = [name for name in tasks.axis_names() if tasks.axis(name).at(max(tasks.axis(name).levels)).lasts]
+    lasts = [name for name in tasks.axis_names() if condition_at(tasks.axis(name), max(tasks.axis(name).levels)).lasts]
     run, study = table("robustness"), table("perturbed", "robustness")
     good = (run["tail_rms_rad"] <= np.radians(3)).where(run["axis"].isin(lasts), run["outcome"] == "settled")
     own = good.groupby([run["law"], run["axis"], run["level"]]).agg(good="sum", starts="size").reset_index()

@@ -94,13 +94,16 @@ def lead(uniform: pd.DataFrame) -> str:
     over = uniform["peak_torque_ratio"] > 1.0
     passes = passed(uniform)["range"].groupby(uniform["arm"]).any()
     never = [arm_looks.title(arm) for arm in passes.index[~passes]]
-    first = told(uniform[uniform["arm"].map(passes)], best(uniform, "range", "controller")[0], "range")
+    others = uniform[uniform["arm"].map(passes)]
+    is_split = bool(never) and len(others) > 0
+    first = told(others, best(uniform, "range", "controller")[0], "range") if is_split else ""
+    on_others = f"; on the others the best passes {first}" if is_split else ""
     return (
         f"No torque or joint limit is simulated: of {len(uniform)} episodes of the laws from evenly spread starts "
         f"{100 * over.mean():.0f} % exceed a rated torque. With no motor above its rated torque and no joint out of "
         f"its range, {leading(uniform, 'range')}; the paper's Euler controller (3.7) settles "
-        f"{told(uniform, arm_rows.ON_ANGLES, 'range')}. Arms on which no law passes: {', '.join(never) or 'none'}; on "
-        f"the others the best passes {first}. Counting settling alone, {leading(uniform, 'settled')}."
+        f"{told(uniform, arm_rows.ON_ANGLES, 'range')}. Arms on which no law passes: {', '.join(never) or 'none'}"
+        f"{on_others}. Counting settling alone, {leading(uniform, 'settled')}."
     )
 
 
