@@ -6,6 +6,6 @@ ideal-rk4   (2.6)-(2.7) without MuJoCo, continuous: Runge-Kutta on the columns o
 ideal-held  the same plant sampled, the command held over each tick
 """
 
-from bench.engines import cache  # first of all: it says where numba shall keep compiled code
+from bench.engines import cache  # first of all: it chooses where numba keeps compiled code
 
 __all__ = ["cache"]

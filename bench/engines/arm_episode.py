@@ -32,7 +32,7 @@ POSE = -1 - MOST
 class ArmSample(NamedTuple):
     """What a metric sees of an arm at one tick, before it moves: what `Sample` has, and the joints.
 
-    p, p_d: the tool's position and where it shall be [m]; q [rad], qdot [rad/s], tau [N m], and of each joint its
+    p, p_d: the tool's position and its goal [m]; q [rad], qdot [rad/s], tau [N m], and of each joint its
     range [rad] and its motor's rated torque [N m]: seven numbers each, filled up with zeros (ranges with infinities,
     rated torques with ones) on fewer joints. Tuples, because compiled code counts references to arrays.
     """
@@ -76,7 +76,7 @@ class Controls(NamedTuple):
 
 
 class Joints(NamedTuple):
-    """Of each joint its range [rad] and its motor's rated torque [N m], as `ArmSample` has them, and its inertia.
+    """Hold each joint's range [rad] and its motor's rated torque [N m], as `ArmSample` has them, and its inertia.
 
     inertia: the joint's element on D's diagonal at home [kg m^2], filled up with zeros.
     """
@@ -94,7 +94,7 @@ def controls(contender: Contender, has_own_model: bool, torque_limit: float) -> 
 
 
 def states(starts, n: int) -> np.ndarray:
-    """Of each start q and qdot, then where the joints and the tool shall be: no numbers where it does not say."""
+    """Return q and qdot of each start, then the goal of the joints and the tool: NaN where the start has none."""
     unknown = (math.nan,) * n
     rows = [(*one.q, *one.qdot, *(one.goal_q or unknown), *(one.goal_p or unknown[:3])) for one in starts]
     return np.array(rows, dtype=float).reshape(len(rows), 3 * n + 3)

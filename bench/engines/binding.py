@@ -65,7 +65,7 @@ def _guarded_three(law):
 
 
 def _guarded_four(law):
-    """Of four coordinates."""
+    """Guard a function that returns four coordinates."""
 
     @kernel
     def command(at, E_d, Edot, gains):

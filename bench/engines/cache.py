@@ -1,4 +1,4 @@
-"""Where compiled code is kept between processes. Imported with the package, so before numba, which asks only once.
+"""Choose where compiled code is kept between processes. Import it before numba, which reads the folder only once.
 
 numba's cache looks only at the file of the function it caches, so an edited law or another mujoco would run stale
 code; here the folder is a digest of all our sources and the versions that matter.

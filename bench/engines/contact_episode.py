@@ -215,7 +215,7 @@ def blank(shape: Numbers) -> np.ndarray:
 
 
 def sensors_of(model: Any) -> tuple[int, int]:
-    """Where the gap and the scene's joint are among the sensor values; -1 if the task has none."""
+    """Return the places of the gap and of the scene's joint among the sensor values; -1 if the task has none."""
     names = [model.sensor(i).name for i in range(model.nsensor)]
     at = {name: int(model.sensor_adr[i]) for i, name in enumerate(names)}
     return at.get("gap", -1), at.get("turned", -1)

@@ -46,7 +46,7 @@ MORE_STEPS = 2**14
 
 
 def coarser(settings: Settings) -> Settings:
-    """The same at twice the control period."""
+    """Return the settings at twice the control period."""
     return settings._replace(
         dt_s=2.0 * settings.dt_s, ticks=(settings.ticks + 1) // 2, hold_ticks=(settings.hold_ticks + 1) // 2
     )

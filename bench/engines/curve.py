@@ -40,7 +40,7 @@ def keep(curves, k, tick, sample):
 
 @kernel
 def keep_on_arm(curves, k, tick, sample):
-    """The same of an arm."""
+    """Keep a sample of an arm."""
     if tick < curves.every * curves.samples.shape[1] and tick % curves.every < 1:
         kept = curves.samples[k, tick // curves.every]
         store(kept, sample)

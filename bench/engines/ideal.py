@@ -30,7 +30,7 @@ def small_turn(x):
 
 @kernel
 def large_turn(squared):
-    """The same two of an angle that is not small."""
+    """Return the two factors for an angle that is not small."""
     angle = sqrt(squared)
     return sin(angle) / angle, (1.0 - cos(angle)) / squared
 

@@ -1,4 +1,4 @@
-"""The same loop in plain Python on dm_control's own environments: slow, and what compiled code must reproduce.
+"""Run the loop in plain Python on dm_control's own environments: slow, and compiled code must reproduce it.
 
 What it shares with the compiled engines is the text of the loop and of its parts. What it does not share is what runs
 them: Python on numpy.float64, IEEE 754 as compiled code's is (1/0 is infinite, 0/0 NaN); and MuJoCo, which dm_control's

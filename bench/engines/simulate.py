@@ -131,7 +131,7 @@ def on_ideal(
     curves: Curves | None = None,
     converge: bool = True,
 ) -> np.ndarray:
-    """The same on an ideal plant, from starts that are rows already.
+    """Simulate on an ideal plant, from starts that are rows already.
 
     Args:
         begun: of `engines.episode.start_rows`.
@@ -221,7 +221,7 @@ def loop_in_lanes(engine: str, contender: Contender, metrics: tuple):
 
 @made_once
 def evaluation(contender: Contender):
-    """A contender as the loops call it, compiled or taken from the disk cache; a user's law is compiled anew.
+    """Compile a contender for the loops, or take it from the disk cache; a user's law is compiled every time.
 
     Errors:
         BadLaw: a user's law that the compiler cannot take.

@@ -95,7 +95,7 @@ def _model(task: str, arm: Arm, dt_s: float, integrator: str, variation: str) ->
 
 
 def pointers(contender: Contender) -> tuple:
-    """The three functions of a contender, compiled or taken from the disk cache; a user's law is compiled anew."""
+    """Compile a contender's three functions, or take them from the disk cache; a user's law is compiled every time."""
     law = contender._replace(jacobian=None, inverse=None)
     return _assemble(contender._replace(inverse=None)), resolution(contender.inverse), _margin(law)
 

@@ -7,7 +7,7 @@ from bench.audit.fault import NOTE, Fault, Found
 from bench.audit.pairs import AT_180
 
 ZERO = 1e-6
-"""Share of slope times pi: six decades below what is asked for; rounding leaves 1e-15, a scalar part of it 1e-8."""
+"""Share of slope times pi: six decades below the requested error; rounding leaves 1e-15, a scalar part of it 1e-8."""
 TWENTIETH = 0.05
 BEFORE_RAD = 0.01
 

@@ -27,7 +27,7 @@ _mjb_apply = types.ExternalFunction(
 
 
 def _advance(model, data, simulation, argument):
-    """What is asked for of a model and data: [model, data, BEGIN, STEP or RUNGE_KUTTA]."""
+    """Run the request on a model and data: [model, data, BEGIN, STEP or RUNGE_KUTTA]."""
     asked = carray(argument, (3,))
     m, d = asked[0], asked[1]
     if asked[2] == BEGIN:
@@ -84,7 +84,7 @@ class Batch:
 
     @property
     def address(self) -> int:
-        """Where the batch is."""
+        """Return the address of the batch."""
         return self._made
 
     def error(self) -> str:

@@ -56,7 +56,7 @@ class World(NamedTuple):
 
 
 class State(NamedTuple):
-    """Where the tool shall be; the rest is MuJoCo's. path: angle of its last rotation [rad], where that is asked."""
+    """Hold the goal of the tool; the rest is MuJoCo's. path: angle of its last rotation [rad], where it is recorded."""
 
     quat_d: tuple
     goal: Goal
@@ -65,7 +65,7 @@ class State(NamedTuple):
 
 
 class Tool(NamedTuple):
-    """The tool's place and where it shall be [m], and the chain."""
+    """Hold the tool's place and its goal [m], and the chain."""
 
     p: tuple
     p_d: tuple

@@ -90,7 +90,7 @@ class Hand(NamedTuple):
 
 
 class Rest(NamedTuple):
-    """Where the hand was, and at which tick, when rest was last counted."""
+    """Hold the hand's place and the tick at which rest was last counted."""
 
     place: tuple
     frame: Rotation

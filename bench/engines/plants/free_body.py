@@ -26,7 +26,7 @@ class World(NamedTuple):
 
 
 class State(NamedTuple):
-    """Where the body shall be; the rest is MuJoCo's."""
+    """Hold the goal of the body; the rest is MuJoCo's."""
 
     quat_d: tuple
     goal: Goal

@@ -73,7 +73,7 @@ def close(row, body, state, k, numbers):
 
 
 REFINED = "ideal-rk4-refined"
-"""How `convergence` asks for the steps of `refined`; no engine by itself."""
+"""The name by which `convergence` takes the steps of `refined`; it is no engine of its own."""
 
 STEPS = {"ideal-rk4": by_whole_steps, "ideal-held": by_held_command, REFINED: by_refined_steps}
 """A law is called by pointer, 10 ns each time, once a tick or four times. With the law compiled into a loop of its own

@@ -59,10 +59,10 @@ def steps_of(condition: Condition) -> int:
 
 @kernel
 def reported(R, omega, R_d, noise, condition, ahead):
-    """(R, omega) as they are measured: turned and shifted by drawn numbers, and by the worst that can be at half turns.
+    """Return (R, omega) as measured: rotated and shifted by drawn numbers, and by the worst possible error at 180°.
 
     The worst is reported with foresight: away from the goal as it will be in LEAD periods, so that what turns back the
-    body brakes it too. Without, the body swings through the half turn farther each time, and gets away.
+    body brakes it too. Without it, the body swings through 180° farther each time, and gets away.
 
     Args:
         noise: six numbers, of unit standard deviation. ahead: LEAD periods [s].

@@ -86,7 +86,7 @@ def facts(run: Run) -> dict:
 
 
 def in_free_motion(run: Run) -> dict:
-    """Of modes and episodes; none where the run lacks one of them."""
+    """Return the facts of modes and episodes; none where the run lacks one of them."""
     found, rows = modes(run), episodes(run)
     if found.empty or rows.empty:
         return {}

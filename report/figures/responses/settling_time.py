@@ -67,7 +67,7 @@ def tables(run: Run) -> dict:
 
 
 def figures(run: Run) -> dict:
-    """Against the distance from the half turn."""
+    """Draw settling time against the distance from 180°."""
     return {"settling-decades": decades(of(continuous(run), MATRIX, "half-turn"))}
 
 
@@ -78,7 +78,7 @@ def late_ms(rows: pd.DataFrame, kp: float, kv: float, tolerance: float) -> pd.Se
 
 
 def slope_on(engine: str, rows: pd.DataFrame) -> tuple:
-    """An engine's measured slope beside the closed form, and what became of exact half turns."""
+    """Return an engine's measured slope, the closed form, and the outcomes of exact 180° rotations."""
     near, exact = near_and_exact(rows)
     theory = closed_form.decade_slope(float(rows["kp"].iloc[0]), float(rows["kv"].iloc[0]))
     found = slope(near)
@@ -114,7 +114,7 @@ def slope(rows: pd.DataFrame) -> float:
 
 @responsive_picture
 def decades(episodes: pd.DataFrame, narrow: bool):
-    """Settling time against the distance from the half turn.
+    """Draw settling time against the distance from 180°.
 
     Args:
         episodes: rows of one engine, of the rotation-matrix law and the set half-turn.
