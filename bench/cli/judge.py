@@ -27,9 +27,9 @@ EPILOG = examples(
 def COMMAND(law: Path, law_limit: float):
     """Judge your law on the free body and explain the result. It takes seconds and writes no file.
 
-    It examines the command over all states (stiffness and damping at three goals, equilibria away from the goal, jumps), episodes from
-    uniform, spinning and other starts (which are lost, and how they rest), and robustness. It lists the laws of
-    results/reference that are most like yours.
+    It examines the command over all states (stiffness and damping at three goals, equilibria away from the goal,
+    jumps), episodes from uniform, spinning and other starts (which are lost, and how they rest), and robustness. It
+    lists the laws of results/reference that are most like yours.
     """
     own = options.own_laws((law,))
     from bench.findings.judged import judged  # after the file is known to hold a law, for it takes a second

@@ -63,7 +63,7 @@ def plan_of(laws: list[Contender]) -> Plan:
 def judgement(one: Contender, parts: Parts, is_lost: bool = False) -> Judgement:
     """What its rows say of a law."""
     field, episodes, perturbed = (
-        pd.concat([pd.DataFrame(), *map(pd.DataFrame, parts[one.name, name])], ignore_index=True)
+        pd.concat([pd.DataFrame(), *parts[one.name, name]], ignore_index=True)
         for name in ("command-field", "free-body", "robustness")
     )
     declared = one.regulator.property

@@ -8,7 +8,7 @@ from support.user_law import law_text
 
 from bench.contenders.law_file import load_law
 from bench.contenders.registry import all_contenders, contenders_of
-from bench.experiments.experiment import experiment_of
+from bench.experiments.experiment import rows_of
 from bench.findings.judged import ENGINE, START_SETS, judgement, plan_of
 from bench.findings.why import ends, sentences
 from bench.tables import read
@@ -72,7 +72,7 @@ def found(tmp_path_factory):
         plan = plan_of([one])
         for unit in plan.units:
             if unit.experiment != "robustness":
-                parts[one.name, unit.experiment].append(experiment_of(unit).rows(plan.settings, unit))
+                parts[one.name, unit.experiment].append(rows_of(plan.settings, unit))
         said = {each.fault: each.text for each in judgement(one, parts).said}
         [field] = parts[one.name, "command-field"]
         return said, field.set_index("finding")

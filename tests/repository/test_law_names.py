@@ -19,6 +19,7 @@ ALLOWED = {
     "bench/law/contender.py": "ON_MATRIX, the word for what acts on R itself",
     "bench/control/contact_controller.py": "hybrid control in contact, whose words these are",
     "bench/control/hybrid.py": "the cure in a refusal; a law's file asks no registry",
+    "bench/engines/simulate.py": "the module of a plant whose state is a quaternion",
     "bench/experiments/chosen_words.py": "what a suite runs",
     "bench/experiments/suites.py": "what a suite runs",
     "bench/findings/claims/": "sentences about them",
