@@ -28,7 +28,6 @@ from bench.regression.revisions.timed import OTHER_ENDED
 
 P, RATIO = 0.002, 1.10  # of thirty laws and no change, one comparison in seventeen has a p below P by chance
 ROUNDS = 60  # the interval of a median covers the 23rd to 38th; a round takes from 0.3 ms to 10 ms
-
 SAME, SLOWER, FASTER = "same", "slower", "faster"
 PROGRAM = Path(__file__).with_name("timed.py")
 LONGEST_S = 1800.0  # on the wall, until a process is ended; compiling all laws takes a tenth of it

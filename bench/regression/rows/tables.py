@@ -12,8 +12,7 @@ from tasks.contact_rest import REST
 from tasks.verdict import OUTCOMES, SETTLED
 
 RELATIVE = 1e-6
-"""Two libraries' sines (1e-16 apart) and some 1e4 ticks of a settled episode leave 1e-12; effects of the step size,
-which a change of code could bring, start at 1e-4."""
+"""Two libraries' sines (1e-16 apart) leave 1e-12 of a settled episode; effects of the step size start at 1e-4."""
 ABSOLUTE = 1e-9  # below this an angle [rad] or a margin is rounding itself
 SINGLE_RELATIVE = 2e-6  # RELATIVE, and rounding to single precision
 MARGIN = 10.0  # times the change that 1e-12 rad made of a doubtful episode: two samples of the effect of rounding

@@ -1,0 +1,110 @@
+"""Hold each room to its lines of Python, and each file to 250; numbers here only fall (CONTRIBUTING)."""
+
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+
+LINES = {
+    "bench/__init__.py": 34,
+    "bench/__main__.py": 29,
+    "bench/audit": 2_069,
+    "bench/cli": 2_511,
+    "bench/contenders": 4_126,
+    "bench/control": 922,
+    "bench/counting": 925,
+    "bench/engines": 4_403,
+    "bench/errors.py": 60,
+    "bench/experiments": 5_054,
+    "bench/export": 2_097,
+    "bench/files.py": 136,
+    "bench/findings": 6_864,
+    "bench/law": 1_567,
+    "bench/metrics": 990,
+    "bench/provenance.py": 162,
+    "bench/regression": 1_200,
+    "bench/running": 1_330,
+    "bench/studies": 3_715,
+    "bench/tables": 811,
+    "bench/timing": 1_179,
+    "tests/audit": 667,
+    "tests/cli": 832,
+    "tests/conftest.py": 85,
+    "tests/contenders": 1_895,
+    "tests/contracts": 3_099,
+    "tests/control": 1_185,
+    "tests/counting": 873,
+    "tests/engines": 1_835,
+    "tests/experiments": 1_705,
+    "tests/export": 406,
+    "tests/findings": 2_767,
+    "tests/law": 471,
+    "tests/metrics": 758,
+    "tests/regression": 656,
+    "tests/report": 2_688,
+    "tests/repository": 619,
+    "tests/running": 864,
+    "tests/studies": 829,
+    "tests/support": 3_698,
+    "tests/tables": 995,
+    "tests/tasks": 2_349,
+    "tests/timing": 337,
+    "report": 12_288,
+    "tasks": 5_148,
+}
+"""Lines of Python a room. Who needs more takes them from another room and lowers that number in the same commit."""
+LONGEST_FILE = 250
+TOO_LONG = {
+    "bench/control/hybrid.py": 259,
+    "report/figures/arms/velocity_commands.py": 272,
+    "report/figures/contact/as_arms_run.py": 315,
+    "tests/support/leads.py": 260,
+}
+"""Files that are still longer, with their lines."""
+
+
+def python_files(*rooms: str) -> list[Path]:
+    """Return the Python files of the rooms that belong to the repository."""
+    found = [
+        path for room in rooms for path in ([ROOT / room] if room.endswith(".py") else (ROOT / room).rglob("*.py"))
+    ]
+    return [path for path in found if "_build" not in path.relative_to(ROOT).parts]
+
+
+def count_lines(path: Path) -> int:
+    """Return the number of lines of a file."""
+    return len(path.read_text(encoding="utf-8").splitlines())
+
+
+def list_rooms() -> list[str]:
+    """Return the rooms: folders and modules of bench and tests, and tasks and report whole."""
+    parts = [
+        f"{package}/{path.name}"
+        for package in ("bench", "tests")
+        for path in sorted((ROOT / package).iterdir())
+        if path.suffix == ".py" or (path.is_dir() and any(path.rglob("*.py")))
+    ]
+    return [*parts, "report", "tasks"]
+
+
+@pytest.mark.parametrize("room", list_rooms())
+def test_a_room_stays_within_its_lines(room):
+    lines = sum(count_lines(path) for path in python_files(room))
+    assert lines <= LINES.get(room, 0), (
+        f"{room} has {lines} lines: remove some, or lower another room's number by as many"
+    )
+
+
+def test_no_room_that_is_gone_keeps_its_lines():
+    assert set(LINES) <= set(list_rooms())
+
+
+def test_no_file_is_longer_than_250_lines():
+    files = {
+        str(path.relative_to(ROOT)): count_lines(path) for path in python_files("bench", "tasks", "report", "tests")
+    }
+    long = {name: lines for name, lines in files.items() if lines > LONGEST_FILE}
+    assert set(long) <= set(TOO_LONG), "split by subject what became too long"
+    assert all(long[name] <= TOO_LONG[name] for name in long), "these files only become shorter"
+    assert set(TOO_LONG) == set(long), "take a file that is short now off the list"
