@@ -57,7 +57,7 @@ def controller(task: str, arm: str, one: Contender, start: Start) -> Benchmark:
     loop = _loop()
 
     def call():
-        return loop(*given), data  # the world holds addresses: this keeps what they point to
+        return loop(*given), world, data  # the world holds addresses: this keeps what they point to
 
     return Benchmark(CONTROLLER, one, "", ticks if call()[0] == 0.0 else 0, call, arm)
 

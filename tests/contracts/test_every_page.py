@@ -80,8 +80,10 @@ def test_page_takes_what_it_pastes_and_nothing_else():
     class Module:
         @staticmethod
         def facts(_):
-            return {"n": 12296, "unused": 1}
+            return {"n": 12296}
 
+    with pytest.raises(ValueError, match=r"gives \['n'\], which its page does not paste"):
+        contents(Module, None, "")
     assert contents(Module, None, "{glue:text}`n` of {glue:text}`missing`") == {"n": "12\u202f296", "missing": ABSENT}
 
 

@@ -13,7 +13,7 @@ from bench.contenders.registry import find_contender
 from bench.experiments import boundaries, traces
 from bench.experiments import plan as planning
 from bench.experiments.choice import Choice
-from bench.experiments.experiment import Settings
+from bench.experiments.experiment import Settings, rows_of
 from bench.regression.rows import compare
 from bench.tables.store import write_table
 
@@ -113,9 +113,9 @@ def test_gate_catches_a_moved_boundary_and_a_curve_that_bends_or_is_gone(pair, t
     base, head = pair("body")
     for folder in (base, head):
         unit = boundaries.of_law(find_contender("linearized-euler"), 16)
-        write_table(folder / "boundaries.parquet", boundaries.rows(Settings(), unit), "boundaries")
+        write_table(folder / "boundaries.parquet", rows_of(Settings(), unit), "boundaries")
         unit = traces.of_law(find_contender("rotation-matrix"), 3)
-        write_table(folder / "traces.parquet", traces.rows(Settings(), unit), "traces")
+        write_table(folder / "traces.parquet", rows_of(Settings(), unit), "traces")
     assert compare(base, head) == []
 
     def move(frame):

@@ -51,11 +51,11 @@ def test_every_controller_of_the_default_suite_with_these_laws_is_timed_on_the_a
 def test_controller_alone_commands_the_torques_of_the_equations():
     one, start = named("ur5e", on_arms.IN_NUMPY), tasks.start_set("clear", 8, arm="ur5e")[-1]
     benchmark = controller.controller(on_arms.TASK, "ur5e", one, start)
-    _, _, arrays = benchmark.call()
+    _, world, _ = benchmark.call()
     last = controller.states(start)[-1]
     at = here("ur5e", last[:6], last[6:12])
     expected, _ = torques(one, at, last[12:], at.chain.p, PAPERS_GAINS)
-    np.testing.assert_allclose(arrays[3], expected, rtol=1e-9)
+    np.testing.assert_allclose(world.work.buffers.tau, expected, rtol=1e-9)
     assert benchmark.ticks == controller.SWEEPS * controller.STATES
 
 

@@ -115,7 +115,7 @@ CRITERIA = (
     ),
     Criterion(
         "tick",
-        "Of a controller's tick",
+        "Share of tick",
         "%",
         "time of the law alone over a tick of a whole controller on an arm",
         lambda tables: {name: np.array([tables.ticks.get(name, math.nan)]) for name in tables.contenders},

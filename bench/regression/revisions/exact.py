@@ -1,9 +1,8 @@
 """Say in words what differs between two runs: of which law, what, and whether it is a regression.
 
-A regression is an outcome that got worse (settled or done, and no longer so; or stuck at a new equilibrium), a row or
-column that is gone, more of any operation, a settling time beyond the tolerance of bench/regression/rows, or effort,
-peak or change at rest of the command beyond LARGER_IS_WORSE. Everything else that differs is a change, or an
-improvement if it is one of these undone. Where the judge changed, only that is said.
+A regression is an outcome that got worse, a row or column that is gone, more of any operation, a settling time beyond
+the tolerance of bench/regression/rows, or effort, peak or change at rest of the command beyond LARGER_IS_WORSE. The
+reverse of one of these is an improvement, all else a change. Where the judge changed, only that is said.
 """
 
 from collections.abc import Iterable

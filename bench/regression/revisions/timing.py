@@ -20,7 +20,6 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
-from scipy.stats import mannwhitneyu
 
 from bench.errors import Incompatible
 from bench.files import read_json
@@ -118,7 +117,9 @@ def _wait_for(processes: list[subprocess.Popen]) -> int | None:
 
 def judge_rounds(name: str, base: np.ndarray, head: np.ndarray) -> Timed:
     """Return the verdict of one run, of one time a round each in the order in which they were taken."""
-    from bench.timing.ratios import ratio  # which imports the compiler
+    from scipy.stats import mannwhitneyu
+
+    from bench.timing.ratios import ratio  # both are slow to import
 
     middle = ratio(head, base)
     slower, faster = (float(mannwhitneyu(head, base, alternative=side).pvalue) for side in ("greater", "less"))

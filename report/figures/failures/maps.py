@@ -95,5 +95,5 @@ def cell(one) -> str:
     """The share lost of those that converge, with the interval's ends, and below it the share that does not."""
     sure = one.starts - one.unconverged
     text = percent(one.lost, sure)
-    apart = f"<br>not converged {percent(one.unconverged, one.starts)}" if one.unconverged else ""
+    apart = f"<br>not converged<br>{percent(one.unconverged, one.starts)}" if one.unconverged else ""
     return html.together(text) + apart

@@ -27,8 +27,7 @@ VERDICTS = {
     "not testable": "untestable",
 }
 MISSING = "–"
-COUNT = re.compile(r"(?<=\d) of (?=\d)")
-"""In a cell, where no line may break."""
+COUNT = re.compile(r"\d+ of \d+")
 
 ROUNDED_FROM, SCIENTIFIC_FROM = 1e3, 1e9  # three figures of a number in between would read 1.23e+03
 LEADING_MINUS = re.compile(r"-[\d.\u221e]")
@@ -101,11 +100,16 @@ def table(
     head = [str(column) for column in frame.columns]
     rule = [":--" if column in as_words else "--:" for column in head]
     rows = [
-        [COUNT.sub("\u00a0of\u00a0", cell(value, formats.get(column))) for column, value in zip(head, row, strict=True)]
+        [keep_count(cell(value, formats.get(column))) for column, value in zip(head, row, strict=True)]
         for row in frame.itertuples(index=False, name=None)
     ]
     lines = [head, rule, *rows]
     return Markdown("\n".join("| " + " | ".join(line) + " |" for line in lines))
+
+
+def keep_count(text: str) -> str:
+    """Return a cell in which the line of a count alone, as 24 of 24, does not break."""
+    return text.replace(" ", "\u00a0") if COUNT.fullmatch(text) else text
 
 
 def cell(value: Any, form: str | Callable[[Any], str] | None = None) -> str:
