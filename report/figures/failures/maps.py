@@ -94,6 +94,6 @@ def spinning() -> html.Markdown | None:
 def cell(one) -> str:
     """The share lost of those that converge, with the interval's ends, and below it the share that does not."""
     sure = one.starts - one.unconverged
-    text = percent(one.lost, sure)
-    apart = f"<br>not converged<br>{percent(one.unconverged, one.starts)}" if one.unconverged else ""
-    return html.together(text) + apart
+    share, interval = percent(one.lost, sure).split(" (")
+    apart = f"<br>not converged {percent(one.unconverged, one.starts)}" if one.unconverged else ""
+    return html.together(share) + f"<br>({interval}{apart}"
