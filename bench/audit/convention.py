@@ -85,7 +85,7 @@ def find(takes: str, pairs: Pairs, e: np.ndarray) -> tuple[float, Convention | N
 
 
 def way(angle: np.ndarray, size: np.ndarray) -> int:
-    """Return 1 if the shorter half of the answers points along the axis, -1 if against it; others may be astray."""
+    """Return 1 if the shorter half of the answers points along the axis, -1 if against it; others may deviate."""
     short = size <= np.nanmedian(size)
     return 1 if np.nanmedian(angle[short]) < np.pi / 2.0 else -1
 

@@ -9,7 +9,7 @@ compensates c too, as libfranka's example does, has c in it: qdot^T c = qdot^T M
 On seven joints the elbow is damped, -NULL_RATE (M qdot - J^T Lambda v): no acceleration of the hand, and power of
 -NULL_RATE times twice the kinetic energy that the hand does not show.
 
-D is chosen among DAMPINGS: one damping ratio zeta is asked for, and a design makes D of K and Lambda.
+D is chosen among DAMPINGS: a design computes D from K, Lambda and the desired damping ratio zeta.
 
 Limitations: where J loses rank, Lambda, and with it D of two designs, is not finite.
 Source: Hogan 1985; Albu-Schaeffer et al. 2003; frankaemika/libfranka@155ddac8, cartesian_impedance_control.cpp.
@@ -62,8 +62,8 @@ def damp_elbow(J, M, Lambda, qdot, v, n, w, x, tau):
 class Damping(NamedTuple):
     """design(K, Lambda, zeta, D, scratch): write the damping D (6 x 6) [N s/m, N m s/rad], base frame.
 
-    K: six stiffnesses [N/m, N m/rad]; Lambda: the hand's inertia at the pose, 6 x 6, both halves; zeta: the ratio that
-    is asked for. Neither K nor Lambda is changed.
+    K: six stiffnesses [N/m, N m/rad]; Lambda: the hand's inertia at the pose, 6 x 6, both halves; zeta: the desired
+    damping ratio. Neither K nor Lambda is changed.
     """
 
     title: str

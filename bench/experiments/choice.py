@@ -85,7 +85,7 @@ class Choice:
 
     @property
     def narrows(self) -> bool:
-        """Tell whether less or other than the suite's start sets and engines is asked for."""
+        """Tell whether start sets or engines other than the suite's are chosen."""
         return bool(self.start_sets or self.engines)
 
 

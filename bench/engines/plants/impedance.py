@@ -33,7 +33,7 @@ energy at the end [J]; and of the energy's account what is damped, lost in the e
 
 
 class Springs(NamedTuple):
-    """Stiffness of translation [N/m] and of turns [N m/rad], the ratio that is asked for, and what is compensated.
+    """Stiffness of translation [N/m] and of turns [N m/rad], the desired damping ratio, and what is compensated.
 
     is_whole: 1 if Coriolis torques and friction are compensated with gravity, 0 if gravity alone is.
     """

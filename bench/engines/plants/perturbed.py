@@ -127,7 +127,7 @@ class State(NamedTuple):
 
 
 class Periodic(NamedTuple):
-    """What a controller that is asked once a period remembers: number of periods, the last command, as it was given."""
+    """Hold what a controller that runs once a period stores: number of periods, the last command, as it was given."""
 
     law: tuple
     periods: int
