@@ -92,7 +92,7 @@ reference: $(READY) ## run the quick suite and make it the new reference (in a c
 	@$(PY) -m bench run --suite quick --out results/quick
 	@rm -rf results/reference && mkdir -p results/reference
 	@cp results/quick/*.parquet results/quick/plan.json results/quick/provenance.json results/reference/
-	@$(PY) -c 'from bench.tables.schema import readme; print(readme(), end="")' > results/README.md
+	@$(PY) -c 'from bench.experiments.tables.schema import readme; print(readme(), end="")' > results/README.md
 	@kilobytes=$$(du -sk results/reference | cut -f1); test $$kilobytes -lt 5000 || \
 		{ echo "results/reference is $$kilobytes kB; at most 5000 are committed" >&2; exit 1; }
 	@echo "Promoted. Now: git add results && git commit"

@@ -25,7 +25,7 @@ from pathlib import Path
 import check_site
 
 from bench.cli.progress import progress
-from bench.tables import data_package, trust
+from bench.experiments.tables import data_package, trust
 
 REPORT = Path(__file__).resolve().parent
 ROOT = REPORT.parent

@@ -29,9 +29,9 @@ NEWTON_STEPS = 6  # from one frame to the next the hand moves by centimetres at 
 def seen(task: str, trial: str, controller: str) -> tuple[Puppet, Motion]:
     """One episode by the compiled engine, its record's lines, and a puppet at its beginning."""
     import tasks
-    from bench.control.registry import find_controller
     from bench.engines.contact_episode import USUAL
     from bench.engines.simulate_contact import run_contact as run
+    from bench.law.control.registry import find_controller
 
     arm, about = tasks.arm(ARM), tasks.contact_task(task)
     one = next(each for each in about.trials(arm) if each.id == trial or not trial)

@@ -15,8 +15,8 @@ import sysconfig
 import time
 from pathlib import Path
 
-from bench.tables import data_package
-from bench.tables.schema import RESULTS
+from bench.experiments.tables import data_package
+from bench.experiments.tables.schema import RESULTS
 from report.figures.method.provenance import cited
 
 ROOT = Path(__file__).resolve().parents[1]

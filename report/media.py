@@ -65,12 +65,12 @@ def motions() -> dict[str, tuple[Motion, dict]]:
 
     import tasks
     from bench.engines.curve import ARM_NUMBERS, blank_curves
+    from bench.engines.metrics.registry import metrics_of
     from bench.engines.simulate_arms import run_arm as run
     from bench.experiments.episode_rows import frame
     from bench.experiments.experiment import Settings, Unit
     from bench.experiments.suites import NOMINAL, ON_ARM
     from bench.findings.claims.arm_probes import controller
-    from bench.metrics.registry import metrics_of
 
     start = next(one for one in tasks.start_set(START_SET, None, SEED, arm=ARM) if one.id == START)
     metrics, joints, settings = metrics_of(on_arm=True), tasks.arm(ARM).joints, Settings("media")
@@ -123,7 +123,7 @@ def draw() -> int:
     sys.path.insert(0, str(REPORT.parent))
     import contact_media
 
-    from bench.provenance import describe
+    from bench.base.provenance import describe
 
     try:
         large = View(Puppet(ARM), HALF, CAMERA, CLOSE)

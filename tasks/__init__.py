@@ -35,10 +35,11 @@ from tasks.arm import arm as arm
 from tasks.arm import arm_names as arm_names
 from tasks.arm_model import Arm
 from tasks.axis import Axis
-from tasks.base import ArmStartSet, ArmTask, BadValue, Start, StartSet, Task, UnknownName
+from tasks.base import ArmStartSet, ArmTask, Start, StartSet, Task
 from tasks.condition import known_axes
 from tasks.contact import ContactTask
 from tasks.discovery import constants, pick
+from tasks.errors import BadValue, UnknownName
 from tasks.variations import VARIATIONS, Variation
 
 if TYPE_CHECKING:

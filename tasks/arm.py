@@ -20,7 +20,7 @@ from functools import lru_cache
 from pathlib import Path
 
 from tasks.arm_model import Arm
-from tasks.base import BadArm, UnknownName
+from tasks.errors import BadArm, UnknownName
 
 ARMS = Path(__file__).parent / "arms"
 WORD = re.compile(r"[a-z][a-z0-9]*(-[a-z0-9]+)*")

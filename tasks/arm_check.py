@@ -16,7 +16,7 @@ import mujoco
 import numpy as np
 
 from tasks.arm_model import Arm, model_xml
-from tasks.base import BadArm
+from tasks.errors import BadArm
 
 FEWEST, MOST = 6, 7  # fewer joints cannot hold a position and turn freely; the inverses' buffers end at seven
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 import xml.etree.ElementTree as ElementTree
 from typing import NamedTuple
 
-from tasks.base import UnknownName, sensor_xml
+from tasks.errors import UnknownName
+from tasks.sensors import sensor_xml
 
 # The same light and white sky for every arm, and the base axes; the arm's file has the camera "view".
 LOOK = """<mujoco>
@@ -58,7 +59,7 @@ def model_xml(arm: Arm, dt: float) -> str:
     """The judge's MJCF model of an arm with integration step dt [s].
 
     Gravity as on Earth; no contacts, joint limits or automatic reset. Sensors of the site "tool": those of
-    tasks.base.SENSORS, then its position p [m].
+    tasks.sensors.SENSORS, then its position p [m].
     """
     root = ElementTree.fromstring(arm.xml)
     # Later options override those of the file, and its sensors (arm_check.py allows none) would come first.

@@ -1,4 +1,4 @@
-"""What the judge's files share: starts, start sets and tasks of both kinds, the sensors of every model, the errors.
+"""What the judge's files share: starts, start sets and tasks of both kinds.
 
 `angle` and `haversine`, the measure of the error, live in truth.py and are named here too.
 """
@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, NamedTuple
 
+from tasks.errors import BadValue
 from tasks.truth import angle as angle
 from tasks.truth import haversine as haversine
 
@@ -62,8 +63,8 @@ class ArmStartSet(NamedTuple):
 class Task(NamedTuple):
     """A plant whose orientation is to be regulated: the constant TASK of a tasks/domains/<name>.py.
 
-    Its model carries the sensors SENSORS in this order, so that sensordata[0:12] is what a contestant may see
-    and sensordata[12:16] is the judge's ground truth.
+    Its model carries the sensors of tasks/sensors.py in this order, so that sensordata[0:12] is what a contestant may
+    see and sensordata[12:16] is the judge's ground truth.
     """
 
     name: str  # of the file, with dashes: "free-body"
@@ -97,35 +98,3 @@ class ArmTask(NamedTuple):
     source: str
     on: Callable[[Arm], Task]  # the task on one arm, always the same Task for the same Arm
     start_sets: tuple[str, ...]  # of tasks/arm_starts
-
-
-# (sensor name, MJCF element, size): n, o, a are the columns of R; omega is in the base frame [rad/s]
-SENSORS = (
-    ("n", "framexaxis", 3),
-    ("o", "frameyaxis", 3),
-    ("a", "framezaxis", 3),
-    ("omega", "frameangvel", 3),
-    ("quat", "framequat", 4),
-)
-
-
-def sensor_xml(site: str) -> str:
-    """The <sensor> element that every task's model must contain, for the site that is regulated."""
-    lines = [f'    <{kind} name="{name}" objtype="site" objname="{site}"/>' for name, kind, _ in SENSORS]
-    return "\n".join(["  <sensor>", *lines, "  </sensor>"])
-
-
-class TaskError(ValueError):
-    """A caller's mistake, said in one line: what was given, what is allowed, the cure."""
-
-
-class UnknownName(TaskError):
-    """A name that is not in the folder it is looked up in."""
-
-
-class BadValue(TaskError):
-    """A number or quaternion that no episode can begin with."""
-
-
-class BadArm(TaskError):
-    """A file of tasks/arms that is no arm."""

@@ -20,7 +20,8 @@ from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from tasks.arm_model import Arm
-from tasks.base import AT_REST, IDENTITY, BadValue, Quat, Vector
+from tasks.base import AT_REST, IDENTITY, Quat, Vector
+from tasks.errors import BadValue
 
 if TYPE_CHECKING:
     import mujoco

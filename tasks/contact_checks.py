@@ -11,10 +11,10 @@ from typing import Any
 import numpy as np
 
 from tasks.arm_model import Arm
-from tasks.base import BadValue
 from tasks.contact import AXES, MOST_LEGS, Specification, Trial
 from tasks.contact_model import ContactModel
 from tasks.episode import UNIT_NORM_TOLERANCE
+from tasks.errors import BadValue
 
 
 def check_specification(specification: Specification) -> None:

@@ -7,8 +7,8 @@ import xml.etree.ElementTree as ElementTree
 from typing import NamedTuple
 
 from tasks.arm_model import LOOK, Arm
-from tasks.base import sensor_xml
 from tasks.contact import ContactTask, Surroundings, attribute, refuse, wrist_of
+from tasks.sensors import sensor_xml
 
 
 class ContactModel(NamedTuple):
@@ -65,8 +65,8 @@ def softness(contact: ContactModel, mobility: float) -> dict[str, str]:
 def model_xml(task: ContactTask, arm: Arm, dt: float, contact: ContactModel = STANDARD) -> str:
     """The judge's MJCF model of a task on an arm, with integration step dt [s].
 
-    Sensors of the site "hand": those of tasks.base.SENSORS, its position p [m], then force [N] and moment [N m] in the
-    hand's frame as MuJoCo gives them, if anything can touch the gap at the deepest contact [m] (at most 0, and 0 where
+    Sensors of the site "hand": those of tasks.sensors.SENSORS, its position p [m], then force [N] and moment [N m] in
+    the hand's frame as MuJoCo gives them, if anything can touch the gap at the deepest contact [m] (at most 0, and 0 where
     there is no contact), and the joint of the scene [rad] if there is one.
 
     Errors:

@@ -13,7 +13,7 @@ from collections.abc import Mapping
 from types import ModuleType
 from typing import Any, TypeVar
 
-from tasks.base import UnknownName
+from tasks.errors import UnknownName
 
 Found = TypeVar("Found")
 

@@ -18,9 +18,11 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from tasks.base import SENSORS, BadValue, Quat, Start, Task, angle
+from tasks.base import Quat, Start, Task, angle
 from tasks.discovery import pick
+from tasks.errors import BadValue
 from tasks.rules import ticks
+from tasks.sensors import SENSORS
 
 with warnings.catch_warnings():
     # Without a display GLFW only warns, and dm_control keeps a renderer that cannot render. As an error the
@@ -162,7 +164,7 @@ def _check_sensors(task: Task, physics: Physics) -> None:
     found = [(model.id2name(i, "sensor"), int(model.sensor_dim[i])) for i in range(model.nsensor)]
     wanted = [(name, size) for name, _, size in SENSORS]
     if found[: len(wanted)] != wanted:
-        raise BadValue(f"task '{task.name}': first sensors are {found}, not {wanted} (use tasks.base.sensor_xml)")
+        raise BadValue(f"task '{task.name}': first sensors are {found}, not {wanted} (use tasks.sensors.sensor_xml)")
 
 
 def _check_joints(task: Task, start: Start, physics: Physics) -> None:

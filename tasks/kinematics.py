@@ -22,7 +22,8 @@ import mujoco
 import numpy as np
 
 from tasks.arm_model import Arm, model_xml
-from tasks.base import BadValue, Quat, Start, Vector
+from tasks.base import Quat, Start, Vector
+from tasks.errors import BadValue
 from tasks.linear_algebra import damped, least_norm, length
 from tasks.paths import geodesic
 

@@ -65,8 +65,8 @@ def pytest_collection_finish():
 @pytest.fixture(scope="module")
 def run_once(tmp_path_factory):
     """A finished run that tests copy."""
-    from bench.contenders.registry import find_contender
     from bench.experiments.choice import Choice
+    from bench.law.contenders.registry import find_contender
     from bench.running import run as running
 
     folder = tmp_path_factory.mktemp("run") / "finished"

@@ -16,7 +16,7 @@ from bench.audit.faults import every_fault
 from bench.audit.pairs import CLOSE, FINE, NEAR_IDENTITY, WIDE
 from bench.audit.report import Report
 from bench.audit.stated import TAKES, Stated
-from bench.errors import BadFunction
+from bench.base.errors import BadFunction
 
 
 def examine(function: Callable, stated: Stated, name: str) -> Report:

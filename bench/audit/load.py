@@ -25,7 +25,7 @@ from typing import Any
 
 import numpy as np
 
-from bench.errors import BadFunction
+from bench.base.errors import BadFunction
 
 LIBRARIES = (".so", ".dylib", ".dll")
 BUFFER = 16

@@ -40,7 +40,7 @@ def checks(session: pytest.Session, target: str, accept: tuple[str, ...]) -> lis
     from bench.audit import audit
     from bench.audit.faults import every_fault
     from bench.audit.load import load
-    from bench.errors import BenchError
+    from bench.base.errors import BenchError
 
     @functools.cache
     def report() -> Report:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from bench.errors import BadNumber, UnknownWord
+from bench.base.errors import BadNumber, UnknownWord
 
 TAKES = ("matrix", "wxyz", "xyzw")
 """3 x 3 matrices, or quaternions with the scalar first or last."""

@@ -11,10 +11,10 @@ import tomllib
 import rich_click as click
 from click.exceptions import Exit
 
+from bench.base.errors import BenchError
+from bench.base.provenance import ROOT
 from bench.cli.screen import examples
-from bench.errors import BenchError
-from bench.provenance import ROOT
-from tasks.base import TaskError
+from tasks.errors import TaskError
 
 click.rich_click.TEXT_MARKUP = "rich"
 click.rich_click.MAX_WIDTH = 110

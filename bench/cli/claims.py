@@ -22,8 +22,8 @@ def COMMAND(folder, criteria):
 
     A run of some laws or starts has no rows about some claims; those are named at the end as not judged.
     """
+    from bench.experiments.tables import read
     from bench.findings.claims import Results, judge_possible
-    from bench.tables import read
 
     results = Results(folder or read.folder())
     results.table("episodes")  # refuses a run that has not finished

@@ -6,15 +6,15 @@ from pathlib import Path
 import rich_click as click
 from click.exceptions import Exit
 
+from bench.base.errors import BenchError
+from bench.base.files import read_json, write_json
+from bench.base.provenance import rounded_on
 from bench.cli import options
 from bench.cli.judge import print_judgement
 from bench.cli.progress import progress
 from bench.cli.screen import console, examples, frame_table
-from bench.errors import BenchError
-from bench.files import read_json, write_json
-from bench.provenance import rounded_on
 from bench.regression.revisions import summary as words
-from tasks.base import TaskError
+from tasks.errors import TaskError
 
 EPILOG = examples(
     ("Two runs, row by row", "compare results/reference results/quick"),
@@ -111,7 +111,7 @@ def _resolve_sides(base: str | None, head: str | None, laws) -> tuple[str, str |
     Errors:
         UsageError: one is a folder and the other is not; or a user's law is to be judged in folders.
     """
-    from bench.errors import Incompatible
+    from bench.base.errors import Incompatible
     from bench.regression.revisions import commits
 
     if base is None:

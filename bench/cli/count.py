@@ -8,16 +8,16 @@ import rich_click as click
 from click.exceptions import Exit
 
 import tasks
+from bench.base.errors import Incompatible
 from bench.cli import options
 from bench.cli.progress import progress
 from bench.cli.screen import console, examples, frame_table
-from bench.contenders import combinations
-from bench.control.registry import find_controller
-from bench.errors import Incompatible
 from bench.experiments.experiment import Settings, Unit, rows_of
 from bench.experiments.plan import Plan
 from bench.experiments.suites import SUITES
 from bench.law.contender import Contender
+from bench.law.contenders import combinations
+from bench.law.control.registry import find_controller
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -98,7 +98,7 @@ def _in_contact(words: tuple[str, ...]) -> pd.DataFrame:
     """The costs of the controllers of these names."""
     import pandas as pd
 
-    from bench.counting.in_contact import rows_in_contact
+    from bench.engines.counting.in_contact import rows_in_contact
 
     controllers = [find_controller(word) for word in dict.fromkeys(words)]
     return pd.DataFrame([row for one in controllers for row in rows_in_contact(one)])

@@ -11,9 +11,9 @@ import rich_click as click
 from click.exceptions import Exit
 from rich.text import Text
 
+from bench.base.provenance import ROOT
 from bench.cli.screen import console, examples, shown_path
-from bench.provenance import ROOT
-from bench.tables.schema import RESULTS
+from bench.experiments.tables.schema import RESULTS
 
 CURE_INSTALL = "make setup (or: pip install --require-hashes -r requirements/base.txt)"
 
@@ -73,10 +73,10 @@ def _compiler() -> str:
 
 def _engines() -> str:
     import tasks
-    from bench.contenders.registry import papers_laws
+    from bench.engines.metrics.registry import metrics_of
     from bench.engines.simulate import run
     from bench.experiments.experiment import Settings
-    from bench.metrics.registry import metrics_of
+    from bench.law.contenders.registry import papers_laws
 
     law = papers_laws()[0]
     metrics = metrics_of(on_arm=False)
@@ -95,13 +95,13 @@ def _check_equal(both, where: str) -> None:
 
 def _arms() -> str:
     import tasks
-    from bench.contenders import combinations
-    from bench.contenders.registry import all_contenders, papers_laws
+    from bench.engines.metrics.registry import metrics_of
     from bench.engines.simulate_arms import run_arm as run
     from bench.experiments.experiment import Settings
-    from bench.metrics.registry import metrics_of
+    from bench.law.contenders import combinations
+    from bench.law.contenders.registry import all_contenders, papers_laws
     from tasks.arm import arms
-    from tasks.base import BadArm
+    from tasks.errors import BadArm
 
     broken = [str(one) for one in arms().values() if isinstance(one, BadArm)]
     found = [one for one in arms().values() if not isinstance(one, BadArm)]
@@ -121,11 +121,11 @@ def _arms() -> str:
 
 def _contact() -> str:
     import tasks
-    from bench.control.registry import find_controller
     from bench.engines.simulate_contact import run_contact as run
     from bench.experiments.contact import can_do
+    from bench.law.control.registry import find_controller
     from tasks.arm import arms
-    from tasks.base import BadArm
+    from tasks.errors import BadArm
 
     task, one = tasks.contact_task("surface-alignment"), find_controller("hybrid-base+inverse")
     able = [arm for arm in arms().values() if not isinstance(arm, BadArm) and can_do(task, arm)]

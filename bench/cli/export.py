@@ -6,9 +6,9 @@ from pathlib import Path
 
 import rich_click as click
 
+from bench.base.errors import BadResults
 from bench.cli import options
 from bench.cli.screen import console, examples, shown_path
-from bench.errors import BadResults
 
 EPILOG = examples(
     ("A header for a controller in C++", "export late-braking --to cpp"),
@@ -38,9 +38,9 @@ def COMMAND(law: str, language: str, out: Path | None, laws: tuple[Path, ...]):
     functions of coordinates, impedance-NAME an impedance, spring-NAME a spring, of a pose or of a
     rotation alone, compensator-NAME a law with a state. --law FILE runs your file to load it.
     """
-    from bench.contenders.law_file import load_law
     from bench.export.language import find_language
     from bench.export.subject import find_subject, subject_words
+    from bench.law.contenders.law_file import load_law
 
     made, own = find_language(language), tuple(map(load_law, laws))
     words = subject_words(own) if law == EVERYTHING else [law]

@@ -4,9 +4,9 @@ from pathlib import Path
 
 import rich_click as click
 
+from bench.base.errors import BadResults
 from bench.cli.screen import console, counted, examples, frame_table
-from bench.errors import BadResults
-from bench.tables.schema import RESULTS
+from bench.experiments.tables.schema import RESULTS
 
 SHOWN = 6
 """Builds that are shown, the newest."""

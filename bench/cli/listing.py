@@ -8,17 +8,17 @@ from typing import Any, NamedTuple
 import rich_click as click
 
 import tasks
+from bench.base.errors import UnknownWord
 from bench.cli import options
 from bench.cli.screen import console, examples, word_table
-from bench.contenders import registry
-from bench.control.contact_controller import HYBRIDS
-from bench.control.registry import all_controllers
-from bench.errors import UnknownWord
+from bench.engines.metrics.registry import known_contact_metrics, known_metrics
 from bench.experiments.contact import can_do
 from bench.experiments.experiment import known_experiments
-from bench.metrics.registry import known_contact_metrics, known_metrics
+from bench.law.contenders import registry
+from bench.law.control.contact_controller import HYBRIDS
+from bench.law.control.registry import all_controllers
 from tasks.arm import arms
-from tasks.base import BadArm
+from tasks.errors import BadArm
 
 
 class Kind(NamedTuple):

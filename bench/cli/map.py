@@ -6,15 +6,15 @@ from pathlib import Path
 import rich_click as click
 from click.exceptions import Exit
 
+from bench.base.files import read_json
 from bench.cli import options
 from bench.cli.progress import progress
 from bench.cli.screen import console, counted, examples, frame_table, shown_path
 from bench.experiments.choice import check_numbers, check_workers
 from bench.experiments.map import plan_of
-from bench.files import read_json
+from bench.experiments.tables.schema import RESULTS
 from bench.law.contender import Gains
 from bench.running.schedulers.words import THREADS, check_scheduler
-from bench.tables.schema import RESULTS
 
 EPILOG = examples(
     ("Where the rotation matrix alone loses starts, of ten million", "map --regulator rotation-matrix"),
@@ -103,8 +103,8 @@ def COMMAND(
 
 
 def _print(out: Path) -> None:
+    from bench.experiments.tables.store import read
     from bench.findings.maps import by_law
-    from bench.tables.store import read
 
     digits = {**dict.fromkeys(("lost [ppm]", "least [ppm]", "most [ppm]"), 2), "slowest [s]": 3}
     lines = by_law(read(out, "map")).round(digits)

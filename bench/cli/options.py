@@ -5,10 +5,10 @@ from typing import NamedTuple
 
 import rich_click as click
 
-from bench.contenders import registry
-from bench.contenders.described_law import described
+from bench.experiments.tables.schema import RESULTS
 from bench.law.contender import Contender, Regulator
-from bench.tables.schema import RESULTS
+from bench.law.contenders import registry
+from bench.law.contenders.described_law import described
 
 LATEST = RESULTS / "latest"
 REFERENCE = RESULTS / "reference"
@@ -66,7 +66,7 @@ def named(regulators, jacobians, inverses) -> Named:
 
 
 def own_laws(files: tuple[Path, ...]) -> tuple[Regulator, ...]:
-    """The regulators of these files, those that lie in bench/contenders too; two of one name are refused."""
+    """The regulators of these files, those that lie in bench/law/contenders too; two of one name are refused."""
     own = tuple(registry.regulator_in(file) or described(file) for file in files)
     names = [one.name for one in own]
     for name in names:

@@ -2,10 +2,10 @@
 
 from pathlib import Path
 
+from bench.base.errors import BadResults
+from bench.base.files import read_json
+from bench.base.provenance import count_episodes
 from bench.cli.screen import counted, shown_path
-from bench.errors import BadResults
-from bench.files import read_json
-from bench.provenance import count_episodes
 
 NEEDED = ("suite", "episodes", "commit", "dirty", "cpu", "wall_s")
 

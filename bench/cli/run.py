@@ -7,11 +7,11 @@ from datetime import timedelta
 import rich_click as click
 from click.exceptions import Exit
 
+from bench.base.files import read_json
 from bench.cli import options
 from bench.cli.progress import progress
 from bench.cli.screen import console, counted, examples, shown_path
 from bench.experiments.choice import IN_CONTACT, WITHOUT, Choice, check_workers
-from bench.files import read_json
 from bench.law.contender import Gains
 from bench.running.schedulers.words import THREADS, check_scheduler
 

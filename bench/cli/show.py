@@ -4,10 +4,10 @@ from pathlib import Path
 
 import rich_click as click
 
+from bench.base.errors import BadResults
 from bench.cli import options
 from bench.cli.origin import origin
 from bench.cli.screen import console, examples, frame_table, shown_path
-from bench.errors import BadResults
 
 EPILOG = examples(
     ("The summary of results/latest", "show"),
@@ -57,7 +57,7 @@ def _meant(folder: str | None, part: str | None) -> tuple[Path, str | None]:
         UsageError: the second word is no part. BadResults: the first is neither a part nor a folder.
     """
     from bench.cli.details import parts
-    from bench.tables import read as results
+    from bench.experiments.tables import read as results
 
     if part is None and folder in parts():
         return results.folder(), folder
@@ -77,7 +77,7 @@ def _tables(folder: Path, part, engine, starts, outcomes, regulators) -> list:
     from bench.cli.details import arms, contact, free_body, robustness
     from bench.cli.details.episodes import of_laws, only, outcome_table, places
     from bench.experiments.experiment import known_experiments
-    from bench.tables.store import read
+    from bench.experiments.tables.store import read
 
     episodes = read(folder, "episodes")
     if part in ("free-body", "arms"):

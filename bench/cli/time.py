@@ -7,7 +7,7 @@ import rich_click as click
 from bench.cli import options
 from bench.cli.progress import progress
 from bench.cli.screen import console, examples, frame_table, shown_path
-from bench.tables.schema import RESULTS
+from bench.experiments.tables.schema import RESULTS
 
 WHOLE, PARTIAL = RESULTS / "timings", RESULTS / "timings-partial"
 
@@ -38,7 +38,7 @@ def COMMAND(laws, regulators, representations, arms, quick, benchmark_json, out:
     there unless --out names it.
     """
     import tasks
-    from bench import timing
+    from bench.running import timing
 
     named = tuple(dict.fromkeys(arms)) or tuple(tasks.arm_names())
     for arm in named:

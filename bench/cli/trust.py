@@ -4,9 +4,9 @@ from pathlib import Path
 
 import rich_click as click
 
+from bench.base.errors import BadLaw
 from bench.cli.screen import console
-from bench.errors import BadLaw
-from bench.tables import trust
+from bench.experiments.tables import trust
 
 
 @click.command("trust")

@@ -8,11 +8,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bench.contenders.jacobians.geometric import fill
-from bench.control.resolved_acceleration import BY_JOINT, Buffers
 from bench.engines.arrays import Seven
 from bench.engines.episode import blank
 from bench.law.contender import Contender
+from bench.law.contenders.jacobians.geometric import fill
+from bench.law.control.resolved_acceleration import BY_JOINT, Buffers
 from bench.law.linalg import determinant, gram
 from bench.law.resolved_motion import Scratch
 from bench.law.scalar import kernel

@@ -9,9 +9,9 @@ On an analytic Jacobian the command is that of the coordinates: command(chart, E
 import math
 
 import tasks
-from bench.control.resolved_acceleration import Parts, parts_of
 from bench.engines.episode import CRASHED_COMMAND, FIRST_METRIC, has_crashed
 from bench.law.contender import NO_MEMORY, Contender, Gains
+from bench.law.control.resolved_acceleration import Parts, parts_of
 from bench.law.scalar import kernel
 from bench.law.so3 import relative
 from tasks.base import Task

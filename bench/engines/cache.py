@@ -10,7 +10,7 @@ import shutil
 from pathlib import Path
 from typing import Any
 
-from bench.provenance import kept_in, source_digest
+from bench.base.provenance import kept_in, source_digest
 
 fcntl: Any
 try:

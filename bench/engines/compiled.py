@@ -16,15 +16,15 @@ from numba.core.caching import IndexDataCacheFile
 from numba.extending import overload, register_jitable
 from numba.np import linalg
 
-from bench.control.setpoint import ContactParameters, Rows, Setpoint
+from bench.base.errors import BadLaw
 from bench.engines.arrays import Four, Three
 from bench.engines.cache import to_itself
 from bench.engines.curve import Curves
 from bench.engines.episode import Numbers
 from bench.engines.typed import type_of
-from bench.errors import BadLaw
 from bench.law import scalar
 from bench.law.contender import Gains, Goal
+from bench.law.control.setpoint import ContactParameters, Rows, Setpoint
 from bench.law.resolved_motion import Chain, Scratch
 from bench.law.so3 import Rotation
 from tasks import moving_goal, truth, velocity, verdict
@@ -77,8 +77,13 @@ TOUCH = types.void(CHAIN, *map(type_of, (Setpoint, Three, Three, Gains, ContactP
 """The other functions that loops call: see `plants`."""
 
 INLINED = (
-    *("bench.law.chain", "bench.law.linalg", "bench.contenders.jacobians", "bench.control.resolved_acceleration"),
-    *("bench.control.hybrid", "bench.engines.arm_episode", "bench.engines.contact_episode"),
+    *(
+        "bench.law.chain",
+        "bench.law.linalg",
+        "bench.law.contenders.jacobians",
+        "bench.law.control.resolved_acceleration",
+    ),
+    *("bench.law.control.hybrid", "bench.engines.arm_episode", "bench.engines.contact_episode"),
     *("bench.engines.plants", "bench.engines.loop"),
 )
 """Modules whose kernels take buffers and are always inlined: a call passes each array as seven words, and counts a

@@ -11,7 +11,6 @@ import mujoco
 import numpy as np
 
 import tasks
-from bench.control.resolved_acceleration import assembly
 from bench.engines import contact_episode
 from bench.engines.arm_episode import blank_arm, controls, joints
 from bench.engines.arm_episode import states as states_of
@@ -22,6 +21,7 @@ from bench.engines.native.trapped import said
 from bench.engines.plants import arm as on_arm
 from bench.engines.plants import contact, free_body
 from bench.engines.simulated import model_view, plain_view
+from bench.law.control.resolved_acceleration import assembly
 from tasks.contact_episode import environment as scene_of
 
 

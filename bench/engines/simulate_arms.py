@@ -7,8 +7,6 @@ import mujoco
 import numpy as np
 
 import tasks
-from bench.control.resolved_acceleration import assembly
-from bench.control.unshaped import Damping
 from bench.engines import reference
 from bench.engines.arm_episode import STANDING, blank_arm, controls, joints, states
 from bench.engines.binding import margin_of, memory_of, parts_for
@@ -31,6 +29,8 @@ from bench.engines.plants.impedance import Springs
 from bench.engines.simulate import compiled_loop, evaluation, simulate
 from bench.engines.simulated import compiled_view
 from bench.law.contender import Contender
+from bench.law.control.resolved_acceleration import assembly
+from bench.law.control.unshaped import Damping
 from tasks.arm_model import Arm
 from tasks.velocity import servo
 

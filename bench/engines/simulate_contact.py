@@ -6,7 +6,7 @@ from typing import NamedTuple
 import mujoco
 import numpy as np
 
-from bench.control.contact_controller import ContactController, check_constants
+from bench.base.errors import BadNumber, UnknownWord
 from bench.engines import contact_episode, reference
 from bench.engines.compiled import TOUCH, compile_function, made_once, register
 from bench.engines.contact_episode import BROKEN, TIME, USUAL, Conditions, Ended, made
@@ -16,8 +16,8 @@ from bench.engines.native.libmujoco import MUJOCO_INTEGRATORS, model_of
 from bench.engines.plants import contact as in_contact
 from bench.engines.simulate import compiled_loop, simulate
 from bench.engines.simulated import compiled_view
-from bench.errors import BadNumber, UnknownWord
 from bench.law.contender import NO_MEMORY
+from bench.law.control.contact_controller import ContactController, check_constants
 from tasks.arm_model import Arm
 from tasks.contact import ContactTask, Trial, leg, prepare, refuse
 from tasks.contact_checks import check_contact, check_trial

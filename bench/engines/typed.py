@@ -7,10 +7,10 @@ from numba import float64, int64, types
 from numba.extending import intrinsic, overload
 from numba.np.arrayobj import make_array
 
-from bench.control.resolved_acceleration import Buffers
-from bench.control.setpoint import ContactBuffers, Rows, Setpoint
 from bench.engines.arrays import Matrix, Three, Vector
 from bench.law.contender import Goal
+from bench.law.control.resolved_acceleration import Buffers
+from bench.law.control.setpoint import ContactBuffers, Rows, Setpoint
 from bench.law.resolved_motion import Chain, Scratch
 from bench.law.so3 import Rotation
 from tasks.condition import FIELDS, Condition

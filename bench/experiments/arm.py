@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 import tasks
-from bench.contenders import combinations
-from bench.errors import Incompatible
+from bench.base.errors import Incompatible
+from bench.engines.metrics.registry import metrics_of
 from bench.experiments.choice import Choice
 from bench.experiments.chosen_words import AT_INVERSES
 from bench.experiments.episode_rows import TABLE, frame
@@ -17,7 +17,7 @@ from bench.experiments.experiment import ON_ARMS, Asked, Experiment, Settings, U
 from bench.experiments.rounding import judged_on_both_sides
 from bench.experiments.suites import NOMINAL, OnArms, Slice
 from bench.law.contender import Contender
-from bench.metrics.registry import metrics_of
+from bench.law.contenders import combinations
 from tasks.base import Start
 
 if TYPE_CHECKING:

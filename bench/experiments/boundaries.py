@@ -11,6 +11,7 @@ import math
 import numpy as np
 
 from bench.engines.episode import OUTCOME
+from bench.engines.metrics.registry import metrics_of
 from bench.experiments.columns import CONTENDER, CONTENDER_KEY, Column, Table, numbers, words
 from bench.experiments.episode_rows import contender_columns
 from bench.experiments.episodes import prepare
@@ -18,7 +19,6 @@ from bench.experiments.experiment import OF_LAWS, Asked, Experiment, Settings, U
 from bench.experiments.suites import SHORT
 from bench.experiments.traces import laws
 from bench.law.contender import Contender
-from bench.metrics.registry import metrics_of
 from tasks.base import Start
 from tasks.sphere import axes
 from tasks.verdict import OUTCOMES, SETTLED

@@ -4,11 +4,11 @@ import math
 from dataclasses import dataclass
 
 import tasks
-from bench.contenders.registry import known_inverses, known_jacobians
-from bench.control.registry import find_controller
-from bench.errors import BadNumber, Incompatible, UnknownWord
+from bench.base.errors import BadNumber, Incompatible, UnknownWord
 from bench.experiments.suites import ENGINES
 from bench.law.contender import Gains
+from bench.law.contenders.registry import known_inverses, known_jacobians
+from bench.law.control.registry import find_controller
 
 INTEGRATORS = ("euler", "implicit", "implicitfast", "rk4")
 WITHOUT, IN_CONTACT = "euler", "implicitfast"

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 import tasks
-from bench.contenders.registry import known_compensators, papers_laws
 from bench.experiments.columns import GAINS, STEPPED_DT, Column, Table, counts, numbers, words
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit
 from bench.law.compensator import Compensator
+from bench.law.contenders.registry import known_compensators, papers_laws
 from tasks.rules import ticks
 
 NAME = "compensators"
@@ -28,7 +28,7 @@ LEVEL_S = 0.12
 
 
 def columns() -> list[Column]:
-    """compensators.parquet: laws with a state of their own (bench/contenders/compensators), by disturbance.
+    """compensators.parquet: laws with a state of their own (bench/law/contenders/compensators), by disturbance.
 
     Beside them the paper's law on R, whose spring they have. The free body starts at rest all over SO(3).
     """

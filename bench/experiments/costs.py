@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import tasks
-from bench.contenders.registry import all_contenders
-from bench.errors import BadLaw
+from bench.base.errors import BadLaw
 from bench.experiments import arm, free_body
 from bench.experiments.columns import CONTENDER, CONTENDER_KEY, Column, Table, counts, words
 from bench.experiments.experiment import ON_ARMS, Asked, Experiment, Settings, Unit, own_last
 from bench.experiments.kept_rows import kept
 from bench.experiments.traces import laws
 from bench.law.contender import Contender
+from bench.law.contenders.registry import all_contenders
 
 LAW_S, CONTROLLER_S = 0.2, 1.0
 """CPU seconds of counting; none where it has been counted before."""
@@ -21,7 +21,7 @@ BEYOND = "reference"
 
 def columns() -> list[Column]:
     """costs.parquet: operations a tick, by stage and branch."""
-    from bench.counting import OPERATIONS
+    from bench.engines.counting import OPERATIONS
 
     return [
         *CONTENDER,
@@ -62,7 +62,7 @@ def rows(settings: Settings, unit: Unit) -> list[dict]:
 
 def count_law(one: Contender) -> list[dict]:
     """Count the operations of a law alone; those of ours are kept on disk, for counting all laws takes ten seconds."""
-    from bench import counting
+    from bench.engines import counting
 
     if one.regulator.origin:
         return counting.rows([one])
@@ -71,7 +71,7 @@ def count_law(one: Contender) -> list[dict]:
 
 def count_controller(one: Contender, joints: int) -> list[dict]:
     """Count the operations of a controller on so many joints; those of ours are kept on disk."""
-    from bench import counting
+    from bench.engines import counting
 
     if one.regulator.origin:
         return counting.rows_on_arm(one, joints)

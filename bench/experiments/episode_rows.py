@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 import tasks
-from bench.contenders.representations.zyx_euler import chart
 from bench.engines.arm_episode import POSE, blank_arm
 from bench.engines.episode import (
     FAILURE_TICK,
@@ -21,6 +20,8 @@ from bench.engines.episode import (
     TICKS,
     blank,
 )
+from bench.engines.metrics.metric import Ending
+from bench.engines.metrics.registry import known_metrics, metrics_of
 from bench.experiments.columns import (
     ANGLE0,
     CONTENDER,
@@ -41,9 +42,8 @@ from bench.experiments.columns import (
 from bench.experiments.experiment import Settings, Unit
 from bench.experiments.rounding import BESIDE, CHANGE
 from bench.law.contender import Contender
+from bench.law.contenders.representations.zyx_euler import chart
 from bench.law.so3 import from_quaternion
-from bench.metrics.metric import Ending
-from bench.metrics.registry import known_metrics, metrics_of
 from tasks.cause import cause
 from tasks.rules import RULES
 from tasks.truth import angle

@@ -11,14 +11,14 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, NamedTuple
 
 import tasks
-from bench.errors import Incompatible
+from bench.base.errors import Incompatible
+from bench.engines.metrics.registry import metrics_of
 from bench.experiments import starts
 from bench.experiments.choice import Choice
 from bench.experiments.episode_rows import lost_frame
 from bench.experiments.experiment import Asked, Settings, Unit
 from bench.experiments.suites import HORIZON, NOMINAL, ON_ARM, SHORT, Slice
 from bench.law.contender import Contender
-from bench.metrics.registry import metrics_of
 from tasks.base import Start
 
 if TYPE_CHECKING:

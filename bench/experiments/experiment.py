@@ -16,12 +16,12 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 from bench import experiments
-from bench.contenders.registry import find_contender
-from bench.errors import BadLaw
+from bench.base.errors import BadLaw
 from bench.experiments.choice import IN_CONTACT, WITHOUT, Choice
 from bench.experiments.columns import Table
 from bench.experiments.suites import Suite
 from bench.law.contender import PAPERS_GAINS, Contender, Gains, Regulator
+from bench.law.contenders.registry import find_contender
 from tasks.discovery import constants
 from tasks.rules import RULES, ticks
 

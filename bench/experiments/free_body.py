@@ -6,13 +6,13 @@ import functools
 from typing import TYPE_CHECKING
 
 import tasks
+from bench.engines.metrics.registry import metrics_of
 from bench.experiments import arm
 from bench.experiments.episode_rows import TABLE, frame
 from bench.experiments.episodes import Place, cut, lost, narrowed, prepare, refuse_if_none, runs_on, starts_of, tasks_of
 from bench.experiments.experiment import OF_EPISODES, Asked, Experiment, Settings, Unit
 from bench.experiments.suites import Slice, Suite
 from bench.law.contender import Contender
-from bench.metrics.registry import metrics_of
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -7,10 +7,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from bench.contenders.registry import find_contender, known_regulators
 from bench.experiments.chosen_words import STREAMED
 from bench.experiments.columns import Column, Table, numbers, words
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit
+from bench.law.contenders.registry import find_contender, known_regulators
 from tasks.goal_stream import LENGTH_S, STREAMS, goals, true_goal
 from tasks.truth import angle
 

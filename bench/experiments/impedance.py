@@ -10,14 +10,14 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from bench.contenders.registry import find_contender
-from bench.control.unshaped import DAMPINGS
 from bench.engines.episode import FINAL_ANGLE
 from bench.experiments import arm, starts
 from bench.experiments.columns import ANGLE0, DT, HORIZON, JUDGED, SUITE, Column, Table, numbers, singles, words
 from bench.experiments.episode_rows import judged_columns
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit
 from bench.experiments.suites import BY_EVERY_INVERSE, ON_ARM
+from bench.law.contenders.registry import find_contender
+from bench.law.control.unshaped import DAMPINGS
 from tasks.truth import angle
 
 if TYPE_CHECKING:

@@ -12,8 +12,6 @@ from __future__ import annotations
 import numpy as np
 
 import tasks
-from bench.contenders.registry import find_contender
-from bench.control.unshaped import DAMPINGS
 from bench.experiments.columns import DT, Column, Table, counts, numbers
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit
 from bench.experiments.impedance import (
@@ -27,6 +25,8 @@ from bench.experiments.impedance import (
     setting_columns,
     units_on_arms,
 )
+from bench.law.contenders.registry import find_contender
+from bench.law.control.unshaped import DAMPINGS
 
 NAME = "impedance-modes"
 

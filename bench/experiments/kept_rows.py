@@ -4,10 +4,10 @@ import contextlib
 from collections.abc import Callable
 from pathlib import Path
 
+from bench.base.errors import BadResults
+from bench.base.files import read_json, write_json
+from bench.base.provenance import source_digest
 from bench.engines import cache
-from bench.errors import BadResults
-from bench.files import read_json, write_json
-from bench.provenance import source_digest
 
 Rows = list[dict]
 

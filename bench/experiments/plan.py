@@ -7,7 +7,8 @@ import json
 from dataclasses import dataclass
 
 import tasks
-from bench.errors import Incompatible
+from bench.base.errors import Incompatible
+from bench.base.provenance import source_digest
 from bench.experiments.choice import (
     EVERYTHING,
     IN_CONTACT,
@@ -21,7 +22,6 @@ from bench.experiments.columns import Table
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit, known_experiments, known_tables
 from bench.experiments.suites import suite
 from bench.law.contender import PAPERS_GAINS, Contender, Gains
-from bench.provenance import source_digest
 from tasks.rules import RULES
 
 

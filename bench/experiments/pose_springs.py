@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from bench.contenders.registry import known_springs
 from bench.experiments.columns import Column, Table, counts, numbers, words
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit
 from bench.experiments.springs import LOOPS, POINTS, WIDTH, closed_path, draw_stiffness, right_jacobian
+from bench.law.contenders.registry import known_springs
 
 if TYPE_CHECKING:
     from scipy.spatial.transform import Rotation
@@ -35,7 +35,7 @@ SPRINGS = tuple(spring for spring in known_springs().values() if not spring.is_r
 
 
 def columns() -> list[Column]:
-    """pose-springs.parquet: springs of position and orientation (bench/contenders/springs), a row a spring.
+    """pose-springs.parquet: springs of position and orientation (bench/law/contenders/springs), a row a spring.
 
     K is symmetric with eigenvalues 30, 10 and 3 N/m along drawn axes, kr is 10 N m/rad; ways are of velocity commands
     with K = I and kr = 1, from uniform orientations, half a metre from the goal.

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 import tasks
-from bench.contenders.registry import papers_laws
+from bench.base.errors import Incompatible
 from bench.engines.episode import Settings as Limits
-from bench.errors import Incompatible
+from bench.engines.metrics.registry import metrics_of
 from bench.experiments.choice import Choice
 from bench.experiments.columns import (
     ANGLE0,
@@ -31,7 +31,7 @@ from bench.experiments.equal_peak import gains_at
 from bench.experiments.experiment import OF_LAWS, Asked, Experiment, Settings, Unit
 from bench.experiments.suites import Robustness
 from bench.law.contender import Contender, Gains
-from bench.metrics.registry import metrics_of
+from bench.law.contenders.registry import papers_laws
 from tasks.condition import Condition, condition_at
 from tasks.truth import angle
 

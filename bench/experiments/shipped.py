@@ -13,19 +13,19 @@ from collections.abc import Iterable
 import numpy as np
 
 from bench.audit import audit
-from bench.contenders.registry import find_contender, known_regulators, known_shipped
 from bench.engines.binding import memory_of
 from bench.engines.curve import NUMBERS, blank_curves
 from bench.engines.episode import OUTCOME, SETTLING_TICK, blank, start_rows
 from bench.engines.episode import numbers as numbers_of
+from bench.engines.metrics.registry import metrics_of
 from bench.experiments.chosen_words import BEST
 from bench.experiments.columns import Column, Table, counts, numbers, words
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit
 from bench.experiments.field import ENGINE, ZERO, Field, about, size
 from bench.experiments.suites import LONG
 from bench.law.contender import Contender, Gains
+from bench.law.contenders.registry import find_contender, known_regulators, known_shipped
 from bench.law.shipped import ANTIPODE, NEAR, VELOCITY, Shipped, regulator_of
-from bench.metrics.registry import metrics_of
 from tasks.base import Start
 from tasks.rotations import multiply
 from tasks.sphere import axes
@@ -60,7 +60,7 @@ HAVERSINE = NUMBERS.index("haversine")
 
 
 def columns() -> list[Column]:
-    """shipped.parquet: controllers as they are shipped, and laws of ours at the same gains (bench/contenders/shipped).
+    """shipped.parquet: controllers as they are shipped, and laws of ours at the same gains (contenders/shipped).
 
     A row a controller, and one more for each law of ours in its place, with the same two gains. Of velocity commands
     what is a function of the orientation alone.

@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from bench.contenders.registry import known_springs
 from bench.experiments.columns import Column, Table, counts, numbers, words
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit
+from bench.law.contenders.registry import known_springs
 from tasks.rotations import columns as columns_of
 
 if TYPE_CHECKING:
@@ -41,7 +41,7 @@ ORIGIN, NO_STIFFNESS = (0.0, 0.0, 0.0), ((0.0, 0.0, 0.0),) * 3
 
 
 def columns() -> list[Column]:
-    """springs.parquet: rotational springs with a stiffness matrix (bench/contenders/springs), a row a spring and frame.
+    """springs.parquet: rotational springs with a stiffness matrix (contenders/springs), a row a spring and frame.
 
     K is symmetric with eigenvalues 30, 10 and 3 N m/rad along drawn axes.
     """

@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-from bench.errors import UnknownWord
+from bench.base.errors import UnknownWord
 from bench.experiments.chosen_words import (
     ANALYTIC,
     BEST,

@@ -13,6 +13,7 @@ import numpy as np
 
 import tasks
 from bench.engines.curve import ARM_NUMBERS, NUMBERS, blank_curves
+from bench.engines.metrics.registry import metrics_of
 from bench.experiments import free_body
 from bench.experiments.columns import (
     ARM,
@@ -32,7 +33,6 @@ from bench.experiments.experiment import OF_LAWS, Asked, Experiment, Settings, U
 from bench.experiments.starts import on_arm
 from bench.experiments.suites import HORIZON, LONG, SHORT
 from bench.law.contender import Contender
-from bench.metrics.registry import metrics_of
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -15,9 +15,6 @@ from typing import NamedTuple
 import numpy as np
 
 import tasks
-from bench.contenders import combinations
-from bench.contenders.registry import known_inverses
-from bench.control.velocity import is_velocity_law
 from bench.engines.episode import FINAL_ANGLE, OUTCOME
 from bench.experiments import arm, starts
 from bench.experiments.columns import (
@@ -41,6 +38,9 @@ from bench.experiments.limiters import LIMITERS, NONE
 from bench.experiments.suites import AT_VELOCITIES, BY_EVERY_INVERSE, SUITES, WITHOUT_FACTOR
 from bench.experiments.traces import laws
 from bench.law.contender import Contender, refusal
+from bench.law.contenders import combinations
+from bench.law.contenders.registry import known_inverses
+from bench.law.control.velocity import is_velocity_law
 from tasks.base import Start
 from tasks.truth import angle
 from tasks.verdict import OUTCOMES

@@ -17,8 +17,6 @@ import math
 import numpy as np
 
 import tasks
-from bench.contenders import combinations
-from bench.contenders.registry import find_contender
 from bench.engines.episode import FAILURE_TICK, FINAL_ANGLE, NEVER
 from bench.experiments import arm, velocity
 from bench.experiments.columns import ARM, CONTENDER, CONTENDER_KEY, Column, Table, numbers, words
@@ -27,6 +25,8 @@ from bench.experiments.experiment import OF_LAWS, Asked, Experiment, Settings, U
 from bench.experiments.limiters import pass_all
 from bench.experiments.suites import BY_EVERY_INVERSE, WITHOUT_FACTOR
 from bench.experiments.velocity import SHARE
+from bench.law.contenders import combinations
+from bench.law.contenders.registry import find_contender
 from tasks.base import Start
 from tasks.rotations import about, multiply
 

@@ -7,10 +7,10 @@ import tomllib
 from collections.abc import Callable
 from typing import Any
 
-from bench.counting.costs import FLOPS, cost
-from bench.counting.counted import TOTAL
+from bench.base.provenance import ROOT
+from bench.engines.counting.costs import FLOPS, cost
+from bench.engines.counting.counted import TOTAL
 from bench.export.subject import IMPEDANCE, SPRING, STATED, Subject
-from bench.provenance import ROOT
 
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
 HOLDER = PROJECT["authors"][0]["name"]

@@ -8,7 +8,7 @@ import pkgutil
 from collections.abc import Callable, Mapping
 from typing import NamedTuple
 
-from bench.errors import UnknownWord
+from bench.base.errors import UnknownWord
 from bench.export import languages
 from bench.export.entries import Entry
 from bench.export.heading import BY_ROWS, RESET, SIDE

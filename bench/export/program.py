@@ -11,7 +11,7 @@ import textwrap
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
-from bench.errors import BadLaw
+from bench.base.errors import BadLaw
 from bench.law.scalar import PRIMITIVES
 
 

@@ -11,7 +11,7 @@ import inspect
 from collections.abc import Callable
 from typing import Any
 
-from bench.errors import BadLaw
+from bench.base.errors import BadLaw
 from bench.export.program import Function, read_function
 from bench.export.types import INDEX, REAL, TRUTH, Kind, Tuple, Typed, arguments, kind_of_value, place_of
 from bench.law.scalar import PRIMITIVES

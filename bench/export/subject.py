@@ -7,20 +7,20 @@ import functools
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
-from bench.contenders import registry
-from bench.contenders.registry import (
-    known_compensators,
-    known_impedances,
-    known_representations,
-    known_springs,
-)
-from bench.control.registry import all_controllers
-from bench.errors import UnknownWord
+from bench.base.errors import UnknownWord
 from bench.export.entries import Entry, of_impedance, of_law, of_representation
 from bench.export.reading import Program
 from bench.export.sprung import of_compensator, of_spring
 from bench.export.types import REAL, Kind, Tuple, Typed, numbers
 from bench.law.contender import Contender, Gains, Regulator
+from bench.law.contenders import registry
+from bench.law.contenders.registry import (
+    known_compensators,
+    known_impedances,
+    known_representations,
+    known_springs,
+)
+from bench.law.control.registry import all_controllers
 from bench.law.so3 import Rotation
 
 COORDINATES, IMPEDANCE = "representation-", "impedance-"

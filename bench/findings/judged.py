@@ -7,16 +7,16 @@ from typing import Any
 
 import pandas as pd
 
-from bench.contenders.registry import contenders_of
 from bench.experiments import plan as planning
 from bench.experiments.choice import Choice
 from bench.experiments.plan import Plan
+from bench.experiments.tables.read import table, with_contender
+from bench.experiments.tables.schema import RESULTS
 from bench.findings import why
 from bench.findings.judgement import Judgement
 from bench.law.contender import Contender, Regulator
+from bench.law.contenders.registry import contenders_of
 from bench.running.sandbox import LOST, Sandbox
-from bench.tables.read import table, with_contender
-from bench.tables.schema import RESULTS
 
 ENGINE = "ideal-rk4"
 START_SETS = ("uniform", "half-turn", "tumbling", "goals")

@@ -5,8 +5,8 @@ from typing import NamedTuple
 
 import pandas as pd
 
-from bench.tables.read import with_contender
-from bench.tables.statistics import Estimate
+from bench.experiments.tables.read import with_contender
+from bench.experiments.tables.statistics import Estimate
 
 SPEEDS = ["least_speed", "most_speed"]
 

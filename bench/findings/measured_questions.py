@@ -10,8 +10,8 @@ import itertools
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from bench.contenders.registry import known_shipped
 from bench.experiments.limiters import GREATEST_RATE, clamp_axes, clamp_norm
+from bench.law.contenders.registry import known_shipped
 from tasks.goal_stream import STREAMS, componentwise, continued, goals, normalized, slerp
 from tasks.rotations import about
 from tasks.truth import angle

@@ -17,10 +17,10 @@ import pandas as pd
 
 import tasks
 from bench.experiments.columns import CONTENDER_KEY
-from bench.tables.read import with_contender
-from bench.tables.schema import RESULTS
-from bench.tables.statistics import quantile
-from bench.tables.store import read
+from bench.experiments.tables.read import with_contender
+from bench.experiments.tables.schema import RESULTS
+from bench.experiments.tables.statistics import quantile
+from bench.experiments.tables.store import read
 from tasks.condition import condition_at
 
 STUDY = RESULTS / "robustness"

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bench.contenders.registry import known_shipped
+from bench.law.contenders.registry import known_shipped
 from bench.law.shipped import VELOCITY, Shipped, logarithm
 from tasks.sphere import axes
 

@@ -10,13 +10,13 @@ import numpy as np
 import pandas as pd
 
 import tasks
-from bench.contenders.registry import known_regulators
+from bench.experiments.tables.read import with_contender
+from bench.experiments.tables.statistics import quantile
 from bench.findings.judgement import Said
 from bench.findings.perturbed import WITHSTANDS, by_level, perturbations, thresholds
 from bench.findings.selection.needs import CHATTER
 from bench.findings.theory.thresholds import near_goal
-from bench.tables.read import with_contender
-from bench.tables.statistics import quantile
+from bench.law.contenders.registry import known_regulators
 
 GAINS, FRAMES, FAILURES, SIDE = "03-regulators", "30-method", "06-failure-map", "15-comparison"
 SIGNS, ENDS, ROBUSTNESS = "25-libraries", "30-method", "16-robustness"

@@ -7,7 +7,7 @@ radians, seconds. What a contender needs on an arm is in `resolved_motion`.
 from collections.abc import Callable
 from typing import NamedTuple
 
-from bench.errors import Incompatible
+from bench.base.errors import Incompatible
 from bench.law.equation import Equation
 from bench.law.look import Look
 from bench.law.representation import Representation
@@ -63,7 +63,7 @@ class Regulator(NamedTuple):
     margin: of a law on R that is singular somewhere: margin(R, R_d) in [0, 1], 0 exactly there; else None.
     coordinate_law_in: of a law that commands Eddot itself: coordinate_law_in(representation) returns
     law(chart, E_d, Edot, gains) -> u_E, what the controller on an analytic Jacobian needs (Murphy 1988, 3.7).
-    assemble: of a baseline (bench/contenders/baselines), assemble(chain, goal, p_d, gains, memory, J, a) -> (u, memory)
+    assemble: of a baseline (contenders/baselines), assemble(chain, goal, p_d, gains, memory, J, a) -> (u, memory)
     in place of (2.2) and (3.7). through: the Jacobian and the inverse of one that acts on the joints; else empty.
 
     What the book shows, all of it optional:

@@ -1,4 +1,4 @@
-"""What an impedance is: the record that each file of bench/contenders/impedances holds."""
+"""What an impedance is: the record that each file of bench/law/contenders/impedances holds."""
 
 from collections.abc import Callable
 from typing import NamedTuple

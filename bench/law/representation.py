@@ -1,4 +1,4 @@
-"""What coordinates of a rotation are: the record that each file of bench/contenders/representations holds."""
+"""What coordinates of a rotation are: the record that each file of bench/law/contenders/representations holds."""
 
 from collections.abc import Callable
 from typing import NamedTuple

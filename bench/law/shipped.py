@@ -1,4 +1,4 @@
-"""The record of a controller as it is shipped, which each file of bench/contenders/shipped holds, and its law.
+"""The record of a controller as it is shipped, which each file of bench/law/contenders/shipped holds, and its law.
 
 The orientation error is a kernel of the unit quaternion (w, x, y, z) of the rotation from R to R_d in the base frame,
 of either sign, as its source has it; an error that takes matrices is the same for both signs. `regulator_of` makes a

@@ -4,11 +4,11 @@ from pathlib import Path
 
 import pandas as pd
 
-from bench.errors import BadResults
-from bench.files import read_json
-from bench.provenance import ROOT, commit
+from bench.base.errors import BadResults
+from bench.base.files import read_json
+from bench.base.provenance import ROOT, commit
+from bench.experiments.tables.schema import RESULTS
 from bench.regression.revisions.timing import ROUNDS, Side, run_benchmarks
-from bench.tables.schema import RESULTS
 
 FOLDER = RESULTS / "history"
 

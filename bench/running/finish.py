@@ -5,13 +5,13 @@ import time
 from collections.abc import Iterator
 from pathlib import Path
 
+from bench.base.files import write_json
+from bench.base.provenance import describe
 from bench.experiments.experiment import experiment_of, known_experiments
 from bench.experiments.plan import Plan
-from bench.files import write_json
-from bench.provenance import describe
+from bench.experiments.tables.store import frame, merge, read_arrow, write_table
 from bench.running.run_folder import part, tidy
 from bench.running.sandbox import LOST
-from bench.tables.store import frame, merge, read_arrow, write_table
 
 
 def finish(plan: Plan, out: Path, lost: list[str], by: dict, began: float, resumed: bool) -> None:

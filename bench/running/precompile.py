@@ -32,7 +32,7 @@ def compiling_ahead(contenders: Iterable[str]) -> Iterator[subprocess.Popen | No
     Args:
         contenders: names of laws, of controllers of arms (with `@`) and of controllers in contact.
     """
-    from bench.contenders.registry import all_contenders
+    from bench.law.contenders.registry import all_contenders
 
     names = list(dict.fromkeys(contenders))
     if len(names) < WORTH:
@@ -55,10 +55,10 @@ def compiler_of(name: str) -> Callable[[], object]:
     Errors:
         UnknownWord: there is none of this name.
     """
-    from bench.contenders.registry import find_contender
-    from bench.control.registry import all_controllers
     from bench.engines import simulate_arms, simulate_contact
     from bench.engines.simulate import evaluation
+    from bench.law.contenders.registry import find_contender
+    from bench.law.control.registry import all_controllers
 
     touching = {one.name: one for one in all_controllers()}
     if name in touching:
@@ -83,8 +83,8 @@ def main(parent: int, work: list[str]) -> None:
 
 def count_one(name: str) -> None:
     """Count the operations of a law of ours, and keep them."""
-    from bench.contenders.registry import find_contender
     from bench.experiments.costs import count_law
+    from bench.law.contenders.registry import find_contender
 
     count_law(find_contender(name))
 

@@ -11,12 +11,12 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
 
-from bench.errors import BadResults
+from bench.base.errors import BadResults
+from bench.base.files import is_leftover, make_folder, read_json, refuse_link, refused, write_atomically, write_json
 from bench.experiments.experiment import Unit, experiment_of, known_experiments
 from bench.experiments.plan import Plan
-from bench.files import is_leftover, make_folder, read_json, refuse_link, refused, write_atomically, write_json
-from bench.tables import lock, trust
-from bench.tables.store import check
+from bench.experiments.tables import lock, trust
+from bench.experiments.tables.store import check
 
 
 class State(NamedTuple):

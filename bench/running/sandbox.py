@@ -15,12 +15,12 @@ from collections.abc import Iterator
 
 import pyarrow as pa
 
-from bench.errors import BadLaw
+from bench.base.errors import BadLaw
 from bench.experiments.experiment import Unit, experiment_of, lost_rows_of
 from bench.experiments.plan import Plan
+from bench.experiments.tables.store import as_table, joined
 from bench.running.sandbox_line import Ended, Lost, Mistake, Process
 from bench.running.wire_format import described
-from bench.tables.store import as_table, joined
 from tasks.verdict import CRASHED, HUNG, OUTCOMES
 
 PATIENCE_S, SINGLE_S = 30.0, 1.0

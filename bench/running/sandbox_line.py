@@ -4,8 +4,8 @@ import json
 
 import pyarrow as pa
 
-from bench.contenders.law_process import LawProcess
 from bench.experiments.experiment import Unit, experiment_of
+from bench.law.contenders.law_process import LawProcess
 from bench.running import sandbox_process
 from tasks.verdict import CRASHED, HUNG, OUTCOMES
 

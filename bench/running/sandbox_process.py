@@ -17,14 +17,14 @@ from typing import NoReturn
 
 import pyarrow as pa
 
-from bench.contenders.described_law import TRIAL_S, TRIAL_WAITS_S
-from bench.contenders.law_file import load_law, trial_error
-from bench.contenders.law_process import LOOK_S, ending, limit
-from bench.errors import BenchError
+from bench.base.errors import BenchError
 from bench.experiments.experiment import Unit, experiment_of, rows_of
 from bench.experiments.plan import Plan
+from bench.experiments.tables.store import as_table
+from bench.law.contenders.described_law import TRIAL_S, TRIAL_WAITS_S
+from bench.law.contenders.law_file import load_law, trial_error
+from bench.law.contenders.law_process import LOOK_S, ending, limit
 from bench.running.wire_format import plan_of
-from bench.tables.store import as_table
 
 DONE, MISTAKE, CRASHED, HUNG = b"+", b"?", b"!", b"."
 """Signs: before what was asked for; before the message of an error that is the user's; before why a law was lost."""

@@ -11,12 +11,12 @@ import tempfile
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from bench.contenders import described_law
-from bench.errors import BadResults
+from bench.base.errors import BadResults
+from bench.base.provenance import source_digest
 from bench.experiments.experiment import Settings, Unit
 from bench.experiments.plan import Plan
 from bench.law.contender import Gains, Regulator
-from bench.provenance import source_digest
+from bench.law.contenders import described_law
 
 
 def described(plan: Plan, units: Sequence[Unit]) -> dict:

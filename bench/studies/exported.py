@@ -2,8 +2,8 @@
 
     python -m bench.studies.exported        some minutes; needs gcc and valgrind
 
-The loop in C is that of bench/timing/law.py: each tick waits for the command before it. gcc and our compiler arrange
-the same operations each in its way: what goes into vectors is counted once, and what spills is counted too.
+The loop in C is that of bench/running/timing/law.py: each tick waits for the command before it. gcc and our compiler
+arrange the same operations each in its way: what goes into vectors is counted once, and what spills is counted too.
 """
 
 import argparse
@@ -14,13 +14,13 @@ import sys
 import tempfile
 from pathlib import Path
 
-from bench.contenders.registry import all_contenders
-from bench.errors import MissingTool
+from bench.base.errors import MissingTool
+from bench.base.files import write_json
+from bench.base.provenance import ROOT, describe
 from bench.export.language import find_language
 from bench.export.subject import Subject, find_subject
-from bench.files import write_json
-from bench.provenance import ROOT, describe
-from bench.timing import law
+from bench.law.contenders.registry import all_contenders
+from bench.running.timing import law
 
 STORED = ROOT / "results" / "export" / "instructions.json"
 FLAGS = ("-std=c99", "-O2", "-ffp-contract=off")
@@ -95,9 +95,9 @@ def _count(words: list[str], folder: Path, environment: dict[str, str]) -> list[
 
 
 OURS = """import os, sys
-from bench.contenders.registry import find_contender
+from bench.law.contenders.registry import find_contender
 from bench.engines.binding import command_of, memory_of
-from bench.timing import law
+from bench.running.timing import law
 
 for name in sys.argv[2:]:
     one = find_contender(name)

@@ -20,16 +20,16 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import tasks
-from bench.errors import BadResults, BenchError, UnknownWord
-from bench.files import read_json, write_json
+from bench.base.errors import BadResults, BenchError, UnknownWord
+from bench.base.files import read_json, write_json
+from bench.base.provenance import ROOT, describe
+from bench.experiments.tables.schema import RESULTS
 from bench.law.so3 import from_quaternion
-from bench.provenance import ROOT, describe
 from bench.regression.revisions.checkouts import run_python
 from bench.regression.revisions.comparison import REGRESSION
 from bench.regression.revisions.exact import compare_runs
 from bench.regression.revisions.gates import describe_time
 from bench.regression.revisions.timing import SAME, Side, compare_times
-from bench.tables.schema import RESULTS
 
 FOLDER = RESULTS / "regress"
 COMPARISONS = 20
@@ -49,7 +49,7 @@ RUN = (
     str(STARTS),
 )
 COPIED = ("bench", "tasks", "requirements", "pyproject.toml")
-FILES = {law: f"bench/contenders/regulators/{law.replace('-', '_')}.py" for law in (*LAWS, "rotation-vector")}
+FILES = {law: f"bench/law/contenders/regulators/{law.replace('-', '_')}.py" for law in (*LAWS, "rotation-vector")}
 MATRIX = FILES["rotation-matrix"]
 ENTRY, SQUARE = "    n = cross(R.n, goal.R.n)\n", "    square = dot(v, v)\n"
 NEAR = 1e-9

@@ -10,14 +10,14 @@ import argparse
 import shutil
 from pathlib import Path
 
-from bench.contenders.registry import all_contenders
+from bench.base.files import write_json
+from bench.base.provenance import describe, source_digest
 from bench.experiments import plan as planning
 from bench.experiments.choice import Choice
-from bench.files import write_json
+from bench.experiments.tables.store import read, write_table
 from bench.findings.perturbed import STUDY, by_level
-from bench.provenance import describe, source_digest
+from bench.law.contenders.registry import all_contenders
 from bench.running import run
-from bench.tables.store import read, write_table
 
 STARTS = 400
 """Evenly spread; the axes with starts of their own take as many. 20 of 40 settle to 15 points, 200 of 400 to 5."""

@@ -21,12 +21,12 @@ from pathlib import Path
 
 import numpy as np
 
-from bench.contenders.registry import find_contender
+from bench.base.files import write_json
+from bench.base.provenance import ROOT, describe
 from bench.experiments import plan as planning
 from bench.experiments.choice import Choice
 from bench.experiments.plan import Plan
-from bench.files import write_json
-from bench.provenance import ROOT, describe
+from bench.law.contenders.registry import find_contender
 from bench.running import run
 from bench.running.schedulers.words import LOCAL, THREADS
 

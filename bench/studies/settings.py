@@ -18,10 +18,10 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from bench.files import read_json, write_json
-from bench.provenance import ROOT, machine_key, rounded_on
+from bench.base.files import read_json, write_json
+from bench.base.provenance import ROOT, machine_key, rounded_on
+from bench.experiments.tables.store import read
 from bench.regression.rows import RULES, find_differences
-from bench.tables.store import read
 
 REFERENCE = ROOT / "results" / "reference"
 STORED = ROOT / "results" / "settings" / "settings.json"

@@ -16,20 +16,20 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
-from bench.contenders.registry import all_contenders
+from bench.base.files import read_json, write_json
+from bench.base.provenance import ROOT, describe, source_digest
 from bench.experiments import plan as planning
 from bench.experiments.experiment import Unit, known_experiments
 from bench.experiments.plan import Plan
 from bench.experiments.suites import NOMINAL
-from bench.files import read_json, write_json
+from bench.experiments.tables import read
 from bench.findings import claims
 from bench.findings.claims.adequacy import NOISE
 from bench.findings.claims.at_gains import GAINS
 from bench.findings.claims.controller_costs import BY_COMMON, BY_EULER, ON_MATRIX
 from bench.findings.claims.tables import MAIN_ENGINE, Results
-from bench.provenance import ROOT, describe, source_digest
+from bench.law.contenders.registry import all_contenders
 from bench.running import run
-from bench.tables import read
 
 REFERENCE = ROOT / "results" / "reference"
 STORED = ROOT / "results" / "verdicts" / "verdicts.json"

@@ -10,7 +10,7 @@ FOLDER, CODE, LIVE = "laws", "laws/code", "pages/26-live"
 
 def collected(app) -> Iterator[tuple[str, dict, str]]:
     """(name, context, template) of each page; the files that it offers are written beside it."""
-    from bench.tables import read
+    from bench.experiments.tables import read
     from report.figures.cards import law_page, other_page
     from report.figures.kit.page import run_in
 

@@ -2,9 +2,9 @@
 
 import numpy as np
 
+from bench.base.provenance import count_episodes
+from bench.experiments.tables import read
 from bench.findings import claims
-from bench.provenance import count_episodes
-from bench.tables import read
 from report.figures.answer import answer_box, which_law
 from report.figures.claims import claims as judged
 from report.figures.contact import compliance, in_contact

@@ -16,8 +16,9 @@ The state: qpos is the quaternion, body to base; qvel is the angular velocity in
 
 from __future__ import annotations
 
-from tasks.base import Start, Task, sensor_xml
+from tasks.base import Start, Task
 from tasks.rotations import to_body
+from tasks.sensors import sensor_xml
 
 MOTORS = """<motor name="u_x" jointinparent="ball" gear="1 0 0 0 0 0"/>
     <motor name="u_y" jointinparent="ball" gear="0 1 0 0 0 0"/>

@@ -10,7 +10,7 @@ from support.command_line import bench, refused
 
 from bench.audit import audit
 from bench.audit.load import load
-from bench.errors import BadFunction, BadNumber, UnknownWord
+from bench.base.errors import BadFunction, BadNumber, UnknownWord
 
 FILE = """
 import numpy as np

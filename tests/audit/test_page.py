@@ -8,7 +8,7 @@ from support.pages import assert_is_whole
 from support.planted import PLANTED, audited
 
 from bench.audit.report import file
-from bench.provenance import ROOT
+from bench.base.provenance import ROOT
 from report.figures.libraries import check_your_error
 
 

@@ -4,7 +4,11 @@ import pytest
 from support.command_line import bench, refused, refused_run
 
 import tasks
-from bench.contenders.registry import (
+from bench.base.errors import Incompatible
+from bench.experiments import plan as planning
+from bench.experiments.choice import INTEGRATORS, Choice
+from bench.experiments.suites import ENGINES, SUITES
+from bench.law.contenders.registry import (
     find_contender,
     known_impedances,
     known_inverses,
@@ -12,11 +16,7 @@ from bench.contenders.registry import (
     known_regulators,
     known_representations,
 )
-from bench.control.contact_controller import HYBRIDS
-from bench.errors import Incompatible
-from bench.experiments import plan as planning
-from bench.experiments.choice import INTEGRATORS, Choice
-from bench.experiments.suites import ENGINES, SUITES
+from bench.law.control.contact_controller import HYBRIDS
 
 LAWS_IN_CONTACT = sorted((*HYBRIDS, *(f"impedance-{name}" for name in known_impedances())))
 

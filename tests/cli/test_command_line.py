@@ -10,14 +10,14 @@ import pytest
 import rich_click as click
 from support.command_line import TINY, bench
 
-from bench import files
+from bench.base import files
+from bench.base.provenance import ROOT
 from bench.cli import commands, main
 from bench.cli.listing import KINDS, describe_arm
-from bench.contenders.registry import all_contenders
 from bench.experiments.suites import SUITES
-from bench.provenance import ROOT
-from bench.tables import store
-from tasks.base import BadArm
+from bench.experiments.tables import store
+from bench.law.contenders.registry import all_contenders
+from tasks.errors import BadArm
 
 EULER = "hybrid/zyx-euler+inverse"
 COMMANDS = {command.name: command for command in commands()}

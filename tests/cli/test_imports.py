@@ -5,12 +5,12 @@ import sys
 
 import pytest
 
-from bench.provenance import ROOT
+from bench.base.provenance import ROOT
 
 SLOW = {"dm_control.mujoco", "matplotlib", "mujoco", "numba", "pandas", "pyarrow", "scipy"}
 COMMAND = "from bench.cli import main; code = main({words})"
 LAW = """
-from bench.contenders.registry import find_contender
+from bench.law.contenders.registry import find_contender
 from bench.engines.simulate import evaluation
 evaluation(find_contender("rotation-matrix"))
 code = 0

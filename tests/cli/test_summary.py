@@ -11,10 +11,10 @@ from bench.cli.details import arms, parts, robustness
 from bench.cli.options import REFERENCE
 from bench.cli.screen import frame_table
 from bench.cli.summary import answer, failures, verdicts
+from bench.experiments.tables import read as results
 from bench.findings.claims import Results, all_claims
 from bench.findings.selection.measured import measure
 from bench.findings.selection.needs import advise
-from bench.tables import read as results
 
 LINES, COLUMNS = 40, 100
 

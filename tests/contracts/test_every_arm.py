@@ -10,8 +10,8 @@ import pytest
 import tasks
 from tasks.arm import WORD
 from tasks.arm_model import model_xml
-from tasks.base import SENSORS
 from tasks.kinematics import Kinematics
+from tasks.sensors import SENSORS
 
 # Power balance: what moves turns no faster than W, the sum of the joint rates, and a step of RK4 errs by (W dt)^5 / 120
 # of it, a second of 1 / dt steps by W (W dt)^4 / 120: 2.1e-9 for W = SPEED and 1 ms. (Measured: 1e-14.)

@@ -8,8 +8,8 @@ import pytest
 import tasks
 from bench.engines.plants import perturbed
 from tasks.axis import Field
-from tasks.base import BadValue
 from tasks.condition import Condition, condition_at, declared_fields
+from tasks.errors import BadValue
 
 AXES = [tasks.axis(name) for name in tasks.axis_names()]
 

@@ -6,8 +6,8 @@ from scipy.spatial.transform import Rotation as ScipyRotation
 from support.compensated import REST, commanded, left, motion
 from support.states import of_scipy, rotations
 
-from bench.contenders.registry import known_compensators
 from bench.law.contender import Gains, Goal
+from bench.law.contenders.registry import known_compensators
 
 GAINS = Gains(37.0, 11.0)  # not the defaults: a law that has those built in is found out
 GOAL = ScipyRotation.from_rotvec((0.4, -0.7, 0.2))

@@ -1,4 +1,4 @@
-"""Contracts that every metric in bench/metrics/contact keeps, on every task in contact; a new file is under them."""
+"""Contracts that every metric in metrics/contact keeps, on every task in contact; a new file is under them."""
 
 import functools
 import itertools
@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 
 import tasks
-from bench.contenders.impedances import coordinates
-from bench.contenders.representations import zyx_euler
-from bench.control.contact_controller import hybrid, impedance_controller
 from bench.engines.contact_episode import OUTCOMES, WIDTH, Ended
+from bench.engines.metrics.contact_metric import Pose, response
+from bench.engines.metrics.registry import known_contact_metrics
 from bench.engines.simulate_contact import run_contact as run
-from bench.metrics.contact_metric import Pose, response
-from bench.metrics.registry import known_contact_metrics
+from bench.law.contenders.impedances import coordinates
+from bench.law.contenders.representations import zyx_euler
+from bench.law.control.contact_controller import hybrid, impedance_controller
 
 METRICS = list(known_contact_metrics().values())
 EULER = zyx_euler.REPRESENTATION

@@ -15,9 +15,9 @@ from support.in_contact import ARMS
 
 import tasks
 from tasks.arm_model import model_xml as arm_xml
-from tasks.base import SENSORS
 from tasks.contact import prepare
 from tasks.contact_model import STANDARD, model_xml
+from tasks.sensors import SENSORS
 
 DT = 1e-3
 # What kinematics of a chain of seven bodies and quaternions of its poses round: some hundred last places.

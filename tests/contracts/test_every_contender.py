@@ -8,9 +8,9 @@ import pytest
 from support.command_line import bench
 from support.in_contact import IMPEDANCES
 
-from bench.contenders import registry
-from bench.control import impedance
-from bench.counting.dialect import CONTROLLER_SOURCES, SOURCES, violations
+from bench.engines.counting.dialect import CONTROLLER_SOURCES, SOURCES, violations
+from bench.law.contenders import registry
+from bench.law.control import impedance
 from bench.law.scalar import KERNELS
 
 EVERY = [

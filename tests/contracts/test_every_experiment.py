@@ -2,11 +2,11 @@
 
 import pytest
 
-from bench.contenders.registry import find_contender
-from bench.errors import Incompatible
+from bench.base.errors import Incompatible
 from bench.experiments import plan
 from bench.experiments.choice import Choice
 from bench.experiments.experiment import known_experiments
+from bench.law.contenders.registry import find_contender
 
 NAMED = {
     "tasks": "free-body",

@@ -16,11 +16,11 @@ pytest.importorskip("matplotlib", reason="the report extra is not installed (cur
 
 from support.pages import assert_is_drawn
 
-from bench.contenders.registry import find_contender
 from bench.experiments import boundaries, plan, traces
 from bench.experiments.choice import Choice
+from bench.experiments.tables import read
+from bench.law.contenders.registry import find_contender
 from bench.running import run
-from bench.tables import read
 from report.figures import index
 from report.figures.failures import ball, failure_map, world_map
 from report.figures.kit.page import run_in
@@ -40,7 +40,7 @@ FIGURES = {
 
 @pytest.fixture(scope="module", autouse=True)
 def small_run(tmp_path_factory):
-    """A folder of results, which bench.tables.read reads while this module runs."""
+    """A folder of results, which bench.experiments.tables.read reads while this module runs."""
     words = ("rotation-matrix", "linearized-euler/zyx-euler", "feedback-linearized/zyx-euler")
     laws = [find_contender(word) for word in words]
     made = plan.make("quick", laws, Choice(("free-body",), STARTS, ("ideal-rk4", "ideal-held")), count=150)

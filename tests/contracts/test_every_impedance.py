@@ -15,9 +15,9 @@ from support.in_contact import GAINS, IMPEDANCES, TOUCH
 from support.springs import STILL, B_at, command, free_body, margin, seen
 from support.states import of_scipy, rotations, vector
 
-from bench.contenders.registry import known_impedances, known_representations
-from bench.control.impedance import law_of
 from bench.law.contender import Gains
+from bench.law.contenders.registry import known_impedances, known_representations
+from bench.law.control.impedance import law_of
 from bench.law.so3 import IDENTITY
 
 REGULAR = 0.3

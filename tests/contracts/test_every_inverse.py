@@ -1,4 +1,4 @@
-"""Contracts that every inverse in bench/contenders/inverses keeps; a new file is under them. Oracle: numpy.linalg."""
+"""Contracts that every inverse in contenders/inverses keeps; a new file is under them. Oracle: numpy.linalg."""
 
 import numba
 import numpy as np
@@ -7,8 +7,8 @@ from support.bits import same_bits
 from support.buffers import as_counted, buffer, scratch
 from support.inverting import FACTORED, SHAPES, A, accepted, anything, inertia, resolved, well_conditioned
 
-from bench.contenders.registry import known_inverses
 from bench.engines.compiled import JIT, register_kernels
+from bench.law.contenders.registry import known_inverses
 
 EVERY = known_inverses().values()
 ACCELERATIONS, TORQUES = ([one for one in EVERY if one.gives == what] for what in ("acceleration", "torque"))

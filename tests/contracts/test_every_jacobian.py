@@ -1,4 +1,4 @@
-"""Contracts that every Jacobian in bench/contenders/jacobians keeps in all representations; a new one is under them."""
+"""Contracts that every Jacobian in contenders/jacobians keeps in all representations; a new one is under them."""
 
 import functools
 
@@ -10,9 +10,9 @@ from support.buffers import poses, serial_arm
 from support.filling import AWAY, ON_COORDINATES, ON_OMEGA, PAIRS, ROUNDING, converted, filled, named, rows_of
 from support.states import rotations
 
-from bench.contenders.registry import jacobian, representation
 from bench.engines.compiled import JIT, register_kernels
 from bench.law.chain import bias_acceleration, twist
+from bench.law.contenders.registry import jacobian, representation
 from bench.law.scalar import KERNELS
 
 

@@ -1,4 +1,4 @@
-"""Contracts that every metric in bench/metrics/motion keeps; a new file is under them without being named here."""
+"""Contracts that every metric in metrics/motion keeps; a new file is under them without being named here."""
 
 import functools
 import itertools
@@ -13,15 +13,15 @@ from support.on_arms import named
 from support.states import vector
 
 import tasks
-from bench.contenders.registry import find_contender
 from bench.engines.arm_episode import ArmSample
 from bench.engines.compiled import JIT, register_kernels
 from bench.engines.episode import FINAL_ANGLE, FIRST_METRIC, OUTCOME
+from bench.engines.metrics.metric import Ending
+from bench.engines.metrics.registry import metrics_of
 from bench.engines.simulate import run
 from bench.engines.simulate_arms import run_arm
+from bench.law.contenders.registry import find_contender
 from bench.law.so3 import Rotation
-from bench.metrics.metric import Ending
-from bench.metrics.registry import metrics_of
 from tasks.verdict import OUTCOMES, SETTLED
 
 METRICS, ON_ARM = metrics_of(on_arm=False), metrics_of(on_arm=True)

@@ -14,14 +14,14 @@ from support.driving import settings, spread
 from support.states import as_rotation, of_scipy, rotations, vector
 
 import tasks
-from bench.contenders.registry import all_contenders
 from bench.engines.binding import command_of, evaluation_of, margin_of, memory_of
 from bench.engines.compiled import EVALUATE, compile_function
 from bench.engines.episode import OUTCOME, SETTLING_TICK, TICKS
+from bench.engines.metrics.registry import metrics_of
 from bench.engines.simulate import evaluation, run
 from bench.law.contender import AT_REST, Gains, Goal
+from bench.law.contenders.registry import all_contenders
 from bench.law.so3 import IDENTITY
-from bench.metrics.registry import metrics_of
 from tasks.base import Start
 from tasks.rotations import about
 from tasks.verdict import DIVERGED, OUTCOMES, SATURATED, SETTLED, SINGULAR

@@ -7,12 +7,12 @@ import pytest
 from scipy.spatial.transform import Rotation as Oracle
 from support.states import of_scipy, rotations
 
-from bench.contenders.registry import all_contenders, known_representations
-from bench.counting import OPERATIONS, STAGES, TOTAL, Tally, cost, flops, rows
-from bench.counting.costs import bits, counted
-from bench.counting.staged import STAGE_OF, law_of
 from bench.engines.binding import memory_of
+from bench.engines.counting import OPERATIONS, STAGES, TOTAL, Tally, cost, flops, rows
+from bench.engines.counting.costs import bits, counted
+from bench.engines.counting.staged import STAGE_OF, law_of
 from bench.law.contender import AT_REST, Gains, Goal
+from bench.law.contenders.registry import all_contenders, known_representations
 from bench.law.so3 import IDENTITY
 
 CONTENDERS = all_contenders()

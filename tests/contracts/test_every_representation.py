@@ -1,4 +1,4 @@
-"""Contracts that every representation in bench/contenders/representations keeps; a new file is under them unnamed.
+"""Contracts that every representation in bench/law/contenders/representations keeps; a new file is under them unnamed.
 
 The oracle is the representation's own to_matrix, evaluated and differentiated with 80 digits (exact.py); that
 to_matrix is the rotation its title says is tested for each representation by itself.
@@ -14,7 +14,7 @@ from support.buffers import different_calls
 from support.exact import EXACT, exact_B, motion, rows_of
 from support.states import axis_permuting, matrix, near_identity, rotations, vector
 
-from bench.contenders.registry import known_representations
+from bench.law.contenders.registry import known_representations
 from bench.law.so3 import Rotation
 
 # Three coordinates of size up to pi, each within one last place (2 EPS) of its true value, move R by up to

@@ -1,4 +1,4 @@
-"""Contracts that every controller of bench/contenders/shipped keeps; a new file is under them unnamed."""
+"""Contracts that every controller of bench/law/contenders/shipped keeps; a new file is under them unnamed."""
 
 import math
 
@@ -7,8 +7,8 @@ import pytest
 from scipy.spatial.transform import Rotation as ScipyRotation
 from support.states import of_scipy
 
-from bench.contenders.registry import known_shipped
 from bench.law.contender import Gains, Goal
+from bench.law.contenders.registry import known_shipped
 from bench.law.shipped import ANTIPODE, NEAR, POSITION, TORQUE, VELOCITY, regulator_of
 from bench.law.so3 import IDENTITY
 

@@ -10,8 +10,9 @@ from scipy.spatial.transform import Rotation
 from support.in_contact import ARMS
 
 import tasks
-from tasks.base import SENSORS, Start, Task
+from tasks.base import Start, Task
 from tasks.rules import ticks
+from tasks.sensors import SENSORS
 
 COUNT = 12  # starts of each set that every task is tried on
 

@@ -16,9 +16,9 @@ from support.command_line import digest
 from support.dropped_files import DROPPED
 from support.planted_files import ASKED_OF_AXIS, DROPPED_EXPERIMENT, EXPERIMENT, PLANTED, PLANTED_AXIS
 
-from bench.contenders.registry import known_regulators
-from bench.provenance import ROOT
-from bench.tables import store
+from bench.base.provenance import ROOT
+from bench.experiments.tables import store
+from bench.law.contenders.registry import known_regulators
 
 INDEX = "# A book of one page\n\nIt cites {cite}`murphy1988`.\n"
 
@@ -62,7 +62,7 @@ def tree(tmp_path_factory):
     nothing but the files above is added to it; the book cut down to its references."""
     tree = copied(tmp_path_factory.mktemp("growing"))
     for name in known_regulators().keys() - {"rotation-matrix", "feedback-linearized", "rotation-vector"}:
-        (tree / "bench" / "contenders" / "regulators" / f"{name.replace('-', '_')}.py").unlink()
+        (tree / "bench" / "law" / "contenders" / "regulators" / f"{name.replace('-', '_')}.py").unlink()
     (tree / "report" / "pages").mkdir()
     for name in ("pyproject.toml", "CITATION.cff"):
         shutil.copy(ROOT / name, tree / name)

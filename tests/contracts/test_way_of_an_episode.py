@@ -14,10 +14,10 @@ import pytest
 
 pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
 
+from bench.base.provenance import ROOT
 from bench.cli import main
 from bench.engines import simulate as engine
-from bench.provenance import ROOT
-from bench.tables import store
+from bench.experiments.tables import store
 from report.figures.kit.page import contents, run_in, text_of
 from report.figures.responses import settling_time
 

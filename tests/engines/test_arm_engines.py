@@ -14,14 +14,14 @@ from support.driving import settings
 from support.on_arms import ARMS, LAWS, named
 
 import tasks
-from bench.contenders import combinations
-from bench.contenders.registry import known_inverses, known_jacobians, known_representations
 from bench.engines.arm_episode import POSE
 from bench.engines.episode import OUTCOME, SETTLING_TICK, TICKS
+from bench.engines.metrics.registry import metrics_of
 from bench.engines.simulate_arms import pointers
 from bench.engines.simulate_arms import run_arm as run
 from bench.experiments.choice import INTEGRATORS
-from bench.metrics.registry import metrics_of
+from bench.law.contenders import combinations
+from bench.law.contenders.registry import known_inverses, known_jacobians, known_representations
 from tasks.kinematics import kinematics
 from tasks.variations import VARIATIONS
 from tasks.verdict import DIVERGED, OUTCOMES, SATURATED, SETTLED, SINGULAR, STUCK, TIMED_OUT

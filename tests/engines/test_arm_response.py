@@ -17,10 +17,10 @@ from support.on_arms import ARMS, LAWS, named
 import tasks
 from bench.engines.arm_episode import POSE
 from bench.engines.episode import FINAL_ANGLE, FIRST_METRIC, OUTCOME, SETTLING_TICK
+from bench.engines.metrics.registry import metrics_of
 from bench.engines.simulate import run
 from bench.engines.simulate_arms import run_arm
 from bench.law.so3 import from_quaternion
-from bench.metrics.registry import metrics_of
 from tasks.cause import NEAR_CONDITION
 from tasks.kinematics import kinematics
 from tasks.verdict import SETTLED

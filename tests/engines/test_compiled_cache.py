@@ -13,7 +13,7 @@ LAWS = ("linearized-euler/zyx-euler", "linearized-euler-literal/zyx-euler")
 ANGLES = """
 import json, sys
 from bench.law.contender import Gains
-from bench.contenders.registry import find_contender
+from bench.law.contenders.registry import find_contender
 from bench.engines.episode import FINAL_ANGLE, Settings
 from bench.engines.simulate import run
 from tasks import start_set

@@ -8,11 +8,11 @@ from support.bits import different_rows, same_bits
 from support.in_contact import ARMS
 
 import tasks
-from bench.control.registry import all_controllers, find_controller
+from bench.base.errors import BadNumber
 from bench.engines.contact_episode import FORCE, USUAL, WIDTH, P, R, Sensor, sensed
 from bench.engines.native.libmujoco import MUJOCO_INTEGRATORS
 from bench.engines.simulate_contact import run_contact as run
-from bench.errors import BadNumber
+from bench.law.control.registry import all_controllers, find_controller
 from tasks.contact_model import STANDARD
 
 TASKS = tasks.contact_names()

@@ -13,7 +13,6 @@ from support.bits import different_rows
 from support.driving import settings
 
 import tasks
-from bench.contenders.registry import find_contender
 from bench.engines import simulate as engines
 from bench.engines.convergence import FAILED, LEVELS, alike
 from bench.engines.episode import (
@@ -25,11 +24,12 @@ from bench.engines.episode import (
     STEP,
     start_rows,
 )
+from bench.engines.metrics.registry import metrics_of
 from bench.experiments.episode_rows import frame
 from bench.experiments.experiment import Settings, Unit
 from bench.experiments.map import start_rows as random_rows
 from bench.findings.theory.closed_form import pole_crossings
-from bench.metrics.registry import metrics_of
+from bench.law.contenders.registry import find_contender
 from report.figures.failures.pole_steps import crossing
 from tasks.random_starts import block
 from tasks.rules import RULES

@@ -6,13 +6,13 @@ from support.bits import different_rows, same_bits
 from support.driving import recorder, settings
 
 import tasks
-from bench.contenders import combinations
-from bench.contenders.registry import find_contender
 from bench.engines.curve import ARM_NUMBERS, NUMBERS, blank_curves
 from bench.engines.episode import TICKS
+from bench.engines.metrics.registry import metrics_of
 from bench.engines.simulate import run
 from bench.engines.simulate_arms import run_arm
-from bench.metrics.registry import metrics_of
+from bench.law.contenders import combinations
+from bench.law.contenders.registry import find_contender
 
 LAW, ARM = "feedback-linearized/zyx-euler", "puma560"
 CHOSEN = settings(horizon_s=0.1)

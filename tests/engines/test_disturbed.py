@@ -10,18 +10,18 @@ from support.bits import same_bits
 from support.driving import settings
 
 import tasks
-from bench.contenders.registry import find_contender
-from bench.contenders.regulators.hybrid import DELTA
 from bench.engines import rigid_body
 from bench.engines.binding import evaluation_of, memory_of, observer
 from bench.engines.episode import FINAL_ANGLE, FIRST_METRIC, OUTCOME, SETTLING_TICK, TICKS, numbers, start_rows
+from bench.engines.metrics.registry import metrics_of
 from bench.engines.plants import perturbed
 from bench.engines.simulate import run as run_unperturbed
 from bench.engines.simulate import simulate
 from bench.engines.simulate_perturbed import drawn
 from bench.engines.simulate_perturbed import run_disturbed as run
+from bench.law.contenders.registry import find_contender
+from bench.law.contenders.regulators.hybrid import DELTA
 from bench.law.so3 import Rotation
-from bench.metrics.registry import metrics_of
 from tasks.base import Start
 from tasks.condition import NO_FEEDFORWARD, RATE, Condition
 from tasks.moving_goal import reference_rates

@@ -8,11 +8,11 @@ from support.bits import different_rows
 from support.driving import settings, spread
 from support.on_arms import named
 
-from bench.contenders.registry import find_contender
 from bench.engines import simulate as engines
 from bench.engines import simulate_arms
 from bench.engines.compiled import made_once
-from bench.metrics.registry import metrics_of
+from bench.engines.metrics.registry import metrics_of
+from bench.law.contenders.registry import find_contender
 
 METRICS = metrics_of(on_arm=False)
 ENGINES = ("ideal-rk4", "ideal-held", "native")

@@ -13,12 +13,12 @@ from support.driving import settings
 from support.states import as_rotation, matrix, of_scipy, vector
 
 import tasks
-from bench.contenders.registry import find_contender
 from bench.engines import ideal
 from bench.engines.curve import NUMBERS, blank_curves
 from bench.engines.episode import FIRST_METRIC, OUTCOME, SETTLING_TICK
+from bench.engines.metrics.registry import metrics_of
 from bench.engines.simulate import run
-from bench.metrics.registry import metrics_of
+from bench.law.contenders.registry import find_contender
 from tasks.base import Start
 from tasks.rotations import short_of_180_degrees, zyx
 from tasks.verdict import SETTLED

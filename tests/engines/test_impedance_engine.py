@@ -9,12 +9,12 @@ from scipy.linalg import sqrtm
 from scipy.spatial.transform import Rotation
 
 import tasks
-from bench.contenders.registry import find_contender
-from bench.control.unshaped import DAMPINGS, NULL_RATE
 from bench.engines.episode import FINAL_ANGLE, FIRST_METRIC, OUTCOME, Settings
 from bench.engines.plants.impedance import ADDED, DAMPED, ELBOW, KINETIC, LEFT, OVERSHOOT, STRAIN, Springs
 from bench.engines.simulate_arms import run_impedance as run
 from bench.law.contender import Gains
+from bench.law.contenders.registry import find_contender
+from bench.law.control.unshaped import DAMPINGS, NULL_RATE
 from tasks.rules import RULES
 from tasks.truth import angle
 from tasks.verdict import SATURATED, SETTLED

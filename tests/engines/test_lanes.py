@@ -12,14 +12,14 @@ import pytest
 from support.bits import different_rows, same_bits
 from support.driving import compile_into_cache, settings, spread
 
-from bench.contenders.registry import all_contenders, find_contender
 from bench.engines import lanes
 from bench.engines import simulate as engines
 from bench.engines.binding import evaluation_of, observer
 from bench.engines.curve import blank_curves
 from bench.engines.episode import FIRST_METRIC, OUTCOME, TICKS, start_rows
+from bench.engines.metrics.registry import metrics_of
 from bench.law.contender import Gains
-from bench.metrics.registry import metrics_of
+from bench.law.contenders.registry import all_contenders, find_contender
 from tasks.base import Start
 from tasks.rotations import about, short_of_180_degrees
 from tasks.rules import RULES

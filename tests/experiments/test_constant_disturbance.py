@@ -10,16 +10,16 @@ from support.compensated import left, motion
 from support.driving import settings
 
 import tasks
-from bench.contenders.registry import find_contender, known_compensators
 from bench.engines.compensated import LEFT, Asked, run, without_state
 from bench.engines.compensated import rows_of as rows_by
 from bench.engines.episode import FINAL_ANGLE
+from bench.engines.metrics.registry import metrics_of
 from bench.engines.plants.quaternion import with_state
 from bench.engines.simulate import run as run_law
 from bench.experiments.compensators import BAND_RAD, DISTURBANCES, law_of
 from bench.experiments.experiment import Settings, Unit, rows_of
 from bench.law.contender import Gains
-from bench.metrics.registry import metrics_of
+from bench.law.contenders.registry import find_contender, known_compensators
 from tasks.base import Start
 
 NAMES = ("", *known_compensators())

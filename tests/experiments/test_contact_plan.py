@@ -6,13 +6,13 @@ import pytest
 from support.command_line import bench
 
 import tasks
-from bench.contenders.registry import find_contender
-from bench.control.contact_controller import FORMS
-from bench.control.registry import all_controllers, find_controller
 from bench.experiments import plan as planning
 from bench.experiments.choice import Choice
 from bench.experiments.contact import DENSE, can_do, cut, poses_of
 from bench.experiments.suites import SUITES
+from bench.law.contenders.registry import find_contender
+from bench.law.control.contact_controller import FORMS
+from bench.law.control.registry import all_controllers, find_controller
 
 LAW = [find_contender("rotation-matrix")]
 TASKS = tasks.contact_names()

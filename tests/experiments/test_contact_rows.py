@@ -7,17 +7,17 @@ import pandas as pd
 import pytest
 
 import tasks
-from bench.control.registry import find_controller
-from bench.control.setpoint import TOUCH
 from bench.engines.contact_episode import OUTCOMES, WIDTH, Conditions, Ended
+from bench.engines.metrics.contact_metric import Pose, response
+from bench.engines.metrics.measured_compliance import compliance
+from bench.engines.metrics.registry import known_contact_metrics
 from bench.engines.simulate_contact import run_contact as run
 from bench.experiments.contact import poses_of
 from bench.experiments.contact.poses import WORST_LAST, frame
-from bench.metrics.contact_metric import Pose, response
-from bench.metrics.measured_compliance import compliance
-from bench.metrics.registry import known_contact_metrics
-from bench.tables import store
-from bench.tables.schema import table_of
+from bench.experiments.tables import store
+from bench.experiments.tables.schema import table_of
+from bench.law.control.registry import find_controller
+from bench.law.control.setpoint import TOUCH
 
 ARM = tasks.arm("ur5e")
 COMPLIANCE = table_of("compliance")

@@ -7,11 +7,11 @@ import pytest
 from support.driving import settings
 
 import tasks
-from bench.contenders.registry import all_contenders, find_contender
 from bench.engines.episode import FIRST_METRIC
+from bench.engines.metrics.registry import metrics_of
 from bench.engines.simulate import run
 from bench.experiments.equal_peak import gains_at, greatest_command
-from bench.metrics.registry import metrics_of
+from bench.law.contenders.registry import all_contenders, find_contender
 
 METRICS = metrics_of(on_arm=False)
 SPRINGS = {

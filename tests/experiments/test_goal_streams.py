@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from bench.contenders.registry import find_contender
 from bench.engines.streamed import run
 from bench.experiments.chosen_words import STREAMED
 from bench.experiments.experiment import Settings, Unit, rows_of
 from bench.law.contender import PAPERS_GAINS
+from bench.law.contenders.registry import find_contender
 from tasks.goal_stream import STREAMS
 from tasks.rotations import about
 

@@ -8,13 +8,13 @@ import pandas as pd
 import pytest
 
 from bench.cli import main
-from bench.contenders.registry import find_contender
 from bench.experiments.experiment import rows_of
 from bench.experiments.map import MOST_LOST, cells, folded, plan_of
+from bench.experiments.tables.schema import table_of
+from bench.experiments.tables.store import as_table, read
 from bench.findings.maps import by_law, counted, lost_between, lost_share
+from bench.law.contenders.registry import find_contender
 from bench.running import run
-from bench.tables.schema import table_of
-from bench.tables.store import as_table, read
 from tasks.random_starts import BLOCK, block
 from tasks.truth import angle
 

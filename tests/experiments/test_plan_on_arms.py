@@ -9,13 +9,13 @@ from support.on_arms import ARMS, LAWS
 from support.user_law import spring_text
 
 import tasks
-from bench.contenders import combinations
-from bench.contenders.registry import find_contender, known_inverses, known_jacobians
-from bench.errors import Incompatible
+from bench.base.errors import Incompatible
 from bench.experiments import plan as planning
 from bench.experiments.choice import Choice
 from bench.experiments.suites import NOMINAL, SUITES
 from bench.law.contender import refusal
+from bench.law.contenders import combinations
+from bench.law.contenders.registry import find_contender, known_inverses, known_jacobians
 
 ON_BOTH = ("ur5e", "panda")  # six joints and seven: nothing else of an arm decides what goes together
 SHORT = ("run", "--dry-run", "--suite", "quick", "--task", "arm-regulation", "--starts", "clear", "--count", "2")
@@ -153,7 +153,7 @@ def test_users_law_on_R_takes_no_analytic_jacobian(capsys, own):
 
 
 def test_users_law_runs_on_an_arm(capsys, own, tmp_path):
-    from bench.tables import store
+    from bench.experiments.tables import store
 
     out = tmp_path / "out"
     words = ("--suite", "quick", "--arm", "ur5e", "--starts", "clear", "--count", "2", "--horizon", "0.05")

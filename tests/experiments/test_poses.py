@@ -10,15 +10,15 @@ from scipy.spatial.transform import Rotation as Turn
 from support.bits import EPS
 
 import tasks
-from bench.contenders.registry import find_contender, known_representations
 from bench.experiments import jacobians as poses
 from bench.experiments import plan
 from bench.experiments.experiment import Settings
 from bench.experiments.jacobians import pose_sets
 from bench.experiments.jacobians.eye import Eye
+from bench.experiments.tables import schema
+from bench.law.contenders.registry import find_contender, known_representations
 from bench.regression import rows as compare
 from bench.regression.rows import difference
-from bench.tables import schema
 from tasks.arm_model import model_xml
 from tasks.kinematics import Kinematics
 from tasks.paths import cos_beta, zyx_angles

@@ -5,17 +5,17 @@ import pandas as pd
 import pytest
 
 import tasks
+from bench.base.errors import Incompatible, UnknownWord
 from bench.cli.details import robustness as details
-from bench.contenders.registry import all_contenders, find_contender
-from bench.errors import Incompatible, UnknownWord
 from bench.experiments import plan, robustness
 from bench.experiments.choice import EVERYTHING, Choice
 from bench.experiments.experiment import Asked
 from bench.experiments.suites import SUITES
+from bench.experiments.tables.read import with_contender
+from bench.experiments.tables.schema import table_of
+from bench.experiments.tables.store import read
+from bench.law.contenders.registry import all_contenders, find_contender
 from bench.running import run as running
-from bench.tables.read import with_contender
-from bench.tables.schema import table_of
-from bench.tables.store import read
 
 LAWS = [one for one in all_contenders() if not one.regulator.costing_only]
 TWO = [find_contender("rotation-matrix"), find_contender("hybrid")]

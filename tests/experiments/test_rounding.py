@@ -5,11 +5,11 @@ import pandas as pd
 import pytest
 
 import tasks
-from bench.contenders.registry import find_contender
 from bench.experiments import plan as planning
 from bench.experiments.choice import Choice
 from bench.experiments.experiment import rows_of
 from bench.experiments.rounding import BESIDE, CHANGE, NUDGE, judged_on_both_sides, nudged
+from bench.law.contenders.registry import find_contender
 
 START = tasks.start_set("clear", 1, arm="ur5e")[0]
 

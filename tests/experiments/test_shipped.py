@@ -9,12 +9,12 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation as ScipyRotation
 
-from bench.contenders.registry import known_shipped
 from bench.experiments import shipped as measured
 from bench.experiments.experiment import Settings
 from bench.experiments.shipped import compare
+from bench.experiments.tables.schema import table_of
 from bench.law import kernel
-from bench.tables.schema import table_of
+from bench.law.contenders.registry import known_shipped
 from tasks.rules import RULES
 
 HORIZON_S = 20.0

@@ -7,9 +7,9 @@ import pytest
 from scipy.linalg import expm, logm
 from scipy.spatial.transform import Rotation
 
-from bench.contenders.registry import known_springs
 from bench.experiments import pose_springs, springs
 from bench.experiments.experiment import Settings, Unit, rows_of
+from bench.law.contenders.registry import known_springs
 from bench.law.scalar import KERNELS
 
 SPRINGS = known_springs()

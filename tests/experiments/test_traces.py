@@ -6,15 +6,15 @@ from support.driving import settings
 from support.user_law import DAMPER, law_text
 
 import tasks
-from bench.contenders import combinations
-from bench.contenders.law_file import load_law
-from bench.contenders.registry import find_contender
 from bench.engines.curve import NUMBERS, blank_curves
+from bench.engines.metrics.registry import metrics_of
 from bench.engines.simulate import run
 from bench.experiments import plan, traces
 from bench.experiments.episode_rows import judged_columns
 from bench.experiments.experiment import Settings
-from bench.metrics.registry import metrics_of
+from bench.law.contenders import combinations
+from bench.law.contenders.law_file import load_law
+from bench.law.contenders.registry import find_contender
 from tasks.rules import RULES
 
 PAPERS = "rotation-matrix"

@@ -10,8 +10,8 @@ from support import live
 from support.exported import laws, needs
 
 import tasks
+from bench.base.provenance import ROOT
 from bench.export import browser
-from bench.provenance import ROOT
 from tasks.condition import Condition
 
 NODE = str(Path(shutil.which("node") or "/usr/bin/node").parent)

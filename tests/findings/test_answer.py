@@ -7,8 +7,6 @@ import pandas as pd
 import pytest
 from support.user_law import spring_text
 
-from bench.contenders.described_law import described
-from bench.contenders.registry import contenders_of, find_contender
 from bench.findings.claims.standing import MEASURABLE
 from bench.findings.claims.tables import Results
 from bench.findings.selection.criteria import BY_NAME, CRITERIA, jump
@@ -18,6 +16,8 @@ from bench.findings.selection.rule import GENERAL, dominates, front
 from bench.findings.selection.tables import Tables
 from bench.findings.selection.timed import ticks
 from bench.findings.selection.words import together
+from bench.law.contenders.described_law import described
+from bench.law.contenders.registry import contenders_of, find_contender
 
 CHEAP, MIDDLE, DEAR = "quaternion-shortest", "mrp", "hybrid"
 """The simplest first: the last has memory."""

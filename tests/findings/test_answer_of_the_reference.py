@@ -8,6 +8,9 @@ from support import advised
 from support.pages import assert_is_whole
 
 from bench.experiments import suites
+from bench.experiments.tables.read import with_contender
+from bench.experiments.tables.schema import RESULTS
+from bench.experiments.tables.store import read_arrow
 from bench.findings import claims
 from bench.findings.claims.standing import MEASURABLE
 from bench.findings.claims.tables import Results
@@ -26,9 +29,6 @@ from bench.findings.selection.needs import (
     advise,
     has_all,
 )
-from bench.tables.read import with_contender
-from bench.tables.schema import RESULTS
-from bench.tables.store import read_arrow
 from report.figures.answer import plane, which_law
 from report.figures.arms import arm_ranking, arm_rows
 from report.figures.cards import regulators

@@ -8,7 +8,6 @@ import pytest
 from scipy.spatial.transform import Rotation as Turn
 from support.claim_tables import compliances, controllers
 
-from bench.contenders.registry import representation
 from bench.experiments import jacobians as poses
 from bench.experiments.experiment import Settings
 from bench.experiments.suites import ON_ARM
@@ -17,6 +16,7 @@ from bench.findings.claims.controller_costs import BY_EULER, ON_MATRIX
 from bench.findings.claims.euler_jacobian import DIFFERENCED, EPS
 from bench.findings.claims.verdict import NoEvidence
 from bench.law.contender import Gains
+from bench.law.contenders.registry import representation
 from bench.law.so3 import IDENTITY, Rotation
 from tasks.sphere import axes
 

@@ -5,11 +5,11 @@ import subprocess
 import pandas as pd
 import pytest
 
+from bench.base.provenance import ROOT
 from bench.findings import claims
 from bench.findings.claims.errata import ERRATA, UNTESTABLE
 from bench.findings.claims.tables import share
 from bench.findings.claims.verdict import HISTORY, Claim, Evidence, NoEvidence, Word, decide, read_texts
-from bench.provenance import ROOT
 
 
 def test_every_claim_is_there_once():

@@ -7,11 +7,11 @@ import pytest
 from support.claim_tables import LARGE, YIELDS, Refused, assert_follows, balanced, contact, keep, planted, put
 from support.tables import decided
 
-from bench.control.contact_controller import PAPERS_FORM
 from bench.findings.claims import side_by_side
 from bench.findings.claims.contact import FLOORS, PERFORMANCE
 from bench.findings.claims.euler_jacobian import EPS
 from bench.findings.claims.verdict import Word
+from bench.law.control.contact_controller import PAPERS_FORM
 
 HOLDS, CORRECTED, FAILS = Word.HOLDS, Word.CORRECTED, Word.FAILS
 

@@ -9,11 +9,11 @@ import pytest
 from support.claim_tables import TABLES, Refused, assert_follows, planted, put, reference
 from support.tables import decided
 
+from bench.experiments.tables import read
 from bench.findings.claims import controller_costs, degeneracy
 from bench.findings.claims.standing import Operations
 from bench.findings.claims.tables import Results
 from bench.findings.claims.verdict import Word
-from bench.tables import read
 
 HOLDS, CORRECTED, FAILS = Word.HOLDS, Word.CORRECTED, Word.FAILS
 MATRIX, EULER, RELATIVE, FL = (

@@ -12,17 +12,17 @@ from support.older_ur5e import older_ur5e
 from support.states import of_scipy
 
 import tasks
-from bench.contenders.impedances import coordinates, coordinates_relative
-from bench.contenders.registry import known_impedances
-from bench.control.contact_controller import PAPERS_FORM, hybrid, impedance_controller
-from bench.control.setpoint import TOUCH
+from bench.engines.metrics.contact.held_axes import leakage
+from bench.engines.metrics.contact.stiffness import least_yield, misalignment, stiffness_axes, stiffness_condition
+from bench.engines.metrics.contact_metric import Pose, response
+from bench.engines.metrics.measured_compliance import compliance
 from bench.engines.simulate_contact import run_contact as run
 from bench.findings.theory import compliance_theory as theory
+from bench.law.contenders.impedances import coordinates, coordinates_relative
+from bench.law.contenders.registry import known_impedances
+from bench.law.control.contact_controller import PAPERS_FORM, hybrid, impedance_controller
+from bench.law.control.setpoint import TOUCH
 from bench.law.so3 import IDENTITY, from_quaternion
-from bench.metrics.contact.held_axes import leakage
-from bench.metrics.contact.stiffness import least_yield, misalignment, stiffness_axes, stiffness_condition
-from bench.metrics.contact_metric import Pose, response
-from bench.metrics.measured_compliance import compliance
 from tasks.domains.wrench_probe import SPECIFICATIONS, TASK, push
 from tasks.rotations import on_pole, zyx
 

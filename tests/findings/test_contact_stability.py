@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from bench.control.registry import find_controller
-from bench.control.setpoint import TOUCH
 from bench.findings.theory.contact_stability import Spring, acceleration, settles, step
+from bench.law.control.registry import find_controller
+from bench.law.control.setpoint import TOUCH
 from bench.studies.contact import stability
 
 A = 0.35

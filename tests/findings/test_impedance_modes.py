@@ -7,10 +7,10 @@ import pandas as pd
 import pytest
 
 import tasks
-from bench.control.unshaped import DAMPINGS
 from bench.experiments.experiment import Settings, Unit, rows_of
 from bench.experiments.impedance import STIFFNESSES, ZETA
 from bench.findings.theory import impedance_modes as theory
+from bench.law.control.unshaped import DAMPINGS
 
 ARMS = ("panda", "puma560", "ur5e")
 DESIGNS = tuple(DAMPINGS)

@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from bench.contenders.registry import known_shipped
 from bench.findings import remedy
+from bench.law.contenders.registry import known_shipped
 from bench.law.shipped import VELOCITY, clipped, vector_part
 
 COMMANDED = [one for one in known_shipped().values() if one.level != VELOCITY]

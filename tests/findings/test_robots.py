@@ -6,8 +6,9 @@ import math
 import pandas as pd
 import pytest
 
-from bench.contenders.registry import known_shipped
 from bench.experiments.experiment import Settings, Unit, rows_of
+from bench.experiments.tables.read import with_contender
+from bench.experiments.tables.schema import RESULTS
 from bench.findings.claims.tables import Results
 from bench.findings.claims.verdict import NoEvidence
 from bench.findings.selection import gains
@@ -16,8 +17,7 @@ from bench.findings.selection.robot_rows import measure_uncancelled as measure
 from bench.findings.selection.robot_rows import measure_velocities
 from bench.findings.selection.robots import POSITION, ROBOTS, UNCANCELLED, word_of
 from bench.findings.selection.rule import dominates
-from bench.tables.read import with_contender
-from bench.tables.schema import RESULTS
+from bench.law.contenders.registry import known_shipped
 
 REFERENCE = RESULTS / "reference"
 FASTEST = "mrp"

@@ -5,6 +5,7 @@ import math
 import pandas as pd
 import pytest
 
+from bench.experiments.tables.statistics import Estimate
 from bench.findings.claims.standing import (
     MEASURABLE,
     ORDERED,
@@ -16,7 +17,6 @@ from bench.findings.claims.standing import (
     price_of_a_call,
     times_of,
 )
-from bench.tables.statistics import Estimate
 
 FLOP, CALL = 0.02, 1.2
 COUNTS = {"a": (10, 0), "b": (40, 0), "c": (30, 3), "d": (60, 6), "e": (70, 1), "f": (90, 2)}

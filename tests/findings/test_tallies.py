@@ -9,8 +9,8 @@ import pytest
 from click.testing import CliRunner
 from pyarrow import parquet
 
+from bench.base.files import read_json
 from bench.cli import claims as command
-from bench.files import read_json
 from bench.findings import claims
 from bench.findings.claims.verdict import HISTORY, Claim, Earlier, Evidence, Verdict, Word, does
 from bench.studies.verdicts import REFERENCE, STORED

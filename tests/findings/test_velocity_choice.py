@@ -3,12 +3,12 @@
 import pytest
 from support.advised import velocities
 
+from bench.experiments.tables.schema import RESULTS
 from bench.findings.claims.tables import Results
 from bench.findings.claims.verdict import NoEvidence
 from bench.findings.selection.measured import measured
 from bench.findings.selection.robot_rows import measure_velocities as measure
 from bench.findings.selection.robots import VELOCITY
-from bench.tables.schema import RESULTS
 
 REFERENCE = RESULTS / "reference"
 

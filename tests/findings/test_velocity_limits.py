@@ -9,13 +9,13 @@ import pytest
 from scipy.linalg import expm
 
 import tasks
-from bench.contenders.registry import all_contenders, inverse, known_inverses
 from bench.experiments import plan
 from bench.experiments.choice import Choice
 from bench.experiments.experiment import rows_of
+from bench.experiments.tables.read import with_contender
 from bench.experiments.velocity_limits import LAG_TICKS, pose
 from bench.findings.theory.velocity_limits import by_eigenvalues, derivative, lagged, near, on_arm, with_theory
-from bench.tables.read import with_contender
+from bench.law.contenders.registry import all_contenders, inverse, known_inverses
 from tasks.kinematics import kinematics
 
 EXACT = ("solve", "pseudo-inverse", "dynamically-consistent", "truncated-svd", "damped-least-squares-variable")

@@ -6,13 +6,13 @@ import pytest
 from support.command_line import bench
 from support.user_law import law_text
 
-from bench.contenders.law_file import load_law
-from bench.contenders.registry import all_contenders, contenders_of
 from bench.experiments.experiment import rows_of
+from bench.experiments.tables import read
+from bench.experiments.tables.schema import RESULTS
 from bench.findings.judged import ENGINE, START_SETS, judgement, plan_of
 from bench.findings.why import ends, sentences
-from bench.tables import read
-from bench.tables.schema import RESULTS
+from bench.law.contenders.law_file import load_law
+from bench.law.contenders.registry import all_contenders, contenders_of
 
 REFERENCE = RESULTS / "reference"
 

@@ -9,13 +9,13 @@ from support.comparing import change, ran
 from support.tables import changed
 
 from bench.cli import main
-from bench.contenders.registry import find_contender
 from bench.experiments import boundaries, traces
 from bench.experiments import plan as planning
 from bench.experiments.choice import Choice
 from bench.experiments.experiment import Settings, rows_of
+from bench.experiments.tables.store import write_table
+from bench.law.contenders.registry import find_contender
 from bench.regression.rows import compare
-from bench.tables.store import write_table
 
 NAN, INF = float("nan"), float("inf")
 

@@ -4,13 +4,13 @@ import shutil
 
 import pytest
 
-from bench.files import read_json, write_json
+from bench.base.files import read_json, write_json
+from bench.experiments.tables.schema import table_of
+from bench.experiments.tables.store import read, write_table
 from bench.regression.revisions import gates
 from bench.regression.revisions.exact import sort_findings
 from bench.regression.rows import find_differences
 from bench.regression.rows.difference import CHANGED, COLUMN, MISSING, NEW, Difference
-from bench.tables.schema import table_of
-from bench.tables.store import read, write_table
 
 
 def episode(column, was, now, law="rotation-matrix", start="half-turn-x", kind=CHANGED):

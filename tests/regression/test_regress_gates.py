@@ -6,8 +6,8 @@ import subprocess
 import pytest
 from support.user_law import DAMPER, law_text
 
+from bench.base.errors import BadLaw, BadResults, Incompatible, UnknownWord
 from bench.cli import main
-from bench.errors import BadLaw, BadResults, Incompatible, UnknownWord
 from bench.findings.judgement import Judgement, Said
 from bench.regression.revisions import gates, summary
 from bench.regression.revisions.commits import (

@@ -10,8 +10,8 @@ import pytest
 from support.command_line import bench, refused
 from support.user_law import law_text
 
-from bench.errors import BadResults
-from bench.provenance import ROOT
+from bench.base.errors import BadResults
+from bench.base.provenance import ROOT
 from bench.regression.history import append_build, find_files, read_history
 from bench.regression.revisions import timing
 from bench.regression.revisions.timing import RATIO, P, Side, SideFailed, confirm, judge_files, judge_rounds

@@ -2,10 +2,10 @@
 
 import pytest
 
+from bench.experiments.tables.schema import RESULTS
 from bench.export.language import find_language
 from bench.export.subject import find_subject
 from bench.findings.selection import needs
-from bench.tables.schema import RESULTS
 from report.figures.answer import answer_box
 
 REFERENCE = RESULTS / "reference"

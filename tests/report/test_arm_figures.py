@@ -9,11 +9,11 @@ pytest.importorskip("matplotlib", reason="the report extra is not installed (cur
 
 from support.pages import assert_is_whole, pasted
 
-from bench.contenders.registry import find_contender
 from bench.experiments import plan
 from bench.experiments.choice import Choice
+from bench.experiments.tables import read, store
+from bench.law.contenders.registry import find_contender
 from bench.running import run
-from bench.tables import read, store
 from report.figures.arms import (
     arm_advice,
     arm_outcomes,
@@ -43,7 +43,7 @@ CONTROLLERS = 3
 
 @pytest.fixture(scope="module", autouse=True)
 def small_run(tmp_path_factory):
-    """A folder of results, which bench.tables.read reads while this module runs."""
+    """A folder of results, which bench.experiments.tables.read reads while this module runs."""
     laws = [find_contender(word) for word in ("rotation-matrix", "feedback-linearized/zyx-euler")]
     made = plan.make("quick", laws, CHOICE, count=STARTS, horizon_s=2.5)
     folder = tmp_path_factory.mktemp("arms") / "run"

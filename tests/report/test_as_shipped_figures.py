@@ -9,12 +9,12 @@ pytest.importorskip("matplotlib", reason="the report extra is not installed (cur
 
 from support.pages import assert_is_whole
 
-from bench.contenders.registry import known_shipped
 from bench.experiments.experiment import Settings
 from bench.experiments.shipped import compare
+from bench.experiments.tables import store
+from bench.experiments.tables.schema import RESULTS
 from bench.findings.remedy import fix_of
-from bench.tables import store
-from bench.tables.schema import RESULTS
+from bench.law.contenders.registry import known_shipped
 from report.figures.kit.page import run_in
 from report.figures.libraries import as_shipped, libraries
 

@@ -6,11 +6,11 @@ import pytest
 
 pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
 
+from bench.experiments.tables.schema import RESULTS
 from bench.findings.perturbed import Threshold, Way
 from bench.findings.selection import gains, needs
 from bench.findings.selection.measured import measured
 from bench.findings.selection.words import leaders, standing
-from bench.tables.schema import RESULTS
 from report.figures import index
 from report.figures.answer import which_law
 from report.figures.arms import arm_ranking, cost_on_arms

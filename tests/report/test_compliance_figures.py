@@ -10,14 +10,14 @@ from support.pages import Nothing, assert_is_whole
 pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
 
 import tasks
-from bench.control.registry import find_controller
 from bench.engines.contact_episode import USUAL
 from bench.experiments.contact import poses as contact_rows
 from bench.experiments.contact import poses_of
+from bench.experiments.tables import read
+from bench.experiments.tables.schema import RESULTS
 from bench.findings.claims.side_by_side import predicted
+from bench.law.control.registry import find_controller
 from bench.studies.contact import pegs, stability
-from bench.tables import read
-from bench.tables.schema import RESULTS
 from report.figures.contact import (
     against_theory,
     by_transpose,

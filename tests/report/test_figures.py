@@ -7,7 +7,7 @@ import pytest
 
 pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
 
-from bench.contenders.registry import known_regulators, known_representations
+from bench.law.contenders.registry import known_regulators, known_representations
 from bench.law.look import COLOURS, LINES
 from report.figures.kit import html, style
 from report.figures.kit.inline import Picture, picture, responsive_picture

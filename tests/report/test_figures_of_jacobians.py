@@ -11,12 +11,12 @@ pytest.importorskip("matplotlib", reason="the report extra is not installed (cur
 
 from support.pages import assert_is_drawn
 
-from bench.counting import rows_on_arm
+from bench.engines.counting import rows_on_arm
 from bench.experiments import jacobians as poses
 from bench.experiments.experiment import Settings
+from bench.experiments.tables.read import with_contender
 from bench.findings.claims.arm_probes import controller
 from bench.findings.claims.euler_jacobian import ROUNDINGS
-from bench.tables.read import with_contender
 from report.figures.arms import arm_times, condition_maps, controller_costs, cost_on_arms, jacobians
 from report.figures.kit.page import Run
 

@@ -12,8 +12,8 @@ pytest.importorskip("matplotlib", reason="the report extra is not installed (cur
 
 from support.leads import COMPUTED
 
-from bench.tables import read
-from bench.tables.schema import RESULTS
+from bench.experiments.tables import read
+from bench.experiments.tables.schema import RESULTS
 from report.figures.kit.page import REPORT, kinds_of, modules_of, pasted, run_in, word_of
 
 LEAD = re.compile(r"^(:{3,})\{div\} (?:lead|answer)\n(.*?)^\1$", re.DOTALL | re.MULTILINE)

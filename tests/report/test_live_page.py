@@ -12,9 +12,9 @@ from bs4 import BeautifulSoup
 
 pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
 
-from bench import counting
-from bench.contenders.registry import find_contender
-from bench.tables import read
+from bench.engines import counting
+from bench.experiments.tables import read
+from bench.law.contenders.registry import find_contender
 from report.figures.cards import live
 
 LAWS = ("rotation-matrix", "late-braking", "feedback-linearized/zyx-euler")

@@ -4,7 +4,7 @@ from xml.etree import ElementTree
 
 import pytest
 
-from bench.contenders.registry import all_contenders
+from bench.law.contenders.registry import all_contenders
 from report.figures.kit import html, mathml
 
 

@@ -8,8 +8,8 @@ pytest.importorskip("matplotlib", reason="the report extra is not installed (cur
 
 from support.pages import assert_is_whole, pasted
 
-from bench.tables import read
-from bench.tables.schema import RESULTS
+from bench.experiments.tables import read
+from bench.experiments.tables.schema import RESULTS
 from report.figures.arms import velocity_commands
 from report.figures.comparison import a_new_law, comparison
 from report.figures.contact import as_arms_run

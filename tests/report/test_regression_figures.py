@@ -5,8 +5,8 @@ import pytest
 
 pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make report)")
 
+from bench.experiments.tables.schema import RESULTS
 from bench.studies.gates import COMPARISONS, list_faults
-from bench.tables.schema import RESULTS
 from report.figures.kit.page import Run
 from report.figures.tool import regressions
 

@@ -9,11 +9,11 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from bench.contenders.registry import known_regulators, papers_laws
+from bench.base.provenance import ROOT
+from bench.experiments.tables import read
+from bench.experiments.tables.schema import RESULTS
 from bench.export.language import language_words
-from bench.provenance import ROOT
-from bench.tables import read
-from bench.tables.schema import RESULTS
+from bench.law.contenders.registry import known_regulators, papers_laws
 from report.figures.cards import law_page, other_page, regulators
 from report.figures.cost import cost, machines, times
 from report.figures.kit import families, spelling
@@ -48,7 +48,7 @@ def test_every_law_has_a_page_with_its_source_and_its_files():
     assert len(pages) == len(law_page.every_law())
     for one in law_page.every_law():
         made, file = pages[families.anchor(one.on_free_body)], f"{one.regulator.name.replace('-', '_')}.py"
-        assert f"bench/contenders/regulators/{file}" in made.body
+        assert f"bench/law/contenders/regulators/{file}" in made.body
         assert len(made.files) == (0 if one.regulator.costing_only else len(language_words()))
         assert all(f'href="code/{name}"' in made.body for name in made.files)
 

@@ -11,15 +11,15 @@ pytest.importorskip("matplotlib", reason="the report extra is not installed (cur
 
 import tasks
 from bench.cli.details import robustness as details
-from bench.contenders.registry import find_contender
 from bench.experiments import plan
 from bench.experiments.choice import Choice
+from bench.experiments.tables import read
 from bench.findings import perturbed, why
 from bench.findings.perturbed import Way
 from bench.findings.theory import closed_form, robustness_theory, thresholds
+from bench.law.contenders.registry import find_contender
 from bench.law.equation import Equation
 from bench.running import run
-from bench.tables import read
 from report.figures.cards import regulators
 from report.figures.kit.page import run_in
 from report.figures.robustness import half_turn_noise, other_perturbations, robustness, rows, saturation

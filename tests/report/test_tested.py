@@ -6,7 +6,7 @@ import pytest
 
 pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make report)")
 
-from bench.tables.schema import RESULTS
+from bench.experiments.tables.schema import RESULTS
 from report.figures.kit.page import Run
 from report.figures.method import tested
 

@@ -4,7 +4,7 @@ import ast
 
 import pytest
 
-from bench.provenance import ROOT
+from bench.base.provenance import ROOT
 
 FILES = [path for folder in ("tests", "bench/studies") for path in sorted((ROOT / folder).rglob("*.py"))]
 
@@ -47,8 +47,8 @@ def test_globals_of_modules_are_left_alone():
 
 @pytest.mark.parametrize(
     "line", ["store.GROUP = 4", "monkeypatch.setattr(store, 'GROUP', 4)", "setattr(store.pq, 'x', 4)",
-             "monkeypatch.setattr('bench.tables.store.GROUP', 4)", "store.GROUP += 4"],
+             "monkeypatch.setattr('bench.experiments.tables.store.GROUP', 4)", "store.GROUP += 4"],
 )  # fmt: skip
 def test_assignment_is_found(line):
-    assert assignments(f"from bench.tables import store\n{line}") == [2]
+    assert assignments(f"from bench.experiments.tables import store\n{line}") == [2]
     assert assignments(f"store = object()\n{line}") == ([2] if "'bench." in line else [])

@@ -7,7 +7,7 @@ import sys
 import pytest
 from support.command_line import TINY
 
-from bench.provenance import ROOT, kept_in
+from bench.base.provenance import ROOT, kept_in
 
 
 @pytest.fixture

@@ -6,7 +6,7 @@ import re
 import tokenize
 from pathlib import Path
 
-from bench.provenance import ROOT
+from bench.base.provenance import ROOT
 
 FRAGMENT = re.compile(r"(Of|Those|The same|That|As|By|Where|Whose)\b")
 PHRASES = re.compile(

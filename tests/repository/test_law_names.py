@@ -4,7 +4,7 @@ import ast
 import re
 from pathlib import Path
 
-from bench.contenders.registry import known_impedances, known_regulators, known_representations
+from bench.law.contenders.registry import known_impedances, known_regulators, known_representations
 
 ROOT = Path(__file__).parents[2]
 ROOMS = ("bench", "tasks", "report")
@@ -13,12 +13,12 @@ CHAPTERS = ("arms", "contact", "problem", "robustness")
 
 ALLOWED = {
     "bench/audit/": "the law that cures a fault, and forms, some of which are laws' words too",
-    "bench/contenders/regulators/": "its own file, and the coordinates it acts on",
-    "bench/contenders/representations/": "its own file",
-    "bench/contenders/impedances/": "its own file",
+    "bench/law/contenders/regulators/": "its own file, and the coordinates it acts on",
+    "bench/law/contenders/representations/": "its own file",
+    "bench/law/contenders/impedances/": "its own file",
     "bench/law/contender.py": "ON_MATRIX, the word for what acts on R itself",
-    "bench/control/contact_controller.py": "hybrid control in contact, whose words these are",
-    "bench/control/hybrid.py": "the cure in a refusal; a law's file asks no registry",
+    "bench/law/control/contact_controller.py": "hybrid control in contact, whose words these are",
+    "bench/law/control/hybrid.py": "the cure in a refusal; a law's file asks no registry",
     "bench/engines/simulate.py": "the module of a plant whose state is a quaternion",
     "bench/experiments/chosen_words.py": "what a suite runs",
     "bench/experiments/suites.py": "what a suite runs",
@@ -29,7 +29,7 @@ ALLOWED = {
     "bench/findings/theory/thresholds.py": "where the memory of each law ends",
     "bench/studies/": "what a study was designed for",
     "bench/regression/revisions/timed.py": "what is timed on every revision",
-    "bench/timing/": "what the loop in numpy computes",
+    "bench/running/timing/": "what the loop in numpy computes",
     "bench/cli/": "examples of --help",
     "tasks/goal_stream.py": "what goals arrive as",
     **dict.fromkeys((f"report/figures/{chapter}/" for chapter in CHAPTERS), "what a page of the book is about"),

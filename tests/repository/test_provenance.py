@@ -6,17 +6,17 @@ from pathlib import Path
 
 import pytest
 
-from bench.provenance import DECIDING, ROOT
+from bench.base.provenance import DECIDING, ROOT
 
-READ_ONLY = {"bench/__init__.py", "bench/provenance.py"}
+READ_ONLY = {"bench/__init__.py"}
 MODULES = """
 import sys
 from bench.experiments.experiment import known_experiments
 from bench.experiments.jacobians import pose_sets
 from bench.engines import simulate, simulate_arms, simulate_contact, simulate_perturbed
-from bench.tables import store
+from bench.experiments.tables import store
 known_experiments()
-from bench.counting import in_contact, on_arms
+from bench.engines.counting import in_contact, on_arms
 for name, module in list(sys.modules.items()):
     if name.partition(".")[0] in ("bench", "tasks"):
         print(module.__file__)

@@ -6,12 +6,12 @@ import subprocess
 import pytest
 from support.command_line import bench
 
-from bench.contenders.registry import find_contender
+from bench.base.provenance import ROOT
+from bench.experiments.tables import store
 from bench.findings.selection import needs
 from bench.findings.selection.measured import measured
 from bench.findings.selection.words import faster_under_a_bound
-from bench.provenance import ROOT
-from bench.tables import store
+from bench.law.contenders.registry import find_contender
 
 TEXT = (ROOT / "README.md").read_text(encoding="utf-8")
 BLOCKS = re.findall(r"^```(\w+)\n(.*?)^```", TEXT, re.DOTALL | re.MULTILINE)

@@ -3,7 +3,7 @@
 import re
 import tomllib
 
-from bench.provenance import ROOT
+from bench.base.provenance import ROOT
 
 
 def test_release_is_the_same_everywhere():

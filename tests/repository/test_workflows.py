@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from bench.provenance import ROOT
+from bench.base.provenance import ROOT
 
 yaml = pytest.importorskip("yaml", reason="the report extra is not installed (cure: make report)")
 

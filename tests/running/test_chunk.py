@@ -6,9 +6,9 @@ import pandas as pd
 import pytest
 from support.unit_kinds import plan_of_all_kinds
 
-from bench.contenders.law_file import load_law
-from bench.errors import BadResults
+from bench.base.errors import BadResults
 from bench.experiments.experiment import known_experiments, rows_of
+from bench.law.contenders.law_file import load_law
 from bench.running import wire_format
 
 

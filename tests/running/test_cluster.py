@@ -10,12 +10,12 @@ from pathlib import Path
 import pytest
 from support.unit_kinds import plan_of_all_kinds
 
-from bench.contenders.registry import find_contender
-from bench.errors import BadNumber, BadResults, LostWorkers, MissingTool, UnknownWord
+from bench.base.errors import BadNumber, BadResults, LostWorkers, MissingTool, UnknownWord
+from bench.base.files import read_json
 from bench.experiments import plan as planning
 from bench.experiments.choice import Choice
 from bench.experiments.experiment import experiment_of
-from bench.files import read_json
+from bench.law.contenders.registry import find_contender
 from bench.running import run
 from bench.running.run_folder import begin, part
 from bench.running.schedulers import cluster, worker

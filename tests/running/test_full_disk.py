@@ -6,11 +6,11 @@ from pathlib import Path
 import pytest
 from support.command_line import digest
 
-from bench import files
-from bench.contenders.registry import find_contender
-from bench.errors import BadResults
+from bench.base import files
+from bench.base.errors import BadResults
 from bench.experiments import plan as planning
 from bench.experiments.choice import Choice
+from bench.law.contenders.registry import find_contender
 from bench.running import run
 
 KILOBYTES = 1024

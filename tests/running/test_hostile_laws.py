@@ -9,10 +9,10 @@ from support.hostile_laws import AT_IMPORT, COMPILED, IN_A_TICK, LOOPS, WAITS, i
 from support.user_law import spring_text
 
 import tasks
+from bench.base.errors import BadLaw
 from bench.cli import main
-from bench.contenders.described_law import described
-from bench.errors import BadLaw
-from bench.tables import store
+from bench.experiments.tables import store
+from bench.law.contenders.described_law import described
 from tasks.rotations import columns
 
 ASKED = ("--starts", "uniform", "--horizon", "0.02", "--law-limit", "1", "--experiment", "free-body")

@@ -8,10 +8,10 @@ from pathlib import Path
 import psutil
 import pytest
 
-from bench.contenders.registry import all_contenders
+from bench.base.provenance import ROOT
 from bench.experiments import plan
 from bench.experiments.experiment import experiment_of
-from bench.provenance import ROOT
+from bench.law.contenders.registry import all_contenders
 from bench.running import precompile
 
 
@@ -70,7 +70,7 @@ def test_the_process_ends_with_the_run_even_if_that_fails():
 
 def test_the_process_ends_with_a_run_that_is_killed(tmp_path):
     script = (
-        "import time; from bench.contenders.registry import all_contenders; from bench.running import precompile\n"
+        "import time; from bench.law.contenders.registry import all_contenders; from bench.running import precompile\n"
         "with precompile.compiling_ahead(one.name for one in all_contenders()) as process:\n"
         "    print(process.pid, flush=True); time.sleep(60)"
     )

@@ -10,9 +10,9 @@ import time
 import pytest
 from support.command_line import ALONE, bench, digest
 
+from bench.base.provenance import ROOT
 from bench.experiments import plan as planning
 from bench.experiments.choice import Choice
-from bench.provenance import ROOT
 from bench.running import run as running
 
 TABLES = [

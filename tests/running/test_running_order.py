@@ -1,8 +1,8 @@
 """The order in which units run: contender by contender, each compiled while the last one runs."""
 
-from bench.contenders.registry import find_contender
 from bench.experiments import plan as planning
 from bench.experiments.choice import Choice
+from bench.law.contenders.registry import find_contender
 from bench.running.run import in_running_order
 
 

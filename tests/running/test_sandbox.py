@@ -12,17 +12,17 @@ from support.breaking_laws import plan_of
 from support.command_line import refused
 from support.user_law import spring_text
 
-from bench.contenders.described_law import described
-from bench.contenders.law_file import load_law
-from bench.contenders.registry import contenders_of
-from bench.errors import BadLaw
+from bench.base.errors import BadLaw
+from bench.base.provenance import ROOT
 from bench.experiments import plan as planning
 from bench.experiments.choice import Choice
 from bench.experiments.plan import Plan
-from bench.provenance import ROOT
+from bench.experiments.tables import store
+from bench.law.contenders.described_law import described
+from bench.law.contenders.law_file import load_law
+from bench.law.contenders.registry import contenders_of
 from bench.running import run, sandbox, sandbox_process
 from bench.running.wire_format import described as described_plan
-from bench.tables import store
 
 LIMIT_S = 1.0
 

@@ -14,8 +14,8 @@ from pathlib import Path
 from support.killed_clusters import LOCAL, STUDIED, gone_on_alone, gone_on_with
 from support.killed_runs import Undisturbed, at_random_moments, undisturbed
 
-from bench import files
-from bench.provenance import ROOT, describe
+from bench.base import files
+from bench.base.provenance import ROOT, describe
 
 SHARES = {"threads": (at_random_moments, 0.6), LOCAL: (gone_on_with, 0.2), "worker": (gone_on_alone, 0.2)}
 """What is killed -> how, and its share of the kills. Runs with Dask come last: a fork would lack its threads."""

@@ -7,8 +7,8 @@ import pandas as pd
 import pytest
 from scipy.spatial.transform import Rotation as ScipyRotation
 
-from bench.contenders.registry import known_shipped
 from bench.findings.theory.closed_form import linear_settling, settling
+from bench.law.contenders.registry import known_shipped
 from bench.studies.libraries import closed_loop, kept, turns
 from bench.studies.libraries.asked import shipped
 from bench.studies.libraries.free_body import accelerated, after, angle, conjugate, driven, matrix

@@ -5,12 +5,12 @@ import math
 import pytest
 
 import tasks
-from bench.control.setpoint import TOUCH
+from bench.base.files import read_json
+from bench.engines.metrics.contact.scene import alignment_error
+from bench.engines.metrics.contact_metric import Pose, response
 from bench.engines.simulate_contact import run_contact as run
 from bench.experiments.impedance import STIFFNESSES
-from bench.files import read_json
-from bench.metrics.contact.scene import alignment_error
-from bench.metrics.contact_metric import Pose, response
+from bench.law.control.setpoint import TOUCH
 from bench.studies.contact import admittance, pegs, springs, stability, unshaped
 from bench.studies.contact.__main__ import PARTS, STORED
 

@@ -9,7 +9,8 @@ from scipy.spatial.transform import Rotation as ScipyRotation
 from support.bits import EPS
 from support.pages import assert_is_whole
 
-from bench.files import read_json
+from bench.base.files import read_json
+from bench.experiments.tables.store import read
 from bench.studies.libraries import turns
 from bench.studies.libraries.__main__ import rows
 from bench.studies.libraries.forms import FORMS
@@ -18,7 +19,6 @@ from bench.studies.libraries.judge import KINDS, judge
 from bench.studies.libraries.kept import FOLDER
 from bench.studies.libraries.library import MATRIX, QUATERNION, Function, Library
 from bench.studies.libraries.tolerances import COUNT_RAD, SINGLE_RAD
-from bench.tables.store import read
 from report.figures.libraries import answers, libraries, loops
 
 SOME = turns.drawn()._replace(turns=turns.drawn().turns[:50])

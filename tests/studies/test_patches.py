@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from bench.provenance import ROOT
+from bench.base.provenance import ROOT
 
 PATCHES = sorted((ROOT / "bench" / "studies" / "libraries" / "patches").glob("*.patch"))
 PACKAGES = {"mink": ("mink", "."), "numpy-quaternion": ("quaternion", "src")}

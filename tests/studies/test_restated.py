@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from bench.contenders.registry import known_shipped
-from bench.files import read_json
+from bench.base.files import read_json
+from bench.law.contenders.registry import known_shipped
 from bench.studies.restated import __main__ as study
 
 ROWS = {row["name"]: row for row in read_json(study.STORED)["controllers"]}

@@ -5,13 +5,13 @@ import pandas as pd
 import pytest
 
 import tasks
-from bench.contenders.registry import find_contender
 from bench.experiments.experiment import Settings, Unit, rows_of
 from bench.experiments.robustness import HORIZON_S
+from bench.experiments.tables.read import with_contender
 from bench.findings.maps import lost_share
 from bench.findings.perturbed import by_level, studied
+from bench.law.contenders.registry import find_contender
 from bench.studies.robustness import STARTS
-from bench.tables.read import with_contender
 from tasks.condition import condition_at
 
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from bench.files import read_json
+from bench.base.files import read_json
 from bench.findings import claims
 from bench.studies import verdicts
 from bench.studies.verdicts import HALF_STEP, RUNS, SEEDS, STORED, plan_of, turned

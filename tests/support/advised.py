@@ -9,10 +9,10 @@ from typing import NamedTuple
 import numpy as np
 import pandas as pd
 
-from bench.contenders.registry import find_contender
+from bench.experiments.tables.schema import RESULTS
 from bench.findings.selection import measures, needs
 from bench.findings.start_sets import DIRECTED
-from bench.tables.schema import RESULTS
+from bench.law.contenders.registry import find_contender
 from support.tables import table
 
 GENERAL = ("time", "worst", "effort", "peak", "variation", "tick")

@@ -2,10 +2,10 @@
 
 from pathlib import Path
 
-from bench.contenders.described_law import described
-from bench.contenders.registry import contenders_of, find_contender
 from bench.experiments import plan
 from bench.experiments.choice import Choice
+from bench.law.contenders.described_law import described
+from bench.law.contenders.registry import contenders_of, find_contender
 from support.user_law import spring_text
 
 

@@ -11,10 +11,9 @@ import pytest
 from scipy.spatial.transform import Rotation as Turn
 
 import tasks
-from bench.contenders.registry import representation
-from bench.control.contact_controller import FORMS, PAPERS_FORM, hybrid
-from bench.control.setpoint import TOUCH
-from bench.counting.counted import OPERATIONS
+from bench.engines.counting.counted import OPERATIONS
+from bench.experiments.tables import read
+from bench.experiments.tables.schema import RESULTS
 from bench.findings.claims import controller_costs, force_conversion, side_by_side
 from bench.findings.claims.contact import FLOORS, PERFORMANCE
 from bench.findings.claims.controller_costs import BY_COMMON, BY_EULER, INVERSES, ON_MATRIX, words
@@ -23,9 +22,10 @@ from bench.findings.claims.tables import Results
 from bench.findings.claims.verdict import NoEvidence, Word
 from bench.findings.theory.compliance_theory import compliance, free
 from bench.law.contender import PAPERS_GAINS
+from bench.law.contenders.registry import representation
+from bench.law.control.contact_controller import FORMS, PAPERS_FORM, hybrid
+from bench.law.control.setpoint import TOUCH
 from bench.law.so3 import from_quaternion
-from bench.tables import read
-from bench.tables.schema import RESULTS
 from support.tables import changed, judged
 from tasks.domains.wrench_probe import SPECIFICATIONS
 from tasks.rotations import zyx

@@ -3,8 +3,8 @@
 from pathlib import Path
 
 from bench.experiments.plan import Plan
+from bench.experiments.tables.store import read, write_table
 from bench.running import run as running
-from bench.tables.store import read, write_table
 
 
 def ran(plan: Plan, tmp_path_factory) -> Path:

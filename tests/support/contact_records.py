@@ -4,8 +4,8 @@ import numpy as np
 from scipy.spatial.transform import Rotation as Turn
 
 import tasks
-from bench.control.contact_controller import hybrid
-from bench.metrics.contact_metric import Pose, Response
+from bench.engines.metrics.contact_metric import Pose, Response
+from bench.law.control.contact_controller import hybrid
 from tasks.contact import Specification, Trial
 from tasks.domains import wrench_probe
 

@@ -1,12 +1,12 @@
 """How the tests run episodes: the settings, one start of each kind, a metric that keeps what it sees."""
 
 import tasks
-from bench.contenders.registry import find_contender
 from bench.engines.episode import Settings
+from bench.engines.metrics.metric import Metric
+from bench.engines.metrics.registry import metrics_of
 from bench.engines.simulate import WORTH_LANES, prepare
 from bench.law.contender import Gains
-from bench.metrics.metric import Metric
-from bench.metrics.registry import metrics_of
+from bench.law.contenders.registry import find_contender
 from tasks.rules import ticks
 
 NO_EARLY_STOP = 10**9

@@ -5,20 +5,22 @@ def renamed(room: str, of: str, kind: str) -> str:
     """The file of a contender that is another one by another name."""
     name = f'name="dropped-{kind}", title="Dropped {kind}"'
     constant = room.removesuffix("s").upper()
-    head = f'"""By another name."""\n\nfrom bench.contenders.{room} import {of}\n\n'
+    head = f'"""By another name."""\n\nfrom bench.law.contenders.{room} import {of}\n\n'
     return f"{head}{constant} = {of}.{constant}._replace({name})\n"
 
 
 DROPPED = {
-    "bench/contenders/representations/dropped_coordinates.py": renamed("representations", "zyx_euler", "coordinates"),
-    "bench/contenders/jacobians/dropped_jacobian.py": renamed("jacobians", "geometric", "jacobian"),
-    "bench/contenders/inverses/dropped_inverse.py": renamed("inverses", "solve", "inverse"),
-    "bench/contenders/impedances/dropped_impedance.py": renamed("impedances", "geometric", "impedance"),
-    "bench/contenders/shipped/dropped_shipped.py": renamed("shipped", "crisp", "shipped"),
-    "bench/contenders/springs/dropped_spring.py": renamed("springs", "vector_part", "spring"),
-    "bench/contenders/compensators/dropped_compensator.py": renamed("compensators", "integral", "compensator"),
-    "bench/contenders/baselines/dropped_baseline.py": renamed("baselines", "resolved_rate", "baseline"),
-    "bench/contenders/regulators/dropped_regulator.py": '''
+    "bench/law/contenders/representations/dropped_coordinates.py": renamed(
+        "representations", "zyx_euler", "coordinates"
+    ),
+    "bench/law/contenders/jacobians/dropped_jacobian.py": renamed("jacobians", "geometric", "jacobian"),
+    "bench/law/contenders/inverses/dropped_inverse.py": renamed("inverses", "solve", "inverse"),
+    "bench/law/contenders/impedances/dropped_impedance.py": renamed("impedances", "geometric", "impedance"),
+    "bench/law/contenders/shipped/dropped_shipped.py": renamed("shipped", "crisp", "shipped"),
+    "bench/law/contenders/springs/dropped_spring.py": renamed("springs", "vector_part", "spring"),
+    "bench/law/contenders/compensators/dropped_compensator.py": renamed("compensators", "integral", "compensator"),
+    "bench/law/contenders/baselines/dropped_baseline.py": renamed("baselines", "resolved_rate", "baseline"),
+    "bench/law/contenders/regulators/dropped_regulator.py": '''
 """Damping, and a spring on the first coordinate."""
 
 from bench.law import ANGLE, Look, Regulator, kernel
@@ -51,11 +53,11 @@ REGULATOR = Regulator(
     equation=ANGLE,
 )
 ''',
-    "bench/metrics/motion/dropped_metric.py": '''
+    "bench/engines/metrics/motion/dropped_metric.py": '''
 """Ticks with a command: all of them."""
 
 from bench.law import kernel
-from bench.metrics.metric import Metric
+from bench.engines.metrics.metric import Metric
 
 
 @kernel
@@ -71,10 +73,10 @@ def finish(value, ending):
 
 METRIC = Metric("dropped_column", "1", "ticks with a command", 0.0, update, finish)
 ''',
-    "bench/metrics/contact/dropped_touch.py": '''
+    "bench/engines/metrics/contact/dropped_touch.py": '''
 """Ticks recorded: all of them."""
 
-from bench.metrics.contact_metric import ContactMetric
+from bench.engines.metrics.contact_metric import ContactMetric
 
 
 def measure(pose):
@@ -194,7 +196,7 @@ kernelspec: {name: python3, display_name: Python 3}
 # The dropped page
 
 ```{code-cell} python
-from bench.tables import read
+from bench.experiments.tables import read
 print("rows with the dropped column:", read.episodes(task="dropped-task")["dropped_column"].count())
 ```
 

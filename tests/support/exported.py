@@ -7,12 +7,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bench.contenders.registry import all_contenders
 from bench.engines.compiled import EVALUATE, GAINS, MATRIX, compile_function, types
 from bench.engines.simulate import evaluation
 from bench.export.language import find_language
 from bench.export.subject import Subject, find_subject, subject_words
 from bench.law.contender import AT_REST, PAPERS_GAINS, Contender, Gains, Goal
+from bench.law.contenders.registry import all_contenders
 from bench.law.so3 import Rotation, from_quaternion
 
 STATES = 100_000

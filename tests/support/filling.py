@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from bench.contenders.registry import known_jacobians, known_representations
 from bench.law.chain import twist
+from bench.law.contenders.registry import known_jacobians, known_representations
 from support.bits import EPS
 from support.buffers import as_floats, buffer, of_numbers
 

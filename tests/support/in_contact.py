@@ -12,14 +12,14 @@ import numpy as np
 from scipy.spatial.transform import Rotation as ScipyRotation
 
 import tasks
-from bench.contenders.registry import known_representations
-from bench.control.contact_controller import FORMS
-from bench.control.hybrid import comply
-from bench.control.registry import all_controllers
-from bench.control.setpoint import ContactParameters, Rows, Setpoint
 from bench.engines.contact_episode import room, rows, wrench
 from bench.experiments.contact import can_do
 from bench.law.contender import Gains
+from bench.law.contenders.registry import known_representations
+from bench.law.control.contact_controller import FORMS
+from bench.law.control.hybrid import comply
+from bench.law.control.registry import all_controllers
+from bench.law.control.setpoint import ContactParameters, Rows, Setpoint
 from bench.law.resolved_motion import Chain
 from support.bits import EPS
 from support.on_arms import Here

@@ -15,7 +15,7 @@ import time
 from collections.abc import Iterator
 from pathlib import Path
 
-from bench.provenance import ROOT
+from bench.base.provenance import ROOT
 from bench.running import run
 from support.killed_runs import SEED, TRIES, Undisturbed, ended, files_of, how_far, plan_of, start
 

@@ -17,10 +17,10 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
 
-from bench.contenders.registry import find_contender
 from bench.experiments import boundaries, jacobians, plan, traces
 from bench.experiments.choice import Choice
 from bench.law.contender import Gains
+from bench.law.contenders.registry import find_contender
 from bench.running import run
 
 SEED = 20260119

@@ -11,11 +11,11 @@ import pandas as pd
 from scipy.stats import binomtest
 
 import tasks
-from bench.contenders.registry import find_contender
+from bench.experiments.tables.schema import RESULTS
 from bench.findings import claims
 from bench.findings.selection import gains, needs
 from bench.findings.selection.robots import VELOCITY
-from bench.tables.schema import RESULTS
+from bench.law.contenders.registry import find_contender
 from report.figures.kit.families import word
 from support.advised import accelerations, costs, operations, shares_of_time, velocities
 from support.leads_of_arms import (

@@ -10,8 +10,8 @@ from scipy.stats import binomtest, fisher_exact
 
 import tasks
 from bench.audit.faults.digits_near_0 import COUNT_RAD
+from bench.experiments.tables.schema import RESULTS
 from bench.findings.selection import needs
-from bench.tables.schema import RESULTS
 from report.figures.kit.families import word
 from support.advised import accelerations, shares_of_time
 from support.tables import table

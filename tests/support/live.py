@@ -4,12 +4,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bench.contenders.registry import find_contender
 from bench.engines.curve import blank_curves
 from bench.engines.episode import FINAL_ANGLE, OUTCOME, SETTLING_TICK, TICKS, start_rows
 from bench.engines.simulate import run
 from bench.engines.simulate_perturbed import run_disturbed
 from bench.export.subject import find_subject, translated
+from bench.law.contenders.registry import find_contender
 from support.driving import settings
 from tasks.condition import Condition
 from tasks.rules import RULES

@@ -7,12 +7,12 @@ import mujoco
 import numpy as np
 
 import tasks
-from bench.contenders import combinations
-from bench.contenders.registry import all_contenders
-from bench.control.resolved_acceleration import assembly, control, parts_of
 from bench.engines.arm_episode import buffers
 from bench.engines.binding import command_of, memory_of
 from bench.law.contender import Gains, Goal
+from bench.law.contenders import combinations
+from bench.law.contenders.registry import all_contenders
+from bench.law.control.resolved_acceleration import assembly, control, parts_of
 from bench.law.resolved_motion import Chain
 from bench.law.so3 import Rotation, from_quaternion
 from support.states import vector

@@ -7,8 +7,8 @@ import numpy as np
 import pinocchio
 from scipy.spatial import transform
 
-from bench.contenders.registry import regulator
 from bench.law import Gains, Goal, Rotation
+from bench.law.contenders.registry import regulator
 from support.planted import CONJUGATE, chord, columns, left, log, right
 
 AT_REST = (0.0, 0.0, 0.0)

@@ -4,7 +4,7 @@ import numpy as np
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation as ScipyRotation
 
-from bench.control.impedance import law_of
+from bench.law.control.impedance import law_of
 from support.exact import exact_B
 from support.in_contact import GAINS, IMPEDANCES, TOUCH
 from support.states import as_rotation, of_scipy, vector

@@ -5,9 +5,9 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
+from bench.experiments.tables.schema import RESULTS
 from bench.findings import claims
 from bench.findings.claims.tables import Results
-from bench.tables.schema import RESULTS
 
 NO_TIMINGS = Path("no-such-folder")
 

@@ -3,12 +3,12 @@
 import dataclasses
 from pathlib import Path
 
-from bench.contenders.law_file import load_law
-from bench.contenders.registry import find_contender
 from bench.experiments import plan
 from bench.experiments.choice import Choice
 from bench.experiments.experiment import Unit
 from bench.experiments.map import plan_of
+from bench.law.contenders.law_file import load_law
+from bench.law.contenders.registry import find_contender
 from support.user_law import DAMPER, law_text
 
 

@@ -7,7 +7,7 @@ from support.own_arm import xml
 
 from tasks.arm import arm, arm_names
 from tasks.arm_model import model_xml
-from tasks.base import UnknownName
+from tasks.errors import UnknownName
 
 PYTHON_ARM = '''
 from pathlib import Path

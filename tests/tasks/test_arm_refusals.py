@@ -4,7 +4,7 @@ import pytest
 from support.own_arm import JOINTS, xml
 
 from tasks.arm import arm, arm_names, arms
-from tasks.base import BadArm
+from tasks.errors import BadArm
 
 MOTOR_3 = '<motor name="motor 3" joint="joint 3" ctrlrange="-20 20" ctrllimited="false"/>\n'
 LINK_6 = '<inertial pos="0 0 .1" mass="1" diaginertia=".01 .01 .005"/>\n<site'

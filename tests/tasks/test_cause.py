@@ -8,11 +8,11 @@ from support.driving import settings
 from support.on_arms import named
 
 import tasks
+from bench.engines.metrics.registry import metrics_of
 from bench.engines.simulate_arms import run_arm as run
 from bench.experiments.episode_rows import frame
 from bench.experiments.experiment import Settings, Unit
 from bench.experiments.suites import NOMINAL
-from bench.metrics.registry import metrics_of
 from tasks.cause import CAUSES, NEAR_CONDITION, NEAR_MARGIN, cause
 from tasks.kinematics import kinematics, rotation_vector
 from tasks.verdict import OUTCOMES

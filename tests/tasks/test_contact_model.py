@@ -4,9 +4,9 @@ import pytest
 from support.in_contact import ARMS
 
 import tasks
-from bench.control.registry import find_controller
 from bench.engines.contact_episode import FORCE, GAP
 from bench.engines.simulate_contact import run_contact as run
+from bench.law.control.registry import find_controller
 from tasks.contact_model import STANDARD
 
 PRESSING = find_controller("hybrid-base+inverse")

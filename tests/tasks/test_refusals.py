@@ -6,7 +6,7 @@ from functools import partial
 import pytest
 
 import tasks
-from tasks.base import BadValue, UnknownName
+from tasks.errors import BadValue, UnknownName
 
 NAN = (0.0, 0.0, math.nan, 0.0, 0.0, 0.0)
 

@@ -4,7 +4,7 @@ import math
 
 import pandas as pd
 
-from bench.tables import read as results
+from bench.experiments.tables import read as results
 
 COLUMNS = {
     "leakage_ratio": ("leakage", 1.0),

@@ -4,7 +4,7 @@ import pandas as pd
 import rich_click as click
 
 from bench.experiments.suites import NOMINAL
-from bench.tables import read as results
+from bench.experiments.tables import read as results
 from tasks.verdict import CRASHED, OUTCOMES
 
 OF_STARTS = "a/b: a of b starts settled"

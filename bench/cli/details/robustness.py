@@ -6,9 +6,9 @@ import pandas as pd
 
 import tasks
 from bench.cli.details.episodes import OF_STARTS, settled
+from bench.experiments.tables import read as results
 from bench.findings.perturbed import WITHSTANDS, by_level, thresholds
 from bench.findings.theory.thresholds import HALF_TURN, least, near_goal
-from bench.tables import read as results
 
 NEAR = "(theory near the goal)"
 FEW = 3

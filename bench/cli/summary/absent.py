@@ -5,9 +5,9 @@ from __future__ import annotations
 from bench.cli.details import parts
 from bench.cli.paragraphs import Paragraph, listed
 from bench.cli.screen import counted
-from bench.contenders.registry import all_contenders
 from bench.experiments.experiment import known_experiments
 from bench.findings.claims import Results
+from bench.law.contenders.registry import all_contenders
 
 
 def undecided(results: Results) -> Paragraph:

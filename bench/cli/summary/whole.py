@@ -11,10 +11,10 @@ from bench.cli.paragraphs import Paragraph, print_paragraphs
 from bench.cli.progress import progress
 from bench.cli.screen import shown_path
 from bench.cli.summary import absent, answer, failures, verdicts
+from bench.experiments.tables import read as results
 from bench.findings.claims import Results
 from bench.findings.claims.verdict import NoEvidence
 from bench.findings.selection.measured import measure
-from bench.tables import read as results
 
 
 def print_summary(folder: Path, is_named: bool) -> None:

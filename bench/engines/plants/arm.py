@@ -8,7 +8,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bench.control.resolved_acceleration import BY_JOINT, Buffers, control
 from bench.engines.arm_episode import (
     MOST,
     PROBE_TICKS,
@@ -28,6 +27,7 @@ from bench.engines.curve import keep_on_arm
 from bench.engines.loop import Act, Controller, Plant, Record, Sensed, begin, episodes_of
 from bench.engines.simulated import Simulated, compute, fill_inertia, place, step
 from bench.law.contender import AT_REST, Goal
+from bench.law.control.resolved_acceleration import BY_JOINT, Buffers, control
 from bench.law.resolved_motion import Chain
 from bench.law.scalar import kernel
 from bench.law.so3 import Rotation, dot, from_quaternion

@@ -10,8 +10,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bench.control.hybrid import comply
-from bench.control.setpoint import ContactBuffers, ContactParameters, Rows
 from bench.engines import contact_episode
 from bench.engines.arm_episode import MOST
 from bench.engines.arrays import Integers, Matrix, Vector
@@ -21,6 +19,8 @@ from bench.engines.loop import NO_ACT, Act, Controller, Plant, Record, Sensed, e
 from bench.engines.native.trapped import BEGIN, RUNGE_KUTTA, STEP, advance_trapped
 from bench.engines.simulated import Simulated, fill_inertia
 from bench.law.contender import AT_REST, Gains, Goal
+from bench.law.control.hybrid import comply
+from bench.law.control.setpoint import ContactBuffers, ContactParameters, Rows
 from bench.law.resolved_motion import Chain
 from bench.law.scalar import kernel, sqrt
 from bench.law.so3 import Rotation, from_quaternion

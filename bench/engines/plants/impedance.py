@@ -11,8 +11,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bench.contenders.jacobians.geometric import fill
-from bench.control.unshaped import apparent_inertia, damp_elbow
 from bench.engines.arm_episode import MOST
 from bench.engines.arrays import Matrix, Vector
 from bench.engines.episode import FIRST_METRIC, blank
@@ -21,6 +19,8 @@ from bench.engines.plants import arm
 from bench.engines.simulated import Simulated, compute, fill_inertia
 from bench.law.chain import twist
 from bench.law.contender import AT_REST
+from bench.law.contenders.jacobians.geometric import fill
+from bench.law.control.unshaped import apparent_inertia, damp_elbow
 from bench.law.linalg import multiply, multiply_transposed
 from bench.law.scalar import kernel, sqrt
 from bench.law.so3 import dot, minus

@@ -9,8 +9,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bench.contenders.jacobians.geometric import fill
-from bench.control.velocity import velocity
 from bench.engines.arm_episode import squared
 from bench.engines.arrays import Matrix
 from bench.engines.episode import FIRST_METRIC, blank
@@ -18,6 +16,8 @@ from bench.engines.loop import Act, Controller, Plant, Record, Sensed, episodes_
 from bench.engines.plants import arm, quaternion
 from bench.engines.simulated import Simulated, compute
 from bench.law.contender import AT_REST
+from bench.law.contenders.jacobians.geometric import fill
+from bench.law.control.velocity import velocity
 from bench.law.scalar import atan2, kernel, sqrt
 from bench.law.so3 import cross, dot
 from tasks.truth import angle

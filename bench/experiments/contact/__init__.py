@@ -10,13 +10,13 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 import tasks
-from bench.control.contact_controller import ContactController
-from bench.control.registry import all_controllers, find_controller
-from bench.errors import Incompatible
+from bench.base.errors import Incompatible
 from bench.experiments.choice import Choice
 from bench.experiments.contact.poses import TABLE, frame
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit
-from tasks.base import BadValue
+from bench.law.control.contact_controller import ContactController
+from bench.law.control.registry import all_controllers, find_controller
+from tasks.errors import BadValue
 
 if TYPE_CHECKING:
     import pandas as pd

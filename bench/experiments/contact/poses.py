@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from bench.contenders.representations.zyx_euler import chart
-from bench.control.contact_controller import ContactController
+from bench.engines.metrics.contact_metric import Pose, response
+from bench.engines.metrics.measured_compliance import compliance
+from bench.engines.metrics.registry import known_contact_metrics
 from bench.experiments.columns import GAINS, NUMBER, STEPPED_DT, SUITE, Column, Table, counts, numbers, words
+from bench.law.contenders.representations.zyx_euler import chart
+from bench.law.control.contact_controller import ContactController
 from bench.law.so3 import from_quaternion
-from bench.metrics.contact_metric import Pose, response
-from bench.metrics.measured_compliance import compliance
-from bench.metrics.registry import known_contact_metrics
 from tasks.arm_model import Arm
 from tasks.contact import ContactTask, Trial
 

@@ -15,11 +15,11 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 import tasks
-from bench.contenders.registry import known_jacobians, known_representations, papers_coordinates
 from bench.experiments import arm as arms
 from bench.experiments.columns import JOINTS, Column, Table, numbers, singles, words
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit
 from bench.law.contender import Representation
+from bench.law.contenders.registry import known_jacobians, known_representations, papers_coordinates
 from bench.law.resolved_motion import Chain
 from tasks.arm_model import Arm
 

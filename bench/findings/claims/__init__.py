@@ -32,9 +32,9 @@ from collections import Counter
 from collections.abc import Iterable
 from pathlib import Path
 
+from bench.experiments.tables import read as published
 from bench.findings.claims.tables import CHECK_ENGINES, MAIN_ENGINE, Results
 from bench.findings.claims.verdict import Claim, Evidence, NoEvidence, Verdict, Word, decide, does
-from bench.tables import read as published
 
 __all__ = [
     "RULE",

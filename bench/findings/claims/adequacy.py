@@ -6,12 +6,12 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from bench.experiments.tables.read import FREE_BODY, converged
+from bench.experiments.tables.statistics import Estimate, quantile_estimate
 from bench.findings.claims import probes
 from bench.findings.claims.probes import EXACT_RAD
 from bench.findings.claims.standing import ORDERED, Ledger, Operations, price_of_a_call, times_of
 from bench.findings.claims.tables import Results, settled, settling_times, some
-from bench.tables.read import FREE_BODY, converged
-from bench.tables.statistics import Estimate, quantile_estimate
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 import tasks
-from bench.contenders.registry import find_contender, inverse, jacobian
+from bench.engines.metrics.registry import metrics_of
 from bench.findings.claims.probes import euler_angles, euler_angles_along
 from bench.findings.claims.tables import some
 from bench.findings.theory.closed_form import linear
 from bench.law.contender import Contender, Gains
+from bench.law.contenders.registry import find_contender, inverse, jacobian
 from bench.law.so3 import from_quaternion
-from bench.metrics.registry import metrics_of
 
 if TYPE_CHECKING:
     import pandas as pd

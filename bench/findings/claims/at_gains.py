@@ -5,9 +5,9 @@ from __future__ import annotations
 import functools
 from collections.abc import Callable
 
+from bench.experiments.tables.schema import RESULTS
 from bench.findings.claims.tables import CHECK_ENGINES, MAIN_ENGINE, Results, evidence
 from bench.findings.claims.verdict import NoEvidence, Word
-from bench.tables.schema import RESULTS
 
 GAINS = RESULTS / "gains"
 """Runs of the same starts at other gains, a folder each."""

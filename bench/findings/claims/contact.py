@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from bench.engines.metrics.contact_force import WINDOW_S
 from bench.findings.claims.euler_jacobian import COORDINATES
 from bench.findings.claims.side_by_side import BASE, by_papers_form, paired
 from bench.findings.claims.tables import evidence, some
 from bench.findings.claims.verdict import NoEvidence, claim, word_of
-from bench.metrics.contact_force import WINDOW_S
 from tasks.contact_rest import HORIZON_S
 
 if TYPE_CHECKING:

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 import tasks
-from bench.control.contact_controller import PAPERS_FORM
 from bench.findings.claims import adequacy, arm_probes, standing
 from bench.findings.claims.adequacy import CALLS, of_stage, tallied
 from bench.findings.claims.side_by_side import BASE
@@ -18,6 +17,7 @@ from bench.findings.claims.standing import ORDERED, Operations, by_columns
 from bench.findings.claims.tables import evidence, some
 from bench.findings.claims.verdict import claim, word_of
 from bench.law.contender import Gains
+from bench.law.control.contact_controller import PAPERS_FORM
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -214,9 +214,9 @@ def c33(results):
 @functools.cache
 def in_contact(controller: str, joints: int) -> Operations:
     """Count a controller's typical tick on an arm of so many joints."""
-    from bench.control.registry import find_controller
-    from bench.counting import TOTAL, flops
-    from bench.counting.in_contact import cost_in_contact
+    from bench.engines.counting import TOTAL, flops
+    from bench.engines.counting.in_contact import cost_in_contact
+    from bench.law.control.registry import find_controller
 
     numbers = cost_in_contact(find_controller(controller), joints=joints).typical.of(TOTAL)
     return Operations(flops(numbers), sum(numbers[name] for name in CALLS))

@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from bench.contenders.registry import representation
 from bench.findings.claims import probes
 from bench.findings.claims.probes import at_boundary
 from bench.findings.claims.tables import MAIN_ENGINE, evidence, settled_of, some
 from bench.findings.claims.verdict import Word, claim, word_of
+from bench.law.contenders.registry import representation
 from bench.law.so3 import Rotation
 from tasks.sphere import axes
 

@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from bench.contenders.registry import representation
+from bench.experiments.tables.read import FREE_BODY
+from bench.experiments.tables.statistics import Estimate, quantile_estimate
 from bench.findings.claims.degeneracy import condition_in
 from bench.findings.claims.feedback_linearized import LAW
 from bench.findings.claims.tables import MAIN_ENGINE, Share, evidence, same_starts, settled, settling_times, share, some
 from bench.findings.claims.verdict import NoEvidence, claim, word_of
-from bench.tables.read import FREE_BODY
-from bench.tables.statistics import Estimate, quantile_estimate
+from bench.law.contenders.registry import representation
 
 if TYPE_CHECKING:
     import pandas as pd

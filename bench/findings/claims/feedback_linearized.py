@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from bench.contenders.registry import representation
+from bench.experiments.tables.read import converged
 from bench.findings.claims import probes
 from bench.findings.claims.adequacy import THREE
 from bench.findings.claims.at_gains import on_every_engine
@@ -25,7 +25,7 @@ from bench.findings.claims.tables import (
 from bench.findings.claims.verdict import claim, word_of
 from bench.findings.theory import closed_form
 from bench.law.contender import AT_REST, Gains
-from bench.tables.read import converged
+from bench.law.contenders.registry import representation
 
 if TYPE_CHECKING:
     import pandas as pd

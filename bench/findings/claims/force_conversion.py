@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from bench.contenders.registry import known_representations, representation
 from bench.findings.claims.euler_jacobian import COORDINATES, DIFFERENCED, EPS, ROUNDINGS
 from bench.findings.claims.probes import rate_matrix
 from bench.findings.claims.side_by_side import PROBE
 from bench.findings.claims.tables import evidence, some
 from bench.findings.claims.verdict import claim, word_of
 from bench.law.contender import Representation
+from bench.law.contenders.registry import known_representations, representation
 from bench.law.so3 import Rotation, from_quaternion
 
 if TYPE_CHECKING:

@@ -5,6 +5,8 @@ import math
 import numpy as np
 
 from bench.experiments.suites import SHORT
+from bench.experiments.tables.read import converged
+from bench.experiments.tables.statistics import quantile_estimate
 from bench.findings.claims import probes
 from bench.findings.claims.at_gains import on_every_engine
 from bench.findings.claims.rotation_matrix import GAINS, LOOSE_SETTLING, SMALL_ANGLES
@@ -12,8 +14,6 @@ from bench.findings.claims.tables import evidence, interval, lost, settled, sett
 from bench.findings.claims.verdict import claim, word_of
 from bench.findings.theory import closed_form, held_goals
 from bench.law.contender import Gains
-from bench.tables.read import converged
-from bench.tables.statistics import quantile_estimate
 from tasks.base import IDENTITY, Start
 from tasks.sphere import axes
 

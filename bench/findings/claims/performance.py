@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from bench.experiments.tables.statistics import bootstrap, quantile, quantile_estimate
 from bench.findings.claims import adequacy, probes
 from bench.findings.claims.adequacy import PAPERS, THREE, Adequacy
 from bench.findings.claims.at_gains import at_every_gain, on_every_engine
@@ -24,7 +25,6 @@ from bench.findings.claims.tables import (
 )
 from bench.findings.claims.verdict import NoEvidence, Word, claim, word_of
 from bench.findings.theory import closed_form
-from bench.tables.statistics import bootstrap, quantile, quantile_estimate
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from bench.contenders.registry import find_contender, representation
+from bench.engines.metrics.registry import metrics_of
 from bench.findings.claims.tables import some
 from bench.findings.theory.closed_form import linear_settling
 from bench.law.contender import AT_REST, Gains, Goal, Representation
+from bench.law.contenders.registry import find_contender, representation
 from bench.law.so3 import IDENTITY, Rotation, from_quaternion
-from bench.metrics.registry import metrics_of
 from tasks.base import Start
 from tasks.sphere import axes
 from tasks.verdict import OUTCOMES

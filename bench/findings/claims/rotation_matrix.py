@@ -6,6 +6,7 @@ from fractions import Fraction
 
 import numpy as np
 
+from bench.experiments.tables.statistics import bootstrap
 from bench.findings.claims import probes
 from bench.findings.claims.adequacy import CALLS
 from bench.findings.claims.at_gains import on_every_engine
@@ -15,7 +16,6 @@ from bench.findings.claims.verdict import claim, word_of
 from bench.findings.theory import closed_form
 from bench.law.contender import Gains
 from bench.law.so3 import IDENTITY, Rotation, cross, from_quaternion
-from bench.tables.statistics import bootstrap
 from tasks.sphere import axes
 
 LAW = "rotation-matrix"

@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from bench.control.contact_controller import ACCELERATION_FORMS, PAPERS_FORM
 from bench.findings.claims.tables import evidence, some
 from bench.findings.claims.verdict import Evidence, Word
+from bench.law.control.contact_controller import ACCELERATION_FORMS, PAPERS_FORM
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -90,11 +90,11 @@ def compliances(rows: pd.DataFrame, suffix: str = "") -> np.ndarray:
 def predicted(rows: pd.DataFrame, representation: str = "") -> np.ndarray:
     """C in closed form, n x 3 x 3: of hybrid control in coordinates, or of hybrid-base, in the form of each row."""
     import tasks
-    from bench.contenders.registry import known_representations
-    from bench.control.contact_controller import hybrid
-    from bench.control.setpoint import ContactParameters
     from bench.findings.theory.compliance_theory import compliance
     from bench.law.contender import Gains
+    from bench.law.contenders.registry import known_representations
+    from bench.law.control.contact_controller import hybrid
+    from bench.law.control.setpoint import ContactParameters
     from bench.law.so3 import from_quaternion
     from tasks.domains.wrench_probe import SPECIFICATIONS
     from tasks.rotations import zyx

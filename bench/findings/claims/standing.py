@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from bench.tables.statistics import Estimate
+from bench.experiments.tables.statistics import Estimate
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -9,17 +9,17 @@ from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 import numpy as np
 
-from bench.files import read_json
+from bench.base.files import read_json
+from bench.experiments.tables import read
+from bench.experiments.tables.schema import RESULTS
 from bench.findings.claims.verdict import Evidence, NoEvidence
 from bench.law.contender import Gains
-from bench.tables import read
-from bench.tables.schema import RESULTS
 
 if TYPE_CHECKING:
     import pandas as pd
 
+    from bench.experiments.tables.statistics import Estimate
     from bench.findings.maps import Spun
-    from bench.tables.statistics import Estimate
 
 MAIN_ENGINE = "ideal-rk4"
 CHECK_ENGINES = ("ideal-held", "native")
@@ -97,8 +97,8 @@ class Results:
 
     def spun(self, law: str) -> list[Spun]:
         """Starts of a law at stated speeds, from the maps that came with the benchmark; maybe none."""
+        from bench.experiments.tables.store import read as read_table
         from bench.findings.maps import counted, spun
-        from bench.tables.store import read as read_table
 
         if "map" not in self.frames:
             self.frames["map"] = read_table(self.maps_folder, "map")
@@ -139,7 +139,7 @@ class Results:
     def _all_timings(self) -> pd.DataFrame:
         import pandas as pd
 
-        from bench.tables.store import read_arrow
+        from bench.experiments.tables.store import read_arrow
 
         paths = sorted(self.timings_folder.glob("*.parquet"))
         frames = [read_arrow(path, "timings").to_pandas().assign(machine=path.stem) for path in paths]

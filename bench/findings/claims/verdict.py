@@ -14,7 +14,7 @@ from pathlib import Path
 from types import MappingProxyType, ModuleType
 from typing import Any, NamedTuple
 
-from bench.errors import BenchError
+from bench.base.errors import BenchError
 
 
 class Word(StrEnum):

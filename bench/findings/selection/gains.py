@@ -13,14 +13,14 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
-from bench.files import read_json
+from bench.base.files import read_json
+from bench.experiments.tables.schema import RESULTS
+from bench.experiments.tables.store import read, write_table
 from bench.findings.selection.measured import Measured, measured
 from bench.findings.selection.needs import DEFAULT, NEARLY, SURE, TRIED, Need, decide, is_ours
 from bench.findings.selection.rule import GENERAL
 from bench.findings.selection.words import together
 from bench.findings.start_sets import DIRECTED
-from bench.tables.schema import RESULTS
-from bench.tables.store import read, write_table
 
 COMMITTED = ("gains/kv-10", "gains/kv-14", "reference", "gains/kv-30")
 """Runs of the same suite and seed at Kp = 100 1/s^2, by rising Kv."""

@@ -10,10 +10,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from bench.experiments.tables.statistics import TAIL, Estimate, bootstrap, quantile, resampled
 from bench.findings.claims.tables import Results
 from bench.findings.selection.criteria import BY_NAME, CRITERIA, Criterion
 from bench.findings.selection.tables import Tables, tables_of
-from bench.tables.statistics import TAIL, Estimate, bootstrap, quantile, resampled
 
 
 class Measured(NamedTuple):

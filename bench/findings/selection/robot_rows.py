@@ -12,7 +12,7 @@ from collections.abc import Container
 import numpy as np
 import pandas as pd
 
-from bench.errors import BadResults
+from bench.base.errors import BadResults
 from bench.experiments.shipped import SETTLING_DEG
 from bench.findings.claims.tables import Results
 from bench.findings.claims.verdict import NoEvidence

@@ -7,14 +7,14 @@ from typing import NamedTuple
 import numpy as np
 import pandas as pd
 
-from bench.contenders.registry import all_contenders, contenders_of
+from bench.experiments.tables import read as published
 from bench.findings.claims.adequacy import tallied
 from bench.findings.claims.tables import MAIN_ENGINE, Results, settled, some
 from bench.findings.claims.verdict import NoEvidence
 from bench.findings.selection.timed import ticks
 from bench.findings.start_sets import DIRECTED
 from bench.law.contender import Contender
-from bench.tables import read as published
+from bench.law.contenders.registry import all_contenders, contenders_of
 
 SAMPLED = "native"
 """The engine of a law that cannot run on the continuous plant: MuJoCo's own actuator."""

@@ -1,8 +1,8 @@
 """What a law takes of a whole controller's time, by the times of results/timings.
 
-A whole controller (`bench.timing.controller`) computes the forward kinematics, D and fg, then the law, the Jacobian,
-its inverse and (2.2); plant, judge and metrics are not in it. Every share of a controller has this one denominator: the
-controller with the rotation-matrix law. Laws tie by time where their shares differ by at most `standing.MEASURABLE`.
+A whole controller (`bench.running.timing.controller`) computes the forward kinematics, D and fg, then the law, the
+Jacobian, its inverse and (2.2); plant, judge and metrics are not in it. Every share of a controller has this one
+denominator: the controller with the rotation-matrix law. Laws tie by time where their shares differ by at most `standing.MEASURABLE`.
 """
 
 from __future__ import annotations
@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from bench.experiments.tables.read import with_contender
 from bench.findings.claims.tables import Results
-from bench.tables.read import with_contender
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -39,7 +39,7 @@ def ticks(results: Results) -> dict[str, float]:
 
 def _machines(results: Results) -> list[pd.DataFrame]:
     """Times of each machine; those of files that say nothing of arms are of no use."""
-    from bench.tables.store import read_arrow
+    from bench.experiments.tables.store import read_arrow
 
     if "timings" in results.frames:
         return [with_contender(results.frames["timings"])]

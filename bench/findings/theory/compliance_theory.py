@@ -26,10 +26,10 @@ import math
 
 import numpy as np
 
-from bench.control.contact_controller import PAPERS_FORM, ContactController
-from bench.control.hybrid import conversion
-from bench.control.setpoint import TOUCH, ContactParameters
 from bench.law.contender import PAPERS_GAINS, Gains, Representation
+from bench.law.control.contact_controller import PAPERS_FORM, ContactController
+from bench.law.control.hybrid import conversion
+from bench.law.control.setpoint import TOUCH, ContactParameters
 from bench.law.so3 import IDENTITY, Rotation
 from tasks.arm_model import Arm
 from tasks.contact import Specification

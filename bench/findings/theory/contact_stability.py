@@ -19,9 +19,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bench.control.contact_controller import PAPERS_FORM, ContactController
-from bench.control.setpoint import TOUCH, ContactParameters
 from bench.law.contender import PAPERS_GAINS, Gains
+from bench.law.control.contact_controller import PAPERS_FORM, ContactController
+from bench.law.control.setpoint import TOUCH, ContactParameters
 
 
 class Spring(NamedTuple):

@@ -13,7 +13,7 @@ of its own at every joint that is no theorem.
 
 What complies has mu = 0 in both forms, moves freely, and is left out.
 
-The controllers of `bench.control.hybrid` do not have this instability in either form: tau = D y cancels the arm's
+The controllers of `bench.law.control.hybrid` do not have this instability in either form: tau = D y cancels the arm's
 inertia, and D^-1 is not between what is commanded along a row and what it does.
 
 Fails: where J^-1 does not exist.

@@ -18,9 +18,9 @@ import pandas as pd
 from scipy.linalg import eigh
 
 import tasks
-from bench.control.unshaped import DAMPINGS
 from bench.engines.arm_episode import buffers
 from bench.experiments.impedance import Stiffness
+from bench.law.control.unshaped import DAMPINGS
 from tasks.kinematics import kinematics
 
 HALVINGS = 30

@@ -10,7 +10,7 @@ import math
 
 from scipy.integrate import solve_ivp
 
-from bench.contenders.registry import all_contenders
+from bench.law.contenders.registry import all_contenders
 from bench.law.equation import Equation
 
 TIGHT = {"method": "DOP853", "rtol": 1e-9, "atol": 1e-9}

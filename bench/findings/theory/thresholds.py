@@ -6,10 +6,10 @@ import functools
 import math
 
 import tasks
-from bench.contenders.registry import all_contenders
 from bench.findings.perturbed import FOLLOWED_RAD
 from bench.findings.theory import robustness_theory
 from bench.findings.theory.isotropic import EQUATIONS
+from bench.law.contenders.registry import all_contenders
 from tasks.condition import condition_at
 
 HALF_TURN = "half-turn-noise"
@@ -30,11 +30,11 @@ TAIL_HORIZON_S = 5.0
 def keeps(law: str) -> float:
     """Return the angle [rad] beyond 180° up to which a law with memory keeps its direction; NaN of other laws."""
     if law == "hybrid":
-        from bench.contenders.regulators.hybrid import DELTA
+        from bench.law.contenders.regulators.hybrid import DELTA
 
         return 2.0 * math.asin(DELTA)
     if law == "mrp-linearized":
-        from bench.contenders.regulators.mrp_linearized import SWITCH
+        from bench.law.contenders.regulators.mrp_linearized import SWITCH
 
         return 4.0 * math.atan(math.sqrt(SWITCH)) - math.pi
     return math.pi / 3.0 if law == "late-braking" else math.nan

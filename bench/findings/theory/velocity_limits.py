@@ -19,10 +19,10 @@ import numpy as np
 import pandas as pd
 
 import tasks
-from bench.contenders.registry import find_contender, inverse
 from bench.engines.arm_episode import buffers
 from bench.experiments.velocity_limits import SCAN_RAD, pose
 from bench.law.contender import AT_REST, Contender, Gains, Goal
+from bench.law.contenders.registry import find_contender, inverse
 from bench.law.equation import Equation
 from bench.law.resolved_motion import Inverse
 from bench.law.so3 import IDENTITY, from_quaternion

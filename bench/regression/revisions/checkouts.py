@@ -8,13 +8,13 @@ import tempfile
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
-from bench.contenders.described_law import described
-from bench.errors import BadLaw, BadResults
-from bench.provenance import ROOT
+from bench.base.errors import BadLaw, BadResults
+from bench.base.provenance import ROOT
+from bench.law.contenders.described_law import described
 from bench.regression.revisions.commits import check_out, find_commit, find_repository
 from bench.regression.revisions.timing import Side
 
-DIGEST = "from bench.provenance import source_digest; print(source_digest())"  # each knows its own sources
+DIGEST = "from bench.base.provenance import source_digest; print(source_digest())"  # each knows its own sources
 PART = (
     *("--engine", "ideal-rk4", "--engine", "native", "--arm", "ur5e", "--count", "16"),
     *("--task", "free-body", "--task", "arm-regulation"),

@@ -8,8 +8,8 @@ import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 
-from bench.errors import BadResults, Incompatible, UnknownWord
-from bench.provenance import ROOT
+from bench.base.errors import BadResults, Incompatible, UnknownWord
+from bench.base.provenance import ROOT
 
 MAIN = ("origin/main", "main", "origin/master", "master")
 

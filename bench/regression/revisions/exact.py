@@ -8,9 +8,9 @@ reverse of one of these is an improvement, all else a change. Where the judge ch
 from collections.abc import Iterable
 from pathlib import Path
 
-from bench.counting import OPERATIONS as OPERATION_NAMES
-from bench.counting import TOTAL
-from bench.files import read_json
+from bench.base.files import read_json
+from bench.engines.counting import OPERATIONS as OPERATION_NAMES
+from bench.engines.counting import TOTAL
 from bench.regression.revisions.comparison import CHANGE, IMPROVEMENT, REGRESSION, Finding
 from bench.regression.rows import find_differences
 from bench.regression.rows.difference import CHANGED, COLUMN, JUDGE, MISSING, NEW, Difference

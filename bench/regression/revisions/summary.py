@@ -4,8 +4,8 @@ import html
 from collections.abc import Sequence
 from typing import Any
 
+from bench.base.provenance import cpu_name, describe
 from bench.findings.judgement import Judgement
-from bench.provenance import cpu_name, describe
 from bench.regression.revisions.comparison import Comparison
 from bench.regression.revisions.timing import Timed
 

@@ -80,12 +80,12 @@ def shuffle(states: np.ndarray, rows: np.ndarray, number: int) -> None:
 
 def compile_benchmarks(asked: dict[str, Any], rows: np.ndarray) -> dict[str, Any]:
     """Compile laws, each in a loop over rows in which a tick waits for the command of the one before, and engines."""
-    from bench.contenders import combinations, registry
-    from bench.contenders.law_file import load_law
     from bench.engines.binding import command_of, memory_of
     from bench.law.contender import Gains
-    from bench.timing import benchmarks, law, on_arms
-    from bench.timing.benchmark import ENGINE, LAW, Benchmark
+    from bench.law.contenders import combinations, registry
+    from bench.law.contenders.law_file import load_law
+    from bench.running.timing import benchmarks, law, on_arms
+    from bench.running.timing.benchmark import ENGINE, LAW, Benchmark
 
     gains, found = Gains(), []
     for one in registry.all_contenders(tuple(load_law(Path(path)) for path in asked["laws"])):
@@ -113,10 +113,10 @@ class Session:
     """The plugin that makes a test of each benchmark, and says which machine it ran on."""
 
     def __init__(self, asked: dict[str, Any]):
-        from bench.timing import law, reference_kernel
+        from bench.running.timing import law, reference_kernel
 
         if not Path(law.__file__).is_relative_to(Path.cwd()):  # another checkout's, installed
-            raise ImportError("there is no bench.timing yet")
+            raise ImportError("there is no bench.running.timing yet")
         self.rounds, self.turns = asked["rounds"], Turns(asked["line"], asked["begins"])
         self.cores = sorted(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else []
         states, chain, self.kernel_steps = law.states(), reference_kernel.compiled(), reference_kernel.STEPS
@@ -138,7 +138,7 @@ class Session:
     @pytest.hookimpl(tryfirst=True)
     def pytest_benchmark_generate_machine_info(self):
         """Name the kind of machine, and not the machine."""
-        from bench.provenance import describe, machine_key
+        from bench.base.provenance import describe, machine_key
 
         about = describe()
         kept = {name: about[name] for name in ("cores", "platform", "versions", "sources")}
@@ -152,7 +152,7 @@ class Session:
 def test_ticks(benchmark, plugin, name):
     """Time one benchmark for all its rounds, each in its turn."""
     from bench.experiments.costs import count_law
-    from bench.timing.ratios import ratio
+    from bench.running.timing.ratios import ratio
 
     one = plugin.benchmarks[name]
     kernels: list[float] = []

@@ -21,8 +21,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from bench.errors import Incompatible
-from bench.files import read_json
+from bench.base.errors import Incompatible
+from bench.base.files import read_json
 from bench.regression.revisions.timed import OTHER_ENDED
 
 P, RATIO = 0.002, 1.10  # of thirty laws and no change, one comparison in seventeen has a p below P by chance
@@ -119,7 +119,7 @@ def judge_rounds(name: str, base: np.ndarray, head: np.ndarray) -> Timed:
     """Return the verdict of one run, of one time a round each in the order in which they were taken."""
     from scipy.stats import mannwhitneyu
 
-    from bench.timing.ratios import ratio  # both are slow to import
+    from bench.running.timing.ratios import ratio  # both are slow to import
 
     middle = ratio(head, base)
     slower, faster = (float(mannwhitneyu(head, base, alternative=side).pvalue) for side in ("greater", "less"))

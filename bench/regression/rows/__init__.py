@@ -13,12 +13,12 @@ from pathlib import Path
 
 import pandas as pd
 
+from bench.base.files import read_json
 from bench.experiments.columns import Table
 from bench.experiments.experiment import known_tables
-from bench.files import read_json
+from bench.experiments.tables.store import read, read_arrow
 from bench.regression.rows.difference import COLUMN, JUDGE, Difference, Rule, align_rows, compare_cells, write_lines
 from bench.regression.rows.tables import RELATIVE, RULES, is_settled, within
-from bench.tables.store import read, read_arrow
 
 
 def compare(base: Path, head: Path) -> list[str]:

@@ -5,8 +5,8 @@ from collections.abc import Callable
 import numpy as np
 import pandas as pd
 
-from bench.contenders.registry import known_representations
-from bench.contenders.representations.zyx_euler import to_matrix
+from bench.law.contenders.registry import known_representations
+from bench.law.contenders.representations.zyx_euler import to_matrix
 from bench.regression.rows.difference import Rule
 from tasks.contact_rest import REST
 from tasks.verdict import OUTCOMES, SETTLED

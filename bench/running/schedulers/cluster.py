@@ -15,10 +15,10 @@ from pathlib import Path
 import distributed
 from dask import config
 
-from bench.errors import LostWorkers, MissingTool
+from bench.base.errors import LostWorkers, MissingTool
+from bench.base.files import write_atomically
 from bench.experiments.experiment import Unit
 from bench.experiments.plan import Plan
-from bench.files import write_atomically
 from bench.running.run_folder import part
 from bench.running.sandbox import Sandbox
 from bench.running.schedulers import worker

@@ -8,10 +8,10 @@ from pathlib import Path
 
 from bench.experiments.experiment import Unit, experiment_of, rows_of
 from bench.experiments.plan import Plan
+from bench.experiments.tables.store import write_table
 from bench.running.run_folder import part
 from bench.running.sandbox import Sandbox
 from bench.running.schedulers import heap
-from bench.tables.store import write_table
 
 UNITS_A_PROCESS = 8
 """Of a user's law, beyond which a second process is worth its start of some seconds, if there is nothing of ours."""

@@ -3,7 +3,7 @@
 import re
 from importlib.util import find_spec
 
-from bench.errors import BadNumber, MissingTool, UnknownWord
+from bench.base.errors import BadNumber, MissingTool, UnknownWord
 
 THREADS = "threads"
 LOCAL = "local:"

@@ -9,9 +9,9 @@ import pyarrow.parquet as pq
 
 from bench.experiments.experiment import Unit, experiment_of, rows_of
 from bench.experiments.plan import Plan
+from bench.experiments.tables.store import as_table, encoding
 from bench.running.sandbox import Sandbox
 from bench.running.wire_format import plan_of
-from bench.tables.store import as_table, encoding
 
 
 def carry_out(text: str, law_limit_s: float | None = None) -> tuple[dict[str, bytes], list[str]]:

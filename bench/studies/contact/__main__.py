@@ -8,8 +8,8 @@ import argparse
 import math
 from pathlib import Path
 
-from bench.files import read_json, write_json
-from bench.provenance import ROOT
+from bench.base.files import read_json, write_json
+from bench.base.provenance import ROOT
 from bench.studies.contact import admittance, pegs, springs, stability, unshaped
 
 STORED = ROOT / "results" / "contact" / "contact.json"

@@ -8,8 +8,8 @@ import numpy as np
 
 import tasks
 from bench.engines.contact_episode import USUAL, sensors_of
+from bench.engines.metrics.contact_metric import Response
 from bench.engines.native.libmujoco import MUJOCO_INTEGRATORS
-from bench.metrics.contact_metric import Response
 from bench.studies.contact.stability import contact
 from tasks.contact import ContactTask, Trial, prepare
 from tasks.contact_model import STANDARD, ContactModel, model_xml

@@ -6,13 +6,13 @@ from collections.abc import Iterator
 import numpy as np
 
 import tasks
-from bench.control.registry import find_controller
 from bench.engines.contact_episode import FORCE, MOMENT, USUAL
+from bench.engines.metrics.contact.rest import remaining_speed
+from bench.engines.metrics.contact.scene import IN, insertion_depth
+from bench.engines.metrics.contact_metric import Pose, response
 from bench.engines.simulate_contact import run_contact as run
 from bench.findings.theory import jamming
-from bench.metrics.contact.rest import remaining_speed
-from bench.metrics.contact.scene import IN, insertion_depth
-from bench.metrics.contact_metric import Pose, response
+from bench.law.control.registry import find_controller
 from tasks.contact_model import STANDARD, ContactModel
 from tasks.domains.peg_in_hole import CHAMFER, PEG, with_clearance
 from tasks.rotations import columns

@@ -10,11 +10,11 @@ import mujoco
 import numpy as np
 
 import tasks
-from bench.control.registry import find_controller
-from bench.control.setpoint import TOUCH
 from bench.engines.contact_episode import FORCE, USUAL, Sensor
 from bench.engines.simulate_contact import run_contact as run
 from bench.findings.theory.contact_stability import Spring, acceleration, settles
+from bench.law.control.registry import find_controller
+from bench.law.control.setpoint import TOUCH
 from tasks.arm_model import Arm
 from tasks.contact_model import STANDARD, ContactModel, mobilities, model_xml
 

@@ -9,18 +9,18 @@ In tasks it is set what impedances with inertia shaping are, at their stiffness,
 import numpy as np
 
 import tasks
-from bench.control.contact_controller import ContactController
-from bench.control.registry import find_controller
-from bench.control.unshaped import DAMPINGS, NULL_RATE
 from bench.engines.arm_episode import buffers
 from bench.engines.contact_episode import USUAL
+from bench.engines.metrics.contact.port import given
+from bench.engines.metrics.contact.scene import alignment_error, crank_angle, insertion_depth
+from bench.engines.metrics.contact_metric import Pose, Response
+from bench.engines.metrics.contact_metric import response as response_of
 from bench.engines.simulate_contact import run_contact as run
 from bench.experiments.impedance import STIFFNESSES, ZETA, Stiffness
 from bench.findings.theory.impedance_modes import diagonal
-from bench.metrics.contact.port import given
-from bench.metrics.contact.scene import alignment_error, crank_angle, insertion_depth
-from bench.metrics.contact_metric import Pose, Response
-from bench.metrics.contact_metric import response as response_of
+from bench.law.control.contact_controller import ContactController
+from bench.law.control.registry import find_controller
+from bench.law.control.unshaped import DAMPINGS, NULL_RATE
 from bench.studies.contact.admittance import FORCE_N, calms
 from bench.studies.contact.by_torque import Tick, Torque, episode, press, response
 

@@ -12,7 +12,7 @@ from importlib.metadata import version
 
 import pandas as pd
 
-from bench.provenance import cpu_name
+from bench.base.provenance import cpu_name
 from bench.studies.libraries.closed_loop import rows_of, rows_of_controller
 from bench.studies.libraries.found import find, version_of
 from bench.studies.libraries.judge import judge

@@ -7,7 +7,7 @@ import pkgutil
 import subprocess
 from typing import NamedTuple
 
-from bench.errors import UnknownWord
+from bench.base.errors import UnknownWord
 from bench.studies.libraries import asked
 from bench.studies.libraries.library import Function, Library
 

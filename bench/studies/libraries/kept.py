@@ -2,9 +2,9 @@
 
 import pandas as pd
 
-from bench.files import read_json, write_json
-from bench.tables.schema import RESULTS
-from bench.tables.store import read, write_table
+from bench.base.files import read_json, write_json
+from bench.experiments.tables.schema import RESULTS
+from bench.experiments.tables.store import read, write_table
 
 FOLDER = RESULTS / "libraries"
 KEY = ["library", "function", "takes"]

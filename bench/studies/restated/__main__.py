@@ -24,11 +24,11 @@ from pathlib import Path
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from bench.contenders.registry import known_shipped
-from bench.files import read_json, write_json
+from bench.base.files import read_json, write_json
+from bench.base.provenance import describe
+from bench.experiments.tables.schema import RESULTS
+from bench.law.contenders.registry import known_shipped
 from bench.law.shipped import Shipped
-from bench.provenance import describe
-from bench.tables.schema import RESULTS
 
 STORED = RESULTS / "libraries" / "restated.json"
 SOURCES = Path(__file__).parent / "sources"

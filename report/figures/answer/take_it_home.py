@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from bench.contenders.registry import all_contenders, known_representations, papers_laws
 from bench.export.language import find_language, language_words
 from bench.export.subject import find_subject, subject_words
 from bench.export.vectors import CLOSE, vectors
+from bench.law.contenders.registry import all_contenders, known_representations, papers_laws
 from report.figures.kit.page import Run
 from report.figures.kit.spelling import listed
 from report.figures.kit.tables import Table

@@ -6,6 +6,7 @@ import math
 
 import pandas as pd
 
+from bench.experiments.tables.statistics import Estimate
 from bench.findings.claims import Results, judge
 from bench.findings.claims.adequacy import HELD_RAD
 from bench.findings.claims.standing import MEASURABLE
@@ -15,7 +16,6 @@ from bench.findings.selection.measured import Measured, measured
 from bench.findings.selection.robots import ROBOTS, word_of
 from bench.findings.selection.rule import GENERAL, front
 from bench.findings.selection.words import cost, faster_under_a_bound, standing, together
-from bench.tables.statistics import Estimate
 from report.figures.answer.plane import plane, shown
 from report.figures.cost.cost import spent
 from report.figures.kit import families, html

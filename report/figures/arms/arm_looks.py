@@ -5,7 +5,7 @@ from __future__ import annotations
 import pandas as pd
 
 import tasks
-from bench.contenders.registry import known_representations
+from bench.law.contenders.registry import known_representations
 from report.figures.kit import style
 
 LOOKS = {

@@ -12,8 +12,11 @@ import numpy as np
 import pandas as pd
 
 import tasks
-from bench.contenders import combinations
-from bench.contenders.registry import (
+from bench.experiments.suites import NOMINAL
+from bench.experiments.tables import read
+from bench.law.contender import Contender
+from bench.law.contenders import combinations
+from bench.law.contenders.registry import (
     all_contenders,
     baselines_of_arms,
     contenders_of,
@@ -21,9 +24,6 @@ from bench.contenders.registry import (
     known_jacobians,
     known_regulators,
 )
-from bench.experiments.suites import NOMINAL
-from bench.law.contender import Contender
-from bench.tables import read
 from report.figures.arms.arm_looks import short_title
 from report.figures.kit import families
 from report.figures.kit.page import Run

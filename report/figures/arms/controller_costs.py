@@ -11,7 +11,7 @@ from textwrap import wrap
 
 import pandas as pd
 
-from bench.counting import STAGES
+from bench.engines.counting import STAGES
 from bench.findings.claims.controller_costs import INVERSES
 from report.figures.arms import arm_rows
 from report.figures.cost.cost import spent

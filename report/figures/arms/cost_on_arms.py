@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 import pandas as pd
 
-from bench.counting import STAGES
+from bench.engines.counting import STAGES
 from bench.findings.claims import Results, judge
 from bench.findings.claims.standing import MEASURABLE
 from bench.findings.selection.timed import ticks

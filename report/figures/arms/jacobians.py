@@ -7,8 +7,8 @@ import math
 import numpy as np
 import pandas as pd
 
-from bench.contenders.registry import known_representations, papers_coordinates
 from bench.findings.claims.euler_jacobian import DIFFERENCED, EPS, NEAR, WELL_CONDITIONED
+from bench.law.contenders.registry import known_representations, papers_coordinates
 from report.figures.arms import arm_looks, condition_maps
 from report.figures.kit import html, media
 from report.figures.kit.page import Run, given

@@ -8,7 +8,6 @@ import math
 import numpy as np
 import pandas as pd
 
-from bench.contenders.registry import known_inverses
 from bench.experiments.limiters import BAND, GREATEST_RATE, LIMITERS, NONE
 from bench.experiments.suites import BY_EVERY_INVERSE
 from bench.findings.claims.adequacy import DETOUR
@@ -17,6 +16,7 @@ from bench.findings.selection.needs import Advice
 from bench.findings.selection.robots import VELOCITIES, advise_for
 from bench.findings.selection.words import standing
 from bench.findings.theory.velocity_limits import lagged, with_theory
+from bench.law.contenders.registry import known_inverses
 from report.figures.arms import arm_looks
 from report.figures.comparison.cells import by_family
 from report.figures.kit import families, html, style

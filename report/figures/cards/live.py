@@ -12,11 +12,11 @@ import math
 from collections.abc import Iterable
 
 import tasks
-from bench.contenders.registry import all_contenders
-from bench.errors import BadLaw
+from bench.base.errors import BadLaw
+from bench.experiments.tables import read
 from bench.export import browser
 from bench.law.contender import Contender
-from bench.tables import read
+from bench.law.contenders.registry import all_contenders
 from report.figures.cost.operations import CALLS
 from report.figures.kit import families, html, laws, style
 from report.figures.kit.page import Run

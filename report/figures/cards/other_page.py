@@ -6,13 +6,13 @@ import inspect
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from bench import contenders
-from bench.contenders.registry import (
+from bench.export.subject import IMPEDANCE, SPRING, STATED, subject_words
+from bench.law import contenders
+from bench.law.contenders.registry import (
     known_compensators,
     known_impedances,
     known_springs,
 )
-from bench.export.subject import IMPEDANCE, SPRING, STATED, subject_words
 from report.figures.cards import regulators
 from report.figures.cards.law_page import BACK, LawPage, in_every_language, taken
 from report.figures.kit import html
@@ -24,7 +24,7 @@ OTHERS = Table("Law | Is | Proved | On the command line")
 
 
 class Kind(NamedTuple):
-    """A kind of laws: what its words begin with, its folder of bench/contenders, what it is, and its files' records."""
+    """A kind of laws: what its words begin with, its folder of contenders, what it is, and its files' records."""
 
     prefix: str
     folder: str
@@ -54,7 +54,7 @@ class Other(NamedTuple):
     @property
     def where(self) -> str:
         """Its file, from the root."""
-        return f"bench/contenders/{self.kind.folder}/{self.record.name.replace('-', '_')}.py"
+        return f"bench/law/contenders/{self.kind.folder}/{self.record.name.replace('-', '_')}.py"
 
     @property
     def file(self) -> Path:

@@ -12,14 +12,14 @@ from pygments import highlight
 from pygments.formatters import HtmlFormatter
 from pygments.lexers import PythonLexer
 
-from bench.contenders import regulators
-from bench.contenders.registry import all_contenders, contenders_of, known_regulators, papers_laws
+from bench.experiments.tables import read
 from bench.export.heading import RESET, SIDE
 from bench.findings import why
 from bench.findings.claims.verdict import NoEvidence
 from bench.findings.selection import needs
 from bench.law.contender import Contender, Regulator
-from bench.tables import read
+from bench.law.contenders import regulators
+from bench.law.contenders.registry import all_contenders, contenders_of, known_regulators, papers_laws
 from report.figures.cards.card_map import MOST_SETTLED, card_map
 from report.figures.kit import families, html, laws, style
 from report.figures.kit.page import Run
@@ -155,7 +155,7 @@ def said_of(one: Contender, episodes: pd.DataFrame, run: Run) -> str:
 
 def source(regulator: Regulator) -> str:
     """The law's own file, folded."""
-    folder = "laws" if regulator.origin else "bench/contenders/regulators"
+    folder = "laws" if regulator.origin else "bench/law/contenders/regulators"
     return folded(file_of(regulator), f"{folder}/{regulator.name.replace('-', '_')}.py")
 
 

@@ -6,7 +6,7 @@ import html as escape
 import math
 from collections.abc import Iterable
 
-from bench.files import read_json
+from bench.base.files import read_json
 from bench.findings import claims
 from bench.findings.claims import Verdict, Word, tally
 from bench.findings.claims.errata import UNTESTABLE

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable
 import numpy as np
 import pandas as pd
 
-from bench.tables.statistics import Estimate, quantile, quantile_estimate
+from bench.experiments.tables.statistics import Estimate, quantile, quantile_estimate
 from report.figures.cost.cost import spent, totals
 from report.figures.cost.operations import CALLS
 from report.figures.kit import families, html

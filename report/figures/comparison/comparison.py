@@ -8,12 +8,12 @@ import math
 import numpy as np
 import pandas as pd
 
-from bench.contenders.registry import all_contenders
+from bench.experiments.tables import read
 from bench.findings.claims.verdict import NoEvidence
 from bench.findings.selection.measured import measured
 from bench.findings.selection.words import leaders
 from bench.findings.theory import closed_form
-from bench.tables import read
+from bench.law.contenders.registry import all_contenders
 from report.figures.comparison import cells, directed
 from report.figures.comparison.angle import against, curves, lateness
 from report.figures.kit import families, html

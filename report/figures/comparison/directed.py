@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pandas as pd
 
+from bench.experiments.tables.read import converged
 from bench.findings.start_sets import AT_REST
-from bench.tables.read import converged
 from report.figures.comparison.cells import by_family
 from report.figures.failures.failure_map import once, places
 from report.figures.kit import families, html

@@ -7,10 +7,10 @@ import functools
 import numpy as np
 import pandas as pd
 
-from bench.control.unshaped import DAMPINGS
+from bench.base.files import read_json
 from bench.experiments.impedance import ZETA, Stiffness
-from bench.files import read_json
 from bench.findings.theory.impedance_modes import longest_tick, with_theory
+from bench.law.control.unshaped import DAMPINGS
 from bench.studies.contact.__main__ import STORED
 from bench.studies.contact.admittance import DECADES, FORCE_N, HALVINGS, SHIPPED
 from report.figures.arms import arm_looks

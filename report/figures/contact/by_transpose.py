@@ -17,10 +17,10 @@ import numpy as np
 import pandas as pd
 
 import tasks
-from bench.control.contact_controller import PAPERS_FORM
-from bench.control.setpoint import ContactParameters
 from bench.findings.theory import compliance_theory as theory
 from bench.law.contender import Gains
+from bench.law.control.contact_controller import PAPERS_FORM
+from bench.law.control.setpoint import ContactParameters
 from report.figures.arms import arm_looks
 from report.figures.contact import rows as controllers
 from report.figures.kit import html

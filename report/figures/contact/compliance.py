@@ -10,10 +10,10 @@ import numpy as np
 import pandas as pd
 
 import tasks
-from bench.contenders.registry import known_representations
 from bench.findings.selection.words import together
 from bench.findings.theory import compliance_theory as theory
 from bench.findings.theory import hybrid_stability as stability
+from bench.law.contenders.registry import known_representations
 from bench.law.so3 import from_quaternion
 from report.figures.contact import by_transpose, loops
 from report.figures.contact import rows as controllers

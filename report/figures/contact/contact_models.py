@@ -8,11 +8,11 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 import tasks
-from bench.control.registry import find_controller
 from bench.engines.contact_episode import USUAL, Conditions, Ended
+from bench.engines.metrics.contact_metric import Pose, response
+from bench.engines.metrics.registry import known_contact_metrics
 from bench.engines.simulate_contact import run_contact as run
-from bench.metrics.contact_metric import Pose, response
-from bench.metrics.registry import known_contact_metrics
+from bench.law.control.registry import find_controller
 from report.figures.kit.tables import Table
 from tasks.contact_model import STANDARD, ContactModel
 

@@ -7,9 +7,9 @@ import functools
 import numpy as np
 import pandas as pd
 
-from bench.files import read_json
+from bench.base.files import read_json
+from bench.engines.metrics.contact.scene import IN
 from bench.findings.theory.jamming import margin
-from bench.metrics.contact.scene import IN
 from bench.studies.contact.__main__ import STORED
 from report.figures.kit import html, style
 from report.figures.kit.inline import responsive_picture

@@ -10,9 +10,9 @@ import functools
 import numpy as np
 import pandas as pd
 
-from bench.contenders.registry import known_impedances
-from bench.control.contact_controller import PAPERS_FORM
 from bench.findings import claims
+from bench.law.contenders.registry import known_impedances
+from bench.law.control.contact_controller import PAPERS_FORM
 from report.figures.claims import claims as shown
 from report.figures.kit import html, style
 from report.figures.kit.page import Run

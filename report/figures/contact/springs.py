@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pandas as pd
 
-from bench.contenders.registry import known_springs
+from bench.law.contenders.registry import known_springs
 from report.figures.kit import html
 from report.figures.kit.page import Run
 from report.figures.kit.tables import Table

@@ -6,10 +6,10 @@ import functools
 
 import pandas as pd
 
-from bench.contenders.registry import all_contenders
-from bench.counting import OPERATIONS
-from bench.files import read_json
-from bench.tables import read
+from bench.base.files import read_json
+from bench.engines.counting import OPERATIONS
+from bench.experiments.tables import read
+from bench.law.contenders.registry import all_contenders
 from report.figures.cost import operations, times
 from report.figures.cost.operations import CALLS
 from report.figures.kit import html, laws

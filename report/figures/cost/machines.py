@@ -5,8 +5,8 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
+from bench.experiments.tables.store import read_arrow
 from bench.findings.selection import needs
-from bench.tables.store import read_arrow
 from report.figures.cost import times
 from report.figures.kit import families
 from report.figures.kit.page import Run

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pandas as pd
 
-from bench.tables.read import with_contender
-from bench.tables.store import read_arrow
+from bench.experiments.tables.read import with_contender
+from bench.experiments.tables.store import read_arrow
 from report.figures.kit.page import Run
 
 

@@ -8,12 +8,12 @@ import numpy as np
 import pandas as pd
 from scipy.spatial.transform import Rotation
 
-from bench.contenders.registry import find_contender, papers_coordinates
+from bench.experiments.tables import read
 from bench.findings.start_sets import AT_REST
 from bench.findings.theory import held_goals
 from bench.law.contender import PAPERS_GAINS
+from bench.law.contenders.registry import find_contender, papers_coordinates
 from bench.law.so3 import from_quaternion
-from bench.tables import read
 from report.figures.failures import ball, maps, pole_steps, world_map
 from report.figures.kit import html, laws
 from report.figures.kit.page import Run

@@ -4,12 +4,12 @@ import functools
 
 import pandas as pd
 
+from bench.experiments.tables import read
+from bench.experiments.tables.schema import RESULTS
 from bench.findings.maps import by_law, counted, spun
 from bench.findings.theory.closed_form import pole_crossings
 from bench.findings.theory.thresholds import beyond_limit
 from bench.law.contender import PAPERS_GAINS
-from bench.tables import read
-from bench.tables.schema import RESULTS
 from report.figures.kit import families, html
 from report.figures.kit.rows import LINEARIZED, SHORT
 from report.figures.kit.spelling import power

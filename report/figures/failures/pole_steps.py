@@ -8,13 +8,13 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from bench.contenders.registry import find_contender
 from bench.engines.episode import OUTCOME
 from bench.engines.simulate import by_equal_steps
 from bench.experiments.experiment import Settings
 from bench.experiments.map import start_rows
 from bench.findings.maps import lost_share
 from bench.law.contender import PAPERS_GAINS
+from bench.law.contenders.registry import find_contender
 from report.figures.kit.rows import SHORT
 from tasks.random_starts import BLOCK, block
 from tasks.verdict import DIVERGED, SATURATED, SINGULAR

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import NamedTuple
 
-from bench.contenders.registry import all_contenders
+from bench.law.contenders.registry import all_contenders
 from report.figures.kit import html, laws
 
 PAGES = "../laws"

@@ -5,9 +5,9 @@ from pathlib import Path
 
 import pandas as pd
 
-from bench.contenders.registry import contenders_of, known_regulators, papers_laws
+from bench.experiments.tables import read
 from bench.law.contender import Contender, Regulator
-from bench.tables import read
+from bench.law.contenders.registry import contenders_of, known_regulators, papers_laws
 
 TITLES = {one.name: one.regulator.title.partition(" (")[0] for one in papers_laws()}
 """contender -> how it is called in a figure."""

@@ -9,7 +9,7 @@ import html as escape
 import json
 from pathlib import Path
 
-from bench.provenance import ROOT
+from bench.base.provenance import ROOT
 from report.figures.kit import html
 
 FOLDER = ROOT / "report" / "_static" / "media"

@@ -19,8 +19,8 @@ from typing import Any
 
 import pandas as pd
 
-from bench.tables import read
-from bench.tables.schema import RESULTS
+from bench.experiments.tables import read
+from bench.experiments.tables.schema import RESULTS
 from report.figures.kit import html, style
 from report.figures.kit.inline import responsive_picture
 

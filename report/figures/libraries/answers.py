@@ -10,11 +10,11 @@ import math
 
 import pandas as pd
 
-from bench.files import read_json
+from bench.base.files import read_json
+from bench.experiments.tables.schema import RESULTS
+from bench.experiments.tables.store import read
 from bench.studies.libraries.forms import FORMS
 from bench.studies.libraries.tolerances import COUNT_RAD, SINGLE_RAD, WRONG_AXIS_RAD
-from bench.tables.schema import RESULTS
-from bench.tables.store import read
 from report.figures.kit.spelling import power
 
 FOLDER = RESULTS / "libraries"

@@ -8,10 +8,10 @@ from collections.abc import Callable
 
 import pandas as pd
 
-from bench.contenders.registry import known_shipped
+from bench.base.files import read_json
 from bench.experiments.shipped import BENT_DEG, FELT_RAD
-from bench.files import read_json
 from bench.findings.remedy import KEEP, fix_of, is_bent
+from bench.law.contenders.registry import known_shipped
 from bench.law.shipped import POSITION, TORQUE, VELOCITY, Shipped
 from bench.studies.restated.__main__ import STORED
 from report.figures.kit import html

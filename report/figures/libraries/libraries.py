@@ -7,7 +7,7 @@ import math
 
 import pandas as pd
 
-from bench.contenders.registry import known_shipped
+from bench.law.contenders.registry import known_shipped
 from report.figures.kit import html
 from report.figures.kit.page import Run
 from report.figures.kit.spelling import power

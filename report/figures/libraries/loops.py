@@ -9,7 +9,7 @@ import functools
 
 import pandas as pd
 
-from bench.tables.store import read
+from bench.experiments.tables.store import read
 from report.figures.libraries.answers import FOLDER
 
 RIGHT = "right"

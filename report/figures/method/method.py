@@ -11,11 +11,11 @@ import pandas as pd
 
 import bench.engines
 import tasks
-from bench.contenders.registry import known_inverses, known_jacobians
-from bench.counting import RULES as COUNT_RULES
+from bench.engines.counting import RULES as COUNT_RULES
+from bench.engines.metrics.registry import known_metrics
 from bench.findings.selection.needs import CHATTER
+from bench.law.contenders.registry import known_inverses, known_jacobians
 from bench.law.resolved_motion import Inverse, Jacobian
-from bench.metrics.registry import known_metrics
 from report.figures.kit import families, html, laws
 from report.figures.kit.page import Run
 from report.figures.kit.spelling import power, prose

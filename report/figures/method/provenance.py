@@ -8,9 +8,9 @@ from pathlib import Path
 
 import pyarrow.parquet as pq
 
-from bench.provenance import ROOT, count_episodes, rounded_on
-from bench.tables import read
-from bench.tables.schema import all_tables
+from bench.base.provenance import ROOT, count_episodes, rounded_on
+from bench.experiments.tables import read
+from bench.experiments.tables.schema import all_tables
 from report.figures.cost import times
 from report.figures.kit import html
 from report.figures.kit.page import Run

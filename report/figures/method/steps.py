@@ -9,11 +9,11 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 
-from bench.contenders.registry import find_contender
 from bench.engines.episode import FINAL_ANGLE, Settings
+from bench.engines.metrics.registry import metrics_of
 from bench.engines.simulate import run
 from bench.law.contender import Gains
-from bench.metrics.registry import metrics_of
+from bench.law.contenders.registry import find_contender
 from report.figures.kit.laws import TITLES
 from report.figures.kit.rows import LINEARIZED
 from tasks import start_set

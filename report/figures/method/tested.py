@@ -6,7 +6,7 @@ from typing import Any
 
 import pandas as pd
 
-from bench.files import read_json
+from bench.base.files import read_json
 from report.figures.kit import html
 from report.figures.kit.page import Run
 from report.figures.kit.spelling import power

@@ -11,8 +11,8 @@ from collections.abc import Callable
 
 import numpy as np
 
-from bench.contenders.registry import known_representations
 from bench.law.contender import Representation
+from bench.law.contenders.registry import known_representations
 from bench.law.so3 import from_quaternion
 from report.figures.kit import style
 from report.figures.kit.inline import responsive_picture

@@ -16,8 +16,8 @@ import numpy as np
 import pandas as pd
 from scipy.spatial.transform import Rotation as Scipy
 
-from bench.contenders.registry import known_representations
-from bench.contenders.representations.zyx_euler import chart, to_matrix
+from bench.law.contenders.registry import known_representations
+from bench.law.contenders.representations.zyx_euler import chart, to_matrix
 from bench.law.so3 import Rotation, from_quaternion
 from report.figures.kit.page import Run
 from report.figures.kit.spelling import power, prose

@@ -5,8 +5,8 @@ import functools
 import numpy as np
 import pandas as pd
 
-from bench.contenders.representations.zyx_euler import chart
 from bench.findings.theory import closed_form
+from bench.law.contenders.representations.zyx_euler import chart
 from bench.law.so3 import Rotation
 from report.figures.kit import laws, style
 from report.figures.kit.inline import responsive_picture

@@ -12,12 +12,12 @@ import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 
-from bench.contenders.registry import find_contender
-from bench.contenders.regulators import hybrid, mrp_linearized
+from bench.experiments.tables import read
 from bench.findings.theory.isotropic import EQUATIONS
 from bench.findings.theory.thresholds import HALF_TURN, UNBOUNDED, WITH_MEMORY, keeps, least
 from bench.law.contender import Regulator
-from bench.tables import read
+from bench.law.contenders.registry import find_contender
+from bench.law.contenders.regulators import hybrid, mrp_linearized
 from report.figures.kit import families, html, style
 from report.figures.kit.inline import responsive_picture
 from report.figures.kit.page import Run, given

@@ -6,8 +6,8 @@ import math
 
 import pandas as pd
 
-from bench.contenders.registry import known_compensators, known_regulators
 from bench.law.contender import PAPERS_GAINS
+from bench.law.contenders.registry import known_compensators, known_regulators
 from report.figures.kit import html
 from report.figures.kit.page import Run
 from report.figures.kit.tables import Table

@@ -9,10 +9,10 @@ import pandas as pd
 from matplotlib.patches import Rectangle
 
 import tasks
+from bench.experiments.tables.read import with_contender
 from bench.findings.maps import lost_share
 from bench.findings.perturbed import FOLLOWED_RAD, LOST, Threshold, Way, by_level, perturbations, studied, thresholds
 from bench.findings.theory.thresholds import near_goal
-from bench.tables.read import with_contender
 from report.figures.kit import families, style
 from report.figures.kit.inline import responsive_picture
 from report.figures.kit.page import Run, given

@@ -9,8 +9,8 @@ import numpy as np
 import pandas as pd
 
 import tasks
+from bench.experiments.tables.statistics import quantile
 from bench.findings.perturbed import went_well
-from bench.tables.statistics import quantile
 from report.figures.comparison.cells import by_family
 from report.figures.kit import families, html
 from report.figures.kit.page import Run

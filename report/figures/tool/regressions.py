@@ -7,7 +7,7 @@ from typing import Any
 
 import pandas as pd
 
-from bench.files import read_json
+from bench.base.files import read_json
 from bench.regression.history import read_history
 from bench.regression.revisions import timing
 from report.figures.kit import html, laws, style

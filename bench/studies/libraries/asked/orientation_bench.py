@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from bench.contenders.registry import find_contender
 from bench.law.contender import AT_REST, Gains, Goal
+from bench.law.contenders.registry import find_contender
 from bench.law.so3 import IDENTITY, Rotation
 from bench.studies.libraries.library import MATRIX, Function, Library
 

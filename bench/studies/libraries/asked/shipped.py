@@ -1,10 +1,10 @@
-"""Controllers that cannot be installed here: their orientation errors, as bench/contenders/shipped restates them.
+"""Controllers that cannot be installed here: their orientation errors, as bench/law/contenders/shipped restates them.
 
 Here they run with the gains of the suite, so that what differs is the error; with those of their authors the experiment
 `shipped` runs them.
 """
 
-from bench.contenders.registry import known_shipped
+from bench.law.contenders.registry import known_shipped
 from bench.studies.libraries.library import QUATERNION, Function, Library
 
 ASKED = {
@@ -15,7 +15,7 @@ ASKED = {
     "crisp_controllers": "crisp",
     "cartesian_controllers": "fzi-motion",
 }
-"""Name in the tables -> word of bench/contenders/shipped."""
+"""Name in the tables -> word of bench/law/contenders/shipped."""
 
 
 def restated(name: str, word: str) -> Library:

@@ -1,0 +1,159 @@
+"""Record where numbers come from: sources, versions, machine, command; and where caches are kept."""
+
+import contextlib
+import functools
+import hashlib
+import importlib.metadata
+import os
+import platform
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+DECIDING = ("tasks", *(f"bench/{room}" for room in ("base", "law", "audit", "engines", "experiments", "running")))
+"""What numbers of a run depend on; everything else only reads results, or is measured and kept apart from them."""
+JUDGE = ("tasks/rules.py", "tasks/verdict.py", "tasks/truth.py", "tasks/cause.py")
+"""What decides how a given motion is judged."""
+VERSIONED = ("mujoco", "dm-control", "numpy", "scipy", "numba", "llvmlite", "pandas", "pyarrow")
+
+
+def count_episodes(provenance: dict) -> int:
+    """Return how many episodes a run simulated: on the free body and arms, trials in contact, and perturbed ones."""
+    return sum(provenance.get(name, 0) for name in ("episodes", "trials", "troubled"))
+
+
+@functools.cache
+def source_digest() -> str:
+    """Sixteen hex digits over every source that results depend on, and the versions of what they are computed with.
+
+    Of the sources as they were when first asked for, which is when the engines are imported.
+    """
+    return _digest(DECIDING, repr(sorted(versions().items())))
+
+
+@functools.cache
+def judge_digest() -> str:
+    """Sixteen hex digits over the judge."""
+    return _digest(JUDGE)
+
+
+def _digest(names: tuple[str, ...], more: str = "") -> str:
+    digest = hashlib.sha256()
+    for name in names:
+        found = ROOT / name
+        for path in sorted(found.rglob("*")) if found.is_dir() else [found]:
+            if path.suffix in (".py", ".xml"):
+                digest.update(path.relative_to(ROOT).as_posix().encode() + b"\0" + path.read_bytes() + b"\0")
+    digest.update(more.encode())
+    return digest.hexdigest()[:16]
+
+
+def kept_in(variable: str, usual: str, instead: Path = ROOT / ".home") -> Path:
+    """Our folder where a variable says, or at the usual place in HOME; else in .home of the checkout, as `make` does.
+
+    Where none of them can be written, as under `docker run --user`, one in the temporary folder that is this user's
+    alone, for compiled code lies in it.
+    """
+    named = os.environ.get(variable) or os.path.join(os.path.expanduser("~"), usual)
+    for path in (Path(named), instead / usual):
+        ours = path / "orientation-bench"
+        with contextlib.suppress(OSError):
+            if path.is_absolute():  # of a user without a name home is "~"
+                ours.mkdir(parents=True, exist_ok=True)
+            if os.access(ours, os.W_OK | os.X_OK):
+                return ours
+    own = Path(tempfile.gettempdir(), f"orientation-bench-{os.getuid()}")
+    with contextlib.suppress(FileExistsError):
+        own.mkdir(mode=0o700)
+    is_ours = own.lstat().st_uid == os.getuid() and os.access(own, os.W_OK)
+    os.environ[variable] = str(own) if is_ours else tempfile.mkdtemp(prefix="orientation-bench-")
+    return kept_in(variable, usual, instead)
+
+
+def versions() -> dict[str, str]:
+    """Versions of Python and of the packages that results depend on."""
+    return {"python": platform.python_version(), **{name: importlib.metadata.version(name) for name in VERSIONED}}
+
+
+def cpu_name() -> str:
+    """The processor's name as the system gives it."""
+    info = Path("/proc/cpuinfo")
+    if info.is_file():
+        for line in info.read_text().splitlines():
+            if line.startswith("model name"):
+                return line.split(":", 1)[1].strip()
+    return platform.processor() or platform.machine()
+
+
+VECTORS = ("sse4_2", "avx", "avx2", "fma", "avx512f")
+ARITHMETIC = ("OPENBLAS_CORETYPE", "NUMBA_CPU_NAME", "NUMBA_CPU_FEATURES", "NPY_DISABLE_CPU_FEATURES", "GLIBC_TUNABLES")
+"""Variables that make libraries round as on another processor."""
+
+
+def vectors() -> str:
+    """Which of VECTORS the processor has, by which libraries choose their kernels; empty where the system is silent."""
+    info = Path("/proc/cpuinfo")
+    flags = info.read_text().partition("\nflags")[2].partition("\n")[0].split() if info.is_file() else []
+    return " ".join(word for word in VECTORS if word in flags)
+
+
+def rounded_on(origin: dict) -> str:
+    """A run's processor, and what made its libraries round as on another one, in words; of its provenance."""
+    arithmetic = origin.get("arithmetic")
+    settings = [f"{name}={value}" for name, value in arithmetic.items()] if isinstance(arithmetic, dict) else []
+    return ", ".join(filter(None, (*(str(origin.get(name, "")) for name in ("cpu", "vectors")), *settings)))
+
+
+def machine_key() -> str:
+    """A short, stable name for this kind of machine: processor and number of cores, nothing that identifies it."""
+    words = "".join(c if c.isalnum() else "-" for c in f"{cpu_name()}-{os.cpu_count()}-cores".lower())
+    return "-".join(part for part in words.split("-") if part)
+
+
+def lock_digest() -> str:
+    """SHA-256 of requirements/base.txt; empty where the package lies without it."""
+    path = ROOT / "requirements" / "base.txt"
+    return hashlib.sha256(path.read_bytes()).hexdigest() if path.is_file() else ""
+
+
+def commit() -> dict:
+    """Commit of the checkout and whether it had changes; empty outside git."""
+    try:
+        head = _git("rev-parse", "HEAD")
+        return {"commit": head, "dirty": bool(_git("status", "--porcelain", "--", "bench", "tasks"))}
+    except (OSError, subprocess.CalledProcessError):
+        return {"commit": "", "dirty": False}
+
+
+def _git(*words: str) -> str:
+    return subprocess.run(["git", "-C", str(ROOT), *words], capture_output=True, text=True, check=True).stdout.strip()
+
+
+def _without_folders(word: str) -> str:
+    """A word of the command line; of an absolute path what is in this checkout, or its last name; of a host nothing."""
+    scheme, is_address, _ = word.partition("://")
+    if is_address:
+        return f"{scheme}://..."
+    path = Path(word)
+    if not path.is_absolute():
+        return word
+    return path.relative_to(ROOT).as_posix() if path.is_relative_to(ROOT) else path.name
+
+
+def describe() -> dict:
+    """Everything about this moment that a reader may want to know."""
+    return {
+        **commit(),
+        "sources": source_digest(),
+        "judge": judge_digest(),
+        "versions": versions(),
+        "lock": lock_digest(),
+        "platform": " ".join((platform.system(), platform.machine(), *platform.libc_ver())).strip(),
+        "cpu": cpu_name(),
+        "vectors": vectors(),
+        "arithmetic": {name: os.environ[name] for name in ARITHMETIC if os.environ.get(name)},
+        "cores": os.cpu_count(),
+        "command": " ".join(["python -m bench", *map(_without_folders, sys.argv[1:])]),
+    }

@@ -1,0 +1,175 @@
+"""cost(contender): operations per tick in its typical and its worst branch; rows(contenders): costs.parquet.
+
+Every counted call is checked against the plain call, so that a cost is never that of another law.
+"""
+
+import functools
+import math
+import struct
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from bench.base.errors import BadLaw
+from bench.engines.counting.counted import OPERATIONS, STAGES, TOTAL, Counted, Counts, OutsideDialect, Tally
+from bench.engines.counting.staged import law_of
+from bench.engines.counting.states import GAINS, State, states
+from bench.law.contender import NO_MEMORY, Contender
+
+FLOPS = ("add", "mul", "div", "sqrt")
+BRANCHES = ("typical", "worst")
+
+
+class Cost(NamedTuple):
+    """Operations per tick of one contender, or controller in contact; the rules are `bench.engines.counting.RULES`.
+
+    typical_share: fraction of the sampled states that take the typical branch. worst_at: the worst state.
+    """
+
+    contender: Any
+    typical: Counts
+    worst: Counts
+    typical_share: float
+    worst_at: str
+
+
+class Call(NamedTuple):
+    """One counted call. `is_typical` if it is one of those the typical branch is chosen from."""
+
+    state: Any
+    counts: Counts
+    is_typical: bool
+
+
+@functools.cache
+def cost(contender: Contender) -> Cost:
+    """Count the contender's law over all states; once in a process.
+
+    Errors:
+        OutsideDialect: the law uses what cannot be counted.
+        BadLaw: the counted law does not return what the plain law returns.
+    """
+    calls = list(counted_calls(contender))
+    sampled = Counter(call.counts for call in calls if call.is_typical)
+    typical, times = sampled.most_common(1)[0]
+    worst = max(calls, key=lambda call: size(call.counts))
+    return Cost(contender, typical, worst.counts, times / sampled.total(), worst.state.id)
+
+
+def rows(contenders: Iterable[Contender]) -> list[dict]:
+    """Rows of costs.parquet: contender x branch x stage, the stage "total" last."""
+    return [row for contender in contenders for row in rows_of(cost(contender))]
+
+
+def flops(numbers: dict) -> int:
+    """Floating-point operations without transcendental functions: add + mul + div + sqrt."""
+    return sum(numbers[name] for name in FLOPS)
+
+
+def rows_of(one: Cost, joints: int = 0) -> Iterator[dict]:
+    """The rows of one cost; of no joints for a law alone."""
+    representation, (jacobian, inverse) = one.contender.representation, one.contender.way
+    for branch, counts in zip(BRANCHES, (one.typical, one.worst), strict=True):
+        for stage in (*STAGES, TOTAL):
+            numbers = counts.of(stage)
+            yield {
+                "regulator": one.contender.regulator.name,
+                "representation": representation.name if representation else "",
+                "jacobian": jacobian,
+                "inverse": inverse,
+                "joints": joints,
+                "branch": branch,
+                "stage": stage,
+                **numbers,
+                "flops": flops(numbers),
+            }
+
+
+def size(counts: Counts) -> tuple[int, int]:
+    """What calls are ranked by: all operations, then flops."""
+    numbers = counts.of(TOTAL)
+    return sum(numbers[name] for name in OPERATIONS), flops(numbers)
+
+
+def counted_calls(contender: Contender, over: Iterable[State] | None = None) -> Iterator[Call]:
+    """Every state counted, each call checked against the plain one.
+
+    A law that raises of itself, called with floats too, costs what it computed until then.
+    """
+    tally = Tally()
+    plain, counting = contender.law, law_of(contender, tally)
+    first = contender.regulator.memory
+    left: tuple = ()
+    with np.errstate(all="ignore"):
+        for state in states() if over is None else over:
+            if first is None:
+                yield _call(contender, plain, counting, tally, state, ())[0]
+                continue
+            initial = tuple(np.float64(x) for x in (*first, *NO_MEMORY[len(first) :]))
+            for memory in (initial, *((left,) if left else ())):
+                call, after = _call(contender, plain, counting, tally, state, (memory,))
+                yield call._replace(is_typical=False)
+                left = after or initial
+            call, after = _call(contender, plain, counting, tally, state, (left,))
+            yield call
+            left = after or initial
+
+
+def _call(
+    contender: Contender, plain: Callable, counting: Callable, tally: Tally, state: State, memory: tuple
+) -> tuple[Call, tuple]:
+    """The call, and the memory the law left (empty for a law without, or if it raised)."""
+    given = (state.R, state.omega, state.goal, GAINS, *memory)
+    want, answer, trouble = None, None, None
+    try:
+        want = plain(*given)
+    except Exception as error:
+        trouble = error
+    tally.stage = "regulate"
+    try:
+        answer = counting(*counted(given, tally))
+    except OutsideDialect as error:
+        raise OutsideDialect(f"law '{contender.name}': {error}") from error
+    except Exception as error:
+        if trouble is None:
+            raise BadLaw(
+                f"law '{contender.name}' cannot be counted: with counting scalars it raises "
+                f"{type(error).__name__}: {error}; use only the dialect of bench/law/scalar.py"
+            ) from error
+    if bits(answer) != bits(want):
+        raise BadLaw(
+            f"law '{contender.name}' returns {values(answer)} when counted and {values(want)} when "
+            f"called with floats, at {state.id}; a law must not depend on the type of its numbers"
+        )
+    after = want[1] if memory and want is not None else ()
+    return Call(state, tally.take(), state.is_sampled), after
+
+
+def counted(numbers: Any, tally: Tally) -> Any:
+    """Return the nested tuples with every number replaced by a counting scalar."""
+    if not isinstance(numbers, tuple):
+        return Counted(numbers, tally)
+    inside = [counted(number, tally) for number in numbers]
+    return type(numbers)(*inside) if hasattr(numbers, "_fields") else tuple(inside)
+
+
+def values(answer: Any) -> Any:
+    """What a counted call returned, as nested tuples of floats."""
+    if isinstance(answer, tuple):
+        return tuple(values(number) for number in answer)
+    if isinstance(answer, Counted):
+        answer = answer.value
+    return float(answer) if isinstance(answer, int | float) else answer
+
+
+def bits(answer: Any) -> bytes:
+    """The numbers of an answer, bit by bit: NaN equals NaN, and 0.0 is not -0.0."""
+    if isinstance(answer, tuple):
+        return b"".join(bits(number) for number in answer)
+    if isinstance(answer, Counted):
+        answer = answer.value
+    if not isinstance(answer, int | float):
+        return repr(answer).encode()
+    return struct.pack("<d", answer if answer == answer else math.nan)

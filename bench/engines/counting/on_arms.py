@@ -1,0 +1,191 @@
+"""What a whole controller of an arm costs per tick, by stage; what MuJoCo computes (J's joints, D, fg) is not ours.
+
+Counted like a law: the same functions that run, called with counting scalars in object arrays, each call checked
+against the plain one bit for bit. The states are those of one arm for each number of joints, for nothing here
+depends on anything else of an arm.
+"""
+
+import functools
+from collections import Counter
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import numpy as np
+
+import tasks
+from bench.base.errors import BadLaw
+from bench.engines.arm_episode import buffers
+from bench.engines.counting.costs import Call, Cost, bits, counted, rows_of, size
+from bench.engines.counting.counted import Counted, OutsideDialect, Tally
+from bench.engines.counting.staged import in_stage, law_of, staged
+from bench.engines.counting.states import GAINS
+from bench.engines.episode import vector
+from bench.law.contender import AT_REST, NO_MEMORY, Contender, Goal
+from bench.law.control.contact_controller import ContactController
+from bench.law.control.resolved_acceleration import Parts, assembly, control, parts_of
+from bench.law.resolved_motion import Chain
+from bench.law.so3 import Rotation, from_quaternion
+from tasks.base import Start
+
+ARM_OF = {6: "ur5e", 7: "panda"}
+"""Whose states are used, by the number of joints."""
+
+TASK = "arm-regulation"
+SAMPLED, DIRECTED = {"uniform": 12, "tumbling": 12}, {"pole": 6, "wrist": 6, "half-turn": 4}
+UNSEEN = "report"
+"""A stage that no table has: what is computed for the record alone."""
+
+
+class ArmState(NamedTuple):
+    """What a controller is called with; `is_sampled` if it counts towards the typical branch."""
+
+    id: str
+    chain: Chain
+    D: np.ndarray
+    fg: np.ndarray
+    goal: Goal
+    p_d: tuple
+    is_sampled: bool
+
+
+@functools.cache
+def arm_states(arm: str) -> tuple[ArmState, ...]:
+    """All of them, always the same, the sampled ones first."""
+    import mujoco  # takes a moment to import; naming operations must not
+
+    model = mujoco.MjModel.from_xml_string(tasks.task(TASK, arm).xml(1e-3))
+    data = mujoco.MjData(model)
+    return tuple(
+        _state(model, data, start, sizes is SAMPLED)
+        for sizes in (SAMPLED, DIRECTED)
+        for name, size in sizes.items()
+        for start in tasks.start_set(name, size, arm=arm)
+    )
+
+
+def _state(model: Any, data: Any, start: Start, is_sampled: bool) -> ArmState:
+    import mujoco
+
+    data.qpos[:], data.qvel[:] = start.q, start.qdot
+    mujoco.mj_forward(model, data)
+    D = np.zeros((model.nv, model.nv))
+    mujoco.mj_fullM(model, data, D)
+    s = data.sensordata
+    R = Rotation(vector(s[0:3]), vector(s[3:6]), vector(s[6:9]))
+    chain = Chain(model.nv, data.xaxis.copy(), data.xanchor.copy(), data.qvel.copy(), vector(s[16:19]), R)
+    at_rest = vector(np.array(AT_REST))
+    R_d = Rotation(*(vector(np.array(column)) for column in from_quaternion(start.goal_wxyz)))
+    return ArmState(
+        start.id, chain, D, data.qfrc_bias - data.qfrc_passive, Goal(R_d, at_rest, at_rest), chain.p, is_sampled
+    )
+
+
+def cost_on_arm(contender: Contender, arm: str) -> Cost:
+    """Count a contender's controller over an arm's states; typical is the median, for an iteration varies by the state.
+
+    Errors:
+        OutsideDialect, BadLaw: see `costs.cost`.
+    """
+    tally = Tally()
+    plain = _controller(contender, parts_of(contender, _command(contender, None)), None)
+    counting = _controller(contender, _staged_parts(contender, tally), tally)
+    with np.errstate(all="ignore"):
+        calls = [_call(contender, plain, counting, tally, state) for state in arm_states(arm)]
+    return median_and_worst(contender, calls)
+
+
+def median_and_worst(one: Contender | ContactController, calls: list[Call]) -> Cost:
+    """The cost that these calls show."""
+    ranked = sorted((call.counts for call in calls if call.is_typical), key=size)
+    typical = ranked[len(ranked) // 2]
+    worst = max(calls, key=lambda call: size(call.counts))
+    return Cost(one, typical, worst.counts, Counter(ranked)[typical] / len(ranked), worst.state.id)
+
+
+def rows_on_arm(contender: Contender, joints: int) -> list[dict]:
+    """Rows of costs.parquet of a contender on so many joints."""
+    return list(rows_of(cost_on_arm(contender, ARM_OF[joints]), joints))
+
+
+def _command(contender: Contender, tally: Tally | None) -> Any:
+    """The law as `resolved_acceleration.Parts` takes it; staged if there is a tally."""
+    if contender.jacobian is not None and contender.jacobian.takes == "coordinates":
+        return contender.coordinate_law
+    if contender.regulator.through:
+        return None
+    law = contender.law if tally is None else law_of(contender, tally)
+    if contender.regulator.memory is not None:
+        return law
+    return lambda R, omega, goal, gains, memory: (law(R, omega, goal, gains), memory)
+
+
+def _staged_parts(contender: Contender, tally: Tally) -> Parts:
+    parts = parts_of(contender, _command(contender, tally))
+    stages = {
+        "command": "regulate",
+        "fill": "jacobian",
+        "convert": "jacobian" if parts.coordinates is None else "linearize",
+        "twist": "measure",
+        "bias_acceleration": "linearize",
+        "hold": "regulate",
+        "report": UNSEEN,
+        "assemble": "regulate",
+    }
+    fields: dict[str, Any] = {
+        name: in_stage(tally, stage, function) for name, stage in stages.items() if (function := getattr(parts, name))
+    }
+    if parts.coordinates is not None:
+        fields["coordinates"] = staged(parts.coordinates, tally)
+    return parts._replace(**fields)
+
+
+def _controller(contender: Contender, parts: Parts, tally: Tally | None) -> Callable:
+    inverse = contender.inverse
+    assert inverse is not None  # parts_of has refused a contender without
+    resolve = inverse.resolve if tally is None else in_stage(tally, "invert", inverse.resolve)
+    assemble, gives_torque = assembly(parts), int(inverse.gives == "torque")
+
+    def controller(chain: Chain, D: Any, fg: Any, goal: Goal, p_d: Any, memory: Any, gains: Any, dtype: type) -> tuple:
+        into = buffers(chain.n, dtype)
+        u, memory = control(
+            assemble, resolve, gives_torque, contender.rows, chain, D, fg, goal, p_d, gains, memory, into
+        )
+        return u, memory, tuple(into.tau)
+
+    return controller
+
+
+def _call(contender: Contender, plain: Callable, counting: Callable, tally: Tally, state: ArmState) -> Call:
+    memory = tuple(np.float64(x) for x in (*(contender.regulator.memory or ()), *NO_MEMORY)[: len(NO_MEMORY)])
+    given = (state.chain, state.D, state.fg, state.goal, state.p_d, memory, GAINS)
+    tally.stage = "linearize"
+    return checked(contender.name, state, tally, given, plain, counting)
+
+
+def checked(name: str, state: ArmState, tally: Tally, given: tuple, plain: Callable, counting: Callable) -> Call:
+    """The counted call, whose answer must be the plain one bit for bit."""
+    want = plain(*given, float)
+    try:
+        answer = counting(*(as_counted(one, tally) for one in given), object)
+    except OutsideDialect as error:
+        raise OutsideDialect(f"'{name}': {error}") from error
+    if bits(answer) != bits(want):
+        raise BadLaw(
+            f"'{name}' commands other torques when counted than when called with floats, at {state.id}; a law must "
+            "not depend on the type of its numbers"
+        )
+    return Call(state, tally.take(), state.is_sampled)
+
+
+def as_counted(numbers: Any, tally: Tally) -> Any:
+    """Tuples and arrays with every float a counting scalar; counts of things stay ints."""
+    if isinstance(numbers, int):
+        return numbers
+    if isinstance(numbers, np.ndarray):
+        filled = np.empty(numbers.shape, object)
+        for place in np.ndindex(numbers.shape):
+            filled[place] = Counted(numbers[place], tally)
+        return filled
+    if isinstance(numbers, Chain):
+        return Chain(*(as_counted(one, tally) for one in numbers))
+    return counted(numbers, tally)

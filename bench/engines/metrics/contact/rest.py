@@ -1,0 +1,65 @@
+"""Whether a hand has come to rest in contact: when, how fast it still moves if not, and when a tool lies as it will.
+
+For tasks that have an end (tasks/contact_rest.py has the rule); NaN for others, and where an episode broke off.
+"""
+
+import numpy as np
+
+from bench.engines.metrics.contact.scene import FLAT, angle_to_plate
+from bench.engines.metrics.contact_force import from_first_touch, last
+from bench.engines.metrics.contact_metric import ContactMetric, Pose, Response
+from bench.engines.metrics.measured_compliance import turned
+from tasks.contact_rest import REST
+from tasks.rules import RULES
+
+
+def time_to_rest(pose: Pose) -> float:
+    """Time [s] from the first tick until the hand is at rest; NaN if it never is."""
+    one = last(pose)
+    return float(one.time[-1] - REST.hold_s) if one is not None and one.rested else np.nan
+
+
+def time_to_align(pose: Pose) -> float:
+    """Time [s] from the first touch until the angle to the plate stays within 2 % of what it was; NaN if never."""
+    one, touched = last(pose), from_first_touch(pose)
+    if one is None or touched is None or pose.task.name != FLAT:
+        return np.nan
+    angles, time = angle_to_plate(one)[touched], one.time[touched]
+    outside = np.flatnonzero(angles > RULES.tolerance * angles[0])
+    aligned = outside[-1] + 1 if outside.size else 0
+    return float(time[aligned] - time[0]) if aligned < len(time) else np.nan
+
+
+def _late(pose: Pose) -> tuple[Response, slice, float] | None:
+    """The one response, its ticks of the last REST.hold_s, and how long [s] they last."""
+    one = last(pose)
+    if one is None or not pose.task.rests or len(one.time) < 2:
+        return None
+    late = slice(int(np.searchsorted(one.time, one.time[-1] - REST.hold_s)), None)
+    return one, late, float(one.time[-1] - one.time[late][0])
+
+
+def remaining_speed(pose: Pose) -> float:
+    """Distance over time [m/s] between the hand's place REST.hold_s before the end and at it."""
+    found = _late(pose)
+    if found is None:
+        return np.nan
+    one, late, lasts = found
+    return float(np.linalg.norm(one.p[-1] - one.p[late][0]) / lasts)
+
+
+def remaining_rate(pose: Pose) -> float:
+    """Angle over time [rad/s] between the hand's orientation REST.hold_s before the end and at it."""
+    found = _late(pose)
+    if found is None:
+        return np.nan
+    one, late, lasts = found
+    return float(np.linalg.norm(turned(one.R[late])) / lasts)
+
+
+METRICS = (
+    ContactMetric("time_to_rest_s", "s", "time until the hand is at rest", time_to_rest),
+    ContactMetric("time_to_align_s", "s", "time from the first touch until the tool lies flat to 2 %", time_to_align),
+    ContactMetric("remaining_speed_m_per_s", "m/s", "speed at the end", remaining_speed),
+    ContactMetric("remaining_rate_rad_per_s", "rad/s", "angular speed at the end", remaining_rate),
+)

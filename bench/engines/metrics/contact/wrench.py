@@ -1,0 +1,110 @@
+"""What the hand exerts and feels: its error against the force and moment ordered, how soon it is right, and peaks.
+
+Errors are f + h and m + h along and about the axes that comply, from the first touch on (`contact_force`).
+"""
+
+import numpy as np
+
+from bench.engines.metrics.contact_force import (
+    force_error,
+    from_first_touch,
+    last,
+    moment_error,
+    peak,
+    rms,
+    scene_normal,
+)
+from bench.engines.metrics.contact_metric import ContactMetric, Pose
+from tasks.rules import RULES
+
+SLIDING = "force-on-plane"
+
+
+def contact_settling_time(pose: Pose) -> float:
+    """Time [s] from the first touch until |f + h| stays within 2 % of |h|, the band of all settling times here.
+
+    NaN if it does not, if no force was ordered, or if nothing was touched.
+    """
+    one, touched = last(pose), from_first_touch(pose)
+    ordered = np.linalg.norm(pose.first.trial.specification.desired_wrench[:3])
+    if one is None or touched is None or ordered == 0.0:
+        return np.nan
+    outside = np.flatnonzero(np.linalg.norm(force_error(pose), axis=1) > RULES.tolerance * ordered)
+    settled = outside[-1] + 1 if outside.size else 0
+    time = one.time[touched]
+    return float(time[settled] - time[0]) if settled < len(time) else np.nan
+
+
+def normal_force_error(pose: Pose) -> float:
+    """Root mean square of n . (f + h) [N], n the normal of the plane that a tip slides along."""
+    one, touched = pose.first, from_first_touch(pose)
+    if touched is None or pose.task.name != SLIDING:
+        return np.nan
+    error = (one.force[touched] + np.array(one.trial.specification.desired_wrench[:3])) @ scene_normal(one.trial)
+    return rms(pose, error[:, None])
+
+
+def force_error_peak(pose: Pose) -> float:
+    """max |f + h| [N]; NaN without touch, or if no axis complies."""
+    return peak(force_error(pose))
+
+
+def force_error_rms(pose: Pose) -> float:
+    """Root mean square of |f + h| [N]; NaN without touch, or if no axis complies."""
+    return rms(pose, force_error(pose))
+
+
+def moment_error_peak(pose: Pose) -> float:
+    """max |m + h| [N m]; NaN without touch, or if no axis complies."""
+    return peak(moment_error(pose))
+
+
+def moment_error_rms(pose: Pose) -> float:
+    """Root mean square of |m + h| [N m]; NaN without touch, or if no axis complies."""
+    return rms(pose, moment_error(pose))
+
+
+def force_overshoot(pose: Pose) -> float:
+    """max -f . h / |h|^2 - 1: by how much of the force h ordered the hand presses harder at the worst.
+
+    NaN if no force was ordered, or if nothing was touched.
+    """
+    ordered, touched = np.array(pose.first.trial.specification.desired_wrench[:3]), from_first_touch(pose)
+    if touched is None or not ordered.any():
+        return np.nan
+    return float((-pose.first.force[touched] @ ordered).max() / (ordered @ ordered) - 1.0)
+
+
+def peak_force(pose: Pose) -> float:
+    """max |f| over all ticks [N], whatever its direction; NaN if nothing was recorded."""
+    return _largest([np.linalg.norm(one.force, axis=1) for one in pose.responses])
+
+
+def peak_moment(pose: Pose) -> float:
+    """max |m| over all ticks [N m], whatever its direction; NaN if nothing was recorded."""
+    return _largest([np.linalg.norm(one.moment, axis=1) for one in pose.responses])
+
+
+def peak_torque_ratio(pose: Pose) -> float:
+    """max |tau_i| / rated_i over all ticks: above 1, a real arm could not have done it; NaN if nothing was recorded."""
+    return _largest([one.load for one in pose.responses])
+
+
+def _largest(sizes: list[np.ndarray]) -> float:
+    return float(np.fmax.reduce(np.concatenate(sizes), initial=np.nan))
+
+
+METRICS = (
+    ContactMetric(
+        "contact_settling_time_s", "s", "settling time of the force, from the first touch", contact_settling_time
+    ),
+    ContactMetric("normal_force_error_n", "N", "error of the force normal to the plane, rms", normal_force_error),
+    ContactMetric("force_error_peak_n", "N", "error of the force exerted, largest", force_error_peak),
+    ContactMetric("force_error_rms_n", "N", "error of the force exerted, rms", force_error_rms),
+    ContactMetric("moment_error_peak_nm", "N m", "error of the moment exerted, largest", moment_error_peak),
+    ContactMetric("moment_error_rms_nm", "N m", "error of the moment exerted, rms", moment_error_rms),
+    ContactMetric("force_overshoot", "1", "largest force over the one ordered, less 1", force_overshoot),
+    ContactMetric("peak_force_n", "N", "largest force on the hand", peak_force),
+    ContactMetric("peak_moment_nm", "N m", "largest moment on the hand", peak_moment),
+    ContactMetric("peak_torque_ratio", "1", "largest torque over the motor's rated one", peak_torque_ratio),
+)

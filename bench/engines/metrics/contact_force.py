@@ -1,0 +1,90 @@
+"""A hand that touches something: from when on, and what it exerts less what it was ordered to.
+
+    e = F + h        along and about the axes that comply: at rest F = -h, F = (f, m) what the surroundings do
+
+The hand has no mass, so that F is exactly zero before the first touch. Base frame, N, N m.
+"""
+
+import numpy as np
+
+from bench.engines.metrics.contact_metric import Pose, Response
+from bench.engines.metrics.measured_compliance import in_free_space
+from tasks.contact import Trial
+from tasks.domains import peg_in_hole
+from tasks.rotations import columns
+from tasks.rules import ticks
+
+NOTHING = np.empty((0, 3))
+WINDOW_S = 2.5
+"""From the first touch on, over which errors are averaged [s]: an average that went on as long as an episode does would
+say when it ended."""
+
+
+def from_first_touch(pose: Pose) -> slice | None:
+    """The ticks of a pose's one response from the first touch on; None if nothing was touched."""
+    if in_free_space(pose):
+        return None
+    one = pose.first
+    felt = np.flatnonzero(np.any(one.force != 0.0, axis=1) | np.any(one.moment != 0.0, axis=1))
+    return slice(int(felt[0]), None) if felt.size else None
+
+
+def force_error(pose: Pose) -> np.ndarray:
+    """f + h [N] along the axes that comply, 0 along the others, N x 3 from the first touch on."""
+    return _error(pose, pose.first.force, slice(0, 3))
+
+
+def moment_error(pose: Pose) -> np.ndarray:
+    """m + h [N m] about the axes that comply, 0 about the others, N x 3 from the first touch on."""
+    return _error(pose, pose.first.moment, slice(3, 6))
+
+
+def _error(pose: Pose, felt: np.ndarray, kind: slice) -> np.ndarray:
+    specification, touched = pose.first.trial.specification, from_first_touch(pose)
+    complies = np.array(specification.selection[kind]) == 0
+    if touched is None or not complies.any():
+        return NOTHING
+    return (felt[touched] + np.array(specification.desired_wrench[kind])) * complies
+
+
+def rms(pose: Pose, error: np.ndarray) -> float:
+    """Root of the mean square of the lengths of N vectors, N x 3, over WINDOW_S; NaN if there is none.
+
+    What ended at rest before is taken to stay as it was.
+    """
+    if not len(error):
+        return np.nan
+    squares, one = (error**2).sum(axis=1), pose.first
+    count = ticks(WINDOW_S, float(one.time[1])) if len(one.time) > 1 and one.time[1] > 0.0 else len(squares)
+    missing = max(0, count - len(squares)) if one.rested else 0
+    total = squares[:count].sum() + missing * squares[-1]
+    return float(np.sqrt(total / (min(count, len(squares)) + missing)))
+
+
+def peak(error: np.ndarray) -> float:
+    """The greatest length of N vectors, N x 3; NaN if there is none."""
+    return float(np.linalg.norm(error, axis=1).max()) if len(error) else np.nan
+
+
+def last(pose: Pose) -> Response | None:
+    """The one response of a pose if it ran to its end, at rest or at the horizon; else None."""
+    return pose.first if pose.first.outcome == "done" else None
+
+
+def scene_normal(trial: Trial) -> np.ndarray:
+    """The z axis of the scene, in the base frame: the normal of a plane that stands there."""
+    return np.array(columns(trial.scene_wxyz)[2])
+
+
+def wrist_axis(one: Response) -> np.ndarray:
+    """The z axis of the wrist, out of it, N x 3 in the base frame, however the hand's frame is drawn on the hand."""
+    return one.R @ np.array(columns(one.trial.mount_wxyz))[:, 2]
+
+
+def insertion(pose: Pose) -> np.ndarray | None:
+    """How far the tip is below the mouth of the hole, along its axis [m], N, and 0 beside it; None without a hole."""
+    one = last(pose)
+    if one is None or pose.task.name != peg_in_hole.TASK.name:
+        return None
+    across, along, depth = columns(one.trial.scene_wxyz) @ (np.array(one.trial.scene_pos) - one.p).T
+    return np.where(np.maximum(np.abs(across), np.abs(along)) < peg_in_hole.HOLE, depth, 0.0)

@@ -1,0 +1,85 @@
+"""What a metric of contact is: a number from the records of the trials that share a pose, in plain numpy."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from bench.law.control.contact_controller import ContactController
+from tasks.arm_model import Arm
+from tasks.contact import ContactTask, Trial
+
+if TYPE_CHECKING:
+    from bench.engines.contact_episode import Ended
+
+
+class Response(NamedTuple):
+    """One episode, tick by tick, base frame: N ticks.
+
+    time (N) [s]; R (N x 3 x 3), hand to base; omega (N x 3) [rad/s]; p (N x 3) [m]; force, moment (N x 3) on the hand
+    [N], [N m]; gap (N) to the scene [m], negative where they penetrate; turned (N), angle of the scene's joint [rad];
+    load (N), the largest torque over its rated one. rested: whether it ended at rest, before its horizon.
+    """
+
+    trial: Trial
+    outcome: str
+    time: np.ndarray
+    R: np.ndarray
+    omega: np.ndarray
+    p: np.ndarray
+    force: np.ndarray
+    moment: np.ndarray
+    gap: np.ndarray
+    turned: np.ndarray
+    load: np.ndarray
+    rested: bool = False
+
+
+class Pose(NamedTuple):
+    """What a row of compliance.parquet is about: the responses of the trials that share a pose, in their order."""
+
+    task: ContactTask
+    arm: Arm
+    controller: ContactController
+    responses: tuple[Response, ...]
+
+    @property
+    def first(self) -> Response:
+        """The only response, of most tasks."""
+        return self.responses[0]
+
+
+class ContactMetric(NamedTuple):
+    """One column of compliance.parquet.
+
+    measure(pose) -> the number, NaN where it has no meaning (a task of another kind, an episode that broke off before
+    there is anything to measure).
+    """
+
+    column: str
+    unit: str
+    title: str
+    measure: Callable[[Pose], float]
+
+
+def response(trial: Trial, ended: Ended) -> Response:
+    """The arrays of an episode's record; ticks at which it holds nothing finite stay as they are."""
+    from bench.engines.contact_episode import FORCE, GAP, LOAD, MOMENT, OMEGA, TIME, TURNED, P, R
+
+    record = ended.record
+    return Response(
+        trial,
+        ended.outcome,
+        record[:, TIME],
+        record[:, R : R + 9].reshape(-1, 3, 3).transpose(0, 2, 1),
+        record[:, OMEGA : OMEGA + 3],
+        record[:, P : P + 3],
+        record[:, FORCE : FORCE + 3],
+        record[:, MOMENT : MOMENT + 3],
+        record[:, GAP],
+        record[:, TURNED],
+        record[:, LOAD],
+        ended.rested,
+    )

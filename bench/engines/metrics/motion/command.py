@@ -1,0 +1,52 @@
+"""How much was commanded: the largest command, the integral of its square, and how it changes at rest."""
+
+import math
+
+from bench.engines.metrics.metric import Metric, as_it_is, root
+from bench.law import dot, kernel
+
+
+@kernel
+def add_square(value, sample):
+    """Sum of |u|^2 dt."""
+    return value + dot(sample.u, sample.u) * sample.dt
+
+
+@kernel
+def largest_square(value, sample):
+    """max |u|^2; a command that is not a number changes nothing."""
+    squared = dot(sample.u, sample.u)
+    if squared > value:
+        return squared
+    return value
+
+
+@kernel
+def largest_change(value, sample):
+    """max |u - u before|^2 since the body is at rest for good."""
+    if not sample.at_rest:
+        return 0.0
+    x, y, z = sample.u[0] - sample.before[0], sample.u[1] - sample.before[1], sample.u[2] - sample.before[2]
+    squared = x * x + y * y + z * z
+    if squared > value:
+        return squared
+    return value
+
+
+def if_settled(value, ending):
+    """The root; no number where the body does not come to rest."""
+    return math.sqrt(value) if ending.outcome == "settled" else math.nan
+
+
+METRICS = (
+    Metric("effort", "rad^2/s^3", "integral of the squared command", 0.0, add_square, as_it_is),
+    Metric("peak_u", "rad/s^2", "largest commanded angular acceleration", 0.0, largest_square, root),
+    Metric(
+        "rest_change",
+        "rad/s^2",
+        "largest change of the command from tick to tick at rest",
+        0.0,
+        largest_change,
+        if_settled,
+    ),
+)

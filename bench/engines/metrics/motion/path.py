@@ -1,0 +1,48 @@
+"""The way that the body takes: how far it turns, how far it comes out of the band again, how near to a singularity."""
+
+import math
+
+from bench.engines.metrics.metric import Metric, if_finite
+from bench.law import dot, kernel, sqrt
+
+
+@kernel
+def smallest_margin(value, sample):
+    """Smallest margin; a law on R has none (NaN), which changes nothing."""
+    if sample.margin < value:
+        return sample.margin
+    return value
+
+
+@kernel
+def largest_haversine(value, sample):
+    """Largest haversine since the band was first entered."""
+    if sample.entered and sample.haversine > value:
+        return sample.haversine
+    return value
+
+
+def angle_outside(value, ending):
+    """The angle, if it lies outside the band; else 0."""
+    angle = 2.0 * math.asin(min(1.0, math.sqrt(value)))
+    return angle if angle > ending.band else 0.0
+
+
+@kernel
+def travel(value, sample):
+    """Travelled angle: the sum of |omega| dt."""
+    return value + sqrt(dot(sample.omega, sample.omega)) * sample.dt
+
+
+def over_initial(value, ending):
+    """Travelled over initial angle: 1 is the geodesic; no number where the episode starts at the goal."""
+    return value / ending.angle0 if ending.angle0 > 0.0 else math.nan
+
+
+METRICS = (
+    Metric("min_margin", "1", "smallest distance to the singular set", math.inf, smallest_margin, if_finite),
+    Metric(
+        "overshoot_rad", "rad", "largest angle after the band was first entered", 0.0, largest_haversine, angle_outside
+    ),
+    Metric("path_ratio", "1", "travelled angle over initial angle", 0.0, travel, over_initial),
+)

@@ -1,0 +1,63 @@
+"""What an episode asks of an arm: torques, a place to hold, the joints' ranges."""
+
+from bench.engines.metrics.metric import Metric, if_finite, root
+from bench.law import kernel
+
+
+@kernel
+def largest_torque(value, sample):
+    """max tau_i^2; a torque that is not a number changes nothing."""
+    for i in range(7):
+        squared = sample.tau[i] * sample.tau[i]
+        if squared > value:
+            value = squared
+    return value
+
+
+@kernel
+def largest_ratio(value, sample):
+    """max (tau_i / rated_i)^2; a torque that is not a number changes nothing."""
+    for i in range(7):
+        ratio = sample.tau[i] / sample.rated[i]
+        if ratio * ratio > value:
+            value = ratio * ratio
+    return value
+
+
+@kernel
+def farthest(value, sample):
+    """max |p - p_d|^2."""
+    x, y, z = sample.p[0] - sample.p_d[0], sample.p[1] - sample.p_d[1], sample.p[2] - sample.p_d[2]
+    squared = x * x + y * y + z * z
+    if squared > value:
+        return squared
+    return value
+
+
+@kernel
+def last_distance(value, sample):
+    """|p - p_d|^2 now."""
+    x, y, z = sample.p[0] - sample.p_d[0], sample.p[1] - sample.p_d[1], sample.p[2] - sample.p_d[2]
+    return x * x + y * y + z * z
+
+
+@kernel
+def largest_excess(value, sample):
+    """max over joints of q - upper or lower - q [rad], if positive; the plant enforces no range."""
+    for i in range(7):
+        above, below = sample.q[i] - sample.upper[i], sample.lower[i] - sample.q[i]
+        if above > value:
+            value = above
+        if below > value:
+            value = below
+    return value
+
+
+METRICS = (
+    Metric("peak_tau_nm", "N m", "largest torque of any joint", 0.0, largest_torque, root, True),
+    # above 1, a real arm could not have done it
+    Metric("peak_torque_ratio", "1", "largest torque over the motor's rated one", 0.0, largest_ratio, root, True),
+    Metric("position_error_m", "m", "largest distance of the tool from its place", 0.0, farthest, root, True),
+    Metric("position_left_m", "m", "distance of the tool from its place at the end", 0.0, last_distance, root, True),
+    Metric("range_excess_rad", "rad", "largest excess of a joint over its range", 0.0, largest_excess, if_finite, True),
+)

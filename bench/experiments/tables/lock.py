@@ -1,0 +1,77 @@
+"""One run at a time in a folder: a lock that the kernel holds on the folder itself until the process ends.
+
+No file is left behind, however a run ends. Some network file systems lock no folder; there a run goes on without.
+"""
+
+import contextlib
+import os
+import sys
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+from bench.base.errors import BadResults
+
+fcntl: Any
+try:
+    import fcntl
+except ImportError:  # no such locks on this system
+    fcntl = None
+
+FLOCK = fcntl and fcntl.flock
+
+
+@contextlib.contextmanager
+def held(folder: Path, waits: bool = False, flock: Callable | None = FLOCK) -> Iterator[None]:
+    """Hold a folder that exists; where it cannot be locked, say so and go on.
+
+    Args:
+        waits: for another process that holds it. flock: the system's; None if it has no such locks.
+    Errors:
+        BadResults: another process holds it, and this one does not wait.
+    """
+    if flock is None:
+        _warn(folder, "this system has no such locks")
+        yield
+        return
+    handle = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)  # not inherited by the programs that a run starts
+    try:
+        _lock(folder, handle, waits, flock)
+        yield
+    finally:
+        os.close(handle)
+
+
+def _lock(folder: Path, handle: int, waits: bool, flock: Callable) -> None:
+    try:
+        flock(handle, fcntl.LOCK_EX if waits else fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        holder = _holder(handle)
+        by = f" (process {holder})" if holder else ""
+        raise BadResults(
+            f"{folder}: another run{by} is writing into it; wait for its end, stop it, or choose another folder with "
+            "--out"
+        ) from None
+    except OSError as error:
+        _warn(folder, error.strerror or str(error))
+
+
+def _warn(folder: Path, reason: str) -> None:
+    print(
+        f"{folder}: cannot be locked ({reason}), so that nothing keeps a second run out of it; start none there",
+        file=sys.stderr,
+    )
+
+
+def _holder(handle: int) -> int | None:
+    """Return the process that holds the lock, where the kernel lists locks and shows that process."""
+    table = Path("/proc/locks")
+    if not table.is_file():
+        return None
+    inode = str(os.fstat(handle).st_ino)
+    for line in table.read_text(encoding="ascii").splitlines():
+        # 7: FLOCK  ADVISORY  WRITE 4711 fe:00:396321 0 EOF
+        words = line.split()
+        if words[1] == "FLOCK" and words[5].rpartition(":")[2] == inode and words[4].isdigit():
+            return int(words[4]) or None
+    return None

@@ -1,0 +1,130 @@
+"""What the report and the claims read: the folder of a finished run, and its tables, each read once a process.
+
+    read.episodes(engine="ideal-rk4", start_set="uniform")     the rows that have these words
+    read.costs(), read.boundaries(), read.poses(), read.traces(), read.compliance()
+    read.provenance(), read.own_laws()
+
+Every frame about contenders has a column `contender`: "regulator" or "regulator/representation", on an arm
+"...@jacobian+inverse", and in contact "controller/representation+form". Rows about the free body are those that have
+the words FREE_BODY.
+"""
+
+from __future__ import annotations
+
+import functools
+import operator
+import os
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from bench.base.errors import BadResults
+from bench.base.files import read_json
+from bench.experiments.tables.kept_laws import kept_laws
+from bench.experiments.tables.schema import RESULTS
+from bench.law.contender import Regulator
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+VARIABLE = "ORIENTATION_BENCH_RESULTS"
+
+FREE_BODY = {"jacobian": ""}
+"""The words of every row about the body that turns freely, whatever the table: only an arm has a Jacobian."""
+
+
+def folder() -> Path:
+    """Return the folder that the environment names, else results/latest if finished, else results/reference."""
+    named = os.environ.get(VARIABLE)
+    if named:
+        return Path(named).expanduser().resolve()
+    finished = (RESULTS / "latest" / "provenance.json").is_file()
+    return RESULTS / ("latest" if finished else "reference")
+
+
+def rows(name: str, **words: str) -> pd.DataFrame:
+    """Return rows of one table that have these words: `rows("episodes", engine="native", start_set="poles")`."""
+    return chosen(table(folder(), name), words)
+
+
+episodes, traces, costs, boundaries, poses, compliance, robustness = (
+    functools.partial(rows, name)
+    for name in ("episodes", "traces", "costs", "boundaries", "poses", "compliance", "robustness")
+)
+
+
+def converged(frame: pd.DataFrame) -> pd.DataFrame:
+    """Return the episodes whose end no shorter step moves (`engines.convergence`), and those that say nothing of it."""
+    return frame[frame["converged"] != "no"]
+
+
+def provenance() -> dict:
+    """Return where the run comes from: provenance.json."""
+    return read_json(folder() / "provenance.json")
+
+
+def own_laws(run: Path | None = None) -> tuple[Regulator, ...]:
+    """Return the user's laws that took part in a run, see `kept_laws`; in the chosen folder's if none is named."""
+    run = run or folder()
+    return kept_laws(run, table(run, "costs"))
+
+
+@functools.cache
+def table(path: Path, name: str) -> pd.DataFrame:
+    """Return a whole table with `contender` added where it has some; shared, so copy it before you change it."""
+    from bench.experiments.tables.store import read
+
+    frame = read(path, name)
+    if "controller" in frame:
+        return with_controller(frame)
+    return with_contender(frame) if "regulator" in frame else frame
+
+
+def with_contender(frame: pd.DataFrame) -> pd.DataFrame:
+    """Return the frame with `contender` added, as the command line writes it."""
+    columns = ["regulator", "representation", *(("jacobian", "inverse") if "jacobian" in frame else ())]
+
+    def named(few: pd.DataFrame) -> pd.Series:
+        names = few["regulator"].where(few["representation"] == "", few["regulator"] + "/" + few["representation"])
+        if "jacobian" not in few:  # in a table of times
+            return names
+        return names.where(few["jacobian"] == "", names + "@" + few["jacobian"] + "+" + few["inverse"])
+
+    return _with_names(frame, columns, named)
+
+
+def with_controller(frame: pd.DataFrame) -> pd.DataFrame:
+    """Return rows of compliance.parquet with `contender` added, as the command line writes it."""
+
+    def named(few: pd.DataFrame) -> pd.Series:
+        names = few["controller"]
+        for mark, column in (("/", "representation"), ("+", "form")):
+            names = names.where(few[column] == "", names + mark + few[column])
+        return names
+
+    return _with_names(frame, ["controller", "representation", "form"], named)
+
+
+def _with_names(frame: pd.DataFrame, columns: list[str], named: Callable[[pd.DataFrame], pd.Series]) -> pd.DataFrame:
+    """`contender` from some columns of words, each combination of them named once however many rows have it."""
+    words = frame[columns]
+    names = named(words.drop_duplicates().astype(str)).astype("category")
+    number = words.groupby(columns, observed=True, sort=False).ngroup()
+    return frame.assign(contender=names.array.take(number.to_numpy()))
+
+
+def chosen(frame: pd.DataFrame, words: dict[str, str]) -> pd.DataFrame:
+    """Return the rows whose columns have these words, renumbered from 0, with only the words that occur.
+
+    Errors:
+        BadResults: the table has no such column.
+    """
+    unknown = next((column for column in words if column not in frame), None)
+    if unknown is not None:
+        raise BadResults(f"no column '{unknown}' in this table; it has: {', '.join(map(str, frame.columns))}")
+    if words:  # all columns are taken once, not once a word
+        frame = frame[functools.reduce(operator.and_, (frame[column] == word for column, word in words.items()))]
+    frame = frame.reset_index(drop=True)
+    for column in frame.select_dtypes("category"):
+        frame[column] = frame[column].cat.remove_unused_categories()
+    return frame

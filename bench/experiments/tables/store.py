@@ -1,0 +1,176 @@
+"""Results on disk: tables with their schema, written whole or not at all (files.py), checked when read.
+
+A folder may come from anywhere. Nothing is read but parquet and JSON, which hold no code; a link is refused, so that
+nothing outside the folder is read or written; and a word holds no sign that a page or a terminal takes for its own.
+"""
+
+import json
+import re
+from collections.abc import Iterable
+from pathlib import Path
+
+import pandas as pd
+import pyarrow as pa
+import pyarrow.parquet as pq
+
+from bench.base.errors import BadResults
+from bench.base.files import refuse_link, write_atomically
+from bench.experiments.columns import VERSION, Table
+from bench.experiments.tables.schema import table_of
+
+
+def encoding(schema: pa.Schema) -> dict:
+    """Say how columns are written: numbers with a fraction, which seldom repeat, by all first bytes, then all second.
+
+    Neighbours share their sign and exponent, so that a default run takes 11 MB and not 15.5; words and counts go into
+    a dictionary.
+    """
+    split = [column.name for column in schema if pa.types.is_floating(column.type)]
+    return {
+        "compression": "zstd",
+        "use_byte_stream_split": split,
+        "use_dictionary": [name for name in schema.names if name not in split],
+    }
+
+
+OF_A_PART = {"compression": "lz4", "use_dictionary": False, "write_statistics": False}
+"""A part of some 20 rows is read once: written so, it takes half the time there and back."""
+
+PLAIN = re.compile(r"[A-Za-z0-9 .,+_/~@=-]{0,200}")
+"""A word of a table: names of contenders, starts, outcomes, nothing that HTML, Markdown or TeX would read."""
+
+FREE_WORDS = ("libraries", "closed_loop", "verdicts")
+"""Tables whose words are not PLAIN: other libraries' functions, asked in this checkout, never a run's."""
+
+
+def as_table(frame: pd.DataFrame, table: str | Table) -> pa.Table:
+    """Return a data frame in the table's schema, columns in its order."""
+    schema = table_of(table).schema()
+    if frame.empty:
+        return schema.empty_table()
+    columns = [pa.array(frame[column.name], column.type, from_pandas=True) for column in schema]
+    return pa.Table.from_arrays(columns, schema=schema)  # Table.from_pandas takes twice the time for 20 rows
+
+
+def write_table(
+    path: Path, frame: pd.DataFrame | pa.Table, table: str | Table, about: dict | None = None, is_part: bool = False
+) -> None:
+    """One table, whole or not at all; `about` goes into its metadata as JSON, for a table that has no run's folder."""
+    arrow = frame if isinstance(frame, pa.Table) else as_table(frame, table)
+    if about is not None:
+        arrow = arrow.replace_schema_metadata({**arrow.schema.metadata, b"about": json.dumps(about, sort_keys=True)})
+    encoded = OF_A_PART if is_part else encoding(arrow.schema)
+    write_atomically(path, lambda temporary: pq.write_table(arrow, temporary, **encoded))
+
+
+GROUP = 16_384
+"""Rows that a merge holds in memory, some 10 MB; row groups of a part each made the file three times as large."""
+
+PARTS = 64
+"""Tables that a merge holds at most; each takes 50 kB beside its rows, as much as those of a hundred episodes."""
+
+
+def merge(path: Path, parts: Iterable[Path], table: str | Table, group: int = GROUP) -> int:
+    """Return all parts in their order as one table, at most `group` rows and one part in memory; the number of rows."""
+    rows = 0
+
+    def write(temporary):
+        nonlocal rows
+        schema = table_of(table).schema()
+        with pq.ParquetWriter(temporary, schema, **encoding(schema)) as writer:
+            held: list[pa.Table] = []
+            for part in parts:
+                held.append(read_arrow(part, table))
+                rows += held[-1].num_rows
+                if len(held) == PARTS:
+                    held = [joined(held)]
+                if sum(one.num_rows for one in held) >= group:
+                    writer.write_table(joined(held))
+                    held.clear()
+            if held:
+                writer.write_table(joined(held))
+
+    write_atomically(path, write)
+    return rows
+
+
+def joined(tables: list[pa.Table]) -> pa.Table:
+    """Return the tables as one whole, words in one dictionary."""
+    return pa.concat_tables(tables).unify_dictionaries().combine_chunks()
+
+
+def read_arrow(path: Path, table: str | Table) -> pa.Table:
+    """Return a table of ours with its schema checked.
+
+    Errors:
+        BadResults: missing, truncated, or of another schema; the message says which and the cure.
+    """
+    return _checked(path, table_of(table).name, lambda: pq.ParquetFile(path).read(use_threads=False))
+
+
+def check(path: Path, table: str | Table) -> None:
+    """Return the same checks from the file's end alone, where parquet keeps its schema: what a truncated file lacks.
+
+    Errors:
+        BadResults: see `read_arrow`.
+    """
+    _checked(path, table_of(table).name, lambda: pq.read_schema(path).empty_table())
+
+
+def _checked(path: Path, table: str, opened) -> pa.Table:
+    refuse_link(Path(path))
+    try:
+        arrow = opened()
+    except FileNotFoundError:
+        raise BadResults(f"{path}: there is no such file; run `make bench` (or python -m bench run) first") from None
+    except (OSError, pa.ArrowException) as error:
+        reason = str(error).splitlines()[0]
+        raise BadResults(f"{path}: it is truncated or no parquet file ({reason}); delete it and run again") from error
+    metadata = arrow.schema.metadata or {}
+    version = metadata.get(b"orientation-bench schema", b"none").decode()
+    if metadata.get(b"orientation-bench table", b"").decode() != table or version != VERSION:
+        raise BadResults(
+            f"{path}: its schema is '{version}', this program reads '{VERSION}' of table '{table}'; run again into "
+            "another folder with --out"
+        )
+    if table not in FREE_WORDS:
+        _refuse_words(path, arrow)
+    return arrow
+
+
+def _refuse_words(path: Path, arrow: pa.Table) -> None:
+    """Columns hold numbers or PLAIN words, and nothing else."""
+    for name, column in zip(arrow.schema.names, arrow.columns, strict=True):
+        kind = column.type
+        if pa.types.is_dictionary(kind) and pa.types.is_string(kind.value_type):
+            words = {word for chunk in column.chunks for word in chunk.dictionary.to_pylist()}
+        elif pa.types.is_integer(kind) or pa.types.is_floating(kind):
+            continue
+        else:
+            raise BadResults(f"{path}: column {name!r} holds {kind}, and ours hold words and numbers; delete the file")
+        for word in words:
+            if word is None or not PLAIN.fullmatch(word):
+                raise BadResults(f"{path}: {word!r} in column {name!r} is no word of ours; delete the file")
+
+
+def frame(path: Path, table: str | Table) -> pd.DataFrame:
+    """Return a file of a table as a data frame.
+
+    Errors:
+        BadResults: see `read_arrow`.
+    """
+    return read_arrow(path, table).to_pandas(ignore_metadata=True)
+
+
+def read(folder: Path, table: str | Table) -> pd.DataFrame:
+    """One table of a finished run as a data frame.
+
+    Errors:
+        BadResults: see `read_arrow`; also a folder whose run has not finished.
+    """
+    table, folder = table_of(table), Path(folder)
+    if not folder.is_dir():
+        raise BadResults(f"{folder}: there is no such folder; run `make bench` (or python -m bench run) first")
+    if not (folder / "provenance.json").is_file():
+        raise BadResults(f"{folder}: the run there has not finished; the same `python -m bench run` command resumes it")
+    return frame(folder / f"{table.name}.parquet", table)

@@ -1,0 +1,126 @@
+"""What a user's file says of its law, without the law: read by a process of its own, known by plain words.
+
+    described(path) -> a Regulator whose functions are in the sandbox alone
+
+Run as `python -m bench.law.contenders.described_law DESCRIPTOR`, this is that process: over the line comes the path and
+the text, back go the fields, or the mistake.
+"""
+
+import base64
+import functools
+import json
+import signal
+import sys
+from multiprocessing.connection import Connection
+from pathlib import Path
+from typing import Any
+
+from bench.base.errors import BadLaw, BenchError
+from bench.law.contender import Regulator
+from bench.law.contenders.law_file import check_answers, check_fields, load_law, read_law
+from bench.law.contenders.law_process import LawProcess, ending, limit
+from bench.law.look import Look
+
+LOAD_S, TRIAL_S = 20.0, 5.0
+"""Seconds of processor time for a user's file to import, and for its law to be called once."""
+
+ANSWERS = ("fields", "answers")
+"""What is said of a file, in this order: what it says of its law, and that the law answers when it is called. One that
+crashes or hangs then is known all the same: its rows will say so."""
+
+WAITS_S, TRIAL_WAITS_S = 60.0, 10.0
+"""The same on the wall: for a law that waits, or is kept waiting by a busy machine."""
+
+FUNCTIONS = ("law", "law_in", "margin", "coordinate_law_in")
+ELSEWHERE = ("origin", "in_engine", "equation", "equation_in")
+"""Fields that say nothing of a user's law, or that only its own process needs."""
+
+WORDS = tuple(name for name in Regulator._fields if name not in (*FUNCTIONS, *ELSEWHERE))
+
+
+def described(path: Path, text: bytes | None = None, limit_s: float = LOAD_S, waits_s: float = WAITS_S) -> Regulator:
+    """The law of a file by its words: `law` and the other functions refuse to be called here.
+
+    Args:
+        text: what the file holds, if it has been read already.
+    Errors:
+        BadLaw: the file is missing, does not import, ends its process or does not return, or holds no law.
+    """
+    path = Path(path)
+    if text is None:
+        text = read_law(path)
+    try:
+        own = stand_in(_described(path, text, limit_s, waits_s), path)
+        check_fields(own, path)
+    except (LookupError, TypeError, AttributeError) as error:
+        raise BadLaw(f"--law {path}: its process did not say what it is; correct what runs on import") from error
+    return own
+
+
+@functools.lru_cache(maxsize=32)
+def _described(path: Path, text: bytes, limit_s: float, waits_s: float) -> str:
+    """The fields as JSON; once for the same text."""
+    process = LawProcess(__name__, waits_s)
+    said: list[dict] = []
+    is_late = False
+    try:
+        asked = {"path": str(path), "text": base64.b64encode(text).decode(), "limit_s": limit_s}
+        process.line.send_bytes(json.dumps(asked).encode())
+        while len(said) < len(ANSWERS):
+            said.append(dict(json.loads(process.hear(min(waits_s, TRIAL_WAITS_S) if said else waits_s))))
+    except TimeoutError:
+        is_late = True
+    except (EOFError, OSError, TypeError, ValueError):
+        pass  # its exit code says why, or it wrote to the line itself
+    finally:
+        code = process.end()
+    for one in said:
+        if "mistake" in one:
+            raise BadLaw(one["mistake"])
+    if not said:
+        late = f"it did not return within {limit_s:g} s"
+        why = late if is_late or code == -signal.SIGXCPU else f"it ended its process, {ending(code)}"
+        raise BadLaw(f"--law {path}: it does not load ({why}); correct what runs on import")
+    return json.dumps(said[0]["fields"])
+
+
+def stand_in(content: str, path: Path) -> Regulator:
+    """The Regulator that these fields describe, of this file."""
+    fields: dict[str, Any] = json.loads(content)
+    given: dict[str, Any] = dict.fromkeys(fields.pop("functions"), not_here)
+    given |= {name: tuple(value) if isinstance(value, list) else value for name, value in fields.items()}
+    return Regulator(**given | {"look": given["look"] and Look(*given["look"]), "origin": str(path)})
+
+
+def fields_of(own: Regulator) -> dict[str, Any]:
+    """The words of a law, as JSON takes them."""
+    functions = [name for name in FUNCTIONS if getattr(own, name) is not None]
+    return {**{name: getattr(own, name) for name in WORDS}, "functions": functions}
+
+
+def not_here(*_):
+    """Stands for each function of a user's law.
+
+    Errors:
+        RuntimeError: always.
+    """
+    raise RuntimeError("a user's law is called in its sandbox alone")
+
+
+def main(descriptor: int) -> None:
+    """Read the law that is asked for, and say what it is."""
+    with Connection(descriptor) as line:
+        asked = json.loads(line.recv_bytes())
+        try:
+            limit(asked["limit_s"])
+            own = load_law(Path(asked["path"]), base64.b64decode(asked["text"]))
+            line.send_bytes(json.dumps({"fields": fields_of(own)}).encode())
+            limit(min(TRIAL_S, asked["limit_s"]))
+            check_answers(own)
+            line.send_bytes(json.dumps({"answers": True}).encode())
+        except BenchError as error:
+            line.send_bytes(json.dumps({"mistake": str(error)}).encode())
+
+
+if __name__ == "__main__":
+    main(int(sys.argv[1]))

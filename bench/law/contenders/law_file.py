@@ -1,0 +1,218 @@
+"""A user's law: the one file outside the package that holds a REGULATOR."""
+
+import ast
+import hashlib
+import re
+import sys
+import traceback
+import types
+from pathlib import Path
+
+from bench import law
+from bench.base.errors import BadLaw
+from bench.law.contender import NO_MEMORY, ON_MATRIX, Contender, Gains, Goal, Regulator
+from bench.law.contenders.registry import contenders_of, known_regulators, representation
+from bench.law.equation import Equation
+from bench.law.look import COLOURS, LINES, MARKERS, Look
+from bench.law.so3 import Rotation
+
+WORD = re.compile(r"[a-z0-9]+(-[a-z0-9]+)*")
+"""A name as rows, file names and the command line write it."""
+
+LONGEST = 32
+SHORT = re.compile(rf"[\w ,.'-]{{0,{LONGEST}}}")
+"""Characters allowed in the name beside a curve; markup and formulas would break a figure."""
+
+
+def read_law(path: Path) -> bytes:
+    """The text of a user's law file.
+
+    Errors:
+        BadLaw: there is no such file, or it cannot be read.
+    """
+    if not path.is_file():
+        raise BadLaw(f"{path}: there is no such file; give the path of a Python file with a constant REGULATOR")
+    try:
+        text = path.read_bytes()
+        text.decode()
+    except OSError as error:
+        raise BadLaw(f"--law {path}: it cannot be read ({error.strerror}); run: chmod u+r on it") from error
+    except UnicodeDecodeError as error:
+        raise BadLaw(
+            f"--law {path}: it is not UTF-8 ({error.reason} at byte {error.start}); save it as UTF-8"
+        ) from error
+    return text
+
+
+def load_law(path: Path, text: bytes | None = None) -> Regulator:
+    """The REGULATOR of a file outside the package. This runs the file: in a law's own process alone.
+
+    The module's name carries a digest of the file, so that nothing of an earlier version is ever reused.
+
+    Args:
+        text: what the file holds, if it has been read already.
+
+    Errors:
+        BadLaw: the file is missing, does not import, or lacks a REGULATOR that can be used.
+    """
+    path = Path(path)
+    text = read_law(path) if text is None else text
+    name = f"user_law_{path.stem}_{hashlib.sha256(text).hexdigest()[:12]}"
+    module = types.ModuleType(name)
+    module.__file__ = str(path)
+    sys.modules[name] = module
+    try:
+        exec(compile(text, path, "exec"), module.__dict__)
+    except (Exception, SystemExit) as error:
+        del sys.modules[name]
+        cure = _new_imports(text) if isinstance(error, ImportError) else "correct the file"
+        raise BadLaw(f"--law {path}: it does not import ({_said(error, str(path))}); {cure}") from error
+    own = getattr(module, "REGULATOR", None)
+    if not isinstance(own, Regulator):
+        given = "no REGULATOR" if own is None else f"a REGULATOR of type {type(own).__name__}"
+        raise BadLaw(
+            f"--law {path}: it has {given}; it needs a constant REGULATOR = bench.law.Regulator(...) (see README)"
+        )
+    check_fields(own, path)
+    if own.name in known_regulators():
+        raise BadLaw(f"--law {path}: the name '{own.name}' is one of ours; give your REGULATOR another name")
+    return own._replace(origin=str(path))
+
+
+def check_answers(own: Regulator) -> None:
+    """Call the law once in each representation that it acts on.
+
+    Errors:
+        BadLaw: it cannot be called, or does not return three numbers (and a memory).
+    """
+    for one in contenders_of(own):
+        _check_shape(one, Path(own.origin))
+
+
+def _new_imports(text: bytes) -> str:
+    """What to write in place of imports from modules of ours that are there no more."""
+    old = [
+        one
+        for one in ast.walk(ast.parse(text))
+        if isinstance(one, ast.ImportFrom) and re.match(r"bench\.(?!law\b)", one.module or "")
+    ]
+    moved = sorted({name.name for one in old for name in one.names if hasattr(law, name.name)})
+    return f"write: from bench.law import {', '.join(moved)}" if moved else "correct the file"
+
+
+TRIAL = Rotation((0.36, 0.48, -0.8), (-0.8, 0.6, 0.0), (0.48, 0.64, 0.6))
+"""A rotation with short decimals, away from every singular set we know: where a law is tried once."""
+
+
+def check_fields(own: Regulator, path: Path) -> None:
+    """What the fields of a user's REGULATOR must be, before anything is made of them."""
+    on_matrix = own.coordinates == ON_MATRIX
+    needed = "law" if on_matrix else "law_in"
+    memory = own.memory or ()
+    coordinates = own.coordinates if isinstance(own.coordinates, tuple) else ()
+    problems = (
+        (
+            not (isinstance(own.name, str) and WORD.fullmatch(own.name)),
+            f"its name {own.name!r} is no word of a-z, 0-9 and dashes, such as 'my-law'",
+        ),
+        (
+            not all(isinstance(text, str) for text in (own.title, own.source, own.formula, own.property)),
+            "title, source, formula and property must be texts",
+        ),
+        (
+            not all(isinstance(text, str) and SHORT.fullmatch(text) for text in (own.short, own.family)),
+            f"its short name and family are {_shown((own.short, own.family))}; give texts of at most {LONGEST} "
+            "letters, digits, spaces and , . ' -",
+        ),
+        (
+            not (own.look is None or (isinstance(own.look, Look) and own.look.is_known)),
+            f"its look is {_shown(own.look)}; give a bench.law.Look of a colour ({', '.join(COLOURS)}), a marker "
+            f"({' '.join(MARKERS)}) and a line ({', '.join(LINES)})",
+        ),
+        (
+            not (own.equation is None or isinstance(own.equation, Equation)),
+            f"its equation is {_shown(own.equation)}; give a bench.law.Equation(formula, spring)",
+        ),
+        (
+            not (on_matrix or own.coordinates == "any" or coordinates),
+            f"its coordinates are {own.coordinates!r}; allowed: '{ON_MATRIX}', 'any', a tuple of names",
+        ),
+        (
+            not callable(getattr(own, needed)),
+            f"its {needed} is {_shown(getattr(own, needed))}; on {own.coordinates!r} coordinates give a function",
+        ),
+        (
+            not (
+                isinstance(memory, tuple)
+                and len(memory) <= len(NO_MEMORY)
+                and all(isinstance(x, float) for x in memory)
+            ),
+            f"its memory is {own.memory!r}; give None or a tuple of up to {len(NO_MEMORY)} floats",
+        ),
+        (own.in_engine is not False, "it has in_engine; MuJoCo's own actuator would run in its place: omit it"),
+    )
+    for is_wrong, problem in problems:
+        if is_wrong:
+            raise BadLaw(f"--law {path}: {problem}")
+    for word in coordinates:
+        representation(word)
+
+
+MISTAKES = (TypeError, NameError, AttributeError, ImportError)
+"""What a law raises that was written wrongly; anything else it may raise in some state, and that is a row."""
+
+
+def _tried(one: Contender):
+    """What the law answers at TRIAL."""
+    first = one.regulator.memory
+    memory = () if first is None else ((*first, *NO_MEMORY[len(first) :]),)
+    return one.law(TRIAL, (0.1, 0.2, 0.3), Goal(), Gains(), *memory)
+
+
+def trial_error(one: Contender) -> str:
+    """What the law raises at TRIAL, and in which line of its file; nothing if it answers."""
+    try:
+        _tried(one)
+    except Exception as error:
+        return _said(error, one.regulator.origin)
+    return ""
+
+
+def _said(error: BaseException, origin: str) -> str:
+    """An error, and the last line of the user's file that it passed."""
+    lines = [frame.lineno for frame in traceback.extract_tb(error.__traceback__) if frame.filename == origin]
+    where = f" in line {lines[-1]}" if lines else ""
+    return f"{type(error).__name__}{where}: {error}"
+
+
+def _check_shape(one: Contender, path: Path) -> None:
+    has_memory = one.regulator.memory is not None
+    arguments = "R, omega, goal, gains, memory" if has_memory else "R, omega, goal, gains"
+    try:
+        answer = _tried(one)
+    except MISTAKES as error:
+        raise BadLaw(
+            f"--law {path}: the law of '{one.name}' cannot be called as law({arguments}) "
+            f"({_said(error, str(path))}); see the example in README"
+        ) from error
+    except Exception:
+        return  # a law that raises in an episode is a row, not a mistake of the caller
+    if has_memory:
+        if not (
+            isinstance(answer, tuple) and len(answer) == 2 and isinstance(answer[1], tuple) and len(answer[1]) == 4
+        ):
+            raise BadLaw(
+                f"--law {path}: the law of '{one.name}' has memory and returned {_shown(answer)}; it must return "
+                "(command, memory) with a memory of four floats"
+            )
+        answer = answer[0]
+    if not (isinstance(answer, tuple) and len(answer) == 3 and all(isinstance(x, float) for x in answer)):
+        raise BadLaw(
+            f"--law {path}: the law of '{one.name}' returned {_shown(answer)}; it must return a tuple of three floats, "
+            "the angular acceleration in the base frame"
+        )
+
+
+def _shown(answer) -> str:
+    text = repr(answer)
+    return text if len(text) <= 60 else text[:57] + "..."

@@ -1,0 +1,28 @@
+"""Time per tick of every law and engine on this machine (`python -m bench time`), as ratios to a reference kernel.
+
+The same code timed twice on a shared machine differs by half and more; a ratio to something timed a moment before or
+after does not. So everything is timed in one run, in passes: each pass samples the reference kernel and every measured
+benchmark in a random order of its own, and a ratio is taken within a pass.
+
+An interval says how sure the median of this run is, on a machine in this state. Three full runs, minutes apart on two
+shared cores, agreed within 1 % for laws alone and within 3 % for native over rollout; beside three processes that
+kept both cores busy, some ideal loops were up to 12 % slower, far outside their intervals.
+
+reference_kernel   what a ratio is to
+law                a law alone, one command waiting for the other
+benchmark, benchmarks      all that is timed, engines included
+on_arms            the same of every arm: each controller of the default suite, rollout,
+dm_control_loop      and a loop in dm_control and numpy, for the speed-up
+threads            two threads against one, on the wall, after the passes
+passes, session    the samples, as pytest-benchmark runs them
+ratios             medians over passes, with intervals
+apart              the same beside a user's laws, in a process of its own
+rows, summary      from seconds to results/timings/<machine>.parquet, and to a table for the eye
+benchmark_json     from seconds to pytest-benchmark's own format
+"""
+
+from bench.running.timing.apart import run_apart
+from bench.running.timing.rows import about, read, run
+from bench.running.timing.summary import arm_table, table
+
+__all__ = ["about", "arm_table", "read", "run", "run_apart", "table"]

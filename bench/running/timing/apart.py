@@ -1,0 +1,80 @@
+"""The timing of a user's laws, with all else that is timed beside them, in a process of its own.
+
+Run as `python -m bench.running.timing.apart DESCRIPTOR`, this is that process: over the line comes what to
+time; back go the progress, sample by sample, and at last the file's path or the mistake.
+"""
+
+import json
+import sys
+from collections.abc import Callable, Iterable
+from multiprocessing.connection import Connection
+from pathlib import Path
+
+from bench.base.errors import BadLaw, BenchError
+from bench.law.contender import Contender
+from bench.law.contenders.law_file import load_law
+from bench.law.contenders.law_process import LawProcess, ending
+from bench.law.contenders.registry import find_contender
+from bench.running.timing.benchmarks import Progress
+from bench.running.timing.rows import run
+
+SILENT_S = 300.0
+"""On the wall, from one sample to the next: ten times what compiling a law for all engines takes."""
+
+
+def run_apart(
+    contenders: Iterable[Contender],
+    folder: Path,
+    quick: bool = False,
+    report: Callable = lambda _: None,
+    arms: tuple[str, ...] = (),
+    json_file: str = "",
+    silent_s: float = SILENT_S,
+) -> Path:
+    """Time contenders as `run` does, where some of them are a user's.
+
+    Errors:
+        BadLaw: a user's law that cannot be compiled, that ends its process, or that does not return.
+    """
+    contenders = list(contenders)
+    files = sorted({one.regulator.origin for one in contenders if one.regulator.origin})
+    how = {"folder": str(folder), "quick": quick, "arms": arms, "json_file": str(json_file)}
+    asked = {"files": files, "names": [one.name for one in contenders], "how": how}
+    process = LawProcess(__name__)
+    try:
+        process.line.send_bytes(json.dumps(asked).encode())
+        while True:
+            said = json.loads(process.hear(silent_s))
+            if "path" in said:
+                return Path(said["path"])
+            if "mistake" in said:
+                raise BadLaw(said["mistake"])
+            report(Progress(*said["progress"]))
+    except TimeoutError as error:
+        raise BadLaw(f"--law {', '.join(files)}: it did not return within {silent_s:g} s; mend the file") from error
+    except (EOFError, OSError) as error:
+        code = process.end()
+        raise BadLaw(f"--law {', '.join(files)}: it ended its process ({ending(code)}); mend the file") from error
+    finally:
+        process.end()
+
+
+def main(descriptor: int) -> None:
+    """Time the requested calls."""
+    with Connection(descriptor) as line:
+        asked = json.loads(line.recv_bytes())
+
+        def report(done: Progress) -> None:
+            line.send_bytes(json.dumps({"progress": done}).encode())
+
+        try:
+            own = tuple(load_law(Path(path)) for path in asked["files"])
+            contenders = [find_contender(name, own) for name in asked["names"]]
+            said = {"path": str(run(contenders, report=report, **asked["how"]))}
+        except BenchError as error:
+            said = {"mistake": str(error)}
+        line.send_bytes(json.dumps(said).encode())
+
+
+if __name__ == "__main__":
+    main(int(sys.argv[1]))

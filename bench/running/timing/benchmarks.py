@@ -1,0 +1,132 @@
+"""All that is timed: the reference kernel, every law, every law in every compiled engine, rollout, and the arms.
+
+An engine runs its real loop, all metrics on, from fixed starts, with no early stop. `rollout` is MuJoCo's own
+open-loop loop (mujoco.rollout) over the same model, starts and number of ticks, with commands that were drawn
+beforehand and outputs allocated beforehand: what a closed loop can hope to approach.
+"""
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import mujoco
+import numpy as np
+
+import tasks
+from bench.engines.binding import command_of, memory_of
+from bench.engines.curve import blank_curves
+from bench.engines.episode import TICKS, blank, numbers, start_rows
+from bench.engines.episode import Settings as EngineSettings
+from bench.engines.metrics.registry import metrics_of
+from bench.engines.native.libmujoco import model_of
+from bench.engines.plants import free_body
+from bench.engines.simulate import compiled_loop, evaluation, simulate
+from bench.engines.simulated import compiled_view
+from bench.experiments.experiment import Settings
+from bench.law.contender import Contender, Gains
+from bench.running.timing import law, on_arms, reference_kernel
+from bench.running.timing.benchmark import ENGINE, KERNEL, LAW, LOOP, NEVER, Benchmark, open_loop
+from tasks.base import Start
+
+ENGINES = ("ideal-held", "ideal-rk4", "native")
+
+TASK = "free-body"
+HORIZON_S = 0.4
+"""400 ticks of 1 ms: from rest through the fastest part of a response; a tick costs the same at any time."""
+
+STARTS = {"ideal-held": 128, "ideal-rk4": 128, "native": 8}
+"""Uniform starts; a sample takes from three milliseconds to twenty, 0.05 ms of them to hand the loop its arguments."""
+
+PUSH = 10.0
+"""Standard deviation of rollout's commands [rad/s^2]; they need only keep the body turning."""
+
+
+class Progress(NamedTuple):
+    """After every sample: what was timed, and how many samples of how many are done.
+
+    Before the first sample, one for every law that is being compiled, with a total of 0.
+    """
+
+    name: str
+    done: int
+    total: int
+
+
+def benchmarks(
+    contenders: list[Contender], report: Callable = lambda _: None, arms: tuple[str, ...] = ()
+) -> list[Benchmark]:
+    """The reference kernel first, then everything else; all is compiled and has run once.
+
+    MuJoCo's own actuator is left out: no law of ours runs there.
+
+    Args:
+        arms: names of those that are timed too, with the controllers that have these laws.
+    Errors:
+        BadLaw: a user's law that the compiler cannot take.
+    """
+    contenders = [one for one in contenders if not one.regulator.in_engine]
+    loops, laws = [], []
+    for one in contenders:
+        report(Progress(one.name, 0, 0))
+        if not one.regulator.costing_only:  # before the law alone: this refuses, in a line, what does not compile
+            loops += [_engine(engine, one) for engine in ENGINES]
+        laws.append(_law(LAW, one))
+    empty = _law(LOOP, Contender(law.EMPTY))._replace(contender=None)
+    kernel = Benchmark(KERNEL, None, "", reference_kernel.STEPS, _kernel())
+    found = [kernel, *laws, *loops, empty, _rollout()]
+    for arm in arms:
+        report(Progress(arm, 0, 0))
+        found += on_arms.of_arm(arm, [one for one in contenders if not one.regulator.costing_only])
+    return found
+
+
+def _kernel() -> Callable:
+    chain = reference_kernel.compiled()
+    return lambda: chain(reference_kernel.START, reference_kernel.STEPS)
+
+
+def _law(what: str, one: Contender) -> Benchmark:
+    loop = law.loop_of(command_of(one), memory_of(one), cache=not one.regulator.origin)
+    states, gains = law.states(), Gains()
+
+    def call() -> Any:
+        return loop(states, gains.kp, gains.kv, law.SWEEPS)
+
+    return Benchmark(what, one, "", law.SWEEPS * law.STATES if call() == 0.0 else 0, call)
+
+
+def _settings() -> EngineSettings:
+    return Settings().limits(HORIZON_S)._replace(hold_ticks=NEVER)
+
+
+def _engine(engine: str, one: Contender) -> Benchmark:
+    metrics = metrics_of(on_arm=False)
+    loop, kept, world = compiled_loop(engine, metrics), None, None
+    starts = tasks.start_set("uniform", STARTS[engine])
+    if engine == "native":
+        model, *kept = _simulation(starts)
+        world = free_body.World(compiled_view(model, kept[0]), 0, kept[1])
+    rows = blank(len(starts), metrics)
+    fresh = rows.copy()
+    given = memory_of(one), start_rows(starts), numbers(_settings()), rows, blank_curves(len(starts))
+    law = (evaluation(one),)
+
+    def call() -> Any:
+        rows[:] = fresh
+        simulate(loop, law, world, *given)
+        return kept  # the view holds addresses only: this keeps what they point to
+
+    call()
+    return Benchmark(ENGINE, one, engine, int(rows[:, TICKS].sum()), call)
+
+
+def _simulation(starts: list[Start]) -> tuple[mujoco.MjModel, mujoco.MjData, np.ndarray]:
+    task = tasks.task(TASK)
+    model = model_of(task.xml(_settings().dt_s), "euler")
+    return model, mujoco.MjData(model), np.array([[*qpos, *qvel] for qpos, qvel in map(task.state, starts)])
+
+
+def _rollout() -> Benchmark:
+    starts = tasks.start_set("uniform", STARTS["native"])
+    model, data, states = _simulation(starts)
+    size = (len(starts), _settings().ticks, model.nu)
+    return open_loop(model, data, states, np.random.default_rng(0).normal(scale=PUSH, size=size))

@@ -1,0 +1,119 @@
+"""What a controller of an arm costs: against a count by hand, stage by stage, the same on every arm."""
+
+import functools
+
+import numpy as np
+import pytest
+from support.on_arms import ARMS, LAWS, named
+
+import tasks
+from bench.base.errors import BadLaw
+from bench.engines.counting import on_arms
+from bench.engines.counting.costs import cost
+from bench.engines.counting.counted import OPERATIONS, STAGES, TOTAL
+from bench.law.contenders import combinations
+from bench.law.contenders.registry import known_inverses
+from bench.law.resolved_motion import Inverse
+from bench.law.scalar import kernel
+
+ITERATES = ("truncated-svd", "damped-least-squares-variable")
+"""Inverses that decide by the state how much they do."""
+
+cost_on_arm = functools.cache(on_arms.cost_on_arm)
+
+
+def standing(arm: str, word: str):
+    """What the contender of a word costs on an arm."""
+    return cost_on_arm(named(arm, word), arm)
+
+
+def by_hand(n: int) -> dict[str, tuple[int, int]]:
+    """(mul, add) of each stage of rotation-matrix@geometric+transpose but the law's own, counted on paper.
+
+    A cross product is 6 and 3, a difference of vectors 3 subtractions, counted as additions.
+    """
+    per_joint = n - 2
+    twist = (18 + 9 * per_joint, 18 + 12 * per_joint)  # z qdot: 3; from link to link z qdot + omega x r and two sums
+    bias = (42 + 27 * per_joint, 33 + 27 * per_joint)  # three cross products and z qdot a link, and their sums
+    wanted = (0, 6)  # (u_p, u) - Jdot qdot
+    if n > 6:  # J qdot, Kv/2 of it off a; D qdot, Kv/2 of it off the torques
+        wanted = (6 * n + 1 + 6 + n * n + 1 + n, 6 + 6 * (n - 1) + 6 + n * (n - 1) + n)
+    return {
+        "measure": twist,
+        "jacobian": (6 * n, 6 * n),  # z x (p - p_i) a column
+        "invert": (6 * n, 5 * n),  # J^T a
+        "linearize": (bias[0] + wanted[0], bias[1] + wanted[1] + n),  # and fg
+        "regulate": (6, 6),  # the position's law
+    }
+
+
+@pytest.mark.parametrize(("arm", "n"), [("ur5e", 6), ("panda", 7)])
+def test_controller_costs_what_a_count_by_hand_says(arm, n):
+    counts = standing(arm, "rotation-matrix@geometric+transpose").typical
+    law = cost(LAWS["rotation-matrix"]).typical
+    for stage, (mul, add) in by_hand(n).items():
+        own = law.of(stage)
+        assert (counts.of(stage)["mul"], counts.of(stage)["add"]) == (own["mul"] + mul, own["add"] + add), stage
+    total = counts.of(TOTAL)
+    for name in OPERATIONS:
+        if name not in ("mul", "add"):
+            assert total[name] == law.of(TOTAL)[name]
+
+
+@pytest.mark.parametrize("arm", on_arms.ARM_OF.values())
+def test_stages_sum_to_the_total(arm):
+    for word in ("rotation-matrix@geometric+standard", "feedback-linearized/zyx-euler@analytic+standard"):
+        for counts in (standing(arm, word).typical, standing(arm, word).worst):
+            for name in OPERATIONS:
+                assert sum(counts.of(stage)[name] for stage in STAGES) == counts.of(TOTAL)[name]
+
+
+def test_elimination_costs_the_textbooks_number_of_multiplications():
+    """n^3/3 - n/3 for the factors and n^2 for the two triangles (Golub & Van Loan 2013, 3.2), with D x after it."""
+    counts = standing("ur5e", "rotation-matrix@geometric+solve").typical
+    invert = counts.of("invert")
+    n = 6
+    textbook = (n**3 - n) // 3 + n * n
+    assert invert["mul"] + invert["div"] == textbook
+    assert counts.of("linearize")["mul"] >= n * n
+
+
+@pytest.mark.parametrize("arm", [arm for arm in ARMS if arm not in on_arms.ARM_OF.values()])
+def test_cost_does_not_depend_on_the_arm_where_nothing_iterates(arm):
+    usual = on_arms.ARM_OF[tasks.arm(arm).joints]
+    for word in known_inverses():
+        if word in ITERATES:
+            continue
+        one = named(usual, f"rotation-matrix@geometric+{word}")
+        assert cost_on_arm(one, arm).typical.of(TOTAL) == cost_on_arm(one, usual).typical.of(TOTAL), word
+
+
+def test_every_controller_of_the_default_suite_can_be_counted():
+    from bench.experiments.suites import SUITES
+
+    for arm in on_arms.ARM_OF.values():
+        for one in combinations.on(SUITES["default"].on_arms.words, LAWS, tasks.arm(arm).joints):
+            total = cost_on_arm(one, arm).typical.of(TOTAL)
+            assert total["mul"] > 200, one.name
+
+
+@kernel
+def asks_who_calls(J, a, D, x, rows, n, scratch):
+    """Twice the command if it is counted."""
+    for i in range(n):
+        x[i] = a[i] + a[i] if hasattr(a[i], "tally") else a[i]
+
+
+def test_controller_that_commands_other_torques_when_counted_is_refused():
+    own = Inverse("own", "", "", "", asks_who_calls, "acceleration", lambda rows, n: "")
+    one = named("ur5e", "rotation-matrix@geometric+solve")._replace(inverse=own)
+    with pytest.raises(BadLaw, match="commands other torques when counted"):
+        on_arms.cost_on_arm(one, "ur5e")
+
+
+def test_states_are_those_of_the_arm_and_typical_ones_are_sampled():
+    states = on_arms.arm_states("ur5e")
+    assert {state.is_sampled for state in states} == {True, False}
+    for state in states:
+        assert state.chain.n == 6
+        assert np.linalg.eigvalsh(state.D).min() > 0.0

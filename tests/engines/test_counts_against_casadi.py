@@ -1,0 +1,247 @@
+"""A second counter: the paper's equations typed anew as CasADi expressions, whose instructions are counted.
+
+Nothing of ours is called to build them. CasADi simplifies x * 1, x + x and the like by default; that is
+switched off here, so that an expression keeps every operation it is written with. A Python name used twice
+is one node, which is our rule for common sub-expressions. Not compared: comparisons (an expression has no
+branches) and sign changes (OP_NEG, free by our rules).
+"""
+
+import functools
+import math
+
+import casadi
+import numpy as np
+import pytest
+from casadi import SX, atan2, cos, sin, sqrt
+
+from bench.engines.counting import OPERATIONS, TOTAL, cost
+from bench.law.contender import Gains, Goal
+from bench.law.contenders.registry import find_contender
+from bench.law.so3 import Rotation, from_quaternion
+
+COLUMN = {
+    casadi.OP_ADD: "add",
+    casadi.OP_SUB: "add",
+    casadi.OP_MUL: "mul",
+    casadi.OP_DIV: "div",
+    casadi.OP_SQRT: "sqrt",
+    casadi.OP_SIN: "sin",
+    casadi.OP_COS: "cos",
+    casadi.OP_ATAN2: "atan2",
+}
+FREE = {casadi.OP_NEG, casadi.OP_CONST, casadi.OP_INPUT, casadi.OP_OUTPUT, casadi.OP_PARAMETER}
+COMPARED = [name for name in OPERATIONS if name != "compare"]
+
+
+@pytest.fixture(autouse=True, scope="module")
+def expressions_as_written():
+    casadi.GlobalOptions.setSimplificationOnTheFly(False)
+    yield
+    casadi.GlobalOptions.setSimplificationOnTheFly(True)
+
+
+# -------------------------------------------------------------------------------------- the paper, typed anew
+def symbols():
+    return [SX.sym(name, 3) for name in ("n", "o", "a", "w", "nd", "od", "ad")] + [SX.sym("kp"), SX.sym("kv")]
+
+
+def parts(vector):
+    return vector[0], vector[1], vector[2]
+
+
+def angles(n, o, a):
+    """Z-Y-X angles by atan2 (2.2): alpha from n, gamma from o and a turned back by alpha; what B needs."""
+    nx, ny, nz = parts(n)
+    cb = sqrt(nx * nx + ny * ny)
+    ca, sa = nx / cb, ny / cb
+    gamma = atan2(sa * a[0] - ca * a[1], ca * o[1] - sa * o[0])
+    return (atan2(ny, nx), atan2(-nz, cb), gamma), (sa, ca, -nz, cb)
+
+
+def rates_printed(trig, w):
+    """(2.9), row by row; its zeros and ones are not multiplied out."""
+    sa, ca, sb, cb = trig
+    wx, wy, wz = parts(w)
+    return ca * sb / cb * wx + sa * sb / cb * wy + wz, -sa * wx + ca * wy, ca / cb * wx + sa / cb * wy
+
+
+def rates_factored(trig, w):
+    """(2.9) with its last row named: the first is sin(beta) times it, plus omega_z."""
+    sa, ca, sb, cb = trig
+    wx, wy, wz = parts(w)
+    dgamma = (ca * wx + sa * wy) / cb
+    return sb * dgamma + wz, ca * wy - sa * wx, dgamma
+
+
+def pd(E, E_d, dE, kp, kv):
+    """u_e of (2.16): Kp (E_d - E) - Kd Edot."""
+    return [kp * (want - have) - kv * rate for want, have, rate in zip(E_d, E, dE, strict=True)]
+
+
+def B_times(trig, v):
+    """(2.8)."""
+    sa, ca, sb, cb = trig
+    return ca * cb * v[2] - sa * v[1], ca * v[1] + sa * cb * v[2], v[0] - sb * v[2]
+
+
+def permuted(u):
+    """(2.14): u_x drives gamma, u_z drives alpha."""
+    return u[2], u[1], u[0]
+
+
+def crosses(n, o, a, nd, od, ad):
+    """n x n_d + o x o_d + a x a_d (2.12)."""
+    total = None
+    for p, q in ((n, nd), (o, od), (a, ad)):
+        term = [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]]
+        total = term if total is None else [x + y for x, y in zip(total, term, strict=True)]
+    return total
+
+
+def rotation_matrix_printed(n, o, a, w, nd, od, ad, kp, kv):
+    """(2.12), then (2.13)."""
+    e = [0.5 * x for x in crosses(n, o, a, nd, od, ad)]
+    return [kp * e[i] - kv * w[i] for i in range(3)]
+
+
+def rotation_matrix(n, o, a, w, nd, od, ad, kp, kv):
+    """The same with Kp / 2 as one number."""
+    half = 0.5 * kp
+    e = crosses(n, o, a, nd, od, ad)
+    return [half * e[i] - kv * w[i] for i in range(3)]
+
+
+def linearized(n, o, a, w, nd, od, ad, kp, kv):
+    """PD in E, given to the inputs that (2.14) asks for."""
+    E, trig = angles(n, o, a)
+    E_d, _ = angles(nd, od, ad)
+    return permuted(pd(E, E_d, rates_factored(trig, w), kp, kv))
+
+
+def linearized_literal(n, o, a, w, nd, od, ad, kp, kv):
+    """Without (2.14)."""
+    return permuted(linearized(n, o, a, w, nd, od, ad, kp, kv))
+
+
+def linearized_relative(n, o, a, w, nd, od, ad, kp, kv):
+    """2.4: everything seen from the goal, R_d^T R and R_d^T omega; the command turned back by R_d."""
+
+    def seen(v):
+        return [axis[0] * v[0] + axis[1] * v[1] + axis[2] * v[2] for axis in (nd, od, ad)]
+
+    E, trig = angles(seen(n), seen(o), seen(a))
+    u = permuted([-(kp * x + kv * rate) for x, rate in zip(E, rates_factored(trig, seen(w)), strict=True)])
+    return [nd[i] * u[0] + od[i] * u[1] + ad[i] * u[2] for i in range(3)]
+
+
+def feedback_linearized(n, o, a, w, nd, od, ad, kp, kv):
+    """omegadot for a wanted Eddot, (2.8) differentiated by hand.
+
+    Along the level axis (ca, sa, 0) omega is cb gammadot, along the one across it (-sa, ca, 0) it is
+    betadot, and both axes turn about z with alphadot; along z it is alphadot - sb gammadot.
+    """
+    E, trig = angles(n, o, a)
+    E_d, _ = angles(nd, od, ad)
+    sa, ca, sb, cb = trig
+    dalpha, dbeta, dgamma = rates_factored(trig, w)
+    ddalpha, ddbeta, ddgamma = pd(E, E_d, (dalpha, dbeta, dgamma), kp, kv)
+    spin = cb * dgamma
+    level = cb * ddgamma - (sb * dgamma + dalpha) * dbeta
+    across = ddbeta + dalpha * spin
+    return ca * level - sa * across, sa * level + ca * across, ddalpha - sb * ddgamma - dbeta * spin
+
+
+def feedback_linearized_printed(n, o, a, w, nd, od, ad, kp, kv, is_named=False):
+    """(2.15) with the elements of (2.9), each differentiated by the rules of the product and quotient.
+
+    is_named: tan(beta), its rate and that of 1 / cos(beta) are computed once, not in every element.
+    """
+    E, _ = angles(n, o, a)
+    E_d, _ = angles(nd, od, ad)
+    sa, ca, sb, cb = trig = sin(E[0]), cos(E[0]), sin(E[1]), cos(E[1])
+    dE = rates_printed(trig, w)
+    da, db, _ = dE
+    if is_named:
+        cb2 = cb * cb
+        tan, dtan, dsec = sb / cb, db / cb2, sb * db / cb2
+        first = (-sa * da * tan + ca * dtan, ca * da * tan + sa * dtan)
+        third = (-sa * da / cb + ca * dsec, ca * da / cb + sa * dsec)
+    else:
+        first = (-sa * da * sb / cb + ca * db / (cb * cb), ca * da * sb / cb + sa * db / (cb * cb))
+        third = (-sa * da / cb + ca * sb * db / (cb * cb), ca * da / cb + sa * sb * db / (cb * cb))
+    drift = (first[0] * w[0] + first[1] * w[1], -ca * da * w[0] - sa * da * w[1], third[0] * w[0] + third[1] * w[1])
+    u_e = pd(E, E_d, dE, kp, kv)
+    return B_times(trig, [u - d for u, d in zip(u_e, drift, strict=True)])
+
+
+feedback_linearized_named = functools.partial(feedback_linearized_printed, is_named=True)
+
+
+# -------------------------------------------------------------------------------------- against ours
+def function_of(expression):
+    given = symbols()
+    return casadi.Function("u", given, [casadi.vertcat(*expression(*given))])
+
+
+def counted_by_casadi(expression):
+    function = function_of(expression)
+    counts = dict.fromkeys(COMPARED, 0)
+    for index in range(function.n_instructions()):
+        operation = function.instruction_id(index)
+        if operation not in FREE:
+            counts[COLUMN[operation]] += 1
+    return counts
+
+
+def difference(expression, word, stage=TOTAL):
+    theirs, own = counted_by_casadi(expression), cost(find_contender(word)).typical.of(stage)
+    return {name: theirs[name] - own[name] for name in COMPARED if theirs[name] != own[name]}
+
+
+FORMS = [
+    (rotation_matrix, "rotation-matrix", {}),
+    (linearized, "linearized-euler/zyx-euler", {}),
+    (linearized_literal, "linearized-euler-literal/zyx-euler", {}),
+    (feedback_linearized, "feedback-linearized/zyx-euler", {}),
+    (feedback_linearized_named, "feedback-linearized-literal/zyx-euler", {}),
+    # o_z and a_z of R_d^T R, which no angle needs: 3 mul and 2 add each. Ours forms the whole matrix
+    (linearized_relative, "linearized-euler-relative/zyx-euler", {"mul": -6, "add": -4}),
+    # halves three numbers where ours halves the gain
+    (rotation_matrix_printed, "rotation-matrix", {"mul": 2}),
+    # named once instead of twice: tan (1 div), dtan/dt (1 mul, 1 div), dsec/dt (3 mul, 1 div)
+    (feedback_linearized_printed, "feedback-linearized-literal/zyx-euler", {"mul": 4, "div": 3}),
+]
+"""An expression, the law that it is, and how many operations it has more than ours."""
+
+
+@pytest.mark.parametrize(("expression", "word", "more"), FORMS, ids=lambda value: getattr(value, "__name__", value))
+def test_casadi_counts_our_operations_and_those_that_a_form_has_more(expression, word, more):
+    assert difference(expression, word) == more
+
+
+def test_casadi_counts_the_same_operations_for_the_angles():
+    def of_goal(n, o, a, w, nd, od, ad, kp, kv):
+        return angles(nd, od, ad)[0]
+
+    assert difference(of_goal, "feedback-linearized/zyx-euler", "goal") == {}
+
+
+PRINTED_TOO = (feedback_linearized_printed, "feedback-linearized/zyx-euler", {})
+
+
+@pytest.mark.parametrize(("expression", "word", "_"), [*FORMS, PRINTED_TOO])
+def test_expression_is_the_law_that_is_counted(expression, word, _):
+    rng = np.random.default_rng(1988)
+    function, law, gains = function_of(expression), find_contender(word).law, Gains()
+    for _ in range(20):
+        R, R_d = (random_rotation(rng) for _ in range(2))
+        omega = tuple(rng.normal(scale=3.0, size=3).tolist())
+        theirs = function(*R, omega, *R_d, *gains).full().ravel()
+        # eps / cos^2(beta) times commands up to 1e4: 1e-9 holds for cos(beta) > 0.01
+        np.testing.assert_allclose(law(R, omega, Goal(R_d), gains), theirs, rtol=1e-9, atol=1e-9)
+
+
+def random_rotation(rng) -> Rotation:
+    quat = rng.normal(size=4)
+    R = from_quaternion(tuple((quat / np.linalg.norm(quat)).tolist()))
+    return R if math.hypot(R.n[0], R.n[1]) > 0.01 else random_rotation(rng)

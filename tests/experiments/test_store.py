@@ -1,0 +1,165 @@
+"""Tables on disk: their schema and units, whole or absent, merged a part at a time, described in results/README.md."""
+
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pyarrow as pa
+import pyarrow.parquet as pq
+import pytest
+
+from bench.base import files
+from bench.base.errors import BadResults
+from bench.base.provenance import ROOT
+from bench.experiments import columns as column
+from bench.experiments.tables import schema, store
+
+README = ROOT / "results" / "README.md"
+
+
+def frame(table: str, rows: int, first: int = 0) -> pd.DataFrame:
+    """Rows with every column of a table filled."""
+    fill = {column.WORD: lambda i: f"word-{i % 3}", column.NUMBER: lambda i: i / 7.0, column.COUNT: lambda i: i}
+    fill[column.SINGLE] = fill[column.NUMBER]
+    return pd.DataFrame(
+        {one.name: [fill[one.type](i) for i in range(first, first + rows)] for one in schema.table_of(table).columns()}
+    )
+
+
+@pytest.mark.parametrize("table", schema.all_tables())
+def test_table_comes_back_with_units_and_meanings(tmp_path, table):
+    store.write_table(tmp_path / "x.parquet", frame(table, 5), table)
+    found = pq.read_schema(tmp_path / "x.parquet")
+    assert found.metadata[b"orientation-bench table"].decode() == table
+    assert found.metadata[b"orientation-bench schema"].decode() == column.VERSION
+    for one in schema.table_of(table).columns():
+        metadata = found.field(one.name).metadata
+        assert (metadata[b"unit"].decode(), metadata[b"meaning"].decode()) == (one.unit, one.meaning)
+
+
+@pytest.mark.parametrize("table", schema.all_tables())
+def test_every_column_has_a_meaning_and_every_number_a_unit(table):
+    for one in schema.table_of(table).columns():
+        assert one.meaning
+        assert bool(one.unit) == (one.type != column.WORD), one.name
+
+
+@pytest.mark.parametrize("table", schema.all_tables())
+def test_no_column_comes_twice(table):
+    names = [one.name for one in schema.table_of(table).columns()]
+    assert len(set(names)) == len(names)
+
+
+def test_numbers_come_back_bit_for_bit(tmp_path):
+    numbers = [0.1, -0.0, 5e-324, 1.7976931348623157e308, float("inf"), float("nan")]
+    given = frame("episodes", len(numbers)).assign(kp=numbers)
+    store.write_table(tmp_path / "x.parquet", given, "episodes")
+    found = store.read_arrow(tmp_path / "x.parquet", "episodes")["kp"].to_numpy()
+    known = ~np.isnan(numbers)
+    assert found[known].tobytes() == np.array(numbers)[known].tobytes()
+    assert np.isnan(found[~known]).all()
+
+
+@pytest.mark.parametrize("table", schema.all_tables())
+def test_fractions_are_written_byte_by_byte_and_words_once(tmp_path, table):
+    store.write_table(tmp_path / "x.parquet", frame(table, 5), table)
+    columns = pq.ParquetFile(tmp_path / "x.parquet").metadata.row_group(0).to_dict()["columns"]
+    types = {one.name: one.type for one in schema.table_of(table).columns()}
+    for one in columns:
+        is_fraction = types[one["path_in_schema"]] in (column.NUMBER, column.SINGLE)
+        assert ("BYTE_STREAM_SPLIT" in one["encodings"]) == is_fraction, one["path_in_schema"]
+        assert one["has_dictionary_page"] != is_fraction, one["path_in_schema"]
+
+
+def test_columns_come_in_the_order_of_the_schema(tmp_path):
+    given = frame("costs", 2)
+    store.write_table(tmp_path / "x.parquet", given[given.columns[::-1]], "costs")
+    assert list(store.read_arrow(tmp_path / "x.parquet", "costs").column_names) == list(given.columns)
+
+
+@pytest.mark.parametrize("table", schema.all_tables())
+def test_empty_table_keeps_its_columns(tmp_path, table):
+    store.write_table(tmp_path / "x.parquet", frame(table, 0), table)
+    found = store.read_arrow(tmp_path / "x.parquet", table)
+    assert (found.num_rows, found.schema) == (0, schema.table_of(table).schema())
+
+
+class Broken(Exception):
+    """What a writer may raise."""
+
+
+@pytest.mark.parametrize("stopped", [Broken, KeyboardInterrupt])
+def test_writer_that_raises_leaves_no_file_and_the_old_one_whole(tmp_path, stopped):
+    def half(temporary):
+        Path(temporary).write_text("half of it")
+        raise stopped
+
+    path = tmp_path / "table.json"
+    for before in ([], ["table.json"]):
+        with pytest.raises(stopped):
+            files.write_atomically(path, half)
+        assert [one.name for one in tmp_path.iterdir()] == before
+        files.write_json(path, {"whole": 1})
+    assert files.read_json(path) == {"whole": 1}
+
+
+def test_written_file_is_readable_by_all(tmp_path):
+    files.write_json(tmp_path / "x.json", {})
+    assert (tmp_path / "x.json").stat().st_mode & 0o777 == 0o644
+
+
+def parts(folder: Path, sizes) -> list[Path]:
+    """Parts of an episodes table, numbered on."""
+    paths, first = [], 0
+    for size in sizes:
+        paths.append(folder / f"part-{first}.parquet")
+        store.write_table(paths[-1], frame("episodes", size, first), "episodes")
+        first += size
+    return paths
+
+
+def test_merge_keeps_all_rows_in_the_order_of_the_parts(tmp_path):
+    paths = parts(tmp_path, (3, 1, 4))
+    assert store.merge(tmp_path / "all.parquet", paths, "episodes") == 8
+    found = store.read_arrow(tmp_path / "all.parquet", "episodes").to_pandas()
+    pd.testing.assert_frame_equal(found.astype(object), frame("episodes", 8).astype(object), check_dtype=False)
+
+
+def test_merge_writes_a_group_of_rows_as_soon_as_it_is_full(tmp_path):
+    """So that memory does not grow with the number of episodes."""
+    store.merge(tmp_path / "all.parquet", parts(tmp_path, (3, 1, 4, 2)), "episodes", group=4)
+    found = pq.ParquetFile(tmp_path / "all.parquet").metadata
+    assert [found.row_group(i).num_rows for i in range(found.num_row_groups)] == [4, 4, 2]
+
+
+def test_merge_of_a_truncated_part_names_it_and_leaves_no_file(tmp_path):
+    paths = parts(tmp_path, (3, 2))
+    paths[1].write_bytes(paths[1].read_bytes()[:-9])
+    with pytest.raises(BadResults, match=r"part-3\.parquet: it is truncated"):
+        store.merge(tmp_path / "all.parquet", paths, "episodes")
+    assert sorted(tmp_path.iterdir()) == sorted(paths)
+
+
+def test_table_of_another_kind_is_refused(tmp_path):
+    store.write_table(tmp_path / "x.parquet", frame("costs", 1), "costs")
+    for opened in (store.read_arrow, store.check):
+        with pytest.raises(BadResults, match=f"this program reads '{column.VERSION}' of table 'episodes'"):
+            opened(tmp_path / "x.parquet", "episodes")
+
+
+@pytest.mark.parametrize("kept", [0, 3, 100, -9, -1])
+def test_truncated_table_is_told_from_its_end_alone(tmp_path, kept):
+    [path] = parts(tmp_path, (50,))
+    path.write_bytes(path.read_bytes()[:kept])
+    with pytest.raises(BadResults, match="truncated"):
+        store.check(path, "episodes")
+
+
+def test_readme_of_results_is_the_one_the_schema_writes():
+    """`make reference` writes it anew."""
+    assert README.read_text(encoding="utf-8") == schema.readme()
+
+
+def test_schema_is_one_arrow_reads_without_us(tmp_path):
+    store.write_table(tmp_path / "x.parquet", frame("episodes", 2), "episodes")
+    assert pa.types.is_dictionary(pq.read_table(tmp_path / "x.parquet").schema.field("outcome").type)

@@ -1,0 +1,106 @@
+"""A law file that cannot be used: one line with the reason, exit code 2, nothing touched."""
+
+import pytest
+from support.command_line import TINY, bench, refused, refused_run
+from support.user_law import law_text
+
+from bench.experiments.tables import store
+
+
+def written(tmp_path, text: str):
+    path = tmp_path / "own.py"
+    path.write_text(text)
+    return path
+
+
+@pytest.mark.parametrize(
+    ("text", "reason"),
+    [
+        ("def law(:", "does not import (SyntaxError"),
+        ("import no_such_thing", "does not import (ModuleNotFoundError in line 1: No module named 'no_such_thing')"),
+        ("raise RuntimeError('on\\npurpose')", "does not import (RuntimeError in line 1: on purpose)"),
+        ("x = 1", "it has no REGULATOR; it needs a constant REGULATOR"),
+        ("REGULATOR = 5", "it has a REGULATOR of type int"),
+        ("REGULATOR = ('mine', 'Mine')", "it has a REGULATOR of type tuple"),
+        (law_text("return omega").replace('"mine"', '"rotation-matrix"'), "the name 'rotation-matrix' is one of ours"),
+        (law_text("return omega").replace('"mine"', '"../mine"'), "its name '../mine' is no word"),
+        (law_text("return omega").replace('"mine"', "7"), "its name 7 is no word"),
+        (law_text("return omega").replace('"Mine"', "7"), "title, source, formula and property must be texts"),
+        (law_text("return omega").replace("law)", "law, short='$x$')"), "its short name and family are ('$x$', '')"),
+        (law_text("return omega").replace("law)", "law, look=('red', 'o', '-'))"), "its look is ('red', 'o', '-')"),
+        (law_text("return omega").replace("law)", "law, equation=3.0)"), "give a bench.law.Equation(formula, spring)"),
+        (law_text("return omega").replace('"u", law', '"u"'), "its law is None"),
+        (law_text("return omega").replace('"u", law', '"u", 3.0'), "its law is 3.0"),
+        (law_text("return omega").replace("law)", "law, coordinates='any')"), "its law_in is None"),
+        (law_text("return omega").replace("law)", "law, coordinates='zyx-euler')"), "its coordinates are 'zyx-euler'"),
+        (
+            law_text("return omega").replace("law)", "None, lambda r: law, coordinates=('zyx',))"),
+            "representation 'zyx' is unknown",
+        ),
+        (law_text("return omega").replace("law)", "law, memory=(0, 1))"), "its memory is (0, 1)"),
+        (law_text("return omega").replace("law)", "law, memory=(0.0,))"), "law(R, omega, goal, gains, memory)"),
+        (law_text("return omega").replace("law)", "law, in_engine=True)"), "MuJoCo's own actuator would run"),
+        (law_text("return (1.0, 2.0)"), "returned (1.0, 2.0); it must return a tuple of three floats"),
+        (law_text("return [1.0, 2.0, 3.0]"), "returned [1.0, 2.0, 3.0]"),
+        (law_text("return ('a', 'b', 'c')"), "returned ('a', 'b', 'c')"),
+        (law_text("return None"), "returned None"),
+        (law_text("return (0, 0, 0)"), "returned (0, 0, 0)"),
+        (law_text("return omega").replace("goal, gains", "goal"), "cannot be called as law(R, omega, goal, gains)"),
+        (law_text("return (omega.x, 0.0, 0.0)"), "AttributeError"),
+        (law_text("return (speed, 0.0, 0.0)"), "NameError"),
+    ],
+)
+def test_law_file_is_refused_with_the_reason(capsys, finished, tmp_path, text, reason):
+    path = written(tmp_path, text)
+    line = refused_run(capsys, finished, "--law", path, *TINY)
+    assert reason in line
+    assert refused(capsys, "judge", path) == line
+
+
+OLD = """
+from bench.contender import Regulator
+from bench.scalar import kernel, sqrt
+from bench.so3 import (cross,
+    dot)
+"""
+
+
+def test_imports_of_before_the_public_face_are_refused_with_the_line_to_write(capsys, finished, tmp_path):
+    line = refused_run(capsys, finished, "--law", written(tmp_path, OLD), *TINY)
+    assert "No module named 'bench.contender'" in line
+    assert line.endswith("write: from bench.law import Regulator, cross, dot, kernel, sqrt")
+
+
+def test_missing_law_file_is_refused(capsys, finished, tmp_path):
+    assert "there is no such file" in refused_run(capsys, finished, "--law", tmp_path / "gone.py")
+
+
+def test_two_law_files_of_one_name_are_refused(capsys, finished, tmp_path):
+    one, two = tmp_path / "one.py", tmp_path / "two.py"
+    for path in (one, two):
+        path.write_text(law_text("return omega"))
+    line = refused_run(capsys, finished, "--law", one, "--law", two)
+    assert "two --law files name their regulator 'mine'" in line
+
+
+UNCOMPILABLE = law_text("table = {'a': [str(x) for x in omega]}", "return (-float(table['a'][0]), *omega[1:])")
+
+
+def test_law_beyond_the_compiler_is_refused_before_anything_is_touched(capsys, finished, tmp_path):
+    path = written(tmp_path, UNCOMPILABLE)
+    line = refused_run(
+        capsys, finished, "--law", path, "--regulator", "mine", "--starts", "paper", "--engine", "native"
+    )
+    assert "cannot be compiled (" in line
+    assert "--engine reference" in line
+    assert "float(unicode_type)" in line  # what in the law, not which pass of the compiler
+
+
+def test_law_beyond_the_compiler_runs_on_the_reference_engine(capsys, tmp_path):
+    path = written(tmp_path, UNCOMPILABLE)
+    out = tmp_path / "out"
+    words = ("--regulator", "mine", "--starts", "paper", "--engine", "reference", "--horizon", "0.1")
+    said = bench(capsys, "run", "--law", path, "--out", out, *words)
+    assert said.code == 0, said
+    assert set(store.read(out, "episodes")["regulator"]) == {"mine"}
+    assert "mine" not in set(store.read(out, "costs")["regulator"])

@@ -1,0 +1,154 @@
+"""MuJoCo's <orientation> actuator: what it computes, measured in MuJoCo; what the judge makes of it."""
+
+import math
+
+import mujoco
+import numpy as np
+import pytest
+from scipy.optimize import brentq
+from scipy.spatial.transform import Rotation as ScipyRotation
+from support.bits import EPS
+from support.driving import recorder, settings
+from support.states import of_scipy, vector
+
+import tasks
+from bench.base.errors import Incompatible
+from bench.engines.episode import OUTCOME, SETTLING_TICK
+from bench.engines.metrics.registry import metrics_of
+from bench.engines.simulate import run
+from bench.experiments.choice import Choice
+from bench.experiments.plan import make
+from bench.experiments.suites import SUITES
+from bench.law.contender import Gains, Goal
+from bench.law.contenders.registry import find_contender
+from tasks.base import Start
+from tasks.errors import BadValue
+from tasks.rotations import about
+from tasks.verdict import SETTLED
+
+GAINS = Gains(kp=100.0, kv=20.0)
+ONE = find_contender("in-engine")
+DT = 1e-3
+
+
+def simulation(xml):
+    """A model of MuJoCo and its data."""
+    model = mujoco.MjModel.from_xml_string(xml)
+    return model, mujoco.MjData(model)
+
+
+SERVO = simulation(tasks.task("free-body").with_servo(*GAINS).xml(DT))
+
+
+def torque(quat, goal, omega_body=(0.0, 0.0, 0.0), sim=SERVO):
+    """The actuator's torque in the body frame, from qpos, ctrl and qvel as they are given."""
+    model, data = sim
+    mujoco.mj_resetData(model, data)
+    data.qpos[:], data.ctrl[:], data.qvel[:] = quat, goal, omega_body
+    mujoco.mj_forward(model, data)
+    return data.qfrc_actuator.copy()
+
+
+def quat_of(R):
+    """A scipy rotation as MuJoCo's quaternion."""
+    return R.as_quat(scalar_first=True)
+
+
+def axes(count, seed):
+    """Unit vectors: those of the base both ways, diagonals, and drawn ones."""
+    drawn = np.random.default_rng(seed).normal(size=(count, 3))
+    directed = [*np.eye(3), *-np.eye(3), (0.6, 0.8, 0.0), (0.0, 0.6, 0.8), (1 / 3, 2 / 3, 2 / 3)]
+    return [*map(np.array, directed), *(drawn / np.linalg.norm(drawn, axis=1, keepdims=True))]
+
+
+# From a ten-thousand-millionth of a radian to as much below a half turn; 3.14159 and on are decades of what is left.
+ANGLES = (1e-10, 1e-6, 1e-3, 0.1, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0, *(math.pi - 10.0**-k for k in range(1, 11)))
+
+
+@pytest.mark.parametrize("angle", ANGLES)
+def test_torque_is_kp_times_the_rotation_vector_and_minus_kv_times_the_rate(angle):
+    """scipy's logarithm beside it, and our law; all in the base frame."""
+    draw = np.random.default_rng(1)
+    for k in axes(20, 2):
+        R_d = ScipyRotation.random(rng=draw)
+        R = ScipyRotation.from_rotvec(-angle * k) * R_d
+        omega = draw.normal(scale=3.0, size=3)
+        found = R.apply(torque(quat_of(R), quat_of(R_d), R.inv().apply(omega)))
+        expected = GAINS.kp * (R_d * R.inv()).as_rotvec() - GAINS.kv * omega
+        ours = ONE.law(of_scipy(R), vector(omega), Goal(of_scipy(R_d)), GAINS)
+        scale = GAINS.kp * math.pi + GAINS.kv * np.linalg.norm(omega)
+        # some ten roundings of each quaternion and matrix
+        np.testing.assert_allclose(found, expected, rtol=0.0, atol=20 * EPS * scale)
+        np.testing.assert_allclose(found, ours, rtol=0.0, atol=20 * EPS * scale)
+
+
+def test_exact_half_turn_is_pushed_with_full_strength_about_every_axis():
+    """One way or the other: rounding chooses."""
+    for k in axes(50, 3):
+        found = torque((0.0, *k), (1.0, 0.0, 0.0, 0.0))
+        expected = math.copysign(GAINS.kp * math.pi, found @ k) * k
+        np.testing.assert_allclose(found, expected, rtol=0.0, atol=20 * EPS * GAINS.kp * math.pi)
+
+
+def test_two_quaternions_of_one_half_turn_are_pushed_opposite_ways_and_of_no_other_turn():
+    """There alone the command is no function of R."""
+    for k in axes(20, 4):
+        for cosine in (0.0, 1e-3, 0.5, 0.9):
+            quat = np.array([cosine, *math.sqrt(1.0 - cosine**2) * k])
+            one, other = (torque(sign * quat, (1.0, 0.0, 0.0, 0.0)) for sign in (1.0, -1.0))
+            expected = -one if cosine == 0.0 else one
+            np.testing.assert_allclose(other, expected, rtol=0.0, atol=20 * EPS * GAINS.kp * math.pi)
+
+
+# ---------------------------------------------------------------------------- before the judge
+
+
+def angle_left(t):
+    """Of 1 rad, thetadd = -100 theta - 20 thetad from rest."""
+    return (1.0 + 10.0 * t) * math.exp(-10.0 * t)
+
+
+@pytest.mark.parametrize("angle", [1e-3, 1.0, 2.0, 3.0, math.pi - 1e-9, math.pi])
+def test_response_from_rest_is_linear_from_every_angle(angle):
+    """f(theta) = theta to the end; Runge-Kutta of MuJoCo asks the actuator at each stage: of fourth order, 1e-9."""
+    kept: list = []
+    starts = [Start("one", about((2.0, -1.0, 2.0), angle))]
+    run("reference", ONE, "free-body", starts, settings(DT, 0.8), (recorder(kept),), "rk4")
+    found = [2.0 * math.asin(math.sqrt(one.haversine)) for one in kept]
+    expected = [angle * angle_left(one.time) for one in kept]
+    np.testing.assert_allclose(found, expected, rtol=0.0, atol=1e-8 * angle)
+
+
+@pytest.mark.parametrize("start_set", ["half-turn", "uniform", "poles"])
+def test_it_settles_from_every_start_at_rest_in_the_time_of_the_linear_response(start_set):
+    """Exact half turns among them: no dead point. Euler's tick delays the rate by one, which costs a few ticks."""
+    starts = [start for start in tasks.start_set(start_set, 64) if math.acos(min(1.0, abs(start.quat_wxyz[0]))) > 1e-3]
+    rows = run("native", ONE, "free-body", starts, settings(DT, 1.5), metrics_of(on_arm=False))
+    assert (rows[:, OUTCOME] == SETTLED).all()
+    expected = brentq(lambda t: angle_left(t) - 0.02, 0.1, 2.0)
+    np.testing.assert_allclose(DT * rows[:, SETTLING_TICK], expected, rtol=0.0, atol=4 * DT)
+
+
+@pytest.mark.parametrize("word", SUITES)
+def test_suite_runs_it_in_mujoco_alone_on_sampled_starts_and_half_turns(word):
+    units = make(word, [ONE]).of("free-body", "arm", "robustness")
+    assert {unit.engine for unit in units} <= {"native", "reference"}
+    assert {"uniform", "half-turn", "paper", "poles"} <= {unit.selector for unit in units}
+    assert {unit.arm for unit in units} == {""}
+
+
+@pytest.mark.parametrize(
+    ("choice", "reason"),
+    [
+        (Choice(tasks=("free-body",), engines=("ideal-rk4",)), "ideal-rk4 simulates no actuator of MuJoCo"),
+        (Choice(arms=("ur5e",)), "'in-engine' is an actuator of MuJoCo and turns the free body alone"),
+    ],
+)
+def test_it_is_refused_where_mujoco_has_no_such_actuator(choice, reason):
+    with pytest.raises(Incompatible, match=reason):
+        make("quick", [ONE], choice)
+
+
+def test_arm_has_no_such_actuator():
+    with pytest.raises(BadValue, match="'arm-regulation' has no model with an <orientation> actuator"):
+        tasks.task("arm-regulation", "ur5e").with_servo(*GAINS)

@@ -1,0 +1,138 @@
+"""The law that brakes late: its equation by scipy, its energy, the side it keeps, what a lying sensor does to it."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation as ScipyRotation
+from support.driving import settings
+from support.states import of_scipy, vector
+
+import tasks
+from bench.engines.episode import OUTCOME, SETTLING_TICK
+from bench.engines.metrics.registry import metrics_of
+from bench.engines.simulate_perturbed import run_disturbed as run
+from bench.law.contender import AT_REST, Gains, Goal
+from bench.law.contenders.registry import find_contender
+from bench.law.contenders.regulators.late_braking import EASED, law
+from tasks.condition import Condition
+from tasks.verdict import SETTLED
+
+GAINS = Gains(kp=70.0, kv=13.0)
+SIXTH = math.pi / 3.0
+NONE_YET = (1.0, 0.0, 0.0, 0.0)
+LOOSE = 1e-11 * GAINS.kp
+TURNS = [*np.eye(3), *-np.eye(3), (0.6, 0.8, 0.0), (0.0, 0.6, -0.8), (1 / 3, 2 / 3, 2 / 3), (-2 / 3, 1 / 3, 2 / 3)]
+"""Axes of every kind: along the base's, within a plane of theirs, and neither."""
+
+
+def command(E, omega=AT_REST, memory=NONE_YET, R_d=None):
+    """(u, memory) where the turn from R to R_d is E, a scipy rotation."""
+    R_d = R_d or ScipyRotation.identity()
+    R = E.inv() * R_d
+    goal = Goal(of_scipy(R_d))
+    u, after = law(of_scipy(R), vector(omega), goal, GAINS, tuple(map(np.float64, memory)))
+    return np.array(u), after
+
+
+def turn(theta, k):
+    return ScipyRotation.from_rotvec(theta * np.asarray(k))
+
+
+def lift(E, near):
+    """scipy's quaternion (eta, eps) of E, the one of the two that is nearer to another."""
+    q = E.as_quat(scalar_first=True)
+    return q if q @ near >= 0.0 else -q
+
+
+def written_out(q, omega):
+    """The law's equation on a quaternion (eta, eps) that knows its side."""
+    eta, eps = q[0], q[1:]
+    pull = GAINS.kp * (1.0 + eta**2) + 0.8 * GAINS.kv * max(0.0, eps @ omega)
+    return pull * eps - GAINS.kv * np.asarray(omega)
+
+
+def draws(count, seed):
+    """(turn to the goal, goal, omega) drawn."""
+    draw = np.random.default_rng(seed)
+    turns, goals = (ScipyRotation.random(count, rng=draw) for _ in range(2))
+    return zip(turns, goals, draw.normal(scale=8.0, size=(count, 3)), strict=True)
+
+
+def test_first_command_is_the_equation_on_scipys_shorter_quaternion():
+    for E, R_d, omega in draws(300, 1):
+        u, _ = command(E, omega, R_d=R_d)
+        np.testing.assert_allclose(u, written_out(lift(E, NONE_YET), omega), rtol=0.0, atol=LOOSE)
+
+
+def test_command_is_the_equation_on_the_side_it_is_on_to_240_degrees_and_on_the_other_beyond():
+    for k, omega in zip(TURNS, np.random.default_rng(2).normal(scale=8.0, size=(len(TURNS), 3)), strict=True):
+        q, memory = np.array(NONE_YET), NONE_YET
+        for theta in np.radians(np.arange(1.0, 240.0, 2.0)):
+            q = lift(turn(theta, k), q)
+            u, memory = command(turn(theta, k), omega, memory)
+            np.testing.assert_allclose(u, written_out(q, omega), rtol=0.0, atol=LOOSE)
+        beyond = turn(np.radians(241.0), k)
+        u, memory = command(beyond, omega, memory)
+        np.testing.assert_allclose(u, written_out(-lift(beyond, q), omega), rtol=0.0, atol=LOOSE)
+
+
+def test_memory_is_the_quaternions_direction():
+    for E, R_d, omega in draws(100, 4):
+        _, memory = command(E, omega, R_d=R_d)
+        np.testing.assert_allclose(memory / np.linalg.norm(memory), lift(E, NONE_YET), rtol=0.0, atol=1e-12)
+
+
+def test_goal_that_steps_away_from_a_body_at_rest_on_it_is_met_the_short_way():
+    for k in TURNS:
+        _, memory = command(turn(0.01, k))
+        u, _ = command(turn(-3.0, k), memory=memory)
+        assert u @ k < 0.0
+
+
+@pytest.mark.parametrize("memory", [NONE_YET, (0.0, 0.36, -0.48, 0.8)])
+def test_energy_falls_by_a_fifth_of_the_dampers_power_at_least(memory):
+    """V = Kp U + omega^2/2, U = (2/3)(4 - 3 eta - eta^3), etadot = eps . omega / 2; on either side."""
+    for E, _, omega in draws(300, 3):
+        u, after = command(E, omega, memory)
+        eta, *eps = lift(E, after)
+        rate = -2.0 * GAINS.kp * (1.0 + eta**2) * 0.5 * np.dot(eps, omega) + u @ omega
+        assert rate <= -(1.0 - EASED) * GAINS.kv * (omega @ omega) + 1e-9
+
+
+HALF_TURNS = [start for start in tasks.start_set("half-turn") if start.id.endswith("exact")]
+
+
+def judged(beyond):
+    """Whether each exact half turn is left for good where the sensor lies by `beyond` near it, and when [s]."""
+    chosen = settings(horizon_s=2.0)
+    one = find_contender("late-braking")
+    rows = run(one, HALF_TURNS, Condition(worst_attitude_error=beyond), chosen, metrics_of(on_arm=False), 0)
+    return rows[:, OUTCOME] == SETTLED, rows[:, SETTLING_TICK] * chosen.dt_s
+
+
+@pytest.mark.parametrize("beyond", [0.0, 0.01, 0.3, 1.0])
+def test_sensor_that_lies_by_less_than_60_degrees_does_not_hold_it_at_a_half_turn(beyond):
+    settled, times = judged(beyond)
+    assert settled.all()
+    assert times.max() < 0.7  # the linear one takes 0.58 s
+
+
+def test_sensor_that_lies_by_more_than_60_degrees_holds_it():
+    settled, _ = judged(SIXTH + 0.05)
+    assert not settled.any()
+
+
+def test_reports_each_less_than_45_degrees_off_are_taken_for_the_same_side():
+    """Their quaternions are within 45 degrees of each other, those of the two sides at least 135 apart.
+
+    About a half turn, where within 60 degrees no report on the other side is past 240 degrees.
+    """
+    draw = np.random.default_rng(5)
+    for k in TURNS:
+        memory = (0.0, *k)
+        for theta in np.radians(np.linspace(194.0, 166.0, 200)):
+            off = draw.normal(size=3)
+            report = turn(draw.uniform() * np.pi / 4.0, off / np.linalg.norm(off)) * turn(theta, k)
+            _, memory = command(report, memory=memory)
+            assert lift(turn(theta, k), (0.0, *k)) @ memory > 0.0

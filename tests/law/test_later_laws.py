@@ -1,0 +1,171 @@
+"""The later laws: springs, half turns, response from rest, linear decay; closed forms and scipy as oracles."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+from scipy.spatial.transform import Rotation as ScipyRotation
+from support.states import of_scipy, vector
+
+from bench.law.contender import AT_REST, Gains, Goal
+from bench.law.contenders.registry import find_contender
+
+GAINS = Gains(kp=100.0, kv=20.0)
+
+# The spring of each isotropic law, f in u = Kp f(theta) k - Kv omega, from rest, the short way round.
+SPRINGS = {
+    "rotation-matrix": math.sin,
+    "bounded-command": math.sin,
+    "square-root": lambda theta: 2.0 * math.sin(theta / 2.0),
+    "quaternion-shortest": lambda theta: 2.0 * math.sin(theta / 2.0),
+    "hybrid": lambda theta: 2.0 * math.sin(theta / 2.0),
+    "sliding": lambda theta: 2.0 * math.sin(theta / 2.0),
+    "mrp-linearized": lambda theta: 2.0 * math.sin(theta / 2.0),
+    "rotation-vector": lambda theta: theta,
+    "mrp": lambda theta: 4.0 * math.tan(theta / 4.0),
+    "gibbs": lambda theta: 2.0 * math.tan(theta / 2.0),
+    "paielli-bach": lambda theta: 2.0 * math.tan(theta / 2.0),
+    "late-braking": lambda theta: (1.0 + math.cos(theta / 2.0) ** 2) * math.sin(theta / 2.0),
+}
+
+# What the rate adds to thetadd = -Kp f - Kv thetad, of laws whose damping is no mere Kv omega.
+ADDED = {
+    "bounded-command": lambda theta, rate: 20.0 * rate * (1.0 - 1.0 / math.hypot(1.0, rate / 5.0)),
+    "paielli-bach": lambda theta, rate: 0.5 * rate**2 * math.tan(theta / 2.0),
+    "mrp-linearized": lambda theta, rate: -0.5 * rate**2 * math.tan(theta / 4.0),
+    "sliding": lambda theta, rate: 10.0 * (1.0 - math.cos(theta / 2.0)) * rate,
+    "late-braking": lambda theta, rate: 16.0 * math.sin(theta / 2.0) ** 2 * min(rate, 0.0),
+}
+
+
+def command(word, R, omega=AT_REST, R_d=None, memory=None):
+    """u of scipy rotations, and the memory after it."""
+    one = find_contender(word)
+    goal = Goal(of_scipy(R_d or ScipyRotation.identity()))
+    if one.regulator.memory is None:
+        return np.array(one.law(of_scipy(R), vector(omega), goal, GAINS)), None
+    u, after = one.law(of_scipy(R), vector(omega), goal, GAINS, memory or one.regulator.memory)
+    return np.array(u), after
+
+
+def axes(count, seed):
+    """Unit vectors, drawn."""
+    drawn = np.random.default_rng(seed).normal(size=(count, 3))
+    return drawn / np.linalg.norm(drawn, axis=1, keepdims=True)
+
+
+def test_weighted_columns_rests_at_three_half_turns_and_no_others():
+    for k in np.eye(3):
+        u, _ = command("weighted-columns", ScipyRotation.from_matrix(2.0 * np.outer(k, k) - np.eye(3)))
+        assert (u == 0.0).all()
+    for k in axes(50, 4):
+        u, _ = command("weighted-columns", ScipyRotation.from_rotvec(math.pi * k))
+        assert np.linalg.norm(u) > 1e-3 * GAINS.kp
+
+
+@pytest.mark.parametrize("word", SPRINGS)
+def test_response_from_rest_is_that_of_one_scalar_equation(word):
+    """thetadd = -Kp f(theta) - Kv thetad, as scipy integrates it; the law on scipy's three dimensions beside it."""
+    added = ADDED.get(word, lambda theta, rate: 0.0)
+
+    def scalar(_, state):
+        theta, rate = state
+        return rate, -GAINS.kp * SPRINGS[word](theta) - GAINS.kv * rate + added(theta, rate)
+
+    times = np.linspace(0.0, 1.0, 21)
+    for theta, k in zip((0.1, 1.0, 2.0, 3.0), axes(4, 5), strict=True):
+        found = angles(word, theta * k, AT_REST, times)
+        expected = solve_ivp(scalar, (0.0, 1.0), (theta, 0.0), "DOP853", times, rtol=1e-11, atol=1e-13).y[0]
+        np.testing.assert_allclose(found, abs(expected), rtol=0.0, atol=1e-8)  # beyond the goal theta is negative
+
+
+def path(word, turn, omega, times):
+    """R (a scipy stack) and omega of the closed loop over time, the memory kept as it was at the start."""
+    memory = find_contender(word).regulator.memory
+    start = ScipyRotation.from_rotvec(turn)
+    if memory is not None:
+        memory = command(word, start, omega)[1]
+
+    def rate(_, state):
+        R = ScipyRotation.from_rotvec(state[:3]) * start
+        omega = state[3:]
+        u, _ = command(word, R, omega, memory=memory)
+        phi = state[:3]
+        size = np.linalg.norm(phi)
+        # phidot = J_l^-1(phi) omega; the chart is drawn anew about the start, at most half a turn away
+        if size < 1e-6:
+            phidot = omega - 0.5 * np.cross(phi, omega)
+        else:
+            cot = 1.0 / size**2 - 0.5 / size / math.tan(size / 2.0)
+            phidot = omega - 0.5 * np.cross(phi, omega) + cot * np.cross(phi, np.cross(phi, omega))
+        return np.concatenate((phidot, u))
+
+    solved = solve_ivp(
+        rate, (0.0, times[-1]), np.concatenate((np.zeros(3), omega)), "DOP853", times, rtol=1e-11, atol=1e-12
+    )
+    assert solved.success
+    return ScipyRotation.from_rotvec(solved.y[:3].T) * start, solved.y[3:].T
+
+
+def angles(word, turn, omega, times):
+    """Angle to the identity over time."""
+    return path(word, turn, omega, times)[0].magnitude()
+
+
+def linear(times, x, rate):
+    """The critically damped response (Murphy 1988, 2.3)."""
+    times = times[:, None]
+    return (x + (rate + 10.0 * x) * times) * np.exp(-10.0 * times)
+
+
+PARAMETERS = {"paielli-bach": lambda theta: np.sin(theta / 2.0), "mrp-linearized": lambda theta: np.tan(theta / 4.0)}
+
+
+@pytest.mark.parametrize("word", PARAMETERS)
+def test_parameters_of_a_linearized_law_decay_linearly(word):
+    """sin(theta/2) k and tan(theta/4) k of the turn, tumbling at first."""
+    times = np.linspace(0.0, 1.0, 41)
+    turn, omega = np.array((0.9, -0.7, 0.5)), np.array((1.0, 2.0, -1.5))
+
+    def parameters(R):
+        phi = R.as_rotvec()
+        theta = np.linalg.norm(phi, axis=-1, keepdims=True)
+        return PARAMETERS[word](theta) * phi / np.maximum(theta, 1e-300)
+
+    R, _ = path(word, turn, omega, times)
+    h = 1e-6
+    ends = parameters(ScipyRotation.from_rotvec([h * omega, -h * omega]) * ScipyRotation.from_rotvec(turn))
+    rate = (ends[0] - ends[1]) / (2.0 * h)
+    expected = linear(times, parameters(ScipyRotation.from_rotvec(turn)), rate)
+    np.testing.assert_allclose(parameters(R), expected, rtol=0.0, atol=1e-7)
+
+
+def test_sliding_law_slides():
+    """z = omega - lambda eps obeys zdot = -K z, K = 10, lambda = 20 at the paper's gains."""
+    times = np.linspace(0.0, 0.6, 25)
+    R, omega = path("sliding", np.array((1.2, -0.8, 0.4)), np.array((3.0, -1.0, 2.0)), times)
+    eps = -R.as_quat()[:, :3] * np.sign(R.as_quat()[:, 3:])  # of the turn to the identity
+    z = omega - 20.0 * eps
+    np.testing.assert_allclose(z, z[0] * np.exp(-10.0 * times)[:, None], rtol=0.0, atol=1e-7)
+
+
+def test_unwinding_law_takes_the_long_way_that_hysteresis_does_not():
+    start = ScipyRotation.from_rotvec((0.1, 0.0, 0.0))
+    away, _ = command("quaternion-unwinding", start)
+    home, _ = command("hybrid", start)
+    assert away[0] > 0.0 > home[0]
+
+
+def test_laws_with_memory_keep_their_side_beyond_a_half_turn_and_change_it_later():
+    """From just short of a half turn: hybrid to eta = -0.4, late-braking to -0.5, mrp-linearized to |sigma|^2 = 1.5."""
+    ends = {
+        "hybrid": 2.0 * math.acos(-0.4),
+        "mrp-linearized": 4.0 * math.atan(math.sqrt(1.5)),
+        "late-braking": 2.0 * math.acos(-0.5),
+    }
+    for word, end in ends.items():
+        _, memory = command(word, ScipyRotation.from_rotvec((3.1, 0.0, 0.0)))
+        for theta, sign in ((math.pi + 0.01, -1.0), (end - 0.01, -1.0), (end + 0.01, 1.0)):
+            u, _ = command(word, ScipyRotation.from_rotvec((theta, 0.0, 0.0)), memory=memory)
+            assert u[0] * sign > 0.0, (word, theta)

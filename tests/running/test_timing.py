@@ -1,0 +1,198 @@
+"""Timing: the order of the passes, the reference kernel's value, the ratios, and the rows. No time is asserted."""
+
+import os
+import subprocess
+import sys
+
+import numpy as np
+import pandas as pd
+import pytest
+from scipy.stats import binom
+from support.command_line import bench
+
+from bench.base.provenance import machine_key
+from bench.cli.time import folder_for
+from bench.law.contender import Contender, Regulator
+from bench.law.contenders.registry import find_contender
+from bench.law.scalar import kernel, sqrt
+from bench.running import timing
+from bench.running.timing import benchmarks, law, reference_kernel
+from bench.running.timing.benchmark import ENGINE, KERNEL, LAW, LOOP, ROLLOUT, Benchmark
+from bench.running.timing.ratios import ranks, ratio
+from bench.running.timing.rows import QUICK_PASSES, frame
+from bench.running.timing.session import measure, order
+
+LAWS = ("rotation-matrix", "linearized-euler/zyx-euler")
+
+
+@pytest.fixture(scope="module")
+def quick(tmp_path_factory):
+    """A quick run of two laws: its file, and what it told of its samples."""
+    told = []
+    contenders = [find_contender(word) for word in LAWS]
+    folder = tmp_path_factory.mktemp("timings")
+    path = timing.run(contenders, folder, quick=True, report=told.append, json_file=folder / "samples.json")
+    assert [one.name for one in told if one.total == 0] == list(LAWS)
+    return path, [one for one in told if one.total]
+
+
+def benchmark(name, call=lambda: None, ticks=10):
+    regulator = Regulator(name, "", "", "", law=None)
+    return Benchmark(LAW, Contender(regulator), "", ticks, call)
+
+
+def three(drift):
+    """A kernel of 1, rollout of 2 and a native loop of 3 s a sample, each pass slowed by its drift."""
+    every = [
+        Benchmark(KERNEL, None, "", 10, lambda: None),
+        Benchmark(ENGINE, None, ROLLOUT, 10, lambda: None),
+        benchmark("one")._replace(what=ENGINE, engine="native"),
+    ]
+    return every, np.outer(drift, (1.0, 2.0, 3.0))
+
+
+def test_reference_kernel_is_the_same_arithmetic_as_ever():
+    given = reference_kernel.START, reference_kernel.STEPS
+    tolerance = {"rel": 0, "abs": reference_kernel.TOLERANCE}
+    assert reference_kernel.chain(*given) == pytest.approx(1.599255347080933, **tolerance)
+    assert reference_kernel.compiled()(*given) == pytest.approx(reference_kernel.RESULT, **tolerance)
+
+
+def test_every_pass_visits_everything_once_in_an_order_of_its_own():
+    passes = order(9, 5, seed=0)
+    assert all(sorted(one) == list(range(9)) for one in passes)
+    assert len({tuple(one) for one in passes}) == 5
+    assert order(9, 5, seed=0) == passes
+    assert order(9, 5, seed=1) != passes
+
+
+def test_run_visits_everything_in_every_pass(quick):
+    _, told = quick
+    each = len(told) // QUICK_PASSES
+    passes = [[one.name for one in told[k * each : (k + 1) * each]] for k in range(QUICK_PASSES)]
+    assert all(sorted(names) == sorted(passes[0]) for names in passes)
+    assert len(set(passes[0])) == each == 1 + len(LAWS) + 3 * len(LAWS) + 2
+    assert len({tuple(names) for names in passes}) > 1
+    assert [one.done for one in told] == list(range(1, len(told) + 1))
+    assert {one.total for one in told} == {len(told)}
+
+
+def test_file_is_named_after_the_machine_and_says_where_it_comes_from(quick):
+    path, _ = quick
+    assert path.name == f"{machine_key()}.parquet"
+    about = timing.about(path)
+    assert {"commit", "dirty", "versions", "cpu", "date"} <= set(about)
+    assert about["quick"] is True
+
+
+def test_file_has_one_row_for_everything_timed(quick):
+    rows = timing.read(quick[0])
+    keys = set(zip(rows.what, rows.engine, rows.regulator, rows.representation, strict=True))
+    laws = [tuple(f"{word}/".split("/")[:2]) for word in LAWS]
+    expected = {(LAW, "", *one) for one in laws} | {(LOOP, "", "", ""), (ENGINE, ROLLOUT, "", "")}
+    expected |= {(ENGINE, engine, *one) for engine in benchmarks.ENGINES for one in laws}
+    assert keys == expected
+    assert len(rows) == len(keys)
+
+
+def test_numbers_of_the_file_are_those_of_times(quick):
+    rows = timing.read(quick[0])
+    assert (rows[["ns_per_tick", "ns_reference_kernel", "ratio", "ratio_low"]] > 0).all(axis=None)
+    assert rows.ratio.between(rows.ratio_low, rows.ratio_high).all()
+    assert (rows.ratio_rollout.notna() == (rows.engine == "native")).all()
+    assert (rows.passes == QUICK_PASSES).all()
+    assert (rows.ticks > 0).all()
+    assert rows.ns_reference_kernel.nunique() == 1
+
+
+def test_pytest_benchmark_reads_the_samples_and_finds_the_same_medians(quick, tmp_path):
+    given = ["compare", quick[0].with_name("samples.json"), "--columns=median,rounds,iterations", "--csv=read"]
+    subprocess.run([sys.executable, "-m", "pytest_benchmark", *given], cwd=tmp_path, check=True, capture_output=True)
+    rows, read = timing.read(quick[0]), pd.read_csv(tmp_path / "read.csv")
+    expected = {*rows.ns_per_tick.round(6), round(rows.ns_reference_kernel[0], 6)}
+    assert {*(read["median"] * 1e9).round(6)} == expected
+    assert (read.rounds == QUICK_PASSES).all()
+    assert {*rows.ticks} <= {*read.iterations}
+
+
+def test_table_has_a_line_for_each_law_and_two_for_comparison(quick):
+    lines = timing.table(quick[0])
+    assert list(lines.law) == [*LAWS, "(empty loop)", "(mujoco.rollout)"]
+    assert lines.equals(timing.table(timing.read(quick[0])))
+    assert all(isinstance(cell, str) for cell in lines.to_numpy().ravel())
+
+
+def test_ratio_is_taken_within_a_pass_whatever_the_machine_does_between():
+    rows = frame(*three(drift=(1.0, 5.0, 0.5, 2.0, 3.0, 1.0, 7.0))).set_index("engine")
+    assert rows.loc["native", ["ratio", "ratio_low", "ratio_high"]].tolist() == [3.0, 3.0, 3.0]
+    assert rows.loc["native", "ns_per_tick"] == 0.6e9  # in the middle one of the passes
+    rollout = rows.loc["native", ["ratio_rollout", "ratio_rollout_low", "ratio_rollout_high"]].tolist()
+    assert rollout == pytest.approx([1.5, 1.5, 1.5], rel=1e-15)
+
+
+@pytest.mark.parametrize("passes", [6, 7, 20, 31, 61, 400])
+def test_interval_of_the_median_covers_95_percent_and_no_more_than_needed(passes):
+    low, high = ranks(passes)
+    assert low + high == passes - 1
+    assert 1 - 2 * binom.cdf(low, passes, 0.5) >= 0.95
+    assert 1 - 2 * binom.cdf(low + 1, passes, 0.5) < 0.95
+
+
+def test_interval_is_the_whole_range_when_there_are_few_passes():
+    assert ratio(np.array([3.0, 1.0, 2.0]), np.ones(3)) == (2.0, 1.0, 3.0)
+
+
+def test_law_is_timed_on_rotations_with_a_goal_of_their_own():
+    states = law.states()
+    R, R_d = states[:, :9].reshape(-1, 3, 3), states[:, 12:].reshape(-1, 3, 3)
+    identity = np.broadcast_to(np.eye(3), R.shape)
+    np.testing.assert_allclose(R @ R.transpose(0, 2, 1), identity, rtol=0, atol=1e-14)
+    np.testing.assert_allclose(R_d @ R_d.transpose(0, 2, 1), identity, rtol=0, atol=1e-14)
+    assert len(np.unique(states, axis=0)) == law.STATES
+
+
+@kernel
+def not_a_number(R, omega, goal, gains):
+    return (sqrt(-1.0 - R.n[0] * R.n[0]), omega[1], omega[2])
+
+
+def test_law_without_a_finite_command_is_a_row_without_a_time():
+    failing = Contender(Regulator("failing", "", "", "", law=not_a_number, origin=__file__))
+    one = benchmarks._law(LAW, failing)
+    assert one.ticks == 0
+    every, seconds = three(drift=np.ones(7))
+    rows = frame([*every, one], np.column_stack((seconds, np.ones(7))))
+    assert rows[["ns_per_tick", "ratio"]].iloc[-1].isna().all()
+    assert timing.table(rows).iloc[-1]["alone [ns]"] == "fails"
+
+
+def test_measuring_takes_the_fastest_round_and_writes_nothing_to_the_terminal(capfd):
+    before = os.environ.get("PYTEST_CURRENT_TEST")
+    seconds = measure([benchmark("one"), benchmark("two")], passes=3)
+    assert seconds.shape == (3, 2)
+    assert np.isfinite(seconds).all()
+    assert capfd.readouterr() == ("", "")
+    assert os.environ.get("PYTEST_CURRENT_TEST") == before
+
+
+ENDINGS = [(KeyboardInterrupt, KeyboardInterrupt, "^$"), (ArithmeticError, RuntimeError, "as planned")]
+
+
+@pytest.mark.parametrize(("raised", "told", "reason"), ENDINGS)
+def test_interrupt_or_failure_of_a_thing_ends_the_measuring_with_its_reason(raised, told, reason):
+    def broken():
+        raise raised("as planned")
+
+    with pytest.raises(told, match=reason):
+        measure([benchmark("one", broken)], passes=2)
+
+
+def test_only_a_whole_run_writes_unasked_where_files_are_tracked():
+    found = [folder_for((), (), quick).name for quick in (False, True)] + [folder_for((), ("gibbs",), False).name]
+    assert found == ["timings", "timings-partial", "timings-partial"]
+
+
+def test_timings_go_into_the_folder_that_is_named(capsys, tmp_path):
+    words = ("--quick", "--regulator", "gibbs", "--arm", "ur5e", "--out", tmp_path / "mine")
+    assert bench(capsys, "time", *words).code == 0
+    assert len(list((tmp_path / "mine").glob("*.parquet"))) == 1
