@@ -66,8 +66,8 @@ def model_xml(task: ContactTask, arm: Arm, dt: float, contact: ContactModel = ST
     """The judge's MJCF model of a task on an arm, with integration step dt [s].
 
     Sensors of the site "hand": those of tasks.sensors.SENSORS, its position p [m], then force [N] and moment [N m] in
-    the hand's frame as MuJoCo gives them, if anything can touch the gap at the deepest contact [m] (at most 0, and 0 where
-    there is no contact), and the joint of the scene [rad] if there is one.
+    the hand's frame as MuJoCo gives them, if anything can touch the gap at the deepest contact [m] (at most 0, and 0
+    where there is no contact), and the joint of the scene [rad] if there is one.
 
     Errors:
         BadValue: the arm has no site "wrist".
