@@ -2,8 +2,7 @@
 
 A whole controller (`bench.running.timing.controller`) computes the forward kinematics, D and fg, then the law, the
 Jacobian, its inverse and (2.2); plant, judge and metrics are not in it. Every share of a controller has this one
-denominator: the controller with the rotation-matrix law. Laws tie by time where their shares differ by at most
-`standing.MEASURABLE`.
+denominator: the controller with the rotation-matrix law. Laws tie where shares differ by at most `standing.MEASURABLE`.
 """
 
 from __future__ import annotations

@@ -59,7 +59,7 @@ class Other(NamedTuple):
     @property
     def file(self) -> Path:
         """Return the path of its file on this machine."""
-        return Path(inspect.getfile(contenders)).parents[2] / self.where
+        return Path(inspect.getfile(contenders)).parents[3] / self.where
 
 
 def every_other() -> list[Other]:
