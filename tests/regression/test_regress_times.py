@@ -106,7 +106,7 @@ def test_side_that_cannot_compile_says_so_and_which_it_is(sides, tmp_path, at):
 def test_base_from_before_there_was_bench_timing_says_so(tmp_path):
     (tmp_path / "bench").mkdir()
     (tmp_path / "bench" / "__init__.py").touch()
-    with pytest.raises(SideFailed, match=r"there is no bench\.timing yet"):
+    with pytest.raises(SideFailed, match=r"there is no bench\.running\.timing yet"):
         timing.run_benchmarks([Side(tmp_path)], rounds=2)
 
 
