@@ -10,7 +10,7 @@ LINES = {
     "bench/__init__.py": 28,
     "bench/__main__.py": 29,
     "bench/audit": 2_069,
-    "bench/base": 359,
+    "bench/base": 356,
     "bench/cli": 2_511,
     "bench/engines": 6_336,
     "bench/experiments": 5_865,
@@ -31,13 +31,13 @@ LINES = {
     "tests/law": 3_552,
     "tests/regression": 656,
     "tests/report": 2_686,
-    "tests/repository": 619,
+    "tests/repository": 605,
     "tests/running": 1_201,
     "tests/studies": 829,
     "tests/support": 3_700,
     "tests/tasks": 2_349,
     "report": 12_292,
-    "tasks": 5_161,
+    "tasks": 5_157,
 }
 """Lines of Python a room. Who needs more takes them from another room and lowers that number in the same commit."""
 LONGEST_FILE = 250
