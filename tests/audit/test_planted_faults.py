@@ -105,7 +105,7 @@ def whole_turn_too_much(R, R_d):
 
 
 def unit_vector(R, R_d):
-    """Of length 1 at every angle: bang-bang."""
+    """Return a vector of length 1 at every angle (bang-bang)."""
     e = scipy_in_base(R, R_d)
     return e / np.linalg.norm(e) if e.any() else e
 

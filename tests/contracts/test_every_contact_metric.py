@@ -52,7 +52,7 @@ def measured_poses() -> list[Pose]:
 
 
 def broken_poses() -> list[Pose]:
-    """The same with records that broke off: at once, after a tick, after a tick that is not finite."""
+    """Return poses whose records end at once, after a tick, and after a tick that is not finite."""
     records = [np.zeros((0, WIDTH)), np.zeros((1, WIDTH)), np.full((3, WIDTH), np.nan)]
     words = [word for word in OUTCOMES.values() if word != "done"]
     return [

@@ -76,7 +76,7 @@ def measured(case) -> np.ndarray:
 
 
 def jacobian(case) -> np.ndarray:
-    """Of the hand's site, of the arm's joints: 6 x n."""
+    """Return the 6 x n Jacobian of the hand's site with respect to the arm's joints."""
     J = np.zeros((6, case.model.nv))
     mujoco.mj_jacSite(case.model, case.data, J[:3], J[3:], case.model.site("hand").id)
     return J[:, : case.arm.joints]

@@ -25,7 +25,7 @@ GOALS = list(ScipyRotation.random(12, rng=np.random.default_rng(41)))
 
 
 def goals(one) -> list[ScipyRotation]:
-    """Those at which its coordinates are far from singular: of coordinates seen from the goal all, or none."""
+    """Return the goals at which its coordinates are far from singular."""
     return [goal for goal in GOALS if margin(one, goal, goal) > REGULAR]
 
 

@@ -59,7 +59,7 @@ def charts(representation, R):
 
 
 def coordinates(representation, draw, scale):
-    """As many numbers as it has coordinates."""
+    """Draw as many numbers as it has coordinates."""
     return vector(draw.normal(scale=scale, size=len(representation.symbols)))
 
 

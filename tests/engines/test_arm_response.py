@@ -118,7 +118,7 @@ def off_jumps(law, quat_wxyz) -> bool:
 
 
 def exact_angles(arm: str, law) -> np.ndarray:
-    """Of the ideal plant by Runge-Kutta, to 1e-5 of a response."""
+    """Return the angles of the ideal plant by Runge-Kutta, exact to 1e-5 of a response."""
     return angles_on_body(arm, law, "ideal-rk4", DT)
 
 

@@ -86,7 +86,7 @@ def test_axes_carried_by_the_hand_cost_two_rotations_of_every_column_and_row():
 
 @pytest.mark.parametrize("representation", COORDINATES.values(), ids=COORDINATES)
 def test_conversion_of_moments_costs_two_products_with_B_transposed(representation):
-    """Of the measured one and of the one to exert."""
+    """The measured moment and the one to exert are both converted."""
     tally = Tally()
     state = arm_states(ARM_OF[6])[0]
     at = representation.chart(state.chain.R)

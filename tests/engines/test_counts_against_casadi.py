@@ -105,7 +105,7 @@ def rotation_matrix_printed(n, o, a, w, nd, od, ad, kp, kv):
 
 
 def rotation_matrix(n, o, a, w, nd, od, ad, kp, kv):
-    """The same with Kp / 2 as one number."""
+    """Return the law of columns with Kp / 2 computed once."""
     half = 0.5 * kp
     e = crosses(n, o, a, nd, od, ad)
     return [half * e[i] - kv * w[i] for i in range(3)]

@@ -44,7 +44,7 @@ BOUNDED = [one for one in all_contenders() if not one.regulator.in_engine and ga
 
 @pytest.mark.parametrize("one", BOUNDED, ids=lambda one: one.name)
 def test_at_rest_no_start_asks_for_more_and_one_asks_for_nearly_as_much(one):
-    """Of the first commands of episodes: of one tick each."""
+    """Episodes of one tick show the first commands."""
     starts = [*tasks.start_set("uniform", 1000, seed=5), *tasks.start_set("half-turn"), *tasks.start_set("wraps")]
     rows = run("ideal-held", one, "free-body", starts, settings(horizon_s=1e-3, gains=gains_at(one, 300.0)), METRICS)
     peaks = np.sqrt(rows[:, FIRST_METRIC + [metric.column for metric in METRICS].index("peak_u")])

@@ -44,7 +44,7 @@ def marker(tmp_path):
 
 @pytest.fixture(scope="module")
 def renamed(tmp_path_factory):
-    """The same, with the rows of one of our laws under a name that is none of ours."""
+    """Copy the reference with one law's rows under an unknown name."""
     folder = shutil.copytree(RESULTS / "reference", tmp_path_factory.mktemp("renamed") / "theirs")
     for path in folder.glob("*.parquet"):
         table = pq.read_table(path)
@@ -58,7 +58,7 @@ def renamed(tmp_path_factory):
 
 @pytest.fixture
 def evil(renamed, tmp_path, marker, monkeypatch):
-    """The same, with a file of that name which leaves a marker when it is run."""
+    """Copy the renamed run and add a file of that name, which leaves a marker when it is run."""
     folder = shutil.copytree(renamed, tmp_path / "evil")
     (folder / "laws").mkdir()
     (folder / "laws" / "evil_law.py").write_text(EVIL.format(marker=str(marker)))

@@ -85,7 +85,7 @@ def test_command_goes_on_and_says_the_share(tmp_path, capsys):
 
 
 def test_stated_speed_is_the_speed_of_every_start(tmp_path, capsys):
-    """As they are kept; half a time constant is too short for any to settle, and no coarser run agrees by chance."""
+    """Half a time constant is too short for any start to settle, so no coarser run agrees by chance."""
     words = ["map", "--regulator", "gibbs", "--starts", "50", "--horizon", "0.05", "--speed", "5", "--speed", "20"]
     assert main([*words, "--out", str(tmp_path / "map")]) == 0
     capsys.readouterr()

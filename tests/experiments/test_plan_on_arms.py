@@ -111,7 +111,7 @@ def test_inverses_and_twins_are_run_where_they_differ_and_all_else_from_every_se
 
 
 def known_sets() -> list[str]:
-    """Those of arms."""
+    """Return the names of the start sets of arms."""
     return tasks.start_set_names(arm=True)
 
 

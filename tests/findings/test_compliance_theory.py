@@ -150,7 +150,7 @@ def test_mobility_is_what_mujocos_dynamics_make_of_moments(arm):
 
 @pytest.mark.parametrize("arm", ARMS)
 def test_probe_turns_a_hand_by_milliradians_about_its_lightest_axis(arm):
-    """By the paper's form, of all that take part the one that turns it furthest: B hardly changes on the way."""
+    """The paper's form turns the hand furthest; B hardly changes on the path."""
     on = tasks.arm(arm)
     as_unit = theory.free(TASK.horizon_s) * TOUCH.m_o * np.linalg.eigvalsh(theory.mobility(on))[-1]
     assert 1e-3 < push(on) * (1.0 + TOUCH.kf) * as_unit < 3e-2

@@ -45,7 +45,7 @@ def test_boundary_of_small_steps_is_that_of_the_continuous_equation(kf, late_s):
 @pytest.mark.parametrize("K", [1e3, 1e5])
 @pytest.mark.parametrize("controller", [TRANSPOSE, INVERSE], ids=["transpose", "inverse"])
 def test_without_delay_slow_roots_are_those_of_the_quadratic(K, controller):
-    """By Hurwitz it is stable: s^2 + (kc + a B) s + a K, a the mobility that the controller makes of the arm's."""
+    """s^2 + (kc + a B) s + a K is stable by Hurwitz; a is the mobility under the controller."""
     B, dt = 1e-3 * K, 1e-6
     law = acceleration(controller, A)
     seen = law[2] + law[3]

@@ -200,7 +200,7 @@ def test_extraction_takes_every_branch_and_divides_by_no_small_number():
 
 
 def test_extraction_is_continuous_over_the_seams_of_its_branches():
-    """Where two branches meet both are exact: n_x = o_y, n_x = -o_y, a_z = 0."""
+    """Both branches are exact where they meet: n_x = o_y, n_x = -o_y, a_z = 0."""
     draw = np.random.default_rng(4)
     for q in draw.normal(size=(300, 4)):
         w, x, y, z = q / np.linalg.norm(q)
@@ -235,7 +235,7 @@ def test_feedback_linearized_command_in_the_quaternion_is_2_kp_epsilon():
 
 
 def test_command_in_the_quaternion_takes_the_long_way_where_goal_and_orientation_have_opposite_signs():
-    """By definition of the law: 20 degrees of error over the half turn command the turn of 340 degrees."""
+    """The law is so defined: an error of 20 degrees across 180° commands a rotation of 340 degrees."""
     law, gains = find_contender("feedback-linearized/quaternion").law, Gains()
     z = np.array((0.0, 0.0, 1.0))
     R, R_d = (of_scipy(ScipyRotation.from_rotvec(math.radians(angle) * z)) for angle in (170.0, 190.0))

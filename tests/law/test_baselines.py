@@ -89,7 +89,7 @@ def test_joint_pd_spends_its_energy_on_its_dampers_alone(arm):
 
 @over_arms
 def test_joint_pd_brings_every_joint_to_its_goal_from_everywhere(arm):
-    """By motors without a limit, from uniform starts: through singularities of J, which it does not know."""
+    """Motors have no limit; joint PD passes singularities of J, which it does not use."""
     starts = tasks.start_set("uniform", 24, arm=arm)
     chosen = settings(horizon_s=20.0, hold_ticks=10**9, torque_limit=math.inf)
     curves = blank_curves(len(starts), 200, 100, ARM_NUMBERS)

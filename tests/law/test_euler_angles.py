@@ -67,7 +67,7 @@ def drawn(beta, seed=6):
 
 
 def unwrapped(difference):
-    """Of two triples of angles: the same one on either side of a wrap is the same."""
+    """Return the difference of two triples of angles, without wraps."""
     difference[[0, 2]] = (difference[[0, 2]] + math.pi) % (2.0 * math.pi) - math.pi
     return difference
 

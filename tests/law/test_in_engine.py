@@ -104,7 +104,7 @@ def test_two_quaternions_of_one_half_turn_are_pushed_opposite_ways_and_of_no_oth
 
 
 def angle_left(t):
-    """Of 1 rad, thetadd = -100 theta - 20 thetad from rest."""
+    """Return the angle at t from 1 rad at rest by thetadd = -100 theta - 20 thetad."""
     return (1.0 + 10.0 * t) * math.exp(-10.0 * t)
 
 

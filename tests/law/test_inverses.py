@@ -137,7 +137,7 @@ def test_answer_stays_below_the_greatest_gain_at_any_rank(word):
 
 
 def test_damping_constants_give_the_greatest_gain_and_no_more():
-    """By the formulas of the gain, over all singular values; the variable one with sigma known exactly."""
+    """Compute the gain over all singular values by its formulas; sigma is known exactly."""
     sigma = np.geomspace(1e-6, 1e3, 200_001)
     constant = sigma / (sigma**2 + DAMPING**2)
     squared = MAX_DAMPING_SQUARED * np.maximum(0.0, 1.0 - (sigma / EPSILON) ** 2)

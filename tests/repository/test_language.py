@@ -52,7 +52,8 @@ def find_phrases(path: Path) -> list[str]:
 
 
 def test_docstrings_begin_with_a_verb():
-    assert not [line for path in list_sources() for line in find_fragments(path)]
+    tests = (ROOT / "tests").rglob("*.py")
+    assert not [line for path in (*list_sources(), *tests) for line in find_fragments(path)]
 
 
 def test_prose_has_no_phrase_that_needs_its_author():

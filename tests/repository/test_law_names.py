@@ -1,4 +1,4 @@
-"""Where sources name a law or coordinates: in their own file, and where a choice among them is the matter."""
+"""Check that sources name a law or coordinates in its own file and in the files that choose among them only."""
 
 import ast
 import re
@@ -45,7 +45,7 @@ ALLOWED = {
 
 
 def words() -> set[str]:
-    """As rows and the command line write them."""
+    """Return the names as rows and the command line write them."""
     return {*known_regulators(), *known_representations(), *(f"impedance-{name}" for name in known_impedances())}
 
 

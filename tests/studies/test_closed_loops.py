@@ -31,7 +31,7 @@ def sine(R):
 
 
 def response(call, angle_deg, takes=MATRIX, sheet=1.0):
-    """Of the first start at an angle."""
+    """Return the response from the first start at an angle."""
     begun = tuple(sheet * part for part in next(closed_loop.starts(angle_deg)))
     return closed_loop.response(accelerated(Function("f", takes, call), 100.0, 20.0, TICK_S, begun), TICK_S)
 

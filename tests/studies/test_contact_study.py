@@ -113,7 +113,7 @@ IN_TASKS = {(one["task"], one["arm"], one["damping"]): one for one in FOUND["uns
 
 
 def test_unshaped_impedance_leaves_the_scene_as_one_of_the_same_springs_that_shapes_inertia():
-    """Where a hand comes to rest is the springs' matter alone; what differs is within dry friction."""
+    """Springs alone decide where a hand comes to rest; the difference is within dry friction."""
     for (task, arm, damping), one in IN_TASKS.items():
         if damping != "shaped" and one["outcome"] == "done":
             assert one["done"] == pytest.approx(IN_TASKS[task, arm, "shaped"]["done"], rel=2e-3)

@@ -17,7 +17,7 @@ PACKAGES = {"mink": ("mink", "."), "numpy-quaternion": ("quaternion", "src")}
 
 
 def outcome(folder: Path, source: str) -> int:
-    """Of the patch's test, in a process of its own."""
+    """Return the exit code of the patch's test, run in its own process."""
     command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "-c", "/dev/null", "tests"]
     environment = {"PYTHONPATH": str(folder / source), "PATH": "/usr/bin:/bin"}
     return subprocess.run(command, cwd=folder, env=environment, capture_output=True, check=False).returncode

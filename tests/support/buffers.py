@@ -25,7 +25,7 @@ def buffer(array, dtype=float):
 
 
 def as_counted(array):
-    """The same numbers as counting scalars in an object array."""
+    """Return the same numbers as counting scalars in an object array."""
     tally, array = Tally(), np.asarray(array)
     held = np.empty(array.shape, dtype=object)
     for at, number in np.ndenumerate(array):

@@ -97,7 +97,7 @@ def simulated(arm: str):
 
 
 def hand(arm: str, q, qdot, mount: ScipyRotation, push) -> Hand:
-    """That state, the hand's frame drawn on it by `mount`; valid until the next one is asked for."""
+    """Return the state with the hand's frame rotated by `mount`; it is valid until the next call."""
     model, data = simulated(arm)
     mujoco.mj_resetData(model, data)
     anyhow = Specification("none", (1,) * 6)

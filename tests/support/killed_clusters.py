@@ -46,7 +46,7 @@ def left_s(session: int) -> float:
 
 
 def sessions() -> Iterator[int]:
-    """Of every process of this machine that has not ended."""
+    """Yield the session of every process of this machine that has not ended."""
     for path in Path("/proc").glob("[0-9]*/stat"):
         with contextlib.suppress(OSError):  # it ended in this moment
             state, _, _, session = path.read_text().rpartition(") ")[2].split()[:4]

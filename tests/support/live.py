@@ -54,7 +54,7 @@ def asked(condition: Condition = IDEAL) -> tuple[dict, dict]:
 
 
 def by_the_sampled_plant(word: str, starts) -> Wanted:
-    """Of the engine `ideal-held`, whose rows are in the results."""
+    """Simulate by the engine `ideal-held`, whose rows are in the results."""
     curves = blank_curves(len(starts), len(range(0, max(SEEN) + 1, SEEN[0])), SEEN[0])
     chosen = settings(horizon_s=HORIZON_S, hold_ticks=RULES.hold_ticks(1e-3))
     rows = run("ideal-held", find_contender(word), "free-body", starts, chosen, (), curves=curves)
@@ -63,7 +63,7 @@ def by_the_sampled_plant(word: str, starts) -> Wanted:
 
 
 def by_the_perturbed_plant(word: str, starts, condition: Condition) -> Wanted:
-    """Of the loop under perturbations."""
+    """Simulate by the loop under perturbations."""
     rows = run_disturbed(find_contender(word), starts, condition, settings(horizon_s=HORIZON_S), ())
     return Wanted(_judged(rows), None, _is_algebraic(word))
 
@@ -97,5 +97,5 @@ def differing(wanted: Wanted, found: list) -> list[int]:
 
 
 def most_that_rounding_decides(wanted: Wanted) -> int:
-    """Of a law that calls libm rounding decides some episodes: those that pass a pole at high speed."""
+    """Return how many episodes rounding may decide: a law that calls libm passes some poles at high speed."""
     return 0 if wanted.is_algebraic else len(wanted.rows) // 20

@@ -35,7 +35,7 @@ def seen(one, turn: ScipyRotation, goal: ScipyRotation) -> ScipyRotation:
 
 
 def margin(one, turn: ScipyRotation, goal: ScipyRotation) -> float:
-    """Of its coordinates there; 1 without."""
+    """Return the margin of its coordinates there, or 1 if it has none."""
     return 1.0 if one.representation is None else one.representation.margin(of_scipy(seen(one, turn, goal)))
 
 

@@ -38,7 +38,7 @@ def test_middle_is_on_the_pole_or_misses_it_by_what_the_id_says(arm):
 @on_every_arm
 @pytest.mark.parametrize(("name", "ending"), [("pole", ""), ("half-turn", "k1")])
 def test_arm_is_well_conditioned_across_the_pole_and_through_a_half_turn(arm, name, ending):
-    """Of half turns those 0.1 rad short, where all pass: nearer ones are determined, that of an exact one is either."""
+    """Only 180° starts that are 0.1 rad short count: at exactly 180° either path is possible."""
     for start in tasks.start_set(name, arm=arm):
         if start.id.endswith(ending):
             path = walked(arm, start, geodesic(start, evenly(start)))
