@@ -55,7 +55,7 @@ def test_quaternions_and_matrices_of_a_pair_are_the_same_orientations():
 
 
 def test_relative_rotation_is_exact_where_digits_matter():
-    """The product R_d R^T of a diagonal R rounds nothing: 180° rotations stay symmetric, small angles keep their digits."""
+    """The product R_d R^T of a diagonal R rounds nothing: 180° rotations stay symmetric, small angles exact."""
     of = every_pair()
     exact = np.abs(of.R).max(axis=(1, 2)) == np.abs(of.R).sum(axis=(1, 2)) / 3.0
     half = of.chosen(exact & (of.place == AT_180))

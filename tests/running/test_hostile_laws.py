@@ -41,7 +41,7 @@ def nothing_is_left_behind():
 
 @pytest.mark.parametrize("name", AT_IMPORT)
 def test_file_that_misbehaves_is_refused(capsys, finished, tmp_path, name):
-    """A run, a run on a cluster and the judge refuse it; a file that does not return is only read, with a short limit."""
+    """A run, a run on a cluster and the judge refuse it; a file that does not return is only read, for a short time."""
     text, reason = AT_IMPORT[name]
     path = written(tmp_path, name, text)
     if reason in (WAITS, LOOPS):
