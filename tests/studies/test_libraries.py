@@ -163,7 +163,7 @@ def test_negative_quaternion_is_compared_with_the_positive():
 
 @pytest.mark.parametrize("library", [one for one in find().libraries if not one.is_restated], ids=lambda one: one.name)
 def test_committed_answers_are_what_the_library_says_here(library):
-    """The same version fails on the same numbers of rotations in three sets, in the same way."""
+    """One version fails on the same numbers of rotations in three sets, in the same way."""
     table = read(FOLDER, "libraries")
     table = table[table["library"] == library.name].set_index(["function", "turn_set"])
     assert set(table.index.get_level_values("function")) == {one.name for one in library.functions}
