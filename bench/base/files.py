@@ -8,13 +8,13 @@ import errno
 import json
 import os
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 from bench.base.errors import BadResults
 
 
-def write_atomically(path: Path, write) -> None:
+def write_atomically(path: Path, write: Callable[..., object]) -> None:
     """Call write(temporary path), then put the file in its place; when this returns, it outlives a loss of power.
 
     Errors:
@@ -123,7 +123,7 @@ def read_json(path: Path, most_bytes: int = MOST_JSON_BYTES) -> dict:
     return content
 
 
-def _texts(content) -> Iterator[str]:
+def _texts(content: object) -> Iterator[str]:
     """Return every text of a JSON value, names of fields too."""
     if isinstance(content, str):
         yield content

@@ -17,7 +17,7 @@ from bench.findings.selection import gains, needs
 from bench.findings.selection.robots import VELOCITY
 from bench.law.contenders.registry import find_contender
 from report.figures.kit.families import word
-from support.advised import accelerations, costs, operations, shares_of_time, velocities
+from support.advised import accelerations, operations, shares_of_time, velocities
 from support.leads_of_arms import (
     FEEDBACK,
     LATE,
@@ -31,14 +31,13 @@ from support.leads_of_arms import (
     recompute_engines,
     recompute_impedance,
     recompute_libraries,
+    recompute_new_law,
     recompute_pegs,
     recompute_regressions,
     recompute_times,
 )
 from support.tables import table
 from tasks.condition import condition_at
-
-CONTROLS = ("quaternion-unwinding", "linearized-euler-literal/zyx-euler")
 
 
 def name_together(laws):
@@ -132,46 +131,6 @@ def recompute_velocities():
     one = velocities().decide(VELOCITY)
     said = [word(one.law), *name_together(one.tied)] if one.tied else [word(one.law), len(one.asked)]
     return {"log_limit": f"{rows['k_dt'].iloc[0]:.3g}", "lead": said}
-
-
-def settle(push, kp, kv):
-    """Return the longest time in which angles from rest come within 2 % to stay, by steps of 0.1 ms."""
-    angles, h = np.linspace(1e-3, np.pi, 25), 1e-4
-    theta, rate, last = angles.copy(), np.zeros(25), np.zeros(25)
-    for tick in range(20_000):
-        middle = theta + h / 2 * rate, rate + h / 2 * push(theta, rate, kp, kv)
-        theta, rate = theta + h * middle[1], rate + h * push(*middle, kp, kv)
-        last = np.where(np.abs(theta) > 0.02 * angles, (tick + 1) * h, last)
-    return last.max()
-
-
-def brake_late(theta, rate, kp, kv):
-    """Return the acceleration by a spring of sin(theta/2), stiffened by 1 + cos²(theta/2), and an eased damper."""
-    e = np.sin(theta / 2)
-    return -((2 - e**2) * kp + 0.8 * kv * np.maximum(0, -e * rate)) * e - kv * rate
-
-
-def recompute_new_law():
-    kvs = {ratio: 20.0 * ratio for ratio in (0.5, 0.7, 1.0, 1.5)}
-    late, linear = (
-        {ratio: settle(push, 100.0, kv) for ratio, kv in kvs.items()}
-        for push in (brake_late, lambda theta, rate, kp, kv: -kp * theta - kv * rate)
-    )
-    rows = table("robustness").query("axis == 'equal-peak' and level == 100 and law not in @CONTROLS")
-    settled, said = rows["outcome"] == "settled", [100]
-    for column, level in (("settling_time_s", 0.5), ("settling_time_s", 1.0), ("effort", 0.5)):
-        own = rows[column].where(settled, np.inf).groupby(rows["law"]).quantile(level, interpolation="lower")
-        said += [f"{own[LATE]:.3g}", (own.drop(LATE) <= own[LATE]).sum(), len(own) - 1]
-    return {
-        "slowest": f"{late[1.0]:.3f}",
-        "linear": f"{linear[1.0]:.3f}",
-        "later": ", ".join(f"{ratio:g}" for ratio in kvs if late[ratio] > linear[ratio] + 1e-3) or "none",
-        "later_of": [*kvs],
-        "pull": f"{brake_late(-np.linspace(0, np.pi, 100_001), 0.0, 1.0, 2.0).max():.2f}",
-        "at_peak": said,
-        "roots": costs().loc[LATE, "sqrt"],
-        "calls": operations(LATE)[1],
-    }
 
 
 def bounded(found, usual):

@@ -17,6 +17,7 @@ import json
 import os
 import sys
 import time
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -95,7 +96,7 @@ def compile_benchmarks(asked: dict[str, Any], rows: np.ndarray) -> dict[str, Any
             continue
         loop = law.loop_of(command_of(one), memory_of(one), cache=not one.regulator.origin)
 
-        def call(loop=loop):
+        def call(loop: Callable[..., float] = loop) -> float:
             return loop(rows, gains.kp, gains.kv, SWEEPS)
 
         if call() == 0.0:  # a command that is not finite breaks the chain
@@ -126,17 +127,17 @@ class Session:
         known = compile_benchmarks(asked, rows)
         self.benchmarks = {name: known[name] for name in self.turns.agree(list(known))}
 
-    def pytest_generate_tests(self, metafunc):
+    def pytest_generate_tests(self, metafunc: pytest.Metafunc) -> None:
         """Make one test of each benchmark."""
         metafunc.parametrize("name", list(self.benchmarks))
 
     @pytest.fixture
-    def plugin(self):
+    def plugin(self) -> "Session":
         """Give the test this plugin."""
         return self
 
     @pytest.hookimpl(tryfirst=True)
-    def pytest_benchmark_generate_machine_info(self):
+    def pytest_benchmark_generate_machine_info(self) -> dict[str, Any]:
         """Name the kind of machine, and not the machine."""
         from bench.base.provenance import describe, machine_key
 
@@ -144,12 +145,12 @@ class Session:
         kept = {name: about[name] for name in ("cores", "platform", "versions", "sources")}
         return {"key": machine_key(), "cpu": {"brand_raw": about["cpu"]}, **kept}
 
-    def pytest_benchmark_update_commit_info(self, commit_info):
+    def pytest_benchmark_update_commit_info(self, commit_info: dict[str, Any]) -> None:
         """Leave out the names of a branch and of a folder."""
         commit_info.update(project="orientation-bench", branch="")
 
 
-def test_ticks(benchmark, plugin, name):
+def test_ticks(benchmark: Any, plugin: Session, name: str) -> None:
     """Time one benchmark for all its rounds, each in its turn."""
     from bench.experiments.costs import count_law
     from bench.running.timing.ratios import ratio
@@ -159,7 +160,7 @@ def test_ticks(benchmark, plugin, name):
     if plugin.cores:  # both sides on one core, else one might have the busier neighbour
         os.sched_setaffinity(0, {plugin.cores[list(plugin.benchmarks).index(name) % len(plugin.cores)]})
 
-    def wait():
+    def wait() -> None:
         plugin.turns.wait()
         plugin.shuffle(len(kernels))
         began = time.thread_time()

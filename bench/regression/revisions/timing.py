@@ -17,7 +17,7 @@ import tempfile
 import time
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import IO, Any, NamedTuple
 
 import numpy as np
 
@@ -95,7 +95,7 @@ def run_benchmarks(sides: list[Side], words: tuple[str, ...] = (), rounds: int =
         return [read_json(file) if file.is_file() else {"benchmarks": []} for file in files]
 
 
-def _start(checkout: Path, asked: dict[str, Any], log) -> subprocess.Popen:
+def _start(checkout: Path, asked: dict[str, Any], log: IO[str]) -> subprocess.Popen:
     # under variables of pytest-xdist, pytest-benchmark would switch itself off
     ours = {name: value for name, value in os.environ.items() if not name.startswith("PYTEST_")}
     more = {"PYTHONPATH": str(checkout), "PYTHONHASHSEED": "0", "ORIENTATION_BENCH_TIMED": json.dumps(asked)}

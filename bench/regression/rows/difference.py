@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterable, Sequence
 from itertools import groupby
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import pandas as pd
@@ -98,7 +98,7 @@ def compare_cells(table: Table, old: pd.DataFrame, new: pd.DataFrame, rule: Rule
     return found
 
 
-def _describe_cells(table: Table, column: str, old: pd.DataFrame, new: pd.DataFrame, rows) -> list[Difference]:
+def _describe_cells(table: Table, column: str, old: pd.DataFrame, new: pd.DataFrame, rows: Any) -> list[Difference]:
     picked = np.asarray(rows)
     if not picked.any():
         return []

@@ -75,7 +75,7 @@ def compare_episodes(old: pd.DataFrame, new: pd.DataFrame) -> Rule:
     loose = np.fmax(known, doubt)  # no doubt is NaN, which fmax passes over
     relative, half_tick = np.fmin(loose, 1.0), 0.5 * old["dt_s"].to_numpy()
 
-    def tolerance(column):
+    def tolerance(column: str) -> tuple[float | np.ndarray, float | np.ndarray]:
         if column in ("settling_time_s", "failure_time_s"):
             return (relative - RELATIVE, half_tick) if has_ticks else (relative, ABSOLUTE + half_tick)
         return (relative - RELATIVE, 0.0) if column == "ticks" else (relative, ABSOLUTE)
