@@ -6,7 +6,6 @@ The loop in C is that of bench/running/timing/law.py: each tick waits for the co
 arrange the same operations each in its way: what goes into vectors is counted once, and what spills is counted too.
 """
 
-import argparse
 import os
 import shutil
 import subprocess
@@ -21,6 +20,7 @@ from bench.export.language import find_language
 from bench.export.subject import Subject, find_subject
 from bench.law.contenders.registry import all_contenders
 from bench.running.timing import law
+from bench.studies.study import make_parser
 
 STORED = ROOT / "results" / "export" / "instructions.json"
 FLAGS = ("-std=c99", "-O2", "-ffp-contract=off")
@@ -145,7 +145,7 @@ def counted(names: tuple[str, ...] = ()) -> dict[str, dict[str, float]]:
 
 def main() -> None:
     """The study's command."""
-    argparse.ArgumentParser(prog="python -m bench.studies.exported", description=__doc__.splitlines()[0]).parse_args()
+    make_parser("exported", __doc__).parse_args()
     compiler = subprocess.run(["gcc", "--version"], capture_output=True, text=True, check=True).stdout.splitlines()[0]
     content = {"laws": counted(), "gcc": compiler, "flags": " ".join(FLAGS), "provenance": describe()}
     write_json(STORED, content)

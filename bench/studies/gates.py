@@ -1,27 +1,26 @@
-"""Check the regression gate: false alarms on the same code, and planted faults (`make regress-study`).
+"""Check the regression gate: false alarms on the same code, and planted faults.
 
-    python -m bench.studies.gates [same-code] [faults]
+    python -m bench.studies.gates [--only same-code]
 
 same-code   COMPARISONS timings of this checkout against itself, at the gate's own settings; every verdict but "same"
             is a false alarm
 faults      one fault at a time in a copy of the sources: is it caught, and is the law named?
 
-Each row is written to results/regress as soon as it is known, and a later call goes on with the rows that are missing,
-if the sources are the same.
+A call that was stopped goes on with the rows that are missing, if the sources are the same. They are kept in
+results/regress.
 """
 
 import contextlib
+import functools
 import shutil
-import sys
 import tempfile
-import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import tasks
-from bench.base.errors import BadResults, BenchError, UnknownWord
-from bench.base.files import read_json, write_json
+from bench.base.errors import BadResults
+from bench.base.files import write_json
 from bench.base.provenance import ROOT, describe
 from bench.experiments.tables.schema import RESULTS
 from bench.law.so3 import from_quaternion
@@ -30,6 +29,7 @@ from bench.regression.revisions.comparison import REGRESSION
 from bench.regression.revisions.exact import compare_runs
 from bench.regression.revisions.gates import describe_time
 from bench.regression.revisions.timing import SAME, Side, compare_times
+from bench.studies.study import make_parser, make_parts
 
 FOLDER = RESULTS / "regress"
 COMPARISONS = 20
@@ -37,15 +37,7 @@ STARTS, START = 40, 17
 """Uniform starts, and the one at which something is planted."""
 LAWS = ("rotation-matrix", "mrp", "sliding")
 RUN = (
-    "--suite",
-    "quick",
-    "--task",
-    "free-body",
-    "--engine",
-    "ideal-rk4",
-    "--starts",
-    "uniform",
-    "--count",
+    *["--suite", "quick", "--task", "free-body", "--engine", "ideal-rk4", "--starts", "uniform", "--count"],
     str(STARTS),
 )
 COPIED = ("bench", "tasks", "requirements", "pyproject.toml")
@@ -118,7 +110,7 @@ def run_copy(copy: Path) -> Path:
     """Run a copy; return the folder of its run."""
     folder = copy / "results" / "run"
     words = [word for law in LAWS if (copy / FILES[law]).is_file() for word in ("--regulator", law)]
-    run_python(copy, "-m", "bench", "run", *RUN, *words, "--out", str(folder))
+    run_python(copy, "-m", "bench", "run", *RUN, "--count", str(STARTS), *words, "--out", str(folder))
     return folder
 
 
@@ -157,40 +149,22 @@ def compare_same_code(number: int) -> dict[str, Any]:
     }
 
 
-PARTS: dict[str, tuple[Callable[[int], dict[str, Any]], int, int]] = {
-    "same-code": (compare_same_code, COMPARISONS, 40),
-    "faults": (plant, len(list_faults()), 60),
+PARTS: dict[str, tuple[Callable[[int], dict[str, Any]], int]] = {
+    "same-code": (compare_same_code, COMPARISONS),
+    "faults": (plant, len(list_faults())),
 }
-"""Name -> how a row is made, how many rows there are, and about how many CPU seconds a row takes."""
+"""Name -> how a row is made, some 40 to 60 CPU seconds each, and how many rows there are."""
 
 
-def run_part(name: str) -> None:
-    """Make the rows of a part that are missing."""
-    make, count, seconds = PARTS[name]
-    path = FOLDER / f"{name.replace('-', '_')}.json"
-    kept = read_json(path) if path.is_file() else {"about": {}, "rows": []}
-    rows = kept["rows"] if kept["about"].get("sources") == describe()["sources"] else []
-    left = (count - len(rows)) * seconds
-    print(f"{name}: {len(rows)} of {count} rows are there; the others take about {left} CPU s", flush=True)
-    while len(rows) < count:
-        began = time.monotonic()
-        rows.append(make(len(rows)))
-        write_json(path, {"about": {**describe(), "command": f"make regress-study ARGS={name}"}, "rows": rows})
-        print(f"{name} {len(rows)} of {count}, {time.monotonic() - began:.0f} s: {str(rows[-1])[:200]}", flush=True)
-
-
-def main(words: list[str]) -> int:
-    """Run the parts that are named, or both; return the exit code."""
-    try:
-        for word in words or PARTS:
-            if word not in PARTS:
-                raise UnknownWord("part", word, list(PARTS))
-            run_part(word)
-    except BenchError as error:
-        print(f"error: {error}", file=sys.stderr)
-        return 2
-    return 0
+def main() -> None:
+    """Run the study's command."""
+    for name in make_parser("gates", __doc__, PARTS).parse_args().only or PARTS:
+        make, count = PARTS[name]
+        path = FOLDER / f"{name.replace('-', '_')}.json"
+        made = make_parts(path, {f"{name} {k}": functools.partial(make, k) for k in range(count)})
+        about = {**describe(), "command": f"python -m bench.studies.gates --only {name}"}
+        write_json(path, {"about": about, "rows": [*made.values()]})
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    main()

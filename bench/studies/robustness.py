@@ -6,7 +6,6 @@ A suite's two dozen starts a level tell 24 of 24 from 20 of 24. Of STARTS the ex
 to either side at the widest.
 """
 
-import argparse
 import shutil
 from pathlib import Path
 
@@ -18,6 +17,7 @@ from bench.experiments.tables.store import read, write_table
 from bench.findings.perturbed import STUDY, by_level
 from bench.law.contenders.registry import all_contenders
 from bench.running import run
+from bench.studies.study import make_parser
 
 STARTS = 400
 """Evenly spread; the axes with starts of their own take as many. 20 of 40 settle to 15 points, 200 of 400 to 5."""
@@ -46,9 +46,7 @@ def study(workers: int, starts: int = STARTS, folder: Path = STUDY) -> None:
 
 def main() -> None:
     """The study's command."""
-    parser = argparse.ArgumentParser(prog="python -m bench.studies.robustness", description=__doc__.splitlines()[0])
-    parser.add_argument("--workers", type=int, default=2, help="threads (default: 2)")
-    study(parser.parse_args().workers)
+    study(make_parser("robustness", __doc__, workers=2).parse_args().workers)
 
 
 if __name__ == "__main__":

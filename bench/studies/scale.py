@@ -9,6 +9,7 @@ of episodes. Other programs change wall time more than CPU time: the cores that 
 """
 
 import argparse
+import functools
 import hashlib
 import json
 import os
@@ -29,6 +30,7 @@ from bench.experiments.plan import Plan
 from bench.law.contenders.registry import find_contender
 from bench.running import run
 from bench.running.schedulers.words import LOCAL, THREADS
+from bench.studies.study import make_parser, make_parts
 
 LAW = "rotation-matrix"
 FEW, BASE, MANY, MOST = 1_000, 10_000, 100_000, 1_000_000
@@ -114,19 +116,19 @@ def measure_apart(scheduler: str, count: int) -> dict:
 
 def main() -> None:
     """Run the study, or with --run one measurement of it."""
-    parser = argparse.ArgumentParser(prog="python -m bench.studies.scale", description=__doc__.split("\n")[0])
+    parser = make_parser("scale", __doc__, out=ROOT / "results" / "scale" / "scale.json")
     parser.add_argument("--most", type=int, default=MOST, help="no run of more episodes than this")
-    parser.add_argument("--out", type=Path, default=ROOT / "results" / "scale" / "scale.json")
     parser.add_argument("--run", nargs=2, metavar=("SCHEDULER", "COUNT"), help=argparse.SUPPRESS)
     options = parser.parse_args()
     if options.run:
         print(json.dumps(measure(options.run[0], int(options.run[1]))))
         return
-    sizes = [measure_apart(THREADS, count) for count in ORDER if count <= options.most]
-    schedulers = [measure_apart(one, min(MANY, options.most)) for one in SCHEDULERS]
+    runs = {f"sizes {k}": (THREADS, count) for k, count in enumerate(ORDER) if count <= options.most}
+    runs |= {f"schedulers {one}": (one, min(MANY, options.most)) for one in SCHEDULERS}
+    made = make_parts(options.out, {name: functools.partial(measure_apart, *run) for name, run in runs.items()})
+    content = {part: [row for name, row in made.items() if name.startswith(part)] for part in ("sizes", "schedulers")}
     about = describe() | {"command": "python -m bench.studies.scale"}
-    content = {"sizes": sizes, "schedulers": schedulers, "provenance": dict.fromkeys(("sizes", "schedulers"), about)}
-    write_json(options.out, content)
+    write_json(options.out, {**content, "provenance": dict.fromkeys(content, about)})
     print(f"wrote {options.out}")
 
 

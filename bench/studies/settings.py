@@ -8,7 +8,7 @@ its sin and cos, the compiler its target. Variables make them choose as on anoth
 results/reference, bit for bit and by the gate.
 """
 
-import argparse
+import functools
 import os
 import subprocess
 import sys
@@ -22,6 +22,7 @@ from bench.base.files import read_json, write_json
 from bench.base.provenance import ROOT, machine_key, rounded_on
 from bench.experiments.tables.store import read
 from bench.regression.rows import RULES, find_differences
+from bench.studies.study import make_parser, make_parts
 
 REFERENCE = ROOT / "results" / "reference"
 STORED = ROOT / "results" / "settings" / "settings.json"
@@ -40,8 +41,13 @@ SETTINGS: dict[str, dict[str, str]] = {
 """What each is called, and the variables that make it."""
 
 
-def measure(variables: dict[str, str], folder: Path) -> dict:
-    """A quick suite under these variables, against the reference."""
+def measure(variables: dict[str, str]) -> dict:
+    """Compare a quick suite under these variables with the reference."""
+    with tempfile.TemporaryDirectory(prefix="orientation-bench-") as name:
+        return _compare(variables, Path(name) / "run")
+
+
+def _compare(variables: dict[str, str], folder: Path) -> dict:
     command = [sys.executable, "-m", "bench", "run", "--suite", "quick", "--out", str(folder)]
     subprocess.run(command, env=os.environ | variables, check=True)
     return {
@@ -68,18 +74,14 @@ def _same(a: pd.Series, b: pd.Series) -> np.ndarray:
 
 def main() -> None:
     """The study's command."""
-    parser = argparse.ArgumentParser(prog="python -m bench.studies.settings", description=__doc__.splitlines()[0])
-    parser.add_argument("--only", choices=list(SETTINGS), help="run one setting again")
-    parser.add_argument("--out", type=Path, default=STORED, help="where to write (default: results/settings)")
-    chosen = parser.parse_args()
+    chosen = make_parser("settings", __doc__, SETTINGS, STORED).parse_args()
+    parts = {name: functools.partial(measure, variables) for name, variables in SETTINGS.items()}
+    made = make_parts(chosen.out, parts, chosen.only)
+    for name, one in made.items():
+        print(f"{name}: {one['gate']} differences for the gate; {one['tables']}")
     found = read_json(chosen.out) if chosen.out.is_file() else {}
-    here = found.setdefault(machine_key(), {})
-    for name in [chosen.only] if chosen.only else list(SETTINGS):
-        print(f"{name}: {SETTINGS[name] or 'this machine as it is'}", flush=True)
-        with tempfile.TemporaryDirectory(prefix="orientation-bench-") as folder:
-            here[name] = measure(SETTINGS[name], Path(folder) / "run")
-        write_json(chosen.out, found)
-        print(f"  {here[name]['gate']} differences for the gate; {here[name]['tables']}", flush=True)
+    found[machine_key()] = found.get(machine_key(), {}) | made
+    write_json(chosen.out, found)
 
 
 if __name__ == "__main__":

@@ -9,12 +9,13 @@ in this process, by the tables that it made and the reference's for the rest, an
 goes on where one was stopped.
 """
 
-import argparse
 import dataclasses
+import functools
 import tempfile
 import time
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 from bench.base.files import read_json, write_json
 from bench.base.provenance import ROOT, describe, source_digest
@@ -30,6 +31,7 @@ from bench.findings.claims.controller_costs import BY_COMMON, BY_EULER, ON_MATRI
 from bench.findings.claims.tables import MAIN_ENGINE, Results
 from bench.law.contenders.registry import all_contenders
 from bench.running import run
+from bench.studies.study import make_parser, make_parts
 
 REFERENCE = ROOT / "results" / "reference"
 STORED = ROOT / "results" / "verdicts" / "verdicts.json"
@@ -118,30 +120,24 @@ def turned(runs: dict[str, dict], reference: dict[str, str]) -> dict[str, dict[s
 
 def study(names: tuple[str, ...], workers: int, out: Path, again: bool) -> dict:
     """Judge the runs that the file lacks, or that other sources made; the file's content."""
-    content = read_json(out) if out.is_file() else {"runs": {}}
-    digest = source_digest()
-    content["reference"] = {one.id: str(one.word) for one in claims.judge_all(REFERENCE)}
-    content["gains"] = at_other_gains()
-    for name in names:
-        if not again and content["runs"].get(name, {}).get("sources") == digest:
-            continue
-        content["runs"][name] = judged(name, workers)
-        content["runs"] = {one: content["runs"][one] for one in RUNS if one in content["runs"]}
-        content["provenance"] = {**describe(), "command": "python -m bench.studies.verdicts"}
-        write_json(out, content)
-        other = turned({name: content["runs"][name]}, content["reference"])
-        said = ", ".join(f"{id} {words[name]}" for id, words in other.items()) or "every word the reference's"
-        print(f"{name}: {said} ({content['runs'][name]['cpu_s']:.0f} s of CPU)", flush=True)
+    runs = read_json(out)["runs"] if out.is_file() else {}
+    lacking = [one for one in names if again or runs.get(one, {}).get("sources") != source_digest()]
+    runs |= make_parts(out, {one: functools.partial(judged, one, workers) for one in lacking})
+    content: dict[str, Any] = {
+        "runs": {one: runs[one] for one in RUNS if one in runs},
+        "reference": {one.id: str(one.word) for one in claims.judge_all(REFERENCE)},
+        "gains": at_other_gains(),
+        "provenance": {**describe(), "command": "python -m bench.studies.verdicts"},
+    }
+    write_json(out, content)
+    for id, words in turned(content["runs"], content["reference"]).items():
+        print(f"{id}: {words}, on the reference: {content['reference'].get(id)}")
     return content
 
 
 def main() -> None:
     """The study's command; exit code 1 if a word changes."""
-    parser = argparse.ArgumentParser(prog="python -m bench.studies.verdicts", description=__doc__.splitlines()[0])
-    parser.add_argument("--only", nargs="+", choices=RUNS, metavar="RUN", help=f"seeds, or {HALF_STEP}: run again")
-    parser.add_argument("--workers", type=int, default=2, help="threads (default: 2)")
-    parser.add_argument("--out", type=Path, default=STORED, help="where to write (default: results/verdicts)")
-    words = parser.parse_args()
+    words = make_parser("verdicts", __doc__, RUNS, STORED, workers=2).parse_args()
     content = study(tuple(words.only or RUNS), words.workers, words.out, again=bool(words.only))
     raise SystemExit(1 if turned(content["runs"], content["reference"]) else 0)
 

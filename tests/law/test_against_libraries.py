@@ -22,8 +22,8 @@ from support.states import as_rotation, axis_permuting, matrix, vector
 from bench.law.contender import AT_REST, Gains, Goal
 from bench.law.contenders.registry import find_contender
 from bench.studies.libraries import turns
-from bench.studies.libraries.asked.mujoco import WELDED, forward
-from bench.studies.libraries.found import find
+from bench.studies.libraries.asked import find
+from bench.studies.libraries.asked.simulators import load_model, place_body
 from bench.studies.libraries.library import MATRIX
 
 GAINS = Gains(kp=100.0, kv=20.0)
@@ -182,8 +182,8 @@ def test_rotation_matrix_error_is_a_welds_residual_through_its_jacobian(where):
     """4 J^T r is sin(theta) k: where a weld pulls whose impedance is near zero; the default weld pulls otherwise."""
 
     def pull(turn):
-        data = forward(WELDED, np.array(turn.quat_wxyz))
-        return 4.0 * data.efc_J.reshape(-1, WELDED.nv)[3:6].T @ data.efc_pos[3:6]
+        data = place_body("welded", np.array(turn.quat_wxyz))
+        return 4.0 * data.efc_J.reshape(-1, load_model("welded")[0].nv)[3:6].T @ data.efc_pos[3:6]
 
     some = judged(where)
     assert_agree(errors("rotation-matrix", some), np.array([pull(turn) for turn in some]), scales(some))

@@ -26,7 +26,7 @@ SAME = pd.DataFrame(
 def test_study_if_it_was_run_has_all_its_comparisons_and_no_false_alarm():
     rows = regressions.read_rows(COMMITTED, "same_code")
     if not rows:
-        pytest.skip("results/regress/same_code.json is not there: make regress-study")
+        pytest.skip("results/regress/same_code.json is not there: python -m bench.studies.gates")
     assert len(rows) == COMPARISONS
     assert not any(one["alarms"] for one in rows)
 

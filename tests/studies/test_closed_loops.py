@@ -9,13 +9,13 @@ from scipy.spatial.transform import Rotation as ScipyRotation
 
 from bench.findings.theory.closed_form import linear_settling, settling
 from bench.law.contenders.registry import known_shipped
-from bench.studies.libraries import closed_loop, kept, turns
-from bench.studies.libraries.asked import shipped
-from bench.studies.libraries.free_body import accelerated, after, angle, conjugate, driven, matrix
+from bench.studies.libraries import __main__ as study
+from bench.studies.libraries import closed_loop, turns
+from bench.studies.libraries.asked import rotations
+from bench.studies.libraries.closed_loop import accelerated, after, angle, conjugate, driven, matrix
 from bench.studies.libraries.judge import judge
 from bench.studies.libraries.library import MATRIX, QUATERNION, Function
-from bench.studies.libraries.replacements import REPLACEMENTS
-from bench.studies.libraries.verdict import left_to_go, verdict
+from bench.studies.libraries.verdict import REPLACEMENTS, left_to_go, verdict
 from report.figures.libraries import libraries, loops
 from tasks.rules import RULES
 
@@ -101,7 +101,7 @@ def test_step_is_that_of_rodrigues_formula():
     ],
 )
 def test_shipped_controller_has_the_stiffness_and_the_faults_of_its_source(name, ratio, faults):
-    (library,) = (one for one in shipped.LIBRARIES if one.name == name)
+    (library,) = (one for one in rotations.shipped() if one.name == name)
     (function,) = library.functions
     assert closed_loop.stiffness_ratio(function) == pytest.approx(ratio, abs=1e-6)
     assert set(verdict(function)["faults"].split(", ")) == faults
@@ -123,7 +123,7 @@ def test_right_function_needs_no_replacement():
 
 
 def test_every_restated_controller_was_read_at_the_commit_that_its_source_names():
-    named = {name: known_shipped()[word].source.partition("@")[2][:8] for name, word in shipped.ASKED.items()}
+    named = {name: known_shipped()[word].source.partition("@")[2][:8] for name, word in rotations.RESTATED.items()}
     for table in (loops.rows(), loops.verdicts()):
         restated = table[table["library"].isin(named)]
         assert restated.groupby("library")["version"].unique().map(list).to_dict() == {k: [v] for k, v in named.items()}
@@ -158,15 +158,15 @@ def table(version, faults, **others):
 
 
 def test_fault_that_a_new_version_has_no_longer_is_marked_fixed():
-    (row,) = kept.marked(table("1.1", "deadband"), table("1.0", "deadband, dead-at-180")).to_dict("records")
+    (row,) = study.marked(table("1.1", "deadband"), table("1.0", "deadband, dead-at-180")).to_dict("records")
     assert (row["fixed"], row["fixed_since"]) == ("dead-at-180", "1.0")
 
 
 def test_mark_stays_when_the_same_version_is_asked_again():
     earlier = table("1.1", "", fixed="deadband", fixed_since="1.0")
-    (row,) = kept.marked(table("1.1", ""), earlier).to_dict("records")
+    (row,) = study.marked(table("1.1", ""), earlier).to_dict("records")
     assert (row["fixed"], row["fixed_since"]) == ("deadband", "1.0")
 
 
 def test_nothing_is_marked_of_a_function_that_is_new():
-    assert kept.marked(table("1.0", "deadband"), table("1.0", "").assign(function="g"))["fixed"].tolist() == [""]
+    assert study.marked(table("1.0", "deadband"), table("1.0", "").assign(function="g"))["fixed"].tolist() == [""]

@@ -12,13 +12,10 @@ from support.pages import assert_is_whole
 from bench.base.files import read_json
 from bench.experiments.tables.store import read
 from bench.studies.libraries import turns
-from bench.studies.libraries.__main__ import rows
-from bench.studies.libraries.forms import FORMS
-from bench.studies.libraries.found import find, version_of
-from bench.studies.libraries.judge import KINDS, judge
-from bench.studies.libraries.kept import FOLDER
+from bench.studies.libraries.__main__ import FOLDER, rows
+from bench.studies.libraries.asked import find, version_of
+from bench.studies.libraries.judge import COUNT_RAD, FORMS, KINDS, SINGLE_RAD, judge
 from bench.studies.libraries.library import MATRIX, QUATERNION, Function, Library
-from bench.studies.libraries.tolerances import COUNT_RAD, SINGLE_RAD
 from report.figures.libraries import answers, libraries, loops
 
 SOME = turns.drawn()._replace(turns=turns.drawn().turns[:50])

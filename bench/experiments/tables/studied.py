@@ -55,7 +55,7 @@ def library_columns() -> list[Column]:
             function="the function, with the factor that makes it theta k near the identity",
             kind="function: the library offers it; idiom: users write it on functions of the library",
             takes="matrix or quaternion",
-            form="what it means to be: a word of bench/studies/libraries/forms.py",
+            form="what it means to be: a word of bench/studies/libraries/judge.py",
             precision="double, or single by design of the library",
             thread="where the fault is known upstream: owner/repository#number; empty if no thread was found",
             turn_set="family of turns: bench/studies/libraries/turns.py",

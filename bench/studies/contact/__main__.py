@@ -4,13 +4,14 @@ python -m bench.studies.contact                    all of it, some five minutes
 python -m bench.studies.contact --only boundary    run one part again; the others stay as they are
 """
 
-import argparse
+import functools
 import math
-from pathlib import Path
+from collections.abc import Callable
 
 from bench.base.files import read_json, write_json
 from bench.base.provenance import ROOT
 from bench.studies.contact import admittance, pegs, springs, stability, unshaped
+from bench.studies.study import make_parser, make_parts
 
 STORED = ROOT / "results" / "contact" / "contact.json"
 
@@ -28,15 +29,14 @@ PARTS = {
 
 def main() -> None:
     """The study's command."""
-    parser = argparse.ArgumentParser(prog="python -m bench.studies.contact", description=__doc__.splitlines()[0])
-    parser.add_argument("--only", choices=list(PARTS), help="run one part again")
-    parser.add_argument("--out", type=Path, default=STORED, help="where to write (default: results/contact)")
-    chosen = parser.parse_args()
+    chosen = make_parser("contact", __doc__, PARTS, STORED).parse_args()
     found = read_json(chosen.out) if chosen.out.is_file() else {}
-    for name in [chosen.only] if chosen.only else list(PARTS):
-        print(name, flush=True)
-        found[name] = [{key: _written(value) for key, value in row.items()} for row in PARTS[name]()]
-        write_json(chosen.out, found)
+    parts = {name: functools.partial(_written_rows, rows) for name, rows in PARTS.items()}
+    write_json(chosen.out, found | make_parts(chosen.out, parts, chosen.only))
+
+
+def _written_rows(rows: Callable[[], list[dict]]) -> list[dict]:
+    return [{key: _written(value) for key, value in row.items()} for row in rows()]
 
 
 def _written(value):

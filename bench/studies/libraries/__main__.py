@@ -1,10 +1,9 @@
 """python -m bench.studies.libraries [NAME ...]: ask every library installed here, or those named; results/libraries.
 
-A NAME is a file of asked/. Rows of libraries that are not asked stay as they are, so that one which needs an
-environment of its own adds its own.
+A NAME is a function of asked/. Rows of libraries that are not asked stay as they are, so that one which needs an
+environment of its own adds its own; what a new version has fixed is marked.
 """
 
-import argparse
 import datetime
 import platform
 from collections.abc import Iterable
@@ -12,20 +11,25 @@ from importlib.metadata import version
 
 import pandas as pd
 
+from bench.base.files import read_json, write_json
 from bench.base.provenance import cpu_name
+from bench.experiments.tables.schema import RESULTS
+from bench.experiments.tables.store import read, write_table
+from bench.studies.libraries.asked import find, version_of
 from bench.studies.libraries.closed_loop import rows_of, rows_of_controller
-from bench.studies.libraries.found import find, version_of
-from bench.studies.libraries.judge import judge
-from bench.studies.libraries.kept import keep
+from bench.studies.libraries.judge import COUNT_RAD, SINGLE_RAD, judge
 from bench.studies.libraries.library import ANGLES, Function, Library
-from bench.studies.libraries.tolerances import COUNT_RAD, SINGLE_RAD
 from bench.studies.libraries.turns import TurnSet, every_set
 from bench.studies.libraries.verdict import verdict
+from bench.studies.study import make_parser
+
+FOLDER = RESULTS / "libraries"
+KEY = ["library", "function", "takes"]
 
 
 def main() -> None:
     """Ask, and put the answers in the place of earlier ones."""
-    parser = argparse.ArgumentParser(prog="python -m bench.studies.libraries", description=__doc__)
+    parser = make_parser("libraries", __doc__)
     parser.add_argument("names", nargs="*", metavar="NAME", help="only this library; repeatable")
     found = find(*parser.parse_args().names)
     for name, reason in found.missing.items():
@@ -115,6 +119,55 @@ def origin(library: Library) -> dict:
         "platform": " ".join((platform.system(), platform.machine(), *platform.libc_ver())).strip(),
         "cpu": cpu_name(),
     }
+
+
+def keep(tables: dict[str, pd.DataFrame], about: dict[str, dict]) -> None:
+    """Write the tables and provenance.json, with the rows of libraries that were not asked.
+
+    Args:
+        tables: by name, the new rows. about: by library, with what it was asked; restated ones are in no provenance.
+    """
+    for name, new in tables.items():
+        if (FOLDER / f"{name}.parquet").is_file():
+            earlier = read(FOLDER, name)
+            earlier = earlier.astype(dict.fromkeys(earlier.select_dtypes("category"), str))
+            if name == "verdicts":
+                new = marked(new, earlier)
+            new = pd.concat([earlier[~earlier["library"].isin(new["library"])], new])
+        order = new["library"].str.lower()
+        new = new.assign(order=order).sort_values("order", kind="stable").drop(columns="order")
+        write_table(FOLDER / f"{name}.parquet", new.reset_index(drop=True), name)
+        print(f"wrote {name}: {len(new)} rows, {new['library'].nunique()} libraries")
+    if (FOLDER / "provenance.json").is_file():
+        about = read_json(FOLDER / "provenance.json")["libraries"] | about
+    write_json(FOLDER / "provenance.json", {"libraries": about})
+
+
+def marked(new: pd.DataFrame, earlier: pd.DataFrame) -> pd.DataFrame:
+    """New verdicts, each with the faults that an earlier version had and it has no longer, and which version that was.
+
+    What was marked for this version stays marked when it is asked again.
+    """
+    before = earlier.set_index(KEY)
+    rows = []
+    for row in new.to_dict("records"):
+        place = tuple(row[name] for name in KEY)
+        if place in before.index:
+            old = before.loc[place]
+            if old["version"] == row["version"]:
+                row |= {"fixed": old["fixed"], "fixed_since": old["fixed_since"]}
+            else:
+                gone = sorted(set(words(old["faults"])) - set(words(row["faults"])))
+                row |= {"fixed": ", ".join(gone), "fixed_since": old["version"] if gone else ""}
+                if gone:
+                    print(f"fixed in {row['library']} {row['version']}: {row['function']}: {row['fixed']}")
+        rows.append(row)
+    return pd.DataFrame(rows)
+
+
+def words(text: str) -> list[str]:
+    """Names between commas."""
+    return [one for one in text.split(", ") if one]
 
 
 if __name__ == "__main__":

@@ -4,15 +4,64 @@ At exactly 180° either direction along the axis is right. A function that takes
 stand for a rotation: (w, x, y, z) with w >= 0 is judged, and its negative compared with that.
 """
 
+from __future__ import annotations
+
 import math
-from typing import Any, NamedTuple
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from bench.studies.libraries.forms import FORMS
+from bench.audit.faults.digits_near_0 import COUNT_RAD as COUNT_RAD
+from bench.audit.forms import FORMS as SIZED
 from bench.studies.libraries.library import QUATERNION, Function, answer, quiet
-from bench.studies.libraries.tolerances import COUNT_RAD, WRONG_AXIS_RAD, ZERO_SHARE
-from bench.studies.libraries.turns import Turn, TurnSet
+
+if TYPE_CHECKING:
+    from bench.studies.libraries.turns import Turn, TurnSet
+
+SINGLE_RAD = 4.0 * 2.0**-22
+"""The same as COUNT_RAD for a library of single precision: four units in the last place of pi, 9.5e-7 rad."""
+ZERO_SHARE = 1e-6
+"""An answer smaller than this times the angle counts as zero."""
+WRONG_AXIS_RAD = 0.1
+"""Angle between an answer and the axis beyond which the answer does not point along it: 6 degrees."""
+
+
+class Form(NamedTuple):
+    """A form by its closed form: size(theta), along k; or for angles, matrix(e), the turn that they stand for.
+
+    angles(length) -> the angles in [0, 2 pi) that an answer of this length stands for.
+    """
+
+    title: str
+    size: Callable | None = None
+    angles: Callable | None = None
+    matrix: Callable | None = None
+
+
+def _about(i: int, angle: float) -> np.ndarray:
+    """The turn by an angle about base axis i."""
+    c, s = math.cos(angle), math.sin(angle)
+    R = np.eye(3)
+    j, k = (i + 1) % 3, (i + 2) % 3
+    R[j, j], R[j, k], R[k, j], R[k, k] = c, -s, s, c
+    return R
+
+
+def _z_y_x(e) -> np.ndarray:
+    """R_z(e_z) R_y(e_y) R_x(e_x) (Murphy 1988, 2.4)."""
+    return _about(2, e[2]) @ _about(1, e[1]) @ _about(0, e[0])
+
+
+ANGLES_OF = {
+    "rotation-vector": lambda length: (length,),
+    "sine-of-half": lambda length: (2.0 * math.asin(min(1.0, 0.5 * length)),),
+    "sine": lambda length: (math.asin(min(1.0, length)), math.pi - math.asin(min(1.0, length))),
+    "mrp": lambda length: (4.0 * math.atan(0.25 * length),),
+}
+FORMS = {name: Form(*SIZED[name], angles) for name, angles in ANGLES_OF.items()} | {
+    "z-y-x": Form("Z-Y-X angles", matrix=_z_y_x)
+}
 
 
 class Answer(NamedTuple):

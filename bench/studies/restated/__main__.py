@@ -11,7 +11,6 @@ Compared are pairs of orientations: half of them uniform, a quarter within 1e-5 
 near a 180° rotation. Above 175° the greatest difference is kept apart: an axis from a matrix loses digits there.
 """
 
-import argparse
 import ctypes
 import re
 import runpy
@@ -29,6 +28,7 @@ from bench.base.provenance import describe
 from bench.experiments.tables.schema import RESULTS
 from bench.law.contenders.registry import known_shipped
 from bench.law.shipped import Shipped
+from bench.studies.study import make_parser
 
 STORED = RESULTS / "libraries" / "restated.json"
 SOURCES = Path(__file__).parent / "sources"
@@ -147,7 +147,7 @@ def kept(row: dict, earlier: list[dict]) -> dict:
 
 def main() -> None:
     """Build and compare all of them."""
-    parser = argparse.ArgumentParser(prog="python -m bench.studies.restated", description=__doc__.splitlines()[0])
+    parser = make_parser("restated", __doc__)
     parser.add_argument("folder", type=Path, metavar="FOLDER", help="copies of the repositories, owner+name each")
     parser.add_argument("--include", action="append", default=[], metavar="DIR", help="more headers (pinocchio's)")
     asked = parser.parse_args()

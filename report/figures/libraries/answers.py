@@ -13,8 +13,7 @@ import pandas as pd
 from bench.base.files import read_json
 from bench.experiments.tables.schema import RESULTS
 from bench.experiments.tables.store import read
-from bench.studies.libraries.forms import FORMS
-from bench.studies.libraries.tolerances import COUNT_RAD, SINGLE_RAD, WRONG_AXIS_RAD
+from bench.studies.libraries.judge import COUNT_RAD, FORMS, SINGLE_RAD, WRONG_AXIS_RAD
 from report.figures.kit.spelling import power
 
 FOLDER = RESULTS / "libraries"

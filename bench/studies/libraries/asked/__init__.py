@@ -1,1 +1,58 @@
-"""Libraries, one file each, with one constant LIBRARY; a library that is not installed is left out, with a line."""
+"""Every library that is asked: a function each, which imports the library and returns what is asked of it.
+
+A library that is not installed here is left out, with a line that says why.
+"""
+
+import functools
+import importlib.metadata
+import subprocess
+from typing import NamedTuple
+
+from bench.base.errors import UnknownWord
+from bench.studies.libraries.asked import compiled, controllers, rotations, simulators
+from bench.studies.libraries.library import Function, Library
+
+ASKED = {one.__name__: one for module in (compiled, controllers, rotations, simulators) for one in module.ASKED}
+"""Word of the command line -> function that returns libraries."""
+
+
+class Found(NamedTuple):
+    """The libraries that import, and of the others the name and why not."""
+
+    libraries: tuple[Library, ...]
+    missing: dict[str, str]
+
+    def function(self, library: str, name: str) -> Function:
+        """Return one function by the names it has in the table."""
+        (one,) = (one for one in self.libraries if one.name == library)
+        (found,) = (function for function in one.functions if function.name == name)
+        return found
+
+
+@functools.cache
+def find(*names: str) -> Found:
+    """Import what is there, or of it the libraries of these names alone.
+
+    Errors:
+        UnknownWord: no function here has that name.
+    """
+    libraries: list[Library] = []
+    missing = {}
+    for name in names or sorted(ASKED):
+        if name not in ASKED:
+            raise UnknownWord("library", name, list(ASKED))
+        try:
+            libraries += ASKED[name]()
+        except ImportError as error:  # not installed, or no compiler
+            missing[name] = str(error)
+    return Found(tuple(libraries), missing)
+
+
+def version_of(library: Library) -> str:
+    """Return the installed version; of restated code, the commit that was read, which its `package` ends with."""
+    if library.is_restated:
+        return library.package.rpartition("@")[2]
+    if library.is_debian:
+        query = ["dpkg-query", "--show", "--showformat", "${Version}", library.package]
+        return subprocess.run(query, capture_output=True, text=True, check=True).stdout
+    return importlib.metadata.version(library.package)

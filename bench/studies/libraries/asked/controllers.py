@@ -1,0 +1,228 @@
+"""Libraries of kinematics and control: their errors, and their controllers as their users run them."""
+
+import json
+import math
+import tempfile
+from collections.abc import Iterator
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+
+from bench.studies.libraries.closed_loop import accelerated, conjugate, driven
+from bench.studies.libraries.library import MATRIX, QUATERNION, Controller, Function, Library
+
+LINK = """<robot name="body"><link name="body"><inertial><mass value="1"/>
+<inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link></robot>"""
+
+
+def drake() -> list[Library]:
+    """Return pydrake.math, its binding of Eigen's AngleAxis, and DoDifferentialInverseKinematics of a floating body.
+
+    Its inverse dynamics controller knows joints alone, and so no orientation error.
+    """
+    from pydrake.common.eigen_geometry import AngleAxis, Quaternion
+    from pydrake.math import RigidTransform, RollPitchYaw, RotationMatrix
+    from pydrake.multibody.inverse_kinematics import (
+        DifferentialInverseKinematicsParameters,
+        DoDifferentialInverseKinematics,
+    )
+    from pydrake.multibody.plant import MultibodyPlant
+    from pydrake.multibody.tree import SpatialInertia, UnitInertia
+
+    dt_s, plant = 0.01, MultibodyPlant(0.0)
+    plant.AddRigidBody("body", SpatialInertia(1.0, np.zeros(3), UnitInertia(1.0, 1.0, 1.0)))
+    plant.Finalize()
+    context, body = plant.CreateDefaultContext(), plant.GetFrameByName("body")
+    parameters = DifferentialInverseKinematicsParameters(plant.num_positions(), plant.num_velocities())
+    parameters.set_time_step(dt_s)
+
+    def vector(found) -> np.ndarray:
+        return found.angle() * found.axis()
+
+    def unit(q) -> Quaternion:  # Drake refuses what is not of length 1 to 1e-14
+        return Quaternion(q / np.linalg.norm(q))
+
+    def solved(T) -> np.ndarray:  # the body is at T^T, the goal is the identity
+        plant.SetFreeBodyPose(context, plant.get_body(body.body().index()), RigidTransform(RotationMatrix(T.T)))
+        found = DoDifferentialInverseKinematics(plant, context, RigidTransform(), body, parameters)
+        return np.zeros(3) if found.joint_velocities is None else found.joint_velocities[:3]
+
+    error = Function("RotationMatrix.ToAngleAxis", MATRIX, lambda R: vector(RotationMatrix(R).ToAngleAxis()))
+    functions = (
+        error,
+        Function("AngleAxis, of a quaternion", QUATERNION, lambda q: vector(AngleAxis(unit(q)))),
+        Function(
+            "2 RotationMatrix.ToQuaternion, vector part",
+            MATRIX,
+            lambda R: 2.0 * RotationMatrix(R).ToQuaternion().xyz(),
+            "sine-of-half",
+            True,
+        ),
+        Function("RollPitchYaw", MATRIX, lambda R: RollPitchYaw(RotationMatrix(R)).vector(), "z-y-x"),
+    )
+    title, motion = "time step 10 ms, no limits", partial(driven, solved, dt_s)
+    loop = Controller("DoDifferentialInverseKinematics", error.name, "velocity", title, dt_s, motion)
+    return [Library("drake", "drake", functions, (loop,))]
+
+
+def gtsam() -> list[Library]:
+    """Return the logarithm of GTSAM's Rot3."""
+    from gtsam import Rot3
+
+    def axis_angle(R) -> np.ndarray:
+        axis, angle = Rot3(R).axisAngle()
+        return angle * np.ravel(axis.point3())
+
+    functions = (
+        Function("Rot3.Logmap", MATRIX, lambda R: Rot3.Logmap(Rot3(R))),
+        Function("Rot3.axisAngle", MATRIX, axis_angle),
+        Function("Rot3.Logmap, of a quaternion", QUATERNION, lambda q: Rot3.Logmap(Rot3.Quaternion(*q))),
+        Function("Rot3.rpy", MATRIX, lambda R: Rot3(R).rpy(), "z-y-x"),
+    )
+    return [Library("gtsam", "gtsam", functions)]
+
+
+def pinocchio() -> list[Library]:
+    """Return logarithms of a matrix, of a quaternion and of a pose by Pinocchio, and its angles."""
+    import pinocchio
+
+    def angle_axis(R) -> np.ndarray:
+        found = pinocchio.AngleAxis(R)
+        return found.angle * found.axis
+
+    functions = (
+        Function("log3, of a matrix", MATRIX, pinocchio.log3),
+        Function("log3, of a quaternion", QUATERNION, lambda q: pinocchio.log3(pinocchio.Quaternion(*q))),
+        Function("log6, angular part", MATRIX, lambda R: pinocchio.log6(pinocchio.SE3(R, np.zeros(3))).angular),
+        Function("AngleAxis (Eigen)", MATRIX, angle_axis),
+        Function("rpy.matrixToRpy", MATRIX, pinocchio.rpy.matrixToRpy, "z-y-x"),
+    )
+    return [Library("pinocchio", "pin", functions)]
+
+
+def pink() -> list[Library]:
+    """Return the error of Pink's FrameTask, on Pinocchio's logarithm of a pose, and its solve_ik."""
+    import pink
+    import pinocchio
+
+    model, dt_s = pinocchio.Model(), 0.005
+    model.addJoint(0, pinocchio.JointModelFreeFlyer(), pinocchio.SE3.Identity(), "root")
+    model.addFrame(pinocchio.Frame("body", 1, 0, pinocchio.SE3.Identity(), pinocchio.FrameType.BODY))
+    body = pink.Configuration(model, model.createData(), pinocchio.neutral(model))
+
+    def error(R) -> np.ndarray:  # the angular part, of a body at the identity whose target is turned
+        task = pink.FrameTask("body", position_cost=1.0, orientation_cost=1.0)
+        task.set_target(pinocchio.SE3(R, np.zeros(3)))
+        return task.compute_error(body)[3:]
+
+    def solved(q) -> Iterator[tuple]:  # tick by tick, as in Pink's examples, towards the identity
+        w, x, y, z = conjugate(q)
+        configuration = pink.Configuration(body.model, body.model.createData(), np.array((0.0, 0.0, 0.0, x, y, z, w)))
+        task = pink.FrameTask("body", position_cost=1.0, orientation_cost=1.0, lm_damping=1.0)
+        task.set_target(pinocchio.SE3.Identity())
+        while True:
+            x, y, z, w = configuration.q[3:]
+            yield conjugate((w, x, y, z))
+            velocity = pink.solve_ik(configuration, [task], dt_s, solver="daqp")
+            configuration.integrate_inplace(velocity, dt_s)
+
+    name, title = "FrameTask.compute_error", "gain 1, lm_damping 1, 200 Hz"
+    loop = Controller("solve_ik, FrameTask", name, "velocity", title, dt_s, solved)
+    return [Library("pink", "pin-pink", (Function(name, MATRIX, error),), (loop,))]
+
+
+def placo() -> list[Library]:
+    """Return the error of PlaCo's OrientationTask, and its kinematics solver as its users run it.
+
+    Its requirements contradict those of the other libraries, so it is asked in an environment of its own.
+    """
+    import placo
+    from pinocchio import Quaternion
+
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / "body.urdf"
+        file.write_text(LINK, encoding="utf-8")
+        robot = placo.RobotWrapper(str(file), placo.Flags.ignore_collisions)
+    solver = placo.KinematicsSolver(robot)
+    task = solver.add_orientation_task("body", np.eye(3))
+
+    def place(R) -> None:
+        T = np.eye(4)
+        T[:3, :3] = R
+        robot.set_T_world_frame("body", T)
+        robot.update_kinematics()
+
+    def error(R) -> np.ndarray:  # the task's b: the rotation asked for, of a body at the identity
+        place(np.eye(3))
+        task.R_world_frame = R
+        task.update()
+        return task.b.ravel()
+
+    def solved(q) -> Iterator[tuple]:
+        task.R_world_frame = np.eye(3)
+        place(Quaternion(*conjugate(q)).toRotationMatrix())
+        while True:
+            left = Quaternion(robot.get_T_world_frame("body")[:3, :3].T.copy())
+            yield (left.w, left.x, left.y, left.z)
+            solver.solve(True)
+            robot.update_kinematics()
+
+    name, title = "OrientationTask", "solve(True), weight 1"
+    loop = Controller("KinematicsSolver, OrientationTask", name, "velocity", title, 0.01, solved)
+    return [Library("placo", "placo", (Function(name, MATRIX, error),), (loop,))]
+
+
+def roboticstoolbox() -> list[Library]:
+    """Return what the servo and the inverse kinematics of Robotics Toolbox for Python take for the error."""
+    import roboticstoolbox
+    from spatialmath import base
+
+    dt_s, servo = 0.05, roboticstoolbox.p_servo
+
+    def of_servo(name: str, method: str, form: str) -> tuple[Function, Controller]:
+        def error(R) -> np.ndarray:
+            return servo(np.eye(4), base.r2t(R), method=method)[0][3:]
+
+        def velocity(T) -> np.ndarray:  # p_servo gives it in the frame of the tool
+            return T.T @ servo(base.r2t(T.T), np.eye(4), gain=1.0, method=method)[0][3:]
+
+        loop = Controller(name, name, "velocity", "gain 1, 20 Hz", dt_s, partial(driven, velocity, dt_s))
+        return Function(name, MATRIX, error, form), loop
+
+    vector, loop = of_servo('p_servo(method="angle-axis")', "angle-axis", "rotation-vector")
+    angles, other = of_servo("p_servo, by default", "rpy", "z-y-x")
+    own = Function("angle_axis", MATRIX, lambda R: roboticstoolbox.angle_axis(np.eye(4), base.r2t(R))[3:])
+    return [Library("roboticstoolbox", "roboticstoolbox-python", (own, vector, angles), (loop, other))]
+
+
+def robosuite() -> list[Library]:
+    """Return the error of robosuite's operational-space controller, in our loop with the gains of OSC_POSE.
+
+    As delivered they are kp 150, damping_ratio 1, and control at the simulation's 500 Hz. Its requirements contradict
+    those of the other libraries, so it is asked in an environment of its own.
+    """
+    import robosuite
+    from robosuite.utils import transform_utils
+    from robosuite.utils.control_utils import orientation_error
+
+    kp, kv, dt_s = 150.0, 2.0 * math.sqrt(150.0), 0.002
+    file = Path(robosuite.__file__).parent / "controllers/config/robots/default_panda.json"
+    arm = json.loads(file.read_text(encoding="utf-8"))["body_parts"]["arms"]["right"]
+    if arm["input_type"] != "delta":
+        raise ValueError(f"{file} sets input_type {arm['input_type']}; this function is written for delta")
+    delta = arm["output_max"][3]  # rad, the largest about each axis in one command
+    to_vector = transform_utils.quat2axisangle  # takes (x, y, z, w)
+    error = Function("orientation_error", MATRIX, lambda R: orientation_error(R, np.eye(3)), "sine")
+    functions = (
+        error,
+        Function("quat2axisangle", QUATERNION, lambda q: to_vector(q[[1, 2, 3, 0]])),
+        Function("mat2quat, quat2axisangle", MATRIX, lambda R: to_vector(transform_utils.mat2quat(R))),
+    )
+    title = f"kp 150, damping ratio 1, 500 Hz; input as delivered: a delta of at most {delta:g} rad"
+    motion, name = partial(accelerated, error, kp, kv, dt_s), "OSC_POSE, rotation decoupled"
+    loop = Controller(name, error.name, "acceleration", title, dt_s, motion, is_our_loop=True)
+    return [Library("robosuite", "robosuite", functions, (loop,))]
+
+
+ASKED = (drake, gtsam, pinocchio, pink, placo, roboticstoolbox, robosuite)

@@ -1,0 +1,244 @@
+"""MuJoCo and what runs on it, and Newton: their functions, and what actuators, constraints and solvers make of them."""
+
+import functools
+from collections.abc import Iterator
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+from bench.studies.libraries.closed_loop import conjugate
+from bench.studies.libraries.library import MATRIX, QUATERNION, Controller, Function, Library
+
+BALL = """
+<body name="body"><joint type="ball"/><inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/><site name="body"/></body>
+"""
+MODELS = {
+    "alone": f"<mujoco><worldbody>{BALL}</worldbody></mujoco>",
+    "actuated": f"""<mujoco><worldbody><site name="goal"/>{BALL}</worldbody>
+    <actuator><orientation site="body" refsite="goal" kp="1"/></actuator></mujoco>""",
+    "held": f"""<mujoco><option timestep="0.001" gravity="0 0 0"/><worldbody><site name="goal"/>{BALL}</worldbody>
+    <actuator><orientation site="body" refsite="goal" kp="100" kv="20"/></actuator></mujoco>""",
+    "welded": f"""<mujoco><option gravity="0 0 0"/><worldbody><body name="goal" mocap="true"/>{BALL}</worldbody>
+    <equality><weld body1="goal" body2="body" relpose="0 0 0 1 0 0 0"/></equality></mujoco>""",
+}
+"""A body of unit inertia on a ball joint: alone, with the goal's actuators, with their gains, welded to the goal."""
+
+
+@functools.cache
+def load_model(name: str) -> Any:
+    """Compile a model of MODELS and return it with its data."""
+    import mujoco
+
+    model = mujoco.MjModel.from_xml_string(MODELS[name])
+    return model, mujoco.MjData(model)
+
+
+def place_body(name: str, q) -> Any:
+    """Return the data of a model with its body at an orientation, at rest."""
+    import mujoco
+
+    model, data = load_model(name)
+    data.qpos[:] = q
+    mujoco.mj_forward(model, data)
+    return data
+
+
+def mujoco() -> list[Library]:
+    """Return MuJoCo's functions on quaternions, its <orientation> actuator and its <weld>."""
+    import mujoco
+
+    identity = np.array((1.0, 0.0, 0.0, 0.0))
+
+    def filled(size: int, function, *given) -> np.ndarray:
+        found = np.empty(size)
+        function(found, *given)
+        return found
+
+    def mat_to_quat(R) -> np.ndarray:
+        return filled(4, mujoco.mju_mat2Quat, np.ascontiguousarray(R).ravel())
+
+    def quat_to_vel(q) -> np.ndarray:
+        return filled(3, mujoco.mju_quat2Vel, q, 1.0)
+
+    def stepped(name: str, q) -> Iterator[tuple]:  # from rest until it neither moves nor accelerates
+        model, _ = load_model(name)
+        data = mujoco.MjData(model)
+        data.qpos[:] = conjugate(q)
+        while True:
+            yield conjugate(tuple(data.qpos))
+            mujoco.mj_step(model, data)
+            if not data.qvel.any() and not data.qacc.any():
+                return
+
+    def numbers(values) -> str:
+        return " ".join(f"{value:g}" for value in values)
+
+    (held, _), (weld, _) = load_model("held"), load_model("welded")
+    # minus the force of three actuators with kp = 1, in the frame of the body
+    actuator = Function("<orientation> actuator", QUATERNION, lambda q: -place_body("actuated", q).qfrc_actuator)
+    functions = (
+        Function("mju_subQuat", QUATERNION, lambda q: filled(3, mujoco.mju_subQuat, q, identity)),
+        Function("mju_quat2Vel", QUATERNION, quat_to_vel),
+        Function("mju_mat2Quat, mju_quat2Vel", MATRIX, lambda R: quat_to_vel(mat_to_quat(R))),
+        Function(
+            "2 mju_mat2Quat, vector part",
+            MATRIX,
+            lambda R: 2.0 * mat_to_quat(R)[1:],
+            "sine-of-half",
+            True,
+            "`mju_quat2Vel` of it",
+        ),
+        actuator,
+    )
+    dt_s, title = weld.opt.timestep, f"solref {numbers(weld.eq_solref[0])}, solimp {numbers(weld.eq_solimp[0])}, "
+    controllers = (
+        Controller(
+            "<orientation> actuators",
+            actuator.name,
+            "acceleration",
+            "kp 100, kv 20, timestep 1 ms",
+            held.opt.timestep,
+            partial(stepped, "held"),
+        ),
+        Controller(
+            "<weld>, by default",
+            "",
+            "acceleration",
+            f"{title}timestep {1e3 * dt_s:g} ms",
+            dt_s,
+            partial(stepped, "welded"),
+            lambda q: place_body("welded", q).qacc.copy(),
+        ),
+    )
+    return [Library("mujoco", "mujoco", functions, controllers)]
+
+
+def mink() -> list[Library]:
+    """Return mink's logarithm in Python, the one in C that its FrameTask takes where it is compiled, and solve_ik."""
+    import mink
+    from mink.lie import _lie_ops_c
+
+    (model, _), dt_s = load_model("alone"), 0.005
+    at_identity = mink.Configuration(model)
+
+    def task_to(pose, **options) -> Any:
+        task = mink.FrameTask("body", "body", position_cost=1.0, orientation_cost=1.0, **options)
+        task.set_target(pose)
+        return task
+
+    def compiled(q) -> np.ndarray:  # the angular part
+        return _lie_ops_c.se3_log(np.array((*q, 0.0, 0.0, 0.0)))[3:]
+
+    def compiled_of_matrix(R) -> np.ndarray:
+        return _lie_ops_c.se3_log(_lie_ops_c.xmat_xpos_to_wxyz_xyz(np.ravel(R), np.zeros(3)))[3:]
+
+    def error(q) -> np.ndarray:  # of a body at the identity whose target is turned
+        return task_to(mink.SE3.from_rotation(mink.SO3(np.array(q)))).compute_error(at_identity)[3:]
+
+    def solved(q) -> Iterator[tuple]:  # tick by tick, as in mink's examples, towards the identity
+        configuration = mink.Configuration(model, q=np.array(conjugate(q)))
+        task = task_to(mink.SE3.identity(), lm_damping=1.0)
+        while True:
+            yield conjugate(tuple(configuration.q))
+            velocity = mink.solve_ik(configuration, [task], dt_s, "daqp", damping=1e-3)
+            configuration.integrate_inplace(velocity, dt_s)
+
+    name, sign = "FrameTask.compute_error", "`np.copysign(1.0, q[0])` for `np.sign(q[0])`"
+    functions = (
+        Function(
+            "SO3.log (Python)",
+            QUATERNION,
+            lambda q: mink.SO3(np.array(q)).log(),
+            fix=sign,
+            thread="kevinzakka/mink#82",
+        ),
+        Function("se3_log (compiled)", QUATERNION, compiled),
+        Function("se3_log (compiled), of a matrix", MATRIX, compiled_of_matrix),
+        Function(name, QUATERNION, error),
+    )
+    title = "gain 1, lm_damping 1, damping 1e-3, 200 Hz"
+    loop = Controller("solve_ik, FrameTask", name, "velocity", title, dt_s, solved)
+    return [Library("mink", "mink", functions, (loop,))]
+
+
+def newton() -> list[Library]:
+    """Return the errors of Newton's controllers and inverse kinematics, and axis and angle of its Warp, on the CPU."""
+    import newton
+    import warp
+    from newton._src.controllers.impl._common import _pose_error_kernel
+
+    @warp.kernel
+    def axis_angle(given: warp.array(dtype=warp.quat), e: warp.array(dtype=warp.vec3)):  # type: ignore[valid-type]
+        axis, angle = warp.vec3(), float(0.0)  # noqa: UP018 - to Warp float(0.0) is a variable, 0.0 a constant
+        warp.quat_to_axis_angle(given[0], axis, angle)
+        e[0] = angle * axis
+
+    @warp.kernel
+    def of_matrix(given: warp.array(dtype=warp.mat33), e: warp.array(dtype=warp.vec3)):  # type: ignore[valid-type]
+        axis, angle = warp.vec3(), float(0.0)  # noqa: UP018
+        warp.quat_to_axis_angle(warp.quat_from_matrix(given[0]), axis, angle)
+        e[0] = angle * axis
+
+    def on_cpu(values, dtype) -> Any:
+        return warp.array(values, dtype=dtype, device="cpu")
+
+    def launched(kernel, given: list, dtype=warp.vec3) -> np.ndarray:
+        found = warp.zeros(1, dtype=dtype, device="cpu")
+        warp.launch(kernel, dim=1, inputs=given, outputs=[found], device="cpu")
+        return found.numpy()[0]
+
+    def pose(quat_xyzw) -> np.ndarray:
+        return np.array([(0.0, 0.0, 0.0, *quat_xyzw)], dtype=np.float32)
+
+    def pose_error(q) -> np.ndarray:  # the angular part
+        poses = [on_cpu(pose(one), warp.transform) for one in ((0.0, 0.0, 0.0, 1.0), q[order])]
+        return launched(_pose_error_kernel, poses, warp.spatial_vector)[3:]
+
+    builder, order = newton.ModelBuilder(), [1, 2, 3, 0]
+    builder.add_body(mass=1.0)
+    model = builder.finalize(device="cpu")
+    goal = on_cpu([warp.vec4(0.0, 0.0, 0.0, 1.0)], warp.vec4)
+    objective = newton.ik.IKObjectiveRotation(0, warp.quat_identity(), goal)
+    residuals, first = (
+        warp.zeros((1, 3), dtype=warp.float32, device="cpu"),
+        warp.zeros(1, dtype=warp.int32, device="cpu"),
+    )
+    objective.set_batch_layout(3, 0, 1)
+    objective.bind_device(model.device)
+    objective.init_buffers(model, newton.ik.IKJacobianType.ANALYTIC)
+
+    def residual(q) -> np.ndarray:  # of one free body whose goal is the identity: at T it is T's error
+        bodies = on_cpu(pose(q[order])[None], warp.transform)
+        objective.compute_residuals(bodies, None, model, residuals, 0, first)
+        return residuals.numpy()[0]
+
+    by_matrix = "warp.quat_from_matrix, quat_to_axis_angle"
+    functions = (
+        Function("controllers: _pose_error_kernel", QUATERNION, pose_error),
+        Function("ik.IKObjectiveRotation, residual", QUATERNION, residual),
+        Function(
+            "warp.quat_to_axis_angle", QUATERNION, lambda q: launched(axis_angle, [on_cpu([q[order]], warp.quat)])
+        ),
+        Function(by_matrix, MATRIX, lambda R: launched(of_matrix, [on_cpu([R], warp.mat33)])),
+    )
+    return [Library("newton", "newton", functions, is_single=True)]
+
+
+def dm_control() -> list[Library]:
+    """Return dm_control.utils.transformations."""
+    from absl import logging
+    from dm_control.utils import transformations as its
+
+    logging.set_verbosity(logging.ERROR)  # rmat_to_euler warns of every pole it is asked for
+    thread, fix = "google-deepmind/dm_control#555", "`quat_to_axisangle`"
+    functions = (
+        Function("quat_to_axisangle", QUATERNION, its.quat_to_axisangle),
+        Function("2 quat_log, vector part", QUATERNION, lambda q: 2.0 * its.quat_log(q)[1:], is_idiom=True, fix=fix),
+        Function("mat_to_quat, quat_to_axisangle", MATRIX, lambda R: its.quat_to_axisangle(its.mat_to_quat(R))),
+        Function('rmat_to_euler("ZYX")', MATRIX, lambda R: its.rmat_to_euler(R, "ZYX")[::-1], "z-y-x", thread=thread),
+    )
+    return [Library("dm_control", "dm-control", functions)]
+
+
+ASKED = (mujoco, mink, newton, dm_control)

@@ -1,0 +1,44 @@
+"""What every study has: a command line, and parts that are kept as soon as they are made, so that a call can go on."""
+
+import argparse
+import time
+from collections.abc import Callable, Iterable, Mapping
+from pathlib import Path
+from typing import Any
+
+from bench.base.files import read_json, write_json
+from bench.base.provenance import source_digest
+
+
+def make_parser(
+    name: str, doc: str | None, parts: Iterable[str] = (), out: Path | None = None, workers: int = 0
+) -> argparse.ArgumentParser:
+    """Return the parser of `python -m bench.studies.NAME`: --only where there are parts, --out, --workers."""
+    parser = argparse.ArgumentParser(prog=f"python -m bench.studies.{name}", description=(doc or "").split("\n")[0])
+    if parts:
+        parser.add_argument("--only", nargs="+", choices=list(parts), metavar="PART", help=f"of {', '.join(parts)}")
+    if out:
+        parser.add_argument(
+            "--out", type=Path, default=out, help=f"where to write (default: results/{out.parent.name})"
+        )
+    if workers:
+        parser.add_argument("--workers", type=int, default=workers, help=f"threads (default: {workers})")
+    return parser
+
+
+def make_parts(out: Path, parts: Mapping[str, Callable[[], Any]], only: Iterable[str] | None = None) -> dict[str, Any]:
+    """Make parts, or those of some names, and return them by name.
+
+    Each is written beside `out` when it is made; a call that was stopped goes on there if the sources are the same.
+    """
+    beside, digest = out.with_name(f"{out.stem}-unfinished.json"), source_digest()
+    kept = read_json(beside) if beside.is_file() else {}
+    made: dict[str, Any] = kept["parts"] if kept.get("sources") == digest else {}
+    for name in only or parts:
+        if name not in made:
+            began = time.process_time()
+            made[name] = parts[name]()
+            write_json(beside, {"sources": digest, "parts": made})
+            print(f"{name}: {time.process_time() - began:.0f} s of CPU", flush=True)
+    beside.unlink(missing_ok=True)
+    return made
