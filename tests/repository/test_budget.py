@@ -19,7 +19,7 @@ LINES = {
     "bench/law": 6_622,
     "bench/regression": 1_200,
     "bench/running": 2_509,
-    "bench/studies": 3_715,
+    "bench/studies": 3_385,
     "tests/audit": 667,
     "tests/cli": 832,
     "tests/conftest.py": 85,
@@ -33,10 +33,10 @@ LINES = {
     "tests/report": 2_686,
     "tests/repository": 605,
     "tests/running": 1_201,
-    "tests/studies": 829,
+    "tests/studies": 826,
     "tests/support": 3_693,
     "tests/tasks": 2_349,
-    "report": 12_292,
+    "report": 12_291,
     "tasks": 5_157,
 }
 """Lines of Python a room. Who needs more takes them from another room and lowers that number in the same commit."""
