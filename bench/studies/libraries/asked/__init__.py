@@ -1,4 +1,4 @@
-"""Every library that is asked: a function each, which imports the library and returns what is asked of it.
+"""Every library that is asked: a function each imports the library and returns its functions and controllers.
 
 A library that is not installed here is left out, with a line that says why.
 """
