@@ -46,6 +46,7 @@ report: $(VENV)/.report ## build the report: report/_build/html/index.html (from
 ##@ Benchmark
 bench-quick: $(READY) ## run the quick suite into results/quick (minutes)
 	@$(PY) -m bench run --suite quick --replace --out results/quick $(ARGS)
+	@$(PY) -m bench show results/quick
 time: $(READY) ## time every law per control tick on this machine: results/timings
 	@$(PY) -m bench time $(ARGS)
 libraries: .venv-libraries/.made $(APART:%=.venv-%/.made) ## compare other robot libraries (5 GB): results/libraries

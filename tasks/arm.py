@@ -88,7 +88,7 @@ def _xml_of(name: str, file: str, text: str) -> str:
         written = module.xml()
     except (Exception, SystemExit) as error:
         reason = " ".join(f"{type(error).__name__}: {error}".split())
-        raise BadArm(f"arm '{name}': xml() of {file} does not work ({reason}) (mend the file)") from error
+        raise BadArm(f"arm '{name}': xml() of {file} does not work ({reason}) (correct the file)") from error
     if not isinstance(written, str):
         raise BadArm(f"arm '{name}': xml() of {file} returns {type(written).__name__} (return the MJCF text, a str)")
     return written

@@ -66,13 +66,13 @@ def _compiled(name: str, xml: str) -> tuple[mujoco.MjModel, ElementTree.Element]
     try:
         root = ElementTree.fromstring(xml)
     except ElementTree.ParseError as error:
-        _refuse(name, f"it is not XML: {error}", "mend that line")
+        _refuse(name, f"it is not XML: {error}", "correct that line")
     if root.find(".//sensor") is not None:
         _refuse(name, "it has sensors of its own, and the judge's must come first", "take its <sensor> out")
     try:
         return mujoco.MjModel.from_xml_string(xml), root
     except ValueError as error:
-        _refuse(name, f"MuJoCo refuses it: {' '.join(str(error).split())}", "mend what MuJoCo names")
+        _refuse(name, f"MuJoCo refuses it: {' '.join(str(error).split())}", "correct what MuJoCo names")
 
 
 def _text(name: str, root: ElementTree.Element, key: str) -> str:

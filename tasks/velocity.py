@@ -31,7 +31,7 @@ def servo(dt: float, lag: float) -> Servo:
 def turned(quat, turn):
     """The unit quaternion after a rotation by the base-frame vector `turn` [rad]; with no turn it keeps every bit.
 
-    Its length is mended by a step of Newton's, so that it stays 1 over any number of ticks.
+    Its length is corrected by a step of Newton's, so that it stays 1 over any number of ticks.
     """
     squared = turn[0] * turn[0] + turn[1] * turn[1] + turn[2] * turn[2]
     if squared <= 0.0:
@@ -47,8 +47,8 @@ def turned(quat, turn):
         c * quat[2] - x * quat[3] + y * quat[0] + z * quat[1],
         c * quat[3] + x * quat[2] - y * quat[1] + z * quat[0],
     )
-    mend = 1.5 - 0.5 * (p[0] * p[0] + p[1] * p[1] + p[2] * p[2] + p[3] * p[3])
-    return (mend * p[0], mend * p[1], mend * p[2], mend * p[3])
+    factor = 1.5 - 0.5 * (p[0] * p[0] + p[1] * p[1] + p[2] * p[2] + p[3] * p[3])
+    return (factor * p[0], factor * p[1], factor * p[2], factor * p[3])
 
 
 def followed(rate, command, servo):

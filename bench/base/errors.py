@@ -19,9 +19,9 @@ class BenchError(Exception):
 class UnknownWord(BenchError):
     """A name that is in no list."""
 
-    def __init__(self, kind: str, given: str, known: list[str]):
+    def __init__(self, kind: str, given: str, known: list[str], meant: str | None = None):
         listed = ", ".join(known) if known else "none"
-        near = difflib.get_close_matches(given, known, n=1)
+        near = [meant] if meant else difflib.get_close_matches(given, known, n=1)
         guess = f" (did you mean '{near[0]}'?)" if near else ""
         word = kind.lower()  # "Jacobian" in a sentence, "jacobians" on the command line
         cure = f"try: python -m bench list {word}s" if word in LISTED else "give one of these"

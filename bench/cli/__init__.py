@@ -31,8 +31,8 @@ EPILOG = examples(
     ("The same beside all others", "run --law my_law.py --suite quick --out results/mine"),
     after="Exit code 0: done. 1: done, and something is wrong: a law crashed or hung (run, map, count), a fault "
     "(judge), a regression or a difference (compare), a machine that is not ready (doctor). 2: it could not be done, "
-    "and a line on stderr says what to mend. 130: stopped by Ctrl-C. A target of make that fails ends with 2, which is "
-    "make's own, whatever the command said.",
+    "and a line on stderr says what to correct. 130: stopped by Ctrl-C. A target of make that fails ends with 2, "
+    "which is make's own, whatever the command said.",
 )
 
 

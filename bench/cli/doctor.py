@@ -106,7 +106,9 @@ def _arms() -> str:
     broken = [str(one) for one in arms().values() if isinstance(one, BadArm)]
     found = [one for one in arms().values() if not isinstance(one, BadArm)]
     if broken or not found:
-        raise RuntimeError(f"{'; '.join(broken) or 'there is none'}. Cure: mend the file, or take it out of tasks/arms")
+        raise RuntimeError(
+            f"{'; '.join(broken) or 'there is none'}. Cure: correct the file, or take it out of tasks/arms"
+        )
     arm = next((one for one in found if one.name == "ur5e"), found[0])
     laws = {one.name: one for one in all_contenders()}
     [law] = combinations.on((f"{papers_laws()[0].name}@geometric+standard",), laws, arm.joints)

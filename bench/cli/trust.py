@@ -21,5 +21,7 @@ def COMMAND(files):
         try:
             trust.remember(path.read_bytes())
         except OSError as error:
-            raise BadLaw(f"{path}: it cannot be trusted ({error.strerror}: {error.filename}); mend that") from error
+            raise BadLaw(
+                f"{path}: it cannot be trusted ({error.strerror}: {error.filename}); check the file"
+            ) from error
         console().print(f"trusted: {path}")

@@ -10,7 +10,7 @@ from typing import Any
 from bench.base.provenance import ROOT
 from bench.engines.counting.costs import FLOPS, cost
 from bench.engines.counting.counted import TOTAL
-from bench.export.subject import IMPEDANCE, SPRING, STATED, Subject
+from bench.export.subject import COMPENSATOR, IMPEDANCE, SPRING, Subject
 
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
 HOLDER = PROJECT["authors"][0]["name"]
@@ -36,7 +36,7 @@ UNFUSED = (
 )
 GAINS = "Gains     kp [1/s^2], kv [1/s]; "
 OF_KIND = {
-    STATED: (
+    COMPENSATOR: (
         f"{GAINS}what they set is in the formula",
         "State     four numbers; begin returns the first of them, next_state those of every period after",
     ),

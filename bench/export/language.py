@@ -53,9 +53,11 @@ def language_words() -> list[str]:
 
 def find_language(word: str) -> Language:
     """Return the constant LANGUAGE of the file of that name."""
-    if word not in language_words():
-        raise UnknownWord("language", word, language_words())
-    return importlib.import_module(f"{languages.__name__}.{word}").LANGUAGE
+    every = {name: importlib.import_module(f"{languages.__name__}.{name}").LANGUAGE for name in language_words()}
+    if word not in every:
+        meant = (name for name, one in every.items() if one.title.casefold().startswith(word.casefold()))
+        raise UnknownWord("language", word, list(every), next(meant, None))
+    return every[word]
 
 
 def write_arguments(entry: Entry, declared: Mapping[str, str], passed: Mapping[str, str]) -> tuple[str, str]:

@@ -23,15 +23,14 @@ from bench.law.contenders.registry import (
 from bench.law.control.registry import all_controllers
 from bench.law.so3 import Rotation
 
-COORDINATES, IMPEDANCE = "representation-", "impedance-"
-STATED, SPRING = "compensator-", "spring-"
-"""What words begin with, by kind; a regulator's is its name."""
+IMPEDANCE, COMPENSATOR, SPRING = "impedance-", "compensator-", "spring-"
 
 ALONE: dict[str, tuple[Callable[[], dict], Callable[[Any], list[Entry]]]] = {
-    STATED: (known_compensators, lambda one: of_compensator(one.law, one.begin)),
+    "representation-": (known_representations, of_representation),
+    COMPENSATOR: (known_compensators, lambda one: of_compensator(one.law, one.begin)),
     SPRING: (known_springs, lambda one: of_spring(one.wrench, one.is_rotational)),
 }
-"""Kinds that act on no coordinates: the records of each by name, and the entries of a record."""
+"""Kinds by what their words begin with: the records of each by name, and the entries of a record."""
 
 
 class Subject(NamedTuple):
@@ -58,7 +57,7 @@ def subject_words(extra: tuple[Regulator, ...] = ()) -> list[str]:
     laws = [one.name for one in registry.all_contenders(extra)]
     impedances = [one.name for one in all_controllers() if one.impedance is not None]
     alone = (f"{prefix}{name}" for prefix, (known, _) in ALONE.items() for name in known())
-    return [*laws, *(f"{COORDINATES}{name}" for name in known_representations()), *impedances, *alone]
+    return [*laws, *impedances, *alone]
 
 
 def find_subject(word: str, extra: tuple[Regulator, ...] = ()) -> Subject:
@@ -68,9 +67,6 @@ def find_subject(word: str, extra: tuple[Regulator, ...] = ()) -> Subject:
         UnknownWord: nothing of that name. Incompatible: coordinates are missing, or do not fit.
     """
     first, _, second = word.partition("/")
-    if first.startswith(COORDINATES):
-        record = registry.representation(first.removeprefix(COORDINATES))
-        return Subject(word, record, None, tuple(of_representation(record)))
     for prefix, (known, entries_of) in ALONE.items():
         if first.startswith(prefix) and first.removeprefix(prefix) in known():
             record = known()[first.removeprefix(prefix)]
@@ -83,6 +79,8 @@ def find_subject(word: str, extra: tuple[Regulator, ...] = ()) -> Subject:
             words = [one for one in subject_words() if one.startswith(f"{first}/")]
             raise UnknownWord("impedance", word, words)
         return Subject(word, impedance, along, tuple(of_impedance(law)))
+    if first not in {one.name for one in (*registry.known_regulators().values(), *extra)}:
+        raise UnknownWord("law to export", word, subject_words(extra))
     contender = registry.find_contender(word, extra)
     regulator = contender.regulator
     entries = tuple(of_law(contender.law, regulator.memory is not None))

@@ -60,6 +60,8 @@ def test_export_of_a_user_s_law_is_of_its_file(capsys, tmp_path):
     [
         (("late-brakin", "--to", "c"), "did you mean 'late-braking'"),
         (("late-braking", "--to", "ada"), "known: c, cpp"),
+        (("late-braking", "--to", "c++"), "did you mean 'cpp'"),
+        (("pose-spring-geometric", "--to", "c"), "impedance-geometric"),
         (("feedback-linearized", "--to", "c"), "name one: feedback-linearized/mrp"),
         (("impedance-coordinates", "--to", "c"), "did you mean 'impedance-coordinates/mrp'"),
         (("representation-euler", "--to", "c"), "zyx-euler"),

@@ -6,6 +6,8 @@ import re
 import tokenize
 from pathlib import Path
 
+import pytest
+
 from bench.base.provenance import ROOT
 
 FRAGMENT = re.compile(r"(Of|Those|The same|That|As|By|Where|Whose)\b")
@@ -67,3 +69,12 @@ def test_planted_fragment_and_phrases_are_found(tmp_path):
     )
     assert find_fragments(planted) == [f"{planted}:4: Of a half"]
     assert find_phrases(planted) == [f"{planted}:5: half turn", f"{planted}:7: anew"]
+
+
+@pytest.mark.parametrize("name", PROSE)
+def test_prose_fits_its_width_and_names_paths_that_exist(name):
+    text = (ROOT / name).read_text(encoding="utf-8")
+    assert name not in PROSE[:2] or not [line for line in text.splitlines() if len(line) > 120]
+    named = re.findall(r"(?:`|\]\()((?:bench|tasks|report|results|tests)/[\w./-]*)[`)]", text)
+    made_later = ("report/_build", "results/mine", "results/latest")
+    assert not [path for path in named if not path.startswith(made_later) and not (ROOT / path).exists()]

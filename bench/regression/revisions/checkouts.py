@@ -2,6 +2,7 @@
 
 import contextlib
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -20,6 +21,9 @@ PART = (
     *("--task", "free-body", "--task", "arm-regulation"),
 )
 """The part of the quick suite through which all laws are run; `make gate` runs the whole."""
+
+SHARE = re.compile(r"\((\d+)%\)")
+"""The share done, in a line of progress of `bench run`."""
 
 
 @contextlib.contextmanager
@@ -50,27 +54,49 @@ def _make(stack: contextlib.ExitStack, folder: Path, revision: str | None, laws:
     return Side(sources, files, bool(laws), (), name if revision else "working tree", digest)
 
 
-def run_python(checkout: Path, *words: str, allowed: tuple[int, ...] = (0,)) -> str:
-    """Run Python with the sources of a checkout; return what it prints, or raise BadResults with its last words."""
-    more = {"PYTHONPATH": str(checkout)}
-    ended = subprocess.run(
-        [sys.executable, *words], cwd=checkout, env=os.environ | more, capture_output=True, text=True
-    )
-    if ended.returncode not in allowed:
-        said = (ended.stderr.strip().splitlines() or ["it said nothing"])[-1].removeprefix("error: ")
-        raise BadResults(f"{checkout}: python {' '.join(words[:3])} does not run ({said})")
-    return ended.stdout.strip()
+def run_python(
+    checkout: Path, *words: str, allowed: tuple[int, ...] = (0,), heard: Callable[[str], None] = lambda _: None
+) -> str:
+    """Run Python with the sources of a checkout; return what it prints, or raise BadResults with its last words.
+
+    heard: called with every line on its stderr.
+    """
+    environment = os.environ | {"PYTHONPATH": str(checkout)}
+    last = "it said nothing"
+    with (
+        tempfile.TemporaryFile("w+", encoding="utf-8") as printed,
+        subprocess.Popen(
+            [sys.executable, *words], cwd=checkout, env=environment, stdout=printed, stderr=subprocess.PIPE, text=True
+        ) as process,
+    ):
+        for line in process.stderr or ():
+            heard(line)
+            last = line.strip() or last
+        if process.wait() not in allowed:
+            raise BadResults(f"{checkout}: python {' '.join(words[:3])} does not run ({last.removeprefix('error: ')})")
+        printed.seek(0)
+        return printed.read().strip()
 
 
 @contextlib.contextmanager
-def run_side(side: Side, report: Callable[[str], None]) -> Iterator[Path]:
-    """Run a user's laws through the quick suite, or all laws through PART of it; give the folder for the block."""
+def run_side(side: Side, report: Callable) -> Iterator[Path]:
+    """Run a user's laws through the quick suite, or all laws through PART of it; give the folder for the block.
+
+    report: called with what is done and the share of it that is done, as the run's own lines say it.
+    """
     with tempfile.TemporaryDirectory(prefix="orientation-bench-") as temporary:
-        report(f"running {'the quick suite' if side.only else 'a part of the quick suite'} of {side.name}")
+        doing = f"running {'the quick suite' if side.only else 'a part of the quick suite'} of {side.name}"
+        report(doing, 0.0)
+
+        def heard(line: str) -> None:
+            if share := SHARE.search(line):
+                report(doing, int(share[1]) / 100)
+
         folder = Path(temporary) / "run"
         words = [*(() if side.only else PART), "--out", str(folder)]
         for law in side.laws:
             words += ["--law", str(law), "--regulator", described(law).name]
         # 1: some rows of a user's law were lost, and the folder says which
-        run_python(side.path, "-m", "bench", "run", "--suite", "quick", *words, allowed=(0, 1) if side.only else (0,))
+        allowed = (0, 1) if side.only else (0,)
+        run_python(side.path, "-m", "bench", "run", "--suite", "quick", *words, allowed=allowed, heard=heard)
         yield folder

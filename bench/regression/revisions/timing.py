@@ -144,7 +144,7 @@ def confirm(first: Timed, second: Timed) -> Timed:
 
 
 def compare_times(
-    base: Side, head: Side, report: Callable[[str], None] = lambda _: None, rounds: int = ROUNDS
+    base: Side, head: Side, report: Callable = lambda *_: None, rounds: int = ROUNDS
 ) -> tuple[list[dict[str, Any]], dict[str, Timed]]:
     """Time both sides, and once more what differs; return the two files of the first run, and verdicts by name."""
     report("compiling and timing")
@@ -152,6 +152,7 @@ def compare_times(
     times = judge_files(*files)
     suspects = tuple(name for name, one in times.items() if one.verdict != SAME)
     if suspects:
+        report("timing once more what differs", 0.5)
         again = run_benchmarks([side._replace(names=suspects) for side in (base, head)], rounds=rounds)
         times |= {name: confirm(times[name], one) for name, one in judge_files(*again).items()}
     return files, times

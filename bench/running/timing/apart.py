@@ -51,10 +51,10 @@ def run_apart(
                 raise BadLaw(said["mistake"])
             report(Progress(*said["progress"]))
     except TimeoutError as error:
-        raise BadLaw(f"--law {', '.join(files)}: it did not return within {silent_s:g} s; mend the file") from error
+        raise BadLaw(f"--law {', '.join(files)}: it did not return within {silent_s:g} s; correct the file") from error
     except (EOFError, OSError) as error:
         code = process.end()
-        raise BadLaw(f"--law {', '.join(files)}: it ended its process ({ending(code)}); mend the file") from error
+        raise BadLaw(f"--law {', '.join(files)}: it ended its process ({ending(code)}); correct the file") from error
     finally:
         process.end()
 

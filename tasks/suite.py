@@ -1,0 +1,52 @@
+"""Load the tasks as `dm_control.suite` loads its own.
+
+A domain is a task of this package. Its tasks are the names of the arms that it is done by, or "no-arm".
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+import tasks
+from tasks.errors import BadValue
+
+if TYPE_CHECKING:
+    from dm_control.rl.control import Environment
+
+NO_ARM = "no-arm"
+WORDS = {"time_limit": "horizon", "control_timestep": "dt"}
+"""Words of dm_control and what `tasks.load` calls them."""
+
+
+def list_tasks() -> tuple[tuple[str, str], ...]:
+    """Return every (domain_name, task_name), as ALL_TASKS of dm_control.suite."""
+    contact = ((name, arm) for name in tasks.contact_names() for arm in tasks.arm_names() if _can_do(name, arm))
+    return (*((name, arm or NO_ARM) for name, arm in tasks.pairs()), *contact)
+
+
+def _can_do(task: str, arm: str) -> bool:
+    from tasks.contact import refuse  # imports MuJoCo
+
+    try:
+        refuse(tasks.contact_task(task), tasks.arm(arm))
+    except BadValue:
+        return False
+    return True
+
+
+def load(
+    domain_name: str,
+    task_name: str,
+    task_kwargs: Mapping[str, Any] | None = None,
+    environment_kwargs: Mapping[str, Any] | None = None,
+) -> Environment:
+    """Return the environment of a task.
+
+    Args:
+        task_kwargs: start, vary. environment_kwargs: time_limit [s], control_timestep [s], integrator; see tasks.load.
+    """
+    given = {
+        WORDS.get(name, name): value for name, value in {**(task_kwargs or {}), **(environment_kwargs or {})}.items()
+    }
+    return tasks.load(domain_name, arm="" if task_name == NO_ARM else task_name, **given)
