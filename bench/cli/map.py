@@ -1,6 +1,5 @@
 """`map`: millions of random starts of a law, counted in cells of SO(3)."""
 
-import os
 from pathlib import Path
 
 import rich_click as click
@@ -14,7 +13,7 @@ from bench.experiments.choice import check_numbers, check_workers
 from bench.experiments.map import plan_of
 from bench.experiments.tables.schema import RESULTS
 from bench.law.contender import Gains
-from bench.running.schedulers.words import THREADS, check_scheduler
+from bench.running.schedulers.words import check_scheduler
 
 EPILOG = examples(
     ("Where the rotation matrix alone loses starts, of ten million", "map --regulator rotation-matrix"),
@@ -30,7 +29,6 @@ MOST = 10**10
 @options.law
 @options.regulator
 @click.option("--starts", type=click.IntRange(1, MOST), default=10**7, show_default=True, help="Of each law.")
-@click.option("--seed", type=int, default=0, show_default=True, help="Of the starts.")
 @click.option(
     "--spin",
     type=click.FloatRange(0.0, 100.0),
@@ -52,18 +50,12 @@ MOST = 10**10
     show_default=True,
     help="Continuous plant, or one sampled with a held command.",
 )
-@click.option("--dt", "dt_s", type=float, default=1e-3, show_default=True, help="Control period in seconds.")
-@click.option(
-    "--horizon", "horizon_s", type=float, default=10.0, show_default=True, help="Longest simulated time in seconds."
-)
-@click.option("--kp", type=float, default=100.0, show_default=True, help="Position gain [1/s^2].")
-@click.option("--kv", type=float, default=20.0, show_default=True, help="Velocity gain [1/s].")
-@click.option("--workers", type=int, default=os.cpu_count() or 1, show_default="cores", help="Threads.")
-@click.option("--scheduler", default=THREADS, show_default="threads of this process", metavar="WORD", help="As of run.")
+@options.simulated
+@options.numbered("--horizon", 10.0, "Longest simulated time in seconds.", "horizon_s")
+@options.carried_out
 @click.option(
     "--out", type=options.PATH, default=RESULTS / "latest-map", show_default="results/latest-map", help="Folder."
 )
-@click.option("--replace", is_flag=True, help="Start over if the folder holds another plan.")
 def COMMAND(
     laws, regulators, starts, seed, spin, stated, engine, dt_s, horizon_s, kp, kv, workers, scheduler, out, replace
 ):

@@ -1,5 +1,8 @@
 """Options that several commands share."""
 
+import functools
+import os
+from collections.abc import Callable
 from pathlib import Path
 from typing import NamedTuple
 
@@ -9,6 +12,7 @@ from bench.experiments.tables.schema import RESULTS
 from bench.law.contender import Contender, Regulator
 from bench.law.contenders import registry
 from bench.law.contenders.described_law import described
+from bench.running.schedulers.words import THREADS
 
 LATEST = RESULTS / "latest"
 REFERENCE = RESULTS / "reference"
@@ -36,6 +40,36 @@ controller = several(
     "In contact, only this controller, as hybrid/zyx-euler+inverse or impedance-geometric",
 )
 arm = several("--arm", "arms", "Only this arm")
+
+
+def numbered(name: str, default: float, meaning: str, python_name: str = "", **more) -> Callable:
+    """Return an option that takes a number and has a default."""
+    names = [name, python_name] if python_name else [name]
+    return click.option(*names, type=type(default), default=default, help=meaning, **{"show_default": True, **more})
+
+
+def stacked(*options: Callable) -> Callable:
+    """Return one decorator for several options."""
+    return lambda command: functools.reduce(lambda made, option: option(made), reversed(options), command)
+
+
+simulated = stacked(
+    numbered("--dt", 1e-3, "Control period in seconds.", "dt_s"),
+    numbered("--kp", 100.0, "Position gain [1/s^2]."),
+    numbered("--kv", 20.0, "Velocity gain [1/s]."),
+    numbered("--seed", 0, "Seed of the sampled starts."),
+)
+carried_out = stacked(
+    numbered("--workers", os.cpu_count() or 1, "Threads.", show_default="cores"),
+    click.option(
+        "--scheduler",
+        default=THREADS,
+        show_default="threads of this process",
+        metavar="WORD",
+        help="Who runs the episodes: local:N, so many processes here, or tcp://host:8786, a Dask cluster.",
+    ),
+    click.option("--replace", is_flag=True, help="Start over if the folder holds another plan."),
+)
 
 
 class Named(NamedTuple):

@@ -8,8 +8,18 @@ from bench.experiments.plan import Plan
 from bench.experiments.suites import NOMINAL
 from bench.running.schedulers.words import THREADS
 
-OF_EPISODES = ("free-body", "arm", "contact", "robustness")
-"""Experiments whose size is said; of others the name."""
+LAW, CONTROLLER, ARM = ("", "contender", "law"), ("", "contender", "controller"), (" on ", "arm", "arm")
+STARTS = (" from ", "selector", "start set")
+PARTS = {
+    "free-body": ("free body", "episode", (LAW, (" by ", "engine", "engine"), STARTS)),
+    "arm": ("arms", "episode", (CONTROLLER, ARM, STARTS)),
+    "contact": ("contact", "trial", (CONTROLLER, (" in ", "task", "task"), ARM)),
+    "robustness": ("robustness", "episode", (LAW, (" under ", "selector", "perturbation"))),
+}
+"""Experiments whose size is said: head, word of an episode, and (before it, field of a unit, word) of what is counted.
+
+Of other experiments the name is said.
+"""
 
 FEW = 3
 """Names up to this number are printed, more are counted."""
@@ -26,37 +36,22 @@ def size(plan: Plan, out: Path, workers: int, scheduler: str) -> list[Paragraph]
 
 
 def _sizes(plan: Plan) -> list[Paragraph]:
-    free_body, on_arms, contacts, perturbed = map(plan.of, OF_EPISODES)
-    episodes = counted(plan.episodes(*OF_EPISODES), "episode")
-    size = f"suite {plan.settings.suite}: {episodes} in {counted(len(plan.units), 'unit')}"
-    found = [Paragraph("plan", (size,))]
-    if free_body:
-        what = f"{_few(free_body, 'contender', 'law')} by {_few(free_body, 'engine', 'engine')}"
-        what += f" from {_few(free_body, 'selector', 'start set')}"
-        found.append(_part("free body", free_body, "episode", what))
-    if on_arms:
-        what = f"{_few(on_arms, 'contender', 'controller')} on {_few(on_arms, 'arm', 'arm')}"
-        what += f" from {_few(on_arms, 'selector', 'start set')}"
-        varied = [unit for unit in on_arms if unit.variation != NOMINAL]
+    size = f"{counted(plan.episodes(*PARTS), 'episode')} in {counted(len(plan.units), 'unit')}"
+    found = [Paragraph("plan", (f"suite {plan.settings.suite}: {size}",))]
+    for name, (head, word, counts) in PARTS.items():
+        units = plan.of(name)
+        what = "".join(f"{before}{_few(units, field, one)}" for before, field, one in counts)
+        varied = [unit for unit in units if unit.variation not in ("", NOMINAL)]
         what += f", {_few(varied, 'variation', 'model error')}" if varied else ""
-        found.append(_part("arms", on_arms, "episode", what))
-    if contacts:
-        what = f"{_few(contacts, 'contender', 'controller')} in {_few(contacts, 'task', 'task')}"
-        found.append(_part("contact", contacts, "trial", f"{what} on {_few(contacts, 'arm', 'arm')}"))
-    if perturbed:
-        what = f"{_few(perturbed, 'contender', 'law')} under {_few(perturbed, 'selector', 'perturbation')}"
-        found.append(_part("robustness", perturbed, "episode", what))
-    others = dict.fromkeys(unit.experiment for unit in plan.units if unit.experiment not in OF_EPISODES)
+        if units:
+            found.append(Paragraph(head, (f"{counted(sum(unit.episodes for unit in units), word)}: {what}",)))
+    others = dict.fromkeys(unit.experiment for unit in plan.units if unit.experiment not in PARTS)
     return [*found, Paragraph("also", (listed(list(others)),))] if others else found
-
-
-def _part(head: str, units, word: str, what: str) -> Paragraph:
-    return Paragraph(head, (f"{counted(sum(unit.episodes for unit in units), word)}: {what}",))
 
 
 def _few(units, field: str, word: str) -> str:
     names = list(dict.fromkeys(getattr(unit, field) for unit in units))
-    return listed(names) if len(names) <= FEW else counted(len(names), word)
+    return listed(names) if 0 < len(names) <= FEW else counted(len(names), word)
 
 
 def _settings(plan: Plan, workers: int, scheduler: str) -> Paragraph:

@@ -1,6 +1,5 @@
 """`run`: carry out a suite, or a part of it."""
 
-import os
 import time
 from datetime import timedelta
 
@@ -13,7 +12,7 @@ from bench.cli.progress import progress
 from bench.cli.screen import console, counted, examples, shown_path
 from bench.experiments.choice import IN_CONTACT, WITHOUT, Choice, check_workers
 from bench.law.contender import Gains
-from bench.running.schedulers.words import THREADS, check_scheduler
+from bench.running.schedulers.words import check_scheduler
 
 EPILOG = examples(
     ("The default suite into results/latest", "run"),
@@ -50,22 +49,12 @@ EPILOG = examples(
     type=int,
     help="At most so many starts of each set or level (sampled sets take any number), or poses in contact.",
 )
-@click.option("--dt", "dt_s", type=float, default=1e-3, show_default=True, help="Control period in seconds.")
+@options.simulated
 @click.option(
     "--horizon", "horizon_s", type=float, help="Longest simulated time in seconds; the suite's own by default."
 )
-@click.option("--kp", type=float, default=100.0, show_default=True, help="Position gain [1/s^2].")
-@click.option("--kv", type=float, default=20.0, show_default=True, help="Velocity gain [1/s].")
 @click.option("--integrator", show_default=f"{WITHOUT}; in contact {IN_CONTACT}", metavar="NAME", help="MuJoCo's.")
-@click.option("--seed", type=int, default=0, show_default=True, help="Of the sampled start sets.")
-@click.option("--workers", type=int, default=os.cpu_count() or 1, show_default="cores", help="Threads.")
-@click.option(
-    "--scheduler",
-    default=THREADS,
-    show_default="threads of this process",
-    metavar="WORD",
-    help="Who runs the episodes: local:N, so many processes here, or tcp://host:8786, a Dask cluster.",
-)
+@options.carried_out
 @click.option("--out", type=options.PATH, default=options.LATEST, show_default="results/latest", help="Folder.")
 @click.option(
     "--law-limit",
@@ -74,7 +63,6 @@ EPILOG = examples(
     show_default="30, and ten times what ours take",
     help="A --law that takes longer for a unit of work is stopped there, and its rows say hung.",
 )
-@click.option("--replace", is_flag=True, help="Start over if the folder holds another plan.")
 @click.option("--dry-run", is_flag=True, help="Print the whole plan; run nothing.")
 def COMMAND(
     suite, laws, count, dt_s, horizon_s, kp, kv, integrator, seed, workers, scheduler, out, law_limit, replace, dry_run,

@@ -4,8 +4,10 @@ import os
 import shlex
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
+from typing import NamedTuple
 
 from rich.console import Console, ConsoleOptions, JustifyMethod, RenderableType
+from rich.measure import Measurement
 from rich.table import Table
 from rich.text import Text
 
@@ -43,17 +45,13 @@ def examples(*every: tuple[str, str], after: str = "") -> Text:
 SENTENCE = 30
 """Longest cell with a space in it that is kept on one line; longer ones wrap, to no less than this width."""
 
-GAP = 2
 
+class Column(NamedTuple):
+    """One column and its cells as text."""
 
-class Column:
-    """One column: its cells as text, its width, and the least width that breaks no word."""
-
-    def __init__(self, name: str, cells: list[str], is_number: bool):
-        self.name, self.cells, self.is_number = name, cells, is_number
-        self.width = max(map(len, (name, *cells)))
-        self.wraps = any(" " in cell and len(cell) > SENTENCE for cell in cells)
-        self.least = SENTENCE if self.wraps else self.width
+    name: str
+    cells: list[str]
+    is_number: bool = False
 
 
 class Frame:
@@ -68,7 +66,7 @@ class Frame:
     def __rich_console__(self, screen: Console, options: ConsoleOptions) -> Iterator[RenderableType]:
         if self.title:
             yield Text(self.title, "bold")
-        first, *others = blocks = _blocks(self.columns, options.max_width)
+        first, *others = blocks = _blocks(self.columns, screen, options)
         if others:
             yield Text(f"{len(self.columns) - len(first)} of {len(self.columns)} columns do not fit and are below.")
         for place, block in enumerate(blocks):
@@ -80,42 +78,43 @@ class Frame:
 def word_table(names: Sequence[str], rows: Iterable[Sequence], title: str = "") -> Frame:
     """Rows of words, for a console to print; as a data frame of them is, and without pandas."""
     cells = [*zip(*rows, strict=True)] or [()] * len(names)
-    return Frame([Column(name, [*map(str, own)], False) for name, own in zip(names, cells, strict=True)], title)
+    return Frame([Column(name, [*map(str, own)]) for name, own in zip(names, cells, strict=True)], title)
 
 
 def frame_table(frame, title: str = "") -> Frame:
     """A data frame, for a console to print."""
-    columns = [
-        Column(
-            str(name),
-            ["" if value is None or value != value else str(value) for value in frame[name]],
-            frame[name].dtype.kind in "iuf",
-        )
-        for name in frame.columns
-    ]
+    columns = []
+    for name in frame.columns:
+        cells = ["" if value is None or value != value else str(value) for value in frame[name]]
+        columns.append(Column(str(name), cells, frame[name].dtype.kind in "iuf"))
     return Frame(columns, title)
 
 
-def _blocks(columns: list[Column], width: int) -> list[list[Column]]:
+def _blocks(columns: list[Column], screen: Console, options: ConsoleOptions) -> list[list[Column]]:
     """The columns in blocks that fit, the first column in each."""
-    if sum(GAP + one.least for one in columns) - GAP <= width:
+
+    def fits(*some: Column) -> bool:
+        return Measurement.get(screen, options.update_width(10**6), _table(some)).minimum <= options.max_width
+
+    if fits(*columns):
         return [columns]
     key, *others = columns
-    key = Column(key.name, [cell.replace("@", "\n  @") for cell in key.cells], key.is_number)
-    key.width = key.least = max(len(line) for cell in (key.name, *key.cells) for line in cell.split("\n"))
+    key = key._replace(cells=[cell.replace("@", "\n  @") for cell in key.cells])
     blocks = [[key]]
     for one in others:
-        if len(blocks[-1]) > 1 and sum(GAP + other.least for other in (*blocks[-1], one)) - GAP > width:
+        if len(blocks[-1]) > 1 and not fits(*blocks[-1], one):
             blocks.append([key])
         blocks[-1].append(one)
     return blocks
 
 
-def _table(columns: list[Column]) -> Table:
+def _table(columns: Sequence[Column]) -> Table:
     table = Table(box=None, pad_edge=False)
     for one in columns:
         side: JustifyMethod = "right" if one.is_number else "left"
-        table.add_column(Text(one.name), justify=side, overflow="fold", no_wrap=not one.wraps)
+        wraps = any(" " in cell and len(cell) > SENTENCE for cell in one.cells)
+        width = SENTENCE if wraps else None
+        table.add_column(Text(one.name), justify=side, overflow="fold", no_wrap=not wraps, min_width=width)
     for row in zip(*(one.cells for one in columns), strict=True):
         table.add_row(*map(Text, row))
     return table

@@ -74,8 +74,8 @@ def _meant(folder: str | None, part: str | None) -> tuple[Path, str | None]:
 
 def _tables(folder: Path, part, engine, starts, outcomes, regulators) -> list:
     """Titles and tables of a part, or of all."""
-    from bench.cli.details import arms, contact, free_body, robustness
-    from bench.cli.details.episodes import of_laws, only, outcome_table, places
+    from bench.cli.details import contact, robustness
+    from bench.cli.details.episodes import of_laws, only, outcome_table, places, tables_of_arms, tables_of_free_body
     from bench.experiments.experiment import known_experiments
     from bench.experiments.tables.store import read
 
@@ -89,9 +89,9 @@ def _tables(folder: Path, part, engine, starts, outcomes, regulators) -> list:
         return [(place, outcome_table(rows)) for place, rows in places(episodes)]
     found: list = []
     if part in (None, "free-body"):
-        found += free_body.tables(episodes[episodes["arm"] == ""])
+        found += tables_of_free_body(episodes[episodes["arm"] == ""])
     if part in (None, "arms"):
-        found += arms.tables(episodes[episodes["arm"] != ""])
+        found += tables_of_arms(episodes[episodes["arm"] != ""])
     if part == "contact" or not (part or engine or regulators):
         found += contact.tables(read(folder, "compliance"))
     if part == "robustness" or not (part or engine or regulators):

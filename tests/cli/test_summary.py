@@ -7,10 +7,12 @@ import pytest
 from rich.console import Console
 from support.command_line import bench, refused
 
-from bench.cli.details import arms, parts, robustness
+from bench.cli.details import parts, robustness
+from bench.cli.details.episodes import tables_of_arms
 from bench.cli.options import REFERENCE
 from bench.cli.screen import frame_table
-from bench.cli.summary import answer, failures, verdicts
+from bench.cli.summary import answer, failures
+from bench.cli.summary.whole import count_verdicts
 from bench.experiments.tables import read as results
 from bench.findings.claims import Results, all_claims
 from bench.findings.selection.measured import measure
@@ -116,7 +118,7 @@ def test_law_that_broke_is_named(tables):
 def test_claims_without_rows_are_counted_apart(tables):
     frames = dict.fromkeys(("traces", "boundaries", "poses", "episodes", "compliance", "robustness"))
     empty = {name: results.table(REFERENCE, name).iloc[:0] for name in frames}
-    said = text(verdicts.paragraph(Results(REFERENCE, {**empty, "costs": tables["costs"]})))
+    said = text(count_verdicts(Results(REFERENCE, {**empty, "costs": tables["costs"]})))
     number = int(re.search(r"(\d+) cannot be judged from this run", said)[1])
     assert f"Of the paper's {len(all_claims())} claims" in said
     assert 0 < number < len(all_claims())
@@ -176,7 +178,7 @@ def test_option_that_a_part_does_not_take_is_refused(capsys, finished):
 
 def test_names_stay_whole_where_the_table_is_wider_than_the_screen(capsys):
     episodes = results.table(REFERENCE, "episodes")
-    for _, table in arms.tables(episodes[episodes["arm"] != ""]):
+    for _, table in tables_of_arms(episodes[episodes["arm"] != ""]):
         Console(width=80, highlight=False, markup=False, emoji=False).print(frame_table(table))
     lines = capsys.readouterr().out.splitlines()
     assert max(len(line.rstrip()) for line in lines) <= 80

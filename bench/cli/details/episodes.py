@@ -1,12 +1,15 @@
-"""What the free body and arms have in common: rows that were asked for, places, counts of outcomes."""
+"""Free body and arms: what each law or controller settles from each start set, and counts of outcomes."""
 
 import pandas as pd
 import rich_click as click
+from scipy.stats import binomtest
 
 from bench.experiments.suites import NOMINAL
 from bench.experiments.tables import read as results
+from tasks.cause import CAUSES
 from tasks.verdict import CRASHED, OUTCOMES
 
+FIRST = ("law", "settled of SO(3)", "median s", "worst s")
 OF_STARTS = "a/b: a of b starts settled"
 """Above every table that has such cells."""
 
@@ -33,6 +36,69 @@ def places(episodes):
     """Arm, or "free body", and engine; its rows."""
     for (engine, arm), part in episodes.groupby(["engine", "arm"], observed=True, sort=False):
         yield f"{arm or 'free body'}, {engine}", part
+
+
+def by_start_set(rows) -> dict[str, str]:
+    """Return the settled of each start set."""
+    groups = rows.groupby("start_set", observed=True, sort=True)
+    return {str(start_set): settled(part) for start_set, part in groups}
+
+
+def tables_of_free_body(episodes):
+    """Yield a table for each engine."""
+    for place, part in places(episodes):
+        yield f"{place} ({OF_STARTS}; share of SO(3) and times from uniform starts)", summarize_laws(part)
+
+
+def tables_of_arms(episodes):
+    """Yield a table for each arm, then one for each whose plant is not the controller's model."""
+    is_nominal = episodes["variation"] == NOMINAL
+    for place, part in places(episodes[is_nominal]):
+        yield f"{place} ({OF_STARTS})", summarize_controllers(part)
+    for place, part in places(episodes[~is_nominal]):
+        title = f"{place}, model errors ({OF_STARTS}; then the median final angle [mrad])"
+        yield title, summarize_variations(part)
+
+
+def summarize_laws(episodes):
+    """One line for each law: share of SO(3) settled, settling times [s], and what settled of other start sets."""
+    lines = []
+    for name, own in by_contender(episodes):
+        line, uniform = {"law": name, **by_start_set(own)}, own[own["start_set"] == "uniform"]
+        if line.pop("uniform", ""):
+            line |= {"settled of SO(3)": _share(uniform), **seconds(uniform)}
+        lines.append(line)
+    table = pd.DataFrame(lines)
+    first = [name for name in FIRST if name in table]
+    return table[first + [name for name in table if name not in first]]
+
+
+def _share(part) -> str:
+    """The share that settles, with its Wilson 95 % interval."""
+    number = int((part["outcome"] == "settled").sum())
+    low, high = binomtest(number, len(part)).proportion_ci(method="wilson")
+    return f"{number / len(part):.2%} [{low:.2%}, {high:.2%}]"
+
+
+def summarize_controllers(episodes):
+    """One line for each controller: settled of each start set, settling times [s], and the causes of its failures."""
+    lines = []
+    for name, rows in by_contender(episodes):
+        causes = rows["cause"].astype(str).value_counts()
+        near = ", ".join(f"{causes[one]} {one}" for one in CAUSES if one and one in causes)
+        lines.append({"controller": name, **by_start_set(rows), **seconds(rows), "failures near": near})
+    return pd.DataFrame(lines)
+
+
+def summarize_variations(episodes):
+    """One line for each controller, one column for each variation of the plant: settled, and the median angle left."""
+    lines = []
+    for name, rows in by_contender(episodes):
+        line = {"controller": name}
+        for variation, part in rows.groupby("variation", observed=True, sort=False):
+            line[str(variation)] = f"{settled(part)}  {1e3 * part['final_angle_rad'].median():.3g}"
+        lines.append(line)
+    return pd.DataFrame(lines)
 
 
 def only(episodes, folder, column: str, words):

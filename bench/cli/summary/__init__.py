@@ -1,8 +1,6 @@
 """What `show` says of a run in at most 40 lines: which law, its exceptions, the claims, what failed, where to look.
 
 answer.py     the law that a run's numbers name, and the needs that name another
-verdicts.py   the paper's claims, counted
 failures.py   what did not settle, part by part
-absent.py     what the run does not hold
-whole.py      all of it, and where to look next
+whole.py      all of it: the claims, what the run does not hold, and where to look next
 """

@@ -5,16 +5,19 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
+from bench.cli.details import parts
 from bench.cli.options import REFERENCE
 from bench.cli.origin import origin
-from bench.cli.paragraphs import Paragraph, print_paragraphs
+from bench.cli.paragraphs import Paragraph, listed, print_paragraphs
 from bench.cli.progress import progress
-from bench.cli.screen import shown_path
-from bench.cli.summary import absent, answer, failures, verdicts
+from bench.cli.screen import counted, shown_path
+from bench.cli.summary import answer, failures
+from bench.experiments.experiment import known_experiments
 from bench.experiments.tables import read as results
-from bench.findings.claims import Results
-from bench.findings.claims.verdict import NoEvidence
+from bench.findings.claims import Results, judge_possible, told
+from bench.findings.claims.verdict import NoEvidence, Word
 from bench.findings.selection.measured import measure
+from bench.law.contenders.registry import all_contenders
 
 
 def print_summary(folder: Path, is_named: bool) -> None:
@@ -25,15 +28,15 @@ def print_summary(folder: Path, is_named: bool) -> None:
     try:
         print_paragraphs(*answer.paragraphs(measure(found)))
     except NoEvidence:
-        print_paragraphs(absent.undecided(found))
+        print_paragraphs(undecided(found))
     with progress("claims", "judging the paper's claims"):
-        judged = verdicts.paragraph(found)
+        judged = count_verdicts(found)
     print_paragraphs(
         judged,
         failures.paragraph(found),
-        *absent.paragraphs(found),
+        *list_absent(found),
         Paragraph("This run", (here, *_instead(folder, is_named))),
-        _next(folder, is_named, absent.parts_in(found)),
+        _next(folder, is_named, parts_in(found)),
     )
 
 
@@ -56,3 +59,56 @@ def _next(folder: Path, is_named: bool, present: list[str]) -> Paragraph:
             f"python -m bench claims {here}   each claim with its evidence",
         ),
     )
+
+
+def count_verdicts(results: Results) -> Paragraph:
+    """How many claims got each word, by the present criteria and by the first ones; which do not hold."""
+    decided, lacks = judge_possible(results)
+    every = len(decided) + len(lacks)
+    if not decided:
+        return Paragraph("Claims", (f"This run decides none of the paper's {every} claims.",))
+    failed = ", ".join(one.id for one in decided if one.word == Word.FAILS)
+    now = f"Of the paper's {every} claims {told(one.word for one in decided)}"
+    now += f". What does not hold: {failed}" if failed else ""
+    unknown = f"; {len(lacks)} cannot be judged from this run" if lacks else ""
+    first = told(one.first for one in decided)
+    return Paragraph("Claims", (f"{now}{unknown}. By the criteria first written: {first}.",))
+
+
+def undecided(results: Results) -> Paragraph:
+    """In place of the answer, where the run has not what laws are compared by."""
+    episodes = results.table("episodes")
+    free_body = episodes[episodes["arm"] == ""]
+    sets = free_body.groupby(free_body["contender"].astype(str))["start_set"].agg(set)
+    has = {
+        "law with uniform and half-turn starts on the free body": any({"uniform", "half-turn"} <= one for one in sets),
+        "robustness episodes": len(results.table("robustness")) > 0,
+        "operation counts": len(results.table("costs")) > 0,
+    }
+    lacking = [what for what, there in has.items() if not there]
+    why = f"it has no {listed(lacking, 'and no')}" if lacking else "no law of it has all that laws are compared by"
+    return Paragraph(
+        "Which law",
+        (f"This run cannot say: {why}. A whole suite can (try: python -m bench run --suite quick).",),
+    )
+
+
+def parts_in(results: Results) -> list[str]:
+    """The parts of a run, as `show` names them, that have rows."""
+    episodes = results.table("episodes")
+    tables = {"contact": "compliance"} | {name: one.table.name for name, one in known_experiments().items()}
+    has = {"free-body": (episodes["arm"] == "").any(), "arms": (episodes["arm"] != "").any()}
+    return [part for part in parts() if (has[part] if part in has else len(results.table(tables[part])))]
+
+
+def list_absent(results: Results) -> list[Paragraph]:
+    """The parts and the laws that are not in the run; nothing if all are."""
+    episodes = results.table("episodes")
+    present = parts_in(results)
+    absent = [part.replace("-", " ") for part in parts() if part not in present]
+    ran = {str(name).partition("@")[0] for name in episodes["contender"].unique()}
+    laws = [one.name for one in all_contenders() if not one.regulator.costing_only]
+    missing = [law for law in laws if law not in ran]
+    if "free-body" in present and missing:
+        absent.append(f"{len(missing)} of the benchmark's {counted(len(laws), 'law')}")
+    return [Paragraph("Not in it", (f"Not in this run: {listed(absent)}.",))] if absent else []
