@@ -3,28 +3,14 @@
 from __future__ import annotations
 
 import xml.etree.ElementTree as ElementTree
+from pathlib import Path
 from typing import NamedTuple
 
 from tasks.errors import UnknownName
 from tasks.sensors import sensor_xml
 
 # The same light and white sky for every arm, and the base axes; the arm's file has the camera "view".
-LOOK = """<mujoco>
-  <visual>
-    <global offwidth="1600" offheight="1200"/>
-    <rgba haze="1 1 1 1"/>
-    <headlight ambient=".35 .35 .35" diffuse=".45 .45 .45" specular=".1 .1 .1"/>
-  </visual>
-  <asset>
-    <texture type="skybox" builtin="flat" rgb1="1 1 1" rgb2="1 1 1" width="8" height="8"/>
-  </asset>
-  <worldbody>
-    <light directional="true" pos="1 -1 2" dir="-.4 .4 -.8" diffuse=".7 .7 .7" castshadow="false"/>
-    <geom type="capsule" size=".004" mass="0" fromto="0 0 0 .4 0 0" rgba=".8 .25 .2 .5"/>
-    <geom type="capsule" size=".004" mass="0" fromto="0 0 0 0 .4 0" rgba=".2 .6 .25 .5"/>
-    <geom type="capsule" size=".004" mass="0" fromto="0 0 0 0 0 .4" rgba=".2 .35 .85 .5"/>
-  </worldbody>
-</mujoco>"""
+LOOK = Path(__file__).with_name("look.xml").read_text(encoding="utf-8")
 
 
 class Arm(NamedTuple):

@@ -1,6 +1,7 @@
 """The command line: `python -m bench COMMAND`. One file a command, collected from this folder.
 
-Every mistake of the caller ends in one line on stderr and exit code 2, and touches no result; EPILOG has all codes.
+Every mistake of the caller ends in one line on stderr and exit code 2, and touches no result; examples.toml has all
+codes.
 """
 
 import importlib
@@ -23,20 +24,8 @@ click.rich_click.STYLE_OPTIONS_TABLE_PAD_EDGE = False
 VERSION = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["version"]
 """Of the checkout that runs, installed or not."""
 
-EPILOG = examples(
-    ("What there is", "list"),
-    ("A run of some minutes", "run --suite quick --out results/quick"),
-    ("The summary of the last run, and where to look next", "show"),
-    ("A law of your own in seconds: what it does and why (README has one)", "judge my_law.py"),
-    ("The same beside all others", "run --law my_law.py --suite quick --out results/mine"),
-    after="Exit code 0: done. 1: done, and something is wrong: a law crashed or hung (run, map, count), a fault "
-    "(judge), a regression or a difference (compare), a machine that is not ready (doctor). 2: it could not be done, "
-    "and a line on stderr says what to correct. 130: stopped by Ctrl-C. A target of make that fails ends with 2, "
-    "which is make's own, whatever the command said.",
-)
 
-
-@click.group(epilog=EPILOG, context_settings={"help_option_names": ["-h", "--help"]})
+@click.group(epilog=examples("bench"), context_settings={"help_option_names": ["-h", "--help"]})
 @click.version_option(VERSION)
 def bench() -> None:
     """Which orientation error should a Cartesian controller use, where does it fail, what does it cost per tick?

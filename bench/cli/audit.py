@@ -8,18 +8,8 @@ from click.exceptions import Exit
 
 from bench.cli.screen import examples
 
-EPILOG = examples(
-    ("A function of two matrices or two quaternions", "audit my_file.py:my_error"),
-    ("One of C: void f(const double[9], const double[9], double[3])", "audit libmine.so:my_error"),
-    ("A class whose instance is called", "audit my_controller.py:Controller"),
-    ("It must be in base, and a clip is meant", "audit my.py:f --frame base --accept norm-clip"),
-    after="A fault is what no controller wants. A note is a property that one may want, as the sine's zero at "
-    "180°, or what no encoder shows. In pytest: pytest --orientation-error my_file.py:my_error\n"
-    "Exit code 1: a fault that is not accepted. 2: no report, as of a file that holds no such function.",
-)
 
-
-@click.command("audit", epilog=EPILOG)
+@click.command("audit", epilog=examples("audit"))
 @click.argument("function", metavar="FUNCTION")
 @click.option("--takes", metavar="WORD", help="What it takes: matrix, wxyz or xyzw; found if left out.")
 @click.option("--frame", metavar="WORD", help="The frame that it must be in: base or body.")

@@ -8,13 +8,8 @@ from bench.cli.paragraphs import Paragraph, listed, print_paragraphs
 from bench.cli.progress import progress
 from bench.cli.screen import console, examples
 
-EPILOG = examples(
-    ("Of results/latest", "claims"),
-    ("Of another run, with the paper's words and each criterion", "claims results/mine --criteria"),
-)
 
-
-@click.command("claims", epilog=EPILOG)
+@click.command("claims", epilog=examples("claims"))
 @click.argument("folder", required=False, type=click.Path(path_type=Path))
 @click.option("--criteria", is_flag=True, help="Print each claim's quote and criteria too.")
 def COMMAND(folder, criteria):

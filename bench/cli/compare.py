@@ -16,19 +16,8 @@ from bench.cli.screen import console, examples, frame_table
 from bench.regression.revisions import summary as words
 from tasks.errors import TaskError
 
-EPILOG = examples(
-    ("Two runs, row by row", "compare results/reference results/quick"),
-    ("Your files against the commit where you left main, gate by gate", "compare"),
-    ("Two commits, each checked out for as long as it takes", "compare HEAD~3 HEAD --no-timing"),
-    ("Your own law, in your own repository, against it on main", "compare main --law my_law.py --summary law.md"),
-    after="A law is called slower only if a Mann-Whitney test of interleaved rounds has p < 0.002, the median ratio is "
-    "above 1.10, and a second run agrees.\n"
-    "Exit code 1: a regression, a law that crashed or hung; of two folders, any difference. 2: no verdict, as of a law "
-    "that does not load.",
-)
 
-
-@click.command("compare", epilog=EPILOG)
+@click.command("compare", epilog=examples("compare"))
 @click.argument("base", required=False)
 @click.argument("head", required=False)
 @options.law

@@ -22,17 +22,8 @@ from bench.law.control.registry import find_controller
 if TYPE_CHECKING:
     import pandas as pd
 
-EPILOG = examples(
-    ("The laws alone", "count --stages"),
-    ("Your own law", "count --law my_law.py"),
-    ("A controller", "count --regulator rotation-matrix@geometric+solve --stages"),
-    ("The quick suite's controllers on seven joints", "count --joints 7"),
-    ("One in contact", "count --controller hybrid/zyx-euler+inverse --stages"),
-    after="Exit code 1: a law of yours crashed or hung.",
-)
 
-
-@click.command("count", epilog=EPILOG)
+@click.command("count", epilog=examples("count"))
 @options.law
 @options.regulator
 @options.representation

@@ -18,7 +18,7 @@ from bench.experiments.tables.schema import RESULTS
 CURE_INSTALL = "make setup (or: pip install --require-hashes -r requirements/base.txt)"
 
 
-@click.command("doctor", epilog=examples(("What this machine lacks", "doctor")))
+@click.command("doctor", epilog=examples("doctor"))
 def COMMAND():
     """Check versions, compiler, engines, arms, rendering, results; say the cure. Exit code 1: a needed one is bad."""
     failed = 0

@@ -10,23 +10,11 @@ from bench.base.errors import BadResults
 from bench.cli import options
 from bench.cli.screen import console, examples, shown_path
 
-EPILOG = examples(
-    ("A header for a controller in C++", "export late-braking --to cpp"),
-    ("The same for a microcontroller, into a folder of yours", "export late-braking --to c --out firmware/attitude"),
-    ("A law on coordinates", "export feedback-linearized/zyx-euler --to python"),
-    ("Coordinates", "export representation-mrp --to js"),
-    ("An impedance", "export impedance-geometric --to c"),
-    ("A law of your own", "export my-law --law my_law.py --to cpp"),
-    ("Everything", "export all --to c"),
-    after="Beside each law lie test vectors and a test in its language; its README says how to run it. Exported files "
-    "need nothing of this benchmark, and are yours to use under Apache-2.0.",
-)
-
 EVERYTHING = "all"
 FOLDER = Path("export")
 
 
-@click.command("export", epilog=EPILOG)
+@click.command("export", epilog=examples("export"))
 @click.argument("law")
 @click.option("--to", "language", required=True, metavar="LANGUAGE", help="c, cpp, js or python.")
 @click.option("--out", type=options.PATH, help="Folder to write to (default: export/LANGUAGE/LAW).")

@@ -11,11 +11,6 @@ from bench.experiments.tables.schema import RESULTS
 SHOWN = 6
 """Builds that are shown, the newest."""
 
-EPILOG = examples(
-    ("Measure this commit and add its file", "history add"),
-    ("The newest builds", "history show"),
-    after="Each build is a file of pytest-benchmark: see pytest-benchmark --storage results/history compare.",
-)
 folder = click.option(
     "--folder",
     type=click.Path(path_type=Path),
@@ -26,7 +21,7 @@ folder = click.option(
 )
 
 
-@click.group("history", epilog=EPILOG)
+@click.group("history", epilog=examples("history"))
 def COMMAND():
     """Measure every build, and show how its costs changed."""
 

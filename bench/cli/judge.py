@@ -10,16 +10,8 @@ from bench.cli.paragraphs import Paragraph, print_paragraphs
 from bench.cli.screen import console, counted, examples, frame_table
 from bench.findings.judgement import Judgement
 
-EPILOG = examples(
-    ("A law of your own (README has an example)", "judge my_law.py"),
-    after="A fault is a start that does not settle, an equilibrium away from the goal, chatter, or a stiffness or "
-    'damping other than the gains say. A law whose property is "almost global" may be stuck at 180°.\n'
-    "Exit code 1: a fault. 2: no verdict, for example if the file holds no law. To compare with an older version of "
-    "the law: make judge LAW=my_law.py BASE=main.",
-)
 
-
-@click.command("judge", epilog=EPILOG)
+@click.command("judge", epilog=examples("judge"))
 @click.argument("law", type=options.PATH)
 @click.option(
     "--law-limit", type=click.FloatRange(0.1), default=5.0, show_default=True, help="Time limit per unit [s]."

@@ -145,7 +145,7 @@ def by_name(find: Callable[[str], Any], names) -> Mapping[str, Any]:
 
 @click.command(
     "list",
-    epilog=examples(("All there is", "list"), ("One kind, a law of yours too", "list regulators --law my_law.py")),
+    epilog=examples("list"),
 )
 @click.argument("kind", required=False, metavar="[KIND]")
 @options.law

@@ -15,17 +15,10 @@ from bench.experiments.tables.schema import RESULTS
 from bench.law.contender import Gains
 from bench.running.schedulers.words import check_scheduler
 
-EPILOG = examples(
-    ("Where the rotation matrix alone loses starts, of ten million", "map --regulator rotation-matrix"),
-    ("The same of starts that spin at up to 20 rad/s", "map --regulator hybrid --spin 20 --replace"),
-    ("At 10 rad/s and at 20 rad/s", "map --regulator hybrid --starts 100000 --speed 10 --speed 20 --replace"),
-    ("A law of your own", "map --law my_law.py --regulator my-law --starts 1000000 --out results/mine"),
-    after="Exit code 1: a law of yours crashed or hung.",
-)
 MOST = 10**10
 
 
-@click.command("map", epilog=EPILOG)
+@click.command("map", epilog=examples("map"))
 @options.law
 @options.regulator
 @click.option("--starts", type=click.IntRange(1, MOST), default=10**7, show_default=True, help="Of each law.")

@@ -14,22 +14,8 @@ from bench.experiments.choice import IN_CONTACT, WITHOUT, Choice, check_workers
 from bench.law.contender import Gains
 from bench.running.schedulers.words import check_scheduler
 
-EPILOG = examples(
-    ("The default suite into results/latest", "run"),
-    ("One law from one start set", "run --regulator gibbs --starts half-turn --out results/half"),
-    ("A law of your own beside ours, on free body and arms", "run --law my_law.py --suite quick --out results/mine"),
-    ("The same alone", "run --law my_law.py --regulator my-law --out results/mine"),
-    ("One controller on one arm", "run --arm ur5e --regulator rotation-matrix@geometric+solve"),
-    ("A plant that is not the controller's model", "run --arm panda --variation mass-1.30 --out results/heavy"),
-    ("A hand pressed onto a tilted plate", "run --task surface-alignment --out results/plate"),
-    ("One controller in every task in contact", "run --controller impedance-geometric --out results/spring"),
-    ("By eight processes, or with an address by a Dask cluster", "run --scheduler local:8 --suite full"),
-    ("Robustness: one law under a perturbation", "run --axis delay --regulator hybrid --out results/late"),
-    after="Exit code 1: a law of yours crashed or hung, as its rows say; all others are there.",
-)
 
-
-@click.command("run", epilog=EPILOG)
+@click.command("run", epilog=examples("run"))
 @click.option("--suite", default="default", show_default=True, metavar="NAME", help="quick, default or full.")
 @options.law
 @options.regulator

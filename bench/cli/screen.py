@@ -1,7 +1,9 @@
 """Printing: one console, the same width rules everywhere, plain text when the output is not a terminal."""
 
+import functools
 import os
 import shlex
+import tomllib
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import NamedTuple
@@ -34,12 +36,17 @@ def counted(number: int, word: str) -> str:
     return f"{number:,} {word}{'' if number == 1 else 's'}"
 
 
-def examples(*every: tuple[str, str], after: str = "") -> Text:
+@functools.cache
+def _examples() -> dict:
+    return tomllib.loads(Path(__file__).with_name("examples.toml").read_text(encoding="utf-8"))
+
+
+def examples(command: str) -> Text:
     """What a command's help ends with: what each does, and its words on a line of their own: up to 60 characters."""
-    said = Text()
-    for what, words in every:
+    said, own = Text(), _examples()[command]
+    for what, words in own["examples"]:
         said.append(f"{what}:\n").append(f"  python -m bench {words}\n", "bold")
-    return said.append(after)
+    return said.append(own.get("after", ""))
 
 
 SENTENCE = 30

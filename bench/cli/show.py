@@ -9,15 +9,8 @@ from bench.cli import options
 from bench.cli.origin import origin
 from bench.cli.screen import console, examples, frame_table, shown_path
 
-EPILOG = examples(
-    ("The summary of results/latest", "show"),
-    ("One part of it in full", "show arms"),
-    ("Every table of another run", "show results/mine --details"),
-    ("The count of each outcome", "show --starts half-turn --regulator gibbs"),
-)
 
-
-@click.command("show", epilog=EPILOG)
+@click.command("show", epilog=examples("show"))
 @click.argument("folder", required=False)
 @click.argument("part", required=False)
 @click.option("--details", is_flag=True, help="Every table instead of the summary.")

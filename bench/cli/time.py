@@ -11,14 +11,8 @@ from bench.experiments.tables.schema import RESULTS
 
 WHOLE, PARTIAL = RESULTS / "timings", RESULTS / "timings-partial"
 
-EPILOG = examples(
-    ("Everything, into results/timings", "time"),
-    ("Two laws, roughly, into results/timings-partial", "time --quick --regulator gibbs --regulator mrp"),
-    ("A law of your own beside all others", "time --law my_law.py --out results/my-timings"),
-)
 
-
-@click.command("time", epilog=EPILOG)
+@click.command("time", epilog=examples("time"))
 @options.law
 @options.regulator
 @options.representation

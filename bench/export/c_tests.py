@@ -6,36 +6,9 @@ from typing import NamedTuple
 import numpy as np
 
 from bench.export.entries import Entry
-from bench.export.layout import INDENT, wrapped
+from bench.export.layout import INDENT, read_template, wrapped
 from bench.export.subject import Subject
 from bench.export.vectors import CLOSE, Vector, vectors
-
-IS_WRONG = f"""#include <stdio.h>
-
-static int inexact = 0;
-
-/* Bit for bit, or else within a tolerance: compilers that fuse products with sums change last digits. */
-static int is_wrong(const double *found, const double *expected, int count, double tolerance) {{
-    double size = 0.0;
-    int at, is_off = 0, wrong = 0;
-    for (at = 0; at < count; at++) size = fmax(size, fabs(expected[at]));
-    for (at = 0; at < count; at++) {{
-        if (!(fabs(found[at] - expected[at]) <= tolerance)) is_off = 1;
-        if (!(fabs(found[at] - expected[at]) <= tolerance + {CLOSE} * size)) wrong = 1;
-    }}
-    inexact += is_off && !wrong;
-    return wrong;
-}}
-"""
-
-MAIN = f"""int main(void) {{
-    int wrong = 0;
-CALLS
-    printf("NAME: %d of COUNT vectors wrong\\n", wrong);
-    if (inexact) printf("%d answers are right to {CLOSE:g}; bit for bit: -ffp-contract=off, no -march\\n", inexact);
-    return wrong != 0;
-}}
-"""
 
 
 class Calls(NamedTuple):
@@ -61,8 +34,11 @@ def write_program(subject: Subject, calls: Calls) -> str:
         for line in _test_entry(subject, entry, [one for one in found if one.entry == entry.name], calls)
     )
     tests = "\n".join(f"{INDENT}wrong += test_{one.name}();" for one in subject.entries)
-    main = MAIN.replace("CALLS", tests).replace("NAME", subject.identifier).replace("COUNT", str(len(found)))
-    return "\n".join((f'#include "{calls.header}"', IS_WRONG, *functions, main))
+    filled = {"NAME": subject.identifier, "COUNT": len(found), "CLOSE": f"{CLOSE:g}", "CALLS": tests}
+    text = read_template("test.c")
+    for word, value in (filled | {"FUNCTIONS": "\n".join(functions)}).items():
+        text = text.replace(word, str(value))
+    return f'#include "{calls.header}"\n{text}'
 
 
 def _test_entry(subject: Subject, entry: Entry, found: Sequence[Vector], calls: Calls) -> Iterator[str]:

@@ -2,8 +2,14 @@
 
 import textwrap
 from collections.abc import Iterable, Iterator
+from pathlib import Path
 
 INDENT, WIDTH = "    ", 120
+
+
+def read_template(name: str) -> str:
+    """Return a file of bench/export/languages/templates."""
+    return Path(__file__).with_name("languages").joinpath("templates", name).read_text(encoding="utf-8")
 
 
 def wrapped(lines: Iterable[str]) -> Iterator[str]:

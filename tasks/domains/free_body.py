@@ -16,6 +16,8 @@ The state: qpos is the quaternion, body to base; qvel is the angular velocity in
 
 from __future__ import annotations
 
+from pathlib import Path
+
 from tasks.base import Start, Task
 from tasks.rotations import to_body
 from tasks.sensors import sensor_xml
@@ -45,51 +47,10 @@ def _xml(dt: float, actuators: str) -> str:
     within it (944, tasks/rules.py). The look: a hand with two fingers along a and coloured base axes (red x, green y,
     blue z), of no mass and touching nothing.
     """
-    return f"""<mujoco model="free-body">
-  <option timestep="{dt!r}">
-    <flag gravity="disable" contact="disable" autoreset="disable"/>
-  </option>
-  <compiler inertiafromgeom="false" angle="radian"/>
-  <visual>
-    <global offwidth="1600" offheight="1200"/>
-    <rgba haze="1 1 1 1"/>
-    <headlight ambient=".35 .35 .35" diffuse=".45 .45 .45" specular=".1 .1 .1"/>
-  </visual>
-  <asset>
-    <texture type="skybox" builtin="flat" rgb1="1 1 1" rgb2="1 1 1" width="8" height="8"/>
-  </asset>
-  <default>
-    <geom contype="0" conaffinity="0" mass="0"/>
-    <motor ctrlrange="-1000 1000" ctrllimited="false"/>
-    <default class="steel"><geom rgba=".32 .35 .40 1"/></default>
-    <default class="base axis"><geom type="capsule" size=".004"/></default>
-    <default class="body axis"><geom type="capsule" size=".010"/></default>
-  </default>
-  <worldbody>
-    <light name="key" directional="true" pos="1 -1 2" dir="-.4 .4 -.8" diffuse=".7 .7 .7" castshadow="false"/>
-    <camera name="view" pos="1.05 -.85 .70" xyaxes=".63 .777 0 -.36 .29 .887" fovy="40"/>
-    <geom class="base axis" name="base x" fromto="0 0 0 .5 0 0" rgba=".8 .25 .2 .5"/>
-    <geom class="base axis" name="base y" fromto="0 0 0 0 .5 0" rgba=".2 .6 .25 .5"/>
-    <geom class="base axis" name="base z" fromto="0 0 0 0 0 .5" rgba=".2 .35 .85 .5"/>
-    <body name="body">
-      <joint name="ball" type="ball"/>
-      <inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/>
-      <site name="tool" size=".002"/>
-      <geom class="steel" name="palm" type="box" pos="0 0 -.04" size=".09 .05 .03"/>
-      <geom class="steel" name="wrist" type="cylinder" pos="0 0 -.11" size=".04 .04"/>
-      <geom class="steel" name="finger +" type="box" pos=".065 0 .06" size=".012 .03 .07"/>
-      <geom class="steel" name="finger -" type="box" pos="-.065 0 .06" size=".012 .03 .07"/>
-      <geom class="body axis" name="n" fromto="0 0 0 .3 0 0" rgba=".8 .25 .2 1"/>
-      <geom class="body axis" name="o" fromto="0 0 0 0 .3 0" rgba=".2 .6 .25 1"/>
-      <geom class="body axis" name="a" fromto="0 0 0 0 0 .3" rgba=".2 .35 .85 1"/>
-    </body>
-  </worldbody>
-  <actuator>
-    {actuators}
-  </actuator>
-{sensor_xml("tool")}
-</mujoco>
-"""
+    text = Path(__file__).with_suffix(".xml").read_text(encoding="utf-8")
+    for word, value in {"TIMESTEP": repr(dt), "ACTUATORS": actuators, "SENSORS": sensor_xml("tool")}.items():
+        text = text.replace(word, value)
+    return text
 
 
 def state(start: Start) -> tuple[tuple[float, ...], tuple[float, ...]]:

@@ -1,5 +1,8 @@
 """Words, numbers and combinations that cannot be run: one line, exit code 2, nothing touched."""
 
+import tomllib
+from pathlib import Path
+
 import pytest
 from support.command_line import bench, refused, refused_run
 
@@ -18,6 +21,7 @@ from bench.law.contenders.registry import (
 )
 from bench.law.control.contact_controller import HYBRIDS
 
+REFUSED = tomllib.loads(Path(__file__).with_name("refused.toml").read_text(encoding="utf-8"))
 LAWS_IN_CONTACT = sorted((*HYBRIDS, *(f"impedance-{name}" for name in known_impedances())))
 
 
@@ -51,29 +55,10 @@ def test_unknown_word_lists_the_known_ones_and_guesses(capsys, finished, option,
 
 @pytest.mark.parametrize(
     ("words", "named"),
-    [
-        (("list", "regulaters"), "regulators, representations, jacobians, inverses, controllers, impedances"),
-        (("count", "--joints", "5"), "--joints"),
-        (("count", "--joints", "6", "--arm", "panda"), "panda"),
-        (("count", "--inverse", "sovle"), "solve"),
-        (("count", "--arm", "pumma"), "puma560"),
-        (("count", "--controller", "hybrid-base+inverse", "--joints", "6"), "--controller"),
-        (("count", "--controller", "hybrid-base"), "hybrid-base+inverse"),
-        (("rum",), "'run'"),
-        (("run", "--sweet", "quick"), "--sweet"),
-        (("run", "--count", "many"), "--count"),
-        (("run", "--dt", "fast"), "--dt"),
-        (("run", "--suite"), "--suite"),
-        (("compare", "results/nowhere"), "results/nowhere"),
-        (("compare", "results/reference"), "HEAD"),
-        (("compare", "results/reference", "main"), "two revisions"),
-        (("compare", "results/reference", "results/reference", "--law", "law.py"), "--law"),
-        (("compare", "no-such-revision"), "no-such-revision"),
-        (("show", "a", "b"), "b"),
-    ],
+    REFUSED["usage"],
 )
 def test_usage_error_is_one_line_that_names_the_word(capsys, words, named):
-    line = refused(capsys, *words)
+    line = refused(capsys, *words.split())
     assert named in line
     assert any(cure in line for cure in ("try: ", "give one of these", "use one", " away)"))
 
@@ -113,49 +98,10 @@ def test_impossible_number_is_refused_in_a_dry_run_too(capsys, finished):
 
 @pytest.mark.parametrize(
     ("words", "reason"),
-    [
-        (("--task", "free-body", "--arm", "ur5e"), "task 'free-body' has no arm"),
-        (("--task", "free-body", "--regulator", "rotation-matrix@geometric+solve"), "task 'free-body' has no arm"),
-        (("--arm", "panda", "--inverse", "solve", "--jacobian", "geometric"), "a 6 x 7 Jacobian is not square; use"),
-        (
-            ("--arm", "ur5e", "--regulator", "rotation-matrix@analytic+solve"),
-            "takes an acceleration of coordinates, and regulator 'rotation-matrix' commands an angular acceleration",
-        ),
-        (
-            ("--regulator", "feedback-linearized/mrp@analytic-differentiated+solve"),
-            "which 'mrp' does not give (try: the Jacobian analytic",
-        ),
-        (("--regulator", "rotation-matrix/zyx-euler"), "acts on the rotation matrix and takes no representation"),
-        (("--regulator", "rotation-matrix", "--representation", "zyx-euler"), "no chosen law acts on zyx-euler"),
-        (("--task", "free-body", "--starts", "clear"), "takes the starts paper"),
-        (("--arm", "ur5e", "--starts", "paper"), "takes the starts clear, half-turn, pole"),
-        (("--arm", "ur5e", "--engine", "ideal-rk4"), "ideal-rk4 simulates free-body alone, not 'arm-regulation'"),
-        (
-            ("--task", "wrench-probe", "--arm", "jaco"),
-            "arm 'jaco' has no site 'wrist', where task 'wrench-probe' mounts the hand",
-        ),
-        (("--controller", "hybrid-base+inverse", "--arm", "jaco"), "arm 'jaco' has no site 'wrist'"),
-        (("--controller", "hybrid-base"), "lacks its form (try: hybrid-base+inverse"),
-        (
-            ("--controller", "hybrid/quaternion+inverse"),
-            "'quaternion' has no coordinate for each of the axes x, y and z",
-        ),
-        (("--controller", "impedance-geometric", "--task", "free-body"), "task 'free-body' takes regulators and no"),
-        (
-            ("--controller", "impedance-geometric", "--regulator", "rotation-matrix"),
-            "no experiment takes both controllers",
-        ),
-        (
-            ("--task", "wrench-probe", "--starts", "paper"),
-            "take an arm and a --controller, no start sets",
-        ),
-        (("--task", "wrench-probe", "--engine", "reference"), "no engines such as 'reference'"),
-        (("--task", "wrench-probe", "--inverse", "solve"), "no inverses such as 'solve'"),
-        (("--controller", "impedance-geometric", "--representation", "mrp"), "acts on mrp"),
-    ],
+    REFUSED["combinations"],
 )
 def test_what_does_not_go_together_is_refused_with_the_reason(capsys, finished, words, reason):
-    assert reason in refused_run(capsys, finished, *words)
+    assert reason in refused_run(capsys, finished, *words.split())
 
 
 @pytest.mark.parametrize(

@@ -1,103 +1,16 @@
 """A broken file of an arm is refused in one line: what is wrong, and the cure."""
 
+import tomllib
+from pathlib import Path
+
 import pytest
 from support.own_arm import JOINTS, xml
 
 from tasks.arm import arm, arm_names, arms
 from tasks.errors import BadArm
 
-MOTOR_3 = '<motor name="motor 3" joint="joint 3" ctrlrange="-20 20" ctrllimited="false"/>\n'
-LINK_6 = '<inertial pos="0 0 .1" mass="1" diaginertia=".01 .01 .005"/>\n<site'
-SEVENTH = ("7", "0 1 0")
-EIGHTH = ("8", "0 0 1")
-
-# What is wrong: (the line to find in the small arm, what stands there instead, what the refusal says).
-SPOILED = {
-    "no XML": ("</custom>", "</costum>", r"it is not XML: mismatched tag.*\(mend that line\)"),
-    "not MJCF": ("<worldbody>", "<worldbody><bidy/>", r"MuJoCo refuses it: .*unrecognized element.*bidy.*\(mend"),
-    "a mesh": (
-        "<worldbody>",
-        '<asset><mesh file="no.stl"/></asset><worldbody>',
-        r"MuJoCo refuses it: .*no\.stl.*\(mend",
-    ),
-    "unphysical link": (
-        LINK_6,
-        LINK_6.replace(".01 .01 .005", ".01 .01 .05"),
-        r"MuJoCo refuses it: .*inertia must satisfy A \+ B >= C.*\(mend",
-    ),
-    "no title": ('<text name="title" data="A small arm"/>', "", r"does not say its title \(add <custom>"),
-    "blank source": ("Made up for a test", " ", r"does not say its source \(add <custom>"),
-    "own sensors": (
-        "<actuator>",
-        "<sensor><clock/></sensor><actuator>",
-        r"sensors of its own.*\(take its <sensor> out",
-    ),
-    "no tool": ('<site name="tool"', '<site name="tip"', r'no site "tool" \(add <site name="tool"/>'),
-    "no home": ('<key name="home"', '<key name="hut"', r'no keyframe "home" \(add <keyframe>'),
-    "home outside": (
-        'qpos="0 .5 1',
-        'qpos="0 .5 3.1',
-        r"home has joint 'joint 3' at 3\.1 rad, outside -3 to 3 \(move it inside\)",
-    ),
-    "a slide": (
-        '<joint name="joint 3" axis',
-        '<joint name="joint 3" type="slide" axis',
-        r"joint 'joint 3' is a slide joint \(every joint must be a hinge\)",
-    ),
-    "a branch": (
-        '<body name="link 6"',
-        '<body><joint axis="1 0 0"/><geom size=".1"/></body><body name="link 6"',
-        r"not one serial chain \(let each joint's body hold the next one's\)",
-    ),
-    "a motor missing": (MOTOR_3, "", r"5 motors for 6 joints \(give <motor joint"),
-    "a motor twice": (MOTOR_3, MOTOR_3.replace("joint 3", "joint 2"), r"motor 3 does not drive joint 'joint 3' \(give"),
-    "a gear": ('<motor name="motor 3"', '<motor name="motor 3" gear="50"', r"gear 50 \(gear 1: ctrl is the joint's"),
-    "a servo": (
-        MOTOR_3,
-        MOTOR_3.replace("<motor", '<position kp="9"'),
-        r"actuator of joint 'joint 3' is no <motor>.*\(give <motor",
-    ),
-    "a clipping motor": (
-        MOTOR_3,
-        MOTOR_3.replace(' ctrllimited="false"', ""),
-        r"motor of joint 'joint 3' is limited: the plant never clips \(give",
-    ),
-    "no rated torque": (
-        MOTOR_3,
-        MOTOR_3.replace(' ctrlrange="-20 20"', ""),
-        r"motor of joint 'joint 3' has ctrlrange 0 to 0, no rated torque \(<motor",
-    ),
-    "lopsided torque": (
-        MOTOR_3,
-        MOTOR_3.replace("-20 20", "-10 20"),
-        r"ctrlrange -10 to 20, no rated torque \(<motor",
-    ),
-    "dry friction": (
-        '<joint name="joint 2"',
-        '<joint name="joint 2" frictionloss=".1"',
-        r"joint 'joint 2' has dry friction \(take frictionloss out",
-    ),
-    "singular inertia": (
-        LINK_6,
-        LINK_6.replace('mass="1" diaginertia=".01 .01 .005"', 'mass="1e-9" diaginertia="1e-12 1e-12 1e-12"'),
-        r"inertia matrix is singular at home: eigenvalues from .*e-.* to .* \(give the last links their inertia",
-    ),
-    "an equality": (
-        "<actuator>",
-        '<equality><joint joint1="joint 1" joint2="joint 2"/></equality><actuator>',
-        r"at home more acts than inertia.*\(take out what else acts: equalities",
-    ),
-    "an actuator's lag": (
-        MOTOR_3,
-        MOTOR_3.replace("<motor", '<general dyntype="filter" dynprm=".1"'),
-        r"actuator of joint 'joint 3' is no <motor>",
-    ),
-    "motors switched off": (
-        '<option timestep=".004"/>',
-        '<option><flag actuation="disable"/></option>',
-        r"at home more acts than inertia.*disabled flags\)",
-    ),
-}
+SEVENTH, EIGHTH = ("7", "0 1 0"), ("8", "0 0 1")
+SPOILED = tomllib.loads(Path(__file__).with_name("broken_arms.toml").read_text(encoding="utf-8"))
 
 
 def refusal(folder, name: str = "own") -> str:
@@ -113,7 +26,7 @@ def test_arm_that_nobody_spoiled_is_taken(tmp_path):
 
 @pytest.mark.parametrize("wrong", SPOILED)
 def test_broken_arm_is_refused_with_the_cure(wrong, tmp_path):
-    line, instead, says = SPOILED[wrong]
+    line, instead, says = (SPOILED[wrong][name] for name in ("line", "instead", "says"))
     assert xml().count(line) == 1
     (tmp_path / "own.xml").write_text(xml().replace(line, instead))
     message = refusal(tmp_path)

@@ -9,7 +9,7 @@ from bench.export.braces import Braces
 from bench.export.entries import Entry
 from bench.export.heading import BY_ROWS, RESET, heading
 from bench.export.language import Language, write_arguments
-from bench.export.layout import INDENT, slashes
+from bench.export.layout import INDENT, read_template, slashes
 from bench.export.subject import Subject, translated
 from bench.export.types import Typed
 
@@ -36,28 +36,7 @@ def write_function(function: Typed) -> str:
     return "\n".join((*slashes(function.summary), *SCRIPT.write(function)))
 
 
-COPYSIGN = """function copysign(magnitude, sign) {
-    const negative = sign < 0 || Object.is(sign, -0);
-    return negative ? -Math.abs(magnitude) : Math.abs(magnitude);
-}
-"""
-
-READING = """function columns(R) {
-    if (R.length !== 9 || typeof R[0] !== 'number')
-        throw new TypeError('a matrix is an array of nine numbers, by rows: R[3 * i + j]; flatten a nested one');
-    return [[R[0], R[3], R[6]], [R[1], R[4], R[7]], [R[2], R[5], R[8]]];
-}
-
-function rows(R) {
-    return [0, 1, 2].flatMap((i) => [R[0][i], R[1][i], R[2][i]]);
-}
-
-function kept(answer, state) {
-    state.memory = answer[1];
-    return answer[0];
-}
-"""
-
+COPYSIGN = read_template("copysign.js")
 PASSED = {"gains": "[kp, kv]", "memory": "state.memory", "matrix": "columns({name})", "": "{name}"}
 
 
@@ -75,7 +54,7 @@ def write_script(subject: Subject) -> str:
         (
             *(f"// {line}".rstrip() for line in heading(subject, BY_ROWS).splitlines()),
             "(function (root) {\n'use strict';\n",
-            "\n\n".join((*functions, READING)),
+            "\n\n".join((*functions, read_template("reading.js"))),
             "const offered = {",
             *(f"{INDENT}{line}" for line in offered),
             "};",
@@ -94,31 +73,9 @@ def write_entry(entry: Entry, function: str) -> list[str]:
     return [*slashes(entry.doc), f"{entry.name}: ({given}) => {call},"]
 
 
-TEST = """// node test_NAME.js
-const law = require('./NAME.js');
-const { vectors } = require('./vectors.json');
-
-let wrong = 0;
-for (const one of vectors) {
-    // a law with memory is at its first tick in the vectors at 180 degrees: after reset
-    const state = { memory: [-1, -1, -1, -1] };
-    if (one.kind === 'at 180°' && law.reset) law.reset(state);
-    else state.memory = one.arguments.memory;
-    const given = Object.entries(one.arguments).flatMap(([name, value]) =>
-        name === 'gains' ? value : name === 'memory' ? [state] : [value]);
-    const result = [law[one.entry](...given)].flat();
-    const found = one.memory.length ? result.concat(state.memory) : result;
-    const expected = one.result.concat(one.memory);
-    if (!expected.every((value, at) => Math.abs(found[at] - value) <= one.tolerance)) wrong += 1;
-}
-console.log(`NAME: ${wrong} of ${vectors.length} vectors wrong`);
-process.exit(wrong ? 1 : 0);
-"""
-
-
 def write_test(subject: Subject) -> str:
     """Write the program that runs the vectors."""
-    return TEST.replace("NAME", subject.identifier)
+    return read_template("test.js").replace("NAME", subject.identifier)
 
 
 LANGUAGE = Language("js", "JavaScript", ("js", "js"), write_script, write_test, "node test_{name}.js")

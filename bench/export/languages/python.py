@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from bench.export.entries import Entry
 from bench.export.heading import RESET, WIDTH, heading
 from bench.export.language import Language, write_arguments
-from bench.export.layout import INDENT, wrapped
+from bench.export.layout import INDENT, read_template, wrapped
 from bench.export.subject import Subject, translated
 from bench.export.types import Typed
 from bench.law.scalar import PRIMITIVES
@@ -25,18 +25,6 @@ PASSED = {
     "rows": "sum(_columns({name}), ())",
     "": "_numbers({name})",
 }
-READING = '''def _numbers(v):
-    """Return a vector as a tuple of floats."""
-    return tuple(float(x) for x in v)
-
-
-def _columns(R):
-    """Return the columns of a matrix of three rows."""
-    rows = tuple(_numbers(row) for row in R)
-    if [len(row) for row in rows] != [3, 3, 3]:
-        raise ValueError("a matrix is three rows of three numbers")
-    return tuple(zip(*rows))
-'''
 
 
 class _Resolved(ast.NodeTransformer):
@@ -74,7 +62,7 @@ def write_module(subject: Subject) -> str:
         (
             f'r"""{heading(subject, *NUMBERS)}\n"""\n\n{imports}\n',
             *(f"{one}\n" for one in classes),
-            READING,
+            read_template("reading.python"),
             *(write_function(one) for one in done.program.functions),
             *reset,
             *("\n".join(write_entry(one, f"_{done.entries[one.name].name}")) for one in subject.entries),
@@ -108,45 +96,9 @@ def _docstring(text: str) -> str:
     return textwrap.indent("\n".join(closed), INDENT)
 
 
-TEST = '''"""python test_NAME.py"""
-
-import json
-import sys
-from pathlib import Path
-
-import NAME as law
-
-
-def given(one):
-    """Return the arguments of a vector; a memory is the first one in the vectors at 180 degrees: after reset."""
-    for name, value in one["arguments"].items():
-        if name == "gains":
-            yield from value
-        elif name == "memory" and one["kind"] == "at 180°":
-            yield law.reset()
-        else:
-            yield [value[0:3], value[3:6], value[6:9]] if isinstance(value, list) and len(value) == 9 else value
-
-
-def flat(answer):
-    """Return an answer as a list of numbers."""
-    return [x for part in answer for x in flat(part)] if isinstance(answer, tuple) else [answer]
-
-
-vectors = json.loads(Path(__file__).with_name("vectors.json").read_text(encoding="utf-8"))["vectors"]
-wrong = 0
-for one in vectors:
-    found, expected = flat(getattr(law, one["entry"])(*given(one))), one["result"] + one["memory"]
-    if not all(abs(x - y) <= one["tolerance"] for x, y in zip(found, expected, strict=True)):
-        wrong += 1
-print(f"NAME: {wrong} of {len(vectors)} vectors wrong")
-sys.exit(1 if wrong else 0)
-'''
-
-
 def write_test(subject: Subject) -> str:
     """Write the program that runs the vectors."""
-    return TEST.replace("NAME", subject.identifier)
+    return read_template("test.python").replace("NAME", subject.identifier)
 
 
 LANGUAGE = Language("python", "Python", ("py", "py"), write_module, write_test, "python test_{name}.py")
