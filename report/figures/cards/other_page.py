@@ -6,7 +6,7 @@ import inspect
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from bench.export.subject import IMPEDANCE, SPRING, STATED, subject_words
+from bench.export.subject import COMPENSATOR, IMPEDANCE, SPRING, subject_words
 from bench.law import contenders
 from bench.law.contenders.registry import (
     known_compensators,
@@ -33,7 +33,7 @@ class Kind(NamedTuple):
 
 
 KINDS = (
-    Kind(STATED, "compensators", "a law with a state", known_compensators()),
+    Kind(COMPENSATOR, "compensators", "a law with a state", known_compensators()),
     Kind(IMPEDANCE, "impedances", "an impedance", known_impedances()),
     Kind(SPRING, "springs", "a spring of a pose or of a rotation", known_springs()),
 )
