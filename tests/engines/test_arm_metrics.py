@@ -102,11 +102,13 @@ def test_range_excess_is_seen_below_and_above_and_not_where_there_is_no_range():
     assert metric.update(metric.start, inside._replace(q=(0.0, 1e6, 0.0, 0.0, 0.0, 0.0, 0.0))) == 0.0
 
 
-@pytest.mark.parametrize("name", ["peak_tau_nm", "peak_torque_ratio", "range_excess_rad", "position_error_m"])
+@pytest.mark.parametrize(
+    "name", ["peak_u", "min_margin", "peak_tau_nm", "peak_torque_ratio", "range_excess_rad", "position_error_m"]
+)
 def test_extreme_passes_over_a_tick_that_is_not_a_number(name):
     """The tick at which a controller fails has torques and states that are none."""
     metric = update(name)
     nothing = (math.nan,) * 7
-    missing = SAMPLE._replace(tau=nothing, q=nothing, p=nothing[:3])
+    missing = SAMPLE._replace(tau=nothing, q=nothing, p=nothing[:3], u=nothing[:3], margin=math.nan)
     seen = metric.update(metric.start, SAMPLE)
     assert metric.update(seen, missing) == seen

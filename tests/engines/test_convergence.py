@@ -1,20 +1,17 @@
 """The continuous plant by ever shorter steps: against integrators and a closed form that are not ours."""
 
 import functools
-import itertools
-import math
 
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation as ScipyRotation
 from support import own_loop
-from support.bits import different_rows
 from support.driving import settings
 
 import tasks
 from bench.engines import simulate as engines
-from bench.engines.convergence import FAILED, LEVELS, alike
+from bench.engines.convergence import alike
 from bench.engines.episode import (
     FAILURE_TICK,
     FINAL_ANGLE,
@@ -24,9 +21,6 @@ from bench.engines.episode import (
     STEP,
     start_rows,
 )
-from bench.engines.metrics.registry import metrics_of
-from bench.experiments.episode_rows import frame
-from bench.experiments.experiment import Settings, Unit
 from bench.experiments.map import start_rows as random_rows
 from bench.findings.theory.closed_form import pole_crossings
 from bench.law.contenders.registry import find_contender
@@ -116,17 +110,6 @@ def test_steps_of_one_length_are_those_of_a_shorter_control_period():
         np.testing.assert_allclose(divided[:, FINAL_ANGLE], whole[:, FINAL_ANGLE], rtol=0.0, atol=1e-11)
 
 
-@pytest.mark.parametrize("name", ["hybrid", "linearized-euler/zyx-euler"])
-def test_rows_are_the_same_in_lanes(name):
-    begun = start_rows(
-        [*tasks.start_set("uniform", 30), *tasks.start_set("half-turn")[::8], *starts_of("poles", *BESIDE)]
-    )
-    chosen = settings(horizon_s=2.0, hold_ticks=HOLD)
-    law = find_contender(name)
-    one, many = (engines.on_ideal("ideal-rk4", law, begun, chosen, total=total) for total in (0, 10**9))
-    assert different_rows(many, one) == []
-
-
 def row(outcome, settling=-1.0, failure=-1.0, angle=0.0, step=0.0):
     made = np.zeros((1, FIRST_METRIC))
     made[0, [OUTCOME, SETTLING_TICK, FAILURE_TICK, FINAL_ANGLE, STEP]] = outcome, settling, failure, angle, step
@@ -151,27 +134,3 @@ def row(outcome, settling=-1.0, failure=-1.0, angle=0.0, step=0.0):
 )
 def test_episodes_are_alike_that_end_alike(coarse, fine, ticks, expected):
     assert alike(coarse, fine, ticks).tolist() == [expected]
-
-
-def test_row_says_its_step_and_whether_it_converged():
-    starts, _, fine = beside_the_pole()
-    metrics = metrics_of(on_arm=False)
-    unit = Unit("free-body", LINEARIZED.name, "free-body", engine="ideal-rk4", selector="poles", horizon_s=3.0)
-    numbers = np.hstack((fine, np.zeros((len(fine), len(metrics)))))
-    numbers[0, STEP] *= -1.0
-    made = frame(Settings(), unit, LINEARIZED, starts, numbers, metrics)
-    assert made["converged"].tolist() == ["no", "yes", "yes"]
-    assert (made["step_s"] == np.abs(fine[:, STEP])).all()
-    assert (made["step_s"] < 1e-3).all()
-
-
-def test_levels_halve_the_step_and_end_ever_later():
-    """A tolerance a 32nd as large is half the step at order 4, whose local error has order 5."""
-    for one, next_ in itertools.pairwise(LEVELS):
-        assert (one.tolerance / next_.tolerance) ** (1 / 5) == pytest.approx(2.0)
-        assert next_.divisions == 32 * one.divisions
-    assert LEVELS[0].divisions == 2 ** round(math.log2(LEVELS[0].divisions))
-
-
-def test_failures_are_the_outcomes_that_end_an_episode():
-    assert {DIVERGED, SATURATED} < set(FAILED)

@@ -6,14 +6,11 @@ import numpy as np
 import pytest
 from support.in_contact import COORDINATES, HYBRIDS, IMPEDANCES
 
-from bench.base.errors import BadLaw
 from bench.engines.counting import in_contact
 from bench.engines.counting.costs import counted
 from bench.engines.counting.counted import OPERATIONS, TOTAL, Tally
 from bench.engines.counting.on_arms import ARM_OF, arm_states
 from bench.law.control.contact_controller import ContactController, hybrid
-from bench.law.control.hybrid import in_base
-from bench.law.impedance import Impedance
 from tasks.contact import Specification
 
 N = 6
@@ -69,11 +66,6 @@ def test_projected_form_costs_a_pseudo_inverse_of_what_is_held_besides(held):
     assert cost(hybrid("hybrid-base", "projected"), holding(held)).typical.of("invert")["sqrt"] == held
 
 
-def test_both_forms_cost_the_same_where_nothing_is_held():
-    one, other = (cost(hybrid("hybrid-base", form), holding(0)).typical for form in ("inverse", "projected"))
-    assert one == other
-
-
 def test_axes_carried_by_the_hand_cost_two_rotations_of_every_column_and_row():
     """Six columns of J and four rows, each of two vectors; a rotation is 9 multiplications and 6 additions."""
     base, carried = (
@@ -104,34 +96,3 @@ def test_every_controller_can_be_counted_and_costs_the_same_at_least_in_the_wors
     found = cost(one)
     typical, worst = (sum(counts.of(TOTAL)[name] for name in OPERATIONS) for counts in (found.typical, found.worst))
     assert 800 < typical <= worst
-
-
-def asks_who_calls(chain, setpoint, f, m, gains, touch, J, rows):
-    """The rows of the base frame, another command if they are counted."""
-    in_base(chain, setpoint, f, m, gains, touch, J, rows)
-    if hasattr(rows.a[0], "tally"):
-        rows.a[0] = rows.a[0] + rows.a[0]
-
-
-class Asking:
-    """A controller that asks who calls it."""
-
-    name, form, assemble = "asking", "inverse", staticmethod(asks_who_calls)
-
-    def selection(self, specification):
-        return (1.0,) * N
-
-
-def test_controller_that_commands_other_torques_when_counted_is_refused():
-    with pytest.raises(BadLaw, match="'asking' commands other torques when counted"):
-        in_contact.cost_in_contact(Asking())
-
-
-def test_controller_outside_the_dialect_is_refused_by_its_name():
-    def law(R, omega, m, R_d, gains, inertia):
-        """Compares for equality."""
-        return omega if omega[0] == 0.0 else m
-
-    own = Impedance("own", "", "", "", law)
-    with pytest.raises(BadLaw, match=r"'impedance-own': .*==.* cannot be counted"):
-        in_contact.cost_in_contact(ContactController("impedance-own", impedance=own))

@@ -2,7 +2,6 @@
 
 import functools
 
-import numpy as np
 import pytest
 from support.on_arms import ARMS, LAWS, named
 
@@ -10,7 +9,7 @@ import tasks
 from bench.base.errors import BadLaw
 from bench.engines.counting import on_arms
 from bench.engines.counting.costs import cost
-from bench.engines.counting.counted import OPERATIONS, STAGES, TOTAL
+from bench.engines.counting.counted import OPERATIONS, TOTAL
 from bench.law.contenders import combinations
 from bench.law.contenders.registry import known_inverses
 from bench.law.resolved_motion import Inverse
@@ -60,14 +59,6 @@ def test_controller_costs_what_a_count_by_hand_says(arm, n):
             assert total[name] == law.of(TOTAL)[name]
 
 
-@pytest.mark.parametrize("arm", on_arms.ARM_OF.values())
-def test_stages_sum_to_the_total(arm):
-    for word in ("rotation-matrix@geometric+standard", "feedback-linearized/zyx-euler@analytic+standard"):
-        for counts in (standing(arm, word).typical, standing(arm, word).worst):
-            for name in OPERATIONS:
-                assert sum(counts.of(stage)[name] for stage in STAGES) == counts.of(TOTAL)[name]
-
-
 def test_elimination_costs_the_textbooks_number_of_multiplications():
     """n^3/3 - n/3 for the factors and n^2 for the two triangles (Golub & Van Loan 2013, 3.2), with D x after it."""
     counts = standing("ur5e", "rotation-matrix@geometric+solve").typical
@@ -109,11 +100,3 @@ def test_controller_that_commands_other_torques_when_counted_is_refused():
     one = named("ur5e", "rotation-matrix@geometric+solve")._replace(inverse=own)
     with pytest.raises(BadLaw, match="commands other torques when counted"):
         on_arms.cost_on_arm(one, "ur5e")
-
-
-def test_states_are_those_of_the_arm_and_typical_ones_are_sampled():
-    states = on_arms.arm_states("ur5e")
-    assert {state.is_sampled for state in states} == {True, False}
-    for state in states:
-        assert state.chain.n == 6
-        assert np.linalg.eigvalsh(state.D).min() > 0.0

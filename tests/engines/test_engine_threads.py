@@ -6,20 +6,14 @@ from concurrent.futures import ThreadPoolExecutor
 import pytest
 from support.bits import different_rows
 from support.driving import settings, spread
-from support.on_arms import named
 
 from bench.engines import simulate as engines
-from bench.engines import simulate_arms
 from bench.engines.compiled import made_once
 from bench.engines.metrics.registry import metrics_of
 from bench.law.contenders.registry import find_contender
 
 METRICS = metrics_of(on_arm=False)
 ENGINES = ("ideal-rk4", "ideal-held", "native")
-
-
-PARTS = [lambda one, part=part: simulate_arms.pointers(one)[part] for part in range(3)]
-"""Of a controller of an arm."""
 
 
 def test_threads_that_need_the_same_wait_for_the_first_to_make_it():
@@ -34,21 +28,6 @@ def test_threads_that_need_the_same_wait_for_the_first_to_make_it():
     with ThreadPoolExecutor(4) as pool:
         found = list(pool.map(slowly, 4 * ["loop"]))
     assert made == ["loop"]
-    assert all(one is found[0] for one in found)
-
-
-@pytest.mark.parametrize(
-    ("compiled", "given"),
-    [
-        (engines.compiled_loop, ("ideal-held", ())),
-        (engines.evaluation, (find_contender("rotation-matrix"),)),
-        (engines.compiled_loop, ("arm", metrics_of(on_arm=True))),
-        *((part, (named("ur5e", "rotation-matrix@geometric+standard"),)) for part in PARTS),
-    ],
-)
-def test_threads_that_need_the_same_loop_or_law_compile_it_once(compiled, given):
-    with ThreadPoolExecutor(4) as pool:
-        found = list(pool.map(lambda _: compiled(*given), range(4)))
     assert all(one is found[0] for one in found)
 
 

@@ -106,24 +106,6 @@ def test_error_of_the_path_falls_with_the_fourth_power_of_the_step(word):
     assert math.log2(coarse / fine) == pytest.approx(4.0, abs=0.3)
 
 
-def test_rotation_matrix_from_rest_follows_the_pendulum_of_one_angle():
-    """thetaddot = -Kp sin(theta) - Kd thetadot about a fixed axis: the sine of (2.12)."""
-    chosen = settings(horizon_s=HORIZON)
-    times = np.arange(chosen.ticks) * chosen.dt_s
-    axis = np.array((2.0, -1.0, 2.0)) / 3.0
-    thetas = (0.1, 1.0, 2.0, 3.0, 3.1)
-    starts = [Start(f"{t}", tuple(ScipyRotation.from_rotvec(t * axis).as_quat(scalar_first=True))) for t in thetas]
-    states, _ = recorded("ideal-rk4", "rotation-matrix", starts, chosen)
-    for theta0, angles in zip(thetas, own_loop.angles_to(goals_of(starts), states), strict=True):
-        pendulum = solve_ivp(
-            lambda _, y: (y[1], -100.0 * math.sin(y[0]) - 20.0 * y[1]),
-            (0.0, times[-1]), (theta0, 0.0), method="DOP853", t_eval=times, rtol=1e-12, atol=1e-14,
-        )  # fmt: skip
-        np.testing.assert_allclose(angles, pendulum.y[0], rtol=0.0, atol=R_TOLERANCE)
-    sideways = np.cross(states[:, :, :3], axis)
-    np.testing.assert_allclose(sideways, 0.0, rtol=0.0, atol=1e3 * EPS)  # EPS a tick, damped in 1/Kd
-
-
 def test_rotation_matrix_settling_grows_by_the_closed_form_per_decade_from_the_half_turn():
     """C03: delta = pi - theta leaves its unstable rest as exp((sqrt(Kp + Kd^2/4) - Kd/2) t), to 1 %."""
     decades = np.arange(3, 10)
@@ -135,12 +117,6 @@ def test_rotation_matrix_settling_grows_by_the_closed_form_per_decade_from_the_h
         assert (rows[:, OUTCOME] == SETTLED).all()
         slope, _ = np.polyfit(decades, rows[:, SETTLING_TICK] * chosen.dt_s, 1)
         assert slope == pytest.approx(expected, rel=0.01)
-
-
-def test_rotation_matrix_stays_at_an_exact_half_turn():
-    starts = [Start(name, quat) for name, quat in (("x", (0.0, 1.0, 0.0, 0.0)), ("z", (0.0, 0.0, 0.0, 1.0)))]
-    states, _ = recorded("ideal-rk4", "rotation-matrix", starts, settings(horizon_s=HORIZON))
-    assert (states == states[:, :1]).all()
 
 
 # ---------------------------------------------------------------- one tick of the sampled plant
@@ -169,16 +145,6 @@ def test_exponential_is_scipys_on_both_sides_of_its_series(angle, draw):
         np.testing.assert_allclose(found, turned_by_scipy(turn, R), rtol=0.0, atol=10 * EPS)
 
 
-@pytest.mark.parametrize("share", [0.0, 3.0])
-def test_held_step_is_the_quaternion_of_an_acceleration_along_the_velocity(draw, share):
-    for omega in draw.normal(scale=10.0, size=(50, 3)):
-        R, u, dt = drawn_rotation(draw), share * omega, 0.02
-        at, after = ideal.held_step(R, vector(omega), vector(u), dt)
-        turn = omega * dt + u * dt * dt / 2.0
-        np.testing.assert_allclose(matrix(at), turned_by_scipy(turn, R), rtol=0.0, atol=10 * EPS)
-        np.testing.assert_allclose(after, omega + u * dt, rtol=4 * EPS)
-
-
 def test_held_step_converges_with_the_fourth_power_of_the_tick(draw):
     """A general acceleration turns the axis of rotation; against DOP853 over half a second."""
     R, omega, u = drawn_rotation(draw), np.array((3.0, -2.0, 1.0)), np.array((-4.0, 5.0, 10.0))
@@ -193,14 +159,6 @@ def test_held_step_converges_with_the_fourth_power_of_the_tick(draw):
             at, speed = ideal.held_step(at, speed, vector(u), 0.5 / ticks)
         errors.append(np.abs(np.array(at).ravel() - true).max())
     np.testing.assert_allclose(np.log2(np.array(errors[:-1]) / errors[1:]), 4.0, atol=0.2)
-
-
-def test_held_step_keeps_the_columns_orthonormal(draw):
-    R, omega = drawn_rotation(draw), vector((12.0, -7.0, 5.0))
-    for _ in range(1000):
-        R, omega = ideal.held_step(R, omega, vector((1.0, 2.0, -3.0)), 1e-3)
-    # rounding of a thousand ticks, a random walk of some EPS each
-    np.testing.assert_allclose(matrix(R).T @ matrix(R), np.eye(3), rtol=0.0, atol=100 * EPS)
 
 
 @functools.cache

@@ -145,12 +145,3 @@ def test_min_margin_is_no_number_for_a_law_without_coordinates(start):
 
 def test_path_ratio_is_no_number_for_a_start_at_its_goal():
     assert math.isnan(episode("rotation-matrix", Start("at the goal", (1.0, 0.0, 0.0, 0.0)))[1]["path_ratio"])
-
-
-@pytest.mark.parametrize("name", ["peak_u", "min_margin"])
-def test_extreme_passes_over_a_tick_that_is_not_a_number(name):
-    """The tick at which a law fails has no command, and one at which no margin exists has no margin."""
-    update = next(one for one in METRICS if one.column == name).update
-    sample = episode("linearized-euler/zyx-euler", STARTS[0])[0][0]
-    missing = sample._replace(u=(math.nan, 0.0, 0.0), margin=math.nan)
-    assert update(update(0.5, sample), missing) == update(0.5, sample)

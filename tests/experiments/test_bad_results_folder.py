@@ -2,7 +2,6 @@
 
 import shutil
 
-import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 from support.command_line import TINY, bench, digest, refused, refused_run
@@ -116,11 +115,6 @@ def test_table_of_another_schema_is_refused_with_both_versions(capsys, finished,
     pq.write_table(table.replace_schema_metadata({**table.schema.metadata, b"orientation-bench schema": b"0"}), path)
     line = refused(capsys, *command, *(("--out",) if command == SAME else ()), finished)
     assert f"its schema is '0', this program reads '{VERSION}'" in line
-
-
-def test_table_that_is_no_table_of_ours_is_refused(capsys, finished):
-    pq.write_table(pa.table({"x": [1.0]}), finished / "episodes.parquet")
-    assert "its schema is 'none'" in refused(capsys, "show", finished)
 
 
 @pytest.mark.parametrize("content", ["{", "[]", "{}"])

@@ -7,19 +7,15 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation as ScipyRotation
 from support.compensated import left, motion
-from support.driving import settings
 
 import tasks
-from bench.engines.compensated import LEFT, Asked, run, without_state
+from bench.engines.compensated import LEFT, Asked, run
 from bench.engines.compensated import rows_of as rows_by
-from bench.engines.episode import FINAL_ANGLE
-from bench.engines.metrics.registry import metrics_of
 from bench.engines.plants.quaternion import with_state
-from bench.engines.simulate import run as run_law
 from bench.experiments.compensators import BAND_RAD, DISTURBANCES, law_of
 from bench.experiments.experiment import Settings, Unit, rows_of
 from bench.law.contender import Gains
-from bench.law.contenders.registry import find_contender, known_compensators
+from bench.law.contenders.registry import known_compensators
 from tasks.base import Start
 
 NAMES = ("", *known_compensators())
@@ -69,12 +65,3 @@ def test_rows_are_one_a_disturbance_and_within_a_stated_bound(name):
     assert tuple(found["disturbance"]) == DISTURBANCES
     assert found["settling_median_s"].isna().equals(found["settled"] == 0)
     assert one.bound is None or (found["peak_u"] <= one.bound(*Gains())).all()
-
-
-def test_regulator_without_a_state_ends_where_its_own_engine_has_it():
-    """Both are RK4 of 1 ms, of R there and of a quaternion here: what the steps leave differs."""
-    starts = tasks.start_set("uniform", 20)
-    one = find_contender("rotation-matrix")
-    ours = run(without_state(one.regulator), starts, Gains(), asked(300, (0.0, 0.0, 0.0)))
-    theirs = run_law("ideal-rk4", one, "free-body", starts, settings(horizon_s=0.3), metrics_of(on_arm=False))
-    np.testing.assert_allclose(ours[:, LEFT], theirs[:, FINAL_ANGLE], rtol=0.0, atol=1e-7)

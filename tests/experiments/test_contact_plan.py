@@ -62,16 +62,6 @@ def test_seven_joints_take_some_of_the_suites_controllers_and_poses(suite):
     assert 0 < 10 * on[7] < on[6]
 
 
-def test_controller_that_takes_part_in_free_space_alone_is_run_where_it_is_named():
-    units, _ = contacts(controllers=("hybrid-rate+inverse",))
-    assert named(units, "task") == TASKS
-
-
-def test_arm_that_cannot_has_no_wrist():
-    assert "jaco" in UNABLE
-    assert all("wrist" not in tasks.arm(arm).xml for arm in UNABLE)
-
-
 @pytest.mark.parametrize("suite", SUITES)
 def test_units_cover_each_pose_once_and_have_keys_of_their_own(suite):
     plan = planning.make(suite, LAW)
@@ -85,13 +75,6 @@ def test_units_cover_each_pose_once_and_have_keys_of_their_own(suite):
         one, task, arm = find_controller(place.contender), tasks.contact_task(place.task), tasks.arm(place.arm)
         every = poses_of(one, task, arm, place.selector == DENSE)
         assert poses == min(len(every), SUITES[suite].in_contact.on(arm.joints)[1] or len(every))
-
-
-def test_trials_are_those_of_the_units_poses():
-    plan = planning.make("quick", LAW, Choice(tasks=("wrench-probe",), arms=("ur5e",), controllers=(EULER,)), count=7)
-    every = poses_of(find_controller(EULER), tasks.contact_task("wrench-probe"), tasks.arm("ur5e"), dense=False)
-    assert [unit.count for unit in plan.of("contact")] == [7]
-    assert plan.episodes("contact") == sum(map(len, every[:7]))
 
 
 def test_unit_lasts_some_seconds_at_most():
@@ -154,11 +137,6 @@ def test_what_is_named_runs_alone(words, name, values, has_episodes):
     assert (episodes > 0) == has_episodes
 
 
-def test_named_representation_narrows_the_suites_controllers():
-    units, _ = contacts("default", representations=("mrp",))
-    assert named(units, "contender") == ["hybrid/mrp+inverse"]
-
-
 @pytest.mark.parametrize(
     "words",
     [
@@ -178,16 +156,7 @@ def test_what_contact_does_not_take_leaves_it_out(words):
     assert episodes > 0
 
 
-def test_contact_takes_a_horizon():
-    plan = planning.make("quick", LAW, Choice(tasks=("wrench-probe",)), horizon_s=0.1)
-    assert {unit.horizon_s for unit in plan.of("contact")} == {0.1}
-
-
 # ----------------------------------------------------------------------------------------------- names
-
-
-def test_every_controller_is_found_by_its_name():
-    assert [find_controller(one.name) for one in all_controllers()] == all_controllers()
 
 
 def test_hybrids_come_in_every_form_and_impedances_in_one():

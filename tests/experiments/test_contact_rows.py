@@ -10,17 +10,13 @@ import tasks
 from bench.engines.contact_episode import OUTCOMES, WIDTH, Conditions, Ended
 from bench.engines.metrics.contact_metric import Pose, response
 from bench.engines.metrics.measured_compliance import compliance
-from bench.engines.metrics.registry import known_contact_metrics
 from bench.engines.simulate_contact import run_contact as run
 from bench.experiments.contact import poses_of
 from bench.experiments.contact.poses import WORST_LAST, frame
-from bench.experiments.tables import store
-from bench.experiments.tables.schema import table_of
 from bench.law.control.registry import find_controller
 from bench.law.control.setpoint import TOUCH
 
 ARM = tasks.arm("ur5e")
-COMPLIANCE = table_of("compliance")
 PROBE = tasks.contact_task("wrench-probe")._replace(horizon_s=0.05)
 EULER = find_controller("hybrid/zyx-euler+inverse")
 POSES = poses_of(EULER, PROBE, ARM, dense=False)
@@ -48,17 +44,6 @@ def record(ticks: int, value: float = 0.0) -> np.ndarray:
     return made
 
 
-def test_row_has_the_columns_of_the_schema_in_any_order(rows):
-    assert set(rows.columns) == set(COMPLIANCE.names)
-
-
-def test_columns_end_in_the_metrics_by_name_and_the_measured_rotation():
-    names = COMPLIANCE.names
-    metrics = [known_contact_metrics()[word].column for word in sorted(known_contact_metrics())]
-    assert names[-len(C) - len(metrics) :] == metrics + C
-    assert tuple(names[: len(COMPLIANCE.key)]) == COMPLIANCE.key
-
-
 def test_one_row_a_pose_says_whose_it_is_and_of_what(rows):
     assert list(rows["pose"]) == [pose[0].pose for pose in POSES[:3]]
     assert list(rows["complies"]) == [pose[0].specification.name for pose in POSES[:3]]
@@ -84,18 +69,6 @@ def test_measured_rotation_is_that_of_the_poses_records(rows):
     assert np.isfinite(compliance(pose)).all()
 
 
-def test_rows_become_a_table_of_the_schema_and_back(rows, tmp_path):
-    store.write_table(tmp_path / "compliance.parquet", rows, "compliance")
-    back = store.read_arrow(tmp_path / "compliance.parquet", "compliance").to_pandas()
-    plain = back.astype(dict.fromkeys(back.select_dtypes("category"), object))
-    pd.testing.assert_frame_equal(plain, rows[list(back)], check_exact=True, check_dtype=False)
-
-
-def test_impedance_has_no_form():
-    rows = frame("mine", find_controller("impedance-geometric"), PROBE, ARM, POSES[:1], CONDITIONS)
-    assert rows.loc[0, ["controller", "representation", "form"]].tolist() == ["impedance-geometric", "", ""]
-
-
 # -------------------------------------------------------------------------------------------- failures
 
 
@@ -110,11 +83,6 @@ def test_row_has_the_worst_outcome_and_the_time_at_which_its_first_trial_failed(
     assert row["outcome"] == "diverged"
     assert row["failure_time_s"] == pytest.approx(0.011)
     assert row["trials"] == 4
-
-
-def test_row_of_trials_that_are_done_has_no_time_of_failure(rows):
-    assert set(rows["outcome"]) == {"done"}
-    assert rows["failure_time_s"].isna().all()
 
 
 @pytest.mark.parametrize("ticks", [0, 1, 7])

@@ -35,10 +35,6 @@ def test_are_made_once(of, made):
     assert len(made) == 2
 
 
-def test_columns_keep_their_order(of):
-    assert [list(one.items()) for _ in range(2) for one in of()] == [list(ROW.items())] * 2
-
-
 def test_of_other_sources_are_made_anew(of, made):
     assert of() == of(sources="0123456789abcdef")
     assert len(made) == 2
@@ -48,10 +44,6 @@ def test_without_room_are_made_each_time(of, made, tmp_path):
     (tmp_path / "cache").write_text("a file where the folder should be")
     assert of() == of()
     assert len(made) == 2
-
-
-def test_none_are_made_each_time(tmp_path):
-    assert kept("starts/none", list, tmp_path) == kept("starts/none", list, tmp_path) == []
 
 
 def test_law_of_a_user_is_not_kept():

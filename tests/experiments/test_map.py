@@ -64,12 +64,6 @@ def test_first_lost_starts_are_kept_and_the_slowest_of_each_ring(plan, whole):
     pd.testing.assert_series_equal(slowest.set_index("ring_deg")["settling_time_s"].sort_index(), latest)
 
 
-def test_share_is_exact():
-    """Clopper-Pearson of none of n: the upper end is 1 - 0.025^(1/n)."""
-    share = lost_share(0, 1000)
-    np.testing.assert_allclose(share, (0.0, 0.0, 1.0 - 0.025 ** (1.0 / 1000)), rtol=1e-9)
-
-
 def test_command_goes_on_and_says_the_share(tmp_path, capsys):
     words = ["map", "--regulator", "gibbs", "--starts", "300", "--horizon", "2", "--dt", "0.005", "--spin", "20"]
     assert main([*words, "--out", str(tmp_path / "map")]) == 0
@@ -108,3 +102,9 @@ def test_starts_that_do_not_converge_widen_the_interval_of_what_is_lost():
     found = lost_between(3, 2, 1000)
     assert found.value == pytest.approx(3 / 998)
     assert (found.low, found.high) == (lost_share(3, 1000).low, lost_share(5, 1000).high)
+
+
+def test_share_is_exact():
+    """Clopper-Pearson of none of n: the upper end is 1 - 0.025^(1/n)."""
+    share = lost_share(0, 1000)
+    np.testing.assert_allclose(share, (0.0, 0.0, 1.0 - 0.025 ** (1.0 / 1000)), rtol=1e-9)

@@ -4,7 +4,7 @@ import dataclasses
 import hashlib
 
 import pytest
-from support.command_line import bench, refused
+from support.command_line import bench
 from support.on_arms import ARMS, LAWS
 from support.user_law import spring_text
 
@@ -115,12 +115,6 @@ def known_sets() -> list[str]:
     return tasks.start_set_names(arm=True)
 
 
-def test_named_variations_are_run_and_no_others():
-    law = find_contender("rotation-matrix")
-    plan = planning.make("quick", [law], Choice(arms=("ur5e",), variations=("mass-1.30", NOMINAL)), count=1)
-    assert {unit.variation for unit in plan.of("arm")} == {"mass-1.30", NOMINAL}
-
-
 def test_units_cover_each_start_once_and_have_keys_of_their_own():
     plan = planning.make("quick", list(LAWS.values()), count=7)
     assert len({unit.key for unit in plan.units}) == len(plan.units)
@@ -145,11 +139,6 @@ def test_users_law_is_planned_on_every_arm_by_the_geometric_jacobian(capsys, own
     assert (said.code, said.err) == (0, "")
     for arm in ARMS:
         assert f"{arm}: clear 2 (each of 1 controller)" in said.out
-
-
-def test_users_law_on_R_takes_no_analytic_jacobian(capsys, own):
-    line = refused(capsys, *SHORT, "--law", own, "--regulator", "mine", "--arm", "ur5e", "--jacobian", "analytic")
-    assert "regulator 'mine' commands an angular acceleration (try: the Jacobian geometric" in line
 
 
 def test_users_law_runs_on_an_arm(capsys, own, tmp_path):

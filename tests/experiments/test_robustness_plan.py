@@ -73,14 +73,6 @@ def test_there_is_a_row_for_each_law_level_and_start(rows):
         assert sorted(rows.loc[rows["axis"] == axis, "level"].unique()) == list(tasks.axis(axis).levels)
 
 
-def test_starts_are_the_same_for_every_law(rows):
-    every = [
-        part["angle0_rad"].to_numpy() for _, part in rows[rows["axis"] == "delay"].groupby("contender", observed=True)
-    ]
-    assert len(every) == 3
-    assert all(np.array_equal(one, every[0]) for one in every)
-
-
 def test_a_law_without_a_greatest_command_has_no_rows_at_equal_peak(rows):
     equal = rows[rows["axis"] == "equal-peak"]
     assert set(equal["contender"]) == {"rotation-matrix", "hybrid"}

@@ -65,12 +65,6 @@ def test_change_is_the_largest_relative_one_of_numbers_above_rounding(first, plu
     assert judged(row(effort=first), row(effort=plus), row(effort=minus))[0][CHANGE] == change
 
 
-def test_nudged_start_differs_in_its_joints_alone():
-    moved = nudged(START, NUDGE)
-    assert moved._replace(q=START.q) == START
-    np.testing.assert_allclose(np.subtract(moved.q, START.q), NUDGE, rtol=1e-3)
-
-
 def test_run_marks_what_passes_a_singularity_and_nothing_in_the_clear():
     plan = planning.make(
         "quick",

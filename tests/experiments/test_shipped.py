@@ -7,18 +7,15 @@ import numpy as np
 import pandas as pd
 import pytest
 from scipy.integrate import solve_ivp
-from scipy.spatial.transform import Rotation as ScipyRotation
 
 from bench.experiments import shipped as measured
 from bench.experiments.experiment import Settings
 from bench.experiments.shipped import compare
-from bench.experiments.tables.schema import table_of
 from bench.law import kernel
 from bench.law.contenders.registry import known_shipped
 from tasks.rules import RULES
 
 HORIZON_S = 20.0
-TURNS = ScipyRotation.random(50, rng=np.random.default_rng(7))
 
 
 @functools.cache
@@ -128,17 +125,3 @@ def test_audit_agrees_with_what_is_measured():
     pd.testing.assert_series_equal(says["dead-at-180"], found["dead"] > 0, check_names=False)
     bent = found["findings"].str.contains("axis-clip|deadband")
     pd.testing.assert_series_equal(bent, bends, check_names=False)
-
-
-def test_rows_are_the_tables_columns():
-    made = pd.DataFrame(compare(known_shipped()["crisp"], ("rotation-vector",), Settings(), HORIZON_S))
-    assert set(made) == set(table_of("shipped").names)
-    assert made["settling_90_s"].notna().all()
-    assert list(made["law"]) == ["", "rotation-vector"]
-
-
-def test_law_of_ours_at_the_same_gains_feels_what_is_set():
-    [_, ours] = compare(known_shipped()["franka-ros"], ("rotation-vector",), Settings(), HORIZON_S)
-    assert ours["stiffness_1rad"] == pytest.approx(1.0, rel=1e-12)
-    assert ours["damping_ratio"] == pytest.approx(1.0, rel=1e-12)
-    assert (ours["dead"], ours["lost"], ours["starts"]) == (0, 0, len(measured.AXES) * 7)

@@ -10,12 +10,10 @@ from scipy.spatial.transform import Rotation
 from bench.experiments import pose_springs, springs
 from bench.experiments.experiment import Settings, Unit, rows_of
 from bench.law.contenders.registry import known_springs
-from bench.law.scalar import KERNELS
 
 SPRINGS = known_springs()
 AXES = Rotation.from_rotvec([0.3, -0.5, 0.7]).as_matrix()
 K, KR = AXES @ np.diag([30.0, 10.0, 3.0]) @ AXES.T, 7.0
-each = pytest.mark.parametrize("spring", SPRINGS.values(), ids=SPRINGS)
 rotational = pytest.mark.parametrize("spring", springs.ROTATIONAL, ids=lambda one: one.name)
 of_pose = pytest.mark.parametrize("spring", pose_springs.SPRINGS, ids=lambda one: one.name)
 DRAWN = np.random.default_rng(3)
@@ -42,12 +40,6 @@ def matrix(turn, p):
     X = np.eye(4)
     X[:3, :3], X[:3, 3] = turn.as_matrix(), p
     return X
-
-
-@each
-def test_functions_are_kernels_of_the_dialect(spring):
-    assert spring.wrench in KERNELS
-    assert spring.potential is None or spring.potential in KERNELS
 
 
 @pytest.mark.parametrize("name", [name for name, spring in SPRINGS.items() if spring.potential])

@@ -4,7 +4,6 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
-import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 
@@ -44,12 +43,6 @@ def test_every_column_has_a_meaning_and_every_number_a_unit(table):
         assert bool(one.unit) == (one.type != column.WORD), one.name
 
 
-@pytest.mark.parametrize("table", schema.all_tables())
-def test_no_column_comes_twice(table):
-    names = [one.name for one in schema.table_of(table).columns()]
-    assert len(set(names)) == len(names)
-
-
 def test_numbers_come_back_bit_for_bit(tmp_path):
     numbers = [0.1, -0.0, 5e-324, 1.7976931348623157e308, float("inf"), float("nan")]
     given = frame("episodes", len(numbers)).assign(kp=numbers)
@@ -69,12 +62,6 @@ def test_fractions_are_written_byte_by_byte_and_words_once(tmp_path, table):
         is_fraction = types[one["path_in_schema"]] in (column.NUMBER, column.SINGLE)
         assert ("BYTE_STREAM_SPLIT" in one["encodings"]) == is_fraction, one["path_in_schema"]
         assert one["has_dictionary_page"] != is_fraction, one["path_in_schema"]
-
-
-def test_columns_come_in_the_order_of_the_schema(tmp_path):
-    given = frame("costs", 2)
-    store.write_table(tmp_path / "x.parquet", given[given.columns[::-1]], "costs")
-    assert list(store.read_arrow(tmp_path / "x.parquet", "costs").column_names) == list(given.columns)
 
 
 @pytest.mark.parametrize("table", schema.all_tables())
@@ -158,8 +145,3 @@ def test_truncated_table_is_told_from_its_end_alone(tmp_path, kept):
 def test_readme_of_results_is_the_one_the_schema_writes():
     """`make reference` writes it anew."""
     assert README.read_text(encoding="utf-8") == schema.readme()
-
-
-def test_schema_is_one_arrow_reads_without_us(tmp_path):
-    store.write_table(tmp_path / "x.parquet", frame("episodes", 2), "episodes")
-    assert pa.types.is_dictionary(pq.read_table(tmp_path / "x.parquet").schema.field("outcome").type)

@@ -12,7 +12,6 @@ from bench.engines.simulate import run
 from bench.experiments import plan, traces
 from bench.experiments.episode_rows import judged_columns
 from bench.experiments.experiment import Settings
-from bench.law.contenders import combinations
 from bench.law.contenders.law_file import load_law
 from bench.law.contenders.registry import find_contender
 from tasks.rules import RULES
@@ -34,12 +33,6 @@ def rerun(law, start_set, start_id, horizon_s=20.0):
     return curves.samples[0], judged_columns(rows, chosen.dt_s)
 
 
-def test_law_is_followed_from_the_papers_starts_and_the_plans_uniform_ones(kept):
-    followed = kept.groupby("start_set")["start_id"].unique()
-    assert set(followed["paper"]) == {one.id for one in tasks.start_set("paper")}
-    assert followed["uniform"].tolist() == [one.id for one in tasks.start_set("uniform", 5)]
-
-
 def test_suite_follows_the_papers_laws_and_a_users(tmp_path):
     (tmp_path / "mine.py").write_text(law_text(DAMPER))
     names = (PAPERS, "quaternion-unwinding", "feedback-linearized/mrp")
@@ -57,10 +50,3 @@ def test_curve_is_the_episode(kept, start_id):
         assert own[name].tolist() == samples[:, NUMBERS.index(name)].tolist()
     for name, values in said.items():
         assert own[name].drop_duplicates().tolist() == pytest.approx(list(values), nan_ok=True)
-
-
-def test_curves_on_an_arm_share_the_table_and_name_no_outcome():
-    [one] = combinations.on((f"{PAPERS}@geometric+solve",), {PAPERS: find_contender(PAPERS)}, 6)
-    kept = traces.rows(Settings(), traces.of_arm(one.name, "arm-regulation", "puma560", 1, "clear"))
-    assert set(kept["start_set"]) == {"clear"}
-    assert set(kept["outcome"]) == {""}
