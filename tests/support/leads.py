@@ -19,6 +19,7 @@ from bench.law.contenders.registry import find_contender
 from report.figures.kit.families import word
 from support.advised import accelerations, operations, shares_of_time, velocities
 from support.leads_of_arms import (
+    CONTROLS,
     FEEDBACK,
     LATE,
     LINEARIZED,
@@ -71,7 +72,7 @@ def recompute_failure_map():
 
 
 def recompute_comparison():
-    rows = uniform().query("law not in @CONTROLS")
+    rows = uniform().query(f"law not in {CONTROLS}")
     n = rows["law"].nunique()
     shared = rows.groupby("start_id")["law"].nunique().loc[lambda found: found == n].index
     rows = rows[rows["start_id"].isin(shared)]
@@ -100,7 +101,7 @@ def recompute_thresholds():
     good = (run["tail_rms_rad"] <= np.radians(3)).where(run["axis"].isin(lasts), run["outcome"] == "settled")
     own = good.groupby([run["law"], run["axis"], run["level"]]).agg(good="sum", starts="size").reset_index()
     rows = pd.concat([study[study["law"].isin(run["law"])], own[~own["law"].isin(study["law"])]])
-    rows = rows.query("law not in @CONTROLS and axis != 'equal-peak'")
+    rows = rows.query(f"law not in {CONTROLS} and axis != 'equal-peak'")
     each = collections.defaultdict(dict)
     for (law, axis), own in rows.groupby(["law", "axis"]):
         share, nominal = (own["good"] / own["starts"]).set_axis(own["level"]), tasks.axis(axis).nominal
@@ -114,7 +115,7 @@ def recompute_thresholds():
     known = {law for own in each.values() for law, held in own.items() if held}
     apart = [way for way, own in sorted(each.items()) if len({own[law] for law in known}) > 1]
     *most, last = (f"{tasks.axis(axis).title.lower()}{' (downwards)' * falls}" for axis, falls in apart)
-    noise = table("robustness").query("axis == 'half-turn-noise' and law not in @CONTROLS and level > 0")
+    noise = table("robustness").query(f"axis == 'half-turn-noise' and law not in {CONTROLS} and level > 0")
     left = (noise["outcome"] == "settled").groupby([noise["law"], noise["level"]]).mean().unstack()
     remembers = np.array([find_contender(law).regulator.memory is not None for law in left.index])
     middle = max(level for level in left if (left.loc[remembers, level] == 1.0).all())
