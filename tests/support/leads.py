@@ -49,14 +49,15 @@ def name_together(laws):
 
 def uniform():
     """Return the uniform starts of the free body on the continuous plant that converge."""
-    rows = table("episodes").query("engine == 'ideal-rk4' and task == 'free-body' and start_set == 'uniform'")
-    return rows[rows["converged"] != "no"]
+    asked = "engine == 'ideal-rk4' and task == 'free-body' and start_set == 'uniform' and converged != 'no'"
+    return table("episodes").query(asked)
 
 
 def recompute_failure_map():
-    cells = table("map", "maps").query("row == 'cell' and law == @LINEARIZED and most_speed == 0")
-    n = int(cells["starts"].sum())
-    bad = n - int(cells[["settled", "unconverged"]].sum().sum())
+    cells = (
+        table("map", "maps").query("row == 'cell' and law == @LINEARIZED and most_speed == 0").sum(numeric_only=True)
+    )
+    n, bad = int(cells["starts"]), int(cells["starts"] - cells["settled"] - cells["unconverged"])
     low, high = binomtest(bad, n).proportion_ci(0.95)
     rows = uniform()
     lost = {law: own[own["outcome"] != "settled"] for law, own in rows.groupby("law")}
