@@ -5,7 +5,6 @@ import shutil
 import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
-from support.comparing import change, ran
 from support.tables import changed
 
 from bench.cli import main
@@ -13,11 +12,24 @@ from bench.experiments import boundaries, traces
 from bench.experiments import plan as planning
 from bench.experiments.choice import Choice
 from bench.experiments.experiment import Settings, rows_of
-from bench.experiments.tables.store import write_table
+from bench.experiments.tables.store import read, write_table
 from bench.law.contenders.registry import find_contender
 from bench.regression.rows import compare
+from bench.running.run import run
 
 NAN, INF = float("nan"), float("inf")
+
+
+def ran(plan, tmp_path_factory):
+    """Run a plan and return its folder."""
+    folder = tmp_path_factory.mktemp("gate") / "reference"
+    run(plan, folder, workers=1)
+    return folder
+
+
+def change(folder, table, edit):
+    """Put edit(frame) in the place of a table."""
+    write_table(folder / f"{table}.parquet", edit(read(folder, table)), table)
 
 
 @pytest.fixture(scope="module")

@@ -54,10 +54,9 @@ def uniform():
 
 
 def recompute_failure_map():
-    cells = (
-        table("map", "maps").query("row == 'cell' and law == @LINEARIZED and most_speed == 0").sum(numeric_only=True)
-    )
-    n, bad = int(cells["starts"]), int(cells["starts"] - cells["settled"] - cells["unconverged"])
+    cells = table("map", "maps").query("row == 'cell' and law == @LINEARIZED and most_speed == 0")
+    n, *fine = cells[["starts", "settled", "unconverged"]].sum().astype(int)
+    bad = n - sum(fine)
     low, high = binomtest(bad, n).proportion_ci(0.95)
     rows = uniform()
     lost = {law: own[own["outcome"] != "settled"] for law, own in rows.groupby("law")}
